@@ -1,0 +1,64 @@
+// The C++ face of microtin.h: one object that holds the storage. C++14, freestanding.
+#ifndef MICROTIN_MICROTIN_HPP
+#define MICROTIN_MICROTIN_HPP
+
+#include "microtin/microtin.h"
+
+namespace microtin {
+
+// A terrain of up to Capacity vertices. Queries live here; see microtin.h for units and costs.
+template <uint32_t Capacity>
+class Terrain {
+  static_assert(Capacity >= 3, "a terrain has at least three vertices");
+  static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
+
+ public:
+  Terrain() { microtin_mesh_init(storage_, sizeof storage_, &mesh_); }
+  Terrain(const Terrain&) = delete;
+  Terrain& operator=(const Terrain&) = delete;
+
+  microtin_mesh* mesh() { return mesh_; }
+  const microtin_mesh* mesh() const { return mesh_; }
+
+  uint32_t vertices() const { return microtin_vertex_count(mesh_); }
+  uint32_t triangles() const { return microtin_triangle_count(mesh_); }
+  uint64_t digest() const { return microtin_digest(mesh_); }
+
+  microtin_answer height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
+                            uint32_t flags = 0) const {
+    return microtin_height_at(mesh_, x, y, flags, hint, height);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_MESH_BYTES(Capacity)];
+  microtin_mesh* mesh_;
+};
+
+// The state needed while decoding a terrain of up to Capacity vertices.
+template <uint32_t Capacity>
+class Decoder {
+ public:
+  explicit Decoder(microtin_mesh* mesh) {
+    microtin_decoder_init(storage_, sizeof storage_, mesh, &decoder_);
+  }
+  template <uint32_t MeshCapacity>
+  explicit Decoder(Terrain<MeshCapacity>& terrain) : Decoder(terrain.mesh()) {}
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  void stop_after_phase(uint32_t phase) { microtin_stop_after_phase(decoder_, phase); }
+  microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t step_limit = 0) {
+    return microtin_feed(decoder_, bytes, size, step_limit, used);
+  }
+  microtin_status finish() { return microtin_finish(decoder_); }
+  uint32_t phase() const { return microtin_phase(decoder_); }
+  uint64_t bytes_used() const { return microtin_bytes_used(decoder_); }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_DECODER_BYTES(Capacity)];
+  microtin_decoder* decoder_;
+};
+
+}  // namespace microtin
+
+#endif

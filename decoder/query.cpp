@@ -1,0 +1,182 @@
+// Queries on a decoded mesh.
+#include "decoder/state.hpp"
+#include "shared/digest.hpp"
+#include "shared/interpolation.hpp"
+
+namespace microtin {
+namespace {
+
+bool is_ghost(const Mesh& mesh, Index t) {
+  const Index f = first_edge(t);
+  return mesh.origin[f] == kInfinity || mesh.origin[f + 1u] == kInfinity ||
+         mesh.origin[f + 2u] == kInfinity;
+}
+
+bool has_terrain(const microtin_mesh& m, Index t) {
+  return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
+}
+
+Vertex vertex_of(const Mesh& mesh, Index v) {
+  return Vertex{mesh.x[v], mesh.y[v], mesh.z[v]};
+}
+
+// The real half-edge of a ghost triangle, from inside: the twin of the edge without infinity.
+Index step_inside(const Mesh& mesh, Index ghost) {
+  Index h = first_edge(ghost);
+  while (mesh.origin[h] == kInfinity || mesh.origin[next_in_triangle(h)] == kInfinity) ++h;
+  return triangle_of(mesh.twin[h]);
+}
+
+// Walks to the triangle that holds p: crosses any edge that p lies beyond. On a Delaunay
+// triangulation no triangle is met twice (Edelsbrunner, "An acyclicity theorem for cell
+// complexes"), which bounds the steps. Ends in a ghost if p is outside the hull.
+Index walk_to(const Mesh& mesh, Index start, FinePoint p) {
+  Index t = is_ghost(mesh, start) ? step_inside(mesh, start) : start;
+  for (Index steps = 0; steps < mesh.triangles; ++steps) {
+    const Index f = first_edge(t);
+    Index crossed = 3;
+    for (Index i = 0; i < 3; ++i) {
+      const Point from = point_of(mesh, mesh.origin[f + i]);
+      const Point to = point_of(mesh, mesh.origin[i == 2 ? f : f + i + 1u]);
+      if (orient_fine(from, to, p) < 0) {
+        crossed = i;
+        break;
+      }
+    }
+    if (crossed == 3) return t;
+    t = triangle_of(mesh.twin[f + crossed]);
+    if (is_ghost(mesh, t)) return t;
+  }
+  return t;
+}
+
+int32_t height_in(const Mesh& mesh, Index t, FinePoint p) {
+  const Index f = first_edge(t);
+  return height_in_triangle(vertex_of(mesh, mesh.origin[f]), vertex_of(mesh, mesh.origin[f + 1u]),
+                            vertex_of(mesh, mesh.origin[f + 2u]), p);
+}
+
+// The answer at p in the closed real triangle t. A vertex always knows its own height; on an edge,
+// terrain on either side is enough.
+microtin_answer answer_in(const microtin_mesh& m, Index t, FinePoint p, int32_t* height) {
+  const Mesh& mesh = m.mesh;
+  bool known = has_terrain(m, t);
+  const Index f = first_edge(t);
+  for (Index i = 0; i < 3 && !known; ++i) {
+    const Point from = point_of(mesh, mesh.origin[f + i]);
+    const Point to = point_of(mesh, mesh.origin[i == 2 ? f : f + i + 1u]);
+    const FinePoint at = fine(from);
+    known = (at.x == p.x && at.y == p.y) ||
+            (orient_fine(from, to, p) == 0 && has_terrain(m, triangle_of(mesh.twin[f + i])));
+  }
+  if (!known) return MICROTIN_IN_VOID;
+  *height = height_in(mesh, t, p);
+  return MICROTIN_HEIGHT;
+}
+
+uint32_t public_vertex(Index v) {
+  return v == kInfinity ? static_cast<uint32_t>(MICROTIN_INFINITY) : v;
+}
+
+}  // namespace
+}  // namespace microtin
+
+using namespace microtin;
+
+uint32_t microtin_vertex_count(const microtin_mesh* mesh) {
+  return mesh->mesh.vertices;
+}
+
+void microtin_vertex(const microtin_mesh* mesh, uint32_t v, uint16_t* x, uint16_t* y, int16_t* z) {
+  *x = mesh->mesh.x[v];
+  *y = mesh->mesh.y[v];
+  *z = mesh->mesh.z[v];
+}
+
+uint32_t microtin_triangle_count(const microtin_mesh* mesh) {
+  return mesh->mesh.triangles;
+}
+
+microtin_triangle_kind microtin_triangle(const microtin_mesh* mesh, uint32_t t, uint32_t v[3]) {
+  const Index f = first_edge(static_cast<Index>(t));
+  for (Index i = 0; i < 3; ++i) v[i] = public_vertex(mesh->mesh.origin[f + i]);
+  if (is_ghost(mesh->mesh, static_cast<Index>(t))) return MICROTIN_GHOST;
+  return has_terrain(*mesh, static_cast<Index>(t)) ? MICROTIN_REAL : MICROTIN_VOID;
+}
+
+uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corner) {
+  const Index f = first_edge(static_cast<Index>(t));
+  return triangle_of(mesh->mesh.twin[static_cast<Index>(f + corner)]);
+}
+
+uint64_t microtin_digest(const microtin_mesh* mesh) {
+  uint64_t sum = 0;
+  for (Index t = 0; t < mesh->mesh.triangles; ++t) {
+    if (is_ghost(mesh->mesh, t)) continue;
+    const Index f = first_edge(t);
+    const Vertex corner[3] = {vertex_of(mesh->mesh, mesh->mesh.origin[f]),
+                              vertex_of(mesh->mesh, mesh->mesh.origin[f + 1u]),
+                              vertex_of(mesh->mesh, mesh->mesh.origin[f + 2u])};
+    sum += triangle_digest(corner, !has_terrain(*mesh, t));
+  }
+  return sum;
+}
+
+microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
+                                   uint32_t* hint, int32_t* height) {
+  const Mesh& m = mesh->mesh;
+  if (m.triangles == 0) return MICROTIN_NOT_DECODED;
+  if (mesh->verified_vertices != m.vertices && (flags & MICROTIN_ANSWER_UNVERIFIED) == 0) {
+    return MICROTIN_NOT_VERIFIED;
+  }
+  const int32_t most = static_cast<int32_t>(kLatticeMax) * 256;
+  if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
+  const Index start = *hint < m.triangles ? static_cast<Index>(*hint) : 0;
+  const Index t = walk_to(m, start, FinePoint{x, y});
+  *hint = t;
+  if (is_ghost(m, t)) return MICROTIN_OUTSIDE;
+  return answer_in(*mesh, t, FinePoint{x, y}, height);
+}
+
+void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
+                        microtin_axis* z) {
+  *x = mesh->axis[0];
+  *y = mesh->axis[1];
+  *z = mesh->axis[2];
+}
+
+int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
+                        int32_t* lattice) {
+  if (per_unit == 0 || per_unit > (1ul << 24)) return 0;
+  const int64_t denominator = static_cast<int64_t>(axis->denominator);  // < 2^40
+  const int64_t numerator = static_cast<int64_t>(axis->numerator);      // < 2^40
+  // lattice = (value / per_unit * denominator - offset) / numerator. Split into whole units and
+  // rest.
+  int64_t whole = value / per_unit, rest = value % per_unit;
+  if (rest < 0) {
+    rest += per_unit;
+    --whole;
+  }
+  // Places outside are refused before anything can overflow: |offset| and whole * denominator must
+  // be within 2^62 and their difference within 65537 numerators.
+  const int64_t limit = static_cast<int64_t>(1) << 62;
+  if (whole > limit / denominator || whole < -limit / denominator) return 0;
+  if (axis->offset > limit || axis->offset < -limit) return 0;
+  const int64_t ahead = whole * denominator - axis->offset;
+  const uint64_t scaled = static_cast<uint64_t>(rest) * axis->denominator;  // < 2^64
+  const uint64_t part = scaled / per_unit, left = scaled % per_unit;        // part < 2^40
+  const int64_t most = 65536 * numerator;                                   // < 2^56
+  if (ahead > most || ahead < -denominator - numerator) return 0;
+  const int64_t steps = ahead + static_cast<int64_t>(part);  // numerator-ths of a lattice step
+  // Round (steps + left / per_unit) * 256 / numerator to nearest, halves up.
+  const int64_t base = steps >= 0 ? steps / numerator : -1;
+  const int64_t over = steps - base * numerator;  // 0 <= over < numerator, or steps < -numerator
+  if (over < 0) return 0;
+  const uint64_t fine_numerator =
+      static_cast<uint64_t>(over) * 512u + left * 512u / per_unit;  // < 2^50
+  const int64_t twice = static_cast<int64_t>(fine_numerator / static_cast<uint64_t>(numerator));
+  const int64_t result = base * 256 + (twice + 1) / 2;
+  if (result < 0 || result > static_cast<int64_t>(kLatticeMax) * 256) return 0;
+  *lattice = static_cast<int32_t>(result);
+  return 1;
+}

@@ -1,0 +1,107 @@
+// The reading coder: a binary range decoder over the bytes of one section's payload.
+#ifndef MICROTIN_DECODER_RANGE_DECODER_HPP
+#define MICROTIN_DECODER_RANGE_DECODER_HPP
+
+#include "shared/crc32.hpp"
+#include "shared/format.hpp"
+#include "shared/mesh.hpp"
+#include "shared/probability.hpp"
+
+namespace microtin {
+
+// Bytes that are available now; reading counts and checks them.
+struct ByteWindow {
+  const uint8_t* next;
+  size_t left;
+  uint32_t crc;
+  uint64_t used;
+
+  uint8_t take() {
+    const uint8_t byte = *next++;
+    --left;
+    ++used;
+    crc = crc32(crc, &byte, 1);
+    return byte;
+  }
+};
+
+// Interval coding after Schindler and LZMA: `code` is the stream's value relative to the interval's
+// low end, always below `range`; `range` stays at or above 2^24 between calls.
+struct RangeDecoder {
+  uint32_t range;
+  uint32_t code;
+  uint32_t payload_left;  // bytes of the section's payload not read yet
+  uint32_t virtual_left;  // zero bytes that may still be read behind it
+  bool overrun;           // more was asked for than there is
+  ByteWindow* window;     // holds at least min(payload_left, kStepBytes) bytes when a step starts
+
+  uint32_t next_byte() {
+    if (payload_left != 0) {
+      --payload_left;
+      return window->take();
+    }
+    if (virtual_left == 0) {
+      overrun = true;
+    } else {
+      --virtual_left;
+    }
+    return 0;
+  }
+
+  void begin(uint32_t payload_bytes) {
+    payload_left = payload_bytes;
+    virtual_left = kVirtualBytes;
+    overrun = false;
+    range = 0xFFFFFFFFu;
+    code = 0;
+    for (int i = 0; i < 4; ++i) code = code << 8 | next_byte();
+    if (code == range) overrun = true;  // no encoder's interval ends there
+  }
+
+  void normalise() {
+    while (range < (static_cast<uint32_t>(1) << 24)) {  // at most twice: range >= 2^8 here
+      range <<= 8;
+      code = code << 8 | next_byte();
+    }
+  }
+
+  // A bit that is one with `probability` / 2^15. Both parts of the interval are at least
+  // 2^9 * kProbabilityMargin wide.
+  bool bit(uint32_t probability, bool) {
+    const uint32_t bound = (range >> 15) * probability;
+    const bool one = code < bound;
+    if (one) {
+      range = bound;
+    } else {
+      code -= bound;
+      range -= bound;
+    }
+    normalise();
+    return one;
+  }
+
+  // A number below `count`, all equally likely; 1 <= count <= 2^16.
+  uint32_t uniform(uint32_t count, uint32_t) {
+    if (count == 1) return 0;
+    range /= count;
+    uint32_t value = code / range;
+    if (value >= count) value = count - 1;  // the part of the interval lost to rounding
+    code -= value * range;
+    if (code >= range) {
+      // Only in that lost part, which no encoder uses: stay in bounds, the check will fail.
+      code = range - 1;
+    }
+    normalise();
+    return value;
+  }
+
+  Vertex next() const { return Vertex{0, 0, 0}; }
+  bool last_phase() const { return false; }
+  uint32_t batch() const { return 0; }
+  bool conflicts(const Mesh&, Index) const { return false; }
+  bool is_void(const Mesh&, Index) const { return false; }
+};
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,57 @@
+// What the two workspaces hold.
+#ifndef MICROTIN_DECODER_STATE_HPP
+#define MICROTIN_DECODER_STATE_HPP
+
+#include "decoder/range_decoder.hpp"
+#include "microtin/microtin.h"
+#include "shared/reconstruction.hpp"
+
+struct microtin_mesh {
+  microtin::Mesh mesh;
+  uint8_t* voids;              // a bit per triangle; clear until known
+  uint32_t capacity;           // vertices
+  uint32_t verified_vertices;  // vertices when the last check passed
+  microtin_axis axis[3];
+  uint8_t has_voids;
+};
+
+namespace microtin {
+
+enum class Item : uint8_t {
+  kFixedHeader,
+  kBlockHead,
+  kPlacement,
+  kSkippedBlock,
+  kHeaderCheck,
+  kSectionHead,
+  kPayloadStart,
+  kStep,
+  kSectionCheck
+};
+
+}  // namespace microtin
+
+struct microtin_decoder {
+  microtin_mesh* mesh;
+  uint32_t capacity;
+  microtin_status status;  // NEED_INPUT while all is well
+  uint32_t stop_phase;
+  microtin::Item item;
+  uint32_t blocks_left;  // bytes of optional blocks not read yet
+  uint32_t block_left;   // bytes of the current one
+  uint32_t section_bytes;
+  uint8_t section_shift;
+  microtin::Contract contract;
+  bool header_is_legal;
+  microtin::ByteWindow window;
+  microtin::RangeDecoder coder;
+  uint8_t staged_bytes;
+  uint8_t
+      staged[2 * microtin::kStepBytes];  // bytes taken from the caller, too few for a step so far
+  microtin::Reconstruction reconstruction;
+};
+
+static_assert(sizeof(microtin_mesh) <= MICROTIN_MESH_BYTES(0), "see MICROTIN_MESH_BYTES");
+static_assert(sizeof(microtin_decoder) <= MICROTIN_DECODER_BYTES(0), "see MICROTIN_DECODER_BYTES");
+
+#endif

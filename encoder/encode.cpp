@@ -1,0 +1,199 @@
+#include "encoder/encode.hpp"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "encoder/error.hpp"
+#include "encoder/order.hpp"
+#include "encoder/range_encoder.hpp"
+#include "encoder/triangulation.hpp"
+#include "shared/digest.hpp"
+#include "shared/reconstruction.hpp"
+
+namespace microtin {
+namespace {
+
+// Void triangles, by their corners from the smallest on.
+using VoidSet = std::set<std::tuple<Point, Point, Point>>;
+
+VoidSet void_set(const Tin& tin) {
+  VoidSet voids;
+  for (const Tin::Triangle& t : tin.voids) voids.emplace(t.a, t.b, t.c);
+  return voids;
+}
+
+std::tuple<Point, Point, Point> corners_from_smallest(const Mesh& mesh, Index triangle) {
+  const Index f = first_edge(triangle);
+  Point p[3];
+  for (Index i = 0; i < 3; ++i) p[i] = point_of(mesh, mesh.origin[f + i]);
+  std::rotate(p, std::min_element(p, p + 3), p + 3);
+  return {p[0], p[1], p[2]};
+}
+
+// Knows what is to be sent, and writes it: the coder of shared/reconstruction.hpp.
+class WritingCoder {
+ public:
+  WritingCoder(const std::vector<Vertex>& vertices, const Order& order, VoidSet voids)
+      : voids_(std::move(voids)) {
+    for (const Index v : order.seed) sequence_.push_back(vertices[v]);
+    for (const std::vector<Index>& batch : order.batches) {
+      for (const Index v : batch) sequence_.push_back(vertices[v]);
+      batches_.push_back(static_cast<uint32_t>(batch.size()));
+    }
+  }
+
+  // Call before each step: the first `placed` vertices of the sequence are in the mesh.
+  void at(uint32_t placed, uint32_t phase) {
+    placed_ = placed;
+    phase_ = phase;
+    seed_next_ = 0;
+  }
+
+  bool bit(uint32_t probability, bool value) { return payload_.bit(probability, value); }
+  uint32_t uniform(uint32_t count, uint32_t value) { return payload_.uniform(count, value); }
+
+  Vertex next() {
+    if (placed_ == 0) return sequence_[seed_next_++];
+    return sequence_[placed_];
+  }
+  bool last_phase() const { return phase_ + 1 == batches_.size(); }
+  uint32_t batch() const { return batches_[phase_]; }
+  bool conflicts(const Mesh& mesh, Index h) const {
+    return in_conflict(mesh, h, Point{sequence_[placed_].x, sequence_[placed_].y});
+  }
+  bool is_void(const Mesh& mesh, Index triangle) const {
+    return voids_.count(corners_from_smallest(mesh, triangle)) != 0;
+  }
+
+  std::vector<uint8_t> take_payload() {
+    std::vector<uint8_t> bytes = payload_.finish();
+    payload_ = RangeEncoder();
+    return bytes;
+  }
+
+ private:
+  std::vector<Vertex> sequence_;
+  std::vector<uint32_t> batches_;
+  VoidSet voids_;
+  uint32_t placed_ = 0;
+  uint32_t phase_ = 0;
+  uint32_t seed_next_ = 0;
+  RangeEncoder payload_;
+};
+
+// The arrays behind a Reconstruction on the host.
+class Workspace {
+ public:
+  explicit Workspace(uint32_t n)
+      : x_(n),
+        y_(n),
+        z_(n),
+        origin_(6u * n),
+        twin_(6u * n),
+        queue_(n),
+        marks_(n / 4 + 1),
+        roughness_(n),
+        voids_(n / 4 + 1) {
+    mesh_ = Mesh{x_.data(), y_.data(), z_.data(), origin_.data(), twin_.data(), 0, 0};
+    state_.mesh = &mesh_;
+    state_.queue = queue_.data();
+    state_.marks = marks_.data();
+    state_.roughness = roughness_.data();
+    state_.voids = voids_.data();
+  }
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  Reconstruction& state() { return state_; }
+
+ private:
+  std::vector<uint16_t> x_, y_;
+  std::vector<int16_t> z_;
+  std::vector<Index> origin_, twin_, queue_;
+  std::vector<uint8_t> marks_, roughness_, voids_;
+  Mesh mesh_{};
+  Reconstruction state_{};
+};
+
+void append_section(std::vector<uint8_t>& stream, const std::vector<uint8_t>& payload) {
+  const size_t from = stream.size();
+  append_varint(stream, payload.size());
+  stream.insert(stream.end(), payload.begin(), payload.end());
+  append_check(stream, from);
+}
+
+std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& metadata,
+                                  WritingCoder& coder) {
+  std::vector<uint8_t> stream = write_header(contract, metadata);
+  Workspace workspace(contract.vertices);
+  Reconstruction& r = workspace.state();
+  start(r, contract);
+  while (r.stage != Stage::kComplete) {
+    coder.at(r.mesh->vertices, r.phase);
+    const Progress progress = step(r, coder);
+    if (progress == Progress::kMalformed) throw Error("internal error: the order does not rebuild");
+    if (progress == Progress::kSectionEnd) append_section(stream, coder.take_payload());
+  }
+  return stream;
+}
+
+std::vector<Vertex> sorted_vertices(const Tin& tin) {
+  std::vector<Vertex> vertices = tin.vertices;
+  const auto place = [](const Vertex& v) { return Point{v.x, v.y}; };
+  std::sort(vertices.begin(), vertices.end(),
+            [&](const Vertex& a, const Vertex& b) { return place(a) < place(b); });
+  const auto twice =
+      std::adjacent_find(vertices.begin(), vertices.end(),
+                         [&](const Vertex& a, const Vertex& b) { return place(a) == place(b); });
+  if (twice != vertices.end()) throw Error("two vertices share a place");
+  return vertices;
+}
+
+uint64_t digest_of(const Mesh& mesh, const std::vector<Vertex>& vertices, const VoidSet& voids) {
+  uint64_t sum = 0;
+  for (Index t = 0; t < mesh.triangles; ++t) {
+    Vertex corner[3];
+    bool ghost = false;
+    for (Index i = 0; i < 3; ++i) {
+      const Index v = mesh.origin[first_edge(t) + i];
+      ghost = ghost || v == kInfinity;
+      if (!ghost) corner[i] = vertices[v];
+    }
+    if (!ghost) sum += triangle_digest(corner, voids.count(corners_from_smallest(mesh, t)) != 0);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, uint32_t degree) {
+  if (tin.vertices.size() > kMaxVertices) {
+    throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
+  }
+  const std::vector<Vertex> vertices = sorted_vertices(tin);
+  Contract contract{};
+  contract.vertices = static_cast<uint32_t>(vertices.size());
+  contract.degree = degree;
+  contract.has_voids = !tin.voids.empty();
+  std::vector<Point> places;
+  for (const Vertex& v : vertices) {
+    contract.x_max = std::max(contract.x_max, v.x);
+    contract.y_max = std::max(contract.y_max, v.y);
+    contract.has_heights = contract.has_heights || v.z != 0;
+    places.push_back(Point{v.x, v.y});
+  }
+  Triangulation triangulation(places);
+  const VoidSet voids = void_set(tin);
+  const uint64_t digest = digest_of(triangulation.mesh(), vertices, voids);
+  WritingCoder coder(vertices, breadth_first_order(triangulation, degree), voids);
+  std::vector<uint8_t> stream = write_stream(contract, metadata, coder);
+  const DecodedTerrain decoded(stream);
+  if (microtin_vertex_count(decoded.mesh()) != vertices.size() ||
+      microtin_digest(decoded.mesh()) != digest) {
+    throw Error("internal error: the stream does not decode to the terrain it was made from");
+  }
+  return stream;
+}
+
+}  // namespace microtin

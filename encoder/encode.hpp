@@ -1,0 +1,25 @@
+// From chosen vertices to the bytes of a stream.
+#ifndef MICROTIN_ENCODER_ENCODE_HPP
+#define MICROTIN_ENCODER_ENCODE_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "encoder/decoded_terrain.hpp"
+#include "encoder/header.hpp"
+#include "encoder/metadata.hpp"
+#include "encoder/survey.hpp"
+
+namespace microtin {
+
+constexpr uint32_t kDefaultDegree = 8;
+
+// The stream of `tin`; the same for any order of its vertices. It is decoded again with the shipped
+// decoder and compared before it is returned. Throws Error if the vertices have no triangle, share
+// a place, or are more than 2^24. `degree` is 6 .. 32. O(n log n).
+std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata,
+                            uint32_t degree = kDefaultDegree);
+
+}  // namespace microtin
+
+#endif

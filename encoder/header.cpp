@@ -1,0 +1,217 @@
+#include "encoder/header.hpp"
+
+#include "encoder/error.hpp"
+#include "shared/crc32.hpp"
+#include "shared/header.hpp"
+
+namespace microtin {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+uint64_t zigzag(int64_t value) {
+  return static_cast<uint64_t>(value) << 1 ^ static_cast<uint64_t>(value >> 63);
+}
+
+int64_t unzigzag(uint64_t value) {
+  return static_cast<int64_t>(value >> 1 ^ (0 - (value & 1)));
+}
+
+void append_u16(Bytes& bytes, uint32_t value) {
+  bytes.push_back(static_cast<uint8_t>(value));
+  bytes.push_back(static_cast<uint8_t>(value >> 8));
+}
+
+void append_u32(Bytes& bytes, uint32_t value) {
+  append_u16(bytes, value & 0xFFFF);
+  append_u16(bytes, value >> 16);
+}
+
+void append_block(Bytes& blocks, uint8_t type, const Bytes& content) {
+  blocks.push_back(type);
+  append_u16(blocks, static_cast<uint32_t>(content.size()));
+  blocks.insert(blocks.end(), content.begin(), content.end());
+}
+
+void append_axis(Bytes& bytes, const Axis& axis) {
+  append_varint(bytes, zigzag(axis.offset));
+  append_varint(bytes, axis.numerator);
+  append_varint(bytes, axis.denominator);
+}
+
+void append_decimal(Bytes& bytes, Decimal value) {
+  append_varint(bytes, zigzag(value.mantissa));
+  bytes.push_back(static_cast<uint8_t>(value.decimals));
+}
+
+bool is_lattice_itself(const Axis& axis) {
+  return axis.offset == 0 && axis.numerator == 1 && axis.denominator == 1;
+}
+
+Bytes accuracy_content(const Accuracy& accuracy) {
+  Bytes content;
+  content.push_back(accuracy.bound.has_value() ? 1 : 0);
+  if (accuracy.bound) append_decimal(content, *accuracy.bound);
+  append_decimal(content, accuracy.max_error);
+  append_decimal(content, accuracy.rms_error);
+  return content;
+}
+
+Bytes write_blocks(const Metadata& m) {
+  Bytes blocks;
+  const Placement& p = m.placement;
+  if (!is_lattice_itself(p.x) || !is_lattice_itself(p.y) || !is_lattice_itself(p.z)) {
+    Bytes content;
+    append_axis(content, p.x);
+    append_axis(content, p.y);
+    append_axis(content, p.z);
+    append_block(blocks, kBlockPlacement, content);
+  }
+  if (m.horizontal_unit != Unit::kUnknown || m.vertical_unit != Unit::kUnknown) {
+    append_block(blocks, kBlockUnits,
+                 {static_cast<uint8_t>(m.horizontal_unit), static_cast<uint8_t>(m.vertical_unit)});
+  }
+  if (m.horizontal_epsg != 0 || m.vertical_epsg != 0) {
+    Bytes content;
+    append_varint(content, m.horizontal_epsg);
+    append_varint(content, m.vertical_epsg);
+    append_block(blocks, kBlockEpsg, content);
+  }
+  if (!m.source.empty())
+    append_block(blocks, kBlockSource, Bytes(m.source.begin(), m.source.end()));
+  if (m.accuracy) append_block(blocks, kBlockAccuracy, accuracy_content(*m.accuracy));
+  return blocks;
+}
+
+// Reads the content of one block from front to back.
+class BlockReader {
+ public:
+  BlockReader(const uint8_t* begin, const uint8_t* end) : next_(begin), end_(end) {}
+
+  uint64_t number() {
+    uint64_t value = 0;
+    if (!read_varint(&next_, end_, &value)) throw Error("malformed header block");
+    return value;
+  }
+
+  uint8_t byte() {
+    if (next_ == end_) throw Error("malformed header block");
+    return *next_++;
+  }
+
+  Decimal decimal() {
+    Decimal value;
+    value.mantissa = unzigzag(number());
+    value.decimals = byte();
+    if (value.decimals > 18) throw Error("malformed header block");
+    return value;
+  }
+
+ private:
+  const uint8_t* next_;
+  const uint8_t* end_;
+};
+
+Unit unit_of(uint8_t code) {
+  return code <= static_cast<uint8_t>(Unit::kUsSurveyFoot) ? static_cast<Unit>(code)
+                                                           : Unit::kUnknown;
+}
+
+void read_block(uint8_t type, const uint8_t* begin, const uint8_t* end, Metadata& m) {
+  BlockReader reader(begin, end);
+  if (type == kBlockUnits) {
+    m.horizontal_unit = unit_of(reader.byte());
+    m.vertical_unit = unit_of(reader.byte());
+  } else if (type == kBlockEpsg) {
+    m.horizontal_epsg = static_cast<uint32_t>(reader.number());
+    m.vertical_epsg = static_cast<uint32_t>(reader.number());
+  } else if (type == kBlockSource) {
+    m.source.assign(begin, end);
+  } else if (type == kBlockAccuracy) {
+    Accuracy accuracy;
+    if (reader.byte() != 0) accuracy.bound = reader.decimal();
+    accuracy.max_error = reader.decimal();
+    accuracy.rms_error = reader.decimal();
+    m.accuracy = accuracy;
+  }
+}
+
+}  // namespace
+
+void append_varint(Bytes& bytes, uint64_t value) {
+  for (; value >= 128; value >>= 7) bytes.push_back(static_cast<uint8_t>(value | 128));
+  bytes.push_back(static_cast<uint8_t>(value));
+}
+
+void append_check(Bytes& bytes, size_t from) {
+  append_u32(bytes, crc32(0, bytes.data() + from, bytes.size() - from));
+}
+
+Bytes write_header(const Contract& contract, const Metadata& metadata) {
+  const Bytes blocks = write_blocks(metadata);
+  if (blocks.size() > 65535) throw Error("the texts for the header are longer than 65,535 bytes");
+  Bytes header(kMagic, kMagic + sizeof kMagic);
+  header.push_back(kVersion);
+  header.push_back(static_cast<uint8_t>((contract.has_heights ? kHasHeights : 0) |
+                                        (contract.has_voids ? kHasVoids : 0)));
+  header.push_back(static_cast<uint8_t>(contract.degree));
+  header.push_back(0);
+  append_u32(header, contract.vertices);
+  append_u16(header, contract.x_max);
+  append_u16(header, contract.y_max);
+  append_u16(header, static_cast<uint32_t>(blocks.size()));
+  header.insert(header.end(), blocks.begin(), blocks.end());
+  append_check(header, 0);
+  return header;
+}
+
+Header read_header(const Bytes& stream) {
+  Header header;
+  microtin_status status = microtin_peek(stream.data(), stream.size(), &header.info);
+  if (status == MICROTIN_NEED_INPUT) status = MICROTIN_TRUNCATED;
+  if (status != MICROTIN_DONE) throw Error(describe(status));
+  header.metadata.placement = {header.info.x, header.info.y, header.info.z};
+  const uint8_t* at = stream.data() + kFixedHeaderBytes;
+  const uint8_t* const end = stream.data() + header.info.header_bytes - kCheckBytes;
+  while (at != end) {
+    const uint8_t type = *at;
+    const uint8_t* const content = at + kBlockHeadBytes;
+    at = content + read_u16(at + 1);
+    read_block(type, content, at, header.metadata);
+  }
+  return header;
+}
+
+const char* describe(microtin_status status) {
+  switch (status) {
+    case MICROTIN_DONE:
+      return "complete";
+    case MICROTIN_NEED_INPUT:
+      return "more bytes are needed";
+    case MICROTIN_STEP_LIMIT:
+      return "the step limit was reached";
+    case MICROTIN_STOPPED:
+      return "stopped after the phase asked for";
+    case MICROTIN_BAD_MAGIC:
+      return "not a microtin stream";
+    case MICROTIN_UNSUPPORTED_VERSION:
+      return "a version of the format, or a required header block, that this program does not know";
+    case MICROTIN_TOO_BIG:
+      return "more vertices than this build can hold";
+    case MICROTIN_CHECKSUM:
+      return "damaged: a checksum does not match";
+    case MICROTIN_MALFORMED:
+      return "malformed: a rule of the format is broken";
+    case MICROTIN_TRUNCATED:
+      return "cut off: the stream ends too early";
+    case MICROTIN_MISALIGNED:
+      return "misaligned workspace";
+    case MICROTIN_WORKSPACE_TOO_SMALL:
+      return "workspace too small";
+    case MICROTIN_ARGUMENT:
+      return "wrong argument";
+  }
+  return "unknown status";
+}
+
+}  // namespace microtin

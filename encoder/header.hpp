@@ -1,0 +1,36 @@
+// Writing and reading a stream's header with all its blocks.
+#ifndef MICROTIN_ENCODER_HEADER_HPP
+#define MICROTIN_ENCODER_HEADER_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "encoder/metadata.hpp"
+#include "shared/format.hpp"
+
+namespace microtin {
+
+// The fixed part, the blocks that say something, and the check.
+std::vector<uint8_t> write_header(const Contract& contract, const Metadata& metadata);
+
+// Everything a header says.
+struct Header {
+  microtin_info info;
+  Metadata metadata;
+};
+
+// Throws Error if the header is cut off, damaged or not understood.
+Header read_header(const std::vector<uint8_t>& stream);
+
+// A sentence for a status of the decoder.
+const char* describe(microtin_status status);
+
+// A number in groups of seven bits, low ones first, the top bit set if more follow.
+void append_varint(std::vector<uint8_t>& bytes, uint64_t value);
+
+// The check of `bytes` from `from` on, appended.
+void append_check(std::vector<uint8_t>& bytes, size_t from);
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,75 @@
+// The constants of the format and the fixed part of its header. FORMAT.md explains them.
+#ifndef MICROTIN_SHARED_FORMAT_HPP
+#define MICROTIN_SHARED_FORMAT_HPP
+
+#include <stddef.h>
+#include <stdint.h>
+
+namespace microtin {
+
+constexpr uint8_t kMagic[4] = {'m', 't', 'i', 'n'};
+constexpr uint8_t kVersion = 1;
+constexpr uint8_t kHasHeights = 1, kHasVoids = 2;  // header flags; the others are zero
+constexpr uint32_t kMinDegree = 6, kMaxDegree = 32;
+constexpr uint32_t kMaxVertices = 1u << 24;
+
+// A section of the body ends with the first phase that brings the terrain to this many vertices,
+// and with every phase after it.
+constexpr uint32_t kSectionVertices = 256;
+
+// Most payload bytes that one step can use: one hit decision, a place (12 decisions and 32 uniform
+// bits) and a height (36 decisions and 16 uniform bits) at 9 bits a decision, and slack to
+// renormalise.
+constexpr uint32_t kStepBytes = 72;
+
+// Bytes of zero that stand virtually behind a section's payload.
+constexpr uint32_t kVirtualBytes = 4;
+
+// Vertices of all phases together that a stream may walk around. Every phase of the encoder leaves
+// at most 3/4 of its removable vertices (FORMAT.md, "Work"), so 4 n and 3 per phase suffice.
+constexpr uint32_t work_budget(uint32_t vertices) {
+  return 4 * vertices + 256;
+}
+
+// What the fixed header promises.
+struct Contract {
+  uint32_t vertices;
+  uint16_t x_max, y_max;
+  uint32_t degree;
+  bool has_heights;
+  bool has_voids;
+};
+
+// Lattice columns and rows that vertices can lie on: 1 .. 2^16.
+inline uint32_t columns(const Contract& contract) {
+  return static_cast<uint32_t>(contract.x_max) + 1;
+}
+
+inline uint32_t rows(const Contract& contract) {
+  return static_cast<uint32_t>(contract.y_max) + 1;
+}
+
+// Fixed header: magic 4, version 1, flags 1, degree 1, zero 1, vertices 4, x_max 2, y_max 2, bytes
+// of optional blocks 2. Little-endian. Then the blocks, then a CRC-32 of all before it.
+constexpr uint32_t kFixedHeaderBytes = 18;
+constexpr uint32_t kCheckBytes = 4;
+
+// Optional blocks: a type byte, a length (2 bytes), the content. A reader that does not know a type
+// with kMustUnderstand set must refuse the stream.
+constexpr uint8_t kMustUnderstand = 0x80;
+constexpr uint8_t kBlockPlacement = 1, kBlockUnits = 2, kBlockEpsg = 3, kBlockSource = 4,
+                  kBlockAccuracy = 5;
+constexpr uint32_t kBlockHeadBytes = 3;
+constexpr uint32_t kPlacementMostBytes = 66;  // three axes of up to 10 + 6 + 6 bytes
+
+inline uint32_t read_u16(const uint8_t* p) {
+  return p[0] | static_cast<uint32_t>(p[1]) << 8;
+}
+
+inline uint32_t read_u32(const uint8_t* p) {
+  return read_u16(p) | read_u16(p + 2) << 16;
+}
+
+}  // namespace microtin
+
+#endif

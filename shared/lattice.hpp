@@ -1,0 +1,38 @@
+// The integer lattice on which all geometry happens, and the lexicographic order of its points.
+#ifndef MICROTIN_SHARED_LATTICE_HPP
+#define MICROTIN_SHARED_LATTICE_HPP
+
+#include <stdint.h>
+
+namespace microtin {
+
+constexpr uint16_t kLatticeMax = 65535;  // x and y run from 0 to here; see predicates.hpp for why
+
+struct Point {
+  uint16_t x;
+  uint16_t y;
+};
+
+// A terrain vertex: its place and its height in steps.
+struct Vertex {
+  uint16_t x;
+  uint16_t y;
+  int16_t z;
+};
+
+inline bool operator==(Point a, Point b) {
+  return a.x == b.x && a.y == b.y;
+}
+
+inline bool operator!=(Point a, Point b) {
+  return !(a == b);
+}
+
+// Lexicographic: by x, then by y. Orders the symbolic perturbation and names the first point.
+inline bool operator<(Point a, Point b) {
+  return a.x != b.x ? a.x < b.x : a.y < b.y;
+}
+
+}  // namespace microtin
+
+#endif

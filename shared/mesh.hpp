@@ -1,0 +1,102 @@
+// The half-edge mesh: three half-edges per triangle in a row, ghost triangles around the hull.
+//
+// Half-edge h runs from origin[h] to the origin of next_in_triangle(h); triangles turn
+// counter-clockwise. Ghost triangles join each hull edge to the vertex at infinity, so the mesh is
+// a sphere: n vertices give exactly 2n - 2 triangles and every half-edge has a twin.
+#ifndef MICROTIN_SHARED_MESH_HPP
+#define MICROTIN_SHARED_MESH_HPP
+
+#include "shared/lattice.hpp"
+#include "shared/predicates.hpp"
+
+#ifndef MICROTIN_INDEX_BITS
+#define MICROTIN_INDEX_BITS 32
+#endif
+
+namespace microtin {
+
+#if MICROTIN_INDEX_BITS == 16
+typedef uint16_t Index;
+#elif MICROTIN_INDEX_BITS == 32
+typedef uint32_t Index;
+#else
+#error "MICROTIN_INDEX_BITS must be 16 or 32"
+#endif
+
+// The vertex at infinity. No vertex has this number: the largest half-edge number stays below it.
+constexpr Index kInfinity = static_cast<Index>(~static_cast<Index>(0));
+
+// Views of arrays that somebody else owns.
+struct Mesh {
+  uint16_t* x;      // vertices
+  uint16_t* y;      // vertices
+  int16_t* z;       // vertices
+  Index* origin;    // 3 * triangles
+  Index* twin;      // 3 * triangles
+  Index vertices;   // n
+  Index triangles;  // 2n - 2, ghosts included
+};
+
+// floor(h / 3) by one multiplication; exact for every Index value (no divide on the smallest
+// cores).
+inline Index triangle_of(Index h) {
+#if MICROTIN_INDEX_BITS == 16
+  return static_cast<Index>((static_cast<uint32_t>(h) * 43691u) >> 17);
+#else
+  return static_cast<Index>((static_cast<uint64_t>(h) * 2863311531u) >> 33);
+#endif
+}
+
+inline Index first_edge(Index triangle) {
+  return static_cast<Index>(3u * triangle);
+}
+
+inline Index next_in_triangle(Index h) {
+  return static_cast<Index>(h == first_edge(triangle_of(h)) + 2u ? h - 2u : h + 1u);
+}
+
+inline Index previous_in_triangle(Index h) {
+  return static_cast<Index>(h == first_edge(triangle_of(h)) ? h + 2u : h - 1u);
+}
+
+inline Point point_of(const Mesh& mesh, Index v) {
+  return Point{mesh.x[v], mesh.y[v]};
+}
+
+// Makes a and b each other's twins.
+inline void pair(Mesh& mesh, Index a, Index b) {
+  mesh.twin[a] = b;
+  mesh.twin[b] = a;
+}
+
+// Whether p, different from the vertices of the triangle of half-edge h, conflicts with it.
+inline bool in_conflict(const Mesh& mesh, Index h, Point p) {
+  const Index f = first_edge(triangle_of(h));
+  const Index a = mesh.origin[f], b = mesh.origin[f + 1u], c = mesh.origin[f + 2u];
+  if (a == kInfinity) return conflicts_with_ghost(point_of(mesh, b), point_of(mesh, c), p);
+  if (b == kInfinity) return conflicts_with_ghost(point_of(mesh, c), point_of(mesh, a), p);
+  if (c == kInfinity) return conflicts_with_ghost(point_of(mesh, a), point_of(mesh, b), p);
+  return conflicts_with_triangle(point_of(mesh, a), point_of(mesh, b), point_of(mesh, c), p);
+}
+
+// The mesh of one counter-clockwise triangle (0, 1, 2) and its three ghosts.
+inline void start_mesh(Mesh& mesh) {
+  mesh.vertices = 3;
+  mesh.triangles = 4;
+  for (Index i = 0; i < 3; ++i) {
+    const Index j = static_cast<Index>(i == 2 ? 0 : i + 1);
+    const Index ghost = static_cast<Index>(3u + 3u * i);  // (j, i, infinity)
+    mesh.origin[i] = i;
+    mesh.origin[ghost] = j;
+    mesh.origin[ghost + 1u] = i;
+    mesh.origin[ghost + 2u] = kInfinity;
+    pair(mesh, i, ghost);
+    // Ghost i shares its edge (i, infinity) with the ghost whose first vertex is i.
+    const Index previous = static_cast<Index>(3u + 3u * (i == 0 ? 2u : i - 1u));
+    pair(mesh, static_cast<Index>(ghost + 1u), static_cast<Index>(previous + 2u));
+  }
+}
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,440 @@
+// The reconstruction, once for both sides: a breadth-first walk that rebuilds the Delaunay
+// triangulation point by point (Sohler, "Fast Reconstruction of Delaunay Triangulations", CCCG
+// 1999).
+//
+// It is a template over the coder. With a reading coder it decodes; with a writing coder, which
+// knows the next point, it encodes. A coder supplies, beside bit() and uniform() (probability.hpp):
+//   next()        the vertex to be inserted next
+//   last_phase(), batch()   how many vertices the phase adds
+//   conflicts(mesh, h)      whether that vertex is in conflict with the triangle of half-edge h
+//   is_void(mesh, t)        whether triangle t is void
+// A reading coder may return anything from these: what the stream says replaces it.
+#ifndef MICROTIN_SHARED_RECONSTRUCTION_HPP
+#define MICROTIN_SHARED_RECONSTRUCTION_HPP
+
+#include "shared/format.hpp"
+#include "shared/height_coding.hpp"
+#include "shared/insertion.hpp"
+#include "shared/place_coding.hpp"
+
+namespace microtin {
+
+constexpr uint32_t kHitEntries = 29;
+
+// Everything that is learned while coding.
+struct Models {
+  Curve<kHitEntries> hit[4];  // by which of the two sides beside the chord are certified
+  PlaceModel place;
+  HeightModel height;
+  AdaptiveBit hull_hit;
+  AdaptiveBit on_hull_edge;
+  ExponentModel hull_gap;
+  MantissaModel hull_gap_mantissa;
+  AdaptiveBit is_void[5];
+};
+
+inline void reset(Models& models) {
+  for (int i = 0; i < 4; ++i) reset(models.hit[i], -12 * 160, 160);
+  reset(models.place);
+  reset(models.height);
+  reset(models.hull_hit, 16384);
+  reset(models.on_hull_edge, 16384);
+  reset(models.hull_gap, 6);
+  reset(models.hull_gap_mantissa);
+  for (int i = 0; i < 5; ++i) reset(models.is_void[i], static_cast<uint32_t>(3000 + 6500 * i));
+}
+
+enum class Stage : uint8_t { kSeed, kPhase, kWalk, kVoids, kComplete };
+
+enum class Progress : uint8_t {
+  kStep,        // one step done, more to do in this section
+  kPhaseEnd,    // the same, and it completed a phase
+  kSectionEnd,  // ... and the section
+  kMalformed
+};
+
+struct Reconstruction {
+  Mesh* mesh;
+  uint8_t* voids;      // a bit per triangle
+  Index* queue;        // half-edges parent -> vertex, one per vertex
+  uint8_t* marks;      // two bits per vertex: queued, done
+  uint8_t* roughness;  // per vertex, see height_coding.hpp
+  Contract contract;
+
+  Stage stage;
+  bool infinity_done;
+  Index vertex;      // being walked around
+  Index chord;       // half-edge into `vertex`, of the triangle to be looked at next
+  Index turn_start;  // the neighbour where the turn around `vertex` began
+  Index anchor;      // the half-edge from vertex 0 to infinity
+  Index queue_head;
+  Index queue_tail;
+  Index phase_end;  // vertices when the phase is complete
+  uint32_t phase;   // phases complete
+  uint32_t work;    // vertices walked around so far, all phases together
+  uint32_t batch;
+  int64_t mean_area;  // running mean of twice the area of final triangles, 8 fractional bits
+  Index void_cursor;
+
+  Cavity cavity;
+  Index cavity_triangles[kMaxDegree];
+  Index cavity_origin[kMaxDegree + 2];
+  Index cavity_twin[kMaxDegree + 2];
+  Index cavity_pending[kMaxDegree + 2];
+  Models models;
+};
+
+inline void start(Reconstruction& r, const Contract& contract) {
+  r.contract = contract;
+  r.stage = Stage::kSeed;
+  r.phase = 0;
+  r.work = 0;
+  r.void_cursor = 0;
+  r.cavity.triangles = r.cavity_triangles;
+  r.cavity.edge_origin = r.cavity_origin;
+  r.cavity.edge_twin = r.cavity_twin;
+  r.cavity.pending = r.cavity_pending;
+  r.cavity.limit = static_cast<Index>(contract.degree - 2);
+  r.mesh->vertices = 0;
+  r.mesh->triangles = 0;
+  reset(r.models);
+}
+
+// --- Marks -------------------------------------------------------------------------------------
+
+constexpr uint8_t kQueued = 1, kDone = 2;
+
+inline bool marked(const Reconstruction& r, Index v, uint8_t mark) {
+  if (v == kInfinity) return mark == kQueued || r.infinity_done;
+  return (r.marks[v >> 2] >> (2u * (v & 3u)) & mark) != 0;
+}
+
+inline void mark(Reconstruction& r, Index v, uint8_t mark) {
+  if (v == kInfinity) {
+    r.infinity_done = r.infinity_done || mark == kDone;
+  } else {
+    r.marks[v >> 2] = static_cast<uint8_t>(r.marks[v >> 2] | mark << (2u * (v & 3u)));
+  }
+}
+
+// --- The triangle in hand ------------------------------------------------------------------------
+
+inline Side side_behind(const Reconstruction& r, Index h) {
+  const Index behind = r.mesh->twin[h];
+  const Index apex = r.mesh->origin[previous_in_triangle(behind)];
+  Side side;
+  side.ghost = apex == kInfinity;
+  side.certified = marked(r, apex, kDone);
+  side.apex = side.ghost ? Point{0, 0} : point_of(*r.mesh, apex);
+  return side;
+}
+
+// The free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
+inline FreeRegion region_at(const Reconstruction& r, Index chord) {
+  const Mesh& mesh = *r.mesh;
+  const Index to_c = next_in_triangle(chord), to_a = next_in_triangle(to_c);
+  FreeRegion region;
+  region.corner[0] = point_of(mesh, mesh.origin[to_c]);
+  region.corner[1] = point_of(mesh, mesh.origin[to_a]);
+  region.corner[2] = point_of(mesh, mesh.origin[chord]);
+  region.side[0] = side_behind(r, to_c);
+  region.side[1] = side_behind(r, to_a);
+  region.side[2] = side_behind(r, chord);
+  region.side[kChord].certified = true;  // done, or passed in this turn
+  return region;
+}
+
+// log2 of the expected number of this batch's points per unit area, from the mean area of the final
+// triangles met lately: n final vertices have a mean of 1/n of the area each, two triangles' worth.
+inline Log2 point_density(const Reconstruction& r) {
+  return log2_of(r.batch) - log2_of(r.phase_end) -
+         (log2_of(static_cast<uint64_t>(r.mean_area)) - 8 * kLog2One);
+}
+
+inline void note_final_triangle(Reconstruction& r, Index h) {
+  const Mesh& mesh = *r.mesh;
+  const Index f = first_edge(triangle_of(h));
+  const Index a = mesh.origin[f], b = mesh.origin[f + 1u], c = mesh.origin[f + 2u];
+  if (a == kInfinity || b == kInfinity || c == kInfinity) return;
+  const int64_t area = orient2d(point_of(mesh, a), point_of(mesh, b), point_of(mesh, c)) * 256;
+  r.mean_area += (area - r.mean_area) / 16;
+  if (r.mean_area < 1) r.mean_area = 1;
+}
+
+// --- Insertion -----------------------------------------------------------------------------------
+
+// Inserts `v`, decoded relative to the triangle of the chord, if that is legal. The chord becomes
+// the half-edge from the new vertex.
+template <class Coder>
+bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
+  Mesh& mesh = *r.mesh;
+  const Index chord = r.chord;
+  const Index f = first_edge(triangle_of(chord));
+  for (Index i = 0; i < 3; ++i) {
+    const Index corner = mesh.origin[f + i];
+    if (corner != kInfinity && point_of(mesh, corner) == place) return false;
+  }
+  if (!(point_of(mesh, 0) < place)) return false;
+  if (!in_conflict(mesh, chord, place)) return false;
+  const Index behind = mesh.twin[chord];
+  const bool at_infinity = r.vertex == kInfinity;
+  // Final triangles must stay: those with a done vertex, and those passed in this turn, which can
+  // only be reached across the chord or, around infinity, across the edge where the turn began.
+  const auto is_final = [&r, &mesh, behind, at_infinity](Index h) {
+    if (h == behind) return true;
+    const Index f2 = first_edge(triangle_of(h));
+    if (marked(r, mesh.origin[f2], kDone) || marked(r, mesh.origin[f2 + 1u], kDone) ||
+        marked(r, mesh.origin[f2 + 2u], kDone)) {
+      return true;
+    }
+    if (!at_infinity) return false;
+    const Index from = mesh.origin[h], to = mesh.origin[next_in_triangle(h)];
+    return (from == kInfinity && to == 0) || (from == 0 && to == kInfinity);
+  };
+  if (grow_cavity(mesh, chord, place, r.cavity, is_final) != Growth::kComplete) return false;
+  const Index v = mesh.vertices;
+  if (r.contract.has_heights) {
+    const HeightPrediction prediction = predict_height(
+        mesh, r.roughness, r.cavity_origin, static_cast<uint32_t>(r.cavity.size) + 2u, place);
+    if (!code_height(coder, r.models.height, prediction, &z)) return false;
+    const int32_t difference = z - prediction.height;
+    r.roughness[v] = roughness_of(static_cast<uint32_t>(difference < 0 ? -difference : difference));
+  } else {
+    z = 0;
+  }
+  mesh.x[v] = place.x;
+  mesh.y[v] = place.y;
+  mesh.z[v] = z;
+  const Index first = fan_cavity(mesh, r.cavity, v);
+  if (chord == r.anchor) r.anchor = first;
+  ++mesh.vertices;
+  note_final_triangle(r, first);
+  r.chord = mesh.twin[first + 1u];
+  return true;
+}
+
+// --- Coding of one decision ----------------------------------------------------------------------
+
+inline uint32_t greatest_common_divisor(uint32_t a, uint32_t b) {
+  while (b != 0) {  // at most 24 turns for 16-bit numbers (Lame)
+    const uint32_t rest = a % b;
+    a = b;
+    b = rest;
+  }
+  return a;
+}
+
+// A point beyond the hull edge c -> a: on it, coded by its distance from a, or anywhere.
+template <class Coder>
+Point code_hull_place(Reconstruction& r, Coder& coder, Point c, Point a, Point place) {
+  const int32_t dx = static_cast<int32_t>(c.x) - a.x, dy = static_cast<int32_t>(c.y) - a.y;
+  const uint32_t parts = greatest_common_divisor(static_cast<uint32_t>(dx < 0 ? -dx : dx),
+                                                 static_cast<uint32_t>(dy < 0 ? -dy : dy));
+  if (parts > 1 && code_bit(coder, r.models.on_hull_edge, orient2d(a, c, place) == 0)) {
+    const int32_t step_x = dx / static_cast<int32_t>(parts),
+                  step_y = dy / static_cast<int32_t>(parts);
+    const uint32_t gap = step_x != 0 ? static_cast<uint32_t>((place.x - a.x) / step_x)
+                                     : static_cast<uint32_t>((place.y - a.y) / step_y);
+    // parts - 1 interior places; a gap beyond them is caught as a point not in conflict, after
+    // narrowing below.
+    const uint32_t coded = 1u + code_magnitude(coder, r.models.hull_gap, r.models.hull_gap_mantissa,
+                                               highest_bit(parts) + 1u, gap - 1u);
+    const uint32_t held = coded < parts ? coded : 0;
+    return Point{static_cast<uint16_t>(a.x + step_x * static_cast<int32_t>(held)),
+                 static_cast<uint16_t>(a.y + step_y * static_cast<int32_t>(held))};
+  }
+  const uint32_t x = coder.uniform(columns(r.contract), place.x);
+  const uint32_t y = coder.uniform(rows(r.contract), place.y);
+  return Point{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
+}
+
+// Says hit or miss at an uncertified triangle and inserts the vertex of a hit.
+template <class Coder>
+Progress decide(Reconstruction& r, Coder& coder, bool* hit) {
+  Mesh& mesh = *r.mesh;
+  const Vertex next = coder.next();
+  Point place = {next.x, next.y};
+  if (r.vertex == kInfinity) {
+    *hit = code_bit(coder, r.models.hull_hit, coder.conflicts(mesh, r.chord));
+    if (!*hit) return Progress::kStep;
+    const Index to_c = next_in_triangle(r.chord);
+    place = code_hull_place(r, coder, point_of(mesh, mesh.origin[next_in_triangle(to_c)]),
+                            point_of(mesh, mesh.origin[r.chord]), place);
+  } else {
+    const FreeRegion region = region_at(r, r.chord);
+    const Log2 density = point_density(r);
+    const int which = (region.side[0].certified ? 1 : 0) + (region.side[1].certified ? 2 : 0);
+    const int32_t position = 2 * (free_area(region) + density) + 12 * 256;
+    *hit = code_on_curve(coder, r.models.hit[which], position, coder.conflicts(mesh, r.chord));
+    if (!*hit) return Progress::kStep;
+    PlaceOdds odds = place_odds(region, density);
+    const Box bounds = {0, 0, r.contract.x_max, r.contract.y_max};
+    const Box box = enclosing_box(region, odds.inside, bounds);
+    place = code_place(coder, r.models.place, odds, region.corner[0], box, place);
+  }
+  return insert(r, coder, place, next.z) ? Progress::kStep : Progress::kMalformed;
+}
+
+// --- Steps ---------------------------------------------------------------------------------------
+
+// What follows when all vertices of a phase, or of the seed, are in place.
+inline Progress after_vertices(Reconstruction& r) {
+  if (r.mesh->vertices != r.contract.vertices) {
+    r.stage = Stage::kPhase;
+    const bool together = r.mesh->vertices < kSectionVertices;
+    return together ? Progress::kPhaseEnd : Progress::kSectionEnd;
+  }
+  r.stage = r.contract.has_voids ? Stage::kVoids : Stage::kComplete;
+  return r.contract.has_voids ? Progress::kPhaseEnd : Progress::kSectionEnd;
+}
+
+// The three vertices that are never removed. The first is the lexicographically smallest of all.
+template <class Coder>
+Progress step_seed(Reconstruction& r, Coder& coder) {
+  Mesh& mesh = *r.mesh;
+  for (Index i = 0; i < 3; ++i) {
+    const Vertex known = coder.next();
+    mesh.x[i] = static_cast<uint16_t>(coder.uniform(columns(r.contract), known.x));
+    mesh.y[i] = static_cast<uint16_t>(coder.uniform(rows(r.contract), known.y));
+    mesh.z[i] = 0;
+    if (r.contract.has_heights) {
+      const uint32_t biased = static_cast<uint32_t>(static_cast<int32_t>(known.z) + 32768);
+      mesh.z[i] = static_cast<int16_t>(static_cast<int32_t>(coder.uniform(65536u, biased)) - 32768);
+    }
+    r.roughness[i] = 16;
+  }
+  const Point p0 = point_of(mesh, 0), p1 = point_of(mesh, 1), p2 = point_of(mesh, 2);
+  if (!(p0 < p1) || !(p0 < p2) || orient2d(p0, p1, p2) <= 0) return Progress::kMalformed;
+  start_mesh(mesh);
+  r.anchor = 4;
+  return after_vertices(r);
+}
+
+// Starts a phase: how many vertices it adds, and the walk from infinity.
+template <class Coder>
+Progress step_phase(Reconstruction& r, Coder& coder) {
+  const uint32_t placed = r.mesh->vertices;
+  const uint32_t left = r.contract.vertices - placed;
+  uint32_t batch = left;
+  if (coder.bit(kProbabilityOne / 2, !coder.last_phase())) {
+    // The number of bits, then the number: less than `left`.
+    const uint32_t high = coder.uniform((left >> 12) + 1u, (coder.batch() >> 12));
+    batch = high << 12 | coder.uniform(4096, coder.batch() & 4095u);
+    if (batch == 0 || batch >= left) return Progress::kMalformed;
+  }
+  r.batch = batch;
+  r.phase_end = static_cast<Index>(placed + batch);
+  r.work += placed + batch;
+  if (r.work > work_budget(r.contract.vertices)) return Progress::kMalformed;
+  for (Index i = 0; i < (r.phase_end + 3u) / 4u; ++i) r.marks[i] = 0;
+  r.infinity_done = false;
+  r.vertex = kInfinity;
+  r.turn_start = 0;
+  mark(r, 0, kQueued);
+  r.queue_head = 0;
+  r.queue_tail = 1;  // entry 0 is vertex 0's, known when the turn around infinity ends
+  r.chord = r.anchor;
+  // Before anything is known: the lattice's bounds, shared by all. (2^16 * 2^16) * 2^8 = 2^40.
+  r.mean_area = static_cast<int64_t>(static_cast<uint64_t>(columns(r.contract)) * rows(r.contract) *
+                                     256u / r.phase_end) +
+                1;
+  r.stage = Stage::kWalk;
+  return Progress::kStep;
+}
+
+// Leaves the triangle of the chord behind and turns to the next around `vertex`; `chord` is already
+// its half-edge into `vertex`. False if the walk is over.
+inline bool advance(Reconstruction& r) {
+  const Index neighbour = r.mesh->origin[r.chord];
+  if (neighbour != r.turn_start) {
+    if (!marked(r, neighbour, kQueued)) {
+      mark(r, neighbour, kQueued);
+      r.queue[r.queue_tail++] = r.mesh->twin[r.chord];
+    }
+    return true;
+  }
+  if (r.vertex == kInfinity) r.queue[0] = r.mesh->twin[r.chord];
+  mark(r, r.vertex, kDone);
+  if (r.queue_head == r.queue_tail) return false;
+  r.chord = r.queue[r.queue_head++];
+  r.turn_start = r.mesh->origin[r.chord];
+  r.vertex = r.mesh->origin[next_in_triangle(r.chord)];
+  return true;
+}
+
+// Looks at one triangle.
+template <class Coder>
+Progress step_walk(Reconstruction& r, Coder& coder) {
+  const Mesh& mesh = *r.mesh;
+  const Index to_c = next_in_triangle(r.chord);
+  const Index apex = mesh.origin[next_in_triangle(to_c)];
+  bool hit = false;
+  if (!marked(r, apex, kDone) && !marked(r, mesh.origin[r.chord], kDone)) {
+    if (decide(r, coder, &hit) == Progress::kMalformed) return Progress::kMalformed;
+  }
+  if (!hit) {
+    note_final_triangle(r, r.chord);
+    r.chord = mesh.twin[to_c];
+  }
+  if (mesh.vertices == r.phase_end) {
+    ++r.phase;
+    return after_vertices(r);
+  }
+  return advance(r) ? Progress::kStep : Progress::kMalformed;
+}
+
+inline bool is_void(const uint8_t* voids, Index triangle) {
+  return (voids[triangle >> 3] >> (triangle & 7u) & 1u) != 0;
+}
+
+// Codes the void flag of one real triangle, given those of its neighbours that are known.
+template <class Coder>
+Progress step_void(Reconstruction& r, Coder& coder) {
+  const Mesh& mesh = *r.mesh;
+  const Index t = r.void_cursor++;
+  const Index f = first_edge(t);
+  bool ghost = false;
+  uint32_t context = 2;
+  for (Index i = 0; i < 3; ++i) {
+    ghost = ghost || mesh.origin[f + i] == kInfinity;
+    const Index neighbour = triangle_of(mesh.twin[f + i]);
+    if (neighbour >= t) continue;
+    const Index g = first_edge(neighbour);
+    if (mesh.origin[g] == kInfinity || mesh.origin[g + 1u] == kInfinity ||
+        mesh.origin[g + 2u] == kInfinity) {
+      continue;
+    }
+    const bool other = is_void(r.voids, neighbour);
+    if (other && context < 4) ++context;
+    if (!other && context > 0) --context;
+  }
+  bool flag = false;
+  if (!ghost) flag = code_bit(coder, r.models.is_void[context], coder.is_void(mesh, t));
+  const uint8_t bit = static_cast<uint8_t>(1u << (t & 7u));
+  r.voids[t >> 3] = static_cast<uint8_t>(flag ? r.voids[t >> 3] | bit : r.voids[t >> 3] & ~bit);
+  if (r.void_cursor < mesh.triangles) return Progress::kStep;
+  r.stage = Stage::kComplete;
+  return Progress::kSectionEnd;
+}
+
+// One step: bounded work, at most kStepBytes of the payload, nothing half done.
+template <class Coder>
+Progress step(Reconstruction& r, Coder& coder) {
+  switch (r.stage) {
+    case Stage::kSeed:
+      return step_seed(r, coder);
+    case Stage::kPhase:
+      return step_phase(r, coder);
+    case Stage::kWalk:
+      return step_walk(r, coder);
+    case Stage::kVoids:
+      return step_void(r, coder);
+    case Stage::kComplete:
+      break;
+  }
+  return Progress::kMalformed;
+}
+
+}  // namespace microtin
+
+#endif
