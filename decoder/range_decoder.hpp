@@ -32,7 +32,7 @@ struct RangeDecoder {
   uint32_t code;
   uint32_t payload_left;  // bytes of the section's payload not read yet
   uint32_t virtual_left;  // zero bytes that may still be read behind it
-  bool overrun;           // more was asked for than there is
+  bool overrun;           // more was asked for than there is, or no encoder can have written this
   ByteWindow* window;     // holds at least min(payload_left, kStepBytes) bytes when a step starts
 
   uint32_t next_byte() {
@@ -85,12 +85,12 @@ struct RangeDecoder {
     if (count == 1) return 0;
     range /= count;
     uint32_t value = code / range;
-    if (value >= count) value = count - 1;  // the part of the interval lost to rounding
-    code -= value * range;
-    if (code >= range) {
-      // Only in that lost part, which no encoder uses: stay in bounds, the check will fail.
-      code = range - 1;
+    if (value >= count) {  // in the part of the interval lost to rounding: no encoder goes there
+      overrun = true;
+      value = 0;
+      code = 0;
     }
+    code -= value * range;
     normalise();
     return value;
   }

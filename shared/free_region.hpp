@@ -95,18 +95,30 @@ inline Log2 free_area(const FreeRegion& region) {
   return log2_of(static_cast<uint64_t>(left > least ? left : least)) - 8 * kLog2One;
 }
 
-// The power of a place with respect to a circle: negative inside. Relative to an origin, with
-// offsets (i, j), it is constant + i (i + x) + j (j + y); all with 8 fractional bits.
+// A circle by the power of places with respect to it: negative inside. At an offset (i, j) from
+// some origin it is constant + i (i + x) + j (j + y); all with 8 fractional bits.
 struct Power {
   int64_t constant;
   int64_t x;
   int64_t y;
+  int64_t steepness;  // length of the power's gradient on the circle: its diameter, within 7 %
 };
 
 constexpr int64_t kPowerSlopeCap = static_cast<int64_t>(1) << 40;
 
 inline int64_t cap_slope(int64_t v) {
   return v > kPowerSlopeCap ? kPowerSlopeCap : v < -kPowerSlopeCap ? -kPowerSlopeCap : v;
+}
+
+inline int64_t magnitude(int64_t v) {
+  return v < 0 ? -v : v;
+}
+
+// The circle through its origin whose gradient there is (x, y).
+inline Power circle_with_gradient(int64_t x, int64_t y) {
+  const int64_t ax = magnitude(x), ay = magnitude(y);
+  const int64_t longer = ax > ay ? ax : ay, shorter = ax > ay ? ay : ax;
+  return Power{0, x, y, longer + shorter * 3 / 8 + 1};
 }
 
 // The circle through p, q, r, counter-clockwise, relative to p. Numerators: 2^17 * 2^33 * 2 = 2^51,
@@ -116,11 +128,8 @@ inline Power circle_through(Point p, Point q, Point r) {
   const int64_t tx = static_cast<int32_t>(r.x) - p.x, ty = static_cast<int32_t>(r.y) - p.y;
   const int64_t h = sx * ty - sy * tx;
   const int64_t s2 = sx * sx + sy * sy, t2 = tx * tx + ty * ty;
-  Power power;
-  power.constant = 0;
-  power.x = cap_slope((sy * t2 - ty * s2) * 256 / h);
-  power.y = cap_slope((tx * s2 - sx * t2) * 256 / h);
-  return power;
+  return circle_with_gradient(cap_slope((sy * t2 - ty * s2) * 256 / h),
+                              cap_slope((tx * s2 - sx * t2) * 256 / h));
 }
 
 // |i|, |j| <= 2^16 and |x|, |y| <= 2^41 give terms below 2^58.
@@ -130,7 +139,8 @@ inline int64_t power_along(int64_t slope, int32_t i) {
 
 inline Power moved_origin(const Power& power, int32_t i, int32_t j) {
   return Power{power.constant + power_along(power.x, i) + power_along(power.y, j),
-               power.x + 512 * static_cast<int64_t>(i), power.y + 512 * static_cast<int64_t>(j)};
+               power.x + 512 * static_cast<int64_t>(i), power.y + 512 * static_cast<int64_t>(j),
+               power.steepness};
 }
 
 // A box of lattice points, both ends included.

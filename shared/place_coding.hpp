@@ -14,8 +14,9 @@
 
 namespace microtin {
 
-constexpr int kCells = 4;   // per axis
-constexpr int kLevels = 3;  // of cells
+constexpr int kCells = 4;        // per axis
+constexpr int kLevels = 3;       // of cells
+constexpr int kSweepLevels = 2;  // of them weigh the chance of being first
 constexpr uint32_t kSplitEntries = 17;
 constexpr int32_t kEvenSplit = 8;  // the entry for even odds
 constexpr int kSweepEntries = 9;
@@ -35,11 +36,12 @@ inline void reset(PlaceModel& model) {
 
 // What weighs the cells of a box; the powers are relative to the box's first corner.
 struct PlaceOdds {
-  Power inside;      // t's circle: negative where the point can be
-  Power outside[3];  // certified neighbours' circles: positive where it can be
-  bool active[3];    // which of them still cut the box
-  bool sweeps;       // whether the chance of being first differs noticeably over the region
-  Power swept_from;  // where the sweep starts: the circle behind the chord
+  Power inside;        // t's circle: negative where the point can be
+  Power outside[3];    // certified neighbours' circles: positive where it can be
+  bool cuts[3];        // which of them still cut the box
+  bool sweeps;         // whether the chance of being first differs noticeably over the region
+  Power swept_from;    // where the sweep starts: the circle behind the chord
+  int32_t steepening;  // steepness of `inside` over that of swept_from, 8 fractional bits
   // 4096 * chance of being first, at equal steps of the share of the way from swept_from to
   // `inside`
   uint16_t chance[kSweepEntries];
@@ -73,13 +75,14 @@ inline void estimate_sweep(PlaceOdds& odds, const FreeRegion& region, Log2 densi
     from = (to < 0 ? to : 0) - 8 * 256;
     // Its power is that of t's circle plus (to - from) h(p), h(p) = twice the area of (a, v, p).
     const int64_t hx = static_cast<int32_t>(a.y) - v.y, hy = static_cast<int32_t>(v.x) - a.x;
-    odds.swept_from = odds.inside;
-    odds.swept_from.x += (to - from) * hx;
-    odds.swept_from.y += (to - from) * hy;
+    odds.swept_from = circle_with_gradient(cap_slope(odds.inside.x + (to - from) * hx),
+                                           cap_slope(odds.inside.y + (to - from) * hy));
   } else {
     from = cotangent(dot_at(behind.apex, v, a), orient2d(a, v, behind.apex));
     odds.swept_from = odds.outside[kChord];
   }
+  const int64_t steepening = odds.inside.steepness * 256 / odds.swept_from.steepness;
+  odds.steepening = steepening < 65535 ? static_cast<int32_t>(steepening) : 65535;
   const Area start = swept_area(length2, from);
   for (int i = 0; i < kSweepEntries; ++i) {
     const Area swept = swept_area(length2, from + (to - from) * i / (kSweepEntries - 1)) - start;
@@ -92,27 +95,25 @@ inline void estimate_sweep(PlaceOdds& odds, const FreeRegion& region, Log2 densi
   odds.sweeps = odds.chance[kSweepEntries - 1] < odds.chance[0] - odds.chance[0] / 8;
 }
 
-inline PlaceOdds place_odds(const FreeRegion& region, Log2 density) {
-  PlaceOdds odds;
+inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Log2 density) {
   odds.inside = circle_through(region.corner[0], region.corner[1], region.corner[2]);
   for (int i = 0; i < 3; ++i) {
     const Side& side = region.side[i];
-    odds.active[i] = side.certified && !side.ghost;
-    if (!odds.active[i]) continue;
+    odds.cuts[i] = side.certified && !side.ghost;
+    if (!odds.cuts[i]) continue;
     const Point from = region.corner[i], to = region.corner[i == 2 ? 0 : i + 1];
     const Power circle = circle_through(from, side.apex, to);
     odds.outside[i] = moved_origin(circle, static_cast<int32_t>(region.corner[0].x) - from.x,
                                    static_cast<int32_t>(region.corner[0].y) - from.y);
   }
   estimate_sweep(odds, region, density);
-  return odds;
 }
 
 inline void move_origin(PlaceOdds& odds, int32_t dx, int32_t dy) {
   odds.inside = moved_origin(odds.inside, dx, dy);
   odds.swept_from = moved_origin(odds.swept_from, dx, dy);
   for (int i = 0; i < 3; ++i) {
-    if (odds.active[i]) odds.outside[i] = moved_origin(odds.outside[i], dx, dy);
+    if (odds.cuts[i]) odds.outside[i] = moved_origin(odds.outside[i], dx, dy);
   }
 }
 
@@ -121,128 +122,103 @@ inline int32_t slice_start(int32_t count, int i) {
   return count * i / kCells;  // count <= 2^16, i <= 4
 }
 
-// A power at the slices' middles along both axes, and how much it varies over a slice: value(i, j)
-// = along_x[i] + along_y[j]. Scaled down by a common shift to 20 bits.
-struct SlicedPower {
+// How far the slices' middles are outside a circle, in 64ths of the size of a cell: x[i] + y[j],
+// within
+// +-2^25. Close to the circle that is its power divided by the steepness.
+struct Distances {
   int32_t x[kCells], y[kCells];
-  int32_t x_span[kCells], y_span[kCells];
 };
 
-struct WidePower {
-  int64_t x[kCells], y[kCells];
-  int64_t x_span[kCells], y_span[kCells];
-};
+constexpr int64_t kDistanceCap = static_cast<int64_t>(1) << 30;
 
-inline int64_t magnitude(int64_t v) {
-  return v < 0 ? -v : v;
-}
-
-inline void slice_axis(int64_t constant, int64_t slope, int32_t count, int64_t* value,
-                       int64_t* span) {
+inline void measure_axis(int64_t constant, int64_t slope, int32_t count, uint32_t shift,
+                         int32_t reciprocal, int32_t* distance) {
   for (int i = 0; i < kCells; ++i) {
-    const int32_t start = slice_start(count, i), end = slice_start(count, i + 1);
-    const int32_t twice = start + end - 1;  // twice the middle
-    value[i] = constant + (static_cast<int64_t>(twice) * 128 + slope) * twice / 2;
-    span[i] =
-        magnitude(static_cast<int64_t>(twice) * 256 + slope) * (end > start ? end - start - 1 : 0);
+    const int32_t twice =
+        slice_start(count, i) + slice_start(count, i + 1) - 1;  // twice the middle
+    const int64_t power = constant + (static_cast<int64_t>(twice) * 128 + slope) * twice / 2;
+    int64_t scaled = power >> shift;
+    if (scaled > kDistanceCap) scaled = kDistanceCap;
+    if (scaled < -kDistanceCap) scaled = -kDistanceCap;
+    distance[i] = static_cast<int32_t>((scaled * reciprocal) >> 23);
   }
 }
 
-inline WidePower slice(const Power& power, int32_t columns, int32_t rows) {
-  WidePower wide;
-  slice_axis(power.constant, power.x, columns, wide.x, wide.x_span);
-  slice_axis(0, power.y, rows, wide.y, wide.y_span);
-  return wide;
+inline Distances measure(const Power& circle, int32_t columns, int32_t rows) {
+  // A cell spans 5/8 (mean of |cos| and |sin|) of its width and height less one lattice step each.
+  // The ramp is that many steps' change of power: at least a quarter of a unit, at most 2^59.
+  const int32_t steps =
+      (columns > kCells ? columns - kCells : 0) + (rows > kCells ? rows - kCells : 0);
+  const int64_t ramp = circle.steepness * (5 * steps) / 32 + 64;
+  const uint32_t bits = highest_bit(static_cast<uint64_t>(ramp));
+  const uint32_t shift = bits > 15 ? bits - 15 : 0;
+  // 64 / ramp: (power >> shift) * reciprocal / 2^23, the reciprocal at most 2^23.
+  const int32_t reciprocal =
+      static_cast<int32_t>((static_cast<int64_t>(1) << 29) / (ramp >> shift));
+  Distances distances;
+  measure_axis(circle.constant, circle.x, columns, shift, reciprocal, distances.x);
+  measure_axis(0, circle.y, rows, shift, reciprocal, distances.y);
+  return distances;
 }
 
-inline uint32_t bits_of(const WidePower& wide) {
-  uint64_t all = 1;
-  for (int i = 0; i < kCells; ++i) {
-    all |= static_cast<uint64_t>(magnitude(wide.x[i]) | magnitude(wide.y[i]) | wide.x_span[i] |
-                                 wide.y_span[i]);
-  }
-  return highest_bit(all) + 1;
-}
-
-inline SlicedPower scale(const WidePower& wide, uint32_t shift) {
-  SlicedPower sliced;
-  for (int i = 0; i < kCells; ++i) {
-    sliced.x[i] = static_cast<int32_t>(wide.x[i] >> shift);
-    sliced.y[i] = static_cast<int32_t>(wide.y[i] >> shift);
-    sliced.x_span[i] = static_cast<int32_t>(wide.x_span[i] >> shift);
-    sliced.y_span[i] = static_cast<int32_t>(wide.y_span[i] >> shift);
-  }
-  return sliced;
-}
-
-// Share of a cell, in 64ths, where a quantity is positive: `value` in its middle, varying by `span`
-// over it. A quarter of a unit below zero still counts: points on the circle can be in conflict.
-inline uint32_t coverage(int32_t value, int32_t span) {
-  if (span == 0) return value >= -64 ? 64 : 0;
-  if (2 * value >= span) return 64;
-  if (2 * value <= -span) return 0;
-  return static_cast<uint32_t>(32 + 64 * value / span);
+// Share of a cell, in 64ths, on the positive side of a circle, from the distance of its middle.
+inline uint32_t share_beyond(int32_t distance) {
+  return distance <= -32 ? 0 : distance >= 32 ? 64 : static_cast<uint32_t>(distance + 32);
 }
 
 typedef uint32_t CellWeights[kCells][kCells];
 
-// Chance of being first at a place, from the powers there, each below 2^21.
-inline uint32_t chance_at(const PlaceOdds& odds, int32_t from, int32_t inside) {
-  const int32_t gone = from > 0 ? from : 0;
-  const int32_t left = inside < 0 ? -inside : 0;
-  if (gone + left == 0) return odds.chance[kSweepEntries - 1];
-  const uint32_t share = static_cast<uint32_t>(gone) * 256u / static_cast<uint32_t>(gone + left);
+// Chance of being first at a place so far outside the circle behind the chord and inside t's.
+inline uint32_t chance_at(const PlaceOdds& odds, int32_t gone, int32_t left) {
+  const int32_t most = 1 << 14;
+  if (gone < 0) gone = 0;
+  if (gone > most) gone = most;
+  left = left < 0 ? 0 : left > most ? most : left;
+  left = (left * odds.steepening >> 8) + 1;  // < 2^30 before the shift
+  const uint32_t share =
+      static_cast<uint32_t>(gone) * 256u / static_cast<uint32_t>(gone + left);  // < 256
   const uint32_t i = share >> 5, f = share & 31u;
-  if (f == 0) return odds.chance[i];
   return (odds.chance[i] * (32u - f) + odds.chance[i + 1] * f) >> 5;
 }
 
-inline void weigh_cells(PlaceOdds& odds, int32_t columns, int32_t rows, CellWeights weight) {
-  WidePower wide[5];
-  uint32_t bits = 0;
-  for (int k = 0; k < 5; ++k) {
-    if (k == 4 ? !odds.sweeps : k < 3 && !odds.active[k]) continue;
-    wide[k] = slice(k < 3    ? odds.outside[k]
-                    : k == 3 ? odds.inside
-                             : odds.swept_from,
-                    columns, rows);
-    const uint32_t b = bits_of(wide[k]);
-    if (b > bits) bits = b;
-  }
-  const uint32_t shift = bits > 20 ? bits - 20 : 0;
-  const SlicedPower inside = scale(wide[3], shift);
-  const SlicedPower from = odds.sweeps ? scale(wide[4], shift) : inside;
+// Weighs the cells by size, by the share inside t's circle, and by the chance of being first.
+inline void weigh_inside(const PlaceOdds& odds, int32_t columns, int32_t rows, CellWeights weight) {
+  const Distances inside = measure(odds.inside, columns, rows);
+  Distances from = inside;
+  if (odds.sweeps) from = measure(odds.swept_from, columns, rows);
   for (int i = 0; i < kCells; ++i) {
-    const uint32_t width =
-        static_cast<uint32_t>(slice_start(columns, i + 1) - slice_start(columns, i));
+    const int32_t width = slice_start(columns, i + 1) - slice_start(columns, i);
     for (int j = 0; j < kCells; ++j) {
-      const uint32_t height =
-          static_cast<uint32_t>(slice_start(rows, j + 1) - slice_start(rows, j));
-      const int32_t power = inside.x[i] + inside.y[j];
-      uint32_t w = coverage(-power, inside.x_span[i] + inside.y_span[j]);
-      if (odds.sweeps) {
-        w *= chance_at(odds, from.x[i] + from.y[j], power);
-      } else {
-        w *= 4096;
-      }
-      w = w * (columns > 64 ? 1 : width) * (rows > 64 ? 1 : height);
+      const int32_t height = slice_start(rows, j + 1) - slice_start(rows, j);
+      const int32_t left = -inside.x[i] - inside.y[j];
+      uint32_t w = share_beyond(left);
+      w *= odds.sweeps ? chance_at(odds, from.x[i] + from.y[j], left) : 4096u;
+      if (columns <= 64) w *= static_cast<uint32_t>(width);
+      if (rows <= 64) w *= static_cast<uint32_t>(height);
       weight[i][j] = width == 0 || height == 0 ? 0 : w + 1;
     }
   }
-  for (int k = 0; k < 3; ++k) {
-    if (!odds.active[k]) continue;
-    const SlicedPower outside = scale(wide[k], shift);
-    bool cuts = false;
-    for (int i = 0; i < kCells; ++i) {
-      for (int j = 0; j < kCells; ++j) {
-        const uint32_t share =
-            coverage(outside.x[i] + outside.y[j], outside.x_span[i] + outside.y_span[j]);
-        if (share == 64) continue;
-        cuts = true;
-        if (weight[i][j] != 0) weight[i][j] = (weight[i][j] >> 6) * share + 1;
-      }
+}
+
+// Takes away what lies in one certified circle. False if that was nothing.
+inline bool cut_outside(const Power& circle, int32_t columns, int32_t rows, CellWeights weight) {
+  const Distances outside = measure(circle, columns, rows);
+  bool cuts = false;
+  for (int i = 0; i < kCells; ++i) {
+    for (int j = 0; j < kCells; ++j) {
+      const uint32_t share = share_beyond(outside.x[i] + outside.y[j]);
+      if (share == 64) continue;
+      cuts = true;
+      if (weight[i][j] != 0) weight[i][j] = (weight[i][j] >> 6) * share + 1;
     }
-    odds.active[k] = cuts;
+  }
+  return cuts;
+}
+
+inline void weigh_cells(PlaceOdds& odds, int32_t columns, int32_t rows, CellWeights weight) {
+  weigh_inside(odds, columns, rows, weight);
+  for (int k = 0; k < 3; ++k) {
+    if (odds.cuts[k]) odds.cuts[k] = cut_outside(odds.outside[k], columns, rows, weight);
   }
 }
 
@@ -279,6 +255,7 @@ Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, Point v, Box 
     const int32_t columns = box.x1 - box.x0 + 1, rows = box.y1 - box.y0 + 1;
     if (columns == 1 && rows == 1) break;
     CellWeights weight;
+    if (level == kSweepLevels) odds.sweeps = false;
     weigh_cells(odds, columns, rows, weight);
     uint32_t column_weight[kCells];
     for (int i = 0; i < kCells; ++i) {

@@ -81,6 +81,9 @@ struct Reconstruction {
   Index cavity_origin[kMaxDegree + 2];
   Index cavity_twin[kMaxDegree + 2];
   Index cavity_pending[kMaxDegree + 2];
+  FreeRegion
+      region;  // of the triangle in hand, and the odds of places in it: here to spare the stack
+  PlaceOdds odds;
   Models models;
 };
 
@@ -129,19 +132,18 @@ inline Side side_behind(const Reconstruction& r, Index h) {
   return side;
 }
 
-// The free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
-inline FreeRegion region_at(const Reconstruction& r, Index chord) {
+// Describes the free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
+inline void look_around(Reconstruction& r) {
   const Mesh& mesh = *r.mesh;
-  const Index to_c = next_in_triangle(chord), to_a = next_in_triangle(to_c);
-  FreeRegion region;
+  const Index to_c = next_in_triangle(r.chord), to_a = next_in_triangle(to_c);
+  FreeRegion& region = r.region;
   region.corner[0] = point_of(mesh, mesh.origin[to_c]);
   region.corner[1] = point_of(mesh, mesh.origin[to_a]);
-  region.corner[2] = point_of(mesh, mesh.origin[chord]);
+  region.corner[2] = point_of(mesh, mesh.origin[r.chord]);
   region.side[0] = side_behind(r, to_c);
   region.side[1] = side_behind(r, to_a);
-  region.side[2] = side_behind(r, chord);
-  region.side[kChord].certified = true;  // done, or passed in this turn
-  return region;
+  region.side[kChord] = side_behind(r, r.chord);
+  region.side[kChord].certified = true;  // it was passed in this turn, or has a done vertex
 }
 
 // log2 of the expected number of this batch's points per unit area, from the mean area of the final
@@ -157,7 +159,7 @@ inline void note_final_triangle(Reconstruction& r, Index h) {
   const Index a = mesh.origin[f], b = mesh.origin[f + 1u], c = mesh.origin[f + 2u];
   if (a == kInfinity || b == kInfinity || c == kInfinity) return;
   const int64_t area = orient2d(point_of(mesh, a), point_of(mesh, b), point_of(mesh, c)) * 256;
-  r.mean_area += (area - r.mean_area) / 16;
+  r.mean_area += (area - r.mean_area) / 32;
   if (r.mean_area < 1) r.mean_area = 1;
 }
 
@@ -261,16 +263,17 @@ Progress decide(Reconstruction& r, Coder& coder, bool* hit) {
     place = code_hull_place(r, coder, point_of(mesh, mesh.origin[next_in_triangle(to_c)]),
                             point_of(mesh, mesh.origin[r.chord]), place);
   } else {
-    const FreeRegion region = region_at(r, r.chord);
+    look_around(r);
+    const FreeRegion& region = r.region;
     const Log2 density = point_density(r);
     const int which = (region.side[0].certified ? 1 : 0) + (region.side[1].certified ? 2 : 0);
     const int32_t position = 2 * (free_area(region) + density) + 12 * 256;
     *hit = code_on_curve(coder, r.models.hit[which], position, coder.conflicts(mesh, r.chord));
     if (!*hit) return Progress::kStep;
-    PlaceOdds odds = place_odds(region, density);
+    estimate_odds(r.odds, region, density);
     const Box bounds = {0, 0, r.contract.x_max, r.contract.y_max};
-    const Box box = enclosing_box(region, odds.inside, bounds);
-    place = code_place(coder, r.models.place, odds, region.corner[0], box, place);
+    const Box box = enclosing_box(region, r.odds.inside, bounds);
+    place = code_place(coder, r.models.place, r.odds, region.corner[0], box, place);
   }
   return insert(r, coder, place, next.z) ? Progress::kStep : Progress::kMalformed;
 }
@@ -326,7 +329,8 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   r.phase_end = static_cast<Index>(placed + batch);
   r.work += placed + batch;
   if (r.work > work_budget(r.contract.vertices)) return Progress::kMalformed;
-  for (Index i = 0; i < (r.phase_end + 3u) / 4u; ++i) r.marks[i] = 0;
+  const uint32_t mark_bytes = (placed + batch + 3u) / 4u;
+  for (uint32_t i = 0; i < mark_bytes; ++i) r.marks[i] = 0;
   r.infinity_done = false;
   r.vertex = kInfinity;
   r.turn_start = 0;
@@ -410,8 +414,8 @@ Progress step_void(Reconstruction& r, Coder& coder) {
   }
   bool flag = false;
   if (!ghost) flag = code_bit(coder, r.models.is_void[context], coder.is_void(mesh, t));
-  const uint8_t bit = static_cast<uint8_t>(1u << (t & 7u));
-  r.voids[t >> 3] = static_cast<uint8_t>(flag ? r.voids[t >> 3] | bit : r.voids[t >> 3] & ~bit);
+  const uint32_t bit = 1u << (t & 7u), others = r.voids[t >> 3] & ~bit;
+  r.voids[t >> 3] = static_cast<uint8_t>(flag ? others | bit : others);
   if (r.void_cursor < mesh.triangles) return Progress::kStep;
   r.stage = Stage::kComplete;
   return Progress::kSectionEnd;

@@ -26,8 +26,9 @@ inline Tin rolling_tin(uint32_t n, uint32_t seed) {
   return tin;
 }
 
-inline std::vector<uint8_t> terrain_stream(uint32_t n, uint32_t seed) {
-  return encode(rolling_tin(n, seed), Metadata());
+inline std::vector<uint8_t> terrain_stream(uint32_t n, uint32_t seed,
+                                            uint32_t degree = kDefaultDegree) {
+  return encode(rolling_tin(n, seed), Metadata(), degree);
 }
 
 }  // namespace microtin

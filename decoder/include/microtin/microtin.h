@@ -1,7 +1,7 @@
 /* microtin: decodes terrain TINs exactly, in fixed memory. C99 and C++.
  *
- * Nothing here allocates, recurses, uses floating point or keeps global state. All memory comes from
- * the caller in two parts:
+ * Nothing here allocates, recurses, uses floating point or keeps global state. All memory comes
+ * from the caller in two parts:
  *
  *   mesh     what queries need; one per terrain that is kept
  *   decoder  needed only while decoding; may be reused for one terrain after another
@@ -29,13 +29,13 @@
 #define MICROTIN_MESH_BYTES(capacity) MICROTIN_MESH_BYTES_FOR(capacity, MICROTIN_INDEX_BITS)
 #define MICROTIN_DECODER_BYTES(capacity) MICROTIN_DECODER_BYTES_FOR(capacity, MICROTIN_INDEX_BITS)
 
-/* The same for a build with the given index width. Per vertex: six half-edges (origin and twin each),
- * x, y, z, and a void bit for each of two triangles; while decoding a queue entry, two marks and a byte
- * of height context. */
+/* The same for a build with the given index width. Per vertex: six half-edges (origin and twin
+ * each), x, y, z, and a void bit for each of two triangles; while decoding a queue entry, two marks
+ * and a byte of height context. */
 #define MICROTIN_MESH_BYTES_FOR(capacity, bits) \
-  (160ul + 6ul * (capacity) + (bits) / 8 * 12ul * (capacity) + ((capacity) + 3ul) / 4 + 7ul)
+  (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
-  (2928ul + (bits) / 8 * (capacity) + ((capacity) + 3ul) / 4 + (capacity) + 7ul)
+  (((bits) == 16 ? 2847ul : 3127ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
 
 #ifdef __cplusplus
 extern "C" {
@@ -58,7 +58,8 @@ typedef enum microtin_status {
   MICROTIN_ARGUMENT = 24             /* a null pointer or a number out of range */
 } microtin_status;
 
-/* One axis: the real coordinate of lattice value k is (offset + numerator * k) / denominator units. */
+/* One axis: the real coordinate of lattice value k is (offset + numerator * k) / denominator units.
+ */
 typedef struct microtin_axis {
   int64_t offset;
   uint64_t numerator;   /* 1 .. 2^40 - 1 */
@@ -70,11 +71,11 @@ typedef struct microtin_info {
   uint32_t vertices;
   uint32_t header_bytes; /* fixed part, blocks and check together */
   uint8_t version;
-  uint8_t degree;     /* most triangles around a vertex when it is inserted */
+  uint8_t degree;      /* most triangles around a vertex when it is inserted */
   uint8_t has_heights; /* 0: every z is 0 */
   uint8_t has_voids;
-  microtin_axis x, y, z;  /* offset 0 and step 1 where the stream does not say */
-  size_t mesh_bytes;      /* workspaces that this build needs for the stream */
+  microtin_axis x, y, z; /* offset 0 and step 1 where the stream does not say */
+  size_t mesh_bytes;     /* workspaces that this build needs for the stream */
   size_t decoder_bytes;
 } microtin_info;
 
@@ -82,10 +83,12 @@ typedef struct microtin_mesh microtin_mesh;
 typedef struct microtin_decoder microtin_decoder;
 
 /* Reads a stream's header from its first `size` bytes without decoding anything. NEED_INPUT: give
- * more; `info->header_bytes`, if not 0, says how many. DONE: `info` is filled in and its check passed. */
+ * more; `info->header_bytes`, if not 0, says how many. DONE: `info` is filled in and its check
+ * passed. */
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info);
 
-/* Lays out an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh. */
+/* Lays out an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh.
+ */
 microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh** mesh);
 
 /* Lays out a decoder that will fill `mesh` with the stream fed to it. The mesh is emptied. */
@@ -96,10 +99,10 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
  * terrain. 0, the default, decodes everything. */
 void microtin_stop_after_phase(microtin_decoder* decoder, uint32_t phase);
 
-/* Decodes from the next `size` bytes of the stream, at most `step_limit` steps (0: no limit); a step
- * is one triangle visited, with at most one insertion. *used tells how many bytes were taken: all of
- * them on NEED_INPUT; on STEP_LIMIT pass the rest again. On DONE the stream's last byte is the last
- * one taken and anything behind it is left alone. Chunking changes no result. */
+/* Decodes from the next `size` bytes of the stream, at most `step_limit` steps (0: no limit); a
+ * step is one triangle visited, with at most one insertion. *used tells how many bytes were taken:
+ * all of them on NEED_INPUT; on STEP_LIMIT pass the rest again. On DONE the stream's last byte is
+ * the last one taken and anything behind it is left alone. Chunking changes no result. */
 microtin_status microtin_feed(microtin_decoder* decoder, const uint8_t* bytes, size_t size,
                               uint32_t step_limit, size_t* used);
 
@@ -110,7 +113,8 @@ microtin_status microtin_finish(microtin_decoder* decoder);
 uint32_t microtin_phase(const microtin_decoder* decoder);
 uint64_t microtin_bytes_used(const microtin_decoder* decoder);
 
-/* --- The mesh. Valid at any time; it holds the exact Delaunay triangulation of its vertices. --- */
+/* --- The mesh. Valid at any time; it holds the exact Delaunay triangulation of its vertices. ---
+ */
 
 #define MICROTIN_INFINITY 0xFFFFFFFFul
 
@@ -139,20 +143,20 @@ uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corn
 uint64_t microtin_digest(const microtin_mesh* mesh);
 
 typedef enum microtin_answer {
-  MICROTIN_HEIGHT = 0,       /* a height was written */
-  MICROTIN_OUTSIDE = 1,      /* outside the hull */
-  MICROTIN_IN_VOID = 2,      /* inside, but the terrain is not known there */
-  MICROTIN_NOT_DECODED = 3,  /* the mesh is empty */
-  MICROTIN_NOT_VERIFIED = 4  /* the mesh holds vertices whose check has not passed yet */
+  MICROTIN_HEIGHT = 0,      /* a height was written */
+  MICROTIN_OUTSIDE = 1,     /* outside the hull */
+  MICROTIN_IN_VOID = 2,     /* inside, but the terrain is not known there */
+  MICROTIN_NOT_DECODED = 3, /* the mesh is empty */
+  MICROTIN_NOT_VERIFIED = 4 /* the mesh holds vertices whose check has not passed yet */
 } microtin_answer;
 
 #define MICROTIN_ANSWER_UNVERIFIED 1u /* flag: answer from vertices not yet verified too */
 
 /* Height of the terrain at (x, y), given with 8 fractional bits (0 .. 65535 * 256): z with 16
- * fractional bits, the exact height of the plane rounded to nearest (halves up), the same from either
- * side of an edge. Valid terrain wins over void on a shared edge or vertex. *hint is the triangle
- * where the walk starts and, afterwards, where it ended; start with 0 and keep it between calls.
- * At most microtin_triangle_count steps; about sqrt(n) from an arbitrary hint. */
+ * fractional bits, the exact height of the plane rounded to nearest (halves up), the same from
+ * either side of an edge. Valid terrain wins over void on a shared edge or vertex. *hint is the
+ * triangle where the walk starts and, afterwards, where it ended; start with 0 and keep it between
+ * calls. At most microtin_triangle_count steps; about sqrt(n) from an arbitrary hint. */
 microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
                                    uint32_t* hint, int32_t* height);
 
@@ -162,7 +166,8 @@ void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_ax
 
 /* Converts a real coordinate, `value` / `per_unit` units (degrees as 1e-7 integers: per_unit =
  * 10000000), to the lattice with 8 fractional bits, rounded to nearest, for microtin_height_at.
- * Returns 1, or 0 when the place lies outside 0..65535. per_unit is 1 .. 2^24. Exact: integers only. */
+ * Returns 1, or 0 when the place lies outside 0..65535. per_unit is 1 .. 2^24. Exact: integers
+ * only. */
 int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
                         int32_t* lattice);
 

@@ -1,0 +1,33 @@
+// The host's side of the comparison: the report of a stream file, which is read whole.
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <vector>
+
+#include "tests/firmware/report.hpp"
+
+namespace {
+
+constexpr uint32_t kCapacity = 10923;  // as many as the device's 16-bit numbers reach
+
+void put_char(char c) {
+  std::putchar(c);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::fputs("usage: host_report STREAM\n", stderr);
+    return 2;
+  }
+  std::ifstream file(argv[1], std::ios::binary);
+  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
+  const std::vector<uint8_t> stream(bytes.begin(), bytes.end());
+  const auto terrain = std::make_unique<microtin::Terrain<kCapacity>>();
+  const auto decoder = std::make_unique<microtin::Decoder<kCapacity>>(*terrain);
+  return microtin::report(put_char, *terrain, *decoder, stream.data(), stream.size(), stream.size())
+             ? 0
+             : 1;
+}

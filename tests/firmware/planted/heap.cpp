@@ -1,0 +1,8 @@
+// Must be rejected by tests/symbols.cmake: it allocates.
+#include <stddef.h>
+
+extern "C" void* malloc(size_t size);
+
+extern "C" void* planted() {
+  return malloc(1);
+}

@@ -1,0 +1,126 @@
+// Decodes a stream and describes the terrain in a few lines of text, the same on host and device.
+#ifndef MICROTIN_TESTS_FIRMWARE_REPORT_HPP
+#define MICROTIN_TESTS_FIRMWARE_REPORT_HPP
+
+#include "microtin/microtin.hpp"
+
+namespace microtin {
+
+typedef void (*PutChar)(char c);
+
+inline void print(PutChar put, const char* text) {
+  while (*text != '\0') put(*text++);
+}
+
+inline void print(PutChar put, uint32_t number) {
+  char digits[10];
+  int count = 0;
+  do {
+    digits[count++] = static_cast<char>('0' + number % 10);
+    number /= 10;
+  } while (number != 0);
+  while (count != 0) put(digits[--count]);
+}
+
+inline void print(PutChar put, int32_t number) {
+  if (number < 0) put('-');
+  const uint32_t bits = static_cast<uint32_t>(number);
+  print(put, number < 0 ? 0u - bits : bits);
+}
+
+inline void print_hex(PutChar put, uint64_t number) {
+  for (int shift = 60; shift >= 0; shift -= 4) put("0123456789abcdef"[(number >> shift) & 15]);
+}
+
+// Feeds the stream in pieces of `chunk` bytes until the decoder has had enough of it.
+template <uint32_t Capacity>
+microtin_status decode_in_chunks(Decoder<Capacity>& decoder, const uint8_t* stream, size_t size,
+                                 size_t chunk) {
+  size_t at = 0;
+  microtin_status status = MICROTIN_NEED_INPUT;
+  while (status == MICROTIN_NEED_INPUT && at < size) {
+    size_t used = 0;
+    status = decoder.feed(stream + at, size - at < chunk ? size - at : chunk, &used);
+    at += used;
+  }
+  return status == MICROTIN_NEED_INPUT ? decoder.finish() : status;
+}
+
+// Numbers that look random and are the same everywhere (Numerical Recipes' generator).
+class ProbeNumbers {
+ public:
+  // In low .. high.
+  int32_t between(int32_t low, int32_t high) {
+    state_ = state_ * 1664525u + 1013904223u;
+    const uint64_t count = static_cast<uint64_t>(static_cast<uint32_t>(high - low)) + 1;
+    return low + static_cast<int32_t>((state_ * count) >> 32);
+  }
+
+ private:
+  uint32_t state_ = 1;
+};
+
+// The smallest box around the vertices, with 8 fractional bits.
+struct ProbeBox {
+  int32_t west, south, east, north;
+};
+
+inline ProbeBox probe_box(const microtin_mesh* mesh) {
+  uint16_t west = 65535, south = 65535, east = 0, north = 0;
+  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+    uint16_t x, y;
+    int16_t z;
+    microtin_vertex(mesh, v, &x, &y, &z);
+    if (x < west) west = x;
+    if (y < south) south = y;
+    if (x > east) east = x;
+    if (y > north) north = y;
+  }
+  return ProbeBox{static_cast<int32_t>(west) * 256, static_cast<int32_t>(south) * 256,
+                  static_cast<int32_t>(east) * 256, static_cast<int32_t>(north) * 256};
+}
+
+// Asks for the height at 64 places in the box: "x y height", or the number of the reason for none.
+inline void report_probes(PutChar put, const microtin_mesh* mesh) {
+  const ProbeBox box = probe_box(mesh);
+  ProbeNumbers numbers;
+  uint32_t hint = 0;
+  for (int i = 0; i < 64; ++i) {
+    const int32_t x = numbers.between(box.west, box.east);
+    const int32_t y = numbers.between(box.south, box.north);
+    int32_t height = 0;
+    const microtin_answer answer = microtin_height_at(mesh, x, y, 0, &hint, &height);
+    print(put, x);
+    print(put, " ");
+    print(put, y);
+    if (answer == MICROTIN_HEIGHT) {
+      print(put, " ");
+      print(put, height);
+    } else {
+      print(put, " none: ");
+      print(put, static_cast<uint32_t>(answer));
+    }
+    print(put, "\n");
+  }
+}
+
+// The whole report; `decoder` fills `terrain`. Returns whether the stream was decoded.
+template <uint32_t Capacity>
+bool report(PutChar put, const Terrain<Capacity>& terrain, Decoder<Capacity>& decoder,
+            const uint8_t* stream, size_t size, size_t chunk) {
+  const microtin_status status = decode_in_chunks(decoder, stream, size, chunk);
+  print(put, "status ");
+  print(put, static_cast<uint32_t>(status));
+  print(put, "\nvertices ");
+  print(put, terrain.vertices());
+  print(put, "\ndigest ");
+  print_hex(put, terrain.digest());
+  print(put, "\n");
+  if (status != MICROTIN_DONE) return false;
+  report_probes(put, terrain.mesh());
+  return true;
+}
+
+}  // namespace microtin
+
+#endif

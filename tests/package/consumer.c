@@ -1,0 +1,8 @@
+/* The smallest user of the library: C, and nothing but the public header. */
+#include <microtin/microtin.h>
+
+int main(void) {
+  static const uint8_t bytes[64] = {'n', 'o', 't', ' ', 'o', 'n', 'e'};
+  microtin_info info;
+  return microtin_peek(bytes, sizeof bytes, &info) == MICROTIN_BAD_MAGIC ? 0 : 1;
+}
