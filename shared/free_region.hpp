@@ -40,20 +40,8 @@ inline int64_t dot_at(Point p, Point a, Point b) {
 typedef int64_t Area;
 constexpr Area kAreaCap = static_cast<Area>(1) << 50;
 
-// Area of the segment of a circle over a chord of squared length `length2` < 2^33 whose inscribed
-// angle on the segment's side is obtuse with cotangent -q/h; q >= 0, h > 0, both < 2^34.
-inline Area segment_area(int64_t length2, int64_t q, int64_t h) {
-  // t = q / (q + h) in 13 bits: 5 choose the table entry, 8 interpolate. q + h >= 1.
-  const uint32_t t = static_cast<uint32_t>((q << 13) / (q + h));
-  const uint32_t i = t >> 8;
-  if (i == 32) return 0;
-  const uint32_t low = table_segment(i), high = table_segment(i + 1);
-  const uint32_t value = low - (((low - high) * (t & 255u)) >> 8);
-  return (length2 * value) >> 9;  // value has 15 fractional bits; chord of length 2: length2 / 4
-}
-
-// Area of the disc whose chord of squared length `length2` is seen under the cotangent q / h,
-// capped.
+// Area of the disc in which a chord of squared length `length2` < 2^33 is seen under the cotangent
+// q / h, capped. 0 <= q < 2^34, 0 < h < 2^34.
 inline Area disc_area(int64_t length2, int64_t q, int64_t h) {
   // pi / 4 * length2 * (1 + k^2); k = q / h with 8 fractional bits, at most 2^15.
   const int64_t k = (q << 8) / h;
@@ -63,22 +51,33 @@ inline Area disc_area(int64_t length2, int64_t q, int64_t h) {
   return area < kAreaCap ? area : kAreaCap;
 }
 
+// Area of the circular segment over such a chord in which it is seen under the cotangent q / h. Up
+// to a half disc (q <= 0) it comes from a table, beyond it is what the disc has left.
+inline Area segment_area(int64_t length2, int64_t q, int64_t h) {
+  const int64_t size = q < 0 ? -q : q;
+  // t = |q| / (|q| + h) in 13 bits: 5 choose the table entry, 8 interpolate.
+  const uint32_t t = static_cast<uint32_t>((size << 13) / (size + h));
+  const uint32_t i = t >> 8;
+  uint32_t table = 0;  // 15 fractional bits, for a chord of length 2
+  if (i < 32) {
+    const uint32_t low = table_segment(i), high = table_segment(i + 1);
+    table = low - (((low - high) * (t & 255u)) >> 8);
+  }
+  const Area smaller = (length2 * table) >> 9;
+  return q <= 0 ? smaller : disc_area(length2, q, h) - smaller;
+}
+
 // Part of t's disc that side i's certified neighbour rules out: all beyond the side, and the
 // neighbour's own segment on the near side.
-inline Area ruled_out(const FreeRegion& region, int i, int64_t h, Area disc) {
+inline Area ruled_out(const FreeRegion& region, int i, int64_t h) {
   const Point from = region.corner[i], to = region.corner[i == 2 ? 0 : i + 1];
   const int64_t length2 = squared_length(from, to);
   const int64_t q = dot_at(region.corner[i == 0 ? 2 : i - 1], from, to);
-  Area area = q >= 0 ? segment_area(length2, q, h) : disc - segment_area(length2, -q, h);
+  const Area beyond = segment_area(length2, -q, h);
   const Side& side = region.side[i];
-  if (!side.ghost) {
-    const int64_t h_behind = orient2d(to, from, side.apex);  // > 0: the apex is on the other side
-    const int64_t q_behind = dot_at(side.apex, from, to);
-    area += q_behind >= 0 ? segment_area(length2, q_behind, h_behind)
-                          : disc_area(length2, -q_behind, h_behind) -
-                                segment_area(length2, -q_behind, h_behind);
-  }
-  return area;
+  if (side.ghost) return beyond;
+  return beyond +
+         segment_area(length2, -dot_at(side.apex, from, to), orient2d(to, from, side.apex));
 }
 
 // log2 of the free region's area in lattice units.
@@ -89,7 +88,7 @@ inline Log2 free_area(const FreeRegion& region) {
   const Area disc = disc_area(squared_length(v, a), q < 0 ? -q : q, h);
   Area left = disc;
   for (int i = 0; i < 3; ++i) {
-    if (region.side[i].certified) left -= ruled_out(region, i, h, disc);
+    if (region.side[i].certified) left -= ruled_out(region, i, h);
   }
   const Area least = (disc >> 8) + 1;
   return log2_of(static_cast<uint64_t>(left > least ? left : least)) - 8 * kLog2One;

@@ -57,12 +57,6 @@ inline Cotangent cotangent(int64_t q, int64_t h) {
   return k > kCotangentCap ? kCotangentCap : k < -kCotangentCap ? -kCotangentCap : k;
 }
 
-// Area, on t's side of the chord, of the pencil's circle k.
-inline Area swept_area(int64_t length2, Cotangent k) {
-  return k <= 0 ? segment_area(length2, -k, 256)
-                : disc_area(length2, k, 256) - segment_area(length2, k, 256);
-}
-
 // Fills in the chances of being first; `density` is the logarithm of points per unit area.
 inline void estimate_sweep(PlaceOdds& odds, const FreeRegion& region, Log2 density) {
   const Point v = region.corner[0], c = region.corner[1], a = region.corner[2];
@@ -83,9 +77,10 @@ inline void estimate_sweep(PlaceOdds& odds, const FreeRegion& region, Log2 densi
   }
   const int64_t steepening = odds.inside.steepness * 256 / odds.swept_from.steepness;
   odds.steepening = steepening < 65535 ? static_cast<int32_t>(steepening) : 65535;
-  const Area start = swept_area(length2, from);
+  const Area start = segment_area(length2, from, 256);
   for (int i = 0; i < kSweepEntries; ++i) {
-    const Area swept = swept_area(length2, from + (to - from) * i / (kSweepEntries - 1)) - start;
+    const Area swept =
+        segment_area(length2, from + (to - from) * i / (kSweepEntries - 1), 256) - start;
     // chance = exp(-density * swept) = 2^-loss; log2(log2(e)) = 135 / 256.
     uint64_t loss = 0;
     if (swept > 0) loss = exp2_of(log2_of(static_cast<uint64_t>(swept)) + density + 135);

@@ -4,24 +4,13 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
-#include <random>
-#include <set>
 
 #include "encoder/encode.hpp"
+#include "tests/point_sets.hpp"
 
 using namespace microtin;
 
 namespace {
-
-std::vector<Point> uniform_points(uint32_t n, uint32_t seed) {
-  std::mt19937 random(seed);
-  std::set<Point> places;
-  while (places.size() < n) {
-    const uint32_t bits = static_cast<uint32_t>(random());
-    places.insert(Point{static_cast<uint16_t>(bits >> 16), static_cast<uint16_t>(bits)});
-  }
-  return {places.begin(), places.end()};
-}
 
 // Table 1: two tag bits, a sign, and 6, 9, 12 or 16 bits.
 uint64_t table1_bits(int difference) {
@@ -49,8 +38,9 @@ TEST_CASE("with the paper's code the order costs what the paper's Table 2 prints
     uint32_t vertices;
     double bits, tolerance;
   } table2[] = {{5000, 27.49, 0.15}, {80000, 23.42, 0.10}};
+  Random random(1);
   for (const auto& row : table2) {
-    const std::vector<Point> points = uniform_points(row.vertices, 1);
+    const std::vector<Point> points = uniform_points(row.vertices, random);
     Triangulation triangulation(points);
     const double bits = table1_bits_per_vertex(points, breadth_first_order(triangulation, 6));
     MESSAGE(row.vertices << " points: " << bits << " bits/vertex, the paper " << row.bits);
@@ -60,8 +50,9 @@ TEST_CASE("with the paper's code the order costs what the paper's Table 2 prints
 }
 
 TEST_CASE("every phase leaves at most the share of vertices that is proved") {
+  Random random(2);
   for (const uint32_t degree : {6u, 7u, 8u, 12u, 32u}) {
-    const std::vector<Point> points = uniform_points(3000, degree);
+    const std::vector<Point> points = uniform_points(3000, random);
     Triangulation triangulation(points);
     const Order order = breadth_first_order(triangulation, degree);
     size_t after = points.size();
@@ -77,8 +68,9 @@ TEST_CASE("every phase leaves at most the share of vertices that is proved") {
 }
 
 TEST_CASE("80,000 uniform points, x and y alone, stay near the entropy floor") {
+  Random random(3);
   Tin tin;
-  for (const Point& p : uniform_points(80000, 2)) tin.vertices.push_back(Vertex{p.x, p.y, 0});
+  for (const Point& p : uniform_points(80000, random)) tin.vertices.push_back(Vertex{p.x, p.y, 0});
   const double bits = 8.0 * static_cast<double>(encode(tin, Metadata()).size()) / 80000;
   MESSAGE(bits << " bits/vertex; the floor, log2 C(2^32, n) / n, is 17.155");
   CHECK(bits < 19.5);

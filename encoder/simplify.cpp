@@ -1,0 +1,55 @@
+#include "encoder/simplify.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "encoder/error_model.hpp"
+#include "encoder/refinement.hpp"
+#include "shared/predicates.hpp"
+
+namespace microtin {
+namespace {
+
+std::vector<uint32_t> all_of(const std::vector<Sample>& samples) {
+  std::vector<uint32_t> all(samples.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
+
+// Appends sample s to a chain that turns to the left, without those that lie behind then.
+void extend_chain(const std::vector<Sample>& samples, std::size_t start, uint32_t s,
+                  std::vector<uint32_t>& chain) {
+  while (chain.size() >= start + 2 &&
+         orient2d(samples[chain[chain.size() - 2]].place, samples[chain.back()].place,
+                  samples[s].place) <= 0) {
+    chain.pop_back();
+  }
+  chain.push_back(s);
+}
+
+// The corners of the hull of samples in lexicographic order (Andrew's monotone chain).
+std::vector<uint32_t> hull_corners(const std::vector<Sample>& samples) {
+  if (samples.empty()) return {};
+  const uint32_t n = static_cast<uint32_t>(samples.size());
+  std::vector<uint32_t> chain;
+  for (uint32_t s = 0; s < n; ++s) extend_chain(samples, 0, s, chain);
+  const std::size_t upper = chain.size() - 1;
+  for (uint32_t s = n - 1; s-- > 0;) extend_chain(samples, upper, s, chain);
+  chain.pop_back();
+  return chain;
+}
+
+}  // namespace
+
+Tin simplify(const Survey& survey, const SimplifyOptions& options) {
+  const bool keep_all = !options.bounded && options.max_vertices == 0;
+  Refinement refinement(survey, ErrorModel{options.bounded},
+                        keep_all ? all_of(survey.samples) : hull_corners(survey.samples));
+  refinement.refine(options.max_vertices != 0 ? options.max_vertices
+                                              : std::numeric_limits<std::size_t>::max());
+  return refinement.tin();
+}
+
+}  // namespace microtin

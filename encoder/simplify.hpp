@@ -1,0 +1,27 @@
+// The choice of the vertices that represent a survey.
+#ifndef MICROTIN_ENCODER_SIMPLIFY_HPP
+#define MICROTIN_ENCODER_SIMPLIFY_HPP
+
+#include <cstdint>
+
+#include "encoder/survey.hpp"
+
+namespace microtin {
+
+struct SimplifyOptions {
+  bool bounded = false;       // the surface must lie in lowest .. highest at every sample
+  uint32_t max_vertices = 0;  // if not 0: no more than that, except where hull and voids need them
+};
+
+// Without options every sample becomes a vertex. With one of them, as few as greedy insertion of
+// the worst sample finds: until the bound holds or, if none is asked for, until the error is 0 or
+// max_vertices is reached.
+//
+// Every sample is a vertex, lies in a triangle that is not void, or on an edge of one; every void
+// post within the hull lies in a void triangle and on no edge of another. Throws Error if the
+// samples form no triangle.
+Tin simplify(const Survey& survey, const SimplifyOptions& options);
+
+}  // namespace microtin
+
+#endif

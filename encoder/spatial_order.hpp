@@ -1,0 +1,18 @@
+// The order in which points are inserted so that a triangulation of them is quick to build.
+#ifndef MICROTIN_ENCODER_SPATIAL_ORDER_HPP
+#define MICROTIN_ENCODER_SPATIAL_ORDER_HPP
+
+#include <vector>
+
+#include "shared/mesh.hpp"
+
+namespace microtin {
+
+// Numbers of the points, each once, in rounds of growing size (a biased randomized insertion order:
+// Amenta, Choi and Rote, "Incremental constructions con BRIO") and along a Hilbert curve within
+// each. The places alone decide, so the order of the input does not matter.
+std::vector<Index> insertion_order(const std::vector<Point>& points);
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,246 @@
+#include "encoder/triangulation.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "encoder/error.hpp"
+#include "encoder/spatial_order.hpp"
+
+namespace microtin {
+namespace {
+
+// Brings three points that form a counter-clockwise triangle to the front.
+void start_with_triangle(const std::vector<Point>& points, std::vector<Index>& order) {
+  for (std::size_t i = 2; i < order.size(); ++i) {
+    const int64_t turn = orient2d(points[order[0]], points[order[1]], points[order[i]]);
+    if (turn == 0) continue;
+    std::swap(order[2], order[i]);
+    if (turn < 0) std::swap(order[0], order[1]);
+    return;
+  }
+  throw Error("all points lie on one line: there is no triangle");
+}
+
+}  // namespace
+
+Triangulation::Triangulation(const std::vector<Point>& points) {
+  std::vector<Index> order = insertion_order(points);
+  start_with_triangle(points, order);
+  set_sizes(points.size());
+  set_cavity_limit(64);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    x_[i] = points[order[i]].x;
+    y_[i] = points[order[i]].y;
+  }
+  start_mesh(mesh_);
+  Index hint = 0;
+  for (Index v = 3; v < order.size(); ++v) hint = connect(v, hint);
+  mesh_.vertices = static_cast<Index>(order.size());
+  renumber(order);
+}
+
+void Triangulation::set_sizes(std::size_t vertices) {
+  x_.resize(vertices);
+  y_.resize(vertices);
+  origin_.resize(6 * vertices);
+  twin_.resize(6 * vertices);
+  edge_of_.resize(vertices + 1);
+  mesh_.x = x_.data();
+  mesh_.y = y_.data();
+  mesh_.origin = origin_.data();
+  mesh_.twin = twin_.data();
+}
+
+void Triangulation::set_cavity_limit(std::size_t limit) {
+  cavity_triangles_.resize(limit);
+  cavity_origin_.resize(limit + 2);
+  cavity_twin_.resize(limit + 2);
+  cavity_pending_.resize(limit + 2);
+  cavity_.triangles = cavity_triangles_.data();
+  cavity_.edge_origin = cavity_origin_.data();
+  cavity_.edge_twin = cavity_twin_.data();
+  cavity_.pending = cavity_pending_.data();
+  cavity_.limit = static_cast<Index>(limit);
+}
+
+// Vertices were numbered in the order of insertion, which keeps neighbours close in memory.
+void Triangulation::renumber(const std::vector<Index>& order) {
+  std::vector<uint16_t> x(order.size()), y(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    x[order[i]] = x_[i];
+    y[order[i]] = y_[i];
+  }
+  std::copy(x.begin(), x.end(), x_.begin());
+  std::copy(y.begin(), y.end(), y_.begin());
+  for (Index h = 0; h < first_edge(mesh_.triangles); ++h) {
+    if (origin_[h] != kInfinity) origin_[h] = order[origin_[h]];
+    edge_of_[static_cast<Index>(origin_[h] + 1u)] = h;
+  }
+}
+
+Index Triangulation::degree(Index v) const {
+  const Index start = edge_of(v);
+  Index h = start, neighbours = 0;
+  do {
+    ++neighbours;
+    h = mesh_.twin[previous_in_triangle(h)];
+  } while (h != start);
+  return neighbours;
+}
+
+Index Triangulation::locate(Point p, Index hint) const {
+  Index h = hint;
+  const Index f = first_edge(triangle_of(hint));
+  for (Index i = 0; i < 3; ++i) {
+    if (mesh_.origin[f + i] == kInfinity) h = mesh_.twin[next_in_triangle(f + i)];
+  }
+  Point from = point_of(mesh_, mesh_.origin[h]);
+  Point to = point_of(mesh_, mesh_.origin[next_in_triangle(h)]);
+  if (orient2d(from, to, p) < 0) {
+    h = mesh_.twin[h];
+    std::swap(from, to);
+  }
+  // p lies on from -> to or to its left. On a Delaunay triangulation no triangle is met twice.
+  for (;;) {
+    const Index to_apex = next_in_triangle(h), from_apex = previous_in_triangle(h);
+    if (mesh_.origin[from_apex] == kInfinity) return h;
+    const Point apex = point_of(mesh_, mesh_.origin[from_apex]);
+    if (orient2d(to, apex, p) < 0) {
+      h = mesh_.twin[to_apex];
+      from = apex;
+    } else if (orient2d(apex, from, p) < 0) {
+      h = mesh_.twin[from_apex];
+      to = apex;
+    } else {
+      return h;
+    }
+  }
+}
+
+// Joins vertex v, whose place is known, to the mesh. Returns a half-edge near it.
+Index Triangulation::connect(Index v, Index hint) {
+  const Point p = point_of(mesh_, v);
+  const Index start = locate(p, hint);
+  const auto forbids_nothing = [](Index) { return false; };
+  while (grow_cavity(mesh_, start, p, cavity_, forbids_nothing) != Growth::kComplete) {
+    set_cavity_limit(2 * std::size_t{cavity_.limit});
+  }
+  return fan_cavity(mesh_, cavity_, v);
+}
+
+Index Triangulation::insert(Point p, Index hint) {
+  const Index v = mesh_.vertices;
+  set_sizes(std::size_t{v} + 1);
+  x_[v] = p.x;
+  y_[v] = p.y;
+  connect(v, hint);
+  ++mesh_.vertices;
+  new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size);
+  for (Index back = 2; back != 0; --back) new_triangles_.push_back(mesh_.triangles - back);
+  if (!free_.empty()) {
+    mesh_.triangles -= 2;
+    recycle(new_triangles_[cavity_.size]);
+    recycle(new_triangles_[cavity_.size + 1]);
+  }
+  for (const Index triangle : new_triangles_) note_edges(triangle);
+  return v;
+}
+
+// Moves a triangle to a free slot.
+void Triangulation::recycle(Index& triangle) {
+  const Index from = first_edge(triangle), to = first_edge(free_.back());
+  triangle = free_.back();
+  free_.pop_back();
+  for (Index i = 0; i < 3; ++i) {
+    mesh_.origin[to + i] = mesh_.origin[from + i];
+    pair(mesh_, to + i, mesh_.twin[from + i]);
+  }
+}
+
+void Triangulation::note_edges(Index triangle) {
+  const Index f = first_edge(triangle);
+  for (Index h = f; h < f + 3; ++h) edge_of_[static_cast<Index>(mesh_.origin[h] + 1u)] = h;
+}
+
+void Triangulation::remove(Index v) {
+  open_hole(v);
+  fill_hole();
+  edge_of_[static_cast<Index>(v + 1u)] = kNoEdge;
+}
+
+// Collects the corners around v and frees its triangles.
+void Triangulation::open_hole(Index v) {
+  hole_.clear();
+  std::size_t first = 0;
+  const Index start = edge_of(v);
+  Index h = start;
+  do {
+    const Index side = next_in_triangle(h);
+    const Index corner = mesh_.origin[side];
+    const bool finite = corner != kInfinity;
+    hole_.push_back({corner, finite ? point_of(mesh_, corner) : Point{0, 0}, mesh_.twin[side]});
+    if (!finite) first = hole_.size();
+    free_.push_back(triangle_of(h));
+    h = mesh_.twin[previous_in_triangle(h)];
+  } while (h != start);
+  std::rotate(hole_.begin(), hole_.begin() + static_cast<std::ptrdiff_t>(first), hole_.end());
+}
+
+// Cuts the hole into Delaunay triangles: that on the closing side first, then what it leaves to
+// its left and right. Two slots more than needed stay free.
+void Triangulation::fill_hole() {
+  const Index last = static_cast<Index>(hole_.size() - 1);
+  pockets_.assign(1, {0, last, hole_[last].outside});
+  while (!pockets_.empty()) {
+    const Pocket pocket = pockets_.back();
+    pockets_.pop_back();
+    const Index apex = apex_of(pocket);
+    const Index triangle = free_.back();
+    free_.pop_back();
+    const Index h = first_edge(triangle);
+    mesh_.origin[h] = hole_[pocket.last].vertex;
+    mesh_.origin[h + 1] = hole_[pocket.first].vertex;
+    mesh_.origin[h + 2] = hole_[apex].vertex;
+    note_edges(triangle);
+    pair(mesh_, h, pocket.outside);
+    close_side(pocket.first, apex, h + 1);
+    close_side(apex, pocket.last, h + 2);
+  }
+  for (std::size_t i = free_.size() - 2; i < free_.size(); ++i) {
+    std::fill_n(mesh_.origin + first_edge(free_[i]), 3, kInfinity);
+  }
+}
+
+// The corner that forms a Delaunay triangle with the pocket's closing side: of all that lie to the
+// left of last -> first, the one whose circle through these two holds no other. With kInfinity at
+// the end the circles are half-planes, and all corners lie on one side of `first` along the hull.
+Index Triangulation::apex_of(const Pocket& pocket) const {
+  const Point first = hole_[pocket.first].place, last = hole_[pocket.last].place;
+  const bool on_hull = hole_[pocket.last].vertex == kInfinity;
+  Index apex = pocket.last;  // none yet
+  for (Index i = pocket.first + 1; i < pocket.last; ++i) {
+    const Point p = hole_[i].place;
+    if (!on_hull && orient2d(last, first, p) <= 0) continue;
+    if (apex != pocket.last) {
+      const Point rival = hole_[apex].place;
+      if (!(on_hull ? conflicts_with_ghost(first, rival, p)
+                    : conflicts_with_triangle(last, first, rival, p))) {
+        continue;
+      }
+    }
+    apex = i;
+  }
+  return apex;
+}
+
+// Gives h, the half-edge from corner `first` to corner `last`, its twin, now or later.
+void Triangulation::close_side(Index first, Index last, Index h) {
+  if (last == first + 1) {
+    pair(mesh_, h, hole_[first].outside);
+  } else {
+    pockets_.push_back({first, last, h});
+  }
+}
+
+}  // namespace microtin

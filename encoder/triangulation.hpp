@@ -1,0 +1,97 @@
+// The canonical Delaunay triangulation of a set of points: built at once, then changed point by
+// point. Always exact, and a function of the points alone.
+#ifndef MICROTIN_ENCODER_TRIANGULATION_HPP
+#define MICROTIN_ENCODER_TRIANGULATION_HPP
+
+#include <cstddef>
+#include <vector>
+
+#include "shared/insertion.hpp"
+#include "shared/mesh.hpp"
+
+namespace microtin {
+
+class Triangulation {
+ public:
+  // Vertex i is points[i]. The points must be distinct. Throws Error if they form no triangle.
+  explicit Triangulation(const std::vector<Point>& points);
+
+  Triangulation(Triangulation&&) = default;
+  Triangulation& operator=(Triangulation&&) = default;
+
+  // Has no heights: z is null. After removals, up to mesh().vertices vertices and mesh().triangles
+  // triangles are a mixture of live and removed ones.
+  const Mesh& mesh() const { return mesh_; }
+
+  bool has_triangle(Index triangle) const {
+    return mesh_.origin[first_edge(triangle)] != mesh_.origin[first_edge(triangle) + 1u];
+  }
+
+  bool has_vertex(Index v) const { return edge_of(v) != kNoEdge; }
+
+  // Some half-edge from v, which may be kInfinity; kNoEdge if v was removed.
+  static constexpr Index kNoEdge = kInfinity;
+  Index edge_of(Index v) const { return edge_of_[static_cast<Index>(v + 1u)]; }
+
+  // The neighbours of v, which may be kInfinity and counts as a neighbour too.
+  Index degree(Index v) const;
+
+  // A half-edge of a triangle whose closure holds p or, if p lies outside the hull, of a ghost in
+  // conflict with it. Walks there from the half-edge `hint`.
+  Index locate(Point p, Index hint) const;
+
+  // Adds p, different from all vertices, as vertex mesh().vertices and returns that number.
+  Index insert(Point p, Index hint);
+
+  // The triangles that the last insert made, counter-clockwise around the new vertex, which is the
+  // last corner of each: the slots of those it replaced, then two more.
+  const std::vector<Index>& new_triangles() const { return new_triangles_; }
+
+  // Removes a vertex; those that stay must not all lie on one line. Only the triangles around v
+  // change; the other vertices and half-edges keep their numbers. O(degree^2).
+  void remove(Index v);
+
+ private:
+  // A corner of the hole that a removed vertex leaves, and the half-edge outside its next side.
+  struct Corner {
+    Index vertex;
+    Point place;  // unless it is kInfinity
+    Index outside;
+  };
+
+  // The part of the hole from corner `first` to corner `last`, closed by a side whose other
+  // half-edge is `outside`.
+  struct Pocket {
+    Index first;
+    Index last;
+    Index outside;
+  };
+
+  void set_sizes(std::size_t vertices);
+  void set_cavity_limit(std::size_t limit);
+  void renumber(const std::vector<Index>& order);
+  Index connect(Index v, Index hint);
+  void recycle(Index& triangle);
+  void note_edges(Index triangle);
+  void open_hole(Index v);
+  void fill_hole();
+  Index apex_of(const Pocket& pocket) const;
+  void close_side(Index first, Index last, Index h);
+
+  Mesh mesh_ = {};
+  std::vector<uint16_t> x_, y_;
+  std::vector<Index> origin_, twin_;
+  std::vector<Index> edge_of_;  // entry v + 1; kInfinity + 1 wraps round to entry 0
+
+  Cavity cavity_ = {};
+  std::vector<Index> cavity_triangles_, cavity_origin_, cavity_twin_, cavity_pending_;
+  std::vector<Index> new_triangles_;
+
+  std::vector<Corner> hole_;     // counter-clockwise; kInfinity, if there, comes last
+  std::vector<Pocket> pockets_;  // still to be filled
+  std::vector<Index> free_;      // slots of no triangle; all their origins are kInfinity
+};
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,247 @@
+// The program as its users meet it: exit codes, messages, files left behind.
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "tests/temporary_folder.hpp"
+
+using namespace microtin;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Runs the program in a folder of its own.
+class Session {
+ public:
+  struct Result {
+    int code;
+    std::string out;
+    std::string err;
+  };
+
+  Result run(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.path() + "' && '" MICROTIN_CLI "' " + arguments +
+                                " 2>'" + error_path() + "'";
+    std::FILE* pipe = popen(command.c_str(), "r");
+    REQUIRE(pipe != nullptr);
+    Result result{0, "", ""};
+    char buffer[4096];
+    while (const size_t size = std::fread(buffer, 1, sizeof buffer, pipe)) {
+      result.out.append(buffer, size);
+    }
+    const int status = pclose(pipe);
+    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    result.err = content(error_path());
+    fs::remove(error_path());
+    return result;
+  }
+
+  // The one line of a failure, which leaves no file behind.
+  std::string failure(const std::string& arguments, int code = 1) const {
+    const std::vector<std::string> before = files();
+    const Result result = run(arguments);
+    CHECK_MESSAGE(result.code == code, arguments);
+    CHECK_MESSAGE(std::count(result.err.begin(), result.err.end(), '\n') == 1, result.err);
+    CHECK_MESSAGE(files() == before, arguments);
+    const std::string prefix = "microtin: ";
+    CHECK(result.err.substr(0, prefix.size()) == prefix);
+    return result.err.substr(std::min(result.err.size(), prefix.size()));
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+
+  std::string read(const std::string& name) const { return content(folder_ / name); }
+
+ private:
+  std::string error_path() const { return errors_ / "err"; }
+
+  static std::string content(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  }
+
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) names.push_back(entry.path());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  TemporaryFolder folder_, errors_;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+const char* const kGrid =
+    "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 2\nnodata_value -1\n"
+    "1 2 3 4\n5 9 7 8\n-1 -1 3 9\n";
+
+}  // namespace
+
+TEST_CASE("cli: encode, info, verify and decode agree") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  const Session::Result encoded = session.run("encode t.asc -o t.mtin --epsg 25832:5783");
+  CHECK(encoded.code == 0);
+  CHECK(encoded.err.empty());
+  CHECK(contains(encoded.out, "10 posts, 2 void posts"));
+  CHECK(contains(encoded.out, "10 vertices"));
+
+  const Session::Result info = session.run("info t.mtin --json");
+  CHECK(info.code == 0);
+  for (const char* key :
+       {"\"format_version\": 1", "\"vertices\": 10", "\"triangles\"", "\"bytes\"",
+        "\"bits_per_vertex\"", "\"phases\"", "\"degree\": 8", "\"workspace_bytes_16\"",
+        "\"workspace_bytes_32\"", "\"steps\"", "\"offsets\"", "\"bound\": null",
+        "\"max_error\": 0.0", "\"rms_error\": 0.0", "\"horizontal_epsg\": 25832",
+        "\"vertical_epsg\": 5783"}) {
+    CHECK_MESSAGE(contains(info.out, key), key);
+  }
+
+  const Session::Result verified = session.run("verify t.mtin t.asc --json");
+  CHECK(verified.code == 0);
+  CHECK(contains(verified.out, "\"posts\": 10"));
+  CHECK(contains(verified.out, "\"uncovered\": 0"));
+  CHECK(contains(verified.out, "\"voids_answered\": 0"));
+
+  CHECK(session.run("decode t.mtin -o t.xyz").code == 0);
+  const std::string points = session.read("t.xyz");
+  CHECK(std::count(points.begin(), points.end(), '\n') == 10);
+  CHECK(contains(points, "1 5 1\n"));  // the north-west post
+  CHECK(session.run("decode t.mtin --lattice -o -").out.find("0 2 1\n") != std::string::npos);
+}
+
+TEST_CASE("cli: points come from a pipe, streams go to one") {
+  const Session session;
+  session.write("p.xyz", "0 0 1\n10.5 0 2\n0 10 3\n4 4 9\n");
+  REQUIRE(session.run("encode - -o - < p.xyz > piped.mtin").code == 0);
+  const Session::Result encoded = session.run("encode p.xyz -o filed.mtin");
+  CHECK(session.read("piped.mtin") == session.read("filed.mtin"));
+  CHECK(session.run("info - < piped.mtin").code == 0);
+}
+
+TEST_CASE("cli: bounds are kept, merged points counted") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
+  REQUIRE(session.run("encode f.asc --max-error 10 --z-step 8 -o f.mtin").code == 0);
+  const Session::Result verified = session.run("verify f.mtin f.asc --json");
+  CHECK(verified.code == 0);
+  CHECK(contains(verified.out, "\"covered\": 4225"));
+  CHECK(contains(session.run("info f.mtin --json").out, "\"bound\": 10.0"));
+  CHECK(contains(session.run("encode f.asc --xy-step 2 -o g.mtin").out, "merged: "));
+  CHECK(session.run("encode f.asc --max-vertices 100 -o h.mtin").code == 0);
+  CHECK(contains(session.run("info h.mtin --json").out, "\"vertices\": 100,"));
+}
+
+TEST_CASE("cli: verify fails on another terrain") {
+  const Session session;
+  session.write("a.xyz", "0 0 0\n9 0 0\n0 9 0\n");
+  session.write("b.xyz", "0 0 5\n9 0 0\n0 9 0\n");
+  session.write("c.xyz", "0 0 0\n90 0 0\n");
+  REQUIRE(session.run("encode a.xyz --max-error 4 -o a.mtin").code == 0);
+  CHECK(session.run("verify a.mtin a.xyz").code == 0);
+  CHECK(session.failure("verify a.mtin b.xyz") == "a.mtin: the largest error is above the bound\n");
+  CHECK(contains(session.failure("verify a.mtin c.xyz"), "not covered"));
+}
+
+TEST_CASE("cli: voids are filled on request") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  CHECK(contains(session.run("encode t.asc --fill-voids 2 -o t.mtin").out,
+                 "12 posts, 2 of the posts were void and are filled"));
+  CHECK(contains(session.failure("verify t.mtin t.asc"), "voids"));
+}
+
+TEST_CASE("cli: bad input gives one line with file and line, and no output") {
+  const Session session;
+  const std::string header = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+  session.write("short.asc", header + "1 2 3\n");
+  session.write("letters.asc", header + "1 2\n3 four\n");
+  session.write("nan.xyz", "0 0 0\n1 0 nan\n0 1 0\n");
+  session.write("range.xyz", "0 0 0\n1e40 0 0\n0 1 0\n");
+  session.write("N43E007.hgt", std::string(1000, '\0'));
+  session.write("line.xyz", "0 0 0\n1 1 0\n2 2 0\n");
+  session.write("empty.xyz", "");
+  session.write("wall.xyz", "0 0 0\n9 0 0\n0 9 0\n0 9 8\n");
+  session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 70000\n");
+  session.write("image.tif", "II");
+  const auto failure = [&](const std::string& arguments) {
+    return session.failure("encode " + arguments + " -o out.mtin");
+  };
+  CHECK(failure("missing.asc") == "missing.asc: cannot be read: No such file or directory\n");
+  CHECK(failure("image.tif").find("image.tif: ") == 0);
+  CHECK(failure("short.asc").find("short.asc:7: ") == 0);
+  CHECK(failure("letters.asc").find("letters.asc:7: ") == 0);
+  CHECK(failure("nan.xyz").find("nan.xyz:2: ") == 0);
+  CHECK(failure("range.xyz").find("range.xyz:2: ") == 0);
+  CHECK(failure("N43E007.hgt").find("N43E007.hgt: has 1000 bytes") == 0);
+  CHECK(contains(failure("line.xyz"), "line.xyz: "));
+  CHECK(contains(failure("line.xyz"), "triangle"));
+  CHECK(failure("empty.xyz") == "empty.xyz: holds no point\n");
+  CHECK(failure("wall.xyz --max-error 1").find("wall.xyz: --max-error cannot be kept at 1 ") == 0);
+  CHECK(failure("ok.xyz --z-step 1").find("ok.xyz: --z-step 1 is too fine") == 0);
+  CHECK(failure("ok.xyz --z-step 5 --max-error 1").find("ok.xyz: --max-error cannot be kept") == 0);
+}
+
+TEST_CASE("cli: directories and unwritable places") {
+  const Session session;
+  session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n");
+  session.run("fractal --size 3 -o sub.asc");
+  CHECK(session.failure("encode . -o out.mtin").find(".: ") == 0);
+  CHECK(session.failure("encode ok.xyz -o .") == ".: is a directory\n");
+  CHECK(contains(session.failure("encode ok.xyz -o no/such/out.mtin"), "no/such/out.mtin: "));
+  CHECK(contains(session.failure("decode . -o out.xyz"), ".: "));
+  if (!fs::exists("/dev/full")) return;
+  CHECK(session.failure("encode ok.xyz -o /dev/full") ==
+        "/dev/full: cannot be written: No space left on device\n");
+  CHECK(contains(session.failure("encode ok.xyz -o - > /dev/full"), "No space left"));
+  CHECK(fs::exists("/dev/full"));
+}
+
+TEST_CASE("cli: damaged streams") {
+  const Session session;
+  session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n5 5 5\n");
+  REQUIRE(session.run("encode ok.xyz -o ok.mtin").code == 0);
+  const std::string stream = session.read("ok.mtin");
+  session.write("long.mtin", stream + "x");
+  session.write("cut.mtin", stream.substr(0, stream.size() - 1));
+  session.write("empty.mtin", "");
+  std::string damaged = stream;
+  damaged[stream.size() / 2] = static_cast<char>(damaged[stream.size() / 2] ^ 4);
+  session.write("damaged.mtin", damaged);
+  for (const std::string name : {"long.mtin", "cut.mtin", "empty.mtin", "damaged.mtin", "ok.xyz"}) {
+    CHECK(session.failure("decode " + name + " -o out.xyz").find(name + ": ") == 0);
+    CHECK(session.failure("info " + name).find(name + ": ") == 0);
+    CHECK(session.failure("verify " + name + " ok.xyz").find(name + ": ") == 0);
+  }
+  CHECK(contains(session.failure("decode long.mtin -o out.xyz"), "1 bytes follow"));
+  CHECK(contains(session.failure("decode ok.mtin -o out.stl"), "out.stl: "));
+}
+
+TEST_CASE("cli: wrong usage is told apart") {
+  const Session session;
+  session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n");
+  for (const char* arguments :
+       {"", "frobnicate", "encode", "encode ok.xyz", "encode ok.xyz -o o --degree 5",
+        "encode ok.xyz -o o --degree 33", "encode ok.xyz -o o --max-error -1",
+        "encode ok.xyz -o o --max-error x", "encode ok.xyz -o o --max-error nan",
+        "encode ok.xyz -o o --max-vertices 2", "encode ok.xyz -o o --epsg 1:x",
+        "encode ok.xyz -o o --max-error 1 --max-vertices 9", "encode ok.xyz -o o --nonsense",
+        "info", "decode ok.xyz"}) {
+    session.failure(arguments, 2);
+  }
+  const Session::Result help = session.run("encode --help");
+  CHECK(help.code == 0);
+  CHECK(contains(help.out, "--max-error"));
+}
