@@ -107,7 +107,6 @@ microtin_status handle_header_check(microtin_decoder& d) {
   if (d.contract.vertices > d.capacity || d.contract.vertices > d.mesh->capacity) {
     return MICROTIN_TOO_BIG;
   }
-  d.mesh->has_voids = d.contract.has_voids;
   start(d.reconstruction, d.contract);
   begin_section(d);
   return MICROTIN_NEED_INPUT;
@@ -146,7 +145,10 @@ microtin_status handle_step(microtin_decoder& d) {
 microtin_status handle_section_check(microtin_decoder& d) {
   if (!check_passes(d)) return MICROTIN_CHECKSUM;
   d.mesh->verified_vertices = d.mesh->mesh.vertices;
-  if (d.reconstruction.stage == Stage::kComplete) return MICROTIN_DONE;
+  if (d.reconstruction.stage == Stage::kComplete) {
+    d.mesh->has_voids = d.contract.has_voids;
+    return MICROTIN_DONE;
+  }
   if (d.reconstruction.phase == d.stop_phase && d.stop_phase != 0) return MICROTIN_STOPPED;
   begin_section(d);
   return MICROTIN_NEED_INPUT;
@@ -261,7 +263,7 @@ void empty_mesh(microtin_mesh& m) {
   m.mesh.vertices = 0;
   m.mesh.triangles = 0;
   m.verified_vertices = 0;
-  m.has_voids = 0;
+  m.has_voids = false;
   for (int i = 0; i < 3; ++i) m.axis[i] = microtin_axis{0, 1, 1};
 }
 

@@ -8,11 +8,11 @@
 
 struct microtin_mesh {
   microtin::Mesh mesh;
-  uint8_t* voids;              // a bit per triangle; clear until known
+  uint8_t* voids;              // a bit per triangle
   uint32_t capacity;           // vertices
   uint32_t verified_vertices;  // vertices when the last check passed
   microtin_axis axis[3];
-  uint8_t has_voids;
+  bool has_voids;  // whether `voids` is decoded; coarser terrains know none
 };
 
 namespace microtin {

@@ -118,13 +118,12 @@ inline int32_t slice_start(int32_t count, int i) {
 }
 
 // How far the slices' middles are outside a circle, in 64ths of the size of a cell: x[i] + y[j],
-// within
-// +-2^25. Close to the circle that is its power divided by the steepness.
+// each within +-2^29. Close to the circle that is its power divided by the steepness.
 struct Distances {
   int32_t x[kCells], y[kCells];
 };
 
-constexpr int64_t kDistanceCap = static_cast<int64_t>(1) << 30;
+constexpr int64_t kDistanceCap = static_cast<int64_t>(1) << 29;
 
 inline void measure_axis(int64_t constant, int64_t slope, int32_t count, uint32_t shift,
                          int32_t reciprocal, int32_t* distance) {

@@ -8,9 +8,8 @@
 #include <string>
 
 #include "encoder/error.hpp"
-#include "tests/mesh_checks.hpp"
+#include "tests/mesh_copy.hpp"
 #include "tests/point_sets.hpp"
-#include "tests/reference_delaunay.hpp"
 
 namespace microtin {
 namespace {
@@ -22,42 +21,6 @@ Tin tin_of(const Points& points, Random& random) {
   }
   return tin;
 }
-
-// The decoded mesh, copied out through the public interface.
-struct Copy {
-  explicit Copy(const microtin_mesh* decoded)
-      : x(microtin_vertex_count(decoded)),
-        y(x.size()),
-        z(x.size()),
-        origin(3 * microtin_triangle_count(decoded)),
-        twin(origin.size()) {
-    for (uint32_t v = 0; v < x.size(); ++v) microtin_vertex(decoded, v, &x[v], &y[v], &z[v]);
-    for (uint32_t t = 0; t < origin.size() / 3; ++t) {
-      microtin_triangle(decoded, t, &origin[3 * t]);
-    }
-    // The interface tells neighbours only; the shared edge is the one with the same ends.
-    for (uint32_t h = 0; h < twin.size(); ++h) {
-      const uint32_t other = 3 * microtin_neighbour(decoded, h / 3, h % 3);
-      for (uint32_t g = other; g < other + 3; ++g) {
-        if (origin[g] == origin[next_in_triangle(h)] && origin[next_in_triangle(g)] == origin[h]) {
-          twin[h] = g;
-        }
-      }
-    }
-    mesh = Mesh{x.data(),
-                y.data(),
-                z.data(),
-                origin.data(),
-                twin.data(),
-                static_cast<Index>(x.size()),
-                static_cast<Index>(origin.size() / 3)};
-  }
-
-  std::vector<uint16_t> x, y;
-  std::vector<int16_t> z;
-  std::vector<Index> origin, twin;
-  Mesh mesh{};
-};
 
 std::vector<Vertex> sorted(std::vector<Vertex> vertices) {
   std::sort(vertices.begin(), vertices.end(), [](const Vertex& a, const Vertex& b) {
@@ -76,17 +39,15 @@ bool same_vertices(const std::vector<Vertex>& a, const std::vector<Vertex>& b) {
 std::string round_trip_fault(const Tin& tin, uint32_t degree,
                              bool (*is_right)(const Points&, const TriangleSet&)) {
   const DecodedTerrain decoded(encode(tin, Metadata(), degree));
-  const Copy copy(decoded.mesh());
+  const MeshCopy copy(decoded.mesh());
   std::vector<Vertex> vertices;
-  Points points;
   for (uint32_t v = 0; v < copy.x.size(); ++v) {
     vertices.push_back(Vertex{copy.x[v], copy.y[v], copy.z[v]});
-    points.push_back(Point{copy.x[v], copy.y[v]});
   }
   if (!same_vertices(sorted(vertices), sorted(tin.vertices))) return "other vertices";
   const std::string fault = mesh_fault(copy.mesh, copy.mesh.vertices);
   if (!fault.empty()) return fault;
-  return is_right(points, triangles_of(copy.mesh)) ? "" : "not the canonical triangulation";
+  return is_right(copy.points(), triangles_of(copy.mesh)) ? "" : "not the canonical triangulation";
 }
 
 bool equals_definition(const Points& points, const TriangleSet& set) {
@@ -154,7 +115,7 @@ TEST_CASE("void triangles come back, and no others") {
   for (const PointSet& set : point_sets(150, 5)) {
     Tin tin = tin_of(set.points, random);
     const DecodedTerrain without(encode(tin, Metadata()));
-    const Copy copy(without.mesh());
+    const MeshCopy copy(without.mesh());
     std::set<std::array<Point, 3>> expected;
     for (const std::array<Point, 3>& t : triangles_of(copy.mesh).triangles) {
       if (random.below(3) != 0) continue;

@@ -4,11 +4,12 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <fstream>
+#include <filesystem>
 
 #include "encoder/error.hpp"
 
 using namespace microtin;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -48,13 +49,12 @@ std::string points(const std::string& text) {
 
 const std::string kHeader = "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200\ncellsize 10\n";
 
+// The path of a file that is no part of the project; empty if it is not here.
 std::string data_file(const std::string& name) {
-  const std::string folder = MICROTIN_DATA_DIR;
-  if (folder.empty() || !std::ifstream(folder + "/formats/" + name)) {
-    MESSAGE("skipped: " << name << " is not here");
-    return "";
-  }
-  return folder + "/formats/" + name;
+  const fs::path path = fs::path(MICROTIN_DATA_DIR) / "formats" / name;
+  if (fs::exists(path)) return path.string();
+  MESSAGE("skipped: " << name << " is not here");
+  return "";
 }
 
 }  // namespace

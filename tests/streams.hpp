@@ -27,7 +27,7 @@ inline Tin rolling_tin(uint32_t n, uint32_t seed) {
 }
 
 inline std::vector<uint8_t> terrain_stream(uint32_t n, uint32_t seed,
-                                            uint32_t degree = kDefaultDegree) {
+                                           uint32_t degree = kDefaultDegree) {
   return encode(rolling_tin(n, seed), Metadata(), degree);
 }
 

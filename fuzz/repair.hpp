@@ -1,0 +1,40 @@
+// Makes the checks of a damaged stream right again, so that fuzzing reaches what lies behind them.
+#ifndef MICROTIN_FUZZ_REPAIR_HPP
+#define MICROTIN_FUZZ_REPAIR_HPP
+
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "shared/crc32.hpp"
+#include "shared/format.hpp"
+#include "shared/header.hpp"
+
+namespace microtin {
+
+inline void write_check(std::vector<uint8_t>& bytes, size_t from, size_t at) {
+  const uint32_t check = crc32(0, bytes.data() + from, at - from);
+  for (size_t i = 0; i < kCheckBytes; ++i) bytes[at + i] = static_cast<uint8_t>(check >> 8 * i);
+}
+
+// Sets magic, version, and the check of the header and of every section that is there whole.
+inline void repair(std::vector<uint8_t>& bytes) {
+  if (bytes.size() < kFixedHeaderBytes) return;
+  std::memcpy(bytes.data(), kMagic, sizeof kMagic);
+  bytes[4] = kVersion;
+  size_t at = kFixedHeaderBytes + read_u16(bytes.data() + 16);
+  size_t from = 0;
+  while (at <= bytes.size() && bytes.size() - at >= kCheckBytes) {
+    write_check(bytes, from, at);
+    from = at + kCheckBytes;
+    const uint8_t* next = bytes.data() + from;
+    uint64_t payload = 0;
+    if (!read_varint(&next, bytes.data() + bytes.size(), &payload) || payload > bytes.size())
+      return;
+    at = static_cast<size_t>(next - bytes.data()) + static_cast<size_t>(payload);
+  }
+}
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,41 @@
+# Part of ../run: what decoding costs on a Cortex-M4, at both levels of optimisation that firmware is
+# built with.
+entries="microtin_peek microtin_mesh_init microtin_decoder_init microtin_feed microtin_finish"
+prefix=arm-none-eabi
+
+# The device's build at a level, e.g. O2.
+build_device() {
+  quietly cmake --preset cortex-m4 -B "$build/$1" -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL="-$1" \
+    -DMICROTIN_BENCH=ON -DMICROTIN_BENCH_STREAM="$streams/tile.mtin"
+  quietly cmake --build "$build/$1" --target bench_device
+}
+
+# Bytes of code and constants that the decoder adds to a firmware, libgcc's part included.
+code_bytes() {
+  wanted=$(printf -- ' -Wl,-u,%s' $entries)
+  $prefix-g++ -mcpu=cortex-m4 -mthumb -nostdlib -r -Wl,--gc-sections $wanted \
+    "$build/$1/libmicrotin_decoder.a" -lgcc -o "$build/$1/decoder.o"
+  $prefix-size "$build/$1/decoder.o" | awk 'NR == 2 { print $1 }'
+}
+
+stack_bytes() {
+  $prefix-objdump -d "$build/$1/tests/bench/device/bench_device.elf" |
+    awk -v entries="$entries" -f tests/bench/device/stack.awk
+}
+
+# Vertices, and instructions to decode them.
+run_device() {
+  timeout 120 qemu-system-arm -M mps2-an386 -display none -monitor none -serial null \
+    -chardev stdio,id=console,signal=off \
+    -semihosting-config enable=on,target=native,chardev=console -icount shift=6 \
+    -kernel "$build/$1/tests/bench/device/bench_device.elf" </dev/null
+}
+
+printf '\n### Decoding a terrain tile on a Cortex-M4\n\n'
+echo "| level | text + rodata, bytes | stack, bytes | vertices | instructions per vertex |"
+echo "| --- | --- | --- | --- | --- |"
+for level in Os O2; do
+  build_device $level
+  set -- $(run_device $level)
+  echo "| -$level | $(code_bytes $level) | $(stack_bytes $level) | $1 | $(($2 / $1)) |"
+done

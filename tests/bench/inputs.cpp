@@ -1,0 +1,144 @@
+#include "tests/bench/inputs.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "encoder/error.hpp"
+#include "encoder/import.hpp"
+#include "encoder/simplify.hpp"
+#include "tests/point_sets.hpp"
+
+namespace microtin::bench {
+namespace {
+
+constexpr uint32_t kCentre = 513;  // posts
+constexpr int kNoData = -32768;
+
+const std::string kFolder = MICROTIN_DATA_DIR;
+
+// The content of a compressed file.
+std::string unzipped(const std::string& path) {
+  const auto close = [](FILE* pipe) { pclose(pipe); };
+  const std::unique_ptr<FILE, decltype(close)> pipe(popen(("gzip -dc '" + path + "'").c_str(), "r"),
+                                                    close);
+  if (!pipe) throw Error(path + ": cannot run gzip");
+  std::string content, block(65536, '\0');
+  while (const size_t size = std::fread(block.data(), 1, block.size(), pipe.get())) {
+    content.append(block, 0, size);
+  }
+  return content;
+}
+
+std::vector<Dataset> if_present(std::vector<Dataset> datasets, const char* kind) {
+  if (!kFolder.empty()) return datasets;
+  std::printf("skipped: %s (no data beside the repository)\n", kind);
+  return {};
+}
+
+LatticeOptions bounded(const char* max_error, const char* z_step) {
+  return {{}, parse_decimal(z_step), parse_decimal(max_error)};
+}
+
+LatticeOptions unbounded(const char* xy_step, const char* z_step) {
+  return {parse_decimal(xy_step), parse_decimal(z_step), {}};
+}
+
+Window centre(uint32_t width, uint32_t height) {
+  const uint32_t columns = std::min(width, kCentre), rows = std::min(height, kCentre);
+  const uint32_t west = (width - columns) / 2, south = (height - rows) / 2;
+  return {west, south, west + columns - 1, south + rows - 1};
+}
+
+}  // namespace
+
+Tin uniform_tin(uint32_t count, uint64_t seed) {
+  Random random(seed);
+  Points points;
+  while (points.size() < count) {
+    const Points more = uniform_points(count - static_cast<uint32_t>(points.size()), random);
+    points.insert(points.end(), more.begin(), more.end());
+    points = distinct(std::move(points), random);
+  }
+  Tin tin;
+  for (const Point& p : points) tin.vertices.push_back({p.x, p.y, 0});
+  return tin;
+}
+
+std::vector<Dataset> rasters() {
+  return if_present(
+      {
+          {"scottish_borders", bounded("10", "8")},
+          {"scottish_borders", bounded("30", "24")},
+          {"sthelens", bounded("10", "8")},
+          {"osnabrueck", bounded("5", "4")},
+          {"bigtujunga", bounded("20", "16")},
+          {"jacksboro", bounded("10", "8")},
+          {"riviera", bounded("10", "8")},
+          {"jd211_multibeam", bounded("0.10", "0.08")},
+          {"tidal_marsh", bounded("0.2", "0.16")},
+      },
+      "rasters");
+}
+
+std::vector<Dataset> clouds() {
+  return if_present(
+      {
+          {"delft_ground", unbounded("0.05", "0.05")},
+          {"quebec_forest_ground", unbounded("0.05", "0.05")},
+          {"delft_urban", unbounded("0.1", "0.05")},
+      },
+      "clouds");
+}
+
+Raster read_raster(const Dataset& dataset) {
+  const std::string path = kFolder + "/" + dataset.name;
+  const auto description = nlohmann::json::parse(std::ifstream(path + ".json"));
+  const std::string bytes = unzipped(path + ".hgt16.gz");
+  Raster raster;
+  raster.width = description.at("width");
+  raster.height = description.at("height");
+  raster.decimals = description.at("z_unit_m") == 1 ? 0 : 2;
+  if (bytes.size() != size_t{2} * raster.width * raster.height) throw Error(path + ": wrong size");
+  for (uint32_t row = raster.height; row-- > 0;) {  // the file begins in the north
+    for (uint32_t column = 0; column < raster.width; ++column) {
+      const size_t at = 2 * (size_t{row} * raster.width + column);
+      const auto low = static_cast<uint8_t>(bytes[at]), high = static_cast<uint8_t>(bytes[at + 1]);
+      const auto z = static_cast<int16_t>(low | high << 8);
+      raster.heights.push_back(z == kNoData ? kVoidHeight : z);
+    }
+  }
+  return crop(raster, centre(raster.width, raster.height));
+}
+
+PointCloud read_cloud(const Dataset& dataset) {
+  const std::string path = kFolder + "/" + dataset.name + ".xyz.gz";
+  return import_points(path, unzipped(path));
+}
+
+Raster crop(const Raster& raster, const Window& window) {
+  Raster part = raster;
+  part.width = window.east - window.west + 1;
+  part.height = window.north - window.south + 1;
+  part.x.offset += window.west;
+  part.y.offset += window.south;
+  part.heights.clear();
+  for (uint32_t row = window.south; row <= window.north; ++row) {
+    const auto first = raster.heights.begin() + std::ptrdiff_t{row} * raster.width + window.west;
+    part.heights.insert(part.heights.end(), first, first + part.width);
+  }
+  return part;
+}
+
+Model simplified(const Source& source, const LatticeOptions& options, uint32_t max_vertices) {
+  const Laid laid = lay_out(source, options);
+  SimplifyOptions simplify_options;
+  simplify_options.bounded = max_vertices == 0 && options.max_error;
+  simplify_options.max_vertices = max_vertices;
+  Model model{simplify(laid.survey, simplify_options), {}};
+  model.metadata.placement = laid.placement;
+  return model;
+}
+
+}  // namespace microtin::bench

@@ -1,0 +1,52 @@
+// The benchmark's program; `run` calls it.
+#include <cstdio>
+#include <exception>
+
+#include "encoder/error.hpp"
+#include "tests/bench/peers.hpp"
+#include "tests/bench/rate.hpp"
+#include "tests/bench/speed.hpp"
+
+namespace microtin::bench {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+void run(const std::string& command, const Arguments& arguments) {
+  if (command == "rate") {
+    print_missing_peers();
+    print_uniform_rate();
+    print_terrain_rate();
+    print_tile_rate();
+  } else if (command == "streams" && arguments.size() == 1) {
+    write_streams(arguments[0]);
+  } else if (command == "times") {
+    print_missing_peers();
+    print_decode_speed(arguments, nanoseconds, "nanoseconds");
+    print_encode_speed();
+  } else if (command == "instructions" && !arguments.empty()) {
+    const auto measure = [&](const std::vector<Work>& works) {
+      return instructions(works, arguments[0]);
+    };
+    print_decode_speed(Arguments(arguments.begin() + 1, arguments.end()), measure, "instructions");
+  } else {
+    throw Error(
+        "usage: microtin_bench rate | streams FOLDER | times STREAM... | instructions FILE "
+        "STREAM...");
+  }
+}
+
+}  // namespace
+}  // namespace microtin::bench
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const std::string command = arguments.empty() ? "" : arguments[0];
+  try {
+    microtin::bench::run(command,
+                         {arguments.begin() + (arguments.empty() ? 0 : 1), arguments.end()});
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "microtin_bench: %s\n", error.what());
+    return 1;
+  }
+}

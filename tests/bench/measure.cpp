@@ -1,0 +1,69 @@
+#include "tests/bench/measure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <fstream>
+
+#include "encoder/error.hpp"
+
+#ifdef MICROTIN_BENCH_VALGRIND
+#include <valgrind/callgrind.h>
+#endif
+
+namespace microtin::bench {
+namespace {
+
+constexpr size_t kRounds = 7;
+
+double seconds_of(const Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The total of a file that callgrind wrote.
+double total_in(const std::string& path) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    const std::string key = "totals: ";
+    if (line.compare(0, key.size(), key) == 0) return std::stod(line.substr(key.size()));
+  }
+  throw Error(path + ": callgrind wrote no totals");
+}
+
+}  // namespace
+
+std::vector<double> nanoseconds(const std::vector<Work>& works) {
+  std::vector<std::array<double, kRounds>> seconds(works.size());
+  for (size_t round = 0; round < kRounds; ++round) {
+    for (size_t i = 0; i < works.size(); ++i) seconds[i][round] = seconds_of(works[i]);
+  }
+  std::vector<double> medians;
+  for (auto& rounds : seconds) {
+    std::nth_element(rounds.begin(), rounds.begin() + kRounds / 2, rounds.end());
+    medians.push_back(1e9 * rounds[kRounds / 2]);
+  }
+  return medians;
+}
+
+std::vector<double> instructions(const std::vector<Work>& works, const std::string& file) {
+  std::vector<double> counts;
+#ifdef MICROTIN_BENCH_VALGRIND
+  static int dumps = 0;
+  for (const Work& work : works) {
+    CALLGRIND_START_INSTRUMENTATION;
+    CALLGRIND_ZERO_STATS;
+    work();
+    CALLGRIND_STOP_INSTRUMENTATION;
+    CALLGRIND_DUMP_STATS;
+    counts.push_back(total_in(file + "." + std::to_string(++dumps)));
+  }
+#else
+  (void)works;
+  throw Error(file + ": built without valgrind");
+#endif
+  return counts;
+}
+
+}  // namespace microtin::bench

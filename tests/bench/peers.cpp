@@ -1,0 +1,59 @@
+#include "tests/bench/peers.hpp"
+
+#include <cstdio>
+
+#include "encoder/error.hpp"
+
+namespace microtin::bench {
+
+std::vector<Codec> dense_codecs() {
+  std::vector<Codec> codecs;
+#ifdef MICROTIN_BENCH_DRACO
+  codecs.push_back(draco_points(0));
+  codecs.push_back(draco_mesh(0));
+#endif
+#ifdef MICROTIN_BENCH_LIBLZMA
+  codecs.push_back(xz_points());
+#endif
+  return codecs;
+}
+
+std::vector<Codec> fast_codecs() {
+  std::vector<Codec> codecs;
+#ifdef MICROTIN_BENCH_DRACO
+  codecs.push_back(draco_points(0));
+  codecs.push_back(draco_mesh(5));
+#endif
+  return codecs;
+}
+
+std::optional<Triangulator> triangulator() {
+#ifdef MICROTIN_BENCH_CGAL
+  return cgal();
+#else
+  return std::nullopt;
+#endif
+}
+
+void print_missing_peers() {
+#ifndef MICROTIN_BENCH_DRACO
+  std::puts("skipped: Draco (libdraco-dev is not installed)");
+#endif
+#ifndef MICROTIN_BENCH_LIBLZMA
+  std::puts("skipped: xz (liblzma-dev is not installed)");
+#endif
+#ifndef MICROTIN_BENCH_CGAL
+  std::puts("skipped: CGAL (libcgal-dev is not installed)");
+#endif
+}
+
+Bytes checked_encode(const Codec& codec, const Surface& surface) {
+  const Bytes bytes = codec.encode(surface);
+  const Surface decoded = codec.decode(bytes);
+  const bool same =
+      codec.sends_triangles ? same_triangles(surface, decoded) : same_vertices(surface, decoded);
+  if (!same) throw Error(codec.name + " does not decode to what it was given");
+  return bytes;
+}
+
+}  // namespace microtin::bench

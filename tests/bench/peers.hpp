@@ -1,0 +1,49 @@
+// The programs that ours is compared with. Each is there only if its package was when this was
+// built.
+#ifndef MICROTIN_BENCH_PEERS_HPP
+#define MICROTIN_BENCH_PEERS_HPP
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "tests/bench/surface.hpp"
+
+namespace microtin::bench {
+
+struct Codec {
+  std::string name;
+  bool sends_triangles;
+  std::function<Bytes(const Surface&)> encode;
+  std::function<Surface(const Bytes&)> decode;
+};
+
+struct Triangulator {
+  std::string name;
+  std::function<size_t(const std::vector<Vertex>&)> count_triangles;
+};
+
+// Those that are there, at the level with the smallest files.
+std::vector<Codec> dense_codecs();
+
+// Those worth timing: points at the level with the smallest files, meshes at the default level.
+std::vector<Codec> fast_codecs();
+
+std::optional<Triangulator> triangulator();
+
+// Names the missing packages.
+void print_missing_peers();
+
+// Encodes, and throws Error unless that decodes to the surface.
+Bytes checked_encode(const Codec& codec, const Surface& surface);
+
+// The peers themselves. Draco's speed is 0 for the smallest files and 5 by default.
+Codec draco_points(int speed);
+Codec draco_mesh(int speed);
+Codec xz_points();
+Triangulator cgal();
+
+}  // namespace microtin::bench
+
+#endif

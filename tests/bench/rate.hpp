@@ -1,0 +1,13 @@
+// The tables of file sizes; each prints one.
+#ifndef MICROTIN_BENCH_RATE_HPP
+#define MICROTIN_BENCH_RATE_HPP
+
+namespace microtin::bench {
+
+void print_uniform_rate();
+void print_terrain_rate();
+void print_tile_rate();
+
+}  // namespace microtin::bench
+
+#endif

@@ -1,0 +1,26 @@
+// The tables of costs; each prints one.
+#ifndef MICROTIN_BENCH_SPEED_HPP
+#define MICROTIN_BENCH_SPEED_HPP
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/bench/measure.hpp"
+
+namespace microtin::bench {
+
+using Measure = std::function<std::vector<double>(const std::vector<Work>&)>;
+
+// Costs per vertex of decoding each stream file, in `unit`.
+void print_decode_speed(const std::vector<std::string>& paths, const Measure& measure,
+                        const std::string& unit);
+
+void print_encode_speed();
+
+// Writes the streams that are measured into a folder.
+void write_streams(const std::string& folder);
+
+}  // namespace microtin::bench
+
+#endif

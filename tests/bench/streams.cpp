@@ -1,0 +1,46 @@
+#include <fstream>
+
+#include "encoder/encode.hpp"
+#include "encoder/error.hpp"
+#include "tests/bench/inputs.hpp"
+#include "tests/bench/speed.hpp"
+#include "tests/bench/surface.hpp"
+
+namespace microtin::bench {
+namespace {
+
+void write(const std::string& path, const Model& model) {
+  const Bytes stream = encode(model.tin, model.metadata);
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(stream.data()),
+             static_cast<std::streamsize>(stream.size()));
+  if (!file.flush()) throw Error(path + ": cannot be written");
+}
+
+std::string name_of(const Dataset& dataset) {
+  const auto& bound = dataset.options.max_error;
+  return std::string(dataset.name) + (bound ? "_" + to_string(*bound) : "");
+}
+
+}  // namespace
+
+void write_streams(const std::string& folder) {
+  const auto path = [&](const std::string& name) { return folder + "/" + name + ".mtin"; };
+  write(path("1_uniform_10k"), {uniform_tin(10000, 0), {}});
+  write(path("2_uniform_80k"), {uniform_tin(80000, 0), {}});
+  write(path("3_uniform_1M"), {uniform_tin(1000000, 0), {}});
+  const std::vector<Dataset> grids = rasters();
+  for (const Dataset& dataset : grids) {
+    write(path(name_of(dataset)), simplified(read_raster(dataset), dataset.options));
+  }
+  for (const Dataset& dataset : clouds()) {
+    write(path(name_of(dataset)), simplified(read_cloud(dataset), dataset.options));
+  }
+  constexpr uint32_t kTileVertices = 2000;
+  if (!grids.empty()) {
+    const Dataset& first = grids.front();
+    write(path("tile"), simplified(read_raster(first), first.options, kTileVertices));
+  }
+}
+
+}  // namespace microtin::bench

@@ -1,0 +1,63 @@
+#include "encoder/encode.hpp"
+#include "tests/bench/inputs.hpp"
+#include "tests/bench/peers.hpp"
+#include "tests/bench/rate.hpp"
+#include "tests/bench/table.hpp"
+
+namespace microtin::bench {
+namespace {
+
+struct Size {
+  uint32_t vertices;
+  uint64_t samples;   // sets over which the rates are averaged
+  const char* paper;  // bits per vertex, from Sohler's Table 2
+};
+
+constexpr Size kSizes[] = {{5000, 8, "27.49"},  {10000, 4, "26.50"}, {20000, 4, "25.45"},
+                           {40000, 2, "24.39"}, {80000, 2, "23.42"}, {1000000, 1, "-"}};
+constexpr uint32_t kDegrees[] = {8, 6, 12, 32};
+
+std::vector<Codec> point_codecs() {
+  std::vector<Codec> codecs;
+  for (Codec& codec : dense_codecs()) {
+    if (!codec.sends_triangles) codecs.push_back(std::move(codec));
+  }
+  return codecs;
+}
+
+void print_size(const Size& size, const std::vector<Codec>& peers) {
+  std::vector<double> bits(std::size(kDegrees) + peers.size());
+  for (uint64_t seed = 0; seed < size.samples; ++seed) {
+    const Tin tin = uniform_tin(size.vertices, seed);
+    const Surface surface{false, tin.vertices, {}};
+    const double scale = 8.0 / static_cast<double>(size.vertices * size.samples);
+    auto sum = bits.begin();
+    for (const uint32_t degree : kDegrees) {
+      *sum++ += scale * static_cast<double>(encode(tin, {}, degree).size());
+    }
+    for (const Codec& peer : peers) {
+      *sum++ += scale * static_cast<double>(checked_encode(peer, surface).size());
+    }
+  }
+  const double floor = floor_bits(65536.0 * 65536.0, size.vertices);
+  Row row{number(size_t{size.vertices}), number(floor, 2)};
+  for (size_t i = 0; i < bits.size(); ++i) {
+    row.push_back(number(bits[i], 2));
+    if (i == 0) row.push_back(number(bits[i] / floor, 3));
+  }
+  row.push_back(size.paper);
+  print_row(row);
+}
+
+}  // namespace
+
+void print_uniform_rate() {
+  const std::vector<Codec> peers = point_codecs();
+  Row head{"n", "floor", "microtin D 8", "/ floor", "D 6", "D 12", "D 32"};
+  for (const Codec& peer : peers) head.push_back(peer.name);
+  head.push_back("1999 paper (quoted)");
+  print_head("Uniform 16-bit points, x and y only, whole file, bits/vertex", head);
+  for (const Size& size : kSizes) print_size(size, peers);
+}
+
+}  // namespace microtin::bench
