@@ -7,7 +7,12 @@
 #include <string>
 #include <string_view>
 
+#include "encoder/wide.hpp"
+
 namespace microtin {
+
+// Decimals kept of a terrain's numbers and of options; more are rounded.
+constexpr int kMaxDecimals = 9;
 
 // mantissa * 10^-decimals, decimals in 0..18, no trailing zero among the decimals.
 struct Decimal {
@@ -15,10 +20,23 @@ struct Decimal {
   int decimals = 0;
 };
 
-// Reads "12", "-0.25", "+7.30e-1", ".5", "5."; nothing else may precede or follow. More than
-// `max_decimals` decimals are rounded to nearest (ties away from zero). Nothing if the text is not a
-// finite number or does not fit.
-std::optional<Decimal> parse_decimal(std::string_view text, int max_decimals = 9);
+bool operator==(Decimal a, Decimal b);
+bool operator<=(Decimal a, Decimal b);
+
+// 10^exponent, exponent in 0..18.
+int64_t power_of_ten(int exponent);
+
+// mantissa * 10^-decimals without trailing zeros; decimals that do not fit are cut off, and what
+// then is still too large is the largest possible.
+Decimal make_decimal(Wide mantissa, int decimals);
+
+// The mantissa that `value` has with `decimals` >= value.decimals decimals.
+Wide mantissa_at(Decimal value, int decimals);
+
+// Reads "12", "-0.25", "+7.30e-1", ".5", "5."; nothing else may precede or follow. Decimals beyond
+// `max_decimals`, or beyond 18 digits in all, are rounded to nearest (ties away from zero). Nothing
+// if the text is not a finite number or its magnitude is not below 10^18.
+std::optional<Decimal> parse_decimal(std::string_view text, int max_decimals = kMaxDecimals);
 
 // "-0.25": shortest form that reads back equal.
 std::string to_string(Decimal value);

@@ -6,7 +6,8 @@
 
 namespace microtin {
 
-// What went wrong, where (file, and line of the input if there is one): printed as it is, on one line.
+// What went wrong, where (file, and line of the input if there is one): printed as it is, on one
+// line.
 struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

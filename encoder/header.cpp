@@ -182,6 +182,16 @@ Header read_header(const Bytes& stream) {
   return header;
 }
 
+Bytes with_metadata(const Bytes& stream, const Metadata& metadata) {
+  const Header old = read_header(stream);
+  Contract contract;
+  uint32_t block_bytes = 0;
+  read_contract(stream.data(), &contract, &block_bytes);
+  Bytes changed = write_header(contract, metadata);
+  changed.insert(changed.end(), stream.begin() + old.info.header_bytes, stream.end());
+  return changed;
+}
+
 const char* describe(microtin_status status) {
   switch (status) {
     case MICROTIN_DONE:

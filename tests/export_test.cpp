@@ -119,7 +119,7 @@ TEST_CASE("output appears on commit only, and never in part") {
   CHECK(std::filesystem::file_size(folder / "kept") == 5);
 }
 
-TEST_CASE("what was there before stays until commit; links lead to their file") {
+TEST_CASE("what was there before stays until commit, links lead to their file") {
   const TemporaryFolder folder;
   std::ofstream(folder / "target") << "old";
   std::filesystem::create_symlink("target", folder / "link");

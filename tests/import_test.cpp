@@ -83,7 +83,7 @@ TEST_CASE("asc: centre, any case, any order, any line breaks, exponents, voids")
   CHECK(raster.y.offset == 51600);
 }
 
-TEST_CASE("asc: dx and dy; a step beyond 40 bits is met within its digits") {
+TEST_CASE("asc: dx and dy, a step beyond 40 bits is met within its digits") {
   const Raster raster =
       import_asc("grid", "ncols 1 nrows 1 xllcenter 0 yllcenter 0 dx 2.5 dy 4.988744589123 7");
   CHECK(raster.x.numerator == 5);

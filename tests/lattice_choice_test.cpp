@@ -45,7 +45,7 @@ TEST_CASE("integers that fit 16 bits keep their values") {
   CHECK(text_of(lattice.placement.z) == "0+1k/1");
 }
 
-TEST_CASE("decimals keep their step; an offset takes what 16 bits do not hold") {
+TEST_CASE("decimals keep their step, an offset takes what 16 bits do not hold") {
   const Lattice lattice = choose("84917.404 447423.234 0.101\n84950.080 447422.982 0.086");
   CHECK(text_of(lattice.placement.x) == "84917404+1k/1000");
   CHECK(text_of(lattice.placement.y) == "447422982+1k/1000");

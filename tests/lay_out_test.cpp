@@ -66,7 +66,7 @@ TEST_CASE("a bound beyond the lattice's heights is none") {
   CHECK(laid.survey.samples[2].lowest == std::numeric_limits<int32_t>::min());
 }
 
-TEST_CASE("points go to the nearest place, halves up; what shares one merges") {
+TEST_CASE("points go to the nearest place, halves up, what shares one merges") {
   const Laid laid = lay("0 0 10\n9 1 20\n10 0 4\n11 0 8\n20 9 1", options("10", "1", ""));
   REQUIRE(laid.survey.samples.size() == 3);
   CHECK(laid.merged == 2);

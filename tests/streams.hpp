@@ -3,25 +3,20 @@
 #define MICROTIN_TESTS_STREAMS_HPP
 
 #include <cmath>
-#include <random>
-#include <set>
 
 #include "encoder/encode.hpp"
+#include "tests/point_sets.hpp"
 
 namespace microtin {
 
-// `n` vertices at random distinct places of a 1000 x 800 lattice, with rolling heights.
+// About `n` vertices at random places of a 1000 x 1000 lattice, with rolling heights.
 inline Tin rolling_tin(uint32_t n, uint32_t seed) {
-  std::mt19937 random(seed);
-  std::set<Point> places;
-  while (places.size() < n) {
-    places.insert(
-        Point{static_cast<uint16_t>(random() % 1000), static_cast<uint16_t>(random() % 800)});
-  }
+  Random random(seed);
   Tin tin;
-  for (const Point& p : places) {
-    const double height = 300 * std::sin(p.x / 90.0) * std::cos(p.y / 70.0) + random() % 9;
-    tin.vertices.push_back(Vertex{p.x, p.y, static_cast<int16_t>(height)});
+  for (const Point p : uniform_points(n, random, 1000)) {
+    const double height = 300 * std::sin(p.x / 90.0) * std::cos(p.y / 70.0);
+    tin.vertices.push_back(
+        Vertex{p.x, p.y, static_cast<int16_t>(std::lround(height) + random.below(9))});
   }
   return tin;
 }

@@ -27,7 +27,7 @@ TEST_CASE("a single post gets the mean of its neighbours") {
   CHECK(raster.heights[4] == 25);
 }
 
-TEST_CASE("regions larger than allowed stay; corners do not connect") {
+TEST_CASE("regions larger than allowed stay, corners do not connect") {
   Raster raster = raster_of(4, {1, kV, kV, 1,  //
                                 kV, 1, 1, 1,   //
                                 1, 1, 1, 1});

@@ -1,0 +1,53 @@
+// The commands of the microtin program, once their options are read. All throw Error.
+#ifndef MICROTIN_ENCODER_CLI_COMMANDS_HPP
+#define MICROTIN_ENCODER_CLI_COMMANDS_HPP
+
+#include <cstdint>
+#include <string>
+
+#include "encoder/encode.hpp"
+#include "encoder/lattice_choice.hpp"
+
+namespace microtin {
+
+struct EncodeRequest {
+  std::string input;
+  std::string output;
+  LatticeOptions lattice;
+  uint32_t max_vertices = 0;  // 0: as many as it takes
+  uint32_t degree = kDefaultDegree;
+  uint32_t fill_voids = 0;
+  uint32_t horizontal_epsg = 0;  // 0: what the input's format implies
+  uint32_t vertical_epsg = 0;
+  std::string source_text;
+};
+
+void run_encode(const EncodeRequest& request);
+
+struct DecodeRequest {
+  std::string input;
+  std::string output;
+  bool lattice = false;  // integers instead of real coordinates
+};
+
+void run_decode(const DecodeRequest& request);
+
+void run_info(const std::string& input, bool json);
+
+struct VerifyRequest {
+  std::string input;
+  std::string source;
+  uint32_t fill_voids = 0;  // as the stream was encoded
+  bool json = false;
+};
+
+// Throws Error, after the report, if the stream fails its promises.
+void run_verify(const VerifyRequest& request);
+
+void run_fractal(const std::string& output, uint32_t size, uint64_t seed);
+
+void run_render(const std::string& input, const std::string& output, uint32_t width);
+
+}  // namespace microtin
+
+#endif

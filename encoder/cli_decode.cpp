@@ -1,0 +1,18 @@
+#include "encoder/cli_commands.hpp"
+#include "encoder/cli_report.hpp"
+#include "encoder/error_context.hpp"
+#include "encoder/export.hpp"
+
+namespace microtin {
+
+void run_decode(const DecodeRequest& request) {
+  const MeshFormat format = mesh_format_of(request.output);
+  const std::vector<uint8_t> stream = read_stream(request.input);
+  const DecodedTerrain terrain = about(request.input, [&] { return DecodedTerrain(stream); });
+  OutputFile out(request.output);
+  export_mesh(terrain.mesh(), format, request.lattice ? Coordinates::kLattice : Coordinates::kReal,
+              out);
+  out.commit();
+}
+
+}  // namespace microtin

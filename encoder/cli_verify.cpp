@@ -1,0 +1,34 @@
+#include "encoder/cli_commands.hpp"
+#include "encoder/cli_report.hpp"
+#include "encoder/error_context.hpp"
+#include "encoder/import.hpp"
+#include "encoder/verify.hpp"
+#include "encoder/voids.hpp"
+
+namespace microtin {
+
+void run_verify(const VerifyRequest& request) {
+  const std::string& input = request.input;
+  const std::vector<uint8_t> stream = read_stream(input);
+  Source source = import_terrain(request.source);
+  fill_voids(source, request.fill_voids);
+  const DecodedTerrain terrain = about(input, [&] { return DecodedTerrain(stream); });
+  const std::optional<Accuracy> accuracy = read_header(stream).metadata.accuracy;
+  const std::optional<Decimal> bound = accuracy ? accuracy->bound : std::nullopt;
+  const Verification found = verify(terrain.mesh(), source, bound);
+  Report report;
+  report["posts"] = found.posts;
+  report["covered"] = found.covered;
+  report["uncovered"] = found.uncovered;
+  report["voids"] = found.voids;
+  report["voids_answered"] = found.voids_answered;
+  report["bound"] = bound ? Report(number(*bound)) : Report();
+  report["max_error"] = number(found.max_error);
+  report["rms_error"] = number(found.rms_error);
+  print(report, request.json);
+  if (!found.within_bound) throw Error(input + ": the largest error is above the bound");
+  if (found.uncovered != 0) throw Error(input + ": heights of the source are not covered");
+  if (found.voids_answered != 0) throw Error(input + ": voids of the source answer heights");
+}
+
+}  // namespace microtin

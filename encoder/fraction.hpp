@@ -1,0 +1,36 @@
+// Fractions behind rounded decimals, and axes made of them.
+#ifndef MICROTIN_ENCODER_FRACTION_HPP
+#define MICROTIN_ENCODER_FRACTION_HPP
+
+#include "encoder/decimal.hpp"
+#include "encoder/metadata.hpp"
+
+namespace microtin {
+
+constexpr int64_t kAxisLimit = int64_t{1} << 40;  // numerators and denominators of axes lie below
+
+// Numerator and denominator without a common divisor, denominator > 0.
+struct Fraction {
+  Wide numerator;
+  Wide denominator;
+};
+
+Fraction reduced(Wide numerator, Wide denominator);
+
+// The fraction with the smallest denominator that rounds to the decimals written, at most 12.
+Fraction simplest_fraction(Decimal written);
+
+// What a number stands for: 0.000833333333 means 1/1200. That is the simplest fraction if it is so
+// simple that this is no accident; else the decimal itself.
+Fraction meaning_of(Decimal written);
+
+// The axis first + step * k. The step is exact; where the denominators of both do not go together
+// in 40 bits, the first is rounded to the finest that does. Throws Error if the step does not fit.
+Axis make_axis(Fraction first, Fraction step);
+
+// (offset + numerator * k) / denominator in lowest terms. Throws Error if it does not fit an axis.
+Axis reduced_axis(Wide offset, Wide numerator, Wide denominator);
+
+}  // namespace microtin
+
+#endif

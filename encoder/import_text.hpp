@@ -1,0 +1,46 @@
+// What the readers of text formats share.
+#ifndef MICROTIN_ENCODER_IMPORT_TEXT_HPP
+#define MICROTIN_ENCODER_IMPORT_TEXT_HPP
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "encoder/source.hpp"
+
+namespace microtin {
+
+// Throws Error("name:line: what").
+[[noreturn]] void fail_at(const std::string& name, size_t line, const std::string& what);
+
+// A piece of the input for a message: in quotes, printable, short.
+std::string quoted(std::string_view piece);
+
+std::string lower_case(std::string text);
+
+inline bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+// Numbers brought to the decimals that the most precise of them needs.
+class DecimalColumn {
+ public:
+  // False if the numbers do not all go into magnitudes up to 10^18 with the decimals needed.
+  bool add(Decimal value);
+  void add_void() { mantissas_.push_back(kVoidHeight); }
+  void reserve(size_t count) { mantissas_.reserve(count); }
+
+  int decimals() const { return decimals_; }
+  std::vector<int64_t>& mantissas() { return mantissas_; }
+
+ private:
+  bool refine(int decimals);
+
+  std::vector<int64_t> mantissas_;
+  Wide largest_ = 0;
+  int decimals_ = 0;
+};
+
+}  // namespace microtin
+
+#endif

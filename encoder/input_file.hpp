@@ -1,0 +1,14 @@
+// Whole files as input.
+#ifndef MICROTIN_ENCODER_INPUT_FILE_HPP
+#define MICROTIN_ENCODER_INPUT_FILE_HPP
+
+#include <string>
+
+namespace microtin {
+
+// The bytes of a file, or of standard input for "-". Throws Error naming the file.
+std::string read_file(const std::string& path);
+
+}  // namespace microtin
+
+#endif

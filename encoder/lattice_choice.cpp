@@ -1,0 +1,135 @@
+#include "encoder/lattice_choice.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "encoder/error.hpp"
+#include "encoder/fraction.hpp"
+#include "shared/lattice.hpp"
+
+namespace microtin {
+namespace {
+
+// The numbers of a source along one axis.
+struct Range {
+  int64_t low = std::numeric_limits<int64_t>::max();
+  int64_t high = std::numeric_limits<int64_t>::min();
+  int64_t spacing = 0;  // the greatest that divides all differences
+
+  bool empty() const { return low > high; }
+
+  void add(int64_t number) {
+    if (!empty()) spacing = std::gcd(spacing, number - low);
+    low = std::min(low, number);
+    high = std::max(high, number);
+  }
+};
+
+// Axes that share their step.
+struct AxisGroup {
+  std::vector<Range> ranges;
+  int decimals;         // of the numbers
+  int needed_decimals;  // of the refined numbers, at least
+  int lattice_low, lattice_high;
+  const char* option;  // that sets the step
+};
+
+struct GroupFit {
+  std::vector<LatticeMap> maps;  // one for each range; none if one does not fit
+  int decimals = 0;
+};
+
+// The map of one axis, if the range is not too wide.
+std::optional<LatticeMap> fit(const Range& range, Wide scale, Wide step, int lattice_low,
+                              int lattice_high) {
+  const Wide low = scale * range.low;
+  const bool same_rest = scale * range.spacing % step == 0;
+  const Wide rest = same_rest ? low - floor_divide(low, step) * step : 0;
+  const Wide first = floor_divide(low - rest, step) * step + rest;
+  for (const Wide shift : {-rest, -first, lattice_low * step - first}) {
+    const LatticeMap map{scale, shift, step};
+    if (map.numerator(range.low) >= lattice_low * step && map.nearest(range.high) <= lattice_high) {
+      return map;
+    }
+  }
+  return std::nullopt;
+}
+
+GroupFit fit_all(const AxisGroup& group, Decimal step) {
+  GroupFit fits;
+  fits.decimals = std::max({group.decimals, group.needed_decimals, step.decimals});
+  const Wide scale = power_of_ten(fits.decimals - group.decimals);
+  for (const Range& range : group.ranges) {
+    const auto map =
+        fit(range, scale, mantissa_at(step, fits.decimals), group.lattice_low, group.lattice_high);
+    if (!map) return {};
+    fits.maps.push_back(*map);
+  }
+  return fits;
+}
+
+GroupFit fit_explicit(const AxisGroup& group, Decimal step) {
+  constexpr int64_t kLargest = 1000000000;  // keeps products with an axis in 128 bits
+  const std::string name = std::string(group.option) + " " + to_string(step);
+  if (step.mantissa <= 0 || !(step <= Decimal{kLargest, 0})) throw Error(name + " is out of range");
+  GroupFit fits = fit_all(group, step);
+  if (fits.maps.empty()) {
+    throw Error(name + " is too fine: 16 bits do not hold the source's range in such steps");
+  }
+  return fits;
+}
+
+GroupFit fit_finest(const AxisGroup& group) {
+  for (int64_t power = 1;; power *= 10) {
+    for (const int64_t digit : {1, 2, 5}) {
+      GroupFit fits = fit_all(group, make_decimal(digit * power, group.decimals));
+      if (!fits.maps.empty()) return fits;
+    }
+  }
+}
+
+GroupFit choose(const AxisGroup& group, const std::optional<Decimal>& step) {
+  return step ? fit_explicit(group, *step) : fit_finest(group);
+}
+
+// The real coordinates of a map's lattice, given those of the source's numbers, which are
+// (step * k - shift) / scale.
+Axis lattice_axis(const Axis& source, const LatticeMap& map) {
+  const Wide numerator = static_cast<Wide>(source.numerator);
+  return reduced_axis(source.offset * map.scale - numerator * map.shift, numerator * map.step,
+                      static_cast<Wide>(source.denominator) * map.scale);
+}
+
+}  // namespace
+
+Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
+  Range x, y, z;
+  for_each_post(source, [&](int64_t px, int64_t py, int64_t pz) {
+    x.add(px);
+    y.add(py);
+    if (pz != kVoidHeight) z.add(pz);
+  });
+  if (z.empty()) throw Error("there is no height");
+  const auto* raster = std::get_if<Raster>(&source);
+  if (raster != nullptr && !options.xy_step && std::max(x.high, y.high) > kLatticeMax) {
+    throw Error("a raster of more than 65536 posts in a row needs an --xy-step above 1");
+  }
+  const auto* cloud = std::get_if<PointCloud>(&source);
+  const AxisGroup places{{x, y},     cloud != nullptr ? cloud->xy_decimals : 0, 0, 0, kLatticeMax,
+                         "--xy-step"};
+  const AxisGroup heights{{z},
+                          cloud != nullptr ? cloud->z_decimals : raster->decimals,
+                          options.max_error ? options.max_error->decimals : 0,
+                          INT16_MIN,
+                          INT16_MAX,
+                          "--z-step"};
+  const GroupFit xy = choose(places, options.xy_step);
+  const GroupFit up = choose(heights, options.z_step);
+  const Placement numbers = placement_of(source);
+  const Placement placement{lattice_axis(numbers.x, xy.maps[0]),
+                            lattice_axis(numbers.y, xy.maps[1]),
+                            lattice_axis(numbers.z, up.maps[0])};
+  return {xy.maps[0], xy.maps[1], up.maps[0], xy.decimals, up.decimals, placement};
+}
+
+}  // namespace microtin

@@ -1,0 +1,34 @@
+// Choosing the lattice for a source: steps and offsets.
+#ifndef MICROTIN_ENCODER_LATTICE_CHOICE_HPP
+#define MICROTIN_ENCODER_LATTICE_CHOICE_HPP
+
+#include <optional>
+
+#include "encoder/lattice_map.hpp"
+#include "encoder/source.hpp"
+
+namespace microtin {
+
+struct LatticeOptions {
+  std::optional<Decimal> xy_step;    // in the source's unit; posts for rasters
+  std::optional<Decimal> z_step;     // in the source's unit
+  std::optional<Decimal> max_error;  // bound of the surface's distance from every height
+};
+
+// The maps take the source's numbers, refined to multiples of 10^-decimals, to the lattice.
+struct Lattice {
+  LatticeMap x, y, z;
+  int xy_decimals, z_decimals;  // z_decimals are enough for max_error, too
+  Placement placement;
+};
+
+// Without an option, a step is the source's own decimal step, or one post, if 16 bits hold the
+// range then; else the finest of 2, 5, 10, 20, ... of these steps for which they do. The lattice
+// holds the multiples of the step or, if all numbers lie off these by the same rest, those numbers;
+// its integers are the multiples themselves (offset below one step) where they fit. Throws Error if
+// an explicit step does not fit.
+Lattice choose_lattice(const Source& source, const LatticeOptions& options);
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,184 @@
+// The command line: what it accepts, and how it fails.
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdio>
+#include <functional>
+
+#include "encoder/cli_commands.hpp"
+#include "encoder/error.hpp"
+#include "shared/format.hpp"
+
+namespace microtin {
+namespace {
+
+constexpr int kFailed = 1, kUsage = 2;
+
+void add_output(CLI::App& command, std::string& path) {
+  command.add_option("-o,--output", path, "File to write; - is standard output")->required();
+}
+
+CLI::Option* add_decimal(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
+                         const std::string& description) {
+  return command.add_option_function<std::string>(
+      name,
+      [&value, name](const std::string& text) {
+        value = parse_decimal(text);
+        if (!value || value->mantissa < 0) {
+          throw CLI::ValidationError(name, text + " is not a decimal number from 0 on");
+        }
+      },
+      description);
+}
+
+bool parse_code(const std::string& text, uint32_t& code) {
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, code);
+  return error == std::errc() && next == end && code != 0;
+}
+
+void set_epsg(const std::string& text, EncodeRequest& request) {
+  const size_t colon = text.find(':');
+  const bool horizontal = parse_code(text.substr(0, colon), request.horizontal_epsg);
+  const bool vertical =
+      colon == std::string::npos || parse_code(text.substr(colon + 1), request.vertical_epsg);
+  if (!horizontal || !vertical) {
+    throw CLI::ValidationError("--epsg", text + " is not a code, nor two with a colon between");
+  }
+}
+
+using Action = std::function<void()>;
+
+void add_encode(CLI::App& app, Action& action) {
+  auto request = std::make_shared<EncodeRequest>();
+  CLI::App& command = *app.add_subcommand("encode", "Turn a terrain into a stream");
+  command.add_option("terrain", request->input, ".hgt, .asc, .xyz, .csv, .txt; - reads points")
+      ->required();
+  add_output(command, request->output);
+  CLI::Option* const bound =
+      add_decimal(command, "--max-error", request->lattice.max_error,
+                  "Keep every height within this distance, in the terrain's unit");
+  command.add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
+      ->check(CLI::Range(3u, kMaxVertices))
+      ->excludes(bound);
+  add_decimal(command, "--z-step", request->lattice.z_step, "Step of heights");
+  add_decimal(command, "--xy-step", request->lattice.xy_step, "Step of places (rasters: in posts)");
+  command
+      .add_option("--degree", request->degree, "Most triangles around a vertex when it is added")
+      ->check(CLI::Range(kMinDegree, kMaxDegree))
+      ->capture_default_str();
+  command.add_option("--fill-voids", request->fill_voids,
+                     "Interpolate voids of up to so many posts");
+  command.add_option_function<std::string>(
+      "--epsg", [request](const std::string& text) { set_epsg(text, *request); },
+      "Codes of the coordinates: horizontal, or horizontal:vertical");
+  command.add_option("--source-text", request->source_text, "Where the terrain comes from");
+  command.callback([request, &action] { action = [request] { run_encode(*request); }; });
+}
+
+void add_decode(CLI::App& app, Action& action) {
+  auto request = std::make_shared<DecodeRequest>();
+  CLI::App& command = *app.add_subcommand("decode", "Turn a stream into .xyz, .obj or .ply");
+  command.add_option("stream", request->input)->required();
+  add_output(command, request->output);
+  command.add_flag("--lattice", request->lattice, "Write the lattice's integers");
+  command.callback([request, &action] { action = [request] { run_decode(*request); }; });
+}
+
+void add_info(CLI::App& app, Action& action) {
+  struct Request {
+    std::string input;
+    bool json = false;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand("info", "Tell what a stream holds");
+  command.add_option("stream", request->input)->required();
+  command.add_flag("--json", request->json);
+  command.callback(
+      [request, &action] { action = [request] { run_info(request->input, request->json); }; });
+}
+
+void add_verify(CLI::App& app, Action& action) {
+  auto request = std::make_shared<VerifyRequest>();
+  CLI::App& command = *app.add_subcommand("verify", "Compare a stream with its terrain");
+  command.add_option("stream", request->input)->required();
+  command.add_option("terrain", request->source)->required();
+  command.add_option("--fill-voids", request->fill_voids,
+                     "Interpolate voids as for encoding before the comparison");
+  command.add_flag("--json", request->json);
+  command.callback([request, &action] { action = [request] { run_verify(*request); }; });
+}
+
+void add_fractal(CLI::App& app, Action& action) {
+  struct Request {
+    std::string output;
+    uint32_t size = 513;
+    uint64_t seed = 1;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand("fractal", "Make a terrain (.asc)");
+  add_output(command, request->output);
+  command.add_option("--size", request->size, "Posts in a row")
+      ->check(CLI::Range(2u, 16384u))
+      ->capture_default_str();
+  command.add_option("--seed", request->seed)->capture_default_str();
+  command.callback([request, &action] {
+    action = [request] { run_fractal(request->output, request->size, request->seed); };
+  });
+}
+
+void add_render(CLI::App& app, Action& action) {
+  struct Request {
+    std::string input, output;
+    uint32_t width = 1024;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand("render", "Draw a stream (.png)");
+  command.add_option("stream", request->input)->required();
+  add_output(command, request->output);
+  command.add_option("--width", request->width, "Pixels in a row")
+      ->check(CLI::Range(16u, 16384u))
+      ->capture_default_str();
+  command.callback([request, &action] {
+    action = [request] { run_render(request->input, request->output, request->width); };
+  });
+}
+
+// Prints one line, whatever the text.
+int fail(std::string text, int code) {
+  text = text.substr(0, text.find('\n'));
+  std::fprintf(stderr, "microtin: %s\n", text.c_str());
+  return code;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Terrain TINs for microcontrollers");
+  Action action;
+  app.require_subcommand(1);
+  add_encode(app, action);
+  add_decode(app, action);
+  add_info(app, action);
+  add_verify(app, action);
+  add_fractal(app, action);
+  add_render(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // asked for help
+    return fail(error.what(), kUsage);
+  }
+  action();
+  return 0;
+}
+
+}  // namespace
+}  // namespace microtin
+
+int main(int argc, char** argv) {
+  try {
+    return microtin::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return microtin::fail("not enough memory", microtin::kFailed);
+  } catch (const std::exception& error) {
+    return microtin::fail(error.what(), microtin::kFailed);
+  }
+}

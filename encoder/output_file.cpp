@@ -1,0 +1,56 @@
+#include "encoder/output_file.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+#include "encoder/error.hpp"
+
+namespace microtin {
+namespace fs = std::filesystem;
+
+OutputFile::OutputFile(const std::string& path) : path_(path), target_(path) {
+  if (path == "-") {
+    file_ = stdout;
+    return;
+  }
+  std::error_code ignored;  // a target that cannot be examined is one that cannot be opened
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) throw Error(path + ": is a directory");
+  const bool special = fs::exists(status) && !fs::is_regular_file(status);
+  if (fs::is_regular_file(status)) target_ = fs::canonical(path, ignored).string();
+  if (!special) temporary_ = target_ + ".part-" + std::to_string(getpid());
+  file_ = std::fopen(special ? path.c_str() : temporary_.c_str(), special ? "wb" : "wbx");
+  if (file_ == nullptr) {
+    temporary_.clear();
+    fail();
+  }
+}
+
+OutputFile::~OutputFile() {
+  if (file_ != nullptr && file_ != stdout) std::fclose(file_);
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail();
+}
+
+void OutputFile::commit() {
+  if (std::fflush(file_) != 0) fail();
+  if (file_ == stdout) return;
+  std::FILE* file = file_;
+  file_ = nullptr;
+  if (std::fclose(file) != 0) fail();
+  if (temporary_.empty()) return;
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
+  temporary_.clear();
+}
+
+void OutputFile::fail() const {
+  throw Error(path_ + ": cannot be written: " + std::generic_category().message(errno));
+}
+
+}  // namespace microtin

@@ -1,0 +1,35 @@
+// Output that appears complete or not at all.
+#ifndef MICROTIN_ENCODER_OUTPUT_FILE_HPP
+#define MICROTIN_ENCODER_OUTPUT_FILE_HPP
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace microtin {
+
+// Writes to a temporary beside the target, which takes the target's place on commit() and
+// disappears without it. "-" is standard output; devices and pipes are written directly. All throw
+// Error naming the target.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::string& path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void write(std::string_view bytes);
+  void commit();
+
+ private:
+  [[noreturn]] void fail() const;
+
+  std::string path_;       // as the user calls it
+  std::string target_;     // behind links
+  std::string temporary_;  // empty: written directly
+  std::FILE* file_ = nullptr;
+};
+
+}  // namespace microtin
+
+#endif

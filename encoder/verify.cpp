@@ -1,0 +1,131 @@
+#include "encoder/verify.hpp"
+
+#include <algorithm>
+
+#include "encoder/lattice_map.hpp"
+#include "shared/lattice.hpp"
+
+namespace microtin {
+namespace {
+
+constexpr int64_t kBillion = 1000000000;
+
+// Larger errors (a million units, in billionths) count as this in the mean, so that 2^26 squares
+// fit.
+constexpr Wide kLargestSquared = Wide{1} << 50;
+
+// Differences between heights of the source and answers of the terrain, in billionths of a unit.
+class ErrorMeter {
+ public:
+  ErrorMeter(const Axis& source, const Axis& lattice)
+      : to_common_(static_cast<Wide>(lattice.denominator) * 65536),
+        offset_(Wide{lattice.offset} * 65536),
+        step_(static_cast<Wide>(lattice.numerator)),
+        from_common_(static_cast<Wide>(source.denominator)),
+        common_(to_common_ * from_common_) {}
+
+  // `number` is the source's; `answer` is a lattice height with 16 fractional bits. With 60 and 31
+  // bits in these, 40 in the axes and 30 in the source's denominator, sums stay below 2^117.
+  void add(int64_t number, int32_t answer) {
+    const Wide error = magnitude(number * to_common_ - from_common_ * (offset_ + step_ * answer));
+    const Wide billionths =
+        error / common_ * kBillion + ceil_divide(error % common_ * kBillion, common_);
+    largest_ = std::max(largest_, billionths);
+    const Wide limited = std::min(billionths, kLargestSquared);
+    squares_ += limited * limited;
+    ++count_;
+  }
+
+  Decimal largest() const { return make_decimal(largest_, kMaxDecimals); }
+
+  // Rounded up.
+  Decimal root_mean_square() const {
+    if (count_ == 0) return {};
+    const Wide mean = ceil_divide(squares_, count_);
+    Wide low = -1, high = kLargestSquared;  // low^2 < mean <= high^2
+    while (high - low > 1) {
+      const Wide middle = (low + high) / 2;
+      (middle * middle < mean ? low : high) = middle;
+    }
+    return make_decimal(high, kMaxDecimals);
+  }
+
+ private:
+  Wide to_common_, offset_, step_, from_common_, common_;
+  Wide largest_ = 0;
+  Wide squares_ = 0;
+  int64_t count_ = 0;
+};
+
+// Asks a terrain for heights at numbers of a source.
+class Asker {
+ public:
+  Asker(const microtin_mesh* mesh, const Placement& source, const Placement& lattice)
+      : mesh_(mesh), x_(map_between(source.x, lattice.x)), y_(map_between(source.y, lattice.y)) {}
+
+  // The place of (x, y) on the lattice, if it has one.
+  std::optional<Point> place_of(int64_t x, int64_t y) const {
+    const Wide kx = x_.nearest(x), ky = y_.nearest(y);
+    if (kx < 0 || kx > kLatticeMax || ky < 0 || ky > kLatticeMax) return std::nullopt;
+    return Point{static_cast<uint16_t>(kx), static_cast<uint16_t>(ky)};
+  }
+
+  // The terrain's height there, with 16 fractional bits, if it has one.
+  std::optional<int32_t> height_at(Point place) {
+    int32_t height = 0;
+    const microtin_answer answer =
+        microtin_height_at(mesh_, place.x * 256, place.y * 256, 0, &hint_, &height);
+    if (answer != MICROTIN_HEIGHT) return std::nullopt;
+    return height;
+  }
+
+ private:
+  const microtin_mesh* mesh_;
+  LatticeMap x_, y_;
+  uint32_t hint_ = 0;
+};
+
+// How many of the void places, which may repeat, are not in `heights`.
+uint64_t count_missing(const std::vector<Point>& voids, std::vector<Point> heights) {
+  std::sort(heights.begin(), heights.end());
+  return static_cast<uint64_t>(std::count_if(voids.begin(), voids.end(), [&](Point place) {
+    return !std::binary_search(heights.begin(), heights.end(), place);
+  }));
+}
+
+}  // namespace
+
+Verification verify(const microtin_mesh* mesh, const Source& source,
+                    const std::optional<Decimal>& bound) {
+  Placement lattice;
+  microtin_placement(mesh, &lattice.x, &lattice.y, &lattice.z);
+  const Placement numbers = placement_of(source);
+  Asker asker(mesh, numbers, lattice);
+  ErrorMeter meter(numbers.z, lattice.z);
+  Verification result;
+  std::vector<Point> answered_voids, heights;
+  for_each_post(source, [&](int64_t x, int64_t y, int64_t z) {
+    const std::optional<Point> place = asker.place_of(x, y);
+    const std::optional<int32_t> height = place ? asker.height_at(*place) : std::nullopt;
+    if (z == kVoidHeight) {
+      ++result.voids;
+      if (height) answered_voids.push_back(*place);
+      return;
+    }
+    ++result.posts;
+    if (place) heights.push_back(*place);
+    if (!height) return;
+    ++result.covered;
+    meter.add(z, *height);
+  });
+  result.uncovered = result.posts - result.covered;
+  if (!answered_voids.empty()) {
+    result.voids_answered = count_missing(answered_voids, std::move(heights));
+  }
+  result.max_error = meter.largest();
+  result.rms_error = meter.root_mean_square();
+  result.within_bound = !bound || result.max_error <= *bound;
+  return result;
+}
+
+}  // namespace microtin

@@ -1,0 +1,31 @@
+// Comparing a decoded terrain with its source, by the product's own height query.
+#ifndef MICROTIN_ENCODER_VERIFY_HPP
+#define MICROTIN_ENCODER_VERIFY_HPP
+
+#include <optional>
+
+#include "encoder/source.hpp"
+
+namespace microtin {
+
+// Errors are in the source's unit, rounded up to 9 decimals: compared with a bound of at most 9
+// decimals, that changes nothing.
+struct Verification {
+  uint64_t posts = 0;           // with a height; covered and uncovered ones
+  uint64_t covered = 0;         // where the terrain answers a height
+  uint64_t uncovered = 0;       // where it does not
+  uint64_t voids = 0;           // void posts
+  uint64_t voids_answered = 0;  // void posts where the terrain answers a height
+  Decimal max_error;
+  Decimal rms_error;
+  bool within_bound = true;  // max_error is at most the bound, or there is none
+};
+
+// Evaluates every post or point, also those that share a place, at its place on the lattice. A void
+// post that shares its place with a height is not counted as answered.
+Verification verify(const microtin_mesh* mesh, const Source& source,
+                    const std::optional<Decimal>& bound);
+
+}  // namespace microtin
+
+#endif

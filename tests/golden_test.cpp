@@ -1,0 +1,89 @@
+// Golden streams: what this version of the format looks like, byte for byte. A change of the format
+// changes them on purpose: run with MICROTIN_WRITE_GOLDEN=1 to write them anew, then
+// `host_report X.mtin > X.report` for each, and raise the version.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "tests/mesh_copy.hpp"
+#include "tests/streams.hpp"
+
+namespace microtin {
+namespace {
+
+struct Golden {
+  std::string name;
+  std::vector<uint8_t> stream;
+};
+
+Metadata full_metadata() {
+  Metadata m;
+  m.placement.x = {7 * 1200, 1, 1200};
+  m.placement.y = {-33 * 1200, 1, 1200};
+  m.placement.z = {-250, 5, 2};
+  m.horizontal_unit = Unit::kDegree;
+  m.vertical_unit = Unit::kMetre;
+  m.horizontal_epsg = 4326;
+  m.vertical_epsg = 5773;
+  m.source = "golden";
+  m.accuracy = Accuracy{Decimal{10, 0}, Decimal{99, 1}, Decimal{345, 2}};
+  return m;
+}
+
+// Every third real triangle void.
+Tin with_voids(Tin tin) {
+  const DecodedTerrain decoded(encode(tin, Metadata()));
+  const MeshCopy copy(decoded.mesh());
+  size_t i = 0;
+  for (const std::array<Point, 3>& t : triangles_of(copy.mesh).triangles) {
+    if (i++ % 3 == 0) tin.voids.push_back(Tin::Triangle{t[0], t[1], t[2]});
+  }
+  return tin;
+}
+
+Tin flat(const Points& points) {
+  Tin tin;
+  for (const Point p : points) tin.vertices.push_back(Vertex{p.x, p.y, 0});
+  return tin;
+}
+
+std::vector<Golden> golden_streams() {
+  const Tin example{
+      {{0, 0, 10}, {40, 0, 12}, {40, 30, 20}, {0, 30, 11}, {16, 12, 25}, {30, 20, 18}}, {}};
+  Random random(31);
+  std::vector<Golden> all;
+  all.push_back({"example", encode(example, Metadata())});
+  all.push_back({"hills", encode(rolling_tin(1000, 32), full_metadata())});
+  all.push_back({"phases", encode(rolling_tin(700, 33), Metadata(), 6)});
+  all.push_back({"voids", encode(with_voids(rolling_tin(300, 34)), Metadata())});
+  all.push_back({"lattice", encode(flat(lattice_points(20, 15, random)), Metadata())});
+  all.push_back({"circle", encode(flat(circle_points(1105 * 1105, random)), Metadata(), 32)});
+  all.push_back({"corners", encode(flat(extreme_corners(random)), Metadata(), 12)});
+  return all;
+}
+
+std::vector<uint8_t> read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace
+
+TEST_CASE("golden streams are what the encoder writes and the decoder reads") {
+  for (const Golden& golden : golden_streams()) {
+    const std::string path = MICROTIN_GOLDEN_DIR "/" + golden.name + ".mtin";
+    if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) {
+      std::ofstream(path, std::ios::binary)
+          .write(reinterpret_cast<const char*>(golden.stream.data()),
+                 static_cast<std::streamsize>(golden.stream.size()));
+    }
+    CAPTURE(golden.name);
+    CHECK(read_file(path) == golden.stream);
+    CHECK_NOTHROW(DecodedTerrain{golden.stream});
+  }
+}
+
+}  // namespace microtin
