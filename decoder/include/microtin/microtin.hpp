@@ -42,7 +42,7 @@ class Decoder {
     microtin_decoder_init(storage_, sizeof storage_, mesh, &decoder_);
   }
   template <uint32_t MeshCapacity>
-  explicit Decoder(Terrain<MeshCapacity>& terrain) : Decoder(terrain.mesh()) {}
+  explicit Decoder(Terrain<MeshCapacity>& target) : Decoder(target.mesh()) {}
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
 

@@ -1,0 +1,95 @@
+// Real terrain, where it lies beside the repository, all the way: laid out, simplified, encoded,
+// decoded, and verified at every post.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "encoder/encode.hpp"
+#include "encoder/import.hpp"
+#include "encoder/lay_out.hpp"
+#include "encoder/simplify.hpp"
+#include "encoder/verify.hpp"
+
+namespace microtin {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_here(const fs::path& path) {
+  const bool here = std::string(MICROTIN_DATA_DIR) != "" && fs::exists(path);
+  if (!here) MESSAGE("skipped: " << path.filename().string() << " is not here");
+  return here;
+}
+
+// The centre 513 x 513 posts, or all in a direction that has fewer, of gzipped little-endian int16
+// rows from the north.
+Raster read_centre(const fs::path& path, uint32_t width, uint32_t height) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(
+      popen(("gzip -dc '" + path.string() + "'").c_str(), "r"), pclose);
+  std::vector<uint8_t> bytes(2 * size_t{width} * height);
+  REQUIRE(std::fread(bytes.data(), 1, bytes.size(), pipe.get()) == bytes.size());
+  Raster raster;
+  raster.width = std::min(width, 513u);
+  raster.height = std::min(height, 513u);
+  const size_t west = (width - raster.width) / 2, north = (height - raster.height) / 2;
+  for (size_t row = raster.height; row-- > 0;) {
+    for (size_t column = 0; column < raster.width; ++column) {
+      const size_t at = 2 * ((north + row) * width + west + column);
+      const auto z = static_cast<int16_t>(bytes[at] | bytes[at + 1] << 8);
+      raster.heights.push_back(z == -32768 ? kVoidHeight : z);
+    }
+  }
+  return raster;
+}
+
+void check_round_trip(const Source& source, std::optional<Decimal> bound) {
+  LatticeOptions options;
+  options.max_error = bound;
+  const Laid laid = lay_out(source, options);
+  const Tin tin = simplify(laid.survey, {bound.has_value(), 0});
+  Metadata metadata;
+  metadata.placement = laid.placement;
+  const std::vector<uint8_t> stream = encode(tin, metadata);
+  const DecodedTerrain decoded(stream);
+  const Verification found = verify(decoded.mesh(), source, bound);
+  MESSAGE(found.posts << " posts, " << found.voids << " voids: " << tin.vertices.size()
+                      << " vertices, " << stream.size() << " bytes, error "
+                      << to_string(found.max_error));
+  CHECK(found.within_bound);
+  CHECK(found.uncovered == 0);
+  CHECK(found.voids_answered == 0);
+  if (bound) CHECK(tin.vertices.size() < found.posts);
+}
+
+}  // namespace
+
+TEST_CASE("real rasters keep their bound at every post, voids stay voids") {
+  const struct {
+    const char* name;
+    uint32_t width, height;
+  } rasters[] = {{"scottish_borders", 769, 769}, {"sthelens", 327, 468}, {"andorra", 1025, 1025}};
+  for (const auto& r : rasters) {
+    const fs::path path = fs::path(MICROTIN_DATA_DIR) / (r.name + std::string(".hgt16.gz"));
+    if (!is_here(path)) continue;
+    CAPTURE(r.name);
+    check_round_trip(read_centre(path, r.width, r.height), Decimal{10, 0});
+  }
+}
+
+TEST_CASE("real files come back exactly, and within a bound") {
+  for (const char* name :
+       {"srtm_rmnp.asc", "bijou5m.asc", "hugo.asc", "quebec_forest_ground.xyz"}) {
+    const fs::path path = fs::path(MICROTIN_DATA_DIR) / "formats" / name;
+    if (!is_here(path)) continue;
+    CAPTURE(name);
+    const Source source = import_terrain(path.string());
+    check_round_trip(source, std::nullopt);
+    check_round_trip(source, Decimal{5, 1});
+  }
+}
+
+}  // namespace microtin
