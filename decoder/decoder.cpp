@@ -69,12 +69,10 @@ microtin_status handle_block_head(microtin_decoder& d) {
   if (bytes[0] == kBlockPlacement && d.block_left > kPlacementMostBytes) return MICROTIN_MALFORMED;
   d.blocks_left -= d.block_left;
   if ((bytes[0] & kMustUnderstand) != 0) return MICROTIN_UNSUPPORTED_VERSION;
-  if (d.block_left == 0) {
-    d.item = after_block(d);
-  } else if (bytes[0] == kBlockPlacement) {
+  if (bytes[0] == kBlockPlacement) {
     d.item = Item::kPlacement;
   } else {
-    d.item = Item::kSkippedBlock;
+    d.item = d.block_left == 0 ? after_block(d) : Item::kSkippedBlock;
   }
   return MICROTIN_NEED_INPUT;
 }

@@ -112,9 +112,23 @@ inline void move_origin(PlaceOdds& odds, int32_t dx, int32_t dy) {
   }
 }
 
-// First lattice offset of the i-th of four slices of `count` lattice lines.
-inline int32_t slice_start(int32_t count, int i) {
-  return count * i / kCells;  // count <= 2^16, i <= 4
+// Four slices of `count` <= 2^16 lattice lines: where each starts, and where the last one ends.
+struct Slices {
+  int32_t count;
+  int32_t start[kCells + 1];
+};
+
+inline Slices slice(int32_t count) {
+  Slices slices;
+  slices.count = count;
+  for (int i = 0; i <= kCells; ++i) slices.start[i] = count * i / kCells;
+  return slices;
+}
+
+inline int slice_of(const Slices& slices, int32_t offset) {
+  int i = 0;
+  while (i < kCells - 1 && offset >= slices.start[i + 1]) ++i;
+  return i;
 }
 
 // How far the slices' middles are outside a circle, in 64ths of the size of a cell: x[i] + y[j],
@@ -125,11 +139,10 @@ struct Distances {
 
 constexpr int64_t kDistanceCap = static_cast<int64_t>(1) << 29;
 
-inline void measure_axis(int64_t constant, int64_t slope, int32_t count, uint32_t shift,
+inline void measure_axis(int64_t constant, int64_t slope, const Slices& slices, uint32_t shift,
                          int32_t reciprocal, int32_t* distance) {
   for (int i = 0; i < kCells; ++i) {
-    const int32_t twice =
-        slice_start(count, i) + slice_start(count, i + 1) - 1;  // twice the middle
+    const int32_t twice = slices.start[i] + slices.start[i + 1] - 1;  // twice the middle
     const int64_t power = constant + (static_cast<int64_t>(twice) * 128 + slope) * twice / 2;
     int64_t scaled = power >> shift;
     if (scaled > kDistanceCap) scaled = kDistanceCap;
@@ -138,17 +151,18 @@ inline void measure_axis(int64_t constant, int64_t slope, int32_t count, uint32_
   }
 }
 
-inline Distances measure(const Power& circle, int32_t columns, int32_t rows) {
+inline Distances measure(const Power& circle, const Slices& columns, const Slices& rows) {
   // A cell spans 5/8 (mean of |cos| and |sin|) of its width and height less one lattice step each.
-  // The ramp is that many steps' change of power: at least a quarter of a unit, at most 2^59.
-  const int32_t steps =
-      (columns > kCells ? columns - kCells : 0) + (rows > kCells ? rows - kCells : 0);
+  // The ramp is that many steps' change of power: at least a quarter of a unit, at most 2^60.
+  const int32_t steps = (columns.count > kCells ? columns.count - kCells : 0) +
+                        (rows.count > kCells ? rows.count - kCells : 0);
   const int64_t ramp = circle.steepness * (5 * steps) / 32 + 64;
   const uint32_t bits = highest_bit(static_cast<uint64_t>(ramp));
   const uint32_t shift = bits > 15 ? bits - 15 : 0;
-  // 64 / ramp: (power >> shift) * reciprocal / 2^23, the reciprocal at most 2^23.
+  // 64 / ramp: (power >> shift) * reciprocal / 2^23, the reciprocal at most 2^23. ramp >> shift is
+  // below 2^16 and at least 64.
   const int32_t reciprocal =
-      static_cast<int32_t>((static_cast<int64_t>(1) << 29) / (ramp >> shift));
+      static_cast<int32_t>((1ul << 29) / static_cast<uint32_t>(ramp >> shift));
   Distances distances;
   measure_axis(circle.constant, circle.x, columns, shift, reciprocal, distances.x);
   measure_axis(0, circle.y, rows, shift, reciprocal, distances.y);
@@ -175,27 +189,37 @@ inline uint32_t chance_at(const PlaceOdds& odds, int32_t gone, int32_t left) {
   return (odds.chance[i] * (32u - f) + odds.chance[i + 1] * f) >> 5;
 }
 
-// Weighs the cells by size, by the share inside t's circle, and by the chance of being first.
-inline void weigh_inside(const PlaceOdds& odds, int32_t columns, int32_t rows, CellWeights weight) {
+// How much a slice's width counts: nothing where all are about the same. At most 16.
+inline uint32_t size_of(const Slices& slices, int i) {
+  const int32_t width = slices.start[i + 1] - slices.start[i];
+  return slices.count > 64 ? 1u : static_cast<uint32_t>(width);
+}
+
+// Weighs the cells by size, by the share inside t's circle, and by the chance of being first. A
+// cell without lattice points weighs nothing, any other at least 1.
+inline void weigh_inside(const PlaceOdds& odds, const Slices& columns, const Slices& rows,
+                         CellWeights weight) {
   const Distances inside = measure(odds.inside, columns, rows);
   Distances from = inside;
   if (odds.sweeps) from = measure(odds.swept_from, columns, rows);
+  uint32_t height[kCells];
+  for (int j = 0; j < kCells; ++j) height[j] = size_of(rows, j);
   for (int i = 0; i < kCells; ++i) {
-    const int32_t width = slice_start(columns, i + 1) - slice_start(columns, i);
+    const uint32_t width = size_of(columns, i);
     for (int j = 0; j < kCells; ++j) {
-      const int32_t height = slice_start(rows, j + 1) - slice_start(rows, j);
+      const uint32_t size = width * height[j];
       const int32_t left = -inside.x[i] - inside.y[j];
-      uint32_t w = share_beyond(left);
-      w *= odds.sweeps ? chance_at(odds, from.x[i] + from.y[j], left) : 4096u;
-      if (columns <= 64) w *= static_cast<uint32_t>(width);
-      if (rows <= 64) w *= static_cast<uint32_t>(height);
-      weight[i][j] = width == 0 || height == 0 ? 0 : w + 1;
+      const uint32_t share = share_beyond(left);
+      uint32_t chance = 4096;
+      if (odds.sweeps && share != 0) chance = chance_at(odds, from.x[i] + from.y[j], left);
+      weight[i][j] = size == 0 ? 0 : share * chance * size + 1;
     }
   }
 }
 
 // Takes away what lies in one certified circle. False if that was nothing.
-inline bool cut_outside(const Power& circle, int32_t columns, int32_t rows, CellWeights weight) {
+inline bool cut_outside(const Power& circle, const Slices& columns, const Slices& rows,
+                        CellWeights weight) {
   const Distances outside = measure(circle, columns, rows);
   bool cuts = false;
   for (int i = 0; i < kCells; ++i) {
@@ -209,7 +233,8 @@ inline bool cut_outside(const Power& circle, int32_t columns, int32_t rows, Cell
   return cuts;
 }
 
-inline void weigh_cells(PlaceOdds& odds, int32_t columns, int32_t rows, CellWeights weight) {
+inline void weigh_cells(PlaceOdds& odds, const Slices& columns, const Slices& rows,
+                        CellWeights weight) {
   weigh_inside(odds, columns, rows, weight);
   for (int k = 0; k < 3; ++k) {
     if (odds.cuts[k]) odds.cuts[k] = cut_outside(odds.outside[k], columns, rows, weight);
@@ -235,21 +260,15 @@ int code_slice(Coder& coder, Curve<kSplitEntries>* half, const uint32_t* weight,
   return first + code_half(coder, half[1], weight[first], weight[first + 1], (slice & 1) != 0);
 }
 
-inline int slice_of(int32_t count, int32_t offset) {
-  int i = 0;
-  while (i < kCells - 1 && offset >= slice_start(count, i + 1)) ++i;
-  return i;
-}
-
 // Codes a place in `box`; `odds` are relative to the triangle's corner `v`.
 template <class Coder>
 Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, Point v, Box box, Point place) {
   move_origin(odds, box.x0 - v.x, box.y0 - v.y);
   for (int level = 0; level < kLevels; ++level) {
-    const int32_t columns = box.x1 - box.x0 + 1, rows = box.y1 - box.y0 + 1;
-    if (columns == 1 && rows == 1) break;
-    CellWeights weight;
+    const Slices columns = slice(box.x1 - box.x0 + 1), rows = slice(box.y1 - box.y0 + 1);
+    if (columns.count == 1 && rows.count == 1) break;
     if (level == kSweepLevels) odds.sweeps = false;
+    CellWeights weight;
     weigh_cells(odds, columns, rows, weight);
     uint32_t column_weight[kCells];
     for (int i = 0; i < kCells; ++i) {
@@ -259,12 +278,11 @@ Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, Point v, Box 
                              slice_of(columns, place.x - box.x0));
     const int j =
         code_slice(coder, &model.split[level][2], weight[i], slice_of(rows, place.y - box.y0));
-    const int32_t dx = slice_start(columns, i), dy = slice_start(rows, j);
-    box.x1 = box.x0 + slice_start(columns, i + 1) - 1;
-    box.y1 = box.y0 + slice_start(rows, j + 1) - 1;
-    box.x0 += dx;
-    box.y0 += dy;
-    move_origin(odds, dx, dy);
+    box.x1 = box.x0 + columns.start[i + 1] - 1;
+    box.y1 = box.y0 + rows.start[j + 1] - 1;
+    box.x0 += columns.start[i];
+    box.y0 += rows.start[j];
+    if (level + 1 < kLevels) move_origin(odds, columns.start[i], rows.start[j]);
   }
   const uint32_t x = coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),
                                    static_cast<uint32_t>(place.x - box.x0));

@@ -27,10 +27,10 @@ struct Device {
                                   &decoder) == MICROTIN_DONE);
   }
 
-  microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t steps = 0) {
+  microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t steps = 0) const {
     return microtin_feed(decoder, bytes, size, steps, used);
   }
-  microtin_status feed_all(const Bytes& bytes) {
+  microtin_status feed_all(const Bytes& bytes) const {
     size_t used = 0;
     return feed(bytes.data(), bytes.size(), &used);
   }

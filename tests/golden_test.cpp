@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <string>
 
 #include "tests/mesh_copy.hpp"
@@ -50,6 +51,17 @@ Tin flat(const Points& points) {
   return tin;
 }
 
+// Heights that differ by as much as they can, and slivers along the hull.
+Tin cliffs(Random& random) {
+  Tin tin = flat(uniform_points(60, random));
+  tin.vertices.push_back(Vertex{0, 0, 0});
+  tin.vertices.push_back(Vertex{65535, 1, 0});
+  tin.vertices.push_back(Vertex{32768, 1, 0});
+  tin.vertices.push_back(Vertex{30000, 2, 0});
+  for (Vertex& v : tin.vertices) v.z = random.below(2) == 0 ? INT16_MIN : INT16_MAX;
+  return tin;
+}
+
 std::vector<Golden> golden_streams() {
   const Tin example{
       {{0, 0, 10}, {40, 0, 12}, {40, 30, 20}, {0, 30, 11}, {16, 12, 25}, {30, 20, 18}}, {}};
@@ -59,6 +71,9 @@ std::vector<Golden> golden_streams() {
   all.push_back({"hills", encode(rolling_tin(1000, 32), full_metadata())});
   all.push_back({"phases", encode(rolling_tin(700, 33), Metadata(), 6)});
   all.push_back({"voids", encode(with_voids(rolling_tin(300, 34)), Metadata())});
+  all.push_back({"triangle",
+                 encode(Tin{{{3, 4, -32768}, {60003, 4, 32767}, {3, 65535, 0}}, {}}, Metadata())});
+  all.push_back({"cliffs", encode(cliffs(random), Metadata())});
   all.push_back({"lattice", encode(flat(lattice_points(20, 15, random)), Metadata())});
   all.push_back({"circle", encode(flat(circle_points(1105 * 1105, random)), Metadata(), 32)});
   all.push_back({"corners", encode(flat(extreme_corners(random)), Metadata(), 12)});
@@ -84,6 +99,21 @@ TEST_CASE("golden streams are what the encoder writes and the decoder reads") {
     CHECK(read_file(path) == golden.stream);
     CHECK_NOTHROW(DecodedTerrain{golden.stream});
   }
+}
+
+TEST_CASE("the hexdump in FORMAT.md is the example stream") {
+  const std::vector<uint8_t> bytes = read_file(MICROTIN_GOLDEN_DIR "/../../shared/FORMAT.md");
+  std::istringstream text(std::string(bytes.begin(), bytes.end()));
+  std::vector<uint8_t> dump;
+  for (std::string line; std::getline(text, line);) {
+    std::istringstream row(line);
+    std::string offset, digits;
+    row >> offset;
+    if (line.rfind("    ", 0) != 0 || offset.size() != 8 || offset.rfind("000000", 0) != 0)
+      continue;
+    while (row >> digits) dump.push_back(static_cast<uint8_t>(std::stoul(digits, nullptr, 16)));
+  }
+  CHECK(dump == golden_streams()[0].stream);
 }
 
 }  // namespace microtin
