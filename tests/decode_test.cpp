@@ -216,6 +216,13 @@ TEST_CASE("workspaces are checked") {
   CHECK(mesh != nullptr);
 }
 
+TEST_CASE("a device needs at most 34 bytes a vertex and 3 KB, and keeps 31") {
+  for (const unsigned long n : {3ul, 250ul, 1000ul, 10923ul}) {
+    CHECK(MICROTIN_MESH_BYTES_FOR(n, 16) + MICROTIN_DECODER_BYTES_FOR(n, 16) <= 3072 + 34 * n);
+    CHECK(MICROTIN_MESH_BYTES_FOR(n, 16) <= 3072 + 31 * n);
+  }
+}
+
 TEST_CASE("queries on a mesh that is not decoded or not verified say so") {
   const Bytes stream = terrain_stream(400, 10);
   Device device(400);
