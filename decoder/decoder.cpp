@@ -127,14 +127,18 @@ microtin_status handle_payload_start(microtin_decoder& d) {
   return d.coder.overrun ? MICROTIN_MALFORMED : MICROTIN_NEED_INPUT;
 }
 
+// Whether the phase after which decoding is to stop is complete.
+bool is_far_enough(const microtin_decoder& d) {
+  return d.stop_phase != 0 && d.reconstruction.phase >= d.stop_phase;
+}
+
 microtin_status handle_step(microtin_decoder& d) {
   const Progress progress = step(d.reconstruction, d.coder);
   if (progress == Progress::kMalformed || d.coder.overrun) return MICROTIN_MALFORMED;
   if (progress == Progress::kSectionEnd) {
     if (d.coder.payload_left != 0) return MICROTIN_MALFORMED;
     d.item = Item::kSectionCheck;
-  } else if (progress == Progress::kPhaseEnd && d.reconstruction.phase == d.stop_phase &&
-             d.stop_phase != 0) {
+  } else if (progress == Progress::kPhaseEnd && is_far_enough(d)) {
     return MICROTIN_STOPPED;
   }
   return MICROTIN_NEED_INPUT;
@@ -147,7 +151,7 @@ microtin_status handle_section_check(microtin_decoder& d) {
     d.mesh->has_voids = d.contract.has_voids;
     return MICROTIN_DONE;
   }
-  if (d.reconstruction.phase == d.stop_phase && d.stop_phase != 0) return MICROTIN_STOPPED;
+  if (is_far_enough(d)) return MICROTIN_STOPPED;
   begin_section(d);
   return MICROTIN_NEED_INPUT;
 }

@@ -45,7 +45,7 @@ std::string round_trip_fault(const Tin& tin, uint32_t degree,
     vertices.push_back(Vertex{copy.x[v], copy.y[v], copy.z[v]});
   }
   if (!same_vertices(sorted(vertices), sorted(tin.vertices))) return "other vertices";
-  const std::string fault = mesh_fault(copy.mesh, copy.mesh.vertices);
+  std::string fault = mesh_fault(copy.mesh, copy.mesh.vertices);
   if (!fault.empty()) return fault;
   return is_right(copy.points(), triangles_of(copy.mesh)) ? "" : "not the canonical triangulation";
 }

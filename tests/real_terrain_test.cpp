@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_here(const fs::path& path) {
-  const bool here = std::string(MICROTIN_DATA_DIR) != "" && fs::exists(path);
+  const bool here = !std::string(MICROTIN_DATA_DIR).empty() && fs::exists(path);
   if (!here) MESSAGE("skipped: " << path.filename().string() << " is not here");
   return here;
 }

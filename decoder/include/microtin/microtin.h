@@ -96,7 +96,9 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
                                       microtin_decoder** decoder);
 
 /* Stop, with MICROTIN_STOPPED, when `phase` phases (1, 2, ...) are complete: a coarse, well-spread
- * terrain. 0, the default, decodes everything. */
+ * terrain. 0, the default, decodes everything. Phases that leave fewer than 256 vertices are
+ * verified together with the first that reaches them; stopped before, queries answer with
+ * MICROTIN_ANSWER_UNVERIFIED only. */
 void microtin_stop_after_phase(microtin_decoder* decoder, uint32_t phase);
 
 /* Decodes from the next `size` bytes of the stream, at most `step_limit` steps (0: no limit); a
