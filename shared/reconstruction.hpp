@@ -388,7 +388,7 @@ Progress step_walk(Reconstruction& r, Coder& coder) {
 }
 
 inline bool is_void(const uint8_t* voids, Index triangle) {
-  return (voids[triangle >> 3] >> (triangle & 7u) & 1u) != 0;
+  return (static_cast<uint32_t>(voids[triangle >> 3]) >> (triangle & 7u) & 1u) != 0;
 }
 
 // Codes the void flag of one real triangle, given those of its neighbours that are known.

@@ -38,6 +38,13 @@ inline Point point(int64_t x, int64_t y) {
   return Point{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
 }
 
+// A place of a square whose least corner is (x, y). One number after the other: the order in which
+// a call's arguments are evaluated is the compiler's choice.
+inline Point point_in(Random& random, uint32_t side, int64_t x = 0, int64_t y = 0) {
+  const uint32_t dx = random.below(side);
+  return point(x + dx, y + random.below(side));
+}
+
 template <class T>
 void shuffle(std::vector<T>& items, Random& random) {
   for (std::size_t i = items.size(); i > 1; --i) {
@@ -57,7 +64,7 @@ inline Points distinct(Points points, Random& random) {
 
 inline Points uniform_points(uint32_t n, Random& random, uint32_t side = 65536) {
   Points points;
-  for (uint32_t i = 0; i < n; ++i) points.push_back(point(random.below(side), random.below(side)));
+  for (uint32_t i = 0; i < n; ++i) points.push_back(point_in(random, side));
   return distinct(points, random);
 }
 
@@ -65,7 +72,7 @@ inline Points clustered_points(uint32_t n, Random& random, uint32_t clusters, ui
   Points points, centres = uniform_points(clusters, random, 65536 - width);
   for (uint32_t i = 0; i < n; ++i) {
     const Point centre = centres[i % centres.size()];
-    points.push_back(point(centre.x + random.below(width), centre.y + random.below(width)));
+    points.push_back(point_in(random, width, centre.x, centre.y));
   }
   return distinct(points, random);
 }

@@ -83,7 +83,7 @@ TEST_CASE("predicates: random and extreme points") {
     wrong += !ghost_agrees(a, b, c);
   }
   for (int i = 0; i < 1000000; ++i) {
-    const auto any = [&random] { return point(random.below(65536), random.below(65536)); };
+    const auto any = [&random] { return point_in(random, 65536); };
     const Point a = any(), b = any(), c = any();
     wrong += !agrees(a, b, c, any());
   }

@@ -162,8 +162,7 @@ TEST_CASE("real coordinates convert to the lattice exactly") {
   int inside = 0;
   for (int round = 0; round < 200000; ++round) {
     const auto bits = [&](uint32_t most) {
-      const uint64_t wide =
-          static_cast<uint64_t>(random.below(0x80000000u)) << 31 | random.below(0x80000000u);
+      const uint64_t wide = random.next() >> 2;
       return static_cast<int64_t>(wide >> (62 - 1 - random.below(most)));
     };
     const microtin_axis axis = {bits(61) * (round % 2 == 0 ? 1 : -1),

@@ -133,7 +133,7 @@ TEST_CASE("triangulation: a place is located from every half-edge") {
     std::size_t wrong = 0;
     for (Index hint = 0; hint < first_edge(mesh.triangles); ++hint) {
       const Point p = hint % 2 == 0
-                          ? point(random.below(65536), random.below(65536))
+                          ? point_in(random, 65536)
                           : set.points[random.below(static_cast<uint32_t>(set.points.size()))];
       const Index t = triangle_of(triangulation.locate(p, hint));
       const Index ghost = infinite_edge(mesh, t);

@@ -1,10 +1,9 @@
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 
 #include "encoder/error.hpp"
 #include "encoder/header.hpp"
+#include "encoder/input_file.hpp"
 #include "microtin/microtin.h"
 #include "tests/bench/peers.hpp"
 #include "tests/bench/speed.hpp"
@@ -12,12 +11,6 @@
 
 namespace microtin::bench {
 namespace {
-
-Bytes read(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(path + ": cannot be opened");
-  return Bytes(std::istreambuf_iterator<char>(file), {});
-}
 
 // Our decoder, with its fixed arrays.
 class Ours {
@@ -39,58 +32,57 @@ class Ours {
   }
 
  private:
-  const Bytes& stream_;
+  Bytes stream_;
   std::vector<uint64_t> mesh_, decoder_;
 };
 
-void expect_triangles(size_t count) {
-  if (count == 0) throw Error("a peer found no triangle");
-}
+struct Contender {
+  std::string name;
+  Work work;
+};
 
-// What is measured, in the order of column_names.
-std::vector<Work> works_for(const Bytes& stream) {
+std::vector<Contender> contenders(const Bytes& stream) {
   const auto ours = std::make_shared<Ours>(stream);
   const auto surface = std::make_shared<Surface>(surface_of(stream));
-  const std::optional<Triangulator> delaunay = triangulator();
-  std::vector<Work> works = {[ours] { ours->decode(); }};
+  const std::optional<Triangulator> peer = triangulator();
+  const auto triangulate = [peer](const std::vector<Vertex>& vertices) {
+    if (peer->count_triangles(vertices) == 0) throw Error(peer->name + " found no triangle");
+  };
+  std::vector<Contender> all = {{"microtin", [ours] { ours->decode(); }}};
   for (const Codec& codec : fast_codecs()) {
     const Bytes bytes = checked_encode(codec, *surface);
-    works.push_back([codec, bytes] { codec.decode(bytes); });
-    if (codec.sends_triangles || !delaunay) continue;
-    works.push_back([codec, bytes, delaunay] {
-      expect_triangles(delaunay->count_triangles(codec.decode(bytes).vertices));
-    });
+    all.push_back({codec.name, [codec, bytes] { codec.decode_and_drop(bytes); }});
+    if (codec.sends_triangles || !peer) continue;
+    all.push_back({codec.name + " + " + peer->name,
+                   [codec, bytes, triangulate] { triangulate(codec.decode(bytes).vertices); }});
   }
-  if (delaunay) {
-    works.push_back(
-        [surface, delaunay] { expect_triangles(delaunay->count_triangles(surface->vertices)); });
+  if (peer) {
+    all.push_back(
+        {peer->name + " alone", [surface, triangulate] { triangulate(surface->vertices); }});
   }
-  return works;
+  return all;
 }
 
-Row column_names() {
-  Row names{"microtin"};
-  const std::optional<Triangulator> delaunay = triangulator();
-  for (const Codec& codec : fast_codecs()) {
-    names.push_back(codec.name);
-    if (!codec.sends_triangles && delaunay) names.push_back(codec.name + " + " + delaunay->name);
-  }
-  if (delaunay) names.push_back(delaunay->name + " alone");
-  return names;
+void print_names(const std::vector<Contender>& contenders, const std::string& unit) {
+  Row head{"stream", "vertices"};
+  for (const Contender& contender : contenders) head.push_back(contender.name);
+  print_head("Decoding, " + unit + " per vertex", head);
 }
 
 }  // namespace
 
 void print_decode_speed(const std::vector<std::string>& paths, const Measure& measure,
                         const std::string& unit) {
-  Row head{"stream", "vertices"};
-  for (const std::string& name : column_names()) head.push_back(name);
-  print_head(("Decoding, " + unit + " per vertex").c_str(), head);
   for (const std::string& path : paths) {
-    const Bytes stream = read(path);
+    const std::string file = read_file(path);
+    const Bytes stream(file.begin(), file.end());
     const uint32_t vertices = read_header(stream).info.vertices;
+    const std::vector<Contender> all = contenders(stream);
+    if (path == paths.front()) print_names(all, unit);
+    std::vector<Work> works;
+    for (const Contender& contender : all) works.push_back(contender.work);
     Row row{std::filesystem::path(path).stem().string(), number(size_t{vertices})};
-    for (const double cost : measure(works_for(stream))) row.push_back(number(cost / vertices, 0));
+    for (const double cost : measure(works)) row.push_back(number(cost / vertices, 0));
     print_row(row);
   }
 }

@@ -59,11 +59,16 @@ void expect_ok(const draco::Status& status) {
   if (!status.ok()) throw Error("Draco: " + status.error_msg_string());
 }
 
-draco::Encoder make_encoder(int speed, int method) {
+draco::Encoder make_encoder(int level, int method) {
+  const int speed = 10 - level;
   draco::Encoder encoder;
   encoder.SetSpeedOptions(speed, speed);
   encoder.SetEncodingMethod(method);
   return encoder;
+}
+
+std::string name_of(const char* kind, int level) {
+  return std::string("Draco ") + kind + " (level " + std::to_string(level) + ")";
 }
 
 Bytes bytes_of(const draco::EncoderBuffer& buffer) {
@@ -76,45 +81,47 @@ draco::DecoderBuffer buffer_of(const Bytes& bytes) {
   return buffer;
 }
 
-Surface decode_points(const Bytes& bytes) {
+std::unique_ptr<draco::PointCloud> decode_points(const Bytes& bytes) {
   draco::DecoderBuffer buffer = buffer_of(bytes);
   auto cloud = draco::Decoder().DecodePointCloudFromBuffer(&buffer);
   expect_ok(cloud.status());
-  return surface_of(*cloud.value());
+  return std::move(cloud).value();
 }
 
-Surface decode_mesh(const Bytes& bytes) {
+std::unique_ptr<draco::Mesh> decode_mesh(const Bytes& bytes) {
   draco::DecoderBuffer buffer = buffer_of(bytes);
   auto mesh = draco::Decoder().DecodeMeshFromBuffer(&buffer);
   expect_ok(mesh.status());
-  return surface_of(*mesh.value());
+  return std::move(mesh).value();
 }
 
 }  // namespace
 
-Codec draco_points(int speed) {
-  const auto encode = [speed](const Surface& surface) {
+Codec draco_points(int level) {
+  const auto encode = [level](const Surface& surface) {
     draco::PointCloud cloud;
     add_vertices(surface, cloud);
     draco::EncoderBuffer buffer;
-    expect_ok(make_encoder(speed, draco::POINT_CLOUD_KD_TREE_ENCODING)
+    expect_ok(make_encoder(level, draco::POINT_CLOUD_KD_TREE_ENCODING)
                   .EncodePointCloudToBuffer(cloud, &buffer));
     return bytes_of(buffer);
   };
-  return {"Draco points", false, encode, decode_points};
+  return {name_of("points", level), false, encode,
+          [](const Bytes& bytes) { return surface_of(*decode_points(bytes)); }, decode_points};
 }
 
-Codec draco_mesh(int speed) {
-  const auto encode = [speed](const Surface& surface) {
+Codec draco_mesh(int level) {
+  const auto encode = [level](const Surface& surface) {
     draco::Mesh mesh;
     add_vertices(surface, mesh);
     add_triangles(surface, mesh);
     draco::EncoderBuffer buffer;
     expect_ok(
-        make_encoder(speed, draco::MESH_EDGEBREAKER_ENCODING).EncodeMeshToBuffer(mesh, &buffer));
+        make_encoder(level, draco::MESH_EDGEBREAKER_ENCODING).EncodeMeshToBuffer(mesh, &buffer));
     return bytes_of(buffer);
   };
-  return {"Draco mesh", true, encode, decode_mesh};
+  return {name_of("mesh", level), true, encode,
+          [](const Bytes& bytes) { return surface_of(*decode_mesh(bytes)); }, decode_mesh};
 }
 
 }  // namespace microtin::bench

@@ -54,13 +54,16 @@ Window centre(uint32_t width, uint32_t height) {
 }  // namespace
 
 Tin uniform_tin(uint32_t count, uint64_t seed) {
+  constexpr uint32_t kSide = 65536;
   Random random(seed);
   Points points;
-  while (points.size() < count) {
-    const Points more = uniform_points(count - static_cast<uint32_t>(points.size()), random);
-    points.insert(points.end(), more.begin(), more.end());
+  do {
+    while (points.size() < count) {
+      const uint32_t x = random.below(kSide);
+      points.push_back(point(x, random.below(kSide)));
+    }
     points = distinct(std::move(points), random);
-  }
+  } while (points.size() < count);
   Tin tin;
   for (const Point& p : points) tin.vertices.push_back({p.x, p.y, 0});
   return tin;

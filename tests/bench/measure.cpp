@@ -14,22 +14,12 @@
 namespace microtin::bench {
 namespace {
 
-constexpr size_t kRounds = 7;
+constexpr size_t kRounds = 5;
 
 double seconds_of(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-// The total of a file that callgrind wrote.
-double total_in(const std::string& path) {
-  std::ifstream file(path);
-  for (std::string line; std::getline(file, line);) {
-    const std::string key = "totals: ";
-    if (line.compare(0, key.size(), key) == 0) return std::stod(line.substr(key.size()));
-  }
-  throw Error(path + ": callgrind wrote no totals");
 }
 
 }  // namespace
@@ -47,10 +37,24 @@ std::vector<double> nanoseconds(const std::vector<Work>& works) {
   return medians;
 }
 
-std::vector<double> instructions(const std::vector<Work>& works, const std::string& file) {
-  std::vector<double> counts;
 #ifdef MICROTIN_BENCH_VALGRIND
-  static int dumps = 0;
+namespace {
+
+// The total of a file that callgrind wrote.
+double total_in(const std::string& path) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    const std::string key = "totals: ";
+    if (line.compare(0, key.size(), key) == 0) return std::stod(line.substr(key.size()));
+  }
+  throw Error(path + ": callgrind wrote no totals");
+}
+
+}  // namespace
+
+std::vector<double> instructions(const std::vector<Work>& works, const std::string& file) {
+  static int dumps = 0;  // callgrind numbers its files
+  std::vector<double> counts;
   for (const Work& work : works) {
     CALLGRIND_START_INSTRUMENTATION;
     CALLGRIND_ZERO_STATS;
@@ -59,11 +63,12 @@ std::vector<double> instructions(const std::vector<Work>& works, const std::stri
     CALLGRIND_DUMP_STATS;
     counts.push_back(total_in(file + "." + std::to_string(++dumps)));
   }
-#else
-  (void)works;
-  throw Error(file + ": built without valgrind");
-#endif
   return counts;
 }
+#else
+std::vector<double> instructions(const std::vector<Work>&, const std::string&) {
+  throw Error("built without valgrind's headers");
+}
+#endif
 
 }  // namespace microtin::bench

@@ -9,8 +9,8 @@ namespace microtin::bench {
 std::vector<Codec> dense_codecs() {
   std::vector<Codec> codecs;
 #ifdef MICROTIN_BENCH_DRACO
-  codecs.push_back(draco_points(0));
-  codecs.push_back(draco_mesh(0));
+  codecs.push_back(draco_points(10));
+  codecs.push_back(draco_mesh(10));
 #endif
 #ifdef MICROTIN_BENCH_LIBLZMA
   codecs.push_back(xz_points());
@@ -21,7 +21,7 @@ std::vector<Codec> dense_codecs() {
 std::vector<Codec> fast_codecs() {
   std::vector<Codec> codecs;
 #ifdef MICROTIN_BENCH_DRACO
-  codecs.push_back(draco_points(0));
+  codecs.push_back(draco_points(10));
   codecs.push_back(draco_mesh(5));
 #endif
   return codecs;

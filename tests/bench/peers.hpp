@@ -17,6 +17,7 @@ struct Codec {
   bool sends_triangles;
   std::function<Bytes(const Surface&)> encode;
   std::function<Surface(const Bytes&)> decode;
+  std::function<void(const Bytes&)> decode_and_drop;  // without the copy into a Surface; for timing
 };
 
 struct Triangulator {
@@ -38,9 +39,9 @@ void print_missing_peers();
 // Encodes, and throws Error unless that decodes to the surface.
 Bytes checked_encode(const Codec& codec, const Surface& surface);
 
-// The peers themselves. Draco's speed is 0 for the smallest files and 5 by default.
-Codec draco_points(int speed);
-Codec draco_mesh(int speed);
+// The peers themselves. Draco's compression level is 10 for the smallest files and 5 by default.
+Codec draco_points(int level);
+Codec draco_mesh(int level);
 Codec xz_points();
 Triangulator cgal();
 

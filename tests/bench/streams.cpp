@@ -1,7 +1,5 @@
-#include <fstream>
-
 #include "encoder/encode.hpp"
-#include "encoder/error.hpp"
+#include "encoder/output_file.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/speed.hpp"
 #include "tests/bench/surface.hpp"
@@ -11,10 +9,9 @@ namespace {
 
 void write(const std::string& path, const Model& model) {
   const Bytes stream = encode(model.tin, model.metadata);
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(stream.data()),
-             static_cast<std::streamsize>(stream.size()));
-  if (!file.flush()) throw Error(path + ": cannot be written");
+  OutputFile file(path);
+  file.write({reinterpret_cast<const char*>(stream.data()), stream.size()});
+  file.commit();
 }
 
 std::string name_of(const Dataset& dataset) {

@@ -17,8 +17,8 @@ inline void print_row(const Row& row) {
   std::fflush(stdout);
 }
 
-inline void print_head(const char* title, const Row& head) {
-  std::printf("\n### %s\n\n", title);
+inline void print_head(const std::string& title, const Row& head) {
+  std::printf("\n### %s\n\n", title.c_str());
   print_row(head);
   print_row(Row(head.size(), "---"));
 }

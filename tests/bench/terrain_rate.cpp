@@ -18,9 +18,9 @@ std::string label(const Dataset& dataset) {
 class TerrainRate {
  public:
   TerrainRate() {
-    Row head{"terrain, error / z step", "vertices", "xy floor", "microtin bytes", "bits/vertex"};
+    Row head{"terrain, error / z step", "vertices", "xy floor", "microtin, bytes", "bits/vertex"};
     for (const Codec& peer : peers_) {
-      head.push_back(peer.name + " bytes");
+      head.push_back(peer.name + ", bytes");
       head.push_back("ratio");
     }
     print_head("Terrain: x, y, z and triangles, D 8, whole file; ratio: microtin / peer", head);

@@ -99,7 +99,7 @@ Surface decode(const Bytes& bytes) {
 }  // namespace
 
 Codec xz_points() {
-  return {"xz points", false, encode, decode};
+  return {"xz points", false, encode, decode, decode};
 }
 
 }  // namespace microtin::bench

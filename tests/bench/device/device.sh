@@ -36,6 +36,9 @@ echo "| level | text + rodata, bytes | stack, bytes | vertices | instructions pe
 echo "| --- | --- | --- | --- | --- |"
 for level in Os O2; do
   build_device $level
-  set -- $(run_device $level)
-  echo "| -$level | $(code_bytes $level) | $(stack_bytes $level) | $1 | $(($2 / $1)) |"
+  code=$(code_bytes $level)
+  stack=$(stack_bytes $level)
+  counts=$(run_device $level)
+  set -- $counts
+  echo "| -$level | $code | $stack | $1 | $(($2 / $1)) |"
 done
