@@ -24,11 +24,6 @@ struct FreeRegion {
   Side side[3];
 };
 
-inline int64_t squared_length(Point a, Point b) {
-  const int32_t dx = static_cast<int32_t>(b.x) - a.x, dy = static_cast<int32_t>(b.y) - a.y;
-  return static_cast<int64_t>(dx) * dx + static_cast<int64_t>(dy) * dy;  // < 2^33
-}
-
 // (a - p) . (b - p): negative if the angle at p is obtuse. |result| < 2^33.
 inline int64_t dot_at(Point p, Point a, Point b) {
   const int32_t ax = static_cast<int32_t>(a.x) - p.x, ay = static_cast<int32_t>(a.y) - p.y;

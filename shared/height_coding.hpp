@@ -74,24 +74,18 @@ struct HeightPrediction {
 // 2^32 needs 64 bits.
 inline HeightPrediction predict_height(const Mesh& mesh, const uint8_t* roughness,
                                        const Index* ring, uint32_t size, Point place) {
-  uint64_t nearest = ~static_cast<uint64_t>(0);
+  int64_t nearest = INT64_MAX;
   for (uint32_t i = 0; i < size; ++i) {
     if (ring[i] == kInfinity) continue;
-    const int32_t dx = static_cast<int32_t>(mesh.x[ring[i]]) - place.x;
-    const int32_t dy = static_cast<int32_t>(mesh.y[ring[i]]) - place.y;
-    const uint64_t d =
-        static_cast<uint64_t>(static_cast<int64_t>(dx) * dx + static_cast<int64_t>(dy) * dy);
+    const int64_t d = squared_length(point_of(mesh, ring[i]), place);
     if (d < nearest) nearest = d;
   }
   int64_t height = 0, weights = 0, rough = 0, spread = 0;
   int32_t first = 0;
   for (uint32_t i = 0; i < size; ++i) {
     if (ring[i] == kInfinity) continue;
-    const int32_t dx = static_cast<int32_t>(mesh.x[ring[i]]) - place.x;
-    const int32_t dy = static_cast<int32_t>(mesh.y[ring[i]]) - place.y;
-    const uint64_t d =
-        static_cast<uint64_t>(static_cast<int64_t>(dx) * dx + static_cast<int64_t>(dy) * dy);
-    const int64_t w = static_cast<int64_t>((nearest << 12) / d);  // d >= nearest >= 1
+    const int64_t d = squared_length(point_of(mesh, ring[i]), place);
+    const int64_t w = (nearest << 12) / d;  // d >= nearest >= 1
     const int32_t z = mesh.z[ring[i]];
     if (weights == 0) first = z;
     weights += w;

@@ -17,6 +17,11 @@ inline int64_t orient2d(Point a, Point b, Point c) {
   return static_cast<int64_t>(abx) * acy - static_cast<int64_t>(aby) * acx;
 }
 
+inline int64_t squared_length(Point a, Point b) {
+  const int32_t dx = static_cast<int32_t>(b.x) - a.x, dy = static_cast<int32_t>(b.y) - a.y;
+  return static_cast<int64_t>(dx) * dx + static_cast<int64_t>(dy) * dy;  // < 2^33
+}
+
 // The product of two signed numbers modulo 2^64.
 inline uint64_t wrapping_product(int64_t a, int64_t b) {
   return static_cast<uint64_t>(a) * static_cast<uint64_t>(b);

@@ -1,17 +1,7 @@
 // Decodes a stream in flash, read in place, and prints its vertices and the instructions it took.
+#include "tests/firmware/linked_stream.hpp"
 #include "tests/firmware/report.hpp"
 #include "toolchains/firmware.hpp"
-
-asm(R"(
-  .section .rodata.stream, "a"
-  .balign 4
-stream_begin:
-  .incbin ")" MICROTIN_STREAM R"("
-stream_end:
-  .previous
-)");
-extern "C" const uint8_t stream_begin[];
-extern "C" const uint8_t stream_end[];
 
 namespace {
 
@@ -38,16 +28,15 @@ class InstructionCounter {
 
 int firmware_main() {
   static microtin::Terrain<MICROTIN_MAX_VERTICES> terrain;
-  const size_t size = static_cast<size_t>(stream_end - stream_begin);
   const InstructionCounter instructions;
   static microtin::Decoder<MICROTIN_MAX_VERTICES> decoder(terrain);
   size_t used = 0;
-  decoder.feed(stream_begin, size, &used);
+  decoder.feed(stream_begin, stream_size(), &used);
   const microtin_status status = decoder.finish();
   const uint32_t count = instructions.count();
 
   microtin_info info;
-  microtin_peek(stream_begin, size, &info);
+  microtin_peek(stream_begin, stream_size(), &info);
   microtin::print(put_char, info.vertices);
   microtin::print(put_char, " ");
   microtin::print(put_char, count);

@@ -25,10 +25,7 @@ stack_bytes() {
 
 # Vertices, and instructions to decode them.
 run_device() {
-  timeout 120 qemu-system-arm -M mps2-an386 -display none -monitor none -serial null \
-    -chardev stdio,id=console,signal=off \
-    -semihosting-config enable=on,target=native,chardev=console -icount shift=6 \
-    -kernel "$build/$1/tests/bench/device/bench_device.elf" </dev/null
+  sh toolchains/arm/run.sh mps2-an386 "$build/$1/tests/bench/device/bench_device.elf" -icount shift=6
 }
 
 printf '\n### Decoding a terrain tile on a Cortex-M4\n\n'
