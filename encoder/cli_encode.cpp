@@ -2,6 +2,7 @@
 
 #include "encoder/cli_commands.hpp"
 #include "encoder/cli_report.hpp"
+#include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
 #include "encoder/import.hpp"
 #include "encoder/lay_out.hpp"
@@ -87,8 +88,13 @@ void run_encode(const EncodeRequest& request) {
   const Laid laid = about(request.input, [&] { return lay_out(source, request.lattice); });
   const Encoded encoded = about(request.input, [&] {
     const SimplifyOptions options{request.lattice.max_error.has_value(), request.max_vertices};
-    return encode_measured(simplify(laid.survey, options),
-                           metadata_of(request, source, laid.placement), source, request);
+    const Tin tin = simplify(laid.survey, options);
+    if (request.max_vertices != 0 && tin.vertices.size() > request.max_vertices) {
+      throw Error("--max-vertices " + std::to_string(request.max_vertices) +
+                  " is not enough: outline and voids alone need " +
+                  std::to_string(tin.vertices.size()));
+    }
+    return encode_measured(tin, metadata_of(request, source, laid.placement), source, request);
   });
   out.write({reinterpret_cast<const char*>(encoded.stream.data()), encoded.stream.size()});
   out.commit();

@@ -73,8 +73,9 @@ class Asker {
   // The terrain's height there, with 16 fractional bits, if it has one.
   std::optional<int32_t> height_at(Point place) {
     int32_t height = 0;
+    uint32_t& hint = hints_[(place.x >> 8) * size_t{256} + (place.y >> 8)];
     const microtin_answer answer =
-        microtin_height_at(mesh_, place.x * 256, place.y * 256, 0, &hint_, &height);
+        microtin_height_at(mesh_, place.x * 256, place.y * 256, 0, &hint, &height);
     if (answer != MICROTIN_HEIGHT) return std::nullopt;
     return height;
   }
@@ -82,7 +83,8 @@ class Asker {
  private:
   const microtin_mesh* mesh_;
   LatticeMap x_, y_;
-  uint32_t hint_ = 0;
+  // Where the last search in each 256 x 256 part of the lattice ended: points come in any order.
+  std::vector<uint32_t> hints_ = std::vector<uint32_t>(size_t{256} * 256);
 };
 
 // How many of the void places, which may repeat, are not in `heights`.

@@ -142,6 +142,7 @@ TEST_CASE("cli: bounds are kept, merged points counted") {
   CHECK(contains(session.run("encode f.asc --xy-step 2 -o g.mtin").out, "merged: "));
   CHECK(session.run("encode f.asc --max-vertices 100 -o h.mtin").code == 0);
   CHECK(contains(session.run("info h.mtin --json").out, "\"vertices\": 100,"));
+  CHECK(contains(session.failure("encode f.asc --max-vertices 3 -o i.mtin"), "alone need 4"));
 }
 
 TEST_CASE("cli: verify fails on another terrain") {
@@ -161,6 +162,7 @@ TEST_CASE("cli: voids are filled on request") {
   CHECK(contains(session.run("encode t.asc --fill-voids 2 -o t.mtin").out,
                  "12 posts, 2 of the posts were void and are filled"));
   CHECK(contains(session.failure("verify t.mtin t.asc"), "voids"));
+  CHECK(session.run("verify t.mtin t.asc --fill-voids 2").code == 0);
 }
 
 TEST_CASE("cli: bad input gives one line with file and line, and no output") {
