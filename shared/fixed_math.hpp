@@ -12,6 +12,16 @@ namespace microtin {
 typedef int32_t Log2;
 constexpr Log2 kLog2One = 256;
 
+// a / b for b > 0. Where 64-bit division is a long library call, it is avoided for operands that
+// fit in 32 bits, as most do.
+inline int64_t quotient(int64_t a, int64_t b) {
+#if UINTPTR_MAX <= 0xFFFFFFFFu
+  const int32_t small_a = static_cast<int32_t>(a), small_b = static_cast<int32_t>(b);
+  if (small_a == a && small_b == b) return small_a / small_b;
+#endif
+  return a / b;
+}
+
 // Position of the highest set bit of v > 0.
 inline uint32_t highest_bit(uint64_t v) {
   uint32_t bit = 0;

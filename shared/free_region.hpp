@@ -39,7 +39,7 @@ constexpr Area kAreaCap = static_cast<Area>(1) << 50;
 // q / h, capped. 0 <= q < 2^34, 0 < h < 2^34.
 inline Area disc_area(int64_t length2, int64_t q, int64_t h) {
   // pi / 4 * length2 * (1 + k^2); k = q / h with 8 fractional bits, at most 2^15.
-  const int64_t k = (q << 8) / h;
+  const int64_t k = quotient(q << 8, h);
   if (k >= 32768) return kAreaCap;
   const int64_t stretch = (65536 + k * k) >> 8;         // <= 2^22, 8 fractional bits
   const int64_t area = (length2 * stretch >> 8) * 201;  // pi / 4 = 201 / 256
@@ -51,7 +51,7 @@ inline Area disc_area(int64_t length2, int64_t q, int64_t h) {
 inline Area segment_area(int64_t length2, int64_t q, int64_t h) {
   const int64_t size = q < 0 ? -q : q;
   // t = |q| / (|q| + h) in 13 bits: 5 choose the table entry, 8 interpolate.
-  const uint32_t t = static_cast<uint32_t>((size << 13) / (size + h));
+  const uint32_t t = static_cast<uint32_t>(quotient(size << 13, size + h));
   const uint32_t i = t >> 8;
   uint32_t table = 0;  // 15 fractional bits, for a chord of length 2
   if (i < 32) {
@@ -122,8 +122,8 @@ inline Power circle_through(Point p, Point q, Point r) {
   const int64_t tx = static_cast<int32_t>(r.x) - p.x, ty = static_cast<int32_t>(r.y) - p.y;
   const int64_t h = sx * ty - sy * tx;
   const int64_t s2 = sx * sx + sy * sy, t2 = tx * tx + ty * ty;
-  return circle_with_gradient(cap_slope((sy * t2 - ty * s2) * 256 / h),
-                              cap_slope((tx * s2 - sx * t2) * 256 / h));
+  return circle_with_gradient(cap_slope(quotient((sy * t2 - ty * s2) * 256, h)),
+                              cap_slope(quotient((tx * s2 - sx * t2) * 256, h)));
 }
 
 // |i|, |j| <= 2^16 and |x|, |y| <= 2^41 give terms below 2^58.

@@ -85,7 +85,7 @@ inline HeightPrediction predict_height(const Mesh& mesh, const uint8_t* roughnes
   for (uint32_t i = 0; i < size; ++i) {
     if (ring[i] == kInfinity) continue;
     const int64_t d = squared_length(point_of(mesh, ring[i]), place);
-    const int64_t w = (nearest << 12) / d;  // d >= nearest >= 1
+    const int64_t w = quotient(nearest << 12, d);  // d >= nearest >= 1
     const int32_t z = mesh.z[ring[i]];
     if (weights == 0) first = z;
     weights += w;
@@ -96,12 +96,13 @@ inline HeightPrediction predict_height(const Mesh& mesh, const uint8_t* roughnes
   if (weights == 0) return HeightPrediction{0, 0};
   HeightPrediction prediction;
   const int64_t twice = 2 * height + weights;  // floor(height / weights + 1/2)
-  int64_t rounded = twice / (2 * weights);
-  if (twice % (2 * weights) < 0) --rounded;
+  int64_t rounded = quotient(twice, 2 * weights);
+  if (rounded * 2 * weights > twice) --rounded;
   prediction.height = static_cast<int32_t>(rounded);
-  const uint32_t around = static_cast<uint32_t>(rough / weights);
+  const uint32_t around = static_cast<uint32_t>(quotient(rough, weights));
   const uint32_t slope =
-      static_cast<uint32_t>(log2_of(static_cast<uint64_t>(spread * 4 / weights) + 1)) / 64u;
+      static_cast<uint32_t>(log2_of(static_cast<uint64_t>(quotient(spread * 4, weights)) + 1)) /
+      64u;
   prediction.roughness = (3 * around + slope) / 4;
   return prediction;
 }

@@ -72,11 +72,19 @@ inline void pair(Mesh& mesh, Index a, Index b) {
 // Whether p, different from the vertices of the triangle of half-edge h, conflicts with it.
 inline bool in_conflict(const Mesh& mesh, Index h, Point p) {
   const Index f = first_edge(triangle_of(h));
-  const Index a = mesh.origin[f], b = mesh.origin[f + 1u], c = mesh.origin[f + 2u];
-  if (a == kInfinity) return conflicts_with_ghost(point_of(mesh, b), point_of(mesh, c), p);
-  if (b == kInfinity) return conflicts_with_ghost(point_of(mesh, c), point_of(mesh, a), p);
-  if (c == kInfinity) return conflicts_with_ghost(point_of(mesh, a), point_of(mesh, b), p);
-  return conflicts_with_triangle(point_of(mesh, a), point_of(mesh, b), point_of(mesh, c), p);
+  Index a = mesh.origin[f], b = mesh.origin[f + 1u], c = mesh.origin[f + 2u];
+  if (a == kInfinity) {
+    a = b;
+    b = c;
+    c = kInfinity;
+  } else if (b == kInfinity) {
+    b = a;
+    a = c;
+    c = kInfinity;
+  }
+  const Point pa = point_of(mesh, a), pb = point_of(mesh, b);
+  if (c == kInfinity) return conflicts_with_ghost(pa, pb, p);
+  return conflicts_with_triangle(pa, pb, point_of(mesh, c), p);
 }
 
 // The mesh of one counter-clockwise triangle (0, 1, 2) and its three ghosts.

@@ -53,7 +53,7 @@ typedef int64_t Cotangent;
 constexpr Cotangent kCotangentCap = 32767;
 
 inline Cotangent cotangent(int64_t q, int64_t h) {
-  const int64_t k = q * 256 / h;  // |q| < 2^33
+  const int64_t k = quotient(q * 256, h);  // |q| < 2^33
   return k > kCotangentCap ? kCotangentCap : k < -kCotangentCap ? -kCotangentCap : k;
 }
 
@@ -75,7 +75,7 @@ inline void estimate_sweep(PlaceOdds& odds, const FreeRegion& region, Log2 densi
     from = cotangent(dot_at(behind.apex, v, a), orient2d(a, v, behind.apex));
     odds.swept_from = odds.outside[kChord];
   }
-  const int64_t steepening = odds.inside.steepness * 256 / odds.swept_from.steepness;
+  const int64_t steepening = quotient(odds.inside.steepness * 256, odds.swept_from.steepness);
   odds.steepening = steepening < 65535 ? static_cast<int32_t>(steepening) : 65535;
   const Area start = segment_area(length2, from, 256);
   for (int i = 0; i < kSweepEntries; ++i) {

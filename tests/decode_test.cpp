@@ -7,6 +7,8 @@
 
 #include "encoder/encode.hpp"
 #include "encoder/error.hpp"
+#include "fuzz/repair.hpp"
+#include "tests/mesh_copy.hpp"
 #include "tests/streams.hpp"
 
 using namespace microtin;
@@ -14,17 +16,20 @@ using Bytes = std::vector<uint8_t>;
 
 namespace {
 
-// A mesh and a decoder with storage on the heap, for a given capacity.
+// A mesh and a decoder for a given capacity, in workspaces full of garbage with guards behind them.
 struct Device {
   explicit Device(uint32_t capacity)
-      : mesh_bytes((MICROTIN_MESH_BYTES(capacity) + 7) / 8),
-        decoder_bytes((MICROTIN_DECODER_BYTES(capacity) + 7) / 8) {
-    std::fill(mesh_bytes.begin(), mesh_bytes.end(), 0xA5A5A5A5A5A5A5A5u);
-    std::fill(decoder_bytes.begin(), decoder_bytes.end(), 0x5A5A5A5A5A5A5A5Au);
-    REQUIRE(microtin_mesh_init(mesh_bytes.data(), MICROTIN_MESH_BYTES(capacity), &mesh) ==
+      : mesh_size(MICROTIN_MESH_BYTES(capacity)),
+        decoder_size(MICROTIN_DECODER_BYTES(capacity)),
+        mesh_storage(mesh_size / 8 + 2, kGarbage),
+        decoder_storage(decoder_size / 8 + 2, kGarbage) {
+    REQUIRE(microtin_mesh_init(mesh_storage.data(), mesh_size, &mesh) == MICROTIN_DONE);
+    REQUIRE(microtin_decoder_init(decoder_storage.data(), decoder_size, mesh, &decoder) ==
             MICROTIN_DONE);
-    REQUIRE(microtin_decoder_init(decoder_bytes.data(), MICROTIN_DECODER_BYTES(capacity), mesh,
-                                  &decoder) == MICROTIN_DONE);
+  }
+
+  bool guards_are_whole() const {
+    return mesh_storage.back() == kGarbage && decoder_storage.back() == kGarbage;
   }
 
   microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t steps = 0) const {
@@ -35,7 +40,9 @@ struct Device {
     return feed(bytes.data(), bytes.size(), &used);
   }
 
-  std::vector<uint64_t> mesh_bytes, decoder_bytes;
+  static constexpr uint64_t kGarbage = 0xA5A5A5A5A5A5A5A5u;
+  size_t mesh_size, decoder_size;
+  std::vector<uint64_t> mesh_storage, decoder_storage;
   microtin_mesh* mesh = nullptr;
   microtin_decoder* decoder = nullptr;
 };
@@ -148,6 +155,28 @@ TEST_CASE("every single flipped bit is noticed, and never before it is reached")
     CHECK(status <= MICROTIN_TRUNCATED);
     CHECK(microtin_bytes_used(device.decoder) >= std::min<size_t>(bit / 8, 18));
   }
+}
+
+TEST_CASE("damage behind right checks ends in a status, and the mesh stays sound") {
+  const Bytes stream = terrain_stream(40, 11);
+  int rejected = 0;
+  for (size_t at = 5; at < stream.size(); ++at) {
+    const uint8_t byte = stream[at];
+    for (const int other : {0, 255, byte + 1, byte - 1}) {
+      Bytes damaged = stream;
+      damaged[at] = static_cast<uint8_t>(other);
+      repair(damaged);
+      Device device(60);
+      device.feed_all(damaged);
+      const microtin_status status = microtin_finish(device.decoder);
+      CHECK((status == MICROTIN_DONE || status >= MICROTIN_BAD_MAGIC));
+      rejected += status != MICROTIN_DONE;
+      if (microtin_vertex_count(device.mesh) < 3) continue;
+      CHECK(is_sound(MeshCopy(device.mesh)));
+      CHECK(device.guards_are_whole());
+    }
+  }
+  CHECK(rejected > 100);
 }
 
 TEST_CASE("a mesh of exactly n vertices is enough, n - 1 is too small and says so early") {
