@@ -15,7 +15,7 @@ size_t bytes_needed(const microtin_decoder& d) {
     case Item::kFixedHeader:
       return kFixedHeaderBytes;
     case Item::kBlockHead:
-      return kBlockHeadBytes;
+      return smaller(kBlockHeadBytes, d.blocks_left);
     case Item::kPlacement:
       return d.block_left;
     case Item::kSkippedBlock:
@@ -54,33 +54,39 @@ microtin_status handle_fixed_header(microtin_decoder& d) {
   take_bytes(d, bytes, kFixedHeaderBytes);
   const microtin_status known = check_identity(bytes);
   if (known != MICROTIN_DONE) return known;
-  d.header_is_legal = read_contract(bytes, &d.contract, &d.blocks_left);
+  const bool legal = read_contract(bytes, &d.contract, &d.blocks_left);
+  d.header_status = legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
   d.item = after_block(d);
   return MICROTIN_NEED_INPUT;
 }
 
+// Whatever is wrong with a block is told once the header's check has passed: before, it is damage.
 microtin_status handle_block_head(microtin_decoder& d) {
-  uint8_t bytes[kBlockHeadBytes];
-  if (d.blocks_left < kBlockHeadBytes) return MICROTIN_MALFORMED;
-  take_bytes(d, bytes, kBlockHeadBytes);
-  d.blocks_left -= kBlockHeadBytes;
+  uint8_t bytes[kBlockHeadBytes] = {0, 0, 0};
+  const uint32_t size = static_cast<uint32_t>(smaller(kBlockHeadBytes, d.blocks_left));
+  take_bytes(d, bytes, size);
+  d.blocks_left -= size;
   d.block_left = read_u16(bytes + 1);
-  if (d.block_left > d.blocks_left) return MICROTIN_MALFORMED;
-  if (bytes[0] == kBlockPlacement && d.block_left > kPlacementMostBytes) return MICROTIN_MALFORMED;
-  d.blocks_left -= d.block_left;
-  if ((bytes[0] & kMustUnderstand) != 0) return MICROTIN_UNSUPPORTED_VERSION;
-  if (bytes[0] == kBlockPlacement) {
+  d.item = Item::kSkippedBlock;
+  const bool placement = bytes[0] == kBlockPlacement;
+  if (size < kBlockHeadBytes || d.block_left > d.blocks_left ||
+      (placement && d.block_left > kPlacementMostBytes)) {
+    d.header_status = MICROTIN_MALFORMED;
+    d.block_left = d.blocks_left;
+  } else if ((bytes[0] & kMustUnderstand) != 0) {
+    d.header_status = MICROTIN_UNSUPPORTED_VERSION;
+  } else if (placement) {
     d.item = Item::kPlacement;
-  } else {
-    d.item = d.block_left == 0 ? after_block(d) : Item::kSkippedBlock;
   }
+  d.blocks_left -= d.block_left;
+  if (d.item == Item::kSkippedBlock && d.block_left == 0) d.item = after_block(d);
   return MICROTIN_NEED_INPUT;
 }
 
 microtin_status handle_placement(microtin_decoder& d) {
   uint8_t bytes[kPlacementMostBytes];
   take_bytes(d, bytes, d.block_left);
-  if (!read_placement(bytes, d.block_left, d.mesh->axis)) d.header_is_legal = false;
+  if (!read_placement(bytes, d.block_left, d.mesh->axis)) d.header_status = MICROTIN_MALFORMED;
   d.item = after_block(d);
   return MICROTIN_NEED_INPUT;
 }
@@ -101,7 +107,7 @@ void begin_section(microtin_decoder& d) {
 
 microtin_status handle_header_check(microtin_decoder& d) {
   if (!check_passes(d)) return MICROTIN_CHECKSUM;
-  if (!d.header_is_legal) return MICROTIN_MALFORMED;
+  if (d.header_status != MICROTIN_DONE) return d.header_status;
   if (d.contract.vertices > d.capacity || d.contract.vertices > d.mesh->capacity) {
     return MICROTIN_TOO_BIG;
   }
@@ -138,7 +144,8 @@ microtin_status handle_step(microtin_decoder& d) {
   if (progress == Progress::kSectionEnd) {
     if (d.coder.payload_left != 0) return MICROTIN_MALFORMED;
     d.item = Item::kSectionCheck;
-  } else if (progress == Progress::kPhaseEnd && is_far_enough(d)) {
+  } else if (progress == Progress::kPhaseEnd && d.reconstruction.stage == Stage::kPhase &&
+             is_far_enough(d)) {
     return MICROTIN_STOPPED;
   }
   return MICROTIN_NEED_INPUT;
@@ -256,6 +263,12 @@ bool misaligned(const void* workspace) {
   return reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0;
 }
 
+// A size, or the largest where size_t is too narrow for it.
+size_t saturated(unsigned long size) {
+  const size_t most = ~static_cast<size_t>(0);
+  return size < most ? static_cast<size_t>(size) : most;
+}
+
 constexpr uint32_t kMeshFixed = MICROTIN_MESH_BYTES(0);
 constexpr uint32_t kMeshPerFour = MICROTIN_MESH_BYTES(4) - kMeshFixed;
 constexpr uint32_t kDecoderFixed = MICROTIN_DECODER_BYTES(0);
@@ -341,6 +354,7 @@ microtin_status microtin_feed(microtin_decoder* decoder, const uint8_t* bytes, s
 }
 
 microtin_status microtin_finish(microtin_decoder* decoder) {
+  if (decoder == nullptr) return MICROTIN_ARGUMENT;
   if (decoder->status == MICROTIN_NEED_INPUT) decoder->status = MICROTIN_TRUNCATED;
   return decoder->status;
 }
@@ -386,7 +400,7 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   info->x = axis[0];
   info->y = axis[1];
   info->z = axis[2];
-  info->mesh_bytes = static_cast<size_t>(MICROTIN_MESH_BYTES(contract.vertices));
-  info->decoder_bytes = static_cast<size_t>(MICROTIN_DECODER_BYTES(contract.vertices));
+  info->mesh_bytes = saturated(MICROTIN_MESH_BYTES(contract.vertices));
+  info->decoder_bytes = saturated(MICROTIN_DECODER_BYTES(contract.vertices));
   return MICROTIN_DONE;
 }

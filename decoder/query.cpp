@@ -161,7 +161,7 @@ int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_u
   // be within 2^62 and their difference within 65537 numerators.
   const int64_t limit = static_cast<int64_t>(1) << 62;
   if (whole > limit / denominator || whole < -limit / denominator) return 0;
-  if (axis->offset > limit || axis->offset < -limit) return 0;
+  if (axis->offset >= limit || axis->offset <= -limit) return 0;
   const int64_t ahead = whole * denominator - axis->offset;
   const uint64_t scaled = static_cast<uint64_t>(rest) * axis->denominator;  // < 2^64
   const uint64_t part = scaled / per_unit, left = scaled % per_unit;        // part < 2^40

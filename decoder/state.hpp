@@ -42,7 +42,7 @@ struct microtin_decoder {
   uint32_t section_bytes;
   uint8_t section_shift;
   microtin::Contract contract;
-  bool header_is_legal;
+  microtin_status header_status;  // DONE, or what to say once its check has passed
   microtin::ByteWindow window;
   microtin::RangeDecoder coder;
   uint8_t staged_bytes;

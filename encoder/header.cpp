@@ -94,6 +94,12 @@ class BlockReader {
     return value;
   }
 
+  uint32_t number32() {
+    const uint64_t value = number();
+    if (value > UINT32_MAX) throw Error("malformed header block");
+    return static_cast<uint32_t>(value);
+  }
+
   uint8_t byte() {
     if (next_ == end_) throw Error("malformed header block");
     return *next_++;
@@ -123,8 +129,8 @@ void read_block(uint8_t type, const uint8_t* begin, const uint8_t* end, Metadata
     m.horizontal_unit = unit_of(reader.byte());
     m.vertical_unit = unit_of(reader.byte());
   } else if (type == kBlockEpsg) {
-    m.horizontal_epsg = static_cast<uint32_t>(reader.number());
-    m.vertical_epsg = static_cast<uint32_t>(reader.number());
+    m.horizontal_epsg = reader.number32();
+    m.vertical_epsg = reader.number32();
   } else if (type == kBlockSource) {
     m.source.assign(begin, end);
   } else if (type == kBlockAccuracy) {

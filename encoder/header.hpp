@@ -22,7 +22,7 @@ struct Header {
 // Throws Error if the header is cut off, damaged or not understood.
 Header read_header(const std::vector<uint8_t>& stream);
 
-// The stream with another header for the same terrain.
+// The stream with another header for the same terrain; blocks of unknown types are dropped.
 std::vector<uint8_t> with_metadata(const std::vector<uint8_t>& stream, const Metadata& metadata);
 
 // A sentence for a status of the decoder.

@@ -11,7 +11,7 @@ constexpr uint8_t kMagic[4] = {'m', 't', 'i', 'n'};
 constexpr uint8_t kVersion = 1;
 constexpr uint8_t kHasHeights = 1, kHasVoids = 2;  // header flags; the others are zero
 constexpr uint32_t kMinDegree = 6, kMaxDegree = 32;
-constexpr uint32_t kMaxVertices = 1u << 24;
+constexpr uint32_t kMaxVertices = 16777216;  // 2^24
 
 // A section of the body ends with the first phase that brings the terrain to this many vertices,
 // and with every phase after it.

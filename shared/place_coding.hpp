@@ -53,7 +53,8 @@ typedef int64_t Cotangent;
 constexpr Cotangent kCotangentCap = 32767;
 
 inline Cotangent cotangent(int64_t q, int64_t h) {
-  const int64_t k = quotient(q * 256, h);  // |q| < 2^33
+  // |q| < 2^33; h is negative for an apex behind the chord.
+  const int64_t k = h < 0 ? quotient(-q * 256, -h) : quotient(q * 256, h);
   return k > kCotangentCap ? kCotangentCap : k < -kCotangentCap ? -kCotangentCap : k;
 }
 

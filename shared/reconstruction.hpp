@@ -77,10 +77,10 @@ struct Reconstruction {
   Index void_cursor;
 
   Cavity cavity;
-  Index cavity_triangles[kMaxDegree];
-  Index cavity_origin[kMaxDegree + 2];
-  Index cavity_twin[kMaxDegree + 2];
-  Index cavity_pending[kMaxDegree + 2];
+  Index cavity_triangles[kMaxDegree - 2];
+  Index cavity_origin[kMaxDegree];
+  Index cavity_twin[kMaxDegree];
+  Index cavity_pending[kMaxDegree];
   FreeRegion
       region;  // of the triangle in hand, and the odds of places in it: here to spare the stack
   PlaceOdds odds;
@@ -320,7 +320,7 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   const uint32_t left = r.contract.vertices - placed;
   uint32_t batch = left;
   if (coder.bit(kProbabilityOne / 2, !coder.last_phase())) {
-    // The number of bits, then the number: less than `left`.
+    // All but the low 12 bits, then these: 1 .. left - 1.
     const uint32_t high = coder.uniform((left >> 12) + 1u, (coder.batch() >> 12));
     batch = high << 12 | coder.uniform(4096, coder.batch() & 4095u);
     if (batch == 0 || batch >= left) return Progress::kMalformed;

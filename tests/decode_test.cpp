@@ -232,6 +232,45 @@ TEST_CASE("statuses name what is wrong") {
   CHECK(status_of(other) == MICROTIN_CHECKSUM);
 }
 
+TEST_CASE("header blocks: unknown ones are skipped, required ones refused, broken ones malformed") {
+  const Bytes stream = terrain_stream(20, 9);
+  const auto status_with = [&](const Bytes& blocks, bool damaged) {
+    Bytes other = stream;
+    other.insert(other.begin() + kFixedHeaderBytes, blocks.begin(), blocks.end());
+    other[16] = static_cast<uint8_t>(blocks.size());
+    repair(other);
+    if (damaged) other[kFixedHeaderBytes + blocks.size()] ^= 1;
+    microtin_info info;
+    const microtin_status peeked = microtin_peek(other.data(), other.size(), &info);
+    Device device(20);
+    const microtin_status status = device.feed_all(other);
+    CHECK(status == peeked);
+    return status;
+  };
+  const uint8_t placement = kBlockPlacement;
+  CHECK(status_with({0x7F, 2, 0, 9, 9}, false) == MICROTIN_DONE);
+  CHECK(status_with({0x7F, 0, 0, 0x7E, 1, 0, 5}, false) == MICROTIN_DONE);
+  CHECK(status_with({placement, 9, 0, 1, 2, 3, 1, 2, 3, 1, 2, 3}, false) == MICROTIN_DONE);
+  CHECK(status_with({0xFF, 2, 0, 9, 9}, false) == MICROTIN_UNSUPPORTED_VERSION);
+  for (const Bytes& broken : {Bytes{0x7F}, Bytes{0x7F, 3, 0, 9, 9}, Bytes{placement, 0, 0},
+                              Bytes{placement, 9, 0, 1, 0, 3, 1, 2, 3, 1, 2, 3}}) {
+    CHECK(status_with(broken, false) == MICROTIN_MALFORMED);
+    CHECK(status_with(broken, true) == MICROTIN_CHECKSUM);
+  }
+}
+
+TEST_CASE("stopping after the last phase of a terrain with voids decodes it whole") {
+  Tin tin = rolling_tin(900, 12);
+  const DecodedTerrain without(encode(tin, Metadata()));
+  const MeshCopy copy(without.mesh());
+  const std::array<Point, 3> t = triangles_of(copy.mesh).triangles[7];
+  tin.voids.push_back(Tin::Triangle{t[0], t[1], t[2]});
+  const Bytes stream = encode(tin, Metadata());
+  Device device(900);
+  microtin_stop_after_phase(device.decoder, DecodedTerrain(stream).phases());
+  CHECK(device.feed_all(stream) == MICROTIN_DONE);
+}
+
 TEST_CASE("workspaces are checked") {
   std::vector<uint64_t> bytes(1000);
   microtin_mesh* mesh = nullptr;

@@ -71,6 +71,15 @@ std::vector<Golden> golden_streams() {
   all.push_back({"hills", encode(rolling_tin(1000, 32), full_metadata())});
   all.push_back({"phases", encode(rolling_tin(700, 33), Metadata(), 6)});
   all.push_back({"voids", encode(with_voids(rolling_tin(300, 34)), Metadata())});
+  // Chords whose cotangents are the largest 32-bit numbers and beyond.
+  all.push_back({"needles", encode(flat({{16948, 26227},
+                                         {21539, 23131},
+                                         {22795, 22284},
+                                         {24051, 21437},
+                                         {25307, 20590},
+                                         {48695, 4818},
+                                         {54109, 1167}}),
+                                   Metadata())});
   all.push_back({"triangle",
                  encode(Tin{{{3, 4, -32768}, {60003, 4, 32767}, {3, 65535, 0}}, {}}, Metadata())});
   all.push_back({"cliffs", encode(cliffs(random), Metadata())});

@@ -157,6 +157,11 @@ TEST_CASE("real coordinates convert to the lattice exactly") {
   CHECK(to_lattice(south, -330000000, 10000000) == 0);
   CHECK(to_lattice(south, -325000000, 10000000) == 600 * 256);
 
+  const int64_t far = int64_t{1} << 62;
+  CHECK(to_lattice({-far, 1, 1}, far, 1) == -1);
+  CHECK(to_lattice({far, 1, 1}, -far, 1) == -1);
+  CHECK(to_lattice({1 - far, 1, 1}, 3 - far, 1) == 2 * 256);
+
   // Against rational arithmetic, on random axes.
   Random random(23);
   int inside = 0;

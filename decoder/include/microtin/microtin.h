@@ -35,7 +35,7 @@
 #define MICROTIN_MESH_BYTES_FOR(capacity, bits) \
   (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
-  (((bits) == 16 ? 2847ul : 3127ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
+  (((bits) == 16 ? 2831ul : 3095ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
 
 #ifdef __cplusplus
 extern "C" {
@@ -102,16 +102,20 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
 void microtin_stop_after_phase(microtin_decoder* decoder, uint32_t phase);
 
 /* Decodes from the next `size` bytes of the stream, at most `step_limit` steps (0: no limit); a
- * step is one triangle visited, with at most one insertion. *used tells how many bytes were taken:
- * all of them on NEED_INPUT; on STEP_LIMIT pass the rest again. On DONE the stream's last byte is
- * the last one taken and anything behind it is left alone. Chunking changes no result. */
+ * step is one triangle visited, with at most one insertion. (The step that starts a phase also
+ * clears two bits per vertex; header bytes, at most 64 KB, are no steps.) *used tells how many
+ * bytes were taken: all of them on NEED_INPUT; on STEP_LIMIT pass the rest again. On DONE the
+ * stream's last byte is the last one taken and anything behind it is left alone. Chunking changes
+ * no result. */
 microtin_status microtin_feed(microtin_decoder* decoder, const uint8_t* bytes, size_t size,
                               uint32_t step_limit, size_t* used);
 
-/* Tells the decoder that no byte will follow: NEED_INPUT becomes the error MICROTIN_TRUNCATED. */
+/* Tells the decoder that no byte will follow: NEED_INPUT becomes the error MICROTIN_TRUNCATED. Not
+ * to be called after STEP_LIMIT: feed the rest first. */
 microtin_status microtin_finish(microtin_decoder* decoder);
 
-/* Phases complete so far, and how many bytes of the stream were used. */
+/* Phases complete so far, and how many bytes of the stream were decoded: all that were taken but a
+ * few that wait for more. */
 uint32_t microtin_phase(const microtin_decoder* decoder);
 uint64_t microtin_bytes_used(const microtin_decoder* decoder);
 
@@ -156,7 +160,8 @@ typedef enum microtin_answer {
 
 /* Height of the terrain at (x, y), given with 8 fractional bits (0 .. 65535 * 256): z with 16
  * fractional bits, the exact height of the plane rounded to nearest (halves up), the same from
- * either side of an edge. Valid terrain wins over void on a shared edge or vertex. *hint is the
+ * either side of an edge. Valid terrain wins over void on a shared edge, and a vertex has its own
+ * height even among voids. *hint is the
  * triangle where the walk starts and, afterwards, where it ended; start with 0 and keep it between
  * calls. At most microtin_triangle_count steps; about sqrt(n) from an arbitrary hint. */
 microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
@@ -168,8 +173,8 @@ void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_ax
 
 /* Converts a real coordinate, `value` / `per_unit` units (degrees as 1e-7 integers: per_unit =
  * 10000000), to the lattice with 8 fractional bits, rounded to nearest, for microtin_height_at.
- * Returns 1, or 0 when the place lies outside 0..65535. per_unit is 1 .. 2^24. Exact: integers
- * only. */
+ * Returns 1, or 0 when the place lies outside 0..65535, per_unit outside 1 .. 2^24, or the axis'
+ * offset outside +-2^62. Exact: integers only. */
 int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
                         int32_t* lattice);
 

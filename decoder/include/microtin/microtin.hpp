@@ -37,6 +37,9 @@ class Terrain {
 // The state needed while decoding a terrain of up to Capacity vertices.
 template <uint32_t Capacity>
 class Decoder {
+  static_assert(Capacity >= 3, "a terrain has at least three vertices");
+  static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
+
  public:
   explicit Decoder(microtin_mesh* mesh) {
     microtin_decoder_init(storage_, sizeof storage_, mesh, &decoder_);
