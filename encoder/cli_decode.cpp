@@ -2,10 +2,12 @@
 #include "encoder/cli_report.hpp"
 #include "encoder/error_context.hpp"
 #include "encoder/export.hpp"
+#include "encoder/output_file.hpp"
 
 namespace microtin {
 
 void run_decode(const DecodeRequest& request) {
+  refuse_overwriting(request.input, request.output);
   const MeshFormat format = mesh_format_of(request.output);
   const std::vector<uint8_t> stream = read_stream(request.input);
   const DecodedTerrain terrain = about(request.input, [&] { return DecodedTerrain(stream); });

@@ -82,6 +82,7 @@ std::string report(const Source& source, uint32_t filled, const Laid& laid, cons
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
+  refuse_overwriting(request.input, request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
   Source source = import_terrain(request.input);
   const uint32_t filled = fill_voids(source, request.fill_voids);

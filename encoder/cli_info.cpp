@@ -52,6 +52,11 @@ void add_placement(Report& report, const Metadata& metadata) {
   const Placement& p = metadata.placement;
   report["steps"] = {{"x", step_of(p.x)}, {"y", step_of(p.y)}, {"z", step_of(p.z)}};
   report["offsets"] = {{"x", offset_of(p.x)}, {"y", offset_of(p.y)}, {"z", offset_of(p.z)}};
+  const auto exact = [](const Axis& axis) {
+    return Report{
+        {"offset", axis.offset}, {"numerator", axis.numerator}, {"denominator", axis.denominator}};
+  };
+  report["placement"] = {{"x", exact(p.x)}, {"y", exact(p.y)}, {"z", exact(p.z)}};
   report["units"] = {{"horizontal", name_of(metadata.horizontal_unit)},
                      {"vertical", name_of(metadata.vertical_unit)}};
   if (metadata.horizontal_epsg != 0) report["horizontal_epsg"] = metadata.horizontal_epsg;

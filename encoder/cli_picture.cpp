@@ -18,6 +18,7 @@ void run_fractal(const std::string& output, uint32_t size, uint64_t seed) {
 }
 
 void run_render(const std::string& input, const std::string& output, uint32_t width) {
+  refuse_overwriting(input, output);
   const std::vector<uint8_t> stream = read_stream(input);
   const DecodedTerrain terrain = about(input, [&] { return DecodedTerrain(stream); });
   OutputFile out(output);

@@ -47,6 +47,25 @@ Fraction meaning_of(Decimal written) {
   return striking ? simple : reduced(written.mantissa, scale);
 }
 
+Fraction meaning_within(Decimal written, Fraction tolerance) {
+  const Wide scale = power_of_ten(written.decimals);
+  const Fraction simple = meaning_of(written);
+  const Wide change = magnitude(simple.numerator * scale - written.mantissa * simple.denominator);
+  const bool small =
+      change * tolerance.denominator <= simple.denominator * scale * tolerance.numerator;
+  return small ? simple : reduced(written.mantissa, scale);
+}
+
+std::optional<Fraction> reciprocal_meant(Decimal written) {
+  const Wide scale = power_of_ten(written.decimals);
+  const Fraction simple = meaning_of(written);
+  // |written - 1/q| * 2^16 <= written / 100, times q * scale.
+  const Wide drift = magnitude(written.mantissa * simple.denominator - scale);
+  if (simple.numerator != 1 || drift == 0) return std::nullopt;
+  if (drift * 6553600 > written.mantissa * simple.denominator) return std::nullopt;
+  return simple;
+}
+
 // The first has a denominator below 2^81 (12 decimals times a step's 2^40 times 2), so products
 // with the 40 bits of an axis fit.
 Axis make_axis(Fraction first, Fraction step) {

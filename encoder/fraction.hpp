@@ -2,6 +2,8 @@
 #ifndef MICROTIN_ENCODER_FRACTION_HPP
 #define MICROTIN_ENCODER_FRACTION_HPP
 
+#include <optional>
+
 #include "encoder/decimal.hpp"
 #include "encoder/metadata.hpp"
 
@@ -23,6 +25,13 @@ Fraction simplest_fraction(Decimal written);
 // What a number stands for: 0.000833333333 means 1/1200. That is the simplest fraction if it is so
 // simple that this is no accident; else the decimal itself.
 Fraction meaning_of(Decimal written);
+
+// The same, if that changes the number by no more than a tolerance.
+Fraction meaning_within(Decimal written, Fraction tolerance);
+
+// The reciprocal of a whole number, if a cell size stands for one: so many digits are written that
+// even 2^16 cells lie within a hundredth of a cell of where the decimal puts them.
+std::optional<Fraction> reciprocal_meant(Decimal written);
 
 // The axis first + step * k. The step is exact; where the denominators of both do not go together
 // in 40 bits, the first is rounded to the finest that does. Throws Error if the step does not fit.

@@ -73,15 +73,22 @@ class Header {
   // The axis of cell centres; `axis` is x or y.
   Axis centres(char axis) const {
     const std::string lower_left = std::string(1, axis) + "ll";
-    const std::string size_key = has("cellsize") ? "cellsize" : std::string("d") + axis;
+    const std::string other = std::string("d") + axis;
+    const std::string size_key = has(other) && !has("cellsize") ? other : "cellsize";
     const Decimal size = required(size_key);
     if (size.mantissa <= 0) throw Error(size_key + " is not above 0");
-    Fraction step = meaning_of(size);
-    if (step.numerator >= kAxisLimit) step = simplest_fraction(size);
+    // 0.000833333333 means 1/1200; then the corner's decimals are rounded, too, within 1/100 cell.
+    const std::optional<Fraction> reciprocal = reciprocal_meant(size);
+    const auto meant = [&](Decimal place) {
+      return reciprocal ? meaning_within(place, {1, 100 * reciprocal->denominator})
+                        : reduced(place.mantissa, power_of_ten(place.decimals));
+    };
+    Fraction step = reciprocal ? *reciprocal : reduced(size.mantissa, power_of_ten(size.decimals));
+    if (std::max(step.numerator, step.denominator) >= kAxisLimit) step = simplest_fraction(size);
     if (has(lower_left + "center")) {
-      return make_axis(meaning_of(required(lower_left + "center")), step);
+      return make_axis(meant(required(lower_left + "center")), step);
     }
-    const Fraction corner = meaning_of(required(lower_left + "corner"));
+    const Fraction corner = meant(required(lower_left + "corner"));
     return make_axis(
         reduced(2 * corner.numerator * step.denominator + step.numerator * corner.denominator,
                 2 * corner.denominator * step.denominator),

@@ -142,15 +142,21 @@ std::vector<Sample> make_samples(const std::vector<LaidPost>& posts, Sampler& sa
   return samples;
 }
 
-std::vector<Point> without_samples(const std::vector<Point>& voids,
-                                   const std::vector<Sample>& samples) {
-  std::vector<Point> rest;
+// Throws Error if a void post shares its place with a height: it would answer that.
+void check_voids(const std::vector<Point>& voids, const std::vector<Sample>& samples,
+                 const Placement& placement) {
+  uint64_t shared = 0;
+  Point first{};
   auto sample = samples.begin();
   for (const Point place : voids) {
     while (sample != samples.end() && sample->place < place) ++sample;
-    if (sample == samples.end() || sample->place != place) rest.push_back(place);
+    if (sample == samples.end() || sample->place != place) continue;
+    if (shared++ == 0) first = place;
   }
-  return rest;
+  if (shared == 0) return;
+  throw Error("--xy-step is too coarse: " + std::to_string(shared) +
+              " void posts share a place with a height, the first at x " +
+              CoordinateText(placement.x)(first.x) + ", y " + CoordinateText(placement.y)(first.y));
 }
 
 }  // namespace
@@ -164,7 +170,8 @@ Laid lay_out(const Source& source, const LatticeOptions& options) {
   Laid laid;
   laid.survey.samples = make_samples(placing.posts(), sampler);
   sampler.check(lattice.placement, placement_of(source).z);
-  laid.survey.voids = without_samples(placing.voids(), laid.survey.samples);
+  check_voids(placing.voids(), laid.survey.samples, lattice.placement);
+  laid.survey.voids = placing.voids();
   laid.placement = lattice.placement;
   laid.xy_step = make_decimal(lattice.x.step, lattice.xy_decimals);
   laid.z_step = make_decimal(lattice.z.step, lattice.z_decimals);

@@ -34,6 +34,13 @@ OutputFile::~OutputFile() {
   if (!temporary_.empty()) std::remove(temporary_.c_str());
 }
 
+void refuse_overwriting(const std::string& input, const std::string& output) {
+  std::error_code ignored;  // files that are not there are not the same
+  if (fs::is_regular_file(input, ignored) && fs::equivalent(input, output, ignored)) {
+    throw Error(output + ": is the input");
+  }
+}
+
 void OutputFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail();
 }

@@ -30,6 +30,9 @@ class OutputFile {
   std::FILE* file_ = nullptr;
 };
 
+// Throws Error if the output would take the place of the input.
+void refuse_overwriting(const std::string& input, const std::string& output);
+
 }  // namespace microtin
 
 #endif

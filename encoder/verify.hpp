@@ -21,8 +21,8 @@ struct Verification {
   bool within_bound = true;  // max_error is at most the bound, or there is none
 };
 
-// Evaluates every post or point, also those that share a place, at its place on the lattice. A void
-// post that shares its place with a height is not counted as answered.
+// Evaluates every post or point, also those that share a place, at its place on the lattice, the
+// nearest to where it lies.
 Verification verify(const microtin_mesh* mesh, const Source& source,
                     const std::optional<Decimal>& bound);
 

@@ -104,7 +104,7 @@ TEST_CASE("cli: encode, info, verify and decode agree") {
        {"\"format_version\": 1", "\"vertices\": 10", "\"triangles\"", "\"bytes\"",
         "\"bits_per_vertex\"", "\"phases\"", "\"degree\": 8", "\"workspace_bytes_16\"",
         "\"workspace_bytes_32\"", "\"steps\"", "\"offsets\"", "\"bound\": null",
-        "\"max_error\": 0.0", "\"rms_error\": 0.0", "\"horizontal_epsg\": 25832",
+        "\"max_error\": 0.0", "\"rms_error\": 0.0", "\"placement\"", "\"horizontal_epsg\": 25832",
         "\"vertical_epsg\": 5783"}) {
     CHECK_MESSAGE(contains(info.out, key), key);
   }
@@ -209,6 +209,15 @@ TEST_CASE("cli: directories and unwritable places") {
         "/dev/full: cannot be written: No space left on device\n");
   CHECK(contains(session.failure("encode ok.xyz -o - > /dev/full"), "No space left"));
   CHECK(fs::exists("/dev/full"));
+}
+
+TEST_CASE("cli: the output is not the input") {
+  const Session session;
+  session.write("t.xyz", "0 0 1\n9 0 2\n0 9 3\n");
+  CHECK(session.failure("encode t.xyz -o t.xyz") == "t.xyz: is the input\n");
+  REQUIRE(session.run("encode t.xyz -o t.mtin").code == 0);
+  CHECK(session.failure("decode t.mtin -o ./t.mtin") == "./t.mtin: is the input\n");
+  CHECK(session.read("t.xyz") == "0 0 1\n9 0 2\n0 9 3\n");
 }
 
 TEST_CASE("cli: damaged streams") {

@@ -32,6 +32,31 @@ TEST_CASE("a decimal that looks like a simple fraction means it") {
   CHECK(meaning("-105.550416666667") == "-253321/2400");
 }
 
+TEST_CASE("a cell size means a reciprocal only if no place moves noticeably") {
+  const auto means = [](const std::string& text) {
+    return reciprocal_meant(parse_decimal(text, 12).value()).has_value();
+  };
+  CHECK(means("0.000833333333"));
+  CHECK(means("0.00083333333333333"));
+  CHECK(means("9.25925925925926e-05"));
+  CHECK_FALSE(means("0.333"));
+  CHECK_FALSE(means("0.08333"));
+  CHECK_FALSE(means("4.988744589"));  // about 5762/1155
+  CHECK_FALSE(means("0.5"));
+  CHECK_FALSE(means("0.0001"));
+  CHECK_FALSE(means("30"));
+}
+
+TEST_CASE("a corner means a fraction only if it stays where it is") {
+  const auto denominator = [](const std::string& text) {
+    return static_cast<int64_t>(
+        meaning_within(parse_decimal(text, 12).value(), {1, 120000}).denominator);
+  };
+  CHECK(denominator("-105.550416666667") == 2400);
+  CHECK(denominator("7.333333333") == 3);
+  CHECK(denominator("7.333") == 1000);
+}
+
 TEST_CASE("other decimals mean themselves") {
   CHECK(meaning("10") == "10/1");
   CHECK(meaning("0") == "0/1");

@@ -126,7 +126,7 @@ TEST_CASE("asc: whatever is wrong is told with its line") {
   CHECK(grid_error("ncols 1 nrows 1 yllcorner 0 cellsize 1 5") ==
         "grid: the header does not give xllcorner");
   CHECK(grid_error("ncols 1 nrows 1 xllcorner 0 yllcorner 0 5") ==
-        "grid: the header does not give dx");
+        "grid: the header does not give cellsize");
   CHECK(grid_error("ncols 1 nrows 1 xllcorner 0 yllcorner 0 cellsize -1 5") ==
         "grid: cellsize is not above 0");
   CHECK(grid_error("ncols 2000000000 nrows 2000000000 xllcorner 0 yllcorner 0 cellsize 1 5 6") ==

@@ -111,7 +111,7 @@ TEST_CASE("a step of height too coarse for the bound is refused with one that is
   CHECK(error_of(points, options("", "1", "0")) == "none");
 }
 
-TEST_CASE("voids of rasters are kept, except where a sample takes their place") {
+TEST_CASE("voids of rasters are kept; a lattice that merges them with heights is refused") {
   Raster raster;
   raster.width = 3;
   raster.height = 2;
@@ -122,8 +122,8 @@ TEST_CASE("voids of rasters are kept, except where a sample takes their place") 
   CHECK(whole.survey.voids[1] == Point{1, 0});
   CHECK(whole.survey.voids[2] == Point{2, 1});
   CHECK(whole.survey.samples.size() == 3);
-  const Laid coarse = lay_out(raster, options("2", "", ""));  // columns 0 | 1, 2; rows 0 | 1
-  CHECK(coarse.survey.samples.size() == 3);
-  REQUIRE(coarse.survey.voids.size() == 1);
-  CHECK(coarse.survey.voids[0] == Point{0, 1});
+  CHECK_THROWS_WITH_AS(
+      lay_out(raster, options("2", "", "")),
+      "--xy-step is too coarse: 2 void posts share a place with a height, the first at x 2, y 0",
+      Error);
 }

@@ -75,7 +75,7 @@ TEST_CASE("real rasters keep their bound at every post, voids stay voids") {
   for (const auto& r : rasters) {
     const fs::path path = fs::path(MICROTIN_DATA_DIR) / (r.name + std::string(".hgt16.gz"));
     if (!is_here(path)) continue;
-    CAPTURE(r.name);
+    CAPTURE(std::string(r.name));
     check_round_trip(read_centre(path, r.width, r.height), Decimal{10, 0});
   }
 }
@@ -85,7 +85,7 @@ TEST_CASE("real files come back exactly, and within a bound") {
        {"srtm_rmnp.asc", "bijou5m.asc", "hugo.asc", "quebec_forest_ground.xyz"}) {
     const fs::path path = fs::path(MICROTIN_DATA_DIR) / "formats" / name;
     if (!is_here(path)) continue;
-    CAPTURE(name);
+    CAPTURE(std::string(name));
     const Source source = import_terrain(path.string());
     check_round_trip(source, std::nullopt);
     check_round_trip(source, Decimal{5, 1});
