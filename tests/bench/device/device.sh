@@ -1,6 +1,7 @@
 # Part of ../run: what decoding costs on a Cortex-M4, at both levels of optimisation that firmware is
 # built with.
 entries="microtin_peek microtin_mesh_init microtin_decoder_init microtin_feed microtin_finish"
+queries="microtin_height_at microtin_to_lattice microtin_vertex microtin_triangle microtin_neighbour microtin_digest"
 prefix=arm-none-eabi
 
 # The device's build at a level, e.g. O2.
@@ -10,9 +11,9 @@ build_device() {
   quietly cmake --build "$build/$1" --target bench_device
 }
 
-# Bytes of code and constants that the decoder adds to a firmware, libgcc's part included.
+# Bytes of code and constants that some entries add to a firmware, libgcc's part included.
 code_bytes() {
-  wanted=$(printf -- ' -Wl,-u,%s' $entries)
+  wanted=$(printf -- ' -Wl,-u,%s' $2)
   $prefix-g++ -mcpu=cortex-m4 -mthumb -nostdlib -r -Wl,--gc-sections $wanted \
     "$build/$1/libmicrotin_decoder.a" -lgcc -o "$build/$1/decoder.o"
   $prefix-size "$build/$1/decoder.o" | awk 'NR == 2 { print $1 }'
@@ -29,13 +30,14 @@ run_device() {
 }
 
 printf '\n### Decoding a terrain tile on a Cortex-M4\n\n'
-echo "| level | text + rodata, bytes | stack, bytes | vertices | instructions per vertex |"
-echo "| --- | --- | --- | --- | --- |"
+echo "| level | text + rodata, bytes | with queries | stack, bytes | vertices | instructions per vertex |"
+echo "| --- | --- | --- | --- | --- | --- |"
 for level in Os O2; do
   build_device $level
-  code=$(code_bytes $level)
+  code=$(code_bytes $level "$entries")
+  all=$(code_bytes $level "$entries $queries")
   stack=$(stack_bytes $level)
   counts=$(run_device $level)
   set -- $counts
-  echo "| -$level | $code | $stack | $1 | $(($2 / $1)) |"
+  echo "| -$level | $code | $all | $stack | $1 | $(($2 / $1)) |"
 done
