@@ -81,9 +81,10 @@ struct Reconstruction {
   Index cavity_origin[kMaxDegree];
   Index cavity_twin[kMaxDegree];
   Index cavity_pending[kMaxDegree];
-  FreeRegion
-      region;  // of the triangle in hand, and the odds of places in it: here to spare the stack
+  // Of the triangle in hand: here to spare the stack.
+  FreeRegion region;
   PlaceOdds odds;
+
   Models models;
 };
 
@@ -165,8 +166,9 @@ inline void note_final_triangle(Reconstruction& r, Index h) {
 
 // --- Insertion -----------------------------------------------------------------------------------
 
-// Inserts `v`, decoded relative to the triangle of the chord, if that is legal. The chord becomes
-// the half-edge from the new vertex.
+// Inserts a vertex at `place`, decoded relative to the triangle of the chord, with the height that
+// the stream says or, for a writing coder, z. The chord becomes the half-edge from the new vertex.
+// False if that is not legal.
 template <class Coder>
 bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
   Mesh& mesh = *r.mesh;
@@ -250,15 +252,15 @@ Point code_hull_place(Reconstruction& r, Coder& coder, Point c, Point a, Point p
   return Point{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
 }
 
-// Says hit or miss at an uncertified triangle and inserts the vertex of a hit.
+// Says hit or miss at an uncertified triangle and inserts the vertex of a hit. False if malformed.
 template <class Coder>
-Progress decide(Reconstruction& r, Coder& coder, bool* hit) {
+bool decide(Reconstruction& r, Coder& coder, bool* hit) {
   Mesh& mesh = *r.mesh;
   const Vertex next = coder.next();
   Point place = {next.x, next.y};
   if (r.vertex == kInfinity) {
     *hit = code_bit(coder, r.models.hull_hit, coder.conflicts(mesh, r.chord));
-    if (!*hit) return Progress::kStep;
+    if (!*hit) return true;
     const Index to_c = next_in_triangle(r.chord);
     place = code_hull_place(r, coder, point_of(mesh, mesh.origin[next_in_triangle(to_c)]),
                             point_of(mesh, mesh.origin[r.chord]), place);
@@ -269,13 +271,13 @@ Progress decide(Reconstruction& r, Coder& coder, bool* hit) {
     const int which = (region.side[0].certified ? 1 : 0) + (region.side[1].certified ? 2 : 0);
     const int32_t position = 2 * (free_area(region) + density) + 12 * 256;
     *hit = code_on_curve(coder, r.models.hit[which], position, coder.conflicts(mesh, r.chord));
-    if (!*hit) return Progress::kStep;
+    if (!*hit) return true;
     estimate_odds(r.odds, region, density);
     const Box bounds = {0, 0, r.contract.x_max, r.contract.y_max};
     const Box box = enclosing_box(region, r.odds.inside, bounds);
     place = code_place(coder, r.models.place, r.odds, region.corner[0], box, place);
   }
-  return insert(r, coder, place, next.z) ? Progress::kStep : Progress::kMalformed;
+  return insert(r, coder, place, next.z);
 }
 
 // --- Steps ---------------------------------------------------------------------------------------
@@ -374,7 +376,7 @@ Progress step_walk(Reconstruction& r, Coder& coder) {
   const Index apex = mesh.origin[next_in_triangle(to_c)];
   bool hit = false;
   if (!marked(r, apex, kDone) && !marked(r, mesh.origin[r.chord], kDone)) {
-    if (decide(r, coder, &hit) == Progress::kMalformed) return Progress::kMalformed;
+    if (!decide(r, coder, &hit)) return Progress::kMalformed;
   }
   if (!hit) {
     note_final_triangle(r, r.chord);
