@@ -45,9 +45,9 @@ struct microtin_decoder {
   microtin_status header_status;  // DONE, or what to say once its check has passed
   microtin::ByteWindow window;
   microtin::RangeDecoder coder;
+  // Bytes taken from the caller, too few for a step so far.
   uint8_t staged_bytes;
-  uint8_t
-      staged[2 * microtin::kStepBytes];  // bytes taken from the caller, too few for a step so far
+  uint8_t staged[2 * microtin::kStepBytes];
   microtin::Reconstruction reconstruction;
 };
 

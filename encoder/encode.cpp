@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include "encoder/error.hpp"
 #include "encoder/order.hpp"

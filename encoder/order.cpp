@@ -1,6 +1,8 @@
 #include "encoder/order.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <utility>
 
 namespace microtin {
 namespace {

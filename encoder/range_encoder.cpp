@@ -1,5 +1,7 @@
 #include "encoder/range_encoder.hpp"
 
+#include <utility>
+
 #include "shared/format.hpp"
 
 namespace microtin {

@@ -123,7 +123,7 @@ Index Triangulation::connect(Index v, Index hint) {
   const Point p = point_of(mesh_, v);
   const Index start = locate(p, hint);
   const auto forbids_nothing = [](Index) { return false; };
-  while (grow_cavity(mesh_, start, p, cavity_, forbids_nothing) != Growth::kComplete) {
+  while (!grow_cavity(mesh_, start, p, cavity_, forbids_nothing)) {
     set_cavity_limit(2 * std::size_t{cavity_.limit});
   }
   return fan_cavity(mesh_, cavity_, v);

@@ -23,10 +23,6 @@ class Triangulation {
   // triangles are a mixture of live and removed ones.
   const Mesh& mesh() const { return mesh_; }
 
-  bool has_triangle(Index triangle) const {
-    return mesh_.origin[first_edge(triangle)] != mesh_.origin[first_edge(triangle) + 1u];
-  }
-
   bool has_vertex(Index v) const { return edge_of(v) != kNoEdge; }
 
   // Some half-edge from v, which may be kInfinity; kNoEdge if v was removed.

@@ -18,16 +18,15 @@ struct Cavity {
   Index size;          // triangles found
 };
 
-enum class Growth : uint8_t { kComplete, kTooLarge, kForbidden };
-
 // Collects the triangles in conflict with p, given that the triangle of `start` is one. If the
 // half-edge `start` stays on the boundary, it comes first there. `forbids(h)` is asked for each
-// further triangle, entered through its half-edge h, before it joins; yes ends with kForbidden.
+// further triangle, entered through its half-edge h, before it joins. False if it says yes, or if
+// the cavity outgrows its limit.
 //
 // The cavity's dual graph is a tree (its union is star-shaped from p and no vertex lies inside), so
 // no triangle is met twice; each turn of the loop uses up one boundary edge of at most limit + 2.
 template <class Forbids>
-Growth grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const Forbids& forbids) {
+bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const Forbids& forbids) {
   cavity.triangles[0] = triangle_of(start);
   cavity.size = 1;
   Index edges = 0;
@@ -43,13 +42,13 @@ Growth grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const
       cavity.edge_twin[edges++] = across;
       continue;
     }
-    if (cavity.size == cavity.limit) return Growth::kTooLarge;
-    if (forbids(across)) return Growth::kForbidden;
+    if (cavity.size == cavity.limit) return false;
+    if (forbids(across)) return false;
     cavity.triangles[cavity.size++] = triangle_of(across);
     cavity.pending[waiting++] = previous_in_triangle(across);
     cavity.pending[waiting++] = next_in_triangle(across);
   }
-  return Growth::kComplete;
+  return true;
 }
 
 // Replaces the cavity by a fan around the new vertex v: one triangle (edge origin, next origin, v)

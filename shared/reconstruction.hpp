@@ -195,7 +195,7 @@ bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
     const Index from = mesh.origin[h], to = mesh.origin[next_in_triangle(h)];
     return (from == kInfinity && to == 0) || (from == 0 && to == kInfinity);
   };
-  if (grow_cavity(mesh, chord, place, r.cavity, is_final) != Growth::kComplete) return false;
+  if (!grow_cavity(mesh, chord, place, r.cavity, is_final)) return false;
   const Index v = mesh.vertices;
   if (r.contract.has_heights) {
     const HeightPrediction prediction = predict_height(
