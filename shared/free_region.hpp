@@ -10,11 +10,44 @@
 
 namespace microtin {
 
+// A vector of the lattice.
+struct Offset {
+  int32_t x;
+  int32_t y;
+};
+
+inline Offset offset(Point from, Point to) {
+  return Offset{static_cast<int32_t>(to.x) - from.x, static_cast<int32_t>(to.y) - from.y};
+}
+
+inline int64_t dot(Offset a, Offset b) {
+  return static_cast<int64_t>(a.x) * b.x + static_cast<int64_t>(a.y) * b.y;
+}
+
+inline int64_t cross(Offset a, Offset b) {
+  return static_cast<int64_t>(a.x) * b.y - static_cast<int64_t>(a.y) * b.x;
+}
+
+// The circles through both ends of a side form a pencil, ordered by the cotangent of the angle
+// under which the side is seen from the arc to its left. 8 fractional bits, capped.
+typedef int32_t Cotangent;
+constexpr Cotangent kCotangentCap = 23000;
+
+// |q| < 2^34, h != 0.
+inline Cotangent cotangent(int64_t q, int64_t h) {
+  const int64_t k = h < 0 ? quotient(-q * 256, -h) : quotient(q * 256, h);
+  return static_cast<Cotangent>(k > kCotangentCap    ? kCotangentCap
+                                : k < -kCotangentCap ? -kCotangentCap
+                                                     : k);
+}
+
 // The side from corner i to corner i + 1 of a triangle, and what is known behind it.
 struct Side {
   bool certified;  // the triangle behind is final: its circle is empty
   bool ghost;      // ... and lies outside the hull: nothing at all is behind
   Point apex;      // ... otherwise, the corner opposite to this side
+  // The circles of the triangle itself and, if certified and no ghost, of the one behind.
+  Cotangent own, behind;
 };
 
 constexpr int kChord = 2;  // the side the walk came from, from corner 2 (a) to corner 0 (v)
@@ -24,117 +57,81 @@ struct FreeRegion {
   Side side[3];
 };
 
-// (a - p) . (b - p): negative if the angle at p is obtuse. |result| < 2^33.
-inline int64_t dot_at(Point p, Point a, Point b) {
-  const int32_t ax = static_cast<int32_t>(a.x) - p.x, ay = static_cast<int32_t>(a.y) - p.y;
-  const int32_t bx = static_cast<int32_t>(b.x) - p.x, by = static_cast<int32_t>(b.y) - p.y;
-  return static_cast<int64_t>(ax) * bx + static_cast<int64_t>(ay) * by;
-}
-
-// Areas carry 8 fractional bits and are capped, so that all sums stay far below 2^63.
+// Areas carry 8 fractional bits; the largest disc has 2^58.
 typedef int64_t Area;
-constexpr Area kAreaCap = static_cast<Area>(1) << 50;
 
-// Area of the disc in which a chord of squared length `length2` < 2^33 is seen under the cotangent
-// q / h, capped. 0 <= q < 2^34, 0 < h < 2^34.
-inline Area disc_area(int64_t length2, int64_t q, int64_t h) {
-  // pi / 4 * length2 * (1 + k^2); k = q / h with 8 fractional bits, at most 2^15.
-  const int64_t k = quotient(q << 8, h);
-  if (k >= 32768) return kAreaCap;
-  const int64_t stretch = (65536 + k * k) >> 8;         // <= 2^22, 8 fractional bits
-  const int64_t area = (length2 * stretch >> 8) * 201;  // pi / 4 = 201 / 256
-  return area < kAreaCap ? area : kAreaCap;
+// Area of the disc on whose circle a chord of squared length `length2` < 2^33 is seen under k.
+inline Area disc_area(int64_t length2, Cotangent k) {
+  // pi / 4 = 201 / 256; 1 + k^2 <= 2^22 with 8 fractional bits.
+  return (length2 * ((65536 + k * k) >> 8) >> 8) * 201;
 }
 
-// Area of the circular segment over such a chord in which it is seen under the cotangent q / h. Up
-// to a half disc (q <= 0) it comes from a table, beyond it is what the disc has left.
-inline Area segment_area(int64_t length2, int64_t q, int64_t h) {
-  const int64_t size = q < 0 ? -q : q;
-  // t = |q| / (|q| + h) in 13 bits: 5 choose the table entry, 8 interpolate.
-  const uint32_t t = static_cast<uint32_t>(quotient(size << 13, size + h));
-  const uint32_t i = t >> 8;
-  uint32_t table = 0;  // 15 fractional bits, for a chord of length 2
-  if (i < 32) {
-    const uint32_t low = table_segment(i), high = table_segment(i + 1);
-    table = low - (((low - high) * (t & 255u)) >> 8);
-  }
-  const Area smaller = (length2 * table) >> 9;
-  return q <= 0 ? smaller : disc_area(length2, q, h) - smaller;
+// Area, over length2, of the segment to the left of the chord: 17 fractional bits, below 2^32 .
+// Up to a half disc (k <= 0) it comes from a table, beyond it is what the disc has left.
+inline int64_t segment(Cotangent k) {
+  const uint32_t size = static_cast<uint32_t>(k < 0 ? -k : k) + 64u;
+  const uint32_t octave = highest_bit(size);
+  const uint32_t mantissa = size << (15u - octave) & 0x7FFFu;
+  const uint32_t i = (octave - 6u) * 4u + (mantissa >> 13);
+  const uint32_t low = table_segment(i), high = table_segment(i + 1);
+  const int64_t smaller = low - (((low - high) * (mantissa & 0x1FFFu)) >> 13);
+  return k <= 0 ? smaller : (static_cast<int64_t>(65536 + k * k) * 3217 >> 11) - smaller;
 }
 
-// Part of t's disc that side i's certified neighbour rules out: all beyond the side, and the
-// neighbour's own segment on the near side.
-inline Area ruled_out(const FreeRegion& region, int i, int64_t h) {
-  const Point from = region.corner[i], to = region.corner[i == 2 ? 0 : i + 1];
-  const int64_t length2 = squared_length(from, to);
-  const int64_t q = dot_at(region.corner[i == 0 ? 2 : i - 1], from, to);
-  const Area beyond = segment_area(length2, -q, h);
-  const Side& side = region.side[i];
-  if (side.ghost) return beyond;
-  return beyond +
-         segment_area(length2, -dot_at(side.apex, from, to), orient2d(to, from, side.apex));
-}
-
-// log2 of the free region's area in lattice units.
-inline Log2 free_area(const FreeRegion& region) {
-  const Point v = region.corner[0], c = region.corner[1], a = region.corner[2];
-  const int64_t h = orient2d(v, c, a);
-  const int64_t q = dot_at(c, v, a);
-  const Area disc = disc_area(squared_length(v, a), q < 0 ? -q : q, h);
-  Area left = disc;
-  for (int i = 0; i < 3; ++i) {
-    if (region.side[i].certified) left -= ruled_out(region, i, h);
+// log2 of the free region's area in lattice units. Fills in the sides' cotangents.
+inline Log2 free_area(FreeRegion& region) {
+  const Offset to_c = offset(region.corner[0], region.corner[1]);
+  const Offset to_a = offset(region.corner[1], region.corner[2]);
+  const Offset edge[3] = {to_c, to_a, {-to_c.x - to_a.x, -to_c.y - to_a.y}};
+  const int64_t h = cross(to_c, to_a);
+  Area left = 0;
+  Area disc = 0;
+  for (int i = 2; i >= 0; --i) {
+    Side& side = region.side[i];
+    if (!side.certified) continue;
+    const int64_t length2 = dot(edge[i], edge[i]);
+    side.own = cotangent(-dot(edge[i == 2 ? 0 : i + 1], edge[i == 0 ? 2 : i - 1]), h);
+    if (i == kChord) left = disc = disc_area(length2, side.own);
+    int64_t lost = segment(-side.own);
+    if (!side.ghost) {
+      const Offset from = offset(side.apex, region.corner[i]);
+      const Offset to = {from.x + edge[i].x, from.y + edge[i].y};
+      side.behind = cotangent(dot(from, to), cross(from, edge[i]));
+      lost += segment(side.behind);
+    }
+    left -= length2 * lost >> 9;
   }
   const Area least = (disc >> 8) + 1;
   return log2_of(static_cast<uint64_t>(left > least ? left : least)) - 8 * kLog2One;
 }
 
-// A circle by the power of places with respect to it: negative inside. At an offset (i, j) from
-// some origin it is constant + i (i + x) + j (j + y); all with 8 fractional bits.
+// A circle by the power of places with respect to it, negative inside, in half lattice steps: at
+// an offset (i, j) from some place it is value + i (x + i) + j (y + j).
 struct Power {
-  int64_t constant;
-  int64_t x;
-  int64_t y;
-  int64_t steepness;  // length of the power's gradient on the circle: its diameter, within 7 %
+  int64_t value;
+  int32_t x;
+  int32_t y;
 };
 
-constexpr int64_t kPowerSlopeCap = static_cast<int64_t>(1) << 40;
-
-inline int64_t cap_slope(int64_t v) {
-  return v > kPowerSlopeCap ? kPowerSlopeCap : v < -kPowerSlopeCap ? -kPowerSlopeCap : v;
+// The circle through both ends of a side, seen from `middle` (half steps from corner 0).
+// Offsets are below 2^18: products 2^37, times a cotangent 2^52 >> 8; slopes below 2^27.
+inline Power circle_over(const FreeRegion& region, int i, Cotangent k, Offset middle) {
+  const Offset from = offset(region.corner[0], region.corner[i]);
+  const Offset to = offset(region.corner[0], region.corner[i == 2 ? 0 : i + 1]);
+  const Offset a = {middle.x - 2 * from.x, middle.y - 2 * from.y};
+  const Offset b = {middle.x - 2 * to.x, middle.y - 2 * to.y};
+  const Offset chord = {a.x - b.x, a.y - b.y};
+  Power power;
+  power.value = dot(a, b) - ((k * cross(chord, a)) / 256);
+  power.x = a.x + b.x + static_cast<int32_t>(static_cast<int64_t>(k) * chord.y / 256);
+  power.y = a.y + b.y - static_cast<int32_t>(static_cast<int64_t>(k) * chord.x / 256);
+  return power;
 }
 
-inline int64_t magnitude(int64_t v) {
-  return v < 0 ? -v : v;
-}
-
-// The circle through its origin whose gradient there is (x, y).
-inline Power circle_with_gradient(int64_t x, int64_t y) {
-  const int64_t ax = magnitude(x), ay = magnitude(y);
-  const int64_t longer = ax > ay ? ax : ay, shorter = ax > ay ? ay : ax;
-  return Power{0, x, y, longer + shorter * 3 / 8 + 1};
-}
-
-// The circle through p, q, r, counter-clockwise, relative to p. Numerators: 2^17 * 2^33 * 2 = 2^51,
-// with 8 fractional bits 2^59; the divisor is an area of at least 1.
-inline Power circle_through(Point p, Point q, Point r) {
-  const int64_t sx = static_cast<int32_t>(q.x) - p.x, sy = static_cast<int32_t>(q.y) - p.y;
-  const int64_t tx = static_cast<int32_t>(r.x) - p.x, ty = static_cast<int32_t>(r.y) - p.y;
-  const int64_t h = sx * ty - sy * tx;
-  const int64_t s2 = sx * sx + sy * sy, t2 = tx * tx + ty * ty;
-  return circle_with_gradient(cap_slope(quotient((sy * t2 - ty * s2) * 256, h)),
-                              cap_slope(quotient((tx * s2 - sx * t2) * 256, h)));
-}
-
-// |i|, |j| <= 2^16 and |x|, |y| <= 2^41 give terms below 2^58.
-inline int64_t power_along(int64_t slope, int32_t i) {
-  return (static_cast<int64_t>(i) * 256 + slope) * i;
-}
-
-inline Power moved_origin(const Power& power, int32_t i, int32_t j) {
-  return Power{power.constant + power_along(power.x, i) + power_along(power.y, j),
-               power.x + 512 * static_cast<int64_t>(i), power.y + 512 * static_cast<int64_t>(j),
-               power.steepness};
+inline Power moved(const Power& power, int32_t i, int32_t j) {
+  return Power{power.value + static_cast<int64_t>(i) * (power.x + i) +
+                   static_cast<int64_t>(j) * (power.y + j),
+               power.x + 2 * i, power.y + 2 * j};
 }
 
 // A box of lattice points, both ends included.
@@ -149,46 +146,43 @@ inline void extend(Box& box, Point p) {
   if (p.y > box.y1) box.y1 = p.y;
 }
 
-// Whether (x, y) is beyond one of the region's open sides, or so close to it that errors of up to
-// 3 units in each of its coordinates could hide it.
-inline bool beyond_open_side(const FreeRegion& region, int64_t x, int64_t y) {
-  for (int i = 0; i < 3; ++i) {
-    if (region.side[i].certified) continue;
-    const Point from = region.corner[i], to = region.corner[i == 2 ? 0 : i + 1];
-    const int64_t dx = static_cast<int32_t>(to.x) - from.x,
-                  dy = static_cast<int32_t>(to.y) - from.y;
-    const int64_t side = dx * (y - from.y) - dy * (x - from.x);
-    const int64_t slack = 4 * ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
-    if (side < slack) return true;
-  }
-  return false;
-}
-
 // A box that holds every lattice point of `bounds` that the free region can hold: the triangle
-// itself and, beyond open sides, the circle's extremes. Circles whose centre is
-// further than 2^17 from v are not followed: the box is all of `bounds`.
-inline Box enclosing_box(const FreeRegion& region, const Power& circle, const Box& bounds) {
+// itself and, beyond open sides, the circle's extremes. Circles whose cotangent over the chord is
+// capped are not followed: the box is all of `bounds`.
+inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
   const Point v = region.corner[0];
   Box box = {v.x, v.y, v.x, v.y};
   extend(box, region.corner[1]);
   extend(box, region.corner[2]);
-  const int64_t ox = -circle.x / 512, oy = -circle.y / 512;  // centre relative to v, within 1
-  int64_t radius = 0;
-  const int64_t limit = 131072;
-  const bool huge = ox > limit || ox < -limit || oy > limit || oy < -limit;
-  if (!huge) radius = sqrt_above(static_cast<uint64_t>(ox * ox + oy * oy)) + 2;
-  if (huge || beyond_open_side(region, v.x + ox - radius, v.y + oy)) {
-    box.x0 = static_cast<int32_t>(huge ? bounds.x0 : v.x + ox - radius);
+  const Cotangent k = region.side[kChord].own;
+  if (k == kCotangentCap || k == -kCotangentCap) return bounds;
+  // Half steps from v. The cotangent is off by less than 1/256, which moves the centre, and
+  // changes the radius, by less than 1/512 of the chord.
+  const Offset a = offset(v, region.corner[2]);
+  const int32_t cx = a.x + static_cast<int32_t>(static_cast<int64_t>(k) * a.y / 256);
+  const int32_t cy = a.y - static_cast<int32_t>(static_cast<int64_t>(k) * a.x / 256);
+  const int32_t length = (a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y);
+  const int32_t margin = length / 256 + 2;
+  const int32_t radius =
+      static_cast<int32_t>(sqrt_above(static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 16)) +
+      2 + 2 * margin;
+  bool west = false, east = false, south = false, north = false;
+  for (int i = 0; i < 2; ++i) {
+    if (region.side[i].certified) continue;
+    const Offset from = offset(v, region.corner[i]);
+    const Offset to = offset(v, region.corner[i + 1]);
+    const int64_t dx = to.x - from.x, dy = to.y - from.y;
+    const int64_t slack = margin * ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
+    const int64_t centre = dx * (cy - 2 * from.y) - dy * (cx - 2 * from.x) - slack;
+    west = west || centre + dy * radius < 0;
+    east = east || centre - dy * radius < 0;
+    south = south || centre - dx * radius < 0;
+    north = north || centre + dx * radius < 0;
   }
-  if (huge || beyond_open_side(region, v.x + ox + radius, v.y + oy)) {
-    box.x1 = static_cast<int32_t>(huge ? bounds.x1 : v.x + ox + radius);
-  }
-  if (huge || beyond_open_side(region, v.x + ox, v.y + oy - radius)) {
-    box.y0 = static_cast<int32_t>(huge ? bounds.y0 : v.y + oy - radius);
-  }
-  if (huge || beyond_open_side(region, v.x + ox, v.y + oy + radius)) {
-    box.y1 = static_cast<int32_t>(huge ? bounds.y1 : v.y + oy + radius);
-  }
+  if (west) box.x0 = v.x + ((cx - radius) >> 1);
+  if (east) box.x1 = v.x + ((cx + radius + 1) >> 1);
+  if (south) box.y0 = v.y + ((cy - radius) >> 1);
+  if (north) box.y1 = v.y + ((cy + radius + 1) >> 1);
   if (box.x0 < bounds.x0) box.x0 = bounds.x0;
   if (box.y0 < bounds.y0) box.y0 = bounds.y0;
   if (box.x1 > bounds.x1) box.x1 = bounds.x1;

@@ -1,11 +1,10 @@
 // Coding of the next point's place in the free region of the triangle it conflicts with.
 //
 // The box around the region is cut into 4 x 4 cells, the point's cell is coded, and the cell
-// becomes the box, three times; what remains is uniform. A cell weighs its number of lattice
-// points, times the share of it that is free, times the chance that no other point came first: the
-// walk inserts the point whose circle through the chord is the smallest, and with density points
-// per unit area a circle that sweeps an area s over the chord is the first with probability
-// exp(-density * s).
+// becomes the box; what remains is uniform. A cell weighs its number of lattice points, times the
+// share of it that is free, times the chance that no other point came first: the walk inserts the
+// point whose circle through the chord is the smallest, and with density points per unit area a
+// circle that sweeps an area s over the chord is the first with probability exp(-density * s).
 #ifndef MICROTIN_SHARED_PLACE_CODING_HPP
 #define MICROTIN_SHARED_PLACE_CODING_HPP
 
@@ -14,115 +13,79 @@
 
 namespace microtin {
 
-constexpr int kCells = 4;        // per axis
-constexpr int kLevels = 3;       // of cells
-constexpr int kSweepLevels = 2;  // of them weigh the chance of being first
+constexpr int kCells = 4;   // per axis
+constexpr int kLevels = 2;  // of cells
 constexpr uint32_t kSplitEntries = 17;
-constexpr int32_t kEvenSplit = 8;  // the entry for even odds
-constexpr int kSweepEntries = 9;
+constexpr int kSweepEntries = 5;
 
 // For each level and each of its four binary decisions: the odds learned for the estimated ones.
 struct PlaceModel {
-  Curve<kSplitEntries> split[kLevels][4];
+  Calibration<kSplitEntries> split[kLevels][4];
 };
 
 inline void reset(PlaceModel& model) {
   for (int level = 0; level < kLevels; ++level) {
-    for (int decision = 0; decision < 4; ++decision) {
-      reset(model.split[level][decision], -kEvenSplit * kLog2One, kLog2One);
-    }
+    for (int decision = 0; decision < 4; ++decision) reset(model.split[level][decision]);
   }
 }
 
-// What weighs the cells of a box; the powers are relative to the box's first corner.
+// What weighs the cells of a box; the powers are seen from its middle.
 struct PlaceOdds {
-  Power inside;        // t's circle: negative where the point can be
-  Power outside[3];    // certified neighbours' circles: positive where it can be
-  bool cuts[3];        // which of them still cut the box
-  bool sweeps;         // whether the chance of being first differs noticeably over the region
-  Power swept_from;    // where the sweep starts: the circle behind the chord
-  int32_t steepening;  // steepness of `inside` over that of swept_from, 8 fractional bits
-  // 4096 * chance of being first, at equal steps of the share of the way from swept_from to
-  // `inside`
+  Power inside;      // t's circle: negative where the point can be
+  Power outside[3];  // certified neighbours' circles: positive where it can be
+  bool cuts[3];      // which of them still cut the box
+  bool sweeps;       // whether the chance of being first differs noticeably over the region
+  Power swept_from;  // where the sweep starts: the circle behind the chord
+  // 4096 * chance of being first, at equal steps of the cotangent from swept_from to `inside`
   uint16_t chance[kSweepEntries];
 };
 
-// A circle of the pencil through v and a, by the cotangent k of its inscribed angle on t's side,
-// with 8 fractional bits.
-typedef int64_t Cotangent;
-constexpr Cotangent kCotangentCap = 32767;
-
-inline Cotangent cotangent(int64_t q, int64_t h) {
-  // |q| < 2^33; h is negative for an apex behind the chord.
-  const int64_t k = h < 0 ? quotient(-q * 256, -h) : quotient(q * 256, h);
-  return k > kCotangentCap ? kCotangentCap : k < -kCotangentCap ? -kCotangentCap : k;
-}
-
 // Fills in the chances of being first; `density` is the logarithm of points per unit area.
-inline void estimate_sweep(PlaceOdds& odds, const FreeRegion& region, Log2 density) {
-  const Point v = region.corner[0], c = region.corner[1], a = region.corner[2];
-  const int64_t length2 = squared_length(v, a);
-  const Cotangent to = cotangent(dot_at(c, v, a), orient2d(v, c, a));
-  const Side& behind = region.side[kChord];
-  Cotangent from;
-  if (behind.ghost) {
-    // Nothing behind the chord: start at a circle so large that its segment is next to nothing.
-    from = (to < 0 ? to : 0) - 8 * 256;
-    // Its power is that of t's circle plus (to - from) h(p), h(p) = twice the area of (a, v, p).
-    const int64_t hx = static_cast<int32_t>(a.y) - v.y, hy = static_cast<int32_t>(v.x) - a.x;
-    odds.swept_from = circle_with_gradient(cap_slope(odds.inside.x + (to - from) * hx),
-                                           cap_slope(odds.inside.y + (to - from) * hy));
-  } else {
-    from = cotangent(dot_at(behind.apex, v, a), orient2d(a, v, behind.apex));
-    odds.swept_from = odds.outside[kChord];
-  }
-  const int64_t steepening = quotient(odds.inside.steepness * 256, odds.swept_from.steepness);
-  odds.steepening = steepening < 65535 ? static_cast<int32_t>(steepening) : 65535;
-  const Area start = segment_area(length2, from, 256);
+inline void estimate_sweep(PlaceOdds& odds, const Offset chord, Cotangent from, Cotangent to,
+                           Log2 density) {
+  // Bits lost per unit of segment(), 17 fractional bits: log2(log2(e)) = 135 / 256.
+  const Log2 scale = log2_of(static_cast<uint64_t>(dot(chord, chord))) + density + 135;
+  const uint64_t rate = exp2_of(scale + 16 * kLog2One);  // 16 fractional bits
+  const uint64_t capped = rate < (static_cast<uint64_t>(1) << 30) ? rate : static_cast<uint64_t>(1) << 30;
+  const int64_t start = segment(from);
   for (int i = 0; i < kSweepEntries; ++i) {
-    const Area swept =
-        segment_area(length2, from + (to - from) * i / (kSweepEntries - 1), 256) - start;
-    // chance = exp(-density * swept) = 2^-loss; log2(log2(e)) = 135 / 256.
-    uint64_t loss = 0;
-    if (swept > 0) loss = exp2_of(log2_of(static_cast<uint64_t>(swept)) + density + 135);
+    const int64_t swept = segment(from + (to - from) * i / (kSweepEntries - 1)) - start;
+    const uint64_t loss = swept > 0 ? static_cast<uint64_t>(swept) * capped >> 25 : 0;
     const Log2 left = loss < 12 * 256 ? 12 * 256 - static_cast<Log2>(loss) : 0;
     odds.chance[i] = static_cast<uint16_t>(exp2_of(left));
   }
   odds.sweeps = odds.chance[kSweepEntries - 1] < odds.chance[0] - odds.chance[0] / 8;
 }
 
-inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Log2 density) {
-  odds.inside = circle_through(region.corner[0], region.corner[1], region.corner[2]);
+inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset middle, Log2 density) {
+  const Side& chord = region.side[kChord];
+  odds.inside = circle_over(region, kChord, chord.own, middle);
   for (int i = 0; i < 3; ++i) {
     const Side& side = region.side[i];
     odds.cuts[i] = side.certified && !side.ghost;
-    if (!odds.cuts[i]) continue;
-    const Point from = region.corner[i], to = region.corner[i == 2 ? 0 : i + 1];
-    const Power circle = circle_through(from, side.apex, to);
-    odds.outside[i] = moved_origin(circle, static_cast<int32_t>(region.corner[0].x) - from.x,
-                                   static_cast<int32_t>(region.corner[0].y) - from.y);
+    if (odds.cuts[i]) odds.outside[i] = circle_over(region, i, side.behind, middle);
   }
-  estimate_sweep(odds, region, density);
+  // With nothing behind the chord the sweep starts at a circle so large that its segment is next to
+  // nothing.
+  const Cotangent from = chord.ghost ? (chord.own < 0 ? chord.own : 0) - 8 * 256 : chord.behind;
+  odds.swept_from =
+      chord.ghost ? circle_over(region, kChord, from, middle) : odds.outside[kChord];
+  estimate_sweep(odds, offset(region.corner[2], region.corner[0]), from, chord.own, density);
 }
 
-inline void move_origin(PlaceOdds& odds, int32_t dx, int32_t dy) {
-  odds.inside = moved_origin(odds.inside, dx, dy);
-  odds.swept_from = moved_origin(odds.swept_from, dx, dy);
-  for (int i = 0; i < 3; ++i) {
-    if (odds.cuts[i]) odds.outside[i] = moved_origin(odds.outside[i], dx, dy);
-  }
-}
-
-// Four slices of `count` <= 2^16 lattice lines: where each starts, and where the last one ends.
+// Four slices of `count` <= 2^16 lattice lines: where each starts, where the last one ends, and the
+// middles in half steps from the middle of all.
 struct Slices {
   int32_t count;
   int32_t start[kCells + 1];
+  int32_t middle[kCells];
 };
 
 inline Slices slice(int32_t count) {
   Slices slices;
   slices.count = count;
   for (int i = 0; i <= kCells; ++i) slices.start[i] = count * i / kCells;
+  for (int i = 0; i < kCells; ++i) slices.middle[i] = slices.start[i] + slices.start[i + 1] - count;
   return slices;
 }
 
@@ -132,41 +95,57 @@ inline int slice_of(const Slices& slices, int32_t offset) {
   return i;
 }
 
-// How far the slices' middles are outside a circle, in 64ths of the size of a cell: x[i] + y[j],
-// each within +-2^29. Close to the circle that is its power divided by the steepness.
+// How far the slices' middles are outside a circle, in 64ths of a cell's extent across it:
+// x[i] + y[j].
 struct Distances {
   int32_t x[kCells], y[kCells];
 };
 
-constexpr int64_t kDistanceCap = static_cast<int64_t>(1) << 29;
+// How powers become distances: shifted, multiplied, shifted again by kScaleShift.
+struct Scale {
+  uint32_t shift;
+  int32_t reciprocal;
+};
+constexpr uint32_t kScaleShift = 23;
 
-inline void measure_axis(int64_t constant, int64_t slope, const Slices& slices, uint32_t shift,
-                         int32_t reciprocal, int32_t* distance) {
-  for (int i = 0; i < kCells; ++i) {
-    const int32_t twice = slices.start[i] + slices.start[i + 1] - 1;  // twice the middle
-    const int64_t power = constant + (static_cast<int64_t>(twice) * 128 + slope) * twice / 2;
-    int64_t scaled = power >> shift;
-    if (scaled > kDistanceCap) scaled = kDistanceCap;
-    if (scaled < -kDistanceCap) scaled = -kDistanceCap;
-    distance[i] = static_cast<int32_t>((scaled * reciprocal) >> 23);
-  }
+inline int32_t magnitude(int32_t v) {
+  return v < 0 ? -v : v;
 }
 
-inline Distances measure(const Power& circle, const Slices& columns, const Slices& rows) {
-  // A cell spans 5/8 (mean of |cos| and |sin|) of its width and height less one lattice step each.
-  // The ramp is that many steps' change of power: at least a quarter of a unit, at most 2^60.
-  const int32_t steps = (columns.count > kCells ? columns.count - kCells : 0) +
-                        (rows.count > kCells ? rows.count - kCells : 0);
-  const int64_t ramp = circle.steepness * (5 * steps) / 32 + 64;
+// The change of the power across a cell, at the middle of the box.
+inline Scale scale_for(const Power& power, const Slices& columns, const Slices& rows) {
+  // Twice the extent of a cell in half steps, less one lattice step.
+  const int32_t width = columns.count > kCells ? columns.count - kCells : 0;
+  const int32_t height = rows.count > kCells ? rows.count - kCells : 0;
+  const int64_t x = static_cast<int64_t>(magnitude(power.x)) * width;  // < 2^44
+  const int64_t y = static_cast<int64_t>(magnitude(power.y)) * height;
+  const int64_t curve = (static_cast<int64_t>(width) * width + static_cast<int64_t>(height) * height) / 4;
+  const int64_t ramp = ((x > y ? x + y / 2 : y + x / 2) + curve) / 2 + 1;
   const uint32_t bits = highest_bit(static_cast<uint64_t>(ramp));
   const uint32_t shift = bits > 15 ? bits - 15 : 0;
-  // 64 / ramp: (power >> shift) * reciprocal / 2^23, the reciprocal at most 2^23. ramp >> shift is
-  // below 2^16 and at least 64.
-  const int32_t reciprocal =
-      static_cast<int32_t>((1ul << 29) / static_cast<uint32_t>(ramp >> shift));
+  return Scale{shift, static_cast<int32_t>((1ul << 29) / static_cast<uint32_t>(ramp >> shift))};
+}
+
+constexpr int64_t kDistanceCap = static_cast<int64_t>(1) << 29;
+
+inline int32_t scaled(int64_t power, const Scale& scale) {
+  int64_t v = power >> scale.shift;
+  if (v > kDistanceCap) v = kDistanceCap;
+  if (v < -kDistanceCap) v = -kDistanceCap;
+  return static_cast<int32_t>(v * scale.reciprocal >> kScaleShift);
+}
+
+inline Distances measure(const Power& power, const Scale& scale, const Slices& columns,
+                         const Slices& rows) {
   Distances distances;
-  measure_axis(circle.constant, circle.x, columns, shift, reciprocal, distances.x);
-  measure_axis(0, circle.y, rows, shift, reciprocal, distances.y);
+  for (int i = 0; i < kCells; ++i) {
+    const int32_t m = columns.middle[i];
+    distances.x[i] = scaled(power.value + static_cast<int64_t>(m) * (power.x + m), scale);
+  }
+  for (int i = 0; i < kCells; ++i) {
+    const int32_t m = rows.middle[i];
+    distances.y[i] = scaled(static_cast<int64_t>(m) * (power.y + m), scale);
+  }
   return distances;
 }
 
@@ -179,15 +158,13 @@ typedef uint32_t CellWeights[kCells][kCells];
 
 // Chance of being first at a place so far outside the circle behind the chord and inside t's.
 inline uint32_t chance_at(const PlaceOdds& odds, int32_t gone, int32_t left) {
-  const int32_t most = 1 << 14;
-  if (gone < 0) gone = 0;
-  if (gone > most) gone = most;
+  const int32_t most = 1 << 20;
+  gone = gone < 0 ? 0 : gone > most ? most : gone;
   left = left < 0 ? 0 : left > most ? most : left;
-  left = (left * odds.steepening >> 8) + 1;  // < 2^30 before the shift
   const uint32_t share =
-      static_cast<uint32_t>(gone) * 256u / static_cast<uint32_t>(gone + left);  // < 256
-  const uint32_t i = share >> 5, f = share & 31u;
-  return (odds.chance[i] * (32u - f) + odds.chance[i + 1] * f) >> 5;
+      static_cast<uint32_t>(gone) * 256u / static_cast<uint32_t>(gone + left + 1);  // < 256
+  const uint32_t i = share >> 6, f = share & 63u;
+  return (odds.chance[i] * (64u - f) + odds.chance[i + 1] * f) >> 6;
 }
 
 // How much a slice's width counts: nothing where all are about the same. At most 16.
@@ -200,9 +177,10 @@ inline uint32_t size_of(const Slices& slices, int i) {
 // cell without lattice points weighs nothing, any other at least 1.
 inline void weigh_inside(const PlaceOdds& odds, const Slices& columns, const Slices& rows,
                          CellWeights weight) {
-  const Distances inside = measure(odds.inside, columns, rows);
+  const Scale scale = scale_for(odds.inside, columns, rows);
+  const Distances inside = measure(odds.inside, scale, columns, rows);
   Distances from = inside;
-  if (odds.sweeps) from = measure(odds.swept_from, columns, rows);
+  if (odds.sweeps) from = measure(odds.swept_from, scale, columns, rows);
   uint32_t height[kCells];
   for (int j = 0; j < kCells; ++j) height[j] = size_of(rows, j);
   for (int i = 0; i < kCells; ++i) {
@@ -221,7 +199,7 @@ inline void weigh_inside(const PlaceOdds& odds, const Slices& columns, const Sli
 // Takes away what lies in one certified circle. False if that was nothing.
 inline bool cut_outside(const Power& circle, const Slices& columns, const Slices& rows,
                         CellWeights weight) {
-  const Distances outside = measure(circle, columns, rows);
+  const Distances outside = measure(circle, scale_for(circle, columns, rows), columns, rows);
   bool cuts = false;
   for (int i = 0; i < kCells; ++i) {
     for (int j = 0; j < kCells; ++j) {
@@ -244,31 +222,33 @@ inline void weigh_cells(PlaceOdds& odds, const Slices& columns, const Slices& ro
 
 // Codes one of two halves by their weights; a half without lattice points is never chosen.
 template <class Coder>
-bool code_half(Coder& coder, Curve<kSplitEntries>& curve, uint32_t low, uint32_t high,
+bool code_half(Coder& coder, Calibration<kSplitEntries>& calibration, uint32_t low, uint32_t high,
                bool in_high) {
   if (low == 0) return true;
   if (high == 0) return false;
-  const Log2 odds = log2_of(high) - log2_of(low);
-  return code_on_curve(coder, curve, odds + kEvenSplit * kLog2One, in_high);
+  while ((low | high) >> 16) { low >>= 1; high >>= 1; }
+  return code_calibrated(coder, calibration, (high << 15) / (high + low), in_high);
 }
 
 // Codes one of four slices by their weights.
 template <class Coder>
-int code_slice(Coder& coder, Curve<kSplitEntries>* half, const uint32_t* weight, int slice) {
+int code_slice(Coder& coder, Calibration<kSplitEntries>* half, const uint32_t* weight, int slice) {
   const bool high =
       code_half(coder, half[0], weight[0] + weight[1], weight[2] + weight[3], slice >= 2);
   const int first = high ? 2 : 0;
   return first + code_half(coder, half[1], weight[first], weight[first + 1], (slice & 1) != 0);
 }
 
-// Codes a place in `box`; `odds` are relative to the triangle's corner `v`.
+// Codes a place in `box`, which encloses the free region.
 template <class Coder>
-Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, Point v, Box box, Point place) {
-  move_origin(odds, box.x0 - v.x, box.y0 - v.y);
+Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, const FreeRegion& region,
+                 Log2 density, Box box, Point place) {
+  const Point v = region.corner[0];
+  estimate_odds(odds, region, Offset{box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y},
+                density);
   for (int level = 0; level < kLevels; ++level) {
     const Slices columns = slice(box.x1 - box.x0 + 1), rows = slice(box.y1 - box.y0 + 1);
     if (columns.count == 1 && rows.count == 1) break;
-    if (level == kSweepLevels) odds.sweeps = false;
     CellWeights weight;
     weigh_cells(odds, columns, rows, weight);
     uint32_t column_weight[kCells];
@@ -283,7 +263,12 @@ Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, Point v, Box 
     box.y1 = box.y0 + rows.start[j + 1] - 1;
     box.x0 += columns.start[i];
     box.y0 += rows.start[j];
-    if (level + 1 < kLevels) move_origin(odds, columns.start[i], rows.start[j]);
+    if (level + 1 == kLevels) break;
+    odds.inside = moved(odds.inside, columns.middle[i], rows.middle[j]);
+    odds.swept_from = moved(odds.swept_from, columns.middle[i], rows.middle[j]);
+    for (int k = 0; k < 3; ++k) {
+      if (odds.cuts[k]) odds.outside[k] = moved(odds.outside[k], columns.middle[i], rows.middle[j]);
+    }
   }
   const uint32_t x = coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),
                                    static_cast<uint32_t>(place.x - box.x0));

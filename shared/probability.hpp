@@ -23,7 +23,7 @@ struct AdaptiveBit {
 constexpr uint16_t kSeenMost = 254;  // then each new bit weighs 1/256
 
 inline void reset(AdaptiveBit& bit, uint32_t probability15) {
-  bit.probability = static_cast<uint16_t>(probability15 * 2u);
+  bit.probability = static_cast<uint16_t>(probability15 < 32767u ? probability15 * 2u : 65535u);
   bit.seen = 6;
 }
 
@@ -86,6 +86,34 @@ bool code_on_curve(Coder& coder, Curve<kEntries>& curve, int32_t position, bool 
   const uint32_t f = at - i * 256u;
   AdaptiveBit& low = curve.entry[i];
   AdaptiveBit& high = curve.entry[i + 1];
+  const uint32_t blend = (low.probability * (256u - f) + high.probability * f) >> 9;
+  value = coder.bit(clamp_probability(blend), value);
+  learn(f < 128 ? low : high, value);
+  return value;
+}
+
+// A learned correction of an estimated probability: entries at equal distances from 0 to 1,
+// interpolated between the two nearest, of which the nearer one learns.
+template <uint32_t kEntries>
+struct Calibration {
+  AdaptiveBit entry[kEntries];
+};
+
+template <uint32_t kEntries>
+void reset(Calibration<kEntries>& calibration) {
+  for (uint32_t i = 0; i < kEntries; ++i) {
+    reset(calibration.entry[i], clamp_probability(i * (kProbabilityOne / (kEntries - 1))));
+  }
+}
+
+// `estimate` has 15 fractional bits and is below 1.
+template <class Coder, uint32_t kEntries>
+bool code_calibrated(Coder& coder, Calibration<kEntries>& calibration, uint32_t estimate,
+                     bool value) {
+  const uint32_t position = estimate * (kEntries - 1);
+  const uint32_t i = position >> 15, f = position >> 7 & 255u;
+  AdaptiveBit& low = calibration.entry[i];
+  AdaptiveBit& high = calibration.entry[i + 1];
   const uint32_t blend = (low.probability * (256u - f) + high.probability * f) >> 9;
   value = coder.bit(clamp_probability(blend), value);
   learn(f < 128 ? low : high, value);

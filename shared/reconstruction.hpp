@@ -266,16 +266,15 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
                             point_of(mesh, mesh.origin[r.chord]), place);
   } else {
     look_around(r);
-    const FreeRegion& region = r.region;
+    FreeRegion& region = r.region;
     const Log2 density = point_density(r);
     const int which = (region.side[0].certified ? 1 : 0) + (region.side[1].certified ? 2 : 0);
     const int32_t position = 2 * (free_area(region) + density) + 12 * 256;
     *hit = code_on_curve(coder, r.models.hit[which], position, coder.conflicts(mesh, r.chord));
     if (!*hit) return true;
-    estimate_odds(r.odds, region, density);
     const Box bounds = {0, 0, r.contract.x_max, r.contract.y_max};
-    const Box box = enclosing_box(region, r.odds.inside, bounds);
-    place = code_place(coder, r.models.place, r.odds, region.corner[0], box, place);
+    place = code_place(coder, r.models.place, r.odds, region, density,
+                       enclosing_box(region, bounds), place);
   }
   return insert(r, coder, place, next.z);
 }

@@ -43,12 +43,12 @@ inline uint16_t table_exp2(uint32_t i) {
   return read_table(kExp2Table + i);
 }
 
-// 32768 * ((1 + k^2) * acot(k) - k) with k = t / (1 - t), t = i / 32: the area of a circular
-// segment over a chord of length 2 whose inscribed angle has the cotangent -k
-constexpr uint16_t kSegmentTable[33] MICROTIN_IN_FLASH = {
-    51472, 49411, 47325, 45219, 43097, 40963, 38824, 36685, 34554, 32437, 30344,
-    28281, 26257, 24281, 22358, 20497, 18704, 16983, 15338, 13772, 12285, 10879,
-    9552,  8302,  7127,  6024,  4989,  4018,  3108,  2255,  1455,  705,   0,
+// 32768 * ((1 + k^2) * acot(k) - k), the area of a circular segment over a chord of length 2 whose
+// inscribed angle has the cotangent -k: at 256 k + 64 = 2^(6 + i / 4), linear within octaves
+constexpr uint16_t kSegmentTable[37] MICROTIN_IN_FLASH = {
+    51472, 47572, 44042, 40850, 37968, 33013, 28965, 25644, 22902, 18704, 15697, 13468, 11765,
+    9355,  7745,  6599,  5745,  4559,  3776,  3222,  2809,  2236,  1856,  1587,  1386,  1106,
+    919,   787,   688,   549,   457,   392,   343,   274,   228,   195,   171,
 };
 
 inline uint16_t table_segment(uint32_t i) {
