@@ -154,18 +154,16 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
   Box box = {v.x, v.y, v.x, v.y};
   extend(box, region.corner[1]);
   extend(box, region.corner[2]);
-  const Cotangent k = region.side[kChord].own;
+  const int64_t k = region.side[kChord].own;
   if (k == kCotangentCap || k == -kCotangentCap) return bounds;
-  // Half steps from v. The cotangent is off by less than 1/256, which moves the centre, and
-  // changes the radius, by less than 1/512 of the chord.
+  // Sixteenths of a step from v. The cotangent is off by less than 1/256, which moves the centre,
+  // and changes the radius, by less than 1/512 of the chord.
   const Offset a = offset(v, region.corner[2]);
-  const int32_t cx = a.x + static_cast<int32_t>(static_cast<int64_t>(k) * a.y / 256);
-  const int32_t cy = a.y - static_cast<int32_t>(static_cast<int64_t>(k) * a.x / 256);
-  const int32_t length = (a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y);
-  const int32_t margin = length / 256 + 2;
-  const int32_t radius =
-      static_cast<int32_t>(sqrt_above(static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 16)) +
-      2 + 2 * margin;
+  const int64_t cx = a.x * 8 + k * a.y / 32;
+  const int64_t cy = a.y * 8 - k * a.x / 32;
+  const int64_t margin = ((a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y)) / 16 + 2;
+  const int64_t radius =
+      sqrt_above(static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 10) + 1 + margin;
   bool west = false, east = false, south = false, north = false;
   for (int i = 0; i < 2; ++i) {
     if (region.side[i].certified) continue;
@@ -173,16 +171,16 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
     const Offset to = offset(v, region.corner[i + 1]);
     const int64_t dx = to.x - from.x, dy = to.y - from.y;
     const int64_t slack = margin * ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
-    const int64_t centre = dx * (cy - 2 * from.y) - dy * (cx - 2 * from.x) - slack;
+    const int64_t centre = dx * (cy - 16 * from.y) - dy * (cx - 16 * from.x) - slack;
     west = west || centre + dy * radius < 0;
     east = east || centre - dy * radius < 0;
     south = south || centre - dx * radius < 0;
     north = north || centre + dx * radius < 0;
   }
-  if (west) box.x0 = v.x + ((cx - radius) >> 1);
-  if (east) box.x1 = v.x + ((cx + radius + 1) >> 1);
-  if (south) box.y0 = v.y + ((cy - radius) >> 1);
-  if (north) box.y1 = v.y + ((cy + radius + 1) >> 1);
+  if (west) box.x0 = v.x + static_cast<int32_t>((cx - radius + 15) >> 4);
+  if (east) box.x1 = v.x + static_cast<int32_t>((cx + radius) >> 4);
+  if (south) box.y0 = v.y + static_cast<int32_t>((cy - radius + 15) >> 4);
+  if (north) box.y1 = v.y + static_cast<int32_t>((cy + radius) >> 4);
   if (box.x0 < bounds.x0) box.x0 = bounds.x0;
   if (box.y0 < bounds.y0) box.y0 = bounds.y0;
   if (box.x1 > bounds.x1) box.x1 = bounds.x1;

@@ -120,7 +120,7 @@ inline Scale scale_for(const Power& power, const Slices& columns, const Slices& 
   const int64_t x = static_cast<int64_t>(magnitude(power.x)) * width;  // < 2^44
   const int64_t y = static_cast<int64_t>(magnitude(power.y)) * height;
   const int64_t curve = (static_cast<int64_t>(width) * width + static_cast<int64_t>(height) * height) / 4;
-  const int64_t ramp = ((x > y ? x + y / 2 : y + x / 2) + curve) / 2 + 1;
+  const int64_t ramp = ((x+y)*5/8 + curve*2) / 2 + 1;
   const uint32_t bits = highest_bit(static_cast<uint64_t>(ramp));
   const uint32_t shift = bits > 15 ? bits - 15 : 0;
   return Scale{shift, static_cast<int32_t>((1ul << 29) / static_cast<uint32_t>(ramp >> shift))};
