@@ -15,7 +15,7 @@ namespace microtin {
 
 constexpr int kCells = 4;   // per axis
 constexpr int kLevels = 2;  // of cells
-constexpr uint32_t kSplitEntries = 17;
+constexpr uint32_t kSplitEntries = 9;
 constexpr int kSweepEntries = 5;
 
 // For each level and each of its four binary decisions: the odds learned for the estimated ones.
