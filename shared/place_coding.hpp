@@ -13,10 +13,18 @@
 
 namespace microtin {
 
+// Loops over cells become vector instructions only where no loop is around them.
+#if defined(__GNUC__)
+#define MICROTIN_OUT_OF_LINE __attribute__((noinline))
+#else
+#define MICROTIN_OUT_OF_LINE
+#endif
+
 constexpr int kCells = 4;   // per axis
 constexpr int kLevels = 2;  // of cells
 constexpr uint32_t kSplitEntries = 9;
-constexpr int kSweepEntries = 5;
+constexpr int kSweepNodes = 4;
+constexpr int kSweepEntries = 8 * kSweepNodes + 1;
 
 // For each level and each of its four binary decisions: the odds learned for the estimated ones.
 struct PlaceModel {
@@ -36,8 +44,8 @@ struct PlaceOdds {
   bool cuts[3];      // which of them still cut the box
   bool sweeps;       // whether the chance of being first differs noticeably over the region
   Power swept_from;  // where the sweep starts: the circle behind the chord
-  // 1023 * chance of being first, at equal steps of the cotangent from swept_from to `inside`
-  uint16_t chance[kSweepEntries];
+  // 511 * chance of being first, at equal steps of the cotangent from `inside` to swept_from
+  int16_t chance[kSweepEntries];
 };
 
 // Fills in the chances of being first; `density` is the logarithm of points per unit area.
@@ -48,13 +56,19 @@ inline void estimate_sweep(PlaceOdds& odds, const Offset chord, Cotangent from, 
   const uint64_t rate = exp2_of(scale + 16 * kLog2One);  // 16 fractional bits
   const uint64_t capped = rate < (static_cast<uint64_t>(1) << 30) ? rate : static_cast<uint64_t>(1) << 30;
   const int64_t start = segment(from);
-  for (int i = 0; i < kSweepEntries; ++i) {
-    const int64_t swept = segment(from + (to - from) * i / (kSweepEntries - 1)) - start;
+  int32_t last = 0;
+  for (int i = 0; i <= kSweepNodes; ++i) {
+    const int64_t swept = segment(to + (from - to) * i / kSweepNodes) - start;
     const uint64_t loss = swept > 0 ? static_cast<uint64_t>(swept) * capped >> 25 : 0;
     const Log2 left = loss < 15 * 256 ? 15 * 256 - static_cast<Log2>(loss) : 0;
-    odds.chance[i] = static_cast<uint16_t>(exp2_of(left) * 1023 >> 15);
+    const int32_t chance = static_cast<int32_t>(exp2_of(left) * 511 >> 15);
+    if (i != 0) {
+      for (int j = 0; j < 8; ++j) odds.chance[8 * (i - 1) + j] = static_cast<int16_t>((last * (8 - j) + chance * j) / 8);
+    }
+    last = chance;
   }
-  odds.sweeps = odds.chance[kSweepEntries - 1] < odds.chance[0] - odds.chance[0] / 8;
+  odds.chance[kSweepEntries - 1] = static_cast<int16_t>(last);
+  odds.sweeps = odds.chance[0] < last - last / 8;
 }
 
 inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset middle, Log2 density) {
@@ -124,87 +138,83 @@ inline Scale scale_for(const Power& power, const Slices& columns, const Slices& 
   return Scale{shift, static_cast<int32_t>((1ul << 29) / static_cast<uint32_t>(ramp >> shift))};
 }
 
-// Distances of the cells' middles from a circle, positive outside: x[i] + y[j].
-struct Distances {
-  int32_t x[kCells], y[kCells];
-};
+// Something for each cell, columns one after the other.
+typedef int16_t Cells[kCells * kCells];
 
+// The power of slices' middles, in 64ths of a cell's extent: a parabola.
 inline void measure_axis(int32_t constant, int32_t slope, const Slices& slices, const Scale& scale,
-                         int32_t* distance) {
+                         int16_t* distance) {
   const uint32_t shift = scale.shift + 4;
   const int32_t linear = static_cast<int32_t>((static_cast<int64_t>(slope) << slices.unit) * scale.reciprocal >> shift);
   const int32_t square = static_cast<int32_t>((static_cast<int64_t>(scale.reciprocal) << 2 * slices.unit) >> shift);
   for (int i = 0; i < kCells; ++i) {
     const int32_t m = slices.middle[i];
-    distance[i] = constant + ((m * (linear + m * square)) >> 16);
+    distance[i] = static_cast<int16_t>(constant + ((m * (linear + m * square)) >> 16));
   }
 }
 
-inline Distances measure(const Power& power, const Scale& scale, const Slices& columns,
-                         const Slices& rows) {
+// How far the cells' middles are inside a circle.
+inline void measure(const Power& power, const Scale& scale, const Slices& columns,
+                    const Slices& rows, Cells inside) {
   const int64_t cap = 1 << 30, far = 1 << 13;
   int64_t value = power.value >> scale.shift;
   value = value > cap ? cap : value < -cap ? -cap : value;
   value = value * scale.reciprocal >> 20;
   value = value > far ? far : value < -far ? -far : value;
-  Distances distances;
-  measure_axis(static_cast<int32_t>(value), power.x, columns, scale, distances.x);
-  measure_axis(0, power.y, rows, scale, distances.y);
-  return distances;
+  int16_t x[kCells], y[kCells];
+  measure_axis(static_cast<int32_t>(value), power.x, columns, scale, x);
+  measure_axis(0, power.y, rows, scale, y);
+  for (int i = 0; i < kCells; ++i) {
+    for (int j = 0; j < kCells; ++j) inside[kCells * i + j] = static_cast<int16_t>(-x[i] - y[j]);
+  }
 }
 
-// Share of a cell, in 64ths, on the positive side of a circle, from the distance of its middle.
-inline uint32_t share_beyond(int32_t distance) {
-  return static_cast<uint32_t>(distance < -32 ? 0 : distance > 32 ? 64 : distance + 32);
-}
-
-typedef uint16_t CellWeights[kCells * kCells];  // columns one after the other
-
-// Chance of being first at a place so far outside the circle behind the chord and inside t's.
-inline uint32_t chance_at(const PlaceOdds& odds, int32_t gone, int32_t left) {
-  if (gone < 0) gone = 0;
-  if (left < 0) left = 0;
-  const uint32_t share =
-      static_cast<uint32_t>(gone) * 256u / static_cast<uint32_t>(gone + left + 1);  // < 256
-  const uint32_t i = share >> 6, f = share & 63u;
-  return (odds.chance[i] * (64u - f) + odds.chance[i + 1] * f) >> 6;
+inline int16_t clamped(int16_t v, int16_t low, int16_t high) {
+  const int16_t raised = v < low ? low : v;
+  return raised > high ? high : raised;
 }
 
 // Weighs the cells by the share inside t's circle, and by the chance of being first.
 inline void weigh_inside(const PlaceOdds& odds, const Slices& columns, const Slices& rows,
-                         CellWeights weight) {
+                         Cells weight) {
   const Scale scale = scale_for(odds.inside, columns, rows);
-  const Distances inside = measure(odds.inside, scale, columns, rows);
+  Cells left;
+  measure(odds.inside, scale, columns, rows, left);
+  for (int k = 0; k < kCells * kCells; ++k) {
+    weight[k] = clamped(static_cast<int16_t>(left[k] + 32), 0, 64);
+  }
   if (!odds.sweeps) {
-    for (int k = 0; k < kCells * kCells; ++k) {
-      weight[k] = static_cast<uint16_t>(share_beyond(-inside.x[k / kCells] - inside.y[k % kCells]) * 1023u);
-    }
+    for (int k = 0; k < kCells * kCells; ++k) weight[k] = static_cast<int16_t>(weight[k] << 9);
     return;
   }
-  const Distances from = measure(odds.swept_from, scale, columns, rows);
+  Cells gone;
+  measure(odds.swept_from, scale, columns, rows, gone);
   for (int k = 0; k < kCells * kCells; ++k) {
-    const int32_t left = -inside.x[k / kCells] - inside.y[k % kCells];
-    const uint32_t share = share_beyond(left);
-    weight[k] = 0;
-    if (share != 0) weight[k] = static_cast<uint16_t>(share * chance_at(odds, from.x[k / kCells] + from.y[k % kCells], left));
+    left[k] = clamped(left[k], 0, 16383);
+    gone[k] = static_cast<int16_t>(clamped(static_cast<int16_t>(-gone[k]), 1, 16383) + left[k]);
+  }
+  for (int k = 0; k < kCells * kCells; ++k) {
+    const uint32_t at = static_cast<uint32_t>(left[k]) * 32u / static_cast<uint32_t>(gone[k]);
+    weight[k] = static_cast<int16_t>(weight[k] * odds.chance[at]);
   }
 }
 
 // Takes away what lies in one certified circle. False if that was nothing.
-inline bool cut_outside(const Power& circle, const Slices& columns, const Slices& rows,
-                        CellWeights weight) {
-  const Distances outside = measure(circle, scale_for(circle, columns, rows), columns, rows);
-  uint32_t all = 64;
+MICROTIN_OUT_OF_LINE inline bool cut_outside(const Power& circle, const Slices& columns, const Slices& rows,
+                        Cells weight) {
+  Cells inside;
+  measure(circle, scale_for(circle, columns, rows), columns, rows, inside);
+  int32_t lost = 0;
   for (int k = 0; k < kCells * kCells; ++k) {
-    const uint32_t share = share_beyond(outside.x[k / kCells] + outside.y[k % kCells]);
-    all &= share;
-    weight[k] = static_cast<uint16_t>((weight[k] * share) >> 6);
+    const int16_t share = clamped(static_cast<int16_t>(32 - inside[k]), 0, 64);
+    lost += 64 - share;
+    weight[k] = static_cast<int16_t>((static_cast<uint32_t>(static_cast<uint16_t>(weight[k])) * (static_cast<uint16_t>(share << 9))) >> 16);
   }
-  return all == 0;
+  return lost != 0;
 }
 
 inline void weigh_cells(PlaceOdds& odds, const Slices& columns, const Slices& rows,
-                        CellWeights weight) {
+                        Cells weight) {
   weigh_inside(odds, columns, rows, weight);
   for (int k = 0; k < 3; ++k) {
     if (odds.cuts[k]) odds.cuts[k] = cut_outside(odds.outside[k], columns, rows, weight);
@@ -238,6 +248,42 @@ int code_slice(Coder& coder, Calibration<kSplitEntries>* half, const uint32_t* w
   return first + code_half(coder, half[1], weight[first], weight[first + 1], (slice & 1) != 0);
 }
 
+// Codes the cell of `box` that holds the place, which becomes the box.
+template <class Coder>
+MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration<kSplitEntries>* split, PlaceOdds& odds, Box& box,
+               Point place) {
+  const Slices columns = slice(box.x1 - box.x0 + 1), rows = slice(box.y1 - box.y0 + 1);
+  if (columns.count == 1 && rows.count == 1) return;
+  Cells weight;
+  weigh_cells(odds, columns, rows, weight);
+  uint32_t row_size[kCells], column_weight[kCells], cell_weight[kCells];
+  for (int j = 0; j < kCells; ++j) row_size[j] = size_of(rows, j);
+  for (int i = 0; i < kCells; ++i) {
+    column_weight[i] = 0;
+    for (int j = 0; j < kCells; ++j) {
+      column_weight[i] += (static_cast<uint32_t>(weight[kCells * i + j]) + 1u) * row_size[j];
+    }
+    column_weight[i] *= size_of(columns, i);
+  }
+  const int i =
+      code_slice(coder, &split[0], column_weight, slice_of(columns, place.x - box.x0));
+  for (int j = 0; j < kCells; ++j) {
+    cell_weight[j] = (static_cast<uint32_t>(weight[kCells * i + j]) + 1u) * row_size[j];
+  }
+  const int j = code_slice(coder, &split[2], cell_weight, slice_of(rows, place.y - box.y0));
+  box.x1 = box.x0 + columns.start[i + 1] - 1;
+  box.y1 = box.y0 + rows.start[j + 1] - 1;
+  box.x0 += columns.start[i];
+  box.y0 += rows.start[j];
+  const int32_t dx = columns.start[i] + columns.start[i + 1] - columns.count;
+  const int32_t dy = rows.start[j] + rows.start[j + 1] - rows.count;
+  odds.inside = moved(odds.inside, dx, dy);
+  odds.swept_from = moved(odds.swept_from, dx, dy);
+  for (int k = 0; k < 3; ++k) {
+    if (odds.cuts[k]) odds.outside[k] = moved(odds.outside[k], dx, dy);
+  }
+}
+
 // Codes a place in `box`, which encloses the free region.
 template <class Coder>
 Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, const FreeRegion& region,
@@ -246,34 +292,7 @@ Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, const FreeReg
   estimate_odds(odds, region, Offset{box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y},
                 density);
   for (int level = 0; level < kLevels; ++level) {
-    const Slices columns = slice(box.x1 - box.x0 + 1), rows = slice(box.y1 - box.y0 + 1);
-    if (columns.count == 1 && rows.count == 1) break;
-    CellWeights weight;
-    weigh_cells(odds, columns, rows, weight);
-    uint32_t row_size[kCells], column_weight[kCells], cell_weight[kCells];
-    for (int j = 0; j < kCells; ++j) row_size[j] = size_of(rows, j);
-    for (int i = 0; i < kCells; ++i) {
-      column_weight[i] = 0;
-      for (int j = 0; j < kCells; ++j) column_weight[i] += (weight[kCells * i + j] + 1u) * row_size[j];
-      column_weight[i] *= size_of(columns, i);
-    }
-    const int i = code_slice(coder, &model.split[level][0], column_weight,
-                             slice_of(columns, place.x - box.x0));
-    for (int j = 0; j < kCells; ++j) cell_weight[j] = (weight[kCells * i + j] + 1u) * row_size[j];
-    const int j =
-        code_slice(coder, &model.split[level][2], cell_weight, slice_of(rows, place.y - box.y0));
-    box.x1 = box.x0 + columns.start[i + 1] - 1;
-    box.y1 = box.y0 + rows.start[j + 1] - 1;
-    box.x0 += columns.start[i];
-    box.y0 += rows.start[j];
-    if (level + 1 == kLevels) break;
-    const int32_t dx = columns.start[i] + columns.start[i + 1] - columns.count;
-    const int32_t dy = rows.start[j] + rows.start[j + 1] - rows.count;
-    odds.inside = moved(odds.inside, dx, dy);
-    odds.swept_from = moved(odds.swept_from, dx, dy);
-    for (int k = 0; k < 3; ++k) {
-      if (odds.cuts[k]) odds.outside[k] = moved(odds.outside[k], dx, dy);
-    }
+    code_cell(coder, model.split[level], odds, box, place);
   }
   const uint32_t x = coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),
                                    static_cast<uint32_t>(place.x - box.x0));
