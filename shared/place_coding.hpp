@@ -48,6 +48,14 @@ struct PlaceOdds {
   int16_t chance[kSweepEntries];
 };
 
+// Eight equal steps from `from` towards `to`, both below 2^12.
+MICROTIN_OUT_OF_LINE inline void interpolate(int16_t from, int16_t to, int16_t* step) {
+  const int16_t start = static_cast<int16_t>(from * 8), difference = static_cast<int16_t>(to - from);
+  for (int16_t j = 0; j < 8; ++j) {
+    step[j] = static_cast<int16_t>(static_cast<int16_t>(start + static_cast<int16_t>(difference * j)) >> 3);
+  }
+}
+
 // Fills in the chances of being first; `density` is the logarithm of points per unit area.
 inline void estimate_sweep(PlaceOdds& odds, const Offset chord, Cotangent from, Cotangent to,
                            Log2 density) {
@@ -56,18 +64,16 @@ inline void estimate_sweep(PlaceOdds& odds, const Offset chord, Cotangent from, 
   const uint64_t rate = exp2_of(scale + 16 * kLog2One);  // 16 fractional bits
   const uint64_t capped = rate < (static_cast<uint64_t>(1) << 30) ? rate : static_cast<uint64_t>(1) << 30;
   const int64_t start = segment(from);
-  int32_t last = 0;
+  int16_t last = 0;
   for (int i = 0; i <= kSweepNodes; ++i) {
     const int64_t swept = segment(to + (from - to) * i / kSweepNodes) - start;
     const uint64_t loss = swept > 0 ? static_cast<uint64_t>(swept) * capped >> 25 : 0;
     const Log2 left = loss < 15 * 256 ? 15 * 256 - static_cast<Log2>(loss) : 0;
-    const int32_t chance = static_cast<int32_t>(exp2_of(left) * 511 >> 15);
-    if (i != 0) {
-      for (int j = 0; j < 8; ++j) odds.chance[8 * (i - 1) + j] = static_cast<int16_t>((last * (8 - j) + chance * j) / 8);
-    }
+    const int16_t chance = static_cast<int16_t>(exp2_of(left) * 511 >> 15);
+    if (i != 0) interpolate(last, chance, odds.chance + 8 * (i - 1));
     last = chance;
   }
-  odds.chance[kSweepEntries - 1] = static_cast<int16_t>(last);
+  odds.chance[kSweepEntries - 1] = last;
   odds.sweeps = odds.chance[0] < last - last / 8;
 }
 
@@ -88,26 +94,29 @@ inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset midd
 }
 
 // Four slices of `count` <= 2^16 lattice lines: where each starts, and where the last one ends.
-// Middles and extents are in units of 2^unit half steps, so that middles are below 2^10.
 struct Slices {
   int32_t count;
   int32_t start[kCells + 1];
-  uint32_t unit;
-  int32_t middle[kCells];  // from the middle of all
-  int32_t extent;          // of a slice, less one lattice step, 3 fractional bits; at least 1
+  uint32_t unit;            // middles are in half steps / 2^(unit - 2), below 24576
+  int16_t middle[kCells];   // from the middle of all
+  int16_t square[kCells];   // middle^2 / 2^16
+  int32_t extent;           // of a slice, less one lattice step, in eighths of half steps; at least 1
 };
 
 inline Slices slice(int32_t count) {
   Slices slices;
   slices.count = count;
-  const uint32_t bits = highest_bit(static_cast<uint32_t>(count));
-  slices.unit = bits > 9 ? bits - 9 : 0;
+  slices.unit = 16 - highest_bit(static_cast<uint32_t>(count));
   slices.start[0] = 0;
   for (int i = 0; i < kCells; ++i) {
     slices.start[i + 1] = static_cast<int32_t>(static_cast<uint32_t>(count) * (static_cast<uint32_t>(i) + 1u) >> 2);
-    slices.middle[i] = (slices.start[i] + slices.start[i + 1] - count) >> slices.unit;
+    const int32_t twice = slices.start[i] + slices.start[i + 1] - count;
+    slices.middle[i] = static_cast<int16_t>((twice * (static_cast<int32_t>(1) << slices.unit)) >> 2);
   }
-  slices.extent = count > kCells ? (count - kCells) * 4 >> slices.unit : 1;
+  for (int i = 0; i < kCells; ++i) {
+    slices.square[i] = static_cast<int16_t>(static_cast<int32_t>(slices.middle[i]) * slices.middle[i] >> 16);
+  }
+  slices.extent = count > kCells ? (count - kCells) * 4 : 1;
   return slices;
 }
 
@@ -118,24 +127,21 @@ inline int slice_of(const Slices& slices, int32_t offset) {
 }
 
 // How powers become distances in 64ths of a cell's extent across the circle: shifted, multiplied,
-// shifted by 20.
+// shifted by 21.
 struct Scale {
   uint32_t shift;
-  int32_t reciprocal;
+  int32_t reciprocal;  // 2^14 .. 2^27
 };
 
-// From the change of the power across a cell, at the middle of the box: slopes below 2^34, extents
-// below 2^13.
+// From the change of the power across a cell, at the middle of the box: slopes below 2^27, extents
+// below 2^18.
 inline Scale scale_for(const Power& power, const Slices& columns, const Slices& rows) {
-  const int64_t x = static_cast<int64_t>(power.x < 0 ? -power.x : power.x) << columns.unit;
-  const int64_t y = static_cast<int64_t>(power.y < 0 ? -power.y : power.y) << rows.unit;
-  const int64_t curve_x = static_cast<int64_t>(columns.extent) << columns.unit;
-  const int64_t curve_y = static_cast<int64_t>(rows.extent) << rows.unit;
-  const int64_t ramp = ((x * columns.extent + y * rows.extent) * 5 +
-                        (curve_x * curve_x + curve_y * curve_y)) / 8 + 1;
+  const int64_t x = power.x < 0 ? -power.x : power.x, y = power.y < 0 ? -power.y : power.y;
+  const int64_t width = columns.extent, height = rows.extent;
+  const int64_t ramp = ((x * width + y * height) * 5 + width * width + height * height) / 8 + 8;
   const uint32_t bits = highest_bit(static_cast<uint64_t>(ramp));
   const uint32_t shift = bits > 15 ? bits - 15 : 0;
-  return Scale{shift, static_cast<int32_t>((1ul << 29) / static_cast<uint32_t>(ramp >> shift))};
+  return Scale{shift, static_cast<int32_t>((1ul << 30) / static_cast<uint32_t>(ramp >> shift))};
 }
 
 // Something for each cell, columns one after the other.
@@ -144,29 +150,32 @@ typedef int16_t Cells[kCells * kCells];
 // The power of slices' middles, in 64ths of a cell's extent: a parabola.
 inline void measure_axis(int32_t constant, int32_t slope, const Slices& slices, const Scale& scale,
                          int16_t* distance) {
-  const uint32_t shift = scale.shift + 4;
-  const int32_t linear = static_cast<int32_t>((static_cast<int64_t>(slope) << slices.unit) * scale.reciprocal >> shift);
-  const int32_t square = static_cast<int32_t>((static_cast<int64_t>(scale.reciprocal) << 2 * slices.unit) >> shift);
+  const int16_t linear = static_cast<int16_t>(static_cast<int64_t>(slope) * scale.reciprocal >> (scale.shift + slices.unit + 3));
+  const int16_t square = static_cast<int16_t>((static_cast<int64_t>(scale.reciprocal) << 15) >> (scale.shift + 2 * slices.unit));
   for (int i = 0; i < kCells; ++i) {
-    const int32_t m = slices.middle[i];
-    distance[i] = static_cast<int16_t>(constant + ((m * (linear + m * square)) >> 16));
+    distance[i] = static_cast<int16_t>(constant + (static_cast<int32_t>(slices.middle[i]) * linear >> 16) + (static_cast<int32_t>(slices.square[i]) * square >> 16));
   }
 }
 
-// How far the cells' middles are inside a circle.
+inline void add_column(int16_t x, const int16_t* y, int16_t* sum) {
+  for (int j = 0; j < kCells; ++j) sum[j] = static_cast<int16_t>(x + y[j]);
+}
+
+// How far the cells' middles are outside a circle.
 inline void measure(const Power& power, const Scale& scale, const Slices& columns,
-                    const Slices& rows, Cells inside) {
+                    const Slices& rows, Cells outside) {
   const int64_t cap = 1 << 30, far = 1 << 13;
   int64_t value = power.value >> scale.shift;
   value = value > cap ? cap : value < -cap ? -cap : value;
-  value = value * scale.reciprocal >> 20;
+  value = value * scale.reciprocal >> 21;
   value = value > far ? far : value < -far ? -far : value;
   int16_t x[kCells], y[kCells];
   measure_axis(static_cast<int32_t>(value), power.x, columns, scale, x);
   measure_axis(0, power.y, rows, scale, y);
-  for (int i = 0; i < kCells; ++i) {
-    for (int j = 0; j < kCells; ++j) inside[kCells * i + j] = static_cast<int16_t>(-x[i] - y[j]);
-  }
+  add_column(x[0], y, outside);
+  add_column(x[1], y, outside + kCells);
+  add_column(x[2], y, outside + 2 * kCells);
+  add_column(x[3], y, outside + 3 * kCells);
 }
 
 inline int16_t clamped(int16_t v, int16_t low, int16_t high) {
@@ -181,7 +190,7 @@ inline void weigh_inside(const PlaceOdds& odds, const Slices& columns, const Sli
   Cells left;
   measure(odds.inside, scale, columns, rows, left);
   for (int k = 0; k < kCells * kCells; ++k) {
-    weight[k] = clamped(static_cast<int16_t>(left[k] + 32), 0, 64);
+    weight[k] = clamped(static_cast<int16_t>(32 - left[k]), 0, 64);
   }
   if (!odds.sweeps) {
     for (int k = 0; k < kCells * kCells; ++k) weight[k] = static_cast<int16_t>(weight[k] << 9);
@@ -190,8 +199,8 @@ inline void weigh_inside(const PlaceOdds& odds, const Slices& columns, const Sli
   Cells gone;
   measure(odds.swept_from, scale, columns, rows, gone);
   for (int k = 0; k < kCells * kCells; ++k) {
-    left[k] = clamped(left[k], 0, 16383);
-    gone[k] = static_cast<int16_t>(clamped(static_cast<int16_t>(-gone[k]), 1, 16383) + left[k]);
+    left[k] = clamped(static_cast<int16_t>(-left[k]), 0, 16383);
+    gone[k] = static_cast<int16_t>(clamped(gone[k], 1, 16383) + left[k]);
   }
   for (int k = 0; k < kCells * kCells; ++k) {
     const uint32_t at = static_cast<uint32_t>(left[k]) * 32u / static_cast<uint32_t>(gone[k]);
@@ -202,12 +211,12 @@ inline void weigh_inside(const PlaceOdds& odds, const Slices& columns, const Sli
 // Takes away what lies in one certified circle. False if that was nothing.
 MICROTIN_OUT_OF_LINE inline bool cut_outside(const Power& circle, const Slices& columns, const Slices& rows,
                         Cells weight) {
-  Cells inside;
-  measure(circle, scale_for(circle, columns, rows), columns, rows, inside);
-  int32_t lost = 0;
+  Cells outside;
+  measure(circle, scale_for(circle, columns, rows), columns, rows, outside);
+  int16_t lost = 0;
   for (int k = 0; k < kCells * kCells; ++k) {
-    const int16_t share = clamped(static_cast<int16_t>(32 - inside[k]), 0, 64);
-    lost += 64 - share;
+    const int16_t share = clamped(static_cast<int16_t>(outside[k] + 32), 0, 64);
+    lost = static_cast<int16_t>(lost + 64 - share);
     weight[k] = static_cast<int16_t>((static_cast<uint32_t>(static_cast<uint16_t>(weight[k])) * (static_cast<uint16_t>(share << 9))) >> 16);
   }
   return lost != 0;
