@@ -160,7 +160,7 @@ inline void note_final_triangle(Reconstruction& r, Index h) {
   const Index a = mesh.origin[f], b = mesh.origin[f + 1u], c = mesh.origin[f + 2u];
   if (a == kInfinity || b == kInfinity || c == kInfinity) return;
   const int64_t area = orient2d(point_of(mesh, a), point_of(mesh, b), point_of(mesh, c)) * 256;
-  r.mean_area += (area - r.mean_area) / 32;
+  r.mean_area += (area - r.mean_area) / 16;
   if (r.mean_area < 1) r.mean_area = 1;
 }
 
@@ -271,7 +271,10 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
     const int which = (region.side[0].certified ? 1 : 0) + (region.side[1].certified ? 2 : 0);
     const int32_t position = 2 * (free_area(region) + density) + 12 * 256;
     *hit = code_on_curve(coder, r.models.hit[which], position, coder.conflicts(mesh, r.chord));
-    if (!*hit) return true;
+    if (!*hit) {
+      note_final_triangle(r, r.chord);
+      return true;
+    }
     const Box bounds = {0, 0, r.contract.x_max, r.contract.y_max};
     place = code_place(coder, r.models.place, r.odds, region, density,
                        enclosing_box(region, bounds), place);
@@ -378,7 +381,6 @@ Progress step_walk(Reconstruction& r, Coder& coder) {
     if (!decide(r, coder, &hit)) return Progress::kMalformed;
   }
   if (!hit) {
-    note_final_triangle(r, r.chord);
     r.chord = mesh.twin[to_c];
   }
   if (mesh.vertices == r.phase_end) {
