@@ -33,28 +33,32 @@ inline int64_t cross(Offset a, Offset b) {
 typedef int32_t Cotangent;
 constexpr Cotangent kCotangentCap = 23000;
 
-// |q| < 2^34, h != 0.
+// |q| < 2^34, h > 0.
 inline Cotangent cotangent(int64_t q, int64_t h) {
-  const int64_t k = h < 0 ? quotient(-q * 256, -h) : quotient(q * 256, h);
-  return static_cast<Cotangent>(k > kCotangentCap    ? kCotangentCap
-                                : k < -kCotangentCap ? -kCotangentCap
-                                                     : k);
+  const int64_t k = quotient(q * 256, h);
+  if (k > kCotangentCap) return kCotangentCap;
+  if (k < -kCotangentCap) return -kCotangentCap;
+  return static_cast<Cotangent>(k);
 }
 
 // The side from corner i to corner i + 1 of a triangle, and what is known behind it.
 struct Side {
   bool certified;  // the triangle behind is final: its circle is empty
   bool ghost;      // ... and lies outside the hull: nothing at all is behind
-  Point apex;      // ... otherwise, the corner opposite to this side
+  Offset apex;     // ... otherwise, the corner opposite to this side
   // The circles of the triangle itself and, if certified and no ghost, of the one behind.
   Cotangent own, behind;
 };
 
 constexpr int kChord = 2;  // the side the walk came from, from corner 2 (a) to corner 0 (v)
 
+// All places are relative to corner 0.
 struct FreeRegion {
-  Point corner[3];  // v, c, a: counter-clockwise, never on a line
+  Point origin;
+  Offset corner[3];  // v, c, a: counter-clockwise, never on a line
   Side side[3];
+  int64_t twice_area;  // of the triangle
+  int64_t swept_from;  // segment() of the circle behind the chord
 };
 
 // Areas carry 8 fractional bits; the largest disc has 2^58.
@@ -80,24 +84,30 @@ inline int64_t segment(Cotangent k) {
 
 // log2 of the free region's area in lattice units. Fills in the sides' cotangents.
 inline Log2 free_area(FreeRegion& region) {
-  const Offset to_c = offset(region.corner[0], region.corner[1]);
-  const Offset to_a = offset(region.corner[1], region.corner[2]);
-  const Offset edge[3] = {to_c, to_a, {-to_c.x - to_a.x, -to_c.y - to_a.y}};
-  const int64_t h = cross(to_c, to_a);
+  const Offset* const corner = region.corner;
+  const Offset edge[3] = {corner[1],
+                          {corner[2].x - corner[1].x, corner[2].y - corner[1].y},
+                          {-corner[2].x, -corner[2].y}};
+  const int64_t h = cross(edge[0], edge[1]);
+  // At the corner opposite to each side.
+  const int64_t q[3] = {-dot(edge[1], edge[2]), -dot(edge[2], edge[0]), -dot(edge[0], edge[1])};
+  region.twice_area = h;
   Area left = 0;
   Area disc = 0;
   for (int i = 2; i >= 0; --i) {
     Side& side = region.side[i];
     if (!side.certified) continue;
-    const int64_t length2 = dot(edge[i], edge[i]);
-    side.own = cotangent(-dot(edge[i == 2 ? 0 : i + 1], edge[i == 0 ? 2 : i - 1]), h);
+    const int64_t length2 = q[i == 2 ? 0 : i + 1] + q[i == 0 ? 2 : i - 1];
+    side.own = cotangent(q[i], h);
     if (i == kChord) left = disc = disc_area(length2, side.own);
     int64_t lost = segment(-side.own);
     if (!side.ghost) {
-      const Offset from = offset(side.apex, region.corner[i]);
+      const Offset from = {corner[i].x - side.apex.x, corner[i].y - side.apex.y};
       const Offset to = {from.x + edge[i].x, from.y + edge[i].y};
-      side.behind = cotangent(dot(from, to), cross(from, edge[i]));
-      lost += segment(side.behind);
+      side.behind = cotangent(-dot(from, to), cross(edge[i], from));
+      const int64_t behind = segment(side.behind);
+      if (i == kChord) region.swept_from = behind;
+      lost += behind;
     }
     left -= length2 * lost >> 9;
   }
@@ -116,8 +126,7 @@ struct Power {
 // The circle through both ends of a side, seen from `middle` (half steps from corner 0).
 // Offsets are below 2^18: products 2^37, times a cotangent 2^52 >> 8; slopes below 2^27.
 inline Power circle_over(const FreeRegion& region, int i, Cotangent k, Offset middle) {
-  const Offset from = offset(region.corner[0], region.corner[i]);
-  const Offset to = offset(region.corner[0], region.corner[i == 2 ? 0 : i + 1]);
+  const Offset from = region.corner[i], to = region.corner[i == 2 ? 0 : i + 1];
   const Offset a = {middle.x - 2 * from.x, middle.y - 2 * from.y};
   const Offset b = {middle.x - 2 * to.x, middle.y - 2 * to.y};
   const Offset chord = {a.x - b.x, a.y - b.y};
@@ -139,26 +148,26 @@ struct Box {
   int32_t x0, y0, x1, y1;
 };
 
-inline void extend(Box& box, Point p) {
-  if (p.x < box.x0) box.x0 = p.x;
-  if (p.x > box.x1) box.x1 = p.x;
-  if (p.y < box.y0) box.y0 = p.y;
-  if (p.y > box.y1) box.y1 = p.y;
+inline void extend(Box& box, int32_t x, int32_t y) {
+  if (x < box.x0) box.x0 = x;
+  if (x > box.x1) box.x1 = x;
+  if (y < box.y0) box.y0 = y;
+  if (y > box.y1) box.y1 = y;
 }
 
 // A box that holds every lattice point of `bounds` that the free region can hold: the triangle
 // itself and, beyond open sides, the circle's extremes. Circles whose cotangent over the chord is
 // capped are not followed: the box is all of `bounds`.
 inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
-  const Point v = region.corner[0];
+  const Point v = region.origin;
   Box box = {v.x, v.y, v.x, v.y};
-  extend(box, region.corner[1]);
-  extend(box, region.corner[2]);
+  extend(box, v.x + region.corner[1].x, v.y + region.corner[1].y);
+  extend(box, v.x + region.corner[2].x, v.y + region.corner[2].y);
   const int64_t k = region.side[kChord].own;
   if (k == kCotangentCap || k == -kCotangentCap) return bounds;
   // Sixteenths of a step from v. The cotangent is off by less than 1/256, which moves the centre,
   // and changes the radius, by less than 1/512 of the chord.
-  const Offset a = offset(v, region.corner[2]);
+  const Offset a = region.corner[2];
   const int64_t cx = a.x * 8 + k * a.y / 32;
   const int64_t cy = a.y * 8 - k * a.x / 32;
   const int64_t margin = ((a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y)) / 16 + 2;
@@ -167,8 +176,7 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
   bool west = false, east = false, south = false, north = false;
   for (int i = 0; i < 2; ++i) {
     if (region.side[i].certified) continue;
-    const Offset from = offset(v, region.corner[i]);
-    const Offset to = offset(v, region.corner[i + 1]);
+    const Offset from = region.corner[i], to = region.corner[i + 1];
     const int64_t dx = to.x - from.x, dy = to.y - from.y;
     const int64_t slack = margin * ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
     const int64_t centre = dx * (cy - 16 * from.y) - dy * (cx - 16 * from.x) - slack;

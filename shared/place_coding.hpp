@@ -57,24 +57,26 @@ MICROTIN_OUT_OF_LINE inline void interpolate(int16_t from, int16_t to, int16_t* 
 }
 
 // Fills in the chances of being first; `density` is the logarithm of points per unit area.
-inline void estimate_sweep(PlaceOdds& odds, const Offset chord, Cotangent from, Cotangent to,
+inline void estimate_sweep(PlaceOdds& odds, Offset chord, Cotangent from, int64_t start, Cotangent to,
                            Log2 density) {
   // Bits lost per unit of segment(), 17 fractional bits: log2(log2(e)) = 135 / 256.
   const Log2 scale = log2_of(static_cast<uint64_t>(dot(chord, chord))) + density + 135;
   const uint64_t rate = exp2_of(scale + 16 * kLog2One);  // 16 fractional bits
   const uint64_t capped = rate < (static_cast<uint64_t>(1) << 30) ? rate : static_cast<uint64_t>(1) << 30;
-  const int64_t start = segment(from);
   int16_t last = 0;
   for (int i = 0; i <= kSweepNodes; ++i) {
-    const int64_t swept = segment(to + (from - to) * i / kSweepNodes) - start;
-    const uint64_t loss = swept > 0 ? static_cast<uint64_t>(swept) * capped >> 25 : 0;
-    const Log2 left = loss < 15 * 256 ? 15 * 256 - static_cast<Log2>(loss) : 0;
-    const int16_t chance = static_cast<int16_t>(exp2_of(left) * 511 >> 15);
+    int16_t chance = 511;
+    if (i != kSweepNodes) {
+      const int64_t swept = segment(to + (((from - to) * i) >> 2)) - start;
+      const uint64_t loss = swept > 0 ? static_cast<uint64_t>(swept) * capped >> 25 : 0;
+      const Log2 left = loss < 15 * 256 ? 15 * 256 - static_cast<Log2>(loss) : 0;
+      chance = static_cast<int16_t>(exp2_of(left) * 511 >> 15);
+    }
     if (i != 0) interpolate(last, chance, odds.chance + 8 * (i - 1));
     last = chance;
   }
   odds.chance[kSweepEntries - 1] = last;
-  odds.sweeps = odds.chance[0] < last - last / 8;
+  odds.sweeps = odds.chance[0] < 448;
 }
 
 inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset middle, Log2 density) {
@@ -90,7 +92,8 @@ inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset midd
   const Cotangent from = chord.ghost ? (chord.own < 0 ? chord.own : 0) - 8 * 256 : chord.behind;
   odds.swept_from =
       chord.ghost ? circle_over(region, kChord, from, middle) : odds.outside[kChord];
-  estimate_sweep(odds, offset(region.corner[2], region.corner[0]), from, chord.own, density);
+  estimate_sweep(odds, region.corner[2], from, chord.ghost ? segment(from) : region.swept_from, chord.own,
+                 density);
 }
 
 // Four slices of `count` <= 2^16 lattice lines: where each starts, and where the last one ends.
@@ -297,7 +300,7 @@ MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration<kSplitEntries>* sp
 template <class Coder>
 Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, const FreeRegion& region,
                  Log2 density, Box box, Point place) {
-  const Point v = region.corner[0];
+  const Point v = region.origin;
   estimate_odds(odds, region, Offset{box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y},
                 density);
   for (int level = 0; level < kLevels; ++level) {

@@ -23,19 +23,13 @@ struct AdaptiveBit {
 constexpr uint16_t kSeenMost = 254;  // then each new bit weighs 1/256
 
 inline void reset(AdaptiveBit& bit, uint32_t probability15) {
-  bit.probability = static_cast<uint16_t>(probability15 < 32767u ? probability15 * 2u : 65535u);
-  bit.seen = 6;
+  bit.probability = bit.seen = static_cast<uint16_t>(probability15);
 }
-
+inline uint32_t prob(const AdaptiveBit& b) { return static_cast<uint32_t>(b.probability) + b.seen; }
 inline void learn(AdaptiveBit& bit, bool one) {
-  const uint32_t shift = highest_bit(bit.seen + 2u);
-  if (one) {
-    bit.probability =
-        static_cast<uint16_t>(bit.probability + ((65535u - bit.probability) >> shift));
-  } else {
-    bit.probability = static_cast<uint16_t>(bit.probability - (bit.probability >> shift));
-  }
-  if (bit.seen < kSeenMost) ++bit.seen;
+  const int32_t target = one ? 32767 : 0;
+  bit.probability = static_cast<uint16_t>(bit.probability + ((target - bit.probability) >> 5));
+  bit.seen = static_cast<uint16_t>(bit.seen + ((target - bit.seen) >> 7));
 }
 
 inline uint32_t clamp_probability(uint32_t probability15) {
@@ -48,7 +42,7 @@ inline uint32_t clamp_probability(uint32_t probability15) {
 
 template <class Coder>
 bool code_bit(Coder& coder, AdaptiveBit& bit, bool value) {
-  value = coder.bit(clamp_probability(bit.probability / 2u), value);
+  value = coder.bit(clamp_probability(prob(bit) / 2u), value);
   learn(bit, value);
   return value;
 }
@@ -86,7 +80,7 @@ bool code_on_curve(Coder& coder, Curve<kEntries>& curve, int32_t position, bool 
   const uint32_t f = at - i * 256u;
   AdaptiveBit& low = curve.entry[i];
   AdaptiveBit& high = curve.entry[i + 1];
-  const uint32_t blend = (low.probability * (256u - f) + high.probability * f) >> 9;
+  const uint32_t blend = (prob(low) * (256u - f) + prob(high) * f) >> 9;
   value = coder.bit(clamp_probability(blend), value);
   learn(f < 128 ? low : high, value);
   return value;
@@ -114,7 +108,7 @@ bool code_calibrated(Coder& coder, Calibration<kEntries>& calibration, uint32_t 
   const uint32_t i = position >> 15, f = position >> 7 & 255u;
   AdaptiveBit& low = calibration.entry[i];
   AdaptiveBit& high = calibration.entry[i + 1];
-  const uint32_t blend = (low.probability * (256u - f) + high.probability * f) >> 9;
+  const uint32_t blend = (prob(low) * (256u - f) + prob(high) * f) >> 9;
   value = coder.bit(clamp_probability(blend), value);
   learn(f < 128 ? low : high, value);
   return value;

@@ -74,6 +74,8 @@ struct Reconstruction {
   uint32_t work;    // vertices walked around so far, all phases together
   uint32_t batch;
   int64_t mean_area;  // running mean of twice the area of final triangles, 8 fractional bits
+  Log2 batch_share;   // log2 of the batch's share of the phase's vertices, times 2^8
+  Log2 density;       // log2 of the batch's points to be expected per unit area
   Index void_cursor;
 
   Cavity cavity;
@@ -123,14 +125,11 @@ inline void mark(Reconstruction& r, Index v, uint8_t mark) {
 
 // --- The triangle in hand ------------------------------------------------------------------------
 
-inline Side side_behind(const Reconstruction& r, Index h) {
-  const Index behind = r.mesh->twin[h];
-  const Index apex = r.mesh->origin[previous_in_triangle(behind)];
-  Side side;
+inline void look_behind(const Reconstruction& r, Index h, Side& side) {
+  const Index apex = r.mesh->origin[previous_in_triangle(r.mesh->twin[h])];
   side.ghost = apex == kInfinity;
   side.certified = marked(r, apex, kDone);
-  side.apex = side.ghost ? Point{0, 0} : point_of(*r.mesh, apex);
-  return side;
+  if (!side.ghost) side.apex = offset(r.region.origin, point_of(*r.mesh, apex));
 }
 
 // Describes the free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
@@ -138,30 +137,29 @@ inline void look_around(Reconstruction& r) {
   const Mesh& mesh = *r.mesh;
   const Index to_c = next_in_triangle(r.chord), to_a = next_in_triangle(to_c);
   FreeRegion& region = r.region;
-  region.corner[0] = point_of(mesh, mesh.origin[to_c]);
-  region.corner[1] = point_of(mesh, mesh.origin[to_a]);
-  region.corner[2] = point_of(mesh, mesh.origin[r.chord]);
-  region.side[0] = side_behind(r, to_c);
-  region.side[1] = side_behind(r, to_a);
-  region.side[kChord] = side_behind(r, r.chord);
+  region.origin = point_of(mesh, mesh.origin[to_c]);
+  region.corner[0] = Offset{0, 0};
+  region.corner[1] = offset(region.origin, point_of(mesh, mesh.origin[to_a]));
+  region.corner[2] = offset(region.origin, point_of(mesh, mesh.origin[r.chord]));
+  look_behind(r, to_c, region.side[0]);
+  look_behind(r, to_a, region.side[1]);
+  look_behind(r, r.chord, region.side[kChord]);
   region.side[kChord].certified = true;  // it was passed in this turn, or has a done vertex
 }
 
-// log2 of the expected number of this batch's points per unit area, from the mean area of the final
-// triangles met lately: n final vertices have a mean of 1/n of the area each, two triangles' worth.
-inline Log2 point_density(const Reconstruction& r) {
-  return log2_of(r.batch) - log2_of(r.phase_end) -
-         (log2_of(static_cast<uint64_t>(r.mean_area)) - 8 * kLog2One);
+// log2 of the expected number of this batch's points per unit area, from the mean area of the
+// triangles found final lately: n final vertices have a mean of 1/n of the area each, two
+// triangles' worth.
+inline void update_density(Reconstruction& r) {
+  r.density = r.batch_share - log2_of(static_cast<uint64_t>(r.mean_area));
 }
 
-inline void note_final_triangle(Reconstruction& r, Index h) {
-  const Mesh& mesh = *r.mesh;
-  const Index f = first_edge(triangle_of(h));
-  const Index a = mesh.origin[f], b = mesh.origin[f + 1u], c = mesh.origin[f + 2u];
-  if (a == kInfinity || b == kInfinity || c == kInfinity) return;
-  const int64_t area = orient2d(point_of(mesh, a), point_of(mesh, b), point_of(mesh, c)) * 256;
-  r.mean_area += (area - r.mean_area) / 16;
+// `twice_area` < 2^33.
+inline void note_final_triangle(Reconstruction& r, int64_t twice_area) {
+  if (twice_area < 0) return;
+  r.mean_area += (twice_area * 256 - r.mean_area) / 16;
   if (r.mean_area < 1) r.mean_area = 1;
+  update_density(r);
 }
 
 // --- Insertion -----------------------------------------------------------------------------------
@@ -212,7 +210,6 @@ bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
   const Index first = fan_cavity(mesh, r.cavity, v);
   if (chord == r.anchor) r.anchor = first;
   ++mesh.vertices;
-  note_final_triangle(r, first);
   r.chord = mesh.twin[first + 1u];
   return true;
 }
@@ -267,17 +264,18 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
   } else {
     look_around(r);
     FreeRegion& region = r.region;
-    const Log2 density = point_density(r);
     const int which = (region.side[0].certified ? 1 : 0) + (region.side[1].certified ? 2 : 0);
-    const int32_t position = 2 * (free_area(region) + density) + 12 * 256;
+    const int32_t position = 2 * (free_area(region) + r.density) + 12 * 256;
     *hit = code_on_curve(coder, r.models.hit[which], position, coder.conflicts(mesh, r.chord));
     if (!*hit) {
-      note_final_triangle(r, r.chord);
+      note_final_triangle(r, region.twice_area);
       return true;
     }
     const Box bounds = {0, 0, r.contract.x_max, r.contract.y_max};
-    place = code_place(coder, r.models.place, r.odds, region, density,
+    place = code_place(coder, r.models.place, r.odds, region, r.density,
                        enclosing_box(region, bounds), place);
+    // The triangle of the chord and the new vertex is final.
+    note_final_triangle(r, cross(offset(region.origin, place), region.corner[2]));
   }
   return insert(r, coder, place, next.z);
 }
@@ -346,6 +344,8 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   r.mean_area = static_cast<int64_t>(static_cast<uint64_t>(columns(r.contract)) * rows(r.contract) *
                                      256u / r.phase_end) +
                 1;
+  r.batch_share = log2_of(r.batch) - log2_of(r.phase_end) + 8 * kLog2One;
+  update_density(r);
   r.stage = Stage::kWalk;
   return Progress::kStep;
 }
