@@ -73,13 +73,17 @@ inline Area disc_area(int64_t length2, Cotangent k) {
 // Area, over length2, of the segment to the left of the chord: 17 fractional bits, below 2^32 .
 // Up to a half disc (k <= 0) it comes from a table, beyond it is what the disc has left.
 inline int64_t segment(Cotangent k) {
-  const uint32_t size = static_cast<uint32_t>(k < 0 ? -k : k) + 64u;
-  const uint32_t octave = highest_bit(size);
-  const uint32_t mantissa = size << (15u - octave) & 0x7FFFu;
-  const uint32_t i = (octave - 6u) * 4u + (mantissa >> 13);
-  const uint32_t low = table_segment(i), high = table_segment(i + 1);
-  const int64_t smaller = low - (((low - high) * (mantissa & 0x1FFFu)) >> 13);
-  return k <= 0 ? smaller : (static_cast<int64_t>(65536 + k * k) * 3217 >> 11) - smaller;
+  const uint32_t size = static_cast<uint32_t>(k < 0 ? -k : k);
+  uint32_t smaller;
+  if (size < 2048) {
+    const uint32_t i = size >> 5;
+    const uint32_t low = table_segment(i), high = table_segment(i + 1);
+    smaller = low - (((low - high) * (size & 31u)) >> 5);
+  } else {
+    smaller = 5592405u / size;  // 2 / (3 k), the first term of its series
+  }
+  if (k <= 0) return smaller;
+  return (static_cast<int64_t>(65536 + k * k) * 3217 >> 11) - smaller;
 }
 
 // log2 of the free region's area in lattice units. Fills in the sides' cotangents.
