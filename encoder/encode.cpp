@@ -55,6 +55,9 @@ class WritingCoder {
   bool bit(uint32_t probability, bool value) { return payload_.bit(probability, value); }
   uint32_t uniform(uint32_t count, uint32_t value) { return payload_.uniform(count, value); }
 
+  uint32_t point(uint32_t total, uint32_t at) { return payload_.point(total, at); }
+  void take(uint32_t from, uint32_t size) { payload_.take(from, size); }
+
   Vertex next() {
     if (placed_ == 0) return sequence_[seed_next_++];
     return sequence_[placed_];

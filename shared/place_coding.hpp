@@ -26,27 +26,32 @@ constexpr uint32_t kSplitEntries = 9;
 constexpr int kSweepNodes = 4;
 constexpr int kSweepEntries = 8 * kSweepNodes + 1;
 
-// For each level and each of its four binary decisions: the odds learned for the estimated ones.
+// For each of the four binary decisions of the first level: the odds learned for the estimated
+// ones.
 struct PlaceModel {
-  Calibration<kSplitEntries> split[kLevels][4];
+  Calibration<kSplitEntries> split[4];
 };
 
 inline void reset(PlaceModel& model) {
-  for (int level = 0; level < kLevels; ++level) {
-    for (int decision = 0; decision < 4; ++decision) reset(model.split[level][decision]);
-  }
+  for (int decision = 0; decision < 4; ++decision) reset(model.split[decision]);
 }
+
+// Something for each cell, columns one after the other.
+typedef int16_t Cells[kCells * kCells];
 
 // What weighs the cells of a box; the powers are seen from its middle.
 struct PlaceOdds {
-  Power inside;      // t's circle: negative where the point can be
-  Power outside[3];  // certified neighbours' circles: positive where it can be
-  bool cuts[3];      // which of them still cut the box
-  bool sweeps;       // whether the chance of being first differs noticeably over the region
-  Power swept_from;  // where the sweep starts: the circle behind the chord
-  // 511 * chance of being first, at equal steps of the cotangent from `inside` to swept_from
+  Power circle[4];    // of the triangles behind the sides, and t's own
+  bool cuts[4];       // which of them cut the box
+  Cells distance[4];  // how far the cells are outside of them
+  bool sweeps;        // whether the chance of being first differs noticeably over the region
+  Power swept_from;   // where the sweep starts: the circle behind the chord
+  // 511 * chance of being first, at equal steps of the cotangent from t's circle to swept_from
   int16_t chance[kSweepEntries];
+  Cells chances;      // at the cells
+  int16_t level, slope_x, slope_y;
 };
+constexpr int kOwn = 3;
 
 // Eight equal steps from `from` towards `to`, both below 2^12.
 MICROTIN_OUT_OF_LINE inline void interpolate(int16_t from, int16_t to, int16_t* step) {
@@ -81,19 +86,19 @@ inline void estimate_sweep(PlaceOdds& odds, Offset chord, Cotangent from, int64_
 
 inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset middle, Log2 density) {
   const Side& chord = region.side[kChord];
-  odds.inside = circle_over(region, kChord, chord.own, middle);
+  odds.circle[kOwn] = circle_over(region, kChord, chord.own, middle);
+  odds.cuts[kOwn] = true;
   for (int i = 0; i < 3; ++i) {
     const Side& side = region.side[i];
     odds.cuts[i] = side.certified && !side.ghost;
-    if (odds.cuts[i]) odds.outside[i] = circle_over(region, i, side.behind, middle);
+    if (odds.cuts[i]) odds.circle[i] = circle_over(region, i, side.behind, middle);
   }
   // With nothing behind the chord the sweep starts at a circle so large that its segment is next to
   // nothing.
   const Cotangent from = chord.ghost ? (chord.own < 0 ? chord.own : 0) - 8 * 256 : chord.behind;
-  odds.swept_from =
-      chord.ghost ? circle_over(region, kChord, from, middle) : odds.outside[kChord];
-  estimate_sweep(odds, region.corner[2], from, chord.ghost ? segment(from) : region.swept_from, chord.own,
-                 density);
+  odds.swept_from = chord.ghost ? circle_over(region, kChord, from, middle) : odds.circle[kChord];
+  estimate_sweep(odds, region.corner[2], from, chord.ghost ? segment(from) : region.swept_from,
+                 chord.own, density);
 }
 
 // Four slices of `count` <= 2^16 lattice lines: where each starts, and where the last one ends.
@@ -147,9 +152,6 @@ inline Scale scale_for(const Power& power, const Slices& columns, const Slices& 
   return Scale{shift, static_cast<int32_t>((1ul << 30) / static_cast<uint32_t>(ramp >> shift))};
 }
 
-// Something for each cell, columns one after the other.
-typedef int16_t Cells[kCells * kCells];
-
 // The power of slices' middles, in 64ths of a cell's extent: a parabola.
 inline void measure_axis(int32_t constant, int32_t slope, const Slices& slices, const Scale& scale,
                          int16_t* distance) {
@@ -186,57 +188,39 @@ inline int16_t clamped(int16_t v, int16_t low, int16_t high) {
   return raised > high ? high : raised;
 }
 
-// Weighs the cells by the share inside t's circle, and by the chance of being first.
-inline void weigh_inside(const PlaceOdds& odds, const Slices& columns, const Slices& rows,
-                         Cells weight) {
-  const Scale scale = scale_for(odds.inside, columns, rows);
-  Cells left;
-  measure(odds.inside, scale, columns, rows, left);
-  for (int k = 0; k < kCells * kCells; ++k) {
-    weight[k] = clamped(static_cast<int16_t>(32 - left[k]), 0, 64);
-  }
-  if (!odds.sweeps) {
-    for (int k = 0; k < kCells * kCells; ++k) weight[k] = static_cast<int16_t>(weight[k] << 9);
-    return;
-  }
-  Cells gone;
-  measure(odds.swept_from, scale, columns, rows, gone);
-  for (int k = 0; k < kCells * kCells; ++k) {
-    left[k] = clamped(static_cast<int16_t>(-left[k]), 0, 16383);
-    gone[k] = static_cast<int16_t>(clamped(gone[k], 1, 16383) + left[k]);
-  }
-  for (int k = 0; k < kCells * kCells; ++k) {
-    const uint32_t at = static_cast<uint32_t>(left[k]) * 32u / static_cast<uint32_t>(gone[k]);
-    weight[k] = static_cast<int16_t>(weight[k] * odds.chance[at]);
-  }
-}
-
-// Takes away what lies in one certified circle. False if that was nothing.
-MICROTIN_OUT_OF_LINE inline bool cut_outside(const Power& circle, const Slices& columns, const Slices& rows,
-                        Cells weight) {
-  Cells outside;
+// Measures how far the cells are outside a circle.
+MICROTIN_OUT_OF_LINE inline void measure(const Power& circle, const Slices& columns,
+                                         const Slices& rows, Cells outside) {
   measure(circle, scale_for(circle, columns, rows), columns, rows, outside);
-  int16_t lost = 0;
-  for (int k = 0; k < kCells * kCells; ++k) {
-    const int16_t share = clamped(static_cast<int16_t>(outside[k] + 32), 0, 64);
-    lost = static_cast<int16_t>(lost + 64 - share);
-    weight[k] = static_cast<int16_t>((static_cast<uint32_t>(static_cast<uint16_t>(weight[k])) * (static_cast<uint16_t>(share << 9))) >> 16);
-  }
-  return lost != 0;
 }
 
-inline void weigh_cells(PlaceOdds& odds, const Slices& columns, const Slices& rows,
-                        Cells weight) {
-  weigh_inside(odds, columns, rows, weight);
-  for (int k = 0; k < 3; ++k) {
-    if (odds.cuts[k]) odds.cuts[k] = cut_outside(odds.outside[k], columns, rows, weight);
+// Takes away what lies inside a circle.
+MICROTIN_OUT_OF_LINE inline void cut(const Cells outside, Cells weight) {
+  for (int k = 0; k < kCells * kCells; ++k) {
+    const int16_t share = clamped(static_cast<int16_t>(outside[k] + 32), 0, 63);
+    weight[k] = static_cast<int16_t>((static_cast<uint32_t>(static_cast<uint16_t>(weight[k])) *
+                                      (static_cast<uint16_t>(share << 10 ))) >> 16);
+  }
+}
+
+// The chances of being first in the cells.
+MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds, const Slices& columns, const Slices& rows) {
+  Cells left, total;
+  const Scale scale = scale_for(odds.circle[kOwn], columns, rows);
+  measure(odds.swept_from, scale, columns, rows, total);
+  for (int k = 0; k < kCells * kCells; ++k) {
+    left[k] = clamped(static_cast<int16_t>(-odds.distance[kOwn][k]), 0, 16383);
+    total[k] = static_cast<int16_t>(clamped(total[k], 1, 16383) + left[k]);
+  }
+  for (int k = 0; k < kCells * kCells; ++k) {
+    odds.chances[k] = odds.chance[static_cast<uint32_t>(left[k]) * 32u / static_cast<uint32_t>(total[k])];
   }
 }
 
 // How much a slice's width counts: nothing where all are about the same. At most 16.
-inline uint32_t size_of(const Slices& slices, int i) {
+inline uint32_t size_of(const Slices& slices, int i, int32_t most) {
   const int32_t width = slices.start[i + 1] - slices.start[i];
-  return slices.count > 64 ? 1u : static_cast<uint32_t>(width);
+  return slices.count > most ? 1u : static_cast<uint32_t>(width);
 }
 
 // Codes one of two halves by their weights; a half without lattice points is never chosen.
@@ -260,22 +244,44 @@ int code_slice(Coder& coder, Calibration<kSplitEntries>* half, const uint32_t* w
   return first + code_half(coder, half[1], weight[first], weight[first + 1], (slice & 1) != 0);
 }
 
-// Codes the cell of `box` that holds the place, which becomes the box.
+inline void narrow(PlaceOdds& odds, Box& box, const Slices& columns, const Slices& rows, int i, int j) {
+  box.x1 = box.x0 + columns.start[i + 1] - 1;
+  box.y1 = box.y0 + rows.start[j + 1] - 1;
+  box.x0 += columns.start[i];
+  box.y0 += rows.start[j];
+  const int32_t dx = columns.start[i] + columns.start[i + 1] - columns.count;
+  const int32_t dy = rows.start[j] + rows.start[j + 1] - rows.count;
+  for (int k = 0; k < 4; ++k) {
+    if (!odds.cuts[k]) continue;
+    const int16_t d = odds.distance[k][kCells * i + j];
+    odds.cuts[k] = d > -32 && d < 32;
+    if (odds.cuts[k]) odds.circle[k] = moved(odds.circle[k], dx, dy);
+  }
+}
+
 template <class Coder>
-MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration<kSplitEntries>* split, PlaceOdds& odds, Box& box,
-               Point place) {
+void code_coarse(Coder& coder, Calibration<kSplitEntries>* split, PlaceOdds& odds, Box& box, Point place) {
   const Slices columns = slice(box.x1 - box.x0 + 1), rows = slice(box.y1 - box.y0 + 1);
-  if (columns.count == 1 && rows.count == 1) return;
   Cells weight;
-  weigh_cells(odds, columns, rows, weight);
+  for (int k = 0; k < 4; ++k) {
+    if (odds.cuts[k]) measure(odds.circle[k], columns, rows, odds.distance[k]);
+  }
+  if (odds.sweeps) sweep(odds, columns, rows);
+  for (int k = 0; k < kCells * kCells; ++k) {
+    const int16_t share = clamped(static_cast<int16_t>(32 - odds.distance[kOwn][k]), 0, 63);
+    weight[k] = static_cast<int16_t>(share * odds.chances[k]);
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (odds.cuts[k]) cut(odds.distance[k], weight);
+  }
   uint32_t row_size[kCells], column_weight[kCells], cell_weight[kCells];
-  for (int j = 0; j < kCells; ++j) row_size[j] = size_of(rows, j);
+  for (int j = 0; j < kCells; ++j) row_size[j] = size_of(rows, j, 64);
   for (int i = 0; i < kCells; ++i) {
     column_weight[i] = 0;
     for (int j = 0; j < kCells; ++j) {
       column_weight[i] += (static_cast<uint32_t>(weight[kCells * i + j]) + 1u) * row_size[j];
     }
-    column_weight[i] *= size_of(columns, i);
+    column_weight[i] *= size_of(columns, i, 64);
   }
   const int i =
       code_slice(coder, &split[0], column_weight, slice_of(columns, place.x - box.x0));
@@ -283,17 +289,49 @@ MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration<kSplitEntries>* sp
     cell_weight[j] = (static_cast<uint32_t>(weight[kCells * i + j]) + 1u) * row_size[j];
   }
   const int j = code_slice(coder, &split[2], cell_weight, slice_of(rows, place.y - box.y0));
-  box.x1 = box.x0 + columns.start[i + 1] - 1;
-  box.y1 = box.y0 + rows.start[j + 1] - 1;
-  box.x0 += columns.start[i];
-  box.y0 += rows.start[j];
-  const int32_t dx = columns.start[i] + columns.start[i + 1] - columns.count;
-  const int32_t dy = rows.start[j] + rows.start[j + 1] - rows.count;
-  odds.inside = moved(odds.inside, dx, dy);
-  odds.swept_from = moved(odds.swept_from, dx, dy);
-  for (int k = 0; k < 3; ++k) {
-    if (odds.cuts[k]) odds.outside[k] = moved(odds.outside[k], dx, dy);
+  narrow(odds, box, columns, rows, i, j);
+  // The chance's slope.
+  const int16_t* c = odds.chances;
+  const int west = i == 0 ? 0 : i - 1, east = i == 3 ? 3 : i + 1;
+  const int south = j == 0 ? 0 : j - 1, north = j == 3 ? 3 : j + 1;
+  odds.level = static_cast<int16_t>(c[kCells * i + j] * 4);
+  odds.slope_x = static_cast<int16_t>((c[kCells * east + j] - c[kCells * west + j]) * (east - west == 2 ? 2 : 4));
+  odds.slope_y = static_cast<int16_t>((c[kCells * i + north] - c[kCells * i + south]) * (north - south == 2 ? 2 : 4));
+}
+
+template <class Coder>
+void code_fine(Coder& coder, PlaceOdds& odds, Box& box, Point place) {
+  const Slices columns = slice(box.x1 - box.x0 + 1), rows = slice(box.y1 - box.y0 + 1);
+  if (columns.count == 1 && rows.count == 1) return;
+  Cells weight;
+  int16_t x[kCells], y[kCells];
+  for (int i = 0; i < kCells; ++i) {
+    x[i] = static_cast<int16_t>(odds.level + odds.slope_x * (2 * i - 3) / 8);
+    y[i] = static_cast<int16_t>(odds.slope_y * (2 * i - 3) / 8);
   }
+  add_column(x[0], y, weight);
+  add_column(x[1], y, weight + kCells);
+  add_column(x[2], y, weight + 2 * kCells);
+  add_column(x[3], y, weight + 3 * kCells);
+  for (int k = 0; k < kCells * kCells; ++k) weight[k] = static_cast<int16_t>(clamped(weight[k], 64, 2047) << 4);
+  for (int k = 0; k < 4; ++k) {
+    if (!odds.cuts[k]) continue;
+    measure(odds.circle[k], columns, rows, odds.distance[k]);
+    if (k == kOwn) for (int l = 0; l < 16; ++l) odds.distance[k][l] = static_cast<int16_t>(-odds.distance[k][l]);
+    cut(odds.distance[k], weight);
+  }
+  uint32_t sum[17];
+  sum[0] = 0;
+  for (int k = 0; k < kCells * kCells; ++k) {
+    const uint32_t size = size_of(columns, k / 4, 16) * size_of(rows, k % 4, 16);
+    sum[k + 1] = sum[k] + (static_cast<uint32_t>(static_cast<uint16_t>(weight[k]) >> 7) + 1) * size;
+  }
+  const int known = kCells * slice_of(columns, place.x - box.x0) + slice_of(rows, place.y - box.y0);
+  const uint32_t at = coder.point(sum[16], sum[known]);
+  int k = 0;
+  while (k < 15 && at >= sum[k + 1]) ++k;
+  coder.take(sum[k], sum[k + 1] - sum[k]);
+  narrow(odds, box, columns, rows, k / 4, k % 4);
 }
 
 // Codes a place in `box`, which encloses the free region.
@@ -303,8 +341,12 @@ Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, const FreeReg
   const Point v = region.origin;
   estimate_odds(odds, region, Offset{box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y},
                 density);
-  for (int level = 0; level < kLevels; ++level) {
-    code_cell(coder, model.split[level], odds, box, place);
+  if (!odds.sweeps) for (int k = 0; k < 16; ++k) odds.chances[k] = 511;
+  code_coarse(coder, model.split, odds, box, place);
+  for (int level = 1; level < kLevels; ++level) {
+    code_fine(coder, odds, box, place);
+    odds.slope_x = static_cast<int16_t>(odds.slope_x / 4);
+    odds.slope_y = static_cast<int16_t>(odds.slope_y / 4);
   }
   const uint32_t x = coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),
                                    static_cast<uint32_t>(place.x - box.x0));
