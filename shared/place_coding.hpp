@@ -254,7 +254,7 @@ inline void narrow(PlaceOdds& odds, Box& box, const Slices& columns, const Slice
   for (int k = 0; k < 4; ++k) {
     if (!odds.cuts[k]) continue;
     const int16_t d = odds.distance[k][kCells * i + j];
-    odds.cuts[k] = d > -32 && d < 32;
+    odds.cuts[k] = d > -80 && d < 80;
     if (odds.cuts[k]) odds.circle[k] = moved(odds.circle[k], dx, dy);
   }
 }
@@ -306,8 +306,8 @@ void code_fine(Coder& coder, PlaceOdds& odds, Box& box, Point place) {
   Cells weight;
   int16_t x[kCells], y[kCells];
   for (int i = 0; i < kCells; ++i) {
-    x[i] = static_cast<int16_t>(odds.level + odds.slope_x * (2 * i - 3) / 8);
-    y[i] = static_cast<int16_t>(odds.slope_y * (2 * i - 3) / 8);
+    x[i] = static_cast<int16_t>(odds.level + odds.slope_x * (2 * i - 3) / 7);
+    y[i] = static_cast<int16_t>(odds.slope_y * (2 * i - 3) / 7);
   }
   add_column(x[0], y, weight);
   add_column(x[1], y, weight + kCells);
