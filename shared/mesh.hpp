@@ -26,6 +26,12 @@ typedef uint32_t Index;
 // The vertex at infinity. No vertex has this number: the largest half-edge number stays below it.
 constexpr Index kInfinity = static_cast<Index>(~static_cast<Index>(0));
 
+// Whether one of three vertices is at infinity: the highest bit tells, since there are six times as
+// many half-edges as vertices.
+inline bool is_ghost(Index a, Index b, Index c) {
+  return ((static_cast<uint32_t>(a) | b | c) >> (MICROTIN_INDEX_BITS - 1)) != 0;
+}
+
 // Views of arrays that somebody else owns.
 struct Mesh {
   uint16_t* x;      // vertices
@@ -51,6 +57,21 @@ inline Index first_edge(Index triangle) {
   return static_cast<Index>(3u * triangle);
 }
 
+// A half-edge's triangle and the other two half-edges of it.
+struct Sides {
+  Index triangle;
+  Index next;
+  Index previous;
+};
+
+inline Sides sides_beside(Index h) {
+  const Index t = triangle_of(h);
+  const Index first = first_edge(t);
+  const Index previous = static_cast<Index>(h == first ? h + 2u : h - 1u);
+  // The three numbers add up to 3 * first + 3.
+  return Sides{t, static_cast<Index>(3u * first + 3u - h - previous), previous};
+}
+
 inline Index next_in_triangle(Index h) {
   return static_cast<Index>(h == first_edge(triangle_of(h)) + 2u ? h - 2u : h + 1u);
 }
@@ -69,22 +90,22 @@ inline void pair(Mesh& mesh, Index a, Index b) {
   mesh.twin[b] = a;
 }
 
-// Whether p, different from the vertices of the triangle of half-edge h, conflicts with it.
-inline bool in_conflict(const Mesh& mesh, Index h, Point p) {
-  const Index f = first_edge(triangle_of(h));
-  Index a = mesh.origin[f], b = mesh.origin[f + 1u], c = mesh.origin[f + 2u];
-  if (a == kInfinity) {
-    a = b;
-    b = c;
-    c = kInfinity;
-  } else if (b == kInfinity) {
-    b = a;
-    a = c;
-    c = kInfinity;
+// in_conflict for the rare cases: a ghost, or p on the circle.
+[[gnu::noinline]] inline bool in_rare_conflict(const Mesh& mesh, Index a, Index b, Index c,
+                                               Point p) {
+  if (is_ghost(a, b, c)) {
+    const Index from = a == kInfinity ? b : b == kInfinity ? c : a;
+    const Index to = a == kInfinity ? c : b == kInfinity ? a : b;
+    return conflicts_with_ghost(point_of(mesh, from), point_of(mesh, to), p);
   }
-  const Point pa = point_of(mesh, a), pb = point_of(mesh, b);
-  if (c == kInfinity) return conflicts_with_ghost(pa, pb, p);
-  return conflicts_with_triangle(pa, pb, point_of(mesh, c), p);
+  return conflicts_on_circle(point_of(mesh, a) - p, point_of(mesh, b) - p, point_of(mesh, c) - p);
+}
+
+// Whether p conflicts with the counter-clockwise triangle (a, b, c). A corner of it does not.
+inline bool in_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
+  int64_t d = 0;
+  if (!is_ghost(a, b, c)) d = incircle(point_of(mesh, a), point_of(mesh, b), point_of(mesh, c), p);
+  return d != 0 ? d > 0 : in_rare_conflict(mesh, a, b, c, p);
 }
 
 // The mesh of one counter-clockwise triangle (0, 1, 2) and its three ghosts.

@@ -22,44 +22,76 @@ inline int64_t squared_length(Point a, Point b) {
   return static_cast<int64_t>(dx) * dx + static_cast<int64_t>(dy) * dy;  // < 2^33
 }
 
+// Where a point lies as seen from another: each coordinate is within +-65535.
+struct Offset {
+  int32_t x;
+  int32_t y;
+};
+
+inline Offset operator-(Point a, Point p) {
+  return Offset{static_cast<int32_t>(a.x) - p.x, static_cast<int32_t>(a.y) - p.y};
+}
+
 // The product of two signed numbers modulo 2^64.
 inline uint64_t wrapping_product(int64_t a, int64_t b) {
   return static_cast<uint64_t>(a) * static_cast<uint64_t>(b);
 }
 
-// Positive if p lies inside the circle through the counter-clockwise a, b, c; zero if on it.
+// Positive if the origin, p, lies inside the circle through the counter-clockwise a, b, c, all seen
+// from p; zero if on it.
 //
 // For four points in a square of side S the determinant is at most S^4 / 2 in magnitude
 // (FORMAT.md, "Exactness", has the proof). S = 65535 gives 9.2228e18 < 2^63 = 9.2234e18, so the
 // value computed modulo 2^64, read as a signed number, is exact.
-// Written with a, b, p relative to c and the chord (a, b): h is twice an area, q a dot product,
-// and incircle = q(c) h(p) - q(p) h(c). |h| <= 2^32, |q| < 2^33: each fits an int64.
-inline int64_t incircle(Point a, Point b, Point c, Point p) {
-  const int32_t cax = static_cast<int32_t>(a.x) - c.x, cay = static_cast<int32_t>(a.y) - c.y;
-  const int32_t cbx = static_cast<int32_t>(b.x) - c.x, cby = static_cast<int32_t>(b.y) - c.y;
-  const int32_t pax = static_cast<int32_t>(a.x) - p.x, pay = static_cast<int32_t>(a.y) - p.y;
-  const int32_t pbx = static_cast<int32_t>(b.x) - p.x, pby = static_cast<int32_t>(b.y) - p.y;
-  const int64_t h_c = static_cast<int64_t>(cax) * cby - static_cast<int64_t>(cay) * cbx;
-  const int64_t q_c = static_cast<int64_t>(cax) * cbx + static_cast<int64_t>(cay) * cby;
-  const int64_t h_p = static_cast<int64_t>(pax) * pby - static_cast<int64_t>(pay) * pbx;
-  const int64_t q_p = static_cast<int64_t>(pax) * pbx + static_cast<int64_t>(pay) * pby;
-  return static_cast<int64_t>(wrapping_product(q_c, h_p) - wrapping_product(q_p, h_c));
+// With h twice the area under the chord (a, b) and q the dot product of the directions to its ends,
+// incircle = q(c) h(p) - q(p) h(c). As seen from p, h(c) = h(p) - (a - b) x c and
+// q(c) = q(p) - (a + b - c) . c; the products q(p) h(p) cancel. The two numbers that stay are
+// differences of two h, |h| <= 2^32, and two q, |q| < 2^33: each fits an int64.
+inline int64_t incircle(Offset a, Offset b, Offset c) {
+  const int64_t h = static_cast<int64_t>(a.x) * b.y - static_cast<int64_t>(a.y) * b.x;
+  const int64_t q = static_cast<int64_t>(a.x) * b.x + static_cast<int64_t>(a.y) * b.y;
+  const int64_t less_h =
+      static_cast<int64_t>(a.x - b.x) * c.y - static_cast<int64_t>(a.y - b.y) * c.x;
+  const int64_t less_q =
+      static_cast<int64_t>(a.x + b.x - c.x) * c.x + static_cast<int64_t>(a.y + b.y - c.y) * c.y;
+  return static_cast<int64_t>(wrapping_product(q, less_h) - wrapping_product(h, less_q));
 }
 
-// Whether p, equal to none of them, conflicts with the counter-clockwise finite triangle (a, b, c).
+inline int64_t incircle(Point a, Point b, Point c, Point p) {
+  return incircle(a - p, b - p, c - p);
+}
+
+// Lexicographic, as for points.
+inline bool operator<(Offset a, Offset b) {
+  return a.x != b.x ? a.x < b.x : a.y < b.y;
+}
+
+// Whether a, b and the origin turn counter-clockwise.
+inline bool turns_left(Offset a, Offset b) {
+  return static_cast<int64_t>(a.x) * b.y > static_cast<int64_t>(a.y) * b.x;
+}
+
+// Whether p conflicts with the counter-clockwise a, b, c, seen from p, on whose circle it lies.
 // Ties are broken by lifting each point by an infinitesimal that grows with its lexicographic rank
-// (Devillers and Teillaud, "Perturbations for Delaunay and weighted Delaunay 3D triangulations").
+// (Devillers and Teillaud, "Perturbations for Delaunay and weighted Delaunay 3D triangulations"):
+// there is a conflict if p in place of the largest corner, which must be larger, turns
+// counter-clockwise. It never does in a corner's place: p conflicts with no triangle of its own.
+inline bool conflicts_on_circle(Offset a, Offset b, Offset c) {
+  const Offset p = {0, 0};
+  if (a < b) {
+    return b < c ? p < c && turns_left(a, b) : p < b && turns_left(c, a);
+  }
+  return a < c ? p < c && turns_left(a, b) : p < a && turns_left(b, c);
+}
+
+// Whether p conflicts with the counter-clockwise finite triangle (a, b, c). A corner of it does not.
 inline bool conflicts_with_triangle(Point a, Point b, Point c, Point p) {
   const int64_t d = incircle(a, b, c, p);
-  if (d != 0) return d > 0;
-  if (a < p && b < p && c < p) return false;
-  if (b < a && c < a) return orient2d(p, b, c) > 0;
-  if (a < b && c < b) return orient2d(a, p, c) > 0;
-  return orient2d(a, b, p) > 0;
+  return d != 0 ? d > 0 : conflicts_on_circle(a - p, b - p, c - p);
 }
 
-// Whether p, equal to neither, conflicts with the ghost triangle (u, w, infinity), whose outside
-// lies to the left of u -> w: strictly outside, or on the line strictly between u and w.
+// Whether p conflicts with the ghost triangle (u, w, infinity), whose outside lies to the left of
+// u -> w: strictly outside, or on the line strictly between u and w.
 inline bool conflicts_with_ghost(Point u, Point w, Point p) {
   const int64_t o = orient2d(u, w, p);
   if (o != 0) return o > 0;

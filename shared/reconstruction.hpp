@@ -77,10 +77,9 @@ struct Reconstruction {
   Index void_cursor;
 
   Cavity cavity;
-  Index cavity_triangles[kMaxDegree - 2];
-  Index cavity_origin[kMaxDegree];
+  Index cavity_triangles[kMaxDegree];
+  Index cavity_origin[kMaxDegree + 1];
   Index cavity_twin[kMaxDegree];
-  Index cavity_pending[kMaxDegree];
   // Of the triangle in hand: here to spare the stack.
   FreeRegion region;
   PlaceOdds odds;
@@ -97,7 +96,6 @@ inline void start(Reconstruction& r, const Contract& contract) {
   r.cavity.triangles = r.cavity_triangles;
   r.cavity.edge_origin = r.cavity_origin;
   r.cavity.edge_twin = r.cavity_twin;
-  r.cavity.pending = r.cavity_pending;
   r.cavity.limit = static_cast<Index>(contract.degree - 2);
   r.mesh->vertices = 0;
   r.mesh->triangles = 0;
@@ -173,29 +171,13 @@ template <class Coder>
 bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
   Mesh& mesh = *r.mesh;
   const Index chord = r.chord;
-  const Index f = first_edge(triangle_of(chord));
-  for (Index i = 0; i < 3; ++i) {
-    const Index corner = mesh.origin[f + i];
-    if (corner != kInfinity && point_of(mesh, corner) == place) return false;
-  }
   if (!(point_of(mesh, 0) < place)) return false;
-  if (!in_conflict(mesh, chord, place)) return false;
-  const Index behind = mesh.twin[chord];
-  const bool at_infinity = r.vertex == kInfinity;
-  // Final triangles must stay: those with a done vertex, and those passed in this turn, which can
-  // only be reached across the chord or, around infinity, across the edge where the turn began.
-  const auto is_final = [&r, &mesh, behind, at_infinity](Index h) {
-    if (h == behind) return true;
-    const Index f2 = first_edge(triangle_of(h));
-    if (marked(r, mesh.origin[f2], kDone) || marked(r, mesh.origin[f2 + 1u], kDone) ||
-        marked(r, mesh.origin[f2 + 2u], kDone)) {
-      return true;
-    }
-    if (!at_infinity) return false;
-    const Index from = mesh.origin[h], to = mesh.origin[next_in_triangle(h)];
-    return (from == kInfinity && to == 0) || (from == 0 && to == kInfinity);
-  };
-  if (!grow_cavity(mesh, chord, place, r.cavity, is_final)) return false;
+  // Final triangles must stay. Those with a done vertex are met through that vertex, since the
+  // chord's has none. Those passed in this turn can only be reached across the chord: around
+  // infinity the first of them is at vertex 0, which is the smallest and so stays on the hull.
+  const auto is_done = [&r](Index corner) { return marked(r, corner, kDone); };
+  if (!grow_cavity(mesh, chord, place, r.cavity, is_done)) return false;
+  if (r.cavity.size == 0 || r.cavity_twin[0] != mesh.twin[chord]) return false;
   const Index v = mesh.vertices;
   if (r.contract.has_heights) {
     const HeightPrediction prediction = predict_height(
