@@ -54,7 +54,7 @@ void Triangulation::set_sizes(std::size_t vertices) {
 
 void Triangulation::set_cavity_limit(std::size_t limit) {
   cavity_triangles_.resize(limit + 2);
-  cavity_origin_.resize(limit + 3);
+  cavity_origin_.resize(limit + 2);
   cavity_twin_.resize(limit + 2);
   cavity_.triangles = cavity_triangles_.data();
   cavity_.edge_origin = cavity_origin_.data();

@@ -11,7 +11,7 @@ namespace microtin {
 // of m + 2 edges.
 struct Cavity {
   Index* triangles;    // limit + 2 entries: the slots to be reused
-  Index* edge_origin;  // limit + 3 entries: boundary, counter-clockwise
+  Index* edge_origin;  // limit + 2 entries: boundary, counter-clockwise
   Index* edge_twin;    // limit + 2 entries: the half-edges across it
   Index limit;         // most triangles that fit
   Index size;          // triangles found
@@ -22,38 +22,34 @@ struct Cavity {
 // for the far corner v of each triangle before it joins. False if it says yes, or if the cavity
 // outgrows its limit; empty if the triangle of `start` and that across are not in conflict.
 //
-// The boundary is walked once. What is behind lies at the front of its arrays, what is ahead at the
+// The boundary is walked once. What is behind lies at the front of edge_twin, what is ahead at its
 // end, and begins with both sides of `start`: the cavity's first triangle is met like all others.
 // The cavity's dual graph is a tree (its union is star-shaped from p and no vertex lies inside), so
 // no triangle is met twice; each turn of the loop uses up one boundary edge of at most limit + 2.
 template <class Forbids>
 bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const Forbids& forbids) {
-  const Index end = static_cast<Index>(cavity.limit + 2u);
-  Index behind = 0;
-  Index ahead = static_cast<Index>(end - 2u);
+  Index* const end = cavity.edge_twin + cavity.limit + 2;
+  Index* ahead = end - 2;
+  ahead[0] = mesh.twin[start];
+  ahead[1] = start;
+  Index edges = 0;
   cavity.size = 0;
-  cavity.edge_origin[ahead] = mesh.origin[start];
-  cavity.edge_twin[ahead] = mesh.twin[start];
-  cavity.edge_origin[ahead + 1u] = mesh.origin[next_in_triangle(start)];
-  cavity.edge_twin[ahead + 1u] = start;
-  cavity.edge_origin[end] = mesh.origin[start];
+  Index a = mesh.origin[start];
   while (ahead != end) {
-    const Index across = cavity.edge_twin[ahead];
-    const Index a = cavity.edge_origin[ahead], b = cavity.edge_origin[ahead + 1u];
+    const Index across = *ahead;  // from b to a
     const Sides sides = sides_beside(across);
-    const Index c = mesh.origin[sides.previous];
+    const Index b = mesh.origin[across], c = mesh.origin[sides.previous];
     if (!in_conflict(mesh, b, a, c, p)) {
-      cavity.edge_origin[behind] = a;
-      cavity.edge_twin[behind++] = across;
+      cavity.edge_origin[edges] = a;
+      cavity.edge_twin[edges++] = across;
       ++ahead;
+      a = b;
       continue;
     }
     if (cavity.size == cavity.limit || forbids(c)) return false;
     cavity.triangles[cavity.size++] = sides.triangle;
-    cavity.edge_origin[ahead] = c;
-    cavity.edge_twin[ahead--] = mesh.twin[sides.previous];
-    cavity.edge_origin[ahead] = a;
-    cavity.edge_twin[ahead] = mesh.twin[sides.next];
+    *ahead-- = mesh.twin[sides.previous];
+    *ahead = mesh.twin[sides.next];
   }
   return true;
 }

@@ -24,12 +24,12 @@ inline int64_t squared_length(Point a, Point b) {
 
 // Where a point lies as seen from another: each coordinate is within +-65535.
 struct Offset {
-  int32_t x;
-  int32_t y;
+  int_fast32_t x;
+  int_fast32_t y;
 };
 
 inline Offset operator-(Point a, Point p) {
-  return Offset{static_cast<int32_t>(a.x) - p.x, static_cast<int32_t>(a.y) - p.y};
+  return Offset{static_cast<int_fast32_t>(a.x) - p.x, static_cast<int_fast32_t>(a.y) - p.y};
 }
 
 // The product of two signed numbers modulo 2^64.
@@ -37,38 +37,29 @@ inline uint64_t wrapping_product(int64_t a, int64_t b) {
   return static_cast<uint64_t>(a) * static_cast<uint64_t>(b);
 }
 
-// Positive if the origin, p, lies inside the circle through the counter-clockwise a, b, c, all seen
-// from p; zero if on it.
+inline int64_t cross(Offset a, Offset b) {
+  return static_cast<int64_t>(a.x) * b.y - static_cast<int64_t>(a.y) * b.x;
+}
+
+inline int64_t dot(Offset a, Offset b) {
+  return static_cast<int64_t>(a.x) * b.x + static_cast<int64_t>(a.y) * b.y;
+}
+
+// Positive if p lies inside the circle through the counter-clockwise a, b, c; zero if on it.
 //
 // For four points in a square of side S the determinant is at most S^4 / 2 in magnitude
 // (FORMAT.md, "Exactness", has the proof). S = 65535 gives 9.2228e18 < 2^63 = 9.2234e18, so the
 // value computed modulo 2^64, read as a signed number, is exact.
-// With h twice the area under the chord (a, b) and q the dot product of the directions to its ends,
-// incircle = q(c) h(p) - q(p) h(c). As seen from p, h(c) = h(p) - (a - b) x c and
-// q(c) = q(p) - (a + b - c) . c; the products q(p) h(p) cancel. The two numbers that stay are
-// differences of two h, |h| <= 2^32, and two q, |q| < 2^33: each fits an int64.
-inline int64_t incircle(Offset a, Offset b, Offset c) {
-  const int64_t h = static_cast<int64_t>(a.x) * b.y - static_cast<int64_t>(a.y) * b.x;
-  const int64_t q = static_cast<int64_t>(a.x) * b.x + static_cast<int64_t>(a.y) * b.y;
-  const int64_t less_h =
-      static_cast<int64_t>(a.x - b.x) * c.y - static_cast<int64_t>(a.y - b.y) * c.x;
-  const int64_t less_q =
-      static_cast<int64_t>(a.x + b.x - c.x) * c.x + static_cast<int64_t>(a.y + b.y - c.y) * c.y;
-  return static_cast<int64_t>(wrapping_product(q, less_h) - wrapping_product(h, less_q));
-}
-
+// Written with a, b, p relative to c and the chord (a, b): h is twice an area, q a dot product,
+// and incircle = q(c) h(p) - q(p) h(c). |h| <= 2^32, |q| < 2^33: each fits an int64.
 inline int64_t incircle(Point a, Point b, Point c, Point p) {
-  return incircle(a - p, b - p, c - p);
+  const uint64_t beyond = wrapping_product(dot(a - c, b - c), cross(a - p, b - p));
+  return static_cast<int64_t>(beyond - wrapping_product(dot(a - p, b - p), cross(a - c, b - c)));
 }
 
 // Lexicographic, as for points.
 inline bool operator<(Offset a, Offset b) {
   return a.x != b.x ? a.x < b.x : a.y < b.y;
-}
-
-// Whether a, b and the origin turn counter-clockwise.
-inline bool turns_left(Offset a, Offset b) {
-  return static_cast<int64_t>(a.x) * b.y > static_cast<int64_t>(a.y) * b.x;
 }
 
 // Whether p conflicts with the counter-clockwise a, b, c, seen from p, on whose circle it lies.
@@ -79,9 +70,9 @@ inline bool turns_left(Offset a, Offset b) {
 inline bool conflicts_on_circle(Offset a, Offset b, Offset c) {
   const Offset p = {0, 0};
   if (a < b) {
-    return b < c ? p < c && turns_left(a, b) : p < b && turns_left(c, a);
+    return b < c ? p < c && cross(a, b) > 0 : p < b && cross(c, a) > 0;
   }
-  return a < c ? p < c && turns_left(a, b) : p < a && turns_left(b, c);
+  return a < c ? p < c && cross(a, b) > 0 : p < a && cross(b, c) > 0;
 }
 
 // Whether p conflicts with the counter-clockwise finite triangle (a, b, c). A corner of it does not.

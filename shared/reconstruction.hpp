@@ -78,7 +78,7 @@ struct Reconstruction {
 
   Cavity cavity;
   Index cavity_triangles[kMaxDegree];
-  Index cavity_origin[kMaxDegree + 1];
+  Index cavity_origin[kMaxDegree];
   Index cavity_twin[kMaxDegree];
   // Of the triangle in hand: here to spare the stack.
   FreeRegion region;
