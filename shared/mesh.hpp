@@ -104,7 +104,11 @@ inline void pair(Mesh& mesh, Index a, Index b) {
 // Whether p conflicts with the counter-clockwise triangle (a, b, c). A corner of it does not.
 inline bool in_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
   int64_t d = 0;
-  if (!is_ghost(a, b, c)) d = incircle(point_of(mesh, a), point_of(mesh, b), point_of(mesh, c), p);
+  if (!is_ghost(a, b, c)) {
+    const Point from = point_of(mesh, a), to = point_of(mesh, b);
+    const Angle near = angle_at(p, from, to);
+    d = incircle(angle_at(point_of(mesh, c), from, to), near);
+  }
   return d != 0 ? d > 0 : in_rare_conflict(mesh, a, b, c, p);
 }
 

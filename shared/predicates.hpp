@@ -37,24 +37,36 @@ inline uint64_t wrapping_product(int64_t a, int64_t b) {
   return static_cast<uint64_t>(a) * static_cast<uint64_t>(b);
 }
 
+// Twice the signed area of the origin, a, b; |result| <= 2^32.
 inline int64_t cross(Offset a, Offset b) {
   return static_cast<int64_t>(a.x) * b.y - static_cast<int64_t>(a.y) * b.x;
 }
 
-inline int64_t dot(Offset a, Offset b) {
-  return static_cast<int64_t>(a.x) * b.x + static_cast<int64_t>(a.y) * b.y;
+// The angle under which a point sees the chord from a to b: h is twice the triangle's area, q a dot
+// product, q / h the cotangent. |h| <= 2^32, |q| < 2^33.
+struct Angle {
+  int64_t q;
+  int64_t h;
+};
+
+inline Angle angle_at(Point p, Point a, Point b) {
+  const Offset pa = a - p, pb = b - p;
+  return Angle{static_cast<int64_t>(pa.x) * pb.x + static_cast<int64_t>(pa.y) * pb.y,
+               cross(pa, pb)};
 }
 
-// Positive if p lies inside the circle through the counter-clockwise a, b, c; zero if on it.
+// Positive if p lies inside the circle through the counter-clockwise a, b, c; zero if on it. c and p
+// are given by the angles under which they see the chord from a to b.
 //
 // For four points in a square of side S the determinant is at most S^4 / 2 in magnitude
 // (FORMAT.md, "Exactness", has the proof). S = 65535 gives 9.2228e18 < 2^63 = 9.2234e18, so the
 // value computed modulo 2^64, read as a signed number, is exact.
-// Written with a, b, p relative to c and the chord (a, b): h is twice an area, q a dot product,
-// and incircle = q(c) h(p) - q(p) h(c). |h| <= 2^32, |q| < 2^33: each fits an int64.
+inline int64_t incircle(Angle c, Angle p) {
+  return static_cast<int64_t>(wrapping_product(c.q, p.h) - wrapping_product(p.q, c.h));
+}
+
 inline int64_t incircle(Point a, Point b, Point c, Point p) {
-  const uint64_t beyond = wrapping_product(dot(a - c, b - c), cross(a - p, b - p));
-  return static_cast<int64_t>(beyond - wrapping_product(dot(a - p, b - p), cross(a - c, b - c)));
+  return incircle(angle_at(c, a, b), angle_at(p, a, b));
 }
 
 // Lexicographic, as for points.

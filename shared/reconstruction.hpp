@@ -152,11 +152,9 @@ inline Log2 point_density(const Reconstruction& r) {
          (log2_of(static_cast<uint64_t>(r.mean_area)) - 8 * kLog2One);
 }
 
-inline void note_final_triangle(Reconstruction& r, Index h) {
+inline void note_final_triangle(Reconstruction& r, Index a, Index b, Index c) {
+  if (is_ghost(a, b, c)) return;
   const Mesh& mesh = *r.mesh;
-  const Index f = first_edge(triangle_of(h));
-  const Index a = mesh.origin[f], b = mesh.origin[f + 1u], c = mesh.origin[f + 2u];
-  if (a == kInfinity || b == kInfinity || c == kInfinity) return;
   const int64_t area = orient2d(point_of(mesh, a), point_of(mesh, b), point_of(mesh, c)) * 256;
   r.mean_area += (area - r.mean_area) / 32;
   if (r.mean_area < 1) r.mean_area = 1;
@@ -194,7 +192,7 @@ bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
   const Index first = fan_cavity(mesh, r.cavity, v);
   if (chord == r.anchor) r.anchor = first;
   ++mesh.vertices;
-  note_final_triangle(r, first);
+  note_final_triangle(r, r.cavity_origin[0], r.cavity_origin[1], v);
   r.chord = mesh.twin[first + 1u];
   return true;
 }
@@ -350,25 +348,27 @@ inline bool advance(Reconstruction& r) {
   return true;
 }
 
-// Looks at one triangle.
+// Looks at triangles up to the first whose fate the stream tells, but at no more than a few.
 template <class Coder>
 Progress step_walk(Reconstruction& r, Coder& coder) {
   const Mesh& mesh = *r.mesh;
-  const Index to_c = next_in_triangle(r.chord);
-  const Index apex = mesh.origin[next_in_triangle(to_c)];
-  bool hit = false;
-  if (!marked(r, apex, kDone) && !marked(r, mesh.origin[r.chord], kDone)) {
-    if (!decide(r, coder, &hit)) return Progress::kMalformed;
+  for (uint32_t i = 0; i < kStepTriangles; ++i) {
+    const Sides sides = sides_beside(r.chord);
+    const Index c = mesh.origin[sides.previous], a = mesh.origin[r.chord];
+    const bool told = !marked(r, c, kDone) && !marked(r, a, kDone);
+    bool hit = false;
+    if (told && !decide(r, coder, &hit)) return Progress::kMalformed;
+    if (!hit) {
+      note_final_triangle(r, r.vertex, c, a);
+      r.chord = mesh.twin[sides.next];
+    } else if (mesh.vertices == r.phase_end) {
+      ++r.phase;
+      return after_vertices(r);
+    }
+    if (!advance(r)) return Progress::kMalformed;
+    if (told) break;
   }
-  if (!hit) {
-    note_final_triangle(r, r.chord);
-    r.chord = mesh.twin[to_c];
-  }
-  if (mesh.vertices == r.phase_end) {
-    ++r.phase;
-    return after_vertices(r);
-  }
-  return advance(r) ? Progress::kStep : Progress::kMalformed;
+  return Progress::kStep;
 }
 
 inline bool is_void(const uint8_t* voids, Index triangle) {
