@@ -65,6 +65,7 @@ struct Reconstruction {
   bool infinity_done;
   Index vertex;      // being walked around
   Index chord;       // half-edge into `vertex`, of the triangle to be looked at next
+  bool from_done;    // whether the chord comes from a done vertex
   Index turn_start;  // the neighbour where the turn around `vertex` began
   Index anchor;      // the half-edge from vertex 0 to infinity
   Index queue_head;
@@ -106,9 +107,13 @@ inline void start(Reconstruction& r, const Contract& contract) {
 
 constexpr uint8_t kQueued = 1, kDone = 2;
 
+inline uint32_t marks_of(const Reconstruction& r, Index v) {
+  if (v == kInfinity) return r.infinity_done ? kQueued | kDone : kQueued;
+  return static_cast<uint32_t>(r.marks[v >> 2]) >> (2u * (v & 3u)) & 3u;
+}
+
 inline bool marked(const Reconstruction& r, Index v, uint8_t mark) {
-  if (v == kInfinity) return mark == kQueued || r.infinity_done;
-  return (r.marks[v >> 2] >> (2u * (v & 3u)) & mark) != 0;
+  return (marks_of(r, v) & mark) != 0;
 }
 
 inline void mark(Reconstruction& r, Index v, uint8_t mark) {
@@ -152,12 +157,12 @@ inline Log2 point_density(const Reconstruction& r) {
          (log2_of(static_cast<uint64_t>(r.mean_area)) - 8 * kLog2One);
 }
 
+// Notes the triangle (a, b, c) as final. The mean stays above 0: such areas are at least 256.
 inline void note_final_triangle(Reconstruction& r, Index a, Index b, Index c) {
   if (is_ghost(a, b, c)) return;
-  const Mesh& mesh = *r.mesh;
-  const int64_t area = orient2d(point_of(mesh, a), point_of(mesh, b), point_of(mesh, c)) * 256;
+  const Point from = point_of(*r.mesh, a);
+  const int64_t area = cross(point_of(*r.mesh, b) - from, point_of(*r.mesh, c) - from) * 256;
   r.mean_area += (area - r.mean_area) / 32;
-  if (r.mean_area < 1) r.mean_area = 1;
 }
 
 // --- Insertion -----------------------------------------------------------------------------------
@@ -320,6 +325,7 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   r.queue_head = 0;
   r.queue_tail = 1;  // entry 0 is vertex 0's, known when the turn around infinity ends
   r.chord = r.anchor;
+  r.from_done = false;
   // Before anything is known: the lattice's bounds, shared by all. (2^16 * 2^16) * 2^8 = 2^40.
   r.mean_area = static_cast<int64_t>(static_cast<uint64_t>(columns(r.contract)) * rows(r.contract) *
                                      256u / r.phase_end) +
@@ -328,12 +334,12 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   return Progress::kStep;
 }
 
-// Leaves the triangle of the chord behind and turns to the next around `vertex`; `chord` is already
-// its half-edge into `vertex`. False if the walk is over.
-inline bool advance(Reconstruction& r) {
-  const Index neighbour = r.mesh->origin[r.chord];
+// Turns to the next triangle around `vertex`; `chord` is already its half-edge into `vertex`, which
+// comes from `neighbour`. False if the walk is over.
+inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
   if (neighbour != r.turn_start) {
-    if (!marked(r, neighbour, kQueued)) {
+    r.from_done = (marks & kDone) != 0;
+    if ((marks & kQueued) == 0) {
       mark(r, neighbour, kQueued);
       r.queue[r.queue_tail++] = r.mesh->twin[r.chord];
     }
@@ -343,32 +349,50 @@ inline bool advance(Reconstruction& r) {
   mark(r, r.vertex, kDone);
   if (r.queue_head == r.queue_tail) return false;
   r.chord = r.queue[r.queue_head++];
+  r.from_done = true;  // the parent's turn is over
   r.turn_start = r.mesh->origin[r.chord];
   r.vertex = r.mesh->origin[next_in_triangle(r.chord)];
   return true;
 }
 
-// Looks at triangles up to the first whose fate the stream tells, but at no more than a few.
+// The far corner of the triangle of the chord.
+struct Corner {
+  Index to;      // half-edge from `vertex` to it
+  Index number;  // of the corner
+  uint32_t marks;
+};
+
+inline Corner far_corner(const Reconstruction& r) {
+  const Sides sides = sides_beside(r.chord);
+  const Index number = r.mesh->origin[sides.previous];
+  return Corner{sides.next, number, marks_of(r, number)};
+}
+
+// Leaves the triangle of the chord, which is final. False if the walk is over.
+inline bool pass(Reconstruction& r, const Corner& corner) {
+  note_final_triangle(r, r.vertex, corner.number, r.mesh->origin[r.chord]);
+  r.chord = r.mesh->twin[corner.to];
+  return advance(r, corner.number, corner.marks);
+}
+
+// Passes certified triangles, but only a few, and looks at one that is not.
 template <class Coder>
 Progress step_walk(Reconstruction& r, Coder& coder) {
-  const Mesh& mesh = *r.mesh;
-  for (uint32_t i = 0; i < kStepTriangles; ++i) {
-    const Sides sides = sides_beside(r.chord);
-    const Index c = mesh.origin[sides.previous], a = mesh.origin[r.chord];
-    const bool told = !marked(r, c, kDone) && !marked(r, a, kDone);
-    bool hit = false;
-    if (told && !decide(r, coder, &hit)) return Progress::kMalformed;
-    if (!hit) {
-      note_final_triangle(r, r.vertex, c, a);
-      r.chord = mesh.twin[sides.next];
-    } else if (mesh.vertices == r.phase_end) {
-      ++r.phase;
-      return after_vertices(r);
-    }
-    if (!advance(r)) return Progress::kMalformed;
-    if (told) break;
+  Corner corner = far_corner(r);
+  for (uint32_t i = 0; r.from_done || (corner.marks & kDone) != 0; ++i) {
+    if (i == kStepTriangles) return Progress::kStep;
+    if (!pass(r, corner)) return Progress::kMalformed;
+    corner = far_corner(r);
   }
-  return Progress::kStep;
+  bool hit = false;
+  if (!decide(r, coder, &hit)) return Progress::kMalformed;
+  if (!hit) return pass(r, corner) ? Progress::kStep : Progress::kMalformed;
+  if (r.mesh->vertices == r.phase_end) {
+    ++r.phase;
+    return after_vertices(r);
+  }
+  const Index placed = r.mesh->origin[r.chord];
+  return advance(r, placed, 0) ? Progress::kStep : Progress::kMalformed;
 }
 
 inline bool is_void(const uint8_t* voids, Index triangle) {
