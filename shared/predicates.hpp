@@ -55,8 +55,8 @@ inline Angle angle_at(Point p, Point a, Point b) {
                cross(pa, pb)};
 }
 
-// Positive if p lies inside the circle through the counter-clockwise a, b, c; zero if on it. c and p
-// are given by the angles under which they see the chord from a to b.
+// Positive if p lies inside the circle through the counter-clockwise a, b, c; zero if on it. c and
+// p are given by the angles under which they see the chord from a to b.
 //
 // For four points in a square of side S the determinant is at most S^4 / 2 in magnitude
 // (FORMAT.md, "Exactness", has the proof). S = 65535 gives 9.2228e18 < 2^63 = 9.2234e18, so the
@@ -87,7 +87,8 @@ inline bool conflicts_on_circle(Offset a, Offset b, Offset c) {
   return a < c ? p < c && cross(a, b) > 0 : p < a && cross(b, c) > 0;
 }
 
-// Whether p conflicts with the counter-clockwise finite triangle (a, b, c). A corner of it does not.
+// Whether p conflicts with the counter-clockwise finite triangle (a, b, c). A corner of it does
+// not.
 inline bool conflicts_with_triangle(Point a, Point b, Point c, Point p) {
   const int64_t d = incircle(a, b, c, p);
   return d != 0 ? d > 0 : conflicts_on_circle(a - p, b - p, c - p);
