@@ -93,12 +93,15 @@ inline void pair(Mesh& mesh, Index a, Index b) {
 // in_conflict for the rare cases: a ghost, or p on the circle.
 [[gnu::noinline]] inline bool in_rare_conflict(const Mesh& mesh, Index a, Index b, Index c,
                                                Point p) {
-  if (is_ghost(a, b, c)) {
-    const Index from = a == kInfinity ? b : b == kInfinity ? c : a;
-    const Index to = a == kInfinity ? c : b == kInfinity ? a : b;
-    return conflicts_with_ghost(point_of(mesh, from), point_of(mesh, to), p);
+  for (int i = 0; i < 2 && (a == kInfinity || b == kInfinity); ++i) {
+    const Index first = a;
+    a = b;
+    b = c;
+    c = first;
   }
-  return conflicts_on_circle(point_of(mesh, a) - p, point_of(mesh, b) - p, point_of(mesh, c) - p);
+  const Point from = point_of(mesh, a), to = point_of(mesh, b);
+  if (c == kInfinity) return conflicts_with_ghost(from, to, p);
+  return conflicts_on_circle(from, to, point_of(mesh, c), p);
 }
 
 // Whether p conflicts with the counter-clockwise triangle (a, b, c). A corner of it does not.

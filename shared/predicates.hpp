@@ -7,21 +7,6 @@
 
 namespace microtin {
 
-// Twice the signed area of (a, b, c): positive if they turn counter-clockwise.
-// |products| < 2^32, so the difference is below 2^33 and the result within +-2^32.
-inline int64_t orient2d(Point a, Point b, Point c) {
-  const int32_t abx = static_cast<int32_t>(b.x) - a.x;
-  const int32_t aby = static_cast<int32_t>(b.y) - a.y;
-  const int32_t acx = static_cast<int32_t>(c.x) - a.x;
-  const int32_t acy = static_cast<int32_t>(c.y) - a.y;
-  return static_cast<int64_t>(abx) * acy - static_cast<int64_t>(aby) * acx;
-}
-
-inline int64_t squared_length(Point a, Point b) {
-  const int32_t dx = static_cast<int32_t>(b.x) - a.x, dy = static_cast<int32_t>(b.y) - a.y;
-  return static_cast<int64_t>(dx) * dx + static_cast<int64_t>(dy) * dy;  // < 2^33
-}
-
 // Where a point lies as seen from another: each coordinate is within +-65535.
 struct Offset {
   int_fast32_t x;
@@ -32,14 +17,28 @@ inline Offset operator-(Point a, Point p) {
   return Offset{static_cast<int_fast32_t>(a.x) - p.x, static_cast<int_fast32_t>(a.y) - p.y};
 }
 
+// Twice the signed area of the origin, a, b: positive if they turn counter-clockwise. The products
+// are below 2^32, so the difference is below 2^33; of points of the lattice it is within +-2^32.
+inline int64_t cross(Offset a, Offset b) {
+  return static_cast<int64_t>(a.x) * b.y - static_cast<int64_t>(a.y) * b.x;
+}
+
+inline int64_t dot(Offset a, Offset b) {
+  return static_cast<int64_t>(a.x) * b.x + static_cast<int64_t>(a.y) * b.y;  // |result| < 2^33
+}
+
+// Twice the signed area of (a, b, c).
+inline int64_t orient2d(Point a, Point b, Point c) {
+  return cross(b - a, c - a);
+}
+
+inline int64_t squared_length(Point a, Point b) {
+  return dot(b - a, b - a);
+}
+
 // The product of two signed numbers modulo 2^64.
 inline uint64_t wrapping_product(int64_t a, int64_t b) {
   return static_cast<uint64_t>(a) * static_cast<uint64_t>(b);
-}
-
-// Twice the signed area of the origin, a, b; |result| <= 2^32.
-inline int64_t cross(Offset a, Offset b) {
-  return static_cast<int64_t>(a.x) * b.y - static_cast<int64_t>(a.y) * b.x;
 }
 
 // The angle under which a point sees the chord from a to b: h is twice the triangle's area, q a dot
@@ -51,8 +50,7 @@ struct Angle {
 
 inline Angle angle_at(Point p, Point a, Point b) {
   const Offset pa = a - p, pb = b - p;
-  return Angle{static_cast<int64_t>(pa.x) * pb.x + static_cast<int64_t>(pa.y) * pb.y,
-               cross(pa, pb)};
+  return Angle{dot(pa, pb), cross(pa, pb)};
 }
 
 // Positive if p lies inside the circle through the counter-clockwise a, b, c; zero if on it. c and
@@ -69,35 +67,31 @@ inline int64_t incircle(Point a, Point b, Point c, Point p) {
   return incircle(angle_at(c, a, b), angle_at(p, a, b));
 }
 
-// Lexicographic, as for points.
-inline bool operator<(Offset a, Offset b) {
-  return a.x != b.x ? a.x < b.x : a.y < b.y;
-}
-
-// Whether p conflicts with the counter-clockwise a, b, c, seen from p, on whose circle it lies.
-// Ties are broken by lifting each point by an infinitesimal that grows with its lexicographic rank
-// (Devillers and Teillaud, "Perturbations for Delaunay and weighted Delaunay 3D triangulations"):
-// there is a conflict if p in place of the largest corner, which must be larger, turns
-// counter-clockwise. It never does in a corner's place: p conflicts with no triangle of its own.
-inline bool conflicts_on_circle(Offset a, Offset b, Offset c) {
-  const Offset p = {0, 0};
-  if (a < b) {
-    return b < c ? p < c && cross(a, b) > 0 : p < b && cross(c, a) > 0;
+// Whether p conflicts with the counter-clockwise a, b, c on whose circle it lies. Ties are broken by
+// lifting each point by an infinitesimal that grows with its lexicographic rank (Devillers and
+// Teillaud, "Perturbations for Delaunay and weighted Delaunay 3D triangulations"): there is a
+// conflict if p, in place of the largest corner, which must be larger than p, turns
+// counter-clockwise. A corner never does: p conflicts with no triangle of its own.
+inline bool conflicts_on_circle(Point a, Point b, Point c, Point p) {
+  for (int i = 0; i < 2 && (c < a || c < b); ++i) {
+    const Point first = a;
+    a = b;
+    b = c;
+    c = first;
   }
-  return a < c ? p < c && cross(a, b) > 0 : p < a && cross(b, c) > 0;
+  return p < c && cross(a - p, b - p) > 0;
 }
 
-// Whether p conflicts with the counter-clockwise finite triangle (a, b, c). A corner of it does
-// not.
+// Whether p conflicts with the counter-clockwise finite triangle (a, b, c). A corner does not.
 inline bool conflicts_with_triangle(Point a, Point b, Point c, Point p) {
   const int64_t d = incircle(a, b, c, p);
-  return d != 0 ? d > 0 : conflicts_on_circle(a - p, b - p, c - p);
+  return d != 0 ? d > 0 : conflicts_on_circle(a, b, c, p);
 }
 
 // Whether p conflicts with the ghost triangle (u, w, infinity), whose outside lies to the left of
 // u -> w: strictly outside, or on the line strictly between u and w.
 inline bool conflicts_with_ghost(Point u, Point w, Point p) {
-  const int64_t o = orient2d(u, w, p);
+  const int64_t o = cross(u - p, w - p);
   if (o != 0) return o > 0;
   return u < w ? (u < p && p < w) : (w < p && p < u);
 }
