@@ -37,8 +37,8 @@ bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const F
   Index a = mesh.origin[start];
   while (ahead != end) {
     const Index across = *ahead;  // from b to a
-    const Sides sides = sides_beside(across);
-    const Index b = mesh.origin[across], c = mesh.origin[sides.previous];
+    const Index previous = previous_in_triangle(across);
+    const Index b = mesh.origin[across], c = mesh.origin[previous];
     if (!in_conflict(mesh, b, a, c, p)) {
       cavity.edge_origin[edges] = a;
       cavity.edge_twin[edges++] = across;
@@ -47,9 +47,9 @@ bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const F
       continue;
     }
     if (cavity.size == cavity.limit || forbids(c)) return false;
-    cavity.triangles[cavity.size++] = sides.triangle;
-    *ahead-- = mesh.twin[sides.previous];
-    *ahead = mesh.twin[sides.next];
+    cavity.triangles[cavity.size++] = triangle_of(across);
+    *ahead-- = mesh.twin[previous];
+    *ahead = mesh.twin[next_in_triangle(across)];
   }
   return true;
 }

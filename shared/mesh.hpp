@@ -57,21 +57,6 @@ inline Index first_edge(Index triangle) {
   return static_cast<Index>(3u * triangle);
 }
 
-// A half-edge's triangle and the other two half-edges of it.
-struct Sides {
-  Index triangle;
-  Index next;
-  Index previous;
-};
-
-inline Sides sides_beside(Index h) {
-  const Index t = triangle_of(h);
-  const Index first = first_edge(t);
-  const Index previous = static_cast<Index>(h == first ? h + 2u : h - 1u);
-  // The three numbers add up to 3 * first + 3.
-  return Sides{t, static_cast<Index>(3u * first + 3u - h - previous), previous};
-}
-
 inline Index next_in_triangle(Index h) {
   return static_cast<Index>(h == first_edge(triangle_of(h)) + 2u ? h - 2u : h + 1u);
 }
@@ -93,12 +78,10 @@ inline void pair(Mesh& mesh, Index a, Index b) {
 // in_conflict for the rare cases: a ghost, or p on the circle.
 [[gnu::noinline]] inline bool in_rare_conflict(const Mesh& mesh, Index a, Index b, Index c,
                                                Point p) {
-  for (int i = 0; i < 2 && (a == kInfinity || b == kInfinity); ++i) {
-    const Index first = a;
-    a = b;
-    b = c;
-    c = first;
-  }
+  // Infinity is larger than all others.
+  turn_largest_last(a, b, c, [&mesh](Index u, Index v) {
+    return v == kInfinity || (u != kInfinity && point_of(mesh, u) < point_of(mesh, v));
+  });
   const Point from = point_of(mesh, a), to = point_of(mesh, b);
   if (c == kInfinity) return conflicts_with_ghost(from, to, p);
   return conflicts_on_circle(from, to, point_of(mesh, c), p);

@@ -67,25 +67,32 @@ inline int64_t incircle(Point a, Point b, Point c, Point p) {
   return incircle(angle_at(c, a, b), angle_at(p, a, b));
 }
 
-// Whether p conflicts with the counter-clockwise a, b, c on whose circle it lies. Ties are broken by
-// lifting each point by an infinitesimal that grows with its lexicographic rank (Devillers and
-// Teillaud, "Perturbations for Delaunay and weighted Delaunay 3D triangulations"): there is a
-// conflict if p, in place of the largest corner, which must be larger than p, turns
-// counter-clockwise. A corner never does: p conflicts with no triangle of its own.
-inline bool conflicts_on_circle(Point a, Point b, Point c, Point p) {
-  for (int i = 0; i < 2 && (c < a || c < b); ++i) {
-    const Point first = a;
+// Turns the triangle (a, b, c) until its largest corner comes last.
+template <class Corner, class Smaller>
+void turn_largest_last(Corner& a, Corner& b, Corner& c, const Smaller& smaller) {
+  for (int i = 0; i < 2 && !(smaller(a, c) && smaller(b, c)); ++i) {
+    const Corner first = a;
     a = b;
     b = c;
     c = first;
   }
+}
+
+// Whether p conflicts with the counter-clockwise a, b, c, of which c is the largest and on whose
+// circle it lies. Ties are broken by lifting each point by an infinitesimal that grows with its
+// lexicographic rank (Devillers and Teillaud, "Perturbations for Delaunay and weighted Delaunay 3D
+// triangulations"): there is a conflict if p is smaller than c and, in its place, turns
+// counter-clockwise. A corner never does: p conflicts with no triangle of its own.
+inline bool conflicts_on_circle(Point a, Point b, Point c, Point p) {
   return p < c && cross(a - p, b - p) > 0;
 }
 
 // Whether p conflicts with the counter-clockwise finite triangle (a, b, c). A corner does not.
 inline bool conflicts_with_triangle(Point a, Point b, Point c, Point p) {
   const int64_t d = incircle(a, b, c, p);
-  return d != 0 ? d > 0 : conflicts_on_circle(a, b, c, p);
+  if (d != 0) return d > 0;
+  turn_largest_last(a, b, c, [](Point q, Point r) { return q < r; });
+  return conflicts_on_circle(a, b, c, p);
 }
 
 // Whether p conflicts with the ghost triangle (u, w, infinity), whose outside lies to the left of

@@ -363,9 +363,8 @@ struct Corner {
 };
 
 inline Corner far_corner(const Reconstruction& r) {
-  const Sides sides = sides_beside(r.chord);
-  const Index number = r.mesh->origin[sides.previous];
-  return Corner{sides.next, number, marks_of(r, number)};
+  const Index number = r.mesh->origin[previous_in_triangle(r.chord)];
+  return Corner{next_in_triangle(r.chord), number, marks_of(r, number)};
 }
 
 // Leaves the triangle of the chord, which is final. False if the walk is over.
