@@ -22,9 +22,6 @@ constexpr uint32_t kSectionVertices = 256;
 // renormalise.
 constexpr uint32_t kStepBytes = 72;
 
-// Most triangles that one step passes.
-constexpr uint32_t kStepTriangles = 8;
-
 // Bytes of zero that stand virtually behind a section's payload.
 constexpr uint32_t kVirtualBytes = 4;
 
