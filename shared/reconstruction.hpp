@@ -374,9 +374,9 @@ inline bool pass(Reconstruction& r, const Corner& corner) {
   return advance(r, corner.number, corner.marks);
 }
 
-// Passes certified triangles, but only a few in one step, and looks at one that is not.
-constexpr uint32_t kStepTriangles = 8;
+constexpr uint32_t kStepTriangles = 8;  // most that one step passes
 
+// Passes certified triangles, but only a few, and looks at one that is not.
 template <class Coder>
 Progress step_walk(Reconstruction& r, Coder& coder) {
   Corner corner = far_corner(r);
