@@ -65,7 +65,9 @@ class WritingCoder {
   bool last_phase() const { return phase_ + 1 == batches_.size(); }
   uint32_t batch() const { return batches_[phase_]; }
   bool conflicts(const Mesh& mesh, Index h) const {
-    return in_conflict(mesh, h, Point{sequence_[placed_].x, sequence_[placed_].y});
+    const Index f = first_edge(triangle_of(h));
+    return in_conflict(mesh, mesh.origin[f], mesh.origin[f + 1], mesh.origin[f + 2],
+                       Point{sequence_[placed_].x, sequence_[placed_].y});
   }
   bool is_void(const Mesh& mesh, Index triangle) const {
     return voids_.count(corners_from_smallest(mesh, triangle)) != 0;

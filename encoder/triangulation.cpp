@@ -53,14 +53,12 @@ void Triangulation::set_sizes(std::size_t vertices) {
 }
 
 void Triangulation::set_cavity_limit(std::size_t limit) {
-  cavity_triangles_.resize(limit);
+  cavity_triangles_.resize(limit + 2);
   cavity_origin_.resize(limit + 2);
   cavity_twin_.resize(limit + 2);
-  cavity_pending_.resize(limit + 2);
   cavity_.triangles = cavity_triangles_.data();
   cavity_.edge_origin = cavity_origin_.data();
   cavity_.edge_twin = cavity_twin_.data();
-  cavity_.pending = cavity_pending_.data();
   cavity_.limit = static_cast<Index>(limit);
 }
 
@@ -136,8 +134,7 @@ Index Triangulation::insert(Point p, Index hint) {
   y_[v] = p.y;
   connect(v, hint);
   ++mesh_.vertices;
-  new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size);
-  for (Index back = 2; back != 0; --back) new_triangles_.push_back(mesh_.triangles - back);
+  new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size + 2);
   if (!free_.empty()) {
     mesh_.triangles -= 2;
     recycle(new_triangles_[cavity_.size]);

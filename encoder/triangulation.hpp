@@ -80,7 +80,7 @@ class Triangulation {
   std::vector<Index> edge_of_;  // entry v + 1; kInfinity + 1 wraps round to entry 0
 
   Cavity cavity_ = {};
-  std::vector<Index> cavity_triangles_, cavity_origin_, cavity_twin_, cavity_pending_;
+  std::vector<Index> cavity_triangles_, cavity_origin_, cavity_twin_;
   std::vector<Index> new_triangles_;
 
   std::vector<Corner> hole_;     // counter-clockwise; kInfinity, if there, comes last

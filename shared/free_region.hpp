@@ -10,24 +10,6 @@
 
 namespace microtin {
 
-// A vector of the lattice.
-struct Offset {
-  int32_t x;
-  int32_t y;
-};
-
-inline Offset offset(Point from, Point to) {
-  return Offset{static_cast<int32_t>(to.x) - from.x, static_cast<int32_t>(to.y) - from.y};
-}
-
-inline int64_t dot(Offset a, Offset b) {
-  return static_cast<int64_t>(a.x) * b.x + static_cast<int64_t>(a.y) * b.y;
-}
-
-inline int64_t cross(Offset a, Offset b) {
-  return static_cast<int64_t>(a.x) * b.y - static_cast<int64_t>(a.y) * b.x;
-}
-
 // The circles through both ends of a side form a pencil, ordered by the cotangent of the angle
 // under which the side is seen from the arc to its left. 8 fractional bits, capped.
 typedef int32_t Cotangent;

@@ -10,43 +10,46 @@ namespace microtin {
 // Scratch for one insertion; its arrays belong to the caller. A cavity of m triangles is a polygon
 // of m + 2 edges.
 struct Cavity {
-  Index* triangles;    // limit entries: the slots to be reused
+  Index* triangles;    // limit + 2 entries: the slots to be reused
   Index* edge_origin;  // limit + 2 entries: boundary, counter-clockwise
   Index* edge_twin;    // limit + 2 entries: the half-edges across it
-  Index* pending;      // limit + 2 entries: boundary edges not yet tested
   Index limit;         // most triangles that fit
   Index size;          // triangles found
 };
 
-// Collects the triangles in conflict with p, given that the triangle of `start` is one. If the
-// half-edge `start` stays on the boundary, it comes first there. `forbids(h)` is asked for each
-// further triangle, entered through its half-edge h, before it joins. False if it says yes, or if
-// the cavity outgrows its limit.
+// Collects the triangles in conflict with p: that of `start` and those connected to it. Where
+// that across `start` is none of them, its edge comes first on the boundary. `forbids(v)` is asked
+// for the far corner v of each triangle before it joins. False if it says yes, or if the cavity
+// outgrows its limit; empty if the triangle of `start` and that across are not in conflict.
 //
+// The boundary is walked once. What is behind lies at the front of edge_twin, what is ahead at its
+// end, and begins with both sides of `start`: the cavity's first triangle is met like all others.
 // The cavity's dual graph is a tree (its union is star-shaped from p and no vertex lies inside), so
 // no triangle is met twice; each turn of the loop uses up one boundary edge of at most limit + 2.
 template <class Forbids>
 bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const Forbids& forbids) {
-  cavity.triangles[0] = triangle_of(start);
-  cavity.size = 1;
+  Index* const end = cavity.edge_twin + cavity.limit + 2;
+  Index* ahead = end - 2;
+  ahead[0] = mesh.twin[start];
+  ahead[1] = start;
   Index edges = 0;
-  Index waiting = 0;
-  cavity.pending[waiting++] = previous_in_triangle(start);
-  cavity.pending[waiting++] = next_in_triangle(start);
-  cavity.pending[waiting++] = start;
-  while (waiting != 0) {
-    const Index edge = cavity.pending[--waiting];
-    const Index across = mesh.twin[edge];
-    if (!in_conflict(mesh, across, p)) {
-      cavity.edge_origin[edges] = mesh.origin[edge];
+  cavity.size = 0;
+  Index a = mesh.origin[start];
+  while (ahead != end) {
+    const Index across = *ahead;  // from b to a
+    const Index previous = previous_in_triangle(across);
+    const Index b = mesh.origin[across], c = mesh.origin[previous];
+    if (!in_conflict(mesh, b, a, c, p)) {
+      cavity.edge_origin[edges] = a;
       cavity.edge_twin[edges++] = across;
+      ++ahead;
+      a = b;
       continue;
     }
-    if (cavity.size == cavity.limit) return false;
-    if (forbids(across)) return false;
+    if (cavity.size == cavity.limit || forbids(c)) return false;
     cavity.triangles[cavity.size++] = triangle_of(across);
-    cavity.pending[waiting++] = previous_in_triangle(across);
-    cavity.pending[waiting++] = next_in_triangle(across);
+    *ahead-- = mesh.twin[previous];
+    *ahead = mesh.twin[next_in_triangle(across)];
   }
   return true;
 }
@@ -57,27 +60,19 @@ bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const F
 // vertex.
 inline Index fan_cavity(Mesh& mesh, const Cavity& cavity, Index v) {
   const Index edges = static_cast<Index>(cavity.size + 2u);
-  const Index fresh = mesh.triangles;
-  mesh.triangles = static_cast<Index>(mesh.triangles + 2u);
-  Index previous = 0;
-  Index first = 0;
+  cavity.triangles[cavity.size] = mesh.triangles++;
+  cavity.triangles[cavity.size + 1u] = mesh.triangles++;
+  Index before = first_edge(cavity.triangles[edges - 1u]);
   for (Index i = 0; i < edges; ++i) {
-    const Index slot =
-        i < cavity.size ? cavity.triangles[i] : static_cast<Index>(fresh + (i - cavity.size));
-    const Index h = first_edge(slot);
+    const Index h = first_edge(cavity.triangles[i]);
     mesh.origin[h] = cavity.edge_origin[i];
-    mesh.origin[h + 1u] = cavity.edge_origin[i + 1u == edges ? 0 : i + 1u];
+    mesh.origin[before + 1u] = cavity.edge_origin[i];
     mesh.origin[h + 2u] = v;
     pair(mesh, h, cavity.edge_twin[i]);
-    if (i == 0) {
-      first = h;
-    } else {
-      pair(mesh, static_cast<Index>(previous + 1u), static_cast<Index>(h + 2u));
-    }
-    previous = h;
+    pair(mesh, static_cast<Index>(before + 1u), static_cast<Index>(h + 2u));
+    before = h;
   }
-  pair(mesh, static_cast<Index>(previous + 1u), static_cast<Index>(first + 2u));
-  return first;
+  return first_edge(cavity.triangles[0]);
 }
 
 }  // namespace microtin

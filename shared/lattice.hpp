@@ -29,8 +29,12 @@ inline bool operator!=(Point a, Point b) {
 }
 
 // Lexicographic: by x, then by y. Orders the symbolic perturbation and names the first point.
+inline uint32_t rank_of(Point p) {
+  return static_cast<uint32_t>(p.x) << 16 | p.y;
+}
+
 inline bool operator<(Point a, Point b) {
-  return a.x != b.x ? a.x < b.x : a.y < b.y;
+  return rank_of(a) < rank_of(b);
 }
 
 }  // namespace microtin

@@ -26,6 +26,12 @@ typedef uint32_t Index;
 // The vertex at infinity. No vertex has this number: the largest half-edge number stays below it.
 constexpr Index kInfinity = static_cast<Index>(~static_cast<Index>(0));
 
+// Whether one of three vertices is at infinity: the highest bit tells, since there are six times as
+// many half-edges as vertices.
+inline bool is_ghost(Index a, Index b, Index c) {
+  return ((static_cast<uint32_t>(a) | b | c) >> (MICROTIN_INDEX_BITS - 1)) != 0;
+}
+
 // Views of arrays that somebody else owns.
 struct Mesh {
   uint16_t* x;      // vertices
@@ -69,22 +75,27 @@ inline void pair(Mesh& mesh, Index a, Index b) {
   mesh.twin[b] = a;
 }
 
-// Whether p, different from the vertices of the triangle of half-edge h, conflicts with it.
-inline bool in_conflict(const Mesh& mesh, Index h, Point p) {
-  const Index f = first_edge(triangle_of(h));
-  Index a = mesh.origin[f], b = mesh.origin[f + 1u], c = mesh.origin[f + 2u];
-  if (a == kInfinity) {
-    a = b;
-    b = c;
-    c = kInfinity;
-  } else if (b == kInfinity) {
-    b = a;
-    a = c;
-    c = kInfinity;
+// in_conflict for the rare cases: a ghost, or p on the circle.
+[[gnu::noinline]] inline bool in_rare_conflict(const Mesh& mesh, Index a, Index b, Index c,
+                                               Point p) {
+  // Infinity is larger than all others.
+  turn_largest_last(a, b, c, [&mesh](Index u, Index v) {
+    return v == kInfinity || (u != kInfinity && point_of(mesh, u) < point_of(mesh, v));
+  });
+  const Point from = point_of(mesh, a), to = point_of(mesh, b);
+  if (c == kInfinity) return conflicts_with_ghost(from, to, p);
+  return conflicts_on_circle(from, to, point_of(mesh, c), p);
+}
+
+// Whether p conflicts with the counter-clockwise triangle (a, b, c). A corner of it does not.
+inline bool in_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
+  int64_t d = 0;
+  if (!is_ghost(a, b, c)) {
+    const Point from = point_of(mesh, a), to = point_of(mesh, b);
+    const Angle near = angle_at(p, from, to);
+    d = incircle(angle_at(point_of(mesh, c), from, to), near);
   }
-  const Point pa = point_of(mesh, a), pb = point_of(mesh, b);
-  if (c == kInfinity) return conflicts_with_ghost(pa, pb, p);
-  return conflicts_with_triangle(pa, pb, point_of(mesh, c), p);
+  return d != 0 ? d > 0 : in_rare_conflict(mesh, a, b, c, p);
 }
 
 // The mesh of one counter-clockwise triangle (0, 1, 2) and its three ghosts.

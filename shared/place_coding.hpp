@@ -26,14 +26,15 @@ constexpr uint32_t kSplitEntries = 9;
 constexpr int kSweepNodes = 4;
 constexpr int kSweepEntries = 8 * kSweepNodes + 1;
 
-// For each of the four binary decisions of the first level: the odds learned for the estimated
-// ones.
+// For each level and each of its four binary decisions: the odds learned for the estimated ones.
 struct PlaceModel {
-  Calibration<kSplitEntries> split[4];
+  Calibration<kSplitEntries> split[kLevels][4];
 };
 
 inline void reset(PlaceModel& model) {
-  for (int decision = 0; decision < 4; ++decision) reset(model.split[decision]);
+  for (int level = 0; level < kLevels; ++level) {
+    for (int decision = 0; decision < 4; ++decision) reset(model.split[level][decision]);
+  }
 }
 
 // Something for each cell, columns one after the other.
@@ -49,7 +50,6 @@ struct PlaceOdds {
   // 511 * chance of being first, at equal steps of the cotangent from t's circle to swept_from
   int16_t chance[kSweepEntries];
   Cells chances;      // at the cells
-  int16_t level, slope_x, slope_y;
 };
 constexpr int kOwn = 3;
 
@@ -82,6 +82,7 @@ inline void estimate_sweep(PlaceOdds& odds, Offset chord, Cotangent from, int64_
   }
   odds.chance[kSweepEntries - 1] = last;
   odds.sweeps = odds.chance[0] < 448;
+  for (int k = 0; k < kCells * kCells; ++k) odds.chances[k] = 511;
 }
 
 inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset middle, Log2 density) {
@@ -218,12 +219,28 @@ MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds, const Slices& columns, c
 }
 
 // How much a slice's width counts: nothing where all are about the same. At most 16.
-inline uint32_t size_of(const Slices& slices, int i, int32_t most) {
+inline uint32_t size_of(const Slices& slices, int i) {
   const int32_t width = slices.start[i + 1] - slices.start[i];
-  return slices.count > most ? 1u : static_cast<uint32_t>(width);
+  return slices.count > 64 ? 1u : static_cast<uint32_t>(width);
 }
 
-// Codes one of two halves by their weights; a half without lattice points is never chosen.
+// Weighs the cells by the share that is free, and by the chance of being first.
+inline void weigh_cells(PlaceOdds& odds, const Slices& columns, const Slices& rows, Cells weight) {
+  for (int k = 0; k < 4; ++k) {
+    if (odds.cuts[k]) measure(odds.circle[k], columns, rows, odds.distance[k]);
+  }
+  if (odds.sweeps) sweep(odds, columns, rows);
+  for (int k = 0; k < kCells * kCells; ++k) {
+    const int16_t share = clamped(static_cast<int16_t>(32 - odds.distance[kOwn][k]), 0, 64);
+    weight[k] = static_cast<int16_t>(share * odds.chances[k]);
+  }
+  for (int k = 0; k < 3; ++k) {
+    if (odds.cuts[k]) cut(odds.distance[k], weight);
+  }
+}
+
+// Codes one of two halves by their weights, of `bits` bits; a half without lattice points is never
+// chosen.
 template <class Coder>
 bool code_half(Coder& coder, Calibration<kSplitEntries>& calibration, uint32_t low, uint32_t high,
                bool in_high) {
@@ -232,7 +249,7 @@ bool code_half(Coder& coder, Calibration<kSplitEntries>& calibration, uint32_t l
   const uint32_t bits = highest_bit(low + high);
   const uint32_t shift = bits > 16 ? bits - 16 : 0;
   const uint32_t p = ((high >> shift) << 15) / ((low + high) >> shift);
-  return code_calibrated(coder, calibration, p > 32767 ? 32767 : p, in_high);
+  return code_calibrated(coder, calibration, p, in_high);
 }
 
 // Codes one of four slices by their weights.
@@ -244,7 +261,9 @@ int code_slice(Coder& coder, Calibration<kSplitEntries>* half, const uint32_t* w
   return first + code_half(coder, half[1], weight[first], weight[first + 1], (slice & 1) != 0);
 }
 
-inline void narrow(PlaceOdds& odds, Box& box, const Slices& columns, const Slices& rows, int i, int j) {
+// Makes a cell the box.
+inline void narrow(PlaceOdds& odds, Box& box, const Slices& columns, const Slices& rows, int i,
+                   int j) {
   box.x1 = box.x0 + columns.start[i + 1] - 1;
   box.y1 = box.y0 + rows.start[j + 1] - 1;
   box.x0 += columns.start[i];
@@ -254,84 +273,35 @@ inline void narrow(PlaceOdds& odds, Box& box, const Slices& columns, const Slice
   for (int k = 0; k < 4; ++k) {
     if (!odds.cuts[k]) continue;
     const int16_t d = odds.distance[k][kCells * i + j];
-    odds.cuts[k] = d > -80 && d < 80;
-    if (odds.cuts[k]) odds.circle[k] = moved(odds.circle[k], dx, dy);
+    odds.cuts[k] = k == kOwn || d < 64;
+    odds.circle[k] = moved(odds.circle[k], dx, dy);
   }
+  odds.swept_from = moved(odds.swept_from, dx, dy);
 }
 
+// Codes the cell of `box` that holds the place, which becomes the box.
 template <class Coder>
-void code_coarse(Coder& coder, Calibration<kSplitEntries>* split, PlaceOdds& odds, Box& box, Point place) {
+MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration<kSplitEntries>* split,
+                                    PlaceOdds& odds, Box& box, Point place) {
   const Slices columns = slice(box.x1 - box.x0 + 1), rows = slice(box.y1 - box.y0 + 1);
+  if (columns.count == 1 && rows.count == 1) return;
   Cells weight;
-  for (int k = 0; k < 4; ++k) {
-    if (odds.cuts[k]) measure(odds.circle[k], columns, rows, odds.distance[k]);
-  }
-  if (odds.sweeps) sweep(odds, columns, rows);
-  for (int k = 0; k < kCells * kCells; ++k) {
-    const int16_t share = clamped(static_cast<int16_t>(32 - odds.distance[kOwn][k]), 0, 63);
-    weight[k] = static_cast<int16_t>(share * odds.chances[k]);
-  }
-  for (int k = 0; k < 3; ++k) {
-    if (odds.cuts[k]) cut(odds.distance[k], weight);
-  }
+  weigh_cells(odds, columns, rows, weight);
   uint32_t row_size[kCells], column_weight[kCells], cell_weight[kCells];
-  for (int j = 0; j < kCells; ++j) row_size[j] = size_of(rows, j, 64);
+  for (int j = 0; j < kCells; ++j) row_size[j] = size_of(rows, j);
   for (int i = 0; i < kCells; ++i) {
     column_weight[i] = 0;
     for (int j = 0; j < kCells; ++j) {
       column_weight[i] += (static_cast<uint32_t>(weight[kCells * i + j]) + 1u) * row_size[j];
     }
-    column_weight[i] *= size_of(columns, i, 64);
+    column_weight[i] *= size_of(columns, i);
   }
-  const int i =
-      code_slice(coder, &split[0], column_weight, slice_of(columns, place.x - box.x0));
+  const int i = code_slice(coder, &split[0], column_weight, slice_of(columns, place.x - box.x0));
   for (int j = 0; j < kCells; ++j) {
     cell_weight[j] = (static_cast<uint32_t>(weight[kCells * i + j]) + 1u) * row_size[j];
   }
   const int j = code_slice(coder, &split[2], cell_weight, slice_of(rows, place.y - box.y0));
   narrow(odds, box, columns, rows, i, j);
-  // The chance's slope.
-  const int16_t* c = odds.chances;
-  const int west = i == 0 ? 0 : i - 1, east = i == 3 ? 3 : i + 1;
-  const int south = j == 0 ? 0 : j - 1, north = j == 3 ? 3 : j + 1;
-  odds.level = static_cast<int16_t>(c[kCells * i + j] * 4);
-  odds.slope_x = static_cast<int16_t>((c[kCells * east + j] - c[kCells * west + j]) * (east - west == 2 ? 2 : 4));
-  odds.slope_y = static_cast<int16_t>((c[kCells * i + north] - c[kCells * i + south]) * (north - south == 2 ? 2 : 4));
-}
-
-template <class Coder>
-void code_fine(Coder& coder, PlaceOdds& odds, Box& box, Point place) {
-  const Slices columns = slice(box.x1 - box.x0 + 1), rows = slice(box.y1 - box.y0 + 1);
-  if (columns.count == 1 && rows.count == 1) return;
-  Cells weight;
-  int16_t x[kCells], y[kCells];
-  for (int i = 0; i < kCells; ++i) {
-    x[i] = static_cast<int16_t>(odds.level + odds.slope_x * (2 * i - 3) / 7);
-    y[i] = static_cast<int16_t>(odds.slope_y * (2 * i - 3) / 7);
-  }
-  add_column(x[0], y, weight);
-  add_column(x[1], y, weight + kCells);
-  add_column(x[2], y, weight + 2 * kCells);
-  add_column(x[3], y, weight + 3 * kCells);
-  for (int k = 0; k < kCells * kCells; ++k) weight[k] = static_cast<int16_t>(clamped(weight[k], 64, 2047) << 4);
-  for (int k = 0; k < 4; ++k) {
-    if (!odds.cuts[k]) continue;
-    measure(odds.circle[k], columns, rows, odds.distance[k]);
-    if (k == kOwn) for (int l = 0; l < 16; ++l) odds.distance[k][l] = static_cast<int16_t>(-odds.distance[k][l]);
-    cut(odds.distance[k], weight);
-  }
-  uint32_t sum[17];
-  sum[0] = 0;
-  for (int k = 0; k < kCells * kCells; ++k) {
-    const uint32_t size = size_of(columns, k / 4, 16) * size_of(rows, k % 4, 16);
-    sum[k + 1] = sum[k] + (static_cast<uint32_t>(static_cast<uint16_t>(weight[k]) >> 7) + 1) * size;
-  }
-  const int known = kCells * slice_of(columns, place.x - box.x0) + slice_of(rows, place.y - box.y0);
-  const uint32_t at = coder.point(sum[16], sum[known]);
-  int k = 0;
-  while (k < 15 && at >= sum[k + 1]) ++k;
-  coder.take(sum[k], sum[k + 1] - sum[k]);
-  narrow(odds, box, columns, rows, k / 4, k % 4);
 }
 
 // Codes a place in `box`, which encloses the free region.
@@ -341,12 +311,8 @@ Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, const FreeReg
   const Point v = region.origin;
   estimate_odds(odds, region, Offset{box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y},
                 density);
-  if (!odds.sweeps) for (int k = 0; k < 16; ++k) odds.chances[k] = 511;
-  code_coarse(coder, model.split, odds, box, place);
-  for (int level = 1; level < kLevels; ++level) {
-    code_fine(coder, odds, box, place);
-    odds.slope_x = static_cast<int16_t>(odds.slope_x / 4);
-    odds.slope_y = static_cast<int16_t>(odds.slope_y / 4);
+  for (int level = 0; level < kLevels; ++level) {
+    code_cell(coder, model.split[level], odds, box, place);
   }
   const uint32_t x = coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),
                                    static_cast<uint32_t>(place.x - box.x0));

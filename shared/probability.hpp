@@ -104,6 +104,7 @@ void reset(Calibration<kEntries>& calibration) {
 template <class Coder, uint32_t kEntries>
 bool code_calibrated(Coder& coder, Calibration<kEntries>& calibration, uint32_t estimate,
                      bool value) {
+  if (estimate >= kProbabilityOne) estimate = kProbabilityOne - 1;
   const uint32_t position = estimate * (kEntries - 1);
   const uint32_t i = position >> 15, f = position >> 7 & 255u;
   AdaptiveBit& low = calibration.entry[i];

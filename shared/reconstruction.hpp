@@ -65,6 +65,7 @@ struct Reconstruction {
   bool infinity_done;
   Index vertex;      // being walked around
   Index chord;       // half-edge into `vertex`, of the triangle to be looked at next
+  bool from_done;    // whether the chord comes from a done vertex
   Index turn_start;  // the neighbour where the turn around `vertex` began
   Index anchor;      // the half-edge from vertex 0 to infinity
   Index queue_head;
@@ -79,10 +80,9 @@ struct Reconstruction {
   Index void_cursor;
 
   Cavity cavity;
-  Index cavity_triangles[kMaxDegree - 2];
+  Index cavity_triangles[kMaxDegree];
   Index cavity_origin[kMaxDegree];
   Index cavity_twin[kMaxDegree];
-  Index cavity_pending[kMaxDegree];
   // Of the triangle in hand: here to spare the stack.
   FreeRegion region;
   PlaceOdds odds;
@@ -99,7 +99,6 @@ inline void start(Reconstruction& r, const Contract& contract) {
   r.cavity.triangles = r.cavity_triangles;
   r.cavity.edge_origin = r.cavity_origin;
   r.cavity.edge_twin = r.cavity_twin;
-  r.cavity.pending = r.cavity_pending;
   r.cavity.limit = static_cast<Index>(contract.degree - 2);
   r.mesh->vertices = 0;
   r.mesh->triangles = 0;
@@ -110,9 +109,13 @@ inline void start(Reconstruction& r, const Contract& contract) {
 
 constexpr uint8_t kQueued = 1, kDone = 2;
 
+inline uint32_t marks_of(const Reconstruction& r, Index v) {
+  if (v == kInfinity) return r.infinity_done ? kQueued | kDone : kQueued;
+  return static_cast<uint32_t>(r.marks[v >> 2]) >> (2u * (v & 3u)) & 3u;
+}
+
 inline bool marked(const Reconstruction& r, Index v, uint8_t mark) {
-  if (v == kInfinity) return mark == kQueued || r.infinity_done;
-  return (r.marks[v >> 2] >> (2u * (v & 3u)) & mark) != 0;
+  return (marks_of(r, v) & mark) != 0;
 }
 
 inline void mark(Reconstruction& r, Index v, uint8_t mark) {
@@ -129,7 +132,7 @@ inline void look_behind(const Reconstruction& r, Index h, Side& side) {
   const Index apex = r.mesh->origin[previous_in_triangle(r.mesh->twin[h])];
   side.ghost = apex == kInfinity;
   side.certified = marked(r, apex, kDone);
-  if (!side.ghost) side.apex = offset(r.region.origin, point_of(*r.mesh, apex));
+  if (!side.ghost) side.apex = point_of(*r.mesh, apex) - r.region.origin;
 }
 
 // Describes the free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
@@ -139,8 +142,8 @@ inline void look_around(Reconstruction& r) {
   FreeRegion& region = r.region;
   region.origin = point_of(mesh, mesh.origin[to_c]);
   region.corner[0] = Offset{0, 0};
-  region.corner[1] = offset(region.origin, point_of(mesh, mesh.origin[to_a]));
-  region.corner[2] = offset(region.origin, point_of(mesh, mesh.origin[r.chord]));
+  region.corner[1] = point_of(mesh, mesh.origin[to_a]) - region.origin;
+  region.corner[2] = point_of(mesh, mesh.origin[r.chord]) - region.origin;
   look_behind(r, to_c, region.side[0]);
   look_behind(r, to_a, region.side[1]);
   look_behind(r, r.chord, region.side[kChord]);
@@ -154,11 +157,9 @@ inline void update_density(Reconstruction& r) {
   r.density = r.batch_share - log2_of(static_cast<uint64_t>(r.mean_area));
 }
 
-// `twice_area` < 2^33.
+// The mean stays above 0: 1 <= twice_area < 2^33.
 inline void note_final_triangle(Reconstruction& r, int64_t twice_area) {
-  if (twice_area < 0) return;
   r.mean_area += (twice_area * 256 - r.mean_area) / 16;
-  if (r.mean_area < 1) r.mean_area = 1;
   update_density(r);
 }
 
@@ -171,29 +172,13 @@ template <class Coder>
 bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
   Mesh& mesh = *r.mesh;
   const Index chord = r.chord;
-  const Index f = first_edge(triangle_of(chord));
-  for (Index i = 0; i < 3; ++i) {
-    const Index corner = mesh.origin[f + i];
-    if (corner != kInfinity && point_of(mesh, corner) == place) return false;
-  }
   if (!(point_of(mesh, 0) < place)) return false;
-  if (!in_conflict(mesh, chord, place)) return false;
-  const Index behind = mesh.twin[chord];
-  const bool at_infinity = r.vertex == kInfinity;
-  // Final triangles must stay: those with a done vertex, and those passed in this turn, which can
-  // only be reached across the chord or, around infinity, across the edge where the turn began.
-  const auto is_final = [&r, &mesh, behind, at_infinity](Index h) {
-    if (h == behind) return true;
-    const Index f2 = first_edge(triangle_of(h));
-    if (marked(r, mesh.origin[f2], kDone) || marked(r, mesh.origin[f2 + 1u], kDone) ||
-        marked(r, mesh.origin[f2 + 2u], kDone)) {
-      return true;
-    }
-    if (!at_infinity) return false;
-    const Index from = mesh.origin[h], to = mesh.origin[next_in_triangle(h)];
-    return (from == kInfinity && to == 0) || (from == 0 && to == kInfinity);
-  };
-  if (!grow_cavity(mesh, chord, place, r.cavity, is_final)) return false;
+  // Final triangles must stay. Those with a done vertex are met through that vertex, since the
+  // chord's has none. Those passed in this turn can only be reached across the chord: around
+  // infinity the first of them is at vertex 0, which is the smallest and so stays on the hull.
+  const auto is_done = [&r](Index corner) { return marked(r, corner, kDone); };
+  if (!grow_cavity(mesh, chord, place, r.cavity, is_done)) return false;
+  if (r.cavity.size == 0 || r.cavity_twin[0] != mesh.twin[chord]) return false;
   const Index v = mesh.vertices;
   if (r.contract.has_heights) {
     const HeightPrediction prediction = predict_height(
@@ -274,8 +259,10 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
     const Box bounds = {0, 0, r.contract.x_max, r.contract.y_max};
     place = code_place(coder, r.models.place, r.odds, region, r.density,
                        enclosing_box(region, bounds), place);
+    if (!insert(r, coder, place, next.z)) return false;
     // The triangle of the chord and the new vertex is final.
-    note_final_triangle(r, cross(offset(region.origin, place), region.corner[2]));
+    note_final_triangle(r, cross(place - region.origin, region.corner[2]));
+    return true;
   }
   return insert(r, coder, place, next.z);
 }
@@ -340,6 +327,7 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   r.queue_head = 0;
   r.queue_tail = 1;  // entry 0 is vertex 0's, known when the turn around infinity ends
   r.chord = r.anchor;
+  r.from_done = false;
   // Before anything is known: the lattice's bounds, shared by all. (2^16 * 2^16) * 2^8 = 2^40.
   r.mean_area = static_cast<int64_t>(static_cast<uint64_t>(columns(r.contract)) * rows(r.contract) *
                                      256u / r.phase_end) +
@@ -350,12 +338,12 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   return Progress::kStep;
 }
 
-// Leaves the triangle of the chord behind and turns to the next around `vertex`; `chord` is already
-// its half-edge into `vertex`. False if the walk is over.
-inline bool advance(Reconstruction& r) {
-  const Index neighbour = r.mesh->origin[r.chord];
+// Turns to the next triangle around `vertex`; `chord` is already its half-edge into `vertex`, which
+// comes from `neighbour`. False if the walk is over.
+inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
   if (neighbour != r.turn_start) {
-    if (!marked(r, neighbour, kQueued)) {
+    r.from_done = (marks & kDone) != 0;
+    if ((marks & kQueued) == 0) {
       mark(r, neighbour, kQueued);
       r.queue[r.queue_tail++] = r.mesh->twin[r.chord];
     }
@@ -365,29 +353,50 @@ inline bool advance(Reconstruction& r) {
   mark(r, r.vertex, kDone);
   if (r.queue_head == r.queue_tail) return false;
   r.chord = r.queue[r.queue_head++];
+  r.from_done = true;  // the parent's turn is over
   r.turn_start = r.mesh->origin[r.chord];
   r.vertex = r.mesh->origin[next_in_triangle(r.chord)];
   return true;
 }
 
-// Looks at one triangle.
+// The far corner of the triangle of the chord.
+struct Corner {
+  Index to;      // half-edge from `vertex` to it
+  Index number;  // of the corner
+  uint32_t marks;
+};
+
+inline Corner far_corner(const Reconstruction& r) {
+  const Index number = r.mesh->origin[previous_in_triangle(r.chord)];
+  return Corner{next_in_triangle(r.chord), number, marks_of(r, number)};
+}
+
+// Leaves the triangle of the chord, which is final. False if the walk is over.
+inline bool pass(Reconstruction& r, const Corner& corner) {
+  r.chord = r.mesh->twin[corner.to];
+  return advance(r, corner.number, corner.marks);
+}
+
+constexpr uint32_t kStepTriangles = 8;  // most that one step passes
+
+// Passes certified triangles, but only a few, and looks at one that is not.
 template <class Coder>
 Progress step_walk(Reconstruction& r, Coder& coder) {
-  const Mesh& mesh = *r.mesh;
-  const Index to_c = next_in_triangle(r.chord);
-  const Index apex = mesh.origin[next_in_triangle(to_c)];
+  Corner corner = far_corner(r);
+  for (uint32_t i = 0; r.from_done || (corner.marks & kDone) != 0; ++i) {
+    if (i == kStepTriangles) return Progress::kStep;
+    if (!pass(r, corner)) return Progress::kMalformed;
+    corner = far_corner(r);
+  }
   bool hit = false;
-  if (!marked(r, apex, kDone) && !marked(r, mesh.origin[r.chord], kDone)) {
-    if (!decide(r, coder, &hit)) return Progress::kMalformed;
-  }
-  if (!hit) {
-    r.chord = mesh.twin[to_c];
-  }
-  if (mesh.vertices == r.phase_end) {
+  if (!decide(r, coder, &hit)) return Progress::kMalformed;
+  if (!hit) return pass(r, corner) ? Progress::kStep : Progress::kMalformed;
+  if (r.mesh->vertices == r.phase_end) {
     ++r.phase;
     return after_vertices(r);
   }
-  return advance(r) ? Progress::kStep : Progress::kMalformed;
+  const Index placed = r.mesh->origin[r.chord];
+  return advance(r, placed, 0) ? Progress::kStep : Progress::kMalformed;
 }
 
 inline bool is_void(const uint8_t* voids, Index triangle) {

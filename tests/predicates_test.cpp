@@ -19,14 +19,16 @@ bool agrees(Point a, Point b, Point c, Point p) {
       incircle(a, b, c, p) != reference::circle_determinant(a, b, c, p)) {
     return false;
   }
-  if (area == 0 || p == a || p == b || p == c) return true;
+  if (area == 0) return true;
   if (area < 0) std::swap(b, c);
+  if (p == a || p == b || p == c) return !conflicts_with_triangle(a, b, c, p);
   return conflicts_with_triangle(a, b, c, p) == reference::in_perturbed_circle(a, b, c, p);
 }
 
 bool ghost_agrees(Point u, Point w, Point p) {
-  return u == w || p == u || p == w ||
-         conflicts_with_ghost(u, w, p) == reference::spoils_hull_edge(u, w, p);
+  if (u == w) return true;
+  if (p == u || p == w) return !conflicts_with_ghost(u, w, p);
+  return conflicts_with_ghost(u, w, p) == reference::spoils_hull_edge(u, w, p);
 }
 
 // Random points near the sides and corners of the lattice, or anywhere.

@@ -102,8 +102,8 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
 void microtin_stop_after_phase(microtin_decoder* decoder, uint32_t phase);
 
 /* Decodes from the next `size` bytes of the stream, at most `step_limit` steps (0: no limit); a
- * step is one triangle visited, with at most one insertion. (The step that starts a phase also
- * clears two bits per vertex; header bytes, at most 64 KB, are no steps.) *used tells how many
+ * step is at most nine triangles visited, with at most one insertion. (The step that starts a phase
+ * also clears two bits per vertex; header bytes, at most 64 KB, are no steps.) *used tells how many
  * bytes were taken: all of them on NEED_INPUT; on STEP_LIMIT pass the rest again. On DONE the
  * stream's last byte is the last one taken and anything behind it is left alone. Chunking changes
  * no result. */
