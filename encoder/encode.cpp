@@ -95,13 +95,13 @@ class Workspace {
         twin_(6u * n),
         queue_(n),
         marks_(n / 4 + 1),
-        roughness_(n),
-        voids_(n / 4 + 1) {
+        voids_(n / 4 + 1),
+        residual_(n) {
     mesh_ = Mesh{x_.data(), y_.data(), z_.data(), origin_.data(), twin_.data(), 0, 0};
     state_.mesh = &mesh_;
     state_.queue = queue_.data();
     state_.marks = marks_.data();
-    state_.roughness = roughness_.data();
+    state_.residual = residual_.data();
     state_.voids = voids_.data();
   }
   Workspace(const Workspace&) = delete;
@@ -113,7 +113,8 @@ class Workspace {
   std::vector<uint16_t> x_, y_;
   std::vector<int16_t> z_;
   std::vector<Index> origin_, twin_, queue_;
-  std::vector<uint8_t> marks_, roughness_, voids_;
+  std::vector<uint8_t> marks_, voids_;
+  std::vector<Residual> residual_;
   Mesh mesh_{};
   Reconstruction state_{};
 };

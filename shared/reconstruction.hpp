@@ -39,7 +39,7 @@ inline void reset(Models& models) {
   reset(models.height);
   reset(models.hull_hit, 16384);
   reset(models.on_hull_edge, 16384);
-  reset(models.hull_gap, 6);
+  reset(models.hull_gap);
   reset(models.hull_gap_mantissa);
   for (int i = 0; i < 5; ++i) reset(models.is_void[i], static_cast<uint32_t>(3000 + 6500 * i));
 }
@@ -58,7 +58,7 @@ struct Reconstruction {
   uint8_t* voids;      // a bit per triangle
   Index* queue;        // half-edges parent -> vertex, one per vertex
   uint8_t* marks;      // two bits per vertex: queued, done
-  uint8_t* roughness;  // per vertex, see height_coding.hpp
+  Residual* residual;  // per vertex, see height_coding.hpp
   Contract contract;
 
   Stage stage;
@@ -198,11 +198,14 @@ bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
   if (!grow_cavity(mesh, chord, place, r.cavity, is_final)) return false;
   const Index v = mesh.vertices;
   if (r.contract.has_heights) {
+    // The chord's ends are in the ring; its start is finite, since triangles at infinity are looked
+    // at around infinity only.
+    const int32_t start = mesh.z[mesh.origin[chord]];
+    const int32_t base = at_infinity ? start : (start + mesh.z[r.vertex]) / 2;
     const HeightPrediction prediction = predict_height(
-        mesh, r.roughness, r.cavity_origin, static_cast<uint32_t>(r.cavity.size) + 2u, place);
+        mesh, r.residual, r.cavity_origin, static_cast<uint32_t>(r.cavity.size) + 2u, place, base);
     if (!code_height(coder, r.models.height, prediction, &z)) return false;
-    const int32_t difference = z - prediction.height;
-    r.roughness[v] = roughness_of(static_cast<uint32_t>(difference < 0 ? -difference : difference));
+    r.residual[v] = residual_of(z - prediction.height);
   } else {
     z = 0;
   }
@@ -242,6 +245,7 @@ Point code_hull_place(Reconstruction& r, Coder& coder, Point c, Point a, Point p
     // parts - 1 interior places; a gap beyond them is caught as a point not in conflict, after
     // narrowing below.
     const uint32_t coded = 1u + code_magnitude(coder, r.models.hull_gap, r.models.hull_gap_mantissa,
+                                               6u < highest_bit(parts) ? 6u : highest_bit(parts),
                                                highest_bit(parts) + 1u, gap - 1u);
     const uint32_t held = coded < parts ? coded : 0;
     return Point{static_cast<uint16_t>(a.x + step_x * static_cast<int32_t>(held)),
@@ -306,7 +310,7 @@ Progress step_seed(Reconstruction& r, Coder& coder) {
       const uint32_t biased = static_cast<uint32_t>(static_cast<int32_t>(known.z) + 32768);
       mesh.z[i] = static_cast<int16_t>(static_cast<int32_t>(coder.uniform(65536u, biased)) - 32768);
     }
-    r.roughness[i] = 16;
+    r.residual[i] = 4;
   }
   const Point p0 = point_of(mesh, 0), p1 = point_of(mesh, 1), p2 = point_of(mesh, 2);
   if (!(p0 < p1) || !(p0 < p2) || orient2d(p0, p1, p2) <= 0) return Progress::kMalformed;
