@@ -49,16 +49,12 @@ class WritingCoder {
   void at(uint32_t placed, uint32_t phase) {
     placed_ = placed;
     phase_ = phase;
-    seed_next_ = 0;
   }
 
   bool bit(uint32_t probability, bool value) { return payload_.bit(probability, value); }
   uint32_t uniform(uint32_t count, uint32_t value) { return payload_.uniform(count, value); }
 
-  Vertex next() {
-    if (placed_ == 0) return sequence_[seed_next_++];
-    return sequence_[placed_];
-  }
+  Vertex next() const { return sequence_[placed_]; }
   bool last_phase() const { return phase_ + 1 == batches_.size(); }
   uint32_t batch() const { return batches_[phase_]; }
   bool conflicts(const Mesh& mesh, Index h) const {
@@ -80,7 +76,6 @@ class WritingCoder {
   VoidSet voids_;
   uint32_t placed_ = 0;
   uint32_t phase_ = 0;
-  uint32_t seed_next_ = 0;
   RangeEncoder payload_;
 };
 

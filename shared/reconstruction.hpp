@@ -14,6 +14,7 @@
 
 #include "shared/format.hpp"
 #include "shared/height_coding.hpp"
+#include "shared/hull_coding.hpp"
 #include "shared/insertion.hpp"
 #include "shared/place_coding.hpp"
 
@@ -26,10 +27,7 @@ struct Models {
   Curve<kHitEntries> hit[4];  // by which of the two sides beside the chord are certified
   PlaceModel place;
   HeightModel height;
-  AdaptiveBit hull_hit;
-  AdaptiveBit on_hull_edge;
-  ExponentModel hull_gap;
-  MantissaModel hull_gap_mantissa;
+  HullModel hull;
   AdaptiveBit is_void[5];
 };
 
@@ -37,10 +35,7 @@ inline void reset(Models& models) {
   for (int i = 0; i < 4; ++i) reset(models.hit[i], -12 * 160, 160);
   reset(models.place);
   reset(models.height);
-  reset(models.hull_hit, 16384);
-  reset(models.on_hull_edge, 16384);
-  reset(models.hull_gap);
-  reset(models.hull_gap_mantissa);
+  reset(models.hull);
   for (int i = 0; i < 5; ++i) reset(models.is_void[i], static_cast<uint32_t>(3000 + 6500 * i));
 }
 
@@ -222,38 +217,21 @@ bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
 
 // --- Coding of one decision ----------------------------------------------------------------------
 
-inline uint32_t greatest_common_divisor(uint32_t a, uint32_t b) {
-  while (b != 0) {  // at most 24 turns for 16-bit numbers (Lame)
-    const uint32_t rest = a % b;
-    a = b;
-    b = rest;
-  }
-  return a;
-}
-
-// A point beyond the hull edge c -> a: on it, coded by its distance from a, or anywhere.
+// Says hit or miss at the hull edge beside the chord to infinity, and where a hit is.
 template <class Coder>
-Point code_hull_place(Reconstruction& r, Coder& coder, Point c, Point a, Point place) {
-  const int32_t dx = static_cast<int32_t>(c.x) - a.x, dy = static_cast<int32_t>(c.y) - a.y;
-  const uint32_t parts = greatest_common_divisor(static_cast<uint32_t>(dx < 0 ? -dx : dx),
-                                                 static_cast<uint32_t>(dy < 0 ? -dy : dy));
-  if (parts > 1 && code_bit(coder, r.models.on_hull_edge, orient2d(a, c, place) == 0)) {
-    const int32_t step_x = dx / static_cast<int32_t>(parts),
-                  step_y = dy / static_cast<int32_t>(parts);
-    const uint32_t gap = step_x != 0 ? static_cast<uint32_t>((place.x - a.x) / step_x)
-                                     : static_cast<uint32_t>((place.y - a.y) / step_y);
-    // parts - 1 interior places; a gap beyond them is caught as a point not in conflict, after
-    // narrowing below.
-    const uint32_t coded = 1u + code_magnitude(coder, r.models.hull_gap, r.models.hull_gap_mantissa,
-                                               6u < highest_bit(parts) ? 6u : highest_bit(parts),
-                                               highest_bit(parts) + 1u, gap - 1u);
-    const uint32_t held = coded < parts ? coded : 0;
-    return Point{static_cast<uint16_t>(a.x + step_x * static_cast<int32_t>(held)),
-                 static_cast<uint16_t>(a.y + step_y * static_cast<int32_t>(held))};
+bool decide_at_hull(Reconstruction& r, Coder& coder, Point* place) {
+  const Mesh& mesh = *r.mesh;
+  const Index to_c = next_in_triangle(r.chord);
+  const HullEdge edge = hull_edge(r.contract, point_of(mesh, mesh.origin[r.chord]),
+                                  point_of(mesh, mesh.origin[next_in_triangle(to_c)]));
+  if (edge.at_border && edge.parts == 1) return false;  // there is no place beyond it
+  const uint32_t spacing = expected_spacing(r.contract, r.batch);
+  if (!code_hull_hit(coder, r.models.hull, edge, spacing, coder.conflicts(mesh, r.chord))) {
+    return false;
   }
-  const uint32_t x = coder.uniform(columns(r.contract), place.x);
-  const uint32_t y = coder.uniform(rows(r.contract), place.y);
-  return Point{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
+  *place = code_hull_place(coder, r.models.hull, r.models.height.mantissa, r.contract, edge,
+                           spacing, *place);
+  return true;
 }
 
 // Says hit or miss at an uncertified triangle and inserts the vertex of a hit. False if malformed.
@@ -263,11 +241,8 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
   const Vertex next = coder.next();
   Point place = {next.x, next.y};
   if (r.vertex == kInfinity) {
-    *hit = code_bit(coder, r.models.hull_hit, coder.conflicts(mesh, r.chord));
+    *hit = decide_at_hull(r, coder, &place);
     if (!*hit) return true;
-    const Index to_c = next_in_triangle(r.chord);
-    place = code_hull_place(r, coder, point_of(mesh, mesh.origin[next_in_triangle(to_c)]),
-                            point_of(mesh, mesh.origin[r.chord]), place);
   } else {
     look_around(r);
     const FreeRegion& region = r.region;
@@ -297,21 +272,34 @@ inline Progress after_vertices(Reconstruction& r) {
   return r.contract.has_voids ? Progress::kPhaseEnd : Progress::kSectionEnd;
 }
 
-// The three vertices that are never removed. The first is the lexicographically smallest of all.
+// A coordinate of a seed vertex, likely to be the smallest or the largest.
+template <class Coder>
+uint16_t code_seed_coordinate(Coder& coder, uint32_t largest, uint32_t value) {
+  if (coder.bit(kProbabilityOne / 4 * 3, value == 0 || value == largest)) {
+    const bool high = coder.bit(kProbabilityOne / 2, value == largest);
+    return static_cast<uint16_t>(high ? largest : 0);
+  }
+  return static_cast<uint16_t>(coder.uniform(largest + 1u, value));
+}
+
+// One of the three vertices that are never removed. The first is the lexicographically smallest of
+// all.
 template <class Coder>
 Progress step_seed(Reconstruction& r, Coder& coder) {
   Mesh& mesh = *r.mesh;
-  for (Index i = 0; i < 3; ++i) {
-    const Vertex known = coder.next();
-    mesh.x[i] = static_cast<uint16_t>(coder.uniform(columns(r.contract), known.x));
-    mesh.y[i] = static_cast<uint16_t>(coder.uniform(rows(r.contract), known.y));
-    mesh.z[i] = 0;
-    if (r.contract.has_heights) {
-      const uint32_t biased = static_cast<uint32_t>(static_cast<int32_t>(known.z) + 32768);
-      mesh.z[i] = static_cast<int16_t>(static_cast<int32_t>(coder.uniform(65536u, biased)) - 32768);
-    }
-    r.residual[i] = 4;
+  const Index i = mesh.vertices;
+  const Vertex known = coder.next();
+  mesh.x[i] = code_seed_coordinate(coder, r.contract.x_max, known.x);
+  mesh.y[i] = code_seed_coordinate(coder, r.contract.y_max, known.y);
+  mesh.z[i] = 0;
+  r.residual[i] = 4;
+  if (r.contract.has_heights) {
+    const HeightPrediction previous = {i == 0 ? 0 : mesh.z[i - 1u], kScales - 1, kTendencies / 2};
+    mesh.z[i] = known.z;
+    if (!code_height(coder, r.models.height, previous, &mesh.z[i])) return Progress::kMalformed;
   }
+  ++mesh.vertices;
+  if (i < 2) return Progress::kStep;
   const Point p0 = point_of(mesh, 0), p1 = point_of(mesh, 1), p2 = point_of(mesh, 2);
   if (!(p0 < p1) || !(p0 < p2) || orient2d(p0, p1, p2) <= 0) return Progress::kMalformed;
   start_mesh(mesh);
@@ -328,7 +316,8 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   if (coder.bit(kProbabilityOne / 2, !coder.last_phase())) {
     // All but the low 12 bits, then these: 1 .. left - 1.
     const uint32_t high = coder.uniform((left >> 12) + 1u, (coder.batch() >> 12));
-    batch = high << 12 | coder.uniform(4096, coder.batch() & 4095u);
+    const uint32_t lows = high == left >> 12 ? (left & 4095u) + 1u : 4096u;
+    batch = high << 12 | coder.uniform(lows, coder.batch() & 4095u);
     if (batch == 0 || batch >= left) return Progress::kMalformed;
   }
   r.batch = batch;
