@@ -60,7 +60,7 @@ inline HullEdge hull_edge(const Contract& contract, Point a, Point c) {
 // log2 of the spacing of the vertices of a phase, if they were spread evenly.
 inline uint32_t expected_spacing(const Contract& contract, uint32_t batch) {
   const uint64_t places = static_cast<uint64_t>(columns(contract)) * rows(contract);
-  return highest_bit(places / batch | 1u) / 2u;  // a phase has at least one vertex
+  return highest_bit(places / batch | 1u) / 2u + 1u;  // a phase has at least one vertex
 }
 
 template <class Coder>
