@@ -298,8 +298,10 @@ Progress step_seed(Reconstruction& r, Coder& coder) {
     mesh.z[i] = known.z;
     if (!code_height(coder, r.models.height, previous, &mesh.z[i])) return Progress::kMalformed;
   }
-  ++mesh.vertices;
-  if (i < 2) return Progress::kStep;
+  if (i < 2) {
+    ++mesh.vertices;
+    return Progress::kStep;
+  }
   const Point p0 = point_of(mesh, 0), p1 = point_of(mesh, 1), p2 = point_of(mesh, 2);
   if (!(p0 < p1) || !(p0 < p2) || orient2d(p0, p1, p2) <= 0) return Progress::kMalformed;
   start_mesh(mesh);
