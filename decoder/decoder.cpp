@@ -12,8 +12,10 @@ size_t smaller(size_t a, size_t b) {
 // Bytes that must be at hand before the next item can be handled as a whole.
 size_t bytes_needed(const microtin_decoder& d) {
   switch (d.item) {
-    case Item::kFixedHeader:
-      return kFixedHeaderBytes;
+    case Item::kIdentity:
+      return kIdentityBytes;
+    case Item::kDimensions:
+      return dimensions_bytes(d.flags);
     case Item::kBlockHead:
       return smaller(kBlockHeadBytes, d.blocks_left);
     case Item::kPlacement:
@@ -49,12 +51,21 @@ Item after_block(const microtin_decoder& d) {
   return d.blocks_left == 0 ? Item::kHeaderCheck : Item::kBlockHead;
 }
 
-microtin_status handle_fixed_header(microtin_decoder& d) {
-  uint8_t bytes[kFixedHeaderBytes];
-  take_bytes(d, bytes, kFixedHeaderBytes);
+microtin_status handle_identity(microtin_decoder& d) {
+  uint8_t bytes[kIdentityBytes];
+  take_bytes(d, bytes, kIdentityBytes);
   const microtin_status known = check_identity(bytes);
   if (known != MICROTIN_DONE) return known;
-  const bool legal = read_contract(bytes, &d.contract, &d.blocks_left);
+  d.flags = bytes[5];
+  d.contract.degree = bytes[6];
+  d.item = Item::kDimensions;
+  return MICROTIN_NEED_INPUT;
+}
+
+microtin_status handle_dimensions(microtin_decoder& d) {
+  uint8_t bytes[kDimensionsMostBytes];
+  take_bytes(d, bytes, dimensions_bytes(d.flags));
+  const bool legal = read_contract(d.flags, d.contract.degree, bytes, &d.contract, &d.blocks_left);
   d.header_status = legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
   d.item = after_block(d);
   return MICROTIN_NEED_INPUT;
@@ -166,8 +177,10 @@ microtin_status handle_section_check(microtin_decoder& d) {
 // NEED_INPUT means: go on.
 microtin_status handle_item(microtin_decoder& d) {
   switch (d.item) {
-    case Item::kFixedHeader:
-      return handle_fixed_header(d);
+    case Item::kIdentity:
+      return handle_identity(d);
+    case Item::kDimensions:
+      return handle_dimensions(d);
     case Item::kBlockHead:
       return handle_block_head(d);
     case Item::kPlacement:
@@ -320,7 +333,7 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
   d.capacity = capacity;
   d.status = MICROTIN_NEED_INPUT;
   d.stop_phase = 0;
-  d.item = Item::kFixedHeader;
+  d.item = Item::kIdentity;
   d.staged_bytes = 0;
   d.window.crc = 0;
   d.window.used = 0;
@@ -330,7 +343,7 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
   r.voids = mesh->voids;
   r.queue = reinterpret_cast<Index*>(&d + 1);
   r.marks = reinterpret_cast<uint8_t*>(r.queue + capacity);
-  r.roughness = r.marks + (capacity + 3) / 4;
+  r.residual = reinterpret_cast<Residual*>(r.marks + (capacity + 3) / 4);
   r.phase = 0;
   empty_mesh(*mesh);
   *decoder = &d;
@@ -370,18 +383,20 @@ uint64_t microtin_bytes_used(const microtin_decoder* decoder) {
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info) {
   if (info == nullptr || (bytes == nullptr && size != 0)) return MICROTIN_ARGUMENT;
   info->header_bytes = 0;
-  if (size < kFixedHeaderBytes) return MICROTIN_NEED_INPUT;
+  if (size < kIdentityBytes) return MICROTIN_NEED_INPUT;
   const microtin_status known = check_identity(bytes);
   if (known != MICROTIN_DONE) return known;
+  const uint32_t blocks = kIdentityBytes + dimensions_bytes(bytes[5]);
+  if (size < blocks) return MICROTIN_NEED_INPUT;
   Contract contract;
   uint32_t block_bytes = 0;
-  bool legal = read_contract(bytes, &contract, &block_bytes);
-  const uint32_t checked = kFixedHeaderBytes + block_bytes;
+  bool legal = read_contract(bytes[5], bytes[6], bytes + kIdentityBytes, &contract, &block_bytes);
+  const uint32_t checked = blocks + block_bytes;
   info->header_bytes = checked + kCheckBytes;
   if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
   if (crc32(0, bytes, checked) != read_u32(bytes + checked)) return MICROTIN_CHECKSUM;
   microtin_axis axis[3] = {{0, 1, 1}, {0, 1, 1}, {0, 1, 1}};
-  for (uint32_t at = kFixedHeaderBytes; at < checked;) {
+  for (uint32_t at = blocks; at < checked;) {
     if (checked - at < kBlockHeadBytes) return MICROTIN_MALFORMED;
     const uint8_t type = bytes[at];
     const uint32_t length = read_u16(bytes + at + 1);

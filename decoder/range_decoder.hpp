@@ -80,28 +80,18 @@ struct RangeDecoder {
     return one;
   }
 
-  // Where in 0 .. total - 1 the stream points; to be followed by take() of the part that holds it.
-  // 1 <= total <= 2^16.
-  uint32_t point(uint32_t total, uint32_t) {
-    range /= total;
-    const uint32_t at = code / range;
-    if (at < total) return at;
-    overrun = true;  // in the part of the interval lost to rounding: no encoder goes there
-    code = 0;
-    return 0;
-  }
-
-  void take(uint32_t from, uint32_t size) {
-    code -= from * range;
-    range *= size;
-    normalise();
-  }
-
   // A number below `count`, all equally likely; 1 <= count <= 2^16.
-  uint32_t uniform(uint32_t count, uint32_t value) {
+  uint32_t uniform(uint32_t count, uint32_t) {
     if (count == 1) return 0;
-    value = point(count, value);
-    take(value, 1);
+    range /= count;
+    uint32_t value = code / range;
+    if (value >= count) {  // in the part of the interval lost to rounding: no encoder goes there
+      overrun = true;
+      value = 0;
+      code = 0;
+    }
+    code -= value * range;
+    normalise();
     return value;
   }
 

@@ -18,7 +18,8 @@ struct microtin_mesh {
 namespace microtin {
 
 enum class Item : uint8_t {
-  kFixedHeader,
+  kIdentity,
+  kDimensions,
   kBlockHead,
   kPlacement,
   kSkippedBlock,
@@ -41,6 +42,7 @@ struct microtin_decoder {
   uint32_t block_left;   // bytes of the current one
   uint32_t section_bytes;
   uint8_t section_shift;
+  uint8_t flags;  // of the header
   microtin::Contract contract;
   microtin_status header_status;  // DONE, or what to say once its check has passed
   microtin::ByteWindow window;

@@ -49,19 +49,12 @@ class WritingCoder {
   void at(uint32_t placed, uint32_t phase) {
     placed_ = placed;
     phase_ = phase;
-    seed_next_ = 0;
   }
 
   bool bit(uint32_t probability, bool value) { return payload_.bit(probability, value); }
   uint32_t uniform(uint32_t count, uint32_t value) { return payload_.uniform(count, value); }
 
-  uint32_t point(uint32_t total, uint32_t at) { return payload_.point(total, at); }
-  void take(uint32_t from, uint32_t size) { payload_.take(from, size); }
-
-  Vertex next() {
-    if (placed_ == 0) return sequence_[seed_next_++];
-    return sequence_[placed_];
-  }
+  Vertex next() const { return sequence_[placed_]; }
   bool last_phase() const { return phase_ + 1 == batches_.size(); }
   uint32_t batch() const { return batches_[phase_]; }
   bool conflicts(const Mesh& mesh, Index h) const {
@@ -85,7 +78,6 @@ class WritingCoder {
   VoidSet voids_;
   uint32_t placed_ = 0;
   uint32_t phase_ = 0;
-  uint32_t seed_next_ = 0;
   RangeEncoder payload_;
 };
 
@@ -100,13 +92,13 @@ class Workspace {
         twin_(6u * n),
         queue_(n),
         marks_(n / 4 + 1),
-        roughness_(n),
-        voids_(n / 4 + 1) {
+        voids_(n / 4 + 1),
+        residual_(n) {
     mesh_ = Mesh{x_.data(), y_.data(), z_.data(), origin_.data(), twin_.data(), 0, 0};
     state_.mesh = &mesh_;
     state_.queue = queue_.data();
     state_.marks = marks_.data();
-    state_.roughness = roughness_.data();
+    state_.residual = residual_.data();
     state_.voids = voids_.data();
   }
   Workspace(const Workspace&) = delete;
@@ -118,7 +110,8 @@ class Workspace {
   std::vector<uint16_t> x_, y_;
   std::vector<int16_t> z_;
   std::vector<Index> origin_, twin_, queue_;
-  std::vector<uint8_t> marks_, roughness_, voids_;
+  std::vector<uint8_t> marks_, voids_;
+  std::vector<Residual> residual_;
   Mesh mesh_{};
   Reconstruction state_{};
 };

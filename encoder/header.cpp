@@ -17,19 +17,13 @@ int64_t unzigzag(uint64_t value) {
   return static_cast<int64_t>(value >> 1 ^ (0 - (value & 1)));
 }
 
-void append_u16(Bytes& bytes, uint32_t value) {
-  bytes.push_back(static_cast<uint8_t>(value));
-  bytes.push_back(static_cast<uint8_t>(value >> 8));
-}
-
-void append_u32(Bytes& bytes, uint32_t value) {
-  append_u16(bytes, value & 0xFFFF);
-  append_u16(bytes, value >> 16);
+void append_number(Bytes& bytes, uint32_t value, int width) {
+  for (int i = 0; i < width; ++i) bytes.push_back(static_cast<uint8_t>(value >> 8 * i));
 }
 
 void append_block(Bytes& blocks, uint8_t type, const Bytes& content) {
   blocks.push_back(type);
-  append_u16(blocks, static_cast<uint32_t>(content.size()));
+  append_number(blocks, static_cast<uint32_t>(content.size()), 2);
   blocks.insert(blocks.end(), content.begin(), content.end());
 }
 
@@ -150,22 +144,25 @@ void append_varint(Bytes& bytes, uint64_t value) {
 }
 
 void append_check(Bytes& bytes, size_t from) {
-  append_u32(bytes, crc32(0, bytes.data() + from, bytes.size() - from));
+  append_number(bytes, crc32(0, bytes.data() + from, bytes.size() - from), 4);
 }
 
 Bytes write_header(const Contract& contract, const Metadata& metadata) {
   const Bytes blocks = write_blocks(metadata);
   if (blocks.size() > 65535) throw Error("the texts for the header are longer than 65,535 bytes");
+  const bool long_count = contract.vertices > 0xFFFF;
+  const bool long_sides = contract.x_max > 0xFF || contract.y_max > 0xFF;
   Bytes header(kMagic, kMagic + sizeof kMagic);
   header.push_back(kVersion);
-  header.push_back(static_cast<uint8_t>((contract.has_heights ? kHasHeights : 0) |
-                                        (contract.has_voids ? kHasVoids : 0)));
+  header.push_back(
+      static_cast<uint8_t>((contract.has_heights ? kHasHeights : 0) |
+                           (contract.has_voids ? kHasVoids : 0) | (long_count ? kLongCount : 0) |
+                           (long_sides ? kLongSides : 0) | (blocks.empty() ? 0 : kHasBlocks)));
   header.push_back(static_cast<uint8_t>(contract.degree));
-  header.push_back(0);
-  append_u32(header, contract.vertices);
-  append_u16(header, contract.x_max);
-  append_u16(header, contract.y_max);
-  append_u16(header, static_cast<uint32_t>(blocks.size()));
+  append_number(header, contract.vertices, long_count ? 4 : 2);
+  append_number(header, contract.x_max, long_sides ? 2 : 1);
+  append_number(header, contract.y_max, long_sides ? 2 : 1);
+  if (!blocks.empty()) append_number(header, static_cast<uint32_t>(blocks.size()), 2);
   header.insert(header.end(), blocks.begin(), blocks.end());
   append_check(header, 0);
   return header;
@@ -177,7 +174,7 @@ Header read_header(const Bytes& stream) {
   if (status == MICROTIN_NEED_INPUT) status = MICROTIN_TRUNCATED;
   if (status != MICROTIN_DONE) throw Error(describe(status));
   header.metadata.placement = {header.info.x, header.info.y, header.info.z};
-  const uint8_t* at = stream.data() + kFixedHeaderBytes;
+  const uint8_t* at = stream.data() + kIdentityBytes + dimensions_bytes(stream[5]);
   const uint8_t* const end = stream.data() + header.info.header_bytes - kCheckBytes;
   while (at != end) {
     const uint8_t type = *at;
@@ -192,7 +189,7 @@ Bytes with_metadata(const Bytes& stream, const Metadata& metadata) {
   const Header old = read_header(stream);
   Contract contract;
   uint32_t block_bytes = 0;
-  read_contract(stream.data(), &contract, &block_bytes);
+  read_contract(stream[5], stream[6], stream.data() + kIdentityBytes, &contract, &block_bytes);
   Bytes changed = write_header(contract, metadata);
   changed.insert(changed.end(), stream.begin() + old.info.header_bytes, stream.end());
   return changed;

@@ -56,6 +56,27 @@ std::array<Index, 3> choose_seed(const Mesh& mesh) {
   return {least, far, most};
 }
 
+// The vertex farthest from the seed's longest side on its other side, or a vertex of the seed. It
+// goes last: of a rectangle the seed has only three corners, and without the fourth, points on two
+// borders would lie outside the hull, where places are dear.
+Index opposite_corner(const Mesh& mesh, const std::array<Index, 3>& seed) {
+  const Point least = point_of(mesh, seed[0]);
+  const bool to_left = point_of(mesh, seed[1]) < point_of(mesh, seed[2]);
+  const Point most = point_of(mesh, seed[to_left ? 2 : 1]);
+  Index far = seed[0];
+  int64_t best = 0;
+  for (Index v = 0; v < mesh.vertices; ++v) {
+    const int64_t d = orient2d(least, most, point_of(mesh, v)) * (to_left ? 1 : -1);
+    if (d > best) {
+      far = v;
+      best = d;
+    }
+  }
+  return far;
+}
+
+constexpr Index kFewVertices = 48;
+
 }  // namespace
 
 Order breadth_first_order(Triangulation& triangulation, uint32_t degree) {
@@ -64,11 +85,13 @@ Order breadth_first_order(Triangulation& triangulation, uint32_t degree) {
   const auto in_seed = [&](Index v) {
     return std::find(order.seed.begin(), order.seed.end(), v) != order.seed.end();
   };
+  const Index last = opposite_corner(triangulation.mesh(), order.seed);
   Index left = triangulation.mesh().vertices;
   while (left > 3) {
     const std::vector<Index> vertices = breadth_first(triangulation, order.seed[0]);
     std::vector<Index> batch;
     for (auto v = vertices.rbegin(); v != vertices.rend(); ++v) {
+      if (*v == last && left > kFewVertices) continue;
       if (in_seed(*v) || triangulation.degree(*v) > degree) continue;
       triangulation.remove(*v);
       batch.push_back(*v);

@@ -25,8 +25,6 @@ class RangeEncoder {
   // Writes `value` < `count` <= 2^16, all equally likely, and returns it.
   uint32_t uniform(uint32_t count, uint32_t value);
 
-  uint32_t point(uint32_t total, uint32_t at) { range_ /= total; return at; }
-  void take(uint32_t from, uint32_t size) { low_ += static_cast<uint64_t>(from) * range_; range_ *= size; normalise(); }
   // Ends the payload and returns it. Trailing zero bytes that the decoder supplies itself are left
   // out.
   std::vector<uint8_t> finish();

@@ -19,10 +19,12 @@ inline void write_check(std::vector<uint8_t>& bytes, size_t from, size_t at) {
 
 // Sets magic, version, and the check of the header and of every section that is there whole.
 inline void repair(std::vector<uint8_t>& bytes) {
-  if (bytes.size() < kFixedHeaderBytes) return;
+  if (bytes.size() < kIdentityBytes) return;
+  size_t at = kIdentityBytes + dimensions_bytes(bytes[5]);
+  if (bytes.size() < at) return;
   std::memcpy(bytes.data(), kMagic, sizeof kMagic);
   bytes[4] = kVersion;
-  size_t at = kFixedHeaderBytes + read_u16(bytes.data() + 16);
+  if ((bytes[5] & kHasBlocks) != 0) at += read_u16(bytes.data() + at - 2);
   size_t from = 0;
   while (at <= bytes.size() && bytes.size() - at >= kCheckBytes) {
     write_check(bytes, from, at);

@@ -9,7 +9,8 @@ namespace microtin {
 
 constexpr uint8_t kMagic[4] = {'m', 't', 'i', 'n'};
 constexpr uint8_t kVersion = 1;
-constexpr uint8_t kHasHeights = 1, kHasVoids = 2;  // header flags; the others are zero
+// Header flags; the others are zero. The last three say how wide the numbers of the header are.
+constexpr uint8_t kHasHeights = 1, kHasVoids = 2, kLongCount = 4, kLongSides = 8, kHasBlocks = 16;
 constexpr uint32_t kMinDegree = 6, kMaxDegree = 32;
 constexpr uint32_t kMaxVertices = 16777216;  // 2^24
 
@@ -49,9 +50,11 @@ inline uint32_t rows(const Contract& contract) {
   return static_cast<uint32_t>(contract.y_max) + 1;
 }
 
-// Fixed header: magic 4, version 1, flags 1, degree 1, zero 1, vertices 4, x_max 2, y_max 2, bytes
-// of optional blocks 2. Little-endian. Then the blocks, then a CRC-32 of all before it.
-constexpr uint32_t kFixedHeaderBytes = 18;
+// Fixed header: magic 4, version 1, flags 1, degree 1, then the dimensions, as narrow as the flags
+// say: vertices 2 or 4, x_max 1 or 2, y_max 1 or 2, bytes of optional blocks 0 or 2. Little-endian.
+// Then the blocks, then a CRC-32 of all before it.
+constexpr uint32_t kIdentityBytes = 7;
+constexpr uint32_t kDimensionsMostBytes = 10;
 constexpr uint32_t kCheckBytes = 4;
 
 // Optional blocks: a type byte, a length (2 bytes), the content. A reader that does not know a type

@@ -7,26 +7,39 @@
 
 namespace microtin {
 
-// Whether the fixed header is that of a stream this code can read, as far as the first bytes tell.
-inline microtin_status check_identity(const uint8_t* fixed) {
+// Whether the first bytes are those of a stream that this code can read.
+inline microtin_status check_identity(const uint8_t* identity) {
   for (uint32_t i = 0; i < sizeof kMagic; ++i) {
-    if (fixed[i] != kMagic[i]) return MICROTIN_BAD_MAGIC;
+    if (identity[i] != kMagic[i]) return MICROTIN_BAD_MAGIC;
   }
-  return fixed[4] == kVersion ? MICROTIN_DONE : MICROTIN_UNSUPPORTED_VERSION;
+  return identity[4] == kVersion ? MICROTIN_DONE : MICROTIN_UNSUPPORTED_VERSION;
 }
 
-// Reads the rest of the fixed header. False if it breaks a rule of the format.
-inline bool read_contract(const uint8_t* fixed, Contract* contract, uint32_t* block_bytes) {
-  const uint8_t flags = fixed[5];
+inline uint32_t dimensions_bytes(uint8_t flags) {
+  return ((flags & kLongCount) != 0 ? 4u : 2u) + ((flags & kLongSides) != 0 ? 4u : 2u) +
+         ((flags & kHasBlocks) != 0 ? 2u : 0u);
+}
+
+// Reads the dimensions, given the flags and the degree. False if the header breaks a rule of the
+// format.
+inline bool read_contract(uint8_t flags, uint32_t degree, const uint8_t* dimensions,
+                          Contract* contract, uint32_t* block_bytes) {
   contract->has_heights = (flags & kHasHeights) != 0;
   contract->has_voids = (flags & kHasVoids) != 0;
-  contract->degree = fixed[6];
-  contract->vertices = read_u32(fixed + 8);
-  contract->x_max = static_cast<uint16_t>(read_u16(fixed + 12));
-  contract->y_max = static_cast<uint16_t>(read_u16(fixed + 14));
-  *block_bytes = read_u16(fixed + 16);
-  return (flags & ~(kHasHeights | kHasVoids)) == 0 && fixed[7] == 0 &&
-         contract->degree >= kMinDegree && contract->degree <= kMaxDegree &&
+  contract->degree = degree;
+  const bool long_count = (flags & kLongCount) != 0;
+  contract->vertices = long_count ? read_u32(dimensions) : read_u16(dimensions);
+  const uint8_t* const sides = dimensions + (long_count ? 4 : 2);
+  if ((flags & kLongSides) != 0) {
+    contract->x_max = static_cast<uint16_t>(read_u16(sides));
+    contract->y_max = static_cast<uint16_t>(read_u16(sides + 2));
+  } else {
+    contract->x_max = sides[0];
+    contract->y_max = sides[1];
+  }
+  const uint32_t bytes = dimensions_bytes(flags);
+  *block_bytes = (flags & kHasBlocks) != 0 ? read_u16(dimensions + bytes - 2) : 0;
+  return (flags >> 5) == 0 && degree >= kMinDegree && degree <= kMaxDegree &&
          contract->vertices >= 3 && contract->vertices <= kMaxVertices;
 }
 

@@ -7,42 +7,58 @@
 
 namespace microtin {
 
-constexpr int kMagnitudeBits = 17;  // a difference of heights is below 2^17
-constexpr int kExponents = 10;      // numbers of bits told apart; larger ones share the last
-constexpr int kRoughnesses = 12;    // contexts: how large differences were around here
+// Magnitudes: the number of bits, then the bit behind the leading one, then uniform bits.
+constexpr uint32_t kMagnitudeBits = 17;  // a difference of heights is below 2^17
+constexpr uint32_t kExponents = 7;       // numbers of bits told apart: three around the typical one
+constexpr uint32_t kMantissas = 10;      // numbers of bits told apart; larger ones share the last
 
-// Magnitudes: the number of bits in unary, then the bit behind the leading one, then uniform bits.
 struct ExponentModel {
-  AdaptiveBit longer[kExponents];
+  AdaptiveBit longer[kExponents];  // than typical - 3 .. typical + 3 bits
 };
 
 struct MantissaModel {
-  AdaptiveBit second[kExponents];
+  AdaptiveBit second[kMantissas];
 };
 
-inline void reset(ExponentModel& model, int typical_bits) {
-  for (int i = 0; i < kExponents; ++i) {
-    reset(model.longer[i], i < typical_bits ? 24000u : i == typical_bits ? 16384u : 8000u);
-  }
+inline void reset(ExponentModel& model) {
+  for (uint32_t i = 0; i < kExponents; ++i) reset(model.longer[i], 24000u - 3500u * i);
 }
 
 inline void reset(MantissaModel& model) {
-  for (int i = 0; i < kExponents; ++i) reset(model.second[i], 14000);
+  for (uint32_t i = 0; i < kMantissas; ++i) reset(model.second[i], 14000);
+}
+
+// Codes whether a magnitude has more than `bits` bits.
+template <class Coder>
+bool code_longer(Coder& coder, ExponentModel& model, uint32_t typical, uint32_t bits, bool longer) {
+  uint32_t i = bits + kExponents / 2;
+  i = i < typical ? 0 : i - typical;
+  return code_bit(coder, model.longer[i < kExponents ? i : kExponents - 1], longer);
+}
+
+// Codes a number of bits up to `most`: upwards or downwards from the typical one, which is smaller.
+template <class Coder>
+uint32_t code_exponent(Coder& coder, ExponentModel& model, uint32_t typical, uint32_t most,
+                       uint32_t value) {
+  uint32_t bits = typical;
+  if (code_longer(coder, model, typical, bits, bits < value)) {
+    do {
+      ++bits;
+    } while (bits < most && code_longer(coder, model, typical, bits, bits < value));
+  } else {
+    while (bits != 0 && !code_longer(coder, model, typical, bits - 1, bits - 1 < value)) --bits;
+  }
+  return bits;
 }
 
 // Codes a magnitude below 2^most_bits.
 template <class Coder>
 uint32_t code_magnitude(Coder& coder, ExponentModel& exponent, MantissaModel& mantissa,
-                        uint32_t most_bits, uint32_t value) {
-  const uint32_t value_bits = value == 0 ? 0 : highest_bit(value) + 1;
-  uint32_t bits = 0;
-  while (bits < most_bits &&
-         code_bit(coder, exponent.longer[bits < kExponents ? bits : kExponents - 1],
-                  bits < value_bits)) {
-    ++bits;
-  }
+                        uint32_t typical_bits, uint32_t most_bits, uint32_t value) {
+  const uint32_t bits = code_exponent(coder, exponent, typical_bits, most_bits,
+                                      value == 0 ? 0 : highest_bit(value) + 1);
   if (bits <= 1) return bits;
-  AdaptiveBit& second = mantissa.second[bits < kExponents ? bits : kExponents - 1];
+  AdaptiveBit& second = mantissa.second[bits < kMantissas ? bits : kMantissas - 1];
   uint32_t result = 2u + code_bit(coder, second, (value >> (bits - 2) & 1u) != 0);
   if (bits > 2) {
     const uint32_t rest = static_cast<uint32_t>(1) << (bits - 2);
@@ -51,80 +67,142 @@ uint32_t code_magnitude(Coder& coder, ExponentModel& exponent, MantissaModel& ma
   return result;
 }
 
+constexpr uint32_t kScales = 12;      // contexts: how large a difference is to be expected
+constexpr uint32_t kTendencies = 10;  // contexts: of which sign, from below the prediction to above
+constexpr uint32_t kSignSizes = 3;    // differences of 1, 2, 3 or more
+
 struct HeightModel {
-  ExponentModel exponent[kRoughnesses];
+  ExponentModel exponent[kScales];
   MantissaModel mantissa;
-  AdaptiveBit negative;
+  AdaptiveBit negative[kTendencies][kSignSizes];
 };
 
 inline void reset(HeightModel& model) {
-  for (int i = 0; i < kRoughnesses; ++i) reset(model.exponent[i], i / 2);
+  for (uint32_t i = 0; i < kScales; ++i) reset(model.exponent[i]);
   reset(model.mantissa);
-  reset(model.negative, 16384);
+  for (uint32_t i = 0; i < kTendencies; ++i) {
+    for (uint32_t j = 0; j < kSignSizes; ++j) reset(model.negative[i][j], 24000u - 1700u * i);
+  }
 }
 
-// What the ring of a new vertex says about its height.
-struct HeightPrediction {
-  int32_t height;
-  uint32_t roughness;  // 4 * log2 of the size of the difference to be expected
+// What is kept of a vertex's difference from its prediction.
+typedef int8_t Residual;
+
+inline Residual residual_of(int32_t difference) {
+  return static_cast<Residual>(difference < -127 ? -127 : difference > 127 ? 127 : difference);
+}
+
+// The ring of a new vertex has at most 32 neighbours; each weighs 1 / distance^2, rounded to a
+// power of two, at most 2^31.
+struct RingSums {
+  uint64_t weights;    // <= 2^36
+  int64_t heights;     // weighted, less a base: < 2^36 * 2^16
+  uint64_t spread;     // of their magnitudes
+  int64_t residuals;   // weighted: < 2^36 * 2^7
+  uint64_t roughness;  // of their magnitudes
 };
 
-// Each ring vertex weighs 1 / distance^2, scaled so that the nearest weighs 2^12. `ring` holds up
-// to 32 vertex numbers, kInfinity among them; at least two are finite. Sums: 32 * 2^12 * 2^15 =
-// 2^32 needs 64 bits.
-inline HeightPrediction predict_height(const Mesh& mesh, const uint8_t* roughness,
-                                       const Index* ring, uint32_t size, Point place) {
-  int64_t nearest = INT64_MAX;
-  for (uint32_t i = 0; i < size; ++i) {
-    if (ring[i] == kInfinity) continue;
-    const int64_t d = squared_length(point_of(mesh, ring[i]), place);
-    if (d < nearest) nearest = d;
-  }
-  int64_t height = 0, weights = 0, rough = 0, spread = 0;
-  int32_t first = 0;
-  for (uint32_t i = 0; i < size; ++i) {
-    if (ring[i] == kInfinity) continue;
-    const int64_t d = squared_length(point_of(mesh, ring[i]), place);
-    const int64_t w = quotient(nearest << 12, d);  // d >= nearest >= 1
-    const int32_t z = mesh.z[ring[i]];
-    if (weights == 0) first = z;
-    weights += w;
-    height += w * z;
-    rough += w * roughness[ring[i]];
-    spread += w * (z < first ? first - z : z - first);
-  }
-  if (weights == 0) return HeightPrediction{0, 0};
-  HeightPrediction prediction;
-  const int64_t twice = 2 * height + weights;  // floor(height / weights + 1/2)
-  int64_t rounded = quotient(twice, 2 * weights);
-  if (rounded * 2 * weights > twice) --rounded;
-  prediction.height = static_cast<int32_t>(rounded);
-  const uint32_t around = static_cast<uint32_t>(quotient(rough, weights));
-  const uint32_t slope =
-      static_cast<uint32_t>(log2_of(static_cast<uint64_t>(quotient(spread * 4, weights)) + 1)) /
-      64u;
-  prediction.roughness = (3 * around + slope) / 4;
-  return prediction;
+inline uint64_t magnitude_of(int64_t v) {
+  return static_cast<uint64_t>(v < 0 ? -v : v);
 }
 
-inline uint8_t roughness_of(uint32_t magnitude) {
-  return static_cast<uint8_t>(log2_of(magnitude * 4u + 1u) / 64);
+// The position of the highest bit of half the squared distance, which is below 2^32; 0 for 1.
+inline uint32_t distance_bits(Point a, Point b) {
+  const uint32_t dx = static_cast<uint32_t>(a.x) - b.x, dy = static_cast<uint32_t>(a.y) - b.y;
+  return highest_bit(((dx * dx >> 1) + (dy * dy >> 1)) | 1u);  // squares are right modulo 2^32
+}
+
+inline RingSums sum_ring(const Mesh& mesh, const Residual* residual, const Index* ring,
+                         uint32_t size, Point place, int32_t base) {
+  RingSums sums = {0, 0, 0, 0, 0};
+  for (uint32_t i = 0; i < size; ++i) {
+    const Index neighbour = ring[i];
+    if (neighbour == kInfinity) continue;
+    const int64_t weight =
+        static_cast<uint32_t>(0x80000000u) >> distance_bits(point_of(mesh, neighbour), place);
+    const int64_t height = weight * (mesh.z[neighbour] - base);
+    const int64_t difference = weight * residual[neighbour];
+    sums.weights += static_cast<uint64_t>(weight);
+    sums.heights += height;
+    sums.spread += magnitude_of(height);
+    sums.residuals += difference;
+    sums.roughness += magnitude_of(difference);
+  }
+  return sums;
+}
+
+// log2 with 8 fractional bits, linear between powers of two; v > 0.
+inline uint32_t coarse_log2(uint32_t v) {
+  const uint32_t bit = highest_bit(v);
+  return bit * 256u + ((bit >= 8 ? v >> (bit - 8) : v << (8 - bit)) & 255u);
+}
+
+struct HeightPrediction {
+  int32_t height;
+  uint32_t scale;     // < kScales: of the difference to be expected
+  uint32_t tendency;  // < kTendencies: towards which sign
+};
+
+// The larger the differences around here, the spread of the ring and the distance, the larger the
+// difference to be expected.
+inline uint32_t expected_scale(uint32_t weights, uint32_t roughness, uint32_t spread,
+                               uint32_t distance) {
+  // Each logarithm is at least that of the weights.
+  const uint32_t sum = coarse_log2(4 * roughness + weights) +
+                       2 * coarse_log2(4 * spread + weights) - 3 * coarse_log2(weights) +
+                       32u * distance + 448u;
+  const uint32_t scale = sum / 768u;
+  return scale < kScales ? scale : kScales - 1;
+}
+
+// 0 .. 4: neighbours above their own predictions make it likely that the new vertex is, too.
+inline uint32_t expected_sign(int32_t residuals, uint32_t roughness) {
+  const bool down = residuals < 0;
+  const uint32_t sum = 5u * static_cast<uint32_t>(down ? -residuals : residuals);
+  const uint32_t strength = sum > 3u * roughness ? 2 : sum > roughness ? 1 : 0;
+  return down ? 2u - strength : 2u + strength;
+}
+
+// Predicts from the ring's vertex numbers, kInfinity among them, at least one of them finite; base
+// is a height near theirs.
+inline HeightPrediction predict_height(const Mesh& mesh, const Residual* residual,
+                                       const Index* ring, uint32_t size, Point place,
+                                       int32_t base) {
+  const RingSums sums = sum_ring(mesh, residual, ring, size, place, base);
+  // From here on 13 bits of the weights suffice; the sums shrink with them to less than 2^13 + 1
+  // times their terms.
+  const uint32_t top = highest_bit(sums.weights);
+  const uint32_t shift = top < 12 ? 0 : top - 12;
+  const uint32_t weights = static_cast<uint32_t>(sums.weights >> shift);
+  const int32_t heights = static_cast<int32_t>(sums.heights >> shift);        // > -2^29 - 2^17
+  const uint32_t spread = static_cast<uint32_t>(sums.spread >> shift);        // < 2^29 + 2^16
+  const int32_t residuals = static_cast<int32_t>(sums.residuals >> shift);    // > -2^21
+  const uint32_t roughness = static_cast<uint32_t>(sums.roughness >> shift);  // < 2^21
+  // Rounded to nearest, halves up. 2^17 is added to stay positive: 2^31 + 2^30 + ... < 2^32.
+  const uint32_t divisor = 2u * weights;  // not 0
+  const uint32_t dividend = static_cast<uint32_t>(2 * heights) + weights + (divisor << 17);
+  const uint32_t mean = dividend / divisor;
+  const bool rounded_down = dividend - mean * divisor > weights;
+  HeightPrediction prediction;
+  prediction.height = base + static_cast<int32_t>(mean) - 131072;
+  prediction.scale = expected_scale(weights, roughness, spread, 36u - top);
+  prediction.tendency = 2u * expected_sign(residuals, roughness) + rounded_down;
+  return prediction;
 }
 
 // Codes a height given its prediction. False if the stream's height does not fit 16 bits.
 template <class Coder>
 bool code_height(Coder& coder, HeightModel& model, const HeightPrediction& prediction, int16_t* z) {
   const int32_t difference = static_cast<int32_t>(*z) - prediction.height;
-  uint32_t context = prediction.roughness / 3u;
-  if (context >= kRoughnesses) context = kRoughnesses - 1;
-  const uint32_t magnitude =
-      code_magnitude(coder, model.exponent[context], model.mantissa, kMagnitudeBits,
-                     static_cast<uint32_t>(difference < 0 ? -difference : difference));
+  const uint32_t magnitude = code_magnitude(
+      coder, model.exponent[prediction.scale], model.mantissa, prediction.scale / 2, kMagnitudeBits,
+      static_cast<uint32_t>(difference < 0 ? -difference : difference));
   int32_t height = prediction.height;
   if (magnitude != 0) {
-    const bool negative = code_bit(coder, model.negative, difference < 0);
+    AdaptiveBit* const negative = model.negative[prediction.tendency];
+    const uint32_t size = (magnitude < kSignSizes ? magnitude : kSignSizes) - 1u;
     const int32_t step = static_cast<int32_t>(magnitude);
-    height += negative ? -step : step;
+    height += code_bit(coder, negative[size], difference < 0) ? -step : step;
   }
   if (height < -32768 || height > 32767) return false;
   *z = static_cast<int16_t>(height);

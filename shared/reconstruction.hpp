@@ -14,33 +14,29 @@
 
 #include "shared/format.hpp"
 #include "shared/height_coding.hpp"
+#include "shared/hull_coding.hpp"
 #include "shared/insertion.hpp"
 #include "shared/place_coding.hpp"
 
 namespace microtin {
 
-constexpr uint32_t kHitEntries = 29;
+constexpr uint32_t kHitEntries = 15;
+constexpr int kHitContexts = 6;
 
 // Everything that is learned while coding.
 struct Models {
-  Curve<kHitEntries> hit[4];  // by which of the two sides beside the chord are certified
+  Curve<kHitEntries> hit[kHitContexts];
   PlaceModel place;
   HeightModel height;
-  AdaptiveBit hull_hit;
-  AdaptiveBit on_hull_edge;
-  ExponentModel hull_gap;
-  MantissaModel hull_gap_mantissa;
+  HullModel hull;
   AdaptiveBit is_void[5];
 };
 
 inline void reset(Models& models) {
-  for (int i = 0; i < 4; ++i) reset(models.hit[i], -12 * 160, 160);
+  for (int i = 0; i < kHitContexts; ++i) reset(models.hit[i], -12 * 160, 320);
   reset(models.place);
   reset(models.height);
-  reset(models.hull_hit, 16384);
-  reset(models.on_hull_edge, 16384);
-  reset(models.hull_gap, 6);
-  reset(models.hull_gap_mantissa);
+  reset(models.hull);
   for (int i = 0; i < 5; ++i) reset(models.is_void[i], static_cast<uint32_t>(3000 + 6500 * i));
 }
 
@@ -58,7 +54,7 @@ struct Reconstruction {
   uint8_t* voids;      // a bit per triangle
   Index* queue;        // half-edges parent -> vertex, one per vertex
   uint8_t* marks;      // two bits per vertex: queued, done
-  uint8_t* roughness;  // per vertex, see height_coding.hpp
+  Residual* residual;  // per vertex, see height_coding.hpp
   Contract contract;
 
   Stage stage;
@@ -74,9 +70,8 @@ struct Reconstruction {
   uint32_t phase;   // phases complete
   uint32_t work;    // vertices walked around so far, all phases together
   uint32_t batch;
-  int64_t mean_area;  // running mean of twice the area of final triangles, 8 fractional bits
-  Log2 batch_share;   // log2 of the batch's share of the phase's vertices, times 2^8
-  Log2 density;       // log2 of the batch's points to be expected per unit area
+  Log2 share;       // for note_final_triangle
+  int32_t density;  // log2 of this batch's points per unit area, 16 fractional bits
   Index void_cursor;
 
   Cavity cavity;
@@ -150,17 +145,15 @@ inline void look_around(Reconstruction& r) {
   region.side[kChord].certified = true;  // it was passed in this turn, or has a done vertex
 }
 
-// log2 of the expected number of this batch's points per unit area, from the mean area of the
-// triangles found final lately: n final vertices have a mean of 1/n of the area each, two
-// triangles' worth.
-inline void update_density(Reconstruction& r) {
-  r.density = r.batch_share - log2_of(static_cast<uint64_t>(r.mean_area));
-}
+// log2 of the mean area of a Delaunay triangle of random points less the mean log2 of it.
+constexpr Log2 kMeanOfLogs = 220;
 
-// The mean stays above 0: 1 <= twice_area < 2^33.
+// Takes a final triangle into the running mean of what such suggest about the density: of n final
+// vertices each has two triangles to itself, and of these vertices `share` are the batch's.
+// Logarithms are below 2^14: the difference stays below 2^23.
 inline void note_final_triangle(Reconstruction& r, int64_t twice_area) {
-  r.mean_area += (twice_area * 256 - r.mean_area) / 16;
-  update_density(r);
+  const Log2 density = r.share - log2_of(static_cast<uint64_t>(twice_area));
+  r.density += (density * 256 - r.density) / 16;
 }
 
 // --- Insertion -----------------------------------------------------------------------------------
@@ -181,11 +174,14 @@ bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
   if (r.cavity.size == 0 || r.cavity_twin[0] != mesh.twin[chord]) return false;
   const Index v = mesh.vertices;
   if (r.contract.has_heights) {
+    // The chord's ends are in the ring; its start is finite, since triangles at infinity are looked
+    // at around infinity only.
+    const int32_t start = mesh.z[mesh.origin[chord]];
+    const int32_t base = r.vertex == kInfinity ? start : (start + mesh.z[r.vertex]) / 2;
     const HeightPrediction prediction = predict_height(
-        mesh, r.roughness, r.cavity_origin, static_cast<uint32_t>(r.cavity.size) + 2u, place);
+        mesh, r.residual, r.cavity_origin, static_cast<uint32_t>(r.cavity.size) + 2u, place, base);
     if (!code_height(coder, r.models.height, prediction, &z)) return false;
-    const int32_t difference = z - prediction.height;
-    r.roughness[v] = roughness_of(static_cast<uint32_t>(difference < 0 ? -difference : difference));
+    r.residual[v] = residual_of(z - prediction.height);
   } else {
     z = 0;
   }
@@ -201,37 +197,52 @@ bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
 
 // --- Coding of one decision ----------------------------------------------------------------------
 
-inline uint32_t greatest_common_divisor(uint32_t a, uint32_t b) {
-  while (b != 0) {  // at most 24 turns for 16-bit numbers (Lame)
-    const uint32_t rest = a % b;
-    a = b;
-    b = rest;
+// Says hit or miss at the hull edge beside the chord to infinity, and where a hit is.
+template <class Coder>
+bool decide_at_hull(Reconstruction& r, Coder& coder, Point* place) {
+  const Mesh& mesh = *r.mesh;
+  const Index to_c = next_in_triangle(r.chord);
+  const HullEdge edge = hull_edge(r.contract, point_of(mesh, mesh.origin[r.chord]),
+                                  point_of(mesh, mesh.origin[next_in_triangle(to_c)]));
+  if (edge.at_border && edge.parts == 1) return false;  // there is no place beyond it
+  const uint32_t spacing = expected_spacing(r.contract, r.batch);
+  if (!code_hull_hit(coder, r.models.hull, edge, spacing, coder.conflicts(mesh, r.chord))) {
+    return false;
   }
-  return a;
+  *place = code_hull_place(coder, r.models.hull, r.models.height.mantissa, r.contract, edge,
+                           spacing, *place);
+  return true;
 }
 
-// A point beyond the hull edge c -> a: on it, coded by its distance from a, or anywhere.
-template <class Coder>
-Point code_hull_place(Reconstruction& r, Coder& coder, Point c, Point a, Point place) {
-  const int32_t dx = static_cast<int32_t>(c.x) - a.x, dy = static_cast<int32_t>(c.y) - a.y;
-  const uint32_t parts = greatest_common_divisor(static_cast<uint32_t>(dx < 0 ? -dx : dx),
-                                                 static_cast<uint32_t>(dy < 0 ? -dy : dy));
-  if (parts > 1 && code_bit(coder, r.models.on_hull_edge, orient2d(a, c, place) == 0)) {
-    const int32_t step_x = dx / static_cast<int32_t>(parts),
-                  step_y = dy / static_cast<int32_t>(parts);
-    const uint32_t gap = step_x != 0 ? static_cast<uint32_t>((place.x - a.x) / step_x)
-                                     : static_cast<uint32_t>((place.y - a.y) / step_y);
-    // parts - 1 interior places; a gap beyond them is caught as a point not in conflict, after
-    // narrowing below.
-    const uint32_t coded = 1u + code_magnitude(coder, r.models.hull_gap, r.models.hull_gap_mantissa,
-                                               highest_bit(parts) + 1u, gap - 1u);
-    const uint32_t held = coded < parts ? coded : 0;
-    return Point{static_cast<uint16_t>(a.x + step_x * static_cast<int32_t>(held)),
-                 static_cast<uint16_t>(a.y + step_y * static_cast<int32_t>(held))};
-  }
-  const uint32_t x = coder.uniform(columns(r.contract), place.x);
-  const uint32_t y = coder.uniform(rows(r.contract), place.y);
-  return Point{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
+// The degree of the vertex where h starts, infinity counted, but at most `most`.
+inline uint32_t degree_up_to(const Mesh& mesh, Index h, uint32_t most) {
+  const Index first = h;
+  uint32_t degree = 0;
+  do {
+    ++degree;
+    h = mesh.twin[previous_in_triangle(h)];
+  } while (h != first && degree < most);
+  return degree;
+}
+
+struct HitEstimate {
+  int context;
+  int32_t position;  // on the context's curve
+};
+
+// A miss makes c known to the walk if it is not yet. The encoder removes every vertex whose degree
+// is at most D when the walk comes to know it, so such a c must still get neighbours: a hit.
+inline HitEstimate estimate_hit(Reconstruction& r, Log2 density) {
+  const Mesh& mesh = *r.mesh;
+  const Index from_c = previous_in_triangle(r.chord);
+  HitEstimate estimate;
+  estimate.position = free_area(r.region) + density + 6 * 256;
+  estimate.context = (r.region.side[0].certified ? 1 : 0) + (r.region.side[1].certified ? 2 : 0);
+  if (marked(r, mesh.origin[from_c], kQueued)) return estimate;
+  const uint32_t degree = degree_up_to(mesh, from_c, r.contract.degree + 2u);
+  estimate.context = degree < r.contract.degree + 2u ? 4 : 5;
+  if (degree <= r.contract.degree) estimate.position = static_cast<int32_t>(kHitEntries) * 256;
+  return estimate;
 }
 
 // Says hit or miss at an uncertified triangle and inserts the vertex of a hit. False if malformed.
@@ -241,23 +252,21 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
   const Vertex next = coder.next();
   Point place = {next.x, next.y};
   if (r.vertex == kInfinity) {
-    *hit = code_bit(coder, r.models.hull_hit, coder.conflicts(mesh, r.chord));
+    *hit = decide_at_hull(r, coder, &place);
     if (!*hit) return true;
-    const Index to_c = next_in_triangle(r.chord);
-    place = code_hull_place(r, coder, point_of(mesh, mesh.origin[next_in_triangle(to_c)]),
-                            point_of(mesh, mesh.origin[r.chord]), place);
   } else {
     look_around(r);
-    FreeRegion& region = r.region;
-    const int which = (region.side[0].certified ? 1 : 0) + (region.side[1].certified ? 2 : 0);
-    const int32_t position = 2 * (free_area(region) + r.density) + 12 * 256;
-    *hit = code_on_curve(coder, r.models.hit[which], position, coder.conflicts(mesh, r.chord));
+    const FreeRegion& region = r.region;
+    const Log2 density = r.density / 256;
+    const HitEstimate estimate = estimate_hit(r, density);
+    *hit = code_on_curve(coder, r.models.hit[estimate.context], estimate.position,
+                         coder.conflicts(mesh, r.chord));
     if (!*hit) {
       note_final_triangle(r, region.twice_area);
       return true;
     }
     const Box bounds = {0, 0, r.contract.x_max, r.contract.y_max};
-    place = code_place(coder, r.models.place, r.odds, region, r.density,
+    place = code_place(coder, r.models.place, r.odds, region, density,
                        enclosing_box(region, bounds), place);
     if (!insert(r, coder, place, next.z)) return false;
     // The triangle of the chord and the new vertex is final.
@@ -280,20 +289,35 @@ inline Progress after_vertices(Reconstruction& r) {
   return r.contract.has_voids ? Progress::kPhaseEnd : Progress::kSectionEnd;
 }
 
-// The three vertices that are never removed. The first is the lexicographically smallest of all.
+// A coordinate of a seed vertex, likely to be the smallest or the largest.
+template <class Coder>
+uint16_t code_seed_coordinate(Coder& coder, uint32_t largest, uint32_t value) {
+  if (coder.bit(kProbabilityOne / 4 * 3, value == 0 || value == largest)) {
+    const bool high = coder.bit(kProbabilityOne / 2, value == largest);
+    return static_cast<uint16_t>(high ? largest : 0);
+  }
+  return static_cast<uint16_t>(coder.uniform(largest + 1u, value));
+}
+
+// One of the three vertices that are never removed. The first is the lexicographically smallest of
+// all.
 template <class Coder>
 Progress step_seed(Reconstruction& r, Coder& coder) {
   Mesh& mesh = *r.mesh;
-  for (Index i = 0; i < 3; ++i) {
-    const Vertex known = coder.next();
-    mesh.x[i] = static_cast<uint16_t>(coder.uniform(columns(r.contract), known.x));
-    mesh.y[i] = static_cast<uint16_t>(coder.uniform(rows(r.contract), known.y));
-    mesh.z[i] = 0;
-    if (r.contract.has_heights) {
-      const uint32_t biased = static_cast<uint32_t>(static_cast<int32_t>(known.z) + 32768);
-      mesh.z[i] = static_cast<int16_t>(static_cast<int32_t>(coder.uniform(65536u, biased)) - 32768);
-    }
-    r.roughness[i] = 16;
+  const Index i = mesh.vertices;
+  const Vertex known = coder.next();
+  mesh.x[i] = code_seed_coordinate(coder, r.contract.x_max, known.x);
+  mesh.y[i] = code_seed_coordinate(coder, r.contract.y_max, known.y);
+  mesh.z[i] = 0;
+  r.residual[i] = 4;
+  if (r.contract.has_heights) {
+    const HeightPrediction previous = {i == 0 ? 0 : mesh.z[i - 1u], kScales - 1, kTendencies / 2};
+    mesh.z[i] = known.z;
+    if (!code_height(coder, r.models.height, previous, &mesh.z[i])) return Progress::kMalformed;
+  }
+  if (i < 2) {
+    ++mesh.vertices;
+    return Progress::kStep;
   }
   const Point p0 = point_of(mesh, 0), p1 = point_of(mesh, 1), p2 = point_of(mesh, 2);
   if (!(p0 < p1) || !(p0 < p2) || orient2d(p0, p1, p2) <= 0) return Progress::kMalformed;
@@ -311,7 +335,8 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   if (coder.bit(kProbabilityOne / 2, !coder.last_phase())) {
     // All but the low 12 bits, then these: 1 .. left - 1.
     const uint32_t high = coder.uniform((left >> 12) + 1u, (coder.batch() >> 12));
-    batch = high << 12 | coder.uniform(4096, coder.batch() & 4095u);
+    const uint32_t lows = high == left >> 12 ? (left & 4095u) + 1u : 4096u;
+    batch = high << 12 | coder.uniform(lows, coder.batch() & 4095u);
     if (batch == 0 || batch >= left) return Progress::kMalformed;
   }
   r.batch = batch;
@@ -328,12 +353,9 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   r.queue_tail = 1;  // entry 0 is vertex 0's, known when the turn around infinity ends
   r.chord = r.anchor;
   r.from_done = false;
-  // Before anything is known: the lattice's bounds, shared by all. (2^16 * 2^16) * 2^8 = 2^40.
-  r.mean_area = static_cast<int64_t>(static_cast<uint64_t>(columns(r.contract)) * rows(r.contract) *
-                                     256u / r.phase_end) +
-                1;
-  r.batch_share = log2_of(r.batch) - log2_of(r.phase_end) + 8 * kLog2One;
-  update_density(r);
+  r.share = log2_of(batch) - log2_of(placed + batch) - kMeanOfLogs;
+  // Before anything is known: the lattice's bounds, shared by all.
+  r.density = (log2_of(batch) - log2_of(columns(r.contract)) - log2_of(rows(r.contract))) * 256;
   r.stage = Stage::kWalk;
   return Progress::kStep;
 }

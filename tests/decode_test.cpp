@@ -236,10 +236,13 @@ TEST_CASE("header blocks: unknown ones are skipped, required ones refused, broke
   const Bytes stream = terrain_stream(20, 9);
   const auto status_with = [&](const Bytes& blocks, bool damaged) {
     Bytes other = stream;
-    other.insert(other.begin() + kFixedHeaderBytes, blocks.begin(), blocks.end());
-    other[16] = static_cast<uint8_t>(blocks.size());
+    Bytes added = {static_cast<uint8_t>(blocks.size()), 0};
+    added.insert(added.end(), blocks.begin(), blocks.end());
+    const uint32_t at = kIdentityBytes + dimensions_bytes(other[5]);
+    other.insert(other.begin() + at, added.begin(), added.end());
+    other[5] |= kHasBlocks;
     repair(other);
-    if (damaged) other[kFixedHeaderBytes + blocks.size()] ^= 1;
+    if (damaged) other[at + added.size()] ^= 1;
     microtin_info info;
     const microtin_status peeked = microtin_peek(other.data(), other.size(), &info);
     Device device(20);
