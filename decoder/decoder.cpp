@@ -40,9 +40,11 @@ void take_bytes(microtin_decoder& d, uint8_t* bytes, uint32_t count) {
 
 // Whether the four bytes that follow are the check of all since the last one.
 bool check_passes(microtin_decoder& d) {
+  d.window.settle();
   const uint32_t expected = d.window.crc;
   uint8_t bytes[kCheckBytes];
   take_bytes(d, bytes, kCheckBytes);
+  d.window.settle();
   d.window.crc = 0;
   return read_u32(bytes) == expected;
 }
@@ -224,9 +226,9 @@ microtin_status run_staged(microtin_decoder& d, const uint8_t* bytes, size_t siz
   const size_t kept = d.staged_bytes;
   const size_t added = smaller(size, sizeof d.staged - kept);
   for (size_t i = 0; i < added; ++i) d.staged[kept + i] = bytes[i];
-  d.window.next = d.staged;
-  d.window.left = kept + added;
+  d.window.open(d.staged, kept + added);
   const microtin_status status = run(d, steps_left, kept);
+  d.window.settle();
   const size_t consumed = kept + added - d.window.left;
   if (consumed >= kept) {
     d.staged_bytes = 0;
@@ -251,9 +253,9 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
     *used = taken;
     if (status != MICROTIN_NEED_INPUT || d.staged_bytes != 0) return status;
   }
-  d.window.next = bytes + taken;
-  d.window.left = size - taken;
+  d.window.open(bytes + taken, size - taken);
   const microtin_status status = run(d, &steps_left, ~static_cast<size_t>(0));
+  d.window.settle();
   *used = size - d.window.left;
   if (status != MICROTIN_NEED_INPUT) return status;
   // Fewer than one item needs: keep them.

@@ -9,21 +9,34 @@
 
 namespace microtin {
 
-// Bytes that are available now; reading counts and checks them.
+// Bytes that are available now.
 struct ByteWindow {
   const uint8_t* next;
   size_t left;
+  const uint8_t* unchecked;  // taken from here on, but not counted and checked yet
   uint32_t crc;
   uint64_t used;
 
+  void open(const uint8_t* bytes, size_t size) {
+    next = unchecked = bytes;
+    left = size;
+  }
+
   uint8_t take() {
-    const uint8_t byte = *next++;
     --left;
-    ++used;
-    crc = crc32(crc, &byte, 1);
-    return byte;
+    return *next++;
+  }
+
+  // Counts and checks what was taken.
+  void settle() {
+    const size_t taken = static_cast<size_t>(next - unchecked);
+    crc = crc32(crc, unchecked, taken);
+    used += taken;
+    unchecked = next;
   }
 };
+
+constexpr uint32_t kRangeLeast = static_cast<uint32_t>(1) << 24;
 
 // Interval coding after Schindler and LZMA: `code` is the stream's value relative to the interval's
 // low end, always below `range`; `range` stays at or above 2^24 between calls.
@@ -59,10 +72,14 @@ struct RangeDecoder {
   }
 
   void normalise() {
-    while (range < (static_cast<uint32_t>(1) << 24)) {  // at most twice: range >= 2^8 here
+    if (range < kRangeLeast) refill();
+  }
+
+  MICROTIN_OUT_OF_LINE void refill() {
+    do {  // at most twice: range >= 2^8 here
       range <<= 8;
       code = code << 8 | next_byte();
-    }
+    } while (range < kRangeLeast);
   }
 
   // A bit that is one with `probability` / 2^15. Both parts of the interval are at least

@@ -5,6 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "shared/tables.hpp"
+
 namespace microtin {
 
 // Feed 0 first, then each result: crc32(crc32(0, a), b) is the check of a followed by b.
@@ -12,7 +14,8 @@ inline uint32_t crc32(uint32_t crc, const uint8_t* bytes, size_t size) {
   crc = ~crc;
   for (size_t i = 0; i < size; ++i) {
     crc ^= bytes[i];
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (0xEDB88320u & (0u - (crc & 1u)));
+    crc = crc >> 4 ^ table_crc(crc & 15u);
+    crc = crc >> 4 ^ table_crc(crc & 15u);
   }
   return ~crc;
 }

@@ -6,6 +6,13 @@
 
 #include "shared/tables.hpp"
 
+// Keeps rare code, and code that is vectorised only if no loop is around it, out of its callers.
+#if defined(__GNUC__)
+#define MICROTIN_OUT_OF_LINE __attribute__((noinline))
+#else
+#define MICROTIN_OUT_OF_LINE
+#endif
+
 namespace microtin {
 
 // A base-2 logarithm with 8 fractional bits.
@@ -24,6 +31,9 @@ inline int64_t quotient(int64_t a, int64_t b) {
 
 // Position of the highest set bit of v > 0.
 inline uint32_t highest_bit(uint64_t v) {
+#if defined(__GNUC__) && UINTPTR_MAX > 0xFFFFFFFFu
+  return 63u ^ static_cast<uint32_t>(__builtin_clzll(v));
+#else
   uint32_t bit = 0;
   if (v >> 32) {
     v >>= 32;
@@ -31,7 +41,7 @@ inline uint32_t highest_bit(uint64_t v) {
   }
   uint32_t w = static_cast<uint32_t>(v);
 #if defined(__GNUC__) && !defined(__AVR__)
-  return bit + static_cast<uint32_t>(31 - __builtin_clz(w));
+  return bit + (31u ^ static_cast<uint32_t>(__builtin_clz(w)));
 #else
   for (uint32_t step = 16; step != 0; step >>= 1) {
     if (w >> step) {
@@ -40,6 +50,7 @@ inline uint32_t highest_bit(uint64_t v) {
     }
   }
   return bit;
+#endif
 #endif
 }
 

@@ -13,13 +13,6 @@
 
 namespace microtin {
 
-// Loops over cells become vector instructions only where no loop is around them.
-#if defined(__GNUC__)
-#define MICROTIN_OUT_OF_LINE __attribute__((noinline))
-#else
-#define MICROTIN_OUT_OF_LINE
-#endif
-
 constexpr int kCells = 4;   // per axis
 constexpr int kLevels = 2;  // of cells
 constexpr uint32_t kSplitEntries = 9;
@@ -239,26 +232,26 @@ inline void weigh_cells(PlaceOdds& odds, const Slices& columns, const Slices& ro
   }
 }
 
-// Codes one of two halves by their weights, of `bits` bits; a half without lattice points is never
-// chosen.
+// Codes one of four slices by their weights: the half, then the quarter. What holds no lattice
+// points weighs nothing and is never chosen.
 template <class Coder>
-bool code_half(Coder& coder, Calibration<kSplitEntries>& calibration, uint32_t low, uint32_t high,
-               bool in_high) {
-  if (low == 0) return true;
-  if (high == 0) return false;
-  const uint32_t bits = highest_bit(low + high);
-  const uint32_t shift = bits > 16 ? bits - 16 : 0;
-  const uint32_t p = ((high >> shift) << 15) / ((low + high) >> shift);
-  return code_calibrated(coder, calibration, p, in_high);
-}
-
-// Codes one of four slices by their weights.
-template <class Coder>
-int code_slice(Coder& coder, Calibration<kSplitEntries>* half, const uint32_t* weight, int slice) {
-  const bool high =
-      code_half(coder, half[0], weight[0] + weight[1], weight[2] + weight[3], slice >= 2);
-  const int first = high ? 2 : 0;
-  return first + code_half(coder, half[1], weight[first], weight[first + 1], (slice & 1) != 0);
+int code_slice(Coder& coder, Calibration<kSplitEntries>* split, const uint32_t* weight,
+               int slice) {
+  uint32_t low = weight[0] + weight[1], high = weight[2] + weight[3];
+  int first = 0;
+  for (int half = 2; half != 0; half >>= 1, ++split) {
+    bool in_high = low == 0;
+    if (low != 0 && high != 0) {
+      const uint32_t bits = highest_bit(low + high);
+      const uint32_t shift = bits > 16 ? bits - 16 : 0;
+      const uint32_t odds = ((high >> shift) << 15) / (((low + high) >> shift) + 1);
+      in_high = code_calibrated(coder, *split, odds, (slice & half) != 0);
+    }
+    if (in_high) first += half;
+    low = weight[first];
+    high = weight[first + 1];
+  }
+  return first;
 }
 
 // Makes a cell the box.

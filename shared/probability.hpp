@@ -14,6 +14,14 @@ namespace microtin {
 constexpr uint32_t kProbabilityOne = 32768;
 constexpr uint32_t kProbabilityMargin = 64;
 
+inline uint32_t clamp_probability(uint32_t probability15) {
+  if (probability15 < kProbabilityMargin) return kProbabilityMargin;
+  if (probability15 > kProbabilityOne - kProbabilityMargin) {
+    return kProbabilityOne - kProbabilityMargin;
+  }
+  return probability15;
+}
+
 // The probability of a one, learned from what was seen: first quickly, then slowly.
 struct AdaptiveBit {
   uint16_t probability;  // 16 fractional bits
@@ -23,26 +31,18 @@ struct AdaptiveBit {
 constexpr uint16_t kSeenMost = 254;  // then each new bit weighs 1/256
 
 inline void reset(AdaptiveBit& bit, uint32_t probability15) {
-  bit.probability = bit.seen = static_cast<uint16_t>(probability15);
+  bit.probability = bit.seen = static_cast<uint16_t>(clamp_probability(probability15));
 }
 inline uint32_t prob(const AdaptiveBit& b) { return static_cast<uint32_t>(b.probability) + b.seen; }
 inline void learn(AdaptiveBit& bit, bool one) {
-  const int32_t target = one ? 32767 : 0;
+  const int32_t target = one ? 32767 - 64 : 64;
   bit.probability = static_cast<uint16_t>(bit.probability + ((target - bit.probability) >> 5));
   bit.seen = static_cast<uint16_t>(bit.seen + ((target - bit.seen) >> 7));
 }
 
-inline uint32_t clamp_probability(uint32_t probability15) {
-  if (probability15 < kProbabilityMargin) return kProbabilityMargin;
-  if (probability15 > kProbabilityOne - kProbabilityMargin) {
-    return kProbabilityOne - kProbabilityMargin;
-  }
-  return probability15;
-}
-
 template <class Coder>
 bool code_bit(Coder& coder, AdaptiveBit& bit, bool value) {
-  value = coder.bit(clamp_probability(prob(bit) / 2u), value);
+  value = coder.bit(prob(bit) / 2u, value);
   learn(bit, value);
   return value;
 }
@@ -80,8 +80,9 @@ bool code_on_curve(Coder& coder, Curve<kEntries>& curve, int32_t position, bool 
   const uint32_t f = at - i * 256u;
   AdaptiveBit& low = curve.entry[i];
   AdaptiveBit& high = curve.entry[i + 1];
-  const uint32_t blend = (prob(low) * (256u - f) + prob(high) * f) >> 9;
-  value = coder.bit(clamp_probability(blend), value);
+  const int32_t from = static_cast<int32_t>(prob(low)), to = static_cast<int32_t>(prob(high));
+  const int32_t blend = from + ((to - from) * static_cast<int32_t>(f) >> 8);
+  value = coder.bit(static_cast<uint32_t>(blend) >> 1, value);
   learn(f < 128 ? low : high, value);
   return value;
 }
@@ -104,13 +105,13 @@ void reset(Calibration<kEntries>& calibration) {
 template <class Coder, uint32_t kEntries>
 bool code_calibrated(Coder& coder, Calibration<kEntries>& calibration, uint32_t estimate,
                      bool value) {
-  if (estimate >= kProbabilityOne) estimate = kProbabilityOne - 1;
   const uint32_t position = estimate * (kEntries - 1);
   const uint32_t i = position >> 15, f = position >> 7 & 255u;
   AdaptiveBit& low = calibration.entry[i];
   AdaptiveBit& high = calibration.entry[i + 1];
-  const uint32_t blend = (prob(low) * (256u - f) + prob(high) * f) >> 9;
-  value = coder.bit(clamp_probability(blend), value);
+  const int32_t from = static_cast<int32_t>(prob(low)), to = static_cast<int32_t>(prob(high));
+  const int32_t blend = from + ((to - from) * static_cast<int32_t>(f) >> 8);
+  value = coder.bit(static_cast<uint32_t>(blend) >> 1, value);
   learn(f < 128 ? low : high, value);
   return value;
 }

@@ -21,6 +21,26 @@ inline uint16_t read_table(const uint16_t* entry) {
 #endif
 }
 
+inline uint32_t read_table(const uint32_t* entry) {
+#if defined(__AVR__)
+  return pgm_read_dword(entry);
+#else
+  return *entry;
+#endif
+}
+
+// What four bits shifted out add to a CRC-32.
+constexpr uint32_t kCrcTable[16] MICROTIN_IN_FLASH = {
+    0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC,
+    0x76DC4190, 0x6B6B51F4, 0x4DB26158, 0x5005713C,
+    0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C,
+    0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C,
+};
+
+inline uint32_t table_crc(uint32_t i) {
+  return read_table(kCrcTable + i);
+}
+
 // 4096 * log2(1 + i / 32)
 constexpr uint16_t kLog2Table[33] MICROTIN_IN_FLASH = {
     0,    182,  358,  530,  696,  858,  1016, 1169, 1319, 1465, 1607,
