@@ -140,18 +140,6 @@ std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& meta
   return stream;
 }
 
-std::vector<Vertex> sorted_vertices(const Tin& tin) {
-  std::vector<Vertex> vertices = tin.vertices;
-  const auto place = [](const Vertex& v) { return Point{v.x, v.y}; };
-  std::sort(vertices.begin(), vertices.end(),
-            [&](const Vertex& a, const Vertex& b) { return place(a) < place(b); });
-  const auto twice =
-      std::adjacent_find(vertices.begin(), vertices.end(),
-                         [&](const Vertex& a, const Vertex& b) { return place(a) == place(b); });
-  if (twice != vertices.end()) throw Error("two vertices share a place");
-  return vertices;
-}
-
 uint64_t digest_of(const Mesh& mesh, const std::vector<Vertex>& vertices, const VoidSet& voids) {
   uint64_t sum = 0;
   for (Index t = 0; t < mesh.triangles; ++t) {
@@ -173,19 +161,23 @@ std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, uint32_t d
   if (tin.vertices.size() > kMaxVertices) {
     throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
   }
-  const std::vector<Vertex> vertices = sorted_vertices(tin);
   Contract contract{};
-  contract.vertices = static_cast<uint32_t>(vertices.size());
+  contract.vertices = static_cast<uint32_t>(tin.vertices.size());
   contract.degree = degree;
   contract.has_voids = !tin.voids.empty();
   std::vector<Point> places;
-  for (const Vertex& v : vertices) {
+  places.reserve(tin.vertices.size());
+  for (const Vertex& v : tin.vertices) {
     contract.x_max = std::max(contract.x_max, v.x);
     contract.y_max = std::max(contract.y_max, v.y);
     contract.has_heights = contract.has_heights || v.z != 0;
     places.push_back(Point{v.x, v.y});
   }
-  Triangulation triangulation(places);
+  std::vector<Index> numbers;
+  Triangulation triangulation(places, numbers);
+  std::vector<Vertex> vertices;
+  vertices.reserve(numbers.size());
+  for (const Index number : numbers) vertices.push_back(tin.vertices[number]);
   const VoidSet voids = void_set(tin);
   const uint64_t digest = digest_of(triangulation.mesh(), vertices, voids);
   WritingCoder coder(vertices, breadth_first_order(triangulation, degree), voids);

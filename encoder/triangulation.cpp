@@ -25,7 +25,13 @@ void start_with_triangle(const std::vector<Point>& points, std::vector<Index>& o
 }  // namespace
 
 Triangulation::Triangulation(const std::vector<Point>& points) {
-  std::vector<Index> order = insertion_order(points);
+  std::vector<Index> order;
+  *this = Triangulation(points, order);
+  renumber(order);
+}
+
+Triangulation::Triangulation(const std::vector<Point>& points, std::vector<Index>& order) {
+  order = insertion_order(points);
   start_with_triangle(points, order);
   set_sizes(points.size());
   set_cavity_limit(64);
@@ -37,7 +43,7 @@ Triangulation::Triangulation(const std::vector<Point>& points) {
   Index hint = 0;
   for (Index v = 3; v < order.size(); ++v) hint = connect(v, hint);
   mesh_.vertices = static_cast<Index>(order.size());
-  renumber(order);
+  for (Index t = 0; t < mesh_.triangles; ++t) note_edges(t);
 }
 
 void Triangulation::set_sizes(std::size_t vertices) {
@@ -64,18 +70,20 @@ void Triangulation::set_cavity_limit(std::size_t limit) {
   cavity_.limit = static_cast<Index>(limit);
 }
 
-// Vertices were numbered in the order of insertion, which keeps neighbours close in memory.
+// Vertex i becomes vertex order[i].
 void Triangulation::renumber(const std::vector<Index>& order) {
   std::vector<uint16_t> x(order.size()), y(order.size());
+  std::vector<Index> edge_of(edge_of_);
   for (std::size_t i = 0; i < order.size(); ++i) {
     x[order[i]] = x_[i];
     y[order[i]] = y_[i];
+    edge_of[std::size_t{order[i]} + 1] = edge_of_[i + 1];
   }
   std::copy(x.begin(), x.end(), x_.begin());
   std::copy(y.begin(), y.end(), y_.begin());
+  edge_of_.swap(edge_of);
   for (Index h = 0; h < first_edge(mesh_.triangles); ++h) {
     if (origin_[h] != kInfinity) origin_[h] = order[origin_[h]];
-    edge_of_[static_cast<Index>(origin_[h] + 1u)] = h;
   }
 }
 

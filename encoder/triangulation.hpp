@@ -13,8 +13,12 @@ namespace microtin {
 
 class Triangulation {
  public:
-  // Vertex i is points[i]. The points must be distinct. Throws Error if they form no triangle.
+  // Vertex i is points[i]. Throws Error if two points share a place or all form no triangle.
   explicit Triangulation(const std::vector<Point>& points);
+
+  // The same, but vertex i is points[order[i]], and neighbours have numbers close to one another:
+  // quicker to build and to use. Sets `order`.
+  Triangulation(const std::vector<Point>& points, std::vector<Index>& order);
 
   Triangulation(Triangulation&&) = default;
   Triangulation& operator=(Triangulation&&) = default;
