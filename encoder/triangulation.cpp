@@ -171,84 +171,115 @@ void Triangulation::note_edges(Index triangle) {
   for (Index h = f; h < f + 3; ++h) edge_of_[static_cast<Index>(mesh_.origin[h] + 1u)] = h;
 }
 
-void Triangulation::remove(Index v) {
-  open_hole(v);
-  fill_hole();
+bool Triangulation::remove(Index v, Index max_degree) {
+  if (hole_.size() < max_degree) {
+    hole_.resize(max_degree);
+    pockets_.resize(max_degree);
+  }
+  const Index corners = open_hole(v, max_degree);
+  if (corners == 0) return false;
+  fill_hole(corners);
   edge_of_[static_cast<Index>(v + 1u)] = kNoEdge;
+  return true;
 }
 
-// Collects the corners around v and frees its triangles.
-void Triangulation::open_hole(Index v) {
-  hole_.clear();
-  std::size_t first = 0;
+// Collects the corners around v. 0 if there are too many.
+Index Triangulation::open_hole(Index v, Index max_corners) {
   const Index start = edge_of(v);
-  Index h = start;
+  Index h = start, corners = 0;
   do {
+    if (corners == max_corners) return 0;
     const Index side = next_in_triangle(h);
-    const Index corner = mesh_.origin[side];
-    const bool finite = corner != kInfinity;
-    hole_.push_back({corner, finite ? point_of(mesh_, corner) : Point{0, 0}, mesh_.twin[side]});
-    if (!finite) first = hole_.size();
-    free_.push_back(triangle_of(h));
+    Corner& corner = hole_[corners++];
+    corner.vertex = mesh_.origin[side];
+    corner.outside = mesh_.twin[side];
+    corner.slot = triangle_of(h);
     h = mesh_.twin[previous_in_triangle(h)];
   } while (h != start);
-  std::rotate(hole_.begin(), hole_.begin() + static_cast<std::ptrdiff_t>(first), hole_.end());
+  for (Index i = 0; i < corners; ++i) {
+    if (hole_[i].vertex == kInfinity) {
+      std::rotate(hole_.begin(), hole_.begin() + i + 1, hole_.begin() + corners);
+      break;
+    }
+  }
+  for (Index i = 0; i < corners; ++i) {
+    if (hole_[i].vertex != kInfinity) hole_[i].place = point_of(mesh_, hole_[i].vertex);
+  }
+  return corners;
 }
 
 // Cuts the hole into Delaunay triangles: that on the closing side first, then what it leaves to
-// its left and right. Two slots more than needed stay free.
-void Triangulation::fill_hole() {
-  const Index last = static_cast<Index>(hole_.size() - 1);
-  pockets_.assign(1, {0, last, hole_[last].outside});
-  while (!pockets_.empty()) {
-    const Pocket pocket = pockets_.back();
-    pockets_.pop_back();
+// its left and right. Two slots stay free.
+void Triangulation::fill_hole(Index corners) {
+  const Index last = corners - 1;
+  Index open = 1, slot = 0;
+  pockets_[0] = {0, last, hole_[last].outside};
+  // Gives h, the half-edge from corner `from` to corner `to`, its twin, now or later.
+  const auto close_side = [&](Index from, Index to, Index h) {
+    if (to == from + 1) {
+      pair(mesh_, h, hole_[from].outside);
+      edge_of_[static_cast<Index>(hole_[from].vertex + 1u)] = h;
+    } else {
+      pockets_[open++] = {from, to, h};
+    }
+  };
+  while (open != 0) {
+    const Pocket pocket = pockets_[--open];
     const Index apex = apex_of(pocket);
-    const Index triangle = free_.back();
-    free_.pop_back();
-    const Index h = first_edge(triangle);
+    const Index h = first_edge(hole_[slot++].slot);
     mesh_.origin[h] = hole_[pocket.last].vertex;
     mesh_.origin[h + 1] = hole_[pocket.first].vertex;
     mesh_.origin[h + 2] = hole_[apex].vertex;
-    note_edges(triangle);
     pair(mesh_, h, pocket.outside);
+    if (slot == 1) edge_of_[static_cast<Index>(hole_[last].vertex + 1u)] = h;
     close_side(pocket.first, apex, h + 1);
     close_side(apex, pocket.last, h + 2);
   }
-  for (std::size_t i = free_.size() - 2; i < free_.size(); ++i) {
-    std::fill_n(mesh_.origin + first_edge(free_[i]), 3, kInfinity);
+  for (; slot < corners; ++slot) {
+    std::fill_n(mesh_.origin + first_edge(hole_[slot].slot), 3, kInfinity);
+    free_.push_back(hole_[slot].slot);
   }
 }
 
-// The corner that forms a Delaunay triangle with the pocket's closing side: of all that lie to the
-// left of last -> first, the one whose circle through these two holds no other. With kInfinity at
-// the end the circles are half-planes, and all corners lie on one side of `first` along the hull.
+// The corner that forms a Delaunay triangle with the pocket's closing side.
 Index Triangulation::apex_of(const Pocket& pocket) const {
-  const Point first = hole_[pocket.first].place, last = hole_[pocket.last].place;
-  const bool on_hull = hole_[pocket.last].vertex == kInfinity;
-  Index apex = pocket.last;  // none yet
+  if (pocket.last == pocket.first + 2) return pocket.first + 1;
+  return hole_[pocket.last].vertex == kInfinity ? hull_apex_of(pocket) : finite_apex_of(pocket);
+}
+
+// Of all corners to the left of last -> first the one whose circle through these two holds no
+// other. With h(p) and q(p) as in `incircle`, p lies inside the circle through the apex if
+// q(apex) h(p) - q(p) h(apex) is positive.
+Index Triangulation::finite_apex_of(const Pocket& pocket) const {
+  const Point a = hole_[pocket.last].place, b = hole_[pocket.first].place;
+  int64_t h_apex = 0, q_apex = 1;  // no apex yet: the circle is the half-plane to the left
+  Index apex = pocket.last;
   for (Index i = pocket.first + 1; i < pocket.last; ++i) {
     const Point p = hole_[i].place;
-    if (!on_hull && orient2d(last, first, p) <= 0) continue;
-    if (apex != pocket.last) {
-      const Point rival = hole_[apex].place;
-      if (!(on_hull ? conflicts_with_ghost(first, rival, p)
-                    : conflicts_with_triangle(last, first, rival, p))) {
-        continue;
-      }
-    }
-    apex = i;
+    const int32_t ax = int32_t{a.x} - p.x, ay = int32_t{a.y} - p.y;
+    const int32_t bx = int32_t{b.x} - p.x, by = int32_t{b.y} - p.y;
+    const int64_t h = int64_t{ax} * by - int64_t{ay} * bx;
+    const int64_t q = int64_t{ax} * bx + int64_t{ay} * by;
+    const auto inside =
+        static_cast<int64_t>(wrapping_product(q_apex, h) - wrapping_product(q, h_apex));
+    bool better = (h > 0) & (inside > 0);
+    if (inside == 0 && h > 0) better = conflicts_with_triangle(a, b, hole_[apex].place, p);
+    h_apex = better ? h : h_apex;
+    q_apex = better ? q : q_apex;
+    apex = better ? i : apex;
   }
   return apex;
 }
 
-// Gives h, the half-edge from corner `first` to corner `last`, its twin, now or later.
-void Triangulation::close_side(Index first, Index last, Index h) {
-  if (last == first + 1) {
-    pair(mesh_, h, hole_[first].outside);
-  } else {
-    pockets_.push_back({first, last, h});
+// The same where the closing side comes from infinity: circles are half-planes, and all corners lie
+// on one side of `first` along the hull.
+Index Triangulation::hull_apex_of(const Pocket& pocket) const {
+  const Point first = hole_[pocket.first].place;
+  Index apex = pocket.first + 1;
+  for (Index i = apex + 1; i < pocket.last; ++i) {
+    if (conflicts_with_ghost(first, hole_[apex].place, hole_[i].place)) apex = i;
   }
+  return apex;
 }
 
 }  // namespace microtin

@@ -47,9 +47,10 @@ class Triangulation {
   // last corner of each: the slots of those it replaced, then two more.
   const std::vector<Index>& new_triangles() const { return new_triangles_; }
 
-  // Removes a vertex; those that stay must not all lie on one line. Only the triangles around v
-  // change; the other vertices and half-edges keep their numbers. O(degree^2).
-  void remove(Index v);
+  // Removes v if it has at most max_degree neighbours, infinity counted, and says whether it did.
+  // Those that stay must not all lie on one line. Only the triangles around v change; the other
+  // vertices and half-edges keep their numbers. O(degree^2).
+  bool remove(Index v, Index max_degree);
 
  private:
   // A corner of the hole that a removed vertex leaves, and the half-edge outside its next side.
@@ -57,6 +58,7 @@ class Triangulation {
     Index vertex;
     Point place;  // unless it is kInfinity
     Index outside;
+    Index slot;  // of one of the triangles that were there
   };
 
   // The part of the hole from corner `first` to corner `last`, closed by a side whose other
@@ -73,10 +75,11 @@ class Triangulation {
   Index connect(Index v, Index hint);
   void recycle(Index& triangle);
   void note_edges(Index triangle);
-  void open_hole(Index v);
-  void fill_hole();
+  Index open_hole(Index v, Index max_corners);
+  void fill_hole(Index corners);
   Index apex_of(const Pocket& pocket) const;
-  void close_side(Index first, Index last, Index h);
+  Index finite_apex_of(const Pocket& pocket) const;
+  Index hull_apex_of(const Pocket& pocket) const;
 
   Mesh mesh_ = {};
   std::vector<uint16_t> x_, y_;
