@@ -19,45 +19,43 @@ class Walk {
   // All vertices but infinity, from infinity by way of `first`; around each vertex clockwise from
   // the edge to its parent.
   const std::vector<Index>& breadth_first(Index first) {
-    const Mesh& mesh = triangulation_.mesh();
-    ++walks_;
-    met_[entry(kInfinity)] = walks_;
-    found_ = 0;
+    const Mesh mesh = triangulation_.mesh();
     Index from_infinity = triangulation_.edge_of(kInfinity);
     while (mesh.origin[next_in_triangle(from_infinity)] != first) {
       from_infinity = mesh.twin[previous_in_triangle(from_infinity)];
     }
-    turn_around(mesh.twin[from_infinity]);
-    for (std::size_t i = 0; i < found_; ++i) turn_around(arrivals_[i]);
-    vertices_.resize(found_);
+    const uint8_t walk = ++walks_;
+    uint8_t* const met = met_.data();  // entry v + 1; kInfinity + 1 wraps round to entry 0
+    Index* const vertices = vertices_.data();
+    Index* const arrivals = arrivals_.data();
+    met[0] = walk;
+    Index arrival = mesh.twin[from_infinity];  // from the parent to the vertex
+    std::size_t done = 0, found = 0;
+    for (;;) {
+      Index into = arrival;
+      do {
+        const Index neighbour = mesh.origin[into];
+        // Written in any case, kept if it is new: nobody can predict which it is.
+        vertices[found] = neighbour;
+        arrivals[found] = mesh.twin[into];
+        uint8_t& mark = met[static_cast<Index>(neighbour + 1u)];
+        found += mark != walk;
+        mark = walk;
+        into = mesh.twin[next_in_triangle(into)];
+      } while (into != arrival);
+      if (done == found) break;
+      arrival = arrivals[done++];
+    }
+    vertices_.resize(found);
     return vertices_;
   }
 
  private:
-  static std::size_t entry(Index v) { return static_cast<Index>(v + 1u); }
-
-  // `arrival` goes from the parent to the vertex.
-  void turn_around(Index arrival) {
-    const Mesh& mesh = triangulation_.mesh();
-    Index into = arrival;
-    do {
-      const Index neighbour = mesh.origin[into];
-      // Written in any case, kept if it is new: nobody can predict which it is.
-      vertices_[found_] = neighbour;
-      arrivals_[found_] = mesh.twin[into];
-      uint8_t& met = met_[entry(neighbour)];
-      found_ += met != walks_;
-      met = walks_;
-      into = mesh.twin[next_in_triangle(into)];
-    } while (into != arrival);
-  }
-
   const Triangulation& triangulation_;
-  std::vector<uint8_t> met_;     // the last walk that met it, entry v + 1
+  std::vector<uint8_t> met_;     // the last walk that met a vertex, at most 58 (FORMAT.md, "Work")
   std::vector<Index> vertices_;  // found so far
   std::vector<Index> arrivals_;  // and the half-edges to them
-  std::size_t found_ = 0;
-  uint8_t walks_ = 0;  // at most 58 (FORMAT.md, "Work")
+  uint8_t walks_ = 0;
 };
 
 // The smallest point, the largest, and the one farthest from the line through them (of several the
@@ -68,14 +66,15 @@ std::array<Index, 3> choose_seed(const Mesh& mesh) {
     if (point_of(mesh, v) < point_of(mesh, least)) least = v;
     if (point_of(mesh, most) < point_of(mesh, v)) most = v;
   }
-  const auto distance = [&](Index v) {
-    return orient2d(point_of(mesh, least), point_of(mesh, most), point_of(mesh, v));
-  };
+  int64_t turn = 0;
   for (Index v = 0; v < mesh.vertices; ++v) {
-    const int64_t d = std::abs(distance(v)), best = std::abs(distance(far));
-    if (d > best || (d == best && point_of(mesh, v) < point_of(mesh, far))) far = v;
+    const int64_t t = orient2d(point_of(mesh, least), point_of(mesh, most), point_of(mesh, v));
+    const int64_t farther = std::abs(t) - std::abs(turn);
+    if (farther < 0 || (farther == 0 && !(point_of(mesh, v) < point_of(mesh, far)))) continue;
+    far = v;
+    turn = t;
   }
-  if (distance(far) > 0) return {least, most, far};
+  if (turn > 0) return {least, most, far};
   return {least, far, most};
 }
 

@@ -172,112 +172,111 @@ void Triangulation::note_edges(Index triangle) {
 }
 
 bool Triangulation::remove(Index v, Index max_degree) {
-  if (hole_.size() < max_degree) {
-    hole_.resize(max_degree);
-    pockets_.resize(max_degree);
-  }
-  const Index corners = open_hole(v, max_degree);
-  if (corners == 0) return false;
-  fill_hole(corners);
+  Hole hole;
+  if (!open_hole(v, max_degree, hole)) return false;
+  fill_hole(hole);
   edge_of_[static_cast<Index>(v + 1u)] = kNoEdge;
   return true;
 }
 
-// Collects the corners around v. 0 if there are too many.
-Index Triangulation::open_hole(Index v, Index max_corners) {
+// Collects the corners around v. False if there are too many.
+bool Triangulation::open_hole(Index v, Index max_corners, Hole& hole) const {
+  Corner* corner = hole.corners;
+  Corner* const most = corner + max_corners;
+  Corner* infinite = nullptr;
   const Index start = edge_of(v);
-  Index h = start, corners = 0;
+  Index h = start;
   do {
-    if (corners == max_corners) return 0;
-    const Index side = next_in_triangle(h);
-    Corner& corner = hole_[corners++];
-    corner.vertex = mesh_.origin[side];
-    corner.outside = mesh_.twin[side];
-    corner.slot = triangle_of(h);
-    h = mesh_.twin[previous_in_triangle(h)];
-  } while (h != start);
-  for (Index i = 0; i < corners; ++i) {
-    if (hole_[i].vertex == kInfinity) {
-      std::rotate(hole_.begin(), hole_.begin() + i + 1, hole_.begin() + corners);
-      break;
+    if (corner == most) return false;
+    corner->slot = first_edge(triangle_of(h));
+    // next_in_triangle and previous_in_triangle, but surely without a branch: bits 2i, 2i + 1 say
+    // which of the three half-edges follows or precedes number i.
+    const Index twice = 2 * (h - corner->slot);
+    const Index side = corner->slot + (0b001001u >> twice & 3u);
+    const Index into = corner->slot + (0b010010u >> twice & 3u);
+    corner->outside = mesh_.twin[side];
+    corner->vertex = mesh_.origin[side];
+    if (corner->vertex == kInfinity) {
+      infinite = corner;
+    } else {
+      corner->x = mesh_.x[corner->vertex];
+      corner->y = mesh_.y[corner->vertex];
     }
-  }
-  for (Index i = 0; i < corners; ++i) {
-    if (hole_[i].vertex != kInfinity) hole_[i].place = point_of(mesh_, hole_[i].vertex);
-  }
-  return corners;
+    h = mesh_.twin[into];
+    ++corner;
+  } while (h != start);
+  if (infinite != nullptr) std::rotate(hole.corners, infinite + 1, corner);
+  hole.last = corner - 1;
+  return true;
 }
 
 // Cuts the hole into Delaunay triangles: that on the closing side first, then what it leaves to
-// its left and right. Two slots stay free.
-void Triangulation::fill_hole(Index corners) {
-  const Index last = corners - 1;
-  Index open = 1, slot = 0;
-  pockets_[0] = {0, last, hole_[last].outside};
-  // Gives h, the half-edge from corner `from` to corner `to`, its twin, now or later.
-  const auto close_side = [&](Index from, Index to, Index h) {
+// its left and right. Two slots are left over.
+void Triangulation::fill_hole(const Hole& hole) {
+  Pocket pockets[kMaxRemovable];
+  Pocket* end = pockets;
+  *end++ = {hole.corners, hole.last, hole.last->outside};
+  edge_of_[entry(hole.last->vertex)] = hole.corners->slot;
+  const Corner* freed = hole.corners;
+  // Gives h, the half-edge from one corner to another, its twin, now or later.
+  const auto close_side = [&](const Corner* from, const Corner* to, Index h) {
     if (to == from + 1) {
-      pair(mesh_, h, hole_[from].outside);
-      edge_of_[static_cast<Index>(hole_[from].vertex + 1u)] = h;
+      pair(mesh_, h, from->outside);
+      edge_of_[entry(from->vertex)] = h;
     } else {
-      pockets_[open++] = {from, to, h};
+      *end++ = {from, to, h};
     }
   };
-  while (open != 0) {
-    const Pocket pocket = pockets_[--open];
-    const Index apex = apex_of(pocket);
-    const Index h = first_edge(hole_[slot++].slot);
-    mesh_.origin[h] = hole_[pocket.last].vertex;
-    mesh_.origin[h + 1] = hole_[pocket.first].vertex;
-    mesh_.origin[h + 2] = hole_[apex].vertex;
+  while (end != pockets) {
+    const Pocket pocket = *--end;
+    const Corner* const apex = apex_of(pocket);
+    const Index h = (freed++)->slot;
+    mesh_.origin[h] = pocket.last->vertex;
+    mesh_.origin[h + 1] = pocket.first->vertex;
+    mesh_.origin[h + 2] = apex->vertex;
     pair(mesh_, h, pocket.outside);
-    if (slot == 1) edge_of_[static_cast<Index>(hole_[last].vertex + 1u)] = h;
     close_side(pocket.first, apex, h + 1);
     close_side(apex, pocket.last, h + 2);
   }
-  for (; slot < corners; ++slot) {
-    std::fill_n(mesh_.origin + first_edge(hole_[slot].slot), 3, kInfinity);
-    free_.push_back(hole_[slot].slot);
-  }
+  for (; freed <= hole.last; ++freed) mesh_.origin[freed->slot + 1] = mesh_.origin[freed->slot];
 }
 
 // The corner that forms a Delaunay triangle with the pocket's closing side.
-Index Triangulation::apex_of(const Pocket& pocket) const {
+inline const Triangulation::Corner* Triangulation::apex_of(const Pocket& pocket) {
   if (pocket.last == pocket.first + 2) return pocket.first + 1;
-  return hole_[pocket.last].vertex == kInfinity ? hull_apex_of(pocket) : finite_apex_of(pocket);
+  if (pocket.last->vertex == kInfinity) return hull_apex_of(pocket);
+  return finite_apex_of(pocket);
 }
 
 // Of all corners to the left of last -> first the one whose circle through these two holds no
 // other. With h(p) and q(p) as in `incircle`, p lies inside the circle through the apex if
 // q(apex) h(p) - q(p) h(apex) is positive.
-Index Triangulation::finite_apex_of(const Pocket& pocket) const {
-  const Point a = hole_[pocket.last].place, b = hole_[pocket.first].place;
+inline const Triangulation::Corner* Triangulation::finite_apex_of(const Pocket& pocket) {
+  const Corner a = *pocket.last, b = *pocket.first;
   int64_t h_apex = 0, q_apex = 1;  // no apex yet: the circle is the half-plane to the left
-  Index apex = pocket.last;
-  for (Index i = pocket.first + 1; i < pocket.last; ++i) {
-    const Point p = hole_[i].place;
-    const int32_t ax = int32_t{a.x} - p.x, ay = int32_t{a.y} - p.y;
-    const int32_t bx = int32_t{b.x} - p.x, by = int32_t{b.y} - p.y;
-    const int64_t h = int64_t{ax} * by - int64_t{ay} * bx;
-    const int64_t q = int64_t{ax} * bx + int64_t{ay} * by;
+  const Corner* apex = pocket.last;
+  for (const Corner* p = pocket.first + 1; p != pocket.last; ++p) {
+    const int64_t ax = a.x - p->x, ay = a.y - p->y, bx = b.x - p->x, by = b.y - p->y;
+    const int64_t h = ax * by - ay * bx;
+    const int64_t q = ax * bx + ay * by;
     const auto inside =
         static_cast<int64_t>(wrapping_product(q_apex, h) - wrapping_product(q, h_apex));
     bool better = (h > 0) & (inside > 0);
-    if (inside == 0 && h > 0) better = conflicts_with_triangle(a, b, hole_[apex].place, p);
+    if (inside == 0 && h > 0)
+      better = conflicts_with_triangle(place(a), place(b), place(*apex), place(*p));
     h_apex = better ? h : h_apex;
     q_apex = better ? q : q_apex;
-    apex = better ? i : apex;
+    apex = better ? p : apex;
   }
   return apex;
 }
 
 // The same where the closing side comes from infinity: circles are half-planes, and all corners lie
 // on one side of `first` along the hull.
-Index Triangulation::hull_apex_of(const Pocket& pocket) const {
-  const Point first = hole_[pocket.first].place;
-  Index apex = pocket.first + 1;
-  for (Index i = apex + 1; i < pocket.last; ++i) {
-    if (conflicts_with_ghost(first, hole_[apex].place, hole_[i].place)) apex = i;
+const Triangulation::Corner* Triangulation::hull_apex_of(const Pocket& pocket) {
+  const Corner* apex = pocket.first + 1;
+  for (const Corner* p = apex + 1; p != pocket.last; ++p) {
+    if (conflicts_with_ghost(place(*pocket.first), place(*apex), place(*p))) apex = p;
   }
   return apex;
 }

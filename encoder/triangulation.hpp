@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "shared/format.hpp"
 #include "shared/insertion.hpp"
 #include "shared/mesh.hpp"
 
@@ -47,39 +48,49 @@ class Triangulation {
   // last corner of each: the slots of those it replaced, then two more.
   const std::vector<Index>& new_triangles() const { return new_triangles_; }
 
+  static constexpr Index kMaxRemovable = kMaxDegree;
   // Removes v if it has at most max_degree neighbours, infinity counted, and says whether it did.
   // Those that stay must not all lie on one line. Only the triangles around v change; the other
   // vertices and half-edges keep their numbers. O(degree^2).
   bool remove(Index v, Index max_degree);
 
  private:
-  // A corner of the hole that a removed vertex leaves, and the half-edge outside its next side.
+  // A corner of the hole that a removed vertex leaves.
   struct Corner {
+    int64_t x, y;  // unless it is kInfinity
     Index vertex;
-    Point place;  // unless it is kInfinity
-    Index outside;
-    Index slot;  // of one of the triangles that were there
+    Index outside;  // the half-edge beyond the side to the next corner
+    Index slot;     // first half-edge of the triangle that was at that side
+  };
+
+  struct Hole {
+    Corner corners[kMaxRemovable];  // counter-clockwise; kInfinity, if there, comes last
+    const Corner* last;
   };
 
   // The part of the hole from corner `first` to corner `last`, closed by a side whose other
   // half-edge is `outside`.
   struct Pocket {
-    Index first;
-    Index last;
+    const Corner* first;
+    const Corner* last;
     Index outside;
   };
 
+  static Point place(const Corner& c) {
+    return {static_cast<uint16_t>(c.x), static_cast<uint16_t>(c.y)};
+  }
+  static Index entry(Index v) { return static_cast<Index>(v + 1u); }
   void set_sizes(std::size_t vertices);
   void set_cavity_limit(std::size_t limit);
   void renumber(const std::vector<Index>& order);
   Index connect(Index v, Index hint);
   void recycle(Index& triangle);
   void note_edges(Index triangle);
-  Index open_hole(Index v, Index max_corners);
-  void fill_hole(Index corners);
-  Index apex_of(const Pocket& pocket) const;
-  Index finite_apex_of(const Pocket& pocket) const;
-  Index hull_apex_of(const Pocket& pocket) const;
+  bool open_hole(Index v, Index max_corners, Hole& hole) const;
+  void fill_hole(const Hole& hole);
+  static const Corner* apex_of(const Pocket& pocket);
+  static const Corner* finite_apex_of(const Pocket& pocket);
+  static const Corner* hull_apex_of(const Pocket& pocket);
 
   Mesh mesh_ = {};
   std::vector<uint16_t> x_, y_;
@@ -90,9 +101,7 @@ class Triangulation {
   std::vector<Index> cavity_triangles_, cavity_origin_, cavity_twin_, cavity_pending_;
   std::vector<Index> new_triangles_;
 
-  std::vector<Corner> hole_;     // counter-clockwise; kInfinity, if there, comes last
-  std::vector<Pocket> pockets_;  // still to be filled
-  std::vector<Index> free_;      // slots of no triangle; all their origins are kInfinity
+  std::vector<Index> free_;  // slots of no triangle; all their origins are kInfinity
 };
 
 }  // namespace microtin
