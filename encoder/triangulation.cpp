@@ -210,35 +210,57 @@ bool Triangulation::open_hole(Index v, Index max_corners, Hole& hole) const {
   return true;
 }
 
-// Cuts the hole into Delaunay triangles: that on the closing side first, then what it leaves to
-// its left and right. Two slots are left over.
+// Cuts the hole into Delaunay triangles. Two slots are left over.
 void Triangulation::fill_hole(const Hole& hole) {
-  Pocket pockets[kMaxRemovable];
-  Pocket* end = pockets;
-  *end++ = {hole.corners, hole.last, hole.last->outside};
-  edge_of_[entry(hole.last->vertex)] = hole.corners->slot;
   const Corner* freed = hole.corners;
-  // Gives h, the half-edge from one corner to another, its twin, now or later.
-  const auto close_side = [&](const Corner* from, const Corner* to, Index h) {
-    if (to == from + 1) {
-      pair(mesh_, h, from->outside);
-      edge_of_[entry(from->vertex)] = h;
-    } else {
-      *end++ = {from, to, h};
-    }
-  };
-  while (end != pockets) {
-    const Pocket pocket = *--end;
-    const Corner* const apex = apex_of(pocket);
-    const Index h = (freed++)->slot;
-    mesh_.origin[h] = pocket.last->vertex;
-    mesh_.origin[h + 1] = pocket.first->vertex;
-    mesh_.origin[h + 2] = apex->vertex;
-    pair(mesh_, h, pocket.outside);
-    close_side(pocket.first, apex, h + 1);
-    close_side(apex, pocket.last, h + 2);
-  }
+  edge_of_[entry(hole.last->vertex)] = freed->slot;
+  fill(hole.corners, hole.last, hole.last->outside, freed);
   for (; freed <= hole.last; ++freed) mesh_.origin[freed->slot + 1] = mesh_.origin[freed->slot];
+}
+
+// Fills the part of the hole from `first` to `last` that the half-edge `closing` closes; recursive,
+// with at most as many levels as there are corners. The slots come from `freed` on.
+void Triangulation::fill(const Corner* first, const Corner* last, Index closing,
+                         const Corner*& freed) {
+  if (last == first + 1) {
+    pair(mesh_, closing, first->outside);
+    edge_of_[entry(first->vertex)] = closing;
+    return;
+  }
+  if (last == first + 3 && last->vertex != kInfinity) {
+    fill_quadrangle(first, closing, freed);
+    return;
+  }
+  const Corner* const apex = apex_of({first, last});
+  const Index h = (freed++)->slot;
+  mesh_.origin[h] = last->vertex;
+  mesh_.origin[h + 1] = first->vertex;
+  mesh_.origin[h + 2] = apex->vertex;
+  pair(mesh_, h, closing);
+  fill(first, apex, h + 1, freed);
+  fill(apex, last, h + 2, freed);
+}
+
+void Triangulation::fill_quadrangle(const Corner* corner, Index closing, const Corner*& freed) {
+  const uint32_t s = finite_apex_of({corner, corner + 3}) == corner + 1 ? 1 : 0;
+  const Index vertex[5] = {corner[0].vertex, corner[1].vertex, corner[2].vertex, corner[3].vertex,
+                           corner[0].vertex};
+  const Index outside[4] = {corner[0].outside, corner[1].outside, corner[2].outside, closing};
+  const Index h = freed[0].slot, g = freed[1].slot;
+  freed += 2;
+  mesh_.origin[h] = mesh_.origin[g + 2] = vertex[s];
+  mesh_.origin[h + 1] = vertex[s + 1];
+  mesh_.origin[h + 2] = mesh_.origin[g] = vertex[s + 2];
+  mesh_.origin[g + 1] = vertex[s + 3];
+  pair(mesh_, h, outside[s]);
+  pair(mesh_, h + 1, outside[s + 1]);
+  pair(mesh_, g, outside[s + 2]);
+  pair(mesh_, g + 1, outside[(s + 3) & 3]);
+  pair(mesh_, h + 2, g + 2);
+  edge_of_[entry(vertex[s])] = h;
+  edge_of_[entry(vertex[s + 1])] = h + 1;
+  edge_of_[entry(vertex[s + 2])] = g;
+  edge_of_[entry(vertex[s + 3])] = g + 1;
 }
 
 // The corner that forms a Delaunay triangle with the pocket's closing side.

@@ -73,7 +73,6 @@ class Triangulation {
   struct Pocket {
     const Corner* first;
     const Corner* last;
-    Index outside;
   };
 
   static Point place(const Corner& c) {
@@ -88,6 +87,8 @@ class Triangulation {
   void note_edges(Index triangle);
   bool open_hole(Index v, Index max_corners, Hole& hole) const;
   void fill_hole(const Hole& hole);
+  void fill(const Corner* first, const Corner* last, Index closing, const Corner*& freed);
+  void fill_quadrangle(const Corner* first, Index closing, const Corner*& freed);
   static const Corner* apex_of(const Pocket& pocket);
   static const Corner* finite_apex_of(const Pocket& pocket);
   static const Corner* hull_apex_of(const Pocket& pocket);
