@@ -4,8 +4,14 @@
 #include <cstdlib>
 #include <utility>
 
+#include "encoder/prefetch.hpp"
+
 namespace microtin {
 namespace {
+
+// So many vertices before it is needed memory is asked for: the order is known, the way through
+// memory that it takes is long.
+constexpr std::size_t kAhead = 8;
 
 // Walks over a triangulation breadth first, again and again while vertices are removed from it.
 class Walk {
@@ -44,6 +50,10 @@ class Walk {
         into = mesh.twin[next_in_triangle(into)];
       } while (into != arrival);
       if (done == found) break;
+      if (found - done > kAhead) {
+        prefetch(mesh.origin + arrivals[done + kAhead]);
+        prefetch(mesh.twin + arrivals[done + kAhead]);
+      }
       arrival = arrivals[done++];
     }
     vertices_.resize(found);
@@ -91,8 +101,12 @@ Order breadth_first_order(Triangulation& triangulation, uint32_t degree) {
   while (left > 3) {
     const std::vector<Index>& vertices = walk.breadth_first(order.seed[0]);
     std::vector<Index> batch;
-    for (auto v = vertices.rbegin(); v != vertices.rend(); ++v) {
-      if (!in_seed(*v) && triangulation.remove(*v, degree)) batch.push_back(*v);
+    for (std::size_t i = vertices.size(); i-- != 0;) {
+      if (i >= 2 * kAhead) {
+        triangulation.expect(vertices[i - kAhead], vertices[i - 2 * kAhead]);
+      }
+      const Index v = vertices[i];
+      if (!in_seed(v) && triangulation.remove(v, degree)) batch.push_back(v);
     }
     left -= static_cast<Index>(batch.size());
     std::reverse(batch.begin(), batch.end());

@@ -146,36 +146,20 @@ Index Triangulation::insert(Point p, Index hint) {
   ++mesh_.vertices;
   new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size);
   for (Index back = 2; back != 0; --back) new_triangles_.push_back(mesh_.triangles - back);
-  if (!free_.empty()) {
-    mesh_.triangles -= 2;
-    recycle(new_triangles_[cavity_.size]);
-    recycle(new_triangles_[cavity_.size + 1]);
-  }
   for (const Index triangle : new_triangles_) note_edges(triangle);
   return v;
 }
 
-// Moves a triangle to a free slot.
-void Triangulation::recycle(Index& triangle) {
-  const Index from = first_edge(triangle), to = first_edge(free_.back());
-  triangle = free_.back();
-  free_.pop_back();
-  for (Index i = 0; i < 3; ++i) {
-    mesh_.origin[to + i] = mesh_.origin[from + i];
-    pair(mesh_, to + i, mesh_.twin[from + i]);
-  }
-}
-
 void Triangulation::note_edges(Index triangle) {
   const Index f = first_edge(triangle);
-  for (Index h = f; h < f + 3; ++h) edge_of_[static_cast<Index>(mesh_.origin[h] + 1u)] = h;
+  for (Index h = f; h < f + 3; ++h) edge_of_[entry(mesh_.origin[h])] = h;
 }
 
 bool Triangulation::remove(Index v, Index max_degree) {
   Hole hole;
   if (!open_hole(v, max_degree, hole)) return false;
   fill_hole(hole);
-  edge_of_[static_cast<Index>(v + 1u)] = kNoEdge;
+  edge_of_[entry(v)] = kNoEdge;
   return true;
 }
 
@@ -231,7 +215,7 @@ void Triangulation::fill(const Corner* first, const Corner* last, Index closing,
     fill_quadrangle(first, closing, freed);
     return;
   }
-  const Corner* const apex = apex_of({first, last});
+  const Corner* const apex = apex_of(first, last);
   const Index h = (freed++)->slot;
   mesh_.origin[h] = last->vertex;
   mesh_.origin[h + 1] = first->vertex;
@@ -242,7 +226,7 @@ void Triangulation::fill(const Corner* first, const Corner* last, Index closing,
 }
 
 void Triangulation::fill_quadrangle(const Corner* corner, Index closing, const Corner*& freed) {
-  const uint32_t s = finite_apex_of({corner, corner + 3}) == corner + 1 ? 1 : 0;
+  const uint32_t s = finite_apex_of(corner, corner + 3) == corner + 1 ? 1 : 0;
   const Index vertex[5] = {corner[0].vertex, corner[1].vertex, corner[2].vertex, corner[3].vertex,
                            corner[0].vertex};
   const Index outside[4] = {corner[0].outside, corner[1].outside, corner[2].outside, closing};
@@ -264,20 +248,22 @@ void Triangulation::fill_quadrangle(const Corner* corner, Index closing, const C
 }
 
 // The corner that forms a Delaunay triangle with the pocket's closing side.
-inline const Triangulation::Corner* Triangulation::apex_of(const Pocket& pocket) {
-  if (pocket.last == pocket.first + 2) return pocket.first + 1;
-  if (pocket.last->vertex == kInfinity) return hull_apex_of(pocket);
-  return finite_apex_of(pocket);
+inline const Triangulation::Corner* Triangulation::apex_of(const Corner* first,
+                                                           const Corner* last) {
+  if (last == first + 2) return first + 1;
+  if (last->vertex == kInfinity) return hull_apex_of(first, last);
+  return finite_apex_of(first, last);
 }
 
 // Of all corners to the left of last -> first the one whose circle through these two holds no
 // other. With h(p) and q(p) as in `incircle`, p lies inside the circle through the apex if
 // q(apex) h(p) - q(p) h(apex) is positive.
-inline const Triangulation::Corner* Triangulation::finite_apex_of(const Pocket& pocket) {
-  const Corner a = *pocket.last, b = *pocket.first;
+inline const Triangulation::Corner* Triangulation::finite_apex_of(const Corner* first,
+                                                                  const Corner* last) {
+  const Corner a = *last, b = *first;
   int64_t h_apex = 0, q_apex = 1;  // no apex yet: the circle is the half-plane to the left
-  const Corner* apex = pocket.last;
-  for (const Corner* p = pocket.first + 1; p != pocket.last; ++p) {
+  const Corner* apex = last;
+  for (const Corner* p = first + 1; p != last; ++p) {
     const int64_t ax = a.x - p->x, ay = a.y - p->y, bx = b.x - p->x, by = b.y - p->y;
     const int64_t h = ax * by - ay * bx;
     const int64_t q = ax * bx + ay * by;
@@ -295,10 +281,10 @@ inline const Triangulation::Corner* Triangulation::finite_apex_of(const Pocket& 
 
 // The same where the closing side comes from infinity: circles are half-planes, and all corners lie
 // on one side of `first` along the hull.
-const Triangulation::Corner* Triangulation::hull_apex_of(const Pocket& pocket) {
-  const Corner* apex = pocket.first + 1;
-  for (const Corner* p = apex + 1; p != pocket.last; ++p) {
-    if (conflicts_with_ghost(place(*pocket.first), place(*apex), place(*p))) apex = p;
+const Triangulation::Corner* Triangulation::hull_apex_of(const Corner* first, const Corner* last) {
+  const Corner* apex = first + 1;
+  for (const Corner* p = apex + 1; p != last; ++p) {
+    if (conflicts_with_ghost(place(*first), place(*apex), place(*p))) apex = p;
   }
   return apex;
 }

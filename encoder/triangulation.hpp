@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "encoder/prefetch.hpp"
 #include "shared/format.hpp"
 #include "shared/insertion.hpp"
 #include "shared/mesh.hpp"
@@ -32,7 +33,7 @@ class Triangulation {
 
   // Some half-edge from v, which may be kInfinity; kNoEdge if v was removed.
   static constexpr Index kNoEdge = kInfinity;
-  Index edge_of(Index v) const { return edge_of_[static_cast<Index>(v + 1u)]; }
+  Index edge_of(Index v) const { return edge_of_[entry(v)]; }
 
   // The neighbours of v, which may be kInfinity and counts as a neighbour too.
   Index degree(Index v) const;
@@ -48,11 +49,19 @@ class Triangulation {
   // last corner of each: the slots of those it replaced, then two more.
   const std::vector<Index>& new_triangles() const { return new_triangles_; }
 
-  static constexpr Index kMaxRemovable = kMaxDegree;
-  // Removes v if it has at most max_degree neighbours, infinity counted, and says whether it did.
-  // Those that stay must not all lie on one line. Only the triangles around v change; the other
-  // vertices and half-edges keep their numbers. O(degree^2).
+  // Removes v if it has at most max_degree <= kMaxRemovable neighbours, infinity counted, and says
+  // whether it did. Those that stay must not all lie on one line. Only the triangles around v
+  // change; the other vertices and half-edges keep their numbers. Nothing may be inserted any more.
+  // O(degree^2).
   bool remove(Index v, Index max_degree);
+  static constexpr Index kMaxRemovable = kMaxDegree;
+
+  // v will be used soon and `later` after that: spares them waiting for memory.
+  void expect(Index v, Index later) const {
+    prefetch(&edge_of_[entry(later)]);
+    prefetch(mesh_.origin + edge_of(v));
+    prefetch(mesh_.twin + edge_of(v));
+  }
 
  private:
   // A corner of the hole that a removed vertex leaves.
@@ -68,13 +77,6 @@ class Triangulation {
     const Corner* last;
   };
 
-  // The part of the hole from corner `first` to corner `last`, closed by a side whose other
-  // half-edge is `outside`.
-  struct Pocket {
-    const Corner* first;
-    const Corner* last;
-  };
-
   static Point place(const Corner& c) {
     return {static_cast<uint16_t>(c.x), static_cast<uint16_t>(c.y)};
   }
@@ -83,15 +85,14 @@ class Triangulation {
   void set_cavity_limit(std::size_t limit);
   void renumber(const std::vector<Index>& order);
   Index connect(Index v, Index hint);
-  void recycle(Index& triangle);
   void note_edges(Index triangle);
   bool open_hole(Index v, Index max_corners, Hole& hole) const;
   void fill_hole(const Hole& hole);
   void fill(const Corner* first, const Corner* last, Index closing, const Corner*& freed);
   void fill_quadrangle(const Corner* first, Index closing, const Corner*& freed);
-  static const Corner* apex_of(const Pocket& pocket);
-  static const Corner* finite_apex_of(const Pocket& pocket);
-  static const Corner* hull_apex_of(const Pocket& pocket);
+  static const Corner* apex_of(const Corner* first, const Corner* last);
+  static const Corner* finite_apex_of(const Corner* first, const Corner* last);
+  static const Corner* hull_apex_of(const Corner* first, const Corner* last);
 
   Mesh mesh_ = {};
   std::vector<uint16_t> x_, y_;
@@ -101,8 +102,6 @@ class Triangulation {
   Cavity cavity_ = {};
   std::vector<Index> cavity_triangles_, cavity_origin_, cavity_twin_, cavity_pending_;
   std::vector<Index> new_triangles_;
-
-  std::vector<Index> free_;  // slots of no triangle; all their origins are kInfinity
 };
 
 }  // namespace microtin
