@@ -191,7 +191,7 @@ uint64_t fingerprint_of(const microtin_mesh* mesh) {
 
 }  // namespace
 
-std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, uint32_t degree) {
+Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, uint32_t degree) {
   if (tin.vertices.size() > kMaxVertices) {
     throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
   }
@@ -204,12 +204,16 @@ std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, uint32_t d
   const uint64_t expected = fingerprint_of(triangulation.mesh(), vertices, voids);
   WritingCoder coder(vertices, breadth_first_order(triangulation, degree), voids);
   std::vector<uint8_t> stream = write_stream(contract_of(tin, degree), metadata, coder);
-  const DecodedTerrain decoded(stream);
+  DecodedTerrain decoded(stream);
   if (microtin_vertex_count(decoded.mesh()) != vertices.size() ||
       fingerprint_of(decoded.mesh()) != expected) {
     throw Error("internal error: the stream does not decode to the terrain it was made from");
   }
-  return stream;
+  return {std::move(stream), std::move(decoded)};
+}
+
+std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, uint32_t degree) {
+  return encode_and_decode(tin, metadata, degree).stream;
 }
 
 }  // namespace microtin
