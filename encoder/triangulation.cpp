@@ -225,6 +225,8 @@ void Triangulation::fill(const Corner* first, const Corner* last, Index closing,
   fill(apex, last, h + 2, freed);
 }
 
+// The most frequent part of all, without branches: its diagonal starts at corner s = 0 or 1.
+// Half-edge h is the side that follows corner s, g the one two corners on.
 void Triangulation::fill_quadrangle(const Corner* corner, Index closing, const Corner*& freed) {
   const uint32_t s = finite_apex_of(corner, corner + 3) == corner + 1 ? 1 : 0;
   const Index vertex[5] = {corner[0].vertex, corner[1].vertex, corner[2].vertex, corner[3].vertex,
@@ -270,8 +272,9 @@ inline const Triangulation::Corner* Triangulation::finite_apex_of(const Corner* 
     const auto inside =
         static_cast<int64_t>(wrapping_product(q_apex, h) - wrapping_product(q, h_apex));
     bool better = (h > 0) & (inside > 0);
-    if (inside == 0 && h > 0)
+    if (inside == 0 && h > 0) {
       better = conflicts_with_triangle(place(a), place(b), place(*apex), place(*p));
+    }
     h_apex = better ? h : h_apex;
     q_apex = better ? q : q_apex;
     apex = better ? p : apex;
