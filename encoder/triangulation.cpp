@@ -227,11 +227,11 @@ void Triangulation::fill(const Corner* first, const Corner* last, Index closing,
 
 // The most frequent part of all, without branches: its diagonal starts at corner s = 0 or 1.
 // Half-edge h is the side that follows corner s, g the one two corners on.
-void Triangulation::fill_quadrangle(const Corner* corner, Index closing, const Corner*& freed) {
-  const uint32_t s = finite_apex_of(corner, corner + 3) == corner + 1 ? 1 : 0;
-  const Index vertex[5] = {corner[0].vertex, corner[1].vertex, corner[2].vertex, corner[3].vertex,
-                           corner[0].vertex};
-  const Index outside[4] = {corner[0].outside, corner[1].outside, corner[2].outside, closing};
+void Triangulation::fill_quadrangle(const Corner* first, Index closing, const Corner*& freed) {
+  const uint32_t s = finite_apex_of(first, first + 3) == first + 1 ? 1 : 0;
+  const Index vertex[5] = {first[0].vertex, first[1].vertex, first[2].vertex, first[3].vertex,
+                           first[0].vertex};
+  const Index outside[4] = {first[0].outside, first[1].outside, first[2].outside, closing};
   const Index h = freed[0].slot, g = freed[1].slot;
   freed += 2;
   mesh_.origin[h] = mesh_.origin[g + 2] = vertex[s];
