@@ -15,6 +15,9 @@ class DecodedTerrain {
   // bytes follow its end.
   explicit DecodedTerrain(const std::vector<uint8_t>& stream);
 
+  DecodedTerrain(DecodedTerrain&&) = default;
+  DecodedTerrain& operator=(DecodedTerrain&&) = default;
+
   const microtin_mesh* mesh() const { return mesh_; }
   uint32_t phases() const { return phases_; }
 

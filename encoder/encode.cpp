@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "encoder/error.hpp"
+#include "encoder/fingerprint.hpp"
 #include "encoder/order.hpp"
 #include "encoder/range_encoder.hpp"
 #include "encoder/triangulation.hpp"
-#include "shared/digest.hpp"
 #include "shared/reconstruction.hpp"
 
 namespace microtin {
@@ -38,6 +38,7 @@ class WritingCoder {
  public:
   WritingCoder(const std::vector<Vertex>& vertices, const Order& order, VoidSet voids)
       : voids_(std::move(voids)) {
+    sequence_.reserve(vertices.size());
     for (const Index v : order.seed) sequence_.push_back(vertices[v]);
     for (const std::vector<Index>& batch : order.batches) {
       for (const Index v : batch) sequence_.push_back(vertices[v]);
@@ -138,62 +139,79 @@ std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& meta
   return stream;
 }
 
-std::vector<Vertex> sorted_vertices(const Tin& tin) {
-  std::vector<Vertex> vertices = tin.vertices;
-  const auto place = [](const Vertex& v) { return Point{v.x, v.y}; };
-  std::sort(vertices.begin(), vertices.end(),
-            [&](const Vertex& a, const Vertex& b) { return place(a) < place(b); });
-  const auto twice =
-      std::adjacent_find(vertices.begin(), vertices.end(),
-                         [&](const Vertex& a, const Vertex& b) { return place(a) == place(b); });
-  if (twice != vertices.end()) throw Error("two vertices share a place");
-  return vertices;
+// What the header promises.
+Contract contract_of(const Tin& tin, uint32_t degree) {
+  Contract contract{};
+  contract.vertices = static_cast<uint32_t>(tin.vertices.size());
+  contract.degree = degree;
+  contract.has_voids = !tin.voids.empty();
+  for (const Vertex& v : tin.vertices) {
+    contract.x_max = std::max(contract.x_max, v.x);
+    contract.y_max = std::max(contract.y_max, v.y);
+    contract.has_heights = contract.has_heights || v.z != 0;
+  }
+  return contract;
 }
 
-uint64_t digest_of(const Mesh& mesh, const std::vector<Vertex>& vertices, const VoidSet& voids) {
-  uint64_t sum = 0;
+std::vector<Point> places_of(const std::vector<Vertex>& vertices) {
+  std::vector<Point> places;
+  places.reserve(vertices.size());
+  for (const Vertex& v : vertices) places.push_back(Point{v.x, v.y});
+  return places;
+}
+
+uint64_t fingerprint_of(const Mesh& mesh, const std::vector<Vertex>& vertices,
+                        const VoidSet& voids) {
+  Fingerprint fingerprint(vertices);
   for (Index t = 0; t < mesh.triangles; ++t) {
-    Vertex corner[3];
-    bool ghost = false;
-    for (Index i = 0; i < 3; ++i) {
-      const Index v = mesh.origin[first_edge(t) + i];
-      ghost = ghost || v == kInfinity;
-      if (!ghost) corner[i] = vertices[v];
-    }
-    if (!ghost) sum += triangle_digest(corner, voids.count(corners_from_smallest(mesh, t)) != 0);
+    const Index* const v = mesh.origin + first_edge(t);
+    if (v[0] == kInfinity || v[1] == kInfinity || v[2] == kInfinity) continue;
+    const bool is_void = !voids.empty() && voids.count(corners_from_smallest(mesh, t)) != 0;
+    fingerprint.add(v[0], v[1], v[2], is_void);
   }
-  return sum;
+  return fingerprint.sum();
+}
+
+uint64_t fingerprint_of(const microtin_mesh* mesh) {
+  std::vector<Vertex> vertices(microtin_vertex_count(mesh));
+  for (uint32_t i = 0; i < vertices.size(); ++i) {
+    microtin_vertex(mesh, i, &vertices[i].x, &vertices[i].y, &vertices[i].z);
+  }
+  Fingerprint fingerprint(vertices);
+  const uint32_t triangles = microtin_triangle_count(mesh);
+  for (uint32_t t = 0; t < triangles; ++t) {
+    uint32_t v[3];
+    const microtin_triangle_kind kind = microtin_triangle(mesh, t, v);
+    if (kind != MICROTIN_GHOST) fingerprint.add(v[0], v[1], v[2], kind == MICROTIN_VOID);
+  }
+  return fingerprint.sum();
 }
 
 }  // namespace
 
-std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, uint32_t degree) {
+Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, uint32_t degree) {
   if (tin.vertices.size() > kMaxVertices) {
     throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
   }
-  const std::vector<Vertex> vertices = sorted_vertices(tin);
-  Contract contract{};
-  contract.vertices = static_cast<uint32_t>(vertices.size());
-  contract.degree = degree;
-  contract.has_voids = !tin.voids.empty();
-  std::vector<Point> places;
-  for (const Vertex& v : vertices) {
-    contract.x_max = std::max(contract.x_max, v.x);
-    contract.y_max = std::max(contract.y_max, v.y);
-    contract.has_heights = contract.has_heights || v.z != 0;
-    places.push_back(Point{v.x, v.y});
-  }
-  Triangulation triangulation(places);
+  std::vector<Index> numbers;
+  Triangulation triangulation(places_of(tin.vertices), numbers);
+  std::vector<Vertex> vertices;
+  vertices.reserve(numbers.size());
+  for (const Index number : numbers) vertices.push_back(tin.vertices[number]);
   const VoidSet voids = void_set(tin);
-  const uint64_t digest = digest_of(triangulation.mesh(), vertices, voids);
+  const uint64_t expected = fingerprint_of(triangulation.mesh(), vertices, voids);
   WritingCoder coder(vertices, breadth_first_order(triangulation, degree), voids);
-  std::vector<uint8_t> stream = write_stream(contract, metadata, coder);
-  const DecodedTerrain decoded(stream);
+  std::vector<uint8_t> stream = write_stream(contract_of(tin, degree), metadata, coder);
+  DecodedTerrain decoded(stream);
   if (microtin_vertex_count(decoded.mesh()) != vertices.size() ||
-      microtin_digest(decoded.mesh()) != digest) {
+      fingerprint_of(decoded.mesh()) != expected) {
     throw Error("internal error: the stream does not decode to the terrain it was made from");
   }
-  return stream;
+  return {std::move(stream), std::move(decoded)};
+}
+
+std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, uint32_t degree) {
+  return encode_and_decode(tin, metadata, degree).stream;
 }
 
 }  // namespace microtin

@@ -20,6 +20,14 @@ constexpr uint32_t kDefaultDegree = 8;
 std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata,
                             uint32_t degree = kDefaultDegree);
 
+// The same, together with what the decoder made of it.
+struct Encoding {
+  std::vector<uint8_t> stream;
+  DecodedTerrain decoded;
+};
+
+Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, uint32_t degree);
+
 }  // namespace microtin
 
 #endif

@@ -4,38 +4,69 @@
 #include <cstdlib>
 #include <utility>
 
+#include "encoder/prefetch.hpp"
+
 namespace microtin {
 namespace {
 
-// All vertices but infinity, breadth first from infinity by way of `first`; around each vertex
-// clockwise from the edge to its parent.
-std::vector<Index> breadth_first(const Triangulation& triangulation, Index first) {
-  const Mesh& mesh = triangulation.mesh();
-  std::vector<Index> arrivals;  // half-edges parent -> vertex
-  std::vector<bool> queued(mesh.vertices, false);
-  const auto walk_around = [&](Index arrival) {
-    // Half-edges into the vertex, clockwise: the parent's comes first.
-    Index into = arrival;
-    do {
-      const Index neighbour = mesh.origin[into];
-      if (neighbour != kInfinity && !queued[neighbour]) {
-        queued[neighbour] = true;
-        arrivals.push_back(mesh.twin[into]);
-      }
-      into = mesh.twin[next_in_triangle(into)];
-    } while (into != arrival);
-  };
-  Index from_infinity = triangulation.edge_of(kInfinity);
-  while (mesh.origin[next_in_triangle(from_infinity)] != first) {
-    from_infinity = mesh.twin[previous_in_triangle(from_infinity)];
+// So many vertices before it is needed memory is asked for: the order is known, the way through
+// memory that it takes is long.
+constexpr std::size_t kAhead = 8;
+
+// Walks over a triangulation breadth first, again and again while vertices are removed from it.
+class Walk {
+ public:
+  explicit Walk(const Triangulation& triangulation)
+      : triangulation_(triangulation), met_(std::size_t{triangulation.mesh().vertices} + 1) {
+    vertices_.resize(met_.size());
+    arrivals_.resize(met_.size());
   }
-  walk_around(mesh.twin[from_infinity]);
-  for (size_t i = 0; i < arrivals.size(); ++i) walk_around(arrivals[i]);
-  std::vector<Index> vertices(arrivals.size());
-  std::transform(arrivals.begin(), arrivals.end(), vertices.begin(),
-                 [&](Index h) { return mesh.origin[next_in_triangle(h)]; });
-  return vertices;
-}
+
+  // All vertices but infinity, from infinity by way of `first`; around each vertex clockwise from
+  // the edge to its parent.
+  const std::vector<Index>& breadth_first(Index first) {
+    const Mesh mesh = triangulation_.mesh();
+    Index from_infinity = triangulation_.edge_of(kInfinity);
+    while (mesh.origin[next_in_triangle(from_infinity)] != first) {
+      from_infinity = mesh.twin[previous_in_triangle(from_infinity)];
+    }
+    const uint8_t walk = ++walks_;
+    uint8_t* const met = met_.data();  // entry v + 1; kInfinity + 1 wraps round to entry 0
+    Index* const vertices = vertices_.data();
+    Index* const arrivals = arrivals_.data();
+    met[0] = walk;
+    Index arrival = mesh.twin[from_infinity];  // from the parent to the vertex
+    std::size_t done = 0, found = 0;
+    for (;;) {
+      Index into = arrival;
+      do {
+        const Index neighbour = mesh.origin[into];
+        // Written in any case, kept if it is new: nobody can predict which it is.
+        vertices[found] = neighbour;
+        arrivals[found] = mesh.twin[into];
+        uint8_t& mark = met[static_cast<Index>(neighbour + 1u)];
+        found += mark != walk;
+        mark = walk;
+        into = mesh.twin[next_in_triangle(into)];
+      } while (into != arrival);
+      if (done == found) break;
+      if (found - done > kAhead) {
+        prefetch(mesh.origin + arrivals[done + kAhead]);
+        prefetch(mesh.twin + arrivals[done + kAhead]);
+      }
+      arrival = arrivals[done++];
+    }
+    vertices_.resize(found);
+    return vertices_;
+  }
+
+ private:
+  const Triangulation& triangulation_;
+  std::vector<uint8_t> met_;     // the last walk that met a vertex, at most 58 (FORMAT.md, "Work")
+  std::vector<Index> vertices_;  // found so far
+  std::vector<Index> arrivals_;  // and the half-edges to them
+  uint8_t walks_ = 0;
+};
 
 // The smallest point, the largest, and the one farthest from the line through them (of several the
 // smallest): never removed, so that the set keeps a triangle.
@@ -45,14 +76,15 @@ std::array<Index, 3> choose_seed(const Mesh& mesh) {
     if (point_of(mesh, v) < point_of(mesh, least)) least = v;
     if (point_of(mesh, most) < point_of(mesh, v)) most = v;
   }
-  const auto distance = [&](Index v) {
-    return orient2d(point_of(mesh, least), point_of(mesh, most), point_of(mesh, v));
-  };
+  int64_t turn = 0;
   for (Index v = 0; v < mesh.vertices; ++v) {
-    const int64_t d = std::abs(distance(v)), best = std::abs(distance(far));
-    if (d > best || (d == best && point_of(mesh, v) < point_of(mesh, far))) far = v;
+    const int64_t t = orient2d(point_of(mesh, least), point_of(mesh, most), point_of(mesh, v));
+    const int64_t farther = std::abs(t) - std::abs(turn);
+    if (farther < 0 || (farther == 0 && !(point_of(mesh, v) < point_of(mesh, far)))) continue;
+    far = v;
+    turn = t;
   }
-  if (distance(far) > 0) return {least, most, far};
+  if (turn > 0) return {least, most, far};
   return {least, far, most};
 }
 
@@ -86,15 +118,18 @@ Order breadth_first_order(Triangulation& triangulation, uint32_t degree) {
     return std::find(order.seed.begin(), order.seed.end(), v) != order.seed.end();
   };
   const Index last = opposite_corner(triangulation.mesh(), order.seed);
+  Walk walk(triangulation);
   Index left = triangulation.mesh().vertices;
   while (left > 3) {
-    const std::vector<Index> vertices = breadth_first(triangulation, order.seed[0]);
+    const std::vector<Index>& vertices = walk.breadth_first(order.seed[0]);
     std::vector<Index> batch;
-    for (auto v = vertices.rbegin(); v != vertices.rend(); ++v) {
-      if (*v == last && left > kFewVertices) continue;
-      if (in_seed(*v) || triangulation.degree(*v) > degree) continue;
-      triangulation.remove(*v);
-      batch.push_back(*v);
+    for (std::size_t i = vertices.size(); i-- != 0;) {
+      if (i >= 2 * kAhead) {
+        triangulation.expect(vertices[i - kAhead], vertices[i - 2 * kAhead]);
+      }
+      const Index v = vertices[i];
+      if (v == last && left > kFewVertices) continue;
+      if (!in_seed(v) && triangulation.remove(v, degree)) batch.push_back(v);
     }
     left -= static_cast<Index>(batch.size());
     std::reverse(batch.begin(), batch.end());

@@ -10,7 +10,8 @@ namespace microtin {
 
 // Numbers of the points, each once, in rounds of growing size (a biased randomized insertion order:
 // Amenta, Choi and Rote, "Incremental constructions con BRIO") and along a Hilbert curve within
-// each. The places alone decide, so the order of the input does not matter.
+// each. The places alone decide, so the order of the input does not matter. Throws Error if two
+// points share a place.
 std::vector<Index> insertion_order(const std::vector<Point>& points);
 
 }  // namespace microtin

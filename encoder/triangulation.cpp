@@ -25,7 +25,13 @@ void start_with_triangle(const std::vector<Point>& points, std::vector<Index>& o
 }  // namespace
 
 Triangulation::Triangulation(const std::vector<Point>& points) {
-  std::vector<Index> order = insertion_order(points);
+  std::vector<Index> order;
+  *this = Triangulation(points, order);
+  renumber(order);
+}
+
+Triangulation::Triangulation(const std::vector<Point>& points, std::vector<Index>& order) {
+  order = insertion_order(points);
   start_with_triangle(points, order);
   set_sizes(points.size());
   set_cavity_limit(64);
@@ -37,7 +43,7 @@ Triangulation::Triangulation(const std::vector<Point>& points) {
   Index hint = 0;
   for (Index v = 3; v < order.size(); ++v) hint = connect(v, hint);
   mesh_.vertices = static_cast<Index>(order.size());
-  renumber(order);
+  for (Index t = 0; t < mesh_.triangles; ++t) note_edges(t);
 }
 
 void Triangulation::set_sizes(std::size_t vertices) {
@@ -62,18 +68,20 @@ void Triangulation::set_cavity_limit(std::size_t limit) {
   cavity_.limit = static_cast<Index>(limit);
 }
 
-// Vertices were numbered in the order of insertion, which keeps neighbours close in memory.
+// Vertex i becomes vertex order[i].
 void Triangulation::renumber(const std::vector<Index>& order) {
   std::vector<uint16_t> x(order.size()), y(order.size());
+  std::vector<Index> edge_of(edge_of_);
   for (std::size_t i = 0; i < order.size(); ++i) {
     x[order[i]] = x_[i];
     y[order[i]] = y_[i];
+    edge_of[std::size_t{order[i]} + 1] = edge_of_[i + 1];
   }
   std::copy(x.begin(), x.end(), x_.begin());
   std::copy(y.begin(), y.end(), y_.begin());
+  edge_of_.swap(edge_of);
   for (Index h = 0; h < first_edge(mesh_.triangles); ++h) {
     if (origin_[h] != kInfinity) origin_[h] = order[origin_[h]];
-    edge_of_[static_cast<Index>(origin_[h] + 1u)] = h;
   }
 }
 
@@ -135,109 +143,150 @@ Index Triangulation::insert(Point p, Index hint) {
   connect(v, hint);
   ++mesh_.vertices;
   new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size + 2);
-  if (!free_.empty()) {
-    mesh_.triangles -= 2;
-    recycle(new_triangles_[cavity_.size]);
-    recycle(new_triangles_[cavity_.size + 1]);
-  }
   for (const Index triangle : new_triangles_) note_edges(triangle);
   return v;
 }
 
-// Moves a triangle to a free slot.
-void Triangulation::recycle(Index& triangle) {
-  const Index from = first_edge(triangle), to = first_edge(free_.back());
-  triangle = free_.back();
-  free_.pop_back();
-  for (Index i = 0; i < 3; ++i) {
-    mesh_.origin[to + i] = mesh_.origin[from + i];
-    pair(mesh_, to + i, mesh_.twin[from + i]);
-  }
-}
-
 void Triangulation::note_edges(Index triangle) {
   const Index f = first_edge(triangle);
-  for (Index h = f; h < f + 3; ++h) edge_of_[static_cast<Index>(mesh_.origin[h] + 1u)] = h;
+  for (Index h = f; h < f + 3; ++h) edge_of_[entry(mesh_.origin[h])] = h;
 }
 
-void Triangulation::remove(Index v) {
-  open_hole(v);
-  fill_hole();
-  edge_of_[static_cast<Index>(v + 1u)] = kNoEdge;
+bool Triangulation::remove(Index v, Index max_degree) {
+  Hole hole;
+  if (!open_hole(v, max_degree, hole)) return false;
+  fill_hole(hole);
+  edge_of_[entry(v)] = kNoEdge;
+  return true;
 }
 
-// Collects the corners around v and frees its triangles.
-void Triangulation::open_hole(Index v) {
-  hole_.clear();
-  std::size_t first = 0;
+// Collects the corners around v. False if there are too many.
+bool Triangulation::open_hole(Index v, Index max_corners, Hole& hole) const {
+  Corner* corner = hole.corners;
+  Corner* const most = corner + max_corners;
+  Corner* infinite = nullptr;
   const Index start = edge_of(v);
   Index h = start;
   do {
-    const Index side = next_in_triangle(h);
-    const Index corner = mesh_.origin[side];
-    const bool finite = corner != kInfinity;
-    hole_.push_back({corner, finite ? point_of(mesh_, corner) : Point{0, 0}, mesh_.twin[side]});
-    if (!finite) first = hole_.size();
-    free_.push_back(triangle_of(h));
-    h = mesh_.twin[previous_in_triangle(h)];
-  } while (h != start);
-  std::rotate(hole_.begin(), hole_.begin() + static_cast<std::ptrdiff_t>(first), hole_.end());
-}
-
-// Cuts the hole into Delaunay triangles: that on the closing side first, then what it leaves to
-// its left and right. Two slots more than needed stay free.
-void Triangulation::fill_hole() {
-  const Index last = static_cast<Index>(hole_.size() - 1);
-  pockets_.assign(1, {0, last, hole_[last].outside});
-  while (!pockets_.empty()) {
-    const Pocket pocket = pockets_.back();
-    pockets_.pop_back();
-    const Index apex = apex_of(pocket);
-    const Index triangle = free_.back();
-    free_.pop_back();
-    const Index h = first_edge(triangle);
-    mesh_.origin[h] = hole_[pocket.last].vertex;
-    mesh_.origin[h + 1] = hole_[pocket.first].vertex;
-    mesh_.origin[h + 2] = hole_[apex].vertex;
-    note_edges(triangle);
-    pair(mesh_, h, pocket.outside);
-    close_side(pocket.first, apex, h + 1);
-    close_side(apex, pocket.last, h + 2);
-  }
-  for (std::size_t i = free_.size() - 2; i < free_.size(); ++i) {
-    std::fill_n(mesh_.origin + first_edge(free_[i]), 3, kInfinity);
-  }
-}
-
-// The corner that forms a Delaunay triangle with the pocket's closing side: of all that lie to the
-// left of last -> first, the one whose circle through these two holds no other. With kInfinity at
-// the end the circles are half-planes, and all corners lie on one side of `first` along the hull.
-Index Triangulation::apex_of(const Pocket& pocket) const {
-  const Point first = hole_[pocket.first].place, last = hole_[pocket.last].place;
-  const bool on_hull = hole_[pocket.last].vertex == kInfinity;
-  Index apex = pocket.last;  // none yet
-  for (Index i = pocket.first + 1; i < pocket.last; ++i) {
-    const Point p = hole_[i].place;
-    if (!on_hull && orient2d(last, first, p) <= 0) continue;
-    if (apex != pocket.last) {
-      const Point rival = hole_[apex].place;
-      if (!(on_hull ? conflicts_with_ghost(first, rival, p)
-                    : conflicts_with_triangle(last, first, rival, p))) {
-        continue;
-      }
+    if (corner == most) return false;
+    corner->slot = first_edge(triangle_of(h));
+    // next_in_triangle and previous_in_triangle, but surely without a branch: bits 2i, 2i + 1 say
+    // which of the three half-edges follows or precedes number i.
+    const Index twice = 2 * (h - corner->slot);
+    const Index side = corner->slot + (0b001001u >> twice & 3u);
+    const Index into = corner->slot + (0b010010u >> twice & 3u);
+    corner->outside = mesh_.twin[side];
+    corner->vertex = mesh_.origin[side];
+    if (corner->vertex == kInfinity) {
+      infinite = corner;
+    } else {
+      corner->x = mesh_.x[corner->vertex];
+      corner->y = mesh_.y[corner->vertex];
     }
-    apex = i;
+    h = mesh_.twin[into];
+    ++corner;
+  } while (h != start);
+  if (infinite != nullptr) std::rotate(hole.corners, infinite + 1, corner);
+  hole.last = corner - 1;
+  return true;
+}
+
+// Cuts the hole into Delaunay triangles. Two slots are left over.
+void Triangulation::fill_hole(const Hole& hole) {
+  const Corner* freed = hole.corners;
+  edge_of_[entry(hole.last->vertex)] = freed->slot;
+  fill(hole.corners, hole.last, hole.last->outside, freed);
+  for (; freed <= hole.last; ++freed) mesh_.origin[freed->slot + 1] = mesh_.origin[freed->slot];
+}
+
+// Fills the part of the hole from `first` to `last` that the half-edge `closing` closes; recursive,
+// with at most as many levels as there are corners. The slots come from `freed` on.
+void Triangulation::fill(const Corner* first, const Corner* last, Index closing,
+                         const Corner*& freed) {
+  if (last == first + 1) {
+    pair(mesh_, closing, first->outside);
+    edge_of_[entry(first->vertex)] = closing;
+    return;
+  }
+  if (last == first + 3 && last->vertex != kInfinity) {
+    fill_quadrangle(first, closing, freed);
+    return;
+  }
+  const Corner* const apex = apex_of(first, last);
+  const Index h = (freed++)->slot;
+  mesh_.origin[h] = last->vertex;
+  mesh_.origin[h + 1] = first->vertex;
+  mesh_.origin[h + 2] = apex->vertex;
+  pair(mesh_, h, closing);
+  fill(first, apex, h + 1, freed);
+  fill(apex, last, h + 2, freed);
+}
+
+// The most frequent part of all, without branches: its diagonal starts at corner s = 0 or 1.
+// Half-edge h is the side that follows corner s, g the one two corners on.
+void Triangulation::fill_quadrangle(const Corner* first, Index closing, const Corner*& freed) {
+  const uint32_t s = finite_apex_of(first, first + 3) == first + 1 ? 1 : 0;
+  const Index vertex[5] = {first[0].vertex, first[1].vertex, first[2].vertex, first[3].vertex,
+                           first[0].vertex};
+  const Index outside[4] = {first[0].outside, first[1].outside, first[2].outside, closing};
+  const Index h = freed[0].slot, g = freed[1].slot;
+  freed += 2;
+  mesh_.origin[h] = mesh_.origin[g + 2] = vertex[s];
+  mesh_.origin[h + 1] = vertex[s + 1];
+  mesh_.origin[h + 2] = mesh_.origin[g] = vertex[s + 2];
+  mesh_.origin[g + 1] = vertex[s + 3];
+  pair(mesh_, h, outside[s]);
+  pair(mesh_, h + 1, outside[s + 1]);
+  pair(mesh_, g, outside[s + 2]);
+  pair(mesh_, g + 1, outside[(s + 3) & 3]);
+  pair(mesh_, h + 2, g + 2);
+  edge_of_[entry(vertex[s])] = h;
+  edge_of_[entry(vertex[s + 1])] = h + 1;
+  edge_of_[entry(vertex[s + 2])] = g;
+  edge_of_[entry(vertex[s + 3])] = g + 1;
+}
+
+// The corner that forms a Delaunay triangle with the pocket's closing side.
+inline const Triangulation::Corner* Triangulation::apex_of(const Corner* first,
+                                                           const Corner* last) {
+  if (last == first + 2) return first + 1;
+  if (last->vertex == kInfinity) return hull_apex_of(first, last);
+  return finite_apex_of(first, last);
+}
+
+// Of all corners to the left of last -> first the one whose circle through these two holds no
+// other. With h(p) and q(p) as in `incircle`, p lies inside the circle through the apex if
+// q(apex) h(p) - q(p) h(apex) is positive.
+inline const Triangulation::Corner* Triangulation::finite_apex_of(const Corner* first,
+                                                                  const Corner* last) {
+  const Corner a = *last, b = *first;
+  int64_t h_apex = 0, q_apex = 1;  // no apex yet: the circle is the half-plane to the left
+  const Corner* apex = last;
+  for (const Corner* p = first + 1; p != last; ++p) {
+    const int64_t ax = a.x - p->x, ay = a.y - p->y, bx = b.x - p->x, by = b.y - p->y;
+    const int64_t h = ax * by - ay * bx;
+    const int64_t q = ax * bx + ay * by;
+    const auto inside =
+        static_cast<int64_t>(wrapping_product(q_apex, h) - wrapping_product(q, h_apex));
+    bool better = (h > 0) & (inside > 0);
+    if (inside == 0 && h > 0) {
+      better = conflicts_with_triangle(place(a), place(b), place(*apex), place(*p));
+    }
+    h_apex = better ? h : h_apex;
+    q_apex = better ? q : q_apex;
+    apex = better ? p : apex;
   }
   return apex;
 }
 
-// Gives h, the half-edge from corner `first` to corner `last`, its twin, now or later.
-void Triangulation::close_side(Index first, Index last, Index h) {
-  if (last == first + 1) {
-    pair(mesh_, h, hole_[first].outside);
-  } else {
-    pockets_.push_back({first, last, h});
+// The same where the closing side comes from infinity: circles are half-planes, and all corners lie
+// on one side of `first` along the hull.
+const Triangulation::Corner* Triangulation::hull_apex_of(const Corner* first, const Corner* last) {
+  const Corner* apex = first + 1;
+  for (const Corner* p = apex + 1; p != last; ++p) {
+    if (conflicts_with_ghost(place(*first), place(*apex), place(*p))) apex = p;
   }
+  return apex;
 }
 
 }  // namespace microtin

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "encoder/prefetch.hpp"
+#include "shared/format.hpp"
 #include "shared/insertion.hpp"
 #include "shared/mesh.hpp"
 
@@ -13,8 +15,12 @@ namespace microtin {
 
 class Triangulation {
  public:
-  // Vertex i is points[i]. The points must be distinct. Throws Error if they form no triangle.
+  // Vertex i is points[i]. Throws Error if two points share a place or all form no triangle.
   explicit Triangulation(const std::vector<Point>& points);
+
+  // The same, but vertex i is points[order[i]], and neighbours have numbers close to one another:
+  // quicker to build and to use. Sets `order`.
+  Triangulation(const std::vector<Point>& points, std::vector<Index>& order);
 
   Triangulation(Triangulation&&) = default;
   Triangulation& operator=(Triangulation&&) = default;
@@ -27,7 +33,7 @@ class Triangulation {
 
   // Some half-edge from v, which may be kInfinity; kNoEdge if v was removed.
   static constexpr Index kNoEdge = kInfinity;
-  Index edge_of(Index v) const { return edge_of_[static_cast<Index>(v + 1u)]; }
+  Index edge_of(Index v) const { return edge_of_[entry(v)]; }
 
   // The neighbours of v, which may be kInfinity and counts as a neighbour too.
   Index degree(Index v) const;
@@ -43,36 +49,50 @@ class Triangulation {
   // last corner of each: the slots of those it replaced, then two more.
   const std::vector<Index>& new_triangles() const { return new_triangles_; }
 
-  // Removes a vertex; those that stay must not all lie on one line. Only the triangles around v
-  // change; the other vertices and half-edges keep their numbers. O(degree^2).
-  void remove(Index v);
+  // Removes v if it has at most max_degree <= kMaxRemovable neighbours, infinity counted, and says
+  // whether it did. Those that stay must not all lie on one line. Only the triangles around v
+  // change; the other vertices and half-edges keep their numbers. Nothing may be inserted any more.
+  // O(degree^2).
+  bool remove(Index v, Index max_degree);
+  static constexpr Index kMaxRemovable = kMaxDegree;
+
+  // v will be used soon and `later` after that: spares them waiting for memory.
+  void expect(Index v, Index later) const {
+    prefetch(&edge_of_[entry(later)]);
+    prefetch(mesh_.origin + edge_of(v));
+    prefetch(mesh_.twin + edge_of(v));
+  }
 
  private:
-  // A corner of the hole that a removed vertex leaves, and the half-edge outside its next side.
+  // A corner of the hole that a removed vertex leaves.
   struct Corner {
+    int64_t x, y;  // unless it is kInfinity
     Index vertex;
-    Point place;  // unless it is kInfinity
-    Index outside;
+    Index outside;  // the half-edge beyond the side to the next corner
+    Index slot;     // first half-edge of the triangle that was at that side
   };
 
-  // The part of the hole from corner `first` to corner `last`, closed by a side whose other
-  // half-edge is `outside`.
-  struct Pocket {
-    Index first;
-    Index last;
-    Index outside;
+  struct Hole {
+    Corner corners[kMaxRemovable];  // counter-clockwise; kInfinity, if there, comes last
+    const Corner* last;
   };
 
+  static Point place(const Corner& c) {
+    return {static_cast<uint16_t>(c.x), static_cast<uint16_t>(c.y)};
+  }
+  static Index entry(Index v) { return static_cast<Index>(v + 1u); }
   void set_sizes(std::size_t vertices);
   void set_cavity_limit(std::size_t limit);
   void renumber(const std::vector<Index>& order);
   Index connect(Index v, Index hint);
-  void recycle(Index& triangle);
   void note_edges(Index triangle);
-  void open_hole(Index v);
-  void fill_hole();
-  Index apex_of(const Pocket& pocket) const;
-  void close_side(Index first, Index last, Index h);
+  bool open_hole(Index v, Index max_corners, Hole& hole) const;
+  void fill_hole(const Hole& hole);
+  void fill(const Corner* first, const Corner* last, Index closing, const Corner*& freed);
+  void fill_quadrangle(const Corner* first, Index closing, const Corner*& freed);
+  static const Corner* apex_of(const Corner* first, const Corner* last);
+  static const Corner* finite_apex_of(const Corner* first, const Corner* last);
+  static const Corner* hull_apex_of(const Corner* first, const Corner* last);
 
   Mesh mesh_ = {};
   std::vector<uint16_t> x_, y_;
@@ -82,10 +102,6 @@ class Triangulation {
   Cavity cavity_ = {};
   std::vector<Index> cavity_triangles_, cavity_origin_, cavity_twin_;
   std::vector<Index> new_triangles_;
-
-  std::vector<Corner> hole_;     // counter-clockwise; kInfinity, if there, comes last
-  std::vector<Pocket> pockets_;  // still to be filled
-  std::vector<Index> free_;      // slots of no triangle; all their origins are kInfinity
 };
 
 }  // namespace microtin

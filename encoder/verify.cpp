@@ -61,7 +61,17 @@ class ErrorMeter {
 class Asker {
  public:
   Asker(const microtin_mesh* mesh, const Placement& source, const Placement& lattice)
-      : mesh_(mesh), x_(map_between(source.x, lattice.x)), y_(map_between(source.y, lattice.y)) {}
+      : mesh_(mesh), x_(map_between(source.x, lattice.x)), y_(map_between(source.y, lattice.y)) {
+    const uint32_t triangles = microtin_triangle_count(mesh);
+    for (uint32_t t = 0; t < triangles; ++t) {
+      uint32_t v[3];
+      if (microtin_triangle(mesh, t, v) == MICROTIN_GHOST) continue;
+      Point place{};
+      int16_t z = 0;
+      microtin_vertex(mesh, v[0], &place.x, &place.y, &z);
+      hint_for(place) = t;
+    }
+  }
 
   // The place of (x, y) on the lattice, if it has one.
   std::optional<Point> place_of(int64_t x, int64_t y) const {
@@ -73,18 +83,26 @@ class Asker {
   // The terrain's height there, with 16 fractional bits, if it has one.
   std::optional<int32_t> height_at(Point place) {
     int32_t height = 0;
-    uint32_t& hint = hints_[(place.x >> 8) * size_t{256} + (place.y >> 8)];
+    uint32_t& hint = hint_for(place);
+    if (hint == kNowhere) hint = last_;
     const microtin_answer answer =
         microtin_height_at(mesh_, place.x * 256, place.y * 256, 0, &hint, &height);
+    last_ = hint;
     if (answer != MICROTIN_HEIGHT) return std::nullopt;
     return height;
   }
 
  private:
+  static constexpr uint32_t kNowhere = 0xFFFFFFFFu;
+
+  uint32_t& hint_for(Point place) { return hints_[(place.x >> 8) * size_t{256} + (place.y >> 8)]; }
+
   const microtin_mesh* mesh_;
   LatticeMap x_, y_;
-  // Where the last search in each 256 x 256 part of the lattice ended: points come in any order.
-  std::vector<uint32_t> hints_ = std::vector<uint32_t>(size_t{256} * 256);
+  // Points come in any order: a triangle of each 256 x 256 part of the lattice, if there is one,
+  // and then the one where the last search there ended.
+  std::vector<uint32_t> hints_ = std::vector<uint32_t>(size_t{256} * 256, kNowhere);
+  uint32_t last_ = 0;  // where the last search of all ended
 };
 
 }  // namespace

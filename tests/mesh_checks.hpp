@@ -11,7 +11,7 @@
 
 namespace microtin {
 
-// A slot that holds no triangle: all its origins are the same.
+// A slot that holds no triangle: two of its origins are the same.
 inline bool is_free_slot(const Mesh& mesh, Index triangle) {
   return mesh.origin[first_edge(triangle)] == mesh.origin[first_edge(triangle) + 1u];
 }

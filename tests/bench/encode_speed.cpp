@@ -13,13 +13,14 @@ void print_encode_speed() {
   const Tin tin = uniform_tin(kVertices, 0);
   std::vector<Point> points;
   for (const Vertex& v : tin.vertices) points.push_back({v.x, v.y});
+  std::vector<Index> numbers;
   const Bytes stream = encode(tin, {});
   const std::optional<Triangulator> peer = triangulator();
 
   std::vector<Work> works = {
-      [&] { Triangulation{points}; },
+      [&] { Triangulation(points, numbers); },
       [&] {
-        Triangulation triangulation(points);
+        Triangulation triangulation(points, numbers);
         breadth_first_order(triangulation, kDefaultDegree);
       },
       [&] { encode(tin, {}); },
