@@ -59,7 +59,7 @@ microtin_status handle_identity(microtin_decoder& d) {
   const microtin_status known = check_identity(bytes);
   if (known != MICROTIN_DONE) return known;
   d.flags = bytes[5];
-  d.contract.degree = bytes[6];
+  d.effort = bytes[6];
   d.item = Item::kDimensions;
   return MICROTIN_NEED_INPUT;
 }
@@ -67,7 +67,7 @@ microtin_status handle_identity(microtin_decoder& d) {
 microtin_status handle_dimensions(microtin_decoder& d) {
   uint8_t bytes[kDimensionsMostBytes];
   take_bytes(d, bytes, dimensions_bytes(d.flags));
-  const bool legal = read_contract(d.flags, d.contract.degree, bytes, &d.contract, &d.blocks_left);
+  const bool legal = read_contract(d.flags, d.effort, bytes, &d.contract, &d.blocks_left);
   d.header_status = legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
   d.item = after_block(d);
   return MICROTIN_NEED_INPUT;
@@ -412,6 +412,7 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   info->vertices = contract.vertices;
   info->version = kVersion;
   info->degree = static_cast<uint8_t>(contract.degree);
+  info->levels = static_cast<uint8_t>(contract.levels);
   info->has_heights = contract.has_heights;
   info->has_voids = contract.has_voids;
   info->x = axis[0];

@@ -43,6 +43,7 @@ struct microtin_decoder {
   uint32_t section_bytes;
   uint8_t section_shift;
   uint8_t flags;  // of the header
+  uint8_t effort;
   microtin::Contract contract;
   microtin_status header_status;  // DONE, or what to say once its check has passed
   microtin::ByteWindow window;

@@ -15,7 +15,7 @@ struct EncodeRequest {
   std::string output;
   LatticeOptions lattice;
   uint32_t max_vertices = 0;  // 0: as many as it takes
-  uint32_t degree = kDefaultDegree;
+  Effort effort;
   uint32_t fill_voids = 0;
   uint32_t horizontal_epsg = 0;  // 0: what the input's format implies
   uint32_t vertical_epsg = 0;

@@ -40,7 +40,7 @@ struct Encoded {
 Encoded encode_measured(const Tin& tin, Metadata metadata, const Source& source,
                         const EncodeRequest& request) {
   const std::optional<Decimal>& bound = request.lattice.max_error;
-  const auto [stream, decoded] = encode_and_decode(tin, metadata, request.degree);
+  const auto [stream, decoded] = encode_and_decode(tin, metadata, request.effort);
   const Verification measured = verify(decoded.mesh(), source, bound);
   if (!measured.within_bound || measured.uncovered != 0 || measured.voids_answered != 0) {
     throw Error("internal error: the decoded terrain does not keep what was asked for");

@@ -88,6 +88,7 @@ void run_info(const std::string& input, bool json) {
     r["bits_per_vertex"] = bits_per_vertex(stream.size(), vertices);
     r["phases"] = terrain.phases();
     r["degree"] = header.info.degree;
+    r["levels"] = header.info.levels;
     r["workspace_bytes_16"] = workspace_bytes_16(vertices);
     r["workspace_bytes_32"] =
         MICROTIN_MESH_BYTES_FOR(vertices, 32) + MICROTIN_DECODER_BYTES_FOR(vertices, 32);

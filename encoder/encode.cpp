@@ -140,10 +140,11 @@ std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& meta
 }
 
 // What the header promises.
-Contract contract_of(const Tin& tin, uint32_t degree) {
+Contract contract_of(const Tin& tin, const Effort& effort) {
   Contract contract{};
   contract.vertices = static_cast<uint32_t>(tin.vertices.size());
-  contract.degree = degree;
+  contract.degree = effort.degree;
+  contract.levels = effort.levels;
   contract.has_voids = !tin.voids.empty();
   for (const Vertex& v : tin.vertices) {
     contract.x_max = std::max(contract.x_max, v.x);
@@ -189,7 +190,7 @@ uint64_t fingerprint_of(const microtin_mesh* mesh) {
 
 }  // namespace
 
-Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, uint32_t degree) {
+Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort) {
   if (tin.vertices.size() > kMaxVertices) {
     throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
   }
@@ -200,8 +201,8 @@ Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, uint32_t de
   for (const Index number : numbers) vertices.push_back(tin.vertices[number]);
   const VoidSet voids = void_set(tin);
   const uint64_t expected = fingerprint_of(triangulation.mesh(), vertices, voids);
-  WritingCoder coder(vertices, breadth_first_order(triangulation, degree), voids);
-  std::vector<uint8_t> stream = write_stream(contract_of(tin, degree), metadata, coder);
+  WritingCoder coder(vertices, breadth_first_order(triangulation, effort.degree), voids);
+  std::vector<uint8_t> stream = write_stream(contract_of(tin, effort), metadata, coder);
   DecodedTerrain decoded(stream);
   if (microtin_vertex_count(decoded.mesh()) != vertices.size() ||
       fingerprint_of(decoded.mesh()) != expected) {
@@ -210,8 +211,8 @@ Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, uint32_t de
   return {std::move(stream), std::move(decoded)};
 }
 
-std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, uint32_t degree) {
-  return encode_and_decode(tin, metadata, degree).stream;
+std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, const Effort& effort) {
+  return encode_and_decode(tin, metadata, effort).stream;
 }
 
 }  // namespace microtin

@@ -158,7 +158,7 @@ Bytes write_header(const Contract& contract, const Metadata& metadata) {
       static_cast<uint8_t>((contract.has_heights ? kHasHeights : 0) |
                            (contract.has_voids ? kHasVoids : 0) | (long_count ? kLongCount : 0) |
                            (long_sides ? kLongSides : 0) | (blocks.empty() ? 0 : kHasBlocks)));
-  header.push_back(static_cast<uint8_t>(contract.degree));
+  header.push_back(static_cast<uint8_t>(contract.degree | contract.levels << 6));
   append_number(header, contract.vertices, long_count ? 4 : 2);
   append_number(header, contract.x_max, long_sides ? 2 : 1);
   append_number(header, contract.y_max, long_sides ? 2 : 1);

@@ -63,8 +63,14 @@ void add_encode(CLI::App& app, Action& action) {
   add_decimal(command, "--z-step", request->lattice.z_step, "Step of heights");
   add_decimal(command, "--xy-step", request->lattice.xy_step, "Step of places (rasters: in posts)");
   command
-      .add_option("--degree", request->degree, "Most triangles around a vertex when it is added")
+      .add_option("--degree", request->effort.degree,
+                  "Most triangles around a vertex when it is added")
       ->check(CLI::Range(kMinDegree, kMaxDegree))
+      ->capture_default_str();
+  command
+      .add_option("--levels", request->effort.levels,
+                  "Of cells for places: 3 for the smallest stream, 1 for the quickest decoding")
+      ->check(CLI::Range(1u, kMaxLevels))
       ->capture_default_str();
   command.add_option("--fill-voids", request->fill_voids,
                      "Interpolate voids of up to so many posts");

@@ -8,10 +8,11 @@
 namespace microtin {
 
 constexpr uint8_t kMagic[4] = {'m', 't', 'i', 'n'};
-constexpr uint8_t kVersion = 1;
+constexpr uint8_t kVersion = 2;
 // Header flags; the others are zero. The last three say how wide the numbers of the header are.
 constexpr uint8_t kHasHeights = 1, kHasVoids = 2, kLongCount = 4, kLongSides = 8, kHasBlocks = 16;
 constexpr uint32_t kMinDegree = 6, kMaxDegree = 32;
+constexpr uint32_t kMaxLevels = 3;
 constexpr uint32_t kMaxVertices = 16777216;  // 2^24
 
 // A section of the body ends with the first phase that brings the terrain to this many vertices,
@@ -36,7 +37,8 @@ constexpr uint32_t work_budget(uint32_t vertices) {
 struct Contract {
   uint32_t vertices;
   uint16_t x_max, y_max;
-  uint32_t degree;
+  uint32_t degree;  // most triangles around a vertex when it is inserted
+  uint32_t levels;  // of cells (place_coding.hpp)
   bool has_heights;
   bool has_voids;
 };
@@ -50,7 +52,7 @@ inline uint32_t rows(const Contract& contract) {
   return static_cast<uint32_t>(contract.y_max) + 1;
 }
 
-// Fixed header: magic 4, version 1, flags 1, degree 1, then the dimensions, as narrow as the flags
+// Fixed header: magic 4, version 1, flags 1, effort 1 (degree + 64 * levels), then the dimensions, as narrow as the flags
 // say: vertices 2 or 4, x_max 1 or 2, y_max 1 or 2, bytes of optional blocks 0 or 2. Little-endian.
 // Then the blocks, then a CRC-32 of all before it.
 constexpr uint32_t kIdentityBytes = 7;

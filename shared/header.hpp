@@ -20,13 +20,14 @@ inline uint32_t dimensions_bytes(uint8_t flags) {
          ((flags & kHasBlocks) != 0 ? 2u : 0u);
 }
 
-// Reads the dimensions, given the flags and the degree. False if the header breaks a rule of the
+// Reads the dimensions, given the flags and the effort. False if the header breaks a rule of the
 // format.
-inline bool read_contract(uint8_t flags, uint32_t degree, const uint8_t* dimensions,
+inline bool read_contract(uint8_t flags, uint8_t effort, const uint8_t* dimensions,
                           Contract* contract, uint32_t* block_bytes) {
   contract->has_heights = (flags & kHasHeights) != 0;
   contract->has_voids = (flags & kHasVoids) != 0;
-  contract->degree = degree;
+  contract->degree = effort & 63u;
+  contract->levels = effort >> 6;
   const bool long_count = (flags & kLongCount) != 0;
   contract->vertices = long_count ? read_u32(dimensions) : read_u16(dimensions);
   const uint8_t* const sides = dimensions + (long_count ? 4 : 2);
@@ -39,7 +40,8 @@ inline bool read_contract(uint8_t flags, uint32_t degree, const uint8_t* dimensi
   }
   const uint32_t bytes = dimensions_bytes(flags);
   *block_bytes = (flags & kHasBlocks) != 0 ? read_u16(dimensions + bytes - 2) : 0;
-  return (flags >> 5) == 0 && degree >= kMinDegree && degree <= kMaxDegree &&
+  return (flags >> 5) == 0 && contract->degree >= kMinDegree && contract->degree <= kMaxDegree &&
+         contract->levels >= 1 &&
          contract->vertices >= 3 && contract->vertices <= kMaxVertices;
 }
 

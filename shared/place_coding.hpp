@@ -8,24 +8,24 @@
 #ifndef MICROTIN_SHARED_PLACE_CODING_HPP
 #define MICROTIN_SHARED_PLACE_CODING_HPP
 
+#include "shared/format.hpp"
 #include "shared/free_region.hpp"
 #include "shared/probability.hpp"
 
 namespace microtin {
 
 constexpr int kCells = 4;   // per axis
-constexpr int kLevels = 2;  // of cells
 constexpr uint32_t kSplitEntries = 9;
 constexpr int kSweepNodes = 4;
 constexpr int kSweepEntries = 8 * kSweepNodes + 1;
 
 // For each level and each of its four binary decisions: the odds learned for the estimated ones.
 struct PlaceModel {
-  Calibration<kSplitEntries> split[kLevels][4];
+  Calibration<kSplitEntries> split[kMaxLevels][4];
 };
 
 inline void reset(PlaceModel& model) {
-  for (int level = 0; level < kLevels; ++level) {
+  for (uint32_t level = 0; level < kMaxLevels; ++level) {
     for (int decision = 0; decision < 4; ++decision) reset(model.split[level][decision]);
   }
 }
@@ -300,11 +300,11 @@ MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration<kSplitEntries>* sp
 // Codes a place in `box`, which encloses the free region.
 template <class Coder>
 Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, const FreeRegion& region,
-                 Log2 density, Box box, Point place) {
+                 Log2 density, uint32_t levels, Box box, Point place) {
   const Point v = region.origin;
   estimate_odds(odds, region, Offset{box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y},
                 density);
-  for (int level = 0; level < kLevels; ++level) {
+  for (uint32_t level = 0; level < levels; ++level) {
     code_cell(coder, model.split[level], odds, box, place);
   }
   const uint32_t x = coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),

@@ -38,7 +38,7 @@ bool same_vertices(const std::vector<Vertex>& a, const std::vector<Vertex>& b) {
 // Empty, or what is wrong with the stream of `tin`.
 std::string round_trip_fault(const Tin& tin, uint32_t degree,
                              bool (*is_right)(const Points&, const TriangleSet&)) {
-  const DecodedTerrain decoded(encode(tin, Metadata(), degree));
+  const DecodedTerrain decoded(encode(tin, Metadata(), {degree}));
   const MeshCopy copy(decoded.mesh());
   std::vector<Vertex> vertices;
   for (uint32_t v = 0; v < copy.x.size(); ++v) {

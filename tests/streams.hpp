@@ -22,8 +22,8 @@ inline Tin rolling_tin(uint32_t n, uint32_t seed) {
 }
 
 inline std::vector<uint8_t> terrain_stream(uint32_t n, uint32_t seed,
-                                           uint32_t degree = kDefaultDegree) {
-  return encode(rolling_tin(n, seed), Metadata(), degree);
+                                           const Effort& effort = {}) {
+  return encode(rolling_tin(n, seed), Metadata(), effort);
 }
 
 }  // namespace microtin

@@ -21,7 +21,7 @@ void print_encode_speed() {
       [&] { Triangulation(points, numbers); },
       [&] {
         Triangulation triangulation(points, numbers);
-        breadth_first_order(triangulation, kDefaultDegree);
+        breadth_first_order(triangulation, Effort().degree);
       },
       [&] { encode(tin, {}); },
       [&] { DecodedTerrain{stream}; },

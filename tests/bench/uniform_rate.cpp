@@ -33,7 +33,7 @@ void print_size(const Size& size, const std::vector<Codec>& peers) {
     const double scale = 8.0 / static_cast<double>(size.vertices * size.samples);
     auto sum = bits.begin();
     for (const uint32_t degree : kDegrees) {
-      *sum++ += scale * static_cast<double>(encode(tin, {}, degree).size());
+      *sum++ += scale * static_cast<double>(encode(tin, {}, {degree}).size());
     }
     for (const Codec& peer : peers) {
       *sum++ += scale * static_cast<double>(checked_encode(peer, surface).size());

@@ -72,6 +72,7 @@ typedef struct microtin_info {
   uint32_t header_bytes; /* fixed part, blocks and check together */
   uint8_t version;
   uint8_t degree;      /* most triangles around a vertex when it is inserted */
+  uint8_t levels;      /* of cells that places are coded in: 1 .. 3 */
   uint8_t has_heights; /* 0: every z is 0 */
   uint8_t has_voids;
   microtin_axis x, y, z; /* offset 0 and step 1 where the stream does not say */
