@@ -149,27 +149,32 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
   Box box = {v.x, v.y, v.x, v.y};
   extend(box, v.x + region.corner[1].x, v.y + region.corner[1].y);
   extend(box, v.x + region.corner[2].x, v.y + region.corner[2].y);
-  const int64_t k = region.side[kChord].own;
+  const Cotangent k = region.side[kChord].own;
   if (k == kCotangentCap || k == -kCotangentCap) return bounds;
   // Sixteenths of a step from v. The cotangent is off by less than 1/256, which moves the centre,
-  // and changes the radius, by less than 1/512 of the chord.
+  // and changes the radius, by less than 1/512 of the chord. All below 2^28.
   const Offset a = region.corner[2];
-  const int64_t cx = a.x * 8 + k * a.y / 32;
-  const int64_t cy = a.y * 8 - k * a.x / 32;
-  const int64_t margin = ((a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y)) / 16 + 2;
-  const int64_t radius =
-      sqrt_above(static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 10) + 1 + margin;
+  const int_fast32_t cx = a.x * 8 + static_cast<int_fast32_t>(static_cast<int64_t>(k) * a.y / 32);
+  const int_fast32_t cy = a.y * 8 - static_cast<int_fast32_t>(static_cast<int64_t>(k) * a.x / 32);
+  const int_fast32_t margin = ((a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y)) / 16 + 2;
+  const int_fast32_t radius =
+      static_cast<int_fast32_t>(sqrt_above(static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 10)) +
+      1 + margin;
   bool west = false, east = false, south = false, north = false;
   for (int i = 0; i < 2; ++i) {
     if (region.side[i].certified) continue;
     const Offset from = region.corner[i], to = region.corner[i + 1];
-    const int64_t dx = to.x - from.x, dy = to.y - from.y;
-    const int64_t slack = margin * ((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
-    const int64_t centre = dx * (cy - 16 * from.y) - dy * (cx - 16 * from.x) - slack;
-    west = west || centre + dy * radius < 0;
-    east = east || centre - dy * radius < 0;
-    south = south || centre - dx * radius < 0;
-    north = north || centre + dx * radius < 0;
+    const Offset side = {to.x - from.x, to.y - from.y};
+    // 2^18 * 2^28, twice.
+    const int64_t centre =
+        cross(side, Offset{cx - 16 * from.x, cy - 16 * from.y}) -
+        static_cast<int64_t>(margin) * ((side.x < 0 ? -side.x : side.x) + (side.y < 0 ? -side.y : side.y));
+    const int64_t along_x = static_cast<int64_t>(side.x) * radius;
+    const int64_t along_y = static_cast<int64_t>(side.y) * radius;
+    west = west || centre + along_y < 0;
+    east = east || centre < along_y;
+    south = south || centre < along_x;
+    north = north || centre + along_x < 0;
   }
   if (west) box.x0 = v.x + static_cast<int32_t>((cx - radius + 15) >> 4);
   if (east) box.x1 = v.x + static_cast<int32_t>((cx + radius) >> 4);
