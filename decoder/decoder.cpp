@@ -269,9 +269,9 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
 // rounded up, fits in `size` bytes.
 uint32_t capacity_of(size_t size, uint32_t fixed, uint32_t per_four) {
   if (size < fixed) return 0;
-  const uint64_t capacity = static_cast<uint64_t>(size - fixed) * 4 / per_four;
-  return capacity < MICROTIN_MAX_VERTICES ? static_cast<uint32_t>(capacity)
-                                          : static_cast<uint32_t>(MICROTIN_MAX_VERTICES);
+  const size_t fours = (size - fixed) / per_four, rest = (size - fixed) % per_four;
+  if (fours >= MICROTIN_MAX_VERTICES / 4) return static_cast<uint32_t>(MICROTIN_MAX_VERTICES);
+  return static_cast<uint32_t>(4 * fours) + static_cast<uint32_t>(rest) * 4 / per_four;
 }
 
 bool misaligned(const void* workspace) {

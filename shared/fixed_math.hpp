@@ -19,16 +19,6 @@ namespace microtin {
 typedef int32_t Log2;
 constexpr Log2 kLog2One = 256;
 
-// a / b for b > 0. Where 64-bit division is a long library call, it is avoided for operands that
-// fit in 32 bits, as most do.
-inline int64_t quotient(int64_t a, int64_t b) {
-#if UINTPTR_MAX <= 0xFFFFFFFFu
-  const int32_t small_a = static_cast<int32_t>(a), small_b = static_cast<int32_t>(b);
-  if (small_a == a && small_b == b) return small_a / small_b;
-#endif
-  return a / b;
-}
-
 // Position of the highest set bit of v > 0.
 inline uint32_t highest_bit(uint64_t v) {
 #if defined(__GNUC__) && UINTPTR_MAX > 0xFFFFFFFFu
@@ -79,12 +69,14 @@ inline uint64_t exp2_of(Log2 l) {
   return bit >= 15 ? mantissa << (bit - 15) : mantissa >> (15 - bit);
 }
 
-// A number at least sqrt(v) and at most 1 + sqrt(v) * (1 + 2^-14), for v < 2^44.
+// A number at least sqrt(v) and at most (2 + sqrt(v)) * (1 + 2^-14), for v < 2^62.
 inline uint32_t sqrt_above(uint64_t v) {
-  if (v == 0) return 0;
-  // One Newton step from any start ends at or above the root: (r + v / r) / 2 >= sqrt(v).
-  const uint64_t r = exp2_of(log2_of(v) / 2) + 1;
-  return static_cast<uint32_t>((r + v / r) / 2 + 1);
+  uint32_t shift = 0;
+  while (v >> 32 >> 2 * shift) ++shift;  // at most 15 times
+  const uint32_t w = static_cast<uint32_t>(v >> 2 * shift);
+  // One Newton step from any start ends at or above the root: (r + w / r) / 2 >= sqrt(w).
+  const uint32_t r = static_cast<uint32_t>(exp2_of(log2_of(w) / 2)) + 1;
+  return ((r + w / r) / 2 + 2) << shift;
 }
 
 }  // namespace microtin

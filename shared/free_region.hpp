@@ -15,12 +15,14 @@ namespace microtin {
 typedef int32_t Cotangent;
 constexpr Cotangent kCotangentCap = 23000;
 
-// |q| < 2^34, h > 0.
+// q / h, off by less than 2 / 256; |q| < 2^34, 0 < h < 2^34.
 inline Cotangent cotangent(int64_t q, int64_t h) {
-  const int64_t k = quotient(q * 256, h);
-  if (k > kCotangentCap) return kCotangentCap;
-  if (k < -kCotangentCap) return -kCotangentCap;
-  return static_cast<Cotangent>(k);
+  if (q >= 89 * h) return kCotangentCap;
+  if (q <= -89 * h) return -kCotangentCap;
+  // h is brought below 2^16, but not below 2^15: |q| * 256 < 89 * 2^16 * 2^8 < 2^31.
+  const uint32_t bits = highest_bit(static_cast<uint64_t>(h));
+  const uint32_t shift = bits > 15 ? bits - 15 : 0;
+  return static_cast<int32_t>(q >> shift) * 256 / static_cast<int32_t>(h >> shift);
 }
 
 // The side from corner i to corner i + 1 of a triangle, and what is known behind it.
@@ -151,12 +153,12 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
   extend(box, v.x + region.corner[2].x, v.y + region.corner[2].y);
   const Cotangent k = region.side[kChord].own;
   if (k == kCotangentCap || k == -kCotangentCap) return bounds;
-  // Sixteenths of a step from v. The cotangent is off by less than 1/256, which moves the centre,
-  // and changes the radius, by less than 1/512 of the chord. All below 2^28.
+  // Sixteenths of a step from v. The cotangent is off by less than 1/128, which moves the centre,
+  // and changes the radius, by less than 1/256 of the chord. All below 2^28.
   const Offset a = region.corner[2];
   const int_fast32_t cx = a.x * 8 + static_cast<int_fast32_t>(static_cast<int64_t>(k) * a.y / 32);
   const int_fast32_t cy = a.y * 8 - static_cast<int_fast32_t>(static_cast<int64_t>(k) * a.x / 32);
-  const int_fast32_t margin = ((a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y)) / 16 + 2;
+  const int_fast32_t margin = ((a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y)) / 8 + 2;
   const int_fast32_t radius =
       static_cast<int_fast32_t>(sqrt_above(static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 10)) +
       1 + margin;

@@ -57,10 +57,10 @@ inline HullEdge hull_edge(const Contract& contract, Point a, Point c) {
   return edge;
 }
 
-// log2 of the spacing of the vertices of a phase, if they were spread evenly.
+// log2 of the spacing of the vertices of a phase, if they were spread evenly; at least 1.
 inline uint32_t expected_spacing(const Contract& contract, uint32_t batch) {
-  const uint64_t places = static_cast<uint64_t>(columns(contract)) * rows(contract);
-  return highest_bit(places / batch | 1u) / 2u + 1u;  // a phase has at least one vertex
+  const Log2 share = log2_of(columns(contract)) + log2_of(rows(contract)) - log2_of(batch);
+  return share > 0 ? static_cast<uint32_t>(share) / (2 * kLog2One) + 1u : 1u;
 }
 
 template <class Coder>
