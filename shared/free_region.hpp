@@ -107,8 +107,8 @@ inline Log2 free_area(FreeRegion& region) {
 // an offset (i, j) from some place it is value + i (x + i) + j (y + j).
 struct Power {
   int64_t value;
-  int32_t x;
-  int32_t y;
+  int_fast32_t x;
+  int_fast32_t y;
 };
 
 // The circle through both ends of a side, seen from `middle` (half steps from corner 0).
@@ -120,12 +120,12 @@ inline Power circle_over(const FreeRegion& region, int i, Cotangent k, Offset mi
   const Offset chord = {a.x - b.x, a.y - b.y};
   Power power;
   power.value = dot(a, b) - ((k * cross(chord, a)) / 256);
-  power.x = a.x + b.x + static_cast<int32_t>(static_cast<int64_t>(k) * chord.y / 256);
-  power.y = a.y + b.y - static_cast<int32_t>(static_cast<int64_t>(k) * chord.x / 256);
+  power.x = a.x + b.x + static_cast<int_fast32_t>(static_cast<int64_t>(k) * chord.y / 256);
+  power.y = a.y + b.y - static_cast<int_fast32_t>(static_cast<int64_t>(k) * chord.x / 256);
   return power;
 }
 
-inline Power moved(const Power& power, int32_t i, int32_t j) {
+inline Power moved(const Power& power, int_fast32_t i, int_fast32_t j) {
   return Power{power.value + static_cast<int64_t>(i) * (power.x + i) +
                    static_cast<int64_t>(j) * (power.y + j),
                power.x + 2 * i, power.y + 2 * j};
@@ -133,10 +133,10 @@ inline Power moved(const Power& power, int32_t i, int32_t j) {
 
 // A box of lattice points, both ends included.
 struct Box {
-  int32_t x0, y0, x1, y1;
+  int_fast32_t x0, y0, x1, y1;
 };
 
-inline void extend(Box& box, int32_t x, int32_t y) {
+inline void extend(Box& box, int_fast32_t x, int_fast32_t y) {
   if (x < box.x0) box.x0 = x;
   if (x > box.x1) box.x1 = x;
   if (y < box.y0) box.y0 = y;
@@ -178,10 +178,10 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
     south = south || centre < along_x;
     north = north || centre + along_x < 0;
   }
-  if (west) box.x0 = v.x + static_cast<int32_t>((cx - radius + 15) >> 4);
-  if (east) box.x1 = v.x + static_cast<int32_t>((cx + radius) >> 4);
-  if (south) box.y0 = v.y + static_cast<int32_t>((cy - radius + 15) >> 4);
-  if (north) box.y1 = v.y + static_cast<int32_t>((cy + radius) >> 4);
+  if (west) box.x0 = v.x + static_cast<int_fast32_t>((cx - radius + 15) >> 4);
+  if (east) box.x1 = v.x + static_cast<int_fast32_t>((cx + radius) >> 4);
+  if (south) box.y0 = v.y + static_cast<int_fast32_t>((cy - radius + 15) >> 4);
+  if (north) box.y1 = v.y + static_cast<int_fast32_t>((cy + radius) >> 4);
   if (box.x0 < bounds.x0) box.x0 = bounds.x0;
   if (box.y0 < bounds.y0) box.y0 = bounds.y0;
   if (box.x1 > bounds.x1) box.x1 = bounds.x1;

@@ -97,23 +97,23 @@ inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset midd
 
 // Four slices of `count` <= 2^16 lattice lines: where each starts, and where the last one ends.
 struct Slices {
-  int32_t count;
-  int32_t start[kCells + 1];
+  int_fast32_t count;
+  int_fast32_t start[kCells + 1];
   uint32_t unit;            // middles are in half steps / 2^(unit - 2), below 24576
   int16_t middle[kCells];   // from the middle of all
   int16_t square[kCells];   // middle^2 / 2^16
-  int32_t extent;           // of a slice, less one lattice step, in eighths of half steps; at least 1
+  int_fast32_t extent;      // of a slice, less one lattice step, in eighths of half steps; at least 1
 };
 
-inline Slices slice(int32_t count) {
+inline Slices slice(int_fast32_t count) {
   Slices slices;
   slices.count = count;
   slices.unit = 16 - highest_bit(static_cast<uint32_t>(count));
   slices.start[0] = 0;
   for (int i = 0; i < kCells; ++i) {
-    slices.start[i + 1] = static_cast<int32_t>(static_cast<uint32_t>(count) * (static_cast<uint32_t>(i) + 1u) >> 2);
-    const int32_t twice = slices.start[i] + slices.start[i + 1] - count;
-    slices.middle[i] = static_cast<int16_t>((twice * (static_cast<int32_t>(1) << slices.unit)) >> 2);
+    slices.start[i + 1] = count * (i + 1) >> 2;
+    const int_fast32_t twice = slices.start[i] + slices.start[i + 1] - count;
+    slices.middle[i] = static_cast<int16_t>((twice * (static_cast<int_fast32_t>(1) << slices.unit)) >> 2);
   }
   for (int i = 0; i < kCells; ++i) {
     slices.square[i] = static_cast<int16_t>(static_cast<int32_t>(slices.middle[i]) * slices.middle[i] >> 16);
@@ -122,7 +122,7 @@ inline Slices slice(int32_t count) {
   return slices;
 }
 
-inline int slice_of(const Slices& slices, int32_t offset) {
+inline int slice_of(const Slices& slices, int_fast32_t offset) {
   int i = 0;
   while (i < kCells - 1 && offset >= slices.start[i + 1]) ++i;
   return i;
@@ -147,7 +147,7 @@ inline Scale scale_for(const Power& power, const Slices& columns, const Slices& 
 }
 
 // The power of slices' middles, in 64ths of a cell's extent: a parabola.
-inline void measure_axis(int32_t constant, int32_t slope, const Slices& slices, const Scale& scale,
+inline void measure_axis(int32_t constant, int_fast32_t slope, const Slices& slices, const Scale& scale,
                          int16_t* distance) {
   const int16_t linear = static_cast<int16_t>(static_cast<int64_t>(slope) * scale.reciprocal >> (scale.shift + slices.unit + 3));
   const int16_t square = static_cast<int16_t>((static_cast<int64_t>(scale.reciprocal) << 15) >> (scale.shift + 2 * slices.unit));
@@ -213,7 +213,7 @@ MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds, const Slices& columns, c
 
 // How much a slice's width counts: nothing where all are about the same. At most 16.
 inline uint32_t size_of(const Slices& slices, int i) {
-  const int32_t width = slices.start[i + 1] - slices.start[i];
+  const int_fast32_t width = slices.start[i + 1] - slices.start[i];
   return slices.count > 64 ? 1u : static_cast<uint32_t>(width);
 }
 
@@ -261,8 +261,8 @@ inline void narrow(PlaceOdds& odds, Box& box, const Slices& columns, const Slice
   box.y1 = box.y0 + rows.start[j + 1] - 1;
   box.x0 += columns.start[i];
   box.y0 += rows.start[j];
-  const int32_t dx = columns.start[i] + columns.start[i + 1] - columns.count;
-  const int32_t dy = rows.start[j] + rows.start[j + 1] - rows.count;
+  const int_fast32_t dx = columns.start[i] + columns.start[i + 1] - columns.count;
+  const int_fast32_t dy = rows.start[j] + rows.start[j + 1] - rows.count;
   for (int k = 0; k < 4; ++k) {
     if (!odds.cuts[k]) continue;
     const int16_t d = odds.distance[k][kCells * i + j];
