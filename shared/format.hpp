@@ -30,7 +30,7 @@ constexpr uint32_t kVirtualBytes = 4;
 // Vertices of all phases together that a stream may walk around. Every phase of the encoder leaves
 // at most 3/4 of its removable vertices (FORMAT.md, "Work"), so 4 n and 3 per phase suffice.
 constexpr uint32_t work_budget(uint32_t vertices) {
-  return 4 * vertices + 256;
+  return 4 * vertices + 512;
 }
 
 // What the fixed header promises.

@@ -88,16 +88,13 @@ def highest_bit(v):
     return v.bit_length() - 1
 
 
-def half_disc_above(i):
-    if i == 32:
-        return 0
-    k = i / (32 - i)
+def segment_of_unit_chord(k):
     return (1 + k * k) * math.atan2(1, k) - k
 
 
 LOG_TABLE = [round(4096 * math.log2(1 + i / 32)) for i in range(33)]
 EXP_TABLE = [round(32768 * (2 ** (i / 32) - 1)) for i in range(33)]
-SEGMENT_TABLE = [round(32768 * half_disc_above(i)) for i in range(33)]
+SEGMENT_TABLE = [round(32768 * segment_of_unit_chord(i / 8)) for i in range(65)]
 
 
 def log2(v):
@@ -110,6 +107,11 @@ def log2(v):
     return 256 * b + ((fraction + 8) >> 4)
 
 
+def coarse_log2(v):
+    b = highest_bit(v)
+    return 256 * b + (((v << 8) >> b) & 255)
+
+
 def exp2(exponent):
     if exponent <= 0:
         return 1
@@ -120,55 +122,55 @@ def exp2(exponent):
     return (mantissa << (exponent >> 8)) >> 15
 
 
-def disc(c, q, h):
-    k = 256 * q // h
-    if k >= 32768:
-        return 1 << 50
-    return min(1 << 50, ((c * ((65536 + k * k) >> 8)) >> 8) * 201)
+def root_above(u):
+    s = 0
+    while u >> 2 * s >= 1 << 32:
+        s += 1
+    w = u >> 2 * s
+    e = exp2(log2(w) // 2) + 1
+    return ((e + w // e) // 2 + 2) << s
 
 
-def segment(c, q, h):
-    t = abs(q) * 8192 // (abs(q) + h)
-    i = t >> 8
-    s = SEGMENT_TABLE[i] - (((SEGMENT_TABLE[i] - SEGMENT_TABLE[i + 1]) * (t & 255)) >> 8)
-    small = (c * s) >> 9
-    return small if q <= 0 else disc(c, q, h) - small
+LARGEST_COTANGENT = 23000
 
 
-def rounded_root(u):
-    if u == 0:
-        return 0
-    e = exp2(log2(u) // 2) + 1
-    return (e + u // e) // 2 + 1
+def cotangent(q, h):
+    if abs(q) >= 89 * h:
+        return LARGEST_COTANGENT if q > 0 else -LARGEST_COTANGENT
+    s = max(0, highest_bit(h) - 15)
+    return divide((q >> s) * 256, h >> s)
+
+
+def disc(c, k):
+    return ((c * ((65536 + k * k) >> 8)) >> 8) * 201
+
+
+def segment(k):
+    size = abs(k)
+    if size < 2048:
+        i, f = size >> 5, size & 31
+        smaller = SEGMENT_TABLE[i] - (((SEGMENT_TABLE[i] - SEGMENT_TABLE[i + 1]) * f) >> 5)
+    else:
+        smaller = 5592405 // size
+    return smaller if k <= 0 else ((65536 + k * k) * 3217 >> 11) - smaller
 
 
 class Circle:
-    """A circle through the point `origin`, by its power X, Y there."""
+    """The circle over the side p -> q that sees it under the cotangent k, from the doubled place m."""
 
-    LIMIT = 1 << 40
+    def __init__(self, p, q, k, m):
+        s, t = (minus(m, (2 * end[0], 2 * end[1])) for end in (p, q))
+        u = minus(s, t)
+        self.m = m
+        self.power = dot(s, t) - divide(k * cross(u, s), 256)
+        self.x = s[0] + t[0] + divide(k * u[1], 256)
+        self.y = s[1] + t[1] - divide(k * u[0], 256)
 
-    def __init__(self, origin, x, y):
-        self.origin = origin
-        self.x = keep_within(-self.LIMIT, x, self.LIMIT)
-        self.y = keep_within(-self.LIMIT, y, self.LIMIT)
-        shorter, longer = sorted((abs(self.x), abs(self.y)))
-        self.steepness = longer + 3 * shorter // 8 + 1
-
-    @classmethod
-    def through(cls, p, q, r):
-        s, t = minus(q, p), minus(r, p)
-        h = cross(s, t)
-        return cls(
-            p,
-            divide(256 * (s[1] * dot(t, t) - t[1] * dot(s, s)), h),
-            divide(256 * (t[0] * dot(s, s) - s[0] * dot(t, t)), h),
-        )
-
-    def seen_from(self, place):
-        """C, X and Y after the origin has moved to place."""
-        i, j = minus(place, self.origin)
-        power = i * (256 * i + self.x) + j * (256 * j + self.y)
-        return power, self.x + 512 * i, self.y + 512 * j
+    def seen_from(self, m):
+        """C, X and Y at another doubled place."""
+        i, j = minus(m, self.m)
+        power = self.power + i * (self.x + i) + j * (self.y + j)
+        return power, self.x + 2 * i, self.y + 2 * j
 
 
 # Section 8: range coder
@@ -221,21 +223,28 @@ def usable(p):
 
 class AdaptiveBit:
     def __init__(self, p):
-        self.probability = 2 * p
-        self.count = 6
+        self.fast = self.slow = usable(p)
+
+    def sum(self):
+        return self.fast + self.slow
 
     def decode(self, coder):
-        bit = coder.bit(usable(self.probability // 2))
+        bit = coder.bit(self.sum() >> 1)
         self.learn(bit)
         return bit
 
     def learn(self, bit):
-        s = highest_bit(self.count + 2)
-        if bit:
-            self.probability += (65535 - self.probability) >> s
-        else:
-            self.probability -= self.probability >> s
-        self.count = min(self.count + 1, 254)
+        target = 32703 if bit else 64
+        self.fast += (target - self.fast) >> 5
+        self.slow += (target - self.slow) >> 7
+
+
+def decode_between(coder, row, i, f):
+    """A bit whose probability lies f / 256 of the way from entry i of the row to the next."""
+    left, right = row[i], row[i + 1]
+    bit = coder.bit((left.sum() + ((right.sum() - left.sum()) * f >> 8)) >> 1)
+    (left if f < 128 else right).learn(bit)
+    return bit
 
 
 def probability_at(odds):
@@ -251,25 +260,44 @@ class Curve:
         last = len(self.row) - 1
         position = keep_within(0, position, 256 * last)
         i = min(position >> 8, last - 1)
-        f = position - 256 * i
-        left, right = self.row[i], self.row[i + 1]
-        bit = coder.bit(usable((left.probability * (256 - f) + right.probability * f) >> 9))
-        (left if f < 128 else right).learn(bit)
-        return bit
+        return decode_between(coder, self.row, i, position - 256 * i)
 
 
-def unary_bits(typical):
-    return [AdaptiveBit(24000 if i < typical else 16384 if i == typical else 8000) for i in range(10)]
+class Calibration:
+    def __init__(self):
+        self.row = [AdaptiveBit(4096 * i) for i in range(9)]
+
+    def decode(self, coder, estimate):
+        return decode_between(coder, self.row, estimate >> 12, estimate >> 4 & 255)
+
+
+class LengthBits:
+    """Whether a number is longer than so many bits, by how far that is from the typical length."""
+
+    def __init__(self):
+        self.longer = [AdaptiveBit(24000 - 3500 * i) for i in range(7)]
+
+    def decode(self, coder, typical, limit):
+        def is_longer_than(bits):
+            return self.longer[keep_within(0, bits - typical + 3, 6)].decode(coder)
+
+        length = typical
+        if is_longer_than(length):
+            length += 1
+            while length < limit and is_longer_than(length):
+                length += 1
+        else:
+            while length > 0 and not is_longer_than(length - 1):
+                length -= 1
+        return length
 
 
 def second_bits():
     return [AdaptiveBit(14000) for _ in range(10)]
 
 
-def decode_magnitude(coder, unary, second, limit):
-    bits = 0
-    while bits < limit and unary[min(bits, 9)].decode(coder):
-        bits += 1
+def decode_magnitude(coder, length_bits, second, typical, limit):
+    bits = length_bits.decode(coder, typical, limit)
     if bits < 2:
         return bits
     leading = 2 + second[min(bits, 9)].decode(coder)
@@ -321,6 +349,7 @@ class Header(NamedTuple):
     heights_are_sent: bool
     void_flags_are_sent: bool
     degree: int
+    levels: int
     vertices: int
     columns: int
     rows: int
@@ -328,18 +357,19 @@ class Header(NamedTuple):
 
 def read_header(reader):
     require(reader.take(4) == b"mtin", "not a microtin stream")
-    require(reader.number(1) == 1, "unknown version")
-    flags = reader.number(1)
-    require(flags < 4, "unknown flags")
-    degree = reader.number(1)
-    require(6 <= degree <= 32, "degree is out of bounds")
-    require(reader.number(1) == 0, "byte 7 is not 0")
-    vertices = reader.number(4)
-    require(3 <= vertices <= 1 << 24, "number of vertices is out of bounds")
-    columns, rows = reader.number(2) + 1, reader.number(2) + 1
-    check_blocks(ByteReader(reader.take(reader.number(2))))
+    require(reader.number(1) == 2, "unknown version")
+    flags, effort = reader.number(1), reader.number(1)
+    vertices = reader.number(4 if flags & 4 else 2)
+    columns, rows = (1 + reader.number(2 if flags & 8 else 1) for _ in "xy")
+    blocks = ByteReader(reader.take(reader.number(2) if flags & 16 else 0))
     reader.expect_check(0)
-    return Header(bool(flags & 1), bool(flags & 2), degree, vertices, columns, rows)
+    require(flags < 32, "unknown flags")
+    degree, levels = effort & 63, effort >> 6
+    require(6 <= degree <= 32, "degree is out of bounds")
+    require(levels >= 1, "there is no level of cells")
+    require(3 <= vertices <= 1 << 24, "number of vertices is out of bounds")
+    check_blocks(blocks)
+    return Header(bool(flags & 1), bool(flags & 2), degree, levels, vertices, columns, rows)
 
 
 def check_blocks(reader):
@@ -397,6 +427,13 @@ class Mesh:
     def real_triangles(self):
         return [t for t in range(len(self.start) // 3) if not self.is_ghost(t)]
 
+    def degree(self, half_edge):
+        """Of the vertex at its start, infinity counted."""
+        around = [half_edge]
+        while (following := self.twin[before(around[-1])]) != half_edge:
+            around.append(following)
+        return len(around)
+
     def half_edge_between(self, u, w):
         return next(e for e, start in enumerate(self.start) if start == u and self.end(e) == w)
 
@@ -444,54 +481,83 @@ class Models:
     """What the adaptive bits have learnt. It outlives phases and sections."""
 
     def __init__(self):
-        self.hull_hit = AdaptiveBit(16384)
+        self.hull_hit = [AdaptiveBit(4000 + 4000 * i) for i in range(7)]
         self.on_edge = AdaptiveBit(16384)
-        self.edge_unary, self.edge_second = unary_bits(6), second_bits()
-        self.hit = [Curve(29, -1920, 160) for _ in range(4)]
-        self.cell = [[Curve(17, -2048, 256) for _ in range(4)] for _ in range(3)]
-        self.height_unary = [unary_bits(context // 2) for context in range(12)]
-        self.height_second = second_bits()
-        self.height_sign = AdaptiveBit(16384)
+        self.on_border = AdaptiveBit(16384)
+        self.gap = LengthBits()
+        self.hit = [Curve(15, -1920, 320) for _ in range(6)]
+        self.cell = [[Calibration() for _ in range(4)] for _ in range(3)]
+        self.height = [LengthBits() for _ in range(12)]
+        self.second = second_bits()
+        self.negative = [[AdaptiveBit(24000 - 1700 * tendency) for _ in range(3)] for tendency in range(10)]
         self.void = [AdaptiveBit(3000 + 6500 * context) for context in range(5)]
 
 
 class Density:
-    def __init__(self, lattice_points, vertices, batch):
-        self.mean_area = 256 * lattice_points // vertices + 1
-        self.odds = log2(batch) - log2(vertices)
+    def __init__(self, header, vertices, batch):
+        self.share = log2(batch) - log2(vertices) - 220
+        self.mean = 256 * (log2(batch) - log2(header.columns) - log2(header.rows))
 
     def value(self):
-        return self.odds - (log2(self.mean_area) - 2048)
+        return divide(self.mean, 256)
 
     def add(self, area):
-        self.mean_area = max(1, self.mean_area + divide(256 * area - self.mean_area, 32))
+        self.mean += divide(256 * (self.share - log2(area)) - self.mean, 16)
+
+
+class HullEdge:
+    def __init__(self, header, a, c, batch):
+        self.header = header
+        self.a = a
+        self.d = minus(c, a)
+        self.parts = math.gcd(*self.d)
+        self.border = (header.columns - 1 if self.d[1] > 0 else 0, header.rows - 1 if self.d[0] < 0 else 0)
+        spacing = log2(header.columns) + log2(header.rows) - log2(batch)
+        self.spacing = spacing // 512 + 1 if spacing > 0 else 1
+
+    def is_border(self):
+        x_is, y_is = (at == border for at, border in zip(self.a, self.border))
+        return x_is if self.d[0] == 0 else self.d[1] == 0 and y_is
+
+    def decode_hit(self, coder, models):
+        if self.is_border() and self.parts == 1:
+            return False
+        length = highest_bit(max(abs(d) for d in self.d)) + 3
+        return models.hull_hit[keep_within(0, length - self.spacing, 6)].decode(coder)
+
+    def decode_place(self, coder, models):
+        if self.is_border() or (self.parts > 1 and models.on_edge.decode(coder)):
+            return self.decode_place_on_edge(coder, models)
+        known = [across != 0 and models.on_border.decode(coder) for across in (self.d[1], self.d[0])]
+        counts = (self.header.columns, self.header.rows)
+        x, y = (b if k else coder.uniform(n) for k, b, n in zip(known, self.border, counts))
+        return x, y
+
+    def decode_place_on_edge(self, coder, models):
+        limit = self.parts.bit_length()
+        k = 1 + decode_magnitude(coder, models.gap, models.second, min(self.spacing, limit - 1), limit)
+        require(k < self.parts, "vertex is beyond its hull edge")
+        return tuple(at + k * (d // self.parts) for at, d in zip(self.a, self.d))
 
 
 class Side(NamedTuple):
     start: tuple
     end: tuple
-    opposite: tuple
     certified: bool
     apex: tuple  # None behind a hull edge
+    own: int  # cotangents of the triangle's circle and of that behind
+    behind: int
 
     def squared_length(self):
         s = minus(self.end, self.start)
         return dot(s, s)
 
-    def segment_inside(self, h):
-        return segment(self.squared_length(), -angle_at(self.opposite, self.start, self.end), h)
+    def lost_area(self):
+        lost = segment(-self.own) + (segment(self.behind) if self.apex else 0)
+        return self.squared_length() * lost >> 9
 
-    def segment_behind(self):
-        h = twice_area(self.end, self.start, self.apex)
-        return segment(self.squared_length(), -angle_at(self.apex, self.start, self.end), h)
-
-    def circle_behind(self):
-        return Circle.through(self.start, self.apex, self.end)
-
-    def is_open_towards(self, place):
-        s = minus(self.end, self.start)
-        beyond = cross(s, minus(place, self.start)) < 4 * (abs(s[0]) + abs(s[1]))
-        return beyond and not self.certified
+    def has_circle_behind(self):
+        return self.certified and self.apex is not None
 
 
 class Candidate:
@@ -500,34 +566,26 @@ class Candidate:
     def __init__(self, mesh, chord, is_final):
         half_edges = [after(chord), before(chord), chord]
         self.v, self.c, self.a = mesh.places([mesh.start[e] for e in half_edges])
-        self.h = twice_area(self.v, self.c, self.a)
         self.sides = [self.side(mesh, e, e == chord or is_final(mesh.twin[e] // 3)) for e in half_edges]
         self.chord = self.sides[2]
-        self.circle = Circle.through(self.v, self.c, self.a)
 
     @staticmethod
     def side(mesh, half_edge, certified):
-        ends_and_opposite = mesh.start[half_edge], mesh.end(half_edge), mesh.apex(half_edge)
-        apex = mesh.apex(mesh.twin[half_edge])
-        return Side(*mesh.places(ends_and_opposite), certified, None if apex == INFINITY else mesh.points[apex])
-
-    def certified_sides(self):
-        return [side for side in self.sides if side.certified]
+        start, end, opposite = mesh.places((mesh.start[half_edge], mesh.end(half_edge), mesh.apex(half_edge)))
+        own = cotangent(angle_at(opposite, start, end), twice_area(start, end, opposite))
+        apex = behind = None
+        if mesh.apex(mesh.twin[half_edge]) != INFINITY:
+            apex = mesh.points[mesh.apex(mesh.twin[half_edge])]
+            behind = cotangent(-angle_at(apex, start, end), twice_area(end, start, apex))
+        return Side(start, end, certified, apex, own, behind)
 
     def free_area(self):
-        whole = disc(self.chord.squared_length(), abs(angle_at(self.c, self.a, self.v)), self.h)
-        free = whole
-        for side in self.certified_sides():
-            free -= side.segment_inside(self.h)
-            if side.apex:
-                free -= side.segment_behind()
-        return max(free, whole // 256 + 1)
+        whole = disc(self.chord.squared_length(), self.chord.own)
+        free = whole - sum(side.lost_area() for side in self.sides if side.certified)
+        return max(free, (whole >> 8) + 1)
 
-    def is_open_towards(self, place):
-        return any(side.is_open_towards(place) for side in self.sides)
-
-    def hit_curve(self):
-        return self.sides[0].certified + 2 * self.sides[1].certified
+    def open_sides(self):
+        return [side for side in self.sides if not side.certified]
 
 
 class Box(NamedTuple):
@@ -537,26 +595,41 @@ class Box(NamedTuple):
     rows: int
 
     def cell(self, column, row):
-        left, right = slices(self.columns)[column : column + 2]
-        bottom, top = slices(self.rows)[row : row + 2]
+        left, right = starts(self.columns)[column : column + 2]
+        bottom, top = starts(self.rows)[row : row + 2]
         return Box(self.x + left, self.y + bottom, right - left, top - bottom)
 
     def is_point(self):
         return self.columns == 1 and self.rows == 1
 
+    def doubled_middle(self):
+        return 2 * self.x + self.columns - 1, 2 * self.y + self.rows - 1
 
-def slices(count):
+
+def starts(count):
     return [count * i // 4 for i in range(5)]
 
 
-def extremes(candidate):
-    """The leftmost, rightmost, lowest and highest place of the circle, None if it is too large."""
-    x, y = divide(-candidate.circle.x, 512), divide(-candidate.circle.y, 512)
-    if max(abs(x), abs(y)) > 131072:
-        return None
-    radius = rounded_root(x * x + y * y) + 2
-    x, y = x + candidate.v[0], y + candidate.v[1]
-    return [(x - radius, y), (x + radius, y), (x, y - radius), (x, y + radius)]
+class LargeCircle(NamedTuple):
+    """The candidate's circle in sixteenths of a lattice step, seen from v: not smaller than it is."""
+
+    x: int
+    y: int
+    radius: int
+    slack: int
+
+    @classmethod
+    def of(cls, candidate):
+        x, y = minus(candidate.a, candidate.v)
+        k = candidate.chord.own
+        margin = (abs(x) + abs(y)) // 8 + 2
+        radius = root_above(candidate.chord.squared_length() * (65536 + k * k) >> 10) + 1 + margin
+        slack = 2 * margin + 5 + (radius >> 13)
+        return cls(8 * x + divide(k * y, 32), 8 * y - divide(k * x, 32), radius, slack)
+
+    def is_beyond(self, extreme, side, v):
+        (x, y), u = minus(side.start, v), minus(side.end, side.start)
+        return cross(u, minus(extreme, (16 * x, 16 * y))) < self.slack * (abs(u[0]) + abs(u[1]))
 
 
 def interval(values, count):
@@ -566,191 +639,216 @@ def interval(values, count):
 
 
 def first_box(candidate, columns, rows):
-    around = extremes(candidate)
-    if around is None:
+    if abs(candidate.chord.own) == LARGEST_COTANGENT:
         return Box(0, 0, columns, rows)
-    corners = [candidate.v, candidate.c, candidate.a]
-    xs, ys = [x for x, _ in corners], [y for _, y in corners]
-    xs += [e[0] for e in around[:2] if candidate.is_open_towards(e)]
-    ys += [e[1] for e in around[2:] if candidate.is_open_towards(e)]
+    v, large = candidate.v, LargeCircle.of(candidate)
+
+    def reaches(dx, dy):
+        extreme = large.x + dx * large.radius, large.y + dy * large.radius
+        return any(large.is_beyond(extreme, side, v) for side in candidate.open_sides())
+
+    xs, ys = map(list, zip(v, candidate.c, candidate.a))
+    xs += [v[0] - ((large.radius - large.x) >> 4)] * reaches(-1, 0)
+    xs += [v[0] + ((large.radius + large.x) >> 4)] * reaches(1, 0)
+    ys += [v[1] - ((large.radius - large.y) >> 4)] * reaches(0, -1)
+    ys += [v[1] + ((large.radius + large.y) >> 4)] * reaches(0, 1)
     (x, width), (y, height) = interval(xs, columns), interval(ys, rows)
     return Box(x, y, width, height)
 
 
-def cell_distances(circle, box):
-    """Distances of the 4 x 4 cells from the circle, by column and row."""
-    power, x, y = circle.seen_from((box.x, box.y))
-    ramp = circle.steepness * 5 * (max(box.columns - 4, 0) + max(box.rows - 4, 0)) // 32 + 64
-    shift = max(0, highest_bit(ramp) - 15)
-    scale = (1 << 29) // (ramp >> shift)
+class Slices:
+    """A side of a box cut into four."""
 
-    def along(count, power, slope):
-        starts = slices(count)
-        for start, end in zip(starts, starts[1:]):
-            m = start + end - 1
-            here = (power + divide((128 * m + slope) * m, 2)) >> shift
-            yield (keep_within(-(1 << 29), here, 1 << 29) * scale) >> 23
+    def __init__(self, count):
+        ends = starts(count)
+        self.widths = [right - left for left, right in zip(ends, ends[1:])]
+        self.unit = 16 - highest_bit(count)
+        self.middles = [((left + right - count) << self.unit) >> 2 for left, right in zip(ends, ends[1:])]
+        self.extent = max(1, 4 * (count - 4))
+        self.sizes = self.widths if count <= 64 else [1] * 4
 
-    distances_x, distances_y = along(box.columns, power, x), list(along(box.rows, 0, y))
-    return [[dx + dy for dy in distances_y] for dx in distances_x]
+    def distances(self, base, slope, scale):
+        linear = int16(slope * scale.factor >> (scale.shift + self.unit + 3))
+        bend = (scale.factor << 15) >> (scale.shift + 2 * self.unit)
+        return [base + (m * linear >> 16) + ((m * m >> 16) * bend >> 16) for m in self.middles]
 
 
-def share(distance):
-    return keep_within(0, distance + 32, 64)
+def int16(value):
+    """The signed number of the low 16 bits."""
+    return (value + 32768) % 65536 - 32768
+
+
+class Scale:
+    def __init__(self, slopes, columns, rows):
+        w, h = columns.extent, rows.extent
+        ramp = (5 * (abs(slopes[0]) * w + abs(slopes[1]) * h) + w * w + h * h) // 8 + 8
+        self.shift = max(0, highest_bit(ramp) - 15)
+        self.factor = (1 << 30) // (ramp >> self.shift)
+
+
+class Grid:
+    """The 4 x 4 cells of a box."""
+
+    ALL = [(i, j) for i in range(4) for j in range(4)]
+
+    def __init__(self, box):
+        self.middle = box.doubled_middle()
+        self.columns, self.rows = Slices(box.columns), Slices(box.rows)
+
+    def scale(self, circle):
+        return Scale(circle.seen_from(self.middle)[1:], self.columns, self.rows)
+
+    def distances(self, circle, scale=None):
+        """How far the middles of the cells are outside a circle."""
+        scale = scale or self.scale(circle)
+        power, x, y = circle.seen_from(self.middle)
+        power = keep_within(-(1 << 30), power >> scale.shift, 1 << 30)
+        base = keep_within(-8192, power * scale.factor >> 21, 8192)
+        across, along = self.columns.distances(base, x, scale), self.rows.distances(0, y, scale)
+        return {(i, j): int16(across[i] + along[j]) for i, j in self.ALL}
 
 
 class Chance:
     """Chance of being first."""
 
-    CERTAIN = 4096
+    CERTAIN = 511
 
-    def __init__(self, candidate, density):
+    def __init__(self, candidate, box, density):
         chord = candidate.chord
-        k1 = self.cotangent(angle_at(candidate.c, candidate.a, candidate.v), candidate.h)
-        if chord.apex:
-            h = twice_area(candidate.a, candidate.v, chord.apex)
-            k0 = self.cotangent(angle_at(chord.apex, candidate.a, candidate.v), h)
-            self.behind = chord.circle_behind()
-        else:
-            k0 = min(k1, 0) - 2048
-            self.behind = self.circle_behind_hull_edge(candidate, k1 - k0)
-        self.table = self.chances(chord.squared_length(), k0, k1, density)
-        self.scale = min(65535, 256 * candidate.circle.steepness // self.behind.steepness)
+        k1, k0 = chord.own, chord.behind if chord.apex else min(chord.own, 0) - 2048
+        self.behind = Circle(chord.start, chord.end, k0, box.doubled_middle())
+        rate = exp2(log2(chord.squared_length()) + density + 135 + 4096)
+        nodes = [self.at(segment(k1 + ((k0 - k1) * i >> 2)) - segment(k0), rate) for i in range(4)]
+        nodes.append(self.CERTAIN)
+        self.table = [
+            (8 * left + (right - left) * j) >> 3 for left, right in zip(nodes, nodes[1:]) for j in range(8)
+        ]
 
-    @staticmethod
-    def cotangent(q, h):
-        return keep_within(-32767, divide(256 * q, h), 32767)
-
-    @staticmethod
-    def circle_behind_hull_edge(candidate, k):
-        v, a, circle = candidate.v, candidate.a, candidate.circle
-        return Circle(v, circle.x + k * (a[1] - v[1]), circle.y + k * (v[0] - a[0]))
-
-    @staticmethod
-    def chances(c, k0, k1, density):
-        behind = segment(c, k0, 256)
-        table = []
-        for i in range(9):
-            s = segment(c, k0 + divide((k1 - k0) * i, 8), 256) - behind
-            loss = exp2(log2(s) + density + 135) if s > 0 else 0
-            table.append(exp2(3072 - loss))
-        return table
+    def at(self, swept, rate):
+        loss = max(0, swept) * min(rate, 1 << 30) >> 25
+        return exp2(3840 - loss) * 511 >> 15 if loss < 3840 else 0
 
     def is_level(self):
-        return self.table[8] >= self.table[0] - self.table[0] // 8
+        return self.table[0] >= 448
 
-    def of_cells(self, box, level, distances):
-        if level == 2 or self.is_level():
-            return [[self.CERTAIN] * 4] * 4
-        behind = cell_distances(self.behind, box)
-        return [[self.at(behind[i][j], -distances[i][j]) for j in range(4)] for i in range(4)]
+    def of_cells(self, grid, scale, distances):
+        if self.is_level():
+            return dict.fromkeys(grid.ALL, self.CERTAIN)
+        behind = grid.distances(self.behind, scale)
+        return {cell: self.between(behind[cell], -distances[cell]) for cell in grid.ALL}
 
-    def at(self, outside_behind, inside):
-        g, rest = (keep_within(0, d, 1 << 14) for d in (outside_behind, inside))
-        u = 256 * g // (g + (rest * self.scale >> 8) + 1)
-        i, f = u >> 5, u & 31
-        return (self.table[i] * (32 - f) + self.table[i + 1] * f) >> 5
+    def between(self, outside_behind, inside):
+        left = keep_within(0, inside, 16383)
+        return self.table[32 * left // (keep_within(1, outside_behind, 16383) + left)]
 
 
 class Weights:
-    def __init__(self, candidate, density):
-        self.circle = candidate.circle
-        self.chance = Chance(candidate, density)
-        self.circles_behind = [side.circle_behind() for side in candidate.certified_sides() if side.apex]
+    def __init__(self, candidate, box, density):
+        middle = box.doubled_middle()
+        chord = candidate.chord
+        self.circle = Circle(chord.start, chord.end, chord.own, middle)
+        self.chance = Chance(candidate, box, density)
+        self.behind = [Circle(s.start, s.end, s.behind, middle) for s in candidate.sides if s.has_circle_behind()]
 
-    def of_cells(self, box, level):
-        distances = cell_distances(self.circle, box)
-        chances = self.chance.of_cells(box, level, distances)
-        weights = [
-            [self.first_weight(box, box.cell(i, j), -distances[i][j], chances[i][j]) for j in range(4)]
-            for i in range(4)
-        ]
-        self.circles_behind = [c for c in self.circles_behind if self.take_away(c, box, weights)]
-        return weights
+    def of_cells(self, grid):
+        """The weights by cell, and the distances from the circles behind."""
+        scale = grid.scale(self.circle)
+        own = grid.distances(self.circle, scale)
+        chances = self.chance.of_cells(grid, scale, own)
+        weights = {cell: keep_within(0, 32 - own[cell], 64) * chances[cell] for cell in grid.ALL}
+        distances = [grid.distances(circle) for circle in self.behind]
+        for outside in distances:
+            weights = {cell: w * keep_within(0, outside[cell] + 32, 63) >> 6 for cell, w in weights.items()}
+        return weights, distances
 
-    @staticmethod
-    def first_weight(box, cell, depth, chance):
-        if cell.columns == 0 or cell.rows == 0:
-            return 0
-        width = cell.columns if box.columns <= 64 else 1
-        height = cell.rows if box.rows <= 64 else 1
-        return share(depth) * chance * width * height + 1
-
-    @staticmethod
-    def take_away(circle, box, weights):
-        """Takes what lies in the circle from the weights. Whether later levels have to look at it."""
-        distances = cell_distances(circle, box)
-        for i in range(4):
-            for j in range(4):
-                kept = share(distances[i][j])
-                if weights[i][j] and kept < 64:
-                    weights[i][j] = (weights[i][j] >> 6) * kept + 1
-        return any(share(d) < 64 for column in distances for d in column)
+    def forget_far_circles(self, distances, cell):
+        self.behind = [circle for circle, outside in zip(self.behind, distances) if outside[cell] < 64]
 
 
-def decode_choice(coder, curve, zero, one):
-    if zero == 0 or one == 0:
-        return int(zero == 0)
-    return curve.decode(coder, log2(one) - log2(zero) + 2048)
+def decode_half(coder, calibration, low, high):
+    if low == 0 or high == 0:
+        return int(low == 0)
+    s = max(0, highest_bit(low + high) - 16)
+    return calibration.decode(coder, ((high >> s) << 15) // (((low + high) >> s) + 1))
 
 
-def decode_one_of_four(coder, curves, weights):
-    upper = decode_choice(coder, curves[0], sum(weights[:2]), sum(weights[2:]))
+def decode_one_of_four(coder, calibrations, weights):
+    upper = decode_half(coder, calibrations[0], sum(weights[:2]), sum(weights[2:]))
     pair = weights[2 * upper : 2 * upper + 2]
-    return 2 * upper + decode_choice(coder, curves[1], *pair)
+    return 2 * upper + decode_half(coder, calibrations[1], *pair)
 
 
-def decode_place_in_triangle(coder, models, candidate, density, columns, rows):
-    box = first_box(candidate, columns, rows)
-    weights = Weights(candidate, density)
-    for level, curves in enumerate(models.cell):
+def decode_cell(coder, calibrations, weights, box):
+    grid = Grid(box)
+    shares, distances = weights.of_cells(grid)
+    widths, heights = grid.columns.sizes, grid.rows.sizes
+    cells = [[(shares[i, j] + 1) * heights[j] for j in range(4)] for i in range(4)]
+    column = decode_one_of_four(coder, calibrations[:2], [sum(cells[i]) * widths[i] for i in range(4)])
+    row = decode_one_of_four(coder, calibrations[2:], cells[column])
+    weights.forget_far_circles(distances, (column, row))
+    return box.cell(column, row)
+
+
+def decode_place_in_triangle(coder, models, candidate, density, header):
+    box = first_box(candidate, header.columns, header.rows)
+    weights = Weights(candidate, box, density)
+    for calibrations in models.cell[: header.levels]:
         if box.is_point():
             break
-        cells = weights.of_cells(box, level)
-        column = decode_one_of_four(coder, curves[:2], [sum(cells[i]) for i in range(4)])
-        row = decode_one_of_four(coder, curves[2:], cells[column])
-        box = box.cell(column, row)
+        box = decode_cell(coder, calibrations, weights, box)
     x = box.x + coder.uniform(box.columns)
     return x, box.y + coder.uniform(box.rows)
 
 
-def decode_place_on_edge(coder, models, a, c, g):
-    k = 1 + decode_magnitude(coder, models.edge_unary, models.edge_second, g.bit_length())
-    require(k < g, "vertex is beyond its hull edge")
-    return (a[0] + k * ((c[0] - a[0]) // g), a[1] + k * ((c[1] - a[1]) // g))
+class Neighbour(NamedTuple):
+    place: tuple
+    height: int
+    residual: int
 
 
-class Ring(NamedTuple):
-    """What the vertices around b say of its height."""
+class Expectation(NamedTuple):
+    """What is known of a height before it is decoded."""
 
-    prediction: int
-    context: int
+    height: int
+    scale: int
+    tendency: int
 
     @classmethod
-    def around(cls, b, neighbours):
-        squared = [dot(s, s) for s in (minus(point, b) for point, _, _ in neighbours)]
-        weights = [4096 * min(squared) // d for d in squared]
-        total = sum(weights)
+    def from_ring(cls, b, base, ring):
+        weights = [cls.weight(minus(n.place, b)) for n in ring]
+        heights = [w * (n.height - base) for w, n in zip(weights, ring)]
+        residuals = [w * n.residual for w, n in zip(weights, ring)]
+        top = highest_bit(sum(weights))
+        s = max(0, top - 12)
+        w = sum(weights) >> s
+        height = sum(heights) >> s
+        mean = (2 * height + w) // (2 * w)
+        spread = sum(map(abs, heights)) >> s
+        roughness = sum(map(abs, residuals)) >> s
+        level = coarse_log2(4 * roughness + w) + 2 * coarse_log2(4 * spread + w) - 3 * coarse_log2(w)
+        scale = min(11, (level + 32 * (36 - top) + 448) // 768)
+        sign = cls.expected_sign(sum(residuals) >> s, roughness)
+        return cls(base + mean, scale, 2 * sign + (height > mean * w))
 
-        def weighted(values):
-            return sum(w * value for w, value in zip(weights, values))
+    @staticmethod
+    def weight(d):
+        half_squared_distance = d[0] * d[0] // 2 + d[1] * d[1] // 2
+        return (1 << 31) >> highest_bit(max(1, half_squared_distance))
 
-        heights = [height for _, height, _ in neighbours]
-        first = next(height for w, height in zip(weights, heights) if w > 0)
-        prediction = (2 * weighted(heights) + total) // (2 * total)
-        around = weighted([roughness for _, _, roughness in neighbours]) // total
-        spread = 4 * weighted([abs(height - first) for height in heights]) // total
-        return cls(prediction, min(11, (3 * around + log2(spread + 1) // 64) // 4 // 3))
-
-
-def decode_difference(coder, models, context):
-    difference = decode_magnitude(coder, models.height_unary[context], models.height_second, 17)
-    negative = difference and models.height_sign.decode(coder)
-    return -difference if negative else difference
+    @staticmethod
+    def expected_sign(residual, roughness):
+        size = 5 * abs(residual)
+        strength = (size > roughness) + (size > 3 * roughness)
+        return 2 - strength if residual < 0 else 2 + strength
 
 
-def roughness_of(difference):
-    return log2(4 * abs(difference) + 1) // 64
+def decode_difference(coder, models, expectation):
+    scale = expectation.scale
+    size = decode_magnitude(coder, models.height[scale], models.second, scale // 2, 17)
+    if size == 0:
+        return 0
+    negative = models.negative[expectation.tendency][min(size, 3) - 1].decode(coder)
+    return -size if negative else size
 
 
 # Sections 5 and 6: symbols and the walk
@@ -762,19 +860,21 @@ class Decoder:
         self.coder = coder
         self.models = Models()
         self.heights = []
-        self.roughness = [16] * SEED_SIZE
+        self.residuals = []
         self.work = 0
         self.mesh = self.decode_seed()
 
-    def decode_place_in_lattice(self):
-        x = self.coder.uniform(self.header.columns)
-        return x, self.coder.uniform(self.header.rows)
+    def decode_seed_coordinate(self, count):
+        if self.coder.bit(24576):
+            return (count - 1) * self.coder.bit(16384)
+        return self.coder.uniform(count)
 
     def decode_seed(self):
         seed = []
-        for _ in range(SEED_SIZE):
-            seed.append(self.decode_place_in_lattice())
-            self.heights.append(self.coder.uniform(65536) - 32768 if self.header.heights_are_sent else 0)
+        for i in range(SEED_SIZE):
+            seed.append(tuple(self.decode_seed_coordinate(n) for n in (self.header.columns, self.header.rows)))
+            self.decode_height(Expectation(self.heights[-1] if i > 0 else 0, 11, 5))
+            self.residuals[i] = 4
         require(seed[0] < min(seed[1:]), "seed does not begin with its smallest vertex")
         require(twice_area(*seed) > 0, "seed is not counter-clockwise")
         return Mesh(seed)
@@ -786,17 +886,17 @@ class Decoder:
         left = self.header.vertices - self.size()
         if not self.coder.bit(16384):
             return left
-        batch = self.coder.uniform((left >> 12) + 1) << 12
-        batch += self.coder.uniform(4096)
+        high = self.coder.uniform((left >> 12) + 1)
+        batch = (high << 12) + self.coder.uniform((left & 4095) + 1 if high == left >> 12 else 4096)
         require(1 <= batch < left, "size of batch is out of bounds")
         return batch
 
     def decode_phase(self):
-        batch = self.decode_batch_size()
-        self.goal = self.size() + batch
+        self.batch = self.decode_batch_size()
+        self.goal = self.size() + self.batch
         self.work += self.goal
-        require(self.work <= 4 * self.header.vertices + 256, "phases add too few vertices")
-        self.density = Density(self.header.columns * self.header.rows, self.goal, batch)
+        require(self.work <= 4 * self.header.vertices + 512, "phases add too few vertices")
+        self.density = Density(self.header, self.goal, self.batch)
         self.walk()
 
     def walk(self):
@@ -829,7 +929,6 @@ class Decoder:
     def take_step(self, chord):
         place = None if self.is_certified(chord) else self.decode_hit(chord)
         if place is None:
-            self.note_final(chord // 3)
             return self.mesh.twin[after(chord)]
         behind = self.mesh.twin[chord]
         self.decode_vertex(chord, place)
@@ -851,29 +950,33 @@ class Decoder:
         """The place of a hit, None for a miss."""
         if self.mesh.end(chord) == INFINITY:
             return self.decode_hit_around_infinity(chord)
-        return self.decode_hit_elsewhere(chord)
+        place = self.decode_hit_elsewhere(chord)
+        if place is None:
+            self.note_final(chord // 3)
+        return place
 
     def decode_hit_around_infinity(self, chord):
-        if not self.models.hull_hit.decode(self.coder):
-            return None
         a, c = self.mesh.places((self.mesh.start[chord], self.mesh.apex(chord)))
-        g = math.gcd(*minus(c, a))
-        if g > 1 and self.models.on_edge.decode(self.coder):
-            return decode_place_on_edge(self.coder, self.models, a, c, g)
-        return self.decode_place_in_lattice()
+        edge = HullEdge(self.header, a, c, self.batch)
+        return edge.decode_place(self.coder, self.models) if edge.decode_hit(self.coder, self.models) else None
 
     def decode_hit_elsewhere(self, chord):
         candidate = Candidate(self.mesh, chord, self.is_final)
         density = self.density.value()
-        position = 2 * (log2(candidate.free_area()) - 2048 + density) + 3072
-        if not self.models.hit[candidate.hit_curve()].decode(self.coder, position):
+        position = log2(candidate.free_area()) - 2048 + density + 1536
+        curve = candidate.sides[0].certified + 2 * candidate.sides[1].certified
+        if self.mesh.apex(chord) not in self.queued:
+            degree = self.mesh.degree(before(chord))
+            curve = 4 if degree < self.header.degree + 2 else 5
+            if degree <= self.header.degree:
+                position = 15 * 256
+        if not self.models.hit[curve].decode(self.coder, position):
             return None
-        size = self.header.columns, self.header.rows
-        return decode_place_in_triangle(self.coder, self.models, candidate, density, *size)
+        return decode_place_in_triangle(self.coder, self.models, candidate, density, self.header)
 
     def decode_vertex(self, chord, place):
         cavity, boundary = self.legal_cavity(chord, place)
-        self.decode_height(place, [self.mesh.start[e] for e in boundary])
+        self.decode_height(self.expectation(chord, place, [self.mesh.start[e] for e in boundary]))
         self.mesh.insert(place, cavity, boundary)
 
     def legal_cavity(self, chord, place):
@@ -882,32 +985,31 @@ class Decoder:
         require(place not in self.mesh.places(corners), "vertex is a corner of its triangle")
         require(place > self.mesh.points[0], "vertex is smaller than vertex 0")
         require(self.mesh.in_conflict(triangle, place), "vertex is not in conflict with its triangle")
-        around_infinity = self.mesh.end(chord) == INFINITY
 
         def may_cross(half_edge, size):
             next_triangle = self.mesh.twin[half_edge] // 3
-            ends = {self.mesh.start[half_edge], self.mesh.end(half_edge)}
             return (
-                size < self.header.degree - 2
-                and next_triangle != behind
-                and not self.is_final(next_triangle)
-                and not (around_infinity and ends == {0, INFINITY})
+                size < self.header.degree - 2 and next_triangle != behind and not self.is_final(next_triangle)
             )
 
         return self.mesh.explore_cavity(chord, place, may_cross)
 
-    def decode_height(self, place, ring):
-        difference = height = 0
+    def expectation(self, chord, place, ring):
+        ends = [self.heights[v] for v in (self.mesh.start[chord], self.mesh.end(chord)) if v != INFINITY]
+        base = divide(sum(ends), len(ends))
+        neighbours = [
+            Neighbour(self.mesh.points[w], self.heights[w], self.residuals[w]) for w in ring if w != INFINITY
+        ]
+        return Expectation.from_ring(place, base, neighbours)
+
+    def decode_height(self, expectation):
+        height = difference = 0
         if self.header.heights_are_sent:
-            neighbours = [
-                (self.mesh.points[w], self.heights[w], self.roughness[w]) for w in ring if w != INFINITY
-            ]
-            prediction, context = Ring.around(place, neighbours)
-            difference = decode_difference(self.coder, self.models, context)
-            height = prediction + difference
+            difference = decode_difference(self.coder, self.models, expectation)
+            height = expectation.height + difference
             require(-32768 <= height <= 32767, "height is out of bounds")
         self.heights.append(height)
-        self.roughness.append(roughness_of(difference))
+        self.residuals.append(keep_within(-127, difference, 127))
 
     def decode_voids(self):
         """The triangles that are void."""
