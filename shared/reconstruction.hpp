@@ -266,7 +266,7 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
       return true;
     }
     const Box bounds = {0, 0, r.contract.x_max, r.contract.y_max};
-    place = code_place(coder, r.models.place, r.odds, region, density, r.contract.levels,
+    place = code_place(coder, r.models.place, r.odds, region, density, r.contract.levels, r.contract.has_heights,
                        enclosing_box(region, bounds), place);
     if (!insert(r, coder, place, next.z)) return false;
     // The triangle of the chord and the new vertex is final.
