@@ -69,7 +69,7 @@ inline uint64_t exp2_of(Log2 l) {
   return bit >= 15 ? mantissa << (bit - 15) : mantissa >> (15 - bit);
 }
 
-// A number at least sqrt(v) and at most (2 + sqrt(v)) * (1 + 2^-14), for v < 2^62.
+// A number at least sqrt(v) and at most 3 + sqrt(v) * (1 + 2^-13), for v < 2^62.
 inline uint32_t sqrt_above(uint64_t v) {
   uint32_t shift = 0;
   while (v >> 32 >> 2 * shift) ++shift;  // at most 15 times

@@ -168,6 +168,8 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
   const int_fast32_t radius =
       static_cast<int_fast32_t>(sqrt_above(static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 10)) +
       1 + margin;
+  // The computed extremes are beyond the true ones by less than this.
+  const int_fast32_t slack = 2 * margin + 5 + (radius >> 13);
   bool west = false, east = false, south = false, north = false;
   for (int i = 0; i < 2; ++i) {
     if (region.side[i].certified) continue;
@@ -176,7 +178,7 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
     // 2^18 * 2^28, twice.
     const int64_t centre =
         cross(side, Offset{cx - 16 * from.x, cy - 16 * from.y}) -
-        static_cast<int64_t>(margin) * ((side.x < 0 ? -side.x : side.x) + (side.y < 0 ? -side.y : side.y));
+        static_cast<int64_t>(slack) * ((side.x < 0 ? -side.x : side.x) + (side.y < 0 ? -side.y : side.y));
     const int64_t along_x = static_cast<int64_t>(side.x) * radius;
     const int64_t along_y = static_cast<int64_t>(side.y) * radius;
     west = west || centre + along_y < 0;
