@@ -24,12 +24,6 @@ struct PlaceModel {
   Calibration<kSplitEntries> split[kMaxLevels][4];
 };
 
-inline void reset(PlaceModel& model) {
-  for (uint32_t level = 0; level < kMaxLevels; ++level) {
-    for (int decision = 0; decision < 4; ++decision) reset(model.split[level][decision]);
-  }
-}
-
 // Something for each cell, columns one after the other.
 typedef int16_t Cells[kCells * kCells];
 
