@@ -125,6 +125,12 @@ inline Power circle_over(const FreeRegion& region, int i, Cotangent k, Offset mi
   return power;
 }
 
+// The circle that is but a point, seen from `middle`.
+inline Power point_circle(Offset point, Offset middle) {
+  const Offset from = {middle.x - 2 * point.x, middle.y - 2 * point.y};
+  return Power{dot(from, from), 2 * from.x, 2 * from.y};
+}
+
 inline Power moved(const Power& power, int_fast32_t i, int_fast32_t j) {
   return Power{power.value + static_cast<int64_t>(i) * (power.x + i) +
                    static_cast<int64_t>(j) * (power.y + j),

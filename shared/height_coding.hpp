@@ -20,14 +20,6 @@ struct MantissaModel {
   AdaptiveBit second[kMantissas];
 };
 
-inline void reset(ExponentModel& model) {
-  for (uint32_t i = 0; i < kExponents; ++i) reset(model.longer[i], 24000u - 3500u * i);
-}
-
-inline void reset(MantissaModel& model) {
-  for (uint32_t i = 0; i < kMantissas; ++i) reset(model.second[i], 14000);
-}
-
 // Codes whether a magnitude has more than `bits` bits.
 template <class Coder>
 bool code_longer(Coder& coder, ExponentModel& model, uint32_t typical, uint32_t bits, bool longer) {
@@ -76,14 +68,6 @@ struct HeightModel {
   MantissaModel mantissa;
   AdaptiveBit negative[kTendencies][kSignSizes];
 };
-
-inline void reset(HeightModel& model) {
-  for (uint32_t i = 0; i < kScales; ++i) reset(model.exponent[i]);
-  reset(model.mantissa);
-  for (uint32_t i = 0; i < kTendencies; ++i) {
-    for (uint32_t j = 0; j < kSignSizes; ++j) reset(model.negative[i][j], 24000u - 1700u * i);
-  }
-}
 
 // What is kept of a vertex's difference from its prediction.
 typedef int8_t Residual;

@@ -16,13 +16,6 @@ struct HullModel {
   ExponentModel gap;
 };
 
-inline void reset(HullModel& model) {
-  for (uint32_t i = 0; i < kHullHits; ++i) reset(model.hit[i], 4000u + 4000u * i);
-  reset(model.on_edge, 16384);
-  reset(model.on_border, 16384);
-  reset(model.gap);
-}
-
 inline uint32_t greatest_common_divisor(uint32_t a, uint32_t b) {
   while (b != 0) {  // at most 24 turns for 16-bit numbers (Lame)
     const uint32_t rest = a % b;

@@ -24,28 +24,27 @@ struct PlaceModel {
   Calibration<kSplitEntries> split[kMaxLevels][4];
 };
 
-inline void reset(PlaceModel& model) {
-  for (uint32_t level = 0; level < kMaxLevels; ++level) {
-    for (int decision = 0; decision < 4; ++decision) reset(model.split[level][decision]);
-  }
-}
-
 // Something for each cell, columns one after the other.
 typedef int16_t Cells[kCells * kCells];
 
+constexpr uint64_t kReachCap = static_cast<uint64_t>(1) << 45;
+
+// Numbers of circles in PlaceOdds. Those of the sides come first.
+constexpr int kOwn = 3, kEnds = 4, kCircles = 6;
+
 // What weighs the cells of a box; the powers are seen from its middle.
 struct PlaceOdds {
-  Power circle[4];    // of the triangles behind the sides, and t's own
-  bool cuts[4];       // which of them cut the box
-  Cells distance[4];  // how far the cells are outside of them
+  // Of the triangles behind the sides, t's own, and points: the ends of the chord.
+  Power circle[kCircles];
+  bool cuts[kCircles];       // which of them matter in the box
+  Cells distance[kCircles];  // how far the cells are outside of them
+  int64_t reach;             // of repulsion, see repulsion_scale
   bool sweeps;        // whether the chance of being first differs noticeably over the region
   Power swept_from;   // where the sweep starts: the circle behind the chord
   // 511 * chance of being first, at equal steps of the cotangent from t's circle to swept_from
   int16_t chance[kSweepEntries];
   Cells chances;      // at the cells
 };
-constexpr int kOwn = 3;
-
 // Eight equal steps from `from` towards `to`, both below 2^12.
 MICROTIN_OUT_OF_LINE inline void interpolate(int16_t from, int16_t to, int16_t* step) {
   const int16_t start = static_cast<int16_t>(from * 8), difference = static_cast<int16_t>(to - from);
@@ -78,7 +77,8 @@ inline void estimate_sweep(PlaceOdds& odds, Offset chord, Cotangent from, int64_
   for (int k = 0; k < kCells * kCells; ++k) odds.chances[k] = 511;
 }
 
-inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset middle, Log2 density) {
+inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset middle, Log2 density,
+                          bool repels) {
   const Side& chord = region.side[kChord];
   odds.circle[kOwn] = circle_over(region, kChord, chord.own, middle);
   odds.cuts[kOwn] = true;
@@ -86,6 +86,12 @@ inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset midd
     const Side& side = region.side[i];
     odds.cuts[i] = side.certified && !side.ghost;
     if (odds.cuts[i]) odds.circle[i] = circle_over(region, i, side.behind, middle);
+  }
+  const uint64_t reach = exp2_of(kLog2One - density);
+  odds.reach = static_cast<int64_t>(reach < kReachCap ? reach : kReachCap);
+  for (int i = 0; i < 2; ++i) {
+    odds.cuts[kEnds + i] = repels;
+    odds.circle[kEnds + i] = point_circle(region.corner[2 * i], middle);
   }
   // With nothing behind the chord the sweep starts at a circle so large that its segment is next to
   // nothing.
@@ -135,15 +141,19 @@ struct Scale {
   int32_t reciprocal;  // 2^14 .. 2^27
 };
 
+inline Scale scale_by(int64_t ramp) {
+  const uint32_t bits = highest_bit(static_cast<uint64_t>(ramp));
+  const uint32_t shift = bits > 15 ? bits - 15 : 0;
+  return Scale{shift, static_cast<int32_t>((1ul << 30) / static_cast<uint32_t>(ramp >> shift))};
+}
+
 // From the change of the power across a cell, at the middle of the box: slopes below 2^27, extents
 // below 2^18.
 inline Scale scale_for(const Power& power, const Slices& columns, const Slices& rows) {
   const int64_t x = power.x < 0 ? -power.x : power.x, y = power.y < 0 ? -power.y : power.y;
   const int64_t width = columns.extent, height = rows.extent;
   const int64_t ramp = ((x * width + y * height) * 5 + width * width + height * height) / 8 + 8;
-  const uint32_t bits = highest_bit(static_cast<uint64_t>(ramp));
-  const uint32_t shift = bits > 15 ? bits - 15 : 0;
-  return Scale{shift, static_cast<int32_t>((1ul << 30) / static_cast<uint32_t>(ramp >> shift))};
+  return scale_by(ramp);
 }
 
 // The power of slices' middles, in 64ths of a cell's extent: a parabola.
@@ -161,7 +171,7 @@ inline void add_column(int16_t x, const int16_t* y, int16_t* sum) {
 }
 
 // How far the cells' middles are outside a circle.
-inline void measure(const Power& power, const Scale& scale, const Slices& columns,
+MICROTIN_OUT_OF_LINE inline void measure(const Power& power, const Scale& scale, const Slices& columns,
                     const Slices& rows, Cells outside) {
   const int64_t cap = 1 << 30, far = 1 << 13;
   int64_t value = power.value >> scale.shift;
@@ -182,16 +192,10 @@ inline int16_t clamped(int16_t v, int16_t low, int16_t high) {
   return raised > high ? high : raised;
 }
 
-// Measures how far the cells are outside a circle.
-MICROTIN_OUT_OF_LINE inline void measure(const Power& circle, const Slices& columns,
-                                         const Slices& rows, Cells outside) {
-  measure(circle, scale_for(circle, columns, rows), columns, rows, outside);
-}
-
-// Takes away what lies inside a circle.
-MICROTIN_OUT_OF_LINE inline void cut(const Cells outside, Cells weight) {
+// Takes away what lies inside a circle; a cell `margin` inside is gone.
+MICROTIN_OUT_OF_LINE inline void cut(const Cells outside, int16_t margin, Cells weight) {
   for (int k = 0; k < kCells * kCells; ++k) {
-    const int16_t share = clamped(static_cast<int16_t>(outside[k] + 32), 0, 63);
+    const int16_t share = clamped(static_cast<int16_t>(outside[k] + margin), 0, 63);
     weight[k] = static_cast<int16_t>((static_cast<uint32_t>(static_cast<uint16_t>(weight[k])) *
                                       (static_cast<uint16_t>(share << 10 ))) >> 16);
   }
@@ -217,19 +221,37 @@ inline uint32_t size_of(const Slices& slices, int i) {
   return slices.count > 64 ? 1u : static_cast<uint32_t>(width);
 }
 
+// Vertices of a terrain keep apart: within a quarter of the points' mean spacing of an end of the
+// chord, where the power is below reach / 8, places are the rarer the closer they are. Where cells
+// are much larger, that is not worth telling (and distances would not fit 16 bits).
+inline void repel(PlaceOdds& odds, const Slices& columns, const Slices& rows, Cells weight) {
+  const int64_t radius2 = static_cast<int64_t>(columns.count) * columns.count +
+                          static_cast<int64_t>(rows.count) * rows.count;  // of the box
+  if (odds.reach < radius2 * 3 / 32 + 8) return;
+  const Scale scale = scale_by(odds.reach);
+  for (int k = kEnds; k < kCircles; ++k) {
+    if (!odds.cuts[k] || odds.circle[k].value > odds.reach / 4 + 2 * radius2) continue;
+    measure(odds.circle[k], scale, columns, rows, odds.distance[k]);
+    cut(odds.distance[k], 0, weight);
+  }
+}
+
 // Weighs the cells by the share that is free, and by the chance of being first.
 inline void weigh_cells(PlaceOdds& odds, const Slices& columns, const Slices& rows, Cells weight) {
-  for (int k = 0; k < 4; ++k) {
-    if (odds.cuts[k]) measure(odds.circle[k], columns, rows, odds.distance[k]);
+  for (int k = 0; k < kEnds; ++k) {
+    if (!odds.cuts[k]) continue;
+    measure(odds.circle[k], scale_for(odds.circle[k], columns, rows), columns, rows,
+            odds.distance[k]);
   }
   if (odds.sweeps) sweep(odds, columns, rows);
   for (int k = 0; k < kCells * kCells; ++k) {
     const int16_t share = clamped(static_cast<int16_t>(32 - odds.distance[kOwn][k]), 0, 64);
     weight[k] = static_cast<int16_t>(share * odds.chances[k]);
   }
-  for (int k = 0; k < 3; ++k) {
-    if (odds.cuts[k]) cut(odds.distance[k], weight);
+  for (int k = 0; k < kOwn; ++k) {
+    if (odds.cuts[k]) cut(odds.distance[k], 32, weight);
   }
+  repel(odds, columns, rows, weight);
 }
 
 // Codes one of four slices by their weights: the half, then the quarter. What holds no lattice
@@ -263,10 +285,9 @@ inline void narrow(PlaceOdds& odds, Box& box, const Slices& columns, const Slice
   box.y0 += rows.start[j];
   const int_fast32_t dx = columns.start[i] + columns.start[i + 1] - columns.count;
   const int_fast32_t dy = rows.start[j] + rows.start[j + 1] - rows.count;
-  for (int k = 0; k < 4; ++k) {
+  for (int k = 0; k < kCircles; ++k) {
     if (!odds.cuts[k]) continue;
-    const int16_t d = odds.distance[k][kCells * i + j];
-    odds.cuts[k] = k == kOwn || d < 64;
+    odds.cuts[k] = k >= kOwn || odds.distance[k][kCells * i + j] < 64;
     odds.circle[k] = moved(odds.circle[k], dx, dy);
   }
   odds.swept_from = moved(odds.swept_from, dx, dy);
@@ -300,10 +321,10 @@ MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration<kSplitEntries>* sp
 // Codes a place in `box`, which encloses the free region.
 template <class Coder>
 Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, const FreeRegion& region,
-                 Log2 density, uint32_t levels, Box box, Point place) {
+                 Log2 density, uint32_t levels, bool repels, Box box, Point place) {
   const Point v = region.origin;
   estimate_odds(odds, region, Offset{box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y},
-                density);
+                density, repels);
   for (uint32_t level = 0; level < levels; ++level) {
     code_cell(coder, model.split[level], odds, box, place);
   }

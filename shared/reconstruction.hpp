@@ -17,6 +17,7 @@
 #include "shared/hull_coding.hpp"
 #include "shared/insertion.hpp"
 #include "shared/place_coding.hpp"
+#include "shared/start_probabilities.hpp"
 
 namespace microtin {
 
@@ -32,12 +33,15 @@ struct Models {
   AdaptiveBit is_void[5];
 };
 
+static_assert(sizeof(Models) == kStarts * sizeof(AdaptiveBit), "nothing but adaptive bits");
+
 inline void reset(Models& models) {
-  for (int i = 0; i < kHitContexts; ++i) reset(models.hit[i], -12 * 160, 320);
-  reset(models.place);
-  reset(models.height);
-  reset(models.hull);
-  for (int i = 0; i < 5; ++i) reset(models.is_void[i], static_cast<uint32_t>(3000 + 6500 * i));
+  uint8_t* to = reinterpret_cast<uint8_t*>(&models);
+  for (uint32_t i = 0; i < kStarts; ++i) {
+    const AdaptiveBit bit = adaptive_bit(table_start(i));
+    const uint8_t* const from = reinterpret_cast<const uint8_t*>(&bit);
+    for (size_t byte = 0; byte < sizeof bit; ++byte) *to++ = from[byte];
+  }
 }
 
 enum class Stage : uint8_t { kSeed, kPhase, kWalk, kVoids, kComplete };
@@ -266,7 +270,7 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
       return true;
     }
     const Box bounds = {0, 0, r.contract.x_max, r.contract.y_max};
-    place = code_place(coder, r.models.place, r.odds, region, density, r.contract.levels,
+    place = code_place(coder, r.models.place, r.odds, region, density, r.contract.levels, r.contract.has_heights,
                        enclosing_box(region, bounds), place);
     if (!insert(r, coder, place, next.z)) return false;
     // The triangle of the chord and the new vertex is final.

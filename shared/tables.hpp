@@ -13,6 +13,14 @@
 
 namespace microtin {
 
+inline uint8_t read_table(const uint8_t* entry) {
+#if defined(__AVR__)
+  return pgm_read_byte(entry);
+#else
+  return *entry;
+#endif
+}
+
 inline uint16_t read_table(const uint16_t* entry) {
 #if defined(__AVR__)
   return pgm_read_word(entry);

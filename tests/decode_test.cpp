@@ -194,7 +194,7 @@ TEST_CASE("a mesh of exactly n vertices is enough, n - 1 is too small and says s
 }
 
 TEST_CASE("every phase can be the last, and is a coarser terrain") {
-  const Bytes stream = terrain_stream(1500, 8, 6);
+  const Bytes stream = terrain_stream(1500, 8, {6});
   const uint32_t phases = DecodedTerrain(stream).phases();
   REQUIRE(phases >= 3);
   uint32_t before = 3;

@@ -1,5 +1,8 @@
 #include "tests/bench/inputs.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -132,6 +135,36 @@ Raster crop(const Raster& raster, const Window& window) {
     part.heights.insert(part.heights.end(), first, first + part.width);
   }
   return part;
+}
+
+namespace {
+
+// Tiles in a row or column of `posts` posts that share their border posts: where the i-th begins.
+uint32_t border(uint32_t posts, uint32_t tiles, uint32_t i) {
+  return static_cast<uint32_t>(uint64_t{posts - 1} * i / tiles);
+}
+
+bool has_terrain(const Raster& raster) {
+  return std::any_of(raster.heights.begin(), raster.heights.end(),
+                     [](int64_t z) { return z != kVoidHeight; });
+}
+
+}  // namespace
+
+std::vector<Raster> tiles_of(const Raster& raster, double wanted) {
+  const double aspect = static_cast<double>(raster.width) / raster.height;
+  const auto count = [](double n) { return static_cast<uint32_t>(std::max(1.0, std::round(n))); };
+  const uint32_t columns = count(std::sqrt(wanted * aspect)), rows = count(wanted / columns);
+  std::vector<Raster> tiles;
+  for (uint32_t j = 0; j < rows; ++j) {
+    for (uint32_t i = 0; i < columns; ++i) {
+      Raster tile =
+          crop(raster, {border(raster.width, columns, i), border(raster.height, rows, j),
+                        border(raster.width, columns, i + 1), border(raster.height, rows, j + 1)});
+      if (has_terrain(tile)) tiles.push_back(std::move(tile));
+    }
+  }
+  return tiles;
 }
 
 Model simplified(const Source& source, const LatticeOptions& options, uint32_t max_vertices) {

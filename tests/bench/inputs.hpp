@@ -33,6 +33,10 @@ struct Window {
 };
 Raster crop(const Raster& raster, const Window& window);
 
+// The terrain in about `wanted` rectangles, nearly square, that share their border posts; without
+// those that are all void.
+std::vector<Raster> tiles_of(const Raster& raster, double wanted);
+
 // A source on its lattice: `max_vertices` of its points; or, if that is 0, as few as keep the
 // bound, or all where there is none.
 struct Model {

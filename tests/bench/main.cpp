@@ -6,6 +6,7 @@
 #include "tests/bench/peers.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/speed.hpp"
+#include "tests/bench/train.hpp"
 
 namespace microtin::bench {
 namespace {
@@ -18,6 +19,8 @@ void run(const std::string& command, const Arguments& arguments) {
     print_uniform_rate();
     print_terrain_rate();
     print_tile_rate();
+  } else if (command == "train") {
+    print_start_probabilities();
   } else if (command == "streams" && arguments.size() == 1) {
     write_streams(arguments[0]);
   } else if (command == "times") {
@@ -31,7 +34,7 @@ void run(const std::string& command, const Arguments& arguments) {
     print_decode_speed(Arguments(arguments.begin() + 1, arguments.end()), measure, "instructions");
   } else {
     throw Error(
-        "usage: microtin_bench rate | streams FOLDER | times STREAM... | instructions FILE "
+        "usage: microtin_bench rate | train | streams FOLDER | times STREAM... | instructions FILE "
         "STREAM...");
   }
 }

@@ -21,30 +21,9 @@ struct Total {
   }
 };
 
-// Tiles in a row or column of `posts` posts that share their border posts: where the i-th begins.
-uint32_t border(uint32_t posts, uint32_t tiles, uint32_t i) {
-  return static_cast<uint32_t>(uint64_t{posts - 1} * i / tiles);
-}
-
-bool has_terrain(const Raster& raster) {
-  return std::any_of(raster.heights.begin(), raster.heights.end(),
-                     [](int64_t z) { return z != kVoidHeight; });
-}
-
-// The terrain in about `wanted` rectangles, nearly square, each encoded alone.
 Total tiled(const Raster& raster, const LatticeOptions& options, double wanted) {
-  const double aspect = static_cast<double>(raster.width) / raster.height;
-  const auto count = [](double n) { return static_cast<uint32_t>(std::max(1.0, std::round(n))); };
-  const uint32_t columns = count(std::sqrt(wanted * aspect)), rows = count(wanted / columns);
   Total total;
-  for (uint32_t j = 0; j < rows; ++j) {
-    for (uint32_t i = 0; i < columns; ++i) {
-      const Raster tile =
-          crop(raster, {border(raster.width, columns, i), border(raster.height, rows, j),
-                        border(raster.width, columns, i + 1), border(raster.height, rows, j + 1)});
-      if (has_terrain(tile)) total.add(simplified(tile, options));
-    }
-  }
+  for (const Raster& tile : tiles_of(raster, wanted)) total.add(simplified(tile, options));
   return total;
 }
 
