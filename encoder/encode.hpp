@@ -21,8 +21,7 @@ struct Effort {
 // The stream of `tin`; the same for any order of its vertices. It is decoded again with the shipped
 // decoder and compared before it is returned. Throws Error if the vertices have no triangle, share
 // a place, or are more than 2^24. O(n log n).
-std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata,
-                            const Effort& effort = {});
+std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, const Effort& effort = {});
 
 // The same, together with what the decoder made of it.
 struct Encoding {
@@ -30,8 +29,7 @@ struct Encoding {
   DecodedTerrain decoded;
 };
 
-Encoding encode_and_decode(const Tin& tin, const Metadata& metadata,
-                           const Effort& effort);
+Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort);
 
 }  // namespace microtin
 

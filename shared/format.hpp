@@ -52,9 +52,9 @@ inline uint32_t rows(const Contract& contract) {
   return static_cast<uint32_t>(contract.y_max) + 1;
 }
 
-// Fixed header: magic 4, version 1, flags 1, effort 1 (degree + 64 * levels), then the dimensions, as narrow as the flags
-// say: vertices 2 or 4, x_max 1 or 2, y_max 1 or 2, bytes of optional blocks 0 or 2. Little-endian.
-// Then the blocks, then a CRC-32 of all before it.
+// Fixed header: magic 4, version 1, flags 1, effort 1 (degree + 64 * levels), then the dimensions,
+// as narrow as the flags say: vertices 2 or 4, x_max 1 or 2, y_max 1 or 2, bytes of optional blocks
+// 0 or 2. Little-endian. Then the blocks, then a CRC-32 of all before it.
 constexpr uint32_t kIdentityBytes = 7;
 constexpr uint32_t kDimensionsMostBytes = 10;
 constexpr uint32_t kCheckBytes = 4;

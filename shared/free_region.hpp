@@ -131,10 +131,11 @@ inline Power point_circle(Offset point, Offset middle) {
   return Power{dot(from, from), 2 * from.x, 2 * from.y};
 }
 
-inline Power moved(const Power& power, int_fast32_t i, int_fast32_t j) {
-  return Power{power.value + static_cast<int64_t>(i) * (power.x + i) +
-                   static_cast<int64_t>(j) * (power.y + j),
-               power.x + 2 * i, power.y + 2 * j};
+// The same seen from `to`.
+inline Power moved(const Power& power, Offset to) {
+  return Power{power.value + static_cast<int64_t>(to.x) * (power.x + to.x) +
+                   static_cast<int64_t>(to.y) * (power.y + to.y),
+               power.x + 2 * to.x, power.y + 2 * to.y};
 }
 
 // A box of lattice points, both ends included.
@@ -165,9 +166,9 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
   const int_fast32_t cx = a.x * 8 + static_cast<int_fast32_t>(static_cast<int64_t>(k) * a.y / 32);
   const int_fast32_t cy = a.y * 8 - static_cast<int_fast32_t>(static_cast<int64_t>(k) * a.x / 32);
   const int_fast32_t margin = ((a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y)) / 8 + 2;
-  const int_fast32_t radius =
-      static_cast<int_fast32_t>(sqrt_above(static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 10)) +
-      1 + margin;
+  const int_fast32_t radius = static_cast<int_fast32_t>(sqrt_above(
+                                  static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 10)) +
+                              1 + margin;
   // The computed extremes are beyond the true ones by less than this.
   const int_fast32_t slack = 2 * margin + 5 + (radius >> 13);
   bool west = false, east = false, south = false, north = false;
@@ -176,9 +177,9 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
     const Offset from = region.corner[i], to = region.corner[i + 1];
     const Offset side = {to.x - from.x, to.y - from.y};
     // 2^18 * 2^28, twice.
-    const int64_t centre =
-        cross(side, Offset{cx - 16 * from.x, cy - 16 * from.y}) -
-        static_cast<int64_t>(slack) * ((side.x < 0 ? -side.x : side.x) + (side.y < 0 ? -side.y : side.y));
+    const int64_t centre = cross(side, Offset{cx - 16 * from.x, cy - 16 * from.y}) -
+                           static_cast<int64_t>(slack) *
+                               ((side.x < 0 ? -side.x : side.x) + (side.y < 0 ? -side.y : side.y));
     const int64_t along_x = static_cast<int64_t>(side.x) * radius;
     const int64_t along_y = static_cast<int64_t>(side.y) * radius;
     west = west || centre + along_y < 0;

@@ -41,8 +41,7 @@ inline bool read_contract(uint8_t flags, uint8_t effort, const uint8_t* dimensio
   const uint32_t bytes = dimensions_bytes(flags);
   *block_bytes = (flags & kHasBlocks) != 0 ? read_u16(dimensions + bytes - 2) : 0;
   return (flags >> 5) == 0 && contract->degree >= kMinDegree && contract->degree <= kMaxDegree &&
-         contract->levels >= 1 &&
-         contract->vertices >= 3 && contract->vertices <= kMaxVertices;
+         contract->levels >= 1 && contract->vertices >= 3 && contract->vertices <= kMaxVertices;
 }
 
 // A number in groups of seven bits, low ones first, the top bit set if more follow. False if it is

@@ -74,19 +74,15 @@ bool code_on_curve(Coder& coder, Curve<kEntries>& curve, int32_t position, bool 
   return code_between(coder, curve.entry + i, at & 255u, value);
 }
 
-// A learned correction of an estimated probability: entries at equal distances from 0 to 1,
-// interpolated between the two nearest, of which the nearer one learns.
-template <uint32_t kEntries>
+// A learned correction of an estimated probability: entries at equal distances from 0 to 1.
 struct Calibration {
-  AdaptiveBit entry[kEntries];
+  AdaptiveBit entry[9];
 };
 
 // `estimate` has 15 fractional bits and is below 1.
-template <class Coder, uint32_t kEntries>
-bool code_calibrated(Coder& coder, Calibration<kEntries>& calibration, uint32_t estimate,
-                     bool value) {
-  const uint32_t position = estimate * (kEntries - 1);
-  return code_between(coder, calibration.entry + (position >> 15), position >> 7 & 255u, value);
+template <class Coder>
+bool code_calibrated(Coder& coder, Calibration& calibration, uint32_t estimate, bool value) {
+  return code_between(coder, calibration.entry + (estimate >> 12), estimate >> 4 & 255u, value);
 }
 
 }  // namespace microtin

@@ -84,14 +84,16 @@ Ends ends_of_everything() {
   Ends ends;
   for (const Dataset& dataset : rasters()) {
     const Raster raster = read_raster(dataset);
-    const auto vertices = static_cast<double>(simplified(raster, dataset.options).tin.vertices.size());
+    const auto vertices =
+        static_cast<double>(simplified(raster, dataset.options).tin.vertices.size());
     for (const double size : {1000.0, 250.0}) {
       for (const Raster& tile : tiles_of(raster, vertices / size)) {
         ends.add(simplified(tile, dataset.options).tin);
       }
     }
   }
-  for (const Dataset& dataset : clouds()) ends.add(simplified(read_cloud(dataset), dataset.options).tin);
+  for (const Dataset& dataset : clouds())
+    ends.add(simplified(read_cloud(dataset), dataset.options).tin);
   for (uint64_t seed = 100; seed < 130; ++seed) {
     ends.add(simplified(fractal(seed), bounded("12", "10")).tin);
     ends.add(simplified(fractal(seed), bounded("4", "1")).tin);
@@ -104,7 +106,9 @@ Ends ends_of_everything() {
 
 void print_start_probabilities() {
   const Ends ends = ends_of_everything();
-  std::printf("%s%u;\n\n%s", R"(// Where the adaptive bits start, in the order of Models: the probability of a one is
+  std::printf(
+      "%s%u;\n\n%s",
+      R"(// Where the adaptive bits start, in the order of Models: the probability of a one is
 // (entry + 1/2) / 256. Written by `tests/bench/run train`.
 #ifndef MICROTIN_SHARED_START_PROBABILITIES_HPP
 #define MICROTIN_SHARED_START_PROBABILITIES_HPP
@@ -114,7 +118,7 @@ void print_start_probabilities() {
 namespace microtin {
 
 constexpr uint32_t kStarts = )",
-              kStarts, R"(// clang-format off
+      kStarts, R"(// clang-format off
 constexpr uint8_t kStartTable[kStarts] MICROTIN_IN_FLASH = {
 )");
   ends.print();

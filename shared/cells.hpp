@@ -1,0 +1,139 @@
+// A box of lattice points cut into 4 x 4 cells, and how far the cells are outside a circle.
+#ifndef MICROTIN_SHARED_CELLS_HPP
+#define MICROTIN_SHARED_CELLS_HPP
+
+#include "shared/free_region.hpp"
+
+namespace microtin {
+
+constexpr int kSlices = 4;  // per axis
+constexpr int kCells = kSlices * kSlices;
+
+// Something for each cell, columns one after the other. Loops over them are vectorised where no
+// other loop is around them.
+typedef int16_t Cells[kCells];
+
+// Four slices of `count` <= 2^16 lattice lines: where each starts, and where the last one ends.
+struct Slices {
+  int_fast32_t count;
+  int_fast32_t start[kSlices + 1];
+  int_fast32_t extent;      // of a slice, less one lattice step, in eighths of half steps; above 0
+  uint32_t unit;            // middles are in half steps / 2^(unit - 2), below 24576
+  int16_t middle[kSlices];  // from the middle of all
+  int16_t square[kSlices];  // middle^2 / 2^16
+};
+
+inline void slice(Slices& slices, int_fast32_t count) {
+  slices.count = count;
+  slices.extent = count > kSlices ? (count - kSlices) * 4 : 1;
+  slices.unit = 16 - highest_bit(static_cast<uint32_t>(count));
+  slices.start[0] = 0;
+  for (int i = 0; i < kSlices; ++i) {
+    slices.start[i + 1] = count * (i + 1) >> 2;
+    const int_fast32_t twice = slices.start[i] + slices.start[i + 1] - count;
+    slices.middle[i] =
+        static_cast<int16_t>((twice * (static_cast<int_fast32_t>(1) << slices.unit)) >> 2);
+  }
+  for (int i = 0; i < kSlices; ++i) {
+    slices.square[i] =
+        static_cast<int16_t>(static_cast<int32_t>(slices.middle[i]) * slices.middle[i] >> 16);
+  }
+}
+
+inline int slice_of(const Slices& slices, int_fast32_t offset) {
+  int i = 0;
+  while (i < kSlices - 1 && offset >= slices.start[i + 1]) ++i;
+  return i;
+}
+
+// How much a slice's width counts: nothing where all are about the same. At most 16.
+inline uint32_t size_of(const Slices& slices, int i) {
+  return slices.count > 64 ? 1u : static_cast<uint32_t>(slices.start[i + 1] - slices.start[i]);
+}
+
+struct Grid {
+  Slices columns, rows;
+};
+
+// Twice the middle of cell (i, j), less twice the middle of the grid: half steps.
+inline Offset middle_of(const Grid& grid, int i, int j) {
+  return Offset{grid.columns.start[i] + grid.columns.start[i + 1] - grid.columns.count,
+                grid.rows.start[j] + grid.rows.start[j + 1] - grid.rows.count};
+}
+
+// How powers become distances: 512 / ramp of them. Shifted, multiplied, shifted by 21.
+struct Scale {
+  uint32_t shift;
+  int32_t reciprocal;  // 2^14 .. 2^27
+};
+
+// 8 <= ramp < 2^50.
+inline Scale scale_by(int64_t ramp) {
+  const uint32_t bits = highest_bit(static_cast<uint64_t>(ramp));
+  const uint32_t shift = bits > 15 ? bits - 15 : 0;
+  return Scale{shift, static_cast<int32_t>((static_cast<uint32_t>(1) << 30) /
+                                           static_cast<uint32_t>(ramp >> shift))};
+}
+
+// Distances in 64ths of a cell's extent across the circle, from the change of the power at the
+// middle of the grid. Slopes are below 2^27, extents below 2^18.
+inline Scale scale_for(const Power& power, const Grid& grid) {
+  const int64_t x = power.x < 0 ? -power.x : power.x, y = power.y < 0 ? -power.y : power.y;
+  const int64_t width = grid.columns.extent, height = grid.rows.extent;
+  return scale_by(((x * width + y * height) * 5 + width * width + height * height) / 8 + 8);
+}
+
+// The power of slices' middles: a parabola.
+inline void measure_axis(int32_t constant, int_fast32_t slope, const Slices& slices,
+                         const Scale& scale, int16_t* distance) {
+  const int16_t linear = static_cast<int16_t>(static_cast<int64_t>(slope) * scale.reciprocal >>
+                                              (scale.shift + slices.unit + 3));
+  const int16_t square = static_cast<int16_t>((static_cast<int64_t>(scale.reciprocal) << 15) >>
+                                              (scale.shift + 2 * slices.unit));
+  for (int i = 0; i < kSlices; ++i) {
+    distance[i] =
+        static_cast<int16_t>(constant + (static_cast<int32_t>(slices.middle[i]) * linear >> 16) +
+                             (static_cast<int32_t>(slices.square[i]) * square >> 16));
+  }
+}
+
+inline void add_column(int16_t x, const int16_t* y, int16_t* sum) {
+  for (int j = 0; j < kSlices; ++j) sum[j] = static_cast<int16_t>(x + y[j]);
+}
+
+// How far the cells' middles are outside a circle.
+MICROTIN_OUT_OF_LINE inline void measure(const Power& power, const Scale& scale, const Grid& grid,
+                                         Cells outside) {
+  const int64_t cap = static_cast<int64_t>(1) << 30, far = 1 << 13;
+  int64_t value = power.value >> scale.shift;
+  value = value > cap ? cap : value < -cap ? -cap : value;
+  value = value * scale.reciprocal >> 21;
+  value = value > far ? far : value < -far ? -far : value;
+  int16_t x[kSlices], y[kSlices];
+  measure_axis(static_cast<int32_t>(value), power.x, grid.columns, scale, x);
+  measure_axis(0, power.y, grid.rows, scale, y);
+  add_column(x[0], y, outside);
+  add_column(x[1], y, outside + kSlices);
+  add_column(x[2], y, outside + 2 * kSlices);
+  add_column(x[3], y, outside + 3 * kSlices);
+}
+
+inline int16_t clamped(int16_t v, int16_t low, int16_t high) {
+  const int16_t raised = v < low ? low : v;
+  return raised > high ? high : raised;
+}
+
+// Takes away what lies inside a circle: all of a cell that is `margin` inside, nothing of one that
+// is 64 - margin outside.
+MICROTIN_OUT_OF_LINE inline void cut(const Cells outside, int16_t margin, Cells weight) {
+  for (int k = 0; k < kCells; ++k) {
+    const int16_t share = clamped(static_cast<int16_t>(outside[k] + margin), 0, 63);
+    weight[k] = static_cast<int16_t>((static_cast<uint32_t>(static_cast<uint16_t>(weight[k])) *
+                                      static_cast<uint16_t>(share << 10)) >>
+                                     16);
+  }
+}
+
+}  // namespace microtin
+
+#endif
