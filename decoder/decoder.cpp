@@ -96,7 +96,8 @@ microtin_status handle_block_head(microtin_decoder& d) {
   return MICROTIN_NEED_INPUT;
 }
 
-microtin_status handle_placement(microtin_decoder& d) {
+// Out of line: its buffer would be on the stack of every step.
+MICROTIN_OUT_OF_LINE microtin_status handle_placement(microtin_decoder& d) {
   uint8_t bytes[kPlacementMostBytes];
   take_bytes(d, bytes, d.block_left);
   if (!read_placement(bytes, d.block_left, d.mesh->axis)) d.header_status = MICROTIN_MALFORMED;

@@ -17,12 +17,14 @@ constexpr Cotangent kCotangentCap = 23000;
 
 // q / h, off by less than 2 / 256; |q| < 2^34, 0 < h < 2^34.
 inline Cotangent cotangent(int64_t q, int64_t h) {
-  if (q >= 89 * h) return kCotangentCap;
-  if (q <= -89 * h) return -kCotangentCap;
-  // h is brought below 2^16, but not below 2^15: |q| * 256 < 89 * 2^16 * 2^8 < 2^31.
+  // h is brought below 2^16, but not below 2^15: then |q| * 256 < 89 * 2^16 * 2^8 < 2^31.
   const uint32_t bits = highest_bit(static_cast<uint64_t>(h));
   const uint32_t shift = bits > 15 ? bits - 15 : 0;
-  return static_cast<int32_t>(q >> shift) * 256 / static_cast<int32_t>(h >> shift);
+  q >>= shift;
+  const int32_t divisor = static_cast<int32_t>(h >> shift);
+  if (q >= 89 * divisor) return kCotangentCap;
+  if (q <= -89 * divisor) return -kCotangentCap;
+  return static_cast<int32_t>(q) * 256 / divisor;
 }
 
 // The side from corner i to corner i + 1 of a triangle, and what is known behind it.

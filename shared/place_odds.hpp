@@ -139,10 +139,9 @@ inline void repel(PlaceOdds& odds) {
   if (odds.reach < diagonal2 * 3 / 32 + 8) return;
   const Scale scale = scale_by(odds.reach);
   for (int k = kEnds; k < kCircles; ++k) {
-    if (!odds.matters[k] || odds.circle[k].value > odds.reach / 4 + 2 * diagonal2) continue;
-    Cells distance;
-    measure(odds.circle[k], scale, odds.grid, distance);
-    cut(distance, 0, odds.weight);
+    if (!odds.matters[k] || odds.circle[k].value > odds.reach / 4 + diagonal2) continue;
+    measure(odds.circle[k], scale, odds.grid, odds.chance);  // the chances are used up
+    cut(odds.chance, 0, odds.weight);
   }
 }
 
