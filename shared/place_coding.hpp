@@ -37,10 +37,11 @@ int code_slice(Coder& coder, Calibration* split, const uint32_t* weight, int sli
   return first;
 }
 
-// Codes the cell of `box` that holds the place, which becomes the box.
+// Codes the cell of `box` that holds the place, which becomes the box; the odds follow it unless it
+// is the last.
 template <class Coder>
 MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, PlaceOdds& odds, Box& box,
-                                    Point place) {
+                                    Point place, bool last) {
   Slices& columns = odds.grid.columns;
   Slices& rows = odds.grid.rows;
   slice(columns, box.x1 - box.x0 + 1);
@@ -61,7 +62,7 @@ MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, PlaceOdds&
     weight[j] = (static_cast<uint32_t>(cell[j]) + 1u) * row_size[j];
   }
   const int j = code_slice(coder, split + 2, weight, slice_of(rows, place.y - box.y0));
-  narrow(odds, i, j);
+  if (!last) narrow(odds, i, j);
   box.x1 = box.x0 + columns.start[i + 1] - 1;
   box.y1 = box.y0 + rows.start[j + 1] - 1;
   box.x0 += columns.start[i];
@@ -73,7 +74,7 @@ template <class Coder>
 Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, uint32_t levels, Box box,
                  Point place) {
   for (uint32_t level = 0; level < levels; ++level) {
-    code_cell(coder, model.split[level], odds, box, place);
+    code_cell(coder, model.split[level], odds, box, place, level + 1 == levels);
   }
   const uint32_t x = coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),
                                    static_cast<uint32_t>(place.x - box.x0));

@@ -30,7 +30,7 @@ void print_encode_speed() {
   const std::vector<double> times = nanoseconds(works);
   const double triangulation = times[0], ordered = times[1], encoded = times[2], check = times[3];
 
-  print_head("Encoding 1,000,000 uniform points, D 8, seconds", {"step", "seconds"});
+  print_head("Encoding 1,000,000 uniform points, seconds", {"step", "seconds"});
   const auto print = [](const std::string& step, double time) {
     print_row({step, number(time / 1e9, 2)});
   };

@@ -7,8 +7,8 @@
 namespace microtin::bench {
 namespace {
 
-void write(const std::string& path, const Model& model) {
-  const Bytes stream = encode(model.tin, model.metadata);
+void write(const std::string& path, const Model& model, const Effort& effort = {}) {
+  const Bytes stream = encode(model.tin, model.metadata, effort);
   OutputFile file(path);
   file.write({reinterpret_cast<const char*>(stream.data()), stream.size()});
   file.commit();
@@ -25,6 +25,11 @@ void write_streams(const std::string& folder) {
   const auto path = [&](const std::string& name) { return folder + "/" + name + ".mtin"; };
   write(path("1_uniform_10k"), {uniform_tin(10000, 0), {}});
   write(path("2_uniform_80k"), {uniform_tin(80000, 0), {}});
+  for (const Effort& effort : {Effort{8, 2}, Effort{10, 1}, Effort{10, 3}}) {
+    write(path("2_uniform_80k_D" + std::to_string(effort.degree) + "_levels" +
+               std::to_string(effort.levels)),
+          {uniform_tin(80000, 0), {}}, effort);
+  }
   write(path("3_uniform_1M"), {uniform_tin(1000000, 0), {}});
   const std::vector<Dataset> grids = rasters();
   for (const Dataset& dataset : grids) {
@@ -36,7 +41,10 @@ void write_streams(const std::string& folder) {
   constexpr uint32_t kTileVertices = 2000;
   if (!grids.empty()) {
     const Dataset& first = grids.front();
-    write(path("tile"), simplified(read_raster(first), first.options, kTileVertices));
+    const Model tile = simplified(read_raster(first), first.options, kTileVertices);
+    for (const uint32_t levels : {1u, 2u, 3u}) {
+      write(path("tile_levels" + std::to_string(levels)), tile, {Effort().degree, levels});
+    }
   }
 }
 

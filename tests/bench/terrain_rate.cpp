@@ -18,12 +18,13 @@ std::string label(const Dataset& dataset) {
 class TerrainRate {
  public:
   TerrainRate() {
-    Row head{"terrain, error / z step", "vertices", "xy floor", "microtin, bytes", "bits/vertex"};
+    Row head{"terrain, error / z step", "vertices", "xy floor", "microtin, bytes", "bits/vertex",
+             "levels 1, bytes", "levels 3, bytes"};
     for (const Codec& peer : peers_) {
       head.push_back(peer.name + ", bytes");
       head.push_back("ratio");
     }
-    print_head("Terrain: x, y, z and triangles, D 8, whole file; ratio: microtin / peer", head);
+    print_head("Terrain: x, y, z and triangles, whole file; ratio: microtin / peer", head);
   }
 
   void add(const Dataset& dataset, const Source& source) {
@@ -34,6 +35,12 @@ class TerrainRate {
     const size_t vertices = surface.vertices.size();
     Row row{label(dataset), number(vertices), number(floor_bits(surface), 2), number(stream.size()),
             number(8 * size / static_cast<double>(vertices), 2)};
+    for (const uint32_t levels : {1u, 3u}) {
+      const Effort effort{Effort().degree, levels};
+      const size_t bytes = encode(model.tin, model.metadata, effort).size();
+      level_means_[levels / 2].add(static_cast<double>(bytes) / size);
+      row.push_back(number(bytes));
+    }
     for (size_t i = 0; i < peers_.size(); ++i) {
       const size_t peer_size = checked_encode(peers_[i], surface).size();
       const double ratio = size / static_cast<double>(peer_size);
@@ -46,6 +53,9 @@ class TerrainRate {
 
   void print_means() const {
     Row row{"geometric mean", "", "", "", ""};
+    for (const GeometricMean& mean : level_means_) {
+      row.push_back("x " + number(mean.value(), 3));
+    }
     for (const GeometricMean& mean : means_) {
       row.push_back("");
       row.push_back(number(mean.value(), 3));
@@ -55,6 +65,7 @@ class TerrainRate {
 
  private:
   const std::vector<Codec> peers_ = dense_codecs();
+  GeometricMean level_means_[2];
   std::vector<GeometricMean> means_ = std::vector<GeometricMean>(peers_.size());
 };
 

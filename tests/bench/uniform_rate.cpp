@@ -15,7 +15,7 @@ struct Size {
 
 constexpr Size kSizes[] = {{5000, 8, "27.49"},  {10000, 4, "26.50"}, {20000, 4, "25.45"},
                            {40000, 2, "24.39"}, {80000, 2, "23.42"}, {1000000, 1, "-"}};
-constexpr uint32_t kDegrees[] = {8, 6, 12, 32};
+constexpr Effort kEfforts[] = {{8, 2}, {8, 1}, {8, 3}, {10, 2}, {10, 3}, {32, 3}};
 
 std::vector<Codec> point_codecs() {
   std::vector<Codec> codecs;
@@ -26,14 +26,14 @@ std::vector<Codec> point_codecs() {
 }
 
 void print_size(const Size& size, const std::vector<Codec>& peers) {
-  std::vector<double> bits(std::size(kDegrees) + peers.size());
+  std::vector<double> bits(std::size(kEfforts) + peers.size());
   for (uint64_t seed = 0; seed < size.samples; ++seed) {
     const Tin tin = uniform_tin(size.vertices, seed);
     const Surface surface{false, tin.vertices, {}};
     const double scale = 8.0 / static_cast<double>(size.vertices * size.samples);
     auto sum = bits.begin();
-    for (const uint32_t degree : kDegrees) {
-      *sum++ += scale * static_cast<double>(encode(tin, {}, {degree}).size());
+    for (const Effort& effort : kEfforts) {
+      *sum++ += scale * static_cast<double>(encode(tin, {}, effort).size());
     }
     for (const Codec& peer : peers) {
       *sum++ += scale * static_cast<double>(checked_encode(peer, surface).size());
@@ -53,7 +53,12 @@ void print_size(const Size& size, const std::vector<Codec>& peers) {
 
 void print_uniform_rate() {
   const std::vector<Codec> peers = point_codecs();
-  Row head{"n", "floor", "microtin D 8", "/ floor", "D 6", "D 12", "D 32"};
+  Row head{"n", "floor"};
+  for (const Effort& effort : kEfforts) {
+    head.push_back("D " + std::to_string(effort.degree) + ", levels " +
+                   std::to_string(effort.levels));
+    if (head.size() == 3) head.push_back("/ floor");
+  }
   for (const Codec& peer : peers) head.push_back(peer.name);
   head.push_back("1999 paper (quoted)");
   print_head("Uniform 16-bit points, x and y only, whole file, bits/vertex", head);

@@ -4,10 +4,10 @@ entries="microtin_peek microtin_mesh_init microtin_decoder_init microtin_feed mi
 queries="microtin_height_at microtin_to_lattice microtin_vertex microtin_triangle microtin_neighbour microtin_digest"
 prefix=arm-none-eabi
 
-# The device's build at a level, e.g. O2.
+# The device's build at an optimisation, e.g. O2, with a tile of some levels of cells.
 build_device() {
   quietly cmake --preset cortex-m4 -B "$build/$1" -DCMAKE_BUILD_TYPE=Level -DCMAKE_CXX_FLAGS_LEVEL="-$1" \
-    -DMICROTIN_BENCH=ON -DMICROTIN_BENCH_STREAM="$streams/tile.mtin"
+    -DMICROTIN_BENCH=ON -DMICROTIN_BENCH_STREAM="$streams/tile_levels$2.mtin"
   quietly cmake --build "$build/$1" --target bench_device
 }
 
@@ -30,14 +30,18 @@ run_device() {
 }
 
 printf '\n### Decoding a terrain tile on a Cortex-M4\n\n'
-echo "| level | text + rodata, bytes | with queries | stack, bytes | vertices | instructions per vertex |"
-echo "| --- | --- | --- | --- | --- | --- |"
+echo "| optimisation | text + rodata, bytes | with queries | stack, bytes | vertices | instructions per vertex, levels 1 | 2 | 3 |"
+echo "| --- | --- | --- | --- | --- | --- | --- | --- |"
 for level in Os O2; do
-  build_device $level
+  row=""
+  for cells in 1 2 3; do
+    build_device $level $cells
+    counts=$(run_device $level)
+    set -- $counts
+    row="$row $(($2 / $1)) |"
+  done
   code=$(code_bytes $level "$entries")
   all=$(code_bytes $level "$entries $queries")
   stack=$(stack_bytes $level)
-  counts=$(run_device $level)
-  set -- $counts
-  echo "| -$level | $code | $all | $stack | $1 | $(($2 / $1)) |"
+  echo "| -$level | $code | $all | $stack | $1 |$row"
 done
