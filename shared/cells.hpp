@@ -83,7 +83,8 @@ inline Scale scale_for(const Power& power, const Grid& grid) {
   return scale_by(((x * width + y * height) * 5 + width * width + height * height) / 8 + 8);
 }
 
-// The power of slices' middles: a parabola.
+// The power of slices' middles: a parabola. By the circle's own scale it fits 16 bits, of both axes
+// together below 22784; by another one it may wrap around, which spoils an estimate and no more.
 inline void measure_axis(int32_t constant, int_fast32_t slope, const Slices& slices,
                          const Scale& scale, int16_t* distance) {
   const int16_t linear = static_cast<int16_t>(static_cast<int64_t>(slope) * scale.reciprocal >>
@@ -98,7 +99,9 @@ inline void measure_axis(int32_t constant, int_fast32_t slope, const Slices& sli
 }
 
 inline void add_column(int16_t x, const int16_t* y, int16_t* sum) {
-  for (int j = 0; j < kSlices; ++j) sum[j] = static_cast<int16_t>(x + y[j]);
+  for (int j = 0; j < kSlices; ++j) {
+    sum[j] = static_cast<int16_t>(static_cast<uint16_t>(x) + static_cast<uint16_t>(y[j]));
+  }
 }
 
 // How far the cells' middles are outside a circle.

@@ -19,16 +19,16 @@ constexpr uint32_t kMaxVertices = 16777216;  // 2^24
 // and with every phase after it.
 constexpr uint32_t kSectionVertices = 256;
 
-// Most payload bytes that one step can use: one hit decision, a place (12 decisions and 32 uniform
-// bits) and a height (36 decisions and 16 uniform bits) at 9 bits a decision, and slack to
-// renormalise.
+// Payload bytes that suffice for any step. Most are used by a vertex on a hull edge: 2 decisions,
+// its gap (16 decisions and 14 uniform bits) and its height (19 decisions and 15 uniform bits), at
+// 9 bits a decision, are 46 bytes (FORMAT.md, "Payload bytes of a step").
 constexpr uint32_t kStepBytes = 72;
 
 // Bytes of zero that stand virtually behind a section's payload.
 constexpr uint32_t kVirtualBytes = 4;
 
 // Vertices of all phases together that a stream may walk around. Every phase of the encoder leaves
-// at most 3/4 of its removable vertices (FORMAT.md, "Work"), so 4 n and 3 per phase suffice.
+// about 3/4 of its vertices at most: 4 n and 7 per phase suffice (FORMAT.md, "Work").
 constexpr uint32_t work_budget(uint32_t vertices) {
   return 4 * vertices + 512;
 }

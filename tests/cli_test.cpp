@@ -102,10 +102,10 @@ TEST_CASE("cli: encode, info, verify and decode agree") {
   CHECK(info.code == 0);
   for (const char* key :
        {"\"format_version\": 2", "\"vertices\": 10", "\"triangles\"", "\"bytes\"",
-        "\"bits_per_vertex\"", "\"phases\"", "\"degree\": 10", "\"levels\": 2", "\"workspace_bytes_16\"",
-        "\"workspace_bytes_32\"", "\"steps\"", "\"offsets\"", "\"bound\": null",
-        "\"max_error\": 0.0", "\"rms_error\": 0.0", "\"placement\"", "\"horizontal_epsg\": 25832",
-        "\"vertical_epsg\": 5783"}) {
+        "\"bits_per_vertex\"", "\"phases\"", "\"degree\": 10", "\"levels\": 2",
+        "\"workspace_bytes_16\"", "\"workspace_bytes_32\"", "\"steps\"", "\"offsets\"",
+        "\"bound\": null", "\"max_error\": 0.0", "\"rms_error\": 0.0", "\"placement\"",
+        "\"horizontal_epsg\": 25832", "\"vertical_epsg\": 5783"}) {
     CHECK_MESSAGE(contains(info.out, key), key);
   }
 
@@ -245,11 +245,11 @@ TEST_CASE("cli: wrong usage is told apart") {
   session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n");
   for (const char* arguments :
        {"", "frobnicate", "encode", "encode ok.xyz", "encode ok.xyz -o o --degree 5",
-        "encode ok.xyz -o o --degree 33", "encode ok.xyz -o o --levels 4", "encode ok.xyz -o o --max-error -1",
-        "encode ok.xyz -o o --max-error x", "encode ok.xyz -o o --max-error nan",
-        "encode ok.xyz -o o --max-vertices 2", "encode ok.xyz -o o --epsg 1:x",
-        "encode ok.xyz -o o --max-error 1 --max-vertices 9", "encode ok.xyz -o o --nonsense",
-        "info", "decode ok.xyz"}) {
+        "encode ok.xyz -o o --degree 33", "encode ok.xyz -o o --levels 4",
+        "encode ok.xyz -o o --max-error -1", "encode ok.xyz -o o --max-error x",
+        "encode ok.xyz -o o --max-error nan", "encode ok.xyz -o o --max-vertices 2",
+        "encode ok.xyz -o o --epsg 1:x", "encode ok.xyz -o o --max-error 1 --max-vertices 9",
+        "encode ok.xyz -o o --nonsense", "info", "decode ok.xyz"}) {
     session.failure(arguments, 2);
   }
   const Session::Result help = session.run("encode --help");

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "shared/start_probabilities.hpp"
 #include "tests/mesh_copy.hpp"
 #include "tests/streams.hpp"
 
@@ -69,8 +70,8 @@ std::vector<Golden> golden_streams() {
   std::vector<Golden> all;
   all.push_back({"example", encode(example, Metadata())});
   all.push_back({"hills", encode(rolling_tin(1000, 32), full_metadata())});
-  all.push_back({"phases", encode(rolling_tin(700, 33), Metadata(), 6)});
-  all.push_back({"voids", encode(with_voids(rolling_tin(300, 34)), Metadata())});
+  all.push_back({"phases", encode(rolling_tin(700, 33), Metadata(), {6, 1})});
+  all.push_back({"voids", encode(with_voids(rolling_tin(300, 34)), Metadata(), {8, 3})});
   // Chords whose cotangents are the largest 32-bit numbers and beyond.
   all.push_back({"needles", encode(flat({{16948, 26227},
                                          {21539, 23131},
@@ -82,16 +83,27 @@ std::vector<Golden> golden_streams() {
                                    Metadata())});
   all.push_back({"triangle",
                  encode(Tin{{{3, 4, -32768}, {60003, 4, 32767}, {3, 65535, 0}}, {}}, Metadata())});
-  all.push_back({"cliffs", encode(cliffs(random), Metadata())});
+  all.push_back({"cliffs", encode(cliffs(random), Metadata(), {10, 3})});
   all.push_back({"lattice", encode(flat(lattice_points(20, 15, random)), Metadata())});
-  all.push_back({"circle", encode(flat(circle_points(1105 * 1105, random)), Metadata(), 32)});
-  all.push_back({"corners", encode(flat(extreme_corners(random)), Metadata(), 12)});
+  all.push_back({"circle", encode(flat(circle_points(1105 * 1105, random)), Metadata(), {32, 2})});
+  all.push_back({"corners", encode(flat(extreme_corners(random)), Metadata(), {12, 3})});
   return all;
 }
 
 std::vector<uint8_t> read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The indented lines of FORMAT.md, and an empty one for each heading.
+std::vector<std::string> indented_lines_of_the_format() {
+  std::ifstream text(MICROTIN_GOLDEN_DIR "/../../shared/FORMAT.md");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) {
+    if (line.rfind("    ", 0) == 0) lines.push_back(line);
+    if (line.rfind("#", 0) == 0) lines.emplace_back();
+  }
+  return lines;
 }
 
 }  // namespace
@@ -111,18 +123,26 @@ TEST_CASE("golden streams are what the encoder writes and the decoder reads") {
 }
 
 TEST_CASE("the hexdump in FORMAT.md is the example stream") {
-  const std::vector<uint8_t> bytes = read_file(MICROTIN_GOLDEN_DIR "/../../shared/FORMAT.md");
-  std::istringstream text(std::string(bytes.begin(), bytes.end()));
   std::vector<uint8_t> dump;
-  for (std::string line; std::getline(text, line);) {
+  for (const std::string& line : indented_lines_of_the_format()) {
     std::istringstream row(line);
     std::string offset, digits;
     row >> offset;
-    if (line.rfind("    ", 0) != 0 || offset.size() != 8 || offset.rfind("000000", 0) != 0)
-      continue;
+    if (offset.size() != 8 || offset.rfind("000000", 0) != 0) continue;
     while (row >> digits) dump.push_back(static_cast<uint8_t>(std::stoul(digits, nullptr, 16)));
   }
   CHECK(dump == golden_streams()[0].stream);
+}
+
+TEST_CASE("the table of starts in FORMAT.md is the decoder's") {
+  std::vector<uint32_t> listed, expected;
+  for (const std::string& line : indented_lines_of_the_format()) {
+    if (line.empty()) listed.clear();  // it stands under the last heading
+    std::istringstream row(line);
+    for (uint32_t start; row >> start;) listed.push_back(start);
+  }
+  for (uint32_t i = 0; i < kStarts; ++i) expected.push_back(table_start(i));
+  CHECK(listed == expected);
 }
 
 }  // namespace microtin

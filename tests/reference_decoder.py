@@ -11,6 +11,7 @@ import math
 import sys
 import zlib
 from collections import deque
+from pathlib import Path
 from typing import NamedTuple
 
 INFINITY = -1
@@ -135,10 +136,11 @@ LARGEST_COTANGENT = 23000
 
 
 def cotangent(q, h):
+    s = max(0, highest_bit(h) - 15)
+    q, h = q >> s, h >> s
     if abs(q) >= 89 * h:
         return LARGEST_COTANGENT if q > 0 else -LARGEST_COTANGENT
-    s = max(0, highest_bit(h) - 15)
-    return divide((q >> s) * 256, h >> s)
+    return divide(q * 256, h)
 
 
 def disc(c, k):
@@ -217,13 +219,9 @@ class RangeDecoder:
         return number
 
 
-def usable(p):
-    return keep_within(64, p, 32768 - 64)
-
-
 class AdaptiveBit:
-    def __init__(self, p):
-        self.fast = self.slow = usable(p)
+    def __init__(self, start):
+        self.fast = self.slow = 128 * start + 64
 
     def sum(self):
         return self.fast + self.slow
@@ -234,7 +232,7 @@ class AdaptiveBit:
         return bit
 
     def learn(self, bit):
-        target = 32703 if bit else 64
+        target = 32704 if bit else 64
         self.fast += (target - self.fast) >> 5
         self.slow += (target - self.slow) >> 7
 
@@ -247,57 +245,28 @@ def decode_between(coder, row, i, f):
     return bit
 
 
-def probability_at(odds):
-    p = 32768 * 256 // (exp2(abs(odds) + 2048) + 256)
-    return p if odds < 0 else 32768 - p
+def decode_on_curve(coder, row, position):
+    position = keep_within(0, position, 256 * (len(row) - 1) - 1)
+    return decode_between(coder, row, position >> 8, position & 255)
 
 
-class Curve:
-    def __init__(self, size, odds, step):
-        self.row = [AdaptiveBit(probability_at(odds + step * i)) for i in range(size)]
+def decode_length(coder, row, typical, limit):
+    def is_longer_than(bits):
+        return row[keep_within(0, bits - typical + 3, 6)].decode(coder)
 
-    def decode(self, coder, position):
-        last = len(self.row) - 1
-        position = keep_within(0, position, 256 * last)
-        i = min(position >> 8, last - 1)
-        return decode_between(coder, self.row, i, position - 256 * i)
-
-
-class Calibration:
-    def __init__(self):
-        self.row = [AdaptiveBit(4096 * i) for i in range(9)]
-
-    def decode(self, coder, estimate):
-        return decode_between(coder, self.row, estimate >> 12, estimate >> 4 & 255)
-
-
-class LengthBits:
-    """Whether a number is longer than so many bits, by how far that is from the typical length."""
-
-    def __init__(self):
-        self.longer = [AdaptiveBit(24000 - 3500 * i) for i in range(7)]
-
-    def decode(self, coder, typical, limit):
-        def is_longer_than(bits):
-            return self.longer[keep_within(0, bits - typical + 3, 6)].decode(coder)
-
-        length = typical
-        if is_longer_than(length):
+    length = typical
+    if is_longer_than(length):
+        length += 1
+        while length < limit and is_longer_than(length):
             length += 1
-            while length < limit and is_longer_than(length):
-                length += 1
-        else:
-            while length > 0 and not is_longer_than(length - 1):
-                length -= 1
-        return length
+    else:
+        while length > 0 and not is_longer_than(length - 1):
+            length -= 1
+    return length
 
 
-def second_bits():
-    return [AdaptiveBit(14000) for _ in range(10)]
-
-
-def decode_magnitude(coder, length_bits, second, typical, limit):
-    bits = length_bits.decode(coder, typical, limit)
+def decode_magnitude(coder, row, second, typical, limit):
+    bits = decode_length(coder, row, typical, limit)
     if bits < 2:
         return bits
     leading = 2 + second[min(bits, 9)].decode(coder)
@@ -477,20 +446,34 @@ class Mesh:
 # Section 10: hits, places, heights
 
 
+def start_table():
+    """The numbers at the end of FORMAT.md."""
+    text = (Path(__file__).parent.parent / "shared" / "FORMAT.md").read_text(encoding="utf-8")
+    appendix = text[text.index("## 14. Start table") :]
+    return [int(word) for line in appendix.splitlines() if line.startswith("    ") for word in line.split()]
+
+
 class Models:
     """What the adaptive bits have learnt. It outlives phases and sections."""
 
     def __init__(self):
-        self.hull_hit = [AdaptiveBit(4000 + 4000 * i) for i in range(7)]
-        self.on_edge = AdaptiveBit(16384)
-        self.on_border = AdaptiveBit(16384)
-        self.gap = LengthBits()
-        self.hit = [Curve(15, -1920, 320) for _ in range(6)]
-        self.cell = [[Calibration() for _ in range(4)] for _ in range(3)]
-        self.height = [LengthBits() for _ in range(12)]
-        self.second = second_bits()
-        self.negative = [[AdaptiveBit(24000 - 1700 * tendency) for _ in range(3)] for tendency in range(10)]
-        self.void = [AdaptiveBit(3000 + 6500 * context) for context in range(5)]
+        starts = iter(start_table())
+
+        def bits(*sizes):
+            if not sizes:
+                return AdaptiveBit(next(starts))
+            return [bits(*sizes[1:]) for _ in range(sizes[0])]
+
+        self.hit = bits(6, 15)
+        self.cell = bits(3, 4, 9)
+        self.height = bits(12, 7)
+        self.second = bits(10)
+        self.negative = bits(10, 3)
+        self.hull_hit = bits(7)
+        self.on_edge = bits()
+        self.on_border = bits()
+        self.gap = bits(7)
+        self.void = bits(5)
 
 
 class Density:
@@ -669,7 +652,7 @@ class Slices:
 
     def distances(self, base, slope, scale):
         linear = int16(slope * scale.factor >> (scale.shift + self.unit + 3))
-        bend = (scale.factor << 15) >> (scale.shift + 2 * self.unit)
+        bend = int16((scale.factor << 15) >> (scale.shift + 2 * self.unit))
         return [base + (m * linear >> 16) + ((m * m >> 16) * bend >> 16) for m in self.middles]
 
 
@@ -679,9 +662,7 @@ def int16(value):
 
 
 class Scale:
-    def __init__(self, slopes, columns, rows):
-        w, h = columns.extent, rows.extent
-        ramp = (5 * (abs(slopes[0]) * w + abs(slopes[1]) * h) + w * w + h * h) // 8 + 8
+    def __init__(self, ramp):
         self.shift = max(0, highest_bit(ramp) - 15)
         self.factor = (1 << 30) // (ramp >> self.shift)
 
@@ -696,7 +677,9 @@ class Grid:
         self.columns, self.rows = Slices(box.columns), Slices(box.rows)
 
     def scale(self, circle):
-        return Scale(circle.seen_from(self.middle)[1:], self.columns, self.rows)
+        _, x, y = circle.seen_from(self.middle)
+        w, h = self.columns.extent, self.rows.extent
+        return Scale((5 * (abs(x) * w + abs(y) * h) + w * w + h * h) // 8 + 8)
 
     def distances(self, circle, scale=None):
         """How far the middles of the cells are outside a circle."""
@@ -742,15 +725,38 @@ class Chance:
         return self.table[32 * left // (keep_within(1, outside_behind, 16383) + left)]
 
 
+def cut(weights, distances, margin):
+    return {cell: w * keep_within(0, distances[cell] + margin, 63) >> 6 for cell, w in weights.items()}
+
+
+class Repulsion:
+    """Of the ends of the chord."""
+
+    def __init__(self, candidate, density):
+        self.ends = [Circle(p, p, 0, (2 * p[0], 2 * p[1])) for p in (candidate.v, candidate.a)]
+        self.reach = min(exp2(256 - density), 1 << 45)
+
+    def applied_to(self, weights, box, grid):
+        diagonal = box.columns**2 + box.rows**2
+        if self.reach < diagonal * 3 // 32 + 8:
+            return weights
+        scale = Scale(self.reach)
+        for end in self.ends:
+            if end.seen_from(grid.middle)[0] <= self.reach // 4 + diagonal:
+                weights = cut(weights, grid.distances(end, scale), 0)
+        return weights
+
+
 class Weights:
-    def __init__(self, candidate, box, density):
+    def __init__(self, candidate, box, density, repels):
         middle = box.doubled_middle()
         chord = candidate.chord
         self.circle = Circle(chord.start, chord.end, chord.own, middle)
         self.chance = Chance(candidate, box, density)
         self.behind = [Circle(s.start, s.end, s.behind, middle) for s in candidate.sides if s.has_circle_behind()]
+        self.repulsion = Repulsion(candidate, density) if repels else None
 
-    def of_cells(self, grid):
+    def of_cells(self, box, grid):
         """The weights by cell, and the distances from the circles behind."""
         scale = grid.scale(self.circle)
         own = grid.distances(self.circle, scale)
@@ -758,44 +764,47 @@ class Weights:
         weights = {cell: keep_within(0, 32 - own[cell], 64) * chances[cell] for cell in grid.ALL}
         distances = [grid.distances(circle) for circle in self.behind]
         for outside in distances:
-            weights = {cell: w * keep_within(0, outside[cell] + 32, 63) >> 6 for cell, w in weights.items()}
+            weights = cut(weights, outside, 32)
+        if self.repulsion:
+            weights = self.repulsion.applied_to(weights, box, grid)
         return weights, distances
 
     def forget_far_circles(self, distances, cell):
         self.behind = [circle for circle, outside in zip(self.behind, distances) if outside[cell] < 64]
 
 
-def decode_half(coder, calibration, low, high):
+def decode_half(coder, row, low, high):
     if low == 0 or high == 0:
         return int(low == 0)
     s = max(0, highest_bit(low + high) - 16)
-    return calibration.decode(coder, ((high >> s) << 15) // (((low + high) >> s) + 1))
+    estimate = ((high >> s) << 15) // (((low + high) >> s) + 1)
+    return decode_between(coder, row, estimate >> 12, estimate >> 4 & 255)
 
 
-def decode_one_of_four(coder, calibrations, weights):
-    upper = decode_half(coder, calibrations[0], sum(weights[:2]), sum(weights[2:]))
+def decode_one_of_four(coder, rows, weights):
+    upper = decode_half(coder, rows[0], sum(weights[:2]), sum(weights[2:]))
     pair = weights[2 * upper : 2 * upper + 2]
-    return 2 * upper + decode_half(coder, calibrations[1], *pair)
+    return 2 * upper + decode_half(coder, rows[1], *pair)
 
 
-def decode_cell(coder, calibrations, weights, box):
+def decode_cell(coder, rows, weights, box):
     grid = Grid(box)
-    shares, distances = weights.of_cells(grid)
+    shares, distances = weights.of_cells(box, grid)
     widths, heights = grid.columns.sizes, grid.rows.sizes
     cells = [[(shares[i, j] + 1) * heights[j] for j in range(4)] for i in range(4)]
-    column = decode_one_of_four(coder, calibrations[:2], [sum(cells[i]) * widths[i] for i in range(4)])
-    row = decode_one_of_four(coder, calibrations[2:], cells[column])
+    column = decode_one_of_four(coder, rows[:2], [sum(cells[i]) * widths[i] for i in range(4)])
+    row = decode_one_of_four(coder, rows[2:], cells[column])
     weights.forget_far_circles(distances, (column, row))
     return box.cell(column, row)
 
 
 def decode_place_in_triangle(coder, models, candidate, density, header):
     box = first_box(candidate, header.columns, header.rows)
-    weights = Weights(candidate, box, density)
-    for calibrations in models.cell[: header.levels]:
+    weights = Weights(candidate, box, density, header.heights_are_sent)
+    for rows in models.cell[: header.levels]:
         if box.is_point():
             break
-        box = decode_cell(coder, calibrations, weights, box)
+        box = decode_cell(coder, rows, weights, box)
     x = box.x + coder.uniform(box.columns)
     return x, box.y + coder.uniform(box.rows)
 
@@ -970,7 +979,7 @@ class Decoder:
             curve = 4 if degree < self.header.degree + 2 else 5
             if degree <= self.header.degree:
                 position = 15 * 256
-        if not self.models.hit[curve].decode(self.coder, position):
+        if not decode_on_curve(self.coder, self.models.hit[curve], position):
             return None
         return decode_place_in_triangle(self.coder, self.models, candidate, density, self.header)
 

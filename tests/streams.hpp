@@ -21,8 +21,7 @@ inline Tin rolling_tin(uint32_t n, uint32_t seed) {
   return tin;
 }
 
-inline std::vector<uint8_t> terrain_stream(uint32_t n, uint32_t seed,
-                                           const Effort& effort = {}) {
+inline std::vector<uint8_t> terrain_stream(uint32_t n, uint32_t seed, const Effort& effort = {}) {
   return encode(rolling_tin(n, seed), Metadata(), effort);
 }
 

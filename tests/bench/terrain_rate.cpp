@@ -18,8 +18,9 @@ std::string label(const Dataset& dataset) {
 class TerrainRate {
  public:
   TerrainRate() {
-    Row head{"terrain, error / z step", "vertices", "xy floor", "microtin, bytes", "bits/vertex",
-             "levels 1, bytes", "levels 3, bytes"};
+    Row head{"terrain, error / z step", "vertices",    "xy floor",
+             "microtin, bytes",         "bits/vertex", "levels 1, bytes",
+             "levels 3, bytes"};
     for (const Codec& peer : peers_) {
       head.push_back(peer.name + ", bytes");
       head.push_back("ratio");
