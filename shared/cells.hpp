@@ -132,7 +132,7 @@ MICROTIN_OUT_OF_LINE inline void cut(const Cells outside, int16_t margin, Cells 
   for (int k = 0; k < kCells; ++k) {
     const int16_t share = clamped(static_cast<int16_t>(outside[k] + margin), 0, 63);
     weight[k] = static_cast<int16_t>((static_cast<uint32_t>(static_cast<uint16_t>(weight[k])) *
-                                      static_cast<uint16_t>(share << 10)) >>
+                                      static_cast<uint16_t>(static_cast<uint32_t>(share) << 10)) >>
                                      16);
   }
 }

@@ -2,7 +2,64 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
+#include "tests/point_sets.hpp"
+
 namespace microtin {
+namespace {
+
+// The triangle (v, c, a) with a certified triangle (a, w, v) behind its chord, and open other
+// sides.
+FreeRegion region_of(Point v, Point c, Point a, Point w) {
+  FreeRegion region{};
+  region.origin = v;
+  region.corner[1] = c - v;
+  region.corner[2] = a - v;
+  region.side[kChord].certified = true;
+  region.side[kChord].apex = w - v;
+  free_area(region);
+  return region;
+}
+
+bool holds(const Box& box, Point p) {
+  return p.x >= box.x0 && p.x <= box.x1 && p.y >= box.y0 && p.y <= box.y1;
+}
+
+}  // namespace
+
+TEST_CASE("the box holds every legal place") {
+  Random random(61);
+  uint32_t legal = 0, lost = 0;
+  for (const uint32_t side : {4u, 12u, 60u, 500u, 8000u, 65536u}) {
+    const int_fast32_t last = static_cast<int_fast32_t>(side) - 1;
+    for (int i = 0; i < 60000; ++i) {
+      const Point v = point_in(random, side), c = point_in(random, side);
+      const Point a = point_in(random, side), w = point_in(random, side);
+      if (orient2d(v, c, a) <= 0 || orient2d(a, w, v) <= 0) continue;
+      if (conflicts_with_triangle(a, w, v, c)) continue;
+      const Box box = enclosing_box(region_of(v, c, a, w), Box{0, 0, last, last});
+      for (int j = 0; j < 8; ++j) {
+        const Point p = point_in(random, side);
+        if (!conflicts_with_triangle(v, c, a, p) || conflicts_with_triangle(a, w, v, p)) continue;
+        ++legal;
+        if (!holds(box, p)) ++lost;
+      }
+    }
+  }
+  CHECK(legal > 20000);
+  CHECK(lost == 0);
+}
+
+TEST_CASE("square roots are not below, and close") {
+  Random random(62);
+  for (int i = 0; i < 100000; ++i) {
+    const uint64_t v = random.next() >> (2 + random.below(62));
+    const uint64_t root = sqrt_above(v);
+    CHECK(root * root >= v);
+    CHECK(static_cast<double>(root) <= 3 + std::sqrt(static_cast<double>(v)) * (1 + 1.0 / 8192));
+  }
+}
 
 // Circles of large radius, whose extremes are computed too far out: so far that they seem to lie
 // inside the triangle. The places are legal, but one step beyond the box of the three corners.
