@@ -20,9 +20,13 @@ struct PlaceModel {
 // lattice points weighs nothing and is never chosen.
 template <class Coder>
 int code_slice(Coder& coder, Calibration* split, const uint32_t* weight, int slice) {
-  uint32_t low = weight[0] + weight[1], high = weight[2] + weight[3];
   int first = 0;
   for (int half = 2; half != 0; half >>= 1, ++split) {
+    uint32_t low = weight[first], high = weight[first + half];
+    if (half == 2) {
+      low += weight[1];
+      high += weight[3];
+    }
     bool in_high = low == 0;
     if (low != 0 && high != 0) {
       const uint32_t bits = highest_bit(low + high);
@@ -31,8 +35,6 @@ int code_slice(Coder& coder, Calibration* split, const uint32_t* weight, int sli
       in_high = code_calibrated(coder, *split, share, (slice & half) != 0);
     }
     if (in_high) first += half;
-    low = weight[first];
-    high = weight[first + 1];
   }
   return first;
 }
