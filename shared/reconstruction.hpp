@@ -36,11 +36,11 @@ struct Models {
 static_assert(sizeof(Models) == kStarts * sizeof(AdaptiveBit), "nothing but adaptive bits");
 
 inline void reset(Models& models) {
-  uint8_t* to = reinterpret_cast<uint8_t*>(&models);
+  uint16_t* to = reinterpret_cast<uint16_t*>(&models);
   for (uint32_t i = 0; i < kStarts; ++i) {
     const AdaptiveBit bit = adaptive_bit(table_start(i));
-    const uint8_t* const from = reinterpret_cast<const uint8_t*>(&bit);
-    for (size_t byte = 0; byte < sizeof bit; ++byte) *to++ = from[byte];
+    *to++ = bit.fast;
+    *to++ = bit.slow;
   }
 }
 
