@@ -101,7 +101,7 @@ std::vector<std::string> indented_lines_of_the_format() {
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) {
     if (line.rfind("    ", 0) == 0) lines.push_back(line);
-    if (line.rfind("#", 0) == 0) lines.emplace_back();
+    if (line.rfind('#', 0) == 0) lines.emplace_back();
   }
   return lines;
 }
