@@ -15,24 +15,24 @@ typedef int16_t Cells[kCells];
 
 // Four slices of `count` <= 2^16 lattice lines: where each starts, and where the last one ends.
 struct Slices {
-  int_fast32_t count;
-  int_fast32_t start[kSlices + 1];
-  int_fast32_t extent;      // of a slice, less one lattice step, in eighths of half steps; above 0
+  FastInt count;
+  FastInt start[kSlices + 1];
+  FastInt extent;           // of a slice, less one lattice step, in eighths of half steps; above 0
   uint32_t unit;            // middles are in half steps / 2^(unit - 2), below 24576
   int16_t middle[kSlices];  // from the middle of all
   int16_t square[kSlices];  // middle^2 / 2^16
 };
 
-inline void slice(Slices& slices, int_fast32_t count) {
+inline void slice(Slices& slices, FastInt count) {
   slices.count = count;
   slices.extent = count > kSlices ? (count - kSlices) * 4 : 1;
   slices.unit = 16 - highest_bit(static_cast<uint32_t>(count));
   slices.start[0] = 0;
   for (int i = 0; i < kSlices; ++i) {
     slices.start[i + 1] = count * (i + 1) >> 2;
-    const int_fast32_t twice = slices.start[i] + slices.start[i + 1] - count;
+    const FastInt twice = slices.start[i] + slices.start[i + 1] - count;
     slices.middle[i] =
-        static_cast<int16_t>((twice * (static_cast<int_fast32_t>(1) << slices.unit)) >> 2);
+        static_cast<int16_t>((twice * (static_cast<FastInt>(1) << slices.unit)) >> 2);
   }
   for (int i = 0; i < kSlices; ++i) {
     slices.square[i] =
@@ -40,7 +40,7 @@ inline void slice(Slices& slices, int_fast32_t count) {
   }
 }
 
-inline int slice_of(const Slices& slices, int_fast32_t offset) {
+inline int slice_of(const Slices& slices, FastInt offset) {
   int i = 0;
   while (i < kSlices - 1 && offset >= slices.start[i + 1]) ++i;
   return i;
@@ -85,8 +85,8 @@ inline Scale scale_for(const Power& power, const Grid& grid) {
 
 // The power of slices' middles: a parabola. By the circle's own scale it fits 16 bits, of both axes
 // together below 22784; by another one it may wrap around, which spoils an estimate and no more.
-inline void measure_axis(int32_t constant, int_fast32_t slope, const Slices& slices,
-                         const Scale& scale, int16_t* distance) {
+inline void measure_axis(int32_t constant, FastInt slope, const Slices& slices, const Scale& scale,
+                         int16_t* distance) {
   const int16_t linear = static_cast<int16_t>(static_cast<int64_t>(slope) * scale.reciprocal >>
                                               (scale.shift + slices.unit + 3));
   const int16_t square = static_cast<int16_t>((static_cast<int64_t>(scale.reciprocal) << 15) >>

@@ -109,8 +109,8 @@ inline Log2 free_area(FreeRegion& region) {
 // an offset (i, j) from some place it is value + i (x + i) + j (y + j).
 struct Power {
   int64_t value;
-  int_fast32_t x;
-  int_fast32_t y;
+  FastInt x;
+  FastInt y;
 };
 
 // The circle through both ends of a side, seen from `middle` (half steps from corner 0).
@@ -122,8 +122,8 @@ inline Power circle_over(const FreeRegion& region, int i, Cotangent k, Offset mi
   const Offset chord = {a.x - b.x, a.y - b.y};
   Power power;
   power.value = dot(a, b) - ((k * cross(chord, a)) / 256);
-  power.x = a.x + b.x + static_cast<int_fast32_t>(static_cast<int64_t>(k) * chord.y / 256);
-  power.y = a.y + b.y - static_cast<int_fast32_t>(static_cast<int64_t>(k) * chord.x / 256);
+  power.x = a.x + b.x + static_cast<FastInt>(static_cast<int64_t>(k) * chord.y / 256);
+  power.y = a.y + b.y - static_cast<FastInt>(static_cast<int64_t>(k) * chord.x / 256);
   return power;
 }
 
@@ -142,10 +142,10 @@ inline Power moved(const Power& power, Offset to) {
 
 // A box of lattice points, both ends included.
 struct Box {
-  int_fast32_t x0, y0, x1, y1;
+  FastInt x0, y0, x1, y1;
 };
 
-inline void extend(Box& box, int_fast32_t x, int_fast32_t y) {
+inline void extend(Box& box, FastInt x, FastInt y) {
   if (x < box.x0) box.x0 = x;
   if (x > box.x1) box.x1 = x;
   if (y < box.y0) box.y0 = y;
@@ -165,14 +165,14 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
   // Sixteenths of a step from v. The cotangent is off by less than 1/128, which moves the centre,
   // and changes the radius, by less than 1/256 of the chord. All below 2^28.
   const Offset a = region.corner[2];
-  const int_fast32_t cx = a.x * 8 + static_cast<int_fast32_t>(static_cast<int64_t>(k) * a.y / 32);
-  const int_fast32_t cy = a.y * 8 - static_cast<int_fast32_t>(static_cast<int64_t>(k) * a.x / 32);
-  const int_fast32_t margin = ((a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y)) / 8 + 2;
-  const int_fast32_t radius = static_cast<int_fast32_t>(sqrt_above(
-                                  static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 10)) +
-                              1 + margin;
+  const FastInt cx = a.x * 8 + static_cast<FastInt>(static_cast<int64_t>(k) * a.y / 32);
+  const FastInt cy = a.y * 8 - static_cast<FastInt>(static_cast<int64_t>(k) * a.x / 32);
+  const FastInt margin = ((a.x < 0 ? -a.x : a.x) + (a.y < 0 ? -a.y : a.y)) / 8 + 2;
+  const FastInt radius =
+      static_cast<FastInt>(sqrt_above(static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 10)) +
+      1 + margin;
   // The computed extremes are beyond the true ones by less than this.
-  const int_fast32_t slack = 2 * margin + 5 + (radius >> 13);
+  const FastInt slack = 2 * margin + 5 + (radius >> 13);
   bool west = false, east = false, south = false, north = false;
   for (int i = 0; i < 2; ++i) {
     if (region.side[i].certified) continue;
@@ -189,10 +189,10 @@ inline Box enclosing_box(const FreeRegion& region, const Box& bounds) {
     south = south || centre < along_x;
     north = north || centre + along_x < 0;
   }
-  if (west) box.x0 = v.x + static_cast<int_fast32_t>((cx - radius + 15) >> 4);
-  if (east) box.x1 = v.x + static_cast<int_fast32_t>((cx + radius) >> 4);
-  if (south) box.y0 = v.y + static_cast<int_fast32_t>((cy - radius + 15) >> 4);
-  if (north) box.y1 = v.y + static_cast<int_fast32_t>((cy + radius) >> 4);
+  if (west) box.x0 = v.x + static_cast<FastInt>((cx - radius + 15) >> 4);
+  if (east) box.x1 = v.x + static_cast<FastInt>((cx + radius) >> 4);
+  if (south) box.y0 = v.y + static_cast<FastInt>((cy - radius + 15) >> 4);
+  if (north) box.y1 = v.y + static_cast<FastInt>((cy + radius) >> 4);
   if (box.x0 < bounds.x0) box.x0 = bounds.x0;
   if (box.y0 < bounds.y0) box.y0 = bounds.y0;
   if (box.x1 > bounds.x1) box.x1 = bounds.x1;

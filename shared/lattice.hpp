@@ -8,6 +8,14 @@ namespace microtin {
 
 constexpr uint16_t kLatticeMax = 65535;  // x and y run from 0 to here; see predicates.hpp for why
 
+// At least 32 bits, as wide as the machine multiplies best. (int_fast32_t is not the same in all
+// parts of one program: hosted and freestanding headers may differ.)
+#if UINTPTR_MAX > 0xFFFFFFFFu
+typedef int64_t FastInt;
+#else
+typedef int32_t FastInt;
+#endif
+
 struct Point {
   uint16_t x;
   uint16_t y;

@@ -9,12 +9,12 @@ namespace microtin {
 
 // Where a point lies as seen from another: each coordinate is within +-65535.
 struct Offset {
-  int_fast32_t x;
-  int_fast32_t y;
+  FastInt x;
+  FastInt y;
 };
 
 inline Offset operator-(Point a, Point p) {
-  return Offset{static_cast<int_fast32_t>(a.x) - p.x, static_cast<int_fast32_t>(a.y) - p.y};
+  return Offset{static_cast<FastInt>(a.x) - p.x, static_cast<FastInt>(a.y) - p.y};
 }
 
 // Twice the signed area of the origin, a, b: positive if they turn counter-clockwise. The products

@@ -32,7 +32,7 @@ TEST_CASE("the box holds every legal place") {
   Random random(61);
   uint32_t legal = 0, lost = 0;
   for (const uint32_t side : {4u, 12u, 60u, 500u, 8000u, 65536u}) {
-    const int_fast32_t last = static_cast<int_fast32_t>(side) - 1;
+    const FastInt last = static_cast<FastInt>(side) - 1;
     for (int i = 0; i < 60000; ++i) {
       const Point v = point_in(random, side), c = point_in(random, side);
       const Point a = point_in(random, side), w = point_in(random, side);
