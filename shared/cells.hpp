@@ -83,6 +83,16 @@ inline Scale scale_for(const Power& power, const Grid& grid) {
   return scale_by(((x * width + y * height) * 5 + width * width + height * height) / 8 + 8);
 }
 
+inline int16_t clamped(int16_t v, int16_t low, int16_t high) {
+  const int16_t raised = v < low ? low : v;
+  return raised > high ? high : raised;
+}
+
+// How far the middles of cells are outside a circle: that of cell (i, j) x[i] + y[j].
+struct Distances {
+  int16_t x[kSlices], y[kSlices];
+};
+
 // The power of slices' middles: a parabola. By the circle's own scale it fits 16 bits, of both axes
 // together below 22784; by another one it may wrap around, which spoils an estimate and no more.
 inline void measure_axis(int32_t constant, FastInt slope, const Slices& slices, const Scale& scale,
@@ -98,43 +108,54 @@ inline void measure_axis(int32_t constant, FastInt slope, const Slices& slices, 
   }
 }
 
-inline void add_column(int16_t x, const int16_t* y, int16_t* sum) {
-  for (int j = 0; j < kSlices; ++j) {
-    sum[j] = static_cast<int16_t>(static_cast<uint16_t>(x) + static_cast<uint16_t>(y[j]));
-  }
-}
-
-// How far the cells' middles are outside a circle.
 MICROTIN_OUT_OF_LINE inline void measure(const Power& power, const Scale& scale, const Grid& grid,
-                                         Cells outside) {
+                                         Distances& distance) {
   const int64_t cap = static_cast<int64_t>(1) << 30, far = 1 << 13;
   int64_t value = power.value >> scale.shift;
   value = value > cap ? cap : value < -cap ? -cap : value;
   value = value * scale.reciprocal >> 21;
   value = value > far ? far : value < -far ? -far : value;
-  int16_t x[kSlices], y[kSlices];
-  measure_axis(static_cast<int32_t>(value), power.x, grid.columns, scale, x);
-  measure_axis(0, power.y, grid.rows, scale, y);
-  add_column(x[0], y, outside);
-  add_column(x[1], y, outside + kSlices);
-  add_column(x[2], y, outside + 2 * kSlices);
-  add_column(x[3], y, outside + 3 * kSlices);
+  measure_axis(static_cast<int32_t>(value), power.x, grid.columns, scale, distance.x);
+  measure_axis(0, power.y, grid.rows, scale, distance.y);
 }
 
-inline int16_t clamped(int16_t v, int16_t low, int16_t high) {
-  const int16_t raised = v < low ? low : v;
-  return raised > high ? high : raised;
+// 16-bit arithmetic that wraps around.
+inline int16_t sum_of(int16_t a, int16_t b) {
+  return static_cast<int16_t>(static_cast<uint16_t>(a) + static_cast<uint16_t>(b));
 }
 
-// Takes away what lies inside a circle: all of a cell that is `margin` inside, nothing of one that
-// is 64 - margin outside.
-MICROTIN_OUT_OF_LINE inline void cut(const Cells outside, int16_t margin, Cells weight) {
-  for (int k = 0; k < kCells; ++k) {
-    const int16_t share = clamped(static_cast<int16_t>(outside[k] + margin), 0, 63);
-    weight[k] = static_cast<int16_t>((static_cast<uint32_t>(static_cast<uint16_t>(weight[k])) *
-                                      static_cast<uint16_t>(static_cast<uint32_t>(share) << 10)) >>
-                                     16);
+inline void expand_column(int16_t x, const int16_t* y, int16_t* sum) {
+  for (int j = 0; j < kSlices; ++j) sum[j] = sum_of(x, y[j]);
+}
+
+// Of all cells.
+MICROTIN_OUT_OF_LINE inline void expand(const Distances& distance, Cells sum) {
+  expand_column(distance.x[0], distance.y, sum);
+  expand_column(distance.x[1], distance.y, sum + kSlices);
+  expand_column(distance.x[2], distance.y, sum + 2 * kSlices);
+  expand_column(distance.x[3], distance.y, sum + 3 * kSlices);
+}
+
+inline int16_t share_of(int16_t weight, int16_t share) {
+  return static_cast<int16_t>((static_cast<uint32_t>(static_cast<uint16_t>(weight)) *
+                               static_cast<uint16_t>(static_cast<uint32_t>(share) << 8)) >>
+                              16);
+}
+
+inline void cut_column(int16_t x, const int16_t* y, int16_t* weight) {
+  for (int j = 0; j < kSlices; ++j) {
+    const int16_t outside = static_cast<int16_t>(sum_of(x, y[j]) + 32);
+    weight[j] = share_of(weight[j], static_cast<int16_t>(clamped(outside, 0, 63) << 2));
   }
+}
+
+// Takes away what lies inside a circle: all of a cell that is half a cell inside, nothing of one
+// that is half a cell outside.
+MICROTIN_OUT_OF_LINE inline void cut(const Distances& distance, Cells weight) {
+  cut_column(distance.x[0], distance.y, weight);
+  cut_column(distance.x[1], distance.y, weight + kSlices);
+  cut_column(distance.x[2], distance.y, weight + 2 * kSlices);
+  cut_column(distance.x[3], distance.y, weight + 3 * kSlices);
 }
 
 }  // namespace microtin

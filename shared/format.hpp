@@ -22,7 +22,7 @@ constexpr uint32_t kSectionVertices = 256;
 // Payload bytes that suffice for any step. Most are used by a vertex on a hull edge: 2 decisions,
 // its gap (16 decisions and 14 uniform bits) and its height (19 decisions and 15 uniform bits), at
 // 9 bits a decision, are 46 bytes (FORMAT.md, "Payload bytes of a step").
-constexpr uint32_t kStepBytes = 72;
+constexpr uint32_t kStepBytes = 48;
 
 // Bytes of zero that stand virtually behind a section's payload.
 constexpr uint32_t kVirtualBytes = 4;

@@ -47,6 +47,12 @@ struct FreeRegion {
   int64_t swept_from;  // segment() of the circle behind the chord
 };
 
+// The circle through both ends of a chord and an apex to its right.
+inline Cotangent cotangent_behind(Offset from, Offset to, Offset apex) {
+  const Offset a = {from.x - apex.x, from.y - apex.y}, b = {to.x - apex.x, to.y - apex.y};
+  return cotangent(-dot(a, b), cross(b, a));
+}
+
 // Areas carry 8 fractional bits; the largest disc has 2^58.
 typedef int64_t Area;
 
@@ -92,9 +98,7 @@ inline Log2 free_area(FreeRegion& region) {
     if (i == kChord) left = disc = disc_area(length2, side.own);
     int64_t lost = segment(-side.own);
     if (!side.ghost) {
-      const Offset from = {corner[i].x - side.apex.x, corner[i].y - side.apex.y};
-      const Offset to = {from.x + edge[i].x, from.y + edge[i].y};
-      side.behind = cotangent(-dot(from, to), cross(edge[i], from));
+      side.behind = cotangent_behind(corner[i], corner[i == 2 ? 0 : i + 1], side.apex);
       const int64_t behind = segment(side.behind);
       if (i == kChord) region.swept_from = behind;
       lost += behind;
@@ -113,10 +117,9 @@ struct Power {
   FastInt y;
 };
 
-// The circle through both ends of a side, seen from `middle` (half steps from corner 0).
+// The circle through both ends of a chord, seen from `middle` (half steps from corner 0).
 // Offsets are below 2^18: products 2^37, times a cotangent 2^52 >> 8; slopes below 2^27.
-inline Power circle_over(const FreeRegion& region, int i, Cotangent k, Offset middle) {
-  const Offset from = region.corner[i], to = region.corner[i == 2 ? 0 : i + 1];
+inline Power circle_over(Offset from, Offset to, Cotangent k, Offset middle) {
   const Offset a = {middle.x - 2 * from.x, middle.y - 2 * from.y};
   const Offset b = {middle.x - 2 * to.x, middle.y - 2 * to.y};
   const Offset chord = {a.x - b.x, a.y - b.y};
@@ -125,12 +128,6 @@ inline Power circle_over(const FreeRegion& region, int i, Cotangent k, Offset mi
   power.x = a.x + b.x + static_cast<FastInt>(static_cast<int64_t>(k) * chord.y / 256);
   power.y = a.y + b.y - static_cast<FastInt>(static_cast<int64_t>(k) * chord.x / 256);
   return power;
-}
-
-// The circle that is but a point, seen from `middle`.
-inline Power point_circle(Offset point, Offset middle) {
-  const Offset from = {middle.x - 2 * point.x, middle.y - 2 * point.y};
-  return Power{dot(from, from), 2 * from.x, 2 * from.y};
 }
 
 // The same seen from `to`.
@@ -144,6 +141,11 @@ inline Power moved(const Power& power, Offset to) {
 struct Box {
   FastInt x0, y0, x1, y1;
 };
+
+// log2 of its longer side, rounded down.
+inline uint32_t size_of(const Box& box) {
+  return highest_bit(static_cast<uint32_t>((box.x1 - box.x0) | (box.y1 - box.y0) | 1));
+}
 
 inline void extend(Box& box, FastInt x, FastInt y) {
   if (x < box.x0) box.x0 = x;

@@ -64,6 +64,7 @@ MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, PlaceOdds&
     weight[j] = (static_cast<uint32_t>(cell[j]) + 1u) * row_size[j];
   }
   const int j = code_slice(coder, split + 2, weight, slice_of(rows, place.y - box.y0));
+  if (repels(odds.repulsion)) odds.repulsion.nearest = odds.repulsion.near[kSlices * i + j];
   if (!last) narrow(odds, i, j);
   box.x1 = box.x0 + columns.start[i + 1] - 1;
   box.y1 = box.y0 + rows.start[j + 1] - 1;

@@ -3,16 +3,16 @@
 // A cell weighs the share of it that is free, times the chance that no other point came first: the
 // walk inserts the point whose circle through the chord is the smallest, and with density points
 // per unit area a circle that sweeps an area s over the chord is the first with probability
-// exp(-density * s). On terrains, places close to the ends of the chord weigh less.
+// exp(-density * s).
 #ifndef MICROTIN_SHARED_PLACE_ODDS_HPP
 #define MICROTIN_SHARED_PLACE_ODDS_HPP
 
-#include "shared/cells.hpp"
+#include "shared/repulsion.hpp"
 
 namespace microtin {
 
-// Numbers of circles. Those behind the sides come first.
-constexpr int kOwn = 3, kEnds = 4, kCircles = 6;
+// Numbers of circles. Those behind the sides come first, then the triangle's own.
+constexpr int kOwn = 3, kCircles = 4;
 
 constexpr int kSweepNodes = 4;
 constexpr int kSweepSteps = 8 * kSweepNodes;
@@ -20,18 +20,16 @@ constexpr int kSweepSteps = 8 * kSweepNodes;
 // Powers are seen from the middle of the grid.
 struct PlaceOdds {
   Grid grid;
-  // Of the triangles behind the sides, t's own, and points: the ends of the chord.
-  Power circle[kCircles];
-  bool matters[kCircles];  // in the grid
-  Cells distance[kEnds];   // how far the cells are outside
+  Power circle[kCircles];  // that behind the chord is where the sweep starts
+  bool matters[kOwn];      // in the grid
+  Distances distance[kCircles];
   Cells weight;
-  int64_t reach;     // of repulsion: two points' area, in quarter units
-  bool sweeps;       // whether the chance of being first differs noticeably over the region
-  Power swept_from;  // where the sweep starts: the circle behind the chord
-  // 511 * chance of being first, at equal steps of the cotangent from t's circle to swept_from, and
-  // at the cells.
+  bool sweeps;  // whether the chance of being first differs noticeably over the region
+  // 511 * chance of being first, at equal steps of the cotangent from the triangle's circle to that
+  // behind the chord.
   int16_t chance_at[kSweepSteps + 1];
-  Cells chance;
+  Cells left, all;  // of the sweep, at the cells
+  Repulsion repulsion;
 };
 
 // Eight equal steps from `from` towards `to`, both below 2^12.
@@ -62,7 +60,8 @@ inline void estimate_sweep(PlaceOdds& odds, int64_t length2, Cotangent from, int
   uint64_t rate = exp2_of(log_rate + 16 * kLog2One);
   if (rate > most) rate = most;
   int16_t last = chance_of(segment(to) - start, rate);
-  odds.sweeps = last < 448;
+  odds.sweeps = last < 256;
+  if (!odds.sweeps) return;
   for (int i = 1; i <= kSweepNodes; ++i) {
     int16_t next = 511;
     if (i != kSweepNodes) next = chance_of(segment(to + (((from - to) * i) >> 2)) - start, rate);
@@ -74,98 +73,76 @@ inline void estimate_sweep(PlaceOdds& odds, int64_t length2, Cotangent from, int
 
 // `middle` of the box, half steps from corner 0; `density` is the logarithm of points per unit
 // area.
-inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset middle, Log2 density,
-                          bool repels) {
+inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset middle, Log2 density) {
   const Side& chord = region.side[kChord];
-  for (int i = 0; i < 3; ++i) {
+  const Offset* const corner = region.corner;
+  for (int i = 0; i < 2; ++i) {
     const Side& side = region.side[i];
     odds.matters[i] = side.certified && !side.ghost;
-    if (odds.matters[i]) odds.circle[i] = circle_over(region, i, side.behind, middle);
+    if (odds.matters[i])
+      odds.circle[i] = circle_over(corner[i], corner[i + 1], side.behind, middle);
   }
-  odds.matters[kOwn] = true;
-  odds.circle[kOwn] = circle_over(region, kChord, chord.own, middle);
-  const uint64_t two_points = exp2_of(kLog2One - density), most = static_cast<uint64_t>(1) << 45;
-  odds.reach = static_cast<int64_t>(two_points < most ? two_points : most);
-  for (int i = 0; i < 2; ++i) {
-    odds.matters[kEnds + i] = repels;
-    odds.circle[kEnds + i] = point_circle(region.corner[2 * i], middle);
-  }
+  odds.circle[kOwn] = circle_over(corner[2], corner[0], chord.own, middle);
   // With nothing behind the chord the sweep starts at a circle so large that its segment is next to
   // nothing.
   Cotangent from = chord.behind;
-  if (chord.ghost) {
-    from = (chord.own < 0 ? chord.own : 0) - 8 * 256;
-    odds.swept_from = circle_over(region, kChord, from, middle);
-  } else {
-    odds.swept_from = odds.circle[kChord];
-  }
-  estimate_sweep(odds, dot(region.corner[2], region.corner[2]), from,
+  if (chord.ghost) from = (chord.own < 0 ? chord.own : 0) - 8 * 256;
+  odds.matters[kChord] = !chord.ghost;
+  odds.circle[kChord] = circle_over(corner[2], corner[0], from, middle);
+  estimate_sweep(odds, dot(corner[2], corner[2]), from,
                  chord.ghost ? segment(from) : region.swept_from, chord.own, density);
 }
 
-// Looks up the chances of being first at the cells.
-MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds) {
-  int16_t* const left = odds.chance;
-  int16_t* const all = odds.weight;
-  measure(odds.swept_from, scale_for(odds.circle[kOwn], odds.grid), odds.grid, all);
+// Multiplies the weights by the chances of being first: the sweep has passed some of the way from
+// the circle behind the chord to the triangle's.
+MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds, const Scale& own) {
+  int16_t* const left = odds.left;
+  int16_t* const all = odds.all;
+  measure(odds.circle[kChord], own, odds.grid, odds.distance[kChord]);
+  expand(odds.distance[kChord], all);
   for (int k = 0; k < kCells; ++k) {
-    left[k] = clamped(static_cast<int16_t>(-odds.distance[kOwn][k]), 0, 16383);
+    left[k] = clamped(static_cast<int16_t>(-left[k]), 0, 16383);
     all[k] = static_cast<int16_t>(clamped(all[k], 1, 16383) + left[k]);
   }
   for (int k = 0; k < kCells; ++k) {
     const uint32_t steps = static_cast<uint32_t>(left[k]) * kSweepSteps;
-    odds.chance[k] = odds.chance_at[steps / static_cast<uint32_t>(all[k])];
+    const int16_t chance = odds.chance_at[steps / static_cast<uint32_t>(all[k])];
+    odds.weight[k] = static_cast<int16_t>(odds.weight[k] * chance);
   }
 }
 
+// What the triangle's circle leaves of the cells, times the chances of being first.
 MICROTIN_OUT_OF_LINE inline void weigh_inside(PlaceOdds& odds) {
-  if (odds.sweeps) {
-    sweep(odds);
-  } else {
-    for (int k = 0; k < kCells; ++k) odds.chance[k] = 511;
-  }
+  const Scale own = scale_for(odds.circle[kOwn], odds.grid);
+  measure(odds.circle[kOwn], own, odds.grid, odds.distance[kOwn]);
+  expand(odds.distance[kOwn], odds.left);
+  const int16_t whole = odds.sweeps ? 1 : 511;
   for (int k = 0; k < kCells; ++k) {
-    const int16_t share = clamped(static_cast<int16_t>(32 - odds.distance[kOwn][k]), 0, 64);
-    odds.weight[k] = static_cast<int16_t>(share * odds.chance[k]);
+    const int16_t share = clamped(static_cast<int16_t>(32 - odds.left[k]), 0, 64);
+    odds.weight[k] = static_cast<int16_t>(share * whole);
   }
-}
-
-// Vertices of a terrain keep apart: within a quarter of the points' mean spacing of an end of the
-// chord, where the power is below reach / 8, places are the rarer the closer they are. Where cells
-// are much larger, that is not worth telling (and distances would not fit 16 bits).
-inline void repel(PlaceOdds& odds) {
-  const int64_t width = odds.grid.columns.count, height = odds.grid.rows.count;
-  const int64_t diagonal2 = width * width + height * height;
-  if (odds.reach < diagonal2 * 3 / 32 + 8) return;
-  const Scale scale = scale_by(odds.reach);
-  for (int k = kEnds; k < kCircles; ++k) {
-    if (!odds.matters[k] || odds.circle[k].value > odds.reach / 4 + diagonal2) continue;
-    measure(odds.circle[k], scale, odds.grid, odds.chance);  // the chances are used up
-    cut(odds.chance, 0, odds.weight);
-  }
+  if (odds.sweeps) sweep(odds, own);
 }
 
 inline void weigh_cells(PlaceOdds& odds) {
-  for (int k = 0; k < kEnds; ++k) {
-    if (!odds.matters[k]) continue;
-    measure(odds.circle[k], scale_for(odds.circle[k], odds.grid), odds.grid, odds.distance[k]);
-  }
   weigh_inside(odds);
   for (int k = 0; k < kOwn; ++k) {
-    if (odds.matters[k]) cut(odds.distance[k], 32, odds.weight);
+    if (!odds.matters[k]) continue;
+    measure(odds.circle[k], scale_for(odds.circle[k], odds.grid), odds.grid, odds.distance[k]);
+    cut(odds.distance[k], odds.weight);
   }
-  repel(odds);
+  if (repels(odds.repulsion)) repel(odds.repulsion, odds.grid, odds.weight);
 }
 
 // Makes a cell the box that the odds are about.
 inline void narrow(PlaceOdds& odds, int i, int j) {
   const Offset to = middle_of(odds.grid, i, j);
-  for (int k = 0; k < kCircles; ++k) {
-    if (!odds.matters[k]) continue;
-    if (k < kOwn) odds.matters[k] = odds.distance[k][kSlices * i + j] < 64;
-    odds.circle[k] = moved(odds.circle[k], to);
+  for (int k = 0; k < kOwn; ++k) {
+    odds.matters[k] = odds.matters[k] && sum_of(odds.distance[k].x[i], odds.distance[k].y[j]) < 64;
+    if (odds.matters[k] || k == kChord) odds.circle[k] = moved(odds.circle[k], to);
   }
-  odds.swept_from = moved(odds.swept_from, to);
+  odds.circle[kOwn] = moved(odds.circle[kOwn], to);
+  if (repels(odds.repulsion)) narrow(odds.repulsion, to);
 }
 
 }  // namespace microtin

@@ -18,7 +18,7 @@ constexpr int32_t kProbabilityMargin = 64;
 // never leave the margins, to which each step goes only part of the way.
 struct AdaptiveBit {
   uint16_t fast;  // each bit weighs 1/32
-  uint16_t slow;  // ... 1/128
+  uint16_t slow;  // ... 1/256
 };
 
 // With 16 bits.
@@ -36,7 +36,7 @@ inline void learn(AdaptiveBit& bit, bool one) {
   const int32_t towards =
       one ? static_cast<int32_t>(kProbabilityOne) - kProbabilityMargin : kProbabilityMargin;
   bit.fast = static_cast<uint16_t>(bit.fast + ((towards - bit.fast) >> 5));
-  bit.slow = static_cast<uint16_t>(bit.slow + ((towards - bit.slow) >> 7));
+  bit.slow = static_cast<uint16_t>(bit.slow + ((towards - bit.slow) >> 8));
 }
 
 template <class Coder>

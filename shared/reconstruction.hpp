@@ -87,6 +87,7 @@ struct Reconstruction {
   PlaceOdds odds;
 
   Models models;
+  Crowding crowding;
 };
 
 inline void start(Reconstruction& r, const Contract& contract) {
@@ -102,6 +103,7 @@ inline void start(Reconstruction& r, const Contract& contract) {
   r.mesh->vertices = 0;
   r.mesh->triangles = 0;
   reset(r.models);
+  r.crowding = kCrowdingStart;
 }
 
 // --- Marks -------------------------------------------------------------------------------------
@@ -249,6 +251,26 @@ inline HitEstimate estimate_hit(Reconstruction& r, Log2 density) {
   return estimate;
 }
 
+// Where a hit is.
+template <class Coder>
+Point locate(Reconstruction& r, Coder& coder, Point place) {
+  const FreeRegion& region = r.region;
+  PlaceOdds& odds = r.odds;
+  const Log2 density = r.density / 256;
+  const Box box = enclosing_box(region, Box{0, 0, r.contract.x_max, r.contract.y_max});
+  const Point v = region.origin;
+  const Offset middle = {box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y};
+  estimate_odds(odds, region, middle, density);
+  if (r.contract.has_heights) {
+    start_repulsion(odds.repulsion, region, middle, size_of(box), density, r.crowding);
+  } else {
+    odds.repulsion.nearest = 2 * kReach;
+  }
+  place = code_place(coder, r.models.place, odds, r.contract.levels, box, place);
+  if (r.contract.has_heights) learn(r.crowding, odds.repulsion);
+  return place;
+}
+
 // Says hit or miss at an uncertified triangle and inserts the vertex of a hit. False if malformed.
 template <class Coder>
 bool decide(Reconstruction& r, Coder& coder, bool* hit) {
@@ -269,11 +291,7 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
       note_final_triangle(r, region.twice_area);
       return true;
     }
-    const Box box = enclosing_box(region, Box{0, 0, r.contract.x_max, r.contract.y_max});
-    const Point v = region.origin;
-    estimate_odds(r.odds, region, Offset{box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y},
-                  density, r.contract.has_heights);
-    place = code_place(coder, r.models.place, r.odds, r.contract.levels, box, place);
+    place = locate(r, coder, place);
     if (!insert(r, coder, place, next.z)) return false;
     // The triangle of the chord and the new vertex is final.
     note_final_triangle(r, cross(place - region.origin, region.corner[2]));
@@ -348,7 +366,7 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   r.batch = batch;
   r.phase_end = static_cast<Index>(placed + batch);
   r.work += placed + batch;
-  if (r.work > work_budget(r.contract.vertices)) return Progress::kMalformed;
+  if (r.work > work_budget(placed + batch)) return Progress::kMalformed;
   const uint32_t mark_bytes = (placed + batch + 3u) / 4u;
   for (uint32_t i = 0; i < mark_bytes; ++i) r.marks[i] = 0;
   r.infinity_done = false;

@@ -7,6 +7,7 @@ Prints the digest of the mesh, then x, y and z of each vertex in decoded order. 
 are those of shared/FORMAT.md; names are its names wherever it has any.
 """
 
+import itertools
 import math
 import sys
 import zlib
@@ -234,7 +235,7 @@ class AdaptiveBit:
     def learn(self, bit):
         target = 32704 if bit else 64
         self.fast += (target - self.fast) >> 5
-        self.slow += (target - self.slow) >> 7
+        self.slow += (target - self.slow) >> 8
 
 
 def decode_between(coder, row, i, f):
@@ -474,6 +475,7 @@ class Models:
         self.on_border = bits()
         self.gap = bits(7)
         self.void = bits(5)
+        self.crowding = 2048
 
 
 class Density:
@@ -646,7 +648,8 @@ class Slices:
         ends = starts(count)
         self.widths = [right - left for left, right in zip(ends, ends[1:])]
         self.unit = 16 - highest_bit(count)
-        self.middles = [((left + right - count) << self.unit) >> 2 for left, right in zip(ends, ends[1:])]
+        self.offsets = [left + right - count for left, right in zip(ends, ends[1:])]
+        self.middles = [(offset << self.unit) >> 2 for offset in self.offsets]
         self.extent = max(1, 4 * (count - 4))
         self.sizes = self.widths if count <= 64 else [1] * 4
 
@@ -712,7 +715,7 @@ class Chance:
         return exp2(3840 - loss) * 511 >> 15 if loss < 3840 else 0
 
     def is_level(self):
-        return self.table[0] >= 448
+        return self.table[0] >= 256
 
     def of_cells(self, grid, scale, distances):
         if self.is_level():
@@ -725,38 +728,71 @@ class Chance:
         return self.table[32 * left // (keep_within(1, outside_behind, 16383) + left)]
 
 
-def cut(weights, distances, margin):
-    return {cell: w * keep_within(0, distances[cell] + margin, 63) >> 6 for cell, w in weights.items()}
+def cut(weights, distances):
+    return {cell: w * keep_within(0, distances[cell] + 32, 63) >> 6 for cell, w in weights.items()}
 
 
 class Repulsion:
-    """Of the ends of the chord."""
+    """Of the candidate's corners, in sixteenths of the distance that counts."""
 
-    def __init__(self, candidate, density):
-        self.ends = [Circle(p, p, 0, (2 * p[0], 2 * p[1])) for p in (candidate.v, candidate.a)]
-        self.reach = min(exp2(256 - density), 1 << 45)
+    def __init__(self, candidate, box, density, crowding):
+        x, y = box.doubled_middle()
+        longer = highest_bit((box.columns - 1) | (box.rows - 1) | 1)
+        self.unit = min(exp2(divide(log2(crowding) - 2048 + density, 2) + 4864), 1 << (27 - longer))
+        corners = (candidate.v, candidate.c, candidate.a)
+        self.corners = [(self.scaled(2 * p[0] - x), self.scaled(2 * p[1] - y)) for p in corners]
+        self.nearest = 0
 
-    def applied_to(self, weights, box, grid):
-        diagonal = box.columns**2 + box.rows**2
-        if self.reach < diagonal * 3 // 32 + 8:
+    def scaled(self, half_steps):
+        return half_steps * self.unit >> 16
+
+    def is_felt(self):
+        return self.nearest < 512
+
+    def scaled_middles(self, slices):
+        return [m * (4 * self.unit >> slices.unit) >> 16 for m in slices.middles]
+
+    def near_cells(self, grid):
+        xs, ys = self.scaled_middles(grid.columns), self.scaled_middles(grid.rows)
+        near = dict.fromkeys(grid.ALL, 512)
+        corners = [
+            (x, y) for x, y in self.corners if xs[0] - 23 <= x <= xs[3] + 23 and ys[0] - 23 <= y <= ys[3] + 23
+        ]
+        for (i, j), (x, y) in itertools.product(grid.ALL, corners):
+            dx, dy = (keep_within(-127, d, 127) for d in (xs[i] - x, ys[j] - y))
+            near[i, j] = min(near[i, j], dx * dx + dy * dy)
+        return near, bool(corners)
+
+    def applied_to(self, weights, grid):
+        self.near, is_any_near = self.near_cells(grid)
+        if not is_any_near:
             return weights
-        scale = Scale(self.reach)
-        for end in self.ends:
-            if end.seen_from(grid.middle)[0] <= self.reach // 4 + diagonal:
-                weights = cut(weights, grid.distances(end, scale), 0)
-        return weights
+        return {cell: w * min(self.near[cell], 255) >> 8 for cell, w in weights.items()}
+
+    def follow(self, grid, column, row, is_last):
+        if not self.is_felt():
+            return
+        self.nearest = self.near[column, row]
+        if self.is_felt() and not is_last:
+            x, y = self.scaled(grid.columns.offsets[column]), self.scaled(grid.rows.offsets[row])
+            self.corners = [(p[0] - x, p[1] - y) for p in self.corners]
+
+    def crowding_after(self, crowding):
+        if self.nearest < 256:
+            crowding += crowding >> 4
+        return keep_within(512, crowding - 12, 65536)
 
 
 class Weights:
-    def __init__(self, candidate, box, density, repels):
+    def __init__(self, candidate, box, density, repulsion):
         middle = box.doubled_middle()
         chord = candidate.chord
         self.circle = Circle(chord.start, chord.end, chord.own, middle)
         self.chance = Chance(candidate, box, density)
         self.behind = [Circle(s.start, s.end, s.behind, middle) for s in candidate.sides if s.has_circle_behind()]
-        self.repulsion = Repulsion(candidate, density) if repels else None
+        self.repulsion = repulsion
 
-    def of_cells(self, box, grid):
+    def of_cells(self, grid):
         """The weights by cell, and the distances from the circles behind."""
         scale = grid.scale(self.circle)
         own = grid.distances(self.circle, scale)
@@ -764,9 +800,9 @@ class Weights:
         weights = {cell: keep_within(0, 32 - own[cell], 64) * chances[cell] for cell in grid.ALL}
         distances = [grid.distances(circle) for circle in self.behind]
         for outside in distances:
-            weights = cut(weights, outside, 32)
-        if self.repulsion:
-            weights = self.repulsion.applied_to(weights, box, grid)
+            weights = cut(weights, outside)
+        if self.repulsion and self.repulsion.is_felt():
+            weights = self.repulsion.applied_to(weights, grid)
         return weights, distances
 
     def forget_far_circles(self, distances, cell):
@@ -787,24 +823,29 @@ def decode_one_of_four(coder, rows, weights):
     return 2 * upper + decode_half(coder, rows[1], *pair)
 
 
-def decode_cell(coder, rows, weights, box):
+def decode_cell(coder, rows, weights, box, is_last):
     grid = Grid(box)
-    shares, distances = weights.of_cells(box, grid)
+    shares, distances = weights.of_cells(grid)
     widths, heights = grid.columns.sizes, grid.rows.sizes
     cells = [[(shares[i, j] + 1) * heights[j] for j in range(4)] for i in range(4)]
     column = decode_one_of_four(coder, rows[:2], [sum(cells[i]) * widths[i] for i in range(4)])
     row = decode_one_of_four(coder, rows[2:], cells[column])
     weights.forget_far_circles(distances, (column, row))
+    if weights.repulsion:
+        weights.repulsion.follow(grid, column, row, is_last)
     return box.cell(column, row)
 
 
 def decode_place_in_triangle(coder, models, candidate, density, header):
     box = first_box(candidate, header.columns, header.rows)
-    weights = Weights(candidate, box, density, header.heights_are_sent)
-    for rows in models.cell[: header.levels]:
+    repulsion = Repulsion(candidate, box, density, models.crowding) if header.heights_are_sent else None
+    weights = Weights(candidate, box, density, repulsion)
+    for level, rows in enumerate(models.cell[: header.levels], 1):
         if box.is_point():
             break
-        box = decode_cell(coder, rows, weights, box)
+        box = decode_cell(coder, rows, weights, box, level == header.levels)
+    if repulsion:
+        models.crowding = repulsion.crowding_after(models.crowding)
     x = box.x + coder.uniform(box.columns)
     return x, box.y + coder.uniform(box.rows)
 
@@ -904,7 +945,7 @@ class Decoder:
         self.batch = self.decode_batch_size()
         self.goal = self.size() + self.batch
         self.work += self.goal
-        require(self.work <= 4 * self.header.vertices + 512, "phases add too few vertices")
+        require(self.work <= 4 * self.goal + 512, "phases add too few vertices")
         self.density = Density(self.header, self.goal, self.batch)
         self.walk()
 

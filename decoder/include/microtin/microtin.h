@@ -35,7 +35,7 @@
 #define MICROTIN_MESH_BYTES_FOR(capacity, bits) \
   (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
-  (((bits) == 16 ? 2783ul : 2991ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
+  (((bits) == 16 ? 2711ul : 2919ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
 
 #ifdef __cplusplus
 extern "C" {
