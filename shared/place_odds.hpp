@@ -114,7 +114,7 @@ MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds) {
   }
   for (int k = 0; k < kCells; ++k) {
     const uint32_t steps = static_cast<uint32_t>(left[k]) * kSweepSteps;
-    odds.chance[k] = odds.chance_at[steps / static_cast<uint32_t>(all[k])];
+    odds.chance[k] = odds.chance_at[steps / static_cast<uint16_t>(all[k])];
   }
 }
 
