@@ -4,7 +4,8 @@
 
 set(mem "mem(cpy|move|set|cmp)")
 set(arm "__aeabi_(mem(cpy|move|set|clr)[48]?|u?idiv(mod)?|u?ldivmod|lmul|llsl|llsr|lasr|u?lcmp)")
-set(allowed_symbol "^(${mem}|${arm}|__[a-z]+[sd]i[0-9])$")
+set(thumb1 "__gnu_thumb1_case_[us]?(q|h|s)i")
+set(allowed_symbol "^(${mem}|${arm}|${thumb1}|__[a-z]+[sd]i[0-9])$")
 set(forbidden_section "^\\.([td]?(data|bss)|init_array|ctors|eh_frame|gcc_except_table|ARM\\.ex)")
 
 # "name type ..." for each symbol; U and w are wanted from elsewhere, maybe from another object here.
