@@ -270,9 +270,9 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
       return true;
     }
     const Box box = enclosing_box(region, Box{0, 0, r.contract.x_max, r.contract.y_max});
-    const Point v = region.origin;
-    estimate_odds(r.odds, region, Offset{box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y},
-                  density, r.contract.has_heights);
+    const FastInt x = region.origin.x, y = region.origin.y;
+    estimate_odds(r.odds, region, Offset{box.x0 + box.x1 - 2 * x, box.y0 + box.y1 - 2 * y}, density,
+                  r.contract.has_heights);
     place = code_place(coder, r.models.place, r.odds, r.contract.levels, box, place);
     if (!insert(r, coder, place, next.z)) return false;
     // The triangle of the chord and the new vertex is final.
