@@ -274,7 +274,7 @@ uint32_t capacity_of(size_t size, size_t fixed, size_t per_four) {
   if (size < fixed) return 0;
   const size_t fours = (size - fixed) / per_four, rest = (size - fixed) % per_four;
   if (fours >= MICROTIN_MAX_VERTICES / 4) return static_cast<uint32_t>(MICROTIN_MAX_VERTICES);
-  return static_cast<uint32_t>(4 * fours) + static_cast<uint32_t>(rest) * 4 / per_four;
+  return static_cast<uint32_t>(4 * fours) + static_cast<uint32_t>(rest * 4 / per_four);
 }
 
 bool misaligned(const void* workspace) {
