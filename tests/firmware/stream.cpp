@@ -14,4 +14,6 @@ asm(SECTION R"(
 stream_begin:
   .incbin ")" MICROTIN_STREAM R"("
 stream_end:
+  .size stream_begin, stream_end - stream_begin
+  .size stream_end, 0
 )");
