@@ -322,7 +322,7 @@ microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh**
   if (capacity < 3) return MICROTIN_WORKSPACE_TOO_SMALL;
   microtin_mesh& m = *static_cast<microtin_mesh*>(workspace);
   // Widest numbers first, so that everything is aligned.
-  const size_t half_edges = static_cast<size_t>(6 * capacity);
+  const size_t half_edges = 6 * static_cast<size_t>(capacity);
   m.mesh.origin = reinterpret_cast<Index*>(&m + 1);
   m.mesh.twin = m.mesh.origin + half_edges;
   m.mesh.x = reinterpret_cast<uint16_t*>(m.mesh.twin + half_edges);
