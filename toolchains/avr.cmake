@@ -8,4 +8,4 @@ set(CMAKE_CXX_FLAGS_INIT "-mmcu=atmega1284p")
 set(MICROTIN_RUNTIME ${CMAKE_CURRENT_LIST_DIR}/avr/machine.cpp)
 set(MICROTIN_RUN ${CMAKE_CURRENT_LIST_DIR}/run.sh)
 set(MICROTIN_MACHINES atmega1284p)
-set(MICROTIN_CAPACITY_atmega1284p 300)
+set(MICROTIN_CAPACITY_atmega1284p 300)  # vertices that fit beside the stack

@@ -13,4 +13,4 @@ add_machine(mps2-an386 0x00000000 4M 0x20000000 4M)
 add_machine(mps2-an500 0x00000000 4M 0x20000000 4M)
 add_machine(mps2-an505 0x10000000 4M 0x38000000 4M)
 add_machine(microbit 0x00000000 256K 0x20000000 16K)
-set(MICROTIN_CAPACITY_microbit 300)
+set(MICROTIN_CAPACITY_microbit 300)  # vertices that fit beside the stack
