@@ -5,12 +5,13 @@
 namespace microtin {
 namespace {
 
-size_t smaller(size_t a, size_t b) {
+template <class Size>
+Size smaller(Size a, Size b) {
   return a < b ? a : b;
 }
 
 // Bytes that must be at hand before the next item can be handled as a whole.
-size_t bytes_needed(const microtin_decoder& d) {
+uint32_t bytes_needed(const microtin_decoder& d) {
   switch (d.item) {
     case Item::kIdentity:
       return kIdentityBytes;
@@ -24,7 +25,7 @@ size_t bytes_needed(const microtin_decoder& d) {
     case Item::kSectionHead:
       return 1;
     case Item::kPayloadStart:
-      return smaller(d.section_bytes, 4);
+      return smaller<uint32_t>(d.section_bytes, 4);
     case Item::kStep:
       return smaller(d.coder.payload_left, kStepBytes);
     case Item::kHeaderCheck:
@@ -76,7 +77,7 @@ microtin_status handle_dimensions(microtin_decoder& d) {
 // Whatever is wrong with a block is told once the header's check has passed: before, it is damage.
 microtin_status handle_block_head(microtin_decoder& d) {
   uint8_t bytes[kBlockHeadBytes] = {0, 0, 0};
-  const uint32_t size = static_cast<uint32_t>(smaller(kBlockHeadBytes, d.blocks_left));
+  const uint32_t size = smaller(kBlockHeadBytes, d.blocks_left);
   take_bytes(d, bytes, size);
   d.blocks_left -= size;
   d.block_left = read_u16(bytes + 1);
@@ -106,7 +107,8 @@ MICROTIN_OUT_OF_LINE microtin_status handle_placement(microtin_decoder& d) {
 }
 
 microtin_status handle_skipped_block(microtin_decoder& d) {
-  const uint32_t count = static_cast<uint32_t>(smaller(d.window.left, d.block_left));
+  const uint32_t count =
+      d.window.left < d.block_left ? static_cast<uint32_t>(d.window.left) : d.block_left;
   for (uint32_t i = 0; i < count; ++i) d.window.take();
   d.block_left -= count;
   if (d.block_left == 0) d.item = after_block(d);
@@ -268,11 +270,11 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
 
 // The largest capacity whose workspace, of `fixed` bytes and `per_four` bytes for four vertices,
 // rounded up, fits in `size` bytes.
-uint32_t capacity_of(size_t size, uint32_t fixed, uint32_t per_four) {
+uint32_t capacity_of(size_t size, size_t fixed, size_t per_four) {
   if (size < fixed) return 0;
   const size_t fours = (size - fixed) / per_four, rest = (size - fixed) % per_four;
   if (fours >= MICROTIN_MAX_VERTICES / 4) return static_cast<uint32_t>(MICROTIN_MAX_VERTICES);
-  return static_cast<uint32_t>(4 * fours) + static_cast<uint32_t>(rest) * 4 / per_four;
+  return static_cast<uint32_t>(4 * fours) + static_cast<uint32_t>(rest * 4 / per_four);
 }
 
 bool misaligned(const void* workspace) {
@@ -285,17 +287,26 @@ size_t saturated(unsigned long size) {
   return size < most ? static_cast<size_t>(size) : most;
 }
 
-constexpr uint32_t kMeshFixed = MICROTIN_MESH_BYTES(0);
-constexpr uint32_t kMeshPerFour = MICROTIN_MESH_BYTES(4) - kMeshFixed;
-constexpr uint32_t kDecoderFixed = MICROTIN_DECODER_BYTES(0);
-constexpr uint32_t kDecoderPerFour = MICROTIN_DECODER_BYTES(4) - kDecoderFixed;
+constexpr size_t kMeshFixed = MICROTIN_MESH_BYTES(0);
+constexpr size_t kMeshPerFour = MICROTIN_MESH_BYTES(4) - kMeshFixed;
+constexpr size_t kDecoderFixed = MICROTIN_DECODER_BYTES(0);
+constexpr size_t kDecoderPerFour = MICROTIN_DECODER_BYTES(4) - kDecoderFixed;
+
+// Number by number: on AVR a constant to copy from would be in RAM.
+void place_on_lattice(microtin_axis* axis) {
+  for (int i = 0; i < 3; ++i) {
+    axis[i].offset = 0;
+    axis[i].numerator = 1;
+    axis[i].denominator = 1;
+  }
+}
 
 void empty_mesh(microtin_mesh& m) {
   m.mesh.vertices = 0;
   m.mesh.triangles = 0;
   m.verified_vertices = 0;
   m.has_voids = false;
-  for (int i = 0; i < 3; ++i) m.axis[i] = microtin_axis{0, 1, 1};
+  place_on_lattice(m.axis);
 }
 
 }  // namespace
@@ -311,7 +322,7 @@ microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh**
   if (capacity < 3) return MICROTIN_WORKSPACE_TOO_SMALL;
   microtin_mesh& m = *static_cast<microtin_mesh*>(workspace);
   // Widest numbers first, so that everything is aligned.
-  const size_t half_edges = static_cast<size_t>(6) * capacity;
+  const size_t half_edges = 6 * static_cast<size_t>(capacity);
   m.mesh.origin = reinterpret_cast<Index*>(&m + 1);
   m.mesh.twin = m.mesh.origin + half_edges;
   m.mesh.x = reinterpret_cast<uint16_t*>(m.mesh.twin + half_edges);
@@ -397,8 +408,10 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   const uint32_t checked = blocks + block_bytes;
   info->header_bytes = checked + kCheckBytes;
   if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
-  if (crc32(0, bytes, checked) != read_u32(bytes + checked)) return MICROTIN_CHECKSUM;
-  microtin_axis axis[3] = {{0, 1, 1}, {0, 1, 1}, {0, 1, 1}};
+  if (crc32(0, bytes, static_cast<size_t>(checked)) != read_u32(bytes + checked))
+    return MICROTIN_CHECKSUM;
+  microtin_axis axis[3];
+  place_on_lattice(axis);
   for (uint32_t at = blocks; at < checked;) {
     if (checked - at < kBlockHeadBytes) return MICROTIN_MALFORMED;
     const uint8_t type = bytes[at];

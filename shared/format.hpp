@@ -5,9 +5,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "shared/tables.hpp"
+
 namespace microtin {
 
-constexpr uint8_t kMagic[4] = {'m', 't', 'i', 'n'};
+constexpr uint8_t kMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'i', 'n'};
 constexpr uint8_t kVersion = 2;
 // Header flags; the others are zero. The last three say how wide the numbers of the header are.
 constexpr uint8_t kHasHeights = 1, kHasVoids = 2, kLongCount = 4, kLongSides = 8, kHasBlocks = 16;

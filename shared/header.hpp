@@ -10,7 +10,7 @@ namespace microtin {
 // Whether the first bytes are those of a stream that this code can read.
 inline microtin_status check_identity(const uint8_t* identity) {
   for (uint32_t i = 0; i < sizeof kMagic; ++i) {
-    if (identity[i] != kMagic[i]) return MICROTIN_BAD_MAGIC;
+    if (identity[i] != read_table(kMagic + i)) return MICROTIN_BAD_MAGIC;
   }
   return identity[4] == kVersion ? MICROTIN_DONE : MICROTIN_UNSUPPORTED_VERSION;
 }
@@ -27,7 +27,7 @@ inline bool read_contract(uint8_t flags, uint8_t effort, const uint8_t* dimensio
   contract->has_heights = (flags & kHasHeights) != 0;
   contract->has_voids = (flags & kHasVoids) != 0;
   contract->degree = effort & 63u;
-  contract->levels = effort >> 6;
+  contract->levels = static_cast<uint32_t>(effort) >> 6;
   const bool long_count = (flags & kLongCount) != 0;
   contract->vertices = long_count ? read_u32(dimensions) : read_u16(dimensions);
   const uint8_t* const sides = dimensions + (long_count ? 4 : 2);

@@ -106,7 +106,7 @@ MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds, const Scale& own) {
   }
   for (int k = 0; k < kCells; ++k) {
     const uint32_t steps = static_cast<uint32_t>(left[k]) * kSweepSteps;
-    const int16_t chance = odds.chance_at[steps / static_cast<uint32_t>(all[k])];
+    const int16_t chance = odds.chance_at[steps / static_cast<uint16_t>(all[k])];
     odds.weight[k] = static_cast<int16_t>(odds.weight[k] * chance);
   }
 }

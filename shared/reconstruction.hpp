@@ -258,8 +258,8 @@ Point locate(Reconstruction& r, Coder& coder, Point place) {
   PlaceOdds& odds = r.odds;
   const Log2 density = r.density / 256;
   const Box box = enclosing_box(region, Box{0, 0, r.contract.x_max, r.contract.y_max});
-  const Point v = region.origin;
-  const Offset middle = {box.x0 + box.x1 - 2 * v.x, box.y0 + box.y1 - 2 * v.y};
+  const FastInt x = region.origin.x, y = region.origin.y;
+  const Offset middle = {box.x0 + box.x1 - 2 * x, box.y0 + box.y1 - 2 * y};
   estimate_odds(odds, region, middle, density);
   if (r.contract.has_heights) {
     start_repulsion(odds.repulsion, region, middle, size_of(box), density, r.crowding);

@@ -27,8 +27,8 @@ echo "== The same stream in the flash of a Cortex-M4, decoded there (emulated by
 build/release/tests/host_report "$demo/terrain.mtin" >"$demo/terrain.report"
 quietly cmake --preset cortex-m4 -B "$demo/cortex-m4" \
   -DMICROTIN_FIRMWARE_STREAM="$demo/terrain.mtin"
-quietly cmake --build "$demo/cortex-m4" --target firmware_terrain
-sh toolchains/arm/run.sh mps2-an386 "$demo/cortex-m4/tests/firmware/firmware_terrain.elf" \
+quietly cmake --build "$demo/cortex-m4" --target mps2-an386.terrain
+sh toolchains/run.sh mps2-an386 "$demo/cortex-m4/tests/firmware/mps2-an386.terrain" \
   >"$demo/terrain.device"
 echo "device:"
 head -5 "$demo/terrain.device"

@@ -1,3 +1,3 @@
 set(MICROTIN_CORE cortex-m4)
-set(MICROTIN_MACHINE mps2-an386)
+set(MICROTIN_MACHINES mps2-an386)
 include(${CMAKE_CURRENT_LIST_DIR}/arm/toolchain.cmake)

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "microtin/microtin.hpp"
 #include "tests/firmware/report.hpp"
 
 namespace {
@@ -27,7 +28,9 @@ int main(int argc, char** argv) {
   const std::vector<uint8_t> stream(bytes.begin(), bytes.end());
   const auto terrain = std::make_unique<microtin::Terrain<kCapacity>>();
   const auto decoder = std::make_unique<microtin::Decoder<kCapacity>>(*terrain);
-  return microtin::report(put_char, *terrain, *decoder, stream.data(), stream.size(), stream.size())
-             ? 0
-             : 1;
+  size_t used = 0;
+  decoder->feed(stream.data(), stream.size(), &used);
+  const microtin_status status = decoder->finish();
+  microtin::report(put_char, terrain->mesh(), status);
+  return status == MICROTIN_DONE ? 0 : 1;
 }

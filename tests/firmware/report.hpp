@@ -1,8 +1,8 @@
-// Decodes a stream and describes the terrain in a few lines of text, the same on host and device.
+// Describes a decoded terrain in a few lines of text, the same on host and device.
 #ifndef MICROTIN_TESTS_FIRMWARE_REPORT_HPP
 #define MICROTIN_TESTS_FIRMWARE_REPORT_HPP
 
-#include "microtin/microtin.hpp"
+#include "microtin/microtin.h"
 
 namespace microtin {
 
@@ -30,20 +30,6 @@ inline void print(PutChar put, int32_t number) {
 
 inline void print_hex(PutChar put, uint64_t number) {
   for (int shift = 60; shift >= 0; shift -= 4) put("0123456789abcdef"[(number >> shift) & 15]);
-}
-
-// Feeds the stream in pieces of `chunk` bytes until the decoder has had enough of it.
-template <uint32_t Capacity>
-microtin_status decode_in_chunks(Decoder<Capacity>& decoder, const uint8_t* stream, size_t size,
-                                 size_t chunk) {
-  size_t at = 0;
-  microtin_status status = MICROTIN_NEED_INPUT;
-  while (status == MICROTIN_NEED_INPUT && at < size) {
-    size_t used = 0;
-    status = decoder.feed(stream + at, size - at < chunk ? size - at : chunk, &used);
-    at += used;
-  }
-  return status == MICROTIN_NEED_INPUT ? decoder.finish() : status;
 }
 
 // Numbers that look random and are the same everywhere (Numerical Recipes' generator).
@@ -104,21 +90,16 @@ inline void report_probes(PutChar put, const microtin_mesh* mesh) {
   }
 }
 
-// The whole report; `decoder` fills `terrain`. Returns whether the stream was decoded.
-template <uint32_t Capacity>
-bool report(PutChar put, const Terrain<Capacity>& terrain, Decoder<Capacity>& decoder,
-            const uint8_t* stream, size_t size, size_t chunk) {
-  const microtin_status status = decode_in_chunks(decoder, stream, size, chunk);
+// The whole report of a mesh, and of how decoding it ended.
+inline void report(PutChar put, const microtin_mesh* mesh, microtin_status status) {
   print(put, "status ");
   print(put, static_cast<uint32_t>(status));
   print(put, "\nvertices ");
-  print(put, terrain.vertices());
+  print(put, microtin_vertex_count(mesh));
   print(put, "\ndigest ");
-  print_hex(put, terrain.digest());
+  print_hex(put, microtin_digest(mesh));
   print(put, "\n");
-  if (status != MICROTIN_DONE) return false;
-  report_probes(put, terrain.mesh());
-  return true;
+  if (status == MICROTIN_DONE) report_probes(put, mesh);
 }
 
 }  // namespace microtin

@@ -1,4 +1,4 @@
-# What the Arm Cortex-M toolchain files share; each names its core and QEMU machine, then includes it.
+# What the Arm Cortex-M toolchain files share; each names its core and QEMU machines, then includes it.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR ${MICROTIN_CORE})
 
@@ -6,7 +6,11 @@ set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
 set(CMAKE_CXX_FLAGS_INIT "-mcpu=${MICROTIN_CORE} -mthumb")
 set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)  # no start-up code to link a program with yet
 
-# Firmware images: our start-up code instead of a C library.
-set(MICROTIN_RUNTIME ${CMAKE_CURRENT_LIST_DIR}/runtime.cpp)
-set(MICROTIN_LINKER_SCRIPT ${CMAKE_CURRENT_LIST_DIR}/${MICROTIN_MACHINE}.ld)
-set(CMAKE_CROSSCOMPILING_EMULATOR sh ${CMAKE_CURRENT_LIST_DIR}/run.sh ${MICROTIN_MACHINE})
+include(${CMAKE_CURRENT_LIST_DIR}/../image.cmake)
+list(APPEND MICROTIN_RUNTIME ${CMAKE_CURRENT_LIST_DIR}/machine.cpp)
+add_machine(mps2-an385 0x00000000 4M 0x20000000 4M)
+add_machine(mps2-an386 0x00000000 4M 0x20000000 4M)
+add_machine(mps2-an500 0x00000000 4M 0x20000000 4M)
+add_machine(mps2-an505 0x10000000 4M 0x38000000 4M)
+add_machine(microbit 0x00000000 256K 0x20000000 16K)
+set(MICROTIN_CAPACITY_microbit 300)  # vertices that fit beside the stack

@@ -1,4 +1,5 @@
 // Decodes a stream in flash, read in place, and prints its vertices and the instructions it took.
+#include "microtin/microtin.hpp"
 #include "tests/firmware/linked_stream.hpp"
 #include "tests/firmware/report.hpp"
 #include "toolchains/firmware.hpp"

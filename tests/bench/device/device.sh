@@ -20,13 +20,13 @@ code_bytes() {
 }
 
 stack_bytes() {
-  $prefix-objdump -d "$build/$1/tests/bench/device/bench_device.elf" |
+  $prefix-objdump -d "$build/$1/tests/bench/device/bench_device" |
     awk -v entries="$entries" -f tests/bench/device/stack.awk
 }
 
 # Vertices, and instructions to decode them.
 run_device() {
-  sh toolchains/arm/run.sh mps2-an386 "$build/$1/tests/bench/device/bench_device.elf" -icount shift=6
+  sh toolchains/run.sh mps2-an386 "$build/$1/tests/bench/device/bench_device" -icount shift=6
 }
 
 printf '\n### Decoding a terrain tile on a Cortex-M4\n\n'

@@ -1,4 +1,4 @@
-// Must be rejected by tests/symbols.cmake: global state.
+// Must be rejected by symbols.cmake: global state.
 extern "C" int planted() {
   static int calls;
   return ++calls;

@@ -1,4 +1,4 @@
-// Must be rejected by tests/symbols.cmake: a static constructor.
+// Must be rejected by symbols.cmake: a static constructor.
 extern "C" int planted();
 
 extern const int kPlanted;

@@ -1,4 +1,4 @@
-// Must be rejected by tests/symbols.cmake: it allocates.
+// Must be rejected by symbols.cmake: it allocates.
 #include <stddef.h>
 
 extern "C" void* malloc(size_t size);

@@ -1,0 +1,4 @@
+// Must be rejected by callgraph.py: a call of whatever a pointer holds.
+extern "C" int planted(int (*function)()) {
+  return function() + 1;
+}

@@ -1,0 +1,5 @@
+// Must be rejected by symbols.cmake: global state that does not start as zero.
+extern "C" int planted() {
+  static int calls = 7;
+  return ++calls;
+}

@@ -1,0 +1,4 @@
+// Must be rejected by symbols.cmake when compiled with unwind tables.
+extern "C" int planted(int a) {
+  return a + 1;
+}

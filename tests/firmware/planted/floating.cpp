@@ -1,5 +1,0 @@
-// Must be rejected by tests/symbols.cmake: floating point, which calls helpers on a core without
-// it.
-extern "C" double planted(double a, double b) {
-  return a * b;
-}

@@ -1,0 +1,12 @@
+// A firmware program as a program of Linux.
+#include <stdio.h>
+
+#include "toolchains/firmware.hpp"
+
+void put_char(char c) {
+  putchar(c);
+}
+
+int main() {
+  return firmware_main();
+}

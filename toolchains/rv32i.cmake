@@ -1,0 +1,2 @@
+set(MICROTIN_ARCHITECTURE rv32i)
+include(${CMAKE_CURRENT_LIST_DIR}/riscv/toolchain.cmake)
