@@ -13,25 +13,15 @@
 
 namespace microtin {
 
-inline uint8_t read_table(const uint8_t* entry) {
+template <class Number>
+Number read_table(const Number* entry) {
 #if defined(__AVR__)
-  return pgm_read_byte(entry);
-#else
-  return *entry;
-#endif
-}
-
-inline uint16_t read_table(const uint16_t* entry) {
-#if defined(__AVR__)
-  return pgm_read_word(entry);
-#else
-  return *entry;
-#endif
-}
-
-inline uint32_t read_table(const uint32_t* entry) {
-#if defined(__AVR__)
-  return pgm_read_dword(entry);
+  const uint8_t* const bytes = reinterpret_cast<const uint8_t*>(entry);
+  Number number = 0;
+  for (uint8_t i = sizeof(Number); i-- != 0;) {
+    number = static_cast<Number>(static_cast<uint32_t>(number) << 8 | pgm_read_byte(bytes + i));
+  }
+  return number;
 #else
   return *entry;
 #endif
