@@ -137,11 +137,11 @@ inline void weigh_cells(PlaceOdds& odds) {
 // Makes a cell the box that the odds are about.
 inline void narrow(PlaceOdds& odds, int i, int j) {
   const Offset to = middle_of(odds.grid, i, j);
-  for (int k = 0; k < kOwn; ++k) {
-    odds.matters[k] = odds.matters[k] && sum_of(odds.distance[k].x[i], odds.distance[k].y[j]) < 64;
-    if (odds.matters[k] || k == kChord) odds.circle[k] = moved(odds.circle[k], to);
+  for (int k = 0; k < kCircles; ++k) {
+    const Distances& outside = odds.distance[k];
+    if (k < kOwn) odds.matters[k] = odds.matters[k] && sum_of(outside.x[i], outside.y[j]) < 64;
+    if (k >= kChord || odds.matters[k]) odds.circle[k] = moved(odds.circle[k], to);
   }
-  odds.circle[kOwn] = moved(odds.circle[kOwn], to);
   if (repels(odds.repulsion)) narrow(odds.repulsion, to);
 }
 
