@@ -1,0 +1,139 @@
+// Streams that the encoder would not write: the test says which vertices are sent in which phase,
+// and what is written where a rule is to be broken.
+#ifndef MICROTIN_TESTS_FORGED_STREAM_HPP
+#define MICROTIN_TESTS_FORGED_STREAM_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "decoder/state.hpp"
+#include "encoder/header.hpp"
+#include "encoder/range_encoder.hpp"
+#include "tests/device.hpp"
+#include "tests/point_sets.hpp"
+
+namespace microtin {
+
+// The vertices, the seed first, and how many each phase adds, in any order within the phase.
+struct Plan {
+  std::vector<Vertex> vertices;
+  std::vector<uint32_t> batches;
+};
+
+// One vertex a phase.
+inline Plan single_steps(std::vector<Vertex> vertices) {
+  const std::vector<uint32_t> batches(vertices.size() - 3, 1);
+  return Plan{std::move(vertices), batches};
+}
+
+// The angle around the middle of circle_points, from the leftmost on.
+inline double turn_of(Point p) {
+  return std::atan2(32767.0 - p.y, 32767.0 - p.x) + (p.y > 32767 ? 6.3 : 0.0);
+}
+
+constexpr uint16_t kWheelSide = 130;
+
+// `spokes` vertices on a circle, at most 36, and last their centre, which gets all as neighbours.
+inline Plan wheel(uint32_t spokes) {
+  Random random(1);
+  Points rim = circle_points(65 * 65, random);
+  std::sort(rim.begin(), rim.end(), [](Point a, Point b) { return turn_of(a) < turn_of(b); });
+  std::vector<Vertex> vertices;
+  for (uint32_t i = 0; i < spokes; ++i) {
+    const Point p = rim[i * rim.size() / spokes];
+    vertices.push_back(
+        Vertex{static_cast<uint16_t>(p.x - 32702), static_cast<uint16_t>(p.y - 32702), 0});
+  }
+  std::swap(vertices[1], vertices[spokes / 3]);
+  std::swap(vertices[2], vertices[2 * spokes / 3]);
+  vertices.push_back({65, 65, 0});
+  return single_steps(std::move(vertices));
+}
+
+// Writes a plan: a coder of shared/reconstruction.hpp. What a derived class hides is written
+// otherwise.
+class PlanCoder {
+ public:
+  explicit PlanCoder(Plan plan) : plan_(std::move(plan)) {}
+
+  // Call before each step.
+  void at(const Reconstruction& r) { r_ = &r; }
+
+  bool bit(uint32_t probability, bool value) { return payload_.bit(probability, value); }
+  uint32_t uniform(uint32_t count, uint32_t value) { return payload_.uniform(count, value); }
+
+  // The next of the seed; in a phase any vertex left of it that conflicts with the triangle in
+  // hand.
+  Vertex next() {
+    std::vector<Vertex>& all = plan_.vertices;
+    const size_t placed = r_->mesh->vertices;
+    hit_ = false;
+    for (size_t i = placed; r_->stage == Stage::kWalk && i < r_->phase_end && !hit_; ++i) {
+      hit_ = is_in_conflict(all[i]);
+      if (hit_) std::swap(all[i], all[placed]);
+    }
+    return all[placed];
+  }
+  bool conflicts(const Mesh&, Index) const { return hit_; }
+
+  bool last_phase() const { return r_->phase + 1 == plan_.batches.size(); }
+  uint32_t batch() const { return plan_.batches[r_->phase]; }
+  bool is_void(const Mesh&, Index) const { return false; }
+
+  Bytes take_payload() {
+    Bytes bytes = payload_.finish();
+    payload_ = RangeEncoder();
+    return bytes;
+  }
+
+ protected:
+  const Reconstruction& at() const { return *r_; }
+
+ private:
+  bool is_in_conflict(const Vertex& v) const {
+    const Mesh& mesh = *r_->mesh;
+    const Index f = first_edge(triangle_of(r_->chord));
+    return in_conflict(mesh, mesh.origin[f], mesh.origin[f + 1], mesh.origin[f + 2],
+                       Point{v.x, v.y});
+  }
+
+  Plan plan_;
+  const Reconstruction* r_ = nullptr;
+  bool hit_ = false;
+  RangeEncoder payload_;
+};
+
+inline void append_section(Bytes& stream, const Bytes& payload) {
+  const size_t from = stream.size();
+  append_varint(stream, payload.size());
+  stream.insert(stream.end(), payload.begin(), payload.end());
+  append_check(stream, from);
+}
+
+// A header without blocks.
+inline Bytes header_of(const Contract& contract) {
+  return write_header(contract, Metadata());
+}
+
+// The stream that `coder` writes, up to the end or the first step that is malformed.
+template <class Coder>
+Bytes forge(const Contract& contract, Coder coder) {
+  Bytes stream = header_of(contract);
+  const Device device(contract.vertices);
+  Reconstruction& r = device.decoder->reconstruction;
+  start(r, contract);
+  Progress progress = Progress::kStep;
+  while (r.stage != Stage::kComplete && progress != Progress::kMalformed) {
+    coder.at(r);
+    progress = step(r, coder);
+    if (progress == Progress::kStep || progress == Progress::kPhaseEnd) continue;
+    append_section(stream, coder.take_payload());
+  }
+  return stream;
+}
+
+}  // namespace microtin
+
+#endif
