@@ -9,7 +9,6 @@
 #include "encoder/error.hpp"
 #include "fuzz/repair.hpp"
 #include "tests/device.hpp"
-#include "tests/mesh_copy.hpp"
 #include "tests/streams.hpp"
 
 using namespace microtin;

@@ -48,6 +48,8 @@ struct Device {
     REQUIRE(microtin_decoder_init(decoder_space.begin(), decoder_space.size(), mesh, &decoder) ==
             MICROTIN_DONE);
   }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
 
   bool guards_are_whole() const {
     return mesh_space.guards_are_whole() && decoder_space.guards_are_whole();

@@ -13,6 +13,7 @@
 #include "encoder/range_encoder.hpp"
 #include "tests/device.hpp"
 #include "tests/point_sets.hpp"
+#include "tests/reference_delaunay.hpp"
 
 namespace microtin {
 
@@ -64,15 +65,17 @@ class PlanCoder {
   bool bit(uint32_t probability, bool value) { return payload_.bit(probability, value); }
   uint32_t uniform(uint32_t count, uint32_t value) { return payload_.uniform(count, value); }
 
-  // The next of the seed; in a phase any vertex left of it that conflicts with the triangle in
-  // hand.
+  // The next of the seed; in a phase what is left of it and conflicts with the triangle in hand: of
+  // several the one that makes a final triangle with the chord.
   Vertex next() {
     std::vector<Vertex>& all = plan_.vertices;
     const size_t placed = r_->mesh->vertices;
     hit_ = false;
-    for (size_t i = placed; r_->stage == Stage::kWalk && i < r_->phase_end && !hit_; ++i) {
-      hit_ = is_in_conflict(all[i]);
-      if (hit_) std::swap(all[i], all[placed]);
+    for (size_t i = placed; r_->stage == Stage::kWalk && i < r_->phase_end; ++i) {
+      const Point p{all[i].x, all[i].y}, best{all[placed].x, all[placed].y};
+      if (!is_in_conflict(p) || (hit_ && !is_in_conflict_with_chord_and(best, p))) continue;
+      std::swap(all[i], all[placed]);
+      hit_ = true;
     }
     return all[placed];
   }
@@ -92,11 +95,16 @@ class PlanCoder {
   const Reconstruction& at() const { return *r_; }
 
  private:
-  bool is_in_conflict(const Vertex& v) const {
+  bool is_in_conflict(Point p) const {
     const Mesh& mesh = *r_->mesh;
     const Index f = first_edge(triangle_of(r_->chord));
-    return in_conflict(mesh, mesh.origin[f], mesh.origin[f + 1], mesh.origin[f + 2],
-                       Point{v.x, v.y});
+    return in_conflict(mesh, mesh.origin[f], mesh.origin[f + 1], mesh.origin[f + 2], p);
+  }
+
+  bool is_in_conflict_with_chord_and(Point apex, Point p) const {
+    const Point a = point_of(*r_->mesh, r_->mesh->origin[r_->chord]);
+    if (r_->vertex == kInfinity) return reference::spoils_hull_edge(apex, a, p);
+    return reference::in_perturbed_circle(a, point_of(*r_->mesh, r_->vertex), apex, p);
   }
 
   Plan plan_;
@@ -132,6 +140,25 @@ Bytes forge(const Contract& contract, Coder coder) {
     append_section(stream, coder.take_payload());
   }
   return stream;
+}
+
+// Up to 4 sections in few bytes: a lattice whose last vertices come one a phase.
+inline Bytes sectioned_stream(uint32_t sections) {
+  constexpr uint16_t kLargest = 16;
+  Random random(2);
+  Plan plan{{{0, 0, 0}, {kLargest, 0, 0}, {0, kLargest, 0}}, {}};
+  for (const Point p : lattice_points(kLargest + 1, kLargest + 1, random)) {
+    const bool in_seed = (p.x == 0 || p.y == 0) && (p.x + p.y) % kLargest == 0;
+    if (!in_seed) plan.vertices.push_back(Vertex{p.x, p.y, 0});
+  }
+  for (uint32_t n = 3; n < kSectionVertices; n += plan.batches.back()) {
+    plan.batches.push_back(std::min(n, kSectionVertices - n));
+  }
+  plan.batches.insert(plan.batches.end(), sections - 1, 1);
+  plan.vertices.resize(kSectionVertices + sections - 1);
+  const uint32_t n = static_cast<uint32_t>(plan.vertices.size());
+  return forge(Contract{n, kLargest, kLargest, kMaxDegree, 1, false, false},
+               PlanCoder(std::move(plan)));
 }
 
 }  // namespace microtin
