@@ -62,7 +62,11 @@ class PlanCoder {
   // Call before each step.
   void at(const Reconstruction& r) { r_ = &r; }
 
-  bool bit(uint32_t probability, bool value) { return payload_.bit(probability, value); }
+  bool bit(uint32_t probability, bool value) {
+    REQUIRE(probability >= kProbabilityMargin);
+    REQUIRE(probability <= kProbabilityOne - kProbabilityMargin);
+    return payload_.bit(probability, value);
+  }
   uint32_t uniform(uint32_t count, uint32_t value) { return payload_.uniform(count, value); }
 
   // The next of the seed; in a phase what is left of it and conflicts with the triangle in hand: of
