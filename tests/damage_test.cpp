@@ -90,6 +90,11 @@ TEST_CASE("a flipped bit or a changed byte is damage, and never taken for anythi
         CHECK((status == MICROTIN_CHECKSUM || longer));
         CHECK(microtin_bytes_used(device.decoder) > at);
       }
+      if (at >= stream.size() - kCheckBytes) {
+        uint32_t hint = 0;
+        int32_t height = 0;
+        CHECK(microtin_height_at(device.mesh, 0, 0, 0, &hint, &height) == MICROTIN_NOT_VERIFIED);
+      }
       CHECK(is_final(device, status, stream));
     });
   }

@@ -131,7 +131,7 @@ inline Bytes header_of(const Contract& contract) {
 
 // The stream that `coder` writes, up to the end or the first step that is malformed.
 template <class Coder>
-Bytes forge(const Contract& contract, Coder coder) {
+Bytes forge(const Contract& contract, Coder&& coder) {
   Bytes stream = header_of(contract);
   const Device device(contract.vertices);
   Reconstruction& r = device.decoder->reconstruction;
@@ -144,6 +144,34 @@ Bytes forge(const Contract& contract, Coder coder) {
     append_section(stream, coder.take_payload());
   }
   return stream;
+}
+
+// Fills the lower border of the lattice, always with the next place: after a few vertices every
+// symbol is nearly certain.
+class BorderCoder : public PlanCoder {
+ public:
+  using PlanCoder::PlanCoder;
+
+  Vertex next() {
+    if (at().stage != Stage::kWalk) return PlanCoder::next();
+    const Mesh& mesh = *at().mesh;
+    const Point a = point_of(mesh, mesh.origin[at().chord]);
+    const Index c = mesh.origin[previous_in_triangle(at().chord)];
+    conflicts_ = at().vertex == kInfinity && a.y == 0 && mesh.y[c] == 0 && mesh.x[c] > a.x + 1;
+    return {static_cast<uint16_t>(a.x + 1), 0, 0};
+  }
+  bool conflicts(const Mesh&, Index) const { return conflicts_; }
+
+ private:
+  bool conflicts_ = false;
+};
+
+inline std::vector<Vertex> border_seed(uint16_t largest_x) {
+  return {{0, 0, 0}, {largest_x, 0, 0}, {0, 1, 0}};
+}
+
+inline Contract border_contract(uint16_t largest_x) {
+  return Contract{largest_x + 2u, largest_x, 1, kMaxDegree, 1, false, true};
 }
 
 // Up to 4 sections in few bytes: a lattice whose last vertices come one a phase.

@@ -13,7 +13,7 @@
 namespace microtin {
 namespace {
 
-constexpr uint32_t kCapacity = 100;
+constexpr uint32_t kCapacity = 10000;
 
 // --- Contracts and plans -------------------------------------------------------------------------
 
@@ -33,12 +33,6 @@ Plan plan_with(const Vertex& vertex) {
 const Plan kInside = plan_with({40, 40, 0});
 
 // --- Coders that break a rule --------------------------------------------------------------------
-
-struct LargestNumbers : PlanCoder {
-  using PlanCoder::PlanCoder;
-  bool bit(uint32_t probability, bool) { return PlanCoder::bit(probability, true); }
-  uint32_t uniform(uint32_t count, uint32_t) { return PlanCoder::uniform(count, count - 1); }
-};
 
 struct NoHits : PlanCoder {
   using PlanCoder::PlanCoder;
@@ -66,11 +60,57 @@ struct TakenPlace : PlanCoder {
   bool conflicts(const Mesh&, Index) const { return at().vertex != kInfinity; }
 };
 
-template <uint32_t kSize>
-struct BatchOf : PlanCoder {
+struct EmptyBatch : PlanCoder {
   using PlanCoder::PlanCoder;
   static bool last_phase() { return false; }
-  static uint32_t batch() { return kSize; }
+  static uint32_t batch() { return 0; }
+};
+
+// Sends the number of all that are left, where a bit would have said so.
+struct BatchOfAll : PlanCoder {
+  using PlanCoder::PlanCoder;
+  bool bit(uint32_t probability, bool value) {
+    if (at().stage != Stage::kPhase) return PlanCoder::bit(probability, value);
+    const uint32_t left = at().contract.vertices - at().mesh->vertices;  // < 4096
+    PlanCoder::bit(probability, true);
+    PlanCoder::uniform(left + 1, left);
+    return false;
+  }
+};
+
+// Writes the opposite of the bit with that number.
+struct OppositeBit : PlanCoder {
+  OppositeBit(Plan plan, uint32_t number) : PlanCoder(std::move(plan)), opposite(number) {}
+  bool bit(uint32_t probability, bool value) {
+    PlanCoder::bit(probability, value != (bits++ == opposite));
+    return value;
+  }
+  uint32_t opposite, bits = 0;
+};
+
+// Knows no bound on the work of all phases.
+struct Tireless : PlanCoder {
+  using PlanCoder::PlanCoder;
+  void at(Reconstruction& r) {
+    r.work = 0;
+    PlanCoder::at(r);
+  }
+  using PlanCoder::at;
+};
+
+// Ends in ones, which leave the payload's last bytes 0.
+struct AllVoid : BorderCoder {
+  using BorderCoder::BorderCoder;
+  static bool is_void(const Mesh&, Index) { return true; }
+};
+
+// Ends in a number so high that no encoder writes it: in what is left when the range is divided.
+struct RoundedNumber : PlanCoder {
+  using PlanCoder::PlanCoder;
+  uint32_t uniform(uint32_t count, uint32_t value) {
+    for (int i = 0; i < 3; ++i) bit(kProbabilityOne - kProbabilityMargin, false);
+    return PlanCoder::uniform(1, count - value);
+  }
 };
 
 // --- Streams -------------------------------------------------------------------------------------
@@ -102,10 +142,8 @@ Bytes with_section(const Bytes& head_and_payload) {
   return stream;
 }
 
-// The only section of a valid stream with `added` bytes more, or fewer.
-Bytes resized_payload(int added) {
-  const Contract contract = flat_contract(4);
-  const Bytes valid = forge(contract, PlanCoder(kInside));
+// A valid stream, of one section with less than 128 bytes, with `added` bytes more, or fewer.
+Bytes resized_payload(const Contract& contract, const Bytes& valid, int added) {
   Bytes stream = header_of(contract);
   Bytes payload(valid.begin() + static_cast<std::ptrdiff_t>(stream.size()) + 1,
                 valid.end() - static_cast<std::ptrdiff_t>(kCheckBytes));
@@ -114,14 +152,53 @@ Bytes resized_payload(int added) {
   return stream;
 }
 
+Bytes valid_stream() {
+  return forge(flat_contract(4), PlanCoder(kInside));
+}
+
+// Of whose payload no byte is missing, since four zeros are taken as read.
+Bytes valid_stream_that_ends_in_zeros() {
+  constexpr uint16_t kLargest = kCapacity - 2;
+  return forge(border_contract(kLargest), AllVoid(Plan{border_seed(kLargest), {kLargest - 1u}}));
+}
+
+// One step of height too much: the last bit is its sign.
+Bytes with_high_vertex() {
+  Contract contract = flat_contract(3);
+  contract.has_heights = true;
+  const Plan plan{{kSeed[0], {90, 10, 32767}, {10, 90, 32766}}, {}};
+  OppositeBit valid(plan, UINT32_MAX);
+  forge(contract, valid);
+  return forge(contract, OppositeBit(plan, valid.bits - 1));
+}
+
+// A valid stream whose only section begins with that length, which takes one byte otherwise.
+Bytes with_length(const Bytes& length) {
+  const Bytes valid = valid_stream();
+  Bytes stream = header_of(flat_contract(4));
+  const auto head = valid.begin() + static_cast<std::ptrdiff_t>(stream.size());
+  Bytes section = length;
+  section[0] = static_cast<uint8_t>(*head | 128);
+  section.insert(section.end(), head + 1, valid.end() - kCheckBytes);
+  stream.insert(stream.end(), section.begin(), section.end());
+  append_check(stream, stream.size() - section.size());
+  return stream;
+}
+
+Bytes with_rounded_number() {
+  Contract contract = flat_contract(3);
+  contract.x_max = contract.y_max = 65534;
+  return forge(contract, RoundedNumber(Plan{{{0, 0, 0}, {65534, 65534, 0}, {1, 65534, 0}}, {}}));
+}
+
 Bytes cut_off(size_t size) {
-  Bytes stream = forge(flat_contract(4), PlanCoder(kInside));
+  Bytes stream = valid_stream();
   stream.resize(size < stream.size() ? size : stream.size() - 1);
   return stream;
 }
 
 Bytes flipped(size_t at) {
-  Bytes stream = forge(flat_contract(4), PlanCoder(kInside));
+  Bytes stream = valid_stream();
   uint8_t& byte = stream[at < stream.size() ? at : stream.size() - 1];
   byte = static_cast<uint8_t>(byte ^ 1);
   return stream;
@@ -176,31 +253,31 @@ void add_damage(Refused& all) {
 }
 
 void add_sections(Refused& all) {
-  all["malformed_length_not_shortest"] = with_section({0x81, 0x00, 0x00});
+  all["malformed_length_not_shortest"] = with_length({0, 0});
+  all["checksum_length_above_32_bits"] = with_length({0, 0x80, 0x80, 0x80, 0x10});
   all["malformed_length_above_32_bits"] = with_section({0x80, 0x80, 0x80, 0x80, 0x10});
   all["malformed_code_is_range"] = with_section({4, 0xFF, 0xFF, 0xFF, 0xFF});
-  all["malformed_code_in_rounding"] = with_section({4, 0xFF, 0xFF, 0xFF, 0xFE});
-  all["malformed_payload_short"] = resized_payload(-6);
-  all["malformed_payload_rest"] = resized_payload(5);
+  all["malformed_number_in_rounding"] = with_rounded_number();
+  const Bytes border = valid_stream_that_ends_in_zeros();
+  all["malformed_payload_short"] = resized_payload(border_contract(kCapacity - 2), border, -1);
+  all["malformed_payload_rest"] = resized_payload(flat_contract(4), valid_stream(), 5);
 }
 
 void add_symbols(Refused& all) {
-  const Contract four = flat_contract(4), five = flat_contract(5);
-  Contract high = four, eight = flat_contract(8), twelve = flat_contract(12),
-           sixty = flat_contract(60);
-  high.has_heights = true;
+  const Contract three = flat_contract(3), four = flat_contract(4), five = flat_contract(5);
+  Contract eight = flat_contract(8), twelve = flat_contract(12), sixty = flat_contract(60);
   twelve.degree = sixty.degree = kMaxDegree;
   eight.x_max = eight.y_max = kWheelSide;
   all["malformed_seed_clockwise"] =
-      forge(four, PlanCoder(Plan{{kSeed[0], kSeed[2], kSeed[1]}, {}}));
+      forge(three, PlanCoder(Plan{{kSeed[0], kSeed[2], kSeed[1]}, {}}));
   all["malformed_seed_on_a_line"] =
-      forge(four, PlanCoder(Plan{{{1, 1, 0}, {2, 2, 0}, {4, 4, 0}}, {}}));
-  all["malformed_seed_order"] = forge(four, PlanCoder(Plan{{kSeed[1], kSeed[2], kSeed[0]}, {}}));
-  all["malformed_height"] = forge(high, LargestNumbers(kInside));
-  all["malformed_batch_empty"] = forge(five, BatchOf<0>(kInside));
-  all["malformed_batch_of_all"] = forge(five, BatchOf<2>(kInside));
+      forge(three, PlanCoder(Plan{{{1, 1, 0}, {2, 2, 0}, {4, 4, 0}}, {}}));
+  all["malformed_seed_order"] = forge(three, PlanCoder(Plan{{kSeed[1], kSeed[2], kSeed[0]}, {}}));
+  all["malformed_height"] = with_high_vertex();
+  all["malformed_batch_empty"] = forge(five, EmptyBatch(kInside));
+  all["malformed_batch_of_all"] = forge(four, BatchOfAll(kInside));
   all["malformed_walk_ends"] = forge(four, NoHits(kInside));
-  all["malformed_work"] = forge(sixty, PlanCoder(scattered(60)));
+  all["malformed_work"] = forge(sixty, Tireless(scattered(60)));
   all["malformed_place_before_first"] = forge(four, PlanCoder(plan_with({2, 50, 0})));
   all["malformed_place_taken"] = forge(four, TakenPlace(kInside));
   all["malformed_cavity_final"] = forge(twelve, LateHit(scattered(12)));
@@ -240,8 +317,11 @@ TEST_CASE("golden streams that must be refused are, each with its status") {
 }
 
 TEST_CASE("what is refused is one rule away from what is not") {
-  CHECK(Device(kCapacity).decode(forge(flat_contract(4), PlanCoder(kInside))) == MICROTIN_DONE);
-  CHECK(Device(kCapacity).decode(resized_payload(0)) == MICROTIN_DONE);
+  CHECK(Device(kCapacity).decode(valid_stream()) == MICROTIN_DONE);
+  CHECK(Device(kCapacity).decode(valid_stream_that_ends_in_zeros()) == MICROTIN_DONE);
+  Contract twelve = flat_contract(12);
+  twelve.degree = kMaxDegree;
+  CHECK(Device(kCapacity).decode(forge(twelve, PlanCoder(scattered(12)))) == MICROTIN_DONE);
   Contract seven = flat_contract(7);
   seven.x_max = seven.y_max = kWheelSide;
   CHECK(Device(kCapacity).decode(forge(seven, PlanCoder(wheel(6)))) == MICROTIN_DONE);
