@@ -304,7 +304,9 @@ microtin_status status_named(const std::string& name) {
 }  // namespace
 
 TEST_CASE("golden streams that must be refused are, each with its status") {
-  for (const auto& [name, stream] : refused_streams()) {
+  for (const auto& refused : refused_streams()) {
+    const std::string& name = refused.first;
+    const Bytes& stream = refused.second;
     const std::string path = MICROTIN_GOLDEN_DIR "/refused/" + name + ".mtin";
     if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) write_file(path, stream);
     CAPTURE(name);
@@ -328,7 +330,9 @@ TEST_CASE("what is refused is one rule away from what is not") {
 }
 
 TEST_CASE("peek tells of a header what decoding it tells") {
-  for (const auto& [name, stream] : refused_streams()) {
+  for (const auto& refused : refused_streams()) {
+    const std::string& name = refused.first;
+    const Bytes& stream = refused.second;
     microtin_info info;
     const microtin_status peeked = microtin_peek(stream.data(), stream.size(), &info);
     const Device device(kCapacity);
