@@ -24,6 +24,8 @@ uint32_t bytes_needed(const microtin_decoder& d) {
     case Item::kSkippedBlock:
     case Item::kSectionHead:
       return 1;
+    case Item::kSectionRest:
+      return smaller<uint32_t>(d.coder.payload_left, 1);
     case Item::kPayloadStart:
       return smaller<uint32_t>(d.section_bytes, 4);
     case Item::kStep:
@@ -39,15 +41,28 @@ void take_bytes(microtin_decoder& d, uint8_t* bytes, uint32_t count) {
   for (uint32_t i = 0; i < count; ++i) bytes[i] = d.window.take();
 }
 
-// Whether the four bytes that follow are the check of all since the last one.
-bool check_passes(microtin_decoder& d) {
+// What to say of all since the last check, given the four bytes that follow, its own.
+microtin_status status_of_checked(microtin_decoder& d) {
   d.window.settle();
   const uint32_t expected = d.window.crc;
   uint8_t bytes[kCheckBytes];
   take_bytes(d, bytes, kCheckBytes);
   d.window.settle();
   d.window.crc = 0;
-  return read_u32(bytes) == expected;
+  return read_u32(bytes) == expected ? d.verdict : MICROTIN_CHECKSUM;
+}
+
+// Takes what is at hand of `count` bytes and returns how many are missing.
+MICROTIN_OUT_OF_LINE uint32_t skip(microtin_decoder& d, uint32_t count) {
+  const uint32_t taken = d.window.left < count ? static_cast<uint32_t>(d.window.left) : count;
+  for (uint32_t i = 0; i < taken; ++i) d.window.take();
+  return count - taken;
+}
+
+// Whatever is wrong is told once the check ahead has passed: before, it is damage. A block that
+// must be understood says it all.
+MICROTIN_OUT_OF_LINE void note_malformed(microtin_decoder& d) {
+  if (d.verdict == MICROTIN_DONE) d.verdict = MICROTIN_MALFORMED;
 }
 
 Item after_block(const microtin_decoder& d) {
@@ -69,12 +84,12 @@ microtin_status handle_dimensions(microtin_decoder& d) {
   uint8_t bytes[kDimensionsMostBytes];
   take_bytes(d, bytes, dimensions_bytes(d.flags));
   const bool legal = read_contract(d.flags, d.effort, bytes, &d.contract, &d.blocks_left);
-  d.header_status = legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
+  d.verdict = MICROTIN_DONE;
+  if (!legal) note_malformed(d);
   d.item = after_block(d);
   return MICROTIN_NEED_INPUT;
 }
 
-// Whatever is wrong with a block is told once the header's check has passed: before, it is damage.
 microtin_status handle_block_head(microtin_decoder& d) {
   uint8_t bytes[kBlockHeadBytes] = {0, 0, 0};
   const uint32_t size = smaller(kBlockHeadBytes, d.blocks_left);
@@ -83,12 +98,13 @@ microtin_status handle_block_head(microtin_decoder& d) {
   d.block_left = read_u16(bytes + 1);
   d.item = Item::kSkippedBlock;
   const bool placement = bytes[0] == kBlockPlacement;
-  if (size < kBlockHeadBytes || d.block_left > d.blocks_left ||
-      (placement && d.block_left > kPlacementMostBytes)) {
-    d.header_status = MICROTIN_MALFORMED;
+  if (size < kBlockHeadBytes || d.block_left > d.blocks_left) {
+    note_malformed(d);
     d.block_left = d.blocks_left;
   } else if ((bytes[0] & kMustUnderstand) != 0) {
-    d.header_status = MICROTIN_UNSUPPORTED_VERSION;
+    d.verdict = MICROTIN_UNSUPPORTED_VERSION;
+  } else if (placement && d.block_left > kPlacementMostBytes) {
+    note_malformed(d);
   } else if (placement) {
     d.item = Item::kPlacement;
   }
@@ -101,16 +117,13 @@ microtin_status handle_block_head(microtin_decoder& d) {
 MICROTIN_OUT_OF_LINE microtin_status handle_placement(microtin_decoder& d) {
   uint8_t bytes[kPlacementMostBytes];
   take_bytes(d, bytes, d.block_left);
-  if (!read_placement(bytes, d.block_left, d.mesh->axis)) d.header_status = MICROTIN_MALFORMED;
+  if (!read_placement(bytes, d.block_left, d.mesh->axis)) note_malformed(d);
   d.item = after_block(d);
   return MICROTIN_NEED_INPUT;
 }
 
 microtin_status handle_skipped_block(microtin_decoder& d) {
-  const uint32_t count =
-      d.window.left < d.block_left ? static_cast<uint32_t>(d.window.left) : d.block_left;
-  for (uint32_t i = 0; i < count; ++i) d.window.take();
-  d.block_left -= count;
+  d.block_left = skip(d, d.block_left);
   if (d.block_left == 0) d.item = after_block(d);
   return MICROTIN_NEED_INPUT;
 }
@@ -122,8 +135,8 @@ void begin_section(microtin_decoder& d) {
 }
 
 microtin_status handle_header_check(microtin_decoder& d) {
-  if (!check_passes(d)) return MICROTIN_CHECKSUM;
-  if (d.header_status != MICROTIN_DONE) return d.header_status;
+  const microtin_status status = status_of_checked(d);
+  if (status != MICROTIN_DONE) return status;
   if (d.contract.vertices > d.capacity || d.contract.vertices > d.mesh->capacity) {
     return MICROTIN_TOO_BIG;
   }
@@ -132,21 +145,37 @@ microtin_status handle_header_check(microtin_decoder& d) {
   return MICROTIN_NEED_INPUT;
 }
 
-// The payload's length: seven bits a byte, low ones first, the top bit set if more follow.
+// The payload's length: seven bits a byte, low ones first, the top bit set if more follow. One of
+// more than 32 bits counts as 0.
 microtin_status handle_section_head(microtin_decoder& d) {
   const uint8_t byte = d.window.take();
-  if (d.section_shift == 28 && byte > 15) return MICROTIN_MALFORMED;
-  if (d.section_shift != 0 && byte == 0) return MICROTIN_MALFORMED;  // not the shortest form
+  const bool too_long = d.section_shift == 28 && byte > 15;
+  const bool shortest = d.section_shift == 0 || byte != 0;
   d.section_bytes |= static_cast<uint32_t>(byte & 127u) << d.section_shift;
   d.section_shift = static_cast<uint8_t>(d.section_shift + 7);
-  if (byte < 128) d.item = Item::kPayloadStart;
+  if (too_long) d.section_bytes = 0;
+  if (too_long || !shortest) note_malformed(d);
+  if (too_long || byte < 128) d.item = Item::kPayloadStart;
+  return MICROTIN_NEED_INPUT;
+}
+
+microtin_status end_section(microtin_decoder& d, bool legal) {
+  if (!legal || d.coder.payload_left != 0) note_malformed(d);
+  d.item = Item::kSectionRest;
   return MICROTIN_NEED_INPUT;
 }
 
 microtin_status handle_payload_start(microtin_decoder& d) {
   d.coder.begin(d.section_bytes);
   d.item = Item::kStep;
-  return d.coder.overrun ? MICROTIN_MALFORMED : MICROTIN_NEED_INPUT;
+  const bool legal = d.verdict == MICROTIN_DONE && !d.coder.overrun;
+  return legal ? MICROTIN_NEED_INPUT : end_section(d, false);
+}
+
+microtin_status handle_section_rest(microtin_decoder& d) {
+  d.coder.payload_left = skip(d, d.coder.payload_left);
+  if (d.coder.payload_left == 0) d.item = Item::kSectionCheck;
+  return MICROTIN_NEED_INPUT;
 }
 
 // Whether the phase after which decoding is to stop is complete.
@@ -156,19 +185,18 @@ bool is_far_enough(const microtin_decoder& d) {
 
 microtin_status handle_step(microtin_decoder& d) {
   const Progress progress = step(d.reconstruction, d.coder);
-  if (progress == Progress::kMalformed || d.coder.overrun) return MICROTIN_MALFORMED;
-  if (progress == Progress::kSectionEnd) {
-    if (d.coder.payload_left != 0) return MICROTIN_MALFORMED;
-    d.item = Item::kSectionCheck;
-  } else if (progress == Progress::kPhaseEnd && d.reconstruction.stage == Stage::kPhase &&
-             is_far_enough(d)) {
+  if (progress == Progress::kMalformed || d.coder.overrun) return end_section(d, false);
+  if (progress == Progress::kSectionEnd) return end_section(d, true);
+  if (progress == Progress::kPhaseEnd && d.reconstruction.stage == Stage::kPhase &&
+      is_far_enough(d)) {
     return MICROTIN_STOPPED;
   }
   return MICROTIN_NEED_INPUT;
 }
 
 microtin_status handle_section_check(microtin_decoder& d) {
-  if (!check_passes(d)) return MICROTIN_CHECKSUM;
+  const microtin_status status = status_of_checked(d);
+  if (status != MICROTIN_DONE) return status;
   d.mesh->verified_vertices = d.mesh->mesh.vertices;
   if (d.reconstruction.stage == Stage::kComplete) {
     d.mesh->has_voids = d.contract.has_voids;
@@ -200,6 +228,8 @@ microtin_status handle_item(microtin_decoder& d) {
       return handle_payload_start(d);
     case Item::kStep:
       return handle_step(d);
+    case Item::kSectionRest:
+      return handle_section_rest(d);
     case Item::kSectionCheck:
       break;
   }

@@ -27,6 +27,7 @@ enum class Item : uint8_t {
   kSectionHead,
   kPayloadStart,
   kStep,
+  kSectionRest,
   kSectionCheck
 };
 
@@ -45,7 +46,7 @@ struct microtin_decoder {
   uint8_t flags;  // of the header
   uint8_t effort;
   microtin::Contract contract;
-  microtin_status header_status;  // DONE, or what to say once its check has passed
+  microtin_status verdict;  // DONE, or what to say once the check ahead has passed
   microtin::ByteWindow window;
   microtin::RangeDecoder coder;
   // Bytes taken from the caller, too few for a step so far.

@@ -17,11 +17,12 @@ inline void write_check(std::vector<uint8_t>& bytes, size_t from, size_t at) {
   for (size_t i = 0; i < kCheckBytes; ++i) bytes[at + i] = static_cast<uint8_t>(check >> 8 * i);
 }
 
-// Sets magic, version, and the check of the header and of every section that is there whole.
-inline void repair(std::vector<uint8_t>& bytes) {
-  if (bytes.size() < kIdentityBytes) return;
+// Sets magic, version, and the check of the header and of every section that is there whole. False
+// if a damaged length ends that.
+inline bool repair(std::vector<uint8_t>& bytes) {
+  if (bytes.size() < kIdentityBytes) return false;
   size_t at = kIdentityBytes + dimensions_bytes(bytes[5]);
-  if (bytes.size() < at) return;
+  if (bytes.size() < at) return false;
   std::memcpy(bytes.data(), kMagic, sizeof kMagic);
   bytes[4] = kVersion;
   if ((bytes[5] & kHasBlocks) != 0) at += read_u16(bytes.data() + at - 2);
@@ -31,10 +32,12 @@ inline void repair(std::vector<uint8_t>& bytes) {
     from = at + kCheckBytes;
     const uint8_t* next = bytes.data() + from;
     uint64_t payload = 0;
-    if (!read_varint(&next, bytes.data() + bytes.size(), &payload) || payload > bytes.size())
-      return;
+    if (next == bytes.data() + bytes.size()) return true;
+    if (!read_varint(&next, bytes.data() + bytes.size(), &payload)) return false;
+    if (payload > bytes.size()) return false;
     at = static_cast<size_t>(next - bytes.data()) + static_cast<size_t>(payload);
   }
+  return false;
 }
 
 }  // namespace microtin

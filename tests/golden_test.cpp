@@ -5,11 +5,11 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
 #include "shared/start_probabilities.hpp"
+#include "tests/files.hpp"
 #include "tests/mesh_copy.hpp"
 #include "tests/streams.hpp"
 
@@ -20,31 +20,6 @@ struct Golden {
   std::string name;
   std::vector<uint8_t> stream;
 };
-
-Metadata full_metadata() {
-  Metadata m;
-  m.placement.x = {7 * 1200, 1, 1200};
-  m.placement.y = {-33 * 1200, 1, 1200};
-  m.placement.z = {-250, 5, 2};
-  m.horizontal_unit = Unit::kDegree;
-  m.vertical_unit = Unit::kMetre;
-  m.horizontal_epsg = 4326;
-  m.vertical_epsg = 5773;
-  m.source = "golden";
-  m.accuracy = Accuracy{Decimal{10, 0}, Decimal{99, 1}, Decimal{345, 2}};
-  return m;
-}
-
-// Every third real triangle void.
-Tin with_voids(Tin tin) {
-  const DecodedTerrain decoded(encode(tin, Metadata()));
-  const MeshCopy copy(decoded.mesh());
-  size_t i = 0;
-  for (const std::array<Point, 3>& t : triangles_of(copy.mesh).triangles) {
-    if (i++ % 3 == 0) tin.voids.push_back(Tin::Triangle{t[0], t[1], t[2]});
-  }
-  return tin;
-}
 
 Tin flat(const Points& points) {
   Tin tin;
@@ -90,11 +65,6 @@ std::vector<Golden> golden_streams() {
   return all;
 }
 
-std::vector<uint8_t> read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // The indented lines of FORMAT.md, and an empty one for each heading.
 std::vector<std::string> indented_lines_of_the_format() {
   std::ifstream text(MICROTIN_GOLDEN_DIR "/../../shared/FORMAT.md");
@@ -111,11 +81,7 @@ std::vector<std::string> indented_lines_of_the_format() {
 TEST_CASE("golden streams are what the encoder writes and the decoder reads") {
   for (const Golden& golden : golden_streams()) {
     const std::string path = MICROTIN_GOLDEN_DIR "/" + golden.name + ".mtin";
-    if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) {
-      std::ofstream(path, std::ios::binary)
-          .write(reinterpret_cast<const char*>(golden.stream.data()),
-                 static_cast<std::streamsize>(golden.stream.size()));
-    }
+    if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) write_file(path, golden.stream);
     CAPTURE(golden.name);
     CHECK(read_file(path) == golden.stream);
     CHECK_NOTHROW(DecodedTerrain{golden.stream});

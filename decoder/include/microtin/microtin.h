@@ -54,7 +54,7 @@ typedef enum microtin_status {
   MICROTIN_UNSUPPORTED_VERSION = 17, /* a version, or a required header block, unknown here */
   MICROTIN_TOO_BIG = 18,             /* more vertices than the workspace holds: see microtin_peek */
   MICROTIN_CHECKSUM = 19,            /* the bytes were damaged */
-  MICROTIN_MALFORMED = 20,           /* the bytes break a rule of the format */
+  MICROTIN_MALFORMED = 20,           /* undamaged bytes that break a rule of the format */
   MICROTIN_TRUNCATED = 21,           /* microtin_finish: the stream ends too early */
   MICROTIN_MISALIGNED = 22,          /* a workspace is not aligned to MICROTIN_ALIGNMENT */
   MICROTIN_WORKSPACE_TOO_SMALL = 23, /* a workspace cannot hold even three vertices */
