@@ -13,19 +13,13 @@ Size smaller(Size a, Size b) {
 // Bytes that must be at hand before the next item can be handled as a whole.
 uint32_t bytes_needed(const microtin_decoder& d) {
   switch (d.item) {
-    case Item::kIdentity:
-      return kIdentityBytes;
-    case Item::kDimensions:
-      return dimensions_bytes(d.flags);
-    case Item::kBlockHead:
-      return smaller(kBlockHeadBytes, d.blocks_left);
-    case Item::kPlacement:
-      return d.block_left;
-    case Item::kSkippedBlock:
+    case Item::kHeader:
+      return header_bytes(d.window.next, d.window.left);
     case Item::kSectionHead:
       return 1;
+    case Item::kNotes:
     case Item::kSectionRest:
-      return smaller<uint32_t>(d.coder.payload_left, 1);
+      return smaller<uint32_t>(d.unread, 1);
     case Item::kPayloadStart:
       return smaller<uint32_t>(d.section_bytes, 4);
     case Item::kStep:
@@ -37,94 +31,61 @@ uint32_t bytes_needed(const microtin_decoder& d) {
   return kCheckBytes;
 }
 
-void take_bytes(microtin_decoder& d, uint8_t* bytes, uint32_t count) {
-  for (uint32_t i = 0; i < count; ++i) bytes[i] = d.window.take();
-}
-
 // What to say of all since the last check, given the four bytes that follow, its own.
 microtin_status status_of_checked(microtin_decoder& d) {
   d.window.settle();
-  const uint32_t expected = d.window.crc;
-  uint8_t bytes[kCheckBytes];
-  take_bytes(d, bytes, kCheckBytes);
+  const bool passes = read_u32(d.window.next) == d.window.crc;
+  d.window.skip(kCheckBytes);
   d.window.settle();
   d.window.crc = 0;
-  return read_u32(bytes) == expected ? d.verdict : MICROTIN_CHECKSUM;
+  return passes ? d.verdict : MICROTIN_CHECKSUM;
 }
 
-// Takes what is at hand of `count` bytes and returns how many are missing.
-MICROTIN_OUT_OF_LINE uint32_t skip(microtin_decoder& d, uint32_t count) {
-  const uint32_t taken = d.window.left < count ? static_cast<uint32_t>(d.window.left) : count;
-  for (uint32_t i = 0; i < taken; ++i) d.window.take();
-  return count - taken;
+// Takes what is at hand of the bytes that are not read; behind them the item `check` follows.
+microtin_status handle_unread(microtin_decoder& d, Item check) {
+  const uint32_t taken = d.window.left < d.unread ? static_cast<uint32_t>(d.window.left) : d.unread;
+  d.window.skip(taken);
+  d.unread -= taken;
+  if (d.unread == 0) d.item = check;
+  return MICROTIN_NEED_INPUT;
 }
 
-// Whatever is wrong is told once the check ahead has passed: before, it is damage. A block that
-// must be understood says it all.
+// Number by number: on AVR a constant to copy from would be in RAM.
+void place_on_lattice(microtin_axis* axis) {
+  for (int i = 0; i < 3; ++i) {
+    axis[i].offset = 0;
+    axis[i].numerator = 1;
+    axis[i].denominator = 1;
+  }
+}
+
+// Reads the placement, if it is short enough, into `axis`, which is on the lattice itself if there
+// is none. False if it breaks a rule of the format.
+bool place(const uint8_t* bytes, const FixedHeader& header, microtin_axis* axis) {
+  place_on_lattice(axis);
+  const uint32_t size = header.placement_bytes;
+  if (size == 0) return true;
+  return size <= kPlacementMostBytes && read_placement(bytes + header.bytes, size, axis);
+}
+
+// Whatever is wrong is told once the check ahead has passed: before, it is damage.
 MICROTIN_OUT_OF_LINE void note_malformed(microtin_decoder& d) {
-  if (d.verdict == MICROTIN_DONE) d.verdict = MICROTIN_MALFORMED;
+  d.verdict = MICROTIN_MALFORMED;
 }
 
-Item after_block(const microtin_decoder& d) {
-  return d.blocks_left == 0 ? Item::kHeaderCheck : Item::kBlockHead;
-}
-
-microtin_status handle_identity(microtin_decoder& d) {
-  uint8_t bytes[kIdentityBytes];
-  take_bytes(d, bytes, kIdentityBytes);
+microtin_status handle_header(microtin_decoder& d) {
+  const uint8_t* const bytes = d.window.next;
+  const uint32_t size = header_bytes(bytes, d.window.left);
+  d.window.skip(size);
   const microtin_status known = check_identity(bytes);
   if (known != MICROTIN_DONE) return known;
-  d.flags = bytes[5];
-  d.effort = bytes[6];
-  d.item = Item::kDimensions;
-  return MICROTIN_NEED_INPUT;
-}
-
-microtin_status handle_dimensions(microtin_decoder& d) {
-  uint8_t bytes[kDimensionsMostBytes];
-  take_bytes(d, bytes, dimensions_bytes(d.flags));
-  const bool legal = read_contract(d.flags, d.effort, bytes, &d.contract, &d.blocks_left);
+  FixedHeader header;
+  const bool legal = read_fixed_header(bytes, &header);
+  d.contract = header.contract;
   d.verdict = MICROTIN_DONE;
-  if (!legal) note_malformed(d);
-  d.item = after_block(d);
-  return MICROTIN_NEED_INPUT;
-}
-
-microtin_status handle_block_head(microtin_decoder& d) {
-  uint8_t bytes[kBlockHeadBytes] = {0, 0, 0};
-  const uint32_t size = smaller(kBlockHeadBytes, d.blocks_left);
-  take_bytes(d, bytes, size);
-  d.blocks_left -= size;
-  d.block_left = read_u16(bytes + 1);
-  d.item = Item::kSkippedBlock;
-  const bool placement = bytes[0] == kBlockPlacement;
-  if (size < kBlockHeadBytes || d.block_left > d.blocks_left) {
-    note_malformed(d);
-    d.block_left = d.blocks_left;
-  } else if ((bytes[0] & kMustUnderstand) != 0) {
-    d.verdict = MICROTIN_UNSUPPORTED_VERSION;
-  } else if (placement && d.block_left > kPlacementMostBytes) {
-    note_malformed(d);
-  } else if (placement) {
-    d.item = Item::kPlacement;
-  }
-  d.blocks_left -= d.block_left;
-  if (d.item == Item::kSkippedBlock && d.block_left == 0) d.item = after_block(d);
-  return MICROTIN_NEED_INPUT;
-}
-
-// Out of line: its buffer would be on the stack of every step.
-MICROTIN_OUT_OF_LINE microtin_status handle_placement(microtin_decoder& d) {
-  uint8_t bytes[kPlacementMostBytes];
-  take_bytes(d, bytes, d.block_left);
-  if (!read_placement(bytes, d.block_left, d.mesh->axis)) note_malformed(d);
-  d.item = after_block(d);
-  return MICROTIN_NEED_INPUT;
-}
-
-microtin_status handle_skipped_block(microtin_decoder& d) {
-  d.block_left = skip(d, d.block_left);
-  if (d.block_left == 0) d.item = after_block(d);
+  if (!place(bytes, header, d.mesh->axis) || !legal) note_malformed(d);
+  d.unread = header.bytes + header.placement_bytes - size + header.note_bytes;
+  d.item = Item::kNotes;
   return MICROTIN_NEED_INPUT;
 }
 
@@ -161,6 +122,7 @@ microtin_status handle_section_head(microtin_decoder& d) {
 
 microtin_status end_section(microtin_decoder& d, bool legal) {
   if (!legal || d.coder.payload_left != 0) note_malformed(d);
+  d.unread = d.coder.payload_left;
   d.item = Item::kSectionRest;
   return MICROTIN_NEED_INPUT;
 }
@@ -170,12 +132,6 @@ microtin_status handle_payload_start(microtin_decoder& d) {
   d.item = Item::kStep;
   const bool legal = d.verdict == MICROTIN_DONE && !d.coder.overrun;
   return legal ? MICROTIN_NEED_INPUT : end_section(d, false);
-}
-
-microtin_status handle_section_rest(microtin_decoder& d) {
-  d.coder.payload_left = skip(d, d.coder.payload_left);
-  if (d.coder.payload_left == 0) d.item = Item::kSectionCheck;
-  return MICROTIN_NEED_INPUT;
 }
 
 // Whether the phase after which decoding is to stop is complete.
@@ -210,16 +166,10 @@ microtin_status handle_section_check(microtin_decoder& d) {
 // NEED_INPUT means: go on.
 microtin_status handle_item(microtin_decoder& d) {
   switch (d.item) {
-    case Item::kIdentity:
-      return handle_identity(d);
-    case Item::kDimensions:
-      return handle_dimensions(d);
-    case Item::kBlockHead:
-      return handle_block_head(d);
-    case Item::kPlacement:
-      return handle_placement(d);
-    case Item::kSkippedBlock:
-      return handle_skipped_block(d);
+    case Item::kHeader:
+      return handle_header(d);
+    case Item::kNotes:
+      return handle_unread(d, Item::kHeaderCheck);
     case Item::kHeaderCheck:
       return handle_header_check(d);
     case Item::kSectionHead:
@@ -229,7 +179,7 @@ microtin_status handle_item(microtin_decoder& d) {
     case Item::kStep:
       return handle_step(d);
     case Item::kSectionRest:
-      return handle_section_rest(d);
+      return handle_unread(d, Item::kSectionCheck);
     case Item::kSectionCheck:
       break;
   }
@@ -322,15 +272,6 @@ constexpr size_t kMeshPerFour = MICROTIN_MESH_BYTES(4) - kMeshFixed;
 constexpr size_t kDecoderFixed = MICROTIN_DECODER_BYTES(0);
 constexpr size_t kDecoderPerFour = MICROTIN_DECODER_BYTES(4) - kDecoderFixed;
 
-// Number by number: on AVR a constant to copy from would be in RAM.
-void place_on_lattice(microtin_axis* axis) {
-  for (int i = 0; i < 3; ++i) {
-    axis[i].offset = 0;
-    axis[i].numerator = 1;
-    axis[i].denominator = 1;
-  }
-}
-
 void empty_mesh(microtin_mesh& m) {
   m.mesh.vertices = 0;
   m.mesh.triangles = 0;
@@ -377,7 +318,7 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
   d.capacity = capacity;
   d.status = MICROTIN_NEED_INPUT;
   d.stop_phase = 0;
-  d.item = Item::kIdentity;
+  d.item = Item::kHeader;
   d.staged_bytes = 0;
   d.window.crc = 0;
   d.window.used = 0;
@@ -427,32 +368,20 @@ uint64_t microtin_bytes_used(const microtin_decoder* decoder) {
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info) {
   if (info == nullptr || (bytes == nullptr && size != 0)) return MICROTIN_ARGUMENT;
   info->header_bytes = 0;
-  if (size < kIdentityBytes) return MICROTIN_NEED_INPUT;
+  if (size < header_bytes(bytes, size)) return MICROTIN_NEED_INPUT;
   const microtin_status known = check_identity(bytes);
   if (known != MICROTIN_DONE) return known;
-  const uint32_t blocks = kIdentityBytes + dimensions_bytes(bytes[5]);
-  if (size < blocks) return MICROTIN_NEED_INPUT;
-  Contract contract;
-  uint32_t block_bytes = 0;
-  bool legal = read_contract(bytes[5], bytes[6], bytes + kIdentityBytes, &contract, &block_bytes);
-  const uint32_t checked = blocks + block_bytes;
+  FixedHeader header;
+  bool legal = read_fixed_header(bytes, &header);
+  microtin_axis axis[3];
+  legal = place(bytes, header, axis) && legal;
+  const uint32_t checked = header.bytes + header.placement_bytes + header.note_bytes;
   info->header_bytes = checked + kCheckBytes;
   if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
-  if (crc32(0, bytes, static_cast<size_t>(checked)) != read_u32(bytes + checked))
-    return MICROTIN_CHECKSUM;
-  microtin_axis axis[3];
-  place_on_lattice(axis);
-  for (uint32_t at = blocks; at < checked;) {
-    if (checked - at < kBlockHeadBytes) return MICROTIN_MALFORMED;
-    const uint8_t type = bytes[at];
-    const uint32_t length = read_u16(bytes + at + 1);
-    at += kBlockHeadBytes;
-    if (length > checked - at) return MICROTIN_MALFORMED;
-    if ((type & kMustUnderstand) != 0) return MICROTIN_UNSUPPORTED_VERSION;
-    if (type == kBlockPlacement) legal = read_placement(bytes + at, length, axis) && legal;
-    at += length;
-  }
+  const uint32_t crc = crc32(0, bytes, static_cast<size_t>(checked));
+  if (crc != read_u32(bytes + checked)) return MICROTIN_CHECKSUM;
   if (!legal) return MICROTIN_MALFORMED;
+  const Contract& contract = header.contract;
   info->vertices = contract.vertices;
   info->version = kVersion;
   info->degree = static_cast<uint8_t>(contract.degree);

@@ -27,6 +27,11 @@ struct ByteWindow {
     return *next++;
   }
 
+  void skip(uint32_t count) {
+    next += count;
+    left -= count;
+  }
+
   // Counts and checks what was taken.
   void settle() {
     const size_t taken = static_cast<size_t>(next - unchecked);

@@ -18,11 +18,8 @@ struct microtin_mesh {
 namespace microtin {
 
 enum class Item : uint8_t {
-  kIdentity,
-  kDimensions,
-  kBlockHead,
-  kPlacement,
-  kSkippedBlock,
+  kHeader,  // up to its notes
+  kNotes,
   kHeaderCheck,
   kSectionHead,
   kPayloadStart,
@@ -39,12 +36,9 @@ struct microtin_decoder {
   microtin_status status;  // NEED_INPUT while all is well
   uint32_t stop_phase;
   microtin::Item item;
-  uint32_t blocks_left;  // bytes of optional blocks not read yet
-  uint32_t block_left;   // bytes of the current one
+  uint32_t unread;  // bytes to be taken unread before the check
   uint32_t section_bytes;
   uint8_t section_shift;
-  uint8_t flags;  // of the header
-  uint8_t effort;
   microtin::Contract contract;
   microtin_status verdict;  // DONE, or what to say once the check ahead has passed
   microtin::ByteWindow window;

@@ -21,10 +21,10 @@ void append_number(Bytes& bytes, uint32_t value, int width) {
   for (int i = 0; i < width; ++i) bytes.push_back(static_cast<uint8_t>(value >> 8 * i));
 }
 
-void append_block(Bytes& blocks, uint8_t type, const Bytes& content) {
-  blocks.push_back(type);
-  append_number(blocks, static_cast<uint32_t>(content.size()), 2);
-  blocks.insert(blocks.end(), content.begin(), content.end());
+void append_note(Bytes& notes, uint8_t type, const Bytes& content) {
+  notes.push_back(type);
+  append_number(notes, static_cast<uint32_t>(content.size()), 2);
+  notes.insert(notes.end(), content.begin(), content.end());
 }
 
 void append_axis(Bytes& bytes, const Axis& axis) {
@@ -51,51 +51,52 @@ Bytes accuracy_content(const Accuracy& accuracy) {
   return content;
 }
 
-Bytes write_blocks(const Metadata& m) {
-  Bytes blocks;
-  const Placement& p = m.placement;
-  if (!is_lattice_itself(p.x) || !is_lattice_itself(p.y) || !is_lattice_itself(p.z)) {
-    Bytes content;
-    append_axis(content, p.x);
-    append_axis(content, p.y);
-    append_axis(content, p.z);
-    append_block(blocks, kBlockPlacement, content);
-  }
+// Nothing where the placement is the lattice itself.
+Bytes write_placement(const Placement& p) {
+  Bytes content;
+  if (is_lattice_itself(p.x) && is_lattice_itself(p.y) && is_lattice_itself(p.z)) return content;
+  append_axis(content, p.x);
+  append_axis(content, p.y);
+  append_axis(content, p.z);
+  return content;
+}
+
+Bytes write_notes(const Metadata& m) {
+  Bytes notes;
   if (m.horizontal_unit != Unit::kUnknown || m.vertical_unit != Unit::kUnknown) {
-    append_block(blocks, kBlockUnits,
-                 {static_cast<uint8_t>(m.horizontal_unit), static_cast<uint8_t>(m.vertical_unit)});
+    append_note(notes, kNoteUnits,
+                {static_cast<uint8_t>(m.horizontal_unit), static_cast<uint8_t>(m.vertical_unit)});
   }
   if (m.horizontal_epsg != 0 || m.vertical_epsg != 0) {
     Bytes content;
     append_varint(content, m.horizontal_epsg);
     append_varint(content, m.vertical_epsg);
-    append_block(blocks, kBlockEpsg, content);
+    append_note(notes, kNoteEpsg, content);
   }
-  if (!m.source.empty())
-    append_block(blocks, kBlockSource, Bytes(m.source.begin(), m.source.end()));
-  if (m.accuracy) append_block(blocks, kBlockAccuracy, accuracy_content(*m.accuracy));
-  return blocks;
+  if (!m.source.empty()) append_note(notes, kNoteSource, Bytes(m.source.begin(), m.source.end()));
+  if (m.accuracy) append_note(notes, kNoteAccuracy, accuracy_content(*m.accuracy));
+  return notes;
 }
 
-// Reads the content of one block from front to back.
-class BlockReader {
+// Reads the content of one note from front to back.
+class NoteReader {
  public:
-  BlockReader(const uint8_t* begin, const uint8_t* end) : next_(begin), end_(end) {}
+  NoteReader(const uint8_t* begin, const uint8_t* end) : next_(begin), end_(end) {}
 
   uint64_t number() {
     uint64_t value = 0;
-    if (!read_varint(&next_, end_, &value)) throw Error("malformed header block");
+    if (!read_varint(&next_, end_, &value)) throw Error("malformed note in the header");
     return value;
   }
 
   uint32_t number32() {
     const uint64_t value = number();
-    if (value > UINT32_MAX) throw Error("malformed header block");
+    if (value > UINT32_MAX) throw Error("malformed note in the header");
     return static_cast<uint32_t>(value);
   }
 
   uint8_t byte() {
-    if (next_ == end_) throw Error("malformed header block");
+    if (next_ == end_) throw Error("malformed note in the header");
     return *next_++;
   }
 
@@ -103,7 +104,7 @@ class BlockReader {
     Decimal value;
     value.mantissa = unzigzag(number());
     value.decimals = byte();
-    if (value.decimals > 18) throw Error("malformed header block");
+    if (value.decimals > 18) throw Error("malformed note in the header");
     return value;
   }
 
@@ -117,17 +118,17 @@ Unit unit_of(uint8_t code) {
                                                            : Unit::kUnknown;
 }
 
-void read_block(uint8_t type, const uint8_t* begin, const uint8_t* end, Metadata& m) {
-  BlockReader reader(begin, end);
-  if (type == kBlockUnits) {
+void read_note(uint8_t type, const uint8_t* begin, const uint8_t* end, Metadata& m) {
+  NoteReader reader(begin, end);
+  if (type == kNoteUnits) {
     m.horizontal_unit = unit_of(reader.byte());
     m.vertical_unit = unit_of(reader.byte());
-  } else if (type == kBlockEpsg) {
+  } else if (type == kNoteEpsg) {
     m.horizontal_epsg = reader.number32();
     m.vertical_epsg = reader.number32();
-  } else if (type == kBlockSource) {
+  } else if (type == kNoteSource) {
     m.source.assign(begin, end);
-  } else if (type == kBlockAccuracy) {
+  } else if (type == kNoteAccuracy) {
     Accuracy accuracy;
     if (reader.byte() != 0) accuracy.bound = reader.decimal();
     accuracy.max_error = reader.decimal();
@@ -148,22 +149,25 @@ void append_check(Bytes& bytes, size_t from) {
 }
 
 Bytes write_header(const Contract& contract, const Metadata& metadata) {
-  const Bytes blocks = write_blocks(metadata);
-  if (blocks.size() > 65535) throw Error("the texts for the header are longer than 65,535 bytes");
+  const Bytes placement = write_placement(metadata.placement);
+  const Bytes notes = write_notes(metadata);
+  if (notes.size() > 65535) throw Error("the texts for the header are longer than 65,535 bytes");
   const bool long_count = contract.vertices > 0xFFFF;
   const bool long_sides = contract.x_max > 0xFF || contract.y_max > 0xFF;
   Bytes header(kMagic, kMagic + sizeof kMagic);
   header.push_back(kVersion);
-  header.push_back(
-      static_cast<uint8_t>((contract.has_heights ? kHasHeights : 0) |
-                           (contract.has_voids ? kHasVoids : 0) | (long_count ? kLongCount : 0) |
-                           (long_sides ? kLongSides : 0) | (blocks.empty() ? 0 : kHasBlocks)));
+  header.push_back(static_cast<uint8_t>(
+      (contract.has_heights ? kHasHeights : 0) | (contract.has_voids ? kHasVoids : 0) |
+      (long_count ? kLongCount : 0) | (long_sides ? kLongSides : 0) |
+      (placement.empty() ? 0 : kHasPlacement) | (notes.empty() ? 0 : kHasNotes)));
   header.push_back(static_cast<uint8_t>(contract.degree | contract.levels << 6));
   append_number(header, contract.vertices, long_count ? 4 : 2);
   append_number(header, contract.x_max, long_sides ? 2 : 1);
   append_number(header, contract.y_max, long_sides ? 2 : 1);
-  if (!blocks.empty()) append_number(header, static_cast<uint32_t>(blocks.size()), 2);
-  header.insert(header.end(), blocks.begin(), blocks.end());
+  if (!placement.empty()) append_number(header, static_cast<uint32_t>(placement.size()), 1);
+  if (!notes.empty()) append_number(header, static_cast<uint32_t>(notes.size()), 2);
+  header.insert(header.end(), placement.begin(), placement.end());
+  header.insert(header.end(), notes.begin(), notes.end());
   append_check(header, 0);
   return header;
 }
@@ -174,23 +178,25 @@ Header read_header(const Bytes& stream) {
   if (status == MICROTIN_NEED_INPUT) status = MICROTIN_TRUNCATED;
   if (status != MICROTIN_DONE) throw Error(describe(status));
   header.metadata.placement = {header.info.x, header.info.y, header.info.z};
-  const uint8_t* at = stream.data() + kIdentityBytes + dimensions_bytes(stream[5]);
+  const uint8_t* at = stream.data() + header_bytes(stream.data(), stream.size());
   const uint8_t* const end = stream.data() + header.info.header_bytes - kCheckBytes;
   while (at != end) {
+    if (end - at < std::ptrdiff_t{kNoteHeadBytes}) throw Error("malformed note in the header");
     const uint8_t type = *at;
-    const uint8_t* const content = at + kBlockHeadBytes;
-    at = content + read_u16(at + 1);
-    read_block(type, content, at, header.metadata);
+    const uint8_t* const content = at + kNoteHeadBytes;
+    const uint32_t size = read_u16(at + 1);
+    if (end - content < std::ptrdiff_t{size}) throw Error("malformed note in the header");
+    at = content + size;
+    read_note(type, content, at, header.metadata);
   }
   return header;
 }
 
 Bytes with_metadata(const Bytes& stream, const Metadata& metadata) {
   const Header old = read_header(stream);
-  Contract contract;
-  uint32_t block_bytes = 0;
-  read_contract(stream[5], stream[6], stream.data() + kIdentityBytes, &contract, &block_bytes);
-  Bytes changed = write_header(contract, metadata);
+  FixedHeader fixed;
+  read_fixed_header(stream.data(), &fixed);
+  Bytes changed = write_header(fixed.contract, metadata);
   changed.insert(changed.end(), stream.begin() + old.info.header_bytes, stream.end());
   return changed;
 }
@@ -208,7 +214,7 @@ const char* describe(microtin_status status) {
     case MICROTIN_BAD_MAGIC:
       return "not a microtin stream";
     case MICROTIN_UNSUPPORTED_VERSION:
-      return "a version of the format, or a required header block, that this program does not know";
+      return "a version of the format that this program does not know";
     case MICROTIN_TOO_BIG:
       return "more vertices than this build can hold";
     case MICROTIN_CHECKSUM:

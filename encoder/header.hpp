@@ -1,4 +1,4 @@
-// Writing and reading a stream's header with all its blocks.
+// Writing and reading a stream's header with all its notes.
 #ifndef MICROTIN_ENCODER_HEADER_HPP
 #define MICROTIN_ENCODER_HEADER_HPP
 
@@ -10,7 +10,8 @@
 
 namespace microtin {
 
-// The fixed part, the blocks that say something, and the check.
+// The fixed part, the placement, the notes that say something, and the check. Throws Error if the
+// notes are too long.
 std::vector<uint8_t> write_header(const Contract& contract, const Metadata& metadata);
 
 // Everything a header says.
@@ -22,7 +23,7 @@ struct Header {
 // Throws Error if the header is cut off, damaged or not understood.
 Header read_header(const std::vector<uint8_t>& stream);
 
-// The stream with another header for the same terrain; blocks of unknown types are dropped.
+// The stream with another header for the same terrain; notes of unknown types are dropped.
 std::vector<uint8_t> with_metadata(const std::vector<uint8_t>& stream, const Metadata& metadata);
 
 // A sentence for a status of the decoder.

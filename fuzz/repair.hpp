@@ -21,11 +21,12 @@ inline void write_check(std::vector<uint8_t>& bytes, size_t from, size_t at) {
 // if a damaged length ends that.
 inline bool repair(std::vector<uint8_t>& bytes) {
   if (bytes.size() < kIdentityBytes) return false;
-  size_t at = kIdentityBytes + dimensions_bytes(bytes[5]);
-  if (bytes.size() < at) return false;
   std::memcpy(bytes.data(), kMagic, sizeof kMagic);
   bytes[4] = kVersion;
-  if ((bytes[5] & kHasBlocks) != 0) at += read_u16(bytes.data() + at - 2);
+  if (bytes.size() < fixed_header_bytes(bytes.data())) return false;
+  FixedHeader header;
+  read_fixed_header(bytes.data(), &header);
+  size_t at = size_t{header.bytes} + header.placement_bytes + header.note_bytes;
   size_t from = 0;
   while (at <= bytes.size() && bytes.size() - at >= kCheckBytes) {
     write_check(bytes, from, at);

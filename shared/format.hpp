@@ -11,8 +11,9 @@ namespace microtin {
 
 constexpr uint8_t kMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'i', 'n'};
 constexpr uint8_t kVersion = 2;
-// Header flags; the others are zero. The last three say how wide the numbers of the header are.
-constexpr uint8_t kHasHeights = 1, kHasVoids = 2, kLongCount = 4, kLongSides = 8, kHasBlocks = 16;
+// Header flags; the others are zero. The last four say what follows.
+constexpr uint8_t kHasHeights = 1, kHasVoids = 2, kLongCount = 4, kLongSides = 8,
+                  kHasPlacement = 16, kHasNotes = 32, kKnownFlags = 63;
 constexpr uint32_t kMinDegree = 6, kMaxDegree = 32;
 constexpr uint32_t kMaxLevels = 3;
 constexpr uint32_t kMaxVertices = 16777216;  // 2^24
@@ -55,19 +56,17 @@ inline uint32_t rows(const Contract& contract) {
 }
 
 // Fixed header: magic 4, version 1, flags 1, effort 1 (degree + 64 * levels), then the dimensions,
-// as narrow as the flags say: vertices 2 or 4, x_max 1 or 2, y_max 1 or 2, bytes of optional blocks
-// 0 or 2. Little-endian. Then the blocks, then a CRC-32 of all before it.
+// as narrow as the flags say: vertices 2 or 4, x_max 1 or 2, y_max 1 or 2, bytes of the placement 0
+// or 1, bytes of notes 0 or 2. Little-endian. Then the placement and the notes, then a CRC-32 of
+// all before it.
 constexpr uint32_t kIdentityBytes = 7;
-constexpr uint32_t kDimensionsMostBytes = 10;
 constexpr uint32_t kCheckBytes = 4;
-
-// Optional blocks: a type byte, a length (2 bytes), the content. A reader that does not know a type
-// with kMustUnderstand set must refuse the stream.
-constexpr uint8_t kMustUnderstand = 0x80;
-constexpr uint8_t kBlockPlacement = 1, kBlockUnits = 2, kBlockEpsg = 3, kBlockSource = 4,
-                  kBlockAccuracy = 5;
-constexpr uint32_t kBlockHeadBytes = 3;
 constexpr uint32_t kPlacementMostBytes = 66;  // three axes of up to 10 + 6 + 6 bytes
+
+// Notes are for people and hosts; decoding needs none of them. A type byte, a length (2 bytes), the
+// content.
+constexpr uint8_t kNoteUnits = 1, kNoteEpsg = 2, kNoteSource = 3, kNoteAccuracy = 4;
+constexpr uint32_t kNoteHeadBytes = 3;
 
 inline uint32_t read_u16(const uint8_t* p) {
   return p[0] | static_cast<uint32_t>(p[1]) << 8;

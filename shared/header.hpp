@@ -1,4 +1,4 @@
-// Reading the header: the fixed part and the placement block.
+// Reading the header: the fixed part and the placement.
 #ifndef MICROTIN_SHARED_HEADER_HPP
 #define MICROTIN_SHARED_HEADER_HPP
 
@@ -15,33 +15,58 @@ inline microtin_status check_identity(const uint8_t* identity) {
   return identity[4] == kVersion ? MICROTIN_DONE : MICROTIN_UNSUPPORTED_VERSION;
 }
 
-inline uint32_t dimensions_bytes(uint8_t flags) {
-  return ((flags & kLongCount) != 0 ? 4u : 2u) + ((flags & kLongSides) != 0 ? 4u : 2u) +
-         ((flags & kHasBlocks) != 0 ? 2u : 0u);
+// Bytes of a fixed header with a known identity.
+inline uint32_t fixed_header_bytes(const uint8_t* identity) {
+  const uint8_t flags = identity[5];
+  return kIdentityBytes + ((flags & kLongCount) != 0 ? 4u : 2u) +
+         ((flags & kLongSides) != 0 ? 4u : 2u) + ((flags & kHasPlacement) != 0 ? 1u : 0u) +
+         ((flags & kHasNotes) != 0 ? 2u : 0u);
 }
 
-// Reads the dimensions, given the flags and the effort. False if the header breaks a rule of the
-// format.
-inline bool read_contract(uint8_t flags, uint8_t effort, const uint8_t* dimensions,
-                          Contract* contract, uint32_t* block_bytes) {
-  contract->has_heights = (flags & kHasHeights) != 0;
-  contract->has_voids = (flags & kHasVoids) != 0;
-  contract->degree = effort & 63u;
-  contract->levels = static_cast<uint32_t>(effort) >> 6;
-  const bool long_count = (flags & kLongCount) != 0;
-  contract->vertices = long_count ? read_u32(dimensions) : read_u16(dimensions);
-  const uint8_t* const sides = dimensions + (long_count ? 4 : 2);
-  if ((flags & kLongSides) != 0) {
-    contract->x_max = static_cast<uint16_t>(read_u16(sides));
-    contract->y_max = static_cast<uint16_t>(read_u16(sides + 2));
-  } else {
-    contract->x_max = sides[0];
-    contract->y_max = sides[1];
-  }
-  const uint32_t bytes = dimensions_bytes(flags);
-  *block_bytes = (flags & kHasBlocks) != 0 ? read_u16(dimensions + bytes - 2) : 0;
-  return (flags >> 5) == 0 && contract->degree >= kMinDegree && contract->degree <= kMaxDegree &&
-         contract->levels >= 1 && contract->vertices >= 3 && contract->vertices <= kMaxVertices;
+// The fixed header and what follows it.
+struct FixedHeader {
+  Contract contract;
+  uint32_t bytes;            // its own
+  uint32_t placement_bytes;  // at most 255
+  uint32_t note_bytes;       // at most 65535
+};
+
+// A number of `width` bytes.
+inline uint32_t take_number(const uint8_t** bytes, uint32_t width) {
+  uint32_t value = 0;
+  for (uint32_t i = 0; i < width; ++i) value |= static_cast<uint32_t>(*(*bytes)++) << 8 * i;
+  return value;
+}
+
+// Reads a fixed header with a known identity. False if it breaks a rule of the format.
+inline bool read_fixed_header(const uint8_t* bytes, FixedHeader* header) {
+  const uint8_t flags = bytes[5], effort = bytes[6];
+  const uint8_t* next = bytes + kIdentityBytes;
+  const uint32_t side_width = (flags & kLongSides) != 0 ? 2 : 1;
+  Contract& contract = header->contract;
+  contract.has_heights = (flags & kHasHeights) != 0;
+  contract.has_voids = (flags & kHasVoids) != 0;
+  contract.degree = effort & 63u;
+  contract.levels = static_cast<uint32_t>(effort) >> 6;
+  contract.vertices = take_number(&next, (flags & kLongCount) != 0 ? 4 : 2);
+  contract.x_max = static_cast<uint16_t>(take_number(&next, side_width));
+  contract.y_max = static_cast<uint16_t>(take_number(&next, side_width));
+  header->placement_bytes = take_number(&next, (flags & kHasPlacement) != 0 ? 1 : 0);
+  header->note_bytes = take_number(&next, (flags & kHasNotes) != 0 ? 2 : 0);
+  header->bytes = static_cast<uint32_t>(next - bytes);
+  return flags <= kKnownFlags && contract.degree >= kMinDegree && contract.degree <= kMaxDegree &&
+         contract.levels >= 1 && contract.vertices >= 3 && contract.vertices <= kMaxVertices;
+}
+
+// How many of a stream's first bytes are the header up to its notes, as far as `size` of them tell.
+// A placement that is too long is not told.
+inline uint32_t header_bytes(const uint8_t* bytes, size_t size) {
+  if (size < kIdentityBytes || check_identity(bytes) != MICROTIN_DONE) return kIdentityBytes;
+  if (size < fixed_header_bytes(bytes)) return fixed_header_bytes(bytes);
+  FixedHeader header;
+  read_fixed_header(bytes, &header);
+  const bool placed = header.placement_bytes <= kPlacementMostBytes;
+  return header.bytes + (placed ? header.placement_bytes : 0);
 }
 
 // A number in groups of seven bits, low ones first, the top bit set if more follow. False if it is
@@ -59,7 +84,7 @@ inline bool read_varint(const uint8_t** bytes, const uint8_t* end, uint64_t* val
 
 constexpr uint64_t kStepLimit = static_cast<uint64_t>(1) << 40;
 
-// The content of a placement block: for x, y and z the offset (zigzag), numerator and denominator.
+// A placement: for x, y and z the offset (zigzag), numerator and denominator.
 inline bool read_placement(const uint8_t* bytes, uint32_t size, microtin_axis* axis) {
   const uint8_t* const end = bytes + size;
   for (int i = 0; i < 3; ++i) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kCapacity = 320;
 
-// With heights; with void flags; with all header blocks; with several sections.
+// With heights; with void flags; with a placement and all notes; with several sections.
 std::vector<Bytes> small_streams() {
   return {terrain_stream(40, 3), encode(with_voids(rolling_tin(30, 4)), Metadata()),
           encode(rolling_tin(10, 5), full_metadata()), sectioned_stream(3)};

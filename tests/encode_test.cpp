@@ -142,7 +142,7 @@ TEST_CASE("void triangles come back, and no others") {
   }
 }
 
-TEST_CASE("header blocks come back as they were given") {
+TEST_CASE("placement and notes come back as they were given") {
   Random random(6);
   const Tin tin = tin_of(point_sets(20, 6)[0].points, random);
   CHECK(read_header(encode(tin, Metadata())).info.header_bytes <= 32);

@@ -124,7 +124,7 @@ inline void append_section(Bytes& stream, const Bytes& payload) {
   append_check(stream, from);
 }
 
-// A header without blocks.
+// A header without placement and notes.
 inline Bytes header_of(const Contract& contract) {
   return write_header(contract, Metadata());
 }

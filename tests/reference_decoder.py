@@ -17,7 +17,6 @@ from typing import NamedTuple
 
 INFINITY = -1
 SEED_SIZE = 3
-PLACEMENT = 1
 FIRST_SECTION_VERTICES = 256
 
 
@@ -331,24 +330,19 @@ def read_header(reader):
     flags, effort = reader.number(1), reader.number(1)
     vertices = reader.number(4 if flags & 4 else 2)
     columns, rows = (1 + reader.number(2 if flags & 8 else 1) for _ in "xy")
-    blocks = ByteReader(reader.take(reader.number(2) if flags & 16 else 0))
+    placement_size = reader.number(1) if flags & 16 else 0
+    notes_size = reader.number(2) if flags & 32 else 0
+    placement = reader.take(placement_size)
+    reader.take(notes_size)
     reader.expect_check(0)
-    require(flags < 32, "unknown flags")
+    require(flags < 64, "unknown flags")
     degree, levels = effort & 63, effort >> 6
     require(6 <= degree <= 32, "degree is out of bounds")
     require(levels >= 1, "there is no level of cells")
     require(3 <= vertices <= 1 << 24, "number of vertices is out of bounds")
-    check_blocks(blocks)
+    if placement_size > 0:
+        check_placement(ByteReader(placement))
     return Header(bool(flags & 1), bool(flags & 2), degree, levels, vertices, columns, rows)
-
-
-def check_blocks(reader):
-    while not reader.is_at_end():
-        block_type = reader.number(1)
-        content = reader.take(reader.number(2))
-        require(block_type < 128, "unknown block that must be known")
-        if block_type == PLACEMENT:
-            check_placement(ByteReader(content))
 
 
 def check_placement(reader):
@@ -356,7 +350,7 @@ def check_placement(reader):
         require(reader.varint() < 1 << 64, "offset is out of bounds")
         for _ in ("numerator", "denominator"):
             require(1 <= reader.varint() < 1 << 40, "step is out of bounds")
-    require(reader.is_at_end(), "placement block is too long")
+    require(reader.is_at_end(), "placement is too long")
 
 
 # Section 7: insertion

@@ -124,12 +124,11 @@ Bytes with_header_byte(size_t at, uint8_t value) {
   return stream;
 }
 
-Bytes with_blocks(const Bytes& blocks) {
-  Bytes stream = with_header_byte(5, kHasBlocks);
+Bytes with_placement(const Bytes& placement) {
+  Bytes stream = with_header_byte(5, kHasPlacement);
   stream.resize(stream.size() - kCheckBytes);
-  stream.push_back(static_cast<uint8_t>(blocks.size()));
-  stream.push_back(0);
-  stream.insert(stream.end(), blocks.begin(), blocks.end());
+  stream.push_back(static_cast<uint8_t>(placement.size()));
+  stream.insert(stream.end(), placement.begin(), placement.end());
   append_check(stream, 0);
   return stream;
 }
@@ -218,25 +217,18 @@ Plan scattered(uint32_t n) {
 using Refused = std::map<std::string, Bytes>;
 
 void add_headers(Refused& all) {
-  const uint8_t placement = kBlockPlacement;
   all["bad_magic"] = with_header_byte(0, 'M');
   all["unsupported_version"] = with_header_byte(4, kVersion + 1);
-  all["unsupported_block"] = with_blocks({0xFF, 0, 0, 0x7F});
-  all["malformed_flags"] = with_header_byte(5, 32);
+  all["malformed_flags"] = with_header_byte(5, kKnownFlags + 1);
   all["malformed_degree_low"] = with_header_byte(6, 128 + kMinDegree - 1);
   all["malformed_degree_high"] = with_header_byte(6, 128 + kMaxDegree + 1);
   all["malformed_levels"] = with_header_byte(6, kMinDegree);
   all["malformed_count_low"] = header_of(flat_contract(2));
   all["malformed_count_high"] = header_of(flat_contract(kMaxVertices + 1));
-  all["malformed_block_head"] = with_blocks({0x7F, 0});
-  all["malformed_block_length"] = with_blocks({0x7F, 2, 0, 9});
-  all["malformed_placement_short"] = with_blocks({placement, 8, 0, 1, 2, 3, 1, 2, 3, 1, 2});
-  all["malformed_placement_rest"] = with_blocks({placement, 10, 0, 1, 2, 3, 1, 2, 3, 1, 2, 3, 9});
-  all["malformed_placement_zero"] = with_blocks({placement, 9, 0, 1, 2, 0, 1, 2, 3, 1, 2, 3});
-  Bytes too_long(3 + kPlacementMostBytes + 1, 0);
-  too_long[0] = placement;
-  too_long[1] = kPlacementMostBytes + 1;
-  all["malformed_placement_long"] = with_blocks(too_long);
+  all["malformed_placement_short"] = with_placement({1, 2, 3, 1, 2, 3, 1, 2});
+  all["malformed_placement_rest"] = with_placement({1, 2, 3, 1, 2, 3, 1, 2, 3, 9});
+  all["malformed_placement_zero"] = with_placement({1, 2, 0, 1, 2, 3, 1, 2, 3});
+  all["malformed_placement_long"] = with_placement(Bytes(kPlacementMostBytes + 1, 0));
   all["too_big"] = header_of(flat_contract(kCapacity + 1));
   all["too_big_for_all"] = header_of(flat_contract(kMaxVertices));
 }

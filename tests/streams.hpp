@@ -26,7 +26,7 @@ inline std::vector<uint8_t> terrain_stream(uint32_t n, uint32_t seed, const Effo
   return encode(rolling_tin(n, seed), Metadata(), effort);
 }
 
-// A header with every block.
+// A header with everything in it.
 inline Metadata full_metadata() {
   Metadata m;
   m.placement.x = {7 * 1200, 1, 1200};

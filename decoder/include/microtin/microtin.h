@@ -51,7 +51,7 @@ typedef enum microtin_status {
   MICROTIN_STOPPED = 3,    /* the phase asked for is complete; nothing more will be decoded */
   /* Errors. Once one is returned, every further call returns it again. */
   MICROTIN_BAD_MAGIC = 16,           /* not a microtin stream */
-  MICROTIN_UNSUPPORTED_VERSION = 17, /* a version, or a required header block, unknown here */
+  MICROTIN_UNSUPPORTED_VERSION = 17, /* a version of the format unknown here */
   MICROTIN_TOO_BIG = 18,             /* more vertices than the workspace holds: see microtin_peek */
   MICROTIN_CHECKSUM = 19,            /* the bytes were damaged */
   MICROTIN_MALFORMED = 20,           /* undamaged bytes that break a rule of the format */
@@ -72,7 +72,7 @@ typedef struct microtin_axis {
 /* What a stream's header says. */
 typedef struct microtin_info {
   uint32_t vertices;
-  uint32_t header_bytes; /* fixed part, blocks and check together */
+  uint32_t header_bytes; /* fixed part, placement, notes and check together */
   uint8_t version;
   uint8_t degree;      /* most triangles around a vertex when it is inserted */
   uint8_t levels;      /* of cells that places are coded in: 1 .. 3 */
