@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
 #include "shared/crc32.hpp"
 #include "shared/format.hpp"
@@ -12,28 +11,27 @@
 
 namespace microtin {
 
-inline void write_check(std::vector<uint8_t>& bytes, size_t from, size_t at) {
-  const uint32_t check = crc32(0, bytes.data() + from, at - from);
+inline void write_check(uint8_t* bytes, size_t from, size_t at) {
+  const uint32_t check = crc32(0, bytes + from, at - from);
   for (size_t i = 0; i < kCheckBytes; ++i) bytes[at + i] = static_cast<uint8_t>(check >> 8 * i);
 }
 
 // Sets magic, version, and the check of the header and of every section that is there whole.
-inline void repair(std::vector<uint8_t>& bytes) {
-  if (bytes.size() < kIdentityBytes) return;
+inline void repair(uint8_t* bytes, size_t size) {
+  if (size < kIdentityBytes) return;
   size_t at = kIdentityBytes + dimensions_bytes(bytes[5]);
-  if (bytes.size() < at) return;
-  std::memcpy(bytes.data(), kMagic, sizeof kMagic);
+  if (size < at) return;
+  std::memcpy(bytes, kMagic, sizeof kMagic);
   bytes[4] = kVersion;
-  if ((bytes[5] & kHasBlocks) != 0) at += read_u16(bytes.data() + at - 2);
+  if ((bytes[5] & kHasBlocks) != 0) at += read_u16(bytes + at - 2);
   size_t from = 0;
-  while (at <= bytes.size() && bytes.size() - at >= kCheckBytes) {
+  while (at <= size && size - at >= kCheckBytes) {
     write_check(bytes, from, at);
     from = at + kCheckBytes;
-    const uint8_t* next = bytes.data() + from;
+    const uint8_t* next = bytes + from;
     uint64_t payload = 0;
-    if (!read_varint(&next, bytes.data() + bytes.size(), &payload) || payload > bytes.size())
-      return;
-    at = static_cast<size_t>(next - bytes.data()) + static_cast<size_t>(payload);
+    if (!read_varint(&next, bytes + size, &payload) || payload > size) return;
+    at = static_cast<size_t>(next - bytes) + static_cast<size_t>(payload);
   }
 }
 

@@ -165,7 +165,7 @@ TEST_CASE("damage behind right checks ends in a status, and the mesh stays sound
     for (const int other : {0, 255, byte + 1, byte - 1}) {
       Bytes damaged = stream;
       damaged[at] = static_cast<uint8_t>(other);
-      repair(damaged);
+      repair(damaged.data(), damaged.size());
       Device device(60);
       device.feed_all(damaged);
       const microtin_status status = microtin_finish(device.decoder);
@@ -241,7 +241,7 @@ TEST_CASE("header blocks: unknown ones are skipped, required ones refused, broke
     const uint32_t at = kIdentityBytes + dimensions_bytes(other[5]);
     other.insert(other.begin() + at, added.begin(), added.end());
     other[5] |= kHasBlocks;
-    repair(other);
+    repair(other.data(), other.size());
     if (damaged) other[at + added.size()] ^= 1;
     microtin_info info;
     const microtin_status peeked = microtin_peek(other.data(), other.size(), &info);
