@@ -393,23 +393,27 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   if (size < blocks) return MICROTIN_NEED_INPUT;
   Contract contract;
   uint32_t block_bytes = 0;
-  bool legal = read_contract(bytes[5], bytes[6], bytes + kIdentityBytes, &contract, &block_bytes);
+  const bool legal =
+      read_contract(bytes[5], bytes[6], bytes + kIdentityBytes, &contract, &block_bytes);
   const uint32_t checked = blocks + block_bytes;
   info->header_bytes = checked + kCheckBytes;
   if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
   if (crc32(0, bytes, checked) != read_u32(bytes + checked)) return MICROTIN_CHECKSUM;
   microtin_axis axis[3] = {{0, 1, 1}, {0, 1, 1}, {0, 1, 1}};
+  microtin_status status = legal ? MICROTIN_DONE : MICROTIN_MALFORMED;  // as the decoder's
   for (uint32_t at = blocks; at < checked;) {
     if (checked - at < kBlockHeadBytes) return MICROTIN_MALFORMED;
     const uint8_t type = bytes[at];
     const uint32_t length = read_u16(bytes + at + 1);
     at += kBlockHeadBytes;
     if (length > checked - at) return MICROTIN_MALFORMED;
-    if ((type & kMustUnderstand) != 0) return MICROTIN_UNSUPPORTED_VERSION;
-    if (type == kBlockPlacement) legal = read_placement(bytes + at, length, axis) && legal;
+    if ((type & kMustUnderstand) != 0) status = MICROTIN_UNSUPPORTED_VERSION;
+    if (type == kBlockPlacement && !read_placement(bytes + at, length, axis)) {
+      status = MICROTIN_MALFORMED;
+    }
     at += length;
   }
-  if (!legal) return MICROTIN_MALFORMED;
+  if (status != MICROTIN_DONE) return status;
   info->vertices = contract.vertices;
   info->version = kVersion;
   info->degree = static_cast<uint8_t>(contract.degree);

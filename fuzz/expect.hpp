@@ -6,12 +6,12 @@
 #include <cstdlib>
 
 // A finding: says where, and ends the program.
-#define EXPECT(truth)                                                      \
-  do {                                                                     \
-    if (!(truth)) {                                                        \
+#define EXPECT(truth)                                                          \
+  do {                                                                         \
+    if (!(truth)) {                                                            \
       std::fprintf(stderr, "%s:%d: not so: %s\n", __FILE__, __LINE__, #truth); \
-      std::abort();                                                        \
-    }                                                                      \
+      std::abort();                                                            \
+    }                                                                          \
   } while (false)
 
 #endif

@@ -1,5 +1,5 @@
-// Whether a mesh is the canonical triangulation, by rules between neighbours alone: linear, for every
-// run of a target. Independent of shared/predicates.hpp.
+// Whether a mesh is the canonical triangulation, by rules between neighbours alone: linear, for
+// every run of a target. Independent of shared/predicates.hpp.
 #ifndef MICROTIN_FUZZ_LOCAL_DELAUNAY_HPP
 #define MICROTIN_FUZZ_LOCAL_DELAUNAY_HPP
 
