@@ -53,6 +53,15 @@ Item after_block(const microtin_decoder& d) {
   return d.blocks_left == 0 ? Item::kHeaderCheck : Item::kBlockHead;
 }
 
+// Whatever is wrong with the dimensions or a block is told once the header's check has passed:
+// before, it is damage. The blocks behind it do not count.
+void refuse_header(microtin_decoder& d, microtin_status status) {
+  d.header_status = status;
+  d.block_left = d.blocks_left;
+  d.blocks_left = 0;
+  d.item = d.block_left == 0 ? Item::kHeaderCheck : Item::kSkippedBlock;
+}
+
 microtin_status handle_identity(microtin_decoder& d) {
   uint8_t bytes[kIdentityBytes];
   take_bytes(d, bytes, kIdentityBytes);
@@ -68,31 +77,30 @@ microtin_status handle_dimensions(microtin_decoder& d) {
   uint8_t bytes[kDimensionsMostBytes];
   take_bytes(d, bytes, dimensions_bytes(d.flags));
   const bool legal = read_contract(d.flags, d.effort, bytes, &d.contract, &d.blocks_left);
-  d.header_status = legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
+  d.header_status = MICROTIN_DONE;
   d.item = after_block(d);
+  if (!legal) refuse_header(d, MICROTIN_MALFORMED);
   return MICROTIN_NEED_INPUT;
 }
 
-// Whatever is wrong with a block is told once the header's check has passed: before, it is damage.
 microtin_status handle_block_head(microtin_decoder& d) {
   uint8_t bytes[kBlockHeadBytes] = {0, 0, 0};
   const uint32_t size = static_cast<uint32_t>(smaller(kBlockHeadBytes, d.blocks_left));
   take_bytes(d, bytes, size);
   d.blocks_left -= size;
   d.block_left = read_u16(bytes + 1);
-  d.item = Item::kSkippedBlock;
   const bool placement = bytes[0] == kBlockPlacement;
   if (size < kBlockHeadBytes || d.block_left > d.blocks_left ||
       (placement && d.block_left > kPlacementMostBytes)) {
-    d.header_status = MICROTIN_MALFORMED;
-    d.block_left = d.blocks_left;
+    refuse_header(d, MICROTIN_MALFORMED);
   } else if ((bytes[0] & kMustUnderstand) != 0) {
-    d.header_status = MICROTIN_UNSUPPORTED_VERSION;
-  } else if (placement) {
-    d.item = Item::kPlacement;
+    refuse_header(d, MICROTIN_UNSUPPORTED_VERSION);
+  } else {
+    d.blocks_left -= d.block_left;
+    d.item = Item::kSkippedBlock;
+    if (d.block_left == 0) d.item = after_block(d);
+    if (placement) d.item = Item::kPlacement;
   }
-  d.blocks_left -= d.block_left;
-  if (d.item == Item::kSkippedBlock && d.block_left == 0) d.item = after_block(d);
   return MICROTIN_NEED_INPUT;
 }
 
@@ -100,8 +108,8 @@ microtin_status handle_block_head(microtin_decoder& d) {
 MICROTIN_OUT_OF_LINE microtin_status handle_placement(microtin_decoder& d) {
   uint8_t bytes[kPlacementMostBytes];
   take_bytes(d, bytes, d.block_left);
-  if (!read_placement(bytes, d.block_left, d.mesh->axis)) d.header_status = MICROTIN_MALFORMED;
   d.item = after_block(d);
+  if (!read_placement(bytes, d.block_left, d.mesh->axis)) refuse_header(d, MICROTIN_MALFORMED);
   return MICROTIN_NEED_INPUT;
 }
 
@@ -400,20 +408,19 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
   if (crc32(0, bytes, checked) != read_u32(bytes + checked)) return MICROTIN_CHECKSUM;
   microtin_axis axis[3] = {{0, 1, 1}, {0, 1, 1}, {0, 1, 1}};
-  microtin_status status = legal ? MICROTIN_DONE : MICROTIN_MALFORMED;  // as the decoder's
+  if (!legal) return MICROTIN_MALFORMED;
   for (uint32_t at = blocks; at < checked;) {
     if (checked - at < kBlockHeadBytes) return MICROTIN_MALFORMED;
     const uint8_t type = bytes[at];
     const uint32_t length = read_u16(bytes + at + 1);
     at += kBlockHeadBytes;
     if (length > checked - at) return MICROTIN_MALFORMED;
-    if ((type & kMustUnderstand) != 0) status = MICROTIN_UNSUPPORTED_VERSION;
+    if ((type & kMustUnderstand) != 0) return MICROTIN_UNSUPPORTED_VERSION;
     if (type == kBlockPlacement && !read_placement(bytes + at, length, axis)) {
-      status = MICROTIN_MALFORMED;
+      return MICROTIN_MALFORMED;
     }
     at += length;
   }
-  if (status != MICROTIN_DONE) return status;
   info->vertices = contract.vertices;
   info->version = kVersion;
   info->degree = static_cast<uint8_t>(contract.degree);

@@ -58,11 +58,12 @@ class Cutter {
 
   microtin_status decode(Device& device, const uint8_t* data, size_t size) {
     uint32_t steps = 0;
-    for (size_t at = 0; at != size;) {
+    microtin_status status = MICROTIN_NEED_INPUT;
+    for (size_t at = 0; at != size || status == MICROTIN_STEP_LIMIT;) {
       const size_t wanted = cuts_.ConsumeIntegralInRange<size_t>(0, largest_);
       const size_t piece = std::min(cuts_.remaining_bytes() == 0 ? largest_ : wanted, size - at);
       size_t used = 0;
-      const microtin_status status = feed(device, data + at, piece, &used, &steps);
+      status = feed(device, data + at, piece, &used, &steps);
       EXPECT(steps <= 2 * most_steps(kCapacity));
       if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) return status;
       at += used;

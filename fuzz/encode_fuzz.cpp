@@ -33,7 +33,7 @@ Tin tin_from(FuzzedDataProvider& given) {
   const uint16_t height = static_cast<uint16_t>(65535u >> given.ConsumeIntegralInRange(0, 15));
   const uint16_t left = given.ConsumeIntegralInRange<uint16_t>(0, 65535u - width);
   const uint16_t low = given.ConsumeIntegralInRange<uint16_t>(0, 65535u - height);
-  const uint32_t heights = given.ConsumeIntegralInRange(0, 2);
+  const uint32_t heights = given.ConsumeIntegralInRange<uint32_t>(0, 2);
   Tin tin;
   while (given.remaining_bytes() > 0 && tin.vertices.size() < 150) {
     Vertex v = {0, 0, 0};

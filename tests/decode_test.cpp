@@ -255,6 +255,9 @@ TEST_CASE("header blocks: unknown ones are skipped, required ones refused, broke
   CHECK(status_with({0x7F, 0, 0, 0x7E, 1, 0, 5}, false) == MICROTIN_DONE);
   CHECK(status_with({placement, 9, 0, 1, 2, 3, 1, 2, 3, 1, 2, 3}, false) == MICROTIN_DONE);
   CHECK(status_with({0xFF, 2, 0, 9, 9}, false) == MICROTIN_UNSUPPORTED_VERSION);
+  // Of several faults the first is told.
+  CHECK(status_with({placement, 0, 0, 0xFF, 0, 0}, false) == MICROTIN_MALFORMED);
+  CHECK(status_with({0xFF, 0, 0, placement, 0, 0}, false) == MICROTIN_UNSUPPORTED_VERSION);
   for (const Bytes& broken : {Bytes{0x7F}, Bytes{0x7F, 3, 0, 9, 9}, Bytes{placement, 0, 0},
                               Bytes{placement, 9, 0, 1, 0, 3, 1, 2, 3, 1, 2, 3}}) {
     CHECK(status_with(broken, false) == MICROTIN_MALFORMED);
