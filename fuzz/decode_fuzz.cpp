@@ -8,7 +8,7 @@ namespace {
 
 using namespace microtin;
 
-constexpr uint32_t kCapacity = 300;  // some more than the first section holds
+constexpr uint32_t kCapacity = 300;  // few, to be quick; more than the first section holds
 
 // A header that peek refuses is refused for the same reason; otherwise something else is wrong.
 void check_peek(const uint8_t* data, size_t size, microtin_status status) {
