@@ -13,7 +13,7 @@ namespace {
 
 using namespace microtin;
 
-constexpr uint32_t kCapacity = 1000;
+constexpr uint32_t kCapacity = 1200;
 
 // Workspaces on the heap of no byte more than the stream's header asks for, if it is readable.
 struct ExactWorkspaces {

@@ -14,7 +14,7 @@ namespace {
 
 using namespace microtin;
 
-constexpr uint32_t kCapacity = 1000;
+constexpr uint32_t kCapacity = 1200;
 constexpr int32_t kFineMost = 65535 * 256;
 
 struct Place {

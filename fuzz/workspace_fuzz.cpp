@@ -15,7 +15,7 @@ struct Workspace {
   explicit Workspace(FuzzedDataProvider& given)
       : vertices(given.ConsumeIntegralInRange<uint32_t>(0, 400)),
         offset(given.ConsumeIntegralInRange<size_t>(0, 9) % MICROTIN_ALIGNMENT) {
-    if (given.ConsumeBool()) vertices = 1000;
+    if (given.ConsumeBool()) vertices = 1200;
   }
 
   void allocate(size_t bytes, size_t missing) {
