@@ -110,6 +110,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (progress == Progress::kMalformed) break;
     if (state.stage == Stage::kWalk) check_walk(placed);
   }
+  if (state.stage == Stage::kComplete) EXPECT(step(state, choices) == Progress::kMalformed);
   EXPECT(mesh.triangles == 0 || is_locally_delaunay(mesh));
   return 0;
 }

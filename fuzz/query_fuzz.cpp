@@ -1,5 +1,5 @@
-// Queries on whatever was decoded, also after an early stop: heights and places are those of exact
-// arithmetic, from any start of the search. The fuzzer asks by the last bytes of its input.
+// Queries on whatever was decoded, also after an early stop: heights are those of exact arithmetic,
+// from any start of the search. The fuzzer asks by the last bytes of its input.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -69,32 +69,6 @@ void check_heights(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataPr
   }
 }
 
-void check_placement(const microtin_mesh* mesh, FuzzedDataProvider& asked) {
-  microtin_axis axis[3];
-  microtin_placement(mesh, &axis[0], &axis[1], &axis[2]);
-  for (const microtin_axis& a : axis) {
-    const uint32_t per_unit = asked.ConsumeIntegralInRange<uint32_t>(1, 1u << 24);
-    // Near a place that the axis has.
-    const reference::Wide k = asked.ConsumeIntegralInRange<int32_t>(-2, 65537);
-    const reference::Wide real =
-        (a.offset + k * static_cast<reference::Wide>(a.numerator)) * per_unit;
-    const reference::Wide value = real / static_cast<reference::Wide>(a.denominator) +
-                                  asked.ConsumeIntegralInRange<int32_t>(-2, 2);
-    if (value < INT64_MIN || value > INT64_MAX) continue;
-    const reference::Wide expected =
-        reference::rounded((value * static_cast<reference::Wide>(a.denominator) -
-                            reference::Wide{a.offset} * per_unit) *
-                               256,
-                           static_cast<reference::Wide>(a.numerator) * per_unit);
-    const int64_t limit = int64_t{1} << 62;
-    const bool known =
-        expected >= 0 && expected <= kFineMost && a.offset > -limit && a.offset < limit;
-    int32_t lattice = 0;
-    EXPECT(microtin_to_lattice(&a, static_cast<int64_t>(value), per_unit, &lattice) == known);
-    EXPECT(!known || lattice == expected);
-  }
-}
-
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -109,7 +83,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   uint32_t hint = asked.ConsumeIntegral<uint32_t>();
   int32_t height = 0;
   const microtin_answer answer = microtin_height_at(mesh, 0, 0, 0, &hint, &height);
-  check_placement(mesh, asked);
   if (microtin_triangle_count(mesh) == 0) {
     EXPECT(answer == MICROTIN_NOT_DECODED);
     return 0;

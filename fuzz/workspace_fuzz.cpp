@@ -53,6 +53,8 @@ void check_null_pointers(microtin_mesh* mesh, microtin_decoder* decoder, void* m
   EXPECT(microtin_finish(nullptr) == MICROTIN_ARGUMENT);
   EXPECT(microtin_peek(nullptr, 1, &info) == MICROTIN_ARGUMENT);
   EXPECT(microtin_peek(nullptr, 0, nullptr) == MICROTIN_ARGUMENT);
+  EXPECT(microtin_peek(nullptr, 0, &info) == MICROTIN_NEED_INPUT);
+  EXPECT(microtin_feed(decoder, nullptr, 0, 0, &used) == MICROTIN_NEED_INPUT);
 }
 
 }  // namespace
