@@ -130,9 +130,9 @@ TEST_CASE("real coordinates convert to the lattice exactly") {
   CHECK(to_lattice({-far, 1, 1}, far, 1) == -1);
   CHECK(to_lattice({far, 1, 1}, -far, 1) == -1);
   CHECK(to_lattice({1 - far, 1, 1}, 3 - far, 1) == 2 * 256);
-  const int64_t most = (int64_t{1} << 40) - 1;
-  const microtin_axis wide = {far - 1, static_cast<uint64_t>(most), static_cast<uint64_t>(most)};
-  CHECK(to_lattice(wide, far / most + 65535, 1) == 65535 * 256);
+  const int64_t step = (int64_t{1} << 40) - 1;
+  const microtin_axis unit = {far - 1, static_cast<uint64_t>(step), static_cast<uint64_t>(step)};
+  CHECK(to_lattice(unit, far / step + 65535, 1) == 65535 * 256);
 
   // Against rational arithmetic, on random axes.
   Random random(23);
