@@ -69,6 +69,19 @@ void check_heights(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataPr
   }
 }
 
+bool same(const microtin_axis& a, const microtin_axis& b) {
+  return a.offset == b.offset && a.numerator == b.numerator && a.denominator == b.denominator;
+}
+
+// A stream that was begun lies where its header says.
+void check_placement(const microtin_mesh* mesh, const uint8_t* data, size_t size) {
+  microtin_axis x, y, z;
+  microtin_info info;
+  microtin_placement(mesh, &x, &y, &z);
+  EXPECT(microtin_peek(data, size, &info) == MICROTIN_DONE);
+  EXPECT(same(x, info.x) && same(y, info.y) && same(z, info.z));
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -89,6 +102,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   EXPECT(status != MICROTIN_DONE || answer != MICROTIN_NOT_VERIFIED);
   EXPECT(answer == MICROTIN_NOT_VERIFIED || mesh->verified_vertices == microtin_vertex_count(mesh));
+  check_placement(mesh, data, size);
   const MeshCopy copy(mesh);
   EXPECT(pairing_fault(copy.mesh).empty());
   check_heights(mesh, copy, asked);
