@@ -26,5 +26,5 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const auto name_end =
       std::find_if(rest.begin(), rest.end(), [](char c) { return c <= ' ' || c > '~'; });
   const std::string name(rest.begin(), name_end);
-  return import_and_encode([&] { return import_hgt(name, bytes); }, {});
+  return import_and_encode([&] { return import_hgt(name, bytes); }, Options(data, size));
 }
