@@ -55,7 +55,7 @@ Item after_block(const microtin_decoder& d) {
 
 // Whatever is wrong with the dimensions or a block is told once the header's check has passed:
 // before, it is damage. The blocks behind it do not count.
-void refuse_header(microtin_decoder& d, microtin_status status) {
+MICROTIN_OUT_OF_LINE void refuse_header(microtin_decoder& d, microtin_status status) {
   d.header_status = status;
   d.block_left = d.blocks_left;
   d.blocks_left = 0;
