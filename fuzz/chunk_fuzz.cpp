@@ -15,16 +15,17 @@ using namespace microtin;
 
 constexpr uint32_t kCapacity = 1200;
 
-// Workspaces on the heap of no byte more than the stream's header asks for, if it is readable.
+// Workspaces on the heap of no byte more than the stream's header asks for, if it is readable; what
+// they hold at first must not matter.
 struct ExactWorkspaces {
-  ExactWorkspaces(const uint8_t* data, size_t size) {
+  ExactWorkspaces(const uint8_t* data, size_t size, unsigned char garbage) {
     microtin_info info;
     uint32_t vertices = 3;
     if (microtin_peek(data, size, &info) == MICROTIN_DONE) {
       vertices = std::min(info.vertices, kCapacity);
     }
-    mesh.resize(MICROTIN_MESH_BYTES(vertices));
-    decoder.resize(MICROTIN_DECODER_BYTES(vertices));
+    mesh.assign(MICROTIN_MESH_BYTES(vertices), garbage);
+    decoder.assign(MICROTIN_DECODER_BYTES(vertices), garbage);
   }
 
   Device device() { return Device(mesh.data(), mesh.size(), decoder.data(), decoder.size()); }
@@ -98,7 +99,7 @@ class Cutter {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  ExactWorkspaces one(data, size), other(data, size);
+  ExactWorkspaces one(data, size, 0), other(data, size, 0xA5);
   Device whole = one.device(), pieces = other.device();
   const microtin_status status = whole.decode(data, size);
   EXPECT(Cutter(data, size).decode(pieces, data, size) == status);

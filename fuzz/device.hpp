@@ -17,7 +17,6 @@ constexpr uint32_t most_steps(uint32_t n) {
   return 7 * work_budget(n) + 3 * n;
 }
 
-// Its memory is not initialised: what a decoder makes of a stream must not depend on it.
 class Device {
  public:
   Device(void* mesh_workspace, size_t mesh_bytes, void* decoder_workspace, size_t decoder_bytes) {
