@@ -43,9 +43,9 @@ Index walk_to(const Mesh& mesh, Index start, FinePoint p) {
         break;
       }
     }
-    if (crossed == 3) return t;
+    if (crossed == 3) break;
     t = triangle_of(mesh.twin[f + crossed]);
-    if (is_ghost(mesh, t)) return t;
+    if (is_ghost(mesh, t)) break;
   }
   return t;
 }
@@ -157,11 +157,11 @@ int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_u
     rest += per_unit;
     --whole;
   }
-  // Places outside are refused before anything can overflow: |offset| and whole * denominator must
-  // be within 2^62 and their difference within 65537 numerators.
-  const int64_t limit = static_cast<int64_t>(1) << 62;
-  if (whole > limit / denominator || whole < -limit / denominator) return 0;
+  // Places outside are refused before anything can overflow: those inside are within 65537
+  // numerators of the offset, so |whole * denominator| < 2^61 + 2^57.
+  const int64_t limit = static_cast<int64_t>(1) << 61;
   if (axis->offset >= limit || axis->offset <= -limit) return 0;
+  if (whole > 2 * limit / denominator || whole < -2 * limit / denominator) return 0;
   const int64_t ahead = whole * denominator - axis->offset;
   const uint64_t scaled = static_cast<uint64_t>(rest) * axis->denominator;  // < 2^64
   const uint64_t part = scaled / per_unit, left = scaled % per_unit;        // part < 2^40

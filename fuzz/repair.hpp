@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <cstring>
-#include <vector>
 
 #include "shared/crc32.hpp"
 #include "shared/format.hpp"
@@ -12,31 +11,30 @@
 
 namespace microtin {
 
-inline void write_check(std::vector<uint8_t>& bytes, size_t from, size_t at) {
-  const uint32_t check = crc32(0, bytes.data() + from, at - from);
+inline void write_check(uint8_t* bytes, size_t from, size_t at) {
+  const uint32_t check = crc32(0, bytes + from, at - from);
   for (size_t i = 0; i < kCheckBytes; ++i) bytes[at + i] = static_cast<uint8_t>(check >> 8 * i);
 }
 
 // Sets magic, version, and the check of the header and of every section that is there whole. False
 // if a damaged length ends that.
-inline bool repair(std::vector<uint8_t>& bytes) {
-  if (bytes.size() < kIdentityBytes) return false;
-  std::memcpy(bytes.data(), kMagic, sizeof kMagic);
+inline bool repair(uint8_t* bytes, size_t size) {
+  if (size < kIdentityBytes) return false;
+  std::memcpy(bytes, kMagic, sizeof kMagic);
   bytes[4] = kVersion;
-  if (bytes.size() < fixed_header_bytes(bytes.data())) return false;
+  if (size < fixed_header_bytes(bytes)) return false;
   FixedHeader header;
-  read_fixed_header(bytes.data(), &header);
+  read_fixed_header(bytes, &header);
   size_t at = size_t{header.bytes} + header.placement_bytes + header.note_bytes;
   size_t from = 0;
-  while (at <= bytes.size() && bytes.size() - at >= kCheckBytes) {
+  while (at <= size && size - at >= kCheckBytes) {
     write_check(bytes, from, at);
     from = at + kCheckBytes;
-    const uint8_t* next = bytes.data() + from;
+    if (from == size) return true;
+    const uint8_t* next = bytes + from;
     uint64_t payload = 0;
-    if (next == bytes.data() + bytes.size()) return true;
-    if (!read_varint(&next, bytes.data() + bytes.size(), &payload)) return false;
-    if (payload > bytes.size()) return false;
-    at = static_cast<size_t>(next - bytes.data()) + static_cast<size_t>(payload);
+    if (!read_varint(&next, bytes + size, &payload) || payload > size) return false;
+    at = static_cast<size_t>(next - bytes) + static_cast<size_t>(payload);
   }
   return false;
 }

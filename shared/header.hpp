@@ -73,7 +73,7 @@ inline uint32_t header_bytes(const uint8_t* bytes, size_t size) {
 // longer than `bytes`, not in its shortest form, or above 64 bits.
 inline bool read_varint(const uint8_t** bytes, const uint8_t* end, uint64_t* value) {
   *value = 0;
-  for (uint32_t shift = 0; shift < 70 && *bytes != end; shift += 7) {
+  for (uint32_t shift = 0; *bytes != end; shift += 7) {  // ends at 63 at the latest
     const uint8_t byte = *(*bytes)++;
     if ((shift == 63 && byte > 1) || (shift != 0 && byte == 0)) return false;
     *value |= static_cast<uint64_t>(byte & 127u) << shift;

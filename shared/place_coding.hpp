@@ -17,7 +17,7 @@ struct PlaceModel {
 };
 
 // Codes one of four slices by their weights, below 2^26: the half, then the quarter. What holds no
-// lattice points weighs nothing and is never chosen.
+// lattice points weighs nothing and is never chosen; such slices come first.
 template <class Coder>
 int code_slice(Coder& coder, Calibration* split, const uint32_t* weight, int slice) {
   int first = 0;
@@ -28,7 +28,7 @@ int code_slice(Coder& coder, Calibration* split, const uint32_t* weight, int sli
       high += weight[3];
     }
     bool in_high = low == 0;
-    if (low != 0 && high != 0) {
+    if (low != 0) {
       const uint32_t bits = highest_bit(low + high);
       const uint32_t shift = bits > 16 ? bits - 16 : 0;
       const uint32_t share = ((high >> shift) << 15) / (((low + high) >> shift) + 1);

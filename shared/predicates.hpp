@@ -32,10 +32,6 @@ inline int64_t orient2d(Point a, Point b, Point c) {
   return cross(b - a, c - a);
 }
 
-inline int64_t squared_length(Point a, Point b) {
-  return dot(b - a, b - a);
-}
-
 // The product of two signed numbers modulo 2^64.
 inline uint64_t wrapping_product(int64_t a, int64_t b) {
   return static_cast<uint64_t>(a) * static_cast<uint64_t>(b);

@@ -62,7 +62,6 @@ struct Reconstruction {
   Contract contract;
 
   Stage stage;
-  bool infinity_done;
   Index vertex;      // being walked around
   Index chord;       // half-edge into `vertex`, of the triangle to be looked at next
   bool from_done;    // whether the chord comes from a done vertex
@@ -111,7 +110,7 @@ inline void start(Reconstruction& r, const Contract& contract) {
 constexpr uint8_t kQueued = 1, kDone = 2;
 
 inline uint32_t marks_of(const Reconstruction& r, Index v) {
-  if (v == kInfinity) return r.infinity_done ? kQueued | kDone : kQueued;
+  if (v == kInfinity) return kQueued | kDone;  // nobody asks before its turn is over
   return static_cast<uint32_t>(r.marks[v >> 2]) >> (2u * (v & 3u)) & 3u;
 }
 
@@ -120,11 +119,8 @@ inline bool marked(const Reconstruction& r, Index v, uint8_t mark) {
 }
 
 inline void mark(Reconstruction& r, Index v, uint8_t mark) {
-  if (v == kInfinity) {
-    r.infinity_done = r.infinity_done || mark == kDone;
-  } else {
-    r.marks[v >> 2] = static_cast<uint8_t>(r.marks[v >> 2] | mark << (2u * (v & 3u)));
-  }
+  if (v == kInfinity) return;
+  r.marks[v >> 2] = static_cast<uint8_t>(r.marks[v >> 2] | mark << (2u * (v & 3u)));
 }
 
 // --- The triangle in hand ------------------------------------------------------------------------
@@ -369,7 +365,6 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   if (r.work > work_budget(placed + batch)) return Progress::kMalformed;
   const uint32_t mark_bytes = (placed + batch + 3u) / 4u;
   for (uint32_t i = 0; i < mark_bytes; ++i) r.marks[i] = 0;
-  r.infinity_done = false;
   r.vertex = kInfinity;
   r.turn_start = 0;
   mark(r, 0, kQueued);

@@ -104,7 +104,7 @@ TEST_CASE("damage behind right checks ends in a status, and the mesh stays sound
   size_t done = 0, malformed = 0;
   for (const Bytes& stream : small_streams()) {
     for_each_damage(stream, [&](Bytes damaged, size_t) {
-      const bool repaired = repair(damaged);
+      const bool repaired = repair(damaged.data(), damaged.size());
       const Device device(kCapacity);
       const microtin_status status = device.decode(damaged);
       done += status == MICROTIN_DONE;
@@ -127,7 +127,7 @@ TEST_CASE("chunks of any size say the same of damaged streams") {
       Bytes damaged = stream;
       uint8_t& byte = damaged[random.below(static_cast<uint32_t>(stream.size()))];
       byte = static_cast<uint8_t>(byte ^ 1u << random.below(8));
-      if (round % 2 != 0) repair(damaged);
+      if (round % 2 != 0) repair(damaged.data(), damaged.size());
       const Device whole(kCapacity), pieces(kCapacity);
       const microtin_status expected = whole.decode(damaged);
       microtin_status status = MICROTIN_NEED_INPUT;

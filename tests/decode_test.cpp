@@ -41,7 +41,7 @@ TEST_CASE("notes in the header are skipped, a broken placement is malformed") {
     other.insert(other.begin() + at, added.begin(), added.end());
     other.insert(other.begin() + at, length.begin(), length.end());
     other[5] |= flag;
-    repair(other);
+    repair(other.data(), other.size());
     if (damaged) other[at + length.size()] ^= 1;
     microtin_info info;
     const microtin_status peeked = microtin_peek(other.data(), other.size(), &info);

@@ -61,6 +61,8 @@ std::vector<Golden> golden_streams() {
   all.push_back({"cliffs", encode(cliffs(random), Metadata(), {10, 3})});
   all.push_back({"lattice", encode(flat(lattice_points(20, 15, random)), Metadata())});
   all.push_back({"circle", encode(flat(circle_points(1105 * 1105, random)), Metadata(), {32, 2})});
+  // Phases after the first section.
+  all.push_back({"sections", encode(flat(lattice_points(40, 30, random)), Metadata(), {6, 1})});
   all.push_back({"corners", encode(flat(extreme_corners(random)), Metadata(), {12, 3})});
   return all;
 }

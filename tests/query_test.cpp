@@ -5,52 +5,21 @@
 
 #include "encoder/encode.hpp"
 #include "tests/point_sets.hpp"
+#include "tests/reference_heights.hpp"
 
 namespace microtin {
 namespace {
 
-__extension__ typedef __int128 Wide;
-
-// floor(numerator / denominator + 1/2), denominator > 0.
-Wide rounded(Wide numerator, Wide denominator) {
-  const Wide twice = 2 * numerator + denominator, divisor = 2 * denominator;
-  Wide result = twice / divisor;
-  if (twice % divisor < 0) --result;
-  return result;
-}
-
-// 256 times twice the area of (a, b, p).
-Wide fine_area(const Vertex& a, const Vertex& b, int32_t x, int32_t y) {
-  return (Wide{b.x} - a.x) * (y - Wide{a.y} * 256) - (Wide{b.y} - a.y) * (x - Wide{a.x} * 256);
-}
-
-struct Corners {
-  Vertex v[3];
-};
-
-std::vector<Corners> real_triangles(const microtin_mesh* mesh) {
-  std::vector<Corners> triangles;
-  for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {
-    uint32_t v[3];
-    if (microtin_triangle(mesh, t, v) == MICROTIN_GHOST) continue;
-    Corners corners;
-    for (int i = 0; i < 3; ++i) {
-      microtin_vertex(mesh, v[i], &corners.v[i].x, &corners.v[i].y, &corners.v[i].z);
-    }
-    triangles.push_back(corners);
-  }
-  return triangles;
-}
+using reference::Corners;
+using reference::real_triangles;
+using reference::rounded;
+using reference::Wide;
 
 // The heights at a place of all closed triangles that hold it: none, or all the same.
 std::vector<int32_t> exact_heights(const std::vector<Corners>& triangles, int32_t x, int32_t y) {
   std::vector<int32_t> heights;
   for (const Corners& t : triangles) {
-    const Wide a = fine_area(t.v[1], t.v[2], x, y), b = fine_area(t.v[2], t.v[0], x, y),
-               c = fine_area(t.v[0], t.v[1], x, y);
-    if (a < 0 || b < 0 || c < 0) continue;
-    const Wide sum = a * t.v[0].z + b * t.v[1].z + c * t.v[2].z;
-    heights.push_back(static_cast<int32_t>(rounded(sum * 65536, a + b + c)));
+    if (reference::holds(t, x, y)) heights.push_back(reference::height_in(t, x, y));
   }
   return heights;
 }
@@ -157,10 +126,13 @@ TEST_CASE("real coordinates convert to the lattice exactly") {
   CHECK(to_lattice(south, -330000000, 10000000) == 0);
   CHECK(to_lattice(south, -325000000, 10000000) == 600 * 256);
 
-  const int64_t far = int64_t{1} << 62;
+  const int64_t far = int64_t{1} << 61;  // offsets lie within
   CHECK(to_lattice({-far, 1, 1}, far, 1) == -1);
   CHECK(to_lattice({far, 1, 1}, -far, 1) == -1);
   CHECK(to_lattice({1 - far, 1, 1}, 3 - far, 1) == 2 * 256);
+  const int64_t step = (int64_t{1} << 40) - 1;
+  const microtin_axis unit = {far - 1, static_cast<uint64_t>(step), static_cast<uint64_t>(step)};
+  CHECK(to_lattice(unit, far / step + 65535, 1) == 65535 * 256);
 
   // Against rational arithmetic, on random axes.
   Random random(23);

@@ -198,7 +198,7 @@ TEST_CASE("no damaged stream behind right checks takes more steps than its bytes
     Bytes damaged = stream;
     const uint32_t from = random.below(static_cast<uint32_t>(stream.size()));
     for (size_t i = 18 + from; i < stream.size(); ++i) damaged[i] = random.below(2) != 0 ? 255 : 0;
-    repair(damaged);
+    repair(damaged.data(), damaged.size());
     most = std::max(most, part_of_bound(count_steps(damaged)));
   }
   CHECK(most > 0);

@@ -178,7 +178,7 @@ void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_ax
 /* Converts a real coordinate, `value` / `per_unit` units (degrees as 1e-7 integers: per_unit =
  * 10000000), to the lattice with 8 fractional bits, rounded to nearest, for microtin_height_at.
  * Returns 1, or 0 when the place lies outside 0..65535, per_unit outside 1 .. 2^24, or the axis'
- * offset outside +-2^62. Exact: integers only. */
+ * offset outside +-2^61. Exact: integers only. */
 int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
                         int32_t* lattice);
 

@@ -1,0 +1,42 @@
+// What the command line makes of any stream: everything its header says, the same after it was
+// written anew, and its terrain; or an error.
+#include <algorithm>
+#include <vector>
+
+#include "encoder/decoded_terrain.hpp"
+#include "encoder/error.hpp"
+#include "encoder/header.hpp"
+#include "fuzz/expect.hpp"
+#include "fuzz/stream_mutator.hpp"
+#include "shared/header.hpp"
+
+using namespace microtin;
+
+namespace {
+
+Contract contract_of(const std::vector<uint8_t>& stream) {
+  FixedHeader header{};
+  EXPECT(read_fixed_header(stream.data(), &header));
+  return header.contract;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  const std::vector<uint8_t> stream(data, data + size);
+  microtin_info info;
+  const bool legal = microtin_peek(data, size, &info) == MICROTIN_DONE;
+  try {
+    const Header header = read_header(stream);
+    EXPECT(legal);
+    const std::vector<uint8_t> once = write_header(contract_of(stream), header.metadata);
+    const std::vector<uint8_t> twice = write_header(contract_of(once), read_header(once).metadata);
+    EXPECT(once == twice);
+    if (info.vertices > 2000) return 0;
+    const DecodedTerrain decoded(stream);
+    EXPECT(microtin_vertex_count(decoded.mesh()) == info.vertices);
+  } catch (const Error& error) {
+    EXPECT(error.what()[0] != '\0');
+  }
+  return 0;
+}
