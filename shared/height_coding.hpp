@@ -2,6 +2,7 @@
 #ifndef MICROTIN_SHARED_HEIGHT_CODING_HPP
 #define MICROTIN_SHARED_HEIGHT_CODING_HPP
 
+#include "shared/format.hpp"
 #include "shared/mesh.hpp"
 #include "shared/probability.hpp"
 
@@ -77,17 +78,18 @@ inline Residual residual_of(int32_t difference) {
 }
 
 // The ring of a new vertex has at most 32 neighbours; each weighs 1 / distance^2, rounded to a
-// power of two, at most 2^31.
+// power of two: 2^8 for the nearest, nothing below 1.
 struct RingSums {
-  uint64_t weights;    // <= 2^36
-  int64_t heights;     // weighted, less a base: < 2^36 * 2^16
-  uint64_t spread;     // of their magnitudes
-  int64_t residuals;   // weighted: < 2^36 * 2^7
-  uint64_t roughness;  // of their magnitudes
+  uint32_t weights;    // 2^8 .. 2^13
+  int32_t heights;     // weighted, less a base: within +-2^29
+  uint32_t spread;     // of their magnitudes
+  int32_t residuals;   // weighted: within +-2^20
+  uint32_t roughness;  // of their magnitudes
+  uint32_t nearest;    // distance_bits of the nearest
 };
 
-inline uint64_t magnitude_of(int64_t v) {
-  return static_cast<uint64_t>(v < 0 ? -v : v);
+inline uint32_t magnitude_of(int32_t v) {
+  return static_cast<uint32_t>(v < 0 ? -v : v);
 }
 
 // The position of the highest bit of half the squared distance, which is below 2^32; 0 for 1.
@@ -98,15 +100,21 @@ inline uint32_t distance_bits(Point a, Point b) {
 
 inline RingSums sum_ring(const Mesh& mesh, const Residual* residual, const Index* ring,
                          uint32_t size, Point place, int32_t base) {
-  RingSums sums = {0, 0, 0, 0, 0};
+  RingSums sums = {0, 0, 0, 0, 0, 31};
+  uint8_t bits[kMaxDegree];
   for (uint32_t i = 0; i < size; ++i) {
-    const Index neighbour = ring[i];
-    if (neighbour == kInfinity) continue;
-    const int64_t weight =
-        static_cast<uint32_t>(0x80000000u) >> distance_bits(point_of(mesh, neighbour), place);
-    const int64_t height = weight * (mesh.z[neighbour] - base);
-    const int64_t difference = weight * residual[neighbour];
-    sums.weights += static_cast<uint64_t>(weight);
+    bits[i] = 255;  // weighs nothing
+    if (ring[i] == kInfinity) continue;
+    bits[i] = static_cast<uint8_t>(distance_bits(point_of(mesh, ring[i]), place));
+    if (bits[i] < sums.nearest) sums.nearest = bits[i];
+  }
+  for (uint32_t i = 0; i < size; ++i) {
+    const uint32_t farther = bits[i] - sums.nearest;
+    if (farther > 8) continue;
+    const int32_t weight = 256 >> farther;
+    const int32_t height = weight * (mesh.z[ring[i]] - base);
+    const int32_t difference = weight * residual[ring[i]];
+    sums.weights += static_cast<uint32_t>(weight);
     sums.heights += height;
     sums.spread += magnitude_of(height);
     sums.residuals += difference;
@@ -153,24 +161,17 @@ inline HeightPrediction predict_height(const Mesh& mesh, const Residual* residua
                                        const Index* ring, uint32_t size, Point place,
                                        int32_t base) {
   const RingSums sums = sum_ring(mesh, residual, ring, size, place, base);
-  // From here on 13 bits of the weights suffice; the sums shrink with them to less than 2^13 + 1
-  // times their terms.
-  const uint32_t top = highest_bit(sums.weights);
-  const uint32_t shift = top < 12 ? 0 : top - 12;
-  const uint32_t weights = static_cast<uint32_t>(sums.weights >> shift);
-  const int32_t heights = static_cast<int32_t>(sums.heights >> shift);        // > -2^29 - 2^17
-  const uint32_t spread = static_cast<uint32_t>(sums.spread >> shift);        // < 2^29 + 2^16
-  const int32_t residuals = static_cast<int32_t>(sums.residuals >> shift);    // > -2^21
-  const uint32_t roughness = static_cast<uint32_t>(sums.roughness >> shift);  // < 2^21
-  // Rounded to nearest, halves up. 2^17 is added to stay positive: 2^31 + 2^30 + ... < 2^32.
-  const uint32_t divisor = 2u * weights;  // not 0
-  const uint32_t dividend = static_cast<uint32_t>(2 * heights) + weights + (divisor << 17);
+  // Rounded to nearest, halves up. 2^16 is added to stay positive: all is below 2^32.
+  const uint32_t divisor = 2u * sums.weights;  // not 0
+  const uint32_t dividend =
+      static_cast<uint32_t>(2 * sums.heights) + sums.weights + (divisor << 16);
   const uint32_t mean = dividend / divisor;
-  const bool rounded_down = dividend - mean * divisor > weights;
+  const bool rounded_down = dividend - mean * divisor > sums.weights;
   HeightPrediction prediction;
-  prediction.height = base + static_cast<int32_t>(mean) - 131072;
-  prediction.scale = expected_scale(weights, roughness, spread, 36u - top);
-  prediction.tendency = 2u * expected_sign(residuals, roughness) + rounded_down;
+  prediction.height = base + static_cast<int32_t>(mean) - 65536;
+  prediction.scale = expected_scale(sums.weights, sums.roughness, sums.spread,
+                                    13u + sums.nearest - highest_bit(sums.weights));
+  prediction.tendency = 2u * expected_sign(sums.residuals, sums.roughness) + rounded_down;
   return prediction;
 }
 

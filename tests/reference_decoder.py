@@ -859,25 +859,23 @@ class Expectation(NamedTuple):
 
     @classmethod
     def from_ring(cls, b, base, ring):
-        weights = [cls.weight(minus(n.place, b)) for n in ring]
+        distances = [cls.distance(minus(n.place, b)) for n in ring]
+        nearest = min(distances)
+        weights = [256 >> (e - nearest) for e in distances]
         heights = [w * (n.height - base) for w, n in zip(weights, ring)]
         residuals = [w * n.residual for w, n in zip(weights, ring)]
-        top = highest_bit(sum(weights))
-        s = max(0, top - 12)
-        w = sum(weights) >> s
-        height = sum(heights) >> s
+        w, height = sum(weights), sum(heights)
         mean = (2 * height + w) // (2 * w)
-        spread = sum(map(abs, heights)) >> s
-        roughness = sum(map(abs, residuals)) >> s
+        spread = sum(map(abs, heights))
+        roughness = sum(map(abs, residuals))
         level = coarse_log2(4 * roughness + w) + 2 * coarse_log2(4 * spread + w) - 3 * coarse_log2(w)
-        scale = min(11, (level + 32 * (36 - top) + 448) // 768)
-        sign = cls.expected_sign(sum(residuals) >> s, roughness)
+        scale = min(11, (level + 32 * (13 + nearest - highest_bit(w)) + 448) // 768)
+        sign = cls.expected_sign(sum(residuals), roughness)
         return cls(base + mean, scale, 2 * sign + (height > mean * w))
 
     @staticmethod
-    def weight(d):
-        half_squared_distance = d[0] * d[0] // 2 + d[1] * d[1] // 2
-        return (1 << 31) >> highest_bit(max(1, half_squared_distance))
+    def distance(d):
+        return highest_bit(max(1, d[0] * d[0] // 2 + d[1] * d[1] // 2))
 
     @staticmethod
     def expected_sign(residual, roughness):
