@@ -29,7 +29,7 @@ struct ByteWindow {
 
   void skip(uint32_t count) {
     next += count;
-    left -= count;
+    left -= static_cast<size_t>(count);
   }
 
   // Counts and checks what was taken.
