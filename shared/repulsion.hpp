@@ -50,7 +50,7 @@ inline bool repels(const Repulsion& repulsion) {
 
 // Weakens what is within reach.
 MICROTIN_OUT_OF_LINE inline void weaken(const Cells near, Cells weight) {
-  for (int k = 0; k < kCells; ++k) weight[k] = share_of(weight[k], near[k] < 255 ? near[k] : 255);
+  for (int k = 0; k < kCells; ++k) weight[k] = share_of(weight[k], clamped(near[k], 0, 255));
 }
 
 // The slices' middles; below 2^13.
