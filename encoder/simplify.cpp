@@ -5,7 +5,9 @@
 #include <numeric>
 #include <vector>
 
+#include "encoder/decimation.hpp"
 #include "encoder/error_model.hpp"
+#include "encoder/height_choice.hpp"
 #include "encoder/refinement.hpp"
 #include "shared/predicates.hpp"
 
@@ -41,6 +43,34 @@ std::vector<uint32_t> hull_corners(const std::vector<Sample>& samples) {
   return chain;
 }
 
+// Rounds of a search: an upper limit, and the part of the vertices that a round must save for the
+// next one to follow.
+struct Patience {
+  uint32_t rounds;
+  double part;
+};
+
+Patience patience(Search search) {
+  if (search == Search::kBest) return {100, 0};
+  return search == Search::kNormal ? Patience{8, 0.005} : Patience{0, 0};
+}
+
+constexpr int kHeightPasses = 3;
+
+Tin improve(const Survey& survey, const Tin& tin, const SimplifyOptions& options) {
+  Surface surface(survey, ErrorModel{true}, tin);
+  Decimation decimation(surface);
+  decimation.remove_vertices();
+  const Patience limit = patience(options.search);
+  for (uint32_t round = 0; round < limit.rounds; ++round) {
+    const auto saved = static_cast<double>(decimation.remove_and_move_vertices());
+    if (saved <= limit.part * surface.vertices()) break;
+  }
+  HeightChoice heights(surface, options.degree);
+  for (int i = 0; i < kHeightPasses; ++i) heights.pass();
+  return surface.tin();
+}
+
 }  // namespace
 
 Tin simplify(const Survey& survey, const SimplifyOptions& options) {
@@ -49,7 +79,9 @@ Tin simplify(const Survey& survey, const SimplifyOptions& options) {
                         keep_all ? all_of(survey.samples) : hull_corners(survey.samples));
   refinement.refine(options.max_vertices != 0 ? options.max_vertices
                                               : std::numeric_limits<std::size_t>::max());
-  return refinement.tin();
+  const bool search =
+      options.bounded && options.max_vertices == 0 && options.search != Search::kGreedy;
+  return search ? improve(survey, refinement.tin(), options) : refinement.tin();
 }
 
 }  // namespace microtin
