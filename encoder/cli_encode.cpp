@@ -1,13 +1,12 @@
 #include <sstream>
 
+#include "encoder/approximation.hpp"
 #include "encoder/cli_commands.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
 #include "encoder/import.hpp"
-#include "encoder/lay_out.hpp"
 #include "encoder/output_file.hpp"
-#include "encoder/simplify.hpp"
 #include "encoder/verify.hpp"
 #include "encoder/voids.hpp"
 
@@ -78,6 +77,15 @@ std::string report(const Source& source, uint32_t filled, const Laid& laid, cons
   return text.str();
 }
 
+SimplifyOptions simplify_options(const EncodeRequest& request) {
+  SimplifyOptions options;
+  options.bounded = request.lattice.max_error.has_value();
+  options.max_vertices = request.max_vertices;
+  options.search = request.search;
+  options.effort = request.effort;
+  return options;
+}
+
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
@@ -85,21 +93,23 @@ void run_encode(const EncodeRequest& request) {
   OutputFile out(request.output);  // fails early if it cannot be written
   Source source = import_terrain(request.input);
   const uint32_t filled = fill_voids(source, request.fill_voids);
-  const Laid laid = about(request.input, [&] { return lay_out(source, request.lattice); });
+  const Approximation found = about(request.input, [&] {
+    return approximate(source, request.lattice, simplify_options(request));
+  });
   const Encoded encoded = about(request.input, [&] {
-    const SimplifyOptions options{request.lattice.max_error.has_value(), request.max_vertices};
-    const Tin tin = simplify(laid.survey, options);
-    if (request.max_vertices != 0 && tin.vertices.size() > request.max_vertices) {
+    const std::size_t vertices = found.tin.vertices.size();
+    if (request.max_vertices != 0 && vertices > request.max_vertices) {
       throw Error("--max-vertices " + std::to_string(request.max_vertices) +
-                  " is not enough: outline and voids alone need " +
-                  std::to_string(tin.vertices.size()));
+                  " is not enough: outline and voids alone need " + std::to_string(vertices));
     }
-    return encode_measured(tin, metadata_of(request, source, laid.placement), source, request);
+    const Metadata metadata = metadata_of(request, source, found.laid.placement);
+    return encode_measured(found.tin, metadata, source, request);
   });
   out.write({reinterpret_cast<const char*>(encoded.stream.data()), encoded.stream.size()});
   out.commit();
   std::FILE* const terminal = request.output == "-" ? stderr : stdout;
-  std::fputs(report(source, filled, laid, encoded, request.lattice.max_error).c_str(), terminal);
+  std::fputs(report(source, filled, found.laid, encoded, request.lattice.max_error).c_str(),
+             terminal);
 }
 
 }  // namespace microtin

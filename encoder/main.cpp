@@ -46,6 +46,16 @@ void set_epsg(const std::string& text, EncodeRequest& request) {
   }
 }
 
+void add_search(CLI::App& command, Search& search) {
+  const auto add = [&](const char* name, Search value, const char* description) {
+    return command.add_flag_callback(
+        name, [&search, value] { search = value; }, description);
+  };
+  CLI::Option* const fast =
+      add("--fast", Search::kFast, "With --max-error: search for a short time only");
+  add("--best", Search::kBest, "... or as long as it helps")->excludes(fast);
+}
+
 using Action = std::function<void()>;
 
 void add_encode(CLI::App& app, Action& action) {
@@ -60,7 +70,10 @@ void add_encode(CLI::App& app, Action& action) {
   command.add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
       ->check(CLI::Range(3u, kMaxVertices))
       ->excludes(bound);
-  add_decimal(command, "--z-step", request->lattice.z_step, "Step of heights");
+  add_search(command, request->search);
+  add_decimal(
+      command, "--z-step", request->lattice.z_step,
+      "Step of heights; with --max-error, if not given, the one that takes the fewest bytes");
   add_decimal(command, "--xy-step", request->lattice.xy_step, "Step of places (rasters: in posts)");
   command
       .add_option("--degree", request->effort.degree,

@@ -52,7 +52,7 @@ struct Patience {
 
 Patience patience(Search search) {
   if (search == Search::kBest) return {100, 0};
-  return search == Search::kNormal ? Patience{8, 0.005} : Patience{0, 0};
+  return search == Search::kNormal ? Patience{20, 0.001} : Patience{1, 0};
 }
 
 constexpr int kHeightPasses = 3;
@@ -66,9 +66,11 @@ Tin improve(const Survey& survey, const Tin& tin, const SimplifyOptions& options
     const auto saved = static_cast<double>(decimation.remove_and_move_vertices());
     if (saved <= limit.part * surface.vertices()) break;
   }
-  HeightChoice heights(surface, options.degree);
+  HeightChoice heights(surface, options.effort.degree);
   for (int i = 0; i < kHeightPasses; ++i) heights.pass();
-  return surface.tin();
+  Tin improved = surface.tin();
+  const auto bytes = [&](const Tin& t) { return encode(t, {}, options.effort).size(); };
+  return bytes(improved) <= bytes(tin) ? improved : tin;
 }
 
 }  // namespace

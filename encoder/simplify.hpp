@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "encoder/encode.hpp"
 #include "encoder/survey.hpp"
 
 namespace microtin {
@@ -11,16 +12,16 @@ namespace microtin {
 // How long to look for fewer vertices within a bound.
 enum class Search : uint8_t {
   kGreedy,  // insertion only
-  kFast,    // a fifth of the normal time, some 10 % more bytes
-  kNormal,  // about 20 us a sample
-  kBest     // until nothing more is found
+  kFast,    // some 5 % more bytes than normal
+  kNormal,
+  kBest  // until nothing more is found
 };
 
 struct SimplifyOptions {
   bool bounded = false;       // the surface must lie in lowest .. highest at every sample
   uint32_t max_vertices = 0;  // if not 0: no more than that, except where hull and voids need them
   Search search = Search::kNormal;
-  uint32_t degree = 10;  // with which the result will be encoded, see Effort
+  Effort effort;  // with which the result will be encoded
 };
 
 // Without options every sample becomes a vertex. With one of them, as few as greedy insertion of
