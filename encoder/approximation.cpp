@@ -24,9 +24,14 @@ std::vector<int> tenths_to_try(Search search) {
   }
 }
 
+Decimal half(Decimal value) {
+  return make_decimal(Wide{value.mantissa} * 5, value.decimals + 1);
+}
+
 // Lays the source out with every step that fits it.
 std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattice, Search search) {
-  const Decimal bound = *lattice.max_error;
+  // A one-sided bound leaves half the room.
+  const Decimal bound = lattice.never_below ? half(*lattice.max_error) : *lattice.max_error;
   std::vector<Laid> all;
   for (const int tenths : tenths_to_try(search)) {
     if (bound.decimals >= kMaxDecimals) break;

@@ -41,7 +41,9 @@ Encoded encode_measured(const Tin& tin, Metadata metadata, const Source& source,
   const std::optional<Decimal>& bound = request.lattice.max_error;
   const auto [stream, decoded] = encode_and_decode(tin, metadata, request.effort);
   const Verification measured = verify(decoded.mesh(), source, bound);
-  if (!measured.within_bound || measured.uncovered != 0 || measured.voids_answered != 0) {
+  const bool too_low = request.lattice.never_below && measured.max_below.mantissa != 0;
+  if (!measured.within_bound || too_low || measured.uncovered != 0 ||
+      measured.voids_answered != 0) {
     throw Error("internal error: the decoded terrain does not keep what was asked for");
   }
   metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error};
@@ -73,6 +75,7 @@ std::string report(const Source& source, uint32_t filled, const Laid& laid, cons
        << "error: at most " << to_string(measured.max_error) << ", rms "
        << to_string(measured.rms_error);
   if (bound) text << " (asked for: at most " << to_string(*bound) << ")";
+  text << "\nbelow the source: at most " << to_string(measured.max_below);
   text << '\n';
   return text.str();
 }

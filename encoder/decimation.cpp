@@ -15,14 +15,12 @@ Decimation::Decimation(Surface& surface)
     : surface_(surface), edits_(surface), fit_(surface), stale_(surface.vertex_limit()) {}
 
 std::size_t Decimation::remove_vertices() {
-  stale_.assign(stale_.size(), false);
-  return try_each([this](Index v) { return try_removal(v); });
+  const std::size_t removed = try_each([this](Index v) { return try_removal(v); });
+  stale_.assign(stale_.size(), false);  // what could not be removed has not been moved yet
+  return removed;
 }
 
 std::size_t Decimation::remove_and_move_vertices() {
-  static bool first = true;
-  if (first) stale_.assign(stale_.size(), false);
-  first = false;
   return try_each([this](Index v) { return try_move(v); });
 }
 
@@ -100,7 +98,7 @@ bool Decimation::try_move(Index v) {
   const Index hint = surface_.edge_of(vertices[0]);
   const bool taken = std::any_of(vertices.begin(), vertices.end(),
                                  [&](Index r) { return surface_.place(r) == worst.place; });
-  if (taken || worst.place == Point{old.x, old.y} || surface_.cuts_void(worst.place, hint)) {
+  if (taken || worst.place == Point{old.x, old.y} || !surface_.can_insert(worst.place, hint)) {
     edits_.roll_back(0);
     return false;
   }

@@ -70,6 +70,10 @@ void add_encode(CLI::App& app, Action& action) {
   command.add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
       ->check(CLI::Range(3u, kMaxVertices))
       ->excludes(bound);
+  command
+      .add_flag("--never-below", request->lattice.never_below,
+                "With --max-error: no height is below the source, all are at most so far above")
+      ->needs(bound);
   add_search(command, request->search);
   add_decimal(
       command, "--z-step", request->lattice.z_step,

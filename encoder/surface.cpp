@@ -146,10 +146,10 @@ Index Surface::insert(Vertex vertex, Index hint) {
   return v;
 }
 
-bool Surface::cuts_void(Point p, Index hint) {
-  if (voids_.empty()) return false;
-  const std::vector<Index>& cut = triangulation_.conflicts(p, hint);
-  return std::any_of(cut.begin(), cut.end(), [&](Index t) { return void_[t]; });
+bool Surface::can_insert(Point p, Index hint) {
+  const std::vector<Index>& replaced = triangulation_.conflicts(p, hint);
+  return replaced.size() + 2 <= Triangulation::kMaxRemovable &&
+         std::none_of(replaced.begin(), replaced.end(), [this](Index t) { return void_[t]; });
 }
 
 Tin Surface::tin() const {

@@ -67,14 +67,14 @@ class Surface {
   // Removes a vertex that is not fixed. False, and nothing changes, if it has too many neighbours.
   bool remove(Index v);
 
-  // Adds a vertex near a half-edge. It must replace no void triangle.
+  // Adds a vertex near a half-edge, where can_insert says so.
   Index insert(Vertex vertex, Index hint);
 
   // The triangles that the last change made.
   const std::vector<Index>& new_triangles() const { return triangulation_.new_triangles(); }
 
-  // Whether an insertion there would replace void triangles.
-  bool cuts_void(Point p, Index hint);
+  // Whether an insertion there would replace no void triangle and can be taken back by remove.
+  bool can_insert(Point p, Index hint);
 
   // Calls visit(half-edge) for every half-edge that starts at v.
   template <class Visit>

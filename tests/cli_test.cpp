@@ -145,6 +145,18 @@ TEST_CASE("cli: bounds are kept, merged points counted") {
   CHECK(contains(session.failure("encode f.asc --max-vertices 3 -o i.mtin"), "alone need 4"));
 }
 
+TEST_CASE("cli: searches, and surfaces that are never below") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
+  for (const char* option : {"", "--fast", "--best", "--never-below", "--never-below --z-step 2"}) {
+    REQUIRE(session.run("encode f.asc --max-error 10 -o f.mtin " + std::string(option)).code == 0);
+    const Session::Result verified = session.run("verify f.mtin f.asc --json");
+    CHECK(verified.code == 0);
+    const bool above = std::string(option).find("--never") == 0;
+    CHECK(contains(verified.out, "\"max_below\": 0.0,") == above);
+  }
+}
+
 TEST_CASE("cli: verify fails on another terrain") {
   const Session session;
   session.write("a.xyz", "0 0 0\n9 0 0\n0 9 0\n");
@@ -249,7 +261,8 @@ TEST_CASE("cli: wrong usage is told apart") {
         "encode ok.xyz -o o --max-error -1", "encode ok.xyz -o o --max-error x",
         "encode ok.xyz -o o --max-error nan", "encode ok.xyz -o o --max-vertices 2",
         "encode ok.xyz -o o --epsg 1:x", "encode ok.xyz -o o --max-error 1 --max-vertices 9",
-        "encode ok.xyz -o o --nonsense", "info", "decode ok.xyz"}) {
+        "encode ok.xyz -o o --nonsense", "encode ok.xyz -o o --never-below",
+        "encode ok.xyz -o o --max-error 1 --fast --best", "info", "decode ok.xyz"}) {
     session.failure(arguments, 2);
   }
   const Session::Result help = session.run("encode --help");
