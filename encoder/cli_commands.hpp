@@ -15,6 +15,7 @@ struct EncodeRequest {
   std::string output;
   LatticeOptions lattice;
   uint32_t max_vertices = 0;  // 0: as many as it takes
+  uint32_t max_bytes = 0;     // 0: as many as it takes; else the bound is looked for
   Search search = Search::kNormal;
   Effort effort;
   uint32_t fill_voids = 0;

@@ -87,6 +87,7 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
   const float b_along_y = static_cast<float>(a.x - c.x) * scale;
   const float c_along_x = static_cast<float>(a.y - b.y) * scale;
   const float c_along_y = static_cast<float>(b.x - a.x) * scale;
+  const int32_t base = va.z;
   const auto b_rise = static_cast<float>(vb.z - va.z), c_rise = static_cast<float>(vc.z - va.z);
   surface_.posts().visit_under(a, b, c, [&](uint32_t s, Point p) {
     const std::size_t i = posts_++;
@@ -95,7 +96,7 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
     const float to_b = b_along_x * x + b_along_y * y, to_c = c_along_x * x + c_along_y * y;
     const Surface::Target& target = surface_.target(s);
     sample_[i] = s;
-    error_[i] = static_cast<float>(va.z - target.middle) + to_b * b_rise + to_c * c_rise;
+    error_[i] = static_cast<float>(base - target.middle) + to_b * b_rise + to_c * c_rise;
     radius_[i] = target.radius;
     weight_[0][i] = 1.0F - to_b - to_c;
     weight_[1][i] = to_b;

@@ -67,13 +67,19 @@ void add_encode(CLI::App& app, Action& action) {
   CLI::Option* const bound =
       add_decimal(command, "--max-error", request->lattice.max_error,
                   "Keep every height within this distance, in the terrain's unit");
-  command.add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
-      ->check(CLI::Range(3u, kMaxVertices))
-      ->excludes(bound);
+  CLI::Option* const vertices =
+      command
+          .add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
+          ->check(CLI::Range(3u, kMaxVertices))
+          ->excludes(bound);
   command
-      .add_flag("--never-below", request->lattice.never_below,
-                "With --max-error: no height is below the source, all are at most so far above")
-      ->needs(bound);
+      .add_option("--max-bytes", request->max_bytes,
+                  "Keep the smallest --max-error that a file of this size can; takes minutes")
+      ->check(CLI::PositiveNumber)
+      ->excludes(bound)
+      ->excludes(vertices);
+  command.add_flag("--never-below", request->lattice.never_below,
+                   "With a bound: no height is below the source, all are at most so far above");
   add_search(command, request->search);
   add_decimal(
       command, "--z-step", request->lattice.z_step,
@@ -95,7 +101,12 @@ void add_encode(CLI::App& app, Action& action) {
       "--epsg", [request](const std::string& text) { set_epsg(text, *request); },
       "Codes of the coordinates: horizontal, or horizontal:vertical");
   command.add_option("--source-text", request->source_text, "Where the terrain comes from");
-  command.callback([request, &action] { action = [request] { run_encode(*request); }; });
+  command.callback([request, &action] {
+    if (request->lattice.never_below && !request->lattice.max_error && request->max_bytes == 0) {
+      throw CLI::ValidationError("--never-below", "needs --max-error or --max-bytes");
+    }
+    action = [request] { run_encode(*request); };
+  });
 }
 
 void add_decode(CLI::App& app, Action& action) {
