@@ -15,7 +15,7 @@ namespace microtin {
 // triangles are then scanned column by column without a test.
 class PostIndex {
  public:
-  // `places` are distinct. O(n log n).
+  // `places` are distinct. Linear.
   explicit PostIndex(const std::vector<Point>& places);
 
   // Calls visit(i, place) for every place i in the closed counter-clockwise triangle.

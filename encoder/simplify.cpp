@@ -14,6 +14,13 @@
 namespace microtin {
 namespace {
 
+std::vector<Point> places_of(const std::vector<Sample>& samples) {
+  std::vector<Point> places;
+  places.reserve(samples.size());
+  for (const Sample& s : samples) places.push_back(s.place);
+  return places;
+}
+
 std::vector<uint32_t> all_of(const std::vector<Sample>& samples) {
   std::vector<uint32_t> all(samples.size());
   std::iota(all.begin(), all.end(), 0u);
@@ -57,8 +64,9 @@ Patience patience(Search search) {
 
 constexpr int kHeightPasses = 3;
 
-Tin improve(const Survey& survey, const Tin& tin, const SimplifyOptions& options) {
-  Surface surface(survey, ErrorModel{true}, tin);
+Tin improve(const Survey& survey, const PostIndex& posts, const Tin& tin,
+            const SimplifyOptions& options) {
+  Surface surface(survey, ErrorModel{true}, posts, tin);
   Decimation decimation(surface);
   decimation.remove_vertices();
   const Patience limit = patience(options.search);
@@ -77,13 +85,14 @@ Tin improve(const Survey& survey, const Tin& tin, const SimplifyOptions& options
 
 Tin simplify(const Survey& survey, const SimplifyOptions& options) {
   const bool keep_all = !options.bounded && options.max_vertices == 0;
-  Refinement refinement(survey, ErrorModel{options.bounded},
+  const PostIndex posts(places_of(survey.samples));
+  Refinement refinement(survey, ErrorModel{options.bounded}, posts,
                         keep_all ? all_of(survey.samples) : hull_corners(survey.samples));
   refinement.refine(options.max_vertices != 0 ? options.max_vertices
                                               : std::numeric_limits<std::size_t>::max());
   const bool search =
       options.bounded && options.max_vertices == 0 && options.search != Search::kGreedy;
-  return search ? improve(survey, refinement.tin(), options) : refinement.tin();
+  return search ? improve(survey, posts, refinement.tin(), options) : refinement.tin();
 }
 
 }  // namespace microtin

@@ -11,13 +11,6 @@
 namespace microtin {
 namespace {
 
-std::vector<Point> places_of(const std::vector<Sample>& samples) {
-  std::vector<Point> places;
-  places.reserve(samples.size());
-  for (const Sample& s : samples) places.push_back(s.place);
-  return places;
-}
-
 std::vector<Point> places_of(const std::vector<Vertex>& vertices) {
   std::vector<Point> places;
   places.reserve(vertices.size());
@@ -27,10 +20,10 @@ std::vector<Point> places_of(const std::vector<Vertex>& vertices) {
 
 }  // namespace
 
-Surface::Surface(const Survey& survey, ErrorModel model, const Tin& tin)
+Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts, const Tin& tin)
     : survey_(survey),
       model_(model),
-      posts_(places_of(survey.samples)),
+      posts_(posts),
       triangulation_(places_of(tin.vertices)),
       vertices_(static_cast<Index>(tin.vertices.size())),
       fixed_(tin.vertices.size()),

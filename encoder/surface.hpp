@@ -14,8 +14,9 @@ namespace microtin {
 
 class Surface {
  public:
-  // The survey must outlive this. The vertices of `tin` get their numbers there.
-  Surface(const Survey& survey, ErrorModel model, const Tin& tin);
+  // The survey and the index of its samples must outlive this. The vertices of `tin` get their
+  // numbers there.
+  Surface(const Survey& survey, ErrorModel model, const PostIndex& posts, const Tin& tin);
 
   const Survey& survey() const { return survey_; }
   const ErrorModel& model() const { return model_; }
@@ -95,7 +96,7 @@ class Surface {
 
   const Survey& survey_;
   ErrorModel model_;
-  PostIndex posts_;
+  const PostIndex& posts_;
   std::vector<Target> targets_;  // by sample
   int32_t widest_stride_ = 1;
   Triangulation triangulation_;

@@ -32,11 +32,19 @@ Survey bumps() {
   return survey;
 }
 
+Points places_of(const Survey& survey) {
+  Points places;
+  for (const Sample& s : survey.samples) places.push_back(s.place);
+  return places;
+}
+
 }  // namespace
 
 TEST_CASE("edits: rolled back, everything is as it was") {
   const Survey survey = bumps();
-  Surface surface(survey, ErrorModel{true}, simplify(survey, {true, 0, Search::kGreedy, {}}));
+  const PostIndex posts(places_of(survey));
+  Surface surface(survey, ErrorModel{true}, posts,
+                  simplify(survey, {true, 0, Search::kGreedy, {}}));
   Edits edits(surface);
   const std::vector<Place> before = vertices_of(surface);
   Random random(31);
@@ -76,7 +84,9 @@ TEST_CASE("edits: rolled back, everything is as it was") {
 
 TEST_CASE("edits: heights beyond 16 bits are refused") {
   const Survey survey = bumps();
-  Surface surface(survey, ErrorModel{true}, simplify(survey, {true, 0, Search::kGreedy, {}}));
+  const PostIndex posts(places_of(survey));
+  Surface surface(survey, ErrorModel{true}, posts,
+                  simplify(survey, {true, 0, Search::kGreedy, {}}));
   Edits edits(surface);
   CHECK_FALSE(edits.set_height(0, 32768));
   CHECK_FALSE(edits.set_height(0, -32769));
