@@ -62,14 +62,20 @@ Approximation approximate(const Source& source, const LatticeOptions& lattice,
   }
   SimplifyOptions trial = options;
   trial.search = Search::kFast;
+  // A trial takes a third of the time of the search that follows.
+  const double trials = all.size() > 1 ? static_cast<double>(all.size()) : 0, total = trials + 3;
   std::size_t best = 0, fewest = std::numeric_limits<std::size_t>::max();
   for (std::size_t i = 0; i < all.size() && all.size() > 1; ++i) {
+    const auto before = static_cast<double>(i);
+    trial.progress = options.progress.part(before / total, (before + 1) / total);
     const std::size_t bytes = encode(simplify(all[i].survey, trial), {}, options.effort).size();
     if (bytes >= fewest) continue;
     fewest = bytes;
     best = i;
   }
-  Tin tin = simplify(all[best].survey, options);
+  SimplifyOptions last = options;
+  last.progress = options.progress.part(trials / total, 1);
+  Tin tin = simplify(all[best].survey, last);
   return {std::move(all[best]), std::move(tin)};
 }
 

@@ -6,6 +6,7 @@
 #include "encoder/approximation.hpp"
 #include "encoder/byte_budget.hpp"
 #include "encoder/cli_commands.hpp"
+#include "encoder/cli_progress.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
@@ -41,18 +42,20 @@ struct Encoded {
   Verification verification;
 };
 
-SimplifyOptions simplify_options(const EncodeRequest& request) {
+SimplifyOptions simplify_options(const EncodeRequest& request, const Progress& progress) {
   SimplifyOptions options;
   options.bounded = request.lattice.max_error.has_value();
   options.max_vertices = request.max_vertices;
   options.search = request.search;
   options.effort = request.effort;
+  options.progress = progress;
   return options;
 }
 
 // Encodes, measures what a decoder makes of it, and states the errors in the header.
-Encoded encode_measured(const Source& source, const EncodeRequest& request) {
-  Approximation found = approximate(source, request.lattice, simplify_options(request));
+Encoded encode_measured(const Source& source, const EncodeRequest& request,
+                        const Progress& progress) {
+  Approximation found = approximate(source, request.lattice, simplify_options(request, progress));
   const std::size_t vertices = found.tin.vertices.size();
   if (request.max_vertices != 0 && vertices > request.max_vertices) {
     throw Error("--max-vertices " + std::to_string(request.max_vertices) +
@@ -90,7 +93,7 @@ Decimal height_range(const Source& source) {
 // Nothing if points that share a place rule the bound out.
 std::optional<Encoded> encode_if_possible(const Source& source, const EncodeRequest& request) {
   try {
-    return encode_measured(source, request);
+    return encode_measured(source, request, {});
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -116,7 +119,7 @@ Encoded encode_within_bytes(const Source& source, EncodeRequest request) {
                               [&](uint32_t r) { return fits(r, search); });
   if (!rung) {
     request.lattice.max_error = largest;
-    encode_measured(source, request);  // throws if that was the reason
+    encode_measured(source, request, {});  // throws if that was the reason
     throw Error("--max-bytes " + std::to_string(request.max_bytes) +
                 " is not enough: at any error, at least " + std::to_string(smallest));
   }
@@ -161,8 +164,9 @@ void run_encode(const EncodeRequest& request) {
   Source source = import_terrain(request.input);
   const uint32_t filled = fill_voids(source, request.fill_voids);
   const Encoded encoded = about(request.input, [&] {
+    ProgressBar bar;
     return request.max_bytes != 0 ? encode_within_bytes(source, request)
-                                  : encode_measured(source, request);
+                                  : encode_measured(source, request, bar.progress());
   });
   out.write({reinterpret_cast<const char*>(encoded.stream.data()), encoded.stream.size()});
   out.commit();

@@ -14,18 +14,18 @@ bool contains(const std::vector<Index>& vertices, Index v) {
 Decimation::Decimation(Surface& surface)
     : surface_(surface), edits_(surface), fit_(surface), stale_(surface.vertex_limit()) {}
 
-std::size_t Decimation::remove_vertices() {
-  const std::size_t removed = try_each([this](Index v) { return try_removal(v); });
+std::size_t Decimation::remove_vertices(const Progress& progress) {
+  const std::size_t removed = try_each(progress, [this](Index v) { return try_removal(v); });
   stale_.assign(stale_.size(), false);  // what could not be removed has not been moved yet
   return removed;
 }
 
-std::size_t Decimation::remove_and_move_vertices() {
-  return try_each([this](Index v) { return try_move(v); });
+std::size_t Decimation::remove_and_move_vertices(const Progress& progress) {
+  return try_each(progress, [this](Index v) { return try_move(v); });
 }
 
 template <class Try>
-std::size_t Decimation::try_each(const Try& attempt) {
+std::size_t Decimation::try_each(const Progress& progress, const Try& attempt) {
   std::vector<Index> order;
   for (Index v = 0; v < surface_.vertex_limit(); ++v) {
     if (surface_.has_vertex(v) && !surface_.is_fixed(v) && !stale_[v]) order.push_back(v);
@@ -35,11 +35,13 @@ std::size_t Decimation::try_each(const Try& attempt) {
     std::swap(order[i - 1], order[(random_ >> 33) % i]);
   }
   std::size_t removed = 0;
-  for (const Index v : order) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Index v = order[i];
+    if (i % 256 == 0) progress.at(static_cast<double>(i) / static_cast<double>(order.size()));
     if (!surface_.has_vertex(v)) continue;
     stale_[v] = true;
     fitted_.clear();
-    removed += attempt(v) ? 1 : 0;
+    if (attempt(v)) ++removed;
     if (edits_.size() != 0) note_changes();
     edits_.commit();
   }

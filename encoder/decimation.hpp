@@ -7,6 +7,7 @@
 
 #include "encoder/edits.hpp"
 #include "encoder/height_fit.hpp"
+#include "encoder/progress.hpp"
 #include "encoder/surface.hpp"
 
 namespace microtin {
@@ -22,12 +23,12 @@ class Decimation {
 
   // Tries every vertex around which something has changed since it was tried last, in an order
   // that looks random. Returns how many vertices fewer there are.
-  std::size_t remove_vertices();
-  std::size_t remove_and_move_vertices();
+  std::size_t remove_vertices(const Progress& progress);
+  std::size_t remove_and_move_vertices(const Progress& progress);
 
  private:
   template <class Try>
-  std::size_t try_each(const Try& attempt);
+  std::size_t try_each(const Progress& progress, const Try& attempt);
   bool try_removal(Index v);
   bool try_move(Index v);
   bool move_to_worst(Index v);

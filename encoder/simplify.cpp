@@ -64,14 +64,21 @@ Patience patience(Search search) {
 
 constexpr int kHeightPasses = 3;
 
+// Of the time: the first attempt to remove all, then each round's part of what is left.
+constexpr double kRemovalPart = 0.2, kRoundPart = 0.3;
+
 Tin improve(const Survey& survey, const PostIndex& posts, const Tin& tin,
             const SimplifyOptions& options) {
   Surface surface(survey, ErrorModel{true}, posts, tin);
   Decimation decimation(surface);
-  decimation.remove_vertices();
+  decimation.remove_vertices(options.progress.part(0, kRemovalPart));
+  double done = kRemovalPart;
   const Patience limit = patience(options.search);
   for (uint32_t round = 0; round < limit.rounds; ++round) {
-    const auto saved = static_cast<double>(decimation.remove_and_move_vertices());
+    // Less and less is left to be tried.
+    const Progress progress = options.progress.part(done, done + (1 - done) * kRoundPart);
+    const auto saved = static_cast<double>(decimation.remove_and_move_vertices(progress));
+    done += (1 - done) * kRoundPart;
     if (saved <= limit.part * surface.vertices()) break;
   }
   HeightChoice heights(surface, options.effort.degree);
