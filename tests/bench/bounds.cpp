@@ -77,14 +77,13 @@ void print_bounds() {
   print_head("Bytes at a guaranteed error; quoted: LERC + zstd, SPERR, SZ3",
              {"terrain, bound in metres", "LERC (quoted)", "SPERR (quoted)", "SZ3 (quoted)",
               "greedy", "`--fast`", "s", "microtin", "s", "vertices", "z step", "rms",
-              "microtin / SZ3", "`--best`", "s", "`--never-below`"});
+              "microtin / SZ3", "`--never-below`"});
   GeometricMean mean;
   for (const Task& task : kTasks) {
     const Raster raster = read_raster({task.terrain, {}});
     const Result greedy = measure(raster, task.bound, Search::kGreedy);
     const Result fast = measure(raster, task.bound, Search::kFast);
     const Result normal = measure(raster, task.bound, Search::kNormal);
-    const Result best = measure(raster, task.bound, Search::kBest);
     const Result above = measure(raster, task.bound, Search::kNormal, true);
     const double ratio = static_cast<double>(normal.bytes) /
                          static_cast<double>(std::max<size_t>(task.quoted.sz3, 1));
@@ -94,7 +93,7 @@ void print_bounds() {
                number(fast.bytes), number(fast.seconds, 1), number(normal.bytes),
                number(normal.seconds, 1), number(normal.vertices), to_string(normal.z_step),
                number(normal.rms, 3), task.quoted.sz3 != 0 ? number(ratio, 3) : "",
-               number(best.bytes), number(best.seconds, 1), number(above.bytes)});
+               number(above.bytes)});
   }
   std::printf("\nGeometric mean of microtin / SZ3 over the first five: %.3f\n", mean.value());
 }
