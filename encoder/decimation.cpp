@@ -98,9 +98,7 @@ bool Decimation::try_move(Index v) {
   if (fit(vertices)) return true;
   const Sample& worst = surface_.survey().samples[fit_.worst_sample()];
   const Index hint = surface_.edge_of(vertices[0]);
-  const bool taken = std::any_of(vertices.begin(), vertices.end(),
-                                 [&](Index r) { return surface_.place(r) == worst.place; });
-  if (taken || worst.place == Point{old.x, old.y} || !surface_.can_insert(worst.place, hint)) {
+  if (worst.place == Point{old.x, old.y} || !surface_.can_insert(worst.place, hint)) {
     edits_.roll_back(0);
     return false;
   }

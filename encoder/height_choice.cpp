@@ -14,7 +14,6 @@ uint32_t bits_of(int32_t difference) {
   return magnitude == 0 ? 0 : highest_bit(magnitude) + 1;
 }
 
-constexpr Index kSeed = 3;     // vertices that nothing predicts
 constexpr int32_t kReach = 4;  // steps from the prediction that are looked at
 
 }  // namespace
@@ -23,7 +22,7 @@ HeightChoice::HeightChoice(Surface& surface, uint32_t degree) : surface_(surface
   find_rings(degree);
   find_dependents();
   for (const Index v : vertex_) z_.push_back(surface_.height(v));
-  residual_.assign(vertex_.size(), 4);  // as the coder starts
+  residual_.resize(vertex_.size());
   mesh_ = Mesh{x_.data(), y_.data(), z_.data(), nullptr, nullptr, static_cast<Index>(x_.size()), 0};
 }
 
@@ -50,8 +49,10 @@ void HeightChoice::find_rings(uint32_t degree) {
     for (const Index i : batch) {
       send(i);
       hint = sent.edge_of(sent.insert(places[i], hint));
-      for (const Index t : sent.new_triangles())
-        rings_.push_back(sent.mesh().origin[first_edge(t)]);
+      for (const Index t : sent.new_triangles()) {
+        const Index neighbour = sent.mesh().origin[first_edge(t)];
+        if (neighbour != kInfinity) rings_.push_back(neighbour);
+      }
     }
   }
   ring_start_.push_back(static_cast<uint32_t>(rings_.size()));
@@ -59,9 +60,7 @@ void HeightChoice::find_rings(uint32_t degree) {
 
 void HeightChoice::find_dependents() {
   dependent_start_.assign(vertex_.size() + 1, 0);
-  for (const Index i : rings_) {
-    if (i != kInfinity) ++dependent_start_[i + 1];
-  }
+  for (const Index i : rings_) ++dependent_start_[i + 1];
   for (std::size_t i = 1; i < dependent_start_.size(); ++i) {
     dependent_start_[i] += dependent_start_[i - 1];
   }
@@ -69,22 +68,23 @@ void HeightChoice::find_dependents() {
   std::vector<uint32_t> next(dependent_start_);
   for (Index i = 0; i < vertex_.size(); ++i) {
     for (uint32_t k = ring_start_[i]; k < ring_start_[i + 1]; ++k) {
-      if (rings_[k] != kInfinity) dependents_[next[rings_[k]]++] = i;
+      dependents_[next[rings_[k]]++] = i;
     }
   }
 }
 
+// Nothing predicts the first three: they cost the same at any height.
 HeightPrediction HeightChoice::predict(Index i) const {
   const Index* const ring = rings_.data() + ring_start_[i];
   const uint32_t size = ring_start_[i + 1] - ring_start_[i];
-  const Index first = ring[0] != kInfinity ? ring[0] : ring[1];
-  return predict_height(mesh_, residual_.data(), ring, size, point_of(mesh_, i), z_[first]);
+  if (size == 0 || ring[0] == kInfinity) return {z_[i], 0, 0};
+  return predict_height(mesh_, residual_.data(), ring, size, point_of(mesh_, i), z_[ring[0]]);
 }
 
 // Takes the lengths of codes from how often which numbers of bits occur now.
 void HeightChoice::learn_costs() {
   for (auto& scale : bits_) scale.fill(0.2F);
-  for (Index i = kSeed; i < z_.size(); ++i) {
+  for (Index i = 0; i < z_.size(); ++i) {
     const HeightPrediction prediction = predict(i);
     residual_[i] = residual_of(z_[i] - prediction.height);
     bits_[prediction.scale][bits_of(z_[i] - prediction.height)] += 1;
@@ -106,7 +106,7 @@ float HeightChoice::cost(Index i) const {
 // What vertex i and those that it predicts take at a height.
 float HeightChoice::cost_at(Index i, int32_t height) {
   z_[i] = static_cast<int16_t>(height);
-  float sum = i < kSeed ? 0 : cost(i);
+  float sum = cost(i);
   for (uint32_t k = dependent_start_[i]; k < dependent_start_[i + 1]; ++k) {
     sum += cost(dependents_[k]);
   }
@@ -116,7 +116,7 @@ float HeightChoice::cost_at(Index i, int32_t height) {
 void HeightChoice::choose(Index i) {
   const Index v = vertex_[i];
   const Surface::Interval allowed = surface_.allowed_heights(v);
-  const int32_t before = z_[i], predicted = i < kSeed ? before : predict(i).height;
+  const int32_t before = z_[i], predicted = predict(i).height;
   const int32_t around =
       std::clamp(predicted, std::min(allowed.low, before), std::max(allowed.high, before));
   const auto error = [&](int32_t z) { return std::abs(z - allowed.best); };
@@ -133,7 +133,7 @@ void HeightChoice::choose(Index i) {
   }
   z_[i] = static_cast<int16_t>(best);
   surface_.set_height(v, z_[i]);
-  if (i >= kSeed) residual_[i] = residual_of(best - predict(i).height);
+  residual_[i] = residual_of(best - predict(i).height);
 }
 
 void HeightChoice::pass() {

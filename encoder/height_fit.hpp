@@ -26,7 +26,8 @@ class HeightFit {
   // What the last call found: the change of a height, by place in `vertices`, ...
   int32_t shift(std::size_t vertex) const { return movers_[vertex].shift; }
 
-  // ... the covered triangles around, and, unless it succeeded, the worst sample there.
+  // ... the covered triangles around, and the sample that is worst there; any sample if all are
+  // within their bounds.
   const std::vector<Index>& triangles() const { return triangles_; }
   uint32_t worst_sample() const;
 

@@ -50,7 +50,7 @@ std::vector<uint32_t> hull_corners(const std::vector<Sample>& samples) {
   return chain;
 }
 
-// Rounds of a search: an upper limit, and the part of the vertices that a round must save for the
+// Rounds of a search: how many at most, and the part of the vertices that a round must save for the
 // next one to follow.
 struct Patience {
   uint32_t rounds;

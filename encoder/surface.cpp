@@ -141,7 +141,7 @@ Index Surface::insert(Vertex vertex, Index hint) {
 
 bool Surface::can_insert(Point p, Index hint) {
   const std::vector<Index>& replaced = triangulation_.conflicts(p, hint);
-  return replaced.size() + 2 <= Triangulation::kMaxRemovable &&
+  return !replaced.empty() && replaced.size() + 2 <= Triangulation::kMaxRemovable &&
          std::none_of(replaced.begin(), replaced.end(), [this](Index t) { return void_[t]; });
 }
 

@@ -74,7 +74,8 @@ class Surface {
   // The triangles that the last change made.
   const std::vector<Index>& new_triangles() const { return triangulation_.new_triangles(); }
 
-  // Whether an insertion there would replace no void triangle and can be taken back by remove.
+  // Whether there is no vertex yet, and an insertion would replace no void triangle and could be
+  // taken back by remove.
   bool can_insert(Point p, Index hint);
 
   // Calls visit(half-edge) for every half-edge that starts at v.

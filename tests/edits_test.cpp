@@ -67,7 +67,9 @@ TEST_CASE("edits: rolled back, everything is as it was") {
       };
       const std::vector<Place> now = vertices_of(surface);
       const Index hint = surface.edge_of(kInfinity);
-      if (std::any_of(now.begin(), now.end(), is_there) || !surface.can_insert(p, hint)) continue;
+      const bool taken = std::any_of(now.begin(), now.end(), is_there);
+      CHECK(surface.can_insert(p, hint) != taken);
+      if (taken) continue;
       edits.insert({p.x, p.y, 5}, hint);
       ++inserted;
     }
