@@ -1,7 +1,7 @@
 #include "encoder/approximation.hpp"
 
 #include <cstddef>
-#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +24,8 @@ std::vector<int> tenths_to_try(Search search) {
   }
 }
 
+constexpr int kOwnSteps = 4;
+
 Decimal half(Decimal value) {
   return make_decimal(Wide{value.mantissa} * 5, value.decimals + 1);
 }
@@ -43,10 +45,10 @@ std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattic
   }
   // The source's own step is good if it is not much smaller than the bound.
   lattice.z_step.reset();
-  if (!all.empty() && search == Search::kFast) return all;
   Laid own = lay_out(source, lattice);
-  const Decimal four_steps = make_decimal(Wide{own.z_step.mantissa} * 4, own.z_step.decimals);
-  if (all.empty() || bound <= four_steps) all.push_back(std::move(own));
+  const Decimal steps = make_decimal(Wide{own.z_step.mantissa} * kOwnSteps, own.z_step.decimals);
+  if (search == Search::kFast && bound <= steps) all.clear();
+  if (all.empty() || bound <= steps) all.push_back(std::move(own));
   return all;
 }
 
@@ -60,23 +62,29 @@ Approximation approximate(const Source& source, const LatticeOptions& lattice,
   } else {
     all.push_back(lay_out(source, lattice));
   }
+  const auto bytes_of = [&](const Tin& tin) { return encode(tin, {}, options.effort).size(); };
   SimplifyOptions trial = options;
-  trial.search = Search::kFast;
+  trial.search = options.search == Search::kBest ? Search::kNormal : Search::kFast;
   // A trial takes a third of the time of the search that follows.
   const double trials = all.size() > 1 ? static_cast<double>(all.size()) : 0, total = trials + 3;
-  std::size_t best = 0, fewest = std::numeric_limits<std::size_t>::max();
+  std::optional<Approximation> best;
+  std::size_t fewest = 0;
   for (std::size_t i = 0; i < all.size() && all.size() > 1; ++i) {
     const auto before = static_cast<double>(i);
     trial.progress = options.progress.part(before / total, (before + 1) / total);
-    const std::size_t bytes = encode(simplify(all[i].survey, trial), {}, options.effort).size();
-    if (bytes >= fewest) continue;
+    Tin tin = simplify(all[i].survey, trial);
+    const std::size_t bytes = bytes_of(tin);
+    if (best && bytes >= fewest) continue;
     fewest = bytes;
-    best = i;
+    best = Approximation{std::move(all[i]), std::move(tin)};
   }
   SimplifyOptions last = options;
   last.progress = options.progress.part(trials / total, 1);
-  Tin tin = simplify(all[best].survey, last);
-  return {std::move(all[best]), std::move(tin)};
+  const Survey& survey = best ? best->laid.survey : all[0].survey;
+  Tin tin = simplify(survey, last);
+  if (!best) return {std::move(all[0]), std::move(tin)};
+  if (bytes_of(tin) < fewest) best->tin = std::move(tin);
+  return std::move(*best);
 }
 
 }  // namespace microtin

@@ -107,6 +107,14 @@ TEST_CASE("approximation: the step is a good one, or the one asked for") {
   CHECK_THROWS_AS(approximate(raster, coarse, {true, 0, Search::kFast, {}, {}}), Error);
 }
 
+TEST_CASE("approximation: a longer search takes fewer bytes") {
+  const Raster raster = mountains(65);
+  const size_t fast = find(raster, within("10"), Search::kFast).bytes;
+  const size_t normal = find(raster, within("10"), Search::kNormal).bytes;
+  CHECK(normal < fast);
+  CHECK(find(raster, within("10"), Search::kBest).bytes <= normal);
+}
+
 TEST_CASE("approximation: steps that do not fit 16 bits are left out") {
   Raster raster = mountains(20);
   for (int64_t& z : raster.heights) z *= 40;
