@@ -18,7 +18,7 @@ std::vector<int> tenths_to_try(Search search) {
     case Search::kBest:
       return {10, 8, 6, 5, 4, 3};
     case Search::kNormal:
-      return {8, 5, 4};
+      return {8, 4};
     default:
       return {4};
   }

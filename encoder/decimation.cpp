@@ -9,6 +9,10 @@ bool contains(const std::vector<Index>& vertices, Index v) {
   return std::find(vertices.begin(), vertices.end(), v) != vertices.end();
 }
 
+// A vertex may go where the bound is missed most, or second or third most: always to go to the
+// worst place ends the search early.
+constexpr std::size_t kRanks = 3;
+
 }  // namespace
 
 Decimation::Decimation(Surface& surface)
@@ -16,7 +20,7 @@ Decimation::Decimation(Surface& surface)
 
 std::size_t Decimation::remove_vertices(const Progress& progress) {
   const std::size_t removed = try_each(progress, [this](Index v) { return try_removal(v); });
-  stale_.assign(stale_.size(), false);  // what could not be removed has not been moved yet
+  forget();  // what could not be removed has not been moved yet
   return removed;
 }
 
@@ -30,10 +34,7 @@ std::size_t Decimation::try_each(const Progress& progress, const Try& attempt) {
   for (Index v = 0; v < surface_.vertex_limit(); ++v) {
     if (surface_.has_vertex(v) && !surface_.is_fixed(v) && !stale_[v]) order.push_back(v);
   }
-  for (std::size_t i = order.size(); i > 1; --i) {  // Knuth's linear congruential generator
-    random_ = random_ * 6364136223846793005u + 1442695040888963407u;
-    std::swap(order[i - 1], order[(random_ >> 33) % i]);
-  }
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random_below(i)]);
   std::size_t removed = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Index v = order[i];
@@ -46,6 +47,12 @@ std::size_t Decimation::try_each(const Progress& progress, const Try& attempt) {
     edits_.commit();
   }
   return removed;
+}
+
+// Knuth's linear congruential generator.
+std::size_t Decimation::random_below(std::size_t limit) {
+  random_ = random_ * 6364136223846793005u + 1442695040888963407u;
+  return (random_ >> 33) % limit;
 }
 
 // What lies near a change may be tried again.
@@ -96,7 +103,7 @@ bool Decimation::try_move(Index v) {
   const Vertex old = surface_.vertex(v);
   if (!edits_.remove(v)) return false;
   if (fit(vertices)) return true;
-  const Sample& worst = surface_.survey().samples[fit_.worst_sample()];
+  const Sample& worst = surface_.survey().samples[fit_.worst_sample(random_below(kRanks))];
   const Index hint = surface_.edge_of(vertices[0]);
   if (worst.place == Point{old.x, old.y} || !surface_.can_insert(worst.place, hint)) {
     edits_.roll_back(0);

@@ -13,7 +13,7 @@
 namespace microtin {
 
 // A local search. A vertex is removed if its neighbours find heights that keep all bounds around.
-// If not, it may move to the post where the bound is missed most, and each of its new neighbours
+// If not, it may move to a post where the bound is missed, and each of its new neighbours
 // is tried; if none of them can go, it stays there nevertheless, so that the search does not get
 // stuck.
 class Decimation {
@@ -26,6 +26,9 @@ class Decimation {
   std::size_t remove_vertices(const Progress& progress);
   std::size_t remove_and_move_vertices(const Progress& progress);
 
+  // Lets every vertex be tried again.
+  void forget() { stale_.assign(stale_.size(), false); }
+
  private:
   template <class Try>
   std::size_t try_each(const Progress& progress, const Try& attempt);
@@ -35,6 +38,7 @@ class Decimation {
   bool fit(const std::vector<Index>& vertices);
   std::vector<Index> ring(Index v) const;
   void note_changes();
+  std::size_t random_below(std::size_t limit);
 
   Surface& surface_;
   Edits edits_;

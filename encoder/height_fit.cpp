@@ -178,19 +178,18 @@ void HeightFit::take(Step step) {
   }
 }
 
-uint32_t HeightFit::worst_sample() const {
-  float most = 0;
-  uint32_t worst = 0;
+uint32_t HeightFit::worst_sample(std::size_t rank) const {
+  std::vector<std::pair<float, uint32_t>> worst;  // how far out, which sample
   for (const Face& face : faces_) {
     if (face.excess == 0) continue;
+    worst.emplace_back(0.0F, 0);
     for (std::size_t i = face.begin; i < face.end; ++i) {
       const float over = std::abs(error_[i]) - radius_[i];
-      if (over <= most) continue;
-      most = over;
-      worst = sample_[i];
+      if (over > worst.back().first) worst.back() = {over, sample_[i]};
     }
   }
-  return worst;
+  std::sort(worst.rbegin(), worst.rend());
+  return worst.empty() ? 0 : worst[std::min(rank, worst.size() - 1)].second;
 }
 
 }  // namespace microtin

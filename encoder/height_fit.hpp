@@ -26,10 +26,10 @@ class HeightFit {
   // What the last call found: the change of a height, by place in `vertices`, ...
   int32_t shift(std::size_t vertex) const { return movers_[vertex].shift; }
 
-  // ... the covered triangles around, and the sample that is worst there; any sample if all are
-  // within their bounds.
+  // ... the covered triangles around, and the worst sample of the triangle that is worst there, or
+  // second worst, ...; any sample if all are within their bounds.
   const std::vector<Index>& triangles() const { return triangles_; }
-  uint32_t worst_sample() const;
+  uint32_t worst_sample(std::size_t rank) const;
 
  private:
   struct Face {

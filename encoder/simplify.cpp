@@ -50,16 +50,17 @@ std::vector<uint32_t> hull_corners(const std::vector<Sample>& samples) {
   return chain;
 }
 
-// Rounds of a search: how many at most, and the part of the vertices that a round must save for the
-// next one to follow.
+// Rounds of a search: how many at most, the part of the vertices that a round must save for the
+// next one to follow, and how often all vertices are tried again nevertheless.
 struct Patience {
   uint32_t rounds;
   double part;
+  uint32_t retries;
 };
 
 Patience patience(Search search) {
-  if (search == Search::kBest) return {100, 0};
-  return search == Search::kNormal ? Patience{20, 0.001} : Patience{1, 0};
+  if (search == Search::kBest) return {200, 0.001, 12};
+  return search == Search::kNormal ? Patience{30, 0.002, 2} : Patience{1, 0, 0};
 }
 
 constexpr int kHeightPasses = 3;
@@ -73,13 +74,16 @@ Tin improve(const Survey& survey, const PostIndex& posts, const Tin& tin,
   Decimation decimation(surface);
   decimation.remove_vertices(options.progress.part(0, kRemovalPart));
   double done = kRemovalPart;
+  uint32_t retries = 0;
   const Patience limit = patience(options.search);
   for (uint32_t round = 0; round < limit.rounds; ++round) {
     // Less and less is left to be tried.
     const Progress progress = options.progress.part(done, done + (1 - done) * kRoundPart);
     const auto saved = static_cast<double>(decimation.remove_and_move_vertices(progress));
     done += (1 - done) * kRoundPart;
-    if (saved <= limit.part * surface.vertices()) break;
+    if (saved > limit.part * surface.vertices()) continue;
+    if (retries++ == limit.retries) break;
+    decimation.forget();
   }
   HeightChoice heights(surface, options.effort.degree);
   for (int i = 0; i < kHeightPasses; ++i) heights.pass();
