@@ -116,9 +116,10 @@ Surface::Interval Surface::allowed_heights(Index v) const {
     });
   });
   if (!covered) return {heights_[v], heights_[v], 0};  // nothing around says what is allowed
-  constexpr double kSlack = 1e-4;
-  return {static_cast<int32_t>(std::ceil(low - kSlack)),
-          static_cast<int32_t>(std::floor(high + kSlack)), weights != 0 ? heights / weights : 0};
+  constexpr double kSlack = 1e-4, kBeyond = 65536;
+  return {static_cast<int32_t>(std::ceil(std::min(low, kBeyond) - kSlack)),
+          static_cast<int32_t>(std::floor(std::max(high, -kBeyond) + kSlack)),
+          weights != 0 ? heights / weights : 0};
 }
 
 Index Surface::finite_neighbour(Index v) const {
