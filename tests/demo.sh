@@ -18,7 +18,7 @@ microtin=build/release/microtin
 
 echo "== A terrain of 321 x 321 posts, encoded with an error of at most 12 m"
 $microtin fractal --size 321 --seed 9 -o "$demo/terrain.asc"
-$microtin encode "$demo/terrain.asc" --max-error 12 --z-step 10 -o "$demo/terrain.mtin"
+$microtin encode "$demo/terrain.asc" --max-error 12 -o "$demo/terrain.mtin"
 $microtin verify "$demo/terrain.mtin" "$demo/terrain.asc"
 echo "as 16-bit grid: $((321 * 321 * 2)) bytes"
 echo "as microtin:    $(wc -c <"$demo/terrain.mtin") bytes"

@@ -3,6 +3,7 @@
 #include <exception>
 
 #include "encoder/error.hpp"
+#include "tests/bench/bounds.hpp"
 #include "tests/bench/peers.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/speed.hpp"
@@ -19,6 +20,10 @@ void run(const std::string& command, const Arguments& arguments) {
     print_uniform_rate();
     print_terrain_rate();
     print_tile_rate();
+  } else if (command == "bounds") {
+    print_bounds();
+  } else if (command == "curves" && arguments.size() == 1) {
+    draw_curves(arguments[0]);
   } else if (command == "train") {
     print_start_probabilities();
   } else if (command == "streams" && arguments.size() == 1) {
@@ -34,8 +39,9 @@ void run(const std::string& command, const Arguments& arguments) {
     print_decode_speed(Arguments(arguments.begin() + 1, arguments.end()), measure, "instructions");
   } else {
     throw Error(
-        "usage: microtin_bench rate | train | streams FOLDER | times STREAM... | instructions FILE "
-        "STREAM...");
+        "usage: microtin_bench rate | bounds | curves FILE | train | streams FOLDER | times "
+        "STREAM... "
+        "| instructions FILE STREAM...");
   }
 }
 

@@ -1,0 +1,125 @@
+#include "tests/bench/bounds.hpp"
+
+#include <algorithm>
+#include <ctime>
+
+#include "encoder/approximation.hpp"
+#include "encoder/error.hpp"
+#include "encoder/verify.hpp"
+#include "tests/bench/curves.hpp"
+#include "tests/bench/inputs.hpp"
+#include "tests/bench/table.hpp"
+
+namespace microtin::bench {
+namespace {
+
+struct Quoted {
+  size_t lerc, sperr, sz3;  // bytes; 0: not known
+};
+
+struct Task {
+  const char* terrain;
+  const char* bound;  // metres
+  Quoted quoted;
+};
+
+// Quoted: LERC with zstd, SPERR and SZ3 on the same posts and bounds, all of them without random
+// access; measured once, elsewhere.
+constexpr Task kTasks[] = {
+    {"scottish_borders", "10", {74335, 16132, 15555}},
+    {"scottish_borders", "30", {39930, 6197, 4694}},
+    {"osnabrueck", "5", {42338, 12028, 10258}},
+    {"bigtujunga", "20", {71417, 11171, 9906}},
+    {"jacksboro", "10", {67097, 22537, 20866}},
+    {"jacksboro", "3", {0, 0, 44952}},
+    {"sthelens", "10", {}},
+    {"riviera", "30", {}},
+    {"andorra", "30", {}},
+    {"jd211_multibeam", "0.1", {}},
+    {"tidal_marsh", "0.2", {}},
+    {"bijou_gully", "0.5", {}},
+};
+
+struct Result {
+  size_t bytes, vertices;
+  Decimal z_step;
+  double rms, seconds;  // of processor time
+};
+
+// Throws Error if the decoded terrain is not within the bound.
+Result measure(const Source& source, const char* bound, Search search, bool never_below = false) {
+  const std::clock_t start = std::clock();
+  LatticeOptions lattice;
+  lattice.max_error = parse_decimal(bound);
+  lattice.never_below = never_below;
+  SimplifyOptions options;
+  options.bounded = true;
+  options.search = search;
+  const Approximation found = approximate(source, lattice, options);
+  Metadata metadata;
+  metadata.placement = found.laid.placement;
+  const Encoding encoding = encode_and_decode(found.tin, metadata, options.effort);
+  const Verification verified = verify(encoding.decoded.mesh(), source, lattice.max_error);
+  const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  const bool below = never_below && verified.max_below.mantissa != 0;
+  if (!verified.within_bound || verified.uncovered != 0 || below) throw Error("a bound is broken");
+  return {encoding.stream.size(), found.tin.vertices.size(), found.laid.z_step,
+          std::stod(to_string(verified.rms_error)), seconds};
+}
+
+std::string known(size_t bytes) {
+  return bytes != 0 ? number(bytes) : "";
+}
+
+}  // namespace
+
+void print_bounds() {
+  if (rasters().empty()) return;
+  print_head("Bytes at a guaranteed error; quoted: LERC + zstd, SPERR, SZ3",
+             {"terrain, bound in metres", "LERC (quoted)", "SPERR (quoted)", "SZ3 (quoted)",
+              "greedy", "`--fast`", "s", "microtin", "s", "vertices", "z step", "rms",
+              "microtin / SZ3", "`--never-below`"});
+  GeometricMean mean;
+  for (const Task& task : kTasks) {
+    const Raster raster = read_raster({task.terrain, {}});
+    const Result greedy = measure(raster, task.bound, Search::kGreedy);
+    const Result fast = measure(raster, task.bound, Search::kFast);
+    const Result normal = measure(raster, task.bound, Search::kNormal);
+    const Result above = measure(raster, task.bound, Search::kNormal, true);
+    const double ratio = static_cast<double>(normal.bytes) /
+                         static_cast<double>(std::max<size_t>(task.quoted.sz3, 1));
+    if (task.quoted.lerc != 0) mean.add(ratio);
+    print_row({std::string(task.terrain) + " " + task.bound, known(task.quoted.lerc),
+               known(task.quoted.sperr), known(task.quoted.sz3), number(greedy.bytes),
+               number(fast.bytes), number(fast.seconds, 1), number(normal.bytes),
+               number(normal.seconds, 1), number(normal.vertices), to_string(normal.z_step),
+               number(normal.rms, 3), task.quoted.sz3 != 0 ? number(ratio, 3) : "",
+               number(above.bytes)});
+  }
+  std::printf("\nGeometric mean of microtin / SZ3 over the first five: %.3f\n", mean.value());
+}
+
+void draw_curves(const std::string& path) {
+  Chart against_bound("largest error, m"), against_rms("rms error, m");
+  for (const char* terrain : {"scottish_borders", "bigtujunga", "jacksboro"}) {
+    Series bound_series{terrain, {}, {}}, rms_series{terrain, {}, {}};
+    for (const char* bound : {"3", "5", "10", "20", "30", "60"}) {
+      const Result result = measure(read_raster({terrain, {}}), bound, Search::kNormal);
+      const auto bytes = static_cast<double>(result.bytes);
+      bound_series.line.push_back({std::stod(bound), bytes});
+      rms_series.line.push_back({result.rms, bytes});
+      for (const Task& task : kTasks) {
+        if (task.terrain != bound_series.name || std::string(task.bound) != bound) continue;
+        const double at = std::stod(bound);
+        bound_series.marks.push_back({at, static_cast<double>(task.quoted.sz3), "SZ3"});
+        if (task.quoted.lerc == 0) continue;
+        bound_series.marks.push_back({at, static_cast<double>(task.quoted.lerc), "LERC"});
+      }
+    }
+    against_bound.add(bound_series);
+    against_rms.add(rms_series);
+  }
+  write_charts(path, {against_bound, against_rms});
+}
+
+}  // namespace microtin::bench
