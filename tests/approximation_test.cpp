@@ -28,7 +28,8 @@ Raster dunes(uint32_t size) {
   raster.width = raster.height = size;
   raster.decimals = 3;
   for (uint32_t i = 0; i < size * size; ++i) {
-    const double x = i % size, y = static_cast<double>(i / size);
+    const uint32_t row = i / size;
+    const double x = i % size, y = row;
     const double height = 900 * std::sin(x / 9) + 700 * std::cos(y / 7 + x / 20);
     raster.heights.push_back(std::lround(height));
   }

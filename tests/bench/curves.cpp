@@ -31,7 +31,8 @@ class Axis {
   // 1, 2, 5, 10, ... within.
   std::vector<double> ticks() const {
     std::vector<double> ticks;
-    for (double power = 1e-3; power < 1e9; power *= 10) {
+    for (int exponent = -3; exponent < 9; ++exponent) {
+      const double power = std::pow(10.0, exponent);
       for (const double tick : {power, 2 * power, 5 * power}) {
         if (std::log(tick) >= low_ - 1e-9 && std::log(tick) <= high_ + 1e-9) ticks.push_back(tick);
       }
