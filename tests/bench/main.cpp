@@ -3,7 +3,10 @@
 #include <exception>
 
 #include "encoder/error.hpp"
+#include "tests/bench/paper/linearity.hpp"
+#include "tests/bench/paper/tables.hpp"
 #include "tests/bench/peers.hpp"
+#include "tests/bench/quick.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/speed.hpp"
 #include "tests/bench/train.hpp"
@@ -13,12 +16,33 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
+void print_paper() {
+  print_compression();
+  print_running_time();
+  print_tests();
+  print_fractions();
+  print_claims();
+}
+
 void run(const std::string& command, const Arguments& arguments) {
   if (command == "rate") {
     print_missing_peers();
     print_uniform_rate();
     print_terrain_rate();
     print_tile_rate();
+  } else if (command == "paper") {
+    print_paper();
+  } else if (command == "linearity" && arguments.size() == 1) {
+    print_linearity(
+        {"nanoseconds", [](const Work& work) { return 1e9 * seconds_of(work); }, 4096000},
+        arguments[0]);
+  } else if (command == "growth" && arguments.size() == 2) {
+    const auto count = [&](const Work& work) { return instructions({work}, arguments[0])[0]; };
+    print_linearity({"instructions", count, 64000}, arguments[1]);
+  } else if (command == "quick" && arguments.size() == 1) {
+    check_figures(arguments[0]);
+  } else if (command == "record" && arguments.size() == 1) {
+    record_figures(arguments[0]);
   } else if (command == "train") {
     print_start_probabilities();
   } else if (command == "streams" && arguments.size() == 1) {
@@ -34,8 +58,8 @@ void run(const std::string& command, const Arguments& arguments) {
     print_decode_speed(Arguments(arguments.begin() + 1, arguments.end()), measure, "instructions");
   } else {
     throw Error(
-        "usage: microtin_bench rate | train | streams FOLDER | times STREAM... | instructions FILE "
-        "STREAM...");
+        "usage: microtin_bench rate | paper | linearity PLOT | growth FILE PLOT | quick FIGURES | "
+        "record FIGURES | train | streams FOLDER | times STREAM... | instructions FILE STREAM...");
   }
 }
 

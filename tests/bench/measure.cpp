@@ -16,13 +16,13 @@ namespace {
 
 constexpr size_t kRounds = 5;
 
+}  // namespace
+
 double seconds_of(const Work& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
-
-}  // namespace
 
 std::vector<double> nanoseconds(const std::vector<Work>& works) {
   std::vector<std::array<double, kRounds>> seconds(works.size());

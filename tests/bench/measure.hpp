@@ -10,6 +10,9 @@ namespace microtin::bench {
 
 using Work = std::function<void()>;
 
+// Wall-clock seconds of one run.
+double seconds_of(const Work& work);
+
 // Wall-clock nanoseconds of each work: medians of several rounds, in each of which all take a turn.
 std::vector<double> nanoseconds(const std::vector<Work>& works);
 

@@ -182,6 +182,7 @@ void Rebuilder::grow_cavity(Index chord) {
 Index Rebuilder::insert(Index chord) {
   grow_cavity(chord);
   const size_t size = cavity_triangles_.size();
+  tests_.destroyed += size;
   cavity_triangles_.resize(size + 2);
   const Cavity cavity = {cavity_triangles_.data(), cavity_origin_.data(), cavity_twin_.data(),
                          static_cast<Index>(size), static_cast<Index>(size)};

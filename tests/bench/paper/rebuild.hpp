@@ -29,6 +29,7 @@ struct Method {
 struct Tests {
   uint64_t in_circle = 0;
   uint64_t sidedness = 0;
+  uint64_t destroyed = 0;   // triangles
   uint64_t violations = 0;  // of Lemma 1: certified triangles whose test says they are destroyed
 };
 

@@ -1,0 +1,16 @@
+// The figures that are the same on every machine, against those that were recorded.
+#ifndef MICROTIN_BENCH_QUICK_HPP
+#define MICROTIN_BENCH_QUICK_HPP
+
+#include <string>
+
+namespace microtin::bench {
+
+// Prints what differs from the file, and throws Error if something does.
+void check_figures(const std::string& path);
+
+void record_figures(const std::string& path);
+
+}  // namespace microtin::bench
+
+#endif
