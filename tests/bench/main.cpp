@@ -3,10 +3,13 @@
 #include <exception>
 
 #include "encoder/error.hpp"
+#include "tests/bench/firmware_grids.hpp"
 #include "tests/bench/paper/linearity.hpp"
 #include "tests/bench/paper/tables.hpp"
+#include "tests/bench/peer_costs.hpp"
 #include "tests/bench/peers.hpp"
 #include "tests/bench/quick.hpp"
+#include "tests/bench/raster_rate.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/speed.hpp"
 #include "tests/bench/train.hpp"
@@ -32,6 +35,13 @@ void run(const std::string& command, const Arguments& arguments) {
     print_tile_rate();
   } else if (command == "paper") {
     print_paper();
+  } else if (command == "peers") {
+    print_missing_peers();
+    print_peer_costs();
+    print_raster_rate();
+    print_firmware_grids();
+  } else if (command == "peer-instructions" && arguments.size() == 1) {
+    print_peer_instructions(arguments[0]);
   } else if (command == "linearity" && arguments.size() == 1) {
     print_linearity(
         {"nanoseconds", [](const Work& work) { return 1e9 * seconds_of(work); }, 4096000},
@@ -58,7 +68,8 @@ void run(const std::string& command, const Arguments& arguments) {
     print_decode_speed(Arguments(arguments.begin() + 1, arguments.end()), measure, "instructions");
   } else {
     throw Error(
-        "usage: microtin_bench rate | paper | linearity PLOT | growth FILE PLOT | quick FIGURES | "
+        "usage: microtin_bench rate | paper | peers | peer-instructions FILE | linearity PLOT | "
+        "growth FILE PLOT | quick FIGURES | "
         "record FIGURES | train | streams FOLDER | times STREAM... | instructions FILE STREAM...");
   }
 }
