@@ -1,5 +1,7 @@
 #include "tests/bench/firmware_grids.hpp"
 
+#include <algorithm>
+
 #include "encoder/encode.hpp"
 #include "encoder/header.hpp"
 #include "encoder/verify.hpp"
@@ -29,7 +31,7 @@ struct Mesh {
 Mesh mesh_within(const Terrain& terrain, double bound) {
   LatticeOptions options;
   options.max_error = parse_decimal(number(bound, 2));
-  options.z_step = parse_decimal(number(0.8 * bound, 2));
+  options.z_step = parse_decimal(number(std::max(0.8 * bound, terrain.z_metres), 2));
   const Model model = simplified(terrain.raster, options);
   const Encoding encoding = encode_and_decode(model.tin, model.metadata, {});
   const auto vertices = static_cast<unsigned long>(model.tin.vertices.size());
@@ -42,6 +44,7 @@ Mesh mesh_within(const Terrain& terrain, double bound) {
 
 // The coarsest mesh found whose rms error is at most that: the bound follows it.
 Mesh mesh_with_rms(const Terrain& terrain, double rms) {
+  if (rms == 0) return mesh_within(terrain, 0);
   constexpr int kTrials = 3;
   double bound = 3 * rms;
   Mesh best{}, mesh{};

@@ -8,7 +8,6 @@
 #include "tests/bench/paper/tables.hpp"
 #include "tests/bench/peer_costs.hpp"
 #include "tests/bench/peers.hpp"
-#include "tests/bench/quick.hpp"
 #include "tests/bench/raster_rate.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/speed.hpp"
@@ -49,10 +48,6 @@ void run(const std::string& command, const Arguments& arguments) {
   } else if (command == "growth" && arguments.size() == 2) {
     const auto count = [&](const Work& work) { return instructions({work}, arguments[0])[0]; };
     print_linearity({"instructions", count, 64000}, arguments[1]);
-  } else if (command == "quick" && arguments.size() == 1) {
-    check_figures(arguments[0]);
-  } else if (command == "record" && arguments.size() == 1) {
-    record_figures(arguments[0]);
   } else if (command == "train") {
     print_start_probabilities();
   } else if (command == "streams" && arguments.size() == 1) {
@@ -69,8 +64,8 @@ void run(const std::string& command, const Arguments& arguments) {
   } else {
     throw Error(
         "usage: microtin_bench rate | paper | peers | peer-instructions FILE | linearity PLOT | "
-        "growth FILE PLOT | quick FIGURES | "
-        "record FIGURES | train | streams FOLDER | times STREAM... | instructions FILE STREAM...");
+        "growth FILE PLOT | train | streams FOLDER | times STREAM... | instructions FILE "
+        "STREAM...");
   }
 }
 

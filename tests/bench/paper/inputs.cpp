@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "tests/bench/inputs.hpp"
 #include "tests/point_sets.hpp"
 
 namespace microtin::bench {
@@ -76,9 +75,13 @@ Points spiral_places(uint32_t count) {
 }  // namespace
 
 std::vector<Point> uniform_places(uint32_t count, uint64_t seed) {
-  std::vector<Point> places;
-  for (const Vertex& v : uniform_tin(count, seed).vertices) places.push_back({v.x, v.y});
-  return places;
+  Random random(seed);
+  Points points;
+  do {
+    while (points.size() < count) points.push_back(point_in(random, kSide));
+    points = distinct(std::move(points), random);
+  } while (points.size() < count);
+  return points;
 }
 
 const std::vector<Family>& families() {

@@ -1,7 +1,5 @@
 #include "tests/bench/paper/tables.hpp"
 
-#include <algorithm>
-
 #include "encoder/encode.hpp"
 #include "encoder/triangulation.hpp"
 #include "tests/bench/inputs.hpp"
@@ -181,52 +179,6 @@ void print_claims() {
                  number(size_t{found.wrong_phases}), number(100 * found.least_fraction, 1) + " %"});
     }
   }
-}
-
-// --- Figures -------------------------------------------------------------------------------------
-
-namespace {
-
-void add_figures(const std::string& input, const std::vector<Point>& points, const System& system,
-                 Figures& figures) {
-  const std::string name = input + (system.independent_sets ? "_algorithm1" : "_algorithm2") +
-                           "_D" + std::to_string(system.degree) + "_";
-  const Sequence sequence = sequence_of(points, system);
-  figures.emplace_back(name + "bits", length_code_bits(sequence));
-  figures.emplace_back(name + "first_batch", sequence.batches.back());
-  const auto count = [&](Traversal traversal) { return tests_of(sequence, system, traversal); };
-  figures.emplace_back(name + "in_circle", count(Traversal::kAllNeighbours).in_circle);
-  figures.emplace_back(name + "uncertified", count(Traversal::kUncertified).in_circle);
-  if (!system.independent_sets) {
-    figures.emplace_back(name + "by_sides", count(Traversal::kSidedness).in_circle);
-    figures.emplace_back(name + "sidedness", count(Traversal::kSidedness).sidedness);
-  }
-  const Check found = check(points, system);
-  figures.emplace_back(name + "phases", found.phases);
-  figures.emplace_back(name + "violations", found.violations);
-  figures.emplace_back(name + "wrong_phases", found.wrong_phases);
-}
-
-}  // namespace
-
-Figures paper_figures() {
-  Figures figures;
-  for (const uint32_t vertices : {5000u, 80000u}) {
-    const std::string input = "uniform_" + std::to_string(vertices);
-    const std::vector<Point> points = uniform_places(vertices, 0);
-    for (const uint32_t degree : {6u, 9u}) {
-      add_figures(input, points, {"", Walk::kTriangles, degree}, figures);
-      add_figures(input, points, {"", std::nullopt, degree}, figures);
-    }
-    figures.emplace_back(input + "_MSZ_in_circle", jump_and_walk(points, 0));
-  }
-  for (const Family& family : families()) {
-    std::string name = family.name;
-    std::replace(name.begin(), name.end(), ' ', '_');
-    add_figures(name + "_20000", family.points(20000), kAlgorithm1, figures);
-    add_figures(name + "_20000", family.points(20000), kAlgorithm2, figures);
-  }
-  return figures;
 }
 
 }  // namespace microtin::bench
