@@ -60,7 +60,8 @@ void print_surface(const Terrain& terrain, const std::string& name, double bytes
                    const Errors& errors, double grid_bytes) {
   const double area = terrain.square_kilometres();
   print_row({terrain.name, name, number(bytes / area, 1), number(errors.largest, 1),
-             number(errors.rms, 2), number(ram / area, 1), number(bytes / grid_bytes, 3)});
+             number(errors.rms, 2), number(ram / area, 1), number(bytes / grid_bytes, 3),
+             number(ram / grid_bytes, 2)});
 }
 
 void print_style(const Terrain& terrain, const Style& style) {
@@ -81,7 +82,7 @@ void print_style(const Terrain& terrain, const Style& style) {
 void print_firmware_grids() {
   print_head("Against the grids of firmware, per square kilometre, errors at the source's posts",
              {"terrain", "surface", "bytes", "largest error, m", "rms error, m",
-              "RAM for queries, bytes", "bytes / grid"});
+              "RAM for queries, bytes", "bytes / grid", "RAM / grid"});
   constexpr double kFinestCell = 20;  // metres: finer sources are not what these grids are for
   for (const Terrain& terrain : terrains()) {
     if (terrain.column_metres < kFinestCell) continue;

@@ -103,6 +103,19 @@ Row measure_family(const Family& family, const CostUnit& unit, std::vector<Panel
   return exponents;
 }
 
+// The family that costs most per vertex at its largest size.
+Row costliest(const std::vector<Panel>& panels) {
+  Row row{"costliest at the end", ""};
+  for (const Panel& panel : panels) {
+    const auto last = [](const Curve& curve) { return curve.points.back().second; };
+    row.push_back(
+        std::max_element(panel.curves.begin(), panel.curves.end(),
+                         [&](const Curve& a, const Curve& b) { return last(a) < last(b); })
+            ->name);
+  }
+  return row;
+}
+
 }  // namespace
 
 void print_linearity(const CostUnit& unit, const std::string& plot) {
@@ -117,6 +130,7 @@ void print_linearity(const CostUnit& unit, const std::string& plot) {
   }
   print_head("Linearity: exponents fitted to totals in " + unit.name, head);
   for (const Row& row : exponents) print_row(row);
+  print_row(costliest(panels));
   write_plot(plot, panels);
 }
 
