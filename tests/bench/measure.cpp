@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <ctime>
 #include <fstream>
 
 #include "encoder/error.hpp"
@@ -19,9 +19,9 @@ constexpr size_t kRounds = 5;
 }  // namespace
 
 double seconds_of(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t start = std::clock();
   work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
 }
 
 std::vector<double> nanoseconds(const std::vector<Work>& works) {

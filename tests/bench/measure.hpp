@@ -10,10 +10,12 @@ namespace microtin::bench {
 
 using Work = std::function<void()>;
 
-// Wall-clock seconds of one run.
+// Seconds of processor time of one run: what else runs on the machine disturbs that less than the
+// clock on the wall.
 double seconds_of(const Work& work);
 
-// Wall-clock nanoseconds of each work: medians of several rounds, in each of which all take a turn.
+// Nanoseconds of processor time of each work: medians of several rounds, in each of which all take
+// a turn.
 std::vector<double> nanoseconds(const std::vector<Work>& works);
 
 // Instructions of each work, run once. The program must run under
