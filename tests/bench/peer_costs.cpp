@@ -80,6 +80,7 @@ std::vector<Contender> contenders(const Tin& tin) {
 
 std::vector<Work> works_of(const std::vector<Contender>& all) {
   std::vector<Work> works;
+  works.reserve(all.size());
   for (const Contender& contender : all) works.push_back(contender.decode);
   return works;
 }
@@ -97,6 +98,7 @@ void print_peer_costs() {
                {"codec", "delivers", "bytes", "bits/vertex", "decoding, ms", "peak memory, KB"});
     const std::vector<Contender> all = contenders(input.tin);
     std::vector<std::optional<double>> memory;
+    memory.reserve(all.size());
     for (const Contender& contender : all) memory.push_back(peak_memory(contender.decode));
     const std::vector<double> times = nanoseconds(works_of(all));
     const auto vertices = static_cast<double>(input.tin.vertices.size());

@@ -78,11 +78,13 @@ class Drawing {
     std::string out = text((left + right) / 2, y_ + 24, "middle", panel_.title,
                            "font-size=\"15\" font-weight=\"bold\"");
     const double step = tick_step(highest_);
-    for (double y = 0; y <= highest_; y += step) {
+    for (int i = 0; i * step <= highest_; ++i) {
+      const double y = i * step;
       out += line(left, at_y(y), right, at_y(y), y == 0 ? "#000" : "#ddd");
       out += text(left - 6, at_y(y) + 4, "end", count(y));
     }
-    for (double x = std::pow(10, std::ceil(std::log10(least_))); x <= most_; x *= 10) {
+    for (int i = static_cast<int>(std::ceil(std::log10(least_))); i <= std::log10(most_); ++i) {
+      const double x = std::pow(10, i);
       out += line(at_x(x), bottom, at_x(x), bottom + 5, "#000");
       out += text(at_x(x), bottom + 19, "middle", count(x));
     }
@@ -128,14 +130,16 @@ std::string legend(const std::vector<Curve>& curves, double width, double y) {
 
 void write_plot(const std::string& path, const std::vector<Panel>& panels) {
   const double columns = static_cast<double>(std::min<size_t>(2, panels.size()));
-  const double rows = static_cast<double>((panels.size() + 1) / 2);
+  const size_t row_count = (panels.size() + 1) / 2;
+  const auto rows = static_cast<double>(row_count);
   const double width = columns * kWidth, height = rows * kHeight + kLegend;
   std::ostringstream out;
   out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " << width << " " << height
       << "\" font-family=\"sans-serif\" font-size=\"13\">\n"
       << "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
   for (size_t i = 0; i < panels.size(); ++i) {
-    const double x = static_cast<double>(i % 2) * kWidth, y = static_cast<double>(i / 2) * kHeight;
+    const size_t column = i % 2, row = i / 2;
+    const double x = static_cast<double>(column) * kWidth, y = static_cast<double>(row) * kHeight;
     out << Drawing(panels[i], x, y).svg();
   }
   out << legend(panels.front().curves, width, rows * kHeight + kLegend / 2) << "</svg>\n";
