@@ -80,11 +80,12 @@ void print_style(const Terrain& terrain, const Style& style) {
 }  // namespace
 
 void print_firmware_grids() {
+  const std::vector<Terrain> all = terrains();
   print_head("Against the grids of firmware, per square kilometre, errors at the source's posts",
              {"terrain", "surface", "bytes", "largest error, m", "rms error, m",
               "RAM for queries, bytes", "bytes / grid", "RAM / grid"});
   constexpr double kFinestCell = 20;  // metres: finer sources are not what these grids are for
-  for (const Terrain& terrain : terrains()) {
+  for (const Terrain& terrain : all) {
     if (terrain.column_metres < kFinestCell) continue;
     for (const Style& style : kStyles) print_style(terrain, style);
   }
