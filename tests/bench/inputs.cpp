@@ -10,7 +10,7 @@
 #include "encoder/error.hpp"
 #include "encoder/import.hpp"
 #include "encoder/simplify.hpp"
-#include "tests/point_sets.hpp"
+#include "tests/bench/paper/inputs.hpp"
 
 namespace microtin::bench {
 namespace {
@@ -56,18 +56,8 @@ Window centre(uint32_t width, uint32_t height) {
 }  // namespace
 
 Tin uniform_tin(uint32_t count, uint64_t seed) {
-  constexpr uint32_t kSide = 65536;
-  Random random(seed);
-  Points points;
-  do {
-    while (points.size() < count) {
-      const uint32_t x = random.below(kSide);
-      points.push_back(point(x, random.below(kSide)));
-    }
-    points = distinct(std::move(points), random);
-  } while (points.size() < count);
   Tin tin;
-  for (const Point& p : points) tin.vertices.push_back({p.x, p.y, 0});
+  for (const Point p : uniform_places(count, seed)) tin.vertices.push_back({p.x, p.y, 0});
   return tin;
 }
 

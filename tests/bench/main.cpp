@@ -4,7 +4,12 @@
 
 #include "encoder/error.hpp"
 #include "tests/bench/bounds.hpp"
+#include "tests/bench/firmware_grids.hpp"
+#include "tests/bench/paper/linearity.hpp"
+#include "tests/bench/paper/tables.hpp"
+#include "tests/bench/peer_costs.hpp"
 #include "tests/bench/peers.hpp"
+#include "tests/bench/raster_rate.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/speed.hpp"
 #include "tests/bench/train.hpp"
@@ -13,6 +18,14 @@ namespace microtin::bench {
 namespace {
 
 using Arguments = std::vector<std::string>;
+
+void print_paper() {
+  print_compression();
+  print_running_time();
+  print_tests();
+  print_fractions();
+  print_claims();
+}
 
 void run(const std::string& command, const Arguments& arguments) {
   if (command == "rate") {
@@ -24,6 +37,22 @@ void run(const std::string& command, const Arguments& arguments) {
     print_bounds();
   } else if (command == "curves" && arguments.size() == 1) {
     draw_curves(arguments[0]);
+  } else if (command == "paper") {
+    print_paper();
+  } else if (command == "peers") {
+    print_missing_peers();
+    print_peer_costs();
+    print_raster_rate();
+    print_firmware_grids();
+  } else if (command == "peer-instructions" && arguments.size() == 1) {
+    print_peer_instructions(arguments[0]);
+  } else if (command == "linearity" && arguments.size() == 1) {
+    print_linearity(
+        {"nanoseconds", [](const Work& work) { return 1e9 * seconds_of(work); }, 4096000},
+        arguments[0]);
+  } else if (command == "growth" && arguments.size() == 2) {
+    const auto count = [&](const Work& work) { return instructions({work}, arguments[0])[0]; };
+    print_linearity({"instructions", count, 64000}, arguments[1]);
   } else if (command == "train") {
     print_start_probabilities();
   } else if (command == "streams" && arguments.size() == 1) {
@@ -39,9 +68,10 @@ void run(const std::string& command, const Arguments& arguments) {
     print_decode_speed(Arguments(arguments.begin() + 1, arguments.end()), measure, "instructions");
   } else {
     throw Error(
-        "usage: microtin_bench rate | bounds | curves FILE | train | streams FOLDER | times "
-        "STREAM... "
-        "| instructions FILE STREAM...");
+        "usage: microtin_bench rate | bounds | curves FILE | paper | peers | peer-instructions "
+        "FILE | "
+        "linearity PLOT | growth FILE PLOT | train | streams FOLDER | times STREAM... | "
+        "instructions FILE STREAM...");
   }
 }
 

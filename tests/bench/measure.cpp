@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+#include <ctime>
 #include <fstream>
 
 #include "encoder/error.hpp"
@@ -16,13 +16,13 @@ namespace {
 
 constexpr size_t kRounds = 5;
 
-double seconds_of(const Work& work) {
-  const auto start = std::chrono::steady_clock::now();
-  work();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 }  // namespace
+
+double seconds_of(const Work& work) {
+  const std::clock_t start = std::clock();
+  work();
+  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+}
 
 std::vector<double> nanoseconds(const std::vector<Work>& works) {
   std::vector<std::array<double, kRounds>> seconds(works.size());

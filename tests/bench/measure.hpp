@@ -10,7 +10,12 @@ namespace microtin::bench {
 
 using Work = std::function<void()>;
 
-// Wall-clock nanoseconds of each work: medians of several rounds, in each of which all take a turn.
+// Seconds of processor time of one run: what else runs on the machine disturbs that less than the
+// clock on the wall.
+double seconds_of(const Work& work);
+
+// Nanoseconds of processor time of each work: medians of several rounds, in each of which all take
+// a turn.
 std::vector<double> nanoseconds(const std::vector<Work>& works);
 
 // Instructions of each work, run once. The program must run under

@@ -27,6 +27,17 @@ std::vector<Codec> fast_codecs() {
   return codecs;
 }
 
+std::vector<Codec> mesh_codecs() {
+  std::vector<Codec> codecs;
+#ifdef MICROTIN_BENCH_MESHOPTIMIZER
+  codecs.push_back(meshoptimizer());
+#endif
+#ifdef MICROTIN_BENCH_ZLIB
+  codecs.push_back(quantized_mesh());
+#endif
+  return codecs;
+}
+
 std::optional<Triangulator> triangulator() {
 #ifdef MICROTIN_BENCH_CGAL
   return cgal();
@@ -41,6 +52,15 @@ void print_missing_peers() {
 #endif
 #ifndef MICROTIN_BENCH_LIBLZMA
   std::puts("skipped: xz (liblzma-dev is not installed)");
+#endif
+#ifndef MICROTIN_BENCH_MESHOPTIMIZER
+  std::puts("skipped: meshoptimizer (libmeshoptimizer-dev or libzstd-dev is not installed)");
+#endif
+#ifndef MICROTIN_BENCH_ZLIB
+  std::puts("skipped: quantized-mesh (zlib1g-dev is not installed)");
+#endif
+#ifndef MICROTIN_BENCH_LERC
+  std::puts("skipped: LERC (liblerc-dev is not installed)");
 #endif
 #ifndef MICROTIN_BENCH_CGAL
   std::puts("skipped: CGAL (libcgal-dev is not installed)");

@@ -31,6 +31,9 @@ std::vector<Codec> dense_codecs();
 // Those worth timing: points at the level with the smallest files, meshes at the default level.
 std::vector<Codec> fast_codecs();
 
+// Those that send triangles and are no Draco, each at its best.
+std::vector<Codec> mesh_codecs();
+
 std::optional<Triangulator> triangulator();
 
 // Names the missing packages.
@@ -43,6 +46,8 @@ Bytes checked_encode(const Codec& codec, const Surface& surface);
 Codec draco_points(int level);
 Codec draco_mesh(int level);
 Codec xz_points();
+Codec meshoptimizer();
+Codec quantized_mesh();
 Triangulator cgal();
 
 }  // namespace microtin::bench

@@ -83,17 +83,22 @@ Bytes encode(const Surface& surface) {
   return bytes;
 }
 
-Surface decode(const Bytes& bytes) {
-  constexpr size_t kMost = size_t{6} << 24;
-  Bytes planes(kMost);
-  uint64_t memory_limit = UINT64_MAX;
-  size_t from = 0, size = 0;
-  if (lzma_stream_buffer_decode(&memory_limit, 0, nullptr, bytes.data(), &from, bytes.size(),
-                                planes.data(), &size, planes.size()) != LZMA_OK) {
-    throw Error("xz: cannot decode");
+// How much will come out is not known: tries until it fits.
+Bytes decompressed(const Bytes& bytes) {
+  for (size_t most = 4 * bytes.size();; most *= 2) {
+    Bytes planes(most);
+    uint64_t memory_limit = UINT64_MAX;
+    size_t from = 0, size = 0;
+    const lzma_ret status = lzma_stream_buffer_decode(
+        &memory_limit, 0, nullptr, bytes.data(), &from, bytes.size(), planes.data(), &size, most);
+    planes.resize(size);
+    if (status == LZMA_OK) return planes;
+    if (status != LZMA_BUF_ERROR) throw Error("xz: cannot decode");
   }
-  planes.resize(size);
-  return surface_of(planes);
+}
+
+Surface decode(const Bytes& bytes) {
+  return surface_of(decompressed(bytes));
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+#include "tests/bench/paper/jump_and_walk.hpp"
+
+#include <cmath>
+
+#include "encoder/triangulation.hpp"
+#include "tests/point_sets.hpp"
+
+namespace microtin::bench {
+namespace {
+
+Index nearest_of(const Mesh& mesh, uint32_t samples, Point p, Random& random) {
+  Index nearest = 0;
+  for (uint32_t i = 0; i < samples; ++i) {
+    const Index v = random.below(mesh.vertices);
+    if (squared_length(point_of(mesh, v), p) < squared_length(point_of(mesh, nearest), p)) {
+      nearest = v;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace
+
+uint64_t jump_and_walk(const std::vector<Point>& points, uint64_t seed) {
+  Random random(seed);
+  Triangulation triangulation({points[0], points[1], points[2]});
+  uint64_t tests = 0;
+  for (size_t i = 3; i < points.size(); ++i) {
+    const auto samples = static_cast<uint32_t>(std::cbrt(i));
+    const Index near = nearest_of(triangulation.mesh(), samples, points[i], random);
+    triangulation.insert(points[i], triangulation.edge_of(near));
+    // A cavity of m triangles has m + 2 neighbours, and leaves m + 2 triangles.
+    tests += 2 * triangulation.new_triangles().size() - 2;
+  }
+  return tests;
+}
+
+}  // namespace microtin::bench
