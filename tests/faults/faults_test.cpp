@@ -134,6 +134,12 @@ Outcome fail_each(Stage& stage, const Words& words, Counter Counters::*counter, 
   return outcome;
 }
 
+#ifdef __SANITIZE_ADDRESS__
+constexpr uint64_t kStride = 10;  // slow
+#else
+constexpr uint64_t kStride = 1;
+#endif
+
 const std::vector<Words> kCommands = {
     {"encode", "t.asc", "-o", "new.mtin", "--max-error", "1"},
     {"encode", "p.xyz", "-o", "new.mtin"},
@@ -161,12 +167,12 @@ void check_all(Counter Counters::*counter, bool lasting, uint64_t stride) {
 
 TEST_CASE(
     "a request for memory that fails, each in turn, is an error of one line and leaves no file") {
-  check_all(&Counters::memory, false, 1);
+  check_all(&Counters::memory, false, kStride);
 }
 
 TEST_CASE(
     "memory that is used up, from each request on, is an error of one line and leaves no file") {
-  check_all(&Counters::memory, true, 7);
+  check_all(&Counters::memory, true, 7 * kStride);
 }
 
 TEST_CASE("a file function that fails, each in turn, is an error of one line and leaves no file") {
