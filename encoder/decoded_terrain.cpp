@@ -13,7 +13,7 @@ void expect_done(microtin_status status) {
 }
 
 // Most vertices beyond the seed for each byte behind the header: each takes two symbols at least,
-// of which a byte holds fewer than 2842 (SECURITY.md, proof of 19).
+// of which a byte holds fewer than 2842 (SECURITY.md, proof of 21).
 constexpr uint64_t kVerticesPerByte = 1421;
 
 // So that a few bytes do not claim much memory.

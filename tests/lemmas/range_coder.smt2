@@ -20,7 +20,7 @@
 (check-sat)
 (pop)
 
-; A bit narrows the range by 513/512 at least (SECURITY.md, proof of 19).
+; A bit narrows the range by 513/512 at least (SECURITY.md, proof of 21).
 ;; decoder/range_decoder.hpp: range = bound;
 ;; decoder/range_decoder.hpp: range -= bound;
 (push)
