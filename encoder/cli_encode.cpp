@@ -136,6 +136,7 @@ std::string report(const Source& source, uint32_t filled, const Encoded& encoded
   const bool posts = std::holds_alternative<Raster>(source);
   const Verification& measured = encoded.verification;
   std::ostringstream text;
+  text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
   text << "source: " << measured.posts << (posts ? " posts" : " points");
   if (measured.voids != 0) text << ", " << measured.voids << " void posts";
   if (filled != 0) text << ", " << filled << " of the posts were void and are filled";
@@ -168,10 +169,17 @@ void run_encode(const EncodeRequest& request) {
     return request.max_bytes != 0 ? encode_within_bytes(source, request)
                                   : encode_measured(source, request, bar.progress());
   });
+  const std::string text = report(source, filled, encoded);
   out.write({reinterpret_cast<const char*>(encoded.stream.data()), encoded.stream.size()});
+  if (request.output == "-") {
+    out.commit();
+    std::fputs(text.c_str(), stderr);
+    return;
+  }
+  OutputFile terminal("-");  // before the stream is there: a failure leaves none
+  terminal.write(text);
+  terminal.commit();
   out.commit();
-  std::FILE* const terminal = request.output == "-" ? stderr : stdout;
-  std::fputs(report(source, filled, encoded).c_str(), terminal);
 }
 
 }  // namespace microtin

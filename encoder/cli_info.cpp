@@ -5,10 +5,6 @@
 namespace microtin {
 namespace {
 
-Report decimal_or_null(const std::optional<Decimal>& value) {
-  return value ? Report(number(*value)) : Report();
-}
-
 double step_of(const Axis& axis) {
   return static_cast<double>(axis.numerator) / static_cast<double>(axis.denominator);
 }
@@ -17,7 +13,7 @@ double offset_of(const Axis& axis) {
   return static_cast<double>(axis.offset) / static_cast<double>(axis.denominator);
 }
 
-const char* name_of(Unit unit) {
+std::string_view name_of(Unit unit) {
   switch (unit) {
     case Unit::kUnknown:
       return "unknown";
@@ -42,61 +38,77 @@ uint32_t count_triangles(const microtin_mesh* mesh, microtin_triangle_kind kind)
   return count;
 }
 
-Report workspace_bytes_16(uint32_t vertices) {
+std::string workspace_bytes_16(uint32_t vertices) {
   constexpr uint32_t kMost16 = 10923;
-  if (vertices > kMost16) return {};
-  return MICROTIN_MESH_BYTES_FOR(vertices, 16) + MICROTIN_DECODER_BYTES_FOR(vertices, 16);
+  if (vertices > kMost16) return "null";
+  return json(MICROTIN_MESH_BYTES_FOR(vertices, 16) + MICROTIN_DECODER_BYTES_FOR(vertices, 16));
 }
 
-void add_placement(Report& report, const Metadata& metadata) {
-  const Placement& p = metadata.placement;
-  report["steps"] = {{"x", step_of(p.x)}, {"y", step_of(p.y)}, {"z", step_of(p.z)}};
-  report["offsets"] = {{"x", offset_of(p.x)}, {"y", offset_of(p.y)}, {"z", offset_of(p.z)}};
+template <class Value>
+std::string of_axes(const Placement& p, const Value& value) {
+  return json(JsonObject{{"x", value(p.x)}, {"y", value(p.y)}, {"z", value(p.z)}});
+}
+
+void add_placement(JsonObject& report, const Metadata& metadata) {
   const auto exact = [](const Axis& axis) {
-    return Report{
-        {"offset", axis.offset}, {"numerator", axis.numerator}, {"denominator", axis.denominator}};
+    return json(JsonObject{{"offset", json(axis.offset)},
+                           {"numerator", json(axis.numerator)},
+                           {"denominator", json(axis.denominator)}});
   };
-  report["placement"] = {{"x", exact(p.x)}, {"y", exact(p.y)}, {"z", exact(p.z)}};
-  report["units"] = {{"horizontal", name_of(metadata.horizontal_unit)},
-                     {"vertical", name_of(metadata.vertical_unit)}};
-  if (metadata.horizontal_epsg != 0) report["horizontal_epsg"] = metadata.horizontal_epsg;
-  if (metadata.vertical_epsg != 0) report["vertical_epsg"] = metadata.vertical_epsg;
-  if (!metadata.source.empty()) report["source"] = metadata.source;
+  const Placement& p = metadata.placement;
+  report.emplace_back("steps", of_axes(p, [](const Axis& a) { return json(step_of(a)); }));
+  report.emplace_back("offsets", of_axes(p, [](const Axis& a) { return json(offset_of(a)); }));
+  report.emplace_back("placement", of_axes(p, exact));
 }
 
-void add_accuracy(Report& report, const std::optional<Accuracy>& accuracy) {
-  report["bound"] = decimal_or_null(accuracy ? accuracy->bound : std::nullopt);
-  report["max_error"] = accuracy ? Report(number(accuracy->max_error)) : Report();
-  report["rms_error"] = accuracy ? Report(number(accuracy->rms_error)) : Report();
+void add_notes(JsonObject& report, const Metadata& metadata) {
+  report.emplace_back("units",
+                      json(JsonObject{{"horizontal", json(name_of(metadata.horizontal_unit))},
+                                      {"vertical", json(name_of(metadata.vertical_unit))}}));
+  const auto add_known = [&report](const char* name, uint32_t code) {
+    if (code != 0) report.emplace_back(name, json(code));
+  };
+  add_known("horizontal_epsg", metadata.horizontal_epsg);
+  add_known("vertical_epsg", metadata.vertical_epsg);
+  if (!metadata.source.empty()) report.emplace_back("source", json(metadata.source));
+}
+
+void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy) {
+  const bool bounded = accuracy && accuracy->bound;
+  report.emplace_back("bound", bounded ? number(*accuracy->bound) : "null");
+  report.emplace_back("max_error", accuracy ? number(accuracy->max_error) : "null");
+  report.emplace_back("rms_error", accuracy ? number(accuracy->rms_error) : "null");
+}
+
+JsonObject report_of(const std::vector<uint8_t>& stream) {
+  const Header header = read_header(stream);
+  const DecodedTerrain terrain(stream);
+  const uint32_t vertices = header.info.vertices;
+  const uint32_t voids = count_triangles(terrain.mesh(), MICROTIN_VOID);
+  const uint32_t triangles = count_triangles(terrain.mesh(), MICROTIN_REAL) + voids;
+  JsonObject report = {{"format_version", json(header.info.version)},
+                       {"vertices", json(vertices)},
+                       {"triangles", json(triangles)},
+                       {"void_triangles", json(voids)},
+                       {"bytes", json(stream.size())},
+                       {"bits_per_vertex", json(bits_per_vertex(stream.size(), vertices))},
+                       {"phases", json(terrain.phases())},
+                       {"degree", json(header.info.degree)},
+                       {"levels", json(header.info.levels)},
+                       {"workspace_bytes_16", workspace_bytes_16(vertices)},
+                       {"workspace_bytes_32", json(MICROTIN_MESH_BYTES_FOR(vertices, 32) +
+                                                   MICROTIN_DECODER_BYTES_FOR(vertices, 32))}};
+  add_placement(report, header.metadata);
+  add_notes(report, header.metadata);
+  add_accuracy(report, header.metadata.accuracy);
+  return report;
 }
 
 }  // namespace
 
 void run_info(const std::string& input, bool json) {
   const std::vector<uint8_t> stream = read_stream(input);
-  const Report report = about(input, [&] {
-    const Header header = read_header(stream);
-    const DecodedTerrain terrain(stream);
-    const uint32_t vertices = header.info.vertices;
-    const uint32_t voids = count_triangles(terrain.mesh(), MICROTIN_VOID);
-    Report r;
-    r["format_version"] = header.info.version;
-    r["vertices"] = vertices;
-    r["triangles"] = count_triangles(terrain.mesh(), MICROTIN_REAL) + voids;
-    r["void_triangles"] = voids;
-    r["bytes"] = stream.size();
-    r["bits_per_vertex"] = bits_per_vertex(stream.size(), vertices);
-    r["phases"] = terrain.phases();
-    r["degree"] = header.info.degree;
-    r["levels"] = header.info.levels;
-    r["workspace_bytes_16"] = workspace_bytes_16(vertices);
-    r["workspace_bytes_32"] =
-        MICROTIN_MESH_BYTES_FOR(vertices, 32) + MICROTIN_DECODER_BYTES_FOR(vertices, 32);
-    add_placement(r, header.metadata);
-    add_accuracy(r, header.metadata.accuracy);
-    return r;
-  });
-  print(report, json);
+  print(about(input, [&] { return report_of(stream); }), json);
 }
 
 }  // namespace microtin

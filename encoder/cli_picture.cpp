@@ -12,6 +12,7 @@ namespace microtin {
 void run_fractal(const std::string& output, uint32_t size, uint64_t seed) {
   OutputFile out(output);
   std::ostringstream text;
+  text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
   write_fractal_asc(text, size, seed);
   out.write(text.str());
   out.commit();

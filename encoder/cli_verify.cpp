@@ -16,16 +16,14 @@ void run_verify(const VerifyRequest& request) {
   const std::optional<Accuracy> accuracy = read_header(stream).metadata.accuracy;
   const std::optional<Decimal> bound = accuracy ? accuracy->bound : std::nullopt;
   const Verification found = verify(terrain.mesh(), source, bound);
-  Report report;
-  report["posts"] = found.posts;
-  report["covered"] = found.covered;
-  report["uncovered"] = found.uncovered;
-  report["voids"] = found.voids;
-  report["voids_answered"] = found.voids_answered;
-  report["bound"] = bound ? Report(number(*bound)) : Report();
-  report["max_error"] = number(found.max_error);
-  report["max_below"] = number(found.max_below);
-  report["rms_error"] = number(found.rms_error);
+  const JsonObject report = {{"posts", json(found.posts)},
+                             {"covered", json(found.covered)},
+                             {"uncovered", json(found.uncovered)},
+                             {"voids", json(found.voids)},
+                             {"voids_answered", json(found.voids_answered)},
+                             {"bound", bound ? number(*bound) : "null"},
+                             {"max_error", number(found.max_error)},
+                             {"rms_error", number(found.rms_error)}};
   print(report, request.json);
   if (!found.within_bound) throw Error(input + ": the largest error is above the bound");
   if (found.uncovered != 0) throw Error(input + ": heights of the source are not covered");

@@ -198,6 +198,7 @@ Bytes with_metadata(const Bytes& stream, const Metadata& metadata) {
   read_fixed_header(stream.data(), &fixed);
   Bytes changed = write_header(fixed.contract, metadata);
   changed.insert(changed.end(), stream.begin() + old.info.header_bytes, stream.end());
+  read_header(changed);  // throws if a decoder would refuse it; the rest was not touched
   return changed;
 }
 

@@ -1,6 +1,7 @@
 // The command line: what it accepts, and how it fails.
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <csignal>
 #include <cstdio>
 #include <functional>
 
@@ -177,10 +178,14 @@ void add_render(CLI::App& app, Action& action) {
   });
 }
 
-// Prints one line, whatever the text.
-int fail(std::string text, int code) {
-  text = text.substr(0, text.find('\n'));
-  std::fprintf(stderr, "microtin: %s\n", text.c_str());
+// Prints one line, whatever the text, without asking for memory: there may be none.
+int fail(const char* text, int code) {
+  std::fputs("microtin: ", stderr);
+  for (; *text != '\0'; ++text) {
+    const unsigned char c = static_cast<unsigned char>(*text);
+    std::fprintf(stderr, c < 32 || c == 127 ? "\\x%02x" : "%c", c);
+  }
+  std::fputc('\n', stderr);
   return code;
 }
 
@@ -208,6 +213,7 @@ int run(int argc, char** argv) {
 }  // namespace microtin
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like others
   try {
     return microtin::run(argc, argv);
   } catch (const std::bad_alloc&) {

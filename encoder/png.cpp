@@ -1,5 +1,25 @@
 #include "encoder/png.hpp"
 
+#include <algorithm>
+#include <new>
+
+namespace {
+
+// The picture's writer goes on writing when memory is short: it must not come back to that. What
+// it holds is lost, as the program ends.
+void* grow(void* old, size_t old_size, size_t size) {
+  void* const grown = ::operator new(size);
+  std::copy_n(static_cast<const char*>(old), std::min(old_size, size), static_cast<char*>(grown));
+  ::operator delete(old);
+  return grown;
+}
+
+}  // namespace
+
+#define STBIW_MALLOC(size) ::operator new(static_cast<size_t>(size))
+#define STBIW_REALLOC_SIZED(old, old_size, size) \
+  grow(old, static_cast<size_t>(old_size), static_cast<size_t>(size))
+#define STBIW_FREE(memory) ::operator delete(memory)
 #define STBI_WRITE_NO_STDIO
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION

@@ -36,6 +36,9 @@ constexpr uint32_t work_budget(uint32_t vertices) {
   return 4 * vertices + 512;
 }
 
+// The sum that breaks the budget is beyond it by one phase at most.
+static_assert(work_budget(kMaxVertices) + uint64_t{kMaxVertices} <= UINT32_MAX, "work fits");
+
 // What the fixed header promises.
 struct Contract {
   uint32_t vertices;

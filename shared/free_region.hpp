@@ -15,6 +15,10 @@ namespace microtin {
 typedef int32_t Cotangent;
 constexpr Cotangent kCotangentCap = 23000;
 
+static_assert(kCotangentCap > 89 * 256, "what is not capped is below the cap");
+static_assert(int64_t{89} * 65536 * 256 < INT32_MAX, "a capped quotient's dividend fits");
+static_assert(65536 + int64_t{kCotangentCap} * kCotangentCap < INT32_MAX, "a squared one fits");
+
 // q / h, off by less than 2 / 256; |q| < 2^34, 0 < h < 2^34.
 inline Cotangent cotangent(int64_t q, int64_t h) {
   // h is brought below 2^16, but not below 2^15: then |q| * 256 < 89 * 2^16 * 2^8 < 2^31.

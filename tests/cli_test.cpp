@@ -1,87 +1,15 @@
 // The program as its users meet it: exit codes, messages, files left behind.
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
-#include <vector>
 
-#include "tests/temporary_folder.hpp"
+#include "tests/session.hpp"
 
 using namespace microtin;
 namespace fs = std::filesystem;
 
 namespace {
-
-// Runs the program in a folder of its own.
-class Session {
- public:
-  struct Result {
-    int code;
-    std::string out;
-    std::string err;
-  };
-
-  Result run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.path() + "' && '" MICROTIN_CLI "' " + arguments +
-                                " 2>'" + error_path() + "'";
-    std::FILE* pipe = popen(command.c_str(), "r");
-    REQUIRE(pipe != nullptr);
-    Result result{0, "", ""};
-    char buffer[4096];
-    while (const size_t size = std::fread(buffer, 1, sizeof buffer, pipe)) {
-      result.out.append(buffer, size);
-    }
-    const int status = pclose(pipe);
-    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    result.err = content(error_path());
-    fs::remove(error_path());
-    return result;
-  }
-
-  // The one line of a failure, which leaves no file behind.
-  std::string failure(const std::string& arguments, int code = 1) const {
-    const std::vector<std::string> before = files();
-    const Result result = run(arguments);
-    CHECK_MESSAGE(result.code == code, arguments);
-    CHECK_MESSAGE(std::count(result.err.begin(), result.err.end(), '\n') == 1, result.err);
-    CHECK_MESSAGE(files() == before, arguments);
-    const std::string prefix = "microtin: ";
-    CHECK(result.err.substr(0, prefix.size()) == prefix);
-    return result.err.substr(std::min(result.err.size(), prefix.size()));
-  }
-
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-  }
-
-  std::string read(const std::string& name) const { return content(folder_ / name); }
-
- private:
-  std::string error_path() const { return errors_ / "err"; }
-
-  static std::string content(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  }
-
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_.path())) names.push_back(entry.path());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-
-  TemporaryFolder folder_, errors_;
-};
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 const char* const kGrid =
     "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 2\nnodata_value -1\n"

@@ -9,6 +9,7 @@
 #include "encoder/error.hpp"
 #include "fuzz/repair.hpp"
 #include "tests/device.hpp"
+#include "tests/forged_stream.hpp"
 #include "tests/streams.hpp"
 
 using namespace microtin;
@@ -108,4 +109,23 @@ TEST_CASE("queries on a mesh that is not decoded or not verified say so") {
   CHECK(microtin_height_at(device.mesh, x * 256, y * 256, MICROTIN_ANSWER_UNVERIFIED, &hint,
                            &height) == MICROTIN_HEIGHT);
   CHECK(height == z * 65536);
+}
+
+TEST_CASE("a header cannot claim more memory than its bytes could fill") {
+  const auto error_of = [](uint32_t vertices, size_t bytes) -> std::string {
+    Bytes stream = header_of(Contract{vertices, 99, 99, kMinDegree, 2, false, false});
+    stream.resize(stream.size() + bytes);
+    try {
+      const DecodedTerrain decoded(stream);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string refused =
+      "cut off or malformed: more vertices are announced than so few bytes can hold";
+  CHECK(error_of(kMaxVertices, 30) == refused);
+  CHECK(error_of(3 + 1421 * 30 + 1, 30) == refused);
+  CHECK(error_of(3 + 1421 * 30, 30) != refused);
+  CHECK(DecodedTerrain(terrain_stream(3, 1)).phases() == 0);
 }

@@ -214,6 +214,14 @@ Plan scattered(uint32_t n) {
   return single_steps(vertices);
 }
 
+// The last vertex sees two edges of the hull, and comes at the second.
+Bytes late_at_hull() {
+  std::vector<Vertex> vertices = kSeed;
+  vertices.push_back({60, 60, 0});
+  vertices.push_back({95, 95, 0});
+  return forge(flat_contract(5), LateHit(single_steps(vertices)));
+}
+
 using Refused = std::map<std::string, Bytes>;
 
 void add_headers(Refused& all) {
@@ -307,6 +315,21 @@ TEST_CASE("golden streams that must be refused are, each with its status") {
     CHECK(device.decode(stream) == status_named(name));
     CHECK(device.guards_are_whole());
     CHECK(device.decode(stream) == status_named(name));
+  }
+}
+
+TEST_CASE("a vertex that must be refused is not inserted first") {
+  Refused all = refused_streams();
+  all["malformed_cavity_passed"] = late_at_hull();
+  for (const auto& refused : all) {
+    const std::string& name = refused.first;
+    if (name.find("place_") == name.npos && name.find("cavity_") == name.npos) continue;
+    microtin_info info;
+    REQUIRE(microtin_peek(refused.second.data(), refused.second.size(), &info) == MICROTIN_DONE);
+    const Device device(info.vertices);
+    CAPTURE(name);
+    CHECK(device.decode(refused.second) == MICROTIN_MALFORMED);
+    CHECK(device.vertices() == info.vertices - 1);
   }
 }
 

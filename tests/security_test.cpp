@@ -23,7 +23,7 @@ std::string text_of(const std::filesystem::path& path) {
 
 std::string all_tests() {
   std::string text;
-  for (const auto& entry : std::filesystem::directory_iterator(kTests)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kTests)) {
     if (entry.path().extension() == ".cpp") text += text_of(entry.path());
   }
   return text;

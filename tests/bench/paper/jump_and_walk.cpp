@@ -8,13 +8,16 @@
 namespace microtin::bench {
 namespace {
 
+int64_t squared_distance(Point a, Point b) {
+  return dot(a - b, a - b);
+}
+
 Index nearest_of(const Mesh& mesh, uint32_t samples, Point p, Random& random) {
   Index nearest = 0;
   for (uint32_t i = 0; i < samples; ++i) {
     const Index v = random.below(mesh.vertices);
-    if (squared_length(point_of(mesh, v), p) < squared_length(point_of(mesh, nearest), p)) {
-      nearest = v;
-    }
+    const Point candidate = point_of(mesh, v), best = point_of(mesh, nearest);
+    if (squared_distance(candidate, p) < squared_distance(best, p)) nearest = v;
   }
   return nearest;
 }

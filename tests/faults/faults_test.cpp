@@ -1,0 +1,182 @@
+// Memory that runs out and files that fail, at every call in turn: each command ends with an error
+// of one line and without a file, or as if nothing had been.
+#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/faults/injected.hpp"
+#include "tests/files.hpp"
+#include "tests/temporary_folder.hpp"
+
+int microtin_main(int argc, char** argv);  // the program's, renamed
+
+namespace microtin::faults {
+namespace {
+
+using Words = std::vector<std::string>;
+
+// Of memory that child processes share, so that the parent learns what they counted.
+Counters& shared_counters() {
+  void* const page =
+      mmap(nullptr, sizeof(Counters), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  REQUIRE(page != MAP_FAILED);
+  return *new (page) Counters();
+}
+
+// A folder with what the commands read, and what became of it.
+class Stage {
+ public:
+  using Files = std::map<std::string, std::vector<uint8_t>>;
+  struct Result {
+    int status;  // as wait() tells
+    std::string error;
+    Files files;
+  };
+
+  Stage() {
+    const std::string grid =
+        "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 2\nnodata_value -1\n"
+        "1 2 3 4\n5 9 7 8\n-1 -1 3 9\n";
+    const std::string points = "0 0 1\n10.5 0 2\n0 10 3\n4 4 9\n";
+    write_file(folder_ / "t.asc", {grid.begin(), grid.end()});
+    write_file(folder_ / "p.xyz", {points.begin(), points.end()});
+    REQUIRE(run({"encode", "t.asc", "-o", "t.mtin"}).status == 0);
+  }
+
+  // Runs the program in a child process. New files are taken away again.
+  Result run(const Words& words, const Counters& faults = {}) {
+    counters_ = faults;
+    const std::string errors = errors_ / "err";
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) run_as_child(words, errors);
+    Result result{};
+    REQUIRE(waitpid(child, &result.status, 0) == child);
+    const std::vector<uint8_t> text = read_file(errors);
+    result.error.assign(text.begin(), text.end());
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+      const std::string name = entry.path().filename();
+      result.files[name] = read_file(entry.path());
+      if (name.find("new") == 0) std::filesystem::remove(entry.path());
+    }
+    return result;
+  }
+
+  const Counters& counters() const { return counters_; }
+
+ private:
+  [[noreturn]] void run_as_child(Words words, const std::string& errors) {
+    const bool ready = chdir(folder_.path().c_str()) == 0 &&
+                       dup2(open("out", O_WRONLY | O_CREAT | O_TRUNC, 0600), 1) >= 0 &&
+                       dup2(open(errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2) >= 0;
+    if (!ready) _exit(99);
+    words.insert(words.begin(), "microtin");
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    inject(&counters_);
+    const int code = microtin_main(static_cast<int>(words.size()), argv.data());
+    inject(nullptr);
+    _exit(code);
+  }
+
+  TemporaryFolder folder_, errors_;
+  Counters& counters_ = shared_counters();
+};
+
+bool is_one_line(const std::string& text) {
+  return text.find("microtin: ") == 0 && std::count(text.begin(), text.end(), '\n') == 1 &&
+         text.back() == '\n';
+}
+
+// Whether the command failed with a message and without a file of its own, whole or in part.
+bool is_clean_failure(const Stage::Result& result) {
+  return WIFEXITED(result.status) && WEXITSTATUS(result.status) == 1 && is_one_line(result.error) &&
+         std::none_of(result.files.begin(), result.files.end(),
+                      [](const auto& file) { return file.first.find("new") == 0; });
+}
+
+struct Outcome {
+  uint64_t faults = 0, failures = 0, unclean = 0;
+};
+
+// Lets every `stride`-th of what `counter` counts fail.
+Outcome fail_each(Stage& stage, const Words& words, Counter Counters::*counter, bool lasting,
+                  uint64_t stride) {
+  const Stage::Result whole = stage.run(words);
+  CHECK(whole.status == 0);
+  Outcome outcome;
+  const uint64_t asked = (stage.counters().*counter).asked;
+  for (uint64_t first = 1; first <= asked; first += stride) {
+    Counters faults;
+    (faults.*counter).first = first;
+    (faults.*counter).lasting = lasting;
+    const Stage::Result result = stage.run(words, faults);
+    const bool failed = result.status != 0;
+    ++outcome.faults;
+    outcome.failures += failed;
+    if (failed ? is_clean_failure(result) : result.files == whole.files) continue;
+    ++outcome.unclean;
+    CAPTURE(first);
+    CAPTURE(result.status);
+    CHECK_MESSAGE(false, result.error);
+    if (outcome.unclean > 5) break;
+  }
+  return outcome;
+}
+
+#ifdef __SANITIZE_ADDRESS__
+constexpr uint64_t kStride = 10;  // slow
+#else
+constexpr uint64_t kStride = 1;
+#endif
+
+const std::vector<Words> kCommands = {
+    {"encode", "t.asc", "-o", "new.mtin", "--max-error", "1"},
+    {"encode", "p.xyz", "-o", "new.mtin"},
+    {"encode", "p.xyz", "-o", "-"},
+    {"decode", "t.mtin", "-o", "new.ply"},
+    {"decode", "t.mtin", "-o", "new.obj"},
+    {"decode", "t.mtin", "-o", "-", "--lattice"},
+    {"info", "t.mtin"},
+    {"verify", "t.mtin", "t.asc", "--json"},
+    {"render", "t.mtin", "-o", "new.png", "--width", "16"},
+    {"fractal", "-o", "new.asc", "--size", "5"},
+};
+
+void check_all(Counter Counters::*counter, bool lasting, uint64_t stride) {
+  Stage stage;
+  for (const Words& words : kCommands) {
+    const Outcome outcome = fail_each(stage, words, counter, lasting, stride);
+    CHECK(outcome.failures > 0);
+    MESSAGE(words[0] << " " << words[1] << " " << words[3] << ": " << outcome.faults << " faults, "
+                     << outcome.failures << " errors");
+  }
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a request for memory that fails, each in turn, is an error of one line and leaves no file") {
+  check_all(&Counters::memory, false, kStride);
+}
+
+TEST_CASE(
+    "memory that is used up, from each request on, is an error of one line and leaves no file") {
+  check_all(&Counters::memory, true, 7 * kStride);
+}
+
+TEST_CASE("a file function that fails, each in turn, is an error of one line and leaves no file") {
+  check_all(&Counters::files, false, 1);
+}
+
+}  // namespace microtin::faults

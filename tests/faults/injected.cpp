@@ -1,0 +1,93 @@
+#include "tests/faults/injected.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+namespace microtin::faults {
+namespace {
+
+Counters* active = nullptr;
+bool reading_failed = false;
+
+bool memory_fails() {
+  return active != nullptr && active->memory.fails();
+}
+
+bool file_fails() {
+  if (active == nullptr || !active->files.fails()) return false;
+  errno = EIO;
+  return true;
+}
+
+}  // namespace
+
+void inject(Counters* counters) {
+  active = counters;
+}
+
+// What the linker's option --wrap calls in place of the C library, and the library itself.
+std::FILE* real_fopen(const char* path, const char* mode) __asm__("__real_fopen");
+size_t real_fread(void* to, size_t size, size_t count, std::FILE* file) __asm__("__real_fread");
+size_t real_fwrite(const void* from, size_t size, size_t count,
+                   std::FILE* file) __asm__("__real_fwrite");
+int real_ferror(std::FILE* file) __asm__("__real_ferror");
+int real_fflush(std::FILE* file) __asm__("__real_fflush");
+int real_fclose(std::FILE* file) __asm__("__real_fclose");
+int real_rename(const char* from, const char* to) __asm__("__real_rename");
+
+std::FILE* wrap_fopen(const char* path, const char* mode) __asm__("__wrap_fopen");
+size_t wrap_fread(void* to, size_t size, size_t count, std::FILE* file) __asm__("__wrap_fread");
+size_t wrap_fwrite(const void* from, size_t size, size_t count,
+                   std::FILE* file) __asm__("__wrap_fwrite");
+int wrap_ferror(std::FILE* file) __asm__("__wrap_ferror");
+int wrap_fflush(std::FILE* file) __asm__("__wrap_fflush");
+int wrap_fclose(std::FILE* file) __asm__("__wrap_fclose");
+int wrap_rename(const char* from, const char* to) __asm__("__wrap_rename");
+
+std::FILE* wrap_fopen(const char* path, const char* mode) {
+  return file_fails() ? nullptr : real_fopen(path, mode);
+}
+
+size_t wrap_fread(void* to, size_t size, size_t count, std::FILE* file) {
+  reading_failed = file_fails();
+  return reading_failed ? 0 : real_fread(to, size, count, file);
+}
+
+size_t wrap_fwrite(const void* from, size_t size, size_t count, std::FILE* file) {
+  return file_fails() ? 0 : real_fwrite(from, size, count, file);
+}
+
+int wrap_ferror(std::FILE* file) {
+  return reading_failed ? 1 : real_ferror(file);
+}
+
+int wrap_fflush(std::FILE* file) {
+  return file_fails() ? EOF : real_fflush(file);
+}
+
+int wrap_fclose(std::FILE* file) {
+  const int result = real_fclose(file);
+  return file_fails() ? EOF : result;
+}
+
+int wrap_rename(const char* from, const char* to) {
+  return file_fails() ? -1 : real_rename(from, to);
+}
+
+}  // namespace microtin::faults
+
+void* operator new(std::size_t size) {
+  void* const memory = microtin::faults::memory_fails() ? nullptr : std::malloc(size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}

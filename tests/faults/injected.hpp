@@ -1,0 +1,30 @@
+// Faults on demand: a request for memory, or a call of the C library's file functions, fails.
+#ifndef MICROTIN_TESTS_FAULTS_INJECTED_HPP
+#define MICROTIN_TESTS_FAULTS_INJECTED_HPP
+
+#include <cstdint>
+
+namespace microtin::faults {
+
+// Counts what is asked for, and says which of it fails.
+struct Counter {
+  uint64_t asked = 0;
+  uint64_t first = 0;    // to fail, from 1 on; 0: none
+  bool lasting = false;  // whether all later ones fail, too
+
+  bool fails() {
+    ++asked;
+    return first != 0 && (asked == first || (lasting && asked > first));
+  }
+};
+
+struct Counters {
+  Counter memory, files;
+};
+
+// Whose faults apply from now on; none if null.
+void inject(Counters* counters);
+
+}  // namespace microtin::faults
+
+#endif

@@ -1,0 +1,111 @@
+; Heights of places within a triangle, and places on the lattice.
+
+; An orientation at a place with 8 fractional bits: factors fit 32 bits, a product 2^40.
+;; shared/interpolation.hpp: return static_cast<int64_t>(abx) * (p.y - o.y) - static_cast<int64_t>(aby) * (p.x - o.x);
+(push)
+(declare-const side Int)
+(declare-const place Int)
+(declare-const corner Int)
+(assert (and (<= (- 65535) side 65535) (<= 0 place 16776960) (<= 0 corner 65535)))
+(define-fun offset () Int (- place (* 256 corner)))
+(check-sat)
+(assert (not (and (< (- 16777216) offset 16777216) (< (- 1099511627776) (* side offset) 1099511627776))))
+(check-sat)
+(pop)
+
+; The sum of weighted differences is within 2^56.
+;; shared/interpolation.hpp: weight_b * (static_cast<int32_t>(b.z) - a.z) + weight_c * (static_cast<int32_t>(c.z) - a.z);
+(push)
+(declare-const weight_b Int)
+(declare-const weight_c Int)
+(declare-const b Int)
+(declare-const c Int)
+(assert (and (<= 0 weight_b) (<= 0 weight_c) (<= (+ weight_b weight_c) 1099511627776)))
+(assert (and (<= (- 65535) b 65535) (<= (- 65535) c 65535)))
+(check-sat)
+(assert (not (<= (- 72057594037927936) (+ (* weight_b b) (* weight_c c)) 72057594037927936)))
+(check-sat)
+(pop)
+
+; ... and lies, by weight, between the lowest and the highest height, seen from the first corner's.
+;; shared/interpolation.hpp: int64_t whole = sum / w;
+(push)
+(declare-const weight_b Int)
+(declare-const weight_c Int)
+(declare-const w Int)
+(declare-const a Int)
+(declare-const b Int)
+(declare-const c Int)
+(assert (and (<= 0 weight_b) (<= 0 weight_c) (<= (+ weight_b weight_c) w)))
+(assert (and (<= (- 32768) a 32767) (<= (- 32768) b 32767) (<= (- 32768) c 32767)))
+(define-fun sum () Int (+ (* weight_b (- b a)) (* weight_c (- c a))))
+(check-sat)
+(assert (not (<= (* (- (- 32768) a) w) sum (* (- 32767 a) w))))
+(check-sat)
+(pop)
+
+; The rest, shifted, fits 57 bits; the fraction is at most 2^16, and 0 if there is no rest.
+;; shared/interpolation.hpp: const int64_t fraction = ((rest << 17) / w + 1) >> 1;  // 0 .. 2^16
+(push)
+(declare-const w Int)
+(declare-const rest Int)
+(declare-const quotient Int)
+(declare-const lost Int)
+(assert (and (< 0 w) (<= w 1099511627776) (<= 0 rest) (< rest w)))
+(assert (and (= (* rest 131072) (+ (* quotient w) lost)) (<= 0 lost) (< lost w)))
+(define-fun fraction () Int (div (+ quotient 1) 2))
+(check-sat)
+(assert (not (and (< (* rest 131072) 144115188075855872) (<= 0 fraction 65536) (=> (= rest 0) (= fraction 0)))))
+(check-sat)
+(pop)
+
+; The height fits 32 bits.
+;; shared/interpolation.hpp: return static_cast<int32_t>((a.z + whole) * 65536 + fraction);
+(push)
+(declare-const w Int)
+(declare-const a Int)
+(declare-const whole Int)
+(declare-const rest Int)
+(declare-const fraction Int)
+(assert (and (< 0 w) (<= (- 32768) a 32767) (<= 0 rest) (< rest w)))
+(define-fun sum () Int (+ (* whole w) rest))
+(assert (<= (* (- (- 32768) a) w) sum (* (- 32767 a) w)))
+(assert (and (<= 0 fraction 65536) (=> (= rest 0) (= fraction 0))))
+(check-sat)
+(assert (not (<= (- 2147483648) (+ (* (+ a whole) 65536) fraction) 2147483647)))
+(check-sat)
+(pop)
+
+; A real place on the lattice: whole units times the denominator, less the offset, fit 64 bits.
+;; decoder/query.cpp: if (whole > 2 * limit / denominator || whole < -2 * limit / denominator) return 0;
+;; decoder/query.cpp: const int64_t ahead = whole * denominator - axis->offset;
+(push)
+(declare-const whole Int)
+(declare-const denominator Int)
+(declare-const offset Int)
+(declare-const most Int)
+(define-fun limit () Int 2305843009213693952)
+(assert (and (< 0 denominator) (< denominator 1099511627776) (< (- limit) offset limit)))
+(assert (and (<= (* most denominator) (* 2 limit)) (< (* 2 limit) (* (+ most 1) denominator))))
+(assert (<= (- most) whole most))
+(check-sat)
+(assert (not (and (<= (* -2 limit) (* whole denominator) (* 2 limit))
+                  (< -9223372036854775808 (- (* whole denominator) offset) 9223372036854775808))))
+(check-sat)
+(pop)
+
+; ... and the rest of a unit, brought to the same, is a part below the denominator.
+;; decoder/query.cpp: const uint64_t scaled = static_cast<uint64_t>(rest) * axis->denominator;  // < 2^64
+(push)
+(declare-const per_unit Int)
+(declare-const rest Int)
+(declare-const denominator Int)
+(declare-const part Int)
+(declare-const left Int)
+(assert (and (< 0 per_unit) (<= per_unit 16777216) (<= 0 rest) (< rest per_unit)))
+(assert (and (< 0 denominator) (< denominator 1099511627776)))
+(assert (and (= (* rest denominator) (+ (* part per_unit) left)) (<= 0 left) (< left per_unit)))
+(check-sat)
+(assert (not (and (< (* rest denominator) 18446744073709551616) (<= 0 part) (< part denominator))))
+(check-sat)
+(pop)

@@ -1,0 +1,9 @@
+; True, but of nothing: the assumptions contradict each other.
+;; decoder/range_decoder.hpp: range /= count;
+(push)
+(declare-const count Int)
+(assert (and (<= 2 count 65536) (< 65536 count)))
+(check-sat)
+(assert (not (= count 7)))
+(check-sat)
+(pop)
