@@ -1,16 +1,10 @@
 // Queries on a decoded mesh.
 #include "decoder/state.hpp"
+#include "decoder/walk.hpp"
 #include "shared/digest.hpp"
-#include "shared/interpolation.hpp"
 
 namespace microtin {
 namespace {
-
-bool is_ghost(const Mesh& mesh, Index t) {
-  const Index f = first_edge(t);
-  return mesh.origin[f] == kInfinity || mesh.origin[f + 1u] == kInfinity ||
-         mesh.origin[f + 2u] == kInfinity;
-}
 
 bool has_terrain(const microtin_mesh& m, Index t) {
   return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
@@ -18,36 +12,6 @@ bool has_terrain(const microtin_mesh& m, Index t) {
 
 Vertex vertex_of(const Mesh& mesh, Index v) {
   return Vertex{mesh.x[v], mesh.y[v], mesh.z[v]};
-}
-
-// The real half-edge of a ghost triangle, from inside: the twin of the edge without infinity.
-Index step_inside(const Mesh& mesh, Index ghost) {
-  Index h = first_edge(ghost);
-  while (mesh.origin[h] == kInfinity || mesh.origin[next_in_triangle(h)] == kInfinity) ++h;
-  return triangle_of(mesh.twin[h]);
-}
-
-// Walks to the triangle that holds p: crosses any edge that p lies beyond. On a Delaunay
-// triangulation no triangle is met twice (Edelsbrunner, "An acyclicity theorem for cell
-// complexes"), which bounds the steps. Ends in a ghost if p is outside the hull.
-Index walk_to(const Mesh& mesh, Index start, FinePoint p) {
-  Index t = is_ghost(mesh, start) ? step_inside(mesh, start) : start;
-  for (Index steps = 0; steps < mesh.triangles; ++steps) {
-    const Index f = first_edge(t);
-    Index crossed = 3;
-    for (Index i = 0; i < 3; ++i) {
-      const Point from = point_of(mesh, mesh.origin[f + i]);
-      const Point to = point_of(mesh, mesh.origin[i == 2 ? f : f + i + 1u]);
-      if (orient_fine(from, to, p) < 0) {
-        crossed = i;
-        break;
-      }
-    }
-    if (crossed == 3) return t;
-    t = triangle_of(mesh.twin[f + crossed]);
-    if (is_ghost(mesh, t)) return t;
-  }
-  return t;
 }
 
 int32_t height_in(const Mesh& mesh, Index t, FinePoint p) {
@@ -124,6 +88,12 @@ uint64_t microtin_digest(const microtin_mesh* mesh) {
 
 microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
                                    uint32_t* hint, int32_t* height) {
+  return microtin_height_at_limited(mesh, x, y, flags, 0, hint, height);
+}
+
+microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                           uint32_t flags, uint32_t step_limit, uint32_t* hint,
+                                           int32_t* height) {
   const Mesh& m = mesh->mesh;
   if (m.triangles == 0) return MICROTIN_NOT_DECODED;
   if (mesh->verified_vertices != m.vertices && (flags & MICROTIN_ANSWER_UNVERIFIED) == 0) {
@@ -131,11 +101,13 @@ microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t
   }
   const int32_t most = static_cast<int32_t>(kLatticeMax) * 256;
   if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
-  const Index start = *hint < m.triangles ? static_cast<Index>(*hint) : 0;
-  const Index t = walk_to(m, start, FinePoint{x, y});
+  const FinePoint p = {x, y};
+  Index t = *hint < m.triangles ? static_cast<Index>(*hint) : static_cast<Index>(0);
+  const bool arrived = walk_to(m, p, step_limit == 0 ? m.triangles : step_limit, &t);
   *hint = t;
+  if (!arrived) return MICROTIN_NOT_YET;
   if (is_ghost(m, t)) return MICROTIN_OUTSIDE;
-  return answer_in(*mesh, t, FinePoint{x, y}, height);
+  return answer_in(*mesh, t, p, height);
 }
 
 void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,

@@ -40,6 +40,9 @@
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
   (((bits) == 16 ? 2711ul : 2919ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
 
+/* Bytes of the buckets of microtin_buckets_init: a constant expression, side * side numbers. */
+#define MICROTIN_BUCKETS_BYTES(side) (20ul + MICROTIN_INDEX_BITS / 8 * 1ul * (side) * (side))
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -85,6 +88,7 @@ typedef struct microtin_info {
 
 typedef struct microtin_mesh microtin_mesh;
 typedef struct microtin_decoder microtin_decoder;
+typedef struct microtin_buckets microtin_buckets;
 
 /* Reads a stream's header from its first `size` bytes without decoding anything. NEED_INPUT: give
  * more; `info->header_bytes`, if not 0, says how many. DONE: `info` is filled in and its check
@@ -153,23 +157,52 @@ uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corn
 uint64_t microtin_digest(const microtin_mesh* mesh);
 
 typedef enum microtin_answer {
-  MICROTIN_HEIGHT = 0,      /* a height was written */
-  MICROTIN_OUTSIDE = 1,     /* outside the hull */
-  MICROTIN_IN_VOID = 2,     /* inside, but the terrain is not known there */
-  MICROTIN_NOT_DECODED = 3, /* the mesh is empty */
-  MICROTIN_NOT_VERIFIED = 4 /* the mesh holds vertices whose check has not passed yet */
+  MICROTIN_HEIGHT = 0,       /* a height was written */
+  MICROTIN_OUTSIDE = 1,      /* outside the hull */
+  MICROTIN_IN_VOID = 2,      /* inside, but the terrain is not known there */
+  MICROTIN_NOT_DECODED = 3,  /* the mesh is empty */
+  MICROTIN_NOT_VERIFIED = 4, /* the mesh holds vertices whose check has not passed yet */
+  MICROTIN_NOT_YET = 5       /* the steps allowed for this call are used up; call again */
 } microtin_answer;
 
 #define MICROTIN_ANSWER_UNVERIFIED 1u /* flag: answer from vertices not yet verified too */
 
 /* Height of the terrain at (x, y), given with 8 fractional bits (0 .. 65535 * 256): z with 16
  * fractional bits, the exact height of the plane rounded to nearest (halves up), the same from
- * either side of an edge. Valid terrain wins over void on a shared edge, and a vertex has its own
- * height even among voids. *hint is the
- * triangle where the walk starts and, afterwards, where it ended; start with 0 and keep it between
- * calls. At most microtin_triangle_count steps; about sqrt(n) from an arbitrary hint. */
+ * either side of an edge. *height is written with MICROTIN_HEIGHT only. Valid terrain wins over
+ * void on a shared edge, and a vertex has its own height even among voids.
+ *
+ * *hint is the triangle where the walk starts and, afterwards, where it ended; start with 0, or
+ * with what microtin_buckets_hint says, and keep it between calls. Any number will do. A step looks
+ * at one triangle: at most microtin_triangle_count steps, whatever the stream; about sqrt(n) from
+ * an arbitrary hint, one or two from a place nearby. Never MICROTIN_NOT_YET. */
 microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
                                    uint32_t* hint, int32_t* height);
+
+/* The same with at most `step_limit` steps (0: no limit). On MICROTIN_NOT_YET *hint is where the
+ * walk stands: call again with the same place and hint. The bound on the steps holds for all such
+ * calls together. */
+microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                           uint32_t flags, uint32_t step_limit, uint32_t* hint,
+                                           int32_t* height);
+
+/* --- Buckets: where to start when no hint from nearby is at hand. Optional. --- */
+
+/* Divides the box around the vertices into side x side equal buckets and keeps for each the number
+ * of a triangle near its middle. `size` bytes of `workspace`, aligned to MICROTIN_ALIGNMENT, give
+ * the largest side up to 1,024 with MICROTIN_BUCKETS_BYTES(side) <= size. About sqrt(n) buckets a
+ * side leave few steps to walk. Costs O(n + side * side) steps on terrain, one walk per bucket in
+ * the worst case. MICROTIN_DONE, or MICROTIN_ARGUMENT, _MISALIGNED, _WORKSPACE_TOO_SMALL.
+ *
+ * The buckets know the mesh as it was; when it has changed, their hints are still allowed, but far
+ * away. */
+microtin_status microtin_buckets_init(void* workspace, size_t size, const microtin_mesh* mesh,
+                                      microtin_buckets** buckets);
+
+/* A hint for (x, y), given with 8 fractional bits; places outside take the nearest bucket. O(1). */
+uint32_t microtin_buckets_hint(const microtin_buckets* buckets, int32_t x, int32_t y);
+
+/* --- Real units --- */
 
 /* The placement of the decoded stream's axes. */
 void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
