@@ -4,6 +4,13 @@
 
 #include <stdint.h>
 
+// GCC 12 at -O2 puts two 16-bit numbers into a word of RISC-V and takes the high half of the word's
+// square for that of each (the middles of slices, cells.hpp).
+#if defined(__riscv) && !defined(__riscv_vector) && defined(__OPTIMIZE__) && \
+    !defined(__OPTIMIZE_SIZE__) && !defined(__clang__)
+#pragma GCC optimize("no-tree-vectorize")
+#endif
+
 namespace microtin {
 
 constexpr uint16_t kLatticeMax = 65535;  // x and y run from 0 to here; see predicates.hpp for why

@@ -14,3 +14,7 @@ add_machine(mps2-an500 0x00000000 4M 0x20000000 4M)
 add_machine(mps2-an505 0x10000000 4M 0x38000000 4M)
 add_machine(microbit 0x00000000 256K 0x20000000 16K)
 set(MICROTIN_CAPACITY_microbit 300)  # vertices that fit beside the stack
+
+# Instructions are counted by counter.cpp on MPS2 boards, with these options for the emulator.
+set(MICROTIN_COUNTER ${CMAKE_CURRENT_LIST_DIR}/counter.cpp)
+set(MICROTIN_COUNTING_OPTIONS "-icount shift=6")
