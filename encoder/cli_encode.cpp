@@ -2,6 +2,7 @@
 
 #include "encoder/cli_commands.hpp"
 #include "encoder/cli_report.hpp"
+#include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
 #include "encoder/import.hpp"
@@ -78,6 +79,29 @@ std::string report(const Source& source, uint32_t filled, const Laid& laid, cons
   return text.str();
 }
 
+// The vertices that may be used, 0 for as many as it takes. A device's RAM is a limit only if
+// nothing else asks for vertices.
+uint32_t vertex_limit(const EncodeRequest& request) {
+  if (request.device_ram == 0 || request.max_vertices != 0 || request.lattice.max_error) {
+    return request.max_vertices;
+  }
+  return most_vertices(request.device_ram);
+}
+
+void check_vertices(const Tin& tin, uint32_t limit, const EncodeRequest& request) {
+  const uint64_t vertices = tin.vertices.size();
+  if (request.device_ram != 0 && vertices > most_vertices(request.device_ram)) {
+    throw Error("the terrain does not fit: " + std::to_string(vertices) + " vertices take " +
+                std::to_string(device_ram(static_cast<uint32_t>(vertices))) +
+                " bytes; --device-ram " + std::to_string(request.device_ram) + " holds at most " +
+                std::to_string(most_vertices(request.device_ram)) + " vertices");
+  }
+  if (limit != 0 && vertices > limit) {
+    throw Error("--max-vertices " + std::to_string(limit) +
+                " is not enough: outline and voids alone need " + std::to_string(vertices));
+  }
+}
+
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
@@ -87,13 +111,9 @@ void run_encode(const EncodeRequest& request) {
   const uint32_t filled = fill_voids(source, request.fill_voids);
   const Laid laid = about(request.input, [&] { return lay_out(source, request.lattice); });
   const Encoded encoded = about(request.input, [&] {
-    const SimplifyOptions options{request.lattice.max_error.has_value(), request.max_vertices};
-    const Tin tin = simplify(laid.survey, options);
-    if (request.max_vertices != 0 && tin.vertices.size() > request.max_vertices) {
-      throw Error("--max-vertices " + std::to_string(request.max_vertices) +
-                  " is not enough: outline and voids alone need " +
-                  std::to_string(tin.vertices.size()));
-    }
+    const uint32_t limit = vertex_limit(request);
+    const Tin tin = simplify(laid.survey, {request.lattice.max_error.has_value(), limit});
+    check_vertices(tin, limit, request);
     return encode_measured(tin, metadata_of(request, source, laid.placement), source, request);
   });
   out.write({reinterpret_cast<const char*>(encoded.stream.data()), encoded.stream.size()});
