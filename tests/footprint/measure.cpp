@@ -4,7 +4,7 @@
 #include "tests/firmware/linked_stream.hpp"
 #include "tests/firmware/report.hpp"
 #include "toolchains/counter.hpp"
-#include "toolchains/firmware.hpp"
+#include "toolchains/firmware.h"
 
 namespace {
 
