@@ -15,6 +15,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/* The version of this library; all else that tells it takes it from here. */
+#define MICROTIN_VERSION_MAJOR 0
+#define MICROTIN_VERSION_MINOR 1
+#define MICROTIN_VERSION_PATCH 0
+
 /* Width of vertex and half-edge numbers, fixed when the library is built; the user's code must be
  * compiled with the same value. 16 bits reach 10,923 vertices, 32 bits the format's 2^24. */
 #ifndef MICROTIN_INDEX_BITS
