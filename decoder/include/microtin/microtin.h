@@ -8,6 +8,10 @@
  *
  * Numbers called x, y and z are lattice integers: 0..65535 for x and y, int16_t for z. A stream's
  * placement says what they mean in real units.
+ *
+ * Pointers must not be null; calls that can say MICROTIN_ARGUMENT check theirs. A call that changes
+ * an object must not run, say in an interrupt, while another uses the same. Costs are in steps or
+ * in n, the vertices; the README has instructions for several processors.
  */
 #ifndef MICROTIN_MICROTIN_H
 #define MICROTIN_MICROTIN_H
@@ -97,14 +101,17 @@ typedef struct microtin_buckets microtin_buckets;
 
 /* Reads a stream's header from its first `size` bytes without decoding anything. NEED_INPUT: give
  * more; `info->header_bytes`, if not 0, says how many. DONE: `info` is filled in and its check
- * passed. */
+ * passed. Errors: BAD_MAGIC, UNSUPPORTED_VERSION, CHECKSUM, MALFORMED, ARGUMENT. O(header bytes):
+ * usually below 100, at most 64 KB. */
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info);
 
-/* Lays out an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh.
- */
+/* Lays out an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh,
+ * which points into it. DONE, or WORKSPACE_TOO_SMALL, MISALIGNED, ARGUMENT. O(1). */
 microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh** mesh);
 
-/* Lays out a decoder that will fill `mesh` with the stream fed to it. The mesh is emptied. */
+/* Lays out a decoder that will fill `mesh` with the stream fed to it. The mesh is emptied; what
+ * holds of its capacity and of the decoder's is the smaller. When decoding is over, the workspace
+ * is free for other uses. DONE, or WORKSPACE_TOO_SMALL, MISALIGNED, ARGUMENT. O(1). */
 microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mesh* mesh,
                                       microtin_decoder** decoder);
 
@@ -119,27 +126,32 @@ void microtin_stop_after_phase(microtin_decoder* decoder, uint32_t phase);
  * also clears two bits per vertex; header bytes, at most 64 KB, are no steps.) *used tells how many
  * bytes were taken: all of them on NEED_INPUT; on STEP_LIMIT pass the rest again. On DONE the
  * stream's last byte is the last one taken and anything behind it is left alone. Chunking changes
- * no result. */
+ * no result.
+ *
+ * Bytes are read where they are, once: a stream in memory-mapped flash can be passed whole, one in
+ * a ring buffer from its oldest byte to where it wraps. Only a step's worth is kept between calls.
+ * Errors: all but MISALIGNED and WORKSPACE_TOO_SMALL. */
 microtin_status microtin_feed(microtin_decoder* decoder, const uint8_t* bytes, size_t size,
                               uint32_t step_limit, size_t* used);
 
-/* Tells the decoder that no byte will follow: NEED_INPUT becomes the error MICROTIN_TRUNCATED. Not
- * to be called after STEP_LIMIT: feed the rest first. */
+/* Tells the decoder that no byte will follow: NEED_INPUT becomes the error MICROTIN_TRUNCATED, any
+ * other status is told again. Not to be called after STEP_LIMIT: feed the rest first. O(1). */
 microtin_status microtin_finish(microtin_decoder* decoder);
 
 /* Phases complete so far, and how many bytes of the stream were decoded: all that were taken but a
- * few that wait for more. */
+ * few that wait for more. O(1). */
 uint32_t microtin_phase(const microtin_decoder* decoder);
 uint64_t microtin_bytes_used(const microtin_decoder* decoder);
 
-/* --- The mesh. Valid at any time; it holds the exact Delaunay triangulation of its vertices. ---
- */
+/* --- The mesh. Valid at any time; it holds the exact Delaunay triangulation of its vertices. Each
+ * call is O(1) if not said otherwise; numbers out of range are not checked. --- */
 
 #define MICROTIN_INFINITY 0xFFFFFFFFul
 
+/* Vertices decoded so far. */
 uint32_t microtin_vertex_count(const microtin_mesh* mesh);
 
-/* Vertex `v` < microtin_vertex_count. */
+/* Place and height of vertex `v` < microtin_vertex_count. */
 void microtin_vertex(const microtin_mesh* mesh, uint32_t v, uint16_t* x, uint16_t* y, int16_t* z);
 
 /* Triangles, ghosts included: 2n - 2, or 0 while the mesh is empty. */
@@ -160,6 +172,8 @@ uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corn
 /* A number that depends on the set of triangles alone, not on their order (FORMAT.md, "Digest").
  * Equal on every target. O(n). */
 uint64_t microtin_digest(const microtin_mesh* mesh);
+
+/* --- Heights --- */
 
 typedef enum microtin_answer {
   MICROTIN_HEIGHT = 0,       /* a height was written */
@@ -209,14 +223,14 @@ uint32_t microtin_buckets_hint(const microtin_buckets* buckets, int32_t x, int32
 
 /* --- Real units --- */
 
-/* The placement of the decoded stream's axes. */
+/* The placement of the decoded stream's axes; offset 0 and step 1 before. O(1). */
 void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
                         microtin_axis* z);
 
 /* Converts a real coordinate, `value` / `per_unit` units (degrees as 1e-7 integers: per_unit =
  * 10000000), to the lattice with 8 fractional bits, rounded to nearest, for microtin_height_at.
  * Returns 1, or 0 when the place lies outside 0..65535, per_unit outside 1 .. 2^24, or the axis'
- * offset outside +-2^62. Exact: integers only. */
+ * offset outside +-2^62; *lattice is then left alone. Exact. A few 64-bit divisions. */
 int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
                         int32_t* lattice);
 
