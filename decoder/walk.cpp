@@ -31,11 +31,10 @@ bool walk_to(const Mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle
   for (uint32_t step = 0; step < step_limit && !arrived; ++step) {
     // p does not lie beyond h.
     const Index next = next_in_triangle(h), last = next_in_triangle(next);
-    if (mesh.origin[last] == kInfinity) {
-      arrived = true;
-    } else if (orient_fine(origin_of(mesh, next), origin_of(mesh, last), p) < 0) {
+    const bool real = mesh.origin[last] != kInfinity;
+    if (real && orient_fine(origin_of(mesh, next), origin_of(mesh, last), p) < 0) {
       h = mesh.twin[next];
-    } else if (orient_fine(origin_of(mesh, last), origin_of(mesh, h), p) < 0) {
+    } else if (real && orient_fine(origin_of(mesh, last), origin_of(mesh, h), p) < 0) {
       h = mesh.twin[last];
     } else {
       arrived = true;

@@ -3,7 +3,7 @@ degree and with the most levels, hubs make a decoder's steps as dear as a stream
 
 import math
 
-SPOKES, SIDE, PITCH, RADIUS = 30, 8, 8191, 3800
+SPOKES, SIDE, PITCH, RADIUS = 30, 8, 8191, 2500
 
 state = 1
 for wheel in range(SIDE * SIDE):
