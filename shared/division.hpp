@@ -1,5 +1,5 @@
-// 64-bit division. Where the machine has none it is done bit by bit: the compilers' helpers are
-// several times the code.
+// 64-bit division. Where the machine has none it is done bit by bit: the compilers' helpers, but
+// for those of AVR, are several times the code.
 #ifndef MICROTIN_SHARED_DIVISION_HPP
 #define MICROTIN_SHARED_DIVISION_HPP
 
@@ -14,7 +14,7 @@ struct Quotient {
   uint64_t rest;
 };
 
-#if UINTPTR_MAX > 0xFFFFFFFFu
+#if UINTPTR_MAX > 0xFFFFFFFFu || defined(__wasm__) || defined(__AVR__)
 
 // d > 0.
 inline Quotient divide(uint64_t n, uint64_t d) {
