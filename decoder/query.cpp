@@ -1,16 +1,11 @@
 // Queries on a decoded mesh.
 #include "decoder/state.hpp"
+#include "decoder/walk.hpp"
 #include "shared/digest.hpp"
-#include "shared/interpolation.hpp"
+#include "shared/division.hpp"
 
 namespace microtin {
 namespace {
-
-bool is_ghost(const Mesh& mesh, Index t) {
-  const Index f = first_edge(t);
-  return mesh.origin[f] == kInfinity || mesh.origin[f + 1u] == kInfinity ||
-         mesh.origin[f + 2u] == kInfinity;
-}
 
 bool has_terrain(const microtin_mesh& m, Index t) {
   return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
@@ -18,36 +13,6 @@ bool has_terrain(const microtin_mesh& m, Index t) {
 
 Vertex vertex_of(const Mesh& mesh, Index v) {
   return Vertex{mesh.x[v], mesh.y[v], mesh.z[v]};
-}
-
-// The real half-edge of a ghost triangle, from inside: the twin of the edge without infinity.
-Index step_inside(const Mesh& mesh, Index ghost) {
-  Index h = first_edge(ghost);
-  while (mesh.origin[h] == kInfinity || mesh.origin[next_in_triangle(h)] == kInfinity) ++h;
-  return triangle_of(mesh.twin[h]);
-}
-
-// Walks to the triangle that holds p: crosses any edge that p lies beyond. On a Delaunay
-// triangulation no triangle is met twice (Edelsbrunner, "An acyclicity theorem for cell
-// complexes"), which bounds the steps. Ends in a ghost if p is outside the hull.
-Index walk_to(const Mesh& mesh, Index start, FinePoint p) {
-  Index t = is_ghost(mesh, start) ? step_inside(mesh, start) : start;
-  for (Index steps = 0; steps < mesh.triangles; ++steps) {
-    const Index f = first_edge(t);
-    Index crossed = 3;
-    for (Index i = 0; i < 3; ++i) {
-      const Point from = point_of(mesh, mesh.origin[f + i]);
-      const Point to = point_of(mesh, mesh.origin[i == 2 ? f : f + i + 1u]);
-      if (orient_fine(from, to, p) < 0) {
-        crossed = i;
-        break;
-      }
-    }
-    if (crossed == 3) break;
-    t = triangle_of(mesh.twin[f + crossed]);
-    if (is_ghost(mesh, t)) break;
-  }
-  return t;
 }
 
 int32_t height_in(const Mesh& mesh, Index t, FinePoint p) {
@@ -124,6 +89,12 @@ uint64_t microtin_digest(const microtin_mesh* mesh) {
 
 microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
                                    uint32_t* hint, int32_t* height) {
+  return microtin_height_at_limited(mesh, x, y, flags, 0, hint, height);
+}
+
+microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                           uint32_t flags, uint32_t step_limit, uint32_t* hint,
+                                           int32_t* height) {
   const Mesh& m = mesh->mesh;
   if (m.triangles == 0) return MICROTIN_NOT_DECODED;
   if (mesh->verified_vertices != m.vertices && (flags & MICROTIN_ANSWER_UNVERIFIED) == 0) {
@@ -131,11 +102,13 @@ microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t
   }
   const int32_t most = static_cast<int32_t>(kLatticeMax) * 256;
   if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
-  const Index start = *hint < m.triangles ? static_cast<Index>(*hint) : 0;
-  const Index t = walk_to(m, start, FinePoint{x, y});
+  const FinePoint p = {x, y};
+  Index t = *hint < m.triangles ? static_cast<Index>(*hint) : static_cast<Index>(0);
+  const bool arrived = walk_to(m, p, step_limit == 0 ? m.triangles : step_limit, &t);
   *hint = t;
+  if (!arrived) return MICROTIN_NOT_YET;
   if (is_ghost(m, t)) return MICROTIN_OUTSIDE;
-  return answer_in(*mesh, t, FinePoint{x, y}, height);
+  return answer_in(*mesh, t, p, height);
 }
 
 void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
@@ -148,33 +121,39 @@ void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_ax
 int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
                         int32_t* lattice) {
   if (per_unit == 0 || per_unit > (1ul << 24)) return 0;
-  const int64_t denominator = static_cast<int64_t>(axis->denominator);  // < 2^40
-  const int64_t numerator = static_cast<int64_t>(axis->numerator);      // < 2^40
-  // lattice = (value / per_unit * denominator - offset) / numerator. Split into whole units and
-  // rest.
-  int64_t whole = value / per_unit, rest = value % per_unit;
-  if (rest < 0) {
-    rest += per_unit;
-    --whole;
-  }
+  const uint64_t denominator = axis->denominator, numerator = axis->numerator;  // < 2^40
+  // lattice = (value / per_unit * denominator - offset) / numerator. Split into whole units, the
+  // most that are not above, and rest.
+  const bool negative = value < 0;
+  const Quotient units =
+      divide(negative ? ~static_cast<uint64_t>(value) : static_cast<uint64_t>(value), per_unit);
+  const uint64_t whole = negative ? units.whole + 1 : units.whole;  // the size of it
+  const uint64_t rest = negative ? per_unit - 1u - units.rest : units.rest;
   // Places outside are refused before anything can overflow: those inside are within 65537
-  // numerators of the offset, so |whole * denominator| < 2^61 + 2^57.
+  // numerators of the offset, so whole * denominator < 2^61 + 2^57.
   const int64_t limit = static_cast<int64_t>(1) << 61;
+  if (highest_bit(whole | 1u) + highest_bit(denominator) > 62) return 0;
+  const uint64_t product = whole * denominator;  // < 2^64
+  if (product > 2 * static_cast<uint64_t>(limit)) return 0;
   if (axis->offset >= limit || axis->offset <= -limit) return 0;
-  if (whole > 2 * limit / denominator || whole < -2 * limit / denominator) return 0;
-  const int64_t ahead = whole * denominator - axis->offset;
-  const uint64_t scaled = static_cast<uint64_t>(rest) * axis->denominator;  // < 2^64
-  const uint64_t part = scaled / per_unit, left = scaled % per_unit;        // part < 2^40
-  const int64_t most = 65536 * numerator;                                   // < 2^56
-  if (ahead > most || ahead < -denominator - numerator) return 0;
-  const int64_t steps = ahead + static_cast<int64_t>(part);  // numerator-ths of a lattice step
-  // Round (steps + left / per_unit) * 256 / numerator to nearest, halves up.
-  const int64_t base = steps >= 0 ? steps / numerator : -1;
-  const int64_t over = steps - base * numerator;  // 0 <= over < numerator, or steps < -numerator
+  const int64_t ahead =
+      (negative ? -static_cast<int64_t>(product) : static_cast<int64_t>(product)) - axis->offset;
+  const Quotient part = divide(rest * denominator, per_unit);               // < 2^64; < 2^40
+  const int64_t one = static_cast<int64_t>(numerator), most = 65536 * one;  // < 2^56
+  if (ahead > most || ahead < -static_cast<int64_t>(denominator) - one) return 0;
+  const int64_t steps =
+      ahead + static_cast<int64_t>(part.whole);  // numerator-ths of a lattice step
+  // Round (steps + part.rest / per_unit) * 256 / numerator to nearest, halves up.
+  int64_t base = -1, over = steps + one;  // 0 <= over < numerator, or it is outside
+  if (steps >= 0) {
+    const Quotient places = divide(static_cast<uint64_t>(steps), numerator);
+    base = static_cast<int64_t>(places.whole);
+    over = static_cast<int64_t>(places.rest);
+  }
   if (over < 0) return 0;
   const uint64_t fine_numerator =
-      static_cast<uint64_t>(over) * 512u + left * 512u / per_unit;  // < 2^50
-  const int64_t twice = static_cast<int64_t>(fine_numerator / static_cast<uint64_t>(numerator));
+      static_cast<uint64_t>(over) * 512u + divide(part.rest * 512u, per_unit).whole;  // < 2^50
+  const int64_t twice = static_cast<int64_t>(divide(fine_numerator, numerator).whole);
   const int64_t result = base * 256 + (twice + 1) / 2;
   if (result < 0 || result > static_cast<int64_t>(kLatticeMax) * 256) return 0;
   *lattice = static_cast<int32_t>(result);

@@ -17,6 +17,7 @@ struct EncodeRequest {
   uint32_t max_vertices = 0;  // 0: as many as it takes
   uint32_t max_bytes = 0;     // 0: as many as it takes; else the bound is looked for
   Search search = Search::kNormal;
+  uint64_t device_ram = 0;  // 0: unlimited
   Effort effort;
   uint32_t fill_voids = 0;
   uint32_t horizontal_epsg = 0;  // 0: what the input's format implies
@@ -33,6 +34,8 @@ struct DecodeRequest {
 };
 
 void run_decode(const DecodeRequest& request);
+
+void run_embed(const std::string& input, const std::string& output);
 
 void run_info(const std::string& input, bool json);
 

@@ -8,6 +8,7 @@
 #include "encoder/cli_commands.hpp"
 #include "encoder/cli_progress.hpp"
 #include "encoder/cli_report.hpp"
+#include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
 #include "encoder/import.hpp"
@@ -42,10 +43,34 @@ struct Encoded {
   Verification verification;
 };
 
+// The vertices that may be used, 0 for as many as it takes. A device's RAM is a limit only if
+// nothing else asks for vertices.
+uint32_t vertex_limit(const EncodeRequest& request) {
+  if (request.device_ram == 0 || request.max_vertices != 0 || request.lattice.max_error) {
+    return request.max_vertices;
+  }
+  return most_vertices(request.device_ram);
+}
+
+void check_vertices(const Tin& tin, const EncodeRequest& request) {
+  const uint32_t limit = vertex_limit(request);
+  const uint64_t vertices = tin.vertices.size();
+  if (request.device_ram != 0 && vertices > most_vertices(request.device_ram)) {
+    throw Error("the terrain does not fit: " + std::to_string(vertices) + " vertices take " +
+                std::to_string(device_ram(static_cast<uint32_t>(vertices))) +
+                " bytes; --device-ram " + std::to_string(request.device_ram) + " holds at most " +
+                std::to_string(most_vertices(request.device_ram)) + " vertices");
+  }
+  if (limit != 0 && vertices > limit) {
+    throw Error("--max-vertices " + std::to_string(limit) +
+                " is not enough: outline and voids alone need " + std::to_string(vertices));
+  }
+}
+
 SimplifyOptions simplify_options(const EncodeRequest& request, const Progress& progress) {
   SimplifyOptions options;
   options.bounded = request.lattice.max_error.has_value();
-  options.max_vertices = request.max_vertices;
+  options.max_vertices = vertex_limit(request);
   options.search = request.search;
   options.effort = request.effort;
   options.progress = progress;
@@ -56,11 +81,7 @@ SimplifyOptions simplify_options(const EncodeRequest& request, const Progress& p
 Encoded encode_measured(const Source& source, const EncodeRequest& request,
                         const Progress& progress) {
   Approximation found = approximate(source, request.lattice, simplify_options(request, progress));
-  const std::size_t vertices = found.tin.vertices.size();
-  if (request.max_vertices != 0 && vertices > request.max_vertices) {
-    throw Error("--max-vertices " + std::to_string(request.max_vertices) +
-                " is not enough: outline and voids alone need " + std::to_string(vertices));
-  }
+  check_vertices(found.tin, request);
   const std::optional<Decimal>& bound = request.lattice.max_error;
   Metadata metadata = metadata_of(request, source, found.laid.placement);
   const auto [stream, decoded] = encode_and_decode(found.tin, metadata, request.effort);

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "encoder/cli_commands.hpp"
+#include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
 #include "shared/format.hpp"
 
@@ -79,6 +80,13 @@ void add_encode(CLI::App& app, Action& action) {
       ->check(CLI::PositiveNumber)
       ->excludes(bound)
       ->excludes(vertices);
+  command
+      .add_option(
+          "--device-ram", request->device_ram,
+          "Bytes that a device has for mesh and decoder, with 16-bit numbers up to 10,923 "
+          "vertices, with 32-bit numbers beyond. Alone: use the best vertices that fit; with "
+          "--max-error or --max-vertices: fail if the terrain does not fit")
+      ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));
   command.add_flag("--never-below", request->lattice.never_below,
                    "With a bound: no height is below the source, all are at most so far above");
   add_search(command, request->search);
@@ -117,6 +125,20 @@ void add_decode(CLI::App& app, Action& action) {
   add_output(command, request->output);
   command.add_flag("--lattice", request->lattice, "Write the lattice's integers");
   command.callback([request, &action] { action = [request] { run_decode(*request); }; });
+}
+
+void add_embed(CLI::App& app, Action& action) {
+  struct Request {
+    std::string input, output;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command =
+      *app.add_subcommand("embed", "Turn a stream into a C header, to be linked into firmware");
+  command.add_option("stream", request->input)->required();
+  add_output(command, request->output);
+  command.footer("X.h defines the array X_stream and X_VERTICES, the capacity that it needs.");
+  command.callback(
+      [request, &action] { action = [request] { run_embed(request->input, request->output); }; });
 }
 
 void add_info(CLI::App& app, Action& action) {
@@ -195,6 +217,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   add_encode(app, action);
   add_decode(app, action);
+  add_embed(app, action);
   add_info(app, action);
   add_verify(app, action);
   add_fractal(app, action);

@@ -2,6 +2,7 @@
 #ifndef MICROTIN_SHARED_INTERPOLATION_HPP
 #define MICROTIN_SHARED_INTERPOLATION_HPP
 
+#include "shared/division.hpp"
 #include "shared/lattice.hpp"
 #include "shared/predicates.hpp"
 
@@ -31,8 +32,8 @@ inline int64_t orient_fine(Point a, Point b, FinePoint p) {
 // both sides agree.
 //
 // The barycentric weights are >= 0 and add up to w = 256 * twice the area <= 2^40. Relative to a.z
-// the sum is at most 2^16 * 2^40 = 2^56 in magnitude; its remainder modulo w is below 2^40 and is
-// shifted by 17 (one more bit than is kept, to round).
+// the sum is at most 2^16 * w <= 2^56 in magnitude, so that with 2^16 * w added it is from 0 to
+// 2^57. One more bit than is kept is divided out, to round.
 inline int32_t height_in_triangle(Vertex a, Vertex b, Vertex c, FinePoint p) {
   const Point pa{a.x, a.y}, pb{b.x, b.y}, pc{c.x, c.y};
   const int64_t w = orient2d(pa, pb, pc) * 256;
@@ -40,14 +41,10 @@ inline int32_t height_in_triangle(Vertex a, Vertex b, Vertex c, FinePoint p) {
   const int64_t weight_c = orient_fine(pa, pb, p);
   const int64_t sum =
       weight_b * (static_cast<int32_t>(b.z) - a.z) + weight_c * (static_cast<int32_t>(c.z) - a.z);
-  int64_t whole = sum / w;
-  int64_t rest = sum % w;
-  if (rest < 0) {
-    rest += w;
-    --whole;
-  }
-  const int64_t fraction = ((rest << 17) / w + 1) >> 1;  // 0 .. 2^16
-  return static_cast<int32_t>((a.z + whole) * 65536 + fraction);
+  const uint64_t raised = static_cast<uint64_t>(sum + w * 65536);
+  const uint64_t rounded = (divide_finely(raised, static_cast<uint64_t>(w)) + 1) >> 1;
+  return static_cast<int32_t>(static_cast<int64_t>(rounded) +
+                              (static_cast<int64_t>(a.z) - 65536) * 65536);
 }
 
 }  // namespace microtin

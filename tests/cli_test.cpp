@@ -99,6 +99,44 @@ TEST_CASE("cli: the bound that a number of bytes allows") {
                  "--max-bytes 30 is not enough: at any error, at least "));
 }
 
+TEST_CASE("cli: a device's RAM decides how many vertices fit") {
+  Session session;
+  session.run("fractal --size 33 -o f.asc");
+  const auto workspaces = [&](const std::string& stream) {
+    const std::string info = session.run("info " + stream).out, key = "workspace_bytes_16: ";
+    return std::stoul(info.substr(info.find(key) + key.size()));
+  };
+  CHECK(session.run("encode f.asc --device-ram 10000 -o ram.mtin").code == 0);
+  const unsigned long used = workspaces("ram.mtin");
+  CHECK(used <= 10000);
+  CHECK(used > 10000 - 2 * 40);  // one more vertex would not have fitted
+  const std::string ram = std::to_string(used);
+  CHECK(session.run("encode f.asc --max-vertices 100 --device-ram 10000 -o few.mtin").code == 0);
+  CHECK(workspaces("few.mtin") < used);
+  CHECK(contains(session.failure("encode f.asc --max-vertices 900 --device-ram " + ram + " -o x"),
+                 "--device-ram " + ram + " holds at most "));
+  CHECK(contains(session.failure("encode f.asc --max-error 0 --device-ram 10000 -o x"),
+                 "the terrain does not fit: "));
+  session.failure("encode f.asc --device-ram 1000 -o x", 2);
+}
+
+TEST_CASE("cli: streams become C headers") {
+  Session session;
+  session.write("square.xyz", "0 0 1\n2 0 2\n0 2 3\n2 2 4\n");
+  CHECK(session.run("encode square.xyz -o s.mtin").code == 0);
+  CHECK(session.run("embed s.mtin -o a-1.h").code == 0);
+  const std::string header = session.read("a-1.h");
+  CHECK(contains(header, "#define A_1_VERTICES 4\n"));
+  const std::string stream = session.read("s.mtin");
+  CHECK(contains(header, "static const uint8_t a_1_stream[" + std::to_string(stream.size()) +
+                             "] = {\n    0x6d, 0x74, 0x69, 0x6e, "));
+  CHECK(contains(session.run("embed s.mtin -o -").out, " terrain_stream["));
+  CHECK(session.run("embed s.mtin -o 1.h").code == 0);
+  CHECK(contains(session.read("1.h"), " t1_stream["));
+  session.write("bad.mtin", stream.substr(1));
+  CHECK(contains(session.failure("embed bad.mtin -o bad.h"), "bad.mtin"));
+}
+
 TEST_CASE("cli: verify fails on another terrain") {
   const Session session;
   session.write("a.xyz", "0 0 0\n9 0 0\n0 9 0\n");

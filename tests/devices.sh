@@ -26,13 +26,17 @@ build/release/microtin fractal --size 193 --seed 9 -o "$terrain.asc"
 build/release/microtin encode "$terrain.asc" --max-vertices 300 -o "$terrain.mtin"
 build/release/tests/host_report "$terrain.mtin" >"$terrain.report"
 
+build/release/microtin embed tests/golden/hills.mtin -o build/devices/terrain.h
+tests/footprint/streams.sh build/release/microtin build/devices/footprint
+
 for preset; do
   missing=$(for tool in $(tools_for "$preset"); do command -v "$tool" >/dev/null || echo "$tool"; done)
   if [ -n "$missing" ]; then
     echo "skipped: $preset, for want of" $missing
     continue
   fi
-  cmake --preset "$preset" -DMICROTIN_FIRMWARE_STREAM="$terrain.mtin"
+  cmake --preset "$preset" -DMICROTIN_FIRMWARE_STREAM="$terrain.mtin" \
+    -DMICROTIN_FOOTPRINT_STREAMS="$PWD/build/devices/footprint" -DMICROTIN_EMBEDDED="$PWD/build/devices"
   cmake --build --preset "$preset"
   ctest --preset "$preset"
   sed -n 's/^ *\(skipped: .*\)/\1/p' "build/$preset/Testing/Temporary/LastTest.log" | sort -u

@@ -3,7 +3,7 @@
 
 #include <stdint.h>
 
-#include "toolchains/firmware.hpp"
+#include "toolchains/firmware.h"
 
 extern "C" {
 extern uint32_t data_start[], data_end[], bss_start[], bss_end[];

@@ -1,5 +1,5 @@
 // The device's side of the comparison: a stream in flash, fed in small pieces as from a radio link.
-#include "toolchains/firmware.hpp"
+#include "toolchains/firmware.h"
 
 #include "microtin/microtin.hpp"
 #include "tests/firmware/linked_stream.hpp"

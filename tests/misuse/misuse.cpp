@@ -4,6 +4,9 @@
 microtin::Terrain<TERRAIN> terrain;
 microtin::Decoder<DECODER> decoder(terrain);
 
+#if defined(BUCKETS)
+microtin::Buckets<BUCKETS> buckets;
+#endif
 #if defined(COPY_TERRAIN)
 microtin::Terrain<TERRAIN> other_terrain(terrain);
 #endif

@@ -1,5 +1,9 @@
 /* The smallest user of the library: C, and nothing but the public header. */
+#ifdef MICROTIN_AMALGAMATION
+#include "microtin.h"
+#else
 #include <microtin/microtin.h>
+#endif
 
 int main(void) {
   static const uint8_t bytes[64] = {'n', 'o', 't', ' ', 'o', 'n', 'e'};

@@ -1,7 +1,7 @@
 // Arm Cortex-M under emulation: vectors and semihosting.
 #include <stdint.h>
 
-#include "toolchains/firmware.hpp"
+#include "toolchains/firmware.h"
 #include "toolchains/start.hpp"
 
 extern "C" uint32_t stack_top[];

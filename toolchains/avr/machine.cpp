@@ -3,7 +3,7 @@
 #include <avr/io.h>
 #include <avr/sleep.h>
 
-#include "toolchains/firmware.hpp"
+#include "toolchains/firmware.h"
 
 void put_char(char c) {
   while ((UCSR0A & _BV(UDRE0)) == 0) {

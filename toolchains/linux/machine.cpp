@@ -1,7 +1,7 @@
 // A firmware program as a program of Linux.
 #include <stdio.h>
 
-#include "toolchains/firmware.hpp"
+#include "toolchains/firmware.h"
 
 void put_char(char c) {
   putchar(c);

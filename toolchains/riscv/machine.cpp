@@ -1,7 +1,7 @@
 // QEMU's RISC-V machine "virt": entry, serial port and the device that ends the emulation.
 #include <stdint.h>
 
-#include "toolchains/firmware.hpp"
+#include "toolchains/firmware.h"
 #include "toolchains/start.hpp"
 
 namespace {

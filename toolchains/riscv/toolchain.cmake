@@ -10,3 +10,7 @@ include(${CMAKE_CURRENT_LIST_DIR}/../image.cmake)
 list(APPEND MICROTIN_RUNTIME ${CMAKE_CURRENT_LIST_DIR}/machine.cpp)
 set(MICROTIN_MACHINES virt)
 add_machine(virt 0x80000000 4M 0x80400000 4M)
+
+# Instructions are counted by counter.cpp, with these options for the emulator.
+set(MICROTIN_COUNTER ${CMAKE_CURRENT_LIST_DIR}/counter.cpp)
+set(MICROTIN_COUNTING_OPTIONS "-icount shift=0")

@@ -1,5 +1,5 @@
 // A firmware program as a module of WebAssembly, with one import and one export.
-#include "toolchains/firmware.hpp"
+#include "toolchains/firmware.h"
 
 extern "C" __attribute__((import_module("console"), import_name("put"))) void put(int c);
 

@@ -8,12 +8,21 @@
  *
  * Numbers called x, y and z are lattice integers: 0..65535 for x and y, int16_t for z. A stream's
  * placement says what they mean in real units.
+ *
+ * Pointers must not be null; calls that can say MICROTIN_ARGUMENT check theirs. A call that changes
+ * an object must not run, say in an interrupt, while another uses the same. Costs are in steps or
+ * in n, the vertices; the README has instructions for several processors.
  */
 #ifndef MICROTIN_MICROTIN_H
 #define MICROTIN_MICROTIN_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+/* The version of this library; all else that tells it takes it from here. */
+#define MICROTIN_VERSION_MAJOR 0
+#define MICROTIN_VERSION_MINOR 1
+#define MICROTIN_VERSION_PATCH 0
 
 /* Width of vertex and half-edge numbers, fixed when the library is built; the user's code must be
  * compiled with the same value. 16 bits reach 10,923 vertices, 32 bits the format's 2^24. */
@@ -39,6 +48,9 @@
   (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
   (((bits) == 16 ? 2711ul : 2919ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
+
+/* Bytes of the buckets of microtin_buckets_init: a constant expression, side * side numbers. */
+#define MICROTIN_BUCKETS_BYTES(side) (20ul + MICROTIN_INDEX_BITS / 8 * 1ul * (side) * (side))
 
 #ifdef __cplusplus
 extern "C" {
@@ -85,17 +97,21 @@ typedef struct microtin_info {
 
 typedef struct microtin_mesh microtin_mesh;
 typedef struct microtin_decoder microtin_decoder;
+typedef struct microtin_buckets microtin_buckets;
 
 /* Reads a stream's header from its first `size` bytes without decoding anything. NEED_INPUT: give
  * more; `info->header_bytes`, if not 0, says how many. DONE: `info` is filled in and its check
- * passed. */
+ * passed. Errors: BAD_MAGIC, UNSUPPORTED_VERSION, CHECKSUM, MALFORMED, ARGUMENT. O(header bytes):
+ * usually below 100, at most 64 KB. */
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info);
 
-/* Lays out an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh.
- */
+/* Lays out an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh,
+ * which points into it. DONE, or WORKSPACE_TOO_SMALL, MISALIGNED, ARGUMENT. O(1). */
 microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh** mesh);
 
-/* Lays out a decoder that will fill `mesh` with the stream fed to it. The mesh is emptied. */
+/* Lays out a decoder that will fill `mesh` with the stream fed to it. The mesh is emptied; what
+ * holds of its capacity and of the decoder's is the smaller. When decoding is over, the workspace
+ * is free for other uses. DONE, or WORKSPACE_TOO_SMALL, MISALIGNED, ARGUMENT. O(1). */
 microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mesh* mesh,
                                       microtin_decoder** decoder);
 
@@ -110,27 +126,32 @@ void microtin_stop_after_phase(microtin_decoder* decoder, uint32_t phase);
  * also clears two bits per vertex; header bytes, at most 64 KB, are no steps.) *used tells how many
  * bytes were taken: all of them on NEED_INPUT; on STEP_LIMIT pass the rest again. On DONE the
  * stream's last byte is the last one taken and anything behind it is left alone. Chunking changes
- * no result. */
+ * no result.
+ *
+ * Bytes are read where they are, once: a stream in memory-mapped flash can be passed whole, one in
+ * a ring buffer from its oldest byte to where it wraps. Only a step's worth is kept between calls.
+ * Errors: all but MISALIGNED and WORKSPACE_TOO_SMALL. */
 microtin_status microtin_feed(microtin_decoder* decoder, const uint8_t* bytes, size_t size,
                               uint32_t step_limit, size_t* used);
 
-/* Tells the decoder that no byte will follow: NEED_INPUT becomes the error MICROTIN_TRUNCATED. Not
- * to be called after STEP_LIMIT: feed the rest first. */
+/* Tells the decoder that no byte will follow: NEED_INPUT becomes the error MICROTIN_TRUNCATED, any
+ * other status is told again. Not to be called after STEP_LIMIT: feed the rest first. O(1). */
 microtin_status microtin_finish(microtin_decoder* decoder);
 
 /* Phases complete so far, and how many bytes of the stream were decoded: all that were taken but a
- * few that wait for more. */
+ * few that wait for more. O(1). */
 uint32_t microtin_phase(const microtin_decoder* decoder);
 uint64_t microtin_bytes_used(const microtin_decoder* decoder);
 
-/* --- The mesh. Valid at any time; it holds the exact Delaunay triangulation of its vertices. ---
- */
+/* --- The mesh. Valid at any time; it holds the exact Delaunay triangulation of its vertices. Each
+ * call is O(1) if not said otherwise; numbers out of range are not checked. --- */
 
 #define MICROTIN_INFINITY 0xFFFFFFFFul
 
+/* Vertices decoded so far. */
 uint32_t microtin_vertex_count(const microtin_mesh* mesh);
 
-/* Vertex `v` < microtin_vertex_count. */
+/* Place and height of vertex `v` < microtin_vertex_count. */
 void microtin_vertex(const microtin_mesh* mesh, uint32_t v, uint16_t* x, uint16_t* y, int16_t* z);
 
 /* Triangles, ghosts included: 2n - 2, or 0 while the mesh is empty. */
@@ -152,33 +173,64 @@ uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corn
  * Equal on every target. O(n). */
 uint64_t microtin_digest(const microtin_mesh* mesh);
 
+/* --- Heights --- */
+
 typedef enum microtin_answer {
-  MICROTIN_HEIGHT = 0,      /* a height was written */
-  MICROTIN_OUTSIDE = 1,     /* outside the hull */
-  MICROTIN_IN_VOID = 2,     /* inside, but the terrain is not known there */
-  MICROTIN_NOT_DECODED = 3, /* the mesh is empty */
-  MICROTIN_NOT_VERIFIED = 4 /* the mesh holds vertices whose check has not passed yet */
+  MICROTIN_HEIGHT = 0,       /* a height was written */
+  MICROTIN_OUTSIDE = 1,      /* outside the hull */
+  MICROTIN_IN_VOID = 2,      /* inside, but the terrain is not known there */
+  MICROTIN_NOT_DECODED = 3,  /* the mesh is empty */
+  MICROTIN_NOT_VERIFIED = 4, /* the mesh holds vertices whose check has not passed yet */
+  MICROTIN_NOT_YET = 5       /* the steps allowed for this call are used up; call again */
 } microtin_answer;
 
 #define MICROTIN_ANSWER_UNVERIFIED 1u /* flag: answer from vertices not yet verified too */
 
 /* Height of the terrain at (x, y), given with 8 fractional bits (0 .. 65535 * 256): z with 16
  * fractional bits, the exact height of the plane rounded to nearest (halves up), the same from
- * either side of an edge. Valid terrain wins over void on a shared edge, and a vertex has its own
- * height even among voids. *hint is the
- * triangle where the walk starts and, afterwards, where it ended; start with 0 and keep it between
- * calls. At most microtin_triangle_count steps; about sqrt(n) from an arbitrary hint. */
+ * either side of an edge. *height is written with MICROTIN_HEIGHT only. Valid terrain wins over
+ * void on a shared edge, and a vertex has its own height even among voids.
+ *
+ * *hint is the triangle where the walk starts and, afterwards, where it ended; start with 0, or
+ * with what microtin_buckets_hint says, and keep it between calls. Any number will do. A step looks
+ * at one triangle: at most microtin_triangle_count steps, whatever the stream; about sqrt(n) from
+ * an arbitrary hint, one or two from a place nearby. Never MICROTIN_NOT_YET. */
 microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
                                    uint32_t* hint, int32_t* height);
 
-/* The placement of the decoded stream's axes. */
+/* The same with at most `step_limit` steps (0: no limit). On MICROTIN_NOT_YET *hint is where the
+ * walk stands: call again with the same place and hint. The bound on the steps holds for all such
+ * calls together. */
+microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                           uint32_t flags, uint32_t step_limit, uint32_t* hint,
+                                           int32_t* height);
+
+/* --- Buckets: where to start when no hint from nearby is at hand. Optional. --- */
+
+/* Divides the box around the vertices into side x side equal buckets and keeps for each the number
+ * of a triangle near its middle. `size` bytes of `workspace`, aligned to MICROTIN_ALIGNMENT, give
+ * the largest side up to 1,024 with MICROTIN_BUCKETS_BYTES(side) <= size. About sqrt(n) buckets a
+ * side leave few steps to walk. Costs O(n + side * side) steps on terrain, one walk per bucket in
+ * the worst case. MICROTIN_DONE, or MICROTIN_ARGUMENT, _MISALIGNED, _WORKSPACE_TOO_SMALL.
+ *
+ * The buckets know the mesh as it was; when it has changed, their hints are still allowed, but far
+ * away. */
+microtin_status microtin_buckets_init(void* workspace, size_t size, const microtin_mesh* mesh,
+                                      microtin_buckets** buckets);
+
+/* A hint for (x, y), given with 8 fractional bits; places outside take the nearest bucket. O(1). */
+uint32_t microtin_buckets_hint(const microtin_buckets* buckets, int32_t x, int32_t y);
+
+/* --- Real units --- */
+
+/* The placement of the decoded stream's axes; offset 0 and step 1 before. O(1). */
 void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
                         microtin_axis* z);
 
 /* Converts a real coordinate, `value` / `per_unit` units (degrees as 1e-7 integers: per_unit =
  * 10000000), to the lattice with 8 fractional bits, rounded to nearest, for microtin_height_at.
  * Returns 1, or 0 when the place lies outside 0..65535, per_unit outside 1 .. 2^24, or the axis'
- * offset outside +-2^61. Exact: integers only. */
+ * offset outside +-2^61; *lattice is then left alone. Exact. A few 64-bit divisions. */
 int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
                         int32_t* lattice);
 

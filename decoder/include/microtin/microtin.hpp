@@ -25,8 +25,8 @@ class Terrain {
   uint64_t digest() const { return microtin_digest(mesh_); }
 
   microtin_answer height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
-                            uint32_t flags = 0) const {
-    return microtin_height_at(mesh_, x, y, flags, hint, height);
+                            uint32_t flags = 0, uint32_t step_limit = 0) const {
+    return microtin_height_at_limited(mesh_, x, y, flags, step_limit, hint, height);
   }
 
  private:
@@ -60,6 +60,29 @@ class Decoder {
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_DECODER_BYTES(Capacity)];
   microtin_decoder* decoder_;
+};
+
+// Hints for places anywhere in a terrain, from Side x Side buckets.
+template <uint32_t Side>
+class Buckets {
+  static_assert(Side >= 1 && Side <= 1024, "1 to 1,024 buckets a side");
+
+ public:
+  Buckets() : buckets_(nullptr) {}
+  Buckets(const Buckets&) = delete;
+  Buckets& operator=(const Buckets&) = delete;
+
+  // To be called when the terrain is decoded; before, every hint is 0.
+  void build(const microtin_mesh* mesh) {
+    microtin_buckets_init(storage_, sizeof storage_, mesh, &buckets_);
+  }
+  uint32_t hint(int32_t x, int32_t y) const {
+    return buckets_ == nullptr ? 0 : microtin_buckets_hint(buckets_, x, y);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_BUCKETS_BYTES(Side)];
+  microtin_buckets* buckets_;
 };
 
 }  // namespace microtin

@@ -1,0 +1,24 @@
+// Finding the triangle that holds a place.
+#ifndef MICROTIN_DECODER_WALK_HPP
+#define MICROTIN_DECODER_WALK_HPP
+
+#include "shared/interpolation.hpp"
+#include "shared/mesh.hpp"
+
+namespace microtin {
+
+bool is_ghost(const Mesh& mesh, Index triangle);
+
+// Walks from *triangle to the triangle that holds p, through at most `step_limit` triangles:
+// crosses any edge that p lies beyond. *triangle becomes where the walk ended, a ghost if p is
+// outside the hull; false if the steps did not suffice.
+//
+// mesh.triangles steps always suffice, also in several calls. Lift the vertices to the paraboloid,
+// with the infinitesimals of conflicts_on_circle: the triangles become facets of a strictly convex
+// surface, and each step makes the facet's plane higher above p. So no triangle is met twice
+// (Edelsbrunner, "An acyclicity theorem for cell complexes in d dimensions", 1990).
+bool walk_to(const Mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle);
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,265 @@
+"""What the decoder needs on each device: measured, held to a budget, and told in the README.
+
+footprint.py measure ...: measures one target's libraries, writes BUILD/footprint.json and fails if a number is
+above the budget. footprint.py record BUILD...: makes the measured numbers the budget and the README's tables.
+footprint.py readme: fails unless the README's tables are the budget's.
+"""
+
+import argparse
+import json
+import re
+import subprocess
+import sys
+import textwrap
+from pathlib import Path
+
+import stack
+
+HERE = Path(__file__).parent
+BUDGET, README = HERE / "budget.json", HERE.parent.parent / "README.md"
+
+DECODING = ["peek", "mesh_init", "decoder_init", "feed", "finish"]
+QUERIES = ["height_at", "to_lattice", "vertex", "triangle", "neighbour", "digest"]
+BUCKETS = ["buckets_init", "buckets_hint"]
+USES = {"decoding": DECODING, "queries": DECODING + QUERIES, "buckets": DECODING + QUERIES + BUCKETS}
+
+
+# --- Measuring ------------------------------------------------------------------------------------
+
+
+def link(options, library, entries, image):
+    """Links what some entries need of a library, the compiler's helpers included, and nothing else."""
+    names = ["microtin_" + entry for entry in entries]
+    command = [*options.compiler.split(), "-nostdlib", "-Wl,--gc-sections", library, "-o", image]
+    if options.target == "wasm32":
+        command += ["-fuse-ld=lld", "-Wl,--no-entry,--allow-undefined,--strip-all"]
+        command += ["-Wl,--export=" + name for name in names]
+    else:
+        command += ["-static", "-lgcc", "-Wl,--unresolved-symbols=ignore-all", "-Wl,-e," + names[0]]
+        command += ["-Wl,-u," + name for name in names]
+    if options.target == "xtensa":
+        command += ["-Wl,-Ttext=0x1000"]  # within reach of the helpers that its libgcc lacks
+    subprocess.run(command, check=True)
+
+
+def section_bytes(options, image):
+    """Bytes of code, constants, and data that is initialised or zero."""
+    run = subprocess.run([options.objdump, "-h", image], check=True, capture_output=True, text=True)
+    kinds = {"text": 0, "rodata": 0, "data": 0, "bss": 0}
+    # The linker of RISC-V puts small constants beside small data, of which the library has none.
+    others = {"CODE": "text", "DATA": "rodata", ".sdata": "rodata"}
+    for name, size in re.findall(r"^ +\d+ ([^ ]+) +([0-9a-f]{8})", run.stdout, re.M):
+        kind = re.match(r"\.(text|rodata|data|bss)", name)
+        kind = kind[1] if kind else others.get(name)
+        if kind:
+            kinds[kind] += int(size, 16)
+    return kinds
+
+
+def measure_library(options, library):
+    result = {}
+    for use, entries in USES.items():
+        image = str(options.build / "linked")
+        link(options, library, entries, image)
+        result[use] = section_bytes(options, image)
+    if options.stack:
+        graphs = [str(Path(o).with_suffix(".ci")) for o in options.objects[library].split(":")]
+        graphs = [graph for graph in graphs if Path(graph).exists()]
+        calls = stack.Stack(options.target, options.objdump, image, graphs)
+        for use, entries in (("decoding", DECODING), ("queries", QUERIES), ("buckets", BUCKETS)):
+            result["stack_" + use] = max(calls.depth("microtin_" + entry) for entry in entries)
+    return result
+
+
+def run_image(options, image):
+    """The numbers that an image prints, by name."""
+    command = [*options.run.split(), image, *options.counting.split()]
+    run = subprocess.run(command, check=True, capture_output=True, text=True)
+    return {name: int(value) for name, value in map(str.split, run.stdout.splitlines())}
+
+
+def measure_images(options, level):
+    """Decoding of the tile by its levels, queries of that with two, and the dearest step of all."""
+    printed = {
+        stream: run_image(options, f"{options.images}{level}.{stream}")
+        for stream in ("tile_levels1", "tile_levels2", "tile_levels3", "wheels")
+    }
+    numbers = {f"decode_levels{n}": printed[f"tile_levels{n}"].pop("decode_per_vertex") for n in (1, 2, 3)}
+    numbers |= printed["tile_levels2"]
+    numbers["worst_step"] = max(p["worst_step"] for p in printed.values())
+    return numbers
+
+
+def measure(options):
+    version = subprocess.run(
+        [options.compiler.split()[0], "--version"], check=True, capture_output=True, text=True
+    )
+    result = {"compiler": version.stdout.splitlines()[0]}
+    for level, library in (("Os", options.Os), ("O2", options.O2)):
+        result[level] = measure_library(options, library)
+        if options.images:
+            result[level]["run"] = measure_images(options, level)
+    return result
+
+
+# --- The budget -----------------------------------------------------------------------------------
+
+
+def leaves(tree, path=""):
+    for key, value in tree.items():
+        if isinstance(value, dict):
+            yield from leaves(value, f"{path}{key}.")
+        else:
+            yield path + key, value
+
+
+def compare(target, measured):
+    """Prints what differs from the budget; whether nothing is above it."""
+    budget = json.loads(BUDGET.read_text()).get(target)
+    if budget is None:
+        print(f"skipped: there is no budget of {target}")
+        return True
+    if budget["compiler"] != measured["compiler"]:
+        print(f"skipped: the budget was recorded with {budget['compiler']}, this is {measured['compiler']}")
+        return True
+    allowed, grown = dict(leaves(budget)), False
+    for name, value in leaves(measured):
+        if name == "compiler" or value == allowed.get(name):
+            continue
+        above = name not in allowed or value > allowed[name]
+        grown |= above
+        print(f"{'GROWN' if above else 'shrunk'}: {name} is {value}, the budget {allowed.get(name)}")
+    if grown:
+        print("If that is meant: tests/footprint/record.sh")
+    return not grown
+
+
+# --- The README -----------------------------------------------------------------------------------
+
+
+def count(number):
+    return f"{number:,}"
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+
+
+def code_table(budget):
+    head = ["target"]
+    for level in ("-Os", "-O2"):
+        head += [f"{level}: decoding", "and queries", "and buckets", "stack"]
+    rows = []
+    for target, numbers in budget.items():
+        row = [target]
+        for level in (numbers["Os"], numbers["O2"]):
+            row += [f"{count(level[u]['text'])} + {count(level[u]['rodata'])}" for u in USES]
+            row.append(count(level["stack_decoding"]) if "stack_decoding" in level else "-")
+        rows.append(row)
+    return table(head, rows)
+
+
+RUN_ROWS = {
+    "decode_levels1": "decoding, per vertex, `--levels` 1",
+    "decode_levels2": "... 2",
+    "decode_levels3": "... 3",
+    "worst_step": "dearest step of decoding that a stream made for it causes",
+    "warm": "height on a straight path: mean, worst",
+    "cold": "height anywhere, from hint 0: mean, worst",
+    "buckets": "... from a hint of 45 x 45 buckets: mean, worst",
+    "buckets_build": "building these buckets, once",
+}
+
+
+def run_table(budget):
+    runs = {
+        f"{target} -{level}": numbers[level]["run"]
+        for target, numbers in budget.items()
+        for level in ("Os", "O2")
+        if "run" in numbers[level]
+    }
+    rows = []
+    for name, title in RUN_ROWS.items():
+        keys = [name] if f"{name}_mean" not in next(iter(runs.values())) else [f"{name}_mean", f"{name}_worst"]
+        rows.append([title] + [", ".join(count(run[key]) for key in keys) for run in runs.values()])
+    return table(["instructions", *runs], rows)
+
+
+def ram_table(budget):
+    run = budget["cortex-m4"]["Os"]["run"]
+    rows = []
+    for capacity in (250, 1000, 10000):
+        rows.append([count(n) for n in (capacity, run[f"ram_terrain_{capacity}"], run[f"ram_decoder_{capacity}"])])
+    return table(["vertices", "terrain, kept", "decoder, only while decoding"], rows)
+
+
+def paragraph(text):
+    return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
+
+
+def footprint(budget):
+    compilers = "; ".join(sorted({numbers["compiler"] for numbers in budget.values()}))
+    return "\n".join((
+        paragraph("Bytes of code + constants that a firmware gets, the compiler's helpers included, and of stack while "
+                  "decoding:"),
+        code_table(budget),
+        paragraph("Initialised and zeroed data: none. RAM in bytes, `sizeof` of the C++ objects on a Cortex-M:"),
+        ram_table(budget),
+        paragraph("Instructions (not cycles) for a terrain of 2,000 vertices, counted under emulation:"),
+        run_table(budget),
+        paragraph(f"Compilers: {compilers}. Xtensa's helpers for 64-bit multiplication and division are not in Debian's "
+                  "package and not counted; the mem functions are the firmware's own."),
+    ))  # fmt: skip
+
+
+MARKED = re.compile(r"(<!-- footprint: .* -->\n\n)(.*?)(\n<!-- end of footprint -->)", re.S)
+
+
+def told(readme, budget):
+    """The README with the budget's tables."""
+    return MARKED.sub(lambda m: m[1] + footprint(budget) + m[3], readme)
+
+
+# --- Commands -------------------------------------------------------------------------------------
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    one = commands.add_parser("measure")
+    for name in ("target", "compiler", "objdump", "Os", "O2", "Os-objects", "O2-objects"):
+        one.add_argument("--" + name, required=True)
+    one.add_argument("--build", required=True, type=Path)
+    one.add_argument("--stack", action="store_true")
+    one.add_argument("--images", help="the start of their paths: level and stream follow")
+    one.add_argument("--run", help="the emulator's command")
+    one.add_argument("--counting", help="its options for counting")
+    many = commands.add_parser("record")
+    many.add_argument("build", nargs="+", type=Path)
+    commands.add_parser("readme")
+    return parser.parse_args()
+
+
+def main():
+    options = arguments()
+    if options.command == "measure":
+        options.objects = {options.O2: options.O2_objects, options.Os: options.Os_objects}
+        measured = measure(options)
+        (options.build / "footprint.json").write_text(json.dumps({options.target: measured}))
+        return compare(options.target, measured)
+    if options.command == "record":
+        budget = json.loads(BUDGET.read_text())
+        for build in options.build:
+            budget |= json.loads((build / "footprint.json").read_text())
+        BUDGET.write_text(json.dumps(budget, indent=1) + "\n")
+        README.write_text(told(README.read_text(), budget))
+        return True
+    readme = README.read_text()
+    same = MARKED.search(readme) and readme == told(readme, json.loads(BUDGET.read_text()))
+    if not same:
+        print("The README's tables are not the budget's: tests/footprint/record.sh writes them.")
+    return same
+
+
+sys.exit(0 if main() else 1)

@@ -1,0 +1,160 @@
+// Measures what decoding the linked stream and asking for heights takes: prints a line "name value"
+// for each number, all in instructions if not said otherwise.
+#include "microtin/microtin.hpp"
+#include "tests/firmware/linked_stream.hpp"
+#include "tests/firmware/report.hpp"
+#include "toolchains/counter.hpp"
+#include "toolchains/firmware.h"
+
+namespace {
+
+using TerrainOfTile = microtin::Terrain<MICROTIN_MAX_VERTICES>;
+
+constexpr uint32_t kSide = 45;  // sqrt(2,000)
+constexpr uint32_t kQueries = 2048;
+
+void say(const char* name, uint32_t value) {
+  microtin::print(put_char, name);
+  microtin::print(put_char, " ");
+  microtin::print(put_char, value);
+  microtin::print(put_char, "\n");
+}
+
+// Instructions between two readings of the counter with nothing between.
+uint32_t overhead() {
+  const uint32_t before = instruction_count();
+  return instruction_count() - before;
+}
+
+class Statistics {
+ public:
+  void add(uint32_t value) {
+    sum_ += value;
+    ++count_;
+    if (value > most_) most_ = value;
+  }
+  uint32_t mean() const { return sum_ / count_; }
+  uint32_t most() const { return most_; }
+
+ private:
+  uint32_t sum_ = 0, count_ = 0, most_ = 0;
+};
+
+// Decodes in pieces of one step: the dearest of them.
+uint32_t dearest_step(TerrainOfTile& terrain) {
+  static microtin::Decoder<MICROTIN_MAX_VERTICES> decoder(terrain);
+  Statistics steps;
+  size_t at = 0;
+  microtin_status status = MICROTIN_STEP_LIMIT;
+  while (status == MICROTIN_STEP_LIMIT) {
+    size_t used = 0;
+    const uint32_t before = instruction_count();
+    status = decoder.feed(stream_begin + at, stream_size() - at, &used, 1);
+    steps.add(instruction_count() - before);
+    at += used;
+  }
+  return steps.most() - overhead();
+}
+
+enum class Start { kZero, kLast, kBuckets };
+
+// Heights along a path of `kQueries` places.
+template <class Path>
+Statistics ask(const TerrainOfTile& terrain, const microtin::Buckets<kSide>& buckets, Start start,
+               Path& path) {
+  Statistics queries;
+  const uint32_t nothing = overhead();
+  uint32_t hint = 0;
+  int32_t height = 0;
+  typename Path::Place p = path.next();
+  terrain.height_at(p.x, p.y, &hint, &height);  // arrives where the path starts
+  for (uint32_t i = 0; i < kQueries; ++i) {
+    p = path.next();
+    const uint32_t before = instruction_count();
+    if (start == Start::kZero) hint = 0;
+    if (start == Start::kBuckets) hint = buckets.hint(p.x, p.y);
+    terrain.height_at(p.x, p.y, &hint, &height);
+    queries.add(instruction_count() - before - nothing);
+  }
+  return queries;
+}
+
+struct FinePlace {
+  int32_t x, y;
+};
+
+// Bytes of RAM of the objects for so many vertices.
+template <uint32_t Capacity>
+void say_ram(const char* terrain, const char* decoder) {
+  say(terrain, sizeof(microtin::Terrain<Capacity>));
+  say(decoder, sizeof(microtin::Decoder<Capacity>));
+}
+
+// Anywhere in the box.
+class Anywhere {
+ public:
+  using Place = FinePlace;
+  explicit Anywhere(const microtin_mesh* mesh) : box_(microtin::probe_box(mesh)) {}
+  Place next() {
+    const int32_t x = numbers_.between(box_.west, box_.east);
+    return {x, numbers_.between(box_.south, box_.north)};
+  }
+
+ private:
+  microtin::ProbeBox box_;
+  microtin::ProbeNumbers numbers_;
+};
+
+// From the south-west to the north-east.
+class Straight {
+ public:
+  using Place = FinePlace;
+  explicit Straight(const microtin_mesh* mesh) : box_(microtin::probe_box(mesh)) {}
+  Place next() {
+    const int32_t i = i_++, n = static_cast<int32_t>(kQueries);
+    return {box_.west + (box_.east - box_.west) / n * i,
+            box_.south + (box_.north - box_.south) / n * i};
+  }
+
+ private:
+  microtin::ProbeBox box_;
+  int32_t i_ = 0;
+};
+
+template <class Path>
+void measure_heights(const char* mean, const char* most, const TerrainOfTile& terrain,
+                     const microtin::Buckets<kSide>& buckets, Start start) {
+  Path path(terrain.mesh());
+  const Statistics queries = ask(terrain, buckets, start, path);
+  say(mean, queries.mean());
+  say(most, queries.most());
+}
+
+}  // namespace
+
+int firmware_main() {
+  say_ram<250>("ram_terrain_250", "ram_decoder_250");
+  say_ram<1000>("ram_terrain_1000", "ram_decoder_1000");
+  say_ram<10000>("ram_terrain_10000", "ram_decoder_10000");
+
+  static TerrainOfTile terrain;
+  say("worst_step", dearest_step(terrain));
+
+  const uint32_t before = instruction_count();
+  static microtin::Decoder<MICROTIN_MAX_VERTICES> decoder(terrain);
+  size_t used = 0;
+  const microtin_status status = decoder.feed(stream_begin, stream_size(), &used);
+  const uint32_t decoding = instruction_count() - before - overhead();
+  if (status != MICROTIN_DONE) return 1;
+  say("decode_per_vertex", decoding / terrain.vertices());
+
+  static microtin::Buckets<kSide> buckets;
+  const uint32_t unbuilt = instruction_count();
+  buckets.build(terrain.mesh());
+  say("buckets_build", instruction_count() - unbuilt - overhead());
+
+  measure_heights<Straight>("warm_mean", "warm_worst", terrain, buckets, Start::kLast);
+  measure_heights<Anywhere>("cold_mean", "cold_worst", terrain, buckets, Start::kZero);
+  measure_heights<Anywhere>("buckets_mean", "buckets_worst", terrain, buckets, Start::kBuckets);
+  return 0;
+}
