@@ -158,8 +158,8 @@ void check_all(Counter Counters::*counter, bool lasting, uint64_t stride) {
   for (const Words& words : kCommands) {
     const Outcome outcome = fail_each(stage, words, counter, lasting, stride);
     CHECK(outcome.failures > 0);
-    MESSAGE(words[0] << " " << words[1] << " " << words[3] << ": " << outcome.faults << " faults, "
-                     << outcome.failures << " errors");
+    MESSAGE(words[0] << " " << words[1] << " " << words.back() << ": " << outcome.faults
+                     << " faults, " << outcome.failures << " errors");
   }
 }
 
