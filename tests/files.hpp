@@ -10,7 +10,8 @@
 
 namespace microtin {
 
-inline std::vector<uint8_t> read_file(const std::string& path) {
+// Static: the encoder has a function of the same name, and one would replace the other.
+static inline std::vector<uint8_t> read_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }

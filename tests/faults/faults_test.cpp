@@ -1,6 +1,5 @@
 // Memory that runs out and files that fail, at every call in turn: each command ends with an error
 // of one line and without a file, or as if nothing had been.
-#define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -49,7 +48,8 @@ class Stage {
     const std::string points = "0 0 1\n10.5 0 2\n0 10 3\n4 4 9\n";
     write_file(folder_ / "t.asc", {grid.begin(), grid.end()});
     write_file(folder_ / "p.xyz", {points.begin(), points.end()});
-    REQUIRE(run({"encode", "t.asc", "-o", "t.mtin"}).status == 0);
+    const Result encoded = run({"encode", "t.asc", "-o", "t.mtin"});
+    REQUIRE_MESSAGE(encoded.status == 0, encoded.error);
   }
 
   // Runs the program in a child process. New files are taken away again.
@@ -158,24 +158,22 @@ void check_all(Counter Counters::*counter, bool lasting, uint64_t stride) {
   for (const Words& words : kCommands) {
     const Outcome outcome = fail_each(stage, words, counter, lasting, stride);
     CHECK(outcome.failures > 0);
-    MESSAGE(words[0] << " " << words[1] << " " << words[3] << ": " << outcome.faults << " faults, "
-                     << outcome.failures << " errors");
+    MESSAGE(words[0] << " " << words[1] << " " << words.back() << ": " << outcome.faults
+                     << " faults, " << outcome.failures << " errors");
   }
 }
 
 }  // namespace
 
-TEST_CASE(
-    "a request for memory that fails, each in turn, is an error of one line and leaves no file") {
+TEST_CASE("memory refused at each request in turn: an error of one line, and no file") {
   check_all(&Counters::memory, false, kStride);
 }
 
-TEST_CASE(
-    "memory that is used up, from each request on, is an error of one line and leaves no file") {
+TEST_CASE("memory refused from each request on: an error of one line, and no file") {
   check_all(&Counters::memory, true, 7 * kStride);
 }
 
-TEST_CASE("a file function that fails, each in turn, is an error of one line and leaves no file") {
+TEST_CASE("file functions failing at each call in turn: an error of one line, and no file") {
   check_all(&Counters::files, false, 1);
 }
 
