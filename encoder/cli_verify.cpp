@@ -23,6 +23,7 @@ void run_verify(const VerifyRequest& request) {
                              {"voids_answered", json(found.voids_answered)},
                              {"bound", bound ? number(*bound) : "null"},
                              {"max_error", number(found.max_error)},
+                             {"max_below", number(found.max_below)},
                              {"rms_error", number(found.rms_error)}};
   print(report, request.json);
   if (!found.within_bound) throw Error(input + ": the largest error is above the bound");

@@ -27,8 +27,9 @@
 (check-sat)
 (pop)
 
-; ... and lies, by weight, between the lowest and the highest height, seen from the first corner's.
-;; shared/interpolation.hpp: int64_t whole = sum / w;
+; ... and lies, by weight, between the lowest and the highest height, seen from the first corner's; raised it is
+; positive and within 2^57.
+;; shared/interpolation.hpp: const uint64_t raised = static_cast<uint64_t>(sum + w * 65536);
 (push)
 (declare-const weight_b Int)
 (declare-const weight_c Int)
@@ -36,66 +37,49 @@
 (declare-const a Int)
 (declare-const b Int)
 (declare-const c Int)
-(assert (and (<= 0 weight_b) (<= 0 weight_c) (<= (+ weight_b weight_c) w)))
+(assert (and (<= 0 weight_b) (<= 0 weight_c) (<= (+ weight_b weight_c) w) (<= 1 w 1099511627776)))
 (assert (and (<= (- 32768) a 32767) (<= (- 32768) b 32767) (<= (- 32768) c 32767)))
 (define-fun sum () Int (+ (* weight_b (- b a)) (* weight_c (- c a))))
 (check-sat)
-(assert (not (<= (* (- (- 32768) a) w) sum (* (- 32767 a) w))))
+(assert (not (and (<= (* (- (- 32768) a) w) sum (* (- 32767 a) w))
+                  (<= 0 (+ sum (* 65536 w)) 144115188075855872))))
 (check-sat)
 (pop)
 
-; The rest, shifted, fits 57 bits; the fraction is at most 2^16, and 0 if there is no rest.
-;; shared/interpolation.hpp: const int64_t fraction = ((rest << 17) / w + 1) >> 1;  // 0 .. 2^16
-(push)
-(declare-const w Int)
-(declare-const rest Int)
-(declare-const quotient Int)
-(declare-const lost Int)
-(assert (and (< 0 w) (<= w 1099511627776) (<= 0 rest) (< rest w)))
-(assert (and (= (* rest 131072) (+ (* quotient w) lost)) (<= 0 lost) (< lost w)))
-(define-fun fraction () Int (div (+ quotient 1) 2))
-(check-sat)
-(assert (not (and (< (* rest 131072) 144115188075855872) (<= 0 fraction 65536) (=> (= rest 0) (= fraction 0)))))
-(check-sat)
-(pop)
-
-; The height fits 32 bits.
-;; shared/interpolation.hpp: return static_cast<int32_t>((a.z + whole) * 65536 + fraction);
+; The quotient with one more bit is below 2^35; rounded, the height fits 32 bits.
+;; shared/interpolation.hpp: const uint64_t rounded = (divide_finely(raised, static_cast<uint64_t>(w)) + 1) >> 1;
+;; shared/interpolation.hpp: (static_cast<int64_t>(a.z) - 65536) * 65536);
 (push)
 (declare-const w Int)
 (declare-const a Int)
-(declare-const whole Int)
-(declare-const rest Int)
-(declare-const fraction Int)
-(assert (and (< 0 w) (<= (- 32768) a 32767) (<= 0 rest) (< rest w)))
-(define-fun sum () Int (+ (* whole w) rest))
+(declare-const sum Int)
+(declare-const quotient Int)
+(declare-const lost Int)
+(assert (and (<= 1 w 1099511627776) (<= (- 32768) a 32767)))
 (assert (<= (* (- (- 32768) a) w) sum (* (- 32767 a) w)))
-(assert (and (<= 0 fraction 65536) (=> (= rest 0) (= fraction 0))))
+(assert (and (= (* 131072 (+ sum (* 65536 w))) (+ (* quotient w) lost)) (<= 0 lost) (< lost w)))
+(define-fun rounded () Int (div (+ quotient 1) 2))
 (check-sat)
-(assert (not (<= (- 2147483648) (+ (* (+ a whole) 65536) fraction) 2147483647)))
+(assert (not (and (<= 0 quotient) (< quotient 34359738368)
+                  (<= (- 2147483648) (+ rounded (* 65536 (- a 65536))) 2147483647))))
 (check-sat)
 (pop)
 
 ; A real place on the lattice: whole units times the denominator, less the offset, fit 64 bits.
-;; decoder/query.cpp: if (whole > 2 * limit / denominator || whole < -2 * limit / denominator) return 0;
-;; decoder/query.cpp: const int64_t ahead = whole * denominator - axis->offset;
+;; decoder/query.cpp: if (product > 2 * static_cast<uint64_t>(limit)) return 0;
+;; decoder/query.cpp: (negative ? -static_cast<int64_t>(product) : static_cast<int64_t>(product)) - axis->offset;
 (push)
-(declare-const whole Int)
-(declare-const denominator Int)
+(declare-const product Int)
 (declare-const offset Int)
-(declare-const most Int)
 (define-fun limit () Int 2305843009213693952)
-(assert (and (< 0 denominator) (< denominator 1099511627776) (< (- limit) offset limit)))
-(assert (and (<= (* most denominator) (* 2 limit)) (< (* 2 limit) (* (+ most 1) denominator))))
-(assert (<= (- most) whole most))
+(assert (and (< (- limit) offset limit) (<= (* -2 limit) product (* 2 limit))))
 (check-sat)
-(assert (not (and (<= (* -2 limit) (* whole denominator) (* 2 limit))
-                  (< -9223372036854775808 (- (* whole denominator) offset) 9223372036854775808))))
+(assert (not (< -9223372036854775808 (- product offset) 9223372036854775808)))
 (check-sat)
 (pop)
 
 ; ... and the rest of a unit, brought to the same, is a part below the denominator.
-;; decoder/query.cpp: const uint64_t scaled = static_cast<uint64_t>(rest) * axis->denominator;  // < 2^64
+;; decoder/query.cpp: const Quotient part = divide(rest * denominator, per_unit);               // < 2^64; < 2^40
 (push)
 (declare-const per_unit Int)
 (declare-const rest Int)
