@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "encoder/encode.hpp"
 #include "encoder/lattice_choice.hpp"
+#include "encoder/simplify.hpp"
 
 namespace microtin {
 
@@ -15,6 +15,8 @@ struct EncodeRequest {
   std::string output;
   LatticeOptions lattice;
   uint32_t max_vertices = 0;  // 0: as many as it takes
+  uint32_t max_bytes = 0;     // 0: as many as it takes; else the bound is looked for
+  Search search = Search::kNormal;
   Effort effort;
   uint32_t fill_voids = 0;
   uint32_t horizontal_epsg = 0;  // 0: what the input's format implies

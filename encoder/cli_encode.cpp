@@ -1,13 +1,16 @@
+#include <algorithm>
+#include <limits>
 #include <sstream>
+#include <utility>
 
+#include "encoder/approximation.hpp"
+#include "encoder/byte_budget.hpp"
 #include "encoder/cli_commands.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
 #include "encoder/import.hpp"
-#include "encoder/lay_out.hpp"
 #include "encoder/output_file.hpp"
-#include "encoder/simplify.hpp"
 #include "encoder/verify.hpp"
 #include "encoder/voids.hpp"
 
@@ -31,22 +34,93 @@ Metadata metadata_of(const EncodeRequest& request, const Source& source,
 
 // A stream that was decoded and measured.
 struct Encoded {
+  Laid laid;
+  std::optional<Decimal> bound;  // asked for
   std::vector<uint8_t> stream;
   uint32_t vertices;
   Verification verification;
 };
 
+SimplifyOptions simplify_options(const EncodeRequest& request) {
+  SimplifyOptions options;
+  options.bounded = request.lattice.max_error.has_value();
+  options.max_vertices = request.max_vertices;
+  options.search = request.search;
+  options.effort = request.effort;
+  return options;
+}
+
 // Encodes, measures what a decoder makes of it, and states the errors in the header.
-Encoded encode_measured(const Tin& tin, Metadata metadata, const Source& source,
-                        const EncodeRequest& request) {
+Encoded encode_measured(const Source& source, const EncodeRequest& request) {
+  Approximation found = approximate(source, request.lattice, simplify_options(request));
+  const std::size_t vertices = found.tin.vertices.size();
+  if (request.max_vertices != 0 && vertices > request.max_vertices) {
+    throw Error("--max-vertices " + std::to_string(request.max_vertices) +
+                " is not enough: outline and voids alone need " + std::to_string(vertices));
+  }
   const std::optional<Decimal>& bound = request.lattice.max_error;
-  const auto [stream, decoded] = encode_and_decode(tin, metadata, request.effort);
+  Metadata metadata = metadata_of(request, source, found.laid.placement);
+  const auto [stream, decoded] = encode_and_decode(found.tin, metadata, request.effort);
   const Verification measured = verify(decoded.mesh(), source, bound);
-  if (!measured.within_bound || measured.uncovered != 0 || measured.voids_answered != 0) {
+  const bool too_low = request.lattice.never_below && measured.max_below.mantissa != 0;
+  if (!measured.within_bound || too_low || measured.uncovered != 0 ||
+      measured.voids_answered != 0) {
     throw Error("internal error: the decoded terrain does not keep what was asked for");
   }
   metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error};
-  return {with_metadata(stream, metadata), microtin_vertex_count(decoded.mesh()), measured};
+  return {std::move(found.laid), bound, with_metadata(stream, metadata),
+          microtin_vertex_count(decoded.mesh()), measured};
+}
+
+// The distance of the lowest and the highest height; 1 if there is none.
+Decimal height_range(const Source& source) {
+  int64_t low = std::numeric_limits<int64_t>::max(), high = std::numeric_limits<int64_t>::min();
+  for_each_post(source, [&](int64_t, int64_t, int64_t z) {
+    if (z == kVoidHeight) return;
+    low = std::min(low, z);
+    high = std::max(high, z);
+  });
+  if (low >= high) return {1, 0};
+  const auto* raster = std::get_if<Raster>(&source);
+  return make_decimal(Wide{high} - low, raster != nullptr
+                                            ? raster->decimals
+                                            : std::get<PointCloud>(source).z_decimals);
+}
+
+// Nothing if points that share a place rule the bound out.
+std::optional<Encoded> encode_if_possible(const Source& source, const EncodeRequest& request) {
+  try {
+    return encode_measured(source, request);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+// The smallest bound, and its stream, that max_bytes allow.
+Encoded encode_within_bytes(const Source& source, EncodeRequest request) {
+  const Decimal largest = height_range(source);
+  const Search search = request.search;
+  std::optional<Encoded> last;  // that fits
+  std::size_t smallest = std::numeric_limits<std::size_t>::max();
+  const auto fits = [&](uint32_t rung, Search with) {
+    request.search = with;
+    request.lattice.max_error = bound_at(largest, rung);
+    std::optional<Encoded> encoded = encode_if_possible(source, request);
+    if (!encoded) return false;
+    smallest = std::min(smallest, encoded->stream.size());
+    if (encoded->stream.size() > request.max_bytes) return false;
+    if (with == search) last = std::move(encoded);
+    return true;
+  };
+  const auto rung = last_rung([&](uint32_t r) { return fits(r, Search::kFast); },
+                              [&](uint32_t r) { return fits(r, search); });
+  if (!rung) {
+    request.lattice.max_error = largest;
+    encode_measured(source, request);  // throws if that was the reason
+    throw Error("--max-bytes " + std::to_string(request.max_bytes) +
+                " is not enough: at any error, at least " + std::to_string(smallest));
+  }
+  return std::move(*last);
 }
 
 std::string moved(Decimal displacement) {
@@ -54,8 +128,8 @@ std::string moved(Decimal displacement) {
   return ", values move by up to " + to_string(displacement);
 }
 
-std::string report(const Source& source, uint32_t filled, const Laid& laid, const Encoded& encoded,
-                   const std::optional<Decimal>& bound) {
+std::string report(const Source& source, uint32_t filled, const Encoded& encoded) {
+  const Laid& laid = encoded.laid;
   const bool posts = std::holds_alternative<Raster>(source);
   const Verification& measured = encoded.verification;
   std::ostringstream text;
@@ -73,7 +147,8 @@ std::string report(const Source& source, uint32_t filled, const Laid& laid, cons
        << bits_per_vertex(encoded.stream.size(), encoded.vertices) << " bits/vertex\n"
        << "error: at most " << to_string(measured.max_error) << ", rms "
        << to_string(measured.rms_error);
-  if (bound) text << " (asked for: at most " << to_string(*bound) << ")";
+  if (encoded.bound) text << " (asked for: at most " << to_string(*encoded.bound) << ")";
+  text << "\nbelow the source: at most " << to_string(measured.max_below);
   text << '\n';
   return text.str();
 }
@@ -85,21 +160,14 @@ void run_encode(const EncodeRequest& request) {
   OutputFile out(request.output);  // fails early if it cannot be written
   Source source = import_terrain(request.input);
   const uint32_t filled = fill_voids(source, request.fill_voids);
-  const Laid laid = about(request.input, [&] { return lay_out(source, request.lattice); });
   const Encoded encoded = about(request.input, [&] {
-    const SimplifyOptions options{request.lattice.max_error.has_value(), request.max_vertices};
-    const Tin tin = simplify(laid.survey, options);
-    if (request.max_vertices != 0 && tin.vertices.size() > request.max_vertices) {
-      throw Error("--max-vertices " + std::to_string(request.max_vertices) +
-                  " is not enough: outline and voids alone need " +
-                  std::to_string(tin.vertices.size()));
-    }
-    return encode_measured(tin, metadata_of(request, source, laid.placement), source, request);
+    return request.max_bytes != 0 ? encode_within_bytes(source, request)
+                                  : encode_measured(source, request);
   });
   out.write({reinterpret_cast<const char*>(encoded.stream.data()), encoded.stream.size()});
   out.commit();
   std::FILE* const terminal = request.output == "-" ? stderr : stdout;
-  std::fputs(report(source, filled, laid, encoded, request.lattice.max_error).c_str(), terminal);
+  std::fputs(report(source, filled, encoded).c_str(), terminal);
 }
 
 }  // namespace microtin

@@ -24,6 +24,7 @@ void run_verify(const VerifyRequest& request) {
   report["voids_answered"] = found.voids_answered;
   report["bound"] = bound ? Report(number(*bound)) : Report();
   report["max_error"] = number(found.max_error);
+  report["max_below"] = number(found.max_below);
   report["rms_error"] = number(found.rms_error);
   print(report, request.json);
   if (!found.within_bound) throw Error(input + ": the largest error is above the bound");

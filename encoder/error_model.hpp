@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "encoder/survey.hpp"
 
@@ -19,6 +20,13 @@ struct ErrorModel {
     const int64_t lowest = bounded ? sample.lowest : sample.height;
     const int64_t highest = bounded ? sample.highest : sample.height;
     return static_cast<uint64_t>(std::max({lowest - surface, surface - highest, int64_t{0}}));
+  }
+
+  // The middle of what the sample allows and the distance of its ends from there, in steps.
+  std::pair<double, double> middle_and_radius(const Sample& sample) const {
+    const double lowest = bounded ? sample.lowest : sample.height;
+    const double highest = bounded ? sample.highest : sample.height;
+    return {(highest + lowest) / 131072, (highest - lowest) / 131072};
   }
 
   // The whole step nearest to the sample's height (halves up) that is allowed there.

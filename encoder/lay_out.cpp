@@ -69,18 +69,19 @@ int32_t saturated(Wide height) {
 // Makes samples and counts the places where the bound cannot be kept.
 class Sampler {
  public:
-  Sampler(const Lattice& lattice, const std::optional<Decimal>& max_error)
+  Sampler(const Lattice& lattice, const LatticeOptions& options)
       : map_(lattice.z),
         decimals_(lattice.z_decimals),
-        bounded_(max_error.has_value()),
-        bound_(max_error ? mantissa_at(*max_error, decimals_) : Wide{0}) {}
+        bounded_(options.max_error.has_value()),
+        above_(bounded_ ? mantissa_at(*options.max_error, decimals_) : Wide{0}),
+        below_(options.never_below ? Wide{0} : above_) {}
 
   Sample sample(Point place, Heights heights) {
     const Wide low = map_.numerator(heights.low), high = map_.numerator(heights.high);
     Sample sample{place, saturated(round_divide((low + high) * kOne, 2 * map_.step)), INT32_MIN,
                   INT32_MAX};
     if (!bounded_) return sample;
-    const Wide lowest = high - bound_, highest = low + bound_;
+    const Wide lowest = high - below_, highest = low + above_;
     narrowest_ = std::min(narrowest_, highest - lowest);
     sample.lowest = saturated(ceil_divide(lowest * kOne, map_.step));
     sample.highest = saturated(floor_divide(highest * kOne, map_.step));
@@ -121,7 +122,7 @@ class Sampler {
   const LatticeMap& map_;
   int decimals_;
   bool bounded_;
-  Wide bound_;
+  Wide above_, below_;  // how far the surface may be from a height
   Wide narrowest_ = std::numeric_limits<int64_t>::max();
   uint64_t walls_ = 0, without_step_ = 0;
   Wall first_wall_{};
@@ -166,7 +167,7 @@ Laid lay_out(const Source& source, const LatticeOptions& options) {
   Placing placing(lattice);
   for_each_post(source, [&](int64_t x, int64_t y, int64_t z) { placing.add(x, y, z); });
   placing.sort();
-  Sampler sampler(lattice, options.max_error);
+  Sampler sampler(lattice, options);
   Laid laid;
   laid.survey.samples = make_samples(placing.posts(), sampler);
   sampler.check(lattice.placement, placement_of(source).z);

@@ -46,6 +46,16 @@ void set_epsg(const std::string& text, EncodeRequest& request) {
   }
 }
 
+void add_search(CLI::App& command, Search& search) {
+  const auto add = [&](const char* name, Search value, const char* description) {
+    return command.add_flag_callback(
+        name, [&search, value] { search = value; }, description);
+  };
+  CLI::Option* const fast =
+      add("--fast", Search::kFast, "With --max-error: search for a short time only");
+  add("--best", Search::kBest, "... or as long as it helps")->excludes(fast);
+}
+
 using Action = std::function<void()>;
 
 void add_encode(CLI::App& app, Action& action) {
@@ -57,10 +67,23 @@ void add_encode(CLI::App& app, Action& action) {
   CLI::Option* const bound =
       add_decimal(command, "--max-error", request->lattice.max_error,
                   "Keep every height within this distance, in the terrain's unit");
-  command.add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
-      ->check(CLI::Range(3u, kMaxVertices))
-      ->excludes(bound);
-  add_decimal(command, "--z-step", request->lattice.z_step, "Step of heights");
+  CLI::Option* const vertices =
+      command
+          .add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
+          ->check(CLI::Range(3u, kMaxVertices))
+          ->excludes(bound);
+  command
+      .add_option("--max-bytes", request->max_bytes,
+                  "Keep the smallest --max-error that a file of this size can; takes minutes")
+      ->check(CLI::PositiveNumber)
+      ->excludes(bound)
+      ->excludes(vertices);
+  command.add_flag("--never-below", request->lattice.never_below,
+                   "With a bound: no height is below the source, all are at most so far above");
+  add_search(command, request->search);
+  add_decimal(
+      command, "--z-step", request->lattice.z_step,
+      "Step of heights; with --max-error, if not given, the one that takes the fewest bytes");
   add_decimal(command, "--xy-step", request->lattice.xy_step, "Step of places (rasters: in posts)");
   command
       .add_option("--degree", request->effort.degree,
@@ -78,7 +101,12 @@ void add_encode(CLI::App& app, Action& action) {
       "--epsg", [request](const std::string& text) { set_epsg(text, *request); },
       "Codes of the coordinates: horizontal, or horizontal:vertical");
   command.add_option("--source-text", request->source_text, "Where the terrain comes from");
-  command.callback([request, &action] { action = [request] { run_encode(*request); }; });
+  command.callback([request, &action] {
+    if (request->lattice.never_below && !request->lattice.max_error && request->max_bytes == 0) {
+      throw CLI::ValidationError("--never-below", "needs --max-error or --max-bytes");
+    }
+    action = [request] { run_encode(*request); };
+  });
 }
 
 void add_decode(CLI::App& app, Action& action) {

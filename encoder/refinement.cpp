@@ -19,57 +19,24 @@ uint64_t squared_distance(Point a, Point b) {
   return static_cast<uint64_t>(dx * dx + dy * dy);
 }
 
-// Finds, for places close to one another, the triangle of a star that holds them.
-class StarLocator {
- public:
-  StarLocator(const Triangulation& triangulation, Index v)
-      : mesh_(triangulation.mesh()), triangles_(triangulation.new_triangles()), v_(v) {
-    while (at_ghost()) advance(1);
-  }
-
-  // p, not v itself, lies in the closed star and in the hull. The turn towards it passes through
-  // less than half a circle, none of it outside.
-  Index locate(Point p) {
-    const Point centre = point_of(mesh_, v_);
-    for (;;) {
-      const Index h = first_edge(triangles_[at_]);
-      if (orient2d(centre, point_of(mesh_, mesh_.origin[h]), p) < 0) {
-        advance(triangles_.size() - 1);
-      } else if (orient2d(centre, point_of(mesh_, mesh_.origin[h + 1]), p) > 0) {
-        advance(1);
-      } else {
-        return triangles_[at_];
-      }
-    }
-  }
-
- private:
-  void advance(std::size_t steps) { at_ = (at_ + steps) % triangles_.size(); }
-
-  bool at_ghost() const {
-    const Index h = first_edge(triangles_[at_]);
-    return mesh_.origin[h] == kInfinity || mesh_.origin[h + 1] == kInfinity;
-  }
-
-  const Mesh& mesh_;
-  const std::vector<Index>& triangles_;
-  Index v_;
-  std::size_t at_ = 0;
-};
-
 }  // namespace
 
-Refinement::Refinement(const Survey& survey, ErrorModel model, const std::vector<uint32_t>& corners)
+Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
+                       const std::vector<uint32_t>& corners)
     : survey_(survey),
       model_(model),
+      posts_(posts),
+      void_posts_(survey.voids),
       triangulation_(places_of(survey, corners)),
-      samples_(survey.samples.size()),
-      voids_(survey.voids.size()),
+      is_vertex_(survey.samples.size()),
       on_rim_(survey.samples.size()) {
-  for (const uint32_t s : corners) heights_.push_back(model_.vertex_height(survey_.samples[s]));
+  for (const uint32_t s : corners) {
+    heights_.push_back(model_.vertex_height(survey_.samples[s]));
+    is_vertex_[s] = true;
+  }
   find_rims();
   set_triangles();
-  distribute(corners);
+  for (Index t = 0; t < triangulation_.mesh().triangles; ++t) look_for_voids(t);
   for (Index t = 0; t < triangulation_.mesh().triangles; ++t) assess(t);
 }
 
@@ -90,39 +57,22 @@ void Refinement::find_rims() {
 }
 
 void Refinement::set_triangles() {
-  const std::size_t triangles = triangulation_.mesh().triangles;
-  samples_.set_triangles(triangles);
-  voids_.set_triangles(triangles);
-  void_edges_.resize(3 * triangles);
-  worst_.resize(triangles);
+  void_.resize(triangulation_.mesh().triangles);
+  worst_.resize(triangulation_.mesh().triangles);
 }
 
-// Puts every post that is within the hull and no vertex into a list.
-void Refinement::distribute(const std::vector<uint32_t>& vertices) {
-  std::vector<bool> is_vertex(survey_.samples.size());
-  for (const uint32_t s : vertices) is_vertex[s] = true;
-  Index hint = 0;
-  for (uint32_t s = 0; s < survey_.samples.size(); ++s) {
-    if (is_vertex[s]) continue;
-    hint = triangulation_.locate(survey_.samples[s].place, hint);
-    samples_.push(triangle_of(hint), s);
-  }
-  for (uint32_t i = 0; i < survey_.voids.size(); ++i) {
-    hint = triangulation_.locate(survey_.voids[i], hint);
-    if (is_real(triangle_of(hint))) add_void(triangle_of(hint), i);
-  }
-}
-
-void Refinement::add_void(Index triangle, uint32_t post) {
+template <class Visit>
+void Refinement::visit_under(const PostIndex& posts, Index triangle, const Visit& visit) const {
   const Mesh& mesh = triangulation_.mesh();
-  voids_.push(triangle, post);
-  for (Index h = first_edge(triangle); h < first_edge(triangle) + 3; ++h) {
-    const Point from = point_of(mesh, mesh.origin[h]);
-    const Point to = point_of(mesh, mesh.origin[next_in_triangle(h)]);
-    if (orient2d(from, to, survey_.voids[post]) != 0) continue;
-    void_edges_[h] = 1;
-    void_edges_[mesh.twin[h]] = 1;
-  }
+  const Index* const corner = mesh.origin + first_edge(triangle);
+  posts.visit_under(point_of(mesh, corner[0]), point_of(mesh, corner[1]), point_of(mesh, corner[2]),
+                    visit);
+}
+
+void Refinement::look_for_voids(Index triangle) {
+  void_[triangle] = false;
+  if (survey_.voids.empty() || !is_real(triangle)) return;
+  visit_under(void_posts_, triangle, [&](uint32_t, Point) { void_[triangle] = true; });
 }
 
 void Refinement::refine(std::size_t max_vertices) {
@@ -137,73 +87,46 @@ void Refinement::refine(std::size_t max_vertices) {
 
 void Refinement::insert(uint32_t sample, Index triangle) {
   const Mesh& mesh = triangulation_.mesh();
-  const Index v = triangulation_.insert(survey_.samples[sample].place, first_edge(triangle));
+  triangulation_.insert(survey_.samples[sample].place, first_edge(triangle));
   heights_.push_back(model_.vertex_height(survey_.samples[sample]));
+  is_vertex_[sample] = true;
   set_triangles();
-  redistribute(v);
+  for (const Index t : triangulation_.new_triangles()) look_for_voids(t);
   for (const Index t : triangulation_.new_triangles()) assess(t);
   if (survey_.voids.empty()) return;
   // What lies on an edge of a void triangle depends on the triangle behind.
   for (const Index t : triangulation_.new_triangles()) {
     const Index behind = triangle_of(mesh.twin[first_edge(t)]);
-    if (is_void(behind)) assess(behind);
+    if (void_[behind]) assess(behind);
   }
-}
-
-// Gives the posts of the triangles that the insertion of v replaced to those that it made.
-void Refinement::redistribute(Index v) {
-  const Mesh& mesh = triangulation_.mesh();
-  taken_samples_.clear();
-  taken_voids_.clear();
-  for (const Index t : triangulation_.new_triangles()) {
-    samples_.take(t, taken_samples_);
-    voids_.take(t, taken_voids_);
-    const Index side = first_edge(t);
-    void_edges_[side] = void_edges_[mesh.twin[side]];
-    void_edges_[side + 1] = void_edges_[side + 2] = 0;
-  }
-  StarLocator star(triangulation_, v);
-  const Point place = point_of(mesh, v);
-  for (const uint32_t s : taken_samples_) {
-    const Point p = survey_.samples[s].place;
-    if (p != place) samples_.push(star.locate(p), s);
-  }
-  for (const uint32_t i : taken_voids_) add_void(star.locate(survey_.voids[i]), i);
 }
 
 // Finds the worst sample of a triangle.
 void Refinement::assess(Index triangle) {
   Candidate& worst = worst_[triangle];
   worst = {0, 0};
-  if (samples_.first(triangle) == PostLists::kEnd) return;
+  if (!is_real(triangle)) return;
   const Mesh& mesh = triangulation_.mesh();
-  const bool in_void = is_void(triangle);
   const Index f = first_edge(triangle);
   const Vertex a = vertex(mesh.origin[f]), b = vertex(mesh.origin[f + 1]),
                c = vertex(mesh.origin[f + 2]);
-  for (uint32_t s = samples_.first(triangle); s != PostLists::kEnd; s = samples_.next(s)) {
-    const Sample& sample = survey_.samples[s];
+  visit_under(posts_, triangle, [&](uint32_t s, Point place) {
+    if (is_vertex_[s]) return;
     Candidate candidate = {0, s};
-    if (in_void && !on_covered_edge(triangle, sample.place)) {
+    if (void_[triangle] && !on_covered_edge(triangle, place)) {
       candidate.urgency = uncovered_urgency(triangle, s);
     } else {
-      const int32_t surface = height_in_triangle(a, b, c, fine(sample.place));
-      candidate.urgency = model_.violation(sample, surface);
+      const int32_t surface = height_in_triangle(a, b, c, fine(place));
+      candidate.urgency = model_.violation(survey_.samples[s], surface);
     }
     if (worst < candidate) worst = candidate;
-  }
+  });
   if (worst.urgency != 0) queue_.push({worst, triangle});
 }
 
 bool Refinement::is_real(Index triangle) const {
   const Index* corner = triangulation_.mesh().origin + first_edge(triangle);
   return corner[0] != kInfinity && corner[1] != kInfinity && corner[2] != kInfinity;
-}
-
-bool Refinement::is_void(Index triangle) const {
-  const Index f = first_edge(triangle);
-  return is_real(triangle) && (voids_.first(triangle) != PostLists::kEnd || void_edges_[f] != 0 ||
-                               void_edges_[f + 1] != 0 || void_edges_[f + 2] != 0);
 }
 
 // Whether p lies on an edge behind which there is terrain.
@@ -213,7 +136,7 @@ bool Refinement::on_covered_edge(Index triangle, Point p) const {
     const Point from = point_of(mesh, mesh.origin[h]);
     const Point to = point_of(mesh, mesh.origin[next_in_triangle(h)]);
     const Index behind = triangle_of(mesh.twin[h]);
-    if (orient2d(from, to, p) == 0 && is_real(behind) && !is_void(behind)) return true;
+    if (orient2d(from, to, p) == 0 && is_real(behind) && !void_[behind]) return true;
   }
   return false;
 }
@@ -240,7 +163,7 @@ Tin Refinement::tin() const {
   Tin tin;
   for (Index v = 0; v < mesh.vertices; ++v) tin.vertices.push_back(vertex(v));
   for (Index t = 0; t < mesh.triangles; ++t) {
-    if (!is_void(t)) continue;
+    if (!void_[t]) continue;
     Point corner[3];
     for (Index i = 0; i < 3; ++i) corner[i] = point_of(mesh, mesh.origin[first_edge(t) + i]);
     std::rotate(corner, std::min_element(corner, corner + 3), corner + 3);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "encoder/error_model.hpp"
-#include "encoder/post_lists.hpp"
+#include "encoder/post_index.hpp"
 #include "encoder/survey.hpp"
 #include "encoder/triangulation.hpp"
 
@@ -17,8 +17,9 @@ namespace microtin {
 class Refinement {
  public:
   // Starts with the given samples as vertices; all others must lie within their hull. The survey
-  // must outlive this.
-  Refinement(const Survey& survey, ErrorModel model, const std::vector<uint32_t>& corners);
+  // and the index of its samples must outlive this.
+  Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
+             const std::vector<uint32_t>& corners);
 
   // Inserts samples until none is violated or there are max_vertices; samples in void triangles are
   // inserted even then.
@@ -53,31 +54,29 @@ class Refinement {
   };
 
   void find_rims();
-  void distribute(const std::vector<uint32_t>& vertices);
   void insert(uint32_t sample, Index triangle);
-  void redistribute(Index v);
   void set_triangles();
-  void add_void(Index triangle, uint32_t post);
+  template <class Visit>
+  void visit_under(const PostIndex& posts, Index triangle, const Visit& visit) const;
+  void look_for_voids(Index triangle);
   void assess(Index triangle);
   bool is_real(Index triangle) const;
-  bool is_void(Index triangle) const;
   bool on_covered_edge(Index triangle, Point p) const;
   uint64_t uncovered_urgency(Index triangle, uint32_t sample) const;
   Vertex vertex(Index v) const;
 
   const Survey& survey_;
   ErrorModel model_;
+  const PostIndex& posts_;  // the samples
+  PostIndex void_posts_;
   Triangulation triangulation_;
   std::vector<int16_t> heights_;  // of vertices
-
-  PostLists samples_;                // those that are not vertices
-  PostLists voids_;                  // those within the hull
-  std::vector<bool> on_rim_;         // by sample: a neighbouring post is void
-  std::vector<uint8_t> void_edges_;  // by half-edge: a void post lies on it
+  std::vector<bool> is_vertex_;   // by sample
+  std::vector<bool> on_rim_;      // by sample: a neighbouring post is void
+  std::vector<bool> void_;        // by triangle: a void post lies in it or on its border
 
   std::vector<Candidate> worst_;  // by triangle
   std::priority_queue<Entry> queue_;
-  std::vector<uint32_t> taken_samples_, taken_voids_;
 };
 
 }  // namespace microtin

@@ -5,12 +5,21 @@
 #include <numeric>
 #include <vector>
 
+#include "encoder/decimation.hpp"
 #include "encoder/error_model.hpp"
+#include "encoder/height_choice.hpp"
 #include "encoder/refinement.hpp"
 #include "shared/predicates.hpp"
 
 namespace microtin {
 namespace {
+
+std::vector<Point> places_of(const std::vector<Sample>& samples) {
+  std::vector<Point> places;
+  places.reserve(samples.size());
+  for (const Sample& s : samples) places.push_back(s.place);
+  return places;
+}
 
 std::vector<uint32_t> all_of(const std::vector<Sample>& samples) {
   std::vector<uint32_t> all(samples.size());
@@ -41,15 +50,49 @@ std::vector<uint32_t> hull_corners(const std::vector<Sample>& samples) {
   return chain;
 }
 
+// Rounds of a search: an upper limit, and the part of the vertices that a round must save for the
+// next one to follow.
+struct Patience {
+  uint32_t rounds;
+  double part;
+};
+
+Patience patience(Search search) {
+  if (search == Search::kBest) return {100, 0};
+  return search == Search::kNormal ? Patience{20, 0.001} : Patience{1, 0};
+}
+
+constexpr int kHeightPasses = 3;
+
+Tin improve(const Survey& survey, const PostIndex& posts, const Tin& tin,
+            const SimplifyOptions& options) {
+  Surface surface(survey, ErrorModel{true}, posts, tin);
+  Decimation decimation(surface);
+  decimation.remove_vertices();
+  const Patience limit = patience(options.search);
+  for (uint32_t round = 0; round < limit.rounds; ++round) {
+    const auto saved = static_cast<double>(decimation.remove_and_move_vertices());
+    if (saved <= limit.part * surface.vertices()) break;
+  }
+  HeightChoice heights(surface, options.effort.degree);
+  for (int i = 0; i < kHeightPasses; ++i) heights.pass();
+  Tin improved = surface.tin();
+  const auto bytes = [&](const Tin& t) { return encode(t, {}, options.effort).size(); };
+  return bytes(improved) <= bytes(tin) ? improved : tin;
+}
+
 }  // namespace
 
 Tin simplify(const Survey& survey, const SimplifyOptions& options) {
   const bool keep_all = !options.bounded && options.max_vertices == 0;
-  Refinement refinement(survey, ErrorModel{options.bounded},
+  const PostIndex posts(places_of(survey.samples));
+  Refinement refinement(survey, ErrorModel{options.bounded}, posts,
                         keep_all ? all_of(survey.samples) : hull_corners(survey.samples));
   refinement.refine(options.max_vertices != 0 ? options.max_vertices
                                               : std::numeric_limits<std::size_t>::max());
-  return refinement.tin();
+  const bool search =
+      options.bounded && options.max_vertices == 0 && options.search != Search::kGreedy;
+  return search ? improve(survey, posts, refinement.tin(), options) : refinement.tin();
 }
 
 }  // namespace microtin

@@ -124,27 +124,57 @@ Index Triangulation::locate(Point p, Index hint) const {
   }
 }
 
-// Joins vertex v, whose place is known, to the mesh. Returns a half-edge near it.
-Index Triangulation::connect(Index v, Index hint) {
-  const Point p = point_of(mesh_, v);
+void Triangulation::find_cavity(Point p, Index hint) {
   const Index start = locate(p, hint);
   const auto forbids_nothing = [](Index) { return false; };
   while (!grow_cavity(mesh_, start, p, cavity_, forbids_nothing)) {
     set_cavity_limit(2 * std::size_t{cavity_.limit});
   }
+}
+
+// Joins vertex v, whose place is known, to the mesh. Returns a half-edge near it.
+Index Triangulation::connect(Index v, Index hint) {
+  find_cavity(point_of(mesh_, v), hint);
   return fan_cavity(mesh_, cavity_, v);
 }
 
+const std::vector<Index>& Triangulation::conflicts(Point p, Index hint) {
+  find_cavity(p, hint);
+  new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size);
+  return new_triangles_;
+}
+
 Index Triangulation::insert(Point p, Index hint) {
-  const Index v = mesh_.vertices;
-  set_sizes(std::size_t{v} + 1);
+  Index v = mesh_.vertices;
+  if (free_vertices_.empty()) {
+    set_sizes(std::size_t{v} + 1);
+  } else {
+    v = free_vertices_.back();
+    free_vertices_.pop_back();
+  }
   x_[v] = p.x;
   y_[v] = p.y;
   connect(v, hint);
-  ++mesh_.vertices;
   new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size + 2);
+  if (v == mesh_.vertices) {
+    ++mesh_.vertices;
+  } else {
+    for (std::size_t i = new_triangles_.size(); i-- > cavity_.size;) {
+      new_triangles_[i] = free_triangles_.back();
+      free_triangles_.pop_back();
+      move_last_triangle(new_triangles_[i]);
+    }
+  }
   for (const Index triangle : new_triangles_) note_edges(triangle);
   return v;
+}
+
+void Triangulation::move_last_triangle(Index slot) {
+  const Index from = first_edge(--mesh_.triangles), to = first_edge(slot);
+  for (Index i = 0; i < 3; ++i) {
+    mesh_.origin[to + i] = mesh_.origin[from + i];
+    pair(mesh_, to + i, mesh_.twin[from + i]);
+  }
 }
 
 void Triangulation::note_edges(Index triangle) {
@@ -157,6 +187,7 @@ bool Triangulation::remove(Index v, Index max_degree) {
   if (!open_hole(v, max_degree, hole)) return false;
   fill_hole(hole);
   edge_of_[entry(v)] = kNoEdge;
+  free_vertices_.push_back(v);
   return true;
 }
 
@@ -196,7 +227,13 @@ void Triangulation::fill_hole(const Hole& hole) {
   const Corner* freed = hole.corners;
   edge_of_[entry(hole.last->vertex)] = freed->slot;
   fill(hole.corners, hole.last, hole.last->outside, freed);
-  for (; freed <= hole.last; ++freed) mesh_.origin[freed->slot + 1] = mesh_.origin[freed->slot];
+  new_triangles_.clear();
+  for (const Corner* c = hole.corners; c != freed; ++c)
+    new_triangles_.push_back(triangle_of(c->slot));
+  for (; freed <= hole.last; ++freed) {
+    mesh_.origin[freed->slot + 1] = mesh_.origin[freed->slot];
+    free_triangles_.push_back(triangle_of(freed->slot));
+  }
 }
 
 // Fills the part of the hole from `first` to `last` that the half-edge `closing` closes; recursive,

@@ -42,17 +42,21 @@ class Triangulation {
   // conflict with it. Walks there from the half-edge `hint`.
   Index locate(Point p, Index hint) const;
 
-  // Adds p, different from all vertices, as vertex mesh().vertices and returns that number.
+  // Adds p, different from all vertices, and returns its number: that of a removed vertex if there
+  // is one, else mesh().vertices.
   Index insert(Point p, Index hint);
 
-  // The triangles that the last insert made, counter-clockwise around the new vertex, which is the
-  // last corner of each: the slots of those it replaced, then two more.
+  // The triangles in conflict with p, which an insertion would replace.
+  const std::vector<Index>& conflicts(Point p, Index hint);
+
+  // The triangles that the last insert or remove made. Those of an insert turn counter-clockwise
+  // around the new vertex, which is the last corner of each, and take the slots of those that it
+  // replaced, then two more.
   const std::vector<Index>& new_triangles() const { return new_triangles_; }
 
   // Removes v if it has at most max_degree <= kMaxRemovable neighbours, infinity counted, and says
   // whether it did. Those that stay must not all lie on one line. Only the triangles around v
-  // change; the other vertices and half-edges keep their numbers. Nothing may be inserted any more.
-  // O(degree^2).
+  // change; the other vertices and half-edges keep their numbers. O(degree^2).
   bool remove(Index v, Index max_degree);
   static constexpr Index kMaxRemovable = kMaxDegree;
 
@@ -84,7 +88,9 @@ class Triangulation {
   void set_sizes(std::size_t vertices);
   void set_cavity_limit(std::size_t limit);
   void renumber(const std::vector<Index>& order);
+  void find_cavity(Point p, Index hint);
   Index connect(Index v, Index hint);
+  void move_last_triangle(Index slot);
   void note_edges(Index triangle);
   bool open_hole(Index v, Index max_corners, Hole& hole) const;
   void fill_hole(const Hole& hole);
@@ -102,6 +108,7 @@ class Triangulation {
   Cavity cavity_ = {};
   std::vector<Index> cavity_triangles_, cavity_origin_, cavity_twin_;
   std::vector<Index> new_triangles_;
+  std::vector<Index> free_vertices_, free_triangles_;  // two triangles for each vertex
 };
 
 }  // namespace microtin

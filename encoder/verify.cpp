@@ -27,16 +27,19 @@ class ErrorMeter {
   // `number` is the source's; `answer` is a lattice height with 16 fractional bits. With 60 and 31
   // bits in these, 40 in the axes and 30 in the source's denominator, sums stay below 2^117.
   void add(int64_t number, int32_t answer) {
-    const Wide error = magnitude(number * to_common_ - from_common_ * (offset_ + step_ * answer));
+    const Wide below = number * to_common_ - from_common_ * (offset_ + step_ * answer);
+    const Wide error = magnitude(below);
     const Wide billionths =
         error / common_ * kBillion + ceil_divide(error % common_ * kBillion, common_);
     largest_ = std::max(largest_, billionths);
+    if (below > 0) deepest_ = std::max(deepest_, billionths);
     const Wide limited = std::min(billionths, kLargestSquared);
     squares_ += limited * limited;
     ++count_;
   }
 
   Decimal largest() const { return make_decimal(largest_, kMaxDecimals); }
+  Decimal deepest() const { return make_decimal(deepest_, kMaxDecimals); }
 
   // Rounded up.
   Decimal root_mean_square() const {
@@ -52,7 +55,7 @@ class ErrorMeter {
 
  private:
   Wide to_common_, offset_, step_, from_common_, common_;
-  Wide largest_ = 0;
+  Wide largest_ = 0, deepest_ = 0;
   Wide squares_ = 0;
   int64_t count_ = 0;
 };
@@ -130,6 +133,7 @@ Verification verify(const microtin_mesh* mesh, const Source& source,
   });
   result.uncovered = result.posts - result.covered;
   result.max_error = meter.largest();
+  result.max_below = meter.deepest();
   result.rms_error = meter.root_mean_square();
   result.within_bound = !bound || result.max_error <= *bound;
   return result;

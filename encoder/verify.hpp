@@ -17,6 +17,7 @@ struct Verification {
   uint64_t voids = 0;           // void posts
   uint64_t voids_answered = 0;  // void posts where the terrain answers a height
   Decimal max_error;
+  Decimal max_below;  // how far the surface is below a height at most
   Decimal rms_error;
   bool within_bound = true;  // max_error is at most the bound, or there is none
 };

@@ -145,6 +145,32 @@ TEST_CASE("cli: bounds are kept, merged points counted") {
   CHECK(contains(session.failure("encode f.asc --max-vertices 3 -o i.mtin"), "alone need 4"));
 }
 
+TEST_CASE("cli: searches, and surfaces that are never below") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
+  for (const char* option : {"", "--fast", "--best", "--never-below", "--never-below --z-step 2"}) {
+    REQUIRE(session.run("encode f.asc --max-error 10 -o f.mtin " + std::string(option)).code == 0);
+    const Session::Result verified = session.run("verify f.mtin f.asc --json");
+    CHECK(verified.code == 0);
+    const bool above = std::string(option).find("--never") == 0;
+    CHECK(contains(verified.out, "\"max_below\": 0.0,") == above);
+  }
+}
+
+TEST_CASE("cli: the bound that a number of bytes allows") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 33 --seed 3 -o f.asc").code == 0);
+  for (const char* option : {"--fast", "--fast --never-below"}) {
+    REQUIRE(session.run("encode f.asc --max-bytes 400 -o f.mtin " + std::string(option)).code == 0);
+    const std::size_t bytes = session.read("f.mtin").size();
+    CHECK(bytes <= 400);
+    CHECK(bytes > 360);
+    CHECK(session.run("verify f.mtin f.asc").code == 0);
+  }
+  CHECK(contains(session.failure("encode f.asc --max-bytes 30 --fast -o g.mtin"),
+                 "--max-bytes 30 is not enough: at any error, at least "));
+}
+
 TEST_CASE("cli: verify fails on another terrain") {
   const Session session;
   session.write("a.xyz", "0 0 0\n9 0 0\n0 9 0\n");
@@ -243,13 +269,26 @@ TEST_CASE("cli: damaged streams") {
 TEST_CASE("cli: wrong usage is told apart") {
   const Session session;
   session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n");
-  for (const char* arguments :
-       {"", "frobnicate", "encode", "encode ok.xyz", "encode ok.xyz -o o --degree 5",
-        "encode ok.xyz -o o --degree 33", "encode ok.xyz -o o --levels 4",
-        "encode ok.xyz -o o --max-error -1", "encode ok.xyz -o o --max-error x",
-        "encode ok.xyz -o o --max-error nan", "encode ok.xyz -o o --max-vertices 2",
-        "encode ok.xyz -o o --epsg 1:x", "encode ok.xyz -o o --max-error 1 --max-vertices 9",
-        "encode ok.xyz -o o --nonsense", "info", "decode ok.xyz"}) {
+  for (const char* arguments : {"",
+                                "frobnicate",
+                                "encode",
+                                "encode ok.xyz",
+                                "encode ok.xyz -o o --degree 5",
+                                "encode ok.xyz -o o --degree 33",
+                                "encode ok.xyz -o o --levels 4",
+                                "encode ok.xyz -o o --max-error -1",
+                                "encode ok.xyz -o o --max-error x",
+                                "encode ok.xyz -o o --max-error nan",
+                                "encode ok.xyz -o o --max-vertices 2",
+                                "encode ok.xyz -o o --epsg 1:x",
+                                "encode ok.xyz -o o --max-error 1 --max-vertices 9",
+                                "encode ok.xyz -o o --nonsense",
+                                "encode ok.xyz -o o --never-below",
+                                "encode ok.xyz -o o --max-error 1 --fast --best",
+                                "encode ok.xyz -o o --max-error 1 --max-bytes 9",
+                                "encode ok.xyz -o o --max-vertices 9 --max-bytes 9",
+                                "info",
+                                "decode ok.xyz"}) {
     session.failure(arguments, 2);
   }
   const Session::Result help = session.run("encode --help");

@@ -235,6 +235,40 @@ TEST_CASE("simplify: the bound holds at every sample") {
   CHECK(more == 4);
 }
 
+TEST_CASE("simplify: a longer search finds fewer vertices, always the same") {
+  const Survey survey = raster(65, 65, rough, 4 * kStep);
+  std::size_t before = std::numeric_limits<std::size_t>::max();
+  for (const Search search : {Search::kGreedy, Search::kFast, Search::kBest}) {
+    SimplifyOptions options = bounded();
+    options.search = search;
+    const Tin tin = simplify(survey, options);
+    CHECK(largest_violation(survey, tin, true) == 0);
+    CHECK(tin.vertices.size() < before * 19 / 20);
+    before = tin.vertices.size();
+    const Tin again = simplify(survey, options);
+    REQUIRE(again.vertices.size() == before);
+    const bool same =
+        std::equal(tin.vertices.begin(), tin.vertices.end(), again.vertices.begin(),
+                   [](Vertex a, Vertex b) { return a.x == b.x && a.y == b.y && a.z == b.z; });
+    CHECK(same);
+  }
+}
+
+TEST_CASE("simplify: never more bytes than greedy insertion takes") {
+  Random random(3);
+  const auto noise = [&](int, int) { return static_cast<int32_t>(random.below(9 * kStep)); };
+  for (const HeightAt& height_at : {HeightAt(flat), HeightAt(rough), HeightAt(noise)}) {
+    for (const int32_t bound : {0, kStep / 2, 3 * kStep}) {
+      const Survey survey = raster(20, 20, height_at, bound);
+      SimplifyOptions options = bounded();
+      if (bound == 0 && height_at(1, 1) % kStep != 0) continue;  // no whole step is allowed
+      const std::size_t found = encode(simplify(survey, options), {}).size();
+      options.search = Search::kGreedy;
+      CHECK(found <= encode(simplify(survey, options), {}).size());
+    }
+  }
+}
+
 TEST_CASE("simplify: one-sided and narrow bounds hold") {
   Survey survey = raster(25, 25, rough, 0);
   Random random(1);

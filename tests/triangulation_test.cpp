@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -225,6 +226,35 @@ TEST_CASE("triangulation: removal leaves all other half-edges alone") {
   }
   CHECK(fault(triangulation) == "");
   CHECK(equals_fresh(triangulation));
+}
+
+TEST_CASE("triangulation: points come and go") {
+  Random random(11);
+  for (PointSet& set : point_sets(60, 12)) {
+    CAPTURE(set.name);
+    Triangulation triangulation(set.points);
+    std::set<Point> outside;
+    for (int round = 0; round < 60; ++round) {
+      const auto v = random.below(triangulation.mesh().vertices);
+      const bool corner = triangulation.has_vertex(v) && live_points(triangulation).size() < 20;
+      if (triangulation.has_vertex(v) && !corner && random.below(2) == 0) {
+        const Point p = point_of(triangulation.mesh(), v);
+        if (triangulation.degree(kInfinity) < 5 || !triangulation.remove(v, 32)) continue;
+        outside.insert(p);
+      } else if (!outside.empty()) {
+        const Point p = *outside.begin();
+        outside.erase(outside.begin());
+        const Index hint = triangulation.edge_of(kInfinity);
+        const std::size_t replaced = triangulation.conflicts(p, hint).size();
+        const Index inserted = triangulation.insert(p, hint);
+        CHECK(triangulation.degree(inserted) == replaced + 2);
+        CHECK(triangulation.new_triangles().size() == replaced + 2);
+      }
+      REQUIRE(fault(triangulation) == "");
+      REQUIRE(equals_fresh(triangulation));
+    }
+    CHECK(triangulation.mesh().vertices == set.points.size());
+  }
 }
 
 TEST_CASE("triangulation: degenerate sets take no longer than others") {

@@ -171,6 +171,7 @@ Model simplified(const Source& source, const LatticeOptions& options, uint32_t m
   SimplifyOptions simplify_options;
   simplify_options.bounded = max_vertices == 0 && options.max_error;
   simplify_options.max_vertices = max_vertices;
+  simplify_options.search = Search::kGreedy;
   Model model{simplify(laid.survey, simplify_options), {}};
   model.metadata.placement = laid.placement;
   return model;
