@@ -39,7 +39,7 @@ std::size_t Decimation::try_each(const Try& attempt) {
     if (!surface_.has_vertex(v)) continue;
     stale_[v] = true;
     fitted_.clear();
-    removed += attempt(v) ? 1 : 0;
+    if (attempt(v)) ++removed;
     if (edits_.size() != 0) note_changes();
     edits_.commit();
   }
