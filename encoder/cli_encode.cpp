@@ -6,6 +6,7 @@
 #include "encoder/approximation.hpp"
 #include "encoder/byte_budget.hpp"
 #include "encoder/cli_commands.hpp"
+#include "encoder/cli_pack.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
@@ -15,7 +16,6 @@
 #include "encoder/voids.hpp"
 
 namespace microtin {
-namespace {
 
 Metadata metadata_of(const EncodeRequest& request, const Source& source,
                      const Placement& placement) {
@@ -32,15 +32,6 @@ Metadata metadata_of(const EncodeRequest& request, const Source& source,
   return metadata;
 }
 
-// A stream that was decoded and measured.
-struct Encoded {
-  Laid laid;
-  std::optional<Decimal> bound;  // asked for
-  std::vector<uint8_t> stream;
-  uint32_t vertices;
-  Verification verification;
-};
-
 SimplifyOptions simplify_options(const EncodeRequest& request) {
   SimplifyOptions options;
   options.bounded = request.lattice.max_error.has_value();
@@ -49,6 +40,17 @@ SimplifyOptions simplify_options(const EncodeRequest& request) {
   options.effort = request.effort;
   return options;
 }
+
+namespace {
+
+// A stream that was decoded and measured.
+struct Encoded {
+  Laid laid;
+  std::optional<Decimal> bound;  // asked for
+  std::vector<uint8_t> stream;
+  uint32_t vertices;
+  Verification verification;
+};
 
 // Encodes, measures what a decoder makes of it, and states the errors in the header.
 Encoded encode_measured(const Source& source, const EncodeRequest& request) {
@@ -156,6 +158,10 @@ std::string report(const Source& source, uint32_t filled, const Encoded& encoded
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
+  if (request.tile_vertices != 0) {
+    run_encode_pack(request);
+    return;
+  }
   refuse_overwriting(request.input, request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
   Source source = import_terrain(request.input);

@@ -1,6 +1,8 @@
 #include "encoder/cli_commands.hpp"
+#include "encoder/cli_pack.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error_context.hpp"
+#include "encoder/pack_file.hpp"
 
 namespace microtin {
 namespace {
@@ -48,6 +50,8 @@ Report workspace_bytes_16(uint32_t vertices) {
   return MICROTIN_MESH_BYTES_FOR(vertices, 16) + MICROTIN_DECODER_BYTES_FOR(vertices, 16);
 }
 
+}  // namespace
+
 void add_placement(Report& report, const Metadata& metadata) {
   const Placement& p = metadata.placement;
   report["steps"] = {{"x", step_of(p.x)}, {"y", step_of(p.y)}, {"z", step_of(p.z)}};
@@ -70,10 +74,12 @@ void add_accuracy(Report& report, const std::optional<Accuracy>& accuracy) {
   report["rms_error"] = accuracy ? Report(number(accuracy->rms_error)) : Report();
 }
 
-}  // namespace
-
 void run_info(const std::string& input, bool json) {
   const std::vector<uint8_t> stream = read_stream(input);
+  if (is_pack(stream)) {
+    run_info_pack(input, stream, json);
+    return;
+  }
   const Report report = about(input, [&] {
     const Header header = read_header(stream);
     const DecodedTerrain terrain(stream);

@@ -6,6 +6,8 @@
 
 #include "encoder/cli_commands.hpp"
 #include "encoder/error.hpp"
+#include "encoder/pack_encode.hpp"
+#include "encoder/tile_plan.hpp"
 #include "shared/format.hpp"
 
 namespace microtin {
@@ -46,6 +48,13 @@ void set_epsg(const std::string& text, EncodeRequest& request) {
   }
 }
 
+void set_device_ram(uint32_t bytes, EncodeRequest& request) {
+  request.tile_vertices = vertices_for_ram(bytes);
+  if (request.tile_vertices < kFewestTileVertices) {
+    throw CLI::ValidationError("--device-ram", std::to_string(bytes) + " bytes are too few");
+  }
+}
+
 void add_search(CLI::App& command, Search& search) {
   const auto add = [&](const char* name, Search value, const char* description) {
     return command.add_flag_callback(
@@ -72,12 +81,27 @@ void add_encode(CLI::App& app, Action& action) {
           .add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
           ->check(CLI::Range(3u, kMaxVertices))
           ->excludes(bound);
+  CLI::Option* const bytes =
+      command
+          .add_option("--max-bytes", request->max_bytes,
+                      "Keep the smallest --max-error that a file of this size can; takes minutes")
+          ->check(CLI::PositiveNumber)
+          ->excludes(bound)
+          ->excludes(vertices);
+  CLI::Option* const tile =
+      command
+          .add_option("--tile-vertices", request->tile_vertices,
+                      "Write a pack of tiles with at most so many vertices each (rasters)")
+          ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
+          ->excludes(vertices)
+          ->excludes(bytes);
   command
-      .add_option("--max-bytes", request->max_bytes,
-                  "Keep the smallest --max-error that a file of this size can; takes minutes")
-      ->check(CLI::PositiveNumber)
-      ->excludes(bound)
-      ->excludes(vertices);
+      .add_option_function<uint32_t>(
+          "--device-ram", [request](uint32_t size) { set_device_ram(size, *request); },
+          "... with tiles of which a device with so many bytes keeps four and decodes one")
+      ->excludes(vertices)
+      ->excludes(bytes)
+      ->excludes(tile);
   command.add_flag("--never-below", request->lattice.never_below,
                    "With a bound: no height is below the source, all are at most so far above");
   add_search(command, request->search);
