@@ -229,19 +229,18 @@ microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots,
   }
   *pack = nullptr;
   if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
+  const uint64_t own_bytes = MICROTIN_PACK_ROUND(sizeof(microtin_pack) + slots * sizeof(PackSlot));
   const uint64_t decoder_bytes = MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES(capacity));
   const uint64_t mesh_bytes = MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES(capacity));
   // Below 2^8 * 2^31.
-  if (sizeof(microtin_pack) + decoder_bytes + slots * (sizeof(PackSlot) + mesh_bytes) > size) {
-    return MICROTIN_WORKSPACE_TOO_SMALL;
-  }
+  if (own_bytes + decoder_bytes + slots * mesh_bytes > size) return MICROTIN_WORKSPACE_TOO_SMALL;
   microtin_pack& p = *static_cast<microtin_pack*>(workspace);
-  p.decoder_space = reinterpret_cast<uint8_t*>(&p + 1);
-  p.decoder_bytes = static_cast<size_t>(decoder_bytes);
-  p.slots = reinterpret_cast<PackSlot*>(p.decoder_space + p.decoder_bytes);
+  p.slots = reinterpret_cast<PackSlot*>(&p + 1);
   p.slot_count = static_cast<uint8_t>(slots);
   p.capacity = capacity;
-  uint8_t* mesh_space = reinterpret_cast<uint8_t*>(p.slots + slots);
+  p.decoder_space = static_cast<uint8_t*>(workspace) + own_bytes;
+  p.decoder_bytes = static_cast<size_t>(decoder_bytes);
+  uint8_t* mesh_space = p.decoder_space + decoder_bytes;
   for (uint32_t i = 0; i < slots; ++i, mesh_space += mesh_bytes) {
     microtin_mesh_init(mesh_space, static_cast<size_t>(mesh_bytes), &p.slots[i].mesh);
   }

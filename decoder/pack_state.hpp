@@ -52,13 +52,11 @@ struct microtin_pack {
   uint8_t buffer[microtin::kPackBuffer];
 };
 
-static_assert(sizeof(microtin_pack) <= MICROTIN_PACK_BYTES_FOR(0, 0, 0) -
-                                           MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(0, 0)),
+static_assert(sizeof(microtin_pack) + 7 + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES(0)) <=
+                  MICROTIN_PACK_BYTES(0, 0),
               "see MICROTIN_PACK_BYTES");
 static_assert(sizeof(microtin::PackSlot) <= 24, "see MICROTIN_PACK_BYTES");
-static_assert(sizeof(microtin_pack) % MICROTIN_ALIGNMENT == 0 ||
-                  alignof(microtin_pack) < MICROTIN_ALIGNMENT,
-              "what follows is aligned");
+static_assert(sizeof(microtin_pack) % alignof(microtin::PackSlot) == 0, "slots follow it");
 
 namespace microtin {
 
