@@ -87,6 +87,7 @@ uint32_t most_vertices(const std::vector<EncodedTile>& tiles) {
 
 Verification verification_of(const std::vector<EncodedTile>& tiles) {
   std::vector<Verification> parts;
+  parts.reserve(tiles.size());
   for (const EncodedTile& tile : tiles) parts.push_back(tile.measured);
   return combine(parts);
 }

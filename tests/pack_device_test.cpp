@@ -1,8 +1,10 @@
 // A device reads a pack: slots, courses, queries, and storage that fails in every way.
 #include <doctest/doctest.h>
+#include <sys/time.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <vector>
@@ -272,6 +274,58 @@ TEST_CASE("pack: a tile of another tile's place is refused, whatever its checks"
   Card card{bytes};
   const PackDevice device(4);
   CHECK(device.service(card, at(1, 1)) == MICROTIN_CHECKSUM);
+}
+
+namespace {
+
+// What a handler of interrupts asks, and how often it was right.
+struct Interrupted {
+  const microtin_pack* pack;
+  int64_t x, y;
+  int32_t expected;
+  volatile uint32_t right, absent, wrong;
+} interrupted;
+
+void ask_in_interrupt(int) {
+  int32_t height = 0;
+  uint32_t hint = 0;
+  const microtin_answer answer =
+      microtin_pack_height_at(interrupted.pack, interrupted.x, interrupted.y, &hint, &height);
+  if (answer == MICROTIN_NOT_DECODED) {
+    interrupted.absent = interrupted.absent + 1;
+  } else if (answer == MICROTIN_HEIGHT && height == interrupted.expected) {
+    interrupted.right = interrupted.right + 1;
+  } else {
+    interrupted.wrong = interrupted.wrong + 1;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("pack: a query in an interrupt is right at any moment of the service") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackFile pack(card.bytes);
+  const PackDevice device(1);
+  const TileGrid& grid = pack.grid();
+  const int64_t x = grid.width * 128 + 5, y = grid.height * 128 + 9;  // in the first tile
+  interrupted = {device.pack, x, y, *expected_height(pack, x, y), 0, 0, 0};
+  struct sigaction action = {}, before = {};
+  action.sa_handler = ask_in_interrupt;
+  REQUIRE(sigaction(SIGALRM, &action, &before) == 0);
+  const itimerval often{{0, 50}, {0, 50}}, never{{0, 0}, {0, 0}};
+  setitimer(ITIMER_REAL, &often, nullptr);
+  bool done = true;
+  for (int round = 0; round < 3000 && interrupted.right + interrupted.absent < 2000; ++round) {
+    // The first tile comes and goes.
+    done = done && device.service(card, {x, y, x, y}) == MICROTIN_DONE;
+    done = done && device.service(card, {3 * x, y, 3 * x, y}) == MICROTIN_DONE;
+  }
+  setitimer(ITIMER_REAL, &never, nullptr);
+  sigaction(SIGALRM, &before, nullptr);
+  CHECK(done);
+  CHECK(interrupted.wrong == 0);
+  CHECK(interrupted.right > 0);
+  CHECK(interrupted.absent > 0);
 }
 
 TEST_CASE("pack: too small slots, workspaces and wrong arguments") {
