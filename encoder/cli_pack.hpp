@@ -15,8 +15,8 @@
 namespace microtin {
 
 void run_encode_pack(const EncodeRequest& request);
-void run_info_pack(const std::string& input, const std::vector<uint8_t>& pack, bool json);
-void run_verify_pack(const VerifyRequest& request, const std::vector<uint8_t>& pack);
+void run_info_pack(const std::string& input, const std::vector<uint8_t>& bytes, bool json);
+void run_verify_pack(const VerifyRequest& request, const std::vector<uint8_t>& bytes);
 
 // Common to packs and streams.
 Metadata metadata_of(const EncodeRequest& request, const Source& source,

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "encoder/pack_surface.hpp"
-#include "microtin/pack.h"
+#include "microtin/pack.hpp"
 #include "tests/device.hpp"
 #include "tests/packs.hpp"
 
@@ -408,6 +408,26 @@ TEST_CASE("pack: a block of heights in whole units") {
       CHECK(found == -999);
     }
   }
+}
+
+TEST_CASE("pack: the C++ face") {
+  static Pack<4, kCapacity> pack;
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const microtin_course c = at(30, 26);
+  microtin_pack_info info;
+  CHECK(!pack.header(&info));
+  REQUIRE(pack.service(c, 0, Card::read, &card) == MICROTIN_DONE);
+  REQUIRE(pack.header(&info));
+  CHECK(info.x_max == 60);
+  uint32_t hint = 0;
+  int32_t height = 0, highest = 1;
+  CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_HEIGHT);
+  CHECK(pack.highest(c, &highest) == MICROTIN_HEIGHT);
+  CHECK(highest == height);
+  int16_t rounded = 0;
+  CHECK(pack.fill({c.x, c.y, 0, 0, 1, 1, -1}, &rounded) == MICROTIN_HEIGHT);
+  pack.reset();
+  CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_NOT_DECODED);
 }
 
 TEST_CASE("pack: far from the origin, in the largest extent") {
