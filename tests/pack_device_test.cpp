@@ -410,6 +410,44 @@ TEST_CASE("pack: a block of heights in whole units") {
   }
 }
 
+TEST_CASE("pack: real coordinates become places, exactly rounded") {
+  Random random(9);
+  uint32_t inside = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const uint32_t shift = random.below(30), depth = random.below(40);
+    const microtin_axis axis = {static_cast<int64_t>(random.below(1u << 31)) - (1 << 30),
+                                1 + random.below(1u << shift),
+                                1 + (uint64_t{random.below(1u << 30)} << 10 >> (39 - depth))};
+    const uint32_t most = random.below(1u << 31), per_unit = 1 + random.below(1u << 24);
+    // A value near a random place.
+    const Wide place = random.below(1u << 31) >> random.below(31);
+    const Wide near = (axis.offset + static_cast<Wide>(axis.numerator) * place) * per_unit /
+                      static_cast<Wide>(axis.denominator);
+    const Wide value = near + random.below(1000);
+    if (magnitude(value) >> 62 != 0) continue;
+    const Wide numerator = static_cast<Wide>(value) * static_cast<Wide>(axis.denominator) -
+                           static_cast<Wide>(axis.offset) * per_unit;
+    const Wide step = static_cast<Wide>(axis.numerator) * per_unit;
+    const Wide expected = round_divide(numerator * 256, step);
+    const bool outside = numerator < 0 || expected > Wide{most} * 256;
+    int64_t lattice = 0;
+    const int found =
+        microtin_pack_to_lattice(&axis, most, static_cast<int64_t>(value), per_unit, &lattice);
+    CHECK(found == (outside ? 0 : 1));
+    if (found != 0) CHECK(lattice == static_cast<int64_t>(expected));
+    inside += found != 0 ? 1u : 0u;
+  }
+  CHECK(inside > 5000);
+  const microtin_axis degrees = {7 * 1200, 1, 1200};
+  int64_t lattice = 0;
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, 75000000, 10000000, &lattice) == 1);
+  CHECK(lattice == 600 * 256);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, 69999999, 10000000, &lattice) == 0);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, INT64_MAX, 1, &lattice) == 0);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, INT64_MIN, 1, &lattice) == 0);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, 0, 0, &lattice) == 0);
+}
+
 TEST_CASE("pack: the C++ face") {
   static Pack<4, kCapacity> pack;
   Card card{pack_bytes(rough_raster(61, 53))};

@@ -113,6 +113,12 @@ typedef struct microtin_pack_info {
 /* Returns 1, or 0 if the header is not known yet. */
 int microtin_pack_header(const microtin_pack* pack, microtin_pack_info* info);
 
+/* As microtin_to_lattice, for places of a pack, 0 .. 256 * `most` steps: `value` / `per_unit` units
+ * on an axis. Returns 1, or 0 when the place lies outside, per_unit outside 1 .. 2^24, the axis'
+ * numerator is 2^30 or more or its offset outside +-2^61. Exact: integers only. */
+int microtin_pack_to_lattice(const microtin_axis* axis, uint32_t most, int64_t value,
+                             uint32_t per_unit, int64_t* lattice);
+
 /* --- Queries. NOT_DECODED: a tile that is needed is not there; ask microtin_pack_prepare for it.
  * OUTSIDE: (partly) outside 0 .. 256 * largest x or y. IN_VOID: the terrain is not known there. ---
  */
