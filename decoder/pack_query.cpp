@@ -65,13 +65,16 @@ class TileCourse {
         width_(static_cast<int32_t>(box.x_end - box.x) * 256),
         height_(static_cast<int32_t>(box.y_end - box.y) * 256),
         begin_(local(box, course.x, course.y)),
-        end_(local(box, course.x_end, course.y_end)) {}
+        end_(local(box, course.x_end, course.y_end)),
+        x_(reach(begin_.x, end_.x)),
+        y_(reach(begin_.y, end_.y)) {}
 
   // Looks at all triangles; at most microtin_triangle_count of them.
   void look(int32_t* highest, bool* is_known) const {
     const uint32_t triangles = microtin_triangle_count(mesh_);
     if (triangles == 0) *is_known = false;
     for (uint32_t t = 0; t < triangles; ++t) {
+      if (is_aside(static_cast<Index>(t))) continue;
       uint32_t v[3];
       const microtin_triangle_kind kind = microtin_triangle(mesh_, t, v);
       if (kind == MICROTIN_GHOST) {
@@ -93,6 +96,28 @@ class TileCourse {
     int16_t z;
     int64_t side;  // of the course: positive to the left
   };
+
+  // Whole steps that the course reaches along an axis.
+  struct Reach {
+    int32_t low, high;
+  };
+
+  static Reach reach(int32_t begin, int32_t end) {
+    return begin < end ? Reach{begin >> 8, (end + 255) >> 8} : Reach{end >> 8, (begin + 255) >> 8};
+  }
+
+  // Whether a triangle, not a ghost, lies beside the bounding box of the course: most do.
+  bool is_aside(Index t) const {
+    const Mesh& mesh = mesh_->mesh;
+    const Index* const v = mesh.origin + first_edge(t);
+    if (is_ghost(v[0], v[1], v[2])) return false;
+    return are_aside(mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]], x_) ||
+           are_aside(mesh.y[v[0]], mesh.y[v[1]], mesh.y[v[2]], y_);
+  }
+  static bool are_aside(int32_t a, int32_t b, int32_t c, const Reach& reach) {
+    return (a < reach.low && b < reach.low && c < reach.low) ||
+           (a > reach.high && b > reach.high && c > reach.high);
+  }
 
   Corner corner_at(uint32_t v) const {
     uint16_t x = 0, y = 0;
@@ -161,6 +186,7 @@ class TileCourse {
   const microtin_mesh* mesh_;
   int32_t width_, height_;
   LocalPoint begin_, end_;
+  Reach x_, y_;
 };
 
 // The worse of two answers: NOT_DECODED, OUTSIDE, IN_VOID, HEIGHT.
