@@ -6,6 +6,7 @@
 #include "encoder/approximation.hpp"
 #include "encoder/byte_budget.hpp"
 #include "encoder/cli_commands.hpp"
+#include "encoder/cli_pack.hpp"
 #include "encoder/cli_progress.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/device_ram.hpp"
@@ -17,7 +18,6 @@
 #include "encoder/voids.hpp"
 
 namespace microtin {
-namespace {
 
 Metadata metadata_of(const EncodeRequest& request, const Source& source,
                      const Placement& placement) {
@@ -34,14 +34,12 @@ Metadata metadata_of(const EncodeRequest& request, const Source& source,
   return metadata;
 }
 
-// A stream that was decoded and measured.
-struct Encoded {
-  Laid laid;
-  std::optional<Decimal> bound;  // asked for
-  std::vector<uint8_t> stream;
-  uint32_t vertices;
-  Verification verification;
-};
+namespace {
+
+bool makes_pack(const EncodeRequest& request) {
+  const std::string& name = request.output;
+  return request.tile_vertices != 0 || (name.size() > 4 && name.substr(name.size() - 4) == ".mtp");
+}
 
 // The vertices that may be used, 0 for as many as it takes. A device's RAM is a limit only if
 // nothing else asks for vertices.
@@ -67,6 +65,8 @@ void check_vertices(const Tin& tin, const EncodeRequest& request) {
   }
 }
 
+}  // namespace
+
 SimplifyOptions simplify_options(const EncodeRequest& request, const Progress& progress) {
   SimplifyOptions options;
   options.bounded = request.lattice.max_error.has_value();
@@ -76,6 +76,17 @@ SimplifyOptions simplify_options(const EncodeRequest& request, const Progress& p
   options.progress = progress;
   return options;
 }
+
+namespace {
+
+// A stream that was decoded and measured.
+struct Encoded {
+  Laid laid;
+  std::optional<Decimal> bound;  // asked for
+  std::vector<uint8_t> stream;
+  uint32_t vertices;
+  Verification verification;
+};
 
 // Encodes, measures what a decoder makes of it, and states the errors in the header.
 Encoded encode_measured(const Source& source, const EncodeRequest& request,
@@ -181,6 +192,10 @@ std::string report(const Source& source, uint32_t filled, const Encoded& encoded
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
+  if (makes_pack(request)) {
+    run_encode_pack(request);
+    return;
+  }
   refuse_overwriting(request.input, request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
   Source source = import_terrain(request.input);

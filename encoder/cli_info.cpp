@@ -1,6 +1,8 @@
 #include "encoder/cli_commands.hpp"
+#include "encoder/cli_pack.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error_context.hpp"
+#include "encoder/pack_file.hpp"
 
 namespace microtin {
 namespace {
@@ -49,6 +51,8 @@ std::string of_axes(const Placement& p, const Value& value) {
   return json(JsonObject{{"x", value(p.x)}, {"y", value(p.y)}, {"z", value(p.z)}});
 }
 
+}  // namespace
+
 void add_placement(JsonObject& report, const Metadata& metadata) {
   const auto exact = [](const Axis& axis) {
     return json(JsonObject{{"offset", json(axis.offset)},
@@ -80,6 +84,8 @@ void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy) {
   report.emplace_back("rms_error", accuracy ? number(accuracy->rms_error) : "null");
 }
 
+namespace {
+
 JsonObject report_of(const std::vector<uint8_t>& stream) {
   const Header header = read_header(stream);
   const DecodedTerrain terrain(stream);
@@ -108,6 +114,10 @@ JsonObject report_of(const std::vector<uint8_t>& stream) {
 
 void run_info(const std::string& input, bool json) {
   const std::vector<uint8_t> stream = read_stream(input);
+  if (is_pack(stream)) {
+    run_info_pack(input, stream, json);
+    return;
+  }
   print(about(input, [&] { return report_of(stream); }), json);
 }
 

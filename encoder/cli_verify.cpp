@@ -1,7 +1,9 @@
 #include "encoder/cli_commands.hpp"
+#include "encoder/cli_pack.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error_context.hpp"
 #include "encoder/import.hpp"
+#include "encoder/pack_file.hpp"
 #include "encoder/verify.hpp"
 #include "encoder/voids.hpp"
 
@@ -10,12 +12,22 @@ namespace microtin {
 void run_verify(const VerifyRequest& request) {
   const std::string& input = request.input;
   const std::vector<uint8_t> stream = read_stream(input);
+  if (is_pack(stream)) {
+    run_verify_pack(request, stream);
+    return;
+  }
   Source source = import_terrain(request.source);
   fill_voids(source, request.fill_voids);
   const DecodedTerrain terrain = about(input, [&] { return DecodedTerrain(stream); });
   const std::optional<Accuracy> accuracy = read_header(stream).metadata.accuracy;
   const std::optional<Decimal> bound = accuracy ? accuracy->bound : std::nullopt;
   const Verification found = verify(terrain.mesh(), source, bound);
+  report_and_judge(request, bound, found);
+}
+
+void report_and_judge(const VerifyRequest& request, const std::optional<Decimal>& bound,
+                      const Verification& found) {
+  const std::string& input = request.input;
   const JsonObject report = {{"posts", json(found.posts)},
                              {"covered", json(found.covered)},
                              {"uncovered", json(found.uncovered)},

@@ -1,6 +1,5 @@
 #include "encoder/export.hpp"
 
-#include <array>
 #include <filesystem>
 
 #include "encoder/coordinates.hpp"
@@ -9,47 +8,30 @@
 namespace microtin {
 namespace {
 
-using Corners = std::array<uint32_t, 3>;
-
-template <class Visit>
-void for_each_real_triangle(const microtin_mesh* mesh, const Visit& visit) {
-  for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {
-    Corners corners{};
-    if (microtin_triangle(mesh, t, corners.data()) == MICROTIN_REAL) visit(corners);
-  }
-}
-
-void write_vertices(const microtin_mesh* mesh, Coordinates coordinates, const std::string& prefix,
+void write_vertices(const SurfaceModel& model, Coordinates coordinates, const std::string& prefix,
                     OutputFile& out) {
-  Placement placement;
-  if (coordinates == Coordinates::kReal) {
-    microtin_placement(mesh, &placement.x, &placement.y, &placement.z);
-  }
+  const Placement placement = coordinates == Coordinates::kReal ? model.placement : Placement();
   const CoordinateText x_text(placement.x), y_text(placement.y), z_text(placement.z);
-  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
-    uint16_t x = 0, y = 0;
-    int16_t z = 0;
-    microtin_vertex(mesh, v, &x, &y, &z);
+  for (const auto& [x, y, z] : model.vertices) {
     out.write(prefix + x_text(x) + ' ' + y_text(y) + ' ' + z_text(z) + '\n');
   }
 }
 
 // One line for each triangle; the first vertex has number `first`.
-void write_triangles(const microtin_mesh* mesh, const std::string& prefix, uint32_t first,
+void write_triangles(const SurfaceModel& model, const std::string& prefix, uint32_t first,
                      OutputFile& out) {
-  for_each_real_triangle(mesh, [&](const Corners& corners) {
+  for (const auto& corners : model.triangles) {
     std::string line = prefix;
     for (const uint32_t corner : corners) line += ' ' + std::to_string(corner + first);
     out.write(line + '\n');
-  });
+  }
 }
 
-void write_ply_header(const microtin_mesh* mesh, OutputFile& out) {
-  uint32_t triangles = 0;
-  for_each_real_triangle(mesh, [&](const Corners&) { ++triangles; });
-  out.write("ply\nformat ascii 1.0\nelement vertex " + std::to_string(microtin_vertex_count(mesh)) +
+void write_ply_header(const SurfaceModel& model, OutputFile& out) {
+  out.write("ply\nformat ascii 1.0\nelement vertex " + std::to_string(model.vertices.size()) +
             "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-            std::to_string(triangles) + "\nproperty list uchar int vertex_indices\nend_header\n");
+            std::to_string(model.triangles.size()) +
+            "\nproperty list uchar int vertex_indices\nend_header\n");
 }
 
 }  // namespace
@@ -62,22 +44,45 @@ MeshFormat mesh_format_of(const std::string& path) {
   throw Error(path + ": not a kind of mesh file known here (.xyz, .obj, .ply)");
 }
 
-void export_mesh(const microtin_mesh* mesh, MeshFormat format, Coordinates coordinates,
-                 OutputFile& out) {
+SurfaceModel model_of(const microtin_mesh* mesh) {
+  SurfaceModel model;
+  microtin_placement(mesh, &model.placement.x, &model.placement.y, &model.placement.z);
+  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+    uint16_t x = 0, y = 0;
+    int16_t z = 0;
+    microtin_vertex(mesh, v, &x, &y, &z);
+    model.vertices.push_back({x, y, z});
+  }
+  for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {
+    std::array<uint32_t, 3> corners{};
+    if (microtin_triangle(mesh, t, corners.data()) == MICROTIN_REAL) {
+      model.triangles.push_back(corners);
+    }
+  }
+  return model;
+}
+
+void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coordinates,
+                  OutputFile& out) {
   switch (format) {
     case MeshFormat::kXyz:
-      write_vertices(mesh, coordinates, "", out);
+      write_vertices(model, coordinates, "", out);
       break;
     case MeshFormat::kObj:
-      write_vertices(mesh, coordinates, "v ", out);
-      write_triangles(mesh, "f", 1, out);
+      write_vertices(model, coordinates, "v ", out);
+      write_triangles(model, "f", 1, out);
       break;
     case MeshFormat::kPly:
-      write_ply_header(mesh, out);
-      write_vertices(mesh, coordinates, "", out);
-      write_triangles(mesh, "3", 0, out);
+      write_ply_header(model, out);
+      write_vertices(model, coordinates, "", out);
+      write_triangles(model, "3", 0, out);
       break;
   }
+}
+
+void export_mesh(const microtin_mesh* mesh, MeshFormat format, Coordinates coordinates,
+                 OutputFile& out) {
+  export_model(model_of(mesh), format, coordinates, out);
 }
 
 }  // namespace microtin

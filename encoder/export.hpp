@@ -2,8 +2,12 @@
 #ifndef MICROTIN_ENCODER_EXPORT_HPP
 #define MICROTIN_ENCODER_EXPORT_HPP
 
+#include <array>
+#include <cstdint>
 #include <string>
+#include <vector>
 
+#include "encoder/metadata.hpp"
 #include "encoder/output_file.hpp"
 #include "microtin/microtin.h"
 
@@ -20,7 +24,20 @@ MeshFormat mesh_format_of(const std::string& path);
 
 enum class Coordinates { kReal, kLattice };
 
-// Vertices keep their numbers. Triangles are counter-clockwise from above, without void ones.
+// A surface in global lattice coordinates. Triangles are counter-clockwise from above, without void
+// ones.
+struct SurfaceModel {
+  Placement placement;
+  std::vector<std::array<int64_t, 3>> vertices;
+  std::vector<std::array<uint32_t, 3>> triangles;
+};
+
+// Vertices keep their numbers.
+SurfaceModel model_of(const microtin_mesh* mesh);
+
+void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coordinates,
+                  OutputFile& out);
+
 void export_mesh(const microtin_mesh* mesh, MeshFormat format, Coordinates coordinates,
                  OutputFile& out);
 

@@ -17,10 +17,6 @@ int64_t unzigzag(uint64_t value) {
   return static_cast<int64_t>(value >> 1 ^ (0 - (value & 1)));
 }
 
-void append_number(Bytes& bytes, uint32_t value, int width) {
-  for (int i = 0; i < width; ++i) bytes.push_back(static_cast<uint8_t>(value >> 8 * i));
-}
-
 void append_note(Bytes& notes, uint8_t type, const Bytes& content) {
   notes.push_back(type);
   append_number(notes, static_cast<uint32_t>(content.size()), 2);
@@ -49,33 +45,6 @@ Bytes accuracy_content(const Accuracy& accuracy) {
   append_decimal(content, accuracy.max_error);
   append_decimal(content, accuracy.rms_error);
   return content;
-}
-
-// Nothing where the placement is the lattice itself.
-Bytes write_placement(const Placement& p) {
-  Bytes content;
-  if (is_lattice_itself(p.x) && is_lattice_itself(p.y) && is_lattice_itself(p.z)) return content;
-  append_axis(content, p.x);
-  append_axis(content, p.y);
-  append_axis(content, p.z);
-  return content;
-}
-
-Bytes write_notes(const Metadata& m) {
-  Bytes notes;
-  if (m.horizontal_unit != Unit::kUnknown || m.vertical_unit != Unit::kUnknown) {
-    append_note(notes, kNoteUnits,
-                {static_cast<uint8_t>(m.horizontal_unit), static_cast<uint8_t>(m.vertical_unit)});
-  }
-  if (m.horizontal_epsg != 0 || m.vertical_epsg != 0) {
-    Bytes content;
-    append_varint(content, m.horizontal_epsg);
-    append_varint(content, m.vertical_epsg);
-    append_note(notes, kNoteEpsg, content);
-  }
-  if (!m.source.empty()) append_note(notes, kNoteSource, Bytes(m.source.begin(), m.source.end()));
-  if (m.accuracy) append_note(notes, kNoteAccuracy, accuracy_content(*m.accuracy));
-  return notes;
 }
 
 // Reads the content of one note from front to back.
@@ -144,14 +113,44 @@ void append_varint(Bytes& bytes, uint64_t value) {
   bytes.push_back(static_cast<uint8_t>(value));
 }
 
+void append_number(Bytes& bytes, uint64_t value, int width) {
+  for (int i = 0; i < width; ++i) bytes.push_back(static_cast<uint8_t>(value >> 8 * i));
+}
+
 void append_check(Bytes& bytes, size_t from) {
   append_number(bytes, crc32(0, bytes.data() + from, bytes.size() - from), 4);
+}
+
+Bytes write_placement(const Placement& p) {
+  Bytes content;
+  if (is_lattice_itself(p.x) && is_lattice_itself(p.y) && is_lattice_itself(p.z)) return content;
+  append_axis(content, p.x);
+  append_axis(content, p.y);
+  append_axis(content, p.z);
+  return content;
+}
+
+Bytes write_notes(const Metadata& m) {
+  Bytes notes;
+  if (m.horizontal_unit != Unit::kUnknown || m.vertical_unit != Unit::kUnknown) {
+    append_note(notes, kNoteUnits,
+                {static_cast<uint8_t>(m.horizontal_unit), static_cast<uint8_t>(m.vertical_unit)});
+  }
+  if (m.horizontal_epsg != 0 || m.vertical_epsg != 0) {
+    Bytes content;
+    append_varint(content, m.horizontal_epsg);
+    append_varint(content, m.vertical_epsg);
+    append_note(notes, kNoteEpsg, content);
+  }
+  if (!m.source.empty()) append_note(notes, kNoteSource, Bytes(m.source.begin(), m.source.end()));
+  if (m.accuracy) append_note(notes, kNoteAccuracy, accuracy_content(*m.accuracy));
+  if (notes.size() > 65535) throw Error("the texts for the header are longer than 65,535 bytes");
+  return notes;
 }
 
 Bytes write_header(const Contract& contract, const Metadata& metadata) {
   const Bytes placement = write_placement(metadata.placement);
   const Bytes notes = write_notes(metadata);
-  if (notes.size() > 65535) throw Error("the texts for the header are longer than 65,535 bytes");
   const bool long_count = contract.vertices > 0xFFFF;
   const bool long_sides = contract.x_max > 0xFF || contract.y_max > 0xFF;
   Bytes header(kMagic, kMagic + sizeof kMagic);
@@ -172,23 +171,26 @@ Bytes write_header(const Contract& contract, const Metadata& metadata) {
   return header;
 }
 
-Header read_header(const Bytes& stream) {
-  Header header;
-  microtin_status status = microtin_peek(stream.data(), stream.size(), &header.info);
-  if (status == MICROTIN_NEED_INPUT) status = MICROTIN_TRUNCATED;
-  if (status != MICROTIN_DONE) throw Error(describe(status));
-  header.metadata.placement = {header.info.x, header.info.y, header.info.z};
-  const uint8_t* at = stream.data() + header_bytes(stream.data(), stream.size());
-  const uint8_t* const end = stream.data() + header.info.header_bytes - kCheckBytes;
-  while (at != end) {
+void read_notes(const uint8_t* begin, const uint8_t* end, Metadata& metadata) {
+  for (const uint8_t* at = begin; at != end;) {
     if (end - at < std::ptrdiff_t{kNoteHeadBytes}) throw Error("malformed note in the header");
     const uint8_t type = *at;
     const uint8_t* const content = at + kNoteHeadBytes;
     const uint32_t size = read_u16(at + 1);
     if (end - content < std::ptrdiff_t{size}) throw Error("malformed note in the header");
     at = content + size;
-    read_note(type, content, at, header.metadata);
+    read_note(type, content, at, metadata);
   }
+}
+
+Header read_header(const Bytes& stream) {
+  Header header;
+  microtin_status status = microtin_peek(stream.data(), stream.size(), &header.info);
+  if (status == MICROTIN_NEED_INPUT) status = MICROTIN_TRUNCATED;
+  if (status != MICROTIN_DONE) throw Error(describe(status));
+  header.metadata.placement = {header.info.x, header.info.y, header.info.z};
+  read_notes(stream.data() + header_bytes(stream.data(), stream.size()),
+             stream.data() + header.info.header_bytes - kCheckBytes, header.metadata);
   return header;
 }
 

@@ -26,6 +26,17 @@ Header read_header(const std::vector<uint8_t>& stream);
 // The stream with another header for the same terrain; notes of unknown types are dropped.
 std::vector<uint8_t> with_metadata(const std::vector<uint8_t>& stream, const Metadata& metadata);
 
+// The placement, nothing where it is the lattice itself; the notes that say something. Throws Error
+// if the notes are too long.
+std::vector<uint8_t> write_placement(const Placement& placement);
+std::vector<uint8_t> write_notes(const Metadata& metadata);
+
+// Throws Error if the notes are malformed.
+void read_notes(const uint8_t* begin, const uint8_t* end, Metadata& metadata);
+
+// The `width` lowest bytes of a number, low ones first.
+void append_number(std::vector<uint8_t>& bytes, uint64_t value, int width);
+
 // A sentence for a status of the decoder.
 const char* describe(microtin_status status);
 

@@ -100,7 +100,25 @@ Axis lattice_axis(const Axis& source, const LatticeMap& map) {
                       static_cast<Wide>(source.denominator) * map.scale);
 }
 
+AxisGroup height_group(const Range& z, int decimals, const LatticeOptions& options) {
+  if (z.empty()) throw Error("there is no height");
+  return {{z},       decimals,  options.max_error ? options.max_error->decimals : 0,
+          INT16_MIN, INT16_MAX, "--z-step"};
+}
+
 }  // namespace
+
+Lattice choose_post_lattice(const Raster& raster, const LatticeOptions& options) {
+  Range z;
+  for (const int64_t height : raster.heights) {
+    if (height != kVoidHeight) z.add(height);
+  }
+  const GroupFit up = choose(height_group(z, raster.decimals, options), options.z_step);
+  const LatticeMap itself{1, 0, 1};
+  const Axis heights{0, 1, static_cast<uint64_t>(power_of_ten(raster.decimals))};
+  return {itself, itself,      up.maps[0],
+          0,      up.decimals, {raster.x, raster.y, lattice_axis(heights, up.maps[0])}};
+}
 
 Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
   Range x, y, z;
@@ -109,7 +127,6 @@ Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
     y.add(py);
     if (pz != kVoidHeight) z.add(pz);
   });
-  if (z.empty()) throw Error("there is no height");
   const auto* raster = std::get_if<Raster>(&source);
   if (raster != nullptr && !options.xy_step && std::max(x.high, y.high) > kLatticeMax) {
     throw Error("a raster of more than 65536 posts in a row needs an --xy-step above 1");
@@ -117,12 +134,8 @@ Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
   const auto* cloud = std::get_if<PointCloud>(&source);
   const AxisGroup places{{x, y},     cloud != nullptr ? cloud->xy_decimals : 0, 0, 0, kLatticeMax,
                          "--xy-step"};
-  const AxisGroup heights{{z},
-                          cloud != nullptr ? cloud->z_decimals : raster->decimals,
-                          options.max_error ? options.max_error->decimals : 0,
-                          INT16_MIN,
-                          INT16_MAX,
-                          "--z-step"};
+  const AxisGroup heights =
+      height_group(z, cloud != nullptr ? cloud->z_decimals : raster->decimals, options);
   const GroupFit xy = choose(places, options.xy_step);
   const GroupFit up = choose(heights, options.z_step);
   const Placement numbers = placement_of(source);

@@ -30,6 +30,9 @@ struct Lattice {
 // an explicit step does not fit.
 Lattice choose_lattice(const Source& source, const LatticeOptions& options);
 
+// The same for heights; places are a raster's columns and rows, however many.
+Lattice choose_post_lattice(const Raster& raster, const LatticeOptions& options);
+
 }  // namespace microtin
 
 #endif

@@ -163,7 +163,10 @@ void check_voids(const std::vector<Point>& voids, const std::vector<Sample>& sam
 }  // namespace
 
 Laid lay_out(const Source& source, const LatticeOptions& options) {
-  const Lattice lattice = choose_lattice(source, options);
+  return lay_out(source, choose_lattice(source, options), options);
+}
+
+Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions& options) {
   Placing placing(lattice);
   for_each_post(source, [&](int64_t x, int64_t y, int64_t z) { placing.add(x, y, z); });
   placing.sort();

@@ -8,6 +8,8 @@
 #include "encoder/cli_commands.hpp"
 #include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
+#include "encoder/pack_encode.hpp"
+#include "encoder/tile_plan.hpp"
 #include "shared/format.hpp"
 
 namespace microtin {
@@ -74,18 +76,29 @@ void add_encode(CLI::App& app, Action& action) {
           .add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
           ->check(CLI::Range(3u, kMaxVertices))
           ->excludes(bound);
-  command
-      .add_option("--max-bytes", request->max_bytes,
-                  "Keep the smallest --max-error that a file of this size can; takes minutes")
-      ->check(CLI::PositiveNumber)
-      ->excludes(bound)
-      ->excludes(vertices);
+  CLI::Option* const bytes =
+      command
+          .add_option("--max-bytes", request->max_bytes,
+                      "Keep the smallest --max-error that a file of this size can; takes minutes")
+          ->check(CLI::PositiveNumber)
+          ->excludes(bound)
+          ->excludes(vertices);
+  CLI::Option* const tile =
+      command
+          .add_option("--tile-vertices", request->tile_vertices,
+                      "Write a pack of tiles with at most so many vertices each (rasters)")
+          ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
+          ->excludes(vertices)
+          ->excludes(bytes);
   command
       .add_option(
           "--device-ram", request->device_ram,
           "Bytes that a device has for mesh and decoder, with 16-bit numbers up to 10,923 "
           "vertices, with 32-bit numbers beyond. Alone: use the best vertices that fit; with "
-          "--max-error or --max-vertices: fail if the terrain does not fit")
+          "--max-error or --max-vertices: fail if the terrain does not fit. For a pack (.mtp): "
+          "tiles of which such a device keeps four and decodes one")
+      ->excludes(bytes)
+      ->excludes(tile)
       ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));
   command.add_flag("--never-below", request->lattice.never_below,
                    "With a bound: no height is below the source, all are at most so far above");

@@ -1,5 +1,6 @@
 #include "encoder/simplify.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -50,6 +51,21 @@ std::vector<uint32_t> hull_corners(const std::vector<Sample>& samples) {
   return chain;
 }
 
+// The same and all samples that must become vertices.
+std::vector<uint32_t> first_vertices(const Survey& survey) {
+  std::vector<uint32_t> first = hull_corners(survey.samples);
+  if (survey.fixed.empty()) return first;
+  const auto before = [](const Sample& sample, Point p) { return sample.place < p; };
+  auto at = survey.samples.begin();
+  for (const Point p : survey.fixed) {
+    at = std::lower_bound(at, survey.samples.end(), p, before);
+    first.push_back(static_cast<uint32_t>(at - survey.samples.begin()));
+  }
+  std::sort(first.begin(), first.end());
+  first.erase(std::unique(first.begin(), first.end()), first.end());
+  return first;
+}
+
 // Rounds of a search: how many at most, the part of the vertices that a round must save for the
 // next one to follow, and how often all vertices are tried again nevertheless.
 struct Patience {
@@ -98,7 +114,7 @@ Tin simplify(const Survey& survey, const SimplifyOptions& options) {
   const bool keep_all = !options.bounded && options.max_vertices == 0;
   const PostIndex posts(places_of(survey.samples));
   Refinement refinement(survey, ErrorModel{options.bounded}, posts,
-                        keep_all ? all_of(survey.samples) : hull_corners(survey.samples));
+                        keep_all ? all_of(survey.samples) : first_vertices(survey));
   refinement.refine(options.max_vertices != 0 ? options.max_vertices
                                               : std::numeric_limits<std::size_t>::max());
   const bool search =

@@ -32,9 +32,9 @@ struct SimplifyOptions {
 // their heights chosen, off the source if need be, so that they are as few and as cheap to code as
 // `search` has time to find.
 //
-// Every sample is a vertex, lies in a triangle that is not void, or on an edge of one; every void
-// post within the hull lies in a void triangle and on no edge of another. Throws Error if the
-// samples form no triangle.
+// The samples that the survey has as fixed are vertices in any case. Every sample is a vertex, lies
+// in a triangle that is not void, or on an edge of one; every void post within the hull lies in a
+// void triangle and on no edge of another. Throws Error if the samples form no triangle.
 Tin simplify(const Survey& survey, const SimplifyOptions& options);
 
 }  // namespace microtin

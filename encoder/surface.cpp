@@ -39,6 +39,7 @@ Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts,
   }
   find_voids();
   find_corners();
+  find_fixed_samples();
 }
 
 void Surface::find_voids() {
@@ -64,6 +65,13 @@ void Surface::find_corners() {
                 c = mesh().origin[next_in_triangle(after)];
     if (orient2d(place(a), place(b), place(c)) != 0) fixed_[b] = true;
   });
+}
+
+void Surface::find_fixed_samples() {
+  const std::vector<Point>& fixed = survey_.fixed;
+  for (Index v = 0; v < vertex_limit(); ++v) {
+    if (std::binary_search(fixed.begin(), fixed.end(), place(v))) fixed_[v] = true;
+  }
 }
 
 bool Surface::is_covered(Index triangle) const {

@@ -47,7 +47,8 @@ class Surface {
   Index edge_of(Index v) const { return triangulation_.edge_of(v); }
   Index finite_neighbour(Index v) const;
 
-  // Corners of the hull and vertices at voids stay where they are.
+  // Corners of the hull, vertices at voids and those that the survey has as fixed stay where they
+  // are.
   bool is_fixed(Index v) const { return fixed_[v]; }
 
   // Neither a ghost nor void.
@@ -94,6 +95,7 @@ class Surface {
  private:
   void find_voids();
   void find_corners();
+  void find_fixed_samples();
 
   const Survey& survey_;
   ErrorModel model_;

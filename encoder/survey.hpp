@@ -22,6 +22,7 @@ struct Sample {
 struct Survey {
   std::vector<Sample> samples;  // distinct places, in lexicographic order (x, then y)
   std::vector<Point> voids;     // raster posts without a height, in lexicographic order
+  std::vector<Point> fixed;     // samples that must become vertices, in lexicographic order
 };
 
 // The vertices chosen to represent a survey.

@@ -1,6 +1,8 @@
 #include "encoder/verify.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "encoder/lattice_map.hpp"
 #include "shared/lattice.hpp"
@@ -114,6 +116,11 @@ Verification verify(const microtin_mesh* mesh, const Source& source,
                     const std::optional<Decimal>& bound) {
   Placement lattice;
   microtin_placement(mesh, &lattice.x, &lattice.y, &lattice.z);
+  return verify(mesh, lattice, source, bound);
+}
+
+Verification verify(const microtin_mesh* mesh, const Placement& lattice, const Source& source,
+                    const std::optional<Decimal>& bound) {
   const Placement numbers = placement_of(source);
   Asker asker(mesh, numbers, lattice);
   ErrorMeter meter(numbers.z, lattice.z);
@@ -137,6 +144,26 @@ Verification verify(const microtin_mesh* mesh, const Source& source,
   result.rms_error = meter.root_mean_square();
   result.within_bound = !bound || result.max_error <= *bound;
   return result;
+}
+
+Verification combine(const std::vector<Verification>& parts) {
+  Verification all;
+  double squares = 0;
+  for (const Verification& part : parts) {
+    all.posts += part.posts;
+    all.covered += part.covered;
+    all.uncovered += part.uncovered;
+    all.voids += part.voids;
+    all.voids_answered += part.voids_answered;
+    if (all.max_error <= part.max_error) all.max_error = part.max_error;
+    if (all.max_below <= part.max_below) all.max_below = part.max_below;
+    const double rms = std::stod(to_string(part.rms_error));
+    squares += rms * rms * static_cast<double>(part.covered);
+    all.within_bound = all.within_bound && part.within_bound;
+  }
+  const double rms = all.covered == 0 ? 0 : std::sqrt(squares / static_cast<double>(all.covered));
+  all.rms_error = make_decimal(static_cast<Wide>(std::ceil(rms * kBillion)), kMaxDecimals);
+  return all;
 }
 
 }  // namespace microtin

@@ -3,6 +3,7 @@
 #define MICROTIN_ENCODER_VERIFY_HPP
 
 #include <optional>
+#include <vector>
 
 #include "encoder/source.hpp"
 
@@ -26,6 +27,13 @@ struct Verification {
 // nearest to where it lies.
 Verification verify(const microtin_mesh* mesh, const Source& source,
                     const std::optional<Decimal>& bound);
+
+// The same for a mesh whose lattice is placed otherwise than it says.
+Verification verify(const microtin_mesh* mesh, const Placement& lattice, const Source& source,
+                    const std::optional<Decimal>& bound);
+
+// Of several parts together; what lies in more than one counts for each.
+Verification combine(const std::vector<Verification>& parts);
 
 }  // namespace microtin
 

@@ -232,6 +232,35 @@ TEST_CASE("cli: damaged streams") {
   CHECK(contains(session.failure("decode ok.mtin -o out.stl"), "out.stl: "));
 }
 
+TEST_CASE("cli: packs") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 65 --seed 3 -o t.asc").code == 0);
+  const Session::Result encoded =
+      session.run("encode t.asc --max-error 20 --tile-vertices 60 -o t.mtp");
+  REQUIRE(encoded.code == 0);
+  CHECK(contains(encoded.out, "pack: "));
+  CHECK(contains(encoded.out, "asked for: at most 20"));
+  CHECK(session.run("verify t.mtp t.asc").code == 0);
+  const Session::Result info = session.run("info t.mtp");
+  CHECK(contains(info.out, "pack_version: 1"));
+  CHECK(contains(info.out, "tile\tx\ty\tbytes\tvertices"));
+  CHECK(contains(session.run("info t.mtp --json").out, "\"tiles\": ["));
+  CHECK(session.run("decode t.mtp -o t.ply").code == 0);
+  CHECK(contains(session.read("t.ply"), "element face "));
+  CHECK(session.run("encode t.asc --max-error 20 --device-ram 32768 -o ram.mtp").code == 0);
+  REQUIRE(session.run("fractal --size 65 --seed 4 -o other.asc").code == 0);
+  CHECK(contains(session.failure("verify t.mtp other.asc"), "above the bound"));
+  session.write("points.xyz", "0 0 0\n9 0 3\n0 9 7\n");
+  CHECK(contains(session.failure("encode points.xyz --tile-vertices 60 -o p.mtp"), "rasters"));
+  CHECK(contains(session.failure("encode t.asc --tile-vertices 60 --xy-step 2 -o p.mtp"),
+                 "--xy-step"));
+  CHECK(contains(session.failure("verify t.mtp points.xyz"), "posts of the pack"));
+  std::string damaged = session.read("t.mtp");
+  damaged[damaged.size() - 9] ^= 4;
+  session.write("damaged.mtp", damaged);
+  CHECK(contains(session.failure("decode damaged.mtp -o out.ply"), "damaged.mtp: tile "));
+}
+
 TEST_CASE("cli: wrong usage is told apart") {
   const Session session;
   session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n");
@@ -253,6 +282,10 @@ TEST_CASE("cli: wrong usage is told apart") {
                                 "encode ok.xyz -o o --max-error 1 --fast --best",
                                 "encode ok.xyz -o o --max-error 1 --max-bytes 9",
                                 "encode ok.xyz -o o --max-vertices 9 --max-bytes 9",
+                                "encode ok.xyz -o o --max-vertices 9 --tile-vertices 99",
+                                "encode ok.xyz -o o --tile-vertices 3",
+                                "encode ok.xyz -o o --device-ram 2000",
+                                "encode ok.xyz -o o --device-ram 65536 --tile-vertices 99",
                                 "info",
                                 "decode ok.xyz"}) {
     session.failure(arguments, 2);

@@ -11,8 +11,10 @@
 #include "encoder/encode.hpp"
 #include "encoder/import.hpp"
 #include "encoder/lay_out.hpp"
+#include "encoder/pack_surface.hpp"
 #include "encoder/simplify.hpp"
 #include "encoder/verify.hpp"
+#include "tests/border_walk.hpp"
 
 namespace microtin {
 namespace {
@@ -77,6 +79,33 @@ TEST_CASE("real rasters keep their bound at every post, voids stay voids") {
     if (!is_here(path)) continue;
     CAPTURE(std::string(r.name));
     check_round_trip(read_centre(path, r.width, r.height), Decimal{10, 0});
+  }
+}
+
+TEST_CASE("packs of real rasters have no cracks and keep their bound") {
+  const struct {
+    const char* name;
+    uint32_t width, height, vertices;
+  } rasters[] = {{"scottish_borders", 769, 769, 1000}, {"sthelens", 327, 468, 250}};
+  for (const auto& r : rasters) {
+    const fs::path path = fs::path(MICROTIN_DATA_DIR) / (r.name + std::string(".hgt16.gz"));
+    if (!is_here(path)) continue;
+    CAPTURE(std::string(r.name));
+    const Raster raster = read_centre(path, r.width, r.height);
+    PackOptions options{{}, {}, r.vertices};
+    options.lattice.max_error = Decimal{10, 0};
+    options.simplify = {true, 0, Search::kFast, {}, {}};
+    const PackFile pack(write_pack(encode_pack(raster, options), {}));
+    const BorderCount count = walk_borders(pack, raster);
+    const Verification found = verify(pack, raster, options.lattice.max_error);
+    MESSAGE(pack.entries().size() << " tiles, " << pack.bytes() << " bytes, " << count.both
+                                  << " places in two tiles");
+    CHECK(count.both > 1000);
+    CHECK(count.differ == 0);
+    CHECK(count.wrong_posts == 0);
+    CHECK(found.within_bound);
+    CHECK(found.uncovered == 0);
+    CHECK(found.voids_answered == 0);
   }
 }
 

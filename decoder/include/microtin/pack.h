@@ -1,0 +1,157 @@
+/* microtin packs: a terrain in tiles, of which a device keeps a few. C99 and C++.
+ *
+ * Queries never read storage: they answer from the tiles that are there. microtin_pack_service,
+ * called from where waiting is allowed, reads and decodes the tiles of a course, in pieces as small
+ * as wanted, in the place of those least recently wanted.
+ *
+ * Who may interrupt whom: a query may run in an interrupt, or in a task of higher priority on the
+ * same core, at any moment of microtin_pack_service, of the functions it calls, and of other
+ * queries. It must be over before they go on. Otherwise (several cores, queries of lower priority)
+ * the caller locks the pack.
+ *
+ * Places are global lattice coordinates with 8 fractional bits: 0 .. 256 * largest x. Nothing here
+ * allocates, recurses, uses floating point or keeps global state.
+ */
+#ifndef MICROTIN_PACK_H
+#define MICROTIN_PACK_H
+
+#include "microtin/microtin.h"
+
+/* Bytes of the workspace of a pack that keeps `slots` tiles of up to `capacity` vertices: a
+ * constant expression, also usable in #if. It must be aligned to MICROTIN_ALIGNMENT. A place can
+ * lie in four tiles at once, so four slots or more are advised. */
+#define MICROTIN_PACK_BYTES(slots, capacity) \
+  MICROTIN_PACK_BYTES_FOR(slots, capacity, MICROTIN_INDEX_BITS)
+#define MICROTIN_PACK_BYTES_FOR(slots, capacity, bits)                       \
+  (400ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
+   (slots) * (24ul + MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits))))
+#define MICROTIN_PACK_ROUND(bytes) (((bytes) + 7ul) / 8 * 8)
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct microtin_pack microtin_pack;
+
+/* Lays out a pack without tiles in `workspace`, with `slots` (1 .. 255) slots for tiles of up to
+ * `capacity` vertices, and sets *pack. WORKSPACE_TOO_SMALL: see MICROTIN_PACK_BYTES. */
+microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
+                                   microtin_pack** pack);
+
+/* Forgets all tiles and the header, as after microtin_pack_init: another card. */
+void microtin_pack_reset(microtin_pack* pack);
+
+/* A straight way, or a place if both ends are the same. Each end within +-2^40, and less than 65536
+ * steps (2^24 here) from the other along x and y. */
+typedef struct microtin_course {
+  int64_t x, y, x_end, y_end;
+} microtin_course;
+
+/* --- Reading and decoding. --- */
+
+/* Reads up to `size` bytes of the pack at `offset` into `buffer` and returns how many: fewer if no
+ * more are at hand, 0 if reading failed. */
+typedef size_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer, size_t size);
+
+/* Works towards having every tile that touches the course, first those where it begins, at most
+ * `step_limit` decoding steps (as of microtin_feed) and one wish for input. The same course, or
+ * another, may be asked for next.
+ *   DONE                 they are there: queries on the course have answers
+ *   NEED_INPUT           bytes are wanted: see microtin_pack_wanted
+ *   STEP_LIMIT           call again
+ *   BAD_MAGIC, UNSUPPORTED_VERSION, MALFORMED   the header is not that of a pack
+ *   CHECKSUM             what was read is damaged, or is another tile's or another pack's
+ *   TOO_BIG              a tile has more vertices than a slot holds
+ *   WORKSPACE_TOO_SMALL  the course touches more tiles than there are slots; some are there
+ *   ARGUMENT             a null pointer, or too long a course
+ * After an error the next call begins anew: errors of storage may pass. Tiles that are there stay
+ * until their slots are needed. Besides the steps, O(tiles in the course's bounding box * slots).
+ */
+microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course* course,
+                                      uint32_t step_limit);
+
+/* Where the wanted bytes are, and where to put them; *size is 0 if none are wanted. */
+void microtin_pack_wanted(microtin_pack* pack, uint64_t* offset, uint8_t** buffer, size_t* size);
+
+/* So many of the wanted bytes, the first ones, have been put there; the rest stays wanted. */
+void microtin_pack_given(microtin_pack* pack, size_t size);
+
+/* Both together, with a function that reads. With a step limit at most one read (of 128 bytes at
+ * most) and so many steps; without (0) all that is needed. NEED_INPUT: call again; it also says
+ * that reading failed, and that the next call will try the same again. */
+static inline microtin_status microtin_pack_service(microtin_pack* pack,
+                                                    const microtin_course* course,
+                                                    uint32_t step_limit, microtin_read read,
+                                                    void* context) {
+  for (;;) {
+    microtin_status status;
+    uint64_t offset;
+    uint8_t* buffer;
+    size_t size;
+    if (pack == 0 || read == 0) return MICROTIN_ARGUMENT;
+    microtin_pack_wanted(pack, &offset, &buffer, &size);
+    if (size != 0) {
+      const size_t taken = read(context, offset, buffer, size);
+      if (taken == 0 || taken > size) return MICROTIN_NEED_INPUT;
+      microtin_pack_given(pack, taken);
+    }
+    status = microtin_pack_prepare(pack, course, step_limit);
+    if (status != MICROTIN_NEED_INPUT || step_limit != 0) return status;
+  }
+}
+
+/* --- What the header says; valid once microtin_pack_prepare got past it. --- */
+
+typedef struct microtin_pack_info {
+  uint32_t x_max, y_max;            /* steps */
+  uint16_t tile_width, tile_height; /* steps */
+  uint32_t most_vertices;           /* of a tile: the capacity needed */
+  int16_t lowest, highest;          /* vertex */
+  microtin_axis x, y, z;            /* of global lattice numbers */
+} microtin_pack_info;
+
+/* Returns 1, or 0 if the header is not known yet. */
+int microtin_pack_header(const microtin_pack* pack, microtin_pack_info* info);
+
+/* As microtin_to_lattice, for places of a pack, 0 .. 256 * `most` steps: `value` / `per_unit` units
+ * on an axis. Returns 1, or 0 when the place lies outside, per_unit outside 1 .. 2^24, the axis'
+ * numerator is 2^30 or more or its offset outside +-2^61. Exact: integers only. */
+int microtin_pack_to_lattice(const microtin_axis* axis, uint32_t most, int64_t value,
+                             uint32_t per_unit, int64_t* lattice);
+
+/* --- Queries. NOT_DECODED: a tile that is needed is not there; ask microtin_pack_prepare for it.
+ * OUTSIDE: (partly) outside 0 .. 256 * largest x or y. IN_VOID: the terrain is not known there. ---
+ */
+
+/* As microtin_height_at: z steps with 16 fractional bits. A place on a border has the height that
+ * any of its tiles knows. At most four times the steps of microtin_height_at. */
+microtin_answer microtin_pack_height_at(const microtin_pack* pack, int64_t x, int64_t y,
+                                        uint32_t* hint, int32_t* height);
+
+/* The greatest height on the course: exact, rounded once, found where it crosses edges. IN_VOID: a
+ * part of the course is not known; *height is that of the rest, INT32_MIN if there is none. Looks
+ * at every triangle of the tiles that the course touches. OUTSIDE: also of a course that is too
+ * long. */
+microtin_answer microtin_pack_highest(const microtin_pack* pack, const microtin_course* course,
+                                      int32_t* height);
+
+/* A block of places in rows: columns from (x, y) on by dx, rows by dy. */
+typedef struct microtin_block {
+  int64_t x, y;
+  int32_t dx, dy; /* 8 fractional bits, too */
+  uint16_t columns, rows;
+  int16_t missing; /* what to write where there is no height */
+} microtin_block;
+
+/* Writes columns * rows heights in whole units of the pack (such as metres), rounded to nearest,
+ * halves up, kept within int16_t; `heights` is row by row. Returns HEIGHT if all are heights, else
+ * the reason of the last that is not, NOT_DECODED first. OUTSIDE, and nothing is written, if the z
+ * axis has a numerator of 2^31 or more or an offset beyond +-2^46, or x or y is beyond +-2^40. */
+microtin_answer microtin_pack_fill(const microtin_pack* pack, const microtin_block* block,
+                                   int16_t* heights);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

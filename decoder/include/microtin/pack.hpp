@@ -1,0 +1,46 @@
+// The C++ face of pack.h: one object that holds the storage. C++14, freestanding.
+#ifndef MICROTIN_PACK_HPP
+#define MICROTIN_PACK_HPP
+
+#include "microtin/pack.h"
+
+namespace microtin {
+
+// A pack of which Slots tiles of up to Capacity vertices are kept. See pack.h for units, costs and
+// who may interrupt whom.
+template <uint32_t Slots, uint32_t Capacity>
+class Pack {
+  static_assert(Slots >= 1 && Slots <= 255, "1 to 255 slots");
+  static_assert(Capacity >= 3, "a tile has at least three vertices");
+  static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
+
+ public:
+  Pack() { microtin_pack_init(storage_, sizeof storage_, Slots, Capacity, &pack_); }
+  Pack(const Pack&) = delete;
+  Pack& operator=(const Pack&) = delete;
+
+  void reset() { microtin_pack_reset(pack_); }
+  microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
+                          void* context) {
+    return microtin_pack_service(pack_, &course, step_limit, read, context);
+  }
+
+  bool header(microtin_pack_info* info) const { return microtin_pack_header(pack_, info) != 0; }
+  microtin_answer height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
+    return microtin_pack_height_at(pack_, x, y, hint, height);
+  }
+  microtin_answer highest(const microtin_course& course, int32_t* height) const {
+    return microtin_pack_highest(pack_, &course, height);
+  }
+  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
+    return microtin_pack_fill(pack_, &block, heights);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_PACK_BYTES(Slots, Capacity)];
+  microtin_pack* pack_;
+};
+
+}  // namespace microtin
+
+#endif

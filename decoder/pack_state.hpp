@@ -1,0 +1,73 @@
+// What the workspace of a pack holds.
+#ifndef MICROTIN_DECODER_PACK_STATE_HPP
+#define MICROTIN_DECODER_PACK_STATE_HPP
+
+#include "decoder/state.hpp"
+#include "decoder/touched_tiles.hpp"
+#include "microtin/pack.h"
+#include "shared/pack_format.hpp"
+
+namespace microtin {
+
+constexpr uint32_t kPackBuffer = 128;  // holds every item of the header but the notes
+
+// What is read next.
+enum class PackStage : uint8_t { kFixed, kPlacement, kNotes, kCheck, kIdle, kEntry, kStream };
+
+enum class SlotState : uint8_t { kEmpty, kReady };
+
+// A tile that is there, or room for one.
+struct PackSlot {
+  microtin_mesh* mesh;  // empty: the tile has no terrain
+  uint32_t tile;
+  uint32_t wanted;           // when it was wanted last
+  volatile SlotState state;  // queries may look only if it is ready
+};
+
+}  // namespace microtin
+
+struct microtin_pack {
+  uint8_t* decoder_space;
+  size_t decoder_bytes;
+  microtin::PackSlot* slots;
+  uint32_t capacity;  // vertices of a slot
+  uint8_t slot_count;
+  volatile bool has_header;
+  microtin::PackStage stage;
+  uint8_t slot;  // being filled
+  microtin::PackHeader header;
+  microtin_axis axis[3];
+  uint32_t crc;  // of the header so far, or its check
+  uint32_t clock;
+  // The tile being read.
+  uint32_t tile;
+  microtin::PackEntry entry;
+  microtin_decoder* decoder;
+  uint32_t stream_crc;
+  uint32_t left;  // bytes of notes or stream, those in the buffer too until they are counted
+  // The next bytes wanted, and those that came.
+  uint64_t next;
+  uint8_t wanted, buffered, fed;
+  bool is_counted;
+  uint8_t buffer[microtin::kPackBuffer];
+};
+
+static_assert(sizeof(microtin_pack) + 7 + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES(0)) <=
+                  MICROTIN_PACK_BYTES(0, 0),
+              "see MICROTIN_PACK_BYTES");
+static_assert(sizeof(microtin::PackSlot) <= 24, "see MICROTIN_PACK_BYTES");
+static_assert(sizeof(microtin_pack) % alignof(microtin::PackSlot) == 0, "slots follow it");
+
+namespace microtin {
+
+// The slot where a tile is; slot_count if it is not there.
+inline uint32_t slot_of(const microtin_pack& p, uint32_t tile) {
+  for (uint32_t i = 0; i < p.slot_count; ++i) {
+    if (p.slots[i].state == SlotState::kReady && p.slots[i].tile == tile) return i;
+  }
+  return p.slot_count;
+}
+
+}  // namespace microtin
+
+#endif

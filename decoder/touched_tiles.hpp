@@ -1,0 +1,97 @@
+// The tiles that a course may touch, from where it begins.
+#ifndef MICROTIN_DECODER_TOUCHED_TILES_HPP
+#define MICROTIN_DECODER_TOUCHED_TILES_HPP
+
+#include "microtin/pack.h"
+#include "shared/pack_format.hpp"
+
+namespace microtin {
+
+constexpr int64_t kCourseMost = static_cast<int64_t>(1) << 40;
+constexpr int64_t kCourseLongest = static_cast<int64_t>(1) << 24;
+
+inline bool is_legal(const microtin_course& c) {
+  const int64_t ends[4] = {c.x, c.y, c.x_end, c.y_end};
+  for (int i = 0; i < 4; ++i) {
+    if (ends[i] > kCourseMost || ends[i] < -kCourseMost) return false;
+  }
+  const int64_t dx = c.x_end - c.x, dy = c.y_end - c.y;
+  return dx < kCourseLongest && dx > -kCourseLongest && dy < kCourseLongest && dy > -kCourseLongest;
+}
+
+// All tiles whose closed boxes meet the bounding box of a legal course: at most
+// (65536 / width + 2) * (65536 / height + 2). `touches` says which meet the course.
+class TouchedTiles {
+ public:
+  TouchedTiles(const TileGrid& grid, const microtin_course& course)
+      : grid_(grid),
+        course_(course),
+        columns_(slices(course.x, course.x_end, grid.width, grid.x_max)),
+        rows_(slices(course.y, course.y_end, grid.height, grid.y_max)),
+        column_(columns_.from),
+        row_(rows_.from),
+        at_end_(columns_.none || rows_.none) {}
+
+  bool at_end() const { return at_end_; }
+  uint32_t number() const { return row_ * tile_columns(grid_) + column_; }
+  TileBox box() const { return tile_box(grid_, number()); }
+
+  void next() {
+    if (column_ != columns_.to) {
+      column_ += columns_.from < columns_.to ? 1u : ~0u;
+      return;
+    }
+    column_ = columns_.from;
+    at_end_ = row_ == rows_.to;
+    row_ += rows_.from < rows_.to ? 1u : ~0u;
+  }
+
+  // The box is not to the left of the course, nor to the right. Its corners are within 2^25 of the
+  // beginning, the end within 2^24: products stay below 2^50.
+  bool touches() const {
+    const TileBox b = box();
+    const int64_t left = static_cast<int64_t>(b.x) * 256 - course_.x,
+                  right = static_cast<int64_t>(b.x_end) * 256 - course_.x,
+                  below = static_cast<int64_t>(b.y) * 256 - course_.y,
+                  above = static_cast<int64_t>(b.y_end) * 256 - course_.y;
+    const int64_t dx = course_.x_end - course_.x, dy = course_.y_end - course_.y;
+    const int64_t corner[4] = {dx * below - dy * left, dx * below - dy * right,
+                               dx * above - dy * left, dx * above - dy * right};
+    bool some_left = false, some_right = false;
+    for (int i = 0; i < 4; ++i) {
+      some_left = some_left || corner[i] >= 0;
+      some_right = some_right || corner[i] <= 0;
+    }
+    return some_left && some_right;
+  }
+
+ private:
+  // Columns or rows, in the direction of the course.
+  struct Slices {
+    uint32_t from, to;
+    bool none;
+  };
+
+  static Slices slices(int64_t begin, int64_t end, uint32_t size, uint32_t most) {
+    const int64_t limit = static_cast<int64_t>(most) * 256;
+    int64_t low = begin < end ? begin : end, high = begin < end ? end : begin;
+    if (high < 0 || low > limit) return Slices{0, 0, true};
+    if (low < 0) low = 0;
+    if (high > limit) high = limit;
+    uint32_t first = static_cast<uint32_t>(low >> 8) / size;
+    if (first != 0 && static_cast<int64_t>(first) * size * 256 == low) --first;
+    const uint32_t reached = static_cast<uint32_t>(high >> 8) / size, final = (most - 1) / size;
+    const uint32_t last = reached < final ? reached : final;
+    return begin <= end ? Slices{first, last, false} : Slices{last, first, false};
+  }
+
+  const TileGrid& grid_;
+  const microtin_course& course_;
+  Slices columns_, rows_;
+  uint32_t column_, row_;
+  bool at_end_;
+};
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,35 @@
+// What the commands do with packs.
+#ifndef MICROTIN_ENCODER_CLI_PACK_HPP
+#define MICROTIN_ENCODER_CLI_PACK_HPP
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "encoder/cli_commands.hpp"
+#include "encoder/cli_report.hpp"
+#include "encoder/source.hpp"
+#include "encoder/verify.hpp"
+
+namespace microtin {
+
+void run_encode_pack(const EncodeRequest& request);
+void run_info_pack(const std::string& input, const std::vector<uint8_t>& bytes, bool as_json);
+void run_verify_pack(const VerifyRequest& request, const std::vector<uint8_t>& bytes);
+
+// Common to packs and streams.
+Metadata metadata_of(const EncodeRequest& request, const Source& source,
+                     const Placement& placement);
+SimplifyOptions simplify_options(const EncodeRequest& request, const Progress& progress);
+void add_placement(JsonObject& report, const Metadata& metadata);
+void add_notes(JsonObject& report, const Metadata& metadata);
+void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy);
+
+// Throws Error, after the report, if there is something wrong.
+void report_and_judge(const VerifyRequest& request, const std::optional<Decimal>& bound,
+                      const Verification& found);
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,24 @@
+// A pack as one surface.
+#ifndef MICROTIN_ENCODER_PACK_SURFACE_HPP
+#define MICROTIN_ENCODER_PACK_SURFACE_HPP
+
+#include <optional>
+
+#include "encoder/export.hpp"
+#include "encoder/pack_file.hpp"
+#include "encoder/verify.hpp"
+
+namespace microtin {
+
+// Vertices in the order of tiles, those on borders once. Throws Error as PackFile::tile does, or if
+// tiles give a vertex on their border different heights.
+SurfaceModel model_of(const PackFile& pack);
+
+// As for a mesh; every post counts once, and a post on a border is covered if one of its tiles
+// covers it.
+Verification verify(const PackFile& pack, const Source& source,
+                    const std::optional<Decimal>& bound);
+
+}  // namespace microtin
+
+#endif

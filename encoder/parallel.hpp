@@ -1,0 +1,44 @@
+// Independent pieces of work on all processors.
+#ifndef MICROTIN_ENCODER_PARALLEL_HPP
+#define MICROTIN_ENCODER_PARALLEL_HPP
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace microtin {
+
+// Calls work(i) for every i < count, in any order, on as many threads as there are processors.
+// After an exception no further piece is begun; that of the smallest piece that failed is thrown.
+template <class Work>
+void for_each_parallel(std::size_t count, const Work& work) {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr error;
+  std::size_t failed = count;
+  const auto run = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        work(i);
+      } catch (...) {
+        next = count;
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (i < failed) error = std::current_exception();
+        failed = std::min(failed, i);
+      }
+    }
+  };
+  const std::size_t wanted = std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
+  std::vector<std::thread> threads(std::min(wanted, count));
+  for (std::thread& thread : threads) thread = std::thread(run);
+  for (std::thread& thread : threads) thread.join();
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,130 @@
+// A pack: many tiles of one terrain in a file. PACK.md explains it.
+#ifndef MICROTIN_SHARED_PACK_FORMAT_HPP
+#define MICROTIN_SHARED_PACK_FORMAT_HPP
+
+#include "shared/crc32.hpp"
+#include "shared/format.hpp"
+#include "shared/header.hpp"
+
+namespace microtin {
+
+constexpr uint8_t kPackMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'p', 'k'};
+constexpr uint8_t kPackVersion = 1;
+constexpr uint32_t kPackFixedBytes = 32;
+constexpr uint32_t kPackEntryBytes = 28;
+constexpr uint32_t kPackExtentMost = 0x7FFFFFFF;
+
+// The parts of a terrain: rectangles of one size, those in the last column and row cut off at the
+// largest x and y. Coordinates are global; neighbours share their border.
+struct TileGrid {
+  uint32_t x_max, y_max;   // 1 .. 2^31 - 1
+  uint16_t width, height;  // 1 .. 65535
+};
+
+inline uint32_t tile_columns(const TileGrid& grid) {
+  return (grid.x_max - 1) / grid.width + 1;
+}
+
+inline uint32_t tile_rows(const TileGrid& grid) {
+  return (grid.y_max - 1) / grid.height + 1;
+}
+
+// The closed rectangle of a tile.
+struct TileBox {
+  uint32_t x, y;          // the first corner
+  uint32_t x_end, y_end;  // the last one
+};
+
+inline TileBox tile_box(const TileGrid& grid, uint32_t tile) {
+  const uint32_t columns = tile_columns(grid);
+  TileBox box;
+  box.x = tile % columns * grid.width;  // < x_max, so the sums below stay under 2^32
+  box.y = tile / columns * grid.height;
+  box.x_end = box.x + grid.width < grid.x_max ? box.x + grid.width : grid.x_max;
+  box.y_end = box.y + grid.height < grid.y_max ? box.y + grid.height : grid.y_max;
+  return box;
+}
+
+// What a pack's header says, up to its notes.
+struct PackHeader {
+  TileGrid grid;
+  uint32_t most_vertices;    // of a tile
+  int16_t lowest, highest;   // vertices of all tiles
+  uint32_t placement_bytes;  // at most 66
+  uint32_t note_bytes;       // at most 65535
+};
+
+inline uint32_t pack_index_start(const PackHeader& header) {
+  return kPackFixedBytes + header.placement_bytes + header.note_bytes + kCheckBytes;
+}
+
+// Where the entry of a tile is: below 2^37.
+inline uint64_t pack_entry_start(const PackHeader& header, uint32_t tile) {
+  return pack_index_start(header) + static_cast<uint64_t>(tile) * kPackEntryBytes;
+}
+
+inline int16_t read_i16(const uint8_t* p) {
+  const uint32_t value = read_u16(p);
+  return static_cast<int16_t>(value < 0x8000 ? static_cast<int32_t>(value)
+                                             : static_cast<int32_t>(value) - 0x10000);
+}
+
+inline microtin_status check_pack_identity(const uint8_t* bytes) {
+  for (uint32_t i = 0; i < sizeof kPackMagic; ++i) {
+    if (bytes[i] != read_table(kPackMagic + i)) return MICROTIN_BAD_MAGIC;
+  }
+  return bytes[4] == kPackVersion ? MICROTIN_DONE : MICROTIN_UNSUPPORTED_VERSION;
+}
+
+// Reads the fixed part of a known identity. False if it breaks a rule.
+inline bool read_pack_header(const uint8_t* bytes, PackHeader* header) {
+  TileGrid& grid = header->grid;
+  header->placement_bytes = bytes[6];
+  header->note_bytes = read_u16(bytes + 8);
+  grid.width = static_cast<uint16_t>(read_u16(bytes + 10));
+  grid.height = static_cast<uint16_t>(read_u16(bytes + 12));
+  header->lowest = read_i16(bytes + 14);
+  header->highest = read_i16(bytes + 16);
+  grid.x_max = read_u32(bytes + 20);
+  grid.y_max = read_u32(bytes + 24);
+  header->most_vertices = read_u32(bytes + 28);
+  const bool reserved = (bytes[5] | bytes[7] | bytes[18] | bytes[19]) != 0;
+  return !reserved && header->placement_bytes <= kPlacementMostBytes && grid.width != 0 &&
+         grid.height != 0 && grid.x_max != 0 && grid.x_max <= kPackExtentMost && grid.y_max != 0 &&
+         grid.y_max <= kPackExtentMost && header->most_vertices <= kMaxVertices &&
+         static_cast<uint64_t>(tile_columns(grid)) * tile_rows(grid) <= 0xFFFFFFFF;
+}
+
+// What the index says of a tile.
+struct PackEntry {
+  uint64_t offset;  // of its stream in the file, below 2^40
+  uint32_t size;    // bytes of the stream, below 2^24; 0: there is no terrain
+  uint32_t vertices;
+  int16_t lowest, highest;    // vertices
+  uint32_t max_error;         // in 1/256 of a z step, rounded up; 65535: that much or more
+  uint32_t root_mean_square;  // alike
+  uint32_t stream_check;      // CRC-32 of the stream
+};
+
+inline void read_pack_entry(const uint8_t* bytes, PackEntry* entry) {
+  entry->offset = read_u32(bytes) | static_cast<uint64_t>(bytes[4]) << 32;
+  entry->size = read_u16(bytes + 5) | static_cast<uint32_t>(bytes[7]) << 16;
+  entry->vertices = read_u16(bytes + 8) | static_cast<uint32_t>(bytes[10]) << 16;
+  entry->lowest = read_i16(bytes + 12);
+  entry->highest = read_i16(bytes + 14);
+  entry->max_error = read_u16(bytes + 16);
+  entry->root_mean_square = read_u16(bytes + 18);
+  entry->stream_check = read_u32(bytes + 20);
+}
+
+// The check of an entry starts from the header's check and the tile's number, so that an entry of
+// another tile or pack does not pass.
+inline uint32_t pack_entry_check(uint32_t header_check, uint32_t tile, const uint8_t* bytes) {
+  uint8_t place[4];
+  for (uint32_t i = 0; i < 4; ++i) place[i] = static_cast<uint8_t>(tile >> 8 * i);
+  return crc32(crc32(header_check, place, 4), bytes, kPackEntryBytes - kCheckBytes);
+}
+
+}  // namespace microtin
+
+#endif

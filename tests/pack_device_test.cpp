@@ -1,0 +1,517 @@
+// A device reads a pack: slots, courses, queries, and storage that fails in every way.
+#include <doctest/doctest.h>
+#include <sys/time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "encoder/pack_surface.hpp"
+#include "microtin/pack.hpp"
+#include "tests/device.hpp"
+#include "tests/packs.hpp"
+
+namespace microtin {
+namespace {
+
+constexpr uint32_t kCapacity = 100;
+
+Bytes pack_bytes(const Raster& raster, int64_t bound = 3, uint32_t vertices = 60) {
+  return write_pack(encode_pack(raster, pack_options(bound, vertices)), {});
+}
+
+// A card that counts its reads, fails at will and gives few bytes at a time.
+struct Card {
+  Bytes bytes;
+  size_t most = 1000;      // bytes given at a time
+  uint32_t failing = ~0u;  // number of the read that fails
+  uint32_t reads = 0;
+
+  static size_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+    Card& card = *static_cast<Card*>(context);
+    if (card.reads++ == card.failing || offset >= card.bytes.size()) return 0;
+    const size_t left = card.bytes.size() - static_cast<size_t>(offset);
+    const size_t taken = std::min({size, left, card.most});
+    std::memcpy(buffer, card.bytes.data() + offset, taken);
+    return taken;
+  }
+};
+
+struct PackDevice {
+  explicit PackDevice(uint32_t slots, uint32_t capacity = kCapacity)
+      : space(MICROTIN_PACK_BYTES(slots, capacity)) {
+    REQUIRE(microtin_pack_init(space.begin(), space.size(), slots, capacity, &pack) ==
+            MICROTIN_DONE);
+  }
+  PackDevice(const PackDevice&) = delete;
+  PackDevice& operator=(const PackDevice&) = delete;
+  ~PackDevice() { CHECK(space.guards_are_whole()); }
+
+  microtin_status service(Card& card, const microtin_course& course, uint32_t steps = 0) const {
+    return microtin_pack_service(pack, &course, steps, Card::read, &card);
+  }
+  microtin_answer height_at(int64_t x, int64_t y, int32_t& height) const {
+    uint32_t hint = 0;
+    return microtin_pack_height_at(pack, x, y, &hint, &height);
+  }
+
+  Workspace space;
+  microtin_pack* pack = nullptr;
+};
+
+microtin_course at(int64_t x, int64_t y) {
+  return {x * 256, y * 256, x * 256, y * 256};
+}
+
+microtin_course course(Random& random, int64_t x_max, int64_t y_max) {
+  const auto pick = [&](int64_t most) {
+    return static_cast<int64_t>(random.below(static_cast<uint32_t>(most * 256 + 1)));
+  };
+  return {pick(x_max), pick(y_max), pick(x_max), pick(y_max)};
+}
+
+// What the tiles answer on a host.
+std::optional<int32_t> expected_height(const PackFile& pack, int64_t x, int64_t y) {
+  for (uint32_t number = 0; number < pack.entries().size(); ++number) {
+    const TileBox box = tile_box(pack.grid(), number);
+    const std::optional<DecodedTerrain> tile = pack.tile(number);
+    const int64_t lx = x - int64_t{box.x} * 256, ly = y - int64_t{box.y} * 256;
+    if (!tile || lx < 0 || ly < 0 || x > int64_t{box.x_end} * 256 || y > int64_t{box.y_end} * 256) {
+      continue;
+    }
+    uint32_t hint = 0;
+    int32_t height = 0;
+    if (microtin_height_at(tile->mesh(), static_cast<int32_t>(lx), static_cast<int32_t>(ly), 0,
+                           &hint, &height) == MICROTIN_HEIGHT) {
+      return height;
+    }
+  }
+  return std::nullopt;
+}
+
+// The greatest height on a course where it meets edges of a surface, in floating point; steps.
+double highest_on_edges(const SurfaceModel& model, const microtin_course& c) {
+  const double x = static_cast<double>(c.x) / 256, y = static_cast<double>(c.y) / 256,
+               dx = static_cast<double>(c.x_end) / 256 - x,
+               dy = static_cast<double>(c.y_end) / 256 - y;
+  double highest = -1e9;
+  for (const auto& corners : model.triangles) {
+    for (size_t i = 0; i < 3; ++i) {
+      const auto &a = model.vertices[corners[i]], &b = model.vertices[corners[(i + 1) % 3]];
+      const double ax = static_cast<double>(a[0]) - x, ay = static_cast<double>(a[1]) - y,
+                   ex = static_cast<double>(b[0] - a[0]), ey = static_cast<double>(b[1] - a[1]);
+      const double across = dx * ey - dy * ex;
+      if (across == 0) continue;
+      const double along = (ax * ey - ay * ex) / across, on_edge = (ax * dy - ay * dx) / across;
+      if (along < 0 || along > 1 || on_edge < 0 || on_edge > 1) continue;
+      const double z = static_cast<double>(a[2]) + on_edge * static_cast<double>(b[2] - a[2]);
+      highest = std::max(highest, z);
+    }
+  }
+  return highest;
+}
+
+}  // namespace
+
+TEST_CASE("pack: heights at every place are those of the tiles, voids are told") {
+  for (const VoidKind& kind : void_kinds()) {
+    if (kind.name == "chessboard" || kind.name == "30 of 100") continue;  // many tiles
+    CAPTURE(kind.name);
+    Card card{pack_bytes(rough_raster(61, 53, kind.at))};
+    const PackFile pack(card.bytes);
+    const PackDevice device(4);
+    Random random(5);
+    for (int i = 0; i < 60; ++i) {
+      const microtin_course c = course(random, 60, 52);
+      const int64_t x = i % 2 == 0 ? c.x : c.x / 256 * 256, y = i % 3 == 0 ? c.y / 256 * 256 : c.y;
+      REQUIRE(device.service(card, {x, y, x, y}) == MICROTIN_DONE);
+      int32_t height = 0;
+      const microtin_answer answer = device.height_at(x, y, height);
+      const std::optional<int32_t> expected = expected_height(pack, x, y);
+      CHECK(answer == (expected ? MICROTIN_HEIGHT : MICROTIN_IN_VOID));
+      if (expected) CHECK(height == *expected);
+    }
+    int32_t height = 0;
+    CHECK(device.height_at(-1, 0, height) == MICROTIN_OUTSIDE);
+    CHECK(device.height_at(60 * 256 + 1, 0, height) == MICROTIN_OUTSIDE);
+  }
+}
+
+TEST_CASE("pack: tiles that are there need no reading, the least recently wanted goes") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackFile pack(card.bytes);
+  const TileGrid& grid = pack.grid();
+  REQUIRE(tile_columns(grid) >= 3);
+  const PackDevice device(2);
+  const auto middle_of = [&](int64_t column) {
+    return at(column * grid.width + grid.width / 2, grid.height / 2);
+  };
+  int32_t height = 0;
+  CHECK(device.height_at(0, 0, height) == MICROTIN_NOT_DECODED);
+  REQUIRE(device.service(card, middle_of(0)) == MICROTIN_DONE);
+  REQUIRE(device.service(card, middle_of(1)) == MICROTIN_DONE);
+  const uint32_t reads = card.reads;
+  REQUIRE(device.service(card, middle_of(0)) == MICROTIN_DONE);
+  CHECK(card.reads == reads);
+  REQUIRE(device.service(card, middle_of(2)) == MICROTIN_DONE);  // in the place of 1
+  const auto is_there = [&](int64_t column) {
+    const microtin_course c = middle_of(column);
+    return device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT;
+  };
+  CHECK(is_there(0));
+  CHECK(!is_there(1));
+  CHECK(is_there(2));
+  const microtin_course corner = at(grid.width, grid.height);
+  CHECK(device.service(card, corner) == MICROTIN_WORKSPACE_TOO_SMALL);
+  microtin_pack_reset(device.pack);
+  CHECK(!is_there(0));
+}
+
+TEST_CASE("pack: steps and reads of a call are bounded, and queries work between") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  card.most = 7;
+  const PackDevice device(4);
+  const microtin_course c = at(30, 26);
+  microtin_status status = MICROTIN_STEP_LIMIT;
+  uint32_t calls = 0;
+  for (; status != MICROTIN_DONE && calls < 100000; ++calls) {
+    const uint32_t reads = card.reads;
+    status = device.service(card, c, 1);
+    REQUIRE(card.reads <= reads + 1);
+    REQUIRE((status == MICROTIN_DONE || status == MICROTIN_NEED_INPUT ||
+             status == MICROTIN_STEP_LIMIT));
+    int32_t height = 0;
+    const microtin_answer answer = device.height_at(c.x, c.y, height);
+    REQUIRE(answer == (status == MICROTIN_DONE ? MICROTIN_HEIGHT : MICROTIN_NOT_DECODED));
+  }
+  CHECK(status == MICROTIN_DONE);
+  CHECK(calls > 50);
+}
+
+TEST_CASE("pack: every read fails in turn, and the next call goes on") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const microtin_course c = at(30, 26);
+  uint32_t all = 0;
+  {
+    const PackDevice device(4);
+    REQUIRE(device.service(card, c) == MICROTIN_DONE);
+    all = card.reads;
+  }
+  for (uint32_t failing = 0; failing < all; ++failing) {
+    const PackDevice device(4);
+    card.reads = 0;
+    card.failing = failing;
+    CHECK(device.service(card, c) == MICROTIN_NEED_INPUT);
+    int32_t height = 0;
+    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_NOT_DECODED);
+    CHECK(device.service(card, c) == MICROTIN_DONE);
+    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
+  }
+}
+
+TEST_CASE("pack: damaged, swapped and foreign bytes are told, and never answered from") {
+  const Bytes good = pack_bytes(rough_raster(61, 53));
+  const PackFile pack(good);
+  const auto status_of = [](const Bytes& bytes) {
+    Card card{bytes};
+    const PackDevice device(4);
+    const microtin_status status = device.service(card, at(30, 26));
+    int32_t height = 0;
+    CHECK((device.height_at(30 * 256, 26 * 256, height) == MICROTIN_HEIGHT) ==
+          (status == MICROTIN_DONE));
+    return status;
+  };
+  CHECK(status_of(good) == MICROTIN_DONE);
+  CHECK(status_of(Bytes(good.size())) == MICROTIN_BAD_MAGIC);
+  CHECK(status_of({}) == MICROTIN_NEED_INPUT);
+  const uint32_t index = pack_index_start(pack.header());
+  Bytes zeros = good;
+  std::fill(zeros.begin() + index, zeros.end(), uint8_t{0});
+  CHECK(status_of(zeros) == MICROTIN_CHECKSUM);
+  // Every byte changed: all that matters for this place is noticed.
+  uint32_t noticed = 0;
+  for (size_t i = 0; i < good.size(); ++i) {
+    Bytes changed = good;
+    changed[i] ^= static_cast<uint8_t>(1u << i % 8);
+    if (status_of(changed) != MICROTIN_DONE) ++noticed;
+  }
+  CHECK(noticed > index + kPackEntryBytes);
+  // Entries and streams of two tiles swapped.
+  const uint32_t last = static_cast<uint32_t>(pack.entries().size()) - 1;
+  const auto is_refused = [&](uint32_t tile, const Bytes& bytes) {
+    Card card{bytes};
+    const PackDevice device(4);
+    const TileBox box = tile_box(pack.grid(), tile);
+    return device.service(card, at(box.x + 1, box.y + 1)) == MICROTIN_CHECKSUM;
+  };
+  Bytes swapped = good;
+  std::swap_ranges(swapped.begin() + index, swapped.begin() + index + kPackEntryBytes,
+                   swapped.begin() + index + last * kPackEntryBytes);
+  CHECK(is_refused(0, swapped));
+  CHECK(is_refused(last, swapped));
+  const Bytes other = pack_bytes(rough_raster(61, 53), 4, 60);
+  Bytes foreign = good;
+  std::copy(other.begin() + index,
+            other.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(other.size()),
+                                                     static_cast<std::ptrdiff_t>(good.size())),
+            foreign.begin() + index);
+  CHECK(is_refused(0, foreign));
+}
+
+TEST_CASE("pack: a tile of another tile's place is refused, whatever its checks") {
+  // The stream of the last tile stands where that of the first should: right CRCs of its own.
+  const EncodedPack encoded = encode_pack(rough_raster(61, 53), pack_options(3, 60));
+  Bytes bytes = write_pack(encoded, {});
+  const PackFile pack(bytes);
+  const PackEntry& first = pack.entries()[0];
+  const Bytes& stream = encoded.tiles.back().stream;
+  bytes.resize(bytes.size() + stream.size());
+  std::copy(stream.begin(), stream.end(),
+            bytes.begin() + static_cast<std::ptrdiff_t>(first.offset));
+  Card card{bytes};
+  const PackDevice device(4);
+  CHECK(device.service(card, at(1, 1)) == MICROTIN_CHECKSUM);
+}
+
+namespace {
+
+// What a handler of interrupts asks, and how often it was right.
+struct Interrupted {
+  const microtin_pack* pack;
+  int64_t x, y;
+  int32_t expected;
+  volatile uint32_t right, absent, wrong;
+} interrupted;
+
+void ask_in_interrupt(int) {
+  int32_t height = 0;
+  uint32_t hint = 0;
+  const microtin_answer answer =
+      microtin_pack_height_at(interrupted.pack, interrupted.x, interrupted.y, &hint, &height);
+  if (answer == MICROTIN_NOT_DECODED) {
+    interrupted.absent = interrupted.absent + 1;
+  } else if (answer == MICROTIN_HEIGHT && height == interrupted.expected) {
+    interrupted.right = interrupted.right + 1;
+  } else {
+    interrupted.wrong = interrupted.wrong + 1;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("pack: a query in an interrupt is right at any moment of the service") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackFile pack(card.bytes);
+  const PackDevice device(1);
+  const TileGrid& grid = pack.grid();
+  const int64_t x = grid.width * 128 + 5, y = grid.height * 128 + 9;  // in the first tile
+  interrupted = {device.pack, x, y, *expected_height(pack, x, y), 0, 0, 0};
+  struct sigaction action = {}, before = {};
+  action.sa_handler = ask_in_interrupt;
+  REQUIRE(sigaction(SIGALRM, &action, &before) == 0);
+  const itimerval often{{0, 50}, {0, 50}}, never{{0, 0}, {0, 0}};
+  setitimer(ITIMER_REAL, &often, nullptr);
+  bool done = true;
+  for (int round = 0; round < 3000 && interrupted.right + interrupted.absent < 2000; ++round) {
+    // The first tile comes and goes.
+    done = done && device.service(card, {x, y, x, y}) == MICROTIN_DONE;
+    done = done && device.service(card, {3 * x, y, 3 * x, y}) == MICROTIN_DONE;
+  }
+  setitimer(ITIMER_REAL, &never, nullptr);
+  sigaction(SIGALRM, &before, nullptr);
+  CHECK(done);
+  CHECK(interrupted.wrong == 0);
+  CHECK(interrupted.right > 0);
+  CHECK(interrupted.absent > 0);
+}
+
+TEST_CASE("pack: too small slots, workspaces and wrong arguments") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackDevice device(4, 10);
+  CHECK(device.service(card, at(30, 26)) == MICROTIN_TOO_BIG);
+  CHECK(device.service(card, {0, 0, int64_t{1} << 24, 0}) == MICROTIN_ARGUMENT);
+  CHECK(device.service(card, {int64_t{1} << 41, 0, int64_t{1} << 41, 0}) == MICROTIN_ARGUMENT);
+  CHECK(device.service(card, at(-500, 9999)) == MICROTIN_DONE);  // no tile is there
+  microtin_pack* pack = nullptr;
+  Workspace space(MICROTIN_PACK_BYTES(3, 50));
+  CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, nullptr) == MICROTIN_ARGUMENT);
+  CHECK(microtin_pack_init(space.begin(), space.size(), 0, 50, &pack) == MICROTIN_ARGUMENT);
+  CHECK(microtin_pack_init(space.begin(), space.size(), 3, 500, &pack) ==
+        MICROTIN_WORKSPACE_TOO_SMALL);
+  CHECK(microtin_pack_init(static_cast<char*>(space.begin()) + 1, space.size() - 1, 1, 50, &pack) ==
+        MICROTIN_MISALIGNED);
+  CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, &pack) == MICROTIN_DONE);
+}
+
+TEST_CASE("pack: the highest on a course is that of its edges and no sample is above") {
+  for (const VoidKind& kind : void_kinds()) {
+    if (kind.name == "chessboard" || kind.name == "30 of 100") continue;
+    CAPTURE(kind.name);
+    Card card{pack_bytes(rough_raster(61, 53, kind.at))};
+    const SurfaceModel model = model_of(PackFile(card.bytes));
+    const PackDevice device(60);
+    Random random(7);
+    for (int i = 0; i < 40; ++i) {
+      microtin_course c = course(random, 60, 52);
+      if (i % 4 == 0) c.x_end = c.x = c.x / 256 * 256;  // along posts, maybe a border
+      if (i % 4 == 1)
+        c = {c.x / 256 * 256, c.y / 256 * 256, c.x_end / 256 * 256, c.y_end / 256 * 256};
+      REQUIRE(device.service(card, c) == MICROTIN_DONE);
+      int32_t highest = 0;
+      const microtin_answer answer = microtin_pack_highest(device.pack, &c, &highest);
+      int32_t sampled = INT32_MIN, begin = INT32_MIN, end = INT32_MIN;
+      bool gap = false;
+      for (int64_t k = 0; k <= 4096; ++k) {  // those that lie on the course exactly
+        const int64_t dx = (c.x_end - c.x) * k, dy = (c.y_end - c.y) * k;
+        if (dx % 4096 != 0 || dy % 4096 != 0) continue;
+        int32_t height = INT32_MIN;
+        const microtin_answer here = device.height_at(c.x + dx / 4096, c.y + dy / 4096, height);
+        if (here == MICROTIN_HEIGHT) sampled = std::max(sampled, height);
+        gap = gap || here == MICROTIN_IN_VOID;
+      }
+      device.height_at(c.x, c.y, begin);
+      device.height_at(c.x_end, c.y_end, end);
+      const double exact = std::max({highest_on_edges(model, c) * 65536, begin * 1.0, end * 1.0});
+      if (exact > INT32_MIN) CHECK(std::abs(highest - exact) < 1);
+      CHECK(highest >= sampled);
+      if (gap) CHECK(answer == MICROTIN_IN_VOID);
+      if (kind.name == "none") CHECK(answer == MICROTIN_HEIGHT);
+    }
+  }
+}
+
+TEST_CASE("pack: a block of heights in whole units") {
+  Card card{pack_bytes(rough_raster(61, 53, void_kinds()[2].at))};
+  const PackDevice device(60);
+  REQUIRE(device.service(card, {0, 0, 60 * 256, 52 * 256}) == MICROTIN_DONE);
+  REQUIRE(device.service(card, {0, 52 * 256, 60 * 256, 0}) == MICROTIN_DONE);
+  microtin_pack_info info;
+  REQUIRE(microtin_pack_header(device.pack, &info) == 1);
+  const microtin_block block{5 * 256, 3 * 256, 512, 384, 20, 25, -999};
+  std::vector<int16_t> heights(500);
+  const microtin_answer answer = microtin_pack_fill(device.pack, &block, heights.data());
+  CHECK(answer != MICROTIN_HEIGHT);
+  for (int64_t i = 0; i < 500; ++i) {
+    int32_t z = 0;
+    const microtin_answer here =
+        device.height_at(block.x + i % 20 * 512, block.y + i / 20 * 384, z);
+    const double real =
+        (static_cast<double>(info.z.numerator) * z / 65536.0 + static_cast<double>(info.z.offset)) /
+        static_cast<double>(info.z.denominator);
+    const int16_t found = heights[static_cast<size_t>(i)];
+    if (here == MICROTIN_HEIGHT) {
+      CHECK(std::abs(found - real) <= 0.5);
+    } else {
+      CHECK(found == -999);
+    }
+  }
+}
+
+TEST_CASE("pack: real coordinates become places, exactly rounded") {
+  Random random(9);
+  uint32_t inside = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const uint32_t shift = random.below(30), depth = random.below(40);
+    const microtin_axis axis = {static_cast<int64_t>(random.below(1u << 31)) - (1 << 30),
+                                1 + random.below(1u << shift),
+                                1 + (uint64_t{random.below(1u << 30)} << 10 >> (39 - depth))};
+    const uint32_t most = random.below(1u << 31), per_unit = 1 + random.below(1u << 24);
+    // A value near a random place.
+    const Wide place = random.below(1u << 31) >> random.below(31);
+    const Wide near = (axis.offset + static_cast<Wide>(axis.numerator) * place) * per_unit /
+                      static_cast<Wide>(axis.denominator);
+    const Wide value = near + random.below(1000);
+    if (magnitude(value) >> 62 != 0) continue;
+    const Wide numerator = static_cast<Wide>(value) * static_cast<Wide>(axis.denominator) -
+                           static_cast<Wide>(axis.offset) * per_unit;
+    const Wide step = static_cast<Wide>(axis.numerator) * per_unit;
+    const Wide expected = round_divide(numerator * 256, step);
+    const bool outside = numerator < 0 || expected > Wide{most} * 256;
+    int64_t lattice = 0;
+    const int found =
+        microtin_pack_to_lattice(&axis, most, static_cast<int64_t>(value), per_unit, &lattice);
+    CHECK(found == (outside ? 0 : 1));
+    if (found != 0) CHECK(lattice == static_cast<int64_t>(expected));
+    inside += found != 0 ? 1u : 0u;
+  }
+  CHECK(inside > 5000);
+  const microtin_axis degrees = {7 * 1200, 1, 1200};
+  int64_t lattice = 0;
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, 75000000, 10000000, &lattice) == 1);
+  CHECK(lattice == 600 * 256);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, 69999999, 10000000, &lattice) == 0);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, INT64_MAX, 1, &lattice) == 0);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, INT64_MIN, 1, &lattice) == 0);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, 0, 0, &lattice) == 0);
+}
+
+TEST_CASE("pack: the C++ face") {
+  static Pack<4, kCapacity> pack;
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const microtin_course c = at(30, 26);
+  microtin_pack_info info;
+  CHECK(!pack.header(&info));
+  REQUIRE(pack.service(c, 0, Card::read, &card) == MICROTIN_DONE);
+  REQUIRE(pack.header(&info));
+  CHECK(info.x_max == 60);
+  uint32_t hint = 0;
+  int32_t height = 0, highest = 1;
+  CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_HEIGHT);
+  CHECK(pack.highest(c, &highest) == MICROTIN_HEIGHT);
+  CHECK(highest == height);
+  int16_t rounded = 0;
+  CHECK(pack.fill({c.x, c.y, 0, 0, 1, 1, -1}, &rounded) == MICROTIN_HEIGHT);
+  pack.reset();
+  CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_NOT_DECODED);
+}
+
+TEST_CASE("pack: far from the origin, in the largest extent") {
+  // A header for 2^31 - 1 steps, with one known tile in the farthest corner.
+  EncodedPack encoded = encode_pack(rough_raster(31, 31), pack_options(2, 400));
+  REQUIRE(encoded.tiles.size() == 1);
+  EncodedPack far = encoded;
+  far.grid = {kPackExtentMost, kPackExtentMost, 65535, 65535};
+  const uint64_t tiles = uint64_t{tile_columns(far.grid)} * tile_rows(far.grid);
+  CHECK(tiles == uint64_t{32769} * 32769);
+  // 28 GB of index: only the entry that is read is made.
+  Bytes head = write_pack(encoded, {});
+  const auto put = [&](size_t place, uint64_t value, int width) {
+    for (int i = 0; i < width; ++i)
+      head[place + static_cast<size_t>(i)] = static_cast<uint8_t>(value >> 8 * i);
+  };
+  const uint32_t index = pack_index_start(PackFile(head).header());
+  put(10, 65535, 2);
+  put(12, 65535, 2);
+  put(20, kPackExtentMost, 4);
+  put(24, kPackExtentMost, 4);
+  put(index - 4, crc32(0, head.data(), index - 4), 4);
+  const uint32_t number = static_cast<uint32_t>(tiles - 1);
+  put(index + 24, pack_entry_check(read_u32(head.data() + index - 4), number, head.data() + index),
+      4);
+  struct FarCard {
+    Bytes bytes;
+    uint64_t entry, index;
+    static size_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+      const FarCard& card = *static_cast<FarCard*>(context);
+      const uint64_t from = offset >= card.entry ? offset - card.entry + card.index : offset;
+      if (from >= card.bytes.size()) return 0;
+      const size_t taken = std::min(size, card.bytes.size() - static_cast<size_t>(from));
+      std::memcpy(buffer, card.bytes.data() + from, taken);
+      return taken;
+    }
+  } card{head, index + uint64_t{number} * kPackEntryBytes, index};
+  const PackDevice device(4, 400);
+  const int64_t corner = int64_t{32768} * 65535 * 256;
+  const microtin_course c{corner + 5 * 256, corner + 7 * 256, corner + 25 * 256, corner + 9 * 256};
+  REQUIRE(microtin_pack_service(device.pack, &c, 0, FarCard::read, &card) == MICROTIN_DONE);
+  int32_t height = 0, highest = 0;
+  CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
+  CHECK(height == *expected_height(PackFile(write_pack(encoded, {})), 5 * 256, 7 * 256));
+  CHECK(microtin_pack_highest(device.pack, &c, &highest) == MICROTIN_HEIGHT);
+  CHECK(highest >= height);
+}
+
+}  // namespace microtin
