@@ -65,6 +65,25 @@ void add_search(CLI::App& command, Search& search) {
   add("--best", Search::kBest, "... or as long as it helps")->excludes(fast);
 }
 
+// Packs are neither of a number of vertices nor of bytes.
+void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
+               CLI::Option& bytes) {
+  CLI::Option* const tile =
+      command
+          .add_option("--tile-vertices", request.tile_vertices,
+                      "Write a pack of tiles with at most so many vertices each (rasters)")
+          ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
+          ->excludes(&vertices)
+          ->excludes(&bytes);
+  command
+      .add_option_function<uint32_t>(
+          "--device-ram", [&request](uint32_t size) { set_device_ram(size, request); },
+          "... with tiles of which a device with so many bytes keeps four and decodes one")
+      ->excludes(&vertices)
+      ->excludes(&bytes)
+      ->excludes(tile);
+}
+
 using Action = std::function<void()>;
 
 void add_encode(CLI::App& app, Action& action) {
@@ -88,20 +107,7 @@ void add_encode(CLI::App& app, Action& action) {
           ->check(CLI::PositiveNumber)
           ->excludes(bound)
           ->excludes(vertices);
-  CLI::Option* const tile =
-      command
-          .add_option("--tile-vertices", request->tile_vertices,
-                      "Write a pack of tiles with at most so many vertices each (rasters)")
-          ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
-          ->excludes(vertices)
-          ->excludes(bytes);
-  command
-      .add_option_function<uint32_t>(
-          "--device-ram", [request](uint32_t size) { set_device_ram(size, *request); },
-          "... with tiles of which a device with so many bytes keeps four and decodes one")
-      ->excludes(vertices)
-      ->excludes(bytes)
-      ->excludes(tile);
+  add_tiles(command, *request, *vertices, *bytes);
   command.add_flag("--never-below", request->lattice.never_below,
                    "With a bound: no height is below the source, all are at most so far above");
   add_search(command, request->search);
