@@ -60,6 +60,28 @@ void add_search(CLI::App& command, Search& search) {
   add("--best", Search::kBest, "... or as long as it helps")->excludes(fast);
 }
 
+// Packs are neither of a number of vertices nor of bytes.
+void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
+               CLI::Option& bytes) {
+  CLI::Option* const tile =
+      command
+          .add_option("--tile-vertices", request.tile_vertices,
+                      "Write a pack of tiles with at most so many vertices each (rasters)")
+          ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
+          ->excludes(&vertices)
+          ->excludes(&bytes);
+  command
+      .add_option(
+          "--device-ram", request.device_ram,
+          "Bytes that a device has for mesh and decoder, with 16-bit numbers up to 10,923 "
+          "vertices, with 32-bit numbers beyond. Alone: use the best vertices that fit; with "
+          "--max-error or --max-vertices: fail if the terrain does not fit. For a pack (.mtp): "
+          "tiles of which such a device keeps four and decodes one")
+      ->excludes(&bytes)
+      ->excludes(tile)
+      ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));
+}
+
 using Action = std::function<void()>;
 
 void add_encode(CLI::App& app, Action& action) {
@@ -83,23 +105,7 @@ void add_encode(CLI::App& app, Action& action) {
           ->check(CLI::PositiveNumber)
           ->excludes(bound)
           ->excludes(vertices);
-  CLI::Option* const tile =
-      command
-          .add_option("--tile-vertices", request->tile_vertices,
-                      "Write a pack of tiles with at most so many vertices each (rasters)")
-          ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
-          ->excludes(vertices)
-          ->excludes(bytes);
-  command
-      .add_option(
-          "--device-ram", request->device_ram,
-          "Bytes that a device has for mesh and decoder, with 16-bit numbers up to 10,923 "
-          "vertices, with 32-bit numbers beyond. Alone: use the best vertices that fit; with "
-          "--max-error or --max-vertices: fail if the terrain does not fit. For a pack (.mtp): "
-          "tiles of which such a device keeps four and decodes one")
-      ->excludes(bytes)
-      ->excludes(tile)
-      ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));
+  add_tiles(command, *request, *vertices, *bytes);
   command.add_flag("--never-below", request->lattice.never_below,
                    "With a bound: no height is below the source, all are at most so far above");
   add_search(command, request->search);
