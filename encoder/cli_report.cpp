@@ -23,7 +23,11 @@ void print(const JsonObject& report, bool as_json) {
   const char* separator = "{\n";
   for (const auto& [name, value] : report) {
     if (as_json) {
-      out.write(separator + ("  " + json(name)) + ": " + value);
+      out.write(separator);
+      out.write("  ");
+      out.write(json(name));
+      out.write(": ");
+      out.write(value);
       separator = ",\n";
     } else {
       out.write(name + ": " + value + '\n');

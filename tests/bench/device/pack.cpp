@@ -4,7 +4,7 @@
 #include "tests/bench/device/instruction_counter.hpp"
 #include "tests/firmware/linked_stream.hpp"
 #include "tests/firmware/report.hpp"
-#include "toolchains/firmware.hpp"
+#include "toolchains/firmware.h"
 
 namespace {
 
