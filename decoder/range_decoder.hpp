@@ -43,7 +43,8 @@ struct ByteWindow {
 
 constexpr uint32_t kRangeLeast = static_cast<uint32_t>(1) << 24;
 
-static_assert((kRangeLeast >> 15) * kProbabilityMargin >= kProbabilityOne, "no part of a bit is narrow");
+static_assert((kRangeLeast >> 15) * kProbabilityMargin >= kProbabilityOne,
+              "no part of a bit is narrow");
 static_assert(kRangeLeast >> 16 >= 1 << 8, "after any number two bytes are enough");
 
 // Interval coding after Schindler and LZMA: `code` is the stream's value relative to the interval's

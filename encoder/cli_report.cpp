@@ -20,18 +20,14 @@ double bits_per_vertex(size_t bytes, uint32_t vertices) {
 
 void print(const JsonObject& report, bool as_json) {
   OutputFile out("-");
-  const char* separator = "{\n";
+  const char* separator = as_json ? "{\n" : "";
   for (const auto& [name, value] : report) {
-    if (as_json) {
-      out.write(separator);
-      out.write("  ");
-      out.write(json(name));
-      out.write(": ");
-      out.write(value);
-      separator = ",\n";
-    } else {
-      out.write(name + ": " + value + '\n');
-    }
+    out.write(separator);
+    out.write(as_json ? "  " + json(name) : name);
+    out.write(": ");
+    out.write(value);
+    if (!as_json) out.write("\n");
+    if (as_json) separator = ",\n";
   }
   if (as_json) out.write("\n}\n");
   out.commit();
