@@ -57,8 +57,12 @@ struct Options {
 // Every height within the bound, every void kept: what the encoder does with any terrain.
 inline void encode_bounded(const Source& source, const Options& options) {
   const Laid laid = lay_out(source, options.lattice);
-  const bool bounded = options.lattice.max_error.has_value();
-  const Tin tin = simplify(laid.survey, {bounded, options.max_vertices});
+  SimplifyOptions simplification;
+  simplification.bounded = options.lattice.max_error.has_value();
+  simplification.max_vertices = options.max_vertices;
+  simplification.search = Search::kFast;
+  simplification.effort = options.effort;
+  const Tin tin = simplify(laid.survey, simplification);
   Metadata metadata;
   metadata.placement = laid.placement;
   const Encoding encoding = encode_and_decode(tin, metadata, options.effort);
