@@ -205,17 +205,7 @@ void run_encode(const EncodeRequest& request) {
     return request.max_bytes != 0 ? encode_within_bytes(source, request)
                                   : encode_measured(source, request, bar.progress());
   });
-  const std::string text = report(source, filled, encoded);
-  out.write({reinterpret_cast<const char*>(encoded.stream.data()), encoded.stream.size()});
-  if (request.output == "-") {
-    out.commit();
-    std::fputs(text.c_str(), stderr);
-    return;
-  }
-  OutputFile terminal("-");  // before the stream is there: a failure leaves none
-  terminal.write(text);
-  terminal.commit();
-  out.commit();
+  deliver(out, request.output, encoded.stream, report(source, filled, encoded));
 }
 
 }  // namespace microtin

@@ -116,17 +116,7 @@ void run_encode_pack(const EncodeRequest& request) {
   if (!found.within_bound || found.uncovered != 0 || found.voids_answered != 0) {
     throw Error("internal error: the pack does not keep what was asked for");
   }
-  const std::string text = report(pack, bytes.size(), request.lattice.max_error);
-  out.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  if (request.output == "-") {
-    out.commit();
-    std::fputs(text.c_str(), stderr);
-    return;
-  }
-  OutputFile terminal("-");  // before the pack is there: a failure leaves none
-  terminal.write(text);
-  terminal.commit();
-  out.commit();
+  deliver(out, request.output, bytes, report(pack, bytes.size(), request.lattice.max_error));
 }
 
 void run_info_pack(const std::string& input, const std::vector<uint8_t>& bytes, bool as_json) {

@@ -1,7 +1,8 @@
 #include "encoder/cli_report.hpp"
 
+#include <cstdio>
+
 #include "encoder/input_file.hpp"
-#include "encoder/output_file.hpp"
 
 namespace microtin {
 
@@ -16,6 +17,20 @@ std::string number(Decimal value) {
 
 double bits_per_vertex(size_t bytes, uint32_t vertices) {
   return 8.0 * static_cast<double>(bytes) / vertices;
+}
+
+void deliver(OutputFile& out, const std::string& path, const std::vector<uint8_t>& bytes,
+             const std::string& text) {
+  out.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (path == "-") {
+    out.commit();
+    std::fputs(text.c_str(), stderr);
+    return;
+  }
+  OutputFile terminal("-");  // before the file is there: a failure leaves none
+  terminal.write(text);
+  terminal.commit();
+  out.commit();
 }
 
 void print(const JsonObject& report, bool as_json) {

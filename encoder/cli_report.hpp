@@ -7,6 +7,7 @@
 
 #include "encoder/decimal.hpp"
 #include "encoder/json.hpp"
+#include "encoder/output_file.hpp"
 
 namespace microtin {
 
@@ -18,6 +19,11 @@ std::string number(Decimal value);
 
 // 8 bits a byte, over the vertices.
 double bits_per_vertex(size_t bytes, uint32_t vertices);
+
+// Commits a command's output and tells of it on the terminal: on standard output, or on standard
+// error if the output itself goes there. Throws Error, and leaves no file, if either fails.
+void deliver(OutputFile& out, const std::string& path, const std::vector<uint8_t>& bytes,
+             const std::string& text);
 
 // Prints the report as JSON, or as a line "name: value" for each entry.
 void print(const JsonObject& report, bool as_json);

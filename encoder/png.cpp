@@ -7,19 +7,29 @@ namespace {
 
 // The picture's writer goes on writing when memory is short: it must not come back to that. What
 // it holds is lost, as the program ends.
+void* allocate(size_t size) {
+  return ::operator new(size);
+}
+
+void release(void* memory) {
+  ::operator delete(memory);
+}
+
 void* grow(void* old, size_t old_size, size_t size) {
-  void* const grown = ::operator new(size);
+  void* const grown = allocate(size);
   std::copy_n(static_cast<const char*>(old), std::min(old_size, size), static_cast<char*>(grown));
-  ::operator delete(old);
+  release(old);
   return grown;
 }
 
 }  // namespace
 
-#define STBIW_MALLOC(size) ::operator new(static_cast<size_t>(size))
+// Functions: where the writer has "a ? STBIW_FREE(b), 0 : 0", clang 14 calls a plain ::operator
+// delete for any a.
+#define STBIW_MALLOC(size) allocate(static_cast<size_t>(size))
 #define STBIW_REALLOC_SIZED(old, old_size, size) \
   grow(old, static_cast<size_t>(old_size), static_cast<size_t>(size))
-#define STBIW_FREE(memory) ::operator delete(memory)
+#define STBIW_FREE(memory) release(memory)
 #define STBI_WRITE_NO_STDIO
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
