@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "encoder/error.hpp"
-#include "encoder/header.hpp"
 #include "encoder/json.hpp"
 #include "encoder/tint.hpp"
 
