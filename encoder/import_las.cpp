@@ -126,7 +126,7 @@ class PointReader {
         if (!points.add(axis, value)) fail_on(i, value);
       }
     }
-    if (points.empty()) file_.fail("holds no point" + selection(classes));
+    if (points.empty()) file_.fail("no point is taken" + selection(classes));
     PointCloud cloud = points.take();
     cloud.selection = "taken" + selection(classes);
     return cloud;
