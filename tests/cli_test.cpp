@@ -267,7 +267,8 @@ TEST_CASE("cli: a grid that is written is a terrain again") {
   REQUIRE(session.run("encode f.asc --max-error 10 -o f.mtin").code == 0);
   REQUIRE(session.run("decode f.mtin -o surface.asc").code == 0);
   // Its posts are the surface's, but for the last decimal.
-  CHECK(contains(session.run("verify f.mtin surface.asc").out, "max_error: 0.0005\n"));
+  const std::string verified = session.run("verify f.mtin surface.asc").out, key = "max_error: ";
+  CHECK(std::stod(verified.substr(verified.find(key) + key.size())) <= 0.0005);
   REQUIRE(session.run("encode f.asc -o exact.mtin").code == 0);
   REQUIRE(session.run("decode exact.mtin -o exact.asc").code == 0);
   CHECK(contains(session.run("verify exact.mtin exact.asc").out, "max_error: 0.0\n"));
@@ -276,7 +277,7 @@ TEST_CASE("cli: a grid that is written is a terrain again") {
   REQUIRE(session.run("encode f.asc --max-error 10 --tile-vertices 60 -o f.mtp").code == 0);
   REQUIRE(session.run("decode f.mtp -o pack.asc").code == 0);
   CHECK(session.run("verify f.mtp pack.asc").code == 0);
-  CHECK(contains(session.run("decode f.mtp --lattice --cell 16 -o coarse.asc").out, ""));
+  REQUIRE(session.run("decode f.mtp --lattice --cell 16 -o coarse.asc").code == 0);
   CHECK(contains(session.read("coarse.asc"), "ncols 5\nnrows 5\nxllcenter 0\nyllcenter 0\n"));
   session.write("far.xyz", "0 0 1\n655.35 0 2\n0 655.35 3\n");
   REQUIRE(session.run("encode far.xyz -o far.mtin").code == 0);
