@@ -74,19 +74,19 @@ class WktReader {
     std::string word;
     bool in_quotes = false;
     for (const char c : text) {
+      const bool is_mark = !in_quotes && std::string_view("[(,])").find(c) != std::string::npos;
       if (c == '"') {
         in_quotes = !in_quotes;
-      } else if (in_quotes) {
-        word += c;
+      } else if (!is_mark) {
+        const bool is_space = std::isspace(static_cast<unsigned char>(c)) != 0 || c == '\0';
+        if (in_quotes || !is_space) word += c;
       } else if (c == '[' || c == '(') {
         open_.push_back({lower_case(word), {}});
         word.clear();
-      } else if (c == ',' || c == ']' || c == ')') {
+      } else {
         if (!word.empty() && !open_.empty()) open_.back().values.push_back(word);
         word.clear();
         if (c != ',' && !open_.empty()) close();
-      } else if (std::isspace(static_cast<unsigned char>(c)) == 0 && c != '\0') {
-        word += c;
       }
     }
     return reference_;

@@ -72,7 +72,7 @@ std::optional<std::string> inflated(std::string_view packed, uint64_t size) {
   if (inflateInit2(&stream, kNoHeader) != Z_OK) throw std::bad_alloc();
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
   stream.avail_in = static_cast<uInt>(packed.size());
-  stream.next_out = reinterpret_cast<Bytef*>(&bytes[0]);
+  stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
   stream.avail_out = static_cast<uInt>(size);
   const int result = inflate(&stream, Z_FINISH);
   const bool whole = result == Z_STREAM_END && stream.avail_out == 0;

@@ -28,7 +28,7 @@ class BinaryFile {
   template <class Number>
   BinaryFile& put(size_t at, Number value) {
     std::string piece(sizeof value, '\0');
-    std::memcpy(&piece[0], &value, sizeof value);
+    std::memcpy(piece.data(), &value, sizeof value);
     if (big_endian_) std::reverse(piece.begin(), piece.end());
     return put(at, piece);
   }
