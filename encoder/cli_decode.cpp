@@ -7,13 +7,21 @@
 
 namespace microtin {
 
+namespace {
+
+SurfaceModel read_model(const std::string& input) {
+  const std::optional<PackFile> pack = open_pack(input);
+  if (pack) return about(input, [&] { return model_of(*pack); });
+  const std::vector<uint8_t> stream = read_stream(input);
+  return about(input, [&] { return model_of(DecodedTerrain(stream).mesh()); });
+}
+
+}  // namespace
+
 void run_decode(const DecodeRequest& request) {
   refuse_overwriting(request.input, request.output);
   const MeshFormat format = mesh_format_of(request.output);
-  const std::vector<uint8_t> stream = read_stream(request.input);
-  const SurfaceModel model = about(request.input, [&] {
-    return is_pack(stream) ? model_of(PackFile(stream)) : model_of(DecodedTerrain(stream).mesh());
-  });
+  const SurfaceModel model = read_model(request.input);
   OutputFile out(request.output);
   export_model(model, format, request.lattice ? Coordinates::kLattice : Coordinates::kReal, out);
   out.commit();

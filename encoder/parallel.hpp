@@ -8,7 +8,10 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "encoder/progress.hpp"
 
 namespace microtin {
 
@@ -38,6 +41,23 @@ void for_each_parallel(std::size_t count, const Work& work) {
   for (std::thread& thread : threads) thread.join();
   if (error) std::rethrow_exception(error);
 }
+
+// Progress by pieces, which may be done by several threads.
+class CountedProgress {
+ public:
+  CountedProgress(Progress progress, std::size_t pieces)
+      : progress_(std::move(progress)), pieces_(pieces) {}
+
+  void add_one() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    progress_.at(static_cast<double>(++done_) / static_cast<double>(pieces_));
+  }
+
+ private:
+  std::mutex mutex_;
+  Progress progress_;
+  std::size_t pieces_, done_ = 0;
+};
 
 }  // namespace microtin
 
