@@ -36,8 +36,12 @@ void for_each_parallel(std::size_t count, const Work& work) {
     }
   };
   const std::size_t wanted = std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
-  std::vector<std::thread> threads(std::min(wanted, count));
-  for (std::thread& thread : threads) thread = std::thread(run);
+  std::vector<std::thread> threads;
+  try {
+    while (threads.size() + 1 < std::min(wanted, count)) threads.emplace_back(run);
+  } catch (...) {  // without memory for more, those that are there do it
+  }
+  run();
   for (std::thread& thread : threads) thread.join();
   if (error) std::rethrow_exception(error);
 }
