@@ -17,11 +17,11 @@ struct EncodeRequest {
   std::string input;
   std::string output;
   LatticeOptions lattice;
-  uint32_t max_vertices = 0;   // 0: as many as it takes
-  uint32_t tile_vertices = 0;  // 0: one stream; else a pack, with at most so many in a tile
-  uint32_t tile_steps = 0;     // of a pack; 0: to be chosen
+  uint32_t max_vertices = 0;       // 0: as many as it takes
+  uint32_t tile_vertices = 0;      // 0: one stream; else a pack, with at most so many in a tile
+  uint32_t tile_steps = 0;         // of a pack; 0: to be chosen
   std::optional<TileRange> tiles;  // a shard of a pack, with these
-  uint32_t max_bytes = 0;      // 0: as many as it takes; else the bound is looked for
+  uint32_t max_bytes = 0;          // 0: as many as it takes; else the bound is looked for
   Search search = Search::kNormal;
   uint64_t device_ram = 0;  // 0: unlimited
   Effort effort;

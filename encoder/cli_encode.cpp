@@ -37,7 +37,8 @@ namespace {
 
 bool makes_pack(const EncodeRequest& request) {
   const std::string& name = request.output;
-  return request.tile_vertices != 0 || request.tiles || (name.size() > 4 && name.substr(name.size() - 4) == ".mtp");
+  return request.tile_vertices != 0 || request.tiles ||
+         (name.size() > 4 && name.substr(name.size() - 4) == ".mtp");
 }
 
 // The vertices that may be used, 0 for as many as it takes. A device's RAM is a limit only if

@@ -17,8 +17,8 @@ Source import_terrain(const std::string& path);
 
 // The formats, from a file's content. `name` goes into messages.
 
-// SRTM: a square of posts, 3601 in a row or any number from 2 on, of which the first and the last lie
-// a degree apart; big-endian metres from the north-west corner, -32768 where there is none. The
+// SRTM: a square of posts, 3601 in a row or any number from 2 on, of which the first and the last
+// lie a degree apart; big-endian metres from the north-west corner, -32768 where there is none. The
 // name's first seven characters (N43E007) place the south-west post.
 Raster import_hgt(const std::string& name, const std::string& bytes);
 std::unique_ptr<RasterReader> open_hgt(const std::string& name, std::unique_ptr<ByteSource> bytes);

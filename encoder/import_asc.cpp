@@ -33,9 +33,7 @@ class Words {
     return start_ != end_;
   }
 
-  std::string_view word() const {
-    return std::string_view(buffer_).substr(start_, end_ - start_);
-  }
+  std::string_view word() const { return std::string_view(buffer_).substr(start_, end_ - start_); }
   uint64_t offset() const { return offset_ + start_; }  // of the word in the text
   [[noreturn]] void fail(const std::string& what) const { fail_at(name_, line_, what); }
 

@@ -14,8 +14,8 @@
 namespace microtin {
 
 // Writes to a temporary beside the target, which takes the target's place on commit() and
-// disappears without it, also when a signal ends the program. "-" is standard output; devices and pipes are written directly. All throw
-// Error naming the target.
+// disappears without it, also when a signal ends the program. "-" is standard output; devices and
+// pipes are written directly. All throw Error naming the target.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);

@@ -67,7 +67,9 @@ PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   if (raster.frame().width < 2 || raster.frame().height < 2)
     throw Error("a pack needs two posts in each direction");
   const Progress& progress = options.simplify.progress;
-  const RasterScan scanned = scan(raster, options.lattice.max_error, progress.part(0, kScanPart));
+  const bool chooses_z_step = options.simplify.bounded && !options.lattice.z_step;
+  const RasterScan scanned =
+      scan(raster, options.lattice.max_error, chooses_z_step, progress.part(0, kScanPart));
   PackPlan plan{tiled_raster(raster, scanned, options), options, options.tile_steps,
                 scanned.fingerprint};
   if (plan.tile_steps == 0) {

@@ -52,9 +52,9 @@ struct TileTooLarge : Error {
 using TakeTile = std::function<void(uint32_t tile, EncodedTile&&)>;
 
 // Encodes tiles on all processors and gives them away in the order of their numbers; they do not
-// depend on the range or the number of processors. Every post with a height is covered by a tile and
-// within the bound; every void one stays void; borders have no cracks. Throws Error as encode_tile
-// does, and TileTooLarge.
+// depend on the range or the number of processors. Every post with a height is covered by a tile
+// and within the bound; every void one stays void; borders have no cracks. Throws Error as
+// encode_tile does, and TileTooLarge.
 void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take);
 
 // Encodes all tiles. If one is too large and no size was asked for, begins again with smaller ones:

@@ -29,8 +29,8 @@ PackContent content_of(const PackPlan& plan, Metadata metadata);
 // What all tiles together keep; posts on borders count in each tile.
 Verification measured(const PackContent& pack);
 
-// What comes before the streams: header and index. They follow in the order of their numbers. Throws
-// Error if notes or streams are too long.
+// What comes before the streams: header and index. They follow in the order of their numbers.
+// Throws Error if notes or streams are too long.
 std::vector<uint8_t> write_pack_head(PackContent pack);
 
 // The header alone.
@@ -48,7 +48,8 @@ bool is_pack(const ByteSource& bytes);
 
 class PackFile {
  public:
-  // Reads header and index; streams when they are asked for. Throws Error if they are damaged or break a rule.
+  // Reads header and index; streams when they are asked for. Throws Error if they are damaged or
+  // break a rule.
   explicit PackFile(std::unique_ptr<ByteSource> bytes);
   explicit PackFile(std::vector<uint8_t> bytes) : PackFile(bytes_in_memory(std::move(bytes))) {}
 

@@ -31,7 +31,8 @@ class Octave {
  private:
   bool misses(uint32_t x, uint32_t y, uint32_t dx, uint32_t dy, uint32_t step) const {
     if (x + dx >= part_.width || y + dy >= part_.height) return false;
-    const int64_t here = height(x, y), before = height(x - dx, y - dy), after = height(x + dx, y + dy);
+    const int64_t here = height(x, y), before = height(x - dx, y - dy),
+                  after = height(x + dx, y + dy);
     const bool is_rim = before == kVoidHeight || after == kVoidHeight;
     if (here == kVoidHeight || is_rim) return here != kVoidHeight && step == 1;
     return std::abs(static_cast<double>(2 * here - before - after)) > 2 * bound_;
@@ -56,8 +57,8 @@ struct BlockScan {
   uint64_t roughness;
 };
 
-BlockScan scan_block(const Raster& block, const std::optional<Decimal>& max_error) {
-  BlockScan result{{}, 0, roughness(block, max_error)};
+BlockScan scan_block(const Raster& block) {
+  BlockScan result{};
   for (const int64_t height : block.heights) {
     if (height != kVoidHeight) result.heights.add(height);
     result.fingerprint = mixed(result.fingerprint, static_cast<uint64_t>(height));
@@ -84,18 +85,21 @@ uint64_t roughness(const Raster& part, const std::optional<Decimal>& max_error) 
 }
 
 RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_error,
-                const Progress& progress) {
+                bool wants_roughest, const Progress& progress) {
   const Raster& frame = raster.frame();
   const uint32_t columns = (frame.width - 1) / kBlock + 1, rows = (frame.height - 1) / kBlock + 1;
   const auto box = [&](std::size_t i) {
     const uint32_t x = static_cast<uint32_t>(i % columns) * kBlock;
     const uint32_t y = static_cast<uint32_t>(i / columns) * kBlock;
-    return PostRectangle{x, y, std::min(kBlock, frame.width - x), std::min(kBlock, frame.height - y)};
+    return PostRectangle{x, y, std::min(kBlock, frame.width - x),
+                         std::min(kBlock, frame.height - y)};
   };
   std::vector<BlockScan> blocks(std::size_t{columns} * rows);
   CountedProgress done(progress, blocks.size());
   for_each_parallel(blocks.size(), [&](std::size_t i) {
-    blocks[i] = scan_block(raster.read(box(i)), max_error);
+    const Raster block = raster.read(box(i));
+    blocks[i] = scan_block(block);
+    if (wants_roughest) blocks[i].roughness = roughness(block, max_error);
     done.add_one();
   });
   RasterScan all;

@@ -59,7 +59,8 @@ void check_shared(const microtin_mesh* mesh, const Sides& sides, const SharedVer
 
 void check_bounds(const TiledRaster& tiled, const Verification& measured) {
   const bool too_low = tiled.options.never_below && measured.max_below.mantissa != 0;
-  if (!measured.within_bound || too_low || measured.voids_answered != 0 || measured.uncovered != 0) {
+  if (!measured.within_bound || too_low || measured.voids_answered != 0 ||
+      measured.uncovered != 0) {
     fail("does not keep what was asked for");
   }
 }
@@ -68,8 +69,12 @@ TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
                        const Verification& measured) {
   const auto lower = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
   const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(), lower);
-  return {static_cast<uint32_t>(stream.size()), crc32(0, stream.data(), stream.size()),
-          static_cast<uint32_t>(tin.vertices.size()), low->z, high->z, measured};
+  return {static_cast<uint32_t>(stream.size()),
+          crc32(0, stream.data(), stream.size()),
+          static_cast<uint32_t>(tin.vertices.size()),
+          low->z,
+          high->z,
+          measured};
 }
 
 // The posts of a tile. On borders with other tiles the shared vertices stand for all posts with
@@ -124,13 +129,15 @@ void check_covered_by_others(const TiledRaster& tiled, const TilePosts& posts) {
   }
 }
 
-// Makes the posts beside those of borders that are not covered vertices: nothing that a void reaches
-// comes between then. These posts have heights, as voids are beside vertices of borders alone.
+// Makes the posts beside those of borders that are not covered vertices: nothing that a void
+// reaches comes between then. These posts have heights, as voids are beside vertices of borders
+// alone.
 void fix_beside(const std::vector<GlobalPost>& uncovered, const TileBox& box, const Sides& sides,
                 Survey& survey) {
   std::set<Point> fixed(survey.fixed.begin(), survey.fixed.end());
   for (const GlobalPost post : uncovered) {
-    if (!sides.shares({static_cast<uint16_t>(post.x - box.x), static_cast<uint16_t>(post.y - box.y)}))
+    if (!sides.shares(
+            {static_cast<uint16_t>(post.x - box.x), static_cast<uint16_t>(post.y - box.y)}))
       fail("leaves a post out");
     for (const int dx : {-1, 0, 1}) {
       for (const int dy : {-1, 0, 1}) {

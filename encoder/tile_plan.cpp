@@ -49,9 +49,8 @@ std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
 uint32_t most_vertices(const TiledRaster& tiled, const SimplifyOptions& options) {
   const std::vector<uint32_t> tiles = roughest_tiles(tiled);
   std::vector<uint32_t> vertices(tiles.size());
-  for_each_parallel(tiles.size(), [&](std::size_t i) {
-    vertices[i] = count_vertices(tiled, tiles[i], options);
-  });
+  for_each_parallel(tiles.size(),
+                    [&](std::size_t i) { vertices[i] = count_vertices(tiled, tiles[i], options); });
   return *std::max_element(vertices.begin(), vertices.end());
 }
 

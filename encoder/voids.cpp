@@ -120,7 +120,8 @@ bool reaches_side(const Raster& raster, const PostRectangle& inner, Sides sides,
       const size_t start = size_t{y} * raster.width + x;
       if (raster.heights[start] != kVoidHeight || seen[start]) continue;
       const std::vector<size_t> region = void_region(raster, start, seen);
-      if (region.size() <= largest && std::any_of(region.begin(), region.end(), is_there)) return true;
+      if (region.size() <= largest && std::any_of(region.begin(), region.end(), is_there))
+        return true;
     }
   }
   return false;

@@ -19,8 +19,8 @@ struct Sides {
   bool west, south, east, north;
 };
 
-// Whether a void region of up to `largest` posts goes from the inner rectangle to one of these sides
-// of the raster.
+// Whether a void region of up to `largest` posts goes from the inner rectangle to one of these
+// sides of the raster.
 bool reaches_side(const Raster& raster, const PostRectangle& inner, Sides sides, uint32_t largest);
 
 }  // namespace microtin

@@ -106,8 +106,7 @@ TEST_CASE("raster reader: small voids are filled alike in every rectangle") {
       CAPTURE(kind.name);
       CAPTURE(largest);
       Raster whole = rough_raster(90, 80, kind.at);
-      const auto filled =
-          with_voids_filled(std::make_unique<RasterInMemory>(whole), largest);
+      const auto filled = with_voids_filled(std::make_unique<RasterInMemory>(whole), largest);
       fill_voids(whole, largest);
       check_rectangles(*filled, whole);
     }

@@ -1,4 +1,6 @@
 // Shards: any split of a pack's tiles joins to the bytes of a single run, and nothing else joins.
+#include "encoder/shard.hpp"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "encoder/error.hpp"
-#include "encoder/shard.hpp"
 #include "tests/files.hpp"
 #include "tests/packs.hpp"
 #include "tests/temporary_folder.hpp"
@@ -108,8 +109,7 @@ TEST_CASE("shards: what is missing, double, foreign or damaged is refused") {
   CHECK(shards.refusal({rest}) == "tiles 0 to 2 are in no shard");
   CHECK(shards.refusal({first, shards.write({4, last})}) == "tile 3 is in no shard");
   CHECK(shards.refusal({first, rest, first}) == "0-2: tile 0 is also in 0-2");
-  CHECK(shards.refusal({first, shards.write({2, last})}) ==
-        "2-" + all + ": tile 2 is also in 0-2");
+  CHECK(shards.refusal({first, shards.write({2, last})}) == "2-" + all + ": tile 2 is also in 0-2");
 
   for (const auto& [other, options] :
        {std::pair(rough_raster(61, 53, [](int x, int y) { return x == 60 && y == 52; }),
@@ -167,9 +167,10 @@ TEST_CASE("packs: a shard whose tile is too large says which size of tiles to tr
     FAIL("is not refused");
   } catch (const TileTooLarge& error) {
     CHECK(error.fewer_steps < 60);
-    CHECK(std::string(error.what()).find("vertices, too many; all tiles can be encoded with "
-                                         "--tile-steps " +
-                                         std::to_string(error.fewer_steps)) != std::string::npos);
+    CHECK(std::string(error.what())
+              .find("vertices, too many; all tiles can be encoded with "
+                    "--tile-steps " +
+                    std::to_string(error.fewer_steps)) != std::string::npos);
   }
 }
 

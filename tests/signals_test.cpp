@@ -75,8 +75,8 @@ void wait_for_temporary(const Session& session) {
   REQUIRE(holds_temporary(session));
 }
 
-const std::vector<std::string> kLongWork = {"encode",          "t.asc", "--max-error", "1", "--best",
-                                            "--tile-vertices", "500",   "-o",          "new.mtp"};
+const std::vector<std::string> kLongWork = {
+    "encode", "t.asc", "--max-error", "1", "--best", "--tile-vertices", "500", "-o", "new.mtp"};
 
 }  // namespace
 
