@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "encoder/import.hpp"
 #include "encoder/lattice_choice.hpp"
 #include "encoder/pack_encode.hpp"
 #include "encoder/simplify.hpp"
@@ -16,6 +17,7 @@ namespace microtin {
 struct EncodeRequest {
   std::string input;
   std::string output;
+  std::optional<ClassSet> classes;
   LatticeOptions lattice;
   uint32_t max_vertices = 0;       // 0: as many as it takes
   uint32_t tile_vertices = 0;      // 0: one stream; else a pack, with at most so many in a tile
@@ -41,7 +43,8 @@ void run_merge(const std::vector<std::string>& shards, const std::string& output
 struct DecodeRequest {
   std::string input;
   std::string output;
-  bool lattice = false;  // integers instead of real coordinates
+  bool lattice = false;         // integers instead of real coordinates
+  std::optional<Decimal> cell;  // of a grid
 };
 
 void run_decode(const DecodeRequest& request);
@@ -53,6 +56,7 @@ void run_info(const std::string& input, bool json);
 struct VerifyRequest {
   std::string input;
   std::string source;
+  std::optional<ClassSet> classes;
   uint32_t fill_voids = 0;  // as the stream was encoded
   bool json = false;
 };

@@ -17,7 +17,7 @@ void run_verify(const VerifyRequest& request) {
     return;
   }
   const std::vector<uint8_t> stream = read_stream(input);
-  Source source = import_terrain(request.source);
+  Source source = import_terrain(request.source, request.classes);
   fill_voids(source, request.fill_voids);
   const DecodedTerrain terrain = about(input, [&] { return DecodedTerrain(stream); });
   const std::optional<Accuracy> accuracy = read_header(stream).metadata.accuracy;

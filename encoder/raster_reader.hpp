@@ -39,9 +39,10 @@ class RasterInMemory : public RasterReader {
   Raster raster_;
 };
 
-// Opens an .hgt or .asc file. An .asc file is read once, to check it and to learn where its posts
-// are: 8 bytes of memory for each 512 of them. Throws Error naming the file and, for text, the
-// line, as import_terrain does, and if it is not a raster or cannot be read in pieces.
+// Opens a file that import_terrain reads. .hgt and .asc files are read in pieces, .asc once as a
+// whole before, to check it and to learn where its posts are: 8 bytes of memory for each 512 of
+// them. Others are kept in memory. Throws Error as import_terrain does, and if it holds points or
+// cannot be read in pieces.
 std::unique_ptr<RasterReader> open_raster(const std::string& path);
 
 // The raster with its small voids filled as fill_voids does. Memory and time of a rectangle grow

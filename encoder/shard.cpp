@@ -40,7 +40,7 @@ Bytes write_summary(const TileSummary& tile) {
   const Verification& v = tile.measured;
   Bytes bytes;
   append_number(bytes, tile.bytes, 4);
-  append_number(bytes, tile.stream_check, 4);
+  append_number(bytes, tile.stream_hash, 4);
   append_number(bytes, tile.vertices, 4);
   append_number(bytes, static_cast<uint16_t>(tile.lowest), 2);
   append_number(bytes, static_cast<uint16_t>(tile.highest), 2);
@@ -84,7 +84,7 @@ TileSummary read_summary(const Bytes& bytes) {
   TileSummary tile;
   Verification& v = tile.measured;
   tile.bytes = reader.next32();
-  tile.stream_check = reader.next32();
+  tile.stream_hash = reader.next32();
   tile.vertices = reader.next32();
   tile.lowest = reader.next_height();
   tile.highest = reader.next_height();
@@ -143,7 +143,7 @@ class Shard {
   Bytes next_stream(const TileSummary& tile) {
     return about(path_, [&] {
       Bytes stream = take(tile.bytes);
-      if (crc32(0, stream.data(), stream.size()) != tile.stream_check) {
+      if (stream_hash(kStreamHash, stream.data(), stream.size()) != tile.stream_hash) {
         throw Error(describe(MICROTIN_CHECKSUM));
       }
       return stream;

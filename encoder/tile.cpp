@@ -8,7 +8,7 @@
 
 #include "encoder/encode.hpp"
 #include "encoder/error.hpp"
-#include "shared/crc32.hpp"
+#include "shared/pack_format.hpp"
 #include "shared/predicates.hpp"
 
 namespace microtin {
@@ -70,7 +70,7 @@ TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
   const auto lower = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
   const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(), lower);
   return {static_cast<uint32_t>(stream.size()),
-          crc32(0, stream.data(), stream.size()),
+          stream_hash(kStreamHash, stream.data(), stream.size()),
           static_cast<uint32_t>(tin.vertices.size()),
           low->z,
           high->z,

@@ -14,7 +14,7 @@ namespace microtin {
 // What a pack says of a tile beside its stream.
 struct TileSummary {
   uint32_t bytes = 0;  // of the stream; 0: the tile has no terrain
-  uint32_t stream_check = 0;
+  uint32_t stream_hash = 0;
   uint32_t vertices = 0;
   int16_t lowest = 0, highest = 0;  // of them
   Verification measured;            // by the decoded stream

@@ -158,6 +158,8 @@ const std::vector<Words> kCommands = {
     {"verify", "t.mtp", "t.asc"},
     {"decode", "t.mtin", "-o", "new.ply"},
     {"decode", "t.mtin", "-o", "new.obj"},
+    {"decode", "t.mtin", "-o", "new.asc"},
+    {"decode", "t.mtin", "-o", "new.glb"},
     {"decode", "t.mtin", "-o", "-", "--lattice"},
     {"info", "t.mtin"},
     {"verify", "t.mtin", "t.asc", "--json"},
