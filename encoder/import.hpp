@@ -3,9 +3,12 @@
 #define MICROTIN_ENCODER_IMPORT_HPP
 
 #include <bitset>
+#include <memory>
 #include <optional>
 #include <string>
 
+#include "encoder/byte_source.hpp"
+#include "encoder/raster_reader.hpp"
 #include "encoder/source.hpp"
 
 namespace microtin {
@@ -20,12 +23,15 @@ Source import_terrain(const std::string& path, const std::optional<ClassSet>& cl
 
 // The formats, from a file's content. `name` goes into messages.
 
-// SRTM: 1201 or 3601 posts in a row, big-endian metres from the north-west corner, -32768 where
-// there is none. The name's first seven characters (N43E007) place the south-west post.
+// SRTM: a square of posts, 3601 in a row or any number from 2 on, of which the first and the last
+// lie a degree apart; big-endian metres from the north-west corner, -32768 where there is none. The
+// name's first seven characters (N43E007) place the south-west post.
 Raster import_hgt(const std::string& name, const std::string& bytes);
+std::unique_ptr<RasterReader> open_hgt(const std::string& name, std::unique_ptr<ByteSource> bytes);
 
 // ESRI ASCII grid. Heights lie at the centres of cells.
 Raster import_asc(const std::string& name, const std::string& text);
+std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<ByteSource> text);
 
 // Points, one a line: x, y and, if there is a third column, z; separated by blanks, tabs, commas or
 // semicolons. Lines that are blank or begin with # are skipped. The first other line may be a

@@ -254,7 +254,8 @@ TEST_CASE("cli: packs") {
   CHECK(contains(session.failure("encode points.xyz --tile-vertices 60 -o p.mtp"), "rasters"));
   CHECK(contains(session.failure("encode t.asc --tile-vertices 60 --xy-step 2 -o p.mtp"),
                  "--xy-step"));
-  CHECK(contains(session.failure("verify t.mtp points.xyz"), "posts of the pack"));
+  CHECK(contains(session.failure("verify t.mtp points.xyz"),
+                 "points.xyz: packs are made of rasters"));
   std::string damaged = session.read("t.mtp");
   damaged[damaged.size() - 9] ^= 4;
   session.write("damaged.mtp", damaged);
