@@ -6,6 +6,7 @@
 #include <string>
 
 #include "encoder/lattice_choice.hpp"
+#include "encoder/prepared_terrain.hpp"
 #include "encoder/simplify.hpp"
 
 namespace microtin {
@@ -20,10 +21,10 @@ struct EncodeRequest {
   Search search = Search::kNormal;
   uint64_t device_ram = 0;  // 0: unlimited
   Effort effort;
-  uint32_t fill_voids = 0;
+  Preparation preparation;
   uint32_t horizontal_epsg = 0;  // 0: what the input's format implies
   uint32_t vertical_epsg = 0;
-  std::string source_text;
+  std::string source_text, date, lineage;
 };
 
 void run_encode(const EncodeRequest& request);
@@ -43,7 +44,7 @@ void run_info(const std::string& input, bool json);
 struct VerifyRequest {
   std::string input;
   std::string source;
-  uint32_t fill_voids = 0;  // as the stream was encoded
+  Preparation preparation;  // as the stream was encoded
   bool json = false;
 };
 
@@ -52,7 +53,15 @@ void run_verify(const VerifyRequest& request);
 
 void run_fractal(const std::string& output, uint32_t size, uint64_t seed);
 
-void run_render(const std::string& input, const std::string& output, uint32_t width);
+struct RenderRequest {
+  std::string input;
+  std::string output;
+  std::string source;       // draw the distance from it, too; none if empty
+  Preparation preparation;  // of the source, as the stream was encoded
+  uint32_t width = 1024;
+};
+
+void run_render(const RenderRequest& request);
 
 }  // namespace microtin
 

@@ -12,10 +12,8 @@
 #include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
-#include "encoder/import.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/verify.hpp"
-#include "encoder/voids.hpp"
 
 namespace microtin {
 
@@ -31,6 +29,9 @@ Metadata metadata_of(const EncodeRequest& request, const Source& source,
   if (request.horizontal_epsg != 0) metadata.horizontal_epsg = request.horizontal_epsg;
   if (request.vertical_epsg != 0) metadata.vertical_epsg = request.vertical_epsg;
   metadata.source = request.source_text;
+  metadata.date = request.date;
+  metadata.lineage = request.lineage;
+  metadata.water_level = request.preparation.water_level;
   return metadata;
 }
 
@@ -163,15 +164,15 @@ std::string moved(Decimal displacement) {
   return ", values move by up to " + to_string(displacement);
 }
 
-std::string report(const Source& source, uint32_t filled, const Encoded& encoded) {
+std::string report(const PreparedTerrain& terrain, const Encoded& encoded) {
   const Laid& laid = encoded.laid;
-  const bool posts = std::holds_alternative<Raster>(source);
+  const bool posts = std::holds_alternative<Raster>(terrain.source);
   const Verification& measured = encoded.verification;
   std::ostringstream text;
   text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
   text << "source: " << measured.posts << (posts ? " posts" : " points");
   if (measured.voids != 0) text << ", " << measured.voids << " void posts";
-  if (filled != 0) text << ", " << filled << " of the posts were void and are filled";
+  text << told(terrain);
   text << "\nstep of x and y: " << to_string(laid.xy_step) << (posts ? " (in posts)" : "")
        << moved(laid.xy_displacement) << "\nstep of z: " << to_string(laid.z_step)
        << moved(laid.z_displacement) << '\n';
@@ -198,14 +199,14 @@ void run_encode(const EncodeRequest& request) {
   }
   refuse_overwriting(request.input, request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
-  Source source = import_terrain(request.input);
-  const uint32_t filled = fill_voids(source, request.fill_voids);
+  const PreparedTerrain terrain = prepared_terrain(request.input, request.preparation);
+  const Source& source = terrain.source;
   const Encoded encoded = about(request.input, [&] {
     ProgressBar bar;
     return request.max_bytes != 0 ? encode_within_bytes(source, request)
                                   : encode_measured(source, request, bar.progress());
   });
-  deliver(out, request.output, encoded.stream, report(source, filled, encoded));
+  deliver(out, request.output, encoded.stream, report(terrain, encoded));
 }
 
 }  // namespace microtin

@@ -1,14 +1,13 @@
 #include "encoder/cli_pack.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
-#include "encoder/import.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/pack_surface.hpp"
 #include "encoder/tile_plan.hpp"
-#include "encoder/voids.hpp"
 
 namespace microtin {
 namespace {
@@ -80,15 +79,26 @@ JsonObject tile_report(const PackFile& pack, uint32_t number) {
           {"rms_error", in_units(entry.root_mean_square, z)}};
 }
 
-// A line for each tile, under a line of names.
+// A line for each tile, under a line of names; columns end on the right.
 std::string table(const std::vector<JsonObject>& tiles) {
-  std::string text;
-  for (const auto& entry : tiles[0]) text += entry.first + '\t';
+  std::vector<std::vector<std::string>> lines(1);
+  for (const auto& entry : tiles[0]) lines[0].push_back(entry.first);
+  std::vector<std::size_t> widths(lines[0].size());
   for (const JsonObject& tile : tiles) {
-    text += '\n';
-    for (const auto& entry : tile) text += entry.second + '\t';
+    lines.emplace_back();
+    for (const auto& entry : tile) lines.back().push_back(entry.second);
   }
-  return text + '\n';
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      text += std::string(widths[i] - line[i].size() + (i == 0 ? 0 : 2), ' ') + line[i];
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 std::string array(const std::vector<JsonObject>& tiles) {
@@ -102,8 +112,8 @@ std::string array(const std::vector<JsonObject>& tiles) {
 void run_encode_pack(const EncodeRequest& request) {
   refuse_overwriting(request.input, request.output);
   OutputFile out(request.output);
-  Source source = import_terrain(request.input);
-  fill_voids(source, request.fill_voids);
+  const PreparedTerrain terrain = prepared_terrain(request.input, request.preparation);
+  const Source& source = terrain.source;
   const auto [pack, bytes] = about(request.input, [&] {
     const EncodedPack encoded = encode(source, request);
     Metadata metadata = metadata_of(request, source, encoded.placement);
@@ -152,8 +162,7 @@ void run_info_pack(const std::string& input, const std::vector<uint8_t>& bytes, 
 }
 
 void run_verify_pack(const VerifyRequest& request, const std::vector<uint8_t>& bytes) {
-  Source source = import_terrain(request.source);
-  fill_voids(source, request.fill_voids);
+  const Source source = prepared_terrain(request.source, request.preparation).source;
   const auto [bound, found] = about(request.input, [&] {
     const PackFile pack(bytes);
     const std::optional<Accuracy>& accuracy = pack.metadata().accuracy;

@@ -2,10 +2,8 @@
 #include "encoder/cli_pack.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error_context.hpp"
-#include "encoder/import.hpp"
 #include "encoder/pack_file.hpp"
 #include "encoder/verify.hpp"
-#include "encoder/voids.hpp"
 
 namespace microtin {
 
@@ -16,8 +14,7 @@ void run_verify(const VerifyRequest& request) {
     run_verify_pack(request, stream);
     return;
   }
-  Source source = import_terrain(request.source);
-  fill_voids(source, request.fill_voids);
+  const Source source = prepared_terrain(request.source, request.preparation).source;
   const DecodedTerrain terrain = about(input, [&] { return DecodedTerrain(stream); });
   const std::optional<Accuracy> accuracy = read_header(stream).metadata.accuracy;
   const std::optional<Decimal> bound = accuracy ? accuracy->bound : std::nullopt;

@@ -14,6 +14,8 @@ struct LatticeOptions {
   std::optional<Decimal> z_step;     // in the source's unit
   std::optional<Decimal> max_error;  // bound of the surface's distance from every height
   bool never_below = false;          // with a bound: the surface must not be below a height
+  std::optional<Decimal>
+      water_level;  // on the lattice; with a bound, heights equal to it are exact
 };
 
 // The maps take the source's numbers, refined to multiples of 10^-decimals, to the lattice.

@@ -79,8 +79,8 @@ SurfaceModel model_of(const PackFile& pack) {
   return model;
 }
 
-Verification verify(const PackFile& pack, const Source& source,
-                    const std::optional<Decimal>& bound) {
+Verification verify(const PackFile& pack, const Source& source, const std::optional<Decimal>& bound,
+                    const PostVisitor& visit) {
   const Raster& raster = posts_of(source, pack);
   std::vector<Verification> parts;
   std::map<GlobalPost, std::size_t> uncovered;  // by how many tiles
@@ -90,7 +90,10 @@ Verification verify(const PackFile& pack, const Source& source,
     const std::optional<DecodedTerrain> tile = pack.tile(number);
     const microtin_mesh* const mesh = tile ? tile->mesh() : nullptr;
     const Placement placement{part.x, part.y, pack.metadata().placement.z};
-    if (tile) parts.push_back(verify(mesh, placement, part, bound));
+    const PostVisitor visit_post = [&](int64_t x, int64_t y, int64_t z, double above) {
+      if (visit) visit(box.x + x, box.y + y, z, above);
+    };
+    if (tile) parts.push_back(verify(mesh, placement, part, bound, visit_post));
     if (tile && parts.back().uncovered == 0) continue;
     for (const GlobalPost post : uncovered_posts(mesh, part, box)) ++uncovered[post];
   }
