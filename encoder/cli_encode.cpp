@@ -117,10 +117,7 @@ Decimal height_range(const Source& source) {
     high = std::max(high, z);
   });
   if (low >= high) return {1, 0};
-  const auto* raster = std::get_if<Raster>(&source);
-  return make_decimal(Wide{high} - low, raster != nullptr
-                                            ? raster->decimals
-                                            : std::get<PointCloud>(source).z_decimals);
+  return make_decimal(Wide{high} - low, height_decimals(source));
 }
 
 // Nothing if points that share a place rule the bound out.

@@ -89,7 +89,7 @@ void draw_scale_bar(Canvas& canvas, Spot corner, double most, double unit, doubl
   }
   canvas.outline(box, std::max(1.0, 0.6 * unit), kInk);
   const std::string text =
-      grouped(told, decimals_for(told)) + (in_thousands ? " km" : " " + ground_unit);
+      grouped(told, decimals_for(told)) + " " + (in_thousands ? "k" : "") + ground_unit;
   draw_text(canvas, "0", {corner.x, corner.y + kLabelLine * unit}, unit, kInk);
   const double end =
       std::max(box.left + box.width - unit * text_width(text) / 2, corner.x + 12 * unit);

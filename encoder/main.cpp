@@ -169,6 +169,7 @@ void add_encode(CLI::App& app, Action& action) {
     if (request->lattice.never_below && !request->lattice.max_error && request->max_bytes == 0) {
       throw CLI::ValidationError("--never-below", "needs --max-error or --max-bytes");
     }
+    request->lattice.water_level = request->preparation.water_level;
     action = [request] { run_encode(*request); };
   });
 }

@@ -47,7 +47,7 @@ Ground ground_of(const SurfaceModel& model, Unit horizontal) {
     case Unit::kUnknown:
       break;
   }
-  return {x, y, ""};
+  return {x, y, "units"};
 }
 
 MapFrame fit_map(const SurfaceModel& model, const Ground& ground, double width, double height) {
@@ -56,8 +56,8 @@ MapFrame fit_map(const SurfaceModel& model, const Ground& ground, double width, 
   const auto rows = static_cast<double>(extent.north - extent.south);
   const double scale = std::max(columns * ground.x / width, rows * ground.y / height);
   MapFrame frame{};
-  frame.box.width = std::clamp(std::round(columns * ground.x / scale), 1.0, width);
-  frame.box.height = std::clamp(std::round(rows * ground.y / scale), 1.0, height);
+  frame.box.width = std::clamp(std::round(columns * ground.x / scale), 1.0, std::floor(width));
+  frame.box.height = std::clamp(std::round(rows * ground.y / scale), 1.0, std::floor(height));
   frame.west = static_cast<double>(extent.west);
   frame.north = static_cast<double>(extent.north);
   frame.x_step = columns / frame.box.width;

@@ -10,7 +10,7 @@ namespace microtin {
 // What a step of the lattice is on the ground.
 struct Ground {
   double x, y;       // of these units; the same unit for both
-  const char* unit;  // "m", "ft" or, if it is not known, ""
+  const char* unit;  // "m", "ft" or, if it is not known, "units"
 };
 
 // Of degrees, metres at the model's middle latitude.

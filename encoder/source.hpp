@@ -46,6 +46,12 @@ struct PointCloud {
 
 using Source = std::variant<Raster, PointCloud>;
 
+// Decimals of its heights.
+inline int height_decimals(const Source& source) {
+  const auto* raster = std::get_if<Raster>(&source);
+  return raster != nullptr ? raster->decimals : std::get<PointCloud>(source).z_decimals;
+}
+
 // From the numbers of a source (posts: column, row, height) to real coordinates.
 inline Placement placement_of(const Source& source) {
   const auto decimal_axis = [](int decimals) {
