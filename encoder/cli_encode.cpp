@@ -14,6 +14,7 @@
 #include "encoder/error_context.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/verify.hpp"
+#include "encoder/water.hpp"
 
 namespace microtin {
 
@@ -97,10 +98,11 @@ Encoded encode_measured(const Source& source, const EncodeRequest& request,
   const std::optional<Decimal>& bound = request.lattice.max_error;
   Metadata metadata = metadata_of(request, source, found.laid.placement);
   const auto [stream, decoded] = encode_and_decode(found.tin, metadata, request.effort);
-  const Verification measured = verify(decoded.mesh(), source, bound);
+  WaterGauge gauge(source, bound ? request.lattice.water_level : std::nullopt);
+  const Verification measured = verify(decoded.mesh(), source, bound, gauge.visitor());
   const bool too_low = request.lattice.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.uncovered != 0 ||
-      measured.voids_answered != 0) {
+      measured.voids_answered != 0 || gauge.moved() != 0) {
     throw Error("internal error: the decoded terrain does not keep what was asked for");
   }
   metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error};

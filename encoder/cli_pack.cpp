@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <sstream>
+#include <tuple>
 
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/pack_surface.hpp"
 #include "encoder/tile_plan.hpp"
+#include "encoder/water.hpp"
 
 namespace microtin {
 namespace {
@@ -122,8 +124,11 @@ void run_encode_pack(const EncodeRequest& request) {
     return std::pair(encoded, write_pack(encoded, metadata));
   });
   const PackFile written(bytes);
-  const Verification found = verify(written, source, request.lattice.max_error);
-  if (!found.within_bound || found.uncovered != 0 || found.voids_answered != 0) {
+  const std::optional<Decimal>& bound = request.lattice.max_error;
+  WaterGauge gauge(source, bound ? request.lattice.water_level : std::nullopt);
+  const Verification found = verify(written, source, bound, gauge.visitor());
+  if (!found.within_bound || found.uncovered != 0 || found.voids_answered != 0 ||
+      gauge.moved() != 0) {
     throw Error("internal error: the pack does not keep what was asked for");
   }
   deliver(out, request.output, bytes, report(pack, bytes.size(), request.lattice.max_error));
@@ -163,13 +168,14 @@ void run_info_pack(const std::string& input, const std::vector<uint8_t>& bytes, 
 
 void run_verify_pack(const VerifyRequest& request, const std::vector<uint8_t>& bytes) {
   const Source source = prepared_terrain(request.source, request.preparation).source;
-  const auto [bound, found] = about(request.input, [&] {
+  const auto [promise, found, moved] = about(request.input, [&] {
     const PackFile pack(bytes);
-    const std::optional<Accuracy>& accuracy = pack.metadata().accuracy;
-    const std::optional<Decimal> promised = accuracy ? accuracy->bound : std::nullopt;
-    return std::pair(promised, verify(pack, source, promised));
+    const Promise kept = promise_of(pack.metadata(), request.preparation);
+    WaterGauge gauge(source, kept.water_level);
+    const Verification all = verify(pack, source, kept.bound, gauge.visitor());
+    return std::tuple(kept, all, gauge.moved());
   });
-  report_and_judge(request, bound, found);
+  report_and_judge(request, promise, found, moved);
 }
 
 }  // namespace microtin

@@ -109,16 +109,10 @@ AxisGroup height_group(const Range& z, int decimals, const LatticeOptions& optio
           INT16_MIN,
           INT16_MAX,
           "--z-step",
-          water_number(options, decimals)};
+          number_of(options.water_level, decimals)};
 }
 
 }  // namespace
-
-std::optional<int64_t> water_number(const LatticeOptions& options, int height_decimals) {
-  const std::optional<Decimal>& level = options.water_level;
-  if (!level || level->decimals > height_decimals) return std::nullopt;
-  return static_cast<int64_t>(mantissa_at(*level, height_decimals));
-}
 
 Lattice choose_post_lattice(const Raster& raster, const LatticeOptions& options) {
   Range z;

@@ -91,9 +91,10 @@ class Sampler {
     narrowest_ = std::min(narrowest_, highest - lowest);
     sample.lowest = saturated(ceil_divide(lowest * kOne, map_.step));
     sample.highest = saturated(floor_divide(highest * kOne, map_.step));
+    if (water_) keep_dry(heights, lowest, highest, sample);
     if (lowest > highest) {
       if (walls_++ == 0) first_wall_ = {place, heights};
-    } else if (ceil_divide(lowest, map_.step) > floor_divide(highest, map_.step)) {
+    } else if (ceil_divide(sample.lowest, kOne) > floor_divide(sample.highest, kOne)) {
       ++without_step_;
     }
     return sample;
@@ -120,6 +121,19 @@ class Sampler {
   }
 
  private:
+  // Land is not at the water level, else it would pass for water.
+  void keep_dry(Heights heights, Wide lowest, Wide highest, Sample& sample) {
+    const Wide level = map_.numerator(*water_);
+    const int32_t answer = saturated(level / map_.step * kOne);
+    if (heights.low > *water_ && lowest <= level) {
+      sample.lowest = answer + 1;
+      narrowest_ = std::min(narrowest_, highest - level);
+    } else if (heights.high < *water_ && highest >= level) {
+      sample.highest = answer - 1;
+      narrowest_ = std::min(narrowest_, level - lowest);
+    }
+  }
+
   struct Wall {
     Point place;
     Heights heights;
@@ -177,7 +191,7 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
   Placing placing(lattice);
   for_each_post(source, [&](int64_t x, int64_t y, int64_t z) { placing.add(x, y, z); });
   placing.sort();
-  Sampler sampler(lattice, options, water_number(options, height_decimals(source)));
+  Sampler sampler(lattice, options, number_of(options.water_level, height_decimals(source)));
   Laid laid;
   laid.survey.samples = make_samples(placing.posts(), sampler);
   sampler.check(lattice.placement, placement_of(source).z);

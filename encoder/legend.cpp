@@ -15,6 +15,23 @@ int decimals_for(double step) {
   return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
 }
 
+double label_width(double value, double step) {
+  return text_width(grouped(value, decimals_for(step)));
+}
+
+// The finest round step whose numbers do not crowd a ramp of so many units.
+double tick_step(double low, double high, double units) {
+  const double range = std::max(high - low, 1e-9);
+  const double coarsest = round_length(range);
+  double best = coarsest;
+  for (double step = coarsest; step > 1e-9; step = round_length(step * 0.99)) {
+    const double label = std::max(label_width(low, step), label_width(high, step));
+    if (step / range * units < 1.5 * label + 3) break;
+    best = step;
+  }
+  return best;
+}
+
 void draw_label(Canvas& canvas, const std::string& text, double middle, double top, double left,
                 double right, double unit) {
   const double width = unit * text_width(text);
@@ -61,13 +78,8 @@ void draw_ramp(Canvas& canvas, Spot corner, double width, double unit, double lo
     canvas.fill({corner.x + x, corner.y, step, box.height}, colour((x + step / 2) / width));
   }
   canvas.outline(box, std::max(1.0, 0.6 * unit), kInk);
-  // As many numbers as there is room for.
-  const double label = text_width(grouped(-std::max(std::abs(low), std::abs(high)), 0)) + 8;
   const double range = std::max(high - low, 1e-9);
-  double step = round_length(range);
-  while (range / step < 1.5 || 2.5 * range / step * label * unit <= width) {
-    step = round_length(step * 0.99);
-  }
+  const double step = tick_step(low, high, width / unit);
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * range; ++i) {
     const double x = corner.x + width * (i * step - low) / range;
     canvas.fill({x - unit * 0.4, corner.y + box.height, unit * 0.8, kTick * unit}, kInk);

@@ -101,7 +101,7 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
                      "Interpolate voids of up to so many posts");
   CLI::Option* const level = add_height(
       command, "--water-level", preparation.water_level,
-      "What is void then is water at this height, and so are posts at this height (rasters)");
+      "Voids that are left are water at this height, as are posts at this height (rasters)");
   command
       .add_option("--water-mask", preparation.water_mask,
                   "An .asc grid of the terrain's posts: 1 where voids are water, else 0")

@@ -14,8 +14,8 @@ namespace microtin {
 // tiles give a vertex on their border different heights.
 SurfaceModel model_of(const PackFile& pack);
 
-// As for a mesh; every post counts once, but those on borders are visited for each of their tiles,
-// and a post on a border is covered if one of its tiles covers it.
+// As for a mesh; every post counts once, and a post on a border is covered if one of its tiles
+// covers it. Posts on borders are visited for each tile that covers them.
 Verification verify(const PackFile& pack, const Source& source, const std::optional<Decimal>& bound,
                     const PostVisitor& visit = {});
 

@@ -43,7 +43,7 @@ std::optional<int64_t> water_step(const Metadata& metadata) {
   const Wide distance = Wide{metadata.water_level->mantissa} * static_cast<Wide>(z.denominator) -
                         Wide{z.offset} * tens;
   const Wide step = static_cast<Wide>(z.numerator) * tens;
-  if (distance % step != 0) return std::nullopt;
+  if (distance % step != 0 || magnitude(distance / step) > INT16_MAX + 1) return std::nullopt;
   return static_cast<int64_t>(distance / step);
 }
 
@@ -193,7 +193,7 @@ std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
             {kMargin * layout.unit, (kMargin + kCapHeight) * layout.unit}, layout.unit,
             layout.width - 2 * kMargin * layout.unit);
   draw_background(canvas, layout.relief, layout.unit);
-  relief.draw(canvas, layout.relief, 0.8 * layout.unit);
+  relief.draw(canvas, layout.relief, 0.8 * std::sqrt(layout.unit));
   draw_relief_legend(canvas, portrait, relief, ground, layout);
   if (comparison != nullptr) {
     draw_background(canvas, layout.errors, layout.unit);

@@ -31,18 +31,26 @@ void refine(Raster& raster, int decimals) {
 }  // namespace
 
 uint32_t flood_voids(Raster& raster, Decimal level, const Raster* mask) {
-  constexpr Wide kLargest = 1000000000000000000;
   refine(raster, level.decimals);
-  const Wide height = mantissa_at(level, raster.decimals);
-  if (magnitude(height) > kLargest) throw Error("the water level is out of range");
+  const std::optional<int64_t> height = number_of(level, raster.decimals);
+  if (!height) throw Error("the water level is out of range");
   uint32_t flooded = 0;
   for (size_t i = 0; i < raster.heights.size(); ++i) {
     if (raster.heights[i] != kVoidHeight) continue;
     if (mask != nullptr && mask->heights[i] != power_of_ten(mask->decimals)) continue;
-    raster.heights[i] = static_cast<int64_t>(height);
+    raster.heights[i] = *height;
     ++flooded;
   }
   return flooded;
+}
+
+WaterGauge::WaterGauge(const Source& source, const std::optional<Decimal>& level)
+    : number_(number_of(level, height_decimals(source))) {}
+
+PostVisitor WaterGauge::visitor() {
+  return [this](int64_t, int64_t, int64_t z, double above) {
+    if (z == number_ && above != 0) ++moved_;
+  };
 }
 
 void check_water_mask(const Raster& mask, const Raster& raster) {
