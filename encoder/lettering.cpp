@@ -74,13 +74,22 @@ double advance_of(const Glyph* glyph) {
   return glyph != nullptr ? glyph->width + kGap : kBlank;
 }
 
-std::vector<Spot> points_of(std::string_view line) {
-  std::vector<Spot> points;
+// Enough for eight points that are cut three times.
+struct Polyline {
+  std::array<Spot, 64> points{};
+  size_t size = 0;
+
+  void add(Spot spot) { points[size++] = spot; }
+  Spot last() const { return points[size - 1]; }
+};
+
+Polyline points_of(std::string_view line) {
+  Polyline polyline;
   for (size_t i = 0; i + 1 < line.size(); i += 2) {
     const char y = line[i + 1];
-    points.push_back({line[i] - '0' + 0.0, y < 'a' ? y - '0' + 0.0 : 'a' - y - 1.0});
+    polyline.add({line[i] - '0' + 0.0, y < 'a' ? y - '0' + 0.0 : 'a' - y - 1.0});
   }
-  return points;
+  return polyline;
 }
 
 Spot between(Spot a, Spot b, double t) {
@@ -88,28 +97,29 @@ Spot between(Spot a, Spot b, double t) {
 }
 
 // Cuts the corners (Chaikin): again and again, that comes to a quadratic B-spline.
-std::vector<Spot> rounded(const std::vector<Spot>& points) {
-  const Spot first = points.front(), last = points.back();
+Polyline rounded(const Polyline& line) {
+  const Spot first = line.points[0], last = line.last();
   const bool closed = first.x == last.x && first.y == last.y;
-  std::vector<Spot> cut;
-  if (!closed) cut.push_back(first);
-  for (size_t i = 0; i + 1 < points.size(); ++i) {
-    const Spot a = points[i], b = points[i + 1];
-    if (closed || i != 0) cut.push_back(between(a, b, 0.25));
-    if (closed || i + 2 != points.size()) cut.push_back(between(a, b, 0.75));
+  Polyline cut;
+  if (!closed) cut.add(first);
+  for (size_t i = 0; i + 1 < line.size; ++i) {
+    const Spot a = line.points[i], b = line.points[i + 1];
+    if (closed || i != 0) cut.add(between(a, b, 0.25));
+    if (closed || i + 2 != line.size) cut.add(between(a, b, 0.75));
   }
-  cut.push_back(closed ? cut.front() : last);
+  cut.add(closed ? cut.points[0] : last);
   return cut;
 }
 
 void draw_line(Canvas& canvas, std::string_view line, Spot start, double unit, Colour colour) {
   constexpr int kCuts = 3;
   const bool round = line.front() == '~';
-  std::vector<Spot> points = points_of(line.substr(round ? 1 : 0));
-  for (int i = 0; round && i < kCuts; ++i) points = rounded(points);
+  Polyline polyline = points_of(line.substr(round ? 1 : 0));
+  for (int i = 0; round && i < kCuts; ++i) polyline = rounded(polyline);
   const auto on_canvas = [&](Spot p) { return Spot{start.x + unit * p.x, start.y - unit * p.y}; };
-  for (size_t i = 0; i + 1 < points.size(); ++i) {
-    canvas.stroke(on_canvas(points[i]), on_canvas(points[i + 1]), kPen * unit, colour);
+  for (size_t i = 0; i + 1 < polyline.size; ++i) {
+    canvas.stroke(on_canvas(polyline.points[i]), on_canvas(polyline.points[i + 1]), kPen * unit,
+                  colour);
   }
 }
 
