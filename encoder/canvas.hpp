@@ -30,23 +30,27 @@ struct Box {
 template <class Visit>
 void for_each_pixel_near(Spot a, Spot b, double reach, const Box& within, const Visit& visit) {
   const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-  const double first_row = std::max(std::min(a.y, b.y) - reach, within.top);
-  const double last_row = std::min(std::max(a.y, b.y) + reach, within.top + within.height - 0.5);
-  for (double y = std::floor(first_row) + 0.5; y <= last_row; ++y) {
-    if (y < first_row) continue;
+  // The pixels with middles in a range: the first, and the one behind the last.
+  const auto first = [](double low) { return static_cast<uint32_t>(std::ceil(low - 0.5)); };
+  const auto end = [](double high) {
+    return static_cast<uint32_t>(std::max(0.0, std::floor(high + 0.5)));
+  };
+  const double top = std::max(std::min(a.y, b.y) - reach, within.top);
+  const double bottom = std::min(std::max(a.y, b.y) + reach, within.top + within.height);
+  for (uint32_t row = first(top); row < end(bottom); ++row) {
+    const double y = row + 0.5;
     // The part of the segment that is near this row.
     const double t0 = dy == 0 ? 0 : std::clamp((y - reach - a.y) / dy, 0.0, 1.0);
     const double t1 = dy == 0 ? 1 : std::clamp((y + reach - a.y) / dy, 0.0, 1.0);
     const double x0 = a.x + t0 * dx, x1 = a.x + t1 * dx;
     const double left = std::max(std::min(x0, x1) - reach, within.left);
-    const double right = std::min(std::max(x0, x1) + reach, within.left + within.width - 0.5);
-    for (double x = std::floor(left) + 0.5; x <= right; ++x) {
+    const double right = std::min(std::max(x0, x1) + reach, within.left + within.width);
+    for (uint32_t column = first(left); column < end(right); ++column) {
+      const double x = column + 0.5;
       const double t =
           square == 0 ? 0 : std::clamp(((x - a.x) * dx + (y - a.y) * dy) / square, 0.0, 1.0);
       const double distance = std::hypot(x - a.x - t * dx, y - a.y - t * dy);
-      if (x >= left && distance < reach) {
-        visit(static_cast<uint32_t>(x), static_cast<uint32_t>(y), distance);
-      }
+      if (distance < reach) visit(column, row, distance);
     }
   }
 }

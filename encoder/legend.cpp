@@ -21,13 +21,14 @@ double label_width(double value, double step) {
 
 // The finest round step whose numbers do not crowd a ramp of so many units.
 double tick_step(double low, double high, double units) {
-  const double range = std::max(high - low, 1e-9);
+  const double range = high - low;
   const double coarsest = round_length(range);
-  double best = coarsest;
-  for (double step = coarsest; step > 1e-9; step = round_length(step * 0.99)) {
+  double best = coarsest, step = coarsest;
+  while (step > 1e-9) {
     const double label = std::max(label_width(low, step), label_width(high, step));
     if (step / range * units < 1.5 * label + 3) break;
     best = step;
+    step = round_length(step * 0.99);
   }
   return best;
 }
@@ -73,18 +74,21 @@ double round_length(double most) {
 void draw_ramp(Canvas& canvas, Spot corner, double width, double unit, double low, double high,
                const std::function<Colour(double)>& colour) {
   const Box box{corner.x, corner.y, width, kBarHeight * unit};
-  for (double x = 0; x < width; ++x) {
+  for (uint32_t x = 0; x < width; ++x) {
     const double step = std::min(1.0, width - x);
     canvas.fill({corner.x + x, corner.y, step, box.height}, colour((x + step / 2) / width));
   }
   canvas.outline(box, std::max(1.0, 0.6 * unit), kInk);
-  const double range = std::max(high - low, 1e-9);
+  if (high <= low) return;  // one colour, told already
   const double step = tick_step(low, high, width / unit);
-  for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * range; ++i) {
-    const double x = corner.x + width * (i * step - low) / range;
+  const double first = step * std::ceil(low / step - 1e-9);
+  const auto ticks = static_cast<uint32_t>((high - first) / step + 1 + 1e-9);
+  for (uint32_t tick = 0; tick < ticks; ++tick) {
+    const double value = first + tick * step;
+    const double x = corner.x + width * (value - low) / (high - low);
     canvas.fill({x - unit * 0.4, corner.y + box.height, unit * 0.8, kTick * unit}, kInk);
-    draw_label(canvas, grouped(i * step, decimals_for(step)), x, corner.y, corner.x,
-               corner.x + width, unit);
+    draw_label(canvas, grouped(value, decimals_for(step)), x, corner.y, corner.x, corner.x + width,
+               unit);
   }
 }
 

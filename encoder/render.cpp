@@ -86,7 +86,9 @@ void draw_background(Canvas& canvas, const MapFrame& frame, double unit) {
   const Box& box = frame.box;
   canvas.fill(box, kNoTerrain);
   const double step = 6 * unit, reach = 0.4 * unit + 0.5;
-  for (double start = -box.height; start < box.width; start += step) {
+  const auto lines = static_cast<uint32_t>((box.width + box.height) / step) + 1;
+  for (uint32_t line = 0; line < lines; ++line) {
+    const double start = line * step - box.height;
     for_each_pixel_near({start, box.height}, {start + box.height, 0}, reach,
                         {0, 0, box.width, box.height},
                         [&](uint32_t column, uint32_t row, double distance) {

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cstdlib>
+
 #include "encoder/approximation.hpp"
 #include "encoder/encode.hpp"
 #include "encoder/error.hpp"
@@ -25,7 +27,8 @@ Raster raster_of(uint32_t width, std::vector<int64_t> heights) {
 // Hills around a bay, an island, and beaches just above and below its level of 5.
 Raster coast() {
   Raster raster = rough_raster(61, 53, [](int x, int y) {
-    return x > 30 && y < 25 && !(x > 40 && x < 46 && y > 8 && y < 12);
+    const bool on_island = std::abs(x - 43) < 3 && std::abs(y - 10) < 2;
+    return x > 30 && y < 25 && !on_island;
   });
   for (int64_t& height : raster.heights) {
     if (height != kV && height > 0 && height < 10) height = 4 + height % 3;
