@@ -31,7 +31,7 @@ Raster coast() {
     return x > 30 && y < 25 && !on_island;
   });
   for (int64_t& height : raster.heights) {
-    if (height != kV && height > 0 && height < 10) height = 4 + height % 3;
+    if (height > 0 && height < 10) height = 4 + height % 3;
   }
   flood_voids(raster, {5, 0}, nullptr);
   return raster;
