@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "encoder/import.hpp"
 #include "encoder/lattice_choice.hpp"
 #include "encoder/pack_encode.hpp"
+#include "encoder/prepared_terrain.hpp"
 #include "encoder/simplify.hpp"
 
 namespace microtin {
@@ -17,7 +17,6 @@ namespace microtin {
 struct EncodeRequest {
   std::string input;
   std::string output;
-  std::optional<ClassSet> classes;
   LatticeOptions lattice;
   uint32_t max_vertices = 0;       // 0: as many as it takes
   uint32_t tile_vertices = 0;      // 0: one stream; else a pack, with at most so many in a tile
@@ -27,10 +26,10 @@ struct EncodeRequest {
   Search search = Search::kNormal;
   uint64_t device_ram = 0;  // 0: unlimited
   Effort effort;
-  uint32_t fill_voids = 0;
+  Preparation preparation;
   uint32_t horizontal_epsg = 0;  // 0: what the input's format implies
   uint32_t vertical_epsg = 0;
-  std::string source_text;
+  std::string source_text, date, lineage;
 };
 
 void run_encode(const EncodeRequest& request);
@@ -56,8 +55,7 @@ void run_info(const std::string& input, bool json);
 struct VerifyRequest {
   std::string input;
   std::string source;
-  std::optional<ClassSet> classes;
-  uint32_t fill_voids = 0;  // as the stream was encoded
+  Preparation preparation;  // as the stream was encoded
   bool json = false;
 };
 
@@ -66,7 +64,15 @@ void run_verify(const VerifyRequest& request);
 
 void run_fractal(const std::string& output, uint32_t size, uint64_t seed);
 
-void run_render(const std::string& input, const std::string& output, uint32_t width);
+struct RenderRequest {
+  std::string input;
+  std::string output;
+  std::string source;       // draw the distance from it, too; none if empty
+  Preparation preparation;  // of the source, as the stream was encoded
+  uint32_t width = 1024;
+};
+
+void run_render(const RenderRequest& request);
 
 }  // namespace microtin
 

@@ -12,10 +12,9 @@
 #include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
-#include "encoder/import.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/verify.hpp"
-#include "encoder/voids.hpp"
+#include "encoder/water.hpp"
 
 namespace microtin {
 
@@ -30,6 +29,9 @@ Metadata metadata_of(const EncodeRequest& request, const Reference& reference,
   if (request.horizontal_epsg != 0) metadata.horizontal_epsg = request.horizontal_epsg;
   if (request.vertical_epsg != 0) metadata.vertical_epsg = request.vertical_epsg;
   metadata.source = request.source_text;
+  metadata.date = request.date;
+  metadata.lineage = request.lineage;
+  metadata.water_level = request.preparation.water_level;
   return metadata;
 }
 
@@ -97,10 +99,11 @@ Encoded encode_measured(const Source& source, const EncodeRequest& request,
   const Reference reference = std::visit([](const auto& s) { return s.reference; }, source);
   Metadata metadata = metadata_of(request, reference, found.laid.placement);
   const auto [stream, decoded] = encode_and_decode(found.tin, metadata, request.effort);
-  const Verification measured = verify(decoded.mesh(), source, bound);
+  WaterGauge gauge(height_decimals(source), bound ? request.lattice.water_level : std::nullopt);
+  const Verification measured = verify(decoded.mesh(), source, bound, gauge.visitor());
   const bool too_low = request.lattice.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.uncovered != 0 ||
-      measured.voids_answered != 0) {
+      measured.voids_answered != 0 || gauge.moved() != 0) {
     throw Error("internal error: the decoded terrain does not keep what was asked for");
   }
   metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error};
@@ -117,10 +120,7 @@ Decimal height_range(const Source& source) {
     high = std::max(high, z);
   });
   if (low >= high) return {1, 0};
-  const auto* raster = std::get_if<Raster>(&source);
-  return make_decimal(Wide{high} - low, raster != nullptr
-                                            ? raster->decimals
-                                            : std::get<PointCloud>(source).z_decimals);
+  return make_decimal(Wide{high} - low, height_decimals(source));
 }
 
 // Nothing if points that share a place rule the bound out.
@@ -164,18 +164,15 @@ std::string moved(Decimal displacement) {
   return ", values move by up to " + to_string(displacement);
 }
 
-std::string report(const Source& source, uint32_t filled, const Encoded& encoded) {
+std::string report(const PreparedTerrain& terrain, const Encoded& encoded) {
   const Laid& laid = encoded.laid;
-  const bool posts = std::holds_alternative<Raster>(source);
+  const bool posts = std::holds_alternative<Raster>(terrain.source);
   const Verification& measured = encoded.verification;
   std::ostringstream text;
   text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
   text << "source: " << measured.posts << (posts ? " posts" : " points");
   if (measured.voids != 0) text << ", " << measured.voids << " void posts";
-  if (filled != 0) text << ", " << filled << " of the posts were void and are filled";
-  if (!posts && !std::get<PointCloud>(source).selection.empty()) {
-    text << ", " << std::get<PointCloud>(source).selection;
-  }
+  text << told(terrain);
   text << "\nstep of x and y: " << to_string(laid.xy_step) << (posts ? " (in posts)" : "")
        << moved(laid.xy_displacement) << "\nstep of z: " << to_string(laid.z_step)
        << moved(laid.z_displacement) << '\n';
@@ -202,15 +199,15 @@ void run_encode(const EncodeRequest& request) {
   }
   refuse_overwriting(request.input, request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
-  Source source = import_terrain(request.input, request.classes);
-  const uint32_t filled = fill_voids(source, request.fill_voids);
+  const PreparedTerrain terrain = prepared_terrain(request.input, request.preparation);
+  const Source& source = terrain.source;
   const Encoded encoded = about(request.input, [&] {
     ProgressBar bar;
     return request.max_bytes != 0 ? encode_within_bytes(source, request)
                                   : encode_measured(source, request, bar.progress());
   });
   out.write(encoded.stream);
-  deliver(out, request.output, report(source, filled, encoded));
+  deliver(out, request.output, report(terrain, encoded));
 }
 
 }  // namespace microtin

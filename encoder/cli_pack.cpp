@@ -13,6 +13,7 @@
 #include "encoder/shard.hpp"
 #include "encoder/stream_spool.hpp"
 #include "encoder/tile_plan.hpp"
+#include "encoder/water.hpp"
 
 namespace microtin {
 namespace {
@@ -39,7 +40,7 @@ PackOptions pack_options(const EncodeRequest& request, const Progress& progress)
 }
 
 std::unique_ptr<RasterReader> open_terrain(const EncodeRequest& request) {
-  return with_voids_filled(open_raster(request.input), request.fill_voids);
+  return prepared_raster(request.input, request.preparation);
 }
 
 PackContent content_of(const PackPlan& plan, const EncodeRequest& request) {
@@ -154,15 +155,26 @@ JsonObject tile_report(const PackFile& pack, uint32_t number) {
           {"rms_error", in_units(entry.root_mean_square, z)}};
 }
 
-// A line for each tile, under a line of names.
+// A line for each tile, under a line of names; columns end on the right.
 std::string table(const std::vector<JsonObject>& tiles) {
-  std::string text;
-  for (const auto& entry : tiles[0]) text += entry.first + '\t';
+  std::vector<std::vector<std::string>> lines(1);
+  for (const auto& entry : tiles[0]) lines[0].push_back(entry.first);
+  std::vector<std::size_t> widths(lines[0].size());
   for (const JsonObject& tile : tiles) {
-    text += '\n';
-    for (const auto& entry : tile) text += entry.second + '\t';
+    lines.emplace_back();
+    for (const auto& entry : tile) lines.back().push_back(entry.second);
   }
-  return text + '\n';
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      text += std::string(widths[i] - line[i].size() + (i == 0 ? 0 : 2), ' ') + line[i];
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 std::string array(const std::vector<JsonObject>& tiles) {
@@ -248,15 +260,16 @@ void run_info_pack(const PackFile& pack, bool as_json) {
 }
 
 void run_verify_pack(const VerifyRequest& request, const PackFile& pack) {
-  const std::unique_ptr<RasterReader> raster =
-      with_voids_filled(open_raster(request.source), request.fill_voids);
-  const std::optional<Accuracy>& accuracy = pack.metadata().accuracy;
-  const std::optional<Decimal> bound = accuracy ? accuracy->bound : std::nullopt;
+  const std::unique_ptr<RasterReader> raster = prepared_raster(request.source, request.preparation);
+  const Promise promise =
+      about(request.input, [&] { return promise_of(pack.metadata(), request.preparation); });
+  WaterGauge gauge(raster->frame().decimals, promise.water_level);
   const Verification found = about(request.input, [&] {
     ProgressBar bar;
-    return verify(pack, *raster, bound, bar.progress());
+    return verify(pack, *raster, promise.bound, bar.progress(),
+                  promise.water_level ? gauge.visitor() : PostVisitor());
   });
-  report_and_judge(request, bound, found);
+  report_and_judge(request, promise, found, gauge.moved());
 }
 
 }  // namespace microtin

@@ -27,9 +27,18 @@ void add_placement(JsonObject& report, const Metadata& metadata);
 void add_notes(JsonObject& report, const Metadata& metadata);
 void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy);
 
+// What a header promises of the heights.
+struct Promise {
+  std::optional<Decimal> bound;
+  std::optional<Decimal> water_level;  // at which posts are exact
+};
+
+// Throws Error if the source was given another water level.
+Promise promise_of(const Metadata& metadata, const Preparation& preparation);
+
 // Throws Error, after the report, if there is something wrong.
-void report_and_judge(const VerifyRequest& request, const std::optional<Decimal>& bound,
-                      const Verification& found);
+void report_and_judge(const VerifyRequest& request, const Promise& promise,
+                      const Verification& found, uint64_t water_moved);
 
 }  // namespace microtin
 

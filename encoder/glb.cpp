@@ -6,9 +6,10 @@
 #include <cstring>
 #include <limits>
 
+#include "encoder/colour.hpp"
 #include "encoder/error.hpp"
 #include "encoder/json.hpp"
-#include "encoder/tint.hpp"
+#include "encoder/vector.hpp"
 
 namespace microtin {
 namespace {
@@ -73,12 +74,12 @@ class Scene {
   // Linear red, green and blue, and full opacity, in 255ths.
   std::array<uint8_t, 4> colour(size_t vertex) const {
     const double range = std::max<double>(1, static_cast<double>(high_[2] - low_[2]));
-    const Vector c = tint(static_cast<double>(model_.vertices[vertex][2] - low_[2]) / range);
+    const Colour c = tint(static_cast<double>(model_.vertices[vertex][2] - low_[2]) / range);
     const auto linear = [](double s) {
       const double l = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
       return static_cast<uint8_t>(std::lround(255 * l));
     };
-    return {linear(c.x), linear(c.y), linear(c.z), 255};
+    return {linear(c.r), linear(c.g), linear(c.b), 255};
   }
 
  private:

@@ -16,7 +16,8 @@ struct AxisGroup {
   int decimals;         // of the numbers
   int needed_decimals;  // of the refined numbers, at least
   int lattice_low, lattice_high;
-  const char* option;  // that sets the step
+  const char* option;                  // that sets the step
+  std::optional<int64_t> anchor = {};  // a number that must be on the lattice
 };
 
 struct GroupFit {
@@ -25,11 +26,13 @@ struct GroupFit {
 };
 
 // The map of one axis, if the range is not too wide.
-std::optional<LatticeMap> fit(const NumberRange& range, Wide scale, Wide step, int lattice_low,
-                              int lattice_high) {
+std::optional<LatticeMap> fit(const NumberRange& range, Wide scale, Wide step,
+                              const AxisGroup& group) {
+  const auto rest_of = [step](Wide number) { return number - floor_divide(number, step) * step; };
+  const int lattice_low = group.lattice_low, lattice_high = group.lattice_high;
   const Wide low = scale * range.low;
   const bool same_rest = scale * range.spacing % step == 0;
-  const Wide rest = same_rest ? low - floor_divide(low, step) * step : 0;
+  const Wide rest = group.anchor ? rest_of(scale * *group.anchor) : same_rest ? rest_of(low) : 0;
   const Wide first = floor_divide(low - rest, step) * step + rest;
   for (const Wide shift : {-rest, -first, lattice_low * step - first}) {
     const LatticeMap map{scale, shift, step};
@@ -45,8 +48,7 @@ GroupFit fit_all(const AxisGroup& group, Decimal step) {
   fits.decimals = std::max({group.decimals, group.needed_decimals, step.decimals});
   const Wide scale = power_of_ten(fits.decimals - group.decimals);
   for (const NumberRange& range : group.ranges) {
-    const auto map =
-        fit(range, scale, mantissa_at(step, fits.decimals), group.lattice_low, group.lattice_high);
+    const auto map = fit(range, scale, mantissa_at(step, fits.decimals), group);
     if (!map) return {};
     fits.maps.push_back(*map);
   }
@@ -87,8 +89,13 @@ Axis lattice_axis(const Axis& source, const LatticeMap& map) {
 
 AxisGroup height_group(const NumberRange& z, int decimals, const LatticeOptions& options) {
   if (z.empty()) throw Error("there is no height");
-  return {{z},       decimals,  options.max_error ? options.max_error->decimals : 0,
-          INT16_MIN, INT16_MAX, "--z-step"};
+  return {{z},
+          decimals,
+          options.max_error ? options.max_error->decimals : 0,
+          INT16_MIN,
+          INT16_MAX,
+          "--z-step",
+          number_of(options.water_level, decimals)};
 }
 
 }  // namespace
@@ -134,8 +141,7 @@ Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
   const auto* cloud = std::get_if<PointCloud>(&source);
   const AxisGroup places{{x, y},     cloud != nullptr ? cloud->xy_decimals : 0, 0, 0, kLatticeMax,
                          "--xy-step"};
-  const AxisGroup heights =
-      height_group(z, cloud != nullptr ? cloud->z_decimals : raster->decimals, options);
+  const AxisGroup heights = height_group(z, height_decimals(source), options);
   const GroupFit xy = choose(places, options.xy_step);
   const GroupFit up = choose(heights, options.z_step);
   const Placement numbers = placement_of(source);

@@ -16,6 +16,9 @@ struct LatticeOptions {
   std::optional<Decimal> z_step;     // in the source's unit
   std::optional<Decimal> max_error;  // bound of the surface's distance from every height
   bool never_below = false;          // with a bound: the surface must not be below a height
+  // No more decimals than the heights'. It is on the lattice, and with a bound the surface is at
+  // this height exactly at posts of this height, and at no others.
+  std::optional<Decimal> water_level = {};
 };
 
 // The maps take the source's numbers, refined to multiples of 10^-decimals, to the lattice.

@@ -11,8 +11,10 @@
 #include "encoder/cli_commands.hpp"
 #include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
+#include "encoder/iso_date.hpp"
 #include "encoder/leftovers.hpp"
 #include "encoder/pack_encode.hpp"
+#include "encoder/render.hpp"
 #include "encoder/tile_plan.hpp"
 #include "shared/format.hpp"
 
@@ -31,6 +33,17 @@ constexpr const char* kTerrainFiles =
 
 void add_output(CLI::App& command, std::string& path) {
   command.add_option("-o,--output", path, "File to write; - is standard output")->required();
+}
+
+CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
+                        const std::string& description) {
+  return command.add_option_function<std::string>(
+      name,
+      [&value, name](const std::string& text) {
+        value = parse_decimal(text);
+        if (!value) throw CLI::ValidationError(name, text + " is not a decimal number");
+      },
+      description);
 }
 
 CLI::Option* add_decimal(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
@@ -135,11 +148,38 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
       ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));
 }
 
+// For encoding, and alike for every comparison with the source.
+void add_preparation(CLI::App& command, Preparation& preparation) {
+  add_classes(command, preparation.classes);
+  command.add_option("--fill-voids", preparation.fill_voids,
+                     "Interpolate voids of up to so many posts");
+  CLI::Option* const level = add_height(
+      command, "--water-level", preparation.water_level,
+      "Voids that are left are water at this height, as are posts at this height (rasters)");
+  command
+      .add_option("--water-mask", preparation.water_mask,
+                  "An .asc grid of the terrain's posts: 1 where voids are water, else 0")
+      ->needs(level);
+}
+
+// What the header tells people.
+void add_notes(CLI::App& command, EncodeRequest& request) {
+  command.add_option_function<std::string>(
+      "--epsg", [&request](const std::string& text) { set_epsg(text, request); },
+      "Codes of the coordinates: horizontal, or horizontal:vertical");
+  command.add_option("--source-text", request.source_text, "Where the terrain comes from");
+  command
+      .add_option("--date", request.date, "Of the source: 2026, 2026-11 or 2026-11-21 (ISO 8601)")
+      ->check([](const std::string& text) {
+        return is_iso_date(text) ? std::string() : text + " is not a date such as 2026-11-21";
+      });
+  command.add_option("--lineage", request.lineage, "What was done to the source before");
+}
+
 using Action = std::function<void()>;
 
 void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
   command.add_option("terrain", request->input, kTerrainFiles)->required();
-  add_classes(command, request->classes);
   CLI::Option* const bound =
       add_decimal(command, "--max-error", request->lattice.max_error,
                   "Keep every height within this distance, in the terrain's unit");
@@ -173,18 +213,15 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
                   "Of cells for places: 3 for the smallest stream, 1 for the quickest decoding")
       ->check(CLI::Range(1u, kMaxLevels))
       ->capture_default_str();
-  command.add_option("--fill-voids", request->fill_voids,
-                     "Interpolate voids of up to so many posts");
-  command.add_option_function<std::string>(
-      "--epsg", [request](const std::string& text) { set_epsg(text, *request); },
-      "Codes of the coordinates: horizontal, or horizontal:vertical");
-  command.add_option("--source-text", request->source_text, "Where the terrain comes from");
+  add_preparation(command, request->preparation);
+  add_notes(command, *request);
 }
 
-void check_encode_options(const EncodeRequest& request) {
+void check_encode_options(EncodeRequest& request) {
   if (request.lattice.never_below && !request.lattice.max_error && request.max_bytes == 0) {
     throw CLI::ValidationError("--never-below", "needs --max-error or --max-bytes");
   }
+  request.lattice.water_level = request.preparation.water_level;
 }
 
 void add_encode(CLI::App& app, Action& action) {
@@ -284,9 +321,7 @@ void add_verify(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand("verify", "Compare a stream with its terrain");
   command.add_option("stream", request->input)->required();
   command.add_option("terrain", request->source, kTerrainFiles)->required();
-  add_classes(command, request->classes);
-  command.add_option("--fill-voids", request->fill_voids,
-                     "Interpolate voids as for encoding before the comparison");
+  add_preparation(command, request->preparation);
   command.add_flag("--json", request->json);
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
 }
@@ -310,20 +345,16 @@ void add_fractal(CLI::App& app, Action& action) {
 }
 
 void add_render(CLI::App& app, Action& action) {
-  struct Request {
-    std::string input, output;
-    uint32_t width = 1024;
-  };
-  auto request = std::make_shared<Request>();
+  auto request = std::make_shared<RenderRequest>();
   CLI::App& command = *app.add_subcommand("render", "Draw a stream (.png)");
   command.add_option("stream", request->input)->required();
   add_output(command, request->output);
   command.add_option("--width", request->width, "Pixels in a row")
-      ->check(CLI::Range(16u, 16384u))
+      ->check(CLI::Range(kNarrowest, kWidest))
       ->capture_default_str();
-  command.callback([request, &action] {
-    action = [request] { run_render(request->input, request->output, request->width); };
-  });
+  command.add_option("--source", request->source, "Draw a map of the errors against this terrain");
+  add_preparation(command, request->preparation);
+  command.callback([request, &action] { action = [request] { run_render(*request); }; });
 }
 
 // Prints one line, whatever the text, without asking for memory: there may be none.

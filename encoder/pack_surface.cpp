@@ -66,21 +66,33 @@ void expect_posts_of(const Raster& frame, const PackFile& pack) {
   }
 }
 
+struct VisitedPost {
+  int64_t x, y, z;
+  double above;
+};
+
 struct VerifiedTile {
   Verification all;
   uint64_t posts = 0, voids = 0;      // those of a tile south or west are not counted again
   std::vector<GlobalPost> uncovered;  // by this tile
+  std::vector<VisitedPost> visited;   // if somebody wants to know
 };
 
 VerifiedTile verify_tile(const PackFile& pack, uint32_t number, const RasterReader& raster,
-                         const std::optional<Decimal>& bound) {
+                         const std::optional<Decimal>& bound, bool keeps_visited) {
   const TileBox box = tile_box(pack.grid(), number);
   const Raster part = raster.read({box.x, box.y, box.x_end - box.x + 1, box.y_end - box.y + 1});
   const std::optional<DecodedTerrain> tile = pack.tile(number);
   const microtin_mesh* const mesh = tile ? tile->mesh() : nullptr;
   VerifiedTile verified;
   if (tile) {
-    verified.all = verify(mesh, {part.x, part.y, pack.metadata().placement.z}, part, bound);
+    PostVisitor visit;
+    if (keeps_visited) {
+      visit = [&](int64_t x, int64_t y, int64_t z, double above) {
+        verified.visited.push_back({box.x + x, box.y + y, z, above});
+      };
+    }
+    verified.all = verify(mesh, {part.x, part.y, pack.metadata().placement.z}, part, bound, visit);
   }
   if (!tile || verified.all.uncovered != 0) verified.uncovered = uncovered_posts(mesh, part, box);
   for_each_post(part, [&](int64_t x, int64_t y, int64_t z) {
@@ -131,7 +143,8 @@ SurfaceModel model_of(const PackFile& pack) {
 }
 
 Verification verify(const PackFile& pack, const RasterReader& raster,
-                    const std::optional<Decimal>& bound, const Progress& progress) {
+                    const std::optional<Decimal>& bound, const Progress& progress,
+                    const PostVisitor& visit) {
   expect_posts_of(raster.frame(), pack);
   const TileGrid& grid = pack.grid();
   const uint32_t columns = tile_columns(grid);
@@ -142,7 +155,8 @@ Verification verify(const PackFile& pack, const RasterReader& raster,
   for (uint32_t row = 0; row < tile_rows(grid); ++row) {
     std::vector<VerifiedTile> tiles(columns);
     for_each_parallel(columns, [&](std::size_t i) {
-      tiles[i] = verify_tile(pack, row * columns + static_cast<uint32_t>(i), raster, bound);
+      tiles[i] = verify_tile(pack, row * columns + static_cast<uint32_t>(i), raster, bound,
+                             static_cast<bool>(visit));
       done.add_one();
     });
     for (const VerifiedTile& tile : tiles) {
@@ -150,6 +164,7 @@ Verification verify(const PackFile& pack, const RasterReader& raster,
       uncovered.add(tile.uncovered);
       posts += tile.posts;
       voids += tile.voids;
+      for (const VisitedPost& post : tile.visited) visit(post.x, post.y, post.z, post.above);
     }
     uncovered.forget((row + 1) * grid.height);
   }

@@ -16,10 +16,12 @@ namespace microtin {
 SurfaceModel model_of(const PackFile& pack);
 
 // As for a mesh; every post counts once, and a post on a border is covered if one of its tiles
-// covers it. On all processors; holds a row of tiles at a time. Throws Error also if the raster's
-// posts are not the places of the pack.
+// covers it. On all processors; holds a row of tiles at a time. Posts on borders are visited for
+// each tile that covers them, always in the same order. Throws Error also if the raster's posts are
+// not the places of the pack.
 Verification verify(const PackFile& pack, const RasterReader& raster,
-                    const std::optional<Decimal>& bound, const Progress& progress = {});
+                    const std::optional<Decimal>& bound, const Progress& progress = {},
+                    const PostVisitor& visit = {});
 
 }  // namespace microtin
 

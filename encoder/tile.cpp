@@ -8,6 +8,7 @@
 
 #include "encoder/encode.hpp"
 #include "encoder/error.hpp"
+#include "encoder/water.hpp"
 #include "shared/pack_format.hpp"
 #include "shared/predicates.hpp"
 
@@ -57,10 +58,10 @@ void check_shared(const microtin_mesh* mesh, const Sides& sides, const SharedVer
   if (found != shared.size()) fail("lacks a vertex of its border");
 }
 
-void check_bounds(const TiledRaster& tiled, const Verification& measured) {
+void check_bounds(const TiledRaster& tiled, const Verification& measured, uint64_t water_moved) {
   const bool too_low = tiled.options.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.voids_answered != 0 ||
-      measured.uncovered != 0) {
+      measured.uncovered != 0 || water_moved != 0) {
     fail("does not keep what was asked for");
   }
 }
@@ -191,14 +192,16 @@ EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyO
   for (;;) {  // ends: there are always more fixed posts
     const Tin tin = simplify(survey, options);
     auto [stream, decoded] = encode_and_decode(tin, Metadata(), options.effort);
+    const std::optional<Decimal>& bound = tiled.options.max_error;
+    WaterGauge gauge(part.decimals, bound ? tiled.options.water_level : std::nullopt);
     const Verification measured = verify(
-        decoded.mesh(), {part.x, part.y, tiled.lattice.placement.z}, part, tiled.options.max_error);
+        decoded.mesh(), {part.x, part.y, tiled.lattice.placement.z}, part, bound, gauge.visitor());
     if (measured.uncovered != 0) {
       fix_beside(uncovered_posts(decoded.mesh(), part, box), box, sides, survey);
       continue;
     }
     check_shared(decoded.mesh(), sides, shared);
-    check_bounds(tiled, measured);
+    check_bounds(tiled, measured, gauge.moved());
     return {summary_of(tin, stream, measured), std::move(stream)};
   }
 }

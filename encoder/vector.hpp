@@ -34,10 +34,6 @@ inline Vector normalised(Vector a) {
   return 1 / std::sqrt(dot(a, a)) * a;
 }
 
-inline Vector mix(Vector a, Vector b, double t) {
-  return (1 - t) * a + t * b;
-}
-
 }  // namespace microtin
 
 #endif

@@ -243,7 +243,8 @@ TEST_CASE("cli: packs") {
   CHECK(session.run("verify t.mtp t.asc").code == 0);
   const Session::Result info = session.run("info t.mtp");
   CHECK(contains(info.out, "pack_version: 2"));
-  CHECK(contains(info.out, "tile\tx\ty\tbytes\tvertices"));
+  CHECK(contains(info.out, "\ntile   x   y  bytes  vertices  lowest"));
+  CHECK(contains(info.out, "\n   0   0   0  "));
   CHECK(contains(session.run("info t.mtp --json").out, "\"tiles\": ["));
   CHECK(session.run("decode t.mtp -o t.ply").code == 0);
   CHECK(contains(session.read("t.ply"), "element face "));
@@ -316,6 +317,50 @@ TEST_CASE("cli: meshes are terrains, too; classes are for laser scans") {
   CHECK(session.failure("encode a.zip -o x.mtin").find("a.zip: is not a zip archive") == 0);
 }
 
+TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  session.write("mask.asc",
+                "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 2\n"
+                "0 0 0 0\n0 0 0 1\n1 0 0 0\n");
+  const std::string notes =
+      " --date 2026-11-21 --source-text survey --lineage 'noise removed' --water-level 3.5 ";
+  for (const std::string name : {"t.mtin", "t.mtp --tile-vertices 60"}) {
+    const Session::Result encoded =
+        session.run("encode t.asc --max-error 1" + notes + "-o " + name);
+    CHECK(encoded.code == 0);
+    const std::string file = name.substr(0, name.find(' '));
+    const std::string info = session.run("info " + file).out;
+    for (const char* line : {"\nsource: \"survey\"\n", "\ndate: \"2026-11-21\"\n",
+                             "\nlineage: \"noise removed\"\n", "\nwater_level: 3.5\n"}) {
+      CHECK_MESSAGE(contains(info, line), info);
+    }
+    const std::string water = "verify " + file + " t.asc --water-level 3.5";
+    CHECK(contains(session.run(water).out, "water_moved: 0"));
+    CHECK(contains(session.failure("verify " + file + " t.asc"), "voids of the source answer"));
+    CHECK(session.failure("verify " + file + " t.asc --water-level 3") ==
+          file + ": its water level is 3.5, not 3\n");
+    CHECK(session.run("render " + file + " -o t.png --width 300").code == 0);
+    CHECK(session.run("render " + file + " -o t.png --source t.asc --water-level 3.5").code == 0);
+    CHECK(session.read("t.png").substr(1, 3) == "PNG");
+  }
+  CHECK(contains(session.run("encode t.asc --water-level 3 -o w.mtin").out,
+                 "12 posts, 2 of the posts were void and are water"));
+  const std::string masked = "t.asc --water-level 3 --water-mask mask.asc";
+  CHECK(contains(session.run("encode " + masked + " -o m.mtin").out,
+                 "11 posts, 1 void posts, 1 of the posts were void and are water"));
+  CHECK(session.run("verify m.mtin " + masked).code == 0);
+  session.write("p.xyz", "0 0 0\n9 0 3\n0 9 7\n");
+  CHECK(session.failure("encode p.xyz --water-level 3 -o p.mtin") ==
+        "p.xyz: --water-level is for rasters; these are points\n");
+  CHECK(session.failure("encode t.asc --water-level 3 --water-mask t.asc -o p.mtin") ==
+        "t.asc: a mask holds 0 and 1 only\n");
+  CHECK(session.failure("render t.mtin -o no.png --source none.asc") ==
+        "none.asc: cannot be read: No such file or directory\n");
+  CHECK(session.failure("render t.mtp -o no.png --source p.xyz") ==
+        "p.xyz: packs are made of rasters; these are points\n");
+}
+
 TEST_CASE("cli: wrong usage is told apart") {
   const Session session;
   session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n");
@@ -344,6 +389,10 @@ TEST_CASE("cli: wrong usage is told apart") {
                                 "encode ok.xyz -o o --classes 2,",
                                 "encode ok.xyz -o o --classes 256",
                                 "encode ok.xyz -o o --classes ground",
+                                "encode ok.xyz -o o --date 2026-02-30",
+                                "encode ok.xyz -o o --water-level high",
+                                "encode ok.xyz -o o --water-mask m.asc",
+                                "render ok.mtin -o o --width 199",
                                 "info",
                                 "decode ok.xyz",
                                 "decode ok.xyz -o o.asc --cell 0"}) {
