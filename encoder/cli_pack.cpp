@@ -7,6 +7,7 @@
 #include "encoder/import.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/pack_surface.hpp"
+#include "encoder/point_pack.hpp"
 #include "encoder/tile_plan.hpp"
 #include "encoder/voids.hpp"
 
@@ -23,17 +24,29 @@ uint32_t tile_vertices(const EncodeRequest& request) {
   return vertices;
 }
 
-EncodedPack encode(const Source& source, const EncodeRequest& request) {
-  const auto* raster = std::get_if<Raster>(&source);
-  if (raster == nullptr) throw Error("packs are made of rasters; these are points");
-  if (request.lattice.xy_step) throw Error("packs keep the places of posts: no --xy-step");
+// A pack, and what there is to tell of the places of its source.
+struct Made {
+  EncodedPack pack;
+  std::string places;
+};
+
+Made encode_points(const PointCloud& cloud, const PackOptions& options) {
+  PointPack made = encode_point_pack(cloud, options);
+  return {std::move(made.pack), "source: " + std::to_string(cloud.points.size()) +
+                                    " points\nstep of x and y: " + to_string(made.xy_step) +
+                                    moved(made.xy_displacement) + "\n" + merged(made.merged)};
+}
+
+Made encode(const Source& source, const EncodeRequest& request) {
   if (request.max_vertices != 0 || request.max_bytes != 0) {
     throw Error("packs are made with --max-error or of all posts");
   }
   EncodeRequest tile = request;
   tile.device_ram = 0;  // it limits tiles, by their number of vertices
-  return encode_pack(*raster,
-                     {request.lattice, simplify_options(tile, {}), tile_vertices(request)});
+  const PackOptions options{request.lattice, simplify_options(tile, {}), tile_vertices(request)};
+  if (const auto* cloud = std::get_if<PointCloud>(&source)) return encode_points(*cloud, options);
+  if (request.lattice.xy_step) throw Error("packs keep the places of posts: no --xy-step");
+  return {encode_pack(std::get<Raster>(source), options), ""};
 }
 
 std::string report(const EncodedPack& pack, std::size_t bytes,
@@ -104,19 +117,21 @@ void run_encode_pack(const EncodeRequest& request) {
   OutputFile out(request.output);
   Source source = import_terrain(request.input);
   fill_voids(source, request.fill_voids);
-  const auto [pack, bytes] = about(request.input, [&] {
-    const EncodedPack encoded = encode(source, request);
+  const auto [made, bytes] = about(request.input, [&] {
+    const Made all = encode(source, request);
+    const EncodedPack& encoded = all.pack;
     Metadata metadata = metadata_of(request, source, encoded.placement);
     metadata.accuracy =
         Accuracy{request.lattice.max_error, encoded.measured.max_error, encoded.measured.rms_error};
-    return std::pair(encoded, write_pack(encoded, metadata));
+    return std::pair(all, write_pack(encoded, metadata));
   });
   const PackFile written(bytes);
   const Verification found = verify(written, source, request.lattice.max_error);
   if (!found.within_bound || found.uncovered != 0 || found.voids_answered != 0) {
     throw Error("internal error: the pack does not keep what was asked for");
   }
-  deliver(out, request.output, bytes, report(pack, bytes.size(), request.lattice.max_error));
+  deliver(out, request.output, bytes,
+          made.places + report(made.pack, bytes.size(), request.lattice.max_error));
 }
 
 void run_info_pack(const std::string& input, const std::vector<uint8_t>& bytes, bool as_json) {

@@ -22,6 +22,8 @@ void run_verify_pack(const VerifyRequest& request, const std::vector<uint8_t>& b
 Metadata metadata_of(const EncodeRequest& request, const Source& source,
                      const Placement& placement);
 SimplifyOptions simplify_options(const EncodeRequest& request, const Progress& progress);
+std::string moved(Decimal displacement);
+std::string merged(uint64_t points);  // a line, if there are any
 void add_placement(JsonObject& report, const Metadata& metadata);
 void add_notes(JsonObject& report, const Metadata& metadata);
 void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy);

@@ -31,7 +31,9 @@ struct AxisGroup {
   int decimals;         // of the numbers
   int needed_decimals;  // of the refined numbers, at least
   int lattice_low, lattice_high;
-  const char* option;  // that sets the step
+  const char* option;     // that sets the step
+  int bits = 16;          // of the lattice
+  bool from_low = false;  // the lowest number goes to the lattice's first
 };
 
 struct GroupFit {
@@ -40,15 +42,16 @@ struct GroupFit {
 };
 
 // The map of one axis, if the range is not too wide.
-std::optional<LatticeMap> fit(const Range& range, Wide scale, Wide step, int lattice_low,
-                              int lattice_high) {
+std::optional<LatticeMap> fit(const Range& range, Wide scale, Wide step, const AxisGroup& group) {
   const Wide low = scale * range.low;
   const bool same_rest = scale * range.spacing % step == 0;
   const Wide rest = same_rest ? low - floor_divide(low, step) * step : 0;
   const Wide first = floor_divide(low - rest, step) * step + rest;
-  for (const Wide shift : {-rest, -first, lattice_low * step - first}) {
+  const Wide from_low = group.lattice_low * step - first;
+  for (const Wide shift : {group.from_low ? from_low : -rest, -first, from_low}) {
     const LatticeMap map{scale, shift, step};
-    if (map.numerator(range.low) >= lattice_low * step && map.nearest(range.high) <= lattice_high) {
+    if (map.numerator(range.low) >= group.lattice_low * step &&
+        map.nearest(range.high) <= group.lattice_high) {
       return map;
     }
   }
@@ -60,8 +63,7 @@ GroupFit fit_all(const AxisGroup& group, Decimal step) {
   fits.decimals = std::max({group.decimals, group.needed_decimals, step.decimals});
   const Wide scale = power_of_ten(fits.decimals - group.decimals);
   for (const Range& range : group.ranges) {
-    const auto map =
-        fit(range, scale, mantissa_at(step, fits.decimals), group.lattice_low, group.lattice_high);
+    const auto map = fit(range, scale, mantissa_at(step, fits.decimals), group);
     if (!map) return {};
     fits.maps.push_back(*map);
   }
@@ -74,7 +76,8 @@ GroupFit fit_explicit(const AxisGroup& group, Decimal step) {
   if (step.mantissa <= 0 || !(step <= Decimal{kLargest, 0})) throw Error(name + " is out of range");
   GroupFit fits = fit_all(group, step);
   if (fits.maps.empty()) {
-    throw Error(name + " is too fine: 16 bits do not hold the source's range in such steps");
+    throw Error(name + " is too fine: " + std::to_string(group.bits) +
+                " bits do not hold the source's range in such steps");
   }
   return fits;
 }
@@ -120,7 +123,9 @@ Lattice choose_post_lattice(const Raster& raster, const LatticeOptions& options)
           0,      up.decimals, {raster.x, raster.y, lattice_axis(heights, up.maps[0])}};
 }
 
-Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
+namespace {
+
+Lattice choose(const Source& source, AxisGroup places, const LatticeOptions& options) {
   Range x, y, z;
   for_each_post(source, [&](int64_t px, int64_t py, int64_t pz) {
     x.add(px);
@@ -132,8 +137,8 @@ Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
     throw Error("a raster of more than 65536 posts in a row needs an --xy-step above 1");
   }
   const auto* cloud = std::get_if<PointCloud>(&source);
-  const AxisGroup places{{x, y},     cloud != nullptr ? cloud->xy_decimals : 0, 0, 0, kLatticeMax,
-                         "--xy-step"};
+  places.ranges = {x, y};
+  places.decimals = cloud != nullptr ? cloud->xy_decimals : 0;
   const AxisGroup heights =
       height_group(z, cloud != nullptr ? cloud->z_decimals : raster->decimals, options);
   const GroupFit xy = choose(places, options.xy_step);
@@ -143,6 +148,16 @@ Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
                             lattice_axis(numbers.y, xy.maps[1]),
                             lattice_axis(numbers.z, up.maps[0])};
   return {xy.maps[0], xy.maps[1], up.maps[0], xy.decimals, up.decimals, placement};
+}
+
+}  // namespace
+
+Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
+  return choose(source, {{}, 0, 0, 0, kLatticeMax, "--xy-step"}, options);
+}
+
+Lattice choose_pack_lattice(const PointCloud& cloud, const LatticeOptions& options) {
+  return choose(cloud, {{}, 0, 0, 0, INT32_MAX, "--xy-step", 31, true}, options);
 }
 
 }  // namespace microtin

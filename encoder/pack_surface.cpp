@@ -6,6 +6,7 @@
 #include "encoder/borders.hpp"
 #include "encoder/error.hpp"
 #include "encoder/lattice_map.hpp"
+#include "encoder/point_pack.hpp"
 
 namespace microtin {
 namespace {
@@ -81,6 +82,7 @@ SurfaceModel model_of(const PackFile& pack) {
 
 Verification verify(const PackFile& pack, const Source& source,
                     const std::optional<Decimal>& bound) {
+  if (const auto* cloud = std::get_if<PointCloud>(&source)) return verify(pack, *cloud, bound);
   const Raster& raster = posts_of(source, pack);
   std::vector<Verification> parts;
   std::map<GlobalPost, std::size_t> uncovered;  // by how many tiles

@@ -11,47 +11,8 @@
 namespace microtin {
 namespace {
 
-// Whether another tile has the place, too.
-class Sides {
- public:
-  Sides(const TileGrid& grid, const TileBox& box)
-      : box_(box), x_max_(grid.x_max), y_max_(grid.y_max) {}
-
-  bool shares(Point p) const {
-    const uint32_t x = box_.x + p.x, y = box_.y + p.y;
-    return (x == box_.x && x != 0) || (x == box_.x_end && x != x_max_) || (y == box_.y && y != 0) ||
-           (y == box_.y_end && y != y_max_);
-  }
-
- private:
-  TileBox box_;
-  uint32_t x_max_, y_max_;
-};
-
-bool form_triangle(const std::vector<Sample>& samples) {
-  return !samples.empty() && std::any_of(samples.begin(), samples.end(), [&](const Sample& s) {
-    return orient2d(samples.front().place, samples.back().place, s.place) != 0;
-  });
-}
-
 [[noreturn]] void fail(const std::string& what) {
   throw Error("internal error: a decoded tile " + what);
-}
-
-// The vertices on borders must be the shared ones, at their heights.
-void check_shared(const microtin_mesh* mesh, const Sides& sides, const SharedVertices& shared) {
-  std::size_t found = 0;
-  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
-    Point p{};
-    int16_t z = 0;
-    microtin_vertex(mesh, v, &p.x, &p.y, &z);
-    if (!sides.shares(p)) continue;
-    const auto vertex = shared.find(p);
-    if (vertex == shared.end() || vertex->second != z)
-      fail("has another border than its neighbour");
-    ++found;
-  }
-  if (found != shared.size()) fail("lacks a vertex of its border");
 }
 
 // Only other tiles may cover what this one does not.
@@ -69,6 +30,29 @@ void check_bounds(const TiledRaster& tiled, const TileBox& box, const Sides& sid
   }
 }
 
+}  // namespace
+
+bool form_triangle(const std::vector<Sample>& samples) {
+  return !samples.empty() && std::any_of(samples.begin(), samples.end(), [&](const Sample& s) {
+    return orient2d(samples.front().place, samples.back().place, s.place) != 0;
+  });
+}
+
+void check_shared(const microtin_mesh* mesh, const Sides& sides, const SharedVertices& shared) {
+  std::size_t found = 0;
+  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+    Point p{};
+    int16_t z = 0;
+    microtin_vertex(mesh, v, &p.x, &p.y, &z);
+    if (!sides.shares(p)) continue;
+    const auto vertex = shared.find(p);
+    if (vertex == shared.end() || vertex->second != z)
+      fail("has another border than its neighbour");
+    ++found;
+  }
+  if (found != shared.size()) fail("lacks a vertex of its border");
+}
+
 void add_heights(const Tin& tin, EncodedTile& tile) {
   const auto lower = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
   const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(), lower);
@@ -76,8 +60,6 @@ void add_heights(const Tin& tin, EncodedTile& tile) {
   tile.lowest = low->z;
   tile.highest = high->z;
 }
-
-}  // namespace
 
 std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster& part,
                                         const TileBox& box) {

@@ -11,6 +11,26 @@
 
 namespace microtin {
 
+// Which places of a tile others have, too.
+class Sides {
+ public:
+  Sides(const TileGrid& grid, const TileBox& box)
+      : box_(box), x_max_(grid.x_max), y_max_(grid.y_max) {}
+
+  bool shares(Point p) const {
+    const uint32_t x = box_.x + p.x, y = box_.y + p.y;
+    return (x == box_.x && x != 0) || (x == box_.x_end && x != x_max_) || (y == box_.y && y != 0) ||
+           (y == box_.y_end && y != y_max_);
+  }
+
+ private:
+  TileBox box_;
+  uint32_t x_max_, y_max_;
+};
+
+// Whether not all samples, which are in lexicographic order, lie on one line.
+bool form_triangle(const std::vector<Sample>& samples);
+
 // The posts of a tile. On borders with other tiles the shared vertices stand for all posts with
 // heights: they are fixed.
 Survey survey_of_tile(const TiledRaster& tiled, uint32_t tile, const SharedVertices& shared);
@@ -30,6 +50,12 @@ struct EncodedTile {
   Verification measured;              // by the decoded stream
   std::vector<GlobalPost> uncovered;  // on borders with other tiles
 };
+
+// Sets vertices, lowest and highest.
+void add_heights(const Tin& tin, EncodedTile& tile);
+
+// Throws Error unless the vertices on borders are the shared ones, at their heights.
+void check_shared(const microtin_mesh* mesh, const Sides& sides, const SharedVertices& shared);
 
 // Throws Error if the decoded stream does not keep the bound or the shared vertices.
 EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SharedVertices& shared,

@@ -35,7 +35,10 @@ uint32_t most_vertices(const TiledRaster& tiled, const SimplifyOptions& options)
 }  // namespace
 
 TileGrid grid_of(const Raster& raster, uint32_t pieces) {
-  const uint32_t x_max = raster.width - 1, y_max = raster.height - 1;
+  return grid_of(raster.width - 1, raster.height - 1, pieces);
+}
+
+TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t pieces) {
   const uint32_t size = std::min(divide_up(std::max(x_max, y_max), pieces), uint32_t{kLatticeMax});
   const uint32_t width = divide_up(x_max, divide_up(x_max, size));
   const uint32_t height = divide_up(y_max, divide_up(y_max, size));

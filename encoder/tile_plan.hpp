@@ -12,6 +12,9 @@ namespace microtin {
 // A raster in about `pieces` tiles along its longer side, all of nearly the same size.
 TileGrid grid_of(const Raster& raster, uint32_t pieces);
 
+// The same for any largest x and y.
+TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t pieces);
+
 // The fewest pieces found with which no tile has more than max_vertices vertices; at least
 // `fewest`. Simplifies the raster two or three times, without searching long. Throws Error if there
 // are none.
