@@ -1,6 +1,7 @@
 #include "encoder/point_borders.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <map>
 
@@ -25,7 +26,31 @@ uint32_t nearest_place(const Crossing& crossing) {
   return static_cast<uint32_t>((crossing.at + kOne / 2) / kOne);
 }
 
+int64_t median_difference(const PointSurvey& survey, const GlobalTriangulation& triangulation) {
+  std::vector<int64_t> differences;
+  triangulation.visit_edges([&](uint32_t a, uint32_t b) {
+    differences.push_back(std::abs(int64_t{survey.samples[a].height} - survey.samples[b].height));
+  });
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  return *middle;
+}
+
 }  // namespace
+
+BorderTolerance choose_tolerance(const PointSurvey& survey,
+                                 const GlobalTriangulation& triangulation,
+                                 const LatticeOptions& options) {
+  if (!options.max_error) {
+    const int64_t room = std::max(median_difference(survey, triangulation), kOne / 2);
+    return {room, room, true};
+  }
+  const Lattice& lattice = survey.lattice;
+  const Wide bound = mantissa_at(*options.max_error, lattice.z_decimals) * kOne / lattice.z.step;
+  const auto room = static_cast<int64_t>(std::min<Wide>(bound, INT32_MAX));
+  if (options.never_below) return {0, std::max(room, kOne), false};
+  return {std::max(room, kOne / 2), std::max(room, kOne / 2), false};
+}
 
 void Profile::add_sample(uint32_t at, const GlobalSample& sample) {
   add_crossing(at, 1, sample.height);

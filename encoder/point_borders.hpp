@@ -52,6 +52,12 @@ struct BorderTolerance {
   bool keep_samples;  // those on borders are vertices, at their heights
 };
 
+// The bound or, where that is smaller, what a whole step takes. Without a bound the median of the
+// differences of height along edges of the triangulation: what is not known between points.
+BorderTolerance choose_tolerance(const PointSurvey& survey,
+                                 const GlobalTriangulation& triangulation,
+                                 const LatticeOptions& options);
+
 class PointBorders {
  public:
   // Simplifies all of them, on all processors. The survey must outlive this.

@@ -68,7 +68,7 @@ PointSurvey survey_of(const PointCloud& cloud, LatticeOptions& lattice, Simplify
 uint32_t most_vertices(const TiledCloud& tiled) {
   SimplifyOptions options = tiled.simplify;
   options.search = Search::kFast;
-  const PointBorders borders = borders_of(tiled);
+  const PointBorders borders(tiled.survey, tiled.triangulation, tiled.grid, tiled.tolerance);
   const PointTiles tiles(tiled, borders);
   std::vector<uint32_t> vertices(std::size_t{tile_columns(tiled.grid)} * tile_rows(tiled.grid));
   for_each_parallel(vertices.size(), [&](std::size_t i) {
@@ -107,7 +107,7 @@ uint32_t choose_pieces(TiledCloud tiled, uint32_t max_vertices, uint32_t fewest)
 
 std::vector<EncodedTile> encode_tiles(const TiledCloud& tiled,
                                       const std::vector<GlobalPost>& places) {
-  const PointBorders borders = borders_of(tiled);
+  const PointBorders borders(tiled.survey, tiled.triangulation, tiled.grid, tiled.tolerance);
   const PointTiles tiles(tiled, borders);
   const TileContents points(tiled.grid, places);
   std::vector<EncodedTile> encoded(std::size_t{tile_columns(tiled.grid)} * tile_rows(tiled.grid));
@@ -138,7 +138,9 @@ PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options)
   const PointSurvey survey = survey_of(cloud, lattice, options.simplify);
   const std::vector<GlobalPost> sample_places = places_of(survey.samples);
   const GlobalTriangulation triangulation(sample_places);
-  TiledCloud tiled{cloud, survey, triangulation, lattice, options.simplify, {}};
+  TiledCloud tiled{cloud,   survey,           triangulation,
+                   lattice, options.simplify, choose_tolerance(survey, triangulation, lattice),
+                   {}};
   const Placement& placement = survey.lattice.placement;
   const auto places = places_on(cloud, placement, survey.x_max, survey.y_max);
   std::vector<EncodedTile> tiles;

@@ -1,31 +1,12 @@
 #include "encoder/point_tile.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "encoder/encode.hpp"
 #include "encoder/error.hpp"
 
 namespace microtin {
-namespace {
-
-constexpr int64_t kOne = 65536;
-
-// Everywhere wide enough for a whole step.
-BorderTolerance tolerance_of(const Lattice& lattice, const LatticeOptions& options) {
-  if (!options.max_error) return {kOne, kOne, true};
-  const Wide bound = mantissa_at(*options.max_error, lattice.z_decimals) * kOne / lattice.z.step;
-  const auto room = static_cast<int64_t>(std::min<Wide>(bound, INT32_MAX));
-  if (options.never_below) return {0, std::max(room, kOne), false};
-  return {std::max(room, kOne / 2), std::max(room, kOne / 2), false};
-}
-
-}  // namespace
-
-PointBorders borders_of(const TiledCloud& tiled) {
-  return PointBorders(tiled.survey, tiled.triangulation, tiled.grid,
-                      tolerance_of(tiled.survey.lattice, tiled.lattice));
-}
-
 PointTiles::PointTiles(const TiledCloud& tiled, const PointBorders& borders)
     : tiled_(tiled), borders_(borders), samples_(tiled.grid, places_of(tiled.survey.samples)) {}
 

@@ -15,14 +15,12 @@ namespace microtin {
 struct TiledCloud {
   const PointCloud& cloud;
   const PointSurvey& survey;
-  const GlobalTriangulation& triangulation;  // of the samples' places
+  const GlobalTriangulation& triangulation;  // of the places of the samples
   LatticeOptions lattice;
   SimplifyOptions simplify;
+  BorderTolerance tolerance;
   TileGrid grid;
 };
-
-// The borders of its tiles, within the bound at crossings; without a bound, within a step.
-PointBorders borders_of(const TiledCloud& tiled);
 
 class PointTiles {
  public:
