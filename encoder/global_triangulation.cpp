@@ -100,13 +100,13 @@ void start_with_triangle(const std::vector<GlobalPost>& points, std::vector<uint
 
 }  // namespace
 
-GlobalTriangulation::GlobalTriangulation(const std::vector<GlobalPost>& points)
-    : points_(points), starting_at_(points.size() + 1) {
-  if (points.size() > 300000000) throw Error("too many points to triangulate");
-  std::vector<uint32_t> order = insertion_order(points);
-  start_with_triangle(points, order);
-  origin_.reserve(6 * points.size());
-  twin_.reserve(6 * points.size());
+GlobalTriangulation::GlobalTriangulation(std::vector<GlobalPost> points)
+    : points_(std::move(points)), starting_at_(points_.size() + 1) {
+  if (points_.size() > 300000000) throw Error("too many points to triangulate");
+  std::vector<uint32_t> order = insertion_order(points_);
+  start_with_triangle(points_, order);
+  origin_.reserve(6 * points_.size());
+  twin_.reserve(6 * points_.size());
   start(order[0], order[1], order[2]);
   uint32_t near = 0;
   for (std::size_t i = 3; i < order.size(); ++i) {

@@ -15,8 +15,8 @@ namespace microtin {
 class GlobalTriangulation {
  public:
   // Vertex i is points[i]; coordinates below 2^31, no place twice. Throws Error if all points lie
-  // on one line. The points must outlive this.
-  explicit GlobalTriangulation(const std::vector<GlobalPost>& points);
+  // on one line.
+  explicit GlobalTriangulation(std::vector<GlobalPost> points);
 
   // Calls visit(a, b) once for every edge between two vertices.
   template <class Visit>
@@ -41,7 +41,7 @@ class GlobalTriangulation {
   void find_cavity(uint32_t v, uint32_t triangle);
   void fill_cavity(uint32_t v);
 
-  const std::vector<GlobalPost>& points_;
+  std::vector<GlobalPost> points_;
   std::vector<uint32_t> origin_, twin_;  // of half-edges, three for each triangle
 
   // For the insertion in hand.

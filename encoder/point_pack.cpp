@@ -136,8 +136,7 @@ Verification verification_of(const std::vector<EncodedTile>& tiles) {
 PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options) {
   LatticeOptions lattice = options.lattice;
   const PointSurvey survey = survey_of(cloud, lattice, options.simplify);
-  const std::vector<GlobalPost> sample_places = places_of(survey.samples);
-  const GlobalTriangulation triangulation(sample_places);
+  const GlobalTriangulation triangulation(places_of(survey.samples));
   TiledCloud tiled{cloud,   survey,           triangulation,
                    lattice, options.simplify, choose_tolerance(survey, triangulation, lattice),
                    {}};

@@ -1,0 +1,140 @@
+// Clouds of points, seeded, that are hard to cut into tiles. x and y are in steps of 1.
+#ifndef MICROTIN_TESTS_POINT_CLOUDS_HPP
+#define MICROTIN_TESTS_POINT_CLOUDS_HPP
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "encoder/pack_encode.hpp"
+#include "encoder/source.hpp"
+#include "tests/point_sets.hpp"
+
+namespace microtin {
+
+// Waves and noise.
+inline int64_t rough_height(int64_t x, int64_t y) {
+  Random random(static_cast<uint64_t>(x * 1000003 + y));
+  const double waves =
+      60 * std::sin(static_cast<double>(x) * 0.004) + 50 * std::cos(static_cast<double>(y) * 0.005);
+  return std::lround(waves) + random.below(4);
+}
+
+class CloudMaker {
+ public:
+  explicit CloudMaker(uint64_t seed) : random_(seed) {}
+
+  void add(int64_t x, int64_t y, int64_t higher = 0) {
+    cloud_.points.push_back({x, y, rough_height(x, y) + higher});
+  }
+  void scatter(uint32_t n, int64_t x, int64_t y, uint32_t width, uint32_t height) {
+    for (uint32_t i = 0; i < n; ++i) {
+      const int64_t dx = random_.below(width);
+      add(x + dx, y + random_.below(height));
+    }
+  }
+  PointCloud take() {
+    shuffle(cloud_.points, random_);
+    return std::move(cloud_);
+  }
+
+ private:
+  Random random_;
+  PointCloud cloud_;
+};
+
+struct CloudKind {
+  std::string name;
+  PointCloud cloud;
+};
+
+inline std::vector<CloudKind> cloud_kinds() {
+  std::vector<CloudKind> kinds;
+  const auto kind = [&](const std::string& name, const auto& make) {
+    CloudMaker maker(kinds.size() + 1);
+    make(maker);
+    kinds.push_back({name, maker.take()});
+  };
+  kind("uniform", [](CloudMaker& m) { m.scatter(500, 0, 0, 3000, 2000); });
+  kind("clusters", [](CloudMaker& m) {
+    m.scatter(200, 0, 0, 150, 150);
+    m.scatter(200, 2500, 1800, 150, 150);
+    m.scatter(100, 100, 1900, 60, 60);
+  });
+  kind("a grid, also on borders and corners", [](CloudMaker& m) {
+    for (int64_t i = 0; i < 24 * 24; ++i) m.add(i % 24 * 10, i / 24 * 10);
+  });
+  kind("every place", [](CloudMaker& m) {
+    for (int64_t i = 0; i < 20 * 20; ++i) m.add(i % 20, i / 20);
+  });
+  kind("duplicates", [](CloudMaker& m) {
+    for (int64_t i = 0; i < 3 * 16 * 16; ++i) m.add(i % 16 * 8, i / 16 % 16 * 8, i % 2);
+  });
+  kind("points on lines", [](CloudMaker& m) {
+    for (int64_t i = 0; i <= 100; ++i) {
+      m.add(i * 10, 0);
+      m.add(i * 10, 500);
+      m.add(500, i * 10);
+      m.add(i * 10, i * 10);
+    }
+  });
+  kind("a frame", [](CloudMaker& m) {
+    m.scatter(150, 0, 0, 2000, 100);
+    m.scatter(150, 0, 1900, 2000, 100);
+    m.scatter(150, 0, 0, 100, 2000);
+    m.scatter(150, 1900, 0, 100, 2000);
+  });
+  kind("a slope that grazes tiles", [](CloudMaker& m) {
+    for (int64_t i = 0; i < 300; ++i) m.add(i * 7, i * 7 + i % 3);
+    m.add(300, 280);
+  });
+  kind("a needle", [](CloudMaker& m) {
+    for (int64_t i = 0; i < 120; ++i) m.add(i * 500, i * 3);
+    m.add(59900, 357);
+    m.add(1, 0);
+  });
+  kind("one triangle", [](CloudMaker& m) {
+    m.add(0, 0);
+    m.add(200001, 70003);
+    m.add(90007, 150001);
+  });
+  kind("a triangle whose corners lie in tiles of their own", [](CloudMaker& m) {
+    m.add(65534, 65537);
+    m.add(0, 65534);
+    m.add(131001, 65535);
+    m.add(65536, 65540);
+    m.add(65530, 0);
+  });
+  kind("beyond 16 bits", [](CloudMaker& m) { m.scatter(400, -100000, 50000, 200000, 300000); });
+  kind("towns far apart", [](CloudMaker& m) {
+    m.scatter(150, 0, 0, 1000, 1000);
+    m.scatter(150, 120000, 40000, 1000, 1000);
+    m.scatter(150, 10000, 70000, 1000, 1000);
+  });
+  return kinds;
+}
+
+// About 2^31 steps long.
+inline PointCloud long_cloud() {
+  CloudMaker maker(77);
+  maker.add(0, 0);
+  maker.add(INT32_MAX, 5000);
+  for (int64_t i = 0; i < 12; ++i) maker.scatter(2, i * 170000000, 0, 99999999, 5000);
+  return maker.take();
+}
+
+// Every point, or those that a bound needs.
+inline PackOptions point_options(int64_t bound, uint32_t max_vertices) {
+  PackOptions options{{}, {}, max_vertices};
+  if (bound == 0) return options;
+  options.lattice.max_error = Decimal{bound, 0};
+  options.simplify.bounded = true;
+  options.simplify.search = Search::kFast;
+  return options;
+}
+
+}  // namespace microtin
+
+#endif
