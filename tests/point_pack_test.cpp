@@ -5,12 +5,14 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <memory>
 #include <set>
 
 #include "encoder/error.hpp"
-#include "encoder/global_triangulation.hpp"
-#include "encoder/parallel.hpp"
+#include "encoder/import.hpp"
 #include "encoder/point_survey.hpp"
 #include "tests/border_walk.hpp"
 #include "tests/pack_device.hpp"
@@ -100,6 +102,23 @@ void check_pack(const PointCloud& cloud, const PackOptions& options) {
           << count.places << " places on borders, " << count.both << " in two tiles");
 }
 
+// Nothing if it is not here.
+std::optional<PointCloud> read_cloud(const std::string& name) {
+  const std::string path = std::string(MICROTIN_DATA_DIR) + "/" + name + ".xyz.gz";
+  if (!std::filesystem::exists(path)) {
+    MESSAGE("skipped: " << name << " is not here");
+    return std::nullopt;
+  }
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(
+      popen(("gzip -dc '" + path + "'").c_str(), "r"), pclose);
+  std::string text;
+  char block[65536];
+  while (const size_t size = std::fread(block, 1, sizeof block, pipe.get())) {
+    text.append(block, size);
+  }
+  return import_points(name, text);
+}
+
 }  // namespace
 
 TEST_CASE("point packs have no cracks, cover the hull and keep their bound") {
@@ -130,6 +149,26 @@ TEST_CASE("point packs without a bound have every place of a point as a vertex")
   }
 }
 
+TEST_CASE("packs of real points have no cracks and keep their bound") {
+  const struct {
+    const char* name;
+    int64_t bound;  // hundredths; 0: none
+    uint32_t vertices;
+  } packs[] = {{"quebec_forest_ground", 20, 250},
+               {"quebec_forest_ground", 0, 500},
+               {"delft_ground", 10, 500},
+               {"delft_ground", 0, 5000},
+               {"delft_urban", 200, 250}};
+  for (const auto& p : packs) {
+    const std::optional<PointCloud> cloud = read_cloud(p.name);
+    if (!cloud) continue;
+    CAPTURE(std::string(p.name));
+    PackOptions options = point_options(p.bound, p.vertices);
+    if (p.bound != 0) options.lattice.max_error = Decimal{p.bound, 2};
+    check_pack(*cloud, options);
+  }
+}
+
 TEST_CASE("point packs never below the source are not") {
   for (const CloudKind& kind : cloud_kinds()) {
     CAPTURE(kind.name);
@@ -143,7 +182,8 @@ TEST_CASE("point packs never below the source are not") {
 
 TEST_CASE("a point pack of 2^31 steps") {
   const PointCloud cloud = long_cloud();
-  const PackOptions options = point_options(5, 40);
+  PackOptions options = point_options(5, 40);
+  options.simplify.search = Search::kGreedy;
   const PackFile pack(pack_bytes(cloud, options));
   CHECK(pack.grid().x_max == INT32_MAX);
   CHECK(tile_columns(pack.grid()) >= 32769);
