@@ -106,6 +106,7 @@ PointBorders::PointBorders(const PointSurvey& survey, const GlobalTriangulation&
   }
   simplify(north_);
   simplify(east_);
+  for (Lines* const lines : {&north_, &east_}) lines->profiles = {};  // they are large
 }
 
 void PointBorders::add_samples(Lines& lines) const {

@@ -1,4 +1,4 @@
-// The borders between the tiles of a pack of points (PACK.md, section 4).
+// The borders between the tiles of a pack of points (PACK.md, section 3).
 #ifndef MICROTIN_ENCODER_POINT_BORDERS_HPP
 #define MICROTIN_ENCODER_POINT_BORDERS_HPP
 

@@ -28,6 +28,8 @@ class Tiles {
                               static_cast<int32_t>(y - int64_t{box.y} * 256), 0, &hint, &height);
   }
 
+  bool has_terrain(uint32_t tile) const { return tiles_[tile].has_value(); }
+
   const TileGrid& grid() const { return grid_; }
 
  private:
@@ -37,6 +39,7 @@ class Tiles {
 
 struct BorderCount {
   uint64_t places = 0, both = 0, differ = 0, wrong_posts = 0;
+  uint64_t one_sided = 0;  // a tile with terrain does not know the height, another does
 };
 
 // The tiles that hold a place with 8 fractional bits. One between two places of a border lies in
@@ -55,11 +58,17 @@ inline std::vector<uint32_t> holders_of(const TileGrid& grid, int64_t x, int64_t
 // Asks all tiles that hold a place. Returns whether one of them knows a height.
 inline bool compare_at(const Tiles& tiles, int64_t x, int64_t y, BorderCount& count) {
   std::vector<int32_t> heights;
+  bool missing = false;
   for (const uint32_t tile : holders_of(tiles.grid(), x, y)) {
     int32_t height = 0;
-    if (tiles.ask(tile, x, y, height) == MICROTIN_HEIGHT) heights.push_back(height);
+    if (tiles.ask(tile, x, y, height) == MICROTIN_HEIGHT) {
+      heights.push_back(height);
+    } else if (tiles.has_terrain(tile)) {
+      missing = true;
+    }
   }
   ++count.places;
+  if (missing && !heights.empty()) ++count.one_sided;
   if (heights.size() > 1) ++count.both;
   for (const int32_t height : heights) {
     if (height != heights[0]) ++count.differ;

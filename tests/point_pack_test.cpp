@@ -91,6 +91,7 @@ void check_pack(const PointCloud& cloud, const PackOptions& options) {
   const Tiles tiles(pack);
   const BorderCount count = walk(pack, tiles);
   CHECK(count.differ == 0);
+  CHECK(count.one_sided == 0);
   if (pack.entries().size() > 1) CHECK(count.both > 0);
   CHECK(gaps(pack, tiles, cloud) == 0);
   const Verification found = verify(pack, cloud, options.lattice.max_error);
