@@ -169,6 +169,7 @@ PointBorders::Piece PointBorders::simplify_piece(const Lines& lines, std::size_t
     if (const auto shared = corner(lines.post(line, place))) by_place[place] = *shared;
   }
   std::vector<LinePost> posts;
+  posts.reserve(by_place.size());
   for (const auto& [place, found] : by_place) posts.push_back(line_post(found, place - begin));
   Piece piece;
   if (posts.empty()) return piece;

@@ -144,6 +144,7 @@ const std::vector<Words> kCommands = {
     {"encode", "t.asc", "-o", "new.mtin", "--max-error", "1"},
     {"encode", "p.xyz", "-o", "new.mtin"},
     {"encode", "p.xyz", "-o", "-"},
+    {"encode", "p.xyz", "-o", "new.mtp", "--tile-vertices", "16"},
     {"decode", "t.mtin", "-o", "new.ply"},
     {"decode", "t.mtin", "-o", "new.obj"},
     {"decode", "t.mtin", "-o", "-", "--lattice"},
