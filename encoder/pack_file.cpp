@@ -65,7 +65,7 @@ Bytes write_entry(const EncodedTile& tile, uint64_t offset, const Axis& z) {
   append_number(entry, to_unsigned(tile.highest), 2);
   append_number(entry, in_steps(tile.measured.max_error, z), 2);
   append_number(entry, in_steps(tile.measured.rms_error, z), 2);
-  append_number(entry, crc32(0, tile.stream.data(), tile.stream.size()), 4);
+  append_number(entry, stream_hash(kStreamHash, tile.stream.data(), tile.stream.size()), 4);
   return entry;
 }
 
@@ -146,7 +146,9 @@ void PackFile::read_index() {
       throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_CHECKSUM));
     }
     PackEntry entry{};
-    read_pack_entry(at, &entry);
+    if (!read_pack_entry(at, header_, &entry)) {
+      throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_MALFORMED));
+    }
     entries_.push_back(entry);
   }
 }
@@ -160,12 +162,11 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
     }
     const auto begin = bytes_.begin() + static_cast<std::ptrdiff_t>(entry.offset);
     const Bytes stream(begin, begin + entry.size);
-    if (crc32(0, stream.data(), stream.size()) != entry.stream_check) {
+    if (stream_hash(kStreamHash, stream.data(), stream.size()) != entry.stream_hash) {
       throw Error(describe(MICROTIN_CHECKSUM));
     }
     DecodedTerrain decoded(stream);
-    expect(microtin_vertex_count(decoded.mesh()) == entry.vertices &&
-           entry.vertices <= header_.most_vertices);
+    expect(microtin_vertex_count(decoded.mesh()) == entry.vertices);
     check_box(decoded.mesh(), tile_box(header_.grid, number));
     return std::optional<DecodedTerrain>(std::move(decoded));
   });

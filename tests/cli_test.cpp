@@ -242,7 +242,7 @@ TEST_CASE("cli: packs") {
   CHECK(contains(encoded.out, "asked for: at most 20"));
   CHECK(session.run("verify t.mtp t.asc").code == 0);
   const Session::Result info = session.run("info t.mtp");
-  CHECK(contains(info.out, "pack_version: 1"));
+  CHECK(contains(info.out, "pack_version: 2"));
   CHECK(contains(info.out, "tile\tx\ty\tbytes\tvertices"));
   CHECK(contains(session.run("info t.mtp --json").out, "\"tiles\": ["));
   CHECK(session.run("decode t.mtp -o t.ply").code == 0);

@@ -177,18 +177,28 @@ TEST_CASE("pack: damaged, swapped and foreign bytes are told, and never answered
 }
 
 TEST_CASE("pack: a tile of another tile's place is refused, whatever its checks") {
-  // The stream of the last tile stands where that of the first should: right CRCs of its own.
-  const EncodedPack encoded = encode_pack(rough_raster(61, 53), pack_options(3, 60));
+  // Two tiles that differ by one height: as many vertices and bytes, right CRCs of their own.
+  Raster raster = rough_raster(9, 5);
+  for (size_t i = 0; i < raster.heights.size(); ++i) raster.heights[i] = i % 9 % 4 == 2 ? 5 : 0;
+  raster.heights[9 * 2 + 6] = 4;
+  const EncodedPack encoded = encode_pack(raster, {{}, {}, 30});
+  REQUIRE(encoded.tiles.size() == 2);
+  const Bytes &west = encoded.tiles[0].stream, &east = encoded.tiles[1].stream;
+  REQUIRE(west.size() == east.size());
+  REQUIRE(west != east);
   Bytes bytes = write_pack(encoded, {});
-  const PackFile pack(bytes);
-  const PackEntry& first = pack.entries()[0];
-  const Bytes& stream = encoded.tiles.back().stream;
-  bytes.resize(bytes.size() + stream.size());
-  std::copy(stream.begin(), stream.end(),
-            bytes.begin() + static_cast<std::ptrdiff_t>(first.offset));
-  Card card{bytes};
-  const PackDevice device(4);
-  CHECK(device.service(card, at(1, 1)) == MICROTIN_CHECKSUM);
+  const auto status_of = [&](uint32_t x) {
+    Card card{bytes};
+    const PackDevice device(4);
+    return device.service(card, at(x, 1));
+  };
+  CHECK(status_of(1) == MICROTIN_DONE);
+  CHECK(status_of(7) == MICROTIN_DONE);
+  std::swap_ranges(bytes.end() - static_cast<std::ptrdiff_t>(2 * west.size()),
+                   bytes.end() - static_cast<std::ptrdiff_t>(west.size()),
+                   bytes.end() - static_cast<std::ptrdiff_t>(west.size()));
+  CHECK(status_of(1) == MICROTIN_CHECKSUM);
+  CHECK(status_of(7) == MICROTIN_CHECKSUM);
 }
 
 namespace {
