@@ -52,10 +52,10 @@ TEST_CASE("global triangulation: that of streams where no four points lie on a c
     const Points points = uniform_points(n, random);
     if (points.size() < 3) continue;
     const Edges expected = edges_of(Triangulation(points));
-    for (const auto& [scale, shift] : {std::pair(1u, 0u), {1u, 2147418112u}, {32768u, 32767u}}) {
+    for (const auto& to : {std::pair(1u, 0u), {1u, 2147418112u}, {32768u, 32767u}}) {
       CAPTURE(n);
-      CAPTURE(scale);
-      CHECK(edges_of(GlobalTriangulation(global(points, scale, shift))) == expected);
+      CAPTURE(to.first);
+      CHECK(edges_of(GlobalTriangulation(global(points, to.first, to.second))) == expected);
     }
   }
 }

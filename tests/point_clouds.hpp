@@ -50,29 +50,37 @@ struct CloudKind {
   PointCloud cloud;
 };
 
-inline std::vector<CloudKind> cloud_kinds() {
-  std::vector<CloudKind> kinds;
-  const auto kind = [&](const std::string& name, const auto& make) {
-    CloudMaker maker(kinds.size() + 1);
+class CloudKinds {
+ public:
+  template <class Make>
+  void add(const std::string& name, const Make& make) {
+    CloudMaker maker(kinds_.size() + 1);
     make(maker);
-    kinds.push_back({name, maker.take()});
-  };
-  kind("uniform", [](CloudMaker& m) { m.scatter(500, 0, 0, 3000, 2000); });
-  kind("clusters", [](CloudMaker& m) {
+    kinds_.push_back({name, maker.take()});
+  }
+  std::vector<CloudKind> take() { return std::move(kinds_); }
+
+ private:
+  std::vector<CloudKind> kinds_;
+};
+
+inline void add_crowds(CloudKinds& kinds) {
+  kinds.add("uniform", [](CloudMaker& m) { m.scatter(500, 0, 0, 3000, 2000); });
+  kinds.add("clusters", [](CloudMaker& m) {
     m.scatter(200, 0, 0, 150, 150);
     m.scatter(200, 2500, 1800, 150, 150);
     m.scatter(100, 100, 1900, 60, 60);
   });
-  kind("a grid, also on borders and corners", [](CloudMaker& m) {
+  kinds.add("a grid, also on borders and corners", [](CloudMaker& m) {
     for (int64_t i = 0; i < 24 * 24; ++i) m.add(i % 24 * 10, i / 24 * 10);
   });
-  kind("every place", [](CloudMaker& m) {
+  kinds.add("every place", [](CloudMaker& m) {
     for (int64_t i = 0; i < 20 * 20; ++i) m.add(i % 20, i / 20);
   });
-  kind("duplicates", [](CloudMaker& m) {
+  kinds.add("duplicates", [](CloudMaker& m) {
     for (int64_t i = 0; i < 3 * 16 * 16; ++i) m.add(i % 16 * 8, i / 16 % 16 * 8, i % 2);
   });
-  kind("points on lines", [](CloudMaker& m) {
+  kinds.add("points on lines", [](CloudMaker& m) {
     for (int64_t i = 0; i <= 100; ++i) {
       m.add(i * 10, 0);
       m.add(i * 10, 500);
@@ -80,40 +88,50 @@ inline std::vector<CloudKind> cloud_kinds() {
       m.add(i * 10, i * 10);
     }
   });
-  kind("a frame", [](CloudMaker& m) {
+  kinds.add("a frame", [](CloudMaker& m) {
     m.scatter(150, 0, 0, 2000, 100);
     m.scatter(150, 0, 1900, 2000, 100);
     m.scatter(150, 0, 0, 100, 2000);
     m.scatter(150, 1900, 0, 100, 2000);
   });
-  kind("a slope that grazes tiles", [](CloudMaker& m) {
+}
+
+inline void add_long_hulls(CloudKinds& kinds) {
+  kinds.add("a slope that grazes tiles", [](CloudMaker& m) {
     for (int64_t i = 0; i < 300; ++i) m.add(i * 7, i * 7 + i % 3);
     m.add(300, 280);
   });
-  kind("a needle", [](CloudMaker& m) {
+  kinds.add("a needle", [](CloudMaker& m) {
     for (int64_t i = 0; i < 120; ++i) m.add(i * 500, i * 3);
     m.add(59900, 357);
     m.add(1, 0);
   });
-  kind("one triangle", [](CloudMaker& m) {
+  kinds.add("one triangle", [](CloudMaker& m) {
     m.add(0, 0);
     m.add(200001, 70003);
     m.add(90007, 150001);
   });
-  kind("a triangle whose corners lie in tiles of their own", [](CloudMaker& m) {
+  kinds.add("a triangle whose corners lie in tiles of their own", [](CloudMaker& m) {
     m.add(65534, 65537);
     m.add(0, 65534);
     m.add(131001, 65535);
     m.add(65536, 65540);
     m.add(65530, 0);
   });
-  kind("beyond 16 bits", [](CloudMaker& m) { m.scatter(400, -100000, 50000, 200000, 300000); });
-  kind("towns far apart", [](CloudMaker& m) {
+  kinds.add("beyond 16 bits",
+            [](CloudMaker& m) { m.scatter(400, -100000, 50000, 200000, 300000); });
+  kinds.add("towns far apart", [](CloudMaker& m) {
     m.scatter(150, 0, 0, 1000, 1000);
     m.scatter(150, 120000, 40000, 1000, 1000);
     m.scatter(150, 10000, 70000, 1000, 1000);
   });
-  return kinds;
+}
+
+inline std::vector<CloudKind> cloud_kinds() {
+  CloudKinds kinds;
+  add_crowds(kinds);
+  add_long_hulls(kinds);
+  return kinds.take();
 }
 
 // About 2^31 steps long.
