@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "encoder/import.hpp"
 #include "encoder/lattice_choice.hpp"
 #include "encoder/simplify.hpp"
 
@@ -13,6 +14,7 @@ namespace microtin {
 struct EncodeRequest {
   std::string input;
   std::string output;
+  std::optional<ClassSet> classes;
   LatticeOptions lattice;
   uint32_t max_vertices = 0;   // 0: as many as it takes
   uint32_t tile_vertices = 0;  // 0: one stream; else a pack, with at most so many in a tile
@@ -31,7 +33,8 @@ void run_encode(const EncodeRequest& request);
 struct DecodeRequest {
   std::string input;
   std::string output;
-  bool lattice = false;  // integers instead of real coordinates
+  bool lattice = false;         // integers instead of real coordinates
+  std::optional<Decimal> cell;  // of a grid
 };
 
 void run_decode(const DecodeRequest& request);
@@ -43,6 +46,7 @@ void run_info(const std::string& input, bool json);
 struct VerifyRequest {
   std::string input;
   std::string source;
+  std::optional<ClassSet> classes;
   uint32_t fill_voids = 0;  // as the stream was encoded
   bool json = false;
 };

@@ -183,6 +183,9 @@ std::string report(const Source& source, uint32_t filled, const Encoded& encoded
   text << "source: " << measured.posts << (posts ? " posts" : " points");
   if (measured.voids != 0) text << ", " << measured.voids << " void posts";
   if (filled != 0) text << ", " << filled << " of the posts were void and are filled";
+  if (!posts && !std::get<PointCloud>(source).selection.empty()) {
+    text << ", " << std::get<PointCloud>(source).selection;
+  }
   text << "\nstep of x and y: " << to_string(laid.xy_step) << (posts ? " (in posts)" : "")
        << moved(laid.xy_displacement) << "\nstep of z: " << to_string(laid.z_step)
        << moved(laid.z_displacement) << '\n'
@@ -206,7 +209,7 @@ void run_encode(const EncodeRequest& request) {
   }
   refuse_overwriting(request.input, request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
-  Source source = import_terrain(request.input);
+  Source source = import_terrain(request.input, request.classes);
   const uint32_t filled = fill_voids(source, request.fill_voids);
   const Encoded encoded = about(request.input, [&] {
     ProgressBar bar;

@@ -16,7 +16,7 @@ void run_verify(const VerifyRequest& request) {
     run_verify_pack(request, stream);
     return;
   }
-  Source source = import_terrain(request.source);
+  Source source = import_terrain(request.source, request.classes);
   fill_voids(source, request.fill_voids);
   const DecodedTerrain terrain = about(input, [&] { return DecodedTerrain(stream); });
   const std::optional<Accuracy> accuracy = read_header(stream).metadata.accuracy;

@@ -2,15 +2,21 @@
 #ifndef MICROTIN_ENCODER_IMPORT_HPP
 #define MICROTIN_ENCODER_IMPORT_HPP
 
+#include <bitset>
+#include <optional>
 #include <string>
 
 #include "encoder/source.hpp"
 
 namespace microtin {
 
-// Reads a file by its suffix: .hgt, .asc, or .xyz, .csv, .txt (points). "-" reads points from
-// standard input. Throws Error naming the file and, for text, the line.
-Source import_terrain(const std::string& path);
+// Classes of points in a LAS file.
+using ClassSet = std::bitset<256>;
+
+// Reads a file by its suffix: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt (points), .las, .ply,
+// .obj; in builds with GDAL all others by GDAL. "-" reads points from standard input. `classes` are
+// for .las alone. Throws Error naming the file and, for text, the line.
+Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {});
 
 // The formats, from a file's content. `name` goes into messages.
 
@@ -26,6 +32,26 @@ Raster import_asc(const std::string& name, const std::string& text);
 // header: it is one if none of its fields is a number. All lines have the same number of columns;
 // those behind the third are ignored, but must hold numbers.
 PointCloud import_points(const std::string& name, const std::string& text);
+
+// Points of LAS 1.0 to 1.4, formats 0 to 10, with codes and units from GeoTIFF keys or well-known
+// text. Takes the classes asked for; if none are, the ground (2) or, in a file without, all but
+// noise (7 and 18). Points flagged as withheld are never taken.
+PointCloud import_las(const std::string& name, const std::string& bytes,
+                      const std::optional<ClassSet>& classes);
+
+// Vertices of a PLY file, text or binary, and of a Wavefront OBJ file; z is up. Binary fractions
+// stand for the shortest decimal that becomes them. Faces are left out.
+PointCloud import_ply(const std::string& name, const std::string& bytes);
+PointCloud import_obj(const std::string& name, const std::string& text);
+
+// The one .hgt file in a zip archive.
+Raster import_zip(const std::string& name, const std::string& bytes);
+
+#ifdef MICROTIN_WITH_GDAL
+// The first band of what GDAL opens. Columns must run east and rows south. Heights, cell sizes and
+// corners stand for the shortest decimals that become them.
+Raster import_gdal(const std::string& path);
+#endif
 
 }  // namespace microtin
 

@@ -12,8 +12,6 @@
 namespace microtin {
 namespace {
 
-constexpr int kPlaceDecimals = 12;  // of corners and cell sizes: as many as an axis can hold
-
 // The words of a text, one after the other.
 class Words {
  public:
@@ -77,22 +75,9 @@ class Header {
     const std::string size_key = has(other) && !has("cellsize") ? other : "cellsize";
     const Decimal size = required(size_key);
     if (size.mantissa <= 0) throw Error(size_key + " is not above 0");
-    // 0.000833333333 means 1/1200; then the corner's decimals are rounded, too, within 1/100 cell.
-    const std::optional<Fraction> reciprocal = reciprocal_meant(size);
-    const auto meant = [&](Decimal place) {
-      return reciprocal ? meaning_within(place, {1, 100 * reciprocal->denominator})
-                        : reduced(place.mantissa, power_of_ten(place.decimals));
-    };
-    Fraction step = reciprocal ? *reciprocal : reduced(size.mantissa, power_of_ten(size.decimals));
-    if (std::max(step.numerator, step.denominator) >= kAxisLimit) step = simplest_fraction(size);
-    if (has(lower_left + "center")) {
-      return make_axis(meant(required(lower_left + "center")), step);
-    }
-    const Fraction corner = meant(required(lower_left + "corner"));
-    return make_axis(
-        reduced(2 * corner.numerator * step.denominator + step.numerator * corner.denominator,
-                2 * corner.denominator * step.denominator),
-        step);
+    const bool is_centre = has(lower_left + "center");
+    const Decimal place = required(lower_left + (is_centre ? "center" : "corner"));
+    return axis_of_cells(place, size, is_centre ? 0 : 1);
   }
 
  private:

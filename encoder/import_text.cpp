@@ -50,4 +50,35 @@ bool DecimalColumn::refine(int decimals) {
   return true;
 }
 
+PointCloud PointColumns::take() {
+  PointCloud cloud;
+  cloud.xy_decimals = xy_.decimals();
+  cloud.z_decimals = z_.decimals();
+  const std::vector<int64_t>&xy = xy_.mantissas(), &z = z_.mantissas();
+  cloud.points.reserve(z.size());
+  for (size_t i = 0; i < z.size(); ++i) cloud.points.push_back({xy[2 * i], xy[2 * i + 1], z[i]});
+  return cloud;
+}
+
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+  const auto skip_blanks = [&line] {
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+  };
+  fields.clear();
+  for (skip_blanks(); !line.empty(); skip_blanks()) {
+    const size_t end = std::min(line.find_first_of(" \t\r\v\f,;"), line.size());
+    fields.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+    skip_blanks();
+    if (!line.empty() && (line.front() == ',' || line.front() == ';')) line.remove_prefix(1);
+  }
+}
+
+std::string_view take_line(std::string_view& text) {
+  const size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
 }  // namespace microtin

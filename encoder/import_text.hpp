@@ -32,6 +32,7 @@ class DecimalColumn {
 
   int decimals() const { return decimals_; }
   std::vector<int64_t>& mantissas() { return mantissas_; }
+  const std::vector<int64_t>& mantissas() const { return mantissas_; }
 
  private:
   bool refine(int decimals);
@@ -40,6 +41,28 @@ class DecimalColumn {
   Wide largest_ = 0;
   int decimals_ = 0;
 };
+
+// The coordinates of points as they are read; x and y share their decimals.
+class PointColumns {
+ public:
+  // The next coordinate of `axis` 0, 1 or 2: each point needs all three, in this order. False as
+  // for DecimalColumn.
+  bool add(size_t axis, Decimal value) { return (axis < 2 ? xy_ : z_).add(value); }
+
+  bool empty() const { return z_.mantissas().empty(); }
+  PointCloud take();
+
+ private:
+  DecimalColumn xy_;  // x and y in turn
+  DecimalColumn z_;
+};
+
+// Splits a line at runs of blanks with at most one comma or semicolon in each; an empty field is
+// kept, unless it is the last.
+void split(std::string_view line, std::vector<std::string_view>& fields);
+
+// Takes the first line away from a text that is not empty; without its end.
+std::string_view take_line(std::string_view& text);
 
 }  // namespace microtin
 

@@ -17,6 +17,14 @@ namespace {
 
 constexpr int kFailed = 1, kUsage = 2;
 
+constexpr const char* kTerrainFiles =
+    "Rasters: .hgt, .zip with one .hgt, .asc. Points: .xyz, .csv, .txt, .las, .ply, .obj; - reads "
+    "points"
+#ifdef MICROTIN_WITH_GDAL
+    ". Others by GDAL"
+#endif
+    ;
+
 void add_output(CLI::App& command, std::string& path) {
   command.add_option("-o,--output", path, "File to write; - is standard output")->required();
 }
@@ -48,6 +56,29 @@ void set_epsg(const std::string& text, EncodeRequest& request) {
   if (!horizontal || !vertical) {
     throw CLI::ValidationError("--epsg", text + " is not a code, nor two with a colon between");
   }
+}
+
+void add_classes(CLI::App& command, std::optional<ClassSet>& classes) {
+  command.add_option_function<std::string>(
+      "--classes",
+      [&classes](const std::string& text) {
+        ClassSet set;
+        std::string_view rest = text;
+        while (text != "all" && !rest.empty()) {
+          const size_t comma = std::min(rest.find(','), rest.size());
+          uint32_t code = 0;
+          const bool ends_well = comma + 1 != rest.size();
+          const auto [next, error] = std::from_chars(rest.data(), rest.data() + comma, code);
+          if (error != std::errc() || next != rest.data() + comma || code > 255 || !ends_well) {
+            throw CLI::ValidationError("--classes", text + " is not a list such as 2,9, nor all");
+          }
+          set.set(code);
+          rest.remove_prefix(std::min(comma + 1, rest.size()));
+        }
+        classes = text == "all" ? set.set() : set;
+      },
+      "Points to take from a .las file: their classes, 2,9 for instance, or all. If not given: the "
+      "ground (2) or, if there is none, all but noise (7, 18)");
 }
 
 void add_search(CLI::App& command, Search& search) {
@@ -87,9 +118,9 @@ using Action = std::function<void()>;
 void add_encode(CLI::App& app, Action& action) {
   auto request = std::make_shared<EncodeRequest>();
   CLI::App& command = *app.add_subcommand("encode", "Turn a terrain into a stream");
-  command.add_option("terrain", request->input, ".hgt, .asc, .xyz, .csv, .txt; - reads points")
-      ->required();
+  command.add_option("terrain", request->input, kTerrainFiles)->required();
   add_output(command, request->output);
+  add_classes(command, request->classes);
   CLI::Option* const bound =
       add_decimal(command, "--max-error", request->lattice.max_error,
                   "Keep every height within this distance, in the terrain's unit");
@@ -139,11 +170,23 @@ void add_encode(CLI::App& app, Action& action) {
 
 void add_decode(CLI::App& app, Action& action) {
   auto request = std::make_shared<DecodeRequest>();
-  CLI::App& command = *app.add_subcommand("decode", "Turn a stream into .xyz, .obj or .ply");
+  CLI::App& command = *app.add_subcommand("decode", "Turn a stream into a mesh or a grid");
   command.add_option("stream", request->input)->required();
-  add_output(command, request->output);
+  command
+      .add_option("-o,--output", request->output,
+                  "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); - is .xyz on "
+                  "standard output")
+      ->required();
+  add_decimal(command, "--cell", request->cell,
+              "Size of an .asc grid's cells, in the terrain's unit; if not given, the lattice's "
+              "step: for rasters the posts");
   command.add_flag("--lattice", request->lattice, "Write the lattice's integers");
-  command.callback([request, &action] { action = [request] { run_decode(*request); }; });
+  command.callback([request, &action] {
+    if (request->cell && request->cell->mantissa == 0) {
+      throw CLI::ValidationError("--cell", "must be above 0");
+    }
+    action = [request] { run_decode(*request); };
+  });
 }
 
 void add_embed(CLI::App& app, Action& action) {
@@ -177,7 +220,8 @@ void add_verify(CLI::App& app, Action& action) {
   auto request = std::make_shared<VerifyRequest>();
   CLI::App& command = *app.add_subcommand("verify", "Compare a stream with its terrain");
   command.add_option("stream", request->input)->required();
-  command.add_option("terrain", request->source)->required();
+  command.add_option("terrain", request->source, kTerrainFiles)->required();
+  add_classes(command, request->classes);
   command.add_option("--fill-voids", request->fill_voids,
                      "Interpolate voids as for encoding before the comparison");
   command.add_flag("--json", request->json);

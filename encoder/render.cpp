@@ -6,61 +6,21 @@
 
 #include "encoder/error.hpp"
 #include "encoder/png.hpp"
+#include "encoder/tint.hpp"
 
 namespace microtin {
 namespace {
-
-struct Vector {
-  double x, y, z;
-};
-
-Vector operator+(Vector a, Vector b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-Vector operator-(Vector a, Vector b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-Vector operator*(double s, Vector a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-
-double dot(Vector a, Vector b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Vector cross_product(Vector a, Vector b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-Vector normalised(Vector a) {
-  return 1 / std::sqrt(dot(a, a)) * a;
-}
-
-Vector mix(Vector a, Vector b, double t) {
-  return (1 - t) * a + t * b;
-}
 
 double smooth_step(double low, double high, double t) {
   const double u = std::clamp((t - low) / (high - low), 0.0, 1.0);
   return u * u * (3 - 2 * u);
 }
 
-// Colours from the valley to the summit, evenly spaced; light comes from the north-west.
-constexpr std::array<Vector, 6> kTints = {Vector{0.47, 0.62, 0.49}, {0.68, 0.76, 0.56},
-                                          {0.87, 0.84, 0.65},       {0.80, 0.68, 0.52},
-                                          {0.71, 0.60, 0.52},       {0.96, 0.96, 0.96}};
+// Light comes from the north-west.
 constexpr Vector kWater{0.47, 0.66, 0.76};
 constexpr Vector kLine{0.13, 0.17, 0.24};
 constexpr Vector kShadow{0.25, 0.29, 0.42};
 constexpr Vector kLight{-0.53, 0.53, 0.66};
-
-Vector tint(double t) {
-  const double at = std::clamp(t, 0.0, 1.0) * (kTints.size() - 1);
-  const size_t below = std::min(static_cast<size_t>(at), kTints.size() - 2);
-  return mix(kTints[below], kTints[below + 1], at - static_cast<double>(below));
-}
 
 // A mesh with what shading needs: vertices as vectors, one normal for each.
 class Relief {

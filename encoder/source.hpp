@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -42,6 +43,7 @@ struct PointCloud {
   int xy_decimals = 0;
   int z_decimals = 0;
   Reference reference;
+  std::string selection;  // which points of the file these are, for the user; empty: all
 };
 
 using Source = std::variant<Raster, PointCloud>;

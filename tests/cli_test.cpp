@@ -292,6 +292,60 @@ TEST_CASE("cli: packs of points") {
   CHECK(contains(session.failure("encode line.xyz --tile-vertices 60 -o line.mtp"), "one line"));
 }
 
+TEST_CASE("cli: a grid that is written is a terrain again") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
+  REQUIRE(session.run("encode f.asc --max-error 10 -o f.mtin").code == 0);
+  REQUIRE(session.run("decode f.mtin -o surface.asc").code == 0);
+  // Its posts are the surface's, but for the last decimal.
+  const std::string verified = session.run("verify f.mtin surface.asc").out, key = "max_error: ";
+  CHECK(std::stod(verified.substr(verified.find(key) + key.size())) <= 0.0005);
+  REQUIRE(session.run("encode f.asc -o exact.mtin").code == 0);
+  REQUIRE(session.run("decode exact.mtin -o exact.asc").code == 0);
+  CHECK(contains(session.run("verify exact.mtin exact.asc").out, "max_error: 0.0\n"));
+  REQUIRE(session.run("encode exact.asc -o again.mtin").code == 0);
+  CHECK(session.read("again.mtin") == session.read("exact.mtin"));
+  REQUIRE(session.run("encode f.asc --max-error 10 --tile-vertices 60 -o f.mtp").code == 0);
+  REQUIRE(session.run("decode f.mtp -o pack.asc").code == 0);
+  CHECK(session.run("verify f.mtp pack.asc").code == 0);
+  REQUIRE(session.run("decode f.mtp --lattice --cell 16 -o coarse.asc").code == 0);
+  CHECK(contains(session.read("coarse.asc"), "ncols 5\nnrows 5\nxllcenter 0\nyllcenter 0\n"));
+  session.write("far.xyz", "0 0 1\n655.35 0 2\n0 655.35 3\n");
+  REQUIRE(session.run("encode far.xyz -o far.mtin").code == 0);
+  CHECK(session.failure("decode far.mtin -o far.asc") ==
+        "far.mtin: has 4294967296 places on its lattice: give the size of the grid's cells, "
+        "--cell\n");
+  CHECK(session.run("decode far.mtin --cell 100 -o far.asc").code == 0);
+  CHECK(contains(session.failure("decode far.mtin --cell 100 -o far.ply"), "only .asc grids"));
+}
+
+TEST_CASE("cli: meshes for viewers") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
+  for (const std::string options : {"-o f.mtin", "--tile-vertices 60 -o f.mtp"}) {
+    REQUIRE(session.run("encode f.asc --max-error 10 " + options).code == 0);
+    REQUIRE(session.run("decode " + options.substr(options.find("f.m")) + " -o f.glb").code == 0);
+    CHECK(session.read("f.glb").substr(0, 4) == "glTF");
+  }
+}
+
+TEST_CASE("cli: meshes are terrains, too; classes are for laser scans") {
+  const Session session;
+  session.write("p.xyz", "0 0 0\n9 0 3.5\n0 9 7\n5 5 5\n");
+  REQUIRE(session.run("encode p.xyz -o p.mtin").code == 0);
+  for (const std::string mesh : {"p.ply", "p.obj"}) {
+    REQUIRE(session.run("decode p.mtin -o " + mesh).code == 0);
+    REQUIRE(session.run("encode " + mesh + " -o again.mtin").code == 0);
+    CHECK(session.read("again.mtin") == session.read("p.mtin"));
+    CHECK(session.failure("encode " + mesh + " --classes 2 -o x.mtin") ==
+          mesh + ": only .las files have classes\n");
+  }
+  session.write("a.las", "LASF");
+  session.write("a.zip", "PK");
+  CHECK(session.failure("encode a.las --classes all -o x.mtin").find("a.las: cut off") == 0);
+  CHECK(session.failure("encode a.zip -o x.mtin").find("a.zip: is not a zip archive") == 0);
+}
+
 TEST_CASE("cli: wrong usage is told apart") {
   const Session session;
   session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n");
@@ -317,8 +371,12 @@ TEST_CASE("cli: wrong usage is told apart") {
                                 "encode ok.xyz -o o --tile-vertices 3",
                                 "encode ok.xyz -o o --device-ram 2000",
                                 "encode ok.xyz -o o --device-ram 65536 --tile-vertices 99",
+                                "encode ok.xyz -o o --classes 2,",
+                                "encode ok.xyz -o o --classes 256",
+                                "encode ok.xyz -o o --classes ground",
                                 "info",
-                                "decode ok.xyz"}) {
+                                "decode ok.xyz",
+                                "decode ok.xyz -o o.asc --cell 0"}) {
     session.failure(arguments, 2);
   }
   const Session::Result help = session.run("encode --help");

@@ -147,6 +147,8 @@ const std::vector<Words> kCommands = {
     {"encode", "p.xyz", "-o", "new.mtp", "--tile-vertices", "16"},
     {"decode", "t.mtin", "-o", "new.ply"},
     {"decode", "t.mtin", "-o", "new.obj"},
+    {"decode", "t.mtin", "-o", "new.asc"},
+    {"decode", "t.mtin", "-o", "new.glb"},
     {"decode", "t.mtin", "-o", "-", "--lattice"},
     {"info", "t.mtin"},
     {"verify", "t.mtin", "t.asc", "--json"},
