@@ -32,9 +32,10 @@ struct Made {
 
 Made encode_points(const PointCloud& cloud, const PackOptions& options) {
   PointPack made = encode_point_pack(cloud, options);
-  return {std::move(made.pack), "source: " + std::to_string(cloud.points.size()) +
-                                    " points\nstep of x and y: " + to_string(made.xy_step) +
-                                    moved(made.xy_displacement) + "\n" + merged(made.merged)};
+  std::string places = "source: " + std::to_string(cloud.points.size()) + " points";
+  if (!cloud.selection.empty()) places += ", " + cloud.selection;
+  places += "\nstep of x and y: " + to_string(made.xy_step) + moved(made.xy_displacement) + "\n";
+  return {std::move(made.pack), places + merged(made.merged)};
 }
 
 Made encode(const Source& source, const EncodeRequest& request) {

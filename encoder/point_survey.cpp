@@ -73,7 +73,7 @@ std::vector<GlobalPost> places_of(const std::vector<GlobalSample>& samples) {
 
 std::vector<GlobalPost> places_on(const PointCloud& cloud, const Placement& lattice, uint32_t x_max,
                                   uint32_t y_max) {
-  const Placement numbers = placement_of(PointCloud{{}, cloud.xy_decimals, cloud.z_decimals, {}});
+  const Placement numbers = placement_of(part_of(cloud, {}));
   const LatticeMap x_map = map_between(numbers.x, lattice.x);
   const LatticeMap y_map = map_between(numbers.y, lattice.y);
   std::vector<GlobalPost> places;
@@ -92,7 +92,9 @@ Placement placement_from(const Placement& whole, GlobalPost first) {
 }
 
 PointCloud part_of(const PointCloud& cloud, const std::vector<uint32_t>& points) {
-  PointCloud part{{}, cloud.xy_decimals, cloud.z_decimals, cloud.reference};
+  PointCloud part;
+  part.xy_decimals = cloud.xy_decimals;
+  part.z_decimals = cloud.z_decimals;
   part.points.reserve(points.size());
   for (const uint32_t i : points) part.points.push_back(cloud.points[i]);
   return part;
