@@ -3,10 +3,13 @@
 #define MICROTIN_ENCODER_CLI_COMMANDS_HPP
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "encoder/import.hpp"
 #include "encoder/lattice_choice.hpp"
+#include "encoder/pack_encode.hpp"
 #include "encoder/simplify.hpp"
 
 namespace microtin {
@@ -16,9 +19,11 @@ struct EncodeRequest {
   std::string output;
   std::optional<ClassSet> classes;
   LatticeOptions lattice;
-  uint32_t max_vertices = 0;   // 0: as many as it takes
-  uint32_t tile_vertices = 0;  // 0: one stream; else a pack, with at most so many in a tile
-  uint32_t max_bytes = 0;      // 0: as many as it takes; else the bound is looked for
+  uint32_t max_vertices = 0;       // 0: as many as it takes
+  uint32_t tile_vertices = 0;      // 0: one stream; else a pack, with at most so many in a tile
+  uint32_t tile_steps = 0;         // of a pack; 0: to be chosen
+  std::optional<TileRange> tiles;  // a shard of a pack, with these
+  uint32_t max_bytes = 0;          // 0: as many as it takes; else the bound is looked for
   Search search = Search::kNormal;
   uint64_t device_ram = 0;  // 0: unlimited
   Effort effort;
@@ -29,6 +34,11 @@ struct EncodeRequest {
 };
 
 void run_encode(const EncodeRequest& request);
+
+// Prints, for each of so many shards, a line with the options that encode it as a single run would.
+void run_plan(const EncodeRequest& request, uint32_t shards);
+
+void run_merge(const std::vector<std::string>& shards, const std::string& output);
 
 struct DecodeRequest {
   std::string input;

@@ -18,19 +18,24 @@ bool is_grid(const std::string& path) {
   return std::filesystem::path(path).extension() == ".asc";
 }
 
-SurfaceModel surface_of(const std::vector<uint8_t>& stream) {
-  if (is_pack(stream)) {
-    const PackFile pack(stream);
-    SurfaceModel model = model_of(pack);
-    model.horizontal_unit = pack.metadata().horizontal_unit;
-    model.vertical_unit = pack.metadata().vertical_unit;
-    return model;
-  }
-  SurfaceModel model = model_of(DecodedTerrain(stream).mesh());
-  const Metadata metadata = read_header(stream).metadata;
+void set_units(SurfaceModel& model, const Metadata& metadata) {
   model.horizontal_unit = metadata.horizontal_unit;
   model.vertical_unit = metadata.vertical_unit;
-  return model;
+}
+
+SurfaceModel read_surface(const std::string& input) {
+  const std::optional<PackFile> pack = open_pack(input);
+  if (pack) {
+    SurfaceModel model = about(input, [&] { return model_of(*pack); });
+    set_units(model, pack->metadata());
+    return model;
+  }
+  const std::vector<uint8_t> stream = read_stream(input);
+  return about(input, [&] {
+    SurfaceModel model = model_of(DecodedTerrain(stream).mesh());
+    set_units(model, read_header(stream).metadata);
+    return model;
+  });
 }
 
 void write_grid(const DecodeRequest& request, SampledSurface surface) {
@@ -46,12 +51,12 @@ void write_grid(const DecodeRequest& request, SampledSurface surface) {
 
 void decode_to_grid(const DecodeRequest& request) {
   constexpr uint64_t kMostPosts = uint64_t{1} << 26;  // without a word on cells
-  const std::vector<uint8_t> stream = read_stream(request.input);
-  if (is_pack(stream)) {
-    const PackFile pack = about(request.input, [&] { return PackFile(stream); });
-    write_grid(request, sampled(pack));
+  const std::optional<PackFile> pack = open_pack(request.input);
+  if (pack) {
+    write_grid(request, sampled(*pack));
     return;
   }
+  const std::vector<uint8_t> stream = read_stream(request.input);
   const DecodedTerrain terrain = about(request.input, [&] { return DecodedTerrain(stream); });
   const SampledSurface surface = sampled(terrain.mesh());
   if (!request.cell && lattice_posts(surface) > kMostPosts) {
@@ -71,12 +76,10 @@ void run_decode(const DecodeRequest& request) {
   }
   if (request.cell) throw Error(request.output + ": only .asc grids have cells");
   const MeshFormat format = mesh_format_of(request.output);
-  const std::vector<uint8_t> stream = read_stream(request.input);
-  const SurfaceModel model = about(request.input, [&] {
-    SurfaceModel all = surface_of(stream);
-    if (format == MeshFormat::kGlb && all.triangles.empty()) throw Error("holds no triangle");
-    return all;
-  });
+  const SurfaceModel model = read_surface(request.input);
+  if (format == MeshFormat::kGlb && model.triangles.empty()) {
+    throw Error(request.input + ": holds no triangle");
+  }
   OutputFile out(request.output);
   export_model(model, format, request.lattice ? Coordinates::kLattice : Coordinates::kReal, out);
   out.commit();

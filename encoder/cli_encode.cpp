@@ -19,9 +19,8 @@
 
 namespace microtin {
 
-Metadata metadata_of(const EncodeRequest& request, const Source& source,
+Metadata metadata_of(const EncodeRequest& request, const Reference& reference,
                      const Placement& placement) {
-  const Reference reference = std::visit([](const auto& s) { return s.reference; }, source);
   Metadata metadata;
   metadata.placement = placement;
   metadata.horizontal_unit = reference.horizontal_unit;
@@ -38,7 +37,8 @@ namespace {
 
 bool makes_pack(const EncodeRequest& request) {
   const std::string& name = request.output;
-  return request.tile_vertices != 0 || (name.size() > 4 && name.substr(name.size() - 4) == ".mtp");
+  return request.tile_vertices != 0 || request.tiles ||
+         (name.size() > 4 && name.substr(name.size() - 4) == ".mtp");
 }
 
 // The vertices that may be used, 0 for as many as it takes. A device's RAM is a limit only if
@@ -94,7 +94,8 @@ Encoded encode_measured(const Source& source, const EncodeRequest& request,
   Approximation found = approximate(source, request.lattice, simplify_options(request, progress));
   check_vertices(found.tin, request);
   const std::optional<Decimal>& bound = request.lattice.max_error;
-  Metadata metadata = metadata_of(request, source, found.laid.placement);
+  const Reference reference = std::visit([](const auto& s) { return s.reference; }, source);
+  Metadata metadata = metadata_of(request, reference, found.laid.placement);
   const auto [stream, decoded] = encode_and_decode(found.tin, metadata, request.effort);
   const Verification measured = verify(decoded.mesh(), source, bound);
   const bool too_low = request.lattice.never_below && measured.max_below.mantissa != 0;
@@ -216,7 +217,8 @@ void run_encode(const EncodeRequest& request) {
     return request.max_bytes != 0 ? encode_within_bytes(source, request)
                                   : encode_measured(source, request, bar.progress());
   });
-  deliver(out, request.output, encoded.stream, report(source, filled, encoded));
+  out.write(encoded.stream);
+  deliver(out, request.output, report(source, filled, encoded));
 }
 
 }  // namespace microtin

@@ -113,11 +113,12 @@ JsonObject report_of(const std::vector<uint8_t>& stream) {
 }  // namespace
 
 void run_info(const std::string& input, bool json) {
-  const std::vector<uint8_t> stream = read_stream(input);
-  if (is_pack(stream)) {
-    run_info_pack(input, stream, json);
+  const std::optional<PackFile> pack = open_pack(input);
+  if (pack) {
+    run_info_pack(*pack, json);
     return;
   }
+  const std::vector<uint8_t> stream = read_stream(input);
   print(about(input, [&] { return report_of(stream); }), json);
 }
 

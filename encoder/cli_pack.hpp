@@ -9,17 +9,18 @@
 
 #include "encoder/cli_commands.hpp"
 #include "encoder/cli_report.hpp"
+#include "encoder/pack_file.hpp"
 #include "encoder/source.hpp"
 #include "encoder/verify.hpp"
 
 namespace microtin {
 
 void run_encode_pack(const EncodeRequest& request);
-void run_info_pack(const std::string& input, const std::vector<uint8_t>& bytes, bool as_json);
-void run_verify_pack(const VerifyRequest& request, const std::vector<uint8_t>& bytes);
+void run_info_pack(const PackFile& pack, bool as_json);
+void run_verify_pack(const VerifyRequest& request, const PackFile& pack);
 
 // Common to packs and streams.
-Metadata metadata_of(const EncodeRequest& request, const Source& source,
+Metadata metadata_of(const EncodeRequest& request, const Reference& reference,
                      const Placement& placement);
 SimplifyOptions simplify_options(const EncodeRequest& request, const Progress& progress);
 std::string moved(Decimal displacement);

@@ -24,7 +24,7 @@ void run_render(const std::string& input, const std::string& output, uint32_t wi
   const DecodedTerrain terrain = about(input, [&] { return DecodedTerrain(stream); });
   OutputFile out(output);
   const std::vector<uint8_t> picture = render_png(terrain.mesh(), width);
-  out.write({reinterpret_cast<const char*>(picture.data()), picture.size()});
+  out.write(picture);
   out.commit();
 }
 

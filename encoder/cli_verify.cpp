@@ -11,11 +11,12 @@ namespace microtin {
 
 void run_verify(const VerifyRequest& request) {
   const std::string& input = request.input;
-  const std::vector<uint8_t> stream = read_stream(input);
-  if (is_pack(stream)) {
-    run_verify_pack(request, stream);
+  const std::optional<PackFile> pack = open_pack(input);
+  if (pack) {
+    run_verify_pack(request, *pack);
     return;
   }
+  const std::vector<uint8_t> stream = read_stream(input);
   Source source = import_terrain(request.source, request.classes);
   fill_voids(source, request.fill_voids);
   const DecodedTerrain terrain = about(input, [&] { return DecodedTerrain(stream); });

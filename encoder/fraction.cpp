@@ -27,7 +27,7 @@ Fraction simplest_between(Fraction low, Fraction high) {
 }  // namespace
 
 Fraction reduced(Wide numerator, Wide denominator) {
-  const Wide divisor = greatest_common_divisor(numerator, denominator);
+  const Wide divisor = std::max<Wide>(greatest_common_divisor(numerator, denominator), 1);
   return {numerator / divisor, denominator / divisor};
 }
 

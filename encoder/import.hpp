@@ -3,9 +3,13 @@
 #define MICROTIN_ENCODER_IMPORT_HPP
 
 #include <bitset>
+#include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
+#include "encoder/byte_source.hpp"
+#include "encoder/raster_reader.hpp"
 #include "encoder/source.hpp"
 
 namespace microtin {
@@ -18,14 +22,24 @@ using ClassSet = std::bitset<256>;
 // for .las alone. Throws Error naming the file and, for text, the line.
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {});
 
+using OpenSource = std::variant<std::unique_ptr<RasterReader>, PointCloud>;
+
+// Opens such a file. .hgt and .asc files are read in pieces, .asc once as a whole before, to check
+// it and to learn where its posts are: 8 bytes of memory for each 512 of them. Others are kept in
+// memory. Throws Error as import_terrain does, and if it cannot be read in pieces.
+OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& classes = {});
+
 // The formats, from a file's content. `name` goes into messages.
 
-// SRTM: 1201 or 3601 posts in a row, big-endian metres from the north-west corner, -32768 where
-// there is none. The name's first seven characters (N43E007) place the south-west post.
+// SRTM: a square of posts, 3601 in a row or any number from 2 on, of which the first and the last
+// lie a degree apart; big-endian metres from the north-west corner, -32768 where there is none. The
+// name's first seven characters (N43E007) place the south-west post.
 Raster import_hgt(const std::string& name, const std::string& bytes);
+std::unique_ptr<RasterReader> open_hgt(const std::string& name, std::unique_ptr<ByteSource> bytes);
 
 // ESRI ASCII grid. Heights lie at the centres of cells.
 Raster import_asc(const std::string& name, const std::string& text);
+std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<ByteSource> text);
 
 // Points, one a line: x, y and, if there is a third column, z; separated by blanks, tabs, commas or
 // semicolons. Lines that are blank or begin with # are skipped. The first other line may be a

@@ -31,22 +31,24 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-bool DecimalColumn::add(Decimal value) {
-  if (value.decimals > decimals_ && !refine(value.decimals)) return false;
-  const Wide mantissa = mantissa_at(value, decimals_);
-  largest_ = std::max(largest_, magnitude(mantissa));
-  mantissas_.push_back(static_cast<int64_t>(mantissa));
+bool DecimalRange::add(Decimal value) {
+  if (value.decimals > decimals_) {
+    largest_ *= power_of_ten(value.decimals - decimals_);
+    if (largest_ > kLargest) return false;
+    decimals_ = value.decimals;
+  }
+  largest_ = std::max(largest_, magnitude(mantissa_at(value, decimals_)));
   return largest_ <= kLargest;
 }
 
-bool DecimalColumn::refine(int decimals) {
-  const int64_t factor = power_of_ten(decimals - decimals_);
-  largest_ *= factor;
-  if (largest_ > kLargest) return false;
-  for (int64_t& mantissa : mantissas_) {
-    if (mantissa != kVoidHeight) mantissa *= factor;
+bool DecimalColumn::add(Decimal value) {
+  const int before = range_.decimals();
+  if (!range_.add(value)) return false;
+  const int64_t factor = power_of_ten(range_.decimals() - before);
+  for (size_t i = 0; factor != 1 && i < mantissas_.size(); ++i) {
+    if (mantissas_[i] != kVoidHeight) mantissas_[i] *= factor;
   }
-  decimals_ = decimals;
+  mantissas_.push_back(static_cast<int64_t>(mantissa_at(value, range_.decimals())));
   return true;
 }
 

@@ -10,24 +10,9 @@
 namespace microtin {
 namespace {
 
-// The numbers of a source along one axis.
-struct Range {
-  int64_t low = std::numeric_limits<int64_t>::max();
-  int64_t high = std::numeric_limits<int64_t>::min();
-  int64_t spacing = 0;  // the greatest that divides all differences
-
-  bool empty() const { return low > high; }
-
-  void add(int64_t number) {
-    if (!empty()) spacing = std::gcd(spacing, number - low);
-    low = std::min(low, number);
-    high = std::max(high, number);
-  }
-};
-
 // Axes that share their step.
 struct AxisGroup {
-  std::vector<Range> ranges;
+  std::vector<NumberRange> ranges;
   int decimals;         // of the numbers
   int needed_decimals;  // of the refined numbers, at least
   int lattice_low, lattice_high;
@@ -42,7 +27,8 @@ struct GroupFit {
 };
 
 // The map of one axis, if the range is not too wide.
-std::optional<LatticeMap> fit(const Range& range, Wide scale, Wide step, const AxisGroup& group) {
+std::optional<LatticeMap> fit(const NumberRange& range, Wide scale, Wide step,
+                              const AxisGroup& group) {
   const Wide low = scale * range.low;
   const bool same_rest = scale * range.spacing % step == 0;
   const Wide rest = same_rest ? low - floor_divide(low, step) * step : 0;
@@ -62,7 +48,7 @@ GroupFit fit_all(const AxisGroup& group, Decimal step) {
   GroupFit fits;
   fits.decimals = std::max({group.decimals, group.needed_decimals, step.decimals});
   const Wide scale = power_of_ten(fits.decimals - group.decimals);
-  for (const Range& range : group.ranges) {
+  for (const NumberRange& range : group.ranges) {
     const auto map = fit(range, scale, mantissa_at(step, fits.decimals), group);
     if (!map) return {};
     fits.maps.push_back(*map);
@@ -103,7 +89,7 @@ Axis lattice_axis(const Axis& source, const LatticeMap& map) {
                       static_cast<Wide>(source.denominator) * map.scale);
 }
 
-AxisGroup height_group(const Range& z, int decimals, const LatticeOptions& options) {
+AxisGroup height_group(const NumberRange& z, int decimals, const LatticeOptions& options) {
   if (z.empty()) throw Error("there is no height");
   return {{z},       decimals,  options.max_error ? options.max_error->decimals : 0,
           INT16_MIN, INT16_MAX, "--z-step"};
@@ -111,22 +97,37 @@ AxisGroup height_group(const Range& z, int decimals, const LatticeOptions& optio
 
 }  // namespace
 
-Lattice choose_post_lattice(const Raster& raster, const LatticeOptions& options) {
-  Range z;
-  for (const int64_t height : raster.heights) {
-    if (height != kVoidHeight) z.add(height);
+void NumberRange::add(int64_t number) {
+  if (empty()) {
+    low = high = number;
+    return;
   }
-  const GroupFit up = choose(height_group(z, raster.decimals, options), options.z_step);
+  // What a spacing of 1 divides need not be divided.
+  if (spacing != 1) spacing = std::gcd(spacing, number - low);
+  low = std::min(low, number);
+  high = std::max(high, number);
+}
+
+void NumberRange::add(const NumberRange& others) {
+  if (others.empty()) return;
+  add(others.low);
+  add(others.high);
+  spacing = std::gcd(spacing, others.spacing);
+}
+
+Lattice choose_post_lattice(const Raster& frame, const NumberRange& heights,
+                            const LatticeOptions& options) {
+  const GroupFit up = choose(height_group(heights, frame.decimals, options), options.z_step);
   const LatticeMap itself{1, 0, 1};
-  const Axis heights{0, 1, static_cast<uint64_t>(power_of_ten(raster.decimals))};
+  const Axis up_axis{0, 1, static_cast<uint64_t>(power_of_ten(frame.decimals))};
   return {itself, itself,      up.maps[0],
-          0,      up.decimals, {raster.x, raster.y, lattice_axis(heights, up.maps[0])}};
+          0,      up.decimals, {frame.x, frame.y, lattice_axis(up_axis, up.maps[0])}};
 }
 
 namespace {
 
 Lattice choose(const Source& source, AxisGroup places, const LatticeOptions& options) {
-  Range x, y, z;
+  NumberRange x, y, z;
   for_each_post(source, [&](int64_t px, int64_t py, int64_t pz) {
     x.add(px);
     y.add(py);

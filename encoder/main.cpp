@@ -4,10 +4,14 @@
 #include <csignal>
 #include <cstdio>
 #include <functional>
+#include <memory>
+#include <string>
+#include <vector>
 
 #include "encoder/cli_commands.hpp"
 #include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
+#include "encoder/leftovers.hpp"
 #include "encoder/pack_encode.hpp"
 #include "encoder/tile_plan.hpp"
 #include "shared/format.hpp"
@@ -42,10 +46,14 @@ CLI::Option* add_decimal(CLI::App& command, const std::string& name, std::option
       description);
 }
 
-bool parse_code(const std::string& text, uint32_t& code) {
+bool parse_number(const std::string& text, uint32_t& number) {
   const char* const end = text.data() + text.size();
-  const auto [next, error] = std::from_chars(text.data(), end, code);
-  return error == std::errc() && next == end && code != 0;
+  const auto [next, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && next == end;
+}
+
+bool parse_code(const std::string& text, uint32_t& code) {
+  return parse_number(text, code) && code != 0;
 }
 
 void set_epsg(const std::string& text, EncodeRequest& request) {
@@ -56,6 +64,16 @@ void set_epsg(const std::string& text, EncodeRequest& request) {
   if (!horizontal || !vertical) {
     throw CLI::ValidationError("--epsg", text + " is not a code, nor two with a colon between");
   }
+}
+
+void set_tiles(const std::string& text, EncodeRequest& request) {
+  const size_t colon = text.find(':');
+  TileRange range{};
+  if (colon == std::string::npos || !parse_number(text.substr(0, colon), range.first) ||
+      !parse_number(text.substr(colon + 1), range.last) || range.last < range.first) {
+    throw CLI::ValidationError("--tiles", text + " is not FROM:TO, as 0:99");
+  }
+  request.tiles = range;
 }
 
 void add_classes(CLI::App& command, std::optional<ClassSet>& classes) {
@@ -102,6 +120,10 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
           ->excludes(&vertices)
           ->excludes(&bytes);
   command
+      .add_option("--tile-steps", request.tile_steps,
+                  "Extent of the pack's tiles at most, in steps between posts; chosen if not given")
+      ->check(CLI::Range(1u, uint32_t{kLatticeMax}));
+  command
       .add_option(
           "--device-ram", request.device_ram,
           "Bytes that a device has for mesh and decoder, with 16-bit numbers up to 10,923 "
@@ -115,11 +137,8 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
 
 using Action = std::function<void()>;
 
-void add_encode(CLI::App& app, Action& action) {
-  auto request = std::make_shared<EncodeRequest>();
-  CLI::App& command = *app.add_subcommand("encode", "Turn a terrain into a stream");
+void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
   command.add_option("terrain", request->input, kTerrainFiles)->required();
-  add_output(command, request->output);
   add_classes(command, request->classes);
   CLI::Option* const bound =
       add_decimal(command, "--max-error", request->lattice.max_error,
@@ -160,12 +179,56 @@ void add_encode(CLI::App& app, Action& action) {
       "--epsg", [request](const std::string& text) { set_epsg(text, *request); },
       "Codes of the coordinates: horizontal, or horizontal:vertical");
   command.add_option("--source-text", request->source_text, "Where the terrain comes from");
+}
+
+void check_encode_options(const EncodeRequest& request) {
+  if (request.lattice.never_below && !request.lattice.max_error && request.max_bytes == 0) {
+    throw CLI::ValidationError("--never-below", "needs --max-error or --max-bytes");
+  }
+}
+
+void add_encode(CLI::App& app, Action& action) {
+  auto request = std::make_shared<EncodeRequest>();
+  CLI::App& command = *app.add_subcommand("encode", "Turn a terrain into a stream, or a pack");
+  add_encode_options(command, request);
+  add_output(command, request->output);
+  command.add_option_function<std::string>(
+      "--tiles", [request](const std::string& text) { set_tiles(text, *request); },
+      "FROM:TO: write a shard of a pack, with these of its tiles; merge joins them");
   command.callback([request, &action] {
-    if (request->lattice.never_below && !request->lattice.max_error && request->max_bytes == 0) {
-      throw CLI::ValidationError("--never-below", "needs --max-error or --max-bytes");
-    }
+    check_encode_options(*request);
     action = [request] { run_encode(*request); };
   });
+}
+
+void add_plan(CLI::App& app, Action& action) {
+  struct Request : EncodeRequest {
+    uint32_t shards = 1;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand(
+      "plan", "Print, for each shard of a pack, options for encode that make it");
+  add_encode_options(command, request);
+  command.add_option("--shards", request->shards, "Number of shards")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.callback([request, &action] {
+    check_encode_options(*request);
+    action = [request] { run_plan(*request, request->shards); };
+  });
+}
+
+void add_merge(CLI::App& app, Action& action) {
+  struct Request {
+    std::vector<std::string> shards;
+    std::string output;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand("merge", "Join the shards of a pack, in any order");
+  command.add_option("shards", request->shards)->required();
+  add_output(command, request->output);
+  command.callback(
+      [request, &action] { action = [request] { run_merge(request->shards, request->output); }; });
 }
 
 void add_decode(CLI::App& app, Action& action) {
@@ -279,6 +342,8 @@ int run(int argc, char** argv) {
   Action action;
   app.require_subcommand(1);
   add_encode(app, action);
+  add_plan(app, action);
+  add_merge(app, action);
   add_decode(app, action);
   add_embed(app, action);
   add_info(app, action);
@@ -300,6 +365,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like others
+  microtin::remove_leftovers_on_signals();
   try {
     return microtin::run(argc, argv);
   } catch (const std::bad_alloc&) {

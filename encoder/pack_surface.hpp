@@ -6,6 +6,7 @@
 
 #include "encoder/export.hpp"
 #include "encoder/pack_file.hpp"
+#include "encoder/progress.hpp"
 #include "encoder/verify.hpp"
 
 namespace microtin {
@@ -15,9 +16,10 @@ namespace microtin {
 SurfaceModel model_of(const PackFile& pack);
 
 // As for a mesh; every post counts once, and a post on a border is covered if one of its tiles
-// covers it.
-Verification verify(const PackFile& pack, const Source& source,
-                    const std::optional<Decimal>& bound);
+// covers it. On all processors; holds a row of tiles at a time. Throws Error also if the raster's
+// posts are not the places of the pack.
+Verification verify(const PackFile& pack, const RasterReader& raster,
+                    const std::optional<Decimal>& bound, const Progress& progress = {});
 
 }  // namespace microtin
 

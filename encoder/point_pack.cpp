@@ -64,13 +64,19 @@ PointSurvey survey_of(const PointCloud& cloud, LatticeOptions& lattice, Simplify
   return survey_points(cloud, lattice);
 }
 
+// About `pieces` tiles along the longer side.
+TileGrid grid_in_pieces(const PointSurvey& survey, uint32_t pieces) {
+  const uint32_t longer = std::max(survey.x_max, survey.y_max);
+  return grid_of(survey.x_max, survey.y_max, (longer - 1) / pieces + 1);
+}
+
 // The vertices of the tile that has most.
 uint32_t most_vertices(const TiledCloud& tiled) {
   SimplifyOptions options = tiled.simplify;
   options.search = Search::kFast;
   const PointBorders borders(tiled.survey, tiled.triangulation, tiled.grid, tiled.tolerance);
   const PointTiles tiles(tiled, borders);
-  std::vector<uint32_t> vertices(std::size_t{tile_columns(tiled.grid)} * tile_rows(tiled.grid));
+  std::vector<uint32_t> vertices(tile_count(tiled.grid));
   for_each_parallel(vertices.size(), [&](std::size_t i) {
     vertices[i] = tiles.vertices_of(static_cast<uint32_t>(i), options);
   });
@@ -89,9 +95,8 @@ uint32_t choose_pieces(TiledCloud tiled, uint32_t max_vertices, uint32_t fewest)
   uint32_t fitting = 0;
   uint32_t pieces = std::max(fewest, static_cast<uint32_t>(std::min<double>(guess, longer)));
   for (;;) {
-    tiled.grid = grid_of(tiled.survey.x_max, tiled.survey.y_max, pieces);
-    if (pieces > longer ||
-        uint64_t{tile_columns(tiled.grid)} * tile_rows(tiled.grid) > kMostTiles) {
+    tiled.grid = grid_in_pieces(tiled.survey, pieces);
+    if (pieces > longer || tile_count(tiled.grid) > kMostTiles) {
       throw Error("more than " + std::to_string(kMostTiles) + " tiles, or tiles of one step, are " +
                   "needed: --tile-vertices must be more or --xy-step coarser");
     }
@@ -110,7 +115,7 @@ std::vector<EncodedTile> encode_tiles(const TiledCloud& tiled,
   const PointBorders borders(tiled.survey, tiled.triangulation, tiled.grid, tiled.tolerance);
   const PointTiles tiles(tiled, borders);
   const TileContents points(tiled.grid, places);
-  std::vector<EncodedTile> encoded(std::size_t{tile_columns(tiled.grid)} * tile_rows(tiled.grid));
+  std::vector<EncodedTile> encoded(tile_count(tiled.grid));
   for_each_parallel(encoded.size(), [&](std::size_t i) {
     const auto tile = static_cast<uint32_t>(i);
     encoded[i] = tiles.encode(tile, points.of_tile(tile));
@@ -120,20 +125,14 @@ std::vector<EncodedTile> encode_tiles(const TiledCloud& tiled,
 
 uint32_t most_vertices(const std::vector<EncodedTile>& tiles) {
   uint32_t most = 0;
-  for (const EncodedTile& tile : tiles) most = std::max(most, tile.vertices);
+  for (const EncodedTile& tile : tiles) most = std::max(most, tile.summary.vertices);
   return most;
-}
-
-Verification verification_of(const std::vector<EncodedTile>& tiles) {
-  std::vector<Verification> parts;
-  parts.reserve(tiles.size());
-  for (const EncodedTile& tile : tiles) parts.push_back(tile.measured);
-  return combine(parts);
 }
 
 }  // namespace
 
-PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options) {
+PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
+                            Metadata metadata) {
   LatticeOptions lattice = options.lattice;
   const PointSurvey survey = survey_of(cloud, lattice, options.simplify);
   const GlobalTriangulation triangulation(places_of(survey.samples));
@@ -146,14 +145,21 @@ PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options)
   uint32_t pieces = 0;
   do {  // a longer search seldom finds more vertices than the one for the plan
     pieces = choose_pieces(tiled, options.max_vertices, pieces + 1);
-    tiled.grid = grid_of(survey.x_max, survey.y_max, pieces);
+    tiled.grid = grid_in_pieces(survey, pieces);
     tiles = encode_tiles(tiled, places);
   } while (most_vertices(tiles) > options.max_vertices);
-  const Verification measured = verification_of(tiles);
-  return {{tiled.grid, placement, survey.z_step, std::move(tiles), measured},
-          survey.xy_step,
-          survey.xy_displacement,
-          survey.merged};
+  metadata.placement = placement;
+  metadata.accuracy = Accuracy{lattice.max_error, {}, {}};
+  PointPack pack{{tiled.grid, std::move(metadata), {}},
+                 {},
+                 survey.xy_step,
+                 survey.xy_displacement,
+                 survey.merged};
+  for (EncodedTile& tile : tiles) {
+    pack.content.tiles.push_back(tile.summary);
+    pack.streams.push_back(std::move(tile.stream));
+  }
+  return pack;
 }
 
 }  // namespace microtin

@@ -12,7 +12,7 @@ PointTiles::PointTiles(const TiledCloud& tiled, const PointBorders& borders)
 
 Survey PointTiles::survey_of(uint32_t tile) const {
   const TileBox box = tile_box(tiled_.grid, tile);
-  const Sides sides(tiled_.grid, box);
+  const TileSides sides(tiled_.grid, box);
   Survey survey;
   for (const uint32_t number : samples_.of_tile(tile)) {
     const GlobalSample& sample = tiled_.survey.samples[number];
@@ -39,23 +39,20 @@ uint32_t PointTiles::vertices_of(uint32_t tile, const SimplifyOptions& options) 
 }
 
 EncodedTile PointTiles::encode(uint32_t tile, const std::vector<uint32_t>& points) const {
-  EncodedTile encoded;
   const Survey survey = survey_of(tile);
-  if (!form_triangle(survey.samples)) return encoded;
+  if (!form_triangle(survey.samples)) return {};
   const TileBox box = tile_box(tiled_.grid, tile);
   const Tin tin = simplify(survey, tiled_.simplify);
   auto [stream, decoded] = encode_and_decode(tin, Metadata(), tiled_.simplify.effort);
-  encoded.stream = std::move(stream);
-  add_heights(tin, encoded);
-  check_shared(decoded.mesh(), Sides(tiled_.grid, box), borders_.of_tile(tile));
-  const Verification& measured = encoded.measured =
+  check_shared(decoded.mesh(), TileSides(tiled_.grid, box), borders_.of_tile(tile));
+  const Verification measured =
       verify(decoded.mesh(), placement_from(tiled_.survey.lattice.placement, {box.x, box.y}),
              part_of(tiled_.cloud, points), tiled_.lattice.max_error);
   const bool too_low = tiled_.lattice.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.uncovered != 0) {
     throw Error("internal error: a decoded tile does not keep what was asked for");
   }
-  return encoded;
+  return {summary_of(tin, stream, measured), std::move(stream)};
 }
 
 }  // namespace microtin

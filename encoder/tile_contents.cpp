@@ -12,7 +12,7 @@ void visit_tiles(const TileGrid& grid, GlobalPost place, const Visit& visit) {
 }  // namespace
 
 TileContents::TileContents(const TileGrid& grid, const std::vector<GlobalPost>& places)
-    : start_(std::size_t{tile_columns(grid)} * tile_rows(grid) + 1) {
+    : start_(tile_count(grid) + 1) {
   for (const GlobalPost place : places) {
     visit_tiles(grid, place, [&](uint32_t tile) { ++start_[std::size_t{tile} + 1]; });
   }

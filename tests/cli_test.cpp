@@ -288,6 +288,13 @@ TEST_CASE("cli: packs of points") {
   CHECK(contains(session.failure("verify p.mtp beside.xyz"), "not covered"));
   REQUIRE(session.run("fractal --size 5 -o t.asc").code == 0);
   CHECK(contains(session.failure("verify p.mtp t.asc"), "posts of the pack"));
+  const std::string in_shards = "p.xyz: shards are of packs of rasters; these are points";
+  CHECK(contains(session.failure("plan p.xyz --tile-vertices 90"), in_shards));
+  CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --tiles 0:1 -o p.shard"),
+                 in_shards));
+  CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --tile-steps 9 -o s.mtp"),
+                 "p.xyz: --tile-steps is for rasters; these are points"));
+  CHECK(contains(session.failure("merge p.mtp -o m.mtp"), "p.mtp: "));
   session.write("line.xyz", "0 0 0\n1 1 3\n2 2 7\n");
   CHECK(contains(session.failure("encode line.xyz --tile-vertices 60 -o line.mtp"), "one line"));
 }

@@ -126,9 +126,7 @@ TEST_CASE("grid: a pack is one surface, with the posts of its raster") {
   for (const VoidKind& kind : void_kinds()) {
     Raster raster = rough_raster(61, 53, kind.at);
     raster.x = {8400, 1, 1200};
-    const EncodedPack encoded = encode_pack(raster, pack_options(0, 100));
-    Metadata metadata;
-    const PackFile pack(write_pack(encoded, metadata));
+    const PackFile pack(write_pack(encode_pack(raster, pack_options(0, 100))));
     const Raster again = read_back(grid(sampled(pack)));
     CHECK(again.width == raster.width);
     CHECK(again.height == raster.height);

@@ -145,7 +145,7 @@ inline PointCloud long_cloud() {
 
 // Every point, or those that a bound needs.
 inline PackOptions point_options(int64_t bound, uint32_t max_vertices) {
-  PackOptions options{{}, {}, max_vertices};
+  PackOptions options{{}, {}, max_vertices, 0};
   if (bound == 0) return options;
   options.lattice.max_error = Decimal{bound, 0};
   options.simplify.bounded = true;

@@ -22,7 +22,8 @@ namespace microtin {
 namespace {
 
 std::vector<uint8_t> pack_bytes(const PointCloud& cloud, const PackOptions& options) {
-  return write_pack(encode_point_pack(cloud, options).pack, {});
+  const PointPack pack = encode_point_pack(cloud, options);
+  return write_pack(pack.content, pack.streams);
 }
 
 // Vertices of tiles on a line of the grid, by their coordinate along it.

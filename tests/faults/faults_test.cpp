@@ -48,8 +48,14 @@ class Stage {
     const std::string points = "0 0 1\n10.5 0 2\n0 10 3\n4 4 9\n";
     write_file(folder_ / "t.asc", {grid.begin(), grid.end()});
     write_file(folder_ / "p.xyz", {points.begin(), points.end()});
-    const Result encoded = run({"encode", "t.asc", "-o", "t.mtin"});
-    REQUIRE_MESSAGE(encoded.status == 0, encoded.error);
+    for (const Words& words :
+         {Words{"encode", "t.asc", "-o", "t.mtin"},
+          Words{"encode", "t.asc", "--tile-vertices", "16", "--tile-steps", "3", "-o", "t.mtp"},
+          Words{"encode", "t.asc", "--tile-vertices", "16", "--tile-steps", "3", "--tiles", "0:0",
+                "-o", "t.shard"}}) {
+      const Result encoded = run(words);
+      REQUIRE_MESSAGE(encoded.status == 0, encoded.error);
+    }
   }
 
   // Runs the program in a child process. New files are taken away again.
@@ -145,6 +151,12 @@ const std::vector<Words> kCommands = {
     {"encode", "p.xyz", "-o", "new.mtin"},
     {"encode", "p.xyz", "-o", "-"},
     {"encode", "p.xyz", "-o", "new.mtp", "--tile-vertices", "16"},
+    {"encode", "t.asc", "-o", "new.mtp", "--tile-vertices", "16", "--tile-steps", "3"},
+    {"encode", "t.asc", "-o", "new.shard", "--tile-vertices", "16", "--tile-steps", "3", "--tiles",
+     "0:0"},
+    {"plan", "t.asc", "--tile-vertices", "16", "--tile-steps", "3"},
+    {"merge", "t.shard", "-o", "new.mtp"},
+    {"verify", "t.mtp", "t.asc"},
     {"decode", "t.mtin", "-o", "new.ply"},
     {"decode", "t.mtin", "-o", "new.obj"},
     {"decode", "t.mtin", "-o", "new.asc"},
