@@ -3,7 +3,6 @@
 #define MICROTIN_ENCODER_RASTER_READER_HPP
 
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "encoder/crop.hpp"
