@@ -128,7 +128,7 @@ microtin_status handle_entry(microtin_pack& p) {
 // Whether what was decoded is the tile that the index tells of.
 bool is_tile(const microtin_pack& p) {
   const TileBox box = tile_box(p.header.grid, p.tile);
-  const Contract& contract = p.decoder->contract;
+  const Contract& contract = p.decoder->reconstruction.contract;
   return p.left == 0 && p.fed == p.buffered && p.stream_crc == p.entry.stream_check &&
          contract.vertices == p.entry.vertices && contract.x_max <= box.x_end - box.x &&
          contract.y_max <= box.y_end - box.y;
