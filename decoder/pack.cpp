@@ -111,7 +111,7 @@ microtin_status handle_entry(microtin_pack& p) {
       read_u32(p.buffer + kPackEntryBytes - kCheckBytes)) {
     return fail(p, MICROTIN_CHECKSUM);
   }
-  read_pack_entry(p.buffer, &p.entry);
+  if (!read_pack_entry(p.buffer, p.header, &p.entry)) return fail(p, MICROTIN_MALFORMED);
   if (p.entry.vertices > p.capacity) return fail(p, MICROTIN_TOO_BIG);
   PackSlot* const slot = slot_to_fill(p);
   if (slot == nullptr) return fail(p, MICROTIN_WORKSPACE_TOO_SMALL);
@@ -120,7 +120,7 @@ microtin_status handle_entry(microtin_pack& p) {
   microtin_decoder_init(p.decoder_space, p.decoder_bytes, slot->mesh, &p.decoder);
   if (p.entry.size == 0) return finish_tile(p);  // the mesh is empty now
   p.left = p.entry.size;
-  p.stream_crc = 0;
+  p.stream_hash = kStreamHash;
   want(p, PackStage::kStream, p.entry.offset, p.left);
   return MICROTIN_NEED_INPUT;
 }
@@ -129,7 +129,7 @@ microtin_status handle_entry(microtin_pack& p) {
 bool is_tile(const microtin_pack& p) {
   const TileBox box = tile_box(p.header.grid, p.tile);
   const Contract& contract = p.decoder->reconstruction.contract;
-  return p.left == 0 && p.fed == p.buffered && p.stream_crc == p.entry.stream_check &&
+  return p.left == 0 && p.fed == p.buffered && p.stream_hash == p.entry.stream_hash &&
          contract.vertices == p.entry.vertices && contract.x_max <= box.x_end - box.x &&
          contract.y_max <= box.y_end - box.y;
 }
@@ -137,7 +137,7 @@ bool is_tile(const microtin_pack& p) {
 microtin_status handle_stream(microtin_pack& p, uint32_t step_limit) {
   if (!p.is_counted) {
     p.is_counted = true;
-    p.stream_crc = crc32(p.stream_crc, p.buffer, p.buffered);
+    p.stream_hash = stream_hash(p.stream_hash, p.buffer, p.buffered);
     p.left -= p.buffered;
   }
   size_t used = 0;
@@ -186,8 +186,9 @@ struct Wishes {
 Wishes wishes_of(microtin_pack& p, const microtin_course& course) {
   Wishes wishes = {true, false, 0};
   ++p.clock;
-  for (TouchedTiles tiles(p.header.grid, course); !tiles.at_end(); tiles.next()) {
-    if (!tiles.touches()) continue;
+  uint32_t left = p.slot_count + 1u;  // one that does not fit is enough to know
+  for (TouchedTiles tiles(p.header.grid, course); !tiles.at_end() && left != 0; tiles.next()) {
+    --left;
     const uint32_t tile = tiles.number(), slot = slot_of(p, tile);
     wishes.in_hand = wishes.in_hand || tile == p.tile;
     if (slot != p.slot_count) {

@@ -291,7 +291,6 @@ microtin_answer microtin_pack_highest(const microtin_pack* pack, const microtin_
   bool is_known = true;
   int32_t highest = begin > end ? begin : end;
   for (TouchedTiles tiles(pack->header.grid, *course); !tiles.at_end(); tiles.next()) {
-    if (!tiles.touches()) continue;
     const uint32_t slot = slot_of(*pack, tiles.number());
     if (slot == pack->slot_count) return MICROTIN_NOT_DECODED;
     TileCourse(pack->slots[slot].mesh, tiles.box(), *course).look(&highest, &is_known);

@@ -43,7 +43,7 @@ struct microtin_pack {
   uint32_t tile;
   microtin::PackEntry entry;
   microtin_decoder* decoder;
-  uint32_t stream_crc;
+  uint32_t stream_hash;
   uint32_t left;  // bytes of notes or stream, those in the buffer too until they are counted
   // The next bytes wanted, and those that came.
   uint64_t next;

@@ -19,8 +19,8 @@ inline bool is_legal(const microtin_course& c) {
   return dx < kCourseLongest && dx > -kCourseLongest && dy < kCourseLongest && dy > -kCourseLongest;
 }
 
-// All tiles whose closed boxes meet the bounding box of a legal course: at most
-// (65536 / width + 2) * (65536 / height + 2). `touches` says which meet the course.
+// The tiles whose closed boxes a legal course meets, row by row from where it begins. Looks at no
+// more than twice as many boxes as its bounding box has columns and rows, together.
 class TouchedTiles {
  public:
   TouchedTiles(const TileGrid& grid, const microtin_course& course)
@@ -28,27 +28,32 @@ class TouchedTiles {
         course_(course),
         columns_(slices(course.x, course.x_end, grid.width, grid.x_max)),
         rows_(slices(course.y, course.y_end, grid.height, grid.y_max)),
+        rises_right_((course.x_end < course.x) == (course.y_end < course.y)),
         column_(columns_.from),
         row_(rows_.from),
-        at_end_(columns_.none || rows_.none) {}
+        first_(columns_.from),
+        is_met_(false),
+        at_end_(columns_.none || rows_.none) {
+    seek();
+  }
 
   bool at_end() const { return at_end_; }
   uint32_t number() const { return row_ * tile_columns(grid_) + column_; }
   TileBox box() const { return tile_box(grid_, number()); }
 
   void next() {
-    if (column_ != columns_.to) {
-      column_ += columns_.from < columns_.to ? 1u : ~0u;
-      return;
-    }
-    column_ = columns_.from;
-    at_end_ = row_ == rows_.to;
-    row_ += rows_.from < rows_.to ? 1u : ~0u;
+    if (!is_met_) first_ = column_;
+    is_met_ = true;
+    step();
+    seek();
   }
 
-  // The box is not to the left of the course, nor to the right. Its corners are within 2^25 of the
-  // beginning, the end within 2^24: products stay below 2^50.
-  bool touches() const {
+ private:
+  enum class Side { kLeft, kOn, kRight };
+
+  // Where a box is, seen along the course. Its corners are within 2^25 of the beginning, the end
+  // within 2^24: products stay below 2^50.
+  Side side() const {
     const TileBox b = box();
     const int64_t left = static_cast<int64_t>(b.x) * 256 - course_.x,
                   right = static_cast<int64_t>(b.x_end) * 256 - course_.x,
@@ -62,10 +67,43 @@ class TouchedTiles {
       some_left = some_left || corner[i] >= 0;
       some_right = some_right || corner[i] <= 0;
     }
-    return some_left && some_right;
+    return !some_left ? Side::kRight : some_right ? Side::kOn : Side::kLeft;
   }
 
- private:
+  // To a box that the course meets. A row's are neighbours: those before them are on one side of
+  // the course, those behind on the other.
+  void seek() {
+    const Side behind = rises_right_ ? Side::kRight : Side::kLeft;
+    while (!at_end_) {
+      const Side here = side();
+      if (here == Side::kOn) return;
+      if (here == behind) {
+        next_row();
+      } else {
+        step();
+      }
+    }
+  }
+
+  // Where a whole row lies before the course, all that follow do, too.
+  void step() {
+    if (column_ != columns_.to) {
+      column_ += columns_.from < columns_.to ? 1u : ~0u;
+    } else if (is_met_) {
+      next_row();
+    } else {
+      at_end_ = true;
+    }
+  }
+
+  // A course never turns back: no box of the next row lies before the first of this one.
+  void next_row() {
+    column_ = first_;
+    is_met_ = false;
+    at_end_ = row_ == rows_.to;
+    row_ += rows_.from < rows_.to ? 1u : ~0u;
+  }
+
   // Columns or rows, in the direction of the course.
   struct Slices {
     uint32_t from, to;
@@ -88,7 +126,10 @@ class TouchedTiles {
   const TileGrid& grid_;
   const microtin_course& course_;
   Slices columns_, rows_;
+  bool rises_right_;  // or falls left: along a row the boxes to the left of the course come first
   uint32_t column_, row_;
+  uint32_t first_;  // column of the first box met in this row, or in the last one that has any
+  bool is_met_;     // a box of this row is among them
   bool at_end_;
 };
 

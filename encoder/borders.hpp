@@ -2,30 +2,51 @@
 #ifndef MICROTIN_ENCODER_BORDERS_HPP
 #define MICROTIN_ENCODER_BORDERS_HPP
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
-#include <set>
 #include <vector>
 
-#include "encoder/border_line.hpp"
 #include "encoder/lay_out.hpp"
+#include "encoder/raster_reader.hpp"
 #include "shared/pack_format.hpp"
 
 namespace microtin {
 
 // A raster that is to be cut into tiles: its posts are the places of the pack.
 struct TiledRaster {
-  const Raster& raster;
+  const RasterReader& raster;
   Lattice lattice;  // choose_post_lattice with the options
   LatticeOptions options;
   TileGrid grid;
 };
 
-// The posts from the first to the last corner of a box.
-Raster crop(const Raster& raster, const TileBox& box);
+// The posts of a tile and those beside it: all that a tile depends on.
+class TilePosts {
+ public:
+  TilePosts(const TiledRaster& tiled, uint32_t tile);
+
+  const TileBox& box() const { return box_; }
+  Raster tile() const { return crop_of(box_); }
+
+  // The posts from the first to the last corner of a box in global coordinates.
+  Raster crop_of(const TileBox& box) const;
+
+  // Whether one of the eight posts around this one is void.
+  bool is_beside_void(uint32_t x, uint32_t y) const;
+
+ private:
+  TileBox box_;
+  uint32_t x_, y_;  // of the first post
+  Raster posts_;
+};
 
 // The survey of a part of the raster; places count from the part's first post.
 Survey survey_of(const TiledRaster& tiled, const Raster& part);
+
+inline std::size_t tile_count(const TileGrid& grid) {
+  return std::size_t{tile_columns(grid)} * tile_rows(grid);
+}
 
 struct GlobalPost {
   uint32_t x, y;
@@ -39,33 +60,10 @@ std::vector<uint32_t> tiles_at(const TileGrid& grid, GlobalPost post);
 // Heights of vertices by their place in a tile.
 using SharedVertices = std::map<Point, int16_t>;
 
-class Borders {
- public:
-  // Simplifies all of them. The raster must outlive this.
-  explicit Borders(const TiledRaster& tiled);
-
-  // The vertices that a tile shares with others.
-  SharedVertices of_tile(uint32_t tile) const;
-
-  // Makes posts of borders vertices and simplifies anew what they lie on. Returns the tiles whose
-  // shared vertices may have changed.
-  std::set<uint32_t> keep(const std::vector<GlobalPost>& posts);
-
- private:
-  // Runs north or east from the first corner of a tile.
-  struct Line {
-    TileBox box;
-    std::set<uint32_t> kept;  // posts from the beginning
-    std::vector<ChainVertex> chain;
-  };
-
-  void simplify(Line& line) const;
-  std::vector<std::size_t> lines_at(GlobalPost post) const;
-
-  TiledRaster tiled_;
-  std::vector<Line> lines_;
-  std::map<GlobalPost, std::size_t> north_, east_;  // lines by their first post
-};
+// The vertices that a tile shares with others. They depend on the posts of its borders and those
+// beside them alone, so that both sides find the same. Posts beside voids are vertices: voids
+// beside a border then part it from no triangle.
+SharedVertices shared_vertices(const TiledRaster& tiled, const TilePosts& posts);
 
 }  // namespace microtin
 

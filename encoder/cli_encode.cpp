@@ -12,16 +12,14 @@
 #include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
-#include "encoder/import.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/verify.hpp"
-#include "encoder/voids.hpp"
+#include "encoder/water.hpp"
 
 namespace microtin {
 
-Metadata metadata_of(const EncodeRequest& request, const Source& source,
+Metadata metadata_of(const EncodeRequest& request, const Reference& reference,
                      const Placement& placement) {
-  const Reference reference = std::visit([](const auto& s) { return s.reference; }, source);
   Metadata metadata;
   metadata.placement = placement;
   metadata.horizontal_unit = reference.horizontal_unit;
@@ -31,6 +29,9 @@ Metadata metadata_of(const EncodeRequest& request, const Source& source,
   if (request.horizontal_epsg != 0) metadata.horizontal_epsg = request.horizontal_epsg;
   if (request.vertical_epsg != 0) metadata.vertical_epsg = request.vertical_epsg;
   metadata.source = request.source_text;
+  metadata.date = request.date;
+  metadata.lineage = request.lineage;
+  metadata.water_level = request.preparation.water_level;
   return metadata;
 }
 
@@ -38,7 +39,8 @@ namespace {
 
 bool makes_pack(const EncodeRequest& request) {
   const std::string& name = request.output;
-  return request.tile_vertices != 0 || (name.size() > 4 && name.substr(name.size() - 4) == ".mtp");
+  return request.tile_vertices != 0 || request.tiles ||
+         (name.size() > 4 && name.substr(name.size() - 4) == ".mtp");
 }
 
 // The vertices that may be used, 0 for as many as it takes. A device's RAM is a limit only if
@@ -94,12 +96,14 @@ Encoded encode_measured(const Source& source, const EncodeRequest& request,
   Approximation found = approximate(source, request.lattice, simplify_options(request, progress));
   check_vertices(found.tin, request);
   const std::optional<Decimal>& bound = request.lattice.max_error;
-  Metadata metadata = metadata_of(request, source, found.laid.placement);
+  const Reference reference = std::visit([](const auto& s) { return s.reference; }, source);
+  Metadata metadata = metadata_of(request, reference, found.laid.placement);
   const auto [stream, decoded] = encode_and_decode(found.tin, metadata, request.effort);
-  const Verification measured = verify(decoded.mesh(), source, bound);
+  WaterGauge gauge(height_decimals(source), bound ? request.lattice.water_level : std::nullopt);
+  const Verification measured = verify(decoded.mesh(), source, bound, gauge.visitor());
   const bool too_low = request.lattice.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.uncovered != 0 ||
-      measured.voids_answered != 0) {
+      measured.voids_answered != 0 || gauge.moved() != 0) {
     throw Error("internal error: the decoded terrain does not keep what was asked for");
   }
   metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error};
@@ -116,10 +120,7 @@ Decimal height_range(const Source& source) {
     high = std::max(high, z);
   });
   if (low >= high) return {1, 0};
-  const auto* raster = std::get_if<Raster>(&source);
-  return make_decimal(Wide{high} - low, raster != nullptr
-                                            ? raster->decimals
-                                            : std::get<PointCloud>(source).z_decimals);
+  return make_decimal(Wide{high} - low, height_decimals(source));
 }
 
 // Nothing if points that share a place rule the bound out.
@@ -163,15 +164,15 @@ std::string moved(Decimal displacement) {
   return ", values move by up to " + to_string(displacement);
 }
 
-std::string report(const Source& source, uint32_t filled, const Encoded& encoded) {
+std::string report(const PreparedTerrain& terrain, const Encoded& encoded) {
   const Laid& laid = encoded.laid;
-  const bool posts = std::holds_alternative<Raster>(source);
+  const bool posts = std::holds_alternative<Raster>(terrain.source);
   const Verification& measured = encoded.verification;
   std::ostringstream text;
   text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
   text << "source: " << measured.posts << (posts ? " posts" : " points");
   if (measured.voids != 0) text << ", " << measured.voids << " void posts";
-  if (filled != 0) text << ", " << filled << " of the posts were void and are filled";
+  text << told(terrain);
   text << "\nstep of x and y: " << to_string(laid.xy_step) << (posts ? " (in posts)" : "")
        << moved(laid.xy_displacement) << "\nstep of z: " << to_string(laid.z_step)
        << moved(laid.z_displacement) << '\n';
@@ -198,14 +199,15 @@ void run_encode(const EncodeRequest& request) {
   }
   refuse_overwriting(request.input, request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
-  Source source = import_terrain(request.input);
-  const uint32_t filled = fill_voids(source, request.fill_voids);
+  const PreparedTerrain terrain = prepared_terrain(request.input, request.preparation);
+  const Source& source = terrain.source;
   const Encoded encoded = about(request.input, [&] {
     ProgressBar bar;
     return request.max_bytes != 0 ? encode_within_bytes(source, request)
                                   : encode_measured(source, request, bar.progress());
   });
-  deliver(out, request.output, encoded.stream, report(source, filled, encoded));
+  out.write(encoded.stream);
+  deliver(out, request.output, report(terrain, encoded));
 }
 
 }  // namespace microtin

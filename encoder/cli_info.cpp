@@ -7,14 +7,6 @@
 namespace microtin {
 namespace {
 
-double step_of(const Axis& axis) {
-  return static_cast<double>(axis.numerator) / static_cast<double>(axis.denominator);
-}
-
-double offset_of(const Axis& axis) {
-  return static_cast<double>(axis.offset) / static_cast<double>(axis.denominator);
-}
-
 std::string_view name_of(Unit unit) {
   switch (unit) {
     case Unit::kUnknown:
@@ -74,7 +66,13 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
   };
   add_known("horizontal_epsg", metadata.horizontal_epsg);
   add_known("vertical_epsg", metadata.vertical_epsg);
-  if (!metadata.source.empty()) report.emplace_back("source", json(metadata.source));
+  const auto add_text = [&report](const char* name, const std::string& text) {
+    if (!text.empty()) report.emplace_back(name, json(text));
+  };
+  add_text("source", metadata.source);
+  add_text("date", metadata.date);
+  add_text("lineage", metadata.lineage);
+  if (metadata.water_level) report.emplace_back("water_level", number(*metadata.water_level));
 }
 
 void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy) {
@@ -113,11 +111,12 @@ JsonObject report_of(const std::vector<uint8_t>& stream) {
 }  // namespace
 
 void run_info(const std::string& input, bool json) {
-  const std::vector<uint8_t> stream = read_stream(input);
-  if (is_pack(stream)) {
-    run_info_pack(input, stream, json);
+  const std::optional<PackFile> pack = open_pack(input);
+  if (pack) {
+    run_info_pack(*pack, json);
     return;
   }
+  const std::vector<uint8_t> stream = read_stream(input);
   print(about(input, [&] { return report_of(stream); }), json);
 }
 

@@ -1,14 +1,19 @@
 #include "encoder/cli_pack.hpp"
 
+#include <algorithm>
+#include <memory>
 #include <sstream>
+#include <utility>
 
+#include "encoder/cli_progress.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
-#include "encoder/import.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/pack_surface.hpp"
+#include "encoder/shard.hpp"
+#include "encoder/stream_spool.hpp"
 #include "encoder/tile_plan.hpp"
-#include "encoder/voids.hpp"
+#include "encoder/water.hpp"
 
 namespace microtin {
 namespace {
@@ -23,41 +28,111 @@ uint32_t tile_vertices(const EncodeRequest& request) {
   return vertices;
 }
 
-EncodedPack encode(const Source& source, const EncodeRequest& request) {
-  const auto* raster = std::get_if<Raster>(&source);
-  if (raster == nullptr) throw Error("packs are made of rasters; these are points");
+PackOptions pack_options(const EncodeRequest& request, const Progress& progress) {
   if (request.lattice.xy_step) throw Error("packs keep the places of posts: no --xy-step");
   if (request.max_vertices != 0 || request.max_bytes != 0) {
     throw Error("packs are made with --max-error or of all posts");
   }
   EncodeRequest tile = request;
   tile.device_ram = 0;  // it limits tiles, by their number of vertices
-  return encode_pack(*raster,
-                     {request.lattice, simplify_options(tile, {}), tile_vertices(request)});
+  return {request.lattice, simplify_options(tile, progress), tile_vertices(request),
+          request.tile_steps};
 }
 
-std::string report(const EncodedPack& pack, std::size_t bytes,
-                   const std::optional<Decimal>& bound) {
-  const Verification& measured = pack.measured;
-  uint64_t vertices = 0;
+std::unique_ptr<RasterReader> open_terrain(const EncodeRequest& request) {
+  return prepared_raster(request.input, request.preparation);
+}
+
+PackContent content_of(const PackPlan& plan, const EncodeRequest& request) {
+  const Reference& reference = plan.tiled.raster.frame().reference;
+  return content_of(plan, metadata_of(request, reference, {}));
+}
+
+// Of heights: a decimal, as the lattice was chosen.
+Decimal z_step(const PackContent& pack) {
+  const Axis& z = pack.metadata.placement.z;
+  int decimals = 0;
+  while (decimals < kMaxDecimals &&
+         power_of_ten(decimals) % static_cast<int64_t>(z.denominator) != 0) {
+    ++decimals;
+  }
+  const Wide step = Wide{power_of_ten(decimals)} * static_cast<Wide>(z.numerator);
+  return make_decimal(step / static_cast<Wide>(z.denominator), decimals);
+}
+
+std::string report(const PackContent& pack) {
+  const Verification all = measured(pack);
+  uint64_t vertices = 0, bytes = write_pack_head(pack).size();
   uint32_t most = 0, without = 0;
-  for (const EncodedTile& tile : pack.tiles) {
+  for (const TileSummary& tile : pack.tiles) {
     vertices += tile.vertices;
+    bytes += tile.bytes;
     most = std::max(most, tile.vertices);
-    if (tile.stream.empty()) ++without;
+    if (tile.bytes == 0) ++without;
   }
   std::ostringstream text;
   text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
-  text << "step of z: " << to_string(pack.z_step) << "\npack: " << tile_columns(pack.grid) << " x "
+  text << "step of z: " << to_string(z_step(pack)) << "\npack: " << tile_columns(pack.grid) << " x "
        << tile_rows(pack.grid) << " tiles of " << pack.grid.width << " x " << pack.grid.height
        << " steps";
   if (without != 0) text << ", " << without << " without terrain";
   text << ", " << vertices << " vertices, at most " << most << " in a tile, " << bytes
-       << " bytes\nerror: at most " << to_string(measured.max_error) << ", rms "
-       << to_string(measured.rms_error);
-  if (bound) text << " (asked for: at most " << to_string(*bound) << ")";
-  text << "\nbelow the source: at most " << to_string(measured.max_below) << '\n';
+       << " bytes\nerror: at most " << to_string(all.max_error) << ", rms "
+       << to_string(all.rms_error);
+  const std::optional<Accuracy>& accuracy = pack.metadata.accuracy;
+  if (accuracy && accuracy->bound) {
+    text << " (asked for: at most " << to_string(*accuracy->bound) << ")";
+  }
+  text << "\nbelow the source: at most " << to_string(all.max_below) << '\n';
   return text.str();
+}
+
+PackContent encode_whole(const RasterReader& raster, const EncodeRequest& request,
+                         StreamSpool& streams) {
+  ProgressBar bar;
+  PackContent pack;
+  const auto begin = [&](const PackPlan& plan) {
+    pack = content_of(plan, request);
+    streams.clear();
+  };
+  encode_pack(raster, pack_options(request, bar.progress()), begin,
+              [&](uint32_t, EncodedTile&& tile) {
+                pack.tiles.push_back(tile.summary);
+                streams.add(tile.stream);
+              });
+  return pack;
+}
+
+std::string text_of(TileRange range) {
+  return std::to_string(range.first) + ":" + std::to_string(range.last);
+}
+
+// The last tile of a shard may lie beyond the last of all.
+TileRange existing(TileRange range, const TileGrid& grid) {
+  const TileRange all = all_tiles(grid);
+  if (range.first > all.last) {
+    throw Error("--tiles " + text_of(range) + ": the last tile is " + std::to_string(all.last));
+  }
+  return {range.first, std::min(range.last, all.last)};
+}
+
+void run_encode_shard(const EncodeRequest& request) {
+  OutputFile out(request.output);
+  const std::unique_ptr<RasterReader> raster = open_terrain(request);
+  const std::string text = about(request.input, [&] {
+    ProgressBar bar;
+    const PackPlan plan = plan_pack(*raster, pack_options(request, bar.progress()));
+    const TileRange range = existing(*request.tiles, plan.tiled.grid);
+    ShardWriter shard(plan, content_of(plan, request), range, out);
+    uint64_t vertices = 0;
+    encode_tiles(plan, range, [&](uint32_t, EncodedTile&& tile) {
+      shard.add(tile);
+      vertices += tile.summary.vertices;
+    });
+    return "tiles: " + text_of(range) + " of " + text_of(all_tiles(plan.tiled.grid)) + ", " +
+           std::to_string(vertices) + " vertices\n";
+  });
+  deliver(out, request.output, text);
 }
 
 std::string in_units(uint32_t error, const Axis& z) {
@@ -80,15 +155,26 @@ JsonObject tile_report(const PackFile& pack, uint32_t number) {
           {"rms_error", in_units(entry.root_mean_square, z)}};
 }
 
-// A line for each tile, under a line of names.
+// A line for each tile, under a line of names; columns end on the right.
 std::string table(const std::vector<JsonObject>& tiles) {
-  std::string text;
-  for (const auto& entry : tiles[0]) text += entry.first + '\t';
+  std::vector<std::vector<std::string>> lines(1);
+  for (const auto& entry : tiles[0]) lines[0].push_back(entry.first);
+  std::vector<std::size_t> widths(lines[0].size());
   for (const JsonObject& tile : tiles) {
-    text += '\n';
-    for (const auto& entry : tile) text += entry.second + '\t';
+    lines.emplace_back();
+    for (const auto& entry : tile) lines.back().push_back(entry.second);
   }
-  return text + '\n';
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      text += std::string(widths[i] - line[i].size() + (i == 0 ? 0 : 2), ' ') + line[i];
+    }
+    text += '\n';
+  }
+  return text;
 }
 
 std::string array(const std::vector<JsonObject>& tiles) {
@@ -101,26 +187,48 @@ std::string array(const std::vector<JsonObject>& tiles) {
 
 void run_encode_pack(const EncodeRequest& request) {
   refuse_overwriting(request.input, request.output);
-  OutputFile out(request.output);
-  Source source = import_terrain(request.input);
-  fill_voids(source, request.fill_voids);
-  const auto [pack, bytes] = about(request.input, [&] {
-    const EncodedPack encoded = encode(source, request);
-    Metadata metadata = metadata_of(request, source, encoded.placement);
-    metadata.accuracy =
-        Accuracy{request.lattice.max_error, encoded.measured.max_error, encoded.measured.rms_error};
-    return std::pair(encoded, write_pack(encoded, metadata));
-  });
-  const PackFile written(bytes);
-  const Verification found = verify(written, source, request.lattice.max_error);
-  if (!found.within_bound || found.uncovered != 0 || found.voids_answered != 0) {
-    throw Error("internal error: the pack does not keep what was asked for");
+  if (request.tiles) {
+    run_encode_shard(request);
+    return;
   }
-  deliver(out, request.output, bytes, report(pack, bytes.size(), request.lattice.max_error));
+  OutputFile out(request.output);
+  const std::unique_ptr<RasterReader> raster = open_terrain(request);
+  StreamSpool streams(request.output);
+  const PackContent pack =
+      about(request.input, [&] { return encode_whole(*raster, request, streams); });
+  out.write(write_pack_head(pack));
+  streams.copy_to(out);
+  deliver(out, request.output, report(pack));
 }
 
-void run_info_pack(const std::string& input, const std::vector<uint8_t>& bytes, bool as_json) {
-  const PackFile pack = about(input, [&] { return PackFile(bytes); });
+void run_plan(const EncodeRequest& request, uint32_t shards) {
+  const std::unique_ptr<RasterReader> raster = open_terrain(request);
+  const std::string text = about(request.input, [&] {
+    ProgressBar bar;
+    const PackPlan plan = plan_pack(*raster, pack_options(request, bar.progress()));
+    const uint64_t tiles = tile_count(plan.tiled.grid), parts = std::min<uint64_t>(shards, tiles);
+    std::string lines;
+    for (uint64_t i = 0; i < parts; ++i) {
+      const TileRange range{static_cast<uint32_t>(tiles * i / parts),
+                            static_cast<uint32_t>(tiles * (i + 1) / parts - 1)};
+      lines += "--tile-steps " + std::to_string(plan.tile_steps) + " --z-step " +
+               to_string(z_step(content_of(plan, request))) + " --tiles " + text_of(range) + '\n';
+    }
+    return lines;
+  });
+  OutputFile out("-");
+  out.write(text);
+  out.commit();
+}
+
+void run_merge(const std::vector<std::string>& shards, const std::string& output) {
+  for (const std::string& shard : shards) refuse_overwriting(shard, output);
+  OutputFile out(output);
+  const PackContent pack = merge_shards(shards, out);
+  deliver(out, output, report(pack));
+}
+
+void run_info_pack(const PackFile& pack, bool as_json) {
   std::vector<JsonObject> tiles;
   uint64_t vertices = 0;
   for (uint32_t number = 0; number < pack.entries().size(); ++number) {
@@ -139,7 +247,7 @@ void run_info_pack(const std::string& input, const std::vector<uint8_t>& bytes, 
                        {"most_vertices", json(pack.header().most_vertices)},
                        {"lowest", json(pack.header().lowest)},
                        {"highest", json(pack.header().highest)},
-                       {"bytes", json(bytes.size())}};
+                       {"bytes", json(pack.bytes())}};
   add_placement(report, pack.metadata());
   add_notes(report, pack.metadata());
   add_accuracy(report, pack.metadata().accuracy);
@@ -151,16 +259,17 @@ void run_info_pack(const std::string& input, const std::vector<uint8_t>& bytes, 
   out.commit();
 }
 
-void run_verify_pack(const VerifyRequest& request, const std::vector<uint8_t>& bytes) {
-  Source source = import_terrain(request.source);
-  fill_voids(source, request.fill_voids);
-  const auto [bound, found] = about(request.input, [&] {
-    const PackFile pack(bytes);
-    const std::optional<Accuracy>& accuracy = pack.metadata().accuracy;
-    const std::optional<Decimal> promised = accuracy ? accuracy->bound : std::nullopt;
-    return std::pair(promised, verify(pack, source, promised));
+void run_verify_pack(const VerifyRequest& request, const PackFile& pack) {
+  const std::unique_ptr<RasterReader> raster = prepared_raster(request.source, request.preparation);
+  const Promise promise =
+      about(request.input, [&] { return promise_of(pack.metadata(), request.preparation); });
+  WaterGauge gauge(raster->frame().decimals, promise.water_level);
+  const Verification found = about(request.input, [&] {
+    ProgressBar bar;
+    return verify(pack, *raster, promise.bound, bar.progress(),
+                  promise.water_level ? gauge.visitor() : PostVisitor());
   });
-  report_and_judge(request, bound, found);
+  report_and_judge(request, promise, found, gauge.moved());
 }
 
 }  // namespace microtin

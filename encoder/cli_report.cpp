@@ -1,7 +1,10 @@
 #include "encoder/cli_report.hpp"
 
 #include <cstdio>
+#include <memory>
+#include <utility>
 
+#include "encoder/error_context.hpp"
 #include "encoder/input_file.hpp"
 
 namespace microtin {
@@ -9,6 +12,13 @@ namespace microtin {
 std::vector<uint8_t> read_stream(const std::string& path) {
   const std::string bytes = read_file(path);
   return {bytes.begin(), bytes.end()};
+}
+
+std::optional<PackFile> open_pack(const std::string& path) {
+  std::unique_ptr<ByteSource> bytes;
+  if (is_regular_file(path)) bytes = open_file(path);
+  if (!bytes || !is_pack(*bytes)) return std::nullopt;
+  return about(path, [&] { return PackFile(std::move(bytes)); });
 }
 
 std::string number(Decimal value) {
@@ -19,9 +29,7 @@ double bits_per_vertex(size_t bytes, uint32_t vertices) {
   return 8.0 * static_cast<double>(bytes) / vertices;
 }
 
-void deliver(OutputFile& out, const std::string& path, const std::vector<uint8_t>& bytes,
-             const std::string& text) {
-  out.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+void deliver(OutputFile& out, const std::string& path, const std::string& text) {
   if (path == "-") {
     out.commit();
     std::fputs(text.c_str(), stderr);

@@ -7,16 +7,6 @@
 namespace microtin {
 namespace {
 
-// Decimals of multiples of 1 / denominator.
-int decimals_of(uint64_t denominator) {
-  constexpr int kMost = 18, kOfEndless = 12;
-  int twos = 0, fives = 0;
-  for (; denominator % 2 == 0; denominator /= 2) ++twos;
-  for (; denominator % 5 == 0; denominator /= 5) ++fives;
-  const int decimals = std::max(twos, fives);
-  return denominator == 1 && decimals <= kMost ? decimals : kOfEndless;
-}
-
 uint64_t reduced_denominator(const Axis& axis) {
   const Wide denominator = static_cast<Wide>(axis.denominator);
   const Wide divisor = greatest_common_divisor(
@@ -26,10 +16,18 @@ uint64_t reduced_denominator(const Axis& axis) {
 
 }  // namespace
 
+int decimals_of(const Axis& axis) {
+  constexpr int kMost = 18, kOfEndless = 12;
+  uint64_t denominator = reduced_denominator(axis);
+  int twos = 0, fives = 0;
+  for (; denominator % 2 == 0; denominator /= 2) ++twos;
+  for (; denominator % 5 == 0; denominator /= 5) ++fives;
+  const int decimals = std::max(twos, fives);
+  return denominator == 1 && decimals <= kMost ? decimals : kOfEndless;
+}
+
 CoordinateText::CoordinateText(const Axis& axis)
-    : axis_(axis),
-      decimals_(decimals_of(reduced_denominator(axis))),
-      scale_(power_of_ten(decimals_)) {}
+    : axis_(axis), decimals_(decimals_of(axis)), scale_(power_of_ten(decimals_)) {}
 
 std::string CoordinateText::operator()(int64_t number) const {
   const Wide numerator = axis_.offset + static_cast<Wide>(axis_.numerator) * number;

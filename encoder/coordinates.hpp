@@ -9,6 +9,9 @@
 
 namespace microtin {
 
+// Decimals that the coordinates of an axis have: all if there are at most 18, else 12.
+int decimals_of(const Axis& axis);
+
 // Writes coordinates on one axis: all their decimals if there are at most 18, else 12, rounded.
 class CoordinateText {
  public:

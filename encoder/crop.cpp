@@ -15,7 +15,7 @@ Axis from_post(const Axis& axis, uint32_t post) {
 
 }  // namespace
 
-Raster crop(const Raster& raster, const PostRectangle& r) {
+Raster crop_frame(const Raster& raster, const PostRectangle& r) {
   Raster part;
   part.width = r.width;
   part.height = r.height;
@@ -23,6 +23,11 @@ Raster crop(const Raster& raster, const PostRectangle& r) {
   part.x = from_post(raster.x, r.x);
   part.y = from_post(raster.y, r.y);
   part.reference = raster.reference;
+  return part;
+}
+
+Raster crop(const Raster& raster, const PostRectangle& r) {
+  Raster part = crop_frame(raster, r);
   part.heights.reserve(std::size_t{r.width} * r.height);
   for (uint32_t row = r.y; row < r.y + r.height; ++row) {
     const auto begin =

@@ -58,6 +58,13 @@ struct Digits {
   }
 };
 
+template <class Binary>
+std::optional<Decimal> shortest(Binary value, int max_decimals) {
+  char text[32];
+  const char* const end = std::to_chars(text, text + sizeof text, value).ptr;
+  return parse_decimal({text, static_cast<size_t>(end - text)}, max_decimals);
+}
+
 }  // namespace
 
 bool operator==(Decimal a, Decimal b) {
@@ -107,6 +114,14 @@ std::optional<Decimal> parse_decimal(std::string_view text, int max_decimals) {
   }
   return make_decimal(negative ? -digits.mantissa : digits.mantissa,
                       static_cast<int>(digits.decimals));
+}
+
+std::optional<Decimal> shortest_decimal(float value, int max_decimals) {
+  return shortest(value, max_decimals);
+}
+
+std::optional<Decimal> shortest_decimal(double value, int max_decimals) {
+  return shortest(value, max_decimals);
 }
 
 std::string to_string(Decimal value) {

@@ -38,6 +38,11 @@ Wide mantissa_at(Decimal value, int decimals);
 // if the text is not a finite number or its magnitude is not below 10^18.
 std::optional<Decimal> parse_decimal(std::string_view text, int max_decimals = kMaxDecimals);
 
+// The shortest decimal that is read as this binary number, rounded as above. Nothing if it is not
+// finite or too large.
+std::optional<Decimal> shortest_decimal(float value, int max_decimals = kMaxDecimals);
+std::optional<Decimal> shortest_decimal(double value, int max_decimals = kMaxDecimals);
+
 // "-0.25": shortest form that reads back equal.
 std::string to_string(Decimal value);
 

@@ -4,6 +4,7 @@
 
 #include "encoder/coordinates.hpp"
 #include "encoder/error.hpp"
+#include "encoder/glb.hpp"
 
 namespace microtin {
 namespace {
@@ -41,7 +42,8 @@ MeshFormat mesh_format_of(const std::string& path) {
   if (path == "-" || suffix == ".xyz") return MeshFormat::kXyz;
   if (suffix == ".obj") return MeshFormat::kObj;
   if (suffix == ".ply") return MeshFormat::kPly;
-  throw Error(path + ": not a kind of mesh file known here (.xyz, .obj, .ply)");
+  if (suffix == ".glb") return MeshFormat::kGlb;
+  throw Error(path + ": not a kind of file that is written (.xyz, .obj, .ply, .glb, .asc)");
 }
 
 SurfaceModel model_of(const microtin_mesh* mesh) {
@@ -76,6 +78,9 @@ void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coor
       write_ply_header(model, out);
       write_vertices(model, coordinates, "", out);
       write_triangles(model, "3", 0, out);
+      break;
+    case MeshFormat::kGlb:
+      export_glb(model, coordinates, out);
       break;
   }
 }

@@ -16,7 +16,8 @@ namespace microtin {
 enum class MeshFormat {
   kXyz,  // a line "x y z" for each vertex, no triangles
   kObj,  // Wavefront
-  kPly   // ASCII PLY
+  kPly,  // ASCII PLY
+  kGlb   // glTF binary
 };
 
 // By the suffix of `path`; "-" is kXyz. Throws Error for other suffixes.
@@ -28,6 +29,7 @@ enum class Coordinates { kReal, kLattice };
 // ones.
 struct SurfaceModel {
   Placement placement;
+  Unit horizontal_unit = Unit::kUnknown, vertical_unit = Unit::kUnknown;
   std::vector<std::array<int64_t, 3>> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;
 };

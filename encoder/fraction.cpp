@@ -27,7 +27,7 @@ Fraction simplest_between(Fraction low, Fraction high) {
 }  // namespace
 
 Fraction reduced(Wide numerator, Wide denominator) {
-  const Wide divisor = greatest_common_divisor(numerator, denominator);
+  const Wide divisor = std::max<Wide>(greatest_common_divisor(numerator, denominator), 1);
   return {numerator / divisor, denominator / divisor};
 }
 
@@ -82,6 +82,18 @@ Axis make_axis(Fraction first, Fraction step) {
   const Wide denominator = step.denominator * multiple;
   return reduced_axis(whole * denominator + round_divide(rest * denominator, first.denominator),
                       step.numerator * multiple, denominator);
+}
+
+Axis axis_of_cells(Decimal place, Decimal size, int64_t half_cells) {
+  const std::optional<Fraction> reciprocal = reciprocal_meant(size);
+  const Fraction start = reciprocal ? meaning_within(place, {1, 100 * reciprocal->denominator})
+                                    : reduced(place.mantissa, power_of_ten(place.decimals));
+  Fraction step = reciprocal ? *reciprocal : reduced(size.mantissa, power_of_ten(size.decimals));
+  if (std::max(step.numerator, step.denominator) >= kAxisLimit) step = simplest_fraction(size);
+  const Fraction first = reduced(
+      2 * start.numerator * step.denominator + half_cells * step.numerator * start.denominator,
+      2 * start.denominator * step.denominator);
+  return make_axis(first, step);
 }
 
 Axis reduced_axis(Wide offset, Wide numerator, Wide denominator) {

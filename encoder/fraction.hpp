@@ -37,6 +37,13 @@ std::optional<Fraction> reciprocal_meant(Decimal written);
 // in 40 bits, the first is rounded to the finest that does. Throws Error if the step does not fit.
 Axis make_axis(Fraction first, Fraction step);
 
+constexpr int kPlaceDecimals = 12;  // of corners and cell sizes: as many as an axis can hold
+
+// From a raster's columns or rows to where they lie: the first is half_cells halves of `size` > 0
+// from `place`, both with at most kPlaceDecimals. 0.000833333333 means 1/1200; then the place's
+// decimals are rounded, too, within 1/100 cell. |half_cells| < 2^33. Throws Error as make_axis.
+Axis axis_of_cells(Decimal place, Decimal size, int64_t half_cells);
+
 // (offset + numerator * k) / denominator in lowest terms. Throws Error if it does not fit an axis.
 Axis reduced_axis(Wide offset, Wide numerator, Wide denominator);
 

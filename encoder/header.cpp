@@ -23,6 +23,10 @@ void append_note(Bytes& notes, uint8_t type, const Bytes& content) {
   notes.insert(notes.end(), content.begin(), content.end());
 }
 
+void append_text(Bytes& notes, uint8_t type, const std::string& text) {
+  if (!text.empty()) append_note(notes, type, Bytes(text.begin(), text.end()));
+}
+
 void append_axis(Bytes& bytes, const Axis& axis) {
   append_varint(bytes, zigzag(axis.offset));
   append_varint(bytes, axis.numerator);
@@ -103,6 +107,12 @@ void read_note(uint8_t type, const uint8_t* begin, const uint8_t* end, Metadata&
     accuracy.max_error = reader.decimal();
     accuracy.rms_error = reader.decimal();
     m.accuracy = accuracy;
+  } else if (type == kNoteDate) {
+    m.date.assign(begin, end);
+  } else if (type == kNoteLineage) {
+    m.lineage.assign(begin, end);
+  } else if (type == kNoteWater) {
+    m.water_level = reader.decimal();
   }
 }
 
@@ -144,8 +154,15 @@ Bytes write_notes(const Metadata& m) {
     append_varint(content, m.vertical_epsg);
     append_note(notes, kNoteEpsg, content);
   }
-  if (!m.source.empty()) append_note(notes, kNoteSource, Bytes(m.source.begin(), m.source.end()));
+  append_text(notes, kNoteSource, m.source);
   if (m.accuracy) append_note(notes, kNoteAccuracy, accuracy_content(*m.accuracy));
+  append_text(notes, kNoteDate, m.date);
+  append_text(notes, kNoteLineage, m.lineage);
+  if (m.water_level) {
+    Bytes content;
+    append_decimal(content, *m.water_level);
+    append_note(notes, kNoteWater, content);
+  }
   if (notes.size() > 65535) throw Error("the texts for the header are longer than 65,535 bytes");
   return notes;
 }

@@ -1,6 +1,7 @@
 #include "encoder/import.hpp"
 
 #include <filesystem>
+#include <map>
 
 #include "encoder/error.hpp"
 #include "encoder/import_text.hpp"
@@ -8,17 +9,46 @@
 
 namespace microtin {
 
-Source import_terrain(const std::string& path) {
-  if (path == "-") return import_points("standard input", read_file(path));
+namespace {
+
+Source import_other(const std::string& path) {
+#ifdef MICROTIN_WITH_GDAL
+  return import_gdal(path);
+#else
+  throw Error(path +
+              ": not a kind of terrain file known here (.hgt, .zip, .asc, .xyz, .csv, .txt, .las, "
+              ".ply, .obj); for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build "
+              "with -DMICROTIN_WITH_GDAL=ON");
+#endif
+}
+
+}  // namespace
+
+Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes) {
+  using Import = Source (*)(const std::string&, const std::string&);
+  const Import points = [](const auto& name, const auto& text) -> Source {
+    return import_points(name, text);
+  };
+  const std::map<std::string, Import> importers = {
+      {".xyz", points},
+      {".csv", points},
+      {".txt", points},
+      {".hgt",
+       [](const auto& name, const auto& bytes) -> Source { return import_hgt(name, bytes); }},
+      {".zip",
+       [](const auto& name, const auto& bytes) -> Source { return import_zip(name, bytes); }},
+      {".asc", [](const auto& name, const auto& text) -> Source { return import_asc(name, text); }},
+      {".ply",
+       [](const auto& name, const auto& bytes) -> Source { return import_ply(name, bytes); }},
+      {".obj",
+       [](const auto& name, const auto& text) -> Source { return import_obj(name, text); }}};
   const std::string suffix = lower_case(std::filesystem::path(path).extension().string());
-  const bool points = suffix == ".xyz" || suffix == ".csv" || suffix == ".txt";
-  if (!points && suffix != ".hgt" && suffix != ".asc") {
-    throw Error(path + ": not a kind of terrain file known here (.hgt, .asc, .xyz, .csv, .txt)");
-  }
-  const std::string content = read_file(path);
-  if (points) return import_points(path, content);
-  if (suffix == ".hgt") return import_hgt(path, content);
-  return import_asc(path, content);
+  if (suffix == ".las" || suffix == ".laz") return import_las(path, read_file(path), classes);
+  if (classes) throw Error(path + ": only .las files have classes");
+  if (path == "-") return import_points("standard input", read_file(path));
+  const auto found = importers.find(suffix);
+  if (found == importers.end()) return import_other(path);
+  return found->second(path, read_file(path));
 }
 
 }  // namespace microtin

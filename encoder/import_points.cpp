@@ -7,22 +7,6 @@
 namespace microtin {
 namespace {
 
-// Splits a line at runs of blanks with at most one comma or semicolon in each; an empty field is
-// kept, unless it is the last.
-void split(std::string_view line, std::vector<std::string_view>& fields) {
-  const auto skip_blanks = [&line] {
-    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
-  };
-  fields.clear();
-  for (skip_blanks(); !line.empty(); skip_blanks()) {
-    const size_t end = std::min(line.find_first_of(" \t\r\v\f,;"), line.size());
-    fields.push_back(line.substr(0, end));
-    line.remove_prefix(end);
-    skip_blanks();
-    if (!line.empty() && (line.front() == ',' || line.front() == ';')) line.remove_prefix(1);
-  }
-}
-
 class PointReader {
  public:
   explicit PointReader(const std::string& name) : name_(name) {}
@@ -40,14 +24,8 @@ class PointReader {
   }
 
   PointCloud cloud() {
-    PointCloud cloud;
-    if (columns_ == 0) throw Error(name_ + ": holds no point");
-    cloud.xy_decimals = xy_.decimals();
-    cloud.z_decimals = z_.decimals();
-    const std::vector<int64_t>&xy = xy_.mantissas(), &z = z_.mantissas();
-    cloud.points.reserve(z.size());
-    for (size_t i = 0; i < z.size(); ++i) cloud.points.push_back({xy[2 * i], xy[2 * i + 1], z[i]});
-    return cloud;
+    if (points_.empty()) throw Error(name_ + ": holds no point");
+    return points_.take();
   }
 
  private:
@@ -79,10 +57,10 @@ class PointReader {
     }
     for (size_t i = 0; i < columns_; ++i) {
       const std::optional<Decimal> value = parse_decimal(fields_[i]);
-      const bool good = value && (i < 2 ? xy_.add(*value) : i > 2 || z_.add(*value));
+      const bool good = value && (i > 2 || points_.add(i, *value));
       if (!good) fail(quoted(fields_[i]) + " is not a number in range");
     }
-    if (columns_ == 2) z_.add(Decimal{});
+    if (columns_ == 2) points_.add(2, Decimal{});
   }
 
   const std::string& name_;
@@ -90,8 +68,7 @@ class PointReader {
   size_t columns_ = 0;  // 0 until the first point
   bool header_seen_ = false;
   std::vector<std::string_view> fields_;
-  DecimalColumn xy_;  // x and y in turn, so that they share their decimals
-  DecimalColumn z_;
+  PointColumns points_;
 };
 
 }  // namespace
@@ -103,11 +80,7 @@ PointCloud import_points(const std::string& name, const std::string& text) {
     rest.remove_prefix(kByteOrderMark.size());
   }
   PointReader reader(name);
-  while (!rest.empty()) {
-    const size_t end = std::min(rest.find('\n'), rest.size());
-    reader.read_line(rest.substr(0, end));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-  }
+  while (!rest.empty()) reader.read_line(take_line(rest));
   return reader.cloud();
 }
 

@@ -10,28 +10,14 @@
 namespace microtin {
 namespace {
 
-// The numbers of a source along one axis.
-struct Range {
-  int64_t low = std::numeric_limits<int64_t>::max();
-  int64_t high = std::numeric_limits<int64_t>::min();
-  int64_t spacing = 0;  // the greatest that divides all differences
-
-  bool empty() const { return low > high; }
-
-  void add(int64_t number) {
-    if (!empty()) spacing = std::gcd(spacing, number - low);
-    low = std::min(low, number);
-    high = std::max(high, number);
-  }
-};
-
 // Axes that share their step.
 struct AxisGroup {
-  std::vector<Range> ranges;
+  std::vector<NumberRange> ranges;
   int decimals;         // of the numbers
   int needed_decimals;  // of the refined numbers, at least
   int lattice_low, lattice_high;
-  const char* option;  // that sets the step
+  const char* option;                  // that sets the step
+  std::optional<int64_t> anchor = {};  // a number that must be on the lattice
 };
 
 struct GroupFit {
@@ -40,11 +26,13 @@ struct GroupFit {
 };
 
 // The map of one axis, if the range is not too wide.
-std::optional<LatticeMap> fit(const Range& range, Wide scale, Wide step, int lattice_low,
-                              int lattice_high) {
+std::optional<LatticeMap> fit(const NumberRange& range, Wide scale, Wide step,
+                              const AxisGroup& group) {
+  const auto rest_of = [step](Wide number) { return number - floor_divide(number, step) * step; };
+  const int lattice_low = group.lattice_low, lattice_high = group.lattice_high;
   const Wide low = scale * range.low;
   const bool same_rest = scale * range.spacing % step == 0;
-  const Wide rest = same_rest ? low - floor_divide(low, step) * step : 0;
+  const Wide rest = group.anchor ? rest_of(scale * *group.anchor) : same_rest ? rest_of(low) : 0;
   const Wide first = floor_divide(low - rest, step) * step + rest;
   for (const Wide shift : {-rest, -first, lattice_low * step - first}) {
     const LatticeMap map{scale, shift, step};
@@ -59,9 +47,8 @@ GroupFit fit_all(const AxisGroup& group, Decimal step) {
   GroupFit fits;
   fits.decimals = std::max({group.decimals, group.needed_decimals, step.decimals});
   const Wide scale = power_of_ten(fits.decimals - group.decimals);
-  for (const Range& range : group.ranges) {
-    const auto map =
-        fit(range, scale, mantissa_at(step, fits.decimals), group.lattice_low, group.lattice_high);
+  for (const NumberRange& range : group.ranges) {
+    const auto map = fit(range, scale, mantissa_at(step, fits.decimals), group);
     if (!map) return {};
     fits.maps.push_back(*map);
   }
@@ -100,28 +87,48 @@ Axis lattice_axis(const Axis& source, const LatticeMap& map) {
                       static_cast<Wide>(source.denominator) * map.scale);
 }
 
-AxisGroup height_group(const Range& z, int decimals, const LatticeOptions& options) {
+AxisGroup height_group(const NumberRange& z, int decimals, const LatticeOptions& options) {
   if (z.empty()) throw Error("there is no height");
-  return {{z},       decimals,  options.max_error ? options.max_error->decimals : 0,
-          INT16_MIN, INT16_MAX, "--z-step"};
+  return {{z},
+          decimals,
+          options.max_error ? options.max_error->decimals : 0,
+          INT16_MIN,
+          INT16_MAX,
+          "--z-step",
+          number_of(options.water_level, decimals)};
 }
 
 }  // namespace
 
-Lattice choose_post_lattice(const Raster& raster, const LatticeOptions& options) {
-  Range z;
-  for (const int64_t height : raster.heights) {
-    if (height != kVoidHeight) z.add(height);
+void NumberRange::add(int64_t number) {
+  if (empty()) {
+    low = high = number;
+    return;
   }
-  const GroupFit up = choose(height_group(z, raster.decimals, options), options.z_step);
+  // What a spacing of 1 divides need not be divided.
+  if (spacing != 1) spacing = std::gcd(spacing, number - low);
+  low = std::min(low, number);
+  high = std::max(high, number);
+}
+
+void NumberRange::add(const NumberRange& others) {
+  if (others.empty()) return;
+  add(others.low);
+  add(others.high);
+  spacing = std::gcd(spacing, others.spacing);
+}
+
+Lattice choose_post_lattice(const Raster& frame, const NumberRange& heights,
+                            const LatticeOptions& options) {
+  const GroupFit up = choose(height_group(heights, frame.decimals, options), options.z_step);
   const LatticeMap itself{1, 0, 1};
-  const Axis heights{0, 1, static_cast<uint64_t>(power_of_ten(raster.decimals))};
+  const Axis up_axis{0, 1, static_cast<uint64_t>(power_of_ten(frame.decimals))};
   return {itself, itself,      up.maps[0],
-          0,      up.decimals, {raster.x, raster.y, lattice_axis(heights, up.maps[0])}};
+          0,      up.decimals, {frame.x, frame.y, lattice_axis(up_axis, up.maps[0])}};
 }
 
 Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
-  Range x, y, z;
+  NumberRange x, y, z;
   for_each_post(source, [&](int64_t px, int64_t py, int64_t pz) {
     x.add(px);
     y.add(py);
@@ -134,8 +141,7 @@ Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
   const auto* cloud = std::get_if<PointCloud>(&source);
   const AxisGroup places{{x, y},     cloud != nullptr ? cloud->xy_decimals : 0, 0, 0, kLatticeMax,
                          "--xy-step"};
-  const AxisGroup heights =
-      height_group(z, cloud != nullptr ? cloud->z_decimals : raster->decimals, options);
+  const AxisGroup heights = height_group(z, height_decimals(source), options);
   const GroupFit xy = choose(places, options.xy_step);
   const GroupFit up = choose(heights, options.z_step);
   const Placement numbers = placement_of(source);

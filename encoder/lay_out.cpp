@@ -69,25 +69,32 @@ int32_t saturated(Wide height) {
 // Makes samples and counts the places where the bound cannot be kept.
 class Sampler {
  public:
-  Sampler(const Lattice& lattice, const LatticeOptions& options)
+  // water: the number of heights that are kept exactly.
+  Sampler(const Lattice& lattice, const LatticeOptions& options, std::optional<int64_t> water)
       : map_(lattice.z),
         decimals_(lattice.z_decimals),
         bounded_(options.max_error.has_value()),
         above_(bounded_ ? mantissa_at(*options.max_error, decimals_) : Wide{0}),
-        below_(options.never_below ? Wide{0} : above_) {}
+        below_(options.never_below ? Wide{0} : above_),
+        water_(water) {}
 
   Sample sample(Point place, Heights heights) {
     const Wide low = map_.numerator(heights.low), high = map_.numerator(heights.high);
     Sample sample{place, saturated(round_divide((low + high) * kOne, 2 * map_.step)), INT32_MIN,
                   INT32_MAX};
     if (!bounded_) return sample;
+    if (heights.low == heights.high && heights.low == water_) {
+      sample.lowest = sample.highest = sample.height;
+      return sample;
+    }
     const Wide lowest = high - below_, highest = low + above_;
     narrowest_ = std::min(narrowest_, highest - lowest);
     sample.lowest = saturated(ceil_divide(lowest * kOne, map_.step));
     sample.highest = saturated(floor_divide(highest * kOne, map_.step));
+    if (water_) keep_dry(heights, lowest, highest, sample);
     if (lowest > highest) {
       if (walls_++ == 0) first_wall_ = {place, heights};
-    } else if (ceil_divide(lowest, map_.step) > floor_divide(highest, map_.step)) {
+    } else if (ceil_divide(sample.lowest, kOne) > floor_divide(sample.highest, kOne)) {
       ++without_step_;
     }
     return sample;
@@ -114,6 +121,19 @@ class Sampler {
   }
 
  private:
+  // Land is not at the water level, else it would pass for water.
+  void keep_dry(Heights heights, Wide lowest, Wide highest, Sample& sample) {
+    const Wide level = map_.numerator(*water_);
+    const int32_t answer = saturated(level / map_.step * kOne);
+    if (heights.low > *water_ && lowest <= level) {
+      sample.lowest = answer + 1;
+      narrowest_ = std::min(narrowest_, highest - level);
+    } else if (heights.high < *water_ && highest >= level) {
+      sample.highest = answer - 1;
+      narrowest_ = std::min(narrowest_, level - lowest);
+    }
+  }
+
   struct Wall {
     Point place;
     Heights heights;
@@ -123,6 +143,7 @@ class Sampler {
   int decimals_;
   bool bounded_;
   Wide above_, below_;  // how far the surface may be from a height
+  std::optional<int64_t> water_;
   Wide narrowest_ = std::numeric_limits<int64_t>::max();
   uint64_t walls_ = 0, without_step_ = 0;
   Wall first_wall_{};
@@ -170,7 +191,7 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
   Placing placing(lattice);
   for_each_post(source, [&](int64_t x, int64_t y, int64_t z) { placing.add(x, y, z); });
   placing.sort();
-  Sampler sampler(lattice, options);
+  Sampler sampler(lattice, options, number_of(options.water_level, height_decimals(source)));
   Laid laid;
   laid.survey.samples = make_samples(placing.posts(), sampler);
   sampler.check(lattice.placement, placement_of(source).z);

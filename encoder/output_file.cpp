@@ -22,11 +22,13 @@ OutputFile::OutputFile(const std::string& path) : path_(path), target_(path) {
   const bool special = fs::exists(status) && !fs::is_regular_file(status);
   if (fs::is_regular_file(status)) target_ = fs::canonical(path, ignored).string();
   if (!special) temporary_ = target_ + ".part-" + std::to_string(getpid());
+  const SignalsHeld held;
   file_ = std::fopen(special ? path.c_str() : temporary_.c_str(), special ? "wb" : "wbx");
   if (file_ == nullptr) {
     temporary_.clear();
     fail();
   }
+  if (!special) leftover_.emplace(temporary_);
 }
 
 OutputFile::~OutputFile() {
@@ -53,6 +55,7 @@ void OutputFile::commit() {
   if (std::fclose(file) != 0) fail();
   if (temporary_.empty()) return;
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
+  leftover_.reset();
   temporary_.clear();
 }
 

@@ -2,15 +2,20 @@
 #ifndef MICROTIN_ENCODER_OUTPUT_FILE_HPP
 #define MICROTIN_ENCODER_OUTPUT_FILE_HPP
 
+#include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "encoder/leftovers.hpp"
 
 namespace microtin {
 
 // Writes to a temporary beside the target, which takes the target's place on commit() and
-// disappears without it. "-" is standard output; devices and pipes are written directly. All throw
-// Error naming the target.
+// disappears without it, also when a signal ends the program. "-" is standard output; devices and
+// pipes are written directly. All throw Error naming the target.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);
@@ -19,6 +24,9 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view bytes);
+  void write(const std::vector<uint8_t>& bytes) {
+    write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
   void commit();
 
  private:
@@ -27,6 +35,7 @@ class OutputFile {
   std::string path_;       // as the user calls it
   std::string target_;     // behind links
   std::string temporary_;  // empty: written directly
+  std::optional<Leftover> leftover_;
   std::FILE* file_ = nullptr;
 };
 

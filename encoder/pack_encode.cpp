@@ -1,14 +1,12 @@
 #include "encoder/pack_encode.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <map>
-#include <numeric>
-#include <optional>
+#include <mutex>
 #include <string>
+#include <utility>
 
 #include "encoder/approximation.hpp"
-#include "encoder/crop.hpp"
 #include "encoder/error.hpp"
 #include "encoder/parallel.hpp"
 #include "encoder/tile_plan.hpp"
@@ -16,98 +14,113 @@
 namespace microtin {
 namespace {
 
-constexpr uint32_t kPilot = 257;  // posts on each side
+// Of the time, estimated.
+constexpr double kScanPart = 0.02, kPlanPart = 0.1;
 
-// The z step that suits the middle of the raster best.
-Decimal choose_z_step(const Raster& raster, const LatticeOptions& lattice,
-                      SimplifyOptions options) {
-  const uint32_t width = std::min(raster.width, kPilot), height = std::min(raster.height, kPilot);
-  const Raster middle = crop(raster, PostRectangle{(raster.width - width) / 2,
-                                                   (raster.height - height) / 2, width, height});
+// The z step that suits a part of the raster best.
+Decimal choose_z_step(const Raster& part, const LatticeOptions& lattice, SimplifyOptions options) {
   if (options.search == Search::kNormal) options.search = Search::kFast;
-  return approximate(middle, lattice, options).laid.z_step;
+  options.progress = {};
+  return approximate(part, lattice, options).laid.z_step;
 }
 
 // Chooses the heights' lattice for all tiles.
-TiledRaster tiled_raster(const Raster& raster, const PackOptions& options) {
+TiledRaster tiled_raster(const RasterReader& raster, const RasterScan& scanned,
+                         const PackOptions& options) {
   LatticeOptions lattice = options.lattice;
+  const Raster& frame = raster.frame();
   if (options.simplify.bounded && !lattice.z_step) {
     try {
-      lattice.z_step = choose_z_step(raster, lattice, options.simplify);
-      return {raster, choose_post_lattice(raster, lattice), lattice, {}};
-    } catch (const Error&) {  // too little terrain in the middle, or too fine for the whole
+      lattice.z_step = choose_z_step(raster.read(scanned.roughest), lattice, options.simplify);
+      return {raster, choose_post_lattice(frame, scanned.heights, lattice), lattice, {}};
+    } catch (const Error&) {  // too little terrain there, or too fine for the whole
       lattice.z_step.reset();
     }
   }
-  return {raster, choose_post_lattice(raster, lattice), lattice, {}};
+  return {raster, choose_post_lattice(frame, scanned.heights, lattice), lattice, {}};
 }
 
-// Posts that no tile covers. Throws Error if a post is a vertex already: nothing can cover it.
-std::vector<GlobalPost> missing_posts(const TileGrid& grid, const std::vector<EncodedTile>& tiles) {
-  std::map<GlobalPost, std::size_t> uncovered;  // by how many
-  for (const EncodedTile& tile : tiles) {
-    for (const GlobalPost post : tile.uncovered) ++uncovered[post];
-  }
-  std::vector<GlobalPost> missing;
-  for (const auto& [post, count] : uncovered) {
-    const std::vector<uint32_t> holders = tiles_at(grid, post);
-    if (count < holders.size()) continue;
-    if (std::all_of(holders.begin(), holders.end(),
-                    [&](uint32_t tile) { return tiles[tile].stream.empty(); })) {
-      throw Error("the height at column " + std::to_string(post.x) + ", row " +
-                  std::to_string(post.y) +
-                  " has too few around it for a triangle; another --tile-vertices may help");
+// Puts tiles that are encoded in any order into that of their numbers.
+class InOrder {
+ public:
+  InOrder(uint32_t first, const TakeTile& take) : next_(first), take_(take) {}
+
+  void add(uint32_t tile, EncodedTile&& encoded) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waiting_.emplace(tile, std::move(encoded));
+    for (; !waiting_.empty() && waiting_.begin()->first == next_; ++next_) {
+      take_(next_, std::move(waiting_.begin()->second));
+      waiting_.erase(waiting_.begin());
     }
-    missing.push_back(post);
   }
-  return missing;
-}
 
-std::vector<EncodedTile> encode_tiles(const TiledRaster& tiled, const SimplifyOptions& options) {
-  Borders borders(tiled);
-  std::vector<EncodedTile> tiles(std::size_t{tile_columns(tiled.grid)} * tile_rows(tiled.grid));
-  std::vector<uint32_t> changed(tiles.size());
-  std::iota(changed.begin(), changed.end(), 0u);
-  while (!changed.empty()) {  // ends: there are always more vertices on borders
-    for_each_parallel(changed.size(), [&](std::size_t i) {
-      const uint32_t tile = changed[i];
-      tiles[tile] = encode_tile(tiled, tile, borders.of_tile(tile), options);
-    });
-    const std::set<uint32_t> again = borders.keep(missing_posts(tiled.grid, tiles));
-    changed.assign(again.begin(), again.end());
-  }
-  return tiles;
-}
-
-uint32_t most_vertices(const std::vector<EncodedTile>& tiles) {
-  uint32_t most = 0;
-  for (const EncodedTile& tile : tiles) most = std::max(most, tile.vertices);
-  return most;
-}
-
-Verification verification_of(const std::vector<EncodedTile>& tiles) {
-  std::vector<Verification> parts;
-  parts.reserve(tiles.size());
-  for (const EncodedTile& tile : tiles) parts.push_back(tile.measured);
-  return combine(parts);
-}
+ private:
+  std::mutex mutex_;
+  std::map<uint32_t, EncodedTile> waiting_;
+  uint32_t next_;
+  const TakeTile& take_;
+};
 
 }  // namespace
 
-EncodedPack encode_pack(const Raster& raster, const PackOptions& options) {
-  if (raster.width < 2 || raster.height < 2)
+PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
+  if (raster.frame().width < 2 || raster.frame().height < 2)
     throw Error("a pack needs two posts in each direction");
-  TiledRaster tiled = tiled_raster(raster, options);
-  std::vector<EncodedTile> tiles;
-  uint32_t pieces = 0;
-  do {  // a longer search seldom finds more vertices than the one for the plan
-    pieces = choose_pieces(tiled, options.max_vertices, options.simplify, pieces + 1);
-    tiled.grid = grid_of(raster, pieces);
-    tiles = encode_tiles(tiled, options.simplify);
-  } while (most_vertices(tiles) > options.max_vertices);
-  const Verification measured = verification_of(tiles);
-  return {tiled.grid, tiled.lattice.placement,
-          make_decimal(tiled.lattice.z.step, tiled.lattice.z_decimals), std::move(tiles), measured};
+  const Progress& progress = options.simplify.progress;
+  const bool chooses_z_step = options.simplify.bounded && !options.lattice.z_step;
+  const RasterScan scanned =
+      scan(raster, options.lattice.max_error, chooses_z_step, progress.part(0, kScanPart));
+  PackPlan plan{tiled_raster(raster, scanned, options), options, options.tile_steps,
+                scanned.fingerprint};
+  if (plan.tile_steps == 0) {
+    plan.tile_steps = choose_tile_steps(plan.tiled, options.max_vertices, options.simplify);
+  }
+  plan.tiled.grid = grid_of(raster.frame(), plan.tile_steps);
+  return plan;
+}
+
+TileRange all_tiles(const TileGrid& grid) {
+  return {0, static_cast<uint32_t>(tile_count(grid) - 1)};
+}
+
+TileTooLarge::TileTooLarge(uint32_t tile, uint32_t vertices, uint32_t steps)
+    : Error("tile " + std::to_string(tile) + " has " + std::to_string(vertices) +
+            " vertices, too many; all tiles can be encoded with --tile-steps " +
+            std::to_string(steps)),
+      fewer_steps(steps) {}
+
+void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
+  InOrder in_order(range.first, take);
+  SimplifyOptions options = plan.options.simplify;
+  const std::size_t count = std::size_t{range.last} - range.first + 1;
+  CountedProgress done(options.progress.part(kPlanPart, 1), count);
+  options.progress = {};
+  for_each_parallel(count, [&](std::size_t i) {
+    const uint32_t tile = range.first + static_cast<uint32_t>(i);
+    EncodedTile encoded = encode_tile(plan.tiled, tile, options);
+    const uint32_t vertices = encoded.summary.vertices, most = plan.options.max_vertices;
+    if (vertices > most) {
+      throw TileTooLarge(tile, vertices, fewer_tile_steps(plan.tiled.grid, most, vertices));
+    }
+    in_order.add(tile, std::move(encoded));
+    done.add_one();
+  });
+}
+
+void encode_pack(const RasterReader& raster, const PackOptions& options,
+                 const std::function<void(const PackPlan&)>& begin, const TakeTile& take) {
+  PackPlan plan = plan_pack(raster, options);
+  for (;;) {
+    begin(plan);
+    try {
+      encode_tiles(plan, all_tiles(plan.tiled.grid), take);
+      return;
+    } catch (const TileTooLarge& error) {  // the same one whatever the number of processors
+      if (options.tile_steps != 0) throw;
+      plan.tile_steps = error.fewer_steps;
+      plan.tiled.grid = grid_of(raster.frame(), plan.tile_steps);
+    }
+  }
 }
 
 }  // namespace microtin

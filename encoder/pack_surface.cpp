@@ -1,11 +1,15 @@
 #include "encoder/pack_surface.hpp"
 
+#include <cstddef>
+#include <iterator>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "encoder/borders.hpp"
 #include "encoder/error.hpp"
 #include "encoder/lattice_map.hpp"
+#include "encoder/parallel.hpp"
 
 namespace microtin {
 namespace {
@@ -50,21 +54,80 @@ class Joining {
   std::map<GlobalPost, uint32_t> shared_;
 };
 
-// The raster, if its posts are the places of the pack.
-const Raster& posts_of(const Source& source, const PackFile& pack) {
-  const auto* raster = std::get_if<Raster>(&source);
+void expect_posts_of(const Raster& frame, const PackFile& pack) {
   const auto is_same = [](const Axis& a, const Axis& b) {
     const LatticeMap map = map_between(a, b);
     return map.shift == 0 && map.scale == map.step;
   };
   const Placement& placement = pack.metadata().placement;
-  if (raster == nullptr || raster->width != pack.grid().x_max + 1 ||
-      raster->height != pack.grid().y_max + 1 || !is_same(raster->x, placement.x) ||
-      !is_same(raster->y, placement.y)) {
+  if (frame.width != pack.grid().x_max + 1 || frame.height != pack.grid().y_max + 1 ||
+      !is_same(frame.x, placement.x) || !is_same(frame.y, placement.y)) {
     throw Error("the terrain is not a raster with the posts of the pack");
   }
-  return *raster;
 }
+
+struct VisitedPost {
+  int64_t x, y, z;
+  double above;
+};
+
+struct VerifiedTile {
+  Verification all;
+  uint64_t posts = 0, voids = 0;      // those of a tile south or west are not counted again
+  std::vector<GlobalPost> uncovered;  // by this tile
+  std::vector<VisitedPost> visited;   // if somebody wants to know
+};
+
+VerifiedTile verify_tile(const PackFile& pack, uint32_t number, const RasterReader& raster,
+                         const std::optional<Decimal>& bound, bool keeps_visited) {
+  const TileBox box = tile_box(pack.grid(), number);
+  const Raster part = raster.read({box.x, box.y, box.x_end - box.x + 1, box.y_end - box.y + 1});
+  const std::optional<DecodedTerrain> tile = pack.tile(number);
+  const microtin_mesh* const mesh = tile ? tile->mesh() : nullptr;
+  VerifiedTile verified;
+  if (tile) {
+    PostVisitor visit;
+    if (keeps_visited) {
+      visit = [&](int64_t x, int64_t y, int64_t z, double above) {
+        verified.visited.push_back({box.x + x, box.y + y, z, above});
+      };
+    }
+    verified.all = verify(mesh, {part.x, part.y, pack.metadata().placement.z}, part, bound, visit);
+  }
+  if (!tile || verified.all.uncovered != 0) verified.uncovered = uncovered_posts(mesh, part, box);
+  for_each_post(part, [&](int64_t x, int64_t y, int64_t z) {
+    const bool is_first = (x != 0 || box.x == 0) && (y != 0 || box.y == 0);
+    if (is_first) ++(z == kVoidHeight ? verified.voids : verified.posts);
+  });
+  return verified;
+}
+
+// Posts of borders that tiles do not cover, until all tiles that hold them have been seen.
+class Uncovered {
+ public:
+  explicit Uncovered(const TileGrid& grid) : grid_(grid) {}
+
+  void add(const std::vector<GlobalPost>& posts) {
+    for (const GlobalPost post : posts) {
+      const std::size_t holders = tiles_at(grid_, post).size();
+      if (holders == 1 || ++by_[post] == holders) ++count_;
+    }
+  }
+
+  // No tile that comes holds posts south of that row.
+  void forget(uint32_t row) {
+    for (auto at = by_.begin(); at != by_.end();) {
+      at = at->first.y < row ? by_.erase(at) : std::next(at);
+    }
+  }
+
+  uint64_t count() const { return count_; }
+
+ private:
+  TileGrid grid_;
+  std::map<GlobalPost, std::size_t> by_;
+  uint64_t count_ = 0;
+};
 
 }  // namespace
 
@@ -79,29 +142,37 @@ SurfaceModel model_of(const PackFile& pack) {
   return model;
 }
 
-Verification verify(const PackFile& pack, const Source& source,
-                    const std::optional<Decimal>& bound) {
-  const Raster& raster = posts_of(source, pack);
+Verification verify(const PackFile& pack, const RasterReader& raster,
+                    const std::optional<Decimal>& bound, const Progress& progress,
+                    const PostVisitor& visit) {
+  expect_posts_of(raster.frame(), pack);
+  const TileGrid& grid = pack.grid();
+  const uint32_t columns = tile_columns(grid);
   std::vector<Verification> parts;
-  std::map<GlobalPost, std::size_t> uncovered;  // by how many tiles
-  for (uint32_t number = 0; number < pack.entries().size(); ++number) {
-    const TileBox box = tile_box(pack.grid(), number);
-    const Raster part = crop(raster, box);
-    const std::optional<DecodedTerrain> tile = pack.tile(number);
-    const microtin_mesh* const mesh = tile ? tile->mesh() : nullptr;
-    const Placement placement{part.x, part.y, pack.metadata().placement.z};
-    if (tile) parts.push_back(verify(mesh, placement, part, bound));
-    if (tile && parts.back().uncovered == 0) continue;
-    for (const GlobalPost post : uncovered_posts(mesh, part, box)) ++uncovered[post];
+  Uncovered uncovered(grid);
+  uint64_t posts = 0, voids = 0;
+  CountedProgress done(progress, pack.entries().size());
+  for (uint32_t row = 0; row < tile_rows(grid); ++row) {
+    std::vector<VerifiedTile> tiles(columns);
+    for_each_parallel(columns, [&](std::size_t i) {
+      tiles[i] = verify_tile(pack, row * columns + static_cast<uint32_t>(i), raster, bound,
+                             static_cast<bool>(visit));
+      done.add_one();
+    });
+    for (const VerifiedTile& tile : tiles) {
+      parts.push_back(tile.all);
+      uncovered.add(tile.uncovered);
+      posts += tile.posts;
+      voids += tile.voids;
+      for (const VisitedPost& post : tile.visited) visit(post.x, post.y, post.z, post.above);
+    }
+    uncovered.forget((row + 1) * grid.height);
   }
   Verification all = combine(parts);
-  all.uncovered = 0;
-  for (const auto& [post, tiles] : uncovered) {
-    if (tiles == tiles_at(pack.grid(), post).size()) ++all.uncovered;
-  }
-  all.posts = all.voids = 0;
-  for (const int64_t height : raster.heights) ++(height == kVoidHeight ? all.voids : all.posts);
-  all.covered = all.posts - all.uncovered;
+  all.uncovered = uncovered.count();
+  all.posts = posts;
+  all.voids = voids;
+  all.covered = posts - all.uncovered;
   return all;
 }
 

@@ -6,6 +6,7 @@
 
 #include "encoder/export.hpp"
 #include "encoder/pack_file.hpp"
+#include "encoder/progress.hpp"
 #include "encoder/verify.hpp"
 
 namespace microtin {
@@ -15,9 +16,12 @@ namespace microtin {
 SurfaceModel model_of(const PackFile& pack);
 
 // As for a mesh; every post counts once, and a post on a border is covered if one of its tiles
-// covers it.
-Verification verify(const PackFile& pack, const Source& source,
-                    const std::optional<Decimal>& bound);
+// covers it. On all processors; holds a row of tiles at a time. Posts on borders are visited for
+// each tile that covers them, always in the same order. Throws Error also if the raster's posts are
+// not the places of the pack.
+Verification verify(const PackFile& pack, const RasterReader& raster,
+                    const std::optional<Decimal>& bound, const Progress& progress = {},
+                    const PostVisitor& visit = {});
 
 }  // namespace microtin
 

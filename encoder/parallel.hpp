@@ -8,7 +8,10 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
+
+#include "encoder/progress.hpp"
 
 namespace microtin {
 
@@ -33,11 +36,32 @@ void for_each_parallel(std::size_t count, const Work& work) {
     }
   };
   const std::size_t wanted = std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
-  std::vector<std::thread> threads(std::min(wanted, count));
-  for (std::thread& thread : threads) thread = std::thread(run);
+  std::vector<std::thread> threads;
+  try {
+    while (threads.size() + 1 < std::min(wanted, count)) threads.emplace_back(run);
+  } catch (...) {  // without memory for more, those that are there do it
+  }
+  run();
   for (std::thread& thread : threads) thread.join();
   if (error) std::rethrow_exception(error);
 }
+
+// Progress by pieces, which may be done by several threads.
+class CountedProgress {
+ public:
+  CountedProgress(Progress progress, std::size_t pieces)
+      : progress_(std::move(progress)), pieces_(pieces) {}
+
+  void add_one() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    progress_.at(static_cast<double>(++done_) / static_cast<double>(pieces_));
+  }
+
+ private:
+  std::mutex mutex_;
+  Progress progress_;
+  std::size_t pieces_, done_ = 0;
+};
 
 }  // namespace microtin
 

@@ -39,7 +39,7 @@ void* grow(void* old, size_t old_size, size_t size) {
 
 namespace microtin {
 
-std::vector<uint8_t> png(const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height) {
+std::vector<uint8_t> png(const std::vector<uint8_t>& rgb, uint32_t width, uint32_t height) {
   const auto append = [](void* file, void* data, int size) {
     const auto* bytes = static_cast<const uint8_t*>(data);
     static_cast<std::vector<uint8_t>*>(file)->insert(
@@ -47,7 +47,7 @@ std::vector<uint8_t> png(const std::vector<uint8_t>& rgba, uint32_t width, uint3
   };
   std::vector<uint8_t> file;
   const int w = static_cast<int>(width), h = static_cast<int>(height);
-  if (stbi_write_png_to_func(append, &file, w, h, 4, rgba.data(), 4 * w) == 0) {
+  if (stbi_write_png_to_func(append, &file, w, h, 3, rgb.data(), 3 * w) == 0) {
     throw Error("the picture does not fit into memory");
   }
   return file;

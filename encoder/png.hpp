@@ -7,8 +7,8 @@
 
 namespace microtin {
 
-// `rgba` holds width * height pixels of four bytes, top row first.
-std::vector<uint8_t> png(const std::vector<uint8_t>& rgba, uint32_t width, uint32_t height);
+// `rgb` holds width * height pixels of three bytes, top row first.
+std::vector<uint8_t> png(const std::vector<uint8_t>& rgb, uint32_t width, uint32_t height);
 
 }  // namespace microtin
 

@@ -1,191 +1,207 @@
 #include "encoder/render.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include <string>
 
 #include "encoder/error.hpp"
+#include "encoder/error_map.hpp"
+#include "encoder/legend.hpp"
+#include "encoder/lettering.hpp"
 #include "encoder/png.hpp"
+#include "encoder/relief.hpp"
 
 namespace microtin {
 namespace {
 
-struct Vector {
-  double x, y, z;
+constexpr Colour kPaper{1, 1, 1}, kNoTerrain{0.95, 0.95, 0.945}, kHatch{0.86, 0.86, 0.85};
+
+// In units of the text.
+constexpr double kMargin = 10, kLegendHeight = 36, kRampShare = 0.56, kBarAt = 0.66;
+
+double as_number(Decimal value) {
+  return std::stod(to_string(value));
+}
+
+std::string unit_text(Unit unit) {
+  switch (unit) {
+    case Unit::kMetre:
+      return " m";
+    case Unit::kFoot:
+    case Unit::kUsSurveyFoot:
+      return " ft";
+    case Unit::kDegree:
+    case Unit::kUnknown:
+      break;
+  }
+  return "";
+}
+
+// The step of heights at the water level, if that is one.
+std::optional<int64_t> water_step(const Metadata& metadata) {
+  if (!metadata.water_level) return std::nullopt;
+  const Axis& z = metadata.placement.z;
+  const Wide tens = power_of_ten(metadata.water_level->decimals);
+  const Wide distance = Wide{metadata.water_level->mantissa} * static_cast<Wide>(z.denominator) -
+                        Wide{z.offset} * tens;
+  const Wide step = static_cast<Wide>(z.numerator) * tens;
+  if (distance % step != 0 || magnitude(distance / step) > INT16_MAX + 1) return std::nullopt;
+  return static_cast<int64_t>(distance / step);
+}
+
+// Where everything goes.
+struct Layout {
+  double unit;  // pixels
+  double room;  // for a map, pixels wide
+  MapFrame relief, errors;
+  uint32_t width, height;
 };
 
-Vector operator+(Vector a, Vector b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-Vector operator-(Vector a, Vector b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-Vector operator*(double s, Vector a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-
-double dot(Vector a, Vector b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Vector cross_product(Vector a, Vector b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-Vector normalised(Vector a) {
-  return 1 / std::sqrt(dot(a, a)) * a;
-}
-
-Vector mix(Vector a, Vector b, double t) {
-  return (1 - t) * a + t * b;
-}
-
-double smooth_step(double low, double high, double t) {
-  const double u = std::clamp((t - low) / (high - low), 0.0, 1.0);
-  return u * u * (3 - 2 * u);
-}
-
-// Colours from the valley to the summit, evenly spaced; light comes from the north-west.
-constexpr std::array<Vector, 6> kTints = {Vector{0.47, 0.62, 0.49}, {0.68, 0.76, 0.56},
-                                          {0.87, 0.84, 0.65},       {0.80, 0.68, 0.52},
-                                          {0.71, 0.60, 0.52},       {0.96, 0.96, 0.96}};
-constexpr Vector kWater{0.47, 0.66, 0.76};
-constexpr Vector kLine{0.13, 0.17, 0.24};
-constexpr Vector kShadow{0.25, 0.29, 0.42};
-constexpr Vector kLight{-0.53, 0.53, 0.66};
-
-Vector tint(double t) {
-  const double at = std::clamp(t, 0.0, 1.0) * (kTints.size() - 1);
-  const size_t below = std::min(static_cast<size_t>(at), kTints.size() - 2);
-  return mix(kTints[below], kTints[below + 1], at - static_cast<double>(below));
-}
-
-// A mesh with what shading needs: vertices as vectors, one normal for each.
-class Relief {
- public:
-  explicit Relief(const microtin_mesh* mesh) : mesh_(mesh) {
-    for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
-      uint16_t x, y;
-      int16_t z;
-      microtin_vertex(mesh, v, &x, &y, &z);
-      places_.push_back({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
-    }
-    if (places_.empty()) throw Error("there is nothing to draw");
-    low_ = high_ = places_.front();
-    for (const Vector& p : places_) {
-      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
-      high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
-    }
-    find_normals();
+Layout lay_out(const Portrait& portrait, const Ground& ground, uint32_t width, bool two) {
+  constexpr double kTallest = 1.6, kNarrowestRoom = 250, kWide = 2.2;
+  Layout layout{};
+  layout.width = width;
+  layout.unit = std::max(1.1, width / 760.0);
+  const double margin = std::round(kMargin * layout.unit);
+  const double head = std::round((2 * kMargin + kCapHeight) * layout.unit);
+  const double whole = width - 2 * margin, half = std::floor((whole - 2 * margin) / 2);
+  const MapFrame large = fit_map(portrait.model, ground, whole, kTallest * whole);
+  const bool beside =
+      two && half >= kNarrowestRoom * layout.unit && large.box.width < kWide * large.box.height;
+  layout.room = beside ? half : whole;
+  MapFrame frame = fit_map(portrait.model, ground, layout.room, kTallest * layout.room);
+  frame.box.left = margin;
+  frame.box.top = head;
+  layout.relief = layout.errors = frame;
+  const double panel = frame.box.height + std::round(kLegendHeight * layout.unit) + margin;
+  if (beside) {
+    layout.errors.box.left += half + 2 * margin;
+  } else {
+    layout.errors.box.top += panel;
   }
+  layout.height = static_cast<uint32_t>(head + panel * (two && !beside ? 2 : 1));
+  return layout;
+}
 
-  const microtin_mesh* mesh() const { return mesh_; }
-  Vector low() const { return low_; }
-  Vector high() const { return high_; }
-
-  // The colour of the triangle at p, without its lines.
-  Vector colour(const std::array<uint32_t, 3>& triangle, Vector p) const {
-    const auto [a, b, c] = triangle;
-    const double whole = area(places_[a], places_[b], places_[c]);
-    const double wb = area(places_[c], places_[a], p) / whole;
-    const double wc = area(places_[a], places_[b], p) / whole;
-    const Vector normal =
-        normalised((1 - wb - wc) * normals_[a] + wb * normals_[b] + wc * normals_[c]);
-    const double light = dot(normal, kLight) / kLight.z;  // 1 on level ground
-    const bool water = places_[a].z == low_.z && places_[b].z == low_.z && places_[c].z == low_.z;
-    const double relative = (p.z - low_.z) / std::max(1.0, high_.z - low_.z);
-    const Vector base = water ? kWater : tint(relative);
-    if (light >= 1) return mix(base, {1, 1, 1}, std::min(1.0, (light - 1) * 0.9));
-    return mix(base, kShadow, std::min(0.85, (1 - light) * 0.75));
+// A frame around what is not known, too.
+void draw_background(Canvas& canvas, const MapFrame& frame, double unit) {
+  const Box& box = frame.box;
+  canvas.fill(box, kNoTerrain);
+  const double step = 6 * unit, reach = 0.4 * unit + 0.5;
+  const auto lines = static_cast<uint32_t>((box.width + box.height) / step) + 1;
+  for (uint32_t line = 0; line < lines; ++line) {
+    const double start = line * step - box.height;
+    for_each_pixel_near({start, box.height}, {start + box.height, 0}, reach,
+                        {0, 0, box.width, box.height},
+                        [&](uint32_t column, uint32_t row, double distance) {
+                          canvas.blend(static_cast<uint32_t>(box.left) + column,
+                                       static_cast<uint32_t>(box.top) + row, kHatch,
+                                       std::min(1.0, reach - distance));
+                        });
   }
+}
 
-  // The distance from p to the nearest edge of the triangle around it.
-  double edge_distance(const std::array<uint32_t, 3>& triangle, Vector p) const {
-    double nearest = 1e9;
-    for (size_t i = 0; i < 3; ++i) {
-      const Vector a = places_[triangle[i]], b = places_[triangle[(i + 1) % 3]];
-      nearest = std::min(nearest, area(a, b, p) / std::hypot(b.x - a.x, b.y - a.y));
-    }
-    return nearest;
+// Smaller if it is too long.
+void draw_line(Canvas& canvas, const std::string& text, Spot start, double unit, double room) {
+  const double fitting = room / std::max(1.0, text_width(text));
+  draw_text(canvas, text, start, std::min(unit, fitting), kInk);
+}
+
+std::string title_of(const Portrait& portrait) {
+  const auto count = [](uint64_t number) { return grouped(static_cast<double>(number), 0); };
+  std::string text = count(portrait.vertices) + " vertices";
+  if (portrait.tiles != 0) {
+    text += " in " + count(portrait.tiles) + (portrait.tiles == 1 ? " tile" : " tiles");
   }
-
- private:
-  // Twice the area of (a, b, c) seen from above.
-  static double area(Vector a, Vector b, Vector c) { return cross_product(b - a, c - a).z; }
-
-  // Heights are scaled so that the mean slope is a pleasant one, whatever the units.
-  void find_normals() {
-    constexpr double kMeanSlope = 0.45;
-    double ground = 0, slopes = 0;
-    for_each_triangle([&](Vector normal, const uint32_t*) {
-      ground += normal.z;
-      slopes += std::hypot(normal.x, normal.y);
-    });
-    const double scale = slopes > 0 ? kMeanSlope * ground / slopes : 1;
-    normals_.assign(places_.size(), {0, 0, 0});
-    for_each_triangle([&](Vector normal, const uint32_t* v) {
-      const Vector scaled{scale * normal.x, scale * normal.y, normal.z};
-      for (int i = 0; i < 3; ++i) normals_[v[i]] = normals_[v[i]] + scaled;
-    });
+  text += ", " + count(portrait.bytes) + " bytes";
+  if (const std::optional<Accuracy>& accuracy = portrait.metadata.accuracy) {
+    const std::string unit = unit_text(portrait.metadata.vertical_unit);
+    text += ", largest error " + rounded_text(as_number(accuracy->max_error)) + unit + ", rms " +
+            rounded_text(as_number(accuracy->rms_error)) + unit;
   }
+  return text;
+}
 
-  // Visits the upward normal, as long as twice the area, and the vertices of each real triangle.
-  template <class Visit>
-  void for_each_triangle(const Visit& visit) const {
-    for (uint32_t t = 0; t < microtin_triangle_count(mesh_); ++t) {
-      uint32_t v[3];
-      if (microtin_triangle(mesh_, t, v) != MICROTIN_REAL) continue;
-      const Vector a = places_[v[0]];
-      visit(cross_product(places_[v[1]] - a, places_[v[2]] - a), v);
-    }
-  }
+// The places of a legend under a map.
+struct LegendPlaces {
+  LegendPlaces(const MapFrame& frame, const Layout& layout)
+      : line{frame.box.left, frame.box.top + frame.box.height + 13 * layout.unit},
+        ramp{line.x, line.y + 6 * layout.unit},
+        side{line.x + kBarAt * layout.room, ramp.y},
+        width(kRampShare * layout.room),
+        side_room((1 - kBarAt) * layout.room) {}
 
-  const microtin_mesh* mesh_;
-  std::vector<Vector> places_, normals_;
-  Vector low_, high_;
+  Spot line, ramp, side;
+  double width, side_room;
 };
 
-// Colours the pixel of `size` lattice units around a place, triangle lines at the given strength.
-void paint(const Relief& relief, Vector place, double size, double lines, uint32_t& hint,
-           uint8_t* rgba) {
-  int32_t z = 0;
-  const auto x = static_cast<int32_t>(place.x * 256), y = static_cast<int32_t>(place.y * 256);
-  if (microtin_height_at(relief.mesh(), x, y, 0, &hint, &z) != MICROTIN_HEIGHT) return;
-  place.z = z / 65536.0;
-  std::array<uint32_t, 3> triangle;
-  if (microtin_triangle(relief.mesh(), hint, triangle.data()) != MICROTIN_REAL) return;
-  const double line = std::clamp(1.1 - relief.edge_distance(triangle, place) / size, 0.0, 1.0);
-  const Vector colour = mix(relief.colour(triangle, place), kLine, lines * line);
-  rgba[0] = static_cast<uint8_t>(std::lround(colour.x * 255));
-  rgba[1] = static_cast<uint8_t>(std::lround(colour.y * 255));
-  rgba[2] = static_cast<uint8_t>(std::lround(colour.z * 255));
-  rgba[3] = 255;
+void draw_relief_legend(Canvas& canvas, const Portrait& portrait, const Relief& relief,
+                        const Ground& ground, const Layout& layout) {
+  const Axis& z = portrait.metadata.placement.z;
+  const std::string unit = unit_text(portrait.metadata.vertical_unit);
+  const double low = offset_of(z) + step_of(z) * static_cast<double>(relief.lowest());
+  const double high = offset_of(z) + step_of(z) * static_cast<double>(relief.highest());
+  const LegendPlaces at(layout.relief, layout);
+  draw_line(canvas, "height " + rounded_text(low) + " to " + rounded_text(high) + unit, at.line,
+            layout.unit, at.width);
+  draw_ramp(canvas, at.ramp, at.width, layout.unit, low, high, tint);
+  draw_scale_bar(canvas, at.side, 0.8 * at.side_room, layout.unit, layout.relief.x_step * ground.x,
+                 ground.unit);
+  if (!relief.has_water()) return;
+  const double level = as_number(*portrait.metadata.water_level);
+  draw_swatch(canvas, {at.side.x, at.line.y - kCapHeight * layout.unit}, layout.unit, kWater,
+              "water " + rounded_text(level) + unit);
+}
+
+void draw_errors(Canvas& canvas, const Portrait& portrait, const Comparison& comparison,
+                 const Layout& layout) {
+  ErrorMap map(layout.errors, comparison.cell);
+  const Verification found = comparison.verify([&](int64_t x, int64_t y, int64_t, double above) {
+    map.add(static_cast<double>(x), static_cast<double>(y), above);
+  });
+  const std::optional<Accuracy>& accuracy = portrait.metadata.accuracy;
+  const double largest = as_number(found.max_error);
+  const double bound = accuracy && accuracy->bound ? as_number(*accuracy->bound) : 0;
+  const double scale = std::max(largest, bound) > 0 ? std::max(largest, bound) : 1;
+  map.draw(canvas, scale);
+  const std::string unit = unit_text(portrait.metadata.vertical_unit);
+  const LegendPlaces at(layout.errors, layout);
+  draw_line(canvas, "decoded minus source" + (unit.empty() ? "" : "," + unit), at.line, layout.unit,
+            at.width);
+  draw_ramp(canvas, at.ramp, at.width, layout.unit, -scale, scale,
+            [](double relative) { return error_colour(2 * relative - 1); });
+  const auto draw_fact = [&](int line, const std::string& name, double value) {
+    draw_line(canvas, name + " " + rounded_text(value) + unit,
+              {at.side.x, at.line.y + 11.5 * layout.unit * line}, layout.unit, at.side_room);
+  };
+  draw_fact(0, "largest", largest);
+  draw_fact(1, "rms", as_number(found.rms_error));
+  if (bound > 0) draw_fact(2, "bound", bound);
 }
 
 }  // namespace
 
-std::vector<uint8_t> render_png(const microtin_mesh* mesh, uint32_t width) {
-  constexpr uint32_t kLargest = 16384;
-  const Relief relief(mesh);
-  const double scale = (relief.high().x - relief.low().x) / width;  // lattice units per pixel
-  const double rows = std::max(1.0, std::round((relief.high().y - relief.low().y) / scale));
-  if (width == 0 || width > kLargest || rows > kLargest) {
-    throw Error("a picture has 1 to 16384 pixels in width and height");
+std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
+                                const Comparison* comparison) {
+  if (width < kNarrowest || width > kWidest) {
+    throw Error("a picture is " + std::to_string(kNarrowest) + " to " + std::to_string(kWidest) +
+                " pixels wide");
   }
-  const auto height = static_cast<uint32_t>(rows);
-  std::vector<uint8_t> rgba(size_t{4} * width * height);
-  uint32_t hint = 0;
-  for (uint32_t row = 0; row < height; ++row) {
-    for (uint32_t column = 0; column < width; ++column) {
-      const Vector place{relief.low().x + (column + 0.5) * scale,
-                         relief.high().y - (row + 0.5) * scale, 0};
-      const double lines = 0.55 * smooth_step(0.3, 0.7, static_cast<double>(column) / width);
-      paint(relief, place, scale, lines, hint, &rgba[4 * (size_t{row} * width + column)]);
-    }
+  const SurfaceModel& model = portrait.model;
+  if (model.vertices.empty()) throw Error("there is nothing to draw");
+  const Ground ground = ground_of(model, portrait.metadata.horizontal_unit);
+  const Layout layout = lay_out(portrait, ground, width, comparison != nullptr);
+  const Relief relief(model, ground, water_step(portrait.metadata));
+  Canvas canvas(layout.width, layout.height, kPaper);
+  draw_line(canvas, title_of(portrait),
+            {kMargin * layout.unit, (kMargin + kCapHeight) * layout.unit}, layout.unit,
+            layout.width - 2 * kMargin * layout.unit);
+  draw_background(canvas, layout.relief, layout.unit);
+  relief.draw(canvas, layout.relief, 0.8 * std::sqrt(layout.unit));
+  draw_relief_legend(canvas, portrait, relief, ground, layout);
+  if (comparison != nullptr) {
+    draw_background(canvas, layout.errors, layout.unit);
+    draw_errors(canvas, portrait, *comparison, layout);
   }
-  return png(rgba, width, height);
+  return png(canvas.rgb(), canvas.width(), canvas.height());
 }
 
 }  // namespace microtin

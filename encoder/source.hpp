@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -42,9 +44,25 @@ struct PointCloud {
   int xy_decimals = 0;
   int z_decimals = 0;
   Reference reference;
+  std::string selection;  // which points of the file these are, for the user; empty: all
 };
 
 using Source = std::variant<Raster, PointCloud>;
+
+// Decimals of its heights.
+inline int height_decimals(const Source& source) {
+  const auto* raster = std::get_if<Raster>(&source);
+  return raster != nullptr ? raster->decimals : std::get<PointCloud>(source).z_decimals;
+}
+
+// The number that stands for a height, if there is one: of so many decimals.
+inline std::optional<int64_t> number_of(const std::optional<Decimal>& height, int decimals) {
+  constexpr Wide kLargest = 1000000000000000000;
+  if (!height || height->decimals > decimals) return std::nullopt;
+  const Wide number = mantissa_at(*height, decimals);
+  if (magnitude(number) > kLargest) return std::nullopt;
+  return static_cast<int64_t>(number);
+}
 
 // From the numbers of a source (posts: column, row, height) to real coordinates.
 inline Placement placement_of(const Source& source) {

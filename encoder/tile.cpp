@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "encoder/encode.hpp"
 #include "encoder/error.hpp"
+#include "encoder/water.hpp"
+#include "shared/pack_format.hpp"
 #include "shared/predicates.hpp"
 
 namespace microtin {
@@ -54,27 +58,99 @@ void check_shared(const microtin_mesh* mesh, const Sides& sides, const SharedVer
   if (found != shared.size()) fail("lacks a vertex of its border");
 }
 
-// Only other tiles may cover what this one does not.
-void check_bounds(const TiledRaster& tiled, const TileBox& box, const Sides& sides,
-                  const EncodedTile& tile) {
-  const Verification& measured = tile.measured;
+void check_bounds(const TiledRaster& tiled, const Verification& measured, uint64_t water_moved) {
   const bool too_low = tiled.options.never_below && measured.max_below.mantissa != 0;
-  const bool is_shared =
-      std::all_of(tile.uncovered.begin(), tile.uncovered.end(), [&](GlobalPost p) {
-        return sides.shares(
-            {static_cast<uint16_t>(p.x - box.x), static_cast<uint16_t>(p.y - box.y)});
-      });
-  if (!measured.within_bound || too_low || measured.voids_answered != 0 || !is_shared) {
+  if (!measured.within_bound || too_low || measured.voids_answered != 0 ||
+      measured.uncovered != 0 || water_moved != 0) {
     fail("does not keep what was asked for");
   }
 }
 
-void add_heights(const Tin& tin, EncodedTile& tile) {
+TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
+                       const Verification& measured) {
   const auto lower = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
   const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(), lower);
-  tile.vertices = static_cast<uint32_t>(tin.vertices.size());
-  tile.lowest = low->z;
-  tile.highest = high->z;
+  return {static_cast<uint32_t>(stream.size()),
+          stream_hash(kStreamHash, stream.data(), stream.size()),
+          static_cast<uint32_t>(tin.vertices.size()),
+          low->z,
+          high->z,
+          measured};
+}
+
+// The posts of a tile. On borders with other tiles the shared vertices stand for all posts with
+// heights: they are fixed.
+Survey survey_of_tile(const TiledRaster& tiled, const TilePosts& posts,
+                      const SharedVertices& shared) {
+  const Sides sides(tiled.grid, posts.box());
+  const Survey all = survey_of(tiled, posts.tile());
+  Survey survey;
+  survey.voids = all.voids;
+  survey.samples.reserve(all.samples.size());
+  for (const Sample& sample : all.samples) {
+    if (!sides.shares(sample.place)) {
+      survey.samples.push_back(sample);
+      continue;
+    }
+    const auto vertex = shared.find(sample.place);
+    if (vertex == shared.end()) continue;
+    const int32_t height = vertex->second * 65536;
+    survey.samples.push_back({sample.place, height, height, height});
+    survey.fixed.push_back(sample.place);
+  }
+  return survey;
+}
+
+// Whether a stream can hold it: its samples form a triangle. Throws Error if not and posts of it
+// lie on no border, so that no other tile holds them.
+bool has_terrain(const TileBox& box, const Survey& survey) {
+  if (form_triangle(survey.samples)) return true;
+  if (survey.samples.size() == survey.fixed.size()) return false;
+  throw Error("the tile from column " + std::to_string(box.x) + ", row " + std::to_string(box.y) +
+              " has only " + std::to_string(survey.samples.size()) +
+              " heights, which form no triangle; another --tile-vertices may help");
+}
+
+bool has_terrain(const TiledRaster& tiled, uint32_t tile) {
+  const TilePosts posts(tiled, tile);
+  return form_triangle(survey_of_tile(tiled, posts, shared_vertices(tiled, posts)).samples);
+}
+
+// Every post of a tile without terrain must be one of a tile that has it.
+void check_covered_by_others(const TiledRaster& tiled, const TilePosts& posts) {
+  for (const GlobalPost post : uncovered_posts(nullptr, posts.tile(), posts.box())) {
+    const std::vector<uint32_t> holders = tiles_at(tiled.grid, post);
+    if (std::any_of(holders.begin(), holders.end(),
+                    [&](uint32_t tile) { return has_terrain(tiled, tile); })) {
+      continue;
+    }
+    throw Error("the height at column " + std::to_string(post.x) + ", row " +
+                std::to_string(post.y) +
+                " has too few around it for a triangle; another --tile-vertices may help");
+  }
+}
+
+// Makes the posts beside those of borders that are not covered vertices: nothing that a void
+// reaches comes between then. These posts have heights, as voids are beside vertices of borders
+// alone.
+void fix_beside(const std::vector<GlobalPost>& uncovered, const TileBox& box, const Sides& sides,
+                Survey& survey) {
+  std::set<Point> fixed(survey.fixed.begin(), survey.fixed.end());
+  for (const GlobalPost post : uncovered) {
+    if (!sides.shares(
+            {static_cast<uint16_t>(post.x - box.x), static_cast<uint16_t>(post.y - box.y)}))
+      fail("leaves a post out");
+    for (const int dx : {-1, 0, 1}) {
+      for (const int dy : {-1, 0, 1}) {
+        const int64_t x = int64_t{post.x} - box.x + dx, y = int64_t{post.y} - box.y + dy;
+        if (x < 0 || y < 0 || x > box.x_end - box.x || y > box.y_end - box.y) continue;
+        const Point p{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
+        if (!sides.shares(p)) fixed.insert(p);
+      }
+    }
+  }
+  if (fixed.size() == survey.fixed.size()) fail("has a border that nothing covers");
+  survey.fixed.assign(fixed.begin(), fixed.end());
 }
 
 }  // namespace
@@ -95,59 +171,39 @@ std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster&
   return posts;
 }
 
-Survey survey_of_tile(const TiledRaster& tiled, uint32_t tile, const SharedVertices& shared) {
-  const TileBox box = tile_box(tiled.grid, tile);
+uint32_t count_vertices(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options) {
+  const TilePosts posts(tiled, tile);
+  const Survey survey = survey_of_tile(tiled, posts, shared_vertices(tiled, posts));
+  if (!has_terrain(posts.box(), survey)) return 0;
+  return static_cast<uint32_t>(simplify(survey, options).vertices.size());
+}
+
+EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options) {
+  const TilePosts posts(tiled, tile);
+  const TileBox& box = posts.box();
   const Sides sides(tiled.grid, box);
-  const Survey all = survey_of(tiled, crop(tiled.raster, box));
-  Survey survey;
-  survey.voids = all.voids;
-  survey.samples.reserve(all.samples.size());
-  for (const Sample& sample : all.samples) {
-    if (!sides.shares(sample.place)) {
-      survey.samples.push_back(sample);
+  const Raster part = posts.tile();
+  const SharedVertices shared = shared_vertices(tiled, posts);
+  Survey survey = survey_of_tile(tiled, posts, shared);
+  if (!has_terrain(box, survey)) {
+    check_covered_by_others(tiled, posts);
+    return {};
+  }
+  for (;;) {  // ends: there are always more fixed posts
+    const Tin tin = simplify(survey, options);
+    auto [stream, decoded] = encode_and_decode(tin, Metadata(), options.effort);
+    const std::optional<Decimal>& bound = tiled.options.max_error;
+    WaterGauge gauge(part.decimals, bound ? tiled.options.water_level : std::nullopt);
+    const Verification measured = verify(
+        decoded.mesh(), {part.x, part.y, tiled.lattice.placement.z}, part, bound, gauge.visitor());
+    if (measured.uncovered != 0) {
+      fix_beside(uncovered_posts(decoded.mesh(), part, box), box, sides, survey);
       continue;
     }
-    const auto vertex = shared.find(sample.place);
-    if (vertex == shared.end()) continue;
-    const int32_t height = vertex->second * 65536;
-    survey.samples.push_back({sample.place, height, height, height});
-    survey.fixed.push_back(sample.place);
+    check_shared(decoded.mesh(), sides, shared);
+    check_bounds(tiled, measured, gauge.moved());
+    return {summary_of(tin, stream, measured), std::move(stream)};
   }
-  return survey;
-}
-
-bool has_terrain(const TiledRaster& tiled, uint32_t tile, const Survey& survey) {
-  if (form_triangle(survey.samples)) return true;
-  if (survey.samples.size() == survey.fixed.size()) return false;
-  const TileBox box = tile_box(tiled.grid, tile);
-  throw Error("the tile from column " + std::to_string(box.x) + ", row " + std::to_string(box.y) +
-              " has only " + std::to_string(survey.samples.size()) +
-              " heights, which form no triangle; another --tile-vertices may help");
-}
-
-EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SharedVertices& shared,
-                        const SimplifyOptions& options) {
-  const TileBox box = tile_box(tiled.grid, tile);
-  const Sides sides(tiled.grid, box);
-  const Raster part = crop(tiled.raster, box);
-  const Survey survey = survey_of_tile(tiled, tile, shared);
-  EncodedTile encoded;
-  if (!has_terrain(tiled, tile, survey)) {
-    encoded.uncovered = uncovered_posts(nullptr, part, box);
-    return encoded;
-  }
-  const Tin tin = simplify(survey, options);
-  auto [stream, decoded] = encode_and_decode(tin, Metadata(), options.effort);
-  encoded.stream = std::move(stream);
-  add_heights(tin, encoded);
-  check_shared(decoded.mesh(), sides, shared);
-  encoded.measured = verify(decoded.mesh(), {part.x, part.y, tiled.lattice.placement.z}, part,
-                            tiled.options.max_error);
-  if (encoded.measured.uncovered != 0) {
-    encoded.uncovered = uncovered_posts(decoded.mesh(), part, box);
-  }
-  check_bounds(tiled, box, sides, encoded);
-  return encoded;
 }
 
 }  // namespace microtin

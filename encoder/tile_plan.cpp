@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <string>
+#include <vector>
 
 #include "encoder/error.hpp"
 #include "encoder/parallel.hpp"
+#include "encoder/raster_scan.hpp"
 #include "encoder/tile.hpp"
 #include "microtin/pack.h"
 
@@ -19,50 +23,79 @@ uint32_t divide_up(uint32_t a, uint32_t b) {
   return (a + b - 1) / b;
 }
 
-// The vertices of the tile that has most.
-uint32_t most_vertices(const TiledRaster& tiled, const SimplifyOptions& options) {
-  const Borders borders(tiled);
-  std::vector<uint32_t> vertices(tile_columns(tiled.grid) * tile_rows(tiled.grid));
-  for_each_parallel(vertices.size(), [&](std::size_t i) {
-    const auto tile = static_cast<uint32_t>(i);
-    const Survey survey = survey_of_tile(tiled, tile, borders.of_tile(tile));
-    if (!has_terrain(tiled, tile, survey)) return;
-    vertices[i] = static_cast<uint32_t>(simplify(survey, options).vertices.size());
+constexpr std::size_t kSimplifiedTiles = 24;
+
+// The tiles that probably have most vertices.
+std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
+  const std::size_t count = tile_count(tiled.grid), kept = std::min(count, kSimplifiedTiles);
+  std::vector<uint32_t> tiles(count);
+  std::iota(tiles.begin(), tiles.end(), 0u);
+  if (kept == count) return tiles;
+  std::vector<uint64_t> rough(count);
+  for_each_parallel(count, [&](std::size_t i) {
+    const TilePosts posts(tiled, tiles[i]);
+    rough[i] = roughness(posts.tile(), tiled.options.max_error);
   });
+  const auto rougher = [&](uint32_t a, uint32_t b) {
+    return rough[a] != rough[b] ? rough[a] > rough[b] : a < b;
+  };
+  std::partial_sort(tiles.begin(), tiles.begin() + static_cast<std::ptrdiff_t>(kept), tiles.end(),
+                    rougher);
+  tiles.resize(kept);
+  return tiles;
+}
+
+// The vertices of the tile that probably has most.
+uint32_t most_vertices(const TiledRaster& tiled, const SimplifyOptions& options) {
+  const std::vector<uint32_t> tiles = roughest_tiles(tiled);
+  std::vector<uint32_t> vertices(tiles.size());
+  for_each_parallel(tiles.size(),
+                    [&](std::size_t i) { vertices[i] = count_vertices(tiled, tiles[i], options); });
   return *std::max_element(vertices.begin(), vertices.end());
+}
+
+[[noreturn]] void fail_at_one_step(uint32_t max_vertices, uint32_t most) {
+  throw Error("--tile-vertices " + std::to_string(max_vertices) +
+              " is not enough for tiles of one step: " + std::to_string(most));
 }
 
 }  // namespace
 
-TileGrid grid_of(const Raster& raster, uint32_t pieces) {
-  const uint32_t x_max = raster.width - 1, y_max = raster.height - 1;
-  const uint32_t size = std::min(divide_up(std::max(x_max, y_max), pieces), uint32_t{kLatticeMax});
+TileGrid grid_of(const Raster& frame, uint32_t tile_steps) {
+  const uint32_t x_max = frame.width - 1, y_max = frame.height - 1;
+  const uint32_t size = std::min(tile_steps, uint32_t{kLatticeMax});
   const uint32_t width = divide_up(x_max, divide_up(x_max, size));
   const uint32_t height = divide_up(y_max, divide_up(y_max, size));
-  return {x_max, y_max, static_cast<uint16_t>(width), static_cast<uint16_t>(height)};
+  const TileGrid grid{x_max, y_max, static_cast<uint16_t>(width), static_cast<uint16_t>(height)};
+  if (tile_count(grid) > UINT32_MAX) throw Error("more than 4,294,967,295 tiles");
+  return grid;
 }
 
-uint32_t choose_pieces(TiledRaster tiled, uint32_t max_vertices, SimplifyOptions options,
-                       uint32_t fewest) {
+uint32_t choose_tile_steps(TiledRaster tiled, uint32_t max_vertices, SimplifyOptions options) {
   options.search = options.bounded ? Search::kFast : options.search;
-  const uint32_t longer = std::max(tiled.raster.width, tiled.raster.height) - 1;
+  const Raster& frame = tiled.raster.frame();
+  const uint32_t longer = std::max(frame.width, frame.height) - 1;
   const double posts = options.bounded ? max_vertices * kPostsPerVertex : max_vertices;
   const auto guess = static_cast<uint32_t>(longer / std::max(std::sqrt(posts) - 1, 1.0)) + 1;
-  uint32_t fitting = 0, pieces = std::clamp(guess, std::min(fewest, longer), longer);
-  for (;;) {
-    tiled.grid = grid_of(tiled.raster, pieces);
+  uint32_t fitting = 0, fewest = 1, pieces = std::clamp(guess, 1u, longer);
+  for (;;) {  // in pieces of the longer side
+    tiled.grid = grid_of(frame, divide_up(longer, pieces));
     const uint32_t most = most_vertices(tiled, options);
     if (most <= max_vertices) fitting = pieces;
     if (most > max_vertices) fewest = pieces + 1;
     const double ratio = std::sqrt(static_cast<double>(most) / max_vertices);
     const uint32_t next = std::max(fewest, static_cast<uint32_t>(std::ceil(pieces * ratio)));
-    if (fitting != 0 && next >= fitting) return fitting;
-    if (fewest > longer) {
-      throw Error("--tile-vertices " + std::to_string(max_vertices) +
-                  " is not enough for tiles of one step: " + std::to_string(most));
-    }
+    if (fitting != 0 && next >= fitting) return divide_up(longer, fitting);
+    if (fewest > longer) fail_at_one_step(max_vertices, most);
     pieces = std::min(next, longer);
   }
+}
+
+uint32_t fewer_tile_steps(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices) {
+  const uint32_t steps = std::max(grid.width, grid.height);
+  if (steps == 1) fail_at_one_step(max_vertices, vertices);
+  const double ratio = std::sqrt(static_cast<double>(max_vertices) / vertices);
+  return std::clamp(static_cast<uint32_t>(steps * ratio), 1u, steps - 1);
 }
 
 uint32_t vertices_for_ram(uint64_t bytes) {

@@ -9,14 +9,17 @@
 
 namespace microtin {
 
-// A raster in about `pieces` tiles along its longer side, all of nearly the same size.
-TileGrid grid_of(const Raster& raster, uint32_t pieces);
+// A raster in tiles of up to so many steps on a side, all of nearly the same size.
+TileGrid grid_of(const Raster& frame, uint32_t tile_steps);
 
-// The fewest pieces found with which no tile has more than max_vertices vertices; at least
-// `fewest`. Simplifies the raster two or three times, without searching long. Throws Error if there
-// are none.
-uint32_t choose_pieces(TiledRaster tiled, uint32_t max_vertices, SimplifyOptions options,
-                       uint32_t fewest);
+// The largest tile_steps found with which no tile has more than max_vertices vertices, as far as
+// the roughest tiles tell: up to 24 of them are simplified, two or three times, without searching
+// long, and the raster is read as often. Throws Error if there are none.
+uint32_t choose_tile_steps(TiledRaster tiled, uint32_t max_vertices, SimplifyOptions options);
+
+// What to try next if a tile has too many vertices; less than tile_steps. Throws Error if there is
+// nothing smaller.
+uint32_t fewer_tile_steps(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices);
 
 // Vertices of a tile for which a device with so many bytes of RAM decodes one tile and keeps four,
 // as many as meet at a corner, with 16-bit numbers. 0 if there are none.

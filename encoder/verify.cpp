@@ -28,7 +28,8 @@ class ErrorMeter {
 
   // `number` is the source's; `answer` is a lattice height with 16 fractional bits. With 60 and 31
   // bits in these, 40 in the axes and 30 in the source's denominator, sums stay below 2^117.
-  void add(int64_t number, int32_t answer) {
+  // Returns how far the answer is above, in units.
+  double add(int64_t number, int32_t answer) {
     const Wide below = number * to_common_ - from_common_ * (offset_ + step_ * answer);
     const Wide error = magnitude(below);
     const Wide billionths =
@@ -38,6 +39,7 @@ class ErrorMeter {
     const Wide limited = std::min(billionths, kLargestSquared);
     squares_ += limited * limited;
     ++count_;
+    return -static_cast<double>(below) / static_cast<double>(common_);
   }
 
   Decimal largest() const { return make_decimal(largest_, kMaxDecimals); }
@@ -113,14 +115,14 @@ class Asker {
 }  // namespace
 
 Verification verify(const microtin_mesh* mesh, const Source& source,
-                    const std::optional<Decimal>& bound) {
+                    const std::optional<Decimal>& bound, const PostVisitor& visit) {
   Placement lattice;
   microtin_placement(mesh, &lattice.x, &lattice.y, &lattice.z);
-  return verify(mesh, lattice, source, bound);
+  return verify(mesh, lattice, source, bound, visit);
 }
 
 Verification verify(const microtin_mesh* mesh, const Placement& lattice, const Source& source,
-                    const std::optional<Decimal>& bound) {
+                    const std::optional<Decimal>& bound, const PostVisitor& visit) {
   const Placement numbers = placement_of(source);
   Asker asker(mesh, numbers, lattice);
   ErrorMeter meter(numbers.z, lattice.z);
@@ -136,7 +138,8 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
     ++result.posts;
     if (!height) return;
     ++result.covered;
-    meter.add(z, *height);
+    const double above = meter.add(z, *height);
+    if (visit) visit(place->x, place->y, z, above);
   });
   result.uncovered = result.posts - result.covered;
   result.max_error = meter.largest();

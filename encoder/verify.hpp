@@ -2,6 +2,7 @@
 #ifndef MICROTIN_ENCODER_VERIFY_HPP
 #define MICROTIN_ENCODER_VERIFY_HPP
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -23,14 +24,19 @@ struct Verification {
   bool within_bound = true;  // max_error is at most the bound, or there is none
 };
 
+// Told of every post with a height that the terrain answers: its place on the lattice (of a pack:
+// of all of it), its height as the source's number, and how far the terrain is above it, in the
+// source's unit.
+using PostVisitor = std::function<void(int64_t x, int64_t y, int64_t z, double above)>;
+
 // Evaluates every post or point, also those that share a place, at its place on the lattice, the
 // nearest to where it lies.
 Verification verify(const microtin_mesh* mesh, const Source& source,
-                    const std::optional<Decimal>& bound);
+                    const std::optional<Decimal>& bound, const PostVisitor& visit = {});
 
 // The same for a mesh whose lattice is placed otherwise than it says.
 Verification verify(const microtin_mesh* mesh, const Placement& lattice, const Source& source,
-                    const std::optional<Decimal>& bound);
+                    const std::optional<Decimal>& bound, const PostVisitor& visit = {});
 
 // Of several parts together; what lies in more than one counts for each.
 Verification combine(const std::vector<Verification>& parts);

@@ -108,6 +108,25 @@ uint32_t fill_voids(Raster& raster, uint32_t largest) {
   return filled;
 }
 
+bool reaches_side(const Raster& raster, const PostRectangle& inner, Sides sides, uint32_t largest) {
+  std::vector<bool> seen(raster.heights.size());
+  const auto is_there = [&](size_t index) {
+    const size_t column = index % raster.width, row = index / raster.width;
+    return (sides.west && column == 0) || (sides.south && row == 0) ||
+           (sides.east && column + 1 == raster.width) || (sides.north && row + 1 == raster.height);
+  };
+  for (uint32_t y = inner.y; y < inner.y + inner.height; ++y) {
+    for (uint32_t x = inner.x; x < inner.x + inner.width; ++x) {
+      const size_t start = size_t{y} * raster.width + x;
+      if (raster.heights[start] != kVoidHeight || seen[start]) continue;
+      const std::vector<size_t> region = void_region(raster, start, seen);
+      if (region.size() <= largest && std::any_of(region.begin(), region.end(), is_there))
+        return true;
+    }
+  }
+  return false;
+}
+
 uint32_t fill_voids(Source& source, uint32_t largest) {
   auto* raster = std::get_if<Raster>(&source);
   return raster != nullptr ? fill_voids(*raster, largest) : 0;

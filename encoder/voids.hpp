@@ -2,6 +2,7 @@
 #ifndef MICROTIN_ENCODER_VOIDS_HPP
 #define MICROTIN_ENCODER_VOIDS_HPP
 
+#include "encoder/crop.hpp"
 #include "encoder/source.hpp"
 
 namespace microtin {
@@ -13,6 +14,14 @@ uint32_t fill_voids(Raster& raster, uint32_t largest);
 
 // The same for any source; points have no voids.
 uint32_t fill_voids(Source& source, uint32_t largest);
+
+struct Sides {
+  bool west, south, east, north;
+};
+
+// Whether a void region of up to `largest` posts goes from the inner rectangle to one of these
+// sides of the raster.
+bool reaches_side(const Raster& raster, const PostRectangle& inner, Sides sides, uint32_t largest);
 
 }  // namespace microtin
 

@@ -65,6 +65,7 @@ constexpr uint32_t kPlacementMostBytes = 66;  // three axes of up to 10 + 6 + 6 
 // Notes are for people and hosts; decoding needs none of them. A type byte, a length (2 bytes), the
 // content.
 constexpr uint8_t kNoteUnits = 1, kNoteEpsg = 2, kNoteSource = 3, kNoteAccuracy = 4;
+constexpr uint8_t kNoteDate = 5, kNoteLineage = 6, kNoteWater = 7;
 constexpr uint32_t kNoteHeadBytes = 3;
 
 inline uint32_t read_u16(const uint8_t* p) {

@@ -9,7 +9,7 @@
 namespace microtin {
 
 constexpr uint8_t kPackMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'p', 'k'};
-constexpr uint8_t kPackVersion = 1;
+constexpr uint8_t kPackVersion = 2;
 constexpr uint32_t kPackFixedBytes = 32;
 constexpr uint32_t kPackEntryBytes = 28;
 constexpr uint32_t kPackExtentMost = 0x7FFFFFFF;
@@ -103,10 +103,11 @@ struct PackEntry {
   int16_t lowest, highest;    // vertices
   uint32_t max_error;         // in 1/256 of a z step, rounded up; 65535: that much or more
   uint32_t root_mean_square;  // alike
-  uint32_t stream_check;      // CRC-32 of the stream
+  uint32_t stream_hash;       // FNV-1a of the stream
 };
 
-inline void read_pack_entry(const uint8_t* bytes, PackEntry* entry) {
+// False if it breaks a rule.
+inline bool read_pack_entry(const uint8_t* bytes, const PackHeader& header, PackEntry* entry) {
   entry->offset = read_u32(bytes) | static_cast<uint64_t>(bytes[4]) << 32;
   entry->size = read_u16(bytes + 5) | static_cast<uint32_t>(bytes[7]) << 16;
   entry->vertices = read_u16(bytes + 8) | static_cast<uint32_t>(bytes[10]) << 16;
@@ -114,7 +115,20 @@ inline void read_pack_entry(const uint8_t* bytes, PackEntry* entry) {
   entry->highest = read_i16(bytes + 14);
   entry->max_error = read_u16(bytes + 16);
   entry->root_mean_square = read_u16(bytes + 18);
-  entry->stream_check = read_u32(bytes + 20);
+  entry->stream_hash = read_u32(bytes + 20);
+  uint32_t used = bytes[11];
+  if (entry->size != 0) return used == 0 && entry->vertices <= header.most_vertices;
+  for (uint32_t i = 0; i < kPackEntryBytes - kCheckBytes; ++i) used |= bytes[i];
+  return used == 0;
+}
+
+// FNV-1a: tells which stream it is. A CRC-32 could not: over bytes that hold their own CRC-32, as
+// those of streams do, it depends on their number alone. Feed kStreamHash first, then each result.
+constexpr uint32_t kStreamHash = 0x811C9DC5;
+
+inline uint32_t stream_hash(uint32_t hash, const uint8_t* bytes, size_t size) {
+  for (size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x01000193u;
+  return hash;
 }
 
 // The check of an entry starts from the header's check and the tile's number, so that an entry of

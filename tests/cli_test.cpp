@@ -242,8 +242,9 @@ TEST_CASE("cli: packs") {
   CHECK(contains(encoded.out, "asked for: at most 20"));
   CHECK(session.run("verify t.mtp t.asc").code == 0);
   const Session::Result info = session.run("info t.mtp");
-  CHECK(contains(info.out, "pack_version: 1"));
-  CHECK(contains(info.out, "tile\tx\ty\tbytes\tvertices"));
+  CHECK(contains(info.out, "pack_version: 2"));
+  CHECK(contains(info.out, "\ntile   x   y  bytes  vertices  lowest"));
+  CHECK(contains(info.out, "\n   0   0   0  "));
   CHECK(contains(session.run("info t.mtp --json").out, "\"tiles\": ["));
   CHECK(session.run("decode t.mtp -o t.ply").code == 0);
   CHECK(contains(session.read("t.ply"), "element face "));
@@ -254,11 +255,110 @@ TEST_CASE("cli: packs") {
   CHECK(contains(session.failure("encode points.xyz --tile-vertices 60 -o p.mtp"), "rasters"));
   CHECK(contains(session.failure("encode t.asc --tile-vertices 60 --xy-step 2 -o p.mtp"),
                  "--xy-step"));
-  CHECK(contains(session.failure("verify t.mtp points.xyz"), "posts of the pack"));
+  CHECK(contains(session.failure("verify t.mtp points.xyz"),
+                 "points.xyz: packs are made of rasters"));
   std::string damaged = session.read("t.mtp");
   damaged[damaged.size() - 9] ^= 4;
   session.write("damaged.mtp", damaged);
   CHECK(contains(session.failure("decode damaged.mtp -o out.ply"), "damaged.mtp: tile "));
+}
+
+TEST_CASE("cli: a grid that is written is a terrain again") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
+  REQUIRE(session.run("encode f.asc --max-error 10 -o f.mtin").code == 0);
+  REQUIRE(session.run("decode f.mtin -o surface.asc").code == 0);
+  // Its posts are the surface's, but for the last decimal.
+  const std::string verified = session.run("verify f.mtin surface.asc").out, key = "max_error: ";
+  CHECK(std::stod(verified.substr(verified.find(key) + key.size())) <= 0.0005);
+  REQUIRE(session.run("encode f.asc -o exact.mtin").code == 0);
+  REQUIRE(session.run("decode exact.mtin -o exact.asc").code == 0);
+  CHECK(contains(session.run("verify exact.mtin exact.asc").out, "max_error: 0.0\n"));
+  REQUIRE(session.run("encode exact.asc -o again.mtin").code == 0);
+  CHECK(session.read("again.mtin") == session.read("exact.mtin"));
+  REQUIRE(session.run("encode f.asc --max-error 10 --tile-vertices 60 -o f.mtp").code == 0);
+  REQUIRE(session.run("decode f.mtp -o pack.asc").code == 0);
+  CHECK(session.run("verify f.mtp pack.asc").code == 0);
+  REQUIRE(session.run("decode f.mtp --lattice --cell 16 -o coarse.asc").code == 0);
+  CHECK(contains(session.read("coarse.asc"), "ncols 5\nnrows 5\nxllcenter 0\nyllcenter 0\n"));
+  session.write("far.xyz", "0 0 1\n655.35 0 2\n0 655.35 3\n");
+  REQUIRE(session.run("encode far.xyz -o far.mtin").code == 0);
+  CHECK(session.failure("decode far.mtin -o far.asc") ==
+        "far.mtin: has 4294967296 places on its lattice: give the size of the grid's cells, "
+        "--cell\n");
+  CHECK(session.run("decode far.mtin --cell 100 -o far.asc").code == 0);
+  CHECK(contains(session.failure("decode far.mtin --cell 100 -o far.ply"), "only .asc grids"));
+}
+
+TEST_CASE("cli: meshes for viewers") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
+  for (const std::string options : {"-o f.mtin", "--tile-vertices 60 -o f.mtp"}) {
+    REQUIRE(session.run("encode f.asc --max-error 10 " + options).code == 0);
+    REQUIRE(session.run("decode " + options.substr(options.find("f.m")) + " -o f.glb").code == 0);
+    CHECK(session.read("f.glb").substr(0, 4) == "glTF");
+  }
+}
+
+TEST_CASE("cli: meshes are terrains, too; classes are for laser scans") {
+  const Session session;
+  session.write("p.xyz", "0 0 0\n9 0 3.5\n0 9 7\n5 5 5\n");
+  REQUIRE(session.run("encode p.xyz -o p.mtin").code == 0);
+  for (const std::string mesh : {"p.ply", "p.obj"}) {
+    REQUIRE(session.run("decode p.mtin -o " + mesh).code == 0);
+    REQUIRE(session.run("encode " + mesh + " -o again.mtin").code == 0);
+    CHECK(session.read("again.mtin") == session.read("p.mtin"));
+    CHECK(session.failure("encode " + mesh + " --classes 2 -o x.mtin") ==
+          mesh + ": only .las files have classes\n");
+  }
+  session.write("a.las", "LASF");
+  session.write("a.zip", "PK");
+  CHECK(session.failure("encode a.las --classes all -o x.mtin").find("a.las: cut off") == 0);
+  CHECK(session.failure("encode a.zip -o x.mtin").find("a.zip: is not a zip archive") == 0);
+}
+
+TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  session.write("mask.asc",
+                "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 2\n"
+                "0 0 0 0\n0 0 0 1\n1 0 0 0\n");
+  const std::string notes =
+      " --date 2026-11-21 --source-text survey --lineage 'noise removed' --water-level 3.5 ";
+  for (const std::string name : {"t.mtin", "t.mtp --tile-vertices 60"}) {
+    const Session::Result encoded =
+        session.run("encode t.asc --max-error 1" + notes + "-o " + name);
+    CHECK(encoded.code == 0);
+    const std::string file = name.substr(0, name.find(' '));
+    const std::string info = session.run("info " + file).out;
+    for (const char* line : {"\nsource: \"survey\"\n", "\ndate: \"2026-11-21\"\n",
+                             "\nlineage: \"noise removed\"\n", "\nwater_level: 3.5\n"}) {
+      CHECK_MESSAGE(contains(info, line), info);
+    }
+    const std::string water = "verify " + file + " t.asc --water-level 3.5";
+    CHECK(contains(session.run(water).out, "water_moved: 0"));
+    CHECK(contains(session.failure("verify " + file + " t.asc"), "voids of the source answer"));
+    CHECK(session.failure("verify " + file + " t.asc --water-level 3") ==
+          file + ": its water level is 3.5, not 3\n");
+    CHECK(session.run("render " + file + " -o t.png --width 300").code == 0);
+    CHECK(session.run("render " + file + " -o t.png --source t.asc --water-level 3.5").code == 0);
+    CHECK(session.read("t.png").substr(1, 3) == "PNG");
+  }
+  CHECK(contains(session.run("encode t.asc --water-level 3 -o w.mtin").out,
+                 "12 posts, 2 of the posts were void and are water"));
+  const std::string masked = "t.asc --water-level 3 --water-mask mask.asc";
+  CHECK(contains(session.run("encode " + masked + " -o m.mtin").out,
+                 "11 posts, 1 void posts, 1 of the posts were void and are water"));
+  CHECK(session.run("verify m.mtin " + masked).code == 0);
+  session.write("p.xyz", "0 0 0\n9 0 3\n0 9 7\n");
+  CHECK(session.failure("encode p.xyz --water-level 3 -o p.mtin") ==
+        "p.xyz: --water-level is for rasters; these are points\n");
+  CHECK(session.failure("encode t.asc --water-level 3 --water-mask t.asc -o p.mtin") ==
+        "t.asc: a mask holds 0 and 1 only\n");
+  CHECK(session.failure("render t.mtin -o no.png --source none.asc") ==
+        "none.asc: cannot be read: No such file or directory\n");
+  CHECK(session.failure("render t.mtp -o no.png --source p.xyz") ==
+        "p.xyz: packs are made of rasters; these are points\n");
 }
 
 TEST_CASE("cli: wrong usage is told apart") {
@@ -286,8 +386,16 @@ TEST_CASE("cli: wrong usage is told apart") {
                                 "encode ok.xyz -o o --tile-vertices 3",
                                 "encode ok.xyz -o o --device-ram 2000",
                                 "encode ok.xyz -o o --device-ram 65536 --tile-vertices 99",
+                                "encode ok.xyz -o o --classes 2,",
+                                "encode ok.xyz -o o --classes 256",
+                                "encode ok.xyz -o o --classes ground",
+                                "encode ok.xyz -o o --date 2026-02-30",
+                                "encode ok.xyz -o o --water-level high",
+                                "encode ok.xyz -o o --water-mask m.asc",
+                                "render ok.mtin -o o --width 199",
                                 "info",
-                                "decode ok.xyz"}) {
+                                "decode ok.xyz",
+                                "decode ok.xyz -o o.asc --cell 0"}) {
     session.failure(arguments, 2);
   }
   const Session::Result help = session.run("encode --help");

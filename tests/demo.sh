@@ -38,5 +38,5 @@ cmp "$demo/terrain.device" "$demo/terrain.report"
 echo "identical, all $(wc -l <"$demo/terrain.report") lines"
 
 echo "== A picture"
-$microtin render "$demo/terrain.mtin" --width 800 -o "$demo/terrain.png"
+$microtin render "$demo/terrain.mtin" --width 440 -o "$demo/terrain.png"
 echo "build/demo/terrain.png"

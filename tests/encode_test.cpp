@@ -155,6 +155,9 @@ TEST_CASE("placement and notes come back as they were given") {
   given.horizontal_epsg = 4326;
   given.vertical_epsg = 5773;
   given.source = "a survey, 2019 \xC3\xA9";
+  given.date = "2019-07";
+  given.lineage = "noise removed";
+  given.water_level = Decimal{-35, 1};
   given.accuracy = Accuracy{Decimal{5, 1}, Decimal{49, 2}, Decimal{123, 3}};
   const Metadata read = read_header(encode(tin, given)).metadata;
   const auto same_axis = [](const Axis& a, const Axis& b) {
@@ -168,6 +171,10 @@ TEST_CASE("placement and notes come back as they were given") {
   CHECK(read.horizontal_epsg == 4326);
   CHECK(read.vertical_epsg == 5773);
   CHECK(read.source == given.source);
+  CHECK(read.date == given.date);
+  CHECK(read.lineage == given.lineage);
+  REQUIRE(read.water_level.has_value());
+  CHECK(to_string(*read.water_level) == "-3.5");
   REQUIRE(read.accuracy.has_value());
   CHECK(to_string(*read.accuracy->bound) == "0.5");
   CHECK(to_string(read.accuracy->max_error) == "0.49");

@@ -20,7 +20,7 @@ namespace {
 constexpr uint32_t kCapacity = 100;
 
 Bytes pack_bytes(const Raster& raster, int64_t bound = 3, uint32_t vertices = 60) {
-  return write_pack(encode_pack(raster, pack_options(bound, vertices)), {});
+  return write_pack(encode_pack(raster, pack_options(bound, vertices)));
 }
 
 // A card that counts its reads, fails at will and gives few bytes at a time.
@@ -262,18 +262,28 @@ TEST_CASE("pack: damaged, swapped and foreign bytes are told, and never answered
 }
 
 TEST_CASE("pack: a tile of another tile's place is refused, whatever its checks") {
-  // The stream of the last tile stands where that of the first should: right CRCs of its own.
-  const EncodedPack encoded = encode_pack(rough_raster(61, 53), pack_options(3, 60));
-  Bytes bytes = write_pack(encoded, {});
-  const PackFile pack(bytes);
-  const PackEntry& first = pack.entries()[0];
-  const Bytes& stream = encoded.tiles.back().stream;
-  bytes.resize(bytes.size() + stream.size());
-  std::copy(stream.begin(), stream.end(),
-            bytes.begin() + static_cast<std::ptrdiff_t>(first.offset));
-  Card card{bytes};
-  const PackDevice device(4);
-  CHECK(device.service(card, at(1, 1)) == MICROTIN_CHECKSUM);
+  // Two tiles that differ by one height: as many vertices and bytes, right CRCs of their own.
+  Raster raster = rough_raster(9, 5);
+  for (size_t i = 0; i < raster.heights.size(); ++i) raster.heights[i] = i % 9 % 4 == 2 ? 5 : 0;
+  raster.heights[9 * 2 + 6] = 4;
+  const EncodedPack encoded = encode_pack(raster, {{}, {}, 30, 0});
+  REQUIRE(encoded.streams.size() == 2);
+  const Bytes &west = encoded.streams[0], &east = encoded.streams[1];
+  REQUIRE(west.size() == east.size());
+  REQUIRE(west != east);
+  Bytes bytes = write_pack(encoded);
+  const auto status_of = [&](uint32_t x) {
+    Card card{bytes};
+    const PackDevice device(4);
+    return device.service(card, at(x, 1));
+  };
+  CHECK(status_of(1) == MICROTIN_DONE);
+  CHECK(status_of(7) == MICROTIN_DONE);
+  std::swap_ranges(bytes.end() - static_cast<std::ptrdiff_t>(2 * west.size()),
+                   bytes.end() - static_cast<std::ptrdiff_t>(west.size()),
+                   bytes.end() - static_cast<std::ptrdiff_t>(west.size()));
+  CHECK(status_of(1) == MICROTIN_CHECKSUM);
+  CHECK(status_of(7) == MICROTIN_CHECKSUM);
 }
 
 namespace {
@@ -470,14 +480,13 @@ TEST_CASE("pack: the C++ face") {
 
 TEST_CASE("pack: far from the origin, in the largest extent") {
   // A header for 2^31 - 1 steps, with one known tile in the farthest corner.
-  EncodedPack encoded = encode_pack(rough_raster(31, 31), pack_options(2, 400));
-  REQUIRE(encoded.tiles.size() == 1);
-  EncodedPack far = encoded;
-  far.grid = {kPackExtentMost, kPackExtentMost, 65535, 65535};
-  const uint64_t tiles = uint64_t{tile_columns(far.grid)} * tile_rows(far.grid);
+  const EncodedPack encoded = encode_pack(rough_raster(31, 31), pack_options(2, 400));
+  REQUIRE(encoded.streams.size() == 1);
+  const TileGrid far{kPackExtentMost, kPackExtentMost, 65535, 65535};
+  const uint64_t tiles = uint64_t{tile_columns(far)} * tile_rows(far);
   CHECK(tiles == uint64_t{32769} * 32769);
   // 28 GB of index: only the entry that is read is made.
-  Bytes head = write_pack(encoded, {});
+  Bytes head = write_pack(encoded);
   const auto put = [&](size_t place, uint64_t value, int width) {
     for (int i = 0; i < width; ++i)
       head[place + static_cast<size_t>(i)] = static_cast<uint8_t>(value >> 8 * i);
@@ -509,7 +518,7 @@ TEST_CASE("pack: far from the origin, in the largest extent") {
   REQUIRE(microtin_pack_service(device.pack, &c, 0, FarCard::read, &card) == MICROTIN_DONE);
   int32_t height = 0, highest = 0;
   CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
-  CHECK(height == *expected_height(PackFile(write_pack(encoded, {})), 5 * 256, 7 * 256));
+  CHECK(height == *expected_height(PackFile(write_pack(encoded)), 5 * 256, 7 * 256));
   CHECK(microtin_pack_highest(device.pack, &c, &highest) == MICROTIN_HEIGHT);
   CHECK(highest >= height);
 }

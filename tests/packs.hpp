@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "encoder/pack_encode.hpp"
 #include "encoder/pack_file.hpp"
+#include "encoder/pack_surface.hpp"
 #include "tests/point_sets.hpp"
 
 namespace microtin {
@@ -38,11 +41,36 @@ inline Raster rough_raster(uint32_t width, uint32_t height, const VoidAt& void_a
 }
 
 inline PackOptions pack_options(int64_t bound, uint32_t max_vertices) {
-  PackOptions options{{}, {}, max_vertices};
+  PackOptions options{{}, {}, max_vertices, 0};
   options.lattice.max_error = Decimal{bound, 0};
   options.simplify.bounded = true;
   options.simplify.search = Search::kFast;
   return options;
+}
+
+// A pack in memory.
+struct EncodedPack {
+  PackContent content;
+  std::vector<std::vector<uint8_t>> streams;
+};
+
+inline EncodedPack encode_pack(const Raster& raster, const PackOptions& options) {
+  EncodedPack pack;
+  const auto begin = [&](const PackPlan& plan) { pack = {content_of(plan, {}), {}}; };
+  encode_pack(RasterInMemory(raster), options, begin, [&](uint32_t, EncodedTile&& tile) {
+    pack.content.tiles.push_back(tile.summary);
+    pack.streams.push_back(std::move(tile.stream));
+  });
+  return pack;
+}
+
+inline std::vector<uint8_t> write_pack(const EncodedPack& pack) {
+  return write_pack(pack.content, pack.streams);
+}
+
+inline Verification verify(const PackFile& pack, const Raster& raster,
+                           const std::optional<Decimal>& bound) {
+  return verify(pack, RasterInMemory(raster), bound);
 }
 
 // Holes of all kinds, for rasters of 61 x 53 posts in tiles of any size.

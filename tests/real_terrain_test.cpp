@@ -15,6 +15,7 @@
 #include "encoder/simplify.hpp"
 #include "encoder/verify.hpp"
 #include "tests/border_walk.hpp"
+#include "tests/packs.hpp"
 
 namespace microtin {
 namespace {
@@ -92,10 +93,10 @@ TEST_CASE("packs of real rasters have no cracks and keep their bound") {
     if (!is_here(path)) continue;
     CAPTURE(std::string(r.name));
     const Raster raster = read_centre(path, r.width, r.height);
-    PackOptions options{{}, {}, r.vertices};
+    PackOptions options{{}, {}, r.vertices, 0};
     options.lattice.max_error = Decimal{10, 0};
     options.simplify = {true, 0, Search::kFast, {}, {}};
-    const PackFile pack(write_pack(encode_pack(raster, options), {}));
+    const PackFile pack(write_pack(encode_pack(raster, options)));
     const BorderCount count = walk_borders(pack, raster);
     const Verification found = verify(pack, raster, options.lattice.max_error);
     MESSAGE(pack.entries().size() << " tiles, " << pack.bytes() << " bytes, " << count.both

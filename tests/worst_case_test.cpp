@@ -217,6 +217,28 @@ TEST_CASE("the most phases stay in the bound") {
   CHECK(plan.batches.size() > 40);
 }
 
+TEST_CASE("phases that add too little are refused soon, however many vertices are announced") {
+  Random random(4);
+  std::vector<Vertex> vertices = {{0, 0, 0}, {999, 0, 0}, {0, 999, 0}};
+  for (const Point p : lattice_points(10, 10, random, 50, 22)) {
+    vertices.push_back({point(p.x + 1, 0).x, point(p.y + 1, 0).x, 0});
+  }
+  Plan plan = single_steps(vertices);
+  for (const uint32_t announced : {103u, 60000u, 1000000u}) {
+    const Bytes stream =
+        forge(Contract{announced, 999, 999, kMaxDegree, 1, false, false}, PlanCoder(plan));
+    const Count count = count_steps(stream);
+    CHECK(count.status == MICROTIN_MALFORMED);
+    CHECK(count.steps < 3000);
+    const Device device(announced);
+    device.decode(stream);
+    const uint32_t n = microtin_vertex_count(device.mesh);
+    CHECK(n < 50);
+    CHECK((n + 1) * (n + 2) / 2 - 6 >
+          work_budget(n + 1));  // 4 + 5 + .. + (n + 1), the phase refused
+  }
+}
+
 TEST_CASE("the largest cavity that fits is taken, one larger is refused") {
   for (const uint32_t degree : {kMaxDegree, kMaxDegree + 1}) {
     const Plan plan = wheel(degree);

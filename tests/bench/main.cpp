@@ -5,6 +5,7 @@
 #include "encoder/error.hpp"
 #include "tests/bench/bounds.hpp"
 #include "tests/bench/firmware_grids.hpp"
+#include "tests/bench/flight.hpp"
 #include "tests/bench/paper/linearity.hpp"
 #include "tests/bench/paper/tables.hpp"
 #include "tests/bench/peer_costs.hpp"
@@ -46,6 +47,10 @@ void run(const std::string& command, const Arguments& arguments) {
     print_firmware_grids();
   } else if (command == "peer-instructions" && arguments.size() == 1) {
     print_peer_instructions(arguments[0]);
+  } else if (command == "grid" && arguments.size() == 2) {
+    write_grid(arguments[0], arguments[1]);
+  } else if (command == "flight" && arguments.size() == 5) {
+    print_flight({arguments[0], arguments[1], arguments[2], arguments[3], arguments[4]});
   } else if (command == "linearity" && arguments.size() == 1) {
     print_linearity(
         {"nanoseconds", [](const Work& work) { return 1e9 * seconds_of(work); }, 4096000},
@@ -70,7 +75,8 @@ void run(const std::string& command, const Arguments& arguments) {
     throw Error(
         "usage: microtin_bench rate | bounds | curves FILE | paper | peers | peer-instructions "
         "FILE | "
-        "linearity PLOT | growth FILE PLOT | train | streams FOLDER | times STREAM... | "
+        "grid TERRAIN GRID | flight TERRAIN PACK GRID LOG LOG | linearity PLOT | growth FILE PLOT "
+        "| train | streams FOLDER | times STREAM... | "
         "instructions FILE STREAM...");
   }
 }

@@ -1,5 +1,7 @@
 #include "tests/faults/injected.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -37,6 +39,8 @@ int real_fflush(std::FILE* file) __asm__("__real_fflush");
 int real_fclose(std::FILE* file) __asm__("__real_fclose");
 int real_rename(const char* from, const char* to) __asm__("__real_rename");
 
+ssize_t real_pread(int file, void* to, size_t size, off_t offset) __asm__("__real_pread");
+
 std::FILE* wrap_fopen(const char* path, const char* mode) __asm__("__wrap_fopen");
 size_t wrap_fread(void* to, size_t size, size_t count, std::FILE* file) __asm__("__wrap_fread");
 size_t wrap_fwrite(const void* from, size_t size, size_t count,
@@ -45,6 +49,7 @@ int wrap_ferror(std::FILE* file) __asm__("__wrap_ferror");
 int wrap_fflush(std::FILE* file) __asm__("__wrap_fflush");
 int wrap_fclose(std::FILE* file) __asm__("__wrap_fclose");
 int wrap_rename(const char* from, const char* to) __asm__("__wrap_rename");
+ssize_t wrap_pread(int file, void* to, size_t size, off_t offset) __asm__("__wrap_pread");
 
 std::FILE* wrap_fopen(const char* path, const char* mode) {
   return file_fails() ? nullptr : real_fopen(path, mode);
@@ -74,6 +79,10 @@ int wrap_fclose(std::FILE* file) {
 
 int wrap_rename(const char* from, const char* to) {
   return file_fails() ? -1 : real_rename(from, to);
+}
+
+ssize_t wrap_pread(int file, void* to, size_t size, off_t offset) {
+  return file_fails() ? -1 : real_pread(file, to, size, offset);
 }
 
 }  // namespace microtin::faults

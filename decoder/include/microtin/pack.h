@@ -59,13 +59,14 @@ typedef size_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer,
  *   DONE                 they are there: queries on the course have answers
  *   NEED_INPUT           bytes are wanted: see microtin_pack_wanted
  *   STEP_LIMIT           call again
- *   BAD_MAGIC, UNSUPPORTED_VERSION, MALFORMED   the header is not that of a pack
+ *   BAD_MAGIC, UNSUPPORTED_VERSION, MALFORMED   header or index are not those of a pack
  *   CHECKSUM             what was read is damaged, or is another tile's or another pack's
  *   TOO_BIG              a tile has more vertices than a slot holds
  *   WORKSPACE_TOO_SMALL  the course touches more tiles than there are slots; some are there
  *   ARGUMENT             a null pointer, or too long a course
  * After an error the next call begins anew: errors of storage may pass. Tiles that are there stay
- * until their slots are needed. Besides the steps, O(tiles in the course's bounding box * slots).
+ * until their slots are needed. Besides the steps, O(columns + rows of tiles in the course's
+ * bounding box + slots^2).
  */
 microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course* course,
                                       uint32_t step_limit);

@@ -1,0 +1,89 @@
+#include "encoder/prepared_terrain.hpp"
+
+#include <utility>
+
+#include "encoder/error_context.hpp"
+#include "encoder/voids.hpp"
+#include "encoder/water.hpp"
+
+namespace microtin {
+namespace {
+
+// Reads a raster with its water; mask may be null.
+class FloodedRaster : public RasterReader {
+ public:
+  FloodedRaster(std::unique_ptr<RasterReader> raster, Decimal level, std::string mask_path)
+      : raster_(std::move(raster)), level_(level), mask_path_(std::move(mask_path)) {
+    frame_ = raster_->frame();
+    flood_voids(frame_, level_, nullptr);
+    if (mask_path_.empty()) return;
+    mask_ = open_raster(mask_path_);
+    about(mask_path_, [&] { check_water_mask(mask_->frame(), frame_); });
+  }
+
+  Raster read(const PostRectangle& rectangle) const override {
+    Raster part = raster_->read(rectangle);
+    std::optional<Raster> mask;
+    if (mask_) {
+      mask = mask_->read(rectangle);
+      about(mask_path_, [&] { check_water_mask(*mask, part); });
+    }
+    flood_voids(part, level_, mask ? &*mask : nullptr);
+    return part;
+  }
+
+ private:
+  std::unique_ptr<RasterReader> raster_, mask_;
+  Decimal level_;
+  std::string mask_path_;
+};
+
+Raster read_mask(const std::string& path, const Raster& raster) {
+  const std::unique_ptr<RasterReader> mask = open_raster(path);
+  about(path, [&] { check_water_mask(mask->frame(), raster); });
+  Raster all = mask->read({0, 0, raster.width, raster.height});
+  about(path, [&] { check_water_mask(all, raster); });
+  return all;
+}
+
+}  // namespace
+
+PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation) {
+  PreparedTerrain terrain{import_terrain(path, preparation.classes), 0, 0};
+  terrain.filled = fill_voids(terrain.source, preparation.fill_voids);
+  if (!preparation.water_level) return terrain;
+  auto* const raster = std::get_if<Raster>(&terrain.source);
+  if (raster == nullptr) throw Error(path + ": --water-level is for rasters; these are points");
+  std::optional<Raster> mask;
+  if (!preparation.water_mask.empty()) mask = read_mask(preparation.water_mask, *raster);
+  terrain.flooded = about(path, [&] {
+    return flood_voids(*raster, *preparation.water_level, mask ? &*mask : nullptr);
+  });
+  return terrain;
+}
+
+std::unique_ptr<RasterReader> prepared_raster(const std::string& path,
+                                              const Preparation& preparation) {
+  std::unique_ptr<RasterReader> raster =
+      with_voids_filled(open_raster(path), preparation.fill_voids);
+  if (!preparation.water_level) return raster;
+  return about(path, [&]() -> std::unique_ptr<RasterReader> {
+    return std::make_unique<FloodedRaster>(std::move(raster), *preparation.water_level,
+                                           preparation.water_mask);
+  });
+}
+
+std::string told(const PreparedTerrain& terrain) {
+  std::string text;
+  if (terrain.filled != 0) {
+    text += ", " + std::to_string(terrain.filled) + " of the posts were void and are filled";
+  }
+  if (terrain.flooded != 0) {
+    text += ", " + std::to_string(terrain.flooded) + " of the posts were void and are water";
+  }
+  const auto* cloud = std::get_if<PointCloud>(&terrain.source);
+  if (cloud != nullptr && !cloud->selection.empty()) text += ", " + cloud->selection;
+  return text;
+}
+
+}  // namespace microtin
