@@ -71,17 +71,17 @@ bool is_known(microtin_status status) {
 }
 
 // Reads a header up to its notes: BAD_MAGIC or UNSUPPORTED_VERSION, with nothing read, or DONE, or
-// MALFORMED. Without a placement, or with one that is too long, `axis` is on the lattice itself.
+// MALFORMED. Without a placement, or in a malformed header, `axis` is on the lattice itself.
 microtin_status read_header(const uint8_t* bytes, FixedHeader* header, microtin_axis* axis) {
   const microtin_status known = check_identity(bytes);
   if (known != MICROTIN_DONE) return known;
-  place_on_lattice(axis);
   bool legal = read_fixed_header(bytes, header);
   const uint32_t size = header->placement_bytes;
   if (size != 0) {
     legal =
         legal && size <= kPlacementMostBytes && read_placement(bytes + header->bytes, size, axis);
   }
+  if (size == 0 || !legal) place_on_lattice(axis);
   return legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
 }
 
