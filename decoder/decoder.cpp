@@ -12,41 +12,48 @@ Size smaller(Size a, Size b) {
 
 // Bytes that must be at hand before the next item can be handled as a whole.
 uint32_t bytes_needed(const microtin_decoder& d) {
+  uint32_t most = 1;
   switch (d.item) {
     case Item::kHeader:
-      return header_bytes(d.window.next, d.window.left);
+      return header_bytes(d.coder.window.next, d.coder.window.left);
     case Item::kSectionHead:
       return 1;
-    case Item::kNotes:
-    case Item::kSectionRest:
-      return smaller<uint32_t>(d.unread, 1);
-    case Item::kPayloadStart:
-      return smaller<uint32_t>(d.section_bytes, 4);
-    case Item::kStep:
-      return smaller(d.coder.payload_left, kStepBytes);
     case Item::kHeaderCheck:
     case Item::kSectionCheck:
+      return kCheckBytes;
+    case Item::kPayloadStart:
+      most = 4;
+      break;
+    case Item::kStep:
+      most = kStepBytes;
+      break;
+    case Item::kNotes:
+    case Item::kSectionRest:
       break;
   }
-  return kCheckBytes;
+  return smaller(d.coder.payload_left, most);
 }
 
 // What to say of all since the last check, given the four bytes that follow, its own.
 microtin_status status_of_checked(microtin_decoder& d) {
-  d.window.settle();
-  const bool passes = read_u32(d.window.next) == d.window.crc;
-  d.window.skip(kCheckBytes);
-  d.window.settle();
-  d.window.crc = 0;
+  d.coder.window.settle();
+  const bool passes = read_u32(d.coder.window.next) == d.coder.window.crc;
+  d.coder.window.skip(kCheckBytes);
+  d.coder.window.settle();
+  d.coder.window.crc = 0;
   return passes ? d.verdict : MICROTIN_CHECKSUM;
 }
 
-// Takes what is at hand of the bytes that are not read; behind them the item `check` follows.
-microtin_status handle_unread(microtin_decoder& d, Item check) {
-  const uint32_t taken = d.window.left < d.unread ? static_cast<uint32_t>(d.window.left) : d.unread;
-  d.window.skip(taken);
-  d.unread -= taken;
-  if (d.unread == 0) d.item = check;
+Item next_item(Item item) {
+  return static_cast<Item>(static_cast<uint8_t>(item) + 1);
+}
+
+// Takes what is at hand of the bytes that are not read; behind them the next item follows, a check.
+microtin_status handle_unread(microtin_decoder& d) {
+  const uint32_t taken = smaller(static_cast<uint32_t>(d.coder.window.left), d.coder.payload_left);
+  d.coder.window.skip(taken);
+  d.coder.payload_left -= taken;
+  if (d.coder.payload_left == 0) d.item = next_item(d.item);
   return MICROTIN_NEED_INPUT;
 }
 
@@ -59,13 +66,23 @@ void place_on_lattice(microtin_axis* axis) {
   }
 }
 
-// Reads the placement, if it is short enough, into `axis`, which is on the lattice itself if there
-// is none. False if it breaks a rule of the format.
-bool place(const uint8_t* bytes, const FixedHeader& header, microtin_axis* axis) {
-  place_on_lattice(axis);
-  const uint32_t size = header.placement_bytes;
-  if (size == 0) return true;
-  return size <= kPlacementMostBytes && read_placement(bytes + header.bytes, size, axis);
+bool is_known(microtin_status status) {
+  return status == MICROTIN_DONE || status == MICROTIN_MALFORMED;
+}
+
+// Reads a header up to its notes: BAD_MAGIC or UNSUPPORTED_VERSION, with nothing read, or DONE, or
+// MALFORMED. Without a placement, or in a malformed header, `axis` is on the lattice itself.
+microtin_status read_header(const uint8_t* bytes, FixedHeader* header, microtin_axis* axis) {
+  const microtin_status known = check_identity(bytes);
+  if (known != MICROTIN_DONE) return known;
+  bool legal = read_fixed_header(bytes, header);
+  const uint32_t size = header->placement_bytes;
+  if (size != 0) {
+    legal =
+        legal && size <= kPlacementMostBytes && read_placement(bytes + header->bytes, size, axis);
+  }
+  if (size == 0 || !legal) place_on_lattice(axis);
+  return legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
 }
 
 // Whatever is wrong is told once the check ahead has passed: before, it is damage.
@@ -74,61 +91,53 @@ MICROTIN_OUT_OF_LINE void note_malformed(microtin_decoder& d) {
 }
 
 microtin_status handle_header(microtin_decoder& d) {
-  const uint8_t* const bytes = d.window.next;
-  const uint32_t size = header_bytes(bytes, d.window.left);
-  d.window.skip(size);
-  const microtin_status known = check_identity(bytes);
-  if (known != MICROTIN_DONE) return known;
+  ByteWindow& window = d.coder.window;
+  const uint8_t* const bytes = window.next;
+  window.skip(header_bytes(bytes, window.left));
   FixedHeader header;
-  const bool legal = read_fixed_header(bytes, &header);
-  d.contract = header.contract;
-  d.verdict = MICROTIN_DONE;
-  if (!place(bytes, header, d.mesh->axis) || !legal) note_malformed(d);
-  d.unread = header.bytes + header.placement_bytes - size + header.note_bytes;
+  d.verdict = read_header(bytes, &header, d.mesh->axis);
+  if (!is_known(d.verdict)) return d.verdict;
+  d.reconstruction.contract = header.contract;
+  d.coder.payload_left = checked_bytes(header) - static_cast<uint32_t>(window.next - bytes);
   d.item = Item::kNotes;
   return MICROTIN_NEED_INPUT;
 }
 
 void begin_section(microtin_decoder& d) {
-  d.section_bytes = 0;
-  d.section_shift = 0;
+  d.coder.payload_left = 0;
   d.item = Item::kSectionHead;
 }
 
 microtin_status handle_header_check(microtin_decoder& d) {
   const microtin_status status = status_of_checked(d);
   if (status != MICROTIN_DONE) return status;
-  if (d.contract.vertices > d.capacity || d.contract.vertices > d.mesh->capacity) {
-    return MICROTIN_TOO_BIG;
-  }
-  start(d.reconstruction, d.contract);
+  const uint32_t vertices = d.reconstruction.contract.vertices;
+  if (vertices > d.capacity || vertices > d.mesh->capacity) return MICROTIN_TOO_BIG;
+  start(d.reconstruction);
   begin_section(d);
   return MICROTIN_NEED_INPUT;
 }
 
-// The payload's length: seven bits a byte, low ones first, the top bit set if more follow. One of
+// The payload's length: seven bits a byte, high ones first, the top bit set if more follow. One of
 // more than 32 bits counts as 0.
 microtin_status handle_section_head(microtin_decoder& d) {
-  const uint8_t byte = d.window.take();
-  const bool too_long = d.section_shift == 28 && byte > 15;
-  const bool shortest = d.section_shift == 0 || byte != 0;
-  d.section_bytes |= static_cast<uint32_t>(byte & 127u) << d.section_shift;
-  d.section_shift = static_cast<uint8_t>(d.section_shift + 7);
-  if (too_long) d.section_bytes = 0;
-  if (too_long || !shortest) note_malformed(d);
+  const uint8_t byte = d.coder.window.take();
+  const uint32_t before = d.coder.payload_left;
+  const bool too_long = before >> 25 != 0;
+  d.coder.payload_left = too_long ? 0 : before << 7 | (byte & 127u);
+  if (too_long || (before == 0 && byte == 128)) note_malformed(d);
   if (too_long || byte < 128) d.item = Item::kPayloadStart;
   return MICROTIN_NEED_INPUT;
 }
 
 microtin_status end_section(microtin_decoder& d, bool legal) {
   if (!legal || d.coder.payload_left != 0) note_malformed(d);
-  d.unread = d.coder.payload_left;
   d.item = Item::kSectionRest;
   return MICROTIN_NEED_INPUT;
 }
 
 microtin_status handle_payload_start(microtin_decoder& d) {
-  d.coder.begin(d.section_bytes);
+  d.coder.begin();
   d.item = Item::kStep;
   const bool legal = d.verdict == MICROTIN_DONE && !d.coder.overrun;
   return legal ? MICROTIN_NEED_INPUT : end_section(d, false);
@@ -139,7 +148,9 @@ bool is_far_enough(const microtin_decoder& d) {
   return d.stop_phase != 0 && d.reconstruction.phase >= d.stop_phase;
 }
 
-microtin_status handle_step(microtin_decoder& d) {
+microtin_status handle_step(microtin_decoder& d, uint32_t* steps_left) {
+  if (*steps_left == 0) return MICROTIN_STEP_LIMIT;
+  --*steps_left;
   const Progress progress = step(d.reconstruction, d.coder);
   if (progress == Progress::kMalformed || d.coder.overrun) return end_section(d, false);
   if (progress == Progress::kSectionEnd) return end_section(d, true);
@@ -155,7 +166,7 @@ microtin_status handle_section_check(microtin_decoder& d) {
   if (status != MICROTIN_DONE) return status;
   d.mesh->verified_vertices = d.mesh->mesh.vertices;
   if (d.reconstruction.stage == Stage::kComplete) {
-    d.mesh->has_voids = d.contract.has_voids;
+    d.mesh->has_voids = d.reconstruction.contract.has_voids;
     return MICROTIN_DONE;
   }
   if (is_far_enough(d)) return MICROTIN_STOPPED;
@@ -164,12 +175,13 @@ microtin_status handle_section_check(microtin_decoder& d) {
 }
 
 // NEED_INPUT means: go on.
-microtin_status handle_item(microtin_decoder& d) {
+microtin_status handle_item(microtin_decoder& d, uint32_t* steps_left) {
   switch (d.item) {
     case Item::kHeader:
       return handle_header(d);
     case Item::kNotes:
-      return handle_unread(d, Item::kHeaderCheck);
+    case Item::kSectionRest:
+      return handle_unread(d);
     case Item::kHeaderCheck:
       return handle_header_check(d);
     case Item::kSectionHead:
@@ -177,74 +189,30 @@ microtin_status handle_item(microtin_decoder& d) {
     case Item::kPayloadStart:
       return handle_payload_start(d);
     case Item::kStep:
-      return handle_step(d);
-    case Item::kSectionRest:
-      return handle_unread(d, Item::kSectionCheck);
+      return handle_step(d, steps_left);
     case Item::kSectionCheck:
       break;
   }
   return handle_section_check(d);
 }
 
-// Handles items from the window while their bytes are at hand and steps are left; `enough` bytes
-// used up also end the loop.
-microtin_status run(microtin_decoder& d, uint32_t* steps_left, size_t enough) {
-  const size_t available = d.window.left;
-  while (available - d.window.left < enough || bytes_needed(d) == 0) {
-    if (d.window.left < bytes_needed(d)) return MICROTIN_NEED_INPUT;
-    if (d.item == Item::kStep) {
-      if (*steps_left == 0) return MICROTIN_STEP_LIMIT;
-      --*steps_left;
-    }
-    const microtin_status status = handle_item(d);
-    if (status != MICROTIN_NEED_INPUT) return status;
-  }
-  return MICROTIN_NEED_INPUT;
-}
-
-// Decodes from the bytes kept from earlier calls, topped up from `bytes`, until the kept ones are
-// used up. *used counts the bytes taken from `bytes`.
-microtin_status run_staged(microtin_decoder& d, const uint8_t* bytes, size_t size,
-                           uint32_t* steps_left, size_t* used) {
-  const size_t kept = d.staged_bytes;
-  const size_t added = smaller(size, sizeof d.staged - kept);
-  for (size_t i = 0; i < added; ++i) d.staged[kept + i] = bytes[i];
-  d.window.open(d.staged, kept + added);
-  const microtin_status status = run(d, steps_left, kept);
-  d.window.settle();
-  const size_t consumed = kept + added - d.window.left;
-  if (consumed >= kept) {
-    d.staged_bytes = 0;
-    *used = consumed - kept;
-    return status;
-  }
-  // The rest of the kept bytes stays; the added ones go back, unless all are needed.
-  const bool starved = status == MICROTIN_NEED_INPUT;
-  const size_t rest = kept - consumed + (starved ? added : 0);
-  for (size_t i = 0; i < rest; ++i) d.staged[i] = d.staged[consumed + i];
-  d.staged_bytes = static_cast<uint8_t>(rest);
-  *used = starved ? added : 0;
-  return status;
-}
-
 microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uint32_t step_limit,
                      size_t* used) {
+  ByteWindow& window = d.coder.window;
   uint32_t steps_left = step_limit == 0 ? 0xFFFFFFFFu : step_limit;
-  size_t taken = 0;
-  if (d.staged_bytes != 0) {
-    const microtin_status status = run_staged(d, bytes, size, &steps_left, &taken);
-    *used = taken;
-    if (status != MICROTIN_NEED_INPUT || d.staged_bytes != 0) return status;
+  microtin_status status = MICROTIN_NEED_INPUT;
+  while (status == MICROTIN_NEED_INPUT) {
+    while (window.left < bytes_needed(d)) {
+      if (*used == size) return MICROTIN_NEED_INPUT;
+      *used += window.fill(bytes + *used, size - *used);
+    }
+    status = handle_item(d, &steps_left);
   }
-  d.window.open(bytes + taken, size - taken);
-  const microtin_status status = run(d, &steps_left, ~static_cast<size_t>(0));
-  d.window.settle();
-  *used = size - d.window.left;
-  if (status != MICROTIN_NEED_INPUT) return status;
-  // Fewer than one item needs: keep them.
-  d.staged_bytes = static_cast<uint8_t>(d.window.left);
-  for (size_t i = 0; i < d.window.left; ++i) d.staged[i] = d.window.next[i];
-  *used = size;
+  // What is left came in this call, as no item asks for more than the stream has, but for what an
+  // earlier call brought.
+  const size_t returned = smaller<size_t>(window.left, *used);
+  window.left -= returned;
+  *used -= returned;
   return status;
 }
 
@@ -319,10 +287,10 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
   d.status = MICROTIN_NEED_INPUT;
   d.stop_phase = 0;
   d.item = Item::kHeader;
-  d.staged_bytes = 0;
-  d.window.crc = 0;
-  d.window.used = 0;
-  d.coder.window = &d.window;
+  d.coder.window.next = d.coder.window.bytes;
+  d.coder.window.left = 0;
+  d.coder.window.crc = 0;
+  d.coder.window.used = 0;
   Reconstruction& r = d.reconstruction;
   r.mesh = &mesh->mesh;
   r.voids = mesh->voids;
@@ -362,25 +330,23 @@ uint32_t microtin_phase(const microtin_decoder* decoder) {
 }
 
 uint64_t microtin_bytes_used(const microtin_decoder* decoder) {
-  return decoder->window.used;
+  return decoder->coder.window.taken();
 }
 
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info) {
   if (info == nullptr || (bytes == nullptr && size != 0)) return MICROTIN_ARGUMENT;
   info->header_bytes = 0;
   if (size < header_bytes(bytes, size)) return MICROTIN_NEED_INPUT;
-  const microtin_status known = check_identity(bytes);
-  if (known != MICROTIN_DONE) return known;
   FixedHeader header;
-  bool legal = read_fixed_header(bytes, &header);
   microtin_axis axis[3];
-  legal = place(bytes, header, axis) && legal;
-  const uint32_t checked = header.bytes + header.placement_bytes + header.note_bytes;
+  const microtin_status status = read_header(bytes, &header, axis);
+  if (!is_known(status)) return status;
+  const uint32_t checked = checked_bytes(header);
   info->header_bytes = checked + kCheckBytes;
   if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
   const uint32_t crc = crc32(0, bytes, static_cast<size_t>(checked));
   if (crc != read_u32(bytes + checked)) return MICROTIN_CHECKSUM;
-  if (!legal) return MICROTIN_MALFORMED;
+  if (status != MICROTIN_DONE) return status;
   const Contract& contract = header.contract;
   info->vertices = contract.vertices;
   info->version = kVersion;

@@ -25,9 +25,14 @@ void set_state(PackSlot& slot, SlotState state) {
 void give_up(microtin_pack& p) {
   if (p.has_header) {
     want(p, PackStage::kIdle, 0, 0);
-  } else {
-    want(p, PackStage::kFixed, 0, kPackFixedBytes);
+    return;
   }
+  for (int i = 0; i < 3; ++i) {
+    p.axis[i].offset = 0;
+    p.axis[i].numerator = 1;
+    p.axis[i].denominator = 1;
+  }
+  want(p, PackStage::kFixed, 0, kPackFixedBytes);
 }
 
 microtin_status fail(microtin_pack& p, microtin_status status) {
@@ -128,7 +133,7 @@ microtin_status handle_entry(microtin_pack& p) {
 // Whether what was decoded is the tile that the index tells of.
 bool is_tile(const microtin_pack& p) {
   const TileBox box = tile_box(p.header.grid, p.tile);
-  const Contract& contract = p.decoder->contract;
+  const Contract& contract = p.decoder->reconstruction.contract;
   return p.left == 0 && p.fed == p.buffered && p.stream_hash == p.entry.stream_hash &&
          contract.vertices == p.entry.vertices && contract.x_max <= box.x_end - box.x &&
          contract.y_max <= box.y_end - box.y;
@@ -257,11 +262,6 @@ void microtin_pack_reset(microtin_pack* pack) {
   p.stage = PackStage::kFixed;
   p.tile = 0;
   for (uint32_t i = 0; i < p.slot_count; ++i) set_state(p.slots[i], SlotState::kEmpty);
-  for (int i = 0; i < 3; ++i) {
-    p.axis[i].offset = 0;
-    p.axis[i].numerator = 1;
-    p.axis[i].denominator = 1;
-  }
   give_up(p);
 }
 

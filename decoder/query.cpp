@@ -28,11 +28,10 @@ microtin_answer answer_in(const microtin_mesh& m, Index t, FinePoint p, int32_t*
   bool known = has_terrain(m, t);
   const Index f = first_edge(t);
   for (Index i = 0; i < 3 && !known; ++i) {
-    const Point from = point_of(mesh, mesh.origin[f + i]);
-    const Point to = point_of(mesh, mesh.origin[i == 2 ? f : f + i + 1u]);
-    const FinePoint at = fine(from);
-    known = (at.x == p.x && at.y == p.y) ||
-            (orient_fine(from, to, p) == 0 && has_terrain(m, triangle_of(mesh.twin[f + i])));
+    const Index h = static_cast<Index>(f + i);
+    const FinePoint at = fine(point_of(mesh, mesh.origin[h]));
+    known = (at.x == p.x && at.y == p.y) || (side_of(mesh, h, next_in_triangle(h), p) == 0 &&
+                                             has_terrain(m, triangle_of(mesh.twin[h])));
   }
   if (!known) return MICROTIN_IN_VOID;
   *height = height_in(mesh, t, p);

@@ -9,18 +9,14 @@
 
 namespace microtin {
 
-// Bytes that are available now.
+// The next bytes of the stream. They are copied here, so that what an item needs is in one piece
+// however the stream arrives.
 struct ByteWindow {
-  const uint8_t* next;
-  size_t left;
-  const uint8_t* unchecked;  // taken from here on, but not counted and checked yet
-  uint32_t crc;
-  uint64_t used;
-
-  void open(const uint8_t* bytes, size_t size) {
-    next = unchecked = bytes;
-    left = size;
-  }
+  uint8_t* next;
+  size_t left;    // from `next` on
+  uint32_t crc;   // of all that was taken since the last check, up to the last settle()
+  uint64_t used;  // bytes of the stream up to the last settle()
+  uint8_t bytes[2 * kStepBytes];
 
   uint8_t take() {
     --left;
@@ -32,12 +28,23 @@ struct ByteWindow {
     left -= static_cast<size_t>(count);
   }
 
-  // Counts and checks what was taken.
-  void settle() {
-    const size_t taken = static_cast<size_t>(next - unchecked);
-    crc = crc32(crc, unchecked, taken);
-    used += taken;
-    unchecked = next;
+  // Bytes of the stream so far.
+  uint64_t taken() const { return used + static_cast<size_t>(next - bytes); }
+
+  // Counts and checks what was taken, and moves what is left to the front.
+  MICROTIN_OUT_OF_LINE void settle() {
+    crc = crc32(crc, bytes, static_cast<size_t>(next - bytes));
+    used = taken();
+    for (size_t i = 0; i < left; ++i) bytes[i] = next[i];
+    next = bytes;
+  }
+
+  // Adds from `size` bytes what there is room for: so many.
+  size_t fill(const uint8_t* from, size_t size) {
+    settle();
+    size_t added = 0;
+    while (added < size && left < sizeof bytes) bytes[left++] = from[added++];
+    return added;
   }
 };
 
@@ -52,15 +59,15 @@ static_assert(kRangeLeast >> 16 >= 1 << 8, "after any number two bytes are enoug
 struct RangeDecoder {
   uint32_t range;
   uint32_t code;
-  uint32_t payload_left;  // bytes of the section's payload not read yet
+  uint32_t payload_left;  // bytes not read yet before the check: of notes, or a section's payload
   uint32_t virtual_left;  // zero bytes that may still be read behind it
   bool overrun;           // more was asked for than there is, or no encoder can have written this
-  ByteWindow* window;     // holds at least min(payload_left, kStepBytes) bytes when a step starts
+  ByteWindow window;      // holds at least min(payload_left, kStepBytes) bytes when a step starts
 
   uint32_t next_byte() {
     if (payload_left != 0) {
       --payload_left;
-      return window->take();
+      return window.take();
     }
     if (virtual_left == 0) {
       overrun = true;
@@ -70,8 +77,8 @@ struct RangeDecoder {
     return 0;
   }
 
-  void begin(uint32_t payload_bytes) {
-    payload_left = payload_bytes;
+  // At a section's payload, of which payload_left tells the bytes.
+  void begin() {
     virtual_left = kVirtualBytes;
     overrun = false;
     range = 0xFFFFFFFFu;

@@ -36,16 +36,8 @@ struct microtin_decoder {
   microtin_status status;  // NEED_INPUT while all is well
   uint32_t stop_phase;
   microtin::Item item;
-  uint32_t unread;  // bytes to be taken unread before the check
-  uint32_t section_bytes;
-  uint8_t section_shift;
-  microtin::Contract contract;
   microtin_status verdict;  // DONE, or what to say once the check ahead has passed
-  microtin::ByteWindow window;
   microtin::RangeDecoder coder;
-  // Bytes taken from the caller, too few for a step so far.
-  uint8_t staged_bytes;
-  uint8_t staged[2 * microtin::kStepBytes];
   microtin::Reconstruction reconstruction;
 };
 

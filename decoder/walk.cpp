@@ -3,10 +3,6 @@
 namespace microtin {
 namespace {
 
-Point origin_of(const Mesh& mesh, Index h) {
-  return point_of(mesh, mesh.origin[h]);
-}
-
 // A half-edge of the triangle or, from a ghost, of the real one beside it.
 Index real_edge(const Mesh& mesh, Index triangle) {
   Index h = first_edge(triangle);
@@ -17,24 +13,17 @@ Index real_edge(const Mesh& mesh, Index triangle) {
 
 }  // namespace
 
-bool is_ghost(const Mesh& mesh, Index triangle) {
-  const Index f = first_edge(triangle);
-  return is_ghost(mesh.origin[f], mesh.origin[f + 1u], mesh.origin[f + 2u]);
-}
-
 bool walk_to(const Mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle) {
   Index h = real_edge(mesh, *triangle);
-  if (orient_fine(origin_of(mesh, h), origin_of(mesh, next_in_triangle(h)), p) < 0) {
-    h = mesh.twin[h];
-  }
+  if (side_of(mesh, h, next_in_triangle(h), p) < 0) h = mesh.twin[h];
   bool arrived = false;
   for (uint32_t step = 0; step < step_limit && !arrived; ++step) {
     // p does not lie beyond h.
     const Index next = next_in_triangle(h), last = next_in_triangle(next);
     const bool real = mesh.origin[last] != kInfinity;
-    if (real && orient_fine(origin_of(mesh, next), origin_of(mesh, last), p) < 0) {
+    if (real && side_of(mesh, next, last, p) < 0) {
       h = mesh.twin[next];
-    } else if (real && orient_fine(origin_of(mesh, last), origin_of(mesh, h), p) < 0) {
+    } else if (real && side_of(mesh, last, h, p) < 0) {
       h = mesh.twin[last];
     } else {
       arrived = true;

@@ -7,7 +7,11 @@
 
 namespace microtin {
 
-bool is_ghost(const Mesh& mesh, Index triangle);
+// Positive if p lies to the left of a half-edge, negative if to the right; `next` is the half-edge
+// after it, and both start at finite vertices.
+inline int64_t side_of(const Mesh& mesh, Index half_edge, Index next, FinePoint p) {
+  return orient_fine(point_of(mesh, mesh.origin[half_edge]), point_of(mesh, mesh.origin[next]), p);
+}
 
 // Walks from *triangle to the triangle that holds p, through at most `step_limit` triangles:
 // crosses any edge that p lies beyond. *triangle becomes where the walk ended, a ghost if p is

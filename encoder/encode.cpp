@@ -129,7 +129,8 @@ std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& meta
   std::vector<uint8_t> stream = write_header(contract, metadata);
   Workspace workspace(contract.vertices);
   Reconstruction& r = workspace.state();
-  start(r, contract);
+  r.contract = contract;
+  start(r);
   while (r.stage != Stage::kComplete) {
     coder.at(r.mesh->vertices, r.phase);
     const Progress progress = step(r, coder);

@@ -119,8 +119,10 @@ void read_note(uint8_t type, const uint8_t* begin, const uint8_t* end, Metadata&
 }  // namespace
 
 void append_varint(Bytes& bytes, uint64_t value) {
-  for (; value >= 128; value >>= 7) bytes.push_back(static_cast<uint8_t>(value | 128));
-  bytes.push_back(static_cast<uint8_t>(value));
+  int groups = 1;
+  while (groups < 10 && value >> 7 * groups != 0) ++groups;
+  while (--groups > 0) bytes.push_back(static_cast<uint8_t>(value >> 7 * groups | 128));
+  bytes.push_back(static_cast<uint8_t>(value & 127));
 }
 
 void append_number(Bytes& bytes, uint64_t value, int width) {

@@ -40,7 +40,7 @@ void append_number(std::vector<uint8_t>& bytes, uint64_t value, int width);
 // A sentence for a status of the decoder.
 const char* describe(microtin_status status);
 
-// A number in groups of seven bits, low ones first, the top bit set if more follow.
+// A number in groups of seven bits, high ones first, the top bit set if more follow.
 void append_varint(std::vector<uint8_t>& bytes, uint64_t value);
 
 // The check of `bytes` from `from` on, appended.

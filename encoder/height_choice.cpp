@@ -81,7 +81,7 @@ HeightPrediction HeightChoice::predict(Index i) const {
   const Index* const ring = rings_.data() + ring_start_[i];
   const uint32_t size = ring_start_[i + 1] - ring_start_[i];
   if (size == 0) return {z_[i], 0, 0};
-  return predict_from_ring(mesh_, residual_.data(), ring, size, point_of(mesh_, i), z_[ring[0]]);
+  return predict_from_ring(mesh_, residual_.data(), ring, size, point_of(mesh_, i));
 }
 
 // Takes the lengths of codes from how often which numbers of bits occur now.

@@ -100,7 +100,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   state.marks = marks;
   state.voids = voids;
   state.residual = residual;
-  start(state, contract_from(choices));
+  state.contract = contract_from(choices);
+  start(state);
   uint32_t steps = 0;
   while (state.stage != Stage::kComplete && !choices.ended()) {
     const Index placed = mesh.vertices;

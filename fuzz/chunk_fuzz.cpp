@@ -46,7 +46,7 @@ void check_last_vertex(const Device& device) {
   if (mesh.vertices <= 3) return;
   Index h = 0;
   while (mesh.origin[h] + 1u != mesh.vertices) ++h;
-  EXPECT(degree_up_to(mesh, h, kMaxDegree + 1) <= device.decoder->contract.degree);
+  EXPECT(degree_up_to(mesh, h, kMaxDegree + 1) <= device.decoder->reconstruction.contract.degree);
 }
 
 class Cutter {

@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const Mesh& mesh = device.mesh->mesh;
   EXPECT(mesh.triangles == 0 || is_locally_delaunay(mesh));
   if (status == MICROTIN_DONE) {
-    EXPECT(mesh.vertices == device.decoder->contract.vertices);
+    EXPECT(mesh.vertices == device.decoder->reconstruction.contract.vertices);
     EXPECT(mesh.vertices == device.mesh->verified_vertices);
   }
   return 0;

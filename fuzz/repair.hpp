@@ -25,7 +25,7 @@ inline bool repair(uint8_t* bytes, size_t size) {
   if (size < fixed_header_bytes(bytes)) return false;
   FixedHeader header;
   read_fixed_header(bytes, &header);
-  size_t at = size_t{header.bytes} + header.placement_bytes + header.note_bytes;
+  size_t at = checked_bytes(header);
   size_t from = 0;
   while (at <= size && size - at >= kCheckBytes) {
     write_check(bytes, from, at);

@@ -55,12 +55,6 @@ struct Grid {
   Slices columns, rows;
 };
 
-// Twice the middle of cell (i, j), less twice the middle of the grid: half steps.
-inline Offset middle_of(const Grid& grid, int i, int j) {
-  return Offset{grid.columns.start[i] + grid.columns.start[i + 1] - grid.columns.count,
-                grid.rows.start[j] + grid.rows.start[j + 1] - grid.rows.count};
-}
-
 // How powers become distances: 512 / ramp of them. Shifted, multiplied, shifted by 21.
 struct Scale {
   uint32_t shift;
@@ -110,11 +104,8 @@ inline void measure_axis(int32_t constant, FastInt slope, const Slices& slices, 
 
 MICROTIN_OUT_OF_LINE inline void measure(const Power& power, const Scale& scale, const Grid& grid,
                                          Distances& distance) {
-  const int64_t cap = static_cast<int64_t>(1) << 30, far = 1 << 13;
-  int64_t value = power.value >> scale.shift;
-  value = value > cap ? cap : value < -cap ? -cap : value;
-  value = value * scale.reciprocal >> 21;
-  value = value > far ? far : value < -far ? -far : value;
+  int64_t value = kept_within(power.value >> scale.shift, static_cast<int64_t>(1) << 30);
+  value = kept_within(value * scale.reciprocal >> 21, 1 << 13);
   measure_axis(static_cast<int32_t>(value), power.x, grid.columns, scale, distance.x);
   measure_axis(0, power.y, grid.rows, scale, distance.y);
 }

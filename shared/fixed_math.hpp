@@ -4,8 +4,6 @@
 
 #include <stdint.h>
 
-#include "shared/tables.hpp"
-
 // Keeps rare code, and code that is vectorised only if no loop is around it, out of its callers.
 #if defined(__GNUC__)
 #define MICROTIN_OUT_OF_LINE __attribute__((noinline))
@@ -48,35 +46,29 @@ inline uint32_t highest_bit(uint64_t v) {
 inline Log2 log2_of(uint64_t v) {
   if (v == 0) return 0;
   const uint32_t bit = highest_bit(v);
-  // The 13 bits behind the leading one: 5 choose the table entry, 8 interpolate.
-  const uint32_t mantissa =
-      static_cast<uint32_t>(bit >= 13 ? v >> (bit - 13) : v << (13 - bit)) & 0x1FFFu;
-  const uint32_t i = mantissa >> 8;
-  const int32_t low = table_log2(i), high = table_log2(i + 1);
-  const int32_t fraction = low + (((high - low) * static_cast<int32_t>(mantissa & 255)) >> 8);
-  return static_cast<Log2>(bit) * kLog2One + ((fraction + 8) >> 4);
+  // The 16 bits behind the leading one, m of 2^16: log2(1 + m) is m + m (1 - m) (0.424 - 0.162 m).
+  const uint32_t m = static_cast<uint32_t>(v << (63u - bit) >> 47) & 0xFFFFu;
+  const uint32_t bend = (m * (65536u - m) >> 16) * (27800u - (10600u * m >> 16)) >> 16;
+  return static_cast<Log2>(bit * 256u + ((m + bend + 128u) >> 8));
 }
 
-// 2^l within 1/256 of itself, saturated to 1 .. 2^62.
-inline uint64_t exp2_of(Log2 l) {
+// 2^l within 1/256 of itself, at least 1 and at most 2^30.
+inline uint32_t exp2_of(Log2 l) {
   if (l <= 0) return 1;
-  const uint32_t bit = static_cast<uint32_t>(l) >> 8;
-  if (bit >= 62) return static_cast<uint64_t>(1) << 62;
-  const uint32_t i = (static_cast<uint32_t>(l) & 255u) >> 3;
-  const uint32_t f = static_cast<uint32_t>(l) & 7u;
-  const uint32_t low = table_exp2(i), high = table_exp2(i + 1);
-  const uint64_t mantissa = 32768u + low + (((high - low) * f) >> 3);  // 15 fractional bits
-  return bit >= 15 ? mantissa << (bit - 15) : mantissa >> (15 - bit);
+  const uint32_t bit = static_cast<uint32_t>(l) >> 8, f = static_cast<uint32_t>(l) & 255u;
+  if (bit >= 30) return static_cast<uint32_t>(1) << 30;
+  // f of 2^8: 2^f is 1 + f - f (1 - f) (0.305 + 0.078 f).
+  const uint32_t mantissa = 32768u + 128u * f - (f * (256u - f) * (9980u + 10u * f) >> 16);
+  return mantissa << 16 >> (31u - bit);
 }
 
-// A number at least sqrt(v) and at most 3 + sqrt(v) * (1 + 2^-13), for v < 2^62.
+inline int64_t kept_within(int64_t v, int64_t most) {
+  return v > most ? most : v < -most ? -most : v;
+}
+
+// A number at least sqrt(v) and at most 2 + sqrt(v) * (1 + 2^-7), for v < 2^58.
 inline uint32_t sqrt_above(uint64_t v) {
-  uint32_t shift = 0;
-  while (v >> 32 >> 2 * shift) ++shift;  // at most 15 times
-  const uint32_t w = static_cast<uint32_t>(v >> 2 * shift);
-  // One Newton step from any start ends at or above the root: (r + w / r) / 2 >= sqrt(w).
-  const uint32_t r = static_cast<uint32_t>(exp2_of(log2_of(w) / 2)) + 1;
-  return ((r + w / r) / 2 + 2) << shift;
+  return exp2_of((log2_of(v) + 3) / 2) + 1;
 }
 
 }  // namespace microtin

@@ -22,9 +22,9 @@ constexpr uint32_t kMaxVertices = 16777216;  // 2^24
 // and with every phase after it.
 constexpr uint32_t kSectionVertices = 256;
 
-// Payload bytes that suffice for any step. Most are used by a vertex on a hull edge: 2 decisions,
-// its gap (16 decisions and 14 uniform bits) and its height (19 decisions and 15 uniform bits), at
-// 9 bits a decision, are 46 bytes (FORMAT.md, "Payload bytes of a step").
+// Payload bytes that suffice for any step. Most are used by a vertex on a hull edge: a decision,
+// its gap (18 decisions and 15 uniform bits) and its height (19 decisions and 15 uniform bits), at
+// 9 bits a decision, are 47 bytes (FORMAT.md, "Payload bytes of a step").
 constexpr uint32_t kStepBytes = 48;
 
 // Bytes of zero that stand virtually behind a section's payload.
@@ -49,13 +49,9 @@ struct Contract {
   bool has_voids;
 };
 
-// Lattice columns and rows that vertices can lie on: 1 .. 2^16.
-inline uint32_t columns(const Contract& contract) {
-  return static_cast<uint32_t>(contract.x_max) + 1;
-}
-
-inline uint32_t rows(const Contract& contract) {
-  return static_cast<uint32_t>(contract.y_max) + 1;
+// Lattice places that vertices can lie on: at most 2^32.
+inline uint64_t lattice_places(const Contract& contract) {
+  return (static_cast<uint64_t>(contract.x_max) + 1) * (static_cast<uint32_t>(contract.y_max) + 1);
 }
 
 // Fixed header: magic 4, version 1, flags 1, effort 1 (degree + 64 * levels), then the dimensions,

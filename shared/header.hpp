@@ -31,6 +31,11 @@ struct FixedHeader {
   uint32_t note_bytes;       // at most 65535
 };
 
+// Bytes of the whole header before its check.
+inline uint32_t checked_bytes(const FixedHeader& header) {
+  return header.bytes + header.placement_bytes + header.note_bytes;
+}
+
 // A number of `width` bytes.
 inline uint32_t take_number(const uint8_t** bytes, uint32_t width) {
   uint32_t value = 0;
@@ -69,39 +74,35 @@ inline uint32_t header_bytes(const uint8_t* bytes, size_t size) {
   return header.bytes + (placed ? header.placement_bytes : 0);
 }
 
-// A number in groups of seven bits, low ones first, the top bit set if more follow. False if it is
+// A number in groups of seven bits, high ones first, the top bit set if more follow. False if it is
 // longer than `bytes`, not in its shortest form, or above 64 bits.
 inline bool read_varint(const uint8_t** bytes, const uint8_t* end, uint64_t* value) {
   *value = 0;
-  for (uint32_t shift = 0; *bytes != end; shift += 7) {  // ends at 63 at the latest
+  while (*bytes != end) {
     const uint8_t byte = *(*bytes)++;
-    if ((shift == 63 && byte > 1) || (shift != 0 && byte == 0)) return false;
-    *value |= static_cast<uint64_t>(byte & 127u) << shift;
+    if (*value >> 57 != 0 || (*value == 0 && byte == 128)) return false;
+    *value = *value << 7 | (byte & 127u);
     if (byte < 128) return true;
   }
   return false;
 }
 
-constexpr uint64_t kStepLimit = static_cast<uint64_t>(1) << 40;
+// A numerator or denominator: 1 .. 2^40 - 1.
+inline bool read_step(const uint8_t** bytes, const uint8_t* end, uint64_t* value) {
+  return read_varint(bytes, end, value) && *value != 0 && *value >> 40 == 0;
+}
 
 // A placement: for x, y and z the offset (zigzag), numerator and denominator.
 inline bool read_placement(const uint8_t* bytes, uint32_t size, microtin_axis* axis) {
   const uint8_t* const end = bytes + size;
-  for (int i = 0; i < 3; ++i) {
-    uint64_t offset = 0, numerator = 0, denominator = 0;
-    if (!read_varint(&bytes, end, &offset) || !read_varint(&bytes, end, &numerator) ||
-        !read_varint(&bytes, end, &denominator)) {
+  for (microtin_axis* const last = axis + 3; axis != last; ++axis) {
+    uint64_t offset = 0;
+    if (!read_varint(&bytes, end, &offset) || !read_step(&bytes, end, &axis->numerator) ||
+        !read_step(&bytes, end, &axis->denominator)) {
       return false;
     }
-    if (numerator == 0 || numerator >= kStepLimit || denominator == 0 ||
-        denominator >= kStepLimit) {
-      return false;
-    }
-    const uint64_t half = offset >> 1;  // < 2^63
-    axis[i].offset =
-        (offset & 1u) != 0 ? -static_cast<int64_t>(half) - 1 : static_cast<int64_t>(half);
-    axis[i].numerator = numerator;
-    axis[i].denominator = denominator;
+    const int64_t half = static_cast<int64_t>(offset >> 1);
+    axis->offset = (offset & 1u) != 0 ? -half - 1 : half;
   }
   return bytes == end;
 }

@@ -29,27 +29,27 @@ bool code_longer(Coder& coder, ExponentModel& model, uint32_t typical, uint32_t 
   return code_bit(coder, model.longer[i < kExponents ? i : kExponents - 1], longer);
 }
 
-// Codes a number of bits up to `most`: upwards or downwards from the typical one, which is smaller.
+// Codes a number of bits up to kMagnitudeBits: upwards or downwards from the typical one, which is
+// smaller.
 template <class Coder>
-uint32_t code_exponent(Coder& coder, ExponentModel& model, uint32_t typical, uint32_t most,
-                       uint32_t value) {
+uint32_t code_exponent(Coder& coder, ExponentModel& model, uint32_t typical, uint32_t value) {
   uint32_t bits = typical;
   if (code_longer(coder, model, typical, bits, bits < value)) {
     do {
       ++bits;
-    } while (bits < most && code_longer(coder, model, typical, bits, bits < value));
+    } while (bits < kMagnitudeBits && code_longer(coder, model, typical, bits, bits < value));
   } else {
     while (bits != 0 && !code_longer(coder, model, typical, bits - 1, bits - 1 < value)) --bits;
   }
   return bits;
 }
 
-// Codes a magnitude below 2^most_bits.
+// Codes a magnitude below 2^kMagnitudeBits.
 template <class Coder>
 uint32_t code_magnitude(Coder& coder, ExponentModel& exponent, MantissaModel& mantissa,
-                        uint32_t typical_bits, uint32_t most_bits, uint32_t value) {
-  const uint32_t bits = code_exponent(coder, exponent, typical_bits, most_bits,
-                                      value == 0 ? 0 : highest_bit(value) + 1);
+                        uint32_t typical_bits, uint32_t value) {
+  const uint32_t bits =
+      code_exponent(coder, exponent, typical_bits, value == 0 ? 0 : highest_bit(value) + 1);
   if (bits <= 1) return bits;
   AdaptiveBit& second = mantissa.second[bits < kMantissas ? bits : kMantissas - 1];
   uint32_t result = 2u + code_bit(coder, second, (value >> (bits - 2) & 1u) != 0);
@@ -78,14 +78,13 @@ inline Residual residual_of(int32_t difference) {
 }
 
 // The ring of a new vertex has at most 32 neighbours; each weighs 1 / distance^2, rounded to a
-// power of two: 2^8 for the nearest, nothing below 1.
+// power of two: 2^5 if it is as far as the first, at most 2^9, nothing below 1.
 struct RingSums {
-  uint32_t weights;    // 2^8 .. 2^13
-  int32_t heights;     // weighted, less a base: within +-2^29
+  uint32_t weights;    // 2^5 .. 31 * 2^9 + 2^5
+  int32_t heights;     // weighted, less that of the first: within +-2^30
   uint32_t spread;     // of their magnitudes
-  int32_t residuals;   // weighted: within +-2^20
+  int32_t residuals;   // weighted: within +-2^21
   uint32_t roughness;  // of their magnitudes
-  uint32_t nearest;    // distance_bits of the nearest
 };
 
 inline uint32_t magnitude_of(int32_t v) {
@@ -99,21 +98,18 @@ inline uint32_t distance_bits(Point a, Point b) {
 }
 
 inline RingSums sum_ring(const Mesh& mesh, const Residual* residual, const Index* ring,
-                         uint32_t size, Point place, int32_t base) {
-  RingSums sums = {0, 0, 0, 0, 0, 31};
-  uint8_t bits[kMaxDegree];
+                         uint32_t size, Point place, uint32_t first) {
+  RingSums sums = {0, 0, 0, 0, 0};
+  const int32_t base = mesh.z[ring[0]];
   for (uint32_t i = 0; i < size; ++i) {
-    bits[i] = 255;  // weighs nothing
-    if (ring[i] == kInfinity) continue;
-    bits[i] = static_cast<uint8_t>(distance_bits(point_of(mesh, ring[i]), place));
-    if (bits[i] < sums.nearest) sums.nearest = bits[i];
-  }
-  for (uint32_t i = 0; i < size; ++i) {
-    const uint32_t farther = bits[i] - sums.nearest;
-    if (farther > 8) continue;
-    const int32_t weight = 256 >> farther;
-    const int32_t height = weight * (mesh.z[ring[i]] - base);
-    const int32_t difference = weight * residual[ring[i]];
+    const Index v = ring[i];
+    if (v == kInfinity) continue;
+    const uint32_t bits = distance_bits(point_of(mesh, v), place) + 4u;
+    const uint32_t farther = bits < first ? 0 : bits - first;
+    if (farther > 9) continue;
+    const int32_t weight = 512 >> farther;
+    const int32_t height = weight * (mesh.z[v] - base);
+    const int32_t difference = weight * residual[v];
     sums.weights += static_cast<uint32_t>(weight);
     sums.heights += height;
     sums.spread += magnitude_of(height);
@@ -142,25 +138,23 @@ inline uint32_t expected_scale(uint32_t weights, uint32_t roughness, uint32_t sp
   // Each logarithm is at least that of the weights.
   const uint32_t sum = coarse_log2(4 * roughness + weights) +
                        2 * coarse_log2(4 * spread + weights) - 3 * coarse_log2(weights) +
-                       32u * distance + 448u;
+                       32u * distance + 320u;
   const uint32_t scale = sum / 768u;
   return scale < kScales ? scale : kScales - 1;
 }
 
 // 0 .. 4: neighbours above their own predictions make it likely that the new vertex is, too.
-inline uint32_t expected_sign(int32_t residuals, uint32_t roughness) {
-  const bool down = residuals < 0;
-  const uint32_t sum = 5u * static_cast<uint32_t>(down ? -residuals : residuals);
-  const uint32_t strength = sum > 3u * roughness ? 2 : sum > roughness ? 1 : 0;
-  return down ? 2u - strength : 2u + strength;
+inline uint32_t expected_sign(int32_t residuals, int32_t roughness) {
+  const int32_t sum = 5 * residuals;
+  return static_cast<uint32_t>((sum >= -3 * roughness) + (sum >= -roughness) + (sum > roughness) +
+                               (sum > 3 * roughness));
 }
 
-// Predicts from the ring's vertex numbers, kInfinity among them, at least one of them finite; base
-// is a height near theirs.
+// Predicts from the ring's vertex numbers, of which the first is finite and some may be kInfinity.
 inline HeightPrediction predict_height(const Mesh& mesh, const Residual* residual,
-                                       const Index* ring, uint32_t size, Point place,
-                                       int32_t base) {
-  const RingSums sums = sum_ring(mesh, residual, ring, size, place, base);
+                                       const Index* ring, uint32_t size, Point place) {
+  const uint32_t first = distance_bits(point_of(mesh, ring[0]), place);
+  const RingSums sums = sum_ring(mesh, residual, ring, size, place, first);
   // Rounded to nearest, halves up. 2^16 is added to stay positive: all is below 2^32.
   const uint32_t divisor = 2u * sums.weights;  // not 0
   const uint32_t dividend =
@@ -168,10 +162,11 @@ inline HeightPrediction predict_height(const Mesh& mesh, const Residual* residua
   const uint32_t mean = dividend / divisor;
   const bool rounded_down = dividend - mean * divisor > sums.weights;
   HeightPrediction prediction;
-  prediction.height = base + static_cast<int32_t>(mean) - 65536;
+  prediction.height = mesh.z[ring[0]] + static_cast<int32_t>(mean) - 65536;
   prediction.scale = expected_scale(sums.weights, sums.roughness, sums.spread,
-                                    13u + sums.nearest - highest_bit(sums.weights));
-  prediction.tendency = 2u * expected_sign(sums.residuals, sums.roughness) + rounded_down;
+                                    14u + first - highest_bit(sums.weights));
+  prediction.tendency =
+      2u * expected_sign(sums.residuals, static_cast<int32_t>(sums.roughness)) + rounded_down;
   return prediction;
 }
 
@@ -179,9 +174,9 @@ inline HeightPrediction predict_height(const Mesh& mesh, const Residual* residua
 template <class Coder>
 bool code_height(Coder& coder, HeightModel& model, const HeightPrediction& prediction, int16_t* z) {
   const int32_t difference = static_cast<int32_t>(*z) - prediction.height;
-  const uint32_t magnitude = code_magnitude(
-      coder, model.exponent[prediction.scale], model.mantissa, prediction.scale / 2, kMagnitudeBits,
-      static_cast<uint32_t>(difference < 0 ? -difference : difference));
+  const uint32_t magnitude =
+      code_magnitude(coder, model.exponent[prediction.scale], model.mantissa, prediction.scale / 2,
+                     static_cast<uint32_t>(difference < 0 ? -difference : difference));
   int32_t height = prediction.height;
   if (magnitude != 0) {
     AdaptiveBit* const negative = model.negative[prediction.tendency];

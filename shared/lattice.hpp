@@ -25,6 +25,10 @@ typedef int64_t FastInt;
 typedef int32_t FastInt;
 #endif
 
+inline FastInt absolute(FastInt v) {
+  return v < 0 ? -v : v;
+}
+
 struct Point {
   uint16_t x;
   uint16_t y;

@@ -6,6 +6,7 @@
 #ifndef MICROTIN_SHARED_MESH_HPP
 #define MICROTIN_SHARED_MESH_HPP
 
+#include "shared/fixed_math.hpp"
 #include "shared/lattice.hpp"
 #include "shared/predicates.hpp"
 
@@ -69,6 +70,11 @@ inline Point point_of(const Mesh& mesh, Index v) {
   return Point{mesh.x[v], mesh.y[v]};
 }
 
+inline bool is_ghost(const Mesh& mesh, Index triangle) {
+  const Index f = first_edge(triangle);
+  return is_ghost(mesh.origin[f], mesh.origin[f + 1u], mesh.origin[f + 2u]);
+}
+
 // Makes a and b each other's twins.
 inline void pair(Mesh& mesh, Index a, Index b) {
   mesh.twin[a] = b;
@@ -76,15 +82,15 @@ inline void pair(Mesh& mesh, Index a, Index b) {
 }
 
 // in_conflict for the rare cases: a ghost, or p on the circle.
-[[gnu::noinline]] inline bool in_rare_conflict(const Mesh& mesh, Index a, Index b, Index c,
-                                               Point p) {
-  // Infinity is larger than all others.
-  turn_largest_last(a, b, c, [&mesh](Index u, Index v) {
-    return v == kInfinity || (u != kInfinity && point_of(mesh, u) < point_of(mesh, v));
-  });
-  const Point from = point_of(mesh, a), to = point_of(mesh, b);
-  if (c == kInfinity) return conflicts_with_ghost(from, to, p);
-  return conflicts_on_circle(from, to, point_of(mesh, c), p);
+MICROTIN_OUT_OF_LINE inline bool in_rare_conflict(const Mesh& mesh, Index a, Index b, Index c,
+                                                  Point p) {
+  const bool ghost = is_ghost(a, b, c);
+  while (ghost && c != kInfinity) turn(a, b, c);
+  Point from = point_of(mesh, a), to = point_of(mesh, b);
+  if (ghost) return conflicts_with_ghost(from, to, p);
+  Point largest = point_of(mesh, c);
+  turn_largest_last(from, to, largest);
+  return conflicts_on_circle(from, to, largest, p);
 }
 
 // Whether p conflicts with the counter-clockwise triangle (a, b, c). A corner of it does not.
@@ -98,21 +104,18 @@ inline bool in_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
   return d != 0 ? d > 0 : in_rare_conflict(mesh, a, b, c, p);
 }
 
-// The mesh of one counter-clockwise triangle (0, 1, 2) and its three ghosts.
+// The mesh of one counter-clockwise triangle (0, 1, 2) and its three ghosts (j, i, infinity).
 inline void start_mesh(Mesh& mesh) {
   mesh.vertices = 3;
   mesh.triangles = 4;
+  Index previous = 9;  // the ghost whose edge from infinity is met at vertex i
   for (Index i = 0; i < 3; ++i) {
-    const Index j = static_cast<Index>(i == 2 ? 0 : i + 1);
-    const Index ghost = static_cast<Index>(3u + 3u * i);  // (j, i, infinity)
-    mesh.origin[i] = i;
-    mesh.origin[ghost] = j;
-    mesh.origin[ghost + 1u] = i;
+    const Index ghost = static_cast<Index>(3u + 3u * i);
+    mesh.origin[i] = mesh.origin[ghost + 1u] = mesh.origin[previous] = i;
     mesh.origin[ghost + 2u] = kInfinity;
     pair(mesh, i, ghost);
-    // Ghost i shares its edge (i, infinity) with the ghost whose first vertex is i.
-    const Index previous = static_cast<Index>(3u + 3u * (i == 0 ? 2u : i - 1u));
     pair(mesh, static_cast<Index>(ghost + 1u), static_cast<Index>(previous + 2u));
+    previous = ghost;
   }
 }
 

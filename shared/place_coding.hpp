@@ -11,9 +11,9 @@
 
 namespace microtin {
 
-// For each level and each of its four binary decisions: the odds learned for the estimated ones.
+// For each of the four binary decisions of a level: the odds learned for the estimated ones.
 struct PlaceModel {
-  Calibration split[kMaxLevels][4];
+  Calibration split[4];
 };
 
 // Codes one of four slices by their weights, below 2^26: the half, then the quarter. What holds no
@@ -39,17 +39,17 @@ int code_slice(Coder& coder, Calibration* split, const uint32_t* weight, int sli
   return first;
 }
 
-// Codes the cell of `box` that holds the place, which becomes the box; the odds follow it unless it
-// is the last.
+// Codes the cell that holds the place, which becomes the box.
 template <class Coder>
-MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, PlaceOdds& odds, Box& box,
-                                    Point place, bool last) {
+MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, const FreeRegion& region,
+                                    PlaceOdds& odds, Offset place) {
+  const Box& box = odds.box;
   Slices& columns = odds.grid.columns;
   Slices& rows = odds.grid.rows;
   slice(columns, box.x1 - box.x0 + 1);
   slice(rows, box.y1 - box.y0 + 1);
   if (columns.count == 1 && rows.count == 1) return;
-  weigh_cells(odds);
+  weigh_cells(odds, region);
   uint32_t row_size[kSlices], weight[kSlices];
   for (int j = 0; j < kSlices; ++j) row_size[j] = size_of(rows, j);
   const int16_t* cell = odds.weight;
@@ -64,27 +64,22 @@ MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, PlaceOdds&
     weight[j] = (static_cast<uint32_t>(cell[j]) + 1u) * row_size[j];
   }
   const int j = code_slice(coder, split + 2, weight, slice_of(rows, place.y - box.y0));
-  if (repels(odds.repulsion)) odds.repulsion.nearest = odds.repulsion.near[kSlices * i + j];
-  if (!last) narrow(odds, i, j);
-  box.x1 = box.x0 + columns.start[i + 1] - 1;
-  box.y1 = box.y0 + rows.start[j + 1] - 1;
-  box.x0 += columns.start[i];
-  box.y0 += rows.start[j];
+  narrow(odds, i, j);
 }
 
-// Codes a place in `box`, which encloses the free region.
+// Codes a place in the box, as seen from corner 0.
 template <class Coder>
-Point code_place(Coder& coder, PlaceModel& model, PlaceOdds& odds, uint32_t levels, Box box,
-                 Point place) {
+Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region, PlaceOdds& odds,
+                  uint32_t levels, Offset place) {
   for (uint32_t level = 0; level < levels; ++level) {
-    code_cell(coder, model.split[level], odds, box, place, level + 1 == levels);
+    code_cell(coder, model.split, region, odds, place);
   }
-  const uint32_t x = coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),
-                                   static_cast<uint32_t>(place.x - box.x0));
-  const uint32_t y = coder.uniform(static_cast<uint32_t>(box.y1 - box.y0 + 1),
-                                   static_cast<uint32_t>(place.y - box.y0));
-  return Point{static_cast<uint16_t>(static_cast<uint32_t>(box.x0) + x),
-               static_cast<uint16_t>(static_cast<uint32_t>(box.y0) + y)};
+  const Box& box = odds.box;
+  const FastInt x = static_cast<FastInt>(coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),
+                                                       static_cast<uint32_t>(place.x - box.x0)));
+  const FastInt y = static_cast<FastInt>(coder.uniform(static_cast<uint32_t>(box.y1 - box.y0 + 1),
+                                                       static_cast<uint32_t>(place.y - box.y0)));
+  return Offset{box.x0 + x, box.y0 + y};
 }
 
 }  // namespace microtin

@@ -11,18 +11,16 @@
 
 namespace microtin {
 
-// Numbers of circles. Those behind the sides come first, then the triangle's own.
-constexpr int kOwn = 3, kCircles = 4;
-
 constexpr int kSweepNodes = 4;
 constexpr int kSweepSteps = 8 * kSweepNodes;
 
-// Powers are seen from the middle of the grid.
 struct PlaceOdds {
-  Grid grid;
-  Power circle[kCircles];  // that behind the chord is where the sweep starts
-  bool matters[kOwn];      // in the grid
-  Distances distance[kCircles];
+  Box box;              // from corner 0; encloses the free region
+  Grid grid;            // of it
+  bool matters[3];      // in the grid: the circle behind a side
+  Distances behind[3];  // from these circles
+  Power swept_from;     // the circle behind the chord
+  Distances distance;   // from the circle in hand
   Cells weight;
   bool sweeps;  // whether the chance of being first differs noticeably over the region
   // 511 * chance of being first, at equal steps of the cotangent from the triangle's circle to that
@@ -43,54 +41,41 @@ MICROTIN_OUT_OF_LINE inline void interpolate(int16_t from, int16_t to, int16_t* 
 }
 
 // 511 * chance of being first for a swept area, with 17 fractional bits as segment() has them;
-// `rate` < 2^31 is the density by that unit, with 16 fractional bits, times log2(e).
-inline int16_t chance_of(int64_t swept, uint64_t rate) {
+// `rate` <= 2^30 is the density by that unit, with 16 fractional bits, times log2(e).
+inline int16_t chance_of(int32_t swept, uint32_t rate) {
   const uint64_t loss = swept > 0 ? static_cast<uint64_t>(swept) * rate >> 25 : 0;
   const Log2 left = loss < 15 * kLog2One ? 15 * kLog2One - static_cast<Log2>(loss) : 0;
   return static_cast<int16_t>(exp2_of(left) * 511 >> 15);
 }
 
-// Fills in the chances of being first, from the circles of the cotangents `from` to `to`;
-// `density` is the logarithm of points per unit area.
-inline void estimate_sweep(PlaceOdds& odds, int64_t length2, Cotangent from, int64_t start,
-                           Cotangent to, Log2 density) {
+// Fills in the chances of being first; `density` is the logarithm of points per unit area.
+inline void estimate_sweep(PlaceOdds& odds, const FreeRegion& region, Log2 density) {
+  const Cotangent from = region.side[kChord].behind, to = region.side[kChord].own;
+  const Offset chord = region.corner[2];
+  const int32_t start = segment(from);
   // log2(log2(e)) = 135 / 256.
-  const Log2 log_rate = log2_of(static_cast<uint64_t>(length2)) + density + 135;
-  const uint64_t most = static_cast<uint64_t>(1) << 30;
-  uint64_t rate = exp2_of(log_rate + 16 * kLog2One);
-  if (rate > most) rate = most;
+  const Log2 log_rate = log2_of(static_cast<uint64_t>(dot(chord, chord))) + density + 135;
+  const uint32_t rate = exp2_of(log_rate + 16 * kLog2One);
   int16_t last = chance_of(segment(to) - start, rate);
   odds.sweeps = last < 256;
   if (!odds.sweeps) return;
   for (int i = 1; i <= kSweepNodes; ++i) {
-    int16_t next = 511;
-    if (i != kSweepNodes) next = chance_of(segment(to + (((from - to) * i) >> 2)) - start, rate);
+    const int16_t next = chance_of(segment(to + (((from - to) * i) >> 2)) - start, rate);
     interpolate(last, next, odds.chance_at + 8 * (i - 1));
     last = next;
   }
   odds.chance_at[kSweepSteps] = last;
 }
 
-// `middle` of the box, half steps from corner 0; `density` is the logarithm of points per unit
-// area.
-inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset middle, Log2 density) {
-  const Side& chord = region.side[kChord];
-  const Offset* const corner = region.corner;
-  for (int i = 0; i < 2; ++i) {
-    const Side& side = region.side[i];
-    odds.matters[i] = side.certified && !side.ghost;
-    if (odds.matters[i])
-      odds.circle[i] = circle_over(corner[i], corner[i + 1], side.behind, middle);
-  }
-  odds.circle[kOwn] = circle_over(corner[2], corner[0], chord.own, middle);
-  // With nothing behind the chord the sweep starts at a circle so large that its segment is next to
-  // nothing.
-  Cotangent from = chord.behind;
-  if (chord.ghost) from = (chord.own < 0 ? chord.own : 0) - 8 * 256;
-  odds.matters[kChord] = !chord.ghost;
-  odds.circle[kChord] = circle_over(corner[2], corner[0], from, middle);
-  estimate_sweep(odds, dot(corner[2], corner[2]), from,
-                 chord.ghost ? segment(from) : region.swept_from, chord.own, density);
+// `density` is the logarithm of points per unit area.
+inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Log2 density) {
+  for (int i = 0; i < 3; ++i) odds.matters[i] = region.side[i].certified && !region.side[i].ghost;
+  estimate_sweep(odds, region, density);
+}
+
+// The circle over a side, seen from the middle of the grid.
+inline Power circle(const PlaceOdds& odds, const FreeRegion& region, int side, Cotangent k) {
+  return circle_over(region.corner[side], region.corner[side + 1], k, middle_of(odds.box));
 }
 
 // Multiplies the weights by the chances of being first: the sweep has passed some of the way from
@@ -98,8 +83,8 @@ inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Offset midd
 MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds, const Scale& own) {
   int16_t* const left = odds.left;
   int16_t* const all = odds.all;
-  measure(odds.circle[kChord], own, odds.grid, odds.distance[kChord]);
-  expand(odds.distance[kChord], all);
+  measure(odds.swept_from, own, odds.grid, odds.distance);
+  expand(odds.distance, all);
   for (int k = 0; k < kCells; ++k) {
     left[k] = clamped(static_cast<int16_t>(-left[k]), 0, 16383);
     all[k] = static_cast<int16_t>(clamped(all[k], 1, 16383) + left[k]);
@@ -112,37 +97,44 @@ MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds, const Scale& own) {
 }
 
 // What the triangle's circle leaves of the cells, times the chances of being first.
-MICROTIN_OUT_OF_LINE inline void weigh_inside(PlaceOdds& odds) {
-  const Scale own = scale_for(odds.circle[kOwn], odds.grid);
-  measure(odds.circle[kOwn], own, odds.grid, odds.distance[kOwn]);
-  expand(odds.distance[kOwn], odds.left);
+MICROTIN_OUT_OF_LINE inline void weigh_inside(PlaceOdds& odds, const FreeRegion& region) {
+  const Power own = circle(odds, region, kChord, region.side[kChord].own);
+  const Scale scale = scale_for(own, odds.grid);
+  measure(own, scale, odds.grid, odds.distance);
+  expand(odds.distance, odds.left);
   const int16_t whole = odds.sweeps ? 1 : 511;
   for (int k = 0; k < kCells; ++k) {
     const int16_t share = clamped(static_cast<int16_t>(32 - odds.left[k]), 0, 64);
     odds.weight[k] = static_cast<int16_t>(share * whole);
   }
-  if (odds.sweeps) sweep(odds, own);
+  if (odds.sweeps) sweep(odds, scale);
 }
 
-inline void weigh_cells(PlaceOdds& odds) {
-  weigh_inside(odds);
-  for (int k = 0; k < kOwn; ++k) {
+inline void weigh_cells(PlaceOdds& odds, const FreeRegion& region) {
+  odds.swept_from = circle(odds, region, kChord, region.side[kChord].behind);
+  weigh_inside(odds, region);
+  for (int k = 0; k < 3; ++k) {
     if (!odds.matters[k]) continue;
-    measure(odds.circle[k], scale_for(odds.circle[k], odds.grid), odds.grid, odds.distance[k]);
-    cut(odds.distance[k], odds.weight);
+    const Power power =
+        k == kChord ? odds.swept_from : circle(odds, region, k, region.side[k].behind);
+    measure(power, scale_for(power, odds.grid), odds.grid, odds.behind[k]);
+    cut(odds.behind[k], odds.weight);
   }
-  if (repels(odds.repulsion)) repel(odds.repulsion, odds.grid, odds.weight);
+  if (repels(odds.repulsion))
+    repel(odds.repulsion, region, middle_of(odds.box), odds.grid, odds.weight);
 }
 
-// Makes a cell the box that the odds are about.
+// Makes a cell the box.
 inline void narrow(PlaceOdds& odds, int i, int j) {
-  const Offset to = middle_of(odds.grid, i, j);
-  for (int k = 0; k < kCircles; ++k) {
-    const Distances& outside = odds.distance[k];
-    if (k < kOwn) odds.matters[k] = odds.matters[k] && sum_of(outside.x[i], outside.y[j]) < 64;
-    if (k >= kChord || odds.matters[k]) odds.circle[k] = moved(odds.circle[k], to);
+  for (int k = 0; k < 3; ++k) {
+    const Distances& outside = odds.behind[k];
+    if (odds.matters[k]) odds.matters[k] = sum_of(outside.x[i], outside.y[j]) < 64;
   }
-  if (repels(odds.repulsion)) narrow(odds.repulsion, to);
+  if (repels(odds.repulsion)) odds.repulsion.nearest = odds.repulsion.near[kSlices * i + j];
+  Box& box = odds.box;
+  const FastInt* const column = odds.grid.columns.start + i;
+  const FastInt* const row = odds.grid.rows.start + j;
+  box = Box{box.x0 + column[0], box.y0 + row[0], box.x0 + column[1] - 1, box.y0 + row[1] - 1};
 }
 
 }  // namespace microtin

@@ -17,6 +17,10 @@ inline Offset operator-(Point a, Point p) {
   return Offset{static_cast<FastInt>(a.x) - p.x, static_cast<FastInt>(a.y) - p.y};
 }
 
+inline Offset operator-(Offset a, Offset b) {
+  return Offset{a.x - b.x, a.y - b.y};
+}
+
 // Twice the signed area of the origin, a, b: positive if they turn counter-clockwise. The products
 // are below 2^32, so the difference is below 2^33; of points of the lattice it is within +-2^32.
 inline int64_t cross(Offset a, Offset b) {
@@ -66,15 +70,17 @@ inline int64_t incircle(Point a, Point b, Point c, Point p) {
   return incircle(angle_at(c, a, b), angle_at(p, a, b));
 }
 
-// Turns the triangle (a, b, c) until its largest corner comes last.
-template <class Corner, class Smaller>
-void turn_largest_last(Corner& a, Corner& b, Corner& c, const Smaller& smaller) {
-  for (int i = 0; i < 2 && !(smaller(a, c) && smaller(b, c)); ++i) {
-    const Corner first = a;
-    a = b;
-    b = c;
-    c = first;
-  }
+template <class Corner>
+void turn(Corner& a, Corner& b, Corner& c) {
+  const Corner first = a;
+  a = b;
+  b = c;
+  c = first;
+}
+
+// Turns the triangle until its largest corner comes last: twice at most, as no two are the same.
+inline void turn_largest_last(Point& a, Point& b, Point& c) {
+  while (c < a || c < b) turn(a, b, c);
 }
 
 // Whether p conflicts with the counter-clockwise a, b, c, of which c is the largest and on whose
@@ -90,7 +96,7 @@ inline bool conflicts_on_circle(Point a, Point b, Point c, Point p) {
 inline bool conflicts_with_triangle(Point a, Point b, Point c, Point p) {
   const int64_t d = incircle(a, b, c, p);
   if (d != 0) return d > 0;
-  turn_largest_last(a, b, c, [](Point q, Point r) { return q < r; });
+  turn_largest_last(a, b, c);
   return conflicts_on_circle(a, b, c, p);
 }
 

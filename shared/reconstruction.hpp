@@ -22,15 +22,15 @@
 namespace microtin {
 
 constexpr uint32_t kHitEntries = 15;
-constexpr int kHitContexts = 6;
+constexpr int kHitContexts = 7;
 
 // Everything that is learned while coding.
 struct Models {
   Curve<kHitEntries> hit[kHitContexts];
   PlaceModel place;
   HeightModel height;
-  HullModel hull;
-  AdaptiveBit is_void[5];
+  ExponentModel gap;
+  AdaptiveBit is_void[7];
 };
 
 static_assert(sizeof(Models) == kStarts * sizeof(AdaptiveBit), "nothing but adaptive bits");
@@ -72,7 +72,6 @@ struct Reconstruction {
   Index phase_end;  // vertices when the phase is complete
   uint32_t phase;   // phases complete
   uint32_t work;    // vertices walked around so far, all phases together
-  uint32_t batch;
   Log2 share;       // for note_final_triangle
   int32_t density;  // log2 of this batch's points per unit area, 16 fractional bits
   Index void_cursor;
@@ -89,8 +88,8 @@ struct Reconstruction {
   Crowding crowding;
 };
 
-inline void start(Reconstruction& r, const Contract& contract) {
-  r.contract = contract;
+// All but the contract, which is known.
+inline void start(Reconstruction& r) {
   r.stage = Stage::kSeed;
   r.phase = 0;
   r.work = 0;
@@ -98,7 +97,7 @@ inline void start(Reconstruction& r, const Contract& contract) {
   r.cavity.triangles = r.cavity_triangles;
   r.cavity.edge_origin = r.cavity_origin;
   r.cavity.edge_twin = r.cavity_twin;
-  r.cavity.limit = static_cast<Index>(contract.degree - 2);
+  r.cavity.limit = static_cast<Index>(r.contract.degree - 2);
   r.mesh->vertices = 0;
   r.mesh->triangles = 0;
   reset(r.models);
@@ -134,16 +133,15 @@ inline void look_behind(const Reconstruction& r, Index h, Side& side) {
 
 // Describes the free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
 inline void look_around(Reconstruction& r) {
-  const Mesh& mesh = *r.mesh;
-  const Index to_c = next_in_triangle(r.chord), to_a = next_in_triangle(to_c);
   FreeRegion& region = r.region;
-  region.origin = point_of(mesh, mesh.origin[to_c]);
-  region.corner[0] = Offset{0, 0};
-  region.corner[1] = point_of(mesh, mesh.origin[to_a]) - region.origin;
-  region.corner[2] = point_of(mesh, mesh.origin[r.chord]) - region.origin;
-  look_behind(r, to_c, region.side[0]);
-  look_behind(r, to_a, region.side[1]);
-  look_behind(r, r.chord, region.side[kChord]);
+  region.origin = point_of(*r.mesh, r.mesh->origin[next_in_triangle(r.chord)]);
+  Index h = r.chord;
+  for (int i = 0; i < 3; ++i) {
+    h = next_in_triangle(h);
+    region.corner[i] = point_of(*r.mesh, r.mesh->origin[h]) - region.origin;
+    look_behind(r, h, region.side[i]);
+  }
+  region.corner[3] = region.corner[0];
   region.side[kChord].certified = true;  // it was passed in this turn, or has a done vertex
 }
 
@@ -176,12 +174,10 @@ bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
   if (r.cavity.size == 0 || r.cavity_twin[0] != mesh.twin[chord]) return false;
   const Index v = mesh.vertices;
   if (r.contract.has_heights) {
-    // The chord's ends are in the ring; its start is finite, since triangles at infinity are looked
-    // at around infinity only.
-    const int32_t start = mesh.z[mesh.origin[chord]];
-    const int32_t base = r.vertex == kInfinity ? start : (start + mesh.z[r.vertex]) / 2;
+    // The ring begins with the chord's start, which is finite, since triangles at infinity are
+    // looked at around infinity only.
     const HeightPrediction prediction = predict_height(
-        mesh, r.residual, r.cavity_origin, static_cast<uint32_t>(r.cavity.size) + 2u, place, base);
+        mesh, r.residual, r.cavity_origin, static_cast<uint32_t>(r.cavity.size) + 2u, place);
     if (!code_height(coder, r.models.height, prediction, &z)) return false;
     r.residual[v] = residual_of(z - prediction.height);
   } else {
@@ -199,21 +195,22 @@ bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
 
 // --- Coding of one decision ----------------------------------------------------------------------
 
-// Says hit or miss at the hull edge beside the chord to infinity, and where a hit is.
-template <class Coder>
-bool decide_at_hull(Reconstruction& r, Coder& coder, Point* place) {
+struct HitEstimate {
+  int context;
+  int32_t position;  // on the context's curve
+};
+
+// The hull edge beside the chord to infinity.
+inline HullEdge hull_edge(const Reconstruction& r) {
   const Mesh& mesh = *r.mesh;
-  const Index to_c = next_in_triangle(r.chord);
-  const HullEdge edge = hull_edge(r.contract, point_of(mesh, mesh.origin[r.chord]),
-                                  point_of(mesh, mesh.origin[next_in_triangle(to_c)]));
-  if (edge.at_border && edge.parts == 1) return false;  // there is no place beyond it
-  const uint32_t spacing = expected_spacing(r.contract, r.batch);
-  if (!code_hull_hit(coder, r.models.hull, edge, spacing, coder.conflicts(mesh, r.chord))) {
-    return false;
-  }
-  *place = code_hull_place(coder, r.models.hull, r.models.height.mantissa, r.contract, edge,
-                           spacing, *place);
-  return true;
+  return hull_edge(r.contract, point_of(mesh, mesh.origin[r.chord]),
+                   point_of(mesh, mesh.origin[previous_in_triangle(r.chord)]));
+}
+
+// The longer the edge, against the spacing of the vertices, the likelier is a hit.
+inline HitEstimate estimate_hull_hit(const HullEdge& edge, Log2 density) {
+  const FastInt length = absolute(edge.along.x) | absolute(edge.along.y);
+  return HitEstimate{6, 2 * log2_of(static_cast<uint64_t>(length)) + density + 6 * 256};
 }
 
 // The degree of the vertex where h starts, infinity counted, but at most `most`.
@@ -226,11 +223,6 @@ inline uint32_t degree_up_to(const Mesh& mesh, Index h, uint32_t most) {
   } while (h != first && degree < most);
   return degree;
 }
-
-struct HitEstimate {
-  int context;
-  int32_t position;  // on the context's curve
-};
 
 // A miss makes c known to the walk if it is not yet. The encoder removes every vertex whose degree
 // is at most D when the walk comes to know it, so such a c must still get neighbours: a hit.
@@ -253,47 +245,52 @@ Point locate(Reconstruction& r, Coder& coder, Point place) {
   const FreeRegion& region = r.region;
   PlaceOdds& odds = r.odds;
   const Log2 density = r.density / 256;
-  const Box box = enclosing_box(region, Box{0, 0, r.contract.x_max, r.contract.y_max});
-  const FastInt x = region.origin.x, y = region.origin.y;
-  const Offset middle = {box.x0 + box.x1 - 2 * x, box.y0 + box.y1 - 2 * y};
-  estimate_odds(odds, region, middle, density);
+  const Offset first = Point{0, 0} - region.origin;
+  odds.box = Box{first.x, first.y, first.x + r.contract.x_max, first.y + r.contract.y_max};
+  enclose(region, odds.box);
+  estimate_odds(odds, region, density);
   if (r.contract.has_heights) {
-    start_repulsion(odds.repulsion, region, middle, size_of(box), density, r.crowding);
+    start_repulsion(odds.repulsion, size_of(odds.box), density, r.crowding);
   } else {
     odds.repulsion.nearest = 2 * kReach;
   }
-  place = code_place(coder, r.models.place, odds, r.contract.levels, box, place);
+  const Offset found =
+      code_place(coder, r.models.place, region, odds, r.contract.levels, place - region.origin);
   if (r.contract.has_heights) learn(r.crowding, odds.repulsion);
-  return place;
+  return Point{static_cast<uint16_t>(region.origin.x + found.x),
+               static_cast<uint16_t>(region.origin.y + found.y)};
 }
 
 // Says hit or miss at an uncertified triangle and inserts the vertex of a hit. False if malformed.
 template <class Coder>
 bool decide(Reconstruction& r, Coder& coder, bool* hit) {
-  Mesh& mesh = *r.mesh;
   const Vertex next = coder.next();
-  Point place = {next.x, next.y};
-  if (r.vertex == kInfinity) {
-    *hit = decide_at_hull(r, coder, &place);
-    if (!*hit) return true;
+  const Log2 density = r.density / 256;
+  const bool at_hull = r.vertex == kInfinity;
+  HullEdge edge{};
+  HitEstimate estimate;
+  if (at_hull) {
+    edge = hull_edge(r);
+    if (edge.length == 1) return true;  // there is no place beyond it
+    estimate = estimate_hull_hit(edge, density);
   } else {
     look_around(r);
-    const FreeRegion& region = r.region;
-    const Log2 density = r.density / 256;
-    const HitEstimate estimate = estimate_hit(r, density);
-    *hit = code_on_curve(coder, r.models.hit[estimate.context], estimate.position,
-                         coder.conflicts(mesh, r.chord));
-    if (!*hit) {
-      note_final_triangle(r, region.twice_area);
-      return true;
-    }
-    place = locate(r, coder, place);
-    if (!insert(r, coder, place, next.z)) return false;
-    // The triangle of the chord and the new vertex is final.
-    note_final_triangle(r, cross(place - region.origin, region.corner[2]));
-    return true;
+    estimate = estimate_hit(r, density);
   }
-  return insert(r, coder, place, next.z);
+  *hit = code_on_curve(coder, r.models.hit[estimate.context], estimate.position,
+                       coder.conflicts(*r.mesh, r.chord));
+  Point place = {next.x, next.y};
+  if (*hit) {
+    place = at_hull ? code_hull_place(coder, r.models.gap, r.models.height.mantissa, r.contract,
+                                      edge, density, place)
+                    : locate(r, coder, place);
+    if (!insert(r, coder, place, next.z)) return false;
+  }
+  if (at_hull) return true;
+  // The triangle of the chord and c, or the new vertex, is final.
+  const Offset* const corner = r.region.corner;
+  note_final_triangle(r, cross(*hit ? place - r.region.origin : corner[1], corner[2]));
+  return true;
 }
 
 // --- Steps ---------------------------------------------------------------------------------------
@@ -309,16 +306,6 @@ inline Progress after_vertices(Reconstruction& r) {
   return r.contract.has_voids ? Progress::kPhaseEnd : Progress::kSectionEnd;
 }
 
-// A coordinate of a seed vertex, likely to be the smallest or the largest.
-template <class Coder>
-uint16_t code_seed_coordinate(Coder& coder, uint32_t largest, uint32_t value) {
-  if (coder.bit(kProbabilityOne / 4 * 3, value == 0 || value == largest)) {
-    const bool high = coder.bit(kProbabilityOne / 2, value == largest);
-    return static_cast<uint16_t>(high ? largest : 0);
-  }
-  return static_cast<uint16_t>(coder.uniform(largest + 1u, value));
-}
-
 // One of the three vertices that are never removed. The first is the lexicographically smallest of
 // all.
 template <class Coder>
@@ -326,8 +313,8 @@ Progress step_seed(Reconstruction& r, Coder& coder) {
   Mesh& mesh = *r.mesh;
   const Index i = mesh.vertices;
   const Vertex known = coder.next();
-  mesh.x[i] = code_seed_coordinate(coder, r.contract.x_max, known.x);
-  mesh.y[i] = code_seed_coordinate(coder, r.contract.y_max, known.y);
+  mesh.x[i] = code_outer_coordinate(coder, r.contract.x_max, known.x);
+  mesh.y[i] = code_outer_coordinate(coder, r.contract.y_max, known.y);
   mesh.z[i] = 0;
   r.residual[i] = 4;
   if (r.contract.has_heights) {
@@ -353,13 +340,11 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   const uint32_t left = r.contract.vertices - placed;
   uint32_t batch = left;
   if (coder.bit(kProbabilityOne / 2, !coder.last_phase())) {
-    // All but the low 12 bits, then these: 1 .. left - 1.
-    const uint32_t high = coder.uniform((left >> 12) + 1u, (coder.batch() >> 12));
-    const uint32_t lows = high == left >> 12 ? (left & 4095u) + 1u : 4096u;
-    batch = high << 12 | coder.uniform(lows, coder.batch() & 4095u);
+    // All but the low 16 bits, then these: 1 .. left - 1.
+    const uint32_t high = coder.uniform((left >> 16) + 1u, coder.batch() >> 16);
+    batch = high << 16 | coder.uniform(left < 65536 ? left : 65536, coder.batch() & 65535u);
     if (batch == 0 || batch >= left) return Progress::kMalformed;
   }
-  r.batch = batch;
   r.phase_end = static_cast<Index>(placed + batch);
   r.work += placed + batch;
   if (r.work > work_budget(placed + batch)) return Progress::kMalformed;
@@ -372,9 +357,10 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   r.queue_tail = 1;  // entry 0 is vertex 0's, known when the turn around infinity ends
   r.chord = r.anchor;
   r.from_done = false;
-  r.share = log2_of(batch) - log2_of(placed + batch) - kMeanOfLogs;
+  const Log2 log_batch = log2_of(batch);
+  r.share = log_batch - log2_of(placed + batch) - kMeanOfLogs;
   // Before anything is known: the lattice's bounds, shared by all.
-  r.density = (log2_of(batch) - log2_of(columns(r.contract)) - log2_of(rows(r.contract))) * 256;
+  r.density = (log_batch - log2_of(lattice_places(r.contract))) * 256;
   r.stage = Stage::kWalk;
   return Progress::kStep;
 }
@@ -450,23 +436,15 @@ Progress step_void(Reconstruction& r, Coder& coder) {
   const Mesh& mesh = *r.mesh;
   const Index t = r.void_cursor++;
   const Index f = first_edge(t);
-  bool ghost = false;
-  uint32_t context = 2;
+  uint32_t context = 3;
   for (Index i = 0; i < 3; ++i) {
-    ghost = ghost || mesh.origin[f + i] == kInfinity;
     const Index neighbour = triangle_of(mesh.twin[f + i]);
-    if (neighbour >= t) continue;
-    const Index g = first_edge(neighbour);
-    if (mesh.origin[g] == kInfinity || mesh.origin[g + 1u] == kInfinity ||
-        mesh.origin[g + 2u] == kInfinity) {
-      continue;
+    if (neighbour < t && !is_ghost(mesh, neighbour)) {
+      context = is_void(r.voids, neighbour) ? context + 1 : context - 1;
     }
-    const bool other = is_void(r.voids, neighbour);
-    if (other && context < 4) ++context;
-    if (!other && context > 0) --context;
   }
-  bool flag = false;
-  if (!ghost) flag = code_bit(coder, r.models.is_void[context], coder.is_void(mesh, t));
+  const bool flag =
+      !is_ghost(mesh, t) && code_bit(coder, r.models.is_void[context], coder.is_void(mesh, t));
   const uint32_t bit = 1u << (t & 7u), others = r.voids[t >> 3] & ~bit;
   r.voids[t >> 3] = static_cast<uint8_t>(flag ? others | bit : others);
   if (r.void_cursor < mesh.triangles) return Progress::kStep;

@@ -14,13 +14,12 @@ constexpr Crowding kCrowdingStart = 2048, kCrowdingLeast = 512, kCrowdingMost = 
 
 constexpr int16_t kReach = 256;  // the squared distance from which on nothing is repelled
 
-// Coordinates are in sixteenths of the distance that counts, from the middle of the grid. Within
-// the first box they are below 2^12, since the unit shrinks with it.
+// Coordinates are in sixteenths of the distance that counts, from the middle of the grid. They are
+// below 2^12 within the first box, since the unit shrinks with it.
 struct Repulsion {
-  int32_t unit;        // that many 2^-16 are half a lattice step: at most 2^27
-  int16_t x[3], y[3];  // of the corners; below 2^13
-  int16_t nearest;     // squared distance of the box's middle from the nearest corner, at most 512
-  Cells near;          // the same of the cells
+  int32_t unit;     // that many 2^-16 are half a lattice step: at most 2^27
+  int16_t nearest;  // squared distance of the box's middle from the nearest corner, at most 512
+  Cells near;       // the same of the cells
 };
 
 // Half steps within the first box, below 2^(size + 1), in sixteenths.
@@ -28,19 +27,12 @@ inline int16_t scaled(int32_t unit, FastInt half_steps) {
   return static_cast<int16_t>(static_cast<int32_t>(half_steps) * unit >> 16);
 }
 
-// `middle` of the first box (half steps from corner 0), of which the longer side has 2^size ..
-// 2^(size + 1) - 1 steps.
-inline void start_repulsion(Repulsion& repulsion, const FreeRegion& region, Offset middle,
-                            uint32_t size, Log2 density, Crowding crowding) {
+// For a first box of which the longer side has 2^size .. 2^(size + 1) - 1 steps.
+inline void start_repulsion(Repulsion& repulsion, uint32_t size, Log2 density, Crowding crowding) {
   // Sixteenths of half steps: 19 = 16 + 4 - 1. Within 2^(27 - size) all fits 32 bits.
-  const uint64_t unit = exp2_of((log2_of(crowding) - 8 * kLog2One + density) / 2 + 19 * kLog2One);
-  const uint64_t most = static_cast<uint64_t>(1) << (27 - size);
+  const uint32_t unit = exp2_of((log2_of(crowding) - 8 * kLog2One + density) / 2 + 19 * kLog2One);
+  const uint32_t most = static_cast<uint32_t>(1) << (27 - size);
   repulsion.unit = static_cast<int32_t>(unit < most ? unit : most);
-  for (int k = 0; k < 3; ++k) {
-    const Offset corner = region.corner[k];
-    repulsion.x[k] = scaled(repulsion.unit, 2 * corner.x - middle.x);
-    repulsion.y[k] = scaled(repulsion.unit, 2 * corner.y - middle.y);
-  }
   repulsion.nearest = 0;
 }
 
@@ -82,37 +74,32 @@ inline void keep_smaller_in_column(int16_t x, const int16_t* y, int16_t* near) {
 }
 
 MICROTIN_OUT_OF_LINE inline void keep_smaller(const Distances& squares, Cells near) {
-  keep_smaller_in_column(squares.x[0], squares.y, near);
-  keep_smaller_in_column(squares.x[1], squares.y, near + kSlices);
-  keep_smaller_in_column(squares.x[2], squares.y, near + 2 * kSlices);
-  keep_smaller_in_column(squares.x[3], squares.y, near + 3 * kSlices);
+  for (int i = 0; i < kSlices; ++i) {
+    keep_smaller_in_column(squares.x[i], squares.y, near + kSlices * i);
+  }
 }
 
-// Takes away weight close to the corners.
-inline void repel(Repulsion& repulsion, const Grid& grid, Cells weight) {
+// Takes away weight close to the triangle's corners; `middle` of the grid, half steps from corner
+// 0.
+inline void repel(Repulsion& repulsion, const FreeRegion& region, Offset middle, const Grid& grid,
+                  Cells weight) {
   int16_t column[kSlices], row[kSlices];
   scale_middles(grid.columns, repulsion.unit, column);
   scale_middles(grid.rows, repulsion.unit, row);
   for (int k = 0; k < kCells; ++k) repulsion.near[k] = 2 * kReach;
   bool in_reach = false;
   for (int k = 0; k < 3; ++k) {
-    if (is_far(column, repulsion.x[k]) || is_far(row, repulsion.y[k])) continue;
+    const Offset corner = region.corner[k];
+    const int16_t x = scaled(repulsion.unit, 2 * corner.x - middle.x);
+    const int16_t y = scaled(repulsion.unit, 2 * corner.y - middle.y);
+    if (is_far(column, x) || is_far(row, y)) continue;
     Distances squares;
-    square_distances(column, repulsion.x[k], squares.x);
-    square_distances(row, repulsion.y[k], squares.y);
+    square_distances(column, x, squares.x);
+    square_distances(row, y, squares.y);
     keep_smaller(squares, repulsion.near);
     in_reach = true;
   }
   if (in_reach) weaken(repulsion.near, weight);
-}
-
-// Makes the cell in the middle of which is `to` the box.
-inline void narrow(Repulsion& repulsion, Offset to) {
-  const int16_t x = scaled(repulsion.unit, to.x), y = scaled(repulsion.unit, to.y);
-  for (int k = 0; k < 3; ++k) {
-    repulsion.x[k] = static_cast<int16_t>(repulsion.x[k] - x);
-    repulsion.y[k] = static_cast<int16_t>(repulsion.y[k] - y);
-  }
 }
 
 inline void learn(Crowding& crowding, const Repulsion& repulsion) {

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include "shared/repulsion.hpp"
@@ -80,18 +81,36 @@ TEST_CASE("the sixteenths of a box's slices fit 13 bits, their products 29") {
 
 TEST_CASE("a root is at least the true one, and hardly larger") {
   const auto check = [](uint64_t v) {
-    const uint64_t root = sqrt_above(v);
-    REQUIRE(root * root >= v);
-    const uint64_t slack = 3 + (root >> 13);
-    REQUIRE((root <= slack || (root - slack) * (root - slack) <= v));
+    const double root = sqrt_above(v), exact = std::sqrt(static_cast<double>(v));
+    REQUIRE(root >= exact);
+    REQUIRE(root <= 2 + exact * (1 + 1.0 / 128));
   };
   for (uint64_t v = 0; v < 1 << 20; ++v) check(v);
-  for (uint32_t bit = 20; bit < 62; ++bit) {
+  for (uint32_t bit = 20; bit < 58; ++bit) {
     for (uint64_t i = 0; i < 4096; ++i) {
       const uint64_t v = (uint64_t{1} << bit) + (i << (bit - 12));
       check(v);
       check(v - 1);
     }
+  }
+}
+
+TEST_CASE("logarithms, powers and segments are as close as the format says") {
+  const auto close = [](double value, double exact, double error) {
+    REQUIRE(std::abs(value - exact) <= error);
+  };
+  for (uint64_t v = 1; v < 1 << 18; ++v) {
+    close(log2_of(v), 256 * std::log2(static_cast<double>(v)), 1);
+  }
+  for (Log2 l = 1; l < 30 * kLog2One; ++l) {
+    const double exact = std::exp2(l / 256.0);
+    close(exp2_of(l), exact, 1 + exact / 7000);
+  }
+  for (Cotangent k = 0; k <= kCotangentCap; ++k) {
+    const double c = k / 256.0, exact = 32768 * ((1 + c * c) * std::atan2(1, c) - c);
+    close(segment(-k), exact, 1 + 0.0125 * exact);
+    REQUIRE(segment(-k) <= 51781);
+    REQUIRE(segment(k) < int64_t{1} << 30);
   }
 }
 

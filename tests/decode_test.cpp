@@ -49,13 +49,20 @@ TEST_CASE("notes in the header are skipped, a broken placement is malformed") {
     Device device(20);
     const microtin_status status = device.feed_all(other);
     CHECK(status == peeked);
+    microtin_axis x, y, z;
+    microtin_placement(device.mesh, &x, &y, &z);
+    for (const microtin_axis& axis : {x, y, z}) {
+      CHECK(axis.numerator != 0);
+      CHECK(axis.denominator != 0);
+    }
     return status;
   };
   CHECK(status_with(kHasNotes, {0x7F, 2, 0, 9, 9}, false) == MICROTIN_DONE);
   CHECK(status_with(kHasNotes, {0xFF}, false) == MICROTIN_DONE);
   CHECK(status_with(kHasPlacement, {1, 2, 3, 1, 2, 3, 1, 2, 3}, false) == MICROTIN_DONE);
   for (const Bytes& broken :
-       {Bytes{1}, Bytes{1, 0, 3, 1, 2, 3, 1, 2, 3}, Bytes{1, 2, 3, 1, 2, 3, 1, 2, 3, 1}}) {
+       {Bytes{1}, Bytes{1, 2, 3, 1, 2, 3, 1, 2}, Bytes{1, 0, 3, 1, 2, 3, 1, 2, 3},
+        Bytes{1, 2, 3, 1, 2, 3, 1, 2, 3, 1}}) {
     CHECK(status_with(kHasPlacement, broken, false) == MICROTIN_MALFORMED);
     CHECK(status_with(kHasPlacement, broken, true) == MICROTIN_CHECKSUM);
   }

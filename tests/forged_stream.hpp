@@ -135,7 +135,8 @@ Bytes forge(const Contract& contract, Coder&& coder) {
   Bytes stream = header_of(contract);
   const Device device(contract.vertices);
   Reconstruction& r = device.decoder->reconstruction;
-  start(r, contract);
+  r.contract = contract;
+  start(r);
   Progress progress = Progress::kStep;
   while (r.stage != Stage::kComplete && progress != Progress::kMalformed) {
     coder.at(r);

@@ -176,6 +176,28 @@ TEST_CASE("pack: damaged, swapped and foreign bytes are told, and never answered
   CHECK(is_refused(0, foreign));
 }
 
+TEST_CASE("pack: of a placement that was damage nothing stays") {
+  Card card{pack_bytes(rough_raster(61, 53), 0)};
+  REQUIRE(card.bytes[6] == 0);
+  for (const uint8_t denominator : Bytes{0, 3}) {
+    const Bytes placement = {2, 2, denominator, 2, 2, denominator, 2, 2, denominator};
+    Card damaged = card;
+    damaged.bytes[6] = static_cast<uint8_t>(placement.size());
+    std::copy(placement.begin(), placement.end(), damaged.bytes.begin() + kPackFixedBytes);
+    const PackDevice device(1);
+    CHECK(device.service(damaged, at(1, 1)) ==
+          (denominator == 0 ? MICROTIN_MALFORMED : MICROTIN_CHECKSUM));
+    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+    microtin_pack_info info;
+    REQUIRE(microtin_pack_header(device.pack, &info) == 1);
+    for (const microtin_axis& axis : {info.x, info.y, info.z}) {
+      CHECK(axis.offset == 0);
+      CHECK(axis.numerator == 1);
+      CHECK(axis.denominator == 1);
+    }
+  }
+}
+
 TEST_CASE("pack: a tile of another tile's place is refused, whatever its checks") {
   // Two tiles that differ by one height: as many vertices and bytes, right CRCs of their own.
   Raster raster = rough_raster(9, 5);

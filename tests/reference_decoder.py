@@ -8,7 +8,6 @@ are those of shared/FORMAT.md; names are its names wherever it has any.
 """
 
 import itertools
-import math
 import sys
 import zlib
 from collections import deque
@@ -89,23 +88,13 @@ def highest_bit(v):
     return v.bit_length() - 1
 
 
-def segment_of_unit_chord(k):
-    return (1 + k * k) * math.atan2(1, k) - k
-
-
-LOG_TABLE = [round(4096 * math.log2(1 + i / 32)) for i in range(33)]
-EXP_TABLE = [round(32768 * (2 ** (i / 32) - 1)) for i in range(33)]
-SEGMENT_TABLE = [round(32768 * segment_of_unit_chord(i / 8)) for i in range(65)]
-
-
 def log2(v):
     if v == 0:
         return 0
     b = highest_bit(v)
-    m = ((v << 13) >> b) & 8191
-    i = m >> 8
-    fraction = LOG_TABLE[i] + (((LOG_TABLE[i + 1] - LOG_TABLE[i]) * (m & 255)) >> 8)
-    return 256 * b + ((fraction + 8) >> 4)
+    m = ((v << 16) >> b) & 65535
+    bend = (m * (65536 - m) >> 16) * (27800 - (10600 * m >> 16)) >> 16
+    return 256 * b + ((m + bend + 128) >> 8)
 
 
 def coarse_log2(v):
@@ -116,31 +105,29 @@ def coarse_log2(v):
 def exp2(exponent):
     if exponent <= 0:
         return 1
-    if exponent >= 62 * 256:
-        return 1 << 62
-    i, f = (exponent & 255) >> 3, exponent & 7
-    mantissa = 32768 + EXP_TABLE[i] + (((EXP_TABLE[i + 1] - EXP_TABLE[i]) * f) >> 3)
-    return (mantissa << (exponent >> 8)) >> 15
+    if exponent >= 30 * 256:
+        return 1 << 30
+    f = exponent & 255
+    mantissa = 32768 + 128 * f - (f * (256 - f) * (9980 + 10 * f) >> 16)
+    return (mantissa << 16) >> (31 - (exponent >> 8))
 
 
 def root_above(u):
-    s = 0
-    while u >> 2 * s >= 1 << 32:
-        s += 1
-    w = u >> 2 * s
-    e = exp2(log2(w) // 2) + 1
-    return ((e + w // e) // 2 + 2) << s
+    return exp2((log2(u) + 3) // 2) + 1
 
 
-LARGEST_COTANGENT = 23000
+LARGEST_COTANGENT = 89 * 256
 
 
 def cotangent(q, h):
     s = max(0, highest_bit(h) - 15)
     q, h = q >> s, h >> s
-    if abs(q) >= 89 * h:
-        return LARGEST_COTANGENT if q > 0 else -LARGEST_COTANGENT
-    return divide(q * 256, h)
+    return divide(keep_within(-89 * h, q, 89 * h) * 256, h)
+
+
+def cotangent_at(place, p, q):
+    """Of the angle under which a place sees the side p -> q, to the right of it."""
+    return cotangent(angle_at(place, p, q), twice_area(place, p, q))
 
 
 def disc(c, k):
@@ -148,31 +135,17 @@ def disc(c, k):
 
 
 def segment(k):
-    size = abs(k)
-    if size < 2048:
-        i, f = size >> 5, size & 31
-        smaller = SEGMENT_TABLE[i] - (((SEGMENT_TABLE[i] - SEGMENT_TABLE[i + 1]) * f) >> 5)
-    else:
-        smaller = 5592405 // size
+    m = abs(k)
+    smaller = 89478480 // (16 * m + 330400 // (m + 188))
     return smaller if k <= 0 else ((65536 + k * k) * 3217 >> 11) - smaller
 
 
-class Circle:
-    """The circle over the side p -> q that sees it under the cotangent k, from the doubled place m."""
-
-    def __init__(self, p, q, k, m):
-        s, t = (minus(m, (2 * end[0], 2 * end[1])) for end in (p, q))
-        u = minus(s, t)
-        self.m = m
-        self.power = dot(s, t) - divide(k * cross(u, s), 256)
-        self.x = s[0] + t[0] + divide(k * u[1], 256)
-        self.y = s[1] + t[1] - divide(k * u[0], 256)
-
-    def seen_from(self, m):
-        """C, X and Y at another doubled place."""
-        i, j = minus(m, self.m)
-        power = self.power + i * (self.x + i) + j * (self.y + j)
-        return power, self.x + 2 * i, self.y + 2 * j
+def circle(p, q, k, m):
+    """C, X and Y of the circle over the side p -> q that sees it under the cotangent k, at a doubled place m."""
+    s, t = (minus(m, (2 * end[0], 2 * end[1])) for end in (p, q))
+    u = minus(s, t)
+    power = dot(s, t) - (k * cross(u, s) >> 8)
+    return power, s[0] + t[0] + (k * u[1] >> 8), s[1] + t[1] - (k * u[0] >> 8)
 
 
 # Section 8: range coder
@@ -250,14 +223,17 @@ def decode_on_curve(coder, row, position):
     return decode_between(coder, row, position >> 8, position & 255)
 
 
-def decode_length(coder, row, typical, limit):
+LONGEST = 17
+
+
+def decode_length(coder, row, typical):
     def is_longer_than(bits):
         return row[keep_within(0, bits - typical + 3, 6)].decode(coder)
 
     length = typical
     if is_longer_than(length):
         length += 1
-        while length < limit and is_longer_than(length):
+        while length < LONGEST and is_longer_than(length):
             length += 1
     else:
         while length > 0 and not is_longer_than(length - 1):
@@ -265,8 +241,8 @@ def decode_length(coder, row, typical, limit):
     return length
 
 
-def decode_magnitude(coder, row, second, typical, limit):
-    bits = decode_length(coder, row, typical, limit)
+def decode_magnitude(coder, row, second, typical):
+    bits = decode_length(coder, row, typical)
     if bits < 2:
         return bits
     leading = 2 + second[min(bits, 9)].decode(coder)
@@ -294,13 +270,12 @@ class ByteReader:
         return int.from_bytes(self.take(size), "little")
 
     def varint(self):
-        value = shift = 0
+        value = 0
         while True:
             byte = self.number(1)
-            value |= (byte & 127) << shift
-            shift += 7
+            require(byte != 128 or value > 0, "varint is not in its shortest form")
+            value = value << 7 | byte & 127
             if byte < 128:
-                require(byte > 0 or shift == 7, "varint is not in its shortest form")
                 return value
 
     def expect_check(self, start):
@@ -459,23 +434,20 @@ class Models:
                 return AdaptiveBit(next(starts))
             return [bits(*sizes[1:]) for _ in range(sizes[0])]
 
-        self.hit = bits(6, 15)
-        self.cell = bits(3, 4, 9)
+        self.hit = bits(7, 15)
+        self.cell = bits(4, 9)
         self.height = bits(12, 7)
         self.second = bits(10)
         self.negative = bits(10, 3)
-        self.hull_hit = bits(7)
-        self.on_edge = bits()
-        self.on_border = bits()
         self.gap = bits(7)
-        self.void = bits(5)
+        self.void = bits(7)
         self.crowding = 2048
 
 
 class Density:
     def __init__(self, header, vertices, batch):
         self.share = log2(batch) - log2(vertices) - 220
-        self.mean = 256 * (log2(batch) - log2(header.columns) - log2(header.rows))
+        self.mean = 256 * (log2(batch) - log2(header.columns * header.rows))
 
     def value(self):
         return divide(self.mean, 256)
@@ -485,38 +457,36 @@ class Density:
 
 
 class HullEdge:
-    def __init__(self, header, a, c, batch):
+    def __init__(self, header, a, c):
         self.header = header
         self.a = a
         self.d = minus(c, a)
-        self.parts = math.gcd(*self.d)
-        self.border = (header.columns - 1 if self.d[1] > 0 else 0, header.rows - 1 if self.d[0] < 0 else 0)
-        spacing = log2(header.columns) + log2(header.rows) - log2(batch)
-        self.spacing = spacing // 512 + 1 if spacing > 0 else 1
 
     def is_border(self):
-        x_is, y_is = (at == border for at, border in zip(self.a, self.border))
-        return x_is if self.d[0] == 0 else self.d[1] == 0 and y_is
+        largest = self.header.columns - 1, self.header.rows - 1
+        return any(d == 0 and at in (0, most) for d, at, most in zip(self.d, self.a, largest))
 
-    def decode_hit(self, coder, models):
-        if self.is_border() and self.parts == 1:
+    def length(self):
+        return abs(self.d[0]) | abs(self.d[1])
+
+    def decode_hit(self, coder, models, density):
+        if self.is_border() and self.length() == 1:
             return False
-        length = highest_bit(max(abs(d) for d in self.d)) + 3
-        return models.hull_hit[keep_within(0, length - self.spacing, 6)].decode(coder)
+        return decode_on_curve(coder, models.hit[6], 2 * log2(self.length()) + density + 1536)
 
-    def decode_place(self, coder, models):
-        if self.is_border() or (self.parts > 1 and models.on_edge.decode(coder)):
-            return self.decode_place_on_edge(coder, models)
-        known = [across != 0 and models.on_border.decode(coder) for across in (self.d[1], self.d[0])]
-        counts = (self.header.columns, self.header.rows)
-        x, y = (b if k else coder.uniform(n) for k, b, n in zip(known, self.border, counts))
-        return x, y
+    def decode_place(self, coder, models, density):
+        if not self.is_border():
+            return tuple(decode_outer_coordinate(coder, n) for n in (self.header.columns, self.header.rows))
+        k = 1 + decode_magnitude(coder, models.gap, models.second, max(0, -density) // 512)
+        require(k < self.length(), "vertex is beyond its hull edge")
+        return tuple(at + k * (d // self.length()) for at, d in zip(self.a, self.d))
 
-    def decode_place_on_edge(self, coder, models):
-        limit = self.parts.bit_length()
-        k = 1 + decode_magnitude(coder, models.gap, models.second, min(self.spacing, limit - 1), limit)
-        require(k < self.parts, "vertex is beyond its hull edge")
-        return tuple(at + k * (d // self.parts) for at, d in zip(self.a, self.d))
+
+def decode_outer_coordinate(coder, count):
+    """Likely to be the smallest or the largest."""
+    if coder.bit(24576):
+        return (count - 1) * coder.bit(16384)
+    return coder.uniform(count)
 
 
 class Side(NamedTuple):
@@ -535,6 +505,9 @@ class Side(NamedTuple):
         lost = segment(-self.own) + (segment(self.behind) if self.apex else 0)
         return self.squared_length() * lost >> 9
 
+    def circle(self, k):
+        return lambda m: circle(self.start, self.end, k, m)
+
     def has_circle_behind(self):
         return self.certified and self.apex is not None
 
@@ -551,11 +524,11 @@ class Candidate:
     @staticmethod
     def side(mesh, half_edge, certified):
         start, end, opposite = mesh.places((mesh.start[half_edge], mesh.end(half_edge), mesh.apex(half_edge)))
-        own = cotangent(angle_at(opposite, start, end), twice_area(start, end, opposite))
+        own = cotangent_at(opposite, start, end)
         apex = behind = None
         if mesh.apex(mesh.twin[half_edge]) != INFINITY:
             apex = mesh.points[mesh.apex(mesh.twin[half_edge])]
-            behind = cotangent(-angle_at(apex, start, end), twice_area(end, start, apex))
+            behind = -cotangent_at(apex, end, start)
         return Side(start, end, certified, apex, own, behind)
 
     def free_area(self):
@@ -602,9 +575,9 @@ class LargeCircle(NamedTuple):
         x, y = minus(candidate.a, candidate.v)
         k = candidate.chord.own
         margin = (abs(x) + abs(y)) // 8 + 2
-        radius = root_above(candidate.chord.squared_length() * (65536 + k * k) >> 10) + 1 + margin
-        slack = 2 * margin + 5 + (radius >> 13)
-        return cls(8 * x + divide(k * y, 32), 8 * y - divide(k * x, 32), radius, slack)
+        radius = root_above(candidate.chord.squared_length() * (65536 + k * k) >> 10) + margin
+        slack = 2 * margin + 5 + (radius >> 7)
+        return cls(8 * x + (k * y >> 5), 8 * y - (k * x >> 5), radius, slack)
 
     def is_beyond(self, extreme, side, v):
         (x, y), u = minus(side.start, v), minus(side.end, side.start)
@@ -622,16 +595,12 @@ def first_box(candidate, columns, rows):
         return Box(0, 0, columns, rows)
     v, large = candidate.v, LargeCircle.of(candidate)
 
-    def reaches(dx, dy):
+    places = [v, candidate.c, candidate.a]
+    for dx, dy, rounding in ((-1, 0, 15), (0, -1, 15), (1, 0, 0), (0, 1, 0)):
         extreme = large.x + dx * large.radius, large.y + dy * large.radius
-        return any(large.is_beyond(extreme, side, v) for side in candidate.open_sides())
-
-    xs, ys = map(list, zip(v, candidate.c, candidate.a))
-    xs += [v[0] - ((large.radius - large.x) >> 4)] * reaches(-1, 0)
-    xs += [v[0] + ((large.radius + large.x) >> 4)] * reaches(1, 0)
-    ys += [v[1] - ((large.radius - large.y) >> 4)] * reaches(0, -1)
-    ys += [v[1] + ((large.radius + large.y) >> 4)] * reaches(0, 1)
-    (x, width), (y, height) = interval(xs, columns), interval(ys, rows)
+        if any(large.is_beyond(extreme, side, v) for side in candidate.open_sides()):
+            places.append(tuple(at + ((e + rounding) >> 4) for at, e in zip(v, extreme)))
+    (x, width), (y, height) = (interval(values, n) for values, n in zip(zip(*places), (columns, rows)))
     return Box(x, y, width, height)
 
 
@@ -674,14 +643,14 @@ class Grid:
         self.columns, self.rows = Slices(box.columns), Slices(box.rows)
 
     def scale(self, circle):
-        _, x, y = circle.seen_from(self.middle)
+        _, x, y = circle(self.middle)
         w, h = self.columns.extent, self.rows.extent
         return Scale((5 * (abs(x) * w + abs(y) * h) + w * w + h * h) // 8 + 8)
 
     def distances(self, circle, scale=None):
-        """How far the middles of the cells are outside a circle."""
+        """How far the middles of the cells are outside a circle, which is a function of the place it is seen from."""
         scale = scale or self.scale(circle)
-        power, x, y = circle.seen_from(self.middle)
+        power, x, y = circle(self.middle)
         power = keep_within(-(1 << 30), power >> scale.shift, 1 << 30)
         base = keep_within(-8192, power * scale.factor >> 21, 8192)
         across, along = self.columns.distances(base, x, scale), self.rows.distances(0, y, scale)
@@ -693,10 +662,10 @@ class Chance:
 
     CERTAIN = 511
 
-    def __init__(self, candidate, box, density):
+    def __init__(self, candidate, density):
         chord = candidate.chord
         k1, k0 = chord.own, chord.behind if chord.apex else min(chord.own, 0) - 2048
-        self.behind = Circle(chord.start, chord.end, k0, box.doubled_middle())
+        self.behind = chord.circle(k0)
         rate = exp2(log2(chord.squared_length()) + density + 135 + 4096)
         nodes = [self.at(segment(k1 + ((k0 - k1) * i >> 2)) - segment(k0), rate) for i in range(4)]
         nodes.append(self.CERTAIN)
@@ -705,7 +674,7 @@ class Chance:
         ]
 
     def at(self, swept, rate):
-        loss = max(0, swept) * min(rate, 1 << 30) >> 25
+        loss = max(0, swept) * rate >> 25
         return exp2(3840 - loss) * 511 >> 15 if loss < 3840 else 0
 
     def is_level(self):
@@ -730,15 +699,13 @@ class Repulsion:
     """Of the candidate's corners, in sixteenths of the distance that counts."""
 
     def __init__(self, candidate, box, density, crowding):
-        x, y = box.doubled_middle()
         longer = highest_bit((box.columns - 1) | (box.rows - 1) | 1)
         self.unit = min(exp2(divide(log2(crowding) - 2048 + density, 2) + 4864), 1 << (27 - longer))
-        corners = (candidate.v, candidate.c, candidate.a)
-        self.corners = [(self.scaled(2 * p[0] - x), self.scaled(2 * p[1] - y)) for p in corners]
+        self.corners = (candidate.v, candidate.c, candidate.a)
         self.nearest = 0
 
-    def scaled(self, half_steps):
-        return half_steps * self.unit >> 16
+    def seen_from(self, middle):
+        return [tuple((2 * at - m) * self.unit >> 16 for at, m in zip(p, middle)) for p in self.corners]
 
     def is_felt(self):
         return self.nearest < 512
@@ -750,7 +717,9 @@ class Repulsion:
         xs, ys = self.scaled_middles(grid.columns), self.scaled_middles(grid.rows)
         near = dict.fromkeys(grid.ALL, 512)
         corners = [
-            (x, y) for x, y in self.corners if xs[0] - 23 <= x <= xs[3] + 23 and ys[0] - 23 <= y <= ys[3] + 23
+            (x, y)
+            for x, y in self.seen_from(grid.middle)
+            if xs[0] - 23 <= x <= xs[3] + 23 and ys[0] - 23 <= y <= ys[3] + 23
         ]
         for (i, j), (x, y) in itertools.product(grid.ALL, corners):
             dx, dy = (keep_within(-127, d, 127) for d in (xs[i] - x, ys[j] - y))
@@ -763,13 +732,9 @@ class Repulsion:
             return weights
         return {cell: w * min(self.near[cell], 255) >> 8 for cell, w in weights.items()}
 
-    def follow(self, grid, column, row, is_last):
-        if not self.is_felt():
-            return
-        self.nearest = self.near[column, row]
-        if self.is_felt() and not is_last:
-            x, y = self.scaled(grid.columns.offsets[column]), self.scaled(grid.rows.offsets[row])
-            self.corners = [(p[0] - x, p[1] - y) for p in self.corners]
+    def follow(self, column, row):
+        if self.is_felt():
+            self.nearest = self.near[column, row]
 
     def crowding_after(self, crowding):
         if self.nearest < 256:
@@ -778,12 +743,10 @@ class Repulsion:
 
 
 class Weights:
-    def __init__(self, candidate, box, density, repulsion):
-        middle = box.doubled_middle()
-        chord = candidate.chord
-        self.circle = Circle(chord.start, chord.end, chord.own, middle)
-        self.chance = Chance(candidate, box, density)
-        self.behind = [Circle(s.start, s.end, s.behind, middle) for s in candidate.sides if s.has_circle_behind()]
+    def __init__(self, candidate, density, repulsion):
+        self.circle = candidate.chord.circle(candidate.chord.own)
+        self.chance = Chance(candidate, density)
+        self.behind = [side.circle(side.behind) for side in candidate.sides if side.has_circle_behind()]
         self.repulsion = repulsion
 
     def of_cells(self, grid):
@@ -792,7 +755,7 @@ class Weights:
         own = grid.distances(self.circle, scale)
         chances = self.chance.of_cells(grid, scale, own)
         weights = {cell: keep_within(0, 32 - own[cell], 64) * chances[cell] for cell in grid.ALL}
-        distances = [grid.distances(circle) for circle in self.behind]
+        distances = [grid.distances(behind) for behind in self.behind]
         for outside in distances:
             weights = cut(weights, outside)
         if self.repulsion and self.repulsion.is_felt():
@@ -800,7 +763,7 @@ class Weights:
         return weights, distances
 
     def forget_far_circles(self, distances, cell):
-        self.behind = [circle for circle, outside in zip(self.behind, distances) if outside[cell] < 64]
+        self.behind = [behind for behind, outside in zip(self.behind, distances) if outside[cell] < 64]
 
 
 def decode_half(coder, row, low, high):
@@ -817,7 +780,7 @@ def decode_one_of_four(coder, rows, weights):
     return 2 * upper + decode_half(coder, rows[1], *pair)
 
 
-def decode_cell(coder, rows, weights, box, is_last):
+def decode_cell(coder, rows, weights, box):
     grid = Grid(box)
     shares, distances = weights.of_cells(grid)
     widths, heights = grid.columns.sizes, grid.rows.sizes
@@ -826,18 +789,18 @@ def decode_cell(coder, rows, weights, box, is_last):
     row = decode_one_of_four(coder, rows[2:], cells[column])
     weights.forget_far_circles(distances, (column, row))
     if weights.repulsion:
-        weights.repulsion.follow(grid, column, row, is_last)
+        weights.repulsion.follow(column, row)
     return box.cell(column, row)
 
 
 def decode_place_in_triangle(coder, models, candidate, density, header):
     box = first_box(candidate, header.columns, header.rows)
     repulsion = Repulsion(candidate, box, density, models.crowding) if header.heights_are_sent else None
-    weights = Weights(candidate, box, density, repulsion)
-    for level, rows in enumerate(models.cell[: header.levels], 1):
+    weights = Weights(candidate, density, repulsion)
+    for _ in range(header.levels):
         if box.is_point():
             break
-        box = decode_cell(coder, rows, weights, box, level == header.levels)
+        box = decode_cell(coder, models.cell, weights, box)
     if repulsion:
         models.crowding = repulsion.crowding_after(models.crowding)
     x = box.x + coder.uniform(box.columns)
@@ -858,10 +821,10 @@ class Expectation(NamedTuple):
     tendency: int
 
     @classmethod
-    def from_ring(cls, b, base, ring):
+    def from_ring(cls, b, ring):
         distances = [cls.distance(minus(n.place, b)) for n in ring]
-        nearest = min(distances)
-        weights = [256 >> (e - nearest) for e in distances]
+        first, base = distances[0], ring[0].height
+        weights = [512 >> max(0, e + 4 - first) for e in distances]
         heights = [w * (n.height - base) for w, n in zip(weights, ring)]
         residuals = [w * n.residual for w, n in zip(weights, ring)]
         w, height = sum(weights), sum(heights)
@@ -869,7 +832,7 @@ class Expectation(NamedTuple):
         spread = sum(map(abs, heights))
         roughness = sum(map(abs, residuals))
         level = coarse_log2(4 * roughness + w) + 2 * coarse_log2(4 * spread + w) - 3 * coarse_log2(w)
-        scale = min(11, (level + 32 * (13 + nearest - highest_bit(w)) + 448) // 768)
+        scale = min(11, (level + 32 * (14 + first - highest_bit(w)) + 320) // 768)
         sign = cls.expected_sign(sum(residuals), roughness)
         return cls(base + mean, scale, 2 * sign + (height > mean * w))
 
@@ -886,7 +849,7 @@ class Expectation(NamedTuple):
 
 def decode_difference(coder, models, expectation):
     scale = expectation.scale
-    size = decode_magnitude(coder, models.height[scale], models.second, scale // 2, 17)
+    size = decode_magnitude(coder, models.height[scale], models.second, scale // 2)
     if size == 0:
         return 0
     negative = models.negative[expectation.tendency][min(size, 3) - 1].decode(coder)
@@ -906,15 +869,10 @@ class Decoder:
         self.work = 0
         self.mesh = self.decode_seed()
 
-    def decode_seed_coordinate(self, count):
-        if self.coder.bit(24576):
-            return (count - 1) * self.coder.bit(16384)
-        return self.coder.uniform(count)
-
     def decode_seed(self):
         seed = []
         for i in range(SEED_SIZE):
-            seed.append(tuple(self.decode_seed_coordinate(n) for n in (self.header.columns, self.header.rows)))
+            seed.append(tuple(decode_outer_coordinate(self.coder, n) for n in (self.header.columns, self.header.rows)))
             self.decode_height(Expectation(self.heights[-1] if i > 0 else 0, 11, 5))
             self.residuals[i] = 4
         require(seed[0] < min(seed[1:]), "seed does not begin with its smallest vertex")
@@ -928,17 +886,17 @@ class Decoder:
         left = self.header.vertices - self.size()
         if not self.coder.bit(16384):
             return left
-        high = self.coder.uniform((left >> 12) + 1)
-        batch = (high << 12) + self.coder.uniform((left & 4095) + 1 if high == left >> 12 else 4096)
+        high = self.coder.uniform((left >> 16) + 1)
+        batch = (high << 16) + self.coder.uniform(min(left, 65536))
         require(1 <= batch < left, "size of batch is out of bounds")
         return batch
 
     def decode_phase(self):
-        self.batch = self.decode_batch_size()
-        self.goal = self.size() + self.batch
+        batch = self.decode_batch_size()
+        self.goal = self.size() + batch
         self.work += self.goal
         require(self.work <= 4 * self.goal + 512, "phases add too few vertices")
-        self.density = Density(self.header, self.goal, self.batch)
+        self.density = Density(self.header, self.goal, batch)
         self.walk()
 
     def walk(self):
@@ -999,8 +957,10 @@ class Decoder:
 
     def decode_hit_around_infinity(self, chord):
         a, c = self.mesh.places((self.mesh.start[chord], self.mesh.apex(chord)))
-        edge = HullEdge(self.header, a, c, self.batch)
-        return edge.decode_place(self.coder, self.models) if edge.decode_hit(self.coder, self.models) else None
+        edge, density = HullEdge(self.header, a, c), self.density.value()
+        if not edge.decode_hit(self.coder, self.models, density):
+            return None
+        return edge.decode_place(self.coder, self.models, density)
 
     def decode_hit_elsewhere(self, chord):
         candidate = Candidate(self.mesh, chord, self.is_final)
@@ -1018,7 +978,7 @@ class Decoder:
 
     def decode_vertex(self, chord, place):
         cavity, boundary = self.legal_cavity(chord, place)
-        self.decode_height(self.expectation(chord, place, [self.mesh.start[e] for e in boundary]))
+        self.decode_height(self.expectation(place, [self.mesh.start[e] for e in boundary]))
         self.mesh.insert(place, cavity, boundary)
 
     def legal_cavity(self, chord, place):
@@ -1036,13 +996,11 @@ class Decoder:
 
         return self.mesh.explore_cavity(chord, place, may_cross)
 
-    def expectation(self, chord, place, ring):
-        ends = [self.heights[v] for v in (self.mesh.start[chord], self.mesh.end(chord)) if v != INFINITY]
-        base = divide(sum(ends), len(ends))
+    def expectation(self, place, ring):
         neighbours = [
             Neighbour(self.mesh.points[w], self.heights[w], self.residuals[w]) for w in ring if w != INFINITY
         ]
-        return Expectation.from_ring(place, base, neighbours)
+        return Expectation.from_ring(place, neighbours)
 
     def decode_height(self, expectation):
         height = difference = 0
@@ -1059,8 +1017,8 @@ class Decoder:
         for triangle in self.mesh.real_triangles():
             neighbours = [e // 3 for e in self.mesh.twin[3 * triangle : 3 * triangle + 3]]
             known = [t for t in neighbours if t < triangle and not self.mesh.is_ghost(t)]
-            context = 2 + sum(1 if t in voids else -1 for t in known)
-            if self.models.void[keep_within(0, context, 4)].decode(self.coder):
+            context = 3 + sum(1 if t in voids else -1 for t in known)
+            if self.models.void[context].decode(self.coder):
                 voids.add(triangle)
         return voids
 

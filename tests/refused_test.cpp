@@ -66,18 +66,6 @@ struct EmptyBatch : PlanCoder {
   static uint32_t batch() { return 0; }
 };
 
-// Sends the number of all that are left, where a bit would have said so.
-struct BatchOfAll : PlanCoder {
-  using PlanCoder::PlanCoder;
-  bool bit(uint32_t probability, bool value) {
-    if (at().stage != Stage::kPhase) return PlanCoder::bit(probability, value);
-    const uint32_t left = at().contract.vertices - at().mesh->vertices;  // < 4096
-    PlanCoder::bit(probability, true);
-    PlanCoder::uniform(left + 1, left);
-    return false;
-  }
-};
-
 // Writes the opposite of the bit with that number.
 struct OppositeBit : PlanCoder {
   OppositeBit(Plan plan, uint32_t number) : PlanCoder(std::move(plan)), opposite(number) {}
@@ -171,14 +159,13 @@ Bytes with_high_vertex() {
   return forge(contract, OppositeBit(plan, valid.bits - 1));
 }
 
-// A valid stream whose only section begins with that length, which takes one byte otherwise.
-Bytes with_length(const Bytes& length) {
+// A valid stream with bytes ahead of its only section's length, which takes one byte.
+Bytes with_longer_length(const Bytes& ahead) {
   const Bytes valid = valid_stream();
   Bytes stream = header_of(flat_contract(4));
   const auto head = valid.begin() + static_cast<std::ptrdiff_t>(stream.size());
-  Bytes section = length;
-  section[0] = static_cast<uint8_t>(*head | 128);
-  section.insert(section.end(), head + 1, valid.end() - kCheckBytes);
+  Bytes section = ahead;
+  section.insert(section.end(), head, valid.end() - kCheckBytes);
   stream.insert(stream.end(), section.begin(), section.end());
   append_check(stream, stream.size() - section.size());
   return stream;
@@ -253,9 +240,9 @@ void add_damage(Refused& all) {
 }
 
 void add_sections(Refused& all) {
-  all["malformed_length_not_shortest"] = with_length({0, 0});
-  all["checksum_length_above_32_bits"] = with_length({0, 0x80, 0x80, 0x80, 0x10});
-  all["malformed_length_above_32_bits"] = with_section({0x80, 0x80, 0x80, 0x80, 0x10});
+  all["malformed_length_not_shortest"] = with_longer_length({0x80});
+  all["checksum_length_above_32_bits"] = with_longer_length({0x90, 0x80, 0x80, 0x80});
+  all["malformed_length_above_32_bits"] = with_section({0x90, 0x80, 0x80, 0x80, 0});
   all["malformed_code_is_range"] = with_section({4, 0xFF, 0xFF, 0xFF, 0xFF});
   all["malformed_number_in_rounding"] = with_rounded_number();
   const Bytes border = valid_stream_that_ends_in_zeros();
@@ -275,7 +262,6 @@ void add_symbols(Refused& all) {
   all["malformed_seed_order"] = forge(three, PlanCoder(Plan{{kSeed[1], kSeed[2], kSeed[0]}, {}}));
   all["malformed_height"] = with_high_vertex();
   all["malformed_batch_empty"] = forge(five, EmptyBatch(kInside));
-  all["malformed_batch_of_all"] = forge(four, BatchOfAll(kInside));
   all["malformed_walk_ends"] = forge(four, NoHits(kInside));
   all["malformed_work"] = forge(sixty, Tireless(scattered(60)));
   all["malformed_place_before_first"] = forge(four, PlanCoder(plan_with({2, 50, 0})));

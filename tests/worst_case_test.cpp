@@ -127,14 +127,11 @@ uint32_t triangles_at(const MeshCopy& copy, uint32_t vertex) {
 }  // namespace
 
 TEST_CASE("a decision narrows the range by 513/512 at least, a number by 2") {
-  const Bytes zeros(16, 0);
-  ByteWindow window{};
-  RangeDecoder coder{};
-  coder.window = &window;
+  RangeDecoder coder{};  // with a window of zeros
   // What is left of the range, times 2^8 for each byte read.
   const auto narrowed = [&](uint32_t range, uint32_t code, const auto& take) {
-    window.open(zeros.data(), zeros.size());
-    coder.payload_left = 8;
+    coder.window.next = coder.window.bytes;
+    coder.window.left = coder.payload_left = 8;
     coder.range = range;
     coder.code = code;
     take();

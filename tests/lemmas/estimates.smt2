@@ -1,22 +1,22 @@
 ; Estimates need not be right, but their arithmetic must not overflow: cotangents, circles, cells, repulsion.
 
 ; A cotangent: 256 times what is left of q fits 32 bits, and the result stays below its cap.
-;; shared/free_region.hpp: return static_cast<int32_t>(q) * 256 / divisor;
+;; shared/free_region.hpp: return static_cast<int32_t>(kept_within(q >> shift, 89 * divisor)) * 256 / divisor;
 (push)
 (declare-const q Int)
 (declare-const divisor Int)
 (declare-const result Int)
 (declare-const lost Int)
-(assert (and (< 0 divisor 65536) (< (* -89 divisor) q (* 89 divisor))))
+(assert (and (< 0 divisor 65536) (<= (* -89 divisor) q (* 89 divisor))))
 (assert (and (<= 0 q) (= (* 256 q) (+ (* result divisor) lost)) (<= 0 lost) (< lost divisor)))  ; else mirrored
 (check-sat)
-(assert (not (and (< (* 256 q) 2147483648) (< (* 89 divisor) 2147483648) (<= result 23000))))
+(assert (not (and (< (* 256 q) 2147483648) (< (* 89 divisor) 2147483648) (<= result 22784))))
 (check-sat)
 (pop)
 
 ; A disc: the square of a cotangent fits 32 bits, the products 63.
 ;; shared/free_region.hpp: return (length2 * ((65536 + k * k) >> 8) >> 8) * 201;
-;; shared/free_region.hpp: return (static_cast<int64_t>(65536 + k * k) * 3217 >> 11) - smaller;
+;; shared/free_region.hpp: return static_cast<int32_t>(static_cast<int64_t>(65536 + k * k) * 3217 >> 11) - smaller;
 (push)
 (declare-const k Int)
 (declare-const length2 Int)
@@ -42,7 +42,7 @@
 (pop)
 
 ; A circle over a chord: the cotangent's product fits 52 bits.
-;; shared/free_region.hpp: power.value = dot(a, b) - ((k * cross(chord, a)) / 256);
+;; shared/free_region.hpp: power.value = dot(a, b) - ((k * cross(chord, a)) >> 8);
 (push)
 (declare-const k Int)
 (declare-const x Int)
@@ -87,7 +87,7 @@
 
 ; Slopes and powers times it fit 63 bits.
 ;; shared/cells.hpp: const int16_t linear = static_cast<int16_t>(static_cast<int64_t>(slope) * scale.reciprocal >>
-;; shared/cells.hpp: value = value * scale.reciprocal >> 21;
+;; shared/cells.hpp: value = kept_within(value * scale.reciprocal >> 21, 1 << 13);
 (push)
 (declare-const slope Int)
 (declare-const value Int)
