@@ -66,15 +66,9 @@ void place_on_lattice(microtin_axis* axis) {
   }
 }
 
-bool is_known(microtin_status status) {
-  return status == MICROTIN_DONE || status == MICROTIN_MALFORMED;
-}
-
-// Reads a header up to its notes: BAD_MAGIC or UNSUPPORTED_VERSION, with nothing read, or DONE, or
-// MALFORMED. Without a placement, or in a malformed header, `axis` is on the lattice itself.
-microtin_status read_header(const uint8_t* bytes, FixedHeader* header, microtin_axis* axis) {
-  const microtin_status known = check_identity(bytes);
-  if (known != MICROTIN_DONE) return known;
+// Reads a header with a known identity up to its notes. False if it breaks a rule of the format.
+// Then, and without a placement, `axis` is on the lattice itself.
+bool read_header(const uint8_t* bytes, FixedHeader* header, microtin_axis* axis) {
   bool legal = read_fixed_header(bytes, header);
   const uint32_t size = header->placement_bytes;
   if (size != 0) {
@@ -82,7 +76,7 @@ microtin_status read_header(const uint8_t* bytes, FixedHeader* header, microtin_
         legal && size <= kPlacementMostBytes && read_placement(bytes + header->bytes, size, axis);
   }
   if (size == 0 || !legal) place_on_lattice(axis);
-  return legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
+  return legal;
 }
 
 // Whatever is wrong is told once the check ahead has passed: before, it is damage.
@@ -94,9 +88,11 @@ microtin_status handle_header(microtin_decoder& d) {
   ByteWindow& window = d.coder.window;
   const uint8_t* const bytes = window.next;
   window.skip(header_bytes(bytes, window.left));
+  const microtin_status known = check_identity(bytes);
+  if (known != MICROTIN_DONE) return known;
   FixedHeader header;
-  d.verdict = read_header(bytes, &header, d.mesh->axis);
-  if (!is_known(d.verdict)) return d.verdict;
+  const bool legal = read_header(bytes, &header, d.mesh->axis);
+  d.verdict = legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
   d.reconstruction.contract = header.contract;
   d.coder.payload_left = checked_bytes(header) - static_cast<uint32_t>(window.next - bytes);
   d.item = Item::kNotes;
@@ -337,16 +333,17 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   if (info == nullptr || (bytes == nullptr && size != 0)) return MICROTIN_ARGUMENT;
   info->header_bytes = 0;
   if (size < header_bytes(bytes, size)) return MICROTIN_NEED_INPUT;
+  const microtin_status known = check_identity(bytes);
+  if (known != MICROTIN_DONE) return known;
   FixedHeader header;
   microtin_axis axis[3];
-  const microtin_status status = read_header(bytes, &header, axis);
-  if (!is_known(status)) return status;
+  const bool legal = read_header(bytes, &header, axis);
   const uint32_t checked = checked_bytes(header);
   info->header_bytes = checked + kCheckBytes;
   if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
   const uint32_t crc = crc32(0, bytes, static_cast<size_t>(checked));
   if (crc != read_u32(bytes + checked)) return MICROTIN_CHECKSUM;
-  if (status != MICROTIN_DONE) return status;
+  if (!legal) return MICROTIN_MALFORMED;
   const Contract& contract = header.contract;
   info->vertices = contract.vertices;
   info->version = kVersion;
