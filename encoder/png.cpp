@@ -8,7 +8,7 @@ namespace {
 // The picture's writer goes on writing when memory is short: it must not come back to that. What
 // it holds is lost, as the program ends.
 void* allocate(size_t size) {
-  return ::operator new(size);
+  return ::operator new(std::max<size_t>(size, 1));  // clang's analyzer follows a size of 0
 }
 
 void release(void* memory) {
