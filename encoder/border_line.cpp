@@ -65,6 +65,10 @@ class Chain {
 
  private:
   bool is_void(std::size_t post) const { return !posts_[post].sample; }
+  int64_t position(uint32_t post) const {
+    const Point place = posts_[post].sample->place;
+    return int64_t{place.x} + place.y;
+  }
   bool starts_run(std::size_t post) const {
     return !is_void(post) && (post == 0 || is_void(post - 1));
   }
@@ -110,7 +114,7 @@ class Chain {
     const int64_t height = start.height * kStep;
     Cone cone;
     for (uint32_t post = start.post + 1; post < posts_.size() && !is_void(post); ++post) {
-      const int64_t run = post - start.post;
+      const int64_t run = position(post) - position(start.post);
       for (std::size_t s = first_[post]; s < first_[post + 1]; ++s) {
         State& state = states_[s];
         if (!cone.holds({state.height * kStep - height, run})) continue;

@@ -10,7 +10,8 @@
 
 namespace microtin {
 
-// A post of the line; void posts have no sample.
+// A post of the line, which runs along x or y: of its places, one coordinate ascends. Void posts
+// have no sample.
 struct LinePost {
   std::optional<Sample> sample;
   bool kept = false;  // must become a vertex

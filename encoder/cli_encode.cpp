@@ -159,10 +159,21 @@ Encoded encode_within_bytes(const Source& source, EncodeRequest request) {
   return std::move(*last);
 }
 
+}  // namespace
+
 std::string moved(Decimal displacement) {
   if (displacement.mantissa == 0) return ", exact";
   return ", values move by up to " + to_string(displacement);
 }
+
+std::string merged(uint64_t points) {
+  if (points == 0) return "";
+  return "merged: " + std::to_string(points) +
+         " shared a place with another; the surface aims at the middle of the lowest and the " +
+         "highest there\n";
+}
+
+namespace {
 
 std::string report(const PreparedTerrain& terrain, const Encoded& encoded) {
   const Laid& laid = encoded.laid;
@@ -175,12 +186,9 @@ std::string report(const PreparedTerrain& terrain, const Encoded& encoded) {
   text << told(terrain);
   text << "\nstep of x and y: " << to_string(laid.xy_step) << (posts ? " (in posts)" : "")
        << moved(laid.xy_displacement) << "\nstep of z: " << to_string(laid.z_step)
-       << moved(laid.z_displacement) << '\n';
-  if (laid.merged != 0) {
-    text << "merged: " << laid.merged << " shared a place with another; the surface aims at the "
-         << "middle of the lowest and the highest there\n";
-  }
-  text << "stream: " << encoded.vertices << " vertices, " << encoded.stream.size() << " bytes, "
+       << moved(laid.z_displacement) << '\n'
+       << merged(laid.merged) << "stream: " << encoded.vertices << " vertices, "
+       << encoded.stream.size() << " bytes, "
        << bits_per_vertex(encoded.stream.size(), encoded.vertices) << " bits/vertex\n"
        << "error: at most " << to_string(measured.max_error) << ", rms "
        << to_string(measured.rms_error);

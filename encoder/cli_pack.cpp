@@ -8,8 +8,10 @@
 #include "encoder/cli_progress.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
+#include "encoder/import.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/pack_surface.hpp"
+#include "encoder/point_pack.hpp"
 #include "encoder/shard.hpp"
 #include "encoder/stream_spool.hpp"
 #include "encoder/tile_plan.hpp"
@@ -29,7 +31,6 @@ uint32_t tile_vertices(const EncodeRequest& request) {
 }
 
 PackOptions pack_options(const EncodeRequest& request, const Progress& progress) {
-  if (request.lattice.xy_step) throw Error("packs keep the places of posts: no --xy-step");
   if (request.max_vertices != 0 || request.max_bytes != 0) {
     throw Error("packs are made with --max-error or of all posts");
   }
@@ -39,8 +40,23 @@ PackOptions pack_options(const EncodeRequest& request, const Progress& progress)
           request.tile_steps};
 }
 
-std::unique_ptr<RasterReader> open_terrain(const EncodeRequest& request) {
-  return prepared_raster(request.input, request.preparation);
+PackOptions raster_options(const EncodeRequest& request, const Progress& progress) {
+  if (request.lattice.xy_step) throw Error("packs keep the places of posts: no --xy-step");
+  return pack_options(request, progress);
+}
+
+PackOptions point_options(const EncodeRequest& request) {
+  if (request.tile_steps != 0) throw Error("--tile-steps is for rasters; these are points");
+  return pack_options(request, {});
+}
+
+std::unique_ptr<RasterReader> open_raster(const EncodeRequest& request) {
+  OpenSource source = prepared_source(request.input, request.preparation);
+  auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
+  if (raster == nullptr) {
+    throw Error(request.input + ": shards are of packs of rasters; these are points");
+  }
+  return std::move(*raster);
 }
 
 PackContent content_of(const PackPlan& plan, const EncodeRequest& request) {
@@ -95,12 +111,42 @@ PackContent encode_whole(const RasterReader& raster, const EncodeRequest& reques
     pack = content_of(plan, request);
     streams.clear();
   };
-  encode_pack(raster, pack_options(request, bar.progress()), begin,
+  encode_pack(raster, raster_options(request, bar.progress()), begin,
               [&](uint32_t, EncodedTile&& tile) {
                 pack.tiles.push_back(tile.summary);
                 streams.add(tile.stream);
               });
   return pack;
+}
+
+// The report; writes the pack.
+std::string encode_raster(const RasterReader& raster, const EncodeRequest& request,
+                          OutputFile& out) {
+  StreamSpool streams(request.output);
+  const PackContent pack =
+      about(request.input, [&] { return encode_whole(raster, request, streams); });
+  out.write(write_pack_head(pack));
+  streams.copy_to(out);
+  return report(pack);
+}
+
+// The same for points.
+std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
+  const auto [pack, bytes] = about(request.input, [&] {
+    PointPack made =
+        encode_point_pack(cloud, point_options(request), metadata_of(request, cloud.reference, {}));
+    std::vector<uint8_t> all = write_pack(made.content, made.streams);
+    return std::pair(std::move(made), std::move(all));
+  });
+  const Verification found = verify(PackFile(bytes), cloud, request.lattice.max_error);
+  if (!found.within_bound || found.uncovered != 0) {
+    throw Error("internal error: the pack does not keep what was asked for");
+  }
+  out.write(bytes);
+  std::string text = "source: " + std::to_string(cloud.points.size()) + " points";
+  if (!cloud.selection.empty()) text += ", " + cloud.selection;
+  text += "\nstep of x and y: " + to_string(pack.xy_step) + moved(pack.xy_displacement) + "\n";
+  return text + merged(pack.merged) + report(pack.content);
 }
 
 std::string text_of(TileRange range) {
@@ -118,10 +164,10 @@ TileRange existing(TileRange range, const TileGrid& grid) {
 
 void run_encode_shard(const EncodeRequest& request) {
   OutputFile out(request.output);
-  const std::unique_ptr<RasterReader> raster = open_terrain(request);
+  const std::unique_ptr<RasterReader> raster = open_raster(request);
   const std::string text = about(request.input, [&] {
     ProgressBar bar;
-    const PackPlan plan = plan_pack(*raster, pack_options(request, bar.progress()));
+    const PackPlan plan = plan_pack(*raster, raster_options(request, bar.progress()));
     const TileRange range = existing(*request.tiles, plan.tiled.grid);
     ShardWriter shard(plan, content_of(plan, request), range, out);
     uint64_t vertices = 0;
@@ -192,20 +238,20 @@ void run_encode_pack(const EncodeRequest& request) {
     return;
   }
   OutputFile out(request.output);
-  const std::unique_ptr<RasterReader> raster = open_terrain(request);
-  StreamSpool streams(request.output);
-  const PackContent pack =
-      about(request.input, [&] { return encode_whole(*raster, request, streams); });
-  out.write(write_pack_head(pack));
-  streams.copy_to(out);
-  deliver(out, request.output, report(pack));
+  const OpenSource source = prepared_source(request.input, request.preparation);
+  const auto* const cloud = std::get_if<PointCloud>(&source);
+  const std::string text =
+      cloud != nullptr
+          ? encode_points(*cloud, request, out)
+          : encode_raster(*std::get<std::unique_ptr<RasterReader>>(source), request, out);
+  deliver(out, request.output, text);
 }
 
 void run_plan(const EncodeRequest& request, uint32_t shards) {
-  const std::unique_ptr<RasterReader> raster = open_terrain(request);
+  const std::unique_ptr<RasterReader> raster = open_raster(request);
   const std::string text = about(request.input, [&] {
     ProgressBar bar;
-    const PackPlan plan = plan_pack(*raster, pack_options(request, bar.progress()));
+    const PackPlan plan = plan_pack(*raster, raster_options(request, bar.progress()));
     const uint64_t tiles = tile_count(plan.tiled.grid), parts = std::min<uint64_t>(shards, tiles);
     std::string lines;
     for (uint64_t i = 0; i < parts; ++i) {
@@ -260,13 +306,16 @@ void run_info_pack(const PackFile& pack, bool as_json) {
 }
 
 void run_verify_pack(const VerifyRequest& request, const PackFile& pack) {
-  const std::unique_ptr<RasterReader> raster = prepared_raster(request.source, request.preparation);
+  const OpenSource source = prepared_source(request.source, request.preparation);
   const Promise promise =
       about(request.input, [&] { return promise_of(pack.metadata(), request.preparation); });
-  WaterGauge gauge(raster->frame().decimals, promise.water_level);
+  const auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
+  WaterGauge gauge(raster != nullptr ? (*raster)->frame().decimals : 0, promise.water_level);
   const Verification found = about(request.input, [&] {
+    if (const auto* cloud = std::get_if<PointCloud>(&source))
+      return verify(pack, *cloud, promise.bound);
     ProgressBar bar;
-    return verify(pack, *raster, promise.bound, bar.progress(),
+    return verify(pack, **raster, promise.bound, bar.progress(),
                   promise.water_level ? gauge.visitor() : PostVisitor());
   });
   report_and_judge(request, promise, found, gauge.moved());

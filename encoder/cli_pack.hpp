@@ -23,6 +23,8 @@ void run_verify_pack(const VerifyRequest& request, const PackFile& pack);
 Metadata metadata_of(const EncodeRequest& request, const Reference& reference,
                      const Placement& placement);
 SimplifyOptions simplify_options(const EncodeRequest& request, const Progress& progress);
+std::string moved(Decimal displacement);
+std::string merged(uint64_t points);  // a line, if there are any
 void add_placement(JsonObject& report, const Metadata& metadata);
 void add_notes(JsonObject& report, const Metadata& metadata);
 void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy);

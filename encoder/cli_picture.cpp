@@ -10,6 +10,7 @@
 #include "encoder/header.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/pack_surface.hpp"
+#include "encoder/point_pack.hpp"
 #include "encoder/render.hpp"
 
 namespace microtin {
@@ -62,7 +63,15 @@ void draw_pack(const RenderRequest& request, const PackFile& pack) {
     draw(request, portrait, nullptr);
     return;
   }
-  const std::unique_ptr<RasterReader> raster = prepared_raster(request.source, request.preparation);
+  const OpenSource source = prepared_source(request.source, request.preparation);
+  if (const auto* cloud = std::get_if<PointCloud>(&source)) {
+    const Comparison comparison{cell_of(*cloud, portrait.model), [&](const PostVisitor& visit) {
+                                  return verify(pack, *cloud, std::nullopt, visit);
+                                }};
+    draw(request, portrait, &comparison);
+    return;
+  }
+  const auto& raster = std::get<std::unique_ptr<RasterReader>>(source);
   const Comparison comparison{
       cell_of(raster->frame(), portrait.model),
       [&](const PostVisitor& visit) { return verify(pack, *raster, std::nullopt, {}, visit); }};

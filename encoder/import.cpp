@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "encoder/error.hpp"
 #include "encoder/import_text.hpp"
@@ -49,6 +50,15 @@ Source import_terrain(const std::string& path, const std::optional<ClassSet>& cl
   const auto found = importers.find(suffix);
   if (found == importers.end()) return import_other(path);
   return found->second(path, read_file(path));
+}
+
+OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& classes) {
+  const std::string suffix = lower_case(std::filesystem::path(path).extension().string());
+  if (!classes && suffix == ".hgt") return open_hgt(path, open_file(path));
+  if (!classes && suffix == ".asc") return open_asc(path, open_file(path));
+  Source source = import_terrain(path, classes);
+  if (auto* const cloud = std::get_if<PointCloud>(&source)) return std::move(*cloud);
+  return std::make_unique<RasterInMemory>(std::move(std::get<Raster>(source)));
 }
 
 }  // namespace microtin

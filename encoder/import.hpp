@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "encoder/byte_source.hpp"
 #include "encoder/raster_reader.hpp"
@@ -20,6 +21,13 @@ using ClassSet = std::bitset<256>;
 // .obj; in builds with GDAL all others by GDAL. "-" reads points from standard input. `classes` are
 // for .las alone. Throws Error naming the file and, for text, the line.
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {});
+
+using OpenSource = std::variant<std::unique_ptr<RasterReader>, PointCloud>;
+
+// Opens such a file. .hgt and .asc files are read in pieces, .asc once as a whole before, to check
+// it and to learn where its posts are: 8 bytes of memory for each 512 of them. Others are kept in
+// memory. Throws Error as import_terrain does, and if it cannot be read in pieces.
+OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& classes = {});
 
 // The formats, from a file's content. `name` goes into messages.
 

@@ -18,6 +18,8 @@ struct AxisGroup {
   int lattice_low, lattice_high;
   const char* option;                  // that sets the step
   std::optional<int64_t> anchor = {};  // a number that must be on the lattice
+  int bits = 16;                       // of the lattice
+  bool from_low = false;               // the lowest number goes to the lattice's first
 };
 
 struct GroupFit {
@@ -29,14 +31,15 @@ struct GroupFit {
 std::optional<LatticeMap> fit(const NumberRange& range, Wide scale, Wide step,
                               const AxisGroup& group) {
   const auto rest_of = [step](Wide number) { return number - floor_divide(number, step) * step; };
-  const int lattice_low = group.lattice_low, lattice_high = group.lattice_high;
   const Wide low = scale * range.low;
   const bool same_rest = scale * range.spacing % step == 0;
   const Wide rest = group.anchor ? rest_of(scale * *group.anchor) : same_rest ? rest_of(low) : 0;
   const Wide first = floor_divide(low - rest, step) * step + rest;
-  for (const Wide shift : {-rest, -first, lattice_low * step - first}) {
+  const Wide from_low = group.lattice_low * step - first;
+  for (const Wide shift : {group.from_low ? from_low : -rest, -first, from_low}) {
     const LatticeMap map{scale, shift, step};
-    if (map.numerator(range.low) >= lattice_low * step && map.nearest(range.high) <= lattice_high) {
+    if (map.numerator(range.low) >= group.lattice_low * step &&
+        map.nearest(range.high) <= group.lattice_high) {
       return map;
     }
   }
@@ -61,7 +64,8 @@ GroupFit fit_explicit(const AxisGroup& group, Decimal step) {
   if (step.mantissa <= 0 || !(step <= Decimal{kLargest, 0})) throw Error(name + " is out of range");
   GroupFit fits = fit_all(group, step);
   if (fits.maps.empty()) {
-    throw Error(name + " is too fine: 16 bits do not hold the source's range in such steps");
+    throw Error(name + " is too fine: " + std::to_string(group.bits) +
+                " bits do not hold the source's range in such steps");
   }
   return fits;
 }
@@ -127,7 +131,9 @@ Lattice choose_post_lattice(const Raster& frame, const NumberRange& heights,
           0,      up.decimals, {frame.x, frame.y, lattice_axis(up_axis, up.maps[0])}};
 }
 
-Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
+namespace {
+
+Lattice choose(const Source& source, AxisGroup places, const LatticeOptions& options) {
   NumberRange x, y, z;
   for_each_post(source, [&](int64_t px, int64_t py, int64_t pz) {
     x.add(px);
@@ -139,8 +145,8 @@ Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
     throw Error("a raster of more than 65536 posts in a row needs an --xy-step above 1");
   }
   const auto* cloud = std::get_if<PointCloud>(&source);
-  const AxisGroup places{{x, y},     cloud != nullptr ? cloud->xy_decimals : 0, 0, 0, kLatticeMax,
-                         "--xy-step"};
+  places.ranges = {x, y};
+  places.decimals = cloud != nullptr ? cloud->xy_decimals : 0;
   const AxisGroup heights = height_group(z, height_decimals(source), options);
   const GroupFit xy = choose(places, options.xy_step);
   const GroupFit up = choose(heights, options.z_step);
@@ -149,6 +155,16 @@ Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
                             lattice_axis(numbers.y, xy.maps[1]),
                             lattice_axis(numbers.z, up.maps[0])};
   return {xy.maps[0], xy.maps[1], up.maps[0], xy.decimals, up.decimals, placement};
+}
+
+}  // namespace
+
+Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
+  return choose(source, {{}, 0, 0, 0, kLatticeMax, "--xy-step"}, options);
+}
+
+Lattice choose_pack_lattice(const PointCloud& cloud, const LatticeOptions& options) {
+  return choose(cloud, {{}, 0, 0, 0, INT32_MAX, "--xy-step", {}, 31, true}, options);
 }
 
 }  // namespace microtin

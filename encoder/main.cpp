@@ -128,7 +128,7 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
   CLI::Option* const tile =
       command
           .add_option("--tile-vertices", request.tile_vertices,
-                      "Write a pack of tiles with at most so many vertices each (rasters)")
+                      "Write a pack of tiles with at most so many vertices each")
           ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
           ->excludes(&vertices)
           ->excludes(&bytes);

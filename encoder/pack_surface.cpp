@@ -10,6 +10,7 @@
 #include "encoder/error.hpp"
 #include "encoder/lattice_map.hpp"
 #include "encoder/parallel.hpp"
+#include "encoder/visit_log.hpp"
 
 namespace microtin {
 namespace {
@@ -66,33 +67,23 @@ void expect_posts_of(const Raster& frame, const PackFile& pack) {
   }
 }
 
-struct VisitedPost {
-  int64_t x, y, z;
-  double above;
-};
-
 struct VerifiedTile {
   Verification all;
   uint64_t posts = 0, voids = 0;      // those of a tile south or west are not counted again
   std::vector<GlobalPost> uncovered;  // by this tile
-  std::vector<VisitedPost> visited;   // if somebody wants to know
+  VisitLog visits;                    // if somebody wants to know
 };
 
 VerifiedTile verify_tile(const PackFile& pack, uint32_t number, const RasterReader& raster,
-                         const std::optional<Decimal>& bound, bool keeps_visited) {
+                         const std::optional<Decimal>& bound, bool keeps_visits) {
   const TileBox box = tile_box(pack.grid(), number);
   const Raster part = raster.read({box.x, box.y, box.x_end - box.x + 1, box.y_end - box.y + 1});
   const std::optional<DecodedTerrain> tile = pack.tile(number);
   const microtin_mesh* const mesh = tile ? tile->mesh() : nullptr;
   VerifiedTile verified;
   if (tile) {
-    PostVisitor visit;
-    if (keeps_visited) {
-      visit = [&](int64_t x, int64_t y, int64_t z, double above) {
-        verified.visited.push_back({box.x + x, box.y + y, z, above});
-      };
-    }
-    verified.all = verify(mesh, {part.x, part.y, pack.metadata().placement.z}, part, bound, visit);
+    verified.all = verify(mesh, {part.x, part.y, pack.metadata().placement.z}, part, bound,
+                          keeps_visits ? verified.visits.recorder(box.x, box.y) : PostVisitor());
   }
   if (!tile || verified.all.uncovered != 0) verified.uncovered = uncovered_posts(mesh, part, box);
   for_each_post(part, [&](int64_t x, int64_t y, int64_t z) {
@@ -164,7 +155,7 @@ Verification verify(const PackFile& pack, const RasterReader& raster,
       uncovered.add(tile.uncovered);
       posts += tile.posts;
       voids += tile.voids;
-      for (const VisitedPost& post : tile.visited) visit(post.x, post.y, post.z, post.above);
+      if (visit) tile.visits.tell(visit);
     }
     uncovered.forget((row + 1) * grid.height);
   }

@@ -9,16 +9,26 @@
 namespace microtin {
 namespace {
 
-// Reads a raster with its water; mask may be null.
+std::unique_ptr<RasterReader> open_mask(const std::string& path, const Raster& frame) {
+  OpenSource source = open_terrain(path);
+  auto* const mask = std::get_if<std::unique_ptr<RasterReader>>(&source);
+  if (mask == nullptr) throw Error(path + ": is not a raster");
+  about(path, [&] { check_water_mask((*mask)->frame(), frame); });
+  return std::move(*mask);
+}
+
+[[noreturn]] void refuse_water(const std::string& path) {
+  throw Error(path + ": --water-level is for rasters; these are points");
+}
+
+// Reads a raster with its water.
 class FloodedRaster : public RasterReader {
  public:
   FloodedRaster(std::unique_ptr<RasterReader> raster, Decimal level, std::string mask_path)
       : raster_(std::move(raster)), level_(level), mask_path_(std::move(mask_path)) {
     frame_ = raster_->frame();
     flood_voids(frame_, level_, nullptr);
-    if (mask_path_.empty()) return;
-    mask_ = open_raster(mask_path_);
-    about(mask_path_, [&] { check_water_mask(mask_->frame(), frame_); });
+    if (!mask_path_.empty()) mask_ = open_mask(mask_path_, frame_);
   }
 
   Raster read(const PostRectangle& rectangle) const override {
@@ -39,9 +49,7 @@ class FloodedRaster : public RasterReader {
 };
 
 Raster read_mask(const std::string& path, const Raster& raster) {
-  const std::unique_ptr<RasterReader> mask = open_raster(path);
-  about(path, [&] { check_water_mask(mask->frame(), raster); });
-  Raster all = mask->read({0, 0, raster.width, raster.height});
+  Raster all = open_mask(path, raster)->read({0, 0, raster.width, raster.height});
   about(path, [&] { check_water_mask(all, raster); });
   return all;
 }
@@ -53,7 +61,7 @@ PreparedTerrain prepared_terrain(const std::string& path, const Preparation& pre
   terrain.filled = fill_voids(terrain.source, preparation.fill_voids);
   if (!preparation.water_level) return terrain;
   auto* const raster = std::get_if<Raster>(&terrain.source);
-  if (raster == nullptr) throw Error(path + ": --water-level is for rasters; these are points");
+  if (raster == nullptr) refuse_water(path);
   std::optional<Raster> mask;
   if (!preparation.water_mask.empty()) mask = read_mask(preparation.water_mask, *raster);
   terrain.flooded = about(path, [&] {
@@ -62,13 +70,17 @@ PreparedTerrain prepared_terrain(const std::string& path, const Preparation& pre
   return terrain;
 }
 
-std::unique_ptr<RasterReader> prepared_raster(const std::string& path,
-                                              const Preparation& preparation) {
-  std::unique_ptr<RasterReader> raster =
-      with_voids_filled(open_raster(path), preparation.fill_voids);
-  if (!preparation.water_level) return raster;
-  return about(path, [&]() -> std::unique_ptr<RasterReader> {
-    return std::make_unique<FloodedRaster>(std::move(raster), *preparation.water_level,
+OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
+  OpenSource source = open_terrain(path, preparation.classes);
+  auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
+  if (raster == nullptr) {
+    if (preparation.water_level) refuse_water(path);
+    return source;
+  }
+  *raster = with_voids_filled(std::move(*raster), preparation.fill_voids);
+  if (!preparation.water_level) return source;
+  return about(path, [&]() -> OpenSource {
+    return std::make_unique<FloodedRaster>(std::move(*raster), *preparation.water_level,
                                            preparation.water_mask);
   });
 }

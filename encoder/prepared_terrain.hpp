@@ -27,9 +27,8 @@ struct PreparedTerrain {
 // Throws Error naming the file.
 PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation);
 
-// The same for a raster that is read in pieces. Throws Error when a piece is read, too.
-std::unique_ptr<RasterReader> prepared_raster(const std::string& path,
-                                              const Preparation& preparation);
+// The same for a source whose raster is read in pieces. Throws Error when a piece is read, too.
+OpenSource prepared_source(const std::string& path, const Preparation& preparation);
 
 // A part of a sentence about what was done to a terrain: empty if nothing was.
 std::string told(const PreparedTerrain& terrain);

@@ -3,7 +3,6 @@
 #define MICROTIN_ENCODER_RASTER_READER_HPP
 
 #include <memory>
-#include <string>
 #include <utility>
 
 #include "encoder/crop.hpp"
@@ -38,12 +37,6 @@ class RasterInMemory : public RasterReader {
  private:
   Raster raster_;
 };
-
-// Opens a file that import_terrain reads. .hgt and .asc files are read in pieces, .asc once as a
-// whole before, to check it and to learn where its posts are: 8 bytes of memory for each 512 of
-// them. Others are kept in memory. Throws Error as import_terrain does, and if it holds points or
-// cannot be read in pieces.
-std::unique_ptr<RasterReader> open_raster(const std::string& path);
 
 // The raster with its small voids filled as fill_voids does. Memory and time of a rectangle grow
 // with the extent of the small voids in it.

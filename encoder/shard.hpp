@@ -33,7 +33,7 @@ class ShardWriter {
 // Joins shards to the pack that a single run makes, and returns what it holds. Throws Error naming
 // the shard if one is damaged, of another pack, or holds a tile that another one holds, too; and if
 // tiles are missing.
-PackContent merge_shards(const std::vector<std::string>& shards, OutputFile& out);
+PackContent merge_shards(const std::vector<std::string>& paths, OutputFile& out);
 
 }  // namespace microtin
 

@@ -15,47 +15,8 @@
 namespace microtin {
 namespace {
 
-// Whether another tile has the place, too.
-class Sides {
- public:
-  Sides(const TileGrid& grid, const TileBox& box)
-      : box_(box), x_max_(grid.x_max), y_max_(grid.y_max) {}
-
-  bool shares(Point p) const {
-    const uint32_t x = box_.x + p.x, y = box_.y + p.y;
-    return (x == box_.x && x != 0) || (x == box_.x_end && x != x_max_) || (y == box_.y && y != 0) ||
-           (y == box_.y_end && y != y_max_);
-  }
-
- private:
-  TileBox box_;
-  uint32_t x_max_, y_max_;
-};
-
-bool form_triangle(const std::vector<Sample>& samples) {
-  return !samples.empty() && std::any_of(samples.begin(), samples.end(), [&](const Sample& s) {
-    return orient2d(samples.front().place, samples.back().place, s.place) != 0;
-  });
-}
-
 [[noreturn]] void fail(const std::string& what) {
   throw Error("internal error: a decoded tile " + what);
-}
-
-// The vertices on borders must be the shared ones, at their heights.
-void check_shared(const microtin_mesh* mesh, const Sides& sides, const SharedVertices& shared) {
-  std::size_t found = 0;
-  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
-    Point p{};
-    int16_t z = 0;
-    microtin_vertex(mesh, v, &p.x, &p.y, &z);
-    if (!sides.shares(p)) continue;
-    const auto vertex = shared.find(p);
-    if (vertex == shared.end() || vertex->second != z)
-      fail("has another border than its neighbour");
-    ++found;
-  }
-  if (found != shared.size()) fail("lacks a vertex of its border");
 }
 
 void check_bounds(const TiledRaster& tiled, const Verification& measured, uint64_t water_moved) {
@@ -66,23 +27,11 @@ void check_bounds(const TiledRaster& tiled, const Verification& measured, uint64
   }
 }
 
-TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
-                       const Verification& measured) {
-  const auto lower = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
-  const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(), lower);
-  return {static_cast<uint32_t>(stream.size()),
-          stream_hash(kStreamHash, stream.data(), stream.size()),
-          static_cast<uint32_t>(tin.vertices.size()),
-          low->z,
-          high->z,
-          measured};
-}
-
 // The posts of a tile. On borders with other tiles the shared vertices stand for all posts with
 // heights: they are fixed.
 Survey survey_of_tile(const TiledRaster& tiled, const TilePosts& posts,
                       const SharedVertices& shared) {
-  const Sides sides(tiled.grid, posts.box());
+  const TileSides sides(tiled.grid, posts.box());
   const Survey all = survey_of(tiled, posts.tile());
   Survey survey;
   survey.voids = all.voids;
@@ -133,8 +82,8 @@ void check_covered_by_others(const TiledRaster& tiled, const TilePosts& posts) {
 // Makes the posts beside those of borders that are not covered vertices: nothing that a void
 // reaches comes between then. These posts have heights, as voids are beside vertices of borders
 // alone.
-void fix_beside(const std::vector<GlobalPost>& uncovered, const TileBox& box, const Sides& sides,
-                Survey& survey) {
+void fix_beside(const std::vector<GlobalPost>& uncovered, const TileBox& box,
+                const TileSides& sides, Survey& survey) {
   std::set<Point> fixed(survey.fixed.begin(), survey.fixed.end());
   for (const GlobalPost post : uncovered) {
     if (!sides.shares(
@@ -154,6 +103,39 @@ void fix_beside(const std::vector<GlobalPost>& uncovered, const TileBox& box, co
 }
 
 }  // namespace
+
+bool form_triangle(const std::vector<Sample>& samples) {
+  return !samples.empty() && std::any_of(samples.begin(), samples.end(), [&](const Sample& s) {
+    return orient2d(samples.front().place, samples.back().place, s.place) != 0;
+  });
+}
+
+void check_shared(const microtin_mesh* mesh, const TileSides& sides, const SharedVertices& shared) {
+  std::size_t found = 0;
+  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+    Point p{};
+    int16_t z = 0;
+    microtin_vertex(mesh, v, &p.x, &p.y, &z);
+    if (!sides.shares(p)) continue;
+    const auto vertex = shared.find(p);
+    if (vertex == shared.end() || vertex->second != z)
+      fail("has another border than its neighbour");
+    ++found;
+  }
+  if (found != shared.size()) fail("lacks a vertex of its border");
+}
+
+TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
+                       const Verification& measured) {
+  const auto lower = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
+  const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(), lower);
+  return {static_cast<uint32_t>(stream.size()),
+          stream_hash(kStreamHash, stream.data(), stream.size()),
+          static_cast<uint32_t>(tin.vertices.size()),
+          low->z,
+          high->z,
+          measured};
+}
 
 std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster& part,
                                         const TileBox& box) {
@@ -181,7 +163,7 @@ uint32_t count_vertices(const TiledRaster& tiled, uint32_t tile, const SimplifyO
 EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options) {
   const TilePosts posts(tiled, tile);
   const TileBox& box = posts.box();
-  const Sides sides(tiled.grid, box);
+  const TileSides sides(tiled.grid, box);
   const Raster part = posts.tile();
   const SharedVertices shared = shared_vertices(tiled, posts);
   Survey survey = survey_of_tile(tiled, posts, shared);

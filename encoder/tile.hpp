@@ -11,6 +11,26 @@
 
 namespace microtin {
 
+// Which places of a tile others have, too.
+class TileSides {
+ public:
+  TileSides(const TileGrid& grid, const TileBox& box)
+      : box_(box), x_max_(grid.x_max), y_max_(grid.y_max) {}
+
+  bool shares(Point p) const {
+    const uint32_t x = box_.x + p.x, y = box_.y + p.y;
+    return (x == box_.x && x != 0) || (x == box_.x_end && x != x_max_) || (y == box_.y && y != 0) ||
+           (y == box_.y_end && y != y_max_);
+  }
+
+ private:
+  TileBox box_;
+  uint32_t x_max_, y_max_;
+};
+
+// Whether not all samples, which are in lexicographic order, lie on one line.
+bool form_triangle(const std::vector<Sample>& samples);
+
 // What a pack says of a tile beside its stream.
 struct TileSummary {
   uint32_t bytes = 0;  // of the stream; 0: the tile has no terrain
@@ -24,6 +44,12 @@ struct EncodedTile {
   TileSummary summary;
   std::vector<uint8_t> stream;
 };
+
+TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
+                       const Verification& measured);
+
+// Throws Error unless the vertices on borders are the shared ones, at their heights.
+void check_shared(const microtin_mesh* mesh, const TileSides& sides, const SharedVertices& shared);
 
 // The posts of a box that have heights, but not in its mesh; without a mesh all.
 std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster& part,

@@ -62,7 +62,10 @@ uint32_t most_vertices(const TiledRaster& tiled, const SimplifyOptions& options)
 }  // namespace
 
 TileGrid grid_of(const Raster& frame, uint32_t tile_steps) {
-  const uint32_t x_max = frame.width - 1, y_max = frame.height - 1;
+  return grid_of(frame.width - 1, frame.height - 1, tile_steps);
+}
+
+TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps) {
   const uint32_t size = std::min(tile_steps, uint32_t{kLatticeMax});
   const uint32_t width = divide_up(x_max, divide_up(x_max, size));
   const uint32_t height = divide_up(y_max, divide_up(y_max, size));

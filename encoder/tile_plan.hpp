@@ -12,6 +12,9 @@ namespace microtin {
 // A raster in tiles of up to so many steps on a side, all of nearly the same size.
 TileGrid grid_of(const Raster& frame, uint32_t tile_steps);
 
+// The same for any largest x and y.
+TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps);
+
 // The largest tile_steps found with which no tile has more than max_vertices vertices, as far as
 // the roughest tiles tell: up to 24 of them are simplified, two or three times, without searching
 // long, and the raster is read as often. Throws Error if there are none.

@@ -28,6 +28,8 @@ class Tiles {
                               static_cast<int32_t>(y - int64_t{box.y} * 256), 0, &hint, &height);
   }
 
+  bool has_terrain(uint32_t tile) const { return tiles_[tile].has_value(); }
+
   const TileGrid& grid() const { return grid_; }
 
  private:
@@ -37,36 +39,50 @@ class Tiles {
 
 struct BorderCount {
   uint64_t places = 0, both = 0, differ = 0, wrong_posts = 0;
+  uint64_t one_sided = 0;  // a tile with terrain does not know the height, another does
 };
 
-// Asks all tiles that hold a place.
-inline void compare_at(const Tiles& tiles, int64_t x, int64_t y, const Raster& raster,
-                       BorderCount& count) {
+// The tiles that hold a place with 8 fractional bits. One between two places of a border lies in
+// the tiles that hold both.
+inline std::vector<uint32_t> holders_of(const TileGrid& grid, int64_t x, int64_t y) {
   const GlobalPost post{static_cast<uint32_t>(x / 256), static_cast<uint32_t>(y / 256)};
-  // A place between two posts of a border lies in the tiles that hold the middle between them.
-  std::vector<uint32_t> holders = tiles_at(tiles.grid(), post);
-  if (x % 256 != 0 || y % 256 != 0) {
-    const GlobalPost after{post.x + (x % 256 != 0), post.y + (y % 256 != 0)};
-    const std::vector<uint32_t> others = tiles_at(tiles.grid(), after);
-    std::vector<uint32_t> common;
-    for (const uint32_t t : holders) {
-      if (std::count(others.begin(), others.end(), t) != 0) common.push_back(t);
-    }
-    holders = common;
+  const GlobalPost after{post.x + (x % 256 != 0), post.y + (y % 256 != 0)};
+  const std::vector<uint32_t> others = tiles_at(grid, after);
+  std::vector<uint32_t> holders;
+  for (const uint32_t tile : tiles_at(grid, post)) {
+    if (std::count(others.begin(), others.end(), tile) != 0) holders.push_back(tile);
   }
+  return holders;
+}
+
+// Asks all tiles that hold a place. Returns whether one of them knows a height.
+inline bool compare_at(const Tiles& tiles, int64_t x, int64_t y, BorderCount& count) {
   std::vector<int32_t> heights;
-  for (const uint32_t tile : holders) {
+  bool missing = false;
+  for (const uint32_t tile : holders_of(tiles.grid(), x, y)) {
     int32_t height = 0;
-    if (tiles.ask(tile, x, y, height) == MICROTIN_HEIGHT) heights.push_back(height);
+    if (tiles.ask(tile, x, y, height) == MICROTIN_HEIGHT) {
+      heights.push_back(height);
+    } else if (tiles.has_terrain(tile)) {
+      missing = true;
+    }
   }
   ++count.places;
+  if (missing && !heights.empty()) ++count.one_sided;
   if (heights.size() > 1) ++count.both;
   for (const int32_t height : heights) {
     if (height != heights[0]) ++count.differ;
   }
+  return !heights.empty();
+}
+
+// The same, where a post knows whether there is a height.
+inline void compare_at(const Tiles& tiles, int64_t x, int64_t y, const Raster& raster,
+                       BorderCount& count) {
+  const bool answered = compare_at(tiles, x, y, count);
   if (x % 256 != 0 || y % 256 != 0) return;
-  const bool is_void = raster.heights[size_t{post.y} * raster.width + post.x] == kVoidHeight;
-  if (is_void != heights.empty()) ++count.wrong_posts;
+  const size_t post = static_cast<size_t>(y / 256) * raster.width + static_cast<size_t>(x / 256);
+  if ((raster.heights[post] == kVoidHeight) == answered) ++count.wrong_posts;
 }
 
 // Walks all borders in eighths of a step.

@@ -252,15 +252,52 @@ TEST_CASE("cli: packs") {
   REQUIRE(session.run("fractal --size 65 --seed 4 -o other.asc").code == 0);
   CHECK(contains(session.failure("verify t.mtp other.asc"), "above the bound"));
   session.write("points.xyz", "0 0 0\n9 0 3\n0 9 7\n");
-  CHECK(contains(session.failure("encode points.xyz --tile-vertices 60 -o p.mtp"), "rasters"));
   CHECK(contains(session.failure("encode t.asc --tile-vertices 60 --xy-step 2 -o p.mtp"),
                  "--xy-step"));
-  CHECK(contains(session.failure("verify t.mtp points.xyz"),
-                 "points.xyz: packs are made of rasters"));
+  session.write("beside.xyz", "-1 0 0\n9 0 3\n0 9 7\n");
+  CHECK(contains(session.failure("verify t.mtp beside.xyz"), "above the bound"));
   std::string damaged = session.read("t.mtp");
   damaged[damaged.size() - 9] ^= 4;
   session.write("damaged.mtp", damaged);
   CHECK(contains(session.failure("decode damaged.mtp -o out.ply"), "damaged.mtp: tile "));
+}
+
+TEST_CASE("cli: packs of points") {
+  const Session session;
+  std::string points;
+  for (int i = 0; i < 900; ++i) {
+    points += std::to_string(i % 30 * 5000) + ".25 " + std::to_string(i / 30 * 3000) + " " +
+              std::to_string(i * i % 97) + "\n";
+  }
+  session.write("p.xyz", points + "0.26 0 1\n");
+  const Session::Result encoded =
+      session.run("encode p.xyz --max-error 9 --xy-step 0.1 --tile-vertices 90 -o p.mtp");
+  REQUIRE(encoded.code == 0);
+  CHECK(contains(encoded.out, "source: 901 points"));
+  CHECK(contains(encoded.out, "step of x and y: 0.1, values move by up to 0.05"));
+  CHECK(contains(encoded.out, "merged: 1 shared"));
+  CHECK(contains(encoded.out, "pack: "));
+  CHECK(session.run("verify p.mtp p.xyz").code == 0);
+  CHECK(contains(session.run("info p.mtp").out, "x_max: 145000"));
+  CHECK(session.run("decode p.mtp -o p.ply").code == 0);
+  CHECK(contains(session.read("p.ply"), "element face "));
+  CHECK(session.run("encode p.xyz --device-ram 32768 -o ram.mtp").code == 0);
+  CHECK(session.run("verify ram.mtp p.xyz").code == 0);
+  session.write("other.xyz", points + "70000 45000 500\n");
+  CHECK(contains(session.failure("verify p.mtp other.xyz"), "above the bound"));
+  session.write("beside.xyz", points + "200000 0 5\n");
+  CHECK(contains(session.failure("verify p.mtp beside.xyz"), "not covered"));
+  REQUIRE(session.run("fractal --size 5 -o t.asc").code == 0);
+  CHECK(contains(session.failure("verify p.mtp t.asc"), "posts of the pack"));
+  const std::string in_shards = "p.xyz: shards are of packs of rasters; these are points";
+  CHECK(contains(session.failure("plan p.xyz --tile-vertices 90"), in_shards));
+  CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --tiles 0:1 -o p.shard"),
+                 in_shards));
+  CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --tile-steps 9 -o s.mtp"),
+                 "p.xyz: --tile-steps is for rasters; these are points"));
+  CHECK(contains(session.failure("merge p.mtp -o m.mtp"), "p.mtp: "));
+  session.write("line.xyz", "0 0 0\n1 1 3\n2 2 7\n");
+  CHECK(contains(session.failure("encode line.xyz --tile-vertices 60 -o line.mtp"), "one line"));
 }
 
 TEST_CASE("cli: a grid that is written is a terrain again") {
@@ -357,8 +394,7 @@ TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
         "t.asc: a mask holds 0 and 1 only\n");
   CHECK(session.failure("render t.mtin -o no.png --source none.asc") ==
         "none.asc: cannot be read: No such file or directory\n");
-  CHECK(session.failure("render t.mtp -o no.png --source p.xyz") ==
-        "p.xyz: packs are made of rasters; these are points\n");
+  CHECK(session.run("render t.mtp -o t.png --source p.xyz").code == 0);
 }
 
 TEST_CASE("cli: wrong usage is told apart") {

@@ -155,6 +155,7 @@ const std::vector<Words> kCommands = {
     {"encode", "t.asc", "-o", "new.mtin", "--max-error", "1"},
     {"encode", "p.xyz", "-o", "new.mtin"},
     {"encode", "p.xyz", "-o", "-"},
+    {"encode", "p.xyz", "-o", "new.mtp", "--tile-vertices", "16"},
     {"encode", "t.asc", "-o", "new.mtp", "--tile-vertices", "16", "--tile-steps", "3"},
     {"encode", "t.asc", "-o", "new.shard", "--tile-vertices", "16", "--tile-steps", "3", "--tiles",
      "0:0"},
