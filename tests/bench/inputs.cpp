@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "encoder/crop.hpp"
 #include "encoder/error.hpp"
 #include "encoder/import.hpp"
 #include "encoder/simplify.hpp"
@@ -47,10 +48,9 @@ LatticeOptions unbounded(const char* xy_step, const char* z_step) {
   return {parse_decimal(xy_step), parse_decimal(z_step), {}};
 }
 
-Window centre(uint32_t width, uint32_t height) {
+PostRectangle centre(uint32_t width, uint32_t height) {
   const uint32_t columns = std::min(width, kCentre), rows = std::min(height, kCentre);
-  const uint32_t west = (width - columns) / 2, south = (height - rows) / 2;
-  return {west, south, west + columns - 1, south + rows - 1};
+  return {(width - columns) / 2, (height - rows) / 2, columns, rows};
 }
 
 }  // namespace
@@ -112,20 +112,6 @@ PointCloud read_cloud(const Dataset& dataset) {
   return import_points(path, unzipped(path));
 }
 
-Raster crop(const Raster& raster, const Window& window) {
-  Raster part = raster;
-  part.width = window.east - window.west + 1;
-  part.height = window.north - window.south + 1;
-  part.x.offset += window.west;
-  part.y.offset += window.south;
-  part.heights.clear();
-  for (uint32_t row = window.south; row <= window.north; ++row) {
-    const auto first = raster.heights.begin() + std::ptrdiff_t{row} * raster.width + window.west;
-    part.heights.insert(part.heights.end(), first, first + part.width);
-  }
-  return part;
-}
-
 namespace {
 
 // Tiles in a row or column of `posts` posts that share their border posts: where the i-th begins.
@@ -147,9 +133,9 @@ std::vector<Raster> tiles_of(const Raster& raster, double wanted) {
   std::vector<Raster> tiles;
   for (uint32_t j = 0; j < rows; ++j) {
     for (uint32_t i = 0; i < columns; ++i) {
-      Raster tile =
-          crop(raster, {border(raster.width, columns, i), border(raster.height, rows, j),
-                        border(raster.width, columns, i + 1), border(raster.height, rows, j + 1)});
+      const uint32_t x = border(raster.width, columns, i), y = border(raster.height, rows, j);
+      Raster tile = crop(raster, {x, y, border(raster.width, columns, i + 1) - x + 1,
+                                  border(raster.height, rows, j + 1) - y + 1});
       if (has_terrain(tile)) tiles.push_back(std::move(tile));
     }
   }

@@ -27,12 +27,6 @@ std::vector<Dataset> clouds();
 Raster read_raster(const Dataset& dataset);
 PointCloud read_cloud(const Dataset& dataset);
 
-// The part of a raster from a post to another, both included.
-struct Window {
-  uint32_t west, south, east, north;
-};
-Raster crop(const Raster& raster, const Window& window);
-
 // The terrain in about `wanted` rectangles, nearly square, that share their border posts; without
 // those that are all void.
 std::vector<Raster> tiles_of(const Raster& raster, double wanted);
