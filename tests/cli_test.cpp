@@ -364,7 +364,7 @@ TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
       " --date 2026-11-21 --source-text survey --lineage 'noise removed' --water-level 3.5 ";
   for (const std::string name : {"t.mtin", "t.mtp --tile-vertices 60"}) {
     const Session::Result encoded =
-        session.run("encode t.asc --max-error 1" + notes + "-o " + name);
+        session.run(std::string("encode t.asc --max-error 1").append(notes).append("-o ") + name);
     CHECK(encoded.code == 0);
     const std::string file = name.substr(0, name.find(' '));
     const std::string info = session.run("info " + file).out;
