@@ -95,8 +95,8 @@ std::string geo_keys(const std::vector<uint16_t>& keys) {
 
 TEST_CASE("las: the ground, in exact decimals, of every version and format") {
   for (const uint8_t minor : {uint8_t{0}, uint8_t{1}, uint8_t{2}, uint8_t{3}, uint8_t{4}}) {
-    for (uint8_t format = 0; format < (minor == 4 ? 11 : 6); ++format) {
-      const PointCloud ground = cloud(las(minor, format, kScan).bytes());
+    for (int format = 0; format < (minor == 4 ? 11 : 6); ++format) {
+      const PointCloud ground = cloud(las(minor, static_cast<uint8_t>(format), kScan).bytes());
       CHECK(text_of(ground) == "100100,250,1000 99700,125,-501");
       CHECK(ground.xy_decimals == 2);
       CHECK(ground.z_decimals == 3);
