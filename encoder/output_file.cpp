@@ -44,6 +44,7 @@ void refuse_overwriting(const std::string& input, const std::string& output) {
 }
 
 void OutputFile::write(std::string_view bytes) {
+  if (bytes.empty()) return;  // there may be no data to point at
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail();
 }
 
