@@ -119,7 +119,7 @@ struct Outcome {
 Outcome fail_each(Stage& stage, const Words& words, Counter Counters::*counter, bool lasting,
                   uint64_t stride) {
   const Stage::Result whole = stage.run(words);
-  CHECK(whole.status == 0);
+  CHECK_MESSAGE(whole.status == 0, whole.error);
   Outcome outcome;
   const uint64_t asked = (stage.counters().*counter).asked;
   for (uint64_t first = 1; first <= asked; first += stride) {
