@@ -177,9 +177,8 @@ std::vector<Shard> open_all(const std::vector<std::string>& paths) {
       throw Error(path + ": is of another terrain, or made with other options, than " + paths[0]);
     }
   }
-  std::sort(shards.begin(), shards.end(), [](const Shard& a, const Shard& b) {
-    return a.range().first < b.range().first;
-  });
+  std::sort(shards.begin(), shards.end(),
+            [](const Shard& a, const Shard& b) { return a.range().first < b.range().first; });
   return shards;
 }
 
