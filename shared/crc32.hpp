@@ -9,14 +9,33 @@
 
 namespace microtin {
 
+// Shifts eight bits out of a check: one by one where size counts, otherwise by fours.
+#if defined(__OPTIMIZE_SIZE__)
+
+inline uint32_t shift_byte(uint32_t crc) {
+  for (int i = 0; i < 8; ++i) crc = crc >> 1 ^ ((crc & 1u) != 0 ? 0xEDB88320u : 0u);
+  return crc;
+}
+
+#else
+
+// What four bits shifted out add.
+constexpr uint32_t kCrcTable[16] MICROTIN_IN_FLASH = {
+    0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0x76DC4190, 0x6B6B51F4, 0x4DB26158, 0x5005713C,
+    0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C, 0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C,
+};
+
+inline uint32_t shift_byte(uint32_t crc) {
+  for (int i = 0; i < 2; ++i) crc = crc >> 4 ^ read_table(kCrcTable + (crc & 15u));
+  return crc;
+}
+
+#endif
+
 // Feed 0 first, then each result: crc32(crc32(0, a), b) is the check of a followed by b.
 inline uint32_t crc32(uint32_t crc, const uint8_t* bytes, size_t size) {
   crc = ~crc;
-  for (size_t i = 0; i < size; ++i) {
-    crc ^= bytes[i];
-    crc = crc >> 4 ^ table_crc(crc & 15u);
-    crc = crc >> 4 ^ table_crc(crc & 15u);
-  }
+  for (size_t i = 0; i < size; ++i) crc = shift_byte(crc ^ bytes[i]);
   return ~crc;
 }
 

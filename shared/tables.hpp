@@ -27,16 +27,6 @@ Number read_table(const Number* entry) {
 #endif
 }
 
-// What four bits shifted out add to a CRC-32.
-constexpr uint32_t kCrcTable[16] MICROTIN_IN_FLASH = {
-    0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0x76DC4190, 0x6B6B51F4, 0x4DB26158, 0x5005713C,
-    0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C, 0x9B64C2B0, 0x86D3D2D4, 0xA00AE278, 0xBDBDF21C,
-};
-
-inline uint32_t table_crc(uint32_t i) {
-  return read_table(kCrcTable + i);
-}
-
 }  // namespace microtin
 
 #endif
