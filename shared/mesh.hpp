@@ -84,13 +84,12 @@ inline void pair(Mesh& mesh, Index a, Index b) {
 // in_conflict for the rare cases: a ghost, or p on the circle.
 MICROTIN_OUT_OF_LINE inline bool in_rare_conflict(const Mesh& mesh, Index a, Index b, Index c,
                                                   Point p) {
-  const bool ghost = is_ghost(a, b, c);
-  while (ghost && c != kInfinity) turn(a, b, c);
-  Point from = point_of(mesh, a), to = point_of(mesh, b);
-  if (ghost) return conflicts_with_ghost(from, to, p);
-  Point largest = point_of(mesh, c);
-  turn_largest_last(from, to, largest);
-  return conflicts_on_circle(from, to, largest, p);
+  turn_largest_last(a, b, c, [&mesh](Index l, Index r) {  // infinity is larger than all
+    return l != kInfinity && (r == kInfinity || point_of(mesh, l) < point_of(mesh, r));
+  });
+  const Point from = point_of(mesh, a), to = point_of(mesh, b);
+  return c == kInfinity ? conflicts_with_ghost(from, to, p)
+                        : conflicts_on_circle(from, to, point_of(mesh, c), p);
 }
 
 // Whether p conflicts with the counter-clockwise triangle (a, b, c). A corner of it does not.

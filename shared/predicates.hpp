@@ -79,8 +79,9 @@ void turn(Corner& a, Corner& b, Corner& c) {
 }
 
 // Turns the triangle until its largest corner comes last: twice at most, as no two are the same.
-inline void turn_largest_last(Point& a, Point& b, Point& c) {
-  while (c < a || c < b) turn(a, b, c);
+template <class Corner, class Less>
+void turn_largest_last(Corner& a, Corner& b, Corner& c, const Less& less) {
+  while (less(c, a) || less(c, b)) turn(a, b, c);
 }
 
 // Whether p conflicts with the counter-clockwise a, b, c, of which c is the largest and on whose
@@ -96,16 +97,15 @@ inline bool conflicts_on_circle(Point a, Point b, Point c, Point p) {
 inline bool conflicts_with_triangle(Point a, Point b, Point c, Point p) {
   const int64_t d = incircle(a, b, c, p);
   if (d != 0) return d > 0;
-  turn_largest_last(a, b, c);
+  turn_largest_last(a, b, c, [](Point l, Point r) { return l < r; });
   return conflicts_on_circle(a, b, c, p);
 }
 
 // Whether p conflicts with the ghost triangle (u, w, infinity), whose outside lies to the left of
 // u -> w: strictly outside, or on the line strictly between u and w.
 inline bool conflicts_with_ghost(Point u, Point w, Point p) {
-  const int64_t o = cross(u - p, w - p);
-  if (o != 0) return o > 0;
-  return u < w ? (u < p && p < w) : (w < p && p < u);
+  const Angle angle = angle_at(p, u, w);
+  return angle.h > 0 || (angle.h == 0 && angle.q < 0);
 }
 
 }  // namespace microtin
