@@ -87,9 +87,9 @@ MICROTIN_OUT_OF_LINE inline bool in_rare_conflict(const Mesh& mesh, Index a, Ind
   turn_largest_last(a, b, c, [&mesh](Index l, Index r) {  // infinity is larger than all
     return l != kInfinity && (r == kInfinity || point_of(mesh, l) < point_of(mesh, r));
   });
-  const Point from = point_of(mesh, a), to = point_of(mesh, b);
-  return c == kInfinity ? conflicts_with_ghost(from, to, p)
-                        : conflicts_on_circle(from, to, point_of(mesh, c), p);
+  const Angle angle = angle_at(p, point_of(mesh, a), point_of(mesh, b));
+  return c == kInfinity ? conflicts_with_ghost(angle)
+                        : conflicts_on_circle(angle, point_of(mesh, c), p);
 }
 
 // Whether p conflicts with the counter-clockwise triangle (a, b, c). A corner of it does not.

@@ -84,13 +84,13 @@ void turn_largest_last(Corner& a, Corner& b, Corner& c, const Less& less) {
   while (less(c, a) || less(c, b)) turn(a, b, c);
 }
 
-// Whether p conflicts with the counter-clockwise a, b, c, of which c is the largest and on whose
-// circle it lies. Ties are broken by lifting each point by an infinitesimal that grows with its
+// Whether p conflicts with a counter-clockwise triangle on whose circle it lies, of which c is the
+// largest corner and `angle` that under which p sees the other two. Ties are broken by lifting each point by an infinitesimal that grows with its
 // lexicographic rank (Devillers and Teillaud, "Perturbations for Delaunay and weighted Delaunay 3D
 // triangulations"): there is a conflict if p is smaller than c and, in its place, turns
 // counter-clockwise. A corner never does: p conflicts with no triangle of its own.
-inline bool conflicts_on_circle(Point a, Point b, Point c, Point p) {
-  return p < c && cross(a - p, b - p) > 0;
+inline bool conflicts_on_circle(Angle angle, Point c, Point p) {
+  return p < c && angle.h > 0;
 }
 
 // Whether p conflicts with the counter-clockwise finite triangle (a, b, c). A corner does not.
@@ -98,14 +98,18 @@ inline bool conflicts_with_triangle(Point a, Point b, Point c, Point p) {
   const int64_t d = incircle(a, b, c, p);
   if (d != 0) return d > 0;
   turn_largest_last(a, b, c, [](Point l, Point r) { return l < r; });
-  return conflicts_on_circle(a, b, c, p);
+  return conflicts_on_circle(angle_at(p, a, b), c, p);
 }
 
-// Whether p conflicts with the ghost triangle (u, w, infinity), whose outside lies to the left of
-// u -> w: strictly outside, or on the line strictly between u and w.
-inline bool conflicts_with_ghost(Point u, Point w, Point p) {
-  const Angle angle = angle_at(p, u, w);
+// Whether p, which sees u and w under `angle`, conflicts with the ghost triangle (u, w, infinity),
+// whose outside lies to the left of u -> w: strictly outside, or on the line strictly between u and
+// w.
+inline bool conflicts_with_ghost(Angle angle) {
   return angle.h > 0 || (angle.h == 0 && angle.q < 0);
+}
+
+inline bool conflicts_with_ghost(Point u, Point w, Point p) {
+  return conflicts_with_ghost(angle_at(p, u, w));
 }
 
 }  // namespace microtin

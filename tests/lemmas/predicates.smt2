@@ -55,7 +55,7 @@
 ; Of two triangles on either side of a diagonal, with all four points on a circle, exactly one is in conflict: a
 ; tie has one answer. The corners a, b, c, p turn counter-clockwise; their ranks are all different; a triangle of
 ; three is in conflict with the fourth unless that is the largest, or replacing the largest turns clockwise.
-;; shared/predicates.hpp: return p < c && cross(a - p, b - p) > 0;
+;; shared/predicates.hpp: return p < c && angle.h > 0;
 (push)
 (declare-const a Int) (declare-const b Int) (declare-const c Int) (declare-const p Int)
 (assert (distinct a b c p))
