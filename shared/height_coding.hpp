@@ -34,14 +34,12 @@ bool code_longer(Coder& coder, ExponentModel& model, uint32_t typical, uint32_t 
 template <class Coder>
 uint32_t code_exponent(Coder& coder, ExponentModel& model, uint32_t typical, uint32_t value) {
   uint32_t bits = typical;
-  if (code_longer(coder, model, typical, bits, bits < value)) {
-    do {
-      ++bits;
-    } while (bits < kMagnitudeBits && code_longer(coder, model, typical, bits, bits < value));
-  } else {
-    while (bits != 0 && !code_longer(coder, model, typical, bits - 1, bits - 1 < value)) --bits;
-  }
-  return bits;
+  const bool upwards = code_longer(coder, model, typical, bits, bits < value);
+  do {
+    bits = upwards ? bits + 1 : bits - 1;  // below 0 is above all
+  } while (bits < kMagnitudeBits &&
+           code_longer(coder, model, typical, bits, bits < value) == upwards);
+  return upwards ? bits : bits + 1;
 }
 
 // Codes a magnitude below 2^kMagnitudeBits.
