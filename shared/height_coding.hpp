@@ -50,12 +50,9 @@ uint32_t code_magnitude(Coder& coder, ExponentModel& exponent, MantissaModel& ma
       code_exponent(coder, exponent, typical_bits, value == 0 ? 0 : highest_bit(value) + 1);
   if (bits <= 1) return bits;
   AdaptiveBit& second = mantissa.second[bits < kMantissas ? bits : kMantissas - 1];
-  uint32_t result = 2u + code_bit(coder, second, (value >> (bits - 2) & 1u) != 0);
-  if (bits > 2) {
-    const uint32_t rest = static_cast<uint32_t>(1) << (bits - 2);
-    result = result * rest + coder.uniform(rest, value & (rest - 1u));
-  }
-  return result;
+  const uint32_t leading = 2u + code_bit(coder, second, (value >> (bits - 2) & 1u) != 0);
+  const uint32_t rest = static_cast<uint32_t>(1) << (bits - 2);
+  return leading * rest + coder.uniform(rest, value & (rest - 1u));
 }
 
 constexpr uint32_t kScales = 12;      // contexts: how large a difference is to be expected
