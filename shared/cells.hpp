@@ -66,7 +66,7 @@ inline Scale scale_by(int64_t ramp) {
   const uint32_t bits = highest_bit(static_cast<uint64_t>(ramp));
   const uint32_t shift = bits > 15 ? bits - 15 : 0;
   return Scale{shift, static_cast<int32_t>((static_cast<uint32_t>(1) << 30) /
-                                           static_cast<uint32_t>(ramp >> shift))};
+                                           static_cast<uint32_t>(scaled(ramp, 1, shift)))};
 }
 
 // Distances in 64ths of a cell's extent across the circle, from the change of the power at the
@@ -91,10 +91,10 @@ struct Distances {
 // together below 22784; by another one it may wrap around, which spoils an estimate and no more.
 inline void measure_axis(int32_t constant, FastInt slope, const Slices& slices, const Scale& scale,
                          int16_t* distance) {
-  const int16_t linear = static_cast<int16_t>(static_cast<int64_t>(slope) * scale.reciprocal >>
-                                              (scale.shift + slices.unit + 3));
-  const int16_t square = static_cast<int16_t>((static_cast<int64_t>(scale.reciprocal) << 15) >>
-                                              (scale.shift + 2 * slices.unit));
+  const int16_t linear =
+      static_cast<int16_t>(scaled(slope, scale.reciprocal, scale.shift + slices.unit + 3));
+  const int16_t square =
+      static_cast<int16_t>(scaled(32768, scale.reciprocal, scale.shift + 2 * slices.unit));
   for (int i = 0; i < kSlices; ++i) {
     distance[i] =
         static_cast<int16_t>(constant + (static_cast<int32_t>(slices.middle[i]) * linear >> 16) +
@@ -104,9 +104,9 @@ inline void measure_axis(int32_t constant, FastInt slope, const Slices& slices, 
 
 MICROTIN_OUT_OF_LINE inline void measure(const Power& power, const Scale& scale, const Grid& grid,
                                          Distances& distance) {
-  int64_t value = kept_within(power.value >> scale.shift, static_cast<int64_t>(1) << 30);
-  value = kept_within(value * scale.reciprocal >> 21, 1 << 13);
-  measure_axis(static_cast<int32_t>(value), power.x, grid.columns, scale, distance.x);
+  int32_t value = kept_within(scaled(power.value, 1, scale.shift), static_cast<int32_t>(1) << 30);
+  value = kept_within(scaled(value, scale.reciprocal, 21), 1 << 13);
+  measure_axis(value, power.x, grid.columns, scale, distance.x);
   measure_axis(0, power.y, grid.rows, scale, distance.y);
 }
 
@@ -136,9 +136,8 @@ inline void expand_column(int16_t x, const int16_t* y, int16_t* sum) {
 
 // Of all cells.
 MICROTIN_OUT_OF_LINE inline void expand(const Distances& distance, Cells sum) {
-  for_columns([&distance, sum](int i) {
-    expand_column(distance.x[i], distance.y, sum + kSlices * i);
-  });
+  for_columns(
+      [&distance, sum](int i) { expand_column(distance.x[i], distance.y, sum + kSlices * i); });
 }
 
 inline int16_t share_of(int16_t weight, int16_t share) {
@@ -157,9 +156,8 @@ inline void cut_column(int16_t x, const int16_t* y, int16_t* weight) {
 // Takes away what lies inside a circle: all of a cell that is half a cell inside, nothing of one
 // that is half a cell outside.
 MICROTIN_OUT_OF_LINE inline void cut(const Distances& distance, Cells weight) {
-  for_columns([&distance, weight](int i) {
-    cut_column(distance.x[i], distance.y, weight + kSlices * i);
-  });
+  for_columns(
+      [&distance, weight](int i) { cut_column(distance.x[i], distance.y, weight + kSlices * i); });
 }
 
 }  // namespace microtin

@@ -11,6 +11,13 @@
 #define MICROTIN_OUT_OF_LINE
 #endif
 
+// Where size counts, one copy of what is small but wanted in many places.
+#if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
+#define MICROTIN_ONE_COPY __attribute__((noinline))
+#else
+#define MICROTIN_ONE_COPY
+#endif
+
 namespace microtin {
 
 // A base-2 logarithm with 8 fractional bits.
@@ -62,8 +69,13 @@ inline uint32_t exp2_of(Log2 l) {
   return mantissa << 16 >> (31u - bit);
 }
 
-inline int64_t kept_within(int64_t v, int64_t most) {
-  return v > most ? most : v < -most ? -most : v;
+// v * factor / 2^shift, rounded down; the product fits.
+MICROTIN_ONE_COPY inline int64_t scaled(int64_t v, int32_t factor, uint32_t shift) {
+  return v * factor >> shift;
+}
+
+MICROTIN_ONE_COPY inline int32_t kept_within(int64_t v, int32_t most) {
+  return v > most ? most : v < -most ? -most : static_cast<int32_t>(v);
 }
 
 // A number at least sqrt(v) and at most 2 + sqrt(v) * (1 + 2^-7), for v < 2^58.

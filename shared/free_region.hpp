@@ -23,8 +23,8 @@ inline Cotangent cotangent(int64_t q, int64_t h) {
   // h is brought below 2^16, but not below 2^15: then |q| * 256 <= 89 * 2^16 * 2^8 < 2^31.
   const uint32_t bits = highest_bit(static_cast<uint64_t>(h));
   const uint32_t shift = bits > 15 ? bits - 15 : 0;
-  const int32_t divisor = static_cast<int32_t>(h >> shift);
-  return static_cast<int32_t>(kept_within(q >> shift, 89 * divisor)) * 256 / divisor;
+  const int32_t divisor = static_cast<int32_t>(scaled(h, 1, shift));
+  return kept_within(scaled(q, 1, shift), 89 * divisor) * 256 / divisor;
 }
 
 // The side from corner i to corner i + 1 of a triangle, and what is known behind it.
@@ -58,7 +58,7 @@ typedef int64_t Area;
 // Area of the disc on whose circle a chord of squared length `length2` < 2^33 is seen under k.
 inline Area disc_area(int64_t length2, Cotangent k) {
   // pi / 4 = 201 / 256; 1 + k^2 <= 2^22 with 8 fractional bits.
-  return (length2 * ((65536 + k * k) >> 8) >> 8) * 201;
+  return scaled(length2, (65536 + k * k) >> 8, 8) * 201;
 }
 
 // Area, over length2, of the segment to the left of the chord: 17 fractional bits, below 2^30. Up
@@ -89,7 +89,7 @@ inline Log2 free_area(FreeRegion& region) {
       side.behind = -cotangent_at(side.apex, to, from);
       lost += segment(side.behind);
     }
-    left -= length2 * lost >> 9;
+    left -= scaled(length2, lost, 9);
   }
   const Area least = (disc >> 8) + 1;
   return log2_of(static_cast<uint64_t>(left > least ? left : least)) - 8 * kLog2One;
@@ -110,7 +110,7 @@ inline Power circle_over(Offset from, Offset to, Cotangent k, Offset middle) {
   const Offset b = {middle.x - 2 * to.x, middle.y - 2 * to.y};
   const Offset chord = {a.x - b.x, a.y - b.y};
   Power power;
-  power.value = dot(a, b) - ((k * cross(chord, a)) >> 8);
+  power.value = dot(a, b) - scaled(cross(chord, a), k, 8);
   power.x = a.x + b.x + static_cast<FastInt>(static_cast<int64_t>(k) * chord.y >> 8);
   power.y = a.y + b.y - static_cast<FastInt>(static_cast<int64_t>(k) * chord.x >> 8);
   return power;

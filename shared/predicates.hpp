@@ -85,10 +85,11 @@ void turn_largest_last(Corner& a, Corner& b, Corner& c, const Less& less) {
 }
 
 // Whether p conflicts with a counter-clockwise triangle on whose circle it lies, of which c is the
-// largest corner and `angle` that under which p sees the other two. Ties are broken by lifting each point by an infinitesimal that grows with its
-// lexicographic rank (Devillers and Teillaud, "Perturbations for Delaunay and weighted Delaunay 3D
-// triangulations"): there is a conflict if p is smaller than c and, in its place, turns
-// counter-clockwise. A corner never does: p conflicts with no triangle of its own.
+// largest corner and `angle` that under which p sees the other two. Ties are broken by lifting each
+// point by an infinitesimal that grows with its lexicographic rank (Devillers and Teillaud,
+// "Perturbations for Delaunay and weighted Delaunay 3D triangulations"): there is a conflict if p
+// is smaller than c and, in its place, turns counter-clockwise. A corner never does: p conflicts
+// with no triangle of its own.
 inline bool conflicts_on_circle(Angle angle, Point c, Point p) {
   return p < c && angle.h > 0;
 }

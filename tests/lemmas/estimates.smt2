@@ -1,7 +1,7 @@
 ; Estimates need not be right, but their arithmetic must not overflow: cotangents, circles, cells, repulsion.
 
 ; A cotangent: 256 times what is left of q fits 32 bits, and the result stays below its cap.
-;; shared/free_region.hpp: return static_cast<int32_t>(kept_within(q >> shift, 89 * divisor)) * 256 / divisor;
+;; shared/free_region.hpp: return kept_within(scaled(q, 1, shift), 89 * divisor) * 256 / divisor;
 (push)
 (declare-const q Int)
 (declare-const divisor Int)
@@ -15,7 +15,7 @@
 (pop)
 
 ; A disc: the square of a cotangent fits 32 bits, the products 63.
-;; shared/free_region.hpp: return (length2 * ((65536 + k * k) >> 8) >> 8) * 201;
+;; shared/free_region.hpp: return scaled(length2, (65536 + k * k) >> 8, 8) * 201;
 ;; shared/free_region.hpp: return static_cast<int32_t>(static_cast<int64_t>(65536 + k * k) * 3217 >> 11) - smaller;
 (push)
 (declare-const k Int)
@@ -42,7 +42,7 @@
 (pop)
 
 ; A circle over a chord: the cotangent's product fits 52 bits.
-;; shared/free_region.hpp: power.value = dot(a, b) - ((k * cross(chord, a)) >> 8);
+;; shared/free_region.hpp: power.value = dot(a, b) - scaled(cross(chord, a), k, 8);
 (push)
 (declare-const k Int)
 (declare-const x Int)
@@ -86,8 +86,8 @@
 (pop)
 
 ; Slopes and powers times it fit 63 bits.
-;; shared/cells.hpp: const int16_t linear = static_cast<int16_t>(static_cast<int64_t>(slope) * scale.reciprocal >>
-;; shared/cells.hpp: value = kept_within(value * scale.reciprocal >> 21, 1 << 13);
+;; shared/cells.hpp: static_cast<int16_t>(scaled(slope, scale.reciprocal, scale.shift + slices.unit + 3));
+;; shared/cells.hpp: value = kept_within(scaled(value, scale.reciprocal, 21), 1 << 13);
 (push)
 (declare-const slope Int)
 (declare-const value Int)
