@@ -47,7 +47,7 @@ struct FreeRegion {
 };
 
 // Of the angle under which `from` sees the side from a to b, which is to its right.
-inline Cotangent cotangent_at(Offset from, Offset a, Offset b) {
+inline Cotangent cotangent_at(const Offset& from, const Offset& a, const Offset& b) {
   const Offset to_a = a - from, to_b = b - from;
   return cotangent(dot(to_a, to_b), cross(to_a, to_b));
 }
@@ -73,25 +73,25 @@ inline int32_t segment(Cotangent k) {
 
 // log2 of the free region's area in lattice units. Fills in the sides' cotangents.
 inline Log2 free_area(FreeRegion& region) {
-  Area left = 0;
-  Area disc = 0;
-  for (int i = 2; i >= 0; --i) {
+  Area lost = 0;
+  for (int i = 0; i < 3; ++i) {
     Side& side = region.side[i];
     if (!side.certified) continue;
-    const Offset from = region.corner[i], to = region.corner[i + 1];
-    const int64_t length2 = dot(to - from, to - from);
+    const Offset& from = region.corner[i];
+    const Offset& to = region.corner[i + 1];
     side.own = cotangent_at(region.corner[i == 0 ? 2 : i - 1], from, to);
-    if (i == kChord) left = disc = disc_area(length2, side.own);
-    int32_t lost = segment(-side.own);
+    int32_t segments = segment(-side.own);
     if (side.ghost) {
       side.behind = (side.own < 0 ? side.own : 0) - 8 * 256;
     } else {
       side.behind = -cotangent_at(side.apex, to, from);
-      lost += segment(side.behind);
+      segments += segment(side.behind);
     }
-    left -= scaled(length2, lost, 9);
+    lost += scaled(dot(to - from, to - from), segments, 9);
   }
-  const Area least = (disc >> 8) + 1;
+  const Offset chord = region.corner[kChord];
+  const Area disc = disc_area(dot(chord, chord), region.side[kChord].own);
+  const Area left = disc - lost, least = (disc >> 8) + 1;
   return log2_of(static_cast<uint64_t>(left > least ? left : least)) - 8 * kLog2One;
 }
 
