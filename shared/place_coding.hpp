@@ -39,10 +39,18 @@ int code_slice(Coder& coder, Calibration* split, const uint32_t* weight, int sli
   return first;
 }
 
+// The next vertex's place, seen from corner 0: known to a writing coder.
+template <class Coder>
+Offset next_place(const Coder& coder, const FreeRegion& region) {
+  const Vertex next = coder.next();
+  return Point{next.x, next.y} - region.origin;
+}
+
 // Codes the cell that holds the place, which becomes the box.
 template <class Coder>
 MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, const FreeRegion& region,
-                                    PlaceOdds& odds, Offset place) {
+                                    PlaceOdds& odds) {
+  const Offset place = next_place(coder, region);
   const Box& box = odds.box;
   Slices& columns = odds.grid.columns;
   Slices& rows = odds.grid.rows;
@@ -70,10 +78,11 @@ MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, const Free
 // Codes a place in the box, as seen from corner 0.
 template <class Coder>
 Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region, PlaceOdds& odds,
-                  uint32_t levels, Offset place) {
+                  uint32_t levels) {
   for (uint32_t level = 0; level < levels; ++level) {
-    code_cell(coder, model.split, region, odds, place);
+    code_cell(coder, model.split, region, odds);
   }
+  const Offset place = next_place(coder, region);
   const Box& box = odds.box;
   const FastInt x = static_cast<FastInt>(coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),
                                                        static_cast<uint32_t>(place.x - box.x0)));

@@ -159,10 +159,10 @@ inline void note_final_triangle(Reconstruction& r, int64_t twice_area) {
 // --- Insertion -----------------------------------------------------------------------------------
 
 // Inserts a vertex at `place`, decoded relative to the triangle of the chord, with the height that
-// the stream says or, for a writing coder, z. The chord becomes the half-edge from the new vertex.
+// the stream says. The chord becomes the half-edge from the new vertex.
 // False if that is not legal.
 template <class Coder>
-bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
+bool insert(Reconstruction& r, Coder& coder, Point place) {
   Mesh& mesh = *r.mesh;
   const Index chord = r.chord;
   if (!(point_of(mesh, 0) < place)) return false;
@@ -173,15 +173,15 @@ bool insert(Reconstruction& r, Coder& coder, Point place, int16_t z) {
   if (!grow_cavity(mesh, chord, place, r.cavity, is_done)) return false;
   if (r.cavity.size == 0 || r.cavity_twin[0] != mesh.twin[chord]) return false;
   const Index v = mesh.vertices;
+  int16_t z = 0;
   if (r.contract.has_heights) {
     // The ring begins with the chord's start, which is finite, since triangles at infinity are
     // looked at around infinity only.
     const HeightPrediction prediction = predict_height(
         mesh, r.residual, r.cavity_origin, static_cast<uint32_t>(r.cavity.size) + 2u, place);
+    z = coder.next().z;
     if (!code_height(coder, r.models.height, prediction, &z)) return false;
     r.residual[v] = residual_of(z - prediction.height);
-  } else {
-    z = 0;
   }
   mesh.x[v] = place.x;
   mesh.y[v] = place.y;
@@ -241,7 +241,7 @@ inline HitEstimate estimate_hit(Reconstruction& r, Log2 density) {
 
 // Where a hit is.
 template <class Coder>
-Point locate(Reconstruction& r, Coder& coder, Point place) {
+Point locate(Reconstruction& r, Coder& coder) {
   const FreeRegion& region = r.region;
   PlaceOdds& odds = r.odds;
   const Log2 density = r.density / 256;
@@ -254,8 +254,7 @@ Point locate(Reconstruction& r, Coder& coder, Point place) {
   } else {
     odds.repulsion.nearest = 2 * kReach;
   }
-  const Offset found =
-      code_place(coder, r.models.place, region, odds, r.contract.levels, place - region.origin);
+  const Offset found = code_place(coder, r.models.place, region, odds, r.contract.levels);
   if (r.contract.has_heights) learn(r.crowding, odds.repulsion);
   return Point{static_cast<uint16_t>(region.origin.x + found.x),
                static_cast<uint16_t>(region.origin.y + found.y)};
@@ -283,8 +282,8 @@ bool decide(Reconstruction& r, Coder& coder, bool* hit) {
   if (*hit) {
     place = at_hull ? code_hull_place(coder, r.models.gap, r.models.height.mantissa, r.contract,
                                       edge, density, place)
-                    : locate(r, coder, place);
-    if (!insert(r, coder, place, next.z)) return false;
+                    : locate(r, coder);
+    if (!insert(r, coder, place)) return false;
   }
   if (at_hull) return true;
   // The triangle of the chord and c, or the new vertex, is final.
