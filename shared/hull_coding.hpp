@@ -40,7 +40,9 @@ uint16_t code_outer_coordinate(Coder& coder, uint32_t largest, uint32_t value) {
 // vertices per unit area. Gaps that lead too far give a, which is not beyond the edge.
 template <class Coder>
 Point code_hull_place(Coder& coder, ExponentModel& gap, MantissaModel& mantissa,
-                      const Contract& contract, const HullEdge& edge, Log2 density, Point place) {
+                      const Contract& contract, const HullEdge& edge, Log2 density) {
+  const Vertex next = coder.next();
+  Point place = {next.x, next.y};
   if (edge.length == 0) {
     place.x = code_outer_coordinate(coder, contract.x_max, place.x);
     place.y = code_outer_coordinate(coder, contract.y_max, place.y);

@@ -239,12 +239,17 @@ inline HitEstimate estimate_hit(Reconstruction& r, Log2 density) {
   return estimate;
 }
 
-// Where a hit is.
 template <class Coder>
-Point locate(Reconstruction& r, Coder& coder) {
-  const FreeRegion& region = r.region;
+MICROTIN_ONE_COPY bool code_hit(Reconstruction& r, Coder& coder, const HitEstimate& estimate) {
+  return code_on_curve(coder, r.models.hit[estimate.context], estimate.position,
+                       coder.conflicts(*r.mesh, r.chord));
+}
+
+// Where a hit is. It takes the place of c.
+template <class Coder>
+Point locate(Reconstruction& r, Coder& coder, Log2 density) {
+  FreeRegion& region = r.region;
   PlaceOdds& odds = r.odds;
-  const Log2 density = r.density / 256;
   const Offset first = Point{0, 0} - region.origin;
   odds.box = Box{first.x, first.y, first.x + r.contract.x_max, first.y + r.contract.y_max};
   enclose(region, odds.box);
@@ -256,40 +261,34 @@ Point locate(Reconstruction& r, Coder& coder) {
   }
   const Offset found = code_place(coder, r.models.place, region, odds, r.contract.levels);
   if (r.contract.has_heights) learn(r.crowding, odds.repulsion);
+  region.corner[1] = found;
   return Point{static_cast<uint16_t>(region.origin.x + found.x),
                static_cast<uint16_t>(region.origin.y + found.y)};
 }
 
-// Says hit or miss at an uncertified triangle and inserts the vertex of a hit. False if malformed.
+enum class Decision : uint8_t { kMiss, kHit, kMalformed };
+
+// Says hit or miss at an uncertified triangle, and inserts the vertex of a hit.
 template <class Coder>
-bool decide(Reconstruction& r, Coder& coder, bool* hit) {
-  const Vertex next = coder.next();
+Decision decide_at_hull(Reconstruction& r, Coder& coder, Log2 density) {
+  const HullEdge edge = hull_edge(r);
+  if (edge.length == 1) return Decision::kMiss;  // there is no place beyond it
+  if (!code_hit(r, coder, estimate_hull_hit(edge, density))) return Decision::kMiss;
+  const Point place = code_hull_place(coder, r.models.gap, r.models.height.mantissa, r.contract,
+                                      edge, density);
+  return insert(r, coder, place) ? Decision::kHit : Decision::kMalformed;
+}
+
+template <class Coder>
+Decision decide(Reconstruction& r, Coder& coder) {
   const Log2 density = r.density / 256;
-  const bool at_hull = r.vertex == kInfinity;
-  HullEdge edge{};
-  HitEstimate estimate;
-  if (at_hull) {
-    edge = hull_edge(r);
-    if (edge.length == 1) return true;  // there is no place beyond it
-    estimate = estimate_hull_hit(edge, density);
-  } else {
-    look_around(r);
-    estimate = estimate_hit(r, density);
-  }
-  *hit = code_on_curve(coder, r.models.hit[estimate.context], estimate.position,
-                       coder.conflicts(*r.mesh, r.chord));
-  Point place = {next.x, next.y};
-  if (*hit) {
-    place = at_hull ? code_hull_place(coder, r.models.gap, r.models.height.mantissa, r.contract,
-                                      edge, density, place)
-                    : locate(r, coder);
-    if (!insert(r, coder, place)) return false;
-  }
-  if (at_hull) return true;
+  if (r.vertex == kInfinity) return decide_at_hull(r, coder, density);
+  look_around(r);
+  const bool hit = code_hit(r, coder, estimate_hit(r, density));
+  if (hit && !insert(r, coder, locate(r, coder, density))) return Decision::kMalformed;
   // The triangle of the chord and c, or the new vertex, is final.
-  const Offset* const corner = r.region.corner;
-  note_final_triangle(r, cross(*hit ? place - r.region.origin : corner[1], corner[2]));
-  return true;
+  note_final_triangle(r, cross(r.region.corner[1], r.region.corner[2]));
+  return hit ? Decision::kHit : Decision::kMiss;
 }
 
 // --- Steps ---------------------------------------------------------------------------------------
@@ -414,9 +413,9 @@ Progress step_walk(Reconstruction& r, Coder& coder) {
     if (!pass(r, corner)) return Progress::kMalformed;
     corner = far_corner(r);
   }
-  bool hit = false;
-  if (!decide(r, coder, &hit)) return Progress::kMalformed;
-  if (!hit) return pass(r, corner) ? Progress::kStep : Progress::kMalformed;
+  const Decision decision = decide(r, coder);
+  if (decision == Decision::kMalformed) return Progress::kMalformed;
+  if (decision == Decision::kMiss) return pass(r, corner) ? Progress::kStep : Progress::kMalformed;
   if (r.mesh->vertices == r.phase_end) {
     ++r.phase;
     return after_vertices(r);
