@@ -212,17 +212,15 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
   return status;
 }
 
-// The largest capacity whose workspace, of `fixed` bytes and `per_four` bytes for four vertices,
-// rounded up, fits in `size` bytes.
-uint32_t capacity_of(size_t size, size_t fixed, size_t per_four) {
-  if (size < fixed) return 0;
-  const size_t fours = (size - fixed) / per_four, rest = (size - fixed) % per_four;
-  if (fours >= MICROTIN_MAX_VERTICES / 4) return static_cast<uint32_t>(MICROTIN_MAX_VERTICES);
-  return static_cast<uint32_t>(4 * fours) + static_cast<uint32_t>(rest * 4 / per_four);
-}
-
-bool misaligned(const void* workspace) {
-  return reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0;
+// How many vertices a workspace holds, of which `fixed` bytes and `per_four` bytes for four, rounded
+// up, are needed. 4 * per_four * MICROTIN_MAX_VERTICES / 4 is below 2^32.
+microtin_status capacity_of(const void* workspace, size_t size, uint32_t fixed, uint32_t per_four,
+                            uint32_t* capacity) {
+  if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
+  const uint32_t most = MICROTIN_MAX_VERTICES, enough = fixed + per_four * ((most + 3) / 4);
+  const uint32_t bytes = size < enough ? static_cast<uint32_t>(size) : enough;
+  *capacity = bytes < fixed ? 0 : smaller((bytes - fixed) * 4 / per_four, most);
+  return *capacity < 3 ? MICROTIN_WORKSPACE_TOO_SMALL : MICROTIN_DONE;
 }
 
 // A size, or the largest where size_t is too narrow for it.
@@ -231,10 +229,10 @@ size_t saturated(unsigned long size) {
   return size < most ? static_cast<size_t>(size) : most;
 }
 
-constexpr size_t kMeshFixed = MICROTIN_MESH_BYTES(0);
-constexpr size_t kMeshPerFour = MICROTIN_MESH_BYTES(4) - kMeshFixed;
-constexpr size_t kDecoderFixed = MICROTIN_DECODER_BYTES(0);
-constexpr size_t kDecoderPerFour = MICROTIN_DECODER_BYTES(4) - kDecoderFixed;
+constexpr uint32_t kMeshFixed = MICROTIN_MESH_BYTES(0);
+constexpr uint32_t kMeshPerFour = MICROTIN_MESH_BYTES(4) - kMeshFixed;
+constexpr uint32_t kDecoderFixed = MICROTIN_DECODER_BYTES(0);
+constexpr uint32_t kDecoderPerFour = MICROTIN_DECODER_BYTES(4) - kDecoderFixed;
 
 void empty_mesh(microtin_mesh& m) {
   m.mesh.vertices = 0;
@@ -252,9 +250,9 @@ using namespace microtin;
 microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh** mesh) {
   if (workspace == nullptr || mesh == nullptr) return MICROTIN_ARGUMENT;
   *mesh = nullptr;
-  if (misaligned(workspace)) return MICROTIN_MISALIGNED;
-  const uint32_t capacity = capacity_of(size, kMeshFixed, kMeshPerFour);
-  if (capacity < 3) return MICROTIN_WORKSPACE_TOO_SMALL;
+  uint32_t capacity = 0;
+  const microtin_status status = capacity_of(workspace, size, kMeshFixed, kMeshPerFour, &capacity);
+  if (status != MICROTIN_DONE) return status;
   microtin_mesh& m = *static_cast<microtin_mesh*>(workspace);
   // Widest numbers first, so that everything is aligned.
   const size_t half_edges = 6 * static_cast<size_t>(capacity);
@@ -274,9 +272,9 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
                                       microtin_decoder** decoder) {
   if (workspace == nullptr || mesh == nullptr || decoder == nullptr) return MICROTIN_ARGUMENT;
   *decoder = nullptr;
-  if (misaligned(workspace)) return MICROTIN_MISALIGNED;
-  const uint32_t capacity = capacity_of(size, kDecoderFixed, kDecoderPerFour);
-  if (capacity < 3) return MICROTIN_WORKSPACE_TOO_SMALL;
+  uint32_t capacity = 0;
+  const microtin_status status = capacity_of(workspace, size, kDecoderFixed, kDecoderPerFour, &capacity);
+  if (status != MICROTIN_DONE) return status;
   microtin_decoder& d = *static_cast<microtin_decoder*>(workspace);
   d.mesh = mesh;
   d.capacity = capacity;
