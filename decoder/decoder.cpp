@@ -35,12 +35,12 @@ uint32_t bytes_needed(const microtin_decoder& d) {
 }
 
 // What to say of all since the last check, given the four bytes that follow, its own.
-microtin_status status_of_checked(microtin_decoder& d) {
-  d.coder.window.settle();
-  const bool passes = read_u32(d.coder.window.next) == d.coder.window.crc;
-  d.coder.window.skip(kCheckBytes);
-  d.coder.window.settle();
-  d.coder.window.crc = 0;
+MICROTIN_ONE_COPY microtin_status status_of_checked(microtin_decoder& d) {
+  ByteWindow& window = d.coder.window;
+  window.skip(kCheckBytes);
+  window.settle();
+  const bool passes = window.crc == kCheckedCrc;
+  window.crc = 0;
   return passes ? d.verdict : MICROTIN_CHECKSUM;
 }
 
@@ -336,11 +336,11 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   FixedHeader header;
   microtin_axis axis[3];
   const bool legal = read_header(bytes, &header, axis);
-  const uint32_t checked = checked_bytes(header);
-  info->header_bytes = checked + kCheckBytes;
+  info->header_bytes = checked_bytes(header) + kCheckBytes;
   if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
-  const uint32_t crc = crc32(0, bytes, static_cast<size_t>(checked));
-  if (crc != read_u32(bytes + checked)) return MICROTIN_CHECKSUM;
+  if (crc32(0, bytes, static_cast<size_t>(info->header_bytes)) != kCheckedCrc) {
+    return MICROTIN_CHECKSUM;
+  }
   if (!legal) return MICROTIN_MALFORMED;
   const Contract& contract = header.contract;
   info->vertices = contract.vertices;

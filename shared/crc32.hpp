@@ -32,6 +32,9 @@ inline uint32_t shift_byte(uint32_t crc) {
 
 #endif
 
+// The check of anything and its own check, low byte first, behind it.
+constexpr uint32_t kCheckedCrc = 0x2144DF1C;
+
 // Feed 0 first, then each result: crc32(crc32(0, a), b) is the check of a followed by b.
 inline uint32_t crc32(uint32_t crc, const uint8_t* bytes, size_t size) {
   crc = ~crc;
