@@ -4,19 +4,7 @@
 
 #include <stdint.h>
 
-// Keeps rare code, and code that is vectorised only if no loop is around it, out of its callers.
-#if defined(__GNUC__)
-#define MICROTIN_OUT_OF_LINE __attribute__((noinline))
-#else
-#define MICROTIN_OUT_OF_LINE
-#endif
-
-// Where size counts, one copy of what is small but wanted in many places.
-#if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
-#define MICROTIN_ONE_COPY __attribute__((noinline))
-#else
-#define MICROTIN_ONE_COPY
-#endif
+#include "shared/compiler.hpp"
 
 namespace microtin {
 

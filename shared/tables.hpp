@@ -4,6 +4,8 @@
 
 #include <stdint.h>
 
+#include "shared/compiler.hpp"
+
 #if defined(__AVR__)
 #include <avr/pgmspace.h>
 #define MICROTIN_IN_FLASH PROGMEM

@@ -1,0 +1,34 @@
+// What compilers are told. Included before all other code, since it holds for what follows.
+#ifndef MICROTIN_SHARED_COMPILER_HPP
+#define MICROTIN_SHARED_COMPILER_HPP
+
+// GCC 12 at -O2, where there are no vector registers, puts two 16-bit numbers into a word and takes
+// the high half of the word's square for that of each (the middles of slices, cells.hpp): seen on
+// RISC-V and on x86 without SSE.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) &&     \
+    !defined(__OPTIMIZE_SIZE__) && !defined(__SSE2__) && !defined(__VX__) && \
+    !defined(__ARM_NEON) && !defined(__ALTIVEC__) && !defined(__riscv_vector)
+#pragma GCC optimize("no-tree-vectorize")
+#endif
+
+// Where size counts, GCC keeps more values at hand than there are registers, and moves instructions
+// apart: without that Cortex-M4 needs 150 bytes less, Cortex-M0 220.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE_SIZE__)
+#pragma GCC optimize("no-tree-fre", "no-caller-saves", "no-schedule-insns2")
+#endif
+
+// Keeps rare code, and code that is vectorised only if no loop is around it, out of its callers.
+#if defined(__GNUC__)
+#define MICROTIN_OUT_OF_LINE __attribute__((noinline))
+#else
+#define MICROTIN_OUT_OF_LINE
+#endif
+
+// Where size counts, one copy of what is small but wanted in many places.
+#if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
+#define MICROTIN_ONE_COPY __attribute__((noinline))
+#else
+#define MICROTIN_ONE_COPY
+#endif
+
+#endif
