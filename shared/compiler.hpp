@@ -26,7 +26,7 @@
 
 // Where size counts, one copy of what is small but wanted in many places.
 #if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
-#define MICROTIN_ONE_COPY __attribute__((noinline))
+#define MICROTIN_ONE_COPY __attribute__((noinline, noclone))
 #else
 #define MICROTIN_ONE_COPY
 #endif

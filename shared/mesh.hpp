@@ -70,7 +70,7 @@ inline Point point_of(const Mesh& mesh, Index v) {
   return Point{mesh.x[v], mesh.y[v]};
 }
 
-inline bool is_ghost(const Mesh& mesh, Index triangle) {
+MICROTIN_ONE_COPY inline bool is_ghost(const Mesh& mesh, Index triangle) {
   const Index f = first_edge(triangle);
   return is_ghost(mesh.origin[f], mesh.origin[f + 1u], mesh.origin[f + 2u]);
 }
