@@ -11,14 +11,19 @@ bool has_terrain(const microtin_mesh& m, Index t) {
   return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
 }
 
-Vertex vertex_of(const Mesh& mesh, Index v) {
-  return Vertex{mesh.x[v], mesh.y[v], mesh.z[v]};
-}
+struct Corners {
+  Vertex corner[3];
+};
 
-int32_t height_in(const Mesh& mesh, Index t, FinePoint p) {
+// Of a real triangle.
+MICROTIN_ONE_COPY Corners corners_of(const Mesh& mesh, Index t) {
+  Corners corners;
   const Index f = first_edge(t);
-  return height_in_triangle(vertex_of(mesh, mesh.origin[f]), vertex_of(mesh, mesh.origin[f + 1u]),
-                            vertex_of(mesh, mesh.origin[f + 2u]), p);
+  for (Index i = 0; i < 3; ++i) {
+    const Index v = mesh.origin[f + i];
+    corners.corner[i] = Vertex{mesh.x[v], mesh.y[v], mesh.z[v]};
+  }
+  return corners;
 }
 
 // The answer at p in the closed real triangle t. A vertex always knows its own height; on an edge,
@@ -34,7 +39,8 @@ microtin_answer answer_in(const microtin_mesh& m, Index t, FinePoint p, int32_t*
                                              has_terrain(m, triangle_of(mesh.twin[h])));
   }
   if (!known) return MICROTIN_IN_VOID;
-  *height = height_in(mesh, t, p);
+  const Corners of = corners_of(mesh, t);
+  *height = height_in_triangle(of.corner[0], of.corner[1], of.corner[2], p);
   return MICROTIN_HEIGHT;
 }
 
@@ -77,11 +83,7 @@ uint64_t microtin_digest(const microtin_mesh* mesh) {
   uint64_t sum = 0;
   for (Index t = 0; t < mesh->mesh.triangles; ++t) {
     if (is_ghost(mesh->mesh, t)) continue;
-    const Index f = first_edge(t);
-    const Vertex corner[3] = {vertex_of(mesh->mesh, mesh->mesh.origin[f]),
-                              vertex_of(mesh->mesh, mesh->mesh.origin[f + 1u]),
-                              vertex_of(mesh->mesh, mesh->mesh.origin[f + 2u])};
-    sum += triangle_digest(corner, !has_terrain(*mesh, t));
+    sum += triangle_digest(corners_of(mesh->mesh, t).corner, !has_terrain(*mesh, t));
   }
   return sum;
 }

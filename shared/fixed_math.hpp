@@ -13,7 +13,7 @@ typedef int32_t Log2;
 constexpr Log2 kLog2One = 256;
 
 // Position of the highest set bit of v > 0.
-inline uint32_t highest_bit(uint64_t v) {
+MICROTIN_ONE_COPY inline uint32_t highest_bit(uint64_t v) {
 #if defined(__GNUC__) && UINTPTR_MAX > 0xFFFFFFFFu
   return 63u ^ static_cast<uint32_t>(__builtin_clzll(v));
 #else

@@ -58,7 +58,7 @@ inline Index first_edge(Index triangle) {
   return static_cast<Index>(3u * triangle);
 }
 
-inline Index next_in_triangle(Index h) {
+MICROTIN_ONE_COPY inline Index next_in_triangle(Index h) {
   return static_cast<Index>(h == first_edge(triangle_of(h)) + 2u ? h - 2u : h + 1u);
 }
 
