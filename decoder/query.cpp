@@ -19,7 +19,7 @@ struct Corners {
 MICROTIN_ONE_COPY Corners corners_of(const Mesh& mesh, Index t) {
   Corners corners;
   const Index f = first_edge(t);
-  for (Index i = 0; i < 3; ++i) {
+  for (uint32_t i = 0; i < 3; ++i) {
     const Index v = mesh.origin[f + i];
     corners.corner[i] = Vertex{mesh.x[v], mesh.y[v], mesh.z[v]};
   }
@@ -32,7 +32,7 @@ microtin_answer answer_in(const microtin_mesh& m, Index t, FinePoint p, int32_t*
   const Mesh& mesh = m.mesh;
   bool known = has_terrain(m, t);
   const Index f = first_edge(t);
-  for (Index i = 0; i < 3 && !known; ++i) {
+  for (uint32_t i = 0; i < 3 && !known; ++i) {
     const Index h = static_cast<Index>(f + i);
     const FinePoint at = fine(point_of(mesh, mesh.origin[h]));
     known = (at.x == p.x && at.y == p.y) || (side_of(mesh, h, next_in_triangle(h), p) == 0 &&
@@ -69,7 +69,7 @@ uint32_t microtin_triangle_count(const microtin_mesh* mesh) {
 
 microtin_triangle_kind microtin_triangle(const microtin_mesh* mesh, uint32_t t, uint32_t v[3]) {
   const Index f = first_edge(static_cast<Index>(t));
-  for (Index i = 0; i < 3; ++i) v[i] = public_vertex(mesh->mesh.origin[f + i]);
+  for (uint32_t i = 0; i < 3; ++i) v[i] = public_vertex(mesh->mesh.origin[f + i]);
   if (is_ghost(mesh->mesh, static_cast<Index>(t))) return MICROTIN_GHOST;
   return has_terrain(*mesh, static_cast<Index>(t)) ? MICROTIN_REAL : MICROTIN_VOID;
 }

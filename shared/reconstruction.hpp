@@ -76,16 +76,17 @@ struct Reconstruction {
   int32_t density;  // log2 of this batch's points per unit area, 16 fractional bits
   Index void_cursor;
 
-  Cavity cavity;
-  Index cavity_triangles[kMaxDegree];
-  Index cavity_origin[kMaxDegree];
-  Index cavity_twin[kMaxDegree];
+  Crowding crowding;
   // Of the triangle in hand: here to spare the stack.
   FreeRegion region;
   PlaceOdds odds;
 
+  Cavity cavity;
+  Index cavity_triangles[kMaxDegree];
+  Index cavity_origin[kMaxDegree];
+  Index cavity_twin[kMaxDegree];
+
   Models models;
-  Crowding crowding;
 };
 
 // All but the contract, which is known.
