@@ -41,7 +41,7 @@ int code_slice(Coder& coder, Calibration* split, const uint32_t* weight, int sli
 
 // The next vertex's place, seen from corner 0: known to a writing coder.
 template <class Coder>
-Offset next_place(const Coder& coder, const FreeRegion& region) {
+Offset next_place(Coder& coder, const FreeRegion& region) {
   const Vertex next = coder.next();
   return Point{next.x, next.y} - region.origin;
 }

@@ -83,7 +83,10 @@ class PlanCoder {
     }
     return all[placed];
   }
-  bool conflicts(const Mesh&, Index) const { return hit_; }
+  bool conflicts(const Mesh&, Index) {
+    next();
+    return hit_;
+  }
 
   bool last_phase() const { return r_->phase + 1 == plan_.batches.size(); }
   uint32_t batch() const { return plan_.batches[r_->phase]; }
@@ -161,7 +164,10 @@ class BorderCoder : public PlanCoder {
     conflicts_ = at().vertex == kInfinity && a.y == 0 && mesh.y[c] == 0 && mesh.x[c] > a.x + 1;
     return {static_cast<uint16_t>(a.x + 1), 0, 0};
   }
-  bool conflicts(const Mesh&, Index) const { return conflicts_; }
+  bool conflicts(const Mesh&, Index) {
+    next();
+    return conflicts_;
+  }
 
  private:
   bool conflicts_ = false;
