@@ -212,8 +212,8 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
   return status;
 }
 
-// How many vertices a workspace holds, of which `fixed` bytes and `per_four` bytes for four, rounded
-// up, are needed. 4 * per_four * MICROTIN_MAX_VERTICES / 4 is below 2^32.
+// How many vertices a workspace holds, of which `fixed` bytes and `per_four` bytes for four,
+// rounded up, are needed. 4 * per_four * MICROTIN_MAX_VERTICES / 4 is below 2^32.
 microtin_status capacity_of(const void* workspace, size_t size, uint32_t fixed, uint32_t per_four,
                             uint32_t* capacity) {
   if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
@@ -273,7 +273,8 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
   if (workspace == nullptr || mesh == nullptr || decoder == nullptr) return MICROTIN_ARGUMENT;
   *decoder = nullptr;
   uint32_t capacity = 0;
-  const microtin_status status = capacity_of(workspace, size, kDecoderFixed, kDecoderPerFour, &capacity);
+  const microtin_status status =
+      capacity_of(workspace, size, kDecoderFixed, kDecoderPerFour, &capacity);
   if (status != MICROTIN_DONE) return status;
   microtin_decoder& d = *static_cast<microtin_decoder*>(workspace);
   d.mesh = mesh;

@@ -17,18 +17,25 @@
 #pragma GCC optimize("no-tree-fre", "no-caller-saves", "no-schedule-insns2")
 #endif
 
-// Keeps rare code, and code that is vectorised only if no loop is around it, out of its callers.
-#if defined(__GNUC__)
-#define MICROTIN_OUT_OF_LINE __attribute__((noinline))
-#else
+// Where speed counts, rare code, and code that is vectorised only if no loop is around it, is kept
+// out of its callers (OUT_OF_LINE). Where size counts, there is one copy of what is small but
+// wanted in many places (ONE_COPY), and no call of what is wanted in one (IN_PLACE).
+#if !defined(__GNUC__)
 #define MICROTIN_OUT_OF_LINE
-#endif
-
-// Where size counts, one copy of what is small but wanted in many places.
-#if defined(__GNUC__) && defined(__OPTIMIZE_SIZE__)
-#define MICROTIN_ONE_COPY __attribute__((noinline, noclone))
-#else
 #define MICROTIN_ONE_COPY
+#define MICROTIN_IN_PLACE
+#elif defined(__OPTIMIZE_SIZE__)
+#define MICROTIN_OUT_OF_LINE
+#if defined(__clang__)
+#define MICROTIN_ONE_COPY __attribute__((noinline))
+#else
+#define MICROTIN_ONE_COPY __attribute__((noinline, noclone))
+#endif
+#define MICROTIN_IN_PLACE __attribute__((always_inline))
+#else
+#define MICROTIN_OUT_OF_LINE __attribute__((noinline))
+#define MICROTIN_ONE_COPY
+#define MICROTIN_IN_PLACE
 #endif
 
 #endif

@@ -80,7 +80,7 @@ inline Power circle(const PlaceOdds& odds, const FreeRegion& region, int side, C
 
 // Multiplies the weights by the chances of being first: the sweep has passed some of the way from
 // the circle behind the chord to the triangle's.
-MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds, const Scale& own) {
+MICROTIN_OUT_OF_LINE MICROTIN_IN_PLACE inline void sweep(PlaceOdds& odds, const Scale& own) {
   int16_t* const left = odds.left;
   int16_t* const all = odds.all;
   measure(odds.swept_from, own, odds.grid, odds.distance);
@@ -97,7 +97,8 @@ MICROTIN_OUT_OF_LINE inline void sweep(PlaceOdds& odds, const Scale& own) {
 }
 
 // What the triangle's circle leaves of the cells, times the chances of being first.
-MICROTIN_OUT_OF_LINE inline void weigh_inside(PlaceOdds& odds, const FreeRegion& region) {
+MICROTIN_OUT_OF_LINE MICROTIN_IN_PLACE inline void weigh_inside(PlaceOdds& odds,
+                                                                const FreeRegion& region) {
   const Power own = circle(odds, region, kChord, region.side[kChord].own);
   const Scale scale = scale_for(own, odds.grid);
   measure(own, scale, odds.grid, odds.distance);
@@ -110,7 +111,7 @@ MICROTIN_OUT_OF_LINE inline void weigh_inside(PlaceOdds& odds, const FreeRegion&
   if (odds.sweeps) sweep(odds, scale);
 }
 
-inline void weigh_cells(PlaceOdds& odds, const FreeRegion& region) {
+MICROTIN_IN_PLACE inline void weigh_cells(PlaceOdds& odds, const FreeRegion& region) {
   odds.swept_from = circle(odds, region, kChord, region.side[kChord].behind);
   weigh_inside(odds, region);
   for (int k = 0; k < 3; ++k) {

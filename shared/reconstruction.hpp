@@ -248,7 +248,7 @@ MICROTIN_ONE_COPY bool code_hit(Reconstruction& r, Coder& coder, const HitEstima
 
 // Where a hit is. It takes the place of c.
 template <class Coder>
-Point locate(Reconstruction& r, Coder& coder, Log2 density) {
+MICROTIN_IN_PLACE inline Point locate(Reconstruction& r, Coder& coder, Log2 density) {
   FreeRegion& region = r.region;
   PlaceOdds& odds = r.odds;
   const Offset first = Point{0, 0} - region.origin;
@@ -275,8 +275,8 @@ Decision decide_at_hull(Reconstruction& r, Coder& coder, Log2 density) {
   const HullEdge edge = hull_edge(r);
   if (edge.length == 1) return Decision::kMiss;  // there is no place beyond it
   if (!code_hit(r, coder, estimate_hull_hit(edge, density))) return Decision::kMiss;
-  const Point place = code_hull_place(coder, r.models.gap, r.models.height.mantissa, r.contract,
-                                      edge, density);
+  const Point place =
+      code_hull_place(coder, r.models.gap, r.models.height.mantissa, r.contract, edge, density);
   return insert(r, coder, place) ? Decision::kHit : Decision::kMalformed;
 }
 
