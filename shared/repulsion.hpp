@@ -81,8 +81,8 @@ MICROTIN_OUT_OF_LINE inline void keep_smaller(const Distances& squares, Cells ne
 
 // Takes away weight close to the triangle's corners; `middle` of the grid, half steps from corner
 // 0.
-inline void repel(Repulsion& repulsion, const FreeRegion& region, Offset middle, const Grid& grid,
-                  Cells weight) {
+MICROTIN_IN_PLACE inline void repel(Repulsion& repulsion, const FreeRegion& region, Offset middle,
+                                    const Grid& grid, Cells weight) {
   int16_t column[kSlices], row[kSlices];
   scale_middles(grid.columns, repulsion.unit, column);
   scale_middles(grid.rows, repulsion.unit, row);
