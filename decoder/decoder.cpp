@@ -171,7 +171,7 @@ microtin_status handle_section_check(microtin_decoder& d) {
 }
 
 // NEED_INPUT means: go on.
-microtin_status handle_item(microtin_decoder& d, uint32_t* steps_left) {
+MICROTIN_ONE_COPY microtin_status handle_item(microtin_decoder& d, uint32_t* steps_left) {
   switch (d.item) {
     case Item::kHeader:
       return handle_header(d);
@@ -214,7 +214,7 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
 
 // How many vertices a workspace holds, of which `fixed` bytes and `per_four` bytes for four,
 // rounded up, are needed. 4 * per_four * MICROTIN_MAX_VERTICES / 4 is below 2^32.
-microtin_status capacity_of(const void* workspace, size_t size, uint32_t fixed, uint32_t per_four,
+MICROTIN_ONE_COPY microtin_status capacity_of(const void* workspace, size_t size, uint32_t fixed, uint32_t per_four,
                             uint32_t* capacity) {
   if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
   const uint32_t most = MICROTIN_MAX_VERTICES, enough = fixed + per_four * ((most + 3) / 4);
@@ -234,7 +234,7 @@ constexpr uint32_t kMeshPerFour = MICROTIN_MESH_BYTES(4) - kMeshFixed;
 constexpr uint32_t kDecoderFixed = MICROTIN_DECODER_BYTES(0);
 constexpr uint32_t kDecoderPerFour = MICROTIN_DECODER_BYTES(4) - kDecoderFixed;
 
-void empty_mesh(microtin_mesh& m) {
+MICROTIN_ONE_COPY void empty_mesh(microtin_mesh& m) {
   m.mesh.vertices = 0;
   m.mesh.triangles = 0;
   m.verified_vertices = 0;
