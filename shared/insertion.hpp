@@ -32,7 +32,7 @@ bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const F
   Index* ahead = end - 2;
   ahead[0] = mesh.twin[start];
   ahead[1] = start;
-  Index edges = 0;
+  uint32_t edges = 0;
   cavity.size = 0;
   Index a = mesh.origin[start];
   while (ahead != end) {
@@ -59,11 +59,11 @@ bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const F
 // one after it. Returns the first half-edge of the first fan triangle. The caller counts the
 // vertex.
 inline Index fan_cavity(Mesh& mesh, const Cavity& cavity, Index v) {
-  const Index edges = static_cast<Index>(cavity.size + 2u);
-  cavity.triangles[cavity.size] = mesh.triangles++;
-  cavity.triangles[cavity.size + 1u] = mesh.triangles++;
-  Index before = first_edge(cavity.triangles[edges - 1u]);
-  for (Index i = 0; i < edges; ++i) {
+  Index* const fresh = cavity.triangles + cavity.size;
+  fresh[0] = mesh.triangles++;
+  fresh[1] = mesh.triangles++;
+  Index before = first_edge(fresh[1]);
+  for (uint32_t i = 0; i < cavity.size + 2u; ++i) {
     const Index h = first_edge(cavity.triangles[i]);
     mesh.origin[h] = cavity.edge_origin[i];
     mesh.origin[before + 1u] = cavity.edge_origin[i];

@@ -436,7 +436,7 @@ Progress step_void(Reconstruction& r, Coder& coder) {
   const Index t = r.void_cursor++;
   const Index f = first_edge(t);
   uint32_t context = 3;
-  for (Index i = 0; i < 3; ++i) {
+  for (uint32_t i = 0; i < 3; ++i) {
     const Index neighbour = triangle_of(mesh.twin[f + i]);
     if (neighbour < t && !is_ghost(mesh, neighbour)) {
       context = is_void(r.voids, neighbour) ? context + 1 : context - 1;
