@@ -214,8 +214,8 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
 
 // How many vertices a workspace holds, of which `fixed` bytes and `per_four` bytes for four,
 // rounded up, are needed. 4 * per_four * MICROTIN_MAX_VERTICES / 4 is below 2^32.
-MICROTIN_ONE_COPY microtin_status capacity_of(const void* workspace, size_t size, uint32_t fixed, uint32_t per_four,
-                            uint32_t* capacity) {
+MICROTIN_ONE_COPY microtin_status capacity_of(const void* workspace, size_t size, uint32_t fixed,
+                                              uint32_t per_four, uint32_t* capacity) {
   if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
   const uint32_t most = MICROTIN_MAX_VERTICES, enough = fixed + per_four * ((most + 3) / 4);
   const uint32_t bytes = size < enough ? static_cast<uint32_t>(size) : enough;

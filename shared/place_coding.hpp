@@ -75,6 +75,13 @@ MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, const Free
   narrow(odds, i, j);
 }
 
+// Codes a coordinate from `low` to `high`, all equally likely.
+template <class Coder>
+FastInt code_within(Coder& coder, FastInt low, FastInt high, FastInt value) {
+  return low + static_cast<FastInt>(coder.uniform(static_cast<uint32_t>(high - low + 1),
+                                                  static_cast<uint32_t>(value - low)));
+}
+
 // Codes a place in the box, as seen from corner 0.
 template <class Coder>
 Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region, PlaceOdds& odds,
@@ -84,11 +91,8 @@ Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region, Pla
   }
   const Offset place = next_place(coder, region);
   const Box& box = odds.box;
-  const FastInt x = static_cast<FastInt>(coder.uniform(static_cast<uint32_t>(box.x1 - box.x0 + 1),
-                                                       static_cast<uint32_t>(place.x - box.x0)));
-  const FastInt y = static_cast<FastInt>(coder.uniform(static_cast<uint32_t>(box.y1 - box.y0 + 1),
-                                                       static_cast<uint32_t>(place.y - box.y0)));
-  return Offset{box.x0 + x, box.y0 + y};
+  return Offset{code_within(coder, box.x0, box.x1, place.x),
+                code_within(coder, box.y0, box.y1, place.y)};
 }
 
 }  // namespace microtin

@@ -241,7 +241,8 @@ inline HitEstimate estimate_hit(Reconstruction& r, Log2 density) {
 }
 
 template <class Coder>
-MICROTIN_ONE_COPY bool code_hit(Reconstruction& r, Coder& coder, const HitEstimate& estimate) {
+MICROTIN_IN_PLACE inline bool code_hit(Reconstruction& r, Coder& coder,
+                                       const HitEstimate& estimate) {
   return code_on_curve(coder, r.models.hit[estimate.context], estimate.position,
                        coder.conflicts(*r.mesh, r.chord));
 }
@@ -261,7 +262,7 @@ MICROTIN_IN_PLACE inline Point locate(Reconstruction& r, Coder& coder, Log2 dens
     odds.repulsion.nearest = 2 * kReach;
   }
   const Offset found = code_place(coder, r.models.place, region, odds, r.contract.levels);
-  if (r.contract.has_heights) learn(r.crowding, odds.repulsion);
+  learn(r.crowding, odds.repulsion);
   region.corner[1] = found;
   return Point{static_cast<uint16_t>(region.origin.x + found.x),
                static_cast<uint16_t>(region.origin.y + found.y)};
