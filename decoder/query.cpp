@@ -11,19 +11,10 @@ bool has_terrain(const microtin_mesh& m, Index t) {
   return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
 }
 
-struct Corners {
-  Vertex corner[3];
-};
-
-// Of a real triangle.
-MICROTIN_ONE_COPY Corners corners_of(const Mesh& mesh, Index t) {
-  Corners corners;
-  const Index f = first_edge(t);
-  for (uint32_t i = 0; i < 3; ++i) {
-    const Index v = mesh.origin[f + i];
-    corners.corner[i] = Vertex{mesh.x[v], mesh.y[v], mesh.z[v]};
-  }
-  return corners;
+// The corner of a real triangle where a half-edge starts.
+Vertex corner_at(const Mesh& mesh, uint32_t half_edge) {
+  const Index v = mesh.origin[half_edge];
+  return Vertex{mesh.x[v], mesh.y[v], mesh.z[v]};
 }
 
 // The answer at p in the closed real triangle t. A vertex always knows its own height; on an edge,
@@ -39,8 +30,8 @@ microtin_answer answer_in(const microtin_mesh& m, Index t, FinePoint p, int32_t*
                                              has_terrain(m, triangle_of(mesh.twin[h])));
   }
   if (!known) return MICROTIN_IN_VOID;
-  const Corners of = corners_of(mesh, t);
-  *height = height_in_triangle(of.corner[0], of.corner[1], of.corner[2], p);
+  *height = height_in_triangle(corner_at(mesh, f), corner_at(mesh, f + 1u),
+                               corner_at(mesh, f + 2u), p);
   return MICROTIN_HEIGHT;
 }
 
@@ -83,7 +74,10 @@ uint64_t microtin_digest(const microtin_mesh* mesh) {
   uint64_t sum = 0;
   for (Index t = 0; t < mesh->mesh.triangles; ++t) {
     if (is_ghost(mesh->mesh, t)) continue;
-    sum += triangle_digest(corners_of(mesh->mesh, t).corner, !has_terrain(*mesh, t));
+    const Index f = first_edge(t);
+    const Vertex corner[3] = {corner_at(mesh->mesh, f), corner_at(mesh->mesh, f + 1u),
+                              corner_at(mesh->mesh, f + 2u)};
+    sum += triangle_digest(corner, !has_terrain(*mesh, t));
   }
   return sum;
 }
