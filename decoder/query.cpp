@@ -30,8 +30,8 @@ microtin_answer answer_in(const microtin_mesh& m, Index t, FinePoint p, int32_t*
                                              has_terrain(m, triangle_of(mesh.twin[h])));
   }
   if (!known) return MICROTIN_IN_VOID;
-  *height = height_in_triangle(corner_at(mesh, f), corner_at(mesh, f + 1u),
-                               corner_at(mesh, f + 2u), p);
+  *height =
+      height_in_triangle(corner_at(mesh, f), corner_at(mesh, f + 1u), corner_at(mesh, f + 2u), p);
   return MICROTIN_HEIGHT;
 }
 

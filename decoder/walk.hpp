@@ -9,8 +9,7 @@ namespace microtin {
 
 // Positive if p lies to the left of a half-edge, negative if to the right; `next` is the half-edge
 // after it, and both start at finite vertices.
-MICROTIN_ONE_COPY inline int64_t side_of(const Mesh& mesh, Index half_edge, Index next,
-                                         FinePoint p) {
+inline int64_t side_of(const Mesh& mesh, Index half_edge, Index next, FinePoint p) {
   return orient_fine(point_of(mesh, mesh.origin[half_edge]), point_of(mesh, mesh.origin[next]), p);
 }
 
