@@ -57,11 +57,8 @@ class Scene {
     const double horizontal = metres_per(horizontal_unit);
     const bool degrees = horizontal_unit == Unit::kDegree;
     const double parallel = degrees ? std::cos(std::clamp(y, -90.0, 90.0) * kPi / 180) : 1;
-    const auto step = [](const Axis& axis) {
-      return static_cast<double>(axis.numerator) / static_cast<double>(axis.denominator);
-    };
-    scale_ = {horizontal * parallel * step(placement.x), horizontal * step(placement.y),
-              metres_per(vertical_unit) * step(placement.z)};
+    scale_ = {horizontal * parallel * step_of(placement.x), horizontal * step_of(placement.y),
+              metres_per(vertical_unit) * step_of(placement.z)};
     find_normals();
   }
 
