@@ -88,7 +88,7 @@ class TouchedTiles {
   // Where a whole row lies before the course, all that follow do, too.
   void step() {
     if (column_ != columns_.to) {
-      column_ += columns_.from < columns_.to ? 1u : ~0u;
+      column_ = columns_.after(column_);
     } else if (is_met_) {
       next_row();
     } else {
@@ -101,13 +101,15 @@ class TouchedTiles {
     column_ = first_;
     is_met_ = false;
     at_end_ = row_ == rows_.to;
-    row_ += rows_.from < rows_.to ? 1u : ~0u;
+    if (!at_end_) row_ = rows_.after(row_);
   }
 
   // Columns or rows, in the direction of the course.
   struct Slices {
     uint32_t from, to;
     bool none;
+
+    uint32_t after(uint32_t i) const { return from < to ? i + 1 : i - 1; }
   };
 
   static Slices slices(int64_t begin, int64_t end, uint32_t size, uint32_t most) {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "encoder/colour.hpp"
+#include "encoder/degree.hpp"
 #include "encoder/error.hpp"
 #include "encoder/json.hpp"
 #include "encoder/vector.hpp"
@@ -14,19 +15,15 @@
 namespace microtin {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kEarthRadius = 6371008.8;  // metres, of the sphere with the mean radius
-
 double metres_per(Unit unit) {
   switch (unit) {
     case Unit::kFoot:
       return 0.3048;
     case Unit::kUsSurveyFoot:
       return 1200.0 / 3937;
-    case Unit::kDegree:
-      return kEarthRadius * kPi / 180;
     case Unit::kUnknown:
     case Unit::kMetre:
+    case Unit::kDegree:  // of no fixed length
       return 1;
   }
   return 1;
@@ -54,14 +51,10 @@ class Scene {
     }
     const double y = real(placement.y, middle(1));
     origin_ = {real(placement.x, middle(0)), y, real(placement.z, middle(2))};
-    const double horizontal = metres_per(horizontal_unit);
-    const bool degrees = horizontal_unit == Unit::kDegree;
-    const double parallel = degrees ? std::cos(std::clamp(y, -90.0, 90.0) * kPi / 180) : 1;
-    const auto step = [](const Axis& axis) {
-      return static_cast<double>(axis.numerator) / static_cast<double>(axis.denominator);
-    };
-    scale_ = {horizontal * parallel * step(placement.x), horizontal * step(placement.y),
-              metres_per(vertical_unit) * step(placement.z)};
+    const double metres = metres_per(horizontal_unit);
+    const Degree unit = horizontal_unit == Unit::kDegree ? degree_at(y) : Degree{metres, metres};
+    scale_ = {unit.x * step_of(placement.x), unit.y * step_of(placement.y),
+              metres_per(vertical_unit) * step_of(placement.z)};
     find_normals();
   }
 

@@ -31,6 +31,12 @@ inline LatticeMap map_between(const Axis& source, const Axis& lattice) {
   return {scale / divisor, shift / divisor, step / divisor};
 }
 
+// True if both place every number at the same real coordinate.
+inline bool is_same(const Axis& a, const Axis& b) {
+  const LatticeMap map = map_between(a, b);
+  return map.shift == 0 && map.scale == map.step;
+}
+
 }  // namespace microtin
 
 #endif

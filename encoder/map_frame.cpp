@@ -1,5 +1,10 @@
 #include "encoder/map_frame.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "encoder/degree.hpp"
+
 namespace microtin {
 namespace {
 
@@ -19,14 +24,6 @@ Extent extent_of(const SurfaceModel& model) {
   return extent;
 }
 
-// Metres in a degree of longitude and of latitude: series for the ellipsoid WGS 84.
-Spot metres_in_degree(double latitude) {
-  constexpr double kRadian = 0.017453292519943295;
-  const double angle = latitude * kRadian;
-  return {111412.84 * std::cos(angle) - 93.5 * std::cos(3 * angle),
-          111132.92 - 559.82 * std::cos(2 * angle) + 1.175 * std::cos(4 * angle)};
-}
-
 }  // namespace
 
 Ground ground_of(const SurfaceModel& model, Unit horizontal) {
@@ -40,9 +37,8 @@ Ground ground_of(const SurfaceModel& model, Unit horizontal) {
     case Unit::kDegree: {
       const Extent extent = extent_of(model);
       const double middle = static_cast<double>(extent.south + extent.north) / 2;
-      const double latitude = offset_of(model.placement.y) + y * middle;
-      const Spot metres = metres_in_degree(std::clamp(latitude, -89.0, 89.0));
-      return {x * metres.x, y * metres.y, "m"};
+      const Degree degree = degree_at(offset_of(model.placement.y) + y * middle);
+      return {x * degree.x, y * degree.y, "m"};
     }
     case Unit::kUnknown:
       break;

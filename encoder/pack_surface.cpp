@@ -56,10 +56,6 @@ class Joining {
 };
 
 void expect_posts_of(const Raster& frame, const PackFile& pack) {
-  const auto is_same = [](const Axis& a, const Axis& b) {
-    const LatticeMap map = map_between(a, b);
-    return map.shift == 0 && map.scale == map.step;
-  };
   const Placement& placement = pack.metadata().placement;
   if (frame.width != pack.grid().x_max + 1 || frame.height != pack.grid().y_max + 1 ||
       !is_same(frame.x, placement.x) || !is_same(frame.y, placement.y)) {

@@ -8,11 +8,6 @@
 namespace microtin {
 namespace {
 
-bool is_same(const Axis& a, const Axis& b) {
-  const LatticeMap map = map_between(a, b);
-  return map.shift == 0 && map.scale == map.step;
-}
-
 // Writes all heights with so many decimals at least.
 void refine(Raster& raster, int decimals) {
   constexpr int64_t kLargest = 1000000000000000000;

@@ -154,10 +154,10 @@ TEST_CASE("glb: units become metres, degrees by the latitude") {
   model = square();
   model.horizontal_unit = Unit::kDegree;
   model.placement.x = {0, 1, 100};
-  model.placement.y = {5998, 1, 100};  // 60 degrees in the middle
+  model.placement.y = {4498, 1, 100};  // 45 degrees in the middle, of WGS 84
   const Glb degrees = exported(model);
-  CHECK(degrees.positions[0] == doctest::Approx(-0.04 * 111195.08 / 2));
-  CHECK(degrees.positions[2] == doctest::Approx(0.02 * 111195.08));
+  CHECK(degrees.positions[0] == doctest::Approx(-0.04 * 78846.8));
+  CHECK(degrees.positions[2] == doctest::Approx(0.02 * 111131.8));
   CHECK(degrees.positions[1] == -40);
   const Glb lattice = exported(model, Coordinates::kLattice);
   CHECK(lattice.positions[0] == -4);

@@ -23,6 +23,15 @@ inline bool no_void(int, int) {
   return false;
 }
 
+// Row by row, row 0 southernmost.
+inline Raster raster_of(uint32_t width, std::vector<int64_t> heights) {
+  Raster raster;
+  raster.width = width;
+  raster.height = static_cast<uint32_t>(heights.size() / width);
+  raster.heights = std::move(heights);
+  return raster;
+}
+
 // Waves, a cliff and noise, in whole units.
 inline Raster rough_raster(uint32_t width, uint32_t height, const VoidAt& void_at = no_void) {
   Raster raster;

@@ -5,19 +5,13 @@
 
 #include <cstdlib>
 
+#include "tests/packs.hpp"
+
 using namespace microtin;
 
 namespace {
 
 constexpr int64_t kV = kVoidHeight;
-
-Raster raster_of(uint32_t width, std::vector<int64_t> heights) {
-  Raster raster;
-  raster.width = width;
-  raster.height = static_cast<uint32_t>(heights.size() / width);
-  raster.heights = std::move(heights);
-  return raster;
-}
 
 }  // namespace
 

@@ -16,14 +16,6 @@ namespace {
 
 constexpr int64_t kV = kVoidHeight;
 
-Raster raster_of(uint32_t width, std::vector<int64_t> heights) {
-  Raster raster;
-  raster.width = width;
-  raster.height = static_cast<uint32_t>(heights.size() / width);
-  raster.heights = std::move(heights);
-  return raster;
-}
-
 // Hills around a bay, an island, and beaches just above and below its level of 5.
 Raster coast() {
   Raster raster = rough_raster(61, 53, [](int x, int y) {

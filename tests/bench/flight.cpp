@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "encoder/degree.hpp"
 #include "encoder/error.hpp"
 #include "encoder/import.hpp"
 #include "encoder/input_file.hpp"
@@ -20,25 +21,19 @@
 namespace microtin::bench {
 namespace {
 
-constexpr uint32_t kSpacing = 100;                // metres between the grid's posts
-constexpr double kMetresPerDegree = 111195.0797;  // on a sphere of 6,371.0088 km
-
-double step(const Axis& axis) {
-  return static_cast<double>(axis.numerator) / static_cast<double>(axis.denominator);
-}
+constexpr uint32_t kSpacing = 100;  // metres between the grid's posts
 
 Terrain read_terrain(const std::string& path) {
   const Source source = import_terrain(path);
   const auto* raster = std::get_if<Raster>(&source);
   if (raster == nullptr) throw Error(path + ": is not a raster");
   Terrain terrain{
-      path, *raster, {}, step(raster->x), step(raster->y), std::pow(10, -raster->decimals)};
+      path, *raster, {}, step_of(raster->x), step_of(raster->y), std::pow(10, -raster->decimals)};
   if (raster->reference.horizontal_unit == Unit::kDegree) {
-    const double south =
-        static_cast<double>(raster->y.offset) / static_cast<double>(raster->y.denominator);
-    const double middle = south + raster->height / 2.0 * terrain.row_metres;
-    terrain.column_metres *= kMetresPerDegree * std::cos(middle * std::acos(-1) / 180);
-    terrain.row_metres *= kMetresPerDegree;
+    const double middle = offset_of(raster->y) + raster->height / 2.0 * terrain.row_metres;
+    const Degree degree = degree_at(middle);
+    terrain.column_metres *= degree.x;
+    terrain.row_metres *= degree.y;
   }
   return terrain;
 }
