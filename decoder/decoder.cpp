@@ -14,69 +14,25 @@ Size smaller(Size a, Size b) {
 uint32_t bytes_needed(const microtin_decoder& d) {
   uint32_t most = 1;
   switch (d.item) {
-    case Item::kHeader:
-      return header_bytes(d.coder.window.next, d.coder.window.left);
-    case Item::kSectionHead:
+    case Item::kIdentity:
+      return kIdentityBytes;
+    case Item::kLength:
       return 1;
-    case Item::kHeaderCheck:
-    case Item::kSectionCheck:
+    case Item::kCheck:
       return kCheckBytes;
+    case Item::kHeader:
+      most = kHeaderMostBytes;
+      break;
     case Item::kPayloadStart:
       most = 4;
       break;
     case Item::kStep:
       most = kStepBytes;
       break;
-    case Item::kNotes:
-    case Item::kSectionRest:
+    case Item::kRest:
       break;
   }
   return smaller(d.coder.payload_left, most);
-}
-
-// What to say of all since the last check, given the four bytes that follow, its own.
-MICROTIN_ONE_COPY microtin_status status_of_checked(microtin_decoder& d) {
-  ByteWindow& window = d.coder.window;
-  window.skip(kCheckBytes);
-  window.settle();
-  const bool passes = window.crc == kCheckedCrc;
-  window.crc = 0;
-  return passes ? d.verdict : MICROTIN_CHECKSUM;
-}
-
-Item next_item(Item item) {
-  return static_cast<Item>(static_cast<uint8_t>(item) + 1);
-}
-
-// Takes what is at hand of the bytes that are not read; behind them the next item follows, a check.
-microtin_status handle_unread(microtin_decoder& d) {
-  const uint32_t taken = smaller(static_cast<uint32_t>(d.coder.window.left), d.coder.payload_left);
-  d.coder.window.skip(taken);
-  d.coder.payload_left -= taken;
-  if (d.coder.payload_left == 0) d.item = next_item(d.item);
-  return MICROTIN_NEED_INPUT;
-}
-
-// Number by number: on AVR a constant to copy from would be in RAM.
-void place_on_lattice(microtin_axis* axis) {
-  for (int i = 0; i < 3; ++i) {
-    axis[i].offset = 0;
-    axis[i].numerator = 1;
-    axis[i].denominator = 1;
-  }
-}
-
-// Reads a header with a known identity up to its notes. False if it breaks a rule of the format.
-// Then, and without a placement, `axis` is on the lattice itself.
-bool read_header(const uint8_t* bytes, FixedHeader* header, microtin_axis* axis) {
-  bool legal = read_fixed_header(bytes, header);
-  const uint32_t size = header->placement_bytes;
-  if (size != 0) {
-    legal =
-        legal && size <= kPlacementMostBytes && read_placement(bytes + header->bytes, size, axis);
-  }
-  if (size == 0 || !legal) place_on_lattice(axis);
-  return legal;
 }
 
 // Whatever is wrong is told once the check ahead has passed: before, it is damage.
@@ -84,51 +40,46 @@ MICROTIN_OUT_OF_LINE void note_malformed(microtin_decoder& d) {
   d.verdict = MICROTIN_MALFORMED;
 }
 
+// The length of the header, or of a section, comes next.
+void expect_length(microtin_decoder& d) {
+  d.coder.payload_left = 0;
+  d.item = Item::kLength;
+}
+
+microtin_status handle_identity(microtin_decoder& d) {
+  const uint8_t* const identity = d.coder.window.next;
+  d.coder.window.skip(kIdentityBytes);
+  const microtin_status known = check_identity(identity);
+  if (known != MICROTIN_DONE) return known;
+  expect_length(d);
+  return MICROTIN_NEED_INPUT;
+}
+
+microtin_status handle_length(microtin_decoder& d) {
+  bool legal = true;
+  const bool more = take_length(&d.coder.payload_left, d.coder.window.take(), &legal);
+  if (!legal) note_malformed(d);
+  if (!more) d.item = d.in_header ? Item::kHeader : Item::kPayloadStart;
+  return MICROTIN_NEED_INPUT;
+}
+
 microtin_status handle_header(microtin_decoder& d) {
   ByteWindow& window = d.coder.window;
-  const uint8_t* const bytes = window.next;
-  window.skip(header_bytes(bytes, window.left));
-  const microtin_status known = check_identity(bytes);
-  if (known != MICROTIN_DONE) return known;
-  FixedHeader header;
-  const bool legal = read_header(bytes, &header, d.mesh->axis);
-  d.verdict = legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
-  d.reconstruction.contract = header.contract;
-  d.coder.payload_left = checked_bytes(header) - static_cast<uint32_t>(window.next - bytes);
-  d.item = Item::kNotes;
+  const uint8_t* end = window.next;
+  if (!read_header(&end, end + smaller(d.coder.payload_left, kHeaderMostBytes),
+                   &d.reconstruction.contract, d.mesh->axis)) {
+    note_malformed(d);
+  }
+  const uint32_t size = static_cast<uint32_t>(end - window.next);
+  window.skip(size);
+  d.coder.payload_left -= size;
+  d.item = Item::kRest;
   return MICROTIN_NEED_INPUT;
 }
 
-void begin_section(microtin_decoder& d) {
-  d.coder.payload_left = 0;
-  d.item = Item::kSectionHead;
-}
-
-microtin_status handle_header_check(microtin_decoder& d) {
-  const microtin_status status = status_of_checked(d);
-  if (status != MICROTIN_DONE) return status;
-  const uint32_t vertices = d.reconstruction.contract.vertices;
-  if (vertices > d.capacity || vertices > d.mesh->capacity) return MICROTIN_TOO_BIG;
-  start(d.reconstruction);
-  begin_section(d);
-  return MICROTIN_NEED_INPUT;
-}
-
-// The payload's length: seven bits a byte, high ones first, the top bit set if more follow. One of
-// more than 32 bits counts as 0.
-microtin_status handle_section_head(microtin_decoder& d) {
-  const uint8_t byte = d.coder.window.take();
-  const uint32_t before = d.coder.payload_left;
-  const bool too_long = before >> 25 != 0;
-  d.coder.payload_left = too_long ? 0 : before << 7 | (byte & 127u);
-  if (too_long || (before == 0 && byte == 128)) note_malformed(d);
-  if (too_long || byte < 128) d.item = Item::kPayloadStart;
-  return MICROTIN_NEED_INPUT;
-}
-
-microtin_status end_section(microtin_decoder& d, bool legal) {
+microtin_status end_payload(microtin_decoder& d, bool legal) {
   if (!legal || d.coder.payload_left != 0) note_malformed(d);
-  d.item = Item::kSectionRest;
+  d.item = Item::kRest;
   return MICROTIN_NEED_INPUT;
 }
 
@@ -136,7 +87,7 @@ microtin_status handle_payload_start(microtin_decoder& d) {
   d.coder.begin();
   d.item = Item::kStep;
   const bool legal = d.verdict == MICROTIN_DONE && !d.coder.overrun;
-  return legal ? MICROTIN_NEED_INPUT : end_section(d, false);
+  return legal ? MICROTIN_NEED_INPUT : end_payload(d, false);
 }
 
 // Whether the phase after which decoding is to stop is complete.
@@ -148,8 +99,8 @@ microtin_status handle_step(microtin_decoder& d, uint32_t* steps_left) {
   if (*steps_left == 0) return MICROTIN_STEP_LIMIT;
   --*steps_left;
   const Progress progress = step(d.reconstruction, d.coder);
-  if (progress == Progress::kMalformed || d.coder.overrun) return end_section(d, false);
-  if (progress == Progress::kSectionEnd) return end_section(d, true);
+  if (progress == Progress::kMalformed || d.coder.overrun) return end_payload(d, false);
+  if (progress == Progress::kSectionEnd) return end_payload(d, true);
   if (progress == Progress::kPhaseEnd && d.reconstruction.stage == Stage::kPhase &&
       is_far_enough(d)) {
     return MICROTIN_STOPPED;
@@ -157,39 +108,64 @@ microtin_status handle_step(microtin_decoder& d, uint32_t* steps_left) {
   return MICROTIN_NEED_INPUT;
 }
 
-microtin_status handle_section_check(microtin_decoder& d) {
-  const microtin_status status = status_of_checked(d);
-  if (status != MICROTIN_DONE) return status;
+// Takes what is at hand of the bytes that are not read.
+microtin_status handle_rest(microtin_decoder& d) {
+  const uint32_t taken = smaller(static_cast<uint32_t>(d.coder.window.left), d.coder.payload_left);
+  d.coder.window.skip(taken);
+  d.coder.payload_left -= taken;
+  if (d.coder.payload_left == 0) d.item = Item::kCheck;
+  return MICROTIN_NEED_INPUT;
+}
+
+microtin_status end_header(microtin_decoder& d) {
+  const uint32_t vertices = d.reconstruction.contract.vertices;
+  if (vertices > d.capacity || vertices > d.mesh->capacity) return MICROTIN_TOO_BIG;
+  start(d.reconstruction);
+  d.in_header = false;
+  return MICROTIN_NEED_INPUT;
+}
+
+microtin_status end_section(microtin_decoder& d) {
   d.mesh->verified_vertices = d.mesh->mesh.vertices;
   if (d.reconstruction.stage == Stage::kComplete) {
     d.mesh->has_voids = d.reconstruction.contract.has_voids;
     return MICROTIN_DONE;
   }
-  if (is_far_enough(d)) return MICROTIN_STOPPED;
-  begin_section(d);
-  return MICROTIN_NEED_INPUT;
+  return is_far_enough(d) ? MICROTIN_STOPPED : MICROTIN_NEED_INPUT;
+}
+
+// Of all since the last check.
+microtin_status handle_check(microtin_decoder& d) {
+  ByteWindow& window = d.coder.window;
+  window.skip(kCheckBytes);
+  window.settle();
+  const bool passes = window.crc == kCheckedCrc;
+  window.crc = 0;
+  if (!passes) return MICROTIN_CHECKSUM;
+  if (d.verdict != MICROTIN_DONE) return d.verdict;
+  expect_length(d);
+  return d.in_header ? end_header(d) : end_section(d);
 }
 
 // NEED_INPUT means: go on.
 MICROTIN_ONE_COPY microtin_status handle_item(microtin_decoder& d, uint32_t* steps_left) {
   switch (d.item) {
+    case Item::kIdentity:
+      return handle_identity(d);
+    case Item::kLength:
+      return handle_length(d);
     case Item::kHeader:
       return handle_header(d);
-    case Item::kNotes:
-    case Item::kSectionRest:
-      return handle_unread(d);
-    case Item::kHeaderCheck:
-      return handle_header_check(d);
-    case Item::kSectionHead:
-      return handle_section_head(d);
     case Item::kPayloadStart:
       return handle_payload_start(d);
     case Item::kStep:
       return handle_step(d, steps_left);
-    case Item::kSectionCheck:
+    case Item::kRest:
+      return handle_rest(d);
+    case Item::kCheck:
       break;
   }
-  return handle_section_check(d);
+  return handle_check(d);
 }
 
 microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uint32_t step_limit,
@@ -281,7 +257,9 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
   d.capacity = capacity;
   d.status = MICROTIN_NEED_INPUT;
   d.stop_phase = 0;
-  d.item = Item::kHeader;
+  d.verdict = MICROTIN_DONE;
+  d.item = Item::kIdentity;
+  d.in_header = true;
   d.coder.window.next = d.coder.window.bytes;
   d.coder.window.left = 0;
   d.coder.window.crc = 0;
@@ -331,19 +309,23 @@ uint64_t microtin_bytes_used(const microtin_decoder* decoder) {
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info) {
   if (info == nullptr || (bytes == nullptr && size != 0)) return MICROTIN_ARGUMENT;
   info->header_bytes = 0;
-  if (size < header_bytes(bytes, size)) return MICROTIN_NEED_INPUT;
+  if (size < kIdentityBytes + kLengthMostBytes) return MICROTIN_NEED_INPUT;
   const microtin_status known = check_identity(bytes);
   if (known != MICROTIN_DONE) return known;
-  FixedHeader header;
-  microtin_axis axis[3];
-  const bool legal = read_header(bytes, &header, axis);
-  info->header_bytes = checked_bytes(header) + kCheckBytes;
+  const uint8_t* next = bytes + kIdentityBytes;
+  uint32_t length = 0;
+  bool legal = true;
+  while (take_length(&length, *next++, &legal)) {
+  }
+  const uint32_t checked = static_cast<uint32_t>(next - bytes) + length;  // length < 2^31
+  info->header_bytes = checked + kCheckBytes;
   if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
   if (crc32(0, bytes, static_cast<size_t>(info->header_bytes)) != kCheckedCrc) {
     return MICROTIN_CHECKSUM;
   }
-  if (!legal) return MICROTIN_MALFORMED;
-  const Contract& contract = header.contract;
+  Contract contract;
+  microtin_axis axis[3];
+  if (!legal || !read_header(&next, bytes + checked, &contract, axis)) return MICROTIN_MALFORMED;
   info->vertices = contract.vertices;
   info->version = kVersion;
   info->degree = static_cast<uint8_t>(contract.degree);

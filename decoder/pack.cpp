@@ -27,11 +27,7 @@ void give_up(microtin_pack& p) {
     want(p, PackStage::kIdle, 0, 0);
     return;
   }
-  for (int i = 0; i < 3; ++i) {
-    p.axis[i].offset = 0;
-    p.axis[i].numerator = 1;
-    p.axis[i].denominator = 1;
-  }
+  place_on_lattice(p.axis);
   want(p, PackStage::kFixed, 0, kPackFixedBytes);
 }
 
@@ -65,9 +61,7 @@ microtin_status handle_fixed(microtin_pack& p) {
 }
 
 microtin_status handle_placement(microtin_pack& p) {
-  if (!read_placement(p.buffer, p.header.placement_bytes, p.axis)) {
-    return fail(p, MICROTIN_MALFORMED);
-  }
+  if (!read_pack_placement(p.buffer, p.header, p.axis)) return fail(p, MICROTIN_MALFORMED);
   p.crc = crc32(p.crc, p.buffer, p.buffered);
   want_notes(p, kPackFixedBytes + p.header.placement_bytes);
   return MICROTIN_NEED_INPUT;

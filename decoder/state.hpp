@@ -18,14 +18,13 @@ struct microtin_mesh {
 namespace microtin {
 
 enum class Item : uint8_t {
+  kIdentity,
+  kLength,  // of the header, or of a section's payload
   kHeader,  // up to its notes
-  kNotes,
-  kHeaderCheck,
-  kSectionHead,
   kPayloadStart,
   kStep,
-  kSectionRest,
-  kSectionCheck
+  kRest,   // what is left of the header or the payload, not read
+  kCheck,  // of the header, or of a section
 };
 
 }  // namespace microtin
@@ -36,6 +35,7 @@ struct microtin_decoder {
   microtin_status status;  // NEED_INPUT while all is well
   uint32_t stop_phase;
   microtin::Item item;
+  bool in_header;
   microtin_status verdict;  // DONE, or what to say once the check ahead has passed
   microtin::RangeDecoder coder;
   microtin::Reconstruction reconstruction;

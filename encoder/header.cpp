@@ -170,22 +170,20 @@ Bytes write_notes(const Metadata& m) {
 Bytes write_header(const Contract& contract, const Metadata& metadata) {
   const Bytes placement = write_placement(metadata.placement);
   const Bytes notes = write_notes(metadata);
-  const bool long_count = contract.vertices > 0xFFFF;
-  const bool long_sides = contract.x_max > 0xFF || contract.y_max > 0xFF;
+  Bytes payload;
+  append_varint(payload, (contract.has_heights ? kHasHeights : 0) |
+                             (contract.has_voids ? kHasVoids : 0) |
+                             (placement.empty() ? 0 : kHasPlacement) | contract.levels << 3 |
+                             contract.degree << 5);
+  append_varint(payload, contract.vertices);
+  append_varint(payload, contract.x_max);
+  append_varint(payload, contract.y_max);
+  payload.insert(payload.end(), placement.begin(), placement.end());
+  payload.insert(payload.end(), notes.begin(), notes.end());
   Bytes header(kMagic, kMagic + sizeof kMagic);
   header.push_back(kVersion);
-  header.push_back(static_cast<uint8_t>(
-      (contract.has_heights ? kHasHeights : 0) | (contract.has_voids ? kHasVoids : 0) |
-      (long_count ? kLongCount : 0) | (long_sides ? kLongSides : 0) |
-      (placement.empty() ? 0 : kHasPlacement) | (notes.empty() ? 0 : kHasNotes)));
-  header.push_back(static_cast<uint8_t>(contract.degree | contract.levels << 6));
-  append_number(header, contract.vertices, long_count ? 4 : 2);
-  append_number(header, contract.x_max, long_sides ? 2 : 1);
-  append_number(header, contract.y_max, long_sides ? 2 : 1);
-  if (!placement.empty()) append_number(header, static_cast<uint32_t>(placement.size()), 1);
-  if (!notes.empty()) append_number(header, static_cast<uint32_t>(notes.size()), 2);
-  header.insert(header.end(), placement.begin(), placement.end());
-  header.insert(header.end(), notes.begin(), notes.end());
+  append_varint(header, payload.size());
+  header.insert(header.end(), payload.begin(), payload.end());
   append_check(header, 0);
   return header;
 }
@@ -207,17 +205,20 @@ Header read_header(const Bytes& stream) {
   microtin_status status = microtin_peek(stream.data(), stream.size(), &header.info);
   if (status == MICROTIN_NEED_INPUT) status = MICROTIN_TRUNCATED;
   if (status != MICROTIN_DONE) throw Error(describe(status));
-  header.metadata.placement = {header.info.x, header.info.y, header.info.z};
-  read_notes(stream.data() + header_bytes(stream.data(), stream.size()),
-             stream.data() + header.info.header_bytes - kCheckBytes, header.metadata);
+  const uint8_t* const end = stream.data() + header.info.header_bytes - kCheckBytes;
+  const uint8_t* next = stream.data() + kIdentityBytes;
+  uint64_t length = 0;
+  microtin_axis axis[3];
+  read_varint(&next, end, &length);
+  read_header(&next, end, &header.contract, axis);
+  header.metadata.placement = {axis[0], axis[1], axis[2]};
+  read_notes(next, end, header.metadata);
   return header;
 }
 
 Bytes with_metadata(const Bytes& stream, const Metadata& metadata) {
   const Header old = read_header(stream);
-  FixedHeader fixed;
-  read_fixed_header(stream.data(), &fixed);
-  Bytes changed = write_header(fixed.contract, metadata);
+  Bytes changed = write_header(old.contract, metadata);
   changed.insert(changed.end(), stream.begin() + old.info.header_bytes, stream.end());
   read_header(changed);  // throws if a decoder would refuse it; the rest was not touched
   return changed;

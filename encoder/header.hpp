@@ -10,13 +10,14 @@
 
 namespace microtin {
 
-// The fixed part, the placement, the notes that say something, and the check. Throws Error if the
+// With the placement, the notes that say something, and the check. Throws Error if the
 // notes are too long.
 std::vector<uint8_t> write_header(const Contract& contract, const Metadata& metadata);
 
 // Everything a header says.
 struct Header {
   microtin_info info;
+  Contract contract;
   Metadata metadata;
 };
 

@@ -138,7 +138,7 @@ Metadata read_placement_and_notes(const PackHeader& header, const uint8_t* bytes
   const uint8_t* const placement = bytes + kPackFixedBytes;
   if (header.placement_bytes != 0) {
     Axis axis[3];
-    expect(read_placement(placement, header.placement_bytes, axis));
+    expect(read_pack_placement(placement, header, axis));
     metadata.placement = {axis[0], axis[1], axis[2]};
   }
   const uint8_t* const notes = placement + header.placement_bytes;

@@ -22,19 +22,16 @@ inline bool repair(uint8_t* bytes, size_t size) {
   if (size < kIdentityBytes) return false;
   std::memcpy(bytes, kMagic, sizeof kMagic);
   bytes[4] = kVersion;
-  if (size < fixed_header_bytes(bytes)) return false;
-  FixedHeader header;
-  read_fixed_header(bytes, &header);
-  size_t at = checked_bytes(header);
-  size_t from = 0;
-  while (at <= size && size - at >= kCheckBytes) {
+  size_t from = 0;  // where the bytes begin that the next check is of
+  const uint8_t* next = bytes + kIdentityBytes;
+  uint64_t length = 0;
+  while (read_varint(&next, bytes + size, &length) && length <= size) {
+    const size_t at = static_cast<size_t>(next - bytes) + static_cast<size_t>(length);
+    if (at > size || size - at < kCheckBytes) return false;
     write_check(bytes, from, at);
     from = at + kCheckBytes;
     if (from == size) return true;
-    const uint8_t* next = bytes + from;
-    uint64_t payload = 0;
-    if (!read_varint(&next, bytes + size, &payload) || payload > size) return false;
-    at = static_cast<size_t>(next - bytes) + static_cast<size_t>(payload);
+    next = bytes + from;
   }
   return false;
 }

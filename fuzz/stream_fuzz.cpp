@@ -8,19 +8,8 @@
 #include "encoder/header.hpp"
 #include "fuzz/expect.hpp"
 #include "fuzz/stream_mutator.hpp"
-#include "shared/header.hpp"
 
 using namespace microtin;
-
-namespace {
-
-Contract contract_of(const std::vector<uint8_t>& stream) {
-  FixedHeader header{};
-  EXPECT(read_fixed_header(stream.data(), &header));
-  return header.contract;
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::vector<uint8_t> stream(data, data + size);
@@ -29,8 +18,9 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
     const Header header = read_header(stream);
     EXPECT(legal);
-    const std::vector<uint8_t> once = write_header(contract_of(stream), header.metadata);
-    const std::vector<uint8_t> twice = write_header(contract_of(once), read_header(once).metadata);
+    const std::vector<uint8_t> once = write_header(header.contract, header.metadata);
+    const Header again = read_header(once);
+    const std::vector<uint8_t> twice = write_header(again.contract, again.metadata);
     EXPECT(once == twice);
     if (info.vertices > 2000) return 0;
     const DecodedTerrain decoded(stream);

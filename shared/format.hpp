@@ -10,10 +10,7 @@
 namespace microtin {
 
 constexpr uint8_t kMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'i', 'n'};
-constexpr uint8_t kVersion = 2;
-// Header flags; the others are zero. The last four say what follows.
-constexpr uint8_t kHasHeights = 1, kHasVoids = 2, kLongCount = 4, kLongSides = 8,
-                  kHasPlacement = 16, kHasNotes = 32, kKnownFlags = 63;
+constexpr uint8_t kVersion = 3;
 constexpr uint32_t kMinDegree = 6, kMaxDegree = 32;
 constexpr uint32_t kMaxLevels = 3;
 constexpr uint32_t kMaxVertices = 16777216;  // 2^24
@@ -54,13 +51,17 @@ inline uint64_t lattice_places(const Contract& contract) {
   return (static_cast<uint64_t>(contract.x_max) + 1) * (static_cast<uint32_t>(contract.y_max) + 1);
 }
 
-// Fixed header: magic 4, version 1, flags 1, effort 1 (degree + 64 * levels), then the dimensions,
-// as narrow as the flags say: vertices 2 or 4, x_max 1 or 2, y_max 1 or 2, bytes of the placement 0
-// or 1, bytes of notes 0 or 2. Little-endian. Then the placement and the notes, then a CRC-32 of
-// all before it.
-constexpr uint32_t kIdentityBytes = 7;
+// A stream begins with magic 4 and version 1. What follows of the header is framed as sections are:
+// its length, then properties, vertices, x_max, y_max, the placement, notes; the CRC-32 of all
+// before.
+constexpr uint32_t kIdentityBytes = 5;
+constexpr uint32_t kLengthMostBytes = 6;  // of a length that counts as 0, too; others have 5
 constexpr uint32_t kCheckBytes = 4;
-constexpr uint32_t kPlacementMostBytes = 66;  // three axes of up to 10 + 6 + 6 bytes
+constexpr uint32_t kPlacementMostBytes = 66;                                // 3 * (10 + 6 + 6)
+constexpr uint32_t kHeaderMostBytes = 2 + 4 + 3 + 3 + kPlacementMostBytes;  // before the notes
+
+// Properties: these flags, 8 * levels, 32 * degree.
+constexpr uint32_t kHasHeights = 1, kHasVoids = 2, kHasPlacement = 4;
 
 // Notes are for people and hosts; decoding needs none of them. A type byte, a length (2 bytes), the
 // content.

@@ -1,9 +1,10 @@
-// Reading the header: the fixed part and the placement.
+// Reading the header, and the numbers of variable length in it.
 #ifndef MICROTIN_SHARED_HEADER_HPP
 #define MICROTIN_SHARED_HEADER_HPP
 
 #include "microtin/microtin.h"
 #include "shared/format.hpp"
+#include "shared/lattice.hpp"
 
 namespace microtin {
 
@@ -15,67 +16,17 @@ inline microtin_status check_identity(const uint8_t* identity) {
   return identity[4] == kVersion ? MICROTIN_DONE : MICROTIN_UNSUPPORTED_VERSION;
 }
 
-// Bytes of a fixed header with a known identity.
-inline uint32_t fixed_header_bytes(const uint8_t* identity) {
-  const uint8_t flags = identity[5];
-  return kIdentityBytes + ((flags & kLongCount) != 0 ? 4u : 2u) +
-         ((flags & kLongSides) != 0 ? 4u : 2u) + ((flags & kHasPlacement) != 0 ? 1u : 0u) +
-         ((flags & kHasNotes) != 0 ? 2u : 0u);
+// Takes a byte into a length, 0 before the first: seven bits a byte, high ones first, the top bit
+// set if more follow. True if more do. A length of more than 31 bits, or not in its shortest form,
+// ends where that shows, counts as 0 and is not legal.
+inline bool take_length(uint32_t* length, uint8_t byte, bool* legal) {
+  *legal = *length >> 24 == 0 && (*length != 0 || byte != 128);
+  *length = *legal ? *length << 7 | (byte & 127u) : 0;
+  return *legal && byte >= 128;
 }
 
-// The fixed header and what follows it.
-struct FixedHeader {
-  Contract contract;
-  uint32_t bytes;            // its own
-  uint32_t placement_bytes;  // at most 255
-  uint32_t note_bytes;       // at most 65535
-};
-
-// Bytes of the whole header before its check.
-inline uint32_t checked_bytes(const FixedHeader& header) {
-  return header.bytes + header.placement_bytes + header.note_bytes;
-}
-
-// A number of `width` bytes.
-inline uint32_t take_number(const uint8_t** bytes, uint32_t width) {
-  uint32_t value = 0;
-  for (uint32_t i = 0; i < width; ++i) value |= static_cast<uint32_t>(*(*bytes)++) << 8 * i;
-  return value;
-}
-
-// Reads a fixed header with a known identity. False if it breaks a rule of the format.
-inline bool read_fixed_header(const uint8_t* bytes, FixedHeader* header) {
-  const uint8_t flags = bytes[5], effort = bytes[6];
-  const uint8_t* next = bytes + kIdentityBytes;
-  const uint32_t side_width = (flags & kLongSides) != 0 ? 2 : 1;
-  Contract& contract = header->contract;
-  contract.has_heights = (flags & kHasHeights) != 0;
-  contract.has_voids = (flags & kHasVoids) != 0;
-  contract.degree = effort & 63u;
-  contract.levels = static_cast<uint32_t>(effort) >> 6;
-  contract.vertices = take_number(&next, (flags & kLongCount) != 0 ? 4 : 2);
-  contract.x_max = static_cast<uint16_t>(take_number(&next, side_width));
-  contract.y_max = static_cast<uint16_t>(take_number(&next, side_width));
-  header->placement_bytes = take_number(&next, (flags & kHasPlacement) != 0 ? 1 : 0);
-  header->note_bytes = take_number(&next, (flags & kHasNotes) != 0 ? 2 : 0);
-  header->bytes = static_cast<uint32_t>(next - bytes);
-  return flags <= kKnownFlags && contract.degree >= kMinDegree && contract.degree <= kMaxDegree &&
-         contract.levels >= 1 && contract.vertices >= 3 && contract.vertices <= kMaxVertices;
-}
-
-// How many of a stream's first bytes are the header up to its notes, as far as `size` of them tell.
-// A placement that is too long is not told.
-inline uint32_t header_bytes(const uint8_t* bytes, size_t size) {
-  if (size < kIdentityBytes || check_identity(bytes) != MICROTIN_DONE) return kIdentityBytes;
-  if (size < fixed_header_bytes(bytes)) return fixed_header_bytes(bytes);
-  FixedHeader header;
-  read_fixed_header(bytes, &header);
-  const bool placed = header.placement_bytes <= kPlacementMostBytes;
-  return header.bytes + (placed ? header.placement_bytes : 0);
-}
-
-// A number in groups of seven bits, high ones first, the top bit set if more follow. False if it is
-// longer than `bytes`, not in its shortest form, or above 64 bits.
+// A number in groups of seven bits, as lengths are. False if it is longer than `bytes`, not in its
+// shortest form, or above 64 bits.
 inline bool read_varint(const uint8_t** bytes, const uint8_t* end, uint64_t* value) {
   *value = 0;
   while (*bytes != end) {
@@ -92,19 +43,52 @@ inline bool read_step(const uint8_t** bytes, const uint8_t* end, uint64_t* value
   return read_varint(bytes, end, value) && *value != 0 && *value >> 40 == 0;
 }
 
-// A placement: for x, y and z the offset (zigzag), numerator and denominator.
-inline bool read_placement(const uint8_t* bytes, uint32_t size, microtin_axis* axis) {
-  const uint8_t* const end = bytes + size;
-  for (microtin_axis* const last = axis + 3; axis != last; ++axis) {
+// Number by number: on AVR a constant to copy from would be in RAM.
+inline void place_on_lattice(microtin_axis* axis) {
+  for (int i = 0; i < 3; ++i) {
+    axis[i].offset = 0;
+    axis[i].numerator = 1;
+    axis[i].denominator = 1;
+  }
+}
+
+// A placement: for x, y and z the offset (zigzag), numerator and denominator. What is not legal
+// leaves `axis` on the lattice itself.
+inline bool read_placement(const uint8_t** bytes, const uint8_t* end, microtin_axis* axis) {
+  for (int i = 0; i < 3; ++i) {
     uint64_t offset = 0;
-    if (!read_varint(&bytes, end, &offset) || !read_step(&bytes, end, &axis->numerator) ||
-        !read_step(&bytes, end, &axis->denominator)) {
+    if (!read_varint(bytes, end, &offset) || !read_step(bytes, end, &axis[i].numerator) ||
+        !read_step(bytes, end, &axis[i].denominator)) {
+      place_on_lattice(axis);
       return false;
     }
     const int64_t half = static_cast<int64_t>(offset >> 1);
-    axis->offset = (offset & 1u) != 0 ? -half - 1 : half;
+    axis[i].offset = (offset & 1u) != 0 ? -half - 1 : half;
   }
-  return bytes == end;
+  return true;
+}
+
+// Reads a header's payload up to its notes. False if it breaks a rule of the format. Then, and
+// without a placement, `axis` is on the lattice itself.
+inline bool read_header(const uint8_t** bytes, const uint8_t* end, Contract* contract,
+                        microtin_axis* axis) {
+  uint64_t number[4];  // properties, vertices, x_max, y_max
+  bool legal = true;
+  for (int i = 0; i < 4; ++i) legal = legal && read_varint(bytes, end, number + i);
+  place_on_lattice(axis);
+  if (!legal) return false;
+  const uint32_t properties = static_cast<uint32_t>(number[0]);
+  contract->has_heights = (properties & kHasHeights) != 0;
+  contract->has_voids = (properties & kHasVoids) != 0;
+  contract->levels = properties >> 3 & 3u;
+  contract->degree = properties >> 5;
+  contract->vertices = static_cast<uint32_t>(number[1]);
+  contract->x_max = static_cast<uint16_t>(number[2]);
+  contract->y_max = static_cast<uint16_t>(number[3]);
+  if ((properties & kHasPlacement) != 0) legal = read_placement(bytes, end, axis);
+  return legal && number[0] >> 11 == 0 && contract->degree >= kMinDegree &&
+         contract->degree <= kMaxDegree && contract->levels >= 1 && number[1] >= 3 &&
+         number[1] <= kMaxVertices && number[2] <= kLatticeMax && number[3] <= kLatticeMax;
 }
 
 }  // namespace microtin

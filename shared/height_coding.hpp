@@ -114,12 +114,6 @@ inline RingSums sum_ring(const Mesh& mesh, const Residual* residual, const Index
   return sums;
 }
 
-// log2 with 8 fractional bits, linear between powers of two; v > 0.
-inline uint32_t coarse_log2(uint32_t v) {
-  const uint32_t bit = highest_bit(v);
-  return bit * 256u + ((bit >= 8 ? v >> (bit - 8) : v << (8 - bit)) & 255u);
-}
-
 struct HeightPrediction {
   int32_t height;
   uint32_t scale;     // < kScales: of the difference to be expected
@@ -130,11 +124,10 @@ struct HeightPrediction {
 // difference to be expected.
 inline uint32_t expected_scale(uint32_t weights, uint32_t roughness, uint32_t spread,
                                uint32_t distance) {
-  // Each logarithm is at least that of the weights.
-  const uint32_t sum = coarse_log2(4 * roughness + weights) +
-                       2 * coarse_log2(4 * spread + weights) - 3 * coarse_log2(weights) +
-                       32u * distance + 320u;
-  const uint32_t scale = sum / 768u;
+  // Of no smaller numbers are logarithms smaller by more than 1/128: the sum is positive.
+  const Log2 sum = log2_of(4 * roughness + weights) + 2 * log2_of(4 * spread + weights) -
+                   3 * log2_of(weights) + 32 * static_cast<Log2>(distance) + 320;
+  const uint32_t scale = static_cast<uint32_t>(sum) / 768u;
   return scale < kScales ? scale : kScales - 1;
 }
 

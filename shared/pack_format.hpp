@@ -95,6 +95,14 @@ inline bool read_pack_header(const uint8_t* bytes, PackHeader* header) {
          static_cast<uint64_t>(tile_columns(grid)) * tile_rows(grid) <= 0xFFFFFFFF;
 }
 
+// The placement behind the fixed part, which must fill its bytes.
+inline bool read_pack_placement(const uint8_t* placement, const PackHeader& header,
+                                microtin_axis* axis) {
+  const uint8_t* next = placement;
+  const uint8_t* const end = next + header.placement_bytes;
+  return read_placement(&next, end, axis) && next == end;
+}
+
 // What the index says of a tile.
 struct PackEntry {
   uint64_t offset;  // of its stream in the file, below 2^40

@@ -34,16 +34,14 @@ TEST_CASE("every phase can be the last, and is a coarser terrain") {
 
 TEST_CASE("notes in the header are skipped, a broken placement is malformed") {
   const Bytes stream = terrain_stream(20, 9);
-  const auto status_with = [&](uint8_t flag, const Bytes& added, bool damaged) {
+  const uint32_t end = read_header(stream).info.header_bytes - kCheckBytes;
+  const auto status_with = [&](bool is_placed, const Bytes& added, bool damaged) {
     Bytes other = stream;
-    Bytes length = {static_cast<uint8_t>(added.size())};
-    if (flag == kHasNotes) length.push_back(0);
-    const uint32_t at = fixed_header_bytes(other.data());
-    other.insert(other.begin() + at, added.begin(), added.end());
-    other.insert(other.begin() + at, length.begin(), length.end());
-    other[5] |= flag;
+    other.insert(other.begin() + end, added.begin(), added.end());
+    other[5] = static_cast<uint8_t>(other[5] + added.size());        // the length
+    if (is_placed) other[7] |= static_cast<uint8_t>(kHasPlacement);  // properties
     repair(other.data(), other.size());
-    if (damaged) other[at + length.size()] ^= 1;
+    if (damaged) other[end] ^= 1;
     microtin_info info;
     const microtin_status peeked = microtin_peek(other.data(), other.size(), &info);
     Device device(20);
@@ -57,14 +55,13 @@ TEST_CASE("notes in the header are skipped, a broken placement is malformed") {
     }
     return status;
   };
-  CHECK(status_with(kHasNotes, {0x7F, 2, 0, 9, 9}, false) == MICROTIN_DONE);
-  CHECK(status_with(kHasNotes, {0xFF}, false) == MICROTIN_DONE);
-  CHECK(status_with(kHasPlacement, {1, 2, 3, 1, 2, 3, 1, 2, 3}, false) == MICROTIN_DONE);
+  CHECK(status_with(false, {0x7F, 2, 0, 9, 9}, false) == MICROTIN_DONE);
+  CHECK(status_with(false, {0xFF}, false) == MICROTIN_DONE);
+  CHECK(status_with(true, {1, 2, 3, 1, 2, 3, 1, 2, 3}, false) == MICROTIN_DONE);
   for (const Bytes& broken :
-       {Bytes{1}, Bytes{1, 2, 3, 1, 2, 3, 1, 2}, Bytes{1, 0, 3, 1, 2, 3, 1, 2, 3},
-        Bytes{1, 2, 3, 1, 2, 3, 1, 2, 3, 1}}) {
-    CHECK(status_with(kHasPlacement, broken, false) == MICROTIN_MALFORMED);
-    CHECK(status_with(kHasPlacement, broken, true) == MICROTIN_CHECKSUM);
+       {Bytes{1}, Bytes{1, 2, 3, 1, 2, 3, 1, 2}, Bytes{1, 0, 3, 1, 2, 3, 1, 2, 3}}) {
+    CHECK(status_with(true, broken, false) == MICROTIN_MALFORMED);
+    CHECK(status_with(true, broken, true) == MICROTIN_CHECKSUM);
   }
 }
 

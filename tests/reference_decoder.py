@@ -97,11 +97,6 @@ def log2(v):
     return 256 * b + ((m + bend + 128) >> 8)
 
 
-def coarse_log2(v):
-    b = highest_bit(v)
-    return 256 * b + (((v << 8) >> b) & 255)
-
-
 def exp2(exponent):
     if exponent <= 0:
         return 1
@@ -278,13 +273,18 @@ class ByteReader:
             if byte < 128:
                 return value
 
+    def length(self):
+        value = self.varint()
+        require(value < 1 << 31, "a length is out of bounds")
+        return value
+
     def expect_check(self, start):
         checked = self.data[start : self.position]
         require(self.number(4) == zlib.crc32(checked), "CRC-32 is wrong")
 
     def section(self):
         start = self.position
-        payload = self.take(self.varint())
+        payload = self.take(self.length())
         self.expect_check(start)
         return RangeDecoder(payload)
 
@@ -301,23 +301,19 @@ class Header(NamedTuple):
 
 def read_header(reader):
     require(reader.take(4) == b"mtin", "not a microtin stream")
-    require(reader.number(1) == 2, "unknown version")
-    flags, effort = reader.number(1), reader.number(1)
-    vertices = reader.number(4 if flags & 4 else 2)
-    columns, rows = (1 + reader.number(2 if flags & 8 else 1) for _ in "xy")
-    placement_size = reader.number(1) if flags & 16 else 0
-    notes_size = reader.number(2) if flags & 32 else 0
-    placement = reader.take(placement_size)
-    reader.take(notes_size)
+    require(reader.number(1) == 3, "unknown version")
+    payload = ByteReader(reader.take(reader.length()))
     reader.expect_check(0)
-    require(flags < 64, "unknown flags")
-    degree, levels = effort & 63, effort >> 6
+    properties, vertices = payload.varint(), payload.varint()
+    columns, rows = payload.varint() + 1, payload.varint() + 1
+    levels, degree = properties >> 3 & 3, properties >> 5
     require(6 <= degree <= 32, "degree is out of bounds")
     require(levels >= 1, "there is no level of cells")
     require(3 <= vertices <= 1 << 24, "number of vertices is out of bounds")
-    if placement_size > 0:
-        check_placement(ByteReader(placement))
-    return Header(bool(flags & 1), bool(flags & 2), degree, levels, vertices, columns, rows)
+    require(max(columns, rows) <= 1 << 16, "a side is out of bounds")
+    if properties & 4:
+        check_placement(payload)
+    return Header(bool(properties & 1), bool(properties & 2), degree, levels, vertices, columns, rows)
 
 
 def check_placement(reader):
@@ -325,7 +321,6 @@ def check_placement(reader):
         require(reader.varint() < 1 << 64, "offset is out of bounds")
         for _ in ("numerator", "denominator"):
             require(1 <= reader.varint() < 1 << 40, "step is out of bounds")
-    require(reader.is_at_end(), "placement is too long")
 
 
 # Section 7: insertion
@@ -831,7 +826,7 @@ class Expectation(NamedTuple):
         mean = (2 * height + w) // (2 * w)
         spread = sum(map(abs, heights))
         roughness = sum(map(abs, residuals))
-        level = coarse_log2(4 * roughness + w) + 2 * coarse_log2(4 * spread + w) - 3 * coarse_log2(w)
+        level = log2(4 * roughness + w) + 2 * log2(4 * spread + w) - 3 * log2(w)
         scale = min(11, (level + 32 * (14 + first - highest_bit(w)) + 320) // 768)
         sign = cls.expected_sign(sum(residuals), roughness)
         return cls(base + mean, scale, 2 * sign + (height > mean * w))

@@ -112,12 +112,41 @@ Bytes with_header_byte(size_t at, uint8_t value) {
   return stream;
 }
 
-Bytes with_placement(const Bytes& placement) {
-  Bytes stream = with_header_byte(5, kHasPlacement);
-  stream.resize(stream.size() - kCheckBytes);
-  stream.push_back(static_cast<uint8_t>(placement.size()));
-  stream.insert(stream.end(), placement.begin(), placement.end());
+// The header of a payload, with a right check.
+Bytes framed_header(const Bytes& payload) {
+  Bytes stream(kMagic, kMagic + sizeof kMagic);
+  stream.push_back(kVersion);
+  append_varint(stream, payload.size());
+  stream.insert(stream.end(), payload.begin(), payload.end());
   append_check(stream, 0);
+  return stream;
+}
+
+// Of properties, vertices, x_max, y_max, as far as they are given, and what follows.
+Bytes header_with(const std::vector<uint64_t>& numbers, const Bytes& rest = {}) {
+  Bytes payload;
+  for (const uint64_t number : numbers) append_varint(payload, number);
+  payload.insert(payload.end(), rest.begin(), rest.end());
+  return framed_header(payload);
+}
+
+constexpr uint64_t properties(uint32_t degree, uint32_t levels) {
+  return uint64_t{degree} << 5 | levels << 3;
+}
+
+constexpr uint64_t kLegal = properties(kMinDegree, 2);
+
+Bytes with_placement(const Bytes& placement) {
+  return header_with({kLegal + kHasPlacement, 4, 99, 99}, placement);
+}
+
+// A length of the header that is not legal, and a right check of what is ahead of it.
+Bytes with_header_length(const Bytes& length) {
+  Bytes stream(kMagic, kMagic + sizeof kMagic);
+  stream.push_back(kVersion);
+  stream.insert(stream.end(), length.begin(), length.end());
+  append_check(stream, 0);
+  stream.resize(stream.size() + 20);
   return stream;
 }
 
@@ -214,16 +243,22 @@ using Refused = std::map<std::string, Bytes>;
 void add_headers(Refused& all) {
   all["bad_magic"] = with_header_byte(0, 'M');
   all["unsupported_version"] = with_header_byte(4, kVersion + 1);
-  all["malformed_flags"] = with_header_byte(5, kKnownFlags + 1);
-  all["malformed_degree_low"] = with_header_byte(6, 128 + kMinDegree - 1);
-  all["malformed_degree_high"] = with_header_byte(6, 128 + kMaxDegree + 1);
-  all["malformed_levels"] = with_header_byte(6, kMinDegree);
+  all["malformed_header_length"] = with_header_length({0x80});
+  all["malformed_header_length_above_31_bits"] = with_header_length({0x88, 0x80, 0x80, 0x80, 0x80});
+  all["malformed_header_short"] = header_with({kLegal, 4, 99});
+  all["malformed_number_not_shortest"] = header_with({kLegal, 4, 99}, {0x80, 99});
+  all["malformed_properties"] = header_with({kLegal + (1 << 11), 4, 99, 99});
+  all["malformed_degree_low"] = header_with({properties(kMinDegree - 1, 2), 4, 99, 99});
+  all["malformed_degree_high"] = header_with({properties(kMaxDegree + 1, 2), 4, 99, 99});
+  all["malformed_levels"] = header_with({properties(kMinDegree, 0), 4, 99, 99});
   all["malformed_count_low"] = header_of(flat_contract(2));
   all["malformed_count_high"] = header_of(flat_contract(kMaxVertices + 1));
+  all["malformed_side_x"] = header_with({kLegal, 4, 65536, 99});
+  all["malformed_side_y"] = header_with({kLegal, 4, 99, 65536});
   all["malformed_placement_short"] = with_placement({1, 2, 3, 1, 2, 3, 1, 2});
-  all["malformed_placement_rest"] = with_placement({1, 2, 3, 1, 2, 3, 1, 2, 3, 9});
   all["malformed_placement_zero"] = with_placement({1, 2, 0, 1, 2, 3, 1, 2, 3});
-  all["malformed_placement_long"] = with_placement(Bytes(kPlacementMostBytes + 1, 0));
+  all["malformed_placement_long"] =
+      with_placement({0x82, 255, 255, 255, 255, 255, 255, 255, 255, 127, 2, 3});
   all["too_big"] = header_of(flat_contract(kCapacity + 1));
   all["too_big_for_all"] = header_of(flat_contract(kMaxVertices));
 }
@@ -240,9 +275,10 @@ void add_damage(Refused& all) {
 }
 
 void add_sections(Refused& all) {
-  all["malformed_length_not_shortest"] = with_longer_length({0x80});
-  all["checksum_length_above_32_bits"] = with_longer_length({0x90, 0x80, 0x80, 0x80});
-  all["malformed_length_above_32_bits"] = with_section({0x90, 0x80, 0x80, 0x80, 0});
+  all["checksum_length_not_shortest"] = with_longer_length({0x80});
+  all["malformed_length_not_shortest"] = with_section({0x80});
+  all["checksum_length_above_31_bits"] = with_longer_length({0x88, 0x80, 0x80, 0x80});
+  all["malformed_length_above_31_bits"] = with_section({0x88, 0x80, 0x80, 0x80, 0x80});
   all["malformed_code_is_range"] = with_section({4, 0xFF, 0xFF, 0xFF, 0xFF});
   all["malformed_number_in_rounding"] = with_rounded_number();
   const Bytes border = valid_stream_that_ends_in_zeros();
