@@ -309,14 +309,14 @@ uint64_t microtin_bytes_used(const microtin_decoder* decoder) {
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info) {
   if (info == nullptr || (bytes == nullptr && size != 0)) return MICROTIN_ARGUMENT;
   info->header_bytes = 0;
-  if (size < kIdentityBytes + kLengthMostBytes) return MICROTIN_NEED_INPUT;
+  if (size < kIdentityBytes) return MICROTIN_NEED_INPUT;
   const microtin_status known = check_identity(bytes);
   if (known != MICROTIN_DONE) return known;
   const uint8_t* next = bytes + kIdentityBytes;
   uint32_t length = 0;
-  bool legal = true;
-  while (take_length(&length, *next++, &legal)) {
-  }
+  bool legal = true, more = true;
+  while (more && next != bytes + size) more = take_length(&length, *next++, &legal);
+  if (more) return MICROTIN_NEED_INPUT;
   const uint32_t checked = static_cast<uint32_t>(next - bytes) + length;  // length < 2^31
   info->header_bytes = checked + kCheckBytes;
   if (size < info->header_bytes) return MICROTIN_NEED_INPUT;

@@ -55,7 +55,6 @@ inline uint64_t lattice_places(const Contract& contract) {
 // its length, then properties, vertices, x_max, y_max, the placement, notes; the CRC-32 of all
 // before.
 constexpr uint32_t kIdentityBytes = 5;
-constexpr uint32_t kLengthMostBytes = 6;  // of a length that counts as 0, too; others have 5
 constexpr uint32_t kCheckBytes = 4;
 constexpr uint32_t kPlacementMostBytes = 66;                                // 3 * (10 + 6 + 6)
 constexpr uint32_t kHeaderMostBytes = 2 + 4 + 3 + 3 + kPlacementMostBytes;  // before the notes

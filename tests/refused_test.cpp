@@ -146,7 +146,6 @@ Bytes with_header_length(const Bytes& length) {
   stream.push_back(kVersion);
   stream.insert(stream.end(), length.begin(), length.end());
   append_check(stream, 0);
-  stream.resize(stream.size() + 20);
   return stream;
 }
 
