@@ -101,8 +101,8 @@ typedef struct microtin_buckets microtin_buckets;
 
 /* Reads a stream's header from its first `size` bytes without decoding anything. NEED_INPUT: give
  * more; `info->header_bytes`, if not 0, says how many. DONE: `info` is filled in and its check
- * passed. Errors: BAD_MAGIC, UNSUPPORTED_VERSION, CHECKSUM, MALFORMED, ARGUMENT. O(header bytes):
- * usually below 100, at most 64 KB. */
+ * passed. Errors: BAD_MAGIC, UNSUPPORTED_VERSION, CHECKSUM, MALFORMED, ARGUMENT. O(header bytes),
+ * usually below 100. */
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info);
 
 /* Lays out an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh,
@@ -123,10 +123,10 @@ void microtin_stop_after_phase(microtin_decoder* decoder, uint32_t phase);
 
 /* Decodes from the next `size` bytes of the stream, at most `step_limit` steps (0: no limit); a
  * step is at most nine triangles visited, with at most one insertion. (The step that starts a phase
- * also clears two bits per vertex; header bytes, at most 64 KB, are no steps.) *used tells how many
- * bytes were taken: all of them on NEED_INPUT; on STEP_LIMIT pass the rest again. On DONE the
- * stream's last byte is the last one taken and anything behind it is left alone. Chunking changes
- * no result.
+ * also clears two bits per vertex; bytes of the header, and behind an error, are no steps.) *used
+ * tells how many bytes were taken: all of them on NEED_INPUT; on STEP_LIMIT pass the rest again. On
+ * DONE the stream's last byte is the last one taken and anything behind it is left alone. Chunking
+ * changes no result.
  *
  * Bytes are read where they are, once: a stream in memory-mapped flash can be passed whole, one in
  * a ring buffer from its oldest byte to where it wraps. Only a step's worth is kept between calls.
