@@ -197,7 +197,7 @@ microtin_answer worse(microtin_answer a, microtin_answer b) {
 }
 
 // A height in whole units, halves up, kept within int16_t. |z| < 2^31, the numerator < 2^31, the
-// offset within 2^46, the denominator < 2^40: sums below 2^62 + 2^62 + 2^56.
+// offset within 2^45, the denominator < 2^40: sums below 2^62 + 2^61 + 2^55.
 int16_t in_units(int32_t z, const microtin_axis& axis) {
   const int64_t unit = static_cast<int64_t>(axis.denominator) * 65536;
   const int64_t sum = static_cast<int64_t>(axis.numerator) * z + axis.offset * 65536 + unit / 2;
@@ -302,7 +302,7 @@ microtin_answer microtin_pack_highest(const microtin_pack* pack, const microtin_
 microtin_answer microtin_pack_fill(const microtin_pack* pack, const microtin_block* block,
                                    int16_t* heights) {
   const microtin_axis& axis = pack->axis[2];
-  const int64_t furthest = static_cast<int64_t>(1) << 46;
+  const int64_t furthest = static_cast<int64_t>(1) << 45;
   const microtin_course corner = place(block->x, block->y);
   if (!is_legal(corner) || axis.numerator >> 31 != 0 || axis.offset > furthest ||
       axis.offset < -furthest) {

@@ -10,6 +10,7 @@
 
 #include "encoder/error.hpp"
 #include "encoder/pack_file.hpp"
+#include "encoder/wide.hpp"
 #include "fuzz/expect.hpp"
 #include "fuzz/repair.hpp"
 #include "microtin/pack.h"
@@ -125,6 +126,32 @@ void check_height(const PackFile& file, const microtin_pack* pack, int64_t x, in
   EXPECT(is_right);
 }
 
+// Blocks hold what single answers and exact arithmetic say.
+void check_fill(const microtin_pack* pack, const microtin_pack_info& info,
+                const microtin_course& course) {
+  const microtin_block block = {course.x, course.y, 300, -256, 3, 2, -9999};
+  int16_t heights[6];
+  if (microtin_pack_fill(pack, &block, heights) != MICROTIN_HEIGHT) return;
+  const Wide unit = Wide{65536} * static_cast<Wide>(info.z.denominator);
+  uint32_t hint = 0;
+  for (int i = 0; i < 6; ++i) {
+    int32_t z = 0;
+    EXPECT(microtin_pack_height_at(pack, block.x + i % 3 * block.dx, block.y + i / 3 * block.dy,
+                                   &hint, &z) == MICROTIN_HEIGHT);
+    const Wide real = static_cast<Wide>(info.z.numerator) * z + Wide{info.z.offset} * 65536;
+    EXPECT(heights[i] == std::clamp<Wide>(round_divide(real, unit), INT16_MIN, INT16_MAX));
+  }
+}
+
+void check_to_lattice(const microtin_axis& axis, uint32_t most, int64_t value, uint32_t per_unit) {
+  int64_t lattice = 0;
+  if (microtin_pack_to_lattice(&axis, most, value, per_unit, &lattice) == 0) return;
+  const Wide parts =
+      Wide{value} * static_cast<Wide>(axis.denominator) - Wide{axis.offset} * per_unit;
+  EXPECT(lattice == round_divide(parts * 256, static_cast<Wide>(axis.numerator) * per_unit));
+  EXPECT(lattice >= 0 && lattice <= int64_t{most} * 256);
+}
+
 // Serves a course to its end, with interrupts between the calls.
 void serve(Card& card, microtin_pack* pack, const microtin_course& course, uint32_t step_limit) {
   microtin_status status = MICROTIN_STEP_LIMIT;
@@ -175,6 +202,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
                                     coordinate(asked, info.x_max), coordinate(asked, info.y_max)};
     serve(card, device.pack, course, step_limit);
     if (file) check_height(*file, device.pack, course.x, course.y);
+    if (microtin_pack_header(device.pack, &info) == 0) continue;
+    check_fill(device.pack, info, course);
+    const int64_t value = asked.ConsumeIntegral<int64_t>();
+    check_to_lattice(info.x, info.x_max, value >> asked.ConsumeIntegralInRange(0, 63),
+                     asked.ConsumeIntegral<uint32_t>());
   }
   return 0;
 }

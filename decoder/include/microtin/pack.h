@@ -147,7 +147,7 @@ typedef struct microtin_block {
 /* Writes columns * rows heights in whole units of the pack (such as metres), rounded to nearest,
  * halves up, kept within int16_t; `heights` is row by row. Returns HEIGHT if all are heights, else
  * the reason of the last that is not, NOT_DECODED first. OUTSIDE, and nothing is written, if the z
- * axis has a numerator of 2^31 or more or an offset beyond +-2^46, or x or y is beyond +-2^40. */
+ * axis has a numerator of 2^31 or more or an offset beyond +-2^45, or x or y is beyond +-2^40. */
 microtin_answer microtin_pack_fill(const microtin_pack* pack, const microtin_block* block,
                                    int16_t* heights);
 
