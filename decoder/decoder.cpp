@@ -10,6 +10,8 @@ Size smaller(Size a, Size b) {
   return a < b ? a : b;
 }
 
+static_assert(kHeaderMostBytes <= sizeof(ByteWindow::bytes), "a header fits up to its notes");
+
 // Bytes that must be at hand before the next item can be handled as a whole.
 uint32_t bytes_needed(const microtin_decoder& d) {
   uint32_t most = 1;
@@ -189,7 +191,7 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
 }
 
 // How many vertices a workspace holds, of which `fixed` bytes and `per_four` bytes for four,
-// rounded up, are needed. 4 * per_four * MICROTIN_MAX_VERTICES / 4 is below 2^32.
+// rounded up, are needed.
 MICROTIN_ONE_COPY microtin_status capacity_of(const void* workspace, size_t size, uint32_t fixed,
                                               uint32_t per_four, uint32_t* capacity) {
   if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
@@ -209,6 +211,10 @@ constexpr uint32_t kMeshFixed = MICROTIN_MESH_BYTES(0);
 constexpr uint32_t kMeshPerFour = MICROTIN_MESH_BYTES(4) - kMeshFixed;
 constexpr uint32_t kDecoderFixed = MICROTIN_DECODER_BYTES(0);
 constexpr uint32_t kDecoderPerFour = MICROTIN_DECODER_BYTES(4) - kDecoderFixed;
+
+static_assert(uint64_t{kMeshPerFour} * (MICROTIN_MAX_VERTICES + 3) <= UINT32_MAX &&
+                  kDecoderPerFour <= kMeshPerFour,
+              "products of capacity_of fit");
 
 MICROTIN_ONE_COPY void empty_mesh(microtin_mesh& m) {
   m.mesh.vertices = 0;

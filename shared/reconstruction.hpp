@@ -160,8 +160,7 @@ inline void note_final_triangle(Reconstruction& r, int64_t twice_area) {
 // --- Insertion -----------------------------------------------------------------------------------
 
 // Inserts a vertex at `place`, decoded relative to the triangle of the chord, with the height that
-// the stream says. The chord becomes the half-edge from the new vertex.
-// False if that is not legal.
+// the stream says. The chord becomes the half-edge from the new vertex. False if that is not legal.
 template <class Coder>
 bool insert(Reconstruction& r, Coder& coder, Point place) {
   Mesh& mesh = *r.mesh;

@@ -112,12 +112,11 @@ Bytes with_header_byte(size_t at, uint8_t value) {
   return stream;
 }
 
-// The header of a payload, with a right check.
-Bytes framed_header(const Bytes& payload) {
+// A header of which all behind the identity is given, but for a right check.
+Bytes identified(const Bytes& bytes) {
   Bytes stream(kMagic, kMagic + sizeof kMagic);
   stream.push_back(kVersion);
-  append_varint(stream, payload.size());
-  stream.insert(stream.end(), payload.begin(), payload.end());
+  stream.insert(stream.end(), bytes.begin(), bytes.end());
   append_check(stream, 0);
   return stream;
 }
@@ -127,7 +126,10 @@ Bytes header_with(const std::vector<uint64_t>& numbers, const Bytes& rest = {}) 
   Bytes payload;
   for (const uint64_t number : numbers) append_varint(payload, number);
   payload.insert(payload.end(), rest.begin(), rest.end());
-  return framed_header(payload);
+  Bytes framed;
+  append_varint(framed, payload.size());
+  framed.insert(framed.end(), payload.begin(), payload.end());
+  return identified(framed);
 }
 
 constexpr uint64_t properties(uint32_t degree, uint32_t levels) {
@@ -138,15 +140,6 @@ constexpr uint64_t kLegal = properties(kMinDegree, 2);
 
 Bytes with_placement(const Bytes& placement) {
   return header_with({kLegal + kHasPlacement, 4, 99, 99}, placement);
-}
-
-// A length of the header that is not legal, and a right check of what is ahead of it.
-Bytes with_header_length(const Bytes& length) {
-  Bytes stream(kMagic, kMagic + sizeof kMagic);
-  stream.push_back(kVersion);
-  stream.insert(stream.end(), length.begin(), length.end());
-  append_check(stream, 0);
-  return stream;
 }
 
 Bytes with_section(const Bytes& head_and_payload) {
@@ -242,8 +235,8 @@ using Refused = std::map<std::string, Bytes>;
 void add_headers(Refused& all) {
   all["bad_magic"] = with_header_byte(0, 'M');
   all["unsupported_version"] = with_header_byte(4, kVersion + 1);
-  all["malformed_header_length"] = with_header_length({0x80});
-  all["malformed_header_length_above_31_bits"] = with_header_length({0x88, 0x80, 0x80, 0x80, 0x80});
+  all["malformed_header_length"] = identified({0x80});
+  all["malformed_header_length_above_31_bits"] = identified({0x88, 0x80, 0x80, 0x80, 0x80});
   all["malformed_header_short"] = header_with({kLegal, 4, 99});
   all["malformed_number_not_shortest"] = header_with({kLegal, 4, 99}, {0x80, 99});
   all["malformed_properties"] = header_with({kLegal + (1 << 11), 4, 99, 99});
