@@ -146,16 +146,22 @@ inline void cut(Box& box, const Box& bounds) {
   if (box.y1 > bounds.y1) box.y1 = bounds.y1;
 }
 
-// Whether a place, in sixteenths of a step, is less than `slack` of these on the near side of an
-// open side, or beyond it. Products are below 2^18 * 2^28, twice.
-inline bool is_beyond_open_side(const FreeRegion& region, Offset place, FastInt slack) {
-  for (int i = 0; i < 2; ++i) {
-    if (region.side[i].certified) continue;
-    const Offset from = region.corner[i], side = region.corner[i + 1] - from;
-    const int64_t most = static_cast<int64_t>(slack) * (absolute(side.x) + absolute(side.y));
-    if (cross(side, place - Offset{16 * from.x, 16 * from.y}) < most) return true;
+// Extends a box to those of a circle's extremes that are less than `slack` on the near side of an open
+// side, or beyond it; all in sixteenths of a step. Products are below 2^18 * 2^28, twice.
+inline void extend_beyond(Box& box, Offset from, Offset side, Offset centre, FastInt radius,
+                          FastInt slack) {
+  const int64_t near = cross(side, centre - Offset{16 * from.x, 16 * from.y}) -
+                       static_cast<int64_t>(slack) * (absolute(side.x) + absolute(side.y));
+  for (int i = 0; i < 2; ++i) {  // west and south, east and north; rounded inwards
+    const FastInt reach = i == 0 ? -radius : radius, round = i == 0 ? 15 : 0;
+    const Offset rounded = {centre.x + round, centre.y + round};
+    if (near < static_cast<int64_t>(side.y) * reach) {
+      extend(box, Offset{(rounded.x + reach) >> 4, rounded.y >> 4});
+    }
+    if (near < static_cast<int64_t>(side.x) * -reach) {
+      extend(box, Offset{rounded.x >> 4, (rounded.y + reach) >> 4});
+    }
   }
-  return false;
 }
 
 // Cuts off a box what the free region cannot hold: it holds the triangle itself and, beyond open
@@ -177,13 +183,9 @@ inline void enclose(const FreeRegion& region, Box& bounds) {
   Box box = {0, 0, 0, 0};
   extend(box, region.corner[1]);
   extend(box, a);
-  for (int i = 0; i < 4; ++i) {  // west, south, east, north; rounded inwards
-    const FastInt reach = i < 2 ? -radius : radius, round = i < 2 ? 15 : 0;
-    Offset extreme = centre;
-    (i % 2 == 0 ? extreme.x : extreme.y) += reach;
-    if (is_beyond_open_side(region, extreme, slack)) {
-      extend(box, Offset{(extreme.x + round) >> 4, (extreme.y + round) >> 4});
-    }
+  for (int i = 0; i < 2; ++i) {
+    const Offset from = region.corner[i], side = region.corner[i + 1] - from;
+    if (!region.side[i].certified) extend_beyond(box, from, side, centre, radius, slack);
   }
   cut(bounds, box);
 }
