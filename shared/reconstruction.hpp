@@ -135,12 +135,12 @@ inline void look_behind(const Reconstruction& r, Index h, Side& side) {
 // Describes the free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
 inline void look_around(Reconstruction& r) {
   FreeRegion& region = r.region;
-  region.origin = point_of(*r.mesh, r.mesh->origin[next_in_triangle(r.chord)]);
-  Index h = r.chord;
+  const Mesh& mesh = *r.mesh;
+  const Index edge[3] = {next_in_triangle(r.chord), previous_in_triangle(r.chord), r.chord};
+  region.origin = point_of(mesh, r.vertex);
   for (int i = 0; i < 3; ++i) {
-    h = next_in_triangle(h);
-    region.corner[i] = point_of(*r.mesh, r.mesh->origin[h]) - region.origin;
-    look_behind(r, h, region.side[i]);
+    region.corner[i] = point_of(mesh, mesh.origin[edge[i]]) - region.origin;
+    look_behind(r, edge[i], region.side[i]);
   }
   region.corner[3] = region.corner[0];
   region.side[kChord].certified = true;  // it was passed in this turn, or has a done vertex
