@@ -37,9 +37,8 @@ MICROTIN_ONE_COPY inline uint32_t highest_bit(uint64_t v) {
 #endif
 }
 
-// log2(v) within 1/256, for v > 0; log2_of(0) is that of 1.
+// log2(v) within 1/256, for v > 0.
 inline Log2 log2_of(uint64_t v) {
-  if (v == 0) return 0;
   const uint32_t bit = highest_bit(v);
   // The 16 bits behind the leading one, m of 2^16: log2(1 + m) is m + m (1 - m) (0.424 - 0.162 m).
   const uint32_t m = static_cast<uint32_t>(v << (63u - bit) >> 47) & 0xFFFFu;
@@ -66,7 +65,7 @@ MICROTIN_ONE_COPY inline int32_t kept_within(int64_t v, int32_t most) {
   return v > most ? most : v < -most ? -most : static_cast<int32_t>(v);
 }
 
-// A number at least sqrt(v) and at most 2 + sqrt(v) * (1 + 2^-7), for v < 2^58.
+// A number at least sqrt(v) and at most 2 + sqrt(v) * (1 + 2^-7), for 0 < v < 2^58.
 inline uint32_t sqrt_above(uint64_t v) {
   return exp2_of((log2_of(v) + 3) / 2) + 1;
 }

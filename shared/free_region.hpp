@@ -131,11 +131,11 @@ inline uint32_t size_of(const Box& box) {
   return highest_bit(static_cast<uint32_t>((box.x1 - box.x0) | (box.y1 - box.y0) | 1));
 }
 
-inline void extend(Box& box, Offset place) {
-  if (place.x < box.x0) box.x0 = place.x;
-  if (place.x > box.x1) box.x1 = place.x;
-  if (place.y < box.y0) box.y0 = place.y;
-  if (place.y > box.y1) box.y1 = place.y;
+inline void extend(Box& box, FastInt x, FastInt y) {
+  if (x < box.x0) box.x0 = x;
+  if (x > box.x1) box.x1 = x;
+  if (y < box.y0) box.y0 = y;
+  if (y > box.y1) box.y1 = y;
 }
 
 // Cuts the box off where it is beyond another.
@@ -146,8 +146,8 @@ inline void cut(Box& box, const Box& bounds) {
   if (box.y1 > bounds.y1) box.y1 = bounds.y1;
 }
 
-// Extends a box to those of a circle's extremes that are less than `slack` on the near side of an open
-// side, or beyond it; all in sixteenths of a step. Products are below 2^18 * 2^28, twice.
+// Extends a box to those of a circle's extremes that are less than `slack` on the near side of an
+// open side, or beyond it; all in sixteenths of a step. Products are below 2^18 * 2^28, twice.
 inline void extend_beyond(Box& box, Offset from, Offset side, Offset centre, FastInt radius,
                           FastInt slack) {
   const int64_t near = cross(side, centre - Offset{16 * from.x, 16 * from.y}) -
@@ -156,10 +156,10 @@ inline void extend_beyond(Box& box, Offset from, Offset side, Offset centre, Fas
     const FastInt reach = i == 0 ? -radius : radius, round = i == 0 ? 15 : 0;
     const Offset rounded = {centre.x + round, centre.y + round};
     if (near < static_cast<int64_t>(side.y) * reach) {
-      extend(box, Offset{(rounded.x + reach) >> 4, rounded.y >> 4});
+      extend(box, (rounded.x + reach) >> 4, rounded.y >> 4);
     }
     if (near < static_cast<int64_t>(side.x) * -reach) {
-      extend(box, Offset{rounded.x >> 4, (rounded.y + reach) >> 4});
+      extend(box, rounded.x >> 4, (rounded.y + reach) >> 4);
     }
   }
 }
@@ -168,10 +168,10 @@ inline void extend_beyond(Box& box, Offset from, Offset side, Offset centre, Fas
 // sides, the circle's extremes. Circles whose cotangent over the chord is capped are not followed.
 inline void enclose(const FreeRegion& region, Box& bounds) {
   const Cotangent k = region.side[kChord].own;
-  if (k == kCotangentCap || k == -kCotangentCap) return;
+  if (absolute(k) == kCotangentCap) return;
   // Sixteenths of a step from v. The cotangent is off by less than 1/128, which moves the centre,
   // and changes the radius, by less than 1/256 of the chord. All below 2^28.
-  const Offset a = region.corner[2];
+  const Offset c = region.corner[1], a = region.corner[2];
   const Offset centre = {a.x * 8 + static_cast<FastInt>(static_cast<int64_t>(k) * a.y >> 5),
                          a.y * 8 - static_cast<FastInt>(static_cast<int64_t>(k) * a.x >> 5)};
   const FastInt margin = (absolute(a.x) + absolute(a.y)) / 8 + 2;
@@ -181,8 +181,8 @@ inline void enclose(const FreeRegion& region, Box& bounds) {
   // The computed extremes are beyond the true ones by less than this.
   const FastInt slack = 2 * margin + 5 + (radius >> 7);
   Box box = {0, 0, 0, 0};
-  extend(box, region.corner[1]);
-  extend(box, a);
+  extend(box, c.x, c.y);
+  extend(box, a.x, a.y);
   for (int i = 0; i < 2; ++i) {
     const Offset from = region.corner[i], side = region.corner[i + 1] - from;
     if (!region.side[i].certified) extend_beyond(box, from, side, centre, radius, slack);

@@ -85,7 +85,7 @@ TEST_CASE("a root is at least the true one, and hardly larger") {
     REQUIRE(root >= exact);
     REQUIRE(root <= 2 + exact * (1 + 1.0 / 128));
   };
-  for (uint64_t v = 0; v < 1 << 20; ++v) check(v);
+  for (uint64_t v = 1; v < 1 << 20; ++v) check(v);
   for (uint32_t bit = 20; bit < 58; ++bit) {
     for (uint64_t i = 0; i < 4096; ++i) {
       const uint64_t v = (uint64_t{1} << bit) + (i << (bit - 12));

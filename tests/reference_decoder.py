@@ -89,8 +89,6 @@ def highest_bit(v):
 
 
 def log2(v):
-    if v == 0:
-        return 0
     b = highest_bit(v)
     m = ((v << 16) >> b) & 65535
     bend = (m * (65536 - m) >> 16) * (27800 - (10600 * m >> 16)) >> 16
