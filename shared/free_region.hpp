@@ -175,14 +175,13 @@ inline void enclose(const FreeRegion& region, Box& bounds) {
   const Offset centre = {a.x * 8 + static_cast<FastInt>(static_cast<int64_t>(k) * a.y >> 5),
                          a.y * 8 - static_cast<FastInt>(static_cast<int64_t>(k) * a.x >> 5)};
   const FastInt margin = (absolute(a.x) + absolute(a.y)) / 8 + 2;
-  const FastInt radius =
-      static_cast<FastInt>(sqrt_above(static_cast<uint64_t>(dot(a, a) * (65536 + k * k)) >> 10)) +
-      margin;
+  const int64_t square = scaled(dot(a, a), 65536 + k * k, 10);
+  const FastInt radius = static_cast<FastInt>(sqrt_above(static_cast<uint64_t>(square))) + margin;
   // The computed extremes are beyond the true ones by less than this.
   const FastInt slack = 2 * margin + 5 + (radius >> 7);
-  Box box = {0, 0, 0, 0};
+  Box box = {a.x, a.y, a.x, a.y};
+  extend(box, 0, 0);
   extend(box, c.x, c.y);
-  extend(box, a.x, a.y);
   for (int i = 0; i < 2; ++i) {
     const Offset from = region.corner[i], side = region.corner[i + 1] - from;
     if (!region.side[i].certified) extend_beyond(box, from, side, centre, radius, slack);
