@@ -158,7 +158,7 @@ inline void extend_beyond(Box& box, Offset from, Offset side, Offset centre, Fas
     if (near < static_cast<int64_t>(side.y) * reach) {
       extend(box, (rounded.x + reach) >> 4, rounded.y >> 4);
     }
-    if (near < static_cast<int64_t>(side.x) * -reach) {
+    if (near + static_cast<int64_t>(side.x) * reach < 0) {
       extend(box, rounded.x >> 4, (rounded.y + reach) >> 4);
     }
   }

@@ -138,11 +138,10 @@ inline void look_around(Reconstruction& r) {
   const Mesh& mesh = *r.mesh;
   const Index edge[3] = {next_in_triangle(r.chord), previous_in_triangle(r.chord), r.chord};
   region.origin = point_of(mesh, r.vertex);
-  for (int i = 0; i < 3; ++i) {
-    region.corner[i] = point_of(mesh, mesh.origin[edge[i]]) - region.origin;
-    look_behind(r, edge[i], region.side[i]);
-  }
-  region.corner[3] = region.corner[0];
+  region.corner[0] = region.corner[3] = Offset{0, 0};
+  region.corner[1] = point_of(mesh, mesh.origin[edge[1]]) - region.origin;
+  region.corner[2] = point_of(mesh, mesh.origin[r.chord]) - region.origin;
+  for (int i = 0; i < 3; ++i) look_behind(r, edge[i], region.side[i]);
   region.side[kChord].certified = true;  // it was passed in this turn, or has a done vertex
 }
 
