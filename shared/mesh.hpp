@@ -58,12 +58,19 @@ inline Index first_edge(Index triangle) {
   return static_cast<Index>(3u * triangle);
 }
 
+// Whether h is a multiple of 3: of all numbers these times the inverse of 3 are the smallest.
+inline bool is_first_edge(Index h) {
+  constexpr uint32_t kThird = 0xFFFFFFFFu / 3, kInverse = 2 * kThird + 1;
+  return static_cast<uint32_t>(h) * kInverse <= kThird;
+}
+
 MICROTIN_ONE_COPY inline Index next_in_triangle(Index h) {
-  return static_cast<Index>(h == first_edge(triangle_of(h)) + 2u ? h - 2u : h + 1u);
+  const Index next = static_cast<Index>(h + 1u);
+  return is_first_edge(next) ? static_cast<Index>(h - 2u) : next;
 }
 
 inline Index previous_in_triangle(Index h) {
-  return static_cast<Index>(h == first_edge(triangle_of(h)) ? h + 2u : h - 1u);
+  return static_cast<Index>(is_first_edge(h) ? h + 2u : h - 1u);
 }
 
 inline Point point_of(const Mesh& mesh, Index v) {

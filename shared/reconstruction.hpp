@@ -387,19 +387,20 @@ inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
 
 // The far corner of the triangle of the chord.
 struct Corner {
-  Index to;      // half-edge from `vertex` to it
+  Index into;    // half-edge from it into `vertex`, of the next triangle
   Index number;  // of the corner
   uint32_t marks;
 };
 
 inline Corner far_corner(const Reconstruction& r) {
-  const Index number = r.mesh->origin[previous_in_triangle(r.chord)];
-  return Corner{next_in_triangle(r.chord), number, marks_of(r, number)};
+  const Index into = r.mesh->twin[next_in_triangle(r.chord)];
+  const Index number = r.mesh->origin[into];
+  return Corner{into, number, marks_of(r, number)};
 }
 
 // Leaves the triangle of the chord, which is final. False if the walk is over.
 inline bool pass(Reconstruction& r, const Corner& corner) {
-  r.chord = r.mesh->twin[corner.to];
+  r.chord = corner.into;
   return advance(r, corner.number, corner.marks);
 }
 
