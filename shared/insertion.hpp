@@ -22,35 +22,37 @@ struct Cavity {
 // for the far corner v of each triangle before it joins. False if it says yes, or if the cavity
 // outgrows its limit; empty if the triangle of `start` and that across are not in conflict.
 //
-// The boundary is walked once. What is behind lies at the front of edge_twin, what is ahead at its
-// end, and begins with both sides of `start`: the cavity's first triangle is met like all others.
-// The cavity's dual graph is a tree (its union is star-shaped from p and no vertex lies inside), so
-// no triangle is met twice; each turn of the loop uses up one boundary edge of at most limit + 2.
+// The boundary is walked once. What is behind lies at the front of edge_twin, what is ahead of the
+// edge in hand at its end: both sides of `start` are met like all others. The cavity's dual graph
+// is a tree (its union is star-shaped from p and no vertex lies inside), so no triangle is met
+// twice; each turn of the loop uses up one boundary edge of at most limit + 2.
 template <class Forbids>
 bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const Forbids& forbids) {
   Index* const end = cavity.edge_twin + cavity.limit + 2;
-  Index* ahead = end - 2;
-  ahead[0] = mesh.twin[start];
-  ahead[1] = start;
-  uint32_t edges = 0;
-  cavity.size = 0;
-  Index a = mesh.origin[start];
-  while (ahead != end) {
-    const Index across = *ahead;  // from b to a
+  Index* ahead = end;
+  *--ahead = start;
+  Index across = mesh.twin[start];  // from b to a
+  Index a = mesh.origin[start], b = mesh.origin[across];
+  uint32_t edges = 0, size = 0;
+  for (;;) {
     const Index previous = previous_in_triangle(across);
-    const Index b = mesh.origin[across], c = mesh.origin[previous];
-    if (!in_conflict(mesh, b, a, c, p)) {
-      cavity.edge_origin[edges] = a;
-      cavity.edge_twin[edges++] = across;
-      ++ahead;
-      a = b;
+    const Index c = mesh.origin[previous];
+    if (in_conflict(mesh, b, a, c, p)) {
+      if (size == cavity.limit || forbids(c)) return false;
+      cavity.triangles[size++] = triangle_of(across);
+      *--ahead = mesh.twin[previous];
+      across = mesh.twin[next_in_triangle(across)];
+      b = c;
       continue;
     }
-    if (cavity.size == cavity.limit || forbids(c)) return false;
-    cavity.triangles[cavity.size++] = triangle_of(across);
-    *ahead-- = mesh.twin[previous];
-    *ahead = mesh.twin[next_in_triangle(across)];
+    cavity.edge_origin[edges] = a;
+    cavity.edge_twin[edges++] = across;
+    if (ahead == end) break;
+    across = *ahead++;
+    a = b;
+    b = mesh.origin[across];
   }
+  cavity.size = static_cast<Index>(size);
   return true;
 }
 
