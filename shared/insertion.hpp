@@ -33,13 +33,14 @@ bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const F
   *--ahead = start;
   Index across = mesh.twin[start];  // from b to a
   Index a = mesh.origin[start], b = mesh.origin[across];
-  uint32_t edges = 0, size = 0;
+  uint32_t edges = 0;
+  cavity.size = 0;
   for (;;) {
     const Index previous = previous_in_triangle(across);
     const Index c = mesh.origin[previous];
     if (in_conflict(mesh, b, a, c, p)) {
-      if (size == cavity.limit || forbids(c)) return false;
-      cavity.triangles[size++] = triangle_of(across);
+      if (cavity.size == cavity.limit || forbids(c)) return false;
+      cavity.triangles[cavity.size++] = triangle_of(across);
       *--ahead = mesh.twin[previous];
       across = mesh.twin[next_in_triangle(across)];
       b = c;
@@ -47,13 +48,11 @@ bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const F
     }
     cavity.edge_origin[edges] = a;
     cavity.edge_twin[edges++] = across;
-    if (ahead == end) break;
+    if (ahead == end) return true;
     across = *ahead++;
     a = b;
     b = mesh.origin[across];
   }
-  cavity.size = static_cast<Index>(size);
-  return true;
 }
 
 // Replaces the cavity by a fan around the new vertex v: one triangle (edge origin, next origin, v)
@@ -64,14 +63,14 @@ inline Index fan_cavity(Mesh& mesh, const Cavity& cavity, Index v) {
   Index* const fresh = cavity.triangles + cavity.size;
   fresh[0] = mesh.triangles++;
   fresh[1] = mesh.triangles++;
-  Index before = first_edge(fresh[1]);
-  for (uint32_t i = 0; i < cavity.size + 2u; ++i) {
-    const Index h = first_edge(cavity.triangles[i]);
-    mesh.origin[h] = cavity.edge_origin[i];
-    mesh.origin[before + 1u] = cavity.edge_origin[i];
-    mesh.origin[h + 2u] = v;
+  size_t before = first_edge(fresh[1]);
+  const uint32_t edges = cavity.size + 2u;
+  for (uint32_t i = 0; i < edges; ++i) {
+    const size_t h = first_edge(cavity.triangles[i]);
+    mesh.origin[h] = mesh.origin[before + 1] = cavity.edge_origin[i];
+    mesh.origin[h + 2] = v;
     pair(mesh, h, cavity.edge_twin[i]);
-    pair(mesh, static_cast<Index>(before + 1u), static_cast<Index>(h + 2u));
+    pair(mesh, before + 1, h + 2);
     before = h;
   }
   return first_edge(cavity.triangles[0]);

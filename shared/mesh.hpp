@@ -6,6 +6,8 @@
 #ifndef MICROTIN_SHARED_MESH_HPP
 #define MICROTIN_SHARED_MESH_HPP
 
+#include <stddef.h>
+
 #include "shared/fixed_math.hpp"
 #include "shared/lattice.hpp"
 #include "shared/predicates.hpp"
@@ -83,9 +85,9 @@ MICROTIN_ONE_COPY inline bool is_ghost(const Mesh& mesh, Index triangle) {
 }
 
 // Makes a and b each other's twins.
-inline void pair(Mesh& mesh, Index a, Index b) {
-  mesh.twin[a] = b;
-  mesh.twin[b] = a;
+inline void pair(Mesh& mesh, size_t a, size_t b) {
+  mesh.twin[a] = static_cast<Index>(b);
+  mesh.twin[b] = static_cast<Index>(a);
 }
 
 // in_conflict for the rare cases: a ghost, or p on the circle.
@@ -120,7 +122,7 @@ inline void start_mesh(Mesh& mesh) {
     mesh.origin[i] = mesh.origin[ghost + 1u] = mesh.origin[previous] = i;
     mesh.origin[ghost + 2u] = kInfinity;
     pair(mesh, i, ghost);
-    pair(mesh, static_cast<Index>(ghost + 1u), static_cast<Index>(previous + 2u));
+    pair(mesh, ghost + 1u, previous + 2u);
     previous = ghost;
   }
 }

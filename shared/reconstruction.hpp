@@ -64,7 +64,7 @@ struct Reconstruction {
   Stage stage;
   Index vertex;      // being walked around
   Index chord;       // half-edge into `vertex`, of the triangle to be looked at next
-  bool from_done;    // whether the chord comes from a done vertex
+  uint8_t from;      // marks of the vertex that the chord comes from
   Index turn_start;  // the neighbour where the turn around `vertex` began
   Index anchor;      // the half-edge from vertex 0 to infinity
   Index queue_head;
@@ -355,7 +355,7 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   r.queue_head = 0;
   r.queue_tail = 1;  // entry 0 is vertex 0's, known when the turn around infinity ends
   r.chord = r.anchor;
-  r.from_done = false;
+  r.from = kQueued;
   const Log2 log_batch = log2_of(batch);
   r.share = log_batch - log2_of(placed + batch) - kMeanOfLogs;
   // Before anything is known: the lattice's bounds, shared by all.
@@ -368,7 +368,7 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
 // comes from `neighbour`. False if the walk is over.
 inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
   if (neighbour != r.turn_start) {
-    r.from_done = (marks & kDone) != 0;
+    r.from = static_cast<uint8_t>(marks);
     if ((marks & kQueued) == 0) {
       mark(r, neighbour, kQueued);
       r.queue[r.queue_tail++] = r.mesh->twin[r.chord];
@@ -379,7 +379,7 @@ inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
   mark(r, r.vertex, kDone);
   if (r.queue_head == r.queue_tail) return false;
   r.chord = r.queue[r.queue_head++];
-  r.from_done = true;  // the parent's turn is over
+  r.from = kDone;  // the parent's turn is over
   r.turn_start = r.mesh->origin[r.chord];
   r.vertex = r.mesh->origin[next_in_triangle(r.chord)];
   return true;
@@ -410,7 +410,7 @@ constexpr uint32_t kStepTriangles = 8;  // most that one step passes
 template <class Coder>
 Progress step_walk(Reconstruction& r, Coder& coder) {
   Corner corner = far_corner(r);
-  for (uint32_t i = 0; r.from_done || (corner.marks & kDone) != 0; ++i) {
+  for (uint32_t i = 0; ((r.from | corner.marks) & kDone) != 0; ++i) {
     if (i == kStepTriangles) return Progress::kStep;
     if (!pass(r, corner)) return Progress::kMalformed;
     corner = far_corner(r);
