@@ -409,11 +409,12 @@ constexpr uint32_t kStepTriangles = 8;  // most that one step passes
 // Passes certified triangles, but only a few, and looks at one that is not.
 template <class Coder>
 Progress step_walk(Reconstruction& r, Coder& coder) {
-  Corner corner = far_corner(r);
-  for (uint32_t i = 0; ((r.from | corner.marks) & kDone) != 0; ++i) {
+  Corner corner;
+  for (uint32_t i = 0;; ++i) {
+    corner = far_corner(r);
+    if (((r.from | corner.marks) & kDone) == 0) break;
     if (i == kStepTriangles) return Progress::kStep;
     if (!pass(r, corner)) return Progress::kMalformed;
-    corner = far_corner(r);
   }
   const Decision decision = decide(r, coder);
   if (decision == Decision::kMalformed) return Progress::kMalformed;
