@@ -109,9 +109,10 @@ inline void start(Reconstruction& r) {
 
 constexpr uint8_t kQueued = 1, kDone = 2;
 
+// In the two lowest bits; those above are other vertices'.
 inline uint32_t marks_of(const Reconstruction& r, Index v) {
   if (v == kInfinity) return kQueued | kDone;  // nobody asks before its turn is over
-  return static_cast<uint32_t>(r.marks[v >> 2]) >> (2u * (v & 3u)) & 3u;
+  return static_cast<uint32_t>(r.marks[v >> 2]) >> (2u * (v & 3u));
 }
 
 inline bool marked(const Reconstruction& r, Index v, uint8_t mark) {
@@ -370,8 +371,8 @@ inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
   if (neighbour != r.turn_start) {
     r.from = static_cast<uint8_t>(marks);
     if ((marks & kQueued) == 0) {
-      mark(r, neighbour, kQueued);
       r.queue[r.queue_tail++] = r.mesh->twin[r.chord];
+      mark(r, neighbour, kQueued);
     }
     return true;
   }
@@ -404,18 +405,9 @@ inline bool pass(Reconstruction& r, const Corner& corner) {
   return advance(r, corner.number, corner.marks);
 }
 
-constexpr uint32_t kStepTriangles = 8;  // most that one step passes
-
-// Passes certified triangles, but only a few, and looks at one that is not.
+// Says hit or miss at the triangle of the chord, which is not certified, and leaves it.
 template <class Coder>
-Progress step_walk(Reconstruction& r, Coder& coder) {
-  Corner corner;
-  for (uint32_t i = 0;; ++i) {
-    corner = far_corner(r);
-    if (((r.from | corner.marks) & kDone) == 0) break;
-    if (i == kStepTriangles) return Progress::kStep;
-    if (!pass(r, corner)) return Progress::kMalformed;
-  }
+Progress step_decision(Reconstruction& r, Coder& coder, const Corner& corner) {
   const Decision decision = decide(r, coder);
   if (decision == Decision::kMalformed) return Progress::kMalformed;
   if (decision == Decision::kMiss) return pass(r, corner) ? Progress::kStep : Progress::kMalformed;
@@ -425,6 +417,19 @@ Progress step_walk(Reconstruction& r, Coder& coder) {
   }
   const Index placed = r.mesh->origin[r.chord];
   return advance(r, placed, 0) ? Progress::kStep : Progress::kMalformed;
+}
+
+constexpr uint32_t kStepTriangles = 8;  // most that one step passes
+
+// Passes certified triangles, but only a few, and looks at one that is not.
+template <class Coder>
+Progress step_walk(Reconstruction& r, Coder& coder) {
+  for (uint32_t i = 0;; ++i) {
+    const Corner corner = far_corner(r);
+    if (((r.from | corner.marks) & kDone) == 0) return step_decision(r, coder, corner);
+    if (i == kStepTriangles) return Progress::kStep;
+    if (!pass(r, corner)) return Progress::kMalformed;
+  }
 }
 
 inline bool is_void(const uint8_t* voids, Index triangle) {
