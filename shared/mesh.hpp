@@ -105,9 +105,10 @@ MICROTIN_OUT_OF_LINE MICROTIN_IN_PLACE inline bool in_rare_conflict(const Mesh& 
 inline bool in_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
   int64_t d = 0;
   if (!is_ghost(a, b, c)) {
-    const Point from = point_of(mesh, a), to = point_of(mesh, b);
-    const Angle near = angle_at(p, from, to);
-    d = incircle(angle_at(point_of(mesh, c), from, to), near);
+    const Offset from = point_of(mesh, a) - p, to = point_of(mesh, b) - p;
+    const Angle near = angle_between(from, to);
+    const Offset far = point_of(mesh, c) - p;
+    d = incircle(angle_between(from - far, to - far), near);
   }
   return d != 0 ? d > 0 : in_rare_conflict(mesh, a, b, c, p);
 }

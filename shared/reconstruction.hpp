@@ -382,7 +382,7 @@ inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
   r.chord = r.queue[r.queue_head++];
   r.from = kDone;  // the parent's turn is over
   r.turn_start = r.mesh->origin[r.chord];
-  r.vertex = r.mesh->origin[next_in_triangle(r.chord)];
+  r.vertex = r.mesh->origin[r.mesh->twin[r.chord]];
   return true;
 }
 
