@@ -63,7 +63,7 @@ inline Index first_edge(Index triangle) {
 // Whether h is a multiple of 3: of all numbers these times the inverse of 3 are the smallest.
 inline bool is_first_edge(Index h) {
   constexpr uint32_t kThird = 0xFFFFFFFFu / 3, kInverse = 2 * kThird + 1;
-  return static_cast<uint32_t>(h) * kInverse <= kThird;
+  return static_cast<uint32_t>(static_cast<uint64_t>(h) * kInverse) <= kThird;  // modulo 2^32
 }
 
 MICROTIN_ONE_COPY inline Index next_in_triangle(Index h) {
