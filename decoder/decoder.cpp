@@ -97,17 +97,20 @@ bool is_far_enough(const microtin_decoder& d) {
   return d.stop_phase != 0 && d.reconstruction.phase >= d.stop_phase;
 }
 
-microtin_status handle_step(microtin_decoder& d, uint32_t* steps_left) {
-  if (*steps_left == 0) return MICROTIN_STEP_LIMIT;
-  --*steps_left;
-  const Progress progress = step(d.reconstruction, d.coder);
-  if (progress == Progress::kMalformed || d.coder.overrun) return end_payload(d, false);
-  if (progress == Progress::kSectionEnd) return end_payload(d, true);
-  if (progress == Progress::kPhaseEnd && d.reconstruction.stage == Stage::kPhase &&
-      is_far_enough(d)) {
-    return MICROTIN_STOPPED;
+// As many steps as surely find their bytes at hand.
+microtin_status handle_steps(microtin_decoder& d, uint32_t* steps_left) {
+  while (*steps_left != 0) {
+    --*steps_left;
+    const Progress progress = step(d.reconstruction, d.coder);
+    if (progress == Progress::kMalformed || d.coder.overrun) return end_payload(d, false);
+    if (progress == Progress::kSectionEnd) return end_payload(d, true);
+    if (progress == Progress::kPhaseEnd && d.reconstruction.stage == Stage::kPhase &&
+        is_far_enough(d)) {
+      return MICROTIN_STOPPED;
+    }
+    if (d.coder.window.left < kStepBytes) return MICROTIN_NEED_INPUT;
   }
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STEP_LIMIT;
 }
 
 // Takes what is at hand of the bytes that are not read.
@@ -161,7 +164,7 @@ MICROTIN_ONE_COPY microtin_status handle_item(microtin_decoder& d, uint32_t* ste
     case Item::kPayloadStart:
       return handle_payload_start(d);
     case Item::kStep:
-      return handle_step(d, steps_left);
+      return handle_steps(d, steps_left);
     case Item::kRest:
       return handle_rest(d);
     case Item::kCheck:

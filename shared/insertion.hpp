@@ -22,36 +22,37 @@ struct Cavity {
 // for the far corner v of each triangle before it joins. False if it says yes, or if the cavity
 // outgrows its limit; empty if the triangle of `start` and that across are not in conflict.
 //
-// The boundary is walked once. What is behind lies at the front of edge_twin, what is ahead at its
-// end, and begins with both sides of `start`: the cavity's first triangle is met like all others.
-// The cavity's dual graph is a tree (its union is star-shaped from p and no vertex lies inside), so
-// no triangle is met twice; each turn of the loop uses up one boundary edge of at most limit + 2.
+// The boundary is walked once. What is behind lies at the front of edge_twin, what is ahead of the
+// edge in hand at its end: both sides of `start` are met like all others. The cavity's dual graph
+// is a tree (its union is star-shaped from p and no vertex lies inside), so no triangle is met
+// twice; each turn of the loop uses up one boundary edge of at most limit + 2.
 template <class Forbids>
 bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const Forbids& forbids) {
   Index* const end = cavity.edge_twin + cavity.limit + 2;
-  Index* ahead = end - 2;
-  ahead[0] = mesh.twin[start];
-  ahead[1] = start;
+  Index* ahead = end;
+  *--ahead = start;
+  Index across = mesh.twin[start];  // from b to a
+  Index a = mesh.origin[start], b = mesh.origin[across];
   uint32_t edges = 0;
   cavity.size = 0;
-  Index a = mesh.origin[start];
-  while (ahead != end) {
-    const Index across = *ahead;  // from b to a
+  for (;;) {
     const Index previous = previous_in_triangle(across);
-    const Index b = mesh.origin[across], c = mesh.origin[previous];
-    if (!in_conflict(mesh, b, a, c, p)) {
-      cavity.edge_origin[edges] = a;
-      cavity.edge_twin[edges++] = across;
-      ++ahead;
-      a = b;
+    const Index c = mesh.origin[previous];
+    if (in_conflict(mesh, b, a, c, p)) {
+      if (cavity.size == cavity.limit || forbids(c)) return false;
+      cavity.triangles[cavity.size++] = triangle_of(across);
+      *--ahead = mesh.twin[previous];
+      across = mesh.twin[next_in_triangle(across)];
+      b = c;
       continue;
     }
-    if (cavity.size == cavity.limit || forbids(c)) return false;
-    cavity.triangles[cavity.size++] = triangle_of(across);
-    *ahead-- = mesh.twin[previous];
-    *ahead = mesh.twin[next_in_triangle(across)];
+    cavity.edge_origin[edges] = a;
+    cavity.edge_twin[edges++] = across;
+    if (ahead == end) return true;
+    across = *ahead++;
+    a = b;
+    b = mesh.origin[across];
   }
-  return true;
 }
 
 // Replaces the cavity by a fan around the new vertex v: one triangle (edge origin, next origin, v)
@@ -62,14 +63,14 @@ inline Index fan_cavity(Mesh& mesh, const Cavity& cavity, Index v) {
   Index* const fresh = cavity.triangles + cavity.size;
   fresh[0] = mesh.triangles++;
   fresh[1] = mesh.triangles++;
-  Index before = first_edge(fresh[1]);
-  for (uint32_t i = 0; i < cavity.size + 2u; ++i) {
-    const Index h = first_edge(cavity.triangles[i]);
-    mesh.origin[h] = cavity.edge_origin[i];
-    mesh.origin[before + 1u] = cavity.edge_origin[i];
-    mesh.origin[h + 2u] = v;
+  size_t before = first_edge(fresh[1]);
+  const uint32_t edges = cavity.size + 2u;
+  for (uint32_t i = 0; i < edges; ++i) {
+    const size_t h = first_edge(cavity.triangles[i]);
+    mesh.origin[h] = mesh.origin[before + 1] = cavity.edge_origin[i];
+    mesh.origin[h + 2] = v;
     pair(mesh, h, cavity.edge_twin[i]);
-    pair(mesh, static_cast<Index>(before + 1u), static_cast<Index>(h + 2u));
+    pair(mesh, before + 1, h + 2);
     before = h;
   }
   return first_edge(cavity.triangles[0]);

@@ -6,6 +6,8 @@
 #ifndef MICROTIN_SHARED_MESH_HPP
 #define MICROTIN_SHARED_MESH_HPP
 
+#include <stddef.h>
+
 #include "shared/fixed_math.hpp"
 #include "shared/lattice.hpp"
 #include "shared/predicates.hpp"
@@ -58,12 +60,19 @@ inline Index first_edge(Index triangle) {
   return static_cast<Index>(3u * triangle);
 }
 
+// Whether h is a multiple of 3: of all numbers these times the inverse of 3 are the smallest.
+inline bool is_first_edge(Index h) {
+  constexpr uint32_t kThird = 0xFFFFFFFFu / 3, kInverse = 2 * kThird + 1;
+  return static_cast<uint32_t>(static_cast<uint64_t>(h) * kInverse) <= kThird;  // modulo 2^32
+}
+
 MICROTIN_ONE_COPY inline Index next_in_triangle(Index h) {
-  return static_cast<Index>(h == first_edge(triangle_of(h)) + 2u ? h - 2u : h + 1u);
+  const Index next = static_cast<Index>(h + 1u);
+  return is_first_edge(next) ? static_cast<Index>(h - 2u) : next;
 }
 
 inline Index previous_in_triangle(Index h) {
-  return static_cast<Index>(h == first_edge(triangle_of(h)) ? h + 2u : h - 1u);
+  return static_cast<Index>(is_first_edge(h) ? h + 2u : h - 1u);
 }
 
 inline Point point_of(const Mesh& mesh, Index v) {
@@ -76,9 +85,9 @@ MICROTIN_ONE_COPY inline bool is_ghost(const Mesh& mesh, Index triangle) {
 }
 
 // Makes a and b each other's twins.
-inline void pair(Mesh& mesh, Index a, Index b) {
-  mesh.twin[a] = b;
-  mesh.twin[b] = a;
+inline void pair(Mesh& mesh, size_t a, size_t b) {
+  mesh.twin[a] = static_cast<Index>(b);
+  mesh.twin[b] = static_cast<Index>(a);
 }
 
 // in_conflict for the rare cases: a ghost, or p on the circle.
@@ -96,9 +105,10 @@ MICROTIN_OUT_OF_LINE MICROTIN_IN_PLACE inline bool in_rare_conflict(const Mesh& 
 inline bool in_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
   int64_t d = 0;
   if (!is_ghost(a, b, c)) {
-    const Point from = point_of(mesh, a), to = point_of(mesh, b);
-    const Angle near = angle_at(p, from, to);
-    d = incircle(angle_at(point_of(mesh, c), from, to), near);
+    const Offset from = point_of(mesh, a) - p, to = point_of(mesh, b) - p;
+    const Angle near = angle_between(from, to);
+    const Offset far = point_of(mesh, c) - p;
+    d = incircle(angle_between(from - far, to - far), near);
   }
   return d != 0 ? d > 0 : in_rare_conflict(mesh, a, b, c, p);
 }
@@ -113,7 +123,7 @@ inline void start_mesh(Mesh& mesh) {
     mesh.origin[i] = mesh.origin[ghost + 1u] = mesh.origin[previous] = i;
     mesh.origin[ghost + 2u] = kInfinity;
     pair(mesh, i, ghost);
-    pair(mesh, static_cast<Index>(ghost + 1u), static_cast<Index>(previous + 2u));
+    pair(mesh, ghost + 1u, previous + 2u);
     previous = ghost;
   }
 }

@@ -48,9 +48,12 @@ struct Angle {
   int64_t h;
 };
 
+inline Angle angle_between(Offset a, Offset b) {
+  return Angle{dot(a, b), cross(a, b)};
+}
+
 inline Angle angle_at(Point p, Point a, Point b) {
-  const Offset pa = a - p, pb = b - p;
-  return Angle{dot(pa, pb), cross(pa, pb)};
+  return angle_between(a - p, b - p);
 }
 
 // Positive if p lies inside the circle through the counter-clockwise a, b, c; zero if on it. c and

@@ -64,7 +64,7 @@ struct Reconstruction {
   Stage stage;
   Index vertex;      // being walked around
   Index chord;       // half-edge into `vertex`, of the triangle to be looked at next
-  bool from_done;    // whether the chord comes from a done vertex
+  uint8_t from;      // marks of the vertex that the chord comes from
   Index turn_start;  // the neighbour where the turn around `vertex` began
   Index anchor;      // the half-edge from vertex 0 to infinity
   Index queue_head;
@@ -109,9 +109,10 @@ inline void start(Reconstruction& r) {
 
 constexpr uint8_t kQueued = 1, kDone = 2;
 
+// In the two lowest bits; those above are other vertices'.
 inline uint32_t marks_of(const Reconstruction& r, Index v) {
   if (v == kInfinity) return kQueued | kDone;  // nobody asks before its turn is over
-  return static_cast<uint32_t>(r.marks[v >> 2]) >> (2u * (v & 3u)) & 3u;
+  return static_cast<uint32_t>(r.marks[v >> 2]) >> (2u * (v & 3u));
 }
 
 inline bool marked(const Reconstruction& r, Index v, uint8_t mark) {
@@ -354,7 +355,7 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   r.queue_head = 0;
   r.queue_tail = 1;  // entry 0 is vertex 0's, known when the turn around infinity ends
   r.chord = r.anchor;
-  r.from_done = false;
+  r.from = kQueued;
   const Log2 log_batch = log2_of(batch);
   r.share = log_batch - log2_of(placed + batch) - kMeanOfLogs;
   // Before anything is known: the lattice's bounds, shared by all.
@@ -367,10 +368,10 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
 // comes from `neighbour`. False if the walk is over.
 inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
   if (neighbour != r.turn_start) {
-    r.from_done = (marks & kDone) != 0;
+    r.from = static_cast<uint8_t>(marks);
     if ((marks & kQueued) == 0) {
-      mark(r, neighbour, kQueued);
       r.queue[r.queue_tail++] = r.mesh->twin[r.chord];
+      mark(r, neighbour, kQueued);
     }
     return true;
   }
@@ -378,41 +379,34 @@ inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
   mark(r, r.vertex, kDone);
   if (r.queue_head == r.queue_tail) return false;
   r.chord = r.queue[r.queue_head++];
-  r.from_done = true;  // the parent's turn is over
+  r.from = kDone;  // the parent's turn is over
   r.turn_start = r.mesh->origin[r.chord];
-  r.vertex = r.mesh->origin[next_in_triangle(r.chord)];
+  r.vertex = r.mesh->origin[r.mesh->twin[r.chord]];
   return true;
 }
 
 // The far corner of the triangle of the chord.
 struct Corner {
-  Index to;      // half-edge from `vertex` to it
+  Index into;    // half-edge from it into `vertex`, of the next triangle
   Index number;  // of the corner
   uint32_t marks;
 };
 
 inline Corner far_corner(const Reconstruction& r) {
-  const Index number = r.mesh->origin[previous_in_triangle(r.chord)];
-  return Corner{next_in_triangle(r.chord), number, marks_of(r, number)};
+  const Index into = r.mesh->twin[next_in_triangle(r.chord)];
+  const Index number = r.mesh->origin[into];
+  return Corner{into, number, marks_of(r, number)};
 }
 
 // Leaves the triangle of the chord, which is final. False if the walk is over.
 inline bool pass(Reconstruction& r, const Corner& corner) {
-  r.chord = r.mesh->twin[corner.to];
+  r.chord = corner.into;
   return advance(r, corner.number, corner.marks);
 }
 
-constexpr uint32_t kStepTriangles = 8;  // most that one step passes
-
-// Passes certified triangles, but only a few, and looks at one that is not.
+// Says hit or miss at the triangle of the chord, which is not certified, and leaves it.
 template <class Coder>
-Progress step_walk(Reconstruction& r, Coder& coder) {
-  Corner corner = far_corner(r);
-  for (uint32_t i = 0; r.from_done || (corner.marks & kDone) != 0; ++i) {
-    if (i == kStepTriangles) return Progress::kStep;
-    if (!pass(r, corner)) return Progress::kMalformed;
-    corner = far_corner(r);
-  }
+Progress step_decision(Reconstruction& r, Coder& coder, const Corner& corner) {
   const Decision decision = decide(r, coder);
   if (decision == Decision::kMalformed) return Progress::kMalformed;
   if (decision == Decision::kMiss) return pass(r, corner) ? Progress::kStep : Progress::kMalformed;
@@ -422,6 +416,19 @@ Progress step_walk(Reconstruction& r, Coder& coder) {
   }
   const Index placed = r.mesh->origin[r.chord];
   return advance(r, placed, 0) ? Progress::kStep : Progress::kMalformed;
+}
+
+constexpr uint32_t kStepTriangles = 8;  // most that one step passes
+
+// Passes certified triangles, but only a few, and looks at one that is not.
+template <class Coder>
+Progress step_walk(Reconstruction& r, Coder& coder) {
+  for (uint32_t i = 0;; ++i) {
+    const Corner corner = far_corner(r);
+    if (((r.from | corner.marks) & kDone) == 0) return step_decision(r, coder, corner);
+    if (i == kStepTriangles) return Progress::kStep;
+    if (!pass(r, corner)) return Progress::kMalformed;
+  }
 }
 
 inline bool is_void(const uint8_t* voids, Index triangle) {
