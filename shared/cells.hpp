@@ -17,7 +17,7 @@ typedef int16_t Cells[kCells];
 struct Slices {
   FastInt count;
   FastInt start[kSlices + 1];
-  FastInt extent;           // of a slice, less one lattice step, in eighths of half steps; above 0
+  FastInt extent;           // of a slice, but at most a step too narrow; eighths of half steps
   uint32_t unit;            // middles are in half steps / 2^(unit - 2), below 24576
   int16_t middle[kSlices];  // from the middle of all
   int16_t square[kSlices];  // middle^2 / 2^16
@@ -25,7 +25,7 @@ struct Slices {
 
 inline void slice(Slices& slices, FastInt count) {
   slices.count = count;
-  slices.extent = count > kSlices ? (count - kSlices) * 4 : 1;
+  slices.extent = count > kSlices ? (count - 3) * 4 : 4;
   slices.unit = 16 - highest_bit(static_cast<uint32_t>(count));
   slices.start[0] = 0;
   for (int i = 0; i < kSlices; ++i) {
@@ -58,10 +58,10 @@ struct Grid {
 // How powers become distances: 512 / ramp of them. Shifted, multiplied, shifted by 21.
 struct Scale {
   uint32_t shift;
-  int32_t reciprocal;  // 2^14 .. 2^27
+  int32_t reciprocal;  // 2^14 .. 2^26
 };
 
-// 8 <= ramp < 2^50.
+// 28 <= ramp < 2^50.
 inline Scale scale_by(int64_t ramp) {
   const uint32_t bits = highest_bit(static_cast<uint64_t>(ramp));
   const uint32_t shift = bits > 15 ? bits - 15 : 0;
@@ -70,11 +70,12 @@ inline Scale scale_by(int64_t ramp) {
 }
 
 // Distances in 64ths of a cell's extent across the circle, from the change of the power at the
-// middle of the grid. Slopes are below 2^27, extents below 2^18.
+// middle of the grid. Slopes are below 2^25 whole ones, extents below 2^18. Circles are drawn a
+// little softly, since points of terrains are often on them.
 inline Scale scale_for(const Power& power, const Grid& grid) {
-  const int64_t x = power.x < 0 ? -power.x : power.x, y = power.y < 0 ? -power.y : power.y;
+  const int64_t x = absolute(power.x) >> 4, y = absolute(power.y) >> 4;
   const int64_t width = grid.columns.extent, height = grid.rows.extent;
-  return scale_by(((x * width + y * height) * 5 + width * width + height * height) / 8 + 8);
+  return scale_by(((x * width + y * height) * 4 + width * width + height * height) / 8 + 24);
 }
 
 inline int16_t clamped(int16_t v, int16_t low, int16_t high) {
@@ -88,11 +89,11 @@ struct Distances {
 };
 
 // The power of slices' middles: a parabola. By the circle's own scale it fits 16 bits, of both axes
-// together below 22784; by another one it may wrap around, which spoils an estimate and no more.
+// together below 12581; by another one it may wrap around, which spoils an estimate and no more.
 inline void measure_axis(int32_t constant, FastInt slope, const Slices& slices, const Scale& scale,
                          int16_t* distance) {
   const int16_t linear =
-      static_cast<int16_t>(scaled(slope, scale.reciprocal, scale.shift + slices.unit + 3));
+      static_cast<int16_t>(scaled(slope, scale.reciprocal, scale.shift + slices.unit + 7));
   const int16_t square =
       static_cast<int16_t>(scaled(32768, scale.reciprocal, scale.shift + 2 * slices.unit));
   for (int i = 0; i < kSlices; ++i) {

@@ -10,7 +10,7 @@
 namespace microtin {
 
 constexpr uint8_t kMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'i', 'n'};
-constexpr uint8_t kVersion = 3;
+constexpr uint8_t kVersion = 4;
 constexpr uint32_t kMinDegree = 6, kMaxDegree = 32;
 constexpr uint32_t kMaxLevels = 3;
 constexpr uint32_t kMaxVertices = 16777216;  // 2^24

@@ -96,7 +96,7 @@ inline Log2 free_area(FreeRegion& region) {
 }
 
 // A circle by the power of places with respect to it, negative inside, in half lattice steps: at
-// an offset (i, j) from some place it is value + i (x + i) + j (y + j).
+// an offset (i, j) from some place it is value + i (x / 16 + i) + j (y / 16 + j).
 struct Power {
   int64_t value;
   FastInt x;
@@ -104,15 +104,15 @@ struct Power {
 };
 
 // The circle through both ends of a chord, seen from `middle` (half steps from corner 0).
-// Offsets are below 2^18: products 2^37, times a cotangent 2^52 >> 8; slopes below 2^27.
+// Offsets are below 2^18: products 2^37, times a cotangent 2^52 >> 8; slopes below 2^29.
 inline Power circle_over(Offset from, Offset to, Cotangent k, Offset middle) {
   const Offset a = {middle.x - 2 * from.x, middle.y - 2 * from.y};
   const Offset b = {middle.x - 2 * to.x, middle.y - 2 * to.y};
   const Offset chord = {a.x - b.x, a.y - b.y};
   Power power;
   power.value = dot(a, b) - scaled(cross(chord, a), k, 8);
-  power.x = a.x + b.x + static_cast<FastInt>(static_cast<int64_t>(k) * chord.y >> 8);
-  power.y = a.y + b.y - static_cast<FastInt>(static_cast<int64_t>(k) * chord.x >> 8);
+  power.x = 16 * (a.x + b.x) + static_cast<FastInt>(static_cast<int64_t>(k) * chord.y >> 4);
+  power.y = 16 * (a.y + b.y) - static_cast<FastInt>(static_cast<int64_t>(k) * chord.x >> 4);
   return power;
 }
 

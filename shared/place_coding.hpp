@@ -46,6 +46,11 @@ Offset next_place(Coder& coder, const FreeRegion& region) {
   return Point{next.x, next.y} - region.origin;
 }
 
+// A cell's weight is an estimate: any of its places may be the one.
+inline uint32_t possible(int16_t weight) {
+  return static_cast<uint32_t>(weight) + 32u;
+}
+
 // Codes the cell that holds the place, which becomes the box.
 template <class Coder>
 MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, const FreeRegion& region,
@@ -63,13 +68,13 @@ MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, const Free
   const int16_t* cell = odds.weight;
   for (int i = 0; i < kSlices; ++i) {
     uint32_t sum = 0;
-    for (int j = 0; j < kSlices; ++j) sum += (static_cast<uint32_t>(*cell++) + 1u) * row_size[j];
+    for (int j = 0; j < kSlices; ++j) sum += possible(*cell++) * row_size[j];
     weight[i] = sum * size_of(columns, i);
   }
   const int i = code_slice(coder, split, weight, slice_of(columns, place.x - box.x0));
   cell = odds.weight + kSlices * i;
   for (int j = 0; j < kSlices; ++j) {
-    weight[j] = (static_cast<uint32_t>(cell[j]) + 1u) * row_size[j];
+    weight[j] = possible(cell[j]) * row_size[j];
   }
   const int j = code_slice(coder, split + 2, weight, slice_of(rows, place.y - box.y0));
   narrow(odds, i, j);

@@ -138,7 +138,7 @@ def circle(p, q, k, m):
     s, t = (minus(m, (2 * end[0], 2 * end[1])) for end in (p, q))
     u = minus(s, t)
     power = dot(s, t) - (k * cross(u, s) >> 8)
-    return power, s[0] + t[0] + (k * u[1] >> 8), s[1] + t[1] - (k * u[0] >> 8)
+    return power, 16 * (s[0] + t[0]) + (k * u[1] >> 4), 16 * (s[1] + t[1]) - (k * u[0] >> 4)
 
 
 # Section 8: range coder
@@ -299,7 +299,7 @@ class Header(NamedTuple):
 
 def read_header(reader):
     require(reader.take(4) == b"mtin", "not a microtin stream")
-    require(reader.number(1) == 3, "unknown version")
+    require(reader.number(1) == 4, "unknown version")
     payload = ByteReader(reader.take(reader.length()))
     reader.expect_check(0)
     properties, vertices = payload.varint(), payload.varint()
@@ -606,11 +606,11 @@ class Slices:
         self.unit = 16 - highest_bit(count)
         self.offsets = [left + right - count for left, right in zip(ends, ends[1:])]
         self.middles = [(offset << self.unit) >> 2 for offset in self.offsets]
-        self.extent = max(1, 4 * (count - 4))
+        self.extent = 4 * max(1, count - 3)
         self.sizes = self.widths if count <= 64 else [1] * 4
 
     def distances(self, base, slope, scale):
-        linear = int16(slope * scale.factor >> (scale.shift + self.unit + 3))
+        linear = int16(slope * scale.factor >> (scale.shift + self.unit + 7))
         bend = int16((scale.factor << 15) >> (scale.shift + 2 * self.unit))
         return [base + (m * linear >> 16) + ((m * m >> 16) * bend >> 16) for m in self.middles]
 
@@ -638,7 +638,7 @@ class Grid:
     def scale(self, circle):
         _, x, y = circle(self.middle)
         w, h = self.columns.extent, self.rows.extent
-        return Scale((5 * (abs(x) * w + abs(y) * h) + w * w + h * h) // 8 + 8)
+        return Scale((4 * ((abs(x) >> 4) * w + (abs(y) >> 4) * h) + w * w + h * h) // 8 + 24)
 
     def distances(self, circle, scale=None):
         """How far the middles of the cells are outside a circle, which is a function of the place it is seen from."""
@@ -777,7 +777,7 @@ def decode_cell(coder, rows, weights, box):
     grid = Grid(box)
     shares, distances = weights.of_cells(grid)
     widths, heights = grid.columns.sizes, grid.rows.sizes
-    cells = [[(shares[i, j] + 1) * heights[j] for j in range(4)] for i in range(4)]
+    cells = [[(shares[i, j] + 32) * heights[j] for j in range(4)] for i in range(4)]
     column = decode_one_of_four(coder, rows[:2], [sum(cells[i]) * widths[i] for i in range(4)])
     row = decode_one_of_four(coder, rows[2:], cells[column])
     weights.forget_far_circles(distances, (column, row))
