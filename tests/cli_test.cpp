@@ -29,7 +29,7 @@ TEST_CASE("cli: encode, info, verify and decode agree") {
   const Session::Result info = session.run("info t.mtin --json");
   CHECK(info.code == 0);
   for (const char* key :
-       {"\"format_version\": 3", "\"vertices\": 10", "\"triangles\"", "\"bytes\"",
+       {"\"format_version\": 4", "\"vertices\": 10", "\"triangles\"", "\"bytes\"",
         "\"bits_per_vertex\"", "\"phases\"", "\"degree\": 10", "\"levels\": 2",
         "\"workspace_bytes_16\"", "\"workspace_bytes_32\"", "\"steps\"", "\"offsets\"",
         "\"bound\": null", "\"max_error\": 0.0", "\"rms_error\": 0.0", "\"placement\"",
