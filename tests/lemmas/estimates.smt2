@@ -41,8 +41,9 @@
 (check-sat)
 (pop)
 
-; A circle over a chord: the cotangent's product fits 52 bits.
+; A circle over a chord: the cotangent's product fits 52 bits, slopes 29.
 ;; shared/free_region.hpp: power.value = dot(a, b) - scaled(cross(chord, a), k, 8);
+;; shared/free_region.hpp: power.x = 16 * (a.x + b.x) + static_cast<FastInt>(static_cast<int64_t>(k) * chord.y >> 4);
 (push)
 (declare-const k Int)
 (declare-const x Int)
@@ -51,51 +52,54 @@
 (assert (and (<= (- 262144) x 262144) (<= (- 262144) y 262144)))
 (declare-const cross Int)
 (assert (<= (- 137438953472) cross 137438953472))  ; two such products
+(declare-const chord Int)
+(assert (<= (- 131070) chord 131070))
 (check-sat)
 (assert (not (and (<= (- 68719476736) (* x y) 68719476736)
+                  (< (- 536870912) (+ (* 16 (+ x y)) (div (* k chord) 16)) 536870912)
                   (<= (- 4503599627370496) (* k cross) 4503599627370496))))
 (check-sat)
 (pop)
 
 ; The ramp that scales distances is below 2^50.
-;; shared/cells.hpp: return scale_by(((x * width + y * height) * 5 + width * width + height * height) / 8 + 8);
+;; shared/cells.hpp: return scale_by(((x * width + y * height) * 4 + width * width + height * height) / 8 + 24);
 (push)
 (declare-const x Int)
 (declare-const y Int)
 (declare-const width Int)
 (declare-const height Int)
-(assert (and (<= 0 x) (< x 134217728) (<= 0 y) (< y 134217728)))
-(assert (and (< 0 width) (< width 262144) (< 0 height) (< height 262144)))
+(assert (and (<= 0 x) (< x 33554432) (<= 0 y) (< y 33554432)))  ; whole steps of slopes
+(assert (and (<= 4 width) (< width 262144) (<= 4 height) (< height 262144)))
 (check-sat)
-(define-fun ramp () Int (+ 8 (div (+ (* 5 (+ (* x width) (* y height))) (* width width) (* height height)) 8)))
-(assert (not (and (<= 8 ramp) (< ramp 1125899906842624))))
+(define-fun ramp () Int (+ 24 (div (+ (* 4 (+ (* x width) (* y height))) (* width width) (* height height)) 8)))
+(assert (not (and (<= 28 ramp) (< ramp 1125899906842624))))
 (check-sat)
 (pop)
 
-; Its reciprocal is within 2^14 .. 2^27; `mantissa` is the ramp without its low bits.
+; Its reciprocal is within 2^14 .. 2^26; `mantissa` is the ramp without its low bits.
 ;; shared/cells.hpp: return Scale{shift, static_cast<int32_t>((static_cast<uint32_t>(1) << 30) /
 (push)
 (declare-const mantissa Int)
 (declare-const reciprocal Int)
 (declare-const lost Int)
-(assert (<= 8 mantissa 65535))
+(assert (<= 28 mantissa 65535))
 (assert (and (= 1073741824 (+ (* reciprocal mantissa) lost)) (<= 0 lost) (< lost mantissa)))
 (check-sat)
-(assert (not (<= 16384 reciprocal 134217728)))
+(assert (not (<= 16384 reciprocal 67108864)))
 (check-sat)
 (pop)
 
 ; Slopes and powers times it fit 63 bits.
-;; shared/cells.hpp: static_cast<int16_t>(scaled(slope, scale.reciprocal, scale.shift + slices.unit + 3));
+;; shared/cells.hpp: static_cast<int16_t>(scaled(slope, scale.reciprocal, scale.shift + slices.unit + 7));
 ;; shared/cells.hpp: value = kept_within(scaled(value, scale.reciprocal, 21), 1 << 13);
 (push)
 (declare-const slope Int)
 (declare-const value Int)
 (declare-const reciprocal Int)
-(assert (and (<= (- 134217728) slope 134217728) (<= (- 1073741824) value 1073741824) (<= 16384 reciprocal 134217728)))
+(assert (and (<= (- 536870912) slope 536870912) (<= (- 1073741824) value 1073741824) (<= 16384 reciprocal 67108864)))
 (check-sat)
-(assert (not (and (<= (- 18014398509481984) (* slope reciprocal) 18014398509481984)
-                  (<= (- 144115188075855872) (* value reciprocal) 144115188075855872))))
+(assert (not (and (<= (- 36028797018963968) (* slope reciprocal) 36028797018963968)
+                  (<= (- 72057594037927936) (* value reciprocal) 72057594037927936))))
 (check-sat)
 (pop)
 
