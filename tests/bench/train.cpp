@@ -5,64 +5,197 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <vector>
 
 #include "decoder/state.hpp"
 #include "encoder/encode.hpp"
 #include "encoder/error.hpp"
 #include "encoder/fractal.hpp"
+#include "shared/header.hpp"
 #include "tests/bench/inputs.hpp"
 
 namespace microtin::bench {
 namespace {
 
-constexpr double kGain = 2;  // how much further than it ended a start moves
+constexpr size_t kStartsTried = 256;
+constexpr size_t kOutcomes = 4096;  // of one bit in a stream; by then its start is forgotten
 
-// Where adaptive bits end, over the streams that used them.
-class Ends {
+// Reads a stream's decisions.
+struct RecordingCoder : RangeDecoder {
+  std::vector<uint32_t> decisions;
+
+  bool bit(uint32_t probability, bool) {
+    const bool one = RangeDecoder::bit(probability, false);
+    decisions.push_back(one ? 1 : 0);
+    return one;
+  }
+  uint32_t uniform(uint32_t count, uint32_t) {
+    decisions.push_back(RangeDecoder::uniform(count, 0));
+    return decisions.back();
+  }
+};
+
+using Outcomes = std::array<std::vector<bool>, kStarts>;
+
+// Makes recorded decisions again, and tells which adaptive bit learned from each: the only one that
+// is not as adaptive bits are kept here.
+class ReplayingCoder : public RangeDecoder {
  public:
+  ReplayingCoder(const std::vector<uint32_t>& decisions, Models& models)
+      : next_(decisions.data()), bits_(reinterpret_cast<AdaptiveBit*>(&models)) {
+    std::fill_n(bits_, kStarts, kKept);
+  }
+
+  bool bit(uint32_t, bool) {
+    attribute();
+    return *next_++ != 0;
+  }
+  uint32_t uniform(uint32_t, uint32_t) { return *next_++; }
+
+  const Outcomes& outcomes() {
+    attribute();
+    return outcomes_;
+  }
+
+ private:
+  static_assert(sizeof(Models) == kStarts * sizeof(AdaptiveBit), "an array of bits");
+  static constexpr AdaptiveBit kKept = {kProbabilityOne / 2, kProbabilityOne / 2};
+
+  void attribute() {
+    for (size_t i = 0; i < kStarts; ++i) {
+      if (bits_[i].fast == kKept.fast) continue;
+      outcomes_[i].push_back(bits_[i].fast > kKept.fast);
+      bits_[i] = kKept;
+      return;
+    }
+  }
+
+  const uint32_t* next_;
+  AdaptiveBit* bits_;
+  Outcomes outcomes_;
+};
+
+// A decoder of a stream that has read the header.
+class Started {
+ public:
+  explicit Started(const std::vector<uint8_t>& stream) {
+    microtin_info info;
+    microtin_peek(stream.data(), stream.size(), &info);
+    mesh_.resize(info.mesh_bytes / 8 + 1);
+    decoder_.resize(info.decoder_bytes / 8 + 1);
+    microtin_mesh* mesh = nullptr;
+    microtin_decoder* decoder = nullptr;
+    microtin_mesh_init(mesh_.data(), 8 * mesh_.size(), &mesh);
+    microtin_decoder_init(decoder_.data(), 8 * decoder_.size(), mesh, &decoder);
+    microtin_feed(decoder, stream.data(), info.header_bytes, 0, &header_bytes_);
+    reconstruction_ = &decoder->reconstruction;
+  }
+
+  size_t header_bytes() const { return header_bytes_; }
+  Reconstruction& reconstruction() { return *reconstruction_; }
+
+ private:
+  std::vector<uint64_t> mesh_, decoder_;
+  size_t header_bytes_ = 0;
+  Reconstruction* reconstruction_ = nullptr;
+};
+
+template <class Coder>
+void decode_section(Reconstruction& r, Coder& coder) {
+  Progress progress = Progress::kStep;
+  while (progress == Progress::kStep || progress == Progress::kPhaseEnd) {
+    progress = step(r, coder);
+  }
+  if (progress != Progress::kSectionEnd) throw Error("a stream of our own is malformed");
+}
+
+std::vector<uint32_t> decisions_of(std::vector<uint8_t> stream) {
+  Started decoder(stream);
+  RecordingCoder coder;
+  uint8_t* next = stream.data() + decoder.header_bytes();
+  while (decoder.reconstruction().stage != Stage::kComplete) {
+    bool legal = true;
+    coder.payload_left = 0;
+    while (take_length(&coder.payload_left, *next++, &legal)) continue;
+    coder.window.next = next;
+    coder.window.left = coder.payload_left;
+    next += coder.payload_left + kCheckBytes;
+    coder.begin();
+    decode_section(decoder.reconstruction(), coder);
+  }
+  return coder.decisions;
+}
+
+Outcomes outcomes_of(const std::vector<uint8_t>& stream) {
+  const std::vector<uint32_t> decisions = decisions_of(stream);
+  Started decoder(stream);
+  Reconstruction& r = decoder.reconstruction();
+  ReplayingCoder coder(decisions, r.models);
+  while (r.stage != Stage::kComplete) decode_section(r, coder);
+  return coder.outcomes();
+}
+
+// What the adaptive bits cost in streams, for each of their starts, in bits.
+class Costs {
+ public:
+  Costs() {
+    for (size_t p = 1; p < kProbabilityOne; ++p) {
+      cost_of_one_[p] = -std::log2(static_cast<double>(p) / kProbabilityOne);
+    }
+    // A quarter of a one and of a zero never seen keeps the starts of rare bits from the ends.
+    for (size_t start = 0; start < kStartsTried; ++start) {
+      const uint32_t p = probability(adaptive_bit(static_cast<uint32_t>(start)));
+      for (auto& costs : costs_) costs[start] = 0.25 * (cost(p, true) + cost(p, false));
+    }
+  }
+
   void add(const Tin& tin) {
-    const std::vector<uint8_t> stream = encode(tin, {}, {Effort().degree, kMaxLevels});
-    const std::vector<AdaptiveBit> bits = bits_after(stream);
-    for (size_t i = 0; i < bits.size(); ++i) {
-      const AdaptiveBit start = adaptive_bit(table_start(static_cast<uint32_t>(i)));
-      if (bits[i].fast == start.fast && bits[i].slow == start.slow) continue;
-      sum_[i] += probability_of(bits[i]);
-      ++streams_[i];
+    const Outcomes outcomes = outcomes_of(encode(tin, {}));
+    for (size_t i = 0; i < kStarts; ++i) {
+      seen_[i] = seen_[i] || !outcomes[i].empty();
+      for (size_t start = 0; start < kStartsTried; ++start) {
+        costs_[i][start] += cost_from(static_cast<uint32_t>(start), outcomes[i]);
+      }
     }
   }
 
   void print() const {
     for (size_t i = 0; i < kStarts; ++i) {
-      const double start = table_start(static_cast<uint32_t>(i));
-      double moved = start;
-      if (streams_[i] != 0) moved += kGain * (sum_[i] / streams_[i] / 256 - 0.5 - start);
-      const auto entry = std::clamp<long>(std::lround(moved), 0, 255);
-      std::printf("%s%ld,%s", i % 16 == 0 ? "    " : " ", entry, i % 16 == 15 ? "\n" : "");
+      std::printf("%s%u,%s", i % 16 == 0 ? "    " : " ", best_start(static_cast<uint32_t>(i)),
+                  i % 16 == 15 ? "\n" : "");
     }
     if (kStarts % 16 != 0) std::printf("\n");
   }
 
  private:
-  static std::vector<AdaptiveBit> bits_after(const std::vector<uint8_t>& stream) {
-    microtin_info info;
-    if (microtin_peek(stream.data(), stream.size(), &info) != MICROTIN_DONE) throw Error("peek");
-    std::vector<uint64_t> mesh_space(info.mesh_bytes / 8 + 1);
-    std::vector<uint64_t> decoder_space(info.decoder_bytes / 8 + 1);
-    microtin_mesh* mesh = nullptr;
-    microtin_decoder* decoder = nullptr;
-    microtin_mesh_init(mesh_space.data(), 8 * mesh_space.size(), &mesh);
-    microtin_decoder_init(decoder_space.data(), 8 * decoder_space.size(), mesh, &decoder);
-    size_t used = 0;
-    if (microtin_feed(decoder, stream.data(), stream.size(), 0, &used) != MICROTIN_DONE) {
-      throw Error("decode");
-    }
-    std::vector<AdaptiveBit> bits(kStarts);
-    std::memcpy(bits.data(), &decoder->reconstruction.models, sizeof(Models));
-    return bits;
+  // A bit that no stream used keeps its start.
+  uint32_t best_start(uint32_t i) const {
+    if (!seen_[i]) return table_start(i);
+    const auto least = std::min_element(costs_[i].begin(), costs_[i].end());
+    return static_cast<uint32_t>(least - costs_[i].begin());
   }
 
-  std::array<double, kStarts> sum_{};
-  std::array<double, kStarts> streams_{};
+  static uint32_t probability(const AdaptiveBit& bit) {
+    return static_cast<uint32_t>(probability_of(bit)) >> 1;
+  }
+
+  double cost(uint32_t probability, bool one) const {
+    return cost_of_one_[one ? probability : kProbabilityOne - probability];
+  }
+
+  double cost_from(uint32_t start, const std::vector<bool>& outcomes) const {
+    AdaptiveBit bit = adaptive_bit(start);
+    double sum = 0;
+    for (size_t i = 0; i < std::min(outcomes.size(), kOutcomes); ++i) {
+      sum += cost(probability(bit), outcomes[i]);
+      learn(bit, outcomes[i]);
+    }
+    return sum;
+  }
+
+  std::array<double, kProbabilityOne> cost_of_one_{};
+  std::array<std::array<double, kStartsTried>, kStarts> costs_{};
+  std::array<bool, kStarts> seen_{};
 };
 
 Raster fractal(uint64_t seed) {
@@ -80,32 +213,32 @@ LatticeOptions bounded(const char* error, const char* step) {
   return options;
 }
 
-Ends ends_of_everything() {
-  Ends ends;
+Costs costs_of_everything() {
+  Costs costs;
   for (const Dataset& dataset : rasters()) {
     const Raster raster = read_raster(dataset);
     const auto vertices =
         static_cast<double>(simplified(raster, dataset.options).tin.vertices.size());
     for (const double size : {1000.0, 250.0}) {
       for (const Raster& tile : tiles_of(raster, vertices / size)) {
-        ends.add(simplified(tile, dataset.options).tin);
+        costs.add(simplified(tile, dataset.options).tin);
       }
     }
   }
   for (const Dataset& dataset : clouds())
-    ends.add(simplified(read_cloud(dataset), dataset.options).tin);
+    costs.add(simplified(read_cloud(dataset), dataset.options).tin);
   for (uint64_t seed = 100; seed < 130; ++seed) {
-    ends.add(simplified(fractal(seed), bounded("12", "10")).tin);
-    ends.add(simplified(fractal(seed), bounded("4", "1")).tin);
-    for (const uint32_t count : {300u, 3000u}) ends.add(uniform_tin(count, seed));
+    costs.add(simplified(fractal(seed), bounded("12", "10")).tin);
+    costs.add(simplified(fractal(seed), bounded("4", "1")).tin);
+    for (const uint32_t count : {300u, 3000u}) costs.add(uniform_tin(count, seed));
   }
-  return ends;
+  return costs;
 }
 
 }  // namespace
 
 void print_start_probabilities() {
-  const Ends ends = ends_of_everything();
+  const Costs costs = costs_of_everything();
   std::printf(
       "%s%u;\n\n%s",
       R"(// Where the adaptive bits start, in the order of Models: the probability of a one is
@@ -121,7 +254,7 @@ constexpr uint32_t kStarts = )",
       kStarts, R"(// clang-format off
 constexpr uint8_t kStartTable[kStarts] MICROTIN_IN_FLASH = {
 )");
-  ends.print();
+  costs.print();
   std::printf(R"(};
 // clang-format on
 

@@ -4,8 +4,9 @@
 
 namespace microtin::bench {
 
-// Prints the header with a better table than the one this program is built with: each start moves
-// towards where the bit ends, on average over tiles of all kinds. To be repeated until it settles.
+// Prints the header with the starts that cost least, each bit alone, over tiles of all kinds. It is
+// the same whatever table this program is built with, but for bits that no tile uses: they keep
+// their starts.
 void print_start_probabilities();
 
 }  // namespace microtin::bench
