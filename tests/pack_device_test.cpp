@@ -199,14 +199,16 @@ TEST_CASE("pack: of a placement that was damage nothing stays") {
 }
 
 TEST_CASE("pack: a tile of another tile's place is refused, whatever its checks") {
-  // Two tiles that differ by one height: as many vertices and bytes, right CRCs of their own.
+  // Two tiles that differ by one height, by one that takes as many bytes; right CRCs of their own.
   Raster raster = rough_raster(9, 5);
-  for (size_t i = 0; i < raster.heights.size(); ++i) raster.heights[i] = i % 9 % 4 == 2 ? 5 : 0;
-  raster.heights[9 * 2 + 6] = 4;
-  const EncodedPack encoded = encode_pack(raster, {{}, {}, 30, 0});
-  REQUIRE(encoded.streams.size() == 2);
+  for (size_t i = 0; i < raster.heights.size(); ++i) raster.heights[i] = i % 9 % 4 == 2 ? 50 : 0;
+  EncodedPack encoded;
+  do {
+    REQUIRE(++raster.heights[9 * 2 + 6] < 100);
+    encoded = encode_pack(raster, {{}, {}, 30, 0});
+    REQUIRE(encoded.streams.size() == 2);
+  } while (encoded.streams[0].size() != encoded.streams[1].size());
   const Bytes &west = encoded.streams[0], &east = encoded.streams[1];
-  REQUIRE(west.size() == east.size());
   REQUIRE(west != east);
   Bytes bytes = write_pack(encoded);
   const auto status_of = [&](uint32_t x) {
