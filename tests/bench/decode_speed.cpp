@@ -80,6 +80,7 @@ void print_decode_speed(const std::vector<std::string>& paths, const Measure& me
     const std::vector<Contender> all = contenders(stream);
     if (path == paths.front()) print_names(all, unit);
     std::vector<Work> works;
+    works.reserve(all.size());
     for (const Contender& contender : all) works.push_back(contender.work);
     Row row{std::filesystem::path(path).stem().string(), number(size_t{vertices})};
     for (const double cost : measure(works)) row.push_back(number(cost / vertices, 0));

@@ -54,7 +54,7 @@ Log read_log(const std::string& path) {
   Log log;
   for (std::string line; std::getline(file, line);) {
     const size_t blank = line.rfind(' ');
-    if (blank == std::string::npos) throw Error(path + ": " + line);
+    if (blank == std::string::npos) throw Error(std::string(path).append(": ").append(line));
     const std::string name = line.substr(0, blank), number = line.substr(blank + 1);
     if (name == "height") {
       log.heights.push_back(std::stod(number) / 10);

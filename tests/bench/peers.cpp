@@ -68,7 +68,7 @@ void print_missing_peers() {
 }
 
 Bytes checked_encode(const Codec& codec, const Surface& surface) {
-  const Bytes bytes = codec.encode(surface);
+  Bytes bytes = codec.encode(surface);
   const Surface decoded = codec.decode(bytes);
   const bool same =
       codec.sends_triangles ? same_triangles(surface, decoded) : same_vertices(surface, decoded);
