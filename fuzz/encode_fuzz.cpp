@@ -6,8 +6,8 @@
 #include <set>
 #include <vector>
 
-#include "encoder/encode.hpp"
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/stream/encode.hpp"
 #include "fuzz/expect.hpp"
 #include "tests/mesh_copy.hpp"
 

@@ -9,13 +9,13 @@
 #include <optional>
 #include <string>
 
-#include "encoder/encode.hpp"
-#include "encoder/error.hpp"
-#include "encoder/import.hpp"
-#include "encoder/lay_out.hpp"
-#include "encoder/simplify.hpp"
-#include "encoder/verify.hpp"
-#include "encoder/voids.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/fit/simplify.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/terrain/lay_out.hpp"
+#include "encoder/terrain/verify.hpp"
+#include "encoder/terrain/voids.hpp"
 #include "fuzz/expect.hpp"
 
 namespace microtin {

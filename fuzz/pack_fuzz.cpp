@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
-#include "encoder/error.hpp"
-#include "encoder/pack_file.hpp"
-#include "encoder/wide.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/exact/wide.hpp"
+#include "encoder/pack/file.hpp"
 #include "fuzz/expect.hpp"
 #include "fuzz/repair.hpp"
 #include "microtin/pack.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "encoder/decoded_terrain.hpp"
-#include "encoder/error.hpp"
-#include "encoder/header.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/header.hpp"
 #include "fuzz/expect.hpp"
 #include "fuzz/stream_mutator.hpp"
 

@@ -1,14 +1,14 @@
 // Sources within a bound, all the way: the step chosen, encoded, decoded and measured.
-#include "encoder/approximation.hpp"
+#include "encoder/fit/approximation.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "encoder/error.hpp"
-#include "encoder/fractal.hpp"
-#include "encoder/import.hpp"
-#include "encoder/verify.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/terrain/fractal.hpp"
+#include "encoder/terrain/verify.hpp"
 #include "tests/point_sets.hpp"
 
 using namespace microtin;

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "encoder/borders.hpp"
-#include "encoder/pack_file.hpp"
+#include "encoder/pack/borders.hpp"
+#include "encoder/pack/file.hpp"
 
 namespace microtin {
 

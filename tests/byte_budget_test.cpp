@@ -1,5 +1,5 @@
 // Looking for the smallest bound that a number of bytes allows.
-#include "encoder/byte_budget.hpp"
+#include "encoder/fit/byte_budget.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // Coordinate reference systems as files state them.
-#include "encoder/crs.hpp"
+#include "encoder/import/crs.hpp"
 
 #include <doctest/doctest.h>
 

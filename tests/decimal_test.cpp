@@ -1,11 +1,11 @@
 // Decimals: reading, rounding, writing.
-#include "encoder/decimal.hpp"
+#include "encoder/exact/decimal.hpp"
 
 #include <doctest/doctest.h>
 
 #include <random>
 
-#include "encoder/coordinates.hpp"
+#include "encoder/exact/coordinates.hpp"
 
 using namespace microtin;
 

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <random>
 
-#include "encoder/encode.hpp"
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/stream/encode.hpp"
 #include "fuzz/repair.hpp"
 #include "tests/device.hpp"
 #include "tests/forged_stream.hpp"

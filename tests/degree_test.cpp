@@ -1,5 +1,5 @@
 // The length of a degree, beside published ones.
-#include "encoder/degree.hpp"
+#include "encoder/export/degree.hpp"
 
 #include <doctest/doctest.h>
 

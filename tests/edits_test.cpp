@@ -1,12 +1,12 @@
 // Taking back what was done to a surface.
-#include "encoder/edits.hpp"
+#include "encoder/fit/edits.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <tuple>
 
-#include "encoder/simplify.hpp"
+#include "encoder/fit/simplify.hpp"
 #include "tests/point_sets.hpp"
 
 namespace microtin {

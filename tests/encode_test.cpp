@@ -1,5 +1,5 @@
 // What the encoder writes, the decoder rebuilds: the canonical triangulation of the same points.
-#include "encoder/encode.hpp"
+#include "encoder/stream/encode.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/mesh_copy.hpp"
 #include "tests/point_sets.hpp"
 

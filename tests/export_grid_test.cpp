@@ -1,15 +1,14 @@
 // Surfaces as ESRI ASCII grids.
-#include "encoder/export_grid.hpp"
-
 #include <doctest/doctest.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "encoder/approximation.hpp"
-#include "encoder/encode.hpp"
-#include "encoder/import.hpp"
-#include "encoder/lay_out.hpp"
+#include "encoder/export/grid.hpp"
+#include "encoder/fit/approximation.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/terrain/lay_out.hpp"
 #include "tests/packs.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // Meshes in other programs' formats.
-#include "encoder/export.hpp"
+#include "encoder/export/export.hpp"
 
 #include <doctest/doctest.h>
 
@@ -10,8 +10,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "encoder/encode.hpp"
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace microtin;

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "decoder/state.hpp"
-#include "encoder/header.hpp"
-#include "encoder/range_encoder.hpp"
+#include "encoder/stream/header.hpp"
+#include "encoder/stream/range_encoder.hpp"
 #include "tests/device.hpp"
 #include "tests/point_sets.hpp"
 #include "tests/reference_delaunay.hpp"

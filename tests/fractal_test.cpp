@@ -1,12 +1,12 @@
 // The terrain that the program makes itself: the same everywhere.
-#include "encoder/fractal.hpp"
+#include "encoder/terrain/fractal.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 
 using namespace microtin;
 

@@ -1,9 +1,9 @@
 // Fractions behind written decimals, and axes made of them.
-#include "encoder/fraction.hpp"
+#include "encoder/exact/fraction.hpp"
 
 #include <doctest/doctest.h>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 
 using namespace microtin;
 

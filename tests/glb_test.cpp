@@ -1,5 +1,5 @@
 // glTF binaries, read by a parser of their own.
-#include "encoder/glb.hpp"
+#include "encoder/export/glb.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // The triangulation of all points of a pack: the Delaunay triangulation, up to 2^31 steps.
-#include "encoder/global_triangulation.hpp"
+#include "encoder/pack/global_triangulation.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "encoder/error.hpp"
-#include "encoder/triangulation.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/stream/triangulation.hpp"
 #include "tests/point_sets.hpp"
 
 namespace microtin {

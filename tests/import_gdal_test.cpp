@@ -1,7 +1,7 @@
 // Rasters read by GDAL, in builds with it.
 #include <doctest/doctest.h>
 
-#include "encoder/import.hpp"
+#include "encoder/import/import.hpp"
 #include "tests/imports.hpp"
 #include "tests/session.hpp"
 

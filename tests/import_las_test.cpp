@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "encoder/import.hpp"
+#include "encoder/import/import.hpp"
 #include "tests/binary_file.hpp"
 #include "tests/imports.hpp"
 

@@ -1,7 +1,7 @@
 // Reading the vertices of meshes.
 #include <doctest/doctest.h>
 
-#include "encoder/import.hpp"
+#include "encoder/import/import.hpp"
 #include "tests/binary_file.hpp"
 #include "tests/imports.hpp"
 

@@ -1,11 +1,11 @@
 // Reading terrains.
-#include "encoder/import.hpp"
+#include "encoder/import/import.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/imports.hpp"
 
 using namespace microtin;

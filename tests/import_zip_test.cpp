@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 #include <zlib.h>
 
-#include "encoder/import.hpp"
+#include "encoder/import/import.hpp"
 #include "tests/binary_file.hpp"
 #include "tests/imports.hpp"
 

@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <string>
 
-#include "encoder/error.hpp"
-#include "encoder/source.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/terrain/source.hpp"
 
 namespace microtin {
 

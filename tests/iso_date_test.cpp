@@ -1,5 +1,5 @@
 // Dates.
-#include "encoder/iso_date.hpp"
+#include "encoder/base/iso_date.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "encoder/json.hpp"
+#include "encoder/export/json.hpp"
 
 #include <doctest/doctest.h>
 

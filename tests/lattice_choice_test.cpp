@@ -1,12 +1,12 @@
 // The steps and offsets that sources get.
-#include "encoder/lattice_choice.hpp"
+#include "encoder/terrain/lattice_choice.hpp"
 
 #include <doctest/doctest.h>
 
 #include <random>
 
-#include "encoder/error.hpp"
-#include "encoder/import.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/import/import.hpp"
 
 using namespace microtin;
 

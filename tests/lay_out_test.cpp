@@ -1,12 +1,12 @@
 // Sources as samples on the lattice.
-#include "encoder/lay_out.hpp"
+#include "encoder/terrain/lay_out.hpp"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 
-#include "encoder/error.hpp"
-#include "encoder/import.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/import/import.hpp"
 
 using namespace microtin;
 

@@ -1,10 +1,10 @@
 // What pictures say in words and numbers.
-#include "encoder/legend.hpp"
+#include "encoder/picture/legend.hpp"
 
 #include <doctest/doctest.h>
 
-#include "encoder/lettering.hpp"
-#include "encoder/map_frame.hpp"
+#include "encoder/picture/lettering.hpp"
+#include "encoder/picture/map_frame.hpp"
 
 using namespace microtin;
 

@@ -1,11 +1,11 @@
 // The order is the paper's: its own simple code, applied to it, costs what the paper prints.
-#include "encoder/order.hpp"
+#include "encoder/stream/order.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 
-#include "encoder/encode.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/point_sets.hpp"
 
 using namespace microtin;

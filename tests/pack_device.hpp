@@ -8,7 +8,7 @@
 #include <cstring>
 #include <optional>
 
-#include "encoder/pack_surface.hpp"
+#include "encoder/pack/surface.hpp"
 #include "microtin/pack.h"
 #include "tests/device.hpp"
 

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <vector>
 
-#include "encoder/pack_surface.hpp"
+#include "encoder/pack/surface.hpp"
 #include "microtin/pack.hpp"
 #include "tests/packs.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "encoder/error.hpp"
-#include "encoder/pack_surface.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/pack/surface.hpp"
 #include "tests/border_walk.hpp"
 #include "tests/packs.hpp"
 

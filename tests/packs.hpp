@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "encoder/pack_encode.hpp"
-#include "encoder/pack_file.hpp"
-#include "encoder/pack_surface.hpp"
+#include "encoder/pack/encode.hpp"
+#include "encoder/pack/file.hpp"
+#include "encoder/pack/surface.hpp"
 #include "tests/point_sets.hpp"
 
 namespace microtin {

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "encoder/pack_encode.hpp"
-#include "encoder/source.hpp"
+#include "encoder/pack/encode.hpp"
+#include "encoder/terrain/source.hpp"
 #include "tests/point_sets.hpp"
 
 namespace microtin {

@@ -1,5 +1,5 @@
 // Packs of points: no cracks, every point within its bound, the whole hull covered.
-#include "encoder/point_pack.hpp"
+#include "encoder/pack/point_pack.hpp"
 
 #include <doctest/doctest.h>
 #include <sched.h>
@@ -11,9 +11,9 @@
 #include <memory>
 #include <set>
 
-#include "encoder/error.hpp"
-#include "encoder/import.hpp"
-#include "encoder/point_survey.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/pack/point_survey.hpp"
 #include "tests/border_walk.hpp"
 #include "tests/pack_device.hpp"
 #include "tests/point_clouds.hpp"

@@ -1,5 +1,5 @@
 // Which posts lie under a triangle, compared with a look at every one.
-#include "encoder/post_index.hpp"
+#include "encoder/fit/post_index.hpp"
 
 #include <doctest/doctest.h>
 

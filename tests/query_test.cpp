@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "encoder/encode.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/point_sets.hpp"
 #include "tests/reference_heights.hpp"
 

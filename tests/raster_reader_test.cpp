@@ -1,14 +1,14 @@
 // Rasters that are read in rectangles are the same as those read whole.
-#include "encoder/raster_reader.hpp"
+#include "encoder/terrain/raster_reader.hpp"
 
 #include <doctest/doctest.h>
 
 #include <sstream>
 #include <string>
 
-#include "encoder/error.hpp"
-#include "encoder/import.hpp"
-#include "encoder/voids.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/terrain/voids.hpp"
 #include "tests/files.hpp"
 #include "tests/packs.hpp"
 #include "tests/temporary_folder.hpp"

@@ -8,12 +8,12 @@
 #include <memory>
 #include <string>
 
-#include "encoder/encode.hpp"
-#include "encoder/import.hpp"
-#include "encoder/lay_out.hpp"
-#include "encoder/pack_surface.hpp"
-#include "encoder/simplify.hpp"
-#include "encoder/verify.hpp"
+#include "encoder/fit/simplify.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/pack/surface.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/terrain/lay_out.hpp"
+#include "encoder/terrain/verify.hpp"
 #include "tests/border_walk.hpp"
 #include "tests/packs.hpp"
 

@@ -1,5 +1,5 @@
 // Pictures of terrains.
-#include "encoder/render.hpp"
+#include "encoder/picture/render.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <memory>
 
-#include "encoder/decoded_terrain.hpp"
-#include "encoder/encode.hpp"
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/encode.hpp"
 
 #define STBI_ONLY_PNG
 #define STB_IMAGE_STATIC

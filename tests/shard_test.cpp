@@ -1,5 +1,5 @@
 // Shards: any split of a pack's tiles joins to the bytes of a single run, and nothing else joins.
-#include "encoder/shard.hpp"
+#include "encoder/pack/shard.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/files.hpp"
 #include "tests/packs.hpp"
 #include "tests/temporary_folder.hpp"

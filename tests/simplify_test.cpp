@@ -1,4 +1,4 @@
-#include "encoder/simplify.hpp"
+#include "encoder/fit/simplify.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "encoder/error.hpp"
-#include "encoder/error_model.hpp"
-#include "encoder/triangulation.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/fit/error_model.hpp"
+#include "encoder/stream/triangulation.hpp"
 #include "tests/mesh_checks.hpp"
 #include "tests/point_sets.hpp"
 #include "tests/reference_delaunay.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "encoder/encode.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/mesh_copy.hpp"
 #include "tests/point_sets.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "encoder/wide.hpp"
+#include "encoder/exact/wide.hpp"
 #include "tests/point_sets.hpp"
 
 namespace microtin {

@@ -1,4 +1,4 @@
-#include "encoder/triangulation.hpp"
+#include "encoder/stream/triangulation.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/mesh_checks.hpp"
 #include "tests/point_sets.hpp"
 #include "tests/reference_delaunay.hpp"

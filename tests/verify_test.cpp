@@ -1,12 +1,12 @@
 // Measuring decoded terrains.
-#include "encoder/verify.hpp"
+#include "encoder/terrain/verify.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "encoder/encode.hpp"
-#include "encoder/import.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/stream/encode.hpp"
 
 using namespace microtin;
 

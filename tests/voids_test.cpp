@@ -1,5 +1,5 @@
 // Filling voids.
-#include "encoder/voids.hpp"
+#include "encoder/terrain/voids.hpp"
 
 #include <doctest/doctest.h>
 

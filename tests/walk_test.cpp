@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "encoder/encode.hpp"
+#include "encoder/stream/encode.hpp"
 #include "microtin/microtin.hpp"
 #include "tests/point_sets.hpp"
 

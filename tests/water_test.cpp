@@ -1,14 +1,14 @@
 // Water is where it is declared, exactly, and nowhere else.
-#include "encoder/water.hpp"
+#include "encoder/terrain/water.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cstdlib>
 
-#include "encoder/approximation.hpp"
-#include "encoder/encode.hpp"
-#include "encoder/error.hpp"
-#include "encoder/pack_surface.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/fit/approximation.hpp"
+#include "encoder/pack/surface.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/packs.hpp"
 
 namespace microtin {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <ctime>
 
-#include "encoder/approximation.hpp"
-#include "encoder/error.hpp"
-#include "encoder/verify.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/fit/approximation.hpp"
+#include "encoder/terrain/verify.hpp"
 #include "tests/bench/curves.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/table.hpp"

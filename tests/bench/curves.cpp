@@ -6,7 +6,7 @@
 #include <limits>
 #include <sstream>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 
 namespace microtin::bench {
 namespace {

@@ -1,9 +1,9 @@
 #include <filesystem>
 #include <memory>
 
-#include "encoder/error.hpp"
-#include "encoder/header.hpp"
-#include "encoder/input_file.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/files/input_file.hpp"
+#include "encoder/stream/header.hpp"
 #include "microtin/microtin.h"
 #include "tests/bench/peers.hpp"
 #include "tests/bench/speed.hpp"

@@ -2,7 +2,7 @@
 #include <draco/compression/decode.h>
 #include <draco/compression/encode.h>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/bench/peers.hpp"
 
 namespace microtin::bench {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "encoder/encode.hpp"
-#include "encoder/header.hpp"
-#include "encoder/verify.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/stream/header.hpp"
+#include "encoder/terrain/verify.hpp"
 #include "tests/bench/grid.hpp"
 #include "tests/bench/table.hpp"
 

@@ -7,12 +7,12 @@
 #include <map>
 #include <vector>
 
-#include "encoder/degree.hpp"
-#include "encoder/error.hpp"
-#include "encoder/import.hpp"
-#include "encoder/input_file.hpp"
-#include "encoder/output_file.hpp"
-#include "encoder/pack_file.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/export/degree.hpp"
+#include "encoder/files/input_file.hpp"
+#include "encoder/files/output_file.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/pack/file.hpp"
 #include "tests/bench/device/flight.hpp"
 #include "tests/bench/device/grid_file.hpp"
 #include "tests/bench/grid.hpp"

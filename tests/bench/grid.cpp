@@ -6,7 +6,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "encoder/fractal.hpp"
+#include "encoder/terrain/fractal.hpp"
 
 namespace microtin::bench {
 namespace {

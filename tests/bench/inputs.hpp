@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "encoder/lay_out.hpp"
-#include "encoder/survey.hpp"
+#include "encoder/terrain/lay_out.hpp"
+#include "encoder/terrain/survey.hpp"
 
 namespace microtin::bench {
 

@@ -1,7 +1,7 @@
 // LERC: rasters within a largest error.
 #include <Lerc_c_api.h>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/bench/raster_rate.hpp"
 
 namespace microtin::bench {

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/bench/bounds.hpp"
 #include "tests/bench/firmware_grids.hpp"
 #include "tests/bench/flight.hpp"

@@ -5,7 +5,7 @@
 #include <ctime>
 #include <fstream>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 
 #ifdef MICROTIN_BENCH_VALGRIND
 #include <valgrind/callgrind.h>

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/bench/peers.hpp"
 
 namespace microtin::bench {

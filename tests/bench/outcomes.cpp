@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "decoder/state.hpp"
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "shared/header.hpp"
 
 namespace microtin::bench {

@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "encoder/decoded_terrain.hpp"
-#include "encoder/encode.hpp"
-#include "encoder/error.hpp"
-#include "encoder/fractal.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/terrain/fractal.hpp"
 #include "tests/bench/grid.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/measure.hpp"

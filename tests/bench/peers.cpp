@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 
 namespace microtin::bench {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/bench/peers.hpp"
 
 namespace microtin::bench {

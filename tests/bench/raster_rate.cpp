@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "encoder/encode.hpp"
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/bench/grid.hpp"
 #include "tests/bench/table.hpp"
 

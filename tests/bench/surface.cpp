@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "encoder/decoded_terrain.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
 
 namespace microtin::bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "encoder/output_file.hpp"
+#include "encoder/files/output_file.hpp"
 
 namespace microtin::bench {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "encoder/encode.hpp"
-#include "encoder/fractal.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/terrain/fractal.hpp"
 #include "shared/probability.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/outcomes.hpp"

@@ -1,4 +1,4 @@
-#include "encoder/encode.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/peers.hpp"
 #include "tests/bench/rate.hpp"

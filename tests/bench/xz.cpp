@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/bench/peers.hpp"
 
 namespace microtin::bench {

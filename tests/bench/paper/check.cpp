@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/bench/paper/figures.hpp"
 
 int main(int argc, char** argv) {

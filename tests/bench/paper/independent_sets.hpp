@@ -3,7 +3,7 @@
 #ifndef MICROTIN_BENCH_PAPER_INDEPENDENT_SETS_HPP
 #define MICROTIN_BENCH_PAPER_INDEPENDENT_SETS_HPP
 
-#include "encoder/order.hpp"
+#include "encoder/stream/order.hpp"
 #include "tests/bench/paper/walk.hpp"
 
 namespace microtin::bench {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "encoder/triangulation.hpp"
+#include "encoder/stream/triangulation.hpp"
 #include "tests/point_sets.hpp"
 
 namespace microtin::bench {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "shared/insertion.hpp"
 #include "tests/bench/paper/walk.hpp"
 

@@ -1,5 +1,5 @@
-#include "encoder/decoded_terrain.hpp"
-#include "encoder/encode.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/paper/inputs.hpp"

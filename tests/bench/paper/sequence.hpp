@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "encoder/order.hpp"
+#include "encoder/stream/order.hpp"
 
 namespace microtin::bench {
 

@@ -1,8 +1,8 @@
 #include "tests/bench/paper/tables.hpp"
 
-#include "encoder/encode.hpp"
-#include "encoder/error.hpp"
-#include "encoder/triangulation.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/stream/triangulation.hpp"
 #include "tests/bench/grid.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/paper/inputs.hpp"

@@ -1,0 +1,23 @@
+// Errors that learn on their way which file they are about.
+#ifndef MICROTIN_ENCODER_ERROR_CONTEXT_HPP
+#define MICROTIN_ENCODER_ERROR_CONTEXT_HPP
+
+#include <string>
+
+#include "encoder/base/error.hpp"
+
+namespace microtin {
+
+// Runs `work`; its errors are about the file `path`, which they do not name themselves.
+template <class Work>
+auto about(const std::string& path, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
+}
+
+}  // namespace microtin
+
+#endif

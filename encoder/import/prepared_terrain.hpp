@@ -1,0 +1,38 @@
+// Terrains as they are encoded, and as they are compared with what came of it.
+#ifndef MICROTIN_ENCODER_PREPARED_TERRAIN_HPP
+#define MICROTIN_ENCODER_PREPARED_TERRAIN_HPP
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "encoder/import/import.hpp"
+#include "encoder/terrain/raster_reader.hpp"
+
+namespace microtin {
+
+// What is done to a terrain, in this order.
+struct Preparation {
+  std::optional<ClassSet> classes;     // take these points of a .las file
+  uint32_t fill_voids = 0;             // interpolate voids of up to so many posts
+  std::optional<Decimal> water_level;  // voids that are left are water at this height
+  std::string water_mask;              // ... where this file says so; everywhere if there is none
+};
+
+struct PreparedTerrain {
+  Source source;
+  uint32_t filled = 0, flooded = 0;  // posts that were void
+};
+
+// Throws Error naming the file.
+PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation);
+
+// The same for a source whose raster is read in pieces. Throws Error when a piece is read, too.
+OpenSource prepared_source(const std::string& path, const Preparation& preparation);
+
+// A part of a sentence about what was done to a terrain: empty if nothing was.
+std::string told(const PreparedTerrain& terrain);
+
+}  // namespace microtin
+
+#endif
