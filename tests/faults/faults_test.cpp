@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "tests/faults/injected.hpp"
-#include "tests/files.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 int microtin_main(int argc, char** argv);  // the program's, renamed
 

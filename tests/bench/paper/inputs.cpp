@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tests/point_sets.hpp"
+#include "tests/support/point_sets.hpp"
 
 namespace microtin::bench {
 namespace {

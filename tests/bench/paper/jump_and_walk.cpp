@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "encoder/stream/triangulation.hpp"
-#include "tests/point_sets.hpp"
+#include "tests/support/point_sets.hpp"
 
 namespace microtin::bench {
 namespace {

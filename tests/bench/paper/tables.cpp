@@ -3,7 +3,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/triangulation.hpp"
-#include "tests/bench/grid.hpp"
+#include "tests/bench/grids/grid.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/paper/inputs.hpp"
 #include "tests/bench/paper/jump_and_walk.hpp"
