@@ -1,10 +1,12 @@
 // The one exception of the host tools: a sentence for the user.
-#ifndef MICROTIN_ENCODER_ERROR_HPP
-#define MICROTIN_ENCODER_ERROR_HPP
+#ifndef MICROTIN_ENCODER_BASE_ERROR_HPP
+#define MICROTIN_ENCODER_BASE_ERROR_HPP
 
 #include <stdexcept>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::base {
 
 // What went wrong, where (file, and line of the input if there is one): printed as it is, on one
 // line.
@@ -12,6 +14,6 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace microtin
+}  // namespace microtin::base
 
 #endif

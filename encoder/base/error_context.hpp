@@ -1,12 +1,13 @@
 // Errors that learn on their way which file they are about.
-#ifndef MICROTIN_ENCODER_ERROR_CONTEXT_HPP
-#define MICROTIN_ENCODER_ERROR_CONTEXT_HPP
+#ifndef MICROTIN_ENCODER_BASE_ERROR_CONTEXT_HPP
+#define MICROTIN_ENCODER_BASE_ERROR_CONTEXT_HPP
 
 #include <string>
 
 #include "encoder/base/error.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::base {
 
 // Runs `work`; its errors are about the file `path`, which they do not name themselves.
 template <class Work>
@@ -18,6 +19,6 @@ auto about(const std::string& path, const Work& work) {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::base
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace microtin {
+namespace microtin::base {
 namespace {
 
 bool is_number(std::string_view text) {
@@ -36,4 +36,4 @@ bool is_iso_date(std::string_view text) {
          value_of(day) <= days_of(value_of(text.substr(0, 4)), value_of(month));
 }
 
-}  // namespace microtin
+}  // namespace microtin::base

@@ -1,6 +1,6 @@
 // Independent pieces of work on all processors.
-#ifndef MICROTIN_ENCODER_PARALLEL_HPP
-#define MICROTIN_ENCODER_PARALLEL_HPP
+#ifndef MICROTIN_ENCODER_BASE_PARALLEL_HPP
+#define MICROTIN_ENCODER_BASE_PARALLEL_HPP
 
 #include <algorithm>
 #include <atomic>
@@ -12,8 +12,9 @@
 #include <vector>
 
 #include "encoder/base/progress.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::base {
 
 // Calls work(i) for every i < count, in any order, on as many threads as there are processors.
 // After an exception no further piece is begun; that of the smallest piece that failed is thrown.
@@ -63,6 +64,6 @@ class CountedProgress {
   std::size_t pieces_, done_ = 0;
 };
 
-}  // namespace microtin
+}  // namespace microtin::base
 
 #endif

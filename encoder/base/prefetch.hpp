@@ -1,8 +1,10 @@
 // A hint to the memory, where the compiler offers one.
-#ifndef MICROTIN_ENCODER_PREFETCH_HPP
-#define MICROTIN_ENCODER_PREFETCH_HPP
+#ifndef MICROTIN_ENCODER_BASE_PREFETCH_HPP
+#define MICROTIN_ENCODER_BASE_PREFETCH_HPP
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::base {
 
 // What `address` points to will be used soon. Changes nothing but the time.
 inline void prefetch(const void* address) {
@@ -13,6 +15,6 @@ inline void prefetch(const void* address) {
 #endif
 }
 
-}  // namespace microtin
+}  // namespace microtin::base
 
 #endif

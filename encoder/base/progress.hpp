@@ -1,11 +1,13 @@
 // How far a long piece of work has come.
-#ifndef MICROTIN_ENCODER_PROGRESS_HPP
-#define MICROTIN_ENCODER_PROGRESS_HPP
+#ifndef MICROTIN_ENCODER_BASE_PROGRESS_HPP
+#define MICROTIN_ENCODER_BASE_PROGRESS_HPP
 
 #include <functional>
 #include <utility>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::base {
 
 // Parts of the work are fractions of its time, estimated. Copies report to the same listener.
 class Progress {
@@ -31,6 +33,6 @@ class Progress {
   double from_ = 0, to_ = 1;
 };
 
-}  // namespace microtin
+}  // namespace microtin::base
 
 #endif

@@ -9,10 +9,11 @@
 
 #include "encoder/fit/simplify.hpp"
 #include "encoder/import/prepared_terrain.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/pack/encode.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 
 struct EncodeRequest {
   std::string input;
@@ -74,6 +75,6 @@ struct RenderRequest {
 
 void run_render(const RenderRequest& request);
 
-}  // namespace microtin
+}  // namespace microtin::cli
 
 #endif

@@ -10,7 +10,7 @@
 #include "encoder/pack/surface.hpp"
 #include "encoder/stream/header.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 
 namespace {
 
@@ -85,4 +85,4 @@ void run_decode(const DecodeRequest& request) {
   out.commit();
 }
 
-}  // namespace microtin
+}  // namespace microtin::cli

@@ -7,7 +7,7 @@
 #include "encoder/cli/report.hpp"
 #include "encoder/files/output_file.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 
 void run_embed(const std::string& input, const std::string& output) {
   refuse_overwriting(input, output);
@@ -20,4 +20,4 @@ void run_embed(const std::string& input, const std::string& output) {
   out.commit();
 }
 
-}  // namespace microtin
+}  // namespace microtin::cli

@@ -16,7 +16,7 @@
 #include "encoder/terrain/verify.hpp"
 #include "encoder/terrain/water.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 
 Metadata metadata_of(const EncodeRequest& request, const Reference& reference,
                      const Placement& placement) {
@@ -218,4 +218,4 @@ void run_encode(const EncodeRequest& request) {
   deliver(out, request.output, report(terrain, encoded));
 }
 
-}  // namespace microtin
+}  // namespace microtin::cli

@@ -4,7 +4,7 @@
 #include "encoder/cli/report.hpp"
 #include "encoder/pack/file.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 namespace {
 
 std::string_view name_of(Unit unit) {
@@ -120,4 +120,4 @@ void run_info(const std::string& input, bool json) {
   print(about(input, [&] { return report_of(stream); }), json);
 }
 
-}  // namespace microtin
+}  // namespace microtin::cli

@@ -18,7 +18,7 @@
 #include "encoder/stream/device_ram.hpp"
 #include "shared/format.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 namespace {
 
 constexpr int kFailed = 1, kUsage = 2;
@@ -392,16 +392,16 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace microtin
+}  // namespace microtin::cli
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like others
-  microtin::remove_leftovers_on_signals();
+  microtin::cli::remove_leftovers_on_signals();
   try {
-    return microtin::run(argc, argv);
+    return microtin::cli::run(argc, argv);
   } catch (const std::bad_alloc&) {
-    return microtin::fail("not enough memory", microtin::kFailed);
+    return microtin::cli::fail("not enough memory", microtin::cli::kFailed);
   } catch (const std::exception& error) {
-    return microtin::fail(error.what(), microtin::kFailed);
+    return microtin::cli::fail(error.what(), microtin::cli::kFailed);
   }
 }

@@ -17,7 +17,7 @@
 #include "encoder/pack/tile_plan.hpp"
 #include "encoder/terrain/water.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 namespace {
 
 uint32_t tile_vertices(const EncodeRequest& request) {
@@ -321,4 +321,4 @@ void run_verify_pack(const VerifyRequest& request, const PackFile& pack) {
   report_and_judge(request, promise, found, gauge.moved());
 }
 
-}  // namespace microtin
+}  // namespace microtin::cli

@@ -9,11 +9,12 @@
 
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/terrain/source.hpp"
 #include "encoder/terrain/verify.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 
 void run_encode_pack(const EncodeRequest& request);
 void run_info_pack(const PackFile& pack, bool as_json);
@@ -42,6 +43,6 @@ Promise promise_of(const Metadata& metadata, const Preparation& preparation);
 void report_and_judge(const VerifyRequest& request, const Promise& promise,
                       const Verification& found, uint64_t water_moved);
 
-}  // namespace microtin
+}  // namespace microtin::cli
 
 #endif

@@ -13,7 +13,7 @@
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/fractal.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 
 void run_fractal(const std::string& output, uint32_t size, uint64_t seed) {
   OutputFile out(output);
@@ -106,4 +106,4 @@ void run_render(const RenderRequest& request) {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::cli

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-namespace microtin {
+namespace microtin::cli {
 
 ProgressBar::ProgressBar() : on_terminal_(isatty(STDERR_FILENO) != 0) {}
 
@@ -33,4 +33,4 @@ void ProgressBar::draw(double done) {
                elapsed / done - elapsed);
 }
 
-}  // namespace microtin
+}  // namespace microtin::cli

@@ -5,8 +5,9 @@
 #include <chrono>
 
 #include "encoder/base/progress.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 
 // Draws how far the work is and, after a second, how many seconds are left, on standard error if
 // that is a terminal. Wipes it off at the end.
@@ -30,6 +31,6 @@ class ProgressBar {
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::cli
 
 #endif

@@ -7,7 +7,7 @@
 #include "encoder/base/error_context.hpp"
 #include "encoder/files/input_file.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 
 std::vector<uint8_t> read_stream(const std::string& path) {
   const std::string bytes = read_file(path);
@@ -56,4 +56,4 @@ void print(const JsonObject& report, bool as_json) {
   out.commit();
 }
 
-}  // namespace microtin
+}  // namespace microtin::cli

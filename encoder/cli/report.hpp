@@ -9,9 +9,10 @@
 #include "encoder/exact/decimal.hpp"
 #include "encoder/export/json.hpp"
 #include "encoder/files/output_file.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 
 // The bytes of a stream's file, or of standard input for "-".
 std::vector<uint8_t> read_stream(const std::string& path);
@@ -32,6 +33,6 @@ void deliver(OutputFile& out, const std::string& path, const std::string& text);
 // Prints the report as JSON, or as a line "name: value" for each entry.
 void print(const JsonObject& report, bool as_json);
 
-}  // namespace microtin
+}  // namespace microtin::cli
 
 #endif

@@ -7,7 +7,7 @@
 #include "encoder/pack/file.hpp"
 #include "encoder/terrain/water.hpp"
 
-namespace microtin {
+namespace microtin::cli {
 
 void run_verify(const VerifyRequest& request) {
   const std::string& input = request.input;
@@ -57,4 +57,4 @@ void report_and_judge(const VerifyRequest& request, const Promise& promise,
   if (water_moved != 0) throw Error(input + ": water of the source is not at its level");
 }
 
-}  // namespace microtin
+}  // namespace microtin::cli

@@ -4,7 +4,7 @@
 
 #include "encoder/exact/wide.hpp"
 
-namespace microtin {
+namespace microtin::exact {
 namespace {
 
 uint64_t reduced_denominator(const Axis& axis) {
@@ -42,4 +42,4 @@ std::string CoordinateText::operator()(int64_t number) const {
   return (negative ? "-" : "") + std::to_string(static_cast<uint64_t>(whole)) + behind_zero;
 }
 
-}  // namespace microtin
+}  // namespace microtin::exact

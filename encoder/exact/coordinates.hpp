@@ -1,13 +1,14 @@
 // Real coordinates of lattice numbers as text.
-#ifndef MICROTIN_ENCODER_COORDINATES_HPP
-#define MICROTIN_ENCODER_COORDINATES_HPP
+#ifndef MICROTIN_ENCODER_EXACT_COORDINATES_HPP
+#define MICROTIN_ENCODER_EXACT_COORDINATES_HPP
 
 #include <cstdint>
 #include <string>
 
 #include "encoder/exact/metadata.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::exact {
 
 // Decimals that the coordinates of an axis have: all if there are at most 18, else 12.
 int decimals_of(const Axis& axis);
@@ -26,6 +27,6 @@ class CoordinateText {
   int64_t scale_;  // 10^decimals_
 };
 
-}  // namespace microtin
+}  // namespace microtin::exact
 
 #endif

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <limits>
 
-namespace microtin {
+namespace microtin::exact {
 namespace {
 
 constexpr int64_t kMostBeforeDigit = 100000000000000000;  // 10^17: one more digit still fits
@@ -134,4 +134,4 @@ std::string to_string(Decimal value) {
   return negative ? "-" + text : text;
 }
 
-}  // namespace microtin
+}  // namespace microtin::exact

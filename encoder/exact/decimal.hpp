@@ -1,6 +1,6 @@
 // Exact decimal numbers: what people write in files and on command lines.
-#ifndef MICROTIN_ENCODER_DECIMAL_HPP
-#define MICROTIN_ENCODER_DECIMAL_HPP
+#ifndef MICROTIN_ENCODER_EXACT_DECIMAL_HPP
+#define MICROTIN_ENCODER_EXACT_DECIMAL_HPP
 
 #include <cstdint>
 #include <optional>
@@ -8,8 +8,9 @@
 #include <string_view>
 
 #include "encoder/exact/wide.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::exact {
 
 // Decimals kept of a terrain's numbers and of options; more are rounded.
 constexpr int kMaxDecimals = 9;
@@ -46,6 +47,6 @@ std::optional<Decimal> shortest_decimal(double value, int max_decimals = kMaxDec
 // "-0.25": shortest form that reads back equal.
 std::string to_string(Decimal value);
 
-}  // namespace microtin
+}  // namespace microtin::exact
 
 #endif

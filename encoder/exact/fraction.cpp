@@ -5,7 +5,7 @@
 
 #include "encoder/base/error.hpp"
 
-namespace microtin {
+namespace microtin::exact {
 namespace {
 
 // The fraction with the smallest denominator in the closed interval between two positive ones; for
@@ -110,4 +110,4 @@ Axis reduced_axis(Wide offset, Wide numerator, Wide denominator) {
           static_cast<uint64_t>(denominator)};
 }
 
-}  // namespace microtin
+}  // namespace microtin::exact

@@ -1,13 +1,14 @@
 // Fractions behind rounded decimals, and axes made of them.
-#ifndef MICROTIN_ENCODER_FRACTION_HPP
-#define MICROTIN_ENCODER_FRACTION_HPP
+#ifndef MICROTIN_ENCODER_EXACT_FRACTION_HPP
+#define MICROTIN_ENCODER_EXACT_FRACTION_HPP
 
 #include <optional>
 
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/metadata.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::exact {
 
 constexpr int64_t kAxisLimit = int64_t{1} << 40;  // numerators and denominators of axes lie below
 
@@ -47,6 +48,6 @@ Axis axis_of_cells(Decimal place, Decimal size, int64_t half_cells);
 // (offset + numerator * k) / denominator in lowest terms. Throws Error if it does not fit an axis.
 Axis reduced_axis(Wide offset, Wide numerator, Wide denominator);
 
-}  // namespace microtin
+}  // namespace microtin::exact
 
 #endif

@@ -1,11 +1,12 @@
 // The exact way from a source's numbers along one axis to the lattice.
-#ifndef MICROTIN_ENCODER_LATTICE_MAP_HPP
-#define MICROTIN_ENCODER_LATTICE_MAP_HPP
+#ifndef MICROTIN_ENCODER_EXACT_LATTICE_MAP_HPP
+#define MICROTIN_ENCODER_EXACT_LATTICE_MAP_HPP
 
 #include "encoder/exact/metadata.hpp"
 #include "encoder/exact/wide.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::exact {
 
 // lattice coordinate = (scale * number + shift) / step, step > 0. Magnitudes stay below 2^110: a
 // number's below 2^60, scale's, shift's and step's at most what two axes multiply up to.
@@ -37,6 +38,6 @@ inline bool is_same(const Axis& a, const Axis& b) {
   return map.shift == 0 && map.scale == map.step;
 }
 
-}  // namespace microtin
+}  // namespace microtin::exact
 
 #endif

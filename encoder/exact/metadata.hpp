@@ -1,15 +1,16 @@
 // What a stream's header says beside the mesh: where it lies, in which units, and how good it is.
-#ifndef MICROTIN_ENCODER_METADATA_HPP
-#define MICROTIN_ENCODER_METADATA_HPP
+#ifndef MICROTIN_ENCODER_EXACT_METADATA_HPP
+#define MICROTIN_ENCODER_EXACT_METADATA_HPP
 
 #include <cstdint>
 #include <optional>
 #include <string>
 
 #include "encoder/exact/decimal.hpp"
+#include "encoder/layers.hpp"
 #include "microtin/microtin.h"
 
-namespace microtin {
+namespace microtin::exact {
 
 using Axis = microtin_axis;  // real = (offset + numerator * lattice) / denominator
 
@@ -47,6 +48,6 @@ struct Metadata {
   std::optional<Accuracy> accuracy;
 };
 
-}  // namespace microtin
+}  // namespace microtin::exact
 
 #endif

@@ -1,13 +1,14 @@
 // Integers that a file multiplies and shifts to real numbers.
-#ifndef MICROTIN_ENCODER_SCALED_INTEGERS_HPP
-#define MICROTIN_ENCODER_SCALED_INTEGERS_HPP
+#ifndef MICROTIN_ENCODER_EXACT_SCALED_INTEGERS_HPP
+#define MICROTIN_ENCODER_EXACT_SCALED_INTEGERS_HPP
 
 #include <algorithm>
 #include <optional>
 
 #include "encoder/exact/decimal.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::exact {
 
 // Scale and offset are binary fractions in the file; each stands for the shortest decimal that
 // becomes it, 0.01 for instance. So integer * scale + offset is exact, but for decimals beyond the
@@ -43,6 +44,6 @@ class ScaledIntegers {
   Wide scale_, offset_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::exact
 
 #endif

@@ -1,8 +1,10 @@
 // 128-bit integers for exact conversions, with the three ways to round a quotient.
-#ifndef MICROTIN_ENCODER_WIDE_HPP
-#define MICROTIN_ENCODER_WIDE_HPP
+#ifndef MICROTIN_ENCODER_EXACT_WIDE_HPP
+#define MICROTIN_ENCODER_EXACT_WIDE_HPP
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::exact {
 
 __extension__ typedef __int128 Wide;
 
@@ -34,6 +36,6 @@ inline Wide greatest_common_divisor(Wide a, Wide b) {
   return magnitude(a);
 }
 
-}  // namespace microtin
+}  // namespace microtin::exact
 
 #endif

@@ -1,12 +1,14 @@
 // Colours, and those of heights.
-#ifndef MICROTIN_ENCODER_COLOUR_HPP
-#define MICROTIN_ENCODER_COLOUR_HPP
+#ifndef MICROTIN_ENCODER_EXPORT_COLOUR_HPP
+#define MICROTIN_ENCODER_EXPORT_COLOUR_HPP
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::exporting {
 
 // Of sRGB.
 struct Colour {
@@ -30,6 +32,6 @@ inline Colour tint(double relative) {
   return mix(kTints[below], kTints[below + 1], at - static_cast<double>(below));
 }
 
-}  // namespace microtin
+}  // namespace microtin::exporting
 
 #endif

@@ -1,11 +1,13 @@
 // How long a degree is on the ground.
-#ifndef MICROTIN_ENCODER_DEGREE_HPP
-#define MICROTIN_ENCODER_DEGREE_HPP
+#ifndef MICROTIN_ENCODER_EXPORT_DEGREE_HPP
+#define MICROTIN_ENCODER_EXPORT_DEGREE_HPP
 
 #include <algorithm>
 #include <cmath>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::exporting {
 
 // Metres along the parallel and along the meridian.
 struct Degree {
@@ -21,6 +23,6 @@ inline Degree degree_at(double latitude) {
           111132.92 - 559.82 * std::cos(2 * angle) + 1.175 * std::cos(4 * angle)};
 }
 
-}  // namespace microtin
+}  // namespace microtin::exporting
 
 #endif

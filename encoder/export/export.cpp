@@ -6,7 +6,7 @@
 #include "encoder/exact/coordinates.hpp"
 #include "encoder/export/glb.hpp"
 
-namespace microtin {
+namespace microtin::exporting {
 namespace {
 
 void write_vertices(const SurfaceModel& model, Coordinates coordinates, const std::string& prefix,
@@ -46,24 +46,6 @@ MeshFormat mesh_format_of(const std::string& path) {
   throw Error(path + ": not a kind of file that is written (.xyz, .obj, .ply, .glb, .asc)");
 }
 
-SurfaceModel model_of(const microtin_mesh* mesh) {
-  SurfaceModel model;
-  microtin_placement(mesh, &model.placement.x, &model.placement.y, &model.placement.z);
-  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
-    uint16_t x = 0, y = 0;
-    int16_t z = 0;
-    microtin_vertex(mesh, v, &x, &y, &z);
-    model.vertices.push_back({x, y, z});
-  }
-  for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {
-    std::array<uint32_t, 3> corners{};
-    if (microtin_triangle(mesh, t, corners.data()) == MICROTIN_REAL) {
-      model.triangles.push_back(corners);
-    }
-  }
-  return model;
-}
-
 void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coordinates,
                   OutputFile& out) {
   switch (format) {
@@ -90,4 +72,4 @@ void export_mesh(const microtin_mesh* mesh, MeshFormat format, Coordinates coord
   export_model(model_of(mesh), format, coordinates, out);
 }
 
-}  // namespace microtin
+}  // namespace microtin::exporting

@@ -1,17 +1,15 @@
 // Writing decoded terrains in formats that other programs read.
-#ifndef MICROTIN_ENCODER_EXPORT_HPP
-#define MICROTIN_ENCODER_EXPORT_HPP
+#ifndef MICROTIN_ENCODER_EXPORT_EXPORT_HPP
+#define MICROTIN_ENCODER_EXPORT_EXPORT_HPP
 
-#include <array>
-#include <cstdint>
 #include <string>
-#include <vector>
 
-#include "encoder/exact/metadata.hpp"
 #include "encoder/files/output_file.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/stream/surface_model.hpp"
 #include "microtin/microtin.h"
 
-namespace microtin {
+namespace microtin::exporting {
 
 enum class MeshFormat {
   kXyz,  // a line "x y z" for each vertex, no triangles
@@ -25,24 +23,12 @@ MeshFormat mesh_format_of(const std::string& path);
 
 enum class Coordinates { kReal, kLattice };
 
-// A surface in global lattice coordinates. Triangles are counter-clockwise from above, without void
-// ones.
-struct SurfaceModel {
-  Placement placement;
-  Unit horizontal_unit = Unit::kUnknown, vertical_unit = Unit::kUnknown;
-  std::vector<std::array<int64_t, 3>> vertices;
-  std::vector<std::array<uint32_t, 3>> triangles;
-};
-
-// Vertices keep their numbers.
-SurfaceModel model_of(const microtin_mesh* mesh);
-
 void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coordinates,
                   OutputFile& out);
 
 void export_mesh(const microtin_mesh* mesh, MeshFormat format, Coordinates coordinates,
                  OutputFile& out);
 
-}  // namespace microtin
+}  // namespace microtin::exporting
 
 #endif

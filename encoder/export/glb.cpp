@@ -12,7 +12,7 @@
 #include "encoder/export/json.hpp"
 #include "encoder/export/vector.hpp"
 
-namespace microtin {
+namespace microtin::exporting {
 namespace {
 
 double metres_per(Unit unit) {
@@ -225,4 +225,4 @@ void export_glb(const SurfaceModel& model, Coordinates coordinates, OutputFile& 
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::exporting

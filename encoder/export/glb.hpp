@@ -1,10 +1,11 @@
 // Surfaces as glTF binaries, for viewers.
-#ifndef MICROTIN_ENCODER_GLB_HPP
-#define MICROTIN_ENCODER_GLB_HPP
+#ifndef MICROTIN_ENCODER_EXPORT_GLB_HPP
+#define MICROTIN_ENCODER_EXPORT_GLB_HPP
 
 #include "encoder/export/export.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::exporting {
 
 // glTF 2.0: one mesh with normals and a colour by height for each vertex. Metres, x to the east, y
 // up, z to the south, from the middle of the terrain, whose real coordinates are the asset's
@@ -13,6 +14,6 @@ namespace microtin {
 // triangle. Throws Error if it takes more than 4 GB.
 void export_glb(const SurfaceModel& model, Coordinates coordinates, OutputFile& out);
 
-}  // namespace microtin
+}  // namespace microtin::exporting
 
 #endif

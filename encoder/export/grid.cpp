@@ -7,7 +7,7 @@
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
 
-namespace microtin {
+namespace microtin::exporting {
 namespace {
 
 // The posts along one axis of the grid.
@@ -107,4 +107,4 @@ void export_grid(const SampledSurface& surface, const std::optional<Decimal>& ce
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::exporting

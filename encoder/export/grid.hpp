@@ -7,8 +7,9 @@
 #include "encoder/exact/decimal.hpp"
 #include "encoder/export/height_sampler.hpp"
 #include "encoder/files/output_file.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::exporting {
 
 // Posts of a grid of the lattice's places.
 uint64_t lattice_posts(const SampledSurface& surface);
@@ -22,6 +23,6 @@ uint64_t lattice_posts(const SampledSurface& surface);
 void export_grid(const SampledSurface& surface, const std::optional<Decimal>& cell,
                  OutputFile& out);
 
-}  // namespace microtin
+}  // namespace microtin::exporting
 
 #endif

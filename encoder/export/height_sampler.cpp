@@ -4,7 +4,7 @@
 
 #include "encoder/base/error.hpp"
 
-namespace microtin {
+namespace microtin::exporting {
 namespace {
 
 constexpr int64_t kFraction = 256;  // places have 8 fractional bits
@@ -99,4 +99,4 @@ SampledSurface sampled(const PackFile& pack) {
   return surface;
 }
 
-}  // namespace microtin
+}  // namespace microtin::exporting

@@ -1,6 +1,6 @@
 // Heights anywhere on a stream's or a pack's surface, by the product's own query.
-#ifndef MICROTIN_ENCODER_HEIGHT_SAMPLER_HPP
-#define MICROTIN_ENCODER_HEIGHT_SAMPLER_HPP
+#ifndef MICROTIN_ENCODER_EXPORT_HEIGHT_SAMPLER_HPP
+#define MICROTIN_ENCODER_EXPORT_HEIGHT_SAMPLER_HPP
 
 #include <cstdint>
 #include <functional>
@@ -8,9 +8,10 @@
 #include <memory>
 #include <optional>
 
+#include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 
-namespace microtin {
+namespace microtin::exporting {
 
 // A surface that can be asked. Lattice numbers; they count from the pack's first post.
 struct SampledSurface {
@@ -29,6 +30,6 @@ SampledSurface sampled(const microtin_mesh* mesh);
 // must outlive it. Throws Error, also from height_at, as PackFile::tile does.
 SampledSurface sampled(const PackFile& pack);
 
-}  // namespace microtin
+}  // namespace microtin::exporting
 
 #endif

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <cstdint>
 
-namespace microtin {
+namespace microtin::exporting {
 namespace {
 
 // The bytes of the character that the text begins with; 0 if that is none of UTF-8.
@@ -65,4 +65,4 @@ std::string json(const JsonObject& object) {
   return text + '}';
 }
 
-}  // namespace microtin
+}  // namespace microtin::exporting

@@ -1,6 +1,6 @@
 // Values as JSON.
-#ifndef MICROTIN_ENCODER_JSON_HPP
-#define MICROTIN_ENCODER_JSON_HPP
+#ifndef MICROTIN_ENCODER_EXPORT_JSON_HPP
+#define MICROTIN_ENCODER_EXPORT_JSON_HPP
 
 #include <string>
 #include <string_view>
@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::exporting {
 
 template <class Integer, std::enable_if_t<std::is_integral_v<Integer>, int> = 0>
 std::string json(Integer value) {
@@ -26,6 +28,6 @@ using JsonObject = std::vector<std::pair<std::string, std::string>>;
 
 std::string json(const JsonObject& object);
 
-}  // namespace microtin
+}  // namespace microtin::exporting
 
 #endif

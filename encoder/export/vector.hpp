@@ -1,10 +1,12 @@
 // Vectors for pictures and meshes: nothing exact is made of them.
-#ifndef MICROTIN_ENCODER_VECTOR_HPP
-#define MICROTIN_ENCODER_VECTOR_HPP
+#ifndef MICROTIN_ENCODER_EXPORT_VECTOR_HPP
+#define MICROTIN_ENCODER_EXPORT_VECTOR_HPP
 
 #include <cmath>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::exporting {
 
 struct Vector {
   double x, y, z;
@@ -34,6 +36,6 @@ inline Vector normalised(Vector a) {
   return 1 / std::sqrt(dot(a, a)) * a;
 }
 
-}  // namespace microtin
+}  // namespace microtin::exporting
 
 #endif

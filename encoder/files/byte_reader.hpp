@@ -1,6 +1,6 @@
 // Numbers out of files that may be cut off.
-#ifndef MICROTIN_ENCODER_BYTE_READER_HPP
-#define MICROTIN_ENCODER_BYTE_READER_HPP
+#ifndef MICROTIN_ENCODER_FILES_BYTE_READER_HPP
+#define MICROTIN_ENCODER_FILES_BYTE_READER_HPP
 
 #include <cstdint>
 #include <cstring>
@@ -9,8 +9,9 @@
 #include <type_traits>
 
 #include "encoder/base/error.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::files {
 
 enum class ByteOrder { kLittleEndian, kBigEndian };
 
@@ -59,6 +60,6 @@ class ByteReader {
   ByteOrder order_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::files
 
 #endif

@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/stream/header.hpp"
+#include "encoder/base/status_text.hpp"
 
-namespace microtin {
+namespace microtin::files {
 namespace {
 
 class FileBytes : public ByteSource {
@@ -101,4 +101,4 @@ std::vector<uint8_t> bytes_at(const ByteSource& source, uint64_t offset, uint64_
   return bytes;
 }
 
-}  // namespace microtin
+}  // namespace microtin::files

@@ -1,6 +1,6 @@
 // Bytes that are read anywhere, piece by piece: a file that need not fit into memory.
-#ifndef MICROTIN_ENCODER_BYTE_SOURCE_HPP
-#define MICROTIN_ENCODER_BYTE_SOURCE_HPP
+#ifndef MICROTIN_ENCODER_FILES_BYTE_SOURCE_HPP
+#define MICROTIN_ENCODER_FILES_BYTE_SOURCE_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::files {
 
 // Reading from several threads at once is allowed.
 class ByteSource {
@@ -35,6 +37,6 @@ std::unique_ptr<ByteSource> bytes_in_memory(std::vector<uint8_t> bytes);
 // So many bytes from an offset on. Throws Error if they end before.
 std::vector<uint8_t> bytes_at(const ByteSource& source, uint64_t offset, uint64_t size);
 
-}  // namespace microtin
+}  // namespace microtin::files
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "encoder/base/error.hpp"
 
-namespace microtin {
+namespace microtin::files {
 
 std::string read_file(const std::string& path) {
   const auto fail = [&path] {
@@ -31,4 +31,4 @@ std::string read_file(const std::string& path) {
   return bytes;
 }
 
-}  // namespace microtin
+}  // namespace microtin::files

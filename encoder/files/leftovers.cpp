@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstring>
 
-namespace microtin {
+namespace microtin::files {
 namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
@@ -71,4 +71,4 @@ Leftover::~Leftover() {
   if (slot_ != kSlots) slots[slot_].used = 0;
 }
 
-}  // namespace microtin
+}  // namespace microtin::files

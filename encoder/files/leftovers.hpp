@@ -1,12 +1,14 @@
 // Files that must not outlive the program, even if a signal ends it.
-#ifndef MICROTIN_ENCODER_LEFTOVERS_HPP
-#define MICROTIN_ENCODER_LEFTOVERS_HPP
+#ifndef MICROTIN_ENCODER_FILES_LEFTOVERS_HPP
+#define MICROTIN_ENCODER_FILES_LEFTOVERS_HPP
 
 #include <csignal>
 #include <cstddef>
 #include <string>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::files {
 
 // Lets SIGINT, SIGTERM and SIGHUP remove these files and then end the program as they do by
 // default. A signal that is ignored stays so.
@@ -37,6 +39,6 @@ class Leftover {
   std::size_t slot_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::files
 
 #endif

@@ -8,7 +8,7 @@
 
 #include "encoder/base/error.hpp"
 
-namespace microtin {
+namespace microtin::files {
 namespace fs = std::filesystem;
 
 OutputFile::OutputFile(const std::string& path) : path_(path), target_(path) {
@@ -64,4 +64,4 @@ void OutputFile::fail() const {
   throw Error(path_ + ": cannot be written: " + std::generic_category().message(errno));
 }
 
-}  // namespace microtin
+}  // namespace microtin::files

@@ -1,6 +1,6 @@
 // Output that appears complete or not at all.
-#ifndef MICROTIN_ENCODER_OUTPUT_FILE_HPP
-#define MICROTIN_ENCODER_OUTPUT_FILE_HPP
+#ifndef MICROTIN_ENCODER_FILES_OUTPUT_FILE_HPP
+#define MICROTIN_ENCODER_FILES_OUTPUT_FILE_HPP
 
 #include <cstdint>
 #include <cstdio>
@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "encoder/files/leftovers.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::files {
 
 // Writes to a temporary beside the target, which takes the target's place on commit() and
 // disappears without it, also when a signal ends the program. "-" is standard output; devices and
@@ -42,6 +43,6 @@ class OutputFile {
 // Throws Error if the output would take the place of the input.
 void refuse_overwriting(const std::string& input, const std::string& output);
 
-}  // namespace microtin
+}  // namespace microtin::files
 
 #endif

@@ -11,7 +11,7 @@
 #include "encoder/files/byte_source.hpp"
 #include "encoder/files/leftovers.hpp"
 
-namespace microtin {
+namespace microtin::files {
 namespace {
 
 std::FILE* open_nameless(const std::string& output) {
@@ -64,4 +64,4 @@ void StreamSpool::fail() const {
   throw Error(output_ + ": cannot be written: " + std::generic_category().message(errno));
 }
 
-}  // namespace microtin
+}  // namespace microtin::files

@@ -1,6 +1,6 @@
 // Streams that wait in a file until it is known what comes before them.
-#ifndef MICROTIN_ENCODER_STREAM_SPOOL_HPP
-#define MICROTIN_ENCODER_STREAM_SPOOL_HPP
+#ifndef MICROTIN_ENCODER_FILES_STREAM_SPOOL_HPP
+#define MICROTIN_ENCODER_FILES_STREAM_SPOOL_HPP
 
 #include <cstdint>
 #include <cstdio>
@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "encoder/files/output_file.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::files {
 
 // The file has no name, so that nothing is left of it, however the program ends.
 class StreamSpool {
@@ -34,6 +35,6 @@ class StreamSpool {
   uint64_t bytes_ = 0;
 };
 
-}  // namespace microtin
+}  // namespace microtin::files
 
 #endif

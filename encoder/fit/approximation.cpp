@@ -8,7 +8,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/stream/encode.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 namespace {
 
 // The z steps to be tried, in tenths of the bound: smaller ones cost more in heights than they save
@@ -87,4 +87,4 @@ Approximation approximate(const Source& source, const LatticeOptions& lattice,
   return std::move(*best);
 }
 
-}  // namespace microtin
+}  // namespace microtin::fit

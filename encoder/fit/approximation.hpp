@@ -1,11 +1,12 @@
 // A source in few bytes, never wrong by more than asked for.
-#ifndef MICROTIN_ENCODER_APPROXIMATION_HPP
-#define MICROTIN_ENCODER_APPROXIMATION_HPP
+#ifndef MICROTIN_ENCODER_FIT_APPROXIMATION_HPP
+#define MICROTIN_ENCODER_FIT_APPROXIMATION_HPP
 
 #include "encoder/fit/simplify.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/terrain/lay_out.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 struct Approximation {
   Laid laid;
@@ -18,6 +19,6 @@ struct Approximation {
 Approximation approximate(const Source& source, const LatticeOptions& lattice,
                           const SimplifyOptions& options);
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace microtin {
+namespace microtin::fit {
 namespace {
 
 constexpr uint32_t kPerPowerOfTen = 96;
@@ -45,4 +45,4 @@ std::optional<uint32_t> last_rung(const Fits& roughly, const Fits& exactly) {
   return std::nullopt;
 }
 
-}  // namespace microtin
+}  // namespace microtin::fit

@@ -1,14 +1,15 @@
 // The smallest error bound that a number of bytes allows.
-#ifndef MICROTIN_ENCODER_BYTE_BUDGET_HPP
-#define MICROTIN_ENCODER_BYTE_BUDGET_HPP
+#ifndef MICROTIN_ENCODER_FIT_BYTE_BUDGET_HPP
+#define MICROTIN_ENCODER_FIT_BYTE_BUDGET_HPP
 
 #include <cstdint>
 #include <functional>
 #include <optional>
 
 #include "encoder/exact/decimal.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 // Bounds from `largest` downwards, 2.4 % apart and with three digits: rung 96 is a tenth of it.
 // largest > 0.
@@ -21,6 +22,6 @@ using Fits = std::function<bool(uint32_t rung)>;
 std::optional<uint32_t> last_rung(const Fits& roughly, const Fits& exactly);
 constexpr uint32_t kRungs = 600;  // more than six powers of ten
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

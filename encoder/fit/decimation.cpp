@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace microtin {
+namespace microtin::fit {
 namespace {
 
 bool contains(const std::vector<Index>& vertices, Index v) {
@@ -124,4 +124,4 @@ bool Decimation::try_move(Index v) {
                      [this](Index r) { return !surface_.is_fixed(r) && try_removal(r); });
 }
 
-}  // namespace microtin
+}  // namespace microtin::fit

@@ -1,6 +1,6 @@
 // Fewer vertices for the same bounds.
-#ifndef MICROTIN_ENCODER_DECIMATION_HPP
-#define MICROTIN_ENCODER_DECIMATION_HPP
+#ifndef MICROTIN_ENCODER_FIT_DECIMATION_HPP
+#define MICROTIN_ENCODER_FIT_DECIMATION_HPP
 
 #include <cstdint>
 #include <vector>
@@ -9,8 +9,9 @@
 #include "encoder/fit/edits.hpp"
 #include "encoder/fit/height_fit.hpp"
 #include "encoder/fit/surface.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 // A local search. A vertex is removed if its neighbours find heights that keep all bounds around.
 // If not, it may move to a post where the bound is missed, and each of its new neighbours
@@ -48,6 +49,6 @@ class Decimation {
   uint64_t random_ = 0;
 };
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace microtin {
+namespace microtin::fit {
 
 bool Edits::remove(Index v) {
   const Edit edit{Edit::kRemoval, v, surface_.vertex(v), surface_.finite_neighbour(v)};
@@ -42,4 +42,4 @@ void Edits::roll_back(std::size_t size) {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::fit

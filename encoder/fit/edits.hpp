@@ -1,13 +1,14 @@
 // Changes of a surface that can be taken back.
-#ifndef MICROTIN_ENCODER_EDITS_HPP
-#define MICROTIN_ENCODER_EDITS_HPP
+#ifndef MICROTIN_ENCODER_FIT_EDITS_HPP
+#define MICROTIN_ENCODER_FIT_EDITS_HPP
 
 #include <cstddef>
 #include <vector>
 
 #include "encoder/fit/surface.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 class Edits {
  public:
@@ -48,6 +49,6 @@ class Edits {
   std::vector<Edit> edits_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

@@ -1,15 +1,16 @@
 // How far a surface may be from a sample, and how far off it is.
-#ifndef MICROTIN_ENCODER_ERROR_MODEL_HPP
-#define MICROTIN_ENCODER_ERROR_MODEL_HPP
+#ifndef MICROTIN_ENCODER_FIT_ERROR_MODEL_HPP
+#define MICROTIN_ENCODER_FIT_ERROR_MODEL_HPP
 
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
+#include "encoder/layers.hpp"
 #include "encoder/terrain/survey.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 // Heights have 16 fractional bits, as in Survey.
 struct ErrorModel {
@@ -47,6 +48,6 @@ struct ErrorModel {
   }
 };
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

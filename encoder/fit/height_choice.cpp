@@ -6,7 +6,7 @@
 
 #include "encoder/stream/order.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 namespace {
 
 uint32_t bits_of(int32_t difference) {
@@ -144,4 +144,4 @@ void HeightChoice::pass() {
   for (Index i = 0; i < z_.size(); ++i) choose(i);
 }
 
-}  // namespace microtin
+}  // namespace microtin::fit

@@ -1,15 +1,16 @@
 // Heights that cost few bits, within their bounds.
-#ifndef MICROTIN_ENCODER_HEIGHT_CHOICE_HPP
-#define MICROTIN_ENCODER_HEIGHT_CHOICE_HPP
+#ifndef MICROTIN_ENCODER_FIT_HEIGHT_CHOICE_HPP
+#define MICROTIN_ENCODER_FIT_HEIGHT_CHOICE_HPP
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "encoder/fit/surface.hpp"
+#include "encoder/layers.hpp"
 #include "shared/height_coding.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 // Knows in which order the vertices of a surface are sent and which neighbours predict each.
 class HeightChoice {
@@ -43,6 +44,6 @@ class HeightChoice {
   std::array<std::array<float, kMagnitudeBits + 1>, kScales> bits_{};
 };
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace microtin {
+namespace microtin::fit {
 namespace {
 
 constexpr uint32_t kFixed = ~uint32_t{0};
@@ -192,4 +192,4 @@ uint32_t HeightFit::worst_sample(std::size_t rank) const {
   return worst.empty() ? 0 : worst[std::min(rank, worst.size() - 1)].second;
 }
 
-}  // namespace microtin
+}  // namespace microtin::fit

@@ -1,6 +1,6 @@
 // Heights of a few vertices that bring all posts around them within their bounds.
-#ifndef MICROTIN_ENCODER_HEIGHT_FIT_HPP
-#define MICROTIN_ENCODER_HEIGHT_FIT_HPP
+#ifndef MICROTIN_ENCODER_FIT_HEIGHT_FIT_HPP
+#define MICROTIN_ENCODER_FIT_HEIGHT_FIT_HPP
 
 #include <array>
 #include <cstddef>
@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "encoder/fit/surface.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 // A descent: one step of one height after the other, each that which lowers the sum of squared
 // excesses over the bounds most. It works with rounded numbers, so what it finds is to be checked.
@@ -75,6 +76,6 @@ class HeightFit {
   std::size_t posts_ = 0;
 };
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

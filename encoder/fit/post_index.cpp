@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace microtin {
+namespace microtin::fit {
 
 PostIndex::PostIndex(const std::vector<Point>& places) {
   uint32_t width = 1, height = 1;
@@ -25,4 +25,4 @@ PostIndex::PostIndex(const std::vector<Point>& places) {
   for (uint32_t i = 0; i < places.size(); ++i) posts_[next[cell_of(places[i])]++] = {places[i], i};
 }
 
-}  // namespace microtin
+}  // namespace microtin::fit

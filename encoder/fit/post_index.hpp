@@ -1,15 +1,16 @@
 // Which posts lie under a triangle.
-#ifndef MICROTIN_ENCODER_POST_INDEX_HPP
-#define MICROTIN_ENCODER_POST_INDEX_HPP
+#ifndef MICROTIN_ENCODER_FIT_POST_INDEX_HPP
+#define MICROTIN_ENCODER_FIT_POST_INDEX_HPP
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "shared/predicates.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 // Posts sorted into square cells, about as many cells as posts: on a raster one post a cell, whose
 // triangles are then scanned column by column without a test.
@@ -110,6 +111,6 @@ class PostIndex {
   std::vector<uint32_t> first_;  // of each cell, and one more
 };
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "shared/interpolation.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 namespace {
 
 std::vector<Point> places_of(const Survey& survey, const std::vector<uint32_t>& samples) {
@@ -172,4 +172,4 @@ Tin Refinement::tin() const {
   return tin;
 }
 
-}  // namespace microtin
+}  // namespace microtin::fit

@@ -1,6 +1,6 @@
 // A surface through some samples of a survey, refined by making the worst sample a vertex.
-#ifndef MICROTIN_ENCODER_REFINEMENT_HPP
-#define MICROTIN_ENCODER_REFINEMENT_HPP
+#ifndef MICROTIN_ENCODER_FIT_REFINEMENT_HPP
+#define MICROTIN_ENCODER_FIT_REFINEMENT_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -9,10 +9,11 @@
 
 #include "encoder/fit/error_model.hpp"
 #include "encoder/fit/post_index.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/stream/triangulation.hpp"
 #include "encoder/terrain/survey.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 class Refinement {
  public:
@@ -79,6 +80,6 @@ class Refinement {
   std::priority_queue<Entry> queue_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

@@ -12,7 +12,7 @@
 #include "encoder/fit/refinement.hpp"
 #include "shared/predicates.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 namespace {
 
 std::vector<Point> places_of(const std::vector<Sample>& samples) {
@@ -122,4 +122,4 @@ Tin simplify(const Survey& survey, const SimplifyOptions& options) {
   return search ? improve(survey, posts, refinement.tin(), options) : refinement.tin();
 }
 
-}  // namespace microtin
+}  // namespace microtin::fit

@@ -1,14 +1,15 @@
 // The choice of the vertices that represent a survey.
-#ifndef MICROTIN_ENCODER_SIMPLIFY_HPP
-#define MICROTIN_ENCODER_SIMPLIFY_HPP
+#ifndef MICROTIN_ENCODER_FIT_SIMPLIFY_HPP
+#define MICROTIN_ENCODER_FIT_SIMPLIFY_HPP
 
 #include <cstdint>
 
 #include "encoder/base/progress.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/survey.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 // How long to look for fewer vertices within a bound.
 enum class Search : uint8_t {
@@ -37,6 +38,6 @@ struct SimplifyOptions {
 // void triangle and on no edge of another. Throws Error if the samples form no triangle.
 Tin simplify(const Survey& survey, const SimplifyOptions& options);
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

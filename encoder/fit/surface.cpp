@@ -8,7 +8,7 @@
 
 #include "shared/interpolation.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 namespace {
 
 std::vector<Point> places_of(const std::vector<Vertex>& vertices) {
@@ -163,4 +163,4 @@ Tin Surface::tin() const {
   return tin;
 }
 
-}  // namespace microtin
+}  // namespace microtin::fit

@@ -1,16 +1,17 @@
 // A triangulated surface over a survey whose vertices come, go and move up and down.
-#ifndef MICROTIN_ENCODER_SURFACE_HPP
-#define MICROTIN_ENCODER_SURFACE_HPP
+#ifndef MICROTIN_ENCODER_FIT_SURFACE_HPP
+#define MICROTIN_ENCODER_FIT_SURFACE_HPP
 
 #include <cstdint>
 #include <vector>
 
 #include "encoder/fit/error_model.hpp"
 #include "encoder/fit/post_index.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/stream/triangulation.hpp"
 #include "encoder/terrain/survey.hpp"
 
-namespace microtin {
+namespace microtin::fit {
 
 class Surface {
  public:
@@ -110,6 +111,6 @@ class Surface {
   std::vector<Tin::Triangle> voids_;  // the same triangles
 };
 
-}  // namespace microtin
+}  // namespace microtin::fit
 
 #endif

@@ -10,7 +10,7 @@
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 namespace {
 
 // The words of a text, one after the other.
@@ -273,4 +273,4 @@ Raster import_asc(const std::string& name, const std::string& text) {
   return raster;
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

@@ -7,7 +7,7 @@
 
 #include "encoder/import/text.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 namespace {
 
 // A node of well-known text as it is being read: KEYWORD["name", 1, CHILD[...], ...].
@@ -156,4 +156,4 @@ Reference reference_of_geo_keys(const std::vector<uint16_t>& directory) {
   return reference;
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

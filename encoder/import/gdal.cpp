@@ -14,7 +14,7 @@
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 namespace {
 
 struct Close {
@@ -148,4 +148,4 @@ Raster import_gdal(const std::string& path) {
   return about(path, [&] { return read(path); });
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

@@ -6,7 +6,7 @@
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 namespace {
 
 constexpr uint32_t kWgs84 = 4326;
@@ -103,4 +103,4 @@ Raster import_hgt(const std::string& name, const std::string& bytes) {
   return reader.read({0, 0, reader.frame().width, reader.frame().height});
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

@@ -8,7 +8,7 @@
 #include "encoder/files/input_file.hpp"
 #include "encoder/import/text.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 
 namespace {
 
@@ -61,4 +61,4 @@ OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& 
   return std::make_unique<RasterInMemory>(std::move(std::get<Raster>(source)));
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

@@ -1,6 +1,6 @@
 // Reading terrains from the files they come in.
-#ifndef MICROTIN_ENCODER_IMPORT_HPP
-#define MICROTIN_ENCODER_IMPORT_HPP
+#ifndef MICROTIN_ENCODER_IMPORT_IMPORT_HPP
+#define MICROTIN_ENCODER_IMPORT_IMPORT_HPP
 
 #include <bitset>
 #include <memory>
@@ -9,10 +9,11 @@
 #include <variant>
 
 #include "encoder/files/byte_source.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/terrain/raster_reader.hpp"
 #include "encoder/terrain/source.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 
 // Classes of points in a LAS file.
 using ClassSet = std::bitset<256>;
@@ -67,6 +68,6 @@ Raster import_zip(const std::string& name, const std::string& bytes);
 Raster import_gdal(const std::string& path);
 #endif
 
-}  // namespace microtin
+}  // namespace microtin::importing
 
 #endif

@@ -9,7 +9,7 @@
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 namespace {
 
 constexpr uint8_t kGround = 2, kLowNoise = 7, kHighNoise = 18;
@@ -207,4 +207,4 @@ PointCloud import_las(const std::string& name, const std::string& bytes,
   return cloud;
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

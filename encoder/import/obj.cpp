@@ -2,7 +2,7 @@
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 
 PointCloud import_obj(const std::string& name, const std::string& text) {
   PointColumns points;
@@ -23,4 +23,4 @@ PointCloud import_obj(const std::string& name, const std::string& text) {
   return points.take();
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

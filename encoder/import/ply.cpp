@@ -5,7 +5,7 @@
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 namespace {
 
 enum class Type { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
@@ -286,4 +286,4 @@ PointCloud import_ply(const std::string& name, const std::string& bytes) {
                                               : read_vertices<BinaryBody>(name, header);
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

@@ -4,7 +4,7 @@
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 namespace {
 
 class PointReader {
@@ -84,4 +84,4 @@ PointCloud import_points(const std::string& name, const std::string& text) {
   return reader.cloud();
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

@@ -6,7 +6,7 @@
 #include "encoder/terrain/voids.hpp"
 #include "encoder/terrain/water.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 namespace {
 
 std::unique_ptr<RasterReader> open_mask(const std::string& path, const Raster& frame) {
@@ -98,4 +98,4 @@ std::string told(const PreparedTerrain& terrain) {
   return text;
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

@@ -1,15 +1,16 @@
 // Terrains as they are encoded, and as they are compared with what came of it.
-#ifndef MICROTIN_ENCODER_PREPARED_TERRAIN_HPP
-#define MICROTIN_ENCODER_PREPARED_TERRAIN_HPP
+#ifndef MICROTIN_ENCODER_IMPORT_PREPARED_TERRAIN_HPP
+#define MICROTIN_ENCODER_IMPORT_PREPARED_TERRAIN_HPP
 
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "encoder/import/import.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/terrain/raster_reader.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 
 // What is done to a terrain, in this order.
 struct Preparation {
@@ -33,6 +34,6 @@ OpenSource prepared_source(const std::string& path, const Preparation& preparati
 // A part of a sentence about what was done to a terrain: empty if nothing was.
 std::string told(const PreparedTerrain& terrain);
 
-}  // namespace microtin
+}  // namespace microtin::importing
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "encoder/base/error.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 namespace {
 
 constexpr int64_t kLargest = 1000000000000000000;  // 10^18
@@ -83,4 +83,4 @@ std::string_view take_line(std::string_view& text) {
   return line;
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

@@ -6,9 +6,10 @@
 #include <string_view>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 
 // Throws Error("name:line: what").
 [[noreturn]] void fail_at(const std::string& name, size_t line, const std::string& what);
@@ -74,6 +75,6 @@ void split(std::string_view line, std::vector<std::string_view>& fields);
 // Takes the first line away from a text that is not empty; without its end.
 std::string_view take_line(std::string_view& text);
 
-}  // namespace microtin
+}  // namespace microtin::importing
 
 #endif

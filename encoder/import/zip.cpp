@@ -8,7 +8,7 @@
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 
-namespace microtin {
+namespace microtin::importing {
 namespace {
 
 constexpr uint64_t kMostBytes = uint64_t{2} * 3601 * 3601;  // of an .hgt
@@ -120,4 +120,4 @@ Raster import_zip(const std::string& name, const std::string& bytes) {
   return import_hgt(name + "/" + inner, unpacked(file, entry));
 }
 
-}  // namespace microtin
+}  // namespace microtin::importing

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 constexpr int64_t kStep = 65536;  // heights of samples have 16 fractional bits
@@ -156,4 +156,4 @@ std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, Error
   return Chain(posts, model).vertices();
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

@@ -1,14 +1,15 @@
 // The border between two tiles, from corner to corner: a chain of vertices that both will have.
-#ifndef MICROTIN_ENCODER_BORDER_LINE_HPP
-#define MICROTIN_ENCODER_BORDER_LINE_HPP
+#ifndef MICROTIN_ENCODER_PACK_BORDER_LINE_HPP
+#define MICROTIN_ENCODER_PACK_BORDER_LINE_HPP
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 #include "encoder/fit/error_model.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // A post of the line, which runs along x or y: of its places, one coordinate ascends. Void posts
 // have no sample.
@@ -28,6 +29,6 @@ struct ChainVertex {
 // of the chain reaches).
 std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, ErrorModel model);
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

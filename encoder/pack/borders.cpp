@@ -5,7 +5,7 @@
 
 #include "encoder/pack/border_line.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 // The tiles in one direction that hold a coordinate.
@@ -102,4 +102,4 @@ SharedVertices shared_vertices(const TiledRaster& tiled, const TilePosts& posts)
   return shared;
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

@@ -1,17 +1,18 @@
 // The borders between the tiles of a grid: which vertices neighbours share.
-#ifndef MICROTIN_ENCODER_BORDERS_HPP
-#define MICROTIN_ENCODER_BORDERS_HPP
+#ifndef MICROTIN_ENCODER_PACK_BORDERS_HPP
+#define MICROTIN_ENCODER_PACK_BORDERS_HPP
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "encoder/terrain/lay_out.hpp"
 #include "encoder/terrain/raster_reader.hpp"
 #include "shared/pack_format.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // A raster that is to be cut into tiles: its posts are the places of the pack.
 struct TiledRaster {
@@ -65,6 +66,6 @@ using SharedVertices = std::map<Point, int16_t>;
 // beside a border then part it from no triangle.
 SharedVertices shared_vertices(const TiledRaster& tiled, const TilePosts& posts);
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

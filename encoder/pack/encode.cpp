@@ -11,7 +11,7 @@
 #include "encoder/fit/approximation.hpp"
 #include "encoder/pack/tile_plan.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 // Of the time, estimated.
@@ -123,4 +123,4 @@ void encode_pack(const RasterReader& raster, const PackOptions& options,
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

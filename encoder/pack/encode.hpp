@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/pack/tile.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 struct PackOptions {
   LatticeOptions lattice;    // without an xy step
@@ -62,6 +63,6 @@ void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take);
 void encode_pack(const RasterReader& raster, const PackOptions& options,
                  const std::function<void(const PackPlan&)>& begin, const TakeTile& take);
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

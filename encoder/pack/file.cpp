@@ -6,9 +6,10 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
+#include "encoder/base/status_text.hpp"
 #include "encoder/stream/header.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
@@ -205,4 +206,4 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
   });
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

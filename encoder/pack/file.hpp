@@ -10,11 +10,12 @@
 
 #include "encoder/exact/metadata.hpp"
 #include "encoder/files/byte_source.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/pack/encode.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
 #include "shared/pack_format.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // A pack but for its streams.
 struct PackContent {
@@ -75,6 +76,6 @@ class PackFile {
   std::vector<PackEntry> entries_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

@@ -6,7 +6,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/wide.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 // Coordinates are below 2^31, so each factor of these products is, too: all sums fit.
@@ -210,4 +210,4 @@ void GlobalTriangulation::fill_cavity(uint32_t v) {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

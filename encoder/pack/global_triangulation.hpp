@@ -1,14 +1,15 @@
 // A Delaunay triangulation of places of a whole pack, beyond 16 bits.
-#ifndef MICROTIN_ENCODER_GLOBAL_TRIANGULATION_HPP
-#define MICROTIN_ENCODER_GLOBAL_TRIANGULATION_HPP
+#ifndef MICROTIN_ENCODER_PACK_GLOBAL_TRIANGULATION_HPP
+#define MICROTIN_ENCODER_PACK_GLOBAL_TRIANGULATION_HPP
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // Built once, to be looked at. Exact; where several points lie on an empty circle, the places alone
 // decide which diagonals there are. About 80 bytes a point, O(n log n).
@@ -54,6 +55,6 @@ class GlobalTriangulation {
   std::vector<Side> sides_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

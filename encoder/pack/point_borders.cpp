@@ -7,7 +7,7 @@
 
 #include "encoder/base/parallel.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 constexpr int64_t kOne = 65536;
@@ -224,4 +224,4 @@ SharedVertices PointBorders::of_tile(uint32_t tile) const {
   return shared;
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

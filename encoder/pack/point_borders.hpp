@@ -1,6 +1,6 @@
 // The borders between the tiles of a pack of points (PACK.md, section 3).
-#ifndef MICROTIN_ENCODER_POINT_BORDERS_HPP
-#define MICROTIN_ENCODER_POINT_BORDERS_HPP
+#ifndef MICROTIN_ENCODER_PACK_POINT_BORDERS_HPP
+#define MICROTIN_ENCODER_PACK_POINT_BORDERS_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "encoder/exact/wide.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/pack/border_line.hpp"
 #include "encoder/pack/global_triangulation.hpp"
 #include "encoder/pack/point_survey.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // The height of a line's crossing with an edge of the triangulation, or of a sample on the line.
 struct Crossing {
@@ -99,6 +100,6 @@ class PointBorders {
   Lines north_, east_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

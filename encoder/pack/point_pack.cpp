@@ -13,7 +13,7 @@
 #include "encoder/pack/point_tile.hpp"
 #include "encoder/pack/tile_plan.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 constexpr std::size_t kPilot = 20000;    // points
@@ -162,4 +162,4 @@ PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
   return pack;
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

@@ -1,17 +1,18 @@
 // A cloud of points as a pack of tiles.
-#ifndef MICROTIN_ENCODER_POINT_PACK_HPP
-#define MICROTIN_ENCODER_POINT_PACK_HPP
+#ifndef MICROTIN_ENCODER_PACK_POINT_PACK_HPP
+#define MICROTIN_ENCODER_PACK_POINT_PACK_HPP
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "encoder/pack/encode.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/terrain/source.hpp"
 #include "encoder/terrain/verify.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 struct PointPack {
   PackContent content;
@@ -36,6 +37,6 @@ PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
 Verification verify(const PackFile& pack, const PointCloud& cloud,
                     const std::optional<Decimal>& bound, const PostVisitor& visit = {});
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

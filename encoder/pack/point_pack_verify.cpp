@@ -6,7 +6,7 @@
 #include "encoder/pack/tile_contents.hpp"
 #include "encoder/terrain/visit_log.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 bool answers(const microtin_mesh* mesh, const TileBox& box, GlobalPost place, uint32_t* hint) {
@@ -53,4 +53,4 @@ Verification verify(const PackFile& pack, const PointCloud& cloud,
   return all;
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

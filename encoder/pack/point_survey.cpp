@@ -5,7 +5,7 @@
 
 #include "encoder/exact/fraction.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 constexpr uint32_t kPartBits = 16;
@@ -100,4 +100,4 @@ PointCloud part_of(const PointCloud& cloud, const std::vector<uint32_t>& points)
   return part;
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

@@ -1,14 +1,15 @@
 // A cloud of points on the lattice of a pack, which is wider than that of a stream.
-#ifndef MICROTIN_ENCODER_POINT_SURVEY_HPP
-#define MICROTIN_ENCODER_POINT_SURVEY_HPP
+#ifndef MICROTIN_ENCODER_PACK_POINT_SURVEY_HPP
+#define MICROTIN_ENCODER_PACK_POINT_SURVEY_HPP
 
 #include <cstdint>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
 #include "encoder/terrain/lay_out.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // As a Sample, anywhere in the pack.
 struct GlobalSample {
@@ -45,6 +46,6 @@ Placement placement_from(const Placement& whole, GlobalPost first);
 // The points with these numbers.
 PointCloud part_of(const PointCloud& cloud, const std::vector<uint32_t>& points);
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

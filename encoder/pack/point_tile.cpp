@@ -6,7 +6,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/stream/encode.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 PointTiles::PointTiles(const TiledCloud& tiled, const PointBorders& borders)
     : tiled_(tiled), borders_(borders), samples_(tiled.grid, places_of(tiled.survey.samples)) {}
 
@@ -35,7 +35,7 @@ uint32_t PointTiles::vertices_of(uint32_t tile, const SimplifyOptions& options) 
   const Survey survey = survey_of(tile);
   if (!form_triangle(survey.samples)) return 0;
   if (!options.bounded) return static_cast<uint32_t>(survey.samples.size());
-  return static_cast<uint32_t>(microtin::simplify(survey, options).vertices.size());
+  return static_cast<uint32_t>(fit::simplify(survey, options).vertices.size());
 }
 
 EncodedTile PointTiles::encode(uint32_t tile, const std::vector<uint32_t>& points) const {
@@ -55,4 +55,4 @@ EncodedTile PointTiles::encode(uint32_t tile, const std::vector<uint32_t>& point
   return {summary_of(tin, stream, measured), std::move(stream)};
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

@@ -1,15 +1,16 @@
 // One tile of a cloud of points: its survey and its stream.
-#ifndef MICROTIN_ENCODER_POINT_TILE_HPP
-#define MICROTIN_ENCODER_POINT_TILE_HPP
+#ifndef MICROTIN_ENCODER_PACK_POINT_TILE_HPP
+#define MICROTIN_ENCODER_PACK_POINT_TILE_HPP
 
 #include <cstdint>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "encoder/pack/point_borders.hpp"
 #include "encoder/pack/tile.hpp"
 #include "encoder/pack/tile_contents.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // A cloud that is cut into tiles.
 struct TiledCloud {
@@ -43,6 +44,6 @@ class PointTiles {
   TileContents samples_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

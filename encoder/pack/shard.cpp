@@ -6,9 +6,10 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
+#include "encoder/base/status_text.hpp"
 #include "encoder/stream/header.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
@@ -254,4 +255,4 @@ PackContent merge_shards(const std::vector<std::string>& paths, OutputFile& out)
   return pack;
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

@@ -5,8 +5,8 @@
 //            fingerprint; CRC-32 of all that: shards of one pack have the same
 //   range    the numbers of the first and the last tile, 4 bytes each
 //   tiles    in order: a summary of fixed size, its CRC-32, the stream
-#ifndef MICROTIN_ENCODER_SHARD_HPP
-#define MICROTIN_ENCODER_SHARD_HPP
+#ifndef MICROTIN_ENCODER_PACK_SHARD_HPP
+#define MICROTIN_ENCODER_PACK_SHARD_HPP
 
 #include <cstdint>
 #include <memory>
@@ -14,9 +14,10 @@
 #include <vector>
 
 #include "encoder/files/output_file.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 class ShardWriter {
  public:
@@ -35,6 +36,6 @@ class ShardWriter {
 // tiles are missing.
 PackContent merge_shards(const std::vector<std::string>& paths, OutputFile& out);
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

@@ -12,7 +12,7 @@
 #include "encoder/pack/borders.hpp"
 #include "encoder/terrain/visit_log.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 // Collects the tiles' vertices, those on borders once.
@@ -122,7 +122,7 @@ SurfaceModel model_of(const PackFile& pack) {
   Joining joining(pack.grid());
   for (uint32_t number = 0; number < pack.entries().size(); ++number) {
     const std::optional<DecodedTerrain> tile = pack.tile(number);
-    if (tile) joining.add(tile_box(pack.grid(), number), model_of(tile->mesh()));
+    if (tile) joining.add(tile_box(pack.grid(), number), stream::model_of(tile->mesh()));
   }
   SurfaceModel model = joining.take();
   model.placement = pack.metadata().placement;
@@ -163,4 +163,4 @@ Verification verify(const PackFile& pack, const RasterReader& raster,
   return all;
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

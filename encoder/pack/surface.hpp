@@ -5,11 +5,12 @@
 #include <optional>
 
 #include "encoder/base/progress.hpp"
-#include "encoder/export/export.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
+#include "encoder/stream/surface_model.hpp"
 #include "encoder/terrain/verify.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // Vertices in the order of tiles, those on borders once. Throws Error as PackFile::tile does, or if
 // tiles give a vertex on their border different heights.
@@ -23,6 +24,6 @@ Verification verify(const PackFile& pack, const RasterReader& raster,
                     const std::optional<Decimal>& bound, const Progress& progress = {},
                     const PostVisitor& visit = {});
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

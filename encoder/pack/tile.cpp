@@ -12,7 +12,7 @@
 #include "shared/pack_format.hpp"
 #include "shared/predicates.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
@@ -188,4 +188,4 @@ EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyO
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

@@ -1,15 +1,16 @@
 // One tile of a raster: its survey, its stream, and what it keeps of what was asked for.
-#ifndef MICROTIN_ENCODER_TILE_HPP
-#define MICROTIN_ENCODER_TILE_HPP
+#ifndef MICROTIN_ENCODER_PACK_TILE_HPP
+#define MICROTIN_ENCODER_PACK_TILE_HPP
 
 #include <cstdint>
 #include <vector>
 
 #include "encoder/fit/simplify.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
 #include "encoder/terrain/verify.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // Which places of a tile others have, too.
 class TileSides {
@@ -64,6 +65,6 @@ uint32_t count_vertices(const TiledRaster& tiled, uint32_t tile, const SimplifyO
 // does not keep the bound or the shared vertices.
 EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options);
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

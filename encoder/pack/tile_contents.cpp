@@ -1,6 +1,6 @@
 #include "encoder/pack/tile_contents.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 template <class Visit>
@@ -26,4 +26,4 @@ TileContents::TileContents(const TileGrid& grid, const std::vector<GlobalPost>& 
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

@@ -1,14 +1,15 @@
 // What lies in which tile.
-#ifndef MICROTIN_ENCODER_TILE_CONTENTS_HPP
-#define MICROTIN_ENCODER_TILE_CONTENTS_HPP
+#ifndef MICROTIN_ENCODER_PACK_TILE_CONTENTS_HPP
+#define MICROTIN_ENCODER_PACK_TILE_CONTENTS_HPP
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // Numbers of things by the tiles that hold their places, in each of them, in order. Things whose
 // place lies outside the pack are in none.
@@ -28,6 +29,6 @@ class TileContents {
   std::vector<std::ptrdiff_t> start_;  // by tile, and one more
 };
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

@@ -13,7 +13,7 @@
 #include "encoder/terrain/raster_scan.hpp"
 #include "microtin/pack.h"
 
-namespace microtin {
+namespace microtin::pack {
 namespace {
 
 constexpr double kPostsPerVertex = 16;  // of simplified terrain, to begin with
@@ -107,4 +107,4 @@ uint32_t vertices_for_ram(uint64_t bytes) {
   return vertices >= 3 ? vertices : 0;
 }
 
-}  // namespace microtin
+}  // namespace microtin::pack

@@ -1,13 +1,14 @@
 // How large tiles may be.
-#ifndef MICROTIN_ENCODER_TILE_PLAN_HPP
-#define MICROTIN_ENCODER_TILE_PLAN_HPP
+#ifndef MICROTIN_ENCODER_PACK_TILE_PLAN_HPP
+#define MICROTIN_ENCODER_PACK_TILE_PLAN_HPP
 
 #include <cstdint>
 
 #include "encoder/fit/simplify.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
 
-namespace microtin {
+namespace microtin::pack {
 
 // A raster in tiles of up to so many steps on a side, all of nearly the same size.
 TileGrid grid_of(const Raster& frame, uint32_t tile_steps);
@@ -28,6 +29,6 @@ uint32_t fewer_tile_steps(const TileGrid& grid, uint32_t max_vertices, uint32_t 
 // as many as meet at a corner, with 16-bit numbers. 0 if there are none.
 uint32_t vertices_for_ram(uint64_t bytes);
 
-}  // namespace microtin
+}  // namespace microtin::pack
 
 #endif

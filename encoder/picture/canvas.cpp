@@ -1,6 +1,6 @@
 #include "encoder/picture/canvas.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 namespace {
 
 uint8_t mixed(uint8_t below, double above, double part) {
@@ -54,4 +54,4 @@ void Canvas::outline(const Box& box, double line_width, Colour colour) {
   fill({right, box.top, line_width, box.height}, colour);
 }
 
-}  // namespace microtin
+}  // namespace microtin::picture

@@ -1,6 +1,6 @@
 // A picture to draw on, with soft edges.
-#ifndef MICROTIN_ENCODER_CANVAS_HPP
-#define MICROTIN_ENCODER_CANVAS_HPP
+#ifndef MICROTIN_ENCODER_PICTURE_CANVAS_HPP
+#define MICROTIN_ENCODER_PICTURE_CANVAS_HPP
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "encoder/export/colour.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 
 // In pixels, from the upper left corner of the picture; the middle of the first pixel is at 0.5.
 struct Spot {
@@ -74,6 +75,6 @@ class Canvas {
   std::vector<uint8_t> rgb_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::picture
 
 #endif

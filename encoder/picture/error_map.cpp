@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace microtin {
+namespace microtin::picture {
 namespace {
 
 constexpr std::array<Colour, 3> kBelow = {
@@ -60,4 +60,4 @@ void ErrorMap::draw(Canvas& canvas, double scale) const {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::picture

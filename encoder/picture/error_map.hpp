@@ -1,10 +1,11 @@
 // Drawing how far a terrain is from its source.
-#ifndef MICROTIN_ENCODER_ERROR_MAP_HPP
-#define MICROTIN_ENCODER_ERROR_MAP_HPP
+#ifndef MICROTIN_ENCODER_PICTURE_ERROR_MAP_HPP
+#define MICROTIN_ENCODER_PICTURE_ERROR_MAP_HPP
 
+#include "encoder/layers.hpp"
 #include "encoder/picture/map_frame.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 
 // From -1, too low, over 0 to 1, too high.
 Colour error_colour(double relative);
@@ -26,6 +27,6 @@ class ErrorMap {
   std::vector<float> errors_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::picture
 
 #endif

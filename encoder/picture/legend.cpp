@@ -4,7 +4,7 @@
 
 #include "encoder/picture/lettering.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 namespace {
 
 constexpr double kBarHeight = 6, kTick = 2, kLabelLine = 17;  // of labels: from the top of the bar
@@ -119,4 +119,4 @@ void draw_swatch(Canvas& canvas, Spot corner, double unit, Colour colour, const 
   draw_text(canvas, text, {corner.x + 13 * unit, corner.y + kCapHeight * unit}, unit, kInk);
 }
 
-}  // namespace microtin
+}  // namespace microtin::picture

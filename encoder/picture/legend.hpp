@@ -1,13 +1,14 @@
 // What tells how to read a map.
-#ifndef MICROTIN_ENCODER_LEGEND_HPP
-#define MICROTIN_ENCODER_LEGEND_HPP
+#ifndef MICROTIN_ENCODER_PICTURE_LEGEND_HPP
+#define MICROTIN_ENCODER_PICTURE_LEGEND_HPP
 
 #include <functional>
 #include <string>
 
+#include "encoder/layers.hpp"
 #include "encoder/picture/canvas.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 
 constexpr Colour kInk{0.16, 0.18, 0.22};
 
@@ -34,6 +35,6 @@ void draw_scale_bar(Canvas& canvas, Spot corner, double most, double unit, doubl
 // A small box and what it means, 7 units high; the corner is the upper left one.
 void draw_swatch(Canvas& canvas, Spot corner, double unit, Colour colour, const std::string& text);
 
-}  // namespace microtin
+}  // namespace microtin::picture
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace microtin {
+namespace microtin::picture {
 namespace {
 
 // A character's lines, with | between them. A line is a run of points: a digit for x, one for y, or
@@ -143,4 +143,4 @@ void draw_text(Canvas& canvas, std::string_view text, Spot start, double unit, C
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::picture

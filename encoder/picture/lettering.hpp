@@ -1,12 +1,13 @@
 // Text in pictures.
-#ifndef MICROTIN_ENCODER_LETTERING_HPP
-#define MICROTIN_ENCODER_LETTERING_HPP
+#ifndef MICROTIN_ENCODER_PICTURE_LETTERING_HPP
+#define MICROTIN_ENCODER_PICTURE_LETTERING_HPP
 
 #include <string_view>
 
+#include "encoder/layers.hpp"
 #include "encoder/picture/canvas.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 
 // Digits and capitals are 7 units high, letters reach 2 below the line.
 constexpr double kCapHeight = 7;
@@ -18,6 +19,6 @@ double text_width(std::string_view text);
 // digits, small letters, blanks and . , : + - / ( ); other characters leave a blank.
 void draw_text(Canvas& canvas, std::string_view text, Spot start, double unit, Colour colour);
 
-}  // namespace microtin
+}  // namespace microtin::picture
 
 #endif

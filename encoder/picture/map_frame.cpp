@@ -5,7 +5,7 @@
 
 #include "encoder/export/degree.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 namespace {
 
 struct Extent {
@@ -61,4 +61,4 @@ MapFrame fit_map(const SurfaceModel& model, const Ground& ground, double width, 
   return frame;
 }
 
-}  // namespace microtin
+}  // namespace microtin::picture

@@ -1,11 +1,12 @@
 // Where a terrain lies in a picture.
-#ifndef MICROTIN_ENCODER_MAP_FRAME_HPP
-#define MICROTIN_ENCODER_MAP_FRAME_HPP
+#ifndef MICROTIN_ENCODER_PICTURE_MAP_FRAME_HPP
+#define MICROTIN_ENCODER_PICTURE_MAP_FRAME_HPP
 
 #include "encoder/export/export.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/picture/canvas.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 
 // What a step of the lattice is on the ground.
 struct Ground {
@@ -31,6 +32,6 @@ struct MapFrame {
 // As large as a room of so many pixels allows, at the room's upper left corner.
 MapFrame fit_map(const SurfaceModel& model, const Ground& ground, double width, double height);
 
-}  // namespace microtin
+}  // namespace microtin::picture
 
 #endif

@@ -37,7 +37,7 @@ void* grow(void* old, size_t old_size, size_t size) {
 
 #include "encoder/base/error.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 
 std::vector<uint8_t> png(const std::vector<uint8_t>& rgb, uint32_t width, uint32_t height) {
   const auto append = [](void* file, void* data, int size) {
@@ -53,4 +53,4 @@ std::vector<uint8_t> png(const std::vector<uint8_t>& rgb, uint32_t width, uint32
   return file;
 }
 
-}  // namespace microtin
+}  // namespace microtin::picture

@@ -1,6 +1,6 @@
 #include "encoder/picture/relief.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 namespace {
 
 constexpr Colour kLine{0.13, 0.17, 0.24}, kShadow{0.25, 0.29, 0.42}, kWhite{1, 1, 1};
@@ -242,4 +242,4 @@ void Relief::draw_lines(Canvas& canvas, const MapFrame& frame, double line_width
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::picture

@@ -1,13 +1,14 @@
 // Drawing a terrain: shaded, tinted by height, with its triangles.
-#ifndef MICROTIN_ENCODER_RELIEF_HPP
-#define MICROTIN_ENCODER_RELIEF_HPP
+#ifndef MICROTIN_ENCODER_PICTURE_RELIEF_HPP
+#define MICROTIN_ENCODER_PICTURE_RELIEF_HPP
 
 #include <optional>
 
 #include "encoder/export/vector.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/picture/map_frame.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 
 constexpr Colour kWater{0.56, 0.73, 0.84};
 
@@ -41,6 +42,6 @@ class Relief {
   int64_t lowest_ = 0, highest_ = 0;
 };
 
-}  // namespace microtin
+}  // namespace microtin::picture
 
 #endif

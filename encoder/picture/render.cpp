@@ -9,7 +9,7 @@
 #include "encoder/picture/png.hpp"
 #include "encoder/picture/relief.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 namespace {
 
 constexpr Colour kPaper{1, 1, 1}, kNoTerrain{0.95, 0.95, 0.945}, kHatch{0.86, 0.86, 0.85};
@@ -204,4 +204,4 @@ std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
   return png(canvas.rgb(), canvas.width(), canvas.height());
 }
 
-}  // namespace microtin
+}  // namespace microtin::picture

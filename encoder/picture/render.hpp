@@ -1,16 +1,17 @@
 // A picture of a decoded terrain, with a legend.
-#ifndef MICROTIN_ENCODER_RENDER_HPP
-#define MICROTIN_ENCODER_RENDER_HPP
+#ifndef MICROTIN_ENCODER_PICTURE_RENDER_HPP
+#define MICROTIN_ENCODER_PICTURE_RENDER_HPP
 
 #include <cstdint>
 #include <functional>
 #include <vector>
 
 #include "encoder/export/export.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/picture/canvas.hpp"
 #include "encoder/terrain/verify.hpp"
 
-namespace microtin {
+namespace microtin::picture {
 
 struct Portrait {
   SurfaceModel model;
@@ -34,6 +35,6 @@ constexpr uint32_t kNarrowest = 200, kWidest = 8192;
 std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
                                 const Comparison* comparison = nullptr);
 
-}  // namespace microtin
+}  // namespace microtin::picture
 
 #endif

@@ -3,9 +3,10 @@
 #include <string>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/status_text.hpp"
 #include "encoder/stream/header.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 namespace {
 
 void expect_done(microtin_status status) {
@@ -42,4 +43,4 @@ DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream) {
   phases_ = microtin_phase(decoder);
 }
 
-}  // namespace microtin
+}  // namespace microtin::stream

@@ -1,13 +1,14 @@
 // A terrain decoded on the host, by the shipped decoder.
-#ifndef MICROTIN_ENCODER_DECODED_TERRAIN_HPP
-#define MICROTIN_ENCODER_DECODED_TERRAIN_HPP
+#ifndef MICROTIN_ENCODER_STREAM_DECODED_TERRAIN_HPP
+#define MICROTIN_ENCODER_STREAM_DECODED_TERRAIN_HPP
 
 #include <cstdint>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "microtin/microtin.h"
 
-namespace microtin {
+namespace microtin::stream {
 
 class DecodedTerrain {
  public:
@@ -27,6 +28,6 @@ class DecodedTerrain {
   uint32_t phases_ = 0;
 };
 
-}  // namespace microtin
+}  // namespace microtin::stream
 
 #endif

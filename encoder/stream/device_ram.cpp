@@ -3,7 +3,7 @@
 #include "microtin/microtin.h"
 #include "shared/format.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 
 uint64_t device_ram(uint32_t vertices) {
   constexpr uint32_t kMost16 = 10923;
@@ -21,4 +21,4 @@ uint32_t most_vertices(uint64_t bytes) {
   return fits == 2 ? 0 : fits;
 }
 
-}  // namespace microtin
+}  // namespace microtin::stream

@@ -1,10 +1,12 @@
 // How much RAM a terrain takes on a device that decodes it, and the other way round.
-#ifndef MICROTIN_ENCODER_DEVICE_RAM_HPP
-#define MICROTIN_ENCODER_DEVICE_RAM_HPP
+#ifndef MICROTIN_ENCODER_STREAM_DEVICE_RAM_HPP
+#define MICROTIN_ENCODER_STREAM_DEVICE_RAM_HPP
 
 #include <cstdint>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::stream {
 
 // Bytes of mesh and decoder together, in a build with 16-bit numbers as far as these reach, in one
 // with 32-bit numbers beyond.
@@ -13,6 +15,6 @@ uint64_t device_ram(uint32_t vertices);
 // The most vertices whose device_ram is within `bytes`: 0, or from 3 on.
 uint32_t most_vertices(uint64_t bytes);
 
-}  // namespace microtin
+}  // namespace microtin::stream
 
 #endif

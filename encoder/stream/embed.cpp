@@ -3,7 +3,7 @@
 #include <cctype>
 #include <cstdio>
 
-namespace microtin {
+namespace microtin::stream {
 namespace {
 
 // Locales do not matter: names of C are ASCII.
@@ -46,4 +46,4 @@ std::string embed(const std::vector<uint8_t>& stream, uint32_t vertices, const s
          "_stream[" + std::to_string(stream.size()) + "] = {" + array_of(stream) + "};\n\n#endif\n";
 }
 
-}  // namespace microtin
+}  // namespace microtin::stream

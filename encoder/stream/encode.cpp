@@ -13,7 +13,7 @@
 #include "shared/reconstruction.hpp"
 #include "tests/bench/paper/fingerprint.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 namespace {
 
 // Void triangles, by their corners from the smallest on.
@@ -216,4 +216,4 @@ std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, const Effo
   return encode_and_decode(tin, metadata, effort).stream;
 }
 
-}  // namespace microtin
+}  // namespace microtin::stream

@@ -1,16 +1,17 @@
 // From chosen vertices to the bytes of a stream.
-#ifndef MICROTIN_ENCODER_ENCODE_HPP
-#define MICROTIN_ENCODER_ENCODE_HPP
+#ifndef MICROTIN_ENCODER_STREAM_ENCODE_HPP
+#define MICROTIN_ENCODER_STREAM_ENCODE_HPP
 
 #include <cstdint>
 #include <vector>
 
 #include "encoder/exact/metadata.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/survey.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 
 // What smaller streams may cost. Both are at their best for most terrain.
 struct Effort {
@@ -31,6 +32,6 @@ struct Encoding {
 
 Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort);
 
-}  // namespace microtin
+}  // namespace microtin::stream
 
 #endif

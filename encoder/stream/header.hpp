@@ -1,14 +1,15 @@
 // Writing and reading a stream's header with all its notes.
-#ifndef MICROTIN_ENCODER_HEADER_HPP
-#define MICROTIN_ENCODER_HEADER_HPP
+#ifndef MICROTIN_ENCODER_STREAM_HEADER_HPP
+#define MICROTIN_ENCODER_STREAM_HEADER_HPP
 
 #include <cstdint>
 #include <vector>
 
 #include "encoder/exact/metadata.hpp"
+#include "encoder/layers.hpp"
 #include "shared/format.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 
 // With the placement, the notes that say something, and the check. Throws Error if the
 // notes are too long.
@@ -38,15 +39,12 @@ void read_notes(const uint8_t* begin, const uint8_t* end, Metadata& metadata);
 // The `width` lowest bytes of a number, low ones first.
 void append_number(std::vector<uint8_t>& bytes, uint64_t value, int width);
 
-// A sentence for a status of the decoder.
-const char* describe(microtin_status status);
-
 // A number in groups of seven bits, high ones first, the top bit set if more follow.
 void append_varint(std::vector<uint8_t>& bytes, uint64_t value);
 
 // The check of `bytes` from `from` on, appended.
 void append_check(std::vector<uint8_t>& bytes, size_t from);
 
-}  // namespace microtin
+}  // namespace microtin::stream
 
 #endif

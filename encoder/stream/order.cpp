@@ -6,7 +6,7 @@
 
 #include "encoder/base/prefetch.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 namespace {
 
 // So many vertices before it is needed memory is asked for: the order is known, the way through
@@ -139,4 +139,4 @@ Order breadth_first_order(Triangulation& triangulation, uint32_t degree) {
   return order;
 }
 
-}  // namespace microtin
+}  // namespace microtin::stream

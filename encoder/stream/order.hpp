@@ -1,13 +1,14 @@
 // The order in which vertices are sent.
-#ifndef MICROTIN_ENCODER_ORDER_HPP
-#define MICROTIN_ENCODER_ORDER_HPP
+#ifndef MICROTIN_ENCODER_STREAM_ORDER_HPP
+#define MICROTIN_ENCODER_STREAM_ORDER_HPP
 
 #include <array>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "encoder/stream/triangulation.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 
 struct Order {
   std::array<Index, 3> seed;                // counter-clockwise, the first one the smallest
@@ -19,6 +20,6 @@ struct Order {
 // Linear.
 Order breadth_first_order(Triangulation& triangulation, uint32_t degree);
 
-}  // namespace microtin
+}  // namespace microtin::stream
 
 #endif

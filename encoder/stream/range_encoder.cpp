@@ -4,7 +4,7 @@
 
 #include "shared/format.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 
 uint32_t RangeEncoder::uniform(uint32_t count, uint32_t value) {
   if (count == 1) return 0;
@@ -46,4 +46,4 @@ std::vector<uint8_t> RangeEncoder::finish() {
   return std::move(bytes_);
 }
 
-}  // namespace microtin
+}  // namespace microtin::stream

@@ -1,11 +1,13 @@
 // The writing counterpart of decoder/range_decoder.hpp: bytes of one section's payload.
-#ifndef MICROTIN_ENCODER_RANGE_ENCODER_HPP
-#define MICROTIN_ENCODER_RANGE_ENCODER_HPP
+#ifndef MICROTIN_ENCODER_STREAM_RANGE_ENCODER_HPP
+#define MICROTIN_ENCODER_STREAM_RANGE_ENCODER_HPP
 
 #include <cstdint>
 #include <vector>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::stream {
 
 class RangeEncoder {
  public:
@@ -47,6 +49,6 @@ class RangeEncoder {
   std::vector<uint8_t> bytes_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::stream
 
 #endif

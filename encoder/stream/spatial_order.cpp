@@ -7,7 +7,7 @@
 
 #include "encoder/base/error.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 namespace {
 
 constexpr uint64_t kRounds = 10;  // 8^10 > 2^24 points
@@ -103,4 +103,4 @@ std::vector<Index> insertion_order(const std::vector<Point>& points) {
   return order;
 }
 
-}  // namespace microtin
+}  // namespace microtin::stream

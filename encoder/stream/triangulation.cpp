@@ -7,7 +7,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/stream/spatial_order.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 namespace {
 
 // Brings three points that form a counter-clockwise triangle to the front.
@@ -326,4 +326,4 @@ const Triangulation::Corner* Triangulation::hull_apex_of(const Corner* first, co
   return apex;
 }
 
-}  // namespace microtin
+}  // namespace microtin::stream

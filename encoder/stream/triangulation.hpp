@@ -1,17 +1,18 @@
 // The canonical Delaunay triangulation of a set of points: built at once, then changed point by
 // point. Always exact, and a function of the points alone.
-#ifndef MICROTIN_ENCODER_TRIANGULATION_HPP
-#define MICROTIN_ENCODER_TRIANGULATION_HPP
+#ifndef MICROTIN_ENCODER_STREAM_TRIANGULATION_HPP
+#define MICROTIN_ENCODER_STREAM_TRIANGULATION_HPP
 
 #include <cstddef>
 #include <vector>
 
 #include "encoder/base/prefetch.hpp"
+#include "encoder/layers.hpp"
 #include "shared/format.hpp"
 #include "shared/insertion.hpp"
 #include "shared/mesh.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 
 class Triangulation {
  public:
@@ -111,6 +112,6 @@ class Triangulation {
   std::vector<Index> free_vertices_, free_triangles_;  // two triangles for each vertex
 };
 
-}  // namespace microtin
+}  // namespace microtin::stream
 
 #endif

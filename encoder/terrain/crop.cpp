@@ -4,7 +4,7 @@
 
 #include "encoder/exact/fraction.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 namespace {
 
 Axis from_post(const Axis& axis, uint32_t post) {
@@ -37,4 +37,4 @@ Raster crop(const Raster& raster, const PostRectangle& r) {
   return part;
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain

@@ -1,10 +1,11 @@
 // A rectangle of a raster.
-#ifndef MICROTIN_ENCODER_CROP_HPP
-#define MICROTIN_ENCODER_CROP_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_CROP_HPP
+#define MICROTIN_ENCODER_TERRAIN_CROP_HPP
 
+#include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 // Columns and rows of posts, all within the raster.
 struct PostRectangle {
@@ -17,6 +18,6 @@ Raster crop(const Raster& raster, const PostRectangle& rectangle);
 // The same without heights.
 Raster crop_frame(const Raster& raster, const PostRectangle& rectangle);
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "encoder/base/error.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 namespace {
 
 // Numbers are fixed point with 16 fractional bits, heights too.
@@ -197,4 +197,4 @@ void write_fractal_asc(std::ostream& out, uint32_t size, uint64_t seed) {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain

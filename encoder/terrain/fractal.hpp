@@ -1,12 +1,14 @@
 // A terrain that the program makes itself, for demonstrations and tests.
-#ifndef MICROTIN_ENCODER_FRACTAL_HPP
-#define MICROTIN_ENCODER_FRACTAL_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_FRACTAL_HPP
+#define MICROTIN_ENCODER_TERRAIN_FRACTAL_HPP
 
 #include <cstdint>
 #include <ostream>
 #include <vector>
 
-namespace microtin {
+#include "encoder/layers.hpp"
+
+namespace microtin::terrain {
 
 // Heights in metres of size x size posts, row 0 southernmost: mountains cut by rivers, in a sea of
 // height 0. Computed with integers only, so a seed gives the same terrain everywhere.
@@ -15,6 +17,6 @@ std::vector<int16_t> fractal_heights(uint32_t size, uint64_t seed);
 // The same as an ESRI ASCII grid, posts 30 m apart.
 void write_fractal_asc(std::ostream& out, uint32_t size, uint64_t seed);
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

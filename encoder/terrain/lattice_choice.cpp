@@ -7,7 +7,7 @@
 #include "encoder/exact/fraction.hpp"
 #include "shared/lattice.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 namespace {
 
 // Axes that share their step.
@@ -167,4 +167,4 @@ Lattice choose_pack_lattice(const PointCloud& cloud, const LatticeOptions& optio
   return choose(cloud, {{}, 0, 0, 0, INT32_MAX, "--xy-step", {}, 31, true}, options);
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain

@@ -1,15 +1,16 @@
 // Choosing the lattice for a source: steps and offsets.
-#ifndef MICROTIN_ENCODER_LATTICE_CHOICE_HPP
-#define MICROTIN_ENCODER_LATTICE_CHOICE_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_LATTICE_CHOICE_HPP
+#define MICROTIN_ENCODER_TERRAIN_LATTICE_CHOICE_HPP
 
 #include <cstdint>
 #include <limits>
 #include <optional>
 
 #include "encoder/exact/lattice_map.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 struct LatticeOptions {
   std::optional<Decimal> xy_step;    // in the source's unit; posts for rasters
@@ -54,6 +55,6 @@ Lattice choose_pack_lattice(const PointCloud& cloud, const LatticeOptions& optio
 Lattice choose_post_lattice(const Raster& frame, const NumberRange& heights,
                             const LatticeOptions& options);
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

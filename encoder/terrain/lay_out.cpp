@@ -6,7 +6,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/coordinates.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 namespace {
 
 constexpr Wide kOne = 65536;  // heights of samples have 16 fractional bits
@@ -206,4 +206,4 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
   return laid;
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain

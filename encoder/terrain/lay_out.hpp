@@ -1,11 +1,12 @@
 // Laying a source on its lattice.
-#ifndef MICROTIN_ENCODER_LAY_OUT_HPP
-#define MICROTIN_ENCODER_LAY_OUT_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_LAY_OUT_HPP
+#define MICROTIN_ENCODER_TERRAIN_LAY_OUT_HPP
 
+#include "encoder/layers.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
 #include "encoder/terrain/survey.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 // Steps and displacements are in the units of LatticeOptions.
 struct Laid {
@@ -28,6 +29,6 @@ Laid lay_out(const Source& source, const LatticeOptions& options);
 // The same on a lattice that is chosen already, with the options that it was chosen by.
 Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions& options);
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

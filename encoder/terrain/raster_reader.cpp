@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace microtin {
+namespace microtin::terrain {
 namespace {
 
 Raster frame_of(const Raster& raster) {
@@ -22,4 +22,4 @@ RasterInMemory::RasterInMemory(Raster raster) : raster_(std::move(raster)) {
   frame_ = frame_of(raster_);
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain

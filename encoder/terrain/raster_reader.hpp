@@ -1,14 +1,15 @@
 // A raster of which rectangles are read, so that the whole need not fit into memory.
-#ifndef MICROTIN_ENCODER_RASTER_READER_HPP
-#define MICROTIN_ENCODER_RASTER_READER_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_RASTER_READER_HPP
+#define MICROTIN_ENCODER_TERRAIN_RASTER_READER_HPP
 
 #include <memory>
 #include <utility>
 
+#include "encoder/layers.hpp"
 #include "encoder/terrain/crop.hpp"
 #include "encoder/terrain/source.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 // Reading from several threads at once is allowed.
 class RasterReader {
@@ -43,6 +44,6 @@ class RasterInMemory : public RasterReader {
 std::unique_ptr<RasterReader> with_voids_filled(std::unique_ptr<RasterReader> raster,
                                                 uint32_t largest);
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "encoder/base/parallel.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 namespace {
 
 constexpr uint32_t kBlock = 257;  // posts on each side
@@ -113,4 +113,4 @@ RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_er
   return all;
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain

@@ -1,15 +1,16 @@
 // What is to be known of a whole raster before its tiles are chosen.
-#ifndef MICROTIN_ENCODER_RASTER_SCAN_HPP
-#define MICROTIN_ENCODER_RASTER_SCAN_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_RASTER_SCAN_HPP
+#define MICROTIN_ENCODER_TERRAIN_RASTER_SCAN_HPP
 
 #include <cstdint>
 #include <optional>
 
 #include "encoder/base/progress.hpp"
+#include "encoder/layers.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
 #include "encoder/terrain/raster_reader.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 struct RasterScan {
   NumberRange heights;
@@ -27,6 +28,6 @@ RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_er
 // than the bound, and those beside voids. Linear.
 uint64_t roughness(const Raster& part, const std::optional<Decimal>& max_error);
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

@@ -3,7 +3,7 @@
 #include "encoder/terrain/raster_reader.hpp"
 #include "encoder/terrain/voids.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 namespace {
 
 // A stretch of posts, wider by a margin where the raster has so many.
@@ -58,4 +58,4 @@ std::unique_ptr<RasterReader> with_voids_filled(std::unique_ptr<RasterReader> ra
   return std::make_unique<FilledRaster>(std::move(raster), largest);
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain

@@ -1,6 +1,6 @@
 // A terrain as it was read: exact decimals, not yet on the lattice.
-#ifndef MICROTIN_ENCODER_SOURCE_HPP
-#define MICROTIN_ENCODER_SOURCE_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_SOURCE_HPP
+#define MICROTIN_ENCODER_TERRAIN_SOURCE_HPP
 
 #include <cstdint>
 #include <limits>
@@ -11,8 +11,9 @@
 
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/metadata.hpp"
+#include "encoder/layers.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 // A raster's height where there is none. All other numbers have magnitudes up to 10^18.
 constexpr int64_t kVoidHeight = std::numeric_limits<int64_t>::min();
@@ -93,6 +94,6 @@ void for_each_post(const Source& source, const Visit& visit) {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

@@ -1,13 +1,14 @@
 // What a terrain must represent, on the lattice: samples with the heights that are allowed there.
-#ifndef MICROTIN_ENCODER_SURVEY_HPP
-#define MICROTIN_ENCODER_SURVEY_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_SURVEY_HPP
+#define MICROTIN_ENCODER_TERRAIN_SURVEY_HPP
 
 #include <cstdint>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "shared/lattice.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 // Heights in this file are lattice steps with 16 fractional bits, as height queries answer them.
 
@@ -34,6 +35,6 @@ struct Tin {
   std::vector<Triangle> voids;   // those triangles of their Delaunay triangulation that are void
 };
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

@@ -7,7 +7,7 @@
 #include "encoder/exact/lattice_map.hpp"
 #include "shared/lattice.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 namespace {
 
 constexpr int64_t kBillion = 1000000000;
@@ -169,4 +169,4 @@ Verification combine(const std::vector<Verification>& parts) {
   return all;
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain

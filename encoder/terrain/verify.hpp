@@ -1,14 +1,15 @@
 // Comparing a decoded terrain with its source, by the product's own height query.
-#ifndef MICROTIN_ENCODER_VERIFY_HPP
-#define MICROTIN_ENCODER_VERIFY_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_VERIFY_HPP
+#define MICROTIN_ENCODER_TERRAIN_VERIFY_HPP
 
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 // Errors are in the source's unit, rounded up to 9 decimals: compared with a bound of at most 9
 // decimals, that changes nothing.
@@ -41,6 +42,6 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
 // Of several parts together; what lies in more than one counts for each.
 Verification combine(const std::vector<Verification>& parts);
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

@@ -1,13 +1,14 @@
 // Posts visited by several threads, told in one order.
-#ifndef MICROTIN_ENCODER_VISIT_LOG_HPP
-#define MICROTIN_ENCODER_VISIT_LOG_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_VISIT_LOG_HPP
+#define MICROTIN_ENCODER_TERRAIN_VISIT_LOG_HPP
 
 #include <cstdint>
 #include <vector>
 
+#include "encoder/layers.hpp"
 #include "encoder/terrain/verify.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 class VisitLog {
  public:
@@ -31,6 +32,6 @@ class VisitLog {
   std::vector<Post> posts_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace microtin {
+namespace microtin::terrain {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
@@ -132,4 +132,4 @@ uint32_t fill_voids(Source& source, uint32_t largest) {
   return raster != nullptr ? fill_voids(*raster, largest) : 0;
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain

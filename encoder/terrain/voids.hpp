@@ -1,11 +1,12 @@
 // Filling gaps of a raster.
-#ifndef MICROTIN_ENCODER_VOIDS_HPP
-#define MICROTIN_ENCODER_VOIDS_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_VOIDS_HPP
+#define MICROTIN_ENCODER_TERRAIN_VOIDS_HPP
 
+#include "encoder/layers.hpp"
 #include "encoder/terrain/crop.hpp"
 #include "encoder/terrain/source.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 // Fills the void regions (connected by sides) of up to `largest` posts with heights whose every one
 // is the mean of its four neighbours, like a soap film on the region's rim. Returns how many posts
@@ -23,6 +24,6 @@ struct Sides {
 // sides of the raster.
 bool reaches_side(const Raster& raster, const PostRectangle& inner, Sides sides, uint32_t largest);
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

@@ -5,7 +5,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/lattice_map.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 namespace {
 
 // Writes all heights with so many decimals at least.
@@ -60,4 +60,4 @@ void check_water_mask(const Raster& mask, const Raster& raster) {
   if (!is_mask) throw Error("a mask holds 0 and 1 only");
 }
 
-}  // namespace microtin
+}  // namespace microtin::terrain

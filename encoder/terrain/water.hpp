@@ -1,13 +1,14 @@
 // Water, where the user says that it is.
-#ifndef MICROTIN_ENCODER_WATER_HPP
-#define MICROTIN_ENCODER_WATER_HPP
+#ifndef MICROTIN_ENCODER_TERRAIN_WATER_HPP
+#define MICROTIN_ENCODER_TERRAIN_WATER_HPP
 
 #include <optional>
 
+#include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
 #include "encoder/terrain/verify.hpp"
 
-namespace microtin {
+namespace microtin::terrain {
 
 // Gives void posts the height of the water level: all, or those where the mask is 1. Posts with
 // heights keep them. Returns how many it gave. Throws Error if the level needs more decimals than
@@ -33,6 +34,6 @@ class WaterGauge {
   uint64_t moved_ = 0;
 };
 
-}  // namespace microtin
+}  // namespace microtin::terrain
 
 #endif

@@ -17,7 +17,7 @@ extern "C" void* afl_custom_init(afl_state*, unsigned) {
 
 extern "C" size_t afl_custom_post_process(void*, uint8_t* bytes, size_t size, uint8_t** out) {
   repaired.assign(bytes, bytes + size);
-  microtin::repair(repaired.data(), size);
+  microtin::tests::repair(repaired.data(), size);
   *out = repaired.data();
   return size;
 }

@@ -1,14 +1,15 @@
 // A decoder in workspaces of its own.
-#ifndef MICROTIN_FUZZ_DEVICE_HPP
-#define MICROTIN_FUZZ_DEVICE_HPP
+#ifndef MICROTIN_FUZZ_SUPPORT_DEVICE_HPP
+#define MICROTIN_FUZZ_SUPPORT_DEVICE_HPP
 
 #include <cstddef>
 #include <cstdint>
 
 #include "decoder/state.hpp"
 #include "fuzz/support/expect.hpp"
+#include "tests/support/layers.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 // Steps that suffice for any stream of n vertices. A step inserts a vertex, starts a phase, codes a
 // void flag, or passes one of the six half-edges per vertex that a phase walks over; all phases
@@ -49,6 +50,6 @@ struct Workspaces {
   Device device() { return Device(mesh, sizeof mesh, decoder, sizeof decoder); }
 };
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

@@ -1,6 +1,6 @@
 // What a target holds to be true.
-#ifndef MICROTIN_FUZZ_EXPECT_HPP
-#define MICROTIN_FUZZ_EXPECT_HPP
+#ifndef MICROTIN_FUZZ_SUPPORT_EXPECT_HPP
+#define MICROTIN_FUZZ_SUPPORT_EXPECT_HPP
 
 #include <cstdio>
 #include <cstdlib>

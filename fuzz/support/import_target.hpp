@@ -1,7 +1,7 @@
 // What the importers' targets share: any content ends in a terrain that can be worked with, or in
 // an error of one line.
-#ifndef MICROTIN_FUZZ_IMPORT_FUZZ_HPP
-#define MICROTIN_FUZZ_IMPORT_FUZZ_HPP
+#ifndef MICROTIN_FUZZ_SUPPORT_IMPORT_TARGET_HPP
+#define MICROTIN_FUZZ_SUPPORT_IMPORT_TARGET_HPP
 
 #include <fuzzer/FuzzedDataProvider.h>
 
@@ -17,8 +17,9 @@
 #include "encoder/terrain/verify.hpp"
 #include "encoder/terrain/voids.hpp"
 #include "fuzz/support/expect.hpp"
+#include "tests/support/layers.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 inline void check_message(const Error& error) {
   const std::string text = error.what();
@@ -86,6 +87,6 @@ int import_and_encode(const Import& import, const Options& options) {
   return 0;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

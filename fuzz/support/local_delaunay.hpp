@@ -1,12 +1,13 @@
 // Whether a mesh is the canonical triangulation, by rules between neighbours alone: linear, for
 // every run of a target. Independent of shared/predicates.hpp.
-#ifndef MICROTIN_FUZZ_LOCAL_DELAUNAY_HPP
-#define MICROTIN_FUZZ_LOCAL_DELAUNAY_HPP
+#ifndef MICROTIN_FUZZ_SUPPORT_LOCAL_DELAUNAY_HPP
+#define MICROTIN_FUZZ_SUPPORT_LOCAL_DELAUNAY_HPP
 
 #include "shared/mesh.hpp"
+#include "tests/support/layers.hpp"
 #include "tests/support/reference_delaunay.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 inline bool is_paired(const Mesh& mesh, Index h) {
   const Index twin = mesh.twin[h], end = mesh.origin[next_in_triangle(h)];
@@ -59,6 +60,6 @@ inline bool is_locally_delaunay(const Mesh& mesh) {
   return hull_starts == 1;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

@@ -1,6 +1,6 @@
 // Makes the checks of a damaged stream right again, so that fuzzing reaches what lies behind them.
-#ifndef MICROTIN_FUZZ_REPAIR_HPP
-#define MICROTIN_FUZZ_REPAIR_HPP
+#ifndef MICROTIN_FUZZ_SUPPORT_REPAIR_HPP
+#define MICROTIN_FUZZ_SUPPORT_REPAIR_HPP
 
 #include <cstdint>
 #include <cstring>
@@ -8,8 +8,9 @@
 #include "shared/crc32.hpp"
 #include "shared/format.hpp"
 #include "shared/header.hpp"
+#include "tests/support/layers.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 inline void write_check(uint8_t* bytes, size_t from, size_t at) {
   const uint32_t check = crc32(0, bytes + from, at - from);
@@ -36,6 +37,6 @@ inline bool repair(uint8_t* bytes, size_t size) {
   return false;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

@@ -1,6 +1,6 @@
 // libFuzzer's mutations, for targets whose input is a stream.
-#ifndef MICROTIN_FUZZ_STREAM_MUTATOR_HPP
-#define MICROTIN_FUZZ_STREAM_MUTATOR_HPP
+#ifndef MICROTIN_FUZZ_SUPPORT_STREAM_MUTATOR_HPP
+#define MICROTIN_FUZZ_SUPPORT_STREAM_MUTATOR_HPP
 
 #include "fuzz/support/repair.hpp"
 
@@ -9,7 +9,7 @@ extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t most);
 // Most mutants get right checks; some stay as they are.
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most, unsigned seed) {
   size = LLVMFuzzerMutate(data, size, most);
-  if (seed % 16 != 0) microtin::repair(data, size);
+  if (seed % 16 != 0) microtin::tests::repair(data, size);
   return size;
 }
 

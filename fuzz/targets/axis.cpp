@@ -6,7 +6,7 @@
 #include "fuzz/support/expect.hpp"
 #include "tests/support/reference_heights.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 using reference::Wide;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

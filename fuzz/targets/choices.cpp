@@ -8,6 +8,7 @@
 namespace {
 
 using namespace microtin;
+using namespace microtin::tests;
 
 constexpr uint32_t kCapacity = 66;
 

@@ -12,6 +12,7 @@
 namespace {
 
 using namespace microtin;
+using namespace microtin::tests;
 
 constexpr uint32_t kCapacity = 1200;
 

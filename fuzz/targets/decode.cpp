@@ -7,6 +7,7 @@
 namespace {
 
 using namespace microtin;
+using namespace microtin::tests;
 
 constexpr uint32_t kCapacity = 300;  // few, to be quick; more than the first section holds
 

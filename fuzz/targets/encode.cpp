@@ -15,6 +15,7 @@
 namespace {
 
 using namespace microtin;
+using namespace microtin::tests;
 
 bool smaller(const Vertex& a, const Vertex& b) {
   return Point{a.x, a.y} < Point{b.x, b.y};

@@ -6,7 +6,7 @@
 #include "fuzz/support/device.hpp"
 #include "fuzz/support/repair.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

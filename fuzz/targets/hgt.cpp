@@ -2,7 +2,7 @@
 // as they are. They begin with the file's name.
 #include "fuzz/support/import_target.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

@@ -21,6 +21,7 @@ extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t most);
 namespace {
 
 using namespace microtin;
+using namespace microtin::tests;
 
 constexpr uint32_t kCapacity = 120;
 

@@ -13,6 +13,7 @@
 namespace {
 
 using namespace microtin;
+using namespace microtin::tests;
 
 constexpr uint32_t kCapacity = 1200;
 constexpr int32_t kFineMost = 65535 * 256;

@@ -9,7 +9,7 @@
 #include "fuzz/support/expect.hpp"
 #include "fuzz/support/stream_mutator.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::vector<uint8_t> stream(data, data + size);

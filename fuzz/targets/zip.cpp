@@ -1,7 +1,7 @@
 // Zipped SRTM tiles.
 #include "fuzz/support/import_target.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::string bytes(reinterpret_cast<const char*>(data), size);

@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
-using namespace microtin;
+#include "tests/support/layers.hpp"
+
+using namespace microtin::tests;
 
 TEST_CASE("years, months and days that there are") {
   for (const char* text : {"2026", "0000", "2026-11", "2026-11-21", "2024-02-29", "2000-02-29",

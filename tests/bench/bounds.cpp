@@ -8,6 +8,7 @@
 #include "encoder/terrain/verify.hpp"
 #include "tests/bench/curves.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/table.hpp"
 
 namespace microtin::bench {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "encoder/base/error.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 namespace {

@@ -5,6 +5,7 @@
 #include "encoder/files/input_file.hpp"
 #include "encoder/stream/header.hpp"
 #include "microtin/microtin.h"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/peers/peers.hpp"
 #include "tests/bench/speed.hpp"
 #include "tests/bench/table.hpp"

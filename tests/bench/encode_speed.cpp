@@ -2,6 +2,7 @@
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/order.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/peers/peers.hpp"
 #include "tests/bench/speed.hpp"
 #include "tests/bench/table.hpp"

@@ -11,6 +11,7 @@
 #include "encoder/fit/simplify.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/terrain/crop.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/inputs.hpp"
 
 namespace microtin::bench {

@@ -7,6 +7,7 @@
 #include "tests/bench/grids/firmware_grids.hpp"
 #include "tests/bench/grids/flight.hpp"
 #include "tests/bench/grids/raster_rate.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/linearity.hpp"
 #include "tests/bench/paper/tables.hpp"
 #include "tests/bench/peers/peer_costs.hpp"

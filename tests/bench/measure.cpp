@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "encoder/base/error.hpp"
+#include "tests/bench/layers.hpp"
 
 #ifdef MICROTIN_BENCH_VALGRIND
 #include <valgrind/callgrind.h>

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "encoder/stream/decoded_terrain.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 namespace {

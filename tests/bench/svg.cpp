@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "encoder/files/output_file.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 namespace {

@@ -1,5 +1,6 @@
 #include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/peers/peers.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/table.hpp"

@@ -4,6 +4,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/surface.hpp"
 #include "tests/bench/table.hpp"

@@ -6,7 +6,7 @@
 
 #include "tests/support/session.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 namespace fs = std::filesystem;
 
 namespace {

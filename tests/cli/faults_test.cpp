@@ -7,7 +7,7 @@
 
 #include "tests/support/session.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include "tests/support/session.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -137,4 +137,4 @@ TEST_CASE("cli: a terminal shows how much is done and how long it will take") {
   close(terminal);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -6,8 +6,9 @@
 #include <cstdint>
 
 #include "shared/repulsion.hpp"
+#include "tests/support/layers.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 int64_t magnitude(int64_t v) {
@@ -114,4 +115,4 @@ TEST_CASE("logarithms, powers and segments are as close as the format says") {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

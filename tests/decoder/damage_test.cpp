@@ -7,7 +7,7 @@
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/streams.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 constexpr uint32_t kCapacity = 320;
@@ -143,4 +143,4 @@ TEST_CASE("chunks of any size say the same of damaged streams") {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -13,6 +13,7 @@
 #include "tests/support/streams.hpp"
 
 using namespace microtin;
+using namespace microtin::tests;
 
 TEST_CASE("every phase can be the last, and is a coarser terrain") {
   const Bytes stream = terrain_stream(1500, 8, {6});

@@ -4,7 +4,7 @@
 
 #include "tests/support/point_sets.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 // The triangle (v, c, a) with a certified triangle (a, w, v) behind its chord, and open other
@@ -78,4 +78,4 @@ TEST_CASE("the box holds legal places at the extremes of large circles") {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -13,7 +13,7 @@
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/streams.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 struct Golden {
@@ -113,4 +113,4 @@ TEST_CASE("the table of starts in FORMAT.md is the decoder's") {
   CHECK(listed == expected);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -15,7 +15,7 @@
 #include "microtin/pack.hpp"
 #include "tests/support/packs.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 Bytes pack_bytes(const Raster& raster, int64_t bound = 3, uint32_t vertices = 60) {
@@ -462,4 +462,4 @@ TEST_CASE("pack: far from the origin, in the largest extent") {
   CHECK(highest >= height);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

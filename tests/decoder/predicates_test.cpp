@@ -8,7 +8,7 @@
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_delaunay.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 // Whether both tests and the rule agree with the reference for the triangle in its
@@ -152,4 +152,4 @@ TEST_CASE("predicates: exchanging two corners changes the sign") {
   CHECK(wrong == 0);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

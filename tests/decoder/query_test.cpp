@@ -7,7 +7,7 @@
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_heights.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 using reference::Corners;
@@ -161,4 +161,4 @@ TEST_CASE("real coordinates convert to the lattice exactly") {
   CHECK(inside > 50000);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

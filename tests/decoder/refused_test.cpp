@@ -10,7 +10,7 @@
 #include "tests/support/forged_stream.hpp"
 #include "tests/support/streams.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 constexpr uint32_t kCapacity = 10000;
@@ -378,4 +378,4 @@ TEST_CASE("peek tells of a header what decoding it tells") {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

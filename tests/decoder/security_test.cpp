@@ -6,7 +6,7 @@
 
 #include "tests/support/files.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 const std::filesystem::path kTests = std::filesystem::path(MICROTIN_GOLDEN_DIR) / "..";
@@ -49,4 +49,4 @@ TEST_CASE("every test case that SECURITY.md names exists") {
   CHECK(named > 20);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -8,7 +8,7 @@
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/streams.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 // Feeds the chunk from an exact-size copy on the heap, so that AddressSanitizer sees reads beyond.
@@ -187,4 +187,4 @@ TEST_CASE("a coarser terrain is verified between sections, and not within them")
   CHECK(verified_times == sections);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

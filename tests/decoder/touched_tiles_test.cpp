@@ -9,7 +9,7 @@
 #include "encoder/exact/wide.hpp"
 #include "tests/support/point_sets.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 // Whether a segment meets a closed box, in exact fractions: the part of it within each slab.
@@ -82,4 +82,4 @@ TEST_CASE("pack: a course across 2^32 tiles is looked along, not around") {
       touched(grid, {far / 2, -far / 2 - 999, far + far / 2, far / 2 - 999}).empty());  // beside it
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

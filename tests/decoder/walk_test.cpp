@@ -7,7 +7,7 @@
 #include "microtin/microtin.hpp"
 #include "tests/support/point_sets.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 DecodedTerrain flat_terrain(const Points& points) {
@@ -122,4 +122,4 @@ TEST_CASE("buckets refuse what they cannot use") {
   CHECK(init(nullptr, 64) == MICROTIN_ARGUMENT);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -9,7 +9,7 @@
 #include "tests/support/forged_stream.hpp"
 #include "tests/support/streams.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 // Most steps for each byte behind the header, and beside these (shared/SECURITY.md).
@@ -256,4 +256,4 @@ TEST_CASE("the largest cavity that fits is taken, one larger is refused") {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -6,8 +6,9 @@
 #include <random>
 
 #include "encoder/exact/coordinates.hpp"
+#include "tests/support/layers.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

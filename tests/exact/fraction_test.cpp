@@ -4,8 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "encoder/base/error.hpp"
+#include "tests/support/layers.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

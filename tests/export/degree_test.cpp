@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
-using namespace microtin;
+#include "tests/support/layers.hpp"
+
+using namespace microtin::tests;
 
 TEST_CASE("degree: as long as on WGS 84, to 0.2 m") {
   struct Length {

@@ -14,7 +14,7 @@
 #include "encoder/stream/encode.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

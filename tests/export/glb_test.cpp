@@ -12,7 +12,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

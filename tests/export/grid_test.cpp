@@ -13,7 +13,7 @@
 #include "tests/support/packs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

@@ -4,7 +4,9 @@
 
 #include <cstdint>
 
-namespace microtin {
+#include "tests/support/layers.hpp"
+
+namespace microtin::tests {
 
 TEST_CASE("json: numbers are the shortest that mean the same") {
   CHECK(json(0) == "0");
@@ -37,4 +39,4 @@ TEST_CASE("json: objects keep the order of their names") {
   CHECK(json(JsonObject{{"b", "1"}, {"a", json("x")}}) == R"({"b": 1, "a": "x"})");
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

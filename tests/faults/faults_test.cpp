@@ -19,6 +19,9 @@
 int microtin_main(int argc, char** argv);  // the program's, renamed
 
 namespace microtin::faults {
+
+using namespace tests;
+
 namespace {
 
 using Words = std::vector<std::string>;

@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
-using namespace microtin;
+#include "tests/support/layers.hpp"
+
+using namespace microtin::tests;
 
 TEST_CASE("byte budget: bounds shrink evenly, to a tenth every 96") {
   CHECK(to_string(bound_at({500, 0}, 0)) == "500");

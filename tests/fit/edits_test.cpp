@@ -9,7 +9,7 @@
 #include "encoder/fit/simplify.hpp"
 #include "tests/support/point_sets.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 using Place = std::tuple<uint16_t, uint16_t, int16_t>;
@@ -96,4 +96,4 @@ TEST_CASE("edits: heights beyond 16 bits are refused") {
   CHECK(edits.set_height(0, -32768));
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

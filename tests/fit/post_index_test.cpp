@@ -8,7 +8,7 @@
 
 #include "tests/support/point_sets.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 std::vector<uint32_t> found(const PostIndex& index, Point a, Point b, Point c) {
@@ -71,4 +71,4 @@ TEST_CASE("post index: none") {
   CHECK(found(PostIndex({}), {0, 0}, {9, 0}, {0, 9}).empty());
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

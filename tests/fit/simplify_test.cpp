@@ -22,7 +22,7 @@
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_delaunay.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 using reference::Wide;
@@ -372,4 +372,4 @@ TEST_CASE("simplify: the rim of a straight void needs few vertices") {
   CHECK(simplify(raster(61, 61, flat, 0, sea), bounded()).vertices.size() == 4);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
-using namespace microtin;
+#include "tests/support/layers.hpp"
+
+using namespace microtin::tests;
 
 TEST_CASE("crs: well-known text of version 1, compound") {
   const Reference r = reference_of_wkt(

@@ -5,7 +5,7 @@
 #include "tests/support/imports.hpp"
 #include "tests/support/session.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 #ifndef MICROTIN_WITH_GDAL
 

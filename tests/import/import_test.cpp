@@ -8,7 +8,7 @@
 #include "encoder/base/error.hpp"
 #include "tests/support/imports.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

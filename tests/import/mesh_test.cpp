@@ -5,7 +5,7 @@
 #include "tests/support/binary_file.hpp"
 #include "tests/support/imports.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

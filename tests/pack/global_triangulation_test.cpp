@@ -12,7 +12,7 @@
 #include "encoder/stream/triangulation.hpp"
 #include "tests/support/point_sets.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 using Edges = std::set<std::pair<uint32_t, uint32_t>>;
@@ -94,4 +94,4 @@ TEST_CASE("global triangulation: points on a line are refused") {
   CHECK_THROWS_AS(GlobalTriangulation{two}, Error);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -9,7 +9,7 @@
 #include "tests/support/border_walk.hpp"
 #include "tests/support/packs.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 PackFile pack_of(const Raster& raster, const PackOptions& options) {
@@ -119,4 +119,4 @@ TEST_CASE("packs: a changed byte is noticed") {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -18,7 +18,7 @@
 #include "tests/support/pack_device.hpp"
 #include "tests/support/point_clouds.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 std::vector<uint8_t> pack_bytes(const PointCloud& cloud, const PackOptions& options) {
@@ -299,4 +299,4 @@ TEST_CASE("a point beside a pack is not covered") {
   CHECK(!verify(pack, cloud, Decimal{5, 0}).within_bound);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -13,7 +13,7 @@
 #include "tests/support/packs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 using Bytes = std::vector<uint8_t>;
@@ -174,4 +174,4 @@ TEST_CASE("packs: a shard whose tile is too large says which size of tiles to tr
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -5,8 +5,9 @@
 
 #include "encoder/picture/lettering.hpp"
 #include "encoder/picture/map_frame.hpp"
+#include "tests/support/layers.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/encode.hpp"
+#include "tests/support/layers.hpp"
 
 #define STBI_ONLY_PNG
 #define STB_IMAGE_STATIC
@@ -17,6 +18,7 @@
 #include <stb/stb_image.h>
 
 using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/point_sets.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 Tin tin_of(const Points& points, Random& random) {
@@ -198,4 +198,4 @@ TEST_CASE("sets that no stream can hold are refused with a sentence") {
   CHECK(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).empty());
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -9,6 +9,7 @@
 #include "tests/support/point_sets.hpp"
 
 using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_delaunay.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 // The points of the vertices that were not removed.
@@ -268,4 +268,4 @@ TEST_CASE("triangulation: degenerate sets take no longer than others") {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

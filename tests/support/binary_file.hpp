@@ -1,13 +1,15 @@
 // Files of numbers, made byte by byte.
-#ifndef MICROTIN_TESTS_BINARY_FILE_HPP
-#define MICROTIN_TESTS_BINARY_FILE_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_BINARY_FILE_HPP
+#define MICROTIN_TESTS_SUPPORT_BINARY_FILE_HPP
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
 
-namespace microtin {
+#include "tests/support/layers.hpp"
+
+namespace microtin::tests {
 
 class BinaryFile {
  public:
@@ -45,6 +47,6 @@ class BinaryFile {
   std::string bytes_;
 };
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

@@ -1,6 +1,6 @@
 // Both sides of every border of a pack, compared exactly.
-#ifndef MICROTIN_TESTS_BORDER_WALK_HPP
-#define MICROTIN_TESTS_BORDER_WALK_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_BORDER_WALK_HPP
+#define MICROTIN_TESTS_SUPPORT_BORDER_WALK_HPP
 
 #include <algorithm>
 #include <cstdint>
@@ -9,8 +9,9 @@
 
 #include "encoder/pack/borders.hpp"
 #include "encoder/pack/file.hpp"
+#include "tests/support/layers.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 // The tiles of a pack, decoded.
 class Tiles {
@@ -103,6 +104,6 @@ inline BorderCount walk_borders(const PackFile& pack, const Raster& raster) {
   return count;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

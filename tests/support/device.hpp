@@ -1,6 +1,6 @@
 // A mesh and a decoder in workspaces like a device's: full of garbage, and with guards around them.
-#ifndef MICROTIN_TESTS_DEVICE_HPP
-#define MICROTIN_TESTS_DEVICE_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_DEVICE_HPP
+#define MICROTIN_TESTS_SUPPORT_DEVICE_HPP
 
 #include <doctest/doctest.h>
 
@@ -10,8 +10,9 @@
 #include <vector>
 
 #include "microtin/microtin.h"
+#include "tests/support/layers.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 using Bytes = std::vector<uint8_t>;
 
@@ -75,6 +76,6 @@ struct Device {
   microtin_decoder* decoder = nullptr;
 };
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

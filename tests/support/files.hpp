@@ -1,6 +1,6 @@
 // Whole files.
-#ifndef MICROTIN_TESTS_FILES_HPP
-#define MICROTIN_TESTS_FILES_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_FILES_HPP
+#define MICROTIN_TESTS_SUPPORT_FILES_HPP
 
 #include <cstdint>
 #include <fstream>
@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace microtin {
+#include "tests/support/layers.hpp"
+
+namespace microtin::tests {
 
 // Static: the encoder has a function of the same name, and one would replace the other.
 static inline std::vector<uint8_t> read_file(const std::string& path) {
@@ -22,6 +24,6 @@ inline void write_file(const std::string& path, const std::vector<uint8_t>& byte
              static_cast<std::streamsize>(bytes.size()));
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

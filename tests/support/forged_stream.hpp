@@ -1,7 +1,7 @@
 // Streams that the encoder would not write: the test says which vertices are sent in which phase,
 // and what is written where a rule is to be broken.
-#ifndef MICROTIN_TESTS_FORGED_STREAM_HPP
-#define MICROTIN_TESTS_FORGED_STREAM_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_FORGED_STREAM_HPP
+#define MICROTIN_TESTS_SUPPORT_FORGED_STREAM_HPP
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,11 @@
 #include "encoder/stream/header.hpp"
 #include "encoder/stream/range_encoder.hpp"
 #include "tests/support/device.hpp"
+#include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_delaunay.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 // The vertices, the seed first, and how many each phase adds, in any order within the phase.
 struct Plan {
@@ -200,6 +201,6 @@ inline Bytes sectioned_stream(uint32_t sections) {
                PlanCoder(std::move(plan)));
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

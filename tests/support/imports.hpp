@@ -1,6 +1,6 @@
 // What tests of importers share.
-#ifndef MICROTIN_TESTS_IMPORTS_HPP
-#define MICROTIN_TESTS_IMPORTS_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_IMPORTS_HPP
+#define MICROTIN_TESTS_SUPPORT_IMPORTS_HPP
 
 #include <doctest/doctest.h>
 
@@ -9,8 +9,9 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/terrain/source.hpp"
+#include "tests/support/layers.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 // The message that an import ends with.
 template <class Import>
@@ -41,6 +42,6 @@ inline std::string data_file(const std::string& name) {
   return "";
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

@@ -1,15 +1,16 @@
 // Whether a half-edge mesh is a triangulation at all, whatever its triangles are.
-#ifndef MICROTIN_TESTS_MESH_CHECKS_HPP
-#define MICROTIN_TESTS_MESH_CHECKS_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_MESH_CHECKS_HPP
+#define MICROTIN_TESTS_SUPPORT_MESH_CHECKS_HPP
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "shared/mesh.hpp"
+#include "tests/support/layers.hpp"
 #include "tests/support/reference_delaunay.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 // A slot that holds no triangle: two of its origins are the same.
 inline bool is_free_slot(const Mesh& mesh, Index triangle) {
@@ -111,6 +112,6 @@ inline std::string mesh_fault(const Mesh& mesh, Index vertices) {
   return fault;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

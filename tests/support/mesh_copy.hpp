@@ -1,12 +1,13 @@
 // A decoded mesh copied out through the public interface, for the checks of other tests.
-#ifndef MICROTIN_TESTS_MESH_COPY_HPP
-#define MICROTIN_TESTS_MESH_COPY_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_MESH_COPY_HPP
+#define MICROTIN_TESTS_SUPPORT_MESH_COPY_HPP
 
 #include "microtin/microtin.h"
+#include "tests/support/layers.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/reference_delaunay.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 struct MeshCopy {
   explicit MeshCopy(const microtin_mesh* decoded)
@@ -55,6 +56,6 @@ inline bool is_sound(const MeshCopy& copy) {
          is_reference_delaunay(copy.points(), triangles_of(copy.mesh));
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

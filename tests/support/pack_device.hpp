@@ -1,6 +1,6 @@
 // A device that reads a pack from a card, and what it should answer.
-#ifndef MICROTIN_TESTS_PACK_DEVICE_HPP
-#define MICROTIN_TESTS_PACK_DEVICE_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_PACK_DEVICE_HPP
+#define MICROTIN_TESTS_SUPPORT_PACK_DEVICE_HPP
 
 #include <doctest/doctest.h>
 
@@ -11,8 +11,9 @@
 #include "encoder/pack/surface.hpp"
 #include "microtin/pack.h"
 #include "tests/support/device.hpp"
+#include "tests/support/layers.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 constexpr uint32_t kCapacity = 100;
 
@@ -100,6 +101,6 @@ inline double highest_on_edges(const SurfaceModel& model, const microtin_course&
   return highest;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

@@ -1,6 +1,6 @@
 // Rasters and their packs, for tests of both sides.
-#ifndef MICROTIN_TESTS_PACKS_HPP
-#define MICROTIN_TESTS_PACKS_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_PACKS_HPP
+#define MICROTIN_TESTS_SUPPORT_PACKS_HPP
 
 #include <cmath>
 #include <cstdint>
@@ -13,9 +13,10 @@
 #include "encoder/pack/encode.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/pack/surface.hpp"
+#include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 using VoidAt = std::function<bool(int, int)>;
 
@@ -114,6 +115,6 @@ inline std::vector<VoidKind> void_kinds() {
   };
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

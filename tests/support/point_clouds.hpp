@@ -1,6 +1,6 @@
 // Clouds of points, seeded, that are hard to cut into tiles. x and y are in steps of 1.
-#ifndef MICROTIN_TESTS_POINT_CLOUDS_HPP
-#define MICROTIN_TESTS_POINT_CLOUDS_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_POINT_CLOUDS_HPP
+#define MICROTIN_TESTS_SUPPORT_POINT_CLOUDS_HPP
 
 #include <cmath>
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 #include "encoder/pack/encode.hpp"
 #include "encoder/terrain/source.hpp"
+#include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 // Waves and noise.
 inline int64_t rough_height(int64_t x, int64_t y) {
@@ -153,6 +154,6 @@ inline PackOptions point_options(int64_t bound, uint32_t max_vertices) {
   return options;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

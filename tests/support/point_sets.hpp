@@ -1,6 +1,6 @@
 // Point sets, seeded, that are easy or hard for a triangulation. None lies on one line.
-#ifndef MICROTIN_TESTS_POINT_SETS_HPP
-#define MICROTIN_TESTS_POINT_SETS_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_POINT_SETS_HPP
+#define MICROTIN_TESTS_SUPPORT_POINT_SETS_HPP
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,9 @@
 #include <vector>
 
 #include "shared/lattice.hpp"
+#include "tests/support/layers.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 // SplitMix64: the same numbers everywhere.
 class Random {
@@ -202,6 +203,6 @@ inline std::vector<PointSet> point_sets(uint32_t n, uint64_t seed) {
   };
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

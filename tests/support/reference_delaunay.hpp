@@ -1,7 +1,7 @@
 // What the canonical Delaunay triangulation is, by definition and with 128-bit numbers: slow, and
 // independent of shared/predicates.hpp.
-#ifndef MICROTIN_TESTS_REFERENCE_DELAUNAY_HPP
-#define MICROTIN_TESTS_REFERENCE_DELAUNAY_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_REFERENCE_DELAUNAY_HPP
+#define MICROTIN_TESTS_SUPPORT_REFERENCE_DELAUNAY_HPP
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,9 @@
 #include <vector>
 
 #include "shared/lattice.hpp"
+#include "tests/support/layers.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace reference {
 
 __extension__ typedef __int128 Wide;
@@ -151,6 +152,6 @@ inline bool is_reference_delaunay(const std::vector<Point>& points, const Triang
   return true;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

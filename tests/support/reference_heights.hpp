@@ -1,14 +1,15 @@
 // What height a terrain has at a place, by definition and with 128-bit numbers: slow, and
 // independent of shared/interpolation.hpp.
-#ifndef MICROTIN_TESTS_REFERENCE_HEIGHTS_HPP
-#define MICROTIN_TESTS_REFERENCE_HEIGHTS_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_REFERENCE_HEIGHTS_HPP
+#define MICROTIN_TESTS_SUPPORT_REFERENCE_HEIGHTS_HPP
 
 #include <vector>
 
 #include "microtin/microtin.h"
+#include "tests/support/layers.hpp"
 #include "tests/support/reference_delaunay.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace reference {
 
 // floor(numerator / denominator + 1/2), denominator > 0.
@@ -60,6 +61,6 @@ inline int32_t height_in(const Corners& t, int32_t x, int32_t y) {
 }
 
 }  // namespace reference
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

@@ -1,6 +1,6 @@
 // The program as its users meet it: in a folder of its own, by its command line.
-#ifndef MICROTIN_TESTS_SESSION_HPP
-#define MICROTIN_TESTS_SESSION_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_SESSION_HPP
+#define MICROTIN_TESTS_SUPPORT_SESSION_HPP
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>
@@ -13,9 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/layers.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 // Runs the program in a folder of its own.
 class Session {
@@ -86,6 +87,6 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

@@ -1,14 +1,15 @@
 // Small terrains and their streams, for tests of the decoder.
-#ifndef MICROTIN_TESTS_STREAMS_HPP
-#define MICROTIN_TESTS_STREAMS_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_STREAMS_HPP
+#define MICROTIN_TESTS_SUPPORT_STREAMS_HPP
 
 #include <cmath>
 
 #include "encoder/stream/encode.hpp"
+#include "tests/support/layers.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/point_sets.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 
 // About `n` vertices at random places of a 1000 x 1000 lattice, with rolling heights.
 inline Tin rolling_tin(uint32_t n, uint32_t seed) {
@@ -52,6 +53,6 @@ inline Tin with_voids(Tin tin) {
   return tin;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

@@ -1,13 +1,15 @@
 // A folder for a test's files, removed with them.
-#ifndef MICROTIN_TESTS_TEMPORARY_FOLDER_HPP
-#define MICROTIN_TESTS_TEMPORARY_FOLDER_HPP
+#ifndef MICROTIN_TESTS_SUPPORT_TEMPORARY_FOLDER_HPP
+#define MICROTIN_TESTS_SUPPORT_TEMPORARY_FOLDER_HPP
 
 #include <unistd.h>
 
 #include <filesystem>
 #include <string>
 
-namespace microtin {
+#include "tests/support/layers.hpp"
+
+namespace microtin::tests {
 
 class TemporaryFolder {
  public:
@@ -35,6 +37,6 @@ inline std::string operator/(const TemporaryFolder& folder, const std::string& n
   return folder.path() + "/" + name;
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests
 
 #endif

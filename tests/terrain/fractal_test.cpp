@@ -7,8 +7,9 @@
 #include <sstream>
 
 #include "encoder/base/error.hpp"
+#include "tests/support/layers.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

@@ -7,8 +7,9 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/import/import.hpp"
+#include "tests/support/layers.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

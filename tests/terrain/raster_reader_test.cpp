@@ -13,7 +13,7 @@
 #include "tests/support/packs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 void check_same(const Raster& a, const Raster& b) {
@@ -126,4 +126,4 @@ TEST_CASE("raster reader: what cannot be read in pieces is told") {
                        Error);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

@@ -7,8 +7,9 @@
 
 #include "encoder/import/import.hpp"
 #include "encoder/stream/encode.hpp"
+#include "tests/support/layers.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "tests/support/packs.hpp"
 
-using namespace microtin;
+using namespace microtin::tests;
 
 namespace {
 

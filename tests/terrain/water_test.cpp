@@ -11,7 +11,7 @@
 #include "encoder/stream/encode.hpp"
 #include "tests/support/packs.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 constexpr int64_t kV = kVoidHeight;
@@ -174,4 +174,4 @@ TEST_CASE("water: the gauge counts posts off the level") {
   CHECK(none.moved() == 0);
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

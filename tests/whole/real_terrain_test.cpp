@@ -17,7 +17,7 @@
 #include "tests/support/border_walk.hpp"
 #include "tests/support/packs.hpp"
 
-namespace microtin {
+namespace microtin::tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -122,4 +122,4 @@ TEST_CASE("real files come back exactly, and within a bound") {
   }
 }
 
-}  // namespace microtin
+}  // namespace microtin::tests

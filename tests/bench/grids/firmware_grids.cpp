@@ -6,6 +6,7 @@
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/verify.hpp"
 #include "tests/bench/grids/grid.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/table.hpp"
 
 namespace microtin::bench {

@@ -1,6 +1,6 @@
 // The grids that flight controllers use now, against meshes of equal error.
-#ifndef MICROTIN_BENCH_FIRMWARE_GRIDS_HPP
-#define MICROTIN_BENCH_FIRMWARE_GRIDS_HPP
+#ifndef MICROTIN_TESTS_BENCH_GRIDS_FIRMWARE_GRIDS_HPP
+#define MICROTIN_TESTS_BENCH_GRIDS_FIRMWARE_GRIDS_HPP
 
 namespace microtin::bench {
 

@@ -16,6 +16,7 @@
 #include "tests/bench/device/flight.hpp"
 #include "tests/bench/device/grid_file.hpp"
 #include "tests/bench/grids/grid.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/table.hpp"
 
 namespace microtin::bench {

@@ -1,6 +1,6 @@
 // A flight over a terrain with a pack and with a grid: what each takes, and how wrong it is.
-#ifndef MICROTIN_BENCH_FLIGHT_HPP
-#define MICROTIN_BENCH_FLIGHT_HPP
+#ifndef MICROTIN_TESTS_BENCH_GRIDS_FLIGHT_HPP
+#define MICROTIN_TESTS_BENCH_GRIDS_FLIGHT_HPP
 
 #include <string>
 

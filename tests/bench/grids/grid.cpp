@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "encoder/terrain/fractal.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 namespace {

@@ -1,6 +1,6 @@
 // Terrain rasters with their real size, and what a regular grid makes of them.
-#ifndef MICROTIN_BENCH_GRID_HPP
-#define MICROTIN_BENCH_GRID_HPP
+#ifndef MICROTIN_TESTS_BENCH_GRIDS_GRID_HPP
+#define MICROTIN_TESTS_BENCH_GRIDS_GRID_HPP
 
 #include <string>
 #include <vector>

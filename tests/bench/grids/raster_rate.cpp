@@ -6,6 +6,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/bench/grids/grid.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/table.hpp"
 
 namespace microtin::bench {

@@ -1,6 +1,6 @@
 // Codecs for rasters at an equal largest error.
-#ifndef MICROTIN_BENCH_RASTER_RATE_HPP
-#define MICROTIN_BENCH_RASTER_RATE_HPP
+#ifndef MICROTIN_TESTS_BENCH_GRIDS_RASTER_RATE_HPP
+#define MICROTIN_TESTS_BENCH_GRIDS_RASTER_RATE_HPP
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 // A number that tells meshes apart, quicker to compute than their digest (shared/digest.hpp). Not
 // part of the format, and no match for somebody who wants to deceive it.
-#ifndef MICROTIN_ENCODER_FINGERPRINT_HPP
-#define MICROTIN_ENCODER_FINGERPRINT_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_FINGERPRINT_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_FINGERPRINT_HPP
 
 #include <cstdint>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tests/bench/layers.hpp"
 #include "tests/support/point_sets.hpp"
 
 namespace microtin::bench {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "encoder/stream/triangulation.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/support/point_sets.hpp"
 
 namespace microtin::bench {

@@ -2,6 +2,7 @@
 
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/encode.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/inputs.hpp"
 #include "tests/bench/paper/systems.hpp"
 #include "tests/bench/statistics.hpp"

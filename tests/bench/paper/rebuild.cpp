@@ -4,6 +4,7 @@
 
 #include "encoder/base/error.hpp"
 #include "shared/insertion.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/walk.hpp"
 
 namespace microtin::bench {

@@ -1,6 +1,7 @@
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/paper/inputs.hpp"
 #include "tests/bench/paper/jump_and_walk.hpp"

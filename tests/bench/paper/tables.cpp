@@ -5,6 +5,7 @@
 #include "encoder/stream/triangulation.hpp"
 #include "tests/bench/grids/grid.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/inputs.hpp"
 #include "tests/bench/paper/jump_and_walk.hpp"
 #include "tests/bench/paper/length_code.hpp"

@@ -3,6 +3,7 @@
 #include <draco/compression/encode.h>
 
 #include "encoder/base/error.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/peers/peers.hpp"
 
 namespace microtin::bench {

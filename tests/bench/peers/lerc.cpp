@@ -3,6 +3,7 @@
 
 #include "encoder/base/error.hpp"
 #include "tests/bench/grids/raster_rate.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 namespace {

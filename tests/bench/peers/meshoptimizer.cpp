@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "encoder/base/error.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/peers/peers.hpp"
 
 namespace microtin::bench {

@@ -8,6 +8,7 @@
 #include "encoder/terrain/fractal.hpp"
 #include "tests/bench/grids/grid.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/peak_memory.hpp"
 #include "tests/bench/peers/peers.hpp"

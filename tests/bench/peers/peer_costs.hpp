@@ -1,6 +1,6 @@
 // What each peer delivers, in how many bytes, and what decoding costs; each prints one table.
-#ifndef MICROTIN_BENCH_PEER_COSTS_HPP
-#define MICROTIN_BENCH_PEER_COSTS_HPP
+#ifndef MICROTIN_TESTS_BENCH_PEERS_PEER_COSTS_HPP
+#define MICROTIN_TESTS_BENCH_PEERS_PEER_COSTS_HPP
 
 #include <string>
 

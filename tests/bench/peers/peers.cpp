@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "encoder/base/error.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 

@@ -1,7 +1,7 @@
 // The programs that ours is compared with. Each is there only if its package was when this was
 // built.
-#ifndef MICROTIN_BENCH_PEERS_HPP
-#define MICROTIN_BENCH_PEERS_HPP
+#ifndef MICROTIN_TESTS_BENCH_PEERS_PEERS_HPP
+#define MICROTIN_TESTS_BENCH_PEERS_PEERS_HPP
 
 #include <cstddef>
 #include <functional>

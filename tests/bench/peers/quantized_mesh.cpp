@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "encoder/base/error.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/peers/peers.hpp"
 
 namespace microtin::bench {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "encoder/base/error.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/peers/peers.hpp"
 
 namespace microtin::bench {

@@ -5,6 +5,7 @@
 #include "decoder/state.hpp"
 #include "encoder/base/error.hpp"
 #include "shared/header.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 namespace {

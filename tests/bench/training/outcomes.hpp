@@ -1,6 +1,6 @@
 // What the adaptive bits of a stream were asked to code.
-#ifndef MICROTIN_BENCH_OUTCOMES_HPP
-#define MICROTIN_BENCH_OUTCOMES_HPP
+#ifndef MICROTIN_TESTS_BENCH_TRAINING_OUTCOMES_HPP
+#define MICROTIN_TESTS_BENCH_TRAINING_OUTCOMES_HPP
 
 #include <array>
 #include <cstdint>

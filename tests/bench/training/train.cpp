@@ -10,6 +10,7 @@
 #include "encoder/terrain/fractal.hpp"
 #include "shared/probability.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/training/outcomes.hpp"
 
 namespace microtin::bench {
@@ -126,8 +127,8 @@ void print_start_probabilities() {
       "%s%u;\n\n%s",
       R"(// Where the adaptive bits start, in the order of Models: the probability of a one is
 // (entry + 1/2) / 256. Written by `tests/bench/run train`.
-#ifndef MICROTIN_SHARED_START_PROBABILITIES_HPP
-#define MICROTIN_SHARED_START_PROBABILITIES_HPP
+#ifndef MICROTIN_TESTS_BENCH_TRAINING_TRAIN_CPP
+#define MICROTIN_TESTS_BENCH_TRAINING_TRAIN_CPP
 
 #include "shared/tables.hpp"
 

@@ -1,6 +1,6 @@
 // Learning of shared/start_probabilities.hpp.
-#ifndef MICROTIN_BENCH_TRAIN_HPP
-#define MICROTIN_BENCH_TRAIN_HPP
+#ifndef MICROTIN_TESTS_BENCH_TRAINING_TRAIN_HPP
+#define MICROTIN_TESTS_BENCH_TRAINING_TRAIN_HPP
 
 namespace microtin::bench {
 
