@@ -33,8 +33,7 @@ uint32_t count_triangles(const microtin_mesh* mesh, microtin_triangle_kind kind)
 }
 
 std::string workspace_bytes_16(uint32_t vertices) {
-  constexpr uint32_t kMost16 = 10923;
-  if (vertices > kMost16) return "null";
+  if (vertices > MICROTIN_MAX_VERTICES_FOR(16)) return "null";
   return json(MICROTIN_MESH_BYTES_FOR(vertices, 16) + MICROTIN_DECODER_BYTES_FOR(vertices, 16));
 }
 

@@ -35,7 +35,6 @@ class Decimation {
   std::size_t try_each(const Progress& progress, const Try& attempt);
   bool try_removal(Index v);
   bool try_move(Index v);
-  bool move_to_worst(Index v);
   bool fit(const std::vector<Index>& vertices);
   std::vector<Index> ring(Index v) const;
   void note_changes();

@@ -29,14 +29,6 @@ class Edits {
   // Keeps them all.
   void commit() { edits_.clear(); }
 
-  // The vertices whose heights changed or that are new.
-  template <class Visit>
-  void visit_changed(const Visit& visit) const {
-    for (const Edit& edit : edits_) {
-      if (surface_.has_vertex(edit.vertex)) visit(edit.vertex);
-    }
-  }
-
  private:
   struct Edit {
     enum Kind : uint8_t { kRemoval, kInsertion, kHeight } kind;

@@ -4,7 +4,10 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/scramble.hpp"
 #include "encoder/exact/wide.hpp"
+#include "encoder/stream/hilbert.hpp"
+#include "encoder/stream/spatial_order.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -38,29 +41,10 @@ bool is_in_circle(GlobalPost a, GlobalPost b, GlobalPost c, GlobalPost p) {
          Wide{dot(a - p, b - p)} * cross(a - c, b - c);
 }
 
-// The position on the Hilbert curve through all places.
-uint64_t hilbert_position(GlobalPost p) {
-  uint64_t position = 0;
-  uint32_t x = p.x, y = p.y;
-  for (uint32_t side = 1u << 30; side != 0; side >>= 1) {
-    const bool right = (x & side) != 0, upper = (y & side) != 0;
-    position = position << 2 | ((right ? 3u : 0u) ^ (upper ? 1u : 0u));
-    if (upper) continue;
-    if (right) {
-      x = ~x;
-      y = ~y;
-    }
-    std::swap(x, y);
-  }
-  return position;
-}
-
 // Half of all points come in the last round, half of the rest in the one before (Amenta, Choi and
 // Rote): 0 for the last.
 uint32_t rounds_from_last(GlobalPost p) {
-  uint64_t hash = (uint64_t{p.x} << 32 | p.y) + 0x9e3779b97f4a7c15u;
-  hash = (hash ^ hash >> 30) * 0xbf58476d1ce4e5b9u;  // SplitMix64
-  hash = (hash ^ hash >> 27) * 0x94d049bb133111ebu;
+  uint64_t hash = scramble(uint64_t{p.x} << 32 | p.y);
   uint32_t rounds = 0;
   for (; rounds < 20 && (hash >> 63) == 0; hash <<= 1) ++rounds;
   return rounds;
@@ -75,7 +59,8 @@ std::vector<uint32_t> insertion_order(const std::vector<GlobalPost>& points) {
   std::vector<Key> keys;
   keys.reserve(points.size());
   for (const GlobalPost p : points) {
-    keys.push_back({rounds_from_last(p), hilbert_position(p), static_cast<uint32_t>(keys.size())});
+    keys.push_back(
+        {rounds_from_last(p), hilbert_position<31>(p.x, p.y), static_cast<uint32_t>(keys.size())});
   }
   std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
     return a.rounds != b.rounds ? a.rounds > b.rounds : a.position < b.position;
@@ -86,25 +71,15 @@ std::vector<uint32_t> insertion_order(const std::vector<GlobalPost>& points) {
   return order;
 }
 
-// Brings three points that form a counter-clockwise triangle to the front.
-void start_with_triangle(const std::vector<GlobalPost>& points, std::vector<uint32_t>& order) {
-  for (std::size_t i = 2; i < order.size(); ++i) {
-    const int64_t side = turn(points[order[0]], points[order[1]], points[order[i]]);
-    if (side == 0) continue;
-    std::swap(order[2], order[i]);
-    if (side < 0) std::swap(order[0], order[1]);
-    return;
-  }
-  throw Error("all points lie on one line: there is no triangle");
-}
-
 }  // namespace
 
 GlobalTriangulation::GlobalTriangulation(std::vector<GlobalPost> points)
     : points_(std::move(points)), starting_at_(points_.size() + 1) {
   if (points_.size() > 300000000) throw Error("too many points to triangulate");
   std::vector<uint32_t> order = insertion_order(points_);
-  start_with_triangle(points_, order);
+  start_with_triangle(order, [this](uint32_t a, uint32_t b, uint32_t c) {
+    return turn(points_[a], points_[b], points_[c]);
+  });
   origin_.reserve(6 * points_.size());
   twin_.reserve(6 * points_.size());
   start(order[0], order[1], order[2]);

@@ -102,7 +102,7 @@ uint32_t fewer_tile_steps(const TileGrid& grid, uint32_t max_vertices, uint32_t 
 }
 
 uint32_t vertices_for_ram(uint64_t bytes) {
-  uint32_t vertices = 10923;  // the most with 16-bit numbers
+  uint32_t vertices = MICROTIN_MAX_VERTICES_FOR(16);
   while (vertices >= 3 && MICROTIN_PACK_BYTES_FOR(kKeptTiles, vertices, 16) > bytes) --vertices;
   return vertices >= 3 ? vertices : 0;
 }

@@ -6,10 +6,10 @@
 namespace microtin::stream {
 
 uint64_t device_ram(uint32_t vertices) {
-  constexpr uint32_t kMost16 = 10923;
   const unsigned long n = vertices;
-  return n <= kMost16 ? MICROTIN_MESH_BYTES_FOR(n, 16) + MICROTIN_DECODER_BYTES_FOR(n, 16)
-                      : MICROTIN_MESH_BYTES_FOR(n, 32) + MICROTIN_DECODER_BYTES_FOR(n, 32);
+  return n <= MICROTIN_MAX_VERTICES_FOR(16)
+             ? MICROTIN_MESH_BYTES_FOR(n, 16) + MICROTIN_DECODER_BYTES_FOR(n, 16)
+             : MICROTIN_MESH_BYTES_FOR(n, 32) + MICROTIN_DECODER_BYTES_FOR(n, 32);
 }
 
 uint32_t most_vertices(uint64_t bytes) {

@@ -3,62 +3,19 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/scramble.hpp"
+#include "encoder/stream/hilbert.hpp"
 
 namespace microtin::stream {
 namespace {
 
 constexpr uint64_t kRounds = 10;  // 8^10 > 2^24 points
 
-// The Hilbert curve through the whole lattice, four bits of x and y at a time. Each square of the
-// curve is the first one, its axes swapped (bit 0 of the orientation), reversed (bit 1), or both.
-struct HilbertStep {
-  uint8_t position;     // among the 16 x 16 squares
-  uint8_t orientation;  // of what lies in the square
-};
-using HilbertSteps = std::array<HilbertStep, 4 * 256>;  // by orientation, x, y
-
-constexpr HilbertStep hilbert_step(uint32_t orientation, uint32_t x, uint32_t y) {
-  uint32_t position = 0;
-  for (uint32_t side = 8; side != 0; side >>= 1) {
-    const bool swapped = (orientation & 1) != 0, reversed = (orientation & 2) != 0;
-    const bool right = (((swapped ? y : x) & side) != 0) != reversed;
-    const bool upper = (((swapped ? x : y) & side) != 0) != reversed;
-    position = position << 2 | ((right ? 3u : 0u) ^ (upper ? 1u : 0u));
-    if (!upper) orientation ^= right ? 3u : 1u;
-  }
-  return {static_cast<uint8_t>(position), static_cast<uint8_t>(orientation)};
-}
-
-constexpr HilbertSteps hilbert_steps() {
-  HilbertSteps steps{};
-  for (uint32_t i = 0; i < steps.size(); ++i) {
-    steps[i] = hilbert_step(i >> 8, i >> 4 & 15u, i & 15u);
-  }
-  return steps;
-}
-
-constexpr HilbertSteps kHilbertSteps = hilbert_steps();
-
-uint64_t hilbert_position(Point p) {
-  uint64_t position = 0;
-  uint32_t orientation = 0;
-  for (int shift = 12; shift >= 0; shift -= 4) {
-    const uint32_t x = p.x >> shift & 15, y = p.y >> shift & 15;
-    const HilbertStep step = kHilbertSteps[orientation << 8 | x << 4 | y];
-    position = position << 8 | step.position;
-    orientation = step.orientation;
-  }
-  return position;
-}
-
 // 0 for the last round, which takes 7 points of 8; then 1 for 7 of 8 of the rest, and so on.
 uint64_t rounds_from_last(Point p) {
-  uint64_t hash = (static_cast<uint64_t>(p.x) << 16 | p.y) + 0x9e3779b97f4a7c15u;
-  hash = (hash ^ hash >> 30) * 0xbf58476d1ce4e5b9u;  // SplitMix64
-  hash = (hash ^ hash >> 27) * 0x94d049bb133111ebu;
+  uint64_t hash = scramble(static_cast<uint64_t>(p.x) << 16 | p.y);
   uint64_t rounds = 0;
   for (; rounds < kRounds - 1 && (hash >> 61) == 0; hash <<= 3) ++rounds;
   return rounds;
@@ -89,7 +46,9 @@ std::vector<Index> insertion_order(const std::vector<Point>& points) {
   std::vector<uint64_t> keys(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const uint64_t round = kRounds - 1 - rounds_from_last(points[i]);
-    keys[i] = (round << kPositionBits | hilbert_position(points[i])) << kNumberBits | i;
+    keys[i] = (round << kPositionBits | hilbert_position<16>(points[i].x, points[i].y))
+                  << kNumberBits |
+              i;
   }
   sort_keys(keys);
   std::vector<Index> order(points.size());

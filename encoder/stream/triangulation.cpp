@@ -8,21 +8,6 @@
 #include "encoder/stream/spatial_order.hpp"
 
 namespace microtin::stream {
-namespace {
-
-// Brings three points that form a counter-clockwise triangle to the front.
-void start_with_triangle(const std::vector<Point>& points, std::vector<Index>& order) {
-  for (std::size_t i = 2; i < order.size(); ++i) {
-    const int64_t turn = orient2d(points[order[0]], points[order[1]], points[order[i]]);
-    if (turn == 0) continue;
-    std::swap(order[2], order[i]);
-    if (turn < 0) std::swap(order[0], order[1]);
-    return;
-  }
-  throw Error("all points lie on one line: there is no triangle");
-}
-
-}  // namespace
 
 Triangulation::Triangulation(const std::vector<Point>& points) {
   std::vector<Index> order;
@@ -32,7 +17,9 @@ Triangulation::Triangulation(const std::vector<Point>& points) {
 
 Triangulation::Triangulation(const std::vector<Point>& points, std::vector<Index>& order) {
   order = insertion_order(points);
-  start_with_triangle(points, order);
+  start_with_triangle(order, [&points](Index a, Index b, Index c) {
+    return orient2d(points[a], points[b], points[c]);
+  });
   set_sizes(points.size());
   set_cavity_limit(64);
   for (std::size_t i = 0; i < order.size(); ++i) {

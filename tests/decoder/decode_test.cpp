@@ -5,8 +5,6 @@
 #include <cstring>
 #include <random>
 
-#include "encoder/base/error.hpp"
-#include "encoder/stream/encode.hpp"
 #include "fuzz/support/repair.hpp"
 #include "tests/support/device.hpp"
 #include "tests/support/forged_stream.hpp"

@@ -11,7 +11,6 @@
 #include <cstring>
 #include <vector>
 
-#include "encoder/pack/surface.hpp"
 #include "microtin/pack.hpp"
 #include "tests/support/packs.hpp"
 

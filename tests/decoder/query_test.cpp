@@ -3,9 +3,9 @@
 
 #include <cstdlib>
 
-#include "encoder/stream/encode.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_heights.hpp"
+#include "tests/support/streams.hpp"
 
 namespace microtin::tests {
 namespace {

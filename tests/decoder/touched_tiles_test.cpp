@@ -6,11 +6,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "encoder/exact/wide.hpp"
 #include "tests/support/point_sets.hpp"
 
 namespace microtin::tests {
 namespace {
+
+__extension__ typedef __int128 Wide;
 
 // Whether a segment meets a closed box, in exact fractions: the part of it within each slab.
 bool meets(const microtin_course& c, const TileBox& box) {

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "encoder/stream/encode.hpp"
 #include "microtin/microtin.hpp"
 #include "tests/support/point_sets.hpp"
+#include "tests/support/streams.hpp"
 
 namespace microtin::tests {
 namespace {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "encoder/base/error.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/mesh_copy.hpp"

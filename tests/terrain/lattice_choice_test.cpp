@@ -6,15 +6,14 @@
 #include <random>
 
 #include "encoder/base/error.hpp"
-#include "encoder/import/import.hpp"
-#include "tests/support/layers.hpp"
+#include "tests/support/cloud_text.hpp"
 
 using namespace microtin::tests;
 
 namespace {
 
 Lattice choose(const std::string& points, const LatticeOptions& options = {}) {
-  return choose_lattice(import_points("cloud", points), options);
+  return choose_lattice(cloud_of(points), options);
 }
 
 std::string text_of(const Axis& axis) {

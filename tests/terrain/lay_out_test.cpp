@@ -6,8 +6,7 @@
 #include <limits>
 
 #include "encoder/base/error.hpp"
-#include "encoder/import/import.hpp"
-#include "tests/support/layers.hpp"
+#include "tests/support/cloud_text.hpp"
 
 using namespace microtin;
 using namespace microtin::tests;
@@ -15,7 +14,7 @@ using namespace microtin::tests;
 namespace {
 
 Laid lay(const std::string& points, const LatticeOptions& options = {}) {
-  return lay_out(import_points("cloud", points), options);
+  return lay_out(cloud_of(points), options);
 }
 
 LatticeOptions options(const char* xy_step, const char* z_step, const char* max_error) {

@@ -5,9 +5,8 @@
 
 #include <cmath>
 
-#include "encoder/import/import.hpp"
-#include "encoder/stream/encode.hpp"
-#include "tests/support/layers.hpp"
+#include "tests/support/cloud_text.hpp"
+#include "tests/support/streams.hpp"
 
 using namespace microtin::tests;
 
@@ -23,7 +22,7 @@ DecodedTerrain tilted_square() {
 }
 
 Verification verify_points(const std::string& points, const char* bound) {
-  return verify(tilted_square().mesh(), import_points("cloud", points), parse_decimal(bound));
+  return verify(tilted_square().mesh(), cloud_of(points), parse_decimal(bound));
 }
 
 }  // namespace
@@ -42,8 +41,7 @@ TEST_CASE("errors are exact, and rounded up only to print") {
 }
 
 TEST_CASE("no bound is always kept") {
-  const Verification found =
-      verify(tilted_square().mesh(), import_points("cloud", "0 0 1e15"), std::nullopt);
+  const Verification found = verify(tilted_square().mesh(), cloud_of("0 0 1e15"), std::nullopt);
   CHECK(found.within_bound);
   CHECK(to_string(found.max_error) == "1000000000000000");
 }

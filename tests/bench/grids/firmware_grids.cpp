@@ -36,8 +36,9 @@ Mesh mesh_within(const Terrain& terrain, double bound) {
   const Model model = simplified(terrain.raster, options);
   const Encoding encoding = encode_and_decode(model.tin, model.metadata, {});
   const auto vertices = static_cast<unsigned long>(model.tin.vertices.size());
-  const size_t ram = vertices <= 10923 ? MICROTIN_MESH_BYTES_FOR(vertices, 16)
-                                       : MICROTIN_MESH_BYTES_FOR(vertices, 32);
+  const size_t ram = vertices <= MICROTIN_MAX_VERTICES_FOR(16)
+                         ? MICROTIN_MESH_BYTES_FOR(vertices, 16)
+                         : MICROTIN_MESH_BYTES_FOR(vertices, 32);
   const Verification found = verify(encoding.decoded.mesh(), terrain.raster, std::nullopt);
   const auto metres = [](const Decimal& value) { return std::stod(to_string(value)); };
   return {encoding.stream.size(), ram, {metres(found.max_error), metres(found.rms_error)}};

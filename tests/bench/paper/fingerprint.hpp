@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "encoder/base/scramble.hpp"
 #include "shared/lattice.hpp"
 
 namespace microtin {
@@ -18,29 +19,22 @@ class Fingerprint {
   explicit Fingerprint(const std::vector<Vertex>& vertices) {
     keys_.reserve(vertices.size());
     for (const Vertex& v : vertices) {
-      keys_.push_back(scrambled(static_cast<uint64_t>(v.x) << 32 |
-                                static_cast<uint64_t>(v.y) << 16 | static_cast<uint16_t>(v.z)));
+      keys_.push_back(base::scramble(static_cast<uint64_t>(v.x) << 32 |
+                                     static_cast<uint64_t>(v.y) << 16 |
+                                     static_cast<uint16_t>(v.z)));
     }
   }
 
   void add(uint32_t a, uint32_t b, uint32_t c, bool is_void) {
     const uint64_t edges =
         edge(keys_[a], keys_[b]) + edge(keys_[b], keys_[c]) + edge(keys_[c], keys_[a]);
-    sum_ += scrambled(edges + (is_void ? 1 : 0));
+    sum_ += base::scramble(edges + (is_void ? 1 : 0));
   }
 
   uint64_t sum() const { return sum_; }
 
  private:
   static uint64_t edge(uint64_t from, uint64_t to) { return from * (to << 32 | to >> 32); }
-
-  // SplitMix64's last steps.
-  static uint64_t scrambled(uint64_t x) {
-    x += 0x9e3779b97f4a7c15u;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
-  }
 
   std::vector<uint64_t> keys_;  // by vertex
   uint64_t sum_ = 0;

@@ -4,27 +4,12 @@
 #include <algorithm>
 
 #include "encoder/base/error.hpp"
+#include "encoder/stream/hilbert.hpp"
 #include "tests/bench/layers.hpp"
 #include "tests/bench/peers/peers.hpp"
 
 namespace microtin::bench {
 namespace {
-
-// Of a place on the Hilbert curve through the whole lattice.
-uint64_t hilbert_position(const Vertex& v) {
-  uint32_t x = v.x, y = v.y;
-  uint64_t position = 0;
-  for (uint32_t side = 1u << 15; side != 0; side /= 2) {
-    const uint32_t right = (x & side) != 0, upper = (y & side) != 0;
-    position = position * 4 + ((3 * right) ^ upper);
-    if (upper == 0 && right != 0) {
-      x = ~x;
-      y = ~y;
-    }
-    if (upper == 0) std::swap(x, y);
-  }
-  return position;
-}
 
 // Small numbers for small differences of either sign.
 uint16_t fold(uint16_t difference) {
@@ -41,7 +26,7 @@ std::array<uint16_t, 3> components(const Vertex& v) {
 
 Bytes planes_of(std::vector<Vertex> vertices) {
   std::sort(vertices.begin(), vertices.end(), [](const Vertex& a, const Vertex& b) {
-    return hilbert_position(a) < hilbert_position(b);
+    return stream::hilbert_position<16>(a.x, a.y) < stream::hilbert_position<16>(b.x, b.y);
   });
   const size_t n = vertices.size();
   Bytes planes(6 * n);
