@@ -1,3 +1,4 @@
+// Checks dates: a year, a month of it or a day of that.
 #include "encoder/base/iso_date.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Sentences for the decoder's statuses.
 #include "encoder/base/status_text.hpp"
 
 namespace microtin::base {

@@ -1,3 +1,4 @@
+// The command decode: a mesh or a grid from a stream or a pack.
 #include <filesystem>
 
 #include "encoder/base/error_context.hpp"

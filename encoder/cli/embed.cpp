@@ -1,3 +1,4 @@
+// The command embed: a C header from a stream.
 #include "encoder/stream/embed.hpp"
 
 #include <filesystem>

@@ -1,3 +1,4 @@
+// The command encode: a stream from a terrain, and what to say of it.
 #include <algorithm>
 #include <limits>
 #include <sstream>

@@ -1,3 +1,4 @@
+// The command info: what a stream or a pack says of itself.
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/pack.hpp"

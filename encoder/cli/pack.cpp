@@ -1,3 +1,4 @@
+// Packs on the command line: encode, plan, merge, and their part of info and verify.
 #include "encoder/cli/pack.hpp"
 
 #include <algorithm>

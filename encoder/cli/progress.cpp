@@ -1,3 +1,4 @@
+// Draws the bar, at most ten times a second.
 #include "encoder/cli/progress.hpp"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// The command verify: compares a stream or a pack with its terrain and judges.
 #include "encoder/terrain/verify.hpp"
 
 #include "encoder/base/error_context.hpp"

@@ -1,3 +1,4 @@
+// Divides exactly, so that a coordinate prints with as many decimals as it has.
 #include "encoder/exact/coordinates.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads, rounds, scales and prints decimals by integers.
 #include "encoder/exact/decimal.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Continued fractions find what a rounded decimal stands for.
 #include "encoder/exact/fraction.hpp"
 
 #include <algorithm>

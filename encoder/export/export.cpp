@@ -1,3 +1,4 @@
+// Writes XYZ, OBJ and PLY line by line.
 #include "encoder/export/export.hpp"
 
 #include <filesystem>

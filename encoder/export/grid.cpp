@@ -1,3 +1,4 @@
+// Asks the surface at each cell's centre, from north to south.
 #include "encoder/export/grid.hpp"
 
 #include <algorithm>

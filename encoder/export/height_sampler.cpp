@@ -1,3 +1,4 @@
+// Asks streams and packs for heights; keeps two rows of a pack's tiles decoded.
 #include "encoder/export/height_sampler.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Writes numbers, texts and objects as JSON.
 #include "encoder/export/json.hpp"
 
 #include <charconv>

@@ -1,3 +1,4 @@
+// A list of temporary files that a signal handler removes.
 #include "encoder/files/leftovers.hpp"
 
 #include <unistd.h>

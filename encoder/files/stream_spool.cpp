@@ -1,3 +1,4 @@
+// Keeps streams in a temporary file, in order.
 #include "encoder/files/stream_spool.hpp"
 
 #include <unistd.h>

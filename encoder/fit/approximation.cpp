@@ -1,3 +1,4 @@
+// Tries steps of height and keeps the one whose stream is smallest.
 #include "encoder/fit/approximation.hpp"
 
 #include <cstddef>

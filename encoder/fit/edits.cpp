@@ -1,3 +1,4 @@
+// Remembers what changed, last first, to take it back.
 #include "encoder/fit/edits.hpp"
 
 #include <limits>

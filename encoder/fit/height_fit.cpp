@@ -1,3 +1,4 @@
+// Shifts heights until no post is out of bounds, or gives up soon.
 #include "encoder/fit/height_fit.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Heights on a triangulation: which posts lie where, and whether they keep their bounds.
 #include "encoder/fit/surface.hpp"
 
 #include <algorithm>

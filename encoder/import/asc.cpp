@@ -1,3 +1,4 @@
+// ESRI ASCII grids, read whole or in rectangles.
 #include <algorithm>
 #include <array>
 #include <charconv>

@@ -1,3 +1,4 @@
+// Finds codes and units in well-known text and GeoTIFF keys.
 #include "encoder/import/crs.hpp"
 
 #include <cctype>

@@ -1,3 +1,4 @@
+// SRTM tiles, read whole or in rectangles.
 #include <charconv>
 #include <filesystem>
 #include <utility>

@@ -1,3 +1,4 @@
+// Chooses the reader of a file by its suffix.
 #include "encoder/import/import.hpp"
 
 #include <filesystem>

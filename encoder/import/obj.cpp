@@ -1,3 +1,4 @@
+// Wavefront OBJ: of its lines the vertices.
 #include "encoder/base/error.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"

@@ -1,3 +1,4 @@
+// Points as text, one a line.
 #include <algorithm>
 
 #include "encoder/base/error.hpp"

@@ -1,3 +1,4 @@
+// Reads a terrain, fills its voids and floods the rest, whole or piece by piece.
 #include "encoder/import/prepared_terrain.hpp"
 
 #include <utility>

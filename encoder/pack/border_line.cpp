@@ -1,3 +1,4 @@
+// Finds the fewest vertices along a line of posts by dynamic programming.
 #include "encoder/pack/border_line.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Plans the tiles and encodes them in parallel; gives them away in order.
 #include "encoder/pack/encode.hpp"
 
 #include <cstddef>

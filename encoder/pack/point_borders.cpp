@@ -1,3 +1,4 @@
+// Cuts edges of the global triangulation where tiles meet, at shared vertices.
 #include "encoder/pack/point_borders.hpp"
 
 #include <algorithm>

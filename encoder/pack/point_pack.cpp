@@ -1,3 +1,4 @@
+// Lays points out, cuts them into tiles and encodes each.
 #include "encoder/pack/point_pack.hpp"
 
 #include <algorithm>

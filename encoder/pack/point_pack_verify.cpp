@@ -1,3 +1,4 @@
+// Compares a pack with points: each is asked of the tiles that hold it.
 #include <algorithm>
 
 #include "encoder/base/parallel.hpp"

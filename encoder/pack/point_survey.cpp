@@ -1,3 +1,4 @@
+// Merges points that share a place, and bounds the heights there.
 #include "encoder/pack/point_survey.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Surveys the points of a tile with its borders, and encodes it.
 #include "encoder/pack/point_tile.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Joins the tiles of a pack; compares them with a raster, a row of tiles at a time.
 #include "encoder/pack/surface.hpp"
 
 #include <cstddef>

@@ -1,3 +1,4 @@
+// Sorts things by the tiles that hold them: counting sort.
 #include "encoder/pack/tile_contents.hpp"
 
 namespace microtin::pack {

@@ -1,3 +1,4 @@
+// Tries the roughest tiles at some sizes.
 #include "encoder/pack/tile_plan.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Blends lines and boxes into pixels.
 #include "encoder/picture/canvas.hpp"
 
 namespace microtin::picture {

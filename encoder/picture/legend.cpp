@@ -1,3 +1,4 @@
+// A ramp of colours with round numbers, and a bar of a round length.
 #include "encoder/picture/legend.hpp"
 
 #include <cstdio>

@@ -1,3 +1,4 @@
+// Letters made of strokes.
 #include "encoder/picture/lettering.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+// Hands pixels to the PNG writer.
 #include "encoder/picture/png.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Lays out maps, legends and title, and draws them.
 #include "encoder/picture/render.hpp"
 
 #include <string>

@@ -1,3 +1,4 @@
+// Gives the shipped decoder memory and a stream.
 #include "encoder/stream/decoded_terrain.hpp"
 
 #include <string>

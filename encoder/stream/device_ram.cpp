@@ -1,3 +1,4 @@
+// Asks the decoder's own macros.
 #include "encoder/stream/device_ram.hpp"
 
 #include "microtin/microtin.h"

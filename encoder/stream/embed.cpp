@@ -1,3 +1,4 @@
+// Prints bytes as an array.
 #include "encoder/stream/embed.hpp"
 
 #include <cctype>

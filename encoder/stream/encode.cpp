@@ -1,3 +1,4 @@
+// Drives the shared reconstruction with a writing coder, then decodes and compares.
 #include "encoder/stream/encode.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Header fields and notes as FORMAT.md lays them down.
 #include "encoder/stream/header.hpp"
 
 #include "encoder/base/error.hpp"

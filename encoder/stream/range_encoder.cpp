@@ -1,3 +1,4 @@
+// Carries are put off until bytes are sure.
 #include "encoder/stream/range_encoder.hpp"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// Sorts by round and place on the Hilbert curve: radix sort.
 #include "encoder/stream/spatial_order.hpp"
 
 #include <array>

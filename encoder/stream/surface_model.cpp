@@ -1,3 +1,4 @@
+// Copies vertices and triangles out of a mesh.
 #include "encoder/stream/surface_model.hpp"
 
 namespace microtin::stream {

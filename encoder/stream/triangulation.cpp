@@ -1,3 +1,4 @@
+// Inserts by the shared cavity, removes by ears, keeps an edge of each vertex.
 #include "encoder/stream/triangulation.hpp"
 
 #include <algorithm>

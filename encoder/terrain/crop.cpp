@@ -1,3 +1,4 @@
+// Copies a rectangle out of a raster.
 #include "encoder/terrain/crop.hpp"
 
 #include <iterator>

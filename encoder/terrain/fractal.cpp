@@ -1,3 +1,4 @@
+// Sums octaves of value noise.
 #include "encoder/terrain/fractal.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Reads rectangles of a raster in memory.
 #include "encoder/terrain/raster_reader.hpp"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// Fills small voids of rectangles as if the whole were there.
 #include <algorithm>
 
 #include "encoder/terrain/raster_reader.hpp"

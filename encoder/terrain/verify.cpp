@@ -1,3 +1,4 @@
+// Asks the mesh at each post, and sums errors up exactly.
 #include "encoder/terrain/verify.hpp"
 
 #include <algorithm>

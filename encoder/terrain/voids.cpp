@@ -1,3 +1,4 @@
+// Finds regions of voids, and relaxes a soap film over those that are small.
 #include "encoder/terrain/voids.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Floods voids, checks masks, and watches the water.
 #include "encoder/terrain/water.hpp"
 
 #include <algorithm>
