@@ -5,6 +5,7 @@
 #include "encoder/error_context.hpp"
 #include "encoder/export.hpp"
 #include "encoder/export_grid.hpp"
+#include "encoder/file_target.hpp"
 #include "encoder/header.hpp"
 #include "encoder/height_sampler.hpp"
 #include "encoder/output_file.hpp"
@@ -69,7 +70,7 @@ void decode_to_grid(const DecodeRequest& request) {
 }  // namespace
 
 void run_decode(const DecodeRequest& request) {
-  refuse_overwriting(request.input, request.output);
+  refuse_overwriting({request.input}, request.output);
   if (is_grid(request.output)) {
     decode_to_grid(request);
     return;

@@ -4,12 +4,13 @@
 #include "encoder/cli_report.hpp"
 #include "encoder/embed.hpp"
 #include "encoder/error_context.hpp"
+#include "encoder/file_target.hpp"
 #include "encoder/output_file.hpp"
 
 namespace microtin {
 
 void run_embed(const std::string& input, const std::string& output) {
-  refuse_overwriting(input, output);
+  refuse_overwriting({input}, output);
   const std::vector<uint8_t> stream = read_stream(input);
   const DecodedTerrain terrain = about(input, [&] { return DecodedTerrain(stream); });
   const std::string name =

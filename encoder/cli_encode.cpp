@@ -12,11 +12,16 @@
 #include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
+#include "encoder/file_target.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/verify.hpp"
 #include "encoder/water.hpp"
 
 namespace microtin {
+
+std::vector<std::string> inputs_of(const EncodeRequest& request) {
+  return files_of(request.input, request.preparation);
+}
 
 Metadata metadata_of(const EncodeRequest& request, const Reference& reference,
                      const Placement& placement) {
@@ -104,7 +109,7 @@ Encoded encode_measured(const Source& source, const EncodeRequest& request,
   const bool too_low = request.lattice.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.uncovered != 0 ||
       measured.voids_answered != 0 || gauge.moved() != 0) {
-    throw Error("internal error: the decoded terrain does not keep what was asked for");
+    throw InternalFault("the decoded terrain does not keep what was asked for");
   }
   metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error};
   return {std::move(found.laid), bound, with_metadata(stream, metadata),
@@ -201,11 +206,11 @@ std::string report(const PreparedTerrain& terrain, const Encoded& encoded) {
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
+  refuse_overwriting(inputs_of(request), request.output);
   if (makes_pack(request)) {
     run_encode_pack(request);
     return;
   }
-  refuse_overwriting(request.input, request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
   const PreparedTerrain terrain = prepared_terrain(request.input, request.preparation);
   const Source& source = terrain.source;

@@ -2,6 +2,7 @@
 #include "encoder/cli_pack.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error_context.hpp"
+#include "encoder/file_target.hpp"
 #include "encoder/pack_file.hpp"
 
 namespace microtin {
@@ -111,13 +112,14 @@ JsonObject report_of(const std::vector<uint8_t>& stream) {
 }  // namespace
 
 void run_info(const std::string& input, bool json) {
+  refuse_overwriting({input}, "-");
   const std::optional<PackFile> pack = open_pack(input);
   if (pack) {
     run_info_pack(*pack, json);
     return;
   }
   const std::vector<uint8_t> stream = read_stream(input);
-  print(about(input, [&] { return report_of(stream); }), json);
+  print(text_of(about(input, [&] { return report_of(stream); }), json));
 }
 
 }  // namespace microtin

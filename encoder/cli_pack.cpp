@@ -8,6 +8,7 @@
 #include "encoder/cli_progress.hpp"
 #include "encoder/error.hpp"
 #include "encoder/error_context.hpp"
+#include "encoder/file_target.hpp"
 #include "encoder/import.hpp"
 #include "encoder/output_file.hpp"
 #include "encoder/pack_surface.hpp"
@@ -138,9 +139,10 @@ std::string encode_points(const PointCloud& cloud, const EncodeRequest& request,
     std::vector<uint8_t> all = write_pack(made.content, made.streams);
     return std::pair(std::move(made), std::move(all));
   });
-  const Verification found = verify(PackFile(bytes), cloud, request.lattice.max_error);
+  const Verification found =
+      on_our_own([&] { return verify(PackFile(bytes), cloud, request.lattice.max_error); });
   if (!found.within_bound || found.uncovered != 0) {
-    throw Error("internal error: the pack does not keep what was asked for");
+    throw InternalFault("the pack does not keep what was asked for");
   }
   out.write(bytes);
   std::string text = "source: " + std::to_string(cloud.points.size()) + " points";
@@ -232,7 +234,6 @@ std::string array(const std::vector<JsonObject>& tiles) {
 }  // namespace
 
 void run_encode_pack(const EncodeRequest& request) {
-  refuse_overwriting(request.input, request.output);
   if (request.tiles) {
     run_encode_shard(request);
     return;
@@ -248,6 +249,7 @@ void run_encode_pack(const EncodeRequest& request) {
 }
 
 void run_plan(const EncodeRequest& request, uint32_t shards) {
+  refuse_overwriting(inputs_of(request), "-");
   const std::unique_ptr<RasterReader> raster = open_raster(request);
   const std::string text = about(request.input, [&] {
     ProgressBar bar;
@@ -262,13 +264,11 @@ void run_plan(const EncodeRequest& request, uint32_t shards) {
     }
     return lines;
   });
-  OutputFile out("-");
-  out.write(text);
-  out.commit();
+  print(text);
 }
 
 void run_merge(const std::vector<std::string>& shards, const std::string& output) {
-  for (const std::string& shard : shards) refuse_overwriting(shard, output);
+  refuse_overwriting(shards, output);
   OutputFile out(output);
   const PackContent pack = merge_shards(shards, out);
   deliver(out, output, report(pack));
@@ -298,11 +298,7 @@ void run_info_pack(const PackFile& pack, bool as_json) {
   add_notes(report, pack.metadata());
   add_accuracy(report, pack.metadata().accuracy);
   if (as_json) report.emplace_back("tiles", array(tiles));
-  print(report, as_json);
-  if (as_json) return;
-  OutputFile out("-");
-  out.write(table(tiles));
-  out.commit();
+  print(text_of(report, as_json) + (as_json ? "" : table(tiles)));
 }
 
 void run_verify_pack(const VerifyRequest& request, const PackFile& pack) {

@@ -6,6 +6,7 @@
 #include "encoder/cli_commands.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error_context.hpp"
+#include "encoder/file_target.hpp"
 #include "encoder/fractal.hpp"
 #include "encoder/header.hpp"
 #include "encoder/output_file.hpp"
@@ -97,7 +98,9 @@ void draw_stream(const RenderRequest& request, const std::vector<uint8_t>& strea
 }  // namespace
 
 void run_render(const RenderRequest& request) {
-  refuse_overwriting(request.input, request.output);
+  std::vector<std::string> inputs = files_of(request.source, request.preparation);
+  inputs.push_back(request.input);
+  refuse_overwriting(inputs, request.output);
   const std::optional<PackFile> pack = open_pack(request.input);
   if (pack) {
     draw_pack(request, *pack);

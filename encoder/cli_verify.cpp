@@ -2,6 +2,7 @@
 #include "encoder/cli_pack.hpp"
 #include "encoder/cli_report.hpp"
 #include "encoder/error_context.hpp"
+#include "encoder/file_target.hpp"
 #include "encoder/pack_file.hpp"
 #include "encoder/verify.hpp"
 #include "encoder/water.hpp"
@@ -10,6 +11,9 @@ namespace microtin {
 
 void run_verify(const VerifyRequest& request) {
   const std::string& input = request.input;
+  std::vector<std::string> inputs = files_of(request.source, request.preparation);
+  inputs.push_back(input);
+  refuse_overwriting(inputs, "-");
   const std::optional<PackFile> pack = open_pack(input);
   if (pack) {
     run_verify_pack(request, *pack);
@@ -49,11 +53,12 @@ void report_and_judge(const VerifyRequest& request, const Promise& promise,
                        {"max_below", number(found.max_below)},
                        {"rms_error", number(found.rms_error)}};
   if (promise.water_level) report.emplace_back("water_moved", json(water_moved));
-  print(report, request.json);
+  const bool told = tell(text_of(report, request.json));
   if (!found.within_bound) throw Error(input + ": the largest error is above the bound");
   if (found.uncovered != 0) throw Error(input + ": heights of the source are not covered");
   if (found.voids_answered != 0) throw Error(input + ": voids of the source answer heights");
   if (water_moved != 0) throw Error(input + ": water of the source is not at its level");
+  if (!told) throw ReportLost(input + ": keeps its promises, but nobody reads the report");
 }
 
 }  // namespace microtin

@@ -18,6 +18,16 @@ auto about(const std::string& path, const Work& work) {
   }
 }
 
+// Runs `work` on what this program made itself: whatever is wrong with that is a fault of ours.
+template <class Work>
+auto on_our_own(const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw InternalFault(error.what());
+  }
+}
+
 }  // namespace microtin
 
 #endif

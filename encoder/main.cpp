@@ -1,27 +1,41 @@
 // The command line: what it accepts, and how it fails.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "encoder/cli_commands.hpp"
+#include "encoder/cli_report.hpp"
 #include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
+#include "encoder/file_target.hpp"
 #include "encoder/iso_date.hpp"
 #include "encoder/leftovers.hpp"
 #include "encoder/pack_encode.hpp"
 #include "encoder/render.hpp"
+#include "encoder/standard_files.hpp"
 #include "encoder/tile_plan.hpp"
+#include "encoder/utf8.hpp"
 #include "shared/format.hpp"
 
 namespace microtin {
 namespace {
 
-constexpr int kFailed = 1, kUsage = 2;
+constexpr int kFailed = 1, kUsage = 2, kInternal = 3, kReportLost = 4;
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done; 1 failed, no output; 2 wrong usage; 3 a fault of microtin itself, no "
+    "output; 4 done, but nobody reads the report";
 
 constexpr const char* kTerrainFiles =
     "Rasters: .hgt, .zip with one .hgt, .asc. Points: .xyz, .csv, .txt, .las, .ply, .obj; - reads "
@@ -31,8 +45,15 @@ constexpr const char* kTerrainFiles =
 #endif
     ;
 
-void add_output(CLI::App& command, std::string& path) {
-  command.add_option("-o,--output", path, "File to write; - is standard output")->required();
+// Other names of standard output are "-" for all that follows, unless a suffix asks for a format.
+std::string plain_output(std::string path) {
+  const bool is_plain = std::filesystem::path(path).extension().empty();
+  return is_plain && descriptor_named(path) == STDOUT_FILENO ? "-" : path;
+}
+
+void add_output(CLI::App& command, std::string& path,
+                const std::string& description = "File to write; - is standard output") {
+  command.add_option("-o,--output", path, description)->required()->transform(plain_output);
 }
 
 CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
@@ -272,11 +293,9 @@ void add_decode(CLI::App& app, Action& action) {
   auto request = std::make_shared<DecodeRequest>();
   CLI::App& command = *app.add_subcommand("decode", "Turn a stream into a mesh or a grid");
   command.add_option("stream", request->input)->required();
-  command
-      .add_option("-o,--output", request->output,
-                  "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); - is .xyz on "
-                  "standard output")
-      ->required();
+  add_output(command, request->output,
+             "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); - is .xyz on "
+             "standard output");
   add_decimal(command, "--cell", request->cell,
               "Size of an .asc grid's cells, in the terrain's unit; if not given, the lattice's "
               "step: for rasters the posts");
@@ -359,10 +378,16 @@ void add_render(CLI::App& app, Action& action) {
 
 // Prints one line, whatever the text, without asking for memory: there may be none.
 int fail(const char* text, int code) {
-  std::fputs("microtin: ", stderr);
-  for (; *text != '\0'; ++text) {
-    const unsigned char c = static_cast<unsigned char>(*text);
-    std::fprintf(stderr, c < 32 || c == 127 ? "\\x%02x" : "%c", c);
+  std::fputs(code == kInternal ? "microtin: internal fault, please report it: " : "microtin: ",
+             stderr);
+  for (std::string_view rest = text; !rest.empty();) {
+    const size_t size = character_bytes(rest);
+    const std::string_view character = rest.substr(0, std::max<size_t>(size, 1));
+    const bool shown = size != 0 && !is_control(character);
+    for (const char byte : character) {
+      std::fprintf(stderr, shown ? "%c" : "\\x%02x", static_cast<unsigned char>(byte));
+    }
+    rest.remove_prefix(character.size());
   }
   std::fputc('\n', stderr);
   return code;
@@ -372,6 +397,7 @@ int run(int argc, char** argv) {
   CLI::App app("Terrain TINs for microcontrollers");
   Action action;
   app.require_subcommand(1);
+  app.footer(kExitCodes);
   add_encode(app, action);
   add_plan(app, action);
   add_merge(app, action);
@@ -384,8 +410,11 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // asked for help
-    return fail(error.what(), kUsage);
+    if (error.get_exit_code() != 0) return fail(error.what(), kUsage);
+    std::ostringstream help;  // was asked for
+    app.exit(error, help);
+    print(help.str());
+    return 0;
   }
   action();
   return 0;
@@ -395,12 +424,17 @@ int run(int argc, char** argv) {
 }  // namespace microtin
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like others
+  if (!microtin::hold_closed_standard_files()) return microtin::kFailed;
+  for (const int ignored : {SIGXFSZ, SIGPIPE}) std::signal(ignored, SIG_IGN);  // errors like others
   microtin::remove_leftovers_on_signals();
   try {
     return microtin::run(argc, argv);
   } catch (const std::bad_alloc&) {
     return microtin::fail("not enough memory", microtin::kFailed);
+  } catch (const microtin::ReportLost& lost) {
+    return microtin::fail(lost.what(), microtin::kReportLost);
+  } catch (const std::logic_error& fault) {  // our own, and those that the library finds
+    return microtin::fail(fault.what(), microtin::kInternal);
   } catch (const std::exception& error) {
     return microtin::fail(error.what(), microtin::kFailed);
   }

@@ -56,6 +56,13 @@ Raster read_mask(const std::string& path, const Raster& raster) {
 
 }  // namespace
 
+std::vector<std::string> files_of(const std::string& path, const Preparation& preparation) {
+  std::vector<std::string> files;
+  if (!path.empty()) files.push_back(path);
+  if (!preparation.water_mask.empty()) files.push_back(preparation.water_mask);
+  return files;
+}
+
 PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation) {
   PreparedTerrain terrain{import_terrain(path, preparation.classes), 0, 0};
   terrain.filled = fill_voids(terrain.source, preparation.fill_voids);

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "encoder/import.hpp"
 #include "encoder/raster_reader.hpp"
@@ -18,6 +19,9 @@ struct Preparation {
   std::optional<Decimal> water_level;  // voids that are left are water at this height
   std::string water_mask;              // ... where this file says so; everywhere if there is none
 };
+
+// All files that a terrain is read from; none for one without a name.
+std::vector<std::string> files_of(const std::string& path, const Preparation& preparation);
 
 struct PreparedTerrain {
   Source source;

@@ -1,27 +1,26 @@
 #include "encoder/stream_spool.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <filesystem>
 #include <system_error>
 
-#include "encoder/byte_source.hpp"
 #include "encoder/error.hpp"
+#include "encoder/file_target.hpp"
 #include "encoder/leftovers.hpp"
 
 namespace microtin {
 namespace {
 
 std::FILE* open_nameless(const std::string& output) {
-  std::error_code ignored;
-  if (output == "-" || (std::filesystem::exists(output, ignored) && !is_regular_file(output))) {
-    return std::tmpfile();
-  }
-  const std::string name = output + ".streams-" + std::to_string(getpid());
+  const std::optional<std::string> target = replaced_by(output);
+  if (!target) return std::tmpfile();
+  const std::string name = *target + ".streams-" + std::to_string(getpid());
   const SignalsHeld held;
-  std::FILE* const file = std::fopen(name.c_str(), "w+bx");
+  std::FILE* const file =
+      stream_of(open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600), "w+b");
   if (file != nullptr) std::remove(name.c_str());
   return file;
 }

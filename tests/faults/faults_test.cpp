@@ -67,11 +67,11 @@ class Stage {
     if (child == 0) run_as_child(words, errors);
     Result result{};
     REQUIRE(waitpid(child, &result.status, 0) == child);
-    const std::vector<uint8_t> text = read_file(errors);
+    const std::vector<uint8_t> text = bytes_of_file(errors);
     result.error.assign(text.begin(), text.end());
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
       const std::string name = entry.path().filename();
-      result.files[name] = read_file(entry.path());
+      result.files[name] = bytes_of_file(entry.path());
       if (name.find("new") == 0) std::filesystem::remove(entry.path());
     }
     return result;
