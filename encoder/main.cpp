@@ -172,6 +172,11 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
 // For encoding, and alike for every comparison with the source.
 void add_preparation(CLI::App& command, Preparation& preparation) {
   add_classes(command, preparation.classes);
+#ifdef MICROTIN_WITH_GDAL
+  command.add_flag_callback(
+      "--allow-vrt", [&preparation] { preparation.indirect = Indirect::kAllowed; },
+      "Read .vrt files, which name other files to be read, and names that begin with /vsi");
+#endif
   command.add_option("--fill-voids", preparation.fill_voids,
                      "Interpolate voids of up to so many posts");
   CLI::Option* const level = add_height(

@@ -58,13 +58,17 @@ Raster read_mask(const std::string& path, const Raster& raster) {
 
 std::vector<std::string> files_of(const std::string& path, const Preparation& preparation) {
   std::vector<std::string> files;
-  if (!path.empty()) files.push_back(path);
-  if (!preparation.water_mask.empty()) files.push_back(preparation.water_mask);
+  for (const std::string& name : {path, preparation.water_mask}) {
+    if (name.empty()) continue;
+    for (std::string& file : terrain_files(name, preparation.indirect)) {
+      files.push_back(std::move(file));
+    }
+  }
   return files;
 }
 
 PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation) {
-  PreparedTerrain terrain{import_terrain(path, preparation.classes), 0, 0};
+  PreparedTerrain terrain{import_terrain(path, preparation.classes, preparation.indirect), 0, 0};
   terrain.filled = fill_voids(terrain.source, preparation.fill_voids);
   if (!preparation.water_level) return terrain;
   auto* const raster = std::get_if<Raster>(&terrain.source);
@@ -78,7 +82,7 @@ PreparedTerrain prepared_terrain(const std::string& path, const Preparation& pre
 }
 
 OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
-  OpenSource source = open_terrain(path, preparation.classes);
+  OpenSource source = open_terrain(path, preparation.classes, preparation.indirect);
   auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
     if (preparation.water_level) refuse_water(path);

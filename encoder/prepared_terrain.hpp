@@ -18,9 +18,11 @@ struct Preparation {
   uint32_t fill_voids = 0;             // interpolate voids of up to so many posts
   std::optional<Decimal> water_level;  // voids that are left are water at this height
   std::string water_mask;              // ... where this file says so; everywhere if there is none
+  Indirect indirect = Indirect::kRefused;  // files that name others
 };
 
-// All files that a terrain is read from; none for one without a name.
+// All files that a terrain is read from; none for one without a name. Throws Error as preparing
+// does.
 std::vector<std::string> files_of(const std::string& path, const Preparation& preparation);
 
 struct PreparedTerrain {

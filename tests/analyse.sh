@@ -1,5 +1,6 @@
 #!/bin/sh
-# Static analysis of the decoder beside clang-tidy: gcc -fanalyzer, and cppcheck with tests/cppcheck.
+# Static analysis beside clang-tidy: of the decoder by gcc -fanalyzer, of all by the one-definition rule (preset odr)
+# and by cppcheck with tests/cppcheck.
 set -eu
 cd "$(dirname "$0")/.."
 for bits in 16 32; do
@@ -7,6 +8,8 @@ for bits in 16 32; do
     g++ -std=c++14 -O1 -I. -Idecoder/include -DMICROTIN_INDEX_BITS=$bits -fanalyzer -Werror -c "$source" -o /dev/null
   done
 done
+cmake --preset odr >/dev/null
+cmake --build --preset odr
 if ! command -v cppcheck >/dev/null; then
   echo "skipped: cppcheck is not installed"
   exit 77

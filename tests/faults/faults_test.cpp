@@ -201,4 +201,35 @@ TEST_CASE("file functions failing at each call in turn: an error of one line, an
   check_all(&Counters::files, false, 1);
 }
 
+TEST_CASE("a decoder that betrays the encoder: a fault of ours, told as that, and no file") {
+  constexpr int kInternal = 3;
+  Stage stage;
+  const std::vector<Words> commands = {
+      {"encode", "t.asc", "-o", "new.mtin", "--max-error", "1"},
+      {"encode", "t.asc", "-o", "new.mtin", "--max-bytes", "200"},
+      {"encode", "p.xyz", "-o", "new.mtin", "--max-error", "1"},
+      {"encode", "p.xyz", "-o", "new.mtp", "--tile-vertices", "16", "--max-error", "1"},
+      {"encode", "t.asc", "-o", "new.mtp", "--tile-vertices", "16", "--max-error", "1"},
+      {"encode", "t.asc", "-o", "new", "--tile-vertices", "16", "--max-error", "1", "--tiles",
+       "0:0"}};
+  for (const Words& words : commands) {
+    for (Counter Counters::*const counter : {&Counters::streams, &Counters::heights}) {
+      CAPTURE(words[1] + " " + words[3]);
+      REQUIRE(stage.run(words).status == 0);
+      const uint64_t asked = (stage.counters().*counter).asked;
+      CHECK(asked > 0);
+      for (const uint64_t first : {uint64_t{1}, asked}) {
+        Counters faults;
+        (faults.*counter).first = first;
+        const Stage::Result result = stage.run(words, faults);
+        CAPTURE(result.error);
+        CHECK(WEXITSTATUS(result.status) == kInternal);
+        CHECK(result.error.find("microtin: internal fault, please report it: ") == 0);
+        CHECK(is_one_line(result.error));
+        CHECK(result.files.count(words[3]) == 0);
+      }
+    }
+  }
+}
+
 }  // namespace microtin::faults
