@@ -1,5 +1,6 @@
 #!/bin/sh
-# Static analysis of the decoder beside clang-tidy: gcc -fanalyzer, and cppcheck with tests/cppcheck.
+# Static analysis beside clang-tidy: of the decoder by gcc -fanalyzer, of all by the one-definition rule (preset odr)
+# and by cppcheck with tests/cppcheck.
 set -eu
 cd "$(dirname "$0")/.."
 cmake --preset release >/dev/null # for its flags
@@ -9,6 +10,8 @@ for target in microtin_decoder microtin_decoder_16; do
     g++ $flags -O1 -fanalyzer -Werror -c "$source" -o /dev/null
   done
 done
+cmake --preset odr >/dev/null
+cmake --build --preset odr
 if ! command -v cppcheck >/dev/null; then
   echo "skipped: cppcheck is not installed"
   exit 77

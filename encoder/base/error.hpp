@@ -1,4 +1,4 @@
-// The one exception of the host tools: a sentence for the user.
+// The exceptions of the host tools.
 #ifndef MICROTIN_ENCODER_BASE_ERROR_HPP
 #define MICROTIN_ENCODER_BASE_ERROR_HPP
 
@@ -8,9 +8,20 @@
 
 namespace microtin::base {
 
-// What went wrong, where (file, and line of the input if there is one): printed as it is, on one
-// line.
+// A sentence for the user: what went wrong, where (file, and line of the input if there is one).
+// Printed as it is, on one line.
 struct Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// A guarantee of ours that does not hold, whatever the input: no Error, so that nothing takes it
+// for one and goes on.
+struct InternalFault : std::logic_error {
+  using std::logic_error::logic_error;
+};
+
+// The work is done and its output, if there is one, whole, but the report did not reach anybody.
+struct ReportLost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 

@@ -11,11 +11,21 @@ namespace microtin::base {
 
 // Runs `work`; its errors are about the file `path`, which they do not name themselves.
 template <class Work>
-auto about(const std::string& path, const Work& work) {
+auto with_file_context(const std::string& path, const Work& work) {
   try {
     return work();
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
+  }
+}
+
+// Runs `work` on what this program made itself: whatever is wrong with that is a fault of ours.
+template <class Work>
+auto on_our_own(const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw InternalFault(error.what());
   }
 }
 

@@ -7,6 +7,7 @@
 #include "encoder/export/export.hpp"
 #include "encoder/export/grid.hpp"
 #include "encoder/export/height_sampler.hpp"
+#include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/stream/header.hpp"
@@ -27,12 +28,12 @@ void set_units(SurfaceModel& model, const Metadata& metadata) {
 SurfaceModel read_surface(const std::string& input) {
   const std::optional<PackFile> pack = open_pack(input);
   if (pack) {
-    SurfaceModel model = about(input, [&] { return model_of(*pack); });
+    SurfaceModel model = with_file_context(input, [&] { return model_of(*pack); });
     set_units(model, pack->metadata());
     return model;
   }
   const std::vector<uint8_t> stream = read_stream(input);
-  return about(input, [&] {
+  return with_file_context(input, [&] {
     SurfaceModel model = model_of(DecodedTerrain(stream).mesh());
     set_units(model, read_header(stream).metadata);
     return model;
@@ -43,7 +44,7 @@ void write_grid(const DecodeRequest& request, SampledSurface surface) {
   if (request.lattice) surface.placement = Placement();
   const auto height_at = std::move(surface.height_at);
   surface.height_at = [&](int64_t x, int64_t y) {
-    return about(request.input, [&] { return height_at(x, y); });
+    return with_file_context(request.input, [&] { return height_at(x, y); });
   };
   OutputFile out(request.output);
   export_grid(surface, request.cell, out);
@@ -58,7 +59,8 @@ void decode_to_grid(const DecodeRequest& request) {
     return;
   }
   const std::vector<uint8_t> stream = read_stream(request.input);
-  const DecodedTerrain terrain = about(request.input, [&] { return DecodedTerrain(stream); });
+  const DecodedTerrain terrain =
+      with_file_context(request.input, [&] { return DecodedTerrain(stream); });
   const SampledSurface surface = sampled(terrain.mesh());
   if (!request.cell && lattice_posts(surface) > kMostPosts) {
     throw Error(request.input + ": has " + std::to_string(lattice_posts(surface)) +
@@ -70,7 +72,7 @@ void decode_to_grid(const DecodeRequest& request) {
 }  // namespace
 
 void run_decode(const DecodeRequest& request) {
-  refuse_overwriting(request.input, request.output);
+  refuse_overwriting({request.input}, request.output);
   if (is_grid(request.output)) {
     decode_to_grid(request);
     return;

@@ -10,6 +10,7 @@
 #include "encoder/cli/pack.hpp"
 #include "encoder/cli/progress.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/fit/approximation.hpp"
 #include "encoder/fit/byte_budget.hpp"
@@ -18,6 +19,10 @@
 #include "encoder/terrain/water.hpp"
 
 namespace microtin::cli {
+
+std::vector<std::string> inputs_of(const EncodeRequest& request) {
+  return files_of(request.input, request.preparation);
+}
 
 Metadata metadata_of(const EncodeRequest& request, const Reference& reference,
                      const Placement& placement) {
@@ -105,7 +110,7 @@ Encoded encode_measured(const Source& source, const EncodeRequest& request,
   const bool too_low = request.lattice.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.uncovered != 0 ||
       measured.voids_answered != 0 || gauge.moved() != 0) {
-    throw Error("internal error: the decoded terrain does not keep what was asked for");
+    throw InternalFault("the decoded terrain does not keep what was asked for");
   }
   metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error};
   return {std::move(found.laid), bound, with_metadata(stream, metadata),
@@ -184,7 +189,7 @@ std::string report(const PreparedTerrain& terrain, const Encoded& encoded) {
   text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
   text << "source: " << measured.posts << (posts ? " posts" : " points");
   if (measured.voids != 0) text << ", " << measured.voids << " void posts";
-  text << told(terrain);
+  text << describe_preparation(terrain);
   text << "\nstep of x and y: " << to_string(laid.xy_step) << (posts ? " (in posts)" : "")
        << moved(laid.xy_displacement) << "\nstep of z: " << to_string(laid.z_step)
        << moved(laid.z_displacement) << '\n'
@@ -202,15 +207,15 @@ std::string report(const PreparedTerrain& terrain, const Encoded& encoded) {
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
+  refuse_overwriting(inputs_of(request), request.output);
   if (makes_pack(request)) {
     run_encode_pack(request);
     return;
   }
-  refuse_overwriting(request.input, request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
   const PreparedTerrain terrain = prepared_terrain(request.input, request.preparation);
   const Source& source = terrain.source;
-  const Encoded encoded = about(request.input, [&] {
+  const Encoded encoded = with_file_context(request.input, [&] {
     ProgressBar bar;
     return request.max_bytes != 0 ? encode_within_bytes(source, request)
                                   : encode_measured(source, request, bar.progress());

@@ -3,6 +3,7 @@
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/pack.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/files/file_target.hpp"
 #include "encoder/pack/file.hpp"
 
 namespace microtin::cli {
@@ -111,13 +112,14 @@ JsonObject report_of(const std::vector<uint8_t>& stream) {
 }  // namespace
 
 void run_info(const std::string& input, bool json) {
+  refuse_overwriting({input}, "-");
   const std::optional<PackFile> pack = open_pack(input);
   if (pack) {
     run_info_pack(*pack, json);
     return;
   }
   const std::vector<uint8_t> stream = read_stream(input);
-  print(about(input, [&] { return report_of(stream); }), json);
+  print(text_of(with_file_context(input, [&] { return report_of(stream); }), json));
 }
 
 }  // namespace microtin::cli

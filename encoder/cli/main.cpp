@@ -1,17 +1,27 @@
 // The command line: what it accepts, and how it fails.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/iso_date.hpp"
+#include "encoder/base/utf8.hpp"
 #include "encoder/cli/commands.hpp"
+#include "encoder/cli/report.hpp"
+#include "encoder/files/file_target.hpp"
 #include "encoder/files/leftovers.hpp"
+#include "encoder/files/standard_files.hpp"
 #include "encoder/pack/encode.hpp"
 #include "encoder/pack/tile_plan.hpp"
 #include "encoder/picture/render.hpp"
@@ -21,7 +31,11 @@
 namespace microtin::cli {
 namespace {
 
-constexpr int kFailed = 1, kUsage = 2;
+constexpr int kFailed = 1, kUsage = 2, kInternal = 3, kReportLost = 4;
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done; 1 failed, no output; 2 wrong usage; 3 a fault of microtin itself, no "
+    "output; 4 done, but nobody reads the report";
 
 constexpr const char* kTerrainFiles =
     "Rasters: .hgt, .zip with one .hgt, .asc. Points: .xyz, .csv, .txt, .las, .ply, .obj; - reads "
@@ -31,8 +45,15 @@ constexpr const char* kTerrainFiles =
 #endif
     ;
 
-void add_output(CLI::App& command, std::string& path) {
-  command.add_option("-o,--output", path, "File to write; - is standard output")->required();
+// Other names of standard output are "-" for all that follows, unless a suffix asks for a format.
+std::string plain_output(std::string path) {
+  const bool is_plain = std::filesystem::path(path).extension().empty();
+  return is_plain && descriptor_named(path) == STDOUT_FILENO ? "-" : path;
+}
+
+void add_output(CLI::App& command, std::string& path,
+                const std::string& description = "File to write; - is standard output") {
+  command.add_option("-o,--output", path, description)->required()->transform(plain_output);
 }
 
 CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
@@ -151,6 +172,11 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
 // For encoding, and alike for every comparison with the source.
 void add_preparation(CLI::App& command, Preparation& preparation) {
   add_classes(command, preparation.classes);
+#ifdef MICROTIN_WITH_GDAL
+  command.add_flag_callback(
+      "--allow-vrt", [&preparation] { preparation.indirect = Indirect::kAllowed; },
+      "Read .vrt files, which name other files to be read, and names that begin with /vsi");
+#endif
   command.add_option("--fill-voids", preparation.fill_voids,
                      "Interpolate voids of up to so many posts");
   CLI::Option* const level = add_height(
@@ -272,11 +298,9 @@ void add_decode(CLI::App& app, Action& action) {
   auto request = std::make_shared<DecodeRequest>();
   CLI::App& command = *app.add_subcommand("decode", "Turn a stream into a mesh or a grid");
   command.add_option("stream", request->input)->required();
-  command
-      .add_option("-o,--output", request->output,
-                  "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); - is .xyz on "
-                  "standard output")
-      ->required();
+  add_output(command, request->output,
+             "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); - is .xyz on "
+             "standard output");
   add_decimal(command, "--cell", request->cell,
               "Size of an .asc grid's cells, in the terrain's unit; if not given, the lattice's "
               "step: for rasters the posts");
@@ -359,10 +383,16 @@ void add_render(CLI::App& app, Action& action) {
 
 // Prints one line, whatever the text, without asking for memory: there may be none.
 int fail(const char* text, int code) {
-  std::fputs("microtin: ", stderr);
-  for (; *text != '\0'; ++text) {
-    const unsigned char c = static_cast<unsigned char>(*text);
-    std::fprintf(stderr, c < 32 || c == 127 ? "\\x%02x" : "%c", c);
+  std::fputs(code == kInternal ? "microtin: internal fault, please report it: " : "microtin: ",
+             stderr);
+  for (std::string_view rest = text; !rest.empty();) {
+    const size_t size = character_bytes(rest);
+    const std::string_view character = rest.substr(0, std::max<size_t>(size, 1));
+    const bool shown = size != 0 && !is_control(character);
+    for (const char byte : character) {
+      std::fprintf(stderr, shown ? "%c" : "\\x%02x", static_cast<unsigned char>(byte));
+    }
+    rest.remove_prefix(character.size());
   }
   std::fputc('\n', stderr);
   return code;
@@ -372,6 +402,7 @@ int run(int argc, char** argv) {
   CLI::App app("Terrain TINs for microcontrollers");
   Action action;
   app.require_subcommand(1);
+  app.footer(kExitCodes);
   add_encode(app, action);
   add_plan(app, action);
   add_merge(app, action);
@@ -384,8 +415,11 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // asked for help
-    return fail(error.what(), kUsage);
+    if (error.get_exit_code() != 0) return fail(error.what(), kUsage);
+    std::ostringstream help;  // was asked for
+    app.exit(error, help);
+    print(help.str());
+    return 0;
   }
   action();
   return 0;
@@ -395,13 +429,19 @@ int run(int argc, char** argv) {
 }  // namespace microtin::cli
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like others
-  microtin::cli::remove_leftovers_on_signals();
+  namespace cli = microtin::cli;
+  if (!cli::hold_closed_standard_files()) return cli::kFailed;
+  for (const int ignored : {SIGXFSZ, SIGPIPE}) std::signal(ignored, SIG_IGN);  // errors like others
+  cli::remove_leftovers_on_signals();
   try {
-    return microtin::cli::run(argc, argv);
+    return cli::run(argc, argv);
   } catch (const std::bad_alloc&) {
-    return microtin::cli::fail("not enough memory", microtin::cli::kFailed);
+    return cli::fail("not enough memory", cli::kFailed);
+  } catch (const cli::ReportLost& lost) {
+    return cli::fail(lost.what(), cli::kReportLost);
+  } catch (const std::logic_error& fault) {  // our own, and those that the library finds
+    return cli::fail(fault.what(), cli::kInternal);
   } catch (const std::exception& error) {
-    return microtin::cli::fail(error.what(), microtin::cli::kFailed);
+    return cli::fail(error.what(), cli::kFailed);
   }
 }

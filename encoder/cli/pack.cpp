@@ -9,6 +9,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/progress.hpp"
+#include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/files/stream_spool.hpp"
 #include "encoder/import/import.hpp"
@@ -125,7 +126,7 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
                           OutputFile& out) {
   StreamSpool streams(request.output);
   const PackContent pack =
-      about(request.input, [&] { return encode_whole(raster, request, streams); });
+      with_file_context(request.input, [&] { return encode_whole(raster, request, streams); });
   out.write(write_pack_head(pack));
   streams.copy_to(out);
   return report(pack);
@@ -133,15 +134,16 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
 
 // The same for points.
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
-  const auto [pack, bytes] = about(request.input, [&] {
+  const auto [pack, bytes] = with_file_context(request.input, [&] {
     PointPack made =
         encode_point_pack(cloud, point_options(request), metadata_of(request, cloud.reference, {}));
     std::vector<uint8_t> all = write_pack(made.content, made.streams);
     return std::pair(std::move(made), std::move(all));
   });
-  const Verification found = verify(PackFile(bytes), cloud, request.lattice.max_error);
+  const Verification found =
+      on_our_own([&] { return verify(PackFile(bytes), cloud, request.lattice.max_error); });
   if (!found.within_bound || found.uncovered != 0) {
-    throw Error("internal error: the pack does not keep what was asked for");
+    throw InternalFault("the pack does not keep what was asked for");
   }
   out.write(bytes);
   std::string text = "source: " + std::to_string(cloud.points.size()) + " points";
@@ -166,7 +168,7 @@ TileRange existing(TileRange range, const TileGrid& grid) {
 void run_encode_shard(const EncodeRequest& request) {
   OutputFile out(request.output);
   const std::unique_ptr<RasterReader> raster = open_raster(request);
-  const std::string text = about(request.input, [&] {
+  const std::string text = with_file_context(request.input, [&] {
     ProgressBar bar;
     const PackPlan plan = plan_pack(*raster, raster_options(request, bar.progress()));
     const TileRange range = existing(*request.tiles, plan.tiled.grid);
@@ -233,7 +235,6 @@ std::string array(const std::vector<JsonObject>& tiles) {
 }  // namespace
 
 void run_encode_pack(const EncodeRequest& request) {
-  refuse_overwriting(request.input, request.output);
   if (request.tiles) {
     run_encode_shard(request);
     return;
@@ -249,8 +250,9 @@ void run_encode_pack(const EncodeRequest& request) {
 }
 
 void run_plan(const EncodeRequest& request, uint32_t shards) {
+  refuse_overwriting(inputs_of(request), "-");
   const std::unique_ptr<RasterReader> raster = open_raster(request);
-  const std::string text = about(request.input, [&] {
+  const std::string text = with_file_context(request.input, [&] {
     ProgressBar bar;
     const PackPlan plan = plan_pack(*raster, raster_options(request, bar.progress()));
     const uint64_t tiles = tile_count(plan.tiled.grid), parts = std::min<uint64_t>(shards, tiles);
@@ -263,13 +265,11 @@ void run_plan(const EncodeRequest& request, uint32_t shards) {
     }
     return lines;
   });
-  OutputFile out("-");
-  out.write(text);
-  out.commit();
+  print(text);
 }
 
 void run_merge(const std::vector<std::string>& shards, const std::string& output) {
-  for (const std::string& shard : shards) refuse_overwriting(shard, output);
+  refuse_overwriting(shards, output);
   OutputFile out(output);
   const PackContent pack = merge_shards(shards, out);
   deliver(out, output, report(pack));
@@ -299,20 +299,16 @@ void run_info_pack(const PackFile& pack, bool as_json) {
   add_notes(report, pack.metadata());
   add_accuracy(report, pack.metadata().accuracy);
   if (as_json) report.emplace_back("tiles", array(tiles));
-  print(report, as_json);
-  if (as_json) return;
-  OutputFile out("-");
-  out.write(table(tiles));
-  out.commit();
+  print(text_of(report, as_json) + (as_json ? "" : table(tiles)));
 }
 
 void run_verify_pack(const VerifyRequest& request, const PackFile& pack) {
   const OpenSource source = prepared_source(request.source, request.preparation);
-  const Promise promise =
-      about(request.input, [&] { return promise_of(pack.metadata(), request.preparation); });
+  const Promise promise = with_file_context(
+      request.input, [&] { return promise_of(pack.metadata(), request.preparation); });
   const auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   WaterGauge gauge(raster != nullptr ? (*raster)->frame().decimals : 0, promise.water_level);
-  const Verification found = about(request.input, [&] {
+  const Verification found = with_file_context(request.input, [&] {
     if (const auto* cloud = std::get_if<PointCloud>(&source))
       return verify(pack, *cloud, promise.bound);
     ProgressBar bar;

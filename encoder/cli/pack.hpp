@@ -21,6 +21,7 @@ void run_info_pack(const PackFile& pack, bool as_json);
 void run_verify_pack(const VerifyRequest& request, const PackFile& pack);
 
 // Common to packs and streams.
+std::vector<std::string> inputs_of(const EncodeRequest& request);
 Metadata metadata_of(const EncodeRequest& request, const Reference& reference,
                      const Placement& placement);
 SimplifyOptions simplify_options(const EncodeRequest& request, const Progress& progress);

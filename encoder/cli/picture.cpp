@@ -7,6 +7,7 @@
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/surface.hpp"
@@ -51,15 +52,15 @@ Portrait portrait_of(const PackFile& pack) {
 }
 
 void draw(const RenderRequest& request, const Portrait& portrait, const Comparison* comparison) {
-  const std::vector<uint8_t> picture =
-      about(request.input, [&] { return render_png(portrait, request.width, comparison); });
+  const std::vector<uint8_t> picture = with_file_context(
+      request.input, [&] { return render_png(portrait, request.width, comparison); });
   OutputFile out(request.output);
   out.write(picture);
   out.commit();
 }
 
 void draw_pack(const RenderRequest& request, const PackFile& pack) {
-  const Portrait portrait = about(request.input, [&] { return portrait_of(pack); });
+  const Portrait portrait = with_file_context(request.input, [&] { return portrait_of(pack); });
   if (request.source.empty()) {
     draw(request, portrait, nullptr);
     return;
@@ -80,7 +81,8 @@ void draw_pack(const RenderRequest& request, const PackFile& pack) {
 }
 
 void draw_stream(const RenderRequest& request, const std::vector<uint8_t>& stream) {
-  const DecodedTerrain terrain = about(request.input, [&] { return DecodedTerrain(stream); });
+  const DecodedTerrain terrain =
+      with_file_context(request.input, [&] { return DecodedTerrain(stream); });
   const microtin_mesh* const mesh = terrain.mesh();
   const Portrait portrait{model_of(mesh), read_header(stream).metadata, microtin_vertex_count(mesh),
                           stream.size(), 0};
@@ -98,7 +100,9 @@ void draw_stream(const RenderRequest& request, const std::vector<uint8_t>& strea
 }  // namespace
 
 void run_render(const RenderRequest& request) {
-  refuse_overwriting(request.input, request.output);
+  std::vector<std::string> inputs = files_of(request.source, request.preparation);
+  inputs.push_back(request.input);
+  refuse_overwriting(inputs, request.output);
   const std::optional<PackFile> pack = open_pack(request.input);
   if (pack) {
     draw_pack(request, *pack);

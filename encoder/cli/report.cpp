@@ -19,7 +19,7 @@ std::optional<PackFile> open_pack(const std::string& path) {
   std::unique_ptr<ByteSource> bytes;
   if (is_regular_file(path)) bytes = open_file(path);
   if (!bytes || !is_pack(*bytes)) return std::nullopt;
-  return about(path, [&] { return PackFile(std::move(bytes)); });
+  return with_file_context(path, [&] { return PackFile(std::move(bytes)); });
 }
 
 std::string number(Decimal value) {
@@ -31,30 +31,38 @@ double bits_per_vertex(size_t bytes, uint32_t vertices) {
 }
 
 void deliver(OutputFile& out, const std::string& path, const std::string& text) {
-  if (path == "-") {
+  if (out.is_standard_output()) {
     out.commit();
-    std::fputs(text.c_str(), stderr);
+    if (std::fputs(text.c_str(), stderr) < 0) throw ReportLost("the report cannot be printed");
     return;
   }
-  OutputFile terminal("-");  // before the file is there: a failure leaves none
-  terminal.write(text);
-  terminal.commit();
+  const bool told = tell(text);  // before the file is there: a failure leaves none
   out.commit();
+  if (!told) throw ReportLost(path + ": is complete, but nobody reads the report");
 }
 
-void print(const JsonObject& report, bool as_json) {
-  OutputFile out("-");
-  const char* separator = as_json ? "{\n" : "";
-  for (const auto& [name, value] : report) {
-    out.write(separator);
-    out.write(as_json ? "  " + json(name) : name);
-    out.write(": ");
-    out.write(value);
-    if (!as_json) out.write("\n");
-    if (as_json) separator = ",\n";
+bool tell(const std::string& text) {
+  try {
+    OutputFile terminal("-");
+    terminal.write(text);
+    terminal.commit();
+    return true;
+  } catch (const NobodyReads&) {
+    return false;
   }
-  if (as_json) out.write("\n}\n");
-  out.commit();
+}
+
+void print(const std::string& text) {
+  if (!tell(text)) throw ReportLost("nobody reads the report");
+}
+
+std::string text_of(const JsonObject& report, bool as_json) {
+  std::string text;
+  for (const auto& [name, value] : report) {
+    if (as_json) text += (text.empty() ? "{\n  " : ",\n  ") + json(name) + ": " + value;
+    if (!as_json) text += name + ": " + value + '\n';
+  }
+  return as_json ? text + "\n}\n" : text;
 }
 
 }  // namespace microtin::cli

@@ -27,11 +27,18 @@ std::string number(Decimal value);
 double bits_per_vertex(size_t bytes, uint32_t vertices);
 
 // Commits a command's output and tells of it on the terminal: on standard output, or on standard
-// error if the output itself goes there. Throws Error, and leaves no file, if either fails.
+// error if the output itself goes there. Throws Error, and leaves no file, if either fails; throws
+// ReportLost, and leaves the file, if nobody reads.
 void deliver(OutputFile& out, const std::string& path, const std::string& text);
 
-// Prints the report as JSON, or as a line "name: value" for each entry.
-void print(const JsonObject& report, bool as_json);
+// Writes to standard output. Returns false if nobody reads; throws Error if it fails otherwise.
+bool tell(const std::string& text);
+
+// The same for commands that do no more. Throws ReportLost if nobody reads.
+void print(const std::string& text);
+
+// The report as JSON, or as a line "name: value" for each entry.
+std::string text_of(const JsonObject& report, bool as_json);
 
 }  // namespace microtin::cli
 

@@ -5,6 +5,7 @@
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/pack.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/files/file_target.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/terrain/water.hpp"
 
@@ -12,6 +13,9 @@ namespace microtin::cli {
 
 void run_verify(const VerifyRequest& request) {
   const std::string& input = request.input;
+  std::vector<std::string> inputs = files_of(request.source, request.preparation);
+  inputs.push_back(input);
+  refuse_overwriting(inputs, "-");
   const std::optional<PackFile> pack = open_pack(input);
   if (pack) {
     run_verify_pack(request, *pack);
@@ -19,9 +23,9 @@ void run_verify(const VerifyRequest& request) {
   }
   const std::vector<uint8_t> stream = read_stream(input);
   const Source source = prepared_terrain(request.source, request.preparation).source;
-  const DecodedTerrain terrain = about(input, [&] { return DecodedTerrain(stream); });
-  const Promise promise =
-      about(input, [&] { return promise_of(read_header(stream).metadata, request.preparation); });
+  const DecodedTerrain terrain = with_file_context(input, [&] { return DecodedTerrain(stream); });
+  const Promise promise = with_file_context(
+      input, [&] { return promise_of(read_header(stream).metadata, request.preparation); });
   WaterGauge gauge(height_decimals(source), promise.water_level);
   const Verification found = verify(terrain.mesh(), source, promise.bound, gauge.visitor());
   report_and_judge(request, promise, found, gauge.moved());
@@ -51,11 +55,12 @@ void report_and_judge(const VerifyRequest& request, const Promise& promise,
                        {"max_below", number(found.max_below)},
                        {"rms_error", number(found.rms_error)}};
   if (promise.water_level) report.emplace_back("water_moved", json(water_moved));
-  print(report, request.json);
+  const bool told = tell(text_of(report, request.json));
   if (!found.within_bound) throw Error(input + ": the largest error is above the bound");
   if (found.uncovered != 0) throw Error(input + ": heights of the source are not covered");
   if (found.voids_answered != 0) throw Error(input + ": voids of the source answer heights");
   if (water_moved != 0) throw Error(input + ": water of the source is not at its level");
+  if (!told) throw ReportLost(input + ": keeps its promises, but nobody reads the report");
 }
 
 }  // namespace microtin::cli

@@ -20,7 +20,7 @@ std::string json(Integer value) {
 // The shortest number that is read as the same; finite.
 std::string json(double value);
 
-// In quotes. What is not UTF-8 becomes U+FFFD.
+// In quotes, without any control character. What is not UTF-8 becomes U+FFFD.
 std::string json(std::string_view text);
 
 // Names and their values' JSON, in order.

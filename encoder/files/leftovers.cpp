@@ -9,7 +9,7 @@
 namespace microtin::files {
 namespace {
 
-constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
 constexpr std::size_t kSlots = 8, kLongest = 4096;
 
 // A handler may read nothing else: fixed memory, each flag set last and cleared first.

@@ -10,8 +10,8 @@
 
 namespace microtin::files {
 
-// Lets SIGINT, SIGTERM and SIGHUP remove these files and then end the program as they do by
-// default. A signal that is ignored stays so.
+// Lets SIGINT, SIGTERM, SIGHUP, SIGQUIT and SIGXCPU remove these files and then end the program as
+// they do by default. A signal that is ignored stays so.
 void remove_leftovers_on_signals();
 
 // Keeps these signals waiting in this thread, and in those that it starts meanwhile.

@@ -9,14 +9,22 @@
 #include <string_view>
 #include <vector>
 
+#include "encoder/base/error.hpp"
 #include "encoder/files/leftovers.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::files {
 
+// Standard output is closed, or the pipe that it was has no other end.
+struct NobodyReads : Error {
+  using Error::Error;
+};
+
 // Writes to a temporary beside the target, which takes the target's place on commit() and
-// disappears without it, also when a signal ends the program. "-" is standard output; devices and
-// pipes are written directly. All throw Error naming the target.
+// disappears without it, also when a signal ends the program. The target is what a link leads to,
+// also if there is nothing yet; a file that was there hands on its mode. "-" is standard output,
+// as is /dev/stdout; descriptors, devices and pipes are written directly and keep what they hold.
+// All throw Error naming the output.
 class OutputFile {
  public:
   explicit OutputFile(const std::string& path);
@@ -29,8 +37,10 @@ class OutputFile {
     write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
   void commit();
+  bool is_standard_output() const { return file_ == stdout; }
 
  private:
+  void open_temporary();
   [[noreturn]] void fail() const;
 
   std::string path_;       // as the user calls it
@@ -40,8 +50,8 @@ class OutputFile {
   std::FILE* file_ = nullptr;
 };
 
-// Throws Error if the output would take the place of the input.
-void refuse_overwriting(const std::string& input, const std::string& output);
+// A stream on a descriptor, which it then owns; null with errno if it cannot be, or there is none.
+std::FILE* stream_of(int file, const char* mode);
 
 }  // namespace microtin::files
 

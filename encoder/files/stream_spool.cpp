@@ -1,28 +1,27 @@
 // Keeps streams in a temporary file, in order.
 #include "encoder/files/stream_spool.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <filesystem>
 #include <system_error>
 
 #include "encoder/base/error.hpp"
-#include "encoder/files/byte_source.hpp"
+#include "encoder/files/file_target.hpp"
 #include "encoder/files/leftovers.hpp"
 
 namespace microtin::files {
 namespace {
 
 std::FILE* open_nameless(const std::string& output) {
-  std::error_code ignored;
-  if (output == "-" || (std::filesystem::exists(output, ignored) && !is_regular_file(output))) {
-    return std::tmpfile();
-  }
-  const std::string name = output + ".streams-" + std::to_string(getpid());
+  const std::optional<std::string> target = replaced_by(output);
+  if (!target) return std::tmpfile();
+  const std::string name = *target + ".streams-" + std::to_string(getpid());
   const SignalsHeld held;
-  std::FILE* const file = std::fopen(name.c_str(), "w+bx");
+  std::FILE* const file =
+      stream_of(open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600), "w+b");
   if (file != nullptr) std::remove(name.c_str());
   return file;
 }

@@ -176,7 +176,7 @@ void for_each_height(Words& words, const NoData& no_data, uint64_t count, const 
 
 // Without heights.
 Raster frame_of(const std::string& name, const Header& header) {
-  return about(name, [&] {
+  return with_file_context(name, [&] {
     Raster frame;
     frame.width = header.count("ncols");
     frame.height = header.count("nrows");

@@ -1,9 +1,13 @@
 // Whatever GDAL opens; part of builds with MICROTIN_WITH_GDAL only.
 #include <cpl_error.h>
+#include <cpl_string.h>
 #include <gdal.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include "encoder/base/error.hpp"
@@ -23,13 +27,48 @@ struct Close {
 
 using Dataset = std::unique_ptr<void, Close>;
 
-Dataset open(const std::string& path) {
+// Drivers whose files hold their rasters themselves. Others read whatever files theirs name (VRT,
+// labels with a raster apart), the network or memory.
+constexpr const char* kDrivers[] = {"GTiff", "AAIGrid", "GRASSASCIIGrid", "SRTMHGT", "USGSDEM",
+                                    "DTED",  "AIG",     "EHdr",           "BT",      "GSAG",
+                                    "GSBG",  "GS7BG",   "GRIB",           "netCDF",  "XYZ"};
+
+bool is_allowed(const std::string& driver, Indirect indirect) {
+  if (driver == "VRT") return indirect == Indirect::kAllowed;
+  return std::find(std::begin(kDrivers), std::end(kDrivers), driver) != std::end(kDrivers);
+}
+
+// Drivers that are not allowed are gone altogether: those that are open other files by name.
+void register_drivers(Indirect indirect) {
   GDALAllRegister();
+  for (int i = GDALGetDriverCount(); i-- > 0;) {
+    const GDALDriverH driver = GDALGetDriver(i);
+    if (!is_allowed(GDALGetDriverShortName(driver), indirect)) GDALDeregisterDriver(driver);
+  }
+}
+
+// Names that GDAL does not give to the file system, also within those of parts of a file.
+bool is_virtual(const std::string& path) {
+  const size_t at = path.find("/vsi");
+  return at == 0 || (at != path.npos && (path[at - 1] == ':' || path[at - 1] == '"'));
+}
+
+Dataset open(const std::string& path, Indirect indirect) {
+  register_drivers(indirect);
   CPLSetErrorHandler(CPLQuietErrorHandler);
+  if (indirect == Indirect::kRefused && is_virtual(path)) {
+    throw Error("is opened with --allow-vrt only");
+  }
   Dataset dataset(GDALOpenEx(path.c_str(),
                              GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                              nullptr, nullptr));
-  if (!dataset) throw Error(std::string("GDAL cannot open it: ") + CPLGetLastErrorMsg());
+  if (!dataset) {
+    const bool is_vrt = lower_case(std::filesystem::path(path).extension().string()) == ".vrt";
+    if (is_vrt && indirect == Indirect::kRefused) {
+      throw Error("names other files, which are read with --allow-vrt only");
+    }
+    throw Error(std::string("GDAL cannot open it: ") + CPLGetLastErrorMsg());
+  }
   if (GDALGetRasterCount(dataset.get()) == 0) throw Error("has no raster band");
   return dataset;
 }
@@ -122,8 +161,8 @@ class BandReader {
   bool has_no_data_;
 };
 
-Raster read(const std::string& path) {
-  const Dataset dataset = open(path);
+Raster read(const std::string& path, Indirect indirect) {
+  const Dataset dataset = open(path, indirect);
   const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
   BandReader reader(band);
   Raster raster;
@@ -144,8 +183,17 @@ Raster read(const std::string& path) {
 
 }  // namespace
 
-Raster import_gdal(const std::string& path) {
-  return about(path, [&] { return read(path); });
+Raster import_gdal(const std::string& path, Indirect indirect) {
+  return with_file_context(path, [&] { return read(path, indirect); });
+}
+
+std::vector<std::string> gdal_files(const std::string& path, Indirect indirect) {
+  const Dataset dataset = with_file_context(path, [&] { return open(path, indirect); });
+  std::vector<std::string> files;
+  char** const list = GDALGetFileList(dataset.get());
+  for (char** file = list; file != nullptr && *file != nullptr; ++file) files.emplace_back(*file);
+  CSLDestroy(list);
+  return files;
 }
 
 }  // namespace microtin::importing

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "encoder/files/byte_source.hpp"
 #include "encoder/layers.hpp"
@@ -18,17 +19,26 @@ namespace microtin::importing {
 // Classes of points in a LAS file.
 using ClassSet = std::bitset<256>;
 
+// Files of GDAL's that name others to be read (.vrt), and names of its virtual file systems
+// (/vsi...): whoever wrote such a file chooses what is read.
+enum class Indirect { kRefused, kAllowed };
+
 // Reads a file by its suffix: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt (points), .las, .ply,
 // .obj; in builds with GDAL all others by GDAL. "-" reads points from standard input. `classes` are
 // for .las alone. Throws Error naming the file and, for text, the line.
-Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {});
+Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},
+                      Indirect indirect = Indirect::kRefused);
+
+// All files that it is read from: more than one by GDAL only. Throws Error if GDAL cannot open it.
+std::vector<std::string> terrain_files(const std::string& path, Indirect indirect);
 
 using OpenSource = std::variant<std::unique_ptr<RasterReader>, PointCloud>;
 
 // Opens such a file. .hgt and .asc files are read in pieces, .asc once as a whole before, to check
 // it and to learn where its posts are: 8 bytes of memory for each 512 of them. Others are kept in
 // memory. Throws Error as import_terrain does, and if it cannot be read in pieces.
-OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& classes = {});
+OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},
+                        Indirect indirect = Indirect::kRefused);
 
 // The formats, from a file's content. `name` goes into messages.
 
@@ -65,7 +75,8 @@ Raster import_zip(const std::string& name, const std::string& bytes);
 #ifdef MICROTIN_WITH_GDAL
 // The first band of what GDAL opens. Columns must run east and rows south. Heights, cell sizes and
 // corners stand for the shortest decimals that become them.
-Raster import_gdal(const std::string& path);
+Raster import_gdal(const std::string& path, Indirect indirect);
+std::vector<std::string> gdal_files(const std::string& path, Indirect indirect);
 #endif
 
 }  // namespace microtin::importing

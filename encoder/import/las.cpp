@@ -14,11 +14,15 @@ namespace {
 
 constexpr uint8_t kGround = 2, kLowNoise = 7, kHighNoise = 18;
 
+// Bytes of the header, without what a writer adds, of versions 1.0 to 1.4.
+constexpr std::array<uint16_t, 5> kHeaderBytes = {227, 227, 227, 235, 375};
+
 // Bytes of a point of each format, without what a writer adds.
 constexpr std::array<uint16_t, 11> kPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 
 struct Header {
   uint8_t minor_version;
+  uint16_t bytes;
   uint8_t point_format;
   uint16_t point_bytes;
   uint64_t first_point;
@@ -31,6 +35,12 @@ struct Header {
       "\"pdal translate IN.laz OUT.las\"");
 }
 
+void expect_points_behind(const ByteReader& file, uint64_t first_point, uint64_t end) {
+  if (first_point >= end) return;
+  file.fail("malformed: points are said to begin at byte " + std::to_string(first_point) +
+            ", before the header and its records end, at " + std::to_string(end));
+}
+
 Header read_header(const ByteReader& file) {
   if (file.size() < 4 || file.bytes(0, 4) != "LASF") file.fail("is not a LAS file");
   Header header{};
@@ -40,7 +50,14 @@ Header read_header(const ByteReader& file) {
     file.fail("is of LAS version " + std::to_string(major) + '.' +
               std::to_string(header.minor_version) + "; 1.0 to 1.4 are read");
   }
+  header.bytes = file.number<uint16_t>(94);
+  if (header.bytes < kHeaderBytes[header.minor_version]) {
+    file.fail("has a header of " + std::to_string(header.bytes) + " bytes; version 1." +
+              std::to_string(header.minor_version) + " takes " +
+              std::to_string(kHeaderBytes[header.minor_version]));
+  }
   header.first_point = file.number<uint32_t>(96);
+  expect_points_behind(file, header.first_point, header.bytes);
   header.point_format = file.number<uint8_t>(104);
   header.point_bytes = file.number<uint16_t>(105);
   header.points = file.number<uint32_t>(107);
@@ -69,7 +86,8 @@ Header read_header(const ByteReader& file) {
 class References {
  public:
   explicit References(const ByteReader& file, const Header& header) : file_(file) {
-    read_records(file.number<uint16_t>(94), file.number<uint32_t>(100), false);
+    const uint64_t end = read_records(header.bytes, file.number<uint32_t>(100), false);
+    expect_points_behind(file, header.first_point, end);
     if (header.minor_version == 4) {
       read_records(file.number<uint64_t>(235), file.number<uint32_t>(243), true);
     }
@@ -80,7 +98,8 @@ class References {
   }
 
  private:
-  void read_records(uint64_t at, uint32_t count, bool extended) {
+  // Returns where they end.
+  uint64_t read_records(uint64_t at, uint32_t count, bool extended) {
     const uint64_t head = extended ? 60 : 54;
     for (uint32_t i = 0; i < count; ++i) {
       file_.bytes(at, head);
@@ -90,6 +109,7 @@ class References {
       add(user.substr(0, user.find('\0')), file_.number<uint16_t>(at + 18), at + head, size);
       at += head + size;
     }
+    return at;
   }
 
   void add(std::string_view user, uint16_t record, uint64_t at, uint64_t size) {

@@ -14,7 +14,7 @@ std::unique_ptr<RasterReader> open_mask(const std::string& path, const Raster& f
   OpenSource source = open_terrain(path);
   auto* const mask = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (mask == nullptr) throw Error(path + ": is not a raster");
-  about(path, [&] { check_water_mask((*mask)->frame(), frame); });
+  with_file_context(path, [&] { check_water_mask((*mask)->frame(), frame); });
   return std::move(*mask);
 }
 
@@ -37,7 +37,7 @@ class FloodedRaster : public RasterReader {
     std::optional<Raster> mask;
     if (mask_) {
       mask = mask_->read(rectangle);
-      about(mask_path_, [&] { check_water_mask(*mask, part); });
+      with_file_context(mask_path_, [&] { check_water_mask(*mask, part); });
     }
     flood_voids(part, level_, mask ? &*mask : nullptr);
     return part;
@@ -51,28 +51,39 @@ class FloodedRaster : public RasterReader {
 
 Raster read_mask(const std::string& path, const Raster& raster) {
   Raster all = open_mask(path, raster)->read({0, 0, raster.width, raster.height});
-  about(path, [&] { check_water_mask(all, raster); });
+  with_file_context(path, [&] { check_water_mask(all, raster); });
   return all;
 }
 
 }  // namespace
 
+std::vector<std::string> files_of(const std::string& path, const Preparation& preparation) {
+  std::vector<std::string> files;
+  for (const std::string& name : {path, preparation.water_mask}) {
+    if (name.empty()) continue;
+    for (std::string& file : terrain_files(name, preparation.indirect)) {
+      files.push_back(std::move(file));
+    }
+  }
+  return files;
+}
+
 PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation) {
-  PreparedTerrain terrain{import_terrain(path, preparation.classes), 0, 0};
+  PreparedTerrain terrain{import_terrain(path, preparation.classes, preparation.indirect), 0, 0};
   terrain.filled = fill_voids(terrain.source, preparation.fill_voids);
   if (!preparation.water_level) return terrain;
   auto* const raster = std::get_if<Raster>(&terrain.source);
   if (raster == nullptr) refuse_water(path);
   std::optional<Raster> mask;
   if (!preparation.water_mask.empty()) mask = read_mask(preparation.water_mask, *raster);
-  terrain.flooded = about(path, [&] {
+  terrain.flooded = with_file_context(path, [&] {
     return flood_voids(*raster, *preparation.water_level, mask ? &*mask : nullptr);
   });
   return terrain;
 }
 
 OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
-  OpenSource source = open_terrain(path, preparation.classes);
+  OpenSource source = open_terrain(path, preparation.classes, preparation.indirect);
   auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
     if (preparation.water_level) refuse_water(path);
@@ -80,13 +91,13 @@ OpenSource prepared_source(const std::string& path, const Preparation& preparati
   }
   *raster = with_voids_filled(std::move(*raster), preparation.fill_voids);
   if (!preparation.water_level) return source;
-  return about(path, [&]() -> OpenSource {
+  return with_file_context(path, [&]() -> OpenSource {
     return std::make_unique<FloodedRaster>(std::move(*raster), *preparation.water_level,
                                            preparation.water_mask);
   });
 }
 
-std::string told(const PreparedTerrain& terrain) {
+std::string describe_preparation(const PreparedTerrain& terrain) {
   std::string text;
   if (terrain.filled != 0) {
     text += ", " + std::to_string(terrain.filled) + " of the posts were void and are filled";

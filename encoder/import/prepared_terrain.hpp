@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
@@ -18,7 +19,12 @@ struct Preparation {
   uint32_t fill_voids = 0;             // interpolate voids of up to so many posts
   std::optional<Decimal> water_level;  // voids that are left are water at this height
   std::string water_mask;              // ... where this file says so; everywhere if there is none
+  Indirect indirect = Indirect::kRefused;  // files that name others
 };
+
+// All files that a terrain is read from; none for one without a name. Throws Error as preparing
+// does.
+std::vector<std::string> files_of(const std::string& path, const Preparation& preparation);
 
 struct PreparedTerrain {
   Source source;
@@ -32,7 +38,7 @@ PreparedTerrain prepared_terrain(const std::string& path, const Preparation& pre
 OpenSource prepared_source(const std::string& path, const Preparation& preparation);
 
 // A part of a sentence about what was done to a terrain: empty if nothing was.
-std::string told(const PreparedTerrain& terrain);
+std::string describe_preparation(const PreparedTerrain& terrain);
 
 }  // namespace microtin::importing
 

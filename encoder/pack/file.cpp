@@ -195,7 +195,7 @@ void PackFile::read_entry(const uint8_t* at) {
 std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
   const PackEntry& entry = entries_[number];
   if (entry.size == 0) return std::nullopt;
-  return about("tile " + std::to_string(number), [&] {
+  return with_file_context("tile " + std::to_string(number), [&] {
     const Bytes stream = bytes_at(*bytes_, entry.offset, entry.size);
     if (stream_hash(kStreamHash, stream.data(), stream.size()) != entry.stream_hash) {
       throw Error(describe(MICROTIN_CHECKSUM));

@@ -111,7 +111,7 @@ void expect_check(const Bytes& bytes) {
 class Shard {
  public:
   explicit Shard(const std::string& path) : path_(path), bytes_(open_file(path)) {
-    about(path_, [&] {
+    with_file_context(path_, [&] {
       const Bytes start = take(std::min<uint64_t>(kStartBytes, bytes_->size()));
       if (start.size() < kStartBytes ||
           !std::equal(kShardMagic, kShardMagic + sizeof kShardMagic, start.begin())) {
@@ -133,7 +133,7 @@ class Shard {
   TileRange range() const { return range_; }
 
   TileSummary next_summary() {
-    return about(path_, [&] {
+    return with_file_context(path_, [&] {
       const Bytes bytes = take(kSummaryBytes + kCheckBytes);
       expect_check(bytes);
       return read_summary(bytes);
@@ -143,7 +143,7 @@ class Shard {
   void skip_stream(const TileSummary& tile) { offset_ += tile.bytes; }
 
   Bytes next_stream(const TileSummary& tile) {
-    return about(path_, [&] {
+    return with_file_context(path_, [&] {
       Bytes stream = take(tile.bytes);
       if (tile.bytes != 0 &&
           stream_hash(kStreamHash, stream.data(), stream.size()) != tile.stream_hash) {
@@ -236,7 +236,7 @@ void ShardWriter::add(const EncodedTile& tile) {
 
 PackContent merge_shards(const std::vector<std::string>& paths, OutputFile& out) {
   std::vector<Shard> shards = open_all(paths);
-  PackContent pack = about(paths[0], [&] { return read_content(shards[0].head()); });
+  PackContent pack = with_file_context(paths[0], [&] { return read_content(shards[0].head()); });
   expect_all_tiles(shards, pack.grid);
   for (Shard& shard : shards) {
     for (uint64_t tile = shard.range().first; tile <= shard.range().last; ++tile) {

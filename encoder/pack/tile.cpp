@@ -17,7 +17,7 @@ namespace microtin::pack {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-  throw Error("internal error: a decoded tile " + what);
+  throw InternalFault("a decoded tile " + what);
 }
 
 void check_bounds(const TiledRaster& tiled, const Verification& measured, uint64_t water_moved) {

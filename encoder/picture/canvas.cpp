@@ -27,7 +27,7 @@ void Canvas::blend(uint32_t column, uint32_t row, Colour colour, double part) {
   p[2] = mixed(p[2], colour.b, part);
 }
 
-void Canvas::fill(const Box& box, Colour colour) {
+void Canvas::fill(const PixelBox& box, Colour colour) {
   const double right = std::min<double>(box.left + box.width, width_);
   const double bottom = std::min<double>(box.top + box.height, height_);
   for (auto row = static_cast<uint32_t>(std::max(0.0, box.top)); row < bottom; ++row) {
@@ -39,14 +39,14 @@ void Canvas::fill(const Box& box, Colour colour) {
 }
 
 void Canvas::stroke(Spot a, Spot b, double line_width, Colour colour) {
-  const Box all{0, 0, static_cast<double>(width_), static_cast<double>(height_)};
+  const PixelBox all{0, 0, static_cast<double>(width_), static_cast<double>(height_)};
   const double reach = line_width / 2 + 0.5;
   for_each_pixel_near(a, b, reach, all, [&](uint32_t column, uint32_t row, double distance) {
     blend(column, row, colour, std::min(1.0, reach - distance));
   });
 }
 
-void Canvas::outline(const Box& box, double line_width, Colour colour) {
+void Canvas::outline(const PixelBox& box, double line_width, Colour colour) {
   const double right = box.left + box.width, bottom = box.top + box.height;
   fill({box.left - line_width, box.top - line_width, box.width + 2 * line_width, line_width},
        colour);

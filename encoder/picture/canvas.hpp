@@ -17,13 +17,13 @@ struct Spot {
   double x, y;
 };
 
-struct Box {
+struct PixelBox {
   double left, top, width, height;
 };
 
 // Calls visit(column, row, distance) for the pixels with middles nearer than `reach` to a segment.
 template <class Visit>
-void for_each_pixel_near(Spot a, Spot b, double reach, const Box& within, const Visit& visit) {
+void for_each_pixel_near(Spot a, Spot b, double reach, const PixelBox& within, const Visit& visit) {
   const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
   // The pixels with middles in a range: the first, and the one behind the last.
   const auto first = [](double low) { return static_cast<uint32_t>(std::ceil(low - 0.5)); };
@@ -60,12 +60,12 @@ class Canvas {
   // Covers a part of a pixel of the picture: 0 .. 1.
   void blend(uint32_t column, uint32_t row, Colour colour, double part);
 
-  void fill(const Box& box, Colour colour);
+  void fill(const PixelBox& box, Colour colour);
 
   // A line with round ends. What lies outside the picture is left out.
   void stroke(Spot a, Spot b, double line_width, Colour colour);
 
-  void outline(const Box& box, double line_width, Colour colour);
+  void outline(const PixelBox& box, double line_width, Colour colour);
 
   // Three bytes for each pixel, top row first.
   const std::vector<uint8_t>& rgb() const { return rgb_; }

@@ -74,7 +74,7 @@ double round_length(double most) {
 
 void draw_ramp(Canvas& canvas, Spot corner, double width, double unit, double low, double high,
                const std::function<Colour(double)>& colour) {
-  const Box box{corner.x, corner.y, width, kBarHeight * unit};
+  const PixelBox box{corner.x, corner.y, width, kBarHeight * unit};
   for (uint32_t x = 0; x < width; ++x) {
     const double step = std::min(1.0, width - x);
     canvas.fill({corner.x + x, corner.y, step, box.height}, colour((x + step / 2) / width));
@@ -99,7 +99,7 @@ void draw_scale_bar(Canvas& canvas, Spot corner, double most, double unit, doubl
   const double length = round_length(most * ground);
   const bool in_thousands = ground_unit == "m" && length >= 1000;
   const double told = in_thousands ? length / 1000 : length;
-  const Box box{corner.x, corner.y + (kBarHeight - 4) * unit, length / ground, 4 * unit};
+  const PixelBox box{corner.x, corner.y + (kBarHeight - 4) * unit, length / ground, 4 * unit};
   for (int part = 0; part < kParts; ++part) {
     canvas.fill({box.left + part * box.width / kParts, box.top, box.width / kParts, box.height},
                 part % 2 == 0 ? kInk : kPaper);
@@ -114,7 +114,7 @@ void draw_scale_bar(Canvas& canvas, Spot corner, double most, double unit, doubl
 }
 
 void draw_swatch(Canvas& canvas, Spot corner, double unit, Colour colour, const std::string& text) {
-  const Box box{corner.x, corner.y, 9 * unit, 7 * unit};
+  const PixelBox box{corner.x, corner.y, 9 * unit, 7 * unit};
   canvas.fill(box, colour);
   canvas.outline(box, std::max(1.0, 0.6 * unit), kInk);
   draw_text(canvas, text, {corner.x + 13 * unit, corner.y + kCapHeight * unit}, unit, kInk);

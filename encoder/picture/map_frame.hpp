@@ -19,7 +19,7 @@ Ground ground_of(const SurfaceModel& model, Unit horizontal);
 
 // North is up, and a distance is as long in any direction. The box has whole pixels.
 struct MapFrame {
-  Box box;
+  PixelBox box;
   double west, north;     // of the box, on the lattice
   double x_step, y_step;  // of the lattice, for a pixel
 

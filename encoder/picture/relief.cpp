@@ -219,7 +219,7 @@ void Relief::draw_ground(Canvas& canvas, const MapFrame& frame) const {
 // faint, so that small triangles do not hide the ground.
 void Relief::draw_lines(Canvas& canvas, const MapFrame& frame, double line_width) const {
   std::vector<uint8_t> cover(size_t{frame.columns()} * frame.rows());
-  const Box all{0, 0, frame.box.width, frame.box.height};
+  const PixelBox all{0, 0, frame.box.width, frame.box.height};
   const double reach = line_width / 2 + 0.5;
   for (const Triangle& triangle : model_.triangles) {
     const std::array<Spot, 3> spots = spots_of(model_, triangle, frame);

@@ -84,7 +84,7 @@ Layout lay_out(const Portrait& portrait, const Ground& ground, uint32_t width, b
 
 // A frame around what is not known, too.
 void draw_background(Canvas& canvas, const MapFrame& frame, double unit) {
-  const Box& box = frame.box;
+  const PixelBox& box = frame.box;
   canvas.fill(box, kNoTerrain);
   const double step = 6 * unit, reach = 0.4 * unit + 0.5;
   const auto lines = static_cast<uint32_t>((box.width + box.height) / step) + 1;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/error_context.hpp"
 #include "encoder/stream/order.hpp"
 #include "encoder/stream/range_encoder.hpp"
 #include "encoder/stream/triangulation.hpp"
@@ -134,9 +135,9 @@ std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& meta
   start(r);
   while (r.stage != Stage::kComplete) {
     coder.at(r.mesh->vertices, r.phase);
-    const Progress progress = step(r, coder);
-    if (progress == Progress::kMalformed) throw Error("internal error: the order does not rebuild");
-    if (progress == Progress::kSectionEnd) append_section(stream, coder.take_payload());
+    const StepOutcome outcome = step(r, coder);
+    if (outcome == StepOutcome::kMalformed) throw InternalFault("the order does not rebuild");
+    if (outcome == StepOutcome::kSectionEnd) append_section(stream, coder.take_payload());
   }
   return stream;
 }
@@ -205,10 +206,10 @@ Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effor
   const uint64_t expected = fingerprint_of(triangulation.mesh(), vertices, voids);
   WritingCoder coder(vertices, breadth_first_order(triangulation, effort.degree), voids);
   std::vector<uint8_t> stream = write_stream(contract_of(tin, effort), metadata, coder);
-  DecodedTerrain decoded(stream);
+  DecodedTerrain decoded = on_our_own([&] { return DecodedTerrain(stream); });
   if (microtin_vertex_count(decoded.mesh()) != vertices.size() ||
       fingerprint_of(decoded.mesh()) != expected) {
-    throw Error("internal error: the stream does not decode to the terrain it was made from");
+    throw InternalFault("the stream does not decode to the terrain it was made from");
   }
   return {std::move(stream), std::move(decoded)};
 }

@@ -106,13 +106,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   uint32_t steps = 0;
   while (state.stage != Stage::kComplete && !choices.ended()) {
     const Index placed = mesh.vertices;
-    const Progress progress = step(state, choices);
+    const StepOutcome outcome = step(state, choices);
     EXPECT(choices.take_cost() <= 8.0 * kStepBytes);
     EXPECT(++steps <= most_steps(state.contract.vertices));
-    if (progress == Progress::kMalformed) break;
+    if (outcome == StepOutcome::kMalformed) break;
     if (state.stage == Stage::kWalk) check_walk(placed);
   }
-  if (state.stage == Stage::kComplete) EXPECT(step(state, choices) == Progress::kMalformed);
+  if (state.stage == Stage::kComplete) EXPECT(step(state, choices) == StepOutcome::kMalformed);
   EXPECT(mesh.triangles == 0 || is_locally_delaunay(mesh));
   return 0;
 }

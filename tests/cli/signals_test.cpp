@@ -23,13 +23,14 @@ class Running {
       : child_(fork()) {
     REQUIRE(child_ >= 0);
     if (child_ != 0) return;
-    std::vector<char*> argv{const_cast<char*>(MICROTIN_CLI)};
+    std::string path = program();
+    std::vector<char*> argv{path.data()};
     for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
     if (ignores) std::signal(SIGINT, SIG_IGN);
     if (chdir(session.folder().c_str()) == 0 && dup2(open("/dev/null", O_WRONLY), 1) >= 0 &&
         dup2(errors, 2) >= 0) {
-      execv(MICROTIN_CLI, argv.data());
+      execv(path.c_str(), argv.data());
     }
     _exit(99);
   }
@@ -85,7 +86,7 @@ TEST_CASE("cli: a signal ends the program and leaves no file") {
   REQUIRE(session.run("fractal --size 129 -o t.asc").code == 0);
   session.write("new.mtp", "precious");
   const int nowhere = open("/dev/null", O_WRONLY);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
     CAPTURE(signal);
     Running running(session, kLongWork, nowhere);
     wait_for_temporary(session);

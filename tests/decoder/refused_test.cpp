@@ -324,7 +324,7 @@ TEST_CASE("golden streams that must be refused are, each with its status") {
     const std::string path = MICROTIN_GOLDEN_DIR "/refused/" + name + ".mtin";
     if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) write_file(path, stream);
     CAPTURE(name);
-    CHECK(read_file(path) == stream);
+    CHECK(bytes_of_file(path) == stream);
     const Device device(kCapacity);
     CHECK(device.decode(stream) == status_named(name));
     CHECK(device.guards_are_whole());

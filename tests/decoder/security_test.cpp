@@ -14,7 +14,7 @@ const std::filesystem::path kTests = std::filesystem::path(MICROTIN_GOLDEN_DIR) 
 // With every run of spaces and line breaks as one space.
 std::string text_of(const std::filesystem::path& path) {
   std::string text;
-  for (const uint8_t byte : read_file(path.string())) {
+  for (const uint8_t byte : bytes_of_file(path.string())) {
     const char c = byte == '\n' ? ' ' : static_cast<char>(byte);
     if (c != ' ' || text.empty() || text.back() != ' ') text.push_back(c);
   }

@@ -174,7 +174,7 @@ TEST_CASE("no golden stream takes more steps than its bytes allow") {
   size_t done = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(MICROTIN_GOLDEN_DIR)) {
     if (entry.path().extension() != ".mtin") continue;
-    const Bytes stream = read_file(entry.path().string());
+    const Bytes stream = bytes_of_file(entry.path().string());
     microtin_info info;
     const bool is_large = microtin_peek(stream.data(), stream.size(), &info) == MICROTIN_DONE &&
                           info.vertices > 100000;

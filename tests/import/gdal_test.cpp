@@ -34,7 +34,7 @@ struct Grid {
   }
   Raster read(const std::string& text) const {
     session.write("t.vrt", text);
-    return std::get<Raster>(import_terrain(session.folder() + "/t.vrt"));
+    return std::get<Raster>(import_terrain(session.folder() + "/t.vrt", {}, Indirect::kAllowed));
   }
   std::string error(const std::string& text) const {
     const std::string all = import_error([&] { read(text); });
@@ -82,6 +82,42 @@ TEST_CASE("gdal: real files") {
     const Raster raster = std::get<Raster>(import_terrain(path));
     CHECK(raster.x.numerator * 400 == raster.x.denominator * 11 / 10);
     CHECK(raster.reference.horizontal_epsg == 4326);
+  }
+}
+
+TEST_CASE("gdal: files that name others are read only when allowed") {
+  const Grid grid;
+  grid.session.write("secret", "wxyz");
+  grid.session.write("raw.vrt",
+                     "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"><GeoTransform>" + kPlace +
+                         "</GeoTransform><VRTRasterBand band=\"1\" dataType=\"Byte\" "
+                         "subClass=\"VRTRawRasterBand\"><SourceFilename relativeToVRT=\"1\">secret"
+                         "</SourceFilename></VRTRasterBand></VRTDataset>");
+  grid.session.write("raw.tif", grid.session.read("raw.vrt"));
+  const std::string hint = "names other files, which are read with --allow-vrt only";
+  CHECK(contains(grid.session.failure("encode raw.vrt -o new.mtin"), "raw.vrt: " + hint));
+  CHECK(
+      contains(grid.session.failure("encode raw.tif -o new.mtin"), "raw.tif: GDAL cannot open it"));
+  for (const char* const name :
+       {"/vsizip/raw.zip/raw.tif", "/vsistdin/", "GTIFF_DIR:1:/vsimem/x"}) {
+    CHECK(contains(grid.session.failure("encode '" + std::string(name) + "' -o new.mtin"),
+                   ": is opened with --allow-vrt only"));
+  }
+  CHECK(grid.session.run("encode raw.vrt --allow-vrt -o secret.mtin").code == 0);
+  CHECK(grid.session.run("verify secret.mtin raw.vrt --allow-vrt").code == 0);
+  // It is an input as well as what it names.
+  const Session::Result over = grid.session.run("encode raw.vrt --allow-vrt -o secret");
+  CHECK(over.err == "microtin: secret: is the input\n");
+  CHECK(grid.session.read("secret") == "wxyz");
+}
+
+TEST_CASE("gdal: drivers that read memory, the network or other files are not there") {
+  const Grid grid;
+  for (const char* const name :
+       {"MEM:::DATAPOINTER=1,PIXELS=2,LINES=2", "vrt:///etc/passwd", "WMS:http://localhost/",
+        "<VRTDataset/>", "HTTP://localhost/a.tif"}) {
+    CHECK(contains(grid.session.failure("encode '" + std::string(name) + "' -o new.mtin"),
+                   "GDAL cannot open it"));
   }
 }
 

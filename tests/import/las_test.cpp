@@ -198,3 +198,23 @@ TEST_CASE("las: real scans") {
           std::string::npos);
   }
 }
+
+TEST_CASE("las: points that are said to begin within the header or its records are refused") {
+  for (const uint8_t minor : {uint8_t{2}, uint8_t{3}, uint8_t{4}}) {
+    const uint16_t head = kHeadBytes[minor];
+    const BinaryFile sound = las(minor, 0, kScan, record("me", 1, "note"), 1);
+    CHECK(cloud(sound.bytes()).points.size() == 2);
+    for (const uint32_t first : {0u, 100u, head - 1u, head + 0u, head + 57u}) {
+      BinaryFile file = sound;
+      file.put(96, first);
+      const uint32_t end = first < head ? head : head + 58u;
+      CHECK(error(file.bytes()) ==
+            "scan: malformed: points are said to begin at byte " + std::to_string(first) +
+                ", before the header and its records end, at " + std::to_string(end));
+    }
+    BinaryFile small = sound;
+    small.put(94, uint16_t{200});
+    CHECK(error(small.bytes()) == "scan: has a header of 200 bytes; version 1." +
+                                      std::to_string(minor) + " takes " + std::to_string(head));
+  }
+}

@@ -50,7 +50,7 @@ class Shards {
     OutputFile out(path);
     merge_shards(shards, out);
     out.commit();
-    return read_file(path);
+    return bytes_of_file(path);
   }
 
   // What merge says, without the folder.
@@ -121,7 +121,7 @@ TEST_CASE("shards: what is missing, double, foreign or damaged is refused") {
           std::string::npos);
   }
 
-  const Bytes good = read_file(rest);
+  const Bytes good = bytes_of_file(rest);
   const std::string bad = shards.folder() / "bad";
   for (size_t i = 0; i < good.size(); i += 7) {
     CAPTURE(i);

@@ -12,8 +12,8 @@
 
 namespace microtin::tests {
 
-// Static: the encoder has a function of the same name, and one would replace the other.
-static inline std::vector<uint8_t> read_file(const std::string& path) {
+// The bytes; none of a file that is not there.
+inline std::vector<uint8_t> bytes_of_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }

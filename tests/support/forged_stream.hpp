@@ -141,11 +141,11 @@ Bytes forge(const Contract& contract, Coder&& coder) {
   Reconstruction& r = device.decoder->reconstruction;
   r.contract = contract;
   start(r);
-  Progress progress = Progress::kStep;
-  while (r.stage != Stage::kComplete && progress != Progress::kMalformed) {
+  StepOutcome outcome = StepOutcome::kStep;
+  while (r.stage != Stage::kComplete && outcome != StepOutcome::kMalformed) {
     coder.at(r);
-    progress = step(r, coder);
-    if (progress == Progress::kStep || progress == Progress::kPhaseEnd) continue;
+    outcome = step(r, coder);
+    if (outcome == StepOutcome::kStep || outcome == StepOutcome::kPhaseEnd) continue;
     append_section(stream, coder.take_payload());
   }
   return stream;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -18,6 +19,12 @@
 
 namespace microtin::tests {
 
+// The program that was built with the tests; another one with faults, to see that they tell.
+inline std::string program() {
+  const char* const other = std::getenv("MICROTIN_PROGRAM");
+  return other != nullptr ? other : MICROTIN_CLI;
+}
+
 // Runs the program in a folder of its own.
 class Session {
  public:
@@ -27,9 +34,12 @@ class Session {
     std::string err;
   };
 
-  Result run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.path() + "' && '" MICROTIN_CLI "' " + arguments +
-                                " 2>'" + error_path() + "'";
+  Result run(const std::string& arguments) const { return shell("microtin " + arguments); }
+
+  // The same for commands of a shell, to which the program is `microtin`.
+  Result shell(const std::string& commands) const {
+    const std::string command = "cd '" + folder_.path() + "' && microtin() { '" + program() +
+                                "' \"$@\"; } && { " + commands + "\n} 2>'" + error_path() + "'";
     std::FILE* pipe = popen(command.c_str(), "r");
     REQUIRE(pipe != nullptr);
     Result result{0, "", ""};

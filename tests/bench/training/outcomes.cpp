@@ -90,11 +90,11 @@ class Started {
 
 template <class Coder>
 void decode_section(Reconstruction& r, Coder& coder) {
-  Progress progress = Progress::kStep;
-  while (progress == Progress::kStep || progress == Progress::kPhaseEnd) {
-    progress = step(r, coder);
+  StepOutcome outcome = StepOutcome::kStep;
+  while (outcome == StepOutcome::kStep || outcome == StepOutcome::kPhaseEnd) {
+    outcome = step(r, coder);
   }
-  if (progress != Progress::kSectionEnd) throw Error("a stream of our own is malformed");
+  if (outcome != StepOutcome::kSectionEnd) throw Error("a stream of our own is malformed");
 }
 
 std::vector<uint32_t> decisions_of(std::vector<uint8_t> stream) {
