@@ -22,8 +22,6 @@
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/leftovers.hpp"
 #include "encoder/files/standard_files.hpp"
-#include "encoder/pack/encode.hpp"
-#include "encoder/pack/tile_plan.hpp"
 #include "encoder/picture/render.hpp"
 #include "encoder/stream/device_ram.hpp"
 #include "shared/format.hpp"
