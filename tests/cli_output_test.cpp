@@ -1,8 +1,13 @@
 // Where output goes: standard descriptors that are closed or not read, names that lead elsewhere,
 // inputs under other names. Nothing is lost but what could not be told, and the exit code says so.
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
+
+#include "encoder/standard_files.hpp"
 #include "tests/session.hpp"
 
 namespace microtin {
@@ -65,6 +70,24 @@ mode_t mode_of(const Session& session, const std::string& name) {
 }
 
 }  // namespace
+
+TEST_CASE("closed standard descriptors are held, and still fail") {
+  for (int number = 0; number < 3; ++number) {
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      char byte = 0;
+      close(number);
+      const bool held = hold_closed_standard_files();
+      const bool taken = open("/dev/null", O_RDWR) < 3;
+      const ssize_t done = number == 0 ? read(number, &byte, 1) : ::write(number, &byte, 1);
+      _exit(held && !taken && done < 0 && nobody_reads(errno) ? 0 : 1);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(status == 0);
+  }
+}
 
 TEST_CASE("cli: a closed descriptor is not taken by a file, and a lost report is told") {
   const Made made;
