@@ -442,13 +442,13 @@ TEST_CASE("pack: far from the origin, in the largest extent") {
   struct FarCard {
     Bytes bytes;
     uint64_t entry, index;
-    static size_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+    static int32_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
       const FarCard& card = *static_cast<FarCard*>(context);
       const uint64_t from = offset >= card.entry ? offset - card.entry + card.index : offset;
       if (from >= card.bytes.size()) return 0;
       const size_t taken = std::min(size, card.bytes.size() - static_cast<size_t>(from));
       std::memcpy(buffer, card.bytes.data() + from, taken);
-      return taken;
+      return static_cast<int32_t>(taken);
     }
   } card{head, index + uint64_t{number} * kPackEntryBytes, index};
   const PackDevice device(4, 400);
