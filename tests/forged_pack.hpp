@@ -44,7 +44,7 @@ inline void put_number(Bytes& bytes, size_t at, uint64_t value, size_t width) {
 
 // Makes the checks of a pack's header and index right again.
 inline void repair_checks(Bytes& pack) {
-  PackHeader header;
+  PackHeader header{};
   REQUIRE(read_pack_header(pack.data(), &header));
   const uint32_t index = pack_index_start(header);
   const uint32_t check = crc32(0, pack.data(), index - kCheckBytes);
