@@ -698,8 +698,8 @@ TEST_CASE("pack: headers that break a rule are malformed, damaged ones are told 
   CHECK(status_of(with(6, 67)) == MICROTIN_MALFORMED);
   for (const size_t at : {10u, 12u, 20u, 24u}) CHECK(status_of(with(at, 0)) == MICROTIN_MALFORMED);
   for (const size_t at : {23u, 27u}) CHECK(status_of(with(at, 128)) == MICROTIN_MALFORMED);
-  CHECK(status_of(with(30, 255)) == MICROTIN_DONE);
-  CHECK(status_of(with(31, 1)) == MICROTIN_MALFORMED);  // above 2^24 vertices
+  CHECK(status_of(with(30, 255)) == MICROTIN_BAD_TILES);  // entries are of the header before
+  CHECK(status_of(with(31, 1)) == MICROTIN_MALFORMED);    // above 2^24 vertices
   for (size_t at = 8; at < pack_index_start(PackFile(good).header()); ++at) {
     Bytes damaged = good;
     damaged[at] ^= 4;
