@@ -246,7 +246,6 @@ TEST_CASE("pack: the highest on a course is exact, and known if every place is, 
     }
     check_pack(forged_pack(grid, tiles), random, 60, false, counts);
   }
-  MESSAGE(counts.known << " known, " << counts.unknown << " not");
   CHECK(counts.known > 1000);
   CHECK(counts.unknown > 1000);
 }
@@ -282,6 +281,24 @@ TEST_CASE("pack: an edge between voids is no height, touching a tile without ter
   CHECK(highest == 4 * 65536);
   CHECK(answer({0, 512, 1024, 512}) == MICROTIN_HEIGHT);   // up to it
   CHECK(answer({0, 512, 1025, 512}) == MICROTIN_IN_VOID);  // a 256th of a step too far
+}
+
+TEST_CASE("pack: heights where a course leaves the terrain are rounded once, halves up") {
+  // A hull edge of 512 steps, seen from one side alone: at odd places of it heights end in a half.
+  for (const int rise : {-1, 1, -3, 3}) {
+    const int16_t low = static_cast<int16_t>(rise < 0 ? -rise : 0),
+                  high = static_cast<int16_t>(low + rise);
+    const Tin tin{{{256, 0, low}, {256, 512, high}, {0, 0, -5}, {0, 512, -5}}, {}};
+    Card card{forged_pack({512, 512, 512, 512}, {forged_tile(tin)})};
+    const PackDevice device(1);
+    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+    const Surface surface = surface_of(PackFile(card.bytes));
+    Counts counts;
+    for (int64_t y = 1; y < 512 * 256; y += 998) {
+      check_course(device, surface, {0, y, 512 * 256, y}, true, counts);
+    }
+    CHECK(counts.unknown > 100);
+  }
 }
 
 TEST_CASE("pack: the highest on the longest courses and the largest tiles does not overflow") {
