@@ -338,7 +338,7 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   info->vertices = contract.vertices;
   info->version = kVersion;
   info->degree = static_cast<uint8_t>(contract.degree);
-  info->levels = static_cast<uint8_t>(contract.levels);
+  info->decoding = static_cast<uint8_t>(contract.decoding);
   info->has_heights = contract.has_heights;
   info->has_voids = contract.has_voids;
   info->x = axis[0];

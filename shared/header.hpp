@@ -80,14 +80,14 @@ inline bool read_header(const uint8_t** bytes, const uint8_t* end, Contract* con
   const uint32_t properties = static_cast<uint32_t>(number[0]);
   contract->has_heights = (properties & kHasHeights) != 0;
   contract->has_voids = (properties & kHasVoids) != 0;
-  contract->levels = properties >> 3 & 3u;
+  contract->decoding = static_cast<Decoding>(properties >> 3 & 3u);
   contract->degree = properties >> 5;
   contract->vertices = static_cast<uint32_t>(number[1]);
   contract->x_max = static_cast<uint16_t>(number[2]);
   contract->y_max = static_cast<uint16_t>(number[3]);
   if ((properties & kHasPlacement) != 0) legal = read_placement(bytes, end, axis);
   return legal && number[0] >> 11 == 0 && contract->degree >= kMinDegree &&
-         contract->degree <= kMaxDegree && contract->levels >= 1 && number[1] >= 3 &&
+         contract->degree <= kMaxDegree && (properties >> 3 & 3u) != 0 && number[1] >= 3 &&
          number[1] <= kMaxVertices && number[2] <= kLatticeMax && number[3] <= kLatticeMax;
 }
 

@@ -47,7 +47,7 @@
 #define MICROTIN_MESH_BYTES_FOR(capacity, bits) \
   (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
-  (((bits) == 16 ? 2303ul : 2511ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
+  (((bits) == 16 ? 2439ul : 2647ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
 
 /* Bytes of the buckets of microtin_buckets_init: a constant expression, side * side numbers. */
 #define MICROTIN_BUCKETS_BYTES(side) (20ul + MICROTIN_INDEX_BITS / 8 * 1ul * (side) * (side))
@@ -87,7 +87,7 @@ typedef struct microtin_info {
   uint32_t header_bytes; /* fixed part, placement, notes and check together */
   uint8_t version;
   uint8_t degree;      /* most triangles around a vertex when it is inserted */
-  uint8_t levels;      /* of cells that places are coded in: 1 .. 3 */
+  uint8_t decoding;    /* how much it weighs places: 1 quick, 2 balanced, 3 dense */
   uint8_t has_heights; /* 0: every z is 0 */
   uint8_t has_voids;
   microtin_axis x, y, z; /* offset 0 and step 1 where the stream does not say */
