@@ -1,6 +1,7 @@
 #include "encoder/cli_commands.hpp"
 #include "encoder/cli_pack.hpp"
 #include "encoder/cli_report.hpp"
+#include "encoder/encode.hpp"
 #include "encoder/error_context.hpp"
 #include "encoder/pack_file.hpp"
 
@@ -98,7 +99,7 @@ JsonObject report_of(const std::vector<uint8_t>& stream) {
                        {"bits_per_vertex", json(bits_per_vertex(stream.size(), vertices))},
                        {"phases", json(terrain.phases())},
                        {"degree", json(header.info.degree)},
-                       {"levels", json(header.info.levels)},
+                       {"decoding", json(name_of(header.contract.decoding))},
                        {"workspace_bytes_16", workspace_bytes_16(vertices)},
                        {"workspace_bytes_32", json(MICROTIN_MESH_BYTES_FOR(vertices, 32) +
                                                    MICROTIN_DECODER_BYTES_FOR(vertices, 32))}};

@@ -145,7 +145,7 @@ Contract contract_of(const Tin& tin, const Effort& effort) {
   Contract contract{};
   contract.vertices = static_cast<uint32_t>(tin.vertices.size());
   contract.degree = effort.degree;
-  contract.levels = effort.levels;
+  contract.decoding = effort.decoding;
   contract.has_voids = !tin.voids.empty();
   for (const Vertex& v : tin.vertices) {
     contract.x_max = std::max(contract.x_max, v.x);
@@ -190,6 +190,11 @@ uint64_t fingerprint_of(const microtin_mesh* mesh) {
 }
 
 }  // namespace
+
+std::string name_of(Decoding decoding) {
+  if (decoding == Decoding::kQuick) return "quick";
+  return decoding == Decoding::kDense ? "dense" : "balanced";
+}
 
 Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort) {
   if (tin.vertices.size() > kMaxVertices) {

@@ -3,19 +3,26 @@
 #define MICROTIN_ENCODER_ENCODE_HPP
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "encoder/decoded_terrain.hpp"
 #include "encoder/header.hpp"
 #include "encoder/metadata.hpp"
 #include "encoder/survey.hpp"
+#include "shared/format.hpp"
 
 namespace microtin {
+
+constexpr Decoding kDecodings[] = {Decoding::kQuick, Decoding::kBalanced, Decoding::kDense};
+
+// quick, balanced or dense.
+std::string name_of(Decoding decoding);
 
 // What smaller streams may cost. Both are at their best for most terrain.
 struct Effort {
   uint32_t degree = 10;  // most triangles around a vertex when it is inserted: 6 .. 32
-  uint32_t levels = 2;   // of cells that places are coded in: 1 .. 3
+  Decoding decoding = Decoding::kBalanced;
 };
 
 // The stream of `tin`; the same for any order of its vertices. It is decoded again with the shipped

@@ -173,7 +173,7 @@ Bytes write_header(const Contract& contract, const Metadata& metadata) {
   Bytes payload;
   append_varint(payload, (contract.has_heights ? kHasHeights : 0) |
                              (contract.has_voids ? kHasVoids : 0) |
-                             (placement.empty() ? 0 : kHasPlacement) | contract.levels << 3 |
+                             (placement.empty() ? 0 : kHasPlacement) | static_cast<uint32_t>(contract.decoding) << 3 |
                              contract.degree << 5);
   append_varint(payload, contract.vertices);
   append_varint(payload, contract.x_max);

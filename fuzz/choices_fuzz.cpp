@@ -71,7 +71,7 @@ Contract contract_from(Choices& choices) {
   contract.x_max = kSides[choices.byte() % 8];
   contract.y_max = kSides[choices.byte() % 8];
   contract.degree = kMinDegree + choices.byte() % (kMaxDegree - kMinDegree + 1);
-  contract.levels = 1 + choices.byte() % kMaxLevels;
+  contract.decoding = static_cast<Decoding>(1 + choices.byte() % 3);
   const uint32_t flags = choices.byte();
   contract.has_heights = (flags & 1) != 0;
   contract.has_voids = (flags & 2) != 0;

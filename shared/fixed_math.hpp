@@ -47,9 +47,9 @@ inline Log2 log2_of(uint64_t v) {
 }
 
 // A rough one: straight between powers of two, 0.086 too low at most.
-inline Log2 rough_log2(uint32_t v) {
+inline Log2 rough_log2(uint64_t v) {
   const uint32_t bit = highest_bit(v);
-  return static_cast<Log2>((bit << 8) + (v << (31u - bit) >> 23 & 0xFFu));
+  return static_cast<Log2>((bit << 8) + (static_cast<uint32_t>(v << (63u - bit) >> 55) & 0xFFu));
 }
 
 // The inverse of it, 0 for l < 0; l < 2^13.
@@ -71,7 +71,7 @@ inline uint32_t rough_root(uint32_t v) {
 }
 
 // The root but for 1 of 2^15.
-inline uint32_t root(uint32_t v) {
+inline uint32_t fine_root(uint32_t v) {
   const uint32_t guess = rough_root(v) | 1u;
   return (guess + v / guess) >> 1;
 }

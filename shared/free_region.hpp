@@ -53,16 +53,13 @@ typedef int32_t Cotangent;
 constexpr uint32_t kCotangentBits = 12;
 constexpr int32_t kOwnCap = 64, kBehindCap = 16;  // of a triangle's own circle, of that behind
 
-// q / h, at most `most` in magnitude; |q|, h < 2^25.
+// q / h, at most `most` <= 64 in magnitude; h > 0.
 inline Cotangent cotangent(int32_t q, int32_t h, int32_t most) {
-  const uint32_t bits =
-      highest_bit(static_cast<uint32_t>(absolute(q)) | static_cast<uint32_t>(h) | 1u);
-  const uint32_t shift = bits > 17 ? bits - 17 : 0;
-  q >>= shift;
-  h >>= shift;
-  if (q >= h * most) return most * (1 << kCotangentBits);
-  if (q <= -h * most) return -most * (1 << kCotangentBits);
-  return q * (static_cast<int32_t>(1) << kCotangentBits) / h;  // h > 0; |q| <= 2^18
+  const uint32_t bits = highest_bit(static_cast<uint32_t>(h));
+  const uint32_t shift = bits > 11 ? bits - 11 : 0;
+  h >>= shift;  // below 2^12: the dividend fits
+  q = kept_within(q >> shift, -h * most, h * most);
+  return q * (static_cast<int32_t>(1) << kCotangentBits) / h;
 }
 
 // The side from corner i to corner i + 1 of a triangle, and what is known behind it.

@@ -146,7 +146,7 @@ struct Columns {
 inline Columns legal_columns(const LegalPlaces& places, const FreeRegion& region) {
   const Spot centre = {places.own.x2 >> 1, places.own.y};
   const uint32_t square = static_cast<uint32_t>(centre.x * centre.x + places.own.yy);
-  const int32_t radius = static_cast<int32_t>(root(square)) + 1;
+  const int32_t radius = static_cast<int32_t>(fine_root(square)) + 1;
   int32_t west = places.c.x < places.a.x ? places.c.x : places.a.x;
   int32_t east = places.c.x > 0 ? places.c.x : 0;
   Columns columns;
@@ -161,6 +161,18 @@ inline Columns legal_columns(const LegalPlaces& places, const FreeRegion& region
   if (columns.lines.last > lattice.last) columns.lines.last = lattice.last;
   return columns;
 }
+
+// Roots for many columns, and for one.
+struct RoughRoot {
+  int32_t operator()(int32_t v) const {
+    return static_cast<int32_t>(rough_root(static_cast<uint32_t>(v)));
+  }
+};
+struct FineRoot {
+  int32_t operator()(int32_t v) const {
+    return static_cast<int32_t>(fine_root(static_cast<uint32_t>(v)));
+  }
+};
 
 // Takes away what lies within a circle, at one end.
 MICROTIN_IN_PLACE inline void cut(Span& span, int32_t from, int32_t to) {
@@ -178,24 +190,22 @@ inline int32_t square_at(const Circle& circle, int32_t x) {
 
 // What the own circle covers at x, whose radius is taken to be `wider`.
 template <class Root>
-inline Span own_span(const Circle& own, int32_t x, int32_t wider, const Root& root) {
+Span own_span(const Circle& own, int32_t x, int32_t wider, const Root& root) {
   const int32_t square = square_at(own, x);
-  const int32_t radius =
-      (square > 0 ? static_cast<int32_t>(root(static_cast<uint32_t>(square))) : 0) + wider;
+  const int32_t radius = (square > 0 ? root(square) : 0) + wider;
   return Span{own.y - radius, own.y + radius};
 }
 
 // The legal part of it. Circles behind are taken to be narrower.
 template <class Root>
-inline Span legal_span(const LegalPlaces& places, int32_t x, Span span, int32_t narrower,
-                       const Root& root) {
+Span legal_span(const LegalPlaces& places, int32_t x, Span span, int32_t narrower,
+                const Root& root) {
   for (int i = 0; i < 2; ++i) {
     const Circle& circle = places.behind[i];
     if (!places.cuts[i]) continue;
     const int32_t square = square_at(circle, x);
     if (square <= 0) continue;
-    const int32_t radius =
-        static_cast<int32_t>(root(static_cast<uint32_t>(square))) - narrower;
+    const int32_t radius = root(square) - narrower;
     cut(span, circle.y - radius, circle.y + radius);
   }
   if (span.low < places.height.low) span.low = places.height.low;

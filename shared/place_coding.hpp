@@ -162,8 +162,8 @@ Offset code_turned_place(Coder& coder, PlaceModel& model, const FreeRegion& regi
   const LegalPlaces& legal = place.legal;
   const FastInt x = code_column(coder, model, region, place, depth, at.x);
   const int32_t column = grains(2 * x, legal.shift);
-  const Span own = own_span(legal.own, column, 1, root);
-  const Lines rows = legal_rows(legal, legal_span(legal, column, own, 1, root));
+  const Span own = own_span(legal.own, column, 1, FineRoot());
+  const Lines rows = legal_rows(legal, legal_span(legal, column, own, 1, FineRoot()));
   const bool missed = x != at.x || at.y < rows.first || at.y > rows.last;
   if (code_bit(coder, model.escape, missed)) {
     at.x = code_line(coder, legal.columns, at.x);

@@ -279,7 +279,7 @@ Decision decide(Reconstruction& r, Coder& coder) {
   if (hit && !insert(r, coder, locate(r, coder, density))) return Decision::kMalformed;
   // The triangle of the chord and c, or the new vertex, is final.
   const int64_t twice = cross(r.region.corner[0], r.region.corner[1]);
-  note_final_triangle(r, log2_of(static_cast<uint64_t>(twice)));
+  note_final_triangle(r, rough_log2(static_cast<uint64_t>(twice)));
   return hit ? Decision::kHit : Decision::kMiss;
 }
 

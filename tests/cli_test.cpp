@@ -30,7 +30,7 @@ TEST_CASE("cli: encode, info, verify and decode agree") {
   CHECK(info.code == 0);
   for (const char* key :
        {"\"format_version\": 4", "\"vertices\": 10", "\"triangles\"", "\"bytes\"",
-        "\"bits_per_vertex\"", "\"phases\"", "\"degree\": 10", "\"levels\": 2",
+        "\"bits_per_vertex\"", "\"phases\"", "\"degree\": 10", "\"decoding\": \"balanced\"",
         "\"workspace_bytes_16\"", "\"workspace_bytes_32\"", "\"steps\"", "\"offsets\"",
         "\"bound\": null", "\"max_error\": 0.0", "\"rms_error\": 0.0", "\"placement\"",
         "\"horizontal_epsg\": 25832", "\"vertical_epsg\": 5783"}) {
@@ -406,7 +406,7 @@ TEST_CASE("cli: wrong usage is told apart") {
                                 "encode ok.xyz",
                                 "encode ok.xyz -o o --degree 5",
                                 "encode ok.xyz -o o --degree 33",
-                                "encode ok.xyz -o o --levels 4",
+                                "encode ok.xyz -o o --decoding slow",
                                 "encode ok.xyz -o o --max-error -1",
                                 "encode ok.xyz -o o --max-error x",
                                 "encode ok.xyz -o o --max-error nan",

@@ -132,8 +132,8 @@ Bytes header_with(const std::vector<uint64_t>& numbers, const Bytes& rest = {}) 
   return identified(framed);
 }
 
-constexpr uint64_t properties(uint32_t degree, uint32_t levels) {
-  return uint64_t{degree} << 5 | levels << 3;
+constexpr uint64_t properties(uint32_t degree, uint32_t decoding) {
+  return uint64_t{degree} << 5 | decoding << 3;
 }
 
 constexpr uint64_t kLegal = properties(kMinDegree, 2);
@@ -242,7 +242,7 @@ void add_headers(Refused& all) {
   all["malformed_properties"] = header_with({kLegal + (1 << 11), 4, 99, 99});
   all["malformed_degree_low"] = header_with({properties(kMinDegree - 1, 2), 4, 99, 99});
   all["malformed_degree_high"] = header_with({properties(kMaxDegree + 1, 2), 4, 99, 99});
-  all["malformed_levels"] = header_with({properties(kMinDegree, 0), 4, 99, 99});
+  all["malformed_decoding"] = header_with({properties(kMinDegree, 0), 4, 99, 99});
   all["malformed_count_low"] = header_of(flat_contract(2));
   all["malformed_count_high"] = header_of(flat_contract(kMaxVertices + 1));
   all["malformed_side_x"] = header_with({kLegal, 4, 65536, 99});
