@@ -30,8 +30,8 @@ struct Depth {
 };
 
 inline Depth depth_of(Decoding decoding) {
-  const uint32_t weighed = static_cast<uint32_t>(decoding);
-  return decoding == Decoding::kQuick ? Depth{0, 0} : Depth{weighed, weighed + 1};
+  if (decoding == Decoding::kQuick) return Depth{0, 0};
+  return Depth{decoding == Decoding::kDense ? 4u : 3u, kLevels};
 }
 
 // Keeps the upper or the lower half.
