@@ -5,7 +5,8 @@
 
 #include "shared/predicates.hpp"
 
-#if defined(__SSE2__) && defined(__x86_64__) && !defined(__OPTIMIZE_SIZE__)
+// gcc's emmintrin.h wants the C library's headers: hosted builds alone may include it.
+#if defined(__SSE2__) && defined(__x86_64__) && __STDC_HOSTED__ && !defined(__OPTIMIZE_SIZE__)
 #define MICROTIN_PAIRS
 #include <emmintrin.h>
 #elif defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32) && !defined(__OPTIMIZE_SIZE__)
