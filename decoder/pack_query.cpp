@@ -111,8 +111,8 @@ class TileCourse {
     const Mesh& mesh = mesh_->mesh;
     const Index* const v = mesh.origin + first_edge(t);
     if (is_ghost(v[0], v[1], v[2])) return false;
-    return are_aside(mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]], x_) ||
-           are_aside(mesh.y[v[0]], mesh.y[v[1]], mesh.y[v[2]], y_);
+    const Point a = point_of(mesh, v[0]), b = point_of(mesh, v[1]), c = point_of(mesh, v[2]);
+    return are_aside(a.x, b.x, c.x, x_) || are_aside(a.y, b.y, c.y, y_);
   }
   static bool are_aside(int32_t a, int32_t b, int32_t c, const Reach& reach) {
     return (a < reach.low && b < reach.low && c < reach.low) ||

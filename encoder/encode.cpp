@@ -86,8 +86,7 @@ class WritingCoder {
 class Workspace {
  public:
   explicit Workspace(uint32_t n)
-      : x_(n),
-        y_(n),
+      : places_(n),
         z_(n),
         origin_(6u * n),
         twin_(6u * n),
@@ -95,7 +94,7 @@ class Workspace {
         marks_(n / 4 + 1),
         voids_(n / 4 + 1),
         residual_(n) {
-    mesh_ = Mesh{x_.data(), y_.data(), z_.data(), origin_.data(), twin_.data(), 0, 0};
+    mesh_ = Mesh{places_.data(), z_.data(), origin_.data(), twin_.data(), 0, 0};
     state_.mesh = &mesh_;
     state_.queue = queue_.data();
     state_.marks = marks_.data();
@@ -108,7 +107,7 @@ class Workspace {
   Reconstruction& state() { return state_; }
 
  private:
-  std::vector<uint16_t> x_, y_;
+  std::vector<Point> places_;
   std::vector<int16_t> z_;
   std::vector<Index> origin_, twin_, queue_;
   std::vector<uint8_t> marks_, voids_;

@@ -56,7 +56,7 @@ class Choices {
 };
 
 // Each array on its own, so that a step out of one is seen.
-uint16_t x[kCapacity], y[kCapacity];
+Point place[kCapacity];
 int16_t z[kCapacity];
 Index origin[6 * kCapacity], twin[6 * kCapacity], queue[kCapacity];
 uint8_t marks[(kCapacity + 3) / 4], voids[(kCapacity + 3) / 4];
@@ -94,7 +94,7 @@ void check_walk(Index placed_before) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Choices choices(data, size);
-  mesh = Mesh{x, y, z, origin, twin, 0, 0};
+  mesh = Mesh{place, z, origin, twin, 0, 0};
   state.mesh = &mesh;
   state.queue = queue;
   state.marks = marks;

@@ -39,4 +39,9 @@
 #define MICROTIN_IN_PLACE
 #endif
 
+// Where a multiplication makes 32 bits at most: wider ones are calls.
+#if defined(__ARM_ARCH_6M__) || defined(__AVR__) || (defined(__riscv) && !defined(__riscv_mul))
+#define MICROTIN_NARROW_MACHINE
+#endif
+
 #endif

@@ -182,8 +182,7 @@ bool insert(Reconstruction& r, Coder& coder, Point place) {
     if (!code_height(coder, r.models.height, prediction, &z)) return false;
     r.residual[v] = residual_of(z - prediction.height);
   }
-  mesh.x[v] = place.x;
-  mesh.y[v] = place.y;
+  mesh.place[v] = place;
   mesh.z[v] = z;
   const Index first = fan_cavity(mesh, r.cavity, v);
   if (chord == r.anchor) r.anchor = first;
@@ -303,8 +302,8 @@ Progress step_seed(Reconstruction& r, Coder& coder) {
   Mesh& mesh = *r.mesh;
   const Index i = mesh.vertices;
   const Vertex known = coder.next();
-  mesh.x[i] = code_outer_coordinate(coder, r.contract.x_max, known.x);
-  mesh.y[i] = code_outer_coordinate(coder, r.contract.y_max, known.y);
+  mesh.place[i].x = code_outer_coordinate(coder, r.contract.x_max, known.x);
+  mesh.place[i].y = code_outer_coordinate(coder, r.contract.y_max, known.y);
   mesh.z[i] = 0;
   r.residual[i] = 4;
   if (r.contract.has_heights) {

@@ -41,13 +41,13 @@ std::string round_trip_fault(const Tin& tin, const Effort& effort,
   const DecodedTerrain decoded(encode(tin, Metadata(), effort));
   const MeshCopy copy(decoded.mesh());
   std::vector<Vertex> vertices;
-  for (uint32_t v = 0; v < copy.x.size(); ++v) {
-    vertices.push_back(Vertex{copy.x[v], copy.y[v], copy.z[v]});
+  for (uint32_t v = 0; v < copy.place.size(); ++v) {
+    vertices.push_back(Vertex{copy.place[v].x, copy.place[v].y, copy.z[v]});
   }
   if (!same_vertices(sorted(vertices), sorted(tin.vertices))) return "other vertices";
   std::string fault = mesh_fault(copy.mesh, copy.mesh.vertices);
   if (!fault.empty()) return fault;
-  return is_right(copy.points(), triangles_of(copy.mesh)) ? "" : "not the canonical triangulation";
+  return is_right(copy.place, triangles_of(copy.mesh)) ? "" : "not the canonical triangulation";
 }
 
 constexpr Effort kEfforts[] = {{6, 1}, {8, 2}, {10, 2}, {12, 3}, {32, 2}};

@@ -1,0 +1,531 @@
+/* microtin 0.1.0, the decoder in two files, made by decoder/amalgamate.py. MIT licence. */
+/* microtin: decodes terrain TINs exactly, in fixed memory. C99 and C++.
+ *
+ * Nothing here allocates, recurses, uses floating point or keeps global state. All memory comes
+ * from the caller in two parts:
+ *
+ *   mesh     what queries need; one per terrain that is kept
+ *   decoder  needed only while decoding; may be reused for one terrain after another
+ *
+ * Numbers called x, y and z are lattice integers: 0..65535 for x and y, int16_t for z. A stream's
+ * placement says what they mean in real units.
+ *
+ * Pointers must not be null; calls that can say MICROTIN_ARGUMENT check theirs. A call that changes
+ * an object must not run, say in an interrupt, while another uses the same. Costs are in steps or
+ * in n, the vertices; the README has instructions for several processors.
+ */
+#ifndef MICROTIN_H
+#define MICROTIN_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The version of this library; all else that tells it takes it from here. */
+#define MICROTIN_VERSION_MAJOR 0
+#define MICROTIN_VERSION_MINOR 1
+#define MICROTIN_VERSION_PATCH 0
+
+/* Width of vertex and half-edge numbers, fixed when the library is built; the user's code must be
+ * compiled with the same value. 16 bits reach 10,923 vertices, 32 bits the format's 2^24. */
+#ifndef MICROTIN_INDEX_BITS
+#define MICROTIN_INDEX_BITS 32
+#endif
+#if MICROTIN_INDEX_BITS != 16 && MICROTIN_INDEX_BITS != 32
+#error "MICROTIN_INDEX_BITS must be 16 or 32"
+#endif
+
+#define MICROTIN_MAX_VERTICES (MICROTIN_INDEX_BITS == 16 ? 10923ul : 16777216ul)
+
+/* Bytes of each workspace for up to `capacity` vertices: constant expressions, also usable in #if.
+ * Both workspaces must be aligned to MICROTIN_ALIGNMENT. */
+#define MICROTIN_ALIGNMENT 8
+#define MICROTIN_MESH_BYTES(capacity) MICROTIN_MESH_BYTES_FOR(capacity, MICROTIN_INDEX_BITS)
+#define MICROTIN_DECODER_BYTES(capacity) MICROTIN_DECODER_BYTES_FOR(capacity, MICROTIN_INDEX_BITS)
+
+/* The same for a build with the given index width. Per vertex: six half-edges (origin and twin
+ * each), x, y, z, and a void bit for each of two triangles; while decoding a queue entry, two marks
+ * and a byte of height context. */
+#define MICROTIN_MESH_BYTES_FOR(capacity, bits) \
+  (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
+#define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
+  (((bits) == 16 ? 2303ul : 2511ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
+
+/* Bytes of the buckets of microtin_buckets_init: a constant expression, side * side numbers. */
+#define MICROTIN_BUCKETS_BYTES(side) (20ul + MICROTIN_INDEX_BITS / 8 * 1ul * (side) * (side))
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum microtin_status {
+  MICROTIN_DONE = 0,       /* the whole stream is decoded and verified */
+  MICROTIN_NEED_INPUT = 1, /* every byte given was taken; more are needed */
+  MICROTIN_STEP_LIMIT = 2, /* the steps allowed for this call are used up; call again */
+  MICROTIN_STOPPED = 3,    /* the phase asked for is complete; nothing more will be decoded */
+  /* Errors. Once one is returned, every further call returns it again. */
+  MICROTIN_BAD_MAGIC = 16,           /* not a microtin stream */
+  MICROTIN_UNSUPPORTED_VERSION = 17, /* a version of the format unknown here */
+  MICROTIN_TOO_BIG = 18,             /* more vertices than the workspace holds: see microtin_peek */
+  MICROTIN_CHECKSUM = 19,            /* the bytes were damaged */
+  MICROTIN_MALFORMED = 20,           /* undamaged bytes that break a rule of the format */
+  MICROTIN_TRUNCATED = 21,           /* microtin_finish: the stream ends too early */
+  MICROTIN_MISALIGNED = 22,          /* a workspace is not aligned to MICROTIN_ALIGNMENT */
+  MICROTIN_WORKSPACE_TOO_SMALL = 23, /* a workspace cannot hold even three vertices */
+  MICROTIN_ARGUMENT = 24             /* a null pointer or a number out of range */
+} microtin_status;
+
+/* One axis: the real coordinate of lattice value k is (offset + numerator * k) / denominator units.
+ */
+typedef struct microtin_axis {
+  int64_t offset;
+  uint64_t numerator;   /* 1 .. 2^40 - 1 */
+  uint64_t denominator; /* 1 .. 2^40 - 1 */
+} microtin_axis;
+
+/* What a stream's header says. */
+typedef struct microtin_info {
+  uint32_t vertices;
+  uint32_t header_bytes; /* fixed part, placement, notes and check together */
+  uint8_t version;
+  uint8_t degree;      /* most triangles around a vertex when it is inserted */
+  uint8_t levels;      /* of cells that places are coded in: 1 .. 3 */
+  uint8_t has_heights; /* 0: every z is 0 */
+  uint8_t has_voids;
+  microtin_axis x, y, z; /* offset 0 and step 1 where the stream does not say */
+  size_t mesh_bytes;     /* workspaces that this build needs for the stream */
+  size_t decoder_bytes;
+} microtin_info;
+
+typedef struct microtin_mesh microtin_mesh;
+typedef struct microtin_decoder microtin_decoder;
+typedef struct microtin_buckets microtin_buckets;
+
+/* Reads a stream's header from its first `size` bytes without decoding anything. NEED_INPUT: give
+ * more; `info->header_bytes`, if not 0, says how many. DONE: `info` is filled in and its check
+ * passed. Errors: BAD_MAGIC, UNSUPPORTED_VERSION, CHECKSUM, MALFORMED, ARGUMENT. O(header bytes),
+ * usually below 100. */
+microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info);
+
+/* Lays out an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh,
+ * which points into it. DONE, or WORKSPACE_TOO_SMALL, MISALIGNED, ARGUMENT. O(1). */
+microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh** mesh);
+
+/* Lays out a decoder that will fill `mesh` with the stream fed to it. The mesh is emptied; what
+ * holds of its capacity and of the decoder's is the smaller. When decoding is over, the workspace
+ * is free for other uses. DONE, or WORKSPACE_TOO_SMALL, MISALIGNED, ARGUMENT. O(1). */
+microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mesh* mesh,
+                                      microtin_decoder** decoder);
+
+/* Stop, with MICROTIN_STOPPED, when `phase` phases (1, 2, ...) are complete: a coarse, well-spread
+ * terrain. 0, the default, decodes everything. Phases that leave fewer than 256 vertices are
+ * verified together with the first that reaches them; stopped before, queries answer with
+ * MICROTIN_ANSWER_UNVERIFIED only. */
+void microtin_stop_after_phase(microtin_decoder* decoder, uint32_t phase);
+
+/* Decodes from the next `size` bytes of the stream, at most `step_limit` steps (0: no limit); a
+ * step is at most nine triangles visited, with at most one insertion. (The step that starts a phase
+ * also clears two bits per vertex; bytes of the header, and behind an error, are no steps.) *used
+ * tells how many bytes were taken: all of them on NEED_INPUT; on STEP_LIMIT pass the rest again. On
+ * DONE the stream's last byte is the last one taken and anything behind it is left alone. Chunking
+ * changes no result.
+ *
+ * Bytes are read where they are, once: a stream in memory-mapped flash can be passed whole, one in
+ * a ring buffer from its oldest byte to where it wraps. Only a step's worth is kept between calls.
+ * Errors: all but MISALIGNED and WORKSPACE_TOO_SMALL. */
+microtin_status microtin_feed(microtin_decoder* decoder, const uint8_t* bytes, size_t size,
+                              uint32_t step_limit, size_t* used);
+
+/* Tells the decoder that no byte will follow: NEED_INPUT becomes the error MICROTIN_TRUNCATED, any
+ * other status is told again. Not to be called after STEP_LIMIT: feed the rest first. O(1). */
+microtin_status microtin_finish(microtin_decoder* decoder);
+
+/* Phases complete so far, and how many bytes of the stream were decoded: all that were taken but a
+ * few that wait for more. O(1). */
+uint32_t microtin_phase(const microtin_decoder* decoder);
+uint64_t microtin_bytes_used(const microtin_decoder* decoder);
+
+/* --- The mesh. Valid at any time; it holds the exact Delaunay triangulation of its vertices. Each
+ * call is O(1) if not said otherwise; numbers out of range are not checked. --- */
+
+#define MICROTIN_INFINITY 0xFFFFFFFFul
+
+/* Vertices decoded so far. */
+uint32_t microtin_vertex_count(const microtin_mesh* mesh);
+
+/* Place and height of vertex `v` < microtin_vertex_count. */
+void microtin_vertex(const microtin_mesh* mesh, uint32_t v, uint16_t* x, uint16_t* y, int16_t* z);
+
+/* Triangles, ghosts included: 2n - 2, or 0 while the mesh is empty. */
+uint32_t microtin_triangle_count(const microtin_mesh* mesh);
+
+typedef enum microtin_triangle_kind {
+  MICROTIN_REAL = 0,
+  MICROTIN_VOID = 1, /* real, but without terrain; known once the stream is DONE */
+  MICROTIN_GHOST = 2 /* outside: one vertex is MICROTIN_INFINITY, the other two a hull edge */
+} microtin_triangle_kind;
+
+/* The vertices of triangle `t` < microtin_triangle_count, counter-clockwise from above. */
+microtin_triangle_kind microtin_triangle(const microtin_mesh* mesh, uint32_t t, uint32_t v[3]);
+
+/* The triangle across the edge from vertex `corner` (0..2) of triangle `t` to the next. */
+uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corner);
+
+/* A number that depends on the set of triangles alone, not on their order (FORMAT.md, "Digest").
+ * Equal on every target. O(n). */
+uint64_t microtin_digest(const microtin_mesh* mesh);
+
+/* --- Heights --- */
+
+typedef enum microtin_answer {
+  MICROTIN_HEIGHT = 0,       /* a height was written */
+  MICROTIN_OUTSIDE = 1,      /* outside the hull */
+  MICROTIN_IN_VOID = 2,      /* inside, but the terrain is not known there */
+  MICROTIN_NOT_DECODED = 3,  /* the mesh is empty */
+  MICROTIN_NOT_VERIFIED = 4, /* the mesh holds vertices whose check has not passed yet */
+  MICROTIN_NOT_YET = 5       /* the steps allowed for this call are used up; call again */
+} microtin_answer;
+
+#define MICROTIN_ANSWER_UNVERIFIED 1u /* flag: answer from vertices not yet verified too */
+
+/* Height of the terrain at (x, y), given with 8 fractional bits (0 .. 65535 * 256): z with 16
+ * fractional bits, the exact height of the plane rounded to nearest (halves up), the same from
+ * either side of an edge. *height is written with MICROTIN_HEIGHT only. Valid terrain wins over
+ * void on a shared edge, and a vertex has its own height even among voids.
+ *
+ * *hint is the triangle where the walk starts and, afterwards, where it ended; start with 0, or
+ * with what microtin_buckets_hint says, and keep it between calls. Any number will do. A step looks
+ * at one triangle: at most microtin_triangle_count steps, whatever the stream; about sqrt(n) from
+ * an arbitrary hint, one or two from a place nearby. Never MICROTIN_NOT_YET. */
+microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
+                                   uint32_t* hint, int32_t* height);
+
+/* The same with at most `step_limit` steps (0: no limit). On MICROTIN_NOT_YET *hint is where the
+ * walk stands: call again with the same place and hint. The bound on the steps holds for all such
+ * calls together. */
+microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                           uint32_t flags, uint32_t step_limit, uint32_t* hint,
+                                           int32_t* height);
+
+/* --- Buckets: where to start when no hint from nearby is at hand. Optional. --- */
+
+/* Divides the box around the vertices into side x side equal buckets and keeps for each the number
+ * of a triangle near its middle. `size` bytes of `workspace`, aligned to MICROTIN_ALIGNMENT, give
+ * the largest side up to 1,024 with MICROTIN_BUCKETS_BYTES(side) <= size. About sqrt(n) buckets a
+ * side leave few steps to walk. Costs O(n + side * side) steps on terrain, one walk per bucket in
+ * the worst case. MICROTIN_DONE, or MICROTIN_ARGUMENT, _MISALIGNED, _WORKSPACE_TOO_SMALL.
+ *
+ * The buckets know the mesh as it was; when it has changed, their hints are still allowed, but far
+ * away. */
+microtin_status microtin_buckets_init(void* workspace, size_t size, const microtin_mesh* mesh,
+                                      microtin_buckets** buckets);
+
+/* A hint for (x, y), given with 8 fractional bits; places outside take the nearest bucket. O(1). */
+uint32_t microtin_buckets_hint(const microtin_buckets* buckets, int32_t x, int32_t y);
+
+/* --- Real units --- */
+
+/* The placement of the decoded stream's axes; offset 0 and step 1 before. O(1). */
+void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
+                        microtin_axis* z);
+
+/* Converts a real coordinate, `value` / `per_unit` units (degrees as 1e-7 integers: per_unit =
+ * 10000000), to the lattice with 8 fractional bits, rounded to nearest, for microtin_height_at.
+ * Returns 1, or 0 when the place lies outside 0..65535, per_unit outside 1 .. 2^24, or the axis'
+ * offset outside +-2^61; *lattice is then left alone. Exact. A few 64-bit divisions. */
+int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
+                        int32_t* lattice);
+
+#ifdef __cplusplus
+}
+#endif
+
+
+/* microtin packs: a terrain in tiles, of which a device keeps a few. C99 and C++.
+ *
+ * Queries never read storage: they answer from the tiles that are there. microtin_pack_service,
+ * called from where waiting is allowed, reads and decodes the tiles of a course, in pieces as small
+ * as wanted, in the place of those least recently wanted.
+ *
+ * Who may interrupt whom: a query may run in an interrupt, or in a task of higher priority on the
+ * same core, at any moment of microtin_pack_service, of the functions it calls, and of other
+ * queries. It must be over before they go on. Otherwise (several cores, queries of lower priority)
+ * the caller locks the pack.
+ *
+ * Places are global lattice coordinates with 8 fractional bits: 0 .. 256 * largest x. Nothing here
+ * allocates, recurses, uses floating point or keeps global state.
+ */
+
+
+/* Bytes of the workspace of a pack that keeps `slots` tiles of up to `capacity` vertices: a
+ * constant expression, also usable in #if. It must be aligned to MICROTIN_ALIGNMENT. A place can
+ * lie in four tiles at once, so four slots or more are advised. */
+#define MICROTIN_PACK_BYTES(slots, capacity) \
+  MICROTIN_PACK_BYTES_FOR(slots, capacity, MICROTIN_INDEX_BITS)
+#define MICROTIN_PACK_BYTES_FOR(slots, capacity, bits)                       \
+  (400ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
+   (slots) * (24ul + MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits))))
+#define MICROTIN_PACK_ROUND(bytes) (((bytes) + 7ul) / 8 * 8)
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct microtin_pack microtin_pack;
+
+/* Lays out a pack without tiles in `workspace`, with `slots` (1 .. 255) slots for tiles of up to
+ * `capacity` vertices, and sets *pack. WORKSPACE_TOO_SMALL: see MICROTIN_PACK_BYTES. */
+microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
+                                   microtin_pack** pack);
+
+/* Forgets all tiles and the header, as after microtin_pack_init: another card. */
+void microtin_pack_reset(microtin_pack* pack);
+
+/* A straight way, or a place if both ends are the same. Each end within +-2^40, and less than 65536
+ * steps (2^24 here) from the other along x and y. */
+typedef struct microtin_course {
+  int64_t x, y, x_end, y_end;
+} microtin_course;
+
+/* --- Reading and decoding. --- */
+
+/* Reads up to `size` bytes of the pack at `offset` into `buffer` and returns how many: fewer if no
+ * more are at hand, 0 if reading failed. */
+typedef size_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer, size_t size);
+
+/* Works towards having every tile that touches the course, first those where it begins, at most
+ * `step_limit` decoding steps (as of microtin_feed) and one wish for input. The same course, or
+ * another, may be asked for next.
+ *   DONE                 they are there: queries on the course have answers
+ *   NEED_INPUT           bytes are wanted: see microtin_pack_wanted
+ *   STEP_LIMIT           call again
+ *   BAD_MAGIC, UNSUPPORTED_VERSION, MALFORMED   header or index are not those of a pack
+ *   CHECKSUM             what was read is damaged, or is another tile's or another pack's
+ *   TOO_BIG              a tile has more vertices than a slot holds
+ *   WORKSPACE_TOO_SMALL  the course touches more tiles than there are slots; some are there
+ *   ARGUMENT             a null pointer, or too long a course
+ * After an error the next call begins anew: errors of storage may pass. Tiles that are there stay
+ * until their slots are needed. Besides the steps, O(columns + rows of tiles in the course's
+ * bounding box + slots^2).
+ */
+microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course* course,
+                                      uint32_t step_limit);
+
+/* Where the wanted bytes are, and where to put them; *size is 0 if none are wanted. */
+void microtin_pack_wanted(microtin_pack* pack, uint64_t* offset, uint8_t** buffer, size_t* size);
+
+/* So many of the wanted bytes, the first ones, have been put there; the rest stays wanted. */
+void microtin_pack_given(microtin_pack* pack, size_t size);
+
+/* Both together, with a function that reads. With a step limit at most one read (of 128 bytes at
+ * most) and so many steps; without (0) all that is needed. NEED_INPUT: call again; it also says
+ * that reading failed, and that the next call will try the same again. */
+static inline microtin_status microtin_pack_service(microtin_pack* pack,
+                                                    const microtin_course* course,
+                                                    uint32_t step_limit, microtin_read read,
+                                                    void* context) {
+  for (;;) {
+    microtin_status status;
+    uint64_t offset;
+    uint8_t* buffer;
+    size_t size;
+    if (pack == 0 || read == 0) return MICROTIN_ARGUMENT;
+    microtin_pack_wanted(pack, &offset, &buffer, &size);
+    if (size != 0) {
+      const size_t taken = read(context, offset, buffer, size);
+      if (taken == 0 || taken > size) return MICROTIN_NEED_INPUT;
+      microtin_pack_given(pack, taken);
+    }
+    status = microtin_pack_prepare(pack, course, step_limit);
+    if (status != MICROTIN_NEED_INPUT || step_limit != 0) return status;
+  }
+}
+
+/* --- What the header says; valid once microtin_pack_prepare got past it. --- */
+
+typedef struct microtin_pack_info {
+  uint32_t x_max, y_max;            /* steps */
+  uint16_t tile_width, tile_height; /* steps */
+  uint32_t most_vertices;           /* of a tile: the capacity needed */
+  int16_t lowest, highest;          /* vertex */
+  microtin_axis x, y, z;            /* of global lattice numbers */
+} microtin_pack_info;
+
+/* Returns 1, or 0 if the header is not known yet. */
+int microtin_pack_header(const microtin_pack* pack, microtin_pack_info* info);
+
+/* As microtin_to_lattice, for places of a pack, 0 .. 256 * `most` steps: `value` / `per_unit` units
+ * on an axis. Returns 1, or 0 when the place lies outside, per_unit outside 1 .. 2^24, the axis'
+ * numerator is 2^30 or more or its offset outside +-2^61. Exact: integers only. */
+int microtin_pack_to_lattice(const microtin_axis* axis, uint32_t most, int64_t value,
+                             uint32_t per_unit, int64_t* lattice);
+
+/* --- Queries. NOT_DECODED: a tile that is needed is not there; ask microtin_pack_prepare for it.
+ * OUTSIDE: (partly) outside 0 .. 256 * largest x or y. IN_VOID: the terrain is not known there. ---
+ */
+
+/* As microtin_height_at: z steps with 16 fractional bits. A place on a border has the height that
+ * any of its tiles knows. At most four times the steps of microtin_height_at. */
+microtin_answer microtin_pack_height_at(const microtin_pack* pack, int64_t x, int64_t y,
+                                        uint32_t* hint, int32_t* height);
+
+/* The greatest height on the course: exact, rounded once, found where it crosses edges. IN_VOID: a
+ * part of the course is not known; *height is that of the rest, INT32_MIN if there is none. Looks
+ * at every triangle of the tiles that the course touches. OUTSIDE: also of a course that is too
+ * long. */
+microtin_answer microtin_pack_highest(const microtin_pack* pack, const microtin_course* course,
+                                      int32_t* height);
+
+/* A block of places in rows: columns from (x, y) on by dx, rows by dy. */
+typedef struct microtin_block {
+  int64_t x, y;
+  int32_t dx, dy; /* 8 fractional bits, too */
+  uint16_t columns, rows;
+  int16_t missing; /* what to write where there is no height */
+} microtin_block;
+
+/* Writes columns * rows heights in whole units of the pack (such as metres), rounded to nearest,
+ * halves up, kept within int16_t; `heights` is row by row. Returns HEIGHT if all are heights, else
+ * the reason of the last that is not, NOT_DECODED first. OUTSIDE, and nothing is written, if the z
+ * axis has a numerator of 2^31 or more or an offset beyond +-2^45, or x or y is beyond +-2^40. */
+microtin_answer microtin_pack_fill(const microtin_pack* pack, const microtin_block* block,
+                                   int16_t* heights);
+
+#ifdef __cplusplus
+}
+#endif
+
+#ifdef __cplusplus
+
+// The C++ face of microtin.h: one object that holds the storage. C++14, freestanding.
+
+
+namespace microtin {
+
+// A terrain of up to Capacity vertices. Queries live here; see microtin.h for units and costs.
+template <uint32_t Capacity>
+class Terrain {
+  static_assert(Capacity >= 3, "a terrain has at least three vertices");
+  static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
+
+ public:
+  Terrain() { microtin_mesh_init(storage_, sizeof storage_, &mesh_); }
+  Terrain(const Terrain&) = delete;
+  Terrain& operator=(const Terrain&) = delete;
+
+  microtin_mesh* mesh() { return mesh_; }
+  const microtin_mesh* mesh() const { return mesh_; }
+
+  uint32_t vertices() const { return microtin_vertex_count(mesh_); }
+  uint32_t triangles() const { return microtin_triangle_count(mesh_); }
+  uint64_t digest() const { return microtin_digest(mesh_); }
+
+  microtin_answer height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
+                            uint32_t flags = 0, uint32_t step_limit = 0) const {
+    return microtin_height_at_limited(mesh_, x, y, flags, step_limit, hint, height);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_MESH_BYTES(Capacity)];
+  microtin_mesh* mesh_;
+};
+
+// The state needed while decoding a terrain of up to Capacity vertices.
+template <uint32_t Capacity>
+class Decoder {
+  static_assert(Capacity >= 3, "a terrain has at least three vertices");
+  static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
+
+ public:
+  explicit Decoder(microtin_mesh* mesh) {
+    microtin_decoder_init(storage_, sizeof storage_, mesh, &decoder_);
+  }
+  template <uint32_t MeshCapacity>
+  explicit Decoder(Terrain<MeshCapacity>& target) : Decoder(target.mesh()) {}
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  void stop_after_phase(uint32_t phase) { microtin_stop_after_phase(decoder_, phase); }
+  microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t step_limit = 0) {
+    return microtin_feed(decoder_, bytes, size, step_limit, used);
+  }
+  microtin_status finish() { return microtin_finish(decoder_); }
+  uint32_t phase() const { return microtin_phase(decoder_); }
+  uint64_t bytes_used() const { return microtin_bytes_used(decoder_); }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_DECODER_BYTES(Capacity)];
+  microtin_decoder* decoder_;
+};
+
+// Hints for places anywhere in a terrain, from Side x Side buckets.
+template <uint32_t Side>
+class Buckets {
+  static_assert(Side >= 1 && Side <= 1024, "1 to 1,024 buckets a side");
+
+ public:
+  Buckets() : buckets_(nullptr) {}
+  Buckets(const Buckets&) = delete;
+  Buckets& operator=(const Buckets&) = delete;
+
+  // To be called when the terrain is decoded; before, every hint is 0.
+  void build(const microtin_mesh* mesh) {
+    microtin_buckets_init(storage_, sizeof storage_, mesh, &buckets_);
+  }
+  uint32_t hint(int32_t x, int32_t y) const {
+    return buckets_ == nullptr ? 0 : microtin_buckets_hint(buckets_, x, y);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_BUCKETS_BYTES(Side)];
+  microtin_buckets* buckets_;
+};
+
+}  // namespace microtin
+
+
+// The C++ face of pack.h: one object that holds the storage. C++14, freestanding.
+
+
+namespace microtin {
+
+// A pack of which Slots tiles of up to Capacity vertices are kept. See pack.h for units, costs and
+// who may interrupt whom.
+template <uint32_t Slots, uint32_t Capacity>
+class Pack {
+  static_assert(Slots >= 1 && Slots <= 255, "1 to 255 slots");
+  static_assert(Capacity >= 3, "a tile has at least three vertices");
+  static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
+
+ public:
+  Pack() { microtin_pack_init(storage_, sizeof storage_, Slots, Capacity, &pack_); }
+  Pack(const Pack&) = delete;
+  Pack& operator=(const Pack&) = delete;
+
+  void reset() { microtin_pack_reset(pack_); }
+  microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
+                          void* context) {
+    return microtin_pack_service(pack_, &course, step_limit, read, context);
+  }
+
+  bool header(microtin_pack_info* info) const { return microtin_pack_header(pack_, info) != 0; }
+  microtin_answer height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
+    return microtin_pack_height_at(pack_, x, y, hint, height);
+  }
+  microtin_answer highest(const microtin_course& course, int32_t* height) const {
+    return microtin_pack_highest(pack_, &course, height);
+  }
+  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
+    return microtin_pack_fill(pack_, &block, heights);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_PACK_BYTES(Slots, Capacity)];
+  microtin_pack* pack_;
+};
+
+}  // namespace microtin
+
+
+#endif
+
+#endif
