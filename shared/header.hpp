@@ -65,7 +65,8 @@ inline bool read_axis(const uint8_t** bytes, const uint8_t* end, microtin_axis* 
 }
 
 // A placement: the axes of x, y and z. What is not legal leaves `axis` on the lattice itself.
-inline bool read_placement(const uint8_t** bytes, const uint8_t* end, microtin_axis* axis) {
+MICROTIN_ONE_COPY inline bool read_placement(const uint8_t** bytes, const uint8_t* end,
+                                             microtin_axis* axis) {
   for (int i = 0; i < 3; ++i) {
     if (read_axis(bytes, end, axis + i)) continue;
     place_on_lattice(axis);
