@@ -82,7 +82,7 @@ microtin_status microtin_find_note(const uint8_t* bytes, size_t size, uint8_t ty
   if (content == nullptr || content_size == nullptr) return MICROTIN_ARGUMENT;
   *content = nullptr;
   *content_size = 0;
-  if (bytes == nullptr && size != 0) return MICROTIN_ARGUMENT;
+  if (bytes == nullptr) return size == 0 ? MICROTIN_NEED_INPUT : MICROTIN_ARGUMENT;
   Notes notes = {nullptr, 0};
   microtin_status status = notes_of_stream(bytes, size, &notes);
   if (status == MICROTIN_BAD_MAGIC) status = notes_of_pack(bytes, size, &notes);
