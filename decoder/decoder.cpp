@@ -68,10 +68,10 @@ microtin_status handle_length(microtin_decoder& d) {
 microtin_status handle_header(microtin_decoder& d) {
   ByteWindow& window = d.coder.window;
   const uint8_t* end = window.next;
-  if (!read_header(&end, end + smaller(d.coder.payload_left, kHeaderMostBytes),
-                   &d.reconstruction.contract, d.mesh->axis)) {
-    note_malformed(d);
-  }
+  const microtin_status known =
+      read_header(&end, end + smaller(d.coder.payload_left, kHeaderMostBytes),
+                  &d.reconstruction.contract, d.mesh->axis);
+  if (known != MICROTIN_DONE) d.verdict = known;
   const uint32_t size = static_cast<uint32_t>(end - window.next);
   window.skip(size);
   d.coder.payload_left -= size;
@@ -333,7 +333,8 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   }
   Contract contract;
   microtin_axis axis[3];
-  if (!legal || !read_header(&next, bytes + checked, &contract, axis)) return MICROTIN_MALFORMED;
+  const microtin_status read = read_header(&next, bytes + checked, &contract, axis);
+  if (!legal || read != MICROTIN_DONE) return legal ? read : MICROTIN_MALFORMED;
   info->vertices = contract.vertices;
   info->version = kVersion;
   info->degree = static_cast<uint8_t>(contract.degree);

@@ -27,6 +27,7 @@ Metadata metadata_of(const EncodeRequest& request, const Reference& reference,
   metadata.horizontal_epsg = reference.horizontal_epsg;
   metadata.vertical_epsg = reference.vertical_epsg;
   if (request.horizontal_epsg != 0) metadata.horizontal_epsg = request.horizontal_epsg;
+  if (metadata.horizontal_epsg == 0) metadata.wkt = reference.wkt;
   if (request.vertical_epsg != 0) metadata.vertical_epsg = request.vertical_epsg;
   metadata.source = request.source_text;
   metadata.date = request.date;
@@ -98,6 +99,9 @@ Encoded encode_measured(const Source& source, const EncodeRequest& request,
   const std::optional<Decimal>& bound = request.lattice.max_error;
   const Reference reference = std::visit([](const auto& s) { return s.reference; }, source);
   Metadata metadata = metadata_of(request, reference, found.laid.placement);
+  if (const auto* raster = std::get_if<Raster>(&source)) metadata.grid = posts_of(*raster);
+  if (const auto* cloud = std::get_if<PointCloud>(&source)) metadata.classes = cloud->classes;
+  if (found.laid.merged != 0) metadata.duplicates = DuplicateRule::kMiddle;
   const auto [stream, decoded] = encode_and_decode(found.tin, metadata, request.effort);
   WaterGauge gauge(height_decimals(source), bound ? request.lattice.water_level : std::nullopt);
   const Verification measured = verify(decoded.mesh(), source, bound, gauge.visitor());
@@ -106,7 +110,7 @@ Encoded encode_measured(const Source& source, const EncodeRequest& request,
       measured.voids_answered != 0 || gauge.moved() != 0) {
     throw Error("internal error: the decoded terrain does not keep what was asked for");
   }
-  metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error};
+  metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error, measured.mean_error};
   return {std::move(found.laid), bound, with_metadata(stream, metadata),
           microtin_vertex_count(decoded.mesh()), measured};
 }
@@ -191,7 +195,7 @@ std::string report(const PreparedTerrain& terrain, const Encoded& encoded) {
        << encoded.stream.size() << " bytes, "
        << bits_per_vertex(encoded.stream.size(), encoded.vertices) << " bits/vertex\n"
        << "error: at most " << to_string(measured.max_error) << ", rms "
-       << to_string(measured.rms_error);
+       << to_string(measured.rms_error) << ", mean " << to_string(measured.mean_error);
   if (encoded.bound) text << " (asked for: at most " << to_string(*encoded.bound) << ")";
   text << "\nbelow the source: at most " << to_string(measured.max_below);
   text << '\n';

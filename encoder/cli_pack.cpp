@@ -94,7 +94,7 @@ std::string report(const PackContent& pack) {
   if (without != 0) text << ", " << without << " without terrain";
   text << ", " << vertices << " vertices, at most " << most << " in a tile, " << bytes
        << " bytes\nerror: at most " << to_string(all.max_error) << ", rms "
-       << to_string(all.rms_error);
+       << to_string(all.rms_error) << ", mean " << to_string(all.mean_error);
   const std::optional<Accuracy>& accuracy = pack.metadata.accuracy;
   if (accuracy && accuracy->bound) {
     text << " (asked for: at most " << to_string(*accuracy->bound) << ")";
@@ -282,6 +282,7 @@ void run_info_pack(const PackFile& pack, bool as_json) {
     vertices += pack.entries()[number].vertices;
   }
   const TileGrid& grid = pack.grid();
+  const uint32_t compact = pack.header().compact_bytes;
   JsonObject report = {{"pack_version", json(kPackVersion)},
                        {"columns", json(tile_columns(grid))},
                        {"rows", json(tile_rows(grid))},
@@ -293,6 +294,7 @@ void run_info_pack(const PackFile& pack, bool as_json) {
                        {"most_vertices", json(pack.header().most_vertices)},
                        {"lowest", json(pack.header().lowest)},
                        {"highest", json(pack.header().highest)},
+                       {"compact_bytes", compact != 0 ? json(compact) : "null"},
                        {"bytes", json(pack.bytes())}};
   add_placement(report, pack.metadata());
   add_notes(report, pack.metadata());

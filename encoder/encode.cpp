@@ -140,12 +140,14 @@ std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& meta
 }
 
 // What the header promises.
-Contract contract_of(const Tin& tin, const Effort& effort) {
+Contract contract_of(const Tin& tin, const Effort& effort, Origin origin) {
   Contract contract{};
   contract.vertices = static_cast<uint32_t>(tin.vertices.size());
   contract.degree = effort.degree;
   contract.decoding = effort.decoding;
   contract.has_voids = !tin.voids.empty();
+  contract.odd_origin_x = origin.odd_x;
+  contract.odd_origin_y = origin.odd_y;
   for (const Vertex& v : tin.vertices) {
     contract.x_max = std::max(contract.x_max, v.x);
     contract.y_max = std::max(contract.y_max, v.y);
@@ -195,7 +197,8 @@ std::string name_of(Decoding decoding) {
   return decoding == Decoding::kDense ? "dense" : "balanced";
 }
 
-Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort) {
+Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort,
+                           Origin origin) {
   if (tin.vertices.size() > kMaxVertices) {
     throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
   }
@@ -207,7 +210,7 @@ Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effor
   const VoidSet voids = void_set(tin);
   const uint64_t expected = fingerprint_of(triangulation.mesh(), vertices, voids);
   WritingCoder coder(vertices, breadth_first_order(triangulation, effort.degree), voids);
-  std::vector<uint8_t> stream = write_stream(contract_of(tin, effort), metadata, coder);
+  std::vector<uint8_t> stream = write_stream(contract_of(tin, effort, origin), metadata, coder);
   DecodedTerrain decoded(stream);
   if (microtin_vertex_count(decoded.mesh()) != vertices.size() ||
       fingerprint_of(decoded.mesh()) != expected) {

@@ -25,6 +25,11 @@ struct Effort {
   Decoding decoding = Decoding::kBalanced;
 };
 
+// Where the lattice of a tile's stream begins on that of its pack, as far as coding wants to know.
+struct Origin {
+  bool odd_x = false, odd_y = false;
+};
+
 // The stream of `tin`; the same for any order of its vertices. It is decoded again with the shipped
 // decoder and compared before it is returned. Throws Error if the vertices have no triangle, share
 // a place, or are more than 2^24. O(n log n).
@@ -36,7 +41,8 @@ struct Encoding {
   DecodedTerrain decoded;
 };
 
-Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort);
+Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort,
+                           Origin origin = {});
 
 }  // namespace microtin
 

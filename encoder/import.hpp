@@ -2,7 +2,6 @@
 #ifndef MICROTIN_ENCODER_IMPORT_HPP
 #define MICROTIN_ENCODER_IMPORT_HPP
 
-#include <bitset>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,9 +12,6 @@
 #include "encoder/source.hpp"
 
 namespace microtin {
-
-// Classes of points in a LAS file.
-using ClassSet = std::bitset<256>;
 
 // Reads a file by its suffix: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt (points), .las, .ply,
 // .obj; in builds with GDAL all others by GDAL. "-" reads points from standard input. `classes` are

@@ -47,6 +47,7 @@ struct Contract {
   Decoding decoding;
   bool has_heights;
   bool has_voids;
+  bool odd_origin_x = false, odd_origin_y = false;  // of the stream's lattice on its pack's
 };
 
 // Lattice places that vertices can lie on: at most 2^32.
@@ -62,14 +63,15 @@ constexpr uint32_t kCheckBytes = 4;
 constexpr uint32_t kPlacementMostBytes = 66;                                // 3 * (10 + 6 + 6)
 constexpr uint32_t kHeaderMostBytes = 2 + 4 + 3 + 3 + kPlacementMostBytes;  // before the notes
 
-// Properties: these flags, 8 * decoding, 32 * degree.
+// Properties: these flags, 8 * decoding, 32 * degree. All further bits are for later versions.
 constexpr uint32_t kHasHeights = 1, kHasVoids = 2, kHasPlacement = 4;
+constexpr uint32_t kOddOriginX = 2048, kOddOriginY = 4096;
+constexpr uint32_t kPropertyBits = 13;
 
-// Notes are for people and hosts; decoding needs none of them. A type byte, a length (2 bytes), the
-// content.
-constexpr uint8_t kNoteUnits = 1, kNoteEpsg = 2, kNoteSource = 3, kNoteAccuracy = 4;
-constexpr uint8_t kNoteDate = 5, kNoteLineage = 6, kNoteWater = 7;
+// Notes are for people and applications; decoding needs none of them. A type byte (microtin.h has
+// the types), a length (2 bytes), the content.
 constexpr uint32_t kNoteHeadBytes = 3;
+constexpr uint32_t kNotesMostBytes = 65535;
 
 inline uint32_t read_u16(const uint8_t* p) {
   return p[0] | static_cast<uint32_t>(p[1]) << 8;

@@ -239,7 +239,11 @@ void add_headers(Refused& all) {
   all["malformed_header_length_above_31_bits"] = identified({0x88, 0x80, 0x80, 0x80, 0x80});
   all["malformed_header_short"] = header_with({kLegal, 4, 99});
   all["malformed_number_not_shortest"] = header_with({kLegal, 4, 99}, {0x80, 99});
-  all["malformed_properties"] = header_with({kLegal + (1 << 11), 4, 99, 99});
+  all["unsupported_property"] = header_with({kLegal + (1 << kPropertyBits), 4, 99, 99});
+  all["unsupported_property_high"] = header_with({kLegal + (uint64_t{1} << 63), 4, 99, 99});
+  all["unsupported_property_and_more"] = header_with({kLegal + (1 << kPropertyBits), 1, 65536});
+  all["malformed_properties_above_64_bits"] =
+      header_with({}, {0x82, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x82, 0x83, 0x28, 4, 99, 99});
   all["malformed_degree_low"] = header_with({properties(kMinDegree - 1, 2), 4, 99, 99});
   all["malformed_degree_high"] = header_with({properties(kMaxDegree + 1, 2), 4, 99, 99});
   all["malformed_decoding"] = header_with({properties(kMinDegree, 0), 4, 99, 99});

@@ -63,7 +63,7 @@ typedef enum microtin_status {
   MICROTIN_STOPPED = 3,    /* the phase asked for is complete; nothing more will be decoded */
   /* Errors. Once one is returned, every further call returns it again. */
   MICROTIN_BAD_MAGIC = 16,           /* not a microtin stream */
-  MICROTIN_UNSUPPORTED_VERSION = 17, /* a version of the format unknown here */
+  MICROTIN_UNSUPPORTED_VERSION = 17, /* a version of the format, or a part of it, unknown here */
   MICROTIN_TOO_BIG = 18,             /* more vertices than the workspace holds: see microtin_peek */
   MICROTIN_CHECKSUM = 19,            /* the bytes were damaged */
   MICROTIN_MALFORMED = 20,           /* undamaged bytes that break a rule of the format */
@@ -104,6 +104,32 @@ typedef struct microtin_buckets microtin_buckets;
  * passed. Errors: BAD_MAGIC, UNSUPPORTED_VERSION, CHECKSUM, MALFORMED, ARGUMENT. O(header bytes),
  * usually below 100. */
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info);
+
+/* Types of notes: what a header says beside the terrain. FORMAT.md, section 4, has the content of
+ * each. */
+typedef enum microtin_note {
+  MICROTIN_NOTE_UNITS = 1,
+  MICROTIN_NOTE_SYSTEMS = 2, /* EPSG codes */
+  MICROTIN_NOTE_SOURCE = 3,
+  MICROTIN_NOTE_ACCURACY = 4,
+  MICROTIN_NOTE_DATE = 5,
+  MICROTIN_NOTE_LINEAGE = 6,
+  MICROTIN_NOTE_WATER = 7,
+  MICROTIN_NOTE_GRID = 8,
+  MICROTIN_NOTE_WKT = 9,
+  MICROTIN_NOTE_CLASSES = 10,
+  MICROTIN_NOTE_DUPLICATES = 11,
+  MICROTIN_NOTE_TRUE_PLACES = 12 /* accuracy there */
+} microtin_note;
+
+/* Finds a note in the header of a stream or of a pack, with which the `size` bytes begin. DONE: the
+ * header's check passed, and *content points to the note's *content_size bytes; it is null if there
+ * is no such note. NEED_INPUT: give more; *content_size, if not 0, says how many bytes. Any other
+ * status leaves null and 0: BAD_MAGIC, UNSUPPORTED_VERSION, CHECKSUM, ARGUMENT, or MALFORMED, also
+ * if a note before reaches beyond the notes. A content may be longer than is known here: a later
+ * version's. O(header bytes). */
+microtin_status microtin_find_note(const uint8_t* bytes, size_t size, uint8_t type,
+                                   const uint8_t** content, uint32_t* content_size);
 
 /* Lays out an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh,
  * which points into it. DONE, or WORKSPACE_TOO_SMALL, MISALIGNED, ARGUMENT. O(1). */
