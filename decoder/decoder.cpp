@@ -68,10 +68,10 @@ microtin_status handle_length(microtin_decoder& d) {
 microtin_status handle_header(microtin_decoder& d) {
   ByteWindow& window = d.coder.window;
   const uint8_t* end = window.next;
-  if (!read_header(&end, end + smaller(d.coder.payload_left, kHeaderMostBytes),
-                   &d.reconstruction.contract, d.mesh->axis)) {
-    note_malformed(d);
-  }
+  const microtin_status known =
+      read_header(&end, end + smaller(d.coder.payload_left, kHeaderMostBytes),
+                  &d.reconstruction.contract, d.mesh->axis);
+  if (known != MICROTIN_DONE) d.verdict = known;
   const uint32_t size = static_cast<uint32_t>(end - window.next);
   window.skip(size);
   d.coder.payload_left -= size;
@@ -244,9 +244,8 @@ microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh**
   const size_t half_edges = 6 * static_cast<size_t>(capacity);
   m.mesh.origin = reinterpret_cast<Index*>(&m + 1);
   m.mesh.twin = m.mesh.origin + half_edges;
-  m.mesh.x = reinterpret_cast<uint16_t*>(m.mesh.twin + half_edges);
-  m.mesh.y = m.mesh.x + capacity;
-  m.mesh.z = reinterpret_cast<int16_t*>(m.mesh.y + capacity);
+  m.mesh.place = reinterpret_cast<Point*>(m.mesh.twin + half_edges);
+  m.mesh.z = reinterpret_cast<int16_t*>(m.mesh.place + capacity);
   m.voids = reinterpret_cast<uint8_t*>(m.mesh.z + capacity);
   m.capacity = capacity;
   empty_mesh(m);
@@ -335,11 +334,12 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   }
   Contract contract;
   microtin_axis axis[3];
-  if (!legal || !read_header(&next, bytes + checked, &contract, axis)) return MICROTIN_MALFORMED;
+  const microtin_status read = read_header(&next, bytes + checked, &contract, axis);
+  if (!legal || read != MICROTIN_DONE) return legal ? read : MICROTIN_MALFORMED;
   info->vertices = contract.vertices;
   info->version = kVersion;
   info->degree = static_cast<uint8_t>(contract.degree);
-  info->levels = static_cast<uint8_t>(contract.levels);
+  info->decoding = static_cast<uint8_t>(contract.decoding);
   info->has_heights = contract.has_heights;
   info->has_voids = contract.has_voids;
   info->x = axis[0];

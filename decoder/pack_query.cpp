@@ -59,7 +59,8 @@ LocalPoint local(const TileBox& box, int64_t x, int64_t y) {
 }
 
 LocalPoint point_at(const Mesh& mesh, Index v) {
-  return LocalPoint{mesh.x[v] * static_cast<int32_t>(256), mesh.y[v] * static_cast<int32_t>(256)};
+  const Point p = point_of(mesh, v);
+  return LocalPoint{p.x * static_cast<int32_t>(256), p.y * static_cast<int32_t>(256)};
 }
 
 // The half-edge of a ghost between finite vertices, given its first.
@@ -192,8 +193,8 @@ class TileCourse {
 
   // Whether a real triangle lies beside the bounding box of the course: most do.
   bool is_aside(const Mesh& mesh, const Index* v) const {
-    return are_aside(mesh.x[v[0]], mesh.x[v[1]], mesh.x[v[2]], x_) ||
-           are_aside(mesh.y[v[0]], mesh.y[v[1]], mesh.y[v[2]], y_);
+    const Point a = point_of(mesh, v[0]), b = point_of(mesh, v[1]), c = point_of(mesh, v[2]);
+    return are_aside(a.x, b.x, c.x, x_) || are_aside(a.y, b.y, c.y, y_);
   }
   static bool are_aside(int32_t a, int32_t b, int32_t c, const Reach& reach) {
     return (a < reach.low && b < reach.low && c < reach.low) ||

@@ -11,7 +11,8 @@ namespace {
 // The corner of a real triangle where a half-edge starts.
 Vertex corner_at(const Mesh& mesh, uint32_t half_edge) {
   const Index v = mesh.origin[half_edge];
-  return Vertex{mesh.x[v], mesh.y[v], mesh.z[v]};
+  const Point at = point_of(mesh, v);
+  return Vertex{at.x, at.y, mesh.z[v]};
 }
 
 // The answer at p in the closed real triangle t. A vertex always knows its own height; on an edge,
@@ -46,8 +47,9 @@ uint32_t microtin_vertex_count(const microtin_mesh* mesh) {
 }
 
 void microtin_vertex(const microtin_mesh* mesh, uint32_t v, uint16_t* x, uint16_t* y, int16_t* z) {
-  *x = mesh->mesh.x[v];
-  *y = mesh->mesh.y[v];
+  const Point at = mesh->mesh.place[v];
+  *x = at.x;
+  *y = at.y;
   *z = mesh->mesh.z[v];
 }
 

@@ -3,7 +3,7 @@
 #define MICROTIN_SHARED_COMPILER_HPP
 
 // GCC 12 at -O2, where there are no vector registers, puts two 16-bit numbers into a word and takes
-// the high half of the word's square for that of each (the middles of slices, cells.hpp): seen on
+// the high half of the word's square for that of each: seen on
 // RISC-V and on x86 without SSE.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) &&     \
     !defined(__OPTIMIZE_SIZE__) && !defined(__SSE2__) && !defined(__VX__) && \
@@ -37,6 +37,11 @@
 #define MICROTIN_OUT_OF_LINE __attribute__((noinline))
 #define MICROTIN_ONE_COPY
 #define MICROTIN_IN_PLACE
+#endif
+
+// Where a multiplication makes 32 bits at most: wider ones are calls.
+#if defined(__ARM_ARCH_6M__) || defined(__AVR__) || (defined(__riscv) && !defined(__riscv_mul))
+#define MICROTIN_NARROW_MACHINE
 #endif
 
 #endif

@@ -1,4 +1,4 @@
-// Integer logarithm, power and square root for estimates. Identical on every target.
+// Integer logarithms, power and roots for estimates. Identical on every target.
 #ifndef MICROTIN_SHARED_FIXED_MATH_HPP
 #define MICROTIN_SHARED_FIXED_MATH_HPP
 
@@ -46,28 +46,34 @@ inline Log2 log2_of(uint64_t v) {
   return static_cast<Log2>(bit * 256u + ((m + bend + 128u) >> 8));
 }
 
-// 2^l within 1/256 of itself, at least 1 and at most 2^30.
-inline uint32_t exp2_of(Log2 l) {
-  if (l <= 0) return 1;
-  const uint32_t bit = static_cast<uint32_t>(l) >> 8, f = static_cast<uint32_t>(l) & 255u;
-  if (bit >= 30) return static_cast<uint32_t>(1) << 30;
-  // f of 2^8: 2^f is 1 + f - f (1 - f) (0.305 + 0.078 f).
-  const uint32_t mantissa = 32768u + 128u * f - (f * (256u - f) * (9980u + 10u * f) >> 16);
-  return mantissa << 16 >> (31u - bit);
+// A rough one: straight between powers of two, 0.086 too low at most.
+inline Log2 rough_log2(uint64_t v) {
+  const uint32_t bit = highest_bit(v);
+  return static_cast<Log2>((bit << 8) + (static_cast<uint32_t>(v << (63u - bit) >> 55) & 0xFFu));
 }
 
-// v * factor / 2^shift, rounded down; the product fits.
-MICROTIN_ONE_COPY inline int64_t scaled(int64_t v, int32_t factor, uint32_t shift) {
-  return v * factor >> shift;
+// The inverse of it, 0 for l < 0; l < 2^13.
+inline uint32_t rough_exp2(Log2 l) {
+  if (l < 0) return 0;
+  const uint32_t bit = static_cast<uint32_t>(l) >> 8;
+  return (256u + (static_cast<uint32_t>(l) & 255u)) << 23 >> (31u - bit);
 }
 
-MICROTIN_ONE_COPY inline int32_t kept_within(int64_t v, int32_t most) {
-  return v > most ? most : v < -most ? -most : static_cast<int32_t>(v);
+inline int32_t kept_within(int32_t v, int32_t least, int32_t most) {
+  return v < least ? least : v > most ? most : v;
 }
 
-// A number at least sqrt(v) and at most 2 + sqrt(v) * (1 + 2^-7), for 0 < v < 2^58.
-inline uint32_t sqrt_above(uint64_t v) {
-  return exp2_of((log2_of(v) + 3) / 2) + 1;
+// The root of v < 2^31 but for 1 / 256 of it.
+inline uint32_t rough_root(uint32_t v) {
+  const uint32_t half = highest_bit(v | 1u) >> 1;
+  const uint32_t guess = (11u * ((2u << half) + (v >> half)) >> 5) + 1;
+  return (guess + v / guess) >> 1;
+}
+
+// The root but for 1 of 2^15.
+inline uint32_t fine_root(uint32_t v) {
+  const uint32_t guess = rough_root(v) | 1u;
+  return (guess + v / guess) >> 1;
 }
 
 }  // namespace microtin

@@ -10,9 +10,8 @@
 namespace microtin {
 
 constexpr uint8_t kMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'i', 'n'};
-constexpr uint8_t kVersion = 4;
+constexpr uint8_t kVersion = 5;
 constexpr uint32_t kMinDegree = 6, kMaxDegree = 32;
-constexpr uint32_t kMaxLevels = 3;
 constexpr uint32_t kMaxVertices = 16777216;  // 2^24
 
 // A section of the body ends with the first phase that brings the terrain to this many vertices,
@@ -36,14 +35,19 @@ constexpr uint32_t work_budget(uint32_t vertices) {
 // The sum that breaks the budget is beyond it by one phase at most.
 static_assert(work_budget(kMaxVertices) + uint64_t{kMaxVertices} <= UINT32_MAX, "work fits");
 
+// How much of the odds of places a stream makes use of (place_coding.hpp): the more, the smaller
+// and the slower to decode.
+enum class Decoding : uint8_t { kQuick = 1, kBalanced = 2, kDense = 3 };
+
 // What the fixed header promises.
 struct Contract {
   uint32_t vertices;
   uint16_t x_max, y_max;
   uint32_t degree;  // most triangles around a vertex when it is inserted
-  uint32_t levels;  // of cells (place_coding.hpp)
+  Decoding decoding;
   bool has_heights;
   bool has_voids;
+  bool odd_origin_x = false, odd_origin_y = false;  // of the stream's lattice on its pack's
 };
 
 // Lattice places that vertices can lie on: at most 2^32.
@@ -59,14 +63,15 @@ constexpr uint32_t kCheckBytes = 4;
 constexpr uint32_t kPlacementMostBytes = 66;                                // 3 * (10 + 6 + 6)
 constexpr uint32_t kHeaderMostBytes = 2 + 4 + 3 + 3 + kPlacementMostBytes;  // before the notes
 
-// Properties: these flags, 8 * levels, 32 * degree.
+// Properties: these flags, 8 * decoding, 32 * degree. All further bits are for later versions.
 constexpr uint32_t kHasHeights = 1, kHasVoids = 2, kHasPlacement = 4;
+constexpr uint32_t kOddOriginX = 2048, kOddOriginY = 4096;
+constexpr uint32_t kPropertyBits = 13;
 
-// Notes are for people and hosts; decoding needs none of them. A type byte, a length (2 bytes), the
-// content.
-constexpr uint8_t kNoteUnits = 1, kNoteEpsg = 2, kNoteSource = 3, kNoteAccuracy = 4;
-constexpr uint8_t kNoteDate = 5, kNoteLineage = 6, kNoteWater = 7;
+// Notes are for people and applications; decoding needs none of them. A type byte (microtin.h has
+// the types), a length (2 bytes), the content.
 constexpr uint32_t kNoteHeadBytes = 3;
+constexpr uint32_t kNotesMostBytes = 65535;
 
 inline uint32_t read_u16(const uint8_t* p) {
   return p[0] | static_cast<uint32_t>(p[1]) << 8;

@@ -1,7 +1,7 @@
 // Where the next point can lie, given that it is in conflict with an uncertified triangle: inside
 // the triangle's circle, outside the circles of the certified triangles behind its sides.
-// Everything here is an estimate that selects contexts and odds, except enclosing_box, which must
-// hold every legal point.
+// Everything here is an estimate that selects contexts and odds: it may be wrong, it must not
+// overflow. All of it fits 32 bits.
 #ifndef MICROTIN_SHARED_FREE_REGION_HPP
 #define MICROTIN_SHARED_FREE_REGION_HPP
 
@@ -10,21 +10,56 @@
 
 namespace microtin {
 
+// A place in grains, of which a lattice step has 2^shift: the shift is that which brings a
+// triangle's corners just below 2^kCornerBits.
+struct Spot {
+  int32_t x;
+  int32_t y;
+};
+
+constexpr int32_t kCornerBits = 11;
+
+inline Spot operator-(Spot a, Spot b) {
+  return Spot{a.x - b.x, a.y - b.y};
+}
+
+// Of corners: below 2^23. Of a corner and a difference of two: below 2^24.
+inline int32_t dot(Spot a, Spot b) {
+  return a.x * b.x + a.y * b.y;
+}
+
+inline int32_t cross(Spot a, Spot b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+// v * 2^shift, rounded down; the result fits.
+inline int32_t shifted(FastInt v, int32_t shift) {
+  return static_cast<int32_t>(shift >= 0 ? v * (static_cast<FastInt>(1) << shift) : v >> -shift);
+}
+
+inline Spot shifted(Offset v, int32_t shift) {
+  return Spot{shifted(v.x, shift), shifted(v.y, shift)};
+}
+
+// The bits of the longer coordinate but one, for an offset that is not zero.
+inline int32_t size_of(Offset v) {
+  return static_cast<int32_t>(
+      highest_bit(static_cast<uint32_t>(absolute(v.x)) | static_cast<uint32_t>(absolute(v.y))));
+}
+
 // The circles through both ends of a side form a pencil, ordered by the cotangent of the angle
-// under which the side is seen from the arc to its left. 8 fractional bits, capped.
+// under which the side is seen from the arc to its left. 12 fractional bits, capped.
 typedef int32_t Cotangent;
-constexpr Cotangent kCotangentCap = 89 * 256;
+constexpr uint32_t kCotangentBits = 12;
+constexpr int32_t kOwnCap = 64, kBehindCap = 16;  // of a triangle's own circle, of that behind
 
-static_assert(int64_t{kCotangentCap} * 65536 < INT32_MAX, "a quotient's dividend fits");
-static_assert(65536 + int64_t{kCotangentCap} * kCotangentCap < INT32_MAX, "a squared one fits");
-
-// q / h, off by less than 2 / 256; |q| < 2^34, 0 < h < 2^34.
-inline Cotangent cotangent(int64_t q, int64_t h) {
-  // h is brought below 2^16, but not below 2^15: then |q| * 256 <= 89 * 2^16 * 2^8 < 2^31.
-  const uint32_t bits = highest_bit(static_cast<uint64_t>(h));
-  const uint32_t shift = bits > 15 ? bits - 15 : 0;
-  const int32_t divisor = static_cast<int32_t>(scaled(h, 1, shift));
-  return kept_within(scaled(q, 1, shift), 89 * divisor) * 256 / divisor;
+// q / h, at most `most` <= 64 in magnitude; h > 0.
+inline Cotangent cotangent(int32_t q, int32_t h, int32_t most) {
+  const uint32_t bits = highest_bit(static_cast<uint32_t>(h));
+  const uint32_t shift = bits > 11 ? bits - 11 : 0;
+  h >>= shift;  // below 2^12: the dividend fits
+  q = kept_within(q >> shift, -h * most, h * most);
+  return q * (static_cast<int32_t>(1) << kCotangentBits) / h;
 }
 
 // The side from corner i to corner i + 1 of a triangle, and what is known behind it.
@@ -32,161 +67,95 @@ struct Side {
   bool certified;  // the triangle behind is final: its circle is empty
   bool ghost;      // ... and lies outside the hull: nothing at all is behind
   Offset apex;     // ... otherwise, the corner opposite to this side
-  // The circles of the triangle itself and of the one behind; of a ghost's, one so large that its
-  // segment is next to nothing.
-  Cotangent own, behind;
+  Cotangent behind;  // ... and the circle there, over this side
 };
 
-constexpr int kChord = 2;  // the side the walk came from, from corner 2 (a) to corner 0 (v)
+constexpr int kChord = 2;  // the side the walk came from, from corner a to corner v
 
-// All places are relative to corner 0.
+// All places are relative to corner v.
 struct FreeRegion {
-  Point origin;
-  Offset corner[4];  // v, c, a, counter-clockwise, never on a line; v
+  Point origin;       // v
+  Offset corner[2];   // c, a: v, c, a turn counter-clockwise and are not on a line
+  int32_t shift;      // -5 .. 10
+  Spot c, a;
+  int32_t cc, aa, ca;  // dot products
+  int32_t twice;       // the area, > 0
+  Log2 expected;       // log2 of the points that it should hold
   Side side[3];
 };
 
-// Of the angle under which `from` sees the side from a to b, which is to its right.
-inline Cotangent cotangent_at(const Offset& from, const Offset& a, const Offset& b) {
-  const Offset to_a = a - from, to_b = b - from;
-  return cotangent(dot(to_a, to_b), cross(to_a, to_b));
+// Area, over the squared chord, of the segment that is seen under k >= 0 (8 fractional bits, below
+// 2^12): 12 fractional bits, at most 1592. It is about 1/6 (k + 0.734) / (k^2 + 0.734 k + 0.315),
+// off by at most 1.25 %.
+inline uint32_t minor_segment(uint32_t k) {
+  return (k + 188u) * 174763u / (k * (k + 188u) + 20643u);
 }
 
-// Areas carry 8 fractional bits; the largest disc has 2^58.
-typedef int64_t Area;
-
-// Area of the disc on whose circle a chord of squared length `length2` < 2^33 is seen under k.
-inline Area disc_area(int64_t length2, Cotangent k) {
-  // pi / 4 = 201 / 256; 1 + k^2 <= 2^22 with 8 fractional bits.
-  return scaled(length2, (65536 + k * k) >> 8, 8) * 201;
-}
-
-// Area, over length2, of the segment to the left of the chord: 17 fractional bits, below 2^30. Up
-// to a half disc (k <= 0) it is about 2/3 / (k + 0.315 / (k + 0.734)), off by at most 1.25 %;
-// beyond it is what the disc has left.
-inline int32_t segment(Cotangent k) {
+// Twice the area of the segment to the left of a chord of squared length `square` < 2^25: below
+// 2^30. Up to a half disc (k <= 0) it is minor; beyond it is what the disc has left, pi / 4 (1 +
+// k^2), with k <= 4.
+inline int32_t segment(uint32_t square, Cotangent fine) {
+  const int32_t k = fine >> (kCotangentBits - 8);
   const uint32_t size = static_cast<uint32_t>(k < 0 ? -k : k);
-  const int32_t smaller = static_cast<int32_t>(89478480u / (16u * size + 330400u / (size + 188u)));
-  if (k <= 0) return smaller;
-  return static_cast<int32_t>(static_cast<int64_t>(65536 + k * k) * 3217 >> 11) - smaller;
+  const int32_t minor = static_cast<int32_t>((square >> 4) * minor_segment(size) >> 7);
+  if (k <= 0) return minor;
+  const uint32_t kept = size < 4u * 256u ? size : 4u * 256u;
+  return static_cast<int32_t>((square >> 8) * ((65536u + kept * kept) * 201u >> 15)) - minor;
 }
 
-// log2 of the free region's area in lattice units. Fills in the sides' cotangents.
+// The circle over the side from v to `end`, seen from the apex of the triangle behind it; `turn` is
+// 1 if that turns counter-clockwise from `end`, else -1. An apex farther than corners may be counts
+// in coarser grains.
+inline Cotangent cotangent_behind(const FreeRegion& region, Offset apex, Spot end, int32_t turn) {
+  const int32_t beyond = size_of(apex) + region.shift - (kCornerBits - 1);
+  const int32_t coarser = beyond > 0 ? beyond : 0;  // at most 16
+  const Spot to_apex = shifted(apex, region.shift - coarser);
+  end = Spot{end.x >> coarser, end.y >> coarser};
+  const int32_t height = turn * cross(end, to_apex) >> coarser;
+  return cotangent(dot(to_apex, end - to_apex), height > 1 ? height : 1, kBehindCap);
+}
+
+// Brings the corners to grains.
+inline void measure(FreeRegion& region) {
+  const int32_t c_size = size_of(region.corner[0]), a_size = size_of(region.corner[1]);
+  region.shift = kCornerBits - 1 - (c_size > a_size ? c_size : a_size);
+  region.c = shifted(region.corner[0], region.shift);
+  region.a = shifted(region.corner[1], region.shift);
+  region.cc = dot(region.c, region.c);
+  region.aa = dot(region.a, region.a);
+  region.ca = dot(region.c, region.a);
+  const int32_t twice = cross(region.c, region.a);
+  region.twice = twice > 1 ? twice : 1;
+}
+
+// Twice what an open side lets the circle add; the opposite corner sees it under q / twice.
+inline int32_t segment_beyond(const FreeRegion& region, int32_t square, int32_t q) {
+  return segment(static_cast<uint32_t>(square), cotangent(q, region.twice, kBehindCap));
+}
+
+// Twice what the circle behind a side from v to `end` takes away. Finds the circle.
+inline int32_t segment_behind(const FreeRegion& region, Side& side, Spot end, int32_t square,
+                              int32_t turn) {
+  if (side.ghost) return 0;
+  side.behind = cotangent_behind(region, side.apex, end, turn);
+  return segment(static_cast<uint32_t>(square), side.behind);
+}
+
+// log2 of the free region's area in lattice units: the triangle and what its circle reaches beyond
+// open sides, less what circles behind certified sides reach into it, but never less than a part
+// of the triangle. Two segments below 2^30 and a triangle below 2^23 fit.
 inline Log2 free_area(FreeRegion& region) {
-  Area lost = 0;
-  for (int i = 0; i < 3; ++i) {
-    Side& side = region.side[i];
-    if (!side.certified) continue;
-    const Offset& from = region.corner[i];
-    const Offset& to = region.corner[i + 1];
-    side.own = cotangent_at(region.corner[i == 0 ? 2 : i - 1], from, to);
-    int32_t segments = segment(-side.own);
-    if (side.ghost) {
-      side.behind = (side.own < 0 ? side.own : 0) - 8 * 256;
-    } else {
-      side.behind = -cotangent_at(side.apex, to, from);
-      segments += segment(side.behind);
-    }
-    lost += scaled(dot(to - from, to - from), segments, 9);
-  }
-  const Offset chord = region.corner[kChord];
-  const Area disc = disc_area(dot(chord, chord), region.side[kChord].own);
-  const Area left = disc - lost, least = (disc >> 8) + 1;
-  return log2_of(static_cast<uint64_t>(left > least ? left : least)) - 8 * kLog2One;
-}
-
-// A circle by the power of places with respect to it, negative inside, in half lattice steps: at
-// an offset (i, j) from some place it is value + i (x / 16 + i) + j (y / 16 + j).
-struct Power {
-  int64_t value;
-  FastInt x;
-  FastInt y;
-};
-
-// The circle through both ends of a chord, seen from `middle` (half steps from corner 0).
-// Offsets are below 2^18: products 2^37, times a cotangent 2^52 >> 8; slopes below 2^29.
-inline Power circle_over(Offset from, Offset to, Cotangent k, Offset middle) {
-  const Offset a = {middle.x - 2 * from.x, middle.y - 2 * from.y};
-  const Offset b = {middle.x - 2 * to.x, middle.y - 2 * to.y};
-  const Offset chord = {a.x - b.x, a.y - b.y};
-  Power power;
-  power.value = dot(a, b) - scaled(cross(chord, a), k, 8);
-  power.x = 16 * (a.x + b.x) + static_cast<FastInt>(static_cast<int64_t>(k) * chord.y >> 4);
-  power.y = 16 * (a.y + b.y) - static_cast<FastInt>(static_cast<int64_t>(k) * chord.x >> 4);
-  return power;
-}
-
-// A box of lattice points, both ends included.
-struct Box {
-  FastInt x0, y0, x1, y1;
-};
-
-// Half steps.
-inline Offset middle_of(const Box& box) {
-  return Offset{box.x0 + box.x1, box.y0 + box.y1};
-}
-
-// log2 of its longer side, rounded down.
-inline uint32_t size_of(const Box& box) {
-  return highest_bit(static_cast<uint32_t>((box.x1 - box.x0) | (box.y1 - box.y0) | 1));
-}
-
-inline void extend(Box& box, FastInt x, FastInt y) {
-  if (x < box.x0) box.x0 = x;
-  if (x > box.x1) box.x1 = x;
-  if (y < box.y0) box.y0 = y;
-  if (y > box.y1) box.y1 = y;
-}
-
-// Cuts the box off where it is beyond another.
-inline void cut(Box& box, const Box& bounds) {
-  if (box.x0 < bounds.x0) box.x0 = bounds.x0;
-  if (box.y0 < bounds.y0) box.y0 = bounds.y0;
-  if (box.x1 > bounds.x1) box.x1 = bounds.x1;
-  if (box.y1 > bounds.y1) box.y1 = bounds.y1;
-}
-
-// Extends a box to those of a circle's extremes that are less than `slack` on the near side of an
-// open side, or beyond it; all in sixteenths of a step. Products are below 2^18 * 2^28, twice.
-inline void extend_beyond(Box& box, Offset from, Offset side, Offset centre, FastInt radius,
-                          FastInt slack) {
-  const int64_t near = cross(side, centre - Offset{16 * from.x, 16 * from.y}) -
-                       static_cast<int64_t>(slack) * (absolute(side.x) + absolute(side.y));
-  for (int i = 0; i < 2; ++i) {  // west and south, east and north; rounded inwards
-    const FastInt reach = i == 0 ? -radius : radius, round = i == 0 ? 15 : 0;
-    const Offset rounded = {centre.x + round, centre.y + round};
-    if (near < static_cast<int64_t>(side.y) * reach) {
-      extend(box, (rounded.x + reach) >> 4, rounded.y >> 4);
-    }
-    if (near + static_cast<int64_t>(side.x) * reach < 0) {
-      extend(box, rounded.x >> 4, (rounded.y + reach) >> 4);
-    }
-  }
-}
-
-// Cuts off a box what the free region cannot hold: it holds the triangle itself and, beyond open
-// sides, the circle's extremes. Circles whose cotangent over the chord is capped are not followed.
-inline void enclose(const FreeRegion& region, Box& bounds) {
-  const Cotangent k = region.side[kChord].own;
-  if (absolute(k) == kCotangentCap) return;
-  // Sixteenths of a step from v. The cotangent is off by less than 1/128, which moves the centre,
-  // and changes the radius, by less than 1/256 of the chord. All below 2^28.
-  const Offset c = region.corner[1], a = region.corner[2];
-  const Offset centre = {a.x * 8 + static_cast<FastInt>(static_cast<int64_t>(k) * a.y >> 5),
-                         a.y * 8 - static_cast<FastInt>(static_cast<int64_t>(k) * a.x >> 5)};
-  const FastInt margin = (absolute(a.x) + absolute(a.y)) / 8 + 2;
-  const int64_t square = scaled(dot(a, a), 65536 + k * k, 10);
-  const FastInt radius = static_cast<FastInt>(sqrt_above(static_cast<uint64_t>(square))) + margin;
-  // The computed extremes are beyond the true ones by less than this.
-  const FastInt slack = 2 * margin + 5 + (radius >> 7);
-  Box box = {a.x, a.y, a.x, a.y};
-  extend(box, 0, 0);
-  extend(box, c.x, c.y);
-  for (int i = 0; i < 2; ++i) {
-    const Offset from = region.corner[i], side = region.corner[i + 1] - from;
-    if (!region.side[i].certified) extend_beyond(box, from, side, centre, radius, slack);
-  }
-  cut(bounds, box);
+  measure(region);
+  const int32_t cc = region.cc, aa = region.aa, ca = region.ca;
+  Side& next = region.side[0];
+  int32_t twice = region.twice;
+  twice += next.certified ? -segment_behind(region, next, region.c, cc, -1)
+                          : segment_beyond(region, cc, ca - aa);
+  if (!region.side[1].certified) twice += segment_beyond(region, cc + aa - 2 * ca, -ca);
+  twice -= segment_behind(region, region.side[kChord], region.a, aa, 1);
+  const int32_t least = (region.twice >> 4) + 1;
+  return rough_log2(static_cast<uint32_t>(twice > least ? twice : least)) -
+         (2 * region.shift + 1) * kLog2One;
 }
 
 }  // namespace microtin

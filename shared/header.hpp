@@ -52,43 +52,55 @@ inline void place_on_lattice(microtin_axis* axis) {
   }
 }
 
-// A placement: for x, y and z the offset (zigzag), numerator and denominator. What is not legal
-// leaves `axis` on the lattice itself.
-inline bool read_placement(const uint8_t** bytes, const uint8_t* end, microtin_axis* axis) {
+// The offset (zigzag), numerator and denominator.
+inline bool read_axis(const uint8_t** bytes, const uint8_t* end, microtin_axis* axis) {
+  uint64_t offset = 0;
+  if (!read_varint(bytes, end, &offset) || !read_step(bytes, end, &axis->numerator) ||
+      !read_step(bytes, end, &axis->denominator)) {
+    return false;
+  }
+  const int64_t half = static_cast<int64_t>(offset >> 1);
+  axis->offset = (offset & 1u) != 0 ? -half - 1 : half;
+  return true;
+}
+
+// A placement: the axes of x, y and z. What is not legal leaves `axis` on the lattice itself.
+MICROTIN_ONE_COPY inline bool read_placement(const uint8_t** bytes, const uint8_t* end,
+                                             microtin_axis* axis) {
   for (int i = 0; i < 3; ++i) {
-    uint64_t offset = 0;
-    if (!read_varint(bytes, end, &offset) || !read_step(bytes, end, &axis[i].numerator) ||
-        !read_step(bytes, end, &axis[i].denominator)) {
-      place_on_lattice(axis);
-      return false;
-    }
-    const int64_t half = static_cast<int64_t>(offset >> 1);
-    axis[i].offset = (offset & 1u) != 0 ? -half - 1 : half;
+    if (read_axis(bytes, end, axis + i)) continue;
+    place_on_lattice(axis);
+    return false;
   }
   return true;
 }
 
-// Reads a header's payload up to its notes. False if it breaks a rule of the format. Then, and
-// without a placement, `axis` is on the lattice itself.
-inline bool read_header(const uint8_t** bytes, const uint8_t* end, Contract* contract,
-                        microtin_axis* axis) {
+// Reads a header's payload up to its notes. Not DONE: MALFORMED, or UNSUPPORTED_VERSION if it has
+// properties unknown here, since these may change what follows. Then, and without a placement,
+// `axis` is on the lattice itself.
+inline microtin_status read_header(const uint8_t** bytes, const uint8_t* end, Contract* contract,
+                                   microtin_axis* axis) {
   uint64_t number[4];  // properties, vertices, x_max, y_max
-  bool legal = true;
-  for (int i = 0; i < 4; ++i) legal = legal && read_varint(bytes, end, number + i);
   place_on_lattice(axis);
-  if (!legal) return false;
+  for (int i = 0; i < 4; ++i) {
+    if (!read_varint(bytes, end, number + i)) return MICROTIN_MALFORMED;
+    if (number[0] >> kPropertyBits != 0) return MICROTIN_UNSUPPORTED_VERSION;
+  }
   const uint32_t properties = static_cast<uint32_t>(number[0]);
   contract->has_heights = (properties & kHasHeights) != 0;
   contract->has_voids = (properties & kHasVoids) != 0;
-  contract->levels = properties >> 3 & 3u;
-  contract->degree = properties >> 5;
+  contract->decoding = static_cast<Decoding>(properties >> 3 & 3u);
+  contract->degree = properties >> 5 & 63u;
+  contract->odd_origin_x = (properties & kOddOriginX) != 0;
+  contract->odd_origin_y = (properties & kOddOriginY) != 0;
   contract->vertices = static_cast<uint32_t>(number[1]);
   contract->x_max = static_cast<uint16_t>(number[2]);
   contract->y_max = static_cast<uint16_t>(number[3]);
-  if ((properties & kHasPlacement) != 0) legal = read_placement(bytes, end, axis);
-  return legal && number[0] >> 11 == 0 && contract->degree >= kMinDegree &&
-         contract->degree <= kMaxDegree && contract->levels >= 1 && number[1] >= 3 &&
-         number[1] <= kMaxVertices && number[2] <= kLatticeMax && number[3] <= kLatticeMax;
+  bool legal = (properties & kHasPlacement) == 0 || read_placement(bytes, end, axis);
+  legal = legal && contract->degree >= kMinDegree && contract->degree <= kMaxDegree &&
+          (properties >> 3 & 3u) != 0 && number[1] >= 3 && number[1] <= kMaxVertices &&
+          number[2] <= kLatticeMax && number[3] <= kLatticeMax;
+  return legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
 }
 
 }  // namespace microtin

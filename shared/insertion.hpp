@@ -3,7 +3,7 @@
 #ifndef MICROTIN_SHARED_INSERTION_HPP
 #define MICROTIN_SHARED_INSERTION_HPP
 
-#include "shared/mesh.hpp"
+#include "shared/sight.hpp"
 
 namespace microtin {
 
@@ -32,26 +32,27 @@ bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const F
   Index* ahead = end;
   *--ahead = start;
   Index across = mesh.twin[start];  // from b to a
-  Index a = mesh.origin[start], b = mesh.origin[across];
+  Sight sight(mesh, p);
+  Seen a = sight.see(mesh.origin[start]), b = sight.see(mesh.origin[across]);
   uint32_t edges = 0;
   cavity.size = 0;
   for (;;) {
     const Index previous = previous_in_triangle(across);
-    const Index c = mesh.origin[previous];
-    if (in_conflict(mesh, b, a, c, p)) {
-      if (cavity.size == cavity.limit || forbids(c)) return false;
+    const Seen c = sight.see(mesh.origin[previous]);
+    if (sight.conflicts(b, a, c)) {
+      if (cavity.size == cavity.limit || forbids(c.vertex)) return false;
       cavity.triangles[cavity.size++] = triangle_of(across);
       *--ahead = mesh.twin[previous];
       across = mesh.twin[next_in_triangle(across)];
       b = c;
       continue;
     }
-    cavity.edge_origin[edges] = a;
+    cavity.edge_origin[edges] = a.vertex;
     cavity.edge_twin[edges++] = across;
     if (ahead == end) return true;
     across = *ahead++;
     a = b;
-    b = mesh.origin[across];
+    b = sight.see(mesh.origin[across]);
   }
 }
 

@@ -37,8 +37,7 @@ inline bool is_ghost(Index a, Index b, Index c) {
 
 // Views of arrays that somebody else owns.
 struct Mesh {
-  uint16_t* x;      // vertices
-  uint16_t* y;      // vertices
+  Point* place;     // vertices
   int16_t* z;       // vertices
   Index* origin;    // 3 * triangles
   Index* twin;      // 3 * triangles
@@ -76,7 +75,7 @@ inline Index previous_in_triangle(Index h) {
 }
 
 inline Point point_of(const Mesh& mesh, Index v) {
-  return Point{mesh.x[v], mesh.y[v]};
+  return mesh.place[v];
 }
 
 MICROTIN_ONE_COPY inline bool is_ghost(const Mesh& mesh, Index triangle) {
@@ -101,15 +100,38 @@ MICROTIN_OUT_OF_LINE MICROTIN_IN_PLACE inline bool in_rare_conflict(const Mesh& 
                         : conflicts_on_circle(angle, point_of(mesh, c), p);
 }
 
+#if defined(MICROTIN_NARROW_MACHINE) && !(defined(__AVR__) && defined(__OPTIMIZE_SIZE__))
+
+typedef int32_t Sign;  // a number that has the right one
+
+MICROTIN_OUT_OF_LINE inline Sign sign_of_incircle(Offset a, Offset b, Offset c) {
+  const int64_t d = incircle(angle_between(a - c, b - c), angle_between(a, b));
+  return d > 0 ? 1 : d < 0 ? -1 : 0;
+}
+
+inline Sign sign_of_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
+  const Offset to_a = point_of(mesh, a) - p, to_b = point_of(mesh, b) - p;
+  const Offset to_c = point_of(mesh, c) - p;
+  return are_near(to_a, to_b, to_c) ? near_incircle(to_a, to_b, to_c)
+                                    : sign_of_incircle(to_a, to_b, to_c);
+}
+
+#else
+
+typedef int64_t Sign;
+
+inline Sign sign_of_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
+  const Offset from = point_of(mesh, a) - p, to = point_of(mesh, b) - p;
+  const Angle near = angle_between(from, to);
+  const Offset far = point_of(mesh, c) - p;
+  return incircle(angle_between(from - far, to - far), near);
+}
+
+#endif
+
 // Whether p conflicts with the counter-clockwise triangle (a, b, c). A corner of it does not.
 inline bool in_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
-  int64_t d = 0;
-  if (!is_ghost(a, b, c)) {
-    const Offset from = point_of(mesh, a) - p, to = point_of(mesh, b) - p;
-    const Angle near = angle_between(from, to);
-    const Offset far = point_of(mesh, c) - p;
-    d = incircle(angle_between(from - far, to - far), near);
-  }
+  const Sign d = is_ghost(a, b, c) ? 0 : sign_of_conflict(mesh, a, b, c, p);
   return d != 0 ? d > 0 : in_rare_conflict(mesh, a, b, c, p);
 }
 

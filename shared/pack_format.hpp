@@ -9,8 +9,9 @@
 namespace microtin {
 
 constexpr uint8_t kPackMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'p', 'k'};
-constexpr uint8_t kPackVersion = 2;
-constexpr uint32_t kPackFixedBytes = 32;
+constexpr uint8_t kPackVersion = 3;
+constexpr uint32_t kPackIdentityBytes = 6;
+constexpr uint32_t kPackFixedBytes = 36;
 constexpr uint32_t kPackEntryBytes = 28;
 constexpr uint32_t kPackExtentMost = 0x7FFFFFFF;
 
@@ -49,6 +50,7 @@ inline TileBox tile_box(const TileGrid& grid, uint32_t tile) {
 struct PackHeader {
   TileGrid grid;
   uint32_t most_vertices;    // of a tile
+  uint32_t compact_bytes;    // that any tile takes in compact form at most; 0: not stated
   int16_t lowest, highest;   // vertices of all tiles
   uint32_t placement_bytes;  // at most 66
   uint32_t note_bytes;       // at most 65535
@@ -69,11 +71,12 @@ inline int16_t read_i16(const uint8_t* p) {
                                              : static_cast<int32_t>(value) - 0x10000);
 }
 
+// Of the first kPackIdentityBytes: a flag that is set is one of a later version.
 inline microtin_status check_pack_identity(const uint8_t* bytes) {
   for (uint32_t i = 0; i < sizeof kPackMagic; ++i) {
     if (bytes[i] != read_table(kPackMagic + i)) return MICROTIN_BAD_MAGIC;
   }
-  return bytes[4] == kPackVersion ? MICROTIN_DONE : MICROTIN_UNSUPPORTED_VERSION;
+  return bytes[4] == kPackVersion && bytes[5] == 0 ? MICROTIN_DONE : MICROTIN_UNSUPPORTED_VERSION;
 }
 
 // Reads the fixed part of a known identity. False if it breaks a rule.
@@ -88,7 +91,8 @@ inline bool read_pack_header(const uint8_t* bytes, PackHeader* header) {
   grid.x_max = read_u32(bytes + 20);
   grid.y_max = read_u32(bytes + 24);
   header->most_vertices = read_u32(bytes + 28);
-  const bool reserved = (bytes[5] | bytes[7] | bytes[18] | bytes[19]) != 0;
+  header->compact_bytes = read_u32(bytes + 32);
+  const bool reserved = (bytes[7] | bytes[18] | bytes[19]) != 0;
   return !reserved && header->placement_bytes <= kPlacementMostBytes && grid.width != 0 &&
          grid.height != 0 && grid.x_max != 0 && grid.x_max <= kPackExtentMost && grid.y_max != 0 &&
          grid.y_max <= kPackExtentMost && header->most_vertices <= kMaxVertices &&
@@ -152,7 +156,7 @@ inline bool is_tile_start(const uint8_t* bytes, size_t size, const TileBox& box)
   Contract contract;
   microtin_axis axis[3];
   return read_varint(&at, end, &properties) && (properties & kHasPlacement) == 0 &&
-         read_header(&next, end, &contract, axis) && next == end &&
+         read_header(&next, end, &contract, axis) == MICROTIN_DONE && next == end &&
          contract.x_max <= box.x_end - box.x && contract.y_max <= box.y_end - box.y;
 }
 

@@ -1,103 +1,202 @@
-// Coding of the next point's place in the free region of the triangle it conflicts with.
-//
-// The box around the region is cut into 4 x 4 cells, the point's cell is coded, and the cell
-// becomes the box, once or more; what remains is uniform.
+// Coding of the next point's place in the free region of the triangle it conflicts with: first its
+// column, by halves of those that hold legal places, then its row, by halves of the column's legal
+// part. What remains is uniform. An escape serves every place that the estimates have missed.
 #ifndef MICROTIN_SHARED_PLACE_CODING_HPP
 #define MICROTIN_SHARED_PLACE_CODING_HPP
 
-#include "shared/format.hpp"
 #include "shared/place_odds.hpp"
 #include "shared/probability.hpp"
 
 namespace microtin {
 
-// For each of the four binary decisions of a level: the odds learned for the estimated ones.
-struct PlaceModel {
-  Calibration split[4];
+constexpr uint32_t kLevels = 4;  // most halvings
+constexpr uint32_t kColumnContexts = 16, kRowContexts = 12;
+
+// The two halvings of quick decoding: the first, the second in the lower and in the upper half.
+struct Quarters {
+  AdaptiveBit bit[3];
 };
 
-// Codes one of four slices by their weights, below 2^26: the half, then the quarter. What holds no
-// lattice points weighs nothing and is never chosen; such slices come first.
-template <class Coder>
-int code_slice(Coder& coder, Calibration* split, const uint32_t* weight, int slice) {
-  int first = 0;
-  for (int half = 2; half != 0; half >>= 1, ++split) {
-    uint32_t low = weight[first], high = weight[first + half];
-    if (half == 2) {
-      low += weight[1];
-      high += weight[3];
-    }
-    bool in_high = low == 0;
-    if (low != 0) {
-      const uint32_t bits = highest_bit(low + high);
-      const uint32_t shift = bits > 16 ? bits - 16 : 0;
-      const uint32_t share = ((high >> shift) << 15) / (((low + high) >> shift) + 1);
-      in_high = code_calibrated(coder, *split, share, (slice & half) != 0);
-    }
-    if (in_high) first += half;
-  }
-  return first;
+struct PlaceModel {
+  Calibration column[kLevels], row[kLevels];  // odds learned for the estimated ones
+  Quarters quick_column[kColumnContexts], quick_row[kRowContexts];
+  AdaptiveBit escape;
+};
+
+// How often lines are halved, and how often by weights taken at the middles of both halves; after
+// that the last two tell what is left.
+struct Depth {
+  uint32_t weighed, halvings;
+};
+
+inline Depth depth_of(Decoding decoding) {
+  if (decoding == Decoding::kQuick) return Depth{0, 0};
+  return Depth{decoding == Decoding::kDense ? 4u : 3u, kLevels};
 }
 
-// The next vertex's place, seen from corner 0: known to a writing coder.
+// Keeps the upper or the lower half.
+inline void halve(Lines& lines, bool upper) {
+  const FastInt half = count_of(lines) >> 1;
+  if (upper) {
+    lines.first += half;
+  } else {
+    lines.last = lines.first + half - 1;
+  }
+}
+
+inline bool is_in_upper_half(const Lines& lines, FastInt line) {
+  return line - lines.first >= count_of(lines) >> 1;
+}
+
+// Codes a line in one of four quarters, if there are so many lines; keeps the quarter.
 template <class Coder>
-Offset next_place(Coder& coder, const FreeRegion& region) {
+void code_quarter(Coder& coder, Quarters& quarters, Lines& lines, FastInt line) {
+  if (count_of(lines) < 4) return;
+  const bool upper = code_bit(coder, quarters.bit[0], is_in_upper_half(lines, line));
+  halve(lines, upper);
+  halve(lines, code_bit(coder, quarters.bit[upper ? 2 : 1], is_in_upper_half(lines, line)));
+}
+
+struct Halves {
+  uint32_t low, high;  // weights, 1..2^15
+};
+
+constexpr FastInt kFewLines = 32;  // of fewer the halves' counts differ noticeably
+
+template <class Coder>
+bool code_half(Coder& coder, Calibration& calibration, Lines& lines, Halves weight, FastInt line) {
+  const FastInt count = count_of(lines), half = count >> 1;
+  if (count < kFewLines) {
+    weight.low *= static_cast<uint32_t>(half);
+    weight.high *= static_cast<uint32_t>(count - half);
+  }
+  const uint32_t share = (weight.high << 11) / (weight.low + weight.high + 1) << 4;  // < 2^31
+  const bool upper = code_calibrated(coder, calibration, share, is_in_upper_half(lines, line));
+  halve(lines, upper);
+  return upper;
+}
+
+// The halves of a half, on the line through the weights of both, but at least a quarter of its own.
+inline Halves halves_of(Halves weight, bool upper) {
+  const int32_t low = static_cast<int32_t>(weight.low), high = static_cast<int32_t>(weight.high);
+  const int32_t tilt = (high - low) >> 2, mean = upper ? high : low, least = (mean >> 2) + 1;
+  const int32_t first = mean - tilt, second = mean + tilt;
+  return Halves{static_cast<uint32_t>(first > least ? first : least),
+                static_cast<uint32_t>(second > least ? second : least)};
+}
+
+// Keeps of `lines` a part that holds `line`. `weigh` is asked at twice a line.
+template <class Coder, class Weigh>
+void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, Depth depth,
+                 const Weigh& weigh) {
+  Halves weight = {1, 1};
+  for (uint32_t i = 0; i < depth.halvings && lines.first < lines.last; ++i) {
+    if (i < depth.weighed) {
+      const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1;
+      weight = Halves{weigh(middle), weigh(middle + count)};
+    }
+    const bool upper = code_half(coder, level[i], lines, weight, line);
+    if (i + 1 >= depth.weighed) weight = halves_of(weight, upper);
+  }
+}
+
+// Codes one of `lines`, all equally likely.
+template <class Coder>
+FastInt code_line(Coder& coder, const Lines& lines, FastInt line) {
+  return lines.first + static_cast<FastInt>(coder.uniform(
+                           static_cast<uint32_t>(count_of(lines)),
+                           static_cast<uint32_t>(line - lines.first)));
+}
+
+// The chance of a hit here, roughly: the logarithm of the points that the free region should hold.
+inline uint32_t expected_points(const FreeRegion& region) {
+  return static_cast<uint32_t>(kept_within((region.expected + kLog2One) >> 8, 0, 3));
+}
+
+struct Place {
+  LegalPlaces legal;
+  PlaceOdds odds;
+};
+
+template <class Coder>
+FastInt code_column(Coder& coder, PlaceModel& model, const FreeRegion& region, const Place& place,
+                    Depth depth, FastInt x) {
+  Columns columns = legal_columns(place.legal, region);
+  Lines& lines = columns.lines;
+  if (x < lines.first) x = lines.first;
+  if (x > lines.last) x = lines.last;
+  if (depth.weighed == 0) {
+    const uint32_t context = (columns.open_east ? 0u : 1u) + (columns.open_west ? 0u : 2u) +
+                             (region.side[0].certified ? 4u : 0u) +
+                             (expected_points(region) > 1 ? 8u : 0u);
+    code_quarter(coder, model.quick_column[context], lines, x);
+  } else {
+    code_halves(coder, model.column, lines, x, depth, [&place](FastInt twice) {
+      return column_weight(place.odds, place.legal, grains(twice, place.legal.shift));
+    });
+  }
+  return code_line(coder, lines, x);
+}
+
+template <class Coder>
+FastInt code_row(Coder& coder, PlaceModel& model, const FreeRegion& region, const Place& place,
+                 Depth depth, Offset at, Lines rows, Span own) {
+  const LegalPlaces& legal = place.legal;
+  const int32_t x = grains(2 * at.x, legal.shift);
+  if (depth.weighed == 0) {
+    const uint32_t zone = x < legal.a.x ? 4u : x > 0 ? 8u : 0u;
+    code_quarter(coder, model.quick_row[zone + expected_points(region)], rows, at.y);
+  } else {
+    code_halves(coder, model.row, rows, at.y, depth, [&place, own, x](FastInt twice) {
+      return weight_at(place.odds, place.legal, own, x, grains(twice, place.legal.shift));
+    });
+  }
+  return code_line(coder, rows, at.y);
+}
+
+// Codes `at`, as seen from v and turned.
+template <class Coder>
+Offset code_turned_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
+                         const Place& place, Decoding decoding, Offset at, Crowding& crowding) {
+  const Depth depth = depth_of(decoding);
+  const LegalPlaces& legal = place.legal;
+  const FastInt x = code_column(coder, model, region, place, depth, at.x);
+  const int32_t column = grains(2 * x, legal.shift);
+  const Span own = own_span(legal.own, column, 1, FineRoot());
+  const Lines rows = legal_rows(legal, legal_span(legal, column, own, 1, FineRoot()));
+  const bool missed = x != at.x || at.y < rows.first || at.y > rows.last;
+  if (code_bit(coder, model.escape, missed)) {
+    at.x = code_line(coder, legal.columns, at.x);
+    at.y = code_line(coder, legal.rows, at.y);
+    return at;
+  }
+  at = Offset{x, code_row(coder, model, region, place, depth, Offset{x, at.y}, rows, own)};
+  if (place.odds.repels) {
+    learn(crowding, place.odds, legal, Spot{column, grains(2 * at.y, legal.shift)});
+  }
+  return at;
+}
+
+// Codes the next vertex's place, as seen from v. `density` is the logarithm of points per unit
+// area.
+template <class Coder>
+Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
+                  const Contract& contract, Log2 density, Place& place, Crowding& crowding) {
+  const Cotangent own = cotangent(region.cc - region.ca, region.twice, kOwnCap);
+  const Side& chord = region.side[kChord];
+  Cotangent behind = chord.ghost ? -4 * (1 << kCotangentBits) : chord.behind;
+  if (behind > own) behind = own;
+  find_places(place.legal, region, contract, own, behind);
+  place.odds.repels = contract.has_heights && contract.decoding != Decoding::kQuick;
+  if (contract.decoding != Decoding::kQuick) {
+    estimate_sweep(place.odds, place.legal, region, density, own, behind);
+    if (place.odds.repels) estimate_repulsion(place.odds, place.legal, density, crowding);
+  }
   const Vertex next = coder.next();
-  return Point{next.x, next.y} - region.origin;
-}
-
-// A cell's weight is an estimate: any of its places may be the one.
-inline uint32_t possible(int16_t weight) {
-  return static_cast<uint32_t>(weight) + 32u;
-}
-
-// Codes the cell that holds the place, which becomes the box.
-template <class Coder>
-MICROTIN_OUT_OF_LINE void code_cell(Coder& coder, Calibration* split, const FreeRegion& region,
-                                    PlaceOdds& odds) {
-  const Offset place = next_place(coder, region);
-  const Box& box = odds.box;
-  Slices& columns = odds.grid.columns;
-  Slices& rows = odds.grid.rows;
-  slice(columns, box.x1 - box.x0 + 1);
-  slice(rows, box.y1 - box.y0 + 1);
-  if (columns.count == 1 && rows.count == 1) return;
-  weigh_cells(odds, region);
-  uint32_t row_size[kSlices], weight[kSlices];
-  for (int j = 0; j < kSlices; ++j) row_size[j] = size_of(rows, j);
-  const int16_t* cell = odds.weight;
-  for (int i = 0; i < kSlices; ++i) {
-    uint32_t sum = 0;
-    for (int j = 0; j < kSlices; ++j) sum += possible(*cell++) * row_size[j];
-    weight[i] = sum * size_of(columns, i);
-  }
-  const int i = code_slice(coder, split, weight, slice_of(columns, place.x - box.x0));
-  cell = odds.weight + kSlices * i;
-  for (int j = 0; j < kSlices; ++j) {
-    weight[j] = possible(cell[j]) * row_size[j];
-  }
-  const int j = code_slice(coder, split + 2, weight, slice_of(rows, place.y - box.y0));
-  narrow(odds, i, j);
-}
-
-// Codes a coordinate from `low` to `high`, all equally likely.
-template <class Coder>
-FastInt code_within(Coder& coder, FastInt low, FastInt high, FastInt value) {
-  return low + static_cast<FastInt>(coder.uniform(static_cast<uint32_t>(high - low + 1),
-                                                  static_cast<uint32_t>(value - low)));
-}
-
-// Codes a place in the box, as seen from corner 0.
-template <class Coder>
-Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region, PlaceOdds& odds,
-                  uint32_t levels) {
-  for (uint32_t level = 0; level < levels; ++level) {
-    code_cell(coder, model.split, region, odds);
-  }
-  const Offset place = next_place(coder, region);
-  const Box& box = odds.box;
-  return Offset{code_within(coder, box.x0, box.x1, place.x),
-                code_within(coder, box.y0, box.y1, place.y)};
+  const Offset known = turned(Point{next.x, next.y} - region.origin, place.legal.turns);
+  const Offset at =
+      code_turned_place(coder, model, region, place, contract.decoding, known, crowding);
+  return turned(at, -place.legal.turns & 3);
 }
 
 }  // namespace microtin

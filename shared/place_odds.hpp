@@ -1,141 +1,131 @@
-// What weighs the places in the free region of a triangle.
+// How likely legal places are.
 //
-// A cell weighs the share of it that is free, times the chance that no other point came first: the
-// walk inserts the point whose circle through the chord is the smallest, and with density points
-// per unit area a circle that sweeps an area s over the chord is the first with probability
-// exp(-density * s).
+// A place weighs the chance that no other point came first there: the walk inserts the point whose
+// circle through the chord is the smallest, and with density points per unit area a circle that
+// sweeps an area s over the chord is the first with probability exp(-density * s). And vertices of
+// a terrain keep apart: places close to a corner of the triangle are the rarer the closer they are.
+// How close counts is learned.
 #ifndef MICROTIN_SHARED_PLACE_ODDS_HPP
 #define MICROTIN_SHARED_PLACE_ODDS_HPP
 
-#include "shared/repulsion.hpp"
+#include "shared/legal_places.hpp"
 
 namespace microtin {
 
-constexpr int kSweepNodes = 4;
-constexpr int kSweepSteps = 8 * kSweepNodes;
+// How close vertices come: over the points per unit area, the inverse of a squared distance, such
+// that one in 192 * 256 / crowding places is closer than that to a corner. 8 fractional bits.
+typedef uint32_t Crowding;
+constexpr Crowding kCrowdingStart = 2048, kCrowdingLeast = 512, kCrowdingMost = 65536;
 
 struct PlaceOdds {
-  Box box;              // from corner 0; encloses the free region
-  Grid grid;            // of it
-  bool matters[3];      // in the grid: the circle behind a side
-  Distances behind[3];  // from these circles
-  Power swept_from;     // the circle behind the chord
-  Distances distance;   // from the circle in hand
-  Cells weight;
-  bool sweeps;  // whether the chance of being first differs noticeably over the region
-  // 511 * chance of being first, at equal steps of the cotangent from the triangle's circle to that
-  // behind the chord.
-  int16_t chance_at[kSweepSteps + 1];
-  Cells left, all;  // of the sweep, at the cells
-  Repulsion repulsion;
+  bool repels;
+  // 511 * chance of being first, f of the way from the triangle's circle to that behind the chord:
+  // last + f (linear + f bend).
+  int32_t last, linear, bend;
+  // The power of a place with respect to the circle behind less that to the triangle's: across.x x
+  // + across.y y, both below 2^16.
+  Spot across;
+  // The squared distance, in grains, from which on nothing is repelled, at most 2^28; 255 / it.
+  int32_t reach;
+  uint32_t reach_shift, factor;
 };
 
-// Eight equal steps from `from` towards `to`, both below 2^12.
-MICROTIN_OUT_OF_LINE inline void interpolate(int16_t from, int16_t to, int16_t* step) {
-  const int16_t start = static_cast<int16_t>(from * 8);
-  const int16_t difference = static_cast<int16_t>(to - from);
-  for (int16_t j = 0; j < 8; ++j) {
-    const int16_t moved_by = static_cast<int16_t>(difference * j);
-    step[j] = static_cast<int16_t>(static_cast<int16_t>(start + moved_by) >> 3);
-  }
+// 511 * chance of being first after twice the swept area; `rate` is the logarithm of the density by
+// that unit, times log2(e), with 8 fractional bits more. |rate| < 2^15.
+inline int32_t chance_after(int32_t twice, Log2 rate) {
+  if (twice <= 0) return 511;
+  const Log2 loss = rough_log2(static_cast<uint32_t>(twice)) + rate;
+  if (loss >= 12 * kLog2One) return 0;
+  return static_cast<int32_t>(
+      rough_exp2(9 * kLog2One - 1 - static_cast<Log2>(rough_exp2(loss))));
 }
 
-// 511 * chance of being first for a swept area, with 17 fractional bits as segment() has them;
-// `rate` <= 2^30 is the density by that unit, with 16 fractional bits, times log2(e).
-inline int16_t chance_of(int32_t swept, uint32_t rate) {
-  const uint64_t loss = swept > 0 ? static_cast<uint64_t>(swept) * rate >> 25 : 0;
-  const Log2 left = loss < 15 * kLog2One ? 15 * kLog2One - static_cast<Log2>(loss) : 0;
-  return static_cast<int16_t>(exp2_of(left) * 511 >> 15);
-}
-
-// Fills in the chances of being first; `density` is the logarithm of points per unit area.
-inline void estimate_sweep(PlaceOdds& odds, const FreeRegion& region, Log2 density) {
-  const Cotangent from = region.side[kChord].behind, to = region.side[kChord].own;
-  const Offset chord = region.corner[2];
-  const int32_t start = segment(from);
+// `density` is the logarithm of points per unit area, `own` and `behind` the cotangents over the
+// chord.
+inline void estimate_sweep(PlaceOdds& odds, const LegalPlaces& places, const FreeRegion& region,
+                           Log2 density, Cotangent own, Cotangent behind) {
   // log2(log2(e)) = 135 / 256.
-  const Log2 log_rate = log2_of(static_cast<uint64_t>(dot(chord, chord))) + density + 135;
-  const uint32_t rate = exp2_of(log_rate + 16 * kLog2One);
-  int16_t last = chance_of(segment(to) - start, rate);
-  odds.sweeps = last < 256;
-  if (!odds.sweeps) return;
-  for (int i = 1; i <= kSweepNodes; ++i) {
-    const int16_t next = chance_of(segment(to + (((from - to) * i) >> 2)) - start, rate);
-    interpolate(last, next, odds.chance_at + 8 * (i - 1));
-    last = next;
-  }
-  odds.chance_at[kSweepSteps] = last;
+  const Log2 rate = density - (2 * region.shift + 1) * kLog2One + 135 + 8 * kLog2One;
+  const uint32_t square = static_cast<uint32_t>(region.aa);
+  const int32_t start = segment(square, behind);
+  const int32_t last = chance_after(segment(square, own) - start, rate);
+  const int32_t middle = chance_after(segment(square, (own + behind) >> 1) - start, rate);
+  odds.last = last;
+  odds.linear = 4 * middle - 3 * last - 511;
+  odds.bend = 2 * (last + 511 - 2 * middle);
+  const Spot a = turned(region.a, places.turns);
+  const uint32_t shift = static_cast<uint32_t>(region.shift - places.shift) + kCotangentBits;
+  odds.across = Spot{(own - behind) * a.y >> shift, (behind - own) * a.x >> shift};  // < 2^30
 }
 
-// `density` is the logarithm of points per unit area.
-inline void estimate_odds(PlaceOdds& odds, const FreeRegion& region, Log2 density) {
-  for (int i = 0; i < 3; ++i) odds.matters[i] = region.side[i].certified && !region.side[i].ghost;
-  estimate_sweep(odds, region, density);
+inline void estimate_repulsion(PlaceOdds& odds, const LegalPlaces& places, Log2 density,
+                               Crowding crowding) {
+  // log2 of what is 255 / 2^16 of the inverse of the squared distance that counts.
+  const Log2 inverse = rough_log2(crowding) - 8 * kLog2One + density - 2 * places.shift * kLog2One;
+  const Log2 reach = kept_within(-inverse, 2 * kLog2One, 28 * kLog2One);
+  odds.reach = static_cast<int32_t>(rough_exp2(reach));
+  const uint32_t bits = static_cast<uint32_t>(reach) >> 8;
+  odds.reach_shift = bits > 14 ? bits - 14 : 0;
+  odds.factor = (255u << 16) / static_cast<uint32_t>(odds.reach >> odds.reach_shift);
 }
 
-// The circle over a side, seen from the middle of the grid.
-inline Power circle(const PlaceOdds& odds, const FreeRegion& region, int side, Cotangent k) {
-  return circle_over(region.corner[side], region.corner[side + 1], k, middle_of(odds.box));
+// 0..511. `own` is what the triangle's circle covers of the column, |x|, |y| < 2^14.4.
+inline int32_t chance_at(const PlaceOdds& odds, Span own, int32_t x, int32_t y) {
+  const int32_t all = odds.across.x * x + odds.across.y * y;  // < 2^31
+  if (all <= 0) return 511;
+  const int32_t above = own.high - y, below = y - own.low;
+  if (above <= 0 || below <= 0) return odds.last;
+  const uint32_t left = static_cast<uint32_t>(above) * static_cast<uint32_t>(below);  // < 2^28
+  const uint32_t f = left / ((static_cast<uint32_t>(all) >> 8) + 1);
+  if (f >= 256) return 511;
+  const int32_t way = static_cast<int32_t>(f);
+  const int32_t chance = odds.last + (way * (odds.linear + (way * odds.bend >> 8)) >> 8);
+  return chance > 0 ? chance : 0;
 }
 
-// Multiplies the weights by the chances of being first: the sweep has passed some of the way from
-// the circle behind the chord to the triangle's.
-MICROTIN_OUT_OF_LINE MICROTIN_IN_PLACE inline void sweep(PlaceOdds& odds, const Scale& own) {
-  int16_t* const left = odds.left;
-  int16_t* const all = odds.all;
-  measure(odds.swept_from, own, odds.grid, odds.distance);
-  expand(odds.distance, all);
-  for (int k = 0; k < kCells; ++k) {
-    left[k] = clamped(static_cast<int16_t>(-left[k]), 0, 16383);
-    all[k] = static_cast<int16_t>(clamped(all[k], 1, 16383) + left[k]);
-  }
-  for (int k = 0; k < kCells; ++k) {
-    const uint32_t steps = static_cast<uint32_t>(left[k]) * kSweepSteps;
-    const int16_t chance = odds.chance_at[steps / static_cast<uint16_t>(all[k])];
-    odds.weight[k] = static_cast<int16_t>(odds.weight[k] * chance);
-  }
+inline int32_t squared_distance(Spot p, int32_t x, int32_t y) {
+  return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y);  // < 2^30.5
 }
 
-// What the triangle's circle leaves of the cells, times the chances of being first.
-MICROTIN_OUT_OF_LINE MICROTIN_IN_PLACE inline void weigh_inside(PlaceOdds& odds,
-                                                                const FreeRegion& region) {
-  const Power own = circle(odds, region, kChord, region.side[kChord].own);
-  const Scale scale = scale_for(own, odds.grid);
-  measure(own, scale, odds.grid, odds.distance);
-  expand(odds.distance, odds.left);
-  const int16_t whole = odds.sweeps ? 1 : 511;
-  for (int k = 0; k < kCells; ++k) {
-    const int16_t share = clamped(static_cast<int16_t>(32 - odds.left[k]), 0, 64);
-    odds.weight[k] = static_cast<int16_t>(share * whole);
-  }
-  if (odds.sweeps) sweep(odds, scale);
+// 0..255: how far from all corners a place is.
+inline int32_t distance_at(const PlaceOdds& odds, const LegalPlaces& places, int32_t x, int32_t y) {
+  const int32_t from_v = x * x + y * y;
+  const int32_t from_c = squared_distance(places.c, x, y);
+  const int32_t from_a = squared_distance(places.a, x, y);
+  int32_t least = from_v < odds.reach ? from_v : odds.reach;
+  if (from_c < least) least = from_c;
+  if (from_a < least) least = from_a;
+  return static_cast<int32_t>((static_cast<uint32_t>(least) >> odds.reach_shift) * odds.factor >>
+                              16);
 }
 
-MICROTIN_IN_PLACE inline void weigh_cells(PlaceOdds& odds, const FreeRegion& region) {
-  odds.swept_from = circle(odds, region, kChord, region.side[kChord].behind);
-  weigh_inside(odds, region);
-  for (int k = 0; k < 3; ++k) {
-    if (!odds.matters[k]) continue;
-    const Power power =
-        k == kChord ? odds.swept_from : circle(odds, region, k, region.side[k].behind);
-    measure(power, scale_for(power, odds.grid), odds.grid, odds.behind[k]);
-    cut(odds.behind[k], odds.weight);
-  }
-  if (repels(odds.repulsion))
-    repel(odds.repulsion, region, middle_of(odds.box), odds.grid, odds.weight);
+// 4..521.
+inline uint32_t weight_at(const PlaceOdds& odds, const LegalPlaces& places, Span own, int32_t x,
+                          int32_t y) {
+  int32_t weight = chance_at(odds, own, x, y);
+  if (odds.repels) weight = weight * (distance_at(odds, places, x, y) + 4) >> 8;
+  return static_cast<uint32_t>(weight) + 4u;
 }
 
-// Makes a cell the box.
-inline void narrow(PlaceOdds& odds, int i, int j) {
-  for (int k = 0; k < 3; ++k) {
-    const Distances& outside = odds.behind[k];
-    if (odds.matters[k]) odds.matters[k] = sum_of(outside.x[i], outside.y[j]) < 64;
-  }
-  if (repels(odds.repulsion)) odds.repulsion.nearest = odds.repulsion.near[kSlices * i + j];
-  Box& box = odds.box;
-  const FastInt* const column = odds.grid.columns.start + i;
-  const FastInt* const row = odds.grid.rows.start + j;
-  box = Box{box.x0 + column[0], box.y0 + row[0], box.x0 + column[1] - 1, box.y0 + row[1] - 1};
+// Of a column: its legal length times the mean weight. 4..2^14.6.
+inline uint32_t column_weight(const PlaceOdds& odds, const LegalPlaces& places, int32_t x) {
+  const Span own = own_span(places.own, x, 0, RoughRoot());
+  const Span legal = legal_span(places, x, own, 0, RoughRoot());
+  const int32_t length = legal.high - legal.low;
+  if (length <= 0) return 4;
+  const int32_t quarter = length >> 2;
+  const uint32_t chance = weight_at(odds, places, own, x, legal.low + quarter) +
+                          weight_at(odds, places, own, x, legal.high - quarter);
+  return (static_cast<uint32_t>(length) * chance >> 10) + 4u;
+}
+
+// `place` in grains: where the point was.
+inline void learn(Crowding& crowding, const PlaceOdds& odds, const LegalPlaces& places,
+                  Spot place) {
+  if (distance_at(odds, places, place.x, place.y) < 254) crowding += crowding >> 4;
+  crowding -= 12;
+  if (crowding < kCrowdingLeast) crowding = kCrowdingLeast;
+  if (crowding > kCrowdingMost) crowding = kCrowdingMost;
 }
 
 }  // namespace microtin

@@ -73,6 +73,38 @@ inline int64_t incircle(Point a, Point b, Point c, Point p) {
   return incircle(angle_at(c, a, b), angle_at(p, a, b));
 }
 
+// The same of points that p sees at -127 .. 128 in both coordinates: all lie in a square of side
+// 255, so 32 bits hold the determinant, and read it right modulo 2^32.
+constexpr uint32_t kNear = 255;
+static_assert(uint64_t{kNear} * kNear * kNear * kNear / 2 <= INT32_MAX, "a near determinant fits");
+
+inline bool are_near(Offset a, Offset b, Offset c) {
+  const auto above = [](FastInt v) { return static_cast<uint32_t>(v + 127); };
+  const uint32_t bits = above(a.x) | above(a.y) | above(b.x) | above(b.y) | above(c.x) | above(c.y);
+  return bits <= kNear;
+}
+
+inline int32_t near_dot(Offset a, Offset b) {
+  return static_cast<int32_t>(a.x) * static_cast<int32_t>(b.x) +
+         static_cast<int32_t>(a.y) * static_cast<int32_t>(b.y);
+}
+
+inline int32_t near_cross(Offset a, Offset b) {
+  return static_cast<int32_t>(a.x) * static_cast<int32_t>(b.y) -
+         static_cast<int32_t>(a.y) * static_cast<int32_t>(b.x);
+}
+
+// The product of two signed numbers modulo 2^32.
+inline uint32_t wrapping_product32(int32_t a, int32_t b) {
+  return static_cast<uint32_t>(a) * static_cast<uint32_t>(b);
+}
+
+inline int32_t near_incircle(Offset a, Offset b, Offset c) {
+  const Offset to_a = a - c, to_b = b - c;
+  return static_cast<int32_t>(wrapping_product32(near_dot(to_a, to_b), near_cross(a, b)) -
+                              wrapping_product32(near_dot(a, b), near_cross(to_a, to_b)));
+}
+
 template <class Corner>
 void turn(Corner& a, Corner& b, Corner& c) {
   const Corner first = a;

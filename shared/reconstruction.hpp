@@ -79,7 +79,7 @@ struct Reconstruction {
   Crowding crowding;
   // Of the triangle in hand: here to spare the stack.
   FreeRegion region;
-  PlaceOdds odds;
+  Place place;
 
   Cavity cavity;
   Index cavity_triangles[kMaxDegree];
@@ -139,9 +139,8 @@ inline void look_around(Reconstruction& r) {
   const Mesh& mesh = *r.mesh;
   const Index edge[3] = {next_in_triangle(r.chord), previous_in_triangle(r.chord), r.chord};
   region.origin = point_of(mesh, r.vertex);
-  region.corner[0] = region.corner[3] = Offset{0, 0};
-  region.corner[1] = point_of(mesh, mesh.origin[edge[1]]) - region.origin;
-  region.corner[2] = point_of(mesh, mesh.origin[r.chord]) - region.origin;
+  region.corner[0] = point_of(mesh, mesh.origin[edge[1]]) - region.origin;
+  region.corner[1] = point_of(mesh, mesh.origin[r.chord]) - region.origin;
   for (int i = 0; i < 3; ++i) look_behind(r, edge[i], region.side[i]);
   region.side[kChord].certified = true;  // it was passed in this turn, or has a done vertex
 }
@@ -152,8 +151,8 @@ constexpr Log2 kMeanOfLogs = 220;
 // Takes a final triangle into the running mean of what such suggest about the density: of n final
 // vertices each has two triangles to itself, and of these vertices `share` are the batch's.
 // Logarithms are below 2^14: the difference stays below 2^23.
-inline void note_final_triangle(Reconstruction& r, int64_t twice_area) {
-  const Log2 density = r.share - log2_of(static_cast<uint64_t>(twice_area));
+inline void note_final_triangle(Reconstruction& r, Log2 twice_area) {
+  const Log2 density = r.share - twice_area;
   r.density += (density * 256 - r.density) / 16;
 }
 
@@ -183,8 +182,7 @@ bool insert(Reconstruction& r, Coder& coder, Point place) {
     if (!code_height(coder, r.models.height, prediction, &z)) return false;
     r.residual[v] = residual_of(z - prediction.height);
   }
-  mesh.x[v] = place.x;
-  mesh.y[v] = place.y;
+  mesh.place[v] = place;
   mesh.z[v] = z;
   const Index first = fan_cavity(mesh, r.cavity, v);
   if (chord == r.anchor) r.anchor = first;
@@ -230,7 +228,8 @@ inline HitEstimate estimate_hit(Reconstruction& r, Log2 density) {
   const Mesh& mesh = *r.mesh;
   const Index from_c = previous_in_triangle(r.chord);
   HitEstimate estimate;
-  estimate.position = free_area(r.region) + density + 6 * 256;
+  r.region.expected = free_area(r.region) + density;
+  estimate.position = r.region.expected + 6 * 256;
   estimate.context = (r.region.side[0].certified ? 1 : 0) + (r.region.side[1].certified ? 2 : 0);
   if (marked(r, mesh.origin[from_c], kQueued)) return estimate;
   const uint32_t degree = degree_up_to(mesh, from_c, r.contract.degree + 2u);
@@ -250,19 +249,9 @@ MICROTIN_IN_PLACE inline bool code_hit(Reconstruction& r, Coder& coder,
 template <class Coder>
 MICROTIN_IN_PLACE inline Point locate(Reconstruction& r, Coder& coder, Log2 density) {
   FreeRegion& region = r.region;
-  PlaceOdds& odds = r.odds;
-  const Offset first = Point{0, 0} - region.origin;
-  odds.box = Box{first.x, first.y, first.x + r.contract.x_max, first.y + r.contract.y_max};
-  enclose(region, odds.box);
-  estimate_odds(odds, region, density);
-  if (r.contract.has_heights) {
-    start_repulsion(odds.repulsion, size_of(odds.box), density, r.crowding);
-  } else {
-    odds.repulsion.nearest = 2 * kReach;
-  }
-  const Offset found = code_place(coder, r.models.place, region, odds, r.contract.levels);
-  learn(r.crowding, odds.repulsion);
-  region.corner[1] = found;
+  const Offset found = code_place(coder, r.models.place, region, r.contract, density, r.place,
+                                  r.crowding);
+  region.corner[0] = found;
   return Point{static_cast<uint16_t>(region.origin.x + found.x),
                static_cast<uint16_t>(region.origin.y + found.y)};
 }
@@ -288,7 +277,8 @@ Decision decide(Reconstruction& r, Coder& coder) {
   const bool hit = code_hit(r, coder, estimate_hit(r, density));
   if (hit && !insert(r, coder, locate(r, coder, density))) return Decision::kMalformed;
   // The triangle of the chord and c, or the new vertex, is final.
-  note_final_triangle(r, cross(r.region.corner[1], r.region.corner[2]));
+  const int64_t twice = cross(r.region.corner[0], r.region.corner[1]);
+  note_final_triangle(r, rough_log2(static_cast<uint64_t>(twice)));
   return hit ? Decision::kHit : Decision::kMiss;
 }
 
@@ -312,8 +302,8 @@ StepOutcome step_seed(Reconstruction& r, Coder& coder) {
   Mesh& mesh = *r.mesh;
   const Index i = mesh.vertices;
   const Vertex known = coder.next();
-  mesh.x[i] = code_outer_coordinate(coder, r.contract.x_max, known.x);
-  mesh.y[i] = code_outer_coordinate(coder, r.contract.y_max, known.y);
+  mesh.place[i].x = code_outer_coordinate(coder, r.contract.x_max, known.x);
+  mesh.place[i].y = code_outer_coordinate(coder, r.contract.y_max, known.y);
   mesh.z[i] = 0;
   r.residual[i] = 4;
   if (r.contract.has_heights) {

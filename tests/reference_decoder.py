@@ -299,12 +299,14 @@ class Header(NamedTuple):
 
 def read_header(reader):
     require(reader.take(4) == b"mtin", "not a microtin stream")
-    require(reader.number(1) == 4, "unknown version")
+    require(reader.number(1) == 5, "unknown version")
     payload = ByteReader(reader.take(reader.length()))
     reader.expect_check(0)
-    properties, vertices = payload.varint(), payload.varint()
+    properties = payload.varint()
+    require(properties < 1 << 13, "unknown properties")
+    vertices = payload.varint()
     columns, rows = payload.varint() + 1, payload.varint() + 1
-    levels, degree = properties >> 3 & 3, properties >> 5
+    levels, degree = properties >> 3 & 3, properties >> 5 & 63
     require(6 <= degree <= 32, "degree is out of bounds")
     require(levels >= 1, "there is no level of cells")
     require(3 <= vertices <= 1 << 24, "number of vertices is out of bounds")

@@ -16,7 +16,7 @@ const char* describe(microtin_status status) {
     case MICROTIN_BAD_MAGIC:
       return "not a microtin stream";
     case MICROTIN_UNSUPPORTED_VERSION:
-      return "a version of the format that this program does not know";
+      return "a version of the format, or a part of it, that this program does not know";
     case MICROTIN_TOO_BIG:
       return "more vertices than this build can hold";
     case MICROTIN_CHECKSUM:

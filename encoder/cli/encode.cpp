@@ -55,7 +55,7 @@ std::string text_of(const PreparedTerrain& terrain, const EncodedStream& encoded
        << encoded.stream.size() << " bytes, "
        << bits_per_vertex(encoded.stream.size(), encoded.vertices) << " bits/vertex\n"
        << "error: at most " << to_string(measured.max_error) << ", rms "
-       << to_string(measured.rms_error);
+       << to_string(measured.rms_error) << ", mean " << to_string(measured.mean_error);
   if (encoded.bound) text << " (asked for: at most " << to_string(*encoded.bound) << ")";
   text << "\nbelow the source: at most " << to_string(measured.max_below);
   text << '\n';
@@ -71,7 +71,7 @@ std::string text_of(const PackReport& pack) {
   if (pack.empty_tiles != 0) text << ", " << pack.empty_tiles << " without terrain";
   text << ", " << pack.vertices << " vertices, at most " << pack.most_vertices << " in a tile, "
        << pack.bytes << " bytes\nerror: at most " << to_string(pack.measured.max_error) << ", rms "
-       << to_string(pack.measured.rms_error);
+       << to_string(pack.measured.rms_error) << ", mean " << to_string(pack.measured.mean_error);
   if (pack.bound) text << " (asked for: at most " << to_string(*pack.bound) << ")";
   text << "\nbelow the source: at most " << to_string(pack.measured.max_below) << '\n';
   return text.str();

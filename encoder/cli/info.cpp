@@ -6,6 +6,7 @@
 #include "encoder/cli/report.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
 
 namespace microtin::cli {
@@ -41,21 +42,69 @@ std::string workspace_bytes_16(uint32_t vertices) {
   return json(MICROTIN_MESH_BYTES_FOR(vertices, 16) + MICROTIN_DECODER_BYTES_FOR(vertices, 16));
 }
 
+std::string exact_axis(const Axis& axis) {
+  return json(JsonObject{{"offset", json(axis.offset)},
+                         {"numerator", json(axis.numerator)},
+                         {"denominator", json(axis.denominator)}});
+}
+
 template <class Value>
 std::string of_axes(const Placement& p, const Value& value) {
   return json(JsonObject{{"x", value(p.x)}, {"y", value(p.y)}, {"z", value(p.z)}});
 }
 
+std::string of_grid(const PostGrid& grid) {
+  return json(JsonObject{{"columns", json(grid.columns)},
+                         {"rows", json(grid.rows)},
+                         {"x", exact_axis(grid.x)},
+                         {"y", exact_axis(grid.y)}});
+}
+
+// "2,9", or "0-6,8-255".
+std::string list_of(const ClassSet& classes) {
+  std::string text;
+  for (size_t first = 0; first < classes.size(); ++first) {
+    if (!classes[first]) continue;
+    size_t last = first;
+    while (last + 1 < classes.size() && classes[last + 1]) ++last;
+    text += (text.empty() ? "" : ",") + std::to_string(first);
+    if (last != first) text += "-" + std::to_string(last);
+    first = last;
+  }
+  return text;
+}
+
+std::string_view name_of(DuplicateRule rule) {
+  switch (rule) {
+    case DuplicateRule::kUnknown:
+      return "unknown";
+    case DuplicateRule::kMiddle:
+      return "middle of lowest and highest";
+    case DuplicateRule::kLowest:
+      return "lowest";
+    case DuplicateRule::kHighest:
+      return "highest";
+    case DuplicateRule::kMean:
+      return "mean";
+    case DuplicateRule::kMedian:
+      return "median";
+  }
+  return "unknown";
+}
+
+void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy) {
+  const bool bounded = accuracy && accuracy->bound;
+  report.emplace_back("bound", bounded ? number(*accuracy->bound) : "null");
+  report.emplace_back("max_error", accuracy ? number(accuracy->max_error) : "null");
+  report.emplace_back("rms_error", accuracy ? number(accuracy->rms_error) : "null");
+  report.emplace_back("mean_error", accuracy ? number(accuracy->mean_error) : "null");
+}
+
 void add_placement(JsonObject& report, const Metadata& metadata) {
-  const auto exact = [](const Axis& axis) {
-    return json(JsonObject{{"offset", json(axis.offset)},
-                           {"numerator", json(axis.numerator)},
-                           {"denominator", json(axis.denominator)}});
-  };
   const Placement& p = metadata.placement;
   report.emplace_back("steps", of_axes(p, [](const Axis& a) { return json(step_of(a)); }));
   report.emplace_back("offsets", of_axes(p, [](const Axis& a) { return json(offset_of(a)); }));
-  report.emplace_back("placement", of_axes(p, exact));
+  report.emplace_back("placement", of_axes(p, exact_axis));
 }
 
 void add_notes(JsonObject& report, const Metadata& metadata) {
@@ -70,17 +119,21 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
   const auto add_text = [&report](const char* name, const std::string& text) {
     if (!text.empty()) report.emplace_back(name, json(text));
   };
+  add_text("wkt", metadata.wkt);
   add_text("source", metadata.source);
   add_text("date", metadata.date);
   add_text("lineage", metadata.lineage);
   if (metadata.water_level) report.emplace_back("water_level", number(*metadata.water_level));
-}
-
-void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy) {
-  const bool bounded = accuracy && accuracy->bound;
-  report.emplace_back("bound", bounded ? number(*accuracy->bound) : "null");
-  report.emplace_back("max_error", accuracy ? number(accuracy->max_error) : "null");
-  report.emplace_back("rms_error", accuracy ? number(accuracy->rms_error) : "null");
+  if (metadata.grid) report.emplace_back("grid", of_grid(*metadata.grid));
+  if (metadata.classes) report.emplace_back("classes", json(list_of(*metadata.classes)));
+  if (metadata.duplicates != DuplicateRule::kUnknown) {
+    report.emplace_back("duplicates", json(name_of(metadata.duplicates)));
+  }
+  if (metadata.true_places) {
+    JsonObject accuracy;
+    add_accuracy(accuracy, metadata.true_places);
+    report.emplace_back("true_places", json(accuracy));
+  }
 }
 
 JsonObject report_of(const DecodedStream& stream) {
@@ -98,7 +151,7 @@ JsonObject report_of(const DecodedStream& stream) {
                        {"bits_per_vertex", json(bits_per_vertex(bytes, vertices))},
                        {"phases", json(terrain.phases())},
                        {"degree", json(header.info.degree)},
-                       {"levels", json(header.info.levels)},
+                       {"decoding", json(stream::name_of(header.contract.decoding))},
                        {"workspace_bytes_16", workspace_bytes_16(vertices)},
                        {"workspace_bytes_32", json(MICROTIN_MESH_BYTES_FOR(vertices, 32) +
                                                    MICROTIN_DECODER_BYTES_FOR(vertices, 32))}};
@@ -160,6 +213,7 @@ JsonObject report_of(const PackFile& pack) {
   uint64_t vertices = 0;
   for (const PackEntry& entry : pack.entries()) vertices += entry.vertices;
   const TileGrid& grid = pack.grid();
+  const uint32_t compact = pack.header().compact_bytes;
   JsonObject report = {{"pack_version", json(kPackVersion)},
                        {"columns", json(tile_columns(grid))},
                        {"rows", json(tile_rows(grid))},
@@ -171,6 +225,7 @@ JsonObject report_of(const PackFile& pack) {
                        {"most_vertices", json(pack.header().most_vertices)},
                        {"lowest", json(pack.header().lowest)},
                        {"highest", json(pack.header().highest)},
+                       {"compact_bytes", compact != 0 ? json(compact) : "null"},
                        {"bytes", json(pack.bytes())}};
   add_placement(report, pack.metadata());
   add_notes(report, pack.metadata());

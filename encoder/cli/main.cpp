@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -141,6 +142,24 @@ void add_search(CLI::App& command, Search& search) {
   add("--best", Search::kBest, "... or as long as it helps")->excludes(fast);
 }
 
+void add_decoding(CLI::App& command, Decoding& decoding) {
+  command
+      .add_option_function<std::string>(
+          "--decoding",
+          [&decoding](const std::string& name) {
+            const auto* const end = std::end(kDecodings);
+            const auto* const found =
+                std::find_if(std::begin(kDecodings), end,
+                             [&name](Decoding known) { return name_of(known) == name; });
+            if (found == end) {
+              throw CLI::ValidationError("--decoding", name + " is not quick, balanced or dense");
+            }
+            decoding = *found;
+          },
+          "How much of it goes into choosing: quick, balanced or dense (the smallest stream)")
+      ->default_str(name_of(decoding));
+}
+
 // Packs are neither of a number of vertices nor of bytes.
 void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
                CLI::Option& bytes) {
@@ -232,11 +251,7 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
                   "Most triangles around a vertex when it is added")
       ->check(CLI::Range(kMinDegree, kMaxDegree))
       ->capture_default_str();
-  command
-      .add_option("--levels", request->effort.levels,
-                  "Of cells for places: 3 for the smallest stream, 1 for the quickest decoding")
-      ->check(CLI::Range(1u, kMaxLevels))
-      ->capture_default_str();
+  add_decoding(command, request->effort.decoding);
   add_preparation(command, request->preparation);
   add_notes(command, *request);
 }

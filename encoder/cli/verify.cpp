@@ -33,7 +33,8 @@ void run_verify(const VerifyRequest& request) {
                        {"bound", bound ? number(*bound) : "null"},
                        {"max_error", number(found.max_error)},
                        {"max_below", number(found.max_below)},
-                       {"rms_error", number(found.rms_error)}};
+                       {"rms_error", number(found.rms_error)},
+                       {"mean_error", number(found.mean_error)}};
   if (promise.water_level) report.emplace_back("water_moved", json(water_moved));
   const bool told = tell(text_of(report, request.json));
   if (!found.within_bound) throw Error(input + ": the largest error is above the bound");

@@ -27,7 +27,7 @@ HeightChoice::HeightChoice(Surface& surface, uint32_t degree) : surface_(surface
   find_dependents();
   for (const Index v : vertex_) z_.push_back(surface_.height(v));
   residual_.resize(vertex_.size());
-  mesh_ = Mesh{x_.data(), y_.data(), z_.data(), nullptr, nullptr, static_cast<Index>(x_.size()), 0};
+  mesh_ = Mesh{place_.data(), z_.data(), nullptr, nullptr, static_cast<Index>(place_.size()), 0};
 }
 
 void HeightChoice::find_rings(uint32_t degree) {
@@ -42,8 +42,7 @@ void HeightChoice::find_rings(uint32_t degree) {
   const Order order = breadth_first_order(all, degree);
   const auto send = [&](Index i) {
     vertex_.push_back(live[i]);
-    x_.push_back(places[i].x);
-    y_.push_back(places[i].y);
+    place_.push_back(places[i]);
     ring_start_.push_back(static_cast<uint32_t>(rings_.size()));
   };
   for (const Index i : order.seed) send(i);

@@ -35,7 +35,7 @@ class HeightChoice {
 
   Surface& surface_;
   std::vector<Index> vertex_;  // of the surface
-  std::vector<uint16_t> x_, y_;
+  std::vector<Point> place_;
   std::vector<int16_t> z_;
   std::vector<Residual> residual_;
   Mesh mesh_{};  // the places and heights, without triangles

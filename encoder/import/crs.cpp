@@ -128,7 +128,10 @@ class WktReader {
 }  // namespace
 
 Reference reference_of_wkt(std::string_view text) {
-  return WktReader().read(text);
+  text = text.substr(0, text.find('\0'));
+  Reference reference = WktReader().read(text);
+  if (reference.horizontal_epsg == 0 && text.size() <= kLongestWkt) reference.wkt = text;
+  return reference;
 }
 
 Reference reference_of_geo_keys(const std::vector<uint16_t>& directory) {

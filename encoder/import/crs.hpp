@@ -2,6 +2,7 @@
 #ifndef MICROTIN_ENCODER_IMPORT_CRS_HPP
 #define MICROTIN_ENCODER_IMPORT_CRS_HPP
 
+#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -10,8 +11,11 @@
 
 namespace microtin::importing {
 
+constexpr size_t kLongestWkt = 16384;  // that is kept; real ones have some hundred bytes
+
 // Codes and units that a well-known text (either version) gives its horizontal and its vertical
-// system; what is not there, or not understood, stays unknown.
+// system; what is not there, or not understood, stays unknown. The text itself, up to a NUL, is
+// kept if the horizontal system has no code and the text is not longer than kLongestWkt.
 Reference reference_of_wkt(std::string_view text);
 
 // The same of a GeoTIFF key directory: its 16-bit numbers.

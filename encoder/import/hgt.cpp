@@ -71,7 +71,7 @@ class HgtReader : public RasterReader {
     frame_.width = frame_.height = side;
     frame_.x = {corner.longitude * static_cast<int64_t>(per_degree), 1, per_degree};
     frame_.y = {corner.latitude * static_cast<int64_t>(per_degree), 1, per_degree};
-    frame_.reference = {Unit::kDegree, Unit::kMetre, kWgs84, kEgm96Height};
+    frame_.reference = {Unit::kDegree, Unit::kMetre, kWgs84, kEgm96Height, {}};
   }
 
   Raster read(const PostRectangle& r) const override {

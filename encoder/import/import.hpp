@@ -2,7 +2,6 @@
 #ifndef MICROTIN_ENCODER_IMPORT_IMPORT_HPP
 #define MICROTIN_ENCODER_IMPORT_IMPORT_HPP
 
-#include <bitset>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,9 +14,6 @@
 #include "encoder/terrain/source.hpp"
 
 namespace microtin::importing {
-
-// Classes of points in a LAS file.
-using ClassSet = std::bitset<256>;
 
 // Files of GDAL's that name others to be read (.vrt), and names of its virtual file systems
 // (/vsi...): whoever wrote such a file chooses what is read.

@@ -149,6 +149,7 @@ class PointReader {
     if (points.empty()) file_.fail("no point is taken" + selection(classes));
     PointCloud cloud = points.take();
     cloud.selection = "taken" + selection(classes);
+    cloud.classes = classes;
     return cloud;
   }
 

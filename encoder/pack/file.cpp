@@ -9,6 +9,7 @@
 #include "encoder/base/error_context.hpp"
 #include "encoder/base/status_text.hpp"
 #include "encoder/stream/header.hpp"
+#include "encoder/stream/notes.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -64,7 +65,8 @@ void check_box(const microtin_mesh* mesh, const TileBox& box) {
 
 PackContent content_of(const PackPlan& plan, Metadata metadata) {
   metadata.placement = plan.tiled.lattice.placement;
-  metadata.accuracy = Accuracy{plan.options.lattice.max_error, {}, {}};
+  metadata.accuracy = Accuracy{plan.options.lattice.max_error, {}, {}, {}};
+  metadata.grid = posts_of(plan.tiled.raster.frame());
   return {plan.tiled.grid, std::move(metadata), {}};
 }
 
@@ -98,6 +100,7 @@ Bytes write_pack_header(const PackContent& pack) {
   append_number(header, pack.grid.x_max, 4);
   append_number(header, pack.grid.y_max, 4);
   append_number(header, most, 4);
+  append_number(header, pack.compact_bytes, 4);
   header.insert(header.end(), placement.begin(), placement.end());
   header.insert(header.end(), notes.begin(), notes.end());
   append_check(header, 0);
@@ -109,6 +112,7 @@ Bytes write_pack_head(PackContent pack) {
   if (pack.metadata.accuracy) {
     pack.metadata.accuracy->max_error = all.max_error;
     pack.metadata.accuracy->rms_error = all.rms_error;
+    pack.metadata.accuracy->mean_error = all.mean_error;
   }
   Bytes head = write_pack_header(pack);
   const uint32_t header_check = read_u32(head.data() + head.size() - kCheckBytes);
@@ -130,7 +134,7 @@ Bytes write_pack(const PackContent& pack, const std::vector<Bytes>& streams) {
 }
 
 bool is_pack(const ByteSource& bytes) {
-  uint8_t identity[sizeof kPackMagic + 1] = {};
+  uint8_t identity[kPackIdentityBytes] = {};
   return bytes.read(0, identity, sizeof identity) == sizeof identity &&
          check_pack_identity(identity) != MICROTIN_BAD_MAGIC;
 }

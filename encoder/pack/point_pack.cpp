@@ -150,7 +150,9 @@ PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
     tiles = encode_tiles(tiled, places);
   } while (most_vertices(tiles) > options.max_vertices);
   metadata.placement = placement;
-  metadata.accuracy = Accuracy{lattice.max_error, {}, {}};
+  metadata.accuracy = Accuracy{lattice.max_error, {}, {}, {}};
+  metadata.classes = cloud.classes;
+  if (survey.merged != 0) metadata.duplicates = DuplicateRule::kMiddle;
   PointPack pack{{tiled.grid, std::move(metadata), {}},
                  {},
                  survey.xy_step,

@@ -44,7 +44,8 @@ EncodedTile PointTiles::encode(uint32_t tile, const std::vector<uint32_t>& point
   if (!form_triangle(survey.samples)) return {};
   const TileBox box = tile_box(tiled_.grid, tile);
   const Tin tin = simplify(survey, tiled_.simplify);
-  auto [stream, decoded] = encode_and_decode(tin, Metadata(), tiled_.simplify.effort);
+  auto [stream, decoded] =
+      encode_and_decode(tin, Metadata(), tiled_.simplify.effort, origin_of(box));
   check_shared(decoded.mesh(), TileSides(tiled_.grid, box), borders_.of_tile(tile));
   const Verification measured =
       verify(decoded.mesh(), placement_from(tiled_.survey.lattice.placement, {box.x, box.y}),

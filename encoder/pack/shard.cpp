@@ -15,10 +15,10 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 1};  // and version
+constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 2};  // and version
 constexpr std::size_t kStartBytes = sizeof kShardMagic + 4, kRangeBytes = 8;
 constexpr uint32_t kMostHeadBytes = 1 << 17;
-constexpr std::size_t kSummaryBytes = 4 + 4 + 4 + 2 + 2 + 4 * 8 + 3 * 9;  // without the check
+constexpr std::size_t kSummaryBytes = 4 + 4 + 4 + 2 + 2 + 4 * 8 + 4 * 9;  // without the check
 
 // What the tiles of a pack depend on.
 Bytes write_identity(const PackPlan& plan, const PackContent& pack) {
@@ -27,7 +27,7 @@ Bytes write_identity(const PackPlan& plan, const PackContent& pack) {
   append_number(identity, options.max_vertices, 4);
   append_number(identity, static_cast<uint64_t>(options.simplify.search), 1);
   append_number(identity, options.simplify.effort.degree, 1);
-  append_number(identity, options.simplify.effort.levels, 1);
+  append_number(identity, static_cast<uint64_t>(options.simplify.effort.decoding), 1);
   append_number(identity, options.lattice.never_below ? 1 : 0, 1);
   append_number(identity, plan.fingerprint, 8);
   return identity;
@@ -49,7 +49,9 @@ Bytes write_summary(const TileSummary& tile) {
   for (const uint64_t count : {v.posts, v.covered, v.voids, uint64_t{v.within_bound}}) {
     append_number(bytes, count, 8);
   }
-  for (const Decimal error : {v.max_error, v.max_below, v.rms_error}) append_decimal(bytes, error);
+  for (const Decimal error : {v.max_error, v.max_below, v.rms_error, v.mean_error}) {
+    append_decimal(bytes, error);
+  }
   append_check(bytes, 0);
   return bytes;
 }
@@ -73,8 +75,13 @@ class NumberReader {
   Decimal next_decimal() {
     const auto mantissa = static_cast<int64_t>(next(8));
     const auto decimals = static_cast<int>(next(1));
-    expect(mantissa >= 0 && decimals <= kMaxDecimals);
+    expect(decimals <= kMaxDecimals);
     return {mantissa, decimals};
+  }
+  Decimal next_error() {
+    const Decimal error = next_decimal();
+    expect(error.mantissa >= 0);
+    return error;
   }
 
  private:
@@ -94,9 +101,10 @@ TileSummary read_summary(const Bytes& bytes) {
   v.covered = reader.next(8);
   v.voids = reader.next(8);
   v.within_bound = reader.next(8) != 0;
-  v.max_error = reader.next_decimal();
-  v.max_below = reader.next_decimal();
-  v.rms_error = reader.next_decimal();
+  v.max_error = reader.next_error();
+  v.max_below = reader.next_error();
+  v.rms_error = reader.next_error();
+  v.mean_error = reader.next_decimal();
   return tile;
 }
 

@@ -174,7 +174,7 @@ EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyO
   }
   for (;;) {  // ends: there are always more fixed posts
     const Tin tin = simplify(survey, options);
-    auto [stream, decoded] = encode_and_decode(tin, Metadata(), options.effort);
+    auto [stream, decoded] = encode_and_decode(tin, Metadata(), options.effort, origin_of(box));
     const std::optional<Decimal>& bound = tiled.options.max_error;
     WaterGauge gauge(part.decimals, bound ? tiled.options.water_level : std::nullopt);
     const Verification measured = verify(

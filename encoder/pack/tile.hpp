@@ -8,6 +8,7 @@
 #include "encoder/fit/simplify.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
+#include "encoder/stream/encode.hpp"
 #include "encoder/terrain/verify.hpp"
 
 namespace microtin::pack {
@@ -51,6 +52,11 @@ TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
 
 // Throws Error unless the vertices on borders are the shared ones, at their heights.
 void check_shared(const microtin_mesh* mesh, const TileSides& sides, const SharedVertices& shared);
+
+// Of the tile's stream in the pack.
+inline Origin origin_of(const TileBox& box) {
+  return {(box.x & 1) != 0, (box.y & 1) != 0};
+}
 
 // The posts of a box that have heights, but not in its mesh; without a mesh all.
 std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster& part,

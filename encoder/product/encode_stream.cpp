@@ -40,6 +40,9 @@ EncodedStream encode_measured(const Source& source, const EncodeOptions& options
   const std::optional<Decimal>& bound = options.lattice.max_error;
   const Reference reference = std::visit([](const auto& s) { return s.reference; }, source);
   Metadata metadata = metadata_of(options, reference, found.laid.placement);
+  if (const auto* raster = std::get_if<Raster>(&source)) metadata.grid = posts_of(*raster);
+  if (const auto* cloud = std::get_if<PointCloud>(&source)) metadata.classes = cloud->classes;
+  if (found.laid.merged != 0) metadata.duplicates = DuplicateRule::kMiddle;
   const auto [stream, decoded] = encode_and_decode(found.tin, metadata, options.effort);
   WaterGauge gauge(height_decimals(source), bound ? options.lattice.water_level : std::nullopt);
   const Verification measured = verify(decoded.mesh(), source, bound, gauge.visitor());
@@ -48,7 +51,7 @@ EncodedStream encode_measured(const Source& source, const EncodeOptions& options
       measured.voids_answered != 0 || gauge.moved() != 0) {
     throw InternalFault("the decoded terrain does not keep what was asked for");
   }
-  metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error};
+  metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error, measured.mean_error};
   return {std::move(found.laid), bound, with_metadata(stream, metadata),
           microtin_vertex_count(decoded.mesh()), measured};
 }

@@ -101,6 +101,18 @@ fit::Search search_of(Search search) {
   return fit::Search::kNormal;
 }
 
+microtin::Decoding decoding_of(encoder::Decoding decoding) {
+  switch (decoding) {
+    case encoder::Decoding::kQuick:
+      return microtin::Decoding::kQuick;
+    case encoder::Decoding::kDense:
+      return microtin::Decoding::kDense;
+    case encoder::Decoding::kBalanced:
+      break;
+  }
+  return microtin::Decoding::kBalanced;
+}
+
 product::EncodeOptions options_of(const Options& options) {
   product::EncodeOptions all;
   all.lattice.max_error = decimal_of("max_error", options.max_error);
@@ -109,8 +121,7 @@ product::EncodeOptions options_of(const Options& options) {
   all.lattice.never_below = options.never_below;
   all.search = search_of(options.search);
   expect(options.degree >= kMinDegree && options.degree <= kMaxDegree, "degree: 6 .. 32");
-  expect(options.levels >= 1 && options.levels <= kMaxLevels, "levels: 1 .. 3");
-  all.effort = {options.degree, options.levels};
+  all.effort = {options.degree, decoding_of(options.decoding)};
   all.horizontal_epsg = options.horizontal_epsg;
   all.vertical_epsg = options.vertical_epsg;
   expect(options.date.empty() || base::is_iso_date(options.date),
@@ -138,6 +149,7 @@ Report report_of(const product::EncodedStream& encoded) {
           encoded.bound ? to_string(*encoded.bound) : std::string(),
           to_string(measured.max_error),
           to_string(measured.rms_error),
+          to_string(measured.mean_error),
           to_string(measured.max_below)};
 }
 
@@ -149,6 +161,7 @@ Report report_of(const product::PackReport& pack, uint64_t samples) {
           pack.bound ? to_string(*pack.bound) : std::string(),
           to_string(pack.measured.max_error),
           to_string(pack.measured.rms_error),
+          to_string(pack.measured.mean_error),
           to_string(pack.measured.max_below)};
 }
 

@@ -14,6 +14,7 @@ Metadata metadata_of(const EncodeOptions& options, const Reference& reference,
   metadata.horizontal_epsg = reference.horizontal_epsg;
   metadata.vertical_epsg = reference.vertical_epsg;
   if (options.horizontal_epsg != 0) metadata.horizontal_epsg = options.horizontal_epsg;
+  if (metadata.horizontal_epsg == 0) metadata.wkt = reference.wkt;
   if (options.vertical_epsg != 0) metadata.vertical_epsg = options.vertical_epsg;
   metadata.source = options.source_text;
   metadata.date = options.date;

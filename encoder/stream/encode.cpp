@@ -88,8 +88,7 @@ class WritingCoder {
 class Workspace {
  public:
   explicit Workspace(uint32_t n)
-      : x_(n),
-        y_(n),
+      : places_(n),
         z_(n),
         origin_(6u * n),
         twin_(6u * n),
@@ -97,7 +96,7 @@ class Workspace {
         marks_(n / 4 + 1),
         voids_(n / 4 + 1),
         residual_(n) {
-    mesh_ = Mesh{x_.data(), y_.data(), z_.data(), origin_.data(), twin_.data(), 0, 0};
+    mesh_ = Mesh{places_.data(), z_.data(), origin_.data(), twin_.data(), 0, 0};
     state_.mesh = &mesh_;
     state_.queue = queue_.data();
     state_.marks = marks_.data();
@@ -110,7 +109,7 @@ class Workspace {
   Reconstruction& state() { return state_; }
 
  private:
-  std::vector<uint16_t> x_, y_;
+  std::vector<Point> places_;
   std::vector<int16_t> z_;
   std::vector<Index> origin_, twin_, queue_;
   std::vector<uint8_t> marks_, voids_;
@@ -143,12 +142,14 @@ std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& meta
 }
 
 // What the header promises.
-Contract contract_of(const Tin& tin, const Effort& effort) {
+Contract contract_of(const Tin& tin, const Effort& effort, Origin origin) {
   Contract contract{};
   contract.vertices = static_cast<uint32_t>(tin.vertices.size());
   contract.degree = effort.degree;
-  contract.levels = effort.levels;
+  contract.decoding = effort.decoding;
   contract.has_voids = !tin.voids.empty();
+  contract.odd_origin_x = origin.odd_x;
+  contract.odd_origin_y = origin.odd_y;
   for (const Vertex& v : tin.vertices) {
     contract.x_max = std::max(contract.x_max, v.x);
     contract.y_max = std::max(contract.y_max, v.y);
@@ -193,7 +194,13 @@ uint64_t fingerprint_of(const microtin_mesh* mesh) {
 
 }  // namespace
 
-Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort) {
+std::string name_of(Decoding decoding) {
+  if (decoding == Decoding::kQuick) return "quick";
+  return decoding == Decoding::kDense ? "dense" : "balanced";
+}
+
+Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort,
+                           Origin origin) {
   if (tin.vertices.size() > kMaxVertices) {
     throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
   }
@@ -205,7 +212,7 @@ Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effor
   const VoidSet voids = void_set(tin);
   const uint64_t expected = fingerprint_of(triangulation.mesh(), vertices, voids);
   WritingCoder coder(vertices, breadth_first_order(triangulation, effort.degree), voids);
-  std::vector<uint8_t> stream = write_stream(contract_of(tin, effort), metadata, coder);
+  std::vector<uint8_t> stream = write_stream(contract_of(tin, effort, origin), metadata, coder);
   DecodedTerrain decoded = on_our_own([&] { return DecodedTerrain(stream); });
   if (microtin_vertex_count(decoded.mesh()) != vertices.size() ||
       fingerprint_of(decoded.mesh()) != expected) {

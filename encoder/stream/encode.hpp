@@ -3,6 +3,7 @@
 #define MICROTIN_ENCODER_STREAM_ENCODE_HPP
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "encoder/exact/metadata.hpp"
@@ -10,13 +11,24 @@
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/survey.hpp"
+#include "shared/format.hpp"
 
 namespace microtin::stream {
+
+constexpr Decoding kDecodings[] = {Decoding::kQuick, Decoding::kBalanced, Decoding::kDense};
+
+// quick, balanced or dense.
+std::string name_of(Decoding decoding);
 
 // What smaller streams may cost. Both are at their best for most terrain.
 struct Effort {
   uint32_t degree = 10;  // most triangles around a vertex when it is inserted: 6 .. 32
-  uint32_t levels = 2;   // of cells that places are coded in: 1 .. 3
+  Decoding decoding = Decoding::kBalanced;
+};
+
+// Where the lattice of a tile's stream begins on that of its pack, as far as coding wants to know.
+struct Origin {
+  bool odd_x = false, odd_y = false;
 };
 
 // The stream of `tin`; the same for any order of its vertices. It is decoded again with the shipped
@@ -30,7 +42,8 @@ struct Encoding {
   DecodedTerrain decoded;
 };
 
-Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort);
+Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort,
+                           Origin origin = {});
 
 }  // namespace microtin::stream
 

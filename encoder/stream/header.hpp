@@ -28,19 +28,20 @@ Header read_header(const std::vector<uint8_t>& stream);
 // The stream with another header for the same terrain; notes of unknown types are dropped.
 std::vector<uint8_t> with_metadata(const std::vector<uint8_t>& stream, const Metadata& metadata);
 
-// The placement, nothing where it is the lattice itself; the notes that say something. Throws Error
-// if the notes are too long.
+// Nothing where it is the lattice itself.
 std::vector<uint8_t> write_placement(const Placement& placement);
-std::vector<uint8_t> write_notes(const Metadata& metadata);
-
-// Throws Error if the notes are malformed.
-void read_notes(const uint8_t* begin, const uint8_t* end, Metadata& metadata);
 
 // The `width` lowest bytes of a number, low ones first.
 void append_number(std::vector<uint8_t>& bytes, uint64_t value, int width);
 
 // A number in groups of seven bits, high ones first, the top bit set if more follow.
 void append_varint(std::vector<uint8_t>& bytes, uint64_t value);
+
+// 0, -1, 1, -2 ... become 0, 1, 2, 3 ...
+uint64_t zigzag(int64_t value);
+
+// Offset, numerator and denominator.
+void append_axis(std::vector<uint8_t>& bytes, const Axis& axis);
 
 // The check of `bytes` from `from` on, appended.
 void append_check(std::vector<uint8_t>& bytes, size_t from);

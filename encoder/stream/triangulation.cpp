@@ -24,8 +24,7 @@ Triangulation::Triangulation(const std::vector<Point>& points, std::vector<Index
   set_sizes(points.size());
   set_cavity_limit(64);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    x_[i] = points[order[i]].x;
-    y_[i] = points[order[i]].y;
+    places_[i] = points[order[i]];
   }
   start_mesh(mesh_);
   Index hint = 0;
@@ -35,13 +34,11 @@ Triangulation::Triangulation(const std::vector<Point>& points, std::vector<Index
 }
 
 void Triangulation::set_sizes(std::size_t vertices) {
-  x_.resize(vertices);
-  y_.resize(vertices);
+  places_.resize(vertices);
   origin_.resize(6 * vertices);
   twin_.resize(6 * vertices);
   edge_of_.resize(vertices + 1);
-  mesh_.x = x_.data();
-  mesh_.y = y_.data();
+  mesh_.place = places_.data();
   mesh_.origin = origin_.data();
   mesh_.twin = twin_.data();
 }
@@ -58,15 +55,13 @@ void Triangulation::set_cavity_limit(std::size_t limit) {
 
 // Vertex i becomes vertex order[i].
 void Triangulation::renumber(const std::vector<Index>& order) {
-  std::vector<uint16_t> x(order.size()), y(order.size());
+  std::vector<Point> places(order.size());
   std::vector<Index> edge_of(edge_of_);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    x[order[i]] = x_[i];
-    y[order[i]] = y_[i];
+    places[order[i]] = places_[i];
     edge_of[std::size_t{order[i]} + 1] = edge_of_[i + 1];
   }
-  std::copy(x.begin(), x.end(), x_.begin());
-  std::copy(y.begin(), y.end(), y_.begin());
+  std::copy(places.begin(), places.end(), places_.begin());
   edge_of_.swap(edge_of);
   for (Index h = 0; h < first_edge(mesh_.triangles); ++h) {
     if (origin_[h] != kInfinity) origin_[h] = order[origin_[h]];
@@ -140,8 +135,7 @@ Index Triangulation::insert(Point p, Index hint) {
     v = free_vertices_.back();
     free_vertices_.pop_back();
   }
-  x_[v] = p.x;
-  y_[v] = p.y;
+  places_[v] = p;
   connect(v, hint);
   new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size + 2);
   if (v == mesh_.vertices) {
@@ -199,8 +193,9 @@ bool Triangulation::open_hole(Index v, Index max_corners, Hole& hole) const {
     if (corner->vertex == kInfinity) {
       infinite = corner;
     } else {
-      corner->x = mesh_.x[corner->vertex];
-      corner->y = mesh_.y[corner->vertex];
+      const Point at = point_of(mesh_, corner->vertex);
+      corner->x = at.x;
+      corner->y = at.y;
     }
     h = mesh_.twin[into];
     ++corner;

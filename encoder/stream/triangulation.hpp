@@ -102,7 +102,7 @@ class Triangulation {
   static const Corner* hull_apex_of(const Corner* first, const Corner* last);
 
   Mesh mesh_ = {};
-  std::vector<uint16_t> x_, y_;
+  std::vector<Point> places_;
   std::vector<Index> origin_, twin_;
   std::vector<Index> edge_of_;  // entry v + 1; kInfinity + 1 wraps round to entry 0
 

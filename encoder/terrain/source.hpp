@@ -24,6 +24,7 @@ struct Reference {
   Unit vertical_unit = Unit::kUnknown;
   uint32_t horizontal_epsg = 0;
   uint32_t vertical_epsg = 0;
+  std::string wkt;  // of the horizontal system, where it has no code
 };
 
 struct Raster {
@@ -45,7 +46,8 @@ struct PointCloud {
   int xy_decimals = 0;
   int z_decimals = 0;
   Reference reference;
-  std::string selection;  // which points of the file these are, for the user; empty: all
+  std::string selection;            // which points of the file these are, for the user; empty: all
+  std::optional<ClassSet> classes;  // that were taken, of a file that has them
 };
 
 using Source = std::variant<Raster, PointCloud>;
@@ -76,6 +78,10 @@ inline Placement placement_of(const Source& source) {
   const auto& cloud = std::get<PointCloud>(source);
   const Axis xy = decimal_axis(cloud.xy_decimals);
   return {xy, xy, decimal_axis(cloud.z_decimals)};
+}
+
+inline PostGrid posts_of(const Raster& frame) {
+  return {frame.width, frame.height, frame.x, frame.y};
 }
 
 // Calls visit(x, y, z) for every post, void ones too, or point: the numbers that placement_of

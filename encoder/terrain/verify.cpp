@@ -39,12 +39,17 @@ class ErrorMeter {
     if (below > 0) deepest_ = std::max(deepest_, billionths);
     const Wide limited = std::min(billionths, kLargestSquared);
     squares_ += limited * limited;
+    sum_ += below > 0 ? -limited : limited;
     ++count_;
     return -static_cast<double>(below) / static_cast<double>(common_);
   }
 
   Decimal largest() const { return make_decimal(largest_, kMaxDecimals); }
   Decimal deepest() const { return make_decimal(deepest_, kMaxDecimals); }
+
+  Decimal mean() const {
+    return count_ == 0 ? Decimal{} : make_decimal(round_divide(sum_, count_), kMaxDecimals);
+  }
 
   // Rounded up.
   Decimal root_mean_square() const {
@@ -61,7 +66,7 @@ class ErrorMeter {
  private:
   Wide to_common_, offset_, step_, from_common_, common_;
   Wide largest_ = 0, deepest_ = 0;
-  Wide squares_ = 0;
+  Wide squares_ = 0, sum_ = 0;
   int64_t count_ = 0;
 };
 
@@ -146,6 +151,7 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
   result.max_error = meter.largest();
   result.max_below = meter.deepest();
   result.rms_error = meter.root_mean_square();
+  result.mean_error = meter.mean();
   result.within_bound = !bound || result.max_error <= *bound;
   return result;
 }
@@ -153,6 +159,7 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
 Verification combine(const std::vector<Verification>& parts) {
   Verification all;
   double squares = 0;
+  Wide sum = 0;  // of billionths: below 2^63 for each of at most 2^62 samples
   for (const Verification& part : parts) {
     all.posts += part.posts;
     all.covered += part.covered;
@@ -163,10 +170,14 @@ Verification combine(const std::vector<Verification>& parts) {
     if (all.max_below <= part.max_below) all.max_below = part.max_below;
     const double rms = std::stod(to_string(part.rms_error));
     squares += rms * rms * static_cast<double>(part.covered);
+    sum += mantissa_at(part.mean_error, kMaxDecimals) * static_cast<Wide>(part.covered);
     all.within_bound = all.within_bound && part.within_bound;
   }
   const double rms = all.covered == 0 ? 0 : std::sqrt(squares / static_cast<double>(all.covered));
   all.rms_error = make_decimal(static_cast<Wide>(std::ceil(rms * kBillion)), kMaxDecimals);
+  if (all.covered != 0) {
+    all.mean_error = make_decimal(round_divide(sum, static_cast<Wide>(all.covered)), kMaxDecimals);
+  }
   return all;
 }
 

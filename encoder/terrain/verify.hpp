@@ -11,8 +11,8 @@
 
 namespace microtin::terrain {
 
-// Errors are in the source's unit, rounded up to 9 decimals: compared with a bound of at most 9
-// decimals, that changes nothing.
+// Errors are in the source's unit, rounded up to 9 decimals (their mean to nearest, from such):
+// compared with a bound of at most 9 decimals, that changes nothing.
 struct Verification {
   uint64_t posts = 0;           // with a height; covered and uncovered ones
   uint64_t covered = 0;         // where the terrain answers a height
@@ -22,6 +22,7 @@ struct Verification {
   Decimal max_error;
   Decimal max_below;  // how far the surface is below a height at most
   Decimal rms_error;
+  Decimal mean_error;        // above 0: the terrain is too high
   bool within_bound = true;  // max_error is at most the bound, or there is none
 };
 

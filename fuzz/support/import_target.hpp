@@ -45,7 +45,7 @@ struct Options {
     fill_voids = given.ConsumeIntegralInRange<uint32_t>(0, 5);
     max_vertices = given.ConsumeBool() ? given.ConsumeIntegralInRange<uint32_t>(3, 50) : 0;
     effort.degree = given.ConsumeIntegralInRange<uint32_t>(kMinDegree, kMaxDegree);
-    effort.levels = given.ConsumeIntegralInRange<uint32_t>(1, kMaxLevels);
+    effort.decoding = static_cast<Decoding>(given.ConsumeIntegralInRange(1, 3));
     if (max_vertices != 0) lattice.max_error.reset();  // the command line allows only one
   }
 

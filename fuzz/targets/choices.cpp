@@ -57,7 +57,7 @@ class Choices {
 };
 
 // Each array on its own, so that a step out of one is seen.
-uint16_t x[kCapacity], y[kCapacity];
+Point place[kCapacity];
 int16_t z[kCapacity];
 Index origin[6 * kCapacity], twin[6 * kCapacity], queue[kCapacity];
 uint8_t marks[(kCapacity + 3) / 4], voids[(kCapacity + 3) / 4];
@@ -72,7 +72,7 @@ Contract contract_from(Choices& choices) {
   contract.x_max = kSides[choices.byte() % 8];
   contract.y_max = kSides[choices.byte() % 8];
   contract.degree = kMinDegree + choices.byte() % (kMaxDegree - kMinDegree + 1);
-  contract.levels = 1 + choices.byte() % kMaxLevels;
+  contract.decoding = static_cast<Decoding>(1 + choices.byte() % 3);
   const uint32_t flags = choices.byte();
   contract.has_heights = (flags & 1) != 0;
   contract.has_voids = (flags & 2) != 0;
@@ -95,7 +95,7 @@ void check_walk(Index placed_before) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Choices choices(data, size);
-  mesh = Mesh{x, y, z, origin, twin, 0, 0};
+  mesh = Mesh{place, z, origin, twin, 0, 0};
   state.mesh = &mesh;
   state.queue = queue;
   state.marks = marks;

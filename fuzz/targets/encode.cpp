@@ -63,12 +63,14 @@ bool is_terrain(std::vector<Vertex> vertices) {
 void check_decoded(const microtin_mesh* mesh, std::vector<Vertex> vertices) {
   const MeshCopy copy(mesh);
   std::vector<Vertex> found;
-  for (size_t v = 0; v < copy.x.size(); ++v) found.push_back({copy.x[v], copy.y[v], copy.z[v]});
+  for (size_t v = 0; v < copy.place.size(); ++v) {
+    found.push_back({copy.place[v].x, copy.place[v].y, copy.z[v]});
+  }
   std::sort(found.begin(), found.end(), smaller);
   std::sort(vertices.begin(), vertices.end(), smaller);
   EXPECT(std::equal(found.begin(), found.end(), vertices.begin(), vertices.end(), equal));
   EXPECT(is_sound(copy));
-  if (vertices.size() < 12) EXPECT(reference_delaunay(copy.points()) == triangles_of(copy.mesh));
+  if (vertices.size() < 12) EXPECT(reference_delaunay(copy.place) == triangles_of(copy.mesh));
 }
 
 Tin::Triangle corners_of(const microtin_mesh* mesh, const uint32_t* v) {
@@ -115,7 +117,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   FuzzedDataProvider given(data, size);
   Effort effort;
   effort.degree = given.ConsumeIntegralInRange<uint32_t>(kMinDegree, kMaxDegree);
-  effort.levels = given.ConsumeIntegralInRange<uint32_t>(1, kMaxLevels);
+  effort.decoding = static_cast<Decoding>(given.ConsumeIntegralInRange(1, 3));
   const uint64_t voids = given.ConsumeBool() ? given.ConsumeIntegral<uint64_t>() : 0;
   const Tin tin = tin_from(given);
   if (!is_terrain(tin.vertices)) {

@@ -1,5 +1,5 @@
 // What the command line makes of any stream: everything its header says, the same after it was
-// written anew, and its terrain; or an error.
+// written anew, and its terrain; or an error. A device finds in it what lies within.
 #include <algorithm>
 #include <vector>
 
@@ -11,13 +11,36 @@
 
 using namespace microtin::tests;
 
+namespace {
+
+// True if all notes of the header are sound.
+bool find_notes(const uint8_t* data, size_t size, const microtin_info* info) {
+  bool sound = info != nullptr;
+  for (int type = 0; type < 256; ++type) {
+    const uint8_t* note = nullptr;
+    uint32_t note_size = 0;
+    const microtin_status status =
+        microtin_find_note(data, size, static_cast<uint8_t>(type), &note, &note_size);
+    sound = sound && status == MICROTIN_DONE;
+    if (note == nullptr) continue;
+    EXPECT(info != nullptr && note > data);
+    const size_t end = info->header_bytes - kCheckBytes;
+    EXPECT(static_cast<size_t>(note - data) <= end);
+    EXPECT(note_size <= end - static_cast<size_t>(note - data));
+  }
+  return sound;
+}
+
+}  // namespace
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::vector<uint8_t> stream(data, data + size);
   microtin_info info;
   const bool legal = microtin_peek(data, size, &info) == MICROTIN_DONE;
+  const bool sound = find_notes(data, size, legal ? &info : nullptr);
   try {
     const Header header = read_header(stream);
-    EXPECT(legal);
+    EXPECT(legal && sound);
     const std::vector<uint8_t> once = write_header(header.contract, header.metadata);
     const Header again = read_header(once);
     const std::vector<uint8_t> twice = write_header(again.contract, again.metadata);

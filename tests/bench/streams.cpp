@@ -26,9 +26,10 @@ void write_streams(const std::string& folder) {
   const auto path = [&](const std::string& name) { return folder + "/" + name + ".mtin"; };
   write(path("1_uniform_10k"), {uniform_tin(10000, 0), {}});
   write(path("2_uniform_80k"), {uniform_tin(80000, 0), {}});
-  for (const Effort& effort : {Effort{8, 2}, Effort{10, 1}, Effort{10, 3}}) {
-    write(path("2_uniform_80k_D" + std::to_string(effort.degree) + "_levels" +
-               std::to_string(effort.levels)),
+  for (const Effort& effort : {Effort{8, Decoding::kBalanced}, Effort{10, Decoding::kQuick},
+                               Effort{10, Decoding::kDense}}) {
+    write(path("2_uniform_80k_D" + std::to_string(effort.degree) + "_" +
+               name_of(effort.decoding)),
           {uniform_tin(80000, 0), {}}, effort);
   }
   write(path("3_uniform_1M"), {uniform_tin(1000000, 0), {}});
@@ -43,8 +44,8 @@ void write_streams(const std::string& folder) {
   if (!grids.empty()) {
     const Dataset& first = grids.front();
     const Model tile = simplified(read_raster(first), first.options, kTileVertices);
-    for (const uint32_t levels : {1u, 2u, 3u}) {
-      write(path("tile_levels" + std::to_string(levels)), tile, {Effort().degree, levels});
+    for (const Decoding decoding : kDecodings) {
+      write(path("tile_" + name_of(decoding)), tile, {Effort().degree, decoding});
     }
   }
 }

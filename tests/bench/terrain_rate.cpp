@@ -20,8 +20,8 @@ class TerrainRate {
  public:
   TerrainRate() {
     Row head{"terrain, error / z step", "vertices",    "xy floor",
-             "microtin, bytes",         "bits/vertex", "levels 1, bytes",
-             "levels 3, bytes"};
+             "microtin, bytes",         "bits/vertex", "quick, bytes",
+             "dense, bytes"};
     for (const Codec& peer : peers_) {
       head.push_back(peer.name + ", bytes");
       head.push_back("ratio");
@@ -37,10 +37,10 @@ class TerrainRate {
     const size_t vertices = surface.vertices.size();
     Row row{label(dataset), number(vertices), number(floor_bits(surface), 2), number(stream.size()),
             number(8 * size / static_cast<double>(vertices), 2)};
-    for (const uint32_t levels : {1u, 3u}) {
-      const Effort effort{Effort().degree, levels};
+    for (const Decoding decoding : {Decoding::kQuick, Decoding::kDense}) {
+      const Effort effort{Effort().degree, decoding};
       const size_t bytes = encode(model.tin, model.metadata, effort).size();
-      level_means_[levels / 2].add(static_cast<double>(bytes) / size);
+      decoding_means_[decoding == Decoding::kDense].add(static_cast<double>(bytes) / size);
       row.push_back(number(bytes));
     }
     for (size_t i = 0; i < peers_.size(); ++i) {
@@ -55,7 +55,7 @@ class TerrainRate {
 
   void print_means() const {
     Row row{"geometric mean", "", "", "", ""};
-    for (const GeometricMean& mean : level_means_) {
+    for (const GeometricMean& mean : decoding_means_) {
       row.push_back("x " + number(mean.value(), 3));
     }
     for (const GeometricMean& mean : means_) {
@@ -67,7 +67,7 @@ class TerrainRate {
 
  private:
   const std::vector<Codec> peers_ = dense_codecs();
-  GeometricMean level_means_[2];
+  GeometricMean decoding_means_[2];
   std::vector<GeometricMean> means_ = std::vector<GeometricMean>(peers_.size());
 };
 

@@ -28,12 +28,26 @@ TEST_CASE("cli: encode, info, verify and decode agree") {
 
   const Session::Result info = session.run("info t.mtin --json");
   CHECK(info.code == 0);
-  for (const char* key :
-       {"\"format_version\": 4", "\"vertices\": 10", "\"triangles\"", "\"bytes\"",
-        "\"bits_per_vertex\"", "\"phases\"", "\"degree\": 10", "\"levels\": 2",
-        "\"workspace_bytes_16\"", "\"workspace_bytes_32\"", "\"steps\"", "\"offsets\"",
-        "\"bound\": null", "\"max_error\": 0.0", "\"rms_error\": 0.0", "\"placement\"",
-        "\"horizontal_epsg\": 25832", "\"vertical_epsg\": 5783"}) {
+  for (const char* key : {"\"format_version\": 5",
+                          "\"vertices\": 10",
+                          "\"triangles\"",
+                          "\"bytes\"",
+                          "\"bits_per_vertex\"",
+                          "\"phases\"",
+                          "\"degree\": 10",
+                          "\"decoding\": \"balanced\"",
+                          "\"workspace_bytes_16\"",
+                          "\"workspace_bytes_32\"",
+                          "\"steps\"",
+                          "\"offsets\"",
+                          "\"bound\": null",
+                          "\"max_error\": 0.0",
+                          "\"rms_error\": 0.0",
+                          "\"mean_error\": 0.0",
+                          "\"placement\"",
+                          "\"grid\": {\"columns\": 4, \"rows\": 3",
+                          "\"horizontal_epsg\": 25832",
+                          "\"vertical_epsg\": 5783"}) {
     CHECK_MESSAGE(contains(info.out, key), key);
   }
 
@@ -48,6 +62,21 @@ TEST_CASE("cli: encode, info, verify and decode agree") {
   CHECK(std::count(points.begin(), points.end(), '\n') == 10);
   CHECK(contains(points, "1 5 1\n"));  // the north-west post
   CHECK(session.run("decode t.mtin --lattice -o -").out.find("0 2 1\n") != std::string::npos);
+}
+
+TEST_CASE("cli: a coarser lattice notes the source's grid, and the rule for posts that meet") {
+  const Session session;
+  session.write("t.asc",
+                "ncols 5\nnrows 5\nxllcenter 100\nyllcenter 7\ncellsize 2\n"
+                "1 1 1 1 1\n1 2 2 2 1\n1 2 3 2 1\n1 2 2 2 1\n1 1 1 1 1\n");
+  REQUIRE(session.run("encode t.asc -o t.mtin --max-error 5 --xy-step 2").code == 0);
+  const std::string info = session.run("info t.mtin").out;
+  CHECK(contains(
+      info,
+      "grid: {\"columns\": 5, \"rows\": 5, \"x\": {\"offset\": 100, \"numerator\": 2, "
+      "\"denominator\": 1}, \"y\": {\"offset\": 7, \"numerator\": 2, \"denominator\": 1}}"));
+  CHECK(contains(info, "duplicates: \"middle of lowest and highest\"\n"));
+  CHECK(contains(session.run("verify t.mtin t.asc").out, "mean_error: "));
 }
 
 TEST_CASE("cli: points come from a pipe, streams go to one") {
@@ -242,7 +271,7 @@ TEST_CASE("cli: packs") {
   CHECK(contains(encoded.out, "asked for: at most 20"));
   CHECK(session.run("verify t.mtp t.asc").code == 0);
   const Session::Result info = session.run("info t.mtp");
-  CHECK(contains(info.out, "pack_version: 2"));
+  CHECK(contains(info.out, "pack_version: 3"));
   CHECK(contains(info.out, "\ntile   x   y  bytes  vertices  lowest"));
   CHECK(contains(info.out, "\n   0   0   0  "));
   CHECK(contains(session.run("info t.mtp --json").out, "\"tiles\": ["));
@@ -406,7 +435,7 @@ TEST_CASE("cli: wrong usage is told apart") {
                                 "encode ok.xyz",
                                 "encode ok.xyz -o o --degree 5",
                                 "encode ok.xyz -o o --degree 33",
-                                "encode ok.xyz -o o --levels 4",
+                                "encode ok.xyz -o o --decoding slow",
                                 "encode ok.xyz -o o --max-error -1",
                                 "encode ok.xyz -o o --max-error x",
                                 "encode ok.xyz -o o --max-error nan",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "shared/pairs.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_delaunay.hpp"
 
@@ -43,6 +44,59 @@ Point extreme_point(Random& random) {
   const uint32_t x = coordinate();
   return point(x, coordinate());
 }
+
+// A point that p sees at coordinates of at most `most`, on the lattice.
+Point near(Point p, int64_t most, Random& random) {
+  const auto coordinate = [&](int64_t at) {
+    const int64_t span = 2 * most + 1;
+    const uint32_t kind = random.below(4);
+    const int64_t offset = kind == 0   ? most
+                           : kind == 1 ? -most
+                                       : random.below(static_cast<uint32_t>(span)) - most;
+    return std::min<int64_t>(std::max<int64_t>(at + offset, 0), kLatticeMax);
+  };
+  const int64_t x = coordinate(p.x);
+  return point(x, coordinate(p.y));
+}
+
+// Whether the in-circle test in 32 bits is the other one where it may be asked, and is asked no
+// farther than 128 steps.
+bool near_agrees(Point a, Point b, Point c, Point p) {
+  const Offset to_a = a - p, to_b = b - p, to_c = c - p;
+  int64_t most = 0, least = 0;
+  for (const int64_t v : {to_a.x, to_a.y, to_b.x, to_b.y, to_c.x, to_c.y}) {
+    most = std::max(most, v);
+    least = std::min(least, v);
+  }
+  const bool are_in_range = least >= -127 && most <= 128;
+  if (are_near(to_a, to_b, to_c) != are_in_range) return false;
+  return !are_in_range || near_incircle(to_a, to_b, to_c) == incircle(a, b, c, p);
+}
+
+#if defined(MICROTIN_PAIRS)
+
+// Whether `window` tells the points that lie in it from others, and the in-circle test of pairs is
+// that of points there.
+bool pairs_agree(Point a, Point b, Point c, Point p) {
+  const Point all[4] = {a, b, c, p};
+  const auto begin = [](int64_t at) {
+    return std::min<int64_t>(std::max<int64_t>(at - 16384, 0), 32768);
+  };
+  const int64_t x = begin(p.x), y = begin(p.y);
+  const Pair window = window_around(pair_of(p));
+  Pair seen[4];
+  bool right = true, inside = true;
+  for (int i = 0; i < 4; ++i) {
+    seen[i] = difference(pair_of(all[i]), window);
+    const bool in_window =
+        all[i].x >= x && all[i].x < x + 32768 && all[i].y >= y && all[i].y < y + 32768;
+    right = right && is_outside(seen[i]) == !in_window;
+    inside = inside && in_window;
+  }
+  return right && (!inside || incircle(seen[0], seen[1], seen[2], seen[3]) == incircle(a, b, c, p));
+}
+
+#endif
 
 }  // namespace
 
@@ -151,5 +205,53 @@ TEST_CASE("predicates: exchanging two corners changes the sign") {
   }
   CHECK(wrong == 0);
 }
+
+TEST_CASE("predicates: the in-circle test in 32 bits is that in 64") {
+  Random random(4);
+  std::size_t wrong = 0;
+  for (int i = 0; i < 1000000; ++i) {
+    const Point p = extreme_point(random);
+    const int64_t most = i % 3 == 0 ? 129 : 127;
+    const Point a = near(p, most, random), b = near(p, most, random), c = near(p, most, random);
+    wrong += !near_agrees(a, b, c, p);
+    wrong += !near_agrees(a, b, extreme_point(random), p);
+  }
+  CHECK(wrong == 0);
+  // The largest: a square of side 255 around p, and p at the middle of its lower side.
+  const Point p = point(1000, 1000);
+  for (const int64_t x : {-127, 128}) {
+    for (const int64_t y : {-127, 128}) {
+      CHECK(near_agrees(point(873, 873), point(1128, 873), point(1000 + x, 1128),
+                        point(1000 + y, 1000)));
+      CHECK(near_agrees(point(1128, 1128), point(1000 + x, 873), point(873, 1000 + y), p));
+    }
+  }
+}
+
+#if defined(MICROTIN_PAIRS)
+
+TEST_CASE("predicates: the in-circle test of pairs is that of points") {
+  Random random(5);
+  std::size_t wrong = 0;
+  for (int i = 0; i < 1000000; ++i) {
+    const Point p = extreme_point(random);
+    for (const int64_t most : {100, 16383, 16384, 32767, 32768}) {
+      const Point a = near(p, most, random), b = near(p, most, random), c = near(p, most, random);
+      wrong += !pairs_agree(a, b, c, p);
+    }
+    const Point a = extreme_point(random), b = extreme_point(random), c = extreme_point(random);
+    wrong += !pairs_agree(a, b, c, p);
+  }
+  CHECK(wrong == 0);
+  // Of coordinates in each part of the lattice, from each.
+  for (uint32_t at = 0; at <= kLatticeMax; at += 255) {
+    for (uint32_t to = 0; to <= kLatticeMax; to += 85) {
+      wrong += !pairs_agree(point(to, at), point(at, to), point(to, to), point(at, at));
+    }
+  }
+  CHECK(wrong == 0);
+}
+
+#endif
 
 }  // namespace microtin::tests

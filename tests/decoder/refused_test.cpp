@@ -132,8 +132,8 @@ Bytes header_with(const std::vector<uint64_t>& numbers, const Bytes& rest = {}) 
   return identified(framed);
 }
 
-constexpr uint64_t properties(uint32_t degree, uint32_t levels) {
-  return uint64_t{degree} << 5 | levels << 3;
+constexpr uint64_t properties(uint32_t degree, uint32_t decoding) {
+  return uint64_t{degree} << 5 | decoding << 3;
 }
 
 constexpr uint64_t kLegal = properties(kMinDegree, 2);
@@ -241,10 +241,14 @@ void add_headers(Refused& all) {
   all["malformed_header_length_above_31_bits"] = identified({0x88, 0x80, 0x80, 0x80, 0x80});
   all["malformed_header_short"] = header_with({kLegal, 4, 99});
   all["malformed_number_not_shortest"] = header_with({kLegal, 4, 99}, {0x80, 99});
-  all["malformed_properties"] = header_with({kLegal + (1 << 11), 4, 99, 99});
+  all["unsupported_property"] = header_with({kLegal + (1 << kPropertyBits), 4, 99, 99});
+  all["unsupported_property_high"] = header_with({kLegal + (uint64_t{1} << 63), 4, 99, 99});
+  all["unsupported_property_and_more"] = header_with({kLegal + (1 << kPropertyBits), 1, 65536});
+  all["malformed_properties_above_64_bits"] =
+      header_with({}, {0x82, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x82, 0x83, 0x28, 4, 99, 99});
   all["malformed_degree_low"] = header_with({properties(kMinDegree - 1, 2), 4, 99, 99});
   all["malformed_degree_high"] = header_with({properties(kMaxDegree + 1, 2), 4, 99, 99});
-  all["malformed_levels"] = header_with({properties(kMinDegree, 0), 4, 99, 99});
+  all["malformed_decoding"] = header_with({properties(kMinDegree, 0), 4, 99, 99});
   all["malformed_count_low"] = header_of(flat_contract(2));
   all["malformed_count_high"] = header_of(flat_contract(kMaxVertices + 1));
   all["malformed_side_x"] = header_with({kLegal, 4, 65536, 99});

@@ -1,14 +1,14 @@
 #!/bin/sh
-# streams.sh MICROTIN FOLDER: makes the streams whose decoding is measured: a tile of 2,000 vertices, in each number
-# of levels, and one whose steps are dear.
+# streams.sh MICROTIN FOLDER: makes the streams whose decoding is measured: a tile of 2,000 vertices, in each setting
+# of decoding, and one whose steps are dear.
 set -eu
 microtin=$1 folder=$2
 here=$(dirname "$0")
 mkdir -p "$folder"
 "$microtin" fractal --size 257 --seed 1 -o "$folder/tile.asc"
-for levels in 1 2 3; do
-  "$microtin" encode "$folder/tile.asc" --max-vertices 2000 --z-step 16 --levels $levels \
-    -o "$folder/tile_levels$levels.mtin" >/dev/null
+for decoding in quick balanced dense; do
+  "$microtin" encode "$folder/tile.asc" --max-vertices 2000 --z-step 16 --decoding $decoding \
+    -o "$folder/tile_$decoding.mtin" >/dev/null
 done
 python3 "$here/wheels.py" >"$folder/wheels.xyz"
-"$microtin" encode "$folder/wheels.xyz" --degree 32 --levels 3 -o "$folder/wheels.mtin" >/dev/null
+"$microtin" encode "$folder/wheels.xyz" --degree 32 --decoding dense -o "$folder/wheels.mtin" >/dev/null

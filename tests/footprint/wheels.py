@@ -1,5 +1,5 @@
 """wheels.py: prints points (x y z) of wheels, a hub amid a rim of 30, with wild heights. Encoded at the largest
-degree and with the most levels, hubs make a decoder's steps as dear as a stream can."""
+degree and densely, hubs make a decoder's steps as dear as a stream can."""
 
 import math
 

@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <string>
+
 #include "tests/support/layers.hpp"
 
 using namespace microtin::tests;
@@ -32,6 +34,15 @@ TEST_CASE("crs: well-known text of version 2") {
       R"(GEOGCRS["WGS 84",CS[ellipsoidal,2],ANGLEUNIT["degree",0.0174532925199433],ID["EPSG",4326]])");
   CHECK(degrees.horizontal_epsg == 4326);
   CHECK(degrees.horizontal_unit == Unit::kDegree);
+}
+
+TEST_CASE("crs: a system without a code is kept as its text, up to a NUL") {
+  const std::string site = "PROJCS[\"site\",UNIT[\"metre\",1]]";
+  CHECK(reference_of_wkt(site).wkt == site);
+  CHECK(reference_of_wkt(site + std::string(3, '\0')).wkt == site);
+  CHECK(reference_of_wkt("PROJCS[\"x\",AUTHORITY[\"EPSG\",\"25832\"]]").wkt.empty());
+  CHECK(reference_of_wkt(std::string(kLongestWkt, ' ')).wkt.size() == kLongestWkt);
+  CHECK(reference_of_wkt(std::string(kLongestWkt + 1, ' ')).wkt.empty());
 }
 
 TEST_CASE("crs: what is not understood stays unknown") {

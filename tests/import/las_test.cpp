@@ -108,6 +108,7 @@ TEST_CASE("las: the ground, in exact decimals, of every version and format") {
 TEST_CASE("las: classes that are asked for; without ground all but noise") {
   const std::string bytes = las(2, 1, kScan).bytes();
   CHECK(text_of(cloud(bytes, ClassSet().set(5).set(7))) == "100200,250,8500 100004,5,-494");
+  CHECK(cloud(bytes, ClassSet().set(5).set(7)).classes == ClassSet().set(5).set(7));
   CHECK(cloud(bytes, ClassSet().set()).points.size() == 4);
   CHECK(error(bytes, ClassSet().set(9)) ==
         "scan: no point is taken; left out: class 2 (2), 5 (1), 7 (1), withheld (1)");

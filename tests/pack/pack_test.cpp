@@ -101,6 +101,50 @@ TEST_CASE("packs: posts that no triangle can hold are refused") {
       encode_pack(rough_raster(9, 9, [](int, int) { return true; }), pack_options(1, 90)), Error);
 }
 
+TEST_CASE("packs: streams say whether their tiles begin at odd places") {
+  PackOptions options = pack_options(5, 400);
+  options.tile_steps = 15;
+  const EncodedPack pack = encode_pack(rough_raster(61, 53), options);
+  uint32_t odd = 0;
+  for (uint32_t tile = 0; tile < pack.streams.size(); ++tile) {
+    const TileBox box = tile_box(pack.content.grid, tile);
+    const Contract contract = read_header(pack.streams[tile]).contract;
+    CHECK(contract.odd_origin_x == (box.x % 2 == 1));
+    CHECK(contract.odd_origin_y == (box.y % 2 == 1));
+    odd += contract.odd_origin_x ? 1 : 0;
+  }
+  CHECK(odd != 0);
+}
+
+TEST_CASE("packs: a later version, or a flag of one, is not called broken") {
+  const std::vector<uint8_t> bytes =
+      write_pack(encode_pack(rough_raster(31, 33), pack_options(6, 60)));
+  for (const size_t at : {size_t{4}, size_t{5}}) {
+    std::vector<uint8_t> later = bytes;
+    later[at] = 128;
+    CHECK(is_pack(*bytes_in_memory(later)));
+    std::string refusal;
+    try {
+      const PackFile pack(later);
+    } catch (const Error& error) {
+      refusal = error.what();
+    }
+    CHECK(refusal == describe(MICROTIN_UNSUPPORTED_VERSION));
+  }
+}
+
+TEST_CASE("packs: the source's grid and the mean error are noted") {
+  const Raster raster = rough_raster(31, 33);
+  const PackOptions options = pack_options(6, 60);
+  const PackFile pack(write_pack(encode_pack(raster, options)));
+  REQUIRE(pack.metadata().grid.has_value());
+  CHECK(pack.metadata().grid->columns == 31);
+  CHECK(pack.metadata().grid->rows == 33);
+  REQUIRE(pack.metadata().accuracy.has_value());
+  CHECK(pack.metadata().accuracy->mean_error.mantissa != 0);
+  CHECK(pack.header().compact_bytes == 0);
+}
+
 TEST_CASE("packs: a changed byte is noticed") {
   const Raster raster = rough_raster(31, 33);
   const std::vector<uint8_t> bytes = write_pack(encode_pack(raster, pack_options(6, 60)));

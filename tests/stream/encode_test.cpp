@@ -8,11 +8,14 @@
 #include <string>
 
 #include "encoder/base/error.hpp"
+#include "encoder/stream/notes.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/point_sets.hpp"
 
 namespace microtin::tests {
 namespace {
+
+using Bytes = std::vector<uint8_t>;
 
 Tin tin_of(const Points& points, Random& random) {
   Tin tin;
@@ -41,13 +44,13 @@ std::string round_trip_fault(const Tin& tin, const Effort& effort,
   const DecodedTerrain decoded(encode(tin, Metadata(), effort));
   const MeshCopy copy(decoded.mesh());
   std::vector<Vertex> vertices;
-  for (uint32_t v = 0; v < copy.x.size(); ++v) {
-    vertices.push_back(Vertex{copy.x[v], copy.y[v], copy.z[v]});
+  for (uint32_t v = 0; v < copy.place.size(); ++v) {
+    vertices.push_back(Vertex{copy.place[v].x, copy.place[v].y, copy.z[v]});
   }
   if (!same_vertices(sorted(vertices), sorted(tin.vertices))) return "other vertices";
   std::string fault = mesh_fault(copy.mesh, copy.mesh.vertices);
   if (!fault.empty()) return fault;
-  return is_right(copy.points(), triangles_of(copy.mesh)) ? "" : "not the canonical triangulation";
+  return is_right(copy.place, triangles_of(copy.mesh)) ? "" : "not the canonical triangulation";
 }
 
 constexpr Effort kEfforts[] = {{6, 1}, {8, 2}, {10, 2}, {12, 3}, {32, 2}};
@@ -158,7 +161,12 @@ TEST_CASE("placement and notes come back as they were given") {
   given.date = "2019-07";
   given.lineage = "noise removed";
   given.water_level = Decimal{-35, 1};
-  given.accuracy = Accuracy{Decimal{5, 1}, Decimal{49, 2}, Decimal{123, 3}};
+  given.accuracy = Accuracy{Decimal{5, 1}, Decimal{49, 2}, Decimal{123, 3}, Decimal{-7, 4}};
+  given.true_places = Accuracy{{}, Decimal{51, 2}, Decimal{124, 3}, Decimal{0, 0}};
+  given.wkt = "LOCAL_CS[\"site\"]";
+  given.grid = PostGrid{3601, 1201, {-7, 1, 3}, given.placement.y};
+  given.classes = ClassSet().set(0).set(2).set(8).set(9).set(254).set(255);
+  given.duplicates = DuplicateRule::kMiddle;
   const Metadata read = read_header(encode(tin, given)).metadata;
   const auto same_axis = [](const Axis& a, const Axis& b) {
     return a.offset == b.offset && a.numerator == b.numerator && a.denominator == b.denominator;
@@ -179,6 +187,48 @@ TEST_CASE("placement and notes come back as they were given") {
   CHECK(to_string(*read.accuracy->bound) == "0.5");
   CHECK(to_string(read.accuracy->max_error) == "0.49");
   CHECK(to_string(read.accuracy->rms_error) == "0.123");
+  CHECK(to_string(read.accuracy->mean_error) == "-0.0007");
+  REQUIRE(read.true_places.has_value());
+  CHECK(!read.true_places->bound.has_value());
+  CHECK(to_string(read.true_places->max_error) == "0.51");
+  CHECK(read.wkt == given.wkt);
+  REQUIRE(read.grid.has_value());
+  CHECK(read.grid->columns == 3601);
+  CHECK(read.grid->rows == 1201);
+  CHECK(same_axis(read.grid->x, given.grid->x));
+  CHECK(same_axis(read.grid->y, given.grid->y));
+  CHECK(read.classes == given.classes);
+  CHECK(read.duplicates == DuplicateRule::kMiddle);
+}
+
+TEST_CASE("a grid that is the lattice itself takes no axes in its note") {
+  Metadata given;
+  given.placement.x = given.placement.y = {-7, 1, 3};
+  given.grid = PostGrid{513, 513, given.placement.x, given.placement.y};
+  const Bytes notes = write_notes(given);
+  CHECK(notes == Bytes{MICROTIN_NOTE_GRID, 4, 0, 0x84, 1, 0x84, 1});
+  Metadata read;
+  read.placement = given.placement;
+  read_notes(notes.data(), notes.data() + notes.size(), read);
+  REQUIRE(read.grid.has_value());
+  CHECK(read.grid->x.offset == -7);
+  CHECK(read.grid->y.denominator == 3);
+}
+
+TEST_CASE("of two notes of a type the first counts, and what follows a known content is skipped") {
+  const auto read = [](const Bytes& notes) {
+    Metadata metadata;
+    read_notes(notes.data(), notes.data() + notes.size(), metadata);
+    return metadata;
+  };
+  CHECK(read({3, 1, 0, 'a', 3, 1, 0, 'b'}).source == "a");
+  CHECK(read({1, 4, 0, 2, 1, 9, 9}).horizontal_unit == Unit::kDegree);
+  CHECK(read({11, 1, 0, 200}).duplicates == DuplicateRule::kUnknown);
+  for (const Bytes& broken :
+       {Bytes{1}, Bytes{3, 2, 0, 'a'}, Bytes{1, 1, 0, 2}, Bytes{8, 2, 0, 0, 1},
+        Bytes{8, 3, 0, 1, 1, 0}, Bytes{10, 2, 0, 3, 2}, Bytes{10, 1, 0, 3}}) {
+    CHECK_THROWS_AS(read(broken), Error);
+  }
 }
 
 TEST_CASE("sets that no stream can hold are refused with a sentence") {

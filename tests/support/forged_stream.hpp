@@ -161,8 +161,8 @@ class BorderCoder : public PlanCoder {
     if (at().stage != Stage::kWalk) return PlanCoder::next();
     const Mesh& mesh = *at().mesh;
     const Point a = point_of(mesh, mesh.origin[at().chord]);
-    const Index c = mesh.origin[previous_in_triangle(at().chord)];
-    conflicts_ = at().vertex == kInfinity && a.y == 0 && mesh.y[c] == 0 && mesh.x[c] > a.x + 1;
+    const Point c = point_of(mesh, mesh.origin[previous_in_triangle(at().chord)]);
+    conflicts_ = at().vertex == kInfinity && a.y == 0 && c.y == 0 && c.x > a.x + 1;
     return {static_cast<uint16_t>(a.x + 1), 0, 0};
   }
   bool conflicts(const Mesh&, Index) {

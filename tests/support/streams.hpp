@@ -39,7 +39,8 @@ inline Metadata full_metadata() {
   m.horizontal_epsg = 4326;
   m.vertical_epsg = 5773;
   m.source = "golden";
-  m.accuracy = Accuracy{Decimal{10, 0}, Decimal{99, 1}, Decimal{345, 2}};
+  m.accuracy = Accuracy{Decimal{10, 0}, Decimal{99, 1}, Decimal{345, 2}, Decimal{-12, 2}};
+  m.grid = PostGrid{1201, 1201, {7 * 1200, 1, 1200}, {-33 * 1200, 1, 1200}};
   return m;
 }
 

@@ -37,6 +37,8 @@ TEST_CASE("errors are exact, and rounded up only to print") {
   CHECK(to_string(off.max_error) == "0.25");
   CHECK(off.within_bound);
   CHECK(to_string(off.rms_error) == "0.190394328");  // sqrt((0.25^2 + 0.1^2) / 2), rounded up
+  CHECK(to_string(off.mean_error) == "-0.075");      // 0.25 too low, 0.1 too high
+  CHECK(to_string(combine({off, exact}).mean_error) == "-0.03");
   CHECK_FALSE(verify_points("0 0 0.25\n", "0.249999999").within_bound);
 }
 

@@ -49,7 +49,7 @@
 #define MICROTIN_MESH_BYTES_FOR(capacity, bits) \
   (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
-  (((bits) == 16 ? 2303ul : 2511ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
+  (((bits) == 16 ? 2439ul : 2647ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
 
 /* Bytes of the buckets of microtin_buckets_init: a constant expression, side * side numbers. */
 #define MICROTIN_BUCKETS_BYTES(side) (20ul + MICROTIN_INDEX_BITS / 8 * 1ul * (side) * (side))
@@ -78,7 +78,7 @@ typedef enum microtin_status {
   MICROTIN_STOPPED = 3,    /* the phase asked for is complete; nothing more will be decoded */
   /* Errors. Once one is returned, every further call returns it again. */
   MICROTIN_BAD_MAGIC = 16,           /* not a microtin stream */
-  MICROTIN_UNSUPPORTED_VERSION = 17, /* a version of the format unknown here */
+  MICROTIN_UNSUPPORTED_VERSION = 17, /* a version of the format, or a part of it, unknown here */
   MICROTIN_TOO_BIG = 18,             /* more vertices than the workspace holds: see microtin_peek */
   MICROTIN_CHECKSUM = 19,            /* the bytes were damaged */
   MICROTIN_MALFORMED = 20,           /* undamaged bytes that break a rule of the format */
@@ -105,7 +105,7 @@ typedef struct microtin_info {
   uint32_t header_bytes; /* fixed part, placement, notes and check together */
   uint8_t version;
   uint8_t degree;      /* most triangles around a vertex when it is inserted */
-  uint8_t levels;      /* of cells that places are coded in: 1 .. 3 */
+  uint8_t decoding;    /* how much it weighs places: 1 quick, 2 balanced, 3 dense */
   uint8_t has_heights; /* 0: every z is 0 */
   uint8_t has_voids;
   microtin_axis x, y, z; /* offset 0 and step 1 where the stream does not say */
@@ -122,6 +122,32 @@ typedef struct microtin_buckets microtin_buckets;
  * passed. Errors: BAD_MAGIC, UNSUPPORTED_VERSION, CHECKSUM, MALFORMED, ARGUMENT. O(header bytes),
  * usually below 100. */
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info);
+
+/* Types of notes: what a header says beside the terrain. FORMAT.md, section 4, has the content of
+ * each. */
+typedef enum microtin_note {
+  MICROTIN_NOTE_UNITS = 1,
+  MICROTIN_NOTE_SYSTEMS = 2, /* EPSG codes */
+  MICROTIN_NOTE_SOURCE = 3,
+  MICROTIN_NOTE_ACCURACY = 4,
+  MICROTIN_NOTE_DATE = 5,
+  MICROTIN_NOTE_LINEAGE = 6,
+  MICROTIN_NOTE_WATER = 7,
+  MICROTIN_NOTE_GRID = 8,
+  MICROTIN_NOTE_WKT = 9,
+  MICROTIN_NOTE_CLASSES = 10,
+  MICROTIN_NOTE_DUPLICATES = 11,
+  MICROTIN_NOTE_TRUE_PLACES = 12 /* accuracy there */
+} microtin_note;
+
+/* Finds a note in the header of a stream or of a pack, with which the `size` bytes begin. DONE: the
+ * header's check passed, and *content points to the note's *content_size bytes; it is null if there
+ * is no such note. NEED_INPUT: give more; *content_size, if not 0, says how many bytes. Any other
+ * status leaves null and 0: BAD_MAGIC, UNSUPPORTED_VERSION, CHECKSUM, ARGUMENT, or MALFORMED, also
+ * if a note before reaches beyond the notes. A content may be longer than is known here: a later
+ * version's. O(header bytes). */
+microtin_status microtin_find_note(const uint8_t* bytes, size_t size, uint8_t type,
+                                   const uint8_t** content, uint32_t* content_size);
 
 /* Lays out an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh,
  * which points into it. DONE, or WORKSPACE_TOO_SMALL, MISALIGNED, ARGUMENT. O(1). */

@@ -68,6 +68,9 @@ class Terrain {
 
 enum class Search { kFast, kNormal, kBest }; /* some 5 % more bytes; the default; slow */
 
+/* What decoding may cost: less time for more bytes, or the other way round. */
+enum class Decoding { kQuick, kBalanced, kDense };
+
 struct Options {
   std::string max_error;    /* the largest distance of the surface from any height; "": see below */
   bool never_below = false; /* with a bound: no height is below the terrain */
@@ -75,7 +78,7 @@ struct Options {
   std::string xy_step;      /* of places, for streams; "": the terrain's own. Posts: in posts */
   Search search = Search::kNormal;
   uint32_t degree = 10; /* most triangles around a vertex when it is added: 6 .. 32 */
-  uint32_t levels = 2;  /* of cells that places are coded in: 1 .. 3 */
+  Decoding decoding = Decoding::kBalanced;
   /* Notes of the header; 0 or empty: not stated. All texts together up to 65,535 bytes of UTF-8. */
   uint32_t horizontal_epsg = 0, vertical_epsg = 0;
   std::string source, date, lineage; /* date: 2026, 2026-11 or 2026-11-21 */
@@ -102,6 +105,7 @@ struct Report {
   std::string bound;     /* asked for, or found for max_bytes; "": none */
   std::string max_error; /* measured, in the terrain's unit, rounded up to 9 decimals */
   std::string rms_error;
+  std::string mean_error; /* above 0: the surface is too high */
   std::string max_below; /* how far the surface is below a height at most */
 };
 

@@ -62,7 +62,7 @@ class Rebuilder {
   Tests tests_;
 
   Mesh mesh_{};
-  std::vector<uint16_t> x_, y_;
+  std::vector<Point> places_;
   std::vector<Index> origin_, twin_;
   Index batch_end_ = 0;
   uint32_t phase_ = 0;
@@ -77,19 +77,14 @@ class Rebuilder {
 Rebuilder::Rebuilder(const Sequence& sequence, const Method& method)
     : sequence_(sequence), method_(method) {
   const size_t n = sequence.points.size();
-  x_.resize(n);
-  y_.resize(n);
+  places_.resize(n);
   origin_.resize(6 * n);
   twin_.resize(6 * n);
   certified_.resize(2 * n);
   visited_.resize(n + 1);
   queue_.reserve(n);
-  for (Index i = 0; i < 3; ++i) {
-    x_[i] = sequence.points[i].x;
-    y_[i] = sequence.points[i].y;
-  }
-  mesh_.x = x_.data();
-  mesh_.y = y_.data();
+  for (Index i = 0; i < 3; ++i) places_[i] = sequence.points[i];
+  mesh_.place = places_.data();
   mesh_.origin = origin_.data();
   mesh_.twin = twin_.data();
   start_mesh(mesh_);
@@ -188,8 +183,7 @@ Index Rebuilder::insert(Index chord) {
   const Cavity cavity = {cavity_triangles_.data(), cavity_origin_.data(), cavity_twin_.data(),
                          static_cast<Index>(size), static_cast<Index>(size)};
   const Index v = mesh_.vertices++;
-  x_[v] = sequence_.points[v].x;
-  y_[v] = sequence_.points[v].y;
+  places_[v] = sequence_.points[v];
   return fan_cavity(mesh_, cavity, v);
 }
 

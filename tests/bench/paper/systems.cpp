@@ -10,7 +10,10 @@ namespace {
 
 uint64_t fingerprint_of(const Mesh& mesh) {
   std::vector<Vertex> vertices(mesh.vertices);
-  for (Index v = 0; v < mesh.vertices; ++v) vertices[v] = {mesh.x[v], mesh.y[v], 0};
+  for (Index v = 0; v < mesh.vertices; ++v) {
+    const Point at = point_of(mesh, v);
+    vertices[v] = {at.x, at.y, 0};
+  }
   Fingerprint fingerprint(vertices);
   for (Index t = 0; t < mesh.triangles; ++t) {
     const Index* const v = mesh.origin + first_edge(t);

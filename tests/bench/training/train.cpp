@@ -34,7 +34,12 @@ class Costs {
   }
 
   void add(const Tin& tin) {
-    const Outcomes outcomes = outcomes_of(encode(tin, {}));
+    for (const Decoding decoding : kDecodings) {
+      add(outcomes_of(encode(tin, {}, {Effort().degree, decoding})));
+    }
+  }
+
+  void add(const Outcomes& outcomes) {
     for (size_t i = 0; i < kStarts; ++i) {
       seen_[i] = seen_[i] || !outcomes[i].empty();
       for (size_t start = 0; start < kStartsTried; ++start) {

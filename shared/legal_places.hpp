@@ -1,0 +1,228 @@
+// The places where the next point is likely legal, column by column: between the ends that the
+// triangle's circle, the circles behind its certified sides and the lattice leave.
+//
+// They are seen from corner v, and turned by quarters so that the chord comes from the west: its
+// start a lies at x < 0, |y| <= -x. So the triangle is north of the chord, and a column's rows are
+// met from the chord on.
+#ifndef MICROTIN_SHARED_LEGAL_PLACES_HPP
+#define MICROTIN_SHARED_LEGAL_PLACES_HPP
+
+#include "shared/format.hpp"
+#include "shared/free_region.hpp"
+
+namespace microtin {
+
+// Lattice lines, both ends included.
+struct Lines {
+  FastInt first, last;
+};
+
+inline FastInt count_of(const Lines& lines) {
+  return lines.last - lines.first + 1;
+}
+
+// A circle through v, in grains: at x it reaches from y - r to y + r with r^2 = x (x2 - x) + yy.
+struct Circle {
+  int32_t x2;  // twice the centre's x
+  int32_t y;   // the centre's y
+  int32_t yy;  // its square
+};
+
+// A part of a column, in grains.
+struct Span {
+  int32_t low, high;
+};
+
+struct LegalPlaces {
+  int32_t turns;  // quarters, counter-clockwise
+  int32_t shift;  // of grains: -10 .. 10
+  Lines columns, rows;  // of the lattice
+  Span height;          // the lattice's rows in grains
+  Spot c, a;            // corners, below 2^11
+  Circle own;           // its centre is below 2^13, its radius below 2^13.5
+  Circle behind[2];     // the chord, side 0
+  bool cuts[2];         // whether that circle is known and near
+};
+
+template <class Place>
+Place turned(Place p, int32_t turns) {
+  if ((turns & 1) != 0) p = Place{-p.y, p.x};
+  return (turns & 2) != 0 ? Place{-p.x, -p.y} : p;
+}
+
+inline int32_t turns_for(Offset a) {
+  if (absolute(a.x) >= absolute(a.y)) return a.x < 0 ? 0 : 2;
+  return a.y > 0 ? 1 : 3;
+}
+
+inline Lines in_order(FastInt a, FastInt b) {
+  return a < b ? Lines{a, b} : Lines{b, a};
+}
+
+// The circle through v and `end`, seen from the right of v -> end under k. Products are below 2^29,
+// the centre is below 2^17 before the shift.
+inline Circle circle_through(Spot end, Cotangent k, uint32_t shift) {
+  const int32_t y = (end.y - (k * end.x >> kCotangentBits)) >> (1 + shift);
+  return Circle{(end.x + (k * end.y >> kCotangentBits)) >> shift, y, y * y};
+}
+
+// How much coarser grains must be for a centre below 2^13; at most 4.
+inline uint32_t coarsening_for(const Circle& circle) {
+  const uint32_t bits = highest_bit(static_cast<uint32_t>(absolute(circle.x2 >> 1)) |
+                                    static_cast<uint32_t>(absolute(circle.y)) | 1u);
+  return bits > 12 ? bits - 12 : 0;
+}
+
+inline Spot coarser(Spot p, uint32_t shift) {
+  return Spot{p.x >> shift, p.y >> shift};
+}
+
+// The circles behind are below 2^15 from v: |k| <= 16.
+inline void find_circle_behind(LegalPlaces& places, int i, const Side& side, Spot end, Cotangent k,
+                               uint32_t shift) {
+  places.cuts[i] = side.certified && !side.ghost &&
+                   side.behind > -kBehindCap * (static_cast<int32_t>(1) << kCotangentBits);
+  if (places.cuts[i]) places.behind[i] = circle_through(end, k, shift);
+}
+
+inline void find_lattice(LegalPlaces& places, const Contract& contract, Point origin) {
+  const Offset first = turned(Point{0, 0} - origin, places.turns);
+  const Offset last = turned(Point{contract.x_max, contract.y_max} - origin, places.turns);
+  places.columns = in_order(first.x, last.x);
+  places.rows = in_order(first.y, last.y);
+  places.height = Span{shifted(places.rows.first, places.shift),
+                       shifted(places.rows.last, places.shift)};
+}
+
+// `own` and `behind` are the cotangents over the chord.
+inline void find_places(LegalPlaces& places, const FreeRegion& region, const Contract& contract,
+                        Cotangent own, Cotangent behind) {
+  places.turns = turns_for(region.corner[1]);
+  const Spot c = turned(region.c, places.turns), a = turned(region.a, places.turns);
+  const uint32_t shift = coarsening_for(circle_through(a, own, 0));
+  places.shift = region.shift - static_cast<int32_t>(shift);
+  places.own = circle_through(a, own, shift);
+  find_circle_behind(places, 0, region.side[kChord], a, behind, shift);
+  find_circle_behind(places, 1, region.side[0], c, -region.side[0].behind, shift);
+  places.c = coarser(c, shift);
+  places.a = coarser(a, shift);
+  find_lattice(places, contract, region.origin);
+}
+
+// Lines from `low` to `high`, in grains. Where a step has less than one, lines count as far as
+// their grain does.
+inline Lines lines_within(int32_t low, int32_t high, int32_t shift) {
+  if (shift >= 0) {
+    return Lines{(low + (static_cast<int32_t>(1) << shift) - 1) >> shift, high >> shift};
+  }
+  const FastInt steps = static_cast<FastInt>(1) << -shift;
+  return Lines{low * steps, (high + 1) * steps - 1};
+}
+
+// Twice a coordinate to grains.
+inline int32_t grains(FastInt twice, int32_t shift) {
+  return shifted(twice, shift - 1);
+}
+
+// Whether e is on the right of p -> q. Of corners and the own circle: below 2^27.
+inline bool is_beyond(Spot p, Spot q, Spot e) {
+  return cross(q - p, e - p) < 0;
+}
+
+// Whether a place on the own circle is legal as far as sides tell.
+inline bool is_open(const LegalPlaces& places, const FreeRegion& region, Spot e) {
+  const Spot v = {0, 0};
+  return !is_beyond(places.a, v, e) &&
+         !(region.side[0].certified && is_beyond(v, places.c, e)) &&
+         !(region.side[1].certified && is_beyond(places.c, places.a, e));
+}
+
+struct Columns {
+  Lines lines;
+  bool open_west, open_east;  // whether they end where the circle does; else at a corner
+};
+
+// The columns with legal places. That of v is one of them.
+inline Columns legal_columns(const LegalPlaces& places, const FreeRegion& region) {
+  const Spot centre = {places.own.x2 >> 1, places.own.y};
+  const uint32_t square = static_cast<uint32_t>(centre.x * centre.x + places.own.yy);
+  const int32_t radius = static_cast<int32_t>(fine_root(square)) + 1;
+  int32_t west = places.c.x < places.a.x ? places.c.x : places.a.x;
+  int32_t east = places.c.x > 0 ? places.c.x : 0;
+  Columns columns;
+  const Spot west_end = {centre.x - radius, centre.y}, east_end = {centre.x + radius, centre.y};
+  columns.open_west = is_open(places, region, west_end);
+  columns.open_east = is_open(places, region, east_end);
+  if (columns.open_west && west_end.x < west) west = west_end.x;
+  if (columns.open_east && east_end.x > east) east = east_end.x;
+  columns.lines = lines_within(west, east, places.shift);
+  const Lines& lattice = places.columns;
+  if (columns.lines.first < lattice.first) columns.lines.first = lattice.first;
+  if (columns.lines.last > lattice.last) columns.lines.last = lattice.last;
+  return columns;
+}
+
+// Roots for many columns, and for one.
+struct RoughRoot {
+  int32_t operator()(int32_t v) const {
+    return static_cast<int32_t>(rough_root(static_cast<uint32_t>(v)));
+  }
+};
+struct FineRoot {
+  int32_t operator()(int32_t v) const {
+    return static_cast<int32_t>(fine_root(static_cast<uint32_t>(v)));
+  }
+};
+
+// Takes away what lies within a circle, at one end.
+MICROTIN_IN_PLACE inline void cut(Span& span, int32_t from, int32_t to) {
+  if (from <= span.low) {
+    if (to > span.low) span.low = to;
+  } else if (to >= span.high && from < span.high) {
+    span.high = from;
+  }
+}
+
+// The square of half of what a circle covers at x, below 2^30; negative beside it.
+inline int32_t square_at(const Circle& circle, int32_t x) {
+  return x * (circle.x2 - x) + circle.yy;
+}
+
+// What the own circle covers at x, whose radius is taken to be `wider`.
+template <class Root>
+Span own_span(const Circle& own, int32_t x, int32_t wider, const Root& root) {
+  const int32_t square = square_at(own, x);
+  const int32_t radius = (square > 0 ? root(square) : 0) + wider;
+  return Span{own.y - radius, own.y + radius};
+}
+
+// The legal part of it. Circles behind are taken to be narrower.
+template <class Root>
+Span legal_span(const LegalPlaces& places, int32_t x, Span span, int32_t narrower,
+                const Root& root) {
+  for (int i = 0; i < 2; ++i) {
+    const Circle& circle = places.behind[i];
+    if (!places.cuts[i]) continue;
+    const int32_t square = square_at(circle, x);
+    if (square <= 0) continue;
+    const int32_t radius = root(square) - narrower;
+    cut(span, circle.y - radius, circle.y + radius);
+  }
+  if (span.low < places.height.low) span.low = places.height.low;
+  if (span.high > places.height.high) span.high = places.height.high;
+  return span;
+}
+
+// The rows of a span: at least one of the lattice.
+inline Lines legal_rows(const LegalPlaces& places, Span span) {
+  Lines rows = lines_within(span.low, span.high, places.shift);
+  if (rows.first < places.rows.first) rows.first = places.rows.first;
+  if (rows.first > places.rows.last) rows.first = places.rows.last;
+  if (rows.last > places.rows.last) rows.last = places.rows.last;
+  if (rows.last < rows.first) rows.last = rows.first;
+  return rows;
+}
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,200 @@
+// Notes as a device finds them, in headers sound and hostile.
+#include "encoder/stream/notes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <optional>
+
+#include "encoder/pack/file.hpp"
+#include "tests/support/streams.hpp"
+
+namespace microtin::tests {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+struct Found {
+  microtin_status status;
+  const uint8_t* content;
+  uint32_t size;
+};
+
+Found find_note(const uint8_t* bytes, size_t size, uint8_t type) {
+  Found found{MICROTIN_DONE, bytes, 12345};
+  found.status = microtin_find_note(bytes, size, type, &found.content, &found.size);
+  return found;
+}
+
+// Nothing if there is no such note.
+std::optional<Bytes> content_of(const Bytes& header, uint8_t type) {
+  const Found found = find_note(header.data(), header.size(), type);
+  CHECK(found.status == MICROTIN_DONE);
+  if (found.content == nullptr) {
+    CHECK(found.size == 0);
+    return std::nullopt;
+  }
+  return Bytes(found.content, found.content + found.size);
+}
+
+// A stream's header with any bytes as notes.
+Bytes stream_header(const Bytes& notes, const Placement& placement = {}) {
+  Metadata metadata;
+  metadata.placement = placement;
+  const Contract contract{4, 99, 99, kMinDegree, 2, false, false, true, false};
+  const Bytes bare = write_header(contract, metadata);
+  const size_t start = kIdentityBytes + 1;  // its length takes one byte
+  Bytes payload(bare.begin() + start, bare.end() - kCheckBytes);
+  payload.insert(payload.end(), notes.begin(), notes.end());
+  Bytes header(bare.begin(), bare.begin() + kIdentityBytes);
+  append_varint(header, payload.size());
+  header.insert(header.end(), payload.begin(), payload.end());
+  append_check(header, 0);
+  return header;
+}
+
+// The same of a pack.
+Bytes pack_header(const Bytes& notes, const Placement& placement = {}) {
+  PackContent pack{{100, 100, 50, 50}, {}, {}};
+  pack.metadata.placement = placement;
+  Bytes header = write_pack_header(pack);
+  header.resize(header.size() - kCheckBytes);
+  header[8] = static_cast<uint8_t>(notes.size());
+  header[9] = static_cast<uint8_t>(notes.size() >> 8);
+  header.insert(header.end(), notes.begin(), notes.end());
+  append_check(header, 0);
+  return header;
+}
+
+const Placement kPlaced = {{-9'000'000'000, 1, 3}, {1, 2, 1}, {0, 1, 10}};
+
+// What an independent reader finds: the end of the notes is -1, a note beyond it -2.
+int position_of(const Bytes& notes, uint8_t type) {
+  int at = 0;
+  const int end = static_cast<int>(notes.size());
+  while (at != end) {
+    if (at + 3 > end) return -2;
+    const int size = notes[static_cast<size_t>(at) + 1] + 256 * notes[static_cast<size_t>(at) + 2];
+    if (at + 3 + size > end) return -2;
+    if (notes[static_cast<size_t>(at)] == type) return at;
+    at += 3 + size;
+  }
+  return -1;
+}
+
+}  // namespace
+
+TEST_CASE("notes: a device finds in streams and packs what was written") {
+  Metadata metadata = full_metadata();
+  metadata.date = "2026-11";
+  metadata.wkt = "LOCAL_CS[\"site\"]";
+  metadata.classes = ClassSet().set(2).set(9);
+  const Bytes notes = write_notes(metadata);
+  PackContent pack{{100, 100, 50, 50}, metadata, {}};
+  for (const Bytes& header : {encode(rolling_tin(10, 5), metadata), write_pack_header(pack)}) {
+    CHECK(content_of(header, MICROTIN_NOTE_UNITS) == Bytes{2, 1});
+    CHECK(content_of(header, MICROTIN_NOTE_DATE) == Bytes{'2', '0', '2', '6', '-', '1', '1'});
+    CHECK(content_of(header, MICROTIN_NOTE_CLASSES) == Bytes{2, 2, 9, 9});
+    CHECK(content_of(header, MICROTIN_NOTE_GRID) == Bytes{0x89, 0x31, 0x89, 0x31});
+    const std::optional<Bytes> wkt = content_of(header, MICROTIN_NOTE_WKT);
+    CHECK(wkt == Bytes(metadata.wkt.begin(), metadata.wkt.end()));
+    CHECK(content_of(header, MICROTIN_NOTE_LINEAGE) == std::nullopt);
+    CHECK(content_of(header, 0) == std::nullopt);
+    CHECK(content_of(header, 255) == std::nullopt);
+  }
+}
+
+TEST_CASE("notes: a header that is not there whole says how much of it is wanted") {
+  const Bytes notes = {3, 1, 0, 'a', 7, 2, 0, 4, 1};
+  for (const Bytes& header : {stream_header(notes, kPlaced), pack_header(notes, kPlaced)}) {
+    for (size_t size = 0; size < header.size(); ++size) {
+      const Bytes prefix(header.begin(), header.begin() + static_cast<std::ptrdiff_t>(size));
+      const Found found = find_note(prefix.data(), size, 7);
+      CHECK(found.status == MICROTIN_NEED_INPUT);
+      CHECK(found.content == nullptr);
+      CHECK((found.size == 0 || (found.size > size && found.size <= header.size())));
+      if (size >= kPackFixedBytes) CHECK(found.size == header.size());
+    }
+    CHECK(content_of(header, 7) == Bytes{4, 1});
+  }
+}
+
+TEST_CASE("notes: wrong arguments, and what is neither stream nor pack") {
+  const Bytes header = stream_header({});
+  const uint8_t* content = nullptr;
+  uint32_t size = 0;
+  CHECK(microtin_find_note(nullptr, 9, 3, &content, &size) == MICROTIN_ARGUMENT);
+  CHECK(microtin_find_note(header.data(), 9, 3, nullptr, &size) == MICROTIN_ARGUMENT);
+  CHECK(microtin_find_note(header.data(), 9, 3, &content, nullptr) == MICROTIN_ARGUMENT);
+  CHECK(microtin_find_note(nullptr, 0, 3, &content, &size) == MICROTIN_NEED_INPUT);
+  const Bytes other(40, 'm');
+  CHECK(find_note(other.data(), other.size(), 3).status == MICROTIN_BAD_MAGIC);
+  for (Bytes later : {stream_header({}), pack_header({})}) {
+    ++later[4];
+    CHECK(find_note(later.data(), later.size(), 3).status == MICROTIN_UNSUPPORTED_VERSION);
+  }
+  Bytes flagged = pack_header({});
+  flagged[5] = 1;
+  CHECK(find_note(flagged.data(), flagged.size(), 3).status == MICROTIN_UNSUPPORTED_VERSION);
+}
+
+TEST_CASE("notes: any bytes in their place are searched within bounds") {
+  Random random(17);
+  for (int round = 0; round < 3000; ++round) {
+    Bytes notes(random.below(40));
+    for (uint8_t& byte : notes)
+      byte = static_cast<uint8_t>(random.below(random.below(2) ? 4 : 256));
+    const Placement placement = random.below(2) != 0 ? kPlaced : Placement();
+    const uint8_t type = static_cast<uint8_t>(random.below(5));
+    const int expected = position_of(notes, type);
+    for (const Bytes& header : {stream_header(notes, placement), pack_header(notes, placement)}) {
+      const Found found = find_note(header.data(), header.size(), type);
+      CHECK(found.status == (expected == -2 ? MICROTIN_MALFORMED : MICROTIN_DONE));
+      const size_t start = header.size() - kCheckBytes - notes.size();
+      if (expected < 0) {
+        CHECK(found.content == nullptr);
+        CHECK(found.size == 0);
+      } else {
+        CHECK(found.content == header.data() + start + expected + 3);
+        CHECK(found.size == read_u16(found.content - 2));
+      }
+    }
+  }
+}
+
+TEST_CASE("notes: a changed byte is told, and forged headers keep the search within bounds") {
+  const Bytes notes = {3, 1, 0, 'a', 7, 2, 0, 4, 1};
+  for (const Bytes& header : {stream_header(notes, kPlaced), pack_header(notes, kPlaced)}) {
+    for (size_t at = 0; at < header.size(); ++at) {
+      for (int bit = 0; bit < 8; ++bit) {
+        Bytes changed = header;
+        changed[at] = static_cast<uint8_t>(changed[at] ^ 1 << bit);
+        const Found damaged = find_note(changed.data(), changed.size(), 7);
+        CHECK(damaged.status != MICROTIN_DONE);
+        CHECK(damaged.content == nullptr);
+        changed.resize(changed.size() - kCheckBytes);
+        append_check(changed, 0);
+        const Found forged = find_note(changed.data(), changed.size(), 7);
+        if (forged.content == nullptr) continue;
+        CHECK(forged.status == MICROTIN_DONE);
+        CHECK(forged.content >= changed.data());
+        CHECK(forged.content + forged.size <= changed.data() + changed.size() - kCheckBytes);
+      }
+    }
+  }
+}
+
+TEST_CASE("notes: the parity of a tile's origin reaches the header, and nothing else changes") {
+  const Tin tin = rolling_tin(40, 6);
+  for (const Origin origin : {Origin{false, false}, Origin{true, false}, Origin{false, true}}) {
+    const Encoding encoding = encode_and_decode(tin, Metadata(), {}, origin);
+    const Contract contract = read_header(encoding.stream).contract;
+    CHECK(contract.odd_origin_x == origin.odd_x);
+    CHECK(contract.odd_origin_y == origin.odd_y);
+    CHECK(contract.degree == Effort().degree);
+    const Contract kept = read_header(with_metadata(encoding.stream, full_metadata())).contract;
+    CHECK(kept.odd_origin_x == origin.odd_x);
+    CHECK(kept.odd_origin_y == origin.odd_y);
+  }
+}
+
+}  // namespace microtin::tests
