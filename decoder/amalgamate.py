@@ -40,13 +40,13 @@ def expanded(path, seen):
     return f"// --- {path.relative_to(ROOT)}\n" + INCLUDE.sub(include, without_guard(path))
 
 
-def header(notice):
+def header():
     comment, c_face = parts(PUBLIC / "microtin/microtin.h")
     pack, cpp_face, cpp_pack = (
         INCLUDE.sub("", without_guard(PUBLIC / "microtin" / name)) for name in ("pack.h", "microtin.hpp", "pack.hpp")
     )
     return (
-        f"/* {notice} */\n{comment}#ifndef MICROTIN_H\n#define MICROTIN_H\n{c_face}\n{pack}"
+        f"{comment}#ifndef MICROTIN_H\n#define MICROTIN_H\n{c_face}\n{pack}"
         f"#ifdef __cplusplus\n\n{cpp_face}\n{cpp_pack}\n#endif\n\n#endif\n"
     )
 
@@ -58,10 +58,10 @@ QUIET = """#if defined(__clang__)
 """
 
 
-def source(notice):
+def source():
     seen = set()
     files = "".join(expanded(path, seen) for path in sorted((ROOT / "decoder").glob("*.cpp")))
-    return f'// {notice}\n#include "microtin.h"\n\n{QUIET}\n{files}'
+    return f'#include "microtin.h"\n\n{QUIET}\n{files}'
 
 
 def version():
@@ -71,6 +71,9 @@ def version():
 
 folder = Path(sys.argv[1])
 folder.mkdir(parents=True, exist_ok=True)
-notice = f"microtin {version()}, the decoder in two files, made by decoder/amalgamate.py. MIT licence."
-(folder / "microtin.h").write_text(header(notice))
-(folder / "microtin.cpp").write_text(source(notice))
+notice = f"""/* microtin {version()}, the decoder in two files, made by decoder/amalgamate.py.
+
+{(ROOT / "LICENSE").read_text()}*/
+"""
+(folder / "microtin.h").write_text(notice + header())
+(folder / "microtin.cpp").write_text(notice + source())

@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "encoder/cli/definitions.hpp"
+#include "encoder/cli/documents.hpp"
+#include "encoder/cli/version.hpp"
 #include "encoder/cli_commands.hpp"
 #include "encoder/device_ram.hpp"
 #include "encoder/error.hpp"
@@ -32,7 +35,22 @@ constexpr const char* kTerrainFiles =
     ;
 
 void add_output(CLI::App& command, std::string& path) {
-  command.add_option("-o,--output", path, "File to write; - is standard output")->required();
+  command.add_option("-o,--output", path, "File to write; - is standard output")
+      ->required()
+      ->type_name(cli::kFile);
+}
+
+void add_stream(CLI::App& command, std::string& path,
+                const std::string& description = "A stream (.mtin) or a pack (.mtp)") {
+  command.add_option("stream", path, description)->required()->type_name(cli::kFile);
+}
+
+void add_terrain(CLI::App& command, std::string& path) {
+  command.add_option("terrain", path, kTerrainFiles)->required()->type_name(cli::kFile);
+}
+
+void add_json(CLI::App& command, bool& json) {
+  command.add_flag("--json", json, "Print JSON");
 }
 
 CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
@@ -159,7 +177,8 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
   command
       .add_option("--water-mask", preparation.water_mask,
                   "An .asc grid of the terrain's posts: 1 where voids are water, else 0")
-      ->needs(level);
+      ->needs(level)
+      ->type_name(cli::kFile);
 }
 
 // What the header tells people.
@@ -179,7 +198,7 @@ void add_notes(CLI::App& command, EncodeRequest& request) {
 using Action = std::function<void()>;
 
 void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
-  command.add_option("terrain", request->input, kTerrainFiles)->required();
+  add_terrain(command, request->input);
   CLI::Option* const bound =
       add_decimal(command, "--max-error", request->lattice.max_error,
                   "Keep every height within this distance, in the terrain's unit");
@@ -262,7 +281,9 @@ void add_merge(CLI::App& app, Action& action) {
   };
   auto request = std::make_shared<Request>();
   CLI::App& command = *app.add_subcommand("merge", "Join the shards of a pack, in any order");
-  command.add_option("shards", request->shards)->required();
+  command.add_option("shards", request->shards, "What encode --tiles wrote, all of it")
+      ->required()
+      ->type_name(cli::kFile);
   add_output(command, request->output);
   command.callback(
       [request, &action] { action = [request] { run_merge(request->shards, request->output); }; });
@@ -271,12 +292,13 @@ void add_merge(CLI::App& app, Action& action) {
 void add_decode(CLI::App& app, Action& action) {
   auto request = std::make_shared<DecodeRequest>();
   CLI::App& command = *app.add_subcommand("decode", "Turn a stream into a mesh or a grid");
-  command.add_option("stream", request->input)->required();
+  add_stream(command, request->input);
   command
       .add_option("-o,--output", request->output,
                   "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); - is .xyz on "
                   "standard output")
-      ->required();
+      ->required()
+      ->type_name(cli::kFile);
   add_decimal(command, "--cell", request->cell,
               "Size of an .asc grid's cells, in the terrain's unit; if not given, the lattice's "
               "step: for rasters the posts");
@@ -296,7 +318,7 @@ void add_embed(CLI::App& app, Action& action) {
   auto request = std::make_shared<Request>();
   CLI::App& command =
       *app.add_subcommand("embed", "Turn a stream into a C header, to be linked into firmware");
-  command.add_option("stream", request->input)->required();
+  add_stream(command, request->input, "A stream (.mtin)");
   add_output(command, request->output);
   command.footer("X.h defines the array X_stream and X_VERTICES, the capacity that it needs.");
   command.callback(
@@ -310,8 +332,8 @@ void add_info(CLI::App& app, Action& action) {
   };
   auto request = std::make_shared<Request>();
   CLI::App& command = *app.add_subcommand("info", "Tell what a stream holds");
-  command.add_option("stream", request->input)->required();
-  command.add_flag("--json", request->json);
+  add_stream(command, request->input);
+  add_json(command, request->json);
   command.callback(
       [request, &action] { action = [request] { run_info(request->input, request->json); }; });
 }
@@ -319,10 +341,10 @@ void add_info(CLI::App& app, Action& action) {
 void add_verify(CLI::App& app, Action& action) {
   auto request = std::make_shared<VerifyRequest>();
   CLI::App& command = *app.add_subcommand("verify", "Compare a stream with its terrain");
-  command.add_option("stream", request->input)->required();
-  command.add_option("terrain", request->source, kTerrainFiles)->required();
+  add_stream(command, request->input);
+  add_terrain(command, request->source);
   add_preparation(command, request->preparation);
-  command.add_flag("--json", request->json);
+  add_json(command, request->json);
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
 }
 
@@ -338,7 +360,7 @@ void add_fractal(CLI::App& app, Action& action) {
   command.add_option("--size", request->size, "Posts in a row")
       ->check(CLI::Range(2u, 16384u))
       ->capture_default_str();
-  command.add_option("--seed", request->seed)->capture_default_str();
+  command.add_option("--seed", request->seed, "Another terrain for each")->capture_default_str();
   command.callback([request, &action] {
     action = [request] { run_fractal(request->output, request->size, request->seed); };
   });
@@ -347,12 +369,13 @@ void add_fractal(CLI::App& app, Action& action) {
 void add_render(CLI::App& app, Action& action) {
   auto request = std::make_shared<RenderRequest>();
   CLI::App& command = *app.add_subcommand("render", "Draw a stream (.png)");
-  command.add_option("stream", request->input)->required();
+  add_stream(command, request->input);
   add_output(command, request->output);
   command.add_option("--width", request->width, "Pixels in a row")
       ->check(CLI::Range(kNarrowest, kWidest))
       ->capture_default_str();
-  command.add_option("--source", request->source, "Draw a map of the errors against this terrain");
+  command.add_option("--source", request->source, "Draw a map of the errors against this terrain")
+      ->type_name(cli::kFile);
   add_preparation(command, request->preparation);
   command.callback([request, &action] { action = [request] { run_render(*request); }; });
 }
@@ -371,6 +394,7 @@ int fail(const char* text, int code) {
 int run(int argc, char** argv) {
   CLI::App app("Terrain TINs for microcontrollers");
   Action action;
+  app.set_version_flag("--version", cli::versions(), "Print the versions of library and formats");
   app.require_subcommand(1);
   add_encode(app, action);
   add_plan(app, action);
@@ -381,6 +405,8 @@ int run(int argc, char** argv) {
   add_verify(app, action);
   add_fractal(app, action);
   add_render(app, action);
+  app.footer("Exit status: 0 if all went well, 1 if the command failed, 2 for wrong usage.");
+  cli::add_documents(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
