@@ -1,8 +1,6 @@
 // Writes the scripts of shell completion from the definitions of commands and options.
 #include "encoder/cli/completion.hpp"
 
-#include "encoder/cli/definitions.hpp"
-
 namespace microtin::cli {
 namespace {
 
@@ -12,35 +10,28 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
   return text;
 }
 
-std::vector<std::string> names_of_commands(const CLI::App& app) {
+std::vector<std::string> names_of_options(const CommandText& command) {
   std::vector<std::string> names;
-  for (const CLI::App* const command : commands_of(app)) names.push_back(command->get_name());
-  return names;
-}
-
-void append(std::vector<std::string>& names, const std::vector<std::string>& more) {
-  names.insert(names.end(), more.begin(), more.end());
-}
-
-std::vector<std::string> names_of_options(const CLI::App& app) {
-  std::vector<std::string> names = names_of(*app.get_help_ptr());
-  for (const CLI::Option* const option : options_of(app)) append(names, names_of(*option));
+  for (const OptionText& option : command.options) {
+    names.insert(names.end(), option.names.begin(), option.names.end());
+  }
   return names;
 }
 
 // --- bash ---
 
 // The names of options whose value is no file, behind which nothing can be proposed.
-std::vector<std::string> names_of_values(const CLI::App& app) {
+std::vector<std::string> names_of_values(const CommandText& command) {
   std::vector<std::string> names;
-  for (const CLI::Option* const option : options_of(app)) {
-    if (takes_value(*option) && !takes_file(*option)) append(names, names_of(*option));
+  for (const OptionText& option : command.options) {
+    if (!option.takes_value || option.takes_file) continue;
+    names.insert(names.end(), option.names.begin(), option.names.end());
   }
   return names;
 }
 
-std::string bash_case(const CLI::App& command) {
-  std::string text = "    " + command.get_name() + ")\n";
+std::string bash_case(const CommandText& command) {
+  std::string text = "    " + command.name + ")\n";
   text += "      options='" + joined(names_of_options(command), " ") + "'\n";
   text += "      values='" + joined(names_of_values(command), " ") + "'\n";
   return text + "      ;;\n";
@@ -79,47 +70,44 @@ std::string quoted(const std::string& text) {
 }
 
 // A description between brackets.
-std::string explanation(const CLI::Option& option) {
-  const std::string text = replaced(option.get_description(), '\\', "\\\\");
+std::string explanation(const OptionText& option) {
+  const std::string text = replaced(option.description, '\\', "\\\\");
   return "[" + replaced(replaced(text, '[', "\\["), ']', "\\]") + "]";
 }
 
 // What follows an option or stands alone: a message, and how to complete it.
-std::string zsh_value(const CLI::Option& option) {
-  if (!takes_value(option)) return "";
-  return takes_file(option) ? ":file:_files" : ":value: ";
+std::string zsh_value(const OptionText& option) {
+  if (!option.takes_value) return "";
+  return option.takes_file ? ":file:_files" : ":value: ";
 }
 
-std::string zsh_option(const CLI::Option& option) {
+std::string zsh_option(const OptionText& option) {
+  const std::string excluded = "(" + joined(option.names, " ") + ")";
   std::string text;
-  for (const std::string& name : names_of(option)) {
-    text += " \\\n        " + quoted("(" + joined(names_of(option), " ") + ")" + name +
-                                     explanation(option) + zsh_value(option));
+  for (const std::string& name : option.names) {
+    text += " \\\n        " + quoted(excluded + name + explanation(option) + zsh_value(option));
   }
   return text;
 }
 
-std::string zsh_options(const CLI::App& app) {
-  std::string text = zsh_option(*app.get_help_ptr());
-  for (const CLI::Option* const option : options_of(app)) text += zsh_option(*option);
+std::string zsh_options(const CommandText& command) {
+  std::string text;
+  for (const OptionText& option : command.options) text += zsh_option(option);
   return text;
 }
 
-std::string zsh_argument(const CLI::Option& argument) {
-  const bool many = argument.get_items_expected_max() > 1;
-  return " \\\n        " + quoted((many ? "*" : "") + zsh_value(argument));
-}
-
-std::string zsh_case(const CLI::App& command) {
-  std::string text = "    " + command.get_name() + ")\n      _arguments" + zsh_options(command);
-  for (const CLI::Option* const argument : arguments_of(command)) text += zsh_argument(*argument);
+std::string zsh_case(const CommandText& command) {
+  std::string text = "    " + command.name + ")\n      _arguments" + zsh_options(command);
+  for (const OptionText& argument : command.arguments) {
+    text += " \\\n        " + quoted((argument.repeats ? "*" : "") + zsh_value(argument));
+  }
   return text + "\n      ;;\n";
 }
 
-std::string zsh_commands(const CLI::App& app) {
+std::string zsh_commands(const CommandText& program) {
   std::string text;
-  for (const CLI::App* const command : commands_of(app)) {
-    text += "        " + quoted(command->get_name() + ":" + command->get_description()) + "\n";
+  for (const CommandText& command : program.commands) {
+    text += "        " + quoted(command.name + ":" + command.description) + "\n";
   }
   return text;
 }
@@ -155,17 +143,18 @@ _microtin "$@"
 
 }  // namespace
 
-std::string bash_completion(const CLI::App& app) {
-  std::vector<std::string> first = names_of_commands(app);
-  append(first, names_of_options(app));
-  std::string text = kBashBegin + joined(first, " ") + kBashCases;
-  for (const CLI::App* const command : commands_of(app)) text += bash_case(*command);
+std::string bash_completion(const CommandText& program) {
+  std::string text = kBashBegin;
+  for (const CommandText& command : program.commands) text += command.name + " ";
+  text += joined(names_of_options(program), " ") + kBashCases;
+  for (const CommandText& command : program.commands) text += bash_case(command);
   return text + kBashEnd;
 }
 
-std::string zsh_completion(const CLI::App& app) {
-  std::string text = kZshBegin + zsh_options(app) + kZshCommands + zsh_commands(app) + kZshCases;
-  for (const CLI::App* const command : commands_of(app)) text += zsh_case(*command);
+std::string zsh_completion(const CommandText& program) {
+  std::string text =
+      kZshBegin + zsh_options(program) + kZshCommands + zsh_commands(program) + kZshCases;
+  for (const CommandText& command : program.commands) text += zsh_case(command);
   return text + kZshEnd;
 }
 

@@ -2,13 +2,14 @@
 #ifndef MICROTIN_ENCODER_CLI_COMPLETION_HPP
 #define MICROTIN_ENCODER_CLI_COMPLETION_HPP
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+#include "encoder/cli/definitions.hpp"
 
 namespace microtin::cli {
 
-std::string bash_completion(const CLI::App& app);
-std::string zsh_completion(const CLI::App& app);
+std::string bash_completion(const CommandText& program);
+std::string zsh_completion(const CommandText& program);
 
 }  // namespace microtin::cli
 

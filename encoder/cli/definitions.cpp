@@ -1,21 +1,10 @@
-// Reads the definitions of commands and options.
+// Reads the definitions of commands and options out of CLI11.
 #include "encoder/cli/definitions.hpp"
 
+#include <CLI/CLI.hpp>
+
 namespace microtin::cli {
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App* command) { return !command->get_group().empty(); });
-}
-
-std::vector<const CLI::Option*> options_of(const CLI::App& app) {
-  const CLI::Option* const help = app.get_help_ptr();
-  return app.get_options(
-      [help](const CLI::Option* option) { return option->nonpositional() && option != help; });
-}
-
-std::vector<const CLI::Option*> arguments_of(const CLI::App& command) {
-  return command.get_options([](const CLI::Option* option) { return option->get_positional(); });
-}
+namespace {
 
 std::vector<std::string> names_of(const CLI::Option& option) {
   std::vector<std::string> names;
@@ -24,12 +13,30 @@ std::vector<std::string> names_of(const CLI::Option& option) {
   return names;
 }
 
-bool takes_value(const CLI::Option& option) {
-  return option.get_items_expected_max() != 0;
+OptionText describe(const CLI::Option& option) {
+  const CLI::Formatter format;
+  const bool takes_value = option.get_items_expected_max() != 0;
+  return {
+      names_of(option),
+      option.get_positional() ? format.make_option_usage(&option) : "",
+      format.make_option_name(&option, option.get_positional()) + format.make_option_opts(&option),
+      format.make_option_desc(&option),
+      takes_value,
+      takes_value && option.get_type_name() == kFile,
+      option.get_items_expected_max() > 1};
 }
 
-bool takes_file(const CLI::Option& option) {
-  return takes_value(option) && option.get_type_name() == kFile;
+}  // namespace
+
+CommandText describe(const CLI::App& app) {
+  CommandText text{app.get_name(), app.get_description(), app.get_footer(), {}, {}, {}};
+  for (const CLI::Option* const option : app.get_options()) {
+    (option->get_positional() ? text.arguments : text.options).push_back(describe(*option));
+  }
+  for (const CLI::App* const command : app.get_subcommands({})) {
+    if (!command->get_group().empty()) text.commands.push_back(describe(*command));
+  }
+  return text;
 }
 
 std::string replaced(std::string_view text, char character, std::string_view replacement) {

@@ -1,31 +1,43 @@
-// What the command line accepts, read from its definitions by all that tells people of it.
+// What the command line accepts, for all that tells people of it beside --help.
 #ifndef MICROTIN_ENCODER_CLI_DEFINITIONS_HPP
 #define MICROTIN_ENCODER_CLI_DEFINITIONS_HPP
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+// CLI11 takes its time to compile: only those that define options include it.
+namespace CLI {
+class App;
+}
 
 namespace microtin::cli {
 
 // The type of an argument that is the path of a file, as --help shows it.
 inline constexpr const char* kFile = "FILE";
 
-// In the order of their definition, without those that --help does not show.
-std::vector<const CLI::App*> commands_of(const CLI::App& app);
+// An option, or an argument, which is told apart by its place alone.
+struct OptionText {
+  std::vector<std::string> names;  // -o and --output; none for an argument
+  std::string usage;               // an argument's name, in brackets if it may be left out
+  std::string title;               // as in --help: names, type, default, what it excludes
+  std::string description;
+  bool takes_value;
+  bool takes_file;
+  bool repeats;
+};
 
-// What begins with a dash; all but --help, which every command has.
-std::vector<const CLI::Option*> options_of(const CLI::App& app);
+struct CommandText {
+  std::string name;
+  std::string description;
+  std::string footer;
+  std::vector<OptionText> arguments;
+  std::vector<OptionText> options;  // --help is the first
+  std::vector<CommandText> commands;
+};
 
-// What is told apart by its place alone.
-std::vector<const CLI::Option*> arguments_of(const CLI::App& command);
-
-// -o and --output, for example.
-std::vector<std::string> names_of(const CLI::Option& option);
-
-bool takes_value(const CLI::Option& option);
-bool takes_file(const CLI::Option& option);
+// In the order of the definitions, without those that --help does not show.
+CommandText describe(const CLI::App& app);
 
 // The text with `replacement` for every `character`.
 std::string replaced(std::string_view text, char character, std::string_view replacement);

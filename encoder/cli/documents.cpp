@@ -1,6 +1,8 @@
 // Commands that print what the command line accepts, for man and for shells.
 #include "encoder/cli/documents.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include "encoder/cli/completion.hpp"
 #include "encoder/cli/manual.hpp"
 #include "encoder/output_file.hpp"
@@ -10,14 +12,14 @@ namespace {
 
 constexpr const char* kHidden = "";
 
-using Writer = std::string (*)(const CLI::App& app);
+using Writer = std::string (*)(const CommandText& program);
 
 void add_document(CLI::App& parent, const char* name, Writer writer, const CLI::App& app,
                   std::function<void()>& action) {
   parent.add_subcommand(name)->group(kHidden)->callback([writer, &app, &action] {
     action = [writer, &app] {
       OutputFile out("-");
-      out.write(writer(app));
+      out.write(writer(describe(app)));
       out.commit();
     };
   });

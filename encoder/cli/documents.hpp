@@ -2,8 +2,11 @@
 #ifndef MICROTIN_ENCODER_CLI_DOCUMENTS_HPP
 #define MICROTIN_ENCODER_CLI_DOCUMENTS_HPP
 
-#include <CLI/CLI.hpp>
 #include <functional>
+
+namespace CLI {
+class App;
+}
 
 namespace microtin::cli {
 

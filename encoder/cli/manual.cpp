@@ -2,7 +2,6 @@
 // it.
 #include "encoder/cli/manual.hpp"
 
-#include "encoder/cli/definitions.hpp"
 #include "encoder/cli/version.hpp"
 
 namespace microtin::cli {
@@ -25,49 +24,42 @@ std::string section(const std::string& name) {
   return ".SH " + name + "\n";
 }
 
-std::string entry(const CLI::Option& option, bool is_argument) {
-  const CLI::Formatter format;
-  return ".TP\n" +
-         bold(format.make_option_name(&option, is_argument) + format.make_option_opts(&option)) +
-         line(format.make_option_desc(&option));
-}
-
-std::string entries(const CLI::App& command) {
+std::string entries(const std::vector<OptionText>& options) {
   std::string text;
-  for (const CLI::Option* const argument : arguments_of(command)) text += entry(*argument, true);
-  for (const CLI::Option* const option : options_of(command)) text += entry(*option, false);
+  for (const OptionText& option : options) {
+    text += ".TP\n" + bold(option.title) + line(option.description);
+  }
   return text;
 }
 
-std::string synopsis(const CLI::App& command) {
-  std::string text = bold("microtin " + command.get_name());
-  for (const CLI::Option* const argument : arguments_of(command)) {
-    text += line(CLI::Formatter().make_option_usage(argument));
-  }
+std::string synopsis(const CommandText& command) {
+  std::string text = bold("microtin " + command.name);
+  for (const OptionText& argument : command.arguments) text += line(argument.usage);
   return text + line("[OPTIONS]");
 }
 
-std::string chapter(const CLI::App& command) {
-  std::string text = ".SS " + line(command.get_name()) + line(command.get_description());
-  if (!command.get_footer().empty()) text += ".PP\n" + line(command.get_footer());
-  return text + entries(command);
+// Without --help, which the page tells once.
+std::string chapter(const CommandText& command) {
+  const std::vector<OptionText> options(command.options.begin() + 1, command.options.end());
+  std::string text = ".SS " + line(command.name) + line(command.description);
+  if (!command.footer.empty()) text += ".PP\n" + line(command.footer);
+  return text + entries(command.arguments) + entries(options);
 }
 
 }  // namespace
 
-std::string manual(const CLI::App& app) {
-  std::string text = ".TH MICROTIN 1 \"\" \"microtin " + library_version() +
-                     "\" \"User Commands\"\n" + section("NAME") + "microtin \\- " +
-                     line(app.get_description()) + section("SYNOPSIS");
+std::string manual(const CommandText& program) {
+  std::string text =
+      ".TH MICROTIN 1 \"\" \"microtin " + library_version() + "\" \"User Commands\"\n";
+  text += section("NAME") + "microtin \\- " + line(program.description) + section("SYNOPSIS");
   const char* separator = "";
-  for (const CLI::App* const command : commands_of(app)) {
-    text += separator + synopsis(*command);
+  for (const CommandText& command : program.commands) {
+    text += separator + synopsis(command);
     separator = ".br\n";
   }
-  text +=
-      section("OPTIONS") + entry(*app.get_help_ptr(), false) + entries(app) + section("COMMANDS");
-  for (const CLI::App* const command : commands_of(app)) text += chapter(*command);
-  return text + section("EXIT STATUS") + line(app.get_footer());
+  text += section("OPTIONS") + entries(program.options) + section("COMMANDS");
+  for (const CommandText& command : program.commands) text += chapter(command);
+  return text + section("EXIT STATUS") + line(program.footer);
 }
 
 }  // namespace microtin::cli
