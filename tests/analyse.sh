@@ -11,7 +11,7 @@ if ! command -v cppcheck >/dev/null; then
   echo "skipped: cppcheck is not installed"
   exit 77
 fi
-cppcheck --quiet --std=c++14 --enable=warning,portability --error-exitcode=1 \
+cppcheck -j "$(nproc)" --quiet --std=c++14 --enable=warning,portability --error-exitcode=1 \
   --suppressions-list=tests/cppcheck -DMICROTIN_INDEX_BITS=32 -I. -Idecoder/include decoder
-cppcheck --quiet --std=c++17 --enable=warning,portability --error-exitcode=1 \
+cppcheck -j "$(nproc)" --quiet --std=c++17 --enable=warning,portability --error-exitcode=1 \
   --suppressions-list=tests/cppcheck -DMICROTIN_INDEX_BITS=32 -I. -Idecoder/include encoder
