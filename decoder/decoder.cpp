@@ -101,10 +101,10 @@ bool is_far_enough(const microtin_decoder& d) {
 microtin_status handle_steps(microtin_decoder& d, uint32_t* steps_left) {
   while (*steps_left != 0) {
     --*steps_left;
-    const Progress progress = step(d.reconstruction, d.coder);
-    if (progress == Progress::kMalformed || d.coder.overrun) return end_payload(d, false);
-    if (progress == Progress::kSectionEnd) return end_payload(d, true);
-    if (progress == Progress::kPhaseEnd && d.reconstruction.stage == Stage::kPhase &&
+    const StepOutcome outcome = step(d.reconstruction, d.coder);
+    if (outcome == StepOutcome::kMalformed || d.coder.overrun) return end_payload(d, false);
+    if (outcome == StepOutcome::kSectionEnd) return end_payload(d, true);
+    if (outcome == StepOutcome::kPhaseEnd && d.reconstruction.stage == Stage::kPhase &&
         is_far_enough(d)) {
       return MICROTIN_STOPPED;
     }

@@ -46,7 +46,7 @@ inline void reset(Models& models) {
 
 enum class Stage : uint8_t { kSeed, kPhase, kWalk, kVoids, kComplete };
 
-enum class Progress : uint8_t {
+enum class StepOutcome : uint8_t {
   kStep,        // one step done, more to do in this section
   kPhaseEnd,    // the same, and it completed a phase
   kSectionEnd,  // ... and the section
@@ -295,20 +295,20 @@ Decision decide(Reconstruction& r, Coder& coder) {
 // --- Steps ---------------------------------------------------------------------------------------
 
 // What follows when all vertices of a phase, or of the seed, are in place.
-inline Progress after_vertices(Reconstruction& r) {
+inline StepOutcome after_vertices(Reconstruction& r) {
   if (r.mesh->vertices != r.contract.vertices) {
     r.stage = Stage::kPhase;
     const bool together = r.mesh->vertices < kSectionVertices;
-    return together ? Progress::kPhaseEnd : Progress::kSectionEnd;
+    return together ? StepOutcome::kPhaseEnd : StepOutcome::kSectionEnd;
   }
   r.stage = r.contract.has_voids ? Stage::kVoids : Stage::kComplete;
-  return r.contract.has_voids ? Progress::kPhaseEnd : Progress::kSectionEnd;
+  return r.contract.has_voids ? StepOutcome::kPhaseEnd : StepOutcome::kSectionEnd;
 }
 
 // One of the three vertices that are never removed. The first is the lexicographically smallest of
 // all.
 template <class Coder>
-Progress step_seed(Reconstruction& r, Coder& coder) {
+StepOutcome step_seed(Reconstruction& r, Coder& coder) {
   Mesh& mesh = *r.mesh;
   const Index i = mesh.vertices;
   const Vertex known = coder.next();
@@ -319,14 +319,14 @@ Progress step_seed(Reconstruction& r, Coder& coder) {
   if (r.contract.has_heights) {
     const HeightPrediction previous = {i == 0 ? 0 : mesh.z[i - 1u], kScales - 1, kTendencies / 2};
     mesh.z[i] = known.z;
-    if (!code_height(coder, r.models.height, previous, &mesh.z[i])) return Progress::kMalformed;
+    if (!code_height(coder, r.models.height, previous, &mesh.z[i])) return StepOutcome::kMalformed;
   }
   if (i < 2) {
     ++mesh.vertices;
-    return Progress::kStep;
+    return StepOutcome::kStep;
   }
   const Point p0 = point_of(mesh, 0), p1 = point_of(mesh, 1), p2 = point_of(mesh, 2);
-  if (!(p0 < p1) || !(p0 < p2) || orient2d(p0, p1, p2) <= 0) return Progress::kMalformed;
+  if (!(p0 < p1) || !(p0 < p2) || orient2d(p0, p1, p2) <= 0) return StepOutcome::kMalformed;
   start_mesh(mesh);
   r.anchor = 4;
   return after_vertices(r);
@@ -334,7 +334,7 @@ Progress step_seed(Reconstruction& r, Coder& coder) {
 
 // Starts a phase: how many vertices it adds, and the walk from infinity.
 template <class Coder>
-Progress step_phase(Reconstruction& r, Coder& coder) {
+StepOutcome step_phase(Reconstruction& r, Coder& coder) {
   const uint32_t placed = r.mesh->vertices;
   const uint32_t left = r.contract.vertices - placed;
   uint32_t batch = left;
@@ -342,11 +342,11 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
     // All but the low 16 bits, then these: 1 .. left - 1.
     const uint32_t high = coder.uniform((left >> 16) + 1u, coder.batch() >> 16);
     batch = high << 16 | coder.uniform(left < 65536 ? left : 65536, coder.batch() & 65535u);
-    if (batch == 0 || batch >= left) return Progress::kMalformed;
+    if (batch == 0 || batch >= left) return StepOutcome::kMalformed;
   }
   r.phase_end = static_cast<Index>(placed + batch);
   r.work += placed + batch;
-  if (r.work > work_budget(placed + batch)) return Progress::kMalformed;
+  if (r.work > work_budget(placed + batch)) return StepOutcome::kMalformed;
   const uint32_t mark_bytes = (placed + batch + 3u) / 4u;
   for (uint32_t i = 0; i < mark_bytes; ++i) r.marks[i] = 0;
   r.vertex = kInfinity;
@@ -361,7 +361,7 @@ Progress step_phase(Reconstruction& r, Coder& coder) {
   // Before anything is known: the lattice's bounds, shared by all.
   r.density = (log_batch - log2_of(lattice_places(r.contract))) * 256;
   r.stage = Stage::kWalk;
-  return Progress::kStep;
+  return StepOutcome::kStep;
 }
 
 // Turns to the next triangle around `vertex`; `chord` is already its half-edge into `vertex`, which
@@ -406,28 +406,29 @@ inline bool pass(Reconstruction& r, const Corner& corner) {
 
 // Says hit or miss at the triangle of the chord, which is not certified, and leaves it.
 template <class Coder>
-Progress step_decision(Reconstruction& r, Coder& coder, const Corner& corner) {
+StepOutcome step_decision(Reconstruction& r, Coder& coder, const Corner& corner) {
   const Decision decision = decide(r, coder);
-  if (decision == Decision::kMalformed) return Progress::kMalformed;
-  if (decision == Decision::kMiss) return pass(r, corner) ? Progress::kStep : Progress::kMalformed;
+  if (decision == Decision::kMalformed) return StepOutcome::kMalformed;
+  if (decision == Decision::kMiss)
+    return pass(r, corner) ? StepOutcome::kStep : StepOutcome::kMalformed;
   if (r.mesh->vertices == r.phase_end) {
     ++r.phase;
     return after_vertices(r);
   }
   const Index placed = r.mesh->origin[r.chord];
-  return advance(r, placed, 0) ? Progress::kStep : Progress::kMalformed;
+  return advance(r, placed, 0) ? StepOutcome::kStep : StepOutcome::kMalformed;
 }
 
 constexpr uint32_t kStepTriangles = 8;  // most that one step passes
 
 // Passes certified triangles, but only a few, and looks at one that is not.
 template <class Coder>
-Progress step_walk(Reconstruction& r, Coder& coder) {
+StepOutcome step_walk(Reconstruction& r, Coder& coder) {
   for (uint32_t i = 0;; ++i) {
     const Corner corner = far_corner(r);
     if (((r.from | corner.marks) & kDone) == 0) return step_decision(r, coder, corner);
-    if (i == kStepTriangles) return Progress::kStep;
-    if (!pass(r, corner)) return Progress::kMalformed;
+    if (i == kStepTriangles) return StepOutcome::kStep;
+    if (!pass(r, corner)) return StepOutcome::kMalformed;
   }
 }
 
@@ -437,7 +438,7 @@ inline bool is_void(const uint8_t* voids, Index triangle) {
 
 // Codes the void flag of one real triangle, given those of its neighbours that are known.
 template <class Coder>
-Progress step_void(Reconstruction& r, Coder& coder) {
+StepOutcome step_void(Reconstruction& r, Coder& coder) {
   const Mesh& mesh = *r.mesh;
   const Index t = r.void_cursor++;
   const Index f = first_edge(t);
@@ -452,14 +453,14 @@ Progress step_void(Reconstruction& r, Coder& coder) {
       !is_ghost(mesh, t) && code_bit(coder, r.models.is_void[context], coder.is_void(mesh, t));
   const uint32_t bit = 1u << (t & 7u), others = r.voids[t >> 3] & ~bit;
   r.voids[t >> 3] = static_cast<uint8_t>(flag ? others | bit : others);
-  if (r.void_cursor < mesh.triangles) return Progress::kStep;
+  if (r.void_cursor < mesh.triangles) return StepOutcome::kStep;
   r.stage = Stage::kComplete;
-  return Progress::kSectionEnd;
+  return StepOutcome::kSectionEnd;
 }
 
 // One step: bounded work, at most kStepBytes of the payload, nothing half done.
 template <class Coder>
-Progress step(Reconstruction& r, Coder& coder) {
+StepOutcome step(Reconstruction& r, Coder& coder) {
   switch (r.stage) {
     case Stage::kSeed:
       return step_seed(r, coder);
@@ -472,7 +473,7 @@ Progress step(Reconstruction& r, Coder& coder) {
     case Stage::kComplete:
       break;
   }
-  return Progress::kMalformed;
+  return StepOutcome::kMalformed;
 }
 
 }  // namespace microtin

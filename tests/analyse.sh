@@ -1,17 +1,24 @@
 #!/bin/sh
-# Static analysis of the decoder beside clang-tidy: gcc -fanalyzer, and cppcheck with tests/cppcheck.
+# Static analysis beside clang-tidy: of the decoder by gcc -fanalyzer, of all by the one-definition rule (preset odr)
+# and by cppcheck with tests/cppcheck.
 set -eu
 cd "$(dirname "$0")/.."
-for bits in 16 32; do
+cmake --preset release >/dev/null # for its flags
+for target in microtin_decoder microtin_decoder_16; do
   for source in decoder/*.cpp; do
-    g++ -std=c++14 -O1 -I. -Idecoder/include -DMICROTIN_INDEX_BITS=$bits -fanalyzer -Werror -c "$source" -o /dev/null
+    flags=$(tests/flags build/release $target "$source")
+    g++ $flags -O1 -fanalyzer -Werror -c "$source" -o /dev/null
   done
 done
+cmake --preset odr >/dev/null
+cmake --build --preset odr
 if ! command -v cppcheck >/dev/null; then
   echo "skipped: cppcheck is not installed"
   exit 77
 fi
-cppcheck -j "$(nproc)" --quiet --std=c++14 --enable=warning,portability --error-exitcode=1 \
-  --suppressions-list=tests/cppcheck -DMICROTIN_INDEX_BITS=32 -I. -Idecoder/include decoder
-cppcheck -j "$(nproc)" --quiet --std=c++17 --enable=warning,portability --error-exitcode=1 \
-  --suppressions-list=tests/cppcheck -DMICROTIN_INDEX_BITS=32 -I. -Idecoder/include encoder
+check() { # FOLDER TARGET SOURCE: with the paths and definitions of that source of the target
+  flags=$(tests/flags build/release "$2" "$3" | tr ' ' '\n' | grep -E '^-(I|D|std)' | sed 's/^-std/--std/')
+  cppcheck -j "$(nproc)" --quiet --enable=warning,portability --error-exitcode=1 --suppressions-list=tests/cppcheck $flags "$1"
+}
+check decoder microtin_decoder decoder/decoder.cpp
+check encoder microtin_encoder encoder/stream/encode.cpp

@@ -5,7 +5,7 @@
 
 #include "encoder/cli/completion.hpp"
 #include "encoder/cli/manual.hpp"
-#include "encoder/output_file.hpp"
+#include "encoder/files/output_file.hpp"
 
 namespace microtin::cli {
 namespace {

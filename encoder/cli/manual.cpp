@@ -38,11 +38,11 @@ std::string synopsis(const CommandText& command) {
   return text + line("[OPTIONS]");
 }
 
-// Without --help, which the page tells once.
-std::string chapter(const CommandText& command) {
+// Without --help and the program's footer, which the page tells once.
+std::string chapter(const CommandText& command, const CommandText& program) {
   const std::vector<OptionText> options(command.options.begin() + 1, command.options.end());
   std::string text = ".SS " + line(command.name) + line(command.description);
-  if (!command.footer.empty()) text += ".PP\n" + line(command.footer);
+  if (command.footer != program.footer) text += ".PP\n" + line(command.footer);
   return text + entries(command.arguments) + entries(options);
 }
 
@@ -58,7 +58,7 @@ std::string manual(const CommandText& program) {
     separator = ".br\n";
   }
   text += section("OPTIONS") + entries(program.options) + section("COMMANDS");
-  for (const CommandText& command : program.commands) text += chapter(command);
+  for (const CommandText& command : program.commands) text += chapter(command, program);
   return text + section("EXIT STATUS") + line(program.footer);
 }
 

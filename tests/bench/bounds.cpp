@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <ctime>
 
-#include "encoder/approximation.hpp"
-#include "encoder/error.hpp"
-#include "encoder/verify.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/fit/approximation.hpp"
+#include "encoder/terrain/verify.hpp"
 #include "tests/bench/curves.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/table.hpp"
 
 namespace microtin::bench {

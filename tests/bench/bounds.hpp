@@ -1,6 +1,6 @@
 // Files of guaranteed error: tables and curves.
-#ifndef MICROTIN_BENCH_BOUNDS_HPP
-#define MICROTIN_BENCH_BOUNDS_HPP
+#ifndef MICROTIN_TESTS_BENCH_BOUNDS_HPP
+#define MICROTIN_TESTS_BENCH_BOUNDS_HPP
 
 #include <string>
 

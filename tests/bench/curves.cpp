@@ -6,7 +6,8 @@
 #include <limits>
 #include <sstream>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 namespace {

@@ -1,6 +1,6 @@
 // Charts with logarithmic axes.
-#ifndef MICROTIN_BENCH_CURVES_HPP
-#define MICROTIN_BENCH_CURVES_HPP
+#ifndef MICROTIN_TESTS_BENCH_CURVES_HPP
+#define MICROTIN_TESTS_BENCH_CURVES_HPP
 
 #include <string>
 #include <utility>

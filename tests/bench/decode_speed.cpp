@@ -1,11 +1,12 @@
 #include <filesystem>
 #include <memory>
 
-#include "encoder/error.hpp"
-#include "encoder/header.hpp"
-#include "encoder/input_file.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/files/input_file.hpp"
+#include "encoder/stream/header.hpp"
 #include "microtin/microtin.h"
-#include "tests/bench/peers.hpp"
+#include "tests/bench/layers.hpp"
+#include "tests/bench/peers/peers.hpp"
 #include "tests/bench/speed.hpp"
 #include "tests/bench/table.hpp"
 

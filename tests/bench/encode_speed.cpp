@@ -1,8 +1,9 @@
-#include "encoder/decoded_terrain.hpp"
-#include "encoder/encode.hpp"
-#include "encoder/order.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/stream/order.hpp"
 #include "tests/bench/inputs.hpp"
-#include "tests/bench/peers.hpp"
+#include "tests/bench/layers.hpp"
+#include "tests/bench/peers/peers.hpp"
 #include "tests/bench/speed.hpp"
 #include "tests/bench/table.hpp"
 

@@ -7,10 +7,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "encoder/crop.hpp"
-#include "encoder/error.hpp"
-#include "encoder/import.hpp"
-#include "encoder/simplify.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/fit/simplify.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/terrain/crop.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/inputs.hpp"
 
 namespace microtin::bench {

@@ -1,12 +1,13 @@
 // What is encoded: random points, and the terrains that lie beside the repository.
-#ifndef MICROTIN_BENCH_INPUTS_HPP
-#define MICROTIN_BENCH_INPUTS_HPP
+#ifndef MICROTIN_TESTS_BENCH_INPUTS_HPP
+#define MICROTIN_TESTS_BENCH_INPUTS_HPP
 
 #include <string>
 #include <vector>
 
-#include "encoder/lay_out.hpp"
-#include "encoder/survey.hpp"
+#include "encoder/terrain/lay_out.hpp"
+#include "encoder/terrain/survey.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 

@@ -2,18 +2,19 @@
 #include <cstdio>
 #include <exception>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "tests/bench/bounds.hpp"
-#include "tests/bench/firmware_grids.hpp"
-#include "tests/bench/flight.hpp"
+#include "tests/bench/grids/firmware_grids.hpp"
+#include "tests/bench/grids/flight.hpp"
+#include "tests/bench/grids/raster_rate.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/linearity.hpp"
 #include "tests/bench/paper/tables.hpp"
-#include "tests/bench/peer_costs.hpp"
-#include "tests/bench/peers.hpp"
-#include "tests/bench/raster_rate.hpp"
+#include "tests/bench/peers/peer_costs.hpp"
+#include "tests/bench/peers/peers.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/speed.hpp"
-#include "tests/bench/train.hpp"
+#include "tests/bench/training/train.hpp"
 
 namespace microtin::bench {
 namespace {

@@ -5,7 +5,8 @@
 #include <ctime>
 #include <fstream>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
+#include "tests/bench/layers.hpp"
 
 #ifdef MICROTIN_BENCH_VALGRIND
 #include <valgrind/callgrind.h>

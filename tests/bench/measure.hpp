@@ -1,6 +1,6 @@
 // What a piece of work costs.
-#ifndef MICROTIN_BENCH_MEASURE_HPP
-#define MICROTIN_BENCH_MEASURE_HPP
+#ifndef MICROTIN_TESTS_BENCH_MEASURE_HPP
+#define MICROTIN_TESTS_BENCH_MEASURE_HPP
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 // How much memory a piece of work takes.
-#ifndef MICROTIN_BENCH_PEAK_MEMORY_HPP
-#define MICROTIN_BENCH_PEAK_MEMORY_HPP
+#ifndef MICROTIN_TESTS_BENCH_PEAK_MEMORY_HPP
+#define MICROTIN_TESTS_BENCH_PEAK_MEMORY_HPP
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 // The tables of file sizes; each prints one.
-#ifndef MICROTIN_BENCH_RATE_HPP
-#define MICROTIN_BENCH_RATE_HPP
+#ifndef MICROTIN_TESTS_BENCH_RATE_HPP
+#define MICROTIN_TESTS_BENCH_RATE_HPP
 
 namespace microtin::bench {
 

@@ -1,6 +1,6 @@
 // The tables of costs; each prints one.
-#ifndef MICROTIN_BENCH_SPEED_HPP
-#define MICROTIN_BENCH_SPEED_HPP
+#ifndef MICROTIN_TESTS_BENCH_SPEED_HPP
+#define MICROTIN_TESTS_BENCH_SPEED_HPP
 
 #include <functional>
 #include <string>

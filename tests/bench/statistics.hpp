@@ -1,6 +1,6 @@
 // Means over several inputs and how far they spread.
-#ifndef MICROTIN_BENCH_STATISTICS_HPP
-#define MICROTIN_BENCH_STATISTICS_HPP
+#ifndef MICROTIN_TESTS_BENCH_STATISTICS_HPP
+#define MICROTIN_TESTS_BENCH_STATISTICS_HPP
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
-#include "encoder/encode.hpp"
-#include "encoder/output_file.hpp"
+#include "encoder/files/output_file.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/speed.hpp"
 #include "tests/bench/surface.hpp"
 

@@ -5,7 +5,8 @@
 #include <set>
 #include <tuple>
 
-#include "encoder/decoded_terrain.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 namespace {

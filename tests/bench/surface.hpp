@@ -1,6 +1,6 @@
 // What all codecs are given and must give back.
-#ifndef MICROTIN_BENCH_SURFACE_HPP
-#define MICROTIN_BENCH_SURFACE_HPP
+#ifndef MICROTIN_TESTS_BENCH_SURFACE_HPP
+#define MICROTIN_TESTS_BENCH_SURFACE_HPP
 
 #include <array>
 #include <cstdint>

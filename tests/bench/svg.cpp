@@ -4,7 +4,8 @@
 #include <cmath>
 #include <sstream>
 
-#include "encoder/output_file.hpp"
+#include "encoder/files/output_file.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 namespace {

@@ -1,6 +1,6 @@
 // Plots as SVG.
-#ifndef MICROTIN_BENCH_SVG_HPP
-#define MICROTIN_BENCH_SVG_HPP
+#ifndef MICROTIN_TESTS_BENCH_SVG_HPP
+#define MICROTIN_TESTS_BENCH_SVG_HPP
 
 #include <string>
 #include <utility>

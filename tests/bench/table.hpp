@@ -1,6 +1,6 @@
 // Markdown tables.
-#ifndef MICROTIN_BENCH_TABLE_HPP
-#define MICROTIN_BENCH_TABLE_HPP
+#ifndef MICROTIN_TESTS_BENCH_TABLE_HPP
+#define MICROTIN_TESTS_BENCH_TABLE_HPP
 
 #include <cmath>
 #include <cstdio>

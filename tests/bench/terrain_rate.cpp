@@ -1,6 +1,7 @@
-#include "encoder/encode.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
-#include "tests/bench/peers.hpp"
+#include "tests/bench/layers.hpp"
+#include "tests/bench/peers/peers.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/table.hpp"
 

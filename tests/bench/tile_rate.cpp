@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <optional>
 
-#include "encoder/encode.hpp"
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/surface.hpp"
 #include "tests/bench/table.hpp"

@@ -27,16 +27,16 @@ is_sound() { # PAGE
   return 0
 }
 
-"$microtin" manual >"$folder/page"
+"$microtin" manual >"$folder/microtin.1"
 [ "$(commands | wc -l)" -gt 5 ]
-is_complete "$folder/page"
-is_sound "$folder/page"
+is_complete "$folder/microtin.1"
+is_sound "$folder/microtin.1"
 
-grep -vF -- '\-\-z\-step' "$folder/page" >"$folder/planted"
-! is_complete "$folder/planted" >/dev/null || { echo "a missing option was not found"; exit 1; }
+grep -vF -- '\-\-z\-step' "$folder/microtin.1" >"$folder/planted.1"
+! is_complete "$folder/planted.1" >/dev/null || { echo "a missing option was not found"; exit 1; }
 if ! command -v groff >/dev/null && ! command -v mandoc >/dev/null; then
   echo "skipped in part: neither groff nor mandoc is installed"
   exit 77
 fi
-{ cat "$folder/page"; echo ".XX"; } >"$folder/planted"
-! is_sound "$folder/planted" >/dev/null || { echo "an unknown macro was not found"; exit 1; }
+{ cat "$folder/microtin.1"; echo ".XX"; } >"$folder/planted.1"
+! is_sound "$folder/planted.1" >/dev/null || { echo "an unknown macro was not found"; exit 1; }

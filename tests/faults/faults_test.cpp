@@ -13,12 +13,15 @@
 #include <vector>
 
 #include "tests/faults/injected.hpp"
-#include "tests/files.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 int microtin_main(int argc, char** argv);  // the program's, renamed
 
 namespace microtin::faults {
+
+using namespace tests;
+
 namespace {
 
 using Words = std::vector<std::string>;
@@ -67,11 +70,11 @@ class Stage {
     if (child == 0) run_as_child(words, errors);
     Result result{};
     REQUIRE(waitpid(child, &result.status, 0) == child);
-    const std::vector<uint8_t> text = read_file(errors);
+    const std::vector<uint8_t> text = bytes_of_file(errors);
     result.error.assign(text.begin(), text.end());
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
       const std::string name = entry.path().filename();
-      result.files[name] = read_file(entry.path());
+      result.files[name] = bytes_of_file(entry.path());
       if (name.find("new") == 0) std::filesystem::remove(entry.path());
     }
     return result;
@@ -199,6 +202,37 @@ TEST_CASE("memory refused from each request on: an error of one line, and no fil
 
 TEST_CASE("file functions failing at each call in turn: an error of one line, and no file") {
   check_all(&Counters::files, false, 1);
+}
+
+TEST_CASE("a decoder that betrays the encoder: a fault of ours, told as that, and no file") {
+  constexpr int kInternal = 3;
+  Stage stage;
+  const std::vector<Words> commands = {
+      {"encode", "t.asc", "-o", "new.mtin", "--max-error", "1"},
+      {"encode", "t.asc", "-o", "new.mtin", "--max-bytes", "200"},
+      {"encode", "p.xyz", "-o", "new.mtin", "--max-error", "1"},
+      {"encode", "p.xyz", "-o", "new.mtp", "--tile-vertices", "16", "--max-error", "1"},
+      {"encode", "t.asc", "-o", "new.mtp", "--tile-vertices", "16", "--max-error", "1"},
+      {"encode", "t.asc", "-o", "new", "--tile-vertices", "16", "--max-error", "1", "--tiles",
+       "0:0"}};
+  for (const Words& words : commands) {
+    for (Counter Counters::*const counter : {&Counters::streams, &Counters::heights}) {
+      CAPTURE(words[1] + " " + words[3]);
+      REQUIRE(stage.run(words).status == 0);
+      const uint64_t asked = (stage.counters().*counter).asked;
+      CHECK(asked > 0);
+      for (const uint64_t first : {uint64_t{1}, asked}) {
+        Counters faults;
+        (faults.*counter).first = first;
+        const Stage::Result result = stage.run(words, faults);
+        CAPTURE(result.error);
+        CHECK(WEXITSTATUS(result.status) == kInternal);
+        CHECK(result.error.find("microtin: internal fault, please report it: ") == 0);
+        CHECK(is_one_line(result.error));
+        CHECK(result.files.count(words[3]) == 0);
+      }
+    }
+  }
 }
 
 }  // namespace microtin::faults

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <new>
 
+#include "microtin/microtin.h"
+
 namespace microtin::faults {
 namespace {
 
@@ -31,6 +33,7 @@ void inject(Counters* counters) {
 
 // What the linker's option --wrap calls in place of the C library, and the library itself.
 std::FILE* real_fopen(const char* path, const char* mode) __asm__("__real_fopen");
+std::FILE* real_fdopen(int file, const char* mode) __asm__("__real_fdopen");
 size_t real_fread(void* to, size_t size, size_t count, std::FILE* file) __asm__("__real_fread");
 size_t real_fwrite(const void* from, size_t size, size_t count,
                    std::FILE* file) __asm__("__real_fwrite");
@@ -42,6 +45,7 @@ int real_rename(const char* from, const char* to) __asm__("__real_rename");
 ssize_t real_pread(int file, void* to, size_t size, off_t offset) __asm__("__real_pread");
 
 std::FILE* wrap_fopen(const char* path, const char* mode) __asm__("__wrap_fopen");
+std::FILE* wrap_fdopen(int file, const char* mode) __asm__("__wrap_fdopen");
 size_t wrap_fread(void* to, size_t size, size_t count, std::FILE* file) __asm__("__wrap_fread");
 size_t wrap_fwrite(const void* from, size_t size, size_t count,
                    std::FILE* file) __asm__("__wrap_fwrite");
@@ -53,6 +57,10 @@ ssize_t wrap_pread(int file, void* to, size_t size, off_t offset) __asm__("__wra
 
 std::FILE* wrap_fopen(const char* path, const char* mode) {
   return file_fails() ? nullptr : real_fopen(path, mode);
+}
+
+std::FILE* wrap_fdopen(int file, const char* mode) {
+  return file_fails() ? nullptr : real_fdopen(file, mode);
 }
 
 size_t wrap_fread(void* to, size_t size, size_t count, std::FILE* file) {
@@ -83,6 +91,27 @@ int wrap_rename(const char* from, const char* to) {
 
 ssize_t wrap_pread(int file, void* to, size_t size, off_t offset) {
   return file_fails() ? -1 : real_pread(file, to, size, offset);
+}
+
+microtin_status real_finish(microtin_decoder* decoder) __asm__("__real_microtin_finish");
+microtin_answer real_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
+                               uint32_t* hint,
+                               int32_t* height) __asm__("__real_microtin_height_at");
+microtin_status wrap_finish(microtin_decoder* decoder) __asm__("__wrap_microtin_finish");
+microtin_answer wrap_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
+                               uint32_t* hint,
+                               int32_t* height) __asm__("__wrap_microtin_height_at");
+
+microtin_status wrap_finish(microtin_decoder* decoder) {
+  const microtin_status status = real_finish(decoder);
+  return active != nullptr && active->streams.fails() ? MICROTIN_MALFORMED : status;
+}
+
+microtin_answer wrap_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
+                               uint32_t* hint, int32_t* height) {
+  const microtin_answer kind = real_height_at(mesh, x, y, flags, hint, height);
+  if (active != nullptr && kind == MICROTIN_HEIGHT && active->heights.fails()) *height += 1 << 24;
+  return kind;
 }
 
 }  // namespace microtin::faults

@@ -1,4 +1,5 @@
-// Faults on demand: a request for memory, or a call of the C library's file functions, fails.
+// Faults on demand: a request for memory, a call of the C library's file functions, or the decoder,
+// fails.
 #ifndef MICROTIN_TESTS_FAULTS_INJECTED_HPP
 #define MICROTIN_TESTS_FAULTS_INJECTED_HPP
 
@@ -20,6 +21,7 @@ struct Counter {
 
 struct Counters {
   Counter memory, files;
+  Counter streams, heights;  // that the decoder refuses; that it answers wrongly
 };
 
 // Whose faults apply from now on; none if null.

@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr uint32_t kCapacity = 10923;  // as many as the device's 16-bit numbers reach
+constexpr uint32_t kCapacity = MICROTIN_MAX_VERTICES_FOR(16);  // as a device's
 
 void put_char(char c) {
   std::putchar(c);

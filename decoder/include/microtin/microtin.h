@@ -33,7 +33,8 @@
 #error "MICROTIN_INDEX_BITS must be 16 or 32"
 #endif
 
-#define MICROTIN_MAX_VERTICES (MICROTIN_INDEX_BITS == 16 ? 10923ul : 16777216ul)
+#define MICROTIN_MAX_VERTICES MICROTIN_MAX_VERTICES_FOR(MICROTIN_INDEX_BITS)
+#define MICROTIN_MAX_VERTICES_FOR(index_bits) ((index_bits) == 16 ? 10923ul : 16777216ul)
 
 /* Bytes of each workspace for up to `capacity` vertices: constant expressions, also usable in #if.
  * Both workspaces must be aligned to MICROTIN_ALIGNMENT. */

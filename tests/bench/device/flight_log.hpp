@@ -1,4 +1,5 @@
-// What the images print: a line for each number and each height, read by tests/bench/flight.cpp.
+// What the images print: a line for each number and each height, read by
+// tests/bench/grids/flight.cpp.
 #ifndef MICROTIN_TESTS_BENCH_DEVICE_FLIGHT_LOG_HPP
 #define MICROTIN_TESTS_BENCH_DEVICE_FLIGHT_LOG_HPP
 

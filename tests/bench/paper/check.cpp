@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/figures.hpp"
 
 int main(int argc, char** argv) {
@@ -15,7 +16,7 @@ int main(int argc, char** argv) {
     } else if (arguments.size() == 2 && arguments[0] == "--record") {
       microtin::bench::record_figures(arguments[1]);
     } else {
-      throw microtin::Error("usage: microtin_paper_check [--record] FIGURES");
+      throw microtin::base::Error("usage: microtin_paper_check [--record] FIGURES");
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "microtin_paper_check: %s\n", error.what());

@@ -5,9 +5,10 @@
 #include <map>
 #include <sstream>
 
-#include "encoder/error.hpp"
-#include "encoder/input_file.hpp"
-#include "encoder/output_file.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/files/input_file.hpp"
+#include "encoder/files/output_file.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/inputs.hpp"
 #include "tests/bench/paper/jump_and_walk.hpp"
 #include "tests/bench/paper/length_code.hpp"

@@ -1,6 +1,6 @@
 // The figures of the paper's systems that are the same on every machine, against recorded ones.
-#ifndef MICROTIN_BENCH_PAPER_FIGURES_HPP
-#define MICROTIN_BENCH_PAPER_FIGURES_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_FIGURES_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_FIGURES_HPP
 
 #include <string>
 

@@ -1,9 +1,10 @@
 // The order of the paper's Algorithm 1: J. Snoeyink, M. van Kreveld, "Linear-time reconstruction of
 // Delaunay triangulations with applications" (ESA 1997), as the paper changed it.
-#ifndef MICROTIN_BENCH_PAPER_INDEPENDENT_SETS_HPP
-#define MICROTIN_BENCH_PAPER_INDEPENDENT_SETS_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_INDEPENDENT_SETS_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_INDEPENDENT_SETS_HPP
 
-#include "encoder/order.hpp"
+#include "encoder/stream/order.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/walk.hpp"
 
 namespace microtin::bench {

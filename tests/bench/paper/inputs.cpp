@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "tests/point_sets.hpp"
+#include "tests/bench/layers.hpp"
+#include "tests/support/point_sets.hpp"
 
 namespace microtin::bench {
 namespace {

@@ -1,6 +1,6 @@
 // Point sets by name and size, for the paper's claims and for how costs grow.
-#ifndef MICROTIN_BENCH_PAPER_INPUTS_HPP
-#define MICROTIN_BENCH_PAPER_INPUTS_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_INPUTS_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_INPUTS_HPP
 
 #include <string>
 #include <vector>

@@ -2,8 +2,9 @@
 
 #include <cmath>
 
-#include "encoder/triangulation.hpp"
-#include "tests/point_sets.hpp"
+#include "encoder/stream/triangulation.hpp"
+#include "tests/bench/layers.hpp"
+#include "tests/support/point_sets.hpp"
 
 namespace microtin::bench {
 namespace {

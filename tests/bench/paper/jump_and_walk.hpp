@@ -1,7 +1,7 @@
 // Mücke, Saias and Zhu: "Fast randomized point location without preprocessing in two- and
 // three-dimensional Delaunay triangulations" (1996).
-#ifndef MICROTIN_BENCH_PAPER_JUMP_AND_WALK_HPP
-#define MICROTIN_BENCH_PAPER_JUMP_AND_WALK_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_JUMP_AND_WALK_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_JUMP_AND_WALK_HPP
 
 #include <vector>
 

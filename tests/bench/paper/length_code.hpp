@@ -1,7 +1,7 @@
 // The paper's variable length code (its Table 1): two tag bits, a sign and as many bits as the tag
 // says, for x and y of the step from each point to the next.
-#ifndef MICROTIN_BENCH_PAPER_LENGTH_CODE_HPP
-#define MICROTIN_BENCH_PAPER_LENGTH_CODE_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_LENGTH_CODE_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_LENGTH_CODE_HPP
 
 #include <cstdlib>
 

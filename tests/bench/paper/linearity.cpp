@@ -1,7 +1,8 @@
 #include "tests/bench/paper/linearity.hpp"
 
-#include "encoder/decoded_terrain.hpp"
-#include "encoder/encode.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/encode.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/inputs.hpp"
 #include "tests/bench/paper/systems.hpp"
 #include "tests/bench/statistics.hpp"

@@ -1,6 +1,6 @@
 // How costs grow with the number of vertices.
-#ifndef MICROTIN_BENCH_PAPER_LINEARITY_HPP
-#define MICROTIN_BENCH_PAPER_LINEARITY_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_LINEARITY_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_LINEARITY_HPP
 
 #include <cstdint>
 #include <functional>

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 
-#include "encoder/error.hpp"
+#include "encoder/base/error.hpp"
 #include "shared/insertion.hpp"
+#include "tests/bench/layers.hpp"
 #include "tests/bench/paper/walk.hpp"
 
 namespace microtin::bench {

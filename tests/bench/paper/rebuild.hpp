@@ -3,8 +3,8 @@
 //
 // In place of the paper's dummy points, the vertex at infinity is the walk's root: the hull is
 // exact. A test against a triangle at infinity counts like one against a circle.
-#ifndef MICROTIN_BENCH_PAPER_REBUILD_HPP
-#define MICROTIN_BENCH_PAPER_REBUILD_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_REBUILD_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_REBUILD_HPP
 
 #include <functional>
 #include <optional>

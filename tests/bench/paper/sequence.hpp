@@ -1,11 +1,12 @@
 // What a client receives: points in a good order, cut into batches.
-#ifndef MICROTIN_BENCH_PAPER_SEQUENCE_HPP
-#define MICROTIN_BENCH_PAPER_SEQUENCE_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_SEQUENCE_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_SEQUENCE_HPP
 
 #include <cstdint>
 #include <vector>
 
-#include "encoder/order.hpp"
+#include "encoder/stream/order.hpp"
+#include "tests/bench/layers.hpp"
 
 namespace microtin::bench {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "encoder/fingerprint.hpp"
+#include "tests/bench/paper/fingerprint.hpp"
 #include "tests/bench/paper/independent_sets.hpp"
 
 namespace microtin::bench {

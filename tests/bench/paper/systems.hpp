@@ -1,6 +1,6 @@
 // The systems of the paper, and a check of its claims at run time.
-#ifndef MICROTIN_BENCH_PAPER_SYSTEMS_HPP
-#define MICROTIN_BENCH_PAPER_SYSTEMS_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_SYSTEMS_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_SYSTEMS_HPP
 
 #include "tests/bench/paper/rebuild.hpp"
 

@@ -1,6 +1,6 @@
 // The paper's tables, measured again; each prints one, or more that belong together.
-#ifndef MICROTIN_BENCH_PAPER_TABLES_HPP
-#define MICROTIN_BENCH_PAPER_TABLES_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_TABLES_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_TABLES_HPP
 
 namespace microtin::bench {
 

@@ -1,6 +1,6 @@
 // The walk over triangles that both sides of Algorithm 1 share.
-#ifndef MICROTIN_BENCH_PAPER_WALK_HPP
-#define MICROTIN_BENCH_PAPER_WALK_HPP
+#ifndef MICROTIN_TESTS_BENCH_PAPER_WALK_HPP
+#define MICROTIN_TESTS_BENCH_PAPER_WALK_HPP
 
 #include <vector>
 

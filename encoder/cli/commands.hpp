@@ -1,0 +1,80 @@
+// The commands of the microtin program, once their options are read. All throw Error.
+#ifndef MICROTIN_ENCODER_CLI_COMMANDS_HPP
+#define MICROTIN_ENCODER_CLI_COMMANDS_HPP
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "encoder/fit/simplify.hpp"
+#include "encoder/import/prepared_terrain.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/pack/encode.hpp"
+#include "encoder/terrain/lattice_choice.hpp"
+
+namespace microtin::cli {
+
+struct EncodeRequest {
+  std::string input;
+  std::string output;
+  LatticeOptions lattice;
+  uint32_t max_vertices = 0;       // 0: as many as it takes
+  uint32_t tile_vertices = 0;      // 0: one stream; else a pack, with at most so many in a tile
+  uint32_t tile_steps = 0;         // of a pack; 0: to be chosen
+  std::optional<TileRange> tiles;  // a shard of a pack, with these
+  uint32_t max_bytes = 0;          // 0: as many as it takes; else the bound is looked for
+  Search search = Search::kNormal;
+  uint64_t device_ram = 0;  // 0: unlimited
+  Effort effort;
+  Preparation preparation;
+  uint32_t horizontal_epsg = 0;  // 0: what the input's format implies
+  uint32_t vertical_epsg = 0;
+  std::string source_text, date, lineage;
+};
+
+void run_encode(const EncodeRequest& request);
+
+// Prints, for each of so many shards, a line with the options that encode it as a single run would.
+void run_plan(const EncodeRequest& request, uint32_t shards);
+
+void run_merge(const std::vector<std::string>& shards, const std::string& output);
+
+struct DecodeRequest {
+  std::string input;
+  std::string output;
+  bool lattice = false;         // integers instead of real coordinates
+  std::optional<Decimal> cell;  // of a grid
+};
+
+void run_decode(const DecodeRequest& request);
+
+void run_embed(const std::string& input, const std::string& output);
+
+void run_info(const std::string& input, bool json);
+
+struct VerifyRequest {
+  std::string input;
+  std::string source;
+  Preparation preparation;  // as the stream was encoded
+  bool json = false;
+};
+
+// Throws Error, after the report, if the stream fails its promises.
+void run_verify(const VerifyRequest& request);
+
+void run_fractal(const std::string& output, uint32_t size, uint64_t seed);
+
+struct RenderRequest {
+  std::string input;
+  std::string output;
+  std::string source;       // draw the distance from it, too; none if empty
+  Preparation preparation;  // of the source, as the stream was encoded
+  uint32_t width = 1024;
+};
+
+void run_render(const RenderRequest& request);
+
+}  // namespace microtin::cli
+
+#endif

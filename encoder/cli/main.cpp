@@ -1,0 +1,472 @@
+// The command line: what it accepts, and how it fails.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "encoder/base/error.hpp"
+#include "encoder/base/iso_date.hpp"
+#include "encoder/base/utf8.hpp"
+#include "encoder/cli/commands.hpp"
+#include "encoder/cli/definitions.hpp"
+#include "encoder/cli/documents.hpp"
+#include "encoder/cli/report.hpp"
+#include "encoder/cli/version.hpp"
+#include "encoder/files/file_target.hpp"
+#include "encoder/files/leftovers.hpp"
+#include "encoder/files/standard_files.hpp"
+#include "encoder/pack/encode.hpp"
+#include "encoder/pack/tile_plan.hpp"
+#include "encoder/picture/render.hpp"
+#include "encoder/stream/device_ram.hpp"
+#include "shared/format.hpp"
+
+namespace microtin::cli {
+namespace {
+
+constexpr int kFailed = 1, kUsage = 2, kInternal = 3, kReportLost = 4;
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done; 1 failed, no output; 2 wrong usage; 3 a fault of microtin itself, no "
+    "output; 4 done, but nobody reads the report";
+
+constexpr const char* kTerrainFiles =
+    "Rasters: .hgt, .zip with one .hgt, .asc. Points: .xyz, .csv, .txt, .las, .ply, .obj; - reads "
+    "points"
+#ifdef MICROTIN_WITH_GDAL
+    ". Others by GDAL"
+#endif
+    ;
+
+// Other names of standard output are "-" for all that follows, unless a suffix asks for a format.
+std::string plain_output(std::string path) {
+  const bool is_plain = std::filesystem::path(path).extension().empty();
+  return is_plain && descriptor_named(path) == STDOUT_FILENO ? "-" : path;
+}
+
+void add_output(CLI::App& command, std::string& path,
+                const std::string& description = "File to write; - is standard output") {
+  command.add_option("-o,--output", path, description)
+      ->required()
+      ->type_name(kFile)
+      ->transform(plain_output);
+}
+
+void add_stream(CLI::App& command, std::string& path,
+                const std::string& description = "A stream (.mtin) or a pack (.mtp)") {
+  command.add_option("stream", path, description)->required()->type_name(kFile);
+}
+
+void add_terrain(CLI::App& command, std::string& path) {
+  command.add_option("terrain", path, kTerrainFiles)->required()->type_name(kFile);
+}
+
+void add_json(CLI::App& command, bool& json) {
+  command.add_flag("--json", json, "Print JSON");
+}
+
+CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
+                        const std::string& description) {
+  return command.add_option_function<std::string>(
+      name,
+      [&value, name](const std::string& text) {
+        value = parse_decimal(text);
+        if (!value) throw CLI::ValidationError(name, text + " is not a decimal number");
+      },
+      description);
+}
+
+CLI::Option* add_decimal(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
+                         const std::string& description) {
+  return command.add_option_function<std::string>(
+      name,
+      [&value, name](const std::string& text) {
+        value = parse_decimal(text);
+        if (!value || value->mantissa < 0) {
+          throw CLI::ValidationError(name, text + " is not a decimal number from 0 on");
+        }
+      },
+      description);
+}
+
+bool parse_number(const std::string& text, uint32_t& number) {
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && next == end;
+}
+
+bool parse_code(const std::string& text, uint32_t& code) {
+  return parse_number(text, code) && code != 0;
+}
+
+void set_epsg(const std::string& text, EncodeRequest& request) {
+  const size_t colon = text.find(':');
+  const bool horizontal = parse_code(text.substr(0, colon), request.horizontal_epsg);
+  const bool vertical =
+      colon == std::string::npos || parse_code(text.substr(colon + 1), request.vertical_epsg);
+  if (!horizontal || !vertical) {
+    throw CLI::ValidationError("--epsg", text + " is not a code, nor two with a colon between");
+  }
+}
+
+void set_tiles(const std::string& text, EncodeRequest& request) {
+  const size_t colon = text.find(':');
+  TileRange range{};
+  if (colon == std::string::npos || !parse_number(text.substr(0, colon), range.first) ||
+      !parse_number(text.substr(colon + 1), range.last) || range.last < range.first) {
+    throw CLI::ValidationError("--tiles", text + " is not FROM:TO, as 0:99");
+  }
+  request.tiles = range;
+}
+
+void add_classes(CLI::App& command, std::optional<ClassSet>& classes) {
+  command.add_option_function<std::string>(
+      "--classes",
+      [&classes](const std::string& text) {
+        ClassSet set;
+        std::string_view rest = text;
+        while (text != "all" && !rest.empty()) {
+          const size_t comma = std::min(rest.find(','), rest.size());
+          uint32_t code = 0;
+          const bool ends_well = comma + 1 != rest.size();
+          const auto [next, error] = std::from_chars(rest.data(), rest.data() + comma, code);
+          if (error != std::errc() || next != rest.data() + comma || code > 255 || !ends_well) {
+            throw CLI::ValidationError("--classes", text + " is not a list such as 2,9, nor all");
+          }
+          set.set(code);
+          rest.remove_prefix(std::min(comma + 1, rest.size()));
+        }
+        classes = text == "all" ? set.set() : set;
+      },
+      "Points to take from a .las file: their classes, 2,9 for instance, or all. If not given: the "
+      "ground (2) or, if there is none, all but noise (7, 18)");
+}
+
+void add_search(CLI::App& command, Search& search) {
+  const auto add = [&](const char* name, Search value, const char* description) {
+    return command.add_flag_callback(
+        name, [&search, value] { search = value; }, description);
+  };
+  CLI::Option* const fast =
+      add("--fast", Search::kFast, "With --max-error: search for a short time only");
+  add("--best", Search::kBest, "... or as long as it helps")->excludes(fast);
+}
+
+// Packs are neither of a number of vertices nor of bytes.
+void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
+               CLI::Option& bytes) {
+  CLI::Option* const tile =
+      command
+          .add_option("--tile-vertices", request.tile_vertices,
+                      "Write a pack of tiles with at most so many vertices each")
+          ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
+          ->excludes(&vertices)
+          ->excludes(&bytes);
+  command
+      .add_option("--tile-steps", request.tile_steps,
+                  "Extent of the pack's tiles at most, in steps between posts; chosen if not given")
+      ->check(CLI::Range(1u, uint32_t{kLatticeMax}));
+  command
+      .add_option(
+          "--device-ram", request.device_ram,
+          "Bytes that a device has for mesh and decoder, with 16-bit numbers up to 10,923 "
+          "vertices, with 32-bit numbers beyond. Alone: use the best vertices that fit; with "
+          "--max-error or --max-vertices: fail if the terrain does not fit. For a pack (.mtp): "
+          "tiles of which such a device keeps four and decodes one")
+      ->excludes(&bytes)
+      ->excludes(tile)
+      ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));
+}
+
+// For encoding, and alike for every comparison with the source.
+void add_preparation(CLI::App& command, Preparation& preparation) {
+  add_classes(command, preparation.classes);
+#ifdef MICROTIN_WITH_GDAL
+  command.add_flag_callback(
+      "--allow-vrt", [&preparation] { preparation.indirect = Indirect::kAllowed; },
+      "Read .vrt files, which name other files to be read, and names that begin with /vsi");
+#endif
+  command.add_option("--fill-voids", preparation.fill_voids,
+                     "Interpolate voids of up to so many posts");
+  CLI::Option* const level = add_height(
+      command, "--water-level", preparation.water_level,
+      "Voids that are left are water at this height, as are posts at this height (rasters)");
+  command
+      .add_option("--water-mask", preparation.water_mask,
+                  "An .asc grid of the terrain's posts: 1 where voids are water, else 0")
+      ->type_name(kFile)
+      ->needs(level);
+}
+
+// What the header tells people.
+void add_notes(CLI::App& command, EncodeRequest& request) {
+  command.add_option_function<std::string>(
+      "--epsg", [&request](const std::string& text) { set_epsg(text, request); },
+      "Codes of the coordinates: horizontal, or horizontal:vertical");
+  command.add_option("--source-text", request.source_text, "Where the terrain comes from");
+  command
+      .add_option("--date", request.date, "Of the source: 2026, 2026-11 or 2026-11-21 (ISO 8601)")
+      ->check([](const std::string& text) {
+        return is_iso_date(text) ? std::string() : text + " is not a date such as 2026-11-21";
+      });
+  command.add_option("--lineage", request.lineage, "What was done to the source before");
+}
+
+using Action = std::function<void()>;
+
+void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
+  add_terrain(command, request->input);
+  CLI::Option* const bound =
+      add_decimal(command, "--max-error", request->lattice.max_error,
+                  "Keep every height within this distance, in the terrain's unit");
+  CLI::Option* const vertices =
+      command
+          .add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
+          ->check(CLI::Range(3u, kMaxVertices))
+          ->excludes(bound);
+  CLI::Option* const bytes =
+      command
+          .add_option("--max-bytes", request->max_bytes,
+                      "Keep the smallest --max-error that a file of this size can; takes minutes")
+          ->check(CLI::PositiveNumber)
+          ->excludes(bound)
+          ->excludes(vertices);
+  add_tiles(command, *request, *vertices, *bytes);
+  command.add_flag("--never-below", request->lattice.never_below,
+                   "With a bound: no height is below the source, all are at most so far above");
+  add_search(command, request->search);
+  add_decimal(
+      command, "--z-step", request->lattice.z_step,
+      "Step of heights; with --max-error, if not given, the one that takes the fewest bytes");
+  add_decimal(command, "--xy-step", request->lattice.xy_step, "Step of places (rasters: in posts)");
+  command
+      .add_option("--degree", request->effort.degree,
+                  "Most triangles around a vertex when it is added")
+      ->check(CLI::Range(kMinDegree, kMaxDegree))
+      ->capture_default_str();
+  command
+      .add_option("--levels", request->effort.levels,
+                  "Of cells for places: 3 for the smallest stream, 1 for the quickest decoding")
+      ->check(CLI::Range(1u, kMaxLevels))
+      ->capture_default_str();
+  add_preparation(command, request->preparation);
+  add_notes(command, *request);
+}
+
+void check_encode_options(EncodeRequest& request) {
+  if (request.lattice.never_below && !request.lattice.max_error && request.max_bytes == 0) {
+    throw CLI::ValidationError("--never-below", "needs --max-error or --max-bytes");
+  }
+  request.lattice.water_level = request.preparation.water_level;
+}
+
+void add_encode(CLI::App& app, Action& action) {
+  auto request = std::make_shared<EncodeRequest>();
+  CLI::App& command = *app.add_subcommand("encode", "Turn a terrain into a stream, or a pack");
+  add_encode_options(command, request);
+  add_output(command, request->output);
+  command.add_option_function<std::string>(
+      "--tiles", [request](const std::string& text) { set_tiles(text, *request); },
+      "FROM:TO: write a shard of a pack, with these of its tiles; merge joins them");
+  command.callback([request, &action] {
+    check_encode_options(*request);
+    action = [request] { run_encode(*request); };
+  });
+}
+
+void add_plan(CLI::App& app, Action& action) {
+  struct Request : EncodeRequest {
+    uint32_t shards = 1;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand(
+      "plan", "Print, for each shard of a pack, options for encode that make it");
+  add_encode_options(command, request);
+  command.add_option("--shards", request->shards, "Number of shards")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command.callback([request, &action] {
+    check_encode_options(*request);
+    action = [request] { run_plan(*request, request->shards); };
+  });
+}
+
+void add_merge(CLI::App& app, Action& action) {
+  struct Request {
+    std::vector<std::string> shards;
+    std::string output;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand("merge", "Join the shards of a pack, in any order");
+  command.add_option("shards", request->shards, "What encode --tiles wrote, all of it")
+      ->required()
+      ->type_name(kFile);
+  add_output(command, request->output);
+  command.callback(
+      [request, &action] { action = [request] { run_merge(request->shards, request->output); }; });
+}
+
+void add_decode(CLI::App& app, Action& action) {
+  auto request = std::make_shared<DecodeRequest>();
+  CLI::App& command = *app.add_subcommand("decode", "Turn a stream into a mesh or a grid");
+  add_stream(command, request->input);
+  add_output(command, request->output,
+             "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); - is .xyz on "
+             "standard output");
+  add_decimal(command, "--cell", request->cell,
+              "Size of an .asc grid's cells, in the terrain's unit; if not given, the lattice's "
+              "step: for rasters the posts");
+  command.add_flag("--lattice", request->lattice, "Write the lattice's integers");
+  command.callback([request, &action] {
+    if (request->cell && request->cell->mantissa == 0) {
+      throw CLI::ValidationError("--cell", "must be above 0");
+    }
+    action = [request] { run_decode(*request); };
+  });
+}
+
+void add_embed(CLI::App& app, Action& action) {
+  struct Request {
+    std::string input, output;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command =
+      *app.add_subcommand("embed", "Turn a stream into a C header, to be linked into firmware");
+  add_stream(command, request->input, "A stream (.mtin)");
+  add_output(command, request->output);
+  command.footer("X.h defines the array X_stream and X_VERTICES, the capacity that it needs.");
+  command.callback(
+      [request, &action] { action = [request] { run_embed(request->input, request->output); }; });
+}
+
+void add_info(CLI::App& app, Action& action) {
+  struct Request {
+    std::string input;
+    bool json = false;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand("info", "Tell what a stream holds");
+  add_stream(command, request->input);
+  add_json(command, request->json);
+  command.callback(
+      [request, &action] { action = [request] { run_info(request->input, request->json); }; });
+}
+
+void add_verify(CLI::App& app, Action& action) {
+  auto request = std::make_shared<VerifyRequest>();
+  CLI::App& command = *app.add_subcommand("verify", "Compare a stream with its terrain");
+  add_stream(command, request->input);
+  add_terrain(command, request->source);
+  add_preparation(command, request->preparation);
+  add_json(command, request->json);
+  command.callback([request, &action] { action = [request] { run_verify(*request); }; });
+}
+
+void add_fractal(CLI::App& app, Action& action) {
+  struct Request {
+    std::string output;
+    uint32_t size = 513;
+    uint64_t seed = 1;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand("fractal", "Make a terrain (.asc)");
+  add_output(command, request->output);
+  command.add_option("--size", request->size, "Posts in a row")
+      ->check(CLI::Range(2u, 16384u))
+      ->capture_default_str();
+  command.add_option("--seed", request->seed, "Another terrain for each")->capture_default_str();
+  command.callback([request, &action] {
+    action = [request] { run_fractal(request->output, request->size, request->seed); };
+  });
+}
+
+void add_render(CLI::App& app, Action& action) {
+  auto request = std::make_shared<RenderRequest>();
+  CLI::App& command = *app.add_subcommand("render", "Draw a stream (.png)");
+  add_stream(command, request->input);
+  add_output(command, request->output);
+  command.add_option("--width", request->width, "Pixels in a row")
+      ->check(CLI::Range(kNarrowest, kWidest))
+      ->capture_default_str();
+  command.add_option("--source", request->source, "Draw a map of the errors against this terrain")
+      ->type_name(kFile);
+  add_preparation(command, request->preparation);
+  command.callback([request, &action] { action = [request] { run_render(*request); }; });
+}
+
+// Prints one line, whatever the text, without asking for memory: there may be none.
+int fail(const char* text, int code) {
+  std::fputs(code == kInternal ? "microtin: internal fault, please report it: " : "microtin: ",
+             stderr);
+  for (std::string_view rest = text; !rest.empty();) {
+    const size_t size = character_bytes(rest);
+    const std::string_view character = rest.substr(0, std::max<size_t>(size, 1));
+    const bool shown = size != 0 && !is_control(character);
+    for (const char byte : character) {
+      std::fprintf(stderr, shown ? "%c" : "\\x%02x", static_cast<unsigned char>(byte));
+    }
+    rest.remove_prefix(character.size());
+  }
+  std::fputc('\n', stderr);
+  return code;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Terrain TINs for microcontrollers");
+  Action action;
+  app.set_version_flag("--version", versions(), "Print the versions of library and formats");
+  app.require_subcommand(1);
+  app.footer(kExitCodes);
+  add_encode(app, action);
+  add_plan(app, action);
+  add_merge(app, action);
+  add_decode(app, action);
+  add_embed(app, action);
+  add_info(app, action);
+  add_verify(app, action);
+  add_fractal(app, action);
+  add_render(app, action);
+  add_documents(app, action);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) return fail(error.what(), kUsage);
+    std::ostringstream help;  // was asked for
+    app.exit(error, help);
+    print(help.str());
+    return 0;
+  }
+  action();
+  return 0;
+}
+
+}  // namespace
+}  // namespace microtin::cli
+
+int main(int argc, char** argv) {
+  namespace cli = microtin::cli;
+  if (!cli::hold_closed_standard_files()) return cli::kFailed;
+  for (const int ignored : {SIGXFSZ, SIGPIPE}) std::signal(ignored, SIG_IGN);  // errors like others
+  cli::remove_leftovers_on_signals();
+  try {
+    return cli::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return cli::fail("not enough memory", cli::kFailed);
+  } catch (const cli::ReportLost& lost) {
+    return cli::fail(lost.what(), cli::kReportLost);
+  } catch (const std::logic_error& fault) {  // our own, and those that the library finds
+    return cli::fail(fault.what(), cli::kInternal);
+  } catch (const std::exception& error) {
+    return cli::fail(error.what(), cli::kFailed);
+  }
+}

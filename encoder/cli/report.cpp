@@ -1,0 +1,68 @@
+// Reports as JSON or lines, on the terminal only if the output is safe.
+#include "encoder/cli/report.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+#include "encoder/base/error_context.hpp"
+#include "encoder/files/input_file.hpp"
+
+namespace microtin::cli {
+
+std::vector<uint8_t> read_stream(const std::string& path) {
+  const std::string bytes = read_file(path);
+  return {bytes.begin(), bytes.end()};
+}
+
+std::optional<PackFile> open_pack(const std::string& path) {
+  std::unique_ptr<ByteSource> bytes;
+  if (is_regular_file(path)) bytes = open_file(path);
+  if (!bytes || !is_pack(*bytes)) return std::nullopt;
+  return with_file_context(path, [&] { return PackFile(std::move(bytes)); });
+}
+
+std::string number(Decimal value) {
+  return json(std::stod(to_string(value)));
+}
+
+double bits_per_vertex(size_t bytes, uint32_t vertices) {
+  return 8.0 * static_cast<double>(bytes) / vertices;
+}
+
+void deliver(OutputFile& out, const std::string& path, const std::string& text) {
+  if (out.is_standard_output()) {
+    out.commit();
+    if (std::fputs(text.c_str(), stderr) < 0) throw ReportLost("the report cannot be printed");
+    return;
+  }
+  const bool told = tell(text);  // before the file is there: a failure leaves none
+  out.commit();
+  if (!told) throw ReportLost(path + ": is complete, but nobody reads the report");
+}
+
+bool tell(const std::string& text) {
+  try {
+    OutputFile terminal("-");
+    terminal.write(text);
+    terminal.commit();
+    return true;
+  } catch (const NobodyReads&) {
+    return false;
+  }
+}
+
+void print(const std::string& text) {
+  if (!tell(text)) throw ReportLost("nobody reads the report");
+}
+
+std::string text_of(const JsonObject& report, bool as_json) {
+  std::string text;
+  for (const auto& [name, value] : report) {
+    if (as_json) text += (text.empty() ? "{\n  " : ",\n  ") + json(name) + ": " + value;
+    if (!as_json) text += name + ": " + value + '\n';
+  }
+  return as_json ? text + "\n}\n" : text;
+}
+
+}  // namespace microtin::cli

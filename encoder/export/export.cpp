@@ -1,0 +1,76 @@
+// Writes XYZ, OBJ and PLY line by line.
+#include "encoder/export/export.hpp"
+
+#include <filesystem>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/coordinates.hpp"
+#include "encoder/export/glb.hpp"
+
+namespace microtin::exporting {
+namespace {
+
+void write_vertices(const SurfaceModel& model, Coordinates coordinates, const std::string& prefix,
+                    OutputFile& out) {
+  const Placement placement = coordinates == Coordinates::kReal ? model.placement : Placement();
+  const CoordinateText x_text(placement.x), y_text(placement.y), z_text(placement.z);
+  for (const auto& [x, y, z] : model.vertices) {
+    out.write(prefix + x_text(x) + ' ' + y_text(y) + ' ' + z_text(z) + '\n');
+  }
+}
+
+// One line for each triangle; the first vertex has number `first`.
+void write_triangles(const SurfaceModel& model, const std::string& prefix, uint32_t first,
+                     OutputFile& out) {
+  for (const auto& corners : model.triangles) {
+    std::string line = prefix;
+    for (const uint32_t corner : corners) line += ' ' + std::to_string(corner + first);
+    out.write(line + '\n');
+  }
+}
+
+void write_ply_header(const SurfaceModel& model, OutputFile& out) {
+  out.write("ply\nformat ascii 1.0\nelement vertex " + std::to_string(model.vertices.size()) +
+            "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+            std::to_string(model.triangles.size()) +
+            "\nproperty list uchar int vertex_indices\nend_header\n");
+}
+
+}  // namespace
+
+MeshFormat mesh_format_of(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension().string();
+  if (path == "-" || suffix == ".xyz") return MeshFormat::kXyz;
+  if (suffix == ".obj") return MeshFormat::kObj;
+  if (suffix == ".ply") return MeshFormat::kPly;
+  if (suffix == ".glb") return MeshFormat::kGlb;
+  throw Error(path + ": not a kind of file that is written (.xyz, .obj, .ply, .glb, .asc)");
+}
+
+void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coordinates,
+                  OutputFile& out) {
+  switch (format) {
+    case MeshFormat::kXyz:
+      write_vertices(model, coordinates, "", out);
+      break;
+    case MeshFormat::kObj:
+      write_vertices(model, coordinates, "v ", out);
+      write_triangles(model, "f", 1, out);
+      break;
+    case MeshFormat::kPly:
+      write_ply_header(model, out);
+      write_vertices(model, coordinates, "", out);
+      write_triangles(model, "3", 0, out);
+      break;
+    case MeshFormat::kGlb:
+      export_glb(model, coordinates, out);
+      break;
+  }
+}
+
+void export_mesh(const microtin_mesh* mesh, MeshFormat format, Coordinates coordinates,
+                 OutputFile& out) {
+  export_model(model_of(mesh), format, coordinates, out);
+}
+
+}  // namespace microtin::exporting

@@ -1,0 +1,34 @@
+// Writing decoded terrains in formats that other programs read.
+#ifndef MICROTIN_ENCODER_EXPORT_EXPORT_HPP
+#define MICROTIN_ENCODER_EXPORT_EXPORT_HPP
+
+#include <string>
+
+#include "encoder/files/output_file.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/stream/surface_model.hpp"
+#include "microtin/microtin.h"
+
+namespace microtin::exporting {
+
+enum class MeshFormat {
+  kXyz,  // a line "x y z" for each vertex, no triangles
+  kObj,  // Wavefront
+  kPly,  // ASCII PLY
+  kGlb   // glTF binary
+};
+
+// By the suffix of `path`; "-" is kXyz. Throws Error for other suffixes.
+MeshFormat mesh_format_of(const std::string& path);
+
+enum class Coordinates { kReal, kLattice };
+
+void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coordinates,
+                  OutputFile& out);
+
+void export_mesh(const microtin_mesh* mesh, MeshFormat format, Coordinates coordinates,
+                 OutputFile& out);
+
+}  // namespace microtin::exporting
+
+#endif

@@ -1,0 +1,103 @@
+// Writes beside the target and takes its place at the end.
+#include "encoder/files/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "encoder/files/file_target.hpp"
+#include "encoder/files/standard_files.hpp"
+
+namespace microtin::files {
+namespace {
+
+constexpr mode_t kPrivate = 0600, kUsual = 0666, kAllBits = 07777;
+
+// Owner, if we may, and mode. What is private was so from the first byte on.
+bool take_after(int file, const struct stat& old) {
+  if (fchown(file, old.st_uid, old.st_gid) != 0 && errno != EPERM) return false;
+  return fchmod(file, old.st_mode & kAllBits) == 0;
+}
+
+}  // namespace
+
+std::FILE* stream_of(int file, const char* mode) {
+  std::FILE* const stream = file < 0 ? nullptr : fdopen(file, mode);
+  if (stream == nullptr && file >= 0) {
+    const int error = errno;
+    close(file);
+    errno = error;
+  }
+  return stream;
+}
+
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+  if (const std::optional<std::string> target = replaced_by(path)) {
+    target_ = *target;
+    open_temporary();
+    return;
+  }
+  const std::optional<int> descriptor = descriptor_named(path);
+  if (descriptor == STDOUT_FILENO) {
+    file_ = stdout;
+  } else if (descriptor) {
+    file_ = stream_of(fcntl(*descriptor, F_DUPFD_CLOEXEC, 0), "wb");
+  } else {
+    file_ = stream_of(open(path.c_str(), O_WRONLY | O_CLOEXEC), "wb");
+  }
+  if (file_ == nullptr) fail();
+}
+
+void OutputFile::open_temporary() {
+  const std::string name = target_ + ".part-" + std::to_string(getpid());
+  struct stat old {};
+  const bool replaces = stat(target_.c_str(), &old) == 0;
+  const SignalsHeld held;
+  const int file =
+      open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, replaces ? kPrivate : kUsual);
+  if (file < 0) fail();
+  file_ = stream_of(file, "wb");
+  if (file_ == nullptr || (replaces && !take_after(file, old))) {
+    const int error = errno;
+    if (file_ != nullptr) std::fclose(file_);
+    std::remove(name.c_str());
+    errno = error;
+    fail();
+  }
+  temporary_ = name;
+  leftover_.emplace(temporary_);
+}
+
+OutputFile::~OutputFile() {
+  if (file_ != nullptr && file_ != stdout) std::fclose(file_);
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (bytes.empty()) return;  // there may be no data to point at
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail();
+}
+
+void OutputFile::commit() {
+  if (std::fflush(file_) != 0) fail();
+  if (file_ == stdout) return;
+  std::FILE* file = file_;
+  file_ = nullptr;
+  if (std::fclose(file) != 0) fail();
+  if (temporary_.empty()) return;
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
+  leftover_.reset();
+  temporary_.clear();
+}
+
+void OutputFile::fail() const {
+  const int error = errno;
+  const std::string text = path_ + ": cannot be written: " + std::generic_category().message(error);
+  if (file_ == stdout && nobody_reads(error)) throw NobodyReads(text);
+  throw Error(text);
+}
+
+}  // namespace microtin::files

@@ -1,0 +1,91 @@
+// Tries steps of height and keeps the one whose stream is smallest.
+#include "encoder/fit/approximation.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "encoder/base/error.hpp"
+#include "encoder/stream/encode.hpp"
+
+namespace microtin::fit {
+namespace {
+
+// The z steps to be tried, in tenths of the bound: smaller ones cost more in heights than they save
+// in vertices.
+std::vector<int> tenths_to_try(Search search) {
+  switch (search) {
+    case Search::kBest:
+      return {10, 8, 6, 5, 4, 3};
+    case Search::kNormal:
+      return {8, 4};
+    default:
+      return {4};
+  }
+}
+
+constexpr int kOwnSteps = 4;
+
+Decimal half(Decimal value) {
+  return make_decimal(Wide{value.mantissa} * 5, value.decimals + 1);
+}
+
+// Lays the source out with every step that fits it.
+std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattice, Search search) {
+  // A one-sided bound leaves half the room.
+  const Decimal bound = lattice.never_below ? half(*lattice.max_error) : *lattice.max_error;
+  std::vector<Laid> all;
+  for (const int tenths : tenths_to_try(search)) {
+    if (bound.decimals >= kMaxDecimals) break;
+    lattice.z_step = make_decimal(Wide{bound.mantissa} * tenths, bound.decimals + 1);
+    try {
+      all.push_back(lay_out(source, lattice));
+    } catch (const Error&) {  // too many steps, or none where points share a place
+    }
+  }
+  // The source's own step is good if it is not much smaller than the bound.
+  lattice.z_step.reset();
+  Laid own = lay_out(source, lattice);
+  const Decimal steps = make_decimal(Wide{own.z_step.mantissa} * kOwnSteps, own.z_step.decimals);
+  if (search == Search::kFast && bound <= steps) all.clear();
+  if (all.empty() || bound <= steps) all.push_back(std::move(own));
+  return all;
+}
+
+}  // namespace
+
+Approximation approximate(const Source& source, const LatticeOptions& lattice,
+                          const SimplifyOptions& options) {
+  std::vector<Laid> all;
+  if (options.bounded && !lattice.z_step) {
+    all = lay_out_with_steps(source, lattice, options.search);
+  } else {
+    all.push_back(lay_out(source, lattice));
+  }
+  const auto bytes_of = [&](const Tin& tin) { return encode(tin, {}, options.effort).size(); };
+  SimplifyOptions trial = options;
+  trial.search = options.search == Search::kBest ? Search::kNormal : Search::kFast;
+  // A trial takes a third of the time of the search that follows.
+  const double trials = all.size() > 1 ? static_cast<double>(all.size()) : 0, total = trials + 3;
+  std::optional<Approximation> best;
+  std::size_t fewest = 0;
+  for (std::size_t i = 0; i < all.size() && all.size() > 1; ++i) {
+    const auto before = static_cast<double>(i);
+    trial.progress = options.progress.part(before / total, (before + 1) / total);
+    Tin tin = simplify(all[i].survey, trial);
+    const std::size_t bytes = bytes_of(tin);
+    if (best && bytes >= fewest) continue;
+    fewest = bytes;
+    best = Approximation{std::move(all[i]), std::move(tin)};
+  }
+  SimplifyOptions last = options;
+  last.progress = options.progress.part(trials / total, 1);
+  const Survey& survey = best ? best->laid.survey : all[0].survey;
+  Tin tin = simplify(survey, last);
+  if (!best) return {std::move(all[0]), std::move(tin)};
+  if (bytes_of(tin) < fewest) best->tin = std::move(tin);
+  return std::move(*best);
+}
+
+}  // namespace microtin::fit

@@ -1,0 +1,53 @@
+// How far a surface may be from a sample, and how far off it is.
+#ifndef MICROTIN_ENCODER_FIT_ERROR_MODEL_HPP
+#define MICROTIN_ENCODER_FIT_ERROR_MODEL_HPP
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "encoder/layers.hpp"
+#include "encoder/terrain/survey.hpp"
+
+namespace microtin::fit {
+
+// Heights have 16 fractional bits, as in Survey.
+struct ErrorModel {
+  bool bounded;  // the surface must lie in a sample's lowest .. highest; otherwise at its height
+
+  // The distance of a surface's height from what the sample allows.
+  uint64_t violation(const Sample& sample, int32_t surface) const {
+    const int64_t lowest = bounded ? sample.lowest : sample.height;
+    const int64_t highest = bounded ? sample.highest : sample.height;
+    return static_cast<uint64_t>(std::max({lowest - surface, surface - highest, int64_t{0}}));
+  }
+
+  // The middle of what the sample allows and the distance of its ends from there, in steps.
+  std::pair<double, double> middle_and_radius(const Sample& sample) const {
+    const double lowest = bounded ? sample.lowest : sample.height;
+    const double highest = bounded ? sample.highest : sample.height;
+    return {(highest + lowest) / 131072, (highest - lowest) / 131072};
+  }
+
+  // The whole step nearest to the sample's height (halves up) that is allowed there.
+  int16_t vertex_height(const Sample& sample) const {
+    int64_t lowest = std::numeric_limits<int16_t>::min();
+    int64_t highest = std::numeric_limits<int16_t>::max();
+    if (bounded) {
+      lowest = std::max(lowest, floor_steps(sample.lowest + int64_t{65535}));
+      highest = std::min(highest, floor_steps(sample.highest));
+    }
+    return static_cast<int16_t>(
+        std::min(std::max(floor_steps(sample.height + int64_t{32768}), lowest), highest));
+  }
+
+ private:
+  static int64_t floor_steps(int64_t height) {
+    return (height >= 0 ? height : height - 65535) / 65536;
+  }
+};
+
+}  // namespace microtin::fit
+
+#endif

@@ -1,0 +1,49 @@
+// Heights that cost few bits, within their bounds.
+#ifndef MICROTIN_ENCODER_FIT_HEIGHT_CHOICE_HPP
+#define MICROTIN_ENCODER_FIT_HEIGHT_CHOICE_HPP
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "encoder/fit/surface.hpp"
+#include "encoder/layers.hpp"
+#include "shared/height_coding.hpp"
+
+namespace microtin::fit {
+
+// Knows in which order the vertices of a surface are sent and which neighbours predict each.
+class HeightChoice {
+ public:
+  // The surface keeps its bounds and must outlive this; only its heights may change meanwhile.
+  // degree: as for breadth_first_order.
+  HeightChoice(Surface& surface, uint32_t degree);
+
+  // Gives each vertex in turn the allowed height that makes it and those that it predicts cheapest;
+  // of equal ones that with the smallest squared errors.
+  void pass();
+
+ private:
+  // Numbers of vertices here are places in the order of sending.
+  void find_rings(uint32_t degree);
+  void find_dependents();
+  HeightPrediction predict(Index i) const;
+  void learn_costs();
+  float cost(Index i) const;
+  float cost_at(Index i, int32_t height);
+  void choose(Index i);
+
+  Surface& surface_;
+  std::vector<Index> vertex_;  // of the surface
+  std::vector<uint16_t> x_, y_;
+  std::vector<int16_t> z_;
+  std::vector<Residual> residual_;
+  Mesh mesh_{};  // the places and heights, without triangles
+  std::vector<uint32_t> ring_start_, dependent_start_;
+  std::vector<Index> rings_, dependents_;
+  std::array<std::array<float, kMagnitudeBits + 1>, kScales> bits_{};
+};
+
+}  // namespace microtin::fit
+
+#endif

@@ -1,0 +1,81 @@
+// Heights of a few vertices that bring all posts around them within their bounds.
+#ifndef MICROTIN_ENCODER_FIT_HEIGHT_FIT_HPP
+#define MICROTIN_ENCODER_FIT_HEIGHT_FIT_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "encoder/fit/surface.hpp"
+#include "encoder/layers.hpp"
+
+namespace microtin::fit {
+
+// A descent: one step of one height after the other, each that which lowers the sum of squared
+// excesses over the bounds most. It works with rounded numbers, so what it finds is to be checked.
+class HeightFit {
+ public:
+  // The surface must outlive this.
+  explicit HeightFit(const Surface& surface);
+
+  // Looks for heights of these vertices, all else as it is. Says whether all posts around them are
+  // within their bounds then. The surface stays as it is.
+  bool fit(const std::vector<Index>& vertices);
+
+  // What the last call found: the change of a height, by place in `vertices`, ...
+  int32_t shift(std::size_t vertex) const { return movers_[vertex].shift; }
+
+  // ... the covered triangles around, and the worst sample of the triangle that is worst there, or
+  // second worst, ...; any sample if all are within their bounds.
+  const std::vector<Index>& triangles() const { return triangles_; }
+  uint32_t worst_sample(std::size_t rank) const;
+
+ private:
+  struct Face {
+    std::size_t begin, end;         // its posts, a multiple of the lanes
+    std::array<uint32_t, 3> mover;  // of each corner
+    float excess;
+    float shifted[3][2];  // the excess if a corner moved by a stride down or up
+  };
+  struct Mover {
+    int32_t shift;
+    std::vector<std::pair<uint32_t, uint32_t>> corners;  // face, number of the corner
+  };
+  struct Step {
+    std::size_t mover;
+    int32_t shift;
+  };
+
+  void collect(const std::vector<Index>& vertices);
+  void add_face(Index triangle);
+  void add_posts(const std::array<Vertex, 3>& corner);
+  void reserve(std::size_t posts);
+  float excess_of(const Face& face, const float* weight, float shift) const;
+  void evaluate(Face& face) const;
+  double excess() const;
+  Step best_step() const;
+  void take(Step step);
+
+  const Surface& surface_;
+  std::vector<uint32_t> mover_;  // by vertex of the surface
+  std::vector<uint32_t> met_;    // by triangle of the surface: the last call that met it
+  uint32_t call_ = 0;
+  int32_t stride_ = 1;
+
+  std::vector<Index> triangles_;
+  std::vector<Face> faces_;  // of these
+  std::vector<Mover> movers_;
+  std::size_t mover_count_ = 0;
+
+  // By post of a face: its sample, how far the surface is above the middle of the bounds, how far
+  // the bounds are from there, and what a step of each corner adds.
+  std::vector<uint32_t> sample_;
+  std::vector<float> error_, radius_, weight_[3];
+  std::size_t posts_ = 0;
+};
+
+}  // namespace microtin::fit
+
+#endif

@@ -1,0 +1,29 @@
+// Sorts posts into square cells of about one post each: counting sort.
+#include "encoder/fit/post_index.hpp"
+
+#include <algorithm>
+
+namespace microtin::fit {
+
+PostIndex::PostIndex(const std::vector<Point>& places) {
+  uint32_t width = 1, height = 1;
+  for (const Point p : places) {
+    width = std::max(width, p.x + 1u);
+    height = std::max(height, p.y + 1u);
+  }
+  const auto cells = [&] {
+    return std::size_t{(width + cell_ - 1) / cell_} * ((height + cell_ - 1) / cell_);
+  };
+  while (cells() > 2 * places.size() + 64) ++cell_;
+  columns_ = (width + cell_ - 1) / cell_;
+  rows_ = (height + cell_ - 1) / cell_;
+  first_.resize(cells() + 1);
+  const auto cell_of = [&](Point p) { return std::size_t{p.x / cell_} * rows_ + p.y / cell_; };
+  for (const Point p : places) ++first_[cell_of(p) + 1];
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  std::vector<uint32_t> next(first_);
+  posts_.resize(places.size());
+  for (uint32_t i = 0; i < places.size(); ++i) posts_[next[cell_of(places[i])]++] = {places[i], i};
+}
+
+}  // namespace microtin::fit

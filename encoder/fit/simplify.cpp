@@ -1,0 +1,126 @@
+// Refinement, then decimation, then cheaper heights, as long as asked for.
+#include "encoder/fit/simplify.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include "encoder/fit/decimation.hpp"
+#include "encoder/fit/error_model.hpp"
+#include "encoder/fit/height_choice.hpp"
+#include "encoder/fit/refinement.hpp"
+#include "shared/predicates.hpp"
+
+namespace microtin::fit {
+namespace {
+
+std::vector<Point> places_of(const std::vector<Sample>& samples) {
+  std::vector<Point> places;
+  places.reserve(samples.size());
+  for (const Sample& s : samples) places.push_back(s.place);
+  return places;
+}
+
+std::vector<uint32_t> all_of(const std::vector<Sample>& samples) {
+  std::vector<uint32_t> all(samples.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
+}
+
+// Appends sample s to a chain that turns to the left, without those that lie behind then.
+void extend_chain(const std::vector<Sample>& samples, std::size_t start, uint32_t s,
+                  std::vector<uint32_t>& chain) {
+  while (chain.size() >= start + 2 &&
+         orient2d(samples[chain[chain.size() - 2]].place, samples[chain.back()].place,
+                  samples[s].place) <= 0) {
+    chain.pop_back();
+  }
+  chain.push_back(s);
+}
+
+// The corners of the hull of samples in lexicographic order (Andrew's monotone chain).
+std::vector<uint32_t> hull_corners(const std::vector<Sample>& samples) {
+  if (samples.empty()) return {};
+  const uint32_t n = static_cast<uint32_t>(samples.size());
+  std::vector<uint32_t> chain;
+  for (uint32_t s = 0; s < n; ++s) extend_chain(samples, 0, s, chain);
+  const std::size_t upper = chain.size() - 1;
+  for (uint32_t s = n - 1; s-- > 0;) extend_chain(samples, upper, s, chain);
+  chain.pop_back();
+  return chain;
+}
+
+// The same and all samples that must become vertices.
+std::vector<uint32_t> first_vertices(const Survey& survey) {
+  std::vector<uint32_t> first = hull_corners(survey.samples);
+  if (survey.fixed.empty()) return first;
+  const auto before = [](const Sample& sample, Point p) { return sample.place < p; };
+  auto at = survey.samples.begin();
+  for (const Point p : survey.fixed) {
+    at = std::lower_bound(at, survey.samples.end(), p, before);
+    first.push_back(static_cast<uint32_t>(at - survey.samples.begin()));
+  }
+  std::sort(first.begin(), first.end());
+  first.erase(std::unique(first.begin(), first.end()), first.end());
+  return first;
+}
+
+// Rounds of a search: how many at most, the part of the vertices that a round must save for the
+// next one to follow, and how often all vertices are tried again nevertheless.
+struct Patience {
+  uint32_t rounds;
+  double part;
+  uint32_t retries;
+};
+
+Patience patience(Search search) {
+  if (search == Search::kBest) return {200, 0.001, 12};
+  return search == Search::kNormal ? Patience{30, 0.002, 2} : Patience{1, 0, 0};
+}
+
+constexpr int kHeightPasses = 3;
+
+// Of the time: the first attempt to remove all, then each round's part of what is left.
+constexpr double kRemovalPart = 0.2, kRoundPart = 0.3;
+
+Tin improve(const Survey& survey, const PostIndex& posts, const Tin& tin,
+            const SimplifyOptions& options) {
+  Surface surface(survey, ErrorModel{true}, posts, tin);
+  Decimation decimation(surface);
+  decimation.remove_vertices(options.progress.part(0, kRemovalPart));
+  double done = kRemovalPart;
+  uint32_t retries = 0;
+  const Patience limit = patience(options.search);
+  for (uint32_t round = 0; round < limit.rounds; ++round) {
+    // Less and less is left to be tried.
+    const Progress progress = options.progress.part(done, done + (1 - done) * kRoundPart);
+    const auto saved = static_cast<double>(decimation.remove_and_move_vertices(progress));
+    done += (1 - done) * kRoundPart;
+    if (saved > limit.part * surface.vertices()) continue;
+    if (retries++ == limit.retries) break;
+    decimation.forget();
+  }
+  HeightChoice heights(surface, options.effort.degree);
+  for (int i = 0; i < kHeightPasses; ++i) heights.pass();
+  Tin improved = surface.tin();
+  const auto bytes = [&](const Tin& t) { return encode(t, {}, options.effort).size(); };
+  return bytes(improved) <= bytes(tin) ? improved : tin;
+}
+
+}  // namespace
+
+Tin simplify(const Survey& survey, const SimplifyOptions& options) {
+  const bool keep_all = !options.bounded && options.max_vertices == 0;
+  const PostIndex posts(places_of(survey.samples));
+  Refinement refinement(survey, ErrorModel{options.bounded}, posts,
+                        keep_all ? all_of(survey.samples) : first_vertices(survey));
+  refinement.refine(options.max_vertices != 0 ? options.max_vertices
+                                              : std::numeric_limits<std::size_t>::max());
+  const bool search =
+      options.bounded && options.max_vertices == 0 && options.search != Search::kGreedy;
+  return search ? improve(survey, posts, refinement.tin(), options) : refinement.tin();
+}
+
+}  // namespace microtin::fit

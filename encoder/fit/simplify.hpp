@@ -1,0 +1,43 @@
+// The choice of the vertices that represent a survey.
+#ifndef MICROTIN_ENCODER_FIT_SIMPLIFY_HPP
+#define MICROTIN_ENCODER_FIT_SIMPLIFY_HPP
+
+#include <cstdint>
+
+#include "encoder/base/progress.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/terrain/survey.hpp"
+
+namespace microtin::fit {
+
+// How long to look for fewer vertices within a bound.
+enum class Search : uint8_t {
+  kGreedy,  // insertion only
+  kFast,    // some 5 % more bytes than normal
+  kNormal,
+  kBest  // until nothing more is found
+};
+
+struct SimplifyOptions {
+  bool bounded = false;       // the surface must lie in lowest .. highest at every sample
+  uint32_t max_vertices = 0;  // if not 0: no more than that, except where hull and voids need them
+  Search search = Search::kNormal;
+  Effort effort;      // with which the result will be encoded
+  Progress progress;  // of the search
+};
+
+// Without options every sample becomes a vertex. With one of them, as few as greedy insertion of
+// the worst sample finds: until the bound holds or, if none is asked for, until the error is 0 or
+// max_vertices is reached. If a bound alone is asked for, vertices are then removed and moved and
+// their heights chosen, off the source if need be, so that they are as few and as cheap to code as
+// `search` has time to find.
+//
+// The samples that the survey has as fixed are vertices in any case. Every sample is a vertex, lies
+// in a triangle that is not void, or on an edge of one; every void post within the hull lies in a
+// void triangle and on no edge of another. Throws Error if the samples form no triangle.
+Tin simplify(const Survey& survey, const SimplifyOptions& options);
+
+}  // namespace microtin::fit
+
+#endif

@@ -1,0 +1,167 @@
+// Heights on a triangulation: which posts lie where, and whether they keep their bounds.
+#include "encoder/fit/surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+
+#include "shared/interpolation.hpp"
+
+namespace microtin::fit {
+namespace {
+
+std::vector<Point> places_of(const std::vector<Vertex>& vertices) {
+  std::vector<Point> places;
+  places.reserve(vertices.size());
+  for (const Vertex& v : vertices) places.push_back({v.x, v.y});
+  return places;
+}
+
+}  // namespace
+
+Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts, const Tin& tin)
+    : survey_(survey),
+      model_(model),
+      posts_(posts),
+      triangulation_(places_of(tin.vertices)),
+      vertices_(static_cast<Index>(tin.vertices.size())),
+      fixed_(tin.vertices.size()),
+      void_(triangulation_.mesh().triangles),
+      voids_(tin.voids) {
+  heights_.reserve(tin.vertices.size());
+  for (const Vertex& v : tin.vertices) heights_.push_back(v.z);
+  targets_.reserve(survey.samples.size());
+  for (const Sample& s : survey.samples) {
+    const auto [middle, radius] = model_.middle_and_radius(s);
+    targets_.push_back({middle, static_cast<float>(radius)});
+    while (4 * widest_stride_ < radius && widest_stride_ < 4096) widest_stride_ *= 2;
+  }
+  find_voids();
+  find_corners();
+  find_fixed_samples();
+}
+
+void Surface::find_voids() {
+  std::set<std::tuple<Point, Point, Point>> voids;
+  for (const Tin::Triangle& t : voids_) voids.emplace(t.a, t.b, t.c);
+  if (voids.empty()) return;
+  for (Index t = 0; t < mesh().triangles; ++t) {
+    if (!is_covered(t)) continue;
+    const Index* const corner = mesh().origin + first_edge(t);
+    Point p[3] = {place(corner[0]), place(corner[1]), place(corner[2])};
+    std::rotate(p, std::min_element(p, p + 3), p + 3);
+    if (voids.count({p[0], p[1], p[2]}) == 0) continue;
+    void_[t] = true;
+    for (Index i = 0; i < 3; ++i) fixed_[corner[i]] = true;
+  }
+}
+
+void Surface::find_corners() {
+  visit_around(kInfinity, [&](Index h) {
+    const Index next = mesh().twin[previous_in_triangle(h)];
+    const Index after = mesh().twin[previous_in_triangle(next)];
+    const Index a = mesh().origin[next_in_triangle(h)], b = mesh().origin[next_in_triangle(next)],
+                c = mesh().origin[next_in_triangle(after)];
+    if (orient2d(place(a), place(b), place(c)) != 0) fixed_[b] = true;
+  });
+}
+
+void Surface::find_fixed_samples() {
+  const std::vector<Point>& fixed = survey_.fixed;
+  for (Index v = 0; v < vertex_limit(); ++v) {
+    if (std::binary_search(fixed.begin(), fixed.end(), place(v))) fixed_[v] = true;
+  }
+}
+
+bool Surface::is_covered(Index triangle) const {
+  const Index* const corner = mesh().origin + first_edge(triangle);
+  return !void_[triangle] && !is_ghost(corner[0], corner[1], corner[2]);
+}
+
+bool Surface::keeps_bounds(Index triangle) const {
+  const Index* const corner = mesh().origin + first_edge(triangle);
+  const Vertex a = vertex(corner[0]), b = vertex(corner[1]), c = vertex(corner[2]);
+  bool keeps = true;
+  posts_.visit_under(place(corner[0]), place(corner[1]), place(corner[2]),
+                     [&](uint32_t s, Point p) {
+                       const int32_t surface = height_in_triangle(a, b, c, fine(p));
+                       keeps = keeps && model_.violation(survey_.samples[s], surface) == 0;
+                     });
+  return keeps;
+}
+
+bool Surface::keeps_bounds_around(Index v) const {
+  bool keeps = true;
+  visit_around(v, [&](Index h) {
+    const Index t = triangle_of(h);
+    keeps = keeps && (!is_covered(t) || keeps_bounds(t));
+  });
+  return keeps;
+}
+
+Surface::Interval Surface::allowed_heights(Index v) const {
+  double low = std::numeric_limits<int16_t>::min(), high = std::numeric_limits<int16_t>::max();
+  double weights = 0, heights = 0;  // squared, and times what would be exact
+  bool covered = false;
+  visit_around(v, [&](Index h) {
+    if (!is_covered(triangle_of(h))) return;
+    covered = true;
+    const Vertex b = vertex(mesh().origin[next_in_triangle(h)]),
+                 c = vertex(mesh().origin[previous_in_triangle(h)]);
+    const Point pa = place(v), pb{b.x, b.y}, pc{c.x, c.y};
+    const double area = static_cast<double>(orient2d(pa, pb, pc));
+    posts_.visit_under(pa, pb, pc, [&](uint32_t s, Point p) {
+      const double weight = static_cast<double>(orient2d(pb, pc, p)) / area;
+      if (weight == 0) return;
+      const double weight_b = static_cast<double>(orient2d(pc, pa, p)) / area;
+      const double others = weight_b * b.z + (1 - weight - weight_b) * c.z;
+      const auto [middle, radius] = model_.middle_and_radius(survey_.samples[s]);
+      low = std::max(low, (middle - radius - others) / weight);
+      high = std::min(high, (middle + radius - others) / weight);
+      weights += weight * weight;
+      heights += weight * (survey_.samples[s].height / 65536.0 - others);
+    });
+  });
+  if (!covered) return {heights_[v], heights_[v], 0};  // nothing around says what is allowed
+  constexpr double kSlack = 1e-4, kBeyond = 65536;
+  return {static_cast<int32_t>(std::ceil(std::min(low, kBeyond) - kSlack)),
+          static_cast<int32_t>(std::floor(std::max(high, -kBeyond) + kSlack)),
+          weights != 0 ? heights / weights : 0};
+}
+
+Index Surface::finite_neighbour(Index v) const {
+  const Index h = edge_of(v), neighbour = mesh().origin[next_in_triangle(h)];
+  return neighbour != kInfinity ? neighbour : mesh().origin[previous_in_triangle(h)];
+}
+
+bool Surface::remove(Index v) {
+  if (!triangulation_.remove(v, Triangulation::kMaxRemovable)) return false;
+  --vertices_;
+  return true;
+}
+
+Index Surface::insert(Vertex vertex, Index hint) {
+  const Index v = triangulation_.insert({vertex.x, vertex.y}, hint);
+  heights_[v] = vertex.z;
+  ++vertices_;
+  return v;
+}
+
+bool Surface::can_insert(Point p, Index hint) {
+  const std::vector<Index>& replaced = triangulation_.conflicts(p, hint);
+  return !replaced.empty() && replaced.size() + 2 <= Triangulation::kMaxRemovable &&
+         std::none_of(replaced.begin(), replaced.end(), [this](Index t) { return void_[t]; });
+}
+
+Tin Surface::tin() const {
+  Tin tin;
+  for (Index v = 0; v < vertex_limit(); ++v) {
+    if (has_vertex(v)) tin.vertices.push_back(vertex(v));
+  }
+  tin.voids = voids_;
+  return tin;
+}
+
+}  // namespace microtin::fit

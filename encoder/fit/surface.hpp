@@ -1,0 +1,116 @@
+// A triangulated surface over a survey whose vertices come, go and move up and down.
+#ifndef MICROTIN_ENCODER_FIT_SURFACE_HPP
+#define MICROTIN_ENCODER_FIT_SURFACE_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "encoder/fit/error_model.hpp"
+#include "encoder/fit/post_index.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/stream/triangulation.hpp"
+#include "encoder/terrain/survey.hpp"
+
+namespace microtin::fit {
+
+class Surface {
+ public:
+  // The survey and the index of its samples must outlive this. The vertices of `tin` get their
+  // numbers there.
+  Surface(const Survey& survey, ErrorModel model, const PostIndex& posts, const Tin& tin);
+
+  const Survey& survey() const { return survey_; }
+  const ErrorModel& model() const { return model_; }
+  const PostIndex& posts() const { return posts_; }
+  const Mesh& mesh() const { return triangulation_.mesh(); }
+  const Triangulation& triangulation() const { return triangulation_; }
+
+  // The middle of what a sample allows, and how far from there its ends are, in steps.
+  struct Target {
+    double middle;
+    float radius;
+  };
+  const Target& target(uint32_t sample) const { return targets_[sample]; }
+
+  // Steps that are worth a try where bounds are so wide: a power of two.
+  int32_t widest_stride() const { return widest_stride_; }
+
+  // Every vertex number is below that, those of removed vertices too.
+  Index vertex_limit() const { return static_cast<Index>(heights_.size()); }
+  // How many there are.
+  Index vertices() const { return vertices_; }
+  bool has_vertex(Index v) const { return triangulation_.has_vertex(v); }
+  Point place(Index v) const { return point_of(mesh(), v); }
+  Vertex vertex(Index v) const { return {place(v).x, place(v).y, heights_[v]}; }
+  int16_t height(Index v) const { return heights_[v]; }
+  void set_height(Index v, int16_t height) { heights_[v] = height; }
+
+  Index edge_of(Index v) const { return triangulation_.edge_of(v); }
+  Index finite_neighbour(Index v) const;
+
+  // Corners of the hull, vertices at voids and those that the survey has as fixed stay where they
+  // are.
+  bool is_fixed(Index v) const { return fixed_[v]; }
+
+  // Neither a ghost nor void.
+  bool is_covered(Index triangle) const;
+
+  // Whether the posts under a covered triangle, or under all at a vertex, are within their bounds.
+  bool keeps_bounds(Index triangle) const;
+  bool keeps_bounds_around(Index v) const;
+
+  // The heights of v for which that holds, all else as it is, rounded: the ends may be one step too
+  // far out. Empty (low > high) if there is none.
+  struct Interval {
+    int32_t low, high;
+    double best;  // where the sum of squared errors is smallest
+  };
+  Interval allowed_heights(Index v) const;
+
+  // Removes a vertex that is not fixed. False, and nothing changes, if it has too many neighbours.
+  bool remove(Index v);
+
+  // Adds a vertex near a half-edge, where can_insert says so.
+  Index insert(Vertex vertex, Index hint);
+
+  // The triangles that the last change made.
+  const std::vector<Index>& new_triangles() const { return triangulation_.new_triangles(); }
+
+  // Whether there is no vertex yet, and an insertion would replace no void triangle and could be
+  // taken back by remove.
+  bool can_insert(Point p, Index hint);
+
+  // Calls visit(half-edge) for every half-edge that starts at v.
+  template <class Visit>
+  void visit_around(Index v, const Visit& visit) const {
+    const Index start = triangulation_.edge_of(v);
+    Index h = start;
+    do {
+      visit(h);
+      h = mesh().twin[previous_in_triangle(h)];
+    } while (h != start);
+  }
+
+  Tin tin() const;
+
+ private:
+  void find_voids();
+  void find_corners();
+  void find_fixed_samples();
+
+  const Survey& survey_;
+  ErrorModel model_;
+  const PostIndex& posts_;
+  std::vector<Target> targets_;  // by sample
+  int32_t widest_stride_ = 1;
+  Triangulation triangulation_;
+  Index vertices_;
+  std::vector<int16_t> heights_;      // by vertex
+  std::vector<bool> fixed_;           // by vertex
+  std::vector<bool> void_;            // by triangle
+  std::vector<Tin::Triangle> voids_;  // the same triangles
+};
+
+}  // namespace microtin::fit
+
+#endif

@@ -1,0 +1,160 @@
+// Finds codes and units in well-known text and GeoTIFF keys.
+#include "encoder/import/crs.hpp"
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <string>
+
+#include "encoder/import/text.hpp"
+
+namespace microtin::importing {
+namespace {
+
+// A node of well-known text as it is being read: KEYWORD["name", 1, CHILD[...], ...].
+struct Node {
+  std::string keyword;              // lower case
+  std::vector<std::string> values;  // of those that are no nodes; texts without quotes
+};
+
+bool is_one_of(const std::string& keyword, std::initializer_list<std::string_view> all) {
+  for (const std::string_view one : all) {
+    if (keyword == one) return true;
+  }
+  return false;
+}
+
+enum class Kind { kNone, kProjected, kGeographic, kVertical };
+
+Kind kind_of(const std::string& keyword) {
+  if (is_one_of(keyword, {"projcs", "projcrs", "projectedcrs"})) return Kind::kProjected;
+  if (is_one_of(keyword, {"geogcs", "geogcrs", "geographiccrs"})) return Kind::kGeographic;
+  if (is_one_of(keyword, {"vert_cs", "vertcrs", "verticalcrs"})) return Kind::kVertical;
+  return Kind::kNone;
+}
+
+uint32_t code_of(const std::string& text) {
+  uint32_t code = 0;
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, code);
+  return error == std::errc() && next == end ? code : 0;
+}
+
+// By the metres that it has.
+Unit length_unit(const std::string& text) {
+  double metres = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), metres);
+  if (result.ec != std::errc()) return Unit::kUnknown;
+  const auto is = [metres](double other) { return std::abs(metres - other) < 1e-9; };
+  if (is(1)) return Unit::kMetre;
+  if (is(0.3048)) return Unit::kFoot;
+  return is(1200.0 / 3937) ? Unit::kUsSurveyFoot : Unit::kUnknown;
+}
+
+// By its EPSG code.
+Unit unit_of_code(uint32_t code) {
+  constexpr uint32_t kMetre = 9001, kFoot = 9002, kUsSurveyFoot = 9003, kDegree = 9102;
+  switch (code) {
+    case kMetre:
+      return Unit::kMetre;
+    case kFoot:
+      return Unit::kFoot;
+    case kUsSurveyFoot:
+      return Unit::kUsSurveyFoot;
+    case kDegree:
+      return Unit::kDegree;
+    default:
+      return Unit::kUnknown;
+  }
+}
+
+class WktReader {
+ public:
+  // Goes on to where the brackets end, or the text does.
+  Reference read(std::string_view text) {
+    std::string word;
+    bool in_quotes = false;
+    for (const char c : text) {
+      const bool is_mark = !in_quotes && std::string_view("[(,])").find(c) != std::string::npos;
+      if (c == '"') {
+        in_quotes = !in_quotes;
+      } else if (!is_mark) {
+        const bool is_space = std::isspace(static_cast<unsigned char>(c)) != 0 || c == '\0';
+        if (in_quotes || !is_space) word += c;
+      } else if (c == '[' || c == '(') {
+        open_.push_back({lower_case(word), {}});
+        word.clear();
+      } else {
+        if (!word.empty() && !open_.empty()) open_.back().values.push_back(word);
+        word.clear();
+        if (c != ',' && !open_.empty()) close();
+      }
+    }
+    return reference_;
+  }
+
+ private:
+  void close() {
+    const Node node = std::move(open_.back());
+    open_.pop_back();
+    if (open_.empty() || node.values.size() < 2) return;
+    const bool in_system = open_.size() >= 2 && is_one_of(open_.back().keyword, {"cs", "axis"});
+    const Kind kind = kind_of((in_system ? open_[open_.size() - 2] : open_.back()).keyword);
+    // A projected system contains the geographic one that it is based on.
+    if (kind == Kind::kNone || (kind == Kind::kGeographic && is_within_projected())) return;
+    if (is_one_of(node.keyword, {"authority", "id"}) && lower_case(node.values[0]) == "epsg") {
+      (kind == Kind::kVertical ? reference_.vertical_epsg : reference_.horizontal_epsg) =
+          code_of(node.values[1]);
+    } else if (is_one_of(node.keyword, {"unit", "lengthunit", "angleunit"})) {
+      const bool degree = kind == Kind::kGeographic && lower_case(node.values[0]) == "degree";
+      const Unit unit = degree                      ? Unit::kDegree
+                        : kind == Kind::kGeographic ? Unit::kUnknown
+                                                    : length_unit(node.values[1]);
+      (kind == Kind::kVertical ? reference_.vertical_unit : reference_.horizontal_unit) = unit;
+    }
+  }
+
+  bool is_within_projected() const {
+    for (const Node& node : open_) {
+      if (kind_of(node.keyword) == Kind::kProjected) return true;
+    }
+    return false;
+  }
+
+  std::vector<Node> open_;
+  Reference reference_;
+};
+
+}  // namespace
+
+Reference reference_of_wkt(std::string_view text) {
+  return WktReader().read(text);
+}
+
+Reference reference_of_geo_keys(const std::vector<uint16_t>& directory) {
+  constexpr uint16_t kModel = 1024, kGeographic = 2048, kAngularUnit = 2054, kProjected = 3072,
+                     kLinearUnit = 3076, kVertical = 4096, kVerticalUnit = 4099,
+                     kUserDefined = 32767;
+  Reference reference;
+  bool is_geographic = false;
+  uint32_t geographic = 0, projected = 0;
+  Unit angular = Unit::kDegree, linear = Unit::kUnknown;
+  // A head of four numbers, then for each key: what, where, how many, value.
+  for (size_t at = 4; at + 4 <= directory.size(); at += 4) {
+    const uint16_t key = directory[at], value = directory[at + 3];
+    const bool is_here = directory[at + 1] == 0 && value != kUserDefined;
+    const uint16_t code = is_here ? value : uint16_t{0};
+    if (key == kModel) is_geographic = code == 2;
+    if (key == kGeographic) geographic = code;
+    if (key == kProjected) projected = code;
+    if (key == kVertical) reference.vertical_epsg = code;
+    if (key == kAngularUnit) angular = unit_of_code(code);
+    if (key == kLinearUnit) linear = unit_of_code(code);
+    if (key == kVerticalUnit) reference.vertical_unit = unit_of_code(code);
+  }
+  reference.horizontal_epsg = is_geographic ? geographic : projected;
+  reference.horizontal_unit = is_geographic ? angular : linear;
+  return reference;
+}
+
+}  // namespace microtin::importing

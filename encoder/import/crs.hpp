@@ -1,0 +1,22 @@
+// Coordinate reference systems as files state them.
+#ifndef MICROTIN_ENCODER_IMPORT_CRS_HPP
+#define MICROTIN_ENCODER_IMPORT_CRS_HPP
+
+#include <string_view>
+#include <vector>
+
+#include "encoder/layers.hpp"
+#include "encoder/terrain/source.hpp"
+
+namespace microtin::importing {
+
+// Codes and units that a well-known text (either version) gives its horizontal and its vertical
+// system; what is not there, or not understood, stays unknown.
+Reference reference_of_wkt(std::string_view text);
+
+// The same of a GeoTIFF key directory: its 16-bit numbers.
+Reference reference_of_geo_keys(const std::vector<uint16_t>& directory);
+
+}  // namespace microtin::importing
+
+#endif

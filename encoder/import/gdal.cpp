@@ -1,0 +1,199 @@
+// Whatever GDAL opens; part of builds with MICROTIN_WITH_GDAL only.
+#include <cpl_error.h>
+#include <cpl_string.h>
+#include <gdal.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <memory>
+
+#include "encoder/base/error.hpp"
+#include "encoder/base/error_context.hpp"
+#include "encoder/exact/fraction.hpp"
+#include "encoder/exact/scaled_integers.hpp"
+#include "encoder/import/crs.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/import/text.hpp"
+
+namespace microtin::importing {
+namespace {
+
+struct Close {
+  void operator()(void* dataset) const { GDALClose(dataset); }
+};
+
+using Dataset = std::unique_ptr<void, Close>;
+
+// Drivers whose files hold their rasters themselves. Others read whatever files theirs name (VRT,
+// labels with a raster apart), the network or memory.
+constexpr const char* kDrivers[] = {"GTiff", "AAIGrid", "GRASSASCIIGrid", "SRTMHGT", "USGSDEM",
+                                    "DTED",  "AIG",     "EHdr",           "BT",      "GSAG",
+                                    "GSBG",  "GS7BG",   "GRIB",           "netCDF",  "XYZ"};
+
+bool is_allowed(const std::string& driver, Indirect indirect) {
+  if (driver == "VRT") return indirect == Indirect::kAllowed;
+  return std::find(std::begin(kDrivers), std::end(kDrivers), driver) != std::end(kDrivers);
+}
+
+// Drivers that are not allowed are gone altogether: those that are open other files by name.
+void register_drivers(Indirect indirect) {
+  GDALAllRegister();
+  for (int i = GDALGetDriverCount(); i-- > 0;) {
+    const GDALDriverH driver = GDALGetDriver(i);
+    if (!is_allowed(GDALGetDriverShortName(driver), indirect)) GDALDeregisterDriver(driver);
+  }
+}
+
+// Names that GDAL does not give to the file system, also within those of parts of a file.
+bool is_virtual(const std::string& path) {
+  const size_t at = path.find("/vsi");
+  return at == 0 || (at != path.npos && (path[at - 1] == ':' || path[at - 1] == '"'));
+}
+
+Dataset open(const std::string& path, Indirect indirect) {
+  register_drivers(indirect);
+  CPLSetErrorHandler(CPLQuietErrorHandler);
+  if (indirect == Indirect::kRefused && is_virtual(path)) {
+    throw Error("is opened with --allow-vrt only");
+  }
+  Dataset dataset(GDALOpenEx(path.c_str(),
+                             GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
+                             nullptr, nullptr));
+  if (!dataset) {
+    const bool is_vrt = lower_case(std::filesystem::path(path).extension().string()) == ".vrt";
+    if (is_vrt && indirect == Indirect::kRefused) {
+      throw Error("names other files, which are read with --allow-vrt only");
+    }
+    throw Error(std::string("GDAL cannot open it: ") + CPLGetLastErrorMsg());
+  }
+  if (GDALGetRasterCount(dataset.get()) == 0) throw Error("has no raster band");
+  return dataset;
+}
+
+void place(GDALDatasetH dataset, Raster& raster) {
+  std::array<double, 6> t{};  // x0, dx by column, dx by row, y0, dy by column, dy by row
+  if (GDALGetGeoTransform(dataset, t.data()) != CE_None) throw Error("does not say where it lies");
+  if (t[2] != 0 || t[4] != 0 || t[1] <= 0 || t[5] >= 0) {
+    throw Error("its rows do not run from north to south: bring them there with gdalwarp");
+  }
+  const auto decimal = [](double value) {
+    const std::optional<Decimal> number = shortest_decimal(value, kPlaceDecimals);
+    if (!number) throw Error("its place is out of range");
+    return *number;
+  };
+  const Decimal dx = decimal(t[1]), dy = decimal(-t[5]);
+  if (dx.mantissa == 0 || dy.mantissa == 0) throw Error("its cells are too small");
+  raster.x = axis_of_cells(decimal(t[0]), dx, 1);
+  raster.y = axis_of_cells(decimal(t[3]), dy, 1 - 2 * int64_t{raster.height});
+}
+
+Unit unit_named(const std::string& name) {
+  if (name == "m" || name == "metre" || name == "meter") return Unit::kMetre;
+  if (name == "ft" || name == "foot") return Unit::kFoot;
+  if (name == "US survey foot" || name == "us-ft") return Unit::kUsSurveyFoot;
+  return Unit::kUnknown;
+}
+
+// Reads a band's heights one row after the other.
+class BandReader {
+ public:
+  explicit BandReader(GDALRasterBandH band)
+      : band_(band), type_(GDALGetRasterDataType(band)), row_(width()) {
+    int given = 0;
+    no_data_ = GDALGetRasterNoDataValue(band, &given);
+    has_no_data_ = given != 0;
+    const double scale = GDALGetRasterScale(band, &given);
+    const double factor = given != 0 ? scale : 1;
+    const double offset = GDALGetRasterOffset(band, &given);
+    const double shift = given != 0 ? offset : 0;
+    scaled_ = ScaledIntegers::from(factor, shift);
+    const bool is_whole = type_ == GDT_Byte || type_ == GDT_Int16 || type_ == GDT_UInt16 ||
+                          type_ == GDT_Int32 || type_ == GDT_UInt32;
+    const bool is_binary = type_ == GDT_Float32 || type_ == GDT_Float64;
+    if (!is_whole && !is_binary) {
+      throw Error(std::string("its heights are of type ") + GDALGetDataTypeName(type_) +
+                  ": translate them with \"gdal_translate -ot Float64\"");
+    }
+    if (!scaled_ || (is_binary && (factor != 1 || shift != 0))) {
+      throw Error(
+          "its heights have a scale or an offset: apply them with \"gdal_translate -unscale\"");
+    }
+    if (is_binary) scaled_.reset();
+  }
+
+  size_t width() const { return static_cast<size_t>(GDALGetRasterBandXSize(band_)); }
+  size_t height() const { return static_cast<size_t>(GDALGetRasterBandYSize(band_)); }
+
+  // Appends a row, row 0 northernmost.
+  void read(size_t row, DecimalColumn& heights) {
+    if (GDALRasterIO(band_, GF_Read, 0, static_cast<int>(row), static_cast<int>(width()), 1,
+                     row_.data(), static_cast<int>(width()), 1, GDT_Float64, 0, 0) != CE_None) {
+      throw Error(std::string("cannot be read: ") + CPLGetLastErrorMsg());
+    }
+    for (size_t column = 0; column < row_.size(); ++column) {
+      const double value = row_[column];
+      const bool is_void = std::isnan(value) || (has_no_data_ && value == no_data_);
+      const std::optional<Decimal> height = is_void ? std::nullopt : decimal(value);
+      if (is_void) {
+        heights.add_void();
+      } else if (!height || !heights.add(*height)) {
+        throw Error("row " + std::to_string(row) + ", column " + std::to_string(column) +
+                    ": is not a number in range");
+      }
+    }
+  }
+
+ private:
+  std::optional<Decimal> decimal(double value) const {
+    if (scaled_) return (*scaled_)(static_cast<int64_t>(value));
+    return type_ == GDT_Float32 ? shortest_decimal(static_cast<float>(value))
+                                : shortest_decimal(value);
+  }
+
+  GDALRasterBandH band_;
+  GDALDataType type_;
+  std::vector<double> row_;
+  std::optional<ScaledIntegers> scaled_;  // for integers
+  double no_data_;
+  bool has_no_data_;
+};
+
+Raster read(const std::string& path, Indirect indirect) {
+  const Dataset dataset = open(path, indirect);
+  const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+  BandReader reader(band);
+  Raster raster;
+  raster.width = static_cast<uint32_t>(reader.width());
+  raster.height = static_cast<uint32_t>(reader.height());
+  place(dataset.get(), raster);
+  if (const char* wkt = GDALGetProjectionRef(dataset.get()))
+    raster.reference = reference_of_wkt(wkt);
+  const Unit unit = unit_named(GDALGetRasterUnitType(band));
+  if (unit != Unit::kUnknown) raster.reference.vertical_unit = unit;
+  DecimalColumn heights;
+  heights.reserve(reader.width() * reader.height());
+  for (size_t row = reader.height(); row-- > 0;) reader.read(row, heights);
+  raster.decimals = heights.decimals();
+  raster.heights = std::move(heights.mantissas());
+  return raster;
+}
+
+}  // namespace
+
+Raster import_gdal(const std::string& path, Indirect indirect) {
+  return with_file_context(path, [&] { return read(path, indirect); });
+}
+
+std::vector<std::string> gdal_files(const std::string& path, Indirect indirect) {
+  const Dataset dataset = with_file_context(path, [&] { return open(path, indirect); });
+  std::vector<std::string> files;
+  char** const list = GDALGetFileList(dataset.get());
+  for (char** file = list; file != nullptr && *file != nullptr; ++file) files.emplace_back(*file);
+  CSLDestroy(list);
+  return files;
+}
+
+}  // namespace microtin::importing

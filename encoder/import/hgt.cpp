@@ -1,0 +1,107 @@
+// SRTM tiles, read whole or in rectangles.
+#include <charconv>
+#include <filesystem>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/import/text.hpp"
+
+namespace microtin::importing {
+namespace {
+
+constexpr uint32_t kWgs84 = 4326;
+constexpr uint32_t kEgm96Height = 5773;
+
+// "n43" as 43, "s05" as -5; nothing if the text does not read so.
+std::optional<int> degrees(std::string_view text, char positive, char negative, int most) {
+  if (text.empty() || (text[0] != positive && text[0] != negative)) return std::nullopt;
+  const char* const end = text.data() + text.size();
+  int value = 0;
+  const auto [next, error] = std::from_chars(text.data() + 1, end, value);
+  if (next != end || error != std::errc() || value < 0 || value > most) return std::nullopt;
+  return text[0] == positive ? value : -value;
+}
+
+struct Corner {
+  int latitude;
+  int longitude;
+};
+
+Corner south_west_corner(const std::string& name) {
+  const std::string file = lower_case(std::filesystem::path(name).filename().string());
+  const std::string_view place = std::string_view(file).substr(0, file.find_first_of("._"));
+  if (place.size() == 7) {
+    const auto latitude = degrees(place.substr(0, 3), 'n', 's', 90);
+    const auto longitude = degrees(place.substr(3), 'e', 'w', 180);
+    if (latitude && longitude) return {*latitude, *longitude};
+  }
+  throw Error(name + ": the file's name does not say where it lies, as N43E007.hgt does");
+}
+
+int64_t height_of(const uint8_t* bytes) {
+  const int value = bytes[0] * 256 + bytes[1];
+  const int height = value < 32768 ? value : value - 65536;
+  return height == -32768 ? kVoidHeight : height;
+}
+
+// Posts in a row of a square that takes so many bytes; 0 if there is none.
+uint32_t side_of(uint64_t bytes) {
+  constexpr uint64_t kMost = uint64_t{1} << 30;  // far beyond any disk, and a square fits 64 bits
+  uint64_t low = 0, high = kMost;                // 2 * low^2 <= bytes < 2 * high^2
+  while (high - low > 1) {
+    const uint64_t middle = (low + high) / 2;
+    (2 * middle * middle <= bytes ? low : high) = middle;
+  }
+  return low >= 2 && 2 * low * low == bytes ? static_cast<uint32_t>(low) : 0;
+}
+
+class HgtReader : public RasterReader {
+ public:
+  HgtReader(const std::string& name, std::unique_ptr<ByteSource> bytes)
+      : name_(name), bytes_(std::move(bytes)) {
+    const uint32_t side = side_of(bytes_->size());
+    if (side == 0) {
+      throw Error(name + ": has " + std::to_string(bytes_->size()) +
+                  " bytes; an .hgt file has two for each post of a square, as 25934402 for 3601 x "
+                  "3601");
+    }
+    const Corner corner = south_west_corner(name);
+    const uint64_t per_degree = side - 1;
+    frame_.width = frame_.height = side;
+    frame_.x = {corner.longitude * static_cast<int64_t>(per_degree), 1, per_degree};
+    frame_.y = {corner.latitude * static_cast<int64_t>(per_degree), 1, per_degree};
+    frame_.reference = {Unit::kDegree, Unit::kMetre, kWgs84, kEgm96Height};
+  }
+
+  Raster read(const PostRectangle& r) const override {
+    Raster part = crop_frame(frame_, r);
+    part.heights.reserve(size_t{r.width} * r.height);
+    std::vector<uint8_t> row(size_t{2} * r.width);
+    for (uint32_t y = r.y; y < r.y + r.height; ++y) {
+      const uint64_t post = uint64_t{frame_.height - 1 - y} * frame_.width + r.x;
+      if (bytes_->read(2 * post, row.data(), row.size()) != row.size()) {
+        throw Error(name_ + ": became shorter while it was read");
+      }
+      for (size_t i = 0; i < row.size(); i += 2) part.heights.push_back(height_of(&row[i]));
+    }
+    return part;
+  }
+
+ private:
+  std::string name_;
+  std::unique_ptr<ByteSource> bytes_;
+};
+
+}  // namespace
+
+std::unique_ptr<RasterReader> open_hgt(const std::string& name, std::unique_ptr<ByteSource> bytes) {
+  return std::make_unique<HgtReader>(name, std::move(bytes));
+}
+
+Raster import_hgt(const std::string& name, const std::string& bytes) {
+  const HgtReader reader(name, bytes_in_memory({bytes.begin(), bytes.end()}));
+  return reader.read({0, 0, reader.frame().width, reader.frame().height});
+}
+
+}  // namespace microtin::importing

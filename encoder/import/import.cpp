@@ -1,0 +1,97 @@
+// Chooses the reader of a file by its suffix.
+#include "encoder/import/import.hpp"
+
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/files/input_file.hpp"
+#include "encoder/import/text.hpp"
+
+namespace microtin::importing {
+
+namespace {
+
+std::string suffix_of(const std::string& path) {
+  return lower_case(std::filesystem::path(path).extension().string());
+}
+
+using Import = Source (*)(const std::string&, const std::string&);
+
+// By suffix. Null: none of these.
+Import importer_for(const std::string& suffix) {
+  const Import points = [](const auto& name, const auto& text) -> Source {
+    return import_points(name, text);
+  };
+  const std::map<std::string, Import> importers = {
+      {".xyz", points},
+      {".csv", points},
+      {".txt", points},
+      {".hgt",
+       [](const auto& name, const auto& bytes) -> Source { return import_hgt(name, bytes); }},
+      {".zip",
+       [](const auto& name, const auto& bytes) -> Source { return import_zip(name, bytes); }},
+      {".asc", [](const auto& name, const auto& text) -> Source { return import_asc(name, text); }},
+      {".ply",
+       [](const auto& name, const auto& bytes) -> Source { return import_ply(name, bytes); }},
+      {".obj",
+       [](const auto& name, const auto& text) -> Source { return import_obj(name, text); }}};
+  const auto found = importers.find(suffix);
+  return found == importers.end() ? nullptr : found->second;
+}
+
+bool is_laser_scan(const std::string& suffix) {
+  return suffix == ".las" || suffix == ".laz";
+}
+
+#ifdef MICROTIN_WITH_GDAL
+bool is_for_others(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  return path != "-" && !is_laser_scan(suffix) && importer_for(suffix) == nullptr;
+}
+
+Source import_other(const std::string& path, Indirect indirect) {
+  return import_gdal(path, indirect);
+}
+#else
+Source import_other(const std::string& path, Indirect) {
+  throw Error(path +
+              ": not a kind of terrain file known here (.hgt, .zip, .asc, .xyz, .csv, .txt, .las, "
+              ".ply, .obj); for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build "
+              "with -DMICROTIN_WITH_GDAL=ON");
+}
+#endif
+
+}  // namespace
+
+std::vector<std::string> terrain_files(const std::string& path,
+                                       [[maybe_unused]] Indirect indirect) {
+#ifdef MICROTIN_WITH_GDAL
+  if (is_for_others(path)) return gdal_files(path, indirect);
+#endif
+  return {path};
+}
+
+Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes,
+                      Indirect indirect) {
+  const std::string suffix = suffix_of(path);
+  if (is_laser_scan(suffix)) return import_las(path, read_file(path), classes);
+  if (classes) throw Error(path + ": only .las files have classes");
+  if (path == "-") return import_points("standard input", read_file(path));
+  const Import import = importer_for(suffix);
+  if (import == nullptr) return import_other(path, indirect);
+  return import(path, read_file(path));
+}
+
+OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& classes,
+                        Indirect indirect) {
+  const std::string suffix = suffix_of(path);
+  if (!classes && suffix == ".hgt") return open_hgt(path, open_file(path));
+  if (!classes && suffix == ".asc") return open_asc(path, open_file(path));
+  Source source = import_terrain(path, classes, indirect);
+  if (auto* const cloud = std::get_if<PointCloud>(&source)) return std::move(*cloud);
+  return std::make_unique<RasterInMemory>(std::move(std::get<Raster>(source)));
+}
+
+}  // namespace microtin::importing

@@ -1,0 +1,84 @@
+// Reading terrains from the files they come in.
+#ifndef MICROTIN_ENCODER_IMPORT_IMPORT_HPP
+#define MICROTIN_ENCODER_IMPORT_IMPORT_HPP
+
+#include <bitset>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "encoder/files/byte_source.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/terrain/raster_reader.hpp"
+#include "encoder/terrain/source.hpp"
+
+namespace microtin::importing {
+
+// Classes of points in a LAS file.
+using ClassSet = std::bitset<256>;
+
+// Files of GDAL's that name others to be read (.vrt), and names of its virtual file systems
+// (/vsi...): whoever wrote such a file chooses what is read.
+enum class Indirect { kRefused, kAllowed };
+
+// Reads a file by its suffix: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt (points), .las, .ply,
+// .obj; in builds with GDAL all others by GDAL. "-" reads points from standard input. `classes` are
+// for .las alone. Throws Error naming the file and, for text, the line.
+Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},
+                      Indirect indirect = Indirect::kRefused);
+
+// All files that it is read from: more than one by GDAL only. Throws Error if GDAL cannot open it.
+std::vector<std::string> terrain_files(const std::string& path, Indirect indirect);
+
+using OpenSource = std::variant<std::unique_ptr<RasterReader>, PointCloud>;
+
+// Opens such a file. .hgt and .asc files are read in pieces, .asc once as a whole before, to check
+// it and to learn where its posts are: 8 bytes of memory for each 512 of them. Others are kept in
+// memory. Throws Error as import_terrain does, and if it cannot be read in pieces.
+OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},
+                        Indirect indirect = Indirect::kRefused);
+
+// The formats, from a file's content. `name` goes into messages.
+
+// SRTM: a square of posts, 3601 in a row or any number from 2 on, of which the first and the last
+// lie a degree apart; big-endian metres from the north-west corner, -32768 where there is none. The
+// name's first seven characters (N43E007) place the south-west post.
+Raster import_hgt(const std::string& name, const std::string& bytes);
+std::unique_ptr<RasterReader> open_hgt(const std::string& name, std::unique_ptr<ByteSource> bytes);
+
+// ESRI ASCII grid. Heights lie at the centres of cells.
+Raster import_asc(const std::string& name, const std::string& text);
+std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<ByteSource> text);
+
+// Points, one a line: x, y and, if there is a third column, z; separated by blanks, tabs, commas or
+// semicolons. Lines that are blank or begin with # are skipped. The first other line may be a
+// header: it is one if none of its fields is a number. All lines have the same number of columns;
+// those behind the third are ignored, but must hold numbers.
+PointCloud import_points(const std::string& name, const std::string& text);
+
+// Points of LAS 1.0 to 1.4, formats 0 to 10, with codes and units from GeoTIFF keys or well-known
+// text. Takes the classes asked for; if none are, the ground (2) or, in a file without, all but
+// noise (7 and 18). Points flagged as withheld are never taken.
+PointCloud import_las(const std::string& name, const std::string& bytes,
+                      const std::optional<ClassSet>& classes);
+
+// Vertices of a PLY file, text or binary, and of a Wavefront OBJ file; z is up. Binary fractions
+// stand for the shortest decimal that becomes them. Faces are left out.
+PointCloud import_ply(const std::string& name, const std::string& bytes);
+PointCloud import_obj(const std::string& name, const std::string& text);
+
+// The one .hgt file in a zip archive.
+Raster import_zip(const std::string& name, const std::string& bytes);
+
+#ifdef MICROTIN_WITH_GDAL
+// The first band of what GDAL opens. Columns must run east and rows south. Heights, cell sizes and
+// corners stand for the shortest decimals that become them.
+Raster import_gdal(const std::string& path, Indirect indirect);
+std::vector<std::string> gdal_files(const std::string& path, Indirect indirect);
+#endif
+
+}  // namespace microtin::importing
+
+#endif

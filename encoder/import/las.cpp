@@ -1,0 +1,230 @@
+// LAS, the American Society for Photogrammetry and Remote Sensing's format for laser scans.
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "encoder/exact/scaled_integers.hpp"
+#include "encoder/files/byte_reader.hpp"
+#include "encoder/import/crs.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/import/text.hpp"
+
+namespace microtin::importing {
+namespace {
+
+constexpr uint8_t kGround = 2, kLowNoise = 7, kHighNoise = 18;
+
+// Bytes of the header, without what a writer adds, of versions 1.0 to 1.4.
+constexpr std::array<uint16_t, 5> kHeaderBytes = {227, 227, 227, 235, 375};
+
+// Bytes of a point of each format, without what a writer adds.
+constexpr std::array<uint16_t, 11> kPointBytes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+
+struct Header {
+  uint8_t minor_version;
+  uint16_t bytes;
+  uint8_t point_format;
+  uint16_t point_bytes;
+  uint64_t first_point;
+  uint64_t points;
+};
+
+[[noreturn]] void refuse_compressed(const ByteReader& file) {
+  file.fail(
+      "is compressed (LAZ): decompress it first, with laszip, las2las or "
+      "\"pdal translate IN.laz OUT.las\"");
+}
+
+void expect_points_behind(const ByteReader& file, uint64_t first_point, uint64_t end) {
+  if (first_point >= end) return;
+  file.fail("malformed: points are said to begin at byte " + std::to_string(first_point) +
+            ", before the header and its records end, at " + std::to_string(end));
+}
+
+Header read_header(const ByteReader& file) {
+  if (file.size() < 4 || file.bytes(0, 4) != "LASF") file.fail("is not a LAS file");
+  Header header{};
+  const uint8_t major = file.number<uint8_t>(24);
+  header.minor_version = file.number<uint8_t>(25);
+  if (major != 1 || header.minor_version > 4) {
+    file.fail("is of LAS version " + std::to_string(major) + '.' +
+              std::to_string(header.minor_version) + "; 1.0 to 1.4 are read");
+  }
+  header.bytes = file.number<uint16_t>(94);
+  if (header.bytes < kHeaderBytes[header.minor_version]) {
+    file.fail("has a header of " + std::to_string(header.bytes) + " bytes; version 1." +
+              std::to_string(header.minor_version) + " takes " +
+              std::to_string(kHeaderBytes[header.minor_version]));
+  }
+  header.first_point = file.number<uint32_t>(96);
+  expect_points_behind(file, header.first_point, header.bytes);
+  header.point_format = file.number<uint8_t>(104);
+  header.point_bytes = file.number<uint16_t>(105);
+  header.points = file.number<uint32_t>(107);
+  if (header.minor_version == 4) {
+    const uint64_t points = file.number<uint64_t>(247);
+    if (points != 0) header.points = points;
+  }
+  if ((header.point_format & 0xC0) != 0) refuse_compressed(file);
+  if (header.point_format >= kPointBytes.size()) {
+    file.fail("has points of format " + std::to_string(header.point_format) + "; 0 to 10 are read");
+  }
+  if (header.point_bytes < kPointBytes[header.point_format]) {
+    file.fail("has points of " + std::to_string(header.point_bytes) + " bytes; format " +
+              std::to_string(header.point_format) + " takes " +
+              std::to_string(kPointBytes[header.point_format]));
+  }
+  const uint64_t room = file.size() - std::min(header.first_point, file.size());
+  if (header.points > room / header.point_bytes) {
+    file.fail("cut off: has " + std::to_string(room / header.point_bytes) + " of " +
+              std::to_string(header.points) + " points");
+  }
+  return header;
+}
+
+// Collects what the variable length records say of the coordinates.
+class References {
+ public:
+  explicit References(const ByteReader& file, const Header& header) : file_(file) {
+    const uint64_t end = read_records(header.bytes, file.number<uint32_t>(100), false);
+    expect_points_behind(file, header.first_point, end);
+    if (header.minor_version == 4) {
+      read_records(file.number<uint64_t>(235), file.number<uint32_t>(243), true);
+    }
+  }
+
+  Reference take() const {
+    return wkt_.empty() ? reference_of_geo_keys(keys_) : reference_of_wkt(wkt_);
+  }
+
+ private:
+  // Returns where they end.
+  uint64_t read_records(uint64_t at, uint32_t count, bool extended) {
+    const uint64_t head = extended ? 60 : 54;
+    for (uint32_t i = 0; i < count; ++i) {
+      file_.bytes(at, head);
+      const std::string_view user = file_.bytes(at + 2, 16);
+      const uint64_t size =
+          extended ? file_.number<uint64_t>(at + 20) : file_.number<uint16_t>(at + 20);
+      add(user.substr(0, user.find('\0')), file_.number<uint16_t>(at + 18), at + head, size);
+      at += head + size;
+    }
+    return at;
+  }
+
+  void add(std::string_view user, uint16_t record, uint64_t at, uint64_t size) {
+    constexpr uint16_t kGeoKeys = 34735, kWkt = 2112, kLaszip = 22204;
+    const std::string_view content = file_.bytes(at, size);
+    if (user == "laszip encoded" && record == kLaszip) refuse_compressed(file_);
+    if (user != "LASF_Projection") return;
+    if (record == kWkt) wkt_ = content;
+    if (record != kGeoKeys) return;
+    keys_.clear();
+    for (uint64_t i = 0; i + 2 <= size; i += 2) keys_.push_back(file_.number<uint16_t>(at + i));
+  }
+
+  const ByteReader& file_;
+  std::string_view wkt_;
+  std::vector<uint16_t> keys_;
+};
+
+class PointReader {
+ public:
+  PointReader(const ByteReader& file, const Header& header)
+      : file_(file), header_(header), axes_{scaled(0), scaled(1), scaled(2)} {
+    count_classes();
+  }
+
+  // The points of these classes that are not withheld.
+  PointCloud read(const ClassSet& classes) {
+    PointColumns points;
+    for (uint64_t i = 0; i < header_.points; ++i) {
+      const uint64_t at = place_of(i);
+      if (is_withheld(at) || !classes[class_of(at)]) continue;
+      for (size_t axis = 0; axis < 3; ++axis) {
+        const Decimal value = axes_[axis](file_.number<int32_t>(at + 4 * axis));
+        if (!points.add(axis, value)) fail_on(i, value);
+      }
+    }
+    if (points.empty()) file_.fail("no point is taken" + selection(classes));
+    PointCloud cloud = points.take();
+    cloud.selection = "taken" + selection(classes);
+    return cloud;
+  }
+
+  // What a terrain model is made of: the ground or, if nobody looked for it, all but noise.
+  ClassSet default_classes() const {
+    ClassSet classes;
+    if (count_[kGround] != 0) return classes.set(kGround);
+    return classes.set().reset(kLowNoise).reset(kHighNoise);
+  }
+
+ private:
+  ScaledIntegers scaled(uint64_t axis) const {
+    const auto numbers = ScaledIntegers::from(file_.number<double>(131 + 8 * axis),
+                                              file_.number<double>(155 + 8 * axis));
+    if (!numbers) file_.fail("the header's scale or offset of an axis is out of range");
+    return *numbers;
+  }
+
+  uint64_t place_of(uint64_t point) const {
+    return header_.first_point + point * header_.point_bytes;
+  }
+
+  bool is_recent() const { return header_.point_format >= 6; }
+  uint8_t class_of(uint64_t at) const {
+    return is_recent() ? file_.number<uint8_t>(at + 16) : file_.number<uint8_t>(at + 15) & 31;
+  }
+  bool is_withheld(uint64_t at) const {
+    return (file_.number<uint8_t>(at + 15) & (is_recent() ? 4 : 128)) != 0;
+  }
+
+  void count_classes() {
+    for (uint64_t i = 0; i < header_.points; ++i) {
+      const uint64_t at = place_of(i);
+      ++(is_withheld(at) ? withheld_ : count_[class_of(at)]);
+    }
+  }
+
+  // "class 2 (812 points); left out: class 1 (240), withheld (13)".
+  std::string selection(const ClassSet& classes) const {
+    std::ostringstream taken, left;
+    taken.exceptions(std::ios::badbit);
+    left.exceptions(std::ios::badbit);
+    for (size_t c = 0; c < classes.size(); ++c) {
+      if (count_[c] == 0) continue;
+      std::ostringstream& list = classes[c] ? taken : left;
+      list << (list.tellp() == 0 ? " class " : ", ") << c << " (" << count_[c] << ")";
+    }
+    if (withheld_ != 0)
+      left << (left.tellp() == 0 ? " " : ", ") << "withheld (" << withheld_ << ")";
+    return (taken.tellp() == 0 ? "" : ":" + taken.str()) +
+           (left.tellp() == 0 ? "" : "; left out:" + left.str());
+  }
+
+  [[noreturn]] void fail_on(uint64_t point, Decimal value) const {
+    file_.fail("point " + std::to_string(point + 1) + ": " + to_string(value) +
+               " is not a number in range");
+  }
+
+  const ByteReader& file_;
+  const Header& header_;
+  std::array<ScaledIntegers, 3> axes_;
+  std::array<uint64_t, 256> count_{};
+  uint64_t withheld_ = 0;
+};
+
+}  // namespace
+
+PointCloud import_las(const std::string& name, const std::string& bytes,
+                      const std::optional<ClassSet>& classes) {
+  const ByteReader file(name, bytes);
+  const Header header = read_header(file);
+  const References references(file, header);
+  PointReader reader(file, header);
+  PointCloud cloud = reader.read(classes ? *classes : reader.default_classes());
+  cloud.reference = references.take();
+  return cloud;
+}
+
+}  // namespace microtin::importing

@@ -1,0 +1,113 @@
+// Reads a terrain, fills its voids and floods the rest, whole or piece by piece.
+#include "encoder/import/prepared_terrain.hpp"
+
+#include <utility>
+
+#include "encoder/base/error_context.hpp"
+#include "encoder/terrain/voids.hpp"
+#include "encoder/terrain/water.hpp"
+
+namespace microtin::importing {
+namespace {
+
+std::unique_ptr<RasterReader> open_mask(const std::string& path, const Raster& frame) {
+  OpenSource source = open_terrain(path);
+  auto* const mask = std::get_if<std::unique_ptr<RasterReader>>(&source);
+  if (mask == nullptr) throw Error(path + ": is not a raster");
+  with_file_context(path, [&] { check_water_mask((*mask)->frame(), frame); });
+  return std::move(*mask);
+}
+
+[[noreturn]] void refuse_water(const std::string& path) {
+  throw Error(path + ": --water-level is for rasters; these are points");
+}
+
+// Reads a raster with its water.
+class FloodedRaster : public RasterReader {
+ public:
+  FloodedRaster(std::unique_ptr<RasterReader> raster, Decimal level, std::string mask_path)
+      : raster_(std::move(raster)), level_(level), mask_path_(std::move(mask_path)) {
+    frame_ = raster_->frame();
+    flood_voids(frame_, level_, nullptr);
+    if (!mask_path_.empty()) mask_ = open_mask(mask_path_, frame_);
+  }
+
+  Raster read(const PostRectangle& rectangle) const override {
+    Raster part = raster_->read(rectangle);
+    std::optional<Raster> mask;
+    if (mask_) {
+      mask = mask_->read(rectangle);
+      with_file_context(mask_path_, [&] { check_water_mask(*mask, part); });
+    }
+    flood_voids(part, level_, mask ? &*mask : nullptr);
+    return part;
+  }
+
+ private:
+  std::unique_ptr<RasterReader> raster_, mask_;
+  Decimal level_;
+  std::string mask_path_;
+};
+
+Raster read_mask(const std::string& path, const Raster& raster) {
+  Raster all = open_mask(path, raster)->read({0, 0, raster.width, raster.height});
+  with_file_context(path, [&] { check_water_mask(all, raster); });
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> files_of(const std::string& path, const Preparation& preparation) {
+  std::vector<std::string> files;
+  for (const std::string& name : {path, preparation.water_mask}) {
+    if (name.empty()) continue;
+    for (std::string& file : terrain_files(name, preparation.indirect)) {
+      files.push_back(std::move(file));
+    }
+  }
+  return files;
+}
+
+PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation) {
+  PreparedTerrain terrain{import_terrain(path, preparation.classes, preparation.indirect), 0, 0};
+  terrain.filled = fill_voids(terrain.source, preparation.fill_voids);
+  if (!preparation.water_level) return terrain;
+  auto* const raster = std::get_if<Raster>(&terrain.source);
+  if (raster == nullptr) refuse_water(path);
+  std::optional<Raster> mask;
+  if (!preparation.water_mask.empty()) mask = read_mask(preparation.water_mask, *raster);
+  terrain.flooded = with_file_context(path, [&] {
+    return flood_voids(*raster, *preparation.water_level, mask ? &*mask : nullptr);
+  });
+  return terrain;
+}
+
+OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
+  OpenSource source = open_terrain(path, preparation.classes, preparation.indirect);
+  auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
+  if (raster == nullptr) {
+    if (preparation.water_level) refuse_water(path);
+    return source;
+  }
+  *raster = with_voids_filled(std::move(*raster), preparation.fill_voids);
+  if (!preparation.water_level) return source;
+  return with_file_context(path, [&]() -> OpenSource {
+    return std::make_unique<FloodedRaster>(std::move(*raster), *preparation.water_level,
+                                           preparation.water_mask);
+  });
+}
+
+std::string describe_preparation(const PreparedTerrain& terrain) {
+  std::string text;
+  if (terrain.filled != 0) {
+    text += ", " + std::to_string(terrain.filled) + " of the posts were void and are filled";
+  }
+  if (terrain.flooded != 0) {
+    text += ", " + std::to_string(terrain.flooded) + " of the posts were void and are water";
+  }
+  const auto* cloud = std::get_if<PointCloud>(&terrain.source);
+  if (cloud != nullptr && !cloud->selection.empty()) text += ", " + cloud->selection;
+  return text;
+}
+
+}  // namespace microtin::importing

@@ -1,0 +1,45 @@
+// Terrains as they are encoded, and as they are compared with what came of it.
+#ifndef MICROTIN_ENCODER_IMPORT_PREPARED_TERRAIN_HPP
+#define MICROTIN_ENCODER_IMPORT_PREPARED_TERRAIN_HPP
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "encoder/import/import.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/terrain/raster_reader.hpp"
+
+namespace microtin::importing {
+
+// What is done to a terrain, in this order.
+struct Preparation {
+  std::optional<ClassSet> classes;     // take these points of a .las file
+  uint32_t fill_voids = 0;             // interpolate voids of up to so many posts
+  std::optional<Decimal> water_level;  // voids that are left are water at this height
+  std::string water_mask;              // ... where this file says so; everywhere if there is none
+  Indirect indirect = Indirect::kRefused;  // files that name others
+};
+
+// All files that a terrain is read from; none for one without a name. Throws Error as preparing
+// does.
+std::vector<std::string> files_of(const std::string& path, const Preparation& preparation);
+
+struct PreparedTerrain {
+  Source source;
+  uint32_t filled = 0, flooded = 0;  // posts that were void
+};
+
+// Throws Error naming the file.
+PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation);
+
+// The same for a source whose raster is read in pieces. Throws Error when a piece is read, too.
+OpenSource prepared_source(const std::string& path, const Preparation& preparation);
+
+// A part of a sentence about what was done to a terrain: empty if nothing was.
+std::string describe_preparation(const PreparedTerrain& terrain);
+
+}  // namespace microtin::importing
+
+#endif

@@ -1,0 +1,87 @@
+// Splits text into lines and fields, and reads their numbers.
+#include "encoder/import/text.hpp"
+
+#include <algorithm>
+
+#include "encoder/base/error.hpp"
+
+namespace microtin::importing {
+namespace {
+
+constexpr int64_t kLargest = 1000000000000000000;  // 10^18
+
+}  // namespace
+
+void fail_at(const std::string& name, size_t line, const std::string& what) {
+  throw Error(name + ":" + std::to_string(line) + ": " + what);
+}
+
+std::string quoted(std::string_view piece) {
+  constexpr size_t kMost = 24;
+  std::string text(piece.substr(0, kMost));
+  for (char& c : text) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return '"' + text + (piece.size() > kMost ? "...\"" : "\"");
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+bool DecimalRange::add(Decimal value) {
+  if (value.decimals > decimals_) {
+    largest_ *= power_of_ten(value.decimals - decimals_);
+    if (largest_ > kLargest) return false;
+    decimals_ = value.decimals;
+  }
+  largest_ = std::max(largest_, magnitude(mantissa_at(value, decimals_)));
+  return largest_ <= kLargest;
+}
+
+bool DecimalColumn::add(Decimal value) {
+  const int before = range_.decimals();
+  if (!range_.add(value)) return false;
+  const int64_t factor = power_of_ten(range_.decimals() - before);
+  for (size_t i = 0; factor != 1 && i < mantissas_.size(); ++i) {
+    if (mantissas_[i] != kVoidHeight) mantissas_[i] *= factor;
+  }
+  mantissas_.push_back(static_cast<int64_t>(mantissa_at(value, range_.decimals())));
+  return true;
+}
+
+PointCloud PointColumns::take() {
+  PointCloud cloud;
+  cloud.xy_decimals = xy_.decimals();
+  cloud.z_decimals = z_.decimals();
+  const std::vector<int64_t>&xy = xy_.mantissas(), &z = z_.mantissas();
+  cloud.points.reserve(z.size());
+  for (size_t i = 0; i < z.size(); ++i) cloud.points.push_back({xy[2 * i], xy[2 * i + 1], z[i]});
+  return cloud;
+}
+
+void split(std::string_view line, std::vector<std::string_view>& fields) {
+  const auto skip_blanks = [&line] {
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+  };
+  fields.clear();
+  for (skip_blanks(); !line.empty(); skip_blanks()) {
+    const size_t end = std::min(line.find_first_of(" \t\r\v\f,;"), line.size());
+    fields.push_back(line.substr(0, end));
+    line.remove_prefix(end);
+    skip_blanks();
+    if (!line.empty() && (line.front() == ',' || line.front() == ';')) line.remove_prefix(1);
+  }
+}
+
+std::string_view take_line(std::string_view& text) {
+  const size_t end = std::min(text.find('\n'), text.size());
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return line;
+}
+
+}  // namespace microtin::importing

@@ -1,0 +1,127 @@
+// Plans the tiles and encodes them in parallel; gives them away in order.
+#include "encoder/pack/encode.hpp"
+
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/base/parallel.hpp"
+#include "encoder/fit/approximation.hpp"
+#include "encoder/pack/tile_plan.hpp"
+
+namespace microtin::pack {
+namespace {
+
+// Of the time, estimated.
+constexpr double kScanPart = 0.02, kPlanPart = 0.1;
+
+// The z step that suits a part of the raster best.
+Decimal choose_z_step(const Raster& part, const LatticeOptions& lattice, SimplifyOptions options) {
+  if (options.search == Search::kNormal) options.search = Search::kFast;
+  options.progress = {};
+  return approximate(part, lattice, options).laid.z_step;
+}
+
+// Chooses the heights' lattice for all tiles.
+TiledRaster tiled_raster(const RasterReader& raster, const RasterScan& scanned,
+                         const PackOptions& options) {
+  LatticeOptions lattice = options.lattice;
+  const Raster& frame = raster.frame();
+  if (options.simplify.bounded && !lattice.z_step) {
+    try {
+      lattice.z_step = choose_z_step(raster.read(scanned.roughest), lattice, options.simplify);
+      return {raster, choose_post_lattice(frame, scanned.heights, lattice), lattice, {}};
+    } catch (const Error&) {  // too little terrain there, or too fine for the whole
+      lattice.z_step.reset();
+    }
+  }
+  return {raster, choose_post_lattice(frame, scanned.heights, lattice), lattice, {}};
+}
+
+// Puts tiles that are encoded in any order into that of their numbers.
+class InOrder {
+ public:
+  InOrder(uint32_t first, const TakeTile& take) : next_(first), take_(take) {}
+
+  void add(uint32_t tile, EncodedTile&& encoded) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waiting_.emplace(tile, std::move(encoded));
+    for (; !waiting_.empty() && waiting_.begin()->first == next_; ++next_) {
+      take_(next_, std::move(waiting_.begin()->second));
+      waiting_.erase(waiting_.begin());
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<uint32_t, EncodedTile> waiting_;
+  uint32_t next_;
+  const TakeTile& take_;
+};
+
+}  // namespace
+
+PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
+  if (raster.frame().width < 2 || raster.frame().height < 2)
+    throw Error("a pack needs two posts in each direction");
+  const Progress& progress = options.simplify.progress;
+  const bool chooses_z_step = options.simplify.bounded && !options.lattice.z_step;
+  const RasterScan scanned =
+      scan(raster, options.lattice.max_error, chooses_z_step, progress.part(0, kScanPart));
+  PackPlan plan{tiled_raster(raster, scanned, options), options, options.tile_steps,
+                scanned.fingerprint};
+  if (plan.tile_steps == 0) {
+    plan.tile_steps = choose_tile_steps(plan.tiled, options.max_vertices, options.simplify);
+  }
+  plan.tiled.grid = grid_of(raster.frame(), plan.tile_steps);
+  return plan;
+}
+
+TileRange all_tiles(const TileGrid& grid) {
+  return {0, static_cast<uint32_t>(tile_count(grid) - 1)};
+}
+
+TileTooLarge::TileTooLarge(uint32_t tile, uint32_t vertices, uint32_t steps)
+    : Error("tile " + std::to_string(tile) + " has " + std::to_string(vertices) +
+            " vertices, too many; all tiles can be encoded with --tile-steps " +
+            std::to_string(steps)),
+      fewer_steps(steps) {}
+
+void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
+  InOrder in_order(range.first, take);
+  SimplifyOptions options = plan.options.simplify;
+  const std::size_t count = std::size_t{range.last} - range.first + 1;
+  CountedProgress done(options.progress.part(kPlanPart, 1), count);
+  options.progress = {};
+  for_each_parallel(count, [&](std::size_t i) {
+    const uint32_t tile = range.first + static_cast<uint32_t>(i);
+    EncodedTile encoded = encode_tile(plan.tiled, tile, options);
+    const uint32_t vertices = encoded.summary.vertices, most = plan.options.max_vertices;
+    if (vertices > most) {
+      throw TileTooLarge(tile, vertices, fewer_tile_steps(plan.tiled.grid, most, vertices));
+    }
+    in_order.add(tile, std::move(encoded));
+    done.add_one();
+  });
+}
+
+void encode_pack(const RasterReader& raster, const PackOptions& options,
+                 const std::function<void(const PackPlan&)>& begin, const TakeTile& take) {
+  PackPlan plan = plan_pack(raster, options);
+  for (;;) {
+    begin(plan);
+    try {
+      encode_tiles(plan, all_tiles(plan.tiled.grid), take);
+      return;
+    } catch (const TileTooLarge& error) {  // the same one whatever the number of processors
+      if (options.tile_steps != 0) throw;
+      plan.tile_steps = error.fewer_steps;
+      plan.tiled.grid = grid_of(raster.frame(), plan.tile_steps);
+    }
+  }
+}
+
+}  // namespace microtin::pack

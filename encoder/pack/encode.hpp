@@ -1,0 +1,68 @@
+// A raster as the tiles of a pack.
+#ifndef MICROTIN_ENCODER_PACK_ENCODE_HPP
+#define MICROTIN_ENCODER_PACK_ENCODE_HPP
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "encoder/base/error.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/pack/tile.hpp"
+#include "encoder/terrain/raster_scan.hpp"
+
+namespace microtin::pack {
+
+struct PackOptions {
+  LatticeOptions lattice;    // without an xy step
+  SimplifyOptions simplify;  // without max_vertices
+  uint32_t max_vertices;     // of a tile, at least kFewestTileVertices
+  uint32_t tile_steps = 0;   // extent of a tile; 0: to be chosen
+};
+
+constexpr uint32_t kFewestTileVertices = 16;
+
+// What all tiles have in common: a function of the raster and the options alone.
+struct PackPlan {
+  TiledRaster tiled;
+  PackOptions options;
+  uint32_t tile_steps;
+  uint64_t fingerprint;  // of the raster
+};
+
+// Chooses the step of heights by the roughest part of the raster, and the size of tiles by their
+// roughest, where the options do not say. Reads the raster a few times. The raster must outlive the
+// plan. Throws Error if that cannot be done, as lay_out does, or if a raster has a single row of
+// posts.
+PackPlan plan_pack(const RasterReader& raster, const PackOptions& options);
+
+// The tiles numbered from `first` to `last`.
+struct TileRange {
+  uint32_t first, last;
+};
+
+TileRange all_tiles(const TileGrid& grid);
+
+// A tile that has more vertices than it may.
+struct TileTooLarge : Error {
+  TileTooLarge(uint32_t tile, uint32_t vertices, uint32_t fewer_steps);
+
+  uint32_t fewer_steps;  // tile_steps to be tried next
+};
+
+using TakeTile = std::function<void(uint32_t tile, EncodedTile&&)>;
+
+// Encodes tiles on all processors and gives them away in the order of their numbers; they do not
+// depend on the range or the number of processors. Every post with a height is covered by a tile
+// and within the bound; every void one stays void; borders have no cracks. Throws Error as
+// encode_tile does, and TileTooLarge.
+void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take);
+
+// Encodes all tiles. If one is too large and no size was asked for, begins again with smaller ones:
+// calls begin(plan) before that, and first of all.
+void encode_pack(const RasterReader& raster, const PackOptions& options,
+                 const std::function<void(const PackPlan&)>& begin, const TakeTile& take);
+
+}  // namespace microtin::pack
+
+#endif

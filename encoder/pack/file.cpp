@@ -1,0 +1,210 @@
+// Writes and reads a pack's header and index, and checks each tile that is read.
+#include "encoder/pack/file.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/base/error_context.hpp"
+#include "encoder/base/status_text.hpp"
+#include "encoder/stream/header.hpp"
+
+namespace microtin::pack {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+constexpr uint32_t kMostError = 65535;
+
+// In 1/256 of a z step, rounded up.
+uint32_t in_steps(Decimal error, const Axis& z) {
+  const Wide steps = ceil_divide(Wide{error.mantissa} * 256 * static_cast<Wide>(z.denominator),
+                                 static_cast<Wide>(z.numerator) * power_of_ten(error.decimals));
+  return static_cast<uint32_t>(std::min<Wide>(steps, kMostError));
+}
+
+uint64_t to_unsigned(int16_t value) {
+  return static_cast<uint16_t>(value);
+}
+
+Bytes write_entry(const TileSummary& tile, uint64_t offset, const Axis& z) {
+  Bytes entry;
+  if (tile.bytes == 0) return Bytes(kPackEntryBytes - kCheckBytes);
+  if (tile.bytes >> 24 != 0 || offset >> 40 != 0) throw Error("the pack grows too large");
+  append_number(entry, offset, 5);
+  append_number(entry, tile.bytes, 3);
+  append_number(entry, tile.vertices, 4);
+  append_number(entry, to_unsigned(tile.lowest), 2);
+  append_number(entry, to_unsigned(tile.highest), 2);
+  append_number(entry, in_steps(tile.measured.max_error, z), 2);
+  append_number(entry, in_steps(tile.measured.rms_error, z), 2);
+  append_number(entry, tile.stream_hash, 4);
+  return entry;
+}
+
+void expect(bool legal) {
+  if (!legal) throw Error(describe(MICROTIN_MALFORMED));
+}
+
+void expect_done(microtin_status status) {
+  if (status != MICROTIN_DONE) throw Error(describe(status));
+}
+
+void check_box(const microtin_mesh* mesh, const TileBox& box) {
+  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+    Point p{};
+    int16_t z = 0;
+    microtin_vertex(mesh, v, &p.x, &p.y, &z);
+    expect(p.x <= box.x_end - box.x && p.y <= box.y_end - box.y);
+  }
+}
+
+}  // namespace
+
+PackContent content_of(const PackPlan& plan, Metadata metadata) {
+  metadata.placement = plan.tiled.lattice.placement;
+  metadata.accuracy = Accuracy{plan.options.lattice.max_error, {}, {}};
+  return {plan.tiled.grid, std::move(metadata), {}};
+}
+
+Verification measured(const PackContent& pack) {
+  std::vector<Verification> parts;
+  parts.reserve(pack.tiles.size());
+  for (const TileSummary& tile : pack.tiles) parts.push_back(tile.measured);
+  return combine(parts);
+}
+
+Bytes write_pack_header(const PackContent& pack) {
+  const Bytes placement = write_placement(pack.metadata.placement);
+  const Bytes notes = write_notes(pack.metadata);
+  int16_t lowest = INT16_MAX, highest = INT16_MIN;
+  uint32_t most = 0;
+  for (const TileSummary& tile : pack.tiles) {
+    if (tile.bytes == 0) continue;
+    lowest = std::min(lowest, tile.lowest);
+    highest = std::max(highest, tile.highest);
+    most = std::max(most, tile.vertices);
+  }
+  Bytes header(kPackMagic, kPackMagic + sizeof kPackMagic);
+  append_number(header, kPackVersion, 2);
+  append_number(header, placement.size(), 2);
+  append_number(header, notes.size(), 2);
+  append_number(header, pack.grid.width, 2);
+  append_number(header, pack.grid.height, 2);
+  append_number(header, to_unsigned(lowest), 2);
+  append_number(header, to_unsigned(highest), 2);
+  append_number(header, 0, 2);
+  append_number(header, pack.grid.x_max, 4);
+  append_number(header, pack.grid.y_max, 4);
+  append_number(header, most, 4);
+  header.insert(header.end(), placement.begin(), placement.end());
+  header.insert(header.end(), notes.begin(), notes.end());
+  append_check(header, 0);
+  return header;
+}
+
+Bytes write_pack_head(PackContent pack) {
+  const Verification all = measured(pack);
+  if (pack.metadata.accuracy) {
+    pack.metadata.accuracy->max_error = all.max_error;
+    pack.metadata.accuracy->rms_error = all.rms_error;
+  }
+  Bytes head = write_pack_header(pack);
+  const uint32_t header_check = read_u32(head.data() + head.size() - kCheckBytes);
+  uint64_t offset = head.size() + pack.tiles.size() * kPackEntryBytes;
+  for (std::size_t i = 0; i < pack.tiles.size(); ++i) {
+    const Bytes entry = write_entry(pack.tiles[i], offset, pack.metadata.placement.z);
+    head.insert(head.end(), entry.begin(), entry.end());
+    append_number(head, pack_entry_check(header_check, static_cast<uint32_t>(i), entry.data()),
+                  kCheckBytes);
+    offset += pack.tiles[i].bytes;
+  }
+  return head;
+}
+
+Bytes write_pack(const PackContent& pack, const std::vector<Bytes>& streams) {
+  Bytes file = write_pack_head(pack);
+  for (const Bytes& stream : streams) file.insert(file.end(), stream.begin(), stream.end());
+  return file;
+}
+
+bool is_pack(const ByteSource& bytes) {
+  uint8_t identity[sizeof kPackMagic + 1] = {};
+  return bytes.read(0, identity, sizeof identity) == sizeof identity &&
+         check_pack_identity(identity) != MICROTIN_BAD_MAGIC;
+}
+
+Metadata read_placement_and_notes(const PackHeader& header, const uint8_t* bytes) {
+  Metadata metadata;
+  const uint8_t* const placement = bytes + kPackFixedBytes;
+  if (header.placement_bytes != 0) {
+    Axis axis[3];
+    expect(read_pack_placement(placement, header, axis));
+    metadata.placement = {axis[0], axis[1], axis[2]};
+  }
+  const uint8_t* const notes = placement + header.placement_bytes;
+  read_notes(notes, notes + header.note_bytes, metadata);
+  return metadata;
+}
+
+PackFile::PackFile(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {
+  read_header();
+  read_index();
+}
+
+void PackFile::read_header() {
+  const Bytes fixed = bytes_at(*bytes_, 0, kPackFixedBytes);
+  expect_done(check_pack_identity(fixed.data()));
+  const bool legal = read_pack_header(fixed.data(), &header_);
+  const uint32_t end = pack_index_start(header_);
+  const Bytes header = bytes_at(*bytes_, 0, end);
+  const uint8_t* const data = header.data();
+  header_check_ = read_u32(data + end - kCheckBytes);
+  if (crc32(0, data, end - kCheckBytes) != header_check_) throw Error(describe(MICROTIN_CHECKSUM));
+  expect(legal);
+  metadata_ = read_placement_and_notes(header_, data);
+}
+
+void PackFile::read_index() {
+  constexpr uint32_t kAtOnce = 1024;
+  const uint64_t tiles = uint64_t{tile_columns(header_.grid)} * tile_rows(header_.grid);
+  const uint64_t start = pack_index_start(header_);
+  if ((bytes_->size() - start) / kPackEntryBytes < tiles) throw Error(describe(MICROTIN_TRUNCATED));
+  entries_.reserve(tiles);
+  while (entries_.size() < tiles) {
+    const uint64_t count = std::min<uint64_t>(tiles - entries_.size(), kAtOnce);
+    const uint64_t offset = pack_entry_start(header_, static_cast<uint32_t>(entries_.size()));
+    const Bytes bytes = bytes_at(*bytes_, offset, count * kPackEntryBytes);
+    for (uint64_t i = 0; i < count; ++i) read_entry(bytes.data() + i * kPackEntryBytes);
+  }
+}
+
+void PackFile::read_entry(const uint8_t* at) {
+  const auto tile = static_cast<uint32_t>(entries_.size());
+  if (pack_entry_check(header_check_, tile, at) != read_u32(at + kPackEntryBytes - kCheckBytes)) {
+    throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_CHECKSUM));
+  }
+  PackEntry entry{};
+  if (!read_pack_entry(at, header_, &entry)) {
+    throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_MALFORMED));
+  }
+  entries_.push_back(entry);
+}
+
+std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
+  const PackEntry& entry = entries_[number];
+  if (entry.size == 0) return std::nullopt;
+  return with_file_context("tile " + std::to_string(number), [&] {
+    const Bytes stream = bytes_at(*bytes_, entry.offset, entry.size);
+    if (stream_hash(kStreamHash, stream.data(), stream.size()) != entry.stream_hash) {
+      throw Error(describe(MICROTIN_CHECKSUM));
+    }
+    DecodedTerrain decoded(stream);
+    expect(microtin_vertex_count(decoded.mesh()) == entry.vertices);
+    check_box(decoded.mesh(), tile_box(header_.grid, number));
+    return std::optional<DecodedTerrain>(std::move(decoded));
+  });
+}
+
+}  // namespace microtin::pack

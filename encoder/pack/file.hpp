@@ -1,0 +1,81 @@
+// Packs as bytes (PACK.md), on the host.
+#ifndef MICROTIN_ENCODER_PACK_FILE_HPP
+#define MICROTIN_ENCODER_PACK_FILE_HPP
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "encoder/exact/metadata.hpp"
+#include "encoder/files/byte_source.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/pack/encode.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "shared/pack_format.hpp"
+
+namespace microtin::pack {
+
+// A pack but for its streams.
+struct PackContent {
+  TileGrid grid;
+  Metadata metadata;  // its accuracy is that of all tiles
+  std::vector<TileSummary> tiles;
+};
+
+// A pack before its tiles are encoded.
+PackContent content_of(const PackPlan& plan, Metadata metadata);
+
+// What all tiles together keep; posts on borders count in each tile.
+Verification measured(const PackContent& pack);
+
+// What comes before the streams: header and index. They follow in the order of their numbers.
+// Throws Error if notes or streams are too long.
+std::vector<uint8_t> write_pack_head(PackContent pack);
+
+// The header alone.
+std::vector<uint8_t> write_pack_header(const PackContent& pack);
+
+// What such a header says behind its fixed part. Throws Error if that breaks a rule.
+Metadata read_placement_and_notes(const PackHeader& header, const uint8_t* bytes);
+
+// A whole pack.
+std::vector<uint8_t> write_pack(const PackContent& pack,
+                                const std::vector<std::vector<uint8_t>>& streams);
+
+// Whether bytes begin as those of a pack do.
+bool is_pack(const ByteSource& bytes);
+
+class PackFile {
+ public:
+  // Reads header and index; streams when they are asked for. Throws Error if they are damaged or
+  // break a rule.
+  explicit PackFile(std::unique_ptr<ByteSource> bytes);
+  explicit PackFile(std::vector<uint8_t> bytes) : PackFile(bytes_in_memory(std::move(bytes))) {}
+
+  const TileGrid& grid() const { return header_.grid; }
+  const PackHeader& header() const { return header_; }
+  const Metadata& metadata() const { return metadata_; }
+  const std::vector<PackEntry>& entries() const { return entries_; }  // by tile
+  uint64_t bytes() const { return bytes_->size(); }
+
+  // A tile, decoded; nothing if it has no terrain. Throws Error naming the tile if it is damaged,
+  // not the one in the index, or leaves its box.
+  std::optional<DecodedTerrain> tile(uint32_t number) const;
+
+ private:
+  void read_header();
+  void read_index();
+  void read_entry(const uint8_t* at);
+
+  std::unique_ptr<ByteSource> bytes_;
+  PackHeader header_{};
+  uint32_t header_check_ = 0;
+  Metadata metadata_;
+  std::vector<PackEntry> entries_;
+};
+
+}  // namespace microtin::pack
+
+#endif

@@ -1,0 +1,166 @@
+// Lays points out, cuts them into tiles and encodes each.
+#include "encoder/pack/point_pack.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/base/parallel.hpp"
+#include "encoder/fit/approximation.hpp"
+#include "encoder/pack/point_tile.hpp"
+#include "encoder/pack/tile_plan.hpp"
+
+namespace microtin::pack {
+namespace {
+
+constexpr std::size_t kPilot = 20000;    // points
+constexpr double kPointsPerVertex = 16;  // of simplified terrain, to begin with
+
+// Of points in ascending order of a coordinate, those in the middle, as many as wanted.
+template <class Before>
+void keep_middle(std::vector<uint32_t>& points, std::size_t wanted, const Before& before) {
+  if (points.size() <= wanted) return;
+  const auto skipped = static_cast<std::ptrdiff_t>((points.size() - wanted) / 2);
+  const auto end = skipped + static_cast<std::ptrdiff_t>(wanted);
+  std::nth_element(points.begin(), points.begin() + skipped, points.end(), before);
+  std::nth_element(points.begin() + skipped, points.begin() + end, points.end(), before);
+  points.erase(points.begin() + end, points.end());
+  points.erase(points.begin(), points.begin() + skipped);
+}
+
+// Points around the middle.
+PointCloud pilot_of(const PointCloud& cloud) {
+  std::vector<uint32_t> points(cloud.points.size());
+  std::iota(points.begin(), points.end(), 0u);
+  const auto strip = static_cast<std::size_t>(
+      std::sqrt(static_cast<double>(points.size()) * static_cast<double>(kPilot)));
+  const auto at = [&cloud](uint32_t i) -> const SourcePoint& { return cloud.points[i]; };
+  keep_middle(points, strip, [&](uint32_t a, uint32_t b) {
+    return std::tie(at(a).x, at(a).y, at(a).z) < std::tie(at(b).x, at(b).y, at(b).z);
+  });
+  keep_middle(points, kPilot, [&](uint32_t a, uint32_t b) {
+    return std::tie(at(a).y, at(a).x, at(a).z) < std::tie(at(b).y, at(b).x, at(b).z);
+  });
+  std::sort(points.begin(), points.end());
+  return part_of(cloud, points);
+}
+
+// The cloud on a lattice with the z step that suits its middle best, unless one was asked for.
+PointSurvey survey_of(const PointCloud& cloud, LatticeOptions& lattice, SimplifyOptions simplify) {
+  if (simplify.bounded && !lattice.z_step) {
+    try {
+      if (simplify.search == Search::kNormal) simplify.search = Search::kFast;
+      LatticeOptions pilot = lattice;
+      pilot.xy_step.reset();
+      lattice.z_step = approximate(pilot_of(cloud), pilot, simplify).laid.z_step;
+      return survey_points(cloud, lattice);
+    } catch (const Error&) {  // no triangle in the middle, or too fine for the whole
+      lattice.z_step.reset();
+    }
+  }
+  return survey_points(cloud, lattice);
+}
+
+// About `pieces` tiles along the longer side.
+TileGrid grid_in_pieces(const PointSurvey& survey, uint32_t pieces) {
+  const uint32_t longer = std::max(survey.x_max, survey.y_max);
+  return grid_of(survey.x_max, survey.y_max, (longer - 1) / pieces + 1);
+}
+
+// The vertices of the tile that has most.
+uint32_t most_vertices(const TiledCloud& tiled) {
+  SimplifyOptions options = tiled.simplify;
+  options.search = Search::kFast;
+  const PointBorders borders(tiled.survey, tiled.triangulation, tiled.grid, tiled.tolerance);
+  const PointTiles tiles(tiled, borders);
+  std::vector<uint32_t> vertices(tile_count(tiled.grid));
+  for_each_parallel(vertices.size(), [&](std::size_t i) {
+    vertices[i] = tiles.vertices_of(static_cast<uint32_t>(i), options);
+  });
+  return *std::max_element(vertices.begin(), vertices.end());
+}
+
+// The fewest pieces along the longer side, at least `fewest`, found to keep tiles within the number
+// of vertices.
+uint32_t choose_pieces(TiledCloud tiled, uint32_t max_vertices, uint32_t fewest) {
+  const double x_max = tiled.survey.x_max, y_max = tiled.survey.y_max;
+  const double points = max_vertices * (tiled.simplify.bounded ? kPointsPerVertex : 1);
+  const double tiles = static_cast<double>(tiled.survey.samples.size()) / points;
+  const double guess = std::sqrt(tiles * std::max(x_max, y_max) / std::min(x_max, y_max));
+  const auto longer = static_cast<uint32_t>(std::max(x_max, y_max));
+  fewest = std::max(fewest, (longer - 1) / kLatticeMax + 1);
+  uint32_t fitting = 0;
+  uint32_t pieces = std::max(fewest, static_cast<uint32_t>(std::min<double>(guess, longer)));
+  for (;;) {
+    tiled.grid = grid_in_pieces(tiled.survey, pieces);
+    if (pieces > longer || tile_count(tiled.grid) > kMostTiles) {
+      throw Error("more than " + std::to_string(kMostTiles) + " tiles, or tiles of one step, are " +
+                  "needed: --tile-vertices must be more or --xy-step coarser");
+    }
+    const uint32_t most = most_vertices(tiled);
+    if (most <= max_vertices) fitting = pieces;
+    if (most > max_vertices) fewest = pieces + 1;
+    const double ratio = std::min(2.0, std::sqrt(static_cast<double>(most) / max_vertices));
+    const uint32_t next = std::max(fewest, static_cast<uint32_t>(std::ceil(pieces * ratio)));
+    if (fitting != 0 && next >= fitting) return fitting;
+    pieces = next;
+  }
+}
+
+std::vector<EncodedTile> encode_tiles(const TiledCloud& tiled,
+                                      const std::vector<GlobalPost>& places) {
+  const PointBorders borders(tiled.survey, tiled.triangulation, tiled.grid, tiled.tolerance);
+  const PointTiles tiles(tiled, borders);
+  const TileContents points(tiled.grid, places);
+  std::vector<EncodedTile> encoded(tile_count(tiled.grid));
+  for_each_parallel(encoded.size(), [&](std::size_t i) {
+    const auto tile = static_cast<uint32_t>(i);
+    encoded[i] = tiles.encode(tile, points.of_tile(tile));
+  });
+  return encoded;
+}
+
+uint32_t most_vertices(const std::vector<EncodedTile>& tiles) {
+  uint32_t most = 0;
+  for (const EncodedTile& tile : tiles) most = std::max(most, tile.summary.vertices);
+  return most;
+}
+
+}  // namespace
+
+PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
+                            Metadata metadata) {
+  LatticeOptions lattice = options.lattice;
+  const PointSurvey survey = survey_of(cloud, lattice, options.simplify);
+  const GlobalTriangulation triangulation(places_of(survey.samples));
+  TiledCloud tiled{cloud,   survey,           triangulation,
+                   lattice, options.simplify, choose_tolerance(survey, triangulation, lattice),
+                   {}};
+  const Placement& placement = survey.lattice.placement;
+  const auto places = places_on(cloud, placement, survey.x_max, survey.y_max);
+  std::vector<EncodedTile> tiles;
+  uint32_t pieces = 0;
+  do {  // a longer search seldom finds more vertices than the one for the plan
+    pieces = choose_pieces(tiled, options.max_vertices, pieces + 1);
+    tiled.grid = grid_in_pieces(survey, pieces);
+    tiles = encode_tiles(tiled, places);
+  } while (most_vertices(tiles) > options.max_vertices);
+  metadata.placement = placement;
+  metadata.accuracy = Accuracy{lattice.max_error, {}, {}};
+  PointPack pack{{tiled.grid, std::move(metadata), {}},
+                 {},
+                 survey.xy_step,
+                 survey.xy_displacement,
+                 survey.merged};
+  for (EncodedTile& tile : tiles) {
+    pack.content.tiles.push_back(tile.summary);
+    pack.streams.push_back(std::move(tile.stream));
+  }
+  return pack;
+}
+
+}  // namespace microtin::pack

@@ -1,0 +1,59 @@
+// Surveys the points of a tile with its borders, and encodes it.
+#include "encoder/pack/point_tile.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/stream/encode.hpp"
+
+namespace microtin::pack {
+PointTiles::PointTiles(const TiledCloud& tiled, const PointBorders& borders)
+    : tiled_(tiled), borders_(borders), samples_(tiled.grid, places_of(tiled.survey.samples)) {}
+
+Survey PointTiles::survey_of(uint32_t tile) const {
+  const TileBox box = tile_box(tiled_.grid, tile);
+  const TileSides sides(tiled_.grid, box);
+  Survey survey;
+  for (const uint32_t number : samples_.of_tile(tile)) {
+    const GlobalSample& sample = tiled_.survey.samples[number];
+    const Point place{static_cast<uint16_t>(sample.place.x - box.x),
+                      static_cast<uint16_t>(sample.place.y - box.y)};
+    if (sides.shares(place)) continue;
+    survey.samples.push_back({place, sample.height, sample.lowest, sample.highest});
+  }
+  for (const auto& [place, z] : borders_.of_tile(tile)) {
+    const int32_t height = z * 65536;
+    survey.samples.push_back({place, height, height, height});
+    survey.fixed.push_back(place);
+  }
+  std::sort(survey.samples.begin(), survey.samples.end(),
+            [](const Sample& a, const Sample& b) { return a.place < b.place; });
+  return survey;
+}
+
+uint32_t PointTiles::vertices_of(uint32_t tile, const SimplifyOptions& options) const {
+  const Survey survey = survey_of(tile);
+  if (!form_triangle(survey.samples)) return 0;
+  if (!options.bounded) return static_cast<uint32_t>(survey.samples.size());
+  return static_cast<uint32_t>(fit::simplify(survey, options).vertices.size());
+}
+
+EncodedTile PointTiles::encode(uint32_t tile, const std::vector<uint32_t>& points) const {
+  const Survey survey = survey_of(tile);
+  if (!form_triangle(survey.samples)) return {};
+  const TileBox box = tile_box(tiled_.grid, tile);
+  const Tin tin = simplify(survey, tiled_.simplify);
+  auto [stream, decoded] = encode_and_decode(tin, Metadata(), tiled_.simplify.effort);
+  check_shared(decoded.mesh(), TileSides(tiled_.grid, box), borders_.of_tile(tile));
+  const Verification measured =
+      verify(decoded.mesh(), placement_from(tiled_.survey.lattice.placement, {box.x, box.y}),
+             part_of(tiled_.cloud, points), tiled_.lattice.max_error);
+  const bool too_low = tiled_.lattice.never_below && measured.max_below.mantissa != 0;
+  if (!measured.within_bound || too_low || measured.uncovered != 0) {
+    throw InternalFault("a decoded tile does not keep what was asked for");
+  }
+  return {summary_of(tin, stream, measured), std::move(stream)};
+}
+
+}  // namespace microtin::pack

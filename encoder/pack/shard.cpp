@@ -1,0 +1,259 @@
+// Writes shards, checks that they belong together, and joins them.
+#include "encoder/pack/shard.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/base/error_context.hpp"
+#include "encoder/base/status_text.hpp"
+#include "encoder/stream/header.hpp"
+
+namespace microtin::pack {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 1};  // and version
+constexpr std::size_t kStartBytes = sizeof kShardMagic + 4, kRangeBytes = 8;
+constexpr uint32_t kMostHeadBytes = 1 << 17;
+constexpr std::size_t kSummaryBytes = 4 + 4 + 4 + 2 + 2 + 4 * 8 + 3 * 9;  // without the check
+
+// What the tiles of a pack depend on.
+Bytes write_identity(const PackPlan& plan, const PackContent& pack) {
+  const PackOptions& options = plan.options;
+  Bytes identity = write_pack_header(pack);
+  append_number(identity, options.max_vertices, 4);
+  append_number(identity, static_cast<uint64_t>(options.simplify.search), 1);
+  append_number(identity, options.simplify.effort.degree, 1);
+  append_number(identity, options.simplify.effort.levels, 1);
+  append_number(identity, options.lattice.never_below ? 1 : 0, 1);
+  append_number(identity, plan.fingerprint, 8);
+  return identity;
+}
+
+void append_decimal(Bytes& bytes, Decimal value) {
+  append_number(bytes, static_cast<uint64_t>(value.mantissa), 8);
+  append_number(bytes, static_cast<uint64_t>(value.decimals), 1);
+}
+
+Bytes write_summary(const TileSummary& tile) {
+  const Verification& v = tile.measured;
+  Bytes bytes;
+  append_number(bytes, tile.bytes, 4);
+  append_number(bytes, tile.stream_hash, 4);
+  append_number(bytes, tile.vertices, 4);
+  append_number(bytes, static_cast<uint16_t>(tile.lowest), 2);
+  append_number(bytes, static_cast<uint16_t>(tile.highest), 2);
+  for (const uint64_t count : {v.posts, v.covered, v.voids, uint64_t{v.within_bound}}) {
+    append_number(bytes, count, 8);
+  }
+  for (const Decimal error : {v.max_error, v.max_below, v.rms_error}) append_decimal(bytes, error);
+  append_check(bytes, 0);
+  return bytes;
+}
+
+void expect(bool legal) {
+  if (!legal) throw Error(describe(MICROTIN_MALFORMED));
+}
+
+// Numbers one after the other, low bytes first.
+class NumberReader {
+ public:
+  explicit NumberReader(const Bytes& bytes) : at_(bytes.data()) {}
+
+  uint64_t next(int width) {
+    uint64_t value = 0;
+    for (int i = 0; i < width; ++i) value |= static_cast<uint64_t>(*at_++) << 8 * i;
+    return value;
+  }
+  uint32_t next32() { return static_cast<uint32_t>(next(4)); }
+  int16_t next_height() { return static_cast<int16_t>(static_cast<uint16_t>(next(2))); }
+  Decimal next_decimal() {
+    const auto mantissa = static_cast<int64_t>(next(8));
+    const auto decimals = static_cast<int>(next(1));
+    expect(mantissa >= 0 && decimals <= kMaxDecimals);
+    return {mantissa, decimals};
+  }
+
+ private:
+  const uint8_t* at_;
+};
+
+TileSummary read_summary(const Bytes& bytes) {
+  NumberReader reader(bytes);
+  TileSummary tile;
+  Verification& v = tile.measured;
+  tile.bytes = reader.next32();
+  tile.stream_hash = reader.next32();
+  tile.vertices = reader.next32();
+  tile.lowest = reader.next_height();
+  tile.highest = reader.next_height();
+  v.posts = reader.next(8);
+  v.covered = reader.next(8);
+  v.voids = reader.next(8);
+  v.within_bound = reader.next(8) != 0;
+  v.max_error = reader.next_decimal();
+  v.max_below = reader.next_decimal();
+  v.rms_error = reader.next_decimal();
+  return tile;
+}
+
+void expect_check(const Bytes& bytes) {
+  const std::size_t size = bytes.size() - kCheckBytes;
+  if (crc32(0, bytes.data(), size) != read_u32(bytes.data() + size)) {
+    throw Error(describe(MICROTIN_CHECKSUM));
+  }
+}
+
+// A shard, of which tiles are read one after the other.
+class Shard {
+ public:
+  explicit Shard(const std::string& path) : path_(path), bytes_(open_file(path)) {
+    with_file_context(path_, [&] {
+      const Bytes start = take(std::min<uint64_t>(kStartBytes, bytes_->size()));
+      if (start.size() < kStartBytes ||
+          !std::equal(kShardMagic, kShardMagic + sizeof kShardMagic, start.begin())) {
+        throw Error("not a shard that this version of microtin made");
+      }
+      const uint32_t size = read_u32(start.data() + sizeof kShardMagic);
+      if (size < kPackFixedBytes || size > kMostHeadBytes) throw Error(describe(MICROTIN_CHECKSUM));
+      head_ = take(size + kCheckBytes);
+      expect_check(head_);
+      const Bytes range = take(kRangeBytes + kCheckBytes);
+      expect_check(range);
+      range_ = {read_u32(range.data()), read_u32(range.data() + 4)};
+      expect(range_.first <= range_.last);
+    });
+  }
+
+  const std::string& path() const { return path_; }
+  const Bytes& head() const { return head_; }
+  TileRange range() const { return range_; }
+
+  TileSummary next_summary() {
+    return with_file_context(path_, [&] {
+      const Bytes bytes = take(kSummaryBytes + kCheckBytes);
+      expect_check(bytes);
+      return read_summary(bytes);
+    });
+  }
+
+  void skip_stream(const TileSummary& tile) { offset_ += tile.bytes; }
+
+  Bytes next_stream(const TileSummary& tile) {
+    return with_file_context(path_, [&] {
+      Bytes stream = take(tile.bytes);
+      if (tile.bytes != 0 &&
+          stream_hash(kStreamHash, stream.data(), stream.size()) != tile.stream_hash) {
+        throw Error(describe(MICROTIN_CHECKSUM));
+      }
+      return stream;
+    });
+  }
+
+  // Back to the first tile.
+  void rewind() { offset_ = kStartBytes + head_.size() + kRangeBytes + kCheckBytes; }
+
+ private:
+  Bytes take(uint64_t size) {
+    Bytes bytes = bytes_at(*bytes_, offset_, size);
+    offset_ += size;
+    return bytes;
+  }
+
+  std::string path_;
+  std::unique_ptr<ByteSource> bytes_;
+  Bytes head_;
+  TileRange range_{};
+  uint64_t offset_ = 0;
+};
+
+// By their first tiles, after a look at whether they belong together.
+std::vector<Shard> open_all(const std::vector<std::string>& paths) {
+  std::vector<Shard> shards;
+  for (const std::string& path : paths) {
+    shards.emplace_back(path);
+    if (shards.back().head() != shards.front().head()) {
+      throw Error(path + ": is of another terrain, or made with other options, than " + paths[0]);
+    }
+  }
+  std::sort(shards.begin(), shards.end(),
+            [](const Shard& a, const Shard& b) { return a.range().first < b.range().first; });
+  return shards;
+}
+
+void expect_all_tiles(const std::vector<Shard>& shards, const TileGrid& grid) {
+  uint64_t next = 0;
+  const auto fail_if_missing = [&](uint64_t end) {
+    if (next >= end) return;
+    const std::string first = std::to_string(next), last = std::to_string(end - 1);
+    throw Error(next + 1 == end ? "tile " + first + " is in no shard"
+                                : "tiles " + first + " to " + last + " are in no shard");
+  };
+  for (std::size_t i = 0; i < shards.size(); ++i) {
+    const TileRange range = shards[i].range();
+    fail_if_missing(range.first);
+    if (range.first < next) {
+      throw Error(shards[i].path() + ": tile " + std::to_string(range.first) + " is also in " +
+                  shards[i - 1].path());
+    }
+    next = uint64_t{range.last} + 1;
+  }
+  fail_if_missing(tile_count(grid));
+  expect(next == tile_count(grid));
+}
+
+// The pack that a head announces.
+PackContent read_content(const Bytes& head) {
+  PackHeader header{};
+  expect(read_pack_header(head.data(), &header) && pack_index_start(header) <= head.size());
+  return {header.grid, read_placement_and_notes(header, head.data()), {}};
+}
+
+}  // namespace
+
+ShardWriter::ShardWriter(const PackPlan& plan, const PackContent& pack, TileRange range,
+                         OutputFile& out)
+    : out_(out) {
+  const Bytes identity = write_identity(plan, pack);
+  Bytes start(kShardMagic, kShardMagic + sizeof kShardMagic);
+  append_number(start, identity.size(), 4);
+  start.insert(start.end(), identity.begin(), identity.end());
+  append_check(start, kStartBytes);
+  const std::size_t range_start = start.size();
+  append_number(start, range.first, 4);
+  append_number(start, range.last, 4);
+  append_check(start, range_start);
+  out_.write(start);
+}
+
+void ShardWriter::add(const EncodedTile& tile) {
+  out_.write(write_summary(tile.summary));
+  out_.write(tile.stream);
+}
+
+PackContent merge_shards(const std::vector<std::string>& paths, OutputFile& out) {
+  std::vector<Shard> shards = open_all(paths);
+  PackContent pack = with_file_context(paths[0], [&] { return read_content(shards[0].head()); });
+  expect_all_tiles(shards, pack.grid);
+  for (Shard& shard : shards) {
+    for (uint64_t tile = shard.range().first; tile <= shard.range().last; ++tile) {
+      pack.tiles.push_back(shard.next_summary());
+      shard.skip_stream(pack.tiles.back());
+    }
+    shard.rewind();
+  }
+  out.write(write_pack_head(pack));
+  std::size_t tile = 0;
+  for (Shard& shard : shards) {
+    for (const std::size_t end = tile + shard.range().last - shard.range().first + 1; tile < end;
+         ++tile) {
+      out.write(shard.next_stream(shard.next_summary()));
+    }
+  }
+  return pack;
+}
+
+}  // namespace microtin::pack

@@ -1,0 +1,29 @@
+// A pack as one surface.
+#ifndef MICROTIN_ENCODER_PACK_SURFACE_HPP
+#define MICROTIN_ENCODER_PACK_SURFACE_HPP
+
+#include <optional>
+
+#include "encoder/base/progress.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/pack/file.hpp"
+#include "encoder/stream/surface_model.hpp"
+#include "encoder/terrain/verify.hpp"
+
+namespace microtin::pack {
+
+// Vertices in the order of tiles, those on borders once. Throws Error as PackFile::tile does, or if
+// tiles give a vertex on their border different heights.
+SurfaceModel model_of(const PackFile& pack);
+
+// As for a mesh; every post counts once, and a post on a border is covered if one of its tiles
+// covers it. On all processors; holds a row of tiles at a time. Posts on borders are visited for
+// each tile that covers them, always in the same order. Throws Error also if the raster's posts are
+// not the places of the pack.
+Verification verify(const PackFile& pack, const RasterReader& raster,
+                    const std::optional<Decimal>& bound, const Progress& progress = {},
+                    const PostVisitor& visit = {});
+
+}  // namespace microtin::pack
+
+#endif

@@ -1,0 +1,192 @@
+// Surveys a tile with the vertices its borders share, encodes it, and checks both.
+#include "encoder/pack/tile.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/terrain/water.hpp"
+#include "shared/pack_format.hpp"
+#include "shared/predicates.hpp"
+
+namespace microtin::pack {
+namespace {
+
+[[noreturn]] void fail(const std::string& what) {
+  throw InternalFault("a decoded tile " + what);
+}
+
+void check_bounds(const TiledRaster& tiled, const Verification& measured, uint64_t water_moved) {
+  const bool too_low = tiled.options.never_below && measured.max_below.mantissa != 0;
+  if (!measured.within_bound || too_low || measured.voids_answered != 0 ||
+      measured.uncovered != 0 || water_moved != 0) {
+    fail("does not keep what was asked for");
+  }
+}
+
+// The posts of a tile. On borders with other tiles the shared vertices stand for all posts with
+// heights: they are fixed.
+Survey survey_of_tile(const TiledRaster& tiled, const TilePosts& posts,
+                      const SharedVertices& shared) {
+  const TileSides sides(tiled.grid, posts.box());
+  const Survey all = survey_of(tiled, posts.tile());
+  Survey survey;
+  survey.voids = all.voids;
+  survey.samples.reserve(all.samples.size());
+  for (const Sample& sample : all.samples) {
+    if (!sides.shares(sample.place)) {
+      survey.samples.push_back(sample);
+      continue;
+    }
+    const auto vertex = shared.find(sample.place);
+    if (vertex == shared.end()) continue;
+    const int32_t height = vertex->second * 65536;
+    survey.samples.push_back({sample.place, height, height, height});
+    survey.fixed.push_back(sample.place);
+  }
+  return survey;
+}
+
+// Whether a stream can hold it: its samples form a triangle. Throws Error if not and posts of it
+// lie on no border, so that no other tile holds them.
+bool has_terrain(const TileBox& box, const Survey& survey) {
+  if (form_triangle(survey.samples)) return true;
+  if (survey.samples.size() == survey.fixed.size()) return false;
+  throw Error("the tile from column " + std::to_string(box.x) + ", row " + std::to_string(box.y) +
+              " has only " + std::to_string(survey.samples.size()) +
+              " heights, which form no triangle; another --tile-vertices may help");
+}
+
+bool has_terrain(const TiledRaster& tiled, uint32_t tile) {
+  const TilePosts posts(tiled, tile);
+  return form_triangle(survey_of_tile(tiled, posts, shared_vertices(tiled, posts)).samples);
+}
+
+// Every post of a tile without terrain must be one of a tile that has it.
+void check_covered_by_others(const TiledRaster& tiled, const TilePosts& posts) {
+  for (const GlobalPost post : uncovered_posts(nullptr, posts.tile(), posts.box())) {
+    const std::vector<uint32_t> holders = tiles_at(tiled.grid, post);
+    if (std::any_of(holders.begin(), holders.end(),
+                    [&](uint32_t tile) { return has_terrain(tiled, tile); })) {
+      continue;
+    }
+    throw Error("the height at column " + std::to_string(post.x) + ", row " +
+                std::to_string(post.y) +
+                " has too few around it for a triangle; another --tile-vertices may help");
+  }
+}
+
+// Makes the posts beside those of borders that are not covered vertices: nothing that a void
+// reaches comes between then. These posts have heights, as voids are beside vertices of borders
+// alone.
+void fix_beside(const std::vector<GlobalPost>& uncovered, const TileBox& box,
+                const TileSides& sides, Survey& survey) {
+  std::set<Point> fixed(survey.fixed.begin(), survey.fixed.end());
+  for (const GlobalPost post : uncovered) {
+    if (!sides.shares(
+            {static_cast<uint16_t>(post.x - box.x), static_cast<uint16_t>(post.y - box.y)}))
+      fail("leaves a post out");
+    for (const int dx : {-1, 0, 1}) {
+      for (const int dy : {-1, 0, 1}) {
+        const int64_t x = int64_t{post.x} - box.x + dx, y = int64_t{post.y} - box.y + dy;
+        if (x < 0 || y < 0 || x > box.x_end - box.x || y > box.y_end - box.y) continue;
+        const Point p{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
+        if (!sides.shares(p)) fixed.insert(p);
+      }
+    }
+  }
+  if (fixed.size() == survey.fixed.size()) fail("has a border that nothing covers");
+  survey.fixed.assign(fixed.begin(), fixed.end());
+}
+
+}  // namespace
+
+bool form_triangle(const std::vector<Sample>& samples) {
+  return !samples.empty() && std::any_of(samples.begin(), samples.end(), [&](const Sample& s) {
+    return orient2d(samples.front().place, samples.back().place, s.place) != 0;
+  });
+}
+
+void check_shared(const microtin_mesh* mesh, const TileSides& sides, const SharedVertices& shared) {
+  std::size_t found = 0;
+  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+    Point p{};
+    int16_t z = 0;
+    microtin_vertex(mesh, v, &p.x, &p.y, &z);
+    if (!sides.shares(p)) continue;
+    const auto vertex = shared.find(p);
+    if (vertex == shared.end() || vertex->second != z)
+      fail("has another border than its neighbour");
+    ++found;
+  }
+  if (found != shared.size()) fail("lacks a vertex of its border");
+}
+
+TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
+                       const Verification& measured) {
+  const auto lower = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
+  const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(), lower);
+  return {static_cast<uint32_t>(stream.size()),
+          stream_hash(kStreamHash, stream.data(), stream.size()),
+          static_cast<uint32_t>(tin.vertices.size()),
+          low->z,
+          high->z,
+          measured};
+}
+
+std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster& part,
+                                        const TileBox& box) {
+  std::vector<GlobalPost> posts;
+  uint32_t hint = 0;
+  for_each_post(part, [&](int64_t x, int64_t y, int64_t z) {
+    int32_t height = 0;
+    const bool covered =
+        mesh != nullptr && z != kVoidHeight &&
+        microtin_height_at(mesh, static_cast<int32_t>(x * 256), static_cast<int32_t>(y * 256), 0,
+                           &hint, &height) == MICROTIN_HEIGHT;
+    if (z == kVoidHeight || covered) return;
+    posts.push_back({box.x + static_cast<uint32_t>(x), box.y + static_cast<uint32_t>(y)});
+  });
+  return posts;
+}
+
+uint32_t count_vertices(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options) {
+  const TilePosts posts(tiled, tile);
+  const Survey survey = survey_of_tile(tiled, posts, shared_vertices(tiled, posts));
+  if (!has_terrain(posts.box(), survey)) return 0;
+  return static_cast<uint32_t>(simplify(survey, options).vertices.size());
+}
+
+EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options) {
+  const TilePosts posts(tiled, tile);
+  const TileBox& box = posts.box();
+  const TileSides sides(tiled.grid, box);
+  const Raster part = posts.tile();
+  const SharedVertices shared = shared_vertices(tiled, posts);
+  Survey survey = survey_of_tile(tiled, posts, shared);
+  if (!has_terrain(box, survey)) {
+    check_covered_by_others(tiled, posts);
+    return {};
+  }
+  for (;;) {  // ends: there are always more fixed posts
+    const Tin tin = simplify(survey, options);
+    auto [stream, decoded] = encode_and_decode(tin, Metadata(), options.effort);
+    const std::optional<Decimal>& bound = tiled.options.max_error;
+    WaterGauge gauge(part.decimals, bound ? tiled.options.water_level : std::nullopt);
+    const Verification measured = verify(
+        decoded.mesh(), {part.x, part.y, tiled.lattice.placement.z}, part, bound, gauge.visitor());
+    if (measured.uncovered != 0) {
+      fix_beside(uncovered_posts(decoded.mesh(), part, box), box, sides, survey);
+      continue;
+    }
+    check_shared(decoded.mesh(), sides, shared);
+    check_bounds(tiled, measured, gauge.moved());
+    return {summary_of(tin, stream, measured), std::move(stream)};
+  }
+}
+
+}  // namespace microtin::pack

@@ -1,0 +1,70 @@
+// One tile of a raster: its survey, its stream, and what it keeps of what was asked for.
+#ifndef MICROTIN_ENCODER_PACK_TILE_HPP
+#define MICROTIN_ENCODER_PACK_TILE_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "encoder/fit/simplify.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/pack/borders.hpp"
+#include "encoder/terrain/verify.hpp"
+
+namespace microtin::pack {
+
+// Which places of a tile others have, too.
+class TileSides {
+ public:
+  TileSides(const TileGrid& grid, const TileBox& box)
+      : box_(box), x_max_(grid.x_max), y_max_(grid.y_max) {}
+
+  bool shares(Point p) const {
+    const uint32_t x = box_.x + p.x, y = box_.y + p.y;
+    return (x == box_.x && x != 0) || (x == box_.x_end && x != x_max_) || (y == box_.y && y != 0) ||
+           (y == box_.y_end && y != y_max_);
+  }
+
+ private:
+  TileBox box_;
+  uint32_t x_max_, y_max_;
+};
+
+// Whether not all samples, which are in lexicographic order, lie on one line.
+bool form_triangle(const std::vector<Sample>& samples);
+
+// What a pack says of a tile beside its stream.
+struct TileSummary {
+  uint32_t bytes = 0;  // of the stream; 0: the tile has no terrain
+  uint32_t stream_hash = 0;
+  uint32_t vertices = 0;
+  int16_t lowest = 0, highest = 0;  // of them
+  Verification measured;            // by the decoded stream
+};
+
+struct EncodedTile {
+  TileSummary summary;
+  std::vector<uint8_t> stream;
+};
+
+TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
+                       const Verification& measured);
+
+// Throws Error unless the vertices on borders are the shared ones, at their heights.
+void check_shared(const microtin_mesh* mesh, const TileSides& sides, const SharedVertices& shared);
+
+// The posts of a box that have heights, but not in its mesh; without a mesh all.
+std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster& part,
+                                        const TileBox& box);
+
+// How many vertices a tile takes; 0 without terrain. Throws Error as encode_tile does.
+uint32_t count_vertices(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options);
+
+// Depends on the posts of the tile and those beside it alone, or, if it has no terrain, on those of
+// its neighbours. A tile covers all its posts that have heights; if they form no triangle, each of
+// them is another tile's, too, that does. Throws Error if there is none, or if the decoded stream
+// does not keep the bound or the shared vertices.
+EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options);
+
+}  // namespace microtin::pack
+
+#endif

@@ -1,0 +1,111 @@
+// Tries the roughest tiles at some sizes.
+#include "encoder/pack/tile_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "encoder/base/error.hpp"
+#include "encoder/base/parallel.hpp"
+#include "encoder/pack/tile.hpp"
+#include "encoder/terrain/raster_scan.hpp"
+#include "microtin/pack.h"
+
+namespace microtin::pack {
+namespace {
+
+constexpr double kPostsPerVertex = 16;  // of simplified terrain, to begin with
+constexpr uint32_t kKeptTiles = 4;
+
+uint32_t divide_up(uint32_t a, uint32_t b) {
+  return (a + b - 1) / b;
+}
+
+constexpr std::size_t kSimplifiedTiles = 24;
+
+// The tiles that probably have most vertices.
+std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
+  const std::size_t count = tile_count(tiled.grid), kept = std::min(count, kSimplifiedTiles);
+  std::vector<uint32_t> tiles(count);
+  std::iota(tiles.begin(), tiles.end(), 0u);
+  if (kept == count) return tiles;
+  std::vector<uint64_t> rough(count);
+  for_each_parallel(count, [&](std::size_t i) {
+    const TilePosts posts(tiled, tiles[i]);
+    rough[i] = roughness(posts.tile(), tiled.options.max_error);
+  });
+  const auto rougher = [&](uint32_t a, uint32_t b) {
+    return rough[a] != rough[b] ? rough[a] > rough[b] : a < b;
+  };
+  std::partial_sort(tiles.begin(), tiles.begin() + static_cast<std::ptrdiff_t>(kept), tiles.end(),
+                    rougher);
+  tiles.resize(kept);
+  return tiles;
+}
+
+// The vertices of the tile that probably has most.
+uint32_t most_vertices(const TiledRaster& tiled, const SimplifyOptions& options) {
+  const std::vector<uint32_t> tiles = roughest_tiles(tiled);
+  std::vector<uint32_t> vertices(tiles.size());
+  for_each_parallel(tiles.size(),
+                    [&](std::size_t i) { vertices[i] = count_vertices(tiled, tiles[i], options); });
+  return *std::max_element(vertices.begin(), vertices.end());
+}
+
+[[noreturn]] void fail_at_one_step(uint32_t max_vertices, uint32_t most) {
+  throw Error("--tile-vertices " + std::to_string(max_vertices) +
+              " is not enough for tiles of one step: " + std::to_string(most));
+}
+
+}  // namespace
+
+TileGrid grid_of(const Raster& frame, uint32_t tile_steps) {
+  return grid_of(frame.width - 1, frame.height - 1, tile_steps);
+}
+
+TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps) {
+  const uint32_t size = std::min(tile_steps, uint32_t{kLatticeMax});
+  const uint32_t width = divide_up(x_max, divide_up(x_max, size));
+  const uint32_t height = divide_up(y_max, divide_up(y_max, size));
+  const TileGrid grid{x_max, y_max, static_cast<uint16_t>(width), static_cast<uint16_t>(height)};
+  if (tile_count(grid) > UINT32_MAX) throw Error("more than 4,294,967,295 tiles");
+  return grid;
+}
+
+uint32_t choose_tile_steps(TiledRaster tiled, uint32_t max_vertices, SimplifyOptions options) {
+  options.search = options.bounded ? Search::kFast : options.search;
+  const Raster& frame = tiled.raster.frame();
+  const uint32_t longer = std::max(frame.width, frame.height) - 1;
+  const double posts = options.bounded ? max_vertices * kPostsPerVertex : max_vertices;
+  const auto guess = static_cast<uint32_t>(longer / std::max(std::sqrt(posts) - 1, 1.0)) + 1;
+  uint32_t fitting = 0, fewest = 1, pieces = std::clamp(guess, 1u, longer);
+  for (;;) {  // in pieces of the longer side
+    tiled.grid = grid_of(frame, divide_up(longer, pieces));
+    const uint32_t most = most_vertices(tiled, options);
+    if (most <= max_vertices) fitting = pieces;
+    if (most > max_vertices) fewest = pieces + 1;
+    const double ratio = std::sqrt(static_cast<double>(most) / max_vertices);
+    const uint32_t next = std::max(fewest, static_cast<uint32_t>(std::ceil(pieces * ratio)));
+    if (fitting != 0 && next >= fitting) return divide_up(longer, fitting);
+    if (fewest > longer) fail_at_one_step(max_vertices, most);
+    pieces = std::min(next, longer);
+  }
+}
+
+uint32_t fewer_tile_steps(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices) {
+  const uint32_t steps = std::max(grid.width, grid.height);
+  if (steps == 1) fail_at_one_step(max_vertices, vertices);
+  const double ratio = std::sqrt(static_cast<double>(max_vertices) / vertices);
+  return std::clamp(static_cast<uint32_t>(steps * ratio), 1u, steps - 1);
+}
+
+uint32_t vertices_for_ram(uint64_t bytes) {
+  uint32_t vertices = MICROTIN_MAX_VERTICES_FOR(16);
+  while (vertices >= 3 && MICROTIN_PACK_BYTES_FOR(kKeptTiles, vertices, 16) > bytes) --vertices;
+  return vertices >= 3 ? vertices : 0;
+}
+
+}  // namespace microtin::pack

@@ -1,0 +1,34 @@
+// How large tiles may be.
+#ifndef MICROTIN_ENCODER_PACK_TILE_PLAN_HPP
+#define MICROTIN_ENCODER_PACK_TILE_PLAN_HPP
+
+#include <cstdint>
+
+#include "encoder/fit/simplify.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/pack/borders.hpp"
+
+namespace microtin::pack {
+
+// A raster in tiles of up to so many steps on a side, all of nearly the same size.
+TileGrid grid_of(const Raster& frame, uint32_t tile_steps);
+
+// The same for any largest x and y.
+TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps);
+
+// The largest tile_steps found with which no tile has more than max_vertices vertices, as far as
+// the roughest tiles tell: up to 24 of them are simplified, two or three times, without searching
+// long, and the raster is read as often. Throws Error if there are none.
+uint32_t choose_tile_steps(TiledRaster tiled, uint32_t max_vertices, SimplifyOptions options);
+
+// What to try next if a tile has too many vertices; less than tile_steps. Throws Error if there is
+// nothing smaller.
+uint32_t fewer_tile_steps(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices);
+
+// Vertices of a tile for which a device with so many bytes of RAM decodes one tile and keeps four,
+// as many as meet at a corner, with 16-bit numbers. 0 if there are none.
+uint32_t vertices_for_ram(uint64_t bytes);
+
+}  // namespace microtin::pack
+
+#endif

@@ -1,0 +1,24 @@
+// Text in pictures.
+#ifndef MICROTIN_ENCODER_PICTURE_LETTERING_HPP
+#define MICROTIN_ENCODER_PICTURE_LETTERING_HPP
+
+#include <string_view>
+
+#include "encoder/layers.hpp"
+#include "encoder/picture/canvas.hpp"
+
+namespace microtin::picture {
+
+// Digits and capitals are 7 units high, letters reach 2 below the line.
+constexpr double kCapHeight = 7;
+
+// In units: without the room behind the last character.
+double text_width(std::string_view text);
+
+// `start` is where the first character begins on the line, `unit` a number of pixels. There are
+// digits, small letters, blanks and . , : + - / ( ); other characters leave a blank.
+void draw_text(Canvas& canvas, std::string_view text, Spot start, double unit, Colour colour);
+
+}  // namespace microtin::picture
+
+#endif

@@ -1,0 +1,47 @@
+// Drawing a terrain: shaded, tinted by height, with its triangles.
+#ifndef MICROTIN_ENCODER_PICTURE_RELIEF_HPP
+#define MICROTIN_ENCODER_PICTURE_RELIEF_HPP
+
+#include <optional>
+
+#include "encoder/export/vector.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/picture/map_frame.hpp"
+
+namespace microtin::picture {
+
+constexpr Colour kWater{0.56, 0.73, 0.84};
+
+class Relief {
+ public:
+  // Heights are lattice steps. Triangles with all vertices at `water` are water. The model must
+  // outlive this.
+  Relief(const SurfaceModel& model, const Ground& ground, std::optional<int64_t> water);
+
+  int64_t lowest() const { return lowest_; }
+  int64_t highest() const { return highest_; }
+  bool has_water() const;
+
+  // The triangles' lines fade in from the middle to the right. `line_width` in pixels.
+  void draw(Canvas& canvas, const MapFrame& frame, double line_width) const;
+
+ private:
+  using Triangle = std::array<uint32_t, 3>;
+
+  void find_normals(const Ground& ground);
+  template <class Visit>
+  void for_each_normal(const Ground& ground, const Visit& visit) const;
+  bool is_water(const Triangle& triangle) const;
+  Colour colour(const Triangle& triangle, const std::array<double, 3>& weights) const;
+  void draw_ground(Canvas& canvas, const MapFrame& frame) const;
+  void draw_lines(Canvas& canvas, const MapFrame& frame, double line_width) const;
+
+  const SurfaceModel& model_;
+  std::optional<int64_t> water_;
+  std::vector<Vector> normals_;  // upward, of any length
+  int64_t lowest_ = 0, highest_ = 0;
+};
+
+}  // namespace microtin::picture
+
+#endif

@@ -1,0 +1,208 @@
+// Lays out maps, legends and title, and draws them.
+#include "encoder/picture/render.hpp"
+
+#include <string>
+
+#include "encoder/base/error.hpp"
+#include "encoder/picture/error_map.hpp"
+#include "encoder/picture/legend.hpp"
+#include "encoder/picture/lettering.hpp"
+#include "encoder/picture/png.hpp"
+#include "encoder/picture/relief.hpp"
+
+namespace microtin::picture {
+namespace {
+
+constexpr Colour kPaper{1, 1, 1}, kNoTerrain{0.95, 0.95, 0.945}, kHatch{0.86, 0.86, 0.85};
+
+// In units of the text.
+constexpr double kMargin = 10, kLegendHeight = 36, kRampShare = 0.56, kBarAt = 0.66;
+
+double as_number(Decimal value) {
+  return std::stod(to_string(value));
+}
+
+std::string unit_text(Unit unit) {
+  switch (unit) {
+    case Unit::kMetre:
+      return " m";
+    case Unit::kFoot:
+    case Unit::kUsSurveyFoot:
+      return " ft";
+    case Unit::kDegree:
+    case Unit::kUnknown:
+      break;
+  }
+  return "";
+}
+
+// The step of heights at the water level, if that is one.
+std::optional<int64_t> water_step(const Metadata& metadata) {
+  if (!metadata.water_level) return std::nullopt;
+  const Axis& z = metadata.placement.z;
+  const Wide tens = power_of_ten(metadata.water_level->decimals);
+  const Wide distance = Wide{metadata.water_level->mantissa} * static_cast<Wide>(z.denominator) -
+                        Wide{z.offset} * tens;
+  const Wide step = static_cast<Wide>(z.numerator) * tens;
+  if (distance % step != 0 || magnitude(distance / step) > INT16_MAX + 1) return std::nullopt;
+  return static_cast<int64_t>(distance / step);
+}
+
+// Where everything goes.
+struct Layout {
+  double unit;  // pixels
+  double room;  // for a map, pixels wide
+  MapFrame relief, errors;
+  uint32_t width, height;
+};
+
+Layout lay_out(const Portrait& portrait, const Ground& ground, uint32_t width, bool two) {
+  constexpr double kTallest = 1.6, kNarrowestRoom = 250, kWide = 2.2;
+  Layout layout{};
+  layout.width = width;
+  layout.unit = std::max(1.1, width / 760.0);
+  const double margin = std::round(kMargin * layout.unit);
+  const double head = std::round((2 * kMargin + kCapHeight) * layout.unit);
+  const double whole = width - 2 * margin, half = std::floor((whole - 2 * margin) / 2);
+  const MapFrame large = fit_map(portrait.model, ground, whole, kTallest * whole);
+  const bool beside =
+      two && half >= kNarrowestRoom * layout.unit && large.box.width < kWide * large.box.height;
+  layout.room = beside ? half : whole;
+  MapFrame frame = fit_map(portrait.model, ground, layout.room, kTallest * layout.room);
+  frame.box.left = margin;
+  frame.box.top = head;
+  layout.relief = layout.errors = frame;
+  const double panel = frame.box.height + std::round(kLegendHeight * layout.unit) + margin;
+  if (beside) {
+    layout.errors.box.left += half + 2 * margin;
+  } else {
+    layout.errors.box.top += panel;
+  }
+  layout.height = static_cast<uint32_t>(head + panel * (two && !beside ? 2 : 1));
+  return layout;
+}
+
+// A frame around what is not known, too.
+void draw_background(Canvas& canvas, const MapFrame& frame, double unit) {
+  const PixelBox& box = frame.box;
+  canvas.fill(box, kNoTerrain);
+  const double step = 6 * unit, reach = 0.4 * unit + 0.5;
+  const auto lines = static_cast<uint32_t>((box.width + box.height) / step) + 1;
+  for (uint32_t line = 0; line < lines; ++line) {
+    const double start = line * step - box.height;
+    for_each_pixel_near({start, box.height}, {start + box.height, 0}, reach,
+                        {0, 0, box.width, box.height},
+                        [&](uint32_t column, uint32_t row, double distance) {
+                          canvas.blend(static_cast<uint32_t>(box.left) + column,
+                                       static_cast<uint32_t>(box.top) + row, kHatch,
+                                       std::min(1.0, reach - distance));
+                        });
+  }
+}
+
+// Smaller if it is too long.
+void draw_line(Canvas& canvas, const std::string& text, Spot start, double unit, double room) {
+  const double fitting = room / std::max(1.0, text_width(text));
+  draw_text(canvas, text, start, std::min(unit, fitting), kInk);
+}
+
+std::string title_of(const Portrait& portrait) {
+  const auto count = [](uint64_t number) { return grouped(static_cast<double>(number), 0); };
+  std::string text = count(portrait.vertices) + " vertices";
+  if (portrait.tiles != 0) {
+    text += " in " + count(portrait.tiles) + (portrait.tiles == 1 ? " tile" : " tiles");
+  }
+  text += ", " + count(portrait.bytes) + " bytes";
+  if (const std::optional<Accuracy>& accuracy = portrait.metadata.accuracy) {
+    const std::string unit = unit_text(portrait.metadata.vertical_unit);
+    text += ", largest error " + rounded_text(as_number(accuracy->max_error)) + unit + ", rms " +
+            rounded_text(as_number(accuracy->rms_error)) + unit;
+  }
+  return text;
+}
+
+// The places of a legend under a map.
+struct LegendPlaces {
+  LegendPlaces(const MapFrame& frame, const Layout& layout)
+      : line{frame.box.left, frame.box.top + frame.box.height + 13 * layout.unit},
+        ramp{line.x, line.y + 6 * layout.unit},
+        side{line.x + kBarAt * layout.room, ramp.y},
+        width(kRampShare * layout.room),
+        side_room((1 - kBarAt) * layout.room) {}
+
+  Spot line, ramp, side;
+  double width, side_room;
+};
+
+void draw_relief_legend(Canvas& canvas, const Portrait& portrait, const Relief& relief,
+                        const Ground& ground, const Layout& layout) {
+  const Axis& z = portrait.metadata.placement.z;
+  const std::string unit = unit_text(portrait.metadata.vertical_unit);
+  const double low = offset_of(z) + step_of(z) * static_cast<double>(relief.lowest());
+  const double high = offset_of(z) + step_of(z) * static_cast<double>(relief.highest());
+  const LegendPlaces at(layout.relief, layout);
+  draw_line(canvas, "height " + rounded_text(low) + " to " + rounded_text(high) + unit, at.line,
+            layout.unit, at.width);
+  draw_ramp(canvas, at.ramp, at.width, layout.unit, low, high, tint);
+  draw_scale_bar(canvas, at.side, 0.8 * at.side_room, layout.unit, layout.relief.x_step * ground.x,
+                 ground.unit);
+  if (!relief.has_water()) return;
+  const double level = as_number(*portrait.metadata.water_level);
+  draw_swatch(canvas, {at.side.x, at.line.y - kCapHeight * layout.unit}, layout.unit, kWater,
+              "water " + rounded_text(level) + unit);
+}
+
+void draw_errors(Canvas& canvas, const Portrait& portrait, const Comparison& comparison,
+                 const Layout& layout) {
+  ErrorMap map(layout.errors, comparison.cell);
+  const Verification found = comparison.verify([&](int64_t x, int64_t y, int64_t, double above) {
+    map.add(static_cast<double>(x), static_cast<double>(y), above);
+  });
+  const std::optional<Accuracy>& accuracy = portrait.metadata.accuracy;
+  const double largest = as_number(found.max_error);
+  const double bound = accuracy && accuracy->bound ? as_number(*accuracy->bound) : 0;
+  const double scale = std::max(largest, bound) > 0 ? std::max(largest, bound) : 1;
+  map.draw(canvas, scale);
+  const std::string unit = unit_text(portrait.metadata.vertical_unit);
+  const LegendPlaces at(layout.errors, layout);
+  draw_line(canvas, "decoded minus source" + (unit.empty() ? "" : "," + unit), at.line, layout.unit,
+            at.width);
+  draw_ramp(canvas, at.ramp, at.width, layout.unit, -scale, scale,
+            [](double relative) { return error_colour(2 * relative - 1); });
+  const auto draw_fact = [&](int line, const std::string& name, double value) {
+    draw_line(canvas, name + " " + rounded_text(value) + unit,
+              {at.side.x, at.line.y + 11.5 * layout.unit * line}, layout.unit, at.side_room);
+  };
+  draw_fact(0, "largest", largest);
+  draw_fact(1, "rms", as_number(found.rms_error));
+  if (bound > 0) draw_fact(2, "bound", bound);
+}
+
+}  // namespace
+
+std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
+                                const Comparison* comparison) {
+  if (width < kNarrowest || width > kWidest) {
+    throw Error("a picture is " + std::to_string(kNarrowest) + " to " + std::to_string(kWidest) +
+                " pixels wide");
+  }
+  const SurfaceModel& model = portrait.model;
+  if (model.vertices.empty()) throw Error("there is nothing to draw");
+  const Ground ground = ground_of(model, portrait.metadata.horizontal_unit);
+  const Layout layout = lay_out(portrait, ground, width, comparison != nullptr);
+  const Relief relief(model, ground, water_step(portrait.metadata));
+  Canvas canvas(layout.width, layout.height, kPaper);
+  draw_line(canvas, title_of(portrait),
+            {kMargin * layout.unit, (kMargin + kCapHeight) * layout.unit}, layout.unit,
+            layout.width - 2 * kMargin * layout.unit);
+  draw_background(canvas, layout.relief, layout.unit);
+  relief.draw(canvas, layout.relief, 0.8 * std::sqrt(layout.unit));
+  draw_relief_legend(canvas, portrait, relief, ground, layout);
+  if (comparison != nullptr) {
+    draw_background(canvas, layout.errors, layout.unit);
+    draw_errors(canvas, portrait, *comparison, layout);
+  }
+  return png(canvas.rgb(), canvas.width(), canvas.height());
+}
+
+}  // namespace microtin::picture

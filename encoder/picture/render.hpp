@@ -1,0 +1,40 @@
+// A picture of a decoded terrain, with a legend.
+#ifndef MICROTIN_ENCODER_PICTURE_RENDER_HPP
+#define MICROTIN_ENCODER_PICTURE_RENDER_HPP
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "encoder/export/export.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/picture/canvas.hpp"
+#include "encoder/terrain/verify.hpp"
+
+namespace microtin::picture {
+
+struct Portrait {
+  SurfaceModel model;
+  Metadata metadata;
+  uint64_t vertices = 0, bytes = 0;
+  uint64_t tiles = 0;  // 0: a stream
+};
+
+// How a terrain compares with its source.
+struct Comparison {
+  Spot cell;  // lattice steps between neighbouring posts, along x and y
+  std::function<Verification(const PostVisitor&)> verify;
+};
+
+constexpr uint32_t kNarrowest = 200, kWidest = 8192;
+
+// A PNG file, `width` pixels wide: shaded relief, tinted by height, in which the triangles' lines
+// fade in from the left to the right; heights, scale, size and errors, as far as the metadata tell.
+// With a comparison also a map of the errors. Only triangles all of whose vertices are at the water
+// level are water. Throws Error for other widths and if there is no vertex.
+std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
+                                const Comparison* comparison = nullptr);
+
+}  // namespace microtin::picture
+
+#endif

@@ -1,0 +1,33 @@
+// A terrain decoded on the host, by the shipped decoder.
+#ifndef MICROTIN_ENCODER_STREAM_DECODED_TERRAIN_HPP
+#define MICROTIN_ENCODER_STREAM_DECODED_TERRAIN_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "encoder/layers.hpp"
+#include "microtin/microtin.h"
+
+namespace microtin::stream {
+
+class DecodedTerrain {
+ public:
+  // Decodes a whole stream. Throws Error, saying what the decoder found, if it is not valid or if
+  // bytes follow its end.
+  explicit DecodedTerrain(const std::vector<uint8_t>& stream);
+
+  DecodedTerrain(DecodedTerrain&&) = default;
+  DecodedTerrain& operator=(DecodedTerrain&&) = default;
+
+  const microtin_mesh* mesh() const { return mesh_; }
+  uint32_t phases() const { return phases_; }
+
+ private:
+  std::vector<uint64_t> storage_;  // aligned to MICROTIN_ALIGNMENT; mesh_ points into it
+  microtin_mesh* mesh_ = nullptr;
+  uint32_t phases_ = 0;
+};
+
+}  // namespace microtin::stream
+
+#endif

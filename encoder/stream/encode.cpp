@@ -1,0 +1,221 @@
+// Drives the shared reconstruction with a writing coder, then decodes and compares.
+#include "encoder/stream/encode.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/base/error_context.hpp"
+#include "encoder/stream/order.hpp"
+#include "encoder/stream/range_encoder.hpp"
+#include "encoder/stream/triangulation.hpp"
+#include "shared/reconstruction.hpp"
+#include "tests/bench/paper/fingerprint.hpp"
+
+namespace microtin::stream {
+namespace {
+
+// Void triangles, by their corners from the smallest on.
+using VoidSet = std::set<std::tuple<Point, Point, Point>>;
+
+VoidSet void_set(const Tin& tin) {
+  VoidSet voids;
+  for (const Tin::Triangle& t : tin.voids) voids.emplace(t.a, t.b, t.c);
+  return voids;
+}
+
+std::tuple<Point, Point, Point> corners_from_smallest(const Mesh& mesh, Index triangle) {
+  const Index f = first_edge(triangle);
+  Point p[3];
+  for (Index i = 0; i < 3; ++i) p[i] = point_of(mesh, mesh.origin[f + i]);
+  std::rotate(p, std::min_element(p, p + 3), p + 3);
+  return {p[0], p[1], p[2]};
+}
+
+// Knows what is to be sent, and writes it: the coder of shared/reconstruction.hpp.
+class WritingCoder {
+ public:
+  WritingCoder(const std::vector<Vertex>& vertices, const Order& order, VoidSet voids)
+      : voids_(std::move(voids)) {
+    sequence_.reserve(vertices.size());
+    for (const Index v : order.seed) sequence_.push_back(vertices[v]);
+    for (const std::vector<Index>& batch : order.batches) {
+      for (const Index v : batch) sequence_.push_back(vertices[v]);
+      batches_.push_back(static_cast<uint32_t>(batch.size()));
+    }
+  }
+
+  // Call before each step: the first `placed` vertices of the sequence are in the mesh.
+  void at(uint32_t placed, uint32_t phase) {
+    placed_ = placed;
+    phase_ = phase;
+  }
+
+  bool bit(uint32_t probability, bool value) { return payload_.bit(probability, value); }
+  uint32_t uniform(uint32_t count, uint32_t value) { return payload_.uniform(count, value); }
+
+  Vertex next() const { return sequence_[placed_]; }
+  bool last_phase() const { return phase_ + 1 == batches_.size(); }
+  uint32_t batch() const { return batches_[phase_]; }
+  bool conflicts(const Mesh& mesh, Index h) const {
+    const Index f = first_edge(triangle_of(h));
+    return in_conflict(mesh, mesh.origin[f], mesh.origin[f + 1], mesh.origin[f + 2],
+                       Point{sequence_[placed_].x, sequence_[placed_].y});
+  }
+  bool is_void(const Mesh& mesh, Index triangle) const {
+    return voids_.count(corners_from_smallest(mesh, triangle)) != 0;
+  }
+
+  std::vector<uint8_t> take_payload() {
+    std::vector<uint8_t> bytes = payload_.finish();
+    payload_ = RangeEncoder();
+    return bytes;
+  }
+
+ private:
+  std::vector<Vertex> sequence_;
+  std::vector<uint32_t> batches_;
+  VoidSet voids_;
+  uint32_t placed_ = 0;
+  uint32_t phase_ = 0;
+  RangeEncoder payload_;
+};
+
+// The arrays behind a Reconstruction on the host.
+class Workspace {
+ public:
+  explicit Workspace(uint32_t n)
+      : x_(n),
+        y_(n),
+        z_(n),
+        origin_(6u * n),
+        twin_(6u * n),
+        queue_(n),
+        marks_(n / 4 + 1),
+        voids_(n / 4 + 1),
+        residual_(n) {
+    mesh_ = Mesh{x_.data(), y_.data(), z_.data(), origin_.data(), twin_.data(), 0, 0};
+    state_.mesh = &mesh_;
+    state_.queue = queue_.data();
+    state_.marks = marks_.data();
+    state_.residual = residual_.data();
+    state_.voids = voids_.data();
+  }
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  Reconstruction& state() { return state_; }
+
+ private:
+  std::vector<uint16_t> x_, y_;
+  std::vector<int16_t> z_;
+  std::vector<Index> origin_, twin_, queue_;
+  std::vector<uint8_t> marks_, voids_;
+  std::vector<Residual> residual_;
+  Mesh mesh_{};
+  Reconstruction state_{};
+};
+
+void append_section(std::vector<uint8_t>& stream, const std::vector<uint8_t>& payload) {
+  const size_t from = stream.size();
+  append_varint(stream, payload.size());
+  stream.insert(stream.end(), payload.begin(), payload.end());
+  append_check(stream, from);
+}
+
+std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& metadata,
+                                  WritingCoder& coder) {
+  std::vector<uint8_t> stream = write_header(contract, metadata);
+  Workspace workspace(contract.vertices);
+  Reconstruction& r = workspace.state();
+  r.contract = contract;
+  start(r);
+  while (r.stage != Stage::kComplete) {
+    coder.at(r.mesh->vertices, r.phase);
+    const StepOutcome outcome = step(r, coder);
+    if (outcome == StepOutcome::kMalformed) throw InternalFault("the order does not rebuild");
+    if (outcome == StepOutcome::kSectionEnd) append_section(stream, coder.take_payload());
+  }
+  return stream;
+}
+
+// What the header promises.
+Contract contract_of(const Tin& tin, const Effort& effort) {
+  Contract contract{};
+  contract.vertices = static_cast<uint32_t>(tin.vertices.size());
+  contract.degree = effort.degree;
+  contract.levels = effort.levels;
+  contract.has_voids = !tin.voids.empty();
+  for (const Vertex& v : tin.vertices) {
+    contract.x_max = std::max(contract.x_max, v.x);
+    contract.y_max = std::max(contract.y_max, v.y);
+    contract.has_heights = contract.has_heights || v.z != 0;
+  }
+  return contract;
+}
+
+std::vector<Point> places_of(const std::vector<Vertex>& vertices) {
+  std::vector<Point> places;
+  places.reserve(vertices.size());
+  for (const Vertex& v : vertices) places.push_back(Point{v.x, v.y});
+  return places;
+}
+
+uint64_t fingerprint_of(const Mesh& mesh, const std::vector<Vertex>& vertices,
+                        const VoidSet& voids) {
+  Fingerprint fingerprint(vertices);
+  for (Index t = 0; t < mesh.triangles; ++t) {
+    const Index* const v = mesh.origin + first_edge(t);
+    if (v[0] == kInfinity || v[1] == kInfinity || v[2] == kInfinity) continue;
+    const bool is_void = !voids.empty() && voids.count(corners_from_smallest(mesh, t)) != 0;
+    fingerprint.add(v[0], v[1], v[2], is_void);
+  }
+  return fingerprint.sum();
+}
+
+uint64_t fingerprint_of(const microtin_mesh* mesh) {
+  std::vector<Vertex> vertices(microtin_vertex_count(mesh));
+  for (uint32_t i = 0; i < vertices.size(); ++i) {
+    microtin_vertex(mesh, i, &vertices[i].x, &vertices[i].y, &vertices[i].z);
+  }
+  Fingerprint fingerprint(vertices);
+  const uint32_t triangles = microtin_triangle_count(mesh);
+  for (uint32_t t = 0; t < triangles; ++t) {
+    uint32_t v[3];
+    const microtin_triangle_kind kind = microtin_triangle(mesh, t, v);
+    if (kind != MICROTIN_GHOST) fingerprint.add(v[0], v[1], v[2], kind == MICROTIN_VOID);
+  }
+  return fingerprint.sum();
+}
+
+}  // namespace
+
+Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort) {
+  if (tin.vertices.size() > kMaxVertices) {
+    throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
+  }
+  std::vector<Index> numbers;
+  Triangulation triangulation(places_of(tin.vertices), numbers);
+  std::vector<Vertex> vertices;
+  vertices.reserve(numbers.size());
+  for (const Index number : numbers) vertices.push_back(tin.vertices[number]);
+  const VoidSet voids = void_set(tin);
+  const uint64_t expected = fingerprint_of(triangulation.mesh(), vertices, voids);
+  WritingCoder coder(vertices, breadth_first_order(triangulation, effort.degree), voids);
+  std::vector<uint8_t> stream = write_stream(contract_of(tin, effort), metadata, coder);
+  DecodedTerrain decoded = on_our_own([&] { return DecodedTerrain(stream); });
+  if (microtin_vertex_count(decoded.mesh()) != vertices.size() ||
+      fingerprint_of(decoded.mesh()) != expected) {
+    throw InternalFault("the stream does not decode to the terrain it was made from");
+  }
+  return {std::move(stream), std::move(decoded)};
+}
+
+std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, const Effort& effort) {
+  return encode_and_decode(tin, metadata, effort).stream;
+}
+
+}  // namespace microtin::stream

@@ -1,0 +1,50 @@
+// Writing and reading a stream's header with all its notes.
+#ifndef MICROTIN_ENCODER_STREAM_HEADER_HPP
+#define MICROTIN_ENCODER_STREAM_HEADER_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "encoder/exact/metadata.hpp"
+#include "encoder/layers.hpp"
+#include "shared/format.hpp"
+
+namespace microtin::stream {
+
+// With the placement, the notes that say something, and the check. Throws Error if the
+// notes are too long.
+std::vector<uint8_t> write_header(const Contract& contract, const Metadata& metadata);
+
+// Everything a header says.
+struct Header {
+  microtin_info info;
+  Contract contract;
+  Metadata metadata;
+};
+
+// Throws Error if the header is cut off, damaged or not understood.
+Header read_header(const std::vector<uint8_t>& stream);
+
+// The stream with another header for the same terrain; notes of unknown types are dropped.
+std::vector<uint8_t> with_metadata(const std::vector<uint8_t>& stream, const Metadata& metadata);
+
+// The placement, nothing where it is the lattice itself; the notes that say something. Throws Error
+// if the notes are too long.
+std::vector<uint8_t> write_placement(const Placement& placement);
+std::vector<uint8_t> write_notes(const Metadata& metadata);
+
+// Throws Error if the notes are malformed.
+void read_notes(const uint8_t* begin, const uint8_t* end, Metadata& metadata);
+
+// The `width` lowest bytes of a number, low ones first.
+void append_number(std::vector<uint8_t>& bytes, uint64_t value, int width);
+
+// A number in groups of seven bits, high ones first, the top bit set if more follow.
+void append_varint(std::vector<uint8_t>& bytes, uint64_t value);
+
+// The check of `bytes` from `from` on, appended.
+void append_check(std::vector<uint8_t>& bytes, size_t from);
+
+}  // namespace microtin::stream
+
+#endif

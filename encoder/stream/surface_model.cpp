@@ -1,0 +1,24 @@
+// Copies vertices and triangles out of a mesh.
+#include "encoder/stream/surface_model.hpp"
+
+namespace microtin::stream {
+
+SurfaceModel model_of(const microtin_mesh* mesh) {
+  SurfaceModel model;
+  microtin_placement(mesh, &model.placement.x, &model.placement.y, &model.placement.z);
+  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+    uint16_t x = 0, y = 0;
+    int16_t z = 0;
+    microtin_vertex(mesh, v, &x, &y, &z);
+    model.vertices.push_back({x, y, z});
+  }
+  for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {
+    std::array<uint32_t, 3> corners{};
+    if (microtin_triangle(mesh, t, corners.data()) == MICROTIN_REAL) {
+      model.triangles.push_back(corners);
+    }
+  }
+  return model;
+}
+
+}  // namespace microtin::stream

@@ -1,0 +1,317 @@
+// Inserts by the shared cavity, removes by ears, keeps an edge of each vertex.
+#include "encoder/stream/triangulation.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/stream/spatial_order.hpp"
+
+namespace microtin::stream {
+
+Triangulation::Triangulation(const std::vector<Point>& points) {
+  std::vector<Index> order;
+  *this = Triangulation(points, order);
+  renumber(order);
+}
+
+Triangulation::Triangulation(const std::vector<Point>& points, std::vector<Index>& order) {
+  order = insertion_order(points);
+  start_with_triangle(order, [&points](Index a, Index b, Index c) {
+    return orient2d(points[a], points[b], points[c]);
+  });
+  set_sizes(points.size());
+  set_cavity_limit(64);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    x_[i] = points[order[i]].x;
+    y_[i] = points[order[i]].y;
+  }
+  start_mesh(mesh_);
+  Index hint = 0;
+  for (Index v = 3; v < order.size(); ++v) hint = connect(v, hint);
+  mesh_.vertices = static_cast<Index>(order.size());
+  for (Index t = 0; t < mesh_.triangles; ++t) note_edges(t);
+}
+
+void Triangulation::set_sizes(std::size_t vertices) {
+  x_.resize(vertices);
+  y_.resize(vertices);
+  origin_.resize(6 * vertices);
+  twin_.resize(6 * vertices);
+  edge_of_.resize(vertices + 1);
+  mesh_.x = x_.data();
+  mesh_.y = y_.data();
+  mesh_.origin = origin_.data();
+  mesh_.twin = twin_.data();
+}
+
+void Triangulation::set_cavity_limit(std::size_t limit) {
+  cavity_triangles_.resize(limit + 2);
+  cavity_origin_.resize(limit + 2);
+  cavity_twin_.resize(limit + 2);
+  cavity_.triangles = cavity_triangles_.data();
+  cavity_.edge_origin = cavity_origin_.data();
+  cavity_.edge_twin = cavity_twin_.data();
+  cavity_.limit = static_cast<Index>(limit);
+}
+
+// Vertex i becomes vertex order[i].
+void Triangulation::renumber(const std::vector<Index>& order) {
+  std::vector<uint16_t> x(order.size()), y(order.size());
+  std::vector<Index> edge_of(edge_of_);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    x[order[i]] = x_[i];
+    y[order[i]] = y_[i];
+    edge_of[std::size_t{order[i]} + 1] = edge_of_[i + 1];
+  }
+  std::copy(x.begin(), x.end(), x_.begin());
+  std::copy(y.begin(), y.end(), y_.begin());
+  edge_of_.swap(edge_of);
+  for (Index h = 0; h < first_edge(mesh_.triangles); ++h) {
+    if (origin_[h] != kInfinity) origin_[h] = order[origin_[h]];
+  }
+}
+
+Index Triangulation::degree(Index v) const {
+  const Index start = edge_of(v);
+  Index h = start, neighbours = 0;
+  do {
+    ++neighbours;
+    h = mesh_.twin[previous_in_triangle(h)];
+  } while (h != start);
+  return neighbours;
+}
+
+Index Triangulation::locate(Point p, Index hint) const {
+  Index h = hint;
+  const Index f = first_edge(triangle_of(hint));
+  for (Index i = 0; i < 3; ++i) {
+    if (mesh_.origin[f + i] == kInfinity) h = mesh_.twin[next_in_triangle(f + i)];
+  }
+  Point from = point_of(mesh_, mesh_.origin[h]);
+  Point to = point_of(mesh_, mesh_.origin[next_in_triangle(h)]);
+  if (orient2d(from, to, p) < 0) {
+    h = mesh_.twin[h];
+    std::swap(from, to);
+  }
+  // p lies on from -> to or to its left. On a Delaunay triangulation no triangle is met twice.
+  for (;;) {
+    const Index to_apex = next_in_triangle(h), from_apex = previous_in_triangle(h);
+    if (mesh_.origin[from_apex] == kInfinity) return h;
+    const Point apex = point_of(mesh_, mesh_.origin[from_apex]);
+    if (orient2d(to, apex, p) < 0) {
+      h = mesh_.twin[to_apex];
+      from = apex;
+    } else if (orient2d(apex, from, p) < 0) {
+      h = mesh_.twin[from_apex];
+      to = apex;
+    } else {
+      return h;
+    }
+  }
+}
+
+void Triangulation::find_cavity(Point p, Index hint) {
+  const Index start = locate(p, hint);
+  const auto forbids_nothing = [](Index) { return false; };
+  while (!grow_cavity(mesh_, start, p, cavity_, forbids_nothing)) {
+    set_cavity_limit(2 * std::size_t{cavity_.limit});
+  }
+}
+
+// Joins vertex v, whose place is known, to the mesh. Returns a half-edge near it.
+Index Triangulation::connect(Index v, Index hint) {
+  find_cavity(point_of(mesh_, v), hint);
+  return fan_cavity(mesh_, cavity_, v);
+}
+
+const std::vector<Index>& Triangulation::conflicts(Point p, Index hint) {
+  find_cavity(p, hint);
+  new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size);
+  return new_triangles_;
+}
+
+Index Triangulation::insert(Point p, Index hint) {
+  Index v = mesh_.vertices;
+  if (free_vertices_.empty()) {
+    set_sizes(std::size_t{v} + 1);
+  } else {
+    v = free_vertices_.back();
+    free_vertices_.pop_back();
+  }
+  x_[v] = p.x;
+  y_[v] = p.y;
+  connect(v, hint);
+  new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size + 2);
+  if (v == mesh_.vertices) {
+    ++mesh_.vertices;
+  } else {
+    for (std::size_t i = new_triangles_.size(); i-- > cavity_.size;) {
+      new_triangles_[i] = free_triangles_.back();
+      free_triangles_.pop_back();
+      move_last_triangle(new_triangles_[i]);
+    }
+  }
+  for (const Index triangle : new_triangles_) note_edges(triangle);
+  return v;
+}
+
+void Triangulation::move_last_triangle(Index slot) {
+  const Index from = first_edge(--mesh_.triangles), to = first_edge(slot);
+  for (Index i = 0; i < 3; ++i) {
+    mesh_.origin[to + i] = mesh_.origin[from + i];
+    pair(mesh_, to + i, mesh_.twin[from + i]);
+  }
+}
+
+void Triangulation::note_edges(Index triangle) {
+  const Index f = first_edge(triangle);
+  for (Index h = f; h < f + 3; ++h) edge_of_[entry(mesh_.origin[h])] = h;
+}
+
+bool Triangulation::remove(Index v, Index max_degree) {
+  Hole hole;
+  if (!open_hole(v, max_degree, hole)) return false;
+  fill_hole(hole);
+  edge_of_[entry(v)] = kNoEdge;
+  free_vertices_.push_back(v);
+  return true;
+}
+
+// Collects the corners around v. False if there are too many.
+bool Triangulation::open_hole(Index v, Index max_corners, Hole& hole) const {
+  Corner* corner = hole.corners;
+  Corner* const most = corner + max_corners;
+  Corner* infinite = nullptr;
+  const Index start = edge_of(v);
+  Index h = start;
+  do {
+    if (corner == most) return false;
+    corner->slot = first_edge(triangle_of(h));
+    // next_in_triangle and previous_in_triangle, but surely without a branch: bits 2i, 2i + 1 say
+    // which of the three half-edges follows or precedes number i.
+    const Index twice = 2 * (h - corner->slot);
+    const Index side = corner->slot + (0b001001u >> twice & 3u);
+    const Index into = corner->slot + (0b010010u >> twice & 3u);
+    corner->outside = mesh_.twin[side];
+    corner->vertex = mesh_.origin[side];
+    if (corner->vertex == kInfinity) {
+      infinite = corner;
+    } else {
+      corner->x = mesh_.x[corner->vertex];
+      corner->y = mesh_.y[corner->vertex];
+    }
+    h = mesh_.twin[into];
+    ++corner;
+  } while (h != start);
+  if (infinite != nullptr) std::rotate(hole.corners, infinite + 1, corner);
+  hole.last = corner - 1;
+  return true;
+}
+
+// Cuts the hole into Delaunay triangles. Two slots are left over.
+void Triangulation::fill_hole(const Hole& hole) {
+  const Corner* freed = hole.corners;
+  edge_of_[entry(hole.last->vertex)] = freed->slot;
+  fill(hole.corners, hole.last, hole.last->outside, freed);
+  new_triangles_.clear();
+  for (const Corner* c = hole.corners; c != freed; ++c)
+    new_triangles_.push_back(triangle_of(c->slot));
+  for (; freed <= hole.last; ++freed) {
+    mesh_.origin[freed->slot + 1] = mesh_.origin[freed->slot];
+    free_triangles_.push_back(triangle_of(freed->slot));
+  }
+}
+
+// Fills the part of the hole from `first` to `last` that the half-edge `closing` closes; recursive,
+// with at most as many levels as there are corners. The slots come from `freed` on.
+void Triangulation::fill(const Corner* first, const Corner* last, Index closing,
+                         const Corner*& freed) {
+  if (last == first + 1) {
+    pair(mesh_, closing, first->outside);
+    edge_of_[entry(first->vertex)] = closing;
+    return;
+  }
+  if (last == first + 3 && last->vertex != kInfinity) {
+    fill_quadrangle(first, closing, freed);
+    return;
+  }
+  const Corner* const apex = apex_of(first, last);
+  const Index h = (freed++)->slot;
+  mesh_.origin[h] = last->vertex;
+  mesh_.origin[h + 1] = first->vertex;
+  mesh_.origin[h + 2] = apex->vertex;
+  pair(mesh_, h, closing);
+  fill(first, apex, h + 1, freed);
+  fill(apex, last, h + 2, freed);
+}
+
+// The most frequent part of all, without branches: its diagonal starts at corner s = 0 or 1.
+// Half-edge h is the side that follows corner s, g the one two corners on.
+void Triangulation::fill_quadrangle(const Corner* first, Index closing, const Corner*& freed) {
+  const uint32_t s = finite_apex_of(first, first + 3) == first + 1 ? 1 : 0;
+  const Index vertex[5] = {first[0].vertex, first[1].vertex, first[2].vertex, first[3].vertex,
+                           first[0].vertex};
+  const Index outside[4] = {first[0].outside, first[1].outside, first[2].outside, closing};
+  const Index h = freed[0].slot, g = freed[1].slot;
+  freed += 2;
+  mesh_.origin[h] = mesh_.origin[g + 2] = vertex[s];
+  mesh_.origin[h + 1] = vertex[s + 1];
+  mesh_.origin[h + 2] = mesh_.origin[g] = vertex[s + 2];
+  mesh_.origin[g + 1] = vertex[s + 3];
+  pair(mesh_, h, outside[s]);
+  pair(mesh_, h + 1, outside[s + 1]);
+  pair(mesh_, g, outside[s + 2]);
+  pair(mesh_, g + 1, outside[(s + 3) & 3]);
+  pair(mesh_, h + 2, g + 2);
+  edge_of_[entry(vertex[s])] = h;
+  edge_of_[entry(vertex[s + 1])] = h + 1;
+  edge_of_[entry(vertex[s + 2])] = g;
+  edge_of_[entry(vertex[s + 3])] = g + 1;
+}
+
+// The corner that forms a Delaunay triangle with the pocket's closing side.
+inline const Triangulation::Corner* Triangulation::apex_of(const Corner* first,
+                                                           const Corner* last) {
+  if (last == first + 2) return first + 1;
+  if (last->vertex == kInfinity) return hull_apex_of(first, last);
+  return finite_apex_of(first, last);
+}
+
+// Of all corners to the left of last -> first the one whose circle through these two holds no
+// other. With h(p) and q(p) as in `incircle`, p lies inside the circle through the apex if
+// q(apex) h(p) - q(p) h(apex) is positive.
+inline const Triangulation::Corner* Triangulation::finite_apex_of(const Corner* first,
+                                                                  const Corner* last) {
+  const Corner a = *last, b = *first;
+  int64_t h_apex = 0, q_apex = 1;  // no apex yet: the circle is the half-plane to the left
+  const Corner* apex = last;
+  for (const Corner* p = first + 1; p != last; ++p) {
+    const int64_t ax = a.x - p->x, ay = a.y - p->y, bx = b.x - p->x, by = b.y - p->y;
+    const int64_t h = ax * by - ay * bx;
+    const int64_t q = ax * bx + ay * by;
+    const auto inside =
+        static_cast<int64_t>(wrapping_product(q_apex, h) - wrapping_product(q, h_apex));
+    bool better = (h > 0) & (inside > 0);
+    if (inside == 0 && h > 0) {
+      better = conflicts_with_triangle(place(a), place(b), place(*apex), place(*p));
+    }
+    h_apex = better ? h : h_apex;
+    q_apex = better ? q : q_apex;
+    apex = better ? p : apex;
+  }
+  return apex;
+}
+
+// The same where the closing side comes from infinity: circles are half-planes, and all corners lie
+// on one side of `first` along the hull.
+const Triangulation::Corner* Triangulation::hull_apex_of(const Corner* first, const Corner* last) {
+  const Corner* apex = first + 1;
+  for (const Corner* p = apex + 1; p != last; ++p) {
+    if (conflicts_with_ghost(place(*first), place(*apex), place(*p))) apex = p;
+  }
+  return apex;
+}
+
+}  // namespace microtin::stream

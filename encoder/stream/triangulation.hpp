@@ -1,0 +1,117 @@
+// The canonical Delaunay triangulation of a set of points: built at once, then changed point by
+// point. Always exact, and a function of the points alone.
+#ifndef MICROTIN_ENCODER_STREAM_TRIANGULATION_HPP
+#define MICROTIN_ENCODER_STREAM_TRIANGULATION_HPP
+
+#include <cstddef>
+#include <vector>
+
+#include "encoder/base/prefetch.hpp"
+#include "encoder/layers.hpp"
+#include "shared/format.hpp"
+#include "shared/insertion.hpp"
+#include "shared/mesh.hpp"
+
+namespace microtin::stream {
+
+class Triangulation {
+ public:
+  // Vertex i is points[i]. Throws Error if two points share a place or all form no triangle.
+  explicit Triangulation(const std::vector<Point>& points);
+
+  // The same, but vertex i is points[order[i]], and neighbours have numbers close to one another:
+  // quicker to build and to use. Sets `order`.
+  Triangulation(const std::vector<Point>& points, std::vector<Index>& order);
+
+  Triangulation(Triangulation&&) = default;
+  Triangulation& operator=(Triangulation&&) = default;
+
+  // Has no heights: z is null. After removals, up to mesh().vertices vertices and mesh().triangles
+  // triangles are a mixture of live and removed ones.
+  const Mesh& mesh() const { return mesh_; }
+
+  bool has_vertex(Index v) const { return edge_of(v) != kNoEdge; }
+
+  // Some half-edge from v, which may be kInfinity; kNoEdge if v was removed.
+  static constexpr Index kNoEdge = kInfinity;
+  Index edge_of(Index v) const { return edge_of_[entry(v)]; }
+
+  // The neighbours of v, which may be kInfinity and counts as a neighbour too.
+  Index degree(Index v) const;
+
+  // A half-edge of a triangle whose closure holds p or, if p lies outside the hull, of a ghost in
+  // conflict with it. Walks there from the half-edge `hint`.
+  Index locate(Point p, Index hint) const;
+
+  // Adds p, different from all vertices, and returns its number: that of a removed vertex if there
+  // is one, else mesh().vertices.
+  Index insert(Point p, Index hint);
+
+  // The triangles in conflict with p, which an insertion would replace.
+  const std::vector<Index>& conflicts(Point p, Index hint);
+
+  // The triangles that the last insert or remove made. Those of an insert turn counter-clockwise
+  // around the new vertex, which is the last corner of each, and take the slots of those that it
+  // replaced, then two more.
+  const std::vector<Index>& new_triangles() const { return new_triangles_; }
+
+  // Removes v if it has at most max_degree <= kMaxRemovable neighbours, infinity counted, and says
+  // whether it did. Those that stay must not all lie on one line. Only the triangles around v
+  // change; the other vertices and half-edges keep their numbers. O(degree^2).
+  bool remove(Index v, Index max_degree);
+  static constexpr Index kMaxRemovable = kMaxDegree;
+
+  // v will be used soon and `later` after that: spares them waiting for memory.
+  void expect(Index v, Index later) const {
+    prefetch(&edge_of_[entry(later)]);
+    prefetch(mesh_.origin + edge_of(v));
+    prefetch(mesh_.twin + edge_of(v));
+  }
+
+ private:
+  // A corner of the hole that a removed vertex leaves.
+  struct Corner {
+    int64_t x, y;  // unless it is kInfinity
+    Index vertex;
+    Index outside;  // the half-edge beyond the side to the next corner
+    Index slot;     // first half-edge of the triangle that was at that side
+  };
+
+  struct Hole {
+    Corner corners[kMaxRemovable];  // counter-clockwise; kInfinity, if there, comes last
+    const Corner* last;
+  };
+
+  static Point place(const Corner& c) {
+    return {static_cast<uint16_t>(c.x), static_cast<uint16_t>(c.y)};
+  }
+  static Index entry(Index v) { return static_cast<Index>(v + 1u); }
+  void set_sizes(std::size_t vertices);
+  void set_cavity_limit(std::size_t limit);
+  void renumber(const std::vector<Index>& order);
+  void find_cavity(Point p, Index hint);
+  Index connect(Index v, Index hint);
+  void move_last_triangle(Index slot);
+  void note_edges(Index triangle);
+  bool open_hole(Index v, Index max_corners, Hole& hole) const;
+  void fill_hole(const Hole& hole);
+  void fill(const Corner* first, const Corner* last, Index closing, const Corner*& freed);
+  void fill_quadrangle(const Corner* first, Index closing, const Corner*& freed);
+  static const Corner* apex_of(const Corner* first, const Corner* last);
+  static const Corner* finite_apex_of(const Corner* first, const Corner* last);
+  static const Corner* hull_apex_of(const Corner* first, const Corner* last);
+
+  Mesh mesh_ = {};
+  std::vector<uint16_t> x_, y_;
+  std::vector<Index> origin_, twin_;
+  std::vector<Index> edge_of_;  // entry v + 1; kInfinity + 1 wraps round to entry 0
+
+  Cavity cavity_ = {};
+  std::vector<Index> cavity_triangles_, cavity_origin_, cavity_twin_;
+  std::vector<Index> new_triangles_;
+  std::vector<Index> free_vertices_, free_triangles_;  // two triangles for each vertex
+};
+
+}  // namespace microtin::stream
+
+#endif

@@ -1,0 +1,41 @@
+// Copies a rectangle out of a raster.
+#include "encoder/terrain/crop.hpp"
+
+#include <iterator>
+
+#include "encoder/exact/fraction.hpp"
+
+namespace microtin::terrain {
+namespace {
+
+Axis from_post(const Axis& axis, uint32_t post) {
+  const Wide numerator = static_cast<Wide>(axis.numerator);
+  return reduced_axis(axis.offset + numerator * post, numerator,
+                      static_cast<Wide>(axis.denominator));
+}
+
+}  // namespace
+
+Raster crop_frame(const Raster& raster, const PostRectangle& r) {
+  Raster part;
+  part.width = r.width;
+  part.height = r.height;
+  part.decimals = raster.decimals;
+  part.x = from_post(raster.x, r.x);
+  part.y = from_post(raster.y, r.y);
+  part.reference = raster.reference;
+  return part;
+}
+
+Raster crop(const Raster& raster, const PostRectangle& r) {
+  Raster part = crop_frame(raster, r);
+  part.heights.reserve(std::size_t{r.width} * r.height);
+  for (uint32_t row = r.y; row < r.y + r.height; ++row) {
+    const auto begin =
+        raster.heights.begin() + static_cast<std::ptrdiff_t>(std::size_t{row} * raster.width + r.x);
+    part.heights.insert(part.heights.end(), begin, begin + r.width);
+  }
+  return part;
+}
+
+}  // namespace microtin::terrain

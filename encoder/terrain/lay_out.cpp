@@ -1,0 +1,210 @@
+// Puts posts or points on the lattice, and bounds their heights there.
+#include "encoder/terrain/lay_out.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/coordinates.hpp"
+
+namespace microtin::terrain {
+namespace {
+
+constexpr Wide kOne = 65536;  // heights of samples have 16 fractional bits
+
+struct LaidPost {
+  Point place;
+  int64_t z;  // the source's number
+};
+
+struct Heights {
+  int64_t low;
+  int64_t high;
+};
+
+// The posts with heights, by place; the places of the others; how far all move.
+class Placing {
+ public:
+  explicit Placing(const Lattice& lattice) : lattice_(lattice) {}
+
+  void add(int64_t x, int64_t y, int64_t z) {
+    const Point place{static_cast<uint16_t>(snap(lattice_.x, x, xy_displacement_)),
+                      static_cast<uint16_t>(snap(lattice_.y, y, xy_displacement_))};
+    if (z == kVoidHeight) {
+      voids_.push_back(place);
+    } else {
+      snap(lattice_.z, z, z_displacement_);
+      posts_.push_back({place, z});
+    }
+  }
+
+  void sort() {
+    std::sort(posts_.begin(), posts_.end(),
+              [](const LaidPost& a, const LaidPost& b) { return a.place < b.place; });
+    std::sort(voids_.begin(), voids_.end());
+    voids_.erase(std::unique(voids_.begin(), voids_.end()), voids_.end());
+  }
+
+  const std::vector<LaidPost>& posts() const { return posts_; }
+  const std::vector<Point>& voids() const { return voids_; }
+  Decimal xy_displacement() const { return make_decimal(xy_displacement_, lattice_.xy_decimals); }
+  Decimal z_displacement() const { return make_decimal(z_displacement_, lattice_.z_decimals); }
+
+ private:
+  static Wide snap(const LatticeMap& map, int64_t number, Wide& largest) {
+    const Wide k = map.nearest(number);
+    largest = std::max(largest, magnitude(map.numerator(number) - k * map.step));
+    return k;
+  }
+
+  const Lattice& lattice_;
+  std::vector<LaidPost> posts_;
+  std::vector<Point> voids_;
+  Wide xy_displacement_ = 0, z_displacement_ = 0;
+};
+
+int32_t saturated(Wide height) {
+  return static_cast<int32_t>(std::clamp<Wide>(height, INT32_MIN, INT32_MAX));
+}
+
+// Makes samples and counts the places where the bound cannot be kept.
+class Sampler {
+ public:
+  // water: the number of heights that are kept exactly.
+  Sampler(const Lattice& lattice, const LatticeOptions& options, std::optional<int64_t> water)
+      : map_(lattice.z),
+        decimals_(lattice.z_decimals),
+        bounded_(options.max_error.has_value()),
+        above_(bounded_ ? mantissa_at(*options.max_error, decimals_) : Wide{0}),
+        below_(options.never_below ? Wide{0} : above_),
+        water_(water) {}
+
+  Sample sample(Point place, Heights heights) {
+    const Wide low = map_.numerator(heights.low), high = map_.numerator(heights.high);
+    Sample sample{place, saturated(round_divide((low + high) * kOne, 2 * map_.step)), INT32_MIN,
+                  INT32_MAX};
+    if (!bounded_) return sample;
+    if (heights.low == heights.high && heights.low == water_) {
+      sample.lowest = sample.highest = sample.height;
+      return sample;
+    }
+    const Wide lowest = high - below_, highest = low + above_;
+    narrowest_ = std::min(narrowest_, highest - lowest);
+    sample.lowest = saturated(ceil_divide(lowest * kOne, map_.step));
+    sample.highest = saturated(floor_divide(highest * kOne, map_.step));
+    if (water_) keep_dry(heights, lowest, highest, sample);
+    if (lowest > highest) {
+      if (walls_++ == 0) first_wall_ = {place, heights};
+    } else if (ceil_divide(sample.lowest, kOne) > floor_divide(sample.highest, kOne)) {
+      ++without_step_;
+    }
+    return sample;
+  }
+
+  // Throws Error if there are such places. `numbers` places the source's heights.
+  void check(const Placement& placement, const Axis& numbers) const {
+    const std::string refusal = "--max-error cannot be kept at ";
+    if (walls_ != 0) {
+      const CoordinateText height(numbers);
+      throw Error(refusal + std::to_string(walls_) +
+                  " places where points of different heights meet, the first at x " +
+                  CoordinateText(placement.x)(first_wall_.place.x) + ", y " +
+                  CoordinateText(placement.y)(first_wall_.place.y) + " with heights from " +
+                  height(first_wall_.heights.low) + " to " + height(first_wall_.heights.high));
+    }
+    if (without_step_ != 0) {
+      const Decimal enough = make_decimal(std::max<Wide>(narrowest_, 1), decimals_);
+      throw Error(
+          refusal + std::to_string(without_step_) +
+          " places: no whole step of height is near enough; the largest --z-step that always is: " +
+          to_string(enough));
+    }
+  }
+
+ private:
+  // Land is not at the water level, else it would pass for water.
+  void keep_dry(Heights heights, Wide lowest, Wide highest, Sample& sample) {
+    const Wide level = map_.numerator(*water_);
+    const int32_t answer = saturated(level / map_.step * kOne);
+    if (heights.low > *water_ && lowest <= level) {
+      sample.lowest = answer + 1;
+      narrowest_ = std::min(narrowest_, highest - level);
+    } else if (heights.high < *water_ && highest >= level) {
+      sample.highest = answer - 1;
+      narrowest_ = std::min(narrowest_, level - lowest);
+    }
+  }
+
+  struct Wall {
+    Point place;
+    Heights heights;
+  };
+
+  const LatticeMap& map_;
+  int decimals_;
+  bool bounded_;
+  Wide above_, below_;  // how far the surface may be from a height
+  std::optional<int64_t> water_;
+  Wide narrowest_ = std::numeric_limits<int64_t>::max();
+  uint64_t walls_ = 0, without_step_ = 0;
+  Wall first_wall_{};
+};
+
+std::vector<Sample> make_samples(const std::vector<LaidPost>& posts, Sampler& sampler) {
+  std::vector<Sample> samples;
+  samples.reserve(posts.size());
+  for (size_t i = 0; i < posts.size();) {
+    const Point place = posts[i].place;
+    Heights heights{posts[i].z, posts[i].z};
+    for (; i < posts.size() && posts[i].place == place; ++i) {
+      heights.low = std::min(heights.low, posts[i].z);
+      heights.high = std::max(heights.high, posts[i].z);
+    }
+    samples.push_back(sampler.sample(place, heights));
+  }
+  return samples;
+}
+
+// Throws Error if a void post shares its place with a height: it would answer that.
+void check_voids(const std::vector<Point>& voids, const std::vector<Sample>& samples,
+                 const Placement& placement) {
+  uint64_t shared = 0;
+  Point first{};
+  auto sample = samples.begin();
+  for (const Point place : voids) {
+    while (sample != samples.end() && sample->place < place) ++sample;
+    if (sample == samples.end() || sample->place != place) continue;
+    if (shared++ == 0) first = place;
+  }
+  if (shared == 0) return;
+  throw Error("--xy-step is too coarse: " + std::to_string(shared) +
+              " void posts share a place with a height, the first at x " +
+              CoordinateText(placement.x)(first.x) + ", y " + CoordinateText(placement.y)(first.y));
+}
+
+}  // namespace
+
+Laid lay_out(const Source& source, const LatticeOptions& options) {
+  return lay_out(source, choose_lattice(source, options), options);
+}
+
+Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions& options) {
+  Placing placing(lattice);
+  for_each_post(source, [&](int64_t x, int64_t y, int64_t z) { placing.add(x, y, z); });
+  placing.sort();
+  Sampler sampler(lattice, options, number_of(options.water_level, height_decimals(source)));
+  Laid laid;
+  laid.survey.samples = make_samples(placing.posts(), sampler);
+  sampler.check(lattice.placement, placement_of(source).z);
+  check_voids(placing.voids(), laid.survey.samples, lattice.placement);
+  laid.survey.voids = placing.voids();
+  laid.placement = lattice.placement;
+  laid.xy_step = make_decimal(lattice.x.step, lattice.xy_decimals);
+  laid.z_step = make_decimal(lattice.z.step, lattice.z_decimals);
+  laid.xy_displacement = placing.xy_displacement();
+  laid.z_displacement = placing.z_displacement();
+  laid.merged = placing.posts().size() - laid.survey.samples.size();
+  return laid;
+}
+
+}  // namespace microtin::terrain

@@ -1,0 +1,34 @@
+// Laying a source on its lattice.
+#ifndef MICROTIN_ENCODER_TERRAIN_LAY_OUT_HPP
+#define MICROTIN_ENCODER_TERRAIN_LAY_OUT_HPP
+
+#include "encoder/layers.hpp"
+#include "encoder/terrain/lattice_choice.hpp"
+#include "encoder/terrain/survey.hpp"
+
+namespace microtin::terrain {
+
+// Steps and displacements are in the units of LatticeOptions.
+struct Laid {
+  Placement placement;
+  Survey survey;
+  Decimal xy_step, z_step;
+  Decimal xy_displacement;  // largest along x or y, by moving to the lattice
+  Decimal z_displacement;   // largest by rounding to whole steps
+  uint64_t merged = 0;      // points that came to a place already taken
+};
+
+// A point goes to the nearest place, halves up. Points that share a place become one sample with
+// the middle of their lowest and highest height. A void post that shares a place with a sample is
+// dropped.
+//
+// Throws Error if an explicit step does not fit, or if the bound cannot be kept: at places whose
+// points differ by more than twice the bound, or where no whole z step lies within the bound.
+Laid lay_out(const Source& source, const LatticeOptions& options);
+
+// The same on a lattice that is chosen already, with the options that it was chosen by.
+Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions& options);
+
+}  // namespace microtin::terrain
+
+#endif

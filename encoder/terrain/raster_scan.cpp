@@ -1,0 +1,117 @@
+// Goes over a raster in blocks: range of heights, fingerprint, the roughest block.
+#include "encoder/terrain/raster_scan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "encoder/base/parallel.hpp"
+
+namespace microtin::terrain {
+namespace {
+
+constexpr uint32_t kBlock = 257;  // posts on each side
+
+// The posts of a grid whose every second one is known: how many of the others interpolation misses.
+class Octave {
+ public:
+  Octave(const Raster& part, double bound) : part_(part), bound_(bound) {}
+
+  uint64_t misses(uint32_t step) const {
+    uint64_t count = 0;
+    for (uint32_t y = 0; y < part_.height; y += step) {
+      for (uint32_t x = 0; x < part_.width; x += step) {
+        const uint32_t dx = x / step % 2 * step, dy = y / step % 2 * step;
+        if (dx != 0 || dy != 0) count += misses(x, y, dx, dy, step);
+      }
+    }
+    return count;
+  }
+
+ private:
+  bool misses(uint32_t x, uint32_t y, uint32_t dx, uint32_t dy, uint32_t step) const {
+    if (x + dx >= part_.width || y + dy >= part_.height) return false;
+    const int64_t here = height(x, y), before = height(x - dx, y - dy),
+                  after = height(x + dx, y + dy);
+    const bool is_rim = before == kVoidHeight || after == kVoidHeight;
+    if (here == kVoidHeight || is_rim) return here != kVoidHeight && step == 1;
+    return std::abs(static_cast<double>(2 * here - before - after)) > 2 * bound_;
+  }
+
+  int64_t height(uint32_t x, uint32_t y) const {
+    return part_.heights[std::size_t{y} * part_.width + x];
+  }
+
+  const Raster& part_;
+  double bound_;
+};
+
+uint64_t mixed(uint64_t fingerprint, uint64_t number) {
+  const uint64_t product = (fingerprint ^ number) * 0x9E3779B97F4A7C15u;
+  return product ^ product >> 29;
+}
+
+struct BlockScan {
+  NumberRange heights;
+  uint64_t fingerprint;
+  uint64_t roughness;
+};
+
+BlockScan scan_block(const Raster& block) {
+  BlockScan result{};
+  for (const int64_t height : block.heights) {
+    if (height != kVoidHeight) result.heights.add(height);
+    result.fingerprint = mixed(result.fingerprint, static_cast<uint64_t>(height));
+  }
+  return result;
+}
+
+}  // namespace
+
+uint64_t roughness(const Raster& part, const std::optional<Decimal>& max_error) {
+  if (!max_error) {
+    return static_cast<uint64_t>(std::count_if(part.heights.begin(), part.heights.end(),
+                                               [](int64_t z) { return z != kVoidHeight; }));
+  }
+  const double bound = static_cast<double>(max_error->mantissa) *
+                       static_cast<double>(power_of_ten(part.decimals)) /
+                       static_cast<double>(power_of_ten(max_error->decimals));
+  const Octave octave(part, bound);
+  uint64_t count = 0;
+  for (uint32_t step = 1; step < std::max(part.width, part.height); step *= 2) {
+    count += octave.misses(step);
+  }
+  return count;
+}
+
+RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_error,
+                bool wants_roughest, const Progress& progress) {
+  const Raster& frame = raster.frame();
+  const uint32_t columns = (frame.width - 1) / kBlock + 1, rows = (frame.height - 1) / kBlock + 1;
+  const auto box = [&](std::size_t i) {
+    const uint32_t x = static_cast<uint32_t>(i % columns) * kBlock;
+    const uint32_t y = static_cast<uint32_t>(i / columns) * kBlock;
+    return PostRectangle{x, y, std::min(kBlock, frame.width - x),
+                         std::min(kBlock, frame.height - y)};
+  };
+  std::vector<BlockScan> blocks(std::size_t{columns} * rows);
+  CountedProgress done(progress, blocks.size());
+  for_each_parallel(blocks.size(), [&](std::size_t i) {
+    const Raster block = raster.read(box(i));
+    blocks[i] = scan_block(block);
+    if (wants_roughest) blocks[i].roughness = roughness(block, max_error);
+    done.add_one();
+  });
+  RasterScan all;
+  std::size_t roughest = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    all.heights.add(blocks[i].heights);
+    if (blocks[i].roughness > blocks[roughest].roughness) roughest = i;
+    all.fingerprint = mixed(all.fingerprint, blocks[i].fingerprint);
+  }
+  all.roughest = box(roughest);
+  return all;
+}
+
+}  // namespace microtin::terrain

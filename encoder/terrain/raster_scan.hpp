@@ -1,0 +1,33 @@
+// What is to be known of a whole raster before its tiles are chosen.
+#ifndef MICROTIN_ENCODER_TERRAIN_RASTER_SCAN_HPP
+#define MICROTIN_ENCODER_TERRAIN_RASTER_SCAN_HPP
+
+#include <cstdint>
+#include <optional>
+
+#include "encoder/base/progress.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/terrain/lattice_choice.hpp"
+#include "encoder/terrain/raster_reader.hpp"
+
+namespace microtin::terrain {
+
+struct RasterScan {
+  NumberRange heights;
+  uint64_t fingerprint = 0;  // of all heights; no match for somebody who wants to deceive it
+  PostRectangle roughest{};  // the block of up to 257 x 257 posts that will take most vertices
+};
+
+// Reads the raster once, on all processors; the result does not depend on their number. The
+// roughest block is looked for only if it is wanted: that takes most of the time.
+RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_error,
+                bool wants_roughest, const Progress& progress);
+
+// Estimates, to compare parts of one raster, how many vertices they will take: counts the posts
+// that interpolation between those at a distance of 1, 2, 4, ... posts on both sides misses by more
+// than the bound, and those beside voids. Linear.
+uint64_t roughness(const Raster& part, const std::optional<Decimal>& max_error);
+
+}  // namespace microtin::terrain
+
+#endif

@@ -1,0 +1,99 @@
+// A terrain as it was read: exact decimals, not yet on the lattice.
+#ifndef MICROTIN_ENCODER_TERRAIN_SOURCE_HPP
+#define MICROTIN_ENCODER_TERRAIN_SOURCE_HPP
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "encoder/exact/decimal.hpp"
+#include "encoder/exact/metadata.hpp"
+#include "encoder/layers.hpp"
+
+namespace microtin::terrain {
+
+// A raster's height where there is none. All other numbers have magnitudes up to 10^18.
+constexpr int64_t kVoidHeight = std::numeric_limits<int64_t>::min();
+
+// What the file format implies.
+struct Reference {
+  Unit horizontal_unit = Unit::kUnknown;
+  Unit vertical_unit = Unit::kUnknown;
+  uint32_t horizontal_epsg = 0;
+  uint32_t vertical_epsg = 0;
+};
+
+struct Raster {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  std::vector<int64_t> heights;  // times 10^-decimals; row by row, row 0 southernmost
+  int decimals = 0;
+  Axis x{0, 1, 1}, y{0, 1, 1};  // from a post's column and row to where its centre lies
+  Reference reference;
+};
+
+struct SourcePoint {
+  int64_t x, y;  // times 10^-xy_decimals
+  int64_t z;     // times 10^-z_decimals
+};
+
+struct PointCloud {
+  std::vector<SourcePoint> points;
+  int xy_decimals = 0;
+  int z_decimals = 0;
+  Reference reference;
+  std::string selection;  // which points of the file these are, for the user; empty: all
+};
+
+using Source = std::variant<Raster, PointCloud>;
+
+// Decimals of its heights.
+inline int height_decimals(const Source& source) {
+  const auto* raster = std::get_if<Raster>(&source);
+  return raster != nullptr ? raster->decimals : std::get<PointCloud>(source).z_decimals;
+}
+
+// The number that stands for a height, if there is one: of so many decimals.
+inline std::optional<int64_t> number_of(const std::optional<Decimal>& height, int decimals) {
+  constexpr Wide kLargest = 1000000000000000000;
+  if (!height || height->decimals > decimals) return std::nullopt;
+  const Wide number = mantissa_at(*height, decimals);
+  if (magnitude(number) > kLargest) return std::nullopt;
+  return static_cast<int64_t>(number);
+}
+
+// From the numbers of a source (posts: column, row, height) to real coordinates.
+inline Placement placement_of(const Source& source) {
+  const auto decimal_axis = [](int decimals) {
+    return Axis{0, 1, static_cast<uint64_t>(power_of_ten(decimals))};
+  };
+  if (const auto* raster = std::get_if<Raster>(&source)) {
+    return {raster->x, raster->y, decimal_axis(raster->decimals)};
+  }
+  const auto& cloud = std::get<PointCloud>(source);
+  const Axis xy = decimal_axis(cloud.xy_decimals);
+  return {xy, xy, decimal_axis(cloud.z_decimals)};
+}
+
+// Calls visit(x, y, z) for every post, void ones too, or point: the numbers that placement_of
+// places.
+template <class Visit>
+void for_each_post(const Source& source, const Visit& visit) {
+  if (const auto* raster = std::get_if<Raster>(&source)) {
+    const int64_t* z = raster->heights.data();
+    for (uint32_t row = 0; row < raster->height; ++row) {
+      for (uint32_t column = 0; column < raster->width; ++column) {
+        visit(int64_t{column}, int64_t{row}, *z++);
+      }
+    }
+  } else {
+    for (const SourcePoint& p : std::get<PointCloud>(source).points) visit(p.x, p.y, p.z);
+  }
+}
+
+}  // namespace microtin::terrain
+
+#endif

@@ -1,0 +1,136 @@
+// Finds regions of voids, and relaxes a soap film over those that are small.
+#include "encoder/terrain/voids.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace microtin::terrain {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+// Calls visit(index) for the posts beside post `index`.
+template <class Visit>
+void for_each_neighbour(const Raster& raster, size_t index, const Visit& visit) {
+  const size_t column = index % raster.width;
+  if (column > 0) visit(index - 1);
+  if (column + 1 < raster.width) visit(index + 1);
+  if (index >= raster.width) visit(index - raster.width);
+  if (index + raster.width < raster.heights.size()) visit(index + raster.width);
+}
+
+// The void posts connected to `start`; marks them as seen.
+std::vector<size_t> void_region(const Raster& raster, size_t start, std::vector<bool>& seen) {
+  std::vector<size_t> region{start};
+  seen[start] = true;
+  for (size_t i = 0; i < region.size(); ++i) {
+    for_each_neighbour(raster, region[i], [&](size_t post) {
+      if (raster.heights[post] != kVoidHeight || seen[post]) return;
+      seen[post] = true;
+      region.push_back(post);
+    });
+  }
+  return region;
+}
+
+// A void post whose height is sought, relative to some height near by.
+struct Unknown {
+  double height = 0;
+  double rim_sum = 0;           // of the known neighbours
+  int neighbours = 0;           // known or not
+  std::vector<size_t> unknown;  // neighbours, by their number in the region
+};
+
+std::vector<Unknown> equations(const Raster& raster, const std::vector<size_t>& region,
+                               int64_t base) {
+  std::vector<Unknown> unknowns(region.size());
+  for (size_t i = 0; i < region.size(); ++i) {
+    Unknown& u = unknowns[i];
+    for_each_neighbour(raster, region[i], [&](size_t post) {
+      ++u.neighbours;
+      if (raster.heights[post] != kVoidHeight) {
+        u.rim_sum += static_cast<double>(raster.heights[post] - base);
+      } else {
+        const auto found = std::lower_bound(region.begin(), region.end(), post);
+        u.unknown.push_back(static_cast<size_t>(found - region.begin()));
+      }
+    });
+  }
+  return unknowns;
+}
+
+// Successive over-relaxation. The factor is the best one for a square whose side has `extent`
+// posts.
+void solve(std::vector<Unknown>& unknowns, size_t extent) {
+  constexpr double kNearEnough = 1.0 / 64;
+  const double factor = 2 / (1 + std::sin(kPi / static_cast<double>(extent + 1)));
+  for (size_t sweep = 0; sweep < 100 + 20 * extent; ++sweep) {
+    double largest_change = 0;
+    for (Unknown& u : unknowns) {
+      double sum = u.rim_sum;
+      for (const size_t i : u.unknown) sum += unknowns[i].height;
+      const double change = factor * (sum / u.neighbours - u.height);
+      u.height += change;
+      largest_change = std::max(largest_change, std::abs(change));
+    }
+    if (largest_change < kNearEnough) return;
+  }
+}
+
+// Some known height beside the region, or kVoidHeight if there is none.
+int64_t rim_height(const Raster& raster, const std::vector<size_t>& region) {
+  int64_t height = kVoidHeight;
+  for (const size_t index : region) {
+    for_each_neighbour(raster, index,
+                       [&](size_t post) { height = std::max(height, raster.heights[post]); });
+  }
+  return height;
+}
+
+}  // namespace
+
+uint32_t fill_voids(Raster& raster, uint32_t largest) {
+  std::vector<bool> seen(raster.heights.size());
+  uint32_t filled = 0;
+  for (size_t start = 0; start < raster.heights.size(); ++start) {
+    if (raster.heights[start] != kVoidHeight || seen[start]) continue;
+    std::vector<size_t> region = void_region(raster, start, seen);
+    const int64_t base = region.size() <= largest ? rim_height(raster, region) : kVoidHeight;
+    if (base == kVoidHeight) continue;
+    std::sort(region.begin(), region.end());
+    std::vector<Unknown> unknowns = equations(raster, region, base);
+    const size_t rows = (region.back() - region.front()) / raster.width + 1;
+    solve(unknowns, std::max(rows, region.size() / rows));
+    for (size_t i = 0; i < region.size(); ++i) {
+      raster.heights[region[i]] = base + std::llround(unknowns[i].height);
+    }
+    filled += static_cast<uint32_t>(region.size());
+  }
+  return filled;
+}
+
+bool reaches_side(const Raster& raster, const PostRectangle& inner, Sides sides, uint32_t largest) {
+  std::vector<bool> seen(raster.heights.size());
+  const auto is_there = [&](size_t index) {
+    const size_t column = index % raster.width, row = index / raster.width;
+    return (sides.west && column == 0) || (sides.south && row == 0) ||
+           (sides.east && column + 1 == raster.width) || (sides.north && row + 1 == raster.height);
+  };
+  for (uint32_t y = inner.y; y < inner.y + inner.height; ++y) {
+    for (uint32_t x = inner.x; x < inner.x + inner.width; ++x) {
+      const size_t start = size_t{y} * raster.width + x;
+      if (raster.heights[start] != kVoidHeight || seen[start]) continue;
+      const std::vector<size_t> region = void_region(raster, start, seen);
+      if (region.size() <= largest && std::any_of(region.begin(), region.end(), is_there))
+        return true;
+    }
+  }
+  return false;
+}
+
+uint32_t fill_voids(Source& source, uint32_t largest) {
+  auto* raster = std::get_if<Raster>(&source);
+  return raster != nullptr ? fill_voids(*raster, largest) : 0;
+}
+
+}  // namespace microtin::terrain

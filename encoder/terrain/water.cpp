@@ -1,0 +1,64 @@
+// Floods voids, checks masks, and watches the water.
+#include "encoder/terrain/water.hpp"
+
+#include <algorithm>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/lattice_map.hpp"
+
+namespace microtin::terrain {
+namespace {
+
+// Writes all heights with so many decimals at least.
+void refine(Raster& raster, int decimals) {
+  constexpr int64_t kLargest = 1000000000000000000;
+  if (decimals <= raster.decimals) return;
+  const int64_t factor = power_of_ten(decimals - raster.decimals);
+  for (int64_t& height : raster.heights) {
+    if (height == kVoidHeight) continue;
+    if (magnitude(height) > kLargest / factor) {
+      throw Error("the water level has too many decimals beside such heights");
+    }
+    height *= factor;
+  }
+  raster.decimals = decimals;
+}
+
+}  // namespace
+
+uint32_t flood_voids(Raster& raster, Decimal level, const Raster* mask) {
+  refine(raster, level.decimals);
+  const std::optional<int64_t> height = number_of(level, raster.decimals);
+  if (!height) throw Error("the water level is out of range");
+  uint32_t flooded = 0;
+  for (size_t i = 0; i < raster.heights.size(); ++i) {
+    if (raster.heights[i] != kVoidHeight) continue;
+    if (mask != nullptr && mask->heights[i] != power_of_ten(mask->decimals)) continue;
+    raster.heights[i] = *height;
+    ++flooded;
+  }
+  return flooded;
+}
+
+WaterGauge::WaterGauge(int decimals, const std::optional<Decimal>& level)
+    : number_(number_of(level, decimals)) {}
+
+PostVisitor WaterGauge::visitor() {
+  return [this](int64_t, int64_t, int64_t z, double above) {
+    if (z == number_ && above != 0) ++moved_;
+  };
+}
+
+void check_water_mask(const Raster& mask, const Raster& raster) {
+  if (mask.width != raster.width || mask.height != raster.height || !is_same(mask.x, raster.x) ||
+      !is_same(mask.y, raster.y)) {
+    throw Error("has not the posts of the terrain");
+  }
+  const int64_t one = power_of_ten(mask.decimals);
+  const bool is_mask = std::all_of(mask.heights.begin(), mask.heights.end(), [&](int64_t value) {
+    return value == 0 || value == one || value == kVoidHeight;
+  });
+  if (!is_mask) throw Error("a mask holds 0 and 1 only");
+}
+
+}  // namespace microtin::terrain

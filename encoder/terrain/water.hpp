@@ -1,0 +1,39 @@
+// Water, where the user says that it is.
+#ifndef MICROTIN_ENCODER_TERRAIN_WATER_HPP
+#define MICROTIN_ENCODER_TERRAIN_WATER_HPP
+
+#include <optional>
+
+#include "encoder/layers.hpp"
+#include "encoder/terrain/source.hpp"
+#include "encoder/terrain/verify.hpp"
+
+namespace microtin::terrain {
+
+// Gives void posts the height of the water level: all, or those where the mask is 1. Posts with
+// heights keep them. Returns how many it gave. Throws Error if the level needs more decimals than
+// go beside the heights.
+uint32_t flood_voids(Raster& raster, Decimal level, const Raster* mask);
+
+// Throws Error if the mask has not the posts of the raster, or holds anything but 0, 1 and voids.
+void check_water_mask(const Raster& mask, const Raster& raster);
+
+// Counts the posts at the water level where a terrain is not exactly there.
+class WaterGauge {
+ public:
+  // Of a source whose heights have so many decimals. Without a level it counts nothing.
+  WaterGauge(int decimals, const std::optional<Decimal>& level);
+
+  // The gauge must outlive it.
+  PostVisitor visitor();
+
+  uint64_t moved() const { return moved_; }
+
+ private:
+  std::optional<int64_t> number_;  // of the source, for the level
+  uint64_t moved_ = 0;
+};
+
+}  // namespace microtin::terrain
+
+#endif

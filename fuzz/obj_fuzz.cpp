@@ -1,9 +1,0 @@
-// OBJ files.
-#include "fuzz/import_fuzz.hpp"
-
-using namespace microtin;
-
-extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  const std::string bytes(reinterpret_cast<const char*>(data), size);
-  return import_and_encode([&] { return import_obj("mesh.obj", bytes); }, Options(data, size));
-}

@@ -1,0 +1,43 @@
+// Any bytes end in a status, after a bounded number of steps; whatever was decoded by then is the
+// canonical triangulation, and looking at the header alone says the same of it.
+#include "fuzz/support/device.hpp"
+#include "fuzz/support/local_delaunay.hpp"
+#include "fuzz/support/stream_mutator.hpp"
+
+namespace {
+
+using namespace microtin;
+using namespace microtin::tests;
+
+constexpr uint32_t kCapacity = 300;  // few, to be quick; more than the first section holds
+
+// A header that peek refuses is refused for the same reason; otherwise something else is wrong.
+void check_peek(const uint8_t* data, size_t size, microtin_status status) {
+  microtin_info info;
+  const microtin_status peeked = microtin_peek(data, size, &info);
+  if (peeked >= MICROTIN_BAD_MAGIC) {
+    EXPECT(status == peeked);
+  } else if (peeked == MICROTIN_NEED_INPUT) {
+    EXPECT(status == MICROTIN_TRUNCATED && (info.header_bytes == 0 || info.header_bytes > size));
+  } else {
+    EXPECT((status == MICROTIN_TOO_BIG) == (info.vertices > kCapacity));
+    EXPECT(status != MICROTIN_BAD_MAGIC && status != MICROTIN_UNSUPPORTED_VERSION);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static Workspaces<kCapacity> workspaces;
+  Device device = workspaces.device();
+  const microtin_status status = device.decode(data, size);
+  EXPECT(status == MICROTIN_DONE || status >= MICROTIN_BAD_MAGIC);
+  check_peek(data, size, status);
+  const Mesh& mesh = device.mesh->mesh;
+  EXPECT(mesh.triangles == 0 || is_locally_delaunay(mesh));
+  if (status == MICROTIN_DONE) {
+    EXPECT(mesh.vertices == device.decoder->reconstruction.contract.vertices);
+    EXPECT(mesh.vertices == device.mesh->verified_vertices);
+  }
+  return 0;
+}

@@ -1,0 +1,214 @@
+// Packs, damaged and forged, on storage that fails: a service ends within its bounds, answers come
+// from tiles that a host accepts alone, and are the host's. The fuzzer chooses courses and faults
+// by the last bytes of its input.
+#include "microtin/pack.h"
+
+#include <fuzzer/FuzzedDataProvider.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/wide.hpp"
+#include "encoder/pack/file.hpp"
+#include "fuzz/support/expect.hpp"
+#include "fuzz/support/repair.hpp"
+
+extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t most);
+
+namespace {
+
+using namespace microtin;
+using namespace microtin::tests;
+
+constexpr uint32_t kCapacity = 120;
+
+// Makes the checks of streams, entries and header right again, as far as lengths allow.
+void repair_pack(uint8_t* bytes, size_t size) {
+  if (size < kPackFixedBytes) return;
+  std::memcpy(bytes, kPackMagic, sizeof kPackMagic);
+  bytes[4] = kPackVersion;
+  PackHeader header;
+  if (!read_pack_header(bytes, &header)) return;
+  const size_t index = pack_index_start(header);
+  if (size < index) return;
+  write_check(bytes, 0, index - kCheckBytes);
+  const uint32_t header_check = read_u32(bytes + index - kCheckBytes);
+  const uint64_t tiles = uint64_t{tile_columns(header.grid)} * tile_rows(header.grid);
+  for (uint32_t tile = 0; tile < tiles; ++tile) {
+    const uint64_t at = pack_entry_start(header, tile);
+    if (at + kPackEntryBytes > size) return;
+    uint8_t* const entry_bytes = bytes + at;
+    PackEntry entry;
+    read_pack_entry(entry_bytes, header, &entry);
+    if (entry.offset <= size && entry.size <= size - entry.offset) {
+      uint8_t* const stream = bytes + entry.offset;
+      if (entry.size != 0) repair(stream, entry.size);
+      const uint32_t check = stream_hash(kStreamHash, stream, entry.size);
+      for (int i = 0; i < 4; ++i) entry_bytes[20 + i] = static_cast<uint8_t>(check >> 8 * i);
+    }
+    const uint32_t check = pack_entry_check(header_check, tile, entry_bytes);
+    for (int i = 0; i < 4; ++i) entry_bytes[24 + i] = static_cast<uint8_t>(check >> 8 * i);
+  }
+}
+
+// Storage that gives few bytes, or none, as the fuzzer says.
+struct Card {
+  const uint8_t* bytes;
+  size_t size;
+  FuzzedDataProvider& faults;
+  uint32_t reads = 0;
+
+  static size_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+    Card& card = *static_cast<Card*>(context);
+    EXPECT(size != 0 && size <= 128);
+    ++card.reads;
+    const uint8_t fault = card.faults.ConsumeIntegral<uint8_t>();  // 0 when there are no more
+    if (fault % 8 == 1 || offset >= card.size) return 0;
+    const size_t most = fault % 8 == 2 ? 1 + fault / 8 : size;
+    const size_t taken = std::min({size, most, card.size - static_cast<size_t>(offset)});
+    std::memcpy(buffer, card.bytes + offset, taken);
+    return taken;
+  }
+};
+
+// On the heap, of exactly the size that is asked for.
+struct Device {
+  explicit Device(uint32_t slots) : memory(MICROTIN_PACK_BYTES(slots, kCapacity)) {
+    EXPECT(microtin_pack_init(memory.data(), memory.size(), slots, kCapacity, &pack) ==
+           MICROTIN_DONE);
+  }
+
+  std::vector<unsigned char> memory;
+  microtin_pack* pack = nullptr;
+};
+
+int64_t coordinate(FuzzedDataProvider& asked, uint32_t most) {
+  const int64_t all = static_cast<int64_t>(most) * 256;
+  const int64_t any = asked.ConsumeIntegralInRange<int64_t>(-300, std::min<int64_t>(all, 1 << 23));
+  return asked.ConsumeBool() ? any : any / 256 * 256;
+}
+
+// The height at a place by the host's reader; none where it knows none, or the tile is refused.
+std::optional<int32_t> expected_height(const PackFile& file, uint32_t number, int64_t x,
+                                       int64_t y) {
+  const TileBox box = tile_box(file.grid(), number);
+  try {
+    const std::optional<DecodedTerrain> tile = file.tile(number);
+    if (!tile) return std::nullopt;
+    uint32_t hint = 0;
+    int32_t height = 0;
+    if (microtin_height_at(tile->mesh(), static_cast<int32_t>(x - int64_t{box.x} * 256),
+                           static_cast<int32_t>(y - int64_t{box.y} * 256), 0, &hint,
+                           &height) == MICROTIN_HEIGHT) {
+      return height;
+    }
+  } catch (const Error&) {
+  }
+  return std::nullopt;
+}
+
+// Every answer is that of one of the tiles at the place, as the host decodes them.
+void check_height(const PackFile& file, const microtin_pack* pack, int64_t x, int64_t y) {
+  uint32_t hint = 12345;
+  int32_t height = 0;
+  const microtin_answer answer = microtin_pack_height_at(pack, x, y, &hint, &height);
+  if (answer != MICROTIN_HEIGHT) return;
+  bool is_right = false;
+  for (uint32_t number = 0; number < file.entries().size(); ++number) {
+    const TileBox box = tile_box(file.grid(), number);
+    if (x < int64_t{box.x} * 256 || x > int64_t{box.x_end} * 256 || y < int64_t{box.y} * 256 ||
+        y > int64_t{box.y_end} * 256) {
+      continue;
+    }
+    is_right = is_right || expected_height(file, number, x, y) == height;
+  }
+  EXPECT(is_right);
+}
+
+// Blocks hold what single answers and exact arithmetic say.
+void check_fill(const microtin_pack* pack, const microtin_pack_info& info,
+                const microtin_course& course) {
+  const microtin_block block = {course.x, course.y, 300, -256, 3, 2, -9999};
+  int16_t heights[6];
+  if (microtin_pack_fill(pack, &block, heights) != MICROTIN_HEIGHT) return;
+  const Wide unit = Wide{65536} * static_cast<Wide>(info.z.denominator);
+  uint32_t hint = 0;
+  for (int i = 0; i < 6; ++i) {
+    int32_t z = 0;
+    EXPECT(microtin_pack_height_at(pack, block.x + i % 3 * block.dx, block.y + i / 3 * block.dy,
+                                   &hint, &z) == MICROTIN_HEIGHT);
+    const Wide real = static_cast<Wide>(info.z.numerator) * z + Wide{info.z.offset} * 65536;
+    EXPECT(heights[i] == std::clamp<Wide>(round_divide(real, unit), INT16_MIN, INT16_MAX));
+  }
+}
+
+void check_to_lattice(const microtin_axis& axis, uint32_t most, int64_t value, uint32_t per_unit) {
+  int64_t lattice = 0;
+  if (microtin_pack_to_lattice(&axis, most, value, per_unit, &lattice) == 0) return;
+  const Wide parts =
+      Wide{value} * static_cast<Wide>(axis.denominator) - Wide{axis.offset} * per_unit;
+  EXPECT(lattice == round_divide(parts * 256, static_cast<Wide>(axis.numerator) * per_unit));
+  EXPECT(lattice >= 0 && lattice <= int64_t{most} * 256);
+}
+
+// Serves a course to its end, with interrupts between the calls.
+void serve(Card& card, microtin_pack* pack, const microtin_course& course, uint32_t step_limit) {
+  microtin_status status = MICROTIN_STEP_LIMIT;
+  for (uint32_t call = 0, failed = 0; failed < 3; ++call) {
+    EXPECT(call < 200000);
+    const uint32_t reads = card.reads;
+    status = microtin_pack_service(pack, &course, step_limit, Card::read, &card);
+    EXPECT(step_limit == 0 || card.reads <= reads + 1);
+    if (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
+      failed += status == MICROTIN_NEED_INPUT && step_limit == 0 ? 1u : 0u;
+      if (card.reads == reads && status == MICROTIN_NEED_INPUT) ++failed;
+      if (card.reads > 20000) break;
+      continue;
+    }
+    if (status == MICROTIN_DONE) break;
+    ++failed;
+  }
+  int32_t height = 0;
+  uint32_t hint = 0;
+  const microtin_answer answer = microtin_pack_height_at(pack, course.x, course.y, &hint, &height);
+  if (status == MICROTIN_DONE) EXPECT(answer != MICROTIN_NOT_DECODED);
+  const microtin_answer highest = microtin_pack_highest(pack, &course, &height);
+  if (status == MICROTIN_DONE) EXPECT(highest != MICROTIN_NOT_DECODED);
+}
+
+}  // namespace
+
+extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most, unsigned seed) {
+  size = LLVMFuzzerMutate(data, size, most);
+  if (seed % 16 != 0) repair_pack(data, size);
+  return size;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  FuzzedDataProvider asked(data, size);
+  const Device device(asked.ConsumeIntegralInRange<uint32_t>(1, 5));
+  const uint32_t step_limit = asked.ConsumeIntegralInRange<uint32_t>(0, 40);
+  std::optional<PackFile> file;
+  try {
+    file.emplace(std::vector<uint8_t>(data, data + size));
+  } catch (const Error&) {
+  }
+  Card card{data, size, asked};
+  for (int i = 0; i < 3; ++i) {
+    microtin_pack_info info = {1000, 1000, 0, 0, 0, 0, 0, {}, {}, {}};
+    microtin_pack_header(device.pack, &info);
+    const microtin_course course = {coordinate(asked, info.x_max), coordinate(asked, info.y_max),
+                                    coordinate(asked, info.x_max), coordinate(asked, info.y_max)};
+    serve(card, device.pack, course, step_limit);
+    if (file) check_height(*file, device.pack, course.x, course.y);
+    if (microtin_pack_header(device.pack, &info) == 0) continue;
+    check_fill(device.pack, info, course);
+    const int64_t value = asked.ConsumeIntegral<int64_t>();
+    check_to_lattice(info.x, info.x_max, value >> asked.ConsumeIntegralInRange(0, 63),
+                     asked.ConsumeIntegral<uint32_t>());
+  }
+  return 0;
+}

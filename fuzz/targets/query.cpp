@@ -1,0 +1,111 @@
+// Queries on whatever was decoded, also after an early stop: heights are those of exact arithmetic,
+// from any start of the search. The fuzzer asks by the last bytes of its input.
+#include <fuzzer/FuzzedDataProvider.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "fuzz/support/device.hpp"
+#include "fuzz/support/stream_mutator.hpp"
+#include "tests/support/mesh_copy.hpp"
+#include "tests/support/reference_heights.hpp"
+
+namespace {
+
+using namespace microtin;
+using namespace microtin::tests;
+
+constexpr uint32_t kCapacity = 1200;
+constexpr int32_t kFineMost = 65535 * 256;
+
+struct Place {
+  int32_t x, y;
+};
+
+struct Answer {
+  microtin_answer kind;
+  int32_t height;
+};
+
+// By definition, looking at every triangle.
+Answer expected_at(const std::vector<reference::Corners>& triangles, Place p) {
+  Answer answer = {MICROTIN_OUTSIDE, 0};
+  if (p.x < 0 || p.x > kFineMost || p.y < 0 || p.y > kFineMost) return answer;
+  for (const reference::Corners& t : triangles) {
+    if (!reference::holds(t, p.x, p.y)) continue;
+    const bool at_vertex = std::any_of(
+        t.v, t.v + 3, [p](const Vertex& v) { return v.x * 256 == p.x && v.y * 256 == p.y; });
+    if (!t.is_void || at_vertex) return {MICROTIN_HEIGHT, reference::height_in(t, p.x, p.y)};
+    answer.kind = MICROTIN_IN_VOID;
+  }
+  return answer;
+}
+
+// Anywhere, at a vertex, or between two vertices.
+Place place_from(FuzzedDataProvider& asked, const MeshCopy& copy) {
+  const auto vertex = [&] {
+    const size_t v = asked.ConsumeIntegralInRange<size_t>(0, copy.x.size() - 1);
+    return Place{copy.x[v] * 256, copy.y[v] * 256};
+  };
+  const uint8_t kind = asked.ConsumeIntegral<uint8_t>();
+  if (kind % 4 == 0)
+    return Place{asked.ConsumeIntegral<int32_t>(), asked.ConsumeIntegral<int32_t>()};
+  const Place p = vertex(), q = vertex();
+  if (kind % 4 == 1) return p;
+  const int32_t part = kind % 4 == 2 ? 128 : kind;
+  return Place{p.x + (q.x - p.x) / 256 * part, p.y + (q.y - p.y) / 256 * part};
+}
+
+void check_heights(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataProvider& asked) {
+  const std::vector<reference::Corners> triangles = reference::real_triangles(mesh);
+  for (int i = 0; i < 12; ++i) {
+    const Place p = place_from(asked, copy);
+    const Answer expected = expected_at(triangles, p);
+    uint32_t hint = asked.ConsumeIntegral<uint32_t>();
+    if (hint % 4 != 0) hint %= microtin_triangle_count(mesh);
+    int32_t height = 0;
+    EXPECT(microtin_height_at(mesh, p.x, p.y, MICROTIN_ANSWER_UNVERIFIED, &hint, &height) ==
+           expected.kind);
+    EXPECT(height == expected.height);
+  }
+}
+
+bool same(const microtin_axis& a, const microtin_axis& b) {
+  return a.offset == b.offset && a.numerator == b.numerator && a.denominator == b.denominator;
+}
+
+// A stream that was begun lies where its header says.
+void check_placement(const microtin_mesh* mesh, const uint8_t* data, size_t size) {
+  microtin_axis x, y, z;
+  microtin_info info;
+  microtin_placement(mesh, &x, &y, &z);
+  EXPECT(microtin_peek(data, size, &info) == MICROTIN_DONE);
+  EXPECT(same(x, info.x) && same(y, info.y) && same(z, info.z));
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  static Workspaces<kCapacity> workspaces;
+  FuzzedDataProvider asked(data, size);
+  Device device = workspaces.device();
+  const uint32_t phases = asked.ConsumeIntegralInRange<uint32_t>(0, 12);
+  microtin_stop_after_phase(device.decoder, phases);
+  const microtin_status status = device.decode(data, size);
+  if (status == MICROTIN_STOPPED) EXPECT(microtin_phase(device.decoder) == phases);
+  const microtin_mesh* const mesh = device.mesh;
+  uint32_t hint = asked.ConsumeIntegral<uint32_t>();
+  int32_t height = 0;
+  const microtin_answer answer = microtin_height_at(mesh, 0, 0, 0, &hint, &height);
+  if (microtin_triangle_count(mesh) == 0) {
+    EXPECT(answer == MICROTIN_NOT_DECODED);
+    return 0;
+  }
+  EXPECT(status != MICROTIN_DONE || answer != MICROTIN_NOT_VERIFIED);
+  EXPECT(answer == MICROTIN_NOT_VERIFIED || mesh->verified_vertices == microtin_vertex_count(mesh));
+  check_placement(mesh, data, size);
+  const MeshCopy copy(mesh);
+  EXPECT(pairing_fault(copy.mesh).empty());
+  check_heights(mesh, copy, asked);
+  return 0;
+}

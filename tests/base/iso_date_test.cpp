@@ -1,0 +1,24 @@
+// Dates.
+#include "encoder/base/iso_date.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/support/layers.hpp"
+
+using namespace microtin::tests;
+
+TEST_CASE("years, months and days that there are") {
+  for (const char* text : {"2026", "0000", "2026-11", "2026-11-21", "2024-02-29", "2000-02-29",
+                           "2026-01-31", "2026-12-31", "2026-04-30"}) {
+    CHECK_MESSAGE(is_iso_date(text), text);
+  }
+}
+
+TEST_CASE("others are none") {
+  for (const char* text :
+       {"", "26", "2026-", "2026-13", "2026-00", "2026-1", "2026-11-0", "2026-11-00", "2026-11-31",
+        "2026-02-29", "1900-02-29", "2026/11/21", "2026-11/21", "21.11.2026", "2026-11-21T00",
+        "2026-1a", "20x6", "2026-11- 1", "+026"}) {
+    CHECK_MESSAGE(!is_iso_date(text), text);
+  }
+}

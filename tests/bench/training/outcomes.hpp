@@ -1,0 +1,21 @@
+// What the adaptive bits of a stream were asked to code.
+#ifndef MICROTIN_TESTS_BENCH_TRAINING_OUTCOMES_HPP
+#define MICROTIN_TESTS_BENCH_TRAINING_OUTCOMES_HPP
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "shared/start_probabilities.hpp"
+
+namespace microtin::bench {
+
+// Of each adaptive bit, in the order of Models, what it learned from, one after the other.
+using Outcomes = std::array<std::vector<bool>, kStarts>;
+
+// The stream must be one of our own.
+Outcomes outcomes_of(const std::vector<uint8_t>& stream);
+
+}  // namespace microtin::bench
+
+#endif

@@ -1,0 +1,116 @@
+// Golden streams: what this version of the format looks like, byte for byte. A change of the format
+// changes them on purpose: run with MICROTIN_WRITE_GOLDEN=1 to write them anew, then
+// `host_report X.mtin > X.report` for each, and raise the version.
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "shared/start_probabilities.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/mesh_copy.hpp"
+#include "tests/support/streams.hpp"
+
+namespace microtin::tests {
+namespace {
+
+struct Golden {
+  std::string name;
+  std::vector<uint8_t> stream;
+};
+
+Tin flat(const Points& points) {
+  Tin tin;
+  for (const Point p : points) tin.vertices.push_back(Vertex{p.x, p.y, 0});
+  return tin;
+}
+
+// Heights that differ by as much as they can, and slivers along the hull.
+Tin cliffs(Random& random) {
+  Tin tin = flat(uniform_points(60, random));
+  tin.vertices.push_back(Vertex{0, 0, 0});
+  tin.vertices.push_back(Vertex{65535, 1, 0});
+  tin.vertices.push_back(Vertex{32768, 1, 0});
+  tin.vertices.push_back(Vertex{30000, 2, 0});
+  for (Vertex& v : tin.vertices) v.z = random.below(2) == 0 ? INT16_MIN : INT16_MAX;
+  return tin;
+}
+
+std::vector<Golden> golden_streams() {
+  const Tin example{
+      {{0, 0, 10}, {40, 0, 12}, {40, 30, 20}, {0, 30, 11}, {16, 12, 25}, {30, 20, 18}}, {}};
+  Random random(31);
+  std::vector<Golden> all;
+  all.push_back({"example", encode(example, Metadata())});
+  all.push_back({"hills", encode(rolling_tin(1000, 32), full_metadata())});
+  all.push_back({"phases", encode(rolling_tin(700, 33), Metadata(), {6, 1})});
+  all.push_back({"voids", encode(with_voids(rolling_tin(300, 34)), Metadata(), {8, 3})});
+  // Chords whose cotangents are the largest 32-bit numbers and beyond.
+  all.push_back({"needles", encode(flat({{16948, 26227},
+                                         {21539, 23131},
+                                         {22795, 22284},
+                                         {24051, 21437},
+                                         {25307, 20590},
+                                         {48695, 4818},
+                                         {54109, 1167}}),
+                                   Metadata())});
+  all.push_back({"triangle",
+                 encode(Tin{{{3, 4, -32768}, {60003, 4, 32767}, {3, 65535, 0}}, {}}, Metadata())});
+  all.push_back({"cliffs", encode(cliffs(random), Metadata(), {10, 3})});
+  all.push_back({"lattice", encode(flat(lattice_points(20, 15, random)), Metadata())});
+  all.push_back({"circle", encode(flat(circle_points(1105 * 1105, random)), Metadata(), {32, 2})});
+  // Phases after the first section.
+  all.push_back({"sections", encode(flat(lattice_points(40, 30, random)), Metadata(), {6, 1})});
+  all.push_back({"corners", encode(flat(extreme_corners(random)), Metadata(), {12, 3})});
+  return all;
+}
+
+// The indented lines of FORMAT.md, and an empty one for each heading.
+std::vector<std::string> indented_lines_of_the_format() {
+  std::ifstream text(MICROTIN_GOLDEN_DIR "/../../shared/FORMAT.md");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(text, line);) {
+    if (line.rfind("    ", 0) == 0) lines.push_back(line);
+    if (line.rfind('#', 0) == 0) lines.emplace_back();
+  }
+  return lines;
+}
+
+}  // namespace
+
+TEST_CASE("golden streams are what the encoder writes and the decoder reads") {
+  for (const Golden& golden : golden_streams()) {
+    const std::string path = MICROTIN_GOLDEN_DIR "/" + golden.name + ".mtin";
+    if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) write_file(path, golden.stream);
+    CAPTURE(golden.name);
+    CHECK(bytes_of_file(path) == golden.stream);
+    CHECK_NOTHROW(DecodedTerrain{golden.stream});
+  }
+}
+
+TEST_CASE("the hexdump in FORMAT.md is the example stream") {
+  std::vector<uint8_t> dump;
+  for (const std::string& line : indented_lines_of_the_format()) {
+    std::istringstream row(line);
+    std::string offset, digits;
+    row >> offset;
+    if (offset.size() != 8 || offset.rfind("000000", 0) != 0) continue;
+    while (row >> digits) dump.push_back(static_cast<uint8_t>(std::stoul(digits, nullptr, 16)));
+  }
+  CHECK(dump == golden_streams()[0].stream);
+}
+
+TEST_CASE("the table of starts in FORMAT.md is the decoder's") {
+  std::vector<uint32_t> listed, expected;
+  for (const std::string& line : indented_lines_of_the_format()) {
+    if (line.empty()) listed.clear();  // it stands under the last heading
+    std::istringstream row(line);
+    for (uint32_t start; row >> start;) listed.push_back(start);
+  }
+  for (uint32_t i = 0; i < kStarts; ++i) expected.push_back(table_start(i));
+  CHECK(listed == expected);
+}
+
+}  // namespace microtin::tests

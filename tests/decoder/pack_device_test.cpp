@@ -1,0 +1,464 @@
+// A device reads a pack: slots, courses, queries, and storage that fails in every way.
+#include "tests/support/pack_device.hpp"
+
+#include <doctest/doctest.h>
+#include <sys/time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "microtin/pack.hpp"
+#include "tests/support/packs.hpp"
+
+namespace microtin::tests {
+namespace {
+
+Bytes pack_bytes(const Raster& raster, int64_t bound = 3, uint32_t vertices = 60) {
+  return write_pack(encode_pack(raster, pack_options(bound, vertices)));
+}
+
+microtin_course course(Random& random, int64_t x_max, int64_t y_max) {
+  const auto pick = [&](int64_t most) {
+    return static_cast<int64_t>(random.below(static_cast<uint32_t>(most * 256 + 1)));
+  };
+  return {pick(x_max), pick(y_max), pick(x_max), pick(y_max)};
+}
+
+}  // namespace
+
+TEST_CASE("pack: heights at every place are those of the tiles, voids are told") {
+  for (const VoidKind& kind : void_kinds()) {
+    if (kind.name == "chessboard" || kind.name == "30 of 100") continue;  // many tiles
+    CAPTURE(kind.name);
+    Card card{pack_bytes(rough_raster(61, 53, kind.at))};
+    const PackFile pack(card.bytes);
+    const PackDevice device(4);
+    Random random(5);
+    for (int i = 0; i < 60; ++i) {
+      const microtin_course c = course(random, 60, 52);
+      const int64_t x = i % 2 == 0 ? c.x : c.x / 256 * 256, y = i % 3 == 0 ? c.y / 256 * 256 : c.y;
+      REQUIRE(device.service(card, {x, y, x, y}) == MICROTIN_DONE);
+      int32_t height = 0;
+      const microtin_answer answer = device.height_at(x, y, height);
+      const std::optional<int32_t> expected = expected_height(pack, x, y);
+      CHECK(answer == (expected ? MICROTIN_HEIGHT : MICROTIN_IN_VOID));
+      if (expected) CHECK(height == *expected);
+    }
+    int32_t height = 0;
+    CHECK(device.height_at(-1, 0, height) == MICROTIN_OUTSIDE);
+    CHECK(device.height_at(60 * 256 + 1, 0, height) == MICROTIN_OUTSIDE);
+  }
+}
+
+TEST_CASE("pack: tiles that are there need no reading, the least recently wanted goes") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackFile pack(card.bytes);
+  const TileGrid& grid = pack.grid();
+  REQUIRE(tile_columns(grid) >= 3);
+  const PackDevice device(2);
+  const auto middle_of = [&](int64_t column) {
+    return at(column * grid.width + grid.width / 2, grid.height / 2);
+  };
+  int32_t height = 0;
+  CHECK(device.height_at(0, 0, height) == MICROTIN_NOT_DECODED);
+  REQUIRE(device.service(card, middle_of(0)) == MICROTIN_DONE);
+  REQUIRE(device.service(card, middle_of(1)) == MICROTIN_DONE);
+  const uint32_t reads = card.reads;
+  REQUIRE(device.service(card, middle_of(0)) == MICROTIN_DONE);
+  CHECK(card.reads == reads);
+  REQUIRE(device.service(card, middle_of(2)) == MICROTIN_DONE);  // in the place of 1
+  const auto is_there = [&](int64_t column) {
+    const microtin_course c = middle_of(column);
+    return device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT;
+  };
+  CHECK(is_there(0));
+  CHECK(!is_there(1));
+  CHECK(is_there(2));
+  const microtin_course corner = at(grid.width, grid.height);
+  CHECK(device.service(card, corner) == MICROTIN_WORKSPACE_TOO_SMALL);
+  microtin_pack_reset(device.pack);
+  CHECK(!is_there(0));
+}
+
+TEST_CASE("pack: steps and reads of a call are bounded, and queries work between") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  card.most = 7;
+  const PackDevice device(4);
+  const microtin_course c = at(30, 26);
+  microtin_status status = MICROTIN_STEP_LIMIT;
+  uint32_t calls = 0;
+  for (; status != MICROTIN_DONE && calls < 100000; ++calls) {
+    const uint32_t reads = card.reads;
+    status = device.service(card, c, 1);
+    REQUIRE(card.reads <= reads + 1);
+    REQUIRE((status == MICROTIN_DONE || status == MICROTIN_NEED_INPUT ||
+             status == MICROTIN_STEP_LIMIT));
+    int32_t height = 0;
+    const microtin_answer answer = device.height_at(c.x, c.y, height);
+    REQUIRE(answer == (status == MICROTIN_DONE ? MICROTIN_HEIGHT : MICROTIN_NOT_DECODED));
+  }
+  CHECK(status == MICROTIN_DONE);
+  CHECK(calls > 50);
+}
+
+TEST_CASE("pack: every read fails in turn, and the next call goes on") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const microtin_course c = at(30, 26);
+  uint32_t all = 0;
+  {
+    const PackDevice device(4);
+    REQUIRE(device.service(card, c) == MICROTIN_DONE);
+    all = card.reads;
+  }
+  for (uint32_t failing = 0; failing < all; ++failing) {
+    const PackDevice device(4);
+    card.reads = 0;
+    card.failing = failing;
+    CHECK(device.service(card, c) == MICROTIN_NEED_INPUT);
+    int32_t height = 0;
+    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_NOT_DECODED);
+    CHECK(device.service(card, c) == MICROTIN_DONE);
+    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
+  }
+}
+
+TEST_CASE("pack: damaged, swapped and foreign bytes are told, and never answered from") {
+  const Bytes good = pack_bytes(rough_raster(61, 53));
+  const PackFile pack(good);
+  const auto status_of = [](const Bytes& bytes) {
+    Card card{bytes};
+    const PackDevice device(4);
+    const microtin_status status = device.service(card, at(30, 26));
+    int32_t height = 0;
+    CHECK((device.height_at(30 * 256, 26 * 256, height) == MICROTIN_HEIGHT) ==
+          (status == MICROTIN_DONE));
+    return status;
+  };
+  CHECK(status_of(good) == MICROTIN_DONE);
+  CHECK(status_of(Bytes(good.size())) == MICROTIN_BAD_MAGIC);
+  CHECK(status_of({}) == MICROTIN_NEED_INPUT);
+  const uint32_t index = pack_index_start(pack.header());
+  Bytes zeros = good;
+  std::fill(zeros.begin() + index, zeros.end(), uint8_t{0});
+  CHECK(status_of(zeros) == MICROTIN_CHECKSUM);
+  // Every byte changed: all that matters for this place is noticed.
+  uint32_t noticed = 0;
+  for (size_t i = 0; i < good.size(); ++i) {
+    Bytes changed = good;
+    changed[i] ^= static_cast<uint8_t>(1u << i % 8);
+    if (status_of(changed) != MICROTIN_DONE) ++noticed;
+  }
+  CHECK(noticed > index + kPackEntryBytes);
+  // Entries and streams of two tiles swapped.
+  const uint32_t last = static_cast<uint32_t>(pack.entries().size()) - 1;
+  const auto is_refused = [&](uint32_t tile, const Bytes& bytes) {
+    Card card{bytes};
+    const PackDevice device(4);
+    const TileBox box = tile_box(pack.grid(), tile);
+    return device.service(card, at(box.x + 1, box.y + 1)) == MICROTIN_CHECKSUM;
+  };
+  Bytes swapped = good;
+  std::swap_ranges(swapped.begin() + index, swapped.begin() + index + kPackEntryBytes,
+                   swapped.begin() + index + last * kPackEntryBytes);
+  CHECK(is_refused(0, swapped));
+  CHECK(is_refused(last, swapped));
+  const Bytes other = pack_bytes(rough_raster(61, 53), 4, 60);
+  Bytes foreign = good;
+  std::copy(other.begin() + index,
+            other.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(other.size()),
+                                                     static_cast<std::ptrdiff_t>(good.size())),
+            foreign.begin() + index);
+  CHECK(is_refused(0, foreign));
+}
+
+TEST_CASE("pack: of a placement that was damage nothing stays") {
+  Card card{pack_bytes(rough_raster(61, 53), 0)};
+  REQUIRE(card.bytes[6] == 0);
+  for (const uint8_t denominator : Bytes{0, 3}) {
+    const Bytes placement = {2, 2, denominator, 2, 2, denominator, 2, 2, denominator};
+    Card damaged = card;
+    damaged.bytes[6] = static_cast<uint8_t>(placement.size());
+    std::copy(placement.begin(), placement.end(), damaged.bytes.begin() + kPackFixedBytes);
+    const PackDevice device(1);
+    CHECK(device.service(damaged, at(1, 1)) ==
+          (denominator == 0 ? MICROTIN_MALFORMED : MICROTIN_CHECKSUM));
+    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+    microtin_pack_info info;
+    REQUIRE(microtin_pack_header(device.pack, &info) == 1);
+    for (const microtin_axis& axis : {info.x, info.y, info.z}) {
+      CHECK(axis.offset == 0);
+      CHECK(axis.numerator == 1);
+      CHECK(axis.denominator == 1);
+    }
+  }
+}
+
+TEST_CASE("pack: a tile of another tile's place is refused, whatever its checks") {
+  // Two tiles that differ by one height, by one that takes as many bytes; right CRCs of their own.
+  Raster raster = rough_raster(9, 5);
+  for (size_t i = 0; i < raster.heights.size(); ++i) raster.heights[i] = i % 9 % 4 == 2 ? 50 : 0;
+  EncodedPack encoded;
+  do {
+    REQUIRE(++raster.heights[9 * 2 + 6] < 100);
+    encoded = encode_pack(raster, {{}, {}, 30, 0});
+    REQUIRE(encoded.streams.size() == 2);
+  } while (encoded.streams[0].size() != encoded.streams[1].size());
+  const Bytes &west = encoded.streams[0], &east = encoded.streams[1];
+  REQUIRE(west != east);
+  Bytes bytes = write_pack(encoded);
+  const auto status_of = [&](uint32_t x) {
+    Card card{bytes};
+    const PackDevice device(4);
+    return device.service(card, at(x, 1));
+  };
+  CHECK(status_of(1) == MICROTIN_DONE);
+  CHECK(status_of(7) == MICROTIN_DONE);
+  std::swap_ranges(bytes.end() - static_cast<std::ptrdiff_t>(2 * west.size()),
+                   bytes.end() - static_cast<std::ptrdiff_t>(west.size()),
+                   bytes.end() - static_cast<std::ptrdiff_t>(west.size()));
+  CHECK(status_of(1) == MICROTIN_CHECKSUM);
+  CHECK(status_of(7) == MICROTIN_CHECKSUM);
+}
+
+namespace {
+
+// What a handler of interrupts asks, and how often it was right.
+struct Interrupted {
+  const microtin_pack* pack;
+  int64_t x, y;
+  int32_t expected;
+  volatile uint32_t right, absent, wrong;
+} interrupted;
+
+void ask_in_interrupt(int) {
+  int32_t height = 0;
+  uint32_t hint = 0;
+  const microtin_answer answer =
+      microtin_pack_height_at(interrupted.pack, interrupted.x, interrupted.y, &hint, &height);
+  if (answer == MICROTIN_NOT_DECODED) {
+    interrupted.absent = interrupted.absent + 1;
+  } else if (answer == MICROTIN_HEIGHT && height == interrupted.expected) {
+    interrupted.right = interrupted.right + 1;
+  } else {
+    interrupted.wrong = interrupted.wrong + 1;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("pack: a query in an interrupt is right at any moment of the service") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackFile pack(card.bytes);
+  const PackDevice device(1);
+  const TileGrid& grid = pack.grid();
+  const int64_t x = grid.width * 128 + 5, y = grid.height * 128 + 9;  // in the first tile
+  interrupted = {device.pack, x, y, *expected_height(pack, x, y), 0, 0, 0};
+  struct sigaction action = {}, before = {};
+  action.sa_handler = ask_in_interrupt;
+  REQUIRE(sigaction(SIGALRM, &action, &before) == 0);
+  const itimerval often{{0, 50}, {0, 50}}, never{{0, 0}, {0, 0}};
+  setitimer(ITIMER_REAL, &often, nullptr);
+  bool done = true;
+  for (int round = 0; round < 3000 && interrupted.right + interrupted.absent < 2000; ++round) {
+    // The first tile comes and goes.
+    done = done && device.service(card, {x, y, x, y}) == MICROTIN_DONE;
+    done = done && device.service(card, {3 * x, y, 3 * x, y}) == MICROTIN_DONE;
+  }
+  setitimer(ITIMER_REAL, &never, nullptr);
+  sigaction(SIGALRM, &before, nullptr);
+  CHECK(done);
+  CHECK(interrupted.wrong == 0);
+  CHECK(interrupted.right > 0);
+  CHECK(interrupted.absent > 0);
+}
+
+TEST_CASE("pack: too small slots, workspaces and wrong arguments") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const PackDevice device(4, 10);
+  CHECK(device.service(card, at(30, 26)) == MICROTIN_TOO_BIG);
+  CHECK(device.service(card, {0, 0, int64_t{1} << 24, 0}) == MICROTIN_ARGUMENT);
+  CHECK(device.service(card, {int64_t{1} << 41, 0, int64_t{1} << 41, 0}) == MICROTIN_ARGUMENT);
+  CHECK(device.service(card, at(-500, 9999)) == MICROTIN_DONE);  // no tile is there
+  microtin_pack* pack = nullptr;
+  Workspace space(MICROTIN_PACK_BYTES(3, 50));
+  CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, nullptr) == MICROTIN_ARGUMENT);
+  CHECK(microtin_pack_init(space.begin(), space.size(), 0, 50, &pack) == MICROTIN_ARGUMENT);
+  CHECK(microtin_pack_init(space.begin(), space.size(), 3, 500, &pack) ==
+        MICROTIN_WORKSPACE_TOO_SMALL);
+  CHECK(microtin_pack_init(static_cast<char*>(space.begin()) + 1, space.size() - 1, 1, 50, &pack) ==
+        MICROTIN_MISALIGNED);
+  CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, &pack) == MICROTIN_DONE);
+}
+
+TEST_CASE("pack: the highest on a course is that of its edges and no sample is above") {
+  for (const VoidKind& kind : void_kinds()) {
+    if (kind.name == "chessboard" || kind.name == "30 of 100") continue;
+    CAPTURE(kind.name);
+    Card card{pack_bytes(rough_raster(61, 53, kind.at))};
+    const SurfaceModel model = model_of(PackFile(card.bytes));
+    const PackDevice device(60);
+    Random random(7);
+    for (int i = 0; i < 40; ++i) {
+      microtin_course c = course(random, 60, 52);
+      if (i % 4 == 0) c.x_end = c.x = c.x / 256 * 256;  // along posts, maybe a border
+      if (i % 4 == 1)
+        c = {c.x / 256 * 256, c.y / 256 * 256, c.x_end / 256 * 256, c.y_end / 256 * 256};
+      REQUIRE(device.service(card, c) == MICROTIN_DONE);
+      int32_t highest = 0;
+      const microtin_answer answer = microtin_pack_highest(device.pack, &c, &highest);
+      int32_t sampled = INT32_MIN, begin = INT32_MIN, end = INT32_MIN;
+      bool gap = false;
+      for (int64_t k = 0; k <= 4096; ++k) {  // those that lie on the course exactly
+        const int64_t dx = (c.x_end - c.x) * k, dy = (c.y_end - c.y) * k;
+        if (dx % 4096 != 0 || dy % 4096 != 0) continue;
+        int32_t height = INT32_MIN;
+        const microtin_answer here = device.height_at(c.x + dx / 4096, c.y + dy / 4096, height);
+        if (here == MICROTIN_HEIGHT) sampled = std::max(sampled, height);
+        gap = gap || here == MICROTIN_IN_VOID;
+      }
+      device.height_at(c.x, c.y, begin);
+      device.height_at(c.x_end, c.y_end, end);
+      const double exact = std::max({highest_on_edges(model, c) * 65536, begin * 1.0, end * 1.0});
+      if (exact > INT32_MIN) CHECK(std::abs(highest - exact) < 1);
+      CHECK(highest >= sampled);
+      if (gap) CHECK(answer == MICROTIN_IN_VOID);
+      if (kind.name == "none") CHECK(answer == MICROTIN_HEIGHT);
+    }
+  }
+}
+
+TEST_CASE("pack: a block of heights in whole units") {
+  Card card{pack_bytes(rough_raster(61, 53, void_kinds()[2].at))};
+  const PackDevice device(60);
+  REQUIRE(device.service(card, {0, 0, 60 * 256, 52 * 256}) == MICROTIN_DONE);
+  REQUIRE(device.service(card, {0, 52 * 256, 60 * 256, 0}) == MICROTIN_DONE);
+  microtin_pack_info info;
+  REQUIRE(microtin_pack_header(device.pack, &info) == 1);
+  const microtin_block block{5 * 256, 3 * 256, 512, 384, 20, 25, -999};
+  std::vector<int16_t> heights(500);
+  const microtin_answer answer = microtin_pack_fill(device.pack, &block, heights.data());
+  CHECK(answer != MICROTIN_HEIGHT);
+  for (int64_t i = 0; i < 500; ++i) {
+    int32_t z = 0;
+    const microtin_answer here =
+        device.height_at(block.x + i % 20 * 512, block.y + i / 20 * 384, z);
+    const double real =
+        (static_cast<double>(info.z.numerator) * z / 65536.0 + static_cast<double>(info.z.offset)) /
+        static_cast<double>(info.z.denominator);
+    const int16_t found = heights[static_cast<size_t>(i)];
+    if (here == MICROTIN_HEIGHT) {
+      CHECK(std::abs(found - real) <= 0.5);
+    } else {
+      CHECK(found == -999);
+    }
+  }
+}
+
+TEST_CASE("pack: real coordinates become places, exactly rounded") {
+  Random random(9);
+  uint32_t inside = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const uint32_t shift = random.below(30), depth = random.below(40);
+    const microtin_axis axis = {static_cast<int64_t>(random.below(1u << 31)) - (1 << 30),
+                                1 + random.below(1u << shift),
+                                1 + (uint64_t{random.below(1u << 30)} << 10 >> (39 - depth))};
+    const uint32_t most = random.below(1u << 31), per_unit = 1 + random.below(1u << 24);
+    // A value near a random place.
+    const Wide place = random.below(1u << 31) >> random.below(31);
+    const Wide near = (axis.offset + static_cast<Wide>(axis.numerator) * place) * per_unit /
+                      static_cast<Wide>(axis.denominator);
+    const Wide value = near + random.below(1000);
+    if (magnitude(value) >> 62 != 0) continue;
+    const Wide numerator = static_cast<Wide>(value) * static_cast<Wide>(axis.denominator) -
+                           static_cast<Wide>(axis.offset) * per_unit;
+    const Wide step = static_cast<Wide>(axis.numerator) * per_unit;
+    const Wide expected = round_divide(numerator * 256, step);
+    const bool outside = numerator < 0 || expected > Wide{most} * 256;
+    int64_t lattice = 0;
+    const int found =
+        microtin_pack_to_lattice(&axis, most, static_cast<int64_t>(value), per_unit, &lattice);
+    CHECK(found == (outside ? 0 : 1));
+    if (found != 0) CHECK(lattice == static_cast<int64_t>(expected));
+    inside += found != 0 ? 1u : 0u;
+  }
+  CHECK(inside > 5000);
+  const microtin_axis degrees = {7 * 1200, 1, 1200};
+  int64_t lattice = 0;
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, 75000000, 10000000, &lattice) == 1);
+  CHECK(lattice == 600 * 256);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, 69999999, 10000000, &lattice) == 0);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, INT64_MAX, 1, &lattice) == 0);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, INT64_MIN, 1, &lattice) == 0);
+  CHECK(microtin_pack_to_lattice(&degrees, 1200, 0, 0, &lattice) == 0);
+}
+
+TEST_CASE("pack: the C++ face") {
+  static Pack<4, kCapacity> pack;
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const microtin_course c = at(30, 26);
+  microtin_pack_info info;
+  CHECK(!pack.header(&info));
+  REQUIRE(pack.service(c, 0, Card::read, &card) == MICROTIN_DONE);
+  REQUIRE(pack.header(&info));
+  CHECK(info.x_max == 60);
+  uint32_t hint = 0;
+  int32_t height = 0, highest = 1;
+  CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_HEIGHT);
+  CHECK(pack.highest(c, &highest) == MICROTIN_HEIGHT);
+  CHECK(highest == height);
+  int16_t rounded = 0;
+  CHECK(pack.fill({c.x, c.y, 0, 0, 1, 1, -1}, &rounded) == MICROTIN_HEIGHT);
+  pack.reset();
+  CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_NOT_DECODED);
+}
+
+TEST_CASE("pack: far from the origin, in the largest extent") {
+  // A header for 2^31 - 1 steps, with one known tile in the farthest corner.
+  const EncodedPack encoded = encode_pack(rough_raster(31, 31), pack_options(2, 400));
+  REQUIRE(encoded.streams.size() == 1);
+  const TileGrid far{kPackExtentMost, kPackExtentMost, 65535, 65535};
+  const uint64_t tiles = uint64_t{tile_columns(far)} * tile_rows(far);
+  CHECK(tiles == uint64_t{32769} * 32769);
+  // 28 GB of index: only the entry that is read is made.
+  Bytes head = write_pack(encoded);
+  const auto put = [&](size_t place, uint64_t value, int width) {
+    for (int i = 0; i < width; ++i)
+      head[place + static_cast<size_t>(i)] = static_cast<uint8_t>(value >> 8 * i);
+  };
+  const uint32_t index = pack_index_start(PackFile(head).header());
+  put(10, 65535, 2);
+  put(12, 65535, 2);
+  put(20, kPackExtentMost, 4);
+  put(24, kPackExtentMost, 4);
+  put(index - 4, crc32(0, head.data(), index - 4), 4);
+  const uint32_t number = static_cast<uint32_t>(tiles - 1);
+  put(index + 24, pack_entry_check(read_u32(head.data() + index - 4), number, head.data() + index),
+      4);
+  struct FarCard {
+    Bytes bytes;
+    uint64_t entry, index;
+    static size_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+      const FarCard& card = *static_cast<FarCard*>(context);
+      const uint64_t from = offset >= card.entry ? offset - card.entry + card.index : offset;
+      if (from >= card.bytes.size()) return 0;
+      const size_t taken = std::min(size, card.bytes.size() - static_cast<size_t>(from));
+      std::memcpy(buffer, card.bytes.data() + from, taken);
+      return taken;
+    }
+  } card{head, index + uint64_t{number} * kPackEntryBytes, index};
+  const PackDevice device(4, 400);
+  const int64_t corner = int64_t{32768} * 65535 * 256;
+  const microtin_course c{corner + 5 * 256, corner + 7 * 256, corner + 25 * 256, corner + 9 * 256};
+  REQUIRE(microtin_pack_service(device.pack, &c, 0, FarCard::read, &card) == MICROTIN_DONE);
+  int32_t height = 0, highest = 0;
+  CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
+  CHECK(height == *expected_height(PackFile(write_pack(encoded)), 5 * 256, 7 * 256));
+  CHECK(microtin_pack_highest(device.pack, &c, &highest) == MICROTIN_HEIGHT);
+  CHECK(highest >= height);
+}
+
+}  // namespace microtin::tests

@@ -1,0 +1,52 @@
+// shared/SECURITY.md names the tests that check its sentences: they exist.
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "tests/support/files.hpp"
+
+namespace microtin::tests {
+namespace {
+
+const std::filesystem::path kTests = std::filesystem::path(MICROTIN_GOLDEN_DIR) / "..";
+
+// With every run of spaces and line breaks as one space.
+std::string text_of(const std::filesystem::path& path) {
+  std::string text;
+  for (const uint8_t byte : bytes_of_file(path.string())) {
+    const char c = byte == '\n' ? ' ' : static_cast<char>(byte);
+    if (c != ' ' || text.empty() || text.back() != ' ') text.push_back(c);
+  }
+  return text;
+}
+
+std::string all_tests() {
+  std::string text;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(kTests)) {
+    if (entry.path().extension() == ".cpp") text += text_of(entry.path());
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("every test case that SECURITY.md names exists") {
+  const std::string text = text_of(kTests / "../shared/SECURITY.md"), tests = all_tests();
+  int named = 0;
+  for (size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at)) {
+    const size_t end = text.find('"', at + 1);
+    REQUIRE(end != std::string::npos);
+    std::string name = text.substr(at + 1, end - at - 1);
+    at = end + 1;
+    const bool shortened = name.size() > 4 && name.substr(name.size() - 4) == " ...";
+    if (shortened) name.resize(name.size() - 4);
+    if (!shortened) name.push_back('"');
+    CAPTURE(name);
+    CHECK(tests.find(name.insert(0, "TEST_CASE(\"")) != std::string::npos);
+    ++named;
+  }
+  CHECK(named > 20);
+}
+
+}  // namespace microtin::tests

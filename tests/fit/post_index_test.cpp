@@ -1,0 +1,74 @@
+// Which posts lie under a triangle, compared with a look at every one.
+#include "encoder/fit/post_index.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/support/point_sets.hpp"
+
+namespace microtin::tests {
+namespace {
+
+std::vector<uint32_t> found(const PostIndex& index, Point a, Point b, Point c) {
+  std::vector<uint32_t> numbers;
+  index.visit_under(a, b, c, [&](uint32_t i, Point) { numbers.push_back(i); });
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+std::vector<uint32_t> expected(const Points& posts, Point a, Point b, Point c) {
+  std::vector<uint32_t> numbers;
+  for (uint32_t i = 0; i < posts.size(); ++i) {
+    const Point p = posts[i];
+    if (orient2d(a, b, p) >= 0 && orient2d(b, c, p) >= 0 && orient2d(c, a, p) >= 0) {
+      numbers.push_back(i);
+    }
+  }
+  return numbers;
+}
+
+void check(const Points& posts, uint32_t side, Random& random) {
+  const PostIndex index(posts);
+  std::size_t wrong = 0, hits = 0;
+  for (int round = 0; round < 300; ++round) {
+    Point corner[3];
+    for (Point& p : corner) {  // a post, or any place: beyond the posts, too
+      const bool post = random.below(2) == 0;
+      p = post ? posts[random.below(static_cast<uint32_t>(posts.size()))] : point_in(random, side);
+    }
+    const int64_t turn = orient2d(corner[0], corner[1], corner[2]);
+    if (turn == 0) continue;
+    if (turn < 0) std::swap(corner[0], corner[1]);
+    const std::vector<uint32_t> all = expected(posts, corner[0], corner[1], corner[2]);
+    hits += all.size();
+    if (found(index, corner[0], corner[1], corner[2]) != all) ++wrong;
+  }
+  CHECK(wrong == 0);
+  CHECK(hits > 300);
+}
+
+}  // namespace
+
+TEST_CASE("post index: rasters, whole and with gaps") {
+  Random random(21);
+  for (const uint32_t keep : {100u, 90u, 40u, 5u}) {
+    CAPTURE(keep);
+    check(lattice_points(31, 24, random, keep), 40, random);
+  }
+}
+
+TEST_CASE("post index: scattered points of every kind") {
+  Random random(22);
+  for (const PointSet& set : point_sets(200, 5)) {
+    CAPTURE(set.name);
+    check(set.points, 65536, random);
+  }
+}
+
+TEST_CASE("post index: none") {
+  CHECK(found(PostIndex({}), {0, 0}, {9, 0}, {0, 9}).empty());
+}
+
+}  // namespace microtin::tests

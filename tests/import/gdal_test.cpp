@@ -1,0 +1,124 @@
+// Rasters read by GDAL, in builds with it.
+#include <doctest/doctest.h>
+
+#include "encoder/import/import.hpp"
+#include "tests/support/imports.hpp"
+#include "tests/support/session.hpp"
+
+using namespace microtin::tests;
+
+#ifndef MICROTIN_WITH_GDAL
+
+TEST_CASE("gdal: not in this build") {
+  MESSAGE("skipped: built without -DMICROTIN_WITH_GDAL=ON");
+}
+
+#else
+
+namespace {
+
+// A file of the given GDAL virtual format (.vrt) over an ASCII grid.
+std::string vrt(const std::string& transform, const std::string& band) {
+  return "<VRTDataset rasterXSize=\"3\" rasterYSize=\"2\"><GeoTransform>" + transform +
+         "</GeoTransform><SRS>EPSG:32633</SRS><VRTRasterBand band=\"1\" dataType=" + band +
+         "<SimpleSource><SourceFilename relativeToVRT=\"1\">t.asc</SourceFilename>"
+         "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>";
+}
+
+const std::string kPlace = "500000, 10, 0, 200, 0, -10";
+
+struct Grid {
+  Grid() {
+    session.write("t.asc",
+                  "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200\ncellsize 10\n1 2 3\n4 5 6\n");
+  }
+  Raster read(const std::string& text) const {
+    session.write("t.vrt", text);
+    return std::get<Raster>(import_terrain(session.folder() + "/t.vrt", {}, Indirect::kAllowed));
+  }
+  std::string error(const std::string& text) const {
+    const std::string all = import_error([&] { read(text); });
+    return all.substr(std::min(all.size(), session.folder().size() + 1));
+  }
+  Session session;
+};
+
+}  // namespace
+
+TEST_CASE("gdal: rows to the south first, place, code, units, voids, scale") {
+  const Grid grid;
+  const Raster raster = grid.read(
+      vrt(kPlace,
+          "\"Int16\"><NoDataValue>5</NoDataValue><UnitType>ft</UnitType><Scale>0.1</Scale>"
+          "<Offset>-2</Offset>"));
+  CHECK(raster.heights == std::vector<int64_t>{-16, kVoidHeight, -14, -19, -18, -17});
+  CHECK(raster.decimals == 1);
+  CHECK(raster.x.offset == 500005);
+  CHECK(raster.y.offset == 185);
+  CHECK(raster.reference.horizontal_epsg == 32633);
+  CHECK(raster.reference.horizontal_unit == Unit::kMetre);
+  CHECK(raster.reference.vertical_unit == Unit::kFoot);
+  CHECK(grid.read(vrt("7, 0.000833333333333333, 0, 44, 0, -0.000833333333333333", "\"Float32\">"))
+            .x.denominator == 2400);
+}
+
+TEST_CASE("gdal: what cannot be read is refused with advice") {
+  const Grid grid;
+  CHECK(grid.error(vrt("0, 10, 0, 0, 0, 10", "\"Int16\">")) ==
+        "t.vrt: its rows do not run from north to south: bring them there with gdalwarp");
+  CHECK(grid.error(vrt("0, 10, 1, 0, 1, -10", "\"Int16\">")).find("gdalwarp") != std::string::npos);
+  CHECK(grid.error(vrt(kPlace, "\"Float32\"><Scale>2</Scale>")).find("gdal_translate -unscale") !=
+        std::string::npos);
+  CHECK(grid.error(vrt(kPlace, "\"CFloat32\">")).find("type CFloat32") != std::string::npos);
+  CHECK(grid.error("nonsense").find("t.vrt: GDAL cannot open it: ") == 0);
+}
+
+TEST_CASE("gdal: real files") {
+  if (const std::string path = data_file("olinda_f32.tif"); !path.empty()) {
+    const Raster raster = std::get<Raster>(import_terrain(path));
+    CHECK(raster.heights.size() == 111 * 111);
+  }
+  if (const std::string path = data_file("rmnp_lzw_u16.tif"); !path.empty()) {
+    const Raster raster = std::get<Raster>(import_terrain(path));
+    CHECK(raster.x.numerator * 400 == raster.x.denominator * 11 / 10);
+    CHECK(raster.reference.horizontal_epsg == 4326);
+  }
+}
+
+TEST_CASE("gdal: files that name others are read only when allowed") {
+  const Grid grid;
+  grid.session.write("secret", "wxyz");
+  grid.session.write("raw.vrt",
+                     "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"><GeoTransform>" + kPlace +
+                         "</GeoTransform><VRTRasterBand band=\"1\" dataType=\"Byte\" "
+                         "subClass=\"VRTRawRasterBand\"><SourceFilename relativeToVRT=\"1\">secret"
+                         "</SourceFilename></VRTRasterBand></VRTDataset>");
+  grid.session.write("raw.tif", grid.session.read("raw.vrt"));
+  const std::string hint = "names other files, which are read with --allow-vrt only";
+  CHECK(contains(grid.session.failure("encode raw.vrt -o new.mtin"), "raw.vrt: " + hint));
+  CHECK(
+      contains(grid.session.failure("encode raw.tif -o new.mtin"), "raw.tif: GDAL cannot open it"));
+  for (const char* const name :
+       {"/vsizip/raw.zip/raw.tif", "/vsistdin/", "GTIFF_DIR:1:/vsimem/x"}) {
+    CHECK(contains(grid.session.failure("encode '" + std::string(name) + "' -o new.mtin"),
+                   ": is opened with --allow-vrt only"));
+  }
+  CHECK(grid.session.run("encode raw.vrt --allow-vrt -o secret.mtin").code == 0);
+  CHECK(grid.session.run("verify secret.mtin raw.vrt --allow-vrt").code == 0);
+  // It is an input as well as what it names.
+  const Session::Result over = grid.session.run("encode raw.vrt --allow-vrt -o secret");
+  CHECK(over.err == "microtin: secret: is the input\n");
+  CHECK(grid.session.read("secret") == "wxyz");
+}
+
+TEST_CASE("gdal: drivers that read memory, the network or other files are not there") {
+  const Grid grid;
+  for (const char* const name :
+       {"MEM:::DATAPOINTER=1,PIXELS=2,LINES=2", "vrt:///etc/passwd", "WMS:http://localhost/",
+        "<VRTDataset/>", "HTTP://localhost/a.tif"}) {
+    CHECK(contains(grid.session.failure("encode '" + std::string(name) + "' -o new.mtin"),
+                   "GDAL cannot open it"));
+  }
+}
+
+#endif

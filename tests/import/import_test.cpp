@@ -1,0 +1,210 @@
+// Reading terrains.
+#include "encoder/import/import.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "encoder/base/error.hpp"
+#include "tests/support/imports.hpp"
+
+using namespace microtin::tests;
+
+namespace {
+
+std::string error_of(Raster (*import)(const std::string&, const std::string&),
+                     const std::string& text) {
+  return import_error([&] { import("grid", text); });
+}
+
+std::string grid_error(const std::string& text) {
+  return error_of(import_asc, text);
+}
+
+std::string point_error(const std::string& text) {
+  return import_error([&] { import_points("cloud", text); });
+}
+
+std::string points(const std::string& text) {
+  return text_of(import_points("cloud", text));
+}
+
+const std::string kHeader = "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200\ncellsize 10\n";
+
+}  // namespace
+
+TEST_CASE("asc: rows are turned to the south first, posts lie at cell centres") {
+  const Raster raster = import_asc("grid", kHeader + "1 2 3\n4 5 6\n");
+  CHECK(raster.width == 3);
+  CHECK(raster.height == 2);
+  CHECK(raster.decimals == 0);
+  CHECK(raster.heights == std::vector<int64_t>{4, 5, 6, 1, 2, 3});
+  CHECK(raster.x.offset == 105);
+  CHECK(raster.x.numerator == 10);
+  CHECK(raster.x.denominator == 1);
+  CHECK(raster.y.offset == 205);
+}
+
+TEST_CASE("asc: centre, any case, any order, any line breaks, exponents, voids") {
+  const Raster raster = import_asc(
+      "grid",
+      "NODATA_value -9999\r\nCELLSIZE 0.000833333333\r\nYllCenter 43\r\nXLLCENTER 7\r\nNROWS 2 "
+      "ncols\n2\r\n  1e0 -9999.000\n\n\t.5\r\n-0.125");
+  CHECK(raster.decimals == 3);
+  CHECK(raster.heights == std::vector<int64_t>{500, -125, 1000, kVoidHeight});
+  CHECK(raster.x.offset == 8400);
+  CHECK(raster.x.denominator == 1200);
+  CHECK(raster.y.offset == 51600);
+}
+
+TEST_CASE("asc: dx and dy, a step beyond 40 bits is met within its digits") {
+  const Raster raster =
+      import_asc("grid", "ncols 1 nrows 1 xllcenter 0 yllcenter 0 dx 2.5 dy 4.988744589123 7");
+  CHECK(raster.x.numerator == 5);
+  CHECK(raster.x.denominator == 2);
+  const long double step =
+      static_cast<long double>(raster.y.numerator) / static_cast<long double>(raster.y.denominator);
+  CHECK(std::abs(step - 4.988744589123L) < 0.6e-12L);
+}
+
+TEST_CASE("asc: a void value that no height can have is known by its text") {
+  const std::string huge = "-3.40282346638529e+38";
+  const Raster raster =
+      import_asc("grid", kHeader + "NODATA_value " + huge + "\n1 " + huge + " 3\n4 5 " + huge);
+  CHECK(raster.heights == std::vector<int64_t>{4, 5, kVoidHeight, 1, kVoidHeight, 3});
+  CHECK(grid_error(kHeader + "1 2 3\n4 5 " + huge) ==
+        "grid:7: \"" + huge + "\" is not a number in range");
+}
+
+TEST_CASE("asc: whatever is wrong is told with its line") {
+  CHECK(grid_error(kHeader + "1 2 3\n4 5\n") == "grid:8: the grid ends after 5 of 6 heights");
+  CHECK(grid_error(kHeader + "1 2 3\n4 5 6\n7\n") ==
+        "grid:8: the grid goes on after its 6 heights");
+  CHECK(grid_error(kHeader + "1 2 3\n4 x 6\n") == "grid:7: \"x\" is not a number in range");
+  CHECK(grid_error(kHeader + "1 2 3\n4 nan 6\n") == "grid:7: \"nan\" is not a number in range");
+  CHECK(grid_error(kHeader + "1 2 3\n4 inf 6\n") == "grid:7: \"inf\" is not a number in range");
+  CHECK(grid_error(kHeader + "1 2 3\n4 1e30 6\n") == "grid:7: \"1e30\" is not a number in range");
+  CHECK(grid_error(kHeader + "1e17 2 3\n4 0.5 .000000001\n") ==
+        "grid:7: \".000000001\" is not a number in range");
+  CHECK(grid_error(kHeader + "nodata_value abc\n1 2 3") == "grid:6: \"abc\" is not a number");
+  CHECK(grid_error(kHeader + "nodata_value nan\n1 2 3") == "grid:6: \"nan\" is not a number");
+  CHECK(grid_error(kHeader + "\x01\x02\xFF") == "grid:6: \"???\" is not a number in range");
+  CHECK(grid_error(kHeader + "ncols 4\n1") == "grid:6: ncols is given twice");
+  CHECK(grid_error(kHeader + "zone 4\n1") ==
+        "grid:6: \"zone\" is neither a number nor a key of an ASCII grid's header");
+  CHECK(grid_error("ncols") == "grid:1: the value of ncols is missing");
+  CHECK(grid_error("ncols x") == "grid:1: ncols is not a number in range: \"x\"");
+  CHECK(grid_error("") == "grid: the header does not give ncols");
+  CHECK(grid_error("ncols 2\nnrows 0 1") == "grid: nrows is not a count: 0");
+  CHECK(grid_error("ncols 2.5\nnrows 1 1") == "grid: ncols is not a count: 2.5");
+  CHECK(grid_error("ncols 1 nrows 1 yllcorner 0 cellsize 1 5") ==
+        "grid: the header does not give xllcorner");
+  CHECK(grid_error("ncols 1 nrows 1 xllcorner 0 yllcorner 0 5") ==
+        "grid: the header does not give cellsize");
+  CHECK(grid_error("ncols 1 nrows 1 xllcorner 0 yllcorner 0 cellsize -1 5") ==
+        "grid: cellsize is not above 0");
+  CHECK(grid_error("ncols 2000000000 nrows 2000000000 xllcorner 0 yllcorner 0 cellsize 1 5 6") ==
+        "grid:1: the grid ends after 2 of 4000000000000000000 heights");
+  CHECK(grid_error("ncols 1 nrows 1 xllcorner 0 yllcorner 0 cellsize 1e17 5") ==
+        "grid: the coordinates or their step are out of the format's range");
+}
+
+TEST_CASE("hgt: big-endian from the north, its place in exact degrees") {
+  std::string bytes(size_t{2} * 1201 * 1201, '\0');
+  bytes[0] = '\x01';  // north-west post: 0x0102
+  bytes[1] = '\x02';
+  bytes[2] = '\xFF';  // the next: -2
+  bytes[3] = '\xFE';
+  bytes[bytes.size() - 2] = '\x80';  // south-east: void
+  const Raster raster = import_hgt("some/where/s05W072.hgt", bytes);
+  CHECK(raster.width == 1201);
+  CHECK(raster.heights[size_t{1200} * 1201] == 258);
+  CHECK(raster.heights[size_t{1200} * 1201 + 1] == -2);
+  CHECK(raster.heights[1200] == kVoidHeight);
+  CHECK(raster.heights[0] == 0);
+  CHECK(raster.x.offset == -72 * 1200);
+  CHECK(raster.x.numerator == 1);
+  CHECK(raster.x.denominator == 1200);
+  CHECK(raster.y.offset == -5 * 1200);
+  CHECK(raster.reference.horizontal_unit == Unit::kDegree);
+  CHECK(raster.reference.horizontal_epsg == 4326);
+  CHECK(raster.reference.vertical_epsg == 5773);
+}
+
+TEST_CASE("hgt: other sizes and names are refused") {
+  const std::string bytes(size_t{2} * 1201 * 1201, '\0');
+  CHECK(error_of(import_hgt, bytes).find("grid: the file's name") == 0);
+  CHECK(error_of(import_hgt, bytes + "x").find("grid: has 2884803 bytes") == 0);
+  CHECK(error_of(import_hgt, "").find("grid: has 0 bytes") == 0);
+  CHECK_THROWS_AS(import_hgt("N91E007.hgt", bytes), Error);
+  CHECK_THROWS_AS(import_hgt("N43E0071.hgt", bytes), Error);
+  CHECK_NOTHROW(import_hgt("N43E007.SRTMGL3.hgt", bytes));
+}
+
+TEST_CASE("points: separators, comments, headers, two columns") {
+  CHECK(points("1 2 3\n4\t5\t6\r\n7,8,9\n10;11;12\n") == "1,2,3 4,5,6 7,8,9 10,11,12");
+  CHECK(points("  1 , 2 ,\n\n # x y\n 3  4") == "1,2,0 3,4,0");
+  CHECK(points("\"X\",\"Y\",\"Z\"\n1,2.5,3") == "10,25,3");
+  CHECK(points("\xEF\xBB\xBFlon lat height\n-1 0 0.25\n1 0 -1e1") == "-1,0,25 1,0,-1000");
+  CHECK(points("1 2 3 255 0.5\n4 5 6 0 1e-3\n") == "1,2,3 4,5,6");
+  CHECK(import_points("cloud", "1.25 2 3.5").xy_decimals == 2);
+  CHECK(import_points("cloud", "1.25 2 3.5").z_decimals == 1);
+}
+
+TEST_CASE("points: whatever is wrong is told with its line") {
+  CHECK(point_error("") == "cloud: holds no point");
+  CHECK(point_error("# nothing\nx y z\n") == "cloud: holds no point");
+  CHECK(point_error("1 2 3\n4 5 NaN") == "cloud:2: \"NaN\" is not a number in range");
+  CHECK(point_error("1 2 abc\n") == "cloud:1: \"abc\" is not a number in range");
+  CHECK(point_error("x y z\nx y z\n") == "cloud:2: \"x\" is not a number in range");
+  CHECK(point_error("1,,3\n") == "cloud:1: \"\" is not a number in range");
+  CHECK(point_error("\n\n5\n") == "cloud:3: a point needs two or three numbers");
+  CHECK(point_error("1 2 3\n4 5\n") == "cloud:2: 2 columns after lines of 3");
+  CHECK(point_error("1 2 3 4\n1 2 3 q\n") == "cloud:2: \"q\" is not a number in range");
+  CHECK(point_error("1,5;2,5;3,5\n") ==
+        "cloud:1: commas and semicolons are mixed; decimals are written with a point");
+  CHECK(point_error("id,x,y,z\n1,2,3,4\n") == "cloud:1: the first columns must be x, y and z");
+  CHECK(point_error("1 2 3\n1e300 2 3") == "cloud:2: \"1e300\" is not a number in range");
+  CHECK(point_error("0.000000001 1\n10000000000 2") ==
+        "cloud:2: \"10000000000\" is not a number in range");
+  CHECK(point_error(std::string("1 2\0003\n", 6)) == "cloud:1: \"2?3\" is not a number in range");
+}
+
+TEST_CASE("files that are not there, or of no known kind, are refused by name") {
+  const auto error = [](const std::string& path) {
+    return import_error([&] { import_terrain(path); });
+  };
+  CHECK(error("no/such.asc") == "no/such.asc: cannot be read: No such file or directory");
+#ifndef MICROTIN_WITH_GDAL
+  CHECK(error("terrain.tif") ==
+        "terrain.tif: not a kind of terrain file known here (.hgt, .zip, .asc, .xyz, .csv, .txt, "
+        ".las, .ply, .obj); for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build "
+        "with -DMICROTIN_WITH_GDAL=ON");
+  CHECK(error("terrain").find("terrain: not a kind of terrain file") == 0);
+#endif
+}
+
+TEST_CASE("real files are read") {
+  if (const std::string path = data_file("srtm_rmnp.asc"); !path.empty()) {
+    const Raster raster = std::get<Raster>(import_terrain(path));
+    CHECK(raster.heights.size() == 240 * 144);
+    CHECK(raster.heights[143 * 240] == 2569);
+    CHECK(raster.x.numerator * 1200 == raster.x.denominator);
+  }
+  if (const std::string path = data_file("bijou5m.asc"); !path.empty()) {
+    const Raster raster = std::get<Raster>(import_terrain(path));
+    CHECK(raster.decimals == 9);
+    CHECK(raster.heights[76 * 105] == 1726645996094);
+  }
+  if (const std::string path = data_file("hugo.asc"); !path.empty()) {
+    const Raster raster = std::get<Raster>(import_terrain(path));
+    CHECK(raster.heights.size() == 76 * 55);
+    CHECK(std::count(raster.heights.begin(), raster.heights.end(), kVoidHeight) == 2028);
+  }
+  if (const std::string path = data_file("quebec_forest_ground.xyz"); !path.empty()) {
+    const PointCloud cloud = std::get<PointCloud>(import_terrain(path));
+    CHECK(cloud.points.size() == 12056);
+    CHECK(cloud.xy_decimals == 3);
+    CHECK(cloud.points[0].y == 5274357669);
+  }
+}

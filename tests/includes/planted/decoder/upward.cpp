@@ -1,0 +1,2 @@
+// Includes the encoder.
+#include "encoder/exact/wide.hpp"

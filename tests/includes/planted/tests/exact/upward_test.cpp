@@ -1,0 +1,2 @@
+// Includes what comes after its subject.
+#include "encoder/import/import.hpp"

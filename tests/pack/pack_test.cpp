@@ -1,0 +1,122 @@
+// Packs: no cracks, every post within its bound, voids kept, whatever the tiles.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "encoder/base/error.hpp"
+#include "encoder/pack/surface.hpp"
+#include "tests/support/border_walk.hpp"
+#include "tests/support/packs.hpp"
+
+namespace microtin::tests {
+namespace {
+
+PackFile pack_of(const Raster& raster, const PackOptions& options) {
+  return PackFile(write_pack(encode_pack(raster, options)));
+}
+
+void check_pack(const Raster& raster, const PackOptions& options) {
+  const PackFile pack = pack_of(raster, options);
+  for (const PackEntry& entry : pack.entries()) CHECK(entry.vertices <= options.max_vertices);
+  const BorderCount count = walk_borders(pack, raster);
+  CHECK(count.differ == 0);
+  CHECK(count.wrong_posts == 0);
+  if (pack.entries().size() > 1) CHECK(count.both > 0);
+  const Verification found = verify(pack, raster, options.lattice.max_error);
+  CHECK(found.within_bound);
+  CHECK(found.uncovered == 0);
+  CHECK(found.voids_answered == 0);
+  MESSAGE(tile_columns(pack.grid())
+          << " x " << tile_rows(pack.grid()) << " tiles, " << pack.bytes() << " bytes, "
+          << count.places << " places on borders, " << count.both << " in two tiles");
+}
+
+}  // namespace
+
+TEST_CASE("packs have no cracks, and voids stay voids, on borders too") {
+  for (const VoidKind& kind : void_kinds()) {
+    CAPTURE(kind.name);
+    const Raster raster = rough_raster(61, 53, kind.at);
+    check_pack(raster, pack_options(2, 100));
+    check_pack(raster, pack_options(4, 40));
+  }
+}
+
+TEST_CASE("packs without a bound keep every post") {
+  PackOptions options{{}, {}, 400, 0};
+  const Raster raster = rough_raster(50, 70);
+  const PackFile pack = pack_of(raster, options);
+  CHECK(pack.header().most_vertices <= 400);
+  CHECK(pack.grid().width >= 17);
+  CHECK(walk_borders(pack, raster).differ == 0);
+  const Verification found = verify(pack, raster, Decimal{0, 0});
+  CHECK(found.covered == 3500);
+  CHECK(found.within_bound);
+}
+
+TEST_CASE("packs never below the source are not") {
+  PackOptions options = pack_options(6, 150);
+  options.lattice.never_below = true;
+  const Raster raster = rough_raster(61, 53);
+  const PackFile pack = pack_of(raster, options);
+  CHECK(verify(pack, raster, options.lattice.max_error).max_below.mantissa == 0);
+  CHECK(walk_borders(pack, raster).differ == 0);
+}
+
+TEST_CASE("a pack is the same however often it is made") {
+  const Raster raster = rough_raster(61, 53, void_kinds()[4].at);
+  const auto make = [&] { return write_pack(encode_pack(raster, pack_options(5, 120))); };
+  CHECK(make() == make());
+}
+
+TEST_CASE("a pack joins to one surface, border vertices once, without gaps") {
+  const Raster raster = rough_raster(61, 53);
+  const PackFile pack = pack_of(raster, pack_options(5, 120));
+  const SurfaceModel model = model_of(pack);
+  std::map<std::pair<uint32_t, uint32_t>, int> edges;
+  for (const auto& corners : model.triangles) {
+    for (size_t i = 0; i < 3; ++i) ++edges[{corners[i], corners[(i + 1) % 3]}];
+  }
+  // A closed disc: every edge once in each direction, but those of the outline; Euler's formula.
+  uint32_t outline = 0;
+  for (const auto& [edge, count] : edges) {
+    CHECK(count == 1);
+    if (edges.count({edge.second, edge.first}) != 0) continue;
+    ++outline;
+    const auto &a = model.vertices[edge.first], &b = model.vertices[edge.second];
+    const bool on_side =
+        (a[0] == b[0] && (a[0] == 0 || a[0] == 60)) || (a[1] == b[1] && (a[1] == 0 || a[1] == 52));
+    CHECK(on_side);
+  }
+  CHECK(model.triangles.size() == 2 * model.vertices.size() - 2 - outline);
+}
+
+TEST_CASE("packs: posts that no triangle can hold are refused") {
+  const Raster lonely = rough_raster(
+      41, 41, [](int x, int y) { return (x > 15 || y > 15) && !(x == 33 && y == 35); });
+  CHECK_THROWS_AS(encode_pack(lonely, pack_options(1, 90)), Error);
+  CHECK_THROWS_AS(encode_pack(rough_raster(1, 41), pack_options(1, 90)), Error);
+  CHECK_THROWS_AS(
+      encode_pack(rough_raster(9, 9, [](int, int) { return true; }), pack_options(1, 90)), Error);
+}
+
+TEST_CASE("packs: a changed byte is noticed") {
+  const Raster raster = rough_raster(31, 33);
+  const std::vector<uint8_t> bytes = write_pack(encode_pack(raster, pack_options(6, 60)));
+  const auto read_all = [](const std::vector<uint8_t>& file) {
+    const PackFile pack(file);
+    model_of(pack);
+  };
+  CHECK_NOTHROW(read_all(bytes));
+  for (size_t i = 0; i < bytes.size(); ++i) {
+    std::vector<uint8_t> changed = bytes;
+    changed[i] ^= static_cast<uint8_t>(1u << i % 8);
+    CAPTURE(i);
+    CHECK_THROWS_AS(read_all(changed), Error);
+    CHECK_THROWS_AS(read_all({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(i)}),
+                    Error);
+  }
+}
+
+}  // namespace microtin::tests

@@ -1,0 +1,177 @@
+// Shards: any split of a pack's tiles joins to the bytes of a single run, and nothing else joins.
+#include "encoder/pack/shard.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "encoder/base/error.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/packs.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace microtin::tests {
+namespace {
+
+using Bytes = std::vector<uint8_t>;
+
+// A raster whose tiles are encoded one by one, as if by as many machines.
+class Shards {
+ public:
+  Shards(const Raster& raster, const PackOptions& options)
+      : raster_(raster), options_(options), single_(encode_pack(raster, options)) {
+    const PackPlan plan = plan_pack(raster_, options_);
+    for (uint32_t tile = 0; tile <= all_tiles(plan.tiled.grid).last; ++tile) {
+      encode_tiles(plan, {tile, tile}, [&](uint32_t number, EncodedTile&& encoded) {
+        CHECK(number == tile);
+        tiles_.push_back(std::move(encoded));
+      });
+    }
+  }
+
+  Bytes single() const { return write_pack(single_); }
+  uint32_t tiles() const { return static_cast<uint32_t>(tiles_.size()); }
+
+  std::string write(TileRange range) {
+    const PackPlan plan = plan_pack(raster_, options_);
+    std::string path = folder_ / (std::to_string(range.first) + "-" + std::to_string(range.last));
+    OutputFile out(path);
+    ShardWriter shard(plan, content_of(plan, {}), range, out);
+    for (uint32_t tile = range.first; tile <= range.last; ++tile) shard.add(tiles_[tile]);
+    out.commit();
+    return path;
+  }
+
+  Bytes merge(const std::vector<std::string>& shards) {
+    const std::string path = folder_ / "merged";
+    OutputFile out(path);
+    merge_shards(shards, out);
+    out.commit();
+    return bytes_of_file(path);
+  }
+
+  // What merge says, without the folder.
+  std::string refusal(const std::vector<std::string>& shards) {
+    try {
+      merge(shards);
+    } catch (const Error& error) {
+      std::string text = error.what();
+      const std::string folder = folder_.path() + "/";
+      for (size_t at = 0; (at = text.find(folder)) != std::string::npos;) {
+        text.erase(at, folder.size());
+      }
+      return text;
+    }
+    return "";
+  }
+
+  const TemporaryFolder& folder() const { return folder_; }
+
+ private:
+  RasterInMemory raster_;
+  PackOptions options_;
+  EncodedPack single_;
+  std::vector<EncodedTile> tiles_;
+  TemporaryFolder folder_;
+};
+
+}  // namespace
+
+TEST_CASE("shards: tiles encoded one by one, in any split, are those of a single run") {
+  for (const VoidKind& kind : void_kinds()) {
+    if (kind.name == "30 of 100") continue;  // many tiles
+    CAPTURE(kind.name);
+    Shards shards(rough_raster(61, 53, kind.at), pack_options(4, 60));
+    const Bytes single = shards.single();
+    const uint32_t last = shards.tiles() - 1;
+    REQUIRE(last > 3);
+    CHECK(shards.merge({shards.write({0, last})}) == single);
+    for (uint32_t cut = 0; cut < last; ++cut) {
+      CHECK(shards.merge({shards.write({cut + 1, last}), shards.write({0, cut})}) == single);
+    }
+    std::vector<std::string> each;
+    for (uint32_t tile = 0; tile <= last; ++tile) each.push_back(shards.write({tile, tile}));
+    CHECK(shards.merge(each) == single);
+  }
+}
+
+TEST_CASE("shards: what is missing, double, foreign or damaged is refused") {
+  const Raster raster = rough_raster(61, 53);
+  Shards shards(raster, pack_options(6, 60));
+  const uint32_t last = shards.tiles() - 1;
+  const std::string all = std::to_string(last), first = shards.write({0, 2}),
+                    rest = shards.write({3, last});
+  REQUIRE(shards.refusal({rest, first}).empty());
+  CHECK(shards.refusal({first}) == "tiles 3 to " + all + " are in no shard");
+  CHECK(shards.refusal({rest}) == "tiles 0 to 2 are in no shard");
+  CHECK(shards.refusal({first, shards.write({4, last})}) == "tile 3 is in no shard");
+  CHECK(shards.refusal({first, rest, first}) == "0-2: tile 0 is also in 0-2");
+  CHECK(shards.refusal({first, shards.write({2, last})}) == "2-" + all + ": tile 2 is also in 0-2");
+
+  for (const auto& [other, options] :
+       {std::pair(rough_raster(61, 53, [](int x, int y) { return x == 60 && y == 52; }),
+                  pack_options(6, 60)),
+        std::pair(raster, pack_options(5, 60)), std::pair(raster, pack_options(6, 61))}) {
+    Shards foreign(other, options);
+    const std::string text = shards.refusal({first, foreign.write({3, 3})});
+    CHECK(text.find("is of another terrain, or made with other options, than 0-2") !=
+          std::string::npos);
+  }
+
+  const Bytes good = bytes_of_file(rest);
+  const std::string bad = shards.folder() / "bad";
+  for (size_t i = 0; i < good.size(); i += 7) {
+    CAPTURE(i);
+    Bytes damaged = good;
+    damaged[i] ^= static_cast<uint8_t>(1u << i % 8);
+    write_file(bad, damaged);
+    CHECK(!shards.refusal({first, bad}).empty());
+    write_file(bad, {good.begin(), good.begin() + static_cast<std::ptrdiff_t>(i)});
+    CHECK(!shards.refusal({first, bad}).empty());
+  }
+  write_file(bad, {'n', 'o'});
+  CHECK(shards.refusal({bad}) == "bad: not a shard that this version of microtin made");
+}
+
+TEST_CASE("packs: tiles become smaller until none has too many vertices") {
+  PackOptions options = pack_options(2, 80);
+  options.simplify.search = Search::kGreedy;  // finds more vertices than planning expects
+  std::vector<uint32_t> tried;
+  uint32_t most = 0, tiles = 0;
+  const auto begin = [&](const PackPlan& plan) {
+    tried.push_back(plan.tile_steps);
+    most = tiles = 0;
+  };
+  encode_pack(RasterInMemory(rough_raster(61, 53)), options, begin,
+              [&](uint32_t tile, EncodedTile&& encoded) {
+                CHECK(tile == tiles++);
+                most = std::max(most, encoded.summary.vertices);
+              });
+  CHECK(tried.size() > 1);
+  CHECK(tried.size() < 5);
+  CHECK(std::adjacent_find(tried.begin(), tried.end(), std::less_equal<>()) == tried.end());
+  CHECK(most <= 80);
+  CHECK(most > 40);
+}
+
+TEST_CASE("packs: a shard whose tile is too large says which size of tiles to try") {
+  const RasterInMemory raster(rough_raster(61, 53));
+  PackOptions options = pack_options(2, 40);
+  options.tile_steps = 60;
+  const PackPlan plan = plan_pack(raster, options);
+  try {
+    encode_tiles(plan, {0, 0}, [](uint32_t, EncodedTile&&) {});
+    FAIL("is not refused");
+  } catch (const TileTooLarge& error) {
+    CHECK(error.fewer_steps < 60);
+    CHECK(std::string(error.what())
+              .find("vertices, too many; all tiles can be encoded with "
+                    "--tile-steps " +
+                    std::to_string(error.fewer_steps)) != std::string::npos);
+  }
+}
+
+}  // namespace microtin::tests

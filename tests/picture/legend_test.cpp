@@ -1,0 +1,103 @@
+// What pictures say in words and numbers.
+#include "encoder/picture/legend.hpp"
+
+#include <doctest/doctest.h>
+
+#include "encoder/picture/lettering.hpp"
+#include "encoder/picture/map_frame.hpp"
+#include "tests/support/layers.hpp"
+
+using namespace microtin::tests;
+
+namespace {
+
+constexpr Colour kPaper{1, 1, 1};
+
+uint64_t inked(const Canvas& canvas) {
+  uint64_t count = 0;
+  for (size_t i = 0; i < canvas.rgb().size(); i += 3) count += canvas.rgb()[i] < 128;
+  return count;
+}
+
+uint64_t ink_of(const char* text) {
+  Canvas canvas(60, 60, kPaper);
+  draw_text(canvas, text, {20, 40}, 3, {0, 0, 0});
+  return inked(canvas);
+}
+
+}  // namespace
+
+TEST_CASE("legend: numbers") {
+  CHECK(grouped(0, 0) == "0");
+  CHECK(grouped(999, 0) == "999");
+  CHECK(grouped(1234567, 0) == "1,234,567");
+  CHECK(grouped(-1234.5, 2) == "-1,234.50");
+  CHECK(grouped(-123, 0) == "-123");
+  CHECK(grouped(-0.001, 1) == "0.0");
+  CHECK(rounded_text(11.98046875) == "11.98");
+  CHECK(rounded_text(12) == "12");
+  CHECK(rounded_text(0.5) == "0.5");
+  CHECK(rounded_text(12345.67) == "12,346");
+  CHECK(rounded_text(-0.0001) == "0");
+}
+
+TEST_CASE("legend: round lengths") {
+  for (const double exponent : {0.001, 1.0, 1000.0}) {
+    CHECK(round_length(1 * exponent) == doctest::Approx(1 * exponent));
+    CHECK(round_length(1.99 * exponent) == doctest::Approx(1 * exponent));
+    CHECK(round_length(2.01 * exponent) == doctest::Approx(2 * exponent));
+    CHECK(round_length(4.9 * exponent) == doctest::Approx(2 * exponent));
+    CHECK(round_length(9.9 * exponent) == doctest::Approx(5 * exponent));
+  }
+}
+
+TEST_CASE("legend: every character that is written leaves ink, others a blank") {
+  for (const char* text = "0123456789abcdefghijklmnopqrstuvwxyz.,:+-/()"; *text != '\0'; ++text) {
+    const char one[] = {*text, '\0'};
+    CHECK_MESSAGE(ink_of(one) > 0, one);
+  }
+  CHECK(ink_of(" ") == 0);
+  CHECK(ink_of("\xC3\xA9") == 0);
+  CHECK(text_width("") == 0);
+  CHECK(text_width("11") > text_width("1"));
+}
+
+TEST_CASE("legend: a scale bar is as long as it says") {
+  // 0.5 m a pixel, room for 150 m: 100 m in 200 pixels.
+  Canvas canvas(400, 40, kPaper);
+  draw_scale_bar(canvas, {10, 10}, 300, 1, 0.5, "m");
+  const auto dark = [&](uint32_t column) {
+    return canvas.rgb()[3 * (size_t{14} * 400 + column)] < 128;
+  };
+  CHECK(dark(30));   // the first quarter
+  CHECK(!dark(80));  // the second
+  CHECK(dark(130));
+  CHECK(dark(210));  // the end
+  CHECK(!dark(212));
+}
+
+TEST_CASE("map: degrees are as long as they are on the ground") {
+  SurfaceModel model;
+  model.placement.y = {600, 1, 10};  // 60 degrees north and more
+  model.vertices = {{0, 0, 0}, {10, 0, 0}, {0, 0, 0}};
+  const Ground ground = ground_of(model, Unit::kDegree);
+  CHECK(ground.x == doctest::Approx(55800).epsilon(0.001));
+  CHECK(ground.y == doctest::Approx(11141).epsilon(0.001));
+  CHECK(std::string(ground.unit) == "m");
+  CHECK(std::string(ground_of(model, Unit::kUnknown).unit) == "units");
+  CHECK(std::string(ground_of(model, Unit::kFoot).unit) == "ft");
+}
+
+TEST_CASE("map: fits its room in whole pixels, undistorted") {
+  SurfaceModel model;
+  model.vertices = {{100, 50, 0}, {300, 50, 0}, {100, 150, 0}};
+  const MapFrame wide = fit_map(model, {1, 1, "m"}, 80.7, 80.7);
+  CHECK(wide.box.width == 80);
+  CHECK(wide.box.height == 40);
+  CHECK(wide.spot(100, 150).x == 0);
+  CHECK(wide.spot(100, 150).y == 0);
+  CHECK(wide.spot(300, 50).x == doctest::Approx(80));
+  const MapFrame narrow = fit_map(model, {1, 1, "m"}, 1000, 7.9);
+  CHECK(narrow.box.height == 7);
+  CHECK(fit_map(model, {1, 1000, "m"}, 80, 80).box.width == 1);
+}

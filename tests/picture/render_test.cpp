@@ -1,0 +1,145 @@
+// Pictures of terrains.
+#include "encoder/picture/render.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cstdlib>
+#include <memory>
+
+#include "encoder/base/error.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/encode.hpp"
+#include "tests/support/layers.hpp"
+
+#define STBI_ONLY_PNG
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb/stb_image.h>
+
+using namespace microtin;
+using namespace microtin::tests;
+
+namespace {
+
+struct Picture {
+  explicit Picture(const std::vector<uint8_t>& png)
+      : pixels(stbi_load_from_memory(png.data(), static_cast<int>(png.size()), &width, &height,
+                                     nullptr, 4),
+               stbi_image_free) {
+    REQUIRE(pixels);
+  }
+
+  std::array<int, 4> at(int column, int row) const {
+    const uint8_t* p = pixels.get() + 4 * (row * width + column);
+    return {p[0], p[1], p[2], p[3]};
+  }
+
+  int width = 0, height = 0;
+  std::unique_ptr<uint8_t, void (*)(void*)> pixels;
+};
+
+Portrait portrait(const std::vector<Vertex>& vertices, Metadata metadata = {}) {
+  const std::vector<uint8_t> stream = encode(Tin{vertices, {}}, metadata);
+  Portrait all;
+  all.model = model_of(DecodedTerrain(stream).mesh());
+  all.metadata = std::move(metadata);
+  all.vertices = vertices.size();
+  all.bytes = stream.size();
+  return all;
+}
+
+// Where the map begins in a picture 200 pixels wide, and how wide it is.
+constexpr int kLeft = 11, kTop = 30, kWidth = 178;
+
+bool is_grey(const std::array<int, 4>& colour) {
+  return std::abs(colour[0] - colour[2]) < 6;
+}
+
+bool is_blue(const std::array<int, 4>& colour) {
+  return colour[2] > colour[0] + 40;
+}
+
+bool is_red(const std::array<int, 4>& colour) {
+  return colour[0] > colour[2] + 40;
+}
+
+}  // namespace
+
+TEST_CASE("render: a picture shows the terrain, and hatches what is around it") {
+  const Picture picture(render_png(portrait({{10, 10, 0}, {210, 10, 50}, {10, 110, 20}}), 200));
+  CHECK(picture.width == 200);
+  CHECK(picture.height > kTop + kWidth / 2 + 30);
+  CHECK(!is_grey(picture.at(kLeft + 10, kTop + 60)));
+  CHECK(is_grey(picture.at(kLeft + kWidth - 4, kTop + 3)));
+  CHECK(picture.at(2, 2) == std::array<int, 4>{255, 255, 255, 255});
+}
+
+TEST_CASE("render: slopes towards the north-west are lighter than those away from it") {
+  const Picture picture(render_png(
+      portrait(
+          {{0, 0, 0}, {100, 0, 100}, {200, 0, 0}, {0, 200, 0}, {100, 200, 100}, {200, 200, 0}}),
+      200));
+  CHECK(picture.at(kLeft + 40, kTop + 90)[0] > picture.at(kLeft + kWidth - 40, kTop + 90)[0] + 20);
+}
+
+TEST_CASE("render: only triangles wholly at the noted level are water") {
+  const std::vector<Vertex> flat = {{0, 0, 5}, {100, 0, 5}, {0, 100, 5}, {100, 100, 9}};
+  const auto colour = [&](std::optional<Decimal> level, int column, int row) {
+    Metadata metadata;
+    metadata.water_level = level;
+    metadata.placement.z = {-10, 5, 10};  // half units, from -1 on
+    return Picture(render_png(portrait(flat, metadata), 200)).at(kLeft + column, kTop + row);
+  };
+  CHECK(!is_blue(colour(std::nullopt, 5, 150)));
+  CHECK(is_blue(colour(Decimal{15, 1}, 5, 150)));
+  CHECK(!is_blue(colour(Decimal{15, 1}, 160, 20)));
+  CHECK(!is_blue(colour(Decimal{2, 0}, 5, 150)));
+  CHECK(!is_blue(colour(Decimal{16, 1}, 5, 150)));  // no step of the lattice
+}
+
+TEST_CASE("render: errors are blue where the terrain is too low, red where too high") {
+  const Portrait flat = portrait({{0, 0, 5}, {100, 0, 5}, {0, 100, 5}, {100, 100, 5}});
+  const Comparison comparison{{50, 50}, [](const PostVisitor& visit) {
+                                visit(10, 90, 0, -3);
+                                visit(90, 90, 0, 2);
+                                visit(90, 10, 0, 0);
+                                Verification found;
+                                found.max_error = {3, 0};
+                                return found;
+                              }};
+  const Picture picture(render_png(flat, 200, &comparison));
+  const int map = picture.height / 2 + 15;  // the second one, below
+  CHECK(is_blue(picture.at(kLeft + 10, map + 10)));
+  CHECK(is_red(picture.at(kLeft + kWidth - 10, map + 10)));
+  CHECK(is_grey(picture.at(kLeft + kWidth - 10, map + kWidth - 20)));
+  CHECK(is_grey(picture.at(kLeft + 10, map + kWidth - 20)));
+  const Picture wide(render_png(flat, 900, &comparison));
+  CHECK(wide.height < 600);  // beside
+}
+
+TEST_CASE("render: any shape and width") {
+  const std::vector<std::vector<Vertex>> shapes = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
+                                                   {{0, 0, 0}, {1, 0, 0}, {0, 60000, 0}},
+                                                   {{0, 0, -32768}, {60000, 0, 0}, {0, 1, 32767}}};
+  for (const auto& shape : shapes) {
+    for (const uint32_t width : {kNarrowest, 333u, 1500u}) {
+      const Comparison comparison{{1, 1}, [](const PostVisitor& visit) {
+                                    visit(0, 0, 0, 0);
+                                    return Verification();
+                                  }};
+      CHECK(Picture(render_png(portrait(shape), width)).width == static_cast<int>(width));
+      CHECK(Picture(render_png(portrait(shape), width, &comparison)).width ==
+            static_cast<int>(width));
+    }
+  }
+}
+
+TEST_CASE("render: sizes out of range are refused") {
+  const Portrait triangle = portrait({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  for (const uint32_t width : {0u, kNarrowest - 1, kWidest + 1}) {
+    CHECK_THROWS_WITH_AS(render_png(triangle, width), "a picture is 200 to 8192 pixels wide",
+                         Error);
+  }
+  CHECK_THROWS_WITH_AS(render_png(Portrait(), 200), "there is nothing to draw", Error);
+}

@@ -1,0 +1,201 @@
+// What the encoder writes, the decoder rebuilds: the canonical triangulation of the same points.
+#include "encoder/stream/encode.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "encoder/base/error.hpp"
+#include "tests/support/mesh_copy.hpp"
+#include "tests/support/point_sets.hpp"
+
+namespace microtin::tests {
+namespace {
+
+Tin tin_of(const Points& points, Random& random) {
+  Tin tin;
+  for (const Point p : points) {
+    tin.vertices.push_back(Vertex{p.x, p.y, static_cast<int16_t>(random.below(65536) - 32768)});
+  }
+  return tin;
+}
+
+std::vector<Vertex> sorted(std::vector<Vertex> vertices) {
+  std::sort(vertices.begin(), vertices.end(), [](const Vertex& a, const Vertex& b) {
+    return Point{a.x, a.y} < Point{b.x, b.y};
+  });
+  return vertices;
+}
+
+bool same_vertices(const std::vector<Vertex>& a, const std::vector<Vertex>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Vertex& p, const Vertex& q) {
+    return p.x == q.x && p.y == q.y && p.z == q.z;
+  });
+}
+
+// Empty, or what is wrong with the stream of `tin`.
+std::string round_trip_fault(const Tin& tin, const Effort& effort,
+                             bool (*is_right)(const Points&, const TriangleSet&)) {
+  const DecodedTerrain decoded(encode(tin, Metadata(), effort));
+  const MeshCopy copy(decoded.mesh());
+  std::vector<Vertex> vertices;
+  for (uint32_t v = 0; v < copy.x.size(); ++v) {
+    vertices.push_back(Vertex{copy.x[v], copy.y[v], copy.z[v]});
+  }
+  if (!same_vertices(sorted(vertices), sorted(tin.vertices))) return "other vertices";
+  std::string fault = mesh_fault(copy.mesh, copy.mesh.vertices);
+  if (!fault.empty()) return fault;
+  return is_right(copy.points(), triangles_of(copy.mesh)) ? "" : "not the canonical triangulation";
+}
+
+constexpr Effort kEfforts[] = {{6, 1}, {8, 2}, {10, 2}, {12, 3}, {32, 2}};
+
+bool equals_definition(const Points& points, const TriangleSet& set) {
+  return reference_delaunay(points) == set;
+}
+
+}  // namespace
+
+TEST_CASE("round trip: small sets decode to the triangulation by definition") {
+  std::vector<PointSet> sets = tiny_point_sets();
+  for (uint64_t seed = 11; seed <= 14; ++seed) {
+    for (const uint32_t n : {10u, 15u, 24u}) {
+      for (PointSet& set : point_sets(n, seed)) sets.push_back(std::move(set));
+    }
+  }
+  Random random(1);
+  for (const PointSet& set : sets) {
+    for (const Effort& effort : kEfforts) {
+      CAPTURE(set.name);
+      CAPTURE(effort.degree);
+      CHECK(round_trip_fault(tin_of(set.points, random), effort, equals_definition) == "");
+    }
+  }
+}
+
+TEST_CASE("round trip: sets of some thousands decode to the canonical triangulation") {
+  Random random(2);
+  for (const uint32_t n : {300u, 2500u}) {
+    for (const PointSet& set : point_sets(n, n)) {
+      for (const Effort& effort : kEfforts) {
+        if (n > 1000 && effort.degree != 10) continue;
+        CAPTURE(set.name);
+        CAPTURE(effort.degree);
+        CHECK(round_trip_fault(tin_of(set.points, random), effort, is_reference_delaunay) == "");
+      }
+    }
+  }
+}
+
+TEST_CASE("round trip: every cell of whole lattices") {
+  Random random(3);
+  for (uint32_t columns = 2; columns <= 12; ++columns) {
+    for (const uint32_t rows : {2u, 3u, 7u, 12u}) {
+      const Points points = lattice_points(columns, rows, random);
+      CHECK(round_trip_fault(tin_of(points, random), {6, 1}, is_reference_delaunay) == "");
+      CHECK(round_trip_fault(tin_of(points, random), {8, 3}, is_reference_delaunay) == "");
+    }
+  }
+}
+
+TEST_CASE("the same points in any order give the same bytes") {
+  Random random(4);
+  for (const PointSet& set : point_sets(200, 4)) {
+    Tin tin = tin_of(set.points, random);
+    const std::vector<uint8_t> bytes = encode(tin, Metadata());
+    std::reverse(tin.vertices.begin(), tin.vertices.end());
+    CHECK(encode(tin, Metadata()) == bytes);
+    std::rotate(tin.vertices.begin(), tin.vertices.begin() + 3, tin.vertices.end());
+    CHECK(encode(tin, Metadata()) == bytes);
+  }
+}
+
+TEST_CASE("void triangles come back, and no others") {
+  Random random(5);
+  for (const PointSet& set : point_sets(150, 5)) {
+    Tin tin = tin_of(set.points, random);
+    const DecodedTerrain without(encode(tin, Metadata()));
+    const MeshCopy copy(without.mesh());
+    std::set<std::array<Point, 3>> expected;
+    for (const std::array<Point, 3>& t : triangles_of(copy.mesh).triangles) {
+      if (random.below(3) != 0) continue;
+      expected.insert(t);
+      tin.voids.push_back(Tin::Triangle{t[0], t[1], t[2]});
+    }
+    if (tin.voids.empty()) continue;
+    const DecodedTerrain decoded(encode(tin, Metadata()));
+    std::set<std::array<Point, 3>> found;
+    for (uint32_t t = 0; t < microtin_triangle_count(decoded.mesh()); ++t) {
+      uint32_t v[3];
+      if (microtin_triangle(decoded.mesh(), t, v) != MICROTIN_VOID) continue;
+      std::array<Point, 3> corners;
+      for (size_t i = 0; i < 3; ++i) {
+        int16_t z = 0;
+        microtin_vertex(decoded.mesh(), v[i], &corners[i].x, &corners[i].y, &z);
+      }
+      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+      found.insert(corners);
+    }
+    CHECK(found == expected);
+  }
+}
+
+TEST_CASE("placement and notes come back as they were given") {
+  Random random(6);
+  const Tin tin = tin_of(point_sets(20, 6)[0].points, random);
+  CHECK(read_header(encode(tin, Metadata())).info.header_bytes <= 32);
+  Metadata given;
+  given.placement.x = {-9'223'372'036'854'775'807 - 1, 1, 1};
+  given.placement.y = {9'223'372'036'854'775'807, (1ull << 40) - 1, (1ull << 40) - 1};
+  given.placement.z = {-25, 1, 20};
+  given.horizontal_unit = Unit::kDegree;
+  given.vertical_unit = Unit::kMetre;
+  given.horizontal_epsg = 4326;
+  given.vertical_epsg = 5773;
+  given.source = "a survey, 2019 \xC3\xA9";
+  given.date = "2019-07";
+  given.lineage = "noise removed";
+  given.water_level = Decimal{-35, 1};
+  given.accuracy = Accuracy{Decimal{5, 1}, Decimal{49, 2}, Decimal{123, 3}};
+  const Metadata read = read_header(encode(tin, given)).metadata;
+  const auto same_axis = [](const Axis& a, const Axis& b) {
+    return a.offset == b.offset && a.numerator == b.numerator && a.denominator == b.denominator;
+  };
+  CHECK(same_axis(read.placement.x, given.placement.x));
+  CHECK(same_axis(read.placement.y, given.placement.y));
+  CHECK(same_axis(read.placement.z, given.placement.z));
+  CHECK(read.horizontal_unit == Unit::kDegree);
+  CHECK(read.vertical_unit == Unit::kMetre);
+  CHECK(read.horizontal_epsg == 4326);
+  CHECK(read.vertical_epsg == 5773);
+  CHECK(read.source == given.source);
+  CHECK(read.date == given.date);
+  CHECK(read.lineage == given.lineage);
+  REQUIRE(read.water_level.has_value());
+  CHECK(to_string(*read.water_level) == "-3.5");
+  REQUIRE(read.accuracy.has_value());
+  CHECK(to_string(*read.accuracy->bound) == "0.5");
+  CHECK(to_string(read.accuracy->max_error) == "0.49");
+  CHECK(to_string(read.accuracy->rms_error) == "0.123");
+}
+
+TEST_CASE("sets that no stream can hold are refused with a sentence") {
+  const auto refusal = [](const std::vector<Vertex>& vertices) -> std::string {
+    try {
+      encode(Tin{vertices, {}}, Metadata());
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(refusal({}).find("triangle") != std::string::npos);
+  CHECK(refusal({{1, 1, 0}, {2, 2, 0}}).find("triangle") != std::string::npos);
+  CHECK(refusal({{0, 0, 0}, {5, 5, 1}, {9, 9, 2}, {65535, 65535, 3}}).find("triangle") !=
+        std::string::npos);
+  CHECK(refusal({{0, 0, 0}, {5, 5, 1}, {5, 5, 2}, {9, 0, 3}}).find("share") != std::string::npos);
+  CHECK(refusal({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}).empty());
+}
+
+}  // namespace microtin::tests

@@ -1,0 +1,78 @@
+// The order is the paper's: its own simple code, applied to it, costs what the paper prints.
+#include "encoder/stream/order.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "encoder/stream/encode.hpp"
+#include "tests/support/point_sets.hpp"
+
+using namespace microtin;
+using namespace microtin::tests;
+
+namespace {
+
+// Table 1: two tag bits, a sign, and 6, 9, 12 or 16 bits.
+uint64_t table1_bits(int difference) {
+  const int magnitude = std::abs(difference);
+  return 3u + (magnitude <= 63 ? 6u : magnitude <= 511 ? 9u : magnitude <= 4095 ? 12u : 16u);
+}
+
+double table1_bits_per_vertex(const std::vector<Point>& points, const Order& order) {
+  uint64_t bits = 0;
+  Point before = points[order.seed[2]];
+  for (const std::vector<Index>& batch : order.batches) {
+    for (const Index v : batch) {
+      const Point p = points[v];
+      bits += table1_bits(p.x - before.x) + table1_bits(p.y - before.y);
+      before = p;
+    }
+  }
+  return static_cast<double>(bits) / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+TEST_CASE("with the paper's code the order costs what the paper's Table 2 prints") {
+  const struct {
+    uint32_t vertices;
+    double bits, tolerance;
+  } table2[] = {{5000, 27.49, 0.15}, {80000, 23.42, 0.10}};
+  Random random(1);
+  for (const auto& row : table2) {
+    const std::vector<Point> points = uniform_points(row.vertices, random);
+    Triangulation triangulation(points);
+    const double bits = table1_bits_per_vertex(points, breadth_first_order(triangulation, 6));
+    MESSAGE(row.vertices << " points: " << bits << " bits/vertex, the paper " << row.bits);
+    CHECK(bits > row.bits - row.tolerance);
+    CHECK(bits < row.bits + row.tolerance);
+  }
+}
+
+TEST_CASE("every phase leaves at most the share of vertices that is proved") {
+  Random random(2);
+  for (const uint32_t degree : {6u, 7u, 8u, 12u, 32u}) {
+    const std::vector<Point> points = uniform_points(3000, random);
+    Triangulation triangulation(points);
+    const Order order = breadth_first_order(triangulation, degree);
+    size_t after = points.size();
+    for (auto batch = order.batches.rbegin(); batch != order.batches.rend(); ++batch) {
+      const size_t before = after;
+      after -= batch->size();
+      // FORMAT.md, "Work": at least (D - 5) (left - 3) / max(3, D / 2) are removed.
+      CHECK(batch->size() * std::max(3u, degree / 2) >= (degree - 5) * (after - 3));
+      CHECK(4 * (after - 3) <= 3 * (before - 3));
+    }
+    CHECK(after == 3);
+  }
+}
+
+TEST_CASE("80,000 uniform points, x and y alone, stay near the entropy floor") {
+  Random random(3);
+  Tin tin;
+  for (const Point& p : uniform_points(80000, random)) tin.vertices.push_back(Vertex{p.x, p.y, 0});
+  const double bits = 8.0 * static_cast<double>(encode(tin, Metadata()).size()) / 80000;
+  MESSAGE(bits << " bits/vertex; the floor, log2 C(2^32, n) / n, is 17.155");
+  CHECK(bits < 19.5);
+}

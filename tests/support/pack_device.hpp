@@ -1,0 +1,106 @@
+// A device that reads a pack from a card, and what it should answer.
+#ifndef MICROTIN_TESTS_SUPPORT_PACK_DEVICE_HPP
+#define MICROTIN_TESTS_SUPPORT_PACK_DEVICE_HPP
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "encoder/pack/surface.hpp"
+#include "microtin/pack.h"
+#include "tests/support/device.hpp"
+#include "tests/support/layers.hpp"
+
+namespace microtin::tests {
+
+constexpr uint32_t kCapacity = 100;
+
+// A card that counts its reads, fails at will and gives few bytes at a time.
+struct Card {
+  Bytes bytes;
+  size_t most = 1000;      // bytes given at a time
+  uint32_t failing = ~0u;  // number of the read that fails
+  uint32_t reads = 0;
+
+  static size_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+    Card& card = *static_cast<Card*>(context);
+    if (card.reads++ == card.failing || offset >= card.bytes.size()) return 0;
+    const size_t left = card.bytes.size() - static_cast<size_t>(offset);
+    const size_t taken = std::min({size, left, card.most});
+    std::memcpy(buffer, card.bytes.data() + offset, taken);
+    return taken;
+  }
+};
+
+struct PackDevice {
+  explicit PackDevice(uint32_t slots, uint32_t capacity = kCapacity)
+      : space(MICROTIN_PACK_BYTES(slots, capacity)) {
+    REQUIRE(microtin_pack_init(space.begin(), space.size(), slots, capacity, &pack) ==
+            MICROTIN_DONE);
+  }
+  PackDevice(const PackDevice&) = delete;
+  PackDevice& operator=(const PackDevice&) = delete;
+  ~PackDevice() { CHECK(space.guards_are_whole()); }
+
+  microtin_status service(Card& card, const microtin_course& course, uint32_t steps = 0) const {
+    return microtin_pack_service(pack, &course, steps, Card::read, &card);
+  }
+  microtin_answer height_at(int64_t x, int64_t y, int32_t& height) const {
+    uint32_t hint = 0;
+    return microtin_pack_height_at(pack, x, y, &hint, &height);
+  }
+
+  Workspace space;
+  microtin_pack* pack = nullptr;
+};
+
+inline microtin_course at(int64_t x, int64_t y) {
+  return {x * 256, y * 256, x * 256, y * 256};
+}
+
+// What the tiles answer on a host.
+inline std::optional<int32_t> expected_height(const PackFile& pack, int64_t x, int64_t y) {
+  for (uint32_t number = 0; number < pack.entries().size(); ++number) {
+    const TileBox box = tile_box(pack.grid(), number);
+    const std::optional<DecodedTerrain> tile = pack.tile(number);
+    const int64_t lx = x - int64_t{box.x} * 256, ly = y - int64_t{box.y} * 256;
+    if (!tile || lx < 0 || ly < 0 || x > int64_t{box.x_end} * 256 || y > int64_t{box.y_end} * 256) {
+      continue;
+    }
+    uint32_t hint = 0;
+    int32_t height = 0;
+    if (microtin_height_at(tile->mesh(), static_cast<int32_t>(lx), static_cast<int32_t>(ly), 0,
+                           &hint, &height) == MICROTIN_HEIGHT) {
+      return height;
+    }
+  }
+  return std::nullopt;
+}
+
+// The greatest height on a course where it meets edges of a surface, in floating point; steps.
+inline double highest_on_edges(const SurfaceModel& model, const microtin_course& c) {
+  const double x = static_cast<double>(c.x) / 256, y = static_cast<double>(c.y) / 256,
+               dx = static_cast<double>(c.x_end) / 256 - x,
+               dy = static_cast<double>(c.y_end) / 256 - y;
+  double highest = -1e9;
+  for (const auto& corners : model.triangles) {
+    for (size_t i = 0; i < 3; ++i) {
+      const auto &a = model.vertices[corners[i]], &b = model.vertices[corners[(i + 1) % 3]];
+      const double ax = static_cast<double>(a[0]) - x, ay = static_cast<double>(a[1]) - y,
+                   ex = static_cast<double>(b[0] - a[0]), ey = static_cast<double>(b[1] - a[1]);
+      const double across = dx * ey - dy * ex;
+      if (across == 0) continue;
+      const double along = (ax * ey - ay * ex) / across, on_edge = (ax * dy - ay * dx) / across;
+      if (along < 0 || along > 1 || on_edge < 0 || on_edge > 1) continue;
+      const double z = static_cast<double>(a[2]) + on_edge * static_cast<double>(b[2] - a[2]);
+      highest = std::max(highest, z);
+    }
+  }
+  return highest;
+}
+
+}  // namespace microtin::tests
+
+#endif

@@ -1,0 +1,79 @@
+// Water before a terrain is encoded.
+#include "encoder/terrain/water.hpp"
+
+#include <doctest/doctest.h>
+
+#include "encoder/base/error.hpp"
+#include "encoder/terrain/lay_out.hpp"
+#include "tests/support/packs.hpp"
+
+namespace microtin::tests {
+namespace {
+
+constexpr int64_t kV = kVoidHeight;
+
+LatticeOptions options_of(std::optional<Decimal> z_step, bool never_below) {
+  return {std::nullopt, z_step, Decimal{7, 0}, never_below, Decimal{5, 0}};
+}
+
+}  // namespace
+
+TEST_CASE("water: voids are flooded, heights never change") {
+  Raster raster = raster_of(3, {1, kV, 7, kV, 0, kV});
+  CHECK(flood_voids(raster, {4, 0}, nullptr) == 3);
+  CHECK(raster.heights == std::vector<int64_t>{1, 4, 7, 4, 0, 4});
+}
+
+TEST_CASE("water: a mask says which voids") {
+  Raster raster = raster_of(3, {1, kV, 7, kV, 0, kV});
+  const Raster mask = raster_of(3, {1, 1, 1, 0, 1, kV});
+  CHECK_NOTHROW(check_water_mask(mask, raster));
+  CHECK(flood_voids(raster, {4, 0}, &mask) == 1);
+  CHECK(raster.heights == std::vector<int64_t>{1, 4, 7, kV, 0, kV});
+}
+
+TEST_CASE("water: a level with more decimals than the heights refines these") {
+  Raster raster = raster_of(2, {1, kV, -7, kV});
+  CHECK(flood_voids(raster, {25, 2}, nullptr) == 2);
+  CHECK(raster.decimals == 2);
+  CHECK(raster.heights == std::vector<int64_t>{100, 25, -700, 25});
+  Raster high = raster_of(2, {1000000000000000000, 1, 1, kV});
+  CHECK_THROWS_WITH_AS(flood_voids(high, {5, 1}, nullptr),
+                       "the water level has too many decimals beside such heights", Error);
+}
+
+TEST_CASE("water: masks of other posts or with other numbers are refused") {
+  const Raster raster = raster_of(2, {1, kV, 7, kV});
+  CHECK_THROWS_WITH_AS(check_water_mask(raster_of(4, {1, 0, 1, 0}), raster),
+                       "has not the posts of the terrain", Error);
+  Raster elsewhere = raster_of(2, {1, 0, 1, 0});
+  elsewhere.x.offset = 1;
+  CHECK_THROWS_WITH_AS(check_water_mask(elsewhere, raster), "has not the posts of the terrain",
+                       Error);
+  CHECK_THROWS_WITH_AS(check_water_mask(raster_of(2, {1, 0, 2, 0}), raster),
+                       "a mask holds 0 and 1 only", Error);
+}
+
+TEST_CASE("water: a z step too coarse to keep land dry is refused, with the largest that is not") {
+  const Raster raster = raster_of(3, {5, 5, 5, 5, 6, 5, 5, 5, 5});
+  CHECK_NOTHROW(lay_out(raster, options_of(Decimal{8, 0}, false)));
+  CHECK_THROWS_WITH_AS(lay_out(raster, options_of(Decimal{9, 0}, false)),
+                       "--max-error cannot be kept at 1 places: no whole step of height is near "
+                       "enough; the largest --z-step that always is: 8",
+                       Error);
+}
+
+TEST_CASE("water: the gauge counts posts off the level") {
+  const Raster raster = raster_of(2, {5, 5, 5, 9});
+  WaterGauge gauge(raster.decimals, Decimal{5, 0});
+  const PostVisitor visit = gauge.visitor();
+  visit(0, 0, 5, 0);
+  visit(1, 0, 5, 0.25);
+  visit(1, 1, 9, 1);
+  CHECK(gauge.moved() == 1);
+  WaterGauge none(raster.decimals, std::nullopt);
+  none.visitor()(0, 0, 5, 1);
+  CHECK(none.moved() == 0);
+}
+
+}  // namespace microtin::tests
