@@ -18,8 +18,9 @@
 #include "encoder/base/iso_date.hpp"
 #include "encoder/base/utf8.hpp"
 #include "encoder/cli/commands.hpp"
+#include "encoder/cli/completion.hpp"
 #include "encoder/cli/definitions.hpp"
-#include "encoder/cli/documents.hpp"
+#include "encoder/cli/manual.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/cli/version.hpp"
 #include "encoder/files/file_target.hpp"
@@ -35,6 +36,8 @@ namespace microtin::cli {
 namespace {
 
 constexpr int kFailed = 1, kUsage = 2, kInternal = 3, kReportLost = 4;
+
+constexpr const char* kHidden = "";  // the group of commands that --help does not show
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 failed, no output; 2 wrong usage; 3 a fault of microtin itself, no "
@@ -402,6 +405,21 @@ void add_render(CLI::App& app, Action& action) {
       ->type_name(kFile);
   add_preparation(command, request->preparation);
   command.callback([request, &action] { action = [request] { run_render(*request); }; });
+}
+
+// Prints what the command line accepts, for man or a shell.
+void add_document(CLI::App& parent, const std::string& name, const CLI::App& app, Action& action,
+                  std::string (*writer)(const CommandText& program)) {
+  parent.add_subcommand(name)->group(kHidden)->callback(
+      [&app, &action, writer] { action = [&app, writer] { print(writer(describe(app))); }; });
+}
+
+// For those who package the program; they tell what is defined by the time they run.
+void add_documents(CLI::App& app, Action& action) {
+  add_document(app, "manual", app, action, manual);
+  CLI::App& completion = *app.add_subcommand("completion")->group(kHidden)->require_subcommand(1);
+  add_document(completion, "bash", app, action, bash_completion);
+  add_document(completion, "zsh", app, action, zsh_completion);
 }
 
 // Prints one line, whatever the text, without asking for memory: there may be none.
