@@ -7,30 +7,18 @@
 #include <string>
 #include <vector>
 
-#include "encoder/fit/simplify.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/pack/encode.hpp"
-#include "encoder/terrain/lattice_choice.hpp"
+#include "encoder/product/encode_pack.hpp"
+#include "encoder/product/options.hpp"
 
 namespace microtin::cli {
 
-struct EncodeRequest {
+struct EncodeRequest : EncodeOptions {
   std::string input;
   std::string output;
-  LatticeOptions lattice;
-  uint32_t max_vertices = 0;       // 0: as many as it takes
-  uint32_t tile_vertices = 0;      // 0: one stream; else a pack, with at most so many in a tile
-  uint32_t tile_steps = 0;         // of a pack; 0: to be chosen
   std::optional<TileRange> tiles;  // a shard of a pack, with these
-  uint32_t max_bytes = 0;          // 0: as many as it takes; else the bound is looked for
-  Search search = Search::kNormal;
-  uint64_t device_ram = 0;  // 0: unlimited
-  Effort effort;
   Preparation preparation;
-  uint32_t horizontal_epsg = 0;  // 0: what the input's format implies
-  uint32_t vertical_epsg = 0;
-  std::string source_text, date, lineage;
 };
 
 void run_encode(const EncodeRequest& request);

@@ -1,10 +1,12 @@
 // The command info: what a stream or a pack says of itself.
+#include <algorithm>
+
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/pack.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/file_target.hpp"
-#include "encoder/pack/file.hpp"
+#include "encoder/product/document.hpp"
+#include "encoder/stream/header.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -44,8 +46,6 @@ std::string of_axes(const Placement& p, const Value& value) {
   return json(JsonObject{{"x", value(p.x)}, {"y", value(p.y)}, {"z", value(p.z)}});
 }
 
-}  // namespace
-
 void add_placement(JsonObject& report, const Metadata& metadata) {
   const auto exact = [](const Axis& axis) {
     return json(JsonObject{{"offset", json(axis.offset)},
@@ -83,11 +83,10 @@ void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy) {
   report.emplace_back("rms_error", accuracy ? number(accuracy->rms_error) : "null");
 }
 
-namespace {
-
-JsonObject report_of(const std::vector<uint8_t>& stream) {
-  const Header header = read_header(stream);
-  const DecodedTerrain terrain(stream);
+JsonObject report_of(const DecodedStream& stream) {
+  const Header header = read_header(stream.bytes);
+  const DecodedTerrain& terrain = stream.terrain;
+  const size_t bytes = stream.bytes.size();
   const uint32_t vertices = header.info.vertices;
   const uint32_t voids = count_triangles(terrain.mesh(), MICROTIN_VOID);
   const uint32_t triangles = count_triangles(terrain.mesh(), MICROTIN_REAL) + voids;
@@ -95,8 +94,8 @@ JsonObject report_of(const std::vector<uint8_t>& stream) {
                        {"vertices", json(vertices)},
                        {"triangles", json(triangles)},
                        {"void_triangles", json(voids)},
-                       {"bytes", json(stream.size())},
-                       {"bits_per_vertex", json(bits_per_vertex(stream.size(), vertices))},
+                       {"bytes", json(bytes)},
+                       {"bits_per_vertex", json(bits_per_vertex(bytes, vertices))},
                        {"phases", json(terrain.phases())},
                        {"degree", json(header.info.degree)},
                        {"levels", json(header.info.levels)},
@@ -109,17 +108,96 @@ JsonObject report_of(const std::vector<uint8_t>& stream) {
   return report;
 }
 
+std::string in_units(uint32_t error, const Axis& z) {
+  return json(error / 256.0 * static_cast<double>(z.numerator) /
+              static_cast<double>(z.denominator));
+}
+
+JsonObject tile_report(const PackFile& pack, uint32_t number) {
+  const TileBox box = tile_box(pack.grid(), number);
+  const PackEntry& entry = pack.entries()[number];
+  const Axis& z = pack.metadata().placement.z;
+  return {{"tile", json(number)},
+          {"x", json(box.x)},
+          {"y", json(box.y)},
+          {"bytes", json(entry.size)},
+          {"vertices", json(entry.vertices)},
+          {"lowest", json(entry.lowest)},
+          {"highest", json(entry.highest)},
+          {"max_error", in_units(entry.max_error, z)},
+          {"rms_error", in_units(entry.root_mean_square, z)}};
+}
+
+// A line for each tile, under a line of names; columns end on the right.
+std::string table(const std::vector<JsonObject>& tiles) {
+  std::vector<std::vector<std::string>> lines(1);
+  for (const auto& entry : tiles[0]) lines[0].push_back(entry.first);
+  std::vector<std::size_t> widths(lines[0].size());
+  for (const JsonObject& tile : tiles) {
+    lines.emplace_back();
+    for (const auto& entry : tile) lines.back().push_back(entry.second);
+  }
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
+      text += std::string(widths[i] - line[i].size() + (i == 0 ? 0 : 2), ' ') + line[i];
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string array(const std::vector<JsonObject>& tiles) {
+  std::string text;
+  for (const JsonObject& tile : tiles) text += (text.empty() ? "[" : ", ") + json(tile);
+  return text + "]";
+}
+
+JsonObject report_of(const PackFile& pack) {
+  uint64_t vertices = 0;
+  for (const PackEntry& entry : pack.entries()) vertices += entry.vertices;
+  const TileGrid& grid = pack.grid();
+  JsonObject report = {{"pack_version", json(kPackVersion)},
+                       {"columns", json(tile_columns(grid))},
+                       {"rows", json(tile_rows(grid))},
+                       {"tile_width", json(grid.width)},
+                       {"tile_height", json(grid.height)},
+                       {"x_max", json(grid.x_max)},
+                       {"y_max", json(grid.y_max)},
+                       {"vertices", json(vertices)},
+                       {"most_vertices", json(pack.header().most_vertices)},
+                       {"lowest", json(pack.header().lowest)},
+                       {"highest", json(pack.header().highest)},
+                       {"bytes", json(pack.bytes())}};
+  add_placement(report, pack.metadata());
+  add_notes(report, pack.metadata());
+  add_accuracy(report, pack.metadata().accuracy);
+  return report;
+}
+
+std::string text_of_pack(const PackFile& pack, bool as_json) {
+  std::vector<JsonObject> tiles;
+  for (uint32_t number = 0; number < pack.entries().size(); ++number) {
+    tiles.push_back(tile_report(pack, number));
+  }
+  JsonObject report = report_of(pack);
+  if (as_json) report.emplace_back("tiles", array(tiles));
+  return text_of(report, as_json) + (as_json ? "" : table(tiles));
+}
+
 }  // namespace
 
 void run_info(const std::string& input, bool json) {
   refuse_overwriting({input}, "-");
-  const std::optional<PackFile> pack = open_pack(input);
-  if (pack) {
-    run_info_pack(*pack, json);
-    return;
+  const Document document(input);
+  if (document.pack() != nullptr) {
+    print(text_of_pack(*document.pack(), json));
+  } else {
+    print(text_of(with_file_context(input, [&] { return report_of(*document.stream()); }), json));
   }
-  const std::vector<uint8_t> stream = read_stream(input);
-  print(text_of(with_file_context(input, [&] { return report_of(stream); }), json));
 }
 
 }  // namespace microtin::cli

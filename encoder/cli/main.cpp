@@ -26,8 +26,6 @@
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/leftovers.hpp"
 #include "encoder/files/standard_files.hpp"
-#include "encoder/pack/encode.hpp"
-#include "encoder/pack/tile_plan.hpp"
 #include "encoder/picture/render.hpp"
 #include "encoder/stream/device_ram.hpp"
 #include "shared/format.hpp"
@@ -52,7 +50,7 @@ constexpr const char* kTerrainFiles =
     ;
 
 // Other names of standard output are "-" for all that follows, unless a suffix asks for a format.
-std::string plain_output(std::string path) {
+std::string plain_output(const std::string& path) {
   const bool is_plain = std::filesystem::path(path).extension().empty();
   return is_plain && descriptor_named(path) == STDOUT_FILENO ? "-" : path;
 }

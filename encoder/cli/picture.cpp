@@ -6,13 +6,10 @@
 
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
-#include "encoder/cli/report.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
-#include "encoder/pack/point_pack.hpp"
-#include "encoder/pack/surface.hpp"
 #include "encoder/picture/render.hpp"
-#include "encoder/stream/header.hpp"
+#include "encoder/product/document.hpp"
 #include "encoder/terrain/fractal.hpp"
 
 namespace microtin::cli {
@@ -45,12 +42,6 @@ Spot cell_of(const Raster& raster, const SurfaceModel& model) {
   return {step_of(raster.x) / step_of(lattice.x), step_of(raster.y) / step_of(lattice.y)};
 }
 
-Portrait portrait_of(const PackFile& pack) {
-  Portrait portrait{model_of(pack), pack.metadata(), 0, pack.bytes(), pack.entries().size()};
-  for (const PackEntry& entry : pack.entries()) portrait.vertices += entry.vertices;
-  return portrait;
-}
-
 void draw(const RenderRequest& request, const Portrait& portrait, const Comparison* comparison) {
   const std::vector<uint8_t> picture = with_file_context(
       request.input, [&] { return render_png(portrait, request.width, comparison); });
@@ -59,56 +50,26 @@ void draw(const RenderRequest& request, const Portrait& portrait, const Comparis
   out.commit();
 }
 
-void draw_pack(const RenderRequest& request, const PackFile& pack) {
-  const Portrait portrait = with_file_context(request.input, [&] { return portrait_of(pack); });
-  if (request.source.empty()) {
-    draw(request, portrait, nullptr);
-    return;
-  }
-  const OpenSource source = prepared_source(request.source, request.preparation);
-  if (const auto* cloud = std::get_if<PointCloud>(&source)) {
-    const Comparison comparison{cell_of(*cloud, portrait.model), [&](const PostVisitor& visit) {
-                                  return verify(pack, *cloud, std::nullopt, visit);
-                                }};
-    draw(request, portrait, &comparison);
-    return;
-  }
-  const auto& raster = std::get<std::unique_ptr<RasterReader>>(source);
-  const Comparison comparison{
-      cell_of(raster->frame(), portrait.model),
-      [&](const PostVisitor& visit) { return verify(pack, *raster, std::nullopt, {}, visit); }};
-  draw(request, portrait, &comparison);
-}
-
-void draw_stream(const RenderRequest& request, const std::vector<uint8_t>& stream) {
-  const DecodedTerrain terrain =
-      with_file_context(request.input, [&] { return DecodedTerrain(stream); });
-  const microtin_mesh* const mesh = terrain.mesh();
-  const Portrait portrait{model_of(mesh), read_header(stream).metadata, microtin_vertex_count(mesh),
-                          stream.size(), 0};
-  if (request.source.empty()) {
-    draw(request, portrait, nullptr);
-    return;
-  }
-  const Source source = prepared_terrain(request.source, request.preparation).source;
-  const Comparison comparison{
-      std::visit([&](const auto& read) { return cell_of(read, portrait.model); }, source),
-      [&](const PostVisitor& visit) { return verify(mesh, source, std::nullopt, visit); }};
-  draw(request, portrait, &comparison);
-}
-
 }  // namespace
 
 void run_render(const RenderRequest& request) {
   std::vector<std::string> inputs = files_of(request.source, request.preparation);
   inputs.push_back(request.input);
   refuse_overwriting(inputs, request.output);
-  const std::optional<PackFile> pack = open_pack(request.input);
-  if (pack) {
-    draw_pack(request, *pack);
-  } else {
-    draw_stream(request, read_stream(request.input));
+  const Document document(request.input);
+  const Portrait portrait{document.model(), document.metadata(), document.vertices(),
+                          document.bytes(), document.tiles()};
+  if (request.source.empty()) {
+    draw(request, portrait, nullptr);
+    return;
   }
+  const Original original(document, request.source, request.preparation);
+  const SurfaceModel& model = portrait.model;
+  const Comparison comparison{
+      original.raster() != nullptr ? cell_of(*original.raster(), model)
+                                   : cell_of(*original.cloud(), model),
+      [&](const PostVisitor& visit) { return original.compare(std::nullopt, {}, visit); }};
+  draw(request, portrait, &comparison);
 }
 
 }  // namespace microtin::cli

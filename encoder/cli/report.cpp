@@ -2,25 +2,10 @@
 #include "encoder/cli/report.hpp"
 
 #include <cstdio>
-#include <memory>
-#include <utility>
 
-#include "encoder/base/error_context.hpp"
-#include "encoder/files/input_file.hpp"
+#include "encoder/base/error.hpp"
 
 namespace microtin::cli {
-
-std::vector<uint8_t> read_stream(const std::string& path) {
-  const std::string bytes = read_file(path);
-  return {bytes.begin(), bytes.end()};
-}
-
-std::optional<PackFile> open_pack(const std::string& path) {
-  std::unique_ptr<ByteSource> bytes;
-  if (is_regular_file(path)) bytes = open_file(path);
-  if (!bytes || !is_pack(*bytes)) return std::nullopt;
-  return with_file_context(path, [&] { return PackFile(std::move(bytes)); });
-}
 
 std::string number(Decimal value) {
   return json(std::stod(to_string(value)));

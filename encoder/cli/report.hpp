@@ -1,8 +1,7 @@
-// What the commands share: reading streams and printing reports.
+// Printing reports.
 #ifndef MICROTIN_ENCODER_CLI_REPORT_HPP
 #define MICROTIN_ENCODER_CLI_REPORT_HPP
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,15 +9,8 @@
 #include "encoder/export/json.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/pack/file.hpp"
 
 namespace microtin::cli {
-
-// The bytes of a stream's file, or of standard input for "-".
-std::vector<uint8_t> read_stream(const std::string& path);
-
-// The pack that is in a file; nothing if it holds something else or is none, as "-". Throws Error.
-std::optional<PackFile> open_pack(const std::string& path);
 
 // A number of JSON.
 std::string number(Decimal value);

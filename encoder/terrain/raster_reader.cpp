@@ -4,7 +4,6 @@
 #include <utility>
 
 namespace microtin::terrain {
-namespace {
 
 Raster frame_of(const Raster& raster) {
   Raster frame;
@@ -16,8 +15,6 @@ Raster frame_of(const Raster& raster) {
   frame.reference = raster.reference;
   return frame;
 }
-
-}  // namespace
 
 RasterInMemory::RasterInMemory(Raster raster) : raster_(std::move(raster)) {
   frame_ = frame_of(raster_);

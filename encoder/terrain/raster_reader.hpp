@@ -29,6 +29,9 @@ class RasterReader {
   Raster frame_;
 };
 
+// A raster without its heights.
+Raster frame_of(const Raster& raster);
+
 class RasterInMemory : public RasterReader {
  public:
   explicit RasterInMemory(Raster raster);

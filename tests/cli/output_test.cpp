@@ -1,8 +1,13 @@
 // Where output goes: standard descriptors that are closed or not read, names that lead elsewhere,
 // inputs under other names. Nothing is lost but what could not be told, and the exit code says so.
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
+#include <cerrno>
+
+#include "encoder/files/standard_files.hpp"
 #include "tests/support/session.hpp"
 
 namespace microtin::tests {
@@ -65,6 +70,24 @@ mode_t mode_of(const Session& session, const std::string& name) {
 }
 
 }  // namespace
+
+TEST_CASE("closed standard descriptors are held, and still fail") {
+  for (int number = 0; number < 3; ++number) {
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+      char byte = 0;
+      close(number);
+      const bool held = hold_closed_standard_files();
+      const bool taken = open("/dev/null", O_RDWR) < 3;
+      const ssize_t done = number == 0 ? read(number, &byte, 1) : ::write(number, &byte, 1);
+      _exit(held && !taken && done < 0 && nobody_reads(errno) ? 0 : 1);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(status == 0);
+  }
+}
 
 TEST_CASE("cli: a closed descriptor is not taken by a file, and a lost report is told") {
   const Made made;
@@ -180,16 +203,14 @@ TEST_CASE("cli: no command writes over any of its inputs, by whatever name") {
 TEST_CASE("cli: other names of standard output are standard output") {
   const Made made;
   made.shell("ln -s /dev/stdout link; ln -s link link2");
-  for (const std::string name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1",
-                                 "/proc/self/../self/fd/1", "/proc/thread-self/fd/1", "link2"}) {
-    CAPTURE(name);
-    made.write("log", "precious\n");
-    for (const std::string command : {"encode t.asc --max-error 10 --fast", "merge s",
-                                      "encode t.asc --max-error 10 --tile-vertices 99",
-                                      "decode t.mtin", "embed t.mtin", "render t.mtin"}) {
-      CAPTURE(command);
+  for (const std::string command :
+       {"encode t.asc --max-error 10 --fast", "merge s", "decode t.mtin", "embed t.mtin",
+        "encode t.asc --max-error 10 --tile-vertices 99", "render t.mtin --width 200"}) {
+    const Session::Result dash = made.run(command + " -o -");
+    for (const std::string name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1",
+                                   "/proc/self/../self/fd/1", "/proc/thread-self/fd/1", "link2"}) {
+      CAPTURE(command + " " + name);
       made.write("log", "precious\n");
-      const Session::Result dash = made.run(command + " -o -");
       const Session::Result result = made.run(command + " -o " + name + " >>log");
       CHECK(result.code == 0);
       CHECK(result.err == dash.err);

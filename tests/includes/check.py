@@ -10,7 +10,7 @@ import sys
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = {"importing": "import", "exporting": "export"}
-SUPPORT = ("support", "whole", "faults", "bench")  # may include all layers
+SUPPORT = ("support", "whole", "faults", "bench", "package")  # may include all layers
 
 
 def layers():

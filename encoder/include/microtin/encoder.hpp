@@ -1,0 +1,138 @@
+/* microtin: turns terrains into streams and packs that microtin.h and pack.h decode. C++17, hosted.
+ *
+ * What is returned or written has been decoded by the shipped decoder and compared with every post
+ * or point of the terrain: it keeps the bound, answers a height wherever the terrain has one and
+ * none where it has not. The same terrain and options give the same bytes on every machine.
+ *
+ * Numbers that must stay exact are decimals as text, "0.25"; an empty text is none. What cannot be
+ * done is thrown as std::runtime_error with a sentence that says why, out of memory as
+ * std::bad_alloc, a fault of the encoder's own as std::logic_error. Functions use all processors
+ * and may run at the same time for different terrains, or for one.
+ */
+#ifndef MICROTIN_ENCODER_HPP
+#define MICROTIN_ENCODER_HPP
+
+#include <microtin/microtin.h>
+
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace microtin::encoder {
+
+/* --- Terrains --- */
+
+/* A height of Posts where there is none. */
+constexpr int64_t kVoid = std::numeric_limits<int64_t>::min();
+
+/* A raster. Its numbers have magnitudes up to 10^18. */
+struct Posts {
+  uint32_t columns = 0, rows = 0; /* 2 .. 65536 each for a stream */
+  std::vector<int64_t> heights;   /* times 10^-decimals; row by row, row 0 southernmost */
+  int decimals = 0;               /* 0 .. 18 */
+  microtin_axis x{0, 1, 1};       /* from a column to where its posts lie, east */
+  microtin_axis y{0, 1, 1};       /* ... and from a row, north */
+};
+
+/* Points in any order, none of which needs to be unlike all others. */
+struct Points {
+  std::vector<std::array<int64_t, 3>> points; /* x, y times 10^-xy_decimals, z 10^-z_decimals */
+  int xy_decimals = 0, z_decimals = 0;        /* 0 .. 18 */
+};
+
+/* A terrain to be encoded. Copies share what they hold. */
+class Terrain {
+ public:
+  /* Takes 8 bytes a post or 24 a point. Throws if numbers of posts or decimals are out of range. */
+  explicit Terrain(Posts posts);
+  explicit Terrain(Points points);
+
+  /* Reads a file by its suffix: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt, .las, .ply, .obj.
+   * Errors name the file and, for text, the line. */
+  static Terrain from_file(const std::string& path);
+
+  struct Content;
+  const Content& content() const { return *content_; }
+
+ private:
+  explicit Terrain(std::shared_ptr<const Content> content);
+  std::shared_ptr<const Content> content_;
+};
+
+/* --- What is wanted --- */
+
+enum class Search { kFast, kNormal, kBest }; /* some 5 % more bytes; the default; slow */
+
+struct Options {
+  std::string max_error;    /* the largest distance of the surface from any height; "": see below */
+  bool never_below = false; /* with a bound: no height is below the terrain */
+  std::string z_step;       /* of heights; "": the one that suits the bound, or the terrain's own */
+  std::string xy_step;      /* of places, for streams; "": the terrain's own. Posts: in posts */
+  Search search = Search::kNormal;
+  uint32_t degree = 10; /* most triangles around a vertex when it is added: 6 .. 32 */
+  uint32_t levels = 2;  /* of cells that places are coded in: 1 .. 3 */
+  /* Notes of the header; 0 or empty: not stated. All texts together up to 65,535 bytes of UTF-8. */
+  uint32_t horizontal_epsg = 0, vertical_epsg = 0;
+  std::string source, date, lineage; /* date: 2026, 2026-11 or 2026-11-21 */
+};
+
+/* Without a bound and without a limit here every post or point is a vertex. */
+struct StreamOptions : Options {
+  uint32_t max_vertices = 0; /* 3 .. 2^24: the best ones, so many; without max_error */
+  uint32_t max_bytes = 0;    /* the smallest bound that so many bytes allow; without both */
+};
+
+struct PackOptions : Options {
+  uint32_t tile_vertices = 0; /* of a tile at most: 16 .. 2^24 */
+  uint32_t tile_steps = 0;    /* extent of a tile of posts; 0: to be chosen */
+};
+
+/* --- Results --- */
+
+struct Report {
+  uint64_t samples = 0; /* posts or points with a height, all of them compared */
+  uint64_t vertices = 0;
+  uint64_t bytes = 0;
+  uint32_t tiles = 0;    /* 0: a stream */
+  std::string bound;     /* asked for, or found for max_bytes; "": none */
+  std::string max_error; /* measured, in the terrain's unit, rounded up to 9 decimals */
+  std::string rms_error;
+  std::string max_below; /* how far the surface is below a height at most */
+};
+
+struct Stream {
+  std::vector<uint8_t> bytes;
+  Report report;
+};
+
+/* --- Work --- */
+
+/* Thrown when Callbacks::cancelled said so. Nothing is left behind. */
+struct Cancelled : std::exception {
+  const char* what() const noexcept override { return "cancelled"; }
+};
+
+/* Both may be empty. Called from several threads, one at a time; both may throw. */
+struct Callbacks {
+  std::function<void(double done)> progress; /* 0 .. 1 of the time, estimated; not with max_bytes */
+  std::function<bool()> cancelled; /* asked often, but for packs of points */
+};
+
+/* O(n log n) for n samples, with factors of a search that `search` sets: some 20 us a post. */
+Stream encode_stream(const Terrain& terrain, const StreamOptions& options,
+                     const Callbacks& callbacks = {});
+
+/* Writes a file that appears complete or not at all. Options other than tile_vertices may be left
+ * as they are. The memory that it needs beside the terrain is that of a few tiles for posts, a few
+ * hundred bytes a point for points. */
+Report encode_pack(const Terrain& terrain, const PackOptions& options, const std::string& path,
+                   const Callbacks& callbacks = {});
+
+}  // namespace microtin::encoder
+
+#endif

@@ -1,0 +1,130 @@
+// Asks a stream or a pack, so that nobody else needs to know which of them it is.
+#include "encoder/product/document.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/base/error_context.hpp"
+#include "encoder/files/input_file.hpp"
+#include "encoder/pack/point_pack.hpp"
+#include "encoder/pack/surface.hpp"
+#include "encoder/stream/header.hpp"
+#include "encoder/terrain/water.hpp"
+
+namespace microtin::product {
+namespace {
+
+std::variant<PackFile, DecodedStream> content_of(const std::string& path) {
+  std::unique_ptr<ByteSource> bytes;
+  if (is_regular_file(path)) bytes = open_file(path);
+  if (!bytes || !is_pack(*bytes)) return read_stream(path);
+  return with_file_context(path, [&] { return PackFile(std::move(bytes)); });
+}
+
+std::variant<Source, OpenSource> source_for(const Document& document, const std::string& path,
+                                            const Preparation& preparation) {
+  if (document.pack() != nullptr) return prepared_source(path, preparation);
+  return prepared_terrain(path, preparation).source;
+}
+
+}  // namespace
+
+DecodedStream read_stream(const std::string& path) {
+  const std::string text = read_file(path);
+  std::vector<uint8_t> bytes(text.begin(), text.end());
+  DecodedTerrain terrain = with_file_context(path, [&] { return DecodedTerrain(bytes); });
+  return {std::move(bytes), std::move(terrain)};
+}
+
+Document::Document(const std::string& path) : path_(path), content_(content_of(path)) {}
+
+Metadata Document::metadata() const {
+  if (pack() != nullptr) return pack()->metadata();
+  return with_file_context(path_, [&] { return read_header(stream()->bytes).metadata; });
+}
+
+uint64_t Document::bytes() const {
+  return pack() != nullptr ? pack()->bytes() : stream()->bytes.size();
+}
+
+uint64_t Document::vertices() const {
+  if (pack() == nullptr) return microtin_vertex_count(stream()->terrain.mesh());
+  uint64_t vertices = 0;
+  for (const PackEntry& entry : pack()->entries()) vertices += entry.vertices;
+  return vertices;
+}
+
+uint64_t Document::tiles() const {
+  return pack() != nullptr ? pack()->entries().size() : 0;
+}
+
+SurfaceModel Document::model() const {
+  SurfaceModel model = with_file_context(path_, [&] {
+    return pack() != nullptr ? model_of(*pack()) : model_of(stream()->terrain.mesh());
+  });
+  const Metadata notes = metadata();
+  model.horizontal_unit = notes.horizontal_unit;
+  model.vertical_unit = notes.vertical_unit;
+  return model;
+}
+
+SampledSurface Document::sampled() const {
+  SampledSurface surface = pack() != nullptr ? exporting::sampled(*pack())
+                                             : exporting::sampled(stream()->terrain.mesh());
+  surface.height_at = [this, height_at = std::move(surface.height_at)](int64_t x, int64_t y) {
+    return with_file_context(path_, [&] { return height_at(x, y); });
+  };
+  return surface;
+}
+
+Original::Original(const Document& document, const std::string& path,
+                   const Preparation& preparation)
+    : document_(document),
+      water_level_(preparation.water_level),
+      source_(source_for(document, path, preparation)) {}
+
+const Raster* Original::raster() const {
+  if (const auto* whole = std::get_if<Source>(&source_)) return std::get_if<Raster>(whole);
+  const auto* reader = std::get_if<std::unique_ptr<RasterReader>>(&std::get<OpenSource>(source_));
+  return reader != nullptr ? &(*reader)->frame() : nullptr;
+}
+
+const PointCloud* Original::cloud() const {
+  return std::visit([](const auto& source) { return std::get_if<PointCloud>(&source); }, source_);
+}
+
+Promise Original::promise() const {
+  const Metadata metadata = document_.metadata();
+  const std::optional<Decimal>&noted = metadata.water_level, &given = water_level_;
+  if (given && !(noted && *noted == *given)) {
+    throw Error(document_.path() + ": its water level is " +
+                (noted ? to_string(*noted) : "not noted") + ", not " + to_string(*given));
+  }
+  if (!metadata.accuracy || !metadata.accuracy->bound) return {};
+  return {metadata.accuracy->bound, metadata.water_level};
+}
+
+Verification Original::compare(const std::optional<Decimal>& bound, const Progress& progress,
+                               const PostVisitor& visit) const {
+  if (const auto* whole = std::get_if<Source>(&source_)) {
+    return verify(document_.stream()->terrain.mesh(), *whole, bound, visit);
+  }
+  const PackFile& pack = *document_.pack();
+  const auto& source = std::get<OpenSource>(source_);
+  if (cloud() != nullptr) return verify(pack, *cloud(), bound, visit);
+  return verify(pack, *std::get<std::unique_ptr<RasterReader>>(source), bound, progress, visit);
+}
+
+Original::Judgement Original::judge(const Progress& progress) const {
+  const Promise promised = promise();
+  const int decimals = raster() != nullptr ? raster()->decimals : cloud()->z_decimals;
+  WaterGauge gauge(decimals, promised.water_level);
+  const Verification found = with_file_context(document_.path(), [&] {
+    return compare(promised.bound, progress,
+                   promised.water_level ? gauge.visitor() : PostVisitor());
+  });
+  return {promised, found, gauge.moved()};
+}
+
+}  // namespace microtin::product

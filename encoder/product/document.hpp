@@ -1,0 +1,96 @@
+// What the encoder has made, read back: a stream or a pack, whichever a file holds.
+#ifndef MICROTIN_ENCODER_PRODUCT_DOCUMENT_HPP
+#define MICROTIN_ENCODER_PRODUCT_DOCUMENT_HPP
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "encoder/export/height_sampler.hpp"
+#include "encoder/import/prepared_terrain.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/pack/file.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/surface_model.hpp"
+#include "encoder/terrain/verify.hpp"
+
+namespace microtin::product {
+
+struct DecodedStream {
+  std::vector<uint8_t> bytes;
+  DecodedTerrain terrain;
+};
+
+// The bytes of a stream's file, or of standard input for "-", decoded. Throws Error naming it.
+DecodedStream read_stream(const std::string& path);
+
+// All functions throw Error naming the file.
+class Document {
+ public:
+  // A pack if the file begins as one does, else a stream, which is decoded. "-" is a stream.
+  explicit Document(const std::string& path);
+
+  const std::string& path() const { return path_; }
+
+  // What it is: one of them is not null.
+  const PackFile* pack() const { return std::get_if<PackFile>(&content_); }
+  const DecodedStream* stream() const { return std::get_if<DecodedStream>(&content_); }
+
+  Metadata metadata() const;
+  uint64_t bytes() const;
+  uint64_t vertices() const;  // of a pack: those on borders once for each tile
+  uint64_t tiles() const;     // 0: a stream
+
+  // With units. All of a pack's tiles are decoded.
+  SurfaceModel model() const;
+
+  // The document must outlive it.
+  SampledSurface sampled() const;
+
+ private:
+  std::string path_;
+  std::variant<PackFile, DecodedStream> content_;
+};
+
+// What a header promises of the heights.
+struct Promise {
+  std::optional<Decimal> bound;
+  std::optional<Decimal> water_level;  // at which posts are exact
+};
+
+// A terrain that a document is compared with: read in pieces for a pack, whole for a stream.
+class Original {
+ public:
+  // The document must outlive it. Throws Error naming the terrain's file.
+  Original(const Document& document, const std::string& path, const Preparation& preparation);
+
+  // A raster's frame, or the points: one of them is not null.
+  const Raster* raster() const;
+  const PointCloud* cloud() const;
+
+  // Throws Error if the terrain was given another water level than the document notes.
+  Promise promise() const;
+
+  // Asks the document at every post or point. Throws Error as for a mesh or a pack.
+  Verification compare(const std::optional<Decimal>& bound, const Progress& progress,
+                       const PostVisitor& visit) const;
+
+  // The same, and whether the promise is kept.
+  struct Judgement {
+    Promise promise;
+    Verification found;
+    uint64_t water_moved;
+  };
+  Judgement judge(const Progress& progress) const;
+
+ private:
+  const Document& document_;
+  std::optional<Decimal> water_level_;
+  std::variant<Source, OpenSource> source_;
+};
+
+}  // namespace microtin::product
+
+#endif

@@ -1,0 +1,79 @@
+// A terrain as a pack of tiles, each of which is known to keep what was asked for.
+#ifndef MICROTIN_ENCODER_PRODUCT_ENCODE_PACK_HPP
+#define MICROTIN_ENCODER_PRODUCT_ENCODE_PACK_HPP
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "encoder/files/output_file.hpp"
+#include "encoder/files/stream_spool.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/pack/encode.hpp"
+#include "encoder/pack/file.hpp"
+#include "encoder/product/options.hpp"
+#include "encoder/terrain/raster_reader.hpp"
+
+namespace microtin::product {
+
+// What a pack holds, and what it keeps.
+struct PackReport {
+  TileGrid grid;
+  Decimal z_step;
+  uint64_t vertices = 0, bytes = 0;
+  uint32_t most_vertices = 0;  // in a tile
+  uint32_t empty_tiles = 0;
+  Verification measured;         // of all tiles
+  std::optional<Decimal> bound;  // asked for
+};
+
+PackReport report_of(const PackContent& pack);
+
+// Chooses, encodes, decodes and compares tile by tile, as encode_stream does for all; the streams
+// wait in the spool until the index is known. Throws Error if what is asked for cannot be had.
+PackContent encode_pack(const RasterReader& raster, const EncodeOptions& options,
+                        StreamSpool& streams, const Progress& progress);
+
+void write_pack(const PackContent& pack, StreamSpool& streams, OutputFile& out);
+
+// The same for points.
+struct EncodedPoints {
+  std::vector<uint8_t> bytes;
+  PackReport report;
+  Decimal xy_step, xy_displacement;
+  uint64_t merged;
+};
+
+EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options);
+
+// Writes a shard with some of the tiles that the pack of a raster has. Throws Error also if there
+// is no first one.
+struct ShardReport {
+  TileRange tiles, all;
+  uint64_t vertices;
+};
+
+ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& options, TileRange tiles,
+                         OutputFile& out, const Progress& progress);
+
+// How so many shards are to be encoded, so that together they are what a single run makes.
+struct ShardPlan {
+  uint32_t tile_steps;
+  Decimal z_step;
+  TileRange tiles;
+};
+
+std::vector<ShardPlan> plan_shards(const RasterReader& raster, const EncodeOptions& options,
+                                   uint32_t shards, const Progress& progress);
+
+// Joins shards to the pack that a single run makes. Throws Error naming the shard that does not
+// fit, and if tiles are missing.
+PackReport join_shards(const std::vector<std::string>& paths, OutputFile& out);
+
+// As the option --tiles has it.
+std::string range_text(TileRange range);
+
+}  // namespace microtin::product
+
+#endif

@@ -1,0 +1,33 @@
+// A terrain as one stream that is known to keep what was asked for.
+#ifndef MICROTIN_ENCODER_PRODUCT_ENCODE_STREAM_HPP
+#define MICROTIN_ENCODER_PRODUCT_ENCODE_STREAM_HPP
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "encoder/layers.hpp"
+#include "encoder/product/options.hpp"
+#include "encoder/terrain/lay_out.hpp"
+#include "encoder/terrain/verify.hpp"
+
+namespace microtin::product {
+
+struct EncodedStream {
+  Laid laid;
+  std::optional<Decimal> bound;  // asked for, or found
+  std::vector<uint8_t> stream;
+  uint32_t vertices;
+  Verification verification;
+};
+
+// Chooses, encodes, decodes with the shipped decoder, and compares that with every post or point:
+// what is returned keeps the bound, covers all heights, leaves all voids open and keeps water at
+// its level. With max_bytes, that is the smallest bound found whose stream is no longer, as sought
+// in some twenty encodings. Throws Error if what is asked for cannot be had.
+EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
+                            const Progress& progress);
+
+}  // namespace microtin::product
+
+#endif

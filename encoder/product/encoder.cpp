@@ -1,0 +1,229 @@
+// The public face: checks what a stranger asks for, and translates.
+#include "microtin/encoder.hpp"
+
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "encoder/base/error.hpp"
+#include "encoder/base/error_context.hpp"
+#include "encoder/base/iso_date.hpp"
+#include "encoder/import/import.hpp"
+#include "encoder/product/encode_pack.hpp"
+#include "encoder/product/encode_stream.hpp"
+
+namespace microtin::encoder {
+
+using base::Error;
+
+struct Terrain::Content {
+  terrain::Source source;
+};
+
+namespace {
+
+void expect(bool holds, const std::string& rule) {
+  if (!holds) throw Error(rule);
+}
+
+bool is_number(int64_t value) {
+  constexpr int64_t kLargest = 1000000000000000000;
+  return value >= -kLargest && value <= kLargest;
+}
+
+void check_decimals(int decimals) {
+  expect(decimals >= 0 && decimals <= 18, "decimals: 0 .. 18");
+}
+
+void check_axis(const microtin_axis& axis) {
+  expect(axis.numerator != 0 && axis.denominator != 0, "an axis has no step");
+}
+
+terrain::Source raster_of(Posts posts) {
+  expect(posts.heights.size() == uint64_t{posts.columns} * posts.rows,
+         "not as many heights as columns times rows");
+  check_decimals(posts.decimals);
+  check_axis(posts.x);
+  check_axis(posts.y);
+  for (const int64_t height : posts.heights) {
+    expect(height == kVoid || is_number(height), "a height is beyond 10^18");
+  }
+  static_assert(kVoid == terrain::kVoidHeight, "void posts are taken as they are");
+  return terrain::Raster{
+      posts.columns, posts.rows, std::move(posts.heights), posts.decimals, posts.x, posts.y, {}};
+}
+
+terrain::Source cloud_of(const Points& points) {
+  check_decimals(points.xy_decimals);
+  check_decimals(points.z_decimals);
+  terrain::PointCloud cloud;
+  cloud.xy_decimals = points.xy_decimals;
+  cloud.z_decimals = points.z_decimals;
+  cloud.points.reserve(points.points.size());
+  for (const auto& [x, y, z] : points.points) {
+    expect(is_number(x) && is_number(y) && is_number(z), "a coordinate is beyond 10^18");
+    cloud.points.push_back({x, y, z});
+  }
+  return cloud;
+}
+
+// A raster that somebody else keeps.
+class KeptRaster : public terrain::RasterReader {
+ public:
+  explicit KeptRaster(const terrain::Raster& raster) : raster_(raster) {
+    frame_ = terrain::frame_of(raster);
+  }
+
+  terrain::Raster read(const terrain::PostRectangle& rectangle) const override {
+    return terrain::crop(raster_, rectangle);
+  }
+
+ private:
+  const terrain::Raster& raster_;
+};
+
+std::optional<exact::Decimal> decimal_of(const std::string& name, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::optional<exact::Decimal> value = exact::parse_decimal(text);
+  expect(value && value->mantissa >= 0, name + ": " + text + " is not a decimal number from 0 on");
+  return value;
+}
+
+fit::Search search_of(Search search) {
+  switch (search) {
+    case Search::kFast:
+      return fit::Search::kFast;
+    case Search::kBest:
+      return fit::Search::kBest;
+    case Search::kNormal:
+      break;
+  }
+  return fit::Search::kNormal;
+}
+
+product::EncodeOptions options_of(const Options& options) {
+  product::EncodeOptions all;
+  all.lattice.max_error = decimal_of("max_error", options.max_error);
+  all.lattice.z_step = decimal_of("z_step", options.z_step);
+  all.lattice.xy_step = decimal_of("xy_step", options.xy_step);
+  all.lattice.never_below = options.never_below;
+  all.search = search_of(options.search);
+  expect(options.degree >= kMinDegree && options.degree <= kMaxDegree, "degree: 6 .. 32");
+  expect(options.levels >= 1 && options.levels <= kMaxLevels, "levels: 1 .. 3");
+  all.effort = {options.degree, options.levels};
+  all.horizontal_epsg = options.horizontal_epsg;
+  all.vertical_epsg = options.vertical_epsg;
+  expect(options.date.empty() || base::is_iso_date(options.date),
+         "date: " + options.date + " is not a date such as 2026-11-21");
+  all.source_text = options.source;
+  all.date = options.date;
+  all.lineage = options.lineage;
+  return all;
+}
+
+// Ends the work by an exception when it is told to.
+base::Progress progress_of(const Callbacks& callbacks) {
+  return base::Progress([&callbacks](double done) {
+    if (callbacks.cancelled && callbacks.cancelled()) throw Cancelled();
+    if (callbacks.progress) callbacks.progress(done);
+  });
+}
+
+Report report_of(const product::EncodedStream& encoded) {
+  const terrain::Verification& measured = encoded.verification;
+  return {measured.posts,
+          encoded.vertices,
+          encoded.stream.size(),
+          0,
+          encoded.bound ? to_string(*encoded.bound) : std::string(),
+          to_string(measured.max_error),
+          to_string(measured.rms_error),
+          to_string(measured.max_below)};
+}
+
+Report report_of(const product::PackReport& pack, uint64_t samples) {
+  return {samples,
+          pack.vertices,
+          pack.bytes,
+          static_cast<uint32_t>(pack::tile_count(pack.grid)),
+          pack.bound ? to_string(*pack.bound) : std::string(),
+          to_string(pack.measured.max_error),
+          to_string(pack.measured.rms_error),
+          to_string(pack.measured.max_below)};
+}
+
+uint64_t count_heights(const terrain::Raster& raster) {
+  uint64_t count = 0;
+  for (const int64_t height : raster.heights) count += height != terrain::kVoidHeight;
+  return count;
+}
+
+Report encode_posts(const terrain::Raster& raster, const product::EncodeOptions& options,
+                    const std::string& path, files::OutputFile& out, const Callbacks& callbacks) {
+  files::StreamSpool streams(path);
+  const pack::PackContent pack =
+      product::encode_pack(KeptRaster(raster), options, streams, progress_of(callbacks));
+  product::write_pack(pack, streams, out);
+  return report_of(product::report_of(pack), count_heights(raster));
+}
+
+Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOptions& options,
+                     files::OutputFile& out) {
+  const product::EncodedPoints made = product::encode_pack(cloud, options);
+  out.write(made.bytes);
+  return report_of(made.report, cloud.points.size());
+}
+
+}  // namespace
+
+Terrain::Terrain(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
+
+Terrain::Terrain(Posts posts)
+    : Terrain(std::make_shared<Content>(Content{raster_of(std::move(posts))})) {}
+
+Terrain::Terrain(Points points) : Terrain(std::make_shared<Content>(Content{cloud_of(points)})) {}
+
+Terrain Terrain::from_file(const std::string& path) {
+  return Terrain(std::make_shared<Content>(Content{importing::import_terrain(path)}));
+}
+
+Stream encode_stream(const Terrain& terrain, const StreamOptions& options,
+                     const Callbacks& callbacks) {
+  product::EncodeOptions all = options_of(options);
+  const bool bounded = all.lattice.max_error.has_value();
+  const int aims =
+      (bounded ? 1 : 0) + (options.max_vertices != 0 ? 1 : 0) + (options.max_bytes != 0 ? 1 : 0);
+  expect(aims <= 1, "only one of max_error, max_vertices and max_bytes can be given");
+  expect(!options.never_below || bounded || options.max_bytes != 0,
+         "never_below needs max_error or max_bytes");
+  expect(options.max_vertices == 0 ||
+             (options.max_vertices >= 3 && options.max_vertices <= kMaxVertices),
+         "max_vertices: 3 .. 2^24");
+  all.max_vertices = options.max_vertices;
+  all.max_bytes = options.max_bytes;
+  product::EncodedStream encoded =
+      product::encode_stream(terrain.content().source, all, progress_of(callbacks));
+  Report report = report_of(encoded);
+  return {std::move(encoded.stream), std::move(report)};
+}
+
+Report encode_pack(const Terrain& terrain, const PackOptions& options, const std::string& path,
+                   const Callbacks& callbacks) {
+  product::EncodeOptions all = options_of(options);
+  expect(!options.never_below || all.lattice.max_error, "never_below needs max_error");
+  expect(
+      options.tile_vertices >= pack::kFewestTileVertices && options.tile_vertices <= kMaxVertices,
+      "tile_vertices: 16 .. 2^24");
+  all.tile_vertices = options.tile_vertices;
+  all.tile_steps = options.tile_steps;
+  files::OutputFile out(path);
+  const terrain::Source& source = terrain.content().source;
+  const auto* const raster = std::get_if<terrain::Raster>(&source);
+  const Report report = raster != nullptr
+                            ? encode_posts(*raster, all, path, out, callbacks)
+                            : encode_points(std::get<terrain::PointCloud>(source), all, out);
+  out.commit();
+  return report;
+}
+
+}  // namespace microtin::encoder

@@ -1,0 +1,42 @@
+// Takes apart what is asked for.
+#include "encoder/product/options.hpp"
+
+#include "encoder/stream/device_ram.hpp"
+
+namespace microtin::product {
+
+Metadata metadata_of(const EncodeOptions& options, const Reference& reference,
+                     const Placement& placement) {
+  Metadata metadata;
+  metadata.placement = placement;
+  metadata.horizontal_unit = reference.horizontal_unit;
+  metadata.vertical_unit = reference.vertical_unit;
+  metadata.horizontal_epsg = reference.horizontal_epsg;
+  metadata.vertical_epsg = reference.vertical_epsg;
+  if (options.horizontal_epsg != 0) metadata.horizontal_epsg = options.horizontal_epsg;
+  if (options.vertical_epsg != 0) metadata.vertical_epsg = options.vertical_epsg;
+  metadata.source = options.source_text;
+  metadata.date = options.date;
+  metadata.lineage = options.lineage;
+  metadata.water_level = options.lattice.water_level;
+  return metadata;
+}
+
+uint32_t vertex_limit(const EncodeOptions& options) {
+  if (options.device_ram == 0 || options.max_vertices != 0 || options.lattice.max_error) {
+    return options.max_vertices;
+  }
+  return most_vertices(options.device_ram);
+}
+
+SimplifyOptions simplify_options(const EncodeOptions& options, const Progress& progress) {
+  SimplifyOptions simplify;
+  simplify.bounded = options.lattice.max_error.has_value();
+  simplify.max_vertices = vertex_limit(options);
+  simplify.search = options.search;
+  simplify.effort = options.effort;
+  simplify.progress = progress;
+  return simplify;
+}
+
+}  // namespace microtin::product

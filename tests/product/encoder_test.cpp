@@ -1,0 +1,169 @@
+// The encoder's public face.
+#include "microtin/encoder.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "encoder/product/document.hpp"
+#include "tests/support/layers.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace microtin::encoder;
+using microtin::product::Document;
+using microtin::tests::TemporaryFolder;
+
+namespace {
+
+// A cone with a hole.
+Posts cone(uint32_t side) {
+  Posts posts;
+  posts.columns = posts.rows = side;
+  posts.decimals = 1;
+  for (int64_t i = 0; i < int64_t{side} * side; ++i) {
+    const int64_t x = i % side, y = i / side, middle = side / 2;
+    const int64_t square = (x - middle) * (x - middle) + (y - middle) * (y - middle);
+    posts.heights.push_back(x < 3 && y < 3 ? kVoid : 10000 - 7 * square);
+  }
+  return posts;
+}
+
+StreamOptions bounded(const char* bound) {
+  StreamOptions options;
+  options.max_error = bound;
+  return options;
+}
+
+void write(const std::string& path, const std::vector<uint8_t>& bytes) {
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()),
+             static_cast<std::streamsize>(bytes.size()));
+}
+
+}  // namespace
+
+TEST_CASE("library: a stream keeps its bound, and says so") {
+  const TemporaryFolder folder;
+  StreamOptions options = bounded("2.5");
+  options.source = "a cone";
+  options.horizontal_epsg = 25832;
+  const Stream stream = encode_stream(Terrain(cone(40)), options);
+  CHECK(stream.report.samples == 40 * 40 - 9);
+  CHECK(stream.report.bytes == stream.bytes.size());
+  CHECK(stream.report.bound == "2.5");
+  CHECK(std::stod(stream.report.max_error) <= 2.5);
+  CHECK(std::stod(stream.report.rms_error) <= std::stod(stream.report.max_error));
+  CHECK(stream.report.vertices < 400);
+  CHECK(stream.report.tiles == 0);
+  write(folder / "cone.mtin", stream.bytes);
+  const Document document(folder / "cone.mtin");
+  CHECK(document.stream() != nullptr);
+  CHECK(document.vertices() == stream.report.vertices);
+  CHECK(document.metadata().source == "a cone");
+  CHECK(document.metadata().horizontal_epsg == 25832);
+}
+
+TEST_CASE("library: so many vertices, so many bytes") {
+  const Terrain terrain(cone(40));
+  StreamOptions options;
+  options.max_vertices = 60;
+  CHECK(encode_stream(terrain, options).report.vertices <= 60);
+  options = {};
+  options.max_bytes = 400;
+  const Stream stream = encode_stream(terrain, options);
+  CHECK(stream.bytes.size() <= 400);
+  CHECK(std::stod(stream.report.max_error) <= std::stod(stream.report.bound));
+}
+
+TEST_CASE("library: points, exactly without a bound") {
+  Points points;
+  points.z_decimals = 2;
+  for (int64_t i = 0; i < 200; ++i) points.points.push_back({i * i % 211, i * 37 % 199, i * 13});
+  const Stream stream = encode_stream(Terrain(points), {});
+  CHECK(stream.report.vertices == 200);
+  CHECK(stream.report.max_error == "0");
+  CHECK(stream.report.bound.empty());
+}
+
+TEST_CASE("library: packs are files, whole or not there") {
+  const TemporaryFolder folder;
+  PackOptions options;
+  options.max_error = "1";
+  options.tile_vertices = 40;
+  const Report report = encode_pack(Terrain(cone(60)), options, folder / "cone.mtp");
+  CHECK(report.tiles > 1);
+  CHECK(report.samples == 60 * 60 - 9);
+  const Document document(folder / "cone.mtp");
+  CHECK(document.pack() != nullptr);
+  CHECK(document.bytes() == report.bytes);
+  CHECK(document.vertices() == report.vertices);
+  CHECK(document.tiles() == report.tiles);
+  CHECK(document.model().triangles.size() > 100);
+}
+
+TEST_CASE("library: work that is cancelled leaves nothing") {
+  const TemporaryFolder folder;
+  uint32_t calls = 0;
+  double last = 0;
+  Callbacks callbacks;
+  callbacks.progress = [&](double done) {
+    CHECK(done >= 0);
+    CHECK(done <= 1);
+    last = done;
+  };
+  callbacks.cancelled = [&] { return ++calls > 3; };
+  const Terrain terrain(cone(60));
+  CHECK_THROWS_AS(encode_stream(terrain, bounded("0.3"), callbacks), Cancelled);
+  StreamOptions bytes;
+  bytes.max_bytes = 500;
+  calls = 0;
+  CHECK_THROWS_AS(encode_stream(terrain, bytes, callbacks), Cancelled);
+  PackOptions options;
+  options.max_error = "1";
+  options.tile_vertices = 16;
+  calls = 0;
+  CHECK_THROWS_AS(encode_pack(terrain, options, folder / "none.mtp", callbacks), Cancelled);
+  CHECK(std::filesystem::is_empty(folder.path()));
+  callbacks.cancelled = {};
+  encode_stream(terrain, bounded("0.3"), callbacks);
+  CHECK(last > 0.5);
+}
+
+TEST_CASE("library: what makes no sense is refused with a sentence") {
+  const auto error_of = [](Posts posts, const StreamOptions& options) -> std::string {
+    try {
+      encode_stream(Terrain(std::move(posts)), options);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  Posts posts = cone(9);
+  CHECK(error_of(posts, bounded("1")) == "none");
+  CHECK(error_of(posts, bounded("-1")) == "max_error: -1 is not a decimal number from 0 on");
+  CHECK(error_of(posts, bounded("x")) == "max_error: x is not a decimal number from 0 on");
+  StreamOptions options = bounded("1");
+  options.max_bytes = 100;
+  CHECK(error_of(posts, options) ==
+        "only one of max_error, max_vertices and max_bytes can be given");
+  options = bounded("1");
+  options.degree = 33;
+  CHECK(error_of(posts, options) == "degree: 6 .. 32");
+  options = {};
+  options.never_below = true;
+  CHECK(error_of(posts, options) == "never_below needs max_error or max_bytes");
+  options = {};
+  options.date = "yesterday";
+  CHECK(error_of(posts, options) == "date: yesterday is not a date such as 2026-11-21");
+  posts.heights.pop_back();
+  CHECK(error_of(posts, {}) == "not as many heights as columns times rows");
+  posts.heights.push_back(kVoid + 1);
+  CHECK(error_of(posts, {}) == "a height is beyond 10^18");
+  posts.heights.back() = 0;
+  posts.x.denominator = 0;
+  CHECK(error_of(posts, {}) == "an axis has no step");
+  CHECK_THROWS_AS(Terrain::from_file("/nowhere/at.asc"), std::runtime_error);
+}
