@@ -127,8 +127,8 @@ void print_start_probabilities() {
       "%s%u;\n\n%s",
       R"(// Where the adaptive bits start, in the order of Models: the probability of a one is
 // (entry + 1/2) / 256. Written by `tests/bench/run train`.
-#ifndef MICROTIN_TESTS_BENCH_TRAINING_TRAIN_CPP
-#define MICROTIN_TESTS_BENCH_TRAINING_TRAIN_CPP
+#ifndef MICROTIN_SHARED_START_PROBABILITIES_HPP
+#define MICROTIN_SHARED_START_PROBABILITIES_HPP
 
 #include "shared/tables.hpp"
 
