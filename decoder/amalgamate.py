@@ -9,12 +9,13 @@ ROOT = Path(__file__).resolve().parent.parent
 PUBLIC = ROOT / "decoder/include"
 
 INCLUDE = re.compile(r'^#include "(.*)"\n', re.M)
+LICENCE = re.compile(r"^// SPDX-License-Identifier: .*\n", re.M)
 GUARD = re.compile(r"^#ifndef (\w+)\n#define \1\n", re.M)
 
 
 def parts(path):
     """A header's comment and what its include guard holds; of a source, nothing and all."""
-    text = path.read_text()
+    text = LICENCE.sub("", path.read_text())
     guard = GUARD.search(text)
     if path.suffix == ".cpp" or not guard:
         return "", text
@@ -71,7 +72,8 @@ def version():
 
 folder = Path(sys.argv[1])
 folder.mkdir(parents=True, exist_ok=True)
-notice = f"""/* microtin {version()}, the decoder in two files, made by decoder/amalgamate.py.
+notice = f"""// SPDX-License-Identifier: MIT
+/* microtin {version()}, the decoder in two files, made by decoder/amalgamate.py.
 
 {(ROOT / "LICENSE").read_text()}*/
 """
