@@ -2,8 +2,8 @@
 """check.py [ROOT] fails if an include points the wrong way, and else says how many there are.
 
 A layer of the encoder includes those above it in encoder/layers.hpp alone, the command line neither fit nor pack; the
-decoder and shared/ include nothing
-of the encoder; a test includes what its subject may include, its subject, and tests/support.
+decoder and shared/ include nothing of the encoder; a test includes what its subject may include, its subject, and
+tests/support.
 """
 import pathlib
 import re
