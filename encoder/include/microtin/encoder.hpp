@@ -120,7 +120,7 @@ struct Cancelled : std::exception {
 /* Both may be empty. Called from several threads, one at a time; both may throw. */
 struct Callbacks {
   std::function<void(double done)> progress; /* 0 .. 1 of the time, estimated; not with max_bytes */
-  std::function<bool()> cancelled; /* asked often, but for packs of points */
+  std::function<bool()> cancelled;           /* asked often, but for packs of points */
 };
 
 /* O(n log n) for n samples, with factors of a search that `search` sets: some 20 us a post. */
