@@ -127,6 +127,7 @@ microtin_status end_header(microtin_decoder& d) {
   if (vertices > d.capacity || vertices > d.mesh->capacity) return MICROTIN_TOO_BIG;
   start(d.reconstruction);
   d.in_header = false;
+  d.mesh->is_placed = true;
   return MICROTIN_NEED_INPUT;
 }
 
@@ -224,7 +225,7 @@ MICROTIN_ONE_COPY void empty_mesh(microtin_mesh& m) {
   m.mesh.triangles = 0;
   m.verified_vertices = 0;
   m.has_voids = false;
-  place_on_lattice(m.axis);
+  m.is_placed = false;
 }
 
 }  // namespace

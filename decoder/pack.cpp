@@ -84,16 +84,46 @@ microtin_status handle_check(microtin_pack& p) {
 
 // --- A tile.
 
-// The slot that has not been wanted for the longest time; those of the course in hand are kept.
-PackSlot* slot_to_fill(microtin_pack& p) {
-  PackSlot* oldest = nullptr;
-  for (uint32_t i = 0; i < p.slot_count; ++i) {
-    PackSlot& slot = p.slots[i];
-    if (slot.state == SlotState::kEmpty) return &slot;
-    const uint32_t age = p.clock - slot.wanted;
-    if (age != 0 && (oldest == nullptr || age > p.clock - oldest->wanted)) oldest = &slot;
+// The place to be filled next, a slot or what is known of a bad tile: an empty one, or that which
+// has not been wanted for the longest time. Those of the course in hand are kept: null if all are.
+template <class Place>
+Place* place_to_fill(Place* places, uint32_t count, uint32_t clock) {
+  Place* oldest = nullptr;
+  for (uint32_t i = 0; i < count; ++i) {
+    Place& place = places[i];
+    if (place.is_empty()) return &place;
+    const uint32_t age = clock - place.wanted;
+    if (age != 0 && (oldest == nullptr || age > clock - oldest->wanted)) oldest = &place;
   }
   return oldest;
+}
+
+// For the same reason as set_state.
+void set_why(BadTile& bad, microtin_status why) {
+  __atomic_signal_fence(__ATOMIC_SEQ_CST);
+  bad.why = static_cast<uint8_t>(why);
+  __atomic_signal_fence(__ATOMIC_SEQ_CST);
+}
+
+void forget_bad_tiles(microtin_pack& p) {
+  for (BadTile& bad : p.bad) set_why(bad, MICROTIN_DONE);
+  p.has_passed = false;
+}
+
+// Passes over the tile in hand, and remembers it as bad. DONE: on to the next one.
+microtin_status refuse(microtin_pack& p, microtin_status why) {
+  BadTile* const bad = place_to_fill(p.bad, MICROTIN_PACK_BAD_TILES, p.clock);
+  if (bad != nullptr) {
+    set_why(*bad, MICROTIN_DONE);
+    bad->tile = p.tile;
+    bad->wanted = p.clock;
+    set_why(*bad, why);
+  } else {
+    p.passed = p.tile;
+    p.has_passed = true;
+  }
+  give_up(p);
+  return MICROTIN_DONE;
 }
 
 microtin_status finish_tile(microtin_pack& p) {
@@ -108,11 +138,11 @@ microtin_status finish_tile(microtin_pack& p) {
 microtin_status handle_entry(microtin_pack& p) {
   if (pack_entry_check(p.crc, p.tile, p.buffer) !=
       read_u32(p.buffer + kPackEntryBytes - kCheckBytes)) {
-    return fail(p, MICROTIN_CHECKSUM);
+    return refuse(p, MICROTIN_CHECKSUM);
   }
-  if (!read_pack_entry(p.buffer, p.header, &p.entry)) return fail(p, MICROTIN_MALFORMED);
-  if (p.entry.vertices > p.capacity) return fail(p, MICROTIN_TOO_BIG);
-  PackSlot* const slot = slot_to_fill(p);
+  if (!read_pack_entry(p.buffer, p.header, &p.entry)) return refuse(p, MICROTIN_MALFORMED);
+  if (p.entry.vertices > p.capacity) return refuse(p, MICROTIN_TOO_BIG);
+  PackSlot* const slot = place_to_fill(p.slots, p.slot_count, p.clock);
   if (slot == nullptr) return fail(p, MICROTIN_WORKSPACE_TOO_SMALL);
   p.slot = static_cast<uint8_t>(slot - p.slots);
   set_state(*slot, SlotState::kEmpty);
@@ -124,17 +154,21 @@ microtin_status handle_entry(microtin_pack& p) {
   return MICROTIN_NEED_INPUT;
 }
 
-// Whether what was decoded is the tile that the index tells of.
+// Whether all of the stream was taken, and is that of which the index tells.
+bool is_stream(const microtin_pack& p) {
+  return p.left == 0 && p.fed == p.buffered && p.stream_hash == p.entry.stream_hash;
+}
+
+// Whether it keeps the rules for tiles.
 bool is_tile(const microtin_pack& p) {
-  const TileBox box = tile_box(p.header.grid, p.tile);
-  const Contract& contract = p.decoder->reconstruction.contract;
-  return p.left == 0 && p.fed == p.buffered && p.stream_hash == p.entry.stream_hash &&
-         contract.vertices == p.entry.vertices && contract.x_max <= box.x_end - box.x &&
-         contract.y_max <= box.y_end - box.y;
+  return p.is_legal && p.decoder->reconstruction.contract.vertices == p.entry.vertices;
 }
 
 microtin_status handle_stream(microtin_pack& p, uint32_t step_limit) {
   if (!p.is_counted) {
+    if (p.left == p.entry.size) {
+      p.is_legal = is_tile_start(p.buffer, p.buffered, tile_box(p.header.grid, p.tile));
+    }
     p.is_counted = true;
     p.stream_hash = stream_hash(p.stream_hash, p.buffer, p.buffered);
     p.left -= p.buffered;
@@ -148,11 +182,11 @@ microtin_status handle_stream(microtin_pack& p, uint32_t step_limit) {
     want(p, PackStage::kStream, p.next, p.left);
     return status;
   }
-  if (status == MICROTIN_DONE && is_tile(p)) return finish_tile(p);
-  return fail(p, MICROTIN_CHECKSUM);
+  if (status != MICROTIN_DONE || !is_stream(p)) return refuse(p, MICROTIN_CHECKSUM);
+  return is_tile(p) ? finish_tile(p) : refuse(p, MICROTIN_MALFORMED);
 }
 
-// Handles what is in the buffer, if it is complete. DONE: a tile is ready.
+// Handles what is in the buffer, if it is complete. DONE: a tile is ready, or refused.
 microtin_status handle(microtin_pack& p, uint32_t step_limit) {
   if (p.buffered < p.wanted) return MICROTIN_NEED_INPUT;
   switch (p.stage) {
@@ -174,30 +208,50 @@ microtin_status handle(microtin_pack& p, uint32_t step_limit) {
   return MICROTIN_DONE;
 }
 
-// What a course wants of a pack: notes which slots it touches, and finds the first tile that is not
-// there.
+// What a course wants of a pack.
 struct Wishes {
-  bool complete;
+  bool is_any;   // a tile is neither there nor known to be bad, nor was it tried
   bool in_hand;  // the tile that is being read is among them
-  uint32_t first_absent;
+  bool has_bad;
+  bool has_more;   // tiles that were not looked at
+  uint32_t first;  // the first if there is any
 };
 
+// Notes which slots and bad tiles the course touches, and finds the first tile to be tried.
 Wishes wishes_of(microtin_pack& p, const microtin_course& course) {
-  Wishes wishes = {true, false, 0};
+  Wishes wishes = {false, false, false, false, 0};
   ++p.clock;
   uint32_t left = p.slot_count + 1u;  // one that does not fit is enough to know
-  for (TouchedTiles tiles(p.header.grid, course); !tiles.at_end() && left != 0; tiles.next()) {
-    --left;
-    const uint32_t tile = tiles.number(), slot = slot_of(p, tile);
+  TouchedTiles tiles(p.header.grid, course);
+  for (; !tiles.at_end() && left != 0; tiles.next()) {
+    const uint32_t tile = tiles.number(), slot = slot_of(p, tile), bad = bad_tile(p, tile);
     wishes.in_hand = wishes.in_hand || tile == p.tile;
+    if (bad != MICROTIN_PACK_BAD_TILES) {
+      p.bad[bad].wanted = p.clock;
+      wishes.has_bad = true;
+      continue;  // it needs no slot
+    }
+    --left;
     if (slot != p.slot_count) {
       p.slots[slot].wanted = p.clock;
-    } else if (wishes.complete) {
-      wishes.complete = false;
-      wishes.first_absent = tile;
+    } else if (!wishes.is_any) {
+      wishes.is_any = true;
+      wishes.first = tile;
+    }
+    if (p.has_passed && tile == p.passed) {  // what was missing so far has been tried
+      wishes.is_any = false;
+      wishes.has_bad = true;
     }
   }
+  wishes.has_more = !tiles.at_end();
   return wishes;
+}
+
+// What is said of a course of which no tile is to be tried.
+microtin_status verdict(microtin_pack& p, const Wishes& wishes) {
+  p.has_passed = false;
+  if (wishes.has_more) return MICROTIN_WORKSPACE_TOO_SMALL;
+  return wishes.has_bad ? MICROTIN_BAD_TILES : MICROTIN_DONE;
 }
 
 microtin_status prepare_tile(microtin_pack& p, const microtin_course& course, uint32_t step_limit) {
@@ -207,13 +261,25 @@ microtin_status prepare_tile(microtin_pack& p, const microtin_course& course, ui
     const Wishes wishes = wishes_of(p, course);
     if (p.stage != PackStage::kIdle && !wishes.in_hand) give_up(p);
     if (p.stage == PackStage::kIdle) {
-      if (wishes.complete) return MICROTIN_DONE;
-      p.tile = wishes.first_absent;
+      if (!wishes.is_any) return verdict(p, wishes);
+      p.tile = wishes.first;
       want(p, PackStage::kEntry, pack_entry_start(p.header, p.tile), kPackEntryBytes);
     }
     status = handle(p, step_limit);
   }
   return status;
+}
+
+// What follows from what storage said. NEED_INPUT: go on.
+microtin_status hear_storage(microtin_pack& p) {
+  const Storage said = p.storage;
+  p.storage = Storage::kWell;
+  if (said == Storage::kFailed) return MICROTIN_IO;
+  if (said == Storage::kEnds) {
+    if (!p.has_header) return fail(p, MICROTIN_TRUNCATED);
+    refuse(p, MICROTIN_TRUNCATED);
+  }
+  return MICROTIN_NEED_INPUT;
 }
 
 }  // namespace
@@ -254,7 +320,9 @@ void microtin_pack_reset(microtin_pack* pack) {
   microtin_pack& p = *pack;
   p.has_header = false;
   p.stage = PackStage::kFixed;
+  p.storage = Storage::kWell;
   p.tile = 0;
+  forget_bad_tiles(p);
   for (uint32_t i = 0; i < p.slot_count; ++i) set_state(p.slots[i], SlotState::kEmpty);
   give_up(p);
 }
@@ -262,6 +330,8 @@ void microtin_pack_reset(microtin_pack* pack) {
 microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course* course,
                                       uint32_t step_limit) {
   if (pack == nullptr || course == nullptr || !is_legal(*course)) return MICROTIN_ARGUMENT;
+  const microtin_status heard = hear_storage(*pack);
+  if (heard != MICROTIN_NEED_INPUT) return heard;
   if (!pack->has_header) {
     const microtin_status status = handle(*pack, step_limit);
     if (!pack->has_header) return status;
@@ -275,9 +345,25 @@ void microtin_pack_wanted(microtin_pack* pack, uint64_t* offset, uint8_t** buffe
   *size = static_cast<size_t>(pack->wanted - pack->buffered);
 }
 
-void microtin_pack_given(microtin_pack* pack, size_t size) {
-  const size_t most = static_cast<size_t>(pack->wanted - pack->buffered);
-  const uint8_t taken = static_cast<uint8_t>(size < most ? size : most);
+void microtin_pack_given(microtin_pack* pack, int32_t taken) {
+  const int32_t most = pack->wanted - pack->buffered;
+  if (most == 0) return;
+  if (taken <= 0 || taken > most) {
+    pack->storage = taken == 0 ? Storage::kEnds : Storage::kFailed;
+    return;
+  }
   pack->buffered = static_cast<uint8_t>(pack->buffered + taken);
-  pack->next += taken;
+  pack->next += static_cast<uint32_t>(taken);
+}
+
+int microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile,
+                           microtin_status* why) {
+  if (i >= MICROTIN_PACK_BAD_TILES || pack->bad[i].is_empty()) return 0;
+  *tile = pack->bad[i].tile;
+  *why = static_cast<microtin_status>(pack->bad[i].why);
+  return 1;
+}
+
+void microtin_pack_retry(microtin_pack* pack) {
+  forget_bad_tiles(*pack);
 }

@@ -22,7 +22,21 @@ struct PackSlot {
   uint32_t tile;
   uint32_t wanted;           // when it was wanted last
   volatile SlotState state;  // queries may look only if it is ready
+
+  bool is_empty() const { return state == SlotState::kEmpty; }
 };
+
+// A tile that was refused, or room for one.
+struct BadTile {
+  uint32_t tile;
+  uint32_t wanted;       // when it was wanted last
+  volatile uint8_t why;  // a status; queries may look only if it is not DONE
+
+  bool is_empty() const { return why == MICROTIN_DONE; }
+};
+
+// What storage said of the bytes wanted.
+enum class Storage : uint8_t { kWell, kEnds, kFailed };
 
 }  // namespace microtin
 
@@ -39,6 +53,12 @@ struct microtin_pack {
   microtin_axis axis[3];
   uint32_t crc;  // of the header so far, or its check
   uint32_t clock;
+  microtin::BadTile bad[MICROTIN_PACK_BAD_TILES];
+  // All of a course up to this tile has been tried, and this was bad: there was no room to
+  // remember.
+  uint32_t passed;
+  bool has_passed;
+  microtin::Storage storage;
   // The tile being read.
   uint32_t tile;
   microtin::PackEntry entry;
@@ -49,6 +69,7 @@ struct microtin_pack {
   uint64_t next;
   uint8_t wanted, buffered, fed;
   bool is_counted;
+  bool is_legal;  // the stream begins as a tile's does
   uint8_t buffer[microtin::kPackBuffer];
 };
 
@@ -66,6 +87,13 @@ inline uint32_t slot_of(const microtin_pack& p, uint32_t tile) {
     if (p.slots[i].state == SlotState::kReady && p.slots[i].tile == tile) return i;
   }
   return p.slot_count;
+}
+
+// Where it is remembered that a tile is bad; MICROTIN_PACK_BAD_TILES if it is not.
+inline uint32_t bad_tile(const microtin_pack& p, uint32_t tile) {
+  uint32_t i = 0;
+  while (i < MICROTIN_PACK_BAD_TILES && (p.bad[i].is_empty() || p.bad[i].tile != tile)) ++i;
+  return i;
 }
 
 }  // namespace microtin

@@ -3,13 +3,10 @@
 #include "decoder/walk.hpp"
 #include "shared/digest.hpp"
 #include "shared/division.hpp"
+#include "shared/header.hpp"
 
 namespace microtin {
 namespace {
-
-bool has_terrain(const microtin_mesh& m, Index t) {
-  return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
-}
 
 // The corner of a real triangle where a half-edge starts.
 Vertex corner_at(const Mesh& mesh, uint32_t half_edge) {
@@ -108,9 +105,12 @@ microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x,
 
 void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
                         microtin_axis* z) {
-  *x = mesh->axis[0];
-  *y = mesh->axis[1];
-  *z = mesh->axis[2];
+  microtin_axis axis[3];
+  place_on_lattice(axis);
+  const microtin_axis* const known = mesh->is_placed ? mesh->axis : axis;
+  *x = known[0];
+  *y = known[1];
+  *z = known[2];
 }
 
 int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,

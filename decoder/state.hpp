@@ -11,11 +11,16 @@ struct microtin_mesh {
   uint8_t* voids;              // a bit per triangle
   uint32_t capacity;           // vertices
   uint32_t verified_vertices;  // vertices when the last check passed
-  microtin_axis axis[3];
-  bool has_voids;  // whether `voids` is decoded; coarser terrains know none
+  microtin_axis axis[3];       // if is_placed
+  bool is_placed;              // the header's check has passed
+  bool has_voids;              // whether `voids` is decoded; coarser terrains know none
 };
 
 namespace microtin {
+
+inline bool has_terrain(const microtin_mesh& m, Index t) {
+  return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
+}
 
 enum class Item : uint8_t {
   kIdentity,

@@ -114,6 +114,11 @@ struct PackEntry {
   uint32_t stream_hash;       // FNV-1a of the stream
 };
 
+// Where the streams may begin: behind the index, below 2^37.
+inline uint64_t pack_streams_start(const PackHeader& header) {
+  return pack_entry_start(header, tile_columns(header.grid) * tile_rows(header.grid));
+}
+
 // False if it breaks a rule.
 inline bool read_pack_entry(const uint8_t* bytes, const PackHeader& header, PackEntry* entry) {
   entry->offset = read_u32(bytes) | static_cast<uint64_t>(bytes[4]) << 32;
@@ -125,9 +130,30 @@ inline bool read_pack_entry(const uint8_t* bytes, const PackHeader& header, Pack
   entry->root_mean_square = read_u16(bytes + 18);
   entry->stream_hash = read_u32(bytes + 20);
   uint32_t used = bytes[11];
-  if (entry->size != 0) return used == 0 && entry->vertices <= header.most_vertices;
+  if (entry->size != 0) {
+    return used == 0 && entry->vertices <= header.most_vertices &&
+           entry->offset >= pack_streams_start(header);
+  }
   for (uint32_t i = 0; i < kPackEntryBytes - kCheckBytes; ++i) used |= bytes[i];
   return used == 0;
+}
+
+// Whether a stream, of which the first bytes are given, begins as that of a tile: it has neither
+// placement nor notes, and reaches no farther than the tile.
+inline bool is_tile_start(const uint8_t* bytes, size_t size, const TileBox& box) {
+  if (size < kIdentityBytes) return false;
+  const uint8_t *next = bytes + kIdentityBytes, *const given = bytes + size;
+  uint32_t length = 0;
+  bool legal = true, more = true;
+  while (more && next != given) more = take_length(&length, *next++, &legal);
+  if (more || length > static_cast<size_t>(given - next)) return false;
+  const uint8_t *const end = next + length, *at = next;
+  uint64_t properties = 0;
+  Contract contract;
+  microtin_axis axis[3];
+  return read_varint(&at, end, &properties) && (properties & kHasPlacement) == 0 &&
+         read_header(&next, end, &contract, axis) && next == end &&
+         contract.x_max <= box.x_end - box.x && contract.y_max <= box.y_end - box.y;
 }
 
 // FNV-1a: tells which stream it is. A CRC-32 could not: over bytes that hold their own CRC-32, as

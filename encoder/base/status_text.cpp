@@ -31,6 +31,10 @@ const char* describe(microtin_status status) {
       return "workspace too small";
     case MICROTIN_ARGUMENT:
       return "wrong argument";
+    case MICROTIN_IO:
+      return "reading failed";
+    case MICROTIN_BAD_TILES:
+      return "bad tiles";
   }
   return "unknown status";
 }

@@ -1,4 +1,5 @@
-// Values as JSON.
+// Values as JSON. Not by a library: numbers keep the digits that std::to_chars gives them
+// ("1e+05"), and the bytes of .glb files are the same whatever version of a library is there.
 #ifndef MICROTIN_ENCODER_EXPORT_JSON_HPP
 #define MICROTIN_ENCODER_EXPORT_JSON_HPP
 

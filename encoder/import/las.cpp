@@ -1,4 +1,5 @@
 // LAS, the American Society for Photogrammetry and Remote Sensing's format for laser scans.
+// Ours: of its many fields four are read, as the integers that they are.
 #include <algorithm>
 #include <array>
 #include <sstream>

@@ -201,6 +201,7 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
       throw Error(describe(MICROTIN_CHECKSUM));
     }
     DecodedTerrain decoded(stream);
+    expect(is_tile_start(stream.data(), stream.size(), tile_box(header_.grid, number)));
     expect(microtin_vertex_count(decoded.mesh()) == entry.vertices);
     check_box(decoded.mesh(), tile_box(header_.grid, number));
     return std::optional<DecodedTerrain>(std::move(decoded));

@@ -1,4 +1,5 @@
 // Blends lines and boxes into pixels.
+// Ours: lines, boxes and letters are all; the pixels are the same whatever is installed.
 #include "encoder/picture/canvas.hpp"
 
 namespace microtin::picture {

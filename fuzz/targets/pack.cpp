@@ -61,16 +61,17 @@ struct Card {
   FuzzedDataProvider& faults;
   uint32_t reads = 0;
 
-  static size_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+  static int32_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
     Card& card = *static_cast<Card*>(context);
     EXPECT(size != 0 && size <= 128);
     ++card.reads;
     const uint8_t fault = card.faults.ConsumeIntegral<uint8_t>();  // 0 when there are no more
-    if (fault % 8 == 1 || offset >= card.size) return 0;
+    if (fault % 8 == 1) return -1 - fault;
+    if (offset >= card.size) return 0;
     const size_t most = fault % 8 == 2 ? 1 + fault / 8 : size;
     const size_t taken = std::min({size, most, card.size - static_cast<size_t>(offset)});
     std::memcpy(buffer, card.bytes + offset, taken);
-    return taken;
+    return static_cast<int32_t>(taken);
   }
 };
 
@@ -154,6 +155,18 @@ void check_to_lattice(const microtin_axis& axis, uint32_t most, int64_t value, u
   EXPECT(lattice >= 0 && lattice <= int64_t{most} * 256);
 }
 
+bool remembers_bad_tile(const microtin_pack* pack) {
+  uint32_t tile = 0, all = 0;
+  microtin_status why = MICROTIN_DONE;
+  for (uint32_t i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
+    if (microtin_pack_bad_tile(pack, i, &tile, &why) == 0) continue;
+    ++all;
+    EXPECT(why == MICROTIN_CHECKSUM || why == MICROTIN_MALFORMED || why == MICROTIN_TOO_BIG ||
+           why == MICROTIN_TRUNCATED);
+  }
+  return all != 0;
+}
+
 // Serves a course to its end, with interrupts between the calls.
 void serve(Card& card, microtin_pack* pack, const microtin_course& course, uint32_t step_limit) {
   microtin_status status = MICROTIN_STEP_LIMIT;
@@ -161,6 +174,10 @@ void serve(Card& card, microtin_pack* pack, const microtin_course& course, uint3
     EXPECT(call < 200000);
     const uint32_t reads = card.reads;
     status = microtin_pack_service(pack, &course, step_limit, Card::read, &card);
+    if (status == MICROTIN_IO) {
+      EXPECT(card.reads != reads);
+      continue;
+    }
     EXPECT(step_limit == 0 || card.reads <= reads + 1);
     if (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
       failed += status == MICROTIN_NEED_INPUT && step_limit == 0 ? 1u : 0u;
@@ -169,6 +186,7 @@ void serve(Card& card, microtin_pack* pack, const microtin_course& course, uint3
       continue;
     }
     if (status == MICROTIN_DONE) break;
+    if (status == MICROTIN_BAD_TILES) EXPECT(remembers_bad_tile(pack));
     ++failed;
   }
   int32_t height = 0;

@@ -7,6 +7,7 @@
 
 #include "fuzz/support/device.hpp"
 #include "fuzz/support/stream_mutator.hpp"
+#include "shared/digest.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/reference_heights.hpp"
 
@@ -104,6 +105,11 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   EXPECT(status != MICROTIN_DONE || answer != MICROTIN_NOT_VERIFIED);
   EXPECT(answer == MICROTIN_NOT_VERIFIED || mesh->verified_vertices == microtin_vertex_count(mesh));
   check_placement(mesh, data, size);
+  uint64_t digest = 0;
+  for (const reference::Corners& t : reference::real_triangles(mesh)) {
+    digest += triangle_digest(t.v, t.is_void);
+  }
+  EXPECT(microtin_digest(mesh) == digest);
   const MeshCopy copy(mesh);
   EXPECT(pairing_fault(copy.mesh).empty());
   check_heights(mesh, copy, asked);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "microtin/pack.hpp"
+#include "tests/support/forged_pack.hpp"
 #include "tests/support/packs.hpp"
 
 namespace microtin::tests {
@@ -21,11 +22,85 @@ Bytes pack_bytes(const Raster& raster, int64_t bound = 3, uint32_t vertices = 60
   return write_pack(encode_pack(raster, pack_options(bound, vertices)));
 }
 
+// A height in whole units by 128-bit numbers.
+int64_t in_units(int32_t z, const microtin_axis& axis) {
+  const Wide real = static_cast<Wide>(axis.numerator) * z + Wide{axis.offset} * 65536;
+  const Wide height = round_divide(real, static_cast<Wide>(axis.denominator) * 65536);
+  return static_cast<int64_t>(std::clamp<Wide>(height, INT16_MIN, INT16_MAX));
+}
+
 microtin_course course(Random& random, int64_t x_max, int64_t y_max) {
   const auto pick = [&](int64_t most) {
     return static_cast<int64_t>(random.below(static_cast<uint32_t>(most * 256 + 1)));
   };
   return {pick(x_max), pick(y_max), pick(x_max), pick(y_max)};
+}
+
+// Why a tile is bad; DONE if it is not known to be.
+microtin_status why_bad(const PackDevice& device, uint32_t tile) {
+  for (uint32_t i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
+    uint32_t number = 0;
+    microtin_status why = MICROTIN_DONE;
+    if (microtin_pack_bad_tile(device.pack, i, &number, &why) == 1 && number == tile) return why;
+  }
+  return MICROTIN_DONE;
+}
+
+uint32_t bad_tiles(const PackDevice& device) {
+  uint32_t all = 0, number = 0;
+  microtin_status why = MICROTIN_DONE;
+  for (uint32_t i = 0; i < 2 * MICROTIN_PACK_BAD_TILES; ++i) {
+    all += microtin_pack_bad_tile(device.pack, i, &number, &why) != 0 ? 1u : 0u;
+  }
+  return all;
+}
+
+// What a service says in the end; NEED_INPUT if there is none.
+microtin_status served(const PackDevice& device, Card& card, const microtin_course& course) {
+  for (int calls = 0; calls < 10000; ++calls) {
+    const microtin_status status = device.service(card, course, 100);
+    if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) return status;
+  }
+  return MICROTIN_NEED_INPUT;
+}
+
+// A row of flat tiles of two steps, each as high as its number.
+Bytes row_of_tiles(uint32_t tiles) {
+  std::vector<ForgedTile> row;
+  for (uint32_t i = 0; i < tiles; ++i) {
+    const int16_t z = static_cast<int16_t>(i);
+    row.push_back(forged_tile({{{0, 0, z}, {2, 0, z}, {0, 2, z}, {2, 2, z}}, {}}));
+  }
+  return forged_pack({2 * tiles, 2, 2, 2}, row);
+}
+
+size_t stream_at(const Bytes& pack, uint32_t tile) {
+  return static_cast<size_t>(PackFile(pack).entries()[tile].offset);
+}
+
+// Three vertices within 4 x 3 steps, in a stream whose header says that it reaches so far: found by
+// trying what payloads say.
+Bytes loose_stream(uint16_t x_max, uint16_t y_max) {
+  const Bytes header = write_header(Contract{3, x_max, y_max, kMinDegree, 2, false, false}, {});
+  for (uint32_t payload = 0; payload < 65536; ++payload) {
+    Bytes stream = header;
+    for (const uint32_t byte : {2u, payload >> 8, payload & 255u}) {
+      stream.push_back(static_cast<uint8_t>(byte));
+    }
+    append_check(stream, header.size());
+    const Device device(3);
+    if (device.decode(stream) != MICROTIN_DONE) continue;
+    bool fits = true;
+    for (uint32_t v = 0; v < 3; ++v) {
+      Point p{};
+      int16_t z = 0;
+      microtin_vertex(device.mesh, v, &p.x, &p.y, &z);
+      fits = fits && p.x <= 4 && p.y <= 3;
+    }
+    if (fits) return stream;
+  }
+  FAIL("there is no such stream");
+  return {};
 }
 
 }  // namespace
@@ -118,11 +193,196 @@ TEST_CASE("pack: every read fails in turn, and the next call goes on") {
     const PackDevice device(4);
     card.reads = 0;
     card.failing = failing;
-    CHECK(device.service(card, c) == MICROTIN_NEED_INPUT);
+    CHECK(device.service(card, c) == MICROTIN_IO);
+    CHECK(card.reads == failing + 1);
     int32_t height = 0;
     CHECK(device.height_at(c.x, c.y, height) == MICROTIN_NOT_DECODED);
     CHECK(device.service(card, c) == MICROTIN_DONE);
+    CHECK(card.reads == all + 1);  // only what failed is read again
     CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
+  }
+}
+
+TEST_CASE("pack: a pulled card is told at once, at any moment, and its return is enough") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const microtin_course c = at(30, 26);
+  for (uint32_t pulled = 0; pulled < 100; ++pulled) {
+    const PackDevice device(4);
+    card.is_pulled = false;
+    microtin_status status = MICROTIN_NEED_INPUT;
+    for (uint32_t call = 0; call < pulled && status != MICROTIN_DONE; ++call) {
+      status = device.service(card, c, 5);
+    }
+    if (status == MICROTIN_DONE) break;
+    card.is_pulled = true;
+    for (int call = 0; call < 100; ++call) {
+      status = device.service(card, c, 5);
+      if (status == MICROTIN_IO || status == MICROTIN_DONE) break;
+      REQUIRE(status == MICROTIN_STEP_LIMIT);  // it needs no bytes yet
+    }
+    if (status == MICROTIN_DONE) break;
+    CHECK(status == MICROTIN_IO);
+    CHECK(device.service(card, c, 5) == MICROTIN_IO);
+    CHECK(device.service(card, c) == MICROTIN_IO);
+    card.is_pulled = false;
+    CHECK(device.service(card, c) == MICROTIN_DONE);
+  }
+}
+
+TEST_CASE("pack: who puts bytes there by hand tells the same") {
+  const Bytes bytes = pack_bytes(rough_raster(61, 53));
+  const PackDevice device(4);
+  const microtin_course c = at(30, 26);
+  uint64_t offset = 0;
+  uint8_t* buffer = nullptr;
+  size_t size = 0;
+  microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+  REQUIRE(size == kPackFixedBytes);
+  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_NEED_INPUT);  // nothing is said yet
+  microtin_pack_given(device.pack, -7);
+  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_IO);
+  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_NEED_INPUT);  // told once
+  microtin_pack_given(device.pack, static_cast<int32_t>(size) + 1);         // more than was wanted
+  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_IO);
+  std::copy_n(bytes.begin(), 9, buffer);
+  microtin_pack_given(device.pack, 9);
+  microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+  CHECK(offset == 9);
+  CHECK(size == kPackFixedBytes - 9);
+  microtin_pack_given(device.pack, 0);
+  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_TRUNCATED);
+  microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+  CHECK(offset == 0);  // anew
+  microtin_status status = MICROTIN_NEED_INPUT;
+  for (int i = 0; i < 1000 && status == MICROTIN_NEED_INPUT; ++i) {
+    microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), size, buffer);
+    microtin_pack_given(device.pack, static_cast<int32_t>(size));
+    status = microtin_pack_prepare(device.pack, &c, 0);
+  }
+  CHECK(status == MICROTIN_DONE);
+  microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+  CHECK(size == 0);
+  microtin_pack_given(device.pack, 0);  // nothing was wanted: nothing is heard
+  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_DONE);
+}
+
+TEST_CASE("pack: bad tiles are passed over, told, and tried again when the caller says so") {
+  const Bytes good = row_of_tiles(6);
+  Card card{good};
+  card.bytes[stream_at(good, 0) + 20] ^= 1;
+  card.bytes[stream_at(good, 3) + 20] ^= 1;
+  const PackDevice device(6);
+  const microtin_course all = {0, 300, 12 * 256, 300};
+  CHECK(bad_tiles(device) == 0);
+  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(bad_tiles(device) == 2);
+  CHECK(why_bad(device, 0) == MICROTIN_CHECKSUM);
+  CHECK(why_bad(device, 3) == MICROTIN_CHECKSUM);
+  CHECK(why_bad(device, 1) == MICROTIN_DONE);
+  const auto answer = [&](int64_t x, int64_t y) {
+    int32_t height = 0;
+    return device.height_at(x, y, height);
+  };
+  CHECK(answer(256, 300) == MICROTIN_IN_BAD_TILE);
+  CHECK(answer(512, 300) == MICROTIN_HEIGHT);  // on the border, by the other tile
+  CHECK(answer(3 * 256, 300) == MICROTIN_HEIGHT);
+  CHECK(answer(7 * 256, 300) == MICROTIN_IN_BAD_TILE);
+  CHECK(answer(11 * 256, 300) == MICROTIN_HEIGHT);
+  int32_t highest = 0;
+  CHECK(microtin_pack_highest(device.pack, &all, &highest) == MICROTIN_IN_BAD_TILE);
+  CHECK(highest == 5 * 65536);
+  const microtin_course between = {512, 300, 6 * 256, 300}, along = {6 * 256, 0, 6 * 256, 512};
+  CHECK(microtin_pack_highest(device.pack, &between, &highest) == MICROTIN_HEIGHT);
+  CHECK(microtin_pack_highest(device.pack, &along, &highest) == MICROTIN_HEIGHT);
+  const uint32_t reads = card.reads;
+  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(card.reads == reads);
+  card.bytes = good;
+  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);  // not yet
+  CHECK(card.reads == reads);
+  microtin_pack_retry(device.pack);
+  CHECK(answer(256, 300) == MICROTIN_NOT_DECODED);
+  CHECK(device.service(card, all) == MICROTIN_DONE);
+  CHECK(answer(256, 300) == MICROTIN_HEIGHT);
+  CHECK(bad_tiles(device) == 0);
+  card.bytes[stream_at(good, 2) + 20] ^= 1;
+  microtin_pack_reset(device.pack);
+  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(bad_tiles(device) == 1);
+  microtin_pack_reset(device.pack);  // another card
+  CHECK(bad_tiles(device) == 0);
+  card.bytes = good;
+  CHECK(device.service(card, all) == MICROTIN_DONE);
+}
+
+TEST_CASE("pack: with a step limit, too, a bad tile is no stop, and is read once") {
+  const Bytes good = row_of_tiles(6);
+  Card card{good};
+  card.bytes[stream_at(good, 1) + 20] ^= 1;
+  card.most = 11;
+  const PackDevice device(6);
+  const microtin_course all = {0, 300, 12 * 256, 300};
+  microtin_status status = MICROTIN_NEED_INPUT;
+  uint32_t calls = 0;
+  for (; calls < 10000; ++calls) {
+    const uint32_t reads = card.reads;
+    status = device.service(card, all, 1);
+    REQUIRE(card.reads <= reads + 1);
+    if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) break;
+  }
+  CHECK(status == MICROTIN_BAD_TILES);
+  CHECK(why_bad(device, 1) == MICROTIN_CHECKSUM);
+}
+
+TEST_CASE("pack: more bad tiles than are remembered cost an attempt a service, never a stop") {
+  constexpr uint32_t kTiles = 20, kBad = 14;
+  const Bytes good = row_of_tiles(kTiles);
+  Card card{good};
+  for (uint32_t i = 0; i < kBad; ++i) card.bytes[stream_at(good, i) + 20] ^= 1;
+  const PackDevice device(kTiles);
+  const microtin_course all = {0, 300, kTiles * 512, 300};
+  CHECK(served(device, card, all) == MICROTIN_BAD_TILES);
+  for (uint32_t i = 0; i < kTiles; ++i) {
+    int32_t height = 0;
+    const microtin_answer expected = i >= kBad                     ? MICROTIN_HEIGHT
+                                     : i < MICROTIN_PACK_BAD_TILES ? MICROTIN_IN_BAD_TILE
+                                                                   : MICROTIN_NOT_DECODED;
+    CHECK(device.height_at(i * 512 + 256, 300, height) == expected);
+  }
+  uint32_t reads = card.reads;
+  CHECK(served(device, card, all) == MICROTIN_BAD_TILES);
+  CHECK(card.reads == reads + 2 * (kBad - MICROTIN_PACK_BAD_TILES));  // an entry and a stream each
+  // Those that are wanted no more make room for others.
+  const microtin_course behind = {(kBad - 2) * 512 + 256, 300, kTiles * 512, 300};
+  CHECK(served(device, card, behind) == MICROTIN_BAD_TILES);
+  CHECK(why_bad(device, kBad - 1) == MICROTIN_CHECKSUM);
+  CHECK(why_bad(device, kBad - 2) == MICROTIN_CHECKSUM);
+  reads = card.reads;
+  CHECK(served(device, card, behind) == MICROTIN_BAD_TILES);
+  CHECK(card.reads == reads);
+}
+
+TEST_CASE("pack: what is beyond the end is truncated, in the header and in tiles") {
+  const Bytes good = row_of_tiles(3);
+  const size_t header = pack_index_start(PackFile(good).header());
+  const auto cut = [&](size_t size) {
+    return Card{Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size))};
+  };
+  for (const uint32_t steps : {0u, 3u}) {
+    for (size_t size = 0; size < good.size(); ++size) {
+      Card card = cut(size);
+      const PackDevice device(3);
+      const microtin_course all = {0, 300, 6 * 256, 300};
+      microtin_status status = MICROTIN_NEED_INPUT;
+      for (int calls = 0; calls < 1000; ++calls) {
+        status = device.service(card, all, steps);
+        if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) break;
+      }
+      CHECK(status == (size < header ? MICROTIN_TRUNCATED : MICROTIN_BAD_TILES));
+      if (size >= header) CHECK(why_bad(device, 2) == MICROTIN_TRUNCATED);
+      if (size >= stream_at(good, 2)) CHECK(why_bad(device, 1) == MICROTIN_DONE);
+    }
   }
 }
 
@@ -134,17 +394,19 @@ TEST_CASE("pack: damaged, swapped and foreign bytes are told, and never answered
     const PackDevice device(4);
     const microtin_status status = device.service(card, at(30, 26));
     int32_t height = 0;
-    CHECK((device.height_at(30 * 256, 26 * 256, height) == MICROTIN_HEIGHT) ==
-          (status == MICROTIN_DONE));
+    const microtin_answer answer = device.height_at(30 * 256, 26 * 256, height);
+    CHECK((status == MICROTIN_DONE || status == MICROTIN_BAD_TILES) ==
+          (answer == MICROTIN_HEIGHT || answer == MICROTIN_IN_BAD_TILE));
+    if (status == MICROTIN_DONE) CHECK(answer == MICROTIN_HEIGHT);
     return status;
   };
   CHECK(status_of(good) == MICROTIN_DONE);
   CHECK(status_of(Bytes(good.size())) == MICROTIN_BAD_MAGIC);
-  CHECK(status_of({}) == MICROTIN_NEED_INPUT);
+  CHECK(status_of({}) == MICROTIN_TRUNCATED);
   const uint32_t index = pack_index_start(pack.header());
   Bytes zeros = good;
   std::fill(zeros.begin() + index, zeros.end(), uint8_t{0});
-  CHECK(status_of(zeros) == MICROTIN_CHECKSUM);
+  CHECK(status_of(zeros) == MICROTIN_BAD_TILES);
   // Every byte changed: all that matters for this place is noticed.
   uint32_t noticed = 0;
   for (size_t i = 0; i < good.size(); ++i) {
@@ -159,7 +421,8 @@ TEST_CASE("pack: damaged, swapped and foreign bytes are told, and never answered
     Card card{bytes};
     const PackDevice device(4);
     const TileBox box = tile_box(pack.grid(), tile);
-    return device.service(card, at(box.x + 1, box.y + 1)) == MICROTIN_CHECKSUM;
+    return device.service(card, at(box.x + 1, box.y + 1)) == MICROTIN_BAD_TILES &&
+           why_bad(device, tile) == MICROTIN_CHECKSUM;
   };
   Bytes swapped = good;
   std::swap_ranges(swapped.begin() + index, swapped.begin() + index + kPackEntryBytes,
@@ -220,8 +483,8 @@ TEST_CASE("pack: a tile of another tile's place is refused, whatever its checks"
   std::swap_ranges(bytes.end() - static_cast<std::ptrdiff_t>(2 * west.size()),
                    bytes.end() - static_cast<std::ptrdiff_t>(west.size()),
                    bytes.end() - static_cast<std::ptrdiff_t>(west.size()));
-  CHECK(status_of(1) == MICROTIN_CHECKSUM);
-  CHECK(status_of(7) == MICROTIN_CHECKSUM);
+  CHECK(status_of(1) == MICROTIN_BAD_TILES);
+  CHECK(status_of(7) == MICROTIN_BAD_TILES);
 }
 
 namespace {
@@ -279,7 +542,8 @@ TEST_CASE("pack: a query in an interrupt is right at any moment of the service")
 TEST_CASE("pack: too small slots, workspaces and wrong arguments") {
   Card card{pack_bytes(rough_raster(61, 53))};
   const PackDevice device(4, 10);
-  CHECK(device.service(card, at(30, 26)) == MICROTIN_TOO_BIG);
+  CHECK(device.service(card, at(1, 1)) == MICROTIN_BAD_TILES);
+  CHECK(why_bad(device, 0) == MICROTIN_TOO_BIG);
   CHECK(device.service(card, {0, 0, int64_t{1} << 24, 0}) == MICROTIN_ARGUMENT);
   CHECK(device.service(card, {int64_t{1} << 41, 0, int64_t{1} << 41, 0}) == MICROTIN_ARGUMENT);
   CHECK(device.service(card, at(-500, 9999)) == MICROTIN_DONE);  // no tile is there
@@ -346,16 +610,179 @@ TEST_CASE("pack: a block of heights in whole units") {
     int32_t z = 0;
     const microtin_answer here =
         device.height_at(block.x + i % 20 * 512, block.y + i / 20 * 384, z);
-    const double real =
-        (static_cast<double>(info.z.numerator) * z / 65536.0 + static_cast<double>(info.z.offset)) /
-        static_cast<double>(info.z.denominator);
     const int16_t found = heights[static_cast<size_t>(i)];
-    if (here == MICROTIN_HEIGHT) {
-      CHECK(std::abs(found - real) <= 0.5);
-    } else {
-      CHECK(found == -999);
-    }
+    CHECK(found == (here == MICROTIN_HEIGHT ? in_units(z, info.z) : -999));
   }
+}
+
+TEST_CASE("pack: heights of a block are rounded to nearest, halves up, and kept within 16 bits") {
+  const auto fill = [](const Axis& axis, int16_t west, int16_t east) {
+    Metadata metadata;
+    metadata.placement.z = axis;
+    Card card{forged_pack(
+        {4, 4, 4, 4}, {forged_tile({{{0, 0, west}, {4, 0, east}, {0, 4, west}, {4, 4, east}}, {}})},
+        metadata)};
+    const PackDevice device(1);
+    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+    microtin_pack_info info;
+    REQUIRE(microtin_pack_header(device.pack, &info) == 1);
+    std::vector<int16_t> heights(257);
+    const microtin_block block{0, 128, 4, 0, 257, 1, 0};
+    REQUIRE(microtin_pack_fill(device.pack, &block, heights.data()) == MICROTIN_HEIGHT);
+    for (int64_t i = 0; i < 257; ++i) {
+      int32_t z = 0;
+      REQUIRE(device.height_at(4 * i, 128, z) == MICROTIN_HEIGHT);
+      CHECK(heights[static_cast<size_t>(i)] == in_units(z, info.z));
+    }
+    return std::make_pair(heights.front(), heights.back());
+  };
+  using Ends = std::pair<int16_t, int16_t>;
+  CHECK(fill({0, 1, 1}, -100, 100) == Ends(-100, 100));
+  CHECK(fill({0, 1, 2}, -3, 3) == Ends(-1, 2));
+  CHECK(fill({0, 10, 1}, -32768, 32767) == Ends(-32768, 32767));
+  CHECK(fill({32767, 1, 1}, 0, 1) == Ends(32767, 32767));
+  CHECK(fill({-32768, 1, 1}, -1, 0) == Ends(-32768, -32768));
+  CHECK(fill({-32770, 3, 1}, -1, 1) == Ends(-32768, -32767));
+  const int64_t far = int64_t{1} << 45;
+  CHECK(fill({far, 1, 1}, 0, 1) == Ends(32767, 32767));
+  CHECK(fill({-far, (1u << 31) - 1, 1}, 0, 1) == Ends(-32768, -32768));
+  CHECK(fill({far - 7, 1, (int64_t{1} << 40) - 1}, -32768, 32767) == Ends(32, 32));
+}
+
+TEST_CASE("pack: a block tells the last reason, or that a tile is missing, and needs a header") {
+  Card card{forged_pack({8, 4, 4, 4}, {forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, {}}), {}})};
+  const PackDevice device(2);
+  std::vector<int16_t> heights(3);
+  const auto fill = [&](int64_t x, int64_t y, int32_t dx, uint16_t columns) {
+    std::fill(heights.begin(), heights.end(), int16_t{0});
+    const microtin_block block{x * 256, y * 256, dx * 256, 0, columns, 1, -9};
+    return microtin_pack_fill(device.pack, &block, heights.data());
+  };
+  const std::vector<int16_t> missing{-9, -9, -9}, untouched{0, 0, 0};
+  CHECK(fill(1, 1, 1, 3) == MICROTIN_NOT_DECODED);
+  CHECK(heights == missing);
+  REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+  CHECK(fill(0, 0, 1, 3) == MICROTIN_HEIGHT);
+  CHECK(heights == std::vector<int16_t>{1, 1, 2});
+  CHECK(fill(-3, 3, 6, 2) == MICROTIN_IN_VOID);  // outside, void
+  CHECK(fill(3, 3, -6, 2) == MICROTIN_OUTSIDE);
+  CHECK(fill(-3, 3, 4, 2) == MICROTIN_OUTSIDE);  // outside, a height
+  CHECK(fill(5, 1, 4, 2) == MICROTIN_NOT_DECODED);
+  CHECK(heights[0] == -9);
+  CHECK(fill(-3, 1, 9, 2) == MICROTIN_NOT_DECODED);
+  CHECK(fill((int64_t{1} << 32) + 1, 1, 1, 3) == MICROTIN_OUTSIDE);
+  CHECK(heights == untouched);
+}
+
+TEST_CASE("pack: a placement that is not verified is not used") {
+  Metadata metadata;
+  metadata.placement.z = {0, uint64_t{1} << 31, 1};
+  Card card{
+      forged_pack({4, 4, 4, 4}, {forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, {}})}, metadata)};
+  const PackDevice device(1);
+  int16_t height = 5;
+  const microtin_block block{256, 256, 0, 0, 1, 1, -9};
+  for (int calls = 0; calls < 1000; ++calls) {
+    microtin_pack_info info;
+    if (microtin_pack_header(device.pack, &info) != 0) break;
+    height = 5;
+    REQUIRE(microtin_pack_fill(device.pack, &block, &height) == MICROTIN_NOT_DECODED);
+    REQUIRE(height == -9);
+    card.most = 1;
+    device.service(card, at(1, 1), 1);
+  }
+  REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+  height = 5;
+  CHECK(microtin_pack_fill(device.pack, &block, &height) == MICROTIN_OUTSIDE);  // too coarse
+  CHECK(height == 5);
+}
+
+TEST_CASE("pack: headers that break a rule are malformed, damaged ones are told as such") {
+  const Bytes good = row_of_tiles(2);
+  const auto status_of = [](const Bytes& bytes) {
+    Card card{bytes};
+    const PackDevice device(2);
+    return device.service(card, at(1, 1));
+  };
+  const auto with = [&](size_t at, uint8_t value) {
+    Bytes bytes = good;
+    bytes[at] = value;
+    const size_t index = pack_index_start(PackFile(good).header());
+    put_number(bytes, index - 4, crc32(0, bytes.data(), index - 4), 4);
+    return bytes;
+  };
+  CHECK(status_of(good) == MICROTIN_DONE);
+  CHECK(status_of(with(0, 'M')) == MICROTIN_BAD_MAGIC);
+  CHECK(status_of(with(4, kPackVersion + 1)) == MICROTIN_UNSUPPORTED_VERSION);
+  for (const size_t at : {5u, 7u, 18u, 19u}) CHECK(status_of(with(at, 1)) == MICROTIN_MALFORMED);
+  CHECK(status_of(with(6, 67)) == MICROTIN_MALFORMED);
+  for (const size_t at : {10u, 12u, 20u, 24u}) CHECK(status_of(with(at, 0)) == MICROTIN_MALFORMED);
+  for (const size_t at : {23u, 27u}) CHECK(status_of(with(at, 128)) == MICROTIN_MALFORMED);
+  CHECK(status_of(with(30, 255)) == MICROTIN_BAD_TILES);  // entries are of the header before
+  CHECK(status_of(with(31, 1)) == MICROTIN_MALFORMED);    // above 2^24 vertices
+  for (size_t at = 8; at < pack_index_start(PackFile(good).header()); ++at) {
+    Bytes damaged = good;
+    damaged[at] ^= 4;
+    const microtin_status status = status_of(damaged);
+    CHECK(status != MICROTIN_DONE);
+    CHECK(status != MICROTIN_BAD_TILES);
+  }
+}
+
+TEST_CASE("pack: tiles that break a rule are refused, here and on the host") {
+  const Tin fits{{{0, 0, 1}, {4, 0, 2}, {0, 3, 3}, {4, 3, 4}}, {}};
+  const ForgedTile good = forged_tile(fits);
+  const TileGrid grid = {8, 3, 4, 3};
+  const auto check = [&](const Bytes& bytes, microtin_status expected) {
+    Card card{bytes};
+    const PackDevice device(2);
+    CHECK(device.service(card, at(6, 1)) ==
+          (expected == MICROTIN_DONE ? MICROTIN_DONE : MICROTIN_BAD_TILES));
+    CHECK(why_bad(device, 1) == expected);
+    const auto read = [&] { PackFile(bytes).tile(1); };
+    if (expected == MICROTIN_DONE) {
+      CHECK_NOTHROW(read());
+    } else {
+      CHECK_THROWS_AS(read(), Error);
+    }
+  };
+  const auto refuse = [&](const ForgedTile& tile) {
+    check(forged_pack(grid, {good, tile}), MICROTIN_MALFORMED);
+  };
+  check(forged_pack(grid, {good, good}), MICROTIN_DONE);
+  refuse(forged_tile({{{0, 0, 1}, {5, 0, 2}, {0, 3, 3}}, {}}));  // too far to the east
+  refuse(forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, {}}));  // and to the north
+  refuse({good.stream, good.vertices + 1});
+  refuse({good.stream, good.vertices - 1});
+  Bytes few = forged_pack(grid, {good, good});  // more than the header says of any tile
+  put_number(few, 28, good.vertices - 1, 4);
+  repair_checks(few);
+  check(few, MICROTIN_MALFORMED);
+  Metadata placed, noted;
+  placed.placement.x = {1, 1, 1};
+  noted.source = "here";
+  refuse({encode(fits, placed), good.vertices});
+  refuse({encode(fits, noted), good.vertices});
+  // The header claims more than the vertices need.
+  check(forged_pack(grid, {good, {loose_stream(4, 3), 3}}), MICROTIN_DONE);
+  refuse({loose_stream(5, 3), 3});
+  refuse({loose_stream(4, 4), 3});
+  // A stream inside the notes: all its checks pass.
+  Metadata notes;
+  notes.source = std::string(good.stream.begin(), good.stream.end());
+  Bytes inside = forged_pack(grid, {good, good}, notes);
+  const size_t entry = static_cast<size_t>(pack_entry_start(PackFile(inside).header(), 1));
+  const auto found =
+      std::search(inside.begin(), inside.end(), good.stream.begin(), good.stream.end());
+  REQUIRE(found - inside.begin() < static_cast<std::ptrdiff_t>(entry));
+  put_number(inside, entry, static_cast<uint64_t>(found - inside.begin()), 5);
+  repair_checks(inside);
+  check(inside, MICROTIN_MALFORMED);
+  Bytes last = forged_pack(grid, {good, good});  // the first place where a stream may be
+  put_number(last, static_cast<size_t>(pack_entry_start(PackFile(last).header(), 1)),
+             pack_streams_start(PackFile(last).header()), 5);
+  repair_checks(last);
+  check(last, MICROTIN_DONE);
 }
 
 TEST_CASE("pack: real coordinates become places, exactly rounded") {
@@ -435,21 +862,25 @@ TEST_CASE("pack: far from the origin, in the largest extent") {
   put(20, kPackExtentMost, 4);
   put(24, kPackExtentMost, 4);
   put(index - 4, crc32(0, head.data(), index - 4), 4);
+  const uint64_t streams = index + tiles * kPackEntryBytes;
+  put(index, streams, 5);
   const uint32_t number = static_cast<uint32_t>(tiles - 1);
   put(index + 24, pack_entry_check(read_u32(head.data() + index - 4), number, head.data() + index),
       4);
   struct FarCard {
     Bytes bytes;
-    uint64_t entry, index;
-    static size_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+    uint64_t entry, index, streams;
+    static int32_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
       const FarCard& card = *static_cast<FarCard*>(context);
-      const uint64_t from = offset >= card.entry ? offset - card.entry + card.index : offset;
+      const uint64_t from = offset >= card.streams ? offset - card.streams + card.index + 28
+                            : offset >= card.entry ? offset - card.entry + card.index
+                                                   : offset;
       if (from >= card.bytes.size()) return 0;
       const size_t taken = std::min(size, card.bytes.size() - static_cast<size_t>(from));
       std::memcpy(buffer, card.bytes.data() + from, taken);
-      return taken;
+      return static_cast<int32_t>(taken);
     }
-  } card{head, index + uint64_t{number} * kPackEntryBytes, index};
+  } card{head, index + uint64_t{number} * kPackEntryBytes, index, streams};
   const PackDevice device(4, 400);
   const int64_t corner = int64_t{32768} * 65535 * 256;
   const microtin_course c{corner + 5 * 256, corner + 7 * 256, corner + 25 * 256, corner + 9 * 256};

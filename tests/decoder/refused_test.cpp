@@ -170,11 +170,13 @@ Bytes valid_stream_that_ends_in_zeros() {
   return forge(border_contract(kLargest), AllVoid(Plan{border_seed(kLargest), {kLargest - 1u}}));
 }
 
-// One step of height too much: the last bit is its sign.
-Bytes with_high_vertex() {
+// One step of height too much, behind a vertex of height z, the highest or lowest: the last bit is
+// its sign.
+Bytes with_vertex_beyond(int16_t z) {
   Contract contract = flat_contract(3);
   contract.has_heights = true;
-  const Plan plan{{kSeed[0], {90, 10, 32767}, {10, 90, 32766}}, {}};
+  const int16_t within = static_cast<int16_t>(z < 0 ? z + 1 : z - 1);
+  const Plan plan{{kSeed[0], {90, 10, z}, {10, 90, within}}, {}};
   OppositeBit valid(plan, UINT32_MAX);
   forge(contract, valid);
   return forge(contract, OppositeBit(plan, valid.bits - 1));
@@ -288,7 +290,8 @@ void add_symbols(Refused& all) {
   all["malformed_seed_on_a_line"] =
       forge(three, PlanCoder(Plan{{{1, 1, 0}, {2, 2, 0}, {4, 4, 0}}, {}}));
   all["malformed_seed_order"] = forge(three, PlanCoder(Plan{{kSeed[1], kSeed[2], kSeed[0]}, {}}));
-  all["malformed_height"] = with_high_vertex();
+  all["malformed_height"] = with_vertex_beyond(32767);
+  all["malformed_height_low"] = with_vertex_beyond(-32768);
   all["malformed_batch_empty"] = forge(five, EmptyBatch(kInside));
   all["malformed_walk_ends"] = forge(four, NoHits(kInside));
   all["malformed_work"] = forge(sixty, Tireless(scattered(60)));
@@ -345,6 +348,40 @@ TEST_CASE("a vertex that must be refused is not inserted first") {
     CHECK(device.decode(refused.second) == MICROTIN_MALFORMED);
     CHECK(device.vertices() == info.vertices - 1);
   }
+}
+
+TEST_CASE("the work of all phases is bounded to the vertex") {
+  // One phase up to `first` vertices and then one vertex a phase: how far `last` is over the bound.
+  const auto excess = [](uint32_t first, uint32_t last) {
+    uint32_t work = first;
+    for (uint32_t n = first + 1; n <= last; ++n) work += n;
+    return static_cast<int64_t>(work) - work_budget(last);
+  };
+  const auto stream = [](uint32_t first, uint32_t last) {
+    Plan plan = scattered(last);
+    plan.batches.assign(last - first, 1);
+    plan.batches.insert(plan.batches.begin(), first - 3);
+    Contract contract = flat_contract(last);
+    contract.degree = kMaxDegree;
+    return forge(contract, Tireless(std::move(plan)));
+  };
+  bool met = false, exceeded = false;
+  for (uint32_t first = 4; first < 200 && !(met && exceeded); ++first) {
+    uint32_t last = first + 1;
+    while (excess(first, last + 1) <= 0) ++last;
+    if (!met && excess(first, last) == 0) {
+      met = true;
+      CHECK(Device(kCapacity).decode(stream(first, last)) == MICROTIN_DONE);
+    }
+    if (!exceeded && excess(first, last + 1) == 1) {
+      exceeded = true;
+      const Device device(kCapacity);
+      CHECK(device.decode(stream(first, last + 1)) == MICROTIN_MALFORMED);
+      CHECK(device.vertices() == last);
+    }
+  }
+  CHECK(met);
+  CHECK(exceeded);
 }
 
 TEST_CASE("what is refused is one rule away from what is not") {

@@ -28,9 +28,14 @@ USES = {"decoding": DECODING, "queries": DECODING + QUERIES, "buckets": DECODING
 # --- Measuring ------------------------------------------------------------------------------------
 
 
+def symbol(options, entry):
+    """A function's name in the library: those to which the width of numbers matters tell it."""
+    return f"microtin_{entry}_{options.bits}" if entry == "peek" or entry.endswith("_init") else "microtin_" + entry
+
+
 def link(options, library, entries, image):
     """Links what some entries need of a library, the compiler's helpers included, and nothing else."""
-    names = ["microtin_" + entry for entry in entries]
+    names = [symbol(options, entry) for entry in entries]
     command = [*options.compiler.split(), "-nostdlib", "-Wl,--gc-sections", library, "-o", image]
     if options.target == "wasm32":
         command += ["-fuse-ld=lld", "-Wl,--no-entry,--allow-undefined,--strip-all"]
@@ -68,7 +73,7 @@ def measure_library(options, library):
         graphs = [graph for graph in graphs if Path(graph).exists()]
         calls = stack.Stack(options.target, options.objdump, image, graphs)
         for use, entries in (("decoding", DECODING), ("queries", QUERIES), ("buckets", BUCKETS)):
-            result["stack_" + use] = max(calls.depth("microtin_" + entry) for entry in entries)
+            result["stack_" + use] = max(calls.depth(symbol(options, entry)) for entry in entries)
     return result
 
 
@@ -253,6 +258,7 @@ def arguments():
         one.add_argument("--" + name, required=True)
     one.add_argument("--build", required=True, type=Path)
     one.add_argument("--stack", action="store_true")
+    one.add_argument("--bits", required=True, help="width of the library's numbers")
     one.add_argument("--images", help="the start of their paths: level and stream follow")
     one.add_argument("--run", help="the emulator's command")
     one.add_argument("--counting", help="its options for counting")

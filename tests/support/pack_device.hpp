@@ -23,14 +23,17 @@ struct Card {
   size_t most = 1000;      // bytes given at a time
   uint32_t failing = ~0u;  // number of the read that fails
   uint32_t reads = 0;
+  bool is_pulled = false;  // every read fails
 
-  static size_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+  static int32_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
     Card& card = *static_cast<Card*>(context);
-    if (card.reads++ == card.failing || offset >= card.bytes.size()) return 0;
+    if (size < 1 || size > 128 || card.reads > 200000) FAIL("a read too large, or one too many");
+    if (card.reads++ == card.failing || card.is_pulled) return -1;
+    if (offset >= card.bytes.size()) return 0;
     const size_t left = card.bytes.size() - static_cast<size_t>(offset);
     const size_t taken = std::min({size, left, card.most});
     std::memcpy(buffer, card.bytes.data() + offset, taken);
-    return taken;
+    return static_cast<int32_t>(taken);
   }
 };
 

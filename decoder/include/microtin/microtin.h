@@ -25,7 +25,8 @@
 #define MICROTIN_VERSION_PATCH 0
 
 /* Width of vertex and half-edge numbers, fixed when the library is built; the user's code must be
- * compiled with the same value. 16 bits reach 10,923 vertices, 32 bits the format's 2^24. */
+ * compiled with the same value, or will not link. 16 bits reach 10,923 vertices, 32 bits the
+ * format's 2^24. */
 #ifndef MICROTIN_INDEX_BITS
 #define MICROTIN_INDEX_BITS 32
 #endif
@@ -53,6 +54,19 @@
 /* Bytes of the buckets of microtin_buckets_init: a constant expression, side * side numbers. */
 #define MICROTIN_BUCKETS_BYTES(side) (20ul + MICROTIN_INDEX_BITS / 8 * 1ul * (side) * (side))
 
+/* Functions to which the width matters have it in the names that the linker sees. */
+#if MICROTIN_INDEX_BITS == 16
+#define microtin_peek microtin_peek_16
+#define microtin_mesh_init microtin_mesh_init_16
+#define microtin_decoder_init microtin_decoder_init_16
+#define microtin_buckets_init microtin_buckets_init_16
+#else
+#define microtin_peek microtin_peek_32
+#define microtin_mesh_init microtin_mesh_init_32
+#define microtin_decoder_init microtin_decoder_init_32
+#define microtin_buckets_init microtin_buckets_init_32
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -71,7 +85,10 @@ typedef enum microtin_status {
   MICROTIN_TRUNCATED = 21,           /* microtin_finish: the stream ends too early */
   MICROTIN_MISALIGNED = 22,          /* a workspace is not aligned to MICROTIN_ALIGNMENT */
   MICROTIN_WORKSPACE_TOO_SMALL = 23, /* a workspace cannot hold even three vertices */
-  MICROTIN_ARGUMENT = 24             /* a null pointer or a number out of range */
+  MICROTIN_ARGUMENT = 24,            /* a null pointer or a number out of range */
+  /* Of packs alone. */
+  MICROTIN_IO = 25,       /* reading failed; nothing is lost, and the next call tries again */
+  MICROTIN_BAD_TILES = 26 /* all tiles are there but bad ones: see microtin_pack_bad_tile */
 } microtin_status;
 
 /* One axis: the real coordinate of lattice value k is (offset + numerator * k) / denominator units.
@@ -182,7 +199,8 @@ typedef enum microtin_answer {
   MICROTIN_IN_VOID = 2,      /* inside, but the terrain is not known there */
   MICROTIN_NOT_DECODED = 3,  /* the mesh is empty */
   MICROTIN_NOT_VERIFIED = 4, /* the mesh holds vertices whose check has not passed yet */
-  MICROTIN_NOT_YET = 5       /* the steps allowed for this call are used up; call again */
+  MICROTIN_NOT_YET = 5,      /* the steps allowed for this call are used up; call again */
+  MICROTIN_IN_BAD_TILE = 6   /* of packs alone: a tile that is needed is damaged or breaks a rule */
 } microtin_answer;
 
 #define MICROTIN_ANSWER_UNVERIFIED 1u /* flag: answer from vertices not yet verified too */
@@ -224,7 +242,8 @@ uint32_t microtin_buckets_hint(const microtin_buckets* buckets, int32_t x, int32
 
 /* --- Real units --- */
 
-/* The placement of the decoded stream's axes; offset 0 and step 1 before. O(1). */
+/* The placement of the decoded stream's axes; offset 0 and step 1 before its header's check has
+ * passed. O(1). */
 void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
                         microtin_axis* z);
 

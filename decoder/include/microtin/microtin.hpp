@@ -7,16 +7,19 @@
 namespace microtin {
 
 // A terrain of up to Capacity vertices. Queries live here; see microtin.h for units and costs.
+// Should its initialisation fail, status tells why, as does feeding its decoder, and nothing else
+// may be called.
 template <uint32_t Capacity>
 class Terrain {
   static_assert(Capacity >= 3, "a terrain has at least three vertices");
   static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
 
  public:
-  Terrain() { microtin_mesh_init(storage_, sizeof storage_, &mesh_); }
+  Terrain() : mesh_(nullptr), status_(microtin_mesh_init(storage_, sizeof storage_, &mesh_)) {}
   Terrain(const Terrain&) = delete;
   Terrain& operator=(const Terrain&) = delete;
 
+  microtin_status status() const { return status_; }
   microtin_mesh* mesh() { return mesh_; }
   const microtin_mesh* mesh() const { return mesh_; }
 
@@ -32,34 +35,44 @@ class Terrain {
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_MESH_BYTES(Capacity)];
   microtin_mesh* mesh_;
+  microtin_status status_;  // of its initialisation
 };
 
-// The state needed while decoding a terrain of up to Capacity vertices.
+// The state needed while decoding a terrain of up to Capacity vertices. Should its initialisation,
+// or the terrain's, fail, status, feed and finish tell why, and nothing else may be called.
 template <uint32_t Capacity>
 class Decoder {
   static_assert(Capacity >= 3, "a terrain has at least three vertices");
   static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
 
  public:
-  explicit Decoder(microtin_mesh* mesh) {
-    microtin_decoder_init(storage_, sizeof storage_, mesh, &decoder_);
-  }
+  explicit Decoder(microtin_mesh* mesh)
+      : decoder_(nullptr),
+        status_(microtin_decoder_init(storage_, sizeof storage_, mesh, &decoder_)) {}
   template <uint32_t MeshCapacity>
-  explicit Decoder(Terrain<MeshCapacity>& target) : Decoder(target.mesh()) {}
+  explicit Decoder(Terrain<MeshCapacity>& target) : Decoder(target.mesh()) {
+    if (target.status() != MICROTIN_DONE) status_ = target.status();
+  }
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
 
+  microtin_status status() const { return status_; }
   void stop_after_phase(uint32_t phase) { microtin_stop_after_phase(decoder_, phase); }
   microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t step_limit = 0) {
-    return microtin_feed(decoder_, bytes, size, step_limit, used);
+    if (status_ == MICROTIN_DONE) return microtin_feed(decoder_, bytes, size, step_limit, used);
+    *used = 0;
+    return status_;
   }
-  microtin_status finish() { return microtin_finish(decoder_); }
+  microtin_status finish() {
+    return status_ == MICROTIN_DONE ? microtin_finish(decoder_) : status_;
+  }
   uint32_t phase() const { return microtin_phase(decoder_); }
   uint64_t bytes_used() const { return microtin_bytes_used(decoder_); }
 
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_DECODER_BYTES(Capacity)];
   microtin_decoder* decoder_;
+  microtin_status status_;  // of its initialisation
 };
 
 // Hints for places anywhere in a terrain, from Side x Side buckets.

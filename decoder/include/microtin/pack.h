@@ -23,12 +23,18 @@
 #define MICROTIN_PACK_BYTES(slots, capacity) \
   MICROTIN_PACK_BYTES_FOR(slots, capacity, MICROTIN_INDEX_BITS)
 #define MICROTIN_PACK_BYTES_FOR(slots, capacity, bits)                       \
-  (400ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
+  (512ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
    (slots) * (24ul + MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits))))
 #define MICROTIN_PACK_ROUND(bytes) (((bytes) + 7ul) / 8 * 8)
 
 #ifdef __cplusplus
 extern "C" {
+#endif
+
+#if MICROTIN_INDEX_BITS == 16 /* see microtin.h */
+#define microtin_pack_init microtin_pack_init_16
+#else
+#define microtin_pack_init microtin_pack_init_32
 #endif
 
 typedef struct microtin_pack microtin_pack;
@@ -38,7 +44,7 @@ typedef struct microtin_pack microtin_pack;
 microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
                                    microtin_pack** pack);
 
-/* Forgets all tiles and the header, as after microtin_pack_init: another card. */
+/* Forgets all tiles, bad ones too, and the header, as after microtin_pack_init: another card. */
 void microtin_pack_reset(microtin_pack* pack);
 
 /* A straight way, or a place if both ends are the same. Each end within +-2^40, and less than 65536
@@ -49,9 +55,9 @@ typedef struct microtin_course {
 
 /* --- Reading and decoding. --- */
 
-/* Reads up to `size` bytes of the pack at `offset` into `buffer` and returns how many: fewer if no
- * more are at hand, 0 if reading failed. */
-typedef size_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer, size_t size);
+/* Reads up to `size` bytes (1 .. 128) of the pack at `offset` into `buffer`. Returns how many, at
+ * least one; 0 if the pack ends there; a negative number if reading failed. */
+typedef int32_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer, size_t size);
 
 /* Works towards having every tile that touches the course, first those where it begins, at most
  * `step_limit` decoding steps (as of microtin_feed) and one wish for input. The same course, or
@@ -59,14 +65,16 @@ typedef size_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer,
  *   DONE                 they are there: queries on the course have answers
  *   NEED_INPUT           bytes are wanted: see microtin_pack_wanted
  *   STEP_LIMIT           call again
- *   BAD_MAGIC, UNSUPPORTED_VERSION, MALFORMED   header or index are not those of a pack
- *   CHECKSUM             what was read is damaged, or is another tile's or another pack's
- *   TOO_BIG              a tile has more vertices than a slot holds
+ *   BAD_TILES            they are there but for bad ones: see microtin_pack_bad_tile
+ *   IO                   reading failed; the same bytes stay wanted
  *   WORKSPACE_TOO_SMALL  the course touches more tiles than there are slots; some are there
  *   ARGUMENT             a null pointer, or too long a course
- * After an error the next call begins anew: errors of storage may pass. Tiles that are there stay
- * until their slots are needed. Besides the steps, O(columns + rows of tiles in the course's
- * bounding box + slots^2).
+ * Of the header:
+ *   BAD_MAGIC, UNSUPPORTED_VERSION, MALFORMED   it is not that of a pack
+ *   CHECKSUM             it is damaged
+ *   TRUNCATED            the pack ends within it
+ * After these the next call begins anew. Tiles that are there stay until their slots are needed.
+ * Besides the steps, O(columns + rows of tiles in the course's bounding box + slots^2).
  */
 microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course* course,
                                       uint32_t step_limit);
@@ -74,12 +82,14 @@ microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course
 /* Where the wanted bytes are, and where to put them; *size is 0 if none are wanted. */
 void microtin_pack_wanted(microtin_pack* pack, uint64_t* offset, uint8_t** buffer, size_t* size);
 
-/* So many of the wanted bytes, the first ones, have been put there; the rest stays wanted. */
-void microtin_pack_given(microtin_pack* pack, size_t size);
+/* What became of them, as microtin_read returns it: so many, the first ones, have been put there,
+ * and the rest stays wanted; 0: the pack ends there; negative, or more than were wanted: reading
+ * failed. The next microtin_pack_prepare tells. Nothing has to be said while one waits for bytes.
+ */
+void microtin_pack_given(microtin_pack* pack, int32_t taken);
 
-/* Both together, with a function that reads. With a step limit at most one read (of 128 bytes at
- * most) and so many steps; without (0) all that is needed. NEED_INPUT: call again; it also says
- * that reading failed, and that the next call will try the same again. */
+/* All together, with a function that reads. With a step limit at most one read (of 128 bytes at
+ * most) and so many steps, and on NEED_INPUT call again; without (0) all that is needed. */
 static inline microtin_status microtin_pack_service(microtin_pack* pack,
                                                     const microtin_course* course,
                                                     uint32_t step_limit, microtin_read read,
@@ -91,15 +101,31 @@ static inline microtin_status microtin_pack_service(microtin_pack* pack,
     size_t size;
     if (pack == 0 || read == 0) return MICROTIN_ARGUMENT;
     microtin_pack_wanted(pack, &offset, &buffer, &size);
-    if (size != 0) {
-      const size_t taken = read(context, offset, buffer, size);
-      if (taken == 0 || taken > size) return MICROTIN_NEED_INPUT;
-      microtin_pack_given(pack, taken);
-    }
+    if (size != 0) microtin_pack_given(pack, read(context, offset, buffer, size));
     status = microtin_pack_prepare(pack, course, step_limit);
     if (status != MICROTIN_NEED_INPUT || step_limit != 0) return status;
   }
 }
+
+/* --- Bad tiles: damaged, breaking a rule, another pack's, beyond the end, or too big for a slot.
+ * They are passed over and not tried again while they are remembered. --- */
+
+/* So many are remembered: of more, those that were wanted last. Where one course touches more, the
+ * others cost an attempt each time it is served to its end. */
+#define MICROTIN_PACK_BAD_TILES 8
+
+/* Place `i` < MICROTIN_PACK_BAD_TILES, in no order: returns 1 if a bad tile is remembered there,
+ * with its number and
+ *   CHECKSUM    what was read is damaged, or is another tile's or another pack's
+ *   MALFORMED   it is undamaged and breaks a rule
+ *   TOO_BIG     it has more vertices than a slot holds
+ *   TRUNCATED   the pack ends before it does
+ * else 0. */
+int microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile,
+                           microtin_status* why);
+
+/* Forgets the bad tiles, so that they are tried again. */
+void microtin_pack_retry(microtin_pack* pack);
 
 /* --- What the header says; valid once microtin_pack_prepare got past it. --- */
 
@@ -121,18 +147,19 @@ int microtin_pack_to_lattice(const microtin_axis* axis, uint32_t most, int64_t v
                              uint32_t per_unit, int64_t* lattice);
 
 /* --- Queries. NOT_DECODED: a tile that is needed is not there; ask microtin_pack_prepare for it.
- * OUTSIDE: (partly) outside 0 .. 256 * largest x or y. IN_VOID: the terrain is not known there. ---
- */
+ * IN_BAD_TILE: none is missing but bad ones. OUTSIDE: (partly) outside 0 .. 256 * largest x or y.
+ * IN_VOID: the terrain is not known there. --- */
 
 /* As microtin_height_at: z steps with 16 fractional bits. A place on a border has the height that
  * any of its tiles knows. At most four times the steps of microtin_height_at. */
 microtin_answer microtin_pack_height_at(const microtin_pack* pack, int64_t x, int64_t y,
                                         uint32_t* hint, int32_t* height);
 
-/* The greatest height on the course: exact, rounded once, found where it crosses edges. IN_VOID: a
- * part of the course is not known; *height is that of the rest, INT32_MIN if there is none. Looks
- * at every triangle of the tiles that the course touches. OUTSIDE: also of a course that is too
- * long. */
+/* The greatest height on the course: exact, rounded once, found where it crosses edges. HEIGHT:
+ * every place of it, its ends and those between lattice places too, has a height by
+ * microtin_pack_height_at. IN_VOID, IN_BAD_TILE: a part of it, be it a point, has none; *height is
+ * that of the rest, INT32_MIN if there is none. Looks at every triangle of the tiles that the
+ * course touches. OUTSIDE: also of a course that is too long. */
 microtin_answer microtin_pack_highest(const microtin_pack* pack, const microtin_course* course,
                                       int32_t* height);
 
@@ -146,8 +173,9 @@ typedef struct microtin_block {
 
 /* Writes columns * rows heights in whole units of the pack (such as metres), rounded to nearest,
  * halves up, kept within int16_t; `heights` is row by row. Returns HEIGHT if all are heights, else
- * the reason of the last that is not, NOT_DECODED first. OUTSIDE, and nothing is written, if the z
- * axis has a numerator of 2^31 or more or an offset beyond +-2^45, or x or y is beyond +-2^40. */
+ * the reason of the last that is not, NOT_DECODED before all others. OUTSIDE, and nothing is
+ * written, if the z axis has a numerator of 2^31 or more or an offset beyond +-2^45, or x or y is
+ * beyond +-2^40. */
 microtin_answer microtin_pack_fill(const microtin_pack* pack, const microtin_block* block,
                                    int16_t* heights);
 

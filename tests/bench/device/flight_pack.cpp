@@ -14,10 +14,10 @@ constexpr uint32_t kSlots = 4, kCapacity = 500, kStepLimit = 50;
 alignas(MICROTIN_ALIGNMENT) uint8_t workspace[MICROTIN_PACK_BYTES(kSlots, kCapacity)];
 
 // Flash as a card: it counts what is read.
-size_t read_card(void* bytes_read, uint64_t offset, uint8_t* buffer, size_t size) {
+int32_t read_card(void* bytes_read, uint64_t offset, uint8_t* buffer, size_t size) {
   for (size_t i = 0; i < size; ++i) buffer[i] = stream_begin[static_cast<size_t>(offset) + i];
   *static_cast<uint32_t*>(bytes_read) += static_cast<uint32_t>(size);
-  return size;
+  return static_cast<int32_t>(size);
 }
 
 microtin_course course(Post from, Post to) {

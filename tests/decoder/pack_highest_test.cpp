@@ -1,0 +1,346 @@
+// The highest on a course: against exact fractions, on packs of the encoder and on forged ones.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "tests/support/forged_pack.hpp"
+#include "tests/support/pack_device.hpp"
+#include "tests/support/packs.hpp"
+#include "tests/support/reference_heights.hpp"
+
+namespace microtin::tests {
+namespace {
+
+using reference::Wide;
+
+// A part of the way along a course, whole > 0.
+struct Way {
+  Wide part, whole;
+};
+
+bool operator<(const Way& a, const Way& b) {
+  return a.part * b.whole < b.part * a.whole;
+}
+
+// The known triangles of all tiles that are there, in global steps.
+struct Facet {
+  std::array<std::array<int64_t, 3>, 3> v;
+};
+
+struct Surface {
+  std::vector<Facet> facets;
+  std::vector<std::array<int64_t, 3>> vertices;  // of voids too: they know their heights
+};
+
+Surface surface_of(const PackFile& pack) {
+  Surface surface;
+  for (uint32_t number = 0; number < pack.entries().size(); ++number) {
+    const std::optional<DecodedTerrain> tile = pack.tile(number);
+    if (!tile) continue;
+    const TileBox box = tile_box(pack.grid(), number);
+    for (const reference::Corners& t : reference::real_triangles(tile->mesh())) {
+      Facet facet;
+      for (size_t i = 0; i < 3; ++i) {
+        facet.v[i] = {int64_t{box.x} + t.v[i].x, int64_t{box.y} + t.v[i].y, t.v[i].z};
+        surface.vertices.push_back(facet.v[i]);
+      }
+      if (!t.is_void) surface.facets.push_back(facet);
+    }
+  }
+  return surface;
+}
+
+// 256 times twice the area of (a, b, p), where p has 8 fractional bits.
+Wide area(const std::array<int64_t, 3>& a, const std::array<int64_t, 3>& b, int64_t x, int64_t y) {
+  return (Wide{b[0]} - a[0]) * (y - Wide{a[1]} * 256) -
+         (Wide{b[1]} - a[1]) * (x - Wide{a[0]} * 256);
+}
+
+struct Expected {
+  bool is_known = false;
+  Wide highest = INT32_MIN;  // in any tile
+  Wide between = INT32_MIN;  // the same without the ends, whose heights may be any of their tiles'
+};
+
+// The part of the course in a closed triangle, and the heights at its ends.
+struct Stretch {
+  Way from = {0, 1}, to = {1, 1};
+  bool is_empty = false;
+
+  Stretch(const Facet& t, const microtin_course& c) {
+    for (size_t i = 0; i < 3; ++i) {
+      const auto &a = t.v[i], &b = t.v[(i + 1) % 3];
+      const Wide begin = area(a, b, c.x, c.y), end = area(a, b, c.x_end, c.y_end);
+      if (begin < 0 && end < 0) is_empty = true;
+      if (begin < 0 && end >= 0) from = std::max(from, Way{-begin, end - begin});
+      if (begin >= 0 && end < 0) to = std::min(to, Way{begin, begin - end});
+    }
+    is_empty = is_empty || to < from;
+  }
+};
+
+Wide height_at(const Facet& t, const microtin_course& c, const Way& way) {
+  Wide sum = 0, all = 0;
+  for (size_t i = 0; i < 3; ++i) {
+    const auto &a = t.v[(i + 1) % 3], &b = t.v[(i + 2) % 3];
+    const Wide weight =
+        area(a, b, c.x, c.y) * (way.whole - way.part) + area(a, b, c.x_end, c.y_end) * way.part;
+    sum += weight * t.v[i][2];
+    all += weight;
+  }
+  return reference::rounded(sum * 65536, all);
+}
+
+std::vector<Stretch> stretches_of(const Surface& surface, const microtin_course& c) {
+  std::vector<Stretch> stretches;
+  for (const Facet& t : surface.facets) {
+    const Stretch stretch(t, c);
+    if (!stretch.is_empty) stretches.push_back(stretch);
+  }
+  return stretches;
+}
+
+// Whether a course of more than one place is covered.
+bool cover(std::vector<Stretch> stretches) {
+  std::sort(stretches.begin(), stretches.end(),
+            [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
+  Way known = {0, 1};
+  for (const Stretch& stretch : stretches) {
+    if (!(known < stretch.from)) known = std::max(known, stretch.to);
+  }
+  return !stretches.empty() && stretches[0].from.part == 0 && !(known < Way{1, 1});
+}
+
+// By definition: closed triangles cover the course, or do not.
+Expected expect(const Surface& surface, const microtin_course& c) {
+  Expected expected;
+  std::vector<Stretch> stretches;
+  const bool is_place = c.x == c.x_end && c.y == c.y_end;
+  for (const Facet& t : surface.facets) {
+    const Stretch stretch(t, c);
+    if (stretch.is_empty) continue;
+    stretches.push_back(stretch);
+    for (const Way& way : {stretch.from, stretch.to}) {
+      const Wide height = height_at(t, c, way);
+      expected.highest = std::max(expected.highest, height);
+      if (way.part != 0 && way.part != way.whole) {
+        expected.between = std::max(expected.between, height);
+      }
+    }
+  }
+  for (const auto& v : surface.vertices) {
+    const Wide x = Wide{v[0]} * 256 - c.x, y = Wide{v[1]} * 256 - c.y, dx = c.x_end - c.x,
+               dy = c.y_end - c.y, along = x * dx + y * dy;
+    if (x * dy != y * dx || along < 0 || along > dx * dx + dy * dy) continue;
+    if (is_place && (x != 0 || y != 0)) continue;
+    expected.highest = std::max<Wide>(expected.highest, Wide{v[2]} * 65536);
+    expected.is_known = is_place;
+  }
+  expected.is_known =
+      expected.is_known || (is_place ? !stretches.empty() : cover(std::move(stretches)));
+  return expected;
+}
+
+// Courses of all kinds: any, between lattice places, along lines of them, along borders, places.
+microtin_course any_course(Random& random, const TileGrid& grid) {
+  const auto pick = [&](uint32_t most) {
+    return static_cast<int64_t>(random.below(most * 256 + 1));
+  };
+  microtin_course c = {pick(grid.x_max), pick(grid.y_max), pick(grid.x_max), pick(grid.y_max)};
+  const uint32_t kind = random.below(8);
+  const auto whole = [](int64_t& v, int64_t unit) { v = v / unit * unit; };
+  if (kind != 0) {
+    const int64_t unit = kind == 1 ? 128 : 256;
+    for (int64_t* v : {&c.x, &c.y, &c.x_end, &c.y_end}) whole(*v, unit);
+  }
+  if (kind == 2 || kind == 3) c.x_end = c.x;
+  if (kind == 3) whole(c.x, int64_t{grid.width} * 256), c.x_end = c.x;
+  if (kind == 4 || kind == 5) c.y_end = c.y;
+  if (kind == 5) whole(c.y, int64_t{grid.height} * 256), c.y_end = c.y;
+  if (kind == 6) c.x_end = c.x, c.y_end = c.y;
+  if (kind == 7 && random.below(2) == 0) {  // on a border line, between lattice places
+    c = {c.x, pick(grid.y_max), c.x, pick(grid.y_max)};
+    whole(c.x, int64_t{grid.width} * 256), c.x_end = c.x;
+  }
+  return c;
+}
+
+struct Counts {
+  int known = 0, unknown = 0;
+};
+
+// The answer on a course is that of exact fractions, and those at places on it agree.
+void check_course(const PackDevice& device, const Surface& surface, const microtin_course& c,
+                  bool tiles_agree, Counts& counts) {
+  CAPTURE(c.x);
+  CAPTURE(c.y);
+  CAPTURE(c.x_end);
+  CAPTURE(c.y_end);
+  int32_t highest = 1;
+  const microtin_answer answer = microtin_pack_highest(device.pack, &c, &highest);
+  const Expected expected = expect(surface, c);
+  REQUIRE(answer == (expected.is_known ? MICROTIN_HEIGHT : MICROTIN_IN_VOID));
+  REQUIRE(highest <= expected.highest);
+  REQUIRE(highest >= expected.between);
+  if (tiles_agree) REQUIRE(highest == expected.highest);
+  ++(expected.is_known ? counts.known : counts.unknown);
+  for (int64_t k = 0; k <= 64; ++k) {
+    const int64_t dx = (c.x_end - c.x) * k, dy = (c.y_end - c.y) * k;
+    if (dx % 64 != 0 || dy % 64 != 0) continue;
+    int32_t height = INT32_MIN;
+    const microtin_answer here = device.height_at(c.x + dx / 64, c.y + dy / 64, height);
+    REQUIRE((here == MICROTIN_HEIGHT || here == MICROTIN_IN_VOID));
+    if (here == MICROTIN_IN_VOID) REQUIRE(answer == MICROTIN_IN_VOID);
+    if (tiles_agree) REQUIRE(height <= highest);
+  }
+}
+
+void check_pack(const Bytes& bytes, Random& random, int courses, bool tiles_agree, Counts& counts) {
+  Card card{bytes};
+  const PackFile pack(bytes);
+  const Surface surface = surface_of(pack);
+  const TileGrid& grid = pack.grid();
+  const PackDevice device(static_cast<uint32_t>(pack.entries().size()),
+                          std::max(3u, pack.header().most_vertices));
+  for (uint32_t tile = 0; tile < pack.entries().size(); ++tile) {
+    const TileBox box = tile_box(grid, tile);
+    REQUIRE(device.service(card, at(box.x, box.y)) == MICROTIN_DONE);
+    REQUIRE(device.service(card, at(box.x_end, box.y_end)) == MICROTIN_DONE);
+  }
+  for (int i = 0; i < courses; ++i) {
+    check_course(device, surface, any_course(random, grid), tiles_agree, counts);
+  }
+}
+
+// Heights that a lattice of posts has, but for a void post in the middle.
+Raster ring_of_posts() {
+  Raster raster;
+  raster.width = raster.height = 9;
+  for (int64_t y = 0; y < 9; ++y) {
+    for (int64_t x = 0; x < 9; ++x) {
+      raster.heights.push_back(x == 4 && y == 4 ? kVoidHeight : (3 * x + 5 * y) % 7);
+    }
+  }
+  return raster;
+}
+
+}  // namespace
+
+TEST_CASE("pack: the highest on a course is exact, and known if every place is, on forged tiles") {
+  Random random(31);
+  Counts counts;
+  for (int round = 0; round < 150; ++round) {
+    const uint16_t width = static_cast<uint16_t>(1 + random.below(5)),
+                   height = static_cast<uint16_t>(1 + random.below(5));
+    const TileGrid grid = {2u * width + random.below(2) * 2, 2u * height, width, height};
+    std::vector<ForgedTile> tiles;
+    for (uint32_t tile = 0; tile < tile_columns(grid) * tile_rows(grid); ++tile) {
+      const TileBox box = tile_box(grid, tile);
+      const bool is_whole = random.below(3) != 0 || box.x_end - box.x + box.y_end - box.y < 4;
+      tiles.push_back(random.below(8) == 0
+                          ? ForgedTile()
+                          : forged_tile(random_tile(random, box.x_end - box.x, box.y_end - box.y,
+                                                    is_whole, random.below(3) * 20)));
+    }
+    check_pack(forged_pack(grid, tiles), random, 60, false, counts);
+  }
+  CHECK(counts.known > 1000);
+  CHECK(counts.unknown > 1000);
+}
+
+TEST_CASE("pack: the highest on a course is exact, and known if every place is, on encoded tiles") {
+  Random random(32);
+  Counts counts;
+  for (const VoidKind& kind : void_kinds()) {
+    CAPTURE(kind.name);
+    const Raster raster = rough_raster(61, 53, kind.at);
+    check_pack(write_pack(encode_pack(raster, pack_options(3, 100))), random, 40, true, counts);
+  }
+  CHECK(counts.known > 100);
+  CHECK(counts.unknown > 100);
+}
+
+TEST_CASE("pack: an edge between voids is no height, touching a tile without terrain is no void") {
+  Random random(33);
+  Counts counts;
+  PackOptions options = pack_options(0, 100);
+  check_pack(write_pack(encode_pack(ring_of_posts(), options)), random, 400, true, counts);
+  const TileGrid grid = {8, 4, 4, 4};
+  const ForgedTile square = forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}, {4, 4, 4}}, {}});
+  Card card{forged_pack(grid, {square, {}})};
+  const PackDevice device(2);
+  REQUIRE(device.service(card, {0, 0, 2047, 0}) == MICROTIN_DONE);
+  int32_t highest = 0;
+  const auto answer = [&](const microtin_course& c) {
+    return microtin_pack_highest(device.pack, &c, &highest);
+  };
+  CHECK(answer({1024, 100, 1024, 100}) == MICROTIN_HEIGHT);  // a place on the border
+  CHECK(answer({1024, 0, 1024, 1024}) == MICROTIN_HEIGHT);   // along it
+  CHECK(highest == 4 * 65536);
+  CHECK(answer({0, 512, 1024, 512}) == MICROTIN_HEIGHT);   // up to it
+  CHECK(answer({0, 512, 1025, 512}) == MICROTIN_IN_VOID);  // a 256th of a step too far
+}
+
+TEST_CASE("pack: heights where a course leaves the terrain are rounded once, halves up") {
+  // A hull edge of 512 steps, seen from one side alone: at odd places of it heights end in a half.
+  for (const int rise : {-1, 1, -3, 3}) {
+    const int16_t low = static_cast<int16_t>(rise < 0 ? -rise : 0),
+                  high = static_cast<int16_t>(low + rise);
+    const Tin tin{{{256, 0, low}, {256, 512, high}, {0, 0, -5}, {0, 512, -5}}, {}};
+    Card card{forged_pack({512, 512, 512, 512}, {forged_tile(tin)})};
+    const PackDevice device(1);
+    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+    const Surface surface = surface_of(PackFile(card.bytes));
+    Counts counts;
+    for (int64_t y = 1; y < 512 * 256; y += 998) {
+      check_course(device, surface, {0, y, 512 * 256, y}, true, counts);
+    }
+    CHECK(counts.unknown > 100);
+  }
+}
+
+TEST_CASE("pack: the highest on the longest courses and the largest tiles does not overflow") {
+  const TileGrid grid = {2 * 65535, 65535, 65535, 65535};
+  const auto corner = [](uint16_t x, uint16_t y, bool high) {
+    return Vertex{x, y, static_cast<int16_t>(high ? 32767 : -32768)};
+  };
+  Random random(34);
+  for (int round = 0; round < 40; ++round) {
+    std::vector<ForgedTile> tiles;
+    for (int i = 0; i < 2; ++i) {
+      const auto shy = [&] { return static_cast<uint16_t>(random.below(2) * random.below(3)); };
+      const uint16_t a = shy(), b = shy(), c = shy(), d = shy();
+      Tin tin{{corner(a, b, false), corner(static_cast<uint16_t>(65535 - c), a, true),
+               corner(b, static_cast<uint16_t>(65535 - d), true),
+               corner(static_cast<uint16_t>(65535 - d), static_cast<uint16_t>(65535 - c), false)},
+              {}};
+      tiles.push_back(forged_tile(tin));
+    }
+    Card card{forged_pack(grid, tiles)};
+    const PackDevice device(2);
+    REQUIRE(device.service(card, at(65535, 7)) == MICROTIN_DONE);
+    const Surface surface = surface_of(PackFile(card.bytes));
+    for (int i = 0; i < 60; ++i) {
+      const auto pick = [&](int64_t most) {
+        const int64_t inside = static_cast<int64_t>(random.next() % static_cast<uint64_t>(most));
+        const int64_t edge = random.below(2) * most;
+        return random.below(2) == 0 ? inside
+                                    : std::abs(edge - static_cast<int64_t>(random.below(1000)));
+      };
+      const int64_t x = pick(2 * 65535 * 256), y = pick(65535 * 256);
+      const int64_t x_end =
+          std::clamp<int64_t>(pick(2 * 65535 * 256), x - 65535 * 256 + 1, x + 65535 * 256 - 1);
+      const microtin_course c = {x, y, std::min<int64_t>(x_end, 2 * 65535 * 256),
+                                 pick(65535 * 256 - 1)};
+      int32_t highest = 0;
+      const microtin_answer answer = microtin_pack_highest(device.pack, &c, &highest);
+      // Heights of the reference would overflow: whether all is known alone.
+      std::vector<Stretch> stretches = stretches_of(surface, c);
+      CHECK(answer == (cover(stretches) ? MICROTIN_HEIGHT : MICROTIN_IN_VOID));
+    }
+  }
+}
+
+}  // namespace microtin::tests

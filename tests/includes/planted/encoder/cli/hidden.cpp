@@ -1,0 +1,2 @@
+// The command line includes what the product hides.
+#include "encoder/pack/file.hpp"

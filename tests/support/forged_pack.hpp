@@ -1,0 +1,90 @@
+// Packs of tiles that the encoder would not write.
+#ifndef MICROTIN_TESTS_SUPPORT_FORGED_PACK_HPP
+#define MICROTIN_TESTS_SUPPORT_FORGED_PACK_HPP
+
+#include <utility>
+#include <vector>
+
+#include "encoder/pack/file.hpp"
+#include "encoder/stream/encode.hpp"
+#include "tests/support/device.hpp"
+#include "tests/support/layers.hpp"
+#include "tests/support/mesh_copy.hpp"
+#include "tests/support/point_sets.hpp"
+
+namespace microtin::tests {
+
+// A tile: a stream, and what the index says of its vertices. Empty: no terrain.
+struct ForgedTile {
+  Bytes stream;
+  uint32_t vertices = 0;
+};
+
+inline ForgedTile forged_tile(const Tin& tin) {
+  return {encode(tin, Metadata()), static_cast<uint32_t>(tin.vertices.size())};
+}
+
+inline Bytes forged_pack(const TileGrid& grid, const std::vector<ForgedTile>& tiles,
+                         const Metadata& metadata = {}) {
+  PackContent content{grid, metadata, {}};
+  std::vector<Bytes> streams;
+  for (const ForgedTile& tile : tiles) {
+    TileSummary summary;
+    summary.bytes = static_cast<uint32_t>(tile.stream.size());
+    summary.stream_hash = stream_hash(kStreamHash, tile.stream.data(), tile.stream.size());
+    summary.vertices = tile.vertices;
+    content.tiles.push_back(summary);
+    streams.push_back(tile.stream);
+  }
+  return write_pack(content, streams);
+}
+
+inline void put_number(Bytes& bytes, size_t at, uint64_t value, size_t width) {
+  for (size_t i = 0; i < width; ++i) bytes[at + i] = static_cast<uint8_t>(value >> 8 * i);
+}
+
+// Makes the checks of a pack's header and index right again.
+inline void repair_checks(Bytes& pack) {
+  PackHeader header{};
+  REQUIRE(read_pack_header(pack.data(), &header));
+  const uint32_t index = pack_index_start(header);
+  const uint32_t check = crc32(0, pack.data(), index - kCheckBytes);
+  put_number(pack, index - kCheckBytes, check, kCheckBytes);
+  for (uint32_t tile = 0; tile < tile_columns(header.grid) * tile_rows(header.grid); ++tile) {
+    const size_t entry = static_cast<size_t>(pack_entry_start(header, tile));
+    const uint32_t of_entry = pack_entry_check(check, tile, pack.data() + entry);
+    put_number(pack, entry + kPackEntryBytes - kCheckBytes, of_entry, kCheckBytes);
+  }
+}
+
+// Vertices at some of the places of a box, the corners among them if it is whole; some triangles
+// are void.
+inline Tin random_tile(Random& random, uint32_t width, uint32_t height, bool is_whole,
+                       uint32_t voids_of_100) {
+  Tin tin;
+  for (uint32_t x = 0; x <= width; ++x) {
+    for (uint32_t y = 0; y <= height; ++y) {
+      const bool is_corner = (x == 0 || x == width) && (y == 0 || y == height);
+      if (!(is_whole && is_corner) && random.below(100) >= 35) continue;
+      const int32_t z = static_cast<int32_t>(random.below(65536)) - 32768;
+      tin.vertices.push_back({static_cast<uint16_t>(x), static_cast<uint16_t>(y),
+                              static_cast<int16_t>(random.below(3) == 0 ? z : z / 4096)});
+    }
+  }
+  bool has_triangle = false;
+  for (size_t i = 2; i < tin.vertices.size(); ++i) {
+    const auto at = [&](size_t v) { return Point{tin.vertices[v].x, tin.vertices[v].y}; };
+    has_triangle = has_triangle || orient2d(at(0), at(1), at(i)) != 0;
+  }
+  if (!has_triangle) return random_tile(random, width, height, is_whole, voids_of_100);
+  const DecodedTerrain decoded(encode(tin, Metadata()));
+  const MeshCopy copy(decoded.mesh());
+  for (const std::array<Point, 3>& t : triangles_of(copy.mesh).triangles) {
+    if (random.below(100) < voids_of_100) tin.voids.push_back(Tin::Triangle{t[0], t[1], t[2]});
+  }
+  return tin;
+}
+
+}  // namespace microtin::tests
+
+#endif
