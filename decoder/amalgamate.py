@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """amalgamate.py FOLDER: writes the decoder as one header and one source, microtin.h and microtin.cpp, to be added to
 any firmware's sources. The header serves C and C++; the source is C++14."""
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A box of lattice points cut into 4 x 4 cells, and how far the cells are outside a circle.
 #ifndef MICROTIN_SHARED_CELLS_HPP
 #define MICROTIN_SHARED_CELLS_HPP

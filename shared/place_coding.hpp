@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coding of the next point's place in the free region of the triangle it conflicts with.
 //
 // The box around the region is cut into 4 x 4 cells, the point's cell is coded, and the cell

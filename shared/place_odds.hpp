@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What weighs the places in the free region of a triangle.
 //
 // A cell weighs the share of it that is free, times the chance that no other point came first: the

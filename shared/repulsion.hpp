@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vertices of a terrain keep apart: places close to a corner of the triangle are the rarer the
 // closer they are. How close counts is learned.
 #ifndef MICROTIN_SHARED_REPULSION_HPP

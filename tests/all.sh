@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Builds every preset and runs its tests: the release; clang with clang-tidy and, at the same time, what seldom keeps
 # two processors busy, the devices, analyzers and some planted faults; other sanitizers; the fuzz targets for a short
 # while; and the sanitizers. Says what it skips for want of a compiler, and when each part began.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Static analysis beside clang-tidy: of the decoder by gcc -fanalyzer, of all by the one-definition rule (preset odr)
 # and by cppcheck with tests/cppcheck.
 set -eu

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """conventions.py CHECK [FOLDER]: what people expect of a repository holds in this one, or in a folder.
 
 length   the README has at most 200 lines

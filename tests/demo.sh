@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Makes a terrain, encodes it, lets an emulated Cortex-M4 decode it, and draws it. Leaves everything in
 # build/demo.
 set -eu

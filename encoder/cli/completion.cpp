@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes the scripts of shell completion from the definitions of commands and options.
 #include "encoder/cli/completion.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shell completion: scripts that know every command and option.
 #ifndef MICROTIN_ENCODER_CLI_COMPLETION_HPP
 #define MICROTIN_ENCODER_CLI_COMPLETION_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads the definitions of commands and options out of CLI11.
 #include "encoder/cli/definitions.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the command line accepts, for all that tells people of it beside --help.
 #ifndef MICROTIN_ENCODER_CLI_DEFINITIONS_HPP
 #define MICROTIN_ENCODER_CLI_DEFINITIONS_HPP

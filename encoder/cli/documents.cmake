@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What man and shells know of the program, printed by itself and installed with it.
 include(GNUInstallDirs)
 

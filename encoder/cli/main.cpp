@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command line: what it accepts, and how it fails.
 #include <unistd.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes the manual page: every command with its arguments and options, each told as --help tells
 // it.
 #include "encoder/cli/manual.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The manual page, from the texts of --help.
 #ifndef MICROTIN_ENCODER_CLI_MANUAL_HPP
 #define MICROTIN_ENCODER_CLI_MANUAL_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Versions of the library and of the formats, as their headers define them.
 #include "encoder/cli/version.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What `microtin --version` prints.
 #ifndef MICROTIN_ENCODER_CLI_VERSION_HPP
 #define MICROTIN_ENCODER_CLI_VERSION_HPP

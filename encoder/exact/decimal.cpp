@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads, rounds, scales and prints decimals by integers.
 // Ours: libraries for decimals keep each number on the heap; there are millions of these.
 #include "encoder/exact/decimal.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Keeps streams in a temporary file, in order.
 #include "encoder/files/stream_spool.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The public face: checks what a stranger asks for, and translates.
 #include "microtin/encoder.hpp"
 

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: MIT
 # bash.sh MICROTIN: bash completes commands, options and files as --help tells. A script that lacks an option does
 # not pass.
 set -eu

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What man and shells know of the program is what --help says.
 foreach(document manual bash zsh)
   add_test(NAME cli.${document}

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # To be sourced, with the program in $microtin: what --help shows.
 
 commands() { "$microtin" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]\{1,\}\) .*/\1/p'; }

@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: MIT
 # manual.sh MICROTIN: the manual page has every command and option, and no fault that groff or mandoc finds. Neither
 # a page without an option nor one with an unknown macro passes.
 set -eu

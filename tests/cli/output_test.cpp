@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where output goes: standard descriptors that are closed or not read, names that lead elsewhere,
 // inputs under other names. Nothing is lost but what could not be told, and the exit code says so.
 #include <doctest/doctest.h>

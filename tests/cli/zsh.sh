@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: MIT
 # zsh.sh MICROTIN: zsh reads its script, which has every command and option of --help.
 set -eu
 microtin=$1

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "encoder/export/json.hpp"
 
 #include <doctest/doctest.h>

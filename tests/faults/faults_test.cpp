@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Memory that runs out and files that fail, at every call in turn: each command ends with an error
 // of one line and without a file, or as if nothing had been.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the decoder needs on each device: measured, held to a budget, and told in the documents.
 
 footprint.py measure ...: measures one target's libraries, writes BUILD/footprint.json and fails if a number is

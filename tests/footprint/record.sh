@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # record.sh [PRESET...]: measures the decoder for all devices, or for some, and makes that the budget and the tables of
 # shared/SIZES.md and the README. build/release must hold the tools.
 set -eu

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """check.py [ROOT] fails if an include points the wrong way, and else says how many there are.
 
 A layer of the encoder includes those above it in encoder/layers.hpp alone, the command line neither fit nor pack; the

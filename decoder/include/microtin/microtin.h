@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* microtin: decodes terrain TINs exactly, in fixed memory. C99 and C++.
  *
  * Nothing here allocates, recurses, uses floating point or keeps global state. All memory comes

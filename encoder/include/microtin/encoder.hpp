@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* microtin: turns terrains into streams and packs that microtin.h and pack.h decode. C++17, hosted.
  *
  * What is returned or written has been decoded by the shipped decoder and compared with every post

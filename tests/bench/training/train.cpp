@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/training/train.hpp"
 
 #include <algorithm>
