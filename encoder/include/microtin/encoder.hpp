@@ -51,7 +51,7 @@ class Terrain {
  public:
   /* Takes 8 bytes a post or 24 a point. Throws if numbers of posts or decimals are out of range. */
   explicit Terrain(Posts posts);
-  explicit Terrain(Points points);
+  explicit Terrain(const Points& points);
 
   /* Reads a file by its suffix: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt, .las, .ply, .obj.
    * Errors name the file and, for text, the line. */
