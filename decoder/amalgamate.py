@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """amalgamate.py FOLDER: writes the decoder as one header and one source, microtin.h and microtin.cpp, to be added to
 any firmware's sources. The header serves C and C++; the source is C++14."""
 
@@ -9,12 +10,13 @@ ROOT = Path(__file__).resolve().parent.parent
 PUBLIC = ROOT / "decoder/include"
 
 INCLUDE = re.compile(r'^#include "(.*)"\n', re.M)
+LICENCE = re.compile(r"^// SPDX-License-Identifier: .*\n", re.M)
 GUARD = re.compile(r"^#ifndef (\w+)\n#define \1\n", re.M)
 
 
 def parts(path):
     """A header's comment and what its include guard holds; of a source, nothing and all."""
-    text = path.read_text()
+    text = LICENCE.sub("", path.read_text())
     guard = GUARD.search(text)
     if path.suffix == ".cpp" or not guard:
         return "", text
@@ -40,13 +42,13 @@ def expanded(path, seen):
     return f"// --- {path.relative_to(ROOT)}\n" + INCLUDE.sub(include, without_guard(path))
 
 
-def header(notice):
+def header():
     comment, c_face = parts(PUBLIC / "microtin/microtin.h")
     pack, cpp_face, cpp_pack = (
         INCLUDE.sub("", without_guard(PUBLIC / "microtin" / name)) for name in ("pack.h", "microtin.hpp", "pack.hpp")
     )
     return (
-        f"/* {notice} */\n{comment}#ifndef MICROTIN_H\n#define MICROTIN_H\n{c_face}\n{pack}"
+        f"{comment}#ifndef MICROTIN_H\n#define MICROTIN_H\n{c_face}\n{pack}"
         f"#ifdef __cplusplus\n\n{cpp_face}\n{cpp_pack}\n#endif\n\n#endif\n"
     )
 
@@ -58,10 +60,10 @@ QUIET = """#if defined(__clang__)
 """
 
 
-def source(notice):
+def source():
     seen = set()
     files = "".join(expanded(path, seen) for path in sorted((ROOT / "decoder").glob("*.cpp")))
-    return f'// {notice}\n#include "microtin.h"\n\n{QUIET}\n{files}'
+    return f'#include "microtin.h"\n\n{QUIET}\n{files}'
 
 
 def version():
@@ -71,6 +73,10 @@ def version():
 
 folder = Path(sys.argv[1])
 folder.mkdir(parents=True, exist_ok=True)
-notice = f"microtin {version()}, the decoder in two files, made by decoder/amalgamate.py. MIT licence."
-(folder / "microtin.h").write_text(header(notice))
-(folder / "microtin.cpp").write_text(source(notice))
+notice = f"""// SPDX-License-Identifier: MIT
+/* microtin {version()}, the decoder in two files, made by decoder/amalgamate.py.
+
+{(ROOT / "LICENSE").read_text()}*/
+"""
+(folder / "microtin.h").write_text(notice + header())
+(folder / "microtin.cpp").write_text(notice + source())

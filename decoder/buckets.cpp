@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Buckets: for each part of a terrain's box a triangle near it.
 #include "decoder/state.hpp"
 #include "decoder/walk.hpp"

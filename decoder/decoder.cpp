@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The push decoder: header, sections, steps.
 #include "decoder/state.hpp"
 #include "shared/header.hpp"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # find_package(microtin [COMPONENTS encoder]): the decoder is there always, the encoder if it was built.
 include(CMakeFindDependencyMacro)
 include(${CMAKE_CURRENT_LIST_DIR}/microtin-decoder.cmake)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading packs: which tiles are wanted, which are there, and bringing the one to the other.
 #include "decoder/pack_state.hpp"
 

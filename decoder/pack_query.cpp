@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Queries on the tiles of a pack that are there. They only read, so they may interrupt anything.
 #include "decoder/pack_state.hpp"
 

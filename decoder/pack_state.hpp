@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the workspace of a pack holds.
 #ifndef MICROTIN_DECODER_PACK_STATE_HPP
 #define MICROTIN_DECODER_PACK_STATE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Queries on a decoded mesh.
 #include "decoder/state.hpp"
 #include "decoder/walk.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The reading coder: a binary range decoder over the bytes of one section's payload.
 #ifndef MICROTIN_DECODER_RANGE_DECODER_HPP
 #define MICROTIN_DECODER_RANGE_DECODER_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the two workspaces hold.
 #ifndef MICROTIN_DECODER_STATE_HPP
 #define MICROTIN_DECODER_STATE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tiles that a course may touch, from where it begins.
 #ifndef MICROTIN_DECODER_TOUCHED_TILES_HPP
 #define MICROTIN_DECODER_TOUCHED_TILES_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finding the triangle that holds a place.
 #ifndef MICROTIN_DECODER_WALK_HPP
 #define MICROTIN_DECODER_WALK_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The layers of the encoder: a folder and a namespace each. A layer uses those above it in this
 // list alone, and finds their names without saying whose they are. Two folders have the name of a
 // keyword, so that their namespaces are called importing and exporting.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What compilers are told. Included before all other code, since it holds for what follows.
 #ifndef MICROTIN_SHARED_COMPILER_HPP
 #define MICROTIN_SHARED_COMPILER_HPP

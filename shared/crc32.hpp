@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // CRC-32 as in zip and Ethernet: polynomial 0x04C11DB7, reflected, all ones before and after.
 #ifndef MICROTIN_SHARED_CRC32_HPP
 #define MICROTIN_SHARED_CRC32_HPP

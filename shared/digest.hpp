@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The canonical digest of a mesh: a sum over its triangles, so that their order does not matter.
 #ifndef MICROTIN_SHARED_DIGEST_HPP
 #define MICROTIN_SHARED_DIGEST_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // 64-bit division. Where the machine has none it is done bit by bit: the compilers' helpers, but
 // for those of AVR, are several times the code.
 #ifndef MICROTIN_SHARED_DIVISION_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The constants of the format and the fixed part of its header. FORMAT.md explains them.
 #ifndef MICROTIN_SHARED_FORMAT_HPP
 #define MICROTIN_SHARED_FORMAT_HPP

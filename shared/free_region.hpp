@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the next point can lie, given that it is in conflict with an uncertified triangle: inside
 // the triangle's circle, outside the circles of the certified triangles behind its sides.
 // Everything here is an estimate that selects contexts and odds: it may be wrong, it must not

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading the header, and the numbers of variable length in it.
 #ifndef MICROTIN_SHARED_HEADER_HPP
 #define MICROTIN_SHARED_HEADER_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coding of a new vertex's height as the difference from what its neighbours predict.
 #ifndef MICROTIN_SHARED_HEIGHT_CODING_HPP
 #define MICROTIN_SHARED_HEIGHT_CODING_HPP

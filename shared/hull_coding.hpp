@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coding of new vertices outside the hull or on its boundary.
 #ifndef MICROTIN_SHARED_HULL_CODING_HPP
 #define MICROTIN_SHARED_HULL_CODING_HPP

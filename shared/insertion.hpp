@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Insertion of one point into a Delaunay mesh: grow the cavity of conflicting triangles, then fan
 // it from the new vertex.
 #ifndef MICROTIN_SHARED_INSERTION_HPP

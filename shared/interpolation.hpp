@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The height of a triangle's plane at a place inside it: one rounding, the same everywhere.
 #ifndef MICROTIN_SHARED_INTERPOLATION_HPP
 #define MICROTIN_SHARED_INTERPOLATION_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The integer lattice on which all geometry happens, and the lexicographic order of its points.
 #ifndef MICROTIN_SHARED_LATTICE_HPP
 #define MICROTIN_SHARED_LATTICE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The half-edge mesh: three half-edges per triangle in a row, ghost triangles around the hull.
 //
 // Half-edge h runs from origin[h] to the origin of next_in_triangle(h); triangles turn

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A pack: many tiles of one terrain in a file. PACK.md explains it.
 #ifndef MICROTIN_SHARED_PACK_FORMAT_HPP
 #define MICROTIN_SHARED_PACK_FORMAT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Exact orientation and in-circle tests on the 16-bit lattice, and the conflict rule that makes the
 // Delaunay triangulation unique.
 #ifndef MICROTIN_SHARED_PREDICATES_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Adaptive binary probabilities. A coder supplies bit(probability, value) and uniform(count,
 // value): the writing coder writes the value it is given, the reading coder ignores it and returns
 // the stream's.

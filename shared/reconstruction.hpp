@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The reconstruction, once for both sides: a breadth-first walk that rebuilds the Delaunay
 // triangulation point by point (Sohler, "Fast Reconstruction of Delaunay Triangulations", CCCG
 // 1999).

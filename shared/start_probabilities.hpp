@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the adaptive bits start, in the order of Models: the probability of a one is
 // (entry + 1/2) / 256. Written by `tests/bench/run train`.
 #ifndef MICROTIN_SHARED_START_PROBABILITIES_HPP

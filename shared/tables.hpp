@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The constant tables, and the one way to read them: on AVR they stay in flash.
 #ifndef MICROTIN_SHARED_TABLES_HPP
 #define MICROTIN_SHARED_TABLES_HPP

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Static analysis beside clang-tidy: of the decoder by gcc -fanalyzer, of all by the one-definition rule (preset odr)
 # and by cppcheck with tests/cppcheck.
 set -eu
@@ -17,8 +18,9 @@ if ! command -v cppcheck >/dev/null; then
   exit 77
 fi
 check() { # FOLDER TARGET SOURCE: with the paths and definitions of that source of the target
-  flags=$(tests/flags build/release "$2" "$3" | tr ' ' '\n' | grep -E '^-(I|D|std)' | sed 's/^-std/--std/')
-  cppcheck --quiet --enable=warning,portability --error-exitcode=1 --suppressions-list=tests/cppcheck $flags "$1"
+  flags=$(tests/flags build/release "$2" "$3" | tr ' ' '\n' | grep -E '^-(I|D|std)' | sed "s/^-std/--std/; s,-I$PWD/,-I,; s,-I$PWD,-I.,")
+  cppcheck -j "$(nproc)" --quiet --enable=warning,portability --error-exitcode=1 --suppressions-list=tests/cppcheck \
+    -i decoder/examples $flags "$1"
 }
 check decoder microtin_decoder decoder/decoder.cpp
 check encoder microtin_encoder encoder/stream/encode.cpp

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DCOMMAND=... -DEXPECTED=FILE -P compare_output.cmake
 # Runs a command; fails unless it succeeds and prints exactly what the file holds.
 execute_process(COMMAND ${COMMAND} OUTPUT_VARIABLE output RESULT_VARIABLE result)

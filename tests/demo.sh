@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Makes a terrain, encodes it, lets an emulated Cortex-M4 decode it, and draws it. Leaves everything in
 # build/demo.
 set -eu
@@ -12,9 +13,10 @@ quietly() {
 }
 
 echo "== Build"
-quietly cmake --preset release
-quietly cmake --build --preset release --target microtin host_report
-microtin=build/release/microtin
+quietly cmake --workflow --preset tool
+microtin=build/tool/microtin
+quietly c++ -std=c++17 -O2 -I. -Idecoder/include tests/firmware/host_report.cpp build/tool/libmicrotin_decoder.a \
+  -o "$demo/host_report"
 
 echo "== A terrain of 321 x 321 posts, encoded with an error of at most 12 m"
 $microtin fractal --size 321 --seed 9 -o "$demo/terrain.asc"
@@ -24,7 +26,7 @@ echo "as 16-bit grid: $((321 * 321 * 2)) bytes"
 echo "as microtin:    $(wc -c <"$demo/terrain.mtin") bytes"
 
 echo "== The same stream in the flash of a Cortex-M4, decoded there (emulated by QEMU)"
-build/release/tests/host_report "$demo/terrain.mtin" >"$demo/terrain.report"
+"$demo/host_report" "$demo/terrain.mtin" >"$demo/terrain.report"
 quietly cmake --preset cortex-m4 -B "$demo/cortex-m4" \
   -DMICROTIN_FIRMWARE_STREAM="$demo/terrain.mtin"
 quietly cmake --build "$demo/cortex-m4" --target mps2-an386.terrain

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # devices.sh [PRESET...]: builds the presets for devices, or some of them, and runs their tests under emulation,
 # on the repository's streams and on a terrain that build/release encodes now. A preset without its compiler is
 # skipped and says so.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # Fails if clang-format would change a source file.
 cd "$(dirname "$0")/.." || exit 1
 if ! command -v clang-format >/dev/null; then

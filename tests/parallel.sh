@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # parallel.sh MICROTIN: shards that GNU parallel makes join to the bytes of a single run.
 set -eu
 command -v parallel >/dev/null || { echo "skipped: parallel is not installed"; exit 77; }

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """A slow second decoder of microtin streams, written from shared/FORMAT.md and not from the C++ code.
 
 Usage: reference_decoder.py FILE.mtin

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # An ATmega1284P: 16-bit int, 128 KB of flash, 16 KB of RAM; avr-libc starts it.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR avr)

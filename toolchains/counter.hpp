@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Counting instructions, on machines that can.
 #ifndef MICROTIN_TOOLCHAINS_COUNTER_HPP
 #define MICROTIN_TOOLCHAINS_COUNTER_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* What a firmware program gets from its start-up code, whatever the target. */
 #ifndef MICROTIN_TOOLCHAINS_FIRMWARE_H
 #define MICROTIN_TOOLCHAINS_FIRMWARE_H

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Firmware images without an operating system: our start-up code instead of a C library.
 set(MICROTIN_RUNTIME ${CMAKE_CURRENT_LIST_DIR}/memory.cpp ${CMAKE_CURRENT_LIST_DIR}/start.cpp)
 set(MICROTIN_LIBRARIES gcc)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The four functions that compilers call even in freestanding code.
 #include <stddef.h>
 #include <stdint.h>

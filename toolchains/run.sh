@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # run.sh MACHINE IMAGE [OPTION...]: runs a firmware image, with further options for the emulator. Its output
 # and exit code become this script's.
 machine=$1 image=$2

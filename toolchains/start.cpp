@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Start-up code of an image that image.ld laid out.
 #include "toolchains/start.hpp"
 

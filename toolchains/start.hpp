@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What start.cpp and a machine's own code give each other.
 #ifndef MICROTIN_TOOLCHAINS_START_HPP
 #define MICROTIN_TOOLCHAINS_START_HPP

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # WebAssembly, run by Node.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)

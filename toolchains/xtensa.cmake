@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Xtensa LX106, as in the ESP8266: the library and its checks. There is no emulator.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR lx106)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* A terrain in flash, linked as a C array and decoded where it lies, in pieces between other tasks;
  * then heights at places given in degrees. */
 #include "microtin/microtin.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Following the terrain: in each cycle a vehicle looks at the heights ahead of it and aims above
 // the highest, with bounded work per cycle.
 #include "microtin/microtin.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* Printing for the examples. */
 #ifndef MICROTIN_EXAMPLES_PRINT_H
 #define MICROTIN_EXAMPLES_PRINT_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A terrain that arrives over a serial port: the interrupt puts bytes into a ring, the main loop
 // decodes from there, never for longer than a few steps.
 #include "microtin/microtin.hpp"

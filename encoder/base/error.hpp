@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The exceptions of the host tools.
 #ifndef MICROTIN_ENCODER_BASE_ERROR_HPP
 #define MICROTIN_ENCODER_BASE_ERROR_HPP

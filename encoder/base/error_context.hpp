@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Errors that learn on their way which file they are about.
 #ifndef MICROTIN_ENCODER_BASE_ERROR_CONTEXT_HPP
 #define MICROTIN_ENCODER_BASE_ERROR_CONTEXT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks dates: a year, a month of it or a day of that.
 #include "encoder/base/iso_date.hpp"
 

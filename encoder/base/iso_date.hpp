@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Dates as ISO 8601 writes them.
 #ifndef MICROTIN_ENCODER_BASE_ISO_DATE_HPP
 #define MICROTIN_ENCODER_BASE_ISO_DATE_HPP

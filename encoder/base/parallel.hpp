@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Independent pieces of work on all processors.
 #ifndef MICROTIN_ENCODER_BASE_PARALLEL_HPP
 #define MICROTIN_ENCODER_BASE_PARALLEL_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A hint to the memory, where the compiler offers one.
 #ifndef MICROTIN_ENCODER_BASE_PREFETCH_HPP
 #define MICROTIN_ENCODER_BASE_PREFETCH_HPP

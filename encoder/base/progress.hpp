@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far a long piece of work has come.
 #ifndef MICROTIN_ENCODER_BASE_PROGRESS_HPP
 #define MICROTIN_ENCODER_BASE_PROGRESS_HPP

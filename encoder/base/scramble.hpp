@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers that look random, from numbers that do not.
 #ifndef MICROTIN_ENCODER_BASE_SCRAMBLE_HPP
 #define MICROTIN_ENCODER_BASE_SCRAMBLE_HPP

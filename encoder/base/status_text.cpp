@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sentences for the decoder's statuses.
 #include "encoder/base/status_text.hpp"
 

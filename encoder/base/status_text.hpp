@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a status of the decoder means to a reader.
 #ifndef MICROTIN_ENCODER_BASE_STATUS_TEXT_HPP
 #define MICROTIN_ENCODER_BASE_STATUS_TEXT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Decodes characters one by one.
 #include "encoder/base/utf8.hpp"
 

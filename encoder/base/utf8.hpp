@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Characters of text that others wrote.
 #ifndef MICROTIN_ENCODER_BASE_UTF8_HPP
 #define MICROTIN_ENCODER_BASE_UTF8_HPP

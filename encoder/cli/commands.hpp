@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The commands of the microtin program, once their options are read. All throw Error.
 #ifndef MICROTIN_ENCODER_CLI_COMMANDS_HPP
 #define MICROTIN_ENCODER_CLI_COMMANDS_HPP

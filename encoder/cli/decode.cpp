@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command decode: a mesh or a grid from a stream or a pack.
 #include <filesystem>
 

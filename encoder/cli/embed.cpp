@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command embed: a C header from a stream.
 #include "encoder/stream/embed.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The commands encode, plan and merge: streams and packs from a terrain, and what to say of them.
 #include <filesystem>
 #include <memory>

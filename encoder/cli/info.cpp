@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command info: what a stream or a pack says of itself.
 #include <algorithm>
 

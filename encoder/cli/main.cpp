@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command line: what it accepts, and how it fails.
 #include <unistd.h>
 
@@ -19,7 +20,11 @@
 #include "encoder/base/iso_date.hpp"
 #include "encoder/base/utf8.hpp"
 #include "encoder/cli/commands.hpp"
+#include "encoder/cli/completion.hpp"
+#include "encoder/cli/definitions.hpp"
+#include "encoder/cli/manual.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/cli/version.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/leftovers.hpp"
 #include "encoder/files/standard_files.hpp"
@@ -31,6 +36,8 @@ namespace microtin::cli {
 namespace {
 
 constexpr int kFailed = 1, kUsage = 2, kInternal = 3, kReportLost = 4;
+
+constexpr const char* kHidden = "";  // the group of commands that --help does not show
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 failed, no output; 2 wrong usage; 3 a fault of microtin itself, no "
@@ -45,14 +52,30 @@ constexpr const char* kTerrainFiles =
     ;
 
 // Other names of standard output are "-" for all that follows, unless a suffix asks for a format.
-std::string plain_output(std::string path) {
+std::string plain_output(const std::string& path) {
   const bool is_plain = std::filesystem::path(path).extension().empty();
   return is_plain && descriptor_named(path) == STDOUT_FILENO ? "-" : path;
 }
 
 void add_output(CLI::App& command, std::string& path,
                 const std::string& description = "File to write; - is standard output") {
-  command.add_option("-o,--output", path, description)->required()->transform(plain_output);
+  command.add_option("-o,--output", path, description)
+      ->required()
+      ->type_name(kFile)
+      ->transform(plain_output);
+}
+
+void add_stream(CLI::App& command, std::string& path,
+                const std::string& description = "A stream (.mtin) or a pack (.mtp)") {
+  command.add_option("stream", path, description)->required()->type_name(kFile);
+}
+
+void add_terrain(CLI::App& command, std::string& path) {
+  command.add_option("terrain", path, kTerrainFiles)->required()->type_name(kFile);
+}
+
+void add_json(CLI::App& command, bool& json) {
+  command.add_flag("--json", json, "Print JSON");
 }
 
 CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
@@ -202,6 +225,7 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
   command
       .add_option("--water-mask", preparation.water_mask,
                   "An .asc grid of the terrain's posts: 1 where voids are water, else 0")
+      ->type_name(kFile)
       ->needs(level);
 }
 
@@ -222,7 +246,7 @@ void add_notes(CLI::App& command, EncodeRequest& request) {
 using Action = std::function<void()>;
 
 void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
-  command.add_option("terrain", request->input, kTerrainFiles)->required();
+  add_terrain(command, request->input);
   CLI::Option* const bound =
       add_decimal(command, "--max-error", request->lattice.max_error,
                   "Keep every height within this distance, in the terrain's unit");
@@ -301,7 +325,9 @@ void add_merge(CLI::App& app, Action& action) {
   };
   auto request = std::make_shared<Request>();
   CLI::App& command = *app.add_subcommand("merge", "Join the shards of a pack, in any order");
-  command.add_option("shards", request->shards)->required();
+  command.add_option("shards", request->shards, "What encode --tiles wrote, all of it")
+      ->required()
+      ->type_name(kFile);
   add_output(command, request->output);
   command.callback(
       [request, &action] { action = [request] { run_merge(request->shards, request->output); }; });
@@ -310,7 +336,7 @@ void add_merge(CLI::App& app, Action& action) {
 void add_decode(CLI::App& app, Action& action) {
   auto request = std::make_shared<DecodeRequest>();
   CLI::App& command = *app.add_subcommand("decode", "Turn a stream into a mesh or a grid");
-  command.add_option("stream", request->input)->required();
+  add_stream(command, request->input);
   add_output(command, request->output,
              "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); - is .xyz on "
              "standard output");
@@ -333,7 +359,7 @@ void add_embed(CLI::App& app, Action& action) {
   auto request = std::make_shared<Request>();
   CLI::App& command =
       *app.add_subcommand("embed", "Turn a stream into a C header, to be linked into firmware");
-  command.add_option("stream", request->input)->required();
+  add_stream(command, request->input, "A stream (.mtin)");
   add_output(command, request->output);
   command.footer("X.h defines the array X_stream and X_VERTICES, the capacity that it needs.");
   command.callback(
@@ -347,8 +373,8 @@ void add_info(CLI::App& app, Action& action) {
   };
   auto request = std::make_shared<Request>();
   CLI::App& command = *app.add_subcommand("info", "Tell what a stream holds");
-  command.add_option("stream", request->input)->required();
-  command.add_flag("--json", request->json);
+  add_stream(command, request->input);
+  add_json(command, request->json);
   command.callback(
       [request, &action] { action = [request] { run_info(request->input, request->json); }; });
 }
@@ -356,10 +382,10 @@ void add_info(CLI::App& app, Action& action) {
 void add_verify(CLI::App& app, Action& action) {
   auto request = std::make_shared<VerifyRequest>();
   CLI::App& command = *app.add_subcommand("verify", "Compare a stream with its terrain");
-  command.add_option("stream", request->input)->required();
-  command.add_option("terrain", request->source, kTerrainFiles)->required();
+  add_stream(command, request->input);
+  add_terrain(command, request->source);
   add_preparation(command, request->preparation);
-  command.add_flag("--json", request->json);
+  add_json(command, request->json);
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
 }
 
@@ -375,7 +401,7 @@ void add_fractal(CLI::App& app, Action& action) {
   command.add_option("--size", request->size, "Posts in a row")
       ->check(CLI::Range(2u, 16384u))
       ->capture_default_str();
-  command.add_option("--seed", request->seed)->capture_default_str();
+  command.add_option("--seed", request->seed, "Another terrain for each")->capture_default_str();
   command.callback([request, &action] {
     action = [request] { run_fractal(request->output, request->size, request->seed); };
   });
@@ -384,14 +410,30 @@ void add_fractal(CLI::App& app, Action& action) {
 void add_render(CLI::App& app, Action& action) {
   auto request = std::make_shared<RenderRequest>();
   CLI::App& command = *app.add_subcommand("render", "Draw a stream (.png)");
-  command.add_option("stream", request->input)->required();
+  add_stream(command, request->input);
   add_output(command, request->output);
   command.add_option("--width", request->width, "Pixels in a row")
       ->check(CLI::Range(kNarrowest, kWidest))
       ->capture_default_str();
-  command.add_option("--source", request->source, "Draw a map of the errors against this terrain");
+  command.add_option("--source", request->source, "Draw a map of the errors against this terrain")
+      ->type_name(kFile);
   add_preparation(command, request->preparation);
   command.callback([request, &action] { action = [request] { run_render(*request); }; });
+}
+
+// Prints what the command line accepts, for man or a shell.
+void add_document(CLI::App& parent, const std::string& name, const CLI::App& app, Action& action,
+                  std::string (*writer)(const CommandText& program)) {
+  parent.add_subcommand(name)->group(kHidden)->callback(
+      [&app, &action, writer] { action = [&app, writer] { print(writer(describe(app))); }; });
+}
+
+// For those who package the program; they tell what is defined by the time they run.
+void add_documents(CLI::App& app, Action& action) {
+  add_document(app, "manual", app, action, manual);
+  CLI::App& completion = *app.add_subcommand("completion")->group(kHidden)->require_subcommand(1);
+  add_document(completion, "bash", app, action, bash_completion);
+  add_document(completion, "zsh", app, action, zsh_completion);
 }
 
 // Prints one line, whatever the text, without asking for memory: there may be none.
@@ -414,6 +456,7 @@ int fail(const char* text, int code) {
 int run(int argc, char** argv) {
   CLI::App app("Terrain TINs for microcontrollers");
   Action action;
+  app.set_version_flag("--version", versions(), "Print the versions of library and formats");
   app.require_subcommand(1);
   app.footer(kExitCodes);
   add_encode(app, action);
@@ -425,6 +468,7 @@ int run(int argc, char** argv) {
   add_verify(app, action);
   add_fractal(app, action);
   add_render(app, action);
+  add_documents(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

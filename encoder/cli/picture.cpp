@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The commands render and fractal: pictures, and terrains to try the program with.
 #include <algorithm>
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Draws the bar, at most ten times a second.
 #include "encoder/cli/progress.hpp"
 

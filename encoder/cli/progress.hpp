@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A bar on the terminal.
 #ifndef MICROTIN_ENCODER_CLI_PROGRESS_HPP
 #define MICROTIN_ENCODER_CLI_PROGRESS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reports as JSON or lines, on the terminal only if the output is safe.
 #include "encoder/cli/report.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Printing reports.
 #ifndef MICROTIN_ENCODER_CLI_REPORT_HPP
 #define MICROTIN_ENCODER_CLI_REPORT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command verify: compares a stream or a pack with its terrain and judges.
 #include "encoder/base/error.hpp"
 #include "encoder/cli/commands.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Divides exactly, so that a coordinate prints with as many decimals as it has.
 #include "encoder/exact/coordinates.hpp"
 

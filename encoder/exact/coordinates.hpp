@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Real coordinates of lattice numbers as text.
 #ifndef MICROTIN_ENCODER_EXACT_COORDINATES_HPP
 #define MICROTIN_ENCODER_EXACT_COORDINATES_HPP

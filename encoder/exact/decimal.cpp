@@ -1,4 +1,6 @@
+// SPDX-License-Identifier: MIT
 // Reads, rounds, scales and prints decimals by integers.
+// Ours: libraries for decimals keep each number on the heap; there are millions of these.
 #include "encoder/exact/decimal.hpp"
 
 #include <algorithm>

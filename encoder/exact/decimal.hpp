@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Exact decimal numbers: what people write in files and on command lines.
 #ifndef MICROTIN_ENCODER_EXACT_DECIMAL_HPP
 #define MICROTIN_ENCODER_EXACT_DECIMAL_HPP

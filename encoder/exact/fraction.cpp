@@ -1,4 +1,6 @@
+// SPDX-License-Identifier: MIT
 // Continued fractions find what a rounded decimal stands for.
+// Ours: what libraries have of fractions does not look for the simplest one near a rounded number.
 #include "encoder/exact/fraction.hpp"
 
 #include <algorithm>

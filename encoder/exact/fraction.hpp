@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fractions behind rounded decimals, and axes made of them.
 #ifndef MICROTIN_ENCODER_EXACT_FRACTION_HPP
 #define MICROTIN_ENCODER_EXACT_FRACTION_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The exact way from a source's numbers along one axis to the lattice.
 #ifndef MICROTIN_ENCODER_EXACT_LATTICE_MAP_HPP
 #define MICROTIN_ENCODER_EXACT_LATTICE_MAP_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a stream's header says beside the mesh: where it lies, in which units, and how good it is.
 #ifndef MICROTIN_ENCODER_EXACT_METADATA_HPP
 #define MICROTIN_ENCODER_EXACT_METADATA_HPP

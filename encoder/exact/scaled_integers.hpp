@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Integers that a file multiplies and shifts to real numbers.
 #ifndef MICROTIN_ENCODER_EXACT_SCALED_INTEGERS_HPP
 #define MICROTIN_ENCODER_EXACT_SCALED_INTEGERS_HPP

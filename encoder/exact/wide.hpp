@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // 128-bit integers for exact conversions, with the three ways to round a quotient.
 #ifndef MICROTIN_ENCODER_EXACT_WIDE_HPP
 #define MICROTIN_ENCODER_EXACT_WIDE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Colours, and those of heights.
 #ifndef MICROTIN_ENCODER_EXPORT_COLOUR_HPP
 #define MICROTIN_ENCODER_EXPORT_COLOUR_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How long a degree is on the ground.
 #ifndef MICROTIN_ENCODER_EXPORT_DEGREE_HPP
 #define MICROTIN_ENCODER_EXPORT_DEGREE_HPP

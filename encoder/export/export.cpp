@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes XYZ, OBJ and PLY line by line.
 #include "encoder/export/export.hpp"
 

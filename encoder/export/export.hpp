@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writing decoded terrains in formats that other programs read.
 #ifndef MICROTIN_ENCODER_EXPORT_EXPORT_HPP
 #define MICROTIN_ENCODER_EXPORT_EXPORT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Puts vertices, normals and triangles into one glTF file, centred and in metres.
 #include "encoder/export/glb.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces as glTF binaries, for viewers.
 #ifndef MICROTIN_ENCODER_EXPORT_GLB_HPP
 #define MICROTIN_ENCODER_EXPORT_GLB_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Asks the surface at each cell's centre, from north to south.
 #include "encoder/export/grid.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writing surfaces as ESRI ASCII grids.
 #ifndef MICROTIN_ENCODER_EXPORT_GRID_HPP
 #define MICROTIN_ENCODER_EXPORT_GRID_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Asks streams and packs for heights; keeps two rows of a pack's tiles decoded.
 #include "encoder/export/height_sampler.hpp"
 

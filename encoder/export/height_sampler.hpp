@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Heights anywhere on a stream's or a pack's surface, by the product's own query.
 #ifndef MICROTIN_ENCODER_EXPORT_HEIGHT_SAMPLER_HPP
 #define MICROTIN_ENCODER_EXPORT_HEIGHT_SAMPLER_HPP

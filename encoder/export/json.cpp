@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes numbers, texts and objects as JSON.
 #include "encoder/export/json.hpp"
 

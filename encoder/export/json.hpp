@@ -1,4 +1,6 @@
-// Values as JSON.
+// SPDX-License-Identifier: MIT
+// Values as JSON. Not by a library: numbers keep the digits that std::to_chars gives them
+// ("1e+05"), and the bytes of .glb files are the same whatever version of a library is there.
 #ifndef MICROTIN_ENCODER_EXPORT_JSON_HPP
 #define MICROTIN_ENCODER_EXPORT_JSON_HPP
 

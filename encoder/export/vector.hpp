@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vectors for pictures and meshes: nothing exact is made of them.
 #ifndef MICROTIN_ENCODER_EXPORT_VECTOR_HPP
 #define MICROTIN_ENCODER_EXPORT_VECTOR_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers out of files that may be cut off.
 #ifndef MICROTIN_ENCODER_FILES_BYTE_READER_HPP
 #define MICROTIN_ENCODER_FILES_BYTE_READER_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bytes of a regular file or in memory, at any offset.
 #include "encoder/files/byte_source.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bytes that are read anywhere, piece by piece: a file that need not fit into memory.
 #ifndef MICROTIN_ENCODER_FILES_BYTE_SOURCE_HPP
 #define MICROTIN_ENCODER_FILES_BYTE_SOURCE_HPP

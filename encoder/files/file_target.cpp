@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Follows links, and looks at what is where an output is to be.
 #include "encoder/files/file_target.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the names of files lead to.
 #ifndef MICROTIN_ENCODER_FILES_FILE_TARGET_HPP
 #define MICROTIN_ENCODER_FILES_FILE_TARGET_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads a file or standard input to its end.
 #include "encoder/files/input_file.hpp"
 

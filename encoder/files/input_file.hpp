@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whole files as input.
 #ifndef MICROTIN_ENCODER_FILES_INPUT_FILE_HPP
 #define MICROTIN_ENCODER_FILES_INPUT_FILE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A list of temporary files that a signal handler removes.
 #include "encoder/files/leftovers.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files that must not outlive the program, even if a signal ends it.
 #ifndef MICROTIN_ENCODER_FILES_LEFTOVERS_HPP
 #define MICROTIN_ENCODER_FILES_LEFTOVERS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes beside the target and takes its place at the end.
 #include "encoder/files/output_file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Output that appears complete or not at all.
 #ifndef MICROTIN_ENCODER_FILES_OUTPUT_FILE_HPP
 #define MICROTIN_ENCODER_FILES_OUTPUT_FILE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Opens the null device in place of standard files that are closed.
 #include "encoder/files/standard_files.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Standard input, output and error, which the caller may have closed.
 #ifndef MICROTIN_ENCODER_FILES_STANDARD_FILES_HPP
 #define MICROTIN_ENCODER_FILES_STANDARD_FILES_HPP

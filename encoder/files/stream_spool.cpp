@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Keeps streams in a temporary file, in order.
 #include "encoder/files/stream_spool.hpp"
 
@@ -20,10 +21,9 @@ std::FILE* open_nameless(const std::string& output) {
   if (!target) return std::tmpfile();
   const std::string name = *target + ".streams-" + std::to_string(getpid());
   const SignalsHeld held;
-  std::FILE* const file =
-      stream_of(open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600), "w+b");
-  if (file != nullptr) std::remove(name.c_str());
-  return file;
+  const int number = open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (number >= 0) std::remove(name.c_str());
+  return stream_of(number, "w+b");
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Streams that wait in a file until it is known what comes before them.
 #ifndef MICROTIN_ENCODER_FILES_STREAM_SPOOL_HPP
 #define MICROTIN_ENCODER_FILES_STREAM_SPOOL_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tries steps of height and keeps the one whose stream is smallest.
 #include "encoder/fit/approximation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A source in few bytes, never wrong by more than asked for.
 #ifndef MICROTIN_ENCODER_FIT_APPROXIMATION_HPP
 #define MICROTIN_ENCODER_FIT_APPROXIMATION_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A ladder of bounds, searched roughly from above and then exactly.
 #include "encoder/fit/byte_budget.hpp"
 

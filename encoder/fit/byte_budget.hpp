@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The smallest error bound that a number of bytes allows.
 #ifndef MICROTIN_ENCODER_FIT_BYTE_BUDGET_HPP
 #define MICROTIN_ENCODER_FIT_BYTE_BUDGET_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Removes and moves vertices one by one, and takes back what breaks a bound.
 #include "encoder/fit/decimation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fewer vertices for the same bounds.
 #ifndef MICROTIN_ENCODER_FIT_DECIMATION_HPP
 #define MICROTIN_ENCODER_FIT_DECIMATION_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Remembers what changed, last first, to take it back.
 #include "encoder/fit/edits.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Changes of a surface that can be taken back.
 #ifndef MICROTIN_ENCODER_FIT_EDITS_HPP
 #define MICROTIN_ENCODER_FIT_EDITS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far a surface may be from a sample, and how far off it is.
 #ifndef MICROTIN_ENCODER_FIT_ERROR_MODEL_HPP
 #define MICROTIN_ENCODER_FIT_ERROR_MODEL_HPP

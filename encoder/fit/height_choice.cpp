@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Takes the cheapest height of each vertex in turn, by lengths of codes learned from all.
 #include "encoder/fit/height_choice.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Heights that cost few bits, within their bounds.
 #ifndef MICROTIN_ENCODER_FIT_HEIGHT_CHOICE_HPP
 #define MICROTIN_ENCODER_FIT_HEIGHT_CHOICE_HPP

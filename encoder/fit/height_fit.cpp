@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shifts heights until no post is out of bounds, or gives up soon.
 #include "encoder/fit/height_fit.hpp"
 

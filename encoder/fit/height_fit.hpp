@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Heights of a few vertices that bring all posts around them within their bounds.
 #ifndef MICROTIN_ENCODER_FIT_HEIGHT_FIT_HPP
 #define MICROTIN_ENCODER_FIT_HEIGHT_FIT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sorts posts into square cells of about one post each: counting sort.
 #include "encoder/fit/post_index.hpp"
 

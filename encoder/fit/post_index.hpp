@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which posts lie under a triangle.
 #ifndef MICROTIN_ENCODER_FIT_POST_INDEX_HPP
 #define MICROTIN_ENCODER_FIT_POST_INDEX_HPP

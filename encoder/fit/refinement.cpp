@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Greedy insertion: always the sample that is furthest from its bounds.
 #include "encoder/fit/refinement.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A surface through some samples of a survey, refined by making the worst sample a vertex.
 #ifndef MICROTIN_ENCODER_FIT_REFINEMENT_HPP
 #define MICROTIN_ENCODER_FIT_REFINEMENT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Refinement, then decimation, then cheaper heights, as long as asked for.
 #include "encoder/fit/simplify.hpp"
 

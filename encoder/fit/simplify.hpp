@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The choice of the vertices that represent a survey.
 #ifndef MICROTIN_ENCODER_FIT_SIMPLIFY_HPP
 #define MICROTIN_ENCODER_FIT_SIMPLIFY_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Heights on a triangulation: which posts lie where, and whether they keep their bounds.
 #include "encoder/fit/surface.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A triangulated surface over a survey whose vertices come, go and move up and down.
 #ifndef MICROTIN_ENCODER_FIT_SURFACE_HPP
 #define MICROTIN_ENCODER_FIT_SURFACE_HPP

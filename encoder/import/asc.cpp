@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ESRI ASCII grids, read whole or in rectangles.
 #include <algorithm>
 #include <array>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finds codes and units in well-known text and GeoTIFF keys.
 #include "encoder/import/crs.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coordinate reference systems as files state them.
 #ifndef MICROTIN_ENCODER_IMPORT_CRS_HPP
 #define MICROTIN_ENCODER_IMPORT_CRS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whatever GDAL opens; part of builds with MICROTIN_WITH_GDAL only.
 #include <cpl_error.h>
 #include <cpl_string.h>

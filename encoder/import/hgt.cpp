@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SRTM tiles, read whole or in rectangles.
 #include <charconv>
 #include <filesystem>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Chooses the reader of a file by its suffix.
 #include "encoder/import/import.hpp"
 

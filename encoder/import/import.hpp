@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading terrains from the files they come in.
 #ifndef MICROTIN_ENCODER_IMPORT_IMPORT_HPP
 #define MICROTIN_ENCODER_IMPORT_IMPORT_HPP

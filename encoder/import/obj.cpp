@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Wavefront OBJ: of its lines the vertices.
 #include "encoder/base/error.hpp"
 #include "encoder/import/import.hpp"

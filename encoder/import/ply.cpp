@@ -1,4 +1,6 @@
+// SPDX-License-Identifier: MIT
 // PLY, the Stanford polygon format: of its elements the vertices, of these x, y and z.
+// Ours: a reader that keeps the decimals of text as they are is not at hand.
 #include <array>
 
 #include "encoder/files/byte_reader.hpp"

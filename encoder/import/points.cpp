@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points as text, one a line.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads a terrain, fills its voids and floods the rest, whole or piece by piece.
 #include "encoder/import/prepared_terrain.hpp"
 

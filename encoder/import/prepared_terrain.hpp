@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Terrains as they are encoded, and as they are compared with what came of it.
 #ifndef MICROTIN_ENCODER_IMPORT_PREPARED_TERRAIN_HPP
 #define MICROTIN_ENCODER_IMPORT_PREPARED_TERRAIN_HPP

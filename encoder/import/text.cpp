@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Splits text into lines and fields, and reads their numbers.
 #include "encoder/import/text.hpp"
 

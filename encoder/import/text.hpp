@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the readers of text formats share.
 #ifndef MICROTIN_ENCODER_IMPORT_TEXT_HPP
 #define MICROTIN_ENCODER_IMPORT_TEXT_HPP

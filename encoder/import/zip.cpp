@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SRTM tiles as they are handed out: one .hgt in a zip archive.
 #include <zlib.h>
 

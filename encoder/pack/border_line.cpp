@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finds the fewest vertices along a line of posts by dynamic programming.
 #include "encoder/pack/border_line.hpp"
 

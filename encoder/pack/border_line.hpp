@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The border between two tiles, from corner to corner: a chain of vertices that both will have.
 #ifndef MICROTIN_ENCODER_PACK_BORDER_LINE_HPP
 #define MICROTIN_ENCODER_PACK_BORDER_LINE_HPP

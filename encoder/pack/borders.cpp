@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads a tile with the posts beside it, and finds the vertices of its four borders.
 #include "encoder/pack/borders.hpp"
 

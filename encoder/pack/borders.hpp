@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The borders between the tiles of a grid: which vertices neighbours share.
 #ifndef MICROTIN_ENCODER_PACK_BORDERS_HPP
 #define MICROTIN_ENCODER_PACK_BORDERS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plans the tiles and encodes them in parallel; gives them away in order.
 #include "encoder/pack/encode.hpp"
 

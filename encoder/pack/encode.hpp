@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A raster as the tiles of a pack.
 #ifndef MICROTIN_ENCODER_PACK_ENCODE_HPP
 #define MICROTIN_ENCODER_PACK_ENCODE_HPP

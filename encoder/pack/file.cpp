@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes and reads a pack's header and index, and checks each tile that is read.
 #include "encoder/pack/file.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Packs as bytes (PACK.md), on the host.
 #ifndef MICROTIN_ENCODER_PACK_FILE_HPP
 #define MICROTIN_ENCODER_PACK_FILE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Incremental insertion in rounds along a Hilbert curve, with exact integers.
 #include "encoder/pack/global_triangulation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A Delaunay triangulation of places of a whole pack, beyond 16 bits.
 #ifndef MICROTIN_ENCODER_PACK_GLOBAL_TRIANGULATION_HPP
 #define MICROTIN_ENCODER_PACK_GLOBAL_TRIANGULATION_HPP

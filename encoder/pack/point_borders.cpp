@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cuts edges of the global triangulation where tiles meet, at shared vertices.
 #include "encoder/pack/point_borders.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lays points out, cuts them into tiles and encodes each.
 #include "encoder/pack/point_pack.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A cloud of points as a pack of tiles.
 #ifndef MICROTIN_ENCODER_PACK_POINT_PACK_HPP
 #define MICROTIN_ENCODER_PACK_POINT_PACK_HPP

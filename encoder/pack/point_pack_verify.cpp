@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compares a pack with points: each is asked of the tiles that hold it.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Merges points that share a place, and bounds the heights there.
 #include "encoder/pack/point_survey.hpp"
 

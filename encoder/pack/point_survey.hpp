@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A cloud of points on the lattice of a pack, which is wider than that of a stream.
 #ifndef MICROTIN_ENCODER_PACK_POINT_SURVEY_HPP
 #define MICROTIN_ENCODER_PACK_POINT_SURVEY_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surveys the points of a tile with its borders, and encodes it.
 #include "encoder/pack/point_tile.hpp"
 

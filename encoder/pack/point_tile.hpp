@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One tile of a cloud of points: its survey and its stream.
 #ifndef MICROTIN_ENCODER_PACK_POINT_TILE_HPP
 #define MICROTIN_ENCODER_PACK_POINT_TILE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes shards, checks that they belong together, and joins them.
 #include "encoder/pack/shard.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A part of a pack's tiles in a file of its own, until merge puts all together.
 //
 //   head     "mtsh", the version, the length of what follows up to the check, 4 bytes; the pack's

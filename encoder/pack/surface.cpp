@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Joins the tiles of a pack; compares them with a raster, a row of tiles at a time.
 #include "encoder/pack/surface.hpp"
 

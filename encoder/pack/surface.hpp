@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A pack as one surface.
 #ifndef MICROTIN_ENCODER_PACK_SURFACE_HPP
 #define MICROTIN_ENCODER_PACK_SURFACE_HPP

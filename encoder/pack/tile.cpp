@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surveys a tile with the vertices its borders share, encodes it, and checks both.
 #include "encoder/pack/tile.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One tile of a raster: its survey, its stream, and what it keeps of what was asked for.
 #ifndef MICROTIN_ENCODER_PACK_TILE_HPP
 #define MICROTIN_ENCODER_PACK_TILE_HPP

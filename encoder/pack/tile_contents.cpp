@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sorts things by the tiles that hold them: counting sort.
 #include "encoder/pack/tile_contents.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What lies in which tile.
 #ifndef MICROTIN_ENCODER_PACK_TILE_CONTENTS_HPP
 #define MICROTIN_ENCODER_PACK_TILE_CONTENTS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tries the roughest tiles at some sizes.
 #include "encoder/pack/tile_plan.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How large tiles may be.
 #ifndef MICROTIN_ENCODER_PACK_TILE_PLAN_HPP
 #define MICROTIN_ENCODER_PACK_TILE_PLAN_HPP

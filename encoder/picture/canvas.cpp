@@ -1,4 +1,6 @@
+// SPDX-License-Identifier: MIT
 // Blends lines and boxes into pixels.
+// Ours: lines, boxes and letters are all; the pixels are the same whatever is installed.
 #include "encoder/picture/canvas.hpp"
 
 namespace microtin::picture {

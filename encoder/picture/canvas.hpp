@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A picture to draw on, with soft edges.
 #ifndef MICROTIN_ENCODER_PICTURE_CANVAS_HPP
 #define MICROTIN_ENCODER_PICTURE_CANVAS_HPP

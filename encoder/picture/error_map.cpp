@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Colours each place by its error, and finds the largest.
 #include "encoder/picture/error_map.hpp"
 

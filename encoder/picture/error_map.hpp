@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Drawing how far a terrain is from its source.
 #ifndef MICROTIN_ENCODER_PICTURE_ERROR_MAP_HPP
 #define MICROTIN_ENCODER_PICTURE_ERROR_MAP_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A ramp of colours with round numbers, and a bar of a round length.
 #include "encoder/picture/legend.hpp"
 

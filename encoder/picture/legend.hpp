@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What tells how to read a map.
 #ifndef MICROTIN_ENCODER_PICTURE_LEGEND_HPP
 #define MICROTIN_ENCODER_PICTURE_LEGEND_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Letters made of strokes.
 #include "encoder/picture/lettering.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text in pictures.
 #ifndef MICROTIN_ENCODER_PICTURE_LETTERING_HPP
 #define MICROTIN_ENCODER_PICTURE_LETTERING_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fits a terrain into a box, degrees corrected for its latitude.
 #include "encoder/picture/map_frame.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a terrain lies in a picture.
 #ifndef MICROTIN_ENCODER_PICTURE_MAP_FRAME_HPP
 #define MICROTIN_ENCODER_PICTURE_MAP_FRAME_HPP

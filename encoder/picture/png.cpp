@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Hands pixels to the PNG writer.
 #include "encoder/picture/png.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Images as PNG files.
 #ifndef MICROTIN_ENCODER_PICTURE_PNG_HPP
 #define MICROTIN_ENCODER_PICTURE_PNG_HPP

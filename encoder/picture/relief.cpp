@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Light from the north-west on normals, colours by height, lines of triangles.
 #include "encoder/picture/relief.hpp"
 

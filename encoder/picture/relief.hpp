@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Drawing a terrain: shaded, tinted by height, with its triangles.
 #ifndef MICROTIN_ENCODER_PICTURE_RELIEF_HPP
 #define MICROTIN_ENCODER_PICTURE_RELIEF_HPP

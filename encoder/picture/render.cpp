@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lays out maps, legends and title, and draws them.
 #include "encoder/picture/render.hpp"
 

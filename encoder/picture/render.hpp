@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A picture of a decoded terrain, with a legend.
 #ifndef MICROTIN_ENCODER_PICTURE_RENDER_HPP
 #define MICROTIN_ENCODER_PICTURE_RENDER_HPP

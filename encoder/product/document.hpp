@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the encoder has made, read back: a stream or a pack, whichever a file holds.
 #ifndef MICROTIN_ENCODER_PRODUCT_DOCUMENT_HPP
 #define MICROTIN_ENCODER_PRODUCT_DOCUMENT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Encodes packs: of rasters tile by tile, of points at once, and of rasters in shards.
 #include "encoder/product/encode_pack.hpp"
 

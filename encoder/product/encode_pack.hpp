@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A terrain as a pack of tiles, each of which is known to keep what was asked for.
 #ifndef MICROTIN_ENCODER_PRODUCT_ENCODE_PACK_HPP
 #define MICROTIN_ENCODER_PRODUCT_ENCODE_PACK_HPP

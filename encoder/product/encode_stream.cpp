@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Encodes, and trusts nothing that it has not measured on what the decoder makes of it.
 #include "encoder/product/encode_stream.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A terrain as one stream that is known to keep what was asked for.
 #ifndef MICROTIN_ENCODER_PRODUCT_ENCODE_STREAM_HPP
 #define MICROTIN_ENCODER_PRODUCT_ENCODE_STREAM_HPP

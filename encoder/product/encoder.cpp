@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The public face: checks what a stranger asks for, and translates.
 #include "microtin/encoder.hpp"
 
@@ -194,7 +195,8 @@ Terrain::Terrain(std::shared_ptr<const Content> content) : content_(std::move(co
 Terrain::Terrain(Posts posts)
     : Terrain(std::make_shared<Content>(Content{raster_of(std::move(posts))})) {}
 
-Terrain::Terrain(Points points) : Terrain(std::make_shared<Content>(Content{cloud_of(points)})) {}
+Terrain::Terrain(const Points& points)
+    : Terrain(std::make_shared<Content>(Content{cloud_of(points)})) {}
 
 Terrain Terrain::from_file(const std::string& path) {
   return Terrain(std::make_shared<Content>(Content{importing::import_terrain(path)}));
@@ -232,9 +234,9 @@ Report encode_pack(const Terrain& terrain, const PackOptions& options, const std
   files::OutputFile out(path);
   const terrain::Source& source = terrain.content().source;
   const auto* const raster = std::get_if<terrain::Raster>(&source);
-  const Report report = raster != nullptr
-                            ? encode_posts(*raster, all, path, out, callbacks)
-                            : encode_points(std::get<terrain::PointCloud>(source), all, out);
+  Report report = raster != nullptr
+                      ? encode_posts(*raster, all, path, out, callbacks)
+                      : encode_points(std::get<terrain::PointCloud>(source), all, out);
   out.commit();
   return report;
 }

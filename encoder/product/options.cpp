@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Takes apart what is asked for.
 #include "encoder/product/options.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is asked of an encoding, and what follows from that for its parts.
 #ifndef MICROTIN_ENCODER_PRODUCT_OPTIONS_HPP
 #define MICROTIN_ENCODER_PRODUCT_OPTIONS_HPP

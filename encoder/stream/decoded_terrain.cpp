@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gives the shipped decoder memory and a stream.
 #include "encoder/stream/decoded_terrain.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A terrain decoded on the host, by the shipped decoder.
 #ifndef MICROTIN_ENCODER_STREAM_DECODED_TERRAIN_HPP
 #define MICROTIN_ENCODER_STREAM_DECODED_TERRAIN_HPP

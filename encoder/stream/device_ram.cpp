@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Asks the decoder's own macros.
 #include "encoder/stream/device_ram.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How much RAM a terrain takes on a device that decodes it, and the other way round.
 #ifndef MICROTIN_ENCODER_STREAM_DEVICE_RAM_HPP
 #define MICROTIN_ENCODER_STREAM_DEVICE_RAM_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Prints bytes as an array.
 #include "encoder/stream/embed.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A stream as C source, to be linked into firmware.
 #ifndef MICROTIN_ENCODER_STREAM_EMBED_HPP
 #define MICROTIN_ENCODER_STREAM_EMBED_HPP

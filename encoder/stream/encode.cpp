@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Drives the shared reconstruction with a writing coder, then decodes and compares.
 #include "encoder/stream/encode.hpp"
 

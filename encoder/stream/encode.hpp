@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From chosen vertices to the bytes of a stream.
 #ifndef MICROTIN_ENCODER_STREAM_ENCODE_HPP
 #define MICROTIN_ENCODER_STREAM_ENCODE_HPP

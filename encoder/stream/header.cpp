@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Header fields and notes as FORMAT.md lays them down.
 #include "encoder/stream/header.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writing and reading a stream's header with all its notes.
 #ifndef MICROTIN_ENCODER_STREAM_HEADER_HPP
 #define MICROTIN_ENCODER_STREAM_HEADER_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The Hilbert curve: an order of places in which neighbours are close to one another.
 #ifndef MICROTIN_ENCODER_STREAM_HILBERT_HPP
 #define MICROTIN_ENCODER_STREAM_HILBERT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Walks breadth first, again and again, and takes an independent set of vertices away each time.
 #include "encoder/stream/order.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The order in which vertices are sent.
 #ifndef MICROTIN_ENCODER_STREAM_ORDER_HPP
 #define MICROTIN_ENCODER_STREAM_ORDER_HPP

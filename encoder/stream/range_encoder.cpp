@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Carries are put off until bytes are sure.
 #include "encoder/stream/range_encoder.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The writing counterpart of decoder/range_decoder.hpp: bytes of one section's payload.
 #ifndef MICROTIN_ENCODER_STREAM_RANGE_ENCODER_HPP
 #define MICROTIN_ENCODER_STREAM_RANGE_ENCODER_HPP

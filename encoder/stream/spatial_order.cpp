@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sorts by round and place on the Hilbert curve: radix sort.
 #include "encoder/stream/spatial_order.hpp"
 

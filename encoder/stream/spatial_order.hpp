@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The order in which points are inserted so that a triangulation of them is quick to build.
 #ifndef MICROTIN_ENCODER_STREAM_SPATIAL_ORDER_HPP
 #define MICROTIN_ENCODER_STREAM_SPATIAL_ORDER_HPP

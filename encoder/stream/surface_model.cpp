@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Copies vertices and triangles out of a mesh.
 #include "encoder/stream/surface_model.hpp"
 

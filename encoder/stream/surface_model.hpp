@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A decoded terrain as vertices and triangles: what is exported, drawn and put together of tiles.
 #ifndef MICROTIN_ENCODER_STREAM_SURFACE_MODEL_HPP
 #define MICROTIN_ENCODER_STREAM_SURFACE_MODEL_HPP

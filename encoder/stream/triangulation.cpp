@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Inserts by the shared cavity, removes by ears, keeps an edge of each vertex.
 #include "encoder/stream/triangulation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The canonical Delaunay triangulation of a set of points: built at once, then changed point by
 // point. Always exact, and a function of the points alone.
 #ifndef MICROTIN_ENCODER_STREAM_TRIANGULATION_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Copies a rectangle out of a raster.
 #include "encoder/terrain/crop.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A rectangle of a raster.
 #ifndef MICROTIN_ENCODER_TERRAIN_CROP_HPP
 #define MICROTIN_ENCODER_TERRAIN_CROP_HPP

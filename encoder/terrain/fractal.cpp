@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sums octaves of value noise.
 #include "encoder/terrain/fractal.hpp"
 

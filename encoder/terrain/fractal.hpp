@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A terrain that the program makes itself, for demonstrations and tests.
 #ifndef MICROTIN_ENCODER_TERRAIN_FRACTAL_HPP
 #define MICROTIN_ENCODER_TERRAIN_FRACTAL_HPP

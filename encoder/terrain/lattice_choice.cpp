@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finds the finest step and the offset with which all numbers fit the lattice.
 #include "encoder/terrain/lattice_choice.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Choosing the lattice for a source: steps and offsets.
 #ifndef MICROTIN_ENCODER_TERRAIN_LATTICE_CHOICE_HPP
 #define MICROTIN_ENCODER_TERRAIN_LATTICE_CHOICE_HPP

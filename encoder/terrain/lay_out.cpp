@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Puts posts or points on the lattice, and bounds their heights there.
 #include "encoder/terrain/lay_out.hpp"
 

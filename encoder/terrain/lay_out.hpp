@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Laying a source on its lattice.
 #ifndef MICROTIN_ENCODER_TERRAIN_LAY_OUT_HPP
 #define MICROTIN_ENCODER_TERRAIN_LAY_OUT_HPP

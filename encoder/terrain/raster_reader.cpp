@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads rectangles of a raster in memory.
 #include "encoder/terrain/raster_reader.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A raster of which rectangles are read, so that the whole need not fit into memory.
 #ifndef MICROTIN_ENCODER_TERRAIN_RASTER_READER_HPP
 #define MICROTIN_ENCODER_TERRAIN_RASTER_READER_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Goes over a raster in blocks: range of heights, fingerprint, the roughest block.
 #include "encoder/terrain/raster_scan.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is to be known of a whole raster before its tiles are chosen.
 #ifndef MICROTIN_ENCODER_TERRAIN_RASTER_SCAN_HPP
 #define MICROTIN_ENCODER_TERRAIN_RASTER_SCAN_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fills small voids of rectangles as if the whole were there.
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A terrain as it was read: exact decimals, not yet on the lattice.
 #ifndef MICROTIN_ENCODER_TERRAIN_SOURCE_HPP
 #define MICROTIN_ENCODER_TERRAIN_SOURCE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a terrain must represent, on the lattice: samples with the heights that are allowed there.
 #ifndef MICROTIN_ENCODER_TERRAIN_SURVEY_HPP
 #define MICROTIN_ENCODER_TERRAIN_SURVEY_HPP

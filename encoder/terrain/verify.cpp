@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Asks the mesh at each post, and sums errors up exactly.
 #include "encoder/terrain/verify.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Comparing a decoded terrain with its source, by the product's own height query.
 #ifndef MICROTIN_ENCODER_TERRAIN_VERIFY_HPP
 #define MICROTIN_ENCODER_TERRAIN_VERIFY_HPP

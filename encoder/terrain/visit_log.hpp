@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Posts visited by several threads, told in one order.
 #ifndef MICROTIN_ENCODER_TERRAIN_VISIT_LOG_HPP
 #define MICROTIN_ENCODER_TERRAIN_VISIT_LOG_HPP

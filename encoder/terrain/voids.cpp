@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finds regions of voids, and relaxes a soap film over those that are small.
 #include "encoder/terrain/voids.hpp"
 

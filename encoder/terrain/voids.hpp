@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Filling gaps of a raster.
 #ifndef MICROTIN_ENCODER_TERRAIN_VOIDS_HPP
 #define MICROTIN_ENCODER_TERRAIN_VOIDS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Floods voids, checks masks, and watches the water.
 #include "encoder/terrain/water.hpp"
 

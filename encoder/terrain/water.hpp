@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Water, where the user says that it is.
 #ifndef MICROTIN_ENCODER_TERRAIN_WATER_HPP
 #define MICROTIN_ENCODER_TERRAIN_WATER_HPP

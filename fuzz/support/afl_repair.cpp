@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // AFL++'s hook before each run: the same repair of checks that libFuzzer's mutator does.
 #include <vector>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A decoder in workspaces of its own.
 #ifndef MICROTIN_FUZZ_SUPPORT_DEVICE_HPP
 #define MICROTIN_FUZZ_SUPPORT_DEVICE_HPP

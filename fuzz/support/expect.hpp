@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a target holds to be true.
 #ifndef MICROTIN_FUZZ_SUPPORT_EXPECT_HPP
 #define MICROTIN_FUZZ_SUPPORT_EXPECT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the importers' targets share: any content ends in a terrain that can be worked with, or in
 // an error of one line.
 #ifndef MICROTIN_FUZZ_SUPPORT_IMPORT_TARGET_HPP

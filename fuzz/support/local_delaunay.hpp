@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether a mesh is the canonical triangulation, by rules between neighbours alone: linear, for
 // every run of a target. Independent of shared/predicates.hpp.
 #ifndef MICROTIN_FUZZ_SUPPORT_LOCAL_DELAUNAY_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Makes the checks of a damaged stream right again, so that fuzzing reaches what lies behind them.
 #ifndef MICROTIN_FUZZ_SUPPORT_REPAIR_HPP
 #define MICROTIN_FUZZ_SUPPORT_REPAIR_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // libFuzzer's mutations, for targets whose input is a stream.
 #ifndef MICROTIN_FUZZ_SUPPORT_STREAM_MUTATOR_HPP
 #define MICROTIN_FUZZ_SUPPORT_STREAM_MUTATOR_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // ESRI ASCII grids.
 #include "fuzz/support/import_target.hpp"
 

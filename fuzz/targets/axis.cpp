@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From real coordinates to the lattice, for any axis: what exact arithmetic says, or a refusal.
 #include <fuzzer/FuzzedDataProvider.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The reconstruction when every decision is the fuzzer's: improbable ones, which few streams hold,
 // come as easily as others. What every single step promises is checked after it.
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // However a stream is cut into pieces and steps are rationed, it ends in the same place, and every
 // state on the way is a terrain. The fuzzer cuts by the last bytes of its input.
 #include <fuzzer/FuzzedDataProvider.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Any bytes end in a status, after a bounded number of steps; whatever was decoded by then is the
 // canonical triangulation, and looking at the header alone says the same of it.
 #include "fuzz/support/device.hpp"

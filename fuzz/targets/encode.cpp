@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Any set of vertices that spans a triangle becomes a stream that decodes to the canonical
 // triangulation of these vertices, whatever their order; any other set is refused.
 #include "encoder/stream/encode.hpp"

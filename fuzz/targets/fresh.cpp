@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Decodes in memory fresh from the heap, for MemorySanitizer (fuzz/strict): no result depends on
 // what was never written.
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // SRTM tiles. A first byte of 1 makes a whole tile by repeating the rest; else the bytes are taken
 // as they are. They begin with the file's name.
 #include "fuzz/support/import_target.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Laser scans: their default classes or, if the file has an odd number of bytes, all.
 #include "fuzz/support/import_target.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // OBJ files.
 #include "fuzz/support/import_target.hpp"
 

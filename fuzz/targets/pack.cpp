@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Packs, damaged and forged, on storage that fails: a service ends within its bounds, answers come
 // from tiles that a host accepts alone, and are the host's. The fuzzer chooses courses and faults
 // by the last bytes of its input.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PLY files, text and binary.
 #include "fuzz/support/import_target.hpp"
 

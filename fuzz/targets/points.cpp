@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lists of points.
 #include "fuzz/support/import_target.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Queries on whatever was decoded, also after an early stop: heights are those of exact arithmetic,
 // from any start of the search. The fuzzer asks by the last bytes of its input.
 #include <fuzzer/FuzzedDataProvider.h>

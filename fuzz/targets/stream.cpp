@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the command line makes of any stream: everything its header says, the same after it was
 // written anew, and its terrain; or an error. A device finds in it what lies within.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Workspaces of any size and place: what does not fit or is not aligned is refused, what fits is
 // filled without a byte beyond it. The fuzzer chooses them by the last bytes of its input.
 #include <fuzzer/FuzzedDataProvider.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Zipped SRTM tiles.
 #include "fuzz/support/import_target.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Dates.
 #include "encoder/base/iso_date.hpp"
 

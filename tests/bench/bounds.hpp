@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files of guaranteed error: tables and curves.
 #ifndef MICROTIN_TESTS_BENCH_BOUNDS_HPP
 #define MICROTIN_TESTS_BENCH_BOUNDS_HPP

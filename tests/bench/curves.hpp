@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Charts with logarithmic axes.
 #ifndef MICROTIN_TESTS_BENCH_CURVES_HPP
 #define MICROTIN_TESTS_BENCH_CURVES_HPP

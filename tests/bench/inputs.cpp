@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/inputs.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Benchmarks speak of all layers.
 #ifndef MICROTIN_TESTS_BENCH_LAYERS_HPP
 #define MICROTIN_TESTS_BENCH_LAYERS_HPP

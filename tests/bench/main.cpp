@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The benchmark's program; `run` calls it.
 #include <cstdio>
 #include <exception>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/measure.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a piece of work costs.
 #ifndef MICROTIN_TESTS_BENCH_MEASURE_HPP
 #define MICROTIN_TESTS_BENCH_MEASURE_HPP

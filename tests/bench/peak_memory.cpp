@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/peak_memory.hpp"
 
 #include <malloc.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How much memory a piece of work takes.
 #ifndef MICROTIN_TESTS_BENCH_PEAK_MEMORY_HPP
 #define MICROTIN_TESTS_BENCH_PEAK_MEMORY_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tables of file sizes; each prints one.
 #ifndef MICROTIN_TESTS_BENCH_RATE_HPP
 #define MICROTIN_TESTS_BENCH_RATE_HPP

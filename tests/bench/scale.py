@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
 """scale.py MICROTIN FOLDER: time and memory of packs of large rasters, as a Markdown table.
 
 The first raster is what `fractal --size 3601` makes; the second, of 40,000 x 40,000 posts, consists

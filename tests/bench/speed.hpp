@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tables of costs; each prints one.
 #ifndef MICROTIN_TESTS_BENCH_SPEED_HPP
 #define MICROTIN_TESTS_BENCH_SPEED_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Means over several inputs and how far they spread.
 #ifndef MICROTIN_TESTS_BENCH_STATISTICS_HPP
 #define MICROTIN_TESTS_BENCH_STATISTICS_HPP

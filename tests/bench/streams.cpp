@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "encoder/files/output_file.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"

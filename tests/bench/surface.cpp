@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/surface.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What all codecs are given and must give back.
 #ifndef MICROTIN_TESTS_BENCH_SURFACE_HPP
 #define MICROTIN_TESTS_BENCH_SURFACE_HPP

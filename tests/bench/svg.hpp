@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plots as SVG.
 #ifndef MICROTIN_TESTS_BENCH_SVG_HPP
 #define MICROTIN_TESTS_BENCH_SVG_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Markdown tables.
 #ifndef MICROTIN_TESTS_BENCH_TABLE_HPP
 #define MICROTIN_TESTS_BENCH_TABLE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/layers.hpp"

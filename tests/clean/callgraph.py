@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """callgraph.py OBJECT...: rejects recursion, indirect calls and frames whose size is not constant, by the call
 graph that gcc wrote beside each object (-fcallgraph-info=su,da)."""
 

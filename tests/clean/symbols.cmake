@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # cmake -DNM=... -DOBJDUMP=... [-DOBJ2YAML=...] "-DOBJECTS=..." -P symbols.cmake
 # Rejects a library's objects if they need anything from outside but the four mem functions and the compiler's
 # arithmetic helpers, or hold writable data, static constructors or unwind tables.

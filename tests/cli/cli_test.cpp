@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The program as its users meet it: exit codes, messages, files left behind.
 #include <doctest/doctest.h>
 

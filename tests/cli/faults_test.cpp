@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files that cannot be read or written: each ends with exit code 1, one line that names the file,
 // and no file left behind. tests/faults lets every call fail in turn.
 #include <doctest/doctest.h>

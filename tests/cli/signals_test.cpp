@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A signal ends the program, and nothing of its output is left; a terminal shows the time left.
 #include <doctest/doctest.h>
 #include <fcntl.h>

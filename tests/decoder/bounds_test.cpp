@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bounds of the arithmetic by all cases, where there are few enough; tests/lemmas proves others.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Workspaces of the sizes that microtin.h tells hold so many vertices, and one byte less holds one
 // fewer: never more than fit.
 #include <cstdio>

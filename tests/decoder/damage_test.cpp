@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Streams that were cut off or damaged: what the decoder says, and that it never says done.
 #include <doctest/doctest.h>
 

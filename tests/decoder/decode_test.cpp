@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The decoder's contract: chunks, limits, stopping, statuses.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "shared/free_region.hpp"
 
 #include <doctest/doctest.h>

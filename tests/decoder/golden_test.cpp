@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Golden streams: what this version of the format looks like, byte for byte. A change of the format
 // changes them on purpose: run with MICROTIN_WRITE_GOLDEN=1 to write them anew, then
 // `host_report X.mtin > X.report` for each, and raise the version.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A device reads a pack: slots, courses, queries, and storage that fails in every way.
 #include "tests/support/pack_device.hpp"
 

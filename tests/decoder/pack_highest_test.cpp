@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The highest on a course: against exact fractions, on packs of the encoder and on forged ones.
 #include <doctest/doctest.h>
 

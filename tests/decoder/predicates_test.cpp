@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "shared/predicates.hpp"
 
 #include <doctest/doctest.h>

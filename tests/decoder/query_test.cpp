@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Heights: against exact rational arithmetic, from any start, on edges and vertices, in voids.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Golden streams that must be refused, one for each rule that a stream can break. The name of each
 // begins with the status. MICROTIN_WRITE_GOLDEN=1 writes them anew.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Workspaces used again, and calls with next to nothing: no state stays that should not.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // shared/SECURITY.md names the tests that check its sentences: they exist.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a decoder does with valid streams does not depend on how they come: chunks, step limits,
 // capacity, what lies behind; and the mesh answers at any time.
 #include <doctest/doctest.h>

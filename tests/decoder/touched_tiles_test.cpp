@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which tiles a course meets.
 #include "decoder/touched_tiles.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far queries walk: the bound, walks in pieces, and starts from buckets.
 #include <doctest/doctest.h>
 

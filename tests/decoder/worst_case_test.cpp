@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The bound on steps (shared/SECURITY.md), and streams made to come near it.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Decimals: reading, rounding, writing.
 #include "encoder/exact/decimal.hpp"
 

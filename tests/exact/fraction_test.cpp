@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Fractions behind written decimals, and axes made of them.
 #include "encoder/exact/fraction.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The length of a degree, beside published ones.
 #include "encoder/export/degree.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes in other programs' formats.
 #include "encoder/export/export.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // glTF binaries, read by a parser of their own.
 #include "encoder/export/glb.hpp"
 

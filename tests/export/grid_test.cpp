@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces as ESRI ASCII grids.
 #include "encoder/export/grid.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "encoder/export/json.hpp"
 
 #include <doctest/doctest.h>
@@ -22,8 +23,9 @@ TEST_CASE("json: texts are quoted, and UTF-8 whatever they were") {
   CHECK(json("a/b c~") == "\"a/b c~\"");
   CHECK(json("\"\\\n\x1b") == "\"\\\"\\\\\\u000a\\u001b\"");
   const std::string legal =
-      "\x7F \xC2\x80 \xDF\xBF \xE0\xA0\x80 \xED\x9F\xBF \xF0\x90\x80\x80 \xF4\x8F\xBF\xBF";
+      "\xC2\xA0 \xDF\xBF \xE0\xA0\x80 \xED\x9F\xBF \xF0\x90\x80\x80 \xF4\x8F\xBF\xBF";
   CHECK(json(legal) == '"' + legal + '"');
+  CHECK(json("\x7F \xC2\x80 \xC2\x9F \xC3\x80") == "\"\\u007f \\u0080 \\u009f \xC3\x80\"");
   const std::string bad = "\xEF\xBF\xBD";
   CHECK(json("\x80") == '"' + bad + '"');
   CHECK(json("\xC1\xBF") == '"' + bad + bad + '"');                      // too long for its code

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Faults on demand: a request for memory, a call of the C library's file functions, or the decoder,
 // fails.
 #ifndef MICROTIN_TESTS_FAULTS_INJECTED_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The device's side of the comparison: a stream in flash, fed in small pieces as from a radio link.
 #include "toolchains/firmware.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The host's side of the comparison: the report of a stream file, which is read whole.
 #include <cstdio>
 #include <fstream>

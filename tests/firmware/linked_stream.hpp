@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The stream that stream.cpp links into the image.
 #ifndef MICROTIN_TESTS_FIRMWARE_LINKED_STREAM_HPP
 #define MICROTIN_TESTS_FIRMWARE_LINKED_STREAM_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Describes a decoded terrain in a few lines of text, the same on host and device.
 #ifndef MICROTIN_TESTS_FIRMWARE_REPORT_HPP
 #define MICROTIN_TESTS_FIRMWARE_REPORT_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The stream of the file MICROTIN_STREAM, as it is. Nothing but assembly: one object of it is all
 // that images of different streams differ by.
 #if defined(__AVR__)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sources within a bound, all the way: the step chosen, encoded, decoded and measured.
 #include "encoder/fit/approximation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Looking for the smallest bound that a number of bytes allows.
 #include "encoder/fit/byte_budget.hpp"
 

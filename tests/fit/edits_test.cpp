@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Taking back what was done to a surface.
 #include "encoder/fit/edits.hpp"
 

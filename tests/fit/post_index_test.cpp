@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which posts lie under a triangle, compared with a look at every one.
 #include "encoder/fit/post_index.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "encoder/fit/simplify.hpp"
 
 #include <doctest/doctest.h>

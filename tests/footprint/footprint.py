@@ -1,8 +1,9 @@
-"""What the decoder needs on each device: measured, held to a budget, and told in the README.
+# SPDX-License-Identifier: MIT
+"""What the decoder needs on each device: measured, held to a budget, and told in the documents.
 
 footprint.py measure ...: measures one target's libraries, writes BUILD/footprint.json and fails if a number is
-above the budget. footprint.py record BUILD...: makes the measured numbers the budget and the README's tables.
-footprint.py readme: fails unless the README's tables are the budget's.
+above the budget. footprint.py record [BUILD...]: makes the measured numbers the budget and the documents'
+tables. footprint.py documents: fails unless the documents' tables are the budget's.
 """
 
 import argparse
@@ -16,7 +17,8 @@ from pathlib import Path
 import stack
 
 HERE = Path(__file__).parent
-BUDGET, README = HERE / "budget.json", HERE.parent.parent / "README.md"
+ROOT = HERE.parent.parent
+BUDGET = HERE / "budget.json"
 
 DECODING = ["peek", "mesh_init", "decoder_init", "feed", "finish"]
 QUERIES = ["height_at", "to_lattice", "vertex", "triangle", "neighbour", "digest"]
@@ -142,7 +144,7 @@ def compare(target, measured):
     return not grown
 
 
-# --- The README -----------------------------------------------------------------------------------
+# --- The documents --------------------------------------------------------------------------------
 
 
 def count(number):
@@ -221,12 +223,32 @@ def footprint(budget):
     ))  # fmt: skip
 
 
+SHOWN = ["cortex-m0", "cortex-m4", "rv32imc", "avr"]
+
+
+def summary(budget):
+    """The README's table."""
+    head = ["target", "decoding", "and queries", "stack", "instructions: decoding, per vertex", "a height, on a path"]
+    rows = []
+    for target in SHOWN:
+        numbers = budget[target]["Os"]
+        row = [target] + [f"{count(numbers[u]['text'])} + {count(numbers[u]['rodata'])}" for u in ("decoding", "queries")]
+        row.append(count(numbers["stack_decoding"]))
+        run = numbers.get("run")
+        rows.append(row + ([count(run["decode_levels2"]), count(run["warm_mean"])] if run else ["-", "-"]))
+    return table(head, rows)
+
+
+DOCUMENTS = {ROOT / "shared/SIZES.md": footprint, ROOT / "README.md": summary}
 MARKED = re.compile(r"(<!-- footprint: .* -->\n\n)(.*?)(\n<!-- end of footprint -->)", re.S)
 
 
-def told(readme, budget):
-    """The README with the budget's tables."""
-    return MARKED.sub(lambda m: m[1] + footprint(budget) + m[3], readme)
+def with_tables(document, budget):
+    """The document's text with the budget's tables."""
+    text, found = MARKED.subn(lambda m: m[1] + DOCUMENTS[document](budget) + m[3], document.read_text())
+    if found != 1:
+        sys.exit(f"{document.name} has no place for the tables, or several")
+    return text
 
 
 # --- Commands -------------------------------------------------------------------------------------
@@ -245,8 +267,8 @@ def arguments():
     one.add_argument("--run", help="the emulator's command")
     one.add_argument("--counting", help="its options for counting")
     many = commands.add_parser("record")
-    many.add_argument("build", nargs="+", type=Path)
-    commands.add_parser("readme")
+    many.add_argument("build", nargs="*", type=Path)
+    commands.add_parser("documents")
     return parser.parse_args()
 
 
@@ -262,13 +284,14 @@ def main():
         for build in options.build:
             budget |= json.loads((build / "footprint.json").read_text())
         BUDGET.write_text(json.dumps(budget, indent=1) + "\n")
-        README.write_text(told(README.read_text(), budget))
+        for document in DOCUMENTS:
+            document.write_text(with_tables(document, budget))
         return True
-    readme = README.read_text()
-    same = MARKED.search(readme) and readme == told(readme, json.loads(BUDGET.read_text()))
-    if not same:
-        print("The README's tables are not the budget's: tests/footprint/record.sh writes them.")
-    return same
+    budget = json.loads(BUDGET.read_text())
+    others = [document.name for document in DOCUMENTS if document.read_text() != with_tables(document, budget)]
+    for name in others:
+        print(f"{name} does not have the budget's tables: tests/footprint/record.sh writes them.")
+    return not others
 
 
 sys.exit(0 if main() else 1)

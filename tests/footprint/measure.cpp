@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Measures what decoding the linked stream and asking for heights takes: prints a line "name value"
 // for each number, all in instructions if not said otherwise.
 #include "microtin/microtin.hpp"

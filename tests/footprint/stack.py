@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The most bytes of stack that calls of some functions take, callees and compiler helpers included: calls from the
 disassembly, frames from gcc's call-graph files or, where a function is in none, from its instructions."""
 

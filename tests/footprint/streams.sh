@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # streams.sh MICROTIN FOLDER: makes the streams whose decoding is measured: a tile of 2,000 vertices, in each setting
 # of decoding, and one whose steps are dear.
 set -eu

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coordinate reference systems as files state them.
 #include "encoder/import/crs.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rasters read by GDAL, in builds with it.
 #include <doctest/doctest.h>
 

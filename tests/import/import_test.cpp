@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading terrains.
 #include "encoder/import/import.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading laser scans.
 #include <doctest/doctest.h>
 

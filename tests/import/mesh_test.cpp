@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading the vertices of meshes.
 #include <doctest/doctest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rasters that are read in rectangles are the same as those read whole.
 #include "encoder/terrain/raster_reader.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reading zipped SRTM tiles.
 #include <doctest/doctest.h>
 #include <zlib.h>

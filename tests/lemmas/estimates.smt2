@@ -1,3 +1,4 @@
+; SPDX-License-Identifier: MIT
 ; Estimates need not be right, but their arithmetic must not overflow: cotangents, circles, cells, repulsion.
 
 ; A cotangent: 256 times what is left of q fits 32 bits, and the result stays below its cap.

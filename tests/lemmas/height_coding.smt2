@@ -1,3 +1,4 @@
+; SPDX-License-Identifier: MIT
 ; Prediction of heights from weighted sums over a ring, whose weights add up to `weight`.
 
 ; The mean's dividend is positive and fits 32 bits, and so do the sums and what is made of them.

@@ -1,3 +1,4 @@
+; SPDX-License-Identifier: MIT
 ; Heights of places within a triangle, and places on the lattice.
 
 ; An orientation at a place with 8 fractional bits: factors fit 32 bits, a product 2^40.

@@ -1,3 +1,4 @@
+; SPDX-License-Identifier: MIT
 ; Orientation and in-circle test on the 16-bit lattice. That the determinant is at most S^4 / 2 is proved in
 ; FORMAT.md, section 2, of which the steps that are algebra are here.
 

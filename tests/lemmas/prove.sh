@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # prove.sh FILE...: what the lemmas of each file say of the source must follow, and not from assumptions that
 # contradict each other. A lemma says which line of the source it is about; the line must be there:
 #   ;; SOURCE: LINE

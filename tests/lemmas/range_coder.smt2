@@ -1,3 +1,4 @@
+; SPDX-License-Identifier: MIT
 ; The range coder: its interval never becomes empty, and nothing in it overflows.
 (declare-const range Int)
 (declare-const code Int)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Objects whose initialisation fails tell why, themselves and whenever they are fed. The functions
 // that fail stand in for the library.
 #include "microtin/microtin.hpp"

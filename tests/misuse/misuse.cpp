@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A program that the tests compile with capacities, and copies, that must be refused or not.
 #include "microtin/microtin.hpp"
 

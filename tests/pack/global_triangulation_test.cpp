@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangulation of all points of a pack: the Delaunay triangulation, up to 2^31 steps.
 #include "encoder/pack/global_triangulation.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Packs: no cracks, every post within its bound, voids kept, whatever the tiles.
 #include <doctest/doctest.h>
 

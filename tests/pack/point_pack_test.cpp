@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Packs of points: no cracks, every point within its bound, the whole hull covered.
 #include "encoder/pack/point_pack.hpp"
 

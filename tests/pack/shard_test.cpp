@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shards: any split of a pack's tiles joins to the bytes of a single run, and nothing else joins.
 #include "encoder/pack/shard.hpp"
 

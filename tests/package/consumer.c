@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* The smallest user of the library: C, and nothing but the public header. */
 #ifdef MICROTIN_AMALGAMATION
 #include "microtin.h"

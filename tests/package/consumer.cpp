@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The same in C++.
 #include <microtin/microtin.hpp>
 #include <microtin/pack.hpp>

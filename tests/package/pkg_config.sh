@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: MIT
 # pkg_config.sh COMPILER PREFIX VERSION SOURCE FLAGS...: builds and runs a C program by what pkg-config says of the
 # library installed in PREFIX, whose version must be the given one.
 set -eu

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What pictures say in words and numbers.
 #include "encoder/picture/legend.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures of terrains.
 #include "encoder/picture/render.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The encoder's public face.
 #include "microtin/encoder.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the encoder writes, the decoder rebuilds: the canonical triangulation of the same points.
 #include "encoder/stream/encode.hpp"
 

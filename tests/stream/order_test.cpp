@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The order is the paper's: its own simple code, applied to it, costs what the paper prints.
 #include "encoder/stream/order.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "encoder/stream/triangulation.hpp"
 
 #include <doctest/doctest.h>

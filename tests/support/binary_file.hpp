@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Files of numbers, made byte by byte.
 #ifndef MICROTIN_TESTS_SUPPORT_BINARY_FILE_HPP
 #define MICROTIN_TESTS_SUPPORT_BINARY_FILE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Both sides of every border of a pack, compared exactly.
 #ifndef MICROTIN_TESTS_SUPPORT_BORDER_WALK_HPP
 #define MICROTIN_TESTS_SUPPORT_BORDER_WALK_HPP

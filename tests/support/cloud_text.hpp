@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Points as text, for tests of what needs no importer.
 #ifndef MICROTIN_TESTS_SUPPORT_CLOUD_TEXT_HPP
 #define MICROTIN_TESTS_SUPPORT_CLOUD_TEXT_HPP

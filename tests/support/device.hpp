@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh and a decoder in workspaces like a device's: full of garbage, and with guards around them.
 #ifndef MICROTIN_TESTS_SUPPORT_DEVICE_HPP
 #define MICROTIN_TESTS_SUPPORT_DEVICE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whole files.
 #ifndef MICROTIN_TESTS_SUPPORT_FILES_HPP
 #define MICROTIN_TESTS_SUPPORT_FILES_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Packs of tiles that the encoder would not write.
 #ifndef MICROTIN_TESTS_SUPPORT_FORGED_PACK_HPP
 #define MICROTIN_TESTS_SUPPORT_FORGED_PACK_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Streams that the encoder would not write: the test says which vertices are sent in which phase,
 // and what is written where a rule is to be broken.
 #ifndef MICROTIN_TESTS_SUPPORT_FORGED_STREAM_HPP

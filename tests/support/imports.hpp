@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What tests of importers share.
 #ifndef MICROTIN_TESTS_SUPPORT_IMPORTS_HPP
 #define MICROTIN_TESTS_SUPPORT_IMPORTS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tests and fuzz targets find the names of all layers; which they may include is checked apart.
 #ifndef MICROTIN_TESTS_SUPPORT_LAYERS_HPP
 #define MICROTIN_TESTS_SUPPORT_LAYERS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether a half-edge mesh is a triangulation at all, whatever its triangles are.
 #ifndef MICROTIN_TESTS_SUPPORT_MESH_CHECKS_HPP
 #define MICROTIN_TESTS_SUPPORT_MESH_CHECKS_HPP

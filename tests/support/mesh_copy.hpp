@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A decoded mesh copied out through the public interface, for the checks of other tests.
 #ifndef MICROTIN_TESTS_SUPPORT_MESH_COPY_HPP
 #define MICROTIN_TESTS_SUPPORT_MESH_COPY_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A device that reads a pack from a card, and what it should answer.
 #ifndef MICROTIN_TESTS_SUPPORT_PACK_DEVICE_HPP
 #define MICROTIN_TESTS_SUPPORT_PACK_DEVICE_HPP

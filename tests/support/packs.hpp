@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Rasters and their packs, for tests of both sides.
 #ifndef MICROTIN_TESTS_SUPPORT_PACKS_HPP
 #define MICROTIN_TESTS_SUPPORT_PACKS_HPP

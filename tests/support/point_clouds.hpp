@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Clouds of points, seeded, that are hard to cut into tiles. x and y are in steps of 1.
 #ifndef MICROTIN_TESTS_SUPPORT_POINT_CLOUDS_HPP
 #define MICROTIN_TESTS_SUPPORT_POINT_CLOUDS_HPP

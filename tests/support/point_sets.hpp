@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Point sets, seeded, that are easy or hard for a triangulation. None lies on one line.
 #ifndef MICROTIN_TESTS_SUPPORT_POINT_SETS_HPP
 #define MICROTIN_TESTS_SUPPORT_POINT_SETS_HPP

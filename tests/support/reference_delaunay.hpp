@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the canonical Delaunay triangulation is, by definition and with 128-bit numbers: slow, and
 // independent of shared/predicates.hpp.
 #ifndef MICROTIN_TESTS_SUPPORT_REFERENCE_DELAUNAY_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What height a terrain has at a place, by definition and with 128-bit numbers: slow, and
 // independent of shared/interpolation.hpp.
 #ifndef MICROTIN_TESTS_SUPPORT_REFERENCE_HEIGHTS_HPP

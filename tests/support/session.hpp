@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The program as its users meet it: in a folder of its own, by its command line.
 #ifndef MICROTIN_TESTS_SUPPORT_SESSION_HPP
 #define MICROTIN_TESTS_SUPPORT_SESSION_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Small terrains and their streams, for tests of the decoder.
 #ifndef MICROTIN_TESTS_SUPPORT_STREAMS_HPP
 #define MICROTIN_TESTS_SUPPORT_STREAMS_HPP

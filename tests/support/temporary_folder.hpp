@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A folder for a test's files, removed with them.
 #ifndef MICROTIN_TESTS_SUPPORT_TEMPORARY_FOLDER_HPP
 #define MICROTIN_TESTS_SUPPORT_TEMPORARY_FOLDER_HPP

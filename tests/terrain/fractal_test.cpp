@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The terrain that the program makes itself: the same everywhere.
 #include "encoder/terrain/fractal.hpp"
 

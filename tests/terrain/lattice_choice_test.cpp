@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The steps and offsets that sources get.
 #include "encoder/terrain/lattice_choice.hpp"
 

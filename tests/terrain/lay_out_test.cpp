@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sources as samples on the lattice.
 #include "encoder/terrain/lay_out.hpp"
 

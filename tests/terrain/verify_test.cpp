@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Measuring decoded terrains.
 #include "encoder/terrain/verify.hpp"
 

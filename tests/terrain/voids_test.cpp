@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Filling voids.
 #include "encoder/terrain/voids.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Water before a terrain is encoded.
 #include "encoder/terrain/water.hpp"
 

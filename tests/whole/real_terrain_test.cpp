@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Real terrain, where it lies beside the repository, all the way: laid out, simplified, encoded,
 // decoded, and verified at every post.
 #include <doctest/doctest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Water is where it is declared, exactly, and nowhere else.
 #include "encoder/terrain/water.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Counting by a CMSDK timer of the MPS2 boards: it counts down once every 40 ns, and QEMU with
 // -icount shift=6 takes 64 ns for each instruction.
 #include "toolchains/counter.hpp"

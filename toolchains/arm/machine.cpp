@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Arm Cortex-M under emulation: vectors and semihosting.
 #include <stdint.h>
 

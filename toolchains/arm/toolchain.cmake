@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What the Arm Cortex-M toolchain files share; each names its core and QEMU machines, then includes it.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR ${MICROTIN_CORE})

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An ATmega under simavr: the serial port, and the end of the emulation.
 #include <avr/interrupt.h>
 #include <avr/io.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A firmware program as a program of Linux.
 #include <stdio.h>
 

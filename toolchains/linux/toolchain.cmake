@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What the toolchain files for Linux on other processors share; each names its processor and its compiler's
 # prefix, then includes it. Programs are static, so that they need no system of that kind to run.
 set(CMAKE_SYSTEM_NAME Linux)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Counting by the processor's own counter, which is exact under QEMU with -icount shift=0.
 #include "toolchains/counter.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // QEMU's RISC-V machine "virt": entry, serial port and the device that ends the emulation.
 #include <stdint.h>
 

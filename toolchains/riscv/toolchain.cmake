@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # What the RISC-V toolchain files share; each names its architecture, then includes it.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR ${MICROTIN_ARCHITECTURE})

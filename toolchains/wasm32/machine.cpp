@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A firmware program as a module of WebAssembly, with one import and one export.
 #include "toolchains/firmware.h"
 

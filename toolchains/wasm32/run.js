@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // node run.js MODULE: runs a firmware module. Its output and exit code become this program's.
 const fs = require("fs");
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* microtin: decodes terrain TINs exactly, in fixed memory. C99 and C++.
  *
  * Nothing here allocates, recurses, uses floating point or keeps global state. All memory comes
@@ -11,7 +12,7 @@
  *
  * Pointers must not be null; calls that can say MICROTIN_ARGUMENT check theirs. A call that changes
  * an object must not run, say in an interrupt, while another uses the same. Costs are in steps or
- * in n, the vertices; the README has instructions for several processors.
+ * in n, the vertices; shared/SIZES.md has instructions for several processors.
  */
 #ifndef MICROTIN_MICROTIN_H
 #define MICROTIN_MICROTIN_H

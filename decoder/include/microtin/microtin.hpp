@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The C++ face of microtin.h: one object that holds the storage. C++14, freestanding.
 #ifndef MICROTIN_MICROTIN_HPP
 #define MICROTIN_MICROTIN_HPP

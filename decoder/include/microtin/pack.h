@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* microtin packs: a terrain in tiles, of which a device keeps a few. C99 and C++.
  *
  * Queries never read storage: they answer from the tiles that are there. microtin_pack_service,

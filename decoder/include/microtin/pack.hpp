@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The C++ face of pack.h: one object that holds the storage. C++14, freestanding.
 #ifndef MICROTIN_PACK_HPP
 #define MICROTIN_PACK_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 /* microtin: turns terrains into streams and packs that microtin.h and pack.h decode. C++17, hosted.
  *
  * What is returned or written has been decoded by the shipped decoder and compared with every post
@@ -50,7 +51,7 @@ class Terrain {
  public:
   /* Takes 8 bytes a post or 24 a point. Throws if numbers of posts or decimals are out of range. */
   explicit Terrain(Posts posts);
-  explicit Terrain(Points points);
+  explicit Terrain(const Points& points);
 
   /* Reads a file by its suffix: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt, .las, .ply, .obj.
    * Errors name the file and, for text, the line. */
@@ -124,7 +125,7 @@ struct Cancelled : std::exception {
 /* Both may be empty. Called from several threads, one at a time; both may throw. */
 struct Callbacks {
   std::function<void(double done)> progress; /* 0 .. 1 of the time, estimated; not with max_bytes */
-  std::function<bool()> cancelled; /* asked often, but for packs of points */
+  std::function<bool()> cancelled;           /* asked often, but for packs of points */
 };
 
 /* O(n log n) for n samples, with factors of a search that `search` sets: some 20 us a post. */

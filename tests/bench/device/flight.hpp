@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The flight on which readers of terrain are measured: over posts of a raster, so that the source
 // tells every height. Host and device.
 #ifndef MICROTIN_TESTS_BENCH_DEVICE_FLIGHT_HPP

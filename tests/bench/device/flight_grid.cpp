@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Flies over a grid of blocks such as ArduPilot's in flash, twelve of them in RAM: instructions of
 // reading and queries, bytes read, RAM, heights.
 #include "tests/bench/device/flight.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the images print: a line for each number and each height, read by
 // tests/bench/grids/flight.cpp.
 #ifndef MICROTIN_TESTS_BENCH_DEVICE_FLIGHT_LOG_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Flies over a pack in flash: instructions of service and queries, bytes read, RAM, heights.
 #include "microtin/pack.h"
 #include "tests/bench/device/flight.hpp"

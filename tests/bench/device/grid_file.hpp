@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A grid file in the manner of ArduPilot's: blocks of 2,048 bytes that overlap. Host and device,
 // both little-endian.
 #ifndef MICROTIN_TESTS_BENCH_DEVICE_GRID_FILE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Counts instructions under emulation.
 #ifndef MICROTIN_TESTS_BENCH_DEVICE_INSTRUCTION_COUNTER_HPP
 #define MICROTIN_TESTS_BENCH_DEVICE_INSTRUCTION_COUNTER_HPP

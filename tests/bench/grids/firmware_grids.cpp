@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/grids/firmware_grids.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A flight over a terrain with a pack and with a grid: what each takes, and how wrong it is.
 #ifndef MICROTIN_TESTS_BENCH_GRIDS_FLIGHT_HPP
 #define MICROTIN_TESTS_BENCH_GRIDS_FLIGHT_HPP

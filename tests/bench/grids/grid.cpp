@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/grids/grid.hpp"
 
 #include <algorithm>

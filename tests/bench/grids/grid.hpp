@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Terrain rasters with their real size, and what a regular grid makes of them.
 #ifndef MICROTIN_TESTS_BENCH_GRIDS_GRID_HPP
 #define MICROTIN_TESTS_BENCH_GRIDS_GRID_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/grids/raster_rate.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Codecs for rasters at an equal largest error.
 #ifndef MICROTIN_TESTS_BENCH_GRIDS_RASTER_RATE_HPP
 #define MICROTIN_TESTS_BENCH_GRIDS_RASTER_RATE_HPP

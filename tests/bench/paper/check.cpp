@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks the paper's systems against the figures recorded in a file, or records them.
 #include <cstdio>
 #include <exception>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The figures of the paper's systems that are the same on every machine, against recorded ones.
 #ifndef MICROTIN_TESTS_BENCH_PAPER_FIGURES_HPP
 #define MICROTIN_TESTS_BENCH_PAPER_FIGURES_HPP

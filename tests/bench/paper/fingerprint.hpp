@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A number that tells meshes apart, quicker to compute than their digest (shared/digest.hpp). Not
 // part of the format, and no match for somebody who wants to deceive it.
 #ifndef MICROTIN_TESTS_BENCH_PAPER_FINGERPRINT_HPP

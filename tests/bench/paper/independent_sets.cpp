@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/paper/independent_sets.hpp"
 
 #include <algorithm>

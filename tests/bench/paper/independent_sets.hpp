@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The order of the paper's Algorithm 1: J. Snoeyink, M. van Kreveld, "Linear-time reconstruction of
 // Delaunay triangulations with applications" (ESA 1997), as the paper changed it.
 #ifndef MICROTIN_TESTS_BENCH_PAPER_INDEPENDENT_SETS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/paper/inputs.hpp"
 
 #include <cmath>

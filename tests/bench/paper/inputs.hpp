@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Point sets by name and size, for the paper's claims and for how costs grow.
 #ifndef MICROTIN_TESTS_BENCH_PAPER_INPUTS_HPP
 #define MICROTIN_TESTS_BENCH_PAPER_INPUTS_HPP

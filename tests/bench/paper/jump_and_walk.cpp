@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/paper/jump_and_walk.hpp"
 
 #include <cmath>

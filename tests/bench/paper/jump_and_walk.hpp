@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Mücke, Saias and Zhu: "Fast randomized point location without preprocessing in two- and
 // three-dimensional Delaunay triangulations" (1996).
 #ifndef MICROTIN_TESTS_BENCH_PAPER_JUMP_AND_WALK_HPP

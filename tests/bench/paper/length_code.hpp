@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The paper's variable length code (its Table 1): two tag bits, a sign and as many bits as the tag
 // says, for x and y of the step from each point to the next.
 #ifndef MICROTIN_TESTS_BENCH_PAPER_LENGTH_CODE_HPP

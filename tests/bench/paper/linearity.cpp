@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/paper/linearity.hpp"
 
 #include "encoder/stream/decoded_terrain.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How costs grow with the number of vertices.
 #ifndef MICROTIN_TESTS_BENCH_PAPER_LINEARITY_HPP
 #define MICROTIN_TESTS_BENCH_PAPER_LINEARITY_HPP

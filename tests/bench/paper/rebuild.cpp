@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/paper/rebuild.hpp"
 
 #include <algorithm>

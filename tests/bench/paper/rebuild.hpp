@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reconstruction as in the paper (its section 3): point by point, every tested triangle by its
 // circle, nothing in the stream but the points.
 //

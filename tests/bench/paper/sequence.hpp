@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a client receives: points in a good order, cut into batches.
 #ifndef MICROTIN_TESTS_BENCH_PAPER_SEQUENCE_HPP
 #define MICROTIN_TESTS_BENCH_PAPER_SEQUENCE_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The systems of the paper, and a check of its claims at run time.
 #ifndef MICROTIN_TESTS_BENCH_PAPER_SYSTEMS_HPP
 #define MICROTIN_TESTS_BENCH_PAPER_SYSTEMS_HPP

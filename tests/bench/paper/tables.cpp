@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/paper/tables.hpp"
 
 #include "encoder/base/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The paper's tables, measured again; each prints one, or more that belong together.
 #ifndef MICROTIN_TESTS_BENCH_PAPER_TABLES_HPP
 #define MICROTIN_TESTS_BENCH_PAPER_TABLES_HPP

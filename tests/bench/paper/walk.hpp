@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The walk over triangles that both sides of Algorithm 1 share.
 #ifndef MICROTIN_TESTS_BENCH_PAPER_WALK_HPP
 #define MICROTIN_TESTS_BENCH_PAPER_WALK_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // CGAL: its Delaunay triangulation with exact predicates behind floating-point filters.
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

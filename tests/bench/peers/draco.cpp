@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Draco: the lattice integers as they are, one attribute, no quantisation.
 #include <draco/compression/decode.h>
 #include <draco/compression/encode.h>

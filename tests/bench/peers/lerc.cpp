@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // LERC: rasters within a largest error.
 #include <Lerc_c_api.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // meshoptimizer: triangles in the strip order that it recommends for transmission, vertices in the
 // order of their first use, its own codecs for both, then zstd at its best level.
 #include <meshoptimizer.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What each peer delivers, in how many bytes, and what decoding costs; each prints one table.
 #ifndef MICROTIN_TESTS_BENCH_PEERS_PEER_COSTS_HPP
 #define MICROTIN_TESTS_BENCH_PEERS_PEER_COSTS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The programs that ours is compared with. Each is there only if its package was when this was
 // built.
 #ifndef MICROTIN_TESTS_BENCH_PEERS_PEERS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // quantized-mesh 1.0 as terrain servers send it: 16-bit differences, indices below a high-water
 // mark, the vertices of the four borders, gzip. The format's coordinates have 15 bits; here the
 // differences are taken modulo 2^16, so that all codecs carry the same integers.

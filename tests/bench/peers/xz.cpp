@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // xz: points along a Hilbert curve, the differences from one to the next in planes of bytes.
 #include <lzma.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the adaptive bits of a stream were asked to code.
 #ifndef MICROTIN_TESTS_BENCH_TRAINING_OUTCOMES_HPP
 #define MICROTIN_TESTS_BENCH_TRAINING_OUTCOMES_HPP

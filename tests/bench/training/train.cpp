@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/training/train.hpp"
 
 #include <algorithm>
@@ -128,19 +129,19 @@ Costs costs_of_everything() {
 
 void print_start_probabilities() {
   const Costs costs = costs_of_everything();
-  std::printf(
-      "%s%u;\n\n%s",
-      R"(// Where the adaptive bits start, in the order of Models: the probability of a one is
+  std::printf("%s%u;\n\n%s",
+              R"(// SPDX-License-Identifier: MIT
+// Where the adaptive bits start, in the order of Models: the probability of a one is
 // (entry + 1/2) / 256. Written by `tests/bench/run train`.
-#ifndef MICROTIN_TESTS_BENCH_TRAINING_TRAIN_CPP
-#define MICROTIN_TESTS_BENCH_TRAINING_TRAIN_CPP
+#ifndef MICROTIN_SHARED_START_PROBABILITIES_HPP
+#define MICROTIN_SHARED_START_PROBABILITIES_HPP
 
 #include "shared/tables.hpp"
 
 namespace microtin {
 
 constexpr uint32_t kStarts = )",
-      kStarts, R"(// clang-format off
+              kStarts, R"(// clang-format off
 constexpr uint8_t kStartTable[kStarts] MICROTIN_IN_FLASH = {
 )");
   costs.print();

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Learning of shared/start_probabilities.hpp.
 #ifndef MICROTIN_TESTS_BENCH_TRAINING_TRAIN_HPP
 #define MICROTIN_TESTS_BENCH_TRAINING_TRAIN_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Must be rejected by symbols.cmake: a static constructor.
 extern "C" int planted();
 

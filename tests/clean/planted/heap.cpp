@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Must be rejected by symbols.cmake: it allocates.
 #include <stddef.h>
 

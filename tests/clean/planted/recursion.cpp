@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Must be rejected by callgraph.py: two functions that call each other.
 extern "C" int planted_odd(int n, const int* sum);
 

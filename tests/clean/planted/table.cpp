@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Must be rejected by symbols.cmake on AVR: a table that is not kept in flash.
 #include <stdint.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Must be rejected by callgraph.py: a frame whose size depends on data.
 extern "C" void fill(void* bytes);
 

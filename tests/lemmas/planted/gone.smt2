@@ -1,3 +1,4 @@
+; SPDX-License-Identifier: MIT
 ; True, but of a line that the source does not have.
 ;; decoder/range_decoder.hpp: range /= count + 1;
 (push)

@@ -1,3 +1,4 @@
+; SPDX-License-Identifier: MIT
 ; True, but of nothing: the assumptions contradict each other.
 ;; decoder/range_decoder.hpp: range /= count;
 (push)

@@ -1,3 +1,4 @@
+; SPDX-License-Identifier: MIT
 ; False: with a margin of 64 / 2^15 a part of the interval can be narrower than 2^16.
 (declare-const range Int)
 (assert (and (<= 16777216 range) (< range 4294967296)))

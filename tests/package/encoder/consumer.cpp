@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The smallest user of the encoder's library: posts in, a stream out, decoded at once.
 #include <microtin/encoder.hpp>
 #include <microtin/microtin.hpp>

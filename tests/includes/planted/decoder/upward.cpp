@@ -1,2 +1,3 @@
+// SPDX-License-Identifier: MIT
 // Includes the encoder.
 #include "encoder/exact/wide.hpp"

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Versions of the library and of the formats, as their headers define them.
+#include "encoder/cli/version.hpp"
+
+#include "microtin/microtin.h"
+#include "shared/format.hpp"
+#include "shared/pack_format.hpp"
+
+namespace microtin::cli {
+
+std::string library_version() {
+  return std::to_string(MICROTIN_VERSION_MAJOR) + "." + std::to_string(MICROTIN_VERSION_MINOR) +
+         "." + std::to_string(MICROTIN_VERSION_PATCH);
+}
+
+std::string versions() {
+  return "microtin " + library_version() + "\nstream format " + std::to_string(kVersion) +
+         "\npack format " + std::to_string(kPackVersion);
+}
+
+}  // namespace microtin::cli

@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: MIT
+# What man and shells know of the program is what --help says.
+foreach(document manual bash zsh)
+  add_test(NAME cli.${document}
+    COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/${document}.sh $<TARGET_FILE:microtin>)
+  set_tests_properties(cli.${document} PROPERTIES SKIP_RETURN_CODE 77)
+endforeach()
+
+# Its versions are those of the documents.
+foreach(document FORMAT PACK)
+  file(STRINGS ${PROJECT_SOURCE_DIR}/shared/${document}.md title LIMIT_COUNT 1)
+  string(REGEX MATCH "version ([0-9]+)$" title "${title}")
+  set(${document} ${CMAKE_MATCH_1})
+endforeach()
+add_test(NAME cli.version COMMAND microtin --version)
+set_tests_properties(cli.version PROPERTIES
+  PASS_REGULAR_EXPRESSION "^microtin ${PROJECT_VERSION}\nstream format ${FORMAT}\npack format ${PACK}\n$")

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: MIT
+"""conventions.py CHECK [FOLDER]: what people expect of a repository holds in this one, or in a folder.
+
+length   the README has at most 200 lines
+links    files that the documents link to are there
+licence  every source names its licence
+"""
+
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+MOST_LINES = 200
+LICENCE = "SPDX-License-Identifier: MIT"
+SLASHES = (".c", ".h", ".cpp", ".hpp", ".js")
+HASHES = (".py", ".sh", ".cmake", "CMakeLists.txt")
+
+
+def files(folder):
+    """All but those of builds, and hidden ones other than .ci."""
+    for path in sorted(folder.iterdir()):
+        hidden = path.name.startswith(".") and path.name != ".ci"
+        if path.is_dir() and path.name != "build" and not hidden:
+            yield from files(path)
+        elif path.is_file():
+            yield path
+
+
+def licence_line(path):
+    """The line with which a source must begin, behind #! if it has that; None for what is no source."""
+    if path.name.endswith(SLASHES):
+        return f"// {LICENCE}"
+    if path.name.endswith(".ld"):
+        return f"/* {LICENCE} */"
+    if path.name.endswith(".smt2"):
+        return f"; {LICENCE}"
+    script = "seeds" not in path.parts and "findings" not in path.parts and path.read_bytes()[:2] == b"#!"
+    return f"# {LICENCE}" if script or path.name.endswith(HASHES) else None
+
+
+def lines_of(path):
+    return path.read_text().splitlines()
+
+
+def length(folder):
+    lines = len(lines_of(folder / "README.md"))
+    return [f"README.md has {lines} lines, more than {MOST_LINES}"] if lines > MOST_LINES else []
+
+
+def links(folder):
+    faults = []
+    for document in files(folder):
+        if document.suffix != ".md":
+            continue
+        for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", document.read_text()):
+            if not (document.parent / target).exists():
+                faults.append(f"{document.relative_to(folder)} links to {target}, which is not there")
+    return faults
+
+
+def licence(folder):
+    return [
+        f"{path.relative_to(folder)} does not name its licence"
+        for path in files(folder)
+        if (line := licence_line(path)) and line not in lines_of(path)[:2]
+    ]
+
+
+def main():
+    folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
+    faults = {"length": length, "links": links, "licence": licence}[sys.argv[1]](folder)
+    for fault in faults:
+        print("rejected:", fault)
+    sys.exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+// The command line includes what the product hides.
+#include "encoder/pack/file.hpp"
