@@ -103,9 +103,9 @@ void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, D
 // Codes one of `lines`, all equally likely.
 template <class Coder>
 FastInt code_line(Coder& coder, const Lines& lines, FastInt line) {
-  return lines.first + static_cast<FastInt>(coder.uniform(
-                           static_cast<uint32_t>(count_of(lines)),
-                           static_cast<uint32_t>(line - lines.first)));
+  return lines.first +
+         static_cast<FastInt>(coder.uniform(static_cast<uint32_t>(count_of(lines)),
+                                            static_cast<uint32_t>(line - lines.first)));
 }
 
 // The chance of a hit here, roughly: the logarithm of the points that the free region should hold.
