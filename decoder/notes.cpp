@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Finding a note in a header.
 #include "microtin/microtin.h"
 #include "shared/pack_format.hpp"

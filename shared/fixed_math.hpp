@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Integer logarithms, power and roots for estimates. Identical on every target.
 #ifndef MICROTIN_SHARED_FIXED_MATH_HPP
 #define MICROTIN_SHARED_FIXED_MATH_HPP

@@ -65,9 +65,9 @@ inline Cotangent cotangent(int32_t q, int32_t h, int32_t most) {
 
 // The side from corner i to corner i + 1 of a triangle, and what is known behind it.
 struct Side {
-  bool certified;  // the triangle behind is final: its circle is empty
-  bool ghost;      // ... and lies outside the hull: nothing at all is behind
-  Offset apex;     // ... otherwise, the corner opposite to this side
+  bool certified;    // the triangle behind is final: its circle is empty
+  bool ghost;        // ... and lies outside the hull: nothing at all is behind
+  Offset apex;       // ... otherwise, the corner opposite to this side
   Cotangent behind;  // ... and the circle there, over this side
 };
 
@@ -75,9 +75,9 @@ constexpr int kChord = 2;  // the side the walk came from, from corner a to corn
 
 // All places are relative to corner v.
 struct FreeRegion {
-  Point origin;       // v
-  Offset corner[2];   // c, a: v, c, a turn counter-clockwise and are not on a line
-  int32_t shift;      // -5 .. 10
+  Point origin;      // v
+  Offset corner[2];  // c, a: v, c, a turn counter-clockwise and are not on a line
+  int32_t shift;     // -5 .. 10
   Spot c, a;
   int32_t cc, aa, ca;  // dot products
   int32_t twice;       // the area, > 0
@@ -85,8 +85,8 @@ struct FreeRegion {
   Side side[3];
 };
 
-// Area, over the squared chord, of the segment that is seen under k >= 0 (8 fractional bits, below
-// 2^12): 12 fractional bits, at most 1592. It is about 1/6 (k + 0.734) / (k^2 + 0.734 k + 0.315),
+// Area, over the squared chord, of the segment that is seen under k >= 0 (8 fractional bits, at most
+// 2^14): 12 fractional bits, at most 1592. It is about 1/6 (k + 0.734) / (k^2 + 0.734 k + 0.315),
 // off by at most 1.25 %.
 inline uint32_t minor_segment(uint32_t k) {
   return (k + 188u) * 174763u / (k * (k + 188u) + 20643u);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The places where the next point is likely legal, column by column: between the ends that the
 // triangle's circle, the circles behind its certified sides and the lattice leave.
 //
@@ -34,8 +35,8 @@ struct Span {
 };
 
 struct LegalPlaces {
-  int32_t turns;  // quarters, counter-clockwise
-  int32_t shift;  // of grains: -10 .. 10
+  int32_t turns;        // quarters, counter-clockwise
+  int32_t shift;        // of grains: -10 .. 10
   Lines columns, rows;  // of the lattice
   Span height;          // the lattice's rows in grains
   Spot c, a;            // corners, below 2^11
@@ -77,12 +78,9 @@ inline Spot coarser(Spot p, uint32_t shift) {
   return Spot{p.x >> shift, p.y >> shift};
 }
 
-// The circles behind are below 2^15 from v: |k| <= 16.
-inline void find_circle_behind(LegalPlaces& places, int i, const Side& side, Spot end, Cotangent k,
-                               uint32_t shift) {
-  places.cuts[i] = side.certified && !side.ghost &&
-                   side.behind > -kBehindCap * (static_cast<int32_t>(1) << kCotangentBits);
-  if (places.cuts[i]) places.behind[i] = circle_through(end, k, shift);
+// Whether there is a circle behind a side, and near enough to be told from a line.
+inline bool cuts(const Side& side) {
+  return side.certified && !side.ghost && side.behind > -kBehindCap * (1 << kCotangentBits);
 }
 
 inline void find_lattice(LegalPlaces& places, const Contract& contract, Point origin) {
@@ -90,8 +88,8 @@ inline void find_lattice(LegalPlaces& places, const Contract& contract, Point or
   const Offset last = turned(Point{contract.x_max, contract.y_max} - origin, places.turns);
   places.columns = in_order(first.x, last.x);
   places.rows = in_order(first.y, last.y);
-  places.height = Span{shifted(places.rows.first, places.shift),
-                       shifted(places.rows.last, places.shift)};
+  places.height =
+      Span{shifted(places.rows.first, places.shift), shifted(places.rows.last, places.shift)};
 }
 
 // `own` and `behind` are the cotangents over the chord.
@@ -102,8 +100,11 @@ inline void find_places(LegalPlaces& places, const FreeRegion& region, const Con
   const uint32_t shift = coarsening_for(circle_through(a, own, 0));
   places.shift = region.shift - static_cast<int32_t>(shift);
   places.own = circle_through(a, own, shift);
-  find_circle_behind(places, 0, region.side[kChord], a, behind, shift);
-  find_circle_behind(places, 1, region.side[0], c, -region.side[0].behind, shift);
+  const Side &chord = region.side[kChord], &next = region.side[0];
+  places.cuts[0] = cuts(chord);
+  places.cuts[1] = cuts(next);
+  if (places.cuts[0]) places.behind[0] = circle_through(a, behind, shift);  // below 2^15 from v
+  if (places.cuts[1]) places.behind[1] = circle_through(c, -next.behind, shift);
   places.c = coarser(c, shift);
   places.a = coarser(a, shift);
   find_lattice(places, contract, region.origin);
@@ -132,8 +133,7 @@ inline bool is_beyond(Spot p, Spot q, Spot e) {
 // Whether a place on the own circle is legal as far as sides tell.
 inline bool is_open(const LegalPlaces& places, const FreeRegion& region, Spot e) {
   const Spot v = {0, 0};
-  return !is_beyond(places.a, v, e) &&
-         !(region.side[0].certified && is_beyond(v, places.c, e)) &&
+  return !is_beyond(places.a, v, e) && !(region.side[0].certified && is_beyond(v, places.c, e)) &&
          !(region.side[1].certified && is_beyond(places.c, places.a, e));
 }
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Both coordinates of a point in one word, where the machine multiplies two pairs of 16-bit numbers
 // at once (MICROTIN_PAIRS): in-circle tests of points near one another.
 #ifndef MICROTIN_SHARED_PAIRS_HPP

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Coding of the next point's place in the free region of the triangle it conflicts with: first its
 // column, by halves of those that hold legal places, then its row, by halves of the column's legal
 // part. What remains is uniform. An escape serves every place that the estimates have missed.
@@ -103,9 +104,9 @@ void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, D
 // Codes one of `lines`, all equally likely.
 template <class Coder>
 FastInt code_line(Coder& coder, const Lines& lines, FastInt line) {
-  return lines.first + static_cast<FastInt>(coder.uniform(
-                           static_cast<uint32_t>(count_of(lines)),
-                           static_cast<uint32_t>(line - lines.first)));
+  return lines.first +
+         static_cast<FastInt>(coder.uniform(static_cast<uint32_t>(count_of(lines)),
+                                            static_cast<uint32_t>(line - lines.first)));
 }
 
 // The chance of a hit here, roughly: the logarithm of the points that the free region should hold.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How likely legal places are.
 //
 // A place weighs the chance that no other point came first there: the walk inserts the point whose
@@ -36,8 +37,7 @@ inline int32_t chance_after(int32_t twice, Log2 rate) {
   if (twice <= 0) return 511;
   const Log2 loss = rough_log2(static_cast<uint32_t>(twice)) + rate;
   if (loss >= 12 * kLog2One) return 0;
-  return static_cast<int32_t>(
-      rough_exp2(9 * kLog2One - 1 - static_cast<Log2>(rough_exp2(loss))));
+  return static_cast<int32_t>(rough_exp2(9 * kLog2One - 1 - static_cast<Log2>(rough_exp2(loss))));
 }
 
 // `density` is the logarithm of points per unit area, `own` and `behind` the cotangents over the

@@ -250,8 +250,8 @@ MICROTIN_IN_PLACE inline bool code_hit(Reconstruction& r, Coder& coder,
 template <class Coder>
 MICROTIN_IN_PLACE inline Point locate(Reconstruction& r, Coder& coder, Log2 density) {
   FreeRegion& region = r.region;
-  const Offset found = code_place(coder, r.models.place, region, r.contract, density, r.place,
-                                  r.crowding);
+  const Offset found =
+      code_place(coder, r.models.place, region, r.contract, density, r.place, r.crowding);
   region.corner[0] = found;
   return Point{static_cast<uint16_t>(region.origin.x + found.x),
                static_cast<uint16_t>(region.origin.y + found.y)};

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What one point sees of the mesh: tests of it against triangles that share corners, in a row.
 #ifndef MICROTIN_SHARED_SIGHT_HPP
 #define MICROTIN_SHARED_SIGHT_HPP

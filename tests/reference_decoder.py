@@ -96,50 +96,44 @@ def log2(v):
     return 256 * b + ((m + bend + 128) >> 8)
 
 
-def exp2(exponent):
-    if exponent <= 0:
-        return 1
-    if exponent >= 30 * 256:
-        return 1 << 30
-    f = exponent & 255
-    mantissa = 32768 + 128 * f - (f * (256 - f) * (9980 + 10 * f) >> 16)
-    return (mantissa << 16) >> (31 - (exponent >> 8))
+def rlog(v):
+    """Straight between powers of two."""
+    return 256 * highest_bit(v) + ((v << 8 >> highest_bit(v)) & 255)
 
 
-def root_above(u):
-    return exp2((log2(u) + 3) // 2) + 1
+def rexp(exponent):
+    return (256 + (exponent & 255)) << 23 >> (31 - (exponent >> 8)) if exponent >= 0 else 0
 
 
-LARGEST_COTANGENT = 89 * 256
+def rough_root(v):
+    half = highest_bit(v | 1) >> 1
+    guess = (11 * ((2 << half) + (v >> half)) >> 5) + 1
+    return (guess + v // guess) >> 1
 
 
-def cotangent(q, h):
-    s = max(0, highest_bit(h) - 15)
-    q, h = q >> s, h >> s
-    return divide(keep_within(-89 * h, q, 89 * h) * 256, h)
+def root(v):
+    guess = rough_root(v) | 1
+    return (guess + v // guess) >> 1
 
 
-def cotangent_at(place, p, q):
-    """Of the angle under which a place sees the side p -> q, to the right of it."""
-    return cotangent(angle_at(place, p, q), twice_area(place, p, q))
+ONE = 4096  # a cotangent of 1
 
 
-def disc(c, k):
-    return ((c * ((65536 + k * k) >> 8)) >> 8) * 201
+def cotangent(q, h, most):
+    s = max(0, highest_bit(h) - 11)
+    h >>= s
+    return divide(ONE * keep_within(-most * h, q >> s, most * h), h)
 
 
-def segment(k):
-    m = abs(k)
-    smaller = 89478480 // (16 * m + 330400 // (m + 188))
-    return smaller if k <= 0 else ((65536 + k * k) * 3217 >> 11) - smaller
-
-
-def circle(p, q, k, m):
-    """C, X and Y of the circle over the side p -> q that sees it under the cotangent k, at a doubled place m."""
-    s, t = (minus(m, (2 * end[0], 2 * end[1])) for end in (p, q))
-    u = minus(s, t)
-    power = dot(s, t) - (k * cross(u, s) >> 8)
-    return power, 16 * (s[0] + t[0]) + (k * u[1] >> 4), 16 * (s[1] + t[1]) - (k * u[0] >> 4)
+def segment(square, k):
+    """Twice its area."""
+    j = k >> 4
+    size = abs(j)
+    minor = ((square >> 4) * ((size + 188) * 174763 // (size * (size + 188) + 20643))) >> 7
+    if j <= 0:
+        return minor
+    i = min(size, 1024)
+    return (square >> 8) * ((65536 + i * i) * 201 >> 15) - minor
 
 
 # Section 8: range coder
@@ -292,7 +286,7 @@ class Header(NamedTuple):
     heights_are_sent: bool
     void_flags_are_sent: bool
     degree: int
-    levels: int
+    decoding: int
     vertices: int
     columns: int
     rows: int
@@ -307,14 +301,14 @@ def read_header(reader):
     require(properties < 1 << 13, "unknown properties")
     vertices = payload.varint()
     columns, rows = payload.varint() + 1, payload.varint() + 1
-    levels, degree = properties >> 3 & 3, properties >> 5 & 63
+    decoding, degree = properties >> 3 & 3, properties >> 5 & 63
     require(6 <= degree <= 32, "degree is out of bounds")
-    require(levels >= 1, "there is no level of cells")
+    require(decoding != 0, "decoding is none of the three")
     require(3 <= vertices <= 1 << 24, "number of vertices is out of bounds")
     require(max(columns, rows) <= 1 << 16, "a side is out of bounds")
     if properties & 4:
         check_placement(payload)
-    return Header(bool(properties & 1), bool(properties & 2), degree, levels, vertices, columns, rows)
+    return Header(bool(properties & 1), bool(properties & 2), degree, decoding, vertices, columns, rows)
 
 
 def check_placement(reader):
@@ -431,7 +425,9 @@ class Models:
             return [bits(*sizes[1:]) for _ in range(sizes[0])]
 
         self.hit = bits(7, 15)
-        self.cell = bits(4, 9)
+        self.column, self.row = bits(4, 9), bits(4, 9)
+        self.quick_column, self.quick_row = bits(16, 3), bits(12, 3)
+        self.escape = bits()
         self.height = bits(12, 7)
         self.second = bits(10)
         self.negative = bits(10, 3)
@@ -449,7 +445,7 @@ class Density:
         return divide(self.mean, 256)
 
     def add(self, area):
-        self.mean += divide(256 * (self.share - log2(area)) - self.mean, 16)
+        self.mean += divide(256 * (self.share - rlog(area)) - self.mean, 16)
 
 
 class HullEdge:
@@ -485,322 +481,308 @@ def decode_outer_coordinate(coder, count):
     return coder.uniform(count)
 
 
+def shifted(p, by):
+    """Coordinates times a power of two, rounded down."""
+    return tuple(at << by if by >= 0 else at >> -by for at in p)
+
+
 class Side(NamedTuple):
-    start: tuple
-    end: tuple
     certified: bool
-    apex: tuple  # None behind a hull edge
-    own: int  # cotangents of the triangle's circle and of that behind
-    behind: int
-
-    def squared_length(self):
-        s = minus(self.end, self.start)
-        return dot(s, s)
-
-    def lost_area(self):
-        lost = segment(-self.own) + (segment(self.behind) if self.apex else 0)
-        return self.squared_length() * lost >> 9
-
-    def circle(self, k):
-        return lambda m: circle(self.start, self.end, k, m)
-
-    def has_circle_behind(self):
-        return self.certified and self.apex is not None
+    apex: tuple  # as seen from v; None behind a hull edge
 
 
 class Candidate:
-    """The triangle of a chord that is not certified, seen from the chord."""
+    """The triangle of a chord that is not certified, in grains as seen from v."""
 
     def __init__(self, mesh, chord, is_final):
         half_edges = [after(chord), before(chord), chord]
-        self.v, self.c, self.a = mesh.places([mesh.start[e] for e in half_edges])
+        self.v, c, a = mesh.places([mesh.start[e] for e in half_edges])
+        self.a = minus(a, self.v)
+        offsets = minus(c, self.v), self.a
         self.sides = [self.side(mesh, e, e == chord or is_final(mesh.twin[e] // 3)) for e in half_edges]
-        self.chord = self.sides[2]
+        self.shift = 10 - highest_bit(max(abs(at) for p in offsets for at in p))
+        self.C, self.A = (shifted(p, self.shift) for p in offsets)
+        self.cc, self.aa, self.ca = dot(self.C, self.C), dot(self.A, self.A), dot(self.C, self.A)
+        self.T = max(1, cross(self.C, self.A))
+        self.behind = {0: self.cotangent_behind(0, self.C, -1), 2: self.cotangent_behind(2, self.A, 1)}
 
-    @staticmethod
-    def side(mesh, half_edge, certified):
-        start, end, opposite = mesh.places((mesh.start[half_edge], mesh.end(half_edge), mesh.apex(half_edge)))
-        own = cotangent_at(opposite, start, end)
-        apex = behind = None
-        if mesh.apex(mesh.twin[half_edge]) != INFINITY:
-            apex = mesh.points[mesh.apex(mesh.twin[half_edge])]
-            behind = -cotangent_at(apex, end, start)
-        return Side(start, end, certified, apex, own, behind)
+    def side(self, mesh, half_edge, certified):
+        apex = mesh.apex(mesh.twin[half_edge])
+        return Side(certified, None if apex == INFINITY else minus(mesh.points[apex], self.v))
 
-    def free_area(self):
-        whole = disc(self.chord.squared_length(), self.chord.own)
-        free = whole - sum(side.lost_area() for side in self.sides if side.certified)
-        return max(free, (whole >> 8) + 1)
+    def cotangent_behind(self, number, end, sign):
+        """None where no circle is known."""
+        side = self.sides[number]
+        if not side.certified or side.apex is None:
+            return None
+        m = max(0, highest_bit(abs(side.apex[0]) | abs(side.apex[1])) + self.shift - 10)
+        d, e = shifted(side.apex, self.shift - m), shifted(end, -m)
+        return cotangent(dot(d, minus(e, d)), max(1, sign * cross(e, d) >> m), 16)
 
-    def open_sides(self):
-        return [side for side in self.sides if not side.certified]
-
-
-class Box(NamedTuple):
-    x: int
-    y: int
-    columns: int
-    rows: int
-
-    def cell(self, column, row):
-        left, right = starts(self.columns)[column : column + 2]
-        bottom, top = starts(self.rows)[row : row + 2]
-        return Box(self.x + left, self.y + bottom, right - left, top - bottom)
-
-    def is_point(self):
-        return self.columns == 1 and self.rows == 1
-
-    def doubled_middle(self):
-        return 2 * self.x + self.columns - 1, 2 * self.y + self.rows - 1
+    def expected_points(self, density):
+        """A logarithm."""
+        free = self.T
+        if not self.sides[0].certified:
+            free += segment(self.cc, cotangent(self.ca - self.aa, self.T, 16))
+        if not self.sides[1].certified:
+            free += segment(self.cc + self.aa - 2 * self.ca, cotangent(-self.ca, self.T, 16))
+        for number, square in ((0, self.cc), (2, self.aa)):
+            if self.behind[number] is not None:
+                free -= segment(square, self.behind[number])
+        return rlog(max(free, (self.T >> 4) + 1)) - 256 * (2 * self.shift + 1) + density
 
 
-def starts(count):
-    return [count * i // 4 for i in range(5)]
+class Turn:
+    """By quarters, such that a place lies in the west."""
+
+    def __init__(self, a):
+        if abs(a[0]) >= abs(a[1]):
+            self.quarters = 0 if a[0] < 0 else 2
+        else:
+            self.quarters = 1 if a[1] > 0 else 3
+
+    def __call__(self, p, quarters=None):
+        for _ in range(self.quarters if quarters is None else quarters):
+            p = (-p[1], p[0])
+        return p
+
+    def back(self, p):
+        return self(p, (4 - self.quarters) % 4)
 
 
-class LargeCircle(NamedTuple):
-    """The candidate's circle in sixteenths of a lattice step, seen from v: not smaller than it is."""
+class Circle:
+    """Through v."""
 
-    x: int
-    y: int
-    radius: int
-    slack: int
+    def __init__(self, end, k, f):
+        self.x2 = (end[0] + (k * end[1] >> 12)) >> f
+        self.y = (end[1] - (k * end[0] >> 12)) >> (1 + f)
 
-    @classmethod
-    def of(cls, candidate):
-        x, y = minus(candidate.a, candidate.v)
-        k = candidate.chord.own
-        margin = (abs(x) + abs(y)) // 8 + 2
-        radius = root_above(candidate.chord.squared_length() * (65536 + k * k) >> 10) + margin
-        slack = 2 * margin + 5 + (radius >> 7)
-        return cls(8 * x + (k * y >> 5), 8 * y - (k * x >> 5), radius, slack)
+    def square(self, x):
+        return x * (self.x2 - x) + self.y * self.y
 
-    def is_beyond(self, extreme, side, v):
-        (x, y), u = minus(side.start, v), minus(side.end, side.start)
-        return cross(u, minus(extreme, (16 * x, 16 * y))) < self.slack * (abs(u[0]) + abs(u[1]))
+    def centre(self):
+        return self.x2 >> 1, self.y
 
 
-def interval(values, count):
-    """The first value and the number of values, within a lattice of count values."""
-    low, high = (keep_within(0, extreme, count - 1) for extreme in (min(values), max(values)))
-    return low, high - low + 1
+class Lines(NamedTuple):
+    first: int
+    last: int
+
+    def count(self):
+        return self.last - self.first + 1
+
+    def half(self, upper):
+        middle = self.first + self.count() // 2
+        return Lines(middle, self.last) if upper else Lines(self.first, middle - 1)
+
+    def kept_within(self, first, last):
+        """At least one line of first .. last."""
+        low = keep_within(first, self.first, last)
+        return Lines(low, max(low, min(self.last, last)))
 
 
-def first_box(candidate, columns, rows):
-    if abs(candidate.chord.own) == LARGEST_COTANGENT:
-        return Box(0, 0, columns, rows)
-    v, large = candidate.v, LargeCircle.of(candidate)
-
-    places = [v, candidate.c, candidate.a]
-    for dx, dy, rounding in ((-1, 0, 15), (0, -1, 15), (1, 0, 0), (0, 1, 0)):
-        extreme = large.x + dx * large.radius, large.y + dy * large.radius
-        if any(large.is_beyond(extreme, side, v) for side in candidate.open_sides()):
-            places.append(tuple(at + ((e + rounding) >> 4) for at, e in zip(v, extreme)))
-    (x, width), (y, height) = (interval(values, n) for values, n in zip(zip(*places), (columns, rows)))
-    return Box(x, y, width, height)
-
-
-class Slices:
-    """A side of a box cut into four."""
-
-    def __init__(self, count):
-        ends = starts(count)
-        self.widths = [right - left for left, right in zip(ends, ends[1:])]
-        self.unit = 16 - highest_bit(count)
-        self.offsets = [left + right - count for left, right in zip(ends, ends[1:])]
-        self.middles = [(offset << self.unit) >> 2 for offset in self.offsets]
-        self.extent = 4 * max(1, count - 3)
-        self.sizes = self.widths if count <= 64 else [1] * 4
-
-    def distances(self, base, slope, scale):
-        linear = int16(slope * scale.factor >> (scale.shift + self.unit + 7))
-        bend = int16((scale.factor << 15) >> (scale.shift + 2 * self.unit))
-        return [base + (m * linear >> 16) + ((m * m >> 16) * bend >> 16) for m in self.middles]
-
-
-def int16(value):
-    """The signed number of the low 16 bits."""
-    return (value + 32768) % 65536 - 32768
-
-
-class Scale:
-    def __init__(self, ramp):
-        self.shift = max(0, highest_bit(ramp) - 15)
-        self.factor = (1 << 30) // (ramp >> self.shift)
-
-
-class Grid:
-    """The 4 x 4 cells of a box."""
-
-    ALL = [(i, j) for i in range(4) for j in range(4)]
-
-    def __init__(self, box):
-        self.middle = box.doubled_middle()
-        self.columns, self.rows = Slices(box.columns), Slices(box.rows)
-
-    def scale(self, circle):
-        _, x, y = circle(self.middle)
-        w, h = self.columns.extent, self.rows.extent
-        return Scale((4 * ((abs(x) >> 4) * w + (abs(y) >> 4) * h) + w * w + h * h) // 8 + 24)
-
-    def distances(self, circle, scale=None):
-        """How far the middles of the cells are outside a circle, which is a function of the place it is seen from."""
-        scale = scale or self.scale(circle)
-        power, x, y = circle(self.middle)
-        power = keep_within(-(1 << 30), power >> scale.shift, 1 << 30)
-        base = keep_within(-8192, power * scale.factor >> 21, 8192)
-        across, along = self.columns.distances(base, x, scale), self.rows.distances(0, y, scale)
-        return {(i, j): int16(across[i] + along[j]) for i, j in self.ALL}
-
-
-class Chance:
+class Sweep:
     """Chance of being first."""
 
-    CERTAIN = 511
+    def __init__(self, candidate, a, f, k1, k0, density):
+        def swept(k):
+            return segment(candidate.aa, k) - segment(candidate.aa, k0)
 
-    def __init__(self, candidate, density):
-        chord = candidate.chord
-        k1, k0 = chord.own, chord.behind if chord.apex else min(chord.own, 0) - 2048
-        self.behind = chord.circle(k0)
-        rate = exp2(log2(chord.squared_length()) + density + 135 + 4096)
-        nodes = [self.at(segment(k1 + ((k0 - k1) * i >> 2)) - segment(k0), rate) for i in range(4)]
-        nodes.append(self.CERTAIN)
-        self.table = [
-            (8 * left + (right - left) * j) >> 3 for left, right in zip(nodes, nodes[1:]) for j in range(8)
-        ]
+        self.rate = density - 256 * (2 * candidate.shift + 1) + 2183
+        self.last, middle = self.left(swept(k1)), self.left(swept((k1 + k0) >> 1))
+        self.linear = 4 * middle - 3 * self.last - 511
+        self.bend = 2 * (self.last + 511 - 2 * middle)
+        self.across = ((k1 - k0) * a[1] >> (12 + f), (k0 - k1) * a[0] >> (12 + f))
 
-    def at(self, swept, rate):
-        loss = max(0, swept) * rate >> 25
-        return exp2(3840 - loss) * 511 >> 15 if loss < 3840 else 0
+    def left(self, u):
+        if u <= 0:
+            return 511
+        loss = rlog(u) + self.rate
+        return 0 if loss >= 3072 else rexp(2303 - rexp(loss))
 
-    def is_level(self):
-        return self.table[0] >= 256
-
-    def of_cells(self, grid, scale, distances):
-        if self.is_level():
-            return dict.fromkeys(grid.ALL, self.CERTAIN)
-        behind = grid.distances(self.behind, scale)
-        return {cell: self.between(behind[cell], -distances[cell]) for cell in grid.ALL}
-
-    def between(self, outside_behind, inside):
-        left = keep_within(0, inside, 16383)
-        return self.table[32 * left // (keep_within(1, outside_behind, 16383) + left)]
-
-
-def cut(weights, distances):
-    return {cell: w * keep_within(0, distances[cell] + 32, 63) >> 6 for cell, w in weights.items()}
+    def chance(self, x, y, own):
+        whole = dot(self.across, (x, y))
+        if whole <= 0:
+            return 511
+        low, high = own
+        if not low < y < high:
+            return self.last
+        w = (high - y) * (y - low) // ((whole >> 8) + 1)
+        return 511 if w >= 256 else max(0, self.last + (w * (self.linear + (w * self.bend >> 8)) >> 8))
 
 
 class Repulsion:
-    """Of the candidate's corners, in sixteenths of the distance that counts."""
+    def __init__(self, corners, s, density, crowding):
+        self.corners = corners
+        exponent = keep_within(512, 512 * s + 2048 - rlog(crowding) - density, 7168)
+        self.reach = rexp(exponent)
+        self.z = max(0, (exponent >> 8) - 14)
+        self.factor = 255 * 65536 // (self.reach >> self.z)
 
-    def __init__(self, candidate, box, density, crowding):
-        longer = highest_bit((box.columns - 1) | (box.rows - 1) | 1)
-        self.unit = min(exp2(divide(log2(crowding) - 2048 + density, 2) + 4864), 1 << (27 - longer))
-        self.corners = (candidate.v, candidate.c, candidate.a)
-        self.nearest = 0
+    def apart(self, x, y):
+        d = min([self.reach] + [dot(p, p) for p in (minus((x, y), corner) for corner in self.corners)])
+        return ((d >> self.z) * self.factor) >> 16
 
-    def seen_from(self, middle):
-        return [tuple((2 * at - m) * self.unit >> 16 for at, m in zip(p, middle)) for p in self.corners]
 
-    def is_felt(self):
-        return self.nearest < 512
+class PlaceDecoder:
+    QUICK, DENSE = 1, 3
 
-    def scaled_middles(self, slices):
-        return [m * (4 * self.unit >> slices.unit) >> 16 for m in slices.middles]
+    def __init__(self, coder, models, candidate, density, header):
+        self.coder, self.models, self.candidate, self.header = coder, models, candidate, header
+        self.turn = Turn(candidate.a)
+        c, a = self.turn(candidate.C), self.turn(candidate.A)
+        behind, self.next_behind = candidate.behind[2], candidate.behind[0]
+        k1 = cotangent(candidate.cc - candidate.ca, candidate.T, 64)
+        k0 = min(k1, -4 * ONE if behind is None else behind)
+        whole = Circle(a, k1, 0)
+        f = max(0, highest_bit(abs(whole.x2 >> 1) | abs(whole.y) | 1) - 12)
+        self.s = candidate.shift - f
+        self.own = Circle(a, k1, f)
+        self.cutting = []
+        if behind is not None and behind > -16 * ONE:
+            self.cutting.append(Circle(a, k0, f))
+        if self.next_behind is not None and self.next_behind > -16 * ONE:
+            self.cutting.append(Circle(c, -self.next_behind, f))
+        self.c, self.a = shifted(c, -f), shifted(a, -f)
+        first = self.turn(minus((0, 0), candidate.v))
+        last = self.turn(minus((header.columns - 1, header.rows - 1), candidate.v))
+        self.columns, self.rows = (Lines(*sorted(ends)) for ends in zip(first, last))
+        self.repulsion = None
+        if header.decoding != self.QUICK:
+            self.sweep = Sweep(candidate, a, f, k1, k0, density)
+            if header.heights_are_sent:
+                self.repulsion = Repulsion([(0, 0), self.c, self.a], self.s, density, models.crowding)
 
-    def near_cells(self, grid):
-        xs, ys = self.scaled_middles(grid.columns), self.scaled_middles(grid.rows)
-        near = dict.fromkeys(grid.ALL, 512)
-        corners = [
-            (x, y)
-            for x, y in self.seen_from(grid.middle)
-            if xs[0] - 23 <= x <= xs[3] + 23 and ys[0] - 23 <= y <= ys[3] + 23
-        ]
-        for (i, j), (x, y) in itertools.product(grid.ALL, corners):
-            dx, dy = (keep_within(-127, d, 127) for d in (xs[i] - x, ys[j] - y))
-            near[i, j] = min(near[i, j], dx * dx + dy * dy)
-        return near, bool(corners)
+    def grain(self, doubled):
+        return shifted((doubled,), self.s - 1)[0]
 
-    def applied_to(self, weights, grid):
-        self.near, is_any_near = self.near_cells(grid)
-        if not is_any_near:
-            return weights
-        return {cell: w * min(self.near[cell], 255) >> 8 for cell, w in weights.items()}
+    def lines(self, low, high):
+        if self.s >= 0:
+            return Lines((low + (1 << self.s) - 1) >> self.s, high >> self.s)
+        return Lines(low << -self.s, ((high + 1) << -self.s) - 1)
 
-    def follow(self, column, row):
-        if self.is_felt():
-            self.nearest = self.near[column, row]
+    def is_open(self, end):
+        def is_beyond(p, q):
+            return cross(minus(q, p), minus(end, p)) < 0
 
-    def crowding_after(self, crowding):
-        if self.nearest < 256:
+        v, sides = (0, 0), self.candidate.sides
+        return not (
+            is_beyond(self.a, v)
+            or (sides[0].certified and is_beyond(v, self.c))
+            or (sides[1].certified and is_beyond(self.c, self.a))
+        )
+
+    def legal_columns(self):
+        """And whether they are open in the west and in the east."""
+        x, y = self.own.centre()
+        radius = root(x * x + y * y) + 1
+        west, east = [self.c[0], self.a[0]], [self.c[0], 0]
+        is_open = [self.is_open((end, y)) for end in (x - radius, x + radius)]
+        if is_open[0]:
+            west.append(x - radius)
+        if is_open[1]:
+            east.append(x + radius)
+        lines = self.lines(min(west), max(east))
+        return Lines(max(lines.first, self.columns.first), min(lines.last, self.columns.last)), *is_open
+
+    def spans(self, x, square_root, wider):
+        """What the own circle covers, and what is legal of it."""
+
+        def radius(circle, wider):
+            return (square_root(circle.square(x)) if circle.square(x) > 0 else 0) + wider
+
+        r = radius(self.own, wider)
+        own = low, high = self.own.y - r, self.own.y + r
+        for circle in self.cutting:
+            if circle.square(x) <= 0:
+                continue
+            r = radius(circle, -wider)
+            begin, end = circle.y - r, circle.y + r
+            if begin <= low:
+                low = max(low, end)
+            elif end >= high and begin < high:
+                high = begin
+        first, last = (shifted((row,), self.s)[0] for row in self.rows)
+        return own, (max(low, first), min(high, last))
+
+    def place_weight(self, x, y, own):
+        chance = self.sweep.chance(x, y, own)
+        if self.repulsion:
+            chance = chance * (self.repulsion.apart(x, y) + 4) >> 8
+        return chance + 4
+
+    def column_weight(self, x):
+        own, (low, high) = self.spans(x, rough_root, 0)
+        length = high - low
+        if length <= 0:
+            return 4
+        quarter = length >> 2
+        both = self.place_weight(x, low + quarter, own) + self.place_weight(x, high - quarter, own)
+        return (length * both >> 10) + 4
+
+    def decode_quarter(self, bits, lines):
+        if lines.count() < 4:
+            return lines
+        upper = bits[0].decode(self.coder)
+        lines = lines.half(upper)
+        return lines.half(bits[2 if upper else 1].decode(self.coder))
+
+    def decode_halves(self, calibrations, lines, weigh):
+        for time, row in enumerate(calibrations):
+            if lines.count() < 2:
+                break
+            n, half = lines.count(), lines.count() >> 1
+            if time < 3 or self.header.decoding == self.DENSE:
+                middle = 2 * lines.first + half - 1
+                low, high = weigh(self.grain(middle)), weigh(self.grain(middle + n))
+            below, above = (low * half, high * (n - half)) if n < 32 else (low, high)
+            estimate = (above << 11) // (below + above + 1) << 4
+            upper = decode_between(self.coder, row, estimate >> 12, estimate >> 4 & 255)
+            lines = lines.half(upper)
+            tilt, mean = (high - low) >> 2, high if upper else low
+            low, high = (max(w, (mean >> 2) + 1) for w in (mean - tilt, mean + tilt))
+        return lines
+
+    def decode_line(self, lines):
+        return lines.first + self.coder.uniform(lines.count())
+
+    def decode_column(self, n):
+        lines, west, east = self.legal_columns()
+        if self.header.decoding == self.QUICK:
+            row = (not east) + 2 * (not west) + 4 * self.candidate.sides[0].certified + 8 * (n > 1)
+            lines = self.decode_quarter(self.models.quick_column[row], lines)
+        else:
+            lines = self.decode_halves(self.models.column, lines, self.column_weight)
+        return self.decode_line(lines)
+
+    def decode_row(self, n, column, lines, own):
+        x = self.grain(2 * column)
+        if self.header.decoding == self.QUICK:
+            zone = 4 if x < self.a[0] else 8 if x > 0 else 0
+            lines = self.decode_quarter(self.models.quick_row[n + zone], lines)
+        else:
+            lines = self.decode_halves(self.models.row, lines, lambda y: self.place_weight(x, y, own))
+        return self.decode_line(lines)
+
+    def decode(self, expected):
+        n = keep_within(0, (expected + 256) >> 8, 3)
+        column = self.decode_column(n)
+        own, span = self.spans(self.grain(2 * column), root, 1)
+        if self.models.escape.decode(self.coder):
+            place = self.decode_line(self.columns), self.decode_line(self.rows)
+        else:
+            place = column, self.decode_row(n, column, self.lines(*span).kept_within(*self.rows), own)
+            self.learn_crowding(place)
+        x, y = self.turn.back(place)
+        return self.candidate.v[0] + x, self.candidate.v[1] + y
+
+    def learn_crowding(self, place):
+        if not self.repulsion:
+            return
+        crowding = self.models.crowding
+        if self.repulsion.apart(*(self.grain(2 * at) for at in place)) < 254:
             crowding += crowding >> 4
-        return keep_within(512, crowding - 12, 65536)
-
-
-class Weights:
-    def __init__(self, candidate, density, repulsion):
-        self.circle = candidate.chord.circle(candidate.chord.own)
-        self.chance = Chance(candidate, density)
-        self.behind = [side.circle(side.behind) for side in candidate.sides if side.has_circle_behind()]
-        self.repulsion = repulsion
-
-    def of_cells(self, grid):
-        """The weights by cell, and the distances from the circles behind."""
-        scale = grid.scale(self.circle)
-        own = grid.distances(self.circle, scale)
-        chances = self.chance.of_cells(grid, scale, own)
-        weights = {cell: keep_within(0, 32 - own[cell], 64) * chances[cell] for cell in grid.ALL}
-        distances = [grid.distances(behind) for behind in self.behind]
-        for outside in distances:
-            weights = cut(weights, outside)
-        if self.repulsion and self.repulsion.is_felt():
-            weights = self.repulsion.applied_to(weights, grid)
-        return weights, distances
-
-    def forget_far_circles(self, distances, cell):
-        self.behind = [behind for behind, outside in zip(self.behind, distances) if outside[cell] < 64]
-
-
-def decode_half(coder, row, low, high):
-    if low == 0 or high == 0:
-        return int(low == 0)
-    s = max(0, highest_bit(low + high) - 16)
-    estimate = ((high >> s) << 15) // (((low + high) >> s) + 1)
-    return decode_between(coder, row, estimate >> 12, estimate >> 4 & 255)
-
-
-def decode_one_of_four(coder, rows, weights):
-    upper = decode_half(coder, rows[0], sum(weights[:2]), sum(weights[2:]))
-    pair = weights[2 * upper : 2 * upper + 2]
-    return 2 * upper + decode_half(coder, rows[1], *pair)
-
-
-def decode_cell(coder, rows, weights, box):
-    grid = Grid(box)
-    shares, distances = weights.of_cells(grid)
-    widths, heights = grid.columns.sizes, grid.rows.sizes
-    cells = [[(shares[i, j] + 32) * heights[j] for j in range(4)] for i in range(4)]
-    column = decode_one_of_four(coder, rows[:2], [sum(cells[i]) * widths[i] for i in range(4)])
-    row = decode_one_of_four(coder, rows[2:], cells[column])
-    weights.forget_far_circles(distances, (column, row))
-    if weights.repulsion:
-        weights.repulsion.follow(column, row)
-    return box.cell(column, row)
-
-
-def decode_place_in_triangle(coder, models, candidate, density, header):
-    box = first_box(candidate, header.columns, header.rows)
-    repulsion = Repulsion(candidate, box, density, models.crowding) if header.heights_are_sent else None
-    weights = Weights(candidate, density, repulsion)
-    for _ in range(header.levels):
-        if box.is_point():
-            break
-        box = decode_cell(coder, models.cell, weights, box)
-    if repulsion:
-        models.crowding = repulsion.crowding_after(models.crowding)
-    x = box.x + coder.uniform(box.columns)
-    return x, box.y + coder.uniform(box.rows)
+        self.models.crowding = keep_within(512, crowding - 12, 65536)
 
 
 class Neighbour(NamedTuple):
@@ -961,7 +943,8 @@ class Decoder:
     def decode_hit_elsewhere(self, chord):
         candidate = Candidate(self.mesh, chord, self.is_final)
         density = self.density.value()
-        position = log2(candidate.free_area()) - 2048 + density + 1536
+        expected = candidate.expected_points(density)
+        position = expected + 1536
         curve = candidate.sides[0].certified + 2 * candidate.sides[1].certified
         if self.mesh.apex(chord) not in self.queued:
             degree = self.mesh.degree(before(chord))
@@ -970,7 +953,7 @@ class Decoder:
                 position = 15 * 256
         if not decode_on_curve(self.coder, self.models.hit[curve], position):
             return None
-        return decode_place_in_triangle(self.coder, self.models, candidate, density, self.header)
+        return PlaceDecoder(self.coder, self.models, candidate, density, self.header).decode(expected)
 
     def decode_vertex(self, chord, place):
         cavity, boundary = self.legal_cavity(chord, place)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Notes as FORMAT.md lays them down.
 #include "encoder/stream/notes.hpp"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Notes: what headers of streams and packs say beside the terrain (FORMAT.md, section 4).
 #ifndef MICROTIN_ENCODER_STREAM_NOTES_HPP
 #define MICROTIN_ENCODER_STREAM_NOTES_HPP

@@ -29,8 +29,7 @@ void write_streams(const std::string& folder) {
   write(path("2_uniform_80k"), {uniform_tin(80000, 0), {}});
   for (const Effort& effort : {Effort{8, Decoding::kBalanced}, Effort{10, Decoding::kQuick},
                                Effort{10, Decoding::kDense}}) {
-    write(path("2_uniform_80k_D" + std::to_string(effort.degree) + "_" +
-               name_of(effort.decoding)),
+    write(path("2_uniform_80k_D" + std::to_string(effort.degree) + "_" + name_of(effort.decoding)),
           {uniform_tin(80000, 0), {}}, effort);
   }
   write(path("3_uniform_1M"), {uniform_tin(1000000, 0), {}});

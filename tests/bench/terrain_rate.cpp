@@ -20,8 +20,12 @@ std::string label(const Dataset& dataset) {
 class TerrainRate {
  public:
   TerrainRate() {
-    Row head{"terrain, error / z step", "vertices",    "xy floor",
-             "microtin, bytes",         "bits/vertex", "quick, bytes",
+    Row head{"terrain, error / z step",
+             "vertices",
+             "xy floor",
+             "microtin, bytes",
+             "bits/vertex",
+             "quick, bytes",
              "dense, bytes"};
     for (const Codec& peer : peers_) {
       head.push_back(peer.name + ", bytes");

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "shared/repulsion.hpp"
+#include "shared/free_region.hpp"
 #include "tests/support/layers.hpp"
 
 namespace microtin::tests {
@@ -48,52 +48,15 @@ TEST_CASE("the in-circle determinant of a square of side S is at most S^4 / 2, a
   }
 }
 
-TEST_CASE("slices of any count of lines have the bounds that distances count on") {
-  for (FastInt count = 1; count <= 65536; ++count) {
-    Slices slices;
-    slice(slices, count);
-    REQUIRE(slices.start[kSlices] == count);
-    REQUIRE((slices.extent > 0 && slices.extent < 1 << 18));
-    REQUIRE(slices.unit <= 16);
-    for (int i = 0; i < kSlices; ++i) {
-      const FastInt lines = slices.start[i + 1] - slices.start[i];
-      REQUIRE(magnitude(lines * kSlices - count) < kSlices);
-      REQUIRE(magnitude(slices.middle[i]) <= 24576);
-      REQUIRE((slices.square[i] >= 0 && slices.square[i] <= 9216));
-    }
-  }
-}
-
-TEST_CASE("the sixteenths of a box's slices fit 13 bits, their products 29") {
-  for (uint32_t size = 0; size < 16; ++size) {
-    const int32_t unit = static_cast<int32_t>(1) << (27 - size);
-    for (FastInt count = 1; count <= static_cast<FastInt>(2) << size; ++count) {
-      Slices slices;
-      slice(slices, count);
-      int16_t middle[kSlices];
-      scale_middles(slices, unit, middle);
-      const int64_t scale = (unit << 2) >> slices.unit;
-      for (int i = 0; i < kSlices; ++i) {
-        REQUIRE(magnitude(slices.middle[i] * scale) < 1 << 29);
-        REQUIRE(magnitude(middle[i]) < 1 << 13);
-      }
-    }
-  }
-}
-
-TEST_CASE("a root is at least the true one, and hardly larger") {
-  const auto check = [](uint64_t v) {
-    const double root = sqrt_above(v), exact = std::sqrt(static_cast<double>(v));
-    REQUIRE(root >= exact);
-    REQUIRE(root <= 2 + exact * (1 + 1.0 / 128));
+TEST_CASE("roots are as close as the format says") {
+  const auto check = [](uint32_t v) {
+    const double exact = std::sqrt(static_cast<double>(v));
+    REQUIRE(std::abs(rough_root(v) - exact) <= 1 + exact / 256);
+    REQUIRE(std::abs(fine_root(v) - exact) <= 1 + exact / 32768);
   };
-  for (uint64_t v = 1; v < 1 << 20; ++v) check(v);
-  for (uint32_t bit = 20; bit < 58; ++bit) {
-    for (uint64_t i = 0; i < 4096; ++i) {
-      const uint64_t v = (uint64_t{1} << bit) + (i << (bit - 12));
-      check(v);
-      check(v - 1);
-    }
+  for (uint32_t v = 0; v < 1 << 20; ++v) check(v);
+  for (uint32_t bit = 20; bit < 31; ++bit) {
+    for (uint32_t i = 0; i < 4096; ++i) check((1u << bit) + (i << (bit - 12)));
   }
 }
 
@@ -102,17 +65,37 @@ TEST_CASE("logarithms, powers and segments are as close as the format says") {
     REQUIRE(std::abs(value - exact) <= error);
   };
   for (uint64_t v = 1; v < 1 << 18; ++v) {
-    close(log2_of(v), 256 * std::log2(static_cast<double>(v)), 1);
+    const double exact = 256 * std::log2(static_cast<double>(v));
+    close(log2_of(v), exact, 1);
+    close(rough_log2(v) + 11.5, exact, 11.6);
+    REQUIRE(rough_exp2(rough_log2(v)) <= v);
   }
-  for (Log2 l = 1; l < 30 * kLog2One; ++l) {
+  for (Log2 l = 0; l < 1 << 13; ++l) {
     const double exact = std::exp2(l / 256.0);
-    close(exp2_of(l), exact, 1 + exact / 7000);
+    close(rough_exp2(l), 1.03 * exact, 1 + 0.032 * exact);
   }
-  for (Cotangent k = 0; k <= kCotangentCap; ++k) {
-    const double c = k / 256.0, exact = 32768 * ((1 + c * c) * std::atan2(1, c) - c);
-    close(segment(-k), exact, 1 + 0.0125 * exact);
-    REQUIRE(segment(-k) <= 51781);
-    REQUIRE(segment(k) < int64_t{1} << 30);
+  for (int32_t k = 0; k <= kOwnCap * 256; ++k) {
+    const double c = k / 256.0, exact = (1 + c * c) * std::atan2(1, c) - c;
+    constexpr uint32_t kSquare = (1u << 25) - 1;
+    const Cotangent fine = k << (kCotangentBits - 8);
+    close(segment(kSquare, -fine) / double{kSquare}, exact / 2, 0.0004 + 0.00625 * exact);
+    REQUIRE(segment(kSquare, fine) < int32_t{1} << 30);
+    REQUIRE(segment(kSquare, fine) > 0);
+  }
+}
+
+// The corners are below 2^11 grains, so are apexes; heights may come out as 1.
+TEST_CASE("cotangents stay below their cap, at every quotient of the largest numbers") {
+  for (const int32_t most : {kBehindCap, kOwnCap}) {
+    const Cotangent cap = most * (1 << kCotangentBits);
+    for (uint32_t i = 0; i < 25; ++i) {
+      for (const int32_t h : {1 << i, (2 << i) - 1}) {
+        for (const int32_t q : {0, 1, h, 33554431}) {
+          REQUIRE(magnitude(cotangent(q, h, most)) <= cap);
+          REQUIRE(magnitude(cotangent(-q, h, most)) <= cap);
+        }
+      }
+    }
   }
 }
 

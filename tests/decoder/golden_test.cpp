@@ -46,8 +46,9 @@ std::vector<Golden> golden_streams() {
   std::vector<Golden> all;
   all.push_back({"example", encode(example, Metadata())});
   all.push_back({"hills", encode(rolling_tin(1000, 32), full_metadata())});
-  all.push_back({"phases", encode(rolling_tin(700, 33), Metadata(), {6, 1})});
-  all.push_back({"voids", encode(with_voids(rolling_tin(300, 34)), Metadata(), {8, 3})});
+  all.push_back({"phases", encode(rolling_tin(700, 33), Metadata(), {6, Decoding::kQuick})});
+  all.push_back(
+      {"voids", encode(with_voids(rolling_tin(300, 34)), Metadata(), {8, Decoding::kDense})});
   // Chords whose cotangents are the largest 32-bit numbers and beyond.
   all.push_back({"needles", encode(flat({{16948, 26227},
                                          {21539, 23131},
@@ -59,12 +60,15 @@ std::vector<Golden> golden_streams() {
                                    Metadata())});
   all.push_back({"triangle",
                  encode(Tin{{{3, 4, -32768}, {60003, 4, 32767}, {3, 65535, 0}}, {}}, Metadata())});
-  all.push_back({"cliffs", encode(cliffs(random), Metadata(), {10, 3})});
+  all.push_back({"cliffs", encode(cliffs(random), Metadata(), {10, Decoding::kDense})});
   all.push_back({"lattice", encode(flat(lattice_points(20, 15, random)), Metadata())});
-  all.push_back({"circle", encode(flat(circle_points(1105 * 1105, random)), Metadata(), {32, 2})});
+  all.push_back({"circle", encode(flat(circle_points(1105 * 1105, random)), Metadata(),
+                                  {32, Decoding::kBalanced})});
   // Phases after the first section.
-  all.push_back({"sections", encode(flat(lattice_points(40, 30, random)), Metadata(), {6, 1})});
-  all.push_back({"corners", encode(flat(extreme_corners(random)), Metadata(), {12, 3})});
+  all.push_back({"sections",
+                 encode(flat(lattice_points(40, 30, random)), Metadata(), {6, Decoding::kQuick})});
+  all.push_back(
+      {"corners", encode(flat(extreme_corners(random)), Metadata(), {12, Decoding::kDense})});
   return all;
 }
 

@@ -19,7 +19,7 @@ constexpr uint32_t kCapacity = 10000;
 // --- Contracts and plans -------------------------------------------------------------------------
 
 Contract flat_contract(uint32_t vertices) {
-  return Contract{vertices, 99, 99, kMinDegree, 2, false, false};
+  return Contract{vertices, 99, 99, kMinDegree, Decoding::kBalanced, false, false};
 }
 
 const std::vector<Vertex> kSeed = {{5, 5, 0}, {90, 10, 0}, {10, 90, 0}};

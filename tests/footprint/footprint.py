@@ -235,7 +235,7 @@ def summary(budget):
         row = [target] + [f"{count(numbers[u]['text'])} + {count(numbers[u]['rodata'])}" for u in ("decoding", "queries")]
         row.append(count(numbers["stack_decoding"]))
         run = numbers.get("run")
-        rows.append(row + ([count(run["decode_levels2"]), count(run["warm_mean"])] if run else ["-", "-"]))
+        rows.append(row + ([count(run["decode_balanced"]), count(run["warm_mean"])] if run else ["-", "-"]))
     return table(head, rows)
 
 

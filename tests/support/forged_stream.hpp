@@ -180,7 +180,7 @@ inline std::vector<Vertex> border_seed(uint16_t largest_x) {
 }
 
 inline Contract border_contract(uint16_t largest_x) {
-  return Contract{largest_x + 2u, largest_x, 1, kMaxDegree, 1, false, true};
+  return Contract{largest_x + 2u, largest_x, 1, kMaxDegree, Decoding::kQuick, false, true};
 }
 
 // Up to 4 sections in few bytes: a lattice whose last vertices come one a phase.
@@ -198,7 +198,7 @@ inline Bytes sectioned_stream(uint32_t sections) {
   plan.batches.insert(plan.batches.end(), sections - 1, 1);
   plan.vertices.resize(kSectionVertices + sections - 1);
   const uint32_t n = static_cast<uint32_t>(plan.vertices.size());
-  return forge(Contract{n, kLargest, kLargest, kMaxDegree, 1, false, false},
+  return forge(Contract{n, kLargest, kLargest, kMaxDegree, Decoding::kQuick, false, false},
                PlanCoder(std::move(plan)));
 }
 

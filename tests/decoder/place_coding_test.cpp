@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "shared/place_coding.hpp"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "tests/support/point_sets.hpp"
+
+namespace microtin::tests {
+namespace {
+
+// Keeps what is coded, and how many bits it takes at most.
+struct Recorder {
+  Vertex known;
+  std::vector<uint32_t> symbols;
+
+  Vertex next() const { return known; }
+  bool bit(uint32_t probability, bool value) {
+    CHECK(probability >= static_cast<uint32_t>(kProbabilityMargin));
+    CHECK(probability <= kProbabilityOne - static_cast<uint32_t>(kProbabilityMargin));
+    symbols.push_back(value ? 1 : 0);
+    return value;
+  }
+  uint32_t uniform(uint32_t count, uint32_t value) {
+    CHECK(count <= 65536);
+    CHECK(value < count);
+    symbols.push_back(value);
+    return value;
+  }
+};
+
+// Reads them again.
+struct Player {
+  const std::vector<uint32_t>& symbols;
+  size_t at = 0;
+
+  static Vertex next() { return Vertex{0, 0, 0}; }
+  bool bit(uint32_t, bool) { return symbols[at++] != 0; }
+  uint32_t uniform(uint32_t, uint32_t) { return symbols[at++]; }
+};
+
+struct Case {
+  Point v, c, a;  // counter-clockwise
+  Side side[3];
+  Log2 density;
+  Crowding crowding;
+};
+
+FreeRegion region_of(const Case& given) {
+  FreeRegion region{};
+  region.origin = given.v;
+  region.corner[0] = given.c - given.v;
+  region.corner[1] = given.a - given.v;
+  for (int i = 0; i < 3; ++i) region.side[i] = given.side[i];
+  region.expected = free_area(region) + given.density;
+  return region;
+}
+
+PlaceModel model() {
+  PlaceModel model;
+  auto* const bits = reinterpret_cast<AdaptiveBit*>(&model);
+  for (size_t i = 0; i < sizeof model / sizeof(AdaptiveBit); ++i) bits[i] = adaptive_bit(128);
+  return model;
+}
+
+template <class Coder>
+Offset code(Coder& coder, const Case& given, const Contract& contract) {
+  const FreeRegion region = region_of(given);
+  PlaceModel bits = model();
+  Place place;
+  Crowding crowding = given.crowding;
+  return code_place(coder, bits, region, contract, given.density, place, crowding);
+}
+
+// Whether a place comes back in each setting of decoding.
+bool comes_back(const Case& given, Contract contract, Point place) {
+  for (const Decoding decoding : {Decoding::kQuick, Decoding::kBalanced, Decoding::kDense}) {
+    contract.decoding = decoding;
+    Recorder recorder{Vertex{place.x, place.y, 0}, {}};
+    code(recorder, given, contract);
+    Player player{recorder.symbols};
+    const Offset at = code(player, given, contract);
+    const Offset expected = place - given.v;
+    if (at.x != expected.x || at.y != expected.y || player.at != recorder.symbols.size()) {
+      return false;
+    }
+  }
+  return true;
+}
+
+Contract square_lattice(uint32_t side) {
+  Contract contract{};
+  contract.x_max = contract.y_max = static_cast<uint16_t>(side - 1);
+  contract.has_heights = true;
+  return contract;
+}
+
+// A random side with an apex anywhere behind it.
+Side random_side(Random& random, uint32_t size, Point v, Point from, Point to, bool certified) {
+  Side side{};
+  side.certified = certified;
+  side.ghost = random() % 8 == 0;
+  const Point apex = point_in(random, size);
+  side.ghost = side.ghost || orient2d(to, from, apex) <= 0;
+  side.apex = side.ghost ? Offset{0, 0} : apex - v;
+  return side;
+}
+
+Case random_case(Random& random, uint32_t size) {
+  Case given{};
+  do {
+    given.v = point_in(random, size);
+    given.c = point_in(random, size);
+    given.a = point_in(random, size);
+  } while (orient2d(given.v, given.c, given.a) <= 0);
+  given.side[0] = random_side(random, size, given.v, given.v, given.c, random() % 2 == 0);
+  given.side[1] = random_side(random, size, given.v, given.c, given.a, random() % 2 == 0);
+  given.side[kChord] = random_side(random, size, given.v, given.a, given.v, true);
+  given.density = static_cast<Log2>(random() % 32768) - 16384;
+  given.crowding = kCrowdingLeast + static_cast<Crowding>(random() % kCrowdingMost);
+  return given;
+}
+
+// Nearly on a line, as long as the lattice.
+Case needle(Random& random, uint32_t size) {
+  Case given = random_case(random, size);
+  const auto last = static_cast<uint16_t>(size - 1);
+  const auto step = static_cast<uint16_t>(random() % 3);
+  given.v = Point{0, 0};
+  given.a = Point{last, static_cast<uint16_t>(last - step)};
+  const auto middle = static_cast<uint16_t>(random() % last);
+  given.c = Point{middle, static_cast<uint16_t>(middle + 1)};
+  if (orient2d(given.v, given.c, given.a) <= 0) std::swap(given.c, given.a);
+  return given;
+}
+
+}  // namespace
+
+TEST_CASE("every place of a lattice comes back, whatever is estimated of it") {
+  Random random(61);
+  uint32_t lost = 0;
+  for (const uint32_t size : {4u, 12u, 60u, 500u, 8000u, 65536u}) {
+    const Contract contract = square_lattice(size);
+    for (int i = 0; i < 3000; ++i) {
+      const Case given = i % 8 == 0 ? needle(random, size) : random_case(random, size);
+      if (orient2d(given.v, given.c, given.a) <= 0) continue;
+      for (int j = 0; j < 3; ++j) {
+        if (!comes_back(given, contract, point_in(random, size))) ++lost;
+      }
+    }
+  }
+  CHECK(lost == 0);
+}
+
+// The escape takes 41 bits: it must be rare where a triangle is no sliver.
+TEST_CASE("hardly a legal place is missed") {
+  Random random(62);
+  uint32_t legal = 0, missed = 0;
+  for (const uint32_t size : {12u, 60u, 500u, 8000u, 65536u}) {
+    const Contract contract = square_lattice(size);
+    for (int i = 0; i < 20000; ++i) {
+      Case given{};
+      given.v = point_in(random, size);
+      given.c = point_in(random, size);
+      given.a = point_in(random, size);
+      const Point behind = point_in(random, size), place = point_in(random, size);
+      if (orient2d(given.v, given.c, given.a) <= 0) continue;
+      if (orient2d(given.a, behind, given.v) <= 0) continue;
+      if (conflicts_with_triangle(given.a, behind, given.v, given.c)) continue;
+      if (!conflicts_with_triangle(given.v, given.c, given.a, place)) continue;
+      if (conflicts_with_triangle(given.a, behind, given.v, place)) continue;
+      given.side[kChord].certified = true;
+      given.side[kChord].apex = behind - given.v;
+      const FreeRegion region = region_of(given);
+      if (cotangent(region.cc - region.ca, region.twice, kOwnCap) >= 16 << kCotangentBits) continue;
+      ++legal;
+      Place at;
+      PlaceModel bits = model();
+      Crowding crowding = kCrowdingStart;
+      Contract quick = contract;
+      quick.decoding = Decoding::kQuick;
+      Recorder recorder{Vertex{place.x, place.y, 0}, {}};
+      code_place(recorder, bits, region, quick, 0, at, crowding);
+      missed += bits.escape.fast > adaptive_bit(128).fast;
+    }
+  }
+  CAPTURE(missed);
+  CHECK(legal > 1000);
+  CHECK(missed * 200 <= legal);
+}
+
+TEST_CASE("places are turned back to where they were") {
+  for (const Offset a : {Offset{-9, 4}, Offset{9, 4}, Offset{3, 9}, Offset{3, -9}, Offset{-5, -5},
+                         Offset{5, 5}, Offset{5, -5}, Offset{-5, 5}}) {
+    const int32_t turns = turns_for(a);
+    const Offset west = turned(a, turns), back = turned(west, -turns & 3);
+    CHECK(west.x < 0);
+    CHECK(absolute(west.y) <= -west.x);
+    CHECK(back.x == a.x);
+    CHECK(back.y == a.y);
+  }
+}
+
+}  // namespace microtin::tests
