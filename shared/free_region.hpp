@@ -85,9 +85,9 @@ struct FreeRegion {
   Side side[3];
 };
 
-// Area, over the squared chord, of the segment that is seen under k >= 0 (8 fractional bits, at most
-// 2^14): 12 fractional bits, at most 1592. It is about 1/6 (k + 0.734) / (k^2 + 0.734 k + 0.315),
-// off by at most 1.25 %.
+// Area, over the squared chord, of the segment that is seen under k >= 0 (8 fractional bits, at
+// most 2^14): 12 fractional bits, at most 1592. It is about 1/6 (k + 0.734) / (k^2 + 0.734 k +
+// 0.315), off by at most 1.25 %.
 inline uint32_t minor_segment(uint32_t k) {
   return (k + 188u) * 174763u / (k * (k + 188u) + 20643u);
 }

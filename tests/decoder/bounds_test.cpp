@@ -78,7 +78,7 @@ TEST_CASE("logarithms, powers and segments are as close as the format says") {
     const double c = k / 256.0, exact = (1 + c * c) * std::atan2(1, c) - c;
     constexpr uint32_t kSquare = (1u << 25) - 1;
     const Cotangent fine = k << (kCotangentBits - 8);
-    close(segment(kSquare, -fine) / double{kSquare}, exact / 2, 0.0004 + 0.00625 * exact);
+    close(segment(kSquare, -fine) / double{kSquare}, exact / 2, 2.0 / 4096 + 0.00625 * exact);
     REQUIRE(segment(kSquare, fine) < int32_t{1} << 30);
     REQUIRE(segment(kSquare, fine) > 0);
   }

@@ -82,7 +82,8 @@ size_t stream_at(const Bytes& pack, uint32_t tile) {
 // Three vertices within 4 x 3 steps, in a stream whose header says that it reaches so far: found by
 // trying what payloads say.
 Bytes loose_stream(uint16_t x_max, uint16_t y_max) {
-  const Bytes header = write_header(Contract{3, x_max, y_max, kMinDegree, 2, false, false}, {});
+  const Bytes header =
+      write_header(Contract{3, x_max, y_max, kMinDegree, Decoding::kBalanced, false, false}, {});
   for (uint32_t payload = 0; payload < 65536; ++payload) {
     Bytes stream = header;
     for (const uint32_t byte : {2u, payload >> 8, payload & 255u}) {

@@ -100,7 +100,7 @@ Contract square_lattice(uint32_t side) {
 Side random_side(Random& random, uint32_t size, Point v, Point from, Point to, bool certified) {
   Side side{};
   side.certified = certified;
-  side.ghost = random() % 8 == 0;
+  side.ghost = random.below(8) == 0;
   const Point apex = point_in(random, size);
   side.ghost = side.ghost || orient2d(to, from, apex) <= 0;
   side.apex = side.ghost ? Offset{0, 0} : apex - v;
@@ -114,11 +114,11 @@ Case random_case(Random& random, uint32_t size) {
     given.c = point_in(random, size);
     given.a = point_in(random, size);
   } while (orient2d(given.v, given.c, given.a) <= 0);
-  given.side[0] = random_side(random, size, given.v, given.v, given.c, random() % 2 == 0);
-  given.side[1] = random_side(random, size, given.v, given.c, given.a, random() % 2 == 0);
+  given.side[0] = random_side(random, size, given.v, given.v, given.c, random.below(2) == 0);
+  given.side[1] = random_side(random, size, given.v, given.c, given.a, random.below(2) == 0);
   given.side[kChord] = random_side(random, size, given.v, given.a, given.v, true);
-  given.density = static_cast<Log2>(random() % 32768) - 16384;
-  given.crowding = kCrowdingLeast + static_cast<Crowding>(random() % kCrowdingMost);
+  given.density = static_cast<Log2>(random.below(32768)) - 16384;
+  given.crowding = kCrowdingLeast + static_cast<Crowding>(random.below(kCrowdingMost));
   return given;
 }
 
@@ -126,10 +126,10 @@ Case random_case(Random& random, uint32_t size) {
 Case needle(Random& random, uint32_t size) {
   Case given = random_case(random, size);
   const auto last = static_cast<uint16_t>(size - 1);
-  const auto step = static_cast<uint16_t>(random() % 3);
+  const auto step = static_cast<uint16_t>(random.below(3));
   given.v = Point{0, 0};
   given.a = Point{last, static_cast<uint16_t>(last - step)};
-  const auto middle = static_cast<uint16_t>(random() % last);
+  const auto middle = static_cast<uint16_t>(random.below(last));
   given.c = Point{middle, static_cast<uint16_t>(middle + 1)};
   if (orient2d(given.v, given.c, given.a) <= 0) std::swap(given.c, given.a);
   return given;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/status_text.hpp"
 #include "encoder/pack/surface.hpp"
 #include "tests/support/border_walk.hpp"
 #include "tests/support/packs.hpp"
