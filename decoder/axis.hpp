@@ -12,7 +12,7 @@ namespace microtin {
 // Steps with 9 fractional bits, rounded down, at which the axis has value / per_unit units: one bit
 // more than is asked for, which says how to round. -1 is less than half a 1/256 step outside; below
 // that, the place is outside 0 .. `most` steps, per_unit outside 1 .. 2^24, or the axis' offset
-// outside +-2^61. Needs most * axis.numerator < 2^61. Six 64-bit divisions.
+// outside +-2^61. Needs (most + 1) * axis.numerator < 2^61. Six 64-bit divisions.
 int64_t half_steps(const microtin_axis& axis, uint32_t most, int64_t value, uint32_t per_unit);
 
 // To nearest with 8 fractional bits, halves up.
