@@ -16,20 +16,12 @@ bool is_inside(const microtin_pack& p, int64_t x, int64_t y) {
          y <= static_cast<int64_t>(grid.y_max) * 256;
 }
 
-// How bad an answer is.
+// How bad an answer is. No switch: compilers make tables of those, which AVR would keep in RAM.
 int rank(microtin_answer answer) {
-  switch (answer) {
-    case MICROTIN_NOT_DECODED:
-      return 4;
-    case MICROTIN_IN_BAD_TILE:
-      return 3;
-    case MICROTIN_OUTSIDE:
-      return 2;
-    case MICROTIN_IN_VOID:
-      return 1;
-    default:
-      return 0;
-  }
+  if (answer == MICROTIN_NOT_DECODED) return 4;
+  if (answer == MICROTIN_IN_BAD_TILE) return 3;
+  if (answer == MICROTIN_OUTSIDE) return 2;
+  return answer == MICROTIN_IN_VOID ? 1 : 0;
 }
 
 microtin_answer worse(microtin_answer a, microtin_answer b) {
