@@ -8,31 +8,7 @@ namespace microtin {
 namespace {
 
 bool has_terrain(const microtin_mesh& m, Index t) {
-  return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
-}
-
-// The corner of a real triangle where a half-edge starts.
-Vertex corner_at(const Mesh& mesh, uint32_t half_edge) {
-  const Index v = mesh.origin[half_edge];
-  return Vertex{mesh.x[v], mesh.y[v], mesh.z[v]};
-}
-
-// The answer at p in the closed real triangle t. A vertex always knows its own height; on an edge,
-// terrain on either side is enough.
-microtin_answer answer_in(const microtin_mesh& m, Index t, FinePoint p, int32_t* height) {
-  const Mesh& mesh = m.mesh;
-  bool known = has_terrain(m, t);
-  const Index f = first_edge(t);
-  for (uint32_t i = 0; i < 3 && !known; ++i) {
-    const Index h = static_cast<Index>(f + i);
-    const FinePoint at = fine(point_of(mesh, mesh.origin[h]));
-    known = (at.x == p.x && at.y == p.y) || (side_of(mesh, h, next_in_triangle(h), p) == 0 &&
-                                             has_terrain(m, triangle_of(mesh.twin[h])));
-  }
-  if (!known) return MICROTIN_IN_VOID;
-  *height =
-      height_in_triangle(corner_at(mesh, f), corner_at(mesh, f + 1u), corner_at(mesh, f + 2u), p);
-  return MICROTIN_HEIGHT;
+  return form_of(m).has_terrain(first_edge(t));
 }
 
 uint32_t public_vertex(Index v) {
@@ -71,13 +47,14 @@ uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corn
 }
 
 uint64_t microtin_digest(const microtin_mesh* mesh) {
+  const MeshForm form = form_of(*mesh);
   uint64_t sum = 0;
   for (Index t = 0; t < mesh->mesh.triangles; ++t) {
     if (is_ghost(mesh->mesh, t)) continue;
     const Index f = first_edge(t);
-    const Vertex corner[3] = {corner_at(mesh->mesh, f), corner_at(mesh->mesh, f + 1u),
-                              corner_at(mesh->mesh, f + 2u)};
-    sum += triangle_digest(corner, !has_terrain(*mesh, t));
+    Vertex corner[3];
+    for (uint32_t i = 0; i < 3; ++i) corner[i] = form.vertex(form.start(static_cast<Index>(f + i)));
+    sum += triangle_digest(corner, !form.has_terrain(f));
   }
   return sum;
 }
@@ -103,7 +80,7 @@ microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x,
   *hint = t;
   if (!arrived) return MICROTIN_NOT_YET;
   if (is_ghost(m, t)) return MICROTIN_OUTSIDE;
-  return answer_in(*mesh, t, p, height);
+  return answer_in(form_of(*mesh), first_edge(t), p, height);
 }
 
 void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,

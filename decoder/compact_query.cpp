@@ -1,0 +1,273 @@
+// Queries on compact terrains.
+#include "decoder/ring.hpp"
+#include "decoder/walk.hpp"
+#include "shared/digest.hpp"
+
+namespace microtin {
+namespace {
+
+// Hints: vertices looked at along the whole path, and the distance along it where that ends.
+constexpr uint32_t kSamples = 16;
+constexpr uint32_t kFinest = 4;
+
+// A half-edge of the ring, from -> to; its triangle's third corner, and on which side that lies.
+struct RingEdge {
+  uint32_t from, to;
+  uint32_t apex_side;  // 2 * apex + side
+
+  uint32_t apex() const { return apex_side >> 1; }
+  uint32_t side() const { return apex_side & 1u; }
+};
+
+// The middle of the triangle below the edge (a, c) if that is full: a + 1 is the least of all
+// below, and comes to lie below ever wider edges (a, high).
+MICROTIN_OUT_OF_LINE uint32_t full_below(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
+  uint32_t middle = a + 1;
+  for (uint32_t high = high_of(r, middle, side); high != c; high = high_of(r, middle, side)) {
+    middle = high;
+  }
+  return middle;
+}
+
+// The third corner below the edge (a, c) inside a side: the middle.
+uint32_t below(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
+  if (a + 2 == c || look(r, a + 1, side) == c) return a + 1;
+  if (look(r, c - 1, side) == a) return c - 1;
+  return full_below(r, a, c, side);
+}
+
+// ... above: a if that has a right child there, else c.
+uint32_t above(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
+  const uint32_t n = r.positions;
+  uint32_t seen = look(r, a, side);
+  if (seen == c) return a - 1;
+  if (seen == n + c) return low_of_full(r, a, side);
+  seen = look(r, c, side);
+  return seen < n ? c + 1 : seen - n;
+}
+
+// ... on a side of the ring's edge (a, c): c unless that has a left child, else a.
+uint32_t beside(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
+  const uint32_t n = r.positions;
+  uint32_t seen = look(r, c, side);
+  if (seen >= 2 * n) return c + 1;
+  if (seen > c && seen < n) return seen;
+  seen = look(r, a, side);
+  return seen < n ? seen : a - 1;
+}
+
+// Twice the third corner of the triangle beyond the edge from u to w of one on `side`, plus its
+// side. Counter-clockwise, to the left of the path all edges but that opposite to the middle go
+// upwards; to the right, downwards.
+MICROTIN_ONE_COPY uint32_t beyond(const Ring& r, uint32_t u, uint32_t w, uint32_t side) {
+  const bool rises = u < w, is_above = rises == (side != 0);
+  const uint32_t a = rises ? u : w, c = rises ? w : u;
+  if (is_above) return 2 * above(r, a, c, side) + side;
+  if (a + 1 != c) return 2 * below(r, a, c, side) + side;
+  side ^= 1u;
+  return 2 * beside(r, a, c, side) + side;
+}
+
+// False for those that fill the gap at a repeat: two corners are the same vertex.
+bool has_area(const Ring& r, const RingEdge& e) {
+  const uint32_t apex = e.apex();
+  return e.side() != 0 ||
+         !(is_same_place(r, e.from, e.to) ||
+           (apex != 0 && (is_same_place(r, apex, e.from) || is_same_place(r, apex, e.to))));
+}
+
+class RingForm {
+ public:
+  typedef RingEdge Edge;
+
+  explicit RingForm(const Ring& ring) : ring_(ring) {}
+
+  Edge after(const Edge& e) const { return Edge{e.to, e.apex(), 2 * e.from + e.side()}; }
+  Edge across(const Edge& e) const {
+    Edge other = {e.to, e.from, beyond(ring_, e.from, e.to, e.side())};
+    if (ring_.repeats != 0) pass_slits(&other);
+    return other;
+  }
+  uint32_t start(const Edge& e) const { return e.from; }
+  bool is_infinity(uint32_t i) const { return i == 0; }
+  Point place(uint32_t i) const { return place_of(ring_, i); }
+  Vertex vertex(uint32_t i) const {
+    const Point p = place_of(ring_, i);
+    return Vertex{p.x, p.y, ring_.node[i].z};
+  }
+  bool has_terrain(const Edge& e) const {
+    return e.apex() != 0 && ring_.node[middle_of(e)].look[e.side()] < kRingFlag;
+  }
+
+  static uint32_t middle_of(const Edge& e) {
+    const uint32_t low = e.from < e.to ? e.from : e.to, high = e.from < e.to ? e.to : e.from;
+    return e.apex() < low ? low : e.apex() > high ? high : e.apex();
+  }
+
+ private:
+  // On through triangles without area, to which the edge that was crossed is common; its ends are
+  // never the two corners that are the same vertex.
+  MICROTIN_OUT_OF_LINE void pass_slits(Edge* e) const {
+    while (!has_area(ring_, *e)) {
+      const Edge next = after(*e), last = after(next);
+      const Edge& out = is_same_place(ring_, e->apex(), e->from) ? next : last;
+      *e = Edge{out.to, out.from, beyond(ring_, out.from, out.to, out.side())};
+    }
+  }
+
+  const Ring& ring_;
+};
+
+// A half-edge of the triangle with a middle: its apex is a, so 0 in a ghost.
+RingEdge edge_of(const Ring& r, uint32_t middle, uint32_t side) {
+  const uint32_t apex_side = 2 * low_of(r, middle, side) + side, high = high_of(r, middle, side);
+  return side == 0 ? RingEdge{middle, high, apex_side} : RingEdge{high, middle, apex_side};
+}
+
+// Triangles are numbered by middle and side.
+constexpr uint32_t kFirstNumber = 2;
+
+uint32_t number_of(const RingEdge& e) {
+  return 2 * RingForm::middle_of(e) + e.side() - kFirstNumber;
+}
+
+RingEdge edge_of(const Ring& r, uint32_t number) {
+  return edge_of(r, (number + kFirstNumber) >> 1, number & 1u);
+}
+
+uint32_t triangle_count(const Ring& r) {
+  return 2 * r.positions - 4;
+}
+
+// A half-edge of a real triangle, of the one with a number if that is real.
+RingEdge real_edge(const Ring& r, uint32_t number) {
+  RingEdge e = edge_of(r, number < triangle_count(r) ? number : 0);
+  if (!has_area(r, e)) e = edge_of(r, number | 1u);
+  return e.apex() != 0 ? e : RingForm(r).across(e);
+}
+
+// The position of a vertex, past repeats; and back.
+uint32_t position_of(const Ring& r, uint32_t v) {
+  uint32_t position = v + 1;
+  for (uint32_t i = 0; i < r.repeats && r.repeat[i] <= position; ++i) ++position;
+  return position;
+}
+
+uint32_t vertex_of(const Ring& r, uint32_t position) {
+  if (position == 0) return static_cast<uint32_t>(MICROTIN_INFINITY);
+  uint32_t before = r.repeats;
+  // A repeat's slit has its last position and the one before for corners.
+  while (before != 0 && r.repeat[before - 1] >= position) {
+    --before;
+    if (r.repeat[before] != position) continue;
+    position = low_of(r, position - 1, 0);
+  }
+  return position - 1 - before;
+}
+
+Vertex on_lattice(const microtin_compact* c, Vertex v) {
+  return Vertex{static_cast<uint16_t>(v.x + c->west), static_cast<uint16_t>(v.y + c->south), v.z};
+}
+
+uint32_t distance(Point at, int32_t x, int32_t y) {
+  const int32_t dx = x - at.x, dy = y - at.y;
+  return static_cast<uint32_t>((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
+}
+
+}  // namespace
+}  // namespace microtin
+
+using namespace microtin;
+
+size_t microtin_compact_size(const microtin_compact* compact) {
+  return sizeof(microtin_compact) + body_bytes(*compact);
+}
+
+uint32_t microtin_compact_vertex_count(const microtin_compact* compact) {
+  return compact->vertices;
+}
+
+void microtin_compact_vertex(const microtin_compact* compact, uint32_t v, uint16_t* x, uint16_t* y,
+                             int16_t* z) {
+  const Ring r = ring_of(compact);
+  const Vertex vertex = on_lattice(compact, RingForm(r).vertex(position_of(r, v)));
+  *x = vertex.x;
+  *y = vertex.y;
+  *z = vertex.z;
+}
+
+uint32_t microtin_compact_triangle_count(const microtin_compact* compact) {
+  return triangle_count(ring_of(compact));
+}
+
+microtin_triangle_kind microtin_compact_triangle(const microtin_compact* compact, uint32_t t,
+                                                 uint32_t v[3]) {
+  const Ring r = ring_of(compact);
+  const RingForm form(r);
+  const RingEdge e = edge_of(r, t);
+  v[0] = vertex_of(r, e.from);
+  v[1] = vertex_of(r, e.to);
+  v[2] = vertex_of(r, e.apex());
+  if (v[0] == v[1] || v[0] == v[2] || v[1] == v[2]) return MICROTIN_NO_AREA;
+  if (e.apex() == 0) return MICROTIN_GHOST;
+  return form.has_terrain(e) ? MICROTIN_REAL : MICROTIN_VOID;
+}
+
+uint64_t microtin_compact_digest(const microtin_compact* compact) {
+  const Ring r = ring_of(compact);
+  const RingForm form(r);
+  uint64_t sum = 0;
+  for (uint32_t t = 0; t < triangle_count(r); ++t) {
+    const RingEdge e = edge_of(r, t);
+    if (e.apex() == 0 || !has_area(r, e)) continue;
+    const Vertex corner[3] = {on_lattice(compact, form.vertex(e.from)),
+                              on_lattice(compact, form.vertex(e.to)),
+                              on_lattice(compact, form.vertex(e.apex()))};
+    sum += triangle_digest(corner, !form.has_terrain(e));
+  }
+  return sum;
+}
+
+void microtin_compact_placement(const microtin_compact* compact, microtin_axis* x, microtin_axis* y,
+                                microtin_axis* z) {
+  *x = compact->axis[0];
+  *y = compact->axis[1];
+  *z = compact->axis[2];
+}
+
+microtin_answer microtin_compact_height_at(const microtin_compact* compact, int32_t x, int32_t y,
+                                           uint32_t step_limit, uint32_t* hint, int32_t* height) {
+  const int32_t most = static_cast<int32_t>(kLatticeMax) * 256;
+  if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
+  const Ring r = ring_of(compact);
+  const RingForm form(r);
+  const FinePoint p = {x - compact->west * 256, y - compact->south * 256};
+  RingEdge e = real_edge(r, *hint);
+  const bool arrived = walk(form, p, step_limit == 0 ? triangle_count(r) : step_limit, &e);
+  *hint = number_of(e);
+  if (!arrived) return MICROTIN_NOT_YET;
+  return e.apex() == 0 ? MICROTIN_OUTSIDE : answer_in(form, e, p, height);
+}
+
+uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32_t y) {
+  const Ring r = ring_of(compact);
+  const int32_t px = (x >> 8) - compact->west, py = (y >> 8) - compact->south;
+  const uint32_t end = r.positions - 1;
+  uint32_t stride = end / kSamples, i = stride / 2 + 1, last = end, best = 1;
+  uint32_t least = 0xFFFFFFFFu;
+  if (stride == 0) stride = 1;
+  for (;;) {
+    for (; i < last; i += stride) {
+      const uint32_t far = distance(place_of(r, i), px, py);
+      if (far < least) {
+        least = far;
+        best = i;
+      }
+    }
+    // Half as far, to both sides of the nearest.
+    stride /= 2;
+    if (stride < kFinest) return 2 * best - kFirstNumber;
+    i = best > stride ? best - stride : 1;
+    last = best + stride < end ? best + stride + 1 : end;
+  }
+}
