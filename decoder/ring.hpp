@@ -38,7 +38,7 @@ constexpr bool has_room_for(uint32_t positions) {
 }  // namespace microtin
 
 // It holds no pointers, so that it can be moved. Behind it lies its body: a node for each position,
-// y of each if it is not narrow, and the positions that repeat a vertex, in order.
+// the positions that repeat a vertex, in order, and y of each position if it is not narrow.
 struct microtin_compact {
   microtin_axis axis[3];
   uint32_t vertices;
@@ -60,20 +60,13 @@ struct Ring {
   uint32_t repeats;
 };
 
-// Halves of a body that hold y, aligned to what follows.
-inline uint32_t wide_halves(uint32_t positions, bool is_narrow) {
-  return is_narrow ? 0 : positions + (sizeof(Index) == 4 ? positions % 2 : 0);
-}
-
 // Where things lie in a body.
 inline Ring ring_in(const void* body, const microtin_compact& header) {
-  const uint32_t n = header.positions;
-  const bool is_narrow = header.is_narrow != 0;
+  const uint32_t n = header.positions, repeats = n - 1 - header.vertices;
   const RingNode* const node = static_cast<const RingNode*>(body);
-  const uint16_t* const y = reinterpret_cast<const uint16_t*>(node + n);
-  return Ring{node, is_narrow ? nullptr : y,
-              reinterpret_cast<const Index*>(y + wide_halves(n, is_narrow)), n,
-              n - 1 - header.vertices};
+  const Index* const repeat = reinterpret_cast<const Index*>(node + n);
+  const uint16_t* const y = reinterpret_cast<const uint16_t*>(repeat + repeats);
+  return Ring{node, header.is_narrow != 0 ? nullptr : y, repeat, n, repeats};
 }
 
 inline Ring ring_of(const microtin_compact* c) {
@@ -81,9 +74,8 @@ inline Ring ring_of(const microtin_compact* c) {
 }
 
 inline size_t body_bytes(const microtin_compact& header) {
-  const size_t n = header.positions;
-  return n * sizeof(RingNode) + size_t{2} * wide_halves(header.positions, header.is_narrow != 0) +
-         (n - 1 - header.vertices) * sizeof(Index);
+  const size_t n = header.positions, each = sizeof(RingNode) + (header.is_narrow != 0 ? 0u : 2u);
+  return n * each + (n - 1 - header.vertices) * sizeof(Index);
 }
 
 MICROTIN_IN_PLACE inline uint32_t look(const Ring& r, uint32_t middle, uint32_t side) {
