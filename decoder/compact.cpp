@@ -83,8 +83,9 @@ Ring ring_of(const Compactor& c) {
 // --- Each handles one item; true if it was the last.
 
 bool clear(Compactor& c) {
-  c.triangles[c.cursor++] = 0;
-  return c.cursor == bit_bytes(c.header.vertices);
+  uint8_t* const byte = c.triangles + c.cursor++;
+  *byte = 0;
+  return byte + 1 == reinterpret_cast<uint8_t*>(c.order);
 }
 
 bool extend_box(Compactor& c) {
@@ -245,7 +246,8 @@ bool put_slit(Compactor& c) {
 // Along a side: `order` of each middle becomes its a, and each leaf gets that of the full triangle
 // before. A full one's left child is what the triangle before has grown to, going up as long as
 // that is a right child: one further up is an item, too, so that there are at most two for each.
-bool put_leaf(Compactor& c, uint32_t side) {
+bool put_leaf(Compactor& c) {
+  const uint32_t side = c.work == Work::kLeft ? 0 : 1;
   const Ring r = ring_of(c);
   const uint32_t middle = c.cursor, n = r.positions, seen = look(r, middle, side);
   if (seen < n || seen >= 2 * n) {
@@ -272,32 +274,39 @@ bool move(Compactor& c) {
   return c.cursor == end;
 }
 
-MICROTIN_ONE_COPY bool handle_item(Compactor& c) {
+// Handles items as long as there are steps; true if the last was among them.
+template <class Item>
+MICROTIN_IN_PLACE inline bool each(Compactor& c, uint32_t* left, Item handle) {
+  bool last = false;
+  for (; *left != 0 && !last; --*left) last = handle(c);
+  return last;
+}
+
+bool handle_items(Compactor& c, uint32_t* left) {
   switch (c.work) {
     case Work::kClear:
-      return clear(c);
+      return each(c, left, clear);
     case Work::kBox:
-      return extend_box(c);
+      return each(c, left, extend_box);
     case Work::kInfinity:
-      return find_infinity(c);
+      return each(c, left, find_infinity);
     case Work::kExpand:
-      return expand(c);
+      return each(c, left, expand);
     case Work::kTurn:
-      return turn_to_path(c);
+      return each(c, left, turn_to_path);
     case Work::kNumber:
-      return number(c);
+      return each(c, left, number);
     case Work::kNodes:
-      return put_node(c);
+      return each(c, left, put_node);
     case Work::kTriangles:
-      return put_triangle(c);
+      return each(c, left, put_triangle);
     case Work::kSlits:
-      return put_slit(c);
+      return each(c, left, put_slit);
     case Work::kLeft:
-      return put_leaf(c, 0);
     case Work::kRight:
-      return put_leaf(c, 1);
+      return each(c, left, put_leaf);
     case Work::kMove:
-      return move(c);
+      return each(c, left, move);
     case Work::kComplete:
       break;
   }
@@ -420,8 +429,8 @@ microtin_status microtin_compact_proceed(microtin_compactor* compactor, uint32_t
   Compactor& c = *compactor;
   *compact = nullptr;
   uint32_t left = step_limit == 0 ? 0xFFFFFFFFu : step_limit;
-  for (; c.status == MICROTIN_STEP_LIMIT && left != 0; --left) {
-    if (handle_item(c)) c.status = go_on(c);
+  while (c.status == MICROTIN_STEP_LIMIT && left != 0) {
+    if (handle_items(c, &left)) c.status = go_on(c);
   }
   if (c.status == MICROTIN_DONE) *compact = c.target;
   return c.status;

@@ -10,15 +10,6 @@ namespace {
 constexpr uint32_t kSamples = 16;
 constexpr uint32_t kFinest = 4;
 
-// A half-edge of the ring, from -> to; its triangle's third corner, and on which side that lies.
-struct RingEdge {
-  uint32_t from, to;
-  uint32_t apex_side;  // 2 * apex + side
-
-  uint32_t apex() const { return apex_side >> 1; }
-  uint32_t side() const { return apex_side & 1u; }
-};
-
 // The middle of the triangle below the edge (a, c) if that is full: a + 1 is the least of all
 // below, and comes to lie below ever wider edges (a, high).
 MICROTIN_OUT_OF_LINE uint32_t full_below(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
@@ -68,82 +59,115 @@ MICROTIN_ONE_COPY uint32_t beyond(const Ring& r, uint32_t u, uint32_t w, uint32_
   return 2 * beside(r, a, c, side) + side;
 }
 
-// False for those that fill the gap at a repeat: two corners are the same vertex.
-bool has_area(const Ring& r, const RingEdge& e) {
-  const uint32_t apex = e.apex();
-  return e.side() != 0 ||
-         !(is_same_place(r, e.from, e.to) ||
-           (apex != 0 && (is_same_place(r, apex, e.from) || is_same_place(r, apex, e.to))));
-}
-
-class RingForm {
+// A half-edge of the ring, from -> to.
+class RingCursor {
  public:
-  typedef RingEdge Edge;
-
-  explicit RingForm(const Ring& ring) : ring_(ring) {}
-
-  Edge after(const Edge& e) const { return Edge{e.to, e.apex(), 2 * e.from + e.side()}; }
-  Edge across(const Edge& e) const {
-    Edge other = {e.to, e.from, beyond(ring_, e.from, e.to, e.side())};
-    if (ring_.repeats != 0) pass_slits(&other);
-    return other;
+  // On a half-edge of the triangle with a middle: its apex is a, so 0 in a ghost.
+  RingCursor(const Ring& ring, uint32_t middle, uint32_t side)
+      : ring_(ring),
+        from_(middle),
+        to_(high_of(ring, middle, side)),
+        apex_side_(2 * low_of(ring, middle, side) + side) {
+    if (side != 0) swap_ends();
   }
-  uint32_t start(const Edge& e) const { return e.from; }
-  bool is_infinity(uint32_t i) const { return i == 0; }
+
+  uint32_t start() const { return from_; }
+  uint32_t end() const { return to_; }
+  uint32_t apex() const { return apex_side_ >> 1; }
+  uint32_t side() const { return apex_side_ & 1u; }
+  bool is_ghost() const { return apex_side_ < 2; }
+  bool may_stop() const { return ring_.repeats == 0 || has_area(); }
+  bool has_terrain() const { return !is_ghost() && ring_.node[middle()].look[side()] < kRingFlag; }
+
+  void cross() {
+    swap_ends();
+    enter();
+  }
+  void cross_next() {
+    from_ = apex();
+    enter();
+  }
+  void cross_last() {
+    to_ = apex();
+    enter();
+  }
+  bool cross_to_terrain() {
+    cross_slits();
+    return has_terrain();
+  }
+  void turn() {
+    const uint32_t third = apex();
+    apex_side_ = 2 * from_ + side();
+    from_ = to_;
+    to_ = third;
+  }
+
+  // Crosses, and on through triangles without area.
+  void cross_slits() {
+    cross();
+    while (!may_stop()) {
+      if (is_same_place(ring_, apex(), from_)) {
+        cross_next();
+      } else {
+        cross_last();
+      }
+    }
+  }
+
+  // False for those that fill the gap at a repeat: two corners are the same vertex.
+  bool has_area() const {
+    return side() != 0 || !(is_same_place(ring_, from_, to_) ||
+                            (!is_ghost() && (is_same_place(ring_, apex(), from_) ||
+                                             is_same_place(ring_, apex(), to_))));
+  }
+
+  uint32_t middle() const {
+    const uint32_t low = from_ < to_ ? from_ : to_, high = from_ < to_ ? to_ : from_;
+    return apex() < low ? low : apex() > high ? high : apex();
+  }
+
   Point place(uint32_t i) const { return place_of(ring_, i); }
   Vertex vertex(uint32_t i) const {
     const Point p = place_of(ring_, i);
     return Vertex{p.x, p.y, ring_.node[i].z};
   }
-  bool has_terrain(const Edge& e) const {
-    return e.apex() != 0 && ring_.node[middle_of(e)].look[e.side()] < kRingFlag;
-  }
-
-  static uint32_t middle_of(const Edge& e) {
-    const uint32_t low = e.from < e.to ? e.from : e.to, high = e.from < e.to ? e.to : e.from;
-    return e.apex() < low ? low : e.apex() > high ? high : e.apex();
-  }
 
  private:
-  // On through triangles without area, to which the edge that was crossed is common; its ends are
-  // never the two corners that are the same vertex.
-  MICROTIN_OUT_OF_LINE void pass_slits(Edge* e) const {
-    while (!has_area(ring_, *e)) {
-      const Edge next = after(*e), last = after(next);
-      const Edge& out = is_same_place(ring_, e->apex(), e->from) ? next : last;
-      *e = Edge{out.to, out.from, beyond(ring_, out.from, out.to, out.side())};
-    }
+  void swap_ends() {
+    const uint32_t other = from_;
+    from_ = to_;
+    to_ = other;
   }
+  // From the triangle beyond the half-edge to this.
+  void enter() { apex_side_ = beyond(ring_, to_, from_, side()); }
 
   const Ring& ring_;
+  uint32_t from_, to_;
+  uint32_t apex_side_;  // 2 * apex + side
 };
-
-// A half-edge of the triangle with a middle: its apex is a, so 0 in a ghost.
-RingEdge edge_of(const Ring& r, uint32_t middle, uint32_t side) {
-  const uint32_t apex_side = 2 * low_of(r, middle, side) + side, high = high_of(r, middle, side);
-  return side == 0 ? RingEdge{middle, high, apex_side} : RingEdge{high, middle, apex_side};
-}
 
 // Triangles are numbered by middle and side.
 constexpr uint32_t kFirstNumber = 2;
 
-uint32_t number_of(const RingEdge& e) {
-  return 2 * RingForm::middle_of(e) + e.side() - kFirstNumber;
+uint32_t number_of(const RingCursor& cursor) {
+  return 2 * cursor.middle() + cursor.side() - kFirstNumber;
 }
 
-RingEdge edge_of(const Ring& r, uint32_t number) {
-  return edge_of(r, (number + kFirstNumber) >> 1, number & 1u);
+RingCursor cursor_at(const Ring& r, uint32_t number) {
+  return RingCursor(r, (number + kFirstNumber) >> 1, number & 1u);
 }
 
 uint32_t triangle_count(const Ring& r) {
   return 2 * r.positions - 4;
 }
 
-// A half-edge of a real triangle, of the one with a number if that is real.
-RingEdge real_edge(const Ring& r, uint32_t number) {
-  RingEdge e = edge_of(r, number < triangle_count(r) ? number : 0);
-  if (!has_area(r, e)) e = edge_of(r, number | 1u);
-  return e.apex() != 0 ? e : RingForm(r).across(e);
+// In a triangle that is no ghost: that with a number, or one near it.
+RingCursor start_at(const Ring& r, uint32_t number) {
+  if (number >= triangle_count(r)) number = 0;
+  if (!cursor_at(r, number).may_stop()) number |= 1u;
+  RingCursor cursor = cursor_at(r, number);
+  if (cursor.is_ghost()) cursor.cross_slits();
+  return cursor;
 }
 
 // The position of a vertex, past repeats; and back.
@@ -190,7 +214,9 @@ uint32_t microtin_compact_vertex_count(const microtin_compact* compact) {
 void microtin_compact_vertex(const microtin_compact* compact, uint32_t v, uint16_t* x, uint16_t* y,
                              int16_t* z) {
   const Ring r = ring_of(compact);
-  const Vertex vertex = on_lattice(compact, RingForm(r).vertex(position_of(r, v)));
+  const uint32_t i = position_of(r, v);
+  const Point at = place_of(r, i);
+  const Vertex vertex = on_lattice(compact, Vertex{at.x, at.y, r.node[i].z});
   *x = vertex.x;
   *y = vertex.y;
   *z = vertex.z;
@@ -203,27 +229,25 @@ uint32_t microtin_compact_triangle_count(const microtin_compact* compact) {
 microtin_triangle_kind microtin_compact_triangle(const microtin_compact* compact, uint32_t t,
                                                  uint32_t v[3]) {
   const Ring r = ring_of(compact);
-  const RingForm form(r);
-  const RingEdge e = edge_of(r, t);
-  v[0] = vertex_of(r, e.from);
-  v[1] = vertex_of(r, e.to);
-  v[2] = vertex_of(r, e.apex());
+  const RingCursor cursor = cursor_at(r, t);
+  v[0] = vertex_of(r, cursor.start());
+  v[1] = vertex_of(r, cursor.end());
+  v[2] = vertex_of(r, cursor.apex());
   if (v[0] == v[1] || v[0] == v[2] || v[1] == v[2]) return MICROTIN_NO_AREA;
-  if (e.apex() == 0) return MICROTIN_GHOST;
-  return form.has_terrain(e) ? MICROTIN_REAL : MICROTIN_VOID;
+  if (cursor.is_ghost()) return MICROTIN_GHOST;
+  return cursor.has_terrain() ? MICROTIN_REAL : MICROTIN_VOID;
 }
 
 uint64_t microtin_compact_digest(const microtin_compact* compact) {
   const Ring r = ring_of(compact);
-  const RingForm form(r);
   uint64_t sum = 0;
   for (uint32_t t = 0; t < triangle_count(r); ++t) {
-    const RingEdge e = edge_of(r, t);
-    if (e.apex() == 0 || !has_area(r, e)) continue;
-    const Vertex corner[3] = {on_lattice(compact, form.vertex(e.from)),
-                              on_lattice(compact, form.vertex(e.to)),
-                              on_lattice(compact, form.vertex(e.apex()))};
-    sum += triangle_digest(corner, !form.has_terrain(e));
+    const RingCursor cursor = cursor_at(r, t);
+    if (cursor.is_ghost() || !cursor.may_stop()) continue;
+    const Vertex corner[3] = {on_lattice(compact, cursor.vertex(cursor.start())),
+                              on_lattice(compact, cursor.vertex(cursor.end())),
+                              on_lattice(compact, cursor.vertex(cursor.apex()))};
+    sum += triangle_digest(corner, !cursor.has_terrain());
   }
   return sum;
 }
@@ -240,13 +264,12 @@ microtin_answer microtin_compact_height_at(const microtin_compact* compact, int3
   const int32_t most = static_cast<int32_t>(kLatticeMax) * 256;
   if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
   const Ring r = ring_of(compact);
-  const RingForm form(r);
   const FinePoint p = {x - compact->west * 256, y - compact->south * 256};
-  RingEdge e = real_edge(r, *hint);
-  const bool arrived = walk(form, p, step_limit == 0 ? triangle_count(r) : step_limit, &e);
-  *hint = number_of(e);
+  RingCursor cursor = start_at(r, *hint);
+  const bool arrived = walk(cursor, p, step_limit == 0 ? triangle_count(r) : step_limit);
+  *hint = number_of(cursor);
   if (!arrived) return MICROTIN_NOT_YET;
-  return e.apex() == 0 ? MICROTIN_OUTSIDE : answer_in(form, e, p, height);
+  return cursor.is_ghost() ? MICROTIN_OUTSIDE : answer_at(cursor, p, height);
 }
 
 uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32_t y) {

@@ -7,10 +7,6 @@
 namespace microtin {
 namespace {
 
-bool has_terrain(const microtin_mesh& m, Index t) {
-  return form_of(m).has_terrain(first_edge(t));
-}
-
 uint32_t public_vertex(Index v) {
   return v == kInfinity ? static_cast<uint32_t>(MICROTIN_INFINITY) : v;
 }
@@ -38,7 +34,7 @@ microtin_triangle_kind microtin_triangle(const microtin_mesh* mesh, uint32_t t, 
   const Index f = first_edge(static_cast<Index>(t));
   for (uint32_t i = 0; i < 3; ++i) v[i] = public_vertex(mesh->mesh.origin[f + i]);
   if (is_ghost(mesh->mesh, static_cast<Index>(t))) return MICROTIN_GHOST;
-  return has_terrain(*mesh, static_cast<Index>(t)) ? MICROTIN_REAL : MICROTIN_VOID;
+  return cursor_at(*mesh, static_cast<Index>(t)).has_terrain() ? MICROTIN_REAL : MICROTIN_VOID;
 }
 
 uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corner) {
@@ -47,14 +43,13 @@ uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corn
 }
 
 uint64_t microtin_digest(const microtin_mesh* mesh) {
-  const MeshForm form = form_of(*mesh);
   uint64_t sum = 0;
   for (Index t = 0; t < mesh->mesh.triangles; ++t) {
     if (is_ghost(mesh->mesh, t)) continue;
-    const Index f = first_edge(t);
-    Vertex corner[3];
-    for (uint32_t i = 0; i < 3; ++i) corner[i] = form.vertex(form.start(static_cast<Index>(f + i)));
-    sum += triangle_digest(corner, !form.has_terrain(f));
+    const MeshCursor cursor = cursor_at(*mesh, t);
+    const Vertex corner[3] = {cursor.vertex(cursor.start()), cursor.vertex(cursor.end()),
+                              cursor.vertex(cursor.apex())};
+    sum += triangle_digest(corner, !cursor.has_terrain());
   }
   return sum;
 }
@@ -80,7 +75,7 @@ microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x,
   *hint = t;
   if (!arrived) return MICROTIN_NOT_YET;
   if (is_ghost(m, t)) return MICROTIN_OUTSIDE;
-  return answer_in(form_of(*mesh), first_edge(t), p, height);
+  return answer_at(cursor_at(*mesh, t), p, height);
 }
 
 void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,

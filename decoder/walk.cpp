@@ -14,9 +14,9 @@ Index real_edge(const Mesh& mesh, Index triangle) {
 }  // namespace
 
 bool walk_to(const Mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle) {
-  Index h = real_edge(mesh, *triangle);
-  const bool arrived = walk(MeshForm(mesh, nullptr), p, step_limit, &h);
-  *triangle = triangle_of(h);
+  MeshCursor cursor(mesh, nullptr, real_edge(mesh, *triangle));
+  const bool arrived = walk(cursor, p, step_limit);
+  *triangle = triangle_of(cursor.half_edge());
   return arrived;
 }
 

@@ -1,13 +1,15 @@
 // Finding the triangle that holds a place, and the height there: the same for each form of a mesh.
 //
-// A form F tells of a triangle seen from one of its half-edges:
-//   F::Edge               a half-edge
-//   after(edge)           the next one of its triangle
-//   across(edge)          the one that runs the other way, of the triangle beyond
-//   start(edge)           the number of the vertex where it starts
-//   is_infinity(number)   whether that is the vertex at infinity
+// A form's cursor stands on a half-edge of a triangle, with that to its left:
+//   start(), end(), apex()      the numbers of the half-edge's ends, and of the third corner
+//   is_ghost()                  whether the third corner is infinity
+//   has_terrain()               whether the triangle is neither ghost nor void
+//   may_stop()                  false in what is no triangle of the mesh
+//   cross()                     to the triangle beyond, on the half-edge the other way
+//   cross_next(), cross_last()  ... beyond end() -> apex(), beyond apex() -> start()
+//   cross_to_terrain()          ... beyond; whether there is terrain
+//   turn()                      to the next half-edge of the triangle
 //   place(number), vertex(number)   of a finite vertex
-//   has_terrain(edge)     whether its triangle is neither ghost nor void
 #ifndef MICROTIN_DECODER_WALK_HPP
 #define MICROTIN_DECODER_WALK_HPP
 
@@ -21,10 +23,9 @@ inline Offset seen_from(FinePoint p, Point at) {
   return Offset{static_cast<FastInt>(at.x) * 256 - p.x, static_cast<FastInt>(at.y) * 256 - p.y};
 }
 
-// Walks from the triangle of *edge, which is none of a ghost, to the triangle that holds p, through
-// at most `step_limit` triangles: crosses any edge that p lies beyond. *edge becomes one of where
-// the walk ended, opposite to infinity if p is outside the hull; false if the steps did not
-// suffice.
+// Walks from a triangle, which is no ghost, to the triangle that holds p, through at most
+// `step_limit` triangles: crosses any edge that p lies beyond. The cursor is left where the walk
+// ended, in a ghost if p is outside the hull; false if the steps did not suffice.
 //
 // As many steps as there are triangles always suffice, also in several calls. Lift the vertices to
 // the paraboloid, with the infinitesimals of conflicts_on_circle: the triangles become facets of a
@@ -32,86 +33,96 @@ inline Offset seen_from(FinePoint p, Point at) {
 // met twice (Edelsbrunner, "An acyclicity theorem for cell complexes in d dimensions", 1990).
 //
 // Twice the area that two corners span with p is below 2^50: each factor pair is below 2^24 * 2^24.
-template <class Form>
-inline bool walk(const Form& form, FinePoint p, uint32_t step_limit, typename Form::Edge* edge) {
-  typename Form::Edge h = *edge;
-  Offset from = seen_from(p, form.place(form.start(h)));
-  Offset to = seen_from(p, form.place(form.start(form.after(h))));
+template <class Cursor>
+inline bool walk(Cursor& cursor, FinePoint p, uint32_t step_limit) {
+  Offset from = seen_from(p, cursor.place(cursor.start()));
+  Offset to = seen_from(p, cursor.place(cursor.end()));
   if (cross(from, to) < 0) {
-    h = form.across(h);
+    cursor.cross();
     const Offset other = from;
     from = to;
     to = other;
   }
-  bool arrived = false;
-  for (uint32_t step = 0; step < step_limit && !arrived; ++step) {
-    // p does not lie beyond h.
-    const typename Form::Edge next = form.after(h), last = form.after(next);
-    const uint32_t apex = form.start(last);
-    if (form.is_infinity(apex)) {
-      arrived = true;
-      break;
-    }
-    const Offset at = seen_from(p, form.place(apex));
-    if (cross(to, at) < 0) {
-      h = form.across(next);
-      from = at;
-    } else if (cross(at, from) < 0) {
-      h = form.across(last);
-      to = at;
+  for (uint32_t step = 0; step < step_limit || !cursor.may_stop(); ++step) {
+    // p does not lie beyond the half-edge.
+    if (cursor.is_ghost()) return true;
+    const Offset apex = seen_from(p, cursor.place(cursor.apex()));
+    if (cross(to, apex) < 0) {
+      cursor.cross_next();
+      from = apex;
+    } else if (cross(apex, from) < 0) {
+      cursor.cross_last();
+      to = apex;
     } else {
-      arrived = true;
+      return true;
     }
   }
-  *edge = h;
-  return arrived;
+  return false;
 }
 
-// The answer at p in the closed triangle of h, which is no ghost. A vertex always knows its own
-// height; on an edge, terrain on either side is enough.
-template <class Form>
-inline microtin_answer answer_in(const Form& form, typename Form::Edge h, FinePoint p,
-                                 int32_t* height) {
-  const typename Form::Edge next = form.after(h), last = form.after(next);
-  const uint32_t corner[3] = {form.start(h), form.start(next), form.start(last)};
-  bool known = form.has_terrain(h);
-  for (uint32_t i = 0; i < 3 && !known; ++i, h = form.after(h)) {
-    const Offset from = seen_from(p, form.place(corner[i]));
-    const Offset to = seen_from(p, form.place(corner[i == 2 ? 0 : i + 1]));
-    known =
-        (from.x == 0 && from.y == 0) || (cross(from, to) == 0 && form.has_terrain(form.across(h)));
+// Whether the height is known at p in the closed triangle, which is no ghost. A vertex always knows
+// its own; on an edge, terrain on either side is enough.
+template <class Cursor>
+inline bool is_known_at(Cursor cursor, FinePoint p) {
+  bool known = cursor.has_terrain();
+  for (uint32_t i = 0; i < 3 && !known; ++i) {
+    const Offset from = seen_from(p, cursor.place(cursor.start()));
+    const Offset to = seen_from(p, cursor.place(cursor.end()));
+    known = from.x == 0 && from.y == 0;
+    if (!known && cross(from, to) == 0) {
+      Cursor other = cursor;
+      known = other.cross_to_terrain();
+    }
+    cursor.turn();
   }
-  if (!known) return MICROTIN_IN_VOID;
-  *height =
-      height_in_triangle(form.vertex(corner[0]), form.vertex(corner[1]), form.vertex(corner[2]), p);
+  return known;
+}
+
+// The answer at p in the closed triangle, which is no ghost.
+template <class Cursor>
+inline microtin_answer answer_at(const Cursor& cursor, FinePoint p, int32_t* height) {
+  if (!is_known_at(cursor, p)) return MICROTIN_IN_VOID;
+  *height = height_in_triangle(cursor.vertex(cursor.start()), cursor.vertex(cursor.end()),
+                               cursor.vertex(cursor.apex()), p);
   return MICROTIN_HEIGHT;
 }
 
-// The half-edge mesh.
-class MeshForm {
+// The half-edge mesh's.
+class MeshCursor {
  public:
-  typedef Index Edge;
+  MeshCursor(const Mesh& mesh, const uint8_t* voids, Index half_edge)
+      : mesh_(mesh), voids_(voids), h_(half_edge) {}
 
-  MeshForm(const Mesh& mesh, const uint8_t* voids) : mesh_(mesh), voids_(voids) {}
-
-  Edge after(Edge h) const { return next_in_triangle(h); }
-  Edge across(Edge h) const { return mesh_.twin[h]; }
-  Index start(Edge h) const { return mesh_.origin[h]; }
-  bool is_infinity(uint32_t v) const { return v == kInfinity; }
+  Index half_edge() const { return h_; }
+  Index start() const { return mesh_.origin[h_]; }
+  Index end() const { return mesh_.origin[next_in_triangle(h_)]; }
+  Index apex() const { return mesh_.origin[previous_in_triangle(h_)]; }
+  bool is_ghost() const { return apex() == kInfinity; }
+  bool may_stop() const { return true; }
+  bool has_terrain() const {
+    const Index t = triangle_of(h_);
+    return !microtin::is_ghost(mesh_, t) && !(voids_ != nullptr && is_void(voids_, t));
+  }
+  void cross() { h_ = mesh_.twin[h_]; }
+  void cross_next() { h_ = mesh_.twin[next_in_triangle(h_)]; }
+  void cross_last() { h_ = mesh_.twin[previous_in_triangle(h_)]; }
+  bool cross_to_terrain() {
+    cross();
+    return has_terrain();
+  }
+  void turn() { h_ = next_in_triangle(h_); }
   Point place(uint32_t v) const { return Point{mesh_.x[v], mesh_.y[v]}; }
   Vertex vertex(uint32_t v) const { return Vertex{mesh_.x[v], mesh_.y[v], mesh_.z[v]}; }
-  bool has_terrain(Edge h) const {
-    const Index t = triangle_of(h);
-    return !is_ghost(mesh_, t) && !(voids_ != nullptr && is_void(voids_, t));
-  }
 
  private:
   const Mesh& mesh_;
   const uint8_t* voids_;  // null: none
+  Index h_;
 };
 
-inline MeshForm form_of(const microtin_mesh& m) {
-  return MeshForm(m.mesh, m.has_voids ? m.voids : nullptr);
+// On the first half-edge of a triangle.
+inline MeshCursor cursor_at(const microtin_mesh& m, Index t) {
+  return MeshCursor(m.mesh, m.has_voids ? m.voids : nullptr, first_edge(t));
 }
 
 // Walks as above from *triangle, ghost or not, to another.
