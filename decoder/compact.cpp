@@ -26,13 +26,16 @@ enum class Work : uint8_t {
 
 struct microtin_compactor {
   microtin_compact header;
-  microtin_mesh* mesh;
+  microtin_mesh* source;
   microtin_compact* target;
-  uint8_t* body;  // where it is written: in the target or, if that is the mesh, over its twins
-  size_t size, body_most, scratch_size;
-  size_t needs, scratch_needs;
-  uint8_t* triangles;      // a bit each: to the left of the path
-  uint8_t* vertices;       // a bit each: on the path
+  microtin::Mesh mesh;  // the source's
+
+  uint8_t* body;       // where it is written: in the target or, if that is the mesh, over its twins
+  size_t body_most;    // bytes there
+  size_t body_bytes;   // ... wanted
+  uint8_t* triangles;  // a bit each: to the left of the path
+  uint8_t* vertices;   // a bit each: on the path
+  size_t order_most;   // positions that `order` has room for
   microtin::Index* order;  // by position: a vertex or, with kRingFlag, the position it repeats
   uint32_t ringed;         // vertices that the expansion reached, infinity included
   uint32_t cursor;         // the item in hand
@@ -89,7 +92,7 @@ bool clear(Compactor& c) {
 }
 
 bool extend_box(Compactor& c) {
-  const Point p = point_of(c.mesh->mesh, static_cast<Index>(c.cursor++));
+  const Point p = point_of(c.mesh, static_cast<Index>(c.cursor++));
   if (p.x < c.least.x) c.least.x = p.x;
   if (p.y < c.least.y) c.least.y = p.y;
   if (p.x > c.most.x) c.most.x = p.x;
@@ -98,7 +101,7 @@ bool extend_box(Compactor& c) {
 }
 
 bool find_infinity(Compactor& c) {
-  if (c.mesh->mesh.origin[c.start] == kInfinity) return true;
+  if (c.mesh.origin[c.start] == kInfinity) return true;
   ++c.start;
   return false;
 }
@@ -107,7 +110,7 @@ bool find_infinity(Compactor& c) {
 // a vertex to those before. Goes around the tree with that to its left; what it goes around in the
 // end is the path. The cursor is the half-edge across which a triangle is entered.
 bool expand(Compactor& c) {
-  const Mesh& mesh = c.mesh->mesh;
+  const Mesh& mesh = c.mesh;
   Index h = static_cast<Index>(c.cursor), next = next_in_triangle(h);
   const Index apex = mesh.origin[next_in_triangle(next)];
   if (apex != kInfinity && !bit_of(c.vertices, apex)) {
@@ -123,9 +126,9 @@ bool expand(Compactor& c) {
 
 // To the half-edge from infinity, to the right of the path, by whose edge the path comes there.
 bool turn_to_path(Compactor& c) {
-  const Index across = c.mesh->mesh.twin[c.start];
+  const Index across = c.mesh.twin[c.start];
   if (!is_left(c, c.start) && is_left(c, across)) return true;
-  c.start = c.mesh->mesh.twin[previous_in_triangle(c.start)];
+  c.start = c.mesh.twin[previous_in_triangle(c.start)];
   return false;
 }
 
@@ -147,7 +150,7 @@ bool is_seen_from(const Compactor& c, Index other, uint32_t* begin) {
 // that the expansion did not reach comes between two positions of the neighbour from where it is
 // seen first: all around is to the right then, the edge between the two is a slit.
 bool number(Compactor& c) {
-  Mesh& mesh = c.mesh->mesh;
+  const Mesh& mesh = c.mesh;
   const Index h = static_cast<Index>(c.cursor), previous = previous_in_triangle(h);
   mesh.origin[h] = static_cast<Index>(c.position | kRingFlag);
   const Index across = mesh.twin[previous], other = mesh.origin[previous];
@@ -179,7 +182,7 @@ bool number(Compactor& c) {
 
 bool put_node(Compactor& c) {
   const uint32_t i = c.cursor++;
-  const Mesh& mesh = c.mesh->mesh;
+  const Mesh& mesh = c.mesh;
   Index v = c.order[i];
   if ((v & kRingFlag) != 0) v = c.order[v & kRingNumber];
   if (i == 0) v = 0;  // of infinity, any
@@ -207,7 +210,7 @@ void put(Compactor& c, uint32_t side, uint32_t low, uint32_t middle, uint32_t hi
 
 // A triangle of the mesh, whose corners are positions now.
 bool put_triangle(Compactor& c) {
-  const Mesh& mesh = c.mesh->mesh;
+  const Mesh& mesh = c.mesh;
   const Index t = static_cast<Index>(c.cursor++);
   const Index* const corner = mesh.origin + first_edge(t);
   // Counter-clockwise, positions grow to the left of the path and fall to the right.
@@ -220,7 +223,7 @@ bool put_triangle(Compactor& c) {
     middle = high;
     high = turned;
   }
-  const bool flagged = low != 0 && c.mesh->has_voids && is_void(c.mesh->voids, t);
+  const bool flagged = low != 0 && c.source->has_voids && is_void(c.source->voids, t);
   put(c, side, low, middle, high, flagged ? kRingFlag : 0);
   return t + 1u == mesh.triangles;
 }
@@ -247,34 +250,34 @@ bool put_slit(Compactor& c) {
 // before. A full one's left child is what the triangle before has grown to, going up as long as
 // that is a right child: one further up is an item, too, so that there are at most two for each.
 bool put_leaf(Compactor& c) {
-  const uint32_t side = c.work == Work::kLeft ? 0 : 1;
-  const Ring r = ring_of(c);
-  const uint32_t middle = c.cursor, n = r.positions, seen = look(r, middle, side);
-  if (seen < n || seen >= 2 * n) {
-    c.low = seen < middle ? seen : middle - 1;
-  } else if (high_of(r, c.low, side) == middle) {
-    c.low = c.order[c.low];
-    return false;
-  } else {
+  const uint32_t side = c.work == Work::kLeft ? 0 : 1, middle = c.cursor, n = c.header.positions;
+  Index& slot = nodes_of(c)[middle].look[side];
+  const uint32_t seen = slot & kRingNumber;
+  if (seen >= 2 * n) {
+    slot = static_cast<Index>(slot + c.full_low);
+  } else if (seen >= n) {
+    const uint32_t above = nodes_of(c)[c.low].look[side] & kRingNumber;
+    if (above == middle || above == n + middle) {
+      c.low = c.order[c.low];
+      return false;
+    }
     c.full_low = c.low;
   }
+  if (seen < n || seen >= 2 * n) c.low = seen < middle ? seen : middle - 1;
   c.order[middle] = static_cast<Index>(c.low);
-  if (seen >= 2 * n) {
-    Index& leaf = nodes_of(c)[middle].look[side];
-    leaf = static_cast<Index>(leaf + c.full_low);
-  }
   return ++c.cursor == n - 1;
 }
 
-// Eight bytes; the body ends where it begins, or further ahead.
+// Eight bytes. The body ends where it begins, or further ahead.
 bool move(Compactor& c) {
   uint8_t* const to = reinterpret_cast<uint8_t*>(c.target + 1);
-  const uint32_t end = static_cast<uint32_t>(c.needs - sizeof(microtin_compact));
-  for (uint32_t i = 0; i < 8 && c.cursor != end; ++i, ++c.cursor) to[c.cursor] = c.body[c.cursor];
-  return c.cursor == end;
+  for (uint32_t i = 0; i < 8 && c.cursor != c.body_bytes; ++i, ++c.cursor) {
+    to[c.cursor] = c.body[c.cursor];
+  }
+  return c.cursor == c.body_bytes;
 }
 
-// Handles items as long as there are steps; true if the last was among them.
+// Handles items, as long as there are steps; true if the last was among them.
 template <class Item>
 MICROTIN_IN_PLACE inline bool each(Compactor& c, uint32_t* left, Item handle) {
   bool last = false;
@@ -282,51 +285,54 @@ MICROTIN_IN_PLACE inline bool each(Compactor& c, uint32_t* left, Item handle) {
   return last;
 }
 
-bool handle_items(Compactor& c, uint32_t* left) {
+// Handles items where there are many, else one. A step left.
+bool handle(Compactor& c, uint32_t* left) {
   switch (c.work) {
-    case Work::kClear:
-      return each(c, left, clear);
-    case Work::kBox:
-      return each(c, left, extend_box);
-    case Work::kInfinity:
-      return each(c, left, find_infinity);
     case Work::kExpand:
       return each(c, left, expand);
-    case Work::kTurn:
-      return each(c, left, turn_to_path);
     case Work::kNumber:
       return each(c, left, number);
-    case Work::kNodes:
-      return each(c, left, put_node);
     case Work::kTriangles:
       return each(c, left, put_triangle);
-    case Work::kSlits:
-      return each(c, left, put_slit);
     case Work::kLeft:
     case Work::kRight:
       return each(c, left, put_leaf);
-    case Work::kMove:
-      return each(c, left, move);
-    case Work::kComplete:
+    default:
       break;
   }
-  return true;
+  --*left;
+  switch (c.work) {
+    case Work::kClear:
+      return clear(c);
+    case Work::kBox:
+      return extend_box(c);
+    case Work::kInfinity:
+      return find_infinity(c);
+    case Work::kTurn:
+      return turn_to_path(c);
+    case Work::kNodes:
+      return put_node(c);
+    case Work::kSlits:
+      return put_slit(c);
+    default:
+      break;
+  }
+  return move(c);
 }
 
 // What is needed, and whether it is there.
 microtin_status measure(Compactor& c) {
   microtin_compact& header = c.header;
-  const uint32_t n = header.vertices, missed = n + 1 - c.ringed;
-  header.positions = n + 1 + missed;
+  header.positions = 2 * (header.vertices + 1) - c.ringed;
   header.is_narrow = c.most.x - c.least.x < 256 && c.most.y - c.least.y < 256;
-  header.west = header.is_narrow != 0 ? c.least.x : 0;
-  header.south = header.is_narrow != 0 ? c.least.y : 0;
-  const size_t body = body_bytes(header);
-  c.needs = sizeof(microtin_compact) + body;
-  c.scratch_needs = sizeof(Compactor) + bit_bytes(n) + header.positions * sizeof(Index);
+  if (header.is_narrow != 0) {
+    header.west = c.least.x;
+    header.south = c.least.y;
+  }
+  c.body_bytes = body_bytes(header);
   if (!has_room_for(header.positions)) return MICROTIN_TOO_BIG;
-  const bool fits = c.needs <= c.size && body <= c.body_most && c.scratch_needs <= c.scratch_size;
-  return fits ? MICROTIN_DONE : MICROTIN_WORKSPACE_TOO_SMALL;
+  const bool fits = c.body_bytes <= c.body_most && header.positions <= c.order_most;
+  return fits ? MICROTIN_STEP_LIMIT : MICROTIN_WORKSPACE_TOO_SMALL;
 }
 
 // The work after that in hand, but for what is not wanted.
@@ -355,12 +361,12 @@ void empty_mesh(microtin_mesh& m) {
 microtin_status go_on(Compactor& c) {
   if (c.work == Work::kExpand) {
     const microtin_status status = measure(c);
-    if (status != MICROTIN_DONE) return status;
+    if (status != MICROTIN_STEP_LIMIT) return status;
   }
   c.work = work_after(c);
   c.cursor = 0;
   if (c.work == Work::kExpand) {
-    set_bit(c.vertices, c.mesh->mesh.origin[next_in_triangle(c.start)]);
+    set_bit(c.vertices, c.mesh.origin[next_in_triangle(c.start)]);
     c.cursor = c.start;
   }
   if (c.work == Work::kNumber) begin_numbering(c);
@@ -368,7 +374,7 @@ microtin_status go_on(Compactor& c) {
     c.cursor = 1;
     c.low = c.full_low = 0;
   }
-  if (c.work >= Work::kMove) empty_mesh(*c.mesh);
+  if (c.work >= Work::kMove) empty_mesh(*c.source);
   if (c.work != Work::kComplete) return MICROTIN_STEP_LIMIT;
   *c.target = c.header;
   return MICROTIN_DONE;
@@ -376,12 +382,13 @@ microtin_status go_on(Compactor& c) {
 
 // Where the body is written, and how much room is there: over the twins if the target is the mesh,
 // since nothing needs these once corners have numbers.
-void find_room(Compactor& c) {
-  Mesh& mesh = c.mesh->mesh;
-  const bool in_place = static_cast<void*>(c.target) == c.mesh;
-  c.body =
-      in_place ? reinterpret_cast<uint8_t*>(mesh.twin) : reinterpret_cast<uint8_t*>(c.target + 1);
-  c.body_most = in_place ? 6 * static_cast<size_t>(c.mesh->capacity) * sizeof(Index) : c.size;
+void find_room(Compactor& c, size_t size) {
+  c.body = reinterpret_cast<uint8_t*>(c.target + 1);
+  c.body_most = size < sizeof(microtin_compact) ? 0 : size - sizeof(microtin_compact);
+  if (static_cast<void*>(c.target) != c.source) return;
+  c.body = reinterpret_cast<uint8_t*>(c.mesh.twin);
+  const size_t twins = 6 * static_cast<size_t>(c.source->capacity) * sizeof(Index);
+  if (twins < c.body_most) c.body_most = twins;
 }
 
 }  // namespace
@@ -403,22 +410,23 @@ microtin_status microtin_compact_begin(void* workspace, size_t size, microtin_me
   }
   const uint32_t n = mesh->mesh.vertices;
   if (n == 0 || mesh->verified_vertices != n) return MICROTIN_ARGUMENT;
-  if (scratch_size < sizeof(Compactor) + bit_bytes(n)) return MICROTIN_WORKSPACE_TOO_SMALL;
+  const size_t order_at = sizeof(Compactor) + bit_bytes(n);
+  if (scratch_size < order_at) return MICROTIN_WORKSPACE_TOO_SMALL;
   Compactor& c = *static_cast<Compactor*>(scratch);
   c = Compactor();
   for (int i = 0; i < 3; ++i) c.header.axis[i] = mesh->axis[i];
   c.header.vertices = n;
-  c.mesh = mesh;
+  c.source = mesh;
+  c.mesh = mesh->mesh;
   c.target = static_cast<microtin_compact*>(workspace);
-  c.size = size;
-  c.scratch_size = scratch_size;
   c.triangles = reinterpret_cast<uint8_t*>(&c + 1);
   c.vertices = c.triangles + (2 * n + 7) / 8;
   c.order = reinterpret_cast<Index*>(c.triangles + bit_bytes(n));
+  c.order_most = (scratch_size - order_at) / sizeof(Index);
   c.ringed = 2;  // infinity, and the vertex where the expansion starts
   c.least = Point{kLatticeMax, kLatticeMax};
   c.status = MICROTIN_STEP_LIMIT;
-  find_room(c);
+  find_room(c, size);
   *compactor = &c;
   return MICROTIN_DONE;
 }
@@ -430,7 +438,7 @@ microtin_status microtin_compact_proceed(microtin_compactor* compactor, uint32_t
   *compact = nullptr;
   uint32_t left = step_limit == 0 ? 0xFFFFFFFFu : step_limit;
   while (c.status == MICROTIN_STEP_LIMIT && left != 0) {
-    if (handle_items(c, &left)) c.status = go_on(c);
+    if (handle(c, &left)) c.status = go_on(c);
   }
   if (c.status == MICROTIN_DONE) *compact = c.target;
   return c.status;
@@ -438,6 +446,8 @@ microtin_status microtin_compact_proceed(microtin_compactor* compactor, uint32_t
 
 void microtin_compact_needs(const microtin_compactor* compactor, size_t* bytes,
                             size_t* scratch_bytes) {
-  *bytes = compactor->needs;
-  *scratch_bytes = compactor->scratch_needs;
+  const Compactor& c = *compactor;
+  const uint32_t n = c.header.vertices;
+  *bytes = sizeof(microtin_compact) + c.body_bytes;
+  *scratch_bytes = sizeof(Compactor) + bit_bytes(n) + c.header.positions * sizeof(Index);
 }

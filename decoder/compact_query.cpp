@@ -29,12 +29,11 @@ uint32_t below(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
 
 // ... above: a if that has a right child there, else c.
 uint32_t above(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
-  const uint32_t n = r.positions;
   uint32_t seen = look(r, a, side);
   if (seen == c) return a - 1;
-  if (seen == n + c) return low_of_full(r, a, side);
+  if (seen == r.positions + c) return low_of_full(r, a, side);
   seen = look(r, c, side);
-  return seen < n ? c + 1 : seen - n;
+  return seen < r.positions ? c + 1 : seen - r.positions;
 }
 
 // ... on a side of the ring's edge (a, c): c unless that has a left child, else a.
@@ -63,13 +62,7 @@ MICROTIN_ONE_COPY uint32_t beyond(const Ring& r, uint32_t u, uint32_t w, uint32_
 class RingCursor {
  public:
   // On a half-edge of the triangle with a middle: its apex is a, so 0 in a ghost.
-  RingCursor(const Ring& ring, uint32_t middle, uint32_t side)
-      : ring_(ring),
-        from_(middle),
-        to_(high_of(ring, middle, side)),
-        apex_side_(2 * low_of(ring, middle, side) + side) {
-    if (side != 0) swap_ends();
-  }
+  RingCursor(const Ring& ring, uint32_t middle, uint32_t side) : ring_(ring) { set(middle, side); }
 
   uint32_t start() const { return from_; }
   uint32_t end() const { return to_; }
@@ -106,7 +99,7 @@ class RingCursor {
   void cross_slits() {
     cross();
     while (!may_stop()) {
-      if (is_same_place(ring_, apex(), from_)) {
+      if (is_same(apex(), from_)) {
         cross_next();
       } else {
         cross_last();
@@ -114,11 +107,13 @@ class RingCursor {
     }
   }
 
+  // To the triangle of the same middle to the right of the path, where all have area.
+  void to_right() { set(middle(), 1); }
+
   // False for those that fill the gap at a repeat: two corners are the same vertex.
   bool has_area() const {
-    return side() != 0 || !(is_same_place(ring_, from_, to_) ||
-                            (!is_ghost() && (is_same_place(ring_, apex(), from_) ||
-                                             is_same_place(ring_, apex(), to_))));
+    return side() != 0 || !(is_same(from_, to_) ||
+                            (!is_ghost() && (is_same(apex(), from_) || is_same(apex(), to_))));
   }
 
   uint32_t middle() const {
@@ -133,11 +128,18 @@ class RingCursor {
   }
 
  private:
+  void set(uint32_t middle, uint32_t side) {
+    from_ = middle;
+    to_ = high_of(ring_, middle, side);
+    apex_side_ = 2 * low_of(ring_, middle, side) + side;
+    if (side != 0) swap_ends();
+  }
   void swap_ends() {
     const uint32_t other = from_;
     from_ = to_;
     to_ = other;
   }
+  bool is_same(uint32_t i, uint32_t k) const { return place(i) == place(k); }
   // From the triangle beyond the half-edge to this.
   void enter() { apex_side_ = beyond(ring_, to_, from_, side()); }
 
@@ -164,8 +166,8 @@ uint32_t triangle_count(const Ring& r) {
 // In a triangle that is no ghost: that with a number, or one near it.
 RingCursor start_at(const Ring& r, uint32_t number) {
   if (number >= triangle_count(r)) number = 0;
-  if (!cursor_at(r, number).may_stop()) number |= 1u;
   RingCursor cursor = cursor_at(r, number);
+  if (!cursor.may_stop()) cursor.to_right();
   if (cursor.is_ghost()) cursor.cross_slits();
   return cursor;
 }

@@ -109,10 +109,6 @@ MICROTIN_IN_PLACE inline Point place_of(const Ring& r, uint32_t i) {
   return Point{static_cast<uint16_t>(place & 255u), static_cast<uint16_t>(place >> 8)};
 }
 
-inline bool is_same_place(const Ring& r, uint32_t a, uint32_t b) {
-  return place_of(r, a) == place_of(r, b);
-}
-
 }  // namespace microtin
 
 #endif

@@ -16,7 +16,7 @@ Index real_edge(const Mesh& mesh, Index triangle) {
 bool walk_to(const Mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle) {
   MeshCursor cursor(mesh, nullptr, real_edge(mesh, *triangle));
   const bool arrived = walk(cursor, p, step_limit);
-  *triangle = triangle_of(cursor.half_edge());
+  *triangle = cursor.triangle();
   return arrived;
 }
 

@@ -60,28 +60,28 @@ inline bool walk(Cursor& cursor, FinePoint p, uint32_t step_limit) {
   return false;
 }
 
-// Whether the height is known at p in the closed triangle, which is no ghost. A vertex always knows
-// its own; on an edge, terrain on either side is enough.
+// Whether p, in a closed triangle without terrain, is a corner or on an edge with terrain beyond.
 template <class Cursor>
-inline bool is_known_at(Cursor cursor, FinePoint p) {
-  bool known = cursor.has_terrain();
-  for (uint32_t i = 0; i < 3 && !known; ++i) {
-    const Offset from = seen_from(p, cursor.place(cursor.start()));
-    const Offset to = seen_from(p, cursor.place(cursor.end()));
-    known = from.x == 0 && from.y == 0;
-    if (!known && cross(from, to) == 0) {
+MICROTIN_OUT_OF_LINE inline bool touches_terrain(Cursor cursor, FinePoint p) {
+  bool touches = false;
+  for (uint32_t i = 0; i < 3 && !touches; ++i) {
+    const Point from = cursor.place(cursor.start()), to = cursor.place(cursor.end());
+    const FinePoint at = fine(from);
+    touches = at.x == p.x && at.y == p.y;
+    if (!touches && orient_fine(from, to, p) == 0) {
       Cursor other = cursor;
-      known = other.cross_to_terrain();
+      touches = other.cross_to_terrain();
     }
     cursor.turn();
   }
-  return known;
+  return touches;
 }
 
-// The answer at p in the closed triangle, which is no ghost.
+// The answer at p in the closed triangle, which is no ghost. A vertex always knows its own height;
+// on an edge, terrain on either side is enough.
 template <class Cursor>
 inline microtin_answer answer_at(const Cursor& cursor, FinePoint p, int32_t* height) {
-  if (!is_known_at(cursor, p)) return MICROTIN_IN_VOID;
+  if (!cursor.has_terrain() && !touches_terrain(cursor, p)) return MICROTIN_IN_VOID;
   *height = height_in_triangle(cursor.vertex(cursor.start()), cursor.vertex(cursor.end()),
                                cursor.vertex(cursor.apex()), p);
   return MICROTIN_HEIGHT;
@@ -93,14 +93,14 @@ class MeshCursor {
   MeshCursor(const Mesh& mesh, const uint8_t* voids, Index half_edge)
       : mesh_(mesh), voids_(voids), h_(half_edge) {}
 
-  Index half_edge() const { return h_; }
   Index start() const { return mesh_.origin[h_]; }
   Index end() const { return mesh_.origin[next_in_triangle(h_)]; }
   Index apex() const { return mesh_.origin[previous_in_triangle(h_)]; }
+  Index triangle() const { return triangle_of(h_); }
   bool is_ghost() const { return apex() == kInfinity; }
   bool may_stop() const { return true; }
   bool has_terrain() const {
-    const Index t = triangle_of(h_);
+    const Index t = triangle();
     return !microtin::is_ghost(mesh_, t) && !(voids_ != nullptr && is_void(voids_, t));
   }
   void cross() { h_ = mesh_.twin[h_]; }
