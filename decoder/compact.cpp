@@ -10,7 +10,6 @@ enum class Work : uint8_t {
   kBox,        // vertices
   kInfinity,   // half-edges, up to one that starts at infinity
   kExpand,     // triangles, as the path is found
-  kTurn,       // half-edges at infinity, up to the path
   kNumber,     // corners, along the path
   kNodes,      // positions
   kTriangles,  // triangles of the mesh
@@ -24,30 +23,30 @@ enum class Work : uint8_t {
 }  // namespace
 }  // namespace microtin
 
+// What is used most comes first, where short instructions reach it.
 struct microtin_compactor {
-  microtin_compact header;
-  microtin_mesh* source;
-  microtin_compact* target;
-  microtin::Mesh mesh;  // the source's
-
-  uint8_t* body;       // where it is written: in the target or, if that is the mesh, over its twins
-  size_t body_most;    // bytes there
-  size_t body_bytes;   // ... wanted
-  uint8_t* triangles;  // a bit each: to the left of the path
-  uint8_t* vertices;   // a bit each: on the path
-  size_t order_most;   // positions that `order` has room for
-  microtin::Index* order;  // by position: a vertex or, with kRingFlag, the position it repeats
-  uint32_t ringed;         // vertices that the expansion reached, infinity included
-  uint32_t cursor;         // the item in hand
-  uint32_t position;       // of the corner in hand; the first of its vertex is
-  uint32_t first;
-  uint32_t low, full_low;  // a of the triangle before, of the last full one
-  uint32_t repeats;        // listed so far
-  microtin_status status;  // STEP_LIMIT while all is well
+  microtin::Work work;
+  uint8_t status;          // a microtin_status: STEP_LIMIT while all is well
   microtin::Index start;   // a half-edge from infinity
   microtin::Index onward;  // the half-edge where the path goes on, from the other end
   microtin::Point least, most;
-  microtin::Work work;
+  uint32_t cursor;    // the item in hand
+  uint32_t position;  // of the corner in hand; the first of its vertex is
+  uint32_t first;
+  uint32_t low, full_low;  // a of the triangle before, of the last full one
+  uint32_t ringed;         // vertices that the expansion reached, infinity included
+  uint8_t* triangles;      // a bit each: to the left of the path
+  uint8_t* vertices;       // a bit each: on the path
+  microtin::Index* order;  // by position: a vertex or, with kRingFlag, the position it repeats
+  uint8_t* body;  // where it is written: in the target or, if that is the mesh, over its twins
+  microtin::Index* repeat;  // there, the next to be listed
+  uint16_t* y;              // ... of the first position
+  microtin::Mesh mesh;      // the source's
+  microtin_mesh* source;
+  microtin_compact* target;
+  size_t body_bytes;
+  size_t body_most, order_most;  // bytes, positions for which there is room
+  microtin_compact header;
 };
 
 static_assert(sizeof(microtin_compactor) + 8 <= MICROTIN_COMPACTOR_HEADER_BYTES, "see compact.h");
@@ -77,10 +76,6 @@ uint32_t bit_bytes(uint32_t vertices) {
 
 RingNode* nodes_of(const Compactor& c) {
   return reinterpret_cast<RingNode*>(c.body);
-}
-
-Ring ring_of(const Compactor& c) {
-  return ring_in(c.body, c.header);
 }
 
 // --- Each handles one item; true if it was the last.
@@ -124,14 +119,6 @@ bool expand(Compactor& c) {
   return c.cursor == mesh.twin[c.start];
 }
 
-// To the half-edge from infinity, to the right of the path, by whose edge the path comes there.
-bool turn_to_path(Compactor& c) {
-  const Index across = c.mesh.twin[c.start];
-  if (!is_left(c, c.start) && is_left(c, across)) return true;
-  c.start = c.mesh.twin[previous_in_triangle(c.start)];
-  return false;
-}
-
 void take_position(Compactor& c, Index vertex) {
   c.order[++c.position] = vertex;
   c.first = c.position;
@@ -148,7 +135,8 @@ bool is_seen_from(const Compactor& c, Index other, uint32_t* begin) {
 // Writes its position into a corner, and turns to the next around the vertex: first those to the
 // right of the path, from where it comes, then those to the left, then the next vertex. A vertex
 // that the expansion did not reach comes between two positions of the neighbour from where it is
-// seen first: all around is to the right then, the edge between the two is a slit.
+// seen first: all around is to the right then, the edge between the two is a slit. The start, at
+// infinity, is to the left, and left without going on.
 bool number(Compactor& c) {
   const Mesh& mesh = c.mesh;
   const Index h = static_cast<Index>(c.cursor), previous = previous_in_triangle(h);
@@ -158,7 +146,7 @@ bool number(Compactor& c) {
   const bool is_new = (other & kRingFlag) == 0;  // neither numbered nor infinity
   c.cursor = across;
   if (left) {
-    if (!leaves) return false;
+    if (!leaves || c.onward == kInfinity) return false;
     const Index next = mesh.origin[c.onward];
     if ((next & kRingFlag) != 0) return true;  // infinity again
     take_position(c, next);
@@ -194,7 +182,7 @@ bool put_node(Compactor& c) {
     node.place = static_cast<uint16_t>((at.x - c.least.x) | (at.y - c.least.y) << 8);
   } else {
     node.place = at.x;
-    const_cast<uint16_t*>(ring_of(c).y)[i] = at.y;
+    c.y[i] = at.y;
   }
   return c.cursor == c.header.positions;
 }
@@ -241,7 +229,7 @@ bool put_slit(Compactor& c) {
     put(c, 0, last, i - 1, i, 0);
     put(c, 0, first - 1, last, i, 0);
     c.order[first] = static_cast<Index>(i);
-    const_cast<Index*>(ring_of(c).repeat)[c.repeats++] = static_cast<Index>(i);
+    *c.repeat++ = static_cast<Index>(i);
   }
   return c.cursor == c.header.positions;
 }
@@ -308,8 +296,6 @@ bool handle(Compactor& c, uint32_t* left) {
       return extend_box(c);
     case Work::kInfinity:
       return find_infinity(c);
-    case Work::kTurn:
-      return turn_to_path(c);
     case Work::kNodes:
       return put_node(c);
     case Work::kSlits:
@@ -330,6 +316,8 @@ microtin_status measure(Compactor& c) {
     header.south = c.least.y;
   }
   c.body_bytes = body_bytes(header);
+  c.repeat = reinterpret_cast<Index*>(nodes_of(c) + header.positions);
+  c.y = reinterpret_cast<uint16_t*>(c.repeat + repeats_of(header));
   if (!has_room_for(header.positions)) return MICROTIN_TOO_BIG;
   const bool fits = c.body_bytes <= c.body_most && header.positions <= c.order_most;
   return fits ? MICROTIN_STEP_LIMIT : MICROTIN_WORKSPACE_TOO_SMALL;
@@ -347,6 +335,7 @@ Work work_after(const Compactor& c) {
 
 void begin_numbering(Compactor& c) {
   c.order[0] = static_cast<Index>(kRingNumber);  // no vertex
+  c.onward = kInfinity;                          // none yet
   c.cursor = c.start;
 }
 
@@ -355,6 +344,16 @@ void empty_mesh(microtin_mesh& m) {
   m.mesh.vertices = 0;
   m.mesh.triangles = 0;
   m.verified_vertices = 0;
+}
+
+// Without a call of memcpy, which may be slow: no step takes longer than an item.
+void copy_header(microtin_compact* to, const microtin_compact& from) {
+  for (int i = 0; i < 3; ++i) to->axis[i] = from.axis[i];
+  to->vertices = from.vertices;
+  to->positions = from.positions;
+  to->west = from.west;
+  to->south = from.south;
+  to->is_narrow = from.is_narrow;
 }
 
 // Makes ready for the next work.
@@ -376,7 +375,7 @@ microtin_status go_on(Compactor& c) {
   }
   if (c.work >= Work::kMove) empty_mesh(*c.source);
   if (c.work != Work::kComplete) return MICROTIN_STEP_LIMIT;
-  *c.target = c.header;
+  copy_header(c.target, c.header);
   return MICROTIN_DONE;
 }
 
@@ -438,10 +437,10 @@ microtin_status microtin_compact_proceed(microtin_compactor* compactor, uint32_t
   *compact = nullptr;
   uint32_t left = step_limit == 0 ? 0xFFFFFFFFu : step_limit;
   while (c.status == MICROTIN_STEP_LIMIT && left != 0) {
-    if (handle(c, &left)) c.status = go_on(c);
+    if (handle(c, &left)) c.status = static_cast<uint8_t>(go_on(c));
   }
   if (c.status == MICROTIN_DONE) *compact = c.target;
-  return c.status;
+  return static_cast<microtin_status>(c.status);
 }
 
 void microtin_compact_needs(const microtin_compactor* compactor, size_t* bytes,

@@ -139,7 +139,10 @@ class RingCursor {
     from_ = to_;
     to_ = other;
   }
-  bool is_same(uint32_t i, uint32_t k) const { return place(i) == place(k); }
+  bool is_same(uint32_t i, uint32_t k) const {
+    return ring_.node[i].place == ring_.node[k].place &&
+           (ring_.y == nullptr || ring_.y[i] == ring_.y[k]);
+  }
   // From the triangle beyond the half-edge to this.
   void enter() { apex_side_ = beyond(ring_, to_, from_, side()); }
 

@@ -60,22 +60,21 @@ struct Ring {
   uint32_t repeats;
 };
 
-// Where things lie in a body.
-inline Ring ring_in(const void* body, const microtin_compact& header) {
-  const uint32_t n = header.positions, repeats = n - 1 - header.vertices;
-  const RingNode* const node = static_cast<const RingNode*>(body);
-  const Index* const repeat = reinterpret_cast<const Index*>(node + n);
-  const uint16_t* const y = reinterpret_cast<const uint16_t*>(repeat + repeats);
-  return Ring{node, header.is_narrow != 0 ? nullptr : y, repeat, n, repeats};
-}
-
-inline Ring ring_of(const microtin_compact* c) {
-  return ring_in(c + 1, *c);
+inline uint32_t repeats_of(const microtin_compact& header) {
+  return header.positions - 1 - header.vertices;
 }
 
 inline size_t body_bytes(const microtin_compact& header) {
-  const size_t n = header.positions, each = sizeof(RingNode) + (header.is_narrow != 0 ? 0u : 2u);
-  return n * each + (n - 1 - header.vertices) * sizeof(Index);
+  const size_t each = sizeof(RingNode) + (header.is_narrow != 0 ? 0u : sizeof(uint16_t));
+  return header.positions * each + repeats_of(header) * sizeof(Index);
+}
+
+inline Ring ring_of(const microtin_compact* c) {
+  const uint32_t repeats = repeats_of(*c);
+  const RingNode* const node = reinterpret_cast<const RingNode*>(c + 1);
+  const Index* const repeat = reinterpret_cast<const Index*>(node + c->positions);
+  const uint16_t* const y = reinterpret_cast<const uint16_t*>(repeat + repeats);
+  return Ring{node, c->is_narrow != 0 ? nullptr : y, repeat, c->positions, repeats};
 }
 
 MICROTIN_IN_PLACE inline uint32_t look(const Ring& r, uint32_t middle, uint32_t side) {
