@@ -281,11 +281,10 @@ uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32
   const Ring r = ring_of(compact);
   const int32_t px = (x >> 8) - compact->west, py = (y >> 8) - compact->south;
   const uint32_t end = r.positions - 1;
-  uint32_t stride = end / kSamples, i = stride / 2 + 1, last = end, best = 1;
-  uint32_t least = 0xFFFFFFFFu;
-  if (stride == 0) stride = 1;
+  uint32_t stride = end / kSamples + 1, step = stride, i = stride / 2 + 1, last = end;
+  uint32_t best = 1, least = 0xFFFFFFFFu;
   for (;;) {
-    for (; i < last; i += stride) {
+    for (; i < last; i += step) {
       const uint32_t far = distance(place_of(r, i), px, py);
       if (far < least) {
         least = far;
@@ -297,5 +296,6 @@ uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32
     if (stride < kFinest) return 2 * best - kFirstNumber;
     i = best > stride ? best - stride : 1;
     last = best + stride < end ? best + stride + 1 : end;
+    step = 2 * stride;
   }
 }
