@@ -72,9 +72,17 @@ class RingCursor {
   bool may_stop() const { return ring_.repeats == 0 || has_area(); }
   bool has_terrain() const { return !is_ghost() && ring_.node[middle()].look[side()] < kRingFlag; }
 
+  // On through triangles without area.
   void cross() {
     swap_ends();
     enter();
+    while (!may_stop()) {
+      if (is_same(apex(), from_)) {
+        cross_next();
+      } else {
+        cross_last();
+      }
+    }
   }
   void cross_next() {
     from_ = apex();
@@ -84,27 +92,11 @@ class RingCursor {
     to_ = apex();
     enter();
   }
-  bool cross_to_terrain() {
-    cross_slits();
-    return has_terrain();
-  }
   void turn() {
     const uint32_t third = apex();
     apex_side_ = 2 * from_ + side();
     from_ = to_;
     to_ = third;
-  }
-
-  // Crosses, and on through triangles without area.
-  void cross_slits() {
-    cross();
-    while (!may_stop()) {
-      if (is_same(apex(), from_)) {
-        cross_next();
-      } else {
-        cross_last();
-      }
-    }
   }
 
   // To the triangle of the same middle to the right of the path, where all have area.
@@ -171,7 +163,7 @@ RingCursor start_at(const Ring& r, uint32_t number) {
   if (number >= triangle_count(r)) number = 0;
   RingCursor cursor = cursor_at(r, number);
   if (!cursor.may_stop()) cursor.to_right();
-  if (cursor.is_ghost()) cursor.cross_slits();
+  if (cursor.is_ghost()) cursor.cross();
   return cursor;
 }
 

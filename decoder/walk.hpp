@@ -4,10 +4,9 @@
 //   start(), end(), apex()      the numbers of the half-edge's ends, and of the third corner
 //   is_ghost()                  whether the third corner is infinity
 //   has_terrain()               whether the triangle is neither ghost nor void
-//   may_stop()                  false in what is no triangle of the mesh
 //   cross()                     to the triangle beyond, on the half-edge the other way
-//   cross_next(), cross_last()  ... beyond end() -> apex(), beyond apex() -> start()
-//   cross_to_terrain()          ... beyond; whether there is terrain
+//   cross_next(), cross_last()  ... beyond end() -> apex(), beyond apex() -> start(), or into what
+//                               is no triangle of the mesh, where may_stop() is false
 //   turn()                      to the next half-edge of the triangle
 //   place(number), vertex(number)   of a finite vertex
 #ifndef MICROTIN_DECODER_WALK_HPP
@@ -70,7 +69,8 @@ MICROTIN_OUT_OF_LINE inline bool touches_terrain(Cursor cursor, FinePoint p) {
     touches = at.x == p.x && at.y == p.y;
     if (!touches && orient_fine(from, to, p) == 0) {
       Cursor other = cursor;
-      touches = other.cross_to_terrain();
+      other.cross();
+      touches = other.has_terrain();
     }
     cursor.turn();
   }
@@ -106,10 +106,6 @@ class MeshCursor {
   void cross() { h_ = mesh_.twin[h_]; }
   void cross_next() { h_ = mesh_.twin[next_in_triangle(h_)]; }
   void cross_last() { h_ = mesh_.twin[previous_in_triangle(h_)]; }
-  bool cross_to_terrain() {
-    cross();
-    return has_terrain();
-  }
   void turn() { h_ = next_in_triangle(h_); }
   Point place(uint32_t v) const { return Point{mesh_.x[v], mesh_.y[v]}; }
   Vertex vertex(uint32_t v) const { return Vertex{mesh_.x[v], mesh_.y[v], mesh_.z[v]}; }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "microtin/microtin.hpp"
 #include "tests/compact_pair.hpp"
 #include "tests/device.hpp"
 #include "tests/files.hpp"
@@ -167,7 +168,170 @@ TEST_CASE("compact terrains answer as the mesh does: many small ones") {
     CAPTURE(seed);
     Random random(seed);
     const uint32_t n = 4 + random.below(40), side = 4 + random.below(20);
-    check_tin(wild_tin(uniform_points(n, random, side)), seed, seed % 3 == 0);
+    Points points = uniform_points(n, random, side);
+    points.push_back(point(side, side + 1));  // not all on a line, whatever the others are
+    points.push_back(point(side + 1, side));
+    check_tin(wild_tin(points), seed, seed % 3 == 0);
   }
 }
+
+namespace {
+
+uint32_t repeats_of(const Points& points) {
+  const Bytes stream = encode(wild_tin(points), Metadata(), Effort{32, 1});
+  const std::unique_ptr<Device> device = decoded(stream);
+  const uint32_t n = device->vertices();
+  Workspace space(40 * n + 200), scratch(MICROTIN_DECODER_BYTES(2 * n));
+  microtin_compact* compact = nullptr;
+  Needs needs;
+  REQUIRE(make(space.begin(), space.size(), device->mesh, scratch.begin(), scratch.size(), 1000,
+               &compact, &needs) == MICROTIN_DONE);
+  return microtin_compact_triangle_count(compact) / 2 + 1 - n;
+}
+
+// Points that the path misses many of, found by moving one after another.
+Points missed_points(uint32_t n, uint32_t tries, Random& random) {
+  Points best = uniform_points(n, random, 200);
+  uint32_t most = repeats_of(best);
+  for (uint32_t i = 0; i < tries; ++i) {
+    Points points = best;
+    points[random.below(static_cast<uint32_t>(points.size()))] = point_in(random, 200);
+    points = distinct(points, random);
+    const uint32_t repeats = repeats_of(points);
+    if (repeats < most || points.size() < best.size()) continue;
+    best = points;
+    most = repeats;
+  }
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("compact terrains answer as the mesh does: many vertices missed by the path") {
+  uint32_t most = 0;
+  for (uint32_t seed = 0; seed < 6; ++seed) {
+    Random random(seed);
+    const Points points = missed_points(16 + 2 * seed, 250, random);
+    const Tin tin = wild_tin(points);
+    most = std::max(most, check(encode(tin, Metadata(), Effort{32, 1}), seed, 3000));
+    check(encode(with_voids(tin), Metadata(), Effort{32, 1}), seed, 3000);
+  }
+  CHECK(most >= 6);
+}
+
+TEST_CASE("compact terrains answer as the mesh does: hubs with long fans, and forged streams") {
+  Points hub = {point(30000, 30000)};
+  for (int i = 0; i < 800; ++i) {
+    const double angle = i * 2 * 3.14159265358979 / 800;
+    for (const double radius : {20000.0, 25000.0 + i % 7}) {
+      hub.push_back(point(30000 + std::lround(radius * std::cos(angle)),
+                          30000 + std::lround(radius * std::sin(angle))));
+    }
+  }
+  Random random(5);
+  check_tin(wild_tin(distinct(hub, random)), 5);
+  for (const uint32_t spokes : {8u, 24u, 32u}) {
+    check(forge(Contract{spokes + 1, kWheelSide, kWheelSide, kMaxDegree, 1, false, false},
+                PlanCoder(wheel(spokes))),
+          spokes);
+  }
+  check(sectioned_stream(3), 9);
+}
+
+TEST_CASE("compact terrains of ours fit what the macros say, 9.5 or 11.5 bytes a vertex") {
+  const auto check_size = [](const Tin& tin, bool is_narrow) {
+    const Compact compact(encode(tin, Metadata(), Effort{10, 2}), 0x7FFFFFFF);
+    const uint32_t n = microtin_compact_vertex_count(compact.get()), repeats = compact.repeats();
+    CHECK(compact.needs().bytes <=
+          (is_narrow ? MICROTIN_COMPACT_NARROW_BYTES(n) : MICROTIN_COMPACT_BYTES(n)));
+    CHECK(compact.needs().scratch <= MICROTIN_COMPACTOR_BYTES(n));
+    CHECK(MICROTIN_COMPACTOR_BYTES(n) <= MICROTIN_DECODER_BYTES(n));
+    // With numbers of 16 bits.
+    const double bytes = MICROTIN_COMPACT_HEADER_BYTES +
+                         (is_narrow ? 8.0 : 10.0) * (n + 1 + repeats) + 2.0 * repeats;
+    CHECK(bytes <= (is_narrow ? 8.5 : 10.5) * n + 300);
+    CHECK(repeats <= 4 + n / 300);
+  };
+  for (const uint32_t n : {250u, 1000u, 10000u}) {
+    const Tin tin = rolling_tin(n, n);
+    check_size(tin, false);
+    check_size(with_voids(tin), false);
+    Tin narrow = tin;
+    Random random(n);
+    narrow.vertices.clear();
+    for (const Point p : uniform_points(n, random, 256)) narrow.vertices.push_back({p.x, p.y, 5});
+    check_size(narrow, true);
+  }
+  for (const PointSet& set : point_sets(1000, 8)) {
+    CAPTURE(set.name);
+    const Compact compact(encode(wild_tin(set.points), Metadata(), Effort{10, 2}), 0x7FFFFFFF);
+    const uint32_t n = microtin_compact_vertex_count(compact.get());
+    CHECK(compact.needs().bytes <= MICROTIN_COMPACT_BYTES(n));
+    CHECK(compact.needs().scratch <= MICROTIN_COMPACTOR_BYTES(n));
+  }
+}
+
+TEST_CASE("a compact terrain may be copied to another place") {
+  const Bytes stream = terrain_stream(300, 4);
+  Bytes copy;
+  {
+    const Compact compact(stream);
+    copy = compact.bytes();
+  }
+  Workspace elsewhere(copy.size());
+  std::memcpy(elsewhere.begin(), copy.data(), copy.size());
+  Random random(4);
+  CHECK(difference(decoded(stream)->mesh, static_cast<microtin_compact*>(elsewhere.begin()), 500,
+                   random) == "");
+}
+
+TEST_CASE("compact terrains: arguments, and meshes that are not verified") {
+  const Bytes stream = terrain_stream(900, 6);
+  const Device device(900);
+  Workspace space(40000), scratch(40000);
+  uint8_t* const begin = static_cast<uint8_t*>(space.begin());
+  microtin_compactor* compactor = nullptr;
+  const auto begins = [&](void* target, microtin_mesh* mesh, void* with, size_t size) {
+    return microtin_compact_begin(target, space.size(), mesh, with, size, &compactor);
+  };
+  CHECK(begins(begin, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_ARGUMENT);  // empty
+  size_t used = 0;
+  microtin_stop_after_phase(device.decoder, 100);
+  REQUIRE(device.feed(stream.data(), stream.size(), &used, 300) == MICROTIN_STEP_LIMIT);
+  CHECK(begins(begin, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_ARGUMENT);
+  device.feed(stream.data() + used, stream.size() - used, &used);
+  REQUIRE(device.vertices() > 800);
+  CHECK(begins(nullptr, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_ARGUMENT);
+  CHECK(begins(begin, nullptr, scratch.begin(), scratch.size()) == MICROTIN_ARGUMENT);
+  CHECK(begins(begin, device.mesh, nullptr, scratch.size()) == MICROTIN_ARGUMENT);
+  CHECK(begins(begin + 4, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_MISALIGNED);
+  CHECK(begins(begin, device.mesh, scratch.begin(), 300) == MICROTIN_WORKSPACE_TOO_SMALL);
+  CHECK(compactor == nullptr);
+  REQUIRE(begins(begin, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_DONE);
+  microtin_compact* compact = nullptr;
+  CHECK(microtin_compact_proceed(compactor, 1, nullptr) == MICROTIN_ARGUMENT);
+  CHECK(microtin_compact_proceed(nullptr, 1, &compact) == MICROTIN_ARGUMENT);
+  CHECK(microtin_compact_proceed(compactor, 0, &compact) == MICROTIN_DONE);
+  CHECK(microtin_compact_proceed(compactor, 1, &compact) == MICROTIN_DONE);  // said again
+  CHECK(compact == space.begin());
+}
+
+TEST_CASE("the C++ face of compact terrains") {
+  const Bytes stream = terrain_stream(500, 9);
+  static Terrain<500> terrain;
+  static Decoder<500> decoder(terrain);
+  static CompactTerrain<500> compact;
+  CHECK(compact.compact() == nullptr);
+  size_t used = 0;
+  REQUIRE(decoder.feed(stream.data(), stream.size(), &used) == MICROTIN_DONE);
+  const uint64_t digest = terrain.digest();
+  const uint32_t vertices = terrain.vertices();
+  REQUIRE(compact.make(terrain, decoder) == MICROTIN_DONE);
+  CHECK(compact.vertices() == vertices);
+  CHECK(compact.digest() == digest);
+  uint32_t hint = compact.hint(500 * 256, 500 * 256);
+  int32_t height = 0;
+  CHECK(compact.height_at(500 * 256, 500 * 256, &hint, &height) == MICROTIN_HEIGHT);
+}
+
 }  // namespace microtin
