@@ -271,6 +271,21 @@ TEST_CASE("compact terrains of ours fit what the macros say, 9.5 or 11.5 bytes a
   }
 }
 
+TEST_CASE("compact terrains: boxes of 255 steps are narrow, of 256 wide") {
+  for (const int32_t width : {255, 256}) {
+    for (const int32_t height : {255, 256}) {
+      const Tin tin = wild_tin({point(700, 900), point(700 + width, 900), point(700, 900 + height),
+                                point(700 + width, 900 + height), point(800, 1000)});
+      const Bytes stream = encode(tin, Metadata());
+      check(stream, 1);
+      const bool is_narrow = width == 255 && height == 255;
+      const size_t y_bytes = is_narrow ? 0 : 2 * 6;
+      CHECK(Compact(stream).needs().bytes ==
+            MICROTIN_COMPACT_HEADER_BYTES + 6 * (2 * sizeof(Index) + 4) + y_bytes);
+    }
+  }
+}
+
 TEST_CASE("a compact terrain may be copied to another place") {
   const Bytes stream = terrain_stream(300, 4);
   Bytes copy;
