@@ -21,7 +21,13 @@ BUDGET, README = HERE / "budget.json", HERE.parent.parent / "README.md"
 DECODING = ["peek", "mesh_init", "decoder_init", "feed", "finish"]
 QUERIES = ["height_at", "to_lattice", "vertex", "triangle", "neighbour", "digest"]
 BUCKETS = ["buckets_init", "buckets_hint"]
-USES = {"decoding": DECODING, "queries": DECODING + QUERIES, "buckets": DECODING + QUERIES + BUCKETS}
+COMPACT = ["compact_begin", "compact_proceed", "compact_needs", "compact_height_at", "compact_hint"]
+USES = {
+    "decoding": DECODING,
+    "queries": DECODING + QUERIES,
+    "buckets": DECODING + QUERIES + BUCKETS,
+    "compact": DECODING + COMPACT,
+}
 
 
 # --- Measuring ------------------------------------------------------------------------------------
@@ -65,8 +71,11 @@ def measure_library(options, library):
     if options.stack:
         graphs = [str(Path(o).with_suffix(".ci")) for o in options.objects[library].split(":")]
         graphs = [graph for graph in graphs if Path(graph).exists()]
+        image = str(options.build / "linked")
+        link(options, library, DECODING + QUERIES + BUCKETS + COMPACT, image)
         calls = stack.Stack(options.target, options.objdump, image, graphs)
-        for use, entries in (("decoding", DECODING), ("queries", QUERIES), ("buckets", BUCKETS)):
+        own = {"decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT}
+        for use, entries in own.items():
             result["stack_" + use] = max(calls.depth("microtin_" + entry) for entry in entries)
     return result
 
@@ -86,7 +95,8 @@ def measure_images(options, level):
     }
     numbers = {f"decode_levels{n}": printed[f"tile_levels{n}"].pop("decode_per_vertex") for n in (1, 2, 3)}
     numbers |= printed["tile_levels2"]
-    numbers["worst_step"] = max(p["worst_step"] for p in printed.values())
+    for name in ("worst_step", "compact_worst_step"):
+        numbers[name] = max(p[name] for p in printed.values())
     return numbers
 
 
@@ -149,12 +159,12 @@ def table(head, rows):
 def code_table(budget):
     head = ["target"]
     for level in ("-Os", "-O2"):
-        head += [f"{level}: decoding", "and queries", "and buckets", "stack"]
+        head += [f"{level}: decoding", "and queries", "and buckets", "compact instead", "stack"]
     rows = []
     for target, numbers in budget.items():
         row = [target]
         for level in (numbers["Os"], numbers["O2"]):
-            row += [f"{count(level[u]['text'])} + {count(level[u]['rodata'])}" for u in USES]
+            row += [f"{count(level[u]['text'])} + {count(level[u]['rodata'])}" if u in level else "-" for u in USES]
             row.append(count(level["stack_decoding"]) if "stack_decoding" in level else "-")
         rows.append(row)
     return table(head, rows)
@@ -167,8 +177,14 @@ RUN_ROWS = {
     "worst_step": "dearest step of decoding that a stream made for it causes",
     "warm": "height on a straight path: mean, worst",
     "cold": "height anywhere, from hint 0: mean, worst",
+    "far": "... from where the last one was: mean, worst",
     "buckets": "... from a hint of 45 x 45 buckets: mean, worst",
     "buckets_build": "building these buckets, once",
+    "compact_make": "making a compact terrain, per vertex",
+    "compact_worst_step": "dearest step of that",
+    "compact_warm": "compact: height on a straight path: mean, worst",
+    "compact_far": "... height anywhere, from where the last one was: mean, worst",
+    "compact_found": "... from a hint of microtin_compact_hint: mean, worst",
 }
 
 
@@ -181,8 +197,8 @@ def run_table(budget):
     }
     rows = []
     for name, title in RUN_ROWS.items():
-        keys = [name] if f"{name}_mean" not in next(iter(runs.values())) else [f"{name}_mean", f"{name}_worst"]
-        rows.append([title] + [", ".join(count(run[key]) for key in keys) for run in runs.values()])
+        keys = [f"{name}_mean", f"{name}_worst"] if title.endswith("mean, worst") else [name]
+        rows.append([title] + [", ".join(count(run[key]) if key in run else "-" for key in keys) for run in runs.values()])
     return table(["instructions", *runs], rows)
 
 
@@ -190,8 +206,9 @@ def ram_table(budget):
     run = budget["cortex-m4"]["Os"]["run"]
     rows = []
     for capacity in (250, 1000, 10000):
-        rows.append([count(n) for n in (capacity, run[f"ram_terrain_{capacity}"], run[f"ram_decoder_{capacity}"])])
-    return table(["vertices", "terrain, kept", "decoder, only while decoding"], rows)
+        kinds = ("terrain", "decoder", "compact", "narrow")
+        rows.append([count(n) for n in (capacity, *(run[f"ram_{kind}_{capacity}"] for kind in kinds))])
+    return table(["vertices", "terrain, kept", "decoder, only while decoding", "compact terrain", "... narrow"], rows)
 
 
 def paragraph(text):

@@ -82,11 +82,23 @@ struct FinePlace {
   int32_t x, y;
 };
 
-// Bytes of RAM of the objects for so many vertices.
+// Bytes of RAM of an object.
+template <class Object>
+void say_ram(const char* kind, uint32_t capacity) {
+  microtin::print(put_char, "ram_");
+  microtin::print(put_char, kind);
+  microtin::print(put_char, "_");
+  microtin::print(put_char, capacity);
+  say("", sizeof(Object));
+}
+
+// Of the objects for so many vertices.
 template <uint32_t Capacity>
-void say_ram(const char* terrain, const char* decoder) {
-  say(terrain, sizeof(microtin::Terrain<Capacity>));
-  say(decoder, sizeof(microtin::Decoder<Capacity>));
+void say_ram() {
+  say_ram<microtin::Terrain<Capacity>>("terrain", Capacity);
+  say_ram<microtin::Decoder<Capacity>>("decoder", Capacity);
+  say_ram<microtin::CompactTerrain<Capacity>>("compact", Capacity);
+  say_ram<microtin::CompactTerrain<Capacity, true>>("narrow", Capacity);
 }
 
 // Anywhere in the box.
@@ -159,9 +171,9 @@ struct CompactFace {
 }  // namespace
 
 int firmware_main() {
-  say_ram<250>("ram_terrain_250", "ram_decoder_250");
-  say_ram<1000>("ram_terrain_1000", "ram_decoder_1000");
-  say_ram<10000>("ram_terrain_10000", "ram_decoder_10000");
+  say_ram<250>();
+  say_ram<1000>();
+  say_ram<10000>();
 
   static TerrainOfTile terrain;
   say("worst_step", dearest_step(terrain));
@@ -192,8 +204,7 @@ int firmware_main() {
   const CompactFace face;
   measure_heights<Straight>("compact_warm_mean", "compact_warm_worst", box, face, face,
                             Start::kLast);
-  measure_heights<Anywhere>("compact_far_mean", "compact_far_worst", box, face, face,
-                            Start::kLast);
+  measure_heights<Anywhere>("compact_far_mean", "compact_far_worst", box, face, face, Start::kLast);
   measure_heights<Anywhere>("compact_found_mean", "compact_found_worst", box, face, face,
                             Start::kFound);
   return 0;
