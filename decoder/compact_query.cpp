@@ -118,6 +118,9 @@ class RingCursor {
     const Point p = place_of(ring_, i);
     return Vertex{p.x, p.y, ring_.node[i].z};
   }
+  MICROTIN_IN_PLACE uint32_t corner(uint32_t i) const {
+    return i == 0 ? from_ : i == 1 ? to_ : apex();
+  }
 
  private:
   void set(uint32_t middle, uint32_t side) {
@@ -241,9 +244,10 @@ uint64_t microtin_compact_digest(const microtin_compact* compact) {
   for (uint32_t t = 0; t < triangle_count(r); ++t) {
     const RingCursor cursor = cursor_at(r, t);
     if (cursor.is_ghost() || !cursor.may_stop()) continue;
-    const Vertex corner[3] = {on_lattice(compact, cursor.vertex(cursor.start())),
-                              on_lattice(compact, cursor.vertex(cursor.end())),
-                              on_lattice(compact, cursor.vertex(cursor.apex()))};
+    Vertex corner[3];
+    for (uint32_t i = 0; i < 3; ++i) {
+      corner[i] = on_lattice(compact, cursor.vertex(cursor.corner(i)));
+    }
     sum += triangle_digest(corner, !cursor.has_terrain());
   }
   return sum;

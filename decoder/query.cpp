@@ -47,8 +47,8 @@ uint64_t microtin_digest(const microtin_mesh* mesh) {
   for (Index t = 0; t < mesh->mesh.triangles; ++t) {
     if (is_ghost(mesh->mesh, t)) continue;
     const MeshCursor cursor = cursor_at(*mesh, t);
-    const Vertex corner[3] = {cursor.vertex(cursor.start()), cursor.vertex(cursor.end()),
-                              cursor.vertex(cursor.apex())};
+    Vertex corner[3];
+    for (uint32_t i = 0; i < 3; ++i) corner[i] = cursor.vertex(cursor.corner(i));
     sum += triangle_digest(corner, !cursor.has_terrain());
   }
   return sum;

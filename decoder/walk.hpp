@@ -8,6 +8,7 @@
 //   cross_next(), cross_last()  ... beyond end() -> apex(), beyond apex() -> start(), or into what
 //                               is no triangle of the mesh, where may_stop() is false
 //   turn()                      to the next half-edge of the triangle
+//   corner(0), (1), (2)         the same three, counter-clockwise from any
 //   place(number), vertex(number)   of a finite vertex
 #ifndef MICROTIN_DECODER_WALK_HPP
 #define MICROTIN_DECODER_WALK_HPP
@@ -82,8 +83,8 @@ MICROTIN_OUT_OF_LINE inline bool touches_terrain(Cursor cursor, FinePoint p) {
 template <class Cursor>
 inline microtin_answer answer_at(const Cursor& cursor, FinePoint p, int32_t* height) {
   if (!cursor.has_terrain() && !touches_terrain(cursor, p)) return MICROTIN_IN_VOID;
-  *height = height_in_triangle(cursor.vertex(cursor.start()), cursor.vertex(cursor.end()),
-                               cursor.vertex(cursor.apex()), p);
+  *height = height_in_triangle(cursor.vertex(cursor.corner(0)), cursor.vertex(cursor.corner(1)),
+                               cursor.vertex(cursor.corner(2)), p);
   return MICROTIN_HEIGHT;
 }
 
@@ -108,6 +109,9 @@ class MeshCursor {
   void cross_last() { h_ = mesh_.twin[previous_in_triangle(h_)]; }
   void turn() { h_ = next_in_triangle(h_); }
   Point place(uint32_t v) const { return Point{mesh_.x[v], mesh_.y[v]}; }
+  MICROTIN_IN_PLACE Index corner(uint32_t i) const {
+    return mesh_.origin[first_edge(triangle()) + i];
+  }
   Vertex vertex(uint32_t v) const { return Vertex{mesh_.x[v], mesh_.y[v], mesh_.z[v]}; }
 
  private:

@@ -119,7 +119,7 @@ uint32_t sum_of_probes(const ProbeBox& box, HeightAt height_at) {
 }
 
 // Makes the compact form of a mesh in its place, in calls of a few steps: whether it answers as the
-// mesh did, or the mesh is too small for that.
+// mesh did, or the mesh is too small for that or, by a few vertices, too large.
 inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size_t scratch_size) {
   const ProbeBox box = probe_box(mesh);
   const uint64_t digest = microtin_digest(mesh);
@@ -134,7 +134,9 @@ inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size
   do {
     status = microtin_compact_proceed(compactor, 5, &compact);
   } while (status == MICROTIN_STEP_LIMIT);
-  if (status != MICROTIN_DONE) return microtin_vertex_count(mesh) < 100;
+  const uint32_t n = microtin_vertex_count(mesh);
+  if (status == MICROTIN_WORKSPACE_TOO_SMALL) return n < 100;
+  if (status == MICROTIN_TOO_BIG) return n + 10 > MICROTIN_MAX_VERTICES;
   return microtin_compact_digest(compact) == digest &&
          sum == sum_of_probes(box, [compact](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
            return microtin_compact_height_at(compact, x, y, 0, hint, z);
