@@ -38,7 +38,8 @@ struct microtin_compactor {
   uint8_t* triangles;      // a bit each: to the left of the path
   uint8_t* vertices;       // a bit each: on the path
   microtin::Index* order;  // by position: a vertex or, with kRingFlag, the position it repeats
-  uint8_t* body;  // where it is written: in the target or, if that is the mesh, over its twins
+  microtin::RingNode*
+      body;  // where it is written: in the target or, if that is the mesh, over its twins
   microtin::Index* repeat;  // there, the next to be listed
   uint16_t* y;              // ... of the first position
   microtin::Mesh mesh;      // the source's
@@ -49,6 +50,7 @@ struct microtin_compactor {
   microtin_compact header;
 };
 
+static_assert(sizeof(microtin_compactor) % sizeof(microtin::Index) == 0, "numbers follow it");
 static_assert(sizeof(microtin_compactor) + 8 <= MICROTIN_COMPACTOR_HEADER_BYTES, "see compact.h");
 
 namespace microtin {
@@ -72,10 +74,6 @@ bool is_left(const Compactor& c, Index half_edge) {
 uint32_t bit_bytes(uint32_t vertices) {
   const uint32_t bytes = (vertices + 7) / 8 + (2 * vertices + 7) / 8;
   return (bytes + sizeof(Index) - 1) / sizeof(Index) * sizeof(Index);
-}
-
-RingNode* nodes_of(const Compactor& c) {
-  return reinterpret_cast<RingNode*>(c.body);
 }
 
 // --- Each handles one item; true if it was the last.
@@ -175,7 +173,7 @@ bool put_node(Compactor& c) {
   if ((v & kRingFlag) != 0) v = c.order[v & kRingNumber];
   if (i == 0) v = 0;  // of infinity, any
   const Point at = point_of(mesh, v);
-  RingNode& node = nodes_of(c)[i];
+  RingNode& node = c.body[i];
   node.look[0] = node.look[1] = 0;
   node.z = mesh.z[v];
   if (c.header.is_narrow != 0) {
@@ -193,7 +191,7 @@ void put(Compactor& c, uint32_t side, uint32_t low, uint32_t middle, uint32_t hi
   const bool has_left = low + 1 != middle, has_right = middle + 1 != high;
   uint32_t value = has_right ? high : low;
   if (has_left == has_right) value = has_left ? n + high : 2 * n;
-  nodes_of(c)[middle].look[side] = static_cast<Index>(value | flag);
+  c.body[middle].look[side] = static_cast<Index>(value | flag);
 }
 
 // A triangle of the mesh, whose corners are positions now.
@@ -239,12 +237,12 @@ bool put_slit(Compactor& c) {
 // that is a right child: one further up is an item, too, so that there are at most two for each.
 bool put_leaf(Compactor& c) {
   const uint32_t side = c.work == Work::kLeft ? 0 : 1, middle = c.cursor, n = c.header.positions;
-  Index& slot = nodes_of(c)[middle].look[side];
+  Index& slot = c.body[middle].look[side];
   const uint32_t seen = slot & kRingNumber;
   if (seen >= 2 * n) {
     slot = static_cast<Index>(slot + c.full_low);
   } else if (seen >= n) {
-    const uint32_t above = nodes_of(c)[c.low].look[side] & kRingNumber;
+    const uint32_t above = c.body[c.low].look[side] & kRingNumber;
     if (above == middle || above == n + middle) {
       c.low = c.order[c.low];
       return false;
@@ -259,8 +257,9 @@ bool put_leaf(Compactor& c) {
 // Eight bytes. The body ends where it begins, or further ahead.
 bool move(Compactor& c) {
   uint8_t* const to = reinterpret_cast<uint8_t*>(c.target + 1);
+  const uint8_t* const from = reinterpret_cast<const uint8_t*>(c.body);
   for (uint32_t i = 0; i < 8 && c.cursor != c.body_bytes; ++i, ++c.cursor) {
-    to[c.cursor] = c.body[c.cursor];
+    to[c.cursor] = from[c.cursor];
   }
   return c.cursor == c.body_bytes;
 }
@@ -316,7 +315,7 @@ microtin_status measure(Compactor& c) {
     header.south = c.least.y;
   }
   c.body_bytes = body_bytes(header);
-  c.repeat = reinterpret_cast<Index*>(nodes_of(c) + header.positions);
+  c.repeat = reinterpret_cast<Index*>(c.body + header.positions);
   c.y = reinterpret_cast<uint16_t*>(c.repeat + repeats_of(header));
   if (!has_room_for(header.positions)) return MICROTIN_TOO_BIG;
   const bool fits = c.body_bytes <= c.body_most && header.positions <= c.order_most;
@@ -327,7 +326,7 @@ microtin_status measure(Compactor& c) {
 Work work_after(const Compactor& c) {
   Work next = static_cast<Work>(static_cast<uint8_t>(c.work) + 1);
   if (next == Work::kSlits && c.header.positions == c.header.vertices + 1) next = Work::kLeft;
-  if (next == Work::kMove && c.body == reinterpret_cast<uint8_t*>(c.target + 1)) {
+  if (next == Work::kMove && c.body == reinterpret_cast<RingNode*>(c.target + 1)) {
     next = Work::kComplete;
   }
   return next;
@@ -382,10 +381,10 @@ microtin_status go_on(Compactor& c) {
 // Where the body is written, and how much room is there: over the twins if the target is the mesh,
 // since nothing needs these once corners have numbers.
 void find_room(Compactor& c, size_t size) {
-  c.body = reinterpret_cast<uint8_t*>(c.target + 1);
+  c.body = reinterpret_cast<RingNode*>(c.target + 1);
   c.body_most = size < sizeof(microtin_compact) ? 0 : size - sizeof(microtin_compact);
   if (static_cast<void*>(c.target) != c.source) return;
-  c.body = reinterpret_cast<uint8_t*>(c.mesh.twin);
+  c.body = reinterpret_cast<RingNode*>(c.mesh.twin);
   const size_t twins = 6 * static_cast<size_t>(c.source->capacity) * sizeof(Index);
   if (twins < c.body_most) c.body_most = twins;
 }
@@ -420,7 +419,7 @@ microtin_status microtin_compact_begin(void* workspace, size_t size, microtin_me
   c.target = static_cast<microtin_compact*>(workspace);
   c.triangles = reinterpret_cast<uint8_t*>(&c + 1);
   c.vertices = c.triangles + (2 * n + 7) / 8;
-  c.order = reinterpret_cast<Index*>(c.triangles + bit_bytes(n));
+  c.order = static_cast<Index*>(scratch) + order_at / sizeof(Index);
   c.order_most = (scratch_size - order_at) / sizeof(Index);
   c.ringed = 2;  // infinity, and the vertex where the expansion starts
   c.least = Point{kLatticeMax, kLatticeMax};

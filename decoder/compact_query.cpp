@@ -10,14 +10,41 @@ namespace {
 constexpr uint32_t kSamples = 16;
 constexpr uint32_t kFinest = 4;
 
-// The middle of the triangle below the edge (a, c) if that is full: a + 1 is the least of all
-// below, and comes to lie below ever wider edges (a, high).
-MICROTIN_OUT_OF_LINE uint32_t full_below(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
-  uint32_t middle = a + 1;
-  for (uint32_t high = high_of(r, middle, side); high != c; high = high_of(r, middle, side)) {
-    middle = high;
+// The middle of the triangle below the edge (a, c), looked for from both ends: one that lies below
+// an edge (a, high), and the most of all below, c - 1, up to what has its least corner at a. A look
+// at each in turn, so that all are at most twice as many as there are triangles below the smaller
+// child.
+MICROTIN_OUT_OF_LINE uint32_t far_below(const Ring& r, uint32_t least, uint32_t a, uint32_t c,
+                                        uint32_t side) {
+  const uint32_t n = r.positions;
+  uint32_t most = c - 1, at = most, high = high_of(r, least, side);
+  for (; high != c; high = high_of(r, least, side)) {
+    least = high;
+    const uint32_t seen = look(r, at, side);
+    const bool is_leaf = seen >= 2 * n;
+    if (!is_leaf && (at != most || seen >= n)) {
+      ++at;  // the low of a full triangle: see low_of_full
+      continue;
+    }
+    uint32_t low = most - 1;
+    if (at != most) low = seen - 2 * n;
+    if (!is_leaf && seen < most) low = seen;
+    if (low == a) return most;
+    most = at = low;
   }
-  return middle;
+  return least;
+}
+
+// ... if that is full: a + 1 is the least of all below, and what it belongs to comes to lie below
+// ever wider edges (a, high). Mostly it is near.
+MICROTIN_OUT_OF_LINE uint32_t full_below(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
+  uint32_t least = a + 1;
+  for (uint32_t looks = 0; looks < 5; ++looks) {
+    const uint32_t high = high_of(r, least, side);
+    if (high == c) return least;
+    least = high;
+  }
+  return far_below(r, least, a, c, side);
 }
 
 // The third corner below the edge (a, c) inside a side: the middle.
