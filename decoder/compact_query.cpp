@@ -14,7 +14,7 @@ constexpr uint32_t kFinest = 4;
 // an edge (a, high), and the most of all below, c - 1, up to what has its least corner at a. A look
 // at each in turn, so that all are at most twice as many as there are triangles below the smaller
 // child.
-MICROTIN_OUT_OF_LINE uint32_t far_below(const Ring& r, uint32_t least, uint32_t a, uint32_t c,
+MICROTIN_ONE_COPY uint32_t far_below(const Ring& r, uint32_t least, uint32_t a, uint32_t c,
                                         uint32_t side) {
   const uint32_t n = r.positions;
   uint32_t most = c - 1, at = most, high = high_of(r, least, side);
@@ -37,7 +37,7 @@ MICROTIN_OUT_OF_LINE uint32_t far_below(const Ring& r, uint32_t least, uint32_t 
 
 // ... if that is full: a + 1 is the least of all below, and what it belongs to comes to lie below
 // ever wider edges (a, high). Mostly it is near.
-MICROTIN_OUT_OF_LINE uint32_t full_below(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
+MICROTIN_IN_PLACE inline uint32_t full_below(const Ring& r, uint32_t a, uint32_t c, uint32_t side) {
   uint32_t least = a + 1;
   for (uint32_t looks = 0; looks < 5; ++looks) {
     const uint32_t high = high_of(r, least, side);
