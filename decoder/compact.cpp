@@ -339,7 +339,7 @@ void begin_numbering(Compactor& c) {
 }
 
 // Once nothing needs the mesh; what is moved may come to lie over it.
-void empty_mesh(microtin_mesh& m) {
+void give_up(microtin_mesh& m) {
   m.mesh.vertices = 0;
   m.mesh.triangles = 0;
   m.verified_vertices = 0;
@@ -372,7 +372,7 @@ microtin_status go_on(Compactor& c) {
     c.cursor = 1;
     c.low = c.full_low = 0;
   }
-  if (c.work >= Work::kMove) empty_mesh(*c.source);
+  if (c.work >= Work::kMove) give_up(*c.source);
   if (c.work != Work::kComplete) return MICROTIN_STEP_LIMIT;
   copy_header(c.target, c.header);
   return MICROTIN_DONE;

@@ -15,7 +15,7 @@ constexpr uint32_t kFinest = 4;
 // at each in turn, so that all are at most twice as many as there are triangles below the smaller
 // child.
 MICROTIN_ONE_COPY uint32_t far_below(const Ring& r, uint32_t least, uint32_t a, uint32_t c,
-                                        uint32_t side) {
+                                     uint32_t side) {
   const uint32_t n = r.positions;
   uint32_t most = c - 1, at = most, high = high_of(r, least, side);
   for (; high != c; high = high_of(r, least, side)) {
