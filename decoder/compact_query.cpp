@@ -292,7 +292,8 @@ microtin_answer microtin_compact_height_at(const microtin_compact* compact, int3
   const int32_t most = static_cast<int32_t>(kLatticeMax) * 256;
   if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
   const Ring r = ring_of(compact);
-  const FinePoint p = {x - compact->west * 256, y - compact->south * 256};
+  const FinePoint corner = fine(Point{compact->west, compact->south});
+  const FinePoint p = {x - corner.x, y - corner.y};
   RingCursor cursor = start_at(r, *hint);
   const bool arrived = walk(cursor, p, step_limit == 0 ? triangle_count(r) : step_limit);
   *hint = number_of(cursor);
