@@ -71,9 +71,9 @@ bool is_left(const Compactor& c, Index half_edge) {
   return bit_of(c.triangles, triangle_of(half_edge));
 }
 
-uint32_t bit_bytes(uint32_t vertices) {
+size_t bit_bytes(uint32_t vertices) {
   const uint32_t bytes = (vertices + 7) / 8 + (2 * vertices + 7) / 8;
-  return (bytes + sizeof(Index) - 1) / sizeof(Index) * sizeof(Index);
+  return (static_cast<size_t>(bytes) + sizeof(Index) - 1) / sizeof(Index) * sizeof(Index);
 }
 
 // --- Each handles one item; true if it was the last.
@@ -447,5 +447,6 @@ void microtin_compact_needs(const microtin_compactor* compactor, size_t* bytes,
   const Compactor& c = *compactor;
   const uint32_t n = c.header.vertices;
   *bytes = sizeof(microtin_compact) + c.body_bytes;
-  *scratch_bytes = sizeof(Compactor) + bit_bytes(n) + c.header.positions * sizeof(Index);
+  *scratch_bytes =
+      sizeof(Compactor) + bit_bytes(n) + static_cast<size_t>(c.header.positions) * sizeof(Index);
 }

@@ -66,7 +66,9 @@ inline uint32_t repeats_of(const microtin_compact& header) {
 
 inline size_t body_bytes(const microtin_compact& header) {
   const size_t each = sizeof(RingNode) + (header.is_narrow != 0 ? 0u : sizeof(uint16_t));
-  return header.positions * each + repeats_of(header) * sizeof(Index);
+  // Less than the mesh takes, which is in memory: it fits.
+  return static_cast<size_t>(header.positions) * each +
+         static_cast<size_t>(repeats_of(header)) * sizeof(Index);
 }
 
 inline Ring ring_of(const microtin_compact* c) {
