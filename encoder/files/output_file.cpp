@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/standard_files.hpp"
@@ -53,7 +54,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
 }
 
 void OutputFile::open_temporary() {
-  const std::string name = target_ + ".part-" + std::to_string(getpid());
+  std::string name = target_ + ".part-" + std::to_string(getpid());
   struct stat old {};
   const bool replaces = stat(target_.c_str(), &old) == 0;
   const SignalsHeld held;
@@ -68,7 +69,7 @@ void OutputFile::open_temporary() {
     errno = error;
     fail();
   }
-  temporary_ = name;
+  temporary_ = std::move(name);  // nothing may throw from here on: the file would stay
   leftover_.emplace(temporary_);
 }
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "encoder/base/error.hpp"
-#include "encoder/stream/header.hpp"
 #include "encoder/exact/lattice_map.hpp"
+#include "encoder/stream/header.hpp"
 #include "shared/header.hpp"
 
 namespace microtin::stream {

@@ -107,7 +107,7 @@ struct Report {
   std::string max_error; /* measured, in the terrain's unit, rounded up to 9 decimals */
   std::string rms_error;
   std::string mean_error; /* above 0: the surface is too high */
-  std::string max_below; /* how far the surface is below a height at most */
+  std::string max_below;  /* how far the surface is below a height at most */
 };
 
 struct Stream {
