@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Queries on the tiles of a pack that are there. They only read, so they may interrupt anything.
+#include "decoder/axis.hpp"
 #include "decoder/pack_state.hpp"
 
 namespace microtin {
@@ -15,20 +16,12 @@ bool is_inside(const microtin_pack& p, int64_t x, int64_t y) {
          y <= static_cast<int64_t>(grid.y_max) * 256;
 }
 
-// How bad an answer is.
+// How bad an answer is. No switch: compilers make tables of those, which AVR would keep in RAM.
 int rank(microtin_answer answer) {
-  switch (answer) {
-    case MICROTIN_NOT_DECODED:
-      return 4;
-    case MICROTIN_IN_BAD_TILE:
-      return 3;
-    case MICROTIN_OUTSIDE:
-      return 2;
-    case MICROTIN_IN_VOID:
-      return 1;
-    default:
-      return 0;
-  }
+  if (answer == MICROTIN_NOT_DECODED) return 4;
+  if (answer == MICROTIN_IN_BAD_TILE) return 3;
+  if (answer == MICROTIN_OUTSIDE) return 2;
+  return answer == MICROTIN_IN_VOID ? 1 : 0;
 }
 
 microtin_answer worse(microtin_answer a, microtin_answer b) {
@@ -450,31 +443,10 @@ int microtin_pack_header(const microtin_pack* pack, microtin_pack_info* info) {
 
 int microtin_pack_to_lattice(const microtin_axis* axis, uint32_t most, int64_t value,
                              uint32_t per_unit, int64_t* lattice) {
-  const int64_t limit = static_cast<int64_t>(1) << 61;
-  if (per_unit == 0 || per_unit > (1ul << 24) || axis->numerator >> 30 != 0 ||
-      most > kPackExtentMost || axis->offset >= limit || axis->offset <= -limit) {
-    return 0;
-  }
-  const int64_t denominator = static_cast<int64_t>(axis->denominator);  // < 2^40
-  int64_t whole = value / per_unit, rest = value % per_unit;
-  if (rest < 0) {
-    rest += per_unit;
-    --whole;
-  }
-  if (whole > 2 * limit / denominator || whole < -2 * limit / denominator) return 0;
-  const uint64_t scaled = static_cast<uint64_t>(rest) * axis->denominator;  // < 2^64
-  // In parts of a step, numerator of them: below 2^62 + 2^61 + 2^40; and a rest / per_unit of one.
-  const int64_t parts =
-      whole * denominator - axis->offset + static_cast<int64_t>(scaled / per_unit);
-  if (parts < 0) return 0;
-  const uint64_t step = static_cast<uint64_t>(parts) / axis->numerator,
-                 over = static_cast<uint64_t>(parts) % axis->numerator;
-  if (step > most) return 0;
-  const uint64_t fraction = over * per_unit + scaled % per_unit;  // < 2^54 of 2^54
-  const uint64_t twice = fraction * 512 / (axis->numerator * per_unit);
-  const int64_t result = static_cast<int64_t>(step * 256 + (twice + 1) / 2);
-  if (result > static_cast<int64_t>(most) * 256) return 0;
-  *lattice = result;
+  if (axis->numerator >> 30 != 0 || most > kPackExtentMost) return 0;  // their product: < 2^61
+  const int64_t found = half_steps(*axis, most, value, per_unit);
+  if (found < 0) return 0;
+  *lattice = rounded_steps(found);
   return 1;
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Queries on a decoded mesh.
+#include "decoder/axis.hpp"
 #include "decoder/state.hpp"
 #include "decoder/walk.hpp"
 #include "shared/digest.hpp"
-#include "shared/division.hpp"
 #include "shared/header.hpp"
 
 namespace microtin {
@@ -93,42 +93,9 @@ void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_ax
 
 int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
                         int32_t* lattice) {
-  if (per_unit == 0 || per_unit > (1ul << 24)) return 0;
-  const uint64_t denominator = axis->denominator, numerator = axis->numerator;  // < 2^40
-  // lattice = (value / per_unit * denominator - offset) / numerator. Split into whole units, the
-  // most that are not above, and rest.
-  const bool negative = value < 0;
-  const Quotient units =
-      divide(negative ? ~static_cast<uint64_t>(value) : static_cast<uint64_t>(value), per_unit);
-  const uint64_t whole = negative ? units.whole + 1 : units.whole;  // the size of it
-  const uint64_t rest = negative ? per_unit - 1u - units.rest : units.rest;
-  // Places outside are refused before anything can overflow: those inside are within 65537
-  // numerators of the offset, so whole * denominator < 2^61 + 2^57.
-  const int64_t limit = static_cast<int64_t>(1) << 61;
-  if (highest_bit(whole | 1u) + highest_bit(denominator) > 62) return 0;
-  const uint64_t product = whole * denominator;  // < 2^64
-  if (product > 2 * static_cast<uint64_t>(limit)) return 0;
-  if (axis->offset >= limit || axis->offset <= -limit) return 0;
-  const int64_t ahead =
-      (negative ? -static_cast<int64_t>(product) : static_cast<int64_t>(product)) - axis->offset;
-  const Quotient part = divide(rest * denominator, per_unit);               // < 2^64; < 2^40
-  const int64_t one = static_cast<int64_t>(numerator), most = 65536 * one;  // < 2^56
-  if (ahead > most || ahead < -static_cast<int64_t>(denominator) - one) return 0;
-  const int64_t steps =
-      ahead + static_cast<int64_t>(part.whole);  // numerator-ths of a lattice step
-  // Round (steps + part.rest / per_unit) * 256 / numerator to nearest, halves up.
-  int64_t base = -1, over = steps + one;  // 0 <= over < numerator, or it is outside
-  if (steps >= 0) {
-    const Quotient places = divide(static_cast<uint64_t>(steps), numerator);
-    base = static_cast<int64_t>(places.whole);
-    over = static_cast<int64_t>(places.rest);
-  }
-  if (over < 0) return 0;
-  const uint64_t fine_numerator =
-      static_cast<uint64_t>(over) * 512u + divide(part.rest * 512u, per_unit).whole;  // < 2^50
-  const int64_t twice = static_cast<int64_t>(divide(fine_numerator, numerator).whole);
-  const int64_t result = base * 256 + (twice + 1) / 2;
-  if (result < 0 || result > static_cast<int64_t>(kLatticeMax) * 256) return 0;
-  *lattice = static_cast<int32_t>(result);
+  // Numerators are below 2^40.
+  const int64_t found = half_steps(*axis, kLatticeMax, value, per_unit);
+  if (found < -1) return 0;
+  *lattice = static_cast<int32_t>(rounded_steps(found));
   return 1;
 }

@@ -58,7 +58,7 @@ constexpr int32_t kOwnCap = 64, kBehindCap = 16;  // of a triangle's own circle,
 inline Cotangent cotangent(int32_t q, int32_t h, int32_t most) {
   const uint32_t bits = highest_bit(static_cast<uint32_t>(h));
   const uint32_t shift = bits > 11 ? bits - 11 : 0;
-  h >>= shift;  // below 2^12: the dividend fits
+  h = h >> shift;  // below 2^12: the dividend fits
   q = kept_within(q >> shift, -h * most, h * most);
   return q * (static_cast<int32_t>(1) << kCotangentBits) / h;
 }

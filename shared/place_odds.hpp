@@ -66,7 +66,7 @@ inline void estimate_repulsion(PlaceOdds& odds, const LegalPlaces& places, Log2 
   odds.reach = static_cast<int32_t>(rough_exp2(reach));
   const uint32_t bits = static_cast<uint32_t>(reach) >> 8;
   odds.reach_shift = bits > 14 ? bits - 14 : 0;
-  odds.factor = (255u << 16) / static_cast<uint32_t>(odds.reach >> odds.reach_shift);
+  odds.factor = 255u * 65536u / static_cast<uint32_t>(odds.reach >> odds.reach_shift);
 }
 
 // 0..511. `own` is what the triangle's circle covers of the column, |x|, |y| < 2^14.4.

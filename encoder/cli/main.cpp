@@ -30,6 +30,7 @@
 #include "encoder/files/standard_files.hpp"
 #include "encoder/picture/render.hpp"
 #include "encoder/stream/device_ram.hpp"
+#include "microtin/microtin.h"
 #include "shared/format.hpp"
 
 namespace microtin::cli {
@@ -78,81 +79,72 @@ void add_json(CLI::App& command, bool& json) {
   command.add_flag("--json", json, "Print JSON");
 }
 
-CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
-                        const std::string& description) {
+// An option whose text is read by `read`, which says whether it is what is `wanted`. Numbers and
+// lists are not left to CLI11: it takes 010 for 8 and the next argument for an item, and does not
+// say what it wanted.
+CLI::Option* add_read(CLI::App& command, const std::string& name,
+                      std::function<bool(const std::string&)> read, const std::string& wanted,
+                      const std::string& description) {
   return command.add_option_function<std::string>(
       name,
-      [&value, name](const std::string& text) {
-        value = parse_decimal(text);
-        if (!value) throw CLI::ValidationError(name, text + " is not a decimal number");
+      [name, read = std::move(read), wanted](const std::string& text) {
+        if (!read(text)) throw CLI::ValidationError(name, text + " is not " + wanted);
       },
       description);
+}
+
+CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
+                        const std::string& description) {
+  const auto read = [&value](const std::string& text) {
+    value = parse_decimal(text);
+    return value.has_value();
+  };
+  return add_read(command, name, read, "a decimal number", description);
 }
 
 CLI::Option* add_decimal(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
                          const std::string& description) {
-  return command.add_option_function<std::string>(
-      name,
-      [&value, name](const std::string& text) {
-        value = parse_decimal(text);
-        if (!value || value->mantissa < 0) {
-          throw CLI::ValidationError(name, text + " is not a decimal number from 0 on");
-        }
-      },
-      description);
+  const auto read = [&value](const std::string& text) {
+    value = parse_decimal(text);
+    return value && value->mantissa >= 0;
+  };
+  return add_read(command, name, read, "a decimal number from 0 on", description);
 }
 
-bool parse_number(const std::string& text, uint32_t& number) {
+bool read_number(std::string_view text, uint32_t& number) {
   const char* const end = text.data() + text.size();
   const auto [next, error] = std::from_chars(text.data(), end, number);
   return error == std::errc() && next == end;
 }
 
-bool parse_code(const std::string& text, uint32_t& code) {
-  return parse_number(text, code) && code != 0;
+bool read_code(std::string_view text, uint32_t& code) {
+  return read_number(text, code) && code != 0;
 }
 
-void set_epsg(const std::string& text, EncodeRequest& request) {
+bool read_epsg(std::string_view text, uint32_t& horizontal, uint32_t& vertical) {
   const size_t colon = text.find(':');
-  const bool horizontal = parse_code(text.substr(0, colon), request.horizontal_epsg);
-  const bool vertical =
-      colon == std::string::npos || parse_code(text.substr(colon + 1), request.vertical_epsg);
-  if (!horizontal || !vertical) {
-    throw CLI::ValidationError("--epsg", text + " is not a code, nor two with a colon between");
-  }
+  return read_code(text.substr(0, colon), horizontal) &&
+         (colon == std::string_view::npos || read_code(text.substr(colon + 1), vertical));
 }
 
-void set_tiles(const std::string& text, EncodeRequest& request) {
+bool read_tiles(std::string_view text, TileRange& range) {
   const size_t colon = text.find(':');
-  TileRange range{};
-  if (colon == std::string::npos || !parse_number(text.substr(0, colon), range.first) ||
-      !parse_number(text.substr(colon + 1), range.last) || range.last < range.first) {
-    throw CLI::ValidationError("--tiles", text + " is not FROM:TO, as 0:99");
-  }
-  request.tiles = range;
+  return colon != std::string_view::npos && read_number(text.substr(0, colon), range.first) &&
+         read_number(text.substr(colon + 1), range.last) && range.first <= range.last;
 }
 
-void add_classes(CLI::App& command, std::optional<ClassSet>& classes) {
-  command.add_option_function<std::string>(
-      "--classes",
-      [&classes](const std::string& text) {
-        ClassSet set;
-        std::string_view rest = text;
-        while (text != "all" && !rest.empty()) {
-          const size_t comma = std::min(rest.find(','), rest.size());
-          uint32_t code = 0;
-          const bool ends_well = comma + 1 != rest.size();
-          const auto [next, error] = std::from_chars(rest.data(), rest.data() + comma, code);
-          if (error != std::errc() || next != rest.data() + comma || code > 255 || !ends_well) {
-            throw CLI::ValidationError("--classes", text + " is not a list such as 2,9, nor all");
-          }
-          set.set(code);
-          rest.remove_prefix(std::min(comma + 1, rest.size()));
-        }
-        classes = text == "all" ? set.set() : set;
-      },
-      "Points to take from a .las file: their classes, 2,9 for instance, or all. If not given: the "
-      "ground (2) or, if there is none, all but noise (7, 18)");
+bool read_classes(std::string_view text, ClassSet& classes) {
+  if (text == "all") {
+    classes.set();
+    return true;
+  }
+  uint32_t code = 0;
+  for (size_t start = 0, end = 0; end != std::string_view::npos; start = end + 1) {
+    end = text.find(',', start);
+    if (!read_number(text.substr(start, end - start), code) || code >= classes.size()) return false;
+    classes.set(code);
+  }
+  return true;
 }
 
 void add_search(CLI::App& command, Search& search) {
@@ -200,10 +192,11 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
   command
       .add_option(
           "--device-ram", request.device_ram,
-          "Bytes that a device has for mesh and decoder, with 16-bit numbers up to 10,923 "
-          "vertices, with 32-bit numbers beyond. Alone: use the best vertices that fit; with "
-          "--max-error or --max-vertices: fail if the terrain does not fit. For a pack (.mtp): "
-          "tiles of which such a device keeps four and decodes one")
+          "Bytes that a device has for mesh and decoder, with 16-bit numbers up to " +
+              std::to_string(MICROTIN_MAX_VERTICES_FOR(16)) +
+              " vertices, with 32-bit numbers beyond. Alone: use the best vertices that fit; with "
+              "--max-error or --max-vertices: fail if the terrain does not fit. For a pack (.mtp): "
+              "tiles of which such a device keeps four and decodes one")
       ->excludes(&bytes)
       ->excludes(tile)
       ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));
@@ -211,7 +204,13 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
 
 // For encoding, and alike for every comparison with the source.
 void add_preparation(CLI::App& command, Preparation& preparation) {
-  add_classes(command, preparation.classes);
+  const auto read = [&preparation](const std::string& text) {
+    return read_classes(text, preparation.classes.emplace());
+  };
+  add_read(
+      command, "--classes", read, "a list such as 2,9, nor all",
+      "Points to take from a .las file: their classes, 2,9 for instance, or all. If not given: "
+      "the ground (2) or, if there is none, all but noise (7, 18)");
 #ifdef MICROTIN_WITH_GDAL
   command.add_flag_callback(
       "--allow-vrt", [&preparation] { preparation.indirect = Indirect::kAllowed; },
@@ -231,9 +230,11 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
 
 // What the header tells people.
 void add_notes(CLI::App& command, EncodeRequest& request) {
-  command.add_option_function<std::string>(
-      "--epsg", [&request](const std::string& text) { set_epsg(text, request); },
-      "Codes of the coordinates: horizontal, or horizontal:vertical");
+  const auto read = [&request](const std::string& text) {
+    return read_epsg(text, request.horizontal_epsg, request.vertical_epsg);
+  };
+  add_read(command, "--epsg", read, "a code, nor two with a colon between",
+           "Codes of the coordinates: horizontal, or horizontal:vertical");
   command.add_option("--source-text", request.source_text, "Where the terrain comes from");
   command
       .add_option("--date", request.date, "Of the source: 2026, 2026-11 or 2026-11-21 (ISO 8601)")
@@ -292,9 +293,11 @@ void add_encode(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand("encode", "Turn a terrain into a stream, or a pack");
   add_encode_options(command, request);
   add_output(command, request->output);
-  command.add_option_function<std::string>(
-      "--tiles", [request](const std::string& text) { set_tiles(text, *request); },
-      "FROM:TO: write a shard of a pack, with these of its tiles; merge joins them");
+  const auto read = [request](const std::string& text) {
+    return read_tiles(text, request->tiles.emplace());
+  };
+  add_read(command, "--tiles", read, "FROM:TO, as 0:99",
+           "FROM:TO: write a shard of a pack, with these of its tiles; merge joins them");
   command.callback([request, &action] {
     check_encode_options(*request);
     action = [request] { run_encode(*request); };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "encoder/base/error.hpp"
+#include "encoder/exact/mesh_vertex.hpp"
 
 namespace microtin::exporting {
 namespace {
@@ -75,9 +76,7 @@ SampledSurface sampled(const microtin_mesh* mesh) {
   SampledSurface surface;
   microtin_placement(mesh, &surface.placement.x, &surface.placement.y, &surface.placement.z);
   for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
-    uint16_t x = 0, y = 0;
-    int16_t z = 0;
-    microtin_vertex(mesh, v, &x, &y, &z);
+    const auto [x, y, z] = vertex_of(mesh, v);
     surface.x_min = v == 0 ? x : std::min<int64_t>(surface.x_min, x);
     surface.y_min = v == 0 ? y : std::min<int64_t>(surface.y_min, y);
     surface.x_max = std::max<int64_t>(surface.x_max, x);

@@ -9,6 +9,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
 #include "encoder/base/status_text.hpp"
+#include "encoder/exact/mesh_vertex.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/stream/notes.hpp"
 
@@ -55,9 +56,7 @@ void expect_done(microtin_status status) {
 
 void check_box(const microtin_mesh* mesh, const TileBox& box) {
   for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
-    Point p{};
-    int16_t z = 0;
-    microtin_vertex(mesh, v, &p.x, &p.y, &z);
+    const Vertex p = vertex_of(mesh, v);
     expect(p.x <= box.x_end - box.x && p.y <= box.y_end - box.y);
   }
 }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/exact/mesh_vertex.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/water.hpp"
 #include "shared/pack_format.hpp"
@@ -115,9 +116,8 @@ bool form_triangle(const std::vector<Sample>& samples) {
 void check_shared(const microtin_mesh* mesh, const TileSides& sides, const SharedVertices& shared) {
   std::size_t found = 0;
   for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
-    Point p{};
-    int16_t z = 0;
-    microtin_vertex(mesh, v, &p.x, &p.y, &z);
+    const auto [x, y, z] = vertex_of(mesh, v);
+    const Point p = {x, y};
     if (!sides.shares(p)) continue;
     const auto vertex = shared.find(p);
     if (vertex == shared.end() || vertex->second != z)

@@ -10,6 +10,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
+#include "encoder/exact/mesh_vertex.hpp"
 #include "encoder/stream/order.hpp"
 #include "encoder/stream/range_encoder.hpp"
 #include "encoder/stream/triangulation.hpp"
@@ -180,9 +181,7 @@ uint64_t fingerprint_of(const Mesh& mesh, const std::vector<Vertex>& vertices,
 
 uint64_t fingerprint_of(const microtin_mesh* mesh) {
   std::vector<Vertex> vertices(microtin_vertex_count(mesh));
-  for (uint32_t i = 0; i < vertices.size(); ++i) {
-    microtin_vertex(mesh, i, &vertices[i].x, &vertices[i].y, &vertices[i].z);
-  }
+  for (uint32_t i = 0; i < vertices.size(); ++i) vertices[i] = vertex_of(mesh, i);
   Fingerprint fingerprint(vertices);
   const uint32_t triangles = microtin_triangle_count(mesh);
   for (uint32_t t = 0; t < triangles; ++t) {

@@ -2,15 +2,15 @@
 // Copies vertices and triangles out of a mesh.
 #include "encoder/stream/surface_model.hpp"
 
+#include "encoder/exact/mesh_vertex.hpp"
+
 namespace microtin::stream {
 
 SurfaceModel model_of(const microtin_mesh* mesh) {
   SurfaceModel model;
   microtin_placement(mesh, &model.placement.x, &model.placement.y, &model.placement.z);
   for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
-    uint16_t x = 0, y = 0;
-    int16_t z = 0;
-    microtin_vertex(mesh, v, &x, &y, &z);
+    const auto [x, y, z] = vertex_of(mesh, v);
     model.vertices.push_back({x, y, z});
   }
   for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "encoder/exact/lattice_map.hpp"
+#include "encoder/exact/mesh_vertex.hpp"
 #include "shared/lattice.hpp"
 
 namespace microtin::terrain {
@@ -80,10 +81,8 @@ class Asker {
     for (uint32_t t = 0; t < triangles; ++t) {
       uint32_t v[3];
       if (microtin_triangle(mesh, t, v) == MICROTIN_GHOST) continue;
-      Point place{};
-      int16_t z = 0;
-      microtin_vertex(mesh, v[0], &place.x, &place.y, &z);
-      hint_for(place) = t;
+      const Vertex first = vertex_of(mesh, v[0]);
+      hint_for({first.x, first.y}) = t;
     }
   }
 

@@ -5,12 +5,11 @@
 #include <ctime>
 
 #include "encoder/base/error.hpp"
-#include "encoder/fit/approximation.hpp"
-#include "encoder/terrain/verify.hpp"
 #include "tests/bench/curves.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/layers.hpp"
 #include "tests/bench/table.hpp"
+#include "tests/support/approximations.hpp"
 
 namespace microtin::bench {
 namespace {
@@ -54,14 +53,7 @@ Result measure(const Source& source, const char* bound, Search search, bool neve
   LatticeOptions lattice;
   lattice.max_error = parse_decimal(bound);
   lattice.never_below = never_below;
-  SimplifyOptions options;
-  options.bounded = true;
-  options.search = search;
-  const Approximation found = approximate(source, lattice, options);
-  Metadata metadata;
-  metadata.placement = found.laid.placement;
-  const Encoding encoding = encode_and_decode(found.tin, metadata, options.effort);
-  const Verification verified = verify(encoding.decoded.mesh(), source, lattice.max_error);
+  const auto [found, encoding, verified] = approximated(source, lattice, search);
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   const bool below = never_below && verified.max_below.mantissa != 0;
   if (!verified.within_bound || verified.uncovered != 0 || below) throw Error("a bound is broken");

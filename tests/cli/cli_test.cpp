@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "microtin/microtin.h"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -467,4 +468,32 @@ TEST_CASE("cli: wrong usage is told apart") {
   const Session::Result help = session.run("encode --help");
   CHECK(help.code == 0);
   CHECK(contains(help.out, "--max-error"));
+  CHECK(contains(help.out, std::to_string(MICROTIN_MAX_VERTICES_FOR(16))));
+}
+
+TEST_CASE("cli: options tell what they want") {
+  const Session session;
+  const std::string number = "a decimal number from 0 on",
+                    epsg = "a code, nor two with a colon between", tiles = "FROM:TO, as 0:99",
+                    classes = "a list such as 2,9, nor all";
+  const auto refuses = [&](const std::string& option, const std::string& text,
+                           const std::string& wanted) {
+    CHECK(session.failure("encode ok.xyz -o o " + option + " '" + text + "'", 2) ==
+          option + ": " + text + " is not " + wanted + "\n");
+  };
+  for (const char* text : {"x", "nan", "-1", "1e99", ""}) refuses("--max-error", text, number);
+  refuses("--z-step", "1,5", number);
+  refuses("--water-level", "high", "a decimal number");
+  for (const char* text : {"0", "x", "1:", ":1", "1:0", "1:2:3", "-1", "0x10", "4294967296", ""}) {
+    refuses("--epsg", text, epsg);
+  }
+  for (const char* text : {"9", "3:2", "0:", ":9", "0:1:2", "0:-1", ""}) {
+    refuses("--tiles", text, tiles);
+  }
+  for (const char* text : {"2,", ",2", "2,,9", "256", "ground", "2 9", "all,2", ""}) {
+    refuses("--classes", text, classes);
+  }
+  for (const char* text : {"2026-02-30", "26-1-1", "yesterday"}) {
+    refuses("--date", text, "a date such as 2026-11-21");
+  }
 }

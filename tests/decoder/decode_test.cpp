@@ -91,7 +91,7 @@ TEST_CASE("workspaces are checked") {
 }
 
 TEST_CASE("a device needs at most 34 bytes a vertex and 3 KB, and keeps 31") {
-  for (const unsigned long n : {3ul, 250ul, 1000ul, 10923ul}) {
+  for (const unsigned long n : {3ul, 250ul, 1000ul, MICROTIN_MAX_VERTICES_FOR(16)}) {
     CHECK(MICROTIN_MESH_BYTES_FOR(n, 16) + MICROTIN_DECODER_BYTES_FOR(n, 16) <= 3072 + 34 * n);
     CHECK(MICROTIN_MESH_BYTES_FOR(n, 16) <= 3072 + 31 * n);
   }

@@ -9,7 +9,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/terrain/fractal.hpp"
-#include "encoder/terrain/verify.hpp"
+#include "tests/support/approximations.hpp"
 #include "tests/support/point_sets.hpp"
 
 using namespace microtin;
@@ -58,14 +58,7 @@ struct Found {
 };
 
 Found find(const Source& source, const LatticeOptions& lattice, Search search = Search::kFast) {
-  SimplifyOptions options;
-  options.bounded = true;
-  options.search = search;
-  const Approximation found = approximate(source, lattice, options);
-  Metadata metadata;
-  metadata.placement = found.laid.placement;
-  const Encoding encoding = encode_and_decode(found.tin, metadata, {});
-  const Verification measured = verify(encoding.decoded.mesh(), source, lattice.max_error);
+  const auto [found, encoding, measured] = approximated(source, lattice, search);
   CHECK(measured.within_bound);
   CHECK(measured.uncovered == 0);
   CHECK(measured.voids_answered == 0);

@@ -66,21 +66,44 @@
 (check-sat)
 (pop)
 
-; A real place on the lattice: whole units times the denominator, less the offset, fit 64 bits.
-;; decoder/query.cpp: if (product > 2 * static_cast<uint64_t>(limit)) return 0;
-;; decoder/query.cpp: (negative ? -static_cast<int64_t>(product) : static_cast<int64_t>(product)) - axis->offset;
+; A real place on an axis: whole units times the denominator, less the offset, with the parts of the rest and a step,
+; fit 64 bits; so do the first three of these alone.
+;; decoder/axis.cpp: if (whole > divide(static_cast<uint64_t>(1) << 62, denominator).whole) return outside;
+;; decoder/axis.cpp: const int64_t ahead = static_cast<int64_t>(part.whole + numerator) - axis.offset +
 (push)
 (declare-const product Int)
 (declare-const offset Int)
+(declare-const part Int)
+(declare-const numerator Int)
 (define-fun limit () Int 2305843009213693952)
 (assert (and (< (- limit) offset limit) (<= (* -2 limit) product (* 2 limit))))
+(assert (and (<= 0 part 1099511627776) (<= 1 numerator 1099511627776)))
+(define-fun before () Int (- (+ part numerator) offset))
 (check-sat)
-(assert (not (< -9223372036854775808 (- product offset) 9223372036854775808)))
+(assert (not (and (< -9223372036854775808 before 9223372036854775808)
+                  (< -9223372036854775808 (+ before product) 9223372036854775808))))
+(check-sat)
+(pop)
+
+; What is refused there is outside: a place from half a 1/256 step before the first to as much behind the last.
+;; decoder/axis.cpp: if (whole > divide(static_cast<uint64_t>(1) << 62, denominator).whole) return outside;
+(push)
+(declare-const product Int)
+(declare-const offset Int)
+(declare-const denominator Int)
+(declare-const numerator Int)
+(declare-const reach Int)
+(define-fun limit () Int 2305843009213693952)
+(assert (and (< (- limit) offset limit) (<= 1 denominator 1099511627776) (<= 1 numerator 1099511627776)))
+(assert (and (<= 0 reach) (< (+ reach numerator) limit)))
+(assert (<= (- offset numerator denominator) product (+ offset reach numerator)))
+(check-sat)
+(assert (not (<= (* -2 limit) product (* 2 limit))))
 (check-sat)
 (pop)
 
 ; ... and the rest of a unit, brought to the same, is a part below the denominator.
-;; decoder/query.cpp: const Quotient part = divide(rest * denominator, per_unit);               // < 2^64; < 2^40
+;; decoder/axis.cpp: part = divide(rest * denominator, per_unit);   // < 2^64; < 2^40
 (push)
 (declare-const per_unit Int)
 (declare-const rest Int)

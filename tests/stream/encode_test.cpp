@@ -12,6 +12,7 @@
 #include "encoder/stream/notes.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/point_sets.hpp"
+#include "tests/support/streams.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -156,14 +157,10 @@ TEST_CASE("placement and notes come back as they were given") {
   Random random(6);
   const Tin tin = tin_of(point_sets(20, 6)[0].points, random);
   CHECK(read_header(encode(tin, Metadata())).info.header_bytes <= 32);
-  Metadata given;
+  Metadata given = full_metadata();
   given.placement.x = {-9'223'372'036'854'775'807 - 1, 1, 1};
   given.placement.y = {9'223'372'036'854'775'807, (1ull << 40) - 1, (1ull << 40) - 1};
   given.placement.z = {-25, 1, 20};
-  given.horizontal_unit = Unit::kDegree;
-  given.vertical_unit = Unit::kMetre;
-  given.horizontal_epsg = 4326;
-  given.vertical_epsg = 5773;
   given.source = "a survey, 2019 \xC3\xA9";
   given.date = "2019-07";
   given.lineage = "noise removed";
