@@ -16,7 +16,7 @@ void write(const std::string& path, const Model& model, const Effort& effort = {
   file.commit();
 }
 
-std::string name_of(const Dataset& dataset) {
+std::string file_name_of(const Dataset& dataset) {
   const auto& bound = dataset.options.max_error;
   return std::string(dataset.name) + (bound ? "_" + to_string(*bound) : "");
 }
@@ -35,10 +35,10 @@ void write_streams(const std::string& folder) {
   write(path("3_uniform_1M"), {uniform_tin(1000000, 0), {}});
   const std::vector<Dataset> grids = rasters();
   for (const Dataset& dataset : grids) {
-    write(path(name_of(dataset)), simplified(read_raster(dataset), dataset.options));
+    write(path(file_name_of(dataset)), simplified(read_raster(dataset), dataset.options));
   }
   for (const Dataset& dataset : clouds()) {
-    write(path(name_of(dataset)), simplified(read_cloud(dataset), dataset.options));
+    write(path(file_name_of(dataset)), simplified(read_cloud(dataset), dataset.options));
   }
   constexpr uint32_t kTileVertices = 2000;
   if (!grids.empty()) {
