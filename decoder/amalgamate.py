@@ -44,11 +44,12 @@ def expanded(path, seen):
 
 def header():
     comment, c_face = parts(PUBLIC / "microtin/microtin.h")
-    pack, cpp_face, cpp_pack = (
-        INCLUDE.sub("", without_guard(PUBLIC / "microtin" / name)) for name in ("pack.h", "microtin.hpp", "pack.hpp")
+    compact, pack, cpp_face, cpp_pack = (
+        INCLUDE.sub("", without_guard(PUBLIC / "microtin" / name))
+        for name in ("compact.h", "pack.h", "microtin.hpp", "pack.hpp")
     )
     return (
-        f"{comment}#ifndef MICROTIN_H\n#define MICROTIN_H\n{c_face}\n{pack}"
+        f"{comment}#ifndef MICROTIN_H\n#define MICROTIN_H\n{c_face}\n{compact}\n{pack}"
         f"#ifdef __cplusplus\n\n{cpp_face}\n{cpp_pack}\n#endif\n\n#endif\n"
     )
 

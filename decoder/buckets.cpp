@@ -56,15 +56,15 @@ int32_t middle(uint32_t i, uint32_t side, uint16_t start, uint16_t extent) {
 }
 
 // To and fro, so that each walk starts beside where it ends.
-void fill(microtin_buckets* buckets, const Mesh& mesh) {
-  const uint32_t side = buckets->side;
+void fill(microtin_buckets* buckets, const microtin_mesh& mesh) {
+  const uint32_t side = buckets->side, triangles = mesh.mesh.triangles;
   Index t = 0;
   for (uint32_t row = 0; row < side; ++row) {
     const int32_t y = middle(row, side, buckets->south, buckets->height);
     for (uint32_t i = 0; i < side; ++i) {
       const uint32_t column = row % 2 == 0 ? i : side - 1 - i;
       const int32_t x = middle(column, side, buckets->west, buckets->width);
-      if (mesh.triangles != 0) walk_to(mesh, FinePoint{x, y}, mesh.triangles, &t);
+      if (triangles != 0) walk_to(mesh, FinePoint{x, y}, triangles, &t);
       triangles_of(buckets)[row * side + column] = t;
     }
   }
@@ -92,7 +92,7 @@ microtin_status microtin_buckets_init(void* workspace, size_t size, const microt
   microtin_buckets& b = *static_cast<microtin_buckets*>(workspace);
   b.side = side;
   measure(b, mesh->mesh);
-  fill(&b, mesh->mesh);
+  fill(&b, *mesh);
   *buckets = &b;
   return MICROTIN_DONE;
 }

@@ -221,14 +221,6 @@ static_assert(uint64_t{kMeshPerFour} * (MICROTIN_MAX_VERTICES + 3) <= UINT32_MAX
                   kDecoderPerFour <= kMeshPerFour,
               "products of capacity_of fit");
 
-MICROTIN_ONE_COPY void empty_mesh(microtin_mesh& m) {
-  m.mesh.vertices = 0;
-  m.mesh.triangles = 0;
-  m.verified_vertices = 0;
-  m.has_voids = false;
-  m.is_placed = false;
-}
-
 }  // namespace
 }  // namespace microtin
 

@@ -9,31 +9,6 @@
 namespace microtin {
 namespace {
 
-// The corner of a real triangle where a half-edge starts.
-Vertex corner_at(const Mesh& mesh, uint32_t half_edge) {
-  const Index v = mesh.origin[half_edge];
-  const Point at = point_of(mesh, v);
-  return Vertex{at.x, at.y, mesh.z[v]};
-}
-
-// The answer at p in the closed real triangle t. A vertex always knows its own height; on an edge,
-// terrain on either side is enough.
-microtin_answer answer_in(const microtin_mesh& m, Index t, FinePoint p, int32_t* height) {
-  const Mesh& mesh = m.mesh;
-  bool known = has_terrain(m, t);
-  const Index f = first_edge(t);
-  for (uint32_t i = 0; i < 3 && !known; ++i) {
-    const Index h = static_cast<Index>(f + i);
-    const FinePoint at = fine(point_of(mesh, mesh.origin[h]));
-    known = (at.x == p.x && at.y == p.y) || (side_of(mesh, h, next_in_triangle(h), p) == 0 &&
-                                             has_terrain(m, triangle_of(mesh.twin[h])));
-  }
-  if (!known) return MICROTIN_IN_VOID;
-  *height =
-      height_in_triangle(corner_at(mesh, f), corner_at(mesh, f + 1u), corner_at(mesh, f + 2u), p);
-  return MICROTIN_HEIGHT;
-}
-
 uint32_t public_vertex(Index v) {
   return v == kInfinity ? static_cast<uint32_t>(MICROTIN_INFINITY) : v;
 }
@@ -74,9 +49,9 @@ uint64_t microtin_digest(const microtin_mesh* mesh) {
   uint64_t sum = 0;
   for (Index t = 0; t < mesh->mesh.triangles; ++t) {
     if (is_ghost(mesh->mesh, t)) continue;
-    const Index f = first_edge(t);
-    const Vertex corner[3] = {corner_at(mesh->mesh, f), corner_at(mesh->mesh, f + 1u),
-                              corner_at(mesh->mesh, f + 2u)};
+    const MeshCursor cursor(*mesh, first_edge(t));
+    Vertex corner[3];
+    for (uint32_t i = 0; i < 3; ++i) corner[i] = cursor.vertex(cursor.corner(i));
     sum += triangle_digest(corner, !has_terrain(*mesh, t));
   }
   return sum;
@@ -99,11 +74,11 @@ microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x,
   if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
   const FinePoint p = {x, y};
   Index t = *hint < m.triangles ? static_cast<Index>(*hint) : static_cast<Index>(0);
-  const bool arrived = walk_to(m, p, step_limit == 0 ? m.triangles : step_limit, &t);
+  const bool arrived = walk_to(*mesh, p, step_limit == 0 ? m.triangles : step_limit, &t);
   *hint = t;
   if (!arrived) return MICROTIN_NOT_YET;
   if (is_ghost(m, t)) return MICROTIN_OUTSIDE;
-  return answer_in(*mesh, t, p, height);
+  return answer_at(MeshCursor(*mesh, first_edge(t)), p, height);
 }
 
 void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,

@@ -23,6 +23,14 @@ inline bool has_terrain(const microtin_mesh& m, Index t) {
   return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
 }
 
+MICROTIN_ONE_COPY inline void empty_mesh(microtin_mesh& m) {
+  m.mesh.vertices = 0;
+  m.mesh.triangles = 0;
+  m.verified_vertices = 0;
+  m.has_voids = false;
+  m.is_placed = false;
+}
+
 enum class Item : uint8_t {
   kIdentity,
   kLength,  // of the header, or of a section's payload

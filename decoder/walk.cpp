@@ -14,23 +14,10 @@ Index real_edge(const Mesh& mesh, Index triangle) {
 
 }  // namespace
 
-bool walk_to(const Mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle) {
-  Index h = real_edge(mesh, *triangle);
-  if (side_of(mesh, h, next_in_triangle(h), p) < 0) h = mesh.twin[h];
-  bool arrived = false;
-  for (uint32_t step = 0; step < step_limit && !arrived; ++step) {
-    // p does not lie beyond h.
-    const Index next = next_in_triangle(h), last = next_in_triangle(next);
-    const bool real = mesh.origin[last] != kInfinity;
-    if (real && side_of(mesh, next, last, p) < 0) {
-      h = mesh.twin[next];
-    } else if (real && side_of(mesh, last, h, p) < 0) {
-      h = mesh.twin[last];
-    } else {
-      arrived = true;
-    }
-  }
-  *triangle = triangle_of(h);
+bool walk_to(const microtin_mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle) {
+  MeshCursor cursor(mesh, real_edge(mesh.mesh, *triangle));
+  const bool arrived = walk(cursor, p, step_limit);
+  *triangle = cursor.triangle();
   return arrived;
 }
 

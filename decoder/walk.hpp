@@ -1,28 +1,128 @@
 // SPDX-License-Identifier: MIT
-// Finding the triangle that holds a place.
+// Finding the triangle that holds a place, and the height there: the same for each form of a mesh.
+//
+// A form's cursor stands on a half-edge of a triangle, with that to its left:
+//   start(), end(), apex()      the numbers of the half-edge's ends, and of the third corner
+//   is_ghost()                  whether the third corner is infinity
+//   has_terrain()               whether the triangle is neither ghost nor void
+//   cross()                     to the triangle beyond, on the half-edge the other way
+//   cross_next(), cross_last()  ... beyond end() -> apex(), beyond apex() -> start(), or into what
+//                               is no triangle of the mesh, where may_stop() is false
+//   turn()                      to the next half-edge of the triangle
+//   corner(0), (1), (2)         the same three, counter-clockwise from any
+//   place(number), vertex(number)   of a finite vertex
 #ifndef MICROTIN_DECODER_WALK_HPP
 #define MICROTIN_DECODER_WALK_HPP
 
+#include "decoder/state.hpp"
 #include "shared/interpolation.hpp"
-#include "shared/mesh.hpp"
 
 namespace microtin {
 
-// Positive if p lies to the left of a half-edge, negative if to the right; `next` is the half-edge
-// after it, and both start at finite vertices.
-inline int64_t side_of(const Mesh& mesh, Index half_edge, Index next, FinePoint p) {
-  return orient_fine(point_of(mesh, mesh.origin[half_edge]), point_of(mesh, mesh.origin[next]), p);
+// A point as seen from p, with 8 fractional bits: each coordinate is within +-2^24.
+inline Offset seen_from(FinePoint p, Point at) {
+  return Offset{static_cast<FastInt>(at.x) * 256 - p.x, static_cast<FastInt>(at.y) * 256 - p.y};
 }
 
-// Walks from *triangle to the triangle that holds p, through at most `step_limit` triangles:
-// crosses any edge that p lies beyond. *triangle becomes where the walk ended, a ghost if p is
-// outside the hull; false if the steps did not suffice.
+// Walks from a triangle, which is no ghost, to the triangle that holds p, through at most
+// `step_limit` triangles: crosses any edge that p lies beyond. The cursor is left where the walk
+// ended, in a ghost if p is outside the hull; false if the steps did not suffice.
 //
-// mesh.triangles steps always suffice, also in several calls. Lift the vertices to the paraboloid,
-// with the infinitesimals of conflicts_on_circle: the triangles become facets of a strictly convex
-// surface, and each step makes the facet's plane higher above p. So no triangle is met twice
-// (Edelsbrunner, "An acyclicity theorem for cell complexes in d dimensions", 1990).
-bool walk_to(const Mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle);
+// As many steps as there are triangles always suffice, also in several calls. Lift the vertices to
+// the paraboloid, with the infinitesimals of conflicts_on_circle: the triangles become facets of a
+// strictly convex surface, and each step makes the facet's plane higher above p. So no triangle is
+// met twice (Edelsbrunner, "An acyclicity theorem for cell complexes in d dimensions", 1990).
+//
+// Twice the area that two corners span with p is below 2^50: each factor pair is below 2^24 * 2^24.
+template <class Cursor>
+inline bool walk(Cursor& cursor, FinePoint p, uint32_t step_limit) {
+  Offset from = seen_from(p, cursor.place(cursor.start()));
+  Offset to = seen_from(p, cursor.place(cursor.end()));
+  if (cross(from, to) < 0) {
+    cursor.cross();
+    const Offset other = from;
+    from = to;
+    to = other;
+  }
+  for (uint32_t step = 0; step < step_limit || !cursor.may_stop(); ++step) {
+    // p does not lie beyond the half-edge.
+    if (cursor.is_ghost()) return true;
+    const Offset apex = seen_from(p, cursor.place(cursor.apex()));
+    if (cross(to, apex) < 0) {
+      cursor.cross_next();
+      from = apex;
+    } else if (cross(apex, from) < 0) {
+      cursor.cross_last();
+      to = apex;
+    } else {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Whether p, in a closed triangle without terrain, is a corner or on an edge with terrain beyond.
+template <class Cursor>
+MICROTIN_OUT_OF_LINE inline bool touches_terrain(Cursor cursor, FinePoint p) {
+  bool touches = false;
+  for (uint32_t i = 0; i < 3 && !touches; ++i) {
+    const Point from = cursor.place(cursor.start()), to = cursor.place(cursor.end());
+    const FinePoint at = fine(from);
+    touches = at.x == p.x && at.y == p.y;
+    if (!touches && orient_fine(from, to, p) == 0) {
+      Cursor other = cursor;
+      other.cross();
+      touches = other.has_terrain();
+    }
+    cursor.turn();
+  }
+  return touches;
+}
+
+// The answer at p in the closed triangle, which is no ghost. A vertex always knows its own height;
+// on an edge, terrain on either side is enough.
+template <class Cursor>
+inline microtin_answer answer_at(const Cursor& cursor, FinePoint p, int32_t* height) {
+  if (!cursor.has_terrain() && !touches_terrain(cursor, p)) return MICROTIN_IN_VOID;
+  *height = height_in_triangle(cursor.vertex(cursor.corner(0)), cursor.vertex(cursor.corner(1)),
+                               cursor.vertex(cursor.corner(2)), p);
+  return MICROTIN_HEIGHT;
+}
+
+// The half-edge mesh's.
+class MeshCursor {
+ public:
+  MeshCursor(const microtin_mesh& m, Index half_edge) : m_(m), h_(half_edge) {}
+
+  Index start() const { return mesh().origin[h_]; }
+  Index end() const { return mesh().origin[next_in_triangle(h_)]; }
+  Index apex() const { return mesh().origin[previous_in_triangle(h_)]; }
+  Index triangle() const { return triangle_of(h_); }
+  bool is_ghost() const { return apex() == kInfinity; }
+  bool may_stop() const { return true; }
+  bool has_terrain() const { return microtin::has_terrain(m_, triangle()); }
+  void cross() { h_ = mesh().twin[h_]; }
+  void cross_next() { h_ = mesh().twin[next_in_triangle(h_)]; }
+  void cross_last() { h_ = mesh().twin[previous_in_triangle(h_)]; }
+  void turn() { h_ = next_in_triangle(h_); }
+  Point place(uint32_t v) const { return mesh().place[v]; }
+  MICROTIN_IN_PLACE Index corner(uint32_t i) const {
+    return mesh().origin[first_edge(triangle()) + i];
+  }
+  Vertex vertex(uint32_t v) const {
+    const Point at = place(v);
+    return Vertex{at.x, at.y, mesh().z[v]};
+  }
+
+ private:
+  const Mesh& mesh() const { return m_.mesh; }
+
+  const microtin_mesh& m_;
+  Index h_;
+};
+
+// Walks as above from *triangle, ghost or not, to another.
+bool walk_to(const microtin_mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle);
 
 }  // namespace microtin
 

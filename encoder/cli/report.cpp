@@ -45,10 +45,14 @@ void print(const std::string& text) {
 std::string text_of(const JsonObject& report, bool as_json) {
   std::string text;
   for (const auto& [name, value] : report) {
-    if (as_json) text += (text.empty() ? "{\n  " : ",\n  ") + json(name) + ": " + value;
-    if (!as_json) text += name + ": " + value + '\n';
+    if (as_json) text += text.empty() ? "{\n  " : ",\n  ";
+    text += as_json ? json(name) : name;
+    text += ": ";
+    text += value;
+    if (!as_json) text += '\n';
   }
-  return as_json ? text + "\n}\n" : text;
+  if (as_json) text += "\n}\n";
+  return text;
 }
 
 }  // namespace microtin::cli

@@ -7,6 +7,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "encoder/files/standard_files.hpp"
 #include "tests/support/layers.hpp"
@@ -45,6 +49,13 @@ struct Made : Session {
 struct Output {
   std::string command, output, same_as;
 };
+
+// Pieces of a command, one behind the other.
+std::string joined(std::initializer_list<std::string_view> pieces) {
+  std::string text;
+  for (const std::string_view piece : pieces) text += piece;
+  return text;
+}
 
 const std::vector<Output> kOutputs = {
     {"encode t.asc --max-error 10 --fast -o new.mtin", "new.mtin", "t.mtin"},
@@ -106,8 +117,9 @@ TEST_CASE("cli: a closed descriptor is not taken by a file, and a lost report is
                                           {">/dev/null", 0, false},
                                           {"2>/dev/null", 0, false},
                                           {"</dev/null >/dev/null 2>/dev/null", 0, false}}) {
-      CAPTURE(command + " " + how);
-      const Session::Result result = made.run(command + " " + how);
+      const std::string words = joined({command, " ", how});
+      CAPTURE(words);
+      const Session::Result result = made.run(words);
       CHECK(result.code == code);
       CHECK(is_one_line(result.err) == told);
       CHECK(made.read(output) == made.read(same_as));
@@ -140,7 +152,8 @@ TEST_CASE("cli: output and input on closed descriptors") {
 TEST_CASE("cli: a report that nobody reads is lost, not the output") {
   const Made made;
   for (const auto& [command, output, same_as] : kOutputs) {
-    CAPTURE(command);
+    const std::string& words = command;
+    CAPTURE(words);
     const Session::Result result =
         made.shell("{ sleep 0.1; microtin " + command + "; echo $? >code; } | true");
     CHECK(made.read("code") == "4\n");
@@ -187,10 +200,11 @@ TEST_CASE("cli: no command writes over any of its inputs, by whatever name") {
   for (const auto& [command, input] : cases) {
     for (const std::string& name : {input, "./" + input, "hard-" + input, "soft-" + input,
                                     "folder/" + input, made.folder() + "/" + input}) {
-      CHECK(made.failure(command + " -o " + name) == name + ": is the input\n");
+      CHECK(made.failure(joined({command, " -o ", name})) == name + ": is the input\n");
     }
-    CHECK(made.failure(command + " -o - >>" + input) == "standard output: is the input\n");
-    CHECK(made.failure(command + " -o new >>" + input) == "standard output: is the input\n");
+    CHECK(made.failure(joined({command, " -o - >>", input})) == "standard output: is the input\n");
+    CHECK(made.failure(joined({command, " -o new >>", input})) ==
+          "standard output: is the input\n");
   }
   CHECK(made.failure("encode - -o p.xyz <p.xyz") == "p.xyz: is the input\n");
   CHECK(made.failure("encode /dev/stdin -o p.xyz <p.xyz") == "p.xyz: is the input\n");
@@ -210,9 +224,10 @@ TEST_CASE("cli: other names of standard output are standard output") {
     const Session::Result dash = made.run(command + " -o -");
     for (const std::string name : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1",
                                    "/proc/self/../self/fd/1", "/proc/thread-self/fd/1", "link2"}) {
-      CAPTURE(command + " " + name);
+      CAPTURE(command);
+      CAPTURE(name);
       made.write("log", "precious\n");
-      const Session::Result result = made.run(command + " -o " + name + " >>log");
+      const Session::Result result = made.run(joined({command, " -o ", name, " >>log"}));
       CHECK(result.code == 0);
       CHECK(result.err == dash.err);
       CHECK(made.read("log") == "precious\n" + dash.out);
@@ -235,8 +250,9 @@ TEST_CASE("cli: output goes where a link leads, also if there is nothing yet") {
     const std::string pack = contains(output, ".mtp") ? " --tile-vertices 99" : "";
     for (const auto& [link, target] :
          {std::pair("two", "folder/new1"), {"absolute", "folder/new2"}}) {
-      CAPTURE(words + link);
-      for (int i = 0; i < 2; ++i) CHECK(made.run(words + link).code == 0);  // then it is there
+      const std::string through = words + link;
+      CAPTURE(through);
+      for (int i = 0; i < 2; ++i) CHECK(made.run(through).code == 0);  // then it is there
       CHECK(made.read(target) == made.read(same_as));
       CHECK(fs::is_symlink(made.folder() + "/" + link));
       fs::remove(made.folder() + "/" + target);

@@ -32,5 +32,11 @@ int firmware_main() {
   static microtin::Decoder<MICROTIN_CAPACITY> decoder(terrain);
   const microtin_status status = decode(decoder);
   microtin::report(put_char, terrain.mesh(), status);
-  return status == MICROTIN_DONE ? 0 : 1;
+  if (status != MICROTIN_DONE) return 1;
+  if (microtin::compact_agrees(terrain.mesh(), MICROTIN_MESH_BYTES(MICROTIN_CAPACITY), &decoder,
+                               sizeof decoder)) {
+    return 0;
+  }
+  microtin::print(put_char, "its compact form differs\n");
+  return 1;
 }

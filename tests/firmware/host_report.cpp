@@ -33,5 +33,11 @@ int main(int argc, char** argv) {
   decoder->feed(stream.data(), stream.size(), &used);
   const microtin_status status = decoder->finish();
   microtin::report(put_char, terrain->mesh(), status);
-  return status == MICROTIN_DONE ? 0 : 1;
+  if (status != MICROTIN_DONE) return 1;
+  if (microtin::compact_agrees(terrain->mesh(), MICROTIN_MESH_BYTES(kCapacity), decoder.get(),
+                               sizeof *decoder)) {
+    return 0;
+  }
+  std::puts("its compact form differs");
+  return 1;
 }

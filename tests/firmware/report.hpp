@@ -3,6 +3,7 @@
 #ifndef MICROTIN_TESTS_FIRMWARE_REPORT_HPP
 #define MICROTIN_TESTS_FIRMWARE_REPORT_HPP
 
+#include "microtin/compact.h"
 #include "microtin/microtin.h"
 
 namespace microtin {
@@ -101,6 +102,46 @@ inline void report(PutChar put, const microtin_mesh* mesh, microtin_status statu
   print_hex(put, microtin_digest(mesh));
   print(put, "\n");
   if (status == MICROTIN_DONE) report_probes(put, mesh);
+}
+
+// A sum of the answers at 64 places, in their order.
+template <class HeightAt>
+uint32_t sum_of_probes(const ProbeBox& box, HeightAt height_at) {
+  ProbeNumbers numbers;
+  uint32_t hint = 0, sum = 0;
+  for (int i = 0; i < 64; ++i) {
+    const int32_t x = numbers.between(box.west, box.east);
+    const int32_t y = numbers.between(box.south, box.north);
+    int32_t height = 0;
+    const microtin_answer answer = height_at(x, y, &hint, &height);
+    sum = sum * 31 + static_cast<uint32_t>(height) * 7 + static_cast<uint32_t>(answer);
+  }
+  return sum;
+}
+
+// Makes the compact form of a mesh in its place, in calls of a few steps: whether it answers as the
+// mesh did, or the mesh is too small for that or, by a few vertices, too large.
+inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size_t scratch_size) {
+  const ProbeBox box = probe_box(mesh);
+  const uint64_t digest = microtin_digest(mesh);
+  const uint32_t sum = sum_of_probes(box, [mesh](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
+    return microtin_height_at(mesh, x, y, 0, hint, z);
+  });
+  microtin_compactor* compactor = 0;
+  microtin_compact* compact = 0;
+  microtin_status status =
+      microtin_compact_begin(mesh, size, mesh, scratch, scratch_size, &compactor);
+  if (status != MICROTIN_DONE) return false;
+  do {
+    status = microtin_compact_proceed(compactor, 5, &compact);
+  } while (status == MICROTIN_STEP_LIMIT);
+  const uint32_t n = microtin_vertex_count(mesh);
+  if (status == MICROTIN_WORKSPACE_TOO_SMALL) return n < 100;
+  if (status == MICROTIN_TOO_BIG) return n + 10 > MICROTIN_MAX_VERTICES;
+  return microtin_compact_digest(compact) == digest &&
+         sum == sum_of_probes(box, [compact](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
+           return microtin_compact_height_at(compact, x, y, 0, hint, z);
+         });
 }
 
 }  // namespace microtin

@@ -23,7 +23,14 @@ BUDGET = HERE / "budget.json"
 DECODING = ["peek", "mesh_init", "decoder_init", "feed", "finish"]
 QUERIES = ["height_at", "to_lattice", "vertex", "triangle", "neighbour", "digest"]
 BUCKETS = ["buckets_init", "buckets_hint"]
-USES = {"decoding": DECODING, "queries": DECODING + QUERIES, "buckets": DECODING + QUERIES + BUCKETS}
+COMPACT = ["compact_begin", "compact_proceed", "compact_needs", "compact_height_at", "compact_hint"]
+USES = {
+    "decoding": DECODING,
+    "queries": DECODING + QUERIES,
+    "buckets": DECODING + QUERIES + BUCKETS,
+    "compact": DECODING + COMPACT,
+}
+WIDTH_IN_NAME = ["peek", "mesh_init", "decoder_init", "buckets_init", "compact_begin"]
 
 
 # --- Measuring ------------------------------------------------------------------------------------
@@ -31,7 +38,7 @@ USES = {"decoding": DECODING, "queries": DECODING + QUERIES, "buckets": DECODING
 
 def symbol(options, entry):
     """A function's name in the library: those to which the width of numbers matters tell it."""
-    return f"microtin_{entry}_{options.bits}" if entry == "peek" or entry.endswith("_init") else "microtin_" + entry
+    return f"microtin_{entry}_{options.bits}" if entry in WIDTH_IN_NAME else "microtin_" + entry
 
 
 def link(options, library, entries, image):
@@ -72,8 +79,11 @@ def measure_library(options, library):
     if options.stack:
         graphs = [str(Path(o).with_suffix(".ci")) for o in options.objects[library].split(":")]
         graphs = [graph for graph in graphs if Path(graph).exists()]
+        image = str(options.build / "linked")
+        link(options, library, DECODING + QUERIES + BUCKETS + COMPACT, image)
         calls = stack.Stack(options.target, options.objdump, image, graphs)
-        for use, entries in (("decoding", DECODING), ("queries", QUERIES), ("buckets", BUCKETS)):
+        own = {"decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT}
+        for use, entries in own.items():
             result["stack_" + use] = max(calls.depth(symbol(options, entry)) for entry in entries)
     return result
 
@@ -96,7 +106,8 @@ def measure_images(options, level):
         for setting in ("quick", "balanced", "dense")
     }
     numbers |= printed["tile_balanced"]
-    numbers["worst_step"] = max(p["worst_step"] for p in printed.values())
+    for name in ("worst_step", "compact_worst_step"):
+        numbers[name] = max(p[name] for p in printed.values())
     return numbers
 
 
@@ -159,12 +170,12 @@ def table(head, rows):
 def code_table(budget):
     head = ["target"]
     for level in ("-Os", "-O2"):
-        head += [f"{level}: decoding", "and queries", "and buckets", "stack"]
+        head += [f"{level}: decoding", "and queries", "and buckets", "compact instead", "stack"]
     rows = []
     for target, numbers in budget.items():
         row = [target]
         for level in (numbers["Os"], numbers["O2"]):
-            row += [f"{count(level[u]['text'])} + {count(level[u]['rodata'])}" for u in USES]
+            row += [f"{count(level[u]['text'])} + {count(level[u]['rodata'])}" if u in level else "-" for u in USES]
             row.append(count(level["stack_decoding"]) if "stack_decoding" in level else "-")
         rows.append(row)
     return table(head, rows)
@@ -177,8 +188,14 @@ RUN_ROWS = {
     "worst_step": "dearest step of decoding that a stream made for it causes",
     "warm": "height on a straight path: mean, worst",
     "cold": "height anywhere, from hint 0: mean, worst",
+    "far": "... from where the last one was: mean, worst",
     "buckets": "... from a hint of 45 x 45 buckets: mean, worst",
     "buckets_build": "building these buckets, once",
+    "compact_make": "making a compact terrain, per vertex",
+    "compact_worst_step": "dearest step of that",
+    "compact_warm": "compact: height on a straight path: mean, worst",
+    "compact_far": "... height anywhere, from where the last one was: mean, worst",
+    "compact_found": "... from a hint of microtin_compact_hint: mean, worst",
 }
 
 
@@ -191,8 +208,8 @@ def run_table(budget):
     }
     rows = []
     for name, title in RUN_ROWS.items():
-        keys = [name] if f"{name}_mean" not in next(iter(runs.values())) else [f"{name}_mean", f"{name}_worst"]
-        rows.append([title] + [", ".join(count(run[key]) for key in keys) for run in runs.values()])
+        keys = [f"{name}_mean", f"{name}_worst"] if title.endswith("mean, worst") else [name]
+        rows.append([title] + [", ".join(count(run[key]) if key in run else "-" for key in keys) for run in runs.values()])
     return table(["instructions", *runs], rows)
 
 
@@ -200,8 +217,9 @@ def ram_table(budget):
     run = budget["cortex-m4"]["Os"]["run"]
     rows = []
     for capacity in (250, 1000, 10000):
-        rows.append([count(n) for n in (capacity, run[f"ram_terrain_{capacity}"], run[f"ram_decoder_{capacity}"])])
-    return table(["vertices", "terrain, kept", "decoder, only while decoding"], rows)
+        kinds = ("terrain", "decoder", "compact", "narrow")
+        rows.append([count(n) for n in (capacity, *(run[f"ram_{kind}_{capacity}"] for kind in kinds))])
+    return table(["vertices", "terrain, kept", "decoder, only while decoding", "compact terrain", "... narrow"], rows)
 
 
 def paragraph(text):

@@ -57,12 +57,11 @@ uint32_t dearest_step(TerrainOfTile& terrain) {
   return steps.most() - overhead();
 }
 
-enum class Start { kZero, kLast, kBuckets };
+enum class Start { kZero, kLast, kFound };
 
-// Heights along a path of `kQueries` places.
-template <class Path>
-Statistics ask(const TerrainOfTile& terrain, const microtin::Buckets<kSide>& buckets, Start start,
-               Path& path) {
+// Heights along a path of `kQueries` places. `finder` tells hints.
+template <class Path, class Form, class Finder>
+Statistics ask(const Form& terrain, const Finder& finder, Start start, Path& path) {
   Statistics queries;
   const uint32_t nothing = overhead();
   uint32_t hint = 0;
@@ -73,7 +72,7 @@ Statistics ask(const TerrainOfTile& terrain, const microtin::Buckets<kSide>& buc
     p = path.next();
     const uint32_t before = instruction_count();
     if (start == Start::kZero) hint = 0;
-    if (start == Start::kBuckets) hint = buckets.hint(p.x, p.y);
+    if (start == Start::kFound) hint = finder.hint(p.x, p.y);
     terrain.height_at(p.x, p.y, &hint, &height);
     queries.add(instruction_count() - before - nothing);
   }
@@ -84,18 +83,30 @@ struct FinePlace {
   int32_t x, y;
 };
 
-// Bytes of RAM of the objects for so many vertices.
+// Bytes of RAM of an object.
+template <class Object>
+void say_ram(const char* kind, uint32_t capacity) {
+  microtin::print(put_char, "ram_");
+  microtin::print(put_char, kind);
+  microtin::print(put_char, "_");
+  microtin::print(put_char, capacity);
+  say("", sizeof(Object));
+}
+
+// Of the objects for so many vertices.
 template <uint32_t Capacity>
-void say_ram(const char* terrain, const char* decoder) {
-  say(terrain, sizeof(microtin::Terrain<Capacity>));
-  say(decoder, sizeof(microtin::Decoder<Capacity>));
+void say_ram() {
+  say_ram<microtin::Terrain<Capacity>>("terrain", Capacity);
+  say_ram<microtin::Decoder<Capacity>>("decoder", Capacity);
+  say_ram<microtin::CompactTerrain<Capacity>>("compact", Capacity);
+  say_ram<microtin::CompactTerrain<Capacity, true>>("narrow", Capacity);
 }
 
 // Anywhere in the box.
 class Anywhere {
  public:
   using Place = FinePlace;
-  explicit Anywhere(const microtin_mesh* mesh) : box_(microtin::probe_box(mesh)) {}
+  explicit Anywhere(const microtin::ProbeBox& box) : box_(box) {}
   Place next() {
     const int32_t x = numbers_.between(box_.west, box_.east);
     return {x, numbers_.between(box_.south, box_.north)};
@@ -110,7 +121,7 @@ class Anywhere {
 class Straight {
  public:
   using Place = FinePlace;
-  explicit Straight(const microtin_mesh* mesh) : box_(microtin::probe_box(mesh)) {}
+  explicit Straight(const microtin::ProbeBox& box) : box_(box) {}
   Place next() {
     const int32_t i = i_++, n = static_cast<int32_t>(kQueries);
     return {box_.west + (box_.east - box_.west) / n * i,
@@ -122,24 +133,52 @@ class Straight {
   int32_t i_ = 0;
 };
 
-template <class Path>
-void measure_heights(const char* mean, const char* most, const TerrainOfTile& terrain,
-                     const microtin::Buckets<kSide>& buckets, Start start) {
-  Path path(terrain.mesh());
-  const Statistics queries = ask(terrain, buckets, start, path);
+template <class Path, class Form, class Finder>
+void measure_heights(const char* mean, const char* most, const microtin::ProbeBox& box,
+                     const Form& terrain, const Finder& finder, Start start) {
+  Path path(box);
+  const Statistics queries = ask(terrain, finder, start, path);
   say(mean, queries.mean());
   say(most, queries.most());
 }
 
+// The terrain made compact, in pieces of so many steps; the dearest of them.
+microtin_compact* compact;
+
+uint32_t make_compact(TerrainOfTile& terrain, uint32_t piece) {
+  alignas(
+      MICROTIN_ALIGNMENT) static unsigned char space[MICROTIN_COMPACT_BYTES(MICROTIN_MAX_VERTICES)],
+      scratch[MICROTIN_COMPACTOR_BYTES(MICROTIN_MAX_VERTICES)];
+  microtin_compactor* compactor = nullptr;
+  microtin_compact_begin(space, sizeof space, terrain.mesh(), scratch, sizeof scratch, &compactor);
+  Statistics pieces;
+  microtin_status status = MICROTIN_STEP_LIMIT;
+  while (status == MICROTIN_STEP_LIMIT) {
+    const uint32_t before = instruction_count();
+    status = microtin_compact_proceed(compactor, piece, &compact);
+    pieces.add(instruction_count() - before);
+  }
+  return pieces.most() - overhead();
+}
+
+// Asked as terrains and buckets are.
+struct CompactFace {
+  uint32_t hint(int32_t x, int32_t y) const { return microtin_compact_hint(compact, x, y); }
+  void height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height) const {
+    microtin_compact_height_at(compact, x, y, 0, hint, height);
+  }
+};
+
 }  // namespace
 
 int firmware_main() {
-  say_ram<250>("ram_terrain_250", "ram_decoder_250");
-  say_ram<1000>("ram_terrain_1000", "ram_decoder_1000");
-  say_ram<10000>("ram_terrain_10000", "ram_decoder_10000");
+  say_ram<250>();
+  say_ram<1000>();
+  say_ram<10000>();
 
   static TerrainOfTile terrain;
   say("worst_step", dearest_step(terrain));
+  say("compact_worst_step", make_compact(terrain, 1));
 
   const uint32_t before = instruction_count();
   static microtin::Decoder<MICROTIN_MAX_VERTICES> decoder(terrain);
@@ -147,15 +186,27 @@ int firmware_main() {
   const microtin_status status = decoder.feed(stream_begin, stream_size(), &used);
   const uint32_t decoding = instruction_count() - before - overhead();
   if (status != MICROTIN_DONE) return 1;
-  say("decode_per_vertex", decoding / terrain.vertices());
+  const uint32_t vertices = terrain.vertices();
+  say("decode_per_vertex", decoding / vertices);
 
   static microtin::Buckets<kSide> buckets;
   const uint32_t unbuilt = instruction_count();
   buckets.build(terrain.mesh());
   say("buckets_build", instruction_count() - unbuilt - overhead());
 
-  measure_heights<Straight>("warm_mean", "warm_worst", terrain, buckets, Start::kLast);
-  measure_heights<Anywhere>("cold_mean", "cold_worst", terrain, buckets, Start::kZero);
-  measure_heights<Anywhere>("buckets_mean", "buckets_worst", terrain, buckets, Start::kBuckets);
+  const microtin::ProbeBox box = microtin::probe_box(terrain.mesh());
+  measure_heights<Straight>("warm_mean", "warm_worst", box, terrain, buckets, Start::kLast);
+  measure_heights<Anywhere>("cold_mean", "cold_worst", box, terrain, buckets, Start::kZero);
+  measure_heights<Anywhere>("far_mean", "far_worst", box, terrain, buckets, Start::kLast);
+  measure_heights<Anywhere>("buckets_mean", "buckets_worst", box, terrain, buckets, Start::kFound);
+
+  say("compact_make", make_compact(terrain, 0) / vertices);
+  say("compact_bytes", static_cast<uint32_t>(microtin_compact_size(compact)));
+  const CompactFace face;
+  measure_heights<Straight>("compact_warm_mean", "compact_warm_worst", box, face, face,
+                            Start::kLast);
+  measure_heights<Anywhere>("compact_far_mean", "compact_far_worst", box, face, face, Start::kLast);
+  measure_heights<Anywhere>("compact_found_mean", "compact_found_worst", box, face, face,
+                            Start::kFound);
   return 0;
 }

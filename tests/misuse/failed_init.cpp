@@ -7,15 +7,15 @@
 namespace {
 
 microtin_status mesh_status, decoder_status, pack_status;
-microtin_mesh* const some_mesh = reinterpret_cast<microtin_mesh*>(&mesh_status);
-microtin_decoder* const some_decoder = reinterpret_cast<microtin_decoder*>(&decoder_status);
+microtin_mesh* const kSomeMesh = reinterpret_cast<microtin_mesh*>(&mesh_status);
+microtin_decoder* const kSomeDecoder = reinterpret_cast<microtin_decoder*>(&decoder_status);
 
 }  // namespace
 
 extern "C" {
 
 microtin_status microtin_mesh_init(void*, size_t, microtin_mesh** mesh) {
-  *mesh = mesh_status == MICROTIN_DONE ? some_mesh : nullptr;
+  *mesh = mesh_status == MICROTIN_DONE ? kSomeMesh : nullptr;
   return mesh_status;
 }
 
@@ -23,7 +23,7 @@ microtin_status microtin_decoder_init(void*, size_t, microtin_mesh* mesh,
                                       microtin_decoder** decoder) {
   *decoder = nullptr;
   if (mesh == nullptr) return MICROTIN_ARGUMENT;
-  if (decoder_status == MICROTIN_DONE) *decoder = some_decoder;
+  if (decoder_status == MICROTIN_DONE) *decoder = kSomeDecoder;
   return decoder_status;
 }
 

@@ -58,10 +58,8 @@ inline void repair_checks(Bytes& pack) {
   }
 }
 
-// Vertices at some of the places of a box, the corners among them if it is whole; some triangles
-// are void.
-inline Tin random_tile(Random& random, uint32_t width, uint32_t height, bool is_whole,
-                       uint32_t voids_of_100) {
+// Vertices at some of the places of a box, the corners among them if it is whole.
+inline Tin random_vertices(Random& random, uint32_t width, uint32_t height, bool is_whole) {
   Tin tin;
   for (uint32_t x = 0; x <= width; ++x) {
     for (uint32_t y = 0; y <= height; ++y) {
@@ -72,12 +70,23 @@ inline Tin random_tile(Random& random, uint32_t width, uint32_t height, bool is_
                               static_cast<int16_t>(random.below(3) == 0 ? z : z / 4096)});
     }
   }
-  bool has_triangle = false;
+  return tin;
+}
+
+inline bool has_triangle(const Tin& tin) {
+  const auto at = [&](size_t v) { return Point{tin.vertices[v].x, tin.vertices[v].y}; };
+  bool found = false;
   for (size_t i = 2; i < tin.vertices.size(); ++i) {
-    const auto at = [&](size_t v) { return Point{tin.vertices[v].x, tin.vertices[v].y}; };
-    has_triangle = has_triangle || orient2d(at(0), at(1), at(i)) != 0;
+    found = found || orient2d(at(0), at(1), at(i)) != 0;
   }
-  if (!has_triangle) return random_tile(random, width, height, is_whole, voids_of_100);
+  return found;
+}
+
+// Such vertices that make a triangle, some triangles void.
+inline Tin random_tile(Random& random, uint32_t width, uint32_t height, bool is_whole,
+                       uint32_t voids_of_100) {
+  Tin tin = random_vertices(random, width, height, is_whole);
+  while (!has_triangle(tin)) tin = random_vertices(random, width, height, is_whole);
   const DecodedTerrain decoded(encode(tin, Metadata()));
   const MeshCopy copy(decoded.mesh());
   for (const std::array<Point, 3>& t : triangles_of(copy.mesh).triangles) {

@@ -204,8 +204,9 @@ uint32_t microtin_triangle_count(const microtin_mesh* mesh);
 
 typedef enum microtin_triangle_kind {
   MICROTIN_REAL = 0,
-  MICROTIN_VOID = 1, /* real, but without terrain; known once the stream is DONE */
-  MICROTIN_GHOST = 2 /* outside: one vertex is MICROTIN_INFINITY, the other two a hull edge */
+  MICROTIN_VOID = 1,   /* real, but without terrain; known once the stream is DONE */
+  MICROTIN_GHOST = 2,  /* outside: one vertex is MICROTIN_INFINITY, the other two a hull edge */
+  MICROTIN_NO_AREA = 3 /* of compact terrains only: to be passed over */
 } microtin_triangle_kind;
 
 /* The vertices of triangle `t` < microtin_triangle_count, counter-clockwise from above. */

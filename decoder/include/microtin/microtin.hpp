@@ -3,6 +3,7 @@
 #ifndef MICROTIN_MICROTIN_HPP
 #define MICROTIN_MICROTIN_HPP
 
+#include "microtin/compact.h"
 #include "microtin/microtin.h"
 
 namespace microtin {
@@ -97,6 +98,43 @@ class Buckets {
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_BUCKETS_BYTES(Side)];
   microtin_buckets* buckets_;
+};
+
+// The compact form of a terrain of up to Capacity vertices; see compact.h. Narrow: its places lie
+// in a box less than 256 steps wide and high.
+template <uint32_t Capacity, bool Narrow = false>
+class CompactTerrain {
+ public:
+  static constexpr unsigned long kBytes =
+      Narrow ? MICROTIN_COMPACT_NARROW_BYTES(Capacity) : MICROTIN_COMPACT_BYTES(Capacity);
+
+  CompactTerrain() = default;
+  CompactTerrain(const CompactTerrain&) = delete;
+  CompactTerrain& operator=(const CompactTerrain&) = delete;
+
+  // Makes it of a terrain that is decoded, and lost by that; the decoder serves as scratch.
+  template <class TerrainType, class DecoderType>
+  microtin_status make(TerrainType& terrain, DecoderType& decoder) {
+    microtin_compactor* compactor = nullptr;
+    const microtin_status status = microtin_compact_begin(storage_, sizeof storage_, terrain.mesh(),
+                                                          &decoder, sizeof decoder, &compactor);
+    return status == MICROTIN_DONE ? microtin_compact_proceed(compactor, 0, &compact_) : status;
+  }
+
+  // Null before it is made.
+  const microtin_compact* compact() const { return compact_; }
+
+  uint32_t vertices() const { return microtin_compact_vertex_count(compact_); }
+  uint64_t digest() const { return microtin_compact_digest(compact_); }
+  uint32_t hint(int32_t x, int32_t y) const { return microtin_compact_hint(compact_, x, y); }
+  microtin_answer height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
+                            uint32_t step_limit = 0) const {
+    return microtin_compact_height_at(compact_, x, y, step_limit, hint, height);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[kBytes];
+  microtin_compact* compact_ = nullptr;
 };
 
 }  // namespace microtin
