@@ -46,8 +46,8 @@ Answer expected_at(const std::vector<reference::Corners>& triangles, Place p) {
 // Anywhere, at a vertex, or between two vertices.
 Place place_from(FuzzedDataProvider& asked, const MeshCopy& copy) {
   const auto vertex = [&] {
-    const size_t v = asked.ConsumeIntegralInRange<size_t>(0, copy.x.size() - 1);
-    return Place{copy.x[v] * 256, copy.y[v] * 256};
+    const size_t v = asked.ConsumeIntegralInRange<size_t>(0, copy.place.size() - 1);
+    return Place{copy.place[v].x * 256, copy.place[v].y * 256};
   };
   const uint8_t kind = asked.ConsumeIntegral<uint8_t>();
   if (kind % 4 == 0)
