@@ -60,17 +60,22 @@ inline Lines in_order(FastInt a, FastInt b) {
   return a < b ? Lines{a, b} : Lines{b, a};
 }
 
-// The circle through v and `end`, seen from the right of v -> end under k. Products are below 2^29,
-// the centre is below 2^17 before the shift.
-inline Circle circle_through(Spot end, Cotangent k, uint32_t shift) {
-  const int32_t y = (end.y - (k * end.x >> kCotangentBits)) >> (1 + shift);
-  return Circle{(end.x + (k * end.y >> kCotangentBits)) >> shift, y, y * y};
+// Twice the centre of the circle through v and `end`, seen from the right of v -> end under k:
+// below 2^18, products below 2^29.
+inline Spot twice_centre(Spot end, Cotangent k) {
+  return Spot{end.x + (k * end.y >> kCotangentBits), end.y - (k * end.x >> kCotangentBits)};
+}
+
+// The circle of that centre, which is below 2^15 after the shift: so is its square below 2^30.
+inline Circle circle_about(Spot twice, uint32_t shift) {
+  const int32_t y = twice.y >> (1 + shift);
+  return Circle{twice.x >> shift, y, y * y};
 }
 
 // How much coarser grains must be for a centre below 2^13; at most 4.
-inline uint32_t coarsening_for(const Circle& circle) {
-  const uint32_t bits = highest_bit(static_cast<uint32_t>(absolute(circle.x2 >> 1)) |
-                                    static_cast<uint32_t>(absolute(circle.y)) | 1u);
+inline uint32_t coarsening_for(Spot twice) {
+  const uint32_t bits = highest_bit(static_cast<uint32_t>(absolute(twice.x >> 1)) |
+                                    static_cast<uint32_t>(absolute(twice.y >> 1)) | 1u);
   return bits > 12 ? bits - 12 : 0;
 }
 
@@ -97,14 +102,15 @@ inline void find_places(LegalPlaces& places, const FreeRegion& region, const Con
                         Cotangent own, Cotangent behind) {
   places.turns = turns_for(region.corner[1]);
   const Spot c = turned(region.c, places.turns), a = turned(region.a, places.turns);
-  const uint32_t shift = coarsening_for(circle_through(a, own, 0));
+  const Spot centre = twice_centre(a, own);
+  const uint32_t shift = coarsening_for(centre);
   places.shift = region.shift - static_cast<int32_t>(shift);
-  places.own = circle_through(a, own, shift);
+  places.own = circle_about(centre, shift);
   const Side &chord = region.side[kChord], &next = region.side[0];
   places.cuts[0] = cuts(chord);
   places.cuts[1] = cuts(next);
-  if (places.cuts[0]) places.behind[0] = circle_through(a, behind, shift);  // below 2^15 from v
-  if (places.cuts[1]) places.behind[1] = circle_through(c, -next.behind, shift);
+  if (places.cuts[0]) places.behind[0] = circle_about(twice_centre(a, behind), shift);
+  if (places.cuts[1]) places.behind[1] = circle_about(twice_centre(c, -next.behind), shift);
   places.c = coarser(c, shift);
   places.a = coarser(a, shift);
   find_lattice(places, contract, region.origin);

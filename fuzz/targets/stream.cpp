@@ -25,7 +25,7 @@ bool find_notes(const uint8_t* data, size_t size, const microtin_info* info) {
     sound = sound && status == MICROTIN_DONE;
     if (note == nullptr) continue;
     EXPECT(info != nullptr && note > data);
-    const size_t end = info->header_bytes - kCheckBytes;
+    const size_t end = info->header_bytes - microtin::kCheckBytes;
     EXPECT(static_cast<size_t>(note - data) <= end);
     EXPECT(note_size <= end - static_cast<size_t>(note - data));
   }

@@ -256,6 +256,8 @@ void add_headers(Refused& all) {
   all["malformed_side_y"] = header_with({kLegal, 4, 99, 65536});
   all["malformed_placement_short"] = with_placement({1, 2, 3, 1, 2, 3, 1, 2});
   all["malformed_placement_zero"] = with_placement({1, 2, 0, 1, 2, 3, 1, 2, 3});
+  all["malformed_placement_above_40_bits"] =
+      with_placement({1, 2, 3, 1, 2, 3, 1, 0xA0, 0x80, 0x80, 0x80, 0x80, 0, 3});
   all["malformed_placement_long"] =
       with_placement({0x82, 255, 255, 255, 255, 255, 255, 255, 255, 127, 2, 3});
   all["too_big"] = header_of(flat_contract(kCapacity + 1));
