@@ -90,7 +90,9 @@ inline Halves halves_of(Halves weight, bool upper) {
 template <class Coder, class Weigh>
 void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, Depth depth,
                  const Weigh& weigh) {
-  Halves weight = {1, 1};
+  Halves weight;  // number by number: on AVR a constant to copy from would be in RAM
+  weight.low = 1;
+  weight.high = 1;
   for (uint32_t i = 0; i < depth.halvings && lines.first < lines.last; ++i) {
     if (i < depth.weighed) {
       const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1;
