@@ -416,7 +416,8 @@ microtin_status microtin_compact_begin(void* workspace, size_t size, microtin_me
   c.order = static_cast<Index*>(scratch) + order_at / sizeof(Index);
   c.order_most = (scratch_size - order_at) / sizeof(Index);
   c.ringed = 2;  // infinity, and the vertex where the expansion starts
-  c.least = Point{kLatticeMax, kLatticeMax};
+  c.least.x = kLatticeMax;  // one by one: on AVR a constant to copy from would be in RAM
+  c.least.y = kLatticeMax;
   c.status = MICROTIN_STEP_LIMIT;
   find_room(c, size);
   *compactor = &c;

@@ -163,6 +163,9 @@ Offset code_turned_place(Coder& coder, PlaceModel& model, const FreeRegion& regi
                          const Place& place, Decoding decoding, Offset at, Crowding& crowding) {
   const Depth depth = depth_of(decoding);
   const LegalPlaces& legal = place.legal;
+#if defined(__clang_analyzer__)
+  if (legal.shift < -10 || legal.shift > 10) return at;  // never: it does not follow so far
+#endif
   const FastInt x = code_column(coder, model, region, place, depth, at.x);
   const int32_t column = grains(2 * x, legal.shift);
   const Span own = own_span(legal.own, column, 1, FineRoot());
