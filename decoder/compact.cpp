@@ -415,7 +415,7 @@ microtin_status microtin_compact_begin(void* workspace, size_t size, microtin_me
   c.vertices = c.triangles + (2 * n + 7) / 8;
   c.order = static_cast<Index*>(scratch) + order_at / sizeof(Index);
   c.order_most = (scratch_size - order_at) / sizeof(Index);
-  c.ringed = 2;  // infinity, and the vertex where the expansion starts
+  c.ringed = 2;             // infinity, and the vertex where the expansion starts
   c.least.x = kLatticeMax;  // one by one: on AVR a constant to copy from would be in RAM
   c.least.y = kLatticeMax;
   c.status = MICROTIN_STEP_LIMIT;

@@ -47,7 +47,7 @@
 (pop)
 
 ; A circle's centre: of corners below 2^11 and a cotangent below 2^18.
-;; shared/legal_places.hpp: const int32_t y = (end.y - (k * end.x >> kCotangentBits)) >> (1 + shift);
+;; shared/legal_places.hpp: return Spot{end.x + (k * end.y >> kCotangentBits), end.y - (k * end.x >> kCotangentBits)};
 (push)
 (declare-const k Int)
 (declare-const x Int)
