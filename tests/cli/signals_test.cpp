@@ -28,6 +28,8 @@ class Running {
     std::vector<char*> argv{path.data()};
     for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
+    // A shell starts what runs in its background with both ignored, and the test may be there.
+    for (const int one : {SIGINT, SIGQUIT}) std::signal(one, SIG_DFL);
     if (ignores) std::signal(SIGINT, SIG_IGN);
     if (chdir(session.folder().c_str()) == 0 && dup2(open("/dev/null", O_WRONLY), 1) >= 0 &&
         dup2(errors, 2) >= 0) {
