@@ -216,6 +216,10 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
   command.add_flag_callback(
       "--allow-vrt", [&preparation] { preparation.indirect = Indirect::kAllowed; },
       "Read .vrt files, which name other files to be read, and names that begin with /vsi");
+  command
+      .add_option("--band", preparation.band,
+                  "Band of heights, from 1 on, in a file that has several (read by GDAL)")
+      ->check(CLI::PositiveNumber);
 #endif
   command.add_option("--fill-voids", preparation.fill_voids,
                      "Interpolate voids of up to so many posts");

@@ -70,7 +70,8 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
 }
 
 PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation) {
-  PreparedTerrain terrain{import_terrain(path, preparation.classes, preparation.indirect), 0, 0};
+  PreparedTerrain terrain{
+      import_terrain(path, preparation.classes, preparation.indirect, preparation.band), 0, 0};
   terrain.filled = fill_voids(terrain.source, preparation.fill_voids);
   if (!preparation.water_level) return terrain;
   auto* const raster = std::get_if<Raster>(&terrain.source);
@@ -84,7 +85,8 @@ PreparedTerrain prepared_terrain(const std::string& path, const Preparation& pre
 }
 
 OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
-  OpenSource source = open_terrain(path, preparation.classes, preparation.indirect);
+  OpenSource source =
+      open_terrain(path, preparation.classes, preparation.indirect, preparation.band);
   auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
     if (preparation.water_level) refuse_water(path);

@@ -21,6 +21,7 @@ struct Preparation {
   std::optional<Decimal> water_level;  // voids that are left are water at this height
   std::string water_mask;              // ... where this file says so; everywhere if there is none
   Indirect indirect = Indirect::kRefused;  // files that name others
+  uint32_t band = 0;                       // of a file that has several, from 1 on
 };
 
 // All files that a terrain is read from; none for one without a name. Throws Error as preparing
