@@ -46,38 +46,6 @@ std::string of_grid(const PostGrid& grid) {
                          {"y", exact_axis(grid.y)}});
 }
 
-// "2,9", or "0-6,8-255".
-std::string list_of(const ClassSet& classes) {
-  std::string text;
-  for (size_t first = 0; first < classes.size(); ++first) {
-    if (!classes[first]) continue;
-    size_t last = first;
-    while (last + 1 < classes.size() && classes[last + 1]) ++last;
-    text += (text.empty() ? "" : ",") + std::to_string(first);
-    if (last != first) text += "-" + std::to_string(last);
-    first = last;
-  }
-  return text;
-}
-
-std::string_view name_of(DuplicateRule rule) {
-  switch (rule) {
-    case DuplicateRule::kUnknown:
-      return "unknown";
-    case DuplicateRule::kMiddle:
-      return "middle of lowest and highest";
-    case DuplicateRule::kLowest:
-      return "lowest";
-    case DuplicateRule::kHighest:
-      return "highest";
-    case DuplicateRule::kMean:
-      return "mean";
-    case DuplicateRule::kMedian:
-      return "median";
-  }
-  return "unknown";
-}
-
 void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy) {
   const bool bounded = accuracy && accuracy->bound;
   report.emplace_back("bound", bounded ? number(*accuracy->bound) : "null");
@@ -113,7 +81,7 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
   if (metadata.grid) report.emplace_back("grid", of_grid(*metadata.grid));
   if (metadata.classes) report.emplace_back("classes", json(list_of(*metadata.classes)));
   if (metadata.duplicates != DuplicateRule::kUnknown) {
-    report.emplace_back("duplicates", json(name_of(metadata.duplicates)));
+    report.emplace_back("duplicates", json(text_of(metadata.duplicates)));
   }
   if (metadata.true_places) {
     JsonObject accuracy;

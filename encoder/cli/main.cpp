@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -256,6 +257,35 @@ void add_notes(CLI::App& command, EncodeRequest& request) {
   command.add_option("--lineage", request.lineage, "What was done to the source before");
 }
 
+// One of some names for values.
+template <class Value>
+CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value,
+                        std::map<std::string, Value> choices, const std::string& wanted,
+                        const std::string& description) {
+  const auto read = [&value, choices = std::move(choices)](const std::string& text) {
+    const auto found = choices.find(text);
+    if (found != choices.end()) value = found->second;
+    return found != choices.end();
+  };
+  return add_read(command, name, read, wanted, description);
+}
+
+void add_point_options(CLI::App& command, EncodeRequest& request) {
+  add_choice<BoundAt>(command, "--bound-at", request.bound_at,
+                      {{"points", BoundAt::kTruePlaces}, {"lattice", BoundAt::kLattice}},
+                      "points or lattice",
+                      "Where --max-error holds for points: where they truly lie (points, if not "
+                      "given), or at their places on the lattice alone");
+  add_choice<DuplicateRule>(command, "--duplicates", request.lattice.duplicates,
+                            {{"middle", DuplicateRule::kMiddle},
+                             {"lowest", DuplicateRule::kLowest},
+                             {"highest", DuplicateRule::kHighest},
+                             {"mean", DuplicateRule::kMean}},
+                            "middle, lowest, highest or mean",
+                            "Of points that meet at a place of the lattice: which one stands for "
+                            "all; if not given all count, the surface aims at their middle");
+}
+
 using Action = std::function<void()>;
 
 void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
@@ -278,6 +308,7 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
   add_tiles(command, *request, *vertices, *bytes);
   command.add_flag("--never-below", request->lattice.never_below,
                    "With a bound: no height is below the source, all are at most so far above");
+  add_point_options(command, *request);
   add_search(command, request->search);
   add_decimal(
       command, "--z-step", request->lattice.z_step,

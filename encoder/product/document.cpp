@@ -2,6 +2,7 @@
 // Asks a stream or a pack, so that nobody else needs to know which of them it is.
 #include "encoder/product/document.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -12,6 +13,8 @@
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/stream/header.hpp"
+#include "encoder/terrain/duplicates.hpp"
+#include "encoder/terrain/true_places.hpp"
 #include "encoder/terrain/water.hpp"
 
 namespace microtin::product {
@@ -24,10 +27,29 @@ std::variant<PackFile, DecodedStream> content_of(const std::string& path) {
   return with_file_context(path, [&] { return PackFile(std::move(bytes)); });
 }
 
+bool has_classes(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension().string();
+  return suffix == ".las" || suffix == ".LAS";
+}
+
+// Keeps the points that the document stands for.
+void thin(PointCloud& cloud, const Metadata& metadata) {
+  auto thin = thinned(cloud, metadata.placement, metadata.duplicates);
+  if (thin) cloud = std::move(*thin);
+}
+
 std::variant<Source, OpenSource> source_for(const Document& document, const std::string& path,
-                                            const Preparation& preparation) {
-  if (document.pack() != nullptr) return prepared_source(path, preparation);
-  return prepared_terrain(path, preparation).source;
+                                            Preparation preparation) {
+  const Metadata metadata = document.metadata();
+  if (!preparation.classes && has_classes(path)) preparation.classes = metadata.classes;
+  if (document.pack() != nullptr) {
+    OpenSource source = prepared_source(path, preparation);
+    if (auto* const cloud = std::get_if<PointCloud>(&source)) thin(*cloud, metadata);
+    return source;
+  }
+  Source source = prepared_terrain(path, preparation).source;
+  if (auto* const cloud = std::get_if<PointCloud>(&source)) thin(*cloud, metadata);
+  return source;
 }
 
 }  // namespace
@@ -127,7 +149,14 @@ Original::Judgement Original::judge(const Progress& progress) const {
     return compare(promised.bound, progress,
                    promised.water_level ? gauge.visitor() : PostVisitor());
   });
-  return {promised, found, gauge.moved()};
+  Judgement judgement{promised, found, gauge.moved(), std::nullopt, std::nullopt};
+  const std::optional<Accuracy> noted = document_.metadata().true_places;
+  if (cloud() == nullptr || !noted) return judgement;
+  const SampledSurface surface = document_.sampled();
+  judgement.true_bound = noted->bound;
+  judgement.true_places =
+      verify_at_true_places(surface.height_at, surface.placement, *cloud(), noted->bound);
+  return judgement;
 }
 
 }  // namespace microtin::product

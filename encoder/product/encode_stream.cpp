@@ -3,16 +3,21 @@
 #include "encoder/product/encode_stream.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "encoder/base/error.hpp"
+#include "encoder/export/height_sampler.hpp"
 #include "encoder/fit/approximation.hpp"
 #include "encoder/fit/byte_budget.hpp"
+#include "encoder/product/true_bound.hpp"
 #include "encoder/stream/device_ram.hpp"
 #include "encoder/stream/encode.hpp"
+#include "encoder/terrain/duplicates.hpp"
+#include "encoder/terrain/true_places.hpp"
 #include "encoder/terrain/water.hpp"
 
 namespace microtin::product {
@@ -33,28 +38,136 @@ void check_vertices(const Tin& tin, const EncodeOptions& options) {
   }
 }
 
-// Encodes, measures what a decoder makes of it, and states the errors in the header.
-EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
-                              const Progress& progress) {
-  Metadata metadata = metadata_of(options, reference_of(source));
-  Approximation found = approximate(source, options.lattice, simplify_options(options, progress));
-  check_vertices(found.tin, options);
-  const std::optional<Decimal>& bound = options.lattice.max_error;
-  metadata.placement = found.laid.placement;
-  if (const auto* raster = std::get_if<Raster>(&source)) metadata.grid = posts_of(*raster);
-  if (const auto* cloud = std::get_if<PointCloud>(&source)) metadata.classes = cloud->classes;
-  if (found.laid.merged != 0) metadata.duplicates = DuplicateRule::kMiddle;
-  const auto [stream, decoded] = encode_and_decode(found.tin, metadata, options.effort);
-  WaterGauge gauge(height_decimals(source), bound ? options.lattice.water_level : std::nullopt);
-  const Verification measured = verify(decoded.mesh(), source, bound, gauge.visitor());
-  const bool too_low = options.lattice.never_below && measured.max_below.mantissa != 0;
+// An attempt: encoded, and measured by what a decoder makes of it.
+struct Attempt {
+  EncodedStream encoded;
+  uint64_t missed = 0;  // points that do not keep the bound where they truly lie
+};
+
+void expect_promises(const Verification& measured, const WaterGauge& gauge,
+                     const LatticeOptions& lattice) {
+  const bool too_low = lattice.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.uncovered != 0 ||
       measured.voids_answered != 0 || gauge.moved() != 0) {
     throw InternalFault("the decoded terrain does not keep what was asked for");
   }
-  metadata.accuracy = Accuracy{bound, measured.max_error, measured.rms_error, measured.mean_error};
-  return {std::move(found.laid), bound, with_metadata(stream, metadata),
-          microtin_vertex_count(decoded.mesh()), measured};
+}
+
+Metadata metadata_for(const Source& source, const EncodeOptions& options, const Laid& laid) {
+  Metadata metadata = metadata_of(options, reference_of(source));
+  metadata.placement = laid.placement;
+  if (const auto* raster = std::get_if<Raster>(&source)) metadata.grid = posts_of(*raster);
+  if (const auto* cloud = std::get_if<PointCloud>(&source)) metadata.classes = cloud->classes;
+  if (laid.merged != 0) metadata.duplicates = options.lattice.duplicates;
+  return metadata;
+}
+
+Accuracy accuracy_of(const Verification& measured, const std::optional<Decimal>& bound) {
+  return {bound, measured.max_error, measured.rms_error, measured.mean_error};
+}
+
+// Measures points where they truly lie; adds narrower limits to the lattice's options.
+void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, BoundAt bound_at,
+                         LatticeOptions& lattice, Attempt& attempt) {
+  const SampledSurface surface = sampled(mesh);
+  if (!moves_points(surface.placement, cloud)) return;
+  Verification& found = attempt.encoded.true_places.emplace();
+  if (bound_at == BoundAt::kLattice || !lattice.max_error) {
+    found = verify_at_true_places(surface.height_at, surface.placement, cloud, std::nullopt);
+    return;
+  }
+  TrueBound bound(lattice, surface);
+  found = verify_at_true_places(
+      surface.height_at, surface.placement, cloud, lattice.max_error,
+      [&](int64_t x, int64_t y, int64_t, double above) { bound.see(x, y, above); });
+  attempt.missed = bound.missed();
+  if (attempt.missed == 0 && !found.within_bound)
+    attempt.missed = 1;  // by less than a double tells
+  bound.add_to(lattice.tightenings);
+}
+
+Attempt attempt(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
+                const Progress& progress) {
+  Approximation found = approximate(source, lattice, simplify_options(options, progress));
+  check_vertices(found.tin, options);
+  const std::optional<Decimal>& bound = lattice.max_error;
+  Metadata metadata = metadata_for(source, options, found.laid);
+  const auto [stream, decoded] = encode_and_decode(found.tin, metadata, options.effort);
+  const auto* cloud = std::get_if<PointCloud>(&source);
+  std::optional<Source> thin;
+  if (cloud != nullptr) {
+    if (auto some = thinned(*cloud, found.laid.placement, lattice.duplicates))
+      thin = std::move(*some);
+  }
+  const Source& kept = thin ? *thin : source;
+  WaterGauge gauge(height_decimals(source), bound ? lattice.water_level : std::nullopt);
+  const Verification measured = verify(decoded.mesh(), kept, bound, gauge.visitor());
+  expect_promises(measured, gauge, lattice);
+  metadata.accuracy = accuracy_of(measured, bound);
+  lattice.z_step = found.laid.z_step;
+  Attempt result{{std::move(found.laid),
+                  bound,
+                  {},
+                  microtin_vertex_count(decoded.mesh()),
+                  measured,
+                  std::nullopt},
+                 0};
+  EncodedStream& encoded = result.encoded;
+  if (cloud != nullptr) {
+    measure_true_places(std::get<PointCloud>(kept), decoded.mesh(), options.bound_at, lattice,
+                        result);
+  }
+  if (encoded.true_places) {
+    const bool is_bound = options.bound_at == BoundAt::kTruePlaces;
+    metadata.true_places = accuracy_of(*encoded.true_places, is_bound ? bound : std::nullopt);
+  }
+  encoded.stream = with_metadata(stream, metadata);
+  return result;
+}
+
+[[noreturn]] void refuse_lattice(const Attempt& last, const EncodeOptions& options) {
+  const std::string step = to_string(last.encoded.laid.xy_step);
+  throw Error("--max-error " + to_string(*options.lattice.max_error) + " is not kept where " +
+              std::to_string(last.missed) + " points truly lie, by at most " +
+              to_string(last.encoded.true_places->max_error) + ": --xy-step " + step +
+              " is too coarse; " +
+              (options.lattice.xy_step ? "leave it out, "
+                                       : "16 bits hold no finer one: make a pack (.mtp), ") +
+              "or ask for less with --bound-at lattice");
+}
+
+// Attempts until points keep the bound where they truly lie, as many as are allowed.
+Attempt attempt_some(const Source& source, const EncodeOptions& options, LatticeOptions lattice,
+                     const Progress& progress) {
+  constexpr int kMostAttempts = 6;
+  for (int tries = 1;; ++tries) {
+    Attempt made = attempt(source, options, lattice, progress);
+    if (made.missed == 0 || tries == kMostAttempts) return made;
+  }
+}
+
+// The same with a step of heights that leaves more of the bound to the surface. Nothing if heights
+// do not go in such steps.
+std::optional<Attempt> attempt_finely(const Source& source, const EncodeOptions& options,
+                                      const Progress& progress) {
+  LatticeOptions lattice = options.lattice;
+  if (lattice.z_step || lattice.max_error->decimals >= kMaxDecimals) return std::nullopt;
+  lattice.z_step = make_decimal(lattice.max_error->mantissa, lattice.max_error->decimals + 1);
+  try {
+    return attempt_some(source, options, lattice, progress);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
+                              const Progress& progress) {
+  metadata_of(options, reference_of(source));  // throws if units are not known
+  Attempt made = attempt_some(source, options, options.lattice, progress);
+  if (made.missed == 0) return std::move(made.encoded);
+  std::optional<Attempt> fine = attempt_finely(source, options, progress);
+  if (!fine || fine->missed != 0) refuse_lattice(fine ? *fine : made, options);
+  return std::move(fine->encoded);
 }
 
 // The distance of the lowest and the highest height; 1 if there is none.

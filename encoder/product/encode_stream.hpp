@@ -20,12 +20,15 @@ struct EncodedStream {
   std::vector<uint8_t> stream;
   uint32_t vertices;
   Verification verification;
+  std::optional<Verification> true_places;  // of points that the lattice moves
 };
 
 // Chooses, encodes, decodes with the shipped decoder, and compares that with every post or point:
 // what is returned keeps the bound, covers all heights, leaves all voids open and keeps water at
-// its level. With max_bytes, that is the smallest bound found whose stream is no longer, as sought
-// in some twenty encodings. Throws Error if what is asked for cannot be had.
+// its level. Points keep the bound where they truly lie, too, unless options leave that: after each
+// attempt limits become narrower where one does not. With max_bytes, that is the smallest bound
+// found whose stream is no longer, as sought in some twenty encodings. Throws Error if what is
+// asked for cannot be had.
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
                             const Progress& progress);
 
