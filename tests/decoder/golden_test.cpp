@@ -52,7 +52,8 @@ Tin on_every_other_line(const Tin& tin) {
         v.z;
     ++i;
   }
-  for (const uint16_t x : {0, 1000}) heights[{x, 0}] = heights[{x, 1000}] = 7;
+  const uint16_t ends[] = {0, 1000};
+  for (const uint16_t x : ends) heights[{x, ends[0]}] = heights[{x, ends[1]}] = 7;
   Tin on_lines;
   for (const auto& [place, z] : heights) {
     on_lines.vertices.push_back(Vertex{place.first, place.second, z});
