@@ -5,6 +5,7 @@
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/exact/mesh_vertex.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/product/document.hpp"
@@ -54,6 +55,44 @@ void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy) {
   report.emplace_back("mean_error", accuracy ? number(accuracy->mean_error) : "null");
 }
 
+double real(const Axis& axis, int64_t number) {
+  return (static_cast<double>(axis.offset) +
+          static_cast<double>(axis.numerator) * static_cast<double>(number)) /
+         static_cast<double>(axis.denominator);
+}
+
+// What of the lattice a terrain takes.
+struct LatticeBox {
+  int64_t x_min, y_min, x_max, y_max;
+  int64_t lowest, highest;
+};
+
+// Where it lies and how large it is, in the terrain's units.
+void add_extent(JsonObject& report, const LatticeBox& box, const Placement& p) {
+  const double west = real(p.x, box.x_min), east = real(p.x, box.x_max);
+  const double south = real(p.y, box.y_min), north = real(p.y, box.y_max);
+  report.emplace_back("extent", json(JsonObject{{"west", json(west)},
+                                                {"south", json(south)},
+                                                {"east", json(east)},
+                                                {"north", json(north)}}));
+  report.emplace_back("size",
+                      json(JsonObject{{"x", json(east - west)}, {"y", json(north - south)}}));
+  report.emplace_back("heights", json(JsonObject{{"lowest", json(real(p.z, box.lowest))},
+                                                 {"highest", json(real(p.z, box.highest))}}));
+}
+
+LatticeBox box_of(const microtin_mesh* mesh) {
+  const Vertex first = vertex_of(mesh, 0);
+  LatticeBox box{first.x, first.y, first.x, first.y, first.z, first.z};
+  for (uint32_t v = 1; v < microtin_vertex_count(mesh); ++v) {
+    const Vertex vertex = vertex_of(mesh, v);
+    box = {std::min<int64_t>(box.x_min, vertex.x),  std::min<int64_t>(box.y_min, vertex.y),
+           std::max<int64_t>(box.x_max, vertex.x),  std::max<int64_t>(box.y_max, vertex.y),
+           std::min<int64_t>(box.lowest, vertex.z), std::max<int64_t>(box.highest, vertex.z)};
+  }
+  return box;
+}
+
 void add_placement(JsonObject& report, const Metadata& metadata) {
   const Placement& p = metadata.placement;
   report.emplace_back("steps", of_axes(p, [](const Axis& a) { return json(step_of(a)); }));
@@ -97,7 +136,8 @@ JsonObject report_of(const DecodedStream& stream) {
   const uint32_t vertices = header.info.vertices;
   const uint32_t voids = count_triangles(terrain.mesh(), MICROTIN_VOID);
   const uint32_t triangles = count_triangles(terrain.mesh(), MICROTIN_REAL) + voids;
-  JsonObject report = {{"format_version", json(header.info.version)},
+  JsonObject report = {{"kind", json(std::string_view("stream"))},
+                       {"format_version", json(header.info.version)},
                        {"vertices", json(vertices)},
                        {"triangles", json(triangles)},
                        {"void_triangles", json(voids)},
@@ -109,6 +149,7 @@ JsonObject report_of(const DecodedStream& stream) {
                        {"workspace_bytes_16", workspace_bytes_16(vertices)},
                        {"workspace_bytes_32", json(MICROTIN_MESH_BYTES_FOR(vertices, 32) +
                                                    MICROTIN_DECODER_BYTES_FOR(vertices, 32))}};
+  add_extent(report, box_of(terrain.mesh()), header.metadata.placement);
   add_placement(report, header.metadata);
   add_notes(report, header.metadata);
   add_accuracy(report, header.metadata.accuracy);
@@ -129,8 +170,8 @@ JsonObject tile_report(const PackFile& pack, uint32_t number) {
           {"y", json(box.y)},
           {"bytes", json(entry.size)},
           {"vertices", json(entry.vertices)},
-          {"lowest", json(entry.lowest)},
-          {"highest", json(entry.highest)},
+          {"lowest", entry.size != 0 ? json(real(z, entry.lowest)) : "null"},
+          {"highest", entry.size != 0 ? json(real(z, entry.highest)) : "null"},
           {"max_error", in_units(entry.max_error, z)},
           {"rms_error", in_units(entry.root_mean_square, z)}};
 }
@@ -168,7 +209,8 @@ JsonObject report_of(const PackFile& pack) {
   for (const PackEntry& entry : pack.entries()) vertices += entry.vertices;
   const TileGrid& grid = pack.grid();
   const uint32_t compact = pack.header().compact_bytes;
-  JsonObject report = {{"pack_version", json(kPackVersion)},
+  JsonObject report = {{"kind", json(std::string_view("pack"))},
+                       {"pack_version", json(kPackVersion)},
                        {"columns", json(tile_columns(grid))},
                        {"rows", json(tile_rows(grid))},
                        {"tile_width", json(grid.width)},
@@ -177,10 +219,11 @@ JsonObject report_of(const PackFile& pack) {
                        {"y_max", json(grid.y_max)},
                        {"vertices", json(vertices)},
                        {"most_vertices", json(pack.header().most_vertices)},
-                       {"lowest", json(pack.header().lowest)},
-                       {"highest", json(pack.header().highest)},
                        {"compact_bytes", compact != 0 ? json(compact) : "null"},
                        {"bytes", json(pack.bytes())}};
+  const PackHeader& header = pack.header();
+  add_extent(report, {0, 0, grid.x_max, grid.y_max, header.lowest, header.highest},
+             pack.metadata().placement);
   add_placement(report, pack.metadata());
   add_notes(report, pack.metadata());
   add_accuracy(report, pack.metadata().accuracy);

@@ -106,9 +106,20 @@ std::vector<std::string> terrain_files(const std::string& path,
   return files;
 }
 
+namespace {
+
+void expect_source(const std::string& path, const std::string& suffix) {
+  if (suffix != ".mtin" && suffix != ".mtp") return;
+  throw Error(path + ": is " + (suffix == ".mtp" ? "a pack" : "a stream") +
+              ", which \"microtin decode\" turns into a terrain file");
+}
+
+}  // namespace
+
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes,
                       Indirect indirect, uint32_t band) {
   const std::string suffix = suffix_of(path);
+  expect_source(path, suffix);
   if (is_laser_scan(suffix)) return import_las(path, read_file(path), classes);
   if (classes) throw Error(path + ": only .las files have classes");
   if (path == "-") return import_points("standard input", read_file(path));

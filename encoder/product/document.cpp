@@ -11,6 +11,7 @@
 #include "encoder/export/system.hpp"
 #include "encoder/files/input_file.hpp"
 #include "encoder/pack/point_pack.hpp"
+#include "encoder/pack/shard.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/duplicates.hpp"
@@ -20,9 +21,14 @@
 namespace microtin::product {
 namespace {
 
+[[noreturn]] void refuse_shard(const std::string& path) {
+  throw Error(path + ": is a shard, a part of a pack: join all shards with \"microtin merge\"");
+}
+
 std::variant<PackFile, DecodedStream> content_of(const std::string& path) {
   std::unique_ptr<ByteSource> bytes;
   if (is_regular_file(path)) bytes = open_file(path);
+  if (bytes && is_shard(*bytes)) refuse_shard(path);
   if (!bytes || !is_pack(*bytes)) return read_stream(path);
   return with_file_context(path, [&] { return PackFile(std::move(bytes)); });
 }
@@ -57,6 +63,13 @@ std::variant<Source, OpenSource> source_for(const Document& document, const std:
 DecodedStream read_stream(const std::string& path) {
   const std::string text = read_file(path);
   std::vector<uint8_t> bytes(text.begin(), text.end());
+  const std::unique_ptr<ByteSource> source = bytes_in_memory(bytes);
+  if (is_shard(*source)) refuse_shard(path);
+  if (is_pack(*source)) {
+    throw Error(path +
+                ": is a pack: it is read as a file, not from a pipe, and not where a stream "
+                "is wanted");
+  }
   DecodedTerrain terrain = with_file_context(path, [&] { return DecodedTerrain(bytes); });
   return {std::move(bytes), std::move(terrain)};
 }
