@@ -120,7 +120,9 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
     return encode_pack(raster, request, streams, bar.progress());
   });
   write_pack(pack, streams, out);
-  return text_of(report_of(pack)) + units(request, raster.frame().reference);
+  const std::string& selection = raster.frame().selection;
+  const std::string text = selection.empty() ? "" : "source: " + selection + "\n";
+  return text + text_of(report_of(pack)) + units(request, raster.frame().reference);
 }
 
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {

@@ -48,7 +48,7 @@ constexpr const char* kExitCodes =
 
 constexpr const char* kTerrainFiles =
     "Rasters: .hgt, .zip with one .hgt, .asc. Points: .xyz, .csv, .txt, .las, .ply, .obj; - reads "
-    "points"
+    "points. Several files, or a folder of them, are one terrain"
 #ifdef MICROTIN_WITH_GDAL
     ". Others by GDAL"
 #endif
@@ -73,8 +73,18 @@ void add_stream(CLI::App& command, std::string& path,
   command.add_option("stream", path, description)->required()->type_name(kFile);
 }
 
-void add_terrain(CLI::App& command, std::string& path) {
-  command.add_option("terrain", path, kTerrainFiles)->required()->type_name(kFile);
+// One or several files, or folders of them, that make up one terrain.
+void add_terrain(CLI::App& command, std::string& path, Preparation& preparation) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "terrain",
+          [&path, &preparation](const std::vector<std::string>& files) {
+            path = files[0];
+            preparation.more_files.assign(files.begin() + 1, files.end());
+          },
+          kTerrainFiles)
+      ->required()
+      ->type_name(kFile);
 }
 
 void add_json(CLI::App& command, bool& json) {
@@ -289,7 +299,7 @@ void add_point_options(CLI::App& command, EncodeRequest& request) {
 using Action = std::function<void()>;
 
 void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
-  add_terrain(command, request->input);
+  add_terrain(command, request->input, request->preparation);
   CLI::Option* const bound =
       add_decimal(command, "--max-error", request->lattice.max_error,
                   "Keep every height within this distance, in the terrain's unit");
@@ -429,7 +439,7 @@ void add_verify(CLI::App& app, Action& action) {
   auto request = std::make_shared<VerifyRequest>();
   CLI::App& command = *app.add_subcommand("verify", "Compare a stream with its terrain");
   add_stream(command, request->input);
-  add_terrain(command, request->source);
+  add_terrain(command, request->source, request->preparation);
   add_preparation(command, request->preparation);
   add_json(command, request->json);
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
@@ -461,6 +471,14 @@ void add_render(CLI::App& app, Action& action) {
   command.add_option("--width", request->width, "Pixels in a row")
       ->check(CLI::Range(kNarrowest, kWidest))
       ->capture_default_str();
+  command.add_flag_callback(
+      "--no-mesh", [request] { request->mesh = false; }, "Do not draw the triangles");
+  add_choice<PaletteKind>(command, "--palette", request->palette,
+                          {{"land", PaletteKind::kLand}, {"sea", PaletteKind::kSea}}, "land or sea",
+                          "Colours of heights: land from the lowest on, or land from 0 on and sea, "
+                          "blue, below");
+  command.add_flag("--world-file", request->world,
+                   "Write beside the picture, as .pgw, where its map lies");
   command.add_option("--source", request->source, "Draw a map of the errors against this terrain")
       ->type_name(kFile);
   add_preparation(command, request->preparation);

@@ -96,6 +96,10 @@ Source import_other(const std::string& path, Indirect, uint32_t) {
 
 }  // namespace
 
+bool is_terrain_suffix(const std::string& suffix) {
+  return is_laser_scan(suffix) || importer_for(suffix) != nullptr;
+}
+
 std::vector<std::string> terrain_files(const std::string& path,
                                        [[maybe_unused]] Indirect indirect) {
 #ifdef MICROTIN_WITH_GDAL

@@ -218,3 +218,20 @@ TEST_CASE("places: shards and packs are told as such") {
   CHECK(contains(session.failure("encode t.mtin -o o.mtin"), "t.mtin: is a stream, which"));
   CHECK(contains(session.failure("merge t.mtp -o o.mtp"), "not a shard"));
 }
+
+TEST_CASE("places: pictures are .png files, with a world file on request") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 17 -o t.asc").code == 0);
+  REQUIRE(session.run("encode t.asc --units m -o t.mtin").code == 0);
+  for (const char* const name : {"t.jpg", "t.svg", "t.tif"}) {
+    CHECK(contains(session.failure("render t.mtin -o " + std::string(name)),
+                   std::string(name) + ": not a kind of picture that is written (.png)"));
+  }
+  CHECK(session.run("render t.mtin --no-mesh --palette sea --world-file -o t.png").code == 0);
+  const std::string world = session.read("t.pgw");
+  CHECK(std::count(world.begin(), world.end(), '\n') == 6);
+  CHECK(
+      contains(session.failure("render t.mtin --world-file -o -"), "-: a world file lies beside"));
+  CHECK(contains(session.failure("render t.mtin --palette sky -o u.png", 2),
+                 "sky is not land or sea"));
+}
