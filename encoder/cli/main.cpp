@@ -361,7 +361,7 @@ void add_embed(CLI::App& app, Action& action) {
   };
   auto request = std::make_shared<Request>();
   CLI::App& command =
-      *app.add_subcommand("embed", "Turn a stream into a C header, to be linked into firmware");
+      *app.add_subcommand("embed", "Turn a stream or a pack into a C header, to be linked into firmware");
   add_stream(command, request->input, "A stream (.mtin)");
   add_output(command, request->output);
   command.footer("X.h defines the array X_stream and X_VERTICES, the capacity that it needs.");
