@@ -7,8 +7,7 @@
 
 #define SECTOR 512
 #define SLOTS 4
-#define CAPACITY 2500 /* microtin info: most vertices of a tile; smaller tiles cost more sectors \
-                       */
+#define CAPACITY 2500 /* microtin info: most vertices of a tile. Smaller tiles: more sectors */
 #define STEPS 200     /* of decoding, in a turn of the main loop */
 
 /* --- The card. A file system would find the file's sectors here: f_lseek and f_read, of which each
