@@ -102,6 +102,7 @@ Options common_options(const microtin_options& given) {
   options.search = choice("search", given.search, options.search);
   if (given.degree != 0) options.degree = given.degree;
   options.decoding = choice("decoding", given.decoding, options.decoding);
+  options.units = text_of(given.units);
   options.horizontal_epsg = given.horizontal_epsg;
   options.vertical_epsg = given.vertical_epsg;
   options.source = text_of(given.source);

@@ -64,6 +64,7 @@ typedef struct microtin_options {
   uint32_t search;      /* 1 fast, 2 normal, 3 best */
   uint32_t degree;      /* 6 .. 32 */
   uint32_t decoding;    /* 1 quick, 2 balanced, 3 dense */
+  const char* units;    /* "degree:metre", ":foot"; null: as code or well-known text say */
   uint32_t horizontal_epsg, vertical_epsg;
   const char *source, *date, *lineage;
   uint32_t max_vertices, max_bytes;            /* of streams */

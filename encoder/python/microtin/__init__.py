@@ -94,8 +94,8 @@ def encode(
     max_bytes     the smallest bound that so many bytes allow, instead of both; takes minutes
 
     Options: never_below=True, z_step, xy_step, search="fast" | "normal" | "best", degree,
-    decoding="quick" | "balanced" | "dense", vertical_epsg, source, date, lineage, and progress, a function of 0 .. 1; what
-    it raises ends the work. Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all
+    decoding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", vertical_epsg, source, date, lineage, and
+    progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all
     processors. Raises Error, also if an array is not two-dimensional or a height out of range.
     """
     with _terrain_of_array(array, transform, crs, nodata) as terrain:
@@ -201,6 +201,7 @@ def _options(
     never_below: bool = False,
     z_step: Optional[Number] = None,
     xy_step: Optional[Number] = None,
+    units: str = "",
     source: str = "",
     date: str = "",
     lineage: str = "",
@@ -223,6 +224,7 @@ def _options(
         never_below=never_below,
         search=_SEARCHES[search],
         decoding=_DECODINGS[decoding],
+        units=units.encode(),
         horizontal_epsg=_epsg_of(crs) or 0,
         source=source.encode(),
         date=date.encode(),
