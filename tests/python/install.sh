@@ -5,7 +5,7 @@
 set -eu
 python=$1 folder=$2
 sources=$(cd "$(dirname "$0")/../.." && pwd)
-"$python" -c "import numpy, pip, setuptools, wheel" || { echo "skipped: no numpy, pip, setuptools or wheel"; exit 77; }
+"$python" -c "import setuptools, wheel, numpy, pip" || { echo "skipped: no numpy, pip, setuptools or wheel"; exit 77; }
 # A copy, so that nothing is built among the sources.
 rm -rf "$folder"
 mkdir -p "$folder/sources/encoder" "$folder/sources/decoder"
