@@ -212,7 +212,6 @@ TEST_CASE("places: shards and packs are told as such") {
         "render t.shard -o o.png", "embed t.shard -o o.h"}) {
     CHECK(contains(session.failure(command), "t.shard: is a shard, a part of a pack"));
   }
-  CHECK(contains(session.failure("embed t.mtp -o o.h"), "t.mtp: is a pack"));
   CHECK(contains(session.failure("info - < t.mtp"), "-: is a pack"));
   CHECK(contains(session.failure("encode t.mtp -o o.mtin"), "t.mtp: is a pack, which"));
   CHECK(contains(session.failure("encode t.mtin -o o.mtin"), "t.mtin: is a stream, which"));
