@@ -79,10 +79,10 @@ void draw(const RenderRequest& request, const Portrait& portrait, const Comparis
 }  // namespace
 
 void run_render(const RenderRequest& request) {
-  expect_picture(request);
   std::vector<std::string> inputs = files_of(request.source, request.preparation);
   inputs.push_back(request.input);
   refuse_overwriting(inputs, request.output);
+  expect_picture(request);
   const Document document(request.input);
   const Portrait portrait{document.model(), document.metadata(), document.vertices(),
                           document.bytes(), document.tiles(),    request.mesh,
