@@ -7,6 +7,7 @@
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/files/file_target.hpp"
+#include "encoder/pack/tile_plan.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
@@ -200,19 +201,22 @@ JsonObject report_of(const PackFile& pack) {
   for (const PackEntry& entry : pack.entries()) vertices += entry.vertices;
   const TileGrid& grid = pack.grid();
   const uint32_t compact = pack.header().compact_bytes;
-  JsonObject report = {{"pack_version", json(kPackVersion)},
-                       {"columns", json(tile_columns(grid))},
-                       {"rows", json(tile_rows(grid))},
-                       {"tile_width", json(grid.width)},
-                       {"tile_height", json(grid.height)},
-                       {"x_max", json(grid.x_max)},
-                       {"y_max", json(grid.y_max)},
-                       {"vertices", json(vertices)},
-                       {"most_vertices", json(pack.header().most_vertices)},
-                       {"lowest", json(pack.header().lowest)},
-                       {"highest", json(pack.header().highest)},
-                       {"compact_bytes", compact != 0 ? json(compact) : "null"},
-                       {"bytes", json(pack.bytes())}};
+  JsonObject report = {
+      {"pack_version", json(kPackVersion)},
+      {"columns", json(tile_columns(grid))},
+      {"rows", json(tile_rows(grid))},
+      {"tile_width", json(grid.width)},
+      {"tile_height", json(grid.height)},
+      {"x_max", json(grid.x_max)},
+      {"y_max", json(grid.y_max)},
+      {"vertices", json(vertices)},
+      {"most_vertices", json(pack.header().most_vertices)},
+      {"lowest", json(pack.header().lowest)},
+      {"highest", json(pack.header().highest)},
+      {"compact_bytes", compact != 0 ? json(compact) : "null"},
+      {"workspace_bytes_4_compact_tiles",
+       compact != 0 ? json(pack_ram(pack.header().most_vertices, compact)) : "null"},
+      {"bytes", json(pack.bytes())}};
   add_placement(report, pack.metadata());
   add_notes(report, pack.metadata());
   add_accuracy(report, pack.metadata().accuracy);

@@ -12,7 +12,7 @@
 #include <cstring>
 #include <vector>
 
-#include "microtin/pack.hpp"
+#include "microtin/compact_pack.hpp"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/packs.hpp"
 
@@ -849,8 +849,11 @@ TEST_CASE("pack: real coordinates become places, exactly rounded") {
   CHECK(microtin_pack_to_lattice(&degrees, 1200, 0, 0, &lattice) == 0);
 }
 
-TEST_CASE("pack: the C++ face") {
-  static Pack<4, kCapacity> pack;
+using MeshPack = Pack<4, kCapacity>;
+using PackOfCompact = CompactPack<4, kCapacity>;
+
+TEST_CASE_TEMPLATE("pack: the C++ face", Face, MeshPack, PackOfCompact) {
+  static Face pack;
   Card card{pack_bytes(rough_raster(61, 53))};
   const microtin_course c = at(30, 26);
   microtin_pack_info info;
