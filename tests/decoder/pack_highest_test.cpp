@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "tests/support/forged_pack.hpp"
@@ -228,6 +229,32 @@ Raster ring_of_posts() {
   return raster;
 }
 
+uint32_t repeats_of(const Tin& tin) {
+  return compact_form(DecodedTerrain(encode(tin, Metadata()))).repeats;
+}
+
+// A tile of which the path of the compact form misses some vertices, found by moving one after
+// another; some of its triangles are void.
+Tin missed_tile(Random& random, uint16_t side) {
+  Tin best = random_tile(random, side, side, false, 0);
+  uint32_t most = repeats_of(best);
+  for (int i = 0; i < 150; ++i) {
+    Tin tin = best;
+    Vertex& moved = tin.vertices[random.below(static_cast<uint32_t>(tin.vertices.size()))];
+    moved.x = static_cast<uint16_t>(random.below(side + 1u));
+    moved.y = static_cast<uint16_t>(random.below(side + 1u));
+    const auto meets = [&](const Vertex& v) {
+      return &v != &moved && v.x == moved.x && v.y == moved.y;
+    };
+    if (std::any_of(tin.vertices.begin(), tin.vertices.end(), meets) || !has_triangle(tin))
+      continue;
+    const uint32_t repeats = repeats_of(tin);
+    if (repeats >= most) best = tin;
+    most = std::max(most, repeats);
+  }
+  return with_some_voids(std::move(best), random, 30);
+}
+
 }  // namespace
 
 TEST_CASE_TEMPLATE(
@@ -265,6 +292,27 @@ TEST_CASE_TEMPLATE(
     check_pack<Device>(write_pack(encode_pack(raster, pack_options(3, 100))), random, 40, true,
                        counts);
   }
+  CHECK(counts.known > 100);
+  CHECK(counts.unknown > 100);
+}
+
+TEST_CASE_TEMPLATE("pack: the highest on a course is exact where compact paths miss vertices",
+                   Device, MeshSlots, CompactSlots) {
+  Random random(35);
+  Counts counts;
+  uint32_t repeats = 0;
+  for (int round = 0; round < 60; ++round) {
+    const uint16_t side = static_cast<uint16_t>(5 + random.below(4));
+    std::vector<ForgedTile> tiles;
+    for (int i = 0; i < 2; ++i) {
+      const Tin tin = missed_tile(random, side);
+      repeats += repeats_of(tin);
+      tiles.push_back(forged_tile(tin));
+    }
+    check_pack<Device>(forged_pack({2u * side, side, side, side}, tiles), random, 100, false,
+                       counts);
+  }
+  CHECK(repeats > 100);
   CHECK(counts.known > 100);
   CHECK(counts.unknown > 100);
 }
