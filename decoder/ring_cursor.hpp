@@ -194,8 +194,12 @@ inline uint32_t number_of(const RingCursor& cursor) {
   return 2 * cursor.middle() + cursor.side() - kFirstNumber;
 }
 
+inline uint32_t middle_of(uint32_t number) {
+  return (number + kFirstNumber) >> 1;
+}
+
 inline RingCursor cursor_at(const Ring& r, uint32_t number) {
-  return RingCursor(r, (number + kFirstNumber) >> 1, number & 1u);
+  return RingCursor(r, middle_of(number), number & 1u);
 }
 
 inline uint32_t triangle_count(const Ring& r) {

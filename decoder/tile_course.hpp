@@ -3,6 +3,7 @@
 // form of a terrain, which has
 //   Cursor       as walk.hpp says
 //   triangles(), at(t)   the numbers of triangles; in a ghost the cursor's apex is infinity
+//   places(t, places)    those of a triangle's corners; false if it is a ghost
 //   corner()     the place from which its places are seen
 //   height_at(x, y, hint, height)
 #ifndef MICROTIN_DECODER_TILE_COURSE_HPP
@@ -111,8 +112,9 @@ class TileCourse {
     move(form.corner());
     bool is_known = true;
     for (uint32_t t = 0; t < form.triangles(); ++t) {
-      const typename Form::Cursor cursor = form.at(t);
-      if (!look_at(cursor, highest)) is_known = false;
+      Point place[3];
+      const bool is_aside = form.places(t, place) && are_aside(place);
+      if (!is_aside && !look_at(form.at(t), highest)) is_known = false;
     }
     return is_known;
   }
@@ -150,7 +152,6 @@ class TileCourse {
       return !leaves_at(cursor.place(cursor.start()), cursor.place(cursor.end()));
     Corner corner[3];
     for (uint32_t i = 0; i < 3; ++i) corner[i] = Corner{cursor.vertex(cursor.corner(i)), 0};
-    if (is_aside(corner)) return true;
     for (Corner& c : corner) c.side = orient(begin_, end_, c.at());
     if (!cursor.has_terrain()) {
       for (const Corner& c : corner) look_at_corner(c, highest);
@@ -173,9 +174,8 @@ class TileCourse {
   }
 
   // Whether a real triangle lies beside the bounding box of the course: most do.
-  bool is_aside(const Corner* c) const {
-    return are_aside(c[0].vertex.x, c[1].vertex.x, c[2].vertex.x, x_) ||
-           are_aside(c[0].vertex.y, c[1].vertex.y, c[2].vertex.y, y_);
+  bool are_aside(const Point* p) const {
+    return are_aside(p[0].x, p[1].x, p[2].x, x_) || are_aside(p[0].y, p[1].y, p[2].y, y_);
   }
   static bool are_aside(int32_t a, int32_t b, int32_t c, const Reach& reach) {
     return (a < reach.low && b < reach.low && c < reach.low) ||
