@@ -5,7 +5,7 @@
  * One tile at a time is decoded, in a mesh of the pack's own, and made compact into its slot. So a
  * tile that is to go stays until then. All else is as in pack.h: who may interrupt whom, courses,
  * reading, bad tiles. Of its functions those that are missing here serve for these packs, too:
- * microtin_pack_reset, _wanted, _given, _bad_tile, _retry, _header, _to_lattice.
+ * microtin_pack_reset, _align_reads, _wanted, _given, _bad_tile, _retry, _header, _to_lattice.
  */
 #ifndef MICROTIN_COMPACT_PACK_H
 #define MICROTIN_COMPACT_PACK_H

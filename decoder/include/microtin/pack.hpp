@@ -20,6 +20,7 @@ class PackFace {
     return microtin_pack_bad_tile(pack_, i, tile, why) != 0;
   }
   void retry() { microtin_pack_retry(pack_); }
+  microtin_status align_reads(uint32_t sector) { return microtin_pack_align_reads(pack_, sector); }
   bool header(microtin_pack_info* info) const { return microtin_pack_header(pack_, info) != 0; }
 
  protected:
