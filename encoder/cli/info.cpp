@@ -7,10 +7,10 @@
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/files/file_target.hpp"
-#include "encoder/pack/tile_plan.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
+#include "microtin/compact_pack.h"
 
 namespace microtin::cli {
 namespace {
@@ -27,6 +27,14 @@ uint32_t count_triangles(const microtin_mesh* mesh, microtin_triangle_kind kind)
 std::string workspace_bytes_16(uint32_t vertices) {
   if (vertices > MICROTIN_MAX_VERTICES_FOR(16)) return "null";
   return json(MICROTIN_MESH_BYTES_FOR(vertices, 16) + MICROTIN_DECODER_BYTES_FOR(vertices, 16));
+}
+
+// Of a device that decodes one tile and keeps four, in compact form.
+uint64_t workspace_bytes_4_compact_tiles(const PackHeader& header) {
+  const uint64_t most = header.most_vertices, bytes = header.compact_bytes;
+  return most <= MICROTIN_MAX_VERTICES_FOR(16)
+             ? MICROTIN_COMPACT_PACK_BYTES_FOR(4, most, bytes, 16)
+             : MICROTIN_COMPACT_PACK_BYTES_FOR(4, most, bytes, 32);
 }
 
 std::string exact_axis(const Axis& axis) {
@@ -215,7 +223,7 @@ JsonObject report_of(const PackFile& pack) {
       {"highest", json(pack.header().highest)},
       {"compact_bytes", compact != 0 ? json(compact) : "null"},
       {"workspace_bytes_4_compact_tiles",
-       compact != 0 ? json(pack_ram(pack.header().most_vertices, compact)) : "null"},
+       compact != 0 ? json(workspace_bytes_4_compact_tiles(pack.header())) : "null"},
       {"bytes", json(pack.bytes())}};
   add_placement(report, pack.metadata());
   add_notes(report, pack.metadata());

@@ -27,8 +27,8 @@
  * terrain of which so many vertices are taken twice. */
 #define MICROTIN_COMPACT_BYTES_FOR(vertices, wide, bits) \
   MICROTIN_COMPACT_BYTES_WITH(vertices, MICROTIN_COMPACT_REPEATS(vertices), wide, bits)
-#define MICROTIN_COMPACT_BYTES_WITH(vertices, repeats, wide, bits)                         \
-  (MICROTIN_COMPACT_HEADER_BYTES +                                                         \
+#define MICROTIN_COMPACT_BYTES_WITH(vertices, repeats, wide, bits) \
+  (MICROTIN_COMPACT_HEADER_BYTES +                                 \
    ((vertices) + 1ul + (repeats)) * (4ul + (bits) / 8 * 2ul + (wide)) + (repeats) * ((bits) / 8))
 #define MICROTIN_COMPACT_HEADER_BYTES 88ul
 #define MICROTIN_COMPACT_REPEATS(vertices) (8ul + (vertices) / 64)
