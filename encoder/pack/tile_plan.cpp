@@ -47,12 +47,21 @@ std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
   return tiles;
 }
 
-// The vertices of the tile that probably has most.
-uint32_t most_vertices(const TiledRaster& tiled, const SimplifyOptions& options) {
+// The vertices of the tile that probably has most, without searching long. Tiles that are a little
+// too large that way are counted as they will be encoded.
+uint32_t most_vertices(const TiledRaster& tiled, uint32_t max_vertices,
+                       const SimplifyOptions& options) {
+  SimplifyOptions quick = options;
+  if (options.bounded) quick.search = Search::kFast;
   const std::vector<uint32_t> tiles = roughest_tiles(tiled);
   std::vector<uint32_t> vertices(tiles.size());
-  for_each_parallel(tiles.size(),
-                    [&](std::size_t i) { vertices[i] = count_vertices(tiled, tiles[i], options); });
+  for_each_parallel(tiles.size(), [&](std::size_t i) {
+    vertices[i] = count_vertices(tiled, tiles[i], quick);
+    const bool nearly_fits = vertices[i] > max_vertices && vertices[i] <= max_vertices / 8.0 * 9;
+    if (nearly_fits && quick.search != options.search) {
+      vertices[i] = count_vertices(tiled, tiles[i], options);
+    }
+  });
   return *std::max_element(vertices.begin(), vertices.end());
 }
 
@@ -77,7 +86,7 @@ TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps) {
 }
 
 uint32_t choose_tile_steps(TiledRaster tiled, uint32_t max_vertices, SimplifyOptions options) {
-  options.search = options.bounded ? Search::kFast : options.search;
+  options.progress = {};
   const Raster& frame = tiled.raster.frame();
   const uint32_t longer = std::max(frame.width, frame.height) - 1;
   const double posts = options.bounded ? max_vertices * kPostsPerVertex : max_vertices;
@@ -85,7 +94,7 @@ uint32_t choose_tile_steps(TiledRaster tiled, uint32_t max_vertices, SimplifyOpt
   uint32_t fitting = 0, fewest = 1, pieces = std::clamp(guess, 1u, longer);
   for (;;) {  // in pieces of the longer side
     tiled.grid = grid_of(frame, divide_up(longer, pieces));
-    const uint32_t most = most_vertices(tiled, options);
+    const uint32_t most = most_vertices(tiled, max_vertices, options);
     if (most <= max_vertices) fitting = pieces;
     if (most > max_vertices) fewest = pieces + 1;
     const double ratio = std::sqrt(static_cast<double>(most) / max_vertices);

@@ -19,7 +19,7 @@ TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps);
 
 // The largest tile_steps found with which no tile has more than max_vertices vertices, as far as
 // the roughest tiles tell: up to 24 of them are simplified, two or three times, without searching
-// long, and the raster is read as often. Throws Error if there are none.
+// long unless they are a little too large then, and the raster is read as often. Throws Error if there are none.
 uint32_t choose_tile_steps(TiledRaster tiled, uint32_t max_vertices, SimplifyOptions options);
 
 // What to try next if a tile has too many vertices; less than tile_steps. Throws Error if there is
