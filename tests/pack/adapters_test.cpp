@@ -35,7 +35,7 @@ std::optional<double> truth(const PackFile& pack, double latitude, double longit
 // A device with everything there that a flight of this size wants.
 struct Loaded {
   Card card{degree_pack()};
-  PackDevice device{50, 300};
+  MeshSlots device{50, 300};
   PackFile pack{degree_pack()};
 
   template <class Ask, class Adapter>
@@ -53,7 +53,7 @@ struct Loaded {
 
 TEST_CASE("adapters: a flight is what devices print") {
   Card card{degree_pack()};
-  const PackDevice device(5, 300);
+  const MeshSlots device(5, 300);
   printed.clear();
   const auto put = [](char c) { printed += c; };
   CHECK(AdaptersReport(put, device.pack, Card::read, &card).run() == 0);
