@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <memory>
 #include <microtin/surface.hpp>
 #include <mutex>
 #include <stdexcept>
@@ -70,11 +71,15 @@ Opened open(const char* path) {
   return {std::move(mesh), surface.facts().box, system_of(surface.facts())};
 }
 
-// So many of `count` things are there from `start` on.
-int available(size_t all, int start, int count) {
-  if (start < 0 || count < 0) return 0;
+// Those of `count` things from `start` on that are there.
+struct Range {
+  size_t first, count;
+};
+
+Range available(size_t all, int start, int count) {
+  if (start < 0 || count < 0) return {0, 0};
   const size_t first = std::min(all, static_cast<size_t>(start));
-  return static_cast<int>(std::min(all - first, static_cast<size_t>(count)));
+  return {first, std::min(all - first, static_cast<size_t>(count))};
 }
 
 }  // namespace
@@ -155,11 +160,11 @@ MICROTIN_MDAL const char* MDAL_DRIVER_M_projection(int id) {
 MICROTIN_MDAL int MDAL_DRIVER_M_vertices(int id, int start, int count, double* to) {
   const auto opened = meshes().find(id);
   if (!opened) return -1;
-  const int taken = available(opened->mesh.vertices.size(), start, count);
-  for (int i = 0; i < taken; ++i) {
-    to = std::copy_n(opened->mesh.vertices[static_cast<size_t>(start + i)].begin(), 3, to);
+  const Range range = available(opened->mesh.vertices.size(), start, count);
+  for (size_t i = 0; i < range.count; ++i) {
+    to = std::copy_n(opened->mesh.vertices[range.first + i].begin(), 3, to);
   }
-  return taken;
+  return static_cast<int>(range.count);
 }
 
 MICROTIN_MDAL int MDAL_DRIVER_M_edges(int /*id*/, int /*start*/, int /*count*/, int* /*starts*/,
@@ -172,15 +177,15 @@ MICROTIN_MDAL int MDAL_DRIVER_M_faces(int id, int start, int count, int* ends, i
                                       int* corners) {
   const auto opened = meshes().find(id);
   if (!opened) return -1;
-  const int taken =
+  const Range range =
       available(opened->mesh.triangles.size(), start, std::min(count, corner_count / 3));
-  for (int i = 0; i < taken; ++i) {
-    const auto& triangle = opened->mesh.triangles[static_cast<size_t>(start + i)];
+  for (size_t i = 0; i < range.count; ++i) {
+    const auto& triangle = opened->mesh.triangles[range.first + i];
     corners = std::transform(triangle.begin(), triangle.end(), corners,
                              [](uint32_t corner) { return static_cast<int>(corner); });
-    ends[i] = 3 * (i + 1);
+    ends[i] = 3 * static_cast<int>(i + 1);
   }
-  return taken;
+  return static_cast<int>(range.count);
 }
 
 // --- The group of heights, and its one dataset ---
@@ -227,9 +232,9 @@ MICROTIN_MDAL int MDAL_DRIVER_D_data(int id, int /*group*/, int /*dataset*/, int
                                      double* to) {
   const auto opened = meshes().find(id);
   if (!opened) return -1;
-  const int taken = available(opened->mesh.vertices.size(), start, count);
-  for (int i = 0; i < taken; ++i) to[i] = opened->mesh.vertices[static_cast<size_t>(start + i)][2];
-  return taken;
+  const Range range = available(opened->mesh.vertices.size(), start, count);
+  for (size_t i = 0; i < range.count; ++i) to[i] = opened->mesh.vertices[range.first + i][2];
+  return static_cast<int>(range.count);
 }
 
 MICROTIN_MDAL void MDAL_DRIVER_D_unload(int /*id*/, int /*group*/, int /*dataset*/) {}
