@@ -168,14 +168,6 @@ microtin_outcome open(microtin_surface** surface, const std::function<Surface()>
   });
 }
 
-Grid grid_of(const microtin_grid& grid) {
-  if (grid.x.numerator == 0 || grid.x.denominator == 0 || grid.y.numerator == 0 ||
-      grid.y.denominator == 0) {
-    throw Error("an axis has no step");
-  }
-  return {grid.columns, grid.rows, grid.x, grid.y};
-}
-
 microtin_outcome hand_out(microtin_surface* surface, microtin_triangles* triangles,
                           const std::function<Mesh()>& read) {
   return guarded([&] {
@@ -337,6 +329,7 @@ microtin_outcome microtin_surface_raster(microtin_surface* surface, const microt
                                          double* heights) {
   return guarded([&] {
     expect(grid);
-    surface->surface.heights(grid_of(*grid), {0, 0, grid->columns, grid->rows}, heights);
+    surface->surface.heights({grid->columns, grid->rows, grid->x, grid->y},
+                             {0, 0, grid->columns, grid->rows}, heights);
   });
 }

@@ -134,6 +134,8 @@ TEST_CASE("surface: places outside and no numbers have no height") {
   CHECK(!std::isnan(corner[1]));
   CHECK(std::isnan(corner[2]));
   CHECK(std::isnan(corner[3]));
+  CHECK_THROWS_WITH(surface.heights({1, 1, {0, 1, 0}, {0, 1, 1}}, {0, 0, 1, 1}, corner),
+                    "an axis has no step");
 }
 
 TEST_CASE("surface: tiles together have the triangles of all") {
