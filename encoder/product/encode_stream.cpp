@@ -86,9 +86,12 @@ void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, Bou
   bound.add_to(lattice.tightenings);
 }
 
+// The surface is fitted within `room`, the bound or less.
 Attempt attempt(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
-                const Progress& progress) {
-  Approximation found = approximate(source, lattice, simplify_options(options, progress));
+                const std::optional<Decimal>& room, const Progress& progress) {
+  LatticeOptions fitted = lattice;
+  fitted.max_error = room;
+  Approximation found = approximate(source, fitted, simplify_options(options, progress));
   check_vertices(found.tin, options);
   const std::optional<Decimal>& bound = lattice.max_error;
   Metadata metadata = metadata_for(source, options, found.laid);
@@ -137,24 +140,25 @@ Attempt attempt(const Source& source, const EncodeOptions& options, LatticeOptio
 }
 
 // Attempts until points keep the bound where they truly lie, as many as are allowed.
-Attempt attempt_some(const Source& source, const EncodeOptions& options, LatticeOptions lattice,
-                     const Progress& progress) {
+Attempt attempt_some(const Source& source, const EncodeOptions& options,
+                     const std::optional<Decimal>& room, const Progress& progress) {
   constexpr int kMostAttempts = 6;
+  LatticeOptions lattice = options.lattice;
   for (int tries = 1;; ++tries) {
-    Attempt made = attempt(source, options, lattice, progress);
+    Attempt made = attempt(source, options, lattice, room, progress);
     if (made.missed == 0 || tries == kMostAttempts) return made;
   }
 }
 
-// The same with a step of heights that leaves more of the bound to the surface. Nothing if heights
-// do not go in such steps.
-std::optional<Attempt> attempt_finely(const Source& source, const EncodeOptions& options,
-                                      const Progress& progress) {
-  LatticeOptions lattice = options.lattice;
-  if (lattice.z_step || lattice.max_error->decimals >= kMaxDecimals) return std::nullopt;
-  lattice.z_step = make_decimal(lattice.max_error->mantissa, lattice.max_error->decimals + 1);
+// The same everywhere within less than the bound: by a tenth, and twice what the attempts missed it
+// by, but at least half of it. Nothing if the terrain does not go within that.
+std::optional<Attempt> attempt_narrowly(const Source& source, const EncodeOptions& options,
+                                        const Attempt& last, const Progress& progress) {
+  const Wide bound = mantissa_at(*options.lattice.max_error, kMaxDecimals);
+  const Wide missed = mantissa_at(last.encoded.true_places->max_error, kMaxDecimals) - bound;
+  const Wide room = std::max(bound - bound / 10 - 2 * missed, bound / 2);
   try {
-    return attempt_some(source, options, lattice, progress);
+    return attempt_some(source, options, make_decimal(room, kMaxDecimals), progress);
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -163,11 +167,11 @@ std::optional<Attempt> attempt_finely(const Source& source, const EncodeOptions&
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress) {
   metadata_of(options, reference_of(source));  // throws if units are not known
-  Attempt made = attempt_some(source, options, options.lattice, progress);
+  Attempt made = attempt_some(source, options, options.lattice.max_error, progress);
   if (made.missed == 0) return std::move(made.encoded);
-  std::optional<Attempt> fine = attempt_finely(source, options, progress);
-  if (!fine || fine->missed != 0) refuse_lattice(fine ? *fine : made, options);
-  return std::move(fine->encoded);
+  std::optional<Attempt> narrow = attempt_narrowly(source, options, made, progress);
+  if (!narrow || narrow->missed != 0) refuse_lattice(made, options);
+  return std::move(narrow->encoded);
 }
 
 // The distance of the lowest and the highest height; 1 if there is none.

@@ -398,7 +398,7 @@ TEST_CASE("cli: a grid that is written is a terrain again") {
         "far.mtin: has 4294967296 places on its lattice: give the size of the grid's cells, "
         "--cell\n");
   CHECK(session.run("decode far.mtin --cell 100 -o far.asc").code == 0);
-  CHECK(contains(session.failure("decode far.mtin --cell 100 -o far.ply"), "only .asc grids"));
+  CHECK(contains(session.failure("decode far.mtin --cell 100 -o far.ply"), "only grids (.asc"));
 }
 
 TEST_CASE("cli: meshes for viewers") {
