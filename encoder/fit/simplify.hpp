@@ -39,6 +39,14 @@ struct SimplifyOptions {
 // void triangle and on no edge of another. Throws Error if the samples form no triangle.
 Tin simplify(const Survey& survey, const SimplifyOptions& options);
 
+// Goes on where a search for the same survey and bound ended: so many rounds, in each of which
+// every vertex is tried. What it returns takes no more bytes.
+Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
+              const SimplifyOptions& options);
+
+// How many of them simplify does.
+uint32_t rounds_of(Search search);
+
 }  // namespace microtin::fit
 
 #endif
