@@ -60,7 +60,7 @@ Approximation cheapest(std::vector<Laid> all, const SimplifyOptions& options) {
   std::size_t fewest = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     SimplifyOptions trial = options;
-    trial.search = Search::kFast;
+    trial.search = Search::kTrial;
     const auto before = static_cast<double>(i), total = static_cast<double>(all.size());
     trial.progress = options.progress.part(before / total, (before + 1) / total);
     Tin tin = simplify(all[i].survey, trial);

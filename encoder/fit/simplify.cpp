@@ -68,7 +68,7 @@ std::vector<uint32_t> first_vertices(const Survey& survey) {
   return first;
 }
 
-constexpr int kHeightPasses = 8;
+constexpr int kHeightPasses = 8, kTrialPasses = 2;
 
 // Rounds become shorter: less and less is left to be tried.
 double time_of(double done) {
@@ -87,7 +87,8 @@ void remove_and_move(Decimation& decimation, uint32_t rounds, const Progress& pr
 // The surface with cheaper heights, or the one before if that was cheaper nevertheless.
 Tin with_heights(Surface& surface, const Tin& before, const SimplifyOptions& options) {
   HeightChoice heights(surface, options.effort.degree);
-  for (int i = 0; i < kHeightPasses; ++i) heights.pass();
+  const int passes = options.search == Search::kTrial ? kTrialPasses : kHeightPasses;
+  for (int i = 0; i < passes; ++i) heights.pass();
   Tin improved = surface.tin();
   const auto bytes = [&](const Tin& t) { return encode(t, {}, options.effort).size(); };
   return bytes(improved) <= bytes(before) ? improved : before;
@@ -100,7 +101,7 @@ constexpr double kRemovalPart = 0.1;
 
 uint32_t rounds_of(Search search) {
   if (search == Search::kBest) return 160;
-  return search == Search::kNormal ? 40 : 1;
+  return search == Search::kNormal ? 28 : 1;
 }
 
 Tin simplify(const Survey& survey, const SimplifyOptions& options) {
