@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "encoder/base/error.hpp"
 #include "encoder/export/height_sampler.hpp"
-#include "encoder/fit/approximation.hpp"
-#include "encoder/fit/byte_budget.hpp"
+#include "encoder/product/budget.hpp"
 #include "encoder/product/true_bound.hpp"
 #include "encoder/stream/device_ram.hpp"
 #include "encoder/stream/encode.hpp"
@@ -86,12 +84,9 @@ void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, Bou
   bound.add_to(lattice.tightenings);
 }
 
-// The surface is fitted within `room`, the bound or less.
-Attempt attempt(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
-                const std::optional<Decimal>& room, const Progress& progress) {
-  LatticeOptions fitted = lattice;
-  fitted.max_error = room;
-  Approximation found = approximate(source, fitted, simplify_options(options, progress));
+// The lattice's options become those of the next attempt.
+Attempt assess(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
+               Approximation&& found) {
   check_vertices(found.tin, options);
   const std::optional<Decimal>& bound = lattice.max_error;
   Metadata metadata = metadata_for(source, options, found.laid);
@@ -126,6 +121,15 @@ Attempt attempt(const Source& source, const EncodeOptions& options, LatticeOptio
   }
   encoded.stream = with_metadata(stream, metadata);
   return result;
+}
+
+// The surface is fitted within `room`, the bound or less.
+Attempt attempt(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
+                const std::optional<Decimal>& room, const Progress& progress) {
+  LatticeOptions fitted = lattice;
+  fitted.max_error = room;
+  return assess(source, options, lattice,
+                approximate(source, fitted, simplify_options(options, progress)));
 }
 
 [[noreturn]] void refuse_lattice(const Attempt& last, const EncodeOptions& options) {
@@ -164,6 +168,8 @@ std::optional<Attempt> attempt_narrowly(const Source& source, const EncodeOption
   }
 }
 
+}  // namespace
+
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress) {
   metadata_of(options, reference_of(source));  // throws if units are not known
@@ -174,62 +180,19 @@ EncodedStream encode_measured(const Source& source, const EncodeOptions& options
   return std::move(narrow->encoded);
 }
 
-// The distance of the lowest and the highest height; 1 if there is none.
-Decimal height_range(const Source& source) {
-  int64_t low = std::numeric_limits<int64_t>::max(), high = std::numeric_limits<int64_t>::min();
-  for_each_post(source, [&](int64_t, int64_t, int64_t z) {
-    if (z == kVoidHeight) return;
-    low = std::min(low, z);
-    high = std::max(high, z);
-  });
-  if (low >= high) return {1, 0};
-  return make_decimal(Wide{high} - low, height_decimals(source));
+EncodedStream measured(const Source& source, const EncodeOptions& options, Approximation&& found) {
+  EncodeOptions on_lattice = options;
+  on_lattice.bound_at = BoundAt::kLattice;
+  LatticeOptions lattice = options.lattice;
+  return assess(source, on_lattice, lattice, std::move(found)).encoded;
 }
-
-// Nothing if points that share a place rule the bound out.
-std::optional<EncodedStream> encode_if_possible(const Source& source, const EncodeOptions& options,
-                                                const Progress& progress) {
-  try {
-    return encode_measured(source, options, progress);
-  } catch (const Error&) {
-    return std::nullopt;
-  }
-}
-
-// The smallest bound, and its stream, that max_bytes allow.
-EncodedStream encode_within_bytes(const Source& source, EncodeOptions options,
-                                  const Progress& progress) {
-  const Decimal largest = height_range(source);
-  const Search search = options.search;
-  std::optional<EncodedStream> last;  // that fits
-  std::size_t smallest = std::numeric_limits<std::size_t>::max();
-  const auto fits = [&](uint32_t rung, Search with) {
-    options.search = with;
-    options.lattice.max_error = bound_at(largest, rung);
-    std::optional<EncodedStream> encoded = encode_if_possible(source, options, progress);
-    if (!encoded) return false;
-    smallest = std::min(smallest, encoded->stream.size());
-    if (encoded->stream.size() > options.max_bytes) return false;
-    if (with == search) last = std::move(encoded);
-    return true;
-  };
-  const auto rung = last_rung([&](uint32_t r) { return fits(r, Search::kFast); },
-                              [&](uint32_t r) { return fits(r, search); });
-  if (!rung) {
-    options.lattice.max_error = largest;
-    encode_measured(source, options, progress);  // throws if that was the reason
-    throw Error("--max-bytes " + std::to_string(options.max_bytes) +
-                " is not enough: at any error, at least " + std::to_string(smallest));
-  }
-  return std::move(*last);
-}
-
-}  // namespace
 
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
                             const Progress& progress) {
-  if (options.max_bytes == 0) return encode_measured(source, options, progress);
-  return encode_within_bytes(source, options, progress.part(0, 0));  // how far is not known
+  metadata_of(options, reference_of(source));  // fails before the work, if it does
+  const bool limited = options.max_bytes != 0 || vertex_limit(options) != 0;
+  if (!limited || options.lattice.max_error) return encode_measured(source, options, progress);
+  return encode_within_budget(source, options, progress);
 }
 
 }  // namespace microtin::product
