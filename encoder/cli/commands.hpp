@@ -10,6 +10,7 @@
 
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/picture/palette.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/options.hpp"
 
@@ -60,6 +61,9 @@ struct RenderRequest {
   std::string source;       // draw the distance from it, too; none if empty
   Preparation preparation;  // of the source, as the stream was encoded
   uint32_t width = 1024;
+  bool mesh = true;    // draw the triangles
+  bool world = false;  // write a world file beside the picture
+  PaletteKind palette = PaletteKind::kLand;
 };
 
 void run_render(const RenderRequest& request);

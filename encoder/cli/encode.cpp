@@ -44,14 +44,26 @@ std::string units(const EncodeRequest& request, const Reference& file) {
   return text;
 }
 
-std::string merged(uint64_t points) {
+std::string merged(uint64_t points, DuplicateRule rule) {
   if (points == 0) return "";
-  return "merged: " + std::to_string(points) +
-         " shared a place with another; the surface aims at the middle of the lowest and the " +
-         "highest there\n";
+  const std::string text = "merged: " + std::to_string(points) + " shared a place with another; ";
+  if (rule == DuplicateRule::kMiddle) {
+    return text + "the surface aims at the middle of the lowest and the highest there\n";
+  }
+  return text + "the " + std::string(text_of(rule)) + " stands for all there\n";
 }
 
-std::string text_of(const PreparedTerrain& terrain, const EncodedStream& encoded) {
+std::string at_true_places(const std::optional<Verification>& measured,
+                           const EncodeRequest& request) {
+  if (!measured) return "";
+  const bool is_bound = request.bound_at == BoundAt::kTruePlaces && request.lattice.max_error;
+  return "... where the points truly lie: at most " + to_string(measured->max_error) + ", rms " +
+         to_string(measured->rms_error) + ", mean " + to_string(measured->mean_error) +
+         (is_bound ? " (the bound holds there, too)\n" : "\n");
+}
+
+std::string text_of(const PreparedTerrain& terrain, const EncodedStream& encoded,
+                    const EncodeRequest& request) {
   const Laid& laid = encoded.laid;
   const bool posts = std::holds_alternative<Raster>(terrain.source);
   const Verification& measured = encoded.verification;
@@ -63,14 +75,15 @@ std::string text_of(const PreparedTerrain& terrain, const EncodedStream& encoded
   text << "\nstep of x and y: " << to_string(laid.xy_step) << (posts ? " (in posts)" : "")
        << moved(laid.xy_displacement) << "\nstep of z: " << to_string(laid.z_step)
        << moved(laid.z_displacement) << '\n'
-       << merged(laid.merged) << "stream: " << encoded.vertices << " vertices, "
-       << encoded.stream.size() << " bytes, "
+       << merged(laid.merged, request.lattice.duplicates) << "stream: " << encoded.vertices
+       << " vertices, " << encoded.stream.size() << " bytes, "
        << bits_per_vertex(encoded.stream.size(), encoded.vertices) << " bits/vertex\n"
        << "error: at most " << to_string(measured.max_error) << ", rms "
        << to_string(measured.rms_error) << ", mean " << to_string(measured.mean_error);
   if (encoded.bound) text << " (asked for: at most " << to_string(*encoded.bound) << ")";
-  text << "\nbelow the source: at most " << to_string(measured.max_below);
-  text << '\n';
+  text << '\n'
+       << at_true_places(encoded.true_places, request) << "below the source: at most "
+       << to_string(measured.max_below) << '\n';
   return text.str();
 }
 
@@ -107,7 +120,9 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
     return encode_pack(raster, request, streams, bar.progress());
   });
   write_pack(pack, streams, out);
-  return text_of(report_of(pack)) + units(request, raster.frame().reference);
+  const std::string& selection = raster.frame().selection;
+  const std::string text = selection.empty() ? "" : "source: " + selection + "\n";
+  return text + text_of(report_of(pack)) + units(request, raster.frame().reference);
 }
 
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
@@ -117,7 +132,8 @@ std::string encode_points(const PointCloud& cloud, const EncodeRequest& request,
   std::string text = "source: " + std::to_string(cloud.points.size()) + " points";
   if (!cloud.selection.empty()) text += ", " + cloud.selection;
   text += "\nstep of x and y: " + to_string(made.xy_step) + moved(made.xy_displacement) + "\n";
-  return text + merged(made.merged) + text_of(made.report) + units(request, cloud.reference);
+  return text + merged(made.merged, request.lattice.duplicates) + text_of(made.report) +
+         at_true_places(made.true_places, request) + units(request, cloud.reference);
 }
 
 std::string encode_tiles(const EncodeRequest& request, OutputFile& out) {
@@ -146,7 +162,7 @@ std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
     return encode_stream(terrain.source, request, bar.progress());
   });
   out.write(encoded.stream);
-  return text_of(terrain, encoded) + units(request, reference_of(terrain.source));
+  return text_of(terrain, encoded, request) + units(request, reference_of(terrain.source));
 }
 
 }  // namespace

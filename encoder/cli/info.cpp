@@ -5,6 +5,7 @@
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/exact/mesh_vertex.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/product/document.hpp"
@@ -55,44 +56,50 @@ std::string of_grid(const PostGrid& grid) {
                          {"y", exact_axis(grid.y)}});
 }
 
-// "2,9", or "0-6,8-255".
-std::string list_of(const ClassSet& classes) {
-  std::string text;
-  for (size_t first = 0; first < classes.size(); ++first) {
-    if (!classes[first]) continue;
-    size_t last = first;
-    while (last + 1 < classes.size() && classes[last + 1]) ++last;
-    text += (text.empty() ? "" : ",") + std::to_string(first);
-    if (last != first) text += "-" + std::to_string(last);
-    first = last;
-  }
-  return text;
-}
-
-std::string_view name_of(DuplicateRule rule) {
-  switch (rule) {
-    case DuplicateRule::kUnknown:
-      return "unknown";
-    case DuplicateRule::kMiddle:
-      return "middle of lowest and highest";
-    case DuplicateRule::kLowest:
-      return "lowest";
-    case DuplicateRule::kHighest:
-      return "highest";
-    case DuplicateRule::kMean:
-      return "mean";
-    case DuplicateRule::kMedian:
-      return "median";
-  }
-  return "unknown";
-}
-
 void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy) {
   const bool bounded = accuracy && accuracy->bound;
   report.emplace_back("bound", bounded ? number(*accuracy->bound) : "null");
   report.emplace_back("max_error", accuracy ? number(accuracy->max_error) : "null");
   report.emplace_back("rms_error", accuracy ? number(accuracy->rms_error) : "null");
   report.emplace_back("mean_error", accuracy ? number(accuracy->mean_error) : "null");
+}
+
+double real(const Axis& axis, int64_t number) {
+  return (static_cast<double>(axis.offset) +
+          static_cast<double>(axis.numerator) * static_cast<double>(number)) /
+         static_cast<double>(axis.denominator);
+}
+
+// What of the lattice a terrain takes.
+struct LatticeBox {
+  int64_t x_min, y_min, x_max, y_max;
+  int64_t lowest, highest;
+};
+
+// Where it lies and how large it is, in the terrain's units.
+void add_extent(JsonObject& report, const LatticeBox& box, const Placement& p) {
+  const double west = real(p.x, box.x_min), east = real(p.x, box.x_max);
+  const double south = real(p.y, box.y_min), north = real(p.y, box.y_max);
+  report.emplace_back("extent", json(JsonObject{{"west", json(west)},
+                                                {"south", json(south)},
+                                                {"east", json(east)},
+                                                {"north", json(north)}}));
+  report.emplace_back("size",
+                      json(JsonObject{{"x", json(east - west)}, {"y", json(north - south)}}));
+  report.emplace_back("heights", json(JsonObject{{"lowest", json(real(p.z, box.lowest))},
+                                                 {"highest", json(real(p.z, box.highest))}}));
+}
+
+LatticeBox box_of(const microtin_mesh* mesh) {
+  const Vertex first = vertex_of(mesh, 0);
+  LatticeBox box{first.x, first.y, first.x, first.y, first.z, first.z};
+  for (uint32_t v = 1; v < microtin_vertex_count(mesh); ++v) {
+    const Vertex vertex = vertex_of(mesh, v);
+    box = {std::min<int64_t>(box.x_min, vertex.x),  std::min<int64_t>(box.y_min, vertex.y),
+           std::max<int64_t>(box.x_max, vertex.x),  std::max<int64_t>(box.y_max, vertex.y),
+           std::min<int64_t>(box.lowest, vertex.z), std::max<int64_t>(box.highest, vertex.z)};
+  }
+  return box;
 }
 
 void add_placement(JsonObject& report, const Metadata& metadata) {
@@ -122,7 +129,7 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
   if (metadata.grid) report.emplace_back("grid", of_grid(*metadata.grid));
   if (metadata.classes) report.emplace_back("classes", json(list_of(*metadata.classes)));
   if (metadata.duplicates != DuplicateRule::kUnknown) {
-    report.emplace_back("duplicates", json(name_of(metadata.duplicates)));
+    report.emplace_back("duplicates", json(text_of(metadata.duplicates)));
   }
   if (metadata.true_places) {
     JsonObject accuracy;
@@ -138,7 +145,8 @@ JsonObject report_of(const DecodedStream& stream) {
   const uint32_t vertices = header.info.vertices;
   const uint32_t voids = count_triangles(terrain.mesh(), MICROTIN_VOID);
   const uint32_t triangles = count_triangles(terrain.mesh(), MICROTIN_REAL) + voids;
-  JsonObject report = {{"format_version", json(header.info.version)},
+  JsonObject report = {{"kind", json(std::string_view("stream"))},
+                       {"format_version", json(header.info.version)},
                        {"vertices", json(vertices)},
                        {"triangles", json(triangles)},
                        {"void_triangles", json(voids)},
@@ -150,6 +158,7 @@ JsonObject report_of(const DecodedStream& stream) {
                        {"workspace_bytes_16", workspace_bytes_16(vertices)},
                        {"workspace_bytes_32", json(MICROTIN_MESH_BYTES_FOR(vertices, 32) +
                                                    MICROTIN_DECODER_BYTES_FOR(vertices, 32))}};
+  add_extent(report, box_of(terrain.mesh()), header.metadata.placement);
   add_placement(report, header.metadata);
   add_notes(report, header.metadata);
   add_accuracy(report, header.metadata.accuracy);
@@ -170,8 +179,8 @@ JsonObject tile_report(const PackFile& pack, uint32_t number) {
           {"y", json(box.y)},
           {"bytes", json(entry.size)},
           {"vertices", json(entry.vertices)},
-          {"lowest", json(entry.lowest)},
-          {"highest", json(entry.highest)},
+          {"lowest", entry.size != 0 ? json(real(z, entry.lowest)) : "null"},
+          {"highest", entry.size != 0 ? json(real(z, entry.highest)) : "null"},
           {"max_error", in_units(entry.max_error, z)},
           {"rms_error", in_units(entry.root_mean_square, z)}};
 }
@@ -210,6 +219,7 @@ JsonObject report_of(const PackFile& pack) {
   const TileGrid& grid = pack.grid();
   const uint32_t compact = pack.header().compact_bytes;
   JsonObject report = {
+      {"kind", json(std::string_view("pack"))},
       {"pack_version", json(kPackVersion)},
       {"columns", json(tile_columns(grid))},
       {"rows", json(tile_rows(grid))},
@@ -219,12 +229,13 @@ JsonObject report_of(const PackFile& pack) {
       {"y_max", json(grid.y_max)},
       {"vertices", json(vertices)},
       {"most_vertices", json(pack.header().most_vertices)},
-      {"lowest", json(pack.header().lowest)},
-      {"highest", json(pack.header().highest)},
       {"compact_bytes", compact != 0 ? json(compact) : "null"},
       {"workspace_bytes_4_compact_tiles",
        compact != 0 ? json(workspace_bytes_4_compact_tiles(pack.header())) : "null"},
       {"bytes", json(pack.bytes())}};
+  const PackHeader& header = pack.header();
+  add_extent(report, {0, 0, grid.x_max, grid.y_max, header.lowest, header.highest},
+             pack.metadata().placement);
   add_placement(report, pack.metadata());
   add_notes(report, pack.metadata());
   add_accuracy(report, pack.metadata().accuracy);

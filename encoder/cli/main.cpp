@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <functional>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -47,7 +48,7 @@ constexpr const char* kExitCodes =
 
 constexpr const char* kTerrainFiles =
     "Rasters: .hgt, .zip with one .hgt, .asc. Points: .xyz, .csv, .txt, .las, .ply, .obj; - reads "
-    "points"
+    "points. Several files, or a folder of them, are one terrain"
 #ifdef MICROTIN_WITH_GDAL
     ". Others by GDAL"
 #endif
@@ -72,8 +73,18 @@ void add_stream(CLI::App& command, std::string& path,
   command.add_option("stream", path, description)->required()->type_name(kFile);
 }
 
-void add_terrain(CLI::App& command, std::string& path) {
-  command.add_option("terrain", path, kTerrainFiles)->required()->type_name(kFile);
+// One or several files, or folders of them, that make up one terrain.
+void add_terrain(CLI::App& command, std::string& path, Preparation& preparation) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "terrain",
+          [&path, &preparation](const std::vector<std::string>& files) {
+            path = files[0];
+            preparation.more_files.assign(files.begin() + 1, files.end());
+          },
+          kTerrainFiles)
+      ->required()
+      ->type_name(kFile);
 }
 
 void add_json(CLI::App& command, bool& json) {
@@ -216,6 +227,10 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
   command.add_flag_callback(
       "--allow-vrt", [&preparation] { preparation.indirect = Indirect::kAllowed; },
       "Read .vrt files, which name other files to be read, and names that begin with /vsi");
+  command
+      .add_option("--band", preparation.band,
+                  "Band of heights, from 1 on, in a file that has several (read by GDAL)")
+      ->check(CLI::PositiveNumber);
 #endif
   command.add_option("--fill-voids", preparation.fill_voids,
                      "Interpolate voids of up to so many posts");
@@ -252,10 +267,39 @@ void add_notes(CLI::App& command, EncodeRequest& request) {
   command.add_option("--lineage", request.lineage, "What was done to the source before");
 }
 
+// One of some names for values.
+template <class Value>
+CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value,
+                        std::map<std::string, Value> choices, const std::string& wanted,
+                        const std::string& description) {
+  const auto read = [&value, choices = std::move(choices)](const std::string& text) {
+    const auto found = choices.find(text);
+    if (found != choices.end()) value = found->second;
+    return found != choices.end();
+  };
+  return add_read(command, name, read, wanted, description);
+}
+
+void add_point_options(CLI::App& command, EncodeRequest& request) {
+  add_choice<BoundAt>(command, "--bound-at", request.bound_at,
+                      {{"points", BoundAt::kTruePlaces}, {"lattice", BoundAt::kLattice}},
+                      "points or lattice",
+                      "Where --max-error holds for points: where they truly lie (points, if not "
+                      "given), or at their places on the lattice alone");
+  add_choice<DuplicateRule>(command, "--duplicates", request.lattice.duplicates,
+                            {{"middle", DuplicateRule::kMiddle},
+                             {"lowest", DuplicateRule::kLowest},
+                             {"highest", DuplicateRule::kHighest},
+                             {"mean", DuplicateRule::kMean}},
+                            "middle, lowest, highest or mean",
+                            "Of points that meet at a place of the lattice: which one stands for "
+                            "all; if not given all count, the surface aims at their middle");
+}
+
 using Action = std::function<void()>;
 
 void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
-  add_terrain(command, request->input);
+  add_terrain(command, request->input, request->preparation);
   CLI::Option* const bound =
       add_decimal(command, "--max-error", request->lattice.max_error,
                   "Keep every height within this distance, in the terrain's unit");
@@ -275,6 +319,7 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
   add_tiles(command, *request, *vertices, *bytes);
   command.add_flag("--never-below", request->lattice.never_below,
                    "With a bound: no height is below the source, all are at most so far above");
+  add_point_options(command, *request);
   add_search(command, request->search);
   add_decimal(
       command, "--z-step", request->lattice.z_step,
@@ -397,7 +442,7 @@ void add_verify(CLI::App& app, Action& action) {
   auto request = std::make_shared<VerifyRequest>();
   CLI::App& command = *app.add_subcommand("verify", "Compare a stream with its terrain");
   add_stream(command, request->input);
-  add_terrain(command, request->source);
+  add_terrain(command, request->source, request->preparation);
   add_preparation(command, request->preparation);
   add_json(command, request->json);
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
@@ -429,6 +474,14 @@ void add_render(CLI::App& app, Action& action) {
   command.add_option("--width", request->width, "Pixels in a row")
       ->check(CLI::Range(kNarrowest, kWidest))
       ->capture_default_str();
+  command.add_flag_callback(
+      "--no-mesh", [request] { request->mesh = false; }, "Do not draw the triangles");
+  add_choice<PaletteKind>(command, "--palette", request->palette,
+                          {{"land", PaletteKind::kLand}, {"sea", PaletteKind::kSea}}, "land or sea",
+                          "Colours of heights: land from the lowest on, or land from 0 on and sea, "
+                          "blue, below");
+  command.add_flag("--world-file", request->world,
+                   "Write beside the picture, as .pgw, where its map lies");
   command.add_option("--source", request->source, "Draw a map of the errors against this terrain")
       ->type_name(kFile);
   add_preparation(command, request->preparation);

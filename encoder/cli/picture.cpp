@@ -2,9 +2,12 @@
 // The commands render and fractal: pictures, and terrains to try the program with.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <optional>
 #include <sstream>
 #include <utility>
 
+#include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
@@ -44,12 +47,32 @@ Spot cell_of(const Raster& raster, const SurfaceModel& model) {
   return {step_of(raster.x) / step_of(lattice.x), step_of(raster.y) / step_of(lattice.y)};
 }
 
+std::string world_path(const std::string& picture) {
+  return std::filesystem::path(picture).replace_extension(".pgw").string();
+}
+
+void expect_picture(const RenderRequest& request) {
+  const std::string suffix = std::filesystem::path(request.output).extension().string();
+  if (!suffix.empty() && suffix != ".png") {
+    throw Error(request.output + ": not a kind of picture that is written (.png)");
+  }
+  if (request.world && suffix.empty()) {
+    throw Error(request.output + ": a world file lies beside a .png file");
+  }
+}
+
 void draw(const RenderRequest& request, const Portrait& portrait, const Comparison* comparison) {
   const std::vector<uint8_t> picture = with_file_context(
       request.input, [&] { return render_png(portrait, request.width, comparison); });
   OutputFile out(request.output);
   out.write(picture);
+  std::optional<OutputFile> world;
+  if (request.world) {
+    world.emplace(world_path(request.output))
+        .write(world_file(portrait, request.width, comparison != nullptr));
+  }
   out.commit();
+  if (world) world->commit();
   warn_of_units(request.output, portrait.model);
 }
 
@@ -59,9 +82,11 @@ void run_render(const RenderRequest& request) {
   std::vector<std::string> inputs = files_of(request.source, request.preparation);
   inputs.push_back(request.input);
   refuse_overwriting(inputs, request.output);
+  expect_picture(request);
   const Document document(request.input);
   const Portrait portrait{document.model(), document.metadata(), document.vertices(),
-                          document.bytes(), document.tiles()};
+                          document.bytes(), document.tiles(),    request.mesh,
+                          request.palette};
   if (request.source.empty()) {
     draw(request, portrait, nullptr);
     return;

@@ -12,6 +12,37 @@ std::string number(Decimal value) {
   return json(std::stod(to_string(value)));
 }
 
+std::string_view text_of(DuplicateRule rule) {
+  switch (rule) {
+    case DuplicateRule::kUnknown:
+      return "unknown";
+    case DuplicateRule::kMiddle:
+      return "middle of lowest and highest";
+    case DuplicateRule::kLowest:
+      return "lowest";
+    case DuplicateRule::kHighest:
+      return "highest";
+    case DuplicateRule::kMean:
+      return "mean";
+    case DuplicateRule::kMedian:
+      return "median";
+  }
+  return "unknown";
+}
+
+std::string list_of(const ClassSet& classes) {
+  std::string text;
+  for (size_t first = 0; first < classes.size(); ++first) {
+    if (!classes[first]) continue;
+    size_t last = first;
+    while (last + 1 < classes.size() && classes[last + 1]) ++last;
+    text += (text.empty() ? "" : ",") + std::to_string(first);
+    if (last != first) text += "-" + std::to_string(last);
+    first = last;
+  }
+  return text;
+}
+
 double bits_per_vertex(size_t bytes, uint32_t vertices) {
   return 8.0 * static_cast<double>(bytes) / vertices;
 }

@@ -4,9 +4,11 @@
 #define MICROTIN_ENCODER_CLI_REPORT_HPP
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "encoder/exact/decimal.hpp"
+#include "encoder/exact/metadata.hpp"
 #include "encoder/export/json.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/layers.hpp"
@@ -16,6 +18,11 @@ namespace microtin::cli {
 
 // A number of JSON.
 std::string number(Decimal value);
+
+std::string_view text_of(DuplicateRule rule);
+
+// "2,9", or "0-6,8-255".
+std::string list_of(const ClassSet& classes);
 
 // 8 bits a byte, over the vertices.
 double bits_per_vertex(size_t bytes, uint32_t vertices);

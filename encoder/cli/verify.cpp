@@ -10,11 +10,50 @@
 namespace microtin::cli {
 namespace {
 
-Original::Judgement judge(const VerifyRequest& request) {
-  const Document document(request.input);
-  const Original original(document, request.source, request.preparation);
-  ProgressBar bar;
-  return original.judge(bar.progress());
+void add_true_places(JsonObject& report, const Original::Judgement& judgement) {
+  if (!judgement.true_places) return;
+  const Verification& found = *judgement.true_places;
+  const std::optional<Decimal>& bound = judgement.true_bound;
+  report.emplace_back("true_places", json(JsonObject{{"bound", bound ? number(*bound) : "null"},
+                                                     {"max_error", number(found.max_error)},
+                                                     {"max_below", number(found.max_below)},
+                                                     {"rms_error", number(found.rms_error)},
+                                                     {"mean_error", number(found.mean_error)}}));
+}
+
+JsonObject report_of(const Original::Judgement& judgement, const Metadata& notes, bool is_cloud) {
+  const Verification& found = judgement.found;
+  const std::optional<Decimal>& bound = judgement.promise.bound;
+  JsonObject report = {{is_cloud ? "points" : "posts", json(found.posts)},
+                       {"covered", json(found.covered)},
+                       {"uncovered", json(found.uncovered)}};
+  if (!is_cloud) {
+    report.emplace_back("voids", json(found.voids));
+    report.emplace_back("voids_answered", json(found.voids_answered));
+  }
+  const JsonObject errors = {{"bound", bound ? number(*bound) : "null"},
+                             {"max_error", number(found.max_error)},
+                             {"max_below", number(found.max_below)},
+                             {"rms_error", number(found.rms_error)},
+                             {"mean_error", number(found.mean_error)}};
+  report.insert(report.end(), errors.begin(), errors.end());
+  add_true_places(report, judgement);
+  if (is_cloud && notes.classes) report.emplace_back("classes", json(list_of(*notes.classes)));
+  if (judgement.promise.water_level) {
+    report.emplace_back("water_moved", json(judgement.water_moved));
+  }
+  return report;
+}
+
+void expect_kept(const Original::Judgement& judgement, const std::string& input) {
+  const Verification& found = judgement.found;
+  if (!found.within_bound) throw Error(input + ": the largest error is above the bound");
+  if (judgement.true_places && !judgement.true_places->within_bound) {
+    throw Error(input + ": where the points truly lie, the largest error is above the bound");
+  }
+  if (found.uncovered != 0) throw Error(input + ": heights of the source are not covered");
+  if (found.voids_answered != 0) throw Error(input + ": voids of the source answer heights");
+  if (judgement.water_moved != 0) throw Error(input + ": water of the source is not at its level");
 }
 
 }  // namespace
@@ -24,24 +63,13 @@ void run_verify(const VerifyRequest& request) {
   std::vector<std::string> inputs = files_of(request.source, request.preparation);
   inputs.push_back(input);
   refuse_overwriting(inputs, "-");
-  const auto [promise, found, water_moved] = judge(request);
-  const std::optional<Decimal>& bound = promise.bound;
-  JsonObject report = {{"posts", json(found.posts)},
-                       {"covered", json(found.covered)},
-                       {"uncovered", json(found.uncovered)},
-                       {"voids", json(found.voids)},
-                       {"voids_answered", json(found.voids_answered)},
-                       {"bound", bound ? number(*bound) : "null"},
-                       {"max_error", number(found.max_error)},
-                       {"max_below", number(found.max_below)},
-                       {"rms_error", number(found.rms_error)},
-                       {"mean_error", number(found.mean_error)}};
-  if (promise.water_level) report.emplace_back("water_moved", json(water_moved));
+  const Document document(input);
+  const Original original(document, request.source, request.preparation);
+  ProgressBar bar;
+  const Original::Judgement judgement = original.judge(bar.progress());
+  const JsonObject report = report_of(judgement, document.metadata(), original.cloud() != nullptr);
   const bool told = tell(text_of(report, request.json));
-  if (!found.within_bound) throw Error(input + ": the largest error is above the bound");
-  if (found.uncovered != 0) throw Error(input + ": heights of the source are not covered");
-  if (found.voids_answered != 0) throw Error(input + ": voids of the source answer heights");
-  if (water_moved != 0) throw Error(input + ": water of the source is not at its level");
+  expect_kept(judgement, input);
   if (!told) throw ReportLost(input + ": keeps its promises, but nobody reads the report");
 }
 

@@ -124,7 +124,15 @@ bool is_finite_number(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
 }
 
+// As printf writes what is not a number.
+bool is_nan(std::string_view word) {
+  if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.remove_prefix(1);
+  return lower_case(std::string(word.substr(0, 3))) == "nan" &&
+         (word.size() == 3 || word[3] == '(');
+}
+
 NoData no_data_of(const Words& words) {
+  if (is_nan(words.word())) return {};
   if (!is_finite_number(words.word())) words.fail(quoted(words.word()) + " is not a number");
   return {std::string(words.word()), parse_decimal(words.word())};
 }
@@ -134,6 +142,7 @@ Header read_header(Words& words) {
   Header header;
   while (words.next()) {
     const char first = words.word()[0];
+    if (is_nan(words.word())) return header;
     if ((first < 'A' || first > 'Z') && (first < 'a' || first > 'z')) return header;
     const std::string key = lower_case(std::string(words.word()));
     if (key != "nodata_value" && !is_known(key)) {
@@ -154,7 +163,7 @@ Header read_header(Words& words) {
 // The height that the current word says; nothing if it is void. Throws Error if it is neither.
 std::optional<Decimal> read_height(const Words& words, const NoData& no_data) {
   const std::optional<Decimal> height = parse_decimal(words.word());
-  if (no_data.matches(words.word(), height)) return std::nullopt;
+  if (no_data.matches(words.word(), height) || is_nan(words.word())) return std::nullopt;
   if (!height) words.fail(quoted(words.word()) + " is not a number in range");
   return height;
 }
@@ -231,7 +240,7 @@ class AscReader : public RasterReader {
   // What was read once cannot be wrong, unless it is changed meanwhile.
   int64_t mantissa_of(std::string_view word) const {
     const std::optional<Decimal> height = parse_decimal(word);
-    if (no_data_.matches(word, height)) return kVoidHeight;
+    if (no_data_.matches(word, height) || is_nan(word)) return kVoidHeight;
     DecimalRange range;
     if (!height || height->decimals > frame_.decimals || !range.add(*height)) {
       throw Error(name_ + ": changed while it was read");

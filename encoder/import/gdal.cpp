@@ -75,28 +75,63 @@ Dataset open(const std::string& path, Indirect indirect) {
   return dataset;
 }
 
-void place(GDALDatasetH dataset, Raster& raster) {
+// Whether the first row is the northernmost.
+enum class FirstRow { kNorth, kSouth };
+
+FirstRow place(GDALDatasetH dataset, Raster& raster) {
   std::array<double, 6> t{};  // x0, dx by column, dx by row, y0, dy by column, dy by row
   if (GDALGetGeoTransform(dataset, t.data()) != CE_None) throw Error("does not say where it lies");
-  if (t[2] != 0 || t[4] != 0 || t[1] <= 0 || t[5] >= 0) {
-    throw Error("its rows do not run from north to south: bring them there with gdalwarp");
+  if (t[2] != 0 || t[4] != 0 || t[1] <= 0 || t[5] == 0) {
+    throw Error("its rows do not run from west to east: bring them there with gdalwarp");
   }
   const auto decimal = [](double value) {
     const std::optional<Decimal> number = shortest_decimal(value, kPlaceDecimals);
     if (!number) throw Error("its place is out of range");
     return *number;
   };
-  const Decimal dx = decimal(t[1]), dy = decimal(-t[5]);
+  const FirstRow first = t[5] < 0 ? FirstRow::kNorth : FirstRow::kSouth;
+  const Decimal dx = decimal(t[1]), dy = decimal(std::abs(t[5]));
   if (dx.mantissa == 0 || dy.mantissa == 0) throw Error("its cells are too small");
   raster.x = axis_of_cells(decimal(t[0]), dx, 1);
-  raster.y = axis_of_cells(decimal(t[3]), dy, 1 - 2 * int64_t{raster.height});
+  raster.y = axis_of_cells(decimal(t[3]), dy,
+                           first == FirstRow::kSouth ? 1 : 1 - 2 * int64_t{raster.height});
+  return first;
+}
+
+// Bands of heights: not those that say how opaque others are.
+GDALRasterBandH band_of(GDALDatasetH dataset, uint32_t number) {
+  const int count = GDALGetRasterCount(dataset);
+  if (number > static_cast<uint32_t>(count)) {
+    throw Error("has no band " + std::to_string(number) + "; its last is " + std::to_string(count));
+  }
+  if (number != 0) return GDALGetRasterBand(dataset, static_cast<int>(number));
+  std::vector<int> bands;
+  for (int i = 1; i <= count; ++i) {
+    const GDALRasterBandH band = GDALGetRasterBand(dataset, i);
+    if (GDALGetRasterColorInterpretation(band) != GCI_AlphaBand) bands.push_back(i);
+  }
+  if (bands.size() > 1) {
+    throw Error("has " + std::to_string(bands.size()) +
+                " bands: choose that of the heights, --band 1");
+  }
+  return GDALGetRasterBand(dataset, bands.empty() ? 1 : bands[0]);
+}
+
+// Whether voids are told by a mask, not by a value alone.
+GDALRasterBandH mask_of(GDALRasterBandH band) {
+  const int flags = GDALGetMaskFlags(band);
+  return (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0 ? GDALGetMaskBand(band) : nullptr;
 }
 
 // Reads a band's heights one row after the other.
 class BandReader {
  public:
   explicit BandReader(GDALRasterBandH band)
-      : band_(band), type_(GDALGetRasterDataType(band)), row_(width()) {
+      : band_(band),
+        mask_band_(mask_of(band)),
+        type_(GDALGetRasterDataType(band)),
+        row_(width()),
+        mask_(width(), 255) {
     int given = 0;
     no_data_ = GDALGetRasterNoDataValue(band, &given);
     has_no_data_ = given != 0;
@@ -122,15 +157,14 @@ class BandReader {
   size_t width() const { return static_cast<size_t>(GDALGetRasterBandXSize(band_)); }
   size_t height() const { return static_cast<size_t>(GDALGetRasterBandYSize(band_)); }
 
-  // Appends a row, row 0 northernmost.
+  // Appends a row, row 0 the file's first.
   void read(size_t row, DecimalColumn& heights) {
-    if (GDALRasterIO(band_, GF_Read, 0, static_cast<int>(row), static_cast<int>(width()), 1,
-                     row_.data(), static_cast<int>(width()), 1, GDT_Float64, 0, 0) != CE_None) {
-      throw Error(std::string("cannot be read: ") + CPLGetLastErrorMsg());
-    }
+    read_row(band_, row, row_.data(), GDT_Float64);
+    if (mask_band_ != nullptr) read_row(mask_band_, row, mask_.data(), GDT_Byte);
     for (size_t column = 0; column < row_.size(); ++column) {
       const double value = row_[column];
-      const bool is_void = std::isnan(value) || (has_no_data_ && value == no_data_);
+      const bool is_void =
+          std::isnan(value) || (has_no_data_ && value == no_data_) || mask_[column] == 0;
       const std::optional<Decimal> height = is_void ? std::nullopt : decimal(value);
       if (is_void) {
         heights.add_void();
@@ -142,35 +176,46 @@ class BandReader {
   }
 
  private:
+  void read_row(GDALRasterBandH band, size_t row, void* values, GDALDataType type) const {
+    const int columns = static_cast<int>(width());
+    if (GDALRasterIO(band, GF_Read, 0, static_cast<int>(row), columns, 1, values, columns, 1, type,
+                     0, 0) != CE_None) {
+      throw Error(std::string("cannot be read: ") + CPLGetLastErrorMsg());
+    }
+  }
+
   std::optional<Decimal> decimal(double value) const {
     if (scaled_) return (*scaled_)(static_cast<int64_t>(value));
     return type_ == GDT_Float32 ? shortest_decimal(static_cast<float>(value))
                                 : shortest_decimal(value);
   }
 
-  GDALRasterBandH band_;
+  GDALRasterBandH band_, mask_band_;  // null: there is no mask
   GDALDataType type_;
   std::vector<double> row_;
+  std::vector<uint8_t> mask_;             // of the row; 0: void
   std::optional<ScaledIntegers> scaled_;  // for integers
   double no_data_;
   bool has_no_data_;
 };
 
-Raster read(const std::string& path, Indirect indirect) {
+Raster read(const std::string& path, Indirect indirect, uint32_t number) {
   const Dataset dataset = open(path, indirect);
-  const GDALRasterBandH band = GDALGetRasterBand(dataset.get(), 1);
+  const GDALRasterBandH band = band_of(dataset.get(), number);
   BandReader reader(band);
   Raster raster;
   raster.width = static_cast<uint32_t>(reader.width());
   raster.height = static_cast<uint32_t>(reader.height());
-  place(dataset.get(), raster);
+  const FirstRow first = place(dataset.get(), raster);
   if (const char* wkt = GDALGetProjectionRef(dataset.get()))
     raster.reference = reference_of_wkt(wkt);
   const std::optional<Unit> unit = unit_named(GDALGetRasterUnitType(band));
   if (unit) raster.reference.vertical_unit = *unit;
   DecimalColumn heights;
   heights.reserve(reader.width() * reader.height());
-  for (size_t row = reader.height(); row-- > 0;) reader.read(row, heights);
+  for (size_t row = 0; row < reader.height(); ++row) {
+    reader.read(first == FirstRow::kSouth ? row : reader.height() - 1 - row, heights);
+  }
   raster.decimals = heights.decimals();
   raster.heights = std::move(heights.mantissas());
   return raster;
@@ -178,8 +223,8 @@ Raster read(const std::string& path, Indirect indirect) {
 
 }  // namespace
 
-Raster import_gdal(const std::string& path, Indirect indirect) {
-  return with_file_context(path, [&] { return read(path, indirect); });
+Raster import_gdal(const std::string& path, Indirect indirect, uint32_t band) {
+  return with_file_context(path, [&] { return read(path, indirect, band); });
 }
 
 std::vector<std::string> gdal_files(const std::string& path, Indirect indirect) {

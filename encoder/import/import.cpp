@@ -82,11 +82,11 @@ bool is_for_others(const std::string& path) {
   return path != "-" && !is_laser_scan(suffix) && importer_for(suffix) == nullptr;
 }
 
-Source import_other(const std::string& path, Indirect indirect) {
-  return import_gdal(path, indirect);
+Source import_other(const std::string& path, Indirect indirect, uint32_t band) {
+  return import_gdal(path, indirect, band);
 }
 #else
-Source import_other(const std::string& path, Indirect) {
+Source import_other(const std::string& path, Indirect, uint32_t) {
   throw Error(path +
               ": not a kind of terrain file known here (.hgt, .zip, .asc, .xyz, .csv, .txt, .las, "
               ".ply, .obj); for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build "
@@ -95,6 +95,10 @@ Source import_other(const std::string& path, Indirect) {
 #endif
 
 }  // namespace
+
+bool is_terrain_suffix(const std::string& suffix) {
+  return is_laser_scan(suffix) || importer_for(suffix) != nullptr;
+}
 
 std::vector<std::string> terrain_files(const std::string& path,
                                        [[maybe_unused]] Indirect indirect) {
@@ -106,23 +110,34 @@ std::vector<std::string> terrain_files(const std::string& path,
   return files;
 }
 
+namespace {
+
+void expect_source(const std::string& path, const std::string& suffix) {
+  if (suffix != ".mtin" && suffix != ".mtp") return;
+  throw Error(path + ": is " + (suffix == ".mtp" ? "a pack" : "a stream") +
+              ", which \"microtin decode\" turns into a terrain file");
+}
+
+}  // namespace
+
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes,
-                      Indirect indirect) {
+                      Indirect indirect, uint32_t band) {
   const std::string suffix = suffix_of(path);
+  expect_source(path, suffix);
   if (is_laser_scan(suffix)) return import_las(path, read_file(path), classes);
   if (classes) throw Error(path + ": only .las files have classes");
   if (path == "-") return import_points("standard input", read_file(path));
   const Import import = importer_for(suffix);
-  if (import == nullptr) return import_other(path, indirect);
+  if (import == nullptr) return import_other(path, indirect, band);
   return import(path, read_file(path));
 }
 
 OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& classes,
-                        Indirect indirect) {
+                        Indirect indirect, uint32_t band) {
   const std::string suffix = suffix_of(path);
   if (!classes && suffix == ".hgt") return open_hgt(path, open_file(path));
   if (!classes && suffix == ".asc") return open_asc(path, open_file(path), reference_beside(path));
-  Source source = import_terrain(path, classes, indirect);
+  Source source = import_terrain(path, classes, indirect, band);
   if (auto* const cloud = std::get_if<PointCloud>(&source)) return std::move(*cloud);
   return std::make_unique<RasterInMemory>(std::move(std::get<Raster>(source)));
 }

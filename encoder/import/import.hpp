@@ -22,13 +22,16 @@ enum class Indirect { kRefused, kAllowed };
 
 // Reads a file by its suffix: .hgt, .zip (one .hgt), .asc (with a .prj beside it, if there is one),
 // .xyz, .csv, .txt (points), .las, .ply, .obj; in builds with GDAL all others by GDAL. "-" reads
-// points from standard input. `classes` are for .las alone. Throws Error naming the file and, for
-// text, the line.
+// points from standard input. `classes` are for .las alone; `band`, from 1 on, says which one of
+// several GDAL reads. Throws Error naming the file and, for text, the line.
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},
-                      Indirect indirect = Indirect::kRefused);
+                      Indirect indirect = Indirect::kRefused, uint32_t band = 0);
 
 // All files that it is read from: more than one by GDAL only. Throws Error if GDAL cannot open it.
 std::vector<std::string> terrain_files(const std::string& path, Indirect indirect);
+
+// Of files that are read without GDAL: ".asc", in lower case.
+bool is_terrain_suffix(const std::string& suffix);
 
 using OpenSource = std::variant<std::unique_ptr<RasterReader>, PointCloud>;
 
@@ -36,7 +39,7 @@ using OpenSource = std::variant<std::unique_ptr<RasterReader>, PointCloud>;
 // it and to learn where its posts are: 8 bytes of memory for each 512 of them. Others are kept in
 // memory. Throws Error as import_terrain does, and if it cannot be read in pieces.
 OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},
-                        Indirect indirect = Indirect::kRefused);
+                        Indirect indirect = Indirect::kRefused, uint32_t band = 0);
 
 // The formats, from a file's content. `name` goes into messages.
 
@@ -53,8 +56,10 @@ std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<
 
 // Points, one a line: x, y and, if there is a third column, z; separated by blanks, tabs, commas or
 // semicolons. Lines that are blank or begin with # are skipped. The first other line may be a
-// header: it is one if none of its fields is a number. All lines have the same number of columns;
-// those behind the third are ignored, but must hold numbers.
+// header: it is one if none of its fields is a number. Where it names x and y (also easting,
+// longitude, lon; northing, latitude, lat) and z (height, elevation, altitude), it says which
+// columns these are; z is the third if it names none. Longitudes are degrees. All lines have the
+// same number of columns; others are ignored, but must hold numbers.
 PointCloud import_points(const std::string& name, const std::string& text);
 
 // Points of LAS 1.0 to 1.4, formats 0 to 10, with codes and units from GeoTIFF keys or well-known
@@ -72,9 +77,10 @@ PointCloud import_obj(const std::string& name, const std::string& text);
 Raster import_zip(const std::string& name, const std::string& bytes);
 
 #ifdef MICROTIN_WITH_GDAL
-// The first band of what GDAL opens. Columns must run east and rows south. Heights, cell sizes and
-// corners stand for the shortest decimals that become them.
-Raster import_gdal(const std::string& path, Indirect indirect);
+// The only band of heights in what GDAL opens, or that of a number from 1 on. Columns must run
+// east, rows south or north. Posts are void by the band's value for that, or by its mask. Heights,
+// cell sizes and corners stand for the shortest decimals that become them.
+Raster import_gdal(const std::string& path, Indirect indirect, uint32_t band);
 std::vector<std::string> gdal_files(const std::string& path, Indirect indirect);
 #endif
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Points as text, one a line.
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "encoder/base/error.hpp"
 #include "encoder/import/import.hpp"
@@ -8,6 +10,46 @@
 
 namespace microtin::importing {
 namespace {
+
+// What a column's name says.
+struct Meaning {
+  size_t axis;
+  bool is_degree;
+};
+
+std::optional<Meaning> meaning_of(std::string_view field) {
+  struct Name {
+    std::string_view text;
+    Meaning meaning;
+  };
+  constexpr std::array<Name, 19> kNames = {{{"x", {0, false}},
+                                            {"y", {1, false}},
+                                            {"z", {2, false}},
+                                            {"easting", {0, false}},
+                                            {"northing", {1, false}},
+                                            {"height", {2, false}},
+                                            {"east", {0, false}},
+                                            {"north", {1, false}},
+                                            {"elevation", {2, false}},
+                                            {"lon", {0, true}},
+                                            {"lat", {1, true}},
+                                            {"elev", {2, false}},
+                                            {"long", {0, true}},
+                                            {"latitude", {1, true}},
+                                            {"ele", {2, false}},
+                                            {"longitude", {0, true}},
+                                            {"altitude", {2, false}},
+                                            {"alt", {2, false}},
+                                            {"lng", {0, true}}}};
+  std::string name = lower_case(std::string(field));
+  if (name.size() > 2 && name.front() == '"' && name.back() == '"') {
+    name = name.substr(1, name.size() - 2);
+  }
+  for (const Name& known : kNames) {
+    if (known.text == name) return known.meaning;
+  }
+  return std::nullopt;
+}
 
 class PointReader {
  public:
@@ -27,7 +69,9 @@ class PointReader {
 
   PointCloud cloud() {
     if (points_.empty()) throw Error(name_ + ": holds no point");
-    return points_.take();
+    PointCloud cloud = points_.take();
+    cloud.reference.horizontal_unit = unit_;
+    return cloud;
   }
 
  private:
@@ -38,16 +82,23 @@ class PointReader {
                         [](std::string_view field) { return parse_decimal(field).has_value(); });
   }
 
-  // Names may be any, but x, y and z must be where they are looked for.
+  // Names may be any; those of coordinates say where these are. Latitudes are degrees.
   void check_header() {
-    constexpr std::string_view kOrder = "xyz";
     header_seen_ = true;
+    std::array<std::optional<size_t>, 3> found;
     for (size_t i = 0; i < fields_.size(); ++i) {
-      std::string_view field = fields_[i];
-      if (field.size() == 3 && field.front() == '"') field = field.substr(1, 1);
-      if (field.size() != 1) continue;
-      const size_t wanted = kOrder.find(lower_case(std::string(field)));
-      if (wanted != kOrder.npos && wanted != i) fail("the first columns must be x, y and z");
+      const std::optional<Meaning> meaning = meaning_of(fields_[i]);
+      if (!meaning) continue;
+      if (found[meaning->axis])
+        fail(std::string("two columns are named as ") + "xyz"[meaning->axis]);
+      found[meaning->axis] = i;
+      if (meaning->is_degree) unit_ = Unit::kDegree;
+    }
+    if (!found[0] && !found[1] && !found[2]) return;
+    for (size_t axis = 0; axis < 3; ++axis) axes_[axis] = found[axis].value_or(axis);
+    const bool is_clear = axes_[0] != axes_[1] && axes_[0] != axes_[2] && axes_[1] != axes_[2];
+    if (!is_clear || found[0].has_value() != found[1].has_value()) {
+      fail("the header names some of x, y and z: it must name all, or x and y first");
     }
   }
 
@@ -57,12 +108,22 @@ class PointReader {
     if (fields_.size() != columns_) {
       fail(std::to_string(fields_.size()) + " columns after lines of " + std::to_string(columns_));
     }
-    for (size_t i = 0; i < columns_; ++i) {
-      const std::optional<Decimal> value = parse_decimal(fields_[i]);
-      const bool good = value && (i > 2 || points_.add(i, *value));
-      if (!good) fail(quoted(fields_[i]) + " is not a number in range");
+    if (axes_[0] >= columns_ || axes_[1] >= columns_) fail("x or y of the header is missing");
+    values_.clear();
+    for (const std::string_view field : fields_) {
+      const std::optional<Decimal> value = parse_decimal(field);
+      if (!value) fail_on(field);
+      values_.push_back(*value);
     }
-    if (columns_ == 2) points_.add(2, Decimal{});
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const size_t column = axes_[axis];
+      const Decimal value = column < columns_ ? values_[column] : Decimal{};
+      if (!points_.add(axis, value)) fail_on(fields_[column]);
+    }
+  }
+
+  [[noreturn]] void fail_on(std::string_view field) const {
+    fail(quoted(field) + " is not a number in range");
   }
 
   const std::string& name_;
@@ -70,6 +131,9 @@ class PointReader {
   size_t columns_ = 0;  // 0 until the first point
   bool header_seen_ = false;
   std::vector<std::string_view> fields_;
+  std::vector<Decimal> values_;
+  std::array<size_t, 3> axes_ = {0, 1, 2};  // columns of x, y and z
+  Unit unit_ = Unit::kUnknown;
   PointColumns points_;
 };
 

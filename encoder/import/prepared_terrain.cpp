@@ -2,11 +2,14 @@
 // Reads a terrain, fills its voids and floods the rest, whole or piece by piece.
 #include "encoder/import/prepared_terrain.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "encoder/base/error_context.hpp"
+#include "encoder/import/mosaic.hpp"
 #include "encoder/terrain/voids.hpp"
 #include "encoder/terrain/water.hpp"
+#include "shared/lattice.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -56,12 +59,54 @@ Raster read_mask(const std::string& path, const Raster& raster) {
   return all;
 }
 
+// The files that make up a terrain.
+std::vector<std::string> parts_of(const std::string& path, const Preparation& preparation) {
+  std::vector<std::string> parts = files_in(path);
+  for (const std::string& more : preparation.more_files) {
+    for (std::string& file : files_in(more)) parts.push_back(std::move(file));
+  }
+  return parts;
+}
+
+OpenSource open_parts(const std::vector<std::string>& parts, const Preparation& preparation) {
+  std::vector<NamedSource> sources;
+  for (const std::string& part : parts) {
+    sources.push_back(
+        {part, open_terrain(part, preparation.classes, preparation.indirect, preparation.band)});
+  }
+  return join(std::move(sources));
+}
+
+// One file is read without a detour.
+Source read_parts(const std::vector<std::string>& parts, const Preparation& preparation) {
+  if (parts.size() == 1) {
+    return import_terrain(parts[0], preparation.classes, preparation.indirect, preparation.band);
+  }
+  OpenSource source = open_parts(parts, preparation);
+  if (auto* const cloud = std::get_if<PointCloud>(&source)) return std::move(*cloud);
+  const RasterReader& raster = *std::get<std::unique_ptr<RasterReader>>(source);
+  const uint32_t width = raster.frame().width, height = raster.frame().height;
+  if (std::max(width, height) > kLatticeMax + 1) {
+    throw Error(parts[0] + " and others: " + std::to_string(width) + " x " +
+                std::to_string(height) + " posts are too many for a stream: make a pack (.mtp)");
+  }
+  Raster whole = raster.read({0, 0, width, height});
+  whole.selection = raster.frame().selection;
+  return whole;
+}
+
 }  // namespace
 
 std::vector<std::string> files_of(const std::string& path, const Preparation& preparation) {
   std::vector<std::string> files;
-  for (const std::string& name : {path, preparation.water_mask}) {
-    if (name.empty()) continue;
+  std::vector<std::string> names = preparation.water_mask.empty()
+                                       ? std::vector<std::string>()
+                                       : std::vector<std::string>{preparation.water_mask};
+  if (!path.empty()) {
+    const std::vector<std::string> parts = parts_of(path, preparation);
+    names.insert(names.end(), parts.begin(), parts.end());
+  }
+  for (const std::string& name : names) {
     for (std::string& file : terrain_files(name, preparation.indirect)) {
       files.push_back(std::move(file));
     }
@@ -70,7 +115,7 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
 }
 
 PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation) {
-  PreparedTerrain terrain{import_terrain(path, preparation.classes, preparation.indirect), 0, 0};
+  PreparedTerrain terrain{read_parts(parts_of(path, preparation), preparation), 0, 0};
   terrain.filled = fill_voids(terrain.source, preparation.fill_voids);
   if (!preparation.water_level) return terrain;
   auto* const raster = std::get_if<Raster>(&terrain.source);
@@ -84,7 +129,7 @@ PreparedTerrain prepared_terrain(const std::string& path, const Preparation& pre
 }
 
 OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
-  OpenSource source = open_terrain(path, preparation.classes, preparation.indirect);
+  OpenSource source = open_parts(parts_of(path, preparation), preparation);
   auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
     if (preparation.water_level) refuse_water(path);
@@ -107,7 +152,9 @@ std::string describe_preparation(const PreparedTerrain& terrain) {
     text += ", " + std::to_string(terrain.flooded) + " of the posts were void and are water";
   }
   const auto* cloud = std::get_if<PointCloud>(&terrain.source);
-  if (cloud != nullptr && !cloud->selection.empty()) text += ", " + cloud->selection;
+  const std::string& selection =
+      cloud != nullptr ? cloud->selection : std::get<Raster>(terrain.source).selection;
+  if (!selection.empty()) text += ", " + selection;
   return text;
 }
 

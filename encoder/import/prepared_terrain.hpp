@@ -16,15 +16,17 @@ namespace microtin::importing {
 
 // What is done to a terrain, in this order.
 struct Preparation {
-  std::optional<ClassSet> classes;     // take these points of a .las file
-  uint32_t fill_voids = 0;             // interpolate voids of up to so many posts
-  std::optional<Decimal> water_level;  // voids that are left are water at this height
-  std::string water_mask;              // ... where this file says so; everywhere if there is none
+  std::vector<std::string> more_files;  // of the same terrain, beside the one named first
+  std::optional<ClassSet> classes;      // take these points of a .las file
+  uint32_t fill_voids = 0;              // interpolate voids of up to so many posts
+  std::optional<Decimal> water_level;   // voids that are left are water at this height
+  std::string water_mask;               // ... where this file says so; everywhere if there is none
   Indirect indirect = Indirect::kRefused;  // files that name others
+  uint32_t band = 0;                       // of a file that has several, from 1 on
 };
 
-// All files that a terrain is read from; none for one without a name. Throws Error as preparing
-// does.
+// All files that a terrain is read from, those of a folder too; none for one without a name. Throws
+// Error as preparing does.
 std::vector<std::string> files_of(const std::string& path, const Preparation& preparation);
 
 struct PreparedTerrain {

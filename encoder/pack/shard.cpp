@@ -230,6 +230,13 @@ PackContent read_content(const Bytes& head) {
 
 }  // namespace
 
+bool is_shard(const ByteSource& bytes) {
+  constexpr std::size_t kWithoutVersion = sizeof kShardMagic - 1;
+  uint8_t magic[kWithoutVersion] = {};
+  return bytes.read(0, magic, sizeof magic) == sizeof magic &&
+         std::equal(magic, magic + kWithoutVersion, kShardMagic);
+}
+
 ShardWriter::ShardWriter(const PackPlan& plan, const PackContent& pack, TileRange range,
                          OutputFile& out)
     : out_(out) {

@@ -14,11 +14,15 @@
 #include <string>
 #include <vector>
 
+#include "encoder/files/byte_source.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 
 namespace microtin::pack {
+
+// Whether bytes begin as those of a shard do, of any version.
+bool is_shard(const ByteSource& bytes);
 
 class ShardWriter {
  public:

@@ -120,12 +120,20 @@ void for_each_pixel_in(const Outline& outline, const MapFrame& frame, const Visi
 
 }  // namespace
 
-Relief::Relief(const SurfaceModel& model, const Ground& ground, std::optional<int64_t> water)
-    : model_(model), water_(water), lowest_(model.vertices.front()[2]), highest_(lowest_) {
+Relief::Relief(const SurfaceModel& model, const Ground& ground, std::optional<int64_t> water,
+               PaletteKind palette)
+    : model_(model),
+      water_(water),
+      lowest_(model.vertices.front()[2]),
+      highest_(lowest_),
+      palette_(palette, 0, 0) {
   for (const auto& vertex : model.vertices) {
     lowest_ = std::min(lowest_, vertex[2]);
     highest_ = std::max(highest_, vertex[2]);
   }
+  const Axis& z = model.placement.z;
+  palette_ = {palette, offset_of(z) + step_of(z) * static_cast<double>(lowest_),
+              offset_of(z) + step_of(z) * static_cast<double>(highest_)};
   find_normals(ground);
 }
 
@@ -185,14 +193,9 @@ Colour Relief::colour(const Triangle& triangle, const std::array<double, 3>& wei
   const double length = std::hypot(normal.x, normal.y, normal.z);
   const double light = (normal.x * kLight.x + normal.y * kLight.y + normal.z * kLight.z) /
                        (length * kLight.z);  // 1 on level ground
-  const Colour base = tint(height / std::max(1.0, static_cast<double>(highest_ - lowest_)));
+  const Colour base = palette_.at(height / std::max(1.0, static_cast<double>(highest_ - lowest_)));
   if (light >= 1) return mix(base, kWhite, std::min(1.0, (light - 1) * 0.9));
   return mix(base, kShadow, std::min(0.85, (1 - light) * 0.75));
-}
-
-void Relief::draw(Canvas& canvas, const MapFrame& frame, double line_width) const {
-  draw_ground(canvas, frame);
-  draw_lines(canvas, frame, line_width);
 }
 
 void Relief::draw_ground(Canvas& canvas, const MapFrame& frame) const {

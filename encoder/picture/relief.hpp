@@ -8,6 +8,7 @@
 #include "encoder/export/vector.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/picture/map_frame.hpp"
+#include "encoder/picture/palette.hpp"
 
 namespace microtin::picture {
 
@@ -17,14 +18,18 @@ class Relief {
  public:
   // Heights are lattice steps. Triangles with all vertices at `water` are water. The model must
   // outlive this.
-  Relief(const SurfaceModel& model, const Ground& ground, std::optional<int64_t> water);
+  Relief(const SurfaceModel& model, const Ground& ground, std::optional<int64_t> water,
+         PaletteKind palette);
 
   int64_t lowest() const { return lowest_; }
   int64_t highest() const { return highest_; }
   bool has_water() const;
+  const Palette& palette() const { return palette_; }
+
+  void draw_ground(Canvas& canvas, const MapFrame& frame) const;
 
   // The triangles' lines fade in from the middle to the right. `line_width` in pixels.
-  void draw(Canvas& canvas, const MapFrame& frame, double line_width) const;
+  void draw_lines(Canvas& canvas, const MapFrame& frame, double line_width) const;
 
  private:
   using Triangle = std::array<uint32_t, 3>;
@@ -34,13 +39,12 @@ class Relief {
   void for_each_normal(const Ground& ground, const Visit& visit) const;
   bool is_water(const Triangle& triangle) const;
   Colour colour(const Triangle& triangle, const std::array<double, 3>& weights) const;
-  void draw_ground(Canvas& canvas, const MapFrame& frame) const;
-  void draw_lines(Canvas& canvas, const MapFrame& frame, double line_width) const;
 
   const SurfaceModel& model_;
   std::optional<int64_t> water_;
   std::vector<Vector> normals_;  // upward, of any length
   int64_t lowest_ = 0, highest_ = 0;
+  Palette palette_;
 };
 
 }  // namespace microtin::picture

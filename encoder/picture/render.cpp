@@ -2,6 +2,7 @@
 // Lays out maps, legends and title, and draws them.
 #include "encoder/picture/render.hpp"
 
+#include <sstream>
 #include <string>
 
 #include "encoder/base/error.hpp"
@@ -136,7 +137,8 @@ void draw_relief_legend(Canvas& canvas, const Portrait& portrait, const Relief& 
   const LegendPlaces at(layout.relief, layout);
   draw_line(canvas, "height " + rounded_text(low) + " to " + rounded_text(high) + unit, at.line,
             layout.unit, at.width);
-  draw_ramp(canvas, at.ramp, at.width, layout.unit, low, high, tint);
+  draw_ramp(canvas, at.ramp, at.width, layout.unit, low, high,
+            [&relief](double relative) { return relief.palette().at(relative); });
   draw_scale_bar(canvas, at.side, 0.8 * at.side_room, layout.unit, layout.relief.x_step * ground.x,
                  ground.unit);
   if (!relief.has_water()) return;
@@ -173,6 +175,22 @@ void draw_errors(Canvas& canvas, const Portrait& portrait, const Comparison& com
 
 }  // namespace
 
+std::string world_file(const Portrait& portrait, uint32_t width, bool with_comparison) {
+  const SurfaceModel& model = portrait.model;
+  const Ground ground = ground_of(model, portrait.metadata.horizontal_unit);
+  const MapFrame frame = lay_out(portrait, ground, width, with_comparison).relief;
+  const Axis &x = model.placement.x, &y = model.placement.y;
+  const double dx = frame.x_step * step_of(x), dy = frame.y_step * step_of(y);
+  std::ostringstream text;
+  text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
+  text.precision(15);
+  text << dx << "\n0\n0\n"
+       << -dy << '\n'
+       << offset_of(x) + step_of(x) * frame.west + (0.5 - frame.box.left) * dx << '\n'
+       << offset_of(y) + step_of(y) * frame.north - (0.5 - frame.box.top) * dy << '\n';
+  return text.str();
+}
+
 std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
                                 const Comparison* comparison) {
   if (width < kNarrowest || width > kWidest) {
@@ -183,13 +201,14 @@ std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
   if (model.vertices.empty()) throw Error("there is nothing to draw");
   const Ground ground = ground_of(model, portrait.metadata.horizontal_unit);
   const Layout layout = lay_out(portrait, ground, width, comparison != nullptr);
-  const Relief relief(model, ground, water_step(portrait.metadata));
+  const Relief relief(model, ground, water_step(portrait.metadata), portrait.palette);
   Canvas canvas(layout.width, layout.height, kPaper);
   draw_line(canvas, title_of(portrait),
             {kMargin * layout.unit, (kMargin + kCapHeight) * layout.unit}, layout.unit,
             layout.width - 2 * kMargin * layout.unit);
   draw_background(canvas, layout.relief, layout.unit);
-  relief.draw(canvas, layout.relief, 0.8 * std::sqrt(layout.unit));
+  relief.draw_ground(canvas, layout.relief);
+  if (portrait.mesh) relief.draw_lines(canvas, layout.relief, 0.8 * std::sqrt(layout.unit));
   draw_relief_legend(canvas, portrait, relief, ground, layout);
   if (comparison != nullptr) {
     draw_background(canvas, layout.errors, layout.unit);

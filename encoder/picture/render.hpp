@@ -5,11 +5,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "encoder/export/export.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/picture/canvas.hpp"
+#include "encoder/picture/palette.hpp"
 #include "encoder/terrain/verify.hpp"
 
 namespace microtin::picture {
@@ -19,6 +21,8 @@ struct Portrait {
   Metadata metadata;
   uint64_t vertices = 0, bytes = 0;
   uint64_t tiles = 0;  // 0: a stream
+  bool mesh = true;    // draw the triangles' lines
+  PaletteKind palette = PaletteKind::kLand;
 };
 
 // How a terrain compares with its source.
@@ -35,6 +39,10 @@ constexpr uint32_t kNarrowest = 200, kWidest = 8192;
 // level are water. Throws Error for other widths and if there is no vertex.
 std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
                                 const Comparison* comparison = nullptr);
+
+// Where the map of such a picture lies, as a world file says it: six lines, in the units of x and
+// y.
+std::string world_file(const Portrait& portrait, uint32_t width, bool with_comparison);
 
 }  // namespace microtin::picture
 

@@ -2,6 +2,7 @@
 // Asks a stream or a pack, so that nobody else needs to know which of them it is.
 #include "encoder/product/document.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <utility>
 
@@ -10,12 +11,20 @@
 #include "encoder/export/system.hpp"
 #include "encoder/files/input_file.hpp"
 #include "encoder/pack/point_pack.hpp"
+#include "encoder/pack/shard.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/stream/header.hpp"
+#include "encoder/terrain/duplicates.hpp"
+#include "encoder/terrain/true_places.hpp"
 #include "encoder/terrain/water.hpp"
 
 namespace microtin::product {
 namespace {
+
+void refuse_shard(const std::string& name, const ByteSource& bytes) {
+  if (!is_shard(bytes)) return;
+  throw Error(name + ": is a shard, a part of a pack: join all shards with \"microtin merge\"");
+}
 
 DecodedStream decoded(const std::string& name, std::vector<uint8_t> bytes) {
   DecodedTerrain terrain = with_file_context(name, [&] { return DecodedTerrain(bytes); });
@@ -24,6 +33,7 @@ DecodedStream decoded(const std::string& name, std::vector<uint8_t> bytes) {
 
 std::variant<PackFile, DecodedStream> content_of(const std::string& name,
                                                  std::unique_ptr<ByteSource> bytes) {
+  refuse_shard(name, *bytes);
   if (!is_pack(*bytes)) {
     return decoded(name,
                    with_file_context(name, [&] { return bytes_at(*bytes, 0, bytes->size()); }));
@@ -36,17 +46,44 @@ std::variant<PackFile, DecodedStream> content_of(const std::string& path) {
   return read_stream(path);
 }
 
+bool has_classes(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension().string();
+  return suffix == ".las" || suffix == ".LAS";
+}
+
+// Keeps the points that the document stands for.
+void thin(PointCloud& cloud, const Metadata& metadata) {
+  auto thin = thinned(cloud, metadata.placement, metadata.duplicates);
+  if (thin) cloud = std::move(*thin);
+}
+
 std::variant<Source, OpenSource> source_for(const Document& document, const std::string& path,
-                                            const Preparation& preparation) {
-  if (document.pack() != nullptr) return prepared_source(path, preparation);
-  return prepared_terrain(path, preparation).source;
+                                            Preparation preparation) {
+  const Metadata metadata = document.metadata();
+  if (!preparation.classes && has_classes(path)) preparation.classes = metadata.classes;
+  if (document.pack() != nullptr) {
+    OpenSource source = prepared_source(path, preparation);
+    if (auto* const cloud = std::get_if<PointCloud>(&source)) thin(*cloud, metadata);
+    return source;
+  }
+  Source source = prepared_terrain(path, preparation).source;
+  if (auto* const cloud = std::get_if<PointCloud>(&source)) thin(*cloud, metadata);
+  return source;
 }
 
 }  // namespace
 
 DecodedStream read_stream(const std::string& path) {
   const std::string text = read_file(path);
-  return decoded(path, {text.begin(), text.end()});
+  std::vector<uint8_t> bytes(text.begin(), text.end());
+  const std::unique_ptr<ByteSource> source = bytes_in_memory(bytes);
+  refuse_shard(path, *source);
+  if (is_pack(*source)) {
+    throw Error(path +
+                ": is a pack: it is read as a file, not from a pipe, and not where a stream "
+                "is wanted");
+  }
+  return decoded(path, std::move(bytes));
 }
 
 Document::Document(const std::string& path) : path_(path), content_(content_of(path)) {}
@@ -144,7 +181,14 @@ Original::Judgement Original::judge(const Progress& progress) const {
     return compare(promised.bound, progress,
                    promised.water_level ? gauge.visitor() : PostVisitor());
   });
-  return {promised, found, gauge.moved()};
+  Judgement judgement{promised, found, gauge.moved(), std::nullopt, std::nullopt};
+  const std::optional<Accuracy> noted = document_.metadata().true_places;
+  if (cloud() == nullptr || !noted) return judgement;
+  const SampledSurface surface = document_.sampled();
+  judgement.true_bound = noted->bound;
+  judgement.true_places =
+      verify_at_true_places(surface.height_at, surface.placement, *cloud(), noted->bound);
+  return judgement;
 }
 
 }  // namespace microtin::product

@@ -66,7 +66,9 @@ struct Promise {
   std::optional<Decimal> water_level;  // at which posts are exact
 };
 
-// A terrain that a document is compared with: read in pieces for a pack, whole for a stream.
+// A terrain that a document is compared with: read in pieces for a pack, whole for a stream. Of a
+// LAS file the classes are taken that the document notes, if none are asked for; of points that
+// share a place those that stand for all by the document's rule.
 class Original {
  public:
   // The document must outlive it. Throws Error naming the terrain's file.
@@ -88,6 +90,8 @@ class Original {
     Promise promise;
     Verification found;
     uint64_t water_moved;
+    std::optional<Verification> true_places;  // of points, where the document notes such errors
+    std::optional<Decimal> true_bound;        // that is promised there
   };
   Judgement judge(const Progress& progress) const;
 

@@ -7,9 +7,12 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
+#include "encoder/export/height_sampler.hpp"
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/shard.hpp"
 #include "encoder/pack/tile_plan.hpp"
+#include "encoder/terrain/duplicates.hpp"
+#include "encoder/terrain/true_places.hpp"
 
 namespace microtin::product {
 namespace {
@@ -108,17 +111,49 @@ void write_pack(const PackContent& pack, StreamSpool& streams, OutputFile& out) 
   streams.copy_to(out);
 }
 
+namespace {
+
+// Notes the errors where points truly lie, if the pack moves them.
+std::optional<Verification> measured_at_true_places(PointPack& made, const PointCloud& cloud,
+                                                    const EncodeOptions& options) {
+  Metadata& metadata = made.content.metadata;
+  if (!moves_points(metadata.placement, cloud)) return std::nullopt;
+  const std::optional<Decimal> none, &bound = options.lattice.max_error;
+  const bool is_bound = options.bound_at == BoundAt::kTruePlaces;
+  const PackFile pack(pack::write_pack(made.content, made.streams));
+  const Verification found =
+      verify_at_true_places(sampled(pack).height_at, metadata.placement, cloud, bound);
+  const bool is_kept =
+      found.within_bound && !(options.lattice.never_below && found.max_below.mantissa != 0);
+  if (is_bound && !is_kept) {
+    throw Error("--max-error " + to_string(*bound) + " is not kept where points truly lie, by " +
+                to_string(found.max_error) + " at most: --xy-step " + to_string(made.xy_step) +
+                " is too coarse; leave it out, or ask for less with --bound-at lattice");
+  }
+  metadata.true_places =
+      Accuracy{is_bound ? bound : none, found.max_error, found.rms_error, found.mean_error};
+  return found;
+}
+
+}  // namespace
+
 EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options) {
+  const Placement lattice = choose_pack_lattice(cloud, options.lattice).placement;
+  const std::optional<PointCloud> thin = thinned(cloud, lattice, options.lattice.duplicates);
+  const PointCloud& kept = thin ? *thin : cloud;
   PointPack made =
-      encode_point_pack(cloud, point_options(options), metadata_of(options, cloud.reference));
+      encode_point_pack(kept, point_options(options), metadata_of(options, cloud.reference));
+  const uint64_t dropped = cloud.points.size() - kept.points.size();
+  if (dropped != 0) made.content.metadata.duplicates = options.lattice.duplicates;
+  const auto true_places = measured_at_true_places(made, kept, options);
   std::vector<uint8_t> bytes = pack::write_pack(made.content, made.streams);
   const Verification found =
-      on_our_own([&] { return verify(PackFile(bytes), cloud, options.lattice.max_error); });
+      on_our_own([&] { return verify(PackFile(bytes), kept, options.lattice.max_error); });
   if (!found.within_bound || found.uncovered != 0) {
     throw InternalFault("the pack does not keep what was asked for");
   }
-  return {std::move(bytes), report_of(made.content), made.xy_step, made.xy_displacement,
-          made.merged};
+  return {std::move(bytes),     report_of(made.content), made.xy_step,
+          made.xy_displacement, made.merged + dropped,   true_places};
 }
 
 ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& options, TileRange tiles,

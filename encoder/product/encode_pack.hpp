@@ -44,8 +44,11 @@ struct EncodedPoints {
   PackReport report;
   Decimal xy_step, xy_displacement;
   uint64_t merged;
+  std::optional<Verification> true_places;  // of points that the lattice moves
 };
 
+// Throws Error also if points do not keep the bound where they truly lie: without an --xy-step a
+// pack moves none.
 EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options);
 
 // Writes a shard with some of the tiles that the pack of a raster has. Throws Error also if there

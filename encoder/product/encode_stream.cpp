@@ -2,14 +2,20 @@
 // Encodes, and trusts nothing that it has not measured on what the decoder makes of it.
 #include "encoder/product/encode_stream.hpp"
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "encoder/base/error.hpp"
+#include "encoder/export/height_sampler.hpp"
 #include "encoder/product/budget.hpp"
+#include "encoder/product/true_bound.hpp"
 #include "encoder/stream/device_ram.hpp"
 #include "encoder/stream/encode.hpp"
+#include "encoder/terrain/duplicates.hpp"
+#include "encoder/terrain/true_places.hpp"
 #include "encoder/terrain/water.hpp"
 
 namespace microtin::product {
@@ -30,33 +36,155 @@ void check_vertices(const Tin& tin, const EncodeOptions& options) {
   }
 }
 
+// An attempt: encoded, and measured by what a decoder makes of it.
+struct Attempt {
+  EncodedStream encoded;
+  uint64_t missed = 0;  // points that do not keep the bound where they truly lie
+};
+
+void expect_promises(const Verification& measured, const WaterGauge& gauge,
+                     const LatticeOptions& lattice) {
+  const bool too_low = lattice.never_below && measured.max_below.mantissa != 0;
+  if (!measured.within_bound || too_low || measured.uncovered != 0 ||
+      measured.voids_answered != 0 || gauge.moved() != 0) {
+    throw InternalFault("the decoded terrain does not keep what was asked for");
+  }
+}
+
+Metadata metadata_for(const Source& source, const EncodeOptions& options, const Laid& laid) {
+  Metadata metadata = metadata_of(options, reference_of(source));
+  metadata.placement = laid.placement;
+  if (const auto* raster = std::get_if<Raster>(&source)) metadata.grid = posts_of(*raster);
+  if (const auto* cloud = std::get_if<PointCloud>(&source)) metadata.classes = cloud->classes;
+  if (laid.merged != 0) metadata.duplicates = options.lattice.duplicates;
+  return metadata;
+}
+
+Accuracy accuracy_of(const Verification& measured, const std::optional<Decimal>& bound) {
+  return {bound, measured.max_error, measured.rms_error, measured.mean_error};
+}
+
+// Measures points where they truly lie; adds narrower limits to the lattice's options.
+void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, BoundAt bound_at,
+                         LatticeOptions& lattice, Attempt& attempt) {
+  const SampledSurface surface = sampled(mesh);
+  if (!moves_points(surface.placement, cloud)) return;
+  Verification& found = attempt.encoded.true_places.emplace();
+  if (bound_at == BoundAt::kLattice || !lattice.max_error) {
+    found = verify_at_true_places(surface.height_at, surface.placement, cloud, std::nullopt);
+    return;
+  }
+  TrueBound bound(lattice, surface);
+  found = verify_at_true_places(
+      surface.height_at, surface.placement, cloud, lattice.max_error,
+      [&](int64_t x, int64_t y, int64_t, double above) { bound.see(x, y, above); });
+  attempt.missed = bound.missed();
+  if (attempt.missed == 0 && !found.within_bound)
+    attempt.missed = 1;  // by less than a double tells
+  bound.add_to(lattice.tightenings);
+}
+
+// The lattice's options become those of the next attempt.
+Attempt assess(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
+               Approximation&& found) {
+  check_vertices(found.tin, options);
+  const std::optional<Decimal>& bound = lattice.max_error;
+  Metadata metadata = metadata_for(source, options, found.laid);
+  const auto [stream, decoded] = encode_and_decode(found.tin, metadata, options.effort);
+  const auto* cloud = std::get_if<PointCloud>(&source);
+  std::optional<Source> thin;
+  if (cloud != nullptr) {
+    if (auto some = thinned(*cloud, found.laid.placement, lattice.duplicates))
+      thin = std::move(*some);
+  }
+  const Source& kept = thin ? *thin : source;
+  WaterGauge gauge(height_decimals(source), bound ? lattice.water_level : std::nullopt);
+  const Verification measured = verify(decoded.mesh(), kept, bound, gauge.visitor());
+  expect_promises(measured, gauge, lattice);
+  metadata.accuracy = accuracy_of(measured, bound);
+  lattice.z_step = found.laid.z_step;
+  Attempt result{{std::move(found.laid),
+                  bound,
+                  {},
+                  microtin_vertex_count(decoded.mesh()),
+                  measured,
+                  std::nullopt},
+                 0};
+  EncodedStream& encoded = result.encoded;
+  if (cloud != nullptr) {
+    measure_true_places(std::get<PointCloud>(kept), decoded.mesh(), options.bound_at, lattice,
+                        result);
+  }
+  if (encoded.true_places) {
+    const bool is_bound = options.bound_at == BoundAt::kTruePlaces;
+    metadata.true_places = accuracy_of(*encoded.true_places, is_bound ? bound : std::nullopt);
+  }
+  encoded.stream = with_metadata(stream, metadata);
+  return result;
+}
+
+// The surface is fitted within `room`, the bound or less.
+Attempt attempt(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
+                const std::optional<Decimal>& room, const Progress& progress) {
+  LatticeOptions fitted = lattice;
+  fitted.max_error = room;
+  return assess(source, options, lattice,
+                approximate(source, fitted, simplify_options(options, progress)));
+}
+
+[[noreturn]] void refuse_lattice(const Attempt& last, const EncodeOptions& options) {
+  const std::string step = to_string(last.encoded.laid.xy_step);
+  throw Error("--max-error " + to_string(*options.lattice.max_error) + " is not kept where " +
+              std::to_string(last.missed) + " points truly lie, by at most " +
+              to_string(last.encoded.true_places->max_error) + ": --xy-step " + step +
+              " is too coarse; " +
+              (options.lattice.xy_step ? "leave it out, "
+                                       : "16 bits hold no finer one: make a pack (.mtp), ") +
+              "or ask for less with --bound-at lattice");
+}
+
+// Attempts until points keep the bound where they truly lie, as many as are allowed.
+Attempt attempt_some(const Source& source, const EncodeOptions& options,
+                     const std::optional<Decimal>& room, const Progress& progress) {
+  constexpr int kMostAttempts = 6;
+  LatticeOptions lattice = options.lattice;
+  for (int tries = 1;; ++tries) {
+    Attempt made = attempt(source, options, lattice, room, progress);
+    if (made.missed == 0 || tries == kMostAttempts) return made;
+  }
+}
+
+// The same everywhere within less than the bound: by a tenth, and twice what the attempts missed it
+// by, but at least half of it. Nothing if the terrain does not go within that.
+std::optional<Attempt> attempt_narrowly(const Source& source, const EncodeOptions& options,
+                                        const Attempt& last, const Progress& progress) {
+  const Wide bound = mantissa_at(*options.lattice.max_error, kMaxDecimals);
+  const Wide missed = mantissa_at(last.encoded.true_places->max_error, kMaxDecimals) - bound;
+  const Wide room = std::max(bound - bound / 10 - 2 * missed, bound / 2);
+  try {
+    return attempt_some(source, options, make_decimal(room, kMaxDecimals), progress);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress) {
-  return measured(source, options,
-                  approximate(source, options.lattice, simplify_options(options, progress)));
+  metadata_of(options, reference_of(source));  // throws if units are not known
+  Attempt made = attempt_some(source, options, options.lattice.max_error, progress);
+  if (made.missed == 0) return std::move(made.encoded);
+  std::optional<Attempt> narrow = attempt_narrowly(source, options, made, progress);
+  if (!narrow || narrow->missed != 0) refuse_lattice(made, options);
+  return std::move(narrow->encoded);
 }
 
 EncodedStream measured(const Source& source, const EncodeOptions& options, Approximation&& found) {
-  check_vertices(found.tin, options);
-  const std::optional<Decimal>& bound = options.lattice.max_error;
-  Metadata metadata = metadata_of(options, reference_of(source));
-  metadata.placement = found.laid.placement;
-  if (const auto* raster = std::get_if<Raster>(&source)) metadata.grid = posts_of(*raster);
-  if (const auto* cloud = std::get_if<PointCloud>(&source)) metadata.classes = cloud->classes;
-  if (found.laid.merged != 0) metadata.duplicates = DuplicateRule::kMiddle;
-  const auto [stream, decoded] = encode_and_decode(found.tin, metadata, options.effort);
-  WaterGauge gauge(height_decimals(source), bound ? options.lattice.water_level : std::nullopt);
-  const Verification checked = verify(decoded.mesh(), source, bound, gauge.visitor());
-  const bool too_low = options.lattice.never_below && checked.max_below.mantissa != 0;
-  if (!checked.within_bound || too_low || checked.uncovered != 0 || checked.voids_answered != 0 ||
-      gauge.moved() != 0) {
-    throw InternalFault("the decoded terrain does not keep what was asked for");
-  }
-  metadata.accuracy = Accuracy{bound, checked.max_error, checked.rms_error, checked.mean_error};
-  return {std::move(found.laid), bound, with_metadata(stream, metadata),
-          microtin_vertex_count(decoded.mesh()), checked};
+  EncodeOptions on_lattice = options;
+  on_lattice.bound_at = BoundAt::kLattice;
+  LatticeOptions lattice = options.lattice;
+  return assess(source, on_lattice, lattice, std::move(found)).encoded;
 }
 
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,

@@ -21,12 +21,15 @@ struct EncodedStream {
   std::vector<uint8_t> stream;
   uint32_t vertices;
   Verification verification;
+  std::optional<Verification> true_places;  // of points that the lattice moves
 };
 
 // Chooses, encodes, decodes with the shipped decoder, and compares that with every post or point:
 // what is returned keeps the bound, covers all heights, leaves all voids open and keeps water at
-// its level. With a limit of bytes or vertices, that is the smallest bound found whose stream keeps
-// the limit, in about the time of four encodings. Throws Error if what is asked for cannot be had.
+// its level. Points keep max_error where they truly lie, too, unless options leave that: after each
+// attempt limits become narrower where one does not. With a limit of bytes or vertices, that is the
+// smallest bound found whose stream keeps the limit on the lattice, in about the time of four
+// encodings. Throws Error if what is asked for cannot be had.
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
                             const Progress& progress);
 
@@ -34,7 +37,7 @@ EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress);
 
-// What becomes of an approximation with these options.
+// What becomes of an approximation with these options, whose bound holds on the lattice.
 EncodedStream measured(const Source& source, const EncodeOptions& options, Approximation&& found);
 
 }  // namespace microtin::product

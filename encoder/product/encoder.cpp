@@ -122,12 +122,29 @@ microtin::Decoding decoding_of(encoder::Decoding decoding) {
   return microtin::Decoding::kBalanced;
 }
 
+exact::DuplicateRule rule_of(Duplicates duplicates) {
+  switch (duplicates) {
+    case Duplicates::kLowest:
+      return exact::DuplicateRule::kLowest;
+    case Duplicates::kHighest:
+      return exact::DuplicateRule::kHighest;
+    case Duplicates::kMean:
+      return exact::DuplicateRule::kMean;
+    case Duplicates::kMiddle:
+      break;
+  }
+  return exact::DuplicateRule::kMiddle;
+}
+
 product::EncodeOptions options_of(const Options& options) {
   product::EncodeOptions all;
   all.lattice.max_error = decimal_of("max_error", options.max_error);
   all.lattice.z_step = decimal_of("z_step", options.z_step);
   all.lattice.xy_step = decimal_of("xy_step", options.xy_step);
   all.lattice.never_below = options.never_below;
+  all.bound_at = options.bound_at == encoder::BoundAt::kLattice ? product::BoundAt::kLattice
+                                                                : product::BoundAt::kTruePlaces;
+  all.lattice.duplicates = rule_of(options.duplicates);
   all.search = search_of(options.search);
   expect(options.degree >= kMinDegree && options.degree <= kMaxDegree, "degree: 6 .. 32");
   all.effort = {options.degree, decoding_of(options.decoding)};
@@ -151,6 +168,10 @@ base::Progress progress_of(const Callbacks& callbacks) {
   });
 }
 
+std::string largest_of(const std::optional<terrain::Verification>& measured) {
+  return measured ? to_string(measured->max_error) : std::string();
+}
+
 Report report_of(const product::EncodedStream& encoded) {
   const terrain::Verification& measured = encoded.verification;
   return {measured.posts,
@@ -161,7 +182,8 @@ Report report_of(const product::EncodedStream& encoded) {
           to_string(measured.max_error),
           to_string(measured.rms_error),
           to_string(measured.mean_error),
-          to_string(measured.max_below)};
+          to_string(measured.max_below),
+          largest_of(encoded.true_places)};
 }
 
 Report report_of(const product::PackReport& pack, uint64_t samples) {
@@ -173,7 +195,8 @@ Report report_of(const product::PackReport& pack, uint64_t samples) {
           to_string(pack.measured.max_error),
           to_string(pack.measured.rms_error),
           to_string(pack.measured.mean_error),
-          to_string(pack.measured.max_below)};
+          to_string(pack.measured.max_below),
+          {}};
 }
 
 uint64_t count_heights(const terrain::Raster& raster) {
@@ -195,7 +218,9 @@ Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOpti
                      files::OutputFile& out) {
   const product::EncodedPoints made = product::encode_pack(cloud, options);
   out.write(made.bytes);
-  return report_of(made.report, cloud.points.size());
+  Report report = report_of(made.report, cloud.points.size());
+  report.max_error_at_points = largest_of(made.true_places);
+  return report;
 }
 
 }  // namespace

@@ -14,6 +14,9 @@
 
 namespace microtin::product {
 
+// Where the bound holds for points that a lattice moves.
+enum class BoundAt { kTruePlaces, kLattice };
+
 struct EncodeOptions {
   LatticeOptions lattice;
   uint32_t max_vertices = 0;   // 0: as many as it takes
@@ -21,6 +24,7 @@ struct EncodeOptions {
   uint32_t tile_vertices = 0;  // of a pack: at most so many in a tile; 0: as device_ram allows
   uint32_t tile_steps = 0;     // of a pack of posts; 0: to be chosen
   uint64_t device_ram = 0;     // 0: unlimited
+  BoundAt bound_at = BoundAt::kTruePlaces;
   Search search = Search::kNormal;
   Effort effort;
   Reference reference;  // where it says something, it comes before what the terrain's file says

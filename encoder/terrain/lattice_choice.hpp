@@ -6,12 +6,20 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
+#include "shared/lattice.hpp"
 
 namespace microtin::terrain {
+
+// Narrower limits at a place than the bound sets: lattice steps with 16 fractional bits.
+struct Tightening {
+  Point place;
+  int32_t lowest, highest;
+};
 
 struct LatticeOptions {
   std::optional<Decimal> xy_step;    // in the source's unit; posts for rasters
@@ -21,6 +29,8 @@ struct LatticeOptions {
   // No more decimals than the heights'. It is on the lattice, and with a bound the surface is at
   // this height exactly at posts of this height, and at no others.
   std::optional<Decimal> water_level = {};
+  DuplicateRule duplicates = DuplicateRule::kMiddle;  // of points
+  std::vector<Tightening> tightenings = {};           // by place
 };
 
 // The maps take the source's numbers, refined to multiples of 10^-decimals, to the lattice.

@@ -7,6 +7,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/coordinates.hpp"
+#include "encoder/terrain/duplicates.hpp"
 
 namespace microtin::terrain {
 namespace {
@@ -111,7 +112,8 @@ class Sampler {
                   " places where points of different heights meet, the first at x " +
                   CoordinateText(placement.x)(first_wall_.place.x) + ", y " +
                   CoordinateText(placement.y)(first_wall_.place.y) + " with heights from " +
-                  height(first_wall_.heights.low) + " to " + height(first_wall_.heights.high));
+                  height(first_wall_.heights.low) + " to " + height(first_wall_.heights.high) +
+                  "; --duplicates lowest, highest or mean lets one of them stand for all");
     }
     if (without_step_ != 0) {
       const Decimal enough = make_decimal(std::max<Wide>(narrowest_, 1), decimals_);
@@ -183,6 +185,33 @@ void check_voids(const std::vector<Point>& voids, const std::vector<Sample>& sam
               CoordinateText(placement.x)(first.x) + ", y " + CoordinateText(placement.y)(first.y));
 }
 
+// A whole step within [lowest, highest] that a vertex can have is kept: the next one to the new
+// limits, if these hold none.
+void keep_a_step(const Sample& before, Sample& after) {
+  const Wide up = ceil_divide(Wide{after.lowest}, kOne) * kOne;
+  if (up <= after.highest) return;
+  if (up <= before.highest) {
+    after.highest = static_cast<int32_t>(up);
+  } else {
+    after.lowest = static_cast<int32_t>(floor_divide(Wide{after.highest}, kOne) * kOne);
+  }
+}
+
+// Both are in the order of places.
+void tighten(std::vector<Sample>& samples, const std::vector<Tightening>& tightenings) {
+  auto sample = samples.begin();
+  for (const Tightening& tight : tightenings) {
+    while (sample != samples.end() && sample->place < tight.place) ++sample;
+    if (sample == samples.end()) return;
+    if (sample->place != tight.place) continue;
+    Sample narrow = *sample;
+    narrow.lowest = std::clamp(tight.lowest, sample->lowest, sample->highest);
+    narrow.highest = std::clamp(tight.highest, narrow.lowest, sample->highest);
+    keep_a_step(*sample, narrow);
+    *sample = narrow;
+  }
+}
+
 }  // namespace
 
 Laid lay_out(const Source& source, const LatticeOptions& options) {
@@ -190,6 +219,16 @@ Laid lay_out(const Source& source, const LatticeOptions& options) {
 }
 
 Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions& options) {
+  const auto* cloud = std::get_if<PointCloud>(&source);
+  if (cloud != nullptr && options.duplicates != DuplicateRule::kMiddle) {
+    if (auto thin = thinned(*cloud, lattice.placement, options.duplicates)) {
+      LatticeOptions rest = options;
+      rest.duplicates = DuplicateRule::kMiddle;
+      Laid laid = lay_out(*thin, lattice, rest);
+      laid.merged += cloud->points.size() - thin->points.size();
+      return laid;
+    }
+  }
   Placing placing(lattice);
   for_each_post(source, [&](int64_t x, int64_t y, int64_t z) { placing.add(x, y, z); });
   placing.sort();
@@ -197,6 +236,7 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
   Laid laid;
   laid.survey.samples = make_samples(placing.posts(), sampler);
   sampler.check(lattice.placement, placement_of(source).z);
+  tighten(laid.survey.samples, options.tightenings);
   check_voids(placing.voids(), laid.survey.samples, lattice.placement);
   laid.survey.voids = placing.voids();
   laid.placement = lattice.placement;

@@ -19,9 +19,9 @@ struct Laid {
   uint64_t merged = 0;      // points that came to a place already taken
 };
 
-// A point goes to the nearest place, halves up. Points that share a place become one sample with
-// the middle of their lowest and highest height. A void post that shares a place with a sample is
-// dropped.
+// A point goes to the nearest place, halves up. Points that share a place become one sample: with
+// the middle of their lowest and highest height, or as the options' rule says. A void post that
+// shares a place with a sample is dropped.
 //
 // Throws Error if an explicit step does not fit, or if the bound cannot be kept: at places whose
 // points differ by more than twice the bound, or where no whole z step lies within the bound.

@@ -35,6 +35,7 @@ struct Raster {
   int decimals = 0;
   Axis x{0, 1, 1}, y{0, 1, 1};  // from a post's column and row to where its centre lies
   Reference reference;
+  std::string selection = {};  // how it was put together of files, for the user; empty: it was not
 };
 
 struct SourcePoint {

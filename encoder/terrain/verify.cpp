@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Asks the mesh at each post, and sums errors up exactly.
+// Asks the mesh at each post.
 #include "encoder/terrain/verify.hpp"
 
 #include <algorithm>
@@ -8,69 +8,11 @@
 
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/exact/mesh_vertex.hpp"
+#include "encoder/terrain/error_meter.hpp"
 #include "shared/lattice.hpp"
 
 namespace microtin::terrain {
 namespace {
-
-constexpr int64_t kBillion = 1000000000;
-
-// Larger errors (a million units, in billionths) count as this in the mean, so that 2^26 squares
-// fit.
-constexpr Wide kLargestSquared = Wide{1} << 50;
-
-// Differences between heights of the source and answers of the terrain, in billionths of a unit.
-class ErrorMeter {
- public:
-  ErrorMeter(const Axis& source, const Axis& lattice)
-      : to_common_(static_cast<Wide>(lattice.denominator) * 65536),
-        offset_(Wide{lattice.offset} * 65536),
-        step_(static_cast<Wide>(lattice.numerator)),
-        from_common_(static_cast<Wide>(source.denominator)),
-        common_(to_common_ * from_common_) {}
-
-  // `number` is the source's; `answer` is a lattice height with 16 fractional bits. With 60 and 31
-  // bits in these, 40 in the axes and 30 in the source's denominator, sums stay below 2^117.
-  // Returns how far the answer is above, in units.
-  double add(int64_t number, int32_t answer) {
-    const Wide below = number * to_common_ - from_common_ * (offset_ + step_ * answer);
-    const Wide error = magnitude(below);
-    const Wide billionths =
-        error / common_ * kBillion + ceil_divide(error % common_ * kBillion, common_);
-    largest_ = std::max(largest_, billionths);
-    if (below > 0) deepest_ = std::max(deepest_, billionths);
-    const Wide limited = std::min(billionths, kLargestSquared);
-    squares_ += limited * limited;
-    sum_ += below > 0 ? -limited : limited;
-    ++count_;
-    return -static_cast<double>(below) / static_cast<double>(common_);
-  }
-
-  Decimal largest() const { return make_decimal(largest_, kMaxDecimals); }
-  Decimal deepest() const { return make_decimal(deepest_, kMaxDecimals); }
-
-  Decimal mean() const {
-    return count_ == 0 ? Decimal{} : make_decimal(round_divide(sum_, count_), kMaxDecimals);
-  }
-
-  // Rounded up.
-  Decimal root_mean_square() const {
-    if (count_ == 0) return {};
-    const Wide mean = ceil_divide(squares_, count_);
-    Wide low = -1, high = kLargestSquared;  // low^2 < mean <= high^2
-    while (high - low > 1) {
-      const Wide middle = (low + high) / 2;
-      (middle * middle < mean ? low : high) = middle;
-    }
-    return make_decimal(high, kMaxDecimals);
-  }
-
- private:
-  Wide to_common_, offset_, step_, from_common_, common_;
-  Wide largest_ = 0, deepest_ = 0;
-  Wide squares_ = 0, sum_ = 0;
-  int64_t count_ = 0;
-};
 
 // Asks a terrain for heights at numbers of a source.
 class Asker {
@@ -148,11 +90,7 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
     if (visit) visit(place->x, place->y, z, above);
   });
   result.uncovered = result.posts - result.covered;
-  result.max_error = meter.largest();
-  result.max_below = meter.deepest();
-  result.rms_error = meter.root_mean_square();
-  result.mean_error = meter.mean();
-  result.within_bound = !bound || result.max_error <= *bound;
+  meter.tell(bound, result);
   return result;
 }
 
@@ -173,6 +111,7 @@ Verification combine(const std::vector<Verification>& parts) {
     sum += mantissa_at(part.mean_error, kMaxDecimals) * static_cast<Wide>(part.covered);
     all.within_bound = all.within_bound && part.within_bound;
   }
+  constexpr int64_t kBillion = 1000000000;
   const double rms = all.covered == 0 ? 0 : std::sqrt(squares / static_cast<double>(all.covered));
   all.rms_error = make_decimal(static_cast<Wide>(std::ceil(rms * kBillion)), kMaxDecimals);
   if (all.covered != 0) {

@@ -182,3 +182,55 @@ TEST_CASE("places: GDAL reads the .prj that is written") {
     CHECK_MESSAGE(contains(found, parameters), found);
   }
 }
+
+TEST_CASE("places: info tells extent, size and heights in the terrain's units") {
+  const Session session;
+  session.write("t.asc",
+                "ncols 3\nnrows 3\nxllcenter 100\nyllcenter 50\ncellsize 2\nnodata_value -9\n"
+                "-1.5 2 3\n5 6 7\n8 9.5 0\n");
+  REQUIRE(session.run("encode t.asc -o t.mtin").code == 0);
+  REQUIRE(session.run("encode t.asc --tile-vertices 100 -o t.mtp").code == 0);
+  for (const std::string name : {"stream", "pack"}) {
+    const std::string info = session.run(name == "pack" ? "info t.mtp" : "info t.mtin").out;
+    CHECK(contains(info, "kind: \"" + name + "\"\n"));
+    CHECK(contains(info,
+                   "extent: {\"west\": 100.0, \"south\": 50.0, \"east\": 104.0, \"north\": 54.0}\n"
+                   "size: {\"x\": 4.0, \"y\": 4.0}\n"
+                   "heights: {\"lowest\": -1.5, \"highest\": 9.5}\n"));
+  }
+  CHECK(contains(session.run("info t.mtp --json").out, "\"lowest\": -1.5, \"highest\": 9.5"));
+}
+
+TEST_CASE("places: shards and packs are told as such") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 17 -o t.asc").code == 0);
+  REQUIRE(session.run("encode t.asc --tile-vertices 300 --tiles 0:0 -o t.shard").code == 0);
+  REQUIRE(session.run("encode t.asc --tile-vertices 300 -o t.mtp").code == 0);
+  REQUIRE(session.run("encode t.asc -o t.mtin").code == 0);
+  for (const char* const command :
+       {"info t.shard", "decode t.shard -o o.ply", "verify t.shard t.asc",
+        "render t.shard -o o.png", "embed t.shard -o o.h"}) {
+    CHECK(contains(session.failure(command), "t.shard: is a shard, a part of a pack"));
+  }
+  CHECK(contains(session.failure("info - < t.mtp"), "-: is a pack"));
+  CHECK(contains(session.failure("encode t.mtp -o o.mtin"), "t.mtp: is a pack, which"));
+  CHECK(contains(session.failure("encode t.mtin -o o.mtin"), "t.mtin: is a stream, which"));
+  CHECK(contains(session.failure("merge t.mtp -o o.mtp"), "not a shard"));
+}
+
+TEST_CASE("places: pictures are .png files, with a world file on request") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 17 -o t.asc").code == 0);
+  REQUIRE(session.run("encode t.asc --units m -o t.mtin").code == 0);
+  for (const char* const name : {"t.jpg", "t.svg", "t.tif"}) {
+    CHECK(contains(session.failure("render t.mtin -o " + std::string(name)),
+                   std::string(name) + ": not a kind of picture that is written (.png)"));
+  }
+  CHECK(session.run("render t.mtin --no-mesh --palette sea --world-file -o t.png").code == 0);
+  const std::string world = session.read("t.pgw");
+  CHECK(std::count(world.begin(), world.end(), '\n') == 6);
+  CHECK(
+      contains(session.failure("render t.mtin --world-file -o -"), "-: a world file lies beside"));
+  CHECK(contains(session.failure("render t.mtin --palette sky -o u.png", 2),
+                 "sky is not land or sea"));
+}

@@ -65,13 +65,51 @@ TEST_CASE("gdal: rows to the south first, place, code, units, voids, scale") {
 
 TEST_CASE("gdal: what cannot be read is refused with advice") {
   const Grid grid;
-  CHECK(grid.error(vrt("0, 10, 0, 0, 0, 10", "\"Int16\">")) ==
-        "t.vrt: its rows do not run from north to south: bring them there with gdalwarp");
+  CHECK(grid.error(vrt("0, -10, 0, 0, 0, 10", "\"Int16\">")) ==
+        "t.vrt: its rows do not run from west to east: bring them there with gdalwarp");
   CHECK(grid.error(vrt("0, 10, 1, 0, 1, -10", "\"Int16\">")).find("gdalwarp") != std::string::npos);
   CHECK(grid.error(vrt(kPlace, "\"Float32\"><Scale>2</Scale>")).find("gdal_translate -unscale") !=
         std::string::npos);
   CHECK(grid.error(vrt(kPlace, "\"CFloat32\">")).find("type CFloat32") != std::string::npos);
   CHECK(grid.error("nonsense").find("t.vrt: GDAL cannot open it: ") == 0);
+}
+
+TEST_CASE("gdal: rows from south to north") {
+  const Grid grid;
+  const Raster raster = grid.read(vrt("500000, 10, 0, 180, 0, 10", "\"Int16\">"));
+  CHECK(raster.heights == std::vector<int64_t>{1, 2, 3, 4, 5, 6});
+  CHECK(raster.y.offset == 185);
+}
+
+TEST_CASE("gdal: masks make voids, one of several bands is chosen") {
+  const Grid grid;
+  const Session& session = grid.session;
+  if (session.shell("command -v gdal_translate").out.empty()) {
+    MESSAGE("skipped: gdal_translate is not installed");
+    return;
+  }
+  session.write("m.asc",
+                "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200\ncellsize 10\n0 1 1\n1 1 0\n");
+  REQUIRE(session
+              .shell("gdal_translate -q -of GTiff t.asc t.tif && gdal_translate -q m.asc m.tif && "
+                     "gdalbuildvrt -q -separate both.vrt t.tif m.tif && "
+                     "gdal_translate -q -b 1 -mask 2 both.vrt masked.tif && "
+                     "gdal_translate -q both.vrt both.tif")
+              .code == 0);
+  const auto heights = [&](const std::string& name, uint32_t band) {
+    return std::get<Raster>(
+               import_terrain(session.folder() + '/' + name, {}, Indirect::kRefused, band))
+        .heights;
+  };
+  CHECK(heights("masked.tif", 0) == std::vector<int64_t>{4, 5, kVoidHeight, kVoidHeight, 2, 3});
+  CHECK(heights("both.tif", 1) == std::vector<int64_t>{4, 5, 6, 1, 2, 3});
+  CHECK(heights("both.tif", 2) == std::vector<int64_t>{1, 1, 0, 0, 1, 1});
+  CHECK(contains(session.failure("encode both.tif -o new.mtin"),
+                 "both.tif: has 2 bands: choose that of the heights, --band 1"));
+  CHECK(contains(session.failure("encode both.tif --band 3 -o new.mtin"),
+                 "both.tif: has no band 3; its last is 2"));
+  CHECK(session.run("encode both.tif --band 2 -o new.mtin").code == 0);
+  CHECK(session.run("verify new.mtin both.tif --band 2").code == 0);
 }
 
 TEST_CASE("gdal: real files") {

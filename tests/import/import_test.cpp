@@ -77,18 +77,31 @@ TEST_CASE("asc: a void value that no height can have is known by its text") {
         "grid:7: \"" + huge + "\" is not a number in range");
 }
 
+TEST_CASE("asc: what is not a number is void, whatever the header says") {
+  const std::string size = "ncols 3\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+  const std::vector<int64_t> voids = {kVoidHeight, 2, kVoidHeight};
+  for (const char* const text : {"nodata_value nan\nnan 2 NaN", "nan 2 -nan", "NAN 2 nan(ind)",
+                                 "nodata_value -9\nnan 2 -9"}) {
+    CHECK(import_asc("grid", size + text).heights == voids);
+    const std::string all = size + text;
+    CHECK(open_asc("grid", bytes_in_memory({all.begin(), all.end()}))->read({0, 0, 3, 1}).heights ==
+          voids);
+  }
+  CHECK_THROWS_AS(import_asc("grid", size + "nanx 2 3"), Error);
+}
+
 TEST_CASE("asc: whatever is wrong is told with its line") {
   CHECK(grid_error(kHeader + "1 2 3\n4 5\n") == "grid:8: the grid ends after 5 of 6 heights");
   CHECK(grid_error(kHeader + "1 2 3\n4 5 6\n7\n") ==
         "grid:8: the grid goes on after its 6 heights");
   CHECK(grid_error(kHeader + "1 2 3\n4 x 6\n") == "grid:7: \"x\" is not a number in range");
-  CHECK(grid_error(kHeader + "1 2 3\n4 nan 6\n") == "grid:7: \"nan\" is not a number in range");
+  CHECK(grid_error(kHeader + "1 2 3\n4 inf 6\n") == "grid:7: \"inf\" is not a number in range");
   CHECK(grid_error(kHeader + "1 2 3\n4 inf 6\n") == "grid:7: \"inf\" is not a number in range");
   CHECK(grid_error(kHeader + "1 2 3\n4 1e30 6\n") == "grid:7: \"1e30\" is not a number in range");
   CHECK(grid_error(kHeader + "1e17 2 3\n4 0.5 .000000001\n") ==
         "grid:7: \".000000001\" is not a number in range");
   CHECK(grid_error(kHeader + "nodata_value abc\n1 2 3") == "grid:6: \"abc\" is not a number");
-  CHECK(grid_error(kHeader + "nodata_value nan\n1 2 3") == "grid:6: \"nan\" is not a number");
+  CHECK(grid_error(kHeader + "nodata_value inf\n1 2 3") == "grid:6: \"inf\" is not a number");
   CHECK(grid_error(kHeader + "\x01\x02\xFF") == "grid:6: \"???\" is not a number in range");
   CHECK(grid_error(kHeader + "ncols 4\n1") == "grid:6: ncols is given twice");
   CHECK(grid_error(kHeader + "zone 4\n1") ==
@@ -147,6 +160,11 @@ TEST_CASE("points: separators, comments, headers, two columns") {
   CHECK(points("  1 , 2 ,\n\n # x y\n 3  4") == "1,2,0 3,4,0");
   CHECK(points("\"X\",\"Y\",\"Z\"\n1,2.5,3") == "10,25,3");
   CHECK(points("\xEF\xBB\xBFlon lat height\n-1 0 0.25\n1 0 -1e1") == "-1,0,25 1,0,-1000");
+  CHECK(points("lat,lon,ele\n50,7,100\n51,8,200\n") == "7,50,100 8,51,200");
+  CHECK(points("id;northing;easting;class;HEIGHT\n9;2;1;5;3\n") == "1,2,3");
+  CHECK(points("y x\n1 2\n3 4\n") == "2,1,0 4,3,0");
+  CHECK(import_points("c", "lat,lon\n1,2\n").reference.horizontal_unit == Unit::kDegree);
+  CHECK(import_points("c", "y,x\n1,2\n").reference.horizontal_unit == Unit::kUnknown);
   CHECK(points("1 2 3 255 0.5\n4 5 6 0 1e-3\n") == "1,2,3 4,5,6");
   CHECK(import_points("cloud", "1.25 2 3.5").xy_decimals == 2);
   CHECK(import_points("cloud", "1.25 2 3.5").z_decimals == 1);
@@ -164,7 +182,14 @@ TEST_CASE("points: whatever is wrong is told with its line") {
   CHECK(point_error("1 2 3 4\n1 2 3 q\n") == "cloud:2: \"q\" is not a number in range");
   CHECK(point_error("1,5;2,5;3,5\n") ==
         "cloud:1: commas and semicolons are mixed; decimals are written with a point");
-  CHECK(point_error("id,x,y,z\n1,2,3,4\n") == "cloud:1: the first columns must be x, y and z");
+  const std::string unclear =
+      "cloud:1: the header names some of x, y and z: it must name all, or x and y first";
+  CHECK(point_error("z,a,b\n1,2,3\n") == unclear);
+  CHECK(point_error("x,a,b\n1,2,3\n") == unclear);
+  CHECK(point_error("id,x,y\n1,2,3\n") == unclear);
+  CHECK(point_error("x,lon,y\n1,2,3\n") == "cloud:1: two columns are named as x");
+  CHECK(point_error("a,b,x,y\n1,2\n") == unclear);
+  CHECK(point_error("z,a,x,y\n1,2\n") == "cloud:2: x or y of the header is missing");
   CHECK(point_error("1 2 3\n1e300 2 3") == "cloud:2: \"1e300\" is not a number in range");
   CHECK(point_error("0.000000001 1\n10000000000 2") ==
         "cloud:2: \"10000000000\" is not a number in range");

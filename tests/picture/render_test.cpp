@@ -119,6 +119,39 @@ TEST_CASE("render: errors are blue where the terrain is too low, red where too h
   CHECK(wide.height < 600);  // beside
 }
 
+TEST_CASE("render: below zero there is sea, if that is asked for") {
+  Portrait shore = portrait({{0, 0, -50}, {100, 0, 50}, {0, 100, -50}, {100, 100, 50}});
+  CHECK(!is_blue(Picture(render_png(shore, 200)).at(kLeft + 20, kTop + 90)));
+  shore.palette = PaletteKind::kSea;
+  const Picture picture(render_png(shore, 200));
+  CHECK(is_blue(picture.at(kLeft + 20, kTop + 90)));
+  CHECK(!is_blue(picture.at(kLeft + kWidth - 60, kTop + 90)));
+  const Palette deep(PaletteKind::kSea, -4000, -100);
+  CHECK(deep.at(0).b > deep.at(0).r);
+  CHECK(deep.at(1).b > deep.at(1).r);
+  CHECK(deep.at(1).r > deep.at(0).r);
+}
+
+TEST_CASE("render: triangles are drawn on the right, or not at all") {
+  Portrait flat = portrait({{0, 0, 5}, {100, 0, 5}, {0, 100, 5}, {100, 100, 5}, {90, 50, 5}});
+  const Picture with(render_png(flat, 200));
+  flat.mesh = false;
+  const Picture without(render_png(flat, 200));
+  const int column = kLeft + kWidth * 90 / 100, row = kTop + kWidth / 2;
+  CHECK(with.at(column, row)[0] < without.at(column, row)[0] - 20);
+  CHECK(without.at(column, row) == without.at(kLeft + 20, row));
+}
+
+TEST_CASE("render: a world file says where the map's pixels lie") {
+  Metadata metadata;
+  metadata.placement = {{1000, 2, 1}, {5000, 2, 1}, {0, 1, 1}};
+  const Portrait square = portrait({{0, 0, 0}, {178, 0, 0}, {0, 178, 0}, {178, 178, 0}}, metadata);
+  // A pixel is a step of 2; the map's upper left corner is 1000, 5356.
+  const std::string x = std::to_string(1000 - 2 * kLeft + 1),
+                    y = std::to_string(5356 + 2 * kTop - 1);
+  CHECK(world_file(square, 200, false) == "2\n0\n0\n-2\n" + x + "\n" + y + "\n");
+}
+
 TEST_CASE("render: any shape and width") {
   const std::vector<std::vector<Vertex>> shapes = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                                    {{0, 0, 0}, {1, 0, 0}, {0, 60000, 0}},

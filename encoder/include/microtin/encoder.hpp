@@ -87,11 +87,21 @@ enum class Search { kFast, kNormal, kBest }; /* some 5 % more bytes; the default
 /* What decoding may cost: less time for more bytes, or the other way round. */
 enum class Decoding { kQuick, kBalanced, kDense };
 
+/* Where a bound holds for points that a stream's lattice moves: where they truly lie, too, or on
+ * the lattice alone. */
+enum class BoundAt { kPoints, kLattice };
+
+/* Which of the points that meet at a place of the lattice stands for all. kMiddle: all count, and
+ * the surface aims at the middle of the lowest and the highest. */
+enum class Duplicates { kMiddle, kLowest, kHighest, kMean };
+
 struct Options {
   std::string max_error;    /* the largest distance of the surface from any height; "": see below */
   bool never_below = false; /* with a bound: no height is below the terrain */
   std::string z_step;       /* of heights; "": the one that suits the bound, or the terrain's own */
   std::string xy_step;      /* of places, for streams; "": the terrain's own. Posts: in posts */
+  BoundAt bound_at = BoundAt::kPoints;
+  Duplicates duplicates = Duplicates::kMiddle;
   Search search = Search::kNormal;
   uint32_t degree = 10; /* most triangles around a vertex when it is added: 6 .. 32 */
   Decoding decoding = Decoding::kBalanced;
@@ -126,8 +136,9 @@ struct Report {
   std::string bound;     /* asked for, or found for a limit; "": none */
   std::string max_error; /* measured, in the terrain's unit, rounded up to 9 decimals */
   std::string rms_error;
-  std::string mean_error; /* above 0: the surface is too high */
-  std::string max_below;  /* how far the surface is below a height at most */
+  std::string mean_error;          /* above 0: the surface is too high */
+  std::string max_below;           /* how far the surface is below a height at most */
+  std::string max_error_at_points; /* where points truly lie, if the lattice moves them; else "" */
 };
 
 struct Stream {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What a surface must do better so that points keep a bound where they truly lie.
+#ifndef MICROTIN_ENCODER_PRODUCT_TRUE_BOUND_HPP
+#define MICROTIN_ENCODER_PRODUCT_TRUE_BOUND_HPP
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "encoder/export/height_sampler.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/terrain/lattice_choice.hpp"
+
+namespace microtin::product {
+
+// Collects narrower limits for the heights at places near which points miss the bound.
+class TrueBound {
+ public:
+  // The options have a bound. The surface must outlive it.
+  TrueBound(const LatticeOptions& options, const SampledSurface& surface);
+
+  // A point's place on the lattice, and how far the surface is above it where it truly lies.
+  void see(int64_t x, int64_t y, double above);
+
+  uint64_t missed() const { return missed_; }
+
+  // Adds to what was collected before.
+  void add_to(std::vector<Tightening>& tightenings);
+
+ private:
+  int32_t moved(int32_t height, double by) const;
+
+  double above_, below_, step_;
+  const SampledSurface& surface_;
+  std::map<std::pair<int64_t, int64_t>, Tightening> limits_;
+  uint64_t missed_ = 0;
+};
+
+}  // namespace microtin::product
+
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Sums errors of heights up exactly.
+#ifndef MICROTIN_ENCODER_TERRAIN_ERROR_METER_HPP
+#define MICROTIN_ENCODER_TERRAIN_ERROR_METER_HPP
+
+#include <optional>
+
+#include "encoder/layers.hpp"
+#include "encoder/terrain/verify.hpp"
+
+namespace microtin::terrain {
+
+// Differences between heights of the source and answers of the terrain, in billionths of a unit.
+class ErrorMeter {
+ public:
+  ErrorMeter(const Axis& source, const Axis& lattice);
+
+  // `number` is the source's; `answer` is a lattice height with 16 fractional bits. With 60 and 31
+  // bits in these, 40 in the axes and 30 in the source's denominator, sums stay below 2^117.
+  // Returns how far the answer is above, in units.
+  double add(int64_t number, int32_t answer);
+
+  // Writes the errors, and whether they keep the bound.
+  void tell(const std::optional<Decimal>& bound, Verification& found) const;
+
+ private:
+  Decimal mean() const;
+  Decimal root_mean_square() const;  // rounded up
+
+  Wide to_common_, offset_, step_, from_common_, common_;
+  Wide largest_ = 0, deepest_ = 0;
+  Wide squares_ = 0, sum_ = 0;
+  int64_t count_ = 0;
+};
+
+}  // namespace microtin::terrain
+
+#endif

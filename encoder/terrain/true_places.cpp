@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// Asks a terrain between the places of its lattice.
+#include "encoder/terrain/true_places.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "encoder/exact/lattice_map.hpp"
+#include "encoder/terrain/error_meter.hpp"
+
+namespace microtin::terrain {
+namespace {
+
+constexpr int64_t kFraction = 256;
+constexpr int64_t kBand = 256 * kFraction;  // rows that are asked from west to east together
+
+struct Place {
+  int64_t x, y;  // with 8 fractional bits
+};
+
+class TruePlaces {
+ public:
+  TruePlaces(const Placement& lattice, const PointCloud& cloud) {
+    const Axis numbers{0, 1, static_cast<uint64_t>(power_of_ten(cloud.xy_decimals))};
+    x_ = map_between(numbers, lattice.x);
+    y_ = map_between(numbers, lattice.y);
+  }
+
+  // Numbers lie below 2^60, and lattices are no finer than sources.
+  Place exact(const SourcePoint& p) const { return {scaled(x_, p.x), scaled(y_, p.y)}; }
+  Place nearest(const SourcePoint& p) const {
+    return {static_cast<int64_t>(x_.nearest(p.x)) * kFraction,
+            static_cast<int64_t>(y_.nearest(p.y)) * kFraction};
+  }
+  bool moves(const SourcePoint& p) const {
+    return x_.numerator(p.x) % x_.step != 0 || y_.numerator(p.y) % y_.step != 0;
+  }
+
+ private:
+  static int64_t scaled(const LatticeMap& map, int64_t number) {
+    return static_cast<int64_t>(round_divide(kFraction * map.numerator(number), map.step));
+  }
+
+  LatticeMap x_{}, y_{};
+};
+
+// The order in which points are asked, so that neighbours follow each other.
+std::vector<uint32_t> order_of(const PointCloud& cloud, const TruePlaces& places) {
+  std::vector<uint32_t> order(cloud.points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::vector<std::tuple<int64_t, int64_t>> keys;
+  keys.reserve(order.size());
+  for (const SourcePoint& p : cloud.points) {
+    const Place place = places.nearest(p);
+    keys.emplace_back(-(place.y / kBand), place.x);
+  }
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
+  return order;
+}
+
+}  // namespace
+
+bool moves_points(const Placement& lattice, const PointCloud& cloud) {
+  const TruePlaces places(lattice, cloud);
+  return std::any_of(cloud.points.begin(), cloud.points.end(),
+                     [&](const SourcePoint& p) { return places.moves(p); });
+}
+
+Verification verify_at_true_places(const HeightQuery& height_at, const Placement& lattice,
+                                   const PointCloud& cloud, const std::optional<Decimal>& bound,
+                                   const PostVisitor& visit) {
+  const TruePlaces places(lattice, cloud);
+  ErrorMeter meter({0, 1, static_cast<uint64_t>(power_of_ten(cloud.z_decimals))}, lattice.z);
+  Verification result;
+  for (const uint32_t i : order_of(cloud, places)) {
+    const SourcePoint& p = cloud.points[i];
+    const Place there = places.exact(p), nearest = places.nearest(p);
+    std::optional<int32_t> height = height_at(there.x, there.y);
+    if (!height) height = height_at(nearest.x, nearest.y);
+    ++result.posts;
+    if (!height) continue;
+    ++result.covered;
+    const double above = meter.add(p.z, *height);
+    if (visit) visit(nearest.x / kFraction, nearest.y / kFraction, p.z, above);
+  }
+  result.uncovered = result.posts - result.covered;
+  meter.tell(bound, result);
+  return result;
+}
+
+}  // namespace microtin::terrain

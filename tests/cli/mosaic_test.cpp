@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// One terrain from several files.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/support/session.hpp"
+
+using namespace microtin::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string grid(int x, int y, const std::string& heights, const std::string& size = "2") {
+  return "ncols 3\nnrows 2\nxllcenter " + std::to_string(x) + "\nyllcenter " + std::to_string(y) +
+         "\ncellsize " + size + "\nnodata_value -9\n" + heights + "\n";
+}
+
+// An SRTM cell of 3 x 3 posts, in big-endian metres.
+std::string cell(const std::string& heights) {
+  std::string bytes;
+  for (const char height : heights) bytes += std::string(1, '\0') + height;
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("mosaic: rasters that touch or overlap are one; the first counts, gaps are void") {
+  const Session session;
+  session.write("a.asc", grid(100, 50, "1 2 3\n4 5 6"));
+  session.write("b.asc", grid(104, 50, "4 5 6\n9.5 8 9"));  // shares a column with the first
+  session.write("c.asc", grid(100, 56, "-9 7 7\n7 7 7"));   // a row apart
+  for (const std::string output : {"t.mtin", "t.mtp --tile-vertices 100"}) {
+    const std::string out = session.run("encode a.asc b.asc c.asc -o " + output).out;
+    CHECK(contains(out,
+                   "3 files; where they overlap they differ by up to 3.5, most at x 104, y 50 in "
+                   "a.asc and b.asc; the first one counts"));
+    const std::string file = output.substr(0, output.find(' '));
+    CHECK(session.run("verify " + file + " a.asc b.asc c.asc").code == 0);
+    CHECK(session.run("verify " + file + " a.asc c.asc b.asc").code == 0);
+    REQUIRE(session.run("decode " + file + " -o back.asc").code == 0);
+    CHECK(contains(session.read("back.asc"),
+                   "ncols 5\nnrows 5\nxllcenter 100\nyllcenter 50\ncellsize 2\nNODATA_value -9999\n"
+                   "-9999 7 7 -9999 -9999\n7 7 7 -9999 -9999\n-9999 -9999 -9999 -9999 -9999\n"
+                   "1 2 3 5 6\n4 5 6 8 9\n"));
+  }
+  CHECK(session.run("verify t.mtin b.asc a.asc c.asc").code == 0);  // without a bound
+  CHECK(
+      contains(session.run("encode a.asc c.asc -o u.mtin").out, "2 files, none of which overlap"));
+}
+
+TEST_CASE("mosaic: a folder of SRTM cells") {
+  const Session session;
+  fs::create_directory(session.folder() + "/cells");
+  session.write("cells/N43E007.hgt", cell("123456789"));
+  session.write("cells/N43E008.hgt", cell("345678901"));
+  session.write("cells/readme.txt.old", "no terrain");
+  const std::string out =
+      session.run("encode cells --max-error 0.5 --tile-vertices 60 -o t.mtp").out;
+  CHECK(contains(out, "source: 2 files, which agree where they overlap"));
+  CHECK(session.run("verify t.mtp cells").code == 0);
+  CHECK(contains(session.run("info t.mtp").out,
+                 "extent: {\"west\": 7.0, \"south\": 43.0, \"east\": 9.0, \"north\": 44.0}"));
+  CHECK(session.run("render t.mtp --source cells -o t.png").code == 0);
+  fs::create_directory(session.folder() + "/empty");
+  CHECK(contains(session.failure("encode empty -o e.mtin"), "empty: holds no terrain file"));
+}
+
+TEST_CASE("mosaic: files that do not go together are refused by name") {
+  const Session session;
+  session.write("a.asc", grid(100, 50, "1 2 3\n4 5 6"));
+  session.write("size.asc", grid(106, 50, "1 2 3\n4 5 6", "3"));
+  session.write("off.asc", grid(105, 50, "1 2 3\n4 5 6"));
+  session.write("unit.asc", grid(106, 50, "1 2 3\n4 5 6"));
+  session.write("unit.prj", "LOCAL_CS[\"a\",UNIT[\"Foot\",0.3048]]");
+  session.write("p.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  CHECK(contains(session.failure("encode a.asc size.asc -o t.mtp --tile-vertices 60"),
+                 "size.asc: its cells are not of the size"));
+  CHECK(contains(session.failure("encode a.asc off.asc -o t.mtin"), "off.asc: its cells are not"));
+  CHECK(contains(session.failure("encode a.asc unit.asc -o t.mtin"), "unit.asc: its units"));
+  CHECK(contains(session.failure("encode a.asc p.xyz -o t.mtin"), "p.xyz: are points, but a.asc"));
+  CHECK(session.run("encode a.asc size.asc -o size.asc").code == 1);
+  CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "3"));
+}
+
+TEST_CASE("mosaic: clouds are joined, with the decimals of both") {
+  const Session session;
+  session.write("a.xyz", "0 0 1\n2 0 1\n0 2 1.5\n");
+  session.write("b.xyz", "2.25 2 4\n1 1 2.125\n");
+  CHECK(contains(session.run("encode a.xyz b.xyz -o t.mtin").out, "source: 5 points, 2 files"));
+  CHECK(session.run("verify t.mtin b.xyz a.xyz").code == 0);
+  REQUIRE(session.run("decode t.mtin -o o.xyz").code == 0);
+  CHECK(contains(session.read("o.xyz"), "2.25 2"));
+}

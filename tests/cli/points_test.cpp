@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Points off the lattice, points that meet, and how both are told.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <string>
+
+#include "tests/support/session.hpp"
+
+using namespace microtin::tests;
+
+namespace {
+
+// "1.205" for 1205.
+std::string in_thousands(int64_t number) {
+  return std::to_string(number / 1000) + "." + std::to_string(1000 + number % 1000).substr(1);
+}
+
+// A slope of points with more decimals than 16 bits hold, in a straight frame.
+std::string slope() {
+  std::string text;
+  for (int64_t i = 0; i < 400; ++i) {
+    const int64_t column = i % 20, row = i / 20;
+    const bool is_rim = column == 0 || column == 19 || row == 0 || row == 19;
+    const int64_t x = column * 5000003 + (is_rim ? 0 : i * i * 7919 % 900001);
+    const int64_t y = row * 4900007 + (is_rim ? 0 : i * 7907 % 800011);
+    text += in_thousands(x) + " " + in_thousands(y) + " " + std::to_string(x / 20000) + "." +
+            std::to_string(i * i % 10) + "\n";
+  }
+  return text;
+}
+
+double number_behind(const std::string& text, const std::string& name) {
+  const size_t at = text.find(name);
+  return at == std::string::npos ? -1 : std::stod(text.substr(at + name.size()));
+}
+
+}  // namespace
+
+TEST_CASE("points: the bound holds where they truly lie, or on the lattice alone") {
+  const Session session;
+  session.write("p.xyz", slope());
+  const std::string truly = "... where the points truly lie: at most ";
+  const std::string lattice =
+      session.run("encode p.xyz --max-error 0.5 --bound-at lattice -o lattice.mtin").out;
+  CHECK(number_behind(lattice, truly) > 0.5);
+  const std::string points = session.run("encode p.xyz --max-error 0.5 -o points.mtin").out;
+  CHECK(number_behind(points, truly) > 0);
+  CHECK(number_behind(points, truly) <= 0.5);
+  CHECK(contains(points, "(the bound holds there, too)\n"));
+  CHECK(contains(session.run("info points.mtin").out, "true_places: {\"bound\": 0.5, "));
+  CHECK(contains(session.run("info lattice.mtin").out, "true_places: {\"bound\": null, "));
+  const Session::Result verified = session.run("verify points.mtin p.xyz");
+  CHECK(verified.code == 0);
+  CHECK(contains(verified.out, "points: 400\n"));
+  CHECK(!contains(verified.out, "voids"));
+  CHECK(contains(verified.out, "true_places: {\"bound\": 0.5, "));
+  CHECK(session.run("verify lattice.mtin p.xyz").code == 0);
+}
+
+TEST_CASE("points: one that is right on the lattice alone fails where it truly lies") {
+  const Session session;
+  session.write("p.xyz", "0 0 0\n100 0 100\n0 100 0\n100 100 100\n49.9 50 50\n");
+  REQUIRE(session.run("encode p.xyz --max-error 1 --xy-step 1 -o p.mtin").code == 0);
+  session.write("moved.xyz", "0 0 0\n100 0 100\n0 100 0\n100 100 100\n50.4 50 49.1\n");
+  CHECK(contains(session.failure("verify p.mtin moved.xyz"), "where the points truly lie"));
+}
+
+TEST_CASE("points: a lattice that is too coarse is named, with what is fine enough") {
+  const Session session;
+  session.write("p.xyz", slope());
+  CHECK(contains(session.failure("encode p.xyz --max-error 0.5 --xy-step 500 -o p.mtin"),
+                 ": --xy-step 500 is too coarse; leave it out, or ask for less with --bound-at"));
+  CHECK(contains(
+      session.failure("encode p.xyz --max-error 0.5 --xy-step 500 --tile-vertices 500 -o p.mtp"),
+      ": --xy-step 500 is too coarse; leave it out, or ask for less with --bound-at lattice"));
+  REQUIRE(session
+              .run("encode p.xyz --max-error 0.5 --xy-step 500 --bound-at lattice --tile-vertices "
+                   "500 -o coarse.mtp")
+              .code == 0);
+  CHECK(contains(session.run("info coarse.mtp").out, "true_places: {\"bound\": null"));
+}
+
+TEST_CASE("points: one of those that meet stands for all, and verify knows which") {
+  const Session session;
+  session.write("p.xyz", "0 0 0\n9 0 0\n0 9 0\n9 9 0\n5 5 1\n5 5 4\n5 5 7\n");
+  CHECK(contains(session.failure("encode p.xyz --max-error 1 -o p.mtin"), "--duplicates"));
+  for (const auto& [rule, height] :
+       {std::pair<std::string, std::string>{"lowest", "1"}, {"highest", "7"}, {"mean", "4"}}) {
+    for (const std::string name : {"p.mtin", "p.mtp --tile-vertices 90"}) {
+      const std::string out = session.run("encode p.xyz --duplicates " + rule + " -o " + name).out;
+      CHECK(
+          contains(out, "merged: 2 shared a place with another; the " + rule + " stands for all"));
+      const std::string file = name.substr(0, name.find(' '));
+      CHECK(session.run("verify " + file + " p.xyz").code == 0);
+      CHECK(contains(session.run("info " + file).out, "duplicates: \"" + rule + "\""));
+      REQUIRE(session.run("decode " + file + " -o p.xyz.out.xyz").code == 0);
+      CHECK(contains(session.read("p.xyz.out.xyz"), "5 5 " + height + "\n"));
+    }
+  }
+  CHECK(contains(session.failure("encode p.xyz --duplicates any -o p.mtin", 2),
+                 "any is not middle, lowest, highest or mean"));
+}
