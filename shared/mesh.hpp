@@ -75,7 +75,7 @@ inline Index previous_in_triangle(Index h) {
   return static_cast<Index>(is_first_edge(h) ? h + 2u : h - 1u);
 }
 
-inline Point point_of(const Mesh& mesh, Index v) {
+MICROTIN_IN_PLACE inline Point point_of(const Mesh& mesh, Index v) {
   return mesh.place[v];
 }
 

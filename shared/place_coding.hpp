@@ -130,7 +130,7 @@ FastInt code_column(Coder& coder, PlaceModel& model, const FreeRegion& region, c
   if (x > lines.last) x = lines.last;
   if (depth.weighed == 0) {
     const uint32_t context = (columns.open_east ? 0u : 1u) + (columns.open_west ? 0u : 2u) +
-                             (region.side[0].certified ? 4u : 0u) +
+                             (region.next.certified ? 4u : 0u) +
                              (expected_points(region) > 1 ? 8u : 0u);
     code_quarter(coder, model.quick_column[context], lines, x);
   } else {
@@ -188,8 +188,8 @@ Offset code_turned_place(Coder& coder, PlaceModel& model, const FreeRegion& regi
 template <class Coder>
 Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
                   const Contract& contract, Log2 density, Place& place, Crowding& crowding) {
-  const Cotangent own = cotangent(region.cc - region.ca, region.twice, kOwnCap);
-  const Side& chord = region.side[kChord];
+  const Cotangent own = cotangent(region.cc - region.ca, region.by_twice, kOwnCap);
+  const Side& chord = region.chord;
   Cotangent behind = chord.ghost ? -4 * (1 << kCotangentBits) : chord.behind;
   if (behind > own) behind = own;
   find_places(place.legal, region, contract, own, behind);

@@ -42,7 +42,8 @@ struct Player {
 
 struct Case {
   Point v, c, a;  // counter-clockwise
-  Side side[3];
+  Side chord, next;
+  bool opposite_certified;
   Log2 density;
   Crowding crowding;
 };
@@ -52,7 +53,9 @@ FreeRegion region_of(const Case& given) {
   region.origin = given.v;
   region.corner[0] = given.c - given.v;
   region.corner[1] = given.a - given.v;
-  for (int i = 0; i < 3; ++i) region.side[i] = given.side[i];
+  region.chord = given.chord;
+  region.next = given.next;
+  region.opposite_certified = given.opposite_certified;
   region.expected = free_area(region) + given.density;
   return region;
 }
@@ -114,9 +117,9 @@ Case random_case(Random& random, uint32_t size) {
     given.c = point_in(random, size);
     given.a = point_in(random, size);
   } while (orient2d(given.v, given.c, given.a) <= 0);
-  given.side[0] = random_side(random, size, given.v, given.v, given.c, random.below(2) == 0);
-  given.side[1] = random_side(random, size, given.v, given.c, given.a, random.below(2) == 0);
-  given.side[kChord] = random_side(random, size, given.v, given.a, given.v, true);
+  given.next = random_side(random, size, given.v, given.v, given.c, random.below(2) == 0);
+  given.opposite_certified = random.below(2) == 0;
+  given.chord = random_side(random, size, given.v, given.a, given.v, true);
   given.density = static_cast<Log2>(random.below(32768)) - 16384;
   given.crowding = kCrowdingLeast + static_cast<Crowding>(random.below(kCrowdingMost));
   return given;
@@ -170,10 +173,11 @@ TEST_CASE("hardly a legal place is missed") {
       if (conflicts_with_triangle(given.a, behind, given.v, given.c)) continue;
       if (!conflicts_with_triangle(given.v, given.c, given.a, place)) continue;
       if (conflicts_with_triangle(given.a, behind, given.v, place)) continue;
-      given.side[kChord].certified = true;
-      given.side[kChord].apex = behind - given.v;
+      given.chord.certified = true;
+      given.chord.apex = behind - given.v;
       const FreeRegion region = region_of(given);
-      if (cotangent(region.cc - region.ca, region.twice, kOwnCap) >= 16 << kCotangentBits) continue;
+      if (cotangent(region.cc - region.ca, region.by_twice, kOwnCap) >= 16 << kCotangentBits)
+        continue;
       ++legal;
       Place at;
       PlaceModel bits = model();
