@@ -91,8 +91,8 @@ inline void pair(Mesh& mesh, size_t a, size_t b) {
 }
 
 // in_conflict for the rare cases: a ghost, or p on the circle.
-MICROTIN_OUT_OF_LINE MICROTIN_IN_PLACE inline bool in_rare_conflict(const Mesh& mesh, Index a,
-                                                                    Index b, Index c, Point p) {
+MICROTIN_OUT_OF_LINE inline bool in_rare_conflict(const Mesh& mesh, Index a, Index b, Index c,
+                                                  Point p) {
   turn_largest_last(a, b, c, [&mesh](Index l, Index r) {  // infinity is larger than all
     return l != kInfinity && (r == kInfinity || point_of(mesh, l) < point_of(mesh, r));
   });

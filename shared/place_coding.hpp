@@ -122,8 +122,9 @@ struct Place {
 };
 
 template <class Coder>
-FastInt code_column(Coder& coder, PlaceModel& model, const FreeRegion& region, const Place& place,
-                    Depth depth, FastInt x) {
+MICROTIN_IN_PLACE inline FastInt code_column(Coder& coder, PlaceModel& model,
+                                             const FreeRegion& region, const Place& place,
+                                             Depth depth, FastInt x) {
   Columns columns = legal_columns(place.legal, region);
   Lines& lines = columns.lines;
   if (x < lines.first) x = lines.first;
@@ -142,8 +143,9 @@ FastInt code_column(Coder& coder, PlaceModel& model, const FreeRegion& region, c
 }
 
 template <class Coder>
-FastInt code_row(Coder& coder, PlaceModel& model, const FreeRegion& region, const Place& place,
-                 Depth depth, Offset at, Lines rows, Span own) {
+MICROTIN_IN_PLACE inline FastInt code_row(Coder& coder, PlaceModel& model, const FreeRegion& region,
+                                          const Place& place, Depth depth, Offset at, Lines rows,
+                                          Span own) {
   const LegalPlaces& legal = place.legal;
   const int32_t x = grains(2 * at.x, legal.shift);
   if (depth.weighed == 0) {
@@ -159,8 +161,10 @@ FastInt code_row(Coder& coder, PlaceModel& model, const FreeRegion& region, cons
 
 // Codes `at`, as seen from v and turned.
 template <class Coder>
-Offset code_turned_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
-                         const Place& place, Decoding decoding, Offset at, Crowding& crowding) {
+MICROTIN_IN_PLACE inline Offset code_turned_place(Coder& coder, PlaceModel& model,
+                                                  const FreeRegion& region, const Place& place,
+                                                  Decoding decoding, Offset at,
+                                                  Crowding& crowding) {
   const Depth depth = depth_of(decoding);
   const LegalPlaces& legal = place.legal;
 #if defined(__clang_analyzer__)

@@ -6,6 +6,7 @@
 #define MICROTIN_SHARED_PROBABILITY_HPP
 
 #include "shared/fixed_math.hpp"
+#include "shared/vectors.hpp"
 
 namespace microtin {
 
@@ -33,12 +34,25 @@ inline AdaptiveBit adaptive_bit(uint32_t start) {
   return AdaptiveBit{probability, probability};
 }
 
+#if defined(MICROTIN_PAIRS) && defined(__SSE2__)
+inline void learn(AdaptiveBit& bit, bool one) {
+  const int32_t towards = one ? 0x7FC07FC0 : 0x00400040;
+  int32_t word;
+  __builtin_memcpy(&word, &bit, sizeof word);
+  const __m128i was = _mm_cvtsi32_si128(word);
+  const __m128i way = _mm_sub_epi16(_mm_cvtsi32_si128(towards), was);
+  const __m128i step = _mm_mulhi_epi16(way, _mm_cvtsi32_si128(1 << 11 | 1 << 24));
+  word = _mm_cvtsi128_si32(_mm_add_epi16(was, step));
+  __builtin_memcpy(&bit, &word, sizeof word);
+}
+#else
 inline void learn(AdaptiveBit& bit, bool one) {
   const int32_t towards =
       one ? static_cast<int32_t>(kProbabilityOne) - kProbabilityMargin : kProbabilityMargin;
   bit.fast = static_cast<uint16_t>(bit.fast + ((towards - bit.fast) >> 5));
   bit.slow = static_cast<uint16_t>(bit.slow + ((towards - bit.slow) >> 8));
 }
+#endif
 
 template <class Coder>
 bool code_bit(Coder& coder, AdaptiveBit& bit, bool value) {
