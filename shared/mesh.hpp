@@ -85,7 +85,7 @@ MICROTIN_ONE_COPY inline bool is_ghost(const Mesh& mesh, Index triangle) {
 }
 
 // Makes a and b each other's twins.
-inline void pair(Mesh& mesh, size_t a, size_t b) {
+MICROTIN_IN_PLACE inline void pair(Mesh& mesh, size_t a, size_t b) {
   mesh.twin[a] = static_cast<Index>(b);
   mesh.twin[b] = static_cast<Index>(a);
 }

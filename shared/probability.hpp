@@ -35,7 +35,7 @@ inline AdaptiveBit adaptive_bit(uint32_t start) {
 }
 
 #if defined(MICROTIN_PAIRS) && defined(__SSE2__)
-inline void learn(AdaptiveBit& bit, bool one) {
+MICROTIN_IN_PLACE inline void learn(AdaptiveBit& bit, bool one) {
   const int32_t towards = one ? 0x7FC07FC0 : 0x00400040;
   int32_t word;
   __builtin_memcpy(&word, &bit, sizeof word);
@@ -46,7 +46,7 @@ inline void learn(AdaptiveBit& bit, bool one) {
   __builtin_memcpy(&bit, &word, sizeof word);
 }
 #else
-inline void learn(AdaptiveBit& bit, bool one) {
+MICROTIN_IN_PLACE inline void learn(AdaptiveBit& bit, bool one) {
   const int32_t towards =
       one ? static_cast<int32_t>(kProbabilityOne) - kProbabilityMargin : kProbabilityMargin;
   bit.fast = static_cast<uint16_t>(bit.fast + ((towards - bit.fast) >> 5));

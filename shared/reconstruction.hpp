@@ -170,6 +170,12 @@ inline void look_around(Reconstruction& r, Index into) {
 // log2 of the mean area of a Delaunay triangle of random points less the mean log2 of it.
 constexpr Log2 kMeanOfLogs = 220;
 
+// Of the origin, a, b, counter-clockwise, if each sees the others on the lattice: below 2^32.
+inline uint32_t twice_area(Offset a, Offset b) {
+  return wrapping_product32(static_cast<int32_t>(a.x), static_cast<int32_t>(b.y)) -
+         wrapping_product32(static_cast<int32_t>(a.y), static_cast<int32_t>(b.x));
+}
+
 // Takes a final triangle into the running mean of what such suggest about the density: of n final
 // vertices each has two triangles to itself, and of these vertices `share` are the batch's.
 // Logarithms are below 2^14: the difference stays below 2^23.
@@ -230,7 +236,7 @@ inline HullEdge hull_edge(const Reconstruction& r) {
 // The longer the edge, against the spacing of the vertices, the likelier is a hit.
 inline HitEstimate estimate_hull_hit(const HullEdge& edge, Log2 density) {
   const FastInt length = absolute(edge.along.x) | absolute(edge.along.y);
-  return HitEstimate{6, 2 * log2_of(static_cast<uint64_t>(length)) + density + 6 * 256};
+  return HitEstimate{6, 2 * log2_of(static_cast<uint32_t>(length)) + density + 6 * 256};
 }
 
 // The degree of the vertex where h starts, infinity counted, but at most `most`.
@@ -297,8 +303,7 @@ Decision decide(Reconstruction& r, Coder& coder, Index into, uint32_t marks) {
   const bool hit = code_hit(r, coder, estimate_hit(r, into, marks, density));
   if (hit && !insert(r, coder, locate(r, coder, density))) return Decision::kMalformed;
   // The triangle of the chord and c, or the new vertex, is final.
-  const int64_t twice = cross(r.region.corner[0], r.region.corner[1]);
-  note_final_triangle(r, rough_log2(static_cast<uint64_t>(twice)));
+  note_final_triangle(r, rough_log2(twice_area(r.region.corner[0], r.region.corner[1])));
   return hit ? Decision::kHit : Decision::kMiss;
 }
 
@@ -369,7 +374,8 @@ StepOutcome step_phase(Reconstruction& r, Coder& coder) {
   const Log2 log_batch = log2_of(batch);
   r.share = log_batch - log2_of(placed + batch) - kMeanOfLogs;
   // Before anything is known: the lattice's bounds, shared by all.
-  r.density = (log_batch - log2_of(lattice_places(r.contract))) * 256;
+  const uint32_t places = lattice_places(r.contract);
+  r.density = (log_batch - (places == 0 ? 32 * kLog2One : log2_of(places))) * 256;
   r.stage = Stage::kWalk;
   return StepOutcome::kStep;
 }
