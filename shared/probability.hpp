@@ -34,24 +34,34 @@ inline AdaptiveBit adaptive_bit(uint32_t start) {
   return AdaptiveBit{probability, probability};
 }
 
+// Where a bit's means go: both never get there.
+constexpr int32_t kTowardsOne = static_cast<int32_t>(kProbabilityOne) - kProbabilityMargin;
+constexpr int32_t kTowardsZero = kProbabilityMargin;
+
 #if defined(MICROTIN_PAIRS) && defined(__SSE2__)
+
+// Both means at once: ways are within 2^15, and the high half of a product with 2^(16 - n) is a
+// way's 2^n-th part, rounded down.
 MICROTIN_IN_PLACE inline void learn(AdaptiveBit& bit, bool one) {
-  const int32_t towards = one ? 0x7FC07FC0 : 0x00400040;
-  int32_t word;
-  __builtin_memcpy(&word, &bit, sizeof word);
-  const __m128i was = _mm_cvtsi32_si128(word);
+  static_assert(sizeof bit == sizeof(int32_t), "both means make a word");
+  const int32_t towards = one ? kTowardsOne << 16 | kTowardsOne : kTowardsZero << 16 | kTowardsZero;
+  int32_t means;
+  __builtin_memcpy(&means, &bit, sizeof means);
+  const __m128i was = _mm_cvtsi32_si128(means);
   const __m128i way = _mm_sub_epi16(_mm_cvtsi32_si128(towards), was);
-  const __m128i step = _mm_mulhi_epi16(way, _mm_cvtsi32_si128(1 << 11 | 1 << 24));
-  word = _mm_cvtsi128_si32(_mm_add_epi16(was, step));
-  __builtin_memcpy(&bit, &word, sizeof word);
+  const __m128i step = _mm_mulhi_epi16(way, _mm_cvtsi32_si128(1 << (16 - 5) | 1 << (32 - 8)));
+  means = _mm_cvtsi128_si32(_mm_add_epi16(was, step));
+  __builtin_memcpy(&bit, &means, sizeof means);
 }
+
 #else
+
 MICROTIN_IN_PLACE inline void learn(AdaptiveBit& bit, bool one) {
-  const int32_t towards =
-      one ? static_cast<int32_t>(kProbabilityOne) - kProbabilityMargin : kProbabilityMargin;
+  const int32_t towards = one ? kTowardsOne : kTowardsZero;
   bit.fast = static_cast<uint16_t>(bit.fast + ((towards - bit.fast) >> 5));
   bit.slow = static_cast<uint16_t>(bit.slow + ((towards - bit.slow) >> 8));
 }
+
 #endif
 
 template <class Coder>

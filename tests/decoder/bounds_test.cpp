@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "shared/free_region.hpp"
+#include "shared/probability.hpp"
 #include "tests/support/layers.hpp"
 
 namespace microtin::tests {
@@ -97,6 +98,24 @@ TEST_CASE("cotangents stay below their cap, at every quotient of the largest num
       }
     }
   }
+}
+
+// By the means' definition, on numbers that divide exactly.
+TEST_CASE("both means of a bit learn as the format says, whatever instructions do it") {
+  const auto moved = [](int mean, int towards, int part) {
+    return mean + static_cast<int>(std::floor(static_cast<double>(towards - mean) / part));
+  };
+  size_t wrong = 0;
+  for (int mean = 64; mean <= 32704; ++mean) {
+    for (const bool one : {false, true}) {
+      const int towards = one ? 32704 : 64, other = 32768 - mean;
+      AdaptiveBit bit{static_cast<uint16_t>(mean), static_cast<uint16_t>(other)};
+      learn(bit, one);
+      wrong += bit.fast != moved(mean, towards, 32) || bit.slow != moved(other, towards, 256);
+      wrong += bit.fast < 64 || bit.fast > 32704 || bit.slow < 64 || bit.slow > 32704;
+    }
+  }
+  CHECK(wrong == 0);
 }
 
 }  // namespace microtin::tests
