@@ -59,10 +59,6 @@ void code_quarter(Coder& coder, Quarters& quarters, Lines& lines, FastInt line) 
   halve(lines, code_bit(coder, quarters.bit[upper ? 2 : 1], is_in_upper_half(lines, line)));
 }
 
-struct Halves {
-  uint32_t low, high;  // weights, 1..2^15
-};
-
 template <class Coder>
 bool code_half(Coder& coder, Calibration& calibration, Lines& lines, Halves weight, FastInt line) {
   const FastInt count = count_of(lines), half = count >> 1;
@@ -85,7 +81,7 @@ inline Halves halves_of(Halves weight, bool upper) {
                 static_cast<uint32_t>(second > least ? second : least)};
 }
 
-// Keeps of `lines` a part that holds `line`. `weigh` is asked at twice a number.
+// Keeps of `lines` a part that holds `line`. `weigh` is asked at twice two numbers.
 template <class Coder, class Weigh>
 void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, Depth depth,
                  const Weigh& weigh) {
@@ -95,7 +91,7 @@ void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, D
   for (uint32_t i = 0; i < depth.halvings && lines.first < lines.last; ++i) {
     if (i < depth.weighed) {
       const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1;
-      weight = Halves{weigh(middle), weigh(middle + count)};
+      weight = weigh(middle, middle + count);
     }
     const bool upper = code_half(coder, level[i], lines, weight, line);
     if (i + 1 >= depth.weighed) weight = halves_of(weight, upper);
@@ -155,9 +151,11 @@ MICROTIN_IN_PLACE inline FastInt code_column(Coder& coder, PlaceModel& model, co
   } else {
     const FastInt base = ruling.base;
     const int32_t shift = twice_shift(ruling, legal.shift);
-    code_halves(coder, model.column, ruling.numbers, number, depth, [=, &place](FastInt twice) {
-      return column_weight(place.odds, place.legal, shifted(twice + base, shift));
-    });
+    code_halves(
+        coder, model.column, ruling.numbers, number, depth, [=, &place](FastInt low, FastInt high) {
+          return Halves{column_weight(place.odds, place.legal, shifted(low + base, shift)),
+                        column_weight(place.odds, place.legal, shifted(high + base, shift))};
+        });
   }
   return line_at(ruling, code_line(coder, ruling.numbers, number));
 }
@@ -176,9 +174,11 @@ MICROTIN_IN_PLACE inline FastInt code_row(Coder& coder, PlaceModel& model, const
   } else {
     const FastInt base = ruling.base;
     const int32_t shift = twice_shift(ruling, legal.shift);
-    code_halves(coder, model.row, ruling.numbers, number, depth, [=, &place](FastInt twice) {
-      return weight_at(place.odds, place.legal, own, x, shifted(twice + base, shift));
-    });
+    code_halves(coder, model.row, ruling.numbers, number, depth,
+                [=, &place](FastInt low, FastInt high) {
+                  return weights_at(place.odds, place.legal, own, x, shifted(low + base, shift),
+                                    shifted(high + base, shift));
+                });
   }
   return line_at(ruling, code_line(coder, ruling.numbers, number));
 }

@@ -65,12 +65,15 @@ TEST_CASE("logarithms, powers and segments are as close as the format says") {
   const auto close = [](double value, double exact, double error) {
     REQUIRE(std::abs(value - exact) <= error);
   };
-  for (uint64_t v = 1; v < 1 << 18; ++v) {
+  const auto check = [&close](uint32_t v) {
     const double exact = 256 * std::log2(static_cast<double>(v));
     close(log2_of(v), exact, 1);
     close(rough_log2(v) + 11.5, exact, 11.6);
-    REQUIRE(rough_exp2(rough_log2(v)) <= v);
-  }
+    REQUIRE(highest_bit(v) == static_cast<uint32_t>(std::ilogb(static_cast<double>(v))));
+    if (v < 1 << 18) REQUIRE(rough_exp2(rough_log2(v)) <= v);
+  };
+  for (uint32_t v = 1; v < 1 << 18; ++v) check(v);
+  for (uint32_t i = 0; i < 1 << 18; ++i) check(0xFFFFFFFFu - i * 16381u);
   for (Log2 l = 0; l < 1 << 13; ++l) {
     const double exact = std::exp2(l / 256.0);
     close(rough_exp2(l), 1.03 * exact, 1 + 0.032 * exact);

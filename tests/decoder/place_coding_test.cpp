@@ -206,6 +206,35 @@ TEST_CASE("hardly a legal place is missed") {
   CHECK(missed * 200 <= legal);
 }
 
+#if defined(MICROTIN_PAIRS)
+
+TEST_CASE("distances of two places at once are those of each") {
+  Random random(63);
+  const auto within = [&random](int32_t most) {
+    const uint32_t kind = random.below(8);
+    if (kind < 2) return kind == 0 ? most : -most;
+    return static_cast<int32_t>(random.below(2 * static_cast<uint32_t>(most) + 1)) - most;
+  };
+  size_t wrong = 0, counted = 0;
+  for (int i = 0; i < 2000000; ++i) {
+    LegalPlaces places{};
+    places.c = Spot{within(2047), within(2047)};
+    places.a = Spot{within(2047), within(2047)};
+    const Reach reach = reach_of(2 * kLog2One + static_cast<Log2>(random.below(26 * 256 + 1)));
+    const int32_t most = 1 << random.below(15);  // near the corners, too
+    const int32_t x = within(most < 1 << 14 ? most : 23170);
+    const int32_t low = within(i % 3 == 0 ? 35900 : most), high = within(i % 5 == 0 ? 35900 : most);
+    const Distances at = distances_at(reach, places, x, low, high);
+    const int32_t first = distance_at(reach, places, x, low);
+    wrong += at.low != first || at.high != distance_at(reach, places, x, high);
+    counted += first > 0 && first < 254;
+  }
+  CHECK(wrong == 0);
+  CHECK(counted > 100000);
+}
+
+#endif
+
 TEST_CASE("places are turned back to where they were") {
   for (const Offset a : {Offset{-9, 4}, Offset{9, 4}, Offset{3, 9}, Offset{3, -9}, Offset{-5, -5},
                          Offset{5, 5}, Offset{5, -5}, Offset{-5, 5}}) {
