@@ -15,7 +15,7 @@ VERSION_4 = {  # levels: bits, host, Cortex-M4 -O2, -Os
     "version 4, 2": (18.02, 6746, 11422, 14735),
     "version 4, 3": (17.90, 8129, 12134, 15571),
 }
-PEERS = {"Draco points + CGAL": 17.80}
+PEERS = {"Draco points (level 10) + CGAL": 17.80}
 COLOURS = {"quick balanced dense": "#1f6f8b", "version 4": "#c0562b", "peers": "#5a7d2a"}
 WIDTH, HEIGHT, LEFT, TOP, BOTTOM = 420, 320, 56, 34, 48
 
