@@ -3,6 +3,7 @@
 #ifndef MICROTIN_PACK_HPP
 #define MICROTIN_PACK_HPP
 
+#include "microtin/microtin.hpp"
 #include "microtin/pack.h"
 
 namespace microtin {
@@ -17,12 +18,15 @@ class Pack {
   static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
 
  public:
-  Pack()
-      : pack_(nullptr),
-        status_(microtin_pack_init(storage_, sizeof storage_, Slots, Capacity, &pack_)) {}
+  Pack() { begin(); }
+  constexpr explicit Pack(Later) : storage_{} {}
   Pack(const Pack&) = delete;
   Pack& operator=(const Pack&) = delete;
 
+  microtin_status begin() {
+    status_ = microtin_pack_init(storage_, sizeof storage_, Slots, Capacity, &pack_);
+    return status_;
+  }
   microtin_status status() const { return status_; }
   void reset() { microtin_pack_reset(pack_); }
   microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
@@ -48,8 +52,8 @@ class Pack {
 
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_PACK_BYTES(Slots, Capacity)];
-  microtin_pack* pack_;
-  microtin_status status_;  // of its initialisation
+  microtin_pack* pack_ = nullptr;
+  microtin_status status_ = MICROTIN_DONE;  // of its initialisation
 };
 
 }  // namespace microtin
