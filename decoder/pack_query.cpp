@@ -78,7 +78,7 @@ int64_t magnitude(int64_t v) {
 // rise * part / whole with 16 fractional bits, rounded to nearest, halves up; 0 <= part <= whole <
 // 2^52, |rise| < 2^16. Long division, a bit of |rise| and then a fractional bit at a time: the rest
 // stays below 3 * whole.
-int32_t share(int32_t rise, int64_t part, int64_t whole) {
+int64_t share(int32_t rise, int64_t part, int64_t whole) {
   const uint32_t size = static_cast<uint32_t>(rise < 0 ? -rise : rise);
   int64_t quotient = 0, rest = 0;  // quotient < 2^34
   for (int bit = 15; bit >= -17; --bit) {
@@ -91,8 +91,7 @@ int32_t share(int32_t rise, int64_t part, int64_t whole) {
     }
   }
   // One fractional bit more than is kept, and whether there is a rest.
-  if (rise >= 0) return static_cast<int32_t>((quotient + 1) >> 1);
-  return static_cast<int32_t>(-((quotient + (rest != 0 ? 1 : 0)) >> 1));
+  return rise >= 0 ? (quotient + 1) >> 1 : -((quotient + (rest != 0 ? 1 : 0)) >> 1);
 }
 
 // A part of the course's length, from where it begins: 0 <= part <= whole <= 2^24.
@@ -215,7 +214,9 @@ class TileCourse {
       look_at_corner(a, highest);
       look_at_corner(b, highest);
     } else if (meets(a, b)) {
-      raise(a.z * 65536 + share(b.z - a.z, part, whole), highest);
+      // The share may not fit in 32 bits; the sum lies between the ends.
+      const int64_t height = static_cast<int64_t>(a.z) * 65536 + share(b.z - a.z, part, whole);
+      raise(static_cast<int32_t>(height), highest);
     }
   }
 

@@ -10,10 +10,12 @@
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/progress.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/exact/units.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
+#include "encoder/product/reference.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -31,6 +33,15 @@ bool makes_pack(const EncodeRequest& request) {
 std::string moved(Decimal displacement) {
   if (displacement.mantissa == 0) return ", exact";
   return ", values move by up to " + to_string(displacement);
+}
+
+// In which units the header says that the terrain is.
+std::string units(const EncodeRequest& request, const Reference& file) {
+  const auto [reference, remarks] = settle(file, request.reference);
+  std::string text = "units: x and y " + std::string(name_of(reference.horizontal_unit)) + ", z " +
+                     std::string(name_of(reference.vertical_unit)) + '\n';
+  for (const std::string& remark : remarks) text += "warning: " + remark + '\n';
+  return text;
 }
 
 std::string merged(uint64_t points) {
@@ -96,7 +107,7 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
     return encode_pack(raster, request, streams, bar.progress());
   });
   write_pack(pack, streams, out);
-  return text_of(report_of(pack));
+  return text_of(report_of(pack)) + units(request, raster.frame().reference);
 }
 
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
@@ -106,7 +117,7 @@ std::string encode_points(const PointCloud& cloud, const EncodeRequest& request,
   std::string text = "source: " + std::to_string(cloud.points.size()) + " points";
   if (!cloud.selection.empty()) text += ", " + cloud.selection;
   text += "\nstep of x and y: " + to_string(made.xy_step) + moved(made.xy_displacement) + "\n";
-  return text + merged(made.merged) + text_of(made.report);
+  return text + merged(made.merged) + text_of(made.report) + units(request, cloud.reference);
 }
 
 std::string encode_tiles(const EncodeRequest& request, OutputFile& out) {
@@ -135,7 +146,7 @@ std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
     return encode_stream(terrain.source, request, bar.progress());
   });
   out.write(encoded.stream);
-  return text_of(terrain, encoded);
+  return text_of(terrain, encoded) + units(request, reference_of(terrain.source));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/exact/units.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/stream/encode.hpp"
@@ -12,22 +13,6 @@
 
 namespace microtin::cli {
 namespace {
-
-std::string_view name_of(Unit unit) {
-  switch (unit) {
-    case Unit::kUnknown:
-      return "unknown";
-    case Unit::kMetre:
-      return "metre";
-    case Unit::kDegree:
-      return "degree";
-    case Unit::kFoot:
-      return "foot";
-    case Unit::kUsSurveyFoot:
-      return "US survey foot";
-  }
-  return "unknown";
-}
 
 uint32_t count_triangles(const microtin_mesh* mesh, microtin_triangle_kind kind) {
   uint32_t count = 0;
@@ -109,9 +94,9 @@ void add_placement(JsonObject& report, const Metadata& metadata) {
 }
 
 void add_notes(JsonObject& report, const Metadata& metadata) {
-  report.emplace_back("units",
-                      json(JsonObject{{"horizontal", json(name_of(metadata.horizontal_unit))},
-                                      {"vertical", json(name_of(metadata.vertical_unit))}}));
+  report.emplace_back(
+      "units", json(JsonObject{{"horizontal", json(exact::name_of(metadata.horizontal_unit))},
+                               {"vertical", json(exact::name_of(metadata.vertical_unit))}}));
   const auto add_known = [&report](const char* name, uint32_t code) {
     if (code != 0) report.emplace_back(name, json(code));
   };

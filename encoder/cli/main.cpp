@@ -29,6 +29,7 @@
 #include "encoder/files/leftovers.hpp"
 #include "encoder/files/standard_files.hpp"
 #include "encoder/picture/render.hpp"
+#include "encoder/product/reference.hpp"
 #include "encoder/stream/device_ram.hpp"
 #include "microtin/microtin.h"
 #include "shared/format.hpp"
@@ -231,10 +232,17 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
 // What the header tells people.
 void add_notes(CLI::App& command, EncodeRequest& request) {
   const auto read = [&request](const std::string& text) {
-    return read_epsg(text, request.horizontal_epsg, request.vertical_epsg);
+    return read_epsg(text, request.reference.horizontal_epsg, request.reference.vertical_epsg);
   };
-  add_read(command, "--epsg", read, "a code, nor two with a colon between",
-           "Codes of the coordinates: horizontal, or horizontal:vertical");
+  add_read(
+      command, "--epsg", read, "a code, nor two with a colon between",
+      "Codes of the coordinates: horizontal, or horizontal:vertical; known ones set the units");
+  add_read(
+      command, "--units",
+      [&request](const std::string& text) { return read_units(text, request.reference); },
+      "a unit, nor two with a colon between",
+      "Units of x and y and of heights: metre, foot, us-foot or degree; degree:metre, or :foot for "
+      "heights alone. If not given: as the file or its codes say; heights as x and y");
   command.add_option("--source-text", request.source_text, "Where the terrain comes from");
   command
       .add_option("--date", request.date, "Of the source: 2026, 2026-11 or 2026-11-21 (ISO 8601)")

@@ -7,6 +7,7 @@
 
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
+#include "encoder/cli/report.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/picture/render.hpp"
@@ -49,6 +50,7 @@ void draw(const RenderRequest& request, const Portrait& portrait, const Comparis
   OutputFile out(request.output);
   out.write(picture);
   out.commit();
+  warn_of_units(request.output, portrait.model);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "encoder/export/json.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/stream/surface_model.hpp"
 
 namespace microtin::cli {
 
@@ -29,6 +30,12 @@ bool tell(const std::string& text);
 
 // The same for commands that do no more. Throws ReportLost if nobody reads.
 void print(const std::string& text);
+
+// Says on standard error, in one line, what a user should know of an output that is complete.
+void warn(const std::string& text);
+
+// Warns that a picture or a scene may be too high or too low, if units are not known.
+void warn_of_units(const std::string& path, const SurfaceModel& model);
 
 // The report as JSON, or as a line "name: value" for each entry.
 std::string text_of(const JsonObject& report, bool as_json);

@@ -30,8 +30,11 @@ void write_triangles(const SurfaceModel& model, const std::string& prefix, uint3
   }
 }
 
-void write_ply_header(const SurfaceModel& model, OutputFile& out) {
-  out.write("ply\nformat ascii 1.0\nelement vertex " + std::to_string(model.vertices.size()) +
+void write_ply_header(const SurfaceModel& model, Coordinates coordinates, OutputFile& out) {
+  const bool is_placed = coordinates == Coordinates::kReal && !model.system.empty();
+  out.write("ply\nformat ascii 1.0\n" +
+            (is_placed ? "comment crs " + model.system + '\n' : std::string()) + "element vertex " +
+            std::to_string(model.vertices.size()) +
             "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
             std::to_string(model.triangles.size()) +
             "\nproperty list uchar int vertex_indices\nend_header\n");
@@ -59,7 +62,7 @@ void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coor
       write_triangles(model, "f", 1, out);
       break;
     case MeshFormat::kPly:
-      write_ply_header(model, out);
+      write_ply_header(model, coordinates, out);
       write_vertices(model, coordinates, "", out);
       write_triangles(model, "3", 0, out);
       break;

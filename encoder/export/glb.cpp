@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "encoder/base/error.hpp"
+#include "encoder/exact/units.hpp"
 #include "encoder/export/colour.hpp"
 #include "encoder/export/degree.hpp"
 #include "encoder/export/json.hpp"
@@ -17,18 +18,9 @@
 namespace microtin::exporting {
 namespace {
 
-double metres_per(Unit unit) {
-  switch (unit) {
-    case Unit::kFoot:
-      return 0.3048;
-    case Unit::kUsSurveyFoot:
-      return 1200.0 / 3937;
-    case Unit::kUnknown:
-    case Unit::kMetre:
-    case Unit::kDegree:  // of no fixed length
-      return 1;
-  }
-  return 1;
+// Of one without a fixed length: as if it were a metre.
+double length_of(Unit unit) {
+  return metres_per(unit).value_or(1);
 }
 
 double real(const Axis& axis, double number) {
@@ -53,10 +45,10 @@ class Scene {
     }
     const double y = real(placement.y, middle(1));
     origin_ = {real(placement.x, middle(0)), y, real(placement.z, middle(2))};
-    const double metres = metres_per(horizontal_unit);
+    const double metres = length_of(horizontal_unit);
     const Degree unit = horizontal_unit == Unit::kDegree ? degree_at(y) : Degree{metres, metres};
     scale_ = {unit.x * step_of(placement.x), unit.y * step_of(placement.y),
-              metres_per(vertical_unit) * step_of(placement.z)};
+              length_of(vertical_unit) * step_of(placement.z)};
     find_normals();
   }
 

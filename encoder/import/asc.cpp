@@ -189,12 +189,13 @@ Raster frame_of(const std::string& name, const Header& header) {
 
 class AscReader : public RasterReader {
  public:
-  AscReader(const std::string& name, std::unique_ptr<ByteSource> text)
+  AscReader(const std::string& name, std::unique_ptr<ByteSource> text, Reference reference)
       : name_(name), text_(std::move(text)) {
     Words words(name_, *text_);
     const Header header = read_header(words);
     no_data_ = header.no_data;
     frame_ = frame_of(name_, header);
+    frame_.reference = std::move(reference);
     DecimalRange range;
     const uint64_t count = uint64_t{frame_.width} * frame_.height;
     for_each_height(words, no_data_, count,
@@ -248,8 +249,9 @@ class AscReader : public RasterReader {
 
 }  // namespace
 
-std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<ByteSource> text) {
-  return std::make_unique<AscReader>(name, std::move(text));
+std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<ByteSource> text,
+                                       Reference reference) {
+  return std::make_unique<AscReader>(name, std::move(text), std::move(reference));
 }
 
 Raster import_asc(const std::string& name, const std::string& text) {

@@ -5,8 +5,11 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <string>
 
+#include "encoder/exact/units.hpp"
+#include "encoder/import/epsg.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {
@@ -27,10 +30,16 @@ bool is_one_of(const std::string& keyword, std::initializer_list<std::string_vie
 
 enum class Kind { kNone, kProjected, kGeographic, kVertical };
 
+// Local systems are planes as projected ones are.
 Kind kind_of(const std::string& keyword) {
-  if (is_one_of(keyword, {"projcs", "projcrs", "projectedcrs"})) return Kind::kProjected;
-  if (is_one_of(keyword, {"geogcs", "geogcrs", "geographiccrs"})) return Kind::kGeographic;
-  if (is_one_of(keyword, {"vert_cs", "vertcrs", "verticalcrs"})) return Kind::kVertical;
+  if (is_one_of(keyword,
+                {"projcs", "projcrs", "projectedcrs", "local_cs", "engcrs", "engineeringcrs"})) {
+    return Kind::kProjected;
+  }
+  if (is_one_of(keyword, {"geogcs", "geogcrs", "geographiccrs", "geodcrs", "geodeticcrs"})) {
+    return Kind::kGeographic;
+  }
+  if (is_one_of(keyword, {"vert_cs", "vertcs", "vertcrs", "verticalcrs"})) return Kind::kVertical;
   return Kind::kNone;
 }
 
@@ -41,15 +50,20 @@ uint32_t code_of(const std::string& text) {
   return error == std::errc() && next == end ? code : 0;
 }
 
-// By the metres that it has.
+// By its length in metres.
 Unit length_unit(const std::string& text) {
   double metres = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), metres);
-  if (result.ec != std::errc()) return Unit::kUnknown;
-  const auto is = [metres](double other) { return std::abs(metres - other) < 1e-9; };
-  if (is(1)) return Unit::kMetre;
-  if (is(0.3048)) return Unit::kFoot;
-  return is(1200.0 / 3937) ? Unit::kUsSurveyFoot : Unit::kUnknown;
+  return result.ec == std::errc() ? unit_of_metres(metres) : Unit::kUnknown;
+}
+
+// By its radians.
+Unit angular_unit(const std::string& text) {
+  constexpr double kDegree = 0.017453292519943295, kAlike = 1e-9;
+  double radians = 0;
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), radians);
+  const bool is_degree = result.ec == std::errc() && std::abs(radians - kDegree) < kAlike;
+  return is_degree ? Unit::kDegree : Unit::kUnknown;
 }
 
 // By its EPSG code.
@@ -98,21 +112,50 @@ class WktReader {
   void close() {
     const Node node = std::move(open_.back());
     open_.pop_back();
+    const Kind own = kind_of(node.keyword);
+    if (own != Kind::kNone && !node.values.empty()) name_system(own, node.values[0]);
     if (open_.empty() || node.values.size() < 2) return;
     const bool in_system = open_.size() >= 2 && is_one_of(open_.back().keyword, {"cs", "axis"});
     const Kind kind = kind_of((in_system ? open_[open_.size() - 2] : open_.back()).keyword);
-    // A projected system contains the geographic one that it is based on.
-    if (kind == Kind::kNone || (kind == Kind::kGeographic && is_within_projected())) return;
+    if (kind == Kind::kNone || is_of_another(kind)) return;
     if (is_one_of(node.keyword, {"authority", "id"}) && lower_case(node.values[0]) == "epsg") {
       (kind == Kind::kVertical ? reference_.vertical_epsg : reference_.horizontal_epsg) =
           code_of(node.values[1]);
     } else if (is_one_of(node.keyword, {"unit", "lengthunit", "angleunit"})) {
-      const bool degree = kind == Kind::kGeographic && lower_case(node.values[0]) == "degree";
-      const Unit unit = degree                      ? Unit::kDegree
-                        : kind == Kind::kGeographic ? Unit::kUnknown
-                                                    : length_unit(node.values[1]);
-      (kind == Kind::kVertical ? reference_.vertical_unit : reference_.horizontal_unit) = unit;
+      add_unit(kind, node);
     }
+  }
+
+  // Systems without codes are known by the names that ESRI gives them.
+  void name_system(Kind kind, const std::string& name) {
+    const bool is_vertical = kind == Kind::kVertical;
+    uint32_t& known = is_vertical ? reference_.vertical_epsg : reference_.horizontal_epsg;
+    if (is_of_another(kind) || known != 0) return;
+    const Unit unit = is_vertical ? reference_.vertical_unit : reference_.horizontal_unit;
+    const uint32_t code = is_vertical ? code_of_esri_heights(name) : code_of_esri_name(name);
+    if (code != 0 && built_in_system(code)->unit == unit) known = code;
+  }
+
+  void add_unit(Kind kind, const Node& node) {
+    const std::string& length = node.values[1];
+    if (kind == Kind::kVertical) {
+      reference_.vertical_unit = length_unit(length);
+    } else if (kind == Kind::kProjected) {
+      reference_.horizontal_unit = length_unit(length);
+    } else if (node.keyword == "lengthunit") {
+      reference_.vertical_unit = length_unit(length);  // of the third axis
+    } else {
+      reference_.horizontal_unit = angular_unit(length);
+    }
+  }
+
+  // A projected system contains the geographic one that it is based on; one with a transformation
+  // contains its target.
+  bool is_of_another(Kind kind) const {
+    for (const Node& node : open_) {
+      if (is_one_of(node.keyword, {"targetcrs", "abridgedtransformation"})) return true;
+    }
+    return kind == Kind::kGeographic && is_within_projected();
   }
 
   bool is_within_projected() const {
@@ -126,12 +169,42 @@ class WktReader {
   Reference reference_;
 };
 
+// Units that are not stated follow from codes that are known.
+void complete_units(Reference& reference) {
+  const auto complete = [](uint32_t code, bool is_vertical, Unit& unit) {
+    const std::optional<CodedSystem> system = built_in_system(code);
+    if (unit == Unit::kUnknown && system && system->is_vertical == is_vertical) unit = system->unit;
+  };
+  complete(reference.horizontal_epsg, false, reference.horizontal_unit);
+  complete(reference.vertical_epsg, true, reference.vertical_unit);
+}
+
 }  // namespace
+
+bool is_wkt(std::string_view text) {
+  const size_t start = text.find_first_not_of(" \t\r\n");
+  const size_t open = text.find_first_of("[(");
+  if (start == text.npos || open == text.npos || open <= start) return false;
+  for (const char c : text.substr(start, open - start)) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && !is_blank(c)) return false;
+  }
+  return true;
+}
 
 Reference reference_of_wkt(std::string_view text) {
   text = text.substr(0, text.find('\0'));
   Reference reference = WktReader().read(text);
+  complete_units(reference);
   if (reference.horizontal_epsg == 0 && text.size() <= kLongestWkt) reference.wkt = text;
+  return reference;
+}
+
+Reference reference_of_line(std::string_view text) {
+  constexpr std::string_view kCode = "EPSG:";
+  if (text.substr(0, kCode.size()) != kCode) return reference_of_wkt(text);
+  Reference reference;
+  reference.horizontal_epsg = code_of(std::string(text.substr(kCode.size())));
+  complete_units(reference);
   return reference;
 }
 
@@ -158,6 +231,7 @@ Reference reference_of_geo_keys(const std::vector<uint16_t>& directory) {
   }
   reference.horizontal_epsg = is_geographic ? geographic : projected;
   reference.horizontal_unit = is_geographic ? angular : linear;
+  complete_units(reference);
   return reference;
 }
 

@@ -14,10 +14,16 @@ namespace microtin::importing {
 
 constexpr size_t kLongestWkt = 16384;  // that is kept; real ones have some hundred bytes
 
-// Codes and units that a well-known text (either version) gives its horizontal and its vertical
-// system; what is not there, or not understood, stays unknown. The text itself, up to a NUL, is
-// kept if the horizontal system has no code and the text is not longer than kLongestWkt.
+// Whether it looks like well-known text: a word, then a bracket.
+bool is_wkt(std::string_view text);
+
+// Codes and units that a well-known text (either version, or ESRI's) gives its horizontal and its
+// vertical system; what is not there, or not understood, stays unknown. The text itself, up to a
+// NUL, is kept if the horizontal system has no code and the text is not longer than kLongestWkt.
 Reference reference_of_wkt(std::string_view text);
+
+// The same of such a text or a code, EPSG:32633.
+Reference reference_of_line(std::string_view text);
 
 // The same of a GeoTIFF key directory: its 16-bit numbers.
 Reference reference_of_geo_keys(const std::vector<uint16_t>& directory);

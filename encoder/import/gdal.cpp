@@ -15,6 +15,7 @@
 #include "encoder/base/error_context.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/scaled_integers.hpp"
+#include "encoder/exact/units.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
@@ -91,13 +92,6 @@ void place(GDALDatasetH dataset, Raster& raster) {
   raster.y = axis_of_cells(decimal(t[3]), dy, 1 - 2 * int64_t{raster.height});
 }
 
-Unit unit_named(const std::string& name) {
-  if (name == "m" || name == "metre" || name == "meter") return Unit::kMetre;
-  if (name == "ft" || name == "foot") return Unit::kFoot;
-  if (name == "US survey foot" || name == "us-ft") return Unit::kUsSurveyFoot;
-  return Unit::kUnknown;
-}
-
 // Reads a band's heights one row after the other.
 class BandReader {
  public:
@@ -172,8 +166,8 @@ Raster read(const std::string& path, Indirect indirect) {
   place(dataset.get(), raster);
   if (const char* wkt = GDALGetProjectionRef(dataset.get()))
     raster.reference = reference_of_wkt(wkt);
-  const Unit unit = unit_named(GDALGetRasterUnitType(band));
-  if (unit != Unit::kUnknown) raster.reference.vertical_unit = unit;
+  const std::optional<Unit> unit = unit_named(GDALGetRasterUnitType(band));
+  if (unit) raster.reference.vertical_unit = *unit;
   DecimalColumn heights;
   heights.reserve(reader.width() * reader.height());
   for (size_t row = reader.height(); row-- > 0;) reader.read(row, heights);

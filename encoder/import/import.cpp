@@ -8,6 +8,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/files/input_file.hpp"
+#include "encoder/import/crs.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {
@@ -16,6 +17,35 @@ namespace {
 
 std::string suffix_of(const std::string& path) {
   return lower_case(std::filesystem::path(path).extension().string());
+}
+
+// A grid's well-known text stands in a file beside it. Empty: there is none.
+std::string system_file_of(const std::string& path) {
+  if (suffix_of(path) != ".asc") return "";
+  for (const char* const suffix : {".prj", ".PRJ"}) {
+    const std::filesystem::path file = std::filesystem::path(path).replace_extension(suffix);
+    std::error_code none;
+    if (std::filesystem::is_regular_file(file, none)) return file.string();
+  }
+  return "";
+}
+
+Reference reference_beside(const std::string& path) {
+  const std::string file = system_file_of(path);
+  if (file.empty()) return {};
+  const std::string text = read_file(file);
+  if (!is_wkt(text)) {
+    throw Error(file +
+                ": is no well-known text of a coordinate system; \"gdalsrsinfo -o wkt_esri\" "
+                "writes one");
+  }
+  return reference_of_wkt(text);
+}
+
+Source import_grid(const std::string& path, const std::string& text) {
+  Raster raster = import_asc(path, text);
+  raster.reference = reference_beside(path);
+  return raster;
 }
 
 using Import = Source (*)(const std::string&, const std::string&);
@@ -33,7 +63,7 @@ Import importer_for(const std::string& suffix) {
        [](const auto& name, const auto& bytes) -> Source { return import_hgt(name, bytes); }},
       {".zip",
        [](const auto& name, const auto& bytes) -> Source { return import_zip(name, bytes); }},
-      {".asc", [](const auto& name, const auto& text) -> Source { return import_asc(name, text); }},
+      {".asc", import_grid},
       {".ply",
        [](const auto& name, const auto& bytes) -> Source { return import_ply(name, bytes); }},
       {".obj",
@@ -71,7 +101,9 @@ std::vector<std::string> terrain_files(const std::string& path,
 #ifdef MICROTIN_WITH_GDAL
   if (is_for_others(path)) return gdal_files(path, indirect);
 #endif
-  return {path};
+  std::vector<std::string> files = {path};
+  if (const std::string system = system_file_of(path); !system.empty()) files.push_back(system);
+  return files;
 }
 
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes,
@@ -89,7 +121,7 @@ OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& 
                         Indirect indirect) {
   const std::string suffix = suffix_of(path);
   if (!classes && suffix == ".hgt") return open_hgt(path, open_file(path));
-  if (!classes && suffix == ".asc") return open_asc(path, open_file(path));
+  if (!classes && suffix == ".asc") return open_asc(path, open_file(path), reference_beside(path));
   Source source = import_terrain(path, classes, indirect);
   if (auto* const cloud = std::get_if<PointCloud>(&source)) return std::move(*cloud);
   return std::make_unique<RasterInMemory>(std::move(std::get<Raster>(source)));

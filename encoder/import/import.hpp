@@ -20,9 +20,10 @@ namespace microtin::importing {
 // (/vsi...): whoever wrote such a file chooses what is read.
 enum class Indirect { kRefused, kAllowed };
 
-// Reads a file by its suffix: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt (points), .las, .ply,
-// .obj; in builds with GDAL all others by GDAL. "-" reads points from standard input. `classes` are
-// for .las alone. Throws Error naming the file and, for text, the line.
+// Reads a file by its suffix: .hgt, .zip (one .hgt), .asc (with a .prj beside it, if there is one),
+// .xyz, .csv, .txt (points), .las, .ply, .obj; in builds with GDAL all others by GDAL. "-" reads
+// points from standard input. `classes` are for .las alone. Throws Error naming the file and, for
+// text, the line.
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},
                       Indirect indirect = Indirect::kRefused);
 
@@ -45,9 +46,10 @@ OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& 
 Raster import_hgt(const std::string& name, const std::string& bytes);
 std::unique_ptr<RasterReader> open_hgt(const std::string& name, std::unique_ptr<ByteSource> bytes);
 
-// ESRI ASCII grid. Heights lie at the centres of cells.
+// ESRI ASCII grid. Heights lie at the centres of cells. What it refers to stands elsewhere.
 Raster import_asc(const std::string& name, const std::string& text);
-std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<ByteSource> text);
+std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<ByteSource> text,
+                                       Reference reference = {});
 
 // Points, one a line: x, y and, if there is a third column, z; separated by blanks, tabs, commas or
 // semicolons. Lines that are blank or begin with # are skipped. The first other line may be a

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "encoder/files/byte_reader.hpp"
+#include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 
@@ -46,6 +47,7 @@ class HeaderReader {
 
   Encoding encoding() const { return *encoding_; }
   const std::vector<Element>& elements() const { return elements_; }
+  const Reference& reference() const { return reference_; }
   std::string_view rest() const { return rest_; }  // behind the header
   size_t lines() const { return line_; }
 
@@ -53,7 +55,11 @@ class HeaderReader {
   void read() {
     if (!next_line() || fields_.size() != 1 || fields_[0] != "ply") fail("is not a PLY file");
     while (next_line()) {
-      if (fields_.empty() || fields_[0] == "comment" || fields_[0] == "obj_info") continue;
+      if (fields_.empty() || fields_[0] == "obj_info") continue;
+      if (fields_[0] == "comment") {
+        read_comment();
+        continue;
+      }
       if (fields_[0] == "end_header") {
         if (!encoding_) fail("the header does not give the format");
         return;
@@ -74,8 +80,18 @@ class HeaderReader {
   bool next_line() {
     if (rest_.empty()) return false;
     ++line_;
-    split(take_line(rest_), fields_);
+    text_ = take_line(rest_);
+    split(text_, fields_);
     return true;
+  }
+
+  // "comment crs ...", as the mesh readers of GIS have it.
+  void read_comment() {
+    if (fields_.size() < 3 || fields_[1] != "crs") return;
+    const auto start = static_cast<size_t>(fields_[2].data() - text_.data());
+    const std::string_view system =
+        text_.substr(start, text_.find_last_not_of(" \t\r") + 1 - start);
+    reference_ = reference_of_line(system);
   }
 
   void read_format() {
@@ -106,9 +122,10 @@ class HeaderReader {
   [[noreturn]] void fail(const std::string& what) const { fail_at(name_, line_, what); }
 
   const std::string& name_;
-  std::string_view rest_;
+  std::string_view rest_, text_;  // text_: the line
   size_t line_ = 0;
   std::vector<std::string_view> fields_;
+  Reference reference_;
   std::optional<Encoding> encoding_;
   std::vector<Element> elements_;
 };
@@ -275,7 +292,10 @@ PointCloud read_vertices(const std::string& name, const HeaderReader& header) {
       continue;
     }
     PointColumns points = body.read(element);
-    if (!points.empty()) return points.take();
+    if (points.empty()) continue;
+    PointCloud cloud = points.take();
+    cloud.reference = header.reference();
+    return cloud;
   }
   throw Error(name + ": holds no vertex");
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "encoder/base/error.hpp"
+#include "encoder/exact/units.hpp"
 #include "encoder/picture/error_map.hpp"
 #include "encoder/picture/legend.hpp"
 #include "encoder/picture/lettering.hpp"
@@ -24,17 +25,8 @@ double as_number(Decimal value) {
 }
 
 std::string unit_text(Unit unit) {
-  switch (unit) {
-    case Unit::kMetre:
-      return " m";
-    case Unit::kFoot:
-    case Unit::kUsSurveyFoot:
-      return " ft";
-    case Unit::kDegree:
-    case Unit::kUnknown:
-      break;
-  }
-  return "";
+  const std::string symbol(symbol_of(unit));
+  return symbol.empty() ? symbol : " " + symbol;
 }
 
 // The step of heights at the water level, if that is one.

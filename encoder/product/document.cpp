@@ -7,6 +7,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
+#include "encoder/export/system.hpp"
 #include "encoder/files/input_file.hpp"
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/surface.hpp"
@@ -67,6 +68,7 @@ SurfaceModel Document::model() const {
   const Metadata notes = metadata();
   model.horizontal_unit = notes.horizontal_unit;
   model.vertical_unit = notes.vertical_unit;
+  model.system = system_line(notes);
   return model;
 }
 

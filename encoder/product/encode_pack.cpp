@@ -44,11 +44,6 @@ PackOptions point_options(const EncodeOptions& options) {
   return pack_options(options, {});
 }
 
-PackContent content_of(const PackPlan& plan, const EncodeOptions& options) {
-  const Reference& reference = plan.tiled.raster.frame().reference;
-  return pack::content_of(plan, metadata_of(options, reference, {}));
-}
-
 // Of heights: a decimal, as the lattice was chosen.
 Decimal z_step(const PackContent& pack) {
   const Axis& z = pack.metadata.placement.z;
@@ -95,8 +90,9 @@ PackReport report_of(const PackContent& pack) {
 PackContent encode_pack(const RasterReader& raster, const EncodeOptions& options,
                         StreamSpool& streams, const Progress& progress) {
   PackContent pack;
+  const Metadata notes = metadata_of(options, raster.frame().reference);
   const auto begin = [&](const PackPlan& plan) {
-    pack = content_of(plan, options);
+    pack = content_of(plan, notes);
     streams.clear();
   };
   pack::encode_pack(raster, raster_options(options, progress), begin,
@@ -114,7 +110,7 @@ void write_pack(const PackContent& pack, StreamSpool& streams, OutputFile& out) 
 
 EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options) {
   PointPack made =
-      encode_point_pack(cloud, point_options(options), metadata_of(options, cloud.reference, {}));
+      encode_point_pack(cloud, point_options(options), metadata_of(options, cloud.reference));
   std::vector<uint8_t> bytes = pack::write_pack(made.content, made.streams);
   const Verification found =
       on_our_own([&] { return verify(PackFile(bytes), cloud, options.lattice.max_error); });
@@ -127,9 +123,10 @@ EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options)
 
 ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& options, TileRange tiles,
                          OutputFile& out, const Progress& progress) {
+  const Metadata notes = metadata_of(options, raster.frame().reference);
   const PackPlan plan = plan_pack(raster, raster_options(options, progress));
   ShardReport report{existing(tiles, plan.tiled.grid), all_tiles(plan.tiled.grid), 0};
-  ShardWriter shard(plan, content_of(plan, options), report.tiles, out);
+  ShardWriter shard(plan, content_of(plan, notes), report.tiles, out);
   encode_tiles(plan, report.tiles, [&](uint32_t, EncodedTile&& tile) {
     shard.add(tile);
     report.vertices += tile.summary.vertices;
@@ -140,7 +137,7 @@ ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& option
 std::vector<ShardPlan> plan_shards(const RasterReader& raster, const EncodeOptions& options,
                                    uint32_t shards, const Progress& progress) {
   const PackPlan plan = plan_pack(raster, raster_options(options, progress));
-  const Decimal step = z_step(content_of(plan, options));
+  const Decimal step = z_step(content_of(plan, {}));
   const uint64_t tiles = tile_count(plan.tiled.grid), parts = std::min<uint64_t>(shards, tiles);
   std::vector<ShardPlan> plans;
   for (uint64_t i = 0; i < parts; ++i) {

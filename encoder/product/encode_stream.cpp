@@ -36,11 +36,11 @@ void check_vertices(const Tin& tin, const EncodeOptions& options) {
 // Encodes, measures what a decoder makes of it, and states the errors in the header.
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress) {
+  Metadata metadata = metadata_of(options, reference_of(source));
   Approximation found = approximate(source, options.lattice, simplify_options(options, progress));
   check_vertices(found.tin, options);
   const std::optional<Decimal>& bound = options.lattice.max_error;
-  const Reference reference = std::visit([](const auto& s) { return s.reference; }, source);
-  Metadata metadata = metadata_of(options, reference, found.laid.placement);
+  metadata.placement = found.laid.placement;
   if (const auto* raster = std::get_if<Raster>(&source)) metadata.grid = posts_of(*raster);
   if (const auto* cloud = std::get_if<PointCloud>(&source)) metadata.classes = cloud->classes;
   if (found.laid.merged != 0) metadata.duplicates = DuplicateRule::kMiddle;

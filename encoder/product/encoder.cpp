@@ -12,6 +12,7 @@
 #include "encoder/import/import.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
+#include "encoder/product/reference.hpp"
 
 namespace microtin::encoder {
 
@@ -123,8 +124,10 @@ product::EncodeOptions options_of(const Options& options) {
   all.search = search_of(options.search);
   expect(options.degree >= kMinDegree && options.degree <= kMaxDegree, "degree: 6 .. 32");
   all.effort = {options.degree, decoding_of(options.decoding)};
-  all.horizontal_epsg = options.horizontal_epsg;
-  all.vertical_epsg = options.vertical_epsg;
+  all.reference.horizontal_epsg = options.horizontal_epsg;
+  all.reference.vertical_epsg = options.vertical_epsg;
+  expect(options.units.empty() || product::read_units(options.units, all.reference),
+         "units: " + options.units + " is not a unit such as metre or degree:foot");
   expect(options.date.empty() || base::is_iso_date(options.date),
          "date: " + options.date + " is not a date such as 2026-11-21");
   all.source_text = options.source;

@@ -2,21 +2,19 @@
 // Takes apart what is asked for.
 #include "encoder/product/options.hpp"
 
+#include "encoder/product/reference.hpp"
 #include "encoder/stream/device_ram.hpp"
 
 namespace microtin::product {
 
-Metadata metadata_of(const EncodeOptions& options, const Reference& reference,
-                     const Placement& placement) {
+Metadata metadata_of(const EncodeOptions& options, const Reference& file) {
+  const Reference reference = settle(file, options.reference).reference;
   Metadata metadata;
-  metadata.placement = placement;
   metadata.horizontal_unit = reference.horizontal_unit;
   metadata.vertical_unit = reference.vertical_unit;
   metadata.horizontal_epsg = reference.horizontal_epsg;
   metadata.vertical_epsg = reference.vertical_epsg;
-  if (options.horizontal_epsg != 0) metadata.horizontal_epsg = options.horizontal_epsg;
   if (metadata.horizontal_epsg == 0) metadata.wkt = reference.wkt;
-  if (options.vertical_epsg != 0) metadata.vertical_epsg = options.vertical_epsg;
   metadata.source = options.source_text;
   metadata.date = options.date;
   metadata.lineage = options.lineage;

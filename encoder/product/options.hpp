@@ -10,6 +10,7 @@
 #include "encoder/fit/simplify.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
+#include "encoder/terrain/source.hpp"
 
 namespace microtin::product {
 
@@ -22,14 +23,13 @@ struct EncodeOptions {
   uint64_t device_ram = 0;     // 0: unlimited
   Search search = Search::kNormal;
   Effort effort;
-  uint32_t horizontal_epsg = 0;  // 0: what the terrain's format implies
-  uint32_t vertical_epsg = 0;
+  Reference reference;  // where it says something, it comes before what the terrain's file says
   std::string source_text, date, lineage;
 };
 
-// What the header will say but for the accuracy.
-Metadata metadata_of(const EncodeOptions& options, const Reference& reference,
-                     const Placement& placement);
+// What the header will say of a terrain whose file says this, but for its place and the accuracy.
+// Throws Error as settle does.
+Metadata metadata_of(const EncodeOptions& options, const Reference& file);
 
 // The vertices that a stream may have, 0 for as many as it takes. A device's RAM is a limit only if
 // nothing else asks for vertices.

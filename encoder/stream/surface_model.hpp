@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "encoder/exact/metadata.hpp"
@@ -18,6 +19,7 @@ namespace microtin::stream {
 struct SurfaceModel {
   Placement placement;
   Unit horizontal_unit = Unit::kUnknown, vertical_unit = Unit::kUnknown;
+  std::string system;  // of coordinates, in one line; empty: not known
   std::vector<std::array<int64_t, 3>> vertices;
   std::vector<std::array<uint32_t, 3>> triangles;
 };

@@ -53,6 +53,10 @@ struct PointCloud {
 
 using Source = std::variant<Raster, PointCloud>;
 
+inline const Reference& reference_of(const Source& source) {
+  return std::visit([](const auto& one) -> const Reference& { return one.reference; }, source);
+}
+
 // Decimals of its heights.
 inline int height_decimals(const Source& source) {
   const auto* raster = std::get_if<Raster>(&source);

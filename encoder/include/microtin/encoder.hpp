@@ -80,7 +80,12 @@ struct Options {
   Search search = Search::kNormal;
   uint32_t degree = 10; /* most triangles around a vertex when it is added: 6 .. 32 */
   Decoding decoding = Decoding::kBalanced;
-  /* Notes of the header; 0 or empty: not stated. All texts together up to 65,535 bytes of UTF-8. */
+  /* Units of x and y and of heights, "metre", "foot", "us-foot" or "degree": "degree:metre",
+   * ":foot"; "": as the codes or the terrain's file say. Heights of unknown unit have that of x and
+   * y; beside degrees they are refused. */
+  std::string units;
+  /* Notes of the header; 0 or empty: not stated. Codes that are known set the units. All texts
+   * together up to 65,535 bytes of UTF-8. */
   uint32_t horizontal_epsg = 0, vertical_epsg = 0;
   std::string source, date, lineage; /* date: 2026, 2026-11 or 2026-11-21 */
 };

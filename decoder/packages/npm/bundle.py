@@ -1,0 +1,41 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""bundle.py MODULE.wasm VERSION FOLDER: makes the npm package: the sources with the WebAssembly within as one module,
+and what stands beside it. With binaryen, zopfli and esbuild."""
+import base64
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[2]
+BESIDE = "README.md loader.js loader.d.ts microtin.d.ts".split()
+
+
+def output(*command):
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout
+
+
+def module(wasm, version):
+    """The text of the module."""
+    small = Path(wasm).with_suffix(".opt.wasm")
+    output("wasm-opt", "-Oz", "--converge", "--enable-bulk-memory", "--enable-sign-ext", wasm, "-o", small)
+    text = base64.b64encode(output("zopfli", "-c", "--deflate", small)).decode()
+    return output("esbuild", HERE / "src/index.js", "--bundle", "--minify", "--format=esm", "--target=es2022",
+                  "--log-level=warning", f"--banner:js=// SPDX-License-Identifier: MIT\n// microtin {version}",
+                  f"--define:MICROTIN_WASM={json.dumps(text)}", f"--define:MICROTIN_VERSION={json.dumps(version)}")
+
+
+def main(wasm, version, folder):
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "microtin.js").write_bytes(module(wasm, version))
+    description = (HERE / "package.json").read_text().replace("@VERSION@", version)
+    (folder / "package.json").write_text(description)
+    for file in [*(HERE / name for name in BESIDE), ROOT / "LICENSE"]:
+        shutil.copy(file, folder)
+
+
+main(*sys.argv[1:])

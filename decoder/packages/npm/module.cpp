@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// What JavaScript calls beside the decoder's own functions: much at a time, and what only the
+// memory knows. Pointers are addresses in the module's memory.
+#include "decoder/pack_state.hpp"
+
+using namespace microtin;
+
+extern "C" {
+
+// --- Streams.
+
+// Feeds until one more section has passed its check, or `steps` are done. As microtin_feed else.
+uint32_t feed_section(microtin_decoder* decoder, const uint8_t* bytes, uint32_t size,
+                      uint32_t steps, size_t* used) {
+  const uint32_t verified = decoder->mesh->verified_vertices;
+  uint32_t taken = 0;
+  microtin_status status = MICROTIN_STEP_LIMIT;
+  for (uint32_t i = 0; i < steps && status == MICROTIN_STEP_LIMIT; ++i) {
+    status = microtin_feed(decoder, bytes + taken, size - taken, 1, used);
+    taken += static_cast<uint32_t>(*used);
+    if (decoder->mesh->verified_vertices != verified) break;
+  }
+  *used = taken;
+  return status;
+}
+
+// Vertices of the sections that have passed their checks.
+uint32_t verified_vertices(const microtin_mesh* mesh) {
+  return mesh->verified_vertices;
+}
+
+// Writes x, y and z of each vertex.
+void vertices(const microtin_mesh* mesh, int32_t* to) {
+  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v, to += 3) {
+    uint16_t x, y;
+    int16_t z;
+    microtin_vertex(mesh, v, &x, &y, &z);
+    to[0] = x;
+    to[1] = y;
+    to[2] = z;
+  }
+}
+
+// Writes the vertices of each triangle of a kind; returns how many there are.
+uint32_t triangles(const microtin_mesh* mesh, uint32_t kind, uint32_t* to) {
+  uint32_t count = 0;
+  for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {
+    if (static_cast<uint32_t>(microtin_triangle(mesh, t, to + 3 * count)) == kind) ++count;
+  }
+  return count;
+}
+
+// --- Packs.
+
+uint32_t pack_bytes(uint32_t slots, uint32_t capacity) {
+  return MICROTIN_PACK_BYTES(slots, capacity);
+}
+
+// The mesh of a tile that is there, or that is just being read; null if it is neither.
+const microtin_mesh* tile_mesh(const microtin_pack* pack, uint32_t tile) {
+  const uint32_t slot = slot_of(*pack, tile);
+  if (slot != pack->slot_count) return pack->slots[slot].mesh;
+  const bool is_read = pack->stage == PackStage::kStream && pack->tile == tile;
+  return is_read ? pack->slots[pack->slot].mesh : nullptr;
+}
+
+// Where the stream that is being read ends; 0 if none is.
+double stream_end(const microtin_pack* pack) {
+  if (pack->stage != PackStage::kStream) return 0;
+  return static_cast<double>(pack->entry.offset + pack->entry.size);
+}
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// What a header says beside the terrain: FORMAT.md, section 4.
+
+const UNITS = [undefined, "metre", "degree", "international foot", "US survey foot"];
+const AXIS_BYTES = 24;
+
+// An axis as the decoder writes it: the real coordinate of lattice value k is start + step * k.
+function axisAt(view, at) {
+  const denominator = Number(view.getBigUint64(at + 16, true));
+  return {
+    start: Number(view.getBigInt64(at, true)) / denominator,
+    step: Number(view.getBigUint64(at + 8, true)) / denominator,
+  };
+}
+
+export function axesAt(view, at) {
+  return { x: axisAt(view, at), y: axisAt(view, at + AXIS_BYTES), z: axisAt(view, at + 2 * AXIS_BYTES) };
+}
+
+// On an axis, with the 8 fractional bits of queries.
+export function toLattice(axis, value) {
+  return Math.round(((value - axis.start) / axis.step) * 256);
+}
+
+// Reads a note from its beginning; what it lacks is 0.
+class NoteReader {
+  constructor(bytes) {
+    this.bytes = bytes;
+    this.next = 0;
+  }
+
+  byte() {
+    return this.bytes[this.next++] ?? 0;
+  }
+
+  varint() {
+    let value = 0n;
+    for (let byte = 128; byte & 128; ) {
+      byte = this.byte();
+      value = (value << 7n) | BigInt(byte & 127);
+    }
+    return value;
+  }
+
+  decimal() {
+    const value = this.varint();
+    const mantissa = value & 1n ? -(value >> 1n) - 1n : value >> 1n;
+    return Number(`${mantissa}e-${this.byte()}`);
+  }
+}
+
+const NOTES = {
+  1: (note) => ({ units: { horizontal: UNITS[note.byte()], vertical: UNITS[note.byte()] } }),
+  2: (note) => ({
+    epsg: {
+      horizontal: Number(note.varint()) || undefined,
+      vertical: Number(note.varint()) || undefined,
+    },
+  }),
+  3: (note) => ({ source: new TextDecoder().decode(note.bytes) }),
+  4: (note) => {
+    const isBound = note.byte() === 1;
+    const [bound, largest, rms, mean] = Array.from({ length: 4 }, () => note.decimal());
+    return { accuracy: { bound: isBound ? bound : undefined, largest, rms, mean } };
+  },
+  5: (note) => ({ date: new TextDecoder().decode(note.bytes) }),
+  6: (note) => ({ lineage: new TextDecoder().decode(note.bytes) }),
+  7: (note) => ({ waterLevel: note.decimal() }),
+  9: (note) => ({ wkt: new TextDecoder().decode(note.bytes) }),
+};
+
+// The notes of the header with which `size` bytes at `start` of an instance's memory begin.
+export function notesAt(instance, start, size) {
+  const notes = {};
+  for (const [type, read] of Object.entries(NOTES)) {
+    const { results } = instance;
+    instance.calls.microtin_find_note(start, size, type, results, results + 4);
+    const content = instance.result();
+    if (content === 0) continue;
+    Object.assign(notes, read(new NoteReader(instance.array(Uint8Array, content, instance.result(1)).slice())));
+  }
+  return notes;
+}

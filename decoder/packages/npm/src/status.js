@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Errors, with the decoder's status.
+
+const STATUSES = {
+  16: ["BAD_MAGIC", "this is not a microtin file"],
+  17: ["UNSUPPORTED_VERSION", "the file has a version, or a part, that is unknown here"],
+  18: ["TOO_BIG", "the terrain has too many vertices"],
+  19: ["CHECKSUM", "the bytes were damaged"],
+  20: ["MALFORMED", "the file breaks a rule of the format"],
+  21: ["TRUNCATED", "the file ends too early"],
+  25: ["IO", "reading failed"],
+};
+export const DONE = 0, NEED_INPUT = 1, STEP_LIMIT = 2;
+export const CHECKSUM = 19, TRUNCATED = 21, WORKSPACE_TOO_SMALL = 23, ARGUMENT = 24, IO = 25, BAD_TILES = 26;
+
+export class MicrotinError extends Error {
+  constructor(code, { where = "", cause } = {}) {
+    const [status, text] = STATUSES[code] ?? ["INTERNAL", `status ${code}`];
+    super(where ? `${where}: ${text}` : text, { cause });
+    this.name = "MicrotinError";
+    this.status = status;
+  }
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// What codes of the EPSG registry say.
+#ifndef MICROTIN_ENCODER_IMPORT_EPSG_HPP
+#define MICROTIN_ENCODER_IMPORT_EPSG_HPP
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "encoder/layers.hpp"
+#include "encoder/terrain/source.hpp"
+
+namespace microtin::importing {
+
+struct CodedSystem {
+  bool is_vertical;
+  Unit unit;  // of its coordinates
+};
+
+// Known here: WGS 84 (4326), ETRS89 (4258), NAD83 (4269), UTM on these, web Mercator (3857) and the
+// heights in use. Others are asked of PROJ in builds with GDAL. Nothing if the code is not known;
+// throws Error if PROJ knows that there is none, or one of another kind.
+std::optional<CodedSystem> system_of_code(uint32_t code);
+
+// The same without PROJ.
+std::optional<CodedSystem> built_in_system(uint32_t code);
+
+// Well-known text, as ESRI writes it, of a horizontal system that is known as above; empty if it is
+// not.
+std::string wkt_of_code(uint32_t code);
+
+// The code of the built-in system that ESRI calls so: WGS_1984_UTM_Zone_33N. 0: none.
+uint32_t code_of_esri_name(std::string_view name);
+
+// How ESRI calls heights of that code, "unknown" if that is not known here; and the other way
+// round.
+std::string_view esri_name_of_heights(uint32_t code);
+uint32_t code_of_esri_heights(std::string_view name);
+
+#ifdef MICROTIN_WITH_GDAL
+std::optional<CodedSystem> system_by_proj(uint32_t code);
+std::string wkt_by_proj(uint32_t code);
+#endif
+
+}  // namespace microtin::importing
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The whole registry, as PROJ has it; part of builds with MICROTIN_WITH_GDAL only.
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <ogr_srs_api.h>
+
+#include <cmath>
+#include <memory>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/units.hpp"
+#include "encoder/import/epsg.hpp"
+
+namespace microtin::importing {
+namespace {
+
+struct Destroy {
+  void operator()(void* system) const { OSRDestroySpatialReference(system); }
+};
+
+using System = std::unique_ptr<void, Destroy>;
+
+// Null if there is no such code.
+System system_for(uint32_t code) {
+  CPLPushErrorHandler(CPLQuietErrorHandler);
+  System system(OSRNewSpatialReference(nullptr));
+  const bool found = OSRImportFromEPSG(system.get(), static_cast<int>(code)) == OGRERR_NONE;
+  CPLPopErrorHandler();
+  if (!found) system.reset();
+  return system;
+}
+
+Unit unit_of(OGRSpatialReferenceH system, bool is_vertical) {
+  if (!is_vertical && OSRIsGeographic(system) != 0) {
+    constexpr double kDegree = 0.017453292519943295, kAlike = 1e-12;
+    const double radians = OSRGetAngularUnits(system, nullptr);
+    return std::abs(radians - kDegree) < kAlike ? Unit::kDegree : Unit::kUnknown;
+  }
+  const char* const target = is_vertical ? "VERT_CS" : "PROJCS";
+  return unit_of_metres(OSRGetTargetLinearUnits(system, target, nullptr));
+}
+
+}  // namespace
+
+std::optional<CodedSystem> system_by_proj(uint32_t code) {
+  const System system = system_for(code);
+  if (!system) throw Error("EPSG has no coordinate reference system " + std::to_string(code));
+  const bool is_vertical = OSRIsVertical(system.get()) != 0 && OSRIsCompound(system.get()) == 0;
+  const bool is_horizontal =
+      OSRIsGeographic(system.get()) != 0 || OSRIsProjected(system.get()) != 0;
+  if (!is_vertical && (!is_horizontal || OSRIsCompound(system.get()) != 0)) {
+    throw Error("EPSG " + std::to_string(code) +
+                " is neither a horizontal nor a vertical system: give both, HORIZONTAL:VERTICAL");
+  }
+  return CodedSystem{is_vertical, unit_of(system.get(), is_vertical)};
+}
+
+std::string wkt_by_proj(uint32_t code) {
+  const System system = system_for(code);
+  if (!system) return "";
+  const char* const options[] = {"FORMAT=WKT1_ESRI", nullptr};
+  char* text = nullptr;
+  const bool done = OSRExportToWktEx(system.get(), &text, options) == OGRERR_NONE;
+  std::string result = done && text != nullptr ? text : "";
+  CPLFree(text);
+  return result;
+}
+
+}  // namespace microtin::importing

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// Units and coordinate systems, from files and options to files.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/support/session.hpp"
+
+using namespace microtin::tests;
+
+namespace {
+
+const char* const kGrid =
+    "ncols 4\nnrows 3\nxllcorner 500000\nyllcorner 5000000\ncellsize 2\n"
+    "1 2 3 4\n5 9 7 8\n1 1 3 9\n";
+
+const char* const kDegrees =
+    "ncols 4\nnrows 3\nxllcorner 7\nyllcorner 43\ncellsize 0.25\n1 2 3 4\n5 9 7 8\n1 1 3 9\n";
+
+// As ESRI and GDAL write it beside a grid: no codes.
+const char* const kZone =
+    R"(PROJCS["WGS_1984_UTM_Zone_33N",GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID[)"
+    R"("WGS_1984",6378137.0,298.257223563]],PRIMEM["Greenwich",0.0],UNIT["Degree",)"
+    R"(0.0174532925199433]],PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],)"
+    R"(UNIT["Meter",1.0]])";
+
+const char* const kGeographic =
+    R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],)"
+    R"(PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]])";
+
+}  // namespace
+
+TEST_CASE("places: a grid's .prj says its system and units; decode writes one that says the same") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  session.write("t.prj", kZone);
+  for (const char* const output : {"t.mtin", "t.mtp --tile-vertices 100"}) {
+    const Session::Result made = session.run("encode t.asc -o " + std::string(output));
+    CHECK(contains(made.out, "units: x and y metre, z metre\nwarning: heights are taken as metre"));
+  }
+  for (const char* const name : {"t.mtin", "t.mtp"}) {
+    const std::string info = session.run("info " + std::string(name)).out;
+    CHECK(contains(info, "horizontal_epsg: 32633\n"));
+    CHECK(contains(info, "{\"horizontal\": \"metre\", \"vertical\": \"metre\"}"));
+  }
+  REQUIRE(session.run("decode t.mtin -o back.asc").code == 0);
+  CHECK(contains(session.read("back.prj"), "PROJCS[\"WGS_1984_UTM_Zone_33N\",GEOGCS["));
+  const Session::Result again = session.run("encode back.asc -o back.mtin");
+  CHECK(contains(again.out, "units: x and y metre, z metre\n"));
+  CHECK(!contains(again.out, "warning"));
+  CHECK(contains(session.run("info back.mtin").out, "horizontal_epsg: 32633\n"));
+  // The .prj is an input, too.
+  CHECK(session.run("encode t.asc -o t.prj").code == 1);
+  CHECK(session.read("t.prj") == kZone);
+}
+
+TEST_CASE("places: a .prj that is none is refused") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  session.write("t.prj", "Projection UTM\nZone 33\n");
+  CHECK(contains(session.failure("encode t.asc -o t.mtin"), "t.prj: is no well-known text"));
+}
+
+TEST_CASE("places: beside degrees the unit of heights is asked for") {
+  const Session session;
+  session.write("t.asc", kDegrees);
+  session.write("t.prj", kGeographic);
+  for (const char* const output : {"t.mtin", "t.mtp --tile-vertices 100"}) {
+    CHECK(contains(session.failure("encode t.asc -o " + std::string(output)),
+                   "places are degrees, and the unit of heights is not known"));
+  }
+  CHECK(session.run("encode t.asc -o t.mtin --units :foot").code == 0);
+  CHECK(contains(session.run("info t.mtin").out,
+                 "{\"horizontal\": \"degree\", \"vertical\": \"foot\"}"));
+  CHECK(session.run("encode t.asc -o t.mtin --epsg 4326:5773").code == 0);
+  REQUIRE(session.run("decode t.mtin -o back.asc").code == 0);
+  REQUIRE(session.run("encode back.asc -o back.mtin").code == 0);  // the .prj knows the heights
+  CHECK(contains(session.run("info back.mtin").out, "horizontal_epsg: 4326\nvertical_epsg: 5773"));
+}
+
+TEST_CASE("places: codes set units, and may not contradict them") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  const auto report = [&](const std::string& options) {
+    return session.run("encode t.asc -o t.mtin " + options).out;
+  };
+  CHECK(contains(report("--epsg 32633:6360"), "units: x and y metre, z US survey foot\n"));
+  CHECK(
+      contains(report("--units foot"), "units: x and y foot, z foot\nwarning: heights are taken"));
+  CHECK(contains(report("--units us-ft:m"), "units: x and y US survey foot, z metre\n"));
+  CHECK(contains(report(""), "warning: the unit of x and y is not known"));
+  CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 32633 --units foot"),
+                 "EPSG 32633 has the unit metre, not foot"));
+  CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 5773"),
+                 "EPSG 5773 is a vertical system"));
+  CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 4326:32633"),
+                 "EPSG 32633 is a horizontal system"));
+  for (const char* const wrong : {"chain", "m:deg", "m:", "", ":"}) {
+    CHECK(
+        contains(session.failure("encode t.asc -o u.mtin --units '" + std::string(wrong) + "'", 2),
+                 "is not a unit"));
+  }
+#ifdef MICROTIN_WITH_GDAL
+  CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 999999"),
+                 "EPSG has no coordinate reference system 999999"));
+  CHECK(contains(report("--epsg 2992"), "units: x and y foot, z foot"));
+#else
+  CHECK(contains(report("--epsg 2992"), "warning: EPSG 2992 is not among the codes known here"));
+#endif
+}
+
+TEST_CASE("places: an option that goes against the file is told") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  session.write("t.prj", kZone);
+  CHECK(contains(session.run("encode t.asc -o t.mtin --units foot").out,
+                 "warning: x and y are taken as foot; the file says metre"));
+}
+
+TEST_CASE("places: scenes and pictures of unknown units warn") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  REQUIRE(session.run("encode t.asc -o t.mtin").code == 0);
+  for (const char* const command : {"decode t.mtin -o t.glb", "render t.mtin -o t.png"}) {
+    const Session::Result result = session.run(command);
+    CHECK(result.code == 0);
+    CHECK(contains(result.err, "warning: t."));
+    CHECK(contains(result.err, "units are not known and taken as metres"));
+  }
+  REQUIRE(session.run("encode t.asc -o t.mtin --units m").code == 0);
+  CHECK(session.run("decode t.mtin -o t.glb").err.empty());
+  CHECK(session.run("render t.mtin -o t.png").err.empty());
+}
+
+TEST_CASE("places: meshes name their system, and points of meshes bring it back") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  REQUIRE(session.run("encode t.asc -o t.mtin --epsg 25832").code == 0);
+  REQUIRE(session.run("decode t.mtin -o t.ply").code == 0);
+  CHECK(contains(session.read("t.ply"), "\ncomment crs EPSG:25832\n"));
+  REQUIRE(session.run("encode t.ply -o back.mtin").code == 0);
+  CHECK(contains(session.run("info back.mtin").out, "horizontal_epsg: 25832\n"));
+  session.write("u.asc", kGrid);
+  session.write("u.prj", "LOCAL_CS[\"a site\",\n  UNIT[\"Meter\",1.0]]");
+  REQUIRE(session.run("encode u.asc -o u.mtin").code == 0);
+  REQUIRE(session.run("decode u.mtin -o u.ply").code == 0);
+  CHECK(contains(session.read("u.ply"), "comment crs LOCAL_CS[\"a site\",   UNIT["));
+  CHECK(!contains(session.run("decode u.mtin --lattice -o lattice.ply && cat lattice.ply").out,
+                  "comment"));
+}
+
+TEST_CASE("places: a grid whose system has no text here says so") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  REQUIRE(session.run("encode t.asc -o t.mtin --epsg 2056 --units m").code == 0);
+  const Session::Result decoded = session.run("decode t.mtin -o back.asc");
+  CHECK(decoded.code == 0);
+#ifdef MICROTIN_WITH_GDAL
+  CHECK(contains(session.read("back.prj"), "CH1903+_LV95"));
+#else
+  CHECK(contains(decoded.err, "no back.prj is written: the text of EPSG:2056 is not known here"));
+#endif
+}
+
+TEST_CASE("places: GDAL reads the .prj that is written") {
+  const Session session;
+  if (session.shell("command -v gdalinfo").out.empty()) {
+    MESSAGE("skipped: gdalinfo is not installed");
+    return;
+  }
+  session.write("t.asc", kGrid);
+  const std::vector<std::pair<std::string, std::string>> systems = {
+      {"32633", "+proj=utm +zone=33 +datum=WGS84 +units=m"},
+      {"32733", "+proj=utm +zone=33 +south +datum=WGS84 +units=m"},
+      {"25832", "+proj=utm +zone=32 +ellps=GRS80 +units=m"},
+      {"26910", "+proj=utm +zone=10 +datum=NAD83 +units=m"},
+      {"3857", "+proj=merc +a=6378137 +b=6378137"}};
+  for (const auto& [code, parameters] : systems) {
+    REQUIRE(session.run("encode t.asc -o t.mtin --epsg " + code).code == 0);
+    REQUIRE(session.run("decode t.mtin -o g.asc").code == 0);
+    const std::string found = session.shell("gdalsrsinfo -o proj4 ESRI::g.prj").out;
+    CHECK_MESSAGE(contains(found, parameters), found);
+  }
+}

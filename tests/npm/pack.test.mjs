@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Packs: out of memory and by HTTP, from servers that know ranges, know none, and break off.
+import assert from "node:assert/strict";
+import http from "node:http";
+import test from "node:test";
+import { area, areaFile, bytesOf, microtin, postsOf } from "./support.mjs";
+
+const { MicrotinError, Pack, decode } = microtin;
+const skip = area ? false : "skipped: no files of a host; tests/devices.sh makes them";
+const bytes = area && bytesOf(areaFile("mtp"));
+
+// Runs with a server's address; `answer` handles a request for bytes from .. to.
+async function served(answer, use) {
+  const server = http.createServer((request, response) => {
+    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range);
+    answer(response, range && range.slice(1).map(Number));
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  try {
+    return await use(`http://127.0.0.1:${server.address().port}/area.mtp`);
+  } finally {
+    server.closeAllConnections();
+    server.close();
+  }
+}
+
+function withRanges(response, [from, to]) {
+  if (from >= bytes.length) {
+    response.writeHead(416).end();
+    return;
+  }
+  const part = bytes.subarray(from, to + 1);
+  response.writeHead(206, { "Content-Range": `bytes ${from}-${from + part.length - 1}/${bytes.length}` }).end(part);
+}
+
+test("heights at every post keep the bound", { skip }, async () => {
+  const pack = await Pack.open(bytes);
+  const { bound } = pack.header.accuracy;
+  for (const { x, y, z } of postsOf(areaFile("asc")).filter((_, i) => i % 37 === 0)) {
+    assert.ok(Math.abs((await pack.heightAt(x, y)) - z) <= bound * 1.0001);
+  }
+});
+
+test("tiles have no cracks: their borders are the same", { skip }, async () => {
+  const pack = await Pack.open(bytes);
+  const rightBorder = async (tile, side) => {
+    const { origin, positions } = await pack.tile(tile);
+    const x = pack.tileBox(tile)[side];
+    const { step } = pack.header.axes.x;
+    const vertices = [];
+    for (let i = 0; i < positions.length; i += 3) {
+      if (Math.abs(origin[0] + positions[i] - x) < step / 2) {
+        vertices.push([Math.round((origin[1] + positions[i + 1]) / step), positions[i + 2]]);
+      }
+    }
+    return vertices.sort((a, b) => a[0] - b[0]);
+  };
+  assert.ok(pack.columns > 1 && pack.rows > 1);
+  for (let row = 0; row < pack.rows; ++row) {
+    for (let column = 0; column + 1 < pack.columns; ++column) {
+      const tile = row * pack.columns + column;
+      const border = await rightBorder(tile, 2);
+      assert.ok(border.length > 1);
+      assert.deepEqual(await rightBorder(tile + 1, 0), border);
+    }
+  }
+});
+
+test("the highest of a course is not below any height on it, and is that of a place", { skip }, async () => {
+  const pack = await Pack.open(bytes, { slots: 1 }); // grows
+  const { x, y } = pack.header.axes;
+  const [left, bottom] = pack.tileBox(0);
+  const [, , right, top] = pack.tileBox(pack.columns * pack.rows - 1);
+  const highest = await pack.highestOn(left, bottom, right, top);
+  let most = -Infinity;
+  for (let i = 0; i <= 1000; ++i) {
+    const height = await pack.heightAt(left + ((right - left) * i) / 1000, bottom + ((top - bottom) * i) / 1000);
+    most = Math.max(most, height);
+  }
+  assert.ok(highest >= most - 0.01);
+  assert.ok(highest <= most + (pack.highest - pack.lowest) / 20);
+  assert.ok(Number.isNaN(await pack.highestOn(left, bottom, right + 10 * (right - left), top)));
+  assert.ok(Number.isNaN(await pack.heightAt(left - 100 * x.step, bottom - 100 * y.step)));
+});
+
+test("only what is asked for is fetched", { skip }, async () => {
+  await served(withRanges, async (url) => {
+    const pack = await Pack.open(url);
+    const afterHeader = pack.bytesRead;
+    const { indices } = await pack.tile(pack.columns * pack.rows - 1);
+    assert.ok(indices.length > 0);
+    assert.ok(afterHeader <= 8192);
+    assert.ok(pack.bytesRead < bytes.length || bytes.length < 16384);
+  });
+});
+
+test("phases of a tile end with the tile", { skip }, async () => {
+  const pack = await Pack.open(bytes);
+  const seen = [];
+  for await (const mesh of pack.tilePhases(0)) seen.push(mesh);
+  assert.ok(seen.length > 0 && seen.at(-1).done);
+  assert.deepEqual(seen.at(-1), await pack.tile(0));
+});
+
+test("a server without ranges sends all, once", { skip }, async () => {
+  let requests = 0;
+  await served((response) => {
+    ++requests;
+    response.writeHead(200).end(bytes);
+  }, async (url) => {
+    const pack = await Pack.open(url);
+    for (let tile = 0; tile < pack.columns * pack.rows; ++tile) await pack.tile(tile);
+    assert.equal(requests, 1);
+  });
+});
+
+test("a server that breaks off is told, and may be asked again", { skip }, async () => {
+  let broken = false;
+  await served((response, range) => {
+    if (!broken) return withRanges(response, range);
+    response.writeHead(206, { "Content-Length": 1000 }).write("a few bytes");
+    setTimeout(() => response.destroy(), 20);
+  }, async (url) => {
+    const pack = await Pack.open(url);
+    const last = pack.columns * pack.rows - 1;
+    broken = true;
+    await assert.rejects(pack.tile(last), (error) => error instanceof MicrotinError && error.status === "IO");
+    broken = false;
+    assert.ok((await pack.tile(last)).done);
+  });
+});
+
+test("damaged bytes and what is no pack are told", { skip }, async () => {
+  await assert.rejects(Pack.open(new Uint8Array(100)), { status: "BAD_MAGIC" });
+  await assert.rejects(Pack.open(bytes.subarray(0, 20)), { status: "TRUNCATED" });
+  const damaged = bytes.slice();
+  damaged[damaged.length - 3] ^= 1;
+  const pack = await Pack.open(damaged);
+  const results = await Promise.allSettled(
+    Array.from({ length: pack.columns * pack.rows }, (_, tile) => pack.tile(tile)));
+  assert.equal(results.filter(({ status }) => status === "rejected").length, 1);
+  assert.equal(results.find(({ status }) => status === "rejected").reason.status, "CHECKSUM");
+  await assert.rejects(pack.tile(-1), RangeError);
+});
+
+test("a stream of the same terrain agrees within both bounds", { skip }, async () => {
+  const pack = await Pack.open(bytes);
+  const terrain = decode(bytesOf(areaFile("mtin")));
+  const most = pack.header.accuracy.bound + terrain.header.accuracy.bound;
+  for (const { x, y } of postsOf(areaFile("asc")).filter((_, i) => i % 101 === 0)) {
+    assert.ok(Math.abs((await pack.heightAt(x, y)) - terrain.heightAt(x, y)) <= most * 1.0001);
+  }
+});

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// Streams: every golden one, in pieces, damaged; phases; heights.
+import assert from "node:assert/strict";
+import test from "node:test";
+import { goldenBytes, goldenNames, microtin, refusedBytes, refusedNames, reportOf } from "./support.mjs";
+
+const { Decoder, MicrotinError, decode, decodeStream } = microtin;
+
+function piecesOf(bytes, size) {
+  return Array.from({ length: Math.ceil(bytes.length / size) }, (_, i) => bytes.subarray(i * size, (i + 1) * size));
+}
+
+// Twice the area, on the plane.
+function turn(positions, indices, t) {
+  const [a, b, c] = [0, 1, 2].map((i) => 3 * indices[t + i]);
+  return (positions[b] - positions[a]) * (positions[c + 1] - positions[a + 1]) -
+    (positions[b + 1] - positions[a + 1]) * (positions[c] - positions[a]);
+}
+
+test("golden streams have the digests that the host printed", () => {
+  assert.ok(goldenNames.length > 5);
+  for (const name of goldenNames) {
+    const terrain = decode(goldenBytes(name));
+    assert.equal(terrain.digest.toString(16).padStart(16, "0"), reportOf(name).digest, name);
+    assert.equal(terrain.vertexCount, Number(reportOf(name).vertices), name);
+    assert.equal(terrain.positions.length, 3 * terrain.vertexCount);
+  }
+});
+
+test("pieces of any size change nothing", async () => {
+  const bytes = goldenBytes("sections.mtin");
+  for (const size of [1, 7, 1000]) {
+    let last;
+    for await (last of decodeStream(piecesOf(bytes, size)));
+    assert.ok(last.done);
+    assert.equal(last.digest, decode(bytes).digest);
+    assert.equal(last.bytes, bytes.length);
+  }
+});
+
+test("a response, a blob and a stream can be decoded as they arrive", async () => {
+  const bytes = goldenBytes("hills.mtin");
+  for (const source of [new Response(bytes), new Blob([bytes]), new Blob([bytes]).stream()]) {
+    let last;
+    for await (last of decodeStream(source));
+    assert.equal(last.digest, decode(bytes).digest);
+  }
+});
+
+test("phases grow, each a complete triangulation", () => {
+  const decoder = new Decoder();
+  const counts = [];
+  for (const terrain of decoder.push(goldenBytes("sections.mtin"))) {
+    counts.push(terrain.vertexCount);
+    const { positions, indices } = terrain;
+    assert.ok(indices.length > 0);
+    for (let t = 0; t < indices.length; t += 3) assert.ok(turn(positions, indices, t) > 0);
+  }
+  assert.ok(counts.length > 1);
+  assert.deepEqual(counts, [...counts].sort((a, b) => a - b));
+  assert.equal(decoder.finish().vertexCount, counts.at(-1));
+});
+
+test("a vertex has its height, a middle of a triangle the mean of three", () => {
+  const terrain = decode(goldenBytes("hills.mtin"));
+  const { origin, positions, indices } = terrain;
+  const { step } = terrain.header.axes.z;
+  const at = (v, i) => (i < 2 ? origin[i] : 0) + positions[3 * v + i];
+  for (let v = 0; v < terrain.vertexCount; ++v) {
+    assert.ok(Math.abs(terrain.heightAt(at(v, 0), at(v, 1)) - at(v, 2)) < step / 100);
+  }
+  for (let t = 0; t < indices.length; t += 300) {
+    const corners = [...indices.subarray(t, t + 3)];
+    const [x, y, z] = [0, 1, 2].map((i) => corners.reduce((sum, v) => sum + at(v, i), 0) / 3);
+    const spread = Math.max(...corners.map((v) => at(v, 2))) - Math.min(...corners.map((v) => at(v, 2)));
+    assert.ok(Math.abs(terrain.heightAt(x, y) - z) < spread / 100 + step / 100);
+  }
+  assert.ok(Number.isNaN(terrain.heightAt(-1e9, 0)));
+  assert.ok(Number.isNaN(terrain.heightAt(NaN, 0)));
+});
+
+test("voids are no terrain", () => {
+  const terrain = decode(goldenBytes("voids.mtin"));
+  assert.ok(terrain.voids.length > 0);
+  const [a, b, c] = [0, 1, 2].map((i) => terrain.voids[i]);
+  const middle = (i) => [a, b, c].reduce((sum, v) => sum + terrain.positions[3 * v + i], 0) / 3;
+  assert.ok(Number.isNaN(terrain.heightAt(terrain.origin[0] + middle(0), terrain.origin[1] + middle(1))));
+});
+
+test("the header tells units, systems, accuracy", () => {
+  const { header } = decode(goldenBytes("hills.mtin"));
+  assert.deepEqual(header.units, { horizontal: "degree", vertical: "metre" });
+  assert.deepEqual(header.epsg, { horizontal: 4326, vertical: 5773 });
+  assert.deepEqual(header.accuracy, { bound: 10, largest: 9.9, rms: 3.45, mean: -0.12 });
+  assert.equal(header.source, "golden");
+  assert.equal(header.decoding, "balanced");
+});
+
+test("what must be refused is, with its status", () => {
+  assert.ok(refusedNames.length > 0);
+  for (const name of refusedNames) assert.throws(() => decode(refusedBytes(name)), MicrotinError, name);
+  const status = (bytes) => {
+    try {
+      decode(bytes);
+    } catch (error) {
+      return error.status;
+    }
+  };
+  const bytes = goldenBytes("hills.mtin");
+  assert.equal(status(bytes.subarray(0, -1)), "TRUNCATED");
+  assert.equal(status(bytes.subarray(0, 3)), "TRUNCATED");
+  assert.equal(status(new Uint8Array(100)), "BAD_MAGIC");
+  const damaged = bytes.slice();
+  damaged[damaged.length >> 1] ^= 4;
+  assert.equal(status(damaged), "CHECKSUM");
+});
+
+test("every damaged byte is told, and the module goes on", () => {
+  const bytes = goldenBytes("example.mtin");
+  for (let i = 0; i < bytes.length; ++i) {
+    const damaged = bytes.slice();
+    damaged[i] ^= 1;
+    assert.throws(() => decode(damaged), MicrotinError);
+  }
+  assert.equal(decode(bytes).vertexCount, 6);
+});

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// The package under test, and files to test it on.
+import fs from "node:fs";
+import path from "node:path";
+
+export const microtin = await import(path.join(process.env.MICROTIN_NPM, "microtin.js"));
+await microtin.ready;
+
+const golden = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "../golden");
+
+export const bytesOf = (file) => new Uint8Array(fs.readFileSync(file));
+export const goldenNames = fs.readdirSync(golden).filter((name) => name.endsWith(".mtin"));
+export const goldenBytes = (name) => bytesOf(path.join(golden, name));
+export const refusedNames = fs.readdirSync(path.join(golden, "refused")).filter((name) => name.endsWith(".mtin"));
+export const refusedBytes = (name) => bytesOf(path.join(golden, "refused", name));
+
+// What a host printed of a golden stream: a word, then a value.
+export function reportOf(name) {
+  const text = fs.readFileSync(path.join(golden, name.replace(/mtin$/, "report")), "utf8");
+  return Object.fromEntries(text.trim().split("\n").map((line) => [line.split(" ")[0], line.split(" ").slice(1).join(" ")]));
+}
+
+// Files that a host made: area.asc, area.mtin and area.mtp, of one terrain; undefined without.
+export const area = process.env.MICROTIN_AREA || undefined;
+export const areaFile = (ending) => path.join(area, `area.${ending}`);
+
+// The heights of an .asc file of square cells: its posts, row by row from the south.
+export function postsOf(file) {
+  const words = fs.readFileSync(file, "utf8").split(/\s+/).filter(Boolean);
+  const header = {};
+  while (/^[a-z]/i.test(words[0])) header[words.shift().toLowerCase()] = Number(words.shift());
+  const { ncols, nrows, cellsize } = header;
+  const [west, south] = [header.xllcenter ?? header.xllcorner + cellsize / 2, header.yllcenter ?? header.yllcorner + cellsize / 2];
+  return Array.from({ length: ncols * nrows }, (_, i) => ({
+    x: west + (i % ncols) * cellsize,
+    y: south + Math.floor(i / ncols) * cellsize,
+    z: Number(words[(nrows - 1 - Math.floor(i / ncols)) * ncols + (i % ncols)]),
+  }));
+}
