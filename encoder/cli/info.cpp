@@ -10,6 +10,7 @@
 #include "encoder/product/document.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
+#include "microtin/pack.h"
 
 namespace microtin::cli {
 namespace {
@@ -26,6 +27,18 @@ uint32_t count_triangles(const microtin_mesh* mesh, microtin_triangle_kind kind)
 std::string workspace_bytes_16(uint32_t vertices) {
   if (vertices > MICROTIN_MAX_VERTICES_FOR(16)) return "null";
   return json(MICROTIN_MESH_BYTES_FOR(vertices, 16) + MICROTIN_DECODER_BYTES_FOR(vertices, 16));
+}
+
+// What a device needs to keep four tiles, which a place can touch at once.
+void add_device_memory(JsonObject& report, uint32_t most_vertices) {
+  constexpr unsigned long kSlots = 4;
+  const uint32_t capacity = std::max<uint32_t>(most_vertices, 3);
+  const bool narrow = capacity <= MICROTIN_MAX_VERTICES_FOR(16);
+  report.emplace_back("device_memory", json("MICROTIN_PACK_BYTES(" + std::to_string(kSlots) + ", " +
+                                            std::to_string(capacity) + ")"));
+  report.emplace_back("workspace_bytes_16",
+                      narrow ? json(MICROTIN_PACK_BYTES_FOR(kSlots, capacity, 16)) : "null");
+  report.emplace_back("workspace_bytes_32", json(MICROTIN_PACK_BYTES_FOR(kSlots, capacity, 32)));
 }
 
 std::string exact_axis(const Axis& axis) {
@@ -213,6 +226,7 @@ JsonObject report_of(const PackFile& pack) {
                        {"highest", json(pack.header().highest)},
                        {"compact_bytes", compact != 0 ? json(compact) : "null"},
                        {"bytes", json(pack.bytes())}};
+  add_device_memory(report, pack.header().most_vertices);
   add_placement(report, pack.metadata());
   add_notes(report, pack.metadata());
   add_accuracy(report, pack.metadata().accuracy);
