@@ -34,7 +34,7 @@ const char* entry(const char (&names)[Count][Bytes], int number) {
 
 using namespace microtin;
 
-uint32_t microtin_version() {
+uint32_t microtin_decoder_version() {
   return static_cast<uint32_t>(MICROTIN_VERSION_MAJOR) << 16 | MICROTIN_VERSION_MINOR << 8 |
          MICROTIN_VERSION_PATCH;
 }

@@ -134,7 +134,7 @@ TEST_CASE("names of statuses and answers, and versions") {
   CHECK(answer(MICROTIN_IN_BAD_TILE) == "IN_BAD_TILE");
   for (const int none : {4, 15, 27}) CHECK(status(none) == "?");
   CHECK(answer(7) == "?");
-  CHECK(microtin_version() ==
+  CHECK(microtin_decoder_version() ==
         MICROTIN_VERSION_MAJOR * 65536 + MICROTIN_VERSION_MINOR * 256 + MICROTIN_VERSION_PATCH);
   CHECK(microtin_stream_version() == kVersion);
   CHECK(microtin_pack_version() == kPackVersion);

@@ -67,7 +67,7 @@ extern "C" {
 
 /* The version of the library that is linked, as 65536 * major + 256 * minor + patch, and those of
  * the formats of streams and of packs that it reads: others are MICROTIN_UNSUPPORTED_VERSION. */
-uint32_t microtin_version(void);
+uint32_t microtin_decoder_version(void);
 uint8_t microtin_stream_version(void);
 uint8_t microtin_pack_version(void);
 
