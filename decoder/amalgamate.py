@@ -36,9 +36,11 @@ HEADER = """#ifndef MICROTIN_H
 #define MICROTIN_H
 
 #include "microtin/compact.h"
+#include "microtin/compact_pack.h"
 #include "microtin/microtin.h"
 #include "microtin/pack.h"
 #ifdef __cplusplus
+#include "microtin/compact_pack.hpp"
 #include "microtin/microtin.hpp"
 #include "microtin/pack.hpp"
 #endif

@@ -197,7 +197,7 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
               std::to_string(MICROTIN_MAX_VERTICES_FOR(16)) +
               " vertices, with 32-bit numbers beyond. Alone: use the best vertices that fit; with "
               "--max-error or --max-vertices: fail if the terrain does not fit. For a pack (.mtp): "
-              "tiles of which such a device keeps four and decodes one")
+              "tiles of which such a device keeps four, compact, and decodes one")
       ->excludes(&bytes)
       ->excludes(tile)
       ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));
@@ -349,11 +349,11 @@ void add_decode(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand("decode", "Turn a stream into a mesh or a grid");
   add_stream(command, request->input);
   add_output(command, request->output,
-             "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); - is .xyz on "
-             "standard output");
+             "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); N43E007.DAT, "
+             "N43E007.TER (that cell for ArduPilot, INAV); - is .xyz on standard output");
   add_decimal(command, "--cell", request->cell,
               "Size of an .asc grid's cells, in the terrain's unit; if not given, the lattice's "
-              "step: for rasters the posts");
+              "step: for rasters the posts. Metres between the posts of a .DAT");
   command.add_flag("--lattice", request->lattice, "Write the lattice's integers");
   command.callback([request, &action] {
     if (request->cell && request->cell->mantissa == 0) {

@@ -7,11 +7,13 @@
 #include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/parallel.hpp"
 #include "encoder/fit/approximation.hpp"
 #include "encoder/pack/tile_plan.hpp"
+#include "encoder/stream/encode.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -19,11 +21,31 @@ namespace {
 // Of the time, estimated.
 constexpr double kScanPart = 0.02, kPlanPart = 0.1;
 
-// The z step that suits a part of the raster best.
+// Steps that suit borders, too, in hundredths of the bound: of coarser ones, which may suit a
+// stream, their chains have too few heights to choose from.
+std::vector<int> steps_to_try(bool never_below) {
+  return never_below ? std::vector<int>{25, 30} : std::vector<int>{50, 60};
+}
+
+// The z step that suits a part of the raster best: that of its stream, or one of ours.
 Decimal choose_z_step(const Raster& part, const LatticeOptions& lattice, SimplifyOptions options) {
   if (options.search == Search::kNormal) options.search = Search::kFast;
   options.progress = {};
-  return approximate(part, lattice, options).laid.z_step;
+  const auto bytes_of = [&](const Tin& tin) { return encode(tin, {}, options.effort).size(); };
+  const Approximation stream = approximate(part, lattice, options);
+  Decimal best = stream.laid.z_step;
+  std::size_t fewest = bytes_of(stream.tin);
+  for (const int hundredths : steps_to_try(lattice.never_below)) {
+    if (lattice.max_error->decimals + 2 > kMaxDecimals) break;
+    LatticeOptions with_step = lattice;
+    with_step.z_step = make_decimal(Wide{lattice.max_error->mantissa} * hundredths,
+                                    lattice.max_error->decimals + 2);
+    const std::size_t bytes = bytes_of(approximate(part, with_step, options).tin);
+    if (bytes >= fewest) continue;
+    fewest = bytes;
+    best = *with_step.z_step;
+  }
+  return best;
 }
 
 // Chooses the heights' lattice for all tiles.
@@ -65,6 +87,19 @@ class InOrder {
 
 }  // namespace
 
+uint32_t most_vertices(const PackOptions& options, const TileGrid& grid) {
+  const bool is_wide = grid.width > 255 || grid.height > 255;
+  return is_wide && options.max_vertices_wide != 0 ? options.max_vertices_wide
+                                                   : options.max_vertices;
+}
+
+bool fits(const TileSummary& tile, uint32_t most) {
+  if (!tile.compact) return true;
+  const uint32_t bits = index_bits(most);
+  return bytes_of(*tile.compact, bits) <=
+         promised_compact_bytes(most, tile.compact->is_narrow, bits);
+}
+
 PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   if (raster.frame().width < 2 || raster.frame().height < 2)
     throw Error("a pack needs two posts in each direction");
@@ -75,7 +110,7 @@ PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   PackPlan plan{tiled_raster(raster, scanned, options), options, options.tile_steps,
                 scanned.fingerprint};
   if (plan.tile_steps == 0) {
-    plan.tile_steps = choose_tile_steps(plan.tiled, options.max_vertices, options.simplify);
+    plan.tile_steps = choose_tile_steps(plan.tiled, options);
   }
   plan.tiled.grid = grid_of(raster.frame(), plan.tile_steps);
   return plan;
@@ -100,8 +135,9 @@ void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
   for_each_parallel(count, [&](std::size_t i) {
     const uint32_t tile = range.first + static_cast<uint32_t>(i);
     EncodedTile encoded = encode_tile(plan.tiled, tile, options);
-    const uint32_t vertices = encoded.summary.vertices, most = plan.options.max_vertices;
-    if (vertices > most) {
+    const uint32_t vertices = encoded.summary.vertices;
+    const uint32_t most = most_vertices(plan.options, plan.tiled.grid);
+    if (vertices > most || !fits(encoded.summary, most)) {
       throw TileTooLarge(tile, vertices, fewer_tile_steps(plan.tiled.grid, most, vertices));
     }
     in_order.add(tile, std::move(encoded));
