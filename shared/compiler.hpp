@@ -41,6 +41,14 @@
 #endif
 #endif
 
+// A function that keeps no call but those of ONE_COPY, also where size counts and others share what
+// it calls.
+#if defined(__GNUC__) && !defined(__clang__)
+#define MICROTIN_WITHOUT_CALLS __attribute__((flatten))
+#else
+#define MICROTIN_WITHOUT_CALLS
+#endif
+
 // Where a multiplication makes 32 bits at most: wider ones are calls.
 #if defined(__ARM_ARCH_6M__) || defined(__AVR__) || (defined(__riscv) && !defined(__riscv_mul))
 #define MICROTIN_NARROW_MACHINE

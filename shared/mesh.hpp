@@ -9,22 +9,17 @@
 
 #include <stddef.h>
 
+#include "microtin/config.h"
 #include "shared/fixed_math.hpp"
 #include "shared/lattice.hpp"
 #include "shared/predicates.hpp"
-
-#ifndef MICROTIN_INDEX_BITS
-#define MICROTIN_INDEX_BITS 32
-#endif
 
 namespace microtin {
 
 #if MICROTIN_INDEX_BITS == 16
 typedef uint16_t Index;
-#elif MICROTIN_INDEX_BITS == 32
-typedef uint32_t Index;
 #else
-#error "MICROTIN_INDEX_BITS must be 16 or 32"
+typedef uint32_t Index;
 #endif
 
 // The vertex at infinity. No vertex has this number: the largest half-edge number stays below it.
