@@ -2,6 +2,7 @@
 // The commands render and fractal: pictures, and terrains to try the program with.
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 #include <utility>
 
@@ -9,7 +10,9 @@
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/file_target.hpp"
+#include "encoder/files/input_file.hpp"
 #include "encoder/files/output_file.hpp"
+#include "encoder/picture/page.hpp"
 #include "encoder/picture/render.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/terrain/fractal.hpp"
@@ -44,6 +47,21 @@ Spot cell_of(const Raster& raster, const SurfaceModel& model) {
   return {step_of(raster.x) / step_of(lattice.x), step_of(raster.y) / step_of(lattice.y)};
 }
 
+constexpr uint32_t kFlatWidth = 512;  // of the picture for browsers that cannot draw
+
+// One file, which shows the terrain in a browser.
+void write_page(const RenderRequest& request, const Portrait& portrait) {
+  if (!request.source.empty()) throw Error(request.output + ": a page has no map of errors");
+  const std::string page = with_file_context(request.input, [&] {
+    return render_page(portrait, std::filesystem::path(request.input).stem().string(),
+                       read_file(request.input), render_png(portrait, kFlatWidth));
+  });
+  OutputFile out(request.output);
+  out.write(page);
+  out.commit();
+  warn_of_units(request.output, portrait.model);
+}
+
 void draw(const RenderRequest& request, const Portrait& portrait, const Comparison* comparison) {
   const std::vector<uint8_t> picture = with_file_context(
       request.input, [&] { return render_png(portrait, request.width, comparison); });
@@ -62,6 +80,10 @@ void run_render(const RenderRequest& request) {
   const Document document(request.input);
   const Portrait portrait{document.model(), document.metadata(), document.vertices(),
                           document.bytes(), document.tiles()};
+  if (std::filesystem::path(request.output).extension() == ".html") {
+    write_page(request, portrait);
+    return;
+  }
   if (request.source.empty()) {
     draw(request, portrait, nullptr);
     return;

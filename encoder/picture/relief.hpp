@@ -23,6 +23,9 @@ class Relief {
   int64_t highest() const { return highest_; }
   bool has_water() const;
 
+  // What heights are multiplied with for the light.
+  double slope_scale() const { return slope_scale_; }
+
   // The triangles' lines fade in from the middle to the right. `line_width` in pixels.
   void draw(Canvas& canvas, const MapFrame& frame, double line_width) const;
 
@@ -41,6 +44,7 @@ class Relief {
   std::optional<int64_t> water_;
   std::vector<Vector> normals_;  // upward, of any length
   int64_t lowest_ = 0, highest_ = 0;
+  double slope_scale_ = 1;
 };
 
 }  // namespace microtin::picture
