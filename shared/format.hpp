@@ -20,8 +20,8 @@ constexpr uint32_t kMaxVertices = 16777216;  // 2^24
 constexpr uint32_t kSectionVertices = 256;
 
 // Payload bytes that suffice for any step. Most are used by a vertex on a hull edge: a decision,
-// its gap (18 decisions and 15 uniform bits) and its height (19 decisions and 15 uniform bits), at
-// 9 bits a decision, are 47 bytes (FORMAT.md, "Payload bytes of a step").
+// its gap (19 decisions and 15 uniform bits) and its height (19 decisions and 15 uniform bits), at
+// 9 bits a decision, are 48 bytes (FORMAT.md, "Payload bytes of a step").
 constexpr uint32_t kStepBytes = 48;
 
 // Bytes of zero that stand virtually behind a section's payload.

@@ -5,6 +5,7 @@
 
 #include "shared/format.hpp"
 #include "shared/height_coding.hpp"
+#include "shared/parity_coding.hpp"
 
 namespace microtin {
 
@@ -37,10 +38,32 @@ uint16_t code_outer_coordinate(Coder& coder, uint32_t largest, uint32_t value) {
   return static_cast<uint16_t>(coder.uniform(largest + 1u, value));
 }
 
-// A point on the edge, if that is at the border, or anywhere. `density` is the logarithm of
-// vertices per unit area. Gaps that lead too far give a, which is not beyond the edge.
+// How many steps beyond a the next point on an edge at the border is. Such that lead too far give
+// 0. `density` is the logarithm of vertices per unit area.
 template <class Coder>
-Point code_hull_place(Coder& coder, ExponentModel& gap, MantissaModel& mantissa,
+int32_t code_gap(Coder& coder, ExponentModel& gap, MantissaModel& mantissa, Parities& parities,
+                 const Contract& contract, const HullEdge& edge, Log2 density, FastInt known) {
+  const bool along_x = edge.along.y == 0;
+  const bool odd =
+      along_x ? is_odd(edge.a.x, contract.odd_origin_x) : is_odd(edge.a.y, contract.odd_origin_y);
+  Tally& tally = parities.first[along_x ? 0 : 1];
+  const Ruling steps = rule(coder, tally, Lines{1, edge.length - 1}, odd, known);
+  uint32_t bits = density < 0 ? static_cast<uint32_t>(-density) / (2 * kLog2One) : 0;  // at most 16
+  if (steps.step == 2 && bits != 0) --bits;
+  const FastInt first = steps.numbers.first;
+  const FastInt number = first + static_cast<FastInt>(code_magnitude(
+                                     coder, gap, mantissa, bits,
+                                     static_cast<uint32_t>(number_of(steps, known) - first)));
+  if (number > steps.numbers.last) return 0;
+  const FastInt gone = line_at(steps, number);
+  learn(tally, is_odd(gone, odd));
+  return static_cast<int32_t>(gone);
+}
+
+// A point on the edge, if that is at the border, or anywhere. Gaps that lead too far give a, which
+// is not beyond the edge.
+template <class Coder>
+Point code_hull_place(Coder& coder, ExponentModel& gap, MantissaModel& mantissa, Parities& parities,
                       const Contract& contract, const HullEdge& edge, Log2 density) {
   const Vertex next = coder.next();
   Point place = {next.x, next.y};
@@ -50,14 +73,11 @@ Point code_hull_place(Coder& coder, ExponentModel& gap, MantissaModel& mantissa,
     return place;
   }
   const Offset past = place - edge.a;
-  const uint32_t spacing =  // at most 16
-      density < 0 ? static_cast<uint32_t>(-density) / (2 * kLog2One) : 0;
-  const int32_t steps = 1 + static_cast<int32_t>(code_magnitude(
-                                coder, gap, mantissa, spacing,
-                                static_cast<uint32_t>(absolute(past.x + past.y)) - 1u));
-  const int32_t length = edge.length, held = steps < length ? steps : 0;
-  return Point{static_cast<uint16_t>(edge.a.x + edge.along.x / length * held),
-               static_cast<uint16_t>(edge.a.y + edge.along.y / length * held)};
+  const int32_t length = edge.length;
+  const int32_t steps =
+      code_gap(coder, gap, mantissa, parities, contract, edge, density, absolute(past.x + past.y));
+  return Point{static_cast<uint16_t>(edge.a.x + edge.along.x / length * steps),
+               static_cast<uint16_t>(edge.a.y + edge.along.y / length * steps)};
 }
 
 }  // namespace microtin

@@ -10,17 +10,9 @@
 
 #include "shared/format.hpp"
 #include "shared/free_region.hpp"
+#include "shared/parity_coding.hpp"
 
 namespace microtin {
-
-// Lattice lines, both ends included.
-struct Lines {
-  FastInt first, last;
-};
-
-inline FastInt count_of(const Lines& lines) {
-  return lines.last - lines.first + 1;
-}
 
 // A circle through v, in grains: at x it reaches from y - r to y + r with r^2 = x (x2 - x) + yy.
 struct Circle {
@@ -35,14 +27,15 @@ struct Span {
 };
 
 struct LegalPlaces {
-  int32_t turns;        // quarters, counter-clockwise
-  int32_t shift;        // of grains: -10 .. 10
-  Lines columns, rows;  // of the lattice
-  Span height;          // the lattice's rows in grains
-  Spot c, a;            // corners, below 2^11
-  Circle own;           // its centre is below 2^13, its radius below 2^13.5
-  Circle behind[2];     // the chord, side 0
-  bool cuts[2];         // whether that circle is known and near
+  int32_t turns;             // quarters, counter-clockwise
+  int32_t shift;             // of grains: -10 .. 10
+  Lines columns, rows;       // of the lattice
+  Span height;               // the lattice's rows in grains
+  Spot c, a;                 // corners, below 2^11
+  Circle own;                // its centre is below 2^13, its radius below 2^13.5
+  Circle behind[2];          // the chord, side 0
+  bool cuts[2];              // whether that circle is known and near
+  bool odd_column, odd_row;  // whether v's are odd
 };
 
 template <class Place>
@@ -93,6 +86,11 @@ inline void find_lattice(LegalPlaces& places, const Contract& contract, Point or
   const Offset last = turned(Point{contract.x_max, contract.y_max} - origin, places.turns);
   places.columns = in_order(first.x, last.x);
   places.rows = in_order(first.y, last.y);
+  const bool odd_x = is_odd(origin.x, contract.odd_origin_x);
+  const bool odd_y = is_odd(origin.y, contract.odd_origin_y);
+  const bool upright = (places.turns & 1) == 0;
+  places.odd_column = upright ? odd_x : odd_y;
+  places.odd_row = upright ? odd_y : odd_x;
   places.height =
       Span{shifted(places.rows.first, places.shift), shifted(places.rows.last, places.shift)};
 }

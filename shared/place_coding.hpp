@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Coding of the next point's place in the free region of the triangle it conflicts with: first its
-// column, by halves of those that hold legal places, then its row, by halves of the column's legal
-// part. What remains is uniform. An escape serves every place that the estimates have missed.
+// column, among those that hold legal places, then its row, in the column's legal part: of both
+// first whether they are even, then by halves, and what remains is uniform. An escape serves every
+// place that the estimates have missed.
 #ifndef MICROTIN_SHARED_PLACE_CODING_HPP
 #define MICROTIN_SHARED_PLACE_CODING_HPP
 
@@ -62,8 +63,6 @@ struct Halves {
   uint32_t low, high;  // weights, 1..2^15
 };
 
-constexpr FastInt kFewLines = 32;  // of fewer the halves' counts differ noticeably
-
 template <class Coder>
 bool code_half(Coder& coder, Calibration& calibration, Lines& lines, Halves weight, FastInt line) {
   const FastInt count = count_of(lines), half = count >> 1;
@@ -86,7 +85,7 @@ inline Halves halves_of(Halves weight, bool upper) {
                 static_cast<uint32_t>(second > least ? second : least)};
 }
 
-// Keeps of `lines` a part that holds `line`. `weigh` is asked at twice a line.
+// Keeps of `lines` a part that holds `line`. `weigh` is asked at twice a number.
 template <class Coder, class Weigh>
 void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, Depth depth,
                  const Weigh& weigh) {
@@ -121,64 +120,93 @@ struct Place {
   PlaceOdds odds;
 };
 
+// What is learned of places beside adaptive bits.
+struct PlaceHabits {
+  Crowding crowding;
+  Parities parities;
+};
+
+inline void reset(PlaceHabits& habits) {
+  habits.crowding = kCrowdingStart;
+  reset(habits.parities);
+}
+
+// Twice a number, plus the base, counts grains times 2^-this.
+inline int32_t twice_shift(const Ruling& ruling, int32_t shift) {
+  return shift - (ruling.step == 1 ? 1 : 0);
+}
+
+// Codes x, or the nearest column with legal places.
 template <class Coder>
-FastInt code_column(Coder& coder, PlaceModel& model, const FreeRegion& region, const Place& place,
-                    Depth depth, FastInt x) {
-  Columns columns = legal_columns(place.legal, region);
-  Lines& lines = columns.lines;
-  if (x < lines.first) x = lines.first;
-  if (x > lines.last) x = lines.last;
+FastInt code_column(Coder& coder, PlaceModel& model, const Tally& tally, const FreeRegion& region,
+                    const Place& place, Depth depth, FastInt x) {
+  const LegalPlaces& legal = place.legal;
+  const Columns columns = legal_columns(legal, region);
+  if (x < columns.lines.first) x = columns.lines.first;
+  if (x > columns.lines.last) x = columns.lines.last;
+  Ruling ruling = rule(coder, tally, columns.lines, legal.odd_column, x);
+  const FastInt number = number_of(ruling, x);
   if (depth.weighed == 0) {
     const uint32_t context = (columns.open_east ? 0u : 1u) + (columns.open_west ? 0u : 2u) +
                              (region.side[0].certified ? 4u : 0u) +
                              (expected_points(region) > 1 ? 8u : 0u);
-    code_quarter(coder, model.quick_column[context], lines, x);
+    code_quarter(coder, model.quick_column[context], ruling.numbers, number);
   } else {
-    code_halves(coder, model.column, lines, x, depth, [&place](FastInt twice) {
-      return column_weight(place.odds, place.legal, grains(twice, place.legal.shift));
+    const FastInt base = ruling.base;
+    const int32_t shift = twice_shift(ruling, legal.shift);
+    code_halves(coder, model.column, ruling.numbers, number, depth, [=, &place](FastInt twice) {
+      return column_weight(place.odds, place.legal, shifted(twice + base, shift));
     });
   }
-  return code_line(coder, lines, x);
+  return line_at(ruling, code_line(coder, ruling.numbers, number));
 }
 
 template <class Coder>
-FastInt code_row(Coder& coder, PlaceModel& model, const FreeRegion& region, const Place& place,
-                 Depth depth, Offset at, Lines rows, Span own) {
+FastInt code_row(Coder& coder, PlaceModel& model, const Tally& tally, const FreeRegion& region,
+                 const Place& place, Depth depth, Offset at, Lines rows, Span own) {
   const LegalPlaces& legal = place.legal;
   const int32_t x = grains(2 * at.x, legal.shift);
+  Ruling ruling = rule(coder, tally, rows, legal.odd_row, at.y);
+  const FastInt number = number_of(ruling, at.y);
   if (depth.weighed == 0) {
     const uint32_t zone = x < legal.a.x ? 4u : x > 0 ? 8u : 0u;
-    code_quarter(coder, model.quick_row[zone + expected_points(region)], rows, at.y);
+    code_quarter(coder, model.quick_row[zone + expected_points(region)], ruling.numbers, number);
   } else {
-    code_halves(coder, model.row, rows, at.y, depth, [&place, own, x](FastInt twice) {
-      return weight_at(place.odds, place.legal, own, x, grains(twice, place.legal.shift));
+    const FastInt base = ruling.base;
+    const int32_t shift = twice_shift(ruling, legal.shift);
+    code_halves(coder, model.row, ruling.numbers, number, depth, [=, &place](FastInt twice) {
+      return weight_at(place.odds, place.legal, own, x, shifted(twice + base, shift));
     });
   }
-  return code_line(coder, rows, at.y);
+  return line_at(ruling, code_line(coder, ruling.numbers, number));
 }
 
 // Codes `at`, as seen from v and turned.
 template <class Coder>
 Offset code_turned_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
-                         const Place& place, Decoding decoding, Offset at, Crowding& crowding) {
+                         const Place& place, Decoding decoding, Offset at, PlaceHabits& habits) {
   const Depth depth = depth_of(decoding);
   const LegalPlaces& legal = place.legal;
 #if defined(__clang_analyzer__)
   if (legal.shift < -10 || legal.shift > 10) return at;  // never: it does not follow so far
 #endif
-  const FastInt x = code_column(coder, model, region, place, depth, at.x);
+  Tally& first = habits.parities.first[legal.turns & 1];
+  const FastInt x = code_column(coder, model, first, region, place, depth, at.x);
   const int32_t column = grains(2 * x, legal.shift);
   const Span own = own_span(legal.own, column, 1, FineRoot());
   const Lines rows = legal_rows(legal, legal_span(legal, column, own, 1, FineRoot()));
+  Tally& second = habits.parities.second[legal.turns & 1][is_odd(x, legal.odd_column) ? 1 : 0];
   const bool missed = x != at.x || at.y < rows.first || at.y > rows.last;
   if (code_bit(coder, model.escape, missed)) {
     at.x = code_line(coder, legal.columns, at.x);
     at.y = code_line(coder, legal.rows, at.y);
     return at;
   }
-  at = Offset{x, code_row(coder, model, region, place, depth, Offset{x, at.y}, rows, own)};
+  at = Offset{x, code_row(coder, model, second, region, place, depth, Offset{x, at.y}, rows, own)};
+  learn(first, is_odd(at.x, legal.odd_column));
+  learn(second, is_odd(at.y, legal.odd_row));
   if (place.odds.repels) {
-    learn(crowding, place.odds, legal, Spot{column, grains(2 * at.y, legal.shift)});
+    learn(habits.crowding, place.odds, legal, Spot{column, grains(2 * at.y, legal.shift)});
   }
   return at;
 }
@@ -187,7 +215,7 @@ Offset code_turned_place(Coder& coder, PlaceModel& model, const FreeRegion& regi
 // area.
 template <class Coder>
 Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
-                  const Contract& contract, Log2 density, Place& place, Crowding& crowding) {
+                  const Contract& contract, Log2 density, Place& place, PlaceHabits& habits) {
   const Cotangent own = cotangent(region.cc - region.ca, region.twice, kOwnCap);
   const Side& chord = region.side[kChord];
   Cotangent behind = chord.ghost ? -4 * (1 << kCotangentBits) : chord.behind;
@@ -196,12 +224,12 @@ Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
   place.odds.repels = contract.has_heights && contract.decoding != Decoding::kQuick;
   if (contract.decoding != Decoding::kQuick) {
     estimate_sweep(place.odds, place.legal, region, density, own, behind);
-    if (place.odds.repels) estimate_repulsion(place.odds, place.legal, density, crowding);
+    if (place.odds.repels) estimate_repulsion(place.odds, place.legal, density, habits.crowding);
   }
   const Vertex next = coder.next();
   const Offset known = turned(Point{next.x, next.y} - region.origin, place.legal.turns);
   const Offset at =
-      code_turned_place(coder, model, region, place, contract.decoding, known, crowding);
+      code_turned_place(coder, model, region, place, contract.decoding, known, habits);
   return turned(at, -place.legal.turns & 3);
 }
 

@@ -77,7 +77,7 @@ struct Reconstruction {
   int32_t density;  // log2 of this batch's points per unit area, 16 fractional bits
   Index void_cursor;
 
-  Crowding crowding;
+  PlaceHabits habits;
   // Of the triangle in hand: here to spare the stack.
   FreeRegion region;
   Place place;
@@ -103,7 +103,7 @@ inline void start(Reconstruction& r) {
   r.mesh->vertices = 0;
   r.mesh->triangles = 0;
   reset(r.models);
-  r.crowding = kCrowdingStart;
+  reset(r.habits);
 }
 
 // --- Marks -------------------------------------------------------------------------------------
@@ -251,7 +251,7 @@ template <class Coder>
 MICROTIN_IN_PLACE inline Point locate(Reconstruction& r, Coder& coder, Log2 density) {
   FreeRegion& region = r.region;
   const Offset found =
-      code_place(coder, r.models.place, region, r.contract, density, r.place, r.crowding);
+      code_place(coder, r.models.place, region, r.contract, density, r.place, r.habits);
   region.corner[0] = found;
   return Point{static_cast<uint16_t>(region.origin.x + found.x),
                static_cast<uint16_t>(region.origin.y + found.y)};
@@ -265,8 +265,8 @@ Decision decide_at_hull(Reconstruction& r, Coder& coder, Log2 density) {
   const HullEdge edge = hull_edge(r);
   if (edge.length == 1) return Decision::kMiss;  // there is no place beyond it
   if (!code_hit(r, coder, estimate_hull_hit(edge, density))) return Decision::kMiss;
-  const Point place =
-      code_hull_place(coder, r.models.gap, r.models.height.mantissa, r.contract, edge, density);
+  const Point place = code_hull_place(coder, r.models.gap, r.models.height.mantissa,
+                                      r.habits.parities, r.contract, edge, density);
   return insert(r, coder, place) ? Decision::kHit : Decision::kMalformed;
 }
 

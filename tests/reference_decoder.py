@@ -290,6 +290,7 @@ class Header(NamedTuple):
     vertices: int
     columns: int
     rows: int
+    odd_origin: tuple
 
 
 def read_header(reader):
@@ -308,7 +309,8 @@ def read_header(reader):
     require(max(columns, rows) <= 1 << 16, "a side is out of bounds")
     if properties & 4:
         check_placement(payload)
-    return Header(bool(properties & 1), bool(properties & 2), degree, decoding, vertices, columns, rows)
+    odd_origin = properties >> 11 & 1, properties >> 12 & 1
+    return Header(bool(properties & 1), bool(properties & 2), degree, decoding, vertices, columns, rows, odd_origin)
 
 
 def check_placement(reader):
@@ -434,6 +436,46 @@ class Models:
         self.gap = bits(7)
         self.void = bits(7)
         self.crowding = 2048
+        self.tallies = [Tally(), Tally()]
+        self.next_tallies = [[Tally(), Tally()], [Tally(), Tally()]]
+
+
+class Tally:
+    """Of lines, even and odd ones."""
+
+    def __init__(self):
+        self.met = [1, 1]
+
+    def prefers_one(self):
+        return max(self.met) > 2 * min(self.met)
+
+    def learn(self, odd):
+        self.met[odd] += 1
+        if sum(self.met) > 512:
+            self.met = [(count + 1) >> 1 for count in self.met]
+
+    def decode_odd(self, coder, lines):
+        """Of lines that count from an even one."""
+        even, odd = self.met
+        n = lines.count()
+        if n % 2 == 1 and n < 32:
+            even *= lines.count_of_parity(0)
+            odd *= lines.count_of_parity(1)
+        return coder.bit(keep_within(64, (odd << 15) // (even + odd), 32704))
+
+
+class Ruling:
+    """What is left of lines once a parity may have been decoded: number i is line step * i + base."""
+
+    def __init__(self, coder, tally, lines, odd_origin):
+        self.numbers, self.step, self.base = lines, 1, 0
+        if lines.count() > 1 and tally.prefers_one():
+            odd = tally.decode_odd(coder, lines.moved(odd_origin))
+            self.step, self.base = 2, odd - odd_origin
+            self.numbers = Lines(-((self.base - lines.first) // 2), (lines.last - self.base) // 2)
+
+    def line(self, number):
+        return self.step * number + self.base
 
 
 class Density:
@@ -469,8 +511,15 @@ class HullEdge:
     def decode_place(self, coder, models, density):
         if not self.is_border():
             return tuple(decode_outer_coordinate(coder, n) for n in (self.header.columns, self.header.rows))
-        k = 1 + decode_magnitude(coder, models.gap, models.second, max(0, -density) // 512)
-        require(k < self.length(), "vertex is beyond its hull edge")
+        axis = 0 if self.d[1] == 0 else 1
+        odd = (self.a[axis] + self.header.odd_origin[axis]) % 2
+        tally = models.tallies[axis]
+        ruling = Ruling(coder, tally, Lines(1, self.length() - 1), odd)
+        typical = max(0, max(0, -density) // 512 - (ruling.step - 1))
+        number = ruling.numbers.first + decode_magnitude(coder, models.gap, models.second, typical)
+        require(number <= ruling.numbers.last, "vertex is beyond its hull edge")
+        k = ruling.line(number)
+        tally.learn((k + odd) % 2)
         return tuple(at + k * (d // self.length()) for at, d in zip(self.a, self.d))
 
 
@@ -571,6 +620,12 @@ class Lines(NamedTuple):
     def count(self):
         return self.last - self.first + 1
 
+    def moved(self, by):
+        return Lines(self.first + by, self.last + by)
+
+    def count_of_parity(self, odd):
+        return (self.last - odd) // 2 - (self.first - odd - 1) // 2
+
     def half(self, upper):
         middle = self.first + self.count() // 2
         return Lines(middle, self.last) if upper else Lines(self.first, middle - 1)
@@ -647,6 +702,10 @@ class PlaceDecoder:
         first = self.turn(minus((0, 0), candidate.v))
         last = self.turn(minus((header.columns - 1, header.rows - 1), candidate.v))
         self.columns, self.rows = (Lines(*sorted(ends)) for ends in zip(first, last))
+        axis = self.turn.quarters % 2
+        odd = [(at + odd) % 2 for at, odd in zip(candidate.v, header.odd_origin)]
+        self.odd = odd[axis], odd[1 - axis]
+        self.tally, self.next_tallies = models.tallies[axis], models.next_tallies[axis]
         self.repulsion = None
         if header.decoding != self.QUICK:
             self.sweep = Sweep(candidate, a, f, k1, k0, density)
@@ -727,14 +786,15 @@ class PlaceDecoder:
         lines = lines.half(upper)
         return lines.half(bits[2 if upper else 1].decode(self.coder))
 
-    def decode_halves(self, calibrations, lines, weigh):
+    def decode_halves(self, calibrations, ruling, weigh):
+        lines = ruling.numbers
         for time, row in enumerate(calibrations):
             if lines.count() < 2:
                 break
             n, half = lines.count(), lines.count() >> 1
             if time < 3 or self.header.decoding == self.DENSE:
                 middle = 2 * lines.first + half - 1
-                low, high = weigh(self.grain(middle)), weigh(self.grain(middle + n))
+                low, high = (weigh(self.grain(ruling.line(at) + ruling.base)) for at in (middle, middle + n))
             below, above = (low * half, high * (n - half)) if n < 32 else (low, high)
             estimate = (above << 11) // (below + above + 1) << 4
             upper = decode_between(self.coder, row, estimate >> 12, estimate >> 4 & 255)
@@ -748,21 +808,27 @@ class PlaceDecoder:
 
     def decode_column(self, n):
         lines, west, east = self.legal_columns()
+        ruling = Ruling(self.coder, self.tally, lines, self.odd[0])
         if self.header.decoding == self.QUICK:
             row = (not east) + 2 * (not west) + 4 * self.candidate.sides[0].certified + 8 * (n > 1)
-            lines = self.decode_quarter(self.models.quick_column[row], lines)
+            left = self.decode_quarter(self.models.quick_column[row], ruling.numbers)
         else:
-            lines = self.decode_halves(self.models.column, lines, self.column_weight)
-        return self.decode_line(lines)
+            left = self.decode_halves(self.models.column, ruling, self.column_weight)
+        return ruling.line(self.decode_line(left))
 
     def decode_row(self, n, column, lines, own):
         x = self.grain(2 * column)
+        tally = self.next_tallies[(column + self.odd[0]) % 2]
+        ruling = Ruling(self.coder, tally, lines, self.odd[1])
         if self.header.decoding == self.QUICK:
             zone = 4 if x < self.a[0] else 8 if x > 0 else 0
-            lines = self.decode_quarter(self.models.quick_row[n + zone], lines)
+            left = self.decode_quarter(self.models.quick_row[n + zone], ruling.numbers)
         else:
-            lines = self.decode_halves(self.models.row, lines, lambda y: self.place_weight(x, y, own))
-        return self.decode_line(lines)
+            left = self.decode_halves(self.models.row, ruling, lambda y: self.place_weight(x, y, own))
+        row = ruling.line(self.decode_line(left))
+        self.tally.learn((column + self.odd[0]) % 2)
+        tally.learn((row + self.odd[1]) % 2)
+        return row
 
     def decode(self, expected):
         n = keep_within(0, (expected + 256) >> 8, 3)

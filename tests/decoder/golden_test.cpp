@@ -6,8 +6,10 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
+#include <utility>
 
 #include "shared/start_probabilities.hpp"
 #include "tests/support/files.hpp"
@@ -37,6 +39,26 @@ Tin cliffs(Random& random) {
   tin.vertices.push_back(Vertex{30000, 2, 0});
   for (Vertex& v : tin.vertices) v.z = random.below(2) == 0 ? INT16_MIN : INT16_MAX;
   return tin;
+}
+
+// Odd x, and seven of eight y even, but for some vertices on the border; with corners.
+Tin on_every_other_line(const Tin& tin) {
+  std::map<std::pair<uint16_t, uint16_t>, int16_t> heights;
+  uint32_t i = 0;
+  for (const Vertex& v : tin.vertices) {
+    const bool west = i % 16 == 0, north = i % 16 == 8;
+    const uint32_t y = i % 8 == 4 ? v.y : v.y & ~1u;
+    heights[{static_cast<uint16_t>(west ? 0 : v.x | 1u), static_cast<uint16_t>(north ? 1000 : y)}] =
+        v.z;
+    ++i;
+  }
+  const uint16_t ends[] = {0, 1000};
+  for (const uint16_t x : ends) heights[{x, ends[0]}] = heights[{x, ends[1]}] = 7;
+  Tin on_lines;
+  for (const auto& [place, z] : heights) {
+    on_lines.vertices.push_back(Vertex{place.first, place.second, z});
+  }
+  return on_lines;
 }
 
 std::vector<Golden> golden_streams() {
@@ -69,6 +91,10 @@ std::vector<Golden> golden_streams() {
                  encode(flat(lattice_points(40, 30, random)), Metadata(), {6, Decoding::kQuick})});
   all.push_back(
       {"corners", encode(flat(extreme_corners(random)), Metadata(), {12, Decoding::kDense})});
+  // A tile of a pack, on every other line but for some places, up to its border.
+  all.push_back({"parities", encode_and_decode(on_every_other_line(rolling_tin(1500, 35)),
+                                               Metadata(), Effort(), Origin{true, false})
+                                 .stream});
   return all;
 }
 

@@ -44,7 +44,7 @@ struct Case {
   Point v, c, a;  // counter-clockwise
   Side side[3];
   Log2 density;
-  Crowding crowding;
+  PlaceHabits habits;
 };
 
 FreeRegion region_of(const Case& given) {
@@ -69,8 +69,8 @@ Offset code(Coder& coder, const Case& given, const Contract& contract) {
   const FreeRegion region = region_of(given);
   PlaceModel bits = model();
   Place place;
-  Crowding crowding = given.crowding;
-  return code_place(coder, bits, region, contract, given.density, place, crowding);
+  PlaceHabits habits = given.habits;
+  return code_place(coder, bits, region, contract, given.density, place, habits);
 }
 
 // Whether a place comes back in each setting of decoding.
@@ -107,6 +107,11 @@ Side random_side(Random& random, uint32_t size, Point v, Point from, Point to, b
   return side;
 }
 
+Tally random_tally(Random& random) {
+  const auto even = static_cast<uint16_t>(1 + random.below(kTallyMost - 1));
+  return Tally{{even, static_cast<uint16_t>(1 + random.below(kTallyMost - even))}};
+}
+
 Case random_case(Random& random, uint32_t size) {
   Case given{};
   do {
@@ -118,7 +123,11 @@ Case random_case(Random& random, uint32_t size) {
   given.side[1] = random_side(random, size, given.v, given.c, given.a, random.below(2) == 0);
   given.side[kChord] = random_side(random, size, given.v, given.a, given.v, true);
   given.density = static_cast<Log2>(random.below(32768)) - 16384;
-  given.crowding = kCrowdingLeast + static_cast<Crowding>(random.below(kCrowdingMost));
+  given.habits.crowding = kCrowdingLeast + static_cast<Crowding>(random.below(kCrowdingMost));
+  for (Tally& tally : given.habits.parities.first) tally = random_tally(random);
+  for (auto& tallies : given.habits.parities.second) {
+    for (Tally& tally : tallies) tally = random_tally(random);
+  }
   return given;
 }
 
@@ -141,8 +150,10 @@ TEST_CASE("every place of a lattice comes back, whatever is estimated of it") {
   Random random(61);
   uint32_t lost = 0;
   for (const uint32_t size : {4u, 12u, 60u, 500u, 8000u, 65536u}) {
-    const Contract contract = square_lattice(size);
+    Contract contract = square_lattice(size);
     for (int i = 0; i < 3000; ++i) {
+      contract.odd_origin_x = random.below(2) != 0;
+      contract.odd_origin_y = random.below(2) != 0;
       const Case given = i % 8 == 0 ? needle(random, size) : random_case(random, size);
       if (orient2d(given.v, given.c, given.a) <= 0) continue;
       for (int j = 0; j < 3; ++j) {
@@ -177,11 +188,12 @@ TEST_CASE("hardly a legal place is missed") {
       ++legal;
       Place at;
       PlaceModel bits = model();
-      Crowding crowding = kCrowdingStart;
+      PlaceHabits habits;
+      reset(habits);
       Contract quick = contract;
       quick.decoding = Decoding::kQuick;
       Recorder recorder{Vertex{place.x, place.y, 0}, {}};
-      code_place(recorder, bits, region, quick, 0, at, crowding);
+      code_place(recorder, bits, region, quick, 0, at, habits);
       missed += bits.escape.fast > adaptive_bit(128).fast;
     }
   }

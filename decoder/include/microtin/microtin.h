@@ -50,7 +50,7 @@
 #define MICROTIN_MESH_BYTES_FOR(capacity, bits) \
   (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
-  (((bits) == 16 ? 2439ul : 2647ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
+  (((bits) == 16 ? 2463ul : 2671ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
 
 /* Bytes of the buckets of microtin_buckets_init: a constant expression, side * side numbers. */
 #define MICROTIN_BUCKETS_BYTES(side) (20ul + MICROTIN_INDEX_BITS / 8 * 1ul * (side) * (side))
