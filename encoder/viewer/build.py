@@ -17,8 +17,9 @@ def bundled(entry, *options):
 
 
 def page(module):
-    worker = bundled("worker.js", f"--alias:microtin={Path(module).resolve()}")
-    script = bundled("main.js", f"--define:VIEWER_WORKER={json.dumps(worker)}")
+    decoder = bundled("decoder.js", f"--alias:microtin={Path(module).resolve()}")
+    script = bundled("main.js", f"--define:VIEWER_DECODER={json.dumps(decoder)}",
+                     f"--define:VIEWER_DRAWER={json.dumps(bundled('drawer.js'))}")
     text = (HERE / "page.html").read_text()
     for place, content in {"STYLE": (HERE / "style.css").read_text(), "SCRIPT": script}.items():
         text = text.replace(f"@{place}@", content.strip())

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The page: what the worker decodes is drawn, and what the user wants is done.
 import { Camera } from "./camera.js";
-import { Scene } from "./scene.js";
 
 const element = (id) => document.getElementById(id);
 const canvas = element("view");
@@ -9,58 +8,77 @@ const given = JSON.parse(element("scene").textContent);
 const SYMBOLS = { metre: "m", degree: "°", "international foot": "ft", "US survey foot": "ft (US)" };
 
 const camera = new Camera();
-let scene, worker, header;
+let decoder, drawer, header;
 let phases = 1, following = true; // the last phase
-let isStale = false, pointer;
+let number = 0; // of pictures asked for
+let pointer;
 
 function say(text) {
   element("facts").textContent = text;
 }
 
-function number(value) {
+function text(value) {
   return value.toLocaleString("en", { maximumFractionDigits: 1 });
 }
 
-// --- What the worker says.
+// --- What the decoder and the drawer say.
+
+const STEEPEST = 0.15; // the range of heights in the world, at least, where the slider begins
 
 function begin(message) {
   ({ header } = message);
+  const { box, tiles } = message;
   const { waterLevel, axes } = header;
-  scene.frame({
-    ...given, box: message.box,
+  const size = [box[2] - box[0], box[3] - box[1]];
+  const unit = 2 / Math.max(size[0] * given.ground[0], size[1] * given.ground[1], 1e-9);
+  const units = given.ground.map((length) => length * unit);
+  const range = (given.heights[1] - given.heights[0]) * units[2];
+  element("scale").value = Math.max(1, STEEPEST / (range || STEEPEST));
+  element("tiles-label").hidden = tiles.length < 2;
+  drawer.postMessage({
+    kind: "frame", units, heights: given.heights, middle: [box[0] + size[0] / 2, box[1] + size[1] / 2],
     water: waterLevel === undefined ? undefined : { height: waterLevel, half: axes.z.step / 100 },
   });
-  scene.scale = Math.min(10, Math.max(1, 0.15 / (scene.range || 1)));
-  element("scale").value = scene.scale;
-  element("tiles-label").hidden = message.tiles.length < 2;
 }
 
-function addMesh(message) {
-  scene.add(message);
+function progress(message) {
+  say(factsOf(message));
   phases = Math.max(phases, message.phase);
   element("phase").max = phases;
   if (following) element("phase").value = phases;
 }
 
+function showFlat({ message }) {
+  element("why").textContent = `The terrain is shown flat: ${message}.`;
+  element("flat").hidden = false;
+  for (const id of ["view", "controls"]) element(id).hidden = true;
+  document.body.dataset.state = "flat";
+}
+
 function factsOf({ kind, bytes, vertices }) {
   const { accuracy, units } = header;
   const unit = SYMBOLS[units?.vertical] ?? "";
-  const error = accuracy ? `, at most ${number(accuracy.largest)} ${unit} off` : "";
-  return `${number(vertices)} vertices, ${number(bytes)} bytes${kind === "end" ? "" : " so far"}${error}`;
+  const error = accuracy ? `, at most ${text(accuracy.largest)} ${unit} off` : "";
+  return `${text(vertices)} vertices, ${text(bytes)} bytes${kind === "end" ? "" : " so far"}${error}`;
 }
 
 const ANSWERS = {
   begin,
-  mesh: addMesh,
-  progress: (message) => say(factsOf(message)),
+  progress,
   end: (message) => {
     say(factsOf(message));
     document.body.dataset.state = "complete";
   },
+  drawn: ({ number: drawn, pointer: at, place }) => {
+    document.body.dataset.drawn = drawn;
+    if (place) decoder.postMessage({ kind: "ask", x: place[0], y: place[1] });
+    else if (at) element("pointer").textContent = "";
+  },
+  flat: showFlat,
   height: ({ x, y, height }) => {
     const unit = SYMBOLS[header.units?.vertical] ?? "", bound = header.accuracy?.bound;
     const digits = header.units?.horizontal === "degree" ? 5 : 1;
-    const terrain = Number.isNaN(height) ? "not known" : `${number(height)} ${unit}${bound ? ` ± ${bound}` : ""}`;
+    const terrain = Number.isNaN(height) ? "not known" : `${text(height)} ${unit}${bound ? ` ± ${bound}` : ""}`;
     element("pointer").textContent = `${terrain}\n${x.toFixed(digits)}, ${y.toFixed(digits)}`;
   },
   error: ({ message }) => {
@@ -69,27 +87,18 @@ const ANSWERS = {
   },
 };
 
-// --- Drawing, when something has changed.
+// --- Drawing.
 
 function refresh() {
-  if (isStale) return;
-  isStale = true;
-  requestAnimationFrame(() => {
-    isStale = false;
-    if (scene.middle) draw();
-  });
-}
-
-function draw() {
   const density = Math.min(2, devicePixelRatio || 1);
   const [width, height] = [canvas.clientWidth * density, canvas.clientHeight * density].map(Math.round);
-  if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
-  const matrix = camera.matrix(width / height), phase = Number(element("phase").value);
-  scene.draw(matrix, { phase, mesh: element("mesh").checked, tiles: element("tiles").checked });
-  if (!pointer) return;
-  const place = scene.placeAt(matrix, Math.round(pointer[0] * density), Math.round(height - 1 - pointer[1] * density), phase);
-  if (place) worker.postMessage({ kind: "ask", x: place[0], y: place[1] });
-  else element("pointer").textContent = "";
+  document.body.dataset.asked = ++number;
+  drawer.postMessage({
+    kind: "draw", number, width, height, matrix: camera.matrix(width / height),
+    phase: Number(element("phase").value), scale: Number(element("scale").value),
+    mesh: element("mesh").checked, tiles: element("tiles").checked,
+    pointer: pointer && [Math.round(pointer[0] * density), Math.round(height - 1 - pointer[1] * density)],
+  });
 }
 
 // --- What the user does.
@@ -169,7 +178,6 @@ function listen() {
   element("map").addEventListener("click", () => { camera.showMap(); refresh(); });
   element("controls").addEventListener("input", () => {
     following = Number(element("phase").value) === phases;
-    scene.scale = Number(element("scale").value);
     refresh();
   });
   addEventListener("resize", refresh);
@@ -183,23 +191,28 @@ function source() {
   return file ? { url: new URL(file, location.href).href } : { text: element("terrain").textContent };
 }
 
-function start() {
-  worker = new Worker(URL.createObjectURL(new Blob([VIEWER_WORKER], { type: "text/javascript" })));
+function workerOf(code) {
+  const worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
   worker.onmessage = ({ data }) => {
     ANSWERS[data.kind](data);
-    refresh();
+    if (data.kind !== "drawn" && data.kind !== "height") refresh();
   };
   worker.onerror = ({ message }) => ANSWERS.error({ message });
-  worker.postMessage({ kind: "show", scene: given, ...source() });
+  return worker;
+}
+
+function start() {
+  const { port1, port2 } = new MessageChannel();
+  const shown = canvas.transferControlToOffscreen();
+  drawer = workerOf(VIEWER_DRAWER);
+  decoder = workerOf(VIEWER_DECODER);
+  drawer.postMessage({ kind: "begin", canvas: shown, tints: given.tints, port: port1 }, [shown, port1]);
+  decoder.postMessage({ kind: "show", scene: given, port: port2, ...source() }, [port2]);
 }
 
 try {
-  scene = new Scene(canvas, given.tints);
-  listen();
   start();
+  listen();
 } catch (error) {
-  element("why").textContent = `The terrain is shown flat: ${error.message}.`;
-  element("flat").hidden = false;
-  for (const id of ["view", "controls"]) element(id).hidden = true;
-  document.body.dataset.state = "flat";
+  showFlat(error);
 }

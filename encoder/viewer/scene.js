@@ -82,7 +82,6 @@ export class Scene {
     this.gl = gl;
     this.programs = { ground: compile(gl, GROUND), line: compile(gl, LINE), place: compile(gl, PLACE) };
     this.meshes = new Map(); // by tile: one for each phase
-    this.scale = 1;
     this.#putTints(tints);
     this.#makePlaceTarget();
     gl.enable(gl.DEPTH_TEST);
@@ -113,15 +112,12 @@ export class Scene {
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   }
 
-  // The extent in real coordinates, how long units are, and the lowest and highest height.
-  frame({ box, ground, heights: [lowest, highest], water }) {
-    const size = [box[2] - box[0], box[3] - box[1]];
-    this.middle = [box[0] + size[0] / 2, box[1] + size[1] / 2];
-    this.ground = ground;
-    this.unit = 2 / Math.max(size[0] * ground[0], size[1] * ground[1], 1e-9);
+  // The real middle, how long units of x, y and heights are in the world, and the lowest and highest height.
+  frame({ middle, units, heights: [lowest, highest], water }) {
+    this.middle = middle;
+    this.units = units;
     this.heights = [lowest, 1 / Math.max(highest - lowest, 1e-9)];
     this.lowest = lowest;
-    this.range = (highest - lowest) * ground[2] * this.unit;
     this.water = water;
   }
 
@@ -161,15 +157,16 @@ export class Scene {
   #use(name, matrix) {
     const { gl } = this;
     const program = this.programs[name];
-    const [x, y, up] = this.ground;
     gl.useProgram(program);
     gl.uniformMatrix4fv(gl.getUniformLocation(program, "view"), false, matrix);
-    gl.uniform3f(gl.getUniformLocation(program, "stretch"), x * this.unit, y * this.unit, this.scale * up * this.unit);
+    gl.uniform3f(gl.getUniformLocation(program, "stretch"), this.units[0], this.units[1], this.scale * this.units[2]);
     return program;
   }
 
-  draw(matrix, { phase, mesh, tiles }) {
+  draw({ matrix, width, height, scale, phase, mesh, tiles }) {
     const { gl } = this;
+    if (gl.canvas.width !== width || gl.canvas.height !== height) Object.assign(gl.canvas, { width, height });
+    this.scale = scale;
     gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);

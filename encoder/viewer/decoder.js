@@ -3,6 +3,7 @@
 import { Pack, decodeStream, ready } from "microtin";
 import { edgesOf, normalsOf } from "./surface.js";
 
+let drawer; // takes meshes
 let heightAt = async () => NaN;
 let scene; // the page's: how long units are beside each other, and how light finds slopes
 
@@ -14,7 +15,7 @@ function sendMesh(mesh, tile, phase) {
   const { origin, positions, indices } = mesh;
   const normals = normalsOf(mesh, scene.ground, scene.slope);
   const arrays = { positions, normals, indices, ...edgesOf(indices) };
-  send({ kind: "mesh", tile, phase, origin, ...arrays }, Object.values(arrays).map(({ buffer }) => buffer));
+  drawer.postMessage({ kind: "mesh", tile, phase, origin, ...arrays }, Object.values(arrays).map(({ buffer }) => buffer));
 }
 
 function copyOf({ origin, positions, indices }) {
@@ -36,9 +37,9 @@ async function showStream(source) {
       send({ kind: "begin", header: terrain.header, box, tiles: [] });
     }
     sendMesh(copyOf(terrain), 0, ++phase);
-    send({ kind: "progress", bytes: terrain.bytes, vertices: terrain.vertexCount });
+    send({ kind: "progress", phase, bytes: terrain.bytes, vertices: terrain.vertexCount });
   }
-  send({ kind: "end", bytes: terrain.bytes, vertices: terrain.vertexCount });
+  drawer.postMessage({ kind: "end", bytes: terrain.bytes, vertices: terrain.vertexCount });
 }
 
 async function showPack(source) {
@@ -55,15 +56,16 @@ async function showPack(source) {
       if (mesh.done) vertices += mesh.positions.length / 3;
       sendMesh(mesh, tile, ++phase);
     }
-    send({ kind: "progress", bytes: pack.bytesRead, vertices });
+    send({ kind: "progress", phase, bytes: pack.bytesRead, vertices });
   }
-  send({ kind: "end", bytes: pack.bytesRead, vertices });
+  drawer.postMessage({ kind: "end", bytes: pack.bytesRead, vertices });
 }
 
 const isPack = (bytes) => String.fromCharCode(...bytes.subarray(0, 4)) === "mtpk";
 
-async function show({ text, url, ...given }) {
+async function show({ text, url, port, ...given }) {
   ({ scene } = given);
+  drawer = port;
   await ready;
   if (!url) {
     const bytes = Uint8Array.from(atob(text.trim()), (character) => character.charCodeAt(0));
