@@ -218,8 +218,10 @@ struct Wishes {
   uint32_t first;  // the first if there is any
 };
 
-// Notes which slots and bad tiles the course touches, and finds the first tile to be tried.
-Wishes wishes_of(microtin_pack& p, const microtin_course& course) {
+// Notes which slots and bad tiles the course touches, and finds the first tile to be tried. What it
+// needs on the stack is not there while a tile is decoded.
+MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE Wishes wishes_of(microtin_pack& p,
+                                                        const microtin_course& course) {
   Wishes wishes = {false, false, false, false, 0};
   ++p.clock;
   uint32_t left = p.slot_count + 1u;  // one that does not fit is enough to know
@@ -271,6 +273,14 @@ microtin_status prepare_tile(microtin_pack& p, const microtin_course& course, ui
   return status;
 }
 
+// Bytes that are wanted next and lie in one sector.
+uint32_t wanted_now(const microtin_pack& p) {
+  const uint32_t left = static_cast<uint32_t>(p.wanted - p.buffered);
+  if (p.sector == 0) return left;
+  const uint32_t room = p.sector - (static_cast<uint32_t>(p.next) & (p.sector - 1u));
+  return left < room ? left : room;
+}
+
 // What follows from what storage said. NEED_INPUT: go on.
 microtin_status hear_storage(microtin_pack& p) {
   const Storage said = p.storage;
@@ -312,6 +322,7 @@ microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots,
     microtin_mesh_init(mesh_space, static_cast<size_t>(mesh_bytes), &p.slots[i].mesh);
   }
   p.clock = 0;
+  p.sector = 0;
   microtin_pack_reset(&p);
   *pack = &p;
   return MICROTIN_DONE;
@@ -326,6 +337,12 @@ void microtin_pack_reset(microtin_pack* pack) {
   forget_bad_tiles(p);
   for (uint32_t i = 0; i < p.slot_count; ++i) set_state(p.slots[i], SlotState::kEmpty);
   give_up(p);
+}
+
+microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector) {
+  if (pack == nullptr || sector > 32768 || (sector & (sector - 1)) != 0) return MICROTIN_ARGUMENT;
+  pack->sector = static_cast<uint16_t>(sector);
+  return MICROTIN_DONE;
 }
 
 microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course* course,
@@ -343,11 +360,11 @@ microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course
 void microtin_pack_wanted(microtin_pack* pack, uint64_t* offset, uint8_t** buffer, size_t* size) {
   *offset = pack->next;
   *buffer = pack->buffer + pack->buffered;
-  *size = static_cast<size_t>(pack->wanted - pack->buffered);
+  *size = static_cast<size_t>(wanted_now(*pack));
 }
 
 void microtin_pack_given(microtin_pack* pack, int32_t taken) {
-  const int32_t most = pack->wanted - pack->buffered;
+  const int32_t most = static_cast<int32_t>(wanted_now(*pack));
   if (most == 0) return;
   if (taken <= 0 || taken > most) {
     pack->storage = taken == 0 ? Storage::kEnds : Storage::kFailed;

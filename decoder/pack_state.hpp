@@ -69,6 +69,7 @@ struct microtin_pack {
   // The next bytes wanted, and those that came.
   uint64_t next;
   uint8_t wanted, buffered, fed;
+  uint16_t sector;  // no read crosses a multiple of it; a power of two, or 0: they may
   bool is_counted;
   bool is_legal;  // the stream begins as a tile's does
   uint8_t buffer[microtin::kPackBuffer];

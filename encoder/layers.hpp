@@ -58,7 +58,8 @@ namespace picture {
 using namespace exporting;
 }
 
-// The encoder as a library: terrain in, verified stream or pack and report out.
+// The encoder as a library: terrain in, verified stream or pack and report out; and read back. What
+// others use of it is in encoder/include, which is all that the folders gdal, python and qgis know.
 namespace product {
 using namespace picture;
 }

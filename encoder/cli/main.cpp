@@ -368,11 +368,13 @@ void add_embed(CLI::App& app, Action& action) {
     std::string input, output;
   };
   auto request = std::make_shared<Request>();
-  CLI::App& command =
-      *app.add_subcommand("embed", "Turn a stream into a C header, to be linked into firmware");
-  add_stream(command, request->input, "A stream (.mtin)");
+  CLI::App& command = *app.add_subcommand(
+      "embed", "Turn a stream or a pack into a C header, to be linked into firmware");
+  add_stream(command, request->input, "A stream or a pack");
   add_output(command, request->output);
-  command.footer("X.h defines the array X_stream and X_VERTICES, the capacity that it needs.");
+  command.footer(
+      "X.h defines the array X_stream and X_VERTICES, the capacity that it needs; of a pack, "
+      "X_pack and X_MOST_VERTICES, that of a slot.");
   command.callback(
       [request, &action] { action = [request] { run_embed(request->input, request->output); }; });
 }

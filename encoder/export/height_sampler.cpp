@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Asks streams and packs for heights; keeps two rows of a pack's tiles decoded.
+// Asks streams and packs for heights; keeps some of a pack's tiles decoded.
 #include "encoder/export/height_sampler.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/mesh_vertex.hpp"
@@ -12,13 +15,42 @@ namespace {
 
 constexpr int64_t kFraction = 256;  // places have 8 fractional bits
 
-std::optional<int32_t> ask(const microtin_mesh* mesh, int64_t x, int64_t y, uint32_t& hint) {
-  int32_t height = 0;
-  const microtin_answer answer =
-      microtin_height_at(mesh, static_cast<int32_t>(x), static_cast<int32_t>(y), 0, &hint, &height);
-  if (answer != MICROTIN_HEIGHT) return std::nullopt;
-  return height;
-}
+// Walks from where the last question ended or, if that is far, from a bucket.
+class MeshSampler {
+ public:
+  explicit MeshSampler(const microtin_mesh* mesh) : mesh_(mesh) {}
+  MeshSampler(const MeshSampler&) = delete;
+  MeshSampler& operator=(const MeshSampler&) = delete;
+
+  std::optional<int32_t> height_at(int64_t x, int64_t y) {
+    constexpr uint32_t kNearby = 16;  // steps
+    const auto px = static_cast<int32_t>(x), py = static_cast<int32_t>(y);
+    int32_t height = 0;
+    microtin_answer answer = microtin_height_at_limited(mesh_, px, py, 0, kNearby, &hint_, &height);
+    if (answer == MICROTIN_NOT_YET) {
+      hint_ = microtin_buckets_hint(buckets(), px, py);
+      answer = microtin_height_at(mesh_, px, py, 0, &hint_, &height);
+    }
+    if (answer != MICROTIN_HEIGHT) return std::nullopt;
+    return height;
+  }
+
+ private:
+  const microtin_buckets* buckets() {
+    if (buckets_ != nullptr) return buckets_;
+    constexpr double kMostBuckets = 1023;  // a side
+    const double side_wanted = std::sqrt(microtin_vertex_count(mesh_));
+    const size_t side = static_cast<size_t>(std::min(side_wanted, kMostBuckets)) + 1;
+    storage_.resize((MICROTIN_BUCKETS_BYTES(side) + 7) / 8);
+    microtin_buckets_init(storage_.data(), storage_.size() * 8, mesh_, &buckets_);
+    return buckets_;
+  }
+
+  const microtin_mesh* mesh_;
+  uint32_t hint_ = 0;
+  std::vector<uint64_t> storage_;  // aligned to MICROTIN_ALIGNMENT; buckets_ points into it
+  microtin_buckets* buckets_ = nullptr;
+};
 
 class PackSampler {
  public:
@@ -41,8 +73,12 @@ class PackSampler {
     uint32_t first, last;
   };
   struct Tile {
-    std::optional<DecodedTerrain> terrain;
-    uint32_t hint = 0;
+    explicit Tile(std::optional<DecodedTerrain> decoded)
+        : terrain(std::move(decoded)), sampler(terrain ? terrain->mesh() : nullptr) {}
+
+    std::optional<DecodedTerrain> terrain;  // nothing if there is none
+    MeshSampler sampler;
+    uint64_t asked = 0;  // when it was asked last
   };
 
   // On a border two tiles have a say.
@@ -53,21 +89,28 @@ class PackSampler {
   }
 
   std::optional<int32_t> ask_tile(uint32_t number, int64_t x, int64_t y) {
-    const auto [found, is_new] = tiles_.try_emplace(number);
-    Tile& tile = found->second;
-    if (is_new) {
-      tile.terrain = pack_.tile(number);
-      const uint32_t columns = tile_columns(grid_);
-      tiles_.erase(tiles_.lower_bound((number / columns + 2) * columns), tiles_.end());
+    auto found = tiles_.find(number);
+    if (found == tiles_.end()) {
+      if (tiles_.size() >= 2 * size_t{tile_columns(grid_)}) forget_one();
+      found = tiles_.try_emplace(number, pack_.tile(number)).first;
     }
+    Tile& tile = found->second;
+    tile.asked = ++clock_;
     if (!tile.terrain) return std::nullopt;
     const TileBox box = tile_box(grid_, number);
-    return ask(tile.terrain->mesh(), x - box.x * kFraction, y - box.y * kFraction, tile.hint);
+    return tile.sampler.height_at(x - box.x * kFraction, y - box.y * kFraction);
+  }
+
+  void forget_one() {
+    tiles_.erase(std::min_element(tiles_.begin(), tiles_.end(), [](const auto& a, const auto& b) {
+      return a.second.asked < b.second.asked;
+    }));
   }
 
   const PackFile& pack_;
   TileGrid grid_;
-  std::map<uint32_t, Tile> tiles_;  // the last row's and the one's north of it
+  std::map<uint32_t, Tile> tiles_;
+  uint64_t clock_ = 0;
 };
 
 }  // namespace
@@ -82,10 +125,10 @@ SampledSurface sampled(const microtin_mesh* mesh) {
     surface.x_max = std::max<int64_t>(surface.x_max, x);
     surface.y_max = std::max<int64_t>(surface.y_max, y);
     surface.lowest = v == 0 ? z : std::min<int32_t>(surface.lowest, z);
+    surface.highest = v == 0 ? z : std::max<int32_t>(surface.highest, z);
   }
-  surface.height_at = [mesh, hint = uint32_t{0}](int64_t x, int64_t y) mutable {
-    return ask(mesh, x, y, hint);
-  };
+  const auto sampler = std::make_shared<MeshSampler>(mesh);
+  surface.height_at = [sampler](int64_t x, int64_t y) { return sampler->height_at(x, y); };
   return surface;
 }
 
@@ -95,6 +138,7 @@ SampledSurface sampled(const PackFile& pack) {
   surface.x_max = pack.grid().x_max;
   surface.y_max = pack.grid().y_max;
   surface.lowest = pack.header().lowest;
+  surface.highest = pack.header().highest;
   const auto sampler = std::make_shared<PackSampler>(pack);
   surface.height_at = [sampler](int64_t x, int64_t y) { return sampler->height_at(x, y); };
   return surface;

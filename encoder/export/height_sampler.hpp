@@ -18,16 +18,16 @@ namespace microtin::exporting {
 struct SampledSurface {
   Placement placement;
   int64_t x_min = 0, y_min = 0, x_max = 0, y_max = 0;  // the box that holds it
-  int32_t lowest = 0;                                  // vertex
+  int32_t lowest = 0, highest = 0;                     // vertex
   // The height at a place in the box, given with 8 fractional bits: with 16 fractional bits,
-  // nothing where there is none. Quickest near the place before.
+  // nothing where there is none. Quick anywhere, quickest near the place before.
   std::function<std::optional<int32_t>(int64_t x, int64_t y)> height_at;
 };
 
 // The mesh must outlive it.
 SampledSurface sampled(const microtin_mesh* mesh);
 
-// Decodes tiles when they are asked and keeps two rows of them: go from north to south. The pack
+// Decodes tiles when they are asked and keeps as many as two rows have, those asked last. The pack
 // must outlive it. Throws Error, also from height_at, as PackFile::tile does.
 SampledSurface sampled(const PackFile& pack);
 

@@ -3,6 +3,8 @@
 #include "encoder/fit/decimation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace microtin::fit {
 namespace {
@@ -15,6 +17,14 @@ bool contains(const std::vector<Index>& vertices, Index v) {
 // worst place ends the search early.
 constexpr std::size_t kRanks = 3;
 
+// How much dearer odd coordinates may become on the way: the search finds more when at first it
+// takes the places that fit best.
+constexpr double kDaring = 10, kCareful = 0.8;  // the part of the search after which none does
+
+uint16_t neighbour_of(uint16_t coordinate, bool after) {
+  return static_cast<uint16_t>(after ? coordinate + 1 : coordinate - 1);
+}
+
 }  // namespace
 
 Decimation::Decimation(Surface& surface)
@@ -26,8 +36,18 @@ std::size_t Decimation::remove_vertices(const Progress& progress) {
   return removed;
 }
 
-std::size_t Decimation::remove_and_move_vertices(const Progress& progress) {
+std::size_t Decimation::remove_and_move_vertices(double done, const Progress& progress) {
+  cheapness_ = std::pow(even_part(), kDaring * std::max(0.0, 1 - done / kCareful));
   return try_each(progress, [this](Index v) { return try_move(v); });
+}
+
+// The coder learns how often coordinates are even: so much dearer are odd ones.
+double Decimation::even_part() const {
+  std::size_t even = 0;
+  for (Index v = 0; v < surface_.vertex_limit(); ++v) {
+    if (surface_.has_vertex(v)) even += 2u - surface_.place(v).x % 2u - surface_.place(v).y % 2u;
+  }
+  return static_cast<double>(even) / (2.0 * surface_.vertices());
 }
 
 template <class Try>
@@ -76,14 +96,14 @@ std::vector<Index> Decimation::ring(Index v) const {
 }
 
 // Moves vertices up and down until all around is within bounds, and says whether it is.
-bool Decimation::fit(const std::vector<Index>& vertices) {
-  const bool fits = fit_.fit(vertices);
+bool Decimation::fit(const std::vector<Index>& vertices, const std::vector<Index>& fresh) {
+  if (!fit_.fit(vertices, fresh)) return false;
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (fit_.shift(i) == 0) continue;
     if (!edits_.set_height(vertices[i], surface_.height(vertices[i]) + fit_.shift(i))) return false;
   }
-  if (!fits || !std::all_of(fit_.triangles().begin(), fit_.triangles().end(),
-                            [this](Index t) { return surface_.keeps_bounds(t); })) {
+  if (!std::all_of(fit_.triangles().begin(), fit_.triangles().end(),
+                   [this](Index t) { return surface_.keeps_bounds(t); })) {
     return false;
   }
   fitted_.insert(fitted_.end(), vertices.begin(), vertices.end());
@@ -94,36 +114,83 @@ bool Decimation::try_removal(Index v) {
   const std::size_t before = edits_.size();
   const std::vector<Index> neighbours = ring(v);
   if (!edits_.remove(v)) return false;
-  if (fit(neighbours)) return true;
+  const std::vector<Index> fresh = surface_.new_triangles();
+  if (fit(neighbours, fresh)) return true;
   edits_.roll_back(before);
   return false;
 }
 
-// Says whether there is a vertex less.
+// Moves a vertex where the bound is missed without it. Says whether there is a vertex less.
 bool Decimation::try_move(Index v) {
-  std::vector<Index> vertices = ring(v);
   const Vertex old = surface_.vertex(v);
+  Hole hole{ring(v), {}};
   if (!edits_.remove(v)) return false;
-  if (fit(vertices)) return true;
+  hole.triangles = surface_.new_triangles();
+  if (fit(hole.ring, hole.triangles)) return true;
   const Sample& worst = surface_.survey().samples[fit_.worst_sample(random_below(kRanks))];
-  const Index hint = surface_.edge_of(vertices[0]);
-  if (worst.place == Point{old.x, old.y} || !surface_.can_insert(worst.place, hint)) {
+  edits_.roll_back(1);
+  if (try_cheaper_posts(old, hole)) return false;
+  const Point to{cheap(worst.place.x), cheap(worst.place.y)};
+  const std::optional<std::size_t> post = surface_.posts().find(to);
+  if (!post || to == Point{old.x, old.y} || !insert(to, nearest_height(*post), hole)) {
     edits_.roll_back(0);
     return false;
   }
-  const int16_t height = surface_.model().vertex_height(worst);
-  const Index moved = edits_.insert({worst.place.x, worst.place.y, height}, hint);
-  const std::vector<Index> neighbours = ring(moved);
-  for (const Index r : neighbours) {
-    if (!contains(vertices, r)) vertices.push_back(r);
-  }
-  vertices.push_back(moved);
-  if (!fit(vertices)) {
-    edits_.roll_back(0);
-    return false;
-  }
+  const std::vector<Index> neighbours = ring(moved_);
   return std::any_of(neighbours.begin(), neighbours.end(),
                      [this](Index r) { return !surface_.is_fixed(r) && try_removal(r); });
+}
+
+// The coordinate itself, or an even one beside it.
+uint16_t Decimation::cheap(uint16_t coordinate) {
+  constexpr std::size_t kParts = 1024;
+  const bool rounded = static_cast<double>(random_below(kParts)) < cheapness_ * kParts;
+  if (coordinate % 2 == 0 || coordinate == kLatticeMax || !rounded) return coordinate;
+  return neighbour_of(coordinate, random_below(2) != 0);
+}
+
+int16_t Decimation::nearest_height(std::size_t post) const {
+  return surface_.model().vertex_height(surface_.survey().samples[surface_.posts().number(post)]);
+}
+
+// Moves a vertex that was removed to a place beside its own that costs less, as far above the
+// source. Says whether there is one.
+bool Decimation::try_cheaper_posts(Vertex old, const Hole& hole) {
+  const std::optional<std::size_t> from = surface_.posts().find({old.x, old.y});
+  for (const bool right : {false, true}) {
+    for (const bool up : {false, true}) {
+      const bool odd_x = old.x % 2 != 0, odd_y = old.y % 2 != 0;
+      if ((!odd_x && right) || (!odd_y && up) || (!odd_x && !odd_y)) continue;
+      const Point to{odd_x ? neighbour_of(old.x, right) : old.x,
+                     odd_y ? neighbour_of(old.y, up) : old.y};
+      const std::optional<std::size_t> post = surface_.posts().find(to);
+      if (!post) continue;
+      const double z = old.z + surface_.middles()[*post] - surface_.middles()[*from];
+      if (insert(to, static_cast<int16_t>(std::lround(std::clamp(z, -32768.0, 32767.0))), hole)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+// Puts a vertex in the hole that another left, and says whether the bounds are kept then; nothing
+// has changed if not.
+bool Decimation::insert(Point place, int16_t height, const Hole& hole) {
+  const Index hint = surface_.edge_of(hole.ring[0]);
+  const std::size_t before = edits_.size();
+  if (!surface_.can_insert(place, hint)) return false;
+  moved_ = edits_.insert({place.x, place.y, height}, hint);
+  Hole filled = hole;
+  const std::vector<Index>& made = surface_.new_triangles();
+  filled.triangles.insert(filled.triangles.end(), made.begin(), made.end());
+  for (const Index r : ring(moved_)) {
+    if (!contains(filled.ring, r)) filled.ring.push_back(r);
+  }
+  filled.ring.push_back(moved_);
+  if (fit(filled.ring, filled.triangles)) return true;
+  edits_.roll_back(before);
+  return false;
 }
 
 }  // namespace microtin::fit

@@ -15,9 +15,10 @@
 namespace microtin::fit {
 
 // A local search. A vertex is removed if its neighbours find heights that keep all bounds around.
-// If not, it may move to a post where the bound is missed, and each of its new neighbours
-// is tried; if none of them can go, it stays there nevertheless, so that the search does not get
-// stuck.
+// If not, it may move to a post beside it whose place costs fewer bits, or to one where the bound
+// is missed, and each of its new neighbours is tried; if none of them can go, it stays there
+// nevertheless, so that the search does not get stuck. Places are cheap where both coordinates are
+// multiples of two.
 class Decimation {
  public:
   // The surface keeps its bounds and must outlive this.
@@ -26,17 +27,28 @@ class Decimation {
   // Tries every vertex around which something has changed since it was tried last, in an order
   // that looks random. Returns how many vertices fewer there are.
   std::size_t remove_vertices(const Progress& progress);
-  std::size_t remove_and_move_vertices(const Progress& progress);
+  // `done`: how much of the search is over, 0 .. 1.
+  std::size_t remove_and_move_vertices(double done, const Progress& progress);
 
   // Lets every vertex be tried again.
   void forget() { stale_.assign(stale_.size(), false); }
 
  private:
+  // Where a vertex was removed: its neighbours, and the triangles between them.
+  struct Hole {
+    std::vector<Index> ring, triangles;
+  };
+
   template <class Try>
   std::size_t try_each(const Progress& progress, const Try& attempt);
   bool try_removal(Index v);
   bool try_move(Index v);
-  bool fit(const std::vector<Index>& vertices);
+  bool try_cheaper_posts(Vertex old, const Hole& hole);
+  bool insert(Point place, int16_t height, const Hole& hole);
+  uint16_t cheap(uint16_t coordinate);
+  int16_t nearest_height(std::size_t post) const;
+  double even_part() const;
+  bool fit(const std::vector<Index>& vertices, const std::vector<Index>& fresh);
   std::vector<Index> ring(Index v) const;
   void note_changes();
   std::size_t random_below(std::size_t limit);
@@ -46,6 +58,8 @@ class Decimation {
   HeightFit fit_;
   std::vector<Index> fitted_;  // by the attempt in hand
   std::vector<bool> stale_;    // by vertex: nothing has changed there since it was tried
+  Index moved_ = 0;            // inserted last
+  double cheapness_ = 0;       // how likely an odd coordinate is replaced by an even one
   uint64_t random_ = 0;
 };
 

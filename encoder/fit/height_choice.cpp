@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "encoder/stream/order.hpp"
 
@@ -21,6 +22,10 @@ auto* predict_from_ring = predict_height;
 
 constexpr int32_t kReach = 4;  // steps from the prediction that are looked at
 
+// Bits that a vertex may cost more for the sake of small errors: so many if its posts then are at
+// their heights instead of at their bounds.
+constexpr double kCloseness = 4, kFlatness = 30;
+
 }  // namespace
 
 HeightChoice::HeightChoice(Surface& surface, uint32_t degree) : surface_(surface) {
@@ -28,6 +33,12 @@ HeightChoice::HeightChoice(Surface& surface, uint32_t degree) : surface_(surface
   find_dependents();
   for (const Index v : vertex_) z_.push_back(surface_.height(v));
   residual_.resize(vertex_.size());
+  find_levels();
+  const auto posts = static_cast<double>(surface.posts().size());
+  for (std::size_t p = 0; p < surface.posts().size(); ++p) {
+    radius_ += static_cast<double>(surface.radii()[p]) / posts;
+  }
+  vertices_per_radius_ = static_cast<double>(vertex_.size()) / (posts * radius_ * radius_);
   mesh_ = Mesh{place_.data(), z_.data(), nullptr, nullptr, static_cast<Index>(place_.size()), 0};
 }
 
@@ -117,32 +128,65 @@ float HeightChoice::cost_at(Index i, int32_t height) {
   return sum;
 }
 
+// What the errors of a height are worth, in bits.
+float HeightChoice::price(const Goal& goal, int32_t height) {
+  const double off = height - goal.height;
+  return static_cast<float>(goal.weight * off * off);
+}
+
+HeightChoice::Goal HeightChoice::goal_of(Index i, const Surface::Interval& allowed) const {
+  if (level_[i]) return {*level_[i], kFlatness / (radius_ * radius_)};
+  return {allowed.best - bias_, kCloseness * allowed.curvature * vertices_per_radius_};
+}
+
 void HeightChoice::choose(Index i) {
   const Index v = vertex_[i];
   const Surface::Interval allowed = surface_.allowed_heights(v);
+  const Goal goal = goal_of(i, allowed);
   const int32_t before = z_[i], predicted = predict(i).height;
   const int32_t around =
       std::clamp(predicted, std::min(allowed.low, before), std::max(allowed.high, before));
-  const auto error = [&](int32_t z) { return std::abs(z - allowed.best); };
-  float lowest = cost_at(i, before);
+  float lowest = cost_at(i, before) + price(goal, before);
   int32_t best = before;
-  for (int32_t z = std::max(allowed.low, around - kReach);
-       z <= std::min(allowed.high, around + kReach); ++z) {
-    const float cost = cost_at(i, z);
-    if (cost > lowest || (cost == lowest && error(z) >= error(best))) continue;
+  const auto consider = [&](int32_t z) {
+    const float cost = cost_at(i, z) + price(goal, z);
+    if (cost >= lowest) return;
     surface_.set_height(v, static_cast<int16_t>(z));
-    if (!surface_.keeps_bounds_around(v)) continue;
+    if (!surface_.keeps_bounds_around(v)) return;
     lowest = cost;
     best = z;
-  }
+  };
+  const int32_t low = std::max(allowed.low, around - kReach);
+  const int32_t high = std::min(allowed.high, around + kReach);
+  for (int32_t z = low; z <= high; ++z) consider(z);
+  const auto aim = static_cast<int32_t>(std::lround(std::clamp(goal.height, -32768.0, 32767.0)));
+  if ((aim < low || aim > high) && aim >= allowed.low && aim <= allowed.high) consider(aim);
   z_[i] = static_cast<int16_t>(best);
   surface_.set_height(v, z_[i]);
   residual_[i] = residual_of(best - predict(i).height);
 }
 
+// Vertices amid posts of one height.
+void HeightChoice::find_levels() {
+  const PostIndex& posts = surface_.posts();
+  const auto height = [&](int x, int y) -> std::optional<int32_t> {
+    if (x < 0 || y < 0 || x > kLatticeMax || y > kLatticeMax) return std::nullopt;
+    const auto post = posts.find({static_cast<uint16_t>(x), static_cast<uint16_t>(y)});
+    if (!post) return std::nullopt;
+    return surface_.survey().samples[posts.number(*post)].height;
+  };
+  for (const Point p : place_) {
+    const auto here = height(p.x, p.y);
+    const auto as_here = [&](int dx, int dy) { return height(p.x + dx, p.y + dy) == here; };
+    const bool flat = as_here(1, 0) && as_here(-1, 0) && as_here(0, 1) && as_here(0, -1);
+    level_.push_back(here && flat ? std::optional<double>(*here / 65536.0) : std::nullopt);
+  }
+}
+
 void HeightChoice::pass() {
   learn_costs();
   for (Index i = 0; i < z_.size(); ++i) choose(i);
+  bias_ += surface_.mean_error();
 }
 
 }  // namespace microtin::fit

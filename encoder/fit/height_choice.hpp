@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "encoder/fit/surface.hpp"
@@ -20,8 +21,9 @@ class HeightChoice {
   // degree: as for breadth_first_order.
   HeightChoice(Surface& surface, uint32_t degree);
 
-  // Gives each vertex in turn the allowed height that makes it and those that it predicts cheapest;
-  // of equal ones that with the smallest squared errors.
+  // Gives each vertex in turn the allowed height that makes it and those that it predicts cheapest,
+  // where small errors, the source's height on flat ground and what brings the mean error nearer to
+  // zero than the pass before are worth some bits.
   void pass();
 
  private:
@@ -32,6 +34,12 @@ class HeightChoice {
   void learn_costs();
   float cost(Index i) const;
   float cost_at(Index i, int32_t height);
+  void find_levels();
+  struct Goal {
+    double height, weight;
+  };
+  Goal goal_of(Index i, const Surface::Interval& allowed) const;
+  static float price(const Goal& goal, int32_t height);
   void choose(Index i);
 
   Surface& surface_;
@@ -43,6 +51,11 @@ class HeightChoice {
   std::vector<uint32_t> ring_start_, dependent_start_;
   std::vector<Index> rings_, dependents_;
   std::array<std::array<float, kMagnitudeBits + 1>, kScales> bits_{};
+
+  std::vector<std::optional<double>> level_;  // the source's height where it is flat, in steps
+  double radius_ = 0;                         // of the bounds, on average
+  double vertices_per_radius_ = 0;            // for each post, and squared
+  double bias_ = 0;                           // to be made up for, in steps
 };
 
 }  // namespace microtin::fit

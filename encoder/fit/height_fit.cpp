@@ -11,6 +11,7 @@ namespace {
 
 constexpr uint32_t kFixed = ~uint32_t{0};
 constexpr uint32_t kMostSteps = 30;
+constexpr float kHopeless = 1.2F;     // radii beyond a bound: 1 in 500 fits began worse, as counted
 constexpr double kNegligible = 1e-8;  // excess, in squared steps
 
 // Several numbers at once.
@@ -23,13 +24,74 @@ Lanes load(const float* from) {
   return lanes;
 }
 
+float sum_of(Lanes lanes) {
+  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+
 }  // namespace
 
 HeightFit::HeightFit(const Surface& surface)
     : surface_(surface), mover_(surface.vertex_limit(), kFixed), met_(surface.mesh().triangles) {}
 
-bool HeightFit::fit(const std::vector<Index>& vertices) {
-  collect(vertices);
+bool HeightFit::fit(const std::vector<Index>& vertices, const std::vector<Index>& fresh) {
+  begin(vertices);
+  for (const Index t : fresh) add_face(t);
+  bool fits = !is_hopeless() && descend();
+  if (fits) {
+    begin(vertices);
+    for (const Index v : vertices) {
+      surface_.visit_around(v, [this](Index h) { add_face(triangle_of(h)); });
+    }
+    fits = descend();
+  }
+  for (const Index v : vertices) mover_[v] = kFixed;
+  if (fits) settle();
+  return fits;
+}
+
+// Brings heights nearer to the source, one step each, where no excess comes of it.
+void HeightFit::settle() {
+  for (std::size_t m = 0; m < mover_count_; ++m) {
+    const int32_t shift = step_to_source(movers_[m]);
+    const auto stays = [&](const std::pair<uint32_t, uint32_t>& at) {
+      const Face& face = faces_[at.first];
+      const float* const weight = weight_[at.second].data();
+      return excess_of(face, weight, static_cast<float>(shift)) <= face.excess;
+    };
+    const auto& corners = movers_[m].corners;
+    if (shift != 0 && std::all_of(corners.begin(), corners.end(), stays)) move(movers_[m], shift);
+  }
+}
+
+// Which step of a height, if any, lowers the sum of squared errors.
+int32_t HeightFit::step_to_source(const Mover& mover) const {
+  Lanes slopes{}, bends{};
+  for (const auto& [f, corner] : mover.corners) {
+    const float* const weight = weight_[corner].data();
+    for (std::size_t i = faces_[f].begin; i < faces_[f].end; i += kLanes) {
+      const Lanes w = load(weight + i);
+      slopes += w * load(error_.data() + i);
+      bends += w * w;
+    }
+  }
+  const float slope = sum_of(slopes), bend = sum_of(bends);
+  if (2 * std::abs(slope) <= bend) return 0;
+  return slope > 0 ? -1 : 1;
+}
+
+// Whether a post is so far out that heights around will not mend it.
+bool HeightFit::is_hopeless() const {
+  for (const Face& face : faces_) {
+    if (face.excess == 0) continue;
+    for (std::size_t i = face.begin; i < face.end; ++i) {
+      const float over = std::abs(error_[i]) - radius_[i];
+      if (over > kHopeless * std::max(radius_[i], 1.0F)) return true;
+    }
+  }
+  return false;
+}
+
+bool HeightFit::descend() {
   for (stride_ = surface_.widest_stride(); stride_ != 0; stride_ /= 2) {
     if (excess() <= kNegligible) return true;
     for (Face& face : faces_) evaluate(face);
@@ -43,7 +105,7 @@ bool HeightFit::fit(const std::vector<Index>& vertices) {
   return false;
 }
 
-void HeightFit::collect(const std::vector<Index>& vertices) {
+void HeightFit::begin(const std::vector<Index>& vertices) {
   ++call_;
   posts_ = 0;
   faces_.clear();
@@ -55,10 +117,6 @@ void HeightFit::collect(const std::vector<Index>& vertices) {
     movers_[i].corners.clear();
     mover_[vertices[i]] = i;
   }
-  for (const Index v : vertices) {
-    surface_.visit_around(v, [this](Index h) { add_face(triangle_of(h)); });
-  }
-  for (const Index v : vertices) mover_[v] = kFixed;
 }
 
 void HeightFit::add_face(Index triangle) {
@@ -89,20 +147,30 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
   const float b_along_y = static_cast<float>(a.x - c.x) * scale;
   const float c_along_x = static_cast<float>(a.y - b.y) * scale;
   const float c_along_y = static_cast<float>(b.x - a.x) * scale;
-  const int32_t base = va.z;
   const auto b_rise = static_cast<float>(vb.z - va.z), c_rise = static_cast<float>(vc.z - va.z);
-  surface_.posts().visit_under(a, b, c, [&](uint32_t s, Point p) {
-    const std::size_t i = posts_++;
-    reserve(posts_);
-    const auto x = static_cast<float>(p.x - a.x), y = static_cast<float>(p.y - a.y);
-    const float to_b = b_along_x * x + b_along_y * y, to_c = c_along_x * x + c_along_y * y;
-    const Surface::Target& target = surface_.target(s);
-    sample_[i] = s;
-    error_[i] = static_cast<float>(base - target.middle) + to_b * b_rise + to_c * c_rise;
-    radius_[i] = target.radius;
-    weight_[0][i] = 1.0F - to_b - to_c;
-    weight_[1][i] = to_b;
-    weight_[2][i] = to_c;
+  const PostIndex& posts = surface_.posts();
+  posts.visit_runs(a, b, c, [&](std::size_t first, std::size_t last) {
+    const std::size_t size = last - first;
+    reserve(posts_ + size);
+    const auto x = static_cast<float>(posts.place(first).x - a.x);
+    const float b_before = b_along_x * x, c_before = c_along_x * x;
+    const double* const middle = surface_.middles() + first;
+    std::copy_n(surface_.radii() + first, size, radius_.data() + posts_);
+    uint32_t* const position = position_.data() + posts_;
+    float* const error = error_.data() + posts_;
+    float* const of_a = weight_[0].data() + posts_;
+    float* const of_b = weight_[1].data() + posts_;
+    float* const of_c = weight_[2].data() + posts_;
+    for (std::size_t i = 0; i < size; ++i) {
+      const auto y = static_cast<float>(posts.place(first + i).y - a.y);
+      const float to_b = b_before + b_along_y * y, to_c = c_before + c_along_y * y;
+      position[i] = static_cast<uint32_t>(first + i);
+      error[i] = static_cast<float>(va.z - middle[i]) + to_b * b_rise + to_c * c_rise;
+      of_a[i] = 1.0F - to_b - to_c;
+      of_b[i] = to_b;
+      of_c[i] = to_c;
+    }
+    posts_ += size;
   });
   for (; posts_ % kLanes != 0; ++posts_) {  // posts that nothing moves
     reserve(posts_ + 1);
@@ -114,7 +182,7 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
 void HeightFit::reserve(std::size_t posts) {
   if (posts <= error_.size()) return;
   const std::size_t size = 2 * posts + kLanes;
-  sample_.resize(size);
+  position_.resize(size);
   error_.resize(size);
   radius_.resize(size);
   for (std::vector<float>& weight : weight_) weight.resize(size);
@@ -130,7 +198,7 @@ float HeightFit::excess_of(const Face& face, const float* weight, float shift) c
     const Lanes excess = over < 0 ? none : over;
     sum += excess * excess;
   }
-  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  return sum_of(sum);
 }
 
 void HeightFit::evaluate(Face& face) const {
@@ -169,14 +237,16 @@ HeightFit::Step HeightFit::best_step() const {
 }
 
 void HeightFit::take(Step step) {
-  Mover& mover = movers_[step.mover];
-  mover.shift += step.shift;
-  const auto shift = static_cast<float>(step.shift);
+  move(movers_[step.mover], step.shift);
+  for (const auto& [f, corner] : movers_[step.mover].corners) evaluate(faces_[f]);
+}
+
+void HeightFit::move(Mover& mover, int32_t shift) {
+  mover.shift += shift;
+  const auto steps = static_cast<float>(shift);
   for (const auto& [f, corner] : mover.corners) {
-    Face& face = faces_[f];
     const float* const weight = weight_[corner].data();
-    for (std::size_t i = face.begin; i < face.end; ++i) error_[i] += shift * weight[i];
-    evaluate(face);
+    for (std::size_t i = faces_[f].begin; i < faces_[f].end; ++i) error_[i] += steps * weight[i];
   }
 }
 
@@ -187,11 +257,12 @@ uint32_t HeightFit::worst_sample(std::size_t rank) const {
     worst.emplace_back(0.0F, 0);
     for (std::size_t i = face.begin; i < face.end; ++i) {
       const float over = std::abs(error_[i]) - radius_[i];
-      if (over > worst.back().first) worst.back() = {over, sample_[i]};
+      if (over > worst.back().first) worst.back() = {over, position_[i]};
     }
   }
   std::sort(worst.rbegin(), worst.rend());
-  return worst.empty() ? 0 : worst[std::min(rank, worst.size() - 1)].second;
+  const PostIndex& posts = surface_.posts();
+  return posts.number(worst.empty() ? 0 : worst[std::min(rank, worst.size() - 1)].second);
 }
 
 }  // namespace microtin::fit

@@ -22,8 +22,9 @@ class HeightFit {
   explicit HeightFit(const Surface& surface);
 
   // Looks for heights of these vertices, all else as it is. Says whether all posts around them are
-  // within their bounds then. The surface stays as it is.
-  bool fit(const std::vector<Index>& vertices);
+  // within their bounds then. The surface stays as it is. `fresh` are triangles between them that
+  // may be out of bounds: what no heights mend there alone is given up soon.
+  bool fit(const std::vector<Index>& vertices, const std::vector<Index>& fresh);
 
   // What the last call found: the change of a height, by place in `vertices`, ...
   int32_t shift(std::size_t vertex) const { return movers_[vertex].shift; }
@@ -49,7 +50,10 @@ class HeightFit {
     int32_t shift;
   };
 
-  void collect(const std::vector<Index>& vertices);
+  void begin(const std::vector<Index>& vertices);
+  bool is_hopeless() const;
+  bool descend();
+  void settle();
   void add_face(Index triangle);
   void add_posts(const std::array<Vertex, 3>& corner);
   void reserve(std::size_t posts);
@@ -58,6 +62,8 @@ class HeightFit {
   double excess() const;
   Step best_step() const;
   void take(Step step);
+  void move(Mover& mover, int32_t shift);
+  int32_t step_to_source(const Mover& mover) const;
 
   const Surface& surface_;
   std::vector<uint32_t> mover_;  // by vertex of the surface
@@ -70,9 +76,9 @@ class HeightFit {
   std::vector<Mover> movers_;
   std::size_t mover_count_ = 0;
 
-  // By post of a face: its sample, how far the surface is above the middle of the bounds, how far
-  // the bounds are from there, and what a step of each corner adds.
-  std::vector<uint32_t> sample_;
+  // By post of a face: its position in the index, how far the surface is above the middle of the
+  // bounds, how far the bounds are from there, and what a step of each corner adds.
+  std::vector<uint32_t> position_;
   std::vector<float> error_, radius_, weight_[3];
   std::size_t posts_ = 0;
 };

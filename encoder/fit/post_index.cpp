@@ -23,8 +23,22 @@ PostIndex::PostIndex(const std::vector<Point>& places) {
   for (const Point p : places) ++first_[cell_of(p) + 1];
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   std::vector<uint32_t> next(first_);
-  posts_.resize(places.size());
-  for (uint32_t i = 0; i < places.size(); ++i) posts_[next[cell_of(places[i])]++] = {places[i], i};
+  places_.resize(places.size());
+  numbers_.resize(places.size());
+  for (uint32_t i = 0; i < places.size(); ++i) {
+    const uint32_t position = next[cell_of(places[i])]++;
+    places_[position] = places[i];
+    numbers_[position] = i;
+  }
+}
+
+std::optional<std::size_t> PostIndex::find(Point p) const {
+  if (p.x / cell_ >= columns_ || p.y / cell_ >= rows_) return std::nullopt;
+  const std::size_t cell = std::size_t{p.x / cell_} * rows_ + p.y / cell_;
+  const auto begin = places_.begin() + first_[cell], end = places_.begin() + first_[cell + 1];
+  const auto at = std::find(begin, end, p);
+  if (at == end) return std::nullopt;
+  return static_cast<std::size_t>(at - places_.begin());
 }
 
 }  // namespace microtin::fit

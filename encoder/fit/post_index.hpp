@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "encoder/layers.hpp"
@@ -20,10 +21,16 @@ class PostIndex {
   // `places` are distinct. Linear.
   explicit PostIndex(const std::vector<Point>& places);
 
-  // Calls visit(i, place) for every place i in the closed counter-clockwise triangle.
+  // Posts have positions, from 0 on: by column of cells, then row, then place.
+  std::size_t size() const { return places_.size(); }
+  Point place(std::size_t position) const { return places_[position]; }
+  uint32_t number(std::size_t position) const { return numbers_[position]; }
+
+  // Calls visit(first, last) for all positions in first .. last - 1, so that together they are
+  // those of all posts in the closed counter-clockwise triangle. Each time all have the same x.
   template <class Visit>
-  void visit_under(Point a, Point b, Point c, const Visit& visit) const {
-    if (posts_.empty()) return;
+  void visit_runs(Point a, Point b, Point c, const Visit& visit) const {
+    if (places_.empty()) return;
     const Outline outline(a, b, c);
     const uint32_t last = std::min<uint32_t>(outline.right().x / cell_, columns_ - 1);
     for (uint32_t column = outline.left().x / cell_; column <= last; ++column) {
@@ -34,19 +41,29 @@ class PostIndex {
       const auto low = static_cast<std::size_t>(span.low / cell_);
       const auto high =
           std::min<std::size_t>(static_cast<std::size_t>(span.high / cell_), rows_ - 1);
-      for (uint32_t i = cells[low]; i < cells[high + 1]; ++i) {
-        const Post& post = posts_[i];
-        if (cell_ == 1 || covers(a, b, c, post.place)) visit(post.number, post.place);
+      const std::size_t begin = cells[low], end = cells[high + 1];
+      if (cell_ == 1) {
+        if (begin != end) visit(begin, end);
+        continue;
+      }
+      for (std::size_t i = begin; i < end; ++i) {
+        if (covers(a, b, c, places_[i])) visit(i, i + 1);
       }
     }
   }
 
- private:
-  struct Post {
-    Point place;
-    uint32_t number;
-  };
+  // Calls visit(i, place) for every place i in the closed counter-clockwise triangle.
+  template <class Visit>
+  void visit_under(Point a, Point b, Point c, const Visit& visit) const {
+    visit_runs(a, b, c, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) visit(numbers_[i], places_[i]);
+    });
+  }
 
+  // The position of the post at a place; nothing if there is none.
+  std::optional<std::size_t> find(Point p) const;
+
+ private:
   // A triangle seen from below and above.
   class Outline {
    public:
@@ -86,17 +103,22 @@ class PostIndex {
       return {ceil_at(from, to, x), floor_at(corner_[0], corner_[2], x)};
     }
 
-    // The y of the line from p to q at x, rounded down; that of p if the line is vertical.
+    // The y of the line from p to q at x, rounded down; that of p if the line is vertical. Products
+    // are below 2^32: their quotients in floating point are on the right side of whole numbers.
     static int64_t floor_at(Point p, Point q, int64_t x) {
       const int64_t width = int64_t{q.x} - p.x, rise = (int64_t{q.y} - p.y) * (x - p.x);
       if (width == 0) return p.y;
-      return p.y + (rise >= 0 ? rise / width : -((width - 1 - rise) / width));
+      const auto quotient =
+          static_cast<int64_t>(static_cast<double>(rise) / static_cast<double>(width));
+      return p.y + quotient - (quotient * width > rise);
     }
 
     static int64_t ceil_at(Point p, Point q, int64_t x) {
       const int64_t width = int64_t{q.x} - p.x, rise = (int64_t{q.y} - p.y) * (x - p.x);
       if (width == 0) return p.y;
-      return p.y + (rise >= 0 ? (rise + width - 1) / width : -(-rise / width));
+      const auto quotient =
+          static_cast<int64_t>(static_cast<double>(rise) / static_cast<double>(width));
+      return p.y + quotient + (quotient * width < rise);
     }
 
     Point corner_[3];
@@ -108,8 +130,9 @@ class PostIndex {
   }
 
   uint32_t cell_ = 1, columns_ = 0, rows_ = 0;
-  std::vector<Post> posts_;      // by column of cells, then row, then place
-  std::vector<uint32_t> first_;  // of each cell, and one more
+  std::vector<Point> places_;      // by position
+  std::vector<uint32_t> numbers_;  // the same
+  std::vector<uint32_t> first_;    // position in each cell, and one more
 };
 
 }  // namespace microtin::fit

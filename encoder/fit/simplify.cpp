@@ -68,40 +68,31 @@ std::vector<uint32_t> first_vertices(const Survey& survey) {
   return first;
 }
 
-// Rounds of a search: how many at most, the part of the vertices that a round must save for the
-// next one to follow, and how often all vertices are tried again nevertheless.
-struct Patience {
-  uint32_t rounds;
-  double part;
-  uint32_t retries;
-};
-
-Patience patience(Search search) {
-  if (search == Search::kBest) return {200, 0.001, 12};
-  return search == Search::kNormal ? Patience{30, 0.002, 2} : Patience{1, 0, 0};
+uint32_t rounds_of(Search search) {
+  if (search == Search::kBest) return 160;
+  return search == Search::kNormal ? 40 : 1;
 }
 
-constexpr int kHeightPasses = 3;
+constexpr int kHeightPasses = 8;
 
-// Of the time: the first attempt to remove all, then each round's part of what is left.
-constexpr double kRemovalPart = 0.2, kRoundPart = 0.3;
+// Of the time: the first attempt to remove all, then rounds that become shorter.
+constexpr double kRemovalPart = 0.1;
+
+double time_of(double done) {
+  return kRemovalPart + (1 - kRemovalPart) * (1.5 - 0.5 * done) * done;
+}
 
 Tin improve(const Survey& survey, const PostIndex& posts, const Tin& tin,
             const SimplifyOptions& options) {
   Surface surface(survey, ErrorModel{true}, posts, tin);
   Decimation decimation(surface);
   decimation.remove_vertices(options.progress.part(0, kRemovalPart));
-  double done = kRemovalPart;
-  uint32_t retries = 0;
-  const Patience limit = patience(options.search);
-  for (uint32_t round = 0; round < limit.rounds; ++round) {
+  const uint32_t rounds = rounds_of(options.search);
+  for (uint32_t round = 1; round <= rounds; ++round) {
+    const double done = static_cast<double>(round) / rounds;
     // Less and less is left to be tried.
-    const Progress progress = options.progress.part(done, done + (1 - done) * kRoundPart);
-    const auto saved = static_cast<double>(decimation.remove_and_move_vertices(progress));
-    done += (1 - done) * kRoundPart;
-    if (saved > limit.part * surface.vertices()) continue;
-    if (retries++ == limit.retries) break;
-    decimation.forget();
+    const Progress progress = options.progress.part(time_of(done - 1.0 / rounds), time_of(done));
+    if (decimation.remove_and_move_vertices(done, progress) == 0) decimation.forget();
   }
   HeightChoice heights(surface, options.effort.degree);
   for (int i = 0; i < kHeightPasses; ++i) heights.pass();

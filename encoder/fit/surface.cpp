@@ -20,6 +20,28 @@ std::vector<Point> places_of(const std::vector<Vertex>& vertices) {
   return places;
 }
 
+// A triangle's height in floating point.
+class Plane {
+ public:
+  Plane(Vertex a, Vertex b, Vertex c) : a_(a) {
+    const auto area = static_cast<double>(orient2d({a.x, a.y}, {b.x, b.y}, {c.x, c.y}));
+    const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
+    const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
+    along_x_ = (bz * cy - cz * by) / area;
+    along_y_ = (cz * bx - bz * cx) / area;
+  }
+
+  double at(Point p) const { return a_.z + along_x_ * (p.x - a_.x) + along_y_ * (p.y - a_.y); }
+
+ private:
+  Vertex a_;
+  double along_x_, along_y_;
+};
+
+// Steps from a bound within which floating point does not say on which side a post is: radii are
+// rounded to 24 bits.
+constexpr double kNearlyOut = 1.0 / 64;
+
 }  // namespace
 
 Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts, const Tin& tin)
@@ -33,10 +55,12 @@ Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts,
       voids_(tin.voids) {
   heights_.reserve(tin.vertices.size());
   for (const Vertex& v : tin.vertices) heights_.push_back(v.z);
-  targets_.reserve(survey.samples.size());
-  for (const Sample& s : survey.samples) {
-    const auto [middle, radius] = model_.middle_and_radius(s);
-    targets_.push_back({middle, static_cast<float>(radius)});
+  middles_.reserve(posts.size());
+  radii_.reserve(posts.size());
+  for (std::size_t i = 0; i < posts.size(); ++i) {
+    const auto [middle, radius] = model_.middle_and_radius(survey.samples[posts.number(i)]);
+    middles_.push_back(middle);
+    radii_.push_back(static_cast<float>(radius));
     while (4 * widest_stride_ < radius && widest_stride_ < 4096) widest_stride_ *= 2;
   }
   find_voids();
@@ -84,12 +108,18 @@ bool Surface::is_covered(Index triangle) const {
 bool Surface::keeps_bounds(Index triangle) const {
   const Index* const corner = mesh().origin + first_edge(triangle);
   const Vertex a = vertex(corner[0]), b = vertex(corner[1]), c = vertex(corner[2]);
+  const Plane plane(a, b, c);
   bool keeps = true;
-  posts_.visit_under(place(corner[0]), place(corner[1]), place(corner[2]),
-                     [&](uint32_t s, Point p) {
-                       const int32_t surface = height_in_triangle(a, b, c, fine(p));
-                       keeps = keeps && model_.violation(survey_.samples[s], surface) == 0;
-                     });
+  posts_.visit_runs(place(corner[0]), place(corner[1]), place(corner[2]),
+                    [&](std::size_t first, std::size_t last) {
+                      for (std::size_t i = first; i < last && keeps; ++i) {
+                        const Point p = posts_.place(i);
+                        const double error = std::abs(plane.at(p) - middles_[i]);
+                        if (error < static_cast<double>(radii_[i]) - kNearlyOut) continue;
+                        const int32_t surface = height_in_triangle(a, b, c, fine(p));
+                        keeps = model_.violation(survey_.samples[posts_.number(i)], surface) == 0;
+                      }
+                    });
   return keeps;
 }
 
@@ -125,11 +155,34 @@ Surface::Interval Surface::allowed_heights(Index v) const {
       heights += weight * (survey_.samples[s].height / 65536.0 - others);
     });
   });
-  if (!covered) return {heights_[v], heights_[v], 0};  // nothing around says what is allowed
+  if (!covered) return {heights_[v], heights_[v], 0, 0};  // nothing around says what is allowed
   constexpr double kSlack = 1e-4, kBeyond = 65536;
   return {static_cast<int32_t>(std::ceil(std::min(low, kBeyond) - kSlack)),
           static_cast<int32_t>(std::floor(std::max(high, -kBeyond) + kSlack)),
-          weights != 0 ? heights / weights : 0};
+          weights != 0 ? heights / weights : 0, weights};
+}
+
+double Surface::mean_error() const {
+  double sum = 0;
+  std::size_t count = 0;
+  const auto add = [&](Vertex a, Vertex b, Vertex c) {
+    const Plane plane(a, b, c);
+    posts_.visit_runs({a.x, a.y}, {b.x, b.y}, {c.x, c.y}, [&](std::size_t first, std::size_t last) {
+      count += last - first;
+      for (std::size_t i = first; i < last; ++i) {
+        sum += plane.at(posts_.place(i)) - middles_[i];
+      }
+    });
+  };
+  for (Index v = 0; v < vertex_limit(); ++v) {
+    if (!has_vertex(v)) continue;
+    visit_around(v, [&](Index h) {
+      const Index b = mesh().origin[next_in_triangle(h)],
+                  c = mesh().origin[previous_in_triangle(h)];
+      if (v < b && v < c && is_covered(triangle_of(h))) add(vertex(v), vertex(b), vertex(c));
+    });
+  }
+  return count != 0 ? sum / static_cast<double>(count) : 0;
 }
 
 Index Surface::finite_neighbour(Index v) const {

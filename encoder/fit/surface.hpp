@@ -26,12 +26,10 @@ class Surface {
   const Mesh& mesh() const { return triangulation_.mesh(); }
   const Triangulation& triangulation() const { return triangulation_; }
 
-  // The middle of what a sample allows, and how far from there its ends are, in steps.
-  struct Target {
-    double middle;
-    float radius;
-  };
-  const Target& target(uint32_t sample) const { return targets_[sample]; }
+  // The middle of what a post allows, and how far from there its ends are, in steps: by position
+  // in the index.
+  const double* middles() const { return middles_.data(); }
+  const float* radii() const { return radii_.data(); }
 
   // Steps that are worth a try where bounds are so wide: a power of two.
   int32_t widest_stride() const { return widest_stride_; }
@@ -64,9 +62,13 @@ class Surface {
   // far out. Empty (low > high) if there is none.
   struct Interval {
     int32_t low, high;
-    double best;  // where the sum of squared errors is smallest
+    double best;       // where the sum of squared errors is smallest
+    double curvature;  // the sum is this times the square of the distance from there, and more
   };
   Interval allowed_heights(Index v) const;
+
+  // How far the surface is above the middle of what posts allow, on average; in steps.
+  double mean_error() const;
 
   // Removes a vertex that is not fixed. False, and nothing changes, if it has too many neighbours.
   bool remove(Index v);
@@ -102,7 +104,8 @@ class Surface {
   const Survey& survey_;
   ErrorModel model_;
   const PostIndex& posts_;
-  std::vector<Target> targets_;  // by sample
+  std::vector<double> middles_;  // by position
+  std::vector<float> radii_;     // the same
   int32_t widest_stride_ = 1;
   Triangulation triangulation_;
   Index vertices_;

@@ -17,11 +17,23 @@
 namespace microtin::product {
 namespace {
 
+DecodedStream decoded(const std::string& name, std::vector<uint8_t> bytes) {
+  DecodedTerrain terrain = with_file_context(name, [&] { return DecodedTerrain(bytes); });
+  return {std::move(bytes), std::move(terrain)};
+}
+
+std::variant<PackFile, DecodedStream> content_of(const std::string& name,
+                                                 std::unique_ptr<ByteSource> bytes) {
+  if (!is_pack(*bytes)) {
+    return decoded(name,
+                   with_file_context(name, [&] { return bytes_at(*bytes, 0, bytes->size()); }));
+  }
+  return with_file_context(name, [&] { return PackFile(std::move(bytes)); });
+}
+
 std::variant<PackFile, DecodedStream> content_of(const std::string& path) {
-  std::unique_ptr<ByteSource> bytes;
-  if (is_regular_file(path)) bytes = open_file(path);
-  if (!bytes || !is_pack(*bytes)) return read_stream(path);
-  return with_file_context(path, [&] { return PackFile(std::move(bytes)); });
+  if (is_regular_file(path)) return content_of(path, open_file(path));
+  return read_stream(path);
 }
 
 std::variant<Source, OpenSource> source_for(const Document& document, const std::string& path,
@@ -34,12 +46,13 @@ std::variant<Source, OpenSource> source_for(const Document& document, const std:
 
 DecodedStream read_stream(const std::string& path) {
   const std::string text = read_file(path);
-  std::vector<uint8_t> bytes(text.begin(), text.end());
-  DecodedTerrain terrain = with_file_context(path, [&] { return DecodedTerrain(bytes); });
-  return {std::move(bytes), std::move(terrain)};
+  return decoded(path, {text.begin(), text.end()});
 }
 
 Document::Document(const std::string& path) : path_(path), content_(content_of(path)) {}
+
+Document::Document(const std::string& name, std::unique_ptr<ByteSource> bytes)
+    : path_(name), content_(content_of(name, std::move(bytes))) {}
 
 Metadata Document::metadata() const {
   if (pack() != nullptr) return pack()->metadata();
@@ -59,6 +72,10 @@ uint64_t Document::vertices() const {
 
 uint64_t Document::tiles() const {
   return pack() != nullptr ? pack()->entries().size() : 0;
+}
+
+std::optional<DecodedTerrain> Document::tile(uint32_t number) const {
+  return with_file_context(path_, [&] { return pack()->tile(number); });
 }
 
 SurfaceModel Document::model() const {

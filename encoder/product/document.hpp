@@ -4,6 +4,7 @@
 #define MICROTIN_ENCODER_PRODUCT_DOCUMENT_HPP
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -32,6 +33,7 @@ class Document {
  public:
   // A pack if the file begins as one does, else a stream, which is decoded. "-" is a stream.
   explicit Document(const std::string& path);
+  Document(const std::string& name, std::unique_ptr<ByteSource> bytes);
 
   const std::string& path() const { return path_; }
 
@@ -43,6 +45,9 @@ class Document {
   uint64_t bytes() const;
   uint64_t vertices() const;  // of a pack: those on borders once for each tile
   uint64_t tiles() const;     // 0: a stream
+
+  // A tile of a pack as PackFile has it.
+  std::optional<DecodedTerrain> tile(uint32_t number) const;
 
   // With units. All of a pack's tiles are decoded.
   SurfaceModel model() const;

@@ -9,6 +9,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
 #include "encoder/base/iso_date.hpp"
+#include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
@@ -51,8 +52,13 @@ terrain::Source raster_of(Posts posts) {
     expect(height == kVoid || is_number(height), "a height is beyond 10^18");
   }
   static_assert(kVoid == terrain::kVoidHeight, "void posts are taken as they are");
-  return terrain::Raster{
-      posts.columns, posts.rows, std::move(posts.heights), posts.decimals, posts.x, posts.y, {}};
+  return terrain::Raster{posts.columns,
+                         posts.rows,
+                         std::move(posts.heights),
+                         posts.decimals,
+                         posts.x,
+                         posts.y,
+                         importing::reference_of_wkt(posts.wkt)};
 }
 
 terrain::Source cloud_of(const Points& points) {
@@ -61,6 +67,7 @@ terrain::Source cloud_of(const Points& points) {
   terrain::PointCloud cloud;
   cloud.xy_decimals = points.xy_decimals;
   cloud.z_decimals = points.z_decimals;
+  cloud.reference = importing::reference_of_wkt(points.wkt);
   cloud.points.reserve(points.points.size());
   for (const auto& [x, y, z] : points.points) {
     expect(is_number(x) && is_number(y) && is_number(z), "a coordinate is beyond 10^18");

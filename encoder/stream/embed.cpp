@@ -37,15 +37,18 @@ std::string array_of(const std::vector<uint8_t>& bytes) {
 
 }  // namespace
 
-std::string embed(const std::vector<uint8_t>& stream, uint32_t vertices, const std::string& name) {
+std::string embed(const std::vector<uint8_t>& bytes, Embedded kind, uint32_t vertices,
+                  const std::string& name) {
+  const bool is_pack = kind == Embedded::kPack;
   const std::string lower = identifier(name), upper = upper_case(lower);
   const std::string guard = "MICROTIN_EMBEDDED_" + upper + "_H";
   return "/* A terrain for microtin. Made by `microtin embed`; to be included in one source file. "
          "*/\n"
          "#ifndef " +
          guard + "\n#define " + guard + "\n\n#include <stdint.h>\n\n" + "#define " + upper +
-         "_VERTICES " + std::to_string(vertices) + "\n\n" + "static const uint8_t " + lower +
-         "_stream[" + std::to_string(stream.size()) + "] = {" + array_of(stream) + "};\n\n#endif\n";
+         (is_pack ? "_MOST_VERTICES " : "_VERTICES ") + std::to_string(vertices) + "\n\n" +
+         "static const uint8_t " + lower + (is_pack ? "_pack[" : "_stream[") +
+         std::to_string(bytes.size()) + "] = {" + array_of(bytes) + "};\n\n#endif\n";
 }
 
 }  // namespace microtin::stream

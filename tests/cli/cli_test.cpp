@@ -168,6 +168,23 @@ TEST_CASE("cli: streams become C headers") {
   CHECK(contains(session.failure("embed bad.mtin -o bad.h"), "bad.mtin"));
 }
 
+TEST_CASE("cli: packs become C headers") {
+  const Session session;
+  CHECK(session.run("fractal --size 33 --seed 1 -o t.asc").code == 0);
+  CHECK(session.run("encode t.asc --max-error 9 --tile-vertices 40 -o t.mtp").code == 0);
+  CHECK(session.run("embed t.mtp -o t.h").code == 0);
+  const std::string header = session.read("t.h"), bytes = session.read("t.mtp");
+  const std::string info = session.run("info t.mtp").out, key = "most_vertices: ";
+  const std::string most = info.substr(info.find(key) + key.size());
+  CHECK(contains(header, "#define T_MOST_VERTICES " + most.substr(0, most.find('\n') + 1)));
+  CHECK(contains(header, "static const uint8_t t_pack[" + std::to_string(bytes.size()) +
+                             "] = {\n    0x6d, 0x74, 0x70, 0x6b, "));
+  const size_t last = static_cast<unsigned char>(bytes.back());
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%02zx,\n}", last);
+  CHECK(contains(header, text));
+}
+
 TEST_CASE("cli: verify fails on another terrain") {
   const Session session;
   session.write("a.xyz", "0 0 0\n9 0 0\n0 9 0\n");

@@ -24,13 +24,17 @@ DECODING = ["peek", "mesh_init", "decoder_init", "feed", "finish"]
 QUERIES = ["height_at", "to_lattice", "vertex", "triangle", "neighbour", "digest"]
 BUCKETS = ["buckets_init", "buckets_hint"]
 COMPACT = ["compact_begin", "compact_proceed", "compact_needs", "compact_height_at", "compact_hint"]
+PACK = ["pack_init", "pack_prepare", "pack_wanted", "pack_given", "pack_align_reads", "pack_bad_tile", "pack_header"]
+PACK_QUERIES = ["pack_height_at", "pack_to_lattice", "pack_highest", "pack_fill"]
 USES = {
     "decoding": DECODING,
     "queries": DECODING + QUERIES,
     "buckets": DECODING + QUERIES + BUCKETS,
     "compact": DECODING + COMPACT,
+    "pack": PACK + ["pack_height_at"],
+    "pack_queries": PACK + PACK_QUERIES,
 }
-WIDTH_IN_NAME = ["peek", "mesh_init", "decoder_init", "buckets_init", "compact_begin"]
+WIDTH_IN_NAME = ["peek", "mesh_init", "decoder_init", "buckets_init", "compact_begin", "pack_init"]
 
 
 # --- Measuring ------------------------------------------------------------------------------------
@@ -80,9 +84,12 @@ def measure_library(options, library):
         graphs = [str(Path(o).with_suffix(".ci")) for o in options.objects[library].split(":")]
         graphs = [graph for graph in graphs if Path(graph).exists()]
         image = str(options.build / "linked")
-        link(options, library, DECODING + QUERIES + BUCKETS + COMPACT, image)
+        link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + PACK + PACK_QUERIES, image)
         calls = stack.Stack(options.target, options.objdump, image, graphs)
-        own = {"decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT}
+        own = {
+            "decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT, "pack": PACK,
+            "pack_queries": PACK_QUERIES,
+        }  # fmt: skip
         for use, entries in own.items():
             result["stack_" + use] = max(calls.depth(symbol(options, entry)) for entry in entries)
     return result
@@ -170,13 +177,14 @@ def table(head, rows):
 def code_table(budget):
     head = ["target"]
     for level in ("-Os", "-O2"):
-        head += [f"{level}: decoding", "and queries", "and buckets", "compact instead", "stack"]
+        head += [f"{level}: decoding", "and queries", "and buckets", "compact instead", "packs", "all of packs", "stack", "of a pack's service", "of its queries"]
     rows = []
     for target, numbers in budget.items():
         row = [target]
         for level in (numbers["Os"], numbers["O2"]):
             row += [f"{count(level[u]['text'])} + {count(level[u]['rodata'])}" if u in level else "-" for u in USES]
-            row.append(count(level["stack_decoding"]) if "stack_decoding" in level else "-")
+            for use in ("decoding", "pack", "pack_queries"):
+                row.append(count(level["stack_" + use]) if "stack_" + use in level else "-")
         rows.append(row)
     return table(head, rows)
 

@@ -3,7 +3,7 @@
 """check.py [ROOT] fails if an include points the wrong way, and else says how many there are.
 
 A layer of the encoder includes those above it in encoder/layers.hpp alone, the command line neither fit nor pack; the
-decoder and shared/ include nothing of the encoder; a test includes what its subject may include, its subject, and
+decoder and shared/ include nothing of the encoder; drivers of other programs its public face alone; a test includes what its subject may include, its subject, and
 tests/support.
 """
 import pathlib
@@ -13,6 +13,8 @@ import sys
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = {"importing": "import", "exporting": "export"}
 HIDDEN = {"cli": ("fit", "pack")}  # behind the product
+PUBLIC = ("encoder.h", "encoder.hpp", "surface.hpp")  # in encoder/include
+DRIVERS = ("gdal", "python", "qgis")
 SUPPORT = ("support", "whole", "faults", "bench", "package")  # may include all layers
 
 
@@ -25,7 +27,9 @@ def may_include(path, target, order):
     """Whether the file `path` may include `target`, both as parts of paths from the root."""
     if target[0] == "tests" and path[0] == "tests":
         return path[1] in SUPPORT or target[1] in ("support", "firmware", path[1])
-    if target[0] == "microtin" and target[-1] == "encoder.hpp":
+    if path[0] == "encoder" and path[1] in DRIVERS:
+        return target[0] == "microtin" or target[:2] == path[:2]
+    if target[0] == "microtin" and target[-1] in PUBLIC:
         target = ("encoder", "product")
     if target[0] != "encoder" or target[1] == "layers.hpp":
         return target[0] in ("shared", "microtin") or path[0] != "shared"

@@ -11,6 +11,7 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)  # no start-up code to link a 
 
 include(${CMAKE_CURRENT_LIST_DIR}/../image.cmake)
 list(APPEND MICROTIN_RUNTIME ${CMAKE_CURRENT_LIST_DIR}/machine.cpp)
+set(MICROTIN_CARD ${CMAKE_CURRENT_LIST_DIR}/../card.cpp)
 add_machine(mps2-an385 0x00000000 4M 0x20000000 4M)
 add_machine(mps2-an386 0x00000000 4M 0x20000000 4M)
 add_machine(mps2-an500 0x00000000 4M 0x20000000 4M)

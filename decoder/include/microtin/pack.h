@@ -60,6 +60,11 @@ typedef struct microtin_course {
  * least one; 0 if the pack ends there; a negative number if reading failed. */
 typedef int32_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer, size_t size);
 
+/* From now on no read crosses a multiple of `sector`, a power of two up to 32768, so that each asks
+ * for one sector of a card, and one that is kept is read from once; 0, as at first: they may.
+ * ARGUMENT: another number. */
+microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
+
 /* Works towards having every tile that touches the course, first those where it begins, at most
  * `step_limit` decoding steps (as of microtin_feed) and one wish for input. The same course, or
  * another, may be asked for next.

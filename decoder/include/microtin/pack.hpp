@@ -25,6 +25,7 @@ class Pack {
 
   microtin_status status() const { return status_; }
   void reset() { microtin_pack_reset(pack_); }
+  microtin_status align_reads(uint32_t sector) { return microtin_pack_align_reads(pack_, sector); }
   microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
                           void* context) {
     if (status_ != MICROTIN_DONE) return status_;

@@ -38,13 +38,28 @@ struct Posts {
   int decimals = 0;               /* 0 .. 18 */
   microtin_axis x{0, 1, 1};       /* from a column to where its posts lie, east */
   microtin_axis y{0, 1, 1};       /* ... and from a row, north */
+  std::string wkt;                /* well-known text of the systems of places and heights, or "" */
 };
 
 /* Points in any order, none of which needs to be unlike all others. */
 struct Points {
   std::vector<std::array<int64_t, 3>> points; /* x, y times 10^-xy_decimals, z 10^-z_decimals */
   int xy_decimals = 0, z_decimals = 0;        /* 0 .. 18 */
+  std::string wkt;                            /* as of Posts */
 };
+
+/* Binary numbers, each of which stands for the shortest decimal that becomes it, of heights with at
+ * most 9 decimals. Throws, naming row and column or the point, if one is out of range.
+ *
+ * A raster as GDAL and numpy hold it: heights row by row at the centres of cells, NaN where there
+ * is none; the transform is GDAL's, from the outer corner of the first cell: x, width of a cell, 0,
+ * y, 0, its height, below 0 if row 0 is the northernmost. Cells are not rotated. */
+using Transform = std::array<double, 6>;
+Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform);
+Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform);
+
+/* x, y, z of each point in turn. */
+Points points_of(uint64_t count, const double* coordinates);
 
 /* A terrain to be encoded. Copies share what they hold. */
 class Terrain {

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+/* A pack on a memory card: the main loop reads and decodes what lies ahead, an interrupt asks for
+ * heights. The card is read in sectors of which one is kept, as FatFs does; it is pulled out in
+ * flight and put back, and one of its tiles is damaged. */
+#include "flight.h"
+#include "toolchains/board.h"
+
+#define SECTOR 512
+#define SLOTS 4
+#define CAPACITY 2500 /* microtin info: most vertices of a tile. Smaller tiles: more sectors */
+#define STEPS 200     /* of decoding, in a turn of the main loop */
+
+/* --- The card. A file system would find the file's sectors here: f_lseek and f_read, of which each
+ * call reads a sector unless it is the one in the window. --- */
+
+struct card {
+  uint8_t window[SECTOR];
+  uint32_t sector;   /* in the window */
+  int32_t filled;    /* bytes of it, -1: none */
+  uint32_t attempts; /* to read a sector */
+  uint32_t sectors, reads, bytes;
+};
+
+/* Somebody pulls the card out at the 40th sector, and puts it back. */
+static int is_out(const struct card* card) {
+  return card->attempts > 40 && card->attempts <= 50;
+}
+
+static int fill_window(struct card* card, uint32_t sector) {
+  if (card->filled >= 0 && card->sector == sector) return 1;
+  ++card->attempts;
+  card->filled = is_out(card) ? -1 : read_sector(sector, card->window);
+  card->sector = sector;
+  if (card->filled < 0) return 0;
+  ++card->sectors;
+  return 1;
+}
+
+/* A microtin_read. The pack aligns its reads, so that each lies within one sector. */
+static int32_t read_card(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+  struct card* card = (struct card*)context;
+  const int32_t first = (int32_t)(offset % SECTOR);
+  int32_t count = 0;
+  if (!fill_window(card, (uint32_t)(offset / SECTOR))) return -1;
+  while ((size_t)count < size && first + count < card->filled) {
+    buffer[count] = card->window[first + count];
+    ++count;
+  }
+  ++card->reads;
+  card->bytes += (uint32_t)count;
+  return count;
+}
+
+/* --- What the interrupt and the main loop tell each other. --- */
+
+static microtin_pack* pack;
+
+static struct {
+  volatile uint8_t is_set;    /* the vehicle is at a place; the interrupt may look */
+  volatile uint8_t is_wanted; /* all is decoded that can be: the next answer is the last one */
+  int64_t x, y;
+  microtin_answer answer;
+  int32_t height;
+  int32_t first_height; /* that was answered here */
+  uint8_t has_height;
+  uint32_t early, wrong; /* answers before all was decoded; heights that changed */
+} vehicle;
+
+/* Some thousand times a second, at any moment of the service. */
+static void on_tick(void) {
+  static uint32_t hint;
+  if (!vehicle.is_set) return;
+  vehicle.answer = microtin_pack_height_at(pack, vehicle.x, vehicle.y, &hint, &vehicle.height);
+  if (vehicle.answer == MICROTIN_HEIGHT) {
+    if (vehicle.has_height && vehicle.height != vehicle.first_height) ++vehicle.wrong;
+    vehicle.first_height = vehicle.height;
+    vehicle.has_height = 1;
+  }
+  if (!vehicle.is_wanted) ++vehicle.early;
+  vehicle.is_wanted = 0;
+}
+
+static void go_to(const microtin_course* course) {
+  vehicle.is_set = 0; /* no interrupt sees half of a place */
+  vehicle.x = course->x;
+  vehicle.y = course->y;
+  vehicle.has_height = 0;
+  vehicle.is_set = 1;
+}
+
+static void wait_for_answer(void) {
+  vehicle.is_wanted = 1;
+  while (vehicle.is_wanted) {
+  }
+}
+
+/* --- The main loop. --- */
+
+/* Turns of the loop until the course is known as far as it can be. Counts those in which the card
+ * did not answer: the vehicle flies on by the tiles that are there. 0: it is no pack. */
+static int serve(const microtin_course* course, struct card* card, uint32_t* failures) {
+  for (;;) {
+    switch (microtin_pack_service(pack, course, STEPS, read_card, card)) {
+      case MICROTIN_DONE:
+      case MICROTIN_BAD_TILES:
+        return 1;
+      case MICROTIN_IO:
+        ++*failures;
+        break; /* mount again; another card: microtin_pack_reset */
+      case MICROTIN_NEED_INPUT:
+      case MICROTIN_STEP_LIMIT:
+        break;
+      default:
+        return 0;
+    }
+    /* Other tasks have their turn here. */
+  }
+}
+
+static void say(const char* what, uint32_t number) {
+  print(what);
+  print_number((int32_t)number);
+  print("\n");
+}
+
+static void report(const struct card* card, uint32_t failures) {
+  uint32_t i, tile;
+  microtin_status why;
+  for (i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
+    if (microtin_pack_bad_tile(pack, i, &tile, &why)) say("damaged: tile ", tile);
+  }
+  say("turns without a card: ", failures);
+  say("heights that changed: ", vehicle.wrong);
+  print(vehicle.early != 0 ? "interrupts came during the service\n" : "no interrupt came\n");
+  say("reads: ", card->reads);
+  say("bytes asked for: ", card->bytes);
+  say("bytes of sectors read: ", SECTOR * card->sectors);
+}
+
+int firmware_main(void) {
+  static uint64_t workspace[(MICROTIN_PACK_BYTES(SLOTS, CAPACITY) + 7) / 8];
+  static struct card card;
+  const microtin_course origin = {0, 0, 0, 0};
+  uint32_t failures = 0;
+  microtin_pack_info info;
+  int32_t i;
+  card.filled = -1;
+  if (!open_card()) return 1;
+  if (microtin_pack_init(workspace, sizeof workspace, SLOTS, CAPACITY, &pack) != MICROTIN_DONE) {
+    return 2;
+  }
+  microtin_pack_align_reads(pack, SECTOR);
+  go_to(&origin);
+  start_ticks(on_tick);
+  if (!serve(&origin, &card, &failures)) return 3;
+  if (!microtin_pack_header(pack, &info)) return 4;
+  for (i = 0; i < FLIGHT_PLACES; ++i) {
+    const microtin_course course = flight_course(i, &info);
+    go_to(&course);
+    if (!serve(&course, &card, &failures)) return 5;
+    wait_for_answer();
+    print_place(i, vehicle.answer, vehicle.height);
+  }
+  report(&card, failures);
+  return vehicle.wrong == 0 ? 0 : 6;
+}

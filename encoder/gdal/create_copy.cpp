@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Encodes a raster of GDAL's: gdal_translate -of MTIN.
+#include <cstring>
+#include <limits>
+#include <microtin/encoder.hpp>
+#include <stdexcept>
+
+#include "encoder/gdal/dataset.hpp"
+
+namespace microtin::gdal {
+namespace {
+
+using encoder::Decoding;
+using encoder::Options;
+using encoder::Posts;
+using encoder::Search;
+using encoder::Transform;
+
+[[noreturn]] void refuse(const std::string& why) {
+  throw std::runtime_error(why);
+}
+
+bool ends_with(const std::string& text, const char* end) {
+  const size_t size = std::strlen(end);
+  return text.size() >= size && EQUAL(text.c_str() + text.size() - size, end);
+}
+
+Transform transform_of(GDALDataset& source) {
+  Transform transform{};
+  if (source.GetGeoTransform(transform.data()) != CE_None) {
+    refuse("the source does not say where it lies");
+  }
+  if (transform[1] < 0) refuse("the source's columns run west: bring them east with gdalwarp");
+  return transform;
+}
+
+template <class Number>
+std::vector<Number> heights_of(GDALRasterBand& band, GDALDataType type) {
+  const auto columns = static_cast<size_t>(band.GetXSize()),
+             rows = static_cast<size_t>(band.GetYSize());
+  std::vector<Number> heights(columns * rows);
+  if (band.RasterIO(GF_Read, 0, 0, band.GetXSize(), band.GetYSize(), heights.data(),
+                    band.GetXSize(), band.GetYSize(), type, 0, 0, nullptr) != CE_None) {
+    refuse("the source cannot be read");
+  }
+  // Whatever the source marks its voids by: a value, a mask, transparency.
+  std::vector<uint8_t> mask(columns);
+  for (size_t row = 0; row < rows && band.GetMaskFlags() != GMF_ALL_VALID; ++row) {
+    if (band.GetMaskBand()->RasterIO(GF_Read, 0, static_cast<int>(row), band.GetXSize(), 1,
+                                     mask.data(), band.GetXSize(), 1, GDT_Byte, 0, 0,
+                                     nullptr) != CE_None) {
+      refuse("the source's mask cannot be read");
+    }
+    for (size_t column = 0; column < columns; ++column) {
+      if (mask[column] == 0) {
+        heights[row * columns + column] = std::numeric_limits<Number>::quiet_NaN();
+      }
+    }
+  }
+  return heights;
+}
+
+Posts posts_of(GDALDataset& source) {
+  if (source.GetRasterCount() != 1) {
+    refuse("the source has not one band but " + std::to_string(source.GetRasterCount()) +
+           ": choose one with -b");
+  }
+  GDALRasterBand& band = *source.GetRasterBand(1);
+  if (band.GetScale() != 1 || band.GetOffset() != 0) {
+    refuse("the source's heights have a scale or an offset: apply them with -unscale");
+  }
+  const Transform transform = transform_of(source);
+  const auto columns = static_cast<uint32_t>(band.GetXSize()),
+             rows = static_cast<uint32_t>(band.GetYSize());
+  const GDALDataType type = band.GetRasterDataType();
+  if (GDALDataTypeIsComplex(type) != 0) refuse("heights are no complex numbers");
+  if (type == GDT_Float32) {
+    return encoder::posts_of(columns, rows, heights_of<float>(band, GDT_Float32).data(), transform);
+  }
+  return encoder::posts_of(columns, rows, heights_of<double>(band, GDT_Float64).data(), transform);
+}
+
+std::string wkt_of(const GDALDataset& source) {
+  const OGRSpatialReference* const system = source.GetSpatialRef();
+  char* text = nullptr;
+  if (system == nullptr || system->exportToWkt(&text) != OGRERR_NONE) {
+    CPLFree(text);
+    return "";
+  }
+  std::string wkt = text;
+  CPLFree(text);
+  return wkt;
+}
+
+// Of heights: the option comes before what the band says.
+std::string units_of(GDALDataset& source, char** options) {
+  if (const char* const given = CSLFetchNameValue(options, "UNITS")) return given;
+  const std::string unit = source.GetRasterBand(1)->GetUnitType();
+  if (EQUAL(unit.c_str(), "m") || EQUAL(unit.c_str(), "metre") || EQUAL(unit.c_str(), "meter")) {
+    return ":metre";
+  }
+  if (EQUAL(unit.c_str(), "ft") || EQUAL(unit.c_str(), "foot")) return ":foot";
+  if (EQUAL(unit.c_str(), "us-ft") || EQUAL(unit.c_str(), "US survey foot")) return ":us-foot";
+  return "";
+}
+
+template <class AllOptions>
+AllOptions options_of(GDALDataset& source, char** given) {
+  AllOptions options;
+  options.max_error = CSLFetchNameValueDef(given, "MAX_ERROR", "");
+  options.z_step = CSLFetchNameValueDef(given, "Z_STEP", "");
+  options.never_below = CPLFetchBool(given, "NEVER_BELOW", false);
+  options.units = units_of(source, given);
+  const std::string search = CSLFetchNameValueDef(given, "SEARCH", "NORMAL");
+  if (EQUAL(search.c_str(), "FAST")) options.search = Search::kFast;
+  if (EQUAL(search.c_str(), "BEST")) options.search = Search::kBest;
+  const std::string decoding = CSLFetchNameValueDef(given, "DECODING", "BALANCED");
+  if (EQUAL(decoding.c_str(), "QUICK")) options.decoding = Decoding::kQuick;
+  if (EQUAL(decoding.c_str(), "DENSE")) options.decoding = Decoding::kDense;
+  return options;
+}
+
+void write_bytes(const char* path, const std::vector<uint8_t>& bytes) {
+  VSILFILE* const file = VSIFOpenL(path, "wb");
+  if (file == nullptr) refuse(std::string(path) + ": cannot be written");
+  const bool is_written = VSIFWriteL(bytes.data(), 1, bytes.size(), file) == bytes.size();
+  if (VSIFCloseL(file) == 0 && is_written) return;
+  VSIUnlink(path);
+  refuse(std::string(path) + ": cannot be written");
+}
+
+void encode(const char* path, GDALDataset& source, char** given,
+            const encoder::Callbacks& callbacks) {
+  Posts posts = posts_of(source);
+  posts.wkt = wkt_of(source);
+  const encoder::Terrain terrain(std::move(posts));
+  if (!ends_with(path, ".mtp")) {
+    const auto options = options_of<encoder::StreamOptions>(source, given);
+    write_bytes(path, encoder::encode_stream(terrain, options, callbacks).bytes);
+    return;
+  }
+  if (STARTS_WITH(path, "/vsi")) refuse("packs are written to files alone, not to /vsi...");
+  auto options = options_of<encoder::PackOptions>(source, given);
+  const int most = atoi(CSLFetchNameValueDef(given, "TILE_VERTICES", "2000"));
+  if (most < 16) refuse("TILE_VERTICES: 16 or more");
+  options.tile_vertices = static_cast<uint32_t>(most);
+  encoder::encode_pack(terrain, options, path, callbacks);
+}
+
+}  // namespace
+
+GDALDataset* create_copy(const char* path, GDALDataset* source, int /*strict*/, char** options,
+                         GDALProgressFunc progress, void* context) {
+  encoder::Callbacks callbacks;
+  callbacks.progress = [&](double done) {
+    if (progress(done, "", context) == 0) throw encoder::Cancelled();
+  };
+  return guarded(
+      [&]() -> GDALDataset* {
+        encode(path, *source, options, callbacks);
+        progress(1, "", context);
+        GDALOpenInfo info(path, GDAL_OF_RASTER);
+        return Dataset::open(&info);
+      },
+      static_cast<GDALDataset*>(nullptr));
+}
+
+}  // namespace microtin::gdal

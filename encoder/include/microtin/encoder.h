@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+/* microtin: encoder and reader for languages that call C, as the shared library libmicrotin has
+ * them beside all of microtin.h, compact.h and pack.h. C99 and C++.
+ *
+ * encoder.hpp and surface.hpp say more of what options mean and of what is returned. Numbers here
+ * are real units; raster rows begin in the north. Texts are UTF-8 and end in 0; a null is an empty
+ * one. A struct of zeros with its `size` set asks for what is usual; structs grow at their end.
+ *
+ * Functions that can fail return an outcome; on all but OK nothing was made, no file either, and
+ * microtin_message says why. Several threads may call them at the same time, for one surface one
+ * at a time. Memory that is handed out is freed by the function named for it alone, which takes
+ * null, too.
+ */
+#ifndef MICROTIN_ENCODER_H
+#define MICROTIN_ENCODER_H
+
+#include <microtin/microtin.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum microtin_outcome {
+  MICROTIN_OK = 0,
+  MICROTIN_REFUSED = 1, /* what is asked for cannot be done, or a file not be read */
+  MICROTIN_NO_MEMORY = 2,
+  MICROTIN_CANCELLED = 3, /* microtin_options.progress said so */
+  MICROTIN_FAULT = 4      /* of the library's own */
+} microtin_outcome;
+
+/* A sentence on the last failure in this thread; valid until its next call. Never null. */
+const char* microtin_message(void);
+
+/* "0.1.0" */
+const char* microtin_version(void);
+
+/* --- Encoding --- */
+
+/* Heights at the centres of a raster's cells, not a number where there is none; each number stands
+ * for the shortest decimal that becomes it. 2 .. 65536 columns and rows for a stream. */
+typedef struct microtin_raster {
+  size_t size; /* sizeof(microtin_raster), as in all structs below */
+  uint32_t columns, rows;
+  const double* heights;      /* row by row; null: */
+  const float* float_heights; /* ... these */
+  double transform[6];        /* as GDAL's: see encoder.hpp */
+  const char* wkt;            /* systems of places and heights */
+} microtin_raster;
+
+/* Points in any order. */
+typedef struct microtin_points {
+  size_t size;
+  uint64_t count;
+  const double* coordinates; /* x, y, z of each in turn */
+  const char* wkt;
+} microtin_points;
+
+/* As encoder::Options, StreamOptions and PackOptions; 0 everywhere is what is usual. */
+typedef struct microtin_options {
+  size_t size;
+  const char* max_error; /* decimals, "0.25" */
+  const char *z_step, *xy_step;
+  uint32_t never_below; /* 1: no height is below the terrain */
+  uint32_t search;      /* 1 fast, 2 normal, 3 best */
+  uint32_t degree;      /* 6 .. 32 */
+  uint32_t decoding;    /* 1 quick, 2 balanced, 3 dense */
+  const char* units;    /* "degree:metre", ":foot"; null: as code or well-known text say */
+  uint32_t horizontal_epsg, vertical_epsg;
+  const char *source, *date, *lineage;
+  uint32_t max_vertices, max_bytes;            /* of streams */
+  uint32_t tile_vertices, tile_steps;          /* of packs, the first of them needed */
+  int (*progress)(void* context, double done); /* 0 .. 1; returns 1 to cancel. May be null */
+  void* context;
+} microtin_options;
+
+/* As encoder::Report; numbers are decimals as text, "" if there is none. */
+typedef struct microtin_report {
+  uint64_t samples, vertices, bytes;
+  uint32_t tiles;
+  char bound[24], max_error[24], rms_error[24], mean_error[24], max_below[24];
+} microtin_report;
+
+typedef struct microtin_terrain microtin_terrain;
+
+/* Copies what it is given: 8 bytes a post, 24 a point. */
+microtin_outcome microtin_terrain_of_raster(const microtin_raster* raster,
+                                            microtin_terrain** terrain);
+microtin_outcome microtin_terrain_of_points(const microtin_points* points,
+                                            microtin_terrain** terrain);
+/* Reads a file by its suffix. */
+microtin_outcome microtin_terrain_of_file(const char* path, microtin_terrain** terrain);
+void microtin_terrain_free(microtin_terrain* terrain);
+
+/* The stream's bytes are freed by microtin_bytes_free. */
+microtin_outcome microtin_encode_stream(const microtin_terrain* terrain,
+                                        const microtin_options* options, uint8_t** bytes,
+                                        uint64_t* size, microtin_report* report);
+void microtin_bytes_free(uint8_t* bytes);
+
+/* Writes a file that appears complete or not at all. */
+microtin_outcome microtin_encode_pack(const microtin_terrain* terrain,
+                                      const microtin_options* options, const char* path,
+                                      microtin_report* report);
+
+/* --- Reading --- */
+
+typedef struct microtin_surface microtin_surface;
+
+/* A stream or a pack, from a file, or from bytes that are copied. A stream is decoded and checked
+ * at once, of a pack header and index; its tiles when they are asked for. `name` is for messages.
+ */
+microtin_outcome microtin_surface_open(const char* path, microtin_surface** surface);
+microtin_outcome microtin_surface_of_bytes(const uint8_t* bytes, uint64_t size, const char* name,
+                                           microtin_surface** surface);
+void microtin_surface_free(microtin_surface* surface);
+
+/* Posts: the place of (column, row) is (x, y) of coordinates `x.offset + x.numerator * column`
+ * parts of `x.denominator`; row 0 is the southernmost. */
+typedef struct microtin_grid {
+  uint32_t columns, rows;
+  microtin_axis x, y;
+} microtin_grid;
+
+/* As encoder::Facts. Texts are valid as long as the surface. */
+typedef struct microtin_facts {
+  uint64_t bytes, vertices;
+  uint32_t is_pack, tile_columns, tile_rows; /* 1 x 1 of a stream */
+  double west, south, east, north, lowest, highest;
+  microtin_axis x, y, z;
+  microtin_grid source;                    /* no columns: it was no raster */
+  uint32_t horizontal_unit, vertical_unit; /* 1 metre, 2 degree, 3 foot, 4 US survey foot, or 0 */
+  uint32_t horizontal_epsg, vertical_epsg;
+  const char *wkt, *origin, *date, *lineage;
+  const char *bound, *max_error, *rms_error, *mean_error;
+} microtin_facts;
+
+void microtin_surface_facts(const microtin_surface* surface, microtin_facts* facts);
+
+/* Vertices and triangles. They belong to the surface, until the next of these calls for it. */
+typedef struct microtin_triangles {
+  uint64_t vertices, triangles;
+  const double* coordinates; /* x, y, height of each vertex */
+  const uint32_t* corners;   /* three of each triangle, counter-clockwise; void ones are left out */
+} microtin_triangles;
+
+/* All of it; vertices on borders of tiles once. O(n). */
+microtin_outcome microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles);
+
+/* A tile, columns from the west, rows from the south; a stream is tile 0, 0. Nothing in it if the
+ * tile has no terrain. */
+microtin_outcome microtin_surface_tile(microtin_surface* surface, uint32_t column, uint32_t row,
+                                       microtin_triangles* triangles);
+
+/* Heights at `count` places, not a number where there is none. About 0.3 us each, and the decoding
+ * of the tiles that are needed. */
+microtin_outcome microtin_surface_heights(microtin_surface* surface, uint64_t count,
+                                          const double* x, const double* y, double* heights);
+
+/* Posts `cell` units apart ("0.25"), from the south-west corner on. */
+microtin_outcome microtin_surface_grid(const microtin_surface* surface, const char* cell,
+                                       microtin_grid* grid);
+
+/* Heights at all posts of a grid, columns * rows of them, the northernmost row first. */
+microtin_outcome microtin_surface_raster(microtin_surface* surface, const microtin_grid* grid,
+                                         double* heights);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

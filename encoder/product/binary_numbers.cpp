@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Arrays of binary numbers, as other programs hold them, become exact posts and points.
+#include <cmath>
+#include <string>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/fraction.hpp"
+#include "encoder/import/text.hpp"
+#include "microtin/encoder.hpp"
+
+namespace microtin::encoder {
+namespace {
+
+using base::Error;
+using exact::Decimal;
+
+Decimal place_of(double value) {
+  const std::optional<Decimal> place = exact::shortest_decimal(value, exact::kPlaceDecimals);
+  if (!place) throw Error("transform: a number is out of range");
+  return *place;
+}
+
+// Where the centres of cells lie, of which the first begins or, if their size is below 0, the last
+// ends at the corner.
+microtin_axis centres(double corner, double size, uint32_t cells) {
+  const Decimal length = place_of(std::fabs(size));
+  if (length.mantissa == 0) throw Error("transform: cells have no extent");
+  return exact::axis_of_cells(place_of(corner), length, size > 0 ? 1 : 1 - 2 * int64_t{cells});
+}
+
+template <class Number>
+Posts binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const Transform& t) {
+  if (t[2] != 0 || t[4] != 0 || !(t[1] > 0)) {
+    throw Error("transform: columns must run east and rows north or south");
+  }
+  importing::DecimalColumn numbers;
+  numbers.reserve(size_t{columns} * rows);
+  for (uint32_t i = 0; i < rows; ++i) {
+    const uint32_t row = t[5] < 0 ? rows - 1 - i : i;
+    for (uint32_t column = 0; column < columns; ++column) {
+      const Number value = heights[size_t{row} * columns + column];
+      const auto decimal = exact::shortest_decimal(value);
+      if (std::isnan(value)) {
+        numbers.add_void();
+      } else if (!decimal || !numbers.add(*decimal)) {
+        throw Error("row " + std::to_string(row) + ", column " + std::to_string(column) +
+                    ": is not a height in range");
+      }
+    }
+  }
+  Posts posts;
+  posts.columns = columns;
+  posts.rows = rows;
+  posts.decimals = numbers.decimals();
+  posts.heights = std::move(numbers.mantissas());
+  posts.x = centres(t[0], t[1], columns);
+  posts.y = centres(t[3], t[5], rows);
+  return posts;
+}
+
+}  // namespace
+
+Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform) {
+  return binary_posts(columns, rows, heights, transform);
+}
+
+Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform) {
+  return binary_posts(columns, rows, heights, transform);
+}
+
+Points points_of(uint64_t count, const double* coordinates) {
+  importing::PointColumns columns;
+  for (uint64_t i = 0; i < 3 * count; ++i) {
+    const auto decimal = exact::shortest_decimal(coordinates[i]);
+    if (!decimal || !columns.add(i % 3, *decimal)) {
+      throw Error("point " + std::to_string(i / 3) + ": is not a number in range");
+    }
+  }
+  const terrain::PointCloud cloud = columns.take();
+  Points points;
+  points.xy_decimals = cloud.xy_decimals;
+  points.z_decimals = cloud.z_decimals;
+  points.points.reserve(cloud.points.size());
+  for (const auto& [x, y, z] : cloud.points) points.points.push_back({x, y, z});
+  return points;
+}
+
+}  // namespace microtin::encoder

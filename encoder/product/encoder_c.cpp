@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// The public face in C: structs become objects, exceptions outcomes with a message.
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "microtin/encoder.h"
+#include "microtin/encoder.hpp"
+#include "microtin/surface.hpp"
+
+#define MICROTIN_TEXT(number) MICROTIN_TEXT_OF(number)
+#define MICROTIN_TEXT_OF(number) #number
+
+using namespace microtin::encoder;
+using microtin::base::Error;
+
+struct microtin_terrain {
+  Terrain terrain;
+};
+
+struct microtin_surface {
+  Surface surface;
+  Mesh mesh;  // handed out last
+};
+
+namespace {
+
+thread_local std::string last_message;
+
+microtin_outcome failed(microtin_outcome outcome, const char* why) {
+  try {
+    last_message = why;
+  } catch (const std::bad_alloc&) {
+    last_message.clear();
+  }
+  return outcome;
+}
+
+// Runs `work`, whose exceptions nobody in C can catch.
+template <class Work>
+microtin_outcome guarded(const Work& work) {
+  try {
+    work();
+    return MICROTIN_OK;
+  } catch (const Cancelled& cancelled) {
+    return failed(MICROTIN_CANCELLED, cancelled.what());
+  } catch (const std::bad_alloc&) {
+    return failed(MICROTIN_NO_MEMORY, "out of memory");
+  } catch (const std::out_of_range& refused) {
+    return failed(MICROTIN_REFUSED, refused.what());
+  } catch (const std::runtime_error& refused) {
+    return failed(MICROTIN_REFUSED, refused.what());
+  } catch (const std::exception& fault) {
+    return failed(MICROTIN_FAULT, fault.what());
+  }
+}
+
+std::string text_of(const char* text) {
+  return text != nullptr ? text : "";
+}
+
+template <class Struct>
+const Struct& checked(const Struct* given) {
+  if (given == nullptr || given->size != sizeof(Struct)) throw Error("a struct of another size");
+  return *given;
+}
+
+template <class Pointer>
+void expect(Pointer* pointer) {
+  if (pointer == nullptr) throw Error("a pointer is null");
+}
+
+Posts read_raster(const microtin_raster& raster) {
+  Transform transform{};
+  std::copy(std::begin(raster.transform), std::end(raster.transform), transform.begin());
+  if (raster.heights != nullptr) {
+    return posts_of(raster.columns, raster.rows, raster.heights, transform);
+  }
+  expect(raster.float_heights);
+  return posts_of(raster.columns, raster.rows, raster.float_heights, transform);
+}
+
+// 0 is what is usual, else it is 1 above the number that it has in C++.
+template <class Choice>
+Choice choice(const char* name, uint32_t given, Choice usual) {
+  if (given > 3) throw Error(std::string(name) + ": 0 .. 3");
+  return given == 0 ? usual : static_cast<Choice>(given - 1);
+}
+
+template <class Options>
+Options common_options(const microtin_options& given) {
+  Options options;
+  options.max_error = text_of(given.max_error);
+  options.never_below = given.never_below != 0;
+  options.z_step = text_of(given.z_step);
+  options.xy_step = text_of(given.xy_step);
+  options.search = choice("search", given.search, options.search);
+  if (given.degree != 0) options.degree = given.degree;
+  options.decoding = choice("decoding", given.decoding, options.decoding);
+  options.units = text_of(given.units);
+  options.horizontal_epsg = given.horizontal_epsg;
+  options.vertical_epsg = given.vertical_epsg;
+  options.source = text_of(given.source);
+  options.date = text_of(given.date);
+  options.lineage = text_of(given.lineage);
+  return options;
+}
+
+Callbacks callbacks_of(const microtin_options& options) {
+  if (options.progress == nullptr) return {};
+  Callbacks callbacks;
+  callbacks.progress = [&options](double done) {
+    if (options.progress(options.context, done) != 0) throw Cancelled();
+  };
+  return callbacks;
+}
+
+void copy_decimal(const std::string& decimal, char (&to)[24]) {
+  std::strncpy(to, decimal.c_str(), sizeof to - 1);  // 21 characters at most
+}
+
+void copy_report(const Report& report, microtin_report* to) {
+  if (to == nullptr) return;
+  *to = {};
+  to->samples = report.samples;
+  to->vertices = report.vertices;
+  to->bytes = report.bytes;
+  to->tiles = report.tiles;
+  copy_decimal(report.bound, to->bound);
+  copy_decimal(report.max_error, to->max_error);
+  copy_decimal(report.rms_error, to->rms_error);
+  copy_decimal(report.mean_error, to->mean_error);
+  copy_decimal(report.max_below, to->max_below);
+}
+
+microtin_outcome make(microtin_terrain** terrain, const std::function<Terrain()>& read) {
+  return guarded([&] {
+    expect(terrain);
+    *terrain = new microtin_terrain{read()};
+  });
+}
+
+class BytesInMemory : public Bytes {
+ public:
+  BytesInMemory(const uint8_t* bytes, uint64_t size) : bytes_(bytes, bytes + size) {}
+  uint64_t size() const override { return bytes_.size(); }
+  size_t read(uint64_t offset, void* to, size_t size) const override {
+    if (offset >= bytes_.size()) return 0;
+    const size_t taken = std::min<uint64_t>(size, bytes_.size() - offset);
+    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(offset), taken,
+                static_cast<uint8_t*>(to));
+    return taken;
+  }
+
+ private:
+  std::vector<uint8_t> bytes_;
+};
+
+microtin_outcome open(microtin_surface** surface, const std::function<Surface()>& read) {
+  return guarded([&] {
+    expect(surface);
+    *surface = new microtin_surface{read(), {}};
+  });
+}
+
+Grid grid_of(const microtin_grid& grid) {
+  if (grid.x.numerator == 0 || grid.x.denominator == 0 || grid.y.numerator == 0 ||
+      grid.y.denominator == 0) {
+    throw Error("an axis has no step");
+  }
+  return {grid.columns, grid.rows, grid.x, grid.y};
+}
+
+microtin_outcome hand_out(microtin_surface* surface, microtin_triangles* triangles,
+                          const std::function<Mesh()>& read) {
+  return guarded([&] {
+    expect(triangles);
+    surface->mesh = read();
+    const Mesh& mesh = surface->mesh;
+    *triangles = {mesh.vertices.size(), mesh.triangles.size(),
+                  mesh.vertices.empty() ? nullptr : mesh.vertices.front().data(),
+                  mesh.triangles.empty() ? nullptr : mesh.triangles.front().data()};
+  });
+}
+
+}  // namespace
+
+const char* microtin_message(void) {
+  return last_message.c_str();
+}
+
+const char* microtin_version(void) {
+  return MICROTIN_TEXT(MICROTIN_VERSION_MAJOR) "." MICROTIN_TEXT(
+      MICROTIN_VERSION_MINOR) "." MICROTIN_TEXT(MICROTIN_VERSION_PATCH);
+}
+
+microtin_outcome microtin_terrain_of_raster(const microtin_raster* raster,
+                                            microtin_terrain** terrain) {
+  return make(terrain, [&] {
+    Posts posts = read_raster(checked(raster));
+    posts.wkt = text_of(raster->wkt);
+    return Terrain(std::move(posts));
+  });
+}
+
+microtin_outcome microtin_terrain_of_points(const microtin_points* points,
+                                            microtin_terrain** terrain) {
+  return make(terrain, [&] {
+    expect(checked(points).coordinates);
+    Points read = points_of(points->count, points->coordinates);
+    read.wkt = text_of(points->wkt);
+    return Terrain(read);
+  });
+}
+
+microtin_outcome microtin_terrain_of_file(const char* path, microtin_terrain** terrain) {
+  return make(terrain, [&] { return Terrain::from_file(text_of(path)); });
+}
+
+void microtin_terrain_free(microtin_terrain* terrain) {
+  delete terrain;
+}
+
+microtin_outcome microtin_encode_stream(const microtin_terrain* terrain,
+                                        const microtin_options* options, uint8_t** bytes,
+                                        uint64_t* size, microtin_report* report) {
+  return guarded([&] {
+    expect(terrain);
+    expect(bytes);
+    expect(size);
+    auto all = common_options<StreamOptions>(checked(options));
+    all.max_vertices = options->max_vertices;
+    all.max_bytes = options->max_bytes;
+    const Stream stream = encode_stream(terrain->terrain, all, callbacks_of(*options));
+    *bytes = new uint8_t[stream.bytes.size()];
+    std::copy(stream.bytes.begin(), stream.bytes.end(), *bytes);
+    *size = stream.bytes.size();
+    copy_report(stream.report, report);
+  });
+}
+
+void microtin_bytes_free(uint8_t* bytes) {
+  delete[] bytes;
+}
+
+microtin_outcome microtin_encode_pack(const microtin_terrain* terrain,
+                                      const microtin_options* options, const char* path,
+                                      microtin_report* report) {
+  return guarded([&] {
+    expect(terrain);
+    expect(path);
+    auto all = common_options<PackOptions>(checked(options));
+    all.tile_vertices = options->tile_vertices;
+    all.tile_steps = options->tile_steps;
+    copy_report(encode_pack(terrain->terrain, all, path, callbacks_of(*options)), report);
+  });
+}
+
+microtin_outcome microtin_surface_open(const char* path, microtin_surface** surface) {
+  return open(surface, [&] { return Surface::from_file(text_of(path)); });
+}
+
+microtin_outcome microtin_surface_of_bytes(const uint8_t* bytes, uint64_t size, const char* name,
+                                           microtin_surface** surface) {
+  return open(surface, [&] {
+    expect(bytes);
+    return Surface::from_bytes(std::make_unique<BytesInMemory>(bytes, size), text_of(name));
+  });
+}
+
+void microtin_surface_free(microtin_surface* surface) {
+  delete surface;
+}
+
+void microtin_surface_facts(const microtin_surface* surface, microtin_facts* to) {
+  const Facts& facts = surface->surface.facts();
+  *to = {};
+  to->bytes = facts.bytes;
+  to->vertices = facts.vertices;
+  to->is_pack = facts.is_pack ? 1 : 0;
+  to->tile_columns = facts.tile_columns;
+  to->tile_rows = facts.tile_rows;
+  to->west = facts.box.west;
+  to->south = facts.box.south;
+  to->east = facts.box.east;
+  to->north = facts.box.north;
+  to->lowest = facts.lowest;
+  to->highest = facts.highest;
+  to->x = facts.x;
+  to->y = facts.y;
+  to->z = facts.z;
+  to->source = {facts.source.columns, facts.source.rows, facts.source.x, facts.source.y};
+  to->horizontal_unit = static_cast<uint32_t>(facts.horizontal_unit);
+  to->vertical_unit = static_cast<uint32_t>(facts.vertical_unit);
+  to->horizontal_epsg = facts.horizontal_epsg;
+  to->vertical_epsg = facts.vertical_epsg;
+  to->wkt = facts.wkt.c_str();
+  to->origin = facts.origin.c_str();
+  to->date = facts.date.c_str();
+  to->lineage = facts.lineage.c_str();
+  to->bound = facts.bound.c_str();
+  to->max_error = facts.max_error.c_str();
+  to->rms_error = facts.rms_error.c_str();
+  to->mean_error = facts.mean_error.c_str();
+}
+
+microtin_outcome microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles) {
+  return hand_out(surface, triangles, [&] { return surface->surface.mesh(); });
+}
+
+microtin_outcome microtin_surface_tile(microtin_surface* surface, uint32_t column, uint32_t row,
+                                       microtin_triangles* triangles) {
+  return hand_out(surface, triangles, [&] { return surface->surface.tile(column, row); });
+}
+
+microtin_outcome microtin_surface_heights(microtin_surface* surface, uint64_t count,
+                                          const double* x, const double* y, double* heights) {
+  return guarded([&] { surface->surface.heights(count, x, y, heights); });
+}
+
+microtin_outcome microtin_surface_grid(const microtin_surface* surface, const char* cell,
+                                       microtin_grid* grid) {
+  return guarded([&] {
+    expect(grid);
+    const Grid found = surface->surface.grid(text_of(cell));
+    *grid = {found.columns, found.rows, found.x, found.y};
+  });
+}
+
+microtin_outcome microtin_surface_raster(microtin_surface* surface, const microtin_grid* grid,
+                                         double* heights) {
+  return guarded([&] {
+    expect(grid);
+    surface->surface.heights(grid_of(*grid), {0, 0, grid->columns, grid->rows}, heights);
+  });
+}

@@ -1,0 +1,424 @@
+# SPDX-License-Identifier: MIT
+"""Terrain TINs in the fewest bits: numpy arrays in, numpy arrays out.
+
+    >>> import microtin, numpy
+    >>> heights = numpy.hypot(*numpy.mgrid[-50:51, -50:51])
+    >>> data = microtin.encode(heights, max_error=0.5)     # bytes: write them to a .mtin file
+    >>> tin = microtin.decode(data)
+    >>> tin.vertices.shape[1], tin.triangles.shape[1]
+    (3, 3)
+    >>> array, transform = tin.raster()
+    >>> bool(numpy.abs(array - heights).max() <= 0.5)
+    True
+
+Arrays of heights are maps: row 0 is the northernmost. Without a transform the height of [row, column] lies at x = column,
+y = rows - 1 - row, so that y runs north, not with the rows as pydelatin has it.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import decimal
+import os
+import threading
+import weakref
+from dataclasses import dataclass
+from typing import Any, Callable, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy
+from numpy.typing import ArrayLike, NDArray
+
+from . import _library
+from ._library import Error, library
+
+__all__ = ["Error", "Report", "Stream", "Terrain", "Tile", "decode", "encode", "encode_pack", "encode_points"]
+__version__: str = library.microtin_version().decode()
+
+Number = Union[int, float, str, decimal.Decimal]
+Crs = Union[int, str, Any]
+Path = Union[str, "os.PathLike[str]"]
+
+_SEARCHES = {"fast": 1, "normal": 2, "best": 3}
+_DECODINGS = {"quick": 1, "balanced": 2, "dense": 3}
+UNITS = {0: None, 1: "metre", 2: "degree", 3: "foot", 4: "US survey foot"}
+
+
+@dataclass(frozen=True)
+class Report:
+    """What came of an encoding. Errors are in units of heights, measured at every sample, and rounded up."""
+
+    samples: int
+    vertices: int
+    bytes: int
+    tiles: int  # 0: a stream
+    max_error: float
+    rms_error: float
+    mean_error: float  # above 0: the surface is too high
+    max_below: float  # how far the surface is below a height at most
+
+
+class Stream(bytes):
+    """An encoded terrain, the content of a .mtin file, with a `report`."""
+
+    report: Report
+
+
+class Tile(NamedTuple):
+    """A part of a terrain; its triangles count its own vertices."""
+
+    vertices: NDArray[numpy.float64]
+    triangles: NDArray[numpy.uint32]
+
+
+# --- Encoding ---
+
+
+def encode(
+    array: ArrayLike,
+    max_error: Optional[Number] = None,
+    *,
+    transform: Optional[Sequence[float]] = None,
+    crs: Optional[Crs] = None,
+    nodata: Optional[float] = None,
+    max_vertices: int = 0,
+    max_bytes: int = 0,
+    **options: Any,
+) -> Stream:
+    """Encodes a raster of heights as a stream.
+
+    array         heights in rows and columns, row 0 northernmost; NaN, masked ones and `nodata` are void
+    max_error     no height of the surface is further from the array's; a float stands for its shortest decimal
+    transform     the place of the cells, whose centres have the heights: six numbers in GDAL's order, or an Affine
+    crs           of x, y: an EPSG code, well-known text, or an object that has to_wkt()
+    max_vertices  the best ones, so many, instead of max_error
+    max_bytes     the smallest bound that so many bytes allow, instead of both; takes minutes
+
+    Options: never_below=True, z_step, xy_step, search="fast" | "normal" | "best", degree,
+    decoding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", vertical_epsg, source, date, lineage, and
+    progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all
+    processors. Raises Error, also if an array is not two-dimensional or a height out of range.
+    """
+    with _terrain_of_array(array, transform, crs, nodata) as terrain:
+        return _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
+
+
+def encode_points(
+    points: ArrayLike,
+    max_error: Optional[Number] = None,
+    *,
+    crs: Optional[Crs] = None,
+    max_vertices: int = 0,
+    max_bytes: int = 0,
+    **options: Any,
+) -> Stream:
+    """Encodes points, an array of rows x, y, height in any order, as a stream. All else is as for `encode`."""
+    with _terrain_of_points(points, crs) as terrain:
+        return _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
+
+
+def encode_pack(
+    array: ArrayLike,
+    path: Path,
+    max_error: Optional[Number] = None,
+    *,
+    tile_vertices: int,
+    tile_steps: int = 0,
+    points: bool = False,
+    transform: Optional[Sequence[float]] = None,
+    crs: Optional[Crs] = None,
+    nodata: Optional[float] = None,
+    **options: Any,
+) -> Report:
+    """Encodes a raster, or with points=True points, as a pack of tiles and writes it to a .mtp file, which appears complete
+    or not at all. No tile has more than `tile_vertices` (16 .. 2^24) vertices; `tile_steps` fixes the extent of a raster's
+    tiles. All else is as for `encode`."""
+    filled, caller = _options(max_error, crs, tile_vertices=tile_vertices, tile_steps=tile_steps, **options)
+    report = _library.Report()
+    made = _terrain_of_points(array, crs) if points else _terrain_of_array(array, transform, crs, nodata)
+    with made as terrain, caller:
+        library.microtin_encode_pack(terrain.pointer, filled, os.fsencode(path), report)
+    return _report(report)
+
+
+class _Terrain:
+    """A terrain to be encoded, until the end of a with statement."""
+
+    def __init__(self, make: Callable[..., None], content: Any) -> None:
+        self.pointer = ctypes.c_void_p()
+        make(content, self.pointer)
+
+    def __enter__(self) -> "_Terrain":
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        library.microtin_terrain_free(self.pointer)
+
+
+class _Caller:
+    """Calls a function of the caller's from the library's threads, and hands on what it raises."""
+
+    def __init__(self, progress: Optional[Callable[[float], Any]]) -> None:
+        self._progress = progress
+        self._raised: Optional[BaseException] = None
+        self.function = _library.Progress(self._call) if progress else _library.Progress()
+
+    def _call(self, _context: Any, done: float) -> int:
+        try:
+            self._progress(done)  # type: ignore[misc]
+            return 0
+        except BaseException as error:  # the caller's, whatever it is
+            self._raised = error
+            return 1
+
+    def __enter__(self) -> "_Caller":
+        return self
+
+    def __exit__(self, _type: Any, raised: Optional[BaseException], _trace: Any) -> None:
+        if self._raised is not None and raised is not None:
+            raise self._raised
+
+
+def _encode_stream(terrain: _Terrain, max_error: Optional[Number], crs: Optional[Crs], **options: Any) -> Stream:
+    filled, caller = _options(max_error, crs, **options)
+    pointer, size, report = ctypes.POINTER(ctypes.c_uint8)(), ctypes.c_uint64(), _library.Report()
+    with caller:
+        library.microtin_encode_stream(terrain.pointer, filled, pointer, size, report)
+    try:
+        stream = Stream(ctypes.string_at(pointer, size.value))
+    finally:
+        library.microtin_bytes_free(pointer)
+    stream.report = _report(report)
+    return stream
+
+
+def _options(
+    max_error: Optional[Number],
+    crs: Optional[Crs],
+    *,
+    search: str = "normal",
+    decoding: str = "balanced",
+    progress: Optional[Callable[[float], Any]] = None,
+    never_below: bool = False,
+    z_step: Optional[Number] = None,
+    xy_step: Optional[Number] = None,
+    units: str = "",
+    source: str = "",
+    date: str = "",
+    lineage: str = "",
+    **numbers: int,
+) -> Tuple[_library.Options, _Caller]:
+    for value, choices in ((search, _SEARCHES), (decoding, _DECODINGS)):
+        if value not in choices:
+            raise Error(f"{value!r} is none of {', '.join(choices)}")
+    allowed = ("degree", "vertical_epsg", "max_vertices", "max_bytes", "tile_vertices", "tile_steps")
+    for name, number in numbers.items():
+        if name not in allowed:
+            raise TypeError(f"there is no option {name}")
+        if not 0 <= number < 1 << 32:
+            raise Error(f"{name}: {number} is out of range")
+    caller = _Caller(progress)
+    filled = _library.Options(
+        max_error=_decimal(max_error),
+        z_step=_decimal(z_step),
+        xy_step=_decimal(xy_step),
+        never_below=never_below,
+        search=_SEARCHES[search],
+        decoding=_DECODINGS[decoding],
+        units=units.encode(),
+        horizontal_epsg=_epsg_of(crs) or 0,
+        source=source.encode(),
+        date=date.encode(),
+        lineage=lineage.encode(),
+        progress=caller.function,
+        **numbers,
+    )
+    return filled, caller
+
+
+def _report(report: _library.Report) -> Report:
+    return Report(
+        report.samples,
+        report.vertices,
+        report.bytes,
+        report.tiles,
+        float(report.max_error),
+        float(report.rms_error),
+        float(report.mean_error),
+        float(report.max_below),
+    )
+
+
+def _decimal(number: Optional[Number]) -> Optional[bytes]:
+    if number is None:
+        return None
+    return (repr(float(number)) if isinstance(number, (float, numpy.floating)) else str(number)).encode()
+
+
+def _epsg_of(crs: Optional[Crs]) -> Optional[int]:
+    if isinstance(crs, (int, numpy.integer)):
+        return int(crs)
+    if isinstance(crs, str) and crs.upper().startswith("EPSG:"):
+        if not crs[5:].isdigit():
+            raise Error(f"{crs!r} is no code of a reference system")
+        return int(crs[5:])
+    return None
+
+
+def _wkt_of(crs: Optional[Crs]) -> Optional[bytes]:
+    if crs is None or _epsg_of(crs) is not None:
+        return None
+    return (crs if isinstance(crs, str) else crs.to_wkt()).encode()
+
+
+def _transform_of(transform: Optional[Sequence[float]], rows: int) -> Tuple[float, ...]:
+    if transform is None:
+        return (-0.5, 1, 0, rows - 0.5, 0, -1)
+    if hasattr(transform, "to_gdal"):
+        return tuple(transform.to_gdal())
+    if len(transform) != 6:
+        raise Error("a transform has six numbers")
+    return tuple(transform)
+
+
+def _terrain_of_array(
+    array: ArrayLike, transform: Optional[Sequence[float]], crs: Optional[Crs], nodata: Optional[float]
+) -> _Terrain:
+    mask = numpy.ma.getmaskarray(array) if isinstance(array, numpy.ma.MaskedArray) else None
+    heights = numpy.asarray(array)
+    if heights.ndim != 2:
+        raise Error(f"a raster has two dimensions, not {heights.ndim}")
+    kind = numpy.float32 if heights.dtype == numpy.float32 else numpy.float64
+    if heights.dtype.kind in "iu" and heights.size and numpy.abs(heights.astype(numpy.float64)).max() > 2**53:
+        raise Error("a height is beyond 2^53")
+    if heights.dtype.kind not in "iuf" or heights.dtype.itemsize > 8:
+        raise Error(f"heights are integers or floats of up to 64 bits, not {heights.dtype}")
+    void = heights == nodata if nodata is not None else numpy.zeros(heights.shape, bool)
+    if mask is not None:
+        void |= mask
+    if void.any():
+        heights = numpy.where(void, numpy.nan, heights)
+    heights = numpy.ascontiguousarray(heights, kind)
+    raster = _library.Raster(columns=heights.shape[1], rows=heights.shape[0], wkt=_wkt_of(crs))
+    raster.transform[:] = _transform_of(transform, heights.shape[0])
+    if kind == numpy.float32:
+        raster.float_heights = heights.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
+    else:
+        raster.heights = heights.ctypes.data_as(_library.Doubles)
+    return _Terrain(library.microtin_terrain_of_raster, raster)
+
+
+def _terrain_of_points(points: ArrayLike, crs: Optional[Crs]) -> _Terrain:
+    rows = numpy.ascontiguousarray(points, numpy.float64)
+    if rows.ndim != 2 or rows.shape[1] != 3:
+        raise Error("points are rows of x, y and height")
+    content = _library.Points(
+        count=len(rows), coordinates=rows.ctypes.data_as(_library.Doubles), wkt=_wkt_of(crs)
+    )
+    return _Terrain(library.microtin_terrain_of_points, content)
+
+
+# --- Decoding ---
+
+
+def decode(source: Union[bytes, bytearray, memoryview, Path]) -> "Terrain":
+    """Reads a stream or a pack: its bytes, or the path of a file. A stream is decoded at once, tiles of a pack when they are
+    asked for. Raises Error if it is damaged or none of them."""
+    return Terrain(source)
+
+
+class Terrain:
+    """A decoded terrain. Methods may be called from several threads.
+
+    bounds            west, south, east, north: of the vertices, or of a pack's tiles
+    crs               an EPSG code, well-known text, or None
+    vertical_epsg     0 if it is not stated
+    units             of x and y, and of heights: "metre", "degree", "foot", "US survey foot" or None
+    bound, max_error  the error asked for, and the largest that was measured; None if they are not stated
+    tiles             (columns, rows) of a pack, (1, 1) of a stream
+    """
+
+    def __init__(self, source: Union[bytes, bytearray, memoryview, Path]) -> None:
+        surface = ctypes.c_void_p()
+        if isinstance(source, (bytes, bytearray, memoryview)):
+            data = bytes(source)
+            library.microtin_surface_of_bytes(data, len(data), b"bytes", surface)
+        else:
+            library.microtin_surface_open(os.fsencode(source), surface)
+        weakref.finalize(self, library.microtin_surface_free, surface)
+        self._surface = surface
+        self._lock = threading.Lock()
+        self._mesh: Optional[Tile] = None
+        facts = _library.Facts()
+        library.microtin_surface_facts(surface, facts)
+        self._source = facts.source
+        self.is_pack = bool(facts.is_pack)
+        self.tiles: Tuple[int, int] = (facts.tile_columns, facts.tile_rows)
+        self.bounds: Tuple[float, float, float, float] = (facts.west, facts.south, facts.east, facts.north)
+        self.crs: Union[int, str, None] = facts.horizontal_epsg or facts.wkt.decode() or None
+        self.vertical_epsg: int = facts.vertical_epsg
+        self.units = (UNITS[facts.horizontal_unit], UNITS[facts.vertical_unit])
+        self.bound = float(facts.bound) if facts.bound else None
+        self.max_error = float(facts.max_error) if facts.max_error else None
+        self.source: str = facts.origin.decode(errors="replace")
+        self.date: str = facts.date.decode(errors="replace")
+        self.lineage: str = facts.lineage.decode(errors="replace")
+
+    @property
+    def vertices(self) -> NDArray[numpy.float64]:
+        """x, y and height of each vertex. Of a pack all its tiles', those on borders once."""
+        return self._whole().vertices
+
+    @property
+    def triangles(self) -> NDArray[numpy.uint32]:
+        """Numbers of the vertices of each triangle, counter-clockwise from above; void ones are left out."""
+        return self._whole().triangles
+
+    def tile(self, column: int, row: int) -> Tile:
+        """A tile of a pack, columns from the west, rows from the south; without vertices if it has no terrain. Raises
+        IndexError."""
+        if not (0 <= column < self.tiles[0] and 0 <= row < self.tiles[1]):
+            raise IndexError(f"there are {self.tiles[0]} x {self.tiles[1]} tiles")
+        return self._triangles(library.microtin_surface_tile, column, row)
+
+    def height_at(self, xs: ArrayLike, ys: ArrayLike) -> Any:
+        """Heights at places: an array of the shape that xs and ys have together, or a float for two numbers. NaN outside
+        and in voids. About 0.3 us each, and the decoding of the tiles that are needed."""
+        x, y = numpy.broadcast_arrays(*(numpy.asarray(places, numpy.float64) for places in (xs, ys)))
+        x, y = numpy.ascontiguousarray(x), numpy.ascontiguousarray(y)
+        heights = numpy.empty(x.shape)
+        pointers = (places.ctypes.data_as(_library.Doubles) for places in (x, y, heights))
+        with self._lock:
+            library.microtin_surface_heights(self._surface, x.size, *pointers)
+        return heights if numpy.ndim(xs) or numpy.ndim(ys) else float(heights.reshape(-1)[0])
+
+    def raster(self, cell: Optional[Number] = None) -> Tuple[NDArray[numpy.float64], Tuple[float, ...]]:
+        """Heights of all posts of the source, or of posts `cell` apart, row 0 northernmost, NaN where there is none; and
+        the transform, in GDAL's order, of the cells around them. Raises Error if the source was no raster and no cell
+        size is given."""
+        grid = self._source
+        if cell is not None:
+            grid = _library.Grid()
+            library.microtin_surface_grid(self._surface, _decimal(cell), grid)
+        if grid.columns == 0:
+            raise Error("the source was no raster: give the size of a cell")
+        heights = numpy.empty((grid.rows, grid.columns))
+        with self._lock:
+            library.microtin_surface_raster(self._surface, grid, heights.ctypes.data_as(_library.Doubles))
+        dx, dy = (axis.numerator / axis.denominator for axis in (grid.x, grid.y))
+        west = (2 * grid.x.offset - grid.x.numerator) / (2 * grid.x.denominator)
+        north = (2 * grid.y.offset + (2 * grid.rows - 1) * grid.y.numerator) / (2 * grid.y.denominator)
+        return heights, (west, dx, 0.0, north, 0.0, -dy)
+
+    def _whole(self) -> Tile:
+        if self._mesh is None:
+            self._mesh = self._triangles(library.microtin_surface_mesh)
+        return self._mesh
+
+    def _triangles(self, read: Callable[..., None], *which: int) -> Tile:
+        found = _library.Triangles()
+        with self._lock:
+            read(self._surface, *which, found)
+            vertices, triangles = numpy.empty((found.vertices, 3)), numpy.empty((found.triangles, 3), numpy.uint32)
+            ctypes.memmove(vertices.ctypes.data, found.coordinates, vertices.nbytes)
+            ctypes.memmove(triangles.ctypes.data, found.corners, triangles.nbytes)
+        return Tile(vertices, triangles)

@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: MIT
+"""microtin/encoder.h for ctypes, line by line."""
+
+from __future__ import annotations
+
+import ctypes
+import ctypes.util
+import os
+from ctypes import POINTER, c_char, c_char_p, c_double, c_float, c_int, c_int64, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
+from pathlib import Path
+from typing import Any
+
+
+class Error(RuntimeError):
+    """What was asked for cannot be done, or a file not be read; the message says why."""
+
+
+Progress = ctypes.CFUNCTYPE(c_int, c_void_p, c_double)
+
+
+class _Sized(ctypes.Structure):
+    """A struct that begins with its size."""
+
+    def __init__(self, **fields: Any) -> None:
+        super().__init__(size=ctypes.sizeof(self), **fields)
+
+
+class Axis(ctypes.Structure):
+    _fields_ = [("offset", c_int64), ("numerator", c_uint64), ("denominator", c_uint64)]
+
+
+class Raster(_Sized):
+    _fields_ = [
+        ("size", c_size_t),
+        ("columns", c_uint32),
+        ("rows", c_uint32),
+        ("heights", POINTER(c_double)),
+        ("float_heights", POINTER(c_float)),
+        ("transform", c_double * 6),
+        ("wkt", c_char_p),
+    ]
+
+
+class Points(_Sized):
+    _fields_ = [("size", c_size_t), ("count", c_uint64), ("coordinates", POINTER(c_double)), ("wkt", c_char_p)]
+
+
+class Options(_Sized):
+    _fields_ = [
+        ("size", c_size_t),
+        ("max_error", c_char_p),
+        ("z_step", c_char_p),
+        ("xy_step", c_char_p),
+        ("never_below", c_uint32),
+        ("search", c_uint32),
+        ("degree", c_uint32),
+        ("decoding", c_uint32),
+        ("units", c_char_p),
+        ("horizontal_epsg", c_uint32),
+        ("vertical_epsg", c_uint32),
+        ("source", c_char_p),
+        ("date", c_char_p),
+        ("lineage", c_char_p),
+        ("max_vertices", c_uint32),
+        ("max_bytes", c_uint32),
+        ("tile_vertices", c_uint32),
+        ("tile_steps", c_uint32),
+        ("progress", Progress),
+        ("context", c_void_p),
+    ]
+
+
+class Report(ctypes.Structure):
+    _fields_ = [
+        ("samples", c_uint64),
+        ("vertices", c_uint64),
+        ("bytes", c_uint64),
+        ("tiles", c_uint32),
+        ("bound", c_char * 24),
+        ("max_error", c_char * 24),
+        ("rms_error", c_char * 24),
+        ("mean_error", c_char * 24),
+        ("max_below", c_char * 24),
+    ]
+
+
+class Grid(ctypes.Structure):
+    _fields_ = [("columns", c_uint32), ("rows", c_uint32), ("x", Axis), ("y", Axis)]
+
+
+class Facts(ctypes.Structure):
+    _fields_ = [
+        ("bytes", c_uint64),
+        ("vertices", c_uint64),
+        ("is_pack", c_uint32),
+        ("tile_columns", c_uint32),
+        ("tile_rows", c_uint32),
+        ("west", c_double),
+        ("south", c_double),
+        ("east", c_double),
+        ("north", c_double),
+        ("lowest", c_double),
+        ("highest", c_double),
+        ("x", Axis),
+        ("y", Axis),
+        ("z", Axis),
+        ("source", Grid),
+        ("horizontal_unit", c_uint32),
+        ("vertical_unit", c_uint32),
+        ("horizontal_epsg", c_uint32),
+        ("vertical_epsg", c_uint32),
+        ("wkt", c_char_p),
+        ("origin", c_char_p),
+        ("date", c_char_p),
+        ("lineage", c_char_p),
+        ("bound", c_char_p),
+        ("max_error", c_char_p),
+        ("rms_error", c_char_p),
+        ("mean_error", c_char_p),
+    ]
+
+
+class Triangles(ctypes.Structure):
+    _fields_ = [
+        ("vertices", c_uint64),
+        ("triangles", c_uint64),
+        ("coordinates", POINTER(c_double)),
+        ("corners", POINTER(c_uint32)),
+    ]
+
+
+OK, NO_MEMORY, CANCELLED, FAULT = 0, 2, 3, 4
+Doubles = POINTER(c_double)
+
+_FUNCTIONS = {
+    "terrain_of_raster": [POINTER(Raster), POINTER(c_void_p)],
+    "terrain_of_points": [POINTER(Points), POINTER(c_void_p)],
+    "terrain_of_file": [c_char_p, POINTER(c_void_p)],
+    "encode_stream": [c_void_p, POINTER(Options), POINTER(POINTER(c_uint8)), POINTER(c_uint64), POINTER(Report)],
+    "encode_pack": [c_void_p, POINTER(Options), c_char_p, POINTER(Report)],
+    "surface_open": [c_char_p, POINTER(c_void_p)],
+    "surface_of_bytes": [c_char_p, c_uint64, c_char_p, POINTER(c_void_p)],
+    "surface_mesh": [c_void_p, POINTER(Triangles)],
+    "surface_tile": [c_void_p, c_uint32, c_uint32, POINTER(Triangles)],
+    "surface_heights": [c_void_p, c_uint64, Doubles, Doubles, Doubles],
+    "surface_grid": [c_void_p, c_char_p, POINTER(Grid)],
+    "surface_raster": [c_void_p, POINTER(Grid), Doubles],
+}
+
+_WITHOUT_OUTCOME = {
+    "terrain_free": ([c_void_p], None),
+    "bytes_free": ([POINTER(c_uint8)], None),
+    "surface_free": ([c_void_p], None),
+    "surface_facts": ([c_void_p, POINTER(Facts)], None),
+    "message": ([], c_char_p),
+    "version": ([], c_char_p),
+}
+
+
+def _checked(outcome: int, _function: Any, _arguments: Any) -> None:
+    if outcome == OK:
+        return
+    message = library.microtin_message().decode()
+    if outcome == NO_MEMORY:
+        raise MemoryError(message)
+    raise Error(message if outcome != FAULT else f"a fault of microtin's own: {message}")
+
+
+def _load() -> ctypes.CDLL:
+    """The library of the environment's MICROTIN_LIBRARY, of this package, or of the system."""
+    packed = Path(__file__).with_name("libmicrotin.so")
+    name = os.environ.get("MICROTIN_LIBRARY") or (str(packed) if packed.exists() else ctypes.util.find_library("microtin"))
+    if name is None:
+        raise ImportError("libmicrotin.so is neither in the package nor installed; MICROTIN_LIBRARY names another")
+    loaded = ctypes.CDLL(name)
+    for function, arguments in _FUNCTIONS.items():
+        getattr(loaded, f"microtin_{function}").argtypes = arguments
+        getattr(loaded, f"microtin_{function}").errcheck = _checked
+    for function, (arguments, result) in _WITHOUT_OUTCOME.items():
+        getattr(loaded, f"microtin_{function}").argtypes = arguments
+        getattr(loaded, f"microtin_{function}").restype = result
+    return loaded
+
+
+library = _load()

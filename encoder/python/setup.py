@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: MIT
+"""Puts the shared library into the package: that of the environment's MICROTIN_LIBRARY, or one built of the sources
+two folders above, which takes CMake, a C++ compiler and the packages of the tool."""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+from setuptools import setup
+from setuptools.command.build_py import build_py
+from wheel.bdist_wheel import bdist_wheel
+
+SOURCES = Path(__file__).resolve().parents[2]
+
+
+def version():
+    header = (SOURCES / "decoder/include/microtin/microtin.h").read_text()
+    return ".".join(re.findall(r"define MICROTIN_VERSION_[A-Z]+ (\d+)", header))
+
+
+def built_library(folder):
+    subprocess.check_call(["cmake", "-S", SOURCES, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DMICROTIN_TESTS=OFF"])
+    subprocess.check_call(["cmake", "--build", folder, "--parallel", "--target", "microtin_shared"])
+    return Path(folder) / "libmicrotin.so"
+
+
+class BuildWithLibrary(build_py):
+    def run(self):
+        super().run()
+        temporary = self.get_finalized_command("build").build_temp
+        library = os.environ.get("MICROTIN_LIBRARY") or built_library(temporary)
+        shutil.copy(library, Path(self.build_lib) / "microtin" / "libmicrotin.so")
+
+
+class WheelOfThePlatform(bdist_wheel):
+    """Any Python, but one kind of machine: the library is called by ctypes."""
+
+    def finalize_options(self):
+        super().finalize_options()
+        self.root_is_pure = False
+
+    def get_tag(self):
+        return "py3", "none", super().get_tag()[2]
+
+
+setup(version=version(), cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelOfThePlatform})

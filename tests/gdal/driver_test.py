@@ -1,0 +1,234 @@
+# SPDX-License-Identifier: MIT
+"""driver_test.py GOLDEN: the driver in GDAL's programs and in Python. Skipped (77) without python3-gdal or numpy."""
+
+import functools
+import http.server
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import zipfile
+
+try:
+    import numpy
+    from osgeo import gdal, ogr, osr
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+gdal.UseExceptions()
+TOOL = os.environ["MICROTIN_TOOL"]
+ROWS, COLUMNS = 300, 420
+ROW, COLUMN = numpy.mgrid[0:ROWS, 0:COLUMNS]
+TRANSFORM = (600000.0, 10.0, 0.0, 5000000.0, 0.0, -10.0)
+VOID = (ROW < 20) & (COLUMN > 300)
+NONE = -32768
+ROUNDING = 1e-9  # of differences of binary numbers
+BOUND = 0.5
+
+
+def hills():
+    """Not the same when mirrored."""
+    heights = numpy.round(60 * numpy.sin(COLUMN / 29) * numpy.cos(ROW / 37) + ROW + COLUMN / 4, 1)
+    return numpy.where(VOID, NONE, heights)
+
+
+def run(*command):
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+class Driver(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        source = gdal.GetDriverByName("GTiff").Create(cls.path("hills.tif"), COLUMNS, ROWS, 1, gdal.GDT_Float64)
+        source.SetGeoTransform(TRANSFORM)
+        system = osr.SpatialReference()
+        system.ImportFromEPSG(25832)
+        source.SetProjection(system.ExportToWkt())
+        source.GetRasterBand(1).SetNoDataValue(NONE)
+        source.GetRasterBand(1).WriteArray(hills())
+        source = None
+        for name, options in (("hills.mtin", []), ("hills.mtp", ["TILE_VERTICES=300"])):
+            gdal.Translate(
+                cls.path(name), cls.path("hills.tif"), format="MTIN", creationOptions=[f"MAX_ERROR={BOUND}", *options]
+            )
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @classmethod
+    def path(cls, name):
+        return os.path.join(cls.folder.name, name)
+
+    def both(self):
+        for name in ("hills.mtin", "hills.mtp"):
+            with self.subTest(name):
+                yield self.path(name)
+
+    def expect_hills(self, dataset):
+        band = dataset.GetRasterBand(1)
+        array = band.ReadAsArray()
+        numpy.testing.assert_array_equal(array == band.GetNoDataValue(), VOID)
+        self.assertLessEqual(numpy.abs(array - hills())[~VOID].max(), BOUND + ROUNDING)
+
+    def test_raster(self):
+        for path in self.both():
+            dataset = gdal.Open(path)
+            self.assertEqual(dataset.GetGeoTransform(), TRANSFORM)
+            self.assertEqual(dataset.GetSpatialRef().GetAuthorityCode(None), "25832")
+            self.assertEqual(dataset.GetMetadataItem("AREA_OR_POINT"), "Point")
+            self.assertEqual(float(dataset.GetMetadataItem("MAX_ERROR_ASKED")), BOUND)
+            self.assertEqual(dataset.GetRasterBand(1).GetUnitType(), "m")
+            self.expect_hills(dataset)
+
+    def test_overviews_lie_where_the_raster_does(self):
+        for path in self.both():
+            dataset = gdal.Open(path)
+            band = dataset.GetRasterBand(1)
+            self.assertEqual(band.GetOverviewCount(), 1)
+            coarse = band.GetOverview(0).ReadAsArray()
+            self.assertEqual(coarse.shape, (ROWS // 2, COLUMNS // 2))
+            # The middle of four posts is a post of a raster of half the cell size.
+            finer = gdal.OpenEx(path, gdal.OF_RASTER, open_options=["CELL_SIZE=5"]).ReadAsArray()
+            numpy.testing.assert_allclose(coarse, finer[1::4, 1::4], atol=ROUNDING)
+
+    def test_cell_size(self):
+        for path in self.both():
+            dataset = gdal.OpenEx(path, gdal.OF_RASTER, open_options=["CELL_SIZE=5"])
+            self.assertEqual(dataset.GetGeoTransform(), (600002.5, 5.0, 0.0, 4999997.5, 0.0, -5.0))
+            array = dataset.ReadAsArray()
+            self.assertEqual(array.shape, (2 * ROWS - 1, 2 * COLUMNS - 1))
+            numpy.testing.assert_allclose(array[::2, ::2], gdal.Open(path).ReadAsArray(), atol=ROUNDING)
+            with self.assertRaisesRegex(RuntimeError, "cell: 0 is not a length above 0"):
+                gdal.OpenEx(path, gdal.OF_RASTER, open_options=["CELL_SIZE=0"])
+
+    def test_layers(self):
+        for path in self.both():
+            dataset = gdal.OpenEx(path, gdal.OF_VECTOR)
+            vertices, triangles = (dataset.GetLayerByName(name) for name in ("vertices", "triangles"))
+            self.assertEqual(vertices.GetGeomType(), ogr.wkbPoint25D)
+            self.assertEqual(triangles.GetGeomType(), ogr.wkbPolygon25D)
+            self.assertEqual(vertices.GetSpatialRef().GetAuthorityCode(None), "25832")
+            places = {feature.GetGeometryRef().GetPoint() for feature in vertices}
+            corners = {p for feature in triangles for p in feature.GetGeometryRef().GetGeometryRef(0).GetPoints()}
+            self.assertLessEqual(corners, places)
+            self.assertEqual(vertices.GetFeatureCount(), sum(1 for _ in vertices))
+            area = sum(feature.GetGeometryRef().GetArea() for feature in triangles)
+            self.assertLess(abs(area / (100 * ((ROWS - 1) * (COLUMNS - 1) - VOID.sum())) - 1), 0.005)
+
+    def test_filters(self):
+        for path in self.both():
+            dataset = gdal.OpenEx(path, gdal.OF_VECTOR)
+            layer = dataset.GetLayerByName("vertices")
+            expected = {f.GetFID() for f in layer if f.GetGeometryRef().GetX() < 601000}
+            layer.SetSpatialFilterRect(599000, 4990000, 601000 - 1e-6, 5010000)
+            self.assertTrue(expected)
+            found = {f.GetGeometryRef().GetPoint() for f in layer}
+            layer.SetSpatialFilter(None)
+            self.assertEqual(found, {f.GetGeometryRef().GetPoint() for f in layer if f.GetFID() in expected})
+
+    def test_programs(self):
+        for path in self.both():
+            self.assertIn("Size is 420, 300", run("gdalinfo", path))
+            value = float(run("gdallocationinfo", "-valonly", path, "100", "200"))
+            self.assertLessEqual(abs(value - hills()[200, 100]), BOUND + ROUNDING)
+            for command in ("gdaldem hillshade", "gdal_contour -i 50 -a height", "gdal_translate -of GTiff"):
+                name = self.path("out.gpkg" if "contour" in command else "out.tif")
+                run(*command.split(), path, name)
+                self.assertGreater(os.path.getsize(name), 10000)
+                os.remove(name)
+            name = self.path("out.gpkg")
+            run("ogr2ogr", name, path)
+            layers = gdal.OpenEx(name, gdal.OF_VECTOR)
+            self.assertEqual(
+                [layers.GetLayer(i).GetName() for i in range(layers.GetLayerCount())], ["vertices", "triangles"]
+            )
+            self.assertGreater(layers.GetLayer(1).GetFeatureCount(), 100)
+            layers = None
+            os.remove(name)
+
+    def test_the_tool_and_the_driver_agree(self):
+        gdal.Translate(self.path("source.asc"), self.path("hills.tif"), format="AAIGrid")
+        for path in self.both():
+            run(TOOL, "verify", path, self.path("source.asc"))  # every post; fails if one is beyond the bound
+
+    def test_zip_and_web(self):
+        with zipfile.ZipFile(self.path("hills.zip"), "w", zipfile.ZIP_DEFLATED) as archive:
+            for path in (self.path("hills.mtin"), self.path("hills.mtp")):
+                archive.write(path, os.path.basename(path))
+        handler = functools.partial(QuietHandler, directory=self.folder.name)
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        try:
+            for name in ("hills.mtin", "hills.mtp"):
+                self.expect_hills(gdal.Open(f"/vsizip/{self.path('hills.zip')}/{name}"))
+                self.expect_hills(gdal.Open(f"/vsicurl/http://127.0.0.1:{server.server_port}/{name}"))
+        finally:
+            server.shutdown()
+            server.server_close()
+
+    def test_points_get_a_cell_of_their_own(self):
+        with open(self.path("points.xyz"), "w") as file:
+            for i in range(2000):
+                file.write(f"{i * 7919 % 1000} {i * 104729 % 997} {i % 50}\n")
+        run(TOOL, "encode", self.path("points.xyz"), "-o", self.path("points.mtin"))
+        transform = gdal.Open(self.path("points.mtin")).GetGeoTransform()
+        self.assertEqual((transform[1], transform[5]), (10, -10))  # half of 22 is 11
+
+    def test_floats_masks_and_south_up(self):
+        memory = gdal.GetDriverByName("MEM")
+        source = memory.Create("", COLUMNS, ROWS, 1, gdal.GDT_Float32)
+        source.SetGeoTransform((0, 1, 0, 0, 0, 1))
+        source.GetRasterBand(1).WriteArray(hills()[::-1].astype(numpy.float32))
+        source.CreateMaskBand(gdal.GMF_PER_DATASET)
+        source.GetRasterBand(1).GetMaskBand().WriteArray(numpy.where(VOID[::-1], 0, 255).astype(numpy.uint8))
+        copy = gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/south.mtin", source, options=["MAX_ERROR=0.5"])
+        self.assertEqual(copy.GetGeoTransform(), (0, 1, 0, ROWS, 0, -1))
+        self.expect_hills(copy)
+
+    def test_what_cannot_be_encoded(self):
+        memory, driver = gdal.GetDriverByName("MEM"), gdal.GetDriverByName("MTIN")
+
+        def refused(sentence, bands=1, kind=gdal.GDT_Float64, transform=TRANSFORM, epsg=None, options=()):
+            source = memory.Create("", 4, 4, bands, kind)
+            if transform:
+                source.SetGeoTransform(transform)
+            if epsg:
+                system = osr.SpatialReference()
+                system.ImportFromEPSG(epsg)
+                source.SetProjection(system.ExportToWkt())
+            with self.assertRaisesRegex(RuntimeError, sentence):
+                driver.CreateCopy(self.path("refused.mtin"), source, options=list(options))
+            self.assertFalse(os.path.exists(self.path("refused.mtin")))
+
+        refused("choose one with -b", bands=2)
+        refused("does not say where it lies", transform=None)
+        refused("columns must run east", transform=(0, 1, 0.5, 0, 0, -1))
+        refused("no complex numbers", kind=gdal.GDT_CFloat32)
+        refused("max_error: much", options=["MAX_ERROR=much"])
+        refused("heights", epsg=4326)
+
+    def test_feet(self):
+        source = gdal.GetDriverByName("MEM").Create("", 9, 9, 1, gdal.GDT_Int16)
+        source.SetGeoTransform((7, 0.001, 0, 43, 0, -0.001))
+        system = osr.SpatialReference()
+        system.ImportFromEPSG(4326)
+        source.SetProjection(system.ExportToWkt())
+        source.GetRasterBand(1).SetUnitType("ft")
+        copy = gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/feet.mtin", source)
+        self.assertEqual(copy.GetRasterBand(1).GetUnitType(), "ft")
+        self.assertEqual(copy.GetGeoTransform(), (7, 0.001, 0, 43, 0, -0.001))
+
+
+class QuietHandler(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+if __name__ == "__main__":
+    del sys.argv[1:]
+    unittest.main()

@@ -1,0 +1,14 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# packs.sh MICROTIN: makes the packs of this folder, after a change of the format; card_report says what a host answers.
+# card.mtp is for decoder/examples/card.c: a byte of one of its tiles is damaged. tiles.mtp fits into 16 KB of RAM.
+set -eu
+microtin=$1
+here=$(dirname "$0")
+terrain=$(mktemp -d)
+trap 'rm -r "$terrain"' EXIT
+"$microtin" fractal --size 385 --seed 20 -o "$terrain/t.asc"
+"$microtin" encode "$terrain/t.asc" --max-error 2 --tile-vertices 2500 -o "$here/card.mtp"
+size=$(wc -c <"$here/card.mtp")
+printf 'damage' | dd of="$here/card.mtp" bs=1 seek=$((size * 2 / 5)) conv=notrunc status=none
+"$microtin" encode "$terrain/t.asc" --max-error 30 --tile-vertices 60 -o "$here/tiles.mtp"

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// The recorded flights that devices are compared with are what a host answers; and what a card is
+// asked for.
+#include <doctest/doctest.h>
+
+#include <map>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "encoder/base/error.hpp"
+#include "encoder/files/input_file.hpp"
+#include "tests/support/pack_device.hpp"
+#include "tests/support/packs.hpp"
+
+extern "C" void put_char(char) {}  // the device's, of which only the flight is wanted here
+
+#include "decoder/examples/flight.h"
+
+namespace microtin::tests {
+namespace {
+
+// The tiles of a pack, each decoded whole. Those that are damaged have no say.
+class HostPack {
+ public:
+  explicit HostPack(const std::string& path) : pack_(open_file(path)) {
+    for (uint32_t tile = 0; tile < pack_.entries().size(); ++tile) {
+      try {
+        tiles_[tile] = pack_.tile(tile);
+      } catch (const Error&) {
+        bad_.push_back(tile);
+      }
+    }
+  }
+
+  microtin_pack_info info() const {
+    microtin_pack_info info{};
+    info.x_max = pack_.grid().x_max;
+    info.y_max = pack_.grid().y_max;
+    return info;
+  }
+  const std::vector<uint32_t>& bad() const { return bad_; }
+
+  // As a report has it.
+  std::string answer(int64_t x, int64_t y) const {
+    std::string without = "void";
+    for (uint32_t tile = 0; tile < pack_.entries().size(); ++tile) {
+      const TileBox box = tile_box(pack_.grid(), tile);
+      const int64_t lx = x - int64_t{box.x} * 256, ly = y - int64_t{box.y} * 256;
+      if (lx < 0 || ly < 0 || x > int64_t{box.x_end} * 256 || y > int64_t{box.y_end} * 256)
+        continue;
+      const auto found = tiles_.find(tile);
+      if (found == tiles_.end()) {
+        without = "bad";
+        continue;
+      }
+      uint32_t hint = 0;
+      int32_t height = 0;
+      if (found->second &&
+          microtin_height_at(found->second->mesh(), static_cast<int32_t>(lx),
+                             static_cast<int32_t>(ly), 0, &hint, &height) == MICROTIN_HEIGHT) {
+        return std::to_string(height);
+      }
+    }
+    return without;
+  }
+
+ private:
+  PackFile pack_;
+  std::map<uint32_t, std::optional<DecodedTerrain>> tiles_;
+  std::vector<uint32_t> bad_;
+};
+
+std::string golden(const std::string& name) {
+  return MICROTIN_GOLDEN_DIR "/" + name;
+}
+
+std::string report_of(const HostPack& pack) {
+  std::string report;
+  const microtin_pack_info info = pack.info();
+  for (int32_t i = 0; i < FLIGHT_PLACES; ++i) {
+    const microtin_course course = flight_course(i, &info);
+    report += pack.answer(course.x, course.y) + (i % 10 == 9 ? "\n" : " ");
+  }
+  return report;
+}
+
+// A number that the example card.c prints of itself.
+int64_t fact(const std::string& facts, const std::string& name) {
+  const size_t at = facts.find(name + ": ");
+  REQUIRE(at != std::string::npos);
+  return std::stoll(facts.substr(at + name.size() + 2));
+}
+
+// Reads whole sectors, of which one is kept.
+struct SectorCard {
+  static constexpr uint64_t kSector = 512;
+  Bytes bytes;
+  uint64_t kept = ~uint64_t{0};
+  uint64_t sectors = 0, asked = 0, most_sectors = 0;
+
+  static int32_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+    SectorCard& card = *static_cast<SectorCard*>(context);
+    if (offset >= card.bytes.size()) return 0;
+    const size_t count = std::min(size, card.bytes.size() - static_cast<size_t>(offset));
+    const uint64_t first = offset / kSector, last = (offset + count - 1) / kSector;
+    for (uint64_t sector = first; sector <= last; ++sector) {
+      if (sector != card.kept) ++card.sectors;
+      card.kept = sector;
+    }
+    card.most_sectors = std::max(card.most_sectors, last - first + 1);
+    card.asked += count;
+    std::memcpy(buffer, card.bytes.data() + offset, count);
+    return static_cast<int32_t>(count);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("card: recorded flights are what a host answers") {
+  for (const std::string name : {"card", "tiles"}) {
+    const HostPack pack(golden(name + ".mtp"));
+    CHECK(pack.bad().size() == (name == "card" ? 1 : 0));
+    const std::string report = report_of(pack);
+    CHECK(report == read_file(golden(name + ".report")));
+    CHECK((report.find("bad") != std::string::npos) == (name == "card"));
+  }
+}
+
+TEST_CASE("card: sectors are at most twice what was asked for, and the damaged tile is told") {
+  const std::string facts = read_file(MICROTIN_GOLDEN_DIR "/../../decoder/examples/card.txt");
+  CHECK(fact(facts, "bytes of sectors read") <= 2 * fact(facts, "bytes asked for"));
+  CHECK(fact(facts, "turns without a card") > 0);
+  CHECK(facts.find("damaged: tile " + std::to_string(HostPack(golden("card.mtp")).bad()[0]) +
+                   "\n") != std::string::npos);
+}
+
+TEST_CASE("pack: aligned reads lie in one sector, and answers are the same") {
+  const EncodedPack encoded = encode_pack(rough_raster(61, 53), pack_options(3, 60));
+  SectorCard cards[2] = {{write_pack(encoded)}, {write_pack(encoded)}};
+  const PackDevice loose(4), aligned(4);
+  CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_DONE);
+  Random random(5);
+  for (int i = 0; i < 300; ++i) {
+    const microtin_course here = at(random.below(61), random.below(53));
+    CHECK(microtin_pack_service(loose.pack, &here, 0, SectorCard::read, cards) == MICROTIN_DONE);
+    CHECK(microtin_pack_service(aligned.pack, &here, 0, SectorCard::read, cards + 1) ==
+          MICROTIN_DONE);
+    int32_t heights[2] = {0, 0};
+    CHECK(loose.height_at(here.x, here.y, heights[0]) ==
+          aligned.height_at(here.x, here.y, heights[1]));
+    CHECK(heights[0] == heights[1]);
+  }
+  CHECK(cards[0].asked == cards[1].asked);
+  CHECK(cards[0].most_sectors == 2);
+  CHECK(cards[1].most_sectors == 1);
+  CHECK(cards[1].sectors <= cards[0].sectors);
+}
+
+TEST_CASE("pack: only powers of two align reads, and all of them do") {
+  const Bytes bytes = write_pack(encode_pack(rough_raster(61, 53), pack_options(3, 60)));
+  for (const uint32_t sector : {3u, 513u, 65536u, ~0u}) {
+    CHECK(microtin_pack_align_reads(PackDevice(4).pack, sector) == MICROTIN_ARGUMENT);
+  }
+  CHECK(microtin_pack_align_reads(nullptr, 512) == MICROTIN_ARGUMENT);
+  for (uint32_t sector = 1; sector <= 32768; sector *= 2) {
+    const PackDevice device(4);
+    Card card{bytes};
+    CHECK(microtin_pack_align_reads(device.pack, sector) == MICROTIN_DONE);
+    microtin_pack_reset(device.pack);  // keeps it
+    CHECK(device.service(card, at(20, 20)) == MICROTIN_DONE);
+    uint64_t offset = 0;
+    uint8_t* buffer = nullptr;
+    size_t size = 0;
+    const microtin_course other = at(60, 50);
+    microtin_pack_prepare(device.pack, &other, 0);
+    microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+    CHECK(offset / sector == (offset + size - 1) / sector);
+    microtin_pack_given(device.pack, static_cast<int32_t>(size) + 1);  // more than was wanted
+    CHECK(microtin_pack_prepare(device.pack, &other, 0) == MICROTIN_IO);
+  }
+}
+
+}  // namespace microtin::tests

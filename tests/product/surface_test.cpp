@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+// Surfaces read back by the public face, in C++ and in C.
+#include "microtin/surface.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+#include <stdexcept>
+
+#include "encoder/product/document.hpp"
+#include "microtin/encoder.h"
+#include "microtin/encoder.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/layers.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace microtin::encoder;
+using microtin::product::Document;
+using microtin::tests::TemporaryFolder;
+using microtin::tests::write_file;
+
+namespace {
+
+constexpr double kRounding = 1e-9;  // of differences of binary numbers
+constexpr uint32_t kColumns = 60, kRows = 45;
+constexpr Transform kTransform{599995, 10, 0, 5000005, 0, -10};
+
+// A bowl in tenths of metres with a hole in the north-west; row 0 is the northernmost.
+std::vector<double> bowl() {
+  std::vector<double> heights;
+  for (int row = 0; row < int{kRows}; ++row) {
+    for (int column = 0; column < int{kColumns}; ++column) {
+      const int square = (column - 30) * (column - 30) + (row - 20) * (row - 20);
+      heights.push_back(column < 4 && row < 4 ? std::nan("") : (3 * square + row) * 0.1);
+    }
+  }
+  return heights;
+}
+
+Terrain bowl_terrain() {
+  return Terrain(posts_of(kColumns, kRows, bowl().data(), kTransform));
+}
+
+std::string stream_file(const TemporaryFolder& folder, const StreamOptions& options) {
+  const std::string path = folder / "bowl.mtin";
+  write_file(path, encode_stream(bowl_terrain(), options).bytes);
+  return path;
+}
+
+std::string pack_file(const TemporaryFolder& folder) {
+  const std::string path = folder / "bowl.mtp";
+  PackOptions options;
+  options.max_error = "1";
+  options.tile_vertices = 64;
+  options.tile_steps = 16;
+  encode_pack(bowl_terrain(), options, path);
+  return path;
+}
+
+// The largest distance from the bowl of heights in its order; voids must be the same.
+double largest_error(const std::vector<double>& heights) {
+  const std::vector<double> expected = bowl();
+  REQUIRE(heights.size() == expected.size());
+  double largest = 0;
+  for (size_t i = 0; i < heights.size(); ++i) {
+    REQUIRE(std::isnan(heights[i]) == std::isnan(expected[i]));
+    if (!std::isnan(heights[i])) largest = std::max(largest, std::fabs(heights[i] - expected[i]));
+  }
+  return largest;
+}
+
+std::vector<double> raster_of(const Surface& surface) {
+  const Grid& grid = surface.facts().source;
+  std::vector<double> heights(size_t{grid.columns} * grid.rows);
+  surface.heights(grid, {0, 0, grid.columns, grid.rows}, heights.data());
+  return heights;
+}
+
+}  // namespace
+
+TEST_CASE("surface: an array comes back where it lay") {
+  const TemporaryFolder folder;
+  const Surface surface = Surface::from_file(stream_file(folder, {}));
+  const Facts& facts = surface.facts();
+  CHECK(!facts.is_pack);
+  CHECK(facts.box.west == 600000);
+  CHECK(facts.box.east == 600590);
+  CHECK(facts.box.north == 5000000);
+  CHECK(facts.box.south == 4999560);
+  CHECK(facts.source.columns == kColumns);
+  CHECK(facts.source.rows == kRows);
+  CHECK(facts.lowest == 2);
+  CHECK(largest_error(raster_of(surface)) <= kRounding);
+}
+
+TEST_CASE("surface: a pack keeps its bound at posts and is asked in any order") {
+  const TemporaryFolder folder;
+  const Surface surface = Surface::from_file(pack_file(folder));
+  CHECK(surface.facts().is_pack);
+  CHECK(surface.facts().tile_columns == 4);
+  CHECK(surface.facts().tile_rows == 3);
+  CHECK(largest_error(raster_of(surface)) <= 1 + kRounding);
+
+  const std::vector<double> expected = raster_of(surface);
+  std::vector<double> x, y, heights(expected.size());
+  std::vector<size_t> at;
+  for (size_t i = 0; i < expected.size(); ++i) {
+    at.push_back(i * 1009 % expected.size());  // 1009 is a prime
+    x.push_back(600000.0 + 10.0 * static_cast<double>(at.back() % kColumns));
+    y.push_back(5000000.0 - 10.0 * static_cast<double>(at.back() / kColumns));
+  }
+  surface.heights(x.size(), x.data(), y.data(), heights.data());
+  size_t differ = 0;
+  for (size_t i = 0; i < at.size(); ++i) {
+    const double post = expected[at[i]];
+    differ += std::isnan(post) ? !std::isnan(heights[i]) : post != heights[i];
+  }
+  CHECK(differ == 0);
+}
+
+TEST_CASE("surface: places outside and no numbers have no height") {
+  const TemporaryFolder folder;
+  const Surface surface = Surface::from_file(stream_file(folder, {}));
+  const double none = std::nan(""), far = 1e300;
+  const std::vector<double> x{599999, 600591, none, far, -far, 600000},
+      y{4999700, 4999700, 4999700, 4999700, none, 5000001};
+  std::vector<double> heights(x.size(), 0);
+  surface.heights(x.size(), x.data(), y.data(), heights.data());
+  for (const double height : heights) CHECK(std::isnan(height));
+  const Grid& grid = surface.facts().source;
+  double corner[4] = {0, 0, 0, 0};
+  surface.heights(grid, {-1, -1, 2, 2}, corner);  // the first post alone is within
+  CHECK(std::isnan(corner[0]));
+  CHECK(!std::isnan(corner[1]));
+  CHECK(std::isnan(corner[2]));
+  CHECK(std::isnan(corner[3]));
+}
+
+TEST_CASE("surface: tiles together have the triangles of all") {
+  const TemporaryFolder folder;
+  const Surface surface = Surface::from_file(pack_file(folder));
+  const Facts& facts = surface.facts();
+  size_t triangles = 0, vertices = 0;
+  for (uint32_t row = 0; row < facts.tile_rows; ++row) {
+    for (uint32_t column = 0; column < facts.tile_columns; ++column) {
+      const Mesh tile = surface.tile(column, row);
+      const Box box = surface.tile_box(column, row);
+      triangles += tile.triangles.size();
+      vertices += tile.vertices.size();
+      for (const auto& [x, y, z] : tile.vertices) {
+        CHECK((x >= box.west && x <= box.east && y >= box.south && y <= box.north));
+        CHECK((z >= facts.lowest && z <= facts.highest));
+      }
+    }
+  }
+  CHECK(vertices == facts.vertices);
+  CHECK(surface.mesh().triangles.size() == triangles);
+  CHECK(surface.mesh().vertices.size() < vertices);
+  CHECK_THROWS_AS(surface.tile(facts.tile_columns, 0), std::out_of_range);
+}
+
+TEST_CASE("surface: cells of another size") {
+  const TemporaryFolder folder;
+  const Surface surface = Surface::from_file(stream_file(folder, {}));
+  const Grid grid = surface.grid("2.5");
+  CHECK(grid.columns == 59 * 4 + 1);
+  CHECK(grid.rows == 44 * 4 + 1);
+  CHECK(coordinate(grid.x, 0) == 600000);
+  CHECK(coordinate(grid.x, 4) == 600010);
+  CHECK_THROWS_WITH(surface.grid("0"), "cell: 0 is not a length above 0");
+  CHECK_THROWS(surface.grid("0.0000001"));
+}
+
+TEST_CASE("surface: bytes of whatever file system; damage is told with the name") {
+  class Held : public Bytes {
+   public:
+    explicit Held(std::vector<uint8_t> bytes) : bytes_(std::move(bytes)) {}
+    uint64_t size() const override { return bytes_.size(); }
+    size_t read(uint64_t offset, void* to, size_t size) const override {
+      if (offset >= bytes_.size()) return 0;
+      const size_t taken = std::min<size_t>(size, bytes_.size() - offset);
+      std::memcpy(to, bytes_.data() + offset, taken);
+      return taken;
+    }
+
+   private:
+    std::vector<uint8_t> bytes_;
+  };
+  std::vector<uint8_t> bytes = encode_stream(bowl_terrain(), {}).bytes;
+  const auto open = [&] { return Surface::from_bytes(std::make_unique<Held>(bytes), "held"); };
+  CHECK(largest_error(raster_of(open())) <= kRounding);
+  bytes[bytes.size() / 2] ^= 1;
+  CHECK_THROWS_WITH(open(), "held: damaged: a checksum does not match");
+  bytes.clear();
+  CHECK_THROWS_WITH(open(), "held: cut off: the stream ends too early");
+}
+
+TEST_CASE("binary numbers: what is refused, and where") {
+  std::vector<double> heights = bowl();
+  const auto posts = [&](const Transform& t) {
+    return posts_of(kColumns, kRows, heights.data(), t);
+  };
+  CHECK(posts(kTransform).decimals == 1);
+  CHECK_THROWS_WITH(posts({0, 1, 0.5, 0, 0, -1}),
+                    "transform: columns must run east and rows north or south");
+  CHECK_THROWS(posts({0, -1, 0, 0, 0, -1}));
+  CHECK_THROWS_WITH(posts({0, 1, 0, 0, 0, 0}), "transform: cells have no extent");
+  CHECK_THROWS_WITH(posts({std::nan(""), 1, 0, 0, 0, -1}), "transform: a number is out of range");
+  heights[kColumns + 7] = 1e300;
+  CHECK_THROWS_WITH(posts(kTransform), "row 1, column 7: is not a height in range");
+  const double points[] = {0, 0, 1.5, 10, 0, 2, 0, 10.25, INFINITY};
+  CHECK(points_of(2, points).z_decimals == 1);
+  CHECK_THROWS_WITH(points_of(3, points), "point 2: is not a number in range");
+}
+
+TEST_CASE(
+    "binary numbers: floats stand for their shortest decimals, southern rows may come first") {
+  const float heights[] = {0.1F, 0.2F, 0.3F, 1.25F};
+  const Posts north = posts_of(2, 2, heights, {0, 1, 0, 2, 0, -1});
+  CHECK(north.decimals == 2);
+  CHECK(north.heights == std::vector<int64_t>{30, 125, 10, 20});
+  const Posts south = posts_of(2, 2, heights, {0, 1, 0, 0, 0, 1});
+  CHECK(south.heights == std::vector<int64_t>{10, 20, 30, 125});
+  CHECK(coordinate(south.y, 0) == coordinate(north.y, 0));
+}
+
+TEST_CASE("C: an array goes to a stream and back") {
+  const std::vector<double> heights = bowl();
+  microtin_raster raster = {};
+  raster.size = sizeof raster;
+  raster.columns = kColumns;
+  raster.rows = kRows;
+  raster.heights = heights.data();
+  std::copy(kTransform.begin(), kTransform.end(), raster.transform);
+  microtin_terrain* terrain = nullptr;
+  REQUIRE(microtin_terrain_of_raster(&raster, &terrain) == MICROTIN_OK);
+
+  microtin_options options = {};
+  uint8_t* bytes = nullptr;
+  uint64_t size = 0;
+  microtin_report report;
+  CHECK(microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_REFUSED);
+  CHECK(microtin_message() == std::string("a struct of another size"));
+  options.size = sizeof options;
+  options.max_error = "0.5";
+  options.search = 1;
+  REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_OK);
+  CHECK(report.bytes == size);
+  CHECK(std::strtod(report.max_error, nullptr) <= 0.5);
+
+  options.progress = [](void*, double) { return 1; };
+  uint8_t* none = nullptr;
+  CHECK(microtin_encode_stream(terrain, &options, &none, &size, nullptr) == MICROTIN_CANCELLED);
+  CHECK(none == nullptr);
+  microtin_terrain_free(terrain);
+
+  microtin_surface* surface = nullptr;
+  REQUIRE(microtin_surface_of_bytes(bytes, report.bytes, "bowl", &surface) == MICROTIN_OK);
+  microtin_facts facts;
+  microtin_surface_facts(surface, &facts);
+  CHECK(facts.bound == std::string("0.5"));
+  std::vector<double> back(size_t{facts.source.columns} * facts.source.rows);
+  REQUIRE(microtin_surface_raster(surface, &facts.source, back.data()) == MICROTIN_OK);
+  CHECK(largest_error(back) <= 0.5 + kRounding);
+  microtin_triangles triangles;
+  REQUIRE(microtin_surface_mesh(surface, &triangles) == MICROTIN_OK);
+  CHECK(triangles.vertices == report.vertices);
+  CHECK(triangles.corners[3 * triangles.triangles - 1] < triangles.vertices);
+  CHECK(microtin_surface_tile(surface, 1, 0, &triangles) == MICROTIN_REFUSED);
+  microtin_surface_free(surface);
+  microtin_bytes_free(bytes);
+  CHECK(microtin_surface_open("/nowhere/a.mtin", &surface) == MICROTIN_REFUSED);
+  CHECK(std::strstr(microtin_message(), "/nowhere/a.mtin") != nullptr);
+}

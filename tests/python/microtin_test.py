@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: MIT
+"""The package, on arrays made here. Skipped (77) without numpy."""
+
+import doctest
+import os
+import sys
+import tempfile
+import threading
+import unittest
+
+try:
+    import numpy
+except ImportError:
+    print("skipped: numpy is not installed")
+    sys.exit(77)
+
+import microtin
+
+ROWS, COLUMNS = 60, 80
+ROW, COLUMN = numpy.mgrid[0:ROWS, 0:COLUMNS]
+ROUNDING = 1e-9  # of differences of binary numbers
+TRANSFORM = (399995.0, 10.0, 0.0, 5600005.0, 0.0, -10.0)
+
+
+def hills():
+    """Not the same when mirrored; decimetres."""
+    return numpy.round(40 * numpy.sin(COLUMN / 9) * numpy.cos(ROW / 13) + ROW + COLUMN / 4, 1)
+
+
+class Streams(unittest.TestCase):
+    def test_every_height_within_the_bound_in_its_place(self):
+        data = microtin.encode(hills(), max_error=0.5, transform=TRANSFORM, crs=25832)
+        tin = microtin.decode(data)
+        array, transform = tin.raster()
+        self.assertLessEqual(numpy.abs(array - hills()).max(), 0.5 + ROUNDING)
+        self.assertEqual(transform, TRANSFORM)
+        self.assertEqual((tin.crs, tin.units, tin.bound), (25832, ("metre", "metre"), 0.5))
+        self.assertLessEqual(data.report.max_error, 0.5)
+        self.assertEqual((data.report.bytes, data.report.vertices), (len(data), len(tin.vertices)))
+
+    def test_without_a_bound_all_heights_are_exact(self):
+        for kind in (numpy.float64, numpy.float32, numpy.int16, numpy.uint8):
+            heights = hills().astype(kind) if kind is not numpy.uint8 else (ROW + COLUMN).astype(kind)
+            array, _ = microtin.decode(microtin.encode(heights)).raster()
+            numpy.testing.assert_array_equal(array.astype(kind), heights)
+
+    def test_voids(self):
+        void = (ROW < 7) & (COLUMN > 70)
+        expected = numpy.where(void, numpy.nan, hills())
+        for array, nodata in (
+            (expected, None),
+            (numpy.where(void, -9999, hills()), -9999),
+            (numpy.ma.masked_array(hills(), void), None),
+        ):
+            back, _ = microtin.decode(microtin.encode(array, max_error=1, nodata=nodata)).raster()
+            numpy.testing.assert_array_equal(numpy.isnan(back), void)
+            self.assertLessEqual(numpy.nanmax(numpy.abs(back - expected)), 1 + ROUNDING)
+
+    def test_heights_are_those_of_the_triangles(self):
+        tin = microtin.decode(microtin.encode(hills(), max_error=2))
+        x, y, z = tin.vertices.T
+        numpy.testing.assert_allclose(tin.height_at(x, y), z, atol=1e-9)
+        middle = tin.vertices[tin.triangles].mean(axis=1)
+        # a place is rounded to 1/256 of a post, the plane at most some 60 decimetres a post steep
+        numpy.testing.assert_allclose(tin.height_at(middle[:, 0], middle[:, 1]), middle[:, 2], atol=0.2)
+        a, b, c = (tin.vertices[tin.triangles[:, i], :2] for i in range(3))
+        doubled = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
+        self.assertGreater(doubled.min(), 0)
+        self.assertEqual(doubled.sum(), 2 * (ROWS - 1) * (COLUMNS - 1))
+
+    def test_shapes_of_places(self):
+        tin = microtin.decode(microtin.encode(hills()))
+        self.assertIsInstance(tin.height_at(3, 4), float)
+        self.assertAlmostEqual(tin.height_at(3, 4), hills()[ROWS - 5, 3])
+        self.assertEqual(tin.height_at([[1], [2]], [3, 4, 5]).shape, (2, 3))
+        self.assertTrue(numpy.isnan(tin.height_at(-1, 0)))
+        self.assertEqual(tin.height_at([], []).shape, (0,))
+
+    def test_cells(self):
+        tin = microtin.decode(microtin.encode(hills()))
+        array, transform = tin.raster(cell=0.5)
+        self.assertEqual(array.shape, (2 * ROWS - 1, 2 * COLUMNS - 1))
+        self.assertEqual(transform[:3], (-0.25, 0.5, 0.0))
+        numpy.testing.assert_array_almost_equal(array[::2, ::2], hills())
+
+    def test_points(self):
+        random = numpy.random.default_rng(4)
+        points = numpy.round(random.random((500, 3)) * (300, 200, 20), 2)
+        tin = microtin.decode(microtin.encode_points(points))
+        self.assertEqual(sorted(map(tuple, tin.vertices.round(2))), sorted(map(tuple, points)))
+        with self.assertRaisesRegex(microtin.Error, "give the size of a cell"):
+            tin.raster()
+
+    def test_south_up(self):
+        south = (-0.5, 1, 0, -0.5, 0, 1)
+        array, _ = microtin.decode(microtin.encode(hills()[::-1], transform=south)).raster()
+        numpy.testing.assert_array_almost_equal(array, hills())
+
+
+class Packs(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.path = os.path.join(self.folder.name, "hills.mtp")
+        self.report = microtin.encode_pack(
+            hills(), self.path, max_error=0.5, tile_vertices=200, tile_steps=20, transform=TRANSFORM
+        )
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_by_tile_and_as_a_whole(self):
+        tin = microtin.decode(self.path)
+        self.assertTrue(tin.is_pack)
+        self.assertEqual(tin.tiles, (4, 3))
+        self.assertEqual(self.report.tiles, 12)
+        tiles = [tin.tile(column, row) for row in range(3) for column in range(4)]
+        self.assertEqual(sum(len(tile.triangles) for tile in tiles), len(tin.triangles))
+        self.assertEqual(sum(len(tile.vertices) for tile in tiles), self.report.vertices)
+        self.assertLess(len(tin.vertices), self.report.vertices)
+        array, transform = tin.raster()
+        self.assertLessEqual(numpy.abs(array - hills()).max(), 0.5 + ROUNDING)
+        self.assertEqual(transform, TRANSFORM)
+        with self.assertRaises(IndexError):
+            tin.tile(4, 0)
+
+    def test_threads_share_a_terrain(self):
+        tin = microtin.decode(self.path)
+        expected, _ = tin.raster()
+        x, y = TRANSFORM[0] + 5 + 10 * COLUMN, TRANSFORM[3] - 5 - 10 * ROW
+        found = [None] * 4
+
+        def ask(i):
+            found[i] = tin.height_at(x, y)
+
+        threads = [threading.Thread(target=ask, args=(i,)) for i in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for heights in found:
+            numpy.testing.assert_array_equal(heights, expected)
+
+    def test_damaged_tiles_are_told(self):
+        with open(self.path, "rb") as file:
+            data = bytearray(file.read())
+        data[-3] ^= 1
+        tin = microtin.decode(data)
+        with self.assertRaisesRegex(microtin.Error, "bytes: tile 11: damaged"):
+            tin.raster()
+        self.assertGreater(len(tin.tile(0, 0).vertices), 0)
+
+
+class Refusals(unittest.TestCase):
+    def refused(self, sentence, *arguments, **options):
+        with self.assertRaisesRegex(microtin.Error, sentence):
+            microtin.encode(*arguments, **options)
+
+    def test_arrays(self):
+        self.refused("two dimensions, not 1", [1, 2, 3])
+        self.refused("not complex128", [[1j, 2], [3, 4]])
+        self.refused("row 1, column 0", [[1.0, 2.0], [float("inf"), 4.0]])
+        self.refused("beyond 2\\^53", numpy.array([[0, 2**60], [0, 0]]))
+        self.refused("six numbers", [[1, 2], [3, 4]], transform=(0, 1))
+
+    def test_options(self):
+        array = [[1.0, 2.0], [3.0, 4.0]]
+        self.refused("max_error: one is not", array, max_error="one")
+        self.refused("only one of max_error", array, max_error=1, max_vertices=4)
+        self.refused("'slow' is none of fast, normal, best", array, search="slow")
+        self.refused("units of x and y|unit of heights|heights", array, crs=4326)
+        with self.assertRaisesRegex(TypeError, "no option colour"):
+            microtin.encode(array, colour=1)
+
+    def test_damaged_streams(self):
+        data = bytearray(microtin.encode(hills(), max_error=1))
+        for wrong in (b"", b"something else", data[:-1], data + b"x"):
+            with self.assertRaises(microtin.Error):
+                microtin.decode(bytes(wrong))
+        with self.assertRaisesRegex(microtin.Error, "/nowhere/a.mtin"):
+            microtin.decode("/nowhere/a.mtin")
+
+    def test_what_progress_raises_ends_the_work(self):
+        def stop(_done):
+            raise KeyboardInterrupt
+
+        with self.assertRaises(KeyboardInterrupt):
+            microtin.encode(hills(), max_error=0.1, progress=stop)
+        seen = []
+        microtin.encode(hills(), max_error=0.1, progress=seen.append)
+        self.assertEqual(seen, sorted(seen))
+        self.assertLessEqual(seen[-1], 1)
+
+
+def load_tests(_loader, tests, _pattern):
+    tests.addTests(doctest.DocTestSuite(microtin))
+    return tests
+
+
+if __name__ == "__main__":
+    unittest.main()
