@@ -44,13 +44,15 @@ def expanded(path, seen):
 
 def header():
     comment, c_face = parts(PUBLIC / "microtin/microtin.h")
-    compact, pack, cpp_face, cpp_pack = (
+    compact, pack, compact_pack, cpp_face, cpp_pack, cpp_compact_pack = (
         INCLUDE.sub("", without_guard(PUBLIC / "microtin" / name))
-        for name in ("compact.h", "pack.h", "microtin.hpp", "pack.hpp")
+        for name in (
+            "compact.h", "pack.h", "compact_pack.h", "microtin.hpp", "pack.hpp", "compact_pack.hpp"
+        )
     )
     return (
-        f"{comment}#ifndef MICROTIN_H\n#define MICROTIN_H\n{c_face}\n{compact}\n{pack}"
-        f"#ifdef __cplusplus\n\n{cpp_face}\n{cpp_pack}\n#endif\n\n#endif\n"
+        f"{comment}#ifndef MICROTIN_H\n#define MICROTIN_H\n{c_face}\n{compact}\n{pack}\n{compact_pack}"
+        f"#ifdef __cplusplus\n\n{cpp_face}\n{cpp_pack}\n{cpp_compact_pack}\n#endif\n\n#endif\n"
     )
 
 

@@ -32,11 +32,6 @@ void give_up(microtin_pack& p) {
   want(p, PackStage::kFixed, 0, kPackFixedBytes);
 }
 
-microtin_status fail(microtin_pack& p, microtin_status status) {
-  give_up(p);
-  return status;
-}
-
 // --- The header. The bytes of each item are in the buffer when it is handled.
 
 void want_notes(microtin_pack& p, uint64_t offset) {
@@ -49,8 +44,8 @@ void want_notes(microtin_pack& p, uint64_t offset) {
 
 microtin_status handle_fixed(microtin_pack& p) {
   const microtin_status known = check_pack_identity(p.buffer);
-  if (known != MICROTIN_DONE) return fail(p, known);
-  if (!read_pack_header(p.buffer, &p.header)) return fail(p, MICROTIN_MALFORMED);
+  if (known != MICROTIN_DONE) return fail_pack(p, known);
+  if (!read_pack_header(p.buffer, &p.header)) return fail_pack(p, MICROTIN_MALFORMED);
   p.crc = crc32(0, p.buffer, kPackFixedBytes);
   p.left = p.header.note_bytes;
   if (p.header.placement_bytes == 0) {
@@ -62,7 +57,7 @@ microtin_status handle_fixed(microtin_pack& p) {
 }
 
 microtin_status handle_placement(microtin_pack& p) {
-  if (!read_pack_placement(p.buffer, p.header, p.axis)) return fail(p, MICROTIN_MALFORMED);
+  if (!read_pack_placement(p.buffer, p.header, p.axis)) return fail_pack(p, MICROTIN_MALFORMED);
   p.crc = crc32(p.crc, p.buffer, p.buffered);
   want_notes(p, kPackFixedBytes + p.header.placement_bytes);
   return MICROTIN_NEED_INPUT;
@@ -76,7 +71,7 @@ microtin_status handle_notes(microtin_pack& p) {
 }
 
 microtin_status handle_check(microtin_pack& p) {
-  if (read_u32(p.buffer) != p.crc) return fail(p, MICROTIN_CHECKSUM);
+  if (read_u32(p.buffer) != p.crc) return fail_pack(p, MICROTIN_CHECKSUM);
   want(p, PackStage::kIdle, 0, 0);
   __atomic_signal_fence(__ATOMIC_SEQ_CST);
   p.has_header = true;
@@ -111,8 +106,20 @@ void forget_bad_tiles(microtin_pack& p) {
   p.has_passed = false;
 }
 
-// Passes over the tile in hand, and remembers it as bad. DONE: on to the next one.
-microtin_status refuse(microtin_pack& p, microtin_status why) {
+}  // namespace
+
+microtin_status fail_pack(microtin_pack& p, microtin_status status) {
+  give_up(p);
+  return status;
+}
+
+PackSlot* take_slot(microtin_pack& p) {
+  PackSlot* const slot = place_to_fill(p.slots, p.slot_count, p.clock);
+  if (slot != nullptr) set_state(*slot, SlotState::kEmpty);
+  return slot;
+}
+
+microtin_status refuse_tile(microtin_pack& p, microtin_status why) {
   BadTile* const bad = place_to_fill(p.bad, MICROTIN_PACK_BAD_TILES, p.clock);
   if (bad != nullptr) {
     set_why(*bad, MICROTIN_DONE);
@@ -123,32 +130,37 @@ microtin_status refuse(microtin_pack& p, microtin_status why) {
     p.passed = p.tile;
     p.has_passed = true;
   }
-  give_up(p);
-  return MICROTIN_DONE;
+  return fail_pack(p, MICROTIN_DONE);
 }
 
-microtin_status finish_tile(microtin_pack& p) {
-  PackSlot& slot = p.slots[p.slot];
+microtin_status finish_tile(microtin_pack& p, PackSlot& slot, bool has_terrain) {
   slot.tile = p.tile;
   slot.wanted = p.clock;
+  slot.has_terrain = has_terrain;
   set_state(slot, SlotState::kReady);
-  want(p, PackStage::kIdle, 0, 0);
-  return MICROTIN_DONE;
+  return fail_pack(p, MICROTIN_DONE);
 }
+
+namespace {
 
 microtin_status handle_entry(microtin_pack& p) {
   if (pack_entry_check(p.crc, p.tile, p.buffer) !=
       read_u32(p.buffer + kPackEntryBytes - kCheckBytes)) {
-    return refuse(p, MICROTIN_CHECKSUM);
+    return refuse_tile(p, MICROTIN_CHECKSUM);
   }
-  if (!read_pack_entry(p.buffer, p.header, &p.entry)) return refuse(p, MICROTIN_MALFORMED);
-  if (p.entry.vertices > p.capacity) return refuse(p, MICROTIN_TOO_BIG);
+  if (!read_pack_entry(p.buffer, p.header, &p.entry)) return refuse_tile(p, MICROTIN_MALFORMED);
+  if (p.entry.vertices > p.capacity) return refuse_tile(p, MICROTIN_TOO_BIG);
   PackSlot* const slot = place_to_fill(p.slots, p.slot_count, p.clock);
-  if (slot == nullptr) return fail(p, MICROTIN_WORKSPACE_TOO_SMALL);
-  p.slot = static_cast<uint8_t>(slot - p.slots);
-  set_state(*slot, SlotState::kEmpty);
-  microtin_decoder_init(p.decoder_space, p.decoder_bytes, slot->mesh, &p.decoder);
-  if (p.entry.size == 0) return finish_tile(p);  // the mesh is empty now
+  if (slot == nullptr) return fail_pack(p, MICROTIN_WORKSPACE_TOO_SMALL);
+  microtin_mesh* mesh = p.work;
+  // What is to be made compact needs its slot not before then.
+  if (mesh == nullptr || p.entry.size == 0) {
+    set_state(*slot, SlotState::kEmpty);
+    if (p.entry.size == 0) return finish_tile(p, *slot, false);
+    p.slot = static_cast<uint8_t>(slot - p.slots);
+    mesh = static_cast<microtin_mesh*>(slot->space);
+  }
+  microtin_decoder_init(p.decoder_space, p.decoder_bytes, mesh, &p.decoder);
   p.left = p.entry.size;
   p.stream_hash = kStreamHash;
   want(p, PackStage::kStream, p.entry.offset, p.left);
@@ -183,8 +195,12 @@ microtin_status handle_stream(microtin_pack& p, uint32_t step_limit) {
     want(p, PackStage::kStream, p.next, p.left);
     return status;
   }
-  if (status != MICROTIN_DONE || !is_stream(p)) return refuse(p, MICROTIN_CHECKSUM);
-  return is_tile(p) ? finish_tile(p) : refuse(p, MICROTIN_MALFORMED);
+  if (status != MICROTIN_DONE || !is_stream(p)) return refuse_tile(p, MICROTIN_CHECKSUM);
+  if (!is_tile(p)) return refuse_tile(p, MICROTIN_MALFORMED);
+  if (p.work == nullptr) return finish_tile(p, p.slots[p.slot], true);
+  want(p, PackStage::kStore, 0, 0);
+  p.compactor = nullptr;
+  return MICROTIN_STEP_LIMIT;
 }
 
 // Handles what is in the buffer, if it is complete. DONE: a tile is ready, or refused.
@@ -203,6 +219,8 @@ microtin_status handle(microtin_pack& p, uint32_t step_limit) {
       return handle_entry(p);
     case PackStage::kStream:
       return handle_stream(p, step_limit);
+    case PackStage::kStore:
+      return MICROTIN_STEP_LIMIT;
     case PackStage::kIdle:
       break;
   }
@@ -287,19 +305,16 @@ microtin_status hear_storage(microtin_pack& p) {
   p.storage = Storage::kWell;
   if (said == Storage::kFailed) return MICROTIN_IO;
   if (said == Storage::kEnds) {
-    if (!p.has_header) return fail(p, MICROTIN_TRUNCATED);
-    refuse(p, MICROTIN_TRUNCATED);
+    if (!p.has_header) return fail_pack(p, MICROTIN_TRUNCATED);
+    refuse_tile(p, MICROTIN_TRUNCATED);
   }
   return MICROTIN_NEED_INPUT;
 }
 
 }  // namespace
-}  // namespace microtin
 
-using namespace microtin;
-
-microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
-                                   microtin_pack** pack) {
+microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
+                             uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack) {
   if (workspace == nullptr || pack == nullptr || slots == 0 || slots > 255 || capacity < 3 ||
       capacity > MICROTIN_MAX_VERTICES) {
     return MICROTIN_ARGUMENT;
@@ -308,23 +323,42 @@ microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots,
   if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
   const uint64_t own_bytes = MICROTIN_PACK_ROUND(sizeof(microtin_pack) + slots * sizeof(PackSlot));
   const uint64_t decoder_bytes = MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES(capacity));
-  const uint64_t mesh_bytes = MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES(capacity));
-  // Below 2^8 * 2^31.
-  if (own_bytes + decoder_bytes + slots * mesh_bytes > size) return MICROTIN_WORKSPACE_TOO_SMALL;
+  const uint64_t before_slots = own_bytes + decoder_bytes + work_bytes;
+  // Below 2^8 * 2^32.
+  if (before_slots + slots * slot_bytes > size) return MICROTIN_WORKSPACE_TOO_SMALL;
   microtin_pack& p = *static_cast<microtin_pack*>(workspace);
+  uint8_t* const bytes = static_cast<uint8_t*>(workspace);
   p.slots = reinterpret_cast<PackSlot*>(&p + 1);
   p.slot_count = static_cast<uint8_t>(slots);
   p.capacity = capacity;
-  p.decoder_space = static_cast<uint8_t*>(workspace) + own_bytes;
+  p.decoder_space = bytes + own_bytes;
   p.decoder_bytes = static_cast<size_t>(decoder_bytes);
-  uint8_t* mesh_space = p.decoder_space + decoder_bytes;
-  for (uint32_t i = 0; i < slots; ++i, mesh_space += mesh_bytes) {
-    microtin_mesh_init(mesh_space, static_cast<size_t>(mesh_bytes), &p.slots[i].mesh);
+  p.slot_bytes = static_cast<size_t>(slot_bytes);
+  for (uint32_t i = 0; i < slots; ++i) {
+    p.slots[i].space = bytes + static_cast<size_t>(before_slots) + i * p.slot_bytes;
   }
   p.clock = 0;
   p.sector = 0;
   microtin_pack_reset(&p);
   *pack = &p;
+  return MICROTIN_DONE;
+}
+
+}  // namespace microtin
+
+using namespace microtin;
+
+microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
+                                   microtin_pack** pack) {
+  const uint64_t slot_bytes = MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES(capacity));
+  const microtin_status status =
+      lay_out_pack(workspace, size, slots, capacity, 0, slot_bytes, pack);
+  if (status != MICROTIN_DONE) return status;
+  (*pack)->work = nullptr;
+  for (uint32_t i = 0; i < slots; ++i) {
+    microtin_mesh* mesh = nullptr;
+    microtin_mesh_init((*pack)->slots[i].space, (*pack)->slot_bytes, &mesh);
+  }
   return MICROTIN_DONE;
 }
 

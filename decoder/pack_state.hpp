@@ -5,7 +5,7 @@
 
 #include "decoder/state.hpp"
 #include "decoder/touched_tiles.hpp"
-#include "microtin/pack.h"
+#include "microtin/compact_pack.h"
 #include "shared/pack_format.hpp"
 
 namespace microtin {
@@ -13,16 +13,26 @@ namespace microtin {
 constexpr uint32_t kPackBuffer = 128;  // holds every item of the header but the notes
 
 // What is read next.
-enum class PackStage : uint8_t { kFixed, kPlacement, kNotes, kCheck, kIdle, kEntry, kStream };
+enum class PackStage : uint8_t {
+  kFixed,
+  kPlacement,
+  kNotes,
+  kCheck,
+  kIdle,
+  kEntry,
+  kStream,
+  kStore  // nothing: a tile is decoded, and to be made compact
+};
 
 enum class SlotState : uint8_t { kEmpty, kReady };
 
 // A tile that is there, or room for one.
 struct PackSlot {
-  microtin_mesh* mesh;  // empty: the tile has no terrain
+  void* space;  // begins with a microtin_mesh, or a microtin_compact
   uint32_t tile;
   uint32_t wanted;           // when it was wanted last
   volatile SlotState state;  // queries may look only if it is ready
+  bool has_terrain;
 
   bool is_empty() const { return state == SlotState::kEmpty; }
 };
@@ -44,6 +54,8 @@ enum class Storage : uint8_t { kWell, kEnds, kFailed };
 struct microtin_pack {
   uint8_t* decoder_space;
   size_t decoder_bytes;
+  microtin_mesh* work;  // where tiles are decoded that will be compact; null: in their slots
+  size_t slot_bytes;
   microtin::PackSlot* slots;
   uint32_t capacity;  // vertices of a slot
   uint8_t slot_count;
@@ -64,6 +76,7 @@ struct microtin_pack {
   uint32_t tile;
   microtin::PackEntry entry;
   microtin_decoder* decoder;
+  microtin_compactor* compactor;  // of the tile decoded; null: not begun
   uint32_t stream_hash;
   uint32_t left;  // bytes of notes or stream, those in the buffer too until they are counted
   // The next bytes wanted, and those that came.
@@ -90,6 +103,21 @@ inline uint32_t slot_of(const microtin_pack& p, uint32_t tile) {
   }
   return p.slot_count;
 }
+
+// Lays out a pack with so many bytes in front of the slots, and for each. Of the arguments that
+// users give, the status tells.
+microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
+                             uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack);
+
+// Empties a slot for the tile in hand. Null if all are wanted by the course in hand.
+PackSlot* take_slot(microtin_pack& p);
+
+// Ends with the tile in hand: it is in the slot taken, or to be remembered as bad. DONE.
+microtin_status finish_tile(microtin_pack& p, PackSlot& slot, bool has_terrain);
+microtin_status refuse_tile(microtin_pack& p, microtin_status why);
+
+// Gives up what is in hand, and returns the status.
+microtin_status fail_pack(microtin_pack& p, microtin_status status);
 
 // Where it is remembered that a tile is bad; MICROTIN_PACK_BAD_TILES if it is not.
 inline uint32_t bad_tile(const microtin_pack& p, uint32_t tile) {

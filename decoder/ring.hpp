@@ -48,7 +48,7 @@ struct microtin_compact {
   uint32_t is_narrow;    // the box is less than 256 steps wide and high
 };
 
-static_assert(sizeof(microtin_compact) <= MICROTIN_COMPACT_HEADER_BYTES, "see compact.h");
+static_assert(sizeof(microtin_compact) == MICROTIN_COMPACT_HEADER_BYTES, "see compact.h, PACK.md");
 static_assert(sizeof(microtin_compact) % alignof(microtin::RingNode) == 0, "nodes follow it");
 
 namespace microtin {
@@ -65,11 +65,15 @@ inline uint32_t repeats_of(const microtin_compact& header) {
   return header.positions - 1 - header.vertices;
 }
 
+// Bytes that it takes with numbers of so many bytes. With those at hand less than the mesh, which
+// is in memory.
+inline size_t compact_bytes(const microtin_compact& header, uint32_t index_bytes) {
+  const size_t each = 2 * index_bytes + (header.is_narrow != 0 ? 4u : 6u);
+  return sizeof(microtin_compact) + header.positions * each + repeats_of(header) * index_bytes;
+}
+
 inline size_t body_bytes(const microtin_compact& header) {
-  const size_t each = sizeof(RingNode) + (header.is_narrow != 0 ? 0u : sizeof(uint16_t));
-  // Less than the mesh takes, which is in memory: it fits.
-  return static_cast<size_t>(header.positions) * each +
-         static_cast<size_t>(repeats_of(header)) * sizeof(Index);
+  return compact_bytes(header, sizeof(Index)) - sizeof(microtin_compact);
 }
 
 inline Ring ring_of(const microtin_compact* c) {

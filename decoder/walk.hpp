@@ -8,6 +8,9 @@
 //   cross()                     to the triangle beyond, on the half-edge the other way
 //   cross_next(), cross_last()  ... beyond end() -> apex(), beyond apex() -> start(), or into what
 //                               is no triangle of the mesh, where may_stop() is false
+//   cross_around(forward)       in a ghost with infinity for apex: as cross_next() or cross_last(),
+//   to
+//                               the ghost beside it
 //   turn()                      to the next half-edge of the triangle
 //   corner(0), (1), (2)         the same three, counter-clockwise from any
 //   place(number), vertex(number)   of a finite vertex
@@ -104,6 +107,13 @@ class MeshCursor {
   void cross() { h_ = mesh().twin[h_]; }
   void cross_next() { h_ = mesh().twin[next_in_triangle(h_)]; }
   void cross_last() { h_ = mesh().twin[previous_in_triangle(h_)]; }
+  void cross_around(bool forward) {
+    if (forward) {
+      cross_next();
+    } else {
+      cross_last();
+    }
+  }
   void turn() { h_ = next_in_triangle(h_); }
   Point place(uint32_t v) const { return mesh().place[v]; }
   MICROTIN_IN_PLACE Index corner(uint32_t i) const {

@@ -10,6 +10,7 @@
 #include "encoder/product/document.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
+#include "microtin/compact_pack.h"
 
 namespace microtin::cli {
 namespace {
@@ -26,6 +27,14 @@ uint32_t count_triangles(const microtin_mesh* mesh, microtin_triangle_kind kind)
 std::string workspace_bytes_16(uint32_t vertices) {
   if (vertices > MICROTIN_MAX_VERTICES_FOR(16)) return "null";
   return json(MICROTIN_MESH_BYTES_FOR(vertices, 16) + MICROTIN_DECODER_BYTES_FOR(vertices, 16));
+}
+
+// Of a device that decodes one tile and keeps four, in compact form.
+uint64_t workspace_bytes_4_compact_tiles(const PackHeader& header) {
+  const uint64_t most = header.most_vertices, bytes = header.compact_bytes;
+  return most <= MICROTIN_MAX_VERTICES_FOR(16)
+             ? MICROTIN_COMPACT_PACK_BYTES_FOR(4, most, bytes, 16)
+             : MICROTIN_COMPACT_PACK_BYTES_FOR(4, most, bytes, 32);
 }
 
 std::string exact_axis(const Axis& axis) {
@@ -200,19 +209,22 @@ JsonObject report_of(const PackFile& pack) {
   for (const PackEntry& entry : pack.entries()) vertices += entry.vertices;
   const TileGrid& grid = pack.grid();
   const uint32_t compact = pack.header().compact_bytes;
-  JsonObject report = {{"pack_version", json(kPackVersion)},
-                       {"columns", json(tile_columns(grid))},
-                       {"rows", json(tile_rows(grid))},
-                       {"tile_width", json(grid.width)},
-                       {"tile_height", json(grid.height)},
-                       {"x_max", json(grid.x_max)},
-                       {"y_max", json(grid.y_max)},
-                       {"vertices", json(vertices)},
-                       {"most_vertices", json(pack.header().most_vertices)},
-                       {"lowest", json(pack.header().lowest)},
-                       {"highest", json(pack.header().highest)},
-                       {"compact_bytes", compact != 0 ? json(compact) : "null"},
-                       {"bytes", json(pack.bytes())}};
+  JsonObject report = {
+      {"pack_version", json(kPackVersion)},
+      {"columns", json(tile_columns(grid))},
+      {"rows", json(tile_rows(grid))},
+      {"tile_width", json(grid.width)},
+      {"tile_height", json(grid.height)},
+      {"x_max", json(grid.x_max)},
+      {"y_max", json(grid.y_max)},
+      {"vertices", json(vertices)},
+      {"most_vertices", json(pack.header().most_vertices)},
+      {"lowest", json(pack.header().lowest)},
+      {"highest", json(pack.header().highest)},
+      {"compact_bytes", compact != 0 ? json(compact) : "null"},
+      {"workspace_bytes_4_compact_tiles",
+       compact != 0 ? json(workspace_bytes_4_compact_tiles(pack.header())) : "null"},
+      {"bytes", json(pack.bytes())}};
   add_placement(report, pack.metadata());
   add_notes(report, pack.metadata());
   add_accuracy(report, pack.metadata().accuracy);

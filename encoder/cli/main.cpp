@@ -197,7 +197,7 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
               std::to_string(MICROTIN_MAX_VERTICES_FOR(16)) +
               " vertices, with 32-bit numbers beyond. Alone: use the best vertices that fit; with "
               "--max-error or --max-vertices: fail if the terrain does not fit. For a pack (.mtp): "
-              "tiles of which such a device keeps four and decodes one")
+              "tiles of which such a device keeps four, compact, and decodes one")
       ->excludes(&bytes)
       ->excludes(tile)
       ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));

@@ -65,6 +65,19 @@ class InOrder {
 
 }  // namespace
 
+uint32_t most_vertices(const PackOptions& options, const TileGrid& grid) {
+  const bool is_wide = grid.width > 255 || grid.height > 255;
+  return is_wide && options.max_vertices_wide != 0 ? options.max_vertices_wide
+                                                   : options.max_vertices;
+}
+
+bool fits(const TileSummary& tile, uint32_t most) {
+  if (!tile.compact) return true;
+  const uint32_t bits = index_bits(most);
+  return bytes_of(*tile.compact, bits) <=
+         promised_compact_bytes(most, tile.compact->is_narrow, bits);
+}
+
 PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   if (raster.frame().width < 2 || raster.frame().height < 2)
     throw Error("a pack needs two posts in each direction");
@@ -75,7 +88,7 @@ PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   PackPlan plan{tiled_raster(raster, scanned, options), options, options.tile_steps,
                 scanned.fingerprint};
   if (plan.tile_steps == 0) {
-    plan.tile_steps = choose_tile_steps(plan.tiled, options.max_vertices, options.simplify);
+    plan.tile_steps = choose_tile_steps(plan.tiled, options);
   }
   plan.tiled.grid = grid_of(raster.frame(), plan.tile_steps);
   return plan;
@@ -100,8 +113,9 @@ void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
   for_each_parallel(count, [&](std::size_t i) {
     const uint32_t tile = range.first + static_cast<uint32_t>(i);
     EncodedTile encoded = encode_tile(plan.tiled, tile, options);
-    const uint32_t vertices = encoded.summary.vertices, most = plan.options.max_vertices;
-    if (vertices > most) {
+    const uint32_t vertices = encoded.summary.vertices;
+    const uint32_t most = most_vertices(plan.options, plan.tiled.grid);
+    if (vertices > most || !fits(encoded.summary, most)) {
       throw TileTooLarge(tile, vertices, fewer_tile_steps(plan.tiled.grid, most, vertices));
     }
     in_order.add(tile, std::move(encoded));

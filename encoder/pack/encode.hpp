@@ -15,11 +15,18 @@
 namespace microtin::pack {
 
 struct PackOptions {
-  LatticeOptions lattice;    // without an xy step
-  SimplifyOptions simplify;  // without max_vertices
-  uint32_t max_vertices;     // of a tile, at least kFewestTileVertices
-  uint32_t tile_steps = 0;   // extent of a tile; 0: to be chosen
+  LatticeOptions lattice;          // without an xy step
+  SimplifyOptions simplify;        // without max_vertices
+  uint32_t max_vertices;           // of a tile, at least kFewestTileVertices
+  uint32_t tile_steps = 0;         // extent of a tile; 0: to be chosen
+  uint32_t max_vertices_wide = 0;  // of one of 256 steps or more; 0: max_vertices
 };
+
+// Whether a tile takes no more memory in compact form than macros promise for `most` vertices.
+bool fits(const TileSummary& tile, uint32_t most);
+
+// Of a tile of the grid: compact terrains take more where they are wide.
+uint32_t most_vertices(const PackOptions& options, const TileGrid& grid);
 
 constexpr uint32_t kFewestTileVertices = 16;
 

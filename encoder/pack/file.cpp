@@ -46,6 +46,17 @@ Bytes write_entry(const TileSummary& tile, uint64_t offset, const Axis& z) {
   return entry;
 }
 
+// That any tile takes in compact form at most; 0 if that is not known of all.
+uint64_t compact_bytes(const std::vector<TileSummary>& tiles, uint32_t most_vertices) {
+  uint64_t most = 0;
+  for (const TileSummary& tile : tiles) {
+    if (tile.bytes == 0) continue;
+    if (!tile.compact) return 0;
+    most = std::max(most, bytes_of(*tile.compact, index_bits(most_vertices)));
+  }
+  return most;
+}
+
 void expect(bool legal) {
   if (!legal) throw Error(describe(MICROTIN_MALFORMED));
 }
@@ -100,7 +111,7 @@ Bytes write_pack_header(const PackContent& pack) {
   append_number(header, pack.grid.x_max, 4);
   append_number(header, pack.grid.y_max, 4);
   append_number(header, most, 4);
-  append_number(header, pack.compact_bytes, 4);
+  append_number(header, compact_bytes(pack.tiles, most), 4);
   header.insert(header.end(), placement.begin(), placement.end());
   header.insert(header.end(), notes.begin(), notes.end());
   append_check(header, 0);

@@ -23,7 +23,6 @@ struct PackContent {
   TileGrid grid;
   Metadata metadata;  // its accuracy is that of all tiles
   std::vector<TileSummary> tiles;
-  uint32_t compact_bytes = 0;  // that any tile takes in compact form at most; 0: not stated
 };
 
 // A pack before its tiles are encoded.

@@ -87,9 +87,9 @@ uint32_t most_vertices(const TiledCloud& tiled) {
 
 // The fewest pieces along the longer side, at least `fewest`, found to keep tiles within the number
 // of vertices.
-uint32_t choose_pieces(TiledCloud tiled, uint32_t max_vertices, uint32_t fewest) {
+uint32_t choose_pieces(TiledCloud tiled, const PackOptions& options, uint32_t fewest) {
   const double x_max = tiled.survey.x_max, y_max = tiled.survey.y_max;
-  const double points = max_vertices * (tiled.simplify.bounded ? kPointsPerVertex : 1);
+  const double points = options.max_vertices * (tiled.simplify.bounded ? kPointsPerVertex : 1);
   const double tiles = static_cast<double>(tiled.survey.samples.size()) / points;
   const double guess = std::sqrt(tiles * std::max(x_max, y_max) / std::min(x_max, y_max));
   const auto longer = static_cast<uint32_t>(std::max(x_max, y_max));
@@ -103,9 +103,10 @@ uint32_t choose_pieces(TiledCloud tiled, uint32_t max_vertices, uint32_t fewest)
                   "needed: --tile-vertices must be more or --xy-step coarser");
     }
     const uint32_t most = most_vertices(tiled);
-    if (most <= max_vertices) fitting = pieces;
-    if (most > max_vertices) fewest = pieces + 1;
-    const double ratio = std::min(2.0, std::sqrt(static_cast<double>(most) / max_vertices));
+    const uint32_t allowed = most_vertices(options, tiled.grid);
+    if (most <= allowed) fitting = pieces;
+    if (most > allowed) fewest = pieces + 1;
+    const double ratio = std::min(2.0, std::sqrt(static_cast<double>(most) / allowed));
     const uint32_t next = std::max(fewest, static_cast<uint32_t>(std::ceil(pieces * ratio)));
     if (fitting != 0 && next >= fitting) return fitting;
     pieces = next;
@@ -125,10 +126,10 @@ std::vector<EncodedTile> encode_tiles(const TiledCloud& tiled,
   return encoded;
 }
 
-uint32_t most_vertices(const std::vector<EncodedTile>& tiles) {
-  uint32_t most = 0;
-  for (const EncodedTile& tile : tiles) most = std::max(most, tile.summary.vertices);
-  return most;
+bool all_fit(const std::vector<EncodedTile>& tiles, uint32_t most) {
+  return std::all_of(tiles.begin(), tiles.end(), [most](const EncodedTile& tile) {
+    return tile.summary.vertices <= most && fits(tile.summary, most);
+  });
 }
 
 }  // namespace
@@ -146,10 +147,10 @@ PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
   std::vector<EncodedTile> tiles;
   uint32_t pieces = 0;
   do {  // a longer search seldom finds more vertices than the one for the plan
-    pieces = choose_pieces(tiled, options.max_vertices, pieces + 1);
+    pieces = choose_pieces(tiled, options, pieces + 1);
     tiled.grid = grid_in_pieces(survey, pieces);
     tiles = encode_tiles(tiled, places);
-  } while (most_vertices(tiles) > options.max_vertices);
+  } while (!all_fit(tiles, most_vertices(options, tiled.grid)));
   metadata.placement = placement;
   metadata.accuracy = Accuracy{lattice.max_error, {}, {}, {}};
   metadata.classes = cloud.classes;

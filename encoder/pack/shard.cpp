@@ -19,13 +19,15 @@ using Bytes = std::vector<uint8_t>;
 constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 2};  // and version
 constexpr std::size_t kStartBytes = sizeof kShardMagic + 4, kRangeBytes = 8;
 constexpr uint32_t kMostHeadBytes = 1 << 17;
-constexpr std::size_t kSummaryBytes = 4 + 4 + 4 + 2 + 2 + 4 * 8 + 4 * 9;  // without the check
+constexpr uint32_t kNotMade = 0xFFFFFFFF;  // a tile without terrain
+constexpr std::size_t kSummaryBytes = 4 + 4 + 4 + 2 + 2 + 4 * 8 + 4 * 9 + 5;  // without the check
 
 // What the tiles of a pack depend on.
 Bytes write_identity(const PackPlan& plan, const PackContent& pack) {
   const PackOptions& options = plan.options;
   Bytes identity = write_pack_header(pack);
   append_number(identity, options.max_vertices, 4);
+  append_number(identity, options.max_vertices_wide, 4);
   append_number(identity, static_cast<uint64_t>(options.simplify.search), 1);
   append_number(identity, options.simplify.effort.degree, 1);
   append_number(identity, static_cast<uint64_t>(options.simplify.effort.decoding), 1);
@@ -53,6 +55,8 @@ Bytes write_summary(const TileSummary& tile) {
   for (const Decimal error : {v.max_error, v.max_below, v.rms_error, v.mean_error}) {
     append_decimal(bytes, error);
   }
+  append_number(bytes, tile.compact ? tile.compact->repeats : kNotMade, 4);
+  append_number(bytes, tile.compact && tile.compact->is_narrow ? 1 : 0, 1);
   append_check(bytes, 0);
   return bytes;
 }
@@ -106,6 +110,9 @@ TileSummary read_summary(const Bytes& bytes) {
   v.max_below = reader.next_error();
   v.rms_error = reader.next_error();
   v.mean_error = reader.next_decimal();
+  const uint32_t repeats = reader.next32();
+  const bool is_narrow = reader.next(1) != 0;
+  if (repeats != kNotMade) tile.compact = CompactForm{tile.vertices, repeats, is_narrow};
   return tile;
 }
 

@@ -127,7 +127,7 @@ void check_shared(const microtin_mesh* mesh, const TileSides& sides, const Share
   if (found != shared.size()) fail("lacks a vertex of its border");
 }
 
-TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
+TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream, DecodedTerrain&& decoded,
                        const Verification& measured) {
   const auto lower = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
   const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(), lower);
@@ -136,7 +136,8 @@ TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
           static_cast<uint32_t>(tin.vertices.size()),
           low->z,
           high->z,
-          measured};
+          measured,
+          compact_form(std::move(decoded))};
 }
 
 std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster& part,
@@ -186,7 +187,7 @@ EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyO
     }
     check_shared(decoded.mesh(), sides, shared);
     check_bounds(tiled, measured, gauge.moved());
-    return {summary_of(tin, stream, measured), std::move(stream)};
+    return {summary_of(tin, stream, std::move(decoded), measured), std::move(stream)};
   }
 }
 

@@ -4,11 +4,13 @@
 #define MICROTIN_ENCODER_PACK_TILE_HPP
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "encoder/fit/simplify.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
+#include "encoder/stream/compact_form.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/verify.hpp"
 
@@ -41,6 +43,7 @@ struct TileSummary {
   uint32_t vertices = 0;
   int16_t lowest = 0, highest = 0;  // of them
   Verification measured;            // by the decoded stream
+  std::optional<CompactForm> compact;
 };
 
 struct EncodedTile {
@@ -48,7 +51,8 @@ struct EncodedTile {
   std::vector<uint8_t> stream;
 };
 
-TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream,
+// Of a tile that is verified.
+TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream, DecodedTerrain&& decoded,
                        const Verification& measured);
 
 // Throws Error unless the vertices on borders are the shared ones, at their heights.

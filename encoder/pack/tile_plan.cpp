@@ -13,7 +13,7 @@
 #include "encoder/base/parallel.hpp"
 #include "encoder/pack/tile.hpp"
 #include "encoder/terrain/raster_scan.hpp"
-#include "microtin/pack.h"
+#include "microtin/compact_pack.h"
 
 namespace microtin::pack {
 namespace {
@@ -76,22 +76,25 @@ TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps) {
   return grid;
 }
 
-uint32_t choose_tile_steps(TiledRaster tiled, uint32_t max_vertices, SimplifyOptions options) {
-  options.search = options.bounded ? Search::kFast : options.search;
+uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options) {
+  SimplifyOptions simplify = options.simplify;
+  simplify.search = simplify.bounded ? Search::kFast : simplify.search;
   const Raster& frame = tiled.raster.frame();
   const uint32_t longer = std::max(frame.width, frame.height) - 1;
-  const double posts = options.bounded ? max_vertices * kPostsPerVertex : max_vertices;
+  const double posts =
+      simplify.bounded ? options.max_vertices * kPostsPerVertex : options.max_vertices;
   const auto guess = static_cast<uint32_t>(longer / std::max(std::sqrt(posts) - 1, 1.0)) + 1;
   uint32_t fitting = 0, fewest = 1, pieces = std::clamp(guess, 1u, longer);
   for (;;) {  // in pieces of the longer side
     tiled.grid = grid_of(frame, divide_up(longer, pieces));
-    const uint32_t most = most_vertices(tiled, options);
-    if (most <= max_vertices) fitting = pieces;
-    if (most > max_vertices) fewest = pieces + 1;
-    const double ratio = std::sqrt(static_cast<double>(most) / max_vertices);
+    const uint32_t allowed = most_vertices(options, tiled.grid);
+    const uint32_t most = most_vertices(tiled, simplify);
+    if (most <= allowed) fitting = pieces;
+    if (most > allowed) fewest = pieces + 1;
+    const double ratio = std::sqrt(static_cast<double>(most) / allowed);
     const uint32_t next = std::max(fewest, static_cast<uint32_t>(std::ceil(pieces * ratio)));
     if (fitting != 0 && next >= fitting) return divide_up(longer, fitting);
-    if (fewest > longer) fail_at_one_step(max_vertices, most);
+    if (fewest > longer) fail_at_one_step(allowed, most);
     pieces = std::min(next, longer);
   }
 }
@@ -103,9 +106,17 @@ uint32_t fewer_tile_steps(const TileGrid& grid, uint32_t max_vertices, uint32_t 
   return std::clamp(static_cast<uint32_t>(steps * ratio), 1u, steps - 1);
 }
 
-uint32_t vertices_for_ram(uint64_t bytes) {
+uint64_t pack_ram(uint32_t vertices, uint64_t tile_bytes) {
+  const uint32_t bits = index_bits(vertices);
+  return MICROTIN_COMPACT_PACK_BYTES_FOR(kKeptTiles, uint64_t{vertices}, tile_bytes, bits);
+}
+
+uint32_t vertices_for_ram(uint64_t bytes, bool is_narrow) {
   uint32_t vertices = MICROTIN_MAX_VERTICES_FOR(16);
-  while (vertices >= 3 && MICROTIN_PACK_BYTES_FOR(kKeptTiles, vertices, 16) > bytes) --vertices;
+  while (vertices >= 3 &&
+         pack_ram(vertices, promised_compact_bytes(vertices, is_narrow, 16)) > bytes) {
+    --vertices;
+  }
   return vertices >= 3 ? vertices : 0;
 }
 

@@ -8,6 +8,7 @@
 #include "encoder/fit/simplify.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
+#include "encoder/pack/encode.hpp"
 
 namespace microtin::pack {
 
@@ -17,18 +18,22 @@ TileGrid grid_of(const Raster& frame, uint32_t tile_steps);
 // The same for any largest x and y.
 TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps);
 
-// The largest tile_steps found with which no tile has more than max_vertices vertices, as far as
+// The largest tile_steps found with which no tile has more vertices than it may, as far as
 // the roughest tiles tell: up to 24 of them are simplified, two or three times, without searching
 // long, and the raster is read as often. Throws Error if there are none.
-uint32_t choose_tile_steps(TiledRaster tiled, uint32_t max_vertices, SimplifyOptions options);
+uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options);
 
 // What to try next if a tile has too many vertices; less than tile_steps. Throws Error if there is
 // nothing smaller.
 uint32_t fewer_tile_steps(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices);
 
 // Vertices of a tile for which a device with so many bytes of RAM decodes one tile and keeps four,
-// as many as meet at a corner, with 16-bit numbers. 0 if there are none.
-uint32_t vertices_for_ram(uint64_t bytes);
+// as many as meet at a corner, in compact form, with 16-bit numbers. Narrow: tiles are less than
+// 256 steps wide and high. 0 if there are none.
+uint32_t vertices_for_ram(uint64_t bytes, bool is_narrow);
+
+// The bytes that such a device needs, with 32-bit numbers beyond the reach of the others.
+uint64_t pack_ram(uint32_t vertices, uint64_t tile_bytes);
 
 }  // namespace microtin::pack
 

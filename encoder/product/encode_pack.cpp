@@ -14,10 +14,10 @@
 namespace microtin::product {
 namespace {
 
-uint32_t tile_vertices(const EncodeOptions& options) {
+uint32_t tile_vertices(const EncodeOptions& options, bool is_narrow) {
   if (options.tile_vertices != 0) return options.tile_vertices;
   if (options.device_ram == 0) throw Error("a pack needs --tile-vertices or --device-ram");
-  const uint32_t vertices = vertices_for_ram(options.device_ram);
+  const uint32_t vertices = vertices_for_ram(options.device_ram, is_narrow);
   if (vertices < kFewestTileVertices) {
     throw Error("--device-ram " + std::to_string(options.device_ram) + " is too few for a pack");
   }
@@ -30,8 +30,8 @@ PackOptions pack_options(const EncodeOptions& options, const Progress& progress)
   }
   EncodeOptions tile = options;
   tile.device_ram = 0;  // it limits tiles, by their number of vertices
-  return {options.lattice, simplify_options(tile, progress), tile_vertices(options),
-          options.tile_steps};
+  return {options.lattice, simplify_options(tile, progress), tile_vertices(options, true),
+          options.tile_steps, tile_vertices(options, false)};
 }
 
 PackOptions raster_options(const EncodeOptions& options, const Progress& progress) {

@@ -21,6 +21,7 @@ class DecodedTerrain {
   DecodedTerrain& operator=(DecodedTerrain&&) = default;
 
   const microtin_mesh* mesh() const { return mesh_; }
+  microtin_mesh* mesh() { return mesh_; }
   uint32_t phases() const { return phases_; }
 
  private:

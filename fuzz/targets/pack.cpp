@@ -2,8 +2,6 @@
 // Packs, damaged and forged, on storage that fails: a service ends within its bounds, answers come
 // from tiles that a host accepts alone, and are the host's. The fuzzer chooses courses and faults
 // by the last bytes of its input.
-#include "microtin/pack.h"
-
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -16,6 +14,7 @@
 #include "encoder/pack/file.hpp"
 #include "fuzz/support/expect.hpp"
 #include "fuzz/support/repair.hpp"
+#include "microtin/compact_pack.h"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t most);
 
@@ -76,13 +75,39 @@ struct Card {
   }
 };
 
-// On the heap, of exactly the size that is asked for.
+// On the heap, of exactly the size that is asked for. Its slots hold meshes, or compact terrains of
+// so many bytes.
 struct Device {
-  explicit Device(uint32_t slots) : memory(MICROTIN_PACK_BYTES(slots, kCapacity)) {
-    EXPECT(microtin_pack_init(memory.data(), memory.size(), slots, kCapacity, &pack) ==
-           MICROTIN_DONE);
+  Device(uint32_t slots, uint32_t tile_bytes)
+      : is_compact(tile_bytes != 0),
+        memory(is_compact ? MICROTIN_COMPACT_PACK_BYTES(slots, kCapacity, tile_bytes)
+                          : MICROTIN_PACK_BYTES(slots, kCapacity)) {
+    const microtin_status status =
+        is_compact ? microtin_compact_pack_init(memory.data(), memory.size(), slots, kCapacity,
+                                                tile_bytes, &pack)
+                   : microtin_pack_init(memory.data(), memory.size(), slots, kCapacity, &pack);
+    EXPECT(status == MICROTIN_DONE);
   }
 
+  microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
+                          void* context) const {
+    return is_compact ? microtin_compact_pack_service(pack, &course, step_limit, read, context)
+                      : microtin_pack_service(pack, &course, step_limit, read, context);
+  }
+  microtin_answer height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
+    return is_compact ? microtin_compact_pack_height_at(pack, x, y, hint, height)
+                      : microtin_pack_height_at(pack, x, y, hint, height);
+  }
+  microtin_answer highest(const microtin_course& course, int32_t* height) const {
+    return is_compact ? microtin_compact_pack_highest(pack, &course, height)
+                      : microtin_pack_highest(pack, &course, height);
+  }
+  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
+    return is_compact ? microtin_compact_pack_fill(pack, &block, heights)
+                      : microtin_pack_fill(pack, &block, heights);
+  }
+
+  bool is_compact;
   std::vector<unsigned char> memory;
   microtin_pack* pack = nullptr;
 };
@@ -113,10 +138,10 @@ std::optional<int32_t> expected_height(const PackFile& file, uint32_t number, in
 }
 
 // Every answer is that of one of the tiles at the place, as the host decodes them.
-void check_height(const PackFile& file, const microtin_pack* pack, int64_t x, int64_t y) {
+void check_height(const PackFile& file, const Device& device, int64_t x, int64_t y) {
   uint32_t hint = 12345;
   int32_t height = 0;
-  const microtin_answer answer = microtin_pack_height_at(pack, x, y, &hint, &height);
+  const microtin_answer answer = device.height_at(x, y, &hint, &height);
   if (answer != MICROTIN_HEIGHT) return;
   bool is_right = false;
   for (uint32_t number = 0; number < file.entries().size(); ++number) {
@@ -131,17 +156,17 @@ void check_height(const PackFile& file, const microtin_pack* pack, int64_t x, in
 }
 
 // Blocks hold what single answers and exact arithmetic say.
-void check_fill(const microtin_pack* pack, const microtin_pack_info& info,
+void check_fill(const Device& device, const microtin_pack_info& info,
                 const microtin_course& course) {
   const microtin_block block = {course.x, course.y, 300, -256, 3, 2, -9999};
   int16_t heights[6];
-  if (microtin_pack_fill(pack, &block, heights) != MICROTIN_HEIGHT) return;
+  if (device.fill(block, heights) != MICROTIN_HEIGHT) return;
   const Wide unit = Wide{65536} * static_cast<Wide>(info.z.denominator);
   uint32_t hint = 0;
   for (int i = 0; i < 6; ++i) {
     int32_t z = 0;
-    EXPECT(microtin_pack_height_at(pack, block.x + i % 3 * block.dx, block.y + i / 3 * block.dy,
-                                   &hint, &z) == MICROTIN_HEIGHT);
+    EXPECT(device.height_at(block.x + i % 3 * block.dx, block.y + i / 3 * block.dy, &hint, &z) ==
+           MICROTIN_HEIGHT);
     const Wide real = static_cast<Wide>(info.z.numerator) * z + Wide{info.z.offset} * 65536;
     EXPECT(heights[i] == std::clamp<Wide>(round_divide(real, unit), INT16_MIN, INT16_MAX));
   }
@@ -169,12 +194,12 @@ bool remembers_bad_tile(const microtin_pack* pack) {
 }
 
 // Serves a course to its end, with interrupts between the calls.
-void serve(Card& card, microtin_pack* pack, const microtin_course& course, uint32_t step_limit) {
+void serve(Card& card, const Device& device, const microtin_course& course, uint32_t step_limit) {
   microtin_status status = MICROTIN_STEP_LIMIT;
   for (uint32_t call = 0, failed = 0; failed < 3; ++call) {
     EXPECT(call < 200000);
     const uint32_t reads = card.reads;
-    status = microtin_pack_service(pack, &course, step_limit, Card::read, &card);
+    status = device.service(course, step_limit, Card::read, &card);
     if (status == MICROTIN_IO) {
       EXPECT(card.reads != reads);
       continue;
@@ -187,14 +212,14 @@ void serve(Card& card, microtin_pack* pack, const microtin_course& course, uint3
       continue;
     }
     if (status == MICROTIN_DONE) break;
-    if (status == MICROTIN_BAD_TILES) EXPECT(remembers_bad_tile(pack));
+    if (status == MICROTIN_BAD_TILES) EXPECT(remembers_bad_tile(device.pack));
     ++failed;
   }
   int32_t height = 0;
   uint32_t hint = 0;
-  const microtin_answer answer = microtin_pack_height_at(pack, course.x, course.y, &hint, &height);
+  const microtin_answer answer = device.height_at(course.x, course.y, &hint, &height);
   if (status == MICROTIN_DONE) EXPECT(answer != MICROTIN_NOT_DECODED);
-  const microtin_answer highest = microtin_pack_highest(pack, &course, &height);
+  const microtin_answer highest = device.highest(course, &height);
   if (status == MICROTIN_DONE) EXPECT(highest != MICROTIN_NOT_DECODED);
 }
 
@@ -208,7 +233,11 @@ extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t mos
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   FuzzedDataProvider asked(data, size);
-  const Device device(asked.ConsumeIntegralInRange<uint32_t>(1, 5));
+  const uint32_t slots = asked.ConsumeIntegralInRange<uint32_t>(1, 5);
+  const uint32_t most_bytes = static_cast<uint32_t>(MICROTIN_COMPACT_BYTES(kCapacity));
+  const Device device(
+      slots,
+      asked.ConsumeBool() ? asked.ConsumeIntegralInRange<uint32_t>(most_bytes / 4, most_bytes) : 0);
   const uint32_t step_limit = asked.ConsumeIntegralInRange<uint32_t>(0, 40);
   std::optional<PackFile> file;
   try {
@@ -217,14 +246,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   }
   Card card{data, size, asked};
   for (int i = 0; i < 3; ++i) {
-    microtin_pack_info info = {1000, 1000, 0, 0, 0, 0, 0, {}, {}, {}};
+    microtin_pack_info info = {1000, 1000, 0, 0, 0, 0, 0, 0, {}, {}, {}};
     microtin_pack_header(device.pack, &info);
     const microtin_course course = {coordinate(asked, info.x_max), coordinate(asked, info.y_max),
                                     coordinate(asked, info.x_max), coordinate(asked, info.y_max)};
-    serve(card, device.pack, course, step_limit);
-    if (file) check_height(*file, device.pack, course.x, course.y);
+    serve(card, device, course, step_limit);
+    if (file) check_height(*file, device, course.x, course.y);
     if (microtin_pack_header(device.pack, &info) == 0) continue;
-    check_fill(device.pack, info, course);
+    check_fill(device, info, course);
     const int64_t value = asked.ConsumeIntegral<int64_t>();
     check_to_lattice(info.x, info.x_max, value >> asked.ConsumeIntegralInRange(0, 63),
                      asked.ConsumeIntegral<uint32_t>());

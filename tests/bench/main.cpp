@@ -51,8 +51,9 @@ void run(const std::string& command, const Arguments& arguments) {
     print_peer_instructions(arguments[0]);
   } else if (command == "grid" && arguments.size() == 2) {
     write_grid(arguments[0], arguments[1]);
-  } else if (command == "flight" && arguments.size() == 5) {
-    print_flight({arguments[0], arguments[1], arguments[2], arguments[3], arguments[4]});
+  } else if (command == "flight" && arguments.size() == 6) {
+    print_flight(
+        {arguments[0], arguments[1], arguments[2], arguments[3], arguments[4], arguments[5]});
   } else if (command == "linearity" && arguments.size() == 1) {
     print_linearity(
         {"nanoseconds", [](const Work& work) { return 1e9 * seconds_of(work); }, 4096000},
@@ -77,7 +78,8 @@ void run(const std::string& command, const Arguments& arguments) {
     throw Error(
         "usage: microtin_bench rate | bounds | curves FILE | paper | peers | peer-instructions "
         "FILE | "
-        "grid TERRAIN GRID | flight TERRAIN PACK GRID LOG LOG | linearity PLOT | growth FILE PLOT "
+        "grid TERRAIN GRID | flight TERRAIN PACK GRID LOG LOG LOG | linearity PLOT | growth FILE "
+        "PLOT "
         "| train | streams FOLDER | times STREAM... | "
         "instructions FILE STREAM...");
   }

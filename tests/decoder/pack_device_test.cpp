@@ -12,7 +12,7 @@
 #include <cstring>
 #include <vector>
 
-#include "microtin/pack.hpp"
+#include "microtin/compact_pack.hpp"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/packs.hpp"
 
@@ -107,13 +107,14 @@ Bytes loose_stream(uint16_t x_max, uint16_t y_max) {
 
 }  // namespace
 
-TEST_CASE("pack: heights at every place are those of the tiles, voids are told") {
+TEST_CASE_TEMPLATE("pack: heights at every place are those of the tiles, voids are told", Device,
+                   MeshSlots, CompactSlots) {
   for (const VoidKind& kind : void_kinds()) {
     if (kind.name == "chessboard" || kind.name == "30 of 100") continue;  // many tiles
     CAPTURE(kind.name);
     Card card{pack_bytes(rough_raster(61, 53, kind.at))};
     const PackFile pack(card.bytes);
-    const PackDevice device(4);
+    const Device device(4);
     Random random(5);
     for (int i = 0; i < 60; ++i) {
       const microtin_course c = course(random, 60, 52);
@@ -131,12 +132,13 @@ TEST_CASE("pack: heights at every place are those of the tiles, voids are told")
   }
 }
 
-TEST_CASE("pack: tiles that are there need no reading, the least recently wanted goes") {
+TEST_CASE_TEMPLATE("pack: tiles that are there need no reading, the least recently wanted goes",
+                   Device, MeshSlots, CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
   const PackFile pack(card.bytes);
   const TileGrid& grid = pack.grid();
   REQUIRE(tile_columns(grid) >= 3);
-  const PackDevice device(2);
+  const Device device(2);
   const auto middle_of = [&](int64_t column) {
     return at(column * grid.width + grid.width / 2, grid.height / 2);
   };
@@ -161,10 +163,11 @@ TEST_CASE("pack: tiles that are there need no reading, the least recently wanted
   CHECK(!is_there(0));
 }
 
-TEST_CASE("pack: steps and reads of a call are bounded, and queries work between") {
+TEST_CASE_TEMPLATE("pack: steps and reads of a call are bounded, and queries work between", Device,
+                   MeshSlots, CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
   card.most = 7;
-  const PackDevice device(4);
+  const Device device(4);
   const microtin_course c = at(30, 26);
   microtin_status status = MICROTIN_STEP_LIMIT;
   uint32_t calls = 0;
@@ -182,17 +185,18 @@ TEST_CASE("pack: steps and reads of a call are bounded, and queries work between
   CHECK(calls > 50);
 }
 
-TEST_CASE("pack: every read fails in turn, and the next call goes on") {
+TEST_CASE_TEMPLATE("pack: every read fails in turn, and the next call goes on", Device, MeshSlots,
+                   CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
   const microtin_course c = at(30, 26);
   uint32_t all = 0;
   {
-    const PackDevice device(4);
+    const Device device(4);
     REQUIRE(device.service(card, c) == MICROTIN_DONE);
     all = card.reads;
   }
   for (uint32_t failing = 0; failing < all; ++failing) {
-    const PackDevice device(4);
+    const Device device(4);
     card.reads = 0;
     card.failing = failing;
     CHECK(device.service(card, c) == MICROTIN_IO);
@@ -205,11 +209,12 @@ TEST_CASE("pack: every read fails in turn, and the next call goes on") {
   }
 }
 
-TEST_CASE("pack: a pulled card is told at once, at any moment, and its return is enough") {
+TEST_CASE_TEMPLATE("pack: a pulled card is told at once, at any moment, and its return is enough",
+                   Device, MeshSlots, CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
   const microtin_course c = at(30, 26);
   for (uint32_t pulled = 0; pulled < 100; ++pulled) {
-    const PackDevice device(4);
+    const Device device(4);
     card.is_pulled = false;
     microtin_status status = MICROTIN_NEED_INPUT;
     for (uint32_t call = 0; call < pulled && status != MICROTIN_DONE; ++call) {
@@ -231,28 +236,29 @@ TEST_CASE("pack: a pulled card is told at once, at any moment, and its return is
   }
 }
 
-TEST_CASE("pack: who puts bytes there by hand tells the same") {
+TEST_CASE_TEMPLATE("pack: who puts bytes there by hand tells the same", Device, MeshSlots,
+                   CompactSlots) {
   const Bytes bytes = pack_bytes(rough_raster(61, 53));
-  const PackDevice device(4);
+  const Device device(4);
   const microtin_course c = at(30, 26);
   uint64_t offset = 0;
   uint8_t* buffer = nullptr;
   size_t size = 0;
   microtin_pack_wanted(device.pack, &offset, &buffer, &size);
   REQUIRE(size == kPackFixedBytes);
-  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_NEED_INPUT);  // nothing is said yet
+  CHECK(device.prepare(c, 0) == MICROTIN_NEED_INPUT);  // nothing is said yet
   microtin_pack_given(device.pack, -7);
-  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_IO);
-  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_NEED_INPUT);  // told once
-  microtin_pack_given(device.pack, static_cast<int32_t>(size) + 1);         // more than was wanted
-  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_IO);
+  CHECK(device.prepare(c, 0) == MICROTIN_IO);
+  CHECK(device.prepare(c, 0) == MICROTIN_NEED_INPUT);                // told once
+  microtin_pack_given(device.pack, static_cast<int32_t>(size) + 1);  // more than was wanted
+  CHECK(device.prepare(c, 0) == MICROTIN_IO);
   std::copy_n(bytes.begin(), 9, buffer);
   microtin_pack_given(device.pack, 9);
   microtin_pack_wanted(device.pack, &offset, &buffer, &size);
   CHECK(offset == 9);
   CHECK(size == kPackFixedBytes - 9);
   microtin_pack_given(device.pack, 0);
-  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_TRUNCATED);
+  CHECK(device.prepare(c, 0) == MICROTIN_TRUNCATED);
   microtin_pack_wanted(device.pack, &offset, &buffer, &size);
   CHECK(offset == 0);  // anew
   microtin_status status = MICROTIN_NEED_INPUT;
@@ -260,21 +266,22 @@ TEST_CASE("pack: who puts bytes there by hand tells the same") {
     microtin_pack_wanted(device.pack, &offset, &buffer, &size);
     std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), size, buffer);
     microtin_pack_given(device.pack, static_cast<int32_t>(size));
-    status = microtin_pack_prepare(device.pack, &c, 0);
+    status = device.prepare(c, 0);
   }
   CHECK(status == MICROTIN_DONE);
   microtin_pack_wanted(device.pack, &offset, &buffer, &size);
   CHECK(size == 0);
   microtin_pack_given(device.pack, 0);  // nothing was wanted: nothing is heard
-  CHECK(microtin_pack_prepare(device.pack, &c, 0) == MICROTIN_DONE);
+  CHECK(device.prepare(c, 0) == MICROTIN_DONE);
 }
 
-TEST_CASE("pack: bad tiles are passed over, told, and tried again when the caller says so") {
+TEST_CASE_TEMPLATE("pack: bad tiles are passed over, told, and tried again when the caller says so",
+                   Device, MeshSlots, CompactSlots) {
   const Bytes good = row_of_tiles(6);
   Card card{good};
   card.bytes[stream_at(good, 0) + 20] ^= 1;
   card.bytes[stream_at(good, 3) + 20] ^= 1;
-  const PackDevice device(6);
+  const Device device(6);
   const microtin_course all = {0, 300, 12 * 256, 300};
   CHECK(bad_tiles(device) == 0);
   CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
@@ -292,11 +299,11 @@ TEST_CASE("pack: bad tiles are passed over, told, and tried again when the calle
   CHECK(answer(7 * 256, 300) == MICROTIN_IN_BAD_TILE);
   CHECK(answer(11 * 256, 300) == MICROTIN_HEIGHT);
   int32_t highest = 0;
-  CHECK(microtin_pack_highest(device.pack, &all, &highest) == MICROTIN_IN_BAD_TILE);
+  CHECK(device.highest(all, &highest) == MICROTIN_IN_BAD_TILE);
   CHECK(highest == 5 * 65536);
   const microtin_course between = {512, 300, 6 * 256, 300}, along = {6 * 256, 0, 6 * 256, 512};
-  CHECK(microtin_pack_highest(device.pack, &between, &highest) == MICROTIN_HEIGHT);
-  CHECK(microtin_pack_highest(device.pack, &along, &highest) == MICROTIN_HEIGHT);
+  CHECK(device.highest(between, &highest) == MICROTIN_HEIGHT);
+  CHECK(device.highest(along, &highest) == MICROTIN_HEIGHT);
   const uint32_t reads = card.reads;
   CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
   CHECK(card.reads == reads);
@@ -318,12 +325,13 @@ TEST_CASE("pack: bad tiles are passed over, told, and tried again when the calle
   CHECK(device.service(card, all) == MICROTIN_DONE);
 }
 
-TEST_CASE("pack: with a step limit, too, a bad tile is no stop, and is read once") {
+TEST_CASE_TEMPLATE("pack: with a step limit, too, a bad tile is no stop, and is read once", Device,
+                   MeshSlots, CompactSlots) {
   const Bytes good = row_of_tiles(6);
   Card card{good};
   card.bytes[stream_at(good, 1) + 20] ^= 1;
   card.most = 11;
-  const PackDevice device(6);
+  const Device device(6);
   const microtin_course all = {0, 300, 12 * 256, 300};
   microtin_status status = MICROTIN_NEED_INPUT;
   uint32_t calls = 0;
@@ -337,12 +345,14 @@ TEST_CASE("pack: with a step limit, too, a bad tile is no stop, and is read once
   CHECK(why_bad(device, 1) == MICROTIN_CHECKSUM);
 }
 
-TEST_CASE("pack: more bad tiles than are remembered cost an attempt a service, never a stop") {
+TEST_CASE_TEMPLATE(
+    "pack: more bad tiles than are remembered cost an attempt a service, never a stop", Device,
+    MeshSlots, CompactSlots) {
   constexpr uint32_t kTiles = 20, kBad = 14;
   const Bytes good = row_of_tiles(kTiles);
   Card card{good};
   for (uint32_t i = 0; i < kBad; ++i) card.bytes[stream_at(good, i) + 20] ^= 1;
-  const PackDevice device(kTiles);
+  const Device device(kTiles);
   const microtin_course all = {0, 300, kTiles * 512, 300};
   CHECK(served(device, card, all) == MICROTIN_BAD_TILES);
   for (uint32_t i = 0; i < kTiles; ++i) {
@@ -365,7 +375,8 @@ TEST_CASE("pack: more bad tiles than are remembered cost an attempt a service, n
   CHECK(card.reads == reads);
 }
 
-TEST_CASE("pack: what is beyond the end is truncated, in the header and in tiles") {
+TEST_CASE_TEMPLATE("pack: what is beyond the end is truncated, in the header and in tiles", Device,
+                   MeshSlots, CompactSlots) {
   const Bytes good = row_of_tiles(3);
   const size_t header = pack_index_start(PackFile(good).header());
   const auto cut = [&](size_t size) {
@@ -374,7 +385,7 @@ TEST_CASE("pack: what is beyond the end is truncated, in the header and in tiles
   for (const uint32_t steps : {0u, 3u}) {
     for (size_t size = 0; size < good.size(); ++size) {
       Card card = cut(size);
-      const PackDevice device(3);
+      const Device device(3);
       const microtin_course all = {0, 300, 6 * 256, 300};
       microtin_status status = MICROTIN_NEED_INPUT;
       for (int calls = 0; calls < 1000; ++calls) {
@@ -388,12 +399,13 @@ TEST_CASE("pack: what is beyond the end is truncated, in the header and in tiles
   }
 }
 
-TEST_CASE("pack: damaged, swapped and foreign bytes are told, and never answered from") {
+TEST_CASE_TEMPLATE("pack: damaged, swapped and foreign bytes are told, and never answered from",
+                   Device, MeshSlots, CompactSlots) {
   const Bytes good = pack_bytes(rough_raster(61, 53));
   const PackFile pack(good);
   const auto status_of = [](const Bytes& bytes) {
     Card card{bytes};
-    const PackDevice device(4);
+    const Device device(4);
     const microtin_status status = device.service(card, at(30, 26));
     int32_t height = 0;
     const microtin_answer answer = device.height_at(30 * 256, 26 * 256, height);
@@ -421,7 +433,7 @@ TEST_CASE("pack: damaged, swapped and foreign bytes are told, and never answered
   const uint32_t last = static_cast<uint32_t>(pack.entries().size()) - 1;
   const auto is_refused = [&](uint32_t tile, const Bytes& bytes) {
     Card card{bytes};
-    const PackDevice device(4);
+    const Device device(4);
     const TileBox box = tile_box(pack.grid(), tile);
     return device.service(card, at(box.x + 1, box.y + 1)) == MICROTIN_BAD_TILES &&
            why_bad(device, tile) == MICROTIN_CHECKSUM;
@@ -440,7 +452,8 @@ TEST_CASE("pack: damaged, swapped and foreign bytes are told, and never answered
   CHECK(is_refused(0, foreign));
 }
 
-TEST_CASE("pack: of a placement that was damage nothing stays") {
+TEST_CASE_TEMPLATE("pack: of a placement that was damage nothing stays", Device, MeshSlots,
+                   CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53), 0)};
   REQUIRE(card.bytes[6] == 0);
   for (const uint8_t denominator : Bytes{0, 3}) {
@@ -448,7 +461,7 @@ TEST_CASE("pack: of a placement that was damage nothing stays") {
     Card damaged = card;
     damaged.bytes[6] = static_cast<uint8_t>(placement.size());
     std::copy(placement.begin(), placement.end(), damaged.bytes.begin() + kPackFixedBytes);
-    const PackDevice device(1);
+    const Device device(1);
     CHECK(device.service(damaged, at(1, 1)) ==
           (denominator == 0 ? MICROTIN_MALFORMED : MICROTIN_CHECKSUM));
     REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
@@ -462,7 +475,8 @@ TEST_CASE("pack: of a placement that was damage nothing stays") {
   }
 }
 
-TEST_CASE("pack: a tile of another tile's place is refused, whatever its checks") {
+TEST_CASE_TEMPLATE("pack: a tile of another tile's place is refused, whatever its checks", Device,
+                   MeshSlots, CompactSlots) {
   // Two tiles that differ by one height, by one that takes as many bytes; right CRCs of their own.
   Raster raster = rough_raster(9, 5);
   for (size_t i = 0; i < raster.heights.size(); ++i) raster.heights[i] = i % 9 % 4 == 2 ? 50 : 0;
@@ -477,7 +491,7 @@ TEST_CASE("pack: a tile of another tile's place is refused, whatever its checks"
   Bytes bytes = write_pack(encoded);
   const auto status_of = [&](uint32_t x) {
     Card card{bytes};
-    const PackDevice device(4);
+    const Device device(4);
     return device.service(card, at(x, 1));
   };
   CHECK(status_of(1) == MICROTIN_DONE);
@@ -493,7 +507,7 @@ namespace {
 
 // What a handler of interrupts asks, and how often it was right.
 struct Interrupted {
-  const microtin_pack* pack;
+  const PackDevice* device;
   int64_t x, y;
   int32_t expected;
   volatile uint32_t right, absent, wrong;
@@ -501,9 +515,8 @@ struct Interrupted {
 
 void ask_in_interrupt(int) {
   int32_t height = 0;
-  uint32_t hint = 0;
   const microtin_answer answer =
-      microtin_pack_height_at(interrupted.pack, interrupted.x, interrupted.y, &hint, &height);
+      interrupted.device->height_at(interrupted.x, interrupted.y, height);
   if (answer == MICROTIN_NOT_DECODED) {
     interrupted.absent = interrupted.absent + 1;
   } else if (answer == MICROTIN_HEIGHT && height == interrupted.expected) {
@@ -515,13 +528,14 @@ void ask_in_interrupt(int) {
 
 }  // namespace
 
-TEST_CASE("pack: a query in an interrupt is right at any moment of the service") {
+TEST_CASE_TEMPLATE("pack: a query in an interrupt is right at any moment of the service", Device,
+                   MeshSlots, CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
   const PackFile pack(card.bytes);
-  const PackDevice device(1);
+  const Device device(1);
   const TileGrid& grid = pack.grid();
   const int64_t x = grid.width * 128 + 5, y = grid.height * 128 + 9;  // in the first tile
-  interrupted = {device.pack, x, y, *expected_height(pack, x, y), 0, 0, 0};
+  interrupted = {&device, x, y, *expected_height(pack, x, y), 0, 0, 0};
   struct sigaction action = {}, before = {};
   action.sa_handler = ask_in_interrupt;
   REQUIRE(sigaction(SIGALRM, &action, &before) == 0);
@@ -541,9 +555,10 @@ TEST_CASE("pack: a query in an interrupt is right at any moment of the service")
   CHECK(interrupted.absent > 0);
 }
 
-TEST_CASE("pack: too small slots, workspaces and wrong arguments") {
+TEST_CASE_TEMPLATE("pack: too small slots, workspaces and wrong arguments", Device, MeshSlots,
+                   CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
-  const PackDevice device(4, 10);
+  const Device device(4, 10);
   CHECK(device.service(card, at(1, 1)) == MICROTIN_BAD_TILES);
   CHECK(why_bad(device, 0) == MICROTIN_TOO_BIG);
   CHECK(device.service(card, {0, 0, int64_t{1} << 24, 0}) == MICROTIN_ARGUMENT);
@@ -560,13 +575,14 @@ TEST_CASE("pack: too small slots, workspaces and wrong arguments") {
   CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, &pack) == MICROTIN_DONE);
 }
 
-TEST_CASE("pack: the highest on a course is that of its edges and no sample is above") {
+TEST_CASE_TEMPLATE("pack: the highest on a course is that of its edges and no sample is above",
+                   Device, MeshSlots, CompactSlots) {
   for (const VoidKind& kind : void_kinds()) {
     if (kind.name == "chessboard" || kind.name == "30 of 100") continue;
     CAPTURE(kind.name);
     Card card{pack_bytes(rough_raster(61, 53, kind.at))};
     const SurfaceModel model = model_of(PackFile(card.bytes));
-    const PackDevice device(60);
+    const Device device(60);
     Random random(7);
     for (int i = 0; i < 40; ++i) {
       microtin_course c = course(random, 60, 52);
@@ -575,7 +591,7 @@ TEST_CASE("pack: the highest on a course is that of its edges and no sample is a
         c = {c.x / 256 * 256, c.y / 256 * 256, c.x_end / 256 * 256, c.y_end / 256 * 256};
       REQUIRE(device.service(card, c) == MICROTIN_DONE);
       int32_t highest = 0;
-      const microtin_answer answer = microtin_pack_highest(device.pack, &c, &highest);
+      const microtin_answer answer = device.highest(c, &highest);
       int32_t sampled = INT32_MIN, begin = INT32_MIN, end = INT32_MIN;
       bool gap = false;
       for (int64_t k = 0; k <= 4096; ++k) {  // those that lie on the course exactly
@@ -597,16 +613,16 @@ TEST_CASE("pack: the highest on a course is that of its edges and no sample is a
   }
 }
 
-TEST_CASE("pack: a block of heights in whole units") {
+TEST_CASE_TEMPLATE("pack: a block of heights in whole units", Device, MeshSlots, CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53, void_kinds()[2].at))};
-  const PackDevice device(60);
+  const Device device(60);
   REQUIRE(device.service(card, {0, 0, 60 * 256, 52 * 256}) == MICROTIN_DONE);
   REQUIRE(device.service(card, {0, 52 * 256, 60 * 256, 0}) == MICROTIN_DONE);
   microtin_pack_info info;
   REQUIRE(microtin_pack_header(device.pack, &info) == 1);
   const microtin_block block{5 * 256, 3 * 256, 512, 384, 20, 25, -999};
   std::vector<int16_t> heights(500);
-  const microtin_answer answer = microtin_pack_fill(device.pack, &block, heights.data());
+  const microtin_answer answer = device.fill(block, heights.data());
   CHECK(answer != MICROTIN_HEIGHT);
   for (int64_t i = 0; i < 500; ++i) {
     int32_t z = 0;
@@ -617,20 +633,22 @@ TEST_CASE("pack: a block of heights in whole units") {
   }
 }
 
-TEST_CASE("pack: heights of a block are rounded to nearest, halves up, and kept within 16 bits") {
+TEST_CASE_TEMPLATE(
+    "pack: heights of a block are rounded to nearest, halves up, and kept within 16 bits", Device,
+    MeshSlots, CompactSlots) {
   const auto fill = [](const Axis& axis, int16_t west, int16_t east) {
     Metadata metadata;
     metadata.placement.z = axis;
     Card card{forged_pack(
         {4, 4, 4, 4}, {forged_tile({{{0, 0, west}, {4, 0, east}, {0, 4, west}, {4, 4, east}}, {}})},
         metadata)};
-    const PackDevice device(1);
+    const Device device(1);
     REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
     microtin_pack_info info;
     REQUIRE(microtin_pack_header(device.pack, &info) == 1);
     std::vector<int16_t> heights(257);
     const microtin_block block{0, 128, 4, 0, 257, 1, 0};
-    REQUIRE(microtin_pack_fill(device.pack, &block, heights.data()) == MICROTIN_HEIGHT);
+    REQUIRE(device.fill(block, heights.data()) == MICROTIN_HEIGHT);
     for (int64_t i = 0; i < 257; ++i) {
       int32_t z = 0;
       REQUIRE(device.height_at(4 * i, 128, z) == MICROTIN_HEIGHT);
@@ -651,14 +669,16 @@ TEST_CASE("pack: heights of a block are rounded to nearest, halves up, and kept 
   CHECK(fill({far - 7, 1, (int64_t{1} << 40) - 1}, -32768, 32767) == Ends(32, 32));
 }
 
-TEST_CASE("pack: a block tells the last reason, or that a tile is missing, and needs a header") {
+TEST_CASE_TEMPLATE(
+    "pack: a block tells the last reason, or that a tile is missing, and needs a header", Device,
+    MeshSlots, CompactSlots) {
   Card card{forged_pack({8, 4, 4, 4}, {forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, {}}), {}})};
-  const PackDevice device(2);
+  const Device device(2);
   std::vector<int16_t> heights(3);
   const auto fill = [&](int64_t x, int64_t y, int32_t dx, uint16_t columns) {
     std::fill(heights.begin(), heights.end(), int16_t{0});
     const microtin_block block{x * 256, y * 256, dx * 256, 0, columns, 1, -9};
-    return microtin_pack_fill(device.pack, &block, heights.data());
+    return device.fill(block, heights.data());
   };
   const std::vector<int16_t> missing{-9, -9, -9}, untouched{0, 0, 0};
   CHECK(fill(1, 1, 1, 3) == MICROTIN_NOT_DECODED);
@@ -676,34 +696,36 @@ TEST_CASE("pack: a block tells the last reason, or that a tile is missing, and n
   CHECK(heights == untouched);
 }
 
-TEST_CASE("pack: a placement that is not verified is not used") {
+TEST_CASE_TEMPLATE("pack: a placement that is not verified is not used", Device, MeshSlots,
+                   CompactSlots) {
   Metadata metadata;
   metadata.placement.z = {0, uint64_t{1} << 31, 1};
   Card card{
       forged_pack({4, 4, 4, 4}, {forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, {}})}, metadata)};
-  const PackDevice device(1);
+  const Device device(1);
   int16_t height = 5;
   const microtin_block block{256, 256, 0, 0, 1, 1, -9};
   for (int calls = 0; calls < 1000; ++calls) {
     microtin_pack_info info;
     if (microtin_pack_header(device.pack, &info) != 0) break;
     height = 5;
-    REQUIRE(microtin_pack_fill(device.pack, &block, &height) == MICROTIN_NOT_DECODED);
+    REQUIRE(device.fill(block, &height) == MICROTIN_NOT_DECODED);
     REQUIRE(height == -9);
     card.most = 1;
     device.service(card, at(1, 1), 1);
   }
   REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
   height = 5;
-  CHECK(microtin_pack_fill(device.pack, &block, &height) == MICROTIN_OUTSIDE);  // too coarse
+  CHECK(device.fill(block, &height) == MICROTIN_OUTSIDE);  // too coarse
   CHECK(height == 5);
 }
 
-TEST_CASE("pack: headers that break a rule are malformed, damaged ones are told as such") {
+TEST_CASE_TEMPLATE("pack: headers that break a rule are malformed, damaged ones are told as such",
+                   Device, MeshSlots, CompactSlots) {
   const Bytes good = row_of_tiles(2);
   const auto status_of = [](const Bytes& bytes) {
     Card card{bytes};
-    const PackDevice device(2);
+    const Device device(2);
     return device.service(card, at(1, 1));
   };
   const auto with = [&](size_t at, uint8_t value) {
@@ -732,13 +754,14 @@ TEST_CASE("pack: headers that break a rule are malformed, damaged ones are told 
   }
 }
 
-TEST_CASE("pack: tiles that break a rule are refused, here and on the host") {
+TEST_CASE_TEMPLATE("pack: tiles that break a rule are refused, here and on the host", Device,
+                   MeshSlots, CompactSlots) {
   const Tin fits{{{0, 0, 1}, {4, 0, 2}, {0, 3, 3}, {4, 3, 4}}, {}};
   const ForgedTile good = forged_tile(fits);
   const TileGrid grid = {8, 3, 4, 3};
   const auto check = [&](const Bytes& bytes, microtin_status expected) {
     Card card{bytes};
-    const PackDevice device(2);
+    const Device device(2);
     CHECK(device.service(card, at(6, 1)) ==
           (expected == MICROTIN_DONE ? MICROTIN_DONE : MICROTIN_BAD_TILES));
     CHECK(why_bad(device, 1) == expected);
@@ -826,8 +849,11 @@ TEST_CASE("pack: real coordinates become places, exactly rounded") {
   CHECK(microtin_pack_to_lattice(&degrees, 1200, 0, 0, &lattice) == 0);
 }
 
-TEST_CASE("pack: the C++ face") {
-  static Pack<4, kCapacity> pack;
+using MeshPack = Pack<4, kCapacity>;
+using PackOfCompact = CompactPack<4, kCapacity>;
+
+TEST_CASE_TEMPLATE("pack: the C++ face", Face, MeshPack, PackOfCompact) {
+  static Face pack;
   Card card{pack_bytes(rough_raster(61, 53))};
   const microtin_course c = at(30, 26);
   microtin_pack_info info;
@@ -846,7 +872,8 @@ TEST_CASE("pack: the C++ face") {
   CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_NOT_DECODED);
 }
 
-TEST_CASE("pack: far from the origin, in the largest extent") {
+TEST_CASE_TEMPLATE("pack: far from the origin, in the largest extent", Device, MeshSlots,
+                   CompactSlots) {
   // A header for 2^31 - 1 steps, with one known tile in the farthest corner.
   const EncodedPack encoded = encode_pack(rough_raster(31, 31), pack_options(2, 400));
   REQUIRE(encoded.streams.size() == 1);
@@ -884,14 +911,14 @@ TEST_CASE("pack: far from the origin, in the largest extent") {
       return static_cast<int32_t>(taken);
     }
   } card{head, index + uint64_t{number} * kPackEntryBytes, index, streams};
-  const PackDevice device(4, 400);
+  const Device device(4, 400);
   const int64_t corner = int64_t{32768} * 65535 * 256;
   const microtin_course c{corner + 5 * 256, corner + 7 * 256, corner + 25 * 256, corner + 9 * 256};
-  REQUIRE(microtin_pack_service(device.pack, &c, 0, FarCard::read, &card) == MICROTIN_DONE);
+  REQUIRE(device.service(c, 0, FarCard::read, &card) == MICROTIN_DONE);
   int32_t height = 0, highest = 0;
   CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
   CHECK(height == *expected_height(PackFile(write_pack(encoded)), 5 * 256, 7 * 256));
-  CHECK(microtin_pack_highest(device.pack, &c, &highest) == MICROTIN_HEIGHT);
+  CHECK(device.highest(c, &highest) == MICROTIN_HEIGHT);
   CHECK(highest >= height);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "tests/support/forged_pack.hpp"
@@ -180,7 +181,7 @@ void check_course(const PackDevice& device, const Surface& surface, const microt
   CAPTURE(c.x_end);
   CAPTURE(c.y_end);
   int32_t highest = 1;
-  const microtin_answer answer = microtin_pack_highest(device.pack, &c, &highest);
+  const microtin_answer answer = device.highest(c, &highest);
   const Expected expected = expect(surface, c);
   REQUIRE(answer == (expected.is_known ? MICROTIN_HEIGHT : MICROTIN_IN_VOID));
   REQUIRE(highest <= expected.highest);
@@ -198,13 +199,14 @@ void check_course(const PackDevice& device, const Surface& surface, const microt
   }
 }
 
+template <class Device>
 void check_pack(const Bytes& bytes, Random& random, int courses, bool tiles_agree, Counts& counts) {
   Card card{bytes};
   const PackFile pack(bytes);
   const Surface surface = surface_of(pack);
   const TileGrid& grid = pack.grid();
-  const PackDevice device(static_cast<uint32_t>(pack.entries().size()),
-                          std::max(3u, pack.header().most_vertices));
+  const Device device(static_cast<uint32_t>(pack.entries().size()),
+                      std::max(3u, pack.header().most_vertices));
   for (uint32_t tile = 0; tile < pack.entries().size(); ++tile) {
     const TileBox box = tile_box(grid, tile);
     REQUIRE(device.service(card, at(box.x, box.y)) == MICROTIN_DONE);
@@ -227,9 +229,37 @@ Raster ring_of_posts() {
   return raster;
 }
 
+uint32_t repeats_of(const Tin& tin) {
+  return compact_form(DecodedTerrain(encode(tin, Metadata()))).repeats;
+}
+
+// A tile of which the path of the compact form misses some vertices, found by moving one after
+// another; some of its triangles are void.
+Tin missed_tile(Random& random, uint16_t side) {
+  Tin best = random_tile(random, side, side, false, 0);
+  uint32_t most = repeats_of(best);
+  for (int i = 0; i < 150; ++i) {
+    Tin tin = best;
+    Vertex& moved = tin.vertices[random.below(static_cast<uint32_t>(tin.vertices.size()))];
+    moved.x = static_cast<uint16_t>(random.below(side + 1u));
+    moved.y = static_cast<uint16_t>(random.below(side + 1u));
+    const auto meets = [&](const Vertex& v) {
+      return &v != &moved && v.x == moved.x && v.y == moved.y;
+    };
+    if (std::any_of(tin.vertices.begin(), tin.vertices.end(), meets) || !has_triangle(tin))
+      continue;
+    const uint32_t repeats = repeats_of(tin);
+    if (repeats >= most) best = tin;
+    most = std::max(most, repeats);
+  }
+  return with_some_voids(std::move(best), random, 30);
+}
+
 }  // namespace
 
-TEST_CASE("pack: the highest on a course is exact, and known if every place is, on forged tiles") {
+TEST_CASE_TEMPLATE(
+    "pack: the highest on a course is exact, and known if every place is, on forged tiles", Device,
+    MeshSlots, CompactSlots) {
   Random random(31);
   Counts counts;
   for (int round = 0; round < 150; ++round) {
@@ -245,38 +275,62 @@ TEST_CASE("pack: the highest on a course is exact, and known if every place is, 
                           : forged_tile(random_tile(random, box.x_end - box.x, box.y_end - box.y,
                                                     is_whole, random.below(3) * 20)));
     }
-    check_pack(forged_pack(grid, tiles), random, 60, false, counts);
+    check_pack<Device>(forged_pack(grid, tiles), random, 60, false, counts);
   }
   CHECK(counts.known > 1000);
   CHECK(counts.unknown > 1000);
 }
 
-TEST_CASE("pack: the highest on a course is exact, and known if every place is, on encoded tiles") {
+TEST_CASE_TEMPLATE(
+    "pack: the highest on a course is exact, and known if every place is, on encoded tiles", Device,
+    MeshSlots, CompactSlots) {
   Random random(32);
   Counts counts;
   for (const VoidKind& kind : void_kinds()) {
     CAPTURE(kind.name);
     const Raster raster = rough_raster(61, 53, kind.at);
-    check_pack(write_pack(encode_pack(raster, pack_options(3, 100))), random, 40, true, counts);
+    check_pack<Device>(write_pack(encode_pack(raster, pack_options(3, 100))), random, 40, true,
+                       counts);
   }
   CHECK(counts.known > 100);
   CHECK(counts.unknown > 100);
 }
 
-TEST_CASE("pack: an edge between voids is no height, touching a tile without terrain is no void") {
+TEST_CASE_TEMPLATE("pack: the highest on a course is exact where compact paths miss vertices",
+                   Device, MeshSlots, CompactSlots) {
+  Random random(35);
+  Counts counts;
+  uint32_t repeats = 0;
+  for (int round = 0; round < 60; ++round) {
+    const uint16_t side = static_cast<uint16_t>(5 + random.below(4));
+    std::vector<ForgedTile> tiles;
+    for (int i = 0; i < 2; ++i) {
+      const Tin tin = missed_tile(random, side);
+      repeats += repeats_of(tin);
+      tiles.push_back(forged_tile(tin));
+    }
+    check_pack<Device>(forged_pack({2u * side, side, side, side}, tiles), random, 100, false,
+                       counts);
+  }
+  CHECK(repeats > 100);
+  CHECK(counts.known > 100);
+  CHECK(counts.unknown > 100);
+}
+
+TEST_CASE_TEMPLATE(
+    "pack: an edge between voids is no height, touching a tile without terrain is no void", Device,
+    MeshSlots, CompactSlots) {
   Random random(33);
   Counts counts;
   PackOptions options = pack_options(0, 100);
-  check_pack(write_pack(encode_pack(ring_of_posts(), options)), random, 400, true, counts);
+  check_pack<Device>(write_pack(encode_pack(ring_of_posts(), options)), random, 400, true, counts);
   const TileGrid grid = {8, 4, 4, 4};
   const ForgedTile square = forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}, {4, 4, 4}}, {}});
   Card card{forged_pack(grid, {square, {}})};
-  const PackDevice device(2);
+  const Device device(2);
   REQUIRE(device.service(card, {0, 0, 2047, 0}) == MICROTIN_DONE);
   int32_t highest = 0;
-  const auto answer = [&](const microtin_course& c) {
-    return microtin_pack_highest(device.pack, &c, &highest);
-  };
+  const auto answer = [&](const microtin_course& c) { return device.highest(c, &highest); };
   CHECK(answer({1024, 100, 1024, 100}) == MICROTIN_HEIGHT);  // a place on the border
   CHECK(answer({1024, 0, 1024, 1024}) == MICROTIN_HEIGHT);   // along it
   CHECK(highest == 4 * 65536);
@@ -284,14 +338,15 @@ TEST_CASE("pack: an edge between voids is no height, touching a tile without ter
   CHECK(answer({0, 512, 1025, 512}) == MICROTIN_IN_VOID);  // a 256th of a step too far
 }
 
-TEST_CASE("pack: heights where a course leaves the terrain are rounded once, halves up") {
+TEST_CASE_TEMPLATE("pack: heights where a course leaves the terrain are rounded once, halves up",
+                   Device, MeshSlots, CompactSlots) {
   // A hull edge of 512 steps, seen from one side alone: at odd places of it heights end in a half.
   for (const int rise : {-1, 1, -3, 3}) {
     const int16_t low = static_cast<int16_t>(rise < 0 ? -rise : 0),
                   high = static_cast<int16_t>(low + rise);
     const Tin tin{{{256, 0, low}, {256, 512, high}, {0, 0, -5}, {0, 512, -5}}, {}};
     Card card{forged_pack({512, 512, 512, 512}, {forged_tile(tin)})};
-    const PackDevice device(1);
+    const Device device(1);
     REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
     const Surface surface = surface_of(PackFile(card.bytes));
     Counts counts;
@@ -302,7 +357,9 @@ TEST_CASE("pack: heights where a course leaves the terrain are rounded once, hal
   }
 }
 
-TEST_CASE("pack: the highest on the longest courses and the largest tiles does not overflow") {
+TEST_CASE_TEMPLATE(
+    "pack: the highest on the longest courses and the largest tiles does not overflow", Device,
+    MeshSlots, CompactSlots) {
   const TileGrid grid = {2 * 65535, 65535, 65535, 65535};
   const auto corner = [](uint16_t x, uint16_t y, bool high) {
     return Vertex{x, y, static_cast<int16_t>(high ? 32767 : -32768)};
@@ -320,7 +377,7 @@ TEST_CASE("pack: the highest on the longest courses and the largest tiles does n
       tiles.push_back(forged_tile(tin));
     }
     Card card{forged_pack(grid, tiles)};
-    const PackDevice device(2);
+    const Device device(2);
     REQUIRE(device.service(card, at(65535, 7)) == MICROTIN_DONE);
     const Surface surface = surface_of(PackFile(card.bytes));
     for (int i = 0; i < 60; ++i) {
@@ -336,7 +393,7 @@ TEST_CASE("pack: the highest on the longest courses and the largest tiles does n
       const microtin_course c = {x, y, std::min<int64_t>(x_end, 2 * 65535 * 256),
                                  pick(65535 * 256 - 1)};
       int32_t highest = 0;
-      const microtin_answer answer = microtin_pack_highest(device.pack, &c, &highest);
+      const microtin_answer answer = device.highest(c, &highest);
       // Heights of the reference would overflow: whether all is known alone.
       std::vector<Stretch> stretches = stretches_of(surface, c);
       CHECK(answer == (cover(stretches) ? MICROTIN_HEIGHT : MICROTIN_IN_VOID));

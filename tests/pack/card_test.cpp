@@ -139,7 +139,7 @@ TEST_CASE("card: sectors are at most twice what was asked for, and the damaged t
 TEST_CASE("pack: aligned reads lie in one sector, and answers are the same") {
   const EncodedPack encoded = encode_pack(rough_raster(61, 53), pack_options(3, 60));
   SectorCard cards[2] = {{write_pack(encoded)}, {write_pack(encoded)}};
-  const PackDevice loose(4), aligned(4);
+  const MeshSlots loose(4), aligned(4);
   CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_DONE);
   Random random(5);
   for (int i = 0; i < 300; ++i) {
@@ -161,11 +161,11 @@ TEST_CASE("pack: aligned reads lie in one sector, and answers are the same") {
 TEST_CASE("pack: only powers of two align reads, and all of them do") {
   const Bytes bytes = write_pack(encode_pack(rough_raster(61, 53), pack_options(3, 60)));
   for (const uint32_t sector : {3u, 513u, 65536u, ~0u}) {
-    CHECK(microtin_pack_align_reads(PackDevice(4).pack, sector) == MICROTIN_ARGUMENT);
+    CHECK(microtin_pack_align_reads(MeshSlots(4).pack, sector) == MICROTIN_ARGUMENT);
   }
   CHECK(microtin_pack_align_reads(nullptr, 512) == MICROTIN_ARGUMENT);
   for (uint32_t sector = 1; sector <= 32768; sector *= 2) {
-    const PackDevice device(4);
+    const MeshSlots device(4);
     Card card{bytes};
     CHECK(microtin_pack_align_reads(device.pack, sector) == MICROTIN_DONE);
     microtin_pack_reset(device.pack);  // keeps it

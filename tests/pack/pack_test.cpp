@@ -8,6 +8,8 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/status_text.hpp"
 #include "encoder/pack/surface.hpp"
+#include "encoder/pack/tile_plan.hpp"
+#include "microtin/compact.h"
 #include "tests/support/border_walk.hpp"
 #include "tests/support/packs.hpp"
 
@@ -144,7 +146,48 @@ TEST_CASE("packs: the source's grid and the mean error are noted") {
   CHECK(pack.metadata().grid->rows == 33);
   REQUIRE(pack.metadata().accuracy.has_value());
   CHECK(pack.metadata().accuracy->mean_error.mantissa != 0);
-  CHECK(pack.header().compact_bytes == 0);
+}
+
+TEST_CASE("packs: the header says what the tile that needs most takes in compact form") {
+  for (const uint32_t width : {61u, 300u}) {  // narrow tiles, wide ones
+    PackOptions options = pack_options(6, 2000);
+    options.tile_steps = width;
+    const PackFile pack(write_pack(encode_pack(rough_raster(width + 1, 33), options)));
+    uint32_t most = 0;
+    for (uint32_t number = 0; number < pack.entries().size(); ++number) {
+      const CompactForm form = compact_form(*pack.tile(number));
+      CHECK(form.is_narrow == (width < 256));
+      CHECK(form.vertices == pack.entries()[number].vertices);
+      most = std::max(most, static_cast<uint32_t>(bytes_of(form, 16)));
+    }
+    CHECK(most != 0);
+    CHECK(pack.header().compact_bytes == most);
+    CHECK(most <= promised_compact_bytes(pack.header().most_vertices, width < 256, 16));
+  }
+}
+
+TEST_CASE("packs: a tile that takes more in compact form than is promised is too large") {
+  const uint32_t vertices = 100;
+  TileSummary tile;
+  CHECK(fits(tile, vertices));  // without terrain
+  const uint32_t promised = MICROTIN_COMPACT_REPEATS(vertices);
+  tile.compact = CompactForm{vertices, promised, true};
+  CHECK(fits(tile, vertices));
+  tile.compact->repeats = promised + 1;
+  CHECK(!fits(tile, vertices));
+  tile.compact->vertices = vertices - 20;  // within the memory of a slot for 100
+  CHECK(fits(tile, vertices));
+  const PackOptions options{{}, {}, 700, 0, 600};
+  CHECK(most_vertices(options, {1000, 1000, 255, 255}) == 700);
+  CHECK(most_vertices(options, {1000, 1000, 256, 10}) == 600);
+  CHECK(most_vertices(options, {1000, 1000, 10, 256}) == 600);
+  for (const uint32_t ram : {20000u, 65536u}) {
+    for (const bool is_narrow : {false, true}) {
+      const uint32_t most = vertices_for_ram(ram, is_narrow);
+      CHECK(pack_ram(most, promised_compact_bytes(most, is_narrow, 16)) <= ram);
+      CHECK(pack_ram(most + 1, promised_compact_bytes(most + 1, is_narrow, 16)) > ram);
+    }
+  }
 }
 
 TEST_CASE("packs: a changed byte is noticed") {

@@ -232,7 +232,7 @@ TEST_CASE("a device reads packs of points: heights, and the highest on a course"
     const SurfaceModel model = model_of(pack);
     const uint32_t x_max = pack.grid().x_max, y_max = pack.grid().y_max;
     const auto places = places_on(kind.cloud, pack.metadata().placement, x_max, y_max);
-    const PackDevice device(120);
+    const MeshSlots device(120);
     Random random(5);
     for (int i = 0; i < 40; ++i) {
       const GlobalPost p = places[random.below(static_cast<uint32_t>(places.size()))];
@@ -256,7 +256,7 @@ TEST_CASE("a device reads packs of points: heights, and the highest on a course"
         c = {int64_t{p.x} * 256, int64_t{p.y} * 256, int64_t{q.x} * 256, int64_t{q.y} * 256};
         if (device.service(card, c) != MICROTIN_DONE) break;  // more tiles than slots
         int32_t highest = 0, begin = 0, end = 0;
-        CHECK(microtin_pack_highest(device.pack, &c, &highest) == MICROTIN_HEIGHT);
+        CHECK(device.highest(c, &highest) == MICROTIN_HEIGHT);
         REQUIRE(device.height_at(c.x, c.y, begin) == MICROTIN_HEIGHT);
         REQUIRE(device.height_at(c.x_end, c.y_end, end) == MICROTIN_HEIGHT);
         const double exact = std::max({highest_on_edges(model, c) * 65536, begin * 1.0, end * 1.0});

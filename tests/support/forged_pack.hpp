@@ -82,17 +82,22 @@ inline bool has_triangle(const Tin& tin) {
   return found;
 }
 
-// Such vertices that make a triangle, some triangles void.
-inline Tin random_tile(Random& random, uint32_t width, uint32_t height, bool is_whole,
-                       uint32_t voids_of_100) {
-  Tin tin = random_vertices(random, width, height, is_whole);
-  while (!has_triangle(tin)) tin = random_vertices(random, width, height, is_whole);
+// The same with some triangles void.
+inline Tin with_some_voids(Tin tin, Random& random, uint32_t voids_of_100) {
   const DecodedTerrain decoded(encode(tin, Metadata()));
   const MeshCopy copy(decoded.mesh());
   for (const std::array<Point, 3>& t : triangles_of(copy.mesh).triangles) {
     if (random.below(100) < voids_of_100) tin.voids.push_back(Tin::Triangle{t[0], t[1], t[2]});
   }
   return tin;
+}
+
+// Such vertices that make a triangle, some triangles void.
+inline Tin random_tile(Random& random, uint32_t width, uint32_t height, bool is_whole,
+                       uint32_t voids_of_100) {
+  Tin tin = random_vertices(random, width, height, is_whole);
+  while (!has_triangle(tin)) tin = random_vertices(random, width, height, is_whole);
+  return with_some_voids(std::move(tin), random, voids_of_100);
 }
 
 }  // namespace microtin::tests

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "encoder/pack/surface.hpp"
-#include "microtin/pack.h"
+#include "microtin/compact_pack.h"
 #include "tests/support/device.hpp"
 #include "tests/support/layers.hpp"
 
@@ -38,26 +38,68 @@ struct Card {
   }
 };
 
-struct PackDevice {
-  explicit PackDevice(uint32_t slots, uint32_t capacity = kCapacity)
-      : space(MICROTIN_PACK_BYTES(slots, capacity)) {
-    REQUIRE(microtin_pack_init(space.begin(), space.size(), slots, capacity, &pack) ==
-            MICROTIN_DONE);
-  }
+// A device whose slots hold meshes, or compact terrains, which answer the same.
+class PackDevice {
+ public:
   PackDevice(const PackDevice&) = delete;
   PackDevice& operator=(const PackDevice&) = delete;
-  ~PackDevice() { CHECK(space.guards_are_whole()); }
 
   microtin_status service(Card& card, const microtin_course& course, uint32_t steps = 0) const {
-    return microtin_pack_service(pack, &course, steps, Card::read, &card);
+    return service(course, steps, Card::read, &card);
+  }
+  microtin_status service(const microtin_course& course, uint32_t steps, microtin_read read,
+                          void* context) const {
+    return is_compact_ ? microtin_compact_pack_service(pack, &course, steps, read, context)
+                       : microtin_pack_service(pack, &course, steps, read, context);
+  }
+  microtin_status prepare(const microtin_course& course, uint32_t steps) const {
+    return is_compact_ ? microtin_compact_pack_prepare(pack, &course, steps)
+                       : microtin_pack_prepare(pack, &course, steps);
   }
   microtin_answer height_at(int64_t x, int64_t y, int32_t& height) const {
     uint32_t hint = 0;
-    return microtin_pack_height_at(pack, x, y, &hint, &height);
+    return is_compact_ ? microtin_compact_pack_height_at(pack, x, y, &hint, &height)
+                       : microtin_pack_height_at(pack, x, y, &hint, &height);
+  }
+  microtin_answer highest(const microtin_course& course, int32_t* height) const {
+    return is_compact_ ? microtin_compact_pack_highest(pack, &course, height)
+                       : microtin_pack_highest(pack, &course, height);
+  }
+  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
+    return is_compact_ ? microtin_compact_pack_fill(pack, &block, heights)
+                       : microtin_pack_fill(pack, &block, heights);
   }
 
-  Workspace space;
+ private:
+  bool is_compact_;
+  Workspace space_;
+
+ public:
   microtin_pack* pack = nullptr;
+
+ protected:
+  PackDevice(bool is_compact, size_t bytes) : is_compact_(is_compact), space_(bytes) {}
+  ~PackDevice() { CHECK(space_.guards_are_whole()); }
+
+  Workspace& space() { return space_; }
+};
+
+struct MeshSlots : PackDevice {
+  explicit MeshSlots(uint32_t slots, uint32_t capacity = kCapacity)
+      : PackDevice(false, MICROTIN_PACK_BYTES(slots, capacity)) {
+    REQUIRE(microtin_pack_init(space().begin(), space().size(), slots, capacity, &pack) ==
+            MICROTIN_DONE);
+  }
+};
+
+struct CompactSlots : PackDevice {
+  explicit CompactSlots(uint32_t slots, uint32_t capacity = kCapacity)
+      : CompactSlots(slots, capacity, static_cast<uint32_t>(MICROTIN_COMPACT_BYTES(capacity))) {}
+  CompactSlots(uint32_t slots, uint32_t capacity, uint32_t tile_bytes)
+      : PackDevice(true, MICROTIN_COMPACT_PACK_BYTES(slots, capacity, tile_bytes)) {
+    REQUIRE(microtin_compact_pack_init(space().begin(), space().size(), slots, capacity, tile_bytes,
+                                       &pack) == MICROTIN_DONE);
+  }
 };
 
 inline microtin_course at(int64_t x, int64_t y) {

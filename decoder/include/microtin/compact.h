@@ -19,13 +19,17 @@
  * for more of them than any terrain of our encoder has had. A mesh made to need more is told from
  * them by its status, MICROTIN_WORKSPACE_TOO_SMALL, before anything is changed. */
 #define MICROTIN_COMPACT_BYTES(vertices) \
-  MICROTIN_COMPACT_BYTES_FOR(vertices, 4ul + MICROTIN_INDEX_BITS / 8 * 2 + 2)
+  MICROTIN_COMPACT_BYTES_FOR(vertices, 2ul, MICROTIN_INDEX_BITS)
 #define MICROTIN_COMPACT_NARROW_BYTES(vertices) \
-  MICROTIN_COMPACT_BYTES_FOR(vertices, 4ul + MICROTIN_INDEX_BITS / 8 * 2)
-#define MICROTIN_COMPACT_BYTES_FOR(vertices, each)                    \
-  (MICROTIN_COMPACT_HEADER_BYTES +                                    \
-   ((vertices) + 1ul + MICROTIN_COMPACT_REPEATS(vertices)) * (each) + \
-   (MICROTIN_COMPACT_REPEATS(vertices) + 1ul) * (MICROTIN_INDEX_BITS / 8))
+  MICROTIN_COMPACT_BYTES_FOR(vertices, 0ul, MICROTIN_INDEX_BITS)
+
+/* The same for a build with the given index width: `wide` is 0 if narrow, else 2. And exactly, of a
+ * terrain of which so many vertices are taken twice. */
+#define MICROTIN_COMPACT_BYTES_FOR(vertices, wide, bits) \
+  MICROTIN_COMPACT_BYTES_WITH(vertices, MICROTIN_COMPACT_REPEATS(vertices), wide, bits)
+#define MICROTIN_COMPACT_BYTES_WITH(vertices, repeats, wide, bits) \
+  (MICROTIN_COMPACT_HEADER_BYTES +                                 \
+   ((vertices) + 1ul + (repeats)) * (4ul + (bits) / 8 * 2ul + (wide)) + (repeats) * ((bits) / 8))
 #define MICROTIN_COMPACT_HEADER_BYTES 88ul
 #define MICROTIN_COMPACT_REPEATS(vertices) (8ul + (vertices) / 64)
 

@@ -94,6 +94,15 @@ void microtin_pack_wanted(microtin_pack* pack, uint64_t* offset, uint8_t** buffe
  */
 void microtin_pack_given(microtin_pack* pack, int32_t taken);
 
+/* Reads what is wanted, if anything is, and tells. */
+static inline void microtin_pack_fetch(microtin_pack* pack, microtin_read read, void* context) {
+  uint64_t offset;
+  uint8_t* buffer;
+  size_t size;
+  microtin_pack_wanted(pack, &offset, &buffer, &size);
+  if (size != 0) microtin_pack_given(pack, read(context, offset, buffer, size));
+}
+
 /* All together, with a function that reads. With a step limit at most one read (of 128 bytes at
  * most) and so many steps, and on NEED_INPUT call again; without (0) all that is needed. */
 static inline microtin_status microtin_pack_service(microtin_pack* pack,
@@ -102,12 +111,8 @@ static inline microtin_status microtin_pack_service(microtin_pack* pack,
                                                     void* context) {
   for (;;) {
     microtin_status status;
-    uint64_t offset;
-    uint8_t* buffer;
-    size_t size;
     if (pack == 0 || read == 0) return MICROTIN_ARGUMENT;
-    microtin_pack_wanted(pack, &offset, &buffer, &size);
-    if (size != 0) microtin_pack_given(pack, read(context, offset, buffer, size));
+    microtin_pack_fetch(pack, read, context);
     status = microtin_pack_prepare(pack, course, step_limit);
     if (status != MICROTIN_NEED_INPUT || step_limit != 0) return status;
   }
@@ -139,6 +144,8 @@ typedef struct microtin_pack_info {
   uint32_t x_max, y_max;            /* steps */
   uint16_t tile_width, tile_height; /* steps */
   uint32_t most_vertices;           /* of a tile: the capacity needed */
+  uint32_t compact_bytes;           /* of a tile, see compact_pack.h: with 16-bit numbers if these
+                                       reach for most_vertices; 0: not stated */
   int16_t lowest, highest;          /* vertex */
   microtin_axis x, y, z;            /* of global lattice numbers */
 } microtin_pack_info;

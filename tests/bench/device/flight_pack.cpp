@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Flies over a pack in flash: instructions of service and queries, bytes read, RAM, heights.
-#include "microtin/pack.h"
+// Flies over a pack in flash, its tiles kept as meshes or, with MICROTIN_FLIGHT_COMPACT, in compact
+// form: instructions of service and queries, bytes read, RAM, heights.
+#include "microtin/compact_pack.hpp"
 #include "tests/bench/device/flight.hpp"
 #include "tests/bench/device/flight_log.hpp"
 #include "tests/bench/device/instruction_counter.hpp"
@@ -12,7 +13,12 @@ using namespace microtin;
 
 constexpr uint32_t kSlots = 4, kCapacity = 500, kStepLimit = 50;
 
-alignas(MICROTIN_ALIGNMENT) uint8_t workspace[MICROTIN_PACK_BYTES(kSlots, kCapacity)];
+#ifdef MICROTIN_FLIGHT_COMPACT
+// Tiles are less than 256 posts wide.
+typedef CompactPack<kSlots, kCapacity, MICROTIN_COMPACT_NARROW_BYTES(kCapacity)> Tiles;
+#else
+typedef Pack<kSlots, kCapacity> Tiles;
+#endif
 
 // Flash as a card: it counts what is read.
 int32_t read_card(void* bytes_read, uint64_t offset, uint8_t* buffer, size_t size) {
@@ -37,12 +43,11 @@ struct Measured {
 };
 
 // Calls the service until the course has its tiles.
-bool serve(microtin_pack* pack, const microtin_course& c, const InstructionCounter& instructions,
+bool serve(Tiles& pack, const microtin_course& c, const InstructionCounter& instructions,
            Measured& measured) {
   for (uint32_t call = 0; call < 10000; ++call) {
     const uint32_t before = instructions.count();
-    const microtin_status status =
-        microtin_pack_service(pack, &c, kStepLimit, read_card, &measured.bytes_read);
+    const microtin_status status = pack.service(c, kStepLimit, read_card, &measured.bytes_read);
     measured.service.add(instructions.count() - before);
     if (status == MICROTIN_DONE) return true;
     if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) return false;
@@ -50,53 +55,50 @@ bool serve(microtin_pack* pack, const microtin_course& c, const InstructionCount
   return false;
 }
 
-bool fly(microtin_pack* pack, const Flight& flight, Measured& measured) {
+bool fly(Tiles& pack, const Flight& flight, Measured& measured) {
   const InstructionCounter instructions;
   microtin_pack_info info;
-  microtin_pack_header(pack, &info);
+  pack.header(&info);
   uint32_t hint = 0;
   for (int32_t i = 0; i < flight.posts(); ++i) {
     const microtin_course c = course(flight.post(i), flight.ahead(i));
     if (!serve(pack, c, instructions, measured)) return false;
     int32_t height = 0;
     uint32_t before = instructions.count();
-    if (microtin_pack_height_at(pack, c.x, c.y, &hint, &height) != MICROTIN_HEIGHT) return false;
+    if (pack.height_at(c.x, c.y, &hint, &height) != MICROTIN_HEIGHT) return false;
     measured.height.add(instructions.count() - before);
     log_height(decimetres(height, info.z));
     if (i % Flight::kAhead != 0) continue;
     before = instructions.count();
-    if (microtin_pack_highest(pack, &c, &height) != MICROTIN_HEIGHT) return false;
+    if (pack.highest(c, &height) != MICROTIN_HEIGHT) return false;
     measured.highest.add(instructions.count() - before);
   }
   return true;
 }
 
 // A block such as ArduPilot keeps, from the tiles that are there.
-uint32_t cost_of_block(const microtin_pack* pack, Post at) {
+uint32_t cost_of_block(const Tiles& pack, Post at) {
   static int16_t heights[28 * 32];
   const microtin_block block = {at.x * 256, at.y * 256, 256, 256, 28, 32, INT16_MIN};
   const InstructionCounter instructions;
   const uint32_t before = instructions.count();
-  microtin_pack_fill(pack, &block, heights);
+  pack.fill(block, heights);
   return instructions.count() - before;
 }
 
 }  // namespace
 
 int firmware_main() {
-  microtin_pack* pack = nullptr;
-  if (microtin_pack_init(workspace, sizeof workspace, kSlots, kCapacity, &pack) != MICROTIN_DONE) {
-    return 1;
-  }
+  static Tiles pack;
   Measured measured;
   const microtin_course corner = {0, 0, 0, 0};
   microtin_pack_info info;
-  microtin_pack_service(pack, &corner, 0, read_card, &measured.bytes_read);
-  if (microtin_pack_header(pack, &info) == 0) return 1;
+  pack.service(corner, 0, read_card, &measured.bytes_read);
+  if (!pack.header(&info)) return 1;
   measured.bytes_read = 0;
   const Flight flight(info.x_max, info.y_max);
   if (!fly(pack, flight, measured)) return 1;
-  log("RAM", sizeof workspace);
+  log("RAM", sizeof pack);
   log("bytes read", measured.bytes_read);
   log("service all", static_cast<uint32_t>(measured.service.all));
   log("service most", measured.service.most);

@@ -147,7 +147,8 @@ void write_grid(const std::string& terrain_path, const std::string& grid_path) {
 
 void print_flight(const FlightFiles& files) {
   const Terrain terrain = read_terrain(files.terrain);
-  const Log pack = read_log(files.pack_log), grid = read_log(files.grid_log);
+  const Log pack = read_log(files.pack_log), compact = read_log(files.compact_log),
+            grid = read_log(files.grid_log);
   const Flight flight(terrain.raster.width - 1, terrain.raster.height - 1);
   const double kilometres =
       flight.posts() * std::hypot(terrain.column_metres, terrain.row_metres / 2) / 1000;
@@ -157,7 +158,7 @@ void print_flight(const FlightFiles& files) {
       const auto found = log.numbers.find(key);
       return found == log.numbers.end() ? std::string("-") : per(found->second, of);
     };
-    print_row({what, cell(pack), cell(grid)});
+    print_row({what, cell(pack), cell(compact), cell(grid)});
   };
   const auto bytes = [](const std::string& path) {
     return static_cast<double>(std::filesystem::file_size(path));
@@ -165,13 +166,16 @@ void print_flight(const FlightFiles& files) {
   const double pack_bytes = bytes(files.pack), grid_bytes = bytes(files.grid);
   print_head("A flight of " + number(kilometres, 1) + " km on a Cortex-M4, " +
                  std::to_string(flight.posts()) + " heights asked for",
-             {"", "microtin", "grid, 100 m"});
-  print_row({"bytes", number(pack_bytes, 0), number(grid_bytes, 0)});
+             {"", "microtin, meshes", "... compact", "grid, 100 m"});
+  print_row({"bytes", number(pack_bytes, 0), number(pack_bytes, 0), number(grid_bytes, 0)});
   print_row({"bytes per square kilometre", per(pack_bytes, terrain.square_kilometres()),
+             per(pack_bytes, terrain.square_kilometres()),
              per(grid_bytes, terrain.square_kilometres())});
   print_row({"error at all posts: largest, rms, m", metres(errors_of(files.pack)),
+             metres(errors_of(files.pack)),
              metres(errors_of(Grid(terrain, kSpacing, 1), terrain))});
   print_row({"error on the way: largest, rms, m", metres(errors_along(flight, terrain, pack)),
+             metres(errors_along(flight, terrain, compact)),
              metres(errors_along(flight, terrain, grid))});
   row("RAM, bytes", "RAM");
   row("read from the card, bytes per km", "bytes read", kilometres);

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Packs that make tiles compact: between decoding a tile and telling that it is there.
+#include "decoder/pack_state.hpp"
+#include "decoder/ring.hpp"
+
+namespace microtin {
+namespace {
+
+// A step of decoding takes as many instructions as all of these, or more.
+constexpr uint32_t kItemsOfStep = 16;
+
+// Whether a tile takes no more than the header says of any.
+bool is_as_stated(const PackHeader& header, const microtin_compact& tile) {
+  const uint32_t index_bytes = header.most_vertices <= MICROTIN_MAX_VERTICES_FOR(16) ? 2 : 4;
+  return header.compact_bytes == 0 || compact_bytes(tile, index_bytes) <= header.compact_bytes;
+}
+
+// Makes the tile in hand compact. DONE: it is there, or refused.
+microtin_status store(microtin_pack& p, uint32_t step_limit) {
+  if (p.compactor == nullptr) {
+    PackSlot* const slot = take_slot(p);
+    if (slot == nullptr) return fail_pack(p, MICROTIN_WORKSPACE_TOO_SMALL);
+    p.slot = static_cast<uint8_t>(slot - p.slots);
+    microtin_compact_begin(slot->space, p.slot_bytes, p.work, p.decoder_space, p.decoder_bytes,
+                           &p.compactor);
+  }
+  const uint32_t most = 0xFFFFFFFFu / kItemsOfStep;
+  microtin_compact* compact = nullptr;
+  const microtin_status status = microtin_compact_proceed(
+      p.compactor, (step_limit < most ? step_limit : most) * kItemsOfStep, &compact);
+  if (status == MICROTIN_STEP_LIMIT) return status;
+  if (status != MICROTIN_DONE) return refuse_tile(p, MICROTIN_TOO_BIG);
+  if (!is_as_stated(p.header, *compact)) return refuse_tile(p, MICROTIN_MALFORMED);
+  return finish_tile(p, p.slots[p.slot], true);
+}
+
+}  // namespace
+}  // namespace microtin
+
+using namespace microtin;
+
+microtin_status microtin_compact_pack_init(void* workspace, size_t size, uint32_t slots,
+                                           uint32_t capacity, uint32_t tile_bytes,
+                                           microtin_pack** pack) {
+  if (tile_bytes > 0x80000000u) return MICROTIN_ARGUMENT;
+  const uint64_t work_bytes = MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES(capacity));
+  const microtin_status status = lay_out_pack(workspace, size, slots, capacity, work_bytes,
+                                              MICROTIN_PACK_ROUND(tile_bytes), pack);
+  if (status != MICROTIN_DONE) return status;
+  microtin_pack& p = **pack;
+  return microtin_mesh_init(p.decoder_space + p.decoder_bytes, static_cast<size_t>(work_bytes),
+                            &p.work);
+}
+
+microtin_status microtin_compact_pack_prepare(microtin_pack* pack, const microtin_course* course,
+                                              uint32_t step_limit) {
+  if (pack == nullptr || pack->work == nullptr) return MICROTIN_ARGUMENT;
+  for (;;) {
+    const bool was_decoded = pack->stage == PackStage::kStore;
+    const microtin_status status = microtin_pack_prepare(pack, course, step_limit);
+    const bool has_steps = was_decoded || step_limit == 0;  // decoding has taken some
+    if (status != MICROTIN_STEP_LIMIT || pack->stage != PackStage::kStore || !has_steps) {
+      return status;
+    }
+    const microtin_status stored = store(*pack, step_limit);
+    if (stored != MICROTIN_DONE) return stored;
+  }
+}

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// Queries on the tiles of a pack that are there, whatever their form (tile_course.hpp). They only
+// read, so they may interrupt anything.
+#ifndef MICROTIN_DECODER_PACK_QUERY_HPP
+#define MICROTIN_DECODER_PACK_QUERY_HPP
+
+#include "decoder/border_edges.hpp"
+#include "decoder/pack_state.hpp"
+
+namespace microtin {
+
+inline microtin_course place(int64_t x, int64_t y) {
+  return microtin_course{x, y, x, y};
+}
+
+inline bool is_inside(const microtin_pack& p, int64_t x, int64_t y) {
+  const TileGrid& grid = p.header.grid;
+  return x >= 0 && x <= static_cast<int64_t>(grid.x_max) * 256 && y >= 0 &&
+         y <= static_cast<int64_t>(grid.y_max) * 256;
+}
+
+// How bad an answer is. No switch: compilers make tables of those, which AVR would keep in RAM.
+inline int rank(microtin_answer answer) {
+  if (answer == MICROTIN_NOT_DECODED) return 4;
+  if (answer == MICROTIN_IN_BAD_TILE) return 3;
+  if (answer == MICROTIN_OUTSIDE) return 2;
+  return answer == MICROTIN_IN_VOID ? 1 : 0;
+}
+
+inline microtin_answer worse(microtin_answer a, microtin_answer b) {
+  return rank(a) > rank(b) ? a : b;
+}
+
+// Of a tile that is not there.
+inline microtin_answer answer_without(const microtin_pack& p, uint32_t tile) {
+  return bad_tile(p, tile) == MICROTIN_PACK_BAD_TILES ? MICROTIN_NOT_DECODED : MICROTIN_IN_BAD_TILE;
+}
+
+// Of a tile that is there; null if it has none, or is not there, and then *absent becomes worse.
+MICROTIN_ONE_COPY inline const void* terrain_of(const microtin_pack& p, uint32_t tile,
+                                                microtin_answer* absent) {
+  const uint32_t slot = slot_of(p, tile);
+  if (slot != p.slot_count) return p.slots[slot].has_terrain ? p.slots[slot].space : nullptr;
+  *absent = worse(*absent, answer_without(p, tile));
+  return nullptr;
+}
+
+// Whether a course lies on a side of the box, more than a point of which it touches.
+inline bool runs_along_side(const TileBox& box, const microtin_course& c) {
+  const auto is = [](int64_t place, uint32_t step) {
+    return place == static_cast<int64_t>(step) * 256;
+  };
+  return (c.x == c.x_end && (is(c.x, box.x) || is(c.x, box.x_end))) ||
+         (c.y == c.y_end && (is(c.y, box.y) || is(c.y, box.y_end)));
+}
+
+// HEIGHT if every place of a course along a side of a tile is known to it or to the tile beyond, or
+// if the side is another tile's business: the first one's of two at a border.
+template <class Form>
+microtin_answer answer_along_side(const microtin_pack& p, uint32_t tile,
+                                  const microtin_course& course) {
+  const TileGrid& grid = p.header.grid;
+  const TileBox box = tile_box(grid, tile);
+  const bool vertical = course.x == course.x_end;
+  const uint32_t first = vertical ? box.x : box.y, last = vertical ? box.x_end : box.y_end,
+                 most = vertical ? grid.x_max : grid.y_max;
+  const bool is_last = (vertical ? course.x : course.y) == static_cast<int64_t>(last) * 256;
+  if (!is_last && first != 0) return MICROTIN_HEIGHT;
+  microtin_answer worst = MICROTIN_IN_VOID;
+  const void *one = terrain_of(p, tile, &worst), *other = nullptr;
+  if (is_last && last != most) {
+    other = terrain_of(p, tile + (vertical ? 1u : tile_columns(grid)), &worst);
+  }
+  if (one == nullptr && other == nullptr) return worst;
+  const int32_t line = is_last ? static_cast<int32_t>(last - first) * 256 : 0;
+  const LocalPoint a = local(box, course.x, course.y), b = local(box, course.x_end, course.y_end);
+  const int32_t begin = vertical ? a.y : a.x, end = vertical ? b.y : b.x;
+  const int32_t length =
+      static_cast<int32_t>(vertical ? box.y_end - box.y : box.x_end - box.x) * 256;
+  // What is not there is not known, as if the one that is there were on both sides.
+  const bool is_known =
+      know_border(Form(one != nullptr ? one : other), one != nullptr ? line : 0,
+                  Form(other != nullptr ? other : one), other != nullptr ? 0 : line, vertical,
+                  larger(smaller(begin, end), 0), smaller(larger(begin, end), length));
+  return is_known ? MICROTIN_HEIGHT : worst;
+}
+
+// What a tile says of a course that touches it.
+template <class Form>
+microtin_answer answer_of_tile(const microtin_pack& p, const TouchedTiles& tiles,
+                               const microtin_course& course, int32_t* highest) {
+  microtin_answer absent = MICROTIN_HEIGHT;
+  const void* const terrain = terrain_of(p, tiles.number(), &absent);
+  if (absent == MICROTIN_NOT_DECODED) return absent;
+  const TileBox box = tiles.box();
+  TileCourse part(box, course);
+  const bool is_known = terrain != nullptr && part.look(Form(terrain), highest);
+  if (!part.has_length() || is_known) return MICROTIN_HEIGHT;
+  if (runs_along_side(box, course)) return answer_along_side<Form>(p, tiles.number(), course);
+  return worse(absent, MICROTIN_IN_VOID);
+}
+
+// A height in whole units, halves up, kept within int16_t. |z| < 2^31, the numerator < 2^31, the
+// offset within 2^45, the denominator < 2^40: sums below 2^62 + 2^61 + 2^55.
+inline int16_t in_units(int32_t z, const microtin_axis& axis) {
+  const int64_t unit = static_cast<int64_t>(axis.denominator) * 65536;
+  const int64_t sum = static_cast<int64_t>(axis.numerator) * z + axis.offset * 65536 + unit / 2;
+  int64_t height = sum / unit;
+  if (sum % unit < 0) --height;
+  if (height > INT16_MAX) return INT16_MAX;
+  return static_cast<int16_t>(height < INT16_MIN ? INT16_MIN : height);
+}
+
+template <class Form>
+microtin_answer height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
+                               int32_t* height) {
+  if (!p.has_header || (p.work != nullptr) != Form::kIsCompact) return MICROTIN_NOT_DECODED;
+  if (!is_inside(p, x, y)) return MICROTIN_OUTSIDE;
+  microtin_answer answer = MICROTIN_IN_VOID;
+  const microtin_course here = place(x, y);
+  for (TouchedTiles tiles(p.header.grid, here); !tiles.at_end(); tiles.next()) {
+    const void* const terrain = terrain_of(p, tiles.number(), &answer);
+    if (terrain == nullptr) continue;
+    const LocalPoint at = local(tiles.box(), x, y);
+    if (Form(terrain).height_at(at, hint, height) == MICROTIN_HEIGHT) return MICROTIN_HEIGHT;
+  }
+  return answer;
+}
+
+template <class Form>
+microtin_answer highest_in_pack(const microtin_pack& p, const microtin_course& course,
+                                int32_t* height) {
+  *height = INT32_MIN;
+  if (!is_legal(course)) return MICROTIN_OUTSIDE;
+  uint32_t hint = 0;
+  int32_t begin = INT32_MIN, end = INT32_MIN;
+  microtin_answer answer = worse(height_in_pack<Form>(p, course.x, course.y, &hint, &begin),
+                                 height_in_pack<Form>(p, course.x_end, course.y_end, &hint, &end));
+  if (answer == MICROTIN_NOT_DECODED) return answer;
+  int32_t highest = larger(begin, end);
+  for (TouchedTiles tiles(p.header.grid, course); !tiles.at_end(); tiles.next()) {
+    answer = worse(answer, answer_of_tile<Form>(p, tiles, course, &highest));
+    if (answer == MICROTIN_NOT_DECODED) return answer;
+  }
+  *height = highest;
+  return answer;
+}
+
+template <class Form>
+microtin_answer fill_from_pack(const microtin_pack& p, const microtin_block& block,
+                               int16_t* heights) {
+  const microtin_axis& axis = p.axis[2];
+  const int64_t furthest = static_cast<int64_t>(1) << 45;
+  const microtin_course corner = place(block.x, block.y);
+  const bool is_usable =
+      axis.numerator >> 31 == 0 && axis.offset <= furthest && axis.offset >= -furthest;
+  if (!is_legal(corner) || (p.has_header && !is_usable)) return MICROTIN_OUTSIDE;
+  microtin_answer answer = MICROTIN_HEIGHT;
+  uint32_t hint = 0;
+  for (uint32_t row = 0; row < block.rows; ++row) {
+    const int64_t y = block.y + static_cast<int64_t>(block.dy) * row;
+    for (uint32_t column = 0; column < block.columns; ++column) {
+      const int64_t x = block.x + static_cast<int64_t>(block.dx) * column;
+      int32_t z = 0;
+      const microtin_answer here = height_in_pack<Form>(p, x, y, &hint, &z);
+      *heights++ = here == MICROTIN_HEIGHT ? in_units(z, axis) : block.missing;
+      if (here != MICROTIN_HEIGHT && answer != MICROTIN_NOT_DECODED) answer = here;
+    }
+  }
+  return answer;
+}
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: MIT
+// A course in a tile: its greatest height there, and whether all of it is known. The same for each
+// form of a terrain, which has
+//   Cursor       as walk.hpp says
+//   triangles(), at(t)   the numbers of triangles; in a ghost the cursor's apex is infinity
+//   places(t, places)    those of a triangle's corners; false if it is a ghost
+//   corner()     the place from which its places are seen
+//   height_at(x, y, hint, height)
+#ifndef MICROTIN_DECODER_TILE_COURSE_HPP
+#define MICROTIN_DECODER_TILE_COURSE_HPP
+
+#include "decoder/walk.hpp"
+#include "microtin/pack.h"
+#include "shared/pack_format.hpp"
+
+namespace microtin {
+
+inline int32_t smaller(int32_t a, int32_t b) {
+  return a < b ? a : b;
+}
+
+inline int32_t larger(int32_t a, int32_t b) {
+  return a < b ? b : a;
+}
+
+// In steps with 8 fractional bits, from the first corner of a tile that the course touches: within
+// 2^25.
+struct LocalPoint {
+  int32_t x, y;
+};
+
+inline LocalPoint local(const TileBox& box, int64_t x, int64_t y) {
+  return LocalPoint{static_cast<int32_t>(x - static_cast<int64_t>(box.x) * 256),
+                    static_cast<int32_t>(y - static_cast<int64_t>(box.y) * 256)};
+}
+
+inline LocalPoint fine_point(Point p) {
+  return LocalPoint{p.x * static_cast<int32_t>(256), p.y * static_cast<int32_t>(256)};
+}
+
+// Twice the signed area of (a, b, p): positive if p lies to the left of a -> b. Ends of courses are
+// less than 2^24 apart, corners of triangles too, and none is farther than 2^26 from another: below
+// 2^51.
+inline int64_t orient(LocalPoint a, LocalPoint b, LocalPoint p) {
+  return static_cast<int64_t>(b.x - a.x) * (p.y - a.y) -
+         static_cast<int64_t>(b.y - a.y) * (p.x - a.x);
+}
+
+inline int64_t magnitude(int64_t v) {
+  return v < 0 ? -v : v;
+}
+
+// rise * part / whole with 16 fractional bits, rounded to nearest, halves up; 0 <= part <= whole <
+// 2^52, |rise| < 2^16. Long division, a bit of |rise| and then a fractional bit at a time: the rest
+// stays below 3 * whole.
+inline int64_t share(int32_t rise, int64_t part, int64_t whole) {
+  const uint32_t size = static_cast<uint32_t>(rise < 0 ? -rise : rise);
+  int64_t quotient = 0, rest = 0;  // quotient < 2^34
+  for (int bit = 15; bit >= -17; --bit) {
+    quotient *= 2;
+    rest *= 2;
+    if (bit >= 0 && (size >> bit & 1u) != 0) rest += part;
+    for (int i = 0; i < 2 && rest >= whole; ++i) {
+      rest -= whole;
+      ++quotient;
+    }
+  }
+  // One fractional bit more than is kept, and whether there is a rest.
+  return rise >= 0 ? (quotient + 1) >> 1 : -((quotient + (rest != 0 ? 1 : 0)) >> 1);
+}
+
+// A part of the course's length, from where it begins: 0 <= part <= whole <= 2^24.
+struct Fraction {
+  int32_t part, whole;
+};
+
+inline bool is_less(Fraction a, Fraction b) {
+  return static_cast<int64_t>(a.part) * b.whole < static_cast<int64_t>(b.part) * a.whole;
+}
+
+// Whether what is `from` where the course begins and `to` where it ends, each within +-2^51, and
+// linear between, is above 0 at a fraction of it. In two parts, of which the low one is positive:
+// below 2^50 and 2^51.
+inline bool is_positive_at(Fraction f, int64_t from, int64_t to) {
+  const int64_t low = (static_cast<int64_t>(1) << 26) - 1;
+  const int64_t rest = (from & low) * (f.whole - f.part) + (to & low) * f.part;
+  const int64_t high = (from >> 26) * (f.whole - f.part) + (to >> 26) * f.part + (rest >> 26);
+  return high > 0 || (high == 0 && (rest & low) != 0);
+}
+
+// A course in a tile that it touches.
+//
+// Of what is not known, the course has more than a point in an open triangle, on an open edge, or
+// outside the hull; points that are not known alone are ends of such parts, or the whole course.
+class TileCourse {
+ public:
+  TileCourse(const TileBox& box, const microtin_course& course)
+      : begin_(local(box, course.x, course.y)),
+        end_(local(box, course.x_end, course.y_end)),
+        enters_{0, 1},
+        leaves_{begin_.x != end_.x || begin_.y != end_.y, 1} {
+    clip(begin_.x, end_.x, static_cast<int32_t>(box.x_end - box.x) * 256);
+    clip(begin_.y, end_.y, static_cast<int32_t>(box.y_end - box.y) * 256);
+  }
+
+  // Whether the tile holds more of the course than a point.
+  bool has_length() const { return is_less(enters_, leaves_); }
+
+  // Looks at all triangles of its terrain. False if a part of the course in the tile is not known.
+  template <class Form>
+  bool look(const Form& form, int32_t* highest) {
+    move(form.corner());
+    bool is_known = true;
+    for (uint32_t t = 0; t < form.triangles(); ++t) {
+      Point place[3];
+      const bool is_aside = form.places(t, place) && are_aside(place);
+      if (!is_aside && !look_at(form.at(t), highest)) is_known = false;
+    }
+    return is_known;
+  }
+
+ private:
+  struct Corner {
+    Vertex vertex;
+    int64_t side;  // of the course: positive to the left
+
+    LocalPoint at() const { return fine_point(Point{vertex.x, vertex.y}); }
+  };
+
+  // Whole steps that the course reaches along an axis.
+  struct Reach {
+    int32_t low, high;
+  };
+
+  static Reach reach(int32_t begin, int32_t end) {
+    return begin < end ? Reach{begin >> 8, (end + 255) >> 8} : Reach{end >> 8, (begin + 255) >> 8};
+  }
+
+  // Seen from a place of the tile.
+  void move(Point corner) {
+    const FinePoint by = fine(corner);
+    begin_ = LocalPoint{begin_.x - by.x, begin_.y - by.y};
+    end_ = LocalPoint{end_.x - by.x, end_.y - by.y};
+    x_ = reach(begin_.x, end_.x);
+    y_ = reach(begin_.y, end_.y);
+  }
+
+  template <class Cursor>
+  bool look_at(const Cursor& cursor, int32_t* highest) const {
+    if (!cursor.may_stop()) return true;
+    if (cursor.is_ghost())
+      return !leaves_at(cursor.place(cursor.start()), cursor.place(cursor.end()));
+    Corner corner[3];
+    for (uint32_t i = 0; i < 3; ++i) corner[i] = Corner{cursor.vertex(cursor.corner(i)), 0};
+    for (Corner& c : corner) c.side = orient(begin_, end_, c.at());
+    if (!cursor.has_terrain()) {
+      for (const Corner& c : corner) look_at_corner(c, highest);
+      return !loses_in(cursor, corner);
+    }
+    for (int i = 0; i < 3; ++i) look_at_edge(corner[i], corner[i == 2 ? 0 : i + 1], highest);
+    return true;
+  }
+
+  // Cuts off what lies before or behind the tile along an axis. As the course touches the tile, it
+  // enters before its end and leaves behind its beginning.
+  void clip(int32_t begin, int32_t end, int32_t size) {
+    if (begin == end) return;
+    const bool rises = begin < end;
+    const int32_t length = rises ? end - begin : begin - end;
+    const Fraction enters = {rises ? -begin : begin - size, length},
+                   leaves = {rises ? size - begin : begin, length};
+    if (is_less(enters_, enters)) enters_ = enters;
+    if (is_less(leaves, leaves_)) leaves_ = leaves;
+  }
+
+  // Whether a real triangle lies beside the bounding box of the course: most do.
+  bool are_aside(const Point* p) const {
+    return are_aside(p[0].x, p[1].x, p[2].x, x_) || are_aside(p[0].y, p[1].y, p[2].y, y_);
+  }
+  static bool are_aside(int32_t a, int32_t b, int32_t c, const Reach& reach) {
+    return (a < reach.low && b < reach.low && c < reach.low) ||
+           (a > reach.high && b > reach.high && c > reach.high);
+  }
+
+  // Whether the course has a point on the closed edge, given its ends' sides.
+  bool meets(const Corner& a, const Corner& b) const {
+    if ((a.side > 0 && b.side > 0) || (a.side < 0 && b.side < 0)) return false;
+    const int64_t from = orient(a.at(), b.at(), begin_), to = orient(a.at(), b.at(), end_);
+    return (from <= 0 && to >= 0) || (from >= 0 && to <= 0);
+  }
+
+  // Where the course crosses the edge; where it runs along it, ends of the edge on the course. (The
+  // course's own ends are looked at elsewhere.)
+  void look_at_edge(const Corner& a, const Corner& b, int32_t* highest) const {
+    const int64_t part = magnitude(a.side), whole = part + magnitude(b.side);
+    if (whole == 0) {
+      look_at_corner(a, highest);
+      look_at_corner(b, highest);
+    } else if (meets(a, b)) {
+      // The share may not fit in 32 bits; the sum lies between the ends.
+      const int64_t height =
+          static_cast<int64_t>(a.vertex.z) * 65536 + share(b.vertex.z - a.vertex.z, part, whole);
+      raise(static_cast<int32_t>(height), highest);
+    }
+  }
+
+  // A vertex on the course.
+  void look_at_corner(const Corner& a, int32_t* highest) const {
+    if (a.side == 0 && spans(a.at())) raise(a.vertex.z * 65536, highest);
+  }
+
+  static void raise(int32_t height, int32_t* highest) {
+    if (height > *highest) *highest = height;
+  }
+
+  // Whether a point on the course's line lies between its ends.
+  bool spans(LocalPoint p) const {
+    return between(begin_.x, p.x, end_.x) && between(begin_.y, p.y, end_.y);
+  }
+  static bool between(int32_t a, int32_t p, int32_t b) {
+    return (a <= p && p <= b) || (b <= p && p <= a);
+  }
+
+  // Whether a part of the course lies in a void triangle, or on an edge of it that has no terrain
+  // on the other side either.
+  template <class Cursor>
+  bool loses_in(Cursor cursor, const Corner* corner) const {
+    if (passes_inside(corner)) return true;
+    for (uint32_t i = 0; i < 3; ++i, cursor.turn()) {
+      const Corner &a = corner[i], &b = corner[i == 2 ? 0 : i + 1];
+      if (a.side != 0 || b.side != 0 || !runs_along(a.at(), b.at())) continue;
+      Cursor other = cursor;
+      other.cross();
+      if (!other.has_terrain()) return true;
+    }
+    return false;
+  }
+
+  // Whether the course has a point inside the open triangle: no side of it, and not the course's
+  // own line, parts them (separating axes of a triangle and a segment).
+  bool passes_inside(const Corner* corner) const {
+    bool some_left = false, some_right = false;
+    for (int i = 0; i < 3; ++i) {
+      const Corner &a = corner[i], &b = corner[i == 2 ? 0 : i + 1];
+      if (orient(a.at(), b.at(), begin_) <= 0 && orient(a.at(), b.at(), end_) <= 0) return false;
+      some_left = some_left || a.side > 0;
+      some_right = some_right || a.side < 0;
+    }
+    return some_left && some_right;
+  }
+
+  // Whether the course shares more than a point with an edge on its line.
+  bool runs_along(LocalPoint a, LocalPoint b) const {
+    return begin_.x != end_.x ? overlap(a.x, b.x, begin_.x, end_.x)
+                              : overlap(a.y, b.y, begin_.y, end_.y);
+  }
+  static bool overlap(int32_t a, int32_t b, int32_t c, int32_t d) {
+    return larger(smaller(a, b), smaller(c, d)) < smaller(larger(a, b), larger(c, d));
+  }
+
+  // Whether, in the tile, a part of the course lies beyond a hull edge, which runs with the outside
+  // to its left.
+  bool leaves_at(Point start, Point stop) const {
+    const LocalPoint a = fine_point(start), b = fine_point(stop);
+    const int64_t from = orient(a, b, begin_), to = orient(a, b, end_);
+    if (from <= 0 && to <= 0) return false;
+    return is_positive_at(enters_, from, to) || is_positive_at(leaves_, from, to);
+  }
+
+  LocalPoint begin_, end_;
+  Reach x_, y_;               // as soon as it is looked at
+  Fraction enters_, leaves_;  // what of the course lies in the tile
+};
+
+}  // namespace microtin
+
+#endif

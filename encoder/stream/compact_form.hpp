@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// What terrains take in compact form (COMPACT.md), on devices with numbers of any width.
+#ifndef MICROTIN_ENCODER_STREAM_COMPACT_FORM_HPP
+#define MICROTIN_ENCODER_STREAM_COMPACT_FORM_HPP
+
+#include <cstdint>
+
+#include "encoder/layers.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+
+namespace microtin::stream {
+
+struct CompactForm {
+  uint32_t vertices;
+  uint32_t repeats;  // vertices taken twice
+  bool is_narrow;
+};
+
+// Makes it of the terrain, and looks whether that is the same terrain. The same on every device.
+CompactForm compact_form(DecodedTerrain&& terrain);
+
+// The width of numbers on a device that keeps terrains of so many vertices.
+uint32_t index_bits(uint32_t vertices);
+
+uint64_t bytes_of(const CompactForm& form, uint32_t bits);
+
+// What macros promise for any terrain of so many vertices.
+uint64_t promised_compact_bytes(uint32_t vertices, bool is_narrow, uint32_t bits);
+
+}  // namespace microtin::stream
+
+#endif

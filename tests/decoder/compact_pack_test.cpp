@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// What packs with compact slots have of their own; all else is in the tests of packs, which run
+// with slots of both forms.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "tests/support/forged_pack.hpp"
+#include "tests/support/pack_device.hpp"
+#include "tests/support/packs.hpp"
+
+namespace microtin::tests {
+namespace {
+
+Bytes rough_pack() {
+  return write_pack(encode_pack(rough_raster(61, 53), pack_options(3, 60)));
+}
+
+microtin_status why_bad(const PackDevice& device, uint32_t tile) {
+  for (uint32_t i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
+    uint32_t number = 0;
+    microtin_status why = MICROTIN_DONE;
+    if (microtin_pack_bad_tile(device.pack, i, &number, &why) == 1 && number == tile) return why;
+  }
+  return MICROTIN_DONE;
+}
+
+}  // namespace
+
+TEST_CASE("compact pack: a tile that goes stays until the next is decoded") {
+  Card card{rough_pack()};
+  const PackFile pack(card.bytes);
+  const TileGrid& grid = pack.grid();
+  const CompactSlots device(1);
+  const microtin_course first = at(grid.width / 2, grid.height / 2),
+                        second = at(grid.width * 3 / 2, grid.height / 2);
+  REQUIRE(device.service(card, first) == MICROTIN_DONE);
+  const int32_t old_height = *expected_height(pack, first.x, first.y),
+                new_height = *expected_height(pack, second.x, second.y);
+  microtin_status status = MICROTIN_STEP_LIMIT;
+  uint32_t with_old = 0, with_none = 0;
+  while (status != MICROTIN_DONE) {
+    status = device.service(card, second, 1);
+    int32_t height = 0;
+    const bool has_old = device.height_at(first.x, first.y, height) == MICROTIN_HEIGHT;
+    if (has_old) CHECK(height == old_height);
+    const bool has_new = device.height_at(second.x, second.y, height) == MICROTIN_HEIGHT;
+    if (has_new) CHECK(height == new_height);
+    CHECK(!(has_old && has_new));
+    CHECK(has_new == (status == MICROTIN_DONE));
+    ++(has_old ? with_old : with_none);
+  }
+  CHECK(with_old > 20);
+  CHECK(with_none > 5);
+  CHECK(with_none < with_old);  // while it is made compact
+}
+
+TEST_CASE("compact pack: who wants another course meanwhile loses nothing") {
+  Card card{rough_pack()};
+  const PackFile pack(card.bytes);
+  const TileGrid& grid = pack.grid();
+  const microtin_course first = at(grid.width / 2, grid.height / 2),
+                        second = at(grid.width * 3 / 2, grid.height / 2),
+                        both = {first.x, first.y, second.x, second.y};
+  for (int calls = 1; calls < 400; calls += 7) {
+    const CompactSlots device(1);
+    REQUIRE(device.service(card, first) == MICROTIN_DONE);
+    for (int i = 0; i < calls; ++i) device.service(card, second, 1);
+    int32_t height = 0;
+    const bool is_there = device.height_at(first.x, first.y, height) == MICROTIN_HEIGHT;
+    const bool is_done = device.height_at(second.x, second.y, height) == MICROTIN_HEIGHT;
+    // A slot that the course needs is not given away, whatever is decoded.
+    if (is_there) {
+      CHECK(device.service(card, both) == MICROTIN_WORKSPACE_TOO_SMALL);
+      CHECK(device.height_at(first.x, first.y, height) == MICROTIN_HEIGHT);
+    }
+    REQUIRE(device.service(card, first) == MICROTIN_DONE);
+    CHECK(device.height_at(first.x, first.y, height) == MICROTIN_HEIGHT);
+    CHECK(height == *expected_height(pack, first.x, first.y));
+    if (is_done) break;
+  }
+}
+
+TEST_CASE("compact pack: slots of what the header says are enough, smaller ones are told") {
+  const Bytes bytes = rough_pack();
+  Card card{bytes};
+  const PackFile pack(bytes);
+  const uint32_t needed = pack.header().compact_bytes, most = pack.header().most_vertices;
+  REQUIRE(needed != 0);
+  static_assert(MICROTIN_INDEX_BITS == 32, "what is needed here is more");
+  uint32_t largest = 0;
+  std::vector<uint32_t> sizes;
+  for (uint32_t tile = 0; tile < pack.entries().size(); ++tile) {
+    sizes.push_back(static_cast<uint32_t>(bytes_of(compact_form(*pack.tile(tile)), 32)));
+    largest = std::max(largest, sizes.back());
+  }
+  for (const uint32_t size : {largest, largest - 8}) {
+    const CompactSlots device(4, most, size);
+    for (uint32_t tile = 0; tile < sizes.size(); ++tile) {
+      const TileBox box = tile_box(pack.grid(), tile);
+      const microtin_course middle = at(box.x + 1, box.y + 1);
+      const bool fits = sizes[tile] <= (size + 7) / 8 * 8;
+      CHECK(device.service(card, middle) == (fits ? MICROTIN_DONE : MICROTIN_BAD_TILES));
+      CHECK(why_bad(device, tile) == (fits ? MICROTIN_DONE : MICROTIN_TOO_BIG));
+    }
+  }
+}
+
+TEST_CASE("compact pack: a tile that takes more than the header says breaks a rule") {
+  Bytes bytes = rough_pack();
+  const PackFile pack(bytes);
+  const uint32_t needed = pack.header().compact_bytes;
+  const auto refused = [&](uint32_t stated) {
+    put_number(bytes, 32, stated, 4);
+    repair_checks(bytes);
+    Card card{bytes};
+    const CompactSlots device(4);
+    uint32_t count = 0;
+    for (uint32_t tile = 0; tile < pack.entries().size(); ++tile) {
+      const TileBox box = tile_box(pack.grid(), tile);
+      device.service(card, at(box.x + 1, box.y + 1));
+      const microtin_status why = why_bad(device, tile);
+      CHECK((why == MICROTIN_DONE || why == MICROTIN_MALFORMED));
+      count += why == MICROTIN_MALFORMED ? 1u : 0u;
+    }
+    return count;
+  };
+  CHECK(refused(needed) == 0);
+  CHECK(refused(needed - 1) == 1);
+  CHECK(refused(1) == pack.entries().size());
+  CHECK(refused(0) == 0);  // not stated
+}
+
+TEST_CASE("compact pack: each form's functions refuse packs of the other") {
+  Card card{rough_pack()};
+  const MeshSlots mesh(1);
+  const CompactSlots compact(1);
+  const microtin_course c = at(3, 3);
+  REQUIRE(mesh.service(card, c) == MICROTIN_DONE);
+  REQUIRE(compact.service(card, c) == MICROTIN_DONE);
+  uint32_t hint = 0;
+  int32_t height = 0;
+  CHECK(microtin_pack_height_at(compact.pack, c.x, c.y, &hint, &height) == MICROTIN_NOT_DECODED);
+  CHECK(microtin_pack_highest(compact.pack, &c, &height) == MICROTIN_NOT_DECODED);
+  CHECK(microtin_compact_pack_height_at(mesh.pack, c.x, c.y, &hint, &height) ==
+        MICROTIN_NOT_DECODED);
+  CHECK(microtin_compact_pack_highest(mesh.pack, &c, &height) == MICROTIN_NOT_DECODED);
+  CHECK(microtin_compact_pack_prepare(mesh.pack, &c, 0) == MICROTIN_ARGUMENT);
+  CHECK(microtin_compact_pack_prepare(nullptr, &c, 0) == MICROTIN_ARGUMENT);
+}
+
+TEST_CASE("compact pack: workspaces and arguments") {
+  microtin_pack* pack = nullptr;
+  Workspace space(MICROTIN_COMPACT_PACK_BYTES(3, 50, 600));
+  const auto init = [&](size_t size, uint32_t slots, uint32_t capacity, uint32_t bytes) {
+    return microtin_compact_pack_init(space.begin(), size, slots, capacity, bytes, &pack);
+  };
+  CHECK(init(space.size(), 3, 50, 600) == MICROTIN_DONE);
+  CHECK(init(space.size(), 3, 50, 1100) == MICROTIN_WORKSPACE_TOO_SMALL);
+  CHECK(init(space.size(), 3, 500, 600) == MICROTIN_WORKSPACE_TOO_SMALL);
+  CHECK(init(space.size(), 0, 50, 600) == MICROTIN_ARGUMENT);
+  CHECK(init(space.size(), 3, 50, 0xFFFFFFFF) == MICROTIN_ARGUMENT);
+  CHECK(init(space.size(), 3, 2, 600) == MICROTIN_ARGUMENT);
+  CHECK(init(100, 1, 50, 600) == MICROTIN_WORKSPACE_TOO_SMALL);
+}
+
+}  // namespace microtin::tests
