@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The command decode: a mesh or a grid from a stream or a pack.
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 
+#include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
+#include "encoder/export/autopilot.hpp"
 #include "encoder/export/export.hpp"
 #include "encoder/export/grid.hpp"
 #include "encoder/export/system.hpp"
@@ -66,15 +69,71 @@ void decode_to_grid(const DecodeRequest& request) {
   if (system) system->commit();
 }
 
+// Metres between an autopilot's posts.
+uint32_t spacing_of(const DecodeRequest& request, Autopilot autopilot) {
+  const bool is_inav = autopilot == Autopilot::kInav;
+  if (!request.cell) return is_inav ? kInavSpacing : kArduPilotSpacing;
+  const Decimal cell = *request.cell;
+  const std::string text = to_string(cell);
+  for (uint32_t metres = 10; metres <= 1000; ++metres) {
+    if (text == std::to_string(metres) && (!is_inav || metres == kInavSpacing)) return metres;
+  }
+  throw Error(
+      request.output + ": --cell must be " +
+      (is_inav ? "30, the spacing of INAV's posts" : "a whole number of metres, 10 to 1000"));
+}
+
+std::string fixed(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+std::string text_of(const AutopilotFile& file, uint32_t spacing) {
+  std::string text = std::to_string(file.blocks) + " blocks of 28 x 32 posts, " +
+                     std::to_string(spacing) + " m apart; " + std::to_string(file.empty) +
+                     " without terrain are zeros\n";
+  if (file.partial != 0) {
+    text += "covered in part: " + std::to_string(file.partial) +
+            " blocks, whose groups of 4 x 4 posts without all heights are marked missing\n";
+  }
+  if (file.beyond != 0) {
+    text += "beyond the terrain's edge: " + std::to_string(file.beyond) +
+            " posts, which have the height of the nearest place on it\n";
+  }
+  return text + "the grid adds: at most " + fixed(file.largest) + " m, rms " + fixed(file.rms) +
+         " m, at " + std::to_string(file.places) + " places of the lattice\n";
+}
+
+void decode_for_autopilot(const DecodeRequest& request, Autopilot autopilot) {
+  const DegreeCell cell = cell_of(request.output);
+  const uint32_t spacing = spacing_of(request, autopilot);
+  if (request.lattice) throw Error(request.output + ": has real coordinates, not --lattice");
+  const Document document(request.input);
+  const Metadata metadata = document.metadata();
+  if (metadata.horizontal_unit != Unit::kDegree || metadata.vertical_unit != Unit::kMetre) {
+    throw Error(request.input + ": autopilots want places in degrees and heights in metres");
+  }
+  const AutopilotFile file = with_file_context(
+      request.output, [&] { return autopilot_file(document.sampled(), autopilot, cell, spacing); });
+  OutputFile out(request.output);
+  out.write(file.bytes);
+  deliver(out, request.output, text_of(file, spacing));
+}
+
 }  // namespace
 
 void run_decode(const DecodeRequest& request) {
   refuse_overwriting({request.input}, request.output);
+  if (const auto autopilot = autopilot_of(request.output)) {
+    decode_for_autopilot(request, *autopilot);
+    return;
+  }
   if (is_grid(request.output)) {
     decode_to_grid(request);
     return;
   }
-  if (request.cell) throw Error(request.output + ": only .asc grids have cells");
+  if (request.cell) throw Error(request.output + ": only grids (.asc, .DAT, .TER) have cells");
   const MeshFormat format = mesh_format_of(request.output);
   const SurfaceModel model = Document(request.input).model();
   if (format == MeshFormat::kGlb && model.triangles.empty()) {

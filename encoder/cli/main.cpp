@@ -349,11 +349,11 @@ void add_decode(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand("decode", "Turn a stream into a mesh or a grid");
   add_stream(command, request->input);
   add_output(command, request->output,
-             "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); - is .xyz on "
-             "standard output");
+             "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); N43E007.DAT, "
+             "N43E007.TER (that cell for ArduPilot, INAV); - is .xyz on standard output");
   add_decimal(command, "--cell", request->cell,
               "Size of an .asc grid's cells, in the terrain's unit; if not given, the lattice's "
-              "step: for rasters the posts");
+              "step: for rasters the posts. Metres between the posts of a .DAT");
   command.add_flag("--lattice", request->lattice, "Write the lattice's integers");
   command.callback([request, &action] {
     if (request->cell && request->cell->mantissa == 0) {

@@ -11,7 +11,6 @@ namespace microtin::gdal {
 namespace {
 
 using encoder::Decoding;
-using encoder::Options;
 using encoder::Posts;
 using encoder::Search;
 using encoder::Transform;

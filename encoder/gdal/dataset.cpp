@@ -142,11 +142,12 @@ class Band : public GDALPamRasterBand {
   std::vector<std::unique_ptr<Band>> overviews_;
 };
 
-std::string kept_text(const std::string& text) {
-  char* const printable = CPLForceToASCII(text.c_str(), -1, '?');
-  const std::string kept = CPLIsUTF8(text.c_str(), -1) != 0 ? text : std::string(printable);
-  CPLFree(printable);
-  return kept;
+// GDAL's texts are UTF-8.
+std::string valid_text(const std::string& text) {
+  if (CPLIsUTF8(text.c_str(), -1) != 0) return text;
+  const std::unique_ptr<char, decltype(&CPLFree)> ascii(CPLForceToASCII(text.c_str(), -1, '?'),
+                                                        CPLFree);
+  return ascii.get();
 }
 
 }  // namespace
@@ -197,12 +198,12 @@ void Dataset::describe() {
       {"MAX_ERROR_ASKED", facts.bound},
       {"MAX_ERROR", facts.max_error},
       {"RMS_ERROR", facts.rms_error},
-      {"SOURCE", kept_text(facts.origin)},
-      {"DATE", kept_text(facts.date)},
-      {"LINEAGE", kept_text(facts.lineage)},
+      {"SOURCE", valid_text(facts.origin)},
+      {"DATE", valid_text(facts.date)},
+      {"LINEAGE", valid_text(facts.lineage)},
   };
   for (const auto& [name, value] : items) {
-    if (!value.empty()) GDALDataset::SetMetadataItem(name, value.c_str());
+    if (!value.empty()) GDALPamDataset::SetMetadataItem(name, value.c_str());
   }
 }
 

@@ -7,11 +7,13 @@
 #include <mutex>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/parallel.hpp"
 #include "encoder/fit/approximation.hpp"
 #include "encoder/pack/tile_plan.hpp"
+#include "encoder/stream/encode.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -19,11 +21,31 @@ namespace {
 // Of the time, estimated.
 constexpr double kScanPart = 0.02, kPlanPart = 0.1;
 
-// The z step that suits a part of the raster best.
+// Steps that suit borders, too, in hundredths of the bound: of coarser ones, which may suit a
+// stream, their chains have too few heights to choose from.
+std::vector<int> steps_to_try(bool never_below) {
+  return never_below ? std::vector<int>{25, 30} : std::vector<int>{50, 60};
+}
+
+// The z step that suits a part of the raster best: that of its stream, or one of ours.
 Decimal choose_z_step(const Raster& part, const LatticeOptions& lattice, SimplifyOptions options) {
   if (options.search == Search::kNormal) options.search = Search::kFast;
   options.progress = {};
-  return approximate(part, lattice, options).laid.z_step;
+  const auto bytes_of = [&](const Tin& tin) { return encode(tin, {}, options.effort).size(); };
+  const Approximation stream = approximate(part, lattice, options);
+  Decimal best = stream.laid.z_step;
+  std::size_t fewest = bytes_of(stream.tin);
+  for (const int hundredths : steps_to_try(lattice.never_below)) {
+    if (lattice.max_error->decimals + 2 > kMaxDecimals) break;
+    LatticeOptions with_step = lattice;
+    with_step.z_step = make_decimal(Wide{lattice.max_error->mantissa} * hundredths,
+                                    lattice.max_error->decimals + 2);
+    const std::size_t bytes = bytes_of(approximate(part, with_step, options).tin);
+    if (bytes >= fewest) continue;
+    fewest = bytes;
+    best = *with_step.z_step;
+  }
+  return best;
 }
 
 // Chooses the heights' lattice for all tiles.

@@ -47,12 +47,21 @@ std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
   return tiles;
 }
 
-// The vertices of the tile that probably has most.
-uint32_t most_vertices(const TiledRaster& tiled, const SimplifyOptions& options) {
+// The vertices of the tile that probably has most, without searching long. Tiles that are a little
+// too large that way are counted as they will be encoded.
+uint32_t most_vertices(const TiledRaster& tiled, uint32_t max_vertices,
+                       const SimplifyOptions& options) {
+  SimplifyOptions quick = options;
+  if (options.bounded) quick.search = Search::kFast;
   const std::vector<uint32_t> tiles = roughest_tiles(tiled);
   std::vector<uint32_t> vertices(tiles.size());
-  for_each_parallel(tiles.size(),
-                    [&](std::size_t i) { vertices[i] = count_vertices(tiled, tiles[i], options); });
+  for_each_parallel(tiles.size(), [&](std::size_t i) {
+    vertices[i] = count_vertices(tiled, tiles[i], quick);
+    const bool nearly_fits = vertices[i] > max_vertices && vertices[i] <= max_vertices / 8.0 * 9;
+    if (nearly_fits && quick.search != options.search) {
+      vertices[i] = count_vertices(tiled, tiles[i], options);
+    }
+  });
   return *std::max_element(vertices.begin(), vertices.end());
 }
 
@@ -78,7 +87,7 @@ TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps) {
 
 uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options) {
   SimplifyOptions simplify = options.simplify;
-  simplify.search = simplify.bounded ? Search::kFast : simplify.search;
+  simplify.progress = {};
   const Raster& frame = tiled.raster.frame();
   const uint32_t longer = std::max(frame.width, frame.height) - 1;
   const double posts =
@@ -88,7 +97,7 @@ uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options) {
   for (;;) {  // in pieces of the longer side
     tiled.grid = grid_of(frame, divide_up(longer, pieces));
     const uint32_t allowed = most_vertices(options, tiled.grid);
-    const uint32_t most = most_vertices(tiled, simplify);
+    const uint32_t most = most_vertices(tiled, allowed, simplify);
     if (most <= allowed) fitting = pieces;
     if (most > allowed) fewest = pieces + 1;
     const double ratio = std::sqrt(static_cast<double>(most) / allowed);

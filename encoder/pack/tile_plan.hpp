@@ -20,7 +20,8 @@ TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps);
 
 // The largest tile_steps found with which no tile has more vertices than it may, as far as
 // the roughest tiles tell: up to 24 of them are simplified, two or three times, without searching
-// long, and the raster is read as often. Throws Error if there are none.
+// long unless they are a little too large then, and the raster is read as often. Throws Error if
+// there are none.
 uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options);
 
 // What to try next if a tile has too many vertices; less than tile_steps. Throws Error if there is

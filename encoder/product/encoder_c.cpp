@@ -168,14 +168,6 @@ microtin_outcome open(microtin_surface** surface, const std::function<Surface()>
   });
 }
 
-Grid grid_of(const microtin_grid& grid) {
-  if (grid.x.numerator == 0 || grid.x.denominator == 0 || grid.y.numerator == 0 ||
-      grid.y.denominator == 0) {
-    throw Error("an axis has no step");
-  }
-  return {grid.columns, grid.rows, grid.x, grid.y};
-}
-
 microtin_outcome hand_out(microtin_surface* surface, microtin_triangles* triangles,
                           const std::function<Mesh()>& read) {
   return guarded([&] {
@@ -244,6 +236,7 @@ microtin_outcome microtin_encode_stream(const microtin_terrain* terrain,
   });
 }
 
+// NOLINTNEXTLINE(readability-non-const-parameter): it is freed
 void microtin_bytes_free(uint8_t* bytes) {
   delete[] bytes;
 }
@@ -277,36 +270,36 @@ void microtin_surface_free(microtin_surface* surface) {
   delete surface;
 }
 
-void microtin_surface_facts(const microtin_surface* surface, microtin_facts* to) {
-  const Facts& facts = surface->surface.facts();
-  *to = {};
-  to->bytes = facts.bytes;
-  to->vertices = facts.vertices;
-  to->is_pack = facts.is_pack ? 1 : 0;
-  to->tile_columns = facts.tile_columns;
-  to->tile_rows = facts.tile_rows;
-  to->west = facts.box.west;
-  to->south = facts.box.south;
-  to->east = facts.box.east;
-  to->north = facts.box.north;
-  to->lowest = facts.lowest;
-  to->highest = facts.highest;
-  to->x = facts.x;
-  to->y = facts.y;
-  to->z = facts.z;
-  to->source = {facts.source.columns, facts.source.rows, facts.source.x, facts.source.y};
-  to->horizontal_unit = static_cast<uint32_t>(facts.horizontal_unit);
-  to->vertical_unit = static_cast<uint32_t>(facts.vertical_unit);
-  to->horizontal_epsg = facts.horizontal_epsg;
-  to->vertical_epsg = facts.vertical_epsg;
-  to->wkt = facts.wkt.c_str();
-  to->origin = facts.origin.c_str();
-  to->date = facts.date.c_str();
-  to->lineage = facts.lineage.c_str();
-  to->bound = facts.bound.c_str();
-  to->max_error = facts.max_error.c_str();
-  to->rms_error = facts.rms_error.c_str();
-  to->mean_error = facts.mean_error.c_str();
+void microtin_surface_facts(const microtin_surface* surface, microtin_facts* facts) {
+  const Facts& all = surface->surface.facts();
+  *facts = {};
+  facts->bytes = all.bytes;
+  facts->vertices = all.vertices;
+  facts->is_pack = all.is_pack ? 1 : 0;
+  facts->tile_columns = all.tile_columns;
+  facts->tile_rows = all.tile_rows;
+  facts->west = all.box.west;
+  facts->south = all.box.south;
+  facts->east = all.box.east;
+  facts->north = all.box.north;
+  facts->lowest = all.lowest;
+  facts->highest = all.highest;
+  facts->x = all.x;
+  facts->y = all.y;
+  facts->z = all.z;
+  facts->source = {all.source.columns, all.source.rows, all.source.x, all.source.y};
+  facts->horizontal_unit = static_cast<uint32_t>(all.horizontal_unit);
+  facts->vertical_unit = static_cast<uint32_t>(all.vertical_unit);
+  facts->horizontal_epsg = all.horizontal_epsg;
+  facts->vertical_epsg = all.vertical_epsg;
+  facts->wkt = all.wkt.c_str();
+  facts->origin = all.origin.c_str();
+  facts->date = all.date.c_str();
+  facts->lineage = all.lineage.c_str();
+  facts->bound = all.bound.c_str();
+  facts->max_error = all.max_error.c_str();
+  facts->rms_error = all.rms_error.c_str();
+  facts->mean_error = all.mean_error.c_str();
 }
 
 microtin_outcome microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles) {
@@ -336,6 +329,7 @@ microtin_outcome microtin_surface_raster(microtin_surface* surface, const microt
                                          double* heights) {
   return guarded([&] {
     expect(grid);
-    surface->surface.heights(grid_of(*grid), {0, 0, grid->columns, grid->rows}, heights);
+    surface->surface.heights({grid->columns, grid->rows, grid->x, grid->y},
+                             {0, 0, grid->columns, grid->rows}, heights);
   });
 }

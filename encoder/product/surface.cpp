@@ -90,7 +90,9 @@ std::optional<int64_t> place_of(const microtin_axis& axis, double value, int64_t
 std::vector<std::optional<int64_t>> places_of(const microtin_axis& posts, int64_t first,
                                               uint32_t count, const microtin_axis& axis,
                                               int64_t low, int64_t high) {
+  if (posts.numerator == 0 || posts.denominator == 0) throw base::Error("an axis has no step");
   const exact::LatticeMap map = exact::map_between(posts, axis);
+  if (map.step == 0) throw base::InternalFault("an axis of the lattice has no step");
   std::vector<std::optional<int64_t>> places(count);
   for (uint32_t i = 0; i < count; ++i) {
     const exact::Wide place = exact::round_divide(kFraction * map.numerator(first + i), map.step);

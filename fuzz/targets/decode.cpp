@@ -26,6 +26,13 @@ void check_peek(const uint8_t* data, size_t size, microtin_status status) {
   }
 }
 
+bool is_on_lattice(const Mesh& mesh, const Contract& contract) {
+  for (Index v = 0; v < mesh.vertices; ++v) {
+    if (mesh.place[v].x > contract.x_max || mesh.place[v].y > contract.y_max) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
@@ -36,6 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   check_peek(data, size, status);
   const Mesh& mesh = device.mesh->mesh;
   EXPECT(mesh.triangles == 0 || is_locally_delaunay(mesh));
+  EXPECT(is_on_lattice(mesh, device.decoder->reconstruction.contract));
   if (status == MICROTIN_DONE) {
     EXPECT(mesh.vertices == device.decoder->reconstruction.contract.vertices);
     EXPECT(mesh.vertices == device.mesh->verified_vertices);

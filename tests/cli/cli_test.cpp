@@ -168,6 +168,31 @@ TEST_CASE("cli: streams become C headers") {
   CHECK(contains(session.failure("embed bad.mtin -o bad.h"), "bad.mtin"));
 }
 
+TEST_CASE("cli: terrain files of autopilots") {
+  const Session session;
+  std::string posts;
+  for (int i = 0; i < 61 * 61; ++i) posts += {'\x01', static_cast<char>(i % 61)};
+  session.write("N43E007.hgt", posts);
+  CHECK(session.run("encode N43E007.hgt --max-error 2 -o s.mtin").code == 0);
+  const Session::Result inav = session.run("decode s.mtin -o N43E007.TER");
+  CHECK(inav.code == 0);
+  CHECK(contains(inav.out, " blocks of 28 x 32 posts, 30 m apart; "));
+  CHECK(contains(inav.out, "the grid adds: at most "));
+  CHECK(contains(inav.out, "covered in part: "));
+  CHECK(contains(session.run("decode s.mtin --cell 200 -o N43E007.DAT").out, ", 200 m apart; "));
+  CHECK(session.read("N43E007.DAT").size() % 2048 == 0);
+  CHECK(contains(session.failure("decode s.mtin --cell 31 -o N43E007.TER"), "--cell must be 30"));
+  CHECK(contains(session.failure("decode s.mtin --cell 2.5 -o N43E008.DAT"),
+                 "--cell must be a whole"));
+  CHECK(
+      contains(session.failure("decode s.mtin -o area.DAT"), "area.DAT: the name must be that of"));
+  CHECK(contains(session.failure("decode s.mtin -o N10E010.DAT"), "no height in the cell"));
+  CHECK(contains(session.failure("decode s.mtin --lattice -o N43E007.DAT"), "not --lattice"));
+  session.write("square.xyz", "0 0 1\n2 0 2\n0 2 3\n2 2 4\n");
+  CHECK(session.run("encode square.xyz -o m.mtin").code == 0);
+  CHECK(contains(session.failure("decode m.mtin -o N00E000.DAT"), "want places in degrees"));
+}
+
 TEST_CASE("cli: packs become C headers") {
   const Session session;
   CHECK(session.run("fractal --size 33 --seed 1 -o t.asc").code == 0);

@@ -2,6 +2,7 @@
 // Streams that were cut off or damaged: what the decoder says, and that it never says done.
 #include <doctest/doctest.h>
 
+#include "decoder/state.hpp"
 #include "fuzz/support/repair.hpp"
 #include "tests/support/device.hpp"
 #include "tests/support/forged_stream.hpp"
@@ -119,6 +120,34 @@ TEST_CASE("damage behind right checks ends in a status, and the mesh stays sound
   }
   CHECK(done > 100);
   CHECK(malformed > 100);
+}
+
+TEST_CASE("whatever a payload says, no vertex lies beyond the lattice") {
+  Random random(9);
+  size_t vertices = 0;
+  for (const Decoding decoding : {Decoding::kQuick, Decoding::kBalanced}) {
+    Tin tin;
+    for (const Point p : uniform_points(60, random, 40))
+      tin.vertices.push_back(Vertex{p.x, p.y, 0});
+    const Bytes stream = encode(tin, Metadata(), {10, decoding});
+    for (int round = 0; round < 20000; ++round) {
+      Bytes random_payload = stream;
+      for (size_t at = stream.size() / 2 - random.below(20); at < stream.size(); ++at) {
+        random_payload[at] = static_cast<uint8_t>(random.below(256));
+      }
+      repair(random_payload.data(), random_payload.size());
+      const Device device(kCapacity);
+      device.decode(random_payload);
+      const Mesh& mesh = device.mesh->mesh;
+      const Contract& contract = device.decoder->reconstruction.contract;
+      for (Index v = 0; v < mesh.vertices; ++v) {
+        CHECK(mesh.place[v].x <= contract.x_max);
+        CHECK(mesh.place[v].y <= contract.y_max);
+      }
+      vertices += mesh.vertices;
+    }
+  }
+  CHECK(vertices > 200000);
 }
 
 TEST_CASE("chunks of any size say the same of damaged streams") {

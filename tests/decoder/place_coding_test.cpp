@@ -164,6 +164,29 @@ TEST_CASE("every place of a lattice comes back, whatever is estimated of it") {
   CHECK(lost == 0);
 }
 
+TEST_CASE("whatever symbols say, a place is one of the lattice") {
+  struct Babbler {
+    Random& random;
+
+    static Vertex next() { return Vertex{0, 0, 0}; }
+    bool bit(uint32_t, bool) { return random.below(4) == 0; }
+    uint32_t uniform(uint32_t count, uint32_t) { return random.below(count); }
+  };
+  Random random(63);
+  Babbler babbler{random};
+  for (const uint32_t size : {4u, 12u, 60u, 500u, 65536u}) {
+    for (int i = 0; i < 20000; ++i) {
+      Contract contract = square_lattice(size);
+      const Case given = i % 8 == 0 ? needle(random, size) : random_case(random, size);
+      if (orient2d(given.v, given.c, given.a) <= 0) continue;
+      contract.decoding = static_cast<Decoding>(1 + random.below(3));
+      const Offset at = code(babbler, given, contract);
+      const FastInt x = given.v.x + at.x, y = given.v.y + at.y;
+      CHECK((x >= 0 && x <= contract.x_max && y >= 0 && y <= contract.y_max));
+    }
+  }
+}
+
 // The escape takes 41 bits: it must be rare where a triangle is no sliver.
 TEST_CASE("hardly a legal place is missed") {
   Random random(62);

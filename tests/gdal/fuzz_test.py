@@ -55,7 +55,9 @@ def damaged(data, chance, end):
 
 
 def read_all(counts):
-    dataset = gdal.OpenEx(PATH, gdal.OF_RASTER | gdal.OF_VECTOR | gdal.OF_VERBOSE_ERROR, open_options=["CELL_SIZE=1000"] if counts["cells"] else [])
+    options = ["CELL_SIZE=1000"] if counts["cells"] else []
+    kinds = gdal.OF_RASTER | gdal.OF_VECTOR | gdal.OF_VERBOSE_ERROR
+    dataset = gdal.OpenEx(PATH, kinds, open_options=options)
     if dataset is None:
         if not gdal.GetLastErrorMsg():
             counts["silent"] += 1

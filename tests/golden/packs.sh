@@ -12,3 +12,7 @@ trap 'rm -r "$terrain"' EXIT
 size=$(wc -c <"$here/card.mtp")
 printf 'damage' | dd of="$here/card.mtp" bs=1 seek=$((size * 2 / 5)) conv=notrunc status=none
 "$microtin" encode "$terrain/t.asc" --max-error 30 --tile-vertices 60 -o "$here/tiles.mtp"
+# degree.mtp is for the adapters: in degrees and metres.
+"$microtin" fractal --size 129 --seed 4 -o "$terrain/d.asc"
+sed -i 's/^cellsize.*/cellsize 0.0008/; s/^xll[a-z]*.*/xllcenter 7.2/; s/^yll[a-z]*.*/yllcenter 43.3/' "$terrain/d.asc"
+"$microtin" encode "$terrain/d.asc" --units degree:metre --max-error 8 --tile-vertices 300 -o "$here/degree.mtp"

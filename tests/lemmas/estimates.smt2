@@ -109,3 +109,16 @@
 (assert (not (and (< (* 2048 high) 4294967296) (< (* 16 share) 32768))))
 (check-sat)
 (pop)
+
+; A parity: counts of 1 to 511, together at most 512, times at most 16 lines.
+;; shared/parity_coding.hpp: const int32_t probability = static_cast<int32_t>((odd << 15) / (even + odd));
+(push)
+(declare-const even Int)
+(declare-const odd Int)
+(declare-const probability Int)
+(assert (and (<= 1 even 8176) (<= 1 odd 8176)))
+(assert (and (<= 0 probability) (<= (* probability (+ even odd)) (* 32768 odd))))
+(check-sat)
+(assert (not (and (< (* 32768 odd) 4294967296) (< probability 32768))))
+(check-sat)
+(pop)

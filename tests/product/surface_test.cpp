@@ -8,7 +8,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "encoder/product/document.hpp"
 #include "microtin/encoder.h"
 #include "microtin/encoder.hpp"
 #include "tests/support/files.hpp"
@@ -16,7 +15,6 @@
 #include "tests/support/temporary_folder.hpp"
 
 using namespace microtin::encoder;
-using microtin::product::Document;
 using microtin::tests::TemporaryFolder;
 using microtin::tests::write_file;
 
@@ -43,13 +41,13 @@ Terrain bowl_terrain() {
 }
 
 std::string stream_file(const TemporaryFolder& folder, const StreamOptions& options) {
-  const std::string path = folder / "bowl.mtin";
+  std::string path = folder / "bowl.mtin";
   write_file(path, encode_stream(bowl_terrain(), options).bytes);
   return path;
 }
 
 std::string pack_file(const TemporaryFolder& folder) {
-  const std::string path = folder / "bowl.mtp";
+  std::string path = folder / "bowl.mtp";
   PackOptions options;
   options.max_error = "1";
   options.tile_vertices = 64;
@@ -108,7 +106,8 @@ TEST_CASE("surface: a pack keeps its bound at posts and is asked in any order") 
   for (size_t i = 0; i < expected.size(); ++i) {
     at.push_back(i * 1009 % expected.size());  // 1009 is a prime
     x.push_back(600000.0 + 10.0 * static_cast<double>(at.back() % kColumns));
-    y.push_back(5000000.0 - 10.0 * static_cast<double>(at.back() / kColumns));
+    const size_t row = at.back() / kColumns;
+    y.push_back(5000000.0 - 10.0 * static_cast<double>(row));
   }
   surface.heights(x.size(), x.data(), y.data(), heights.data());
   size_t differ = 0;
@@ -135,6 +134,8 @@ TEST_CASE("surface: places outside and no numbers have no height") {
   CHECK(!std::isnan(corner[1]));
   CHECK(std::isnan(corner[2]));
   CHECK(std::isnan(corner[3]));
+  CHECK_THROWS_WITH(surface.heights({1, 1, {0, 1, 0}, {0, 1, 1}}, {0, 0, 1, 1}, corner),
+                    "an axis has no step");
 }
 
 TEST_CASE("surface: tiles together have the triangles of all") {

@@ -95,8 +95,10 @@ def encode(
 
     Options: never_below=True, z_step, xy_step, search="fast" | "normal" | "best", degree,
     decoding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", vertical_epsg, source, date, lineage, and
-    progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all
-    processors. Raises Error, also if an array is not two-dimensional or a height out of range.
+    progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights.
+
+    Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
+    an array is not two-dimensional or a height out of range.
     """
     with _terrain_of_array(array, transform, crs, nodata) as terrain:
         return _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)

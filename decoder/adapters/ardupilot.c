@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "ardupilot.h"
+
+void microtin_ardupilot_init(microtin_ardupilot* terrain, microtin_pack* pack, uint16_t spacing) {
+  microtin_spots_init(&terrain->spots, pack);
+  terrain->spacing = spacing != 0 ? spacing : 100;
+  terrain->has_reference = 0;
+  terrain->has_correction = 0;
+  terrain->missed = 0;
+  microtin_ardupilot_begin_block(terrain, 0, 0, terrain->spacing);
+}
+
+microtin_status microtin_ardupilot_service(microtin_ardupilot* terrain, uint32_t step_limit,
+                                           microtin_read read, void* context) {
+  return microtin_spots_service(&terrain->spots, step_limit, read, context);
+}
+
+/* Millimetres; what is missing is wished for, up to `far`. */
+static bool ask(microtin_spots* spots, microtin_spot at, microtin_spot far, int32_t* height) {
+  const microtin_answer answer = microtin_spots_height(spots, at, height);
+  if (answer == MICROTIN_NOT_DECODED) microtin_spots_wish(spots, at, far);
+  return answer == MICROTIN_HEIGHT;
+}
+
+void microtin_ardupilot_set_reference(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
+                                      int32_t altitude_cm, float most) {
+  terrain->reference.latitude = lat;
+  terrain->reference.longitude = lng;
+  terrain->reference_altitude = microtin_whole((float)altitude_cm, 1e8f) * 10;
+  terrain->most_correction = microtin_whole(most * 1000.0f, 1e6f);
+  terrain->has_reference = terrain->most_correction > 0;
+  terrain->has_correction = 0;
+}
+
+/* Once the terrain at the reference is there. Differences stay below 2^30 + 2^31 mm. */
+static int32_t correction_of(microtin_ardupilot* terrain) {
+  const int64_t most = terrain->most_correction;
+  int32_t ground;
+  if (!terrain->has_reference) return 0;
+  if (!terrain->has_correction &&
+      ask(&terrain->spots, terrain->reference, terrain->reference, &ground)) {
+    const int64_t above = (int64_t)terrain->reference_altitude - ground;
+    terrain->correction = (int32_t)(above > most ? most : above < -most ? -most : above);
+    terrain->has_correction = 1;
+  }
+  return terrain->has_correction ? terrain->correction : 0;
+}
+
+bool microtin_ardupilot_height_amsl(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
+                                    float* height, bool corrected) {
+  const microtin_spot at = {lat, lng};
+  int32_t millimetres;
+  if (!ask(&terrain->spots, at, at, &millimetres)) return false;
+  *height = (float)millimetres / 1000.0f;
+  if (corrected) *height += (float)correction_of(terrain) / 1000.0f;
+  return true;
+}
+
+float microtin_ardupilot_lookahead(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
+                                   float bearing, float distance, float climb_ratio) {
+  const int32_t step = terrain->spacing * (int32_t)1000;
+  const microtin_stride stride =
+      microtin_stride_along(microtin_whole(bearing * 100.0f, 36000.0f), step);
+  /* Samples until the distance is used up: the last may lie beyond it. */
+  const float exact = distance / (float)terrain->spacing;
+  const int32_t whole = microtin_whole(exact, MICROTIN_ARDUPILOT_SAMPLES);
+  const int32_t samples =
+      (float)whole < exact && whole < MICROTIN_ARDUPILOT_SAMPLES ? whole + 1 : whole;
+  const int64_t climb = microtin_whole(climb_ratio * (float)step, 1e9f);
+  const microtin_spot from = {lat, lng};
+  const microtin_spot far = microtin_spot_beside(from, stride.north * 4, stride.east * 4);
+  microtin_spot at = from;
+  int64_t most = 0;
+  int32_t base, height, i;
+  terrain->missed = 0;
+  if (!ask(&terrain->spots, from, far, &base)) return 0.0f;
+  for (i = 1; i <= samples; ++i) {
+    at = microtin_spot_beside(at, stride.north, stride.east);
+    if (!ask(&terrain->spots, at, at, &height)) {
+      ++terrain->missed;
+    } else if (height - (int64_t)base - climb * i > most) {
+      most = height - (int64_t)base - climb * i;
+    }
+  }
+  return (float)most / 1000.0f;
+}
+
+void microtin_ardupilot_begin_block(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
+                                    uint16_t spacing) {
+  microtin_ardupilot_block* const block = &terrain->block;
+  int row, column;
+  block->corner.latitude = lat;
+  block->corner.longitude = lng;
+  block->spacing = spacing;
+  block->bitmap = 0;
+  block->next = 0;
+  for (row = 0; row < MICROTIN_ARDUPILOT_ROWS; ++row) {
+    for (column = 0; column < MICROTIN_ARDUPILOT_COLUMNS; ++column) block->height[row][column] = 0;
+  }
+}
+
+static microtin_spot post_of(const microtin_ardupilot_block* block, int32_t row, int32_t column) {
+  const int32_t step = block->spacing * (int32_t)1000;
+  return microtin_spot_beside(block->corner, row * step, column * step);
+}
+
+/* Four posts of a row by one fill. */
+static microtin_answer fill_row(microtin_ardupilot* terrain, int32_t row, int32_t column,
+                                int16_t* heights) {
+  const microtin_ardupilot_block* const block = &terrain->block;
+  microtin_block part;
+  int64_t last_x, last_y;
+  if (!terrain->spots.has_info) return MICROTIN_NOT_DECODED;
+  if (!microtin_spots_place(&terrain->spots, post_of(block, row, column), &part.x, &part.y) ||
+      !microtin_spots_place(&terrain->spots, post_of(block, row, column + 3), &last_x, &last_y)) {
+    return MICROTIN_OUTSIDE;
+  }
+  part.dx = (int32_t)((last_x - part.x) / 3);
+  part.dy = 0;
+  part.columns = 4;
+  part.rows = 1;
+  part.missing = 0;
+  return microtin_pack_fill(terrain->spots.pack, &part, heights);
+}
+
+/* A group that is not all there leaves zeros. */
+static void try_group(microtin_ardupilot* terrain, int32_t group) {
+  microtin_ardupilot_block* const block = &terrain->block;
+  const int32_t row = group / 8 * 4, column = group % 8 * 4;
+  int16_t heights[4][4];
+  int32_t i, j;
+  for (i = 0; i < 4; ++i) {
+    const microtin_answer answer = fill_row(terrain, row + i, column, heights[i]);
+    if (answer == MICROTIN_NOT_DECODED) {
+      microtin_spots_wish(&terrain->spots, post_of(block, row, column),
+                          post_of(block, row + 3, column + 3));
+    }
+    if (answer != MICROTIN_HEIGHT) return;
+  }
+  for (i = 0; i < 4; ++i) {
+    for (j = 0; j < 4; ++j) block->height[row + i][column + j] = heights[i][j];
+  }
+  block->bitmap |= (uint64_t)1 << group;
+}
+
+bool microtin_ardupilot_fill_block(microtin_ardupilot* terrain, uint32_t groups) {
+  const uint64_t all = ((uint64_t)1 << MICROTIN_ARDUPILOT_GROUPS) - 1;
+  microtin_ardupilot_block* const block = &terrain->block;
+  uint32_t left = groups < MICROTIN_ARDUPILOT_GROUPS ? groups : MICROTIN_ARDUPILOT_GROUPS;
+  for (; left != 0 && block->bitmap != all; --left) {
+    while ((block->bitmap >> block->next & 1) != 0) {
+      block->next = (uint8_t)((block->next + 1) % MICROTIN_ARDUPILOT_GROUPS);
+    }
+    try_group(terrain, block->next);
+    block->next = (uint8_t)((block->next + 1) % MICROTIN_ARDUPILOT_GROUPS);
+  }
+  return block->bitmap == all;
+}
+
+void microtin_ardupilot_statistics(const microtin_ardupilot* terrain, uint16_t* pending,
+                                   uint16_t* loaded) {
+  uint64_t bits = terrain->block.bitmap;
+  uint16_t count = 0;
+  for (; bits != 0; bits &= bits - 1) ++count;
+  *loaded = count;
+  *pending = (uint16_t)(MICROTIN_ARDUPILOT_GROUPS - count);
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "inav.h"
+
+void microtin_inav_init(microtin_inav* inav, microtin_pack* pack) {
+  microtin_spots_init(&inav->spots, pack);
+}
+
+microtin_status microtin_inav_service(microtin_inav* inav, uint32_t step_limit, microtin_read read,
+                                      void* context) {
+  return microtin_spots_service(&inav->spots, step_limit, read, context);
+}
+
+/* Millimetres; what is missing is wished for, up to `far`. */
+static bool ask(microtin_spots* spots, microtin_spot at, microtin_spot far, int32_t* height) {
+  const microtin_answer answer = microtin_spots_height(spots, at, height);
+  if (answer == MICROTIN_NOT_DECODED) microtin_spots_wish(spots, at, far);
+  return answer == MICROTIN_HEIGHT;
+}
+
+bool microtin_inav_height(microtin_inav* inav, int32_t lat, int32_t lon, float* height_m) {
+  const microtin_spot at = {lat, lon};
+  int32_t height;
+  if (!ask(&inav->spots, at, at, &height)) return false;
+  *height_m = (float)height / 1000.0f;
+  return true;
+}
+
+bool microtin_inav_lookahead(microtin_inav* inav, int32_t lat, int32_t lon, float bearing_deg,
+                             float distance_m, float climb_ratio, float escape_ratio,
+                             microtin_inav_look* look) {
+  const microtin_stride stride =
+      microtin_stride_along(microtin_whole(bearing_deg * 100.0f, 36000.0f), MICROTIN_INAV_STEP);
+  const int32_t samples = microtin_whole(distance_m / 30.0f, MICROTIN_INAV_SAMPLES);
+  const int32_t climb = microtin_whole(climb_ratio * MICROTIN_INAV_STEP, 1e6f),
+                escape = microtin_whole(escape_ratio * MICROTIN_INAV_STEP, 1e6f);
+  const microtin_spot from = {lat, lon};
+  const microtin_spot far =
+      microtin_spot_beside(from, stride.north * samples, stride.east * samples);
+  microtin_spot at = from;
+  int64_t needed = 0, deficit = 0;
+  int32_t base, height, missed = 0, i;
+  if (!ask(&inav->spots, from, far, &base)) return false;
+  for (i = 1; i <= samples; ++i) {
+    at = microtin_spot_beside(at, stride.north, stride.east);
+    if (!ask(&inav->spots, at, far, &height)) {
+      ++missed;
+      continue;
+    }
+    const int64_t rise = (int64_t)height - base;
+    if (rise - climb * i > needed) needed = rise - climb * i;
+    if (rise - escape * i > deficit) deficit = rise - escape * i;
+  }
+  look->climb_needed_m = (float)needed / 1000.0f;
+  look->escape_deficit_m = (float)deficit / 1000.0f;
+  look->samples_total = (uint8_t)(samples > 0 ? samples : 0);
+  look->samples_missed = (uint8_t)missed;
+  return true;
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+/* What the adapters share: places on the globe, a pack that is asked there, and the wish that a
+ * place that is not there leaves for whoever reads the card. Integers only.
+ *
+ * Questions may interrupt the service, not each other. */
+#ifndef MICROTIN_ADAPTERS_SPOTS_H
+#define MICROTIN_ADAPTERS_SPOTS_H
+
+#include "microtin/pack.h"
+
+/* A place, in 1e-7 degrees. */
+typedef struct microtin_spot {
+  int32_t latitude, longitude;
+} microtin_spot;
+
+typedef struct microtin_spots {
+  microtin_pack* pack; /* places in degrees, heights in metres */
+  microtin_pack_info info;
+  volatile uint8_t has_info;
+  uint32_t hint;
+  microtin_course wish; /* owned by questions while it is not wished, else by the service */
+  volatile uint8_t is_wished;
+} microtin_spots;
+
+static inline void microtin_spots_init(microtin_spots* s, microtin_pack* pack) {
+  s->pack = pack;
+  s->has_info = 0;
+  s->hint = 0;
+  s->is_wished = 0;
+}
+
+/* A piece of what is wished: as microtin_pack_service, with its step limit of 1 or more. DONE also
+ * if nothing is wished. */
+static inline microtin_status microtin_spots_service(microtin_spots* s, uint32_t step_limit,
+                                                     microtin_read read, void* context) {
+  const microtin_course origin = {0, 0, 0, 0};
+  microtin_status status;
+  if (s->has_info && !s->is_wished) return MICROTIN_DONE;
+  status =
+      microtin_pack_service(s->pack, s->has_info ? &s->wish : &origin, step_limit, read, context);
+  if (!s->has_info) {
+    if (microtin_pack_header(s->pack, &s->info)) s->has_info = 1;
+    return status == MICROTIN_DONE ? MICROTIN_NEED_INPUT : status;
+  }
+  if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT && status != MICROTIN_IO) {
+    s->is_wished = 0;
+  }
+  return status;
+}
+
+/* Lattice coordinates with 8 fractional bits. 0: outside, or the header is not known. */
+static inline int microtin_spots_place(const microtin_spots* s, microtin_spot at, int64_t* x,
+                                       int64_t* y) {
+  return s->has_info &&
+         microtin_pack_to_lattice(&s->info.x, s->info.x_max, at.longitude, 10000000, x) &&
+         microtin_pack_to_lattice(&s->info.y, s->info.y_max, at.latitude, 10000000, y);
+}
+
+/* Wishes for what lies between two places, or for the first, unless something is wished already. */
+static inline void microtin_spots_wish(microtin_spots* s, microtin_spot from, microtin_spot to) {
+  const int64_t farthest = (int64_t)1 << 24;
+  microtin_course c;
+  if (s->is_wished || !microtin_spots_place(s, from, &c.x, &c.y)) return;
+  if (!microtin_spots_place(s, to, &c.x_end, &c.y_end) || c.x_end - c.x >= farthest ||
+      c.x - c.x_end >= farthest || c.y_end - c.y >= farthest || c.y - c.y_end >= farthest) {
+    c.x_end = c.x;
+    c.y_end = c.y;
+  }
+  s->wish = c;
+  s->is_wished = 1;
+}
+
+/* The terrain in millimetres. NOT_DECODED: it may be there later, if it is wished for. */
+static inline microtin_answer microtin_spots_height(microtin_spots* s, microtin_spot at,
+                                                    int32_t* millimetres) {
+  const microtin_axis* const z = &s->info.z;
+  const int64_t offset_most = (int64_t)1 << 31;
+  int64_t x, y, sum;
+  int32_t height;
+  microtin_answer answer;
+  if (!s->has_info) return MICROTIN_NOT_DECODED;
+  if (!microtin_spots_place(s, at, &x, &y)) return MICROTIN_OUTSIDE;
+  if (z->numerator >> 20 != 0 || z->offset > offset_most || z->offset < -offset_most) {
+    return MICROTIN_OUTSIDE;
+  }
+  answer = microtin_pack_height_at(s->pack, x, y, &s->hint, &height);
+  if (answer != MICROTIN_HEIGHT) return answer;
+  /* Below 2^20 * 2^31 + 2^31 * 2^16, times 1000: 2^62. */
+  sum = ((int64_t)z->numerator * height + z->offset * 65536) * 1000;
+  sum /= (int64_t)z->denominator * 65536;
+  if (sum > INT32_MAX || sum < INT32_MIN) return MICROTIN_OUTSIDE;
+  *millimetres = (int32_t)sum;
+  return MICROTIN_HEIGHT;
+}
+
+/* The sine of an angle in 1/100 degree, times 65536; within 10 of it. A polynomial with x, x^3 and
+ * x^5 over the quarter. */
+static inline int32_t microtin_sine(int32_t angle) {
+  int64_t x, square, value;
+  int32_t part = angle % 36000;
+  int is_negative;
+  if (part < 0) part += 36000;
+  is_negative = part >= 18000;
+  part %= 18000;
+  if (part > 9000) part = 18000 - part;
+  x = (int64_t)part * 65536 / 9000;
+  square = x * x / 65536;
+  value = 42154 - square * 4765 / 65536;
+  value = 102933 - square * value / 65536;
+  value = x * value / 65536;
+  return (int32_t)(is_negative ? -value : value);
+}
+
+/* So many millimetres north and east, |each| < 2^31, as the autopilots reckon: a degree of latitude
+ * has the length of one at the equator. */
+static inline microtin_spot microtin_spot_beside(microtin_spot from, int32_t north, int32_t east) {
+  const int64_t up = (int64_t)north * 89832 / 1000000;
+  const int64_t middle = (from.latitude + up / 2) / 100000;
+  int64_t scale = microtin_sine((int32_t)(middle + 9000)), right;
+  microtin_spot to;
+  if (scale < 655) scale = 655; /* near the poles */
+  right = from.longitude + (int64_t)east * 89832 / 1000000 * 65536 / scale;
+  if (right > 1800000000) right -= 3600000000;
+  if (right < -1800000000) right += 3600000000;
+  to.latitude = (int32_t)(from.latitude + up);
+  to.longitude = (int32_t)right;
+  return to;
+}
+
+/* Steps of a way: millimetres north and east for each. */
+typedef struct microtin_stride {
+  int32_t north, east;
+} microtin_stride;
+
+static inline microtin_stride microtin_stride_along(int32_t bearing_centidegrees, int32_t step) {
+  microtin_stride stride;
+  stride.north = (int32_t)((int64_t)microtin_sine(bearing_centidegrees + 9000) * step / 65536);
+  stride.east = (int32_t)((int64_t)microtin_sine(bearing_centidegrees) * step / 65536);
+  return stride;
+}
+
+/* A float that is no number, or too large, becomes the nearest bound. */
+static inline int32_t microtin_whole(float value, float most) {
+  if (!(value > -most)) return (int32_t)-most;
+  return (int32_t)(value < most ? value : most);
+}
+
+#endif

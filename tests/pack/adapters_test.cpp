@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// The autopilots' adapters, beside what the tiles say in floating point.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "encoder/files/input_file.hpp"
+#include "tests/firmware/adapters_report.hpp"
+#include "tests/support/pack_device.hpp"
+
+namespace microtin::tests {
+namespace {
+
+std::string printed;
+
+Bytes degree_pack() {
+  const std::string text = read_file(MICROTIN_GOLDEN_DIR "/degree.mtp");
+  return {text.begin(), text.end()};
+}
+
+// Metres at a place in 1e-7 degrees, by the tiles.
+std::optional<double> truth(const PackFile& pack, double latitude, double longitude) {
+  const Placement& p = pack.metadata().placement;
+  const auto lattice = [](const Axis& axis, double value) {
+    return std::llround((value * 1e-7 - offset_of(axis)) / step_of(axis) * 256);
+  };
+  const int64_t x = lattice(p.x, longitude), y = lattice(p.y, latitude);
+  const auto height = expected_height(pack, x, y);
+  if (!height) return std::nullopt;
+  return offset_of(p.z) + step_of(p.z) * *height / 65536;
+}
+
+// A device with everything there that a flight of this size wants.
+struct Loaded {
+  Card card{degree_pack()};
+  MeshSlots device{50, 300};
+  PackFile pack{degree_pack()};
+
+  template <class Ask, class Adapter>
+  void load(Adapter& adapter, const Ask& ask) {
+    for (int i = 0; i < 200 && (ask(), !adapter.spots.has_info || adapter.spots.is_wished); ++i) {
+      microtin_status status = MICROTIN_NEED_INPUT;
+      while (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
+        status = microtin_spots_service(&adapter.spots, 100, Card::read, &card);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("adapters: a flight is what devices print") {
+  Card card{degree_pack()};
+  const MeshSlots device(5, 300);
+  printed.clear();
+  const auto put = [](char c) { printed += c; };
+  CHECK(AdaptersReport(put, device.pack, Card::read, &card).run() == 0);
+  CHECK(printed == read_file(MICROTIN_GOLDEN_DIR "/degree.report"));
+}
+
+TEST_CASE("adapters: INAV's height and look ahead are those of the tiles") {
+  Loaded here;
+  microtin_inav inav;
+  microtin_inav_init(&inav, here.device.pack);
+  float height = -7;
+  CHECK(!microtin_inav_height(&inav, 433300000, 72300000, &height));
+  CHECK(height == -7);
+  microtin_inav_look look{};
+  for (int i = 0; i < 40; ++i) {
+    const int32_t latitude = 433100000 + i * 18000, longitude = 72150000 + i * 15000;
+    const float bearing = static_cast<float>(i) * 9;
+    bool known = false;
+    here.load(inav, [&] {
+      known = microtin_inav_lookahead(&inav, latitude, longitude, bearing, 600, 0.1F, 0.4F, &look);
+    });
+    REQUIRE(known);
+    REQUIRE(microtin_inav_height(&inav, latitude, longitude, &height));
+    const auto base = truth(here.pack, latitude, longitude);
+    REQUIRE(base);
+    CHECK(std::abs(*base - static_cast<double>(height)) < 0.05);
+    const double turn = bearing * 0.017453292519943295, north = 30 * std::cos(turn),
+                 east = 30 * std::sin(turn);
+    double needed = 0, deficit = 0, y = latitude, x = longitude;
+    int missed = 0;
+    for (int step = 1; step <= 20; ++step) {
+      const double up = north * 89.83204953368922;
+      x += east * 89.83204953368922 / std::cos((y + up / 2) * 1e-7 * 0.017453292519943295);
+      y += up;
+      const auto there = truth(here.pack, y, x);
+      missed += there ? 0 : 1;
+      if (!there) continue;
+      needed = std::max(needed, *there - *base - 3.0 * step);
+      deficit = std::max(deficit, *there - *base - 12.0 * step);
+    }
+    CHECK(look.samples_total == 20);
+    CHECK(look.samples_missed == missed);
+    CHECK(std::abs(needed - static_cast<double>(look.climb_needed_m)) < 0.5);
+    CHECK(std::abs(deficit - static_cast<double>(look.escape_deficit_m)) < 0.5);
+  }
+  CHECK(microtin_inav_lookahead(&inav, 433300000, 72300000, 0, 1e9F, 0, 0, &look));
+  CHECK(look.samples_total == 64);
+  const float none = std::nanf("");
+  CHECK(microtin_inav_lookahead(&inav, 433300000, 72300000, none, none, none, none, &look));
+  CHECK(look.samples_total == 0);
+}
+
+TEST_CASE("adapters: a place outside is no wish, a place that is not there is one") {
+  Loaded here;
+  microtin_inav inav;
+  microtin_inav_init(&inav, here.device.pack);
+  float height = 0;
+  here.load(inav, [] {});
+  CHECK(!microtin_inav_height(&inav, 433300000, -72300000, &height));
+  CHECK(!microtin_inav_height(&inav, INT32_MAX, INT32_MIN, &height));
+  CHECK(!inav.spots.is_wished);
+  CHECK(!microtin_inav_height(&inav, 433900000, 72900000, &height));
+  CHECK(inav.spots.is_wished);
+  here.card.is_pulled = true;
+  microtin_inav_service(&inav, 50, Card::read, &here.card);  // asks for input, or has done so
+  CHECK(microtin_inav_service(&inav, 50, Card::read, &here.card) == MICROTIN_IO);
+  CHECK(inav.spots.is_wished);
+  here.card.is_pulled = false;
+  here.load(inav, [&] { microtin_inav_height(&inav, 433900000, 72900000, &height); });
+  CHECK(microtin_inav_height(&inav, 433900000, 72900000, &height));
+}
+
+TEST_CASE(
+    "adapters: ArduPilot's heights are corrected, within a bound, and blocks are those of the "
+    "tiles") {
+  Loaded here;
+  microtin_ardupilot terrain;
+  microtin_ardupilot_init(&terrain, here.device.pack, 100);
+  const int32_t latitude = 433300000, longitude = 72300000;
+  float plain = 0, corrected = 0;
+  here.load(terrain,
+            [&] { microtin_ardupilot_height_amsl(&terrain, latitude, longitude, &plain, false); });
+  const double ground = *truth(here.pack, latitude, longitude);
+  CHECK(std::abs(ground - static_cast<double>(plain)) < 0.05);
+  const auto difference = [&](double above, float most) {
+    microtin_ardupilot_set_reference(&terrain, latitude, longitude,
+                                     static_cast<int32_t>(std::lround((ground + above) * 100)),
+                                     most);
+    REQUIRE(microtin_ardupilot_height_amsl(&terrain, latitude, longitude, &corrected, true));
+    return static_cast<double>(corrected) - static_cast<double>(plain);
+  };
+  CHECK(std::abs(difference(5, 30) - 5) < 0.1);
+  CHECK(std::abs(difference(-12, 30) + 12) < 0.1);
+  CHECK(std::abs(difference(80, 30) - 30) < 0.1);
+  CHECK(std::abs(difference(-80, 30) + 30) < 0.1);
+  CHECK(difference(5, 0) == 0);
+
+  microtin_ardupilot_begin_block(&terrain, latitude, longitude, 30);
+  uint16_t pending = 0, loaded = 0;
+  bool is_full = false;
+  here.load(terrain, [&] { is_full = microtin_ardupilot_fill_block(&terrain, 56); });
+  CHECK(is_full);
+  microtin_ardupilot_statistics(&terrain, &pending, &loaded);
+  CHECK(pending == 0);
+  CHECK(loaded == 56);
+  for (int row = 0; row < 28; ++row) {
+    for (int column = 0; column < 32; ++column) {
+      const double up = row * 30 * 89.83204953368922,
+                   scale = std::cos((latitude + up / 2) * 1e-7 * 0.017453292519943295);
+      const auto height =
+          truth(here.pack, latitude + up, longitude + column * 30 * 89.83204953368922 / scale);
+      REQUIRE(height);
+      CHECK(std::abs(*height - terrain.block.height[row][column]) < 1.5);
+    }
+  }
+  // Beyond the pack groups stay missing, however often they are tried.
+  microtin_ardupilot_begin_block(&terrain, 433990000, 73000000, 100);
+  for (int i = 0; i < 300; ++i) {
+    is_full = microtin_ardupilot_fill_block(&terrain, 3);
+    microtin_spots_service(&terrain.spots, 500, Card::read, &here.card);
+  }
+  CHECK(!is_full);
+  microtin_ardupilot_statistics(&terrain, &pending, &loaded);
+  CHECK(pending + loaded == 56);
+  CHECK(pending > 0);
+}
+
+TEST_CASE("adapters: the sine is within 10 of 65536") {
+  for (int32_t angle = -40000; angle <= 80000; ++angle) {
+    const double exact = 65536 * std::sin(angle * 0.00017453292519943295);
+    CHECK(std::abs(microtin_sine(angle) - exact) < 10);
+  }
+}
+
+}  // namespace microtin::tests
