@@ -9,7 +9,7 @@ import {
 } from "./status.js";
 import { meshArrays } from "./terrain.js";
 
-const INFO_BYTES = 96, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12, LOWEST = 16, HIGHEST = 18,
+const INFO_BYTES = 96, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12, LOWEST = 20, HIGHEST = 22,
   AXES = 24; // where they are in microtin_pack_info
 const MOST_SLOTS = 255;
 const FIRST_PIECE = 1024; // bytes of a tile that are read first; then twice as many

@@ -13,13 +13,13 @@ const CHUNK = 65536;
 const STEPS = 1 << 16;
 const DECODINGS = [, "quick", "balanced", "dense"];
 
-// Vertices and triangles of a mesh whose lattice begins at (x0, y0) of the axes'.
+// Vertices and triangles of a mesh, 0 if there is none, whose lattice begins at (x0, y0) of the axes'.
 export function meshArrays(instance, mesh, axes, x0 = 0, y0 = 0) {
   const { calls } = instance;
-  const count = calls.microtin_vertex_count(mesh);
+  const count = mesh && calls.microtin_vertex_count(mesh);
   const positions = new Float32Array(3 * count);
   instance.borrow(12 * count, (at) => {
-    calls.vertices(mesh, at);
+    if (count) calls.vertices(mesh, at);
     const lattice = instance.array(Int32Array, at, 3 * count);
     for (let i = 0; i < 3 * count; i += 3) {
       positions[i] = lattice[i] * axes.x.step;
@@ -28,7 +28,7 @@ export function meshArrays(instance, mesh, axes, x0 = 0, y0 = 0) {
     }
   });
   const triangles = (kind) => instance.borrow(24 * count + 12, (at) =>
-    instance.array(Uint32Array, at, 3 * calls.triangles(mesh, kind, at)).slice());
+    instance.array(Uint32Array, at, count && 3 * calls.triangles(mesh, kind, at)).slice());
   return {
     origin: [axes.x.start + x0 * axes.x.step, axes.y.start + y0 * axes.y.step],
     positions,
