@@ -154,8 +154,8 @@ void add_search(CLI::App& command, Search& search) {
         name, [&search, value] { search = value; }, description);
   };
   CLI::Option* const fast =
-      add("--fast", Search::kFast, "With --max-error: search for a short time only");
-  add("--best", Search::kBest, "... or as long as it helps")->excludes(fast);
+      add("--fast", Search::kFast, "With a bound or limit: search for a short time only");
+  add("--best", Search::kBest, "... or for a long time")->excludes(fast);
 }
 
 void add_decoding(CLI::App& command, Decoding& decoding) {
@@ -261,13 +261,14 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
                   "Keep every height within this distance, in the terrain's unit");
   CLI::Option* const vertices =
       command
-          .add_option("--max-vertices", request->max_vertices, "Use the best vertices, this many")
+          .add_option("--max-vertices", request->max_vertices,
+                      "Keep the smallest --max-error that so many vertices can")
           ->check(CLI::Range(3u, kMaxVertices))
           ->excludes(bound);
   CLI::Option* const bytes =
       command
           .add_option("--max-bytes", request->max_bytes,
-                      "Keep the smallest --max-error that a file of this size can; takes minutes")
+                      "Keep the smallest --max-error that a file of this size can")
           ->check(CLI::PositiveNumber)
           ->excludes(bound)
           ->excludes(vertices);

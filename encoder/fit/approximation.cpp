@@ -54,6 +54,29 @@ std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattic
   return all;
 }
 
+// The layout whose quick surface takes the fewest bytes, and this surface.
+Approximation cheapest(std::vector<Laid> all, const SimplifyOptions& options) {
+  std::optional<Approximation> best;
+  std::size_t fewest = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    SimplifyOptions trial = options;
+    trial.search = Search::kTrial;
+    const auto before = static_cast<double>(i), total = static_cast<double>(all.size());
+    trial.progress = options.progress.part(before / total, (before + 1) / total);
+    Tin tin = simplify(all[i].survey, trial);
+    const std::size_t bytes = encode(tin, {}, options.effort).size();
+    if (best && bytes >= fewest) continue;
+    fewest = bytes;
+    best = Approximation{std::move(all[i]), std::move(tin)};
+  }
+  return std::move(*best);
+}
+
+// Of the time: looking for the step.
+double trial_part(Search search) {
+  return search == Search::kBest ? 0.15 : 0.3;
+}
+
 }  // namespace
 
 Approximation approximate(const Source& source, const LatticeOptions& lattice,
@@ -64,29 +87,21 @@ Approximation approximate(const Source& source, const LatticeOptions& lattice,
   } else {
     all.push_back(lay_out(source, lattice));
   }
-  const auto bytes_of = [&](const Tin& tin) { return encode(tin, {}, options.effort).size(); };
-  SimplifyOptions trial = options;
-  trial.search = options.search == Search::kBest ? Search::kNormal : Search::kFast;
-  // A trial takes a third of the time of the search that follows.
-  const double trials = all.size() > 1 ? static_cast<double>(all.size()) : 0, total = trials + 3;
-  std::optional<Approximation> best;
-  std::size_t fewest = 0;
-  for (std::size_t i = 0; i < all.size() && all.size() > 1; ++i) {
-    const auto before = static_cast<double>(i);
-    trial.progress = options.progress.part(before / total, (before + 1) / total);
-    Tin tin = simplify(all[i].survey, trial);
-    const std::size_t bytes = bytes_of(tin);
-    if (best && bytes >= fewest) continue;
-    fewest = bytes;
-    best = Approximation{std::move(all[i]), std::move(tin)};
+  if (all.size() == 1) {
+    Tin tin = simplify(all[0].survey, options);
+    return {std::move(all[0]), std::move(tin)};
   }
-  SimplifyOptions last = options;
-  last.progress = options.progress.part(trials / total, 1);
-  const Survey& survey = best ? best->laid.survey : all[0].survey;
-  Tin tin = simplify(survey, last);
-  if (!best) return {std::move(all[0]), std::move(tin)};
-  if (bytes_of(tin) < fewest) best->tin = std::move(tin);
-  return std::move(*best);
+  const double trials = trial_part(options.search);
+  SimplifyOptions part = options;
+  part.progress = options.progress.part(0, trials);
+  Approximation found = cheapest(std::move(all), part);
+  part.progress = options.progress.part(trials, 1);
+  search_further(found, rounds_of(options.search), part);
+  return found;
+}
+
+void search_further(Approximation& found, uint32_t rounds, const SimplifyOptions& options) {
+  found.tin = search_on(found.laid.survey, found.tin, rounds, options);
 }
 
 }  // namespace microtin::fit

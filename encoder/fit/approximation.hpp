@@ -15,10 +15,13 @@ struct Approximation {
 };
 
 // Lays the source out and simplifies it. If there is a bound but no z step, the step is the one of
-// a few parts of the bound, or of the source's own step, that makes the stream smallest. Throws
-// Error as lay_out and simplify do. With all steps to be tried, twice the time that simplify takes.
+// a few parts of the bound, or of the source's own step, that makes a quick search's stream
+// smallest. Throws Error as lay_out and simplify do.
 Approximation approximate(const Source& source, const LatticeOptions& lattice,
                           const SimplifyOptions& options);
+
+// So many rounds more of the same search.
+void search_further(Approximation& found, uint32_t rounds, const SimplifyOptions& options);
 
 }  // namespace microtin::fit
 

@@ -155,7 +155,8 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
     const auto x = static_cast<float>(posts.place(first).x - a.x);
     const float b_before = b_along_x * x, c_before = c_along_x * x;
     const double* const middle = surface_.middles() + first;
-    std::copy_n(surface_.radii() + first, size, radius_.data() + posts_);
+    const float* const radius = surface_.radii() + first;
+    float* const radius_here = radius_.data() + posts_;
     uint32_t* const position = position_.data() + posts_;
     float* const error = error_.data() + posts_;
     float* const of_a = weight_[0].data() + posts_;
@@ -166,6 +167,7 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
       const float to_b = b_before + b_along_y * y, to_c = c_before + c_along_y * y;
       position[i] = static_cast<uint32_t>(first + i);
       error[i] = static_cast<float>(va.z - middle[i]) + to_b * b_rise + to_c * c_rise;
+      radius_here[i] = radius[i];
       of_a[i] = 1.0F - to_b - to_c;
       of_b[i] = to_b;
       of_c[i] = to_c;

@@ -70,6 +70,9 @@ class PostIndex {
     Outline(Point a, Point b, Point c) : corner_{a, b, c} {
       std::sort(corner_, corner_ + 3);
       bends_up_ = orient2d(corner_[0], corner_[2], corner_[1]) > 0;
+      long_ = Line(corner_[0], corner_[2]);
+      before_ = Line(corner_[0], corner_[1]);
+      after_ = Line(corner_[1], corner_[2]);
     }
 
     Point left() const { return corner_[0]; }
@@ -96,33 +99,33 @@ class PostIndex {
       span.high = std::max(span.high, other.high);
     }
 
+    // The y of a side at x, or of its first end if it is vertical. What is not a whole number is
+    // 2^-16 away from one or more, and floating point less than 2^-30 from the truth; none is below
+    // 0.
+    class Line {
+     public:
+      Line() = default;
+      Line(Point p, Point q)
+          : from_(p), slope_(p.x == q.x ? 0 : (double{0} + q.y - p.y) / (q.x - p.x)) {}
+      int64_t floor_at(int64_t x) const { return static_cast<int64_t>(at(x) + kLittle); }
+      int64_t ceil_at(int64_t x) const { return static_cast<int64_t>(at(x) + (1 - kLittle)); }
+
+     private:
+      static constexpr double kLittle = 1.0 / (1 << 20);
+      double at(int64_t x) const { return from_.y + slope_ * static_cast<double>(x - from_.x); }
+      Point from_{0, 0};
+      double slope_ = 0;
+    };
+
     Span at(int64_t x) const {
-      const bool before = x < corner_[1].x;
-      const Point from = corner_[before ? 0 : 1], to = corner_[before ? 1 : 2];
-      if (bends_up_) return {ceil_at(corner_[0], corner_[2], x), floor_at(from, to, x)};
-      return {ceil_at(from, to, x), floor_at(corner_[0], corner_[2], x)};
-    }
-
-    // The y of the line from p to q at x, rounded down; that of p if the line is vertical. Products
-    // are below 2^32: their quotients in floating point are on the right side of whole numbers.
-    static int64_t floor_at(Point p, Point q, int64_t x) {
-      const int64_t width = int64_t{q.x} - p.x, rise = (int64_t{q.y} - p.y) * (x - p.x);
-      if (width == 0) return p.y;
-      const auto quotient =
-          static_cast<int64_t>(static_cast<double>(rise) / static_cast<double>(width));
-      return p.y + quotient - (quotient * width > rise);
-    }
-
-    static int64_t ceil_at(Point p, Point q, int64_t x) {
-      const int64_t width = int64_t{q.x} - p.x, rise = (int64_t{q.y} - p.y) * (x - p.x);
-      if (width == 0) return p.y;
-      const auto quotient =
-          static_cast<int64_t>(static_cast<double>(rise) / static_cast<double>(width));
-      return p.y + quotient + (quotient * width < rise);
+      const Line& bent = x < corner_[1].x ? before_ : after_;
+      if (bends_up_) return {long_.ceil_at(x), bent.floor_at(x)};
+      return {bent.ceil_at(x), long_.floor_at(x)};
     }
 
     Point corner_[3];
     bool bends_up_;
+    Line long_, before_, after_;
   };
 
   static bool covers(Point a, Point b, Point c, Point p) {

@@ -68,40 +68,41 @@ std::vector<uint32_t> first_vertices(const Survey& survey) {
   return first;
 }
 
-uint32_t rounds_of(Search search) {
-  if (search == Search::kBest) return 160;
-  return search == Search::kNormal ? 40 : 1;
-}
+constexpr int kHeightPasses = 8, kTrialPasses = 2;
 
-constexpr int kHeightPasses = 8;
-
-// Of the time: the first attempt to remove all, then rounds that become shorter.
-constexpr double kRemovalPart = 0.1;
-
+// Rounds become shorter: less and less is left to be tried.
 double time_of(double done) {
-  return kRemovalPart + (1 - kRemovalPart) * (1.5 - 0.5 * done) * done;
+  return (1.5 - 0.5 * done) * done;
 }
 
-Tin improve(const Survey& survey, const PostIndex& posts, const Tin& tin,
-            const SimplifyOptions& options) {
-  Surface surface(survey, ErrorModel{true}, posts, tin);
-  Decimation decimation(surface);
-  decimation.remove_vertices(options.progress.part(0, kRemovalPart));
-  const uint32_t rounds = rounds_of(options.search);
+void remove_and_move(Decimation& decimation, uint32_t rounds, const Progress& progress) {
   for (uint32_t round = 1; round <= rounds; ++round) {
+    const double before = static_cast<double>(round - 1) / rounds;
     const double done = static_cast<double>(round) / rounds;
-    // Less and less is left to be tried.
-    const Progress progress = options.progress.part(time_of(done - 1.0 / rounds), time_of(done));
-    if (decimation.remove_and_move_vertices(done, progress) == 0) decimation.forget();
+    const Progress part = progress.part(time_of(before), time_of(done));
+    if (decimation.remove_and_move_vertices(done, part) == 0) decimation.forget();
   }
+}
+
+// The surface with cheaper heights, or the one before if that was cheaper nevertheless.
+Tin with_heights(Surface& surface, const Tin& before, const SimplifyOptions& options) {
   HeightChoice heights(surface, options.effort.degree);
-  for (int i = 0; i < kHeightPasses; ++i) heights.pass();
+  const int passes = options.search == Search::kTrial ? kTrialPasses : kHeightPasses;
+  for (int i = 0; i < passes; ++i) heights.pass();
   Tin improved = surface.tin();
   const auto bytes = [&](const Tin& t) { return encode(t, {}, options.effort).size(); };
-  return bytes(improved) <= bytes(tin) ? improved : tin;
+  return bytes(improved) <= bytes(before) ? improved : before;
 }
 
+// Of the time: the first attempt to remove all.
+constexpr double kRemovalPart = 0.1;
+
 }  // namespace
+
+uint32_t rounds_of(Search search) {
+  if (search == Search::kBest) return 160;
+  return search == Search::kNormal ? 28 : 1;
+}
 
 Tin simplify(const Survey& survey, const SimplifyOptions& options) {
   const bool keep_all = !options.bounded && options.max_vertices == 0;
@@ -110,9 +111,24 @@ Tin simplify(const Survey& survey, const SimplifyOptions& options) {
                         keep_all ? all_of(survey.samples) : first_vertices(survey));
   refinement.refine(options.max_vertices != 0 ? options.max_vertices
                                               : std::numeric_limits<std::size_t>::max());
-  const bool search =
-      options.bounded && options.max_vertices == 0 && options.search != Search::kGreedy;
-  return search ? improve(survey, posts, refinement.tin(), options) : refinement.tin();
+  const Tin refined = refinement.tin();
+  if (!options.bounded || options.max_vertices != 0 || options.search == Search::kGreedy) {
+    return refined;
+  }
+  Surface surface(survey, ErrorModel{true}, posts, refined);
+  Decimation decimation(surface);
+  decimation.remove_vertices(options.progress.part(0, kRemovalPart));
+  remove_and_move(decimation, rounds_of(options.search), options.progress.part(kRemovalPart, 1));
+  return with_heights(surface, refined, options);
+}
+
+Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
+              const SimplifyOptions& options) {
+  const PostIndex posts(places_of(survey.samples));
+  Surface surface(survey, ErrorModel{true}, posts, tin);
+  Decimation decimation(surface);
+  remove_and_move(decimation, rounds, options.progress);
+  return with_heights(surface, tin, options);
 }
 
 }  // namespace microtin::fit

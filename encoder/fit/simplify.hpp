@@ -15,6 +15,7 @@ namespace microtin::fit {
 // How long to look for fewer vertices within a bound.
 enum class Search : uint8_t {
   kGreedy,  // insertion only
+  kTrial,   // to compare steps of height
   kFast,    // some 5 % more bytes than normal
   kNormal,
   kBest  // until nothing more is found
@@ -38,6 +39,14 @@ struct SimplifyOptions {
 // in a triangle that is not void, or on an edge of one; every void post within the hull lies in a
 // void triangle and on no edge of another. Throws Error if the samples form no triangle.
 Tin simplify(const Survey& survey, const SimplifyOptions& options);
+
+// Goes on where a search for the same survey and bound ended: so many rounds, in each of which
+// every vertex is tried. What it returns takes no more bytes.
+Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
+              const SimplifyOptions& options);
+
+// How many of them simplify does.
+uint32_t rounds_of(Search search);
 
 }  // namespace microtin::fit
 

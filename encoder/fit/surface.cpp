@@ -42,6 +42,9 @@ class Plane {
 // rounded to 24 bits.
 constexpr double kNearlyOut = 1.0 / 64;
 
+// The least weight of a corner at a post is 2^-32, but for rounding.
+constexpr double kNoWeight = 1e-10;
+
 }  // namespace
 
 Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts, const Tin& tin)
@@ -142,17 +145,21 @@ Surface::Interval Surface::allowed_heights(Index v) const {
     const Vertex b = vertex(mesh().origin[next_in_triangle(h)]),
                  c = vertex(mesh().origin[previous_in_triangle(h)]);
     const Point pa = place(v), pb{b.x, b.y}, pc{c.x, c.y};
-    const double area = static_cast<double>(orient2d(pa, pb, pc));
-    posts_.visit_under(pa, pb, pc, [&](uint32_t s, Point p) {
-      const double weight = static_cast<double>(orient2d(pb, pc, p)) / area;
-      if (weight == 0) return;
-      const double weight_b = static_cast<double>(orient2d(pc, pa, p)) / area;
-      const double others = weight_b * b.z + (1 - weight - weight_b) * c.z;
-      const auto [middle, radius] = model_.middle_and_radius(survey_.samples[s]);
-      low = std::max(low, (middle - radius - others) / weight);
-      high = std::min(high, (middle + radius - others) / weight);
-      weights += weight * weight;
-      heights += weight * (survey_.samples[s].height / 65536.0 - others);
+    // What v adds, and the others: planes, which are 1 and 0 at v.
+    const Plane own({pa.x, pa.y, 1}, {pb.x, pb.y, 0}, {pc.x, pc.y, 0});
+    const Plane rest({pa.x, pa.y, 0}, b, c);
+    posts_.visit_runs(pa, pb, pc, [&](std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last; ++i) {
+        const Point p = posts_.place(i);
+        const double weight = own.at(p);
+        if (weight < kNoWeight) continue;
+        const double others = rest.at(p), middle = middles_[i], inverse = 1 / weight;
+        const auto radius = static_cast<double>(radii_[i]);
+        low = std::max(low, (middle - radius - others) * inverse);
+        high = std::min(high, (middle + radius - others) * inverse);
+        weights += weight * weight;
+        heights += weight * (survey_.samples[posts_.number(i)].height / 65536.0 - others);
+      }
     });
   });
   if (!covered) return {heights_[v], heights_[v], 0, 0};  // nothing around says what is allowed

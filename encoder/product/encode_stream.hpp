@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "encoder/fit/approximation.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/product/options.hpp"
 #include "encoder/terrain/lay_out.hpp"
@@ -24,10 +25,17 @@ struct EncodedStream {
 
 // Chooses, encodes, decodes with the shipped decoder, and compares that with every post or point:
 // what is returned keeps the bound, covers all heights, leaves all voids open and keeps water at
-// its level. With max_bytes, that is the smallest bound found whose stream is no longer, as sought
-// in some twenty encodings. Throws Error if what is asked for cannot be had.
+// its level. With a limit of bytes or vertices, that is the smallest bound found whose stream keeps
+// the limit, in about the time of four encodings. Throws Error if what is asked for cannot be had.
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
                             const Progress& progress);
+
+// The same without looking for a bound: only insertion of the worst sample keeps max_vertices.
+EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
+                              const Progress& progress);
+
+// What becomes of an approximation with these options.
+EncodedStream measured(const Source& source, const EncodeOptions& options, Approximation&& found);
 
 }  // namespace microtin::product
 

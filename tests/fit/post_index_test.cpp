@@ -46,6 +46,13 @@ void check(const Points& posts, uint32_t side, Random& random) {
     hits += all.size();
     if (found(index, corner[0], corner[1], corner[2]) != all) ++wrong;
   }
+  for (uint32_t i = 0; i < posts.size(); ++i) {
+    const auto at = index.find(posts[i]);
+    if (!at || index.number(*at) != i || index.place(*at) != posts[i]) ++wrong;
+    const Point elsewhere = point_in(random, side);
+    const bool is_post = std::find(posts.begin(), posts.end(), elsewhere) != posts.end();
+    if (index.find(elsewhere).has_value() != is_post) ++wrong;
+  }
   CHECK(wrong == 0);
   CHECK(hits > 300);
 }

@@ -236,6 +236,43 @@ TEST_CASE("simplify: the bound holds at every sample") {
   CHECK(more == 4);
 }
 
+TEST_CASE("simplify: vertices prefer places whose coordinates are multiples of two") {
+  const auto smooth = [](int x, int y) {
+    return static_cast<int32_t>(
+        std::lround(kStep * (12 * std::sin(x * 0.11) + 9 * std::cos(y * 0.13))));
+  };
+  const Tin tin = simplify(raster(97, 97, smooth, 3 * kStep / 2), bounded());
+  REQUIRE(tin.vertices.size() > 40);
+  const auto even = std::count_if(tin.vertices.begin(), tin.vertices.end(),
+                                  [](const Vertex& v) { return v.x % 2 == 0 && v.y % 2 == 0; });
+  CHECK(static_cast<double>(even) > 0.85 * static_cast<double>(tin.vertices.size()));
+}
+
+TEST_CASE("simplify: flat ground keeps its height, and errors their balance") {
+  const int32_t bound = 5 * kStep / 2;
+  const auto coast = [](int x, int y) {
+    const double hills = 14 * std::sin(x * 0.13) + 11 * std::cos(y * 0.11 + x * 0.04) - 4;
+    return static_cast<int32_t>(std::lround(kStep * std::max(hills, 0.0)));
+  };
+  const Survey survey = raster(81, 81, coast, bound);
+  for (const Search search : {Search::kFast, Search::kNormal}) {
+    SimplifyOptions options = bounded();
+    options.search = search;
+    const Surface surface(simplify(survey, options));
+    double sum = 0, flat_sum = 0, flat_count = 0;
+    for (const Sample& s : survey.samples) {
+      const double error = static_cast<double>(*surface.heights_at(s.place).begin()) - s.height;
+      sum += error;
+      if (s.height != 0) continue;
+      flat_sum += error;
+      ++flat_count;
+    }
+    REQUIRE(flat_count > 1000);
+    CHECK(std::abs(flat_sum / flat_count) < 0.2 * bound);
+    CHECK(std::abs(sum / static_cast<double>(survey.samples.size())) < 0.03 * bound);
+  }
+}
+
 TEST_CASE("simplify: a longer search finds fewer vertices, always the same") {
   const Survey survey = raster(65, 65, rough, 4 * kStep);
   std::size_t before = std::numeric_limits<std::size_t>::max();

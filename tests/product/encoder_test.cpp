@@ -79,6 +79,23 @@ TEST_CASE("library: so many vertices, so many bytes") {
   CHECK(std::stod(stream.report.max_error) <= std::stod(stream.report.bound));
 }
 
+TEST_CASE(
+    "library: a number of vertices is used at least as well as by a bound that takes as many") {
+  const Terrain terrain(cone(40));
+  for (const char* bound : {"0.3", "0.7", "1.5"}) {
+    CAPTURE(bound);
+    StreamOptions options;
+    options.max_error = bound;
+    options.max_vertices = 0;
+    const Report bounded = encode_stream(terrain, options).report;
+    options.max_error.clear();
+    options.max_vertices = static_cast<uint32_t>(bounded.vertices);
+    const Report budget = encode_stream(terrain, options).report;
+    CHECK(budget.vertices <= bounded.vertices);
+    CHECK(std::stod(budget.max_error) <= std::stod(bound));
+  }
+}
+
 TEST_CASE("library: points, exactly without a bound") {
   Points points;
   points.z_decimals = 2;

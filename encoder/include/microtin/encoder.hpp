@@ -107,7 +107,7 @@ struct Options {
 
 /* Without a bound and without a limit here every post or point is a vertex. */
 struct StreamOptions : Options {
-  uint32_t max_vertices = 0; /* 3 .. 2^24: the best ones, so many; without max_error */
+  uint32_t max_vertices = 0; /* 3 .. 2^24: the smallest bound for them; no max_error */
   uint32_t max_bytes = 0;    /* the smallest bound that so many bytes allow; without both */
 };
 
@@ -123,7 +123,7 @@ struct Report {
   uint64_t vertices = 0;
   uint64_t bytes = 0;
   uint32_t tiles = 0;    /* 0: a stream */
-  std::string bound;     /* asked for, or found for max_bytes; "": none */
+  std::string bound;     /* asked for, or found for a limit; "": none */
   std::string max_error; /* measured, in the terrain's unit, rounded up to 9 decimals */
   std::string rms_error;
   std::string mean_error; /* above 0: the surface is too high */
@@ -144,7 +144,7 @@ struct Cancelled : std::exception {
 
 /* Both may be empty. Called from several threads, one at a time; both may throw. */
 struct Callbacks {
-  std::function<void(double done)> progress; /* 0 .. 1 of the time, estimated; not with max_bytes */
+  std::function<void(double done)> progress; /* 0 .. 1 of the time, estimated */
   std::function<bool()> cancelled;           /* asked often, but for packs of points */
 };
 

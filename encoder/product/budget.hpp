@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// The best terrain for so many bytes or vertices.
+#ifndef MICROTIN_ENCODER_PRODUCT_BUDGET_HPP
+#define MICROTIN_ENCODER_PRODUCT_BUDGET_HPP
+
+#include "encoder/layers.hpp"
+#include "encoder/product/encode_stream.hpp"
+
+namespace microtin::product {
+
+// As encode_stream, for options with a limit of bytes or of vertices and without a bound. About
+// four encodings' time. Throws Error if no bound is large enough.
+EncodedStream encode_within_budget(const Source& source, const EncodeOptions& options,
+                                   const Progress& progress);
+
+}  // namespace microtin::product
+
+#endif
