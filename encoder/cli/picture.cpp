@@ -12,7 +12,9 @@
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/file_target.hpp"
+#include "encoder/files/input_file.hpp"
 #include "encoder/files/output_file.hpp"
+#include "encoder/picture/page.hpp"
 #include "encoder/picture/render.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/terrain/fractal.hpp"
@@ -47,18 +49,34 @@ Spot cell_of(const Raster& raster, const SurfaceModel& model) {
   return {step_of(raster.x) / step_of(lattice.x), step_of(raster.y) / step_of(lattice.y)};
 }
 
+constexpr uint32_t kFlatWidth = 512;  // of the picture for browsers that cannot draw
+constexpr const char* kPage = ".html";
+
 std::string world_path(const std::string& picture) {
   return std::filesystem::path(picture).replace_extension(".pgw").string();
 }
 
 void expect_picture(const RenderRequest& request) {
   const std::string suffix = std::filesystem::path(request.output).extension().string();
-  if (!suffix.empty() && suffix != ".png") {
-    throw Error(request.output + ": not a kind of picture that is written (.png)");
+  if (!suffix.empty() && suffix != ".png" && suffix != kPage) {
+    throw Error(request.output + ": not a kind of picture that is written (.png, .html)");
   }
-  if (request.world && suffix.empty()) {
+  if (request.world && suffix != ".png") {
     throw Error(request.output + ": a world file lies beside a .png file");
   }
+}
+
+// One file, which shows the terrain in a browser.
+void write_page(const RenderRequest& request, const Portrait& portrait) {
+  if (!request.source.empty()) throw Error(request.output + ": a page has no map of errors");
+  const std::string page = with_file_context(request.input, [&] {
+    return render_page(portrait, std::filesystem::path(request.input).stem().string(),
+                       read_file(request.input), render_png(portrait, kFlatWidth));
+  });
+  OutputFile out(request.output);
+  out.write(page);
+  out.commit();
+  warn_of_units(request.output, portrait.model);
 }
 
 void draw(const RenderRequest& request, const Portrait& portrait, const Comparison* comparison) {
@@ -87,6 +105,10 @@ void run_render(const RenderRequest& request) {
   const Portrait portrait{document.model(), document.metadata(), document.vertices(),
                           document.bytes(), document.tiles(),    request.mesh,
                           request.palette};
+  if (std::filesystem::path(request.output).extension() == kPage) {
+    write_page(request, portrait);
+    return;
+  }
   if (request.source.empty()) {
     draw(request, portrait, nullptr);
     return;

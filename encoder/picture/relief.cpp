@@ -169,12 +169,12 @@ void Relief::find_normals(const Ground& ground) {
     area += normal.z;
     slopes += std::hypot(normal.x, normal.y);
   });
-  const double scale = slopes > 0 ? kMeanSlope * area / slopes : 1;
+  if (slopes > 0) slope_scale_ = kMeanSlope * area / slopes;
   normals_.assign(model_.vertices.size(), {0, 0, 0});
   for_each_normal(ground, [&](const Vector& normal, const Triangle& triangle) {
     for (const uint32_t v : triangle) {
       Vector& sum = normals_[v];
-      sum = {sum.x + scale * normal.x, sum.y + scale * normal.y, sum.z + normal.z};
+      sum = {sum.x + slope_scale_ * normal.x, sum.y + slope_scale_ * normal.y, sum.z + normal.z};
     }
   });
 }

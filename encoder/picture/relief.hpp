@@ -28,6 +28,9 @@ class Relief {
 
   void draw_ground(Canvas& canvas, const MapFrame& frame) const;
 
+  // What heights are multiplied with for the light.
+  double slope_scale() const { return slope_scale_; }
+
   // The triangles' lines fade in from the middle to the right. `line_width` in pixels.
   void draw_lines(Canvas& canvas, const MapFrame& frame, double line_width) const;
 
@@ -45,6 +48,7 @@ class Relief {
   std::vector<Vector> normals_;  // upward, of any length
   int64_t lowest_ = 0, highest_ = 0;
   Palette palette_;
+  double slope_scale_ = 1;
 };
 
 }  // namespace microtin::picture

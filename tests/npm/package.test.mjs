@@ -12,7 +12,7 @@ const size = (bytes) => zlib.gzipSync(bytes, { level: 9 }).length;
 
 test("the module takes at most 20 KB gzipped, its WebAssembly 32 KB and 16", (t) => {
   const module = size(fs.readFileSync(path.join(folder, "microtin.js")));
-  const wasm = fs.readFileSync(path.join(folder, "../npm-build/microtin.opt.wasm"));
+  const wasm = fs.readFileSync(path.join(folder, "../decoder/packages/npm/microtin.opt.wasm"));
   t.diagnostic(`module ${module} bytes gzipped; WebAssembly ${wasm.length}, ${size(wasm)} gzipped`);
   assert.ok(module <= 20 * 1024);
   assert.ok(wasm.length <= 32 * 1024 && size(wasm) <= 16 * 1024);

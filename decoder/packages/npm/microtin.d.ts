@@ -40,8 +40,6 @@ export interface Header {
   /** In units of height: the bound asked for, and the errors measured at every sample of the source. */
   accuracy?: { bound?: number; largest: number; rms: number; mean: number };
   source?: string;
-  date?: string;
-  lineage?: string;
   /** Triangles of which all vertices have this very height are water. */
   waterLevel?: number;
 }

@@ -5,6 +5,11 @@
 
 using namespace microtin;
 
+// What the sources read by place.
+static_assert(offsetof(microtin_pack_info, lowest) == 20 && offsetof(microtin_pack_info, x) == 24 &&
+                  offsetof(microtin_info, x) == 16 && offsetof(microtin_info, mesh_bytes) == 88,
+              "see src/pack.js and src/terrain.js");
+
 extern "C" {
 
 // --- Streams.
@@ -56,12 +61,17 @@ uint32_t pack_bytes(uint32_t slots, uint32_t capacity) {
   return MICROTIN_PACK_BYTES(slots, capacity);
 }
 
-// The mesh of a tile that is there, or that is just being read; null if it is neither.
+// The mesh of a tile that is there, or that is just being read; null if it is neither, or has no
+// terrain.
 const microtin_mesh* tile_mesh(const microtin_pack* pack, uint32_t tile) {
-  const uint32_t slot = slot_of(*pack, tile);
-  if (slot != pack->slot_count) return pack->slots[slot].mesh;
-  const bool is_read = pack->stage == PackStage::kStream && pack->tile == tile;
-  return is_read ? pack->slots[pack->slot].mesh : nullptr;
+  uint32_t slot = slot_of(*pack, tile);
+  if (slot == pack->slot_count) {
+    if (pack->stage != PackStage::kStream || pack->tile != tile) return nullptr;
+    slot = pack->slot;
+  } else if (!pack->slots[slot].has_terrain) {
+    return nullptr;
+  }
+  return static_cast<const microtin_mesh*>(pack->slots[slot].space);
 }
 
 // Where the stream that is being read ends; 0 if none is.

@@ -42,6 +42,10 @@ class NoteReader {
     return value;
   }
 
+  text() {
+    return new TextDecoder().decode(this.bytes);
+  }
+
   decimal() {
     const value = this.varint();
     const mantissa = value & 1n ? -(value >> 1n) - 1n : value >> 1n;
@@ -57,16 +61,14 @@ const NOTES = {
       vertical: Number(note.varint()) || undefined,
     },
   }),
-  3: (note) => ({ source: new TextDecoder().decode(note.bytes) }),
+  3: (note) => ({ source: note.text() }),
   4: (note) => {
     const isBound = note.byte() === 1;
     const [bound, largest, rms, mean] = Array.from({ length: 4 }, () => note.decimal());
     return { accuracy: { bound: isBound ? bound : undefined, largest, rms, mean } };
   },
-  5: (note) => ({ date: new TextDecoder().decode(note.bytes) }),
-  6: (note) => ({ lineage: new TextDecoder().decode(note.bytes) }),
   7: (note) => ({ waterLevel: note.decimal() }),
-  9: (note) => ({ wkt: new TextDecoder().decode(note.bytes) }),
+  9: (note) => ({ wkt: note.text() }),
 };
 
 // The notes of the header with which `size` bytes at `start` of an instance's memory begin.

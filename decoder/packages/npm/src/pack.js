@@ -9,8 +9,8 @@ import {
 } from "./status.js";
 import { meshArrays } from "./terrain.js";
 
-const PACK_INFO_BYTES = 96; // microtin_pack_info, rounded up
-const PACK_INFO = { xMax: 0, yMax: 4, width: 8, height: 10, most: 12, lowest: 16, highest: 18, axes: 24 };
+const INFO_BYTES = 96, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12, LOWEST = 20, HIGHEST = 22,
+  AXES = 24; // where they are in microtin_pack_info
 const MOST_SLOTS = 255;
 const FIRST_PIECE = 1024; // bytes of a tile that are read first; then twice as many
 const PACK_STEPS = 1024;
@@ -51,46 +51,34 @@ export class Pack {
 
   async #readHeader() {
     const instance = this.#instance;
-    const at = instance.reserve(PACK_INFO_BYTES);
+    const at = instance.reserve(INFO_BYTES);
     this.#putCourse([-256, -256, -256, -256]); // touches no tile
     await this.#serve();
     instance.calls.microtin_pack_header(this.#pack, at);
     const { view } = instance;
-    this.columns = Math.ceil(view.getUint32(at + PACK_INFO.xMax, true) / view.getUint16(at + PACK_INFO.width, true));
-    this.rows = Math.ceil(view.getUint32(at + PACK_INFO.yMax, true) / view.getUint16(at + PACK_INFO.height, true));
-    this.extent = [view.getUint32(at + PACK_INFO.xMax, true), view.getUint32(at + PACK_INFO.yMax, true)];
-    this.tileSize = [view.getUint16(at + PACK_INFO.width, true), view.getUint16(at + PACK_INFO.height, true)];
-    this.mostVertices = view.getUint32(at + PACK_INFO.most, true);
-    const axes = axesAt(view, at + PACK_INFO.axes);
-    this.lowest = axes.z.start + view.getInt16(at + PACK_INFO.lowest, true) * axes.z.step;
-    this.highest = axes.z.start + view.getInt16(at + PACK_INFO.highest, true) * axes.z.step;
+    const large = (place) => view.getUint32(at + place, true), small = (place) => view.getUint16(at + place, true);
+    this.extent = [large(X_MAX), large(Y_MAX)];
+    this.tileSize = [small(WIDTH), small(HEIGHT)];
+    [this.columns, this.rows] = this.extent.map((extent, i) => Math.ceil(extent / this.tileSize[i]));
+    this.mostVertices = large(MOST);
+    const axes = axesAt(view, at + AXES);
+    [this.lowest, this.highest] = [LOWEST, HIGHEST].map(
+      (place) => axes.z.start + view.getInt16(at + place, true) * axes.z.step);
     this.header = { axes, ...await this.#readNotes() };
   }
 
+  // The header has passed its check, so that nothing but its length is open.
   async #readNotes() {
     const instance = this.#instance;
-    for (let size = AHEAD; ; size += AHEAD) {
-      const head = await this.#head(size);
+    const { results, calls } = instance;
+    for (let head = this.#source.known(0, AHEAD); ; head = await this.#source.read(0, instance.result(1))) {
       const notes = instance.borrow(head.length, (at) => {
         instance.put(at, head);
-        const { results } = instance;
-        const status = instance.calls.microtin_find_note(at, head.length, 0, results, results + 4);
+        const status = calls.microtin_find_note(at, head.length, 0, results, results + 4);
         return status === NEED_INPUT ? undefined : notesAt(instance, at, head.length);
       });
-      if (notes || head.length < size) return notes;
+      if (notes) return notes;
     }
-  }
-
-  // The pack's first bytes.
-  async #head(size) {
-    const head = [];
-    for (let length = 0; length < size; ) {
-      const bytes = this.#source.known(length, size - length) ?? await this.#source.read(length, size);
-      if (bytes.length === 0) break;
-      head.push(...bytes.subarray(0, size - length));
-      length = head.length;
-    }
-    return Uint8Array.from(head);
   }
 
   get bytesRead() {
@@ -115,12 +103,9 @@ export class Pack {
 
   tilesIn(xMin, yMin, xMax, yMax) {
     const { axes } = this.header;
-    const range = (axis, low, high, size, count) => {
-      const [first, last] = [low, high].map((value) => Math.floor((value - axis.start) / axis.step / size));
-      return [Math.max(0, first), Math.min(count - 1, last)];
-    };
-    const [left, right] = range(axes.x, xMin, xMax, this.tileSize[0], this.columns);
-    const [bottom, top] = range(axes.y, yMin, yMax, this.tileSize[1], this.rows);
+    const near = (axis, value, i) => Math.floor((value - axis.start) / axis.step / this.tileSize[i]);
+    const [left, right] = [Math.max(0, near(axes.x, xMin, 0)), Math.min(this.columns - 1, near(axes.x, xMax, 0))];
+    const [bottom, top] = [Math.max(0, near(axes.y, yMin, 1)), Math.min(this.rows - 1, near(axes.y, yMax, 1))];
     const tiles = [];
     for (let row = bottom; row <= top; ++row) {
       for (let column = left; column <= right; ++column) tiles.push(row * this.columns + column);

@@ -2,12 +2,12 @@
 // Errors, with the decoder's status.
 
 const STATUSES = {
-  16: ["BAD_MAGIC", "this is not a microtin file"],
-  17: ["UNSUPPORTED_VERSION", "the file has a version, or a part, that is unknown here"],
-  18: ["TOO_BIG", "the terrain has too many vertices"],
-  19: ["CHECKSUM", "the bytes were damaged"],
-  20: ["MALFORMED", "the file breaks a rule of the format"],
-  21: ["TRUNCATED", "the file ends too early"],
+  16: ["BAD_MAGIC", "not a microtin file"],
+  17: ["UNSUPPORTED_VERSION", "of an unknown version"],
+  18: ["TOO_BIG", "too large"],
+  19: ["CHECKSUM", "damaged"],
+  20: ["MALFORMED", "breaks a rule of the format"],
+  21: ["TRUNCATED", "ends too early"],
   25: ["IO", "reading failed"],
 };
 export const DONE = 0, NEED_INPUT = 1, STEP_LIMIT = 2;

@@ -7,18 +7,19 @@ import { DONE, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED } from "./status
 
 const REAL = 0, VOID = 1;
 const UNVERIFIED = 1;
-const INFO = { vertices: 0, headerBytes: 4, decoding: 10, axes: 16, meshBytes: 88, decoderBytes: 92 };
+const INFO_BYTES = 96, INFO_VERTICES = 0, INFO_DECODING = 10, INFO_AXES = 16, INFO_MESH_BYTES = 88,
+  INFO_DECODER_BYTES = 92; // where they are in microtin_info
 const CHUNK = 65536;
 const STEPS = 1 << 16;
 const DECODINGS = [, "quick", "balanced", "dense"];
 
-// Vertices and triangles of a mesh whose lattice begins at (x0, y0) of the axes'.
+// Vertices and triangles of a mesh, 0 if there is none, whose lattice begins at (x0, y0) of the axes'.
 export function meshArrays(instance, mesh, axes, x0 = 0, y0 = 0) {
   const { calls } = instance;
-  const count = calls.microtin_vertex_count(mesh);
+  const count = mesh && calls.microtin_vertex_count(mesh);
   const positions = new Float32Array(3 * count);
   instance.borrow(12 * count, (at) => {
-    calls.vertices(mesh, at);
+    if (count) calls.vertices(mesh, at);
     const lattice = instance.array(Int32Array, at, 3 * count);
     for (let i = 0; i < 3 * count; i += 3) {
       positions[i] = lattice[i] * axes.x.step;
@@ -27,7 +28,7 @@ export function meshArrays(instance, mesh, axes, x0 = 0, y0 = 0) {
     }
   });
   const triangles = (kind) => instance.borrow(24 * count + 12, (at) =>
-    instance.array(Uint32Array, at, 3 * calls.triangles(mesh, kind, at)).slice());
+    instance.array(Uint32Array, at, count && 3 * calls.triangles(mesh, kind, at)).slice());
   return {
     origin: [axes.x.start + x0 * axes.x.step, axes.y.start + y0 * axes.y.step],
     positions,
@@ -126,7 +127,7 @@ export class Decoder {
     const instance = this.#instance;
     const start = instance.end;
     const at = instance.reserve(head.length);
-    const info = instance.reserve(96);
+    const info = instance.reserve(INFO_BYTES);
     instance.put(at, head);
     const status = instance.calls.microtin_peek_32(at, head.length, info);
     if (status > NEED_INPUT) throw new MicrotinError(status);
@@ -139,9 +140,9 @@ export class Decoder {
     const instance = this.#instance;
     const { view, calls } = instance;
     const number = (at) => view.getUint32(info + at, true);
-    const [meshBytes, decoderBytes] = [number(INFO.meshBytes), number(INFO.decoderBytes)];
-    const axes = axesAt(view, info + INFO.axes);
-    const header = { vertices: number(INFO.vertices), decoding: DECODINGS[view.getUint8(info + INFO.decoding)], axes, ...notes };
+    const [meshBytes, decoderBytes] = [number(INFO_MESH_BYTES), number(INFO_DECODER_BYTES)];
+    const axes = axesAt(view, info + INFO_AXES);
+    const header = { vertices: number(INFO_VERTICES), decoding: DECODINGS[view.getUint8(info + INFO_DECODING)], axes, ...notes };
     instance.end = start;
     const workspace = instance.reserve(meshBytes);
     calls.microtin_mesh_init_32(workspace, meshBytes, instance.results);

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// The page: what the worker decodes is drawn, and what the user wants is done.
+import { Camera } from "./camera.js";
+
+const element = (id) => document.getElementById(id);
+const canvas = element("view");
+const given = JSON.parse(element("scene").textContent);
+const SYMBOLS = { metre: "m", degree: "°", "international foot": "ft", "US survey foot": "ft (US)" };
+
+const camera = new Camera();
+let decoder, drawer, header;
+let phases = 1, following = true; // the last phase
+let number = 0; // of pictures asked for
+let pointer;
+
+function say(text) {
+  element("facts").textContent = text;
+}
+
+function text(value) {
+  return value.toLocaleString("en", { maximumFractionDigits: 1 });
+}
+
+// --- What the decoder and the drawer say.
+
+const STEEPEST = 0.15; // the range of heights in the world, at least, where the slider begins
+
+function begin(message) {
+  ({ header } = message);
+  const { box, tiles } = message;
+  const { waterLevel, axes } = header;
+  const size = [box[2] - box[0], box[3] - box[1]];
+  const unit = 2 / Math.max(size[0] * given.ground[0], size[1] * given.ground[1], 1e-9);
+  const units = given.ground.map((length) => length * unit);
+  const range = (given.heights[1] - given.heights[0]) * units[2];
+  element("scale").value = Math.max(1, STEEPEST / (range || STEEPEST));
+  element("tiles-label").hidden = tiles.length < 2;
+  drawer.postMessage({
+    kind: "frame", units, heights: given.heights, middle: [box[0] + size[0] / 2, box[1] + size[1] / 2],
+    water: waterLevel === undefined ? undefined : { height: waterLevel, half: axes.z.step / 100 },
+  });
+}
+
+function progress(message) {
+  say(factsOf(message));
+  phases = Math.max(phases, message.phase);
+  element("phase").max = phases;
+  if (following) element("phase").value = phases;
+}
+
+function showFlat({ message }) {
+  element("why").textContent = `The terrain is shown flat: ${message}.`;
+  element("flat").hidden = false;
+  for (const id of ["view", "controls"]) element(id).hidden = true;
+  document.body.dataset.state = "flat";
+}
+
+function factsOf({ kind, bytes, vertices }) {
+  const { accuracy, units } = header;
+  const unit = SYMBOLS[units?.vertical] ?? "";
+  const error = accuracy ? `, at most ${text(accuracy.largest)} ${unit} off` : "";
+  return `${text(vertices)} vertices, ${text(bytes)} bytes${kind === "end" ? "" : " so far"}${error}`;
+}
+
+const ANSWERS = {
+  begin,
+  progress,
+  end: (message) => {
+    say(factsOf(message));
+    document.body.dataset.state = "complete";
+  },
+  drawn: ({ number: drawn, pointer: at, place }) => {
+    document.body.dataset.drawn = drawn;
+    if (place) decoder.postMessage({ kind: "ask", x: place[0], y: place[1] });
+    else if (at) element("pointer").textContent = "";
+  },
+  flat: showFlat,
+  height: ({ x, y, height }) => {
+    const unit = SYMBOLS[header.units?.vertical] ?? "", bound = header.accuracy?.bound;
+    const digits = header.units?.horizontal === "degree" ? 5 : 1;
+    const terrain = Number.isNaN(height) ? "not known" : `${text(height)} ${unit}${bound ? ` ± ${bound}` : ""}`;
+    element("pointer").textContent = `${terrain}\n${x.toFixed(digits)}, ${y.toFixed(digits)}`;
+  },
+  error: ({ message }) => {
+    say(`This terrain cannot be shown: ${message}`);
+    document.body.dataset.state = "failed";
+  },
+};
+
+// --- Drawing.
+
+function refresh() {
+  const density = Math.min(2, devicePixelRatio || 1);
+  const [width, height] = [canvas.clientWidth * density, canvas.clientHeight * density].map(Math.round);
+  document.body.dataset.asked = ++number;
+  drawer.postMessage({
+    kind: "draw", number, width, height, matrix: camera.matrix(width / height),
+    phase: Number(element("phase").value), scale: Number(element("scale").value),
+    mesh: element("mesh").checked, tiles: element("tiles").checked,
+    pointer: pointer && [Math.round(pointer[0] * density), Math.round(height - 1 - pointer[1] * density)],
+  });
+}
+
+// --- What the user does.
+
+const TURN = 0.006, KEY_TURN = 0.06, KEY_MOVE = 0.05;
+const KEYS = {
+  ArrowLeft: () => camera.turn(-KEY_TURN, 0, isFlying()),
+  ArrowRight: () => camera.turn(KEY_TURN, 0, isFlying()),
+  ArrowUp: () => camera.turn(0, KEY_TURN, isFlying()),
+  ArrowDown: () => camera.turn(0, -KEY_TURN, isFlying()),
+  w: () => camera.move(0, KEY_MOVE, 0),
+  s: () => camera.move(0, -KEY_MOVE, 0),
+  a: () => camera.move(-KEY_MOVE, 0, 0),
+  d: () => camera.move(KEY_MOVE, 0, 0),
+  r: () => camera.move(0, 0, KEY_MOVE),
+  f: () => camera.move(0, 0, -KEY_MOVE),
+  "+": () => camera.approach(0.9),
+  "=": () => camera.approach(0.9),
+  "-": () => camera.approach(1 / 0.9),
+  m: () => element("mesh").click(),
+  t: () => element("tiles").click(),
+  0: () => camera.showMap(),
+  Home: () => camera.showWhole(),
+};
+const isFlying = () => element("fly").checked;
+
+const fingers = new Map(); // where each pointer is
+
+// Two fingers: their middle and how far they are from each other.
+function pinch() {
+  const [a, b] = [...fingers.values()];
+  return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, reach: Math.hypot(a.x - b.x, a.y - b.y) };
+}
+
+function drag(event) {
+  const before = fingers.get(event.pointerId);
+  const old = fingers.size === 2 ? pinch() : before;
+  fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+  const now = fingers.size === 2 ? pinch() : fingers.get(event.pointerId);
+  const [x, y] = [now.x - old.x, now.y - old.y];
+  if (fingers.size === 2 && old.reach > 0) camera.approach(old.reach / Math.max(now.reach, 1));
+  if (fingers.size === 2 || event.shiftKey || event.buttons & 6 || camera.isMap) {
+    camera.move(-x / canvas.clientHeight, y / canvas.clientHeight, 0);
+  } else {
+    camera.turn(x * TURN, -y * TURN, isFlying());
+  }
+}
+
+function listen() {
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.setPointerCapture(event.pointerId);
+    fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
+  });
+  canvas.addEventListener("pointermove", (event) => {
+    if (fingers.has(event.pointerId)) drag(event);
+    pointer = [event.clientX, event.clientY];
+    refresh();
+  });
+  for (const kind of ["pointerup", "pointercancel"]) {
+    canvas.addEventListener(kind, (event) => fingers.delete(event.pointerId));
+  }
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+  canvas.addEventListener("wheel", (event) => {
+    event.preventDefault();
+    camera.approach(Math.exp(event.deltaY / 600));
+    refresh();
+  }, { passive: false });
+  addEventListener("keydown", (event) => {
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const isTyped = event.target instanceof HTMLInputElement || event.ctrlKey || event.metaKey || event.altKey;
+    if (!KEYS[key] || isTyped) return;
+    event.preventDefault();
+    KEYS[key]();
+    refresh();
+  });
+  element("whole").addEventListener("click", () => { camera.showWhole(); refresh(); });
+  element("map").addEventListener("click", () => { camera.showMap(); refresh(); });
+  element("controls").addEventListener("input", () => {
+    following = Number(element("phase").value) === phases;
+    refresh();
+  });
+  addEventListener("resize", refresh);
+}
+
+// --- Beginning.
+
+// What is within the page, or a file that its address names: page.html?file=area.mtp.
+function source() {
+  const file = new URLSearchParams(location.search).get("file");
+  return file ? { url: new URL(file, location.href).href } : { text: element("terrain").textContent };
+}
+
+function workerOf(code) {
+  const worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
+  worker.onmessage = ({ data }) => {
+    ANSWERS[data.kind](data);
+    if (data.kind !== "drawn" && data.kind !== "height") refresh();
+  };
+  worker.onerror = ({ message }) => ANSWERS.error({ message });
+  return worker;
+}
+
+function start() {
+  const { port1, port2 } = new MessageChannel();
+  const shown = canvas.transferControlToOffscreen();
+  drawer = workerOf(VIEWER_DRAWER);
+  decoder = workerOf(VIEWER_DECODER);
+  drawer.postMessage({ kind: "begin", canvas: shown, tints: given.tints, port: port1 }, [shown, port1]);
+  decoder.postMessage({ kind: "show", scene: given, port: port2, ...source() }, [port2]);
+}
+
+try {
+  start();
+  listen();
+} catch (error) {
+  showFlat(error);
+}

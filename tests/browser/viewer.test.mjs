@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT
+// The page of render -o FILE.html and the npm module, in Debian's chromium with its software GL.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import fs from "node:fs";
+import http from "node:http";
+import os from "node:os";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { pathToFileURL } from "node:url";
+import puppeteer from "puppeteer-core";
+
+const { MICROTIN: tool, MICROTIN_NPM: npm, MICROTIN_GOLDEN: golden, MICROTIN_SCREENSHOT: screenshot } = process.env;
+const folder = fs.mkdtempSync(path.join(os.tmpdir(), "viewer-"));
+const file = (name) => path.join(folder, name);
+const microtin = (...words) => execFileSync(tool, words, { stdio: ["ignore", "pipe", "pipe"], cwd: folder });
+const GL = ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader"];
+const launch = (args = GL) => puppeteer.launch({ executablePath: "/usr/bin/chromium", args });
+
+let browser;
+
+before(async () => {
+  microtin("fractal", "--size", "257", "--seed", "3", "-o", "area.asc");
+  for (const [name, ...words] of [["area.mtp", "--tile-vertices", "500"], ["area.mtin"]]) {
+    microtin("encode", "area.asc", "--units", "metre", "--max-error", "8", "--fast", ...words, "-o", name);
+    microtin("render", name, "-o", name.replace("area.", "") + ".html");
+  }
+  microtin("render", "area.mtp", "--width", "600", "-o", "area.png");
+  browser = await launch();
+});
+
+after(async () => {
+  await browser?.close();
+  fs.rmSync(folder, { recursive: true });
+});
+
+// A page that has come to an end: "complete", "failed" or "flat".
+async function open(url, expected, { prepare, from = browser } = {}) {
+  const page = await from.newPage();
+  const errors = [];
+  page.on("pageerror", (error) => errors.push(error.message));
+  await page.setViewport({ width: 900, height: 900 });
+  await prepare?.(page);
+  await page.goto(url);
+  await page.waitForFunction("document.body.dataset.state", { timeout: 60_000 });
+  assert.equal(await page.evaluate("document.body.dataset.state"), expected);
+  assert.deepEqual(errors, []);
+  return page;
+}
+
+const facts = (page) => page.$eval("#facts", (element) => element.textContent);
+
+// Until what was asked for has been drawn, and is seen.
+async function settled(page) {
+  await page.waitForFunction("document.body.dataset.drawn === document.body.dataset.asked", { timeout: 10_000 });
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+// Width, height and pixels (red, green, blue, opacity) of a picture, read by the browser.
+async function pixelsOf(page, png) {
+  const { width, height, text } = await page.evaluate(async (address) => {
+    const image = new Image();
+    image.src = address;
+    await image.decode();
+    const canvas = Object.assign(document.createElement("canvas"), { width: image.width, height: image.height });
+    const context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0);
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    let text = "";
+    for (let i = 0; i < data.length; i += 8192) text += String.fromCharCode(...data.subarray(i, i + 8192));
+    return { width: image.width, height: image.height, text: btoa(text) };
+  }, `data:image/png;base64,${Buffer.from(png).toString("base64")}`);
+  return { width, height, pixels: Buffer.from(text, "base64") };
+}
+
+// The rectangle of a map without voids: its rows and columns are coloured for the most part.
+function mapIn({ width, height, pixels }) {
+  const isColoured = (x, y) => {
+    const at = 4 * (y * width + x), colour = [...pixels.subarray(at, at + 3)];
+    return Math.max(...colour) - Math.min(...colour) > 8 || Math.max(...colour) < 200;
+  };
+  const count = (length, test) => Array.from({ length }, (_, i) => test(i)).filter(Boolean).length;
+  const rows = Array.from({ length: height }, (_, y) => y).filter((y) => count(width, (x) => isColoured(x, y)) > 0.85 * width);
+  const middle = rows.slice(rows.length / 4, (3 * rows.length) / 4);
+  const columns = Array.from({ length: width }, (_, x) => x)
+    .filter((x) => middle.filter((y) => isColoured(x, y)).length > 0.6 * middle.length);
+  return { left: columns[0], top: rows[0], width: columns.at(-1) - columns[0] + 1, height: rows.at(-1) - rows[0] + 1 };
+}
+
+// The mean colour of a square part of a map at a place, 0 .. 1 from the left and from the top.
+function colourAt({ width, pixels }, map, u, v) {
+  const sum = [0, 0, 0];
+  const reach = map.width / 100;
+  const [x, y] = [map.left + u * map.width, map.top + v * map.height];
+  let count = 0;
+  for (let row = Math.round(y - reach); row <= y + reach; ++row) {
+    for (let column = Math.round(x - reach); column <= x + reach; ++column, ++count) {
+      for (let i = 0; i < 3; ++i) sum[i] += pixels[4 * (row * width + column) + i];
+    }
+  }
+  return sum.map((value) => value / count);
+}
+
+async function served(answer, use) {
+  const server = http.createServer(answer);
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  try {
+    await use(`http://127.0.0.1:${server.address().port}`);
+  } finally {
+    server.closeAllConnections();
+    server.close();
+  }
+}
+
+const onDisk = (name) => pathToFileURL(file(name)).href;
+
+test("a page opens from disk and shows a pack, and a stream", async () => {
+  for (const name of ["mtp.html", "mtin.html"]) {
+    const page = await open(onDisk(name), "complete");
+    assert.match(await facts(page), /^[\d,]+ vertices, [\d,]+ bytes, at most 8 m off$/);
+    await page.mouse.move(450, 450);
+    await page.waitForFunction("document.getElementById('pointer').textContent !== ''", { timeout: 10_000 });
+    assert.match(await page.$eval("#pointer", (element) => element.textContent), /^[\d.,-]+ m ± 8\n[\d.-]+, [\d.-]+$/);
+    if (name === "mtp.html" && screenshot) {
+      await page.click("#mesh");
+      await settled(page);
+      await page.screenshot({ path: screenshot, clip: { x: 0, y: 0, width: 900, height: 700 } });
+    }
+    await page.close();
+  }
+});
+
+test("the map has the colours of the picture that render draws", async () => {
+  const page = await open(onDisk("mtp.html"), "complete");
+  await page.click("#map");
+  await page.addStyleTag({ content: "header, #controls, #pointer { display: none }" });
+  await settled(page);
+  const seen = await pixelsOf(page, await page.screenshot());
+  const drawn = await pixelsOf(page, fs.readFileSync(file("area.png")));
+  const maps = [mapIn(seen), mapIn(drawn)];
+  for (const map of maps) assert.ok(map.width > 300 && Math.abs(map.width / map.height - 1) < 0.02, JSON.stringify(map));
+  let worst = 0, sum = 0, count = 0;
+  for (let u = 0.03; u < 0.28; u += 0.02) { // lines fade in behind
+    for (let v = 0.03; v < 0.97; v += 0.02, ++count) {
+      const [a, b] = [colourAt(seen, maps[0], u, v), colourAt(drawn, maps[1], u, v)];
+      const difference = Math.max(...a.map((value, i) => Math.abs(value - b[i])));
+      worst = Math.max(worst, difference);
+      sum += difference;
+    }
+  }
+  assert.ok(sum / count < 6, `on average ${sum / count} of 255, at most ${worst}`);
+  await page.close();
+});
+
+test("phases, mesh and tiles change what is seen; keys move", async () => {
+  const page = await open(onDisk("mtp.html"), "complete");
+  await page.addStyleTag({ content: "#pointer { visibility: hidden }" });
+  const views = new Set();
+  const look = async () => {
+    await settled(page);
+    views.add(Buffer.from(await page.screenshot({ clip: { x: 100, y: 120, width: 700, height: 600 } })).toString("base64"));
+  };
+  await look();
+  for (const id of ["mesh", "tiles"]) {
+    await page.click(`#${id}`);
+    await look();
+  }
+  for (const key of ["ArrowLeft", "ArrowUp", "+", "w", "d", "r"]) {
+    await page.focus("#view");
+    await page.keyboard.press(key);
+    await look();
+  }
+  assert.equal(views.size, 9);
+  await page.close();
+});
+
+test("phases arrive live from a slow server, and can be gone back to", async () => {
+  const bytes = fs.readFileSync(file("area.mtin"));
+  await served(async (request, response) => {
+    if (!request.url.startsWith("/area.mtin")) {
+      response.writeHead(200, { "Content-Type": "text/html" }).end(fs.readFileSync(file("mtin.html")));
+      return;
+    }
+    response.writeHead(200);
+    for (let i = 0; i < bytes.length; i += 500) {
+      response.write(bytes.subarray(i, i + 500));
+      await new Promise((done) => setTimeout(done, 50));
+    }
+    response.end();
+  }, async (address) => {
+    const page = await browser.newPage();
+    await page.goto(`${address}/?file=area.mtin`);
+    await page.waitForFunction("document.getElementById('facts').textContent.includes('so far')", { timeout: 10_000 });
+    await page.waitForFunction("document.body.dataset.state === 'complete'", { timeout: 20_000 });
+    assert.ok(Number(await page.$eval("#phase", (element) => element.max)) > 1);
+    await page.close();
+  });
+});
+
+test("a damaged file ends in a message, and the page lives", async () => {
+  const page = fs.readFileSync(file("mtin.html"), "utf8");
+  const bytes = fs.readFileSync(file("area.mtin"));
+  const good = bytes.toString("base64");
+  bytes[bytes.length >> 1] ^= 1;
+  fs.writeFileSync(file("damaged.html"), page.replace(good, bytes.toString("base64")));
+  const shown = await open(onDisk("damaged.html"), "failed");
+  assert.match(await facts(shown), /damaged/);
+  await shown.click("#map");
+  await settled(shown);
+  await shown.close();
+});
+
+test("without WebGL there are a sentence and the flat picture", async () => {
+  const without = await launch(["--no-sandbox", "--disable-gpu", "--disable-3d-apis"]);
+  try {
+    const page = await open(onDisk("mtp.html"), "flat", { from: without });
+    assert.match(await page.$eval("#why", (element) => element.textContent), /shown flat/);
+    assert.ok(await page.$eval("#flat img", (image) => image.naturalWidth > 100));
+  } finally {
+    await without.close();
+  }
+});
+
+test("200,000 vertices leave the page's thread free", async (t) => {
+  microtin("fractal", "--size", "1025", "--seed", "5", "-o", "large.asc");
+  microtin("encode", "large.asc", "--units", "metre", "--max-error", "2", "--fast", "-o", "large.mtin");
+  microtin("render", "large.mtin", "-o", "large.html");
+  const page = await open(onDisk("large.html"), "complete", {
+    prepare: (blank) => blank.evaluateOnNewDocument(() => {
+      window.longest = 0;
+      new PerformanceObserver((list) => {
+        for (const { duration } of list.getEntries()) window.longest = Math.max(window.longest, duration);
+      }).observe({ type: "longtask" });
+    }),
+  });
+  const vertices = Number((await facts(page)).split(" ")[0].replaceAll(",", ""));
+  const longest = await page.evaluate("window.longest");
+  t.diagnostic(`${vertices} vertices; the longest task of the page's thread ${longest} ms (0: below 50)`);
+  assert.ok(vertices >= 150_000);
+  assert.ok(longest <= 50);
+  await page.close();
+});
+
+test("every golden stream has its digest in a worker of the browser", async () => {
+  const names = fs.readdirSync(golden).filter((name) => name.endsWith(".mtin"));
+  await served((request, response) => {
+    const [, kind, name] = request.url.split("/");
+    if (kind === "golden") response.writeHead(200).end(fs.readFileSync(path.join(golden, name)));
+    else if (kind === "microtin.js") {
+      response.writeHead(200, { "Content-Type": "text/javascript" }).end(fs.readFileSync(path.join(npm, "microtin.js")));
+    } else response.writeHead(200, { "Content-Type": "text/html" }).end("<!doctype html>");
+  }, async (address) => {
+    const page = await browser.newPage();
+    await page.goto(address);
+    const digests = await page.evaluate(async (all, base) => {
+      const code = `import { decodeStream } from "${base}/microtin.js";
+        onmessage = async ({ data }) => {
+          let last;
+          for await (last of decodeStream(await fetch(data)));
+          postMessage(last.digest.toString(16).padStart(16, "0"));
+        };`;
+      const worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })), { type: "module" });
+      const found = [];
+      for (const name of all) {
+        const answer = new Promise((done) => { worker.onmessage = ({ data }) => done(data); });
+        worker.postMessage(`${base}/golden/${name}`);
+        found.push(await answer);
+      }
+      return found;
+    }, names, address);
+    const expected = names.map((name) =>
+      /^digest (.*)$/m.exec(fs.readFileSync(path.join(golden, name.replace(/mtin$/, "report")), "utf8"))[1]);
+    assert.deepEqual(digests, expected);
+    await page.close();
+  });
+});
