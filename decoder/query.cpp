@@ -23,6 +23,7 @@ uint32_t microtin_vertex_count(const microtin_mesh* mesh) {
 }
 
 void microtin_vertex(const microtin_mesh* mesh, uint32_t v, uint16_t* x, uint16_t* y, int16_t* z) {
+  MICROTIN_ASSERT(v < mesh->mesh.vertices);
   const Point at = mesh->mesh.place[v];
   *x = at.x;
   *y = at.y;
@@ -34,6 +35,7 @@ uint32_t microtin_triangle_count(const microtin_mesh* mesh) {
 }
 
 microtin_triangle_kind microtin_triangle(const microtin_mesh* mesh, uint32_t t, uint32_t v[3]) {
+  MICROTIN_ASSERT(t < mesh->mesh.triangles);
   const Index f = first_edge(static_cast<Index>(t));
   for (uint32_t i = 0; i < 3; ++i) v[i] = public_vertex(mesh->mesh.origin[f + i]);
   if (is_ghost(mesh->mesh, static_cast<Index>(t))) return MICROTIN_GHOST;
@@ -41,6 +43,7 @@ microtin_triangle_kind microtin_triangle(const microtin_mesh* mesh, uint32_t t, 
 }
 
 uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corner) {
+  MICROTIN_ASSERT(t < mesh->mesh.triangles && corner < 3);
   const Index f = first_edge(static_cast<Index>(t));
   return triangle_of(mesh->mesh.twin[static_cast<Index>(f + corner)]);
 }

@@ -88,7 +88,7 @@ struct RangeDecoder {
     if (code == range) overrun = true;  // no encoder's interval ends there
   }
 
-  void normalise() {
+  MICROTIN_IN_PLACE void normalise() {
     if (range < kRangeLeast) refill();
   }
 

@@ -14,7 +14,8 @@ Index real_edge(const Mesh& mesh, Index triangle) {
 
 }  // namespace
 
-bool walk_to(const microtin_mesh& mesh, FinePoint p, uint32_t step_limit, Index* triangle) {
+MICROTIN_WITHOUT_CALLS bool walk_to(const microtin_mesh& mesh, FinePoint p, uint32_t step_limit,
+                                    Index* triangle) {
   MeshCursor cursor(mesh, real_edge(mesh.mesh, *triangle));
   const bool arrived = walk(cursor, p, step_limit);
   *triangle = cursor.triangle();

@@ -23,7 +23,7 @@
 namespace microtin {
 
 // A point as seen from p, with 8 fractional bits: each coordinate is within +-2^24.
-inline Offset seen_from(FinePoint p, Point at) {
+MICROTIN_IN_PLACE inline Offset seen_from(FinePoint p, Point at) {
   return Offset{static_cast<FastInt>(at.x) * 256 - p.x, static_cast<FastInt>(at.y) * 256 - p.y};
 }
 
@@ -115,7 +115,7 @@ class MeshCursor {
     }
   }
   void turn() { h_ = next_in_triangle(h_); }
-  Point place(uint32_t v) const { return mesh().place[v]; }
+  MICROTIN_IN_PLACE Point place(uint32_t v) const { return mesh().place[v]; }
   MICROTIN_IN_PLACE Index corner(uint32_t i) const {
     return mesh().origin[first_edge(triangle()) + i];
   }

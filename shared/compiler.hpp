@@ -21,23 +21,32 @@
 
 // Where speed counts, rare code, and code that is vectorised only if no loop is around it, is kept
 // out of its callers (OUT_OF_LINE). Where size counts, there is one copy of what is small but
-// wanted in many places (ONE_COPY), and no call of what is wanted in one (IN_PLACE).
+// wanted in many places (ONE_COPY). What is smaller than a call of it, or wanted in one place, is
+// put there (IN_PLACE): compilers do not see that no other file calls it.
 #if !defined(__GNUC__)
+#define MICROTIN_IN_PLACE
 #define MICROTIN_OUT_OF_LINE
 #define MICROTIN_ONE_COPY
-#define MICROTIN_IN_PLACE
-#elif defined(__OPTIMIZE_SIZE__)
-#define MICROTIN_OUT_OF_LINE
-#if defined(__clang__)
-#define MICROTIN_ONE_COPY __attribute__((noinline))
 #else
-#define MICROTIN_ONE_COPY __attribute__((noinline, noclone))
-#endif
 #define MICROTIN_IN_PLACE __attribute__((always_inline))
-#else
+#if !defined(__OPTIMIZE_SIZE__)
 #define MICROTIN_OUT_OF_LINE __attribute__((noinline))
 #define MICROTIN_ONE_COPY
-#define MICROTIN_IN_PLACE
+#elif defined(__clang__)
+#define MICROTIN_OUT_OF_LINE
+#define MICROTIN_ONE_COPY __attribute__((noinline))
+#else
+#define MICROTIN_OUT_OF_LINE
+#define MICROTIN_ONE_COPY __attribute__((noinline, noclone))
+#endif
+#endif
+
+// A function that keeps no call but those of ONE_COPY, also where size counts and others share what
+// it calls.
+#if defined(__GNUC__) && !defined(__clang__)
+#define MICROTIN_WITHOUT_CALLS __attribute__((flatten))
+#else
+#define MICROTIN_WITHOUT_CALLS
 #endif
 
 // Where a multiplication makes 32 bits at most: wider ones are calls.

@@ -14,43 +14,36 @@ typedef int32_t Log2;
 constexpr Log2 kLog2One = 256;
 
 // Position of the highest set bit of v > 0.
-MICROTIN_ONE_COPY inline uint32_t highest_bit(uint64_t v) {
-#if defined(__GNUC__) && UINTPTR_MAX > 0xFFFFFFFFu
-  return 63u ^ static_cast<uint32_t>(__builtin_clzll(v));
-#else
-  uint32_t bit = 0;
-  if (v >> 32) {
-    v >>= 32;
-    bit = 32;
-  }
-  uint32_t w = static_cast<uint32_t>(v);
 #if defined(__GNUC__) && !defined(__AVR__)
-  return bit + (31u ^ static_cast<uint32_t>(__builtin_clz(w)));
+MICROTIN_IN_PLACE inline uint32_t highest_bit(uint32_t v) {
+  return 31u ^ static_cast<uint32_t>(__builtin_clz(v));
+}
 #else
+MICROTIN_ONE_COPY inline uint32_t highest_bit(uint32_t v) {
+  uint32_t bit = 0;
   for (uint32_t step = 16; step != 0; step >>= 1) {
-    if (w >> step) {
-      w >>= step;
+    if (v >> step) {
+      v >>= step;
       bit += step;
     }
   }
   return bit;
-#endif
-#endif
 }
+#endif
 
 // log2(v) within 1/256, for v > 0.
-inline Log2 log2_of(uint64_t v) {
+inline Log2 log2_of(uint32_t v) {
   const uint32_t bit = highest_bit(v);
   // The 16 bits behind the leading one, m of 2^16: log2(1 + m) is m + m (1 - m) (0.424 - 0.162 m).
-  const uint32_t m = static_cast<uint32_t>(v << (63u - bit) >> 47) & 0xFFFFu;
+  const uint32_t m = v << (31u - bit) >> 15 & 0xFFFFu;
   const uint32_t bend = (m * (65536u - m) >> 16) * (27800u - (10600u * m >> 16)) >> 16;
   return static_cast<Log2>(bit * 256u + ((m + bend + 128u) >> 8));
 }
 
 // A rough one: straight between powers of two, 0.086 too low at most.
-inline Log2 rough_log2(uint64_t v) {
+inline Log2 rough_log2(uint32_t v) {
   const uint32_t bit = highest_bit(v);
-  return static_cast<Log2>((bit << 8) + (static_cast<uint32_t>(v << (63u - bit) >> 55) & 0xFFu));
+  return static_cast<Log2>((bit << 8) + (v << (31u - bit) >> 23 & 0xFFu));
 }
 
 // The inverse of it, 0 for l < 0; l < 2^13.

@@ -51,9 +51,10 @@ struct Contract {
   bool odd_origin_x = false, odd_origin_y = false;  // of the stream's lattice on its pack's
 };
 
-// Lattice places that vertices can lie on: at most 2^32.
-inline uint64_t lattice_places(const Contract& contract) {
-  return (static_cast<uint64_t>(contract.x_max) + 1) * (static_cast<uint32_t>(contract.y_max) + 1);
+// Lattice places that vertices can lie on, modulo 2^32: 2^32 are 0.
+inline uint32_t lattice_places(const Contract& contract) {
+  return (static_cast<uint32_t>(contract.x_max) + 1u) *
+         (static_cast<uint32_t>(contract.y_max) + 1u);
 }
 
 // A stream begins with magic 4 and version 1. What follows of the header is framed as sections are:

@@ -42,10 +42,14 @@ inline Spot shifted(Offset v, int32_t shift) {
   return Spot{shifted(v.x, shift), shifted(v.y, shift)};
 }
 
-// The bits of the longer coordinate but one, for an offset that is not zero.
-inline int32_t size_of(Offset v) {
-  return static_cast<int32_t>(
-      highest_bit(static_cast<uint32_t>(absolute(v.x)) | static_cast<uint32_t>(absolute(v.y))));
+// Has the highest bit of the longer coordinate.
+inline uint32_t extent_of(Offset v) {
+  return static_cast<uint32_t>(absolute(v.x)) | static_cast<uint32_t>(absolute(v.y));
+}
+
+// The bits of an extent but one, if it is not zero.
+inline int32_t size_of(uint32_t extent) {
+  return static_cast<int32_t>(highest_bit(extent));
 }
 
 // The circles through both ends of a side form a pencil, ordered by the cotangent of the angle
@@ -54,12 +58,23 @@ typedef int32_t Cotangent;
 constexpr uint32_t kCotangentBits = 12;
 constexpr int32_t kOwnCap = 64, kBehindCap = 16;  // of a triangle's own circle, of that behind
 
-// q / h, at most `most` <= 64 in magnitude; h > 0.
-inline Cotangent cotangent(int32_t q, int32_t h, int32_t most) {
+// A divisor brought below 2^12, so that dividends fit.
+struct Divisor {
+  int32_t h;
+  uint32_t shift;
+};
+
+// h > 0.
+inline Divisor divisor_of(int32_t h) {
   const uint32_t bits = highest_bit(static_cast<uint32_t>(h));
   const uint32_t shift = bits > 11 ? bits - 11 : 0;
-  h = h >> shift;  // below 2^12: the dividend fits
-  q = kept_within(q >> shift, -h * most, h * most);
+  return Divisor{h >> shift, shift};
+}
+
+// q / h, at most `most` <= 64 in magnitude.
+MICROTIN_IN_PLACE inline Cotangent cotangent(int32_t q, Divisor by, int32_t most) {
+  const int32_t h = by.h;
+  q = kept_within(q >> by.shift, -h * most, h * most);
   return q * (static_cast<int32_t>(1) << kCotangentBits) / h;
 }
 
@@ -71,18 +86,18 @@ struct Side {
   Cotangent behind;  // ... and the circle there, over this side
 };
 
-constexpr int kChord = 2;  // the side the walk came from, from corner a to corner v
-
 // All places are relative to corner v.
 struct FreeRegion {
   Point origin;      // v
   Offset corner[2];  // c, a: v, c, a turn counter-clockwise and are not on a line
   int32_t shift;     // -5 .. 10
   Spot c, a;
-  int32_t cc, aa, ca;  // dot products
-  int32_t twice;       // the area, > 0
-  Log2 expected;       // log2 of the points that it should hold
-  Side side[3];
+  int32_t cc, aa, ca;       // dot products
+  Divisor by_twice;         // twice the area
+  Log2 expected;            // log2 of the points that it should hold
+  Side chord;               // from a to v, which the walk came across: certified
+  Side next;                // from v to c
+  bool opposite_certified;  // from c to a: all that counts of it
 };
 
 // Area, over the squared chord, of the segment that is seen under k >= 0 (8 fractional bits, at
@@ -108,30 +123,31 @@ inline int32_t segment(uint32_t square, Cotangent fine) {
 // 1 if that turns counter-clockwise from `end`, else -1. An apex farther than corners may be counts
 // in coarser grains.
 inline Cotangent cotangent_behind(const FreeRegion& region, Offset apex, Spot end, int32_t turn) {
-  const int32_t beyond = size_of(apex) + region.shift - (kCornerBits - 1);
+  const int32_t beyond = size_of(extent_of(apex)) + region.shift - (kCornerBits - 1);
   const int32_t coarser = beyond > 0 ? beyond : 0;  // at most 16
   const Spot to_apex = shifted(apex, region.shift - coarser);
   end = Spot{end.x >> coarser, end.y >> coarser};
   const int32_t height = turn * cross(end, to_apex) >> coarser;
-  return cotangent(dot(to_apex, end - to_apex), height > 1 ? height : 1, kBehindCap);
+  return cotangent(dot(to_apex, end - to_apex), divisor_of(height > 1 ? height : 1), kBehindCap);
 }
 
-// Brings the corners to grains.
-inline void measure(FreeRegion& region) {
-  const int32_t c_size = size_of(region.corner[0]), a_size = size_of(region.corner[1]);
-  region.shift = kCornerBits - 1 - (c_size > a_size ? c_size : a_size);
+// Brings the corners to grains. Returns twice the area, > 0.
+inline int32_t measure(FreeRegion& region) {
+  const uint32_t extent = extent_of(region.corner[0]) | extent_of(region.corner[1]);
+  region.shift = kCornerBits - 1 - size_of(extent);
   region.c = shifted(region.corner[0], region.shift);
   region.a = shifted(region.corner[1], region.shift);
   region.cc = dot(region.c, region.c);
   region.aa = dot(region.a, region.a);
   region.ca = dot(region.c, region.a);
-  const int32_t twice = cross(region.c, region.a);
-  region.twice = twice > 1 ? twice : 1;
+  const int32_t twice = cross(region.c, region.a), kept = twice > 1 ? twice : 1;
+  region.by_twice = divisor_of(kept);
+  return kept;
 }
 
 // Twice what an open side lets the circle add; the opposite corner sees it under q / twice.
 inline int32_t segment_beyond(const FreeRegion& region, int32_t square, int32_t q) {
-  return segment(static_cast<uint32_t>(square), cotangent(q, region.twice, kBehindCap));
+  return segment(static_cast<uint32_t>(square), cotangent(q, region.by_twice, kBehindCap));
 }
 
 // Twice what the circle behind a side from v to `end` takes away. Finds the circle.
@@ -146,15 +162,14 @@ inline int32_t segment_behind(const FreeRegion& region, Side& side, Spot end, in
 // open sides, less what circles behind certified sides reach into it, but never less than a part
 // of the triangle. Two segments below 2^30 and a triangle below 2^23 fit.
 inline Log2 free_area(FreeRegion& region) {
-  measure(region);
+  const int32_t triangle = measure(region);
   const int32_t cc = region.cc, aa = region.aa, ca = region.ca;
-  Side& next = region.side[0];
-  int32_t twice = region.twice;
-  twice += next.certified ? -segment_behind(region, next, region.c, cc, -1)
-                          : segment_beyond(region, cc, ca - aa);
-  if (!region.side[1].certified) twice += segment_beyond(region, cc + aa - 2 * ca, -ca);
-  twice -= segment_behind(region, region.side[kChord], region.a, aa, 1);
-  const int32_t least = (region.twice >> 4) + 1;
+  int32_t twice = triangle;
+  twice += region.next.certified ? -segment_behind(region, region.next, region.c, cc, -1)
+                                 : segment_beyond(region, cc, ca - aa);
+  if (!region.opposite_certified) twice += segment_beyond(region, cc + aa - 2 * ca, -ca);
+  twice -= segment_behind(region, region.chord, region.a, aa, 1);
+  const int32_t least = (triangle >> 4) + 1;
   return rough_log2(static_cast<uint32_t>(twice > least ? twice : least)) -
          (2 * region.shift + 1) * kLog2One;
 }

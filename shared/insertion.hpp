@@ -28,7 +28,8 @@ struct Cavity {
 // is a tree (its union is star-shaped from p and no vertex lies inside), so no triangle is met
 // twice; each turn of the loop uses up one boundary edge of at most limit + 2.
 template <class Forbids>
-bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity, const Forbids& forbids) {
+MICROTIN_IN_PLACE inline bool grow_cavity(const Mesh& mesh, Index start, Point p, Cavity& cavity,
+                                          const Forbids& forbids) {
   Index* const end = cavity.edge_twin + cavity.limit + 2;
   Index* ahead = end;
   *--ahead = start;

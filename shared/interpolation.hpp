@@ -21,7 +21,7 @@ inline FinePoint fine(Point p) {
 
 // 256 times twice the signed area of (a, b, p): positive if p lies to the left of a -> b.
 // Each factor pair is below 2^16 * 2^24, so |result| < 2^41.
-inline int64_t orient_fine(Point a, Point b, FinePoint p) {
+MICROTIN_IN_PLACE inline int64_t orient_fine(Point a, Point b, FinePoint p) {
   const int32_t abx = static_cast<int32_t>(b.x) - a.x;
   const int32_t aby = static_cast<int32_t>(b.y) - a.y;
   const FinePoint o = fine(a);
@@ -35,7 +35,7 @@ inline int64_t orient_fine(Point a, Point b, FinePoint p) {
 // The barycentric weights are >= 0 and add up to w = 256 * twice the area <= 2^40. Relative to a.z
 // the sum is at most 2^16 * w <= 2^56 in magnitude, so that with 2^16 * w added it is from 0 to
 // 2^57. One more bit than is kept is divided out, to round.
-inline int32_t height_in_triangle(Vertex a, Vertex b, Vertex c, FinePoint p) {
+MICROTIN_IN_PLACE inline int32_t height_in_triangle(Vertex a, Vertex b, Vertex c, FinePoint p) {
   const Point pa{a.x, a.y}, pb{b.x, b.y}, pc{c.x, c.y};
   const int64_t w = orient2d(pa, pb, pc) * 256;
   const int64_t weight_b = orient_fine(pc, pa, p);

@@ -104,7 +104,7 @@ inline void find_places(LegalPlaces& places, const FreeRegion& region, const Con
   const uint32_t shift = coarsening_for(centre);
   places.shift = region.shift - static_cast<int32_t>(shift);
   places.own = circle_about(centre, shift);
-  const Side &chord = region.side[kChord], &next = region.side[0];
+  const Side &chord = region.chord, &next = region.next;
   places.cuts[0] = cuts(chord);
   places.cuts[1] = cuts(next);
   if (places.cuts[0]) places.behind[0] = circle_about(twice_centre(a, behind), shift);
@@ -137,8 +137,8 @@ inline bool is_beyond(Spot p, Spot q, Spot e) {
 // Whether a place on the own circle is legal as far as sides tell.
 inline bool is_open(const LegalPlaces& places, const FreeRegion& region, Spot e) {
   const Spot v = {0, 0};
-  return !is_beyond(places.a, v, e) && !(region.side[0].certified && is_beyond(v, places.c, e)) &&
-         !(region.side[1].certified && is_beyond(places.c, places.a, e));
+  return !is_beyond(places.a, v, e) && !(region.next.certified && is_beyond(v, places.c, e)) &&
+         !(region.opposite_certified && is_beyond(places.c, places.a, e));
 }
 
 struct Columns {

@@ -9,22 +9,17 @@
 
 #include <stddef.h>
 
+#include "microtin/config.h"
 #include "shared/fixed_math.hpp"
 #include "shared/lattice.hpp"
 #include "shared/predicates.hpp"
-
-#ifndef MICROTIN_INDEX_BITS
-#define MICROTIN_INDEX_BITS 32
-#endif
 
 namespace microtin {
 
 #if MICROTIN_INDEX_BITS == 16
 typedef uint16_t Index;
-#elif MICROTIN_INDEX_BITS == 32
-typedef uint32_t Index;
 #else
-#error "MICROTIN_INDEX_BITS must be 16 or 32"
+typedef uint32_t Index;
 #endif
 
 // The vertex at infinity. No vertex has this number: the largest half-edge number stays below it.
@@ -75,7 +70,7 @@ inline Index previous_in_triangle(Index h) {
   return static_cast<Index>(is_first_edge(h) ? h + 2u : h - 1u);
 }
 
-inline Point point_of(const Mesh& mesh, Index v) {
+MICROTIN_IN_PLACE inline Point point_of(const Mesh& mesh, Index v) {
   return mesh.place[v];
 }
 
@@ -85,14 +80,14 @@ MICROTIN_ONE_COPY inline bool is_ghost(const Mesh& mesh, Index triangle) {
 }
 
 // Makes a and b each other's twins.
-inline void pair(Mesh& mesh, size_t a, size_t b) {
+MICROTIN_IN_PLACE inline void pair(Mesh& mesh, size_t a, size_t b) {
   mesh.twin[a] = static_cast<Index>(b);
   mesh.twin[b] = static_cast<Index>(a);
 }
 
 // in_conflict for the rare cases: a ghost, or p on the circle.
-MICROTIN_OUT_OF_LINE MICROTIN_IN_PLACE inline bool in_rare_conflict(const Mesh& mesh, Index a,
-                                                                    Index b, Index c, Point p) {
+MICROTIN_OUT_OF_LINE inline bool in_rare_conflict(const Mesh& mesh, Index a, Index b, Index c,
+                                                  Point p) {
   turn_largest_last(a, b, c, [&mesh](Index l, Index r) {  // infinity is larger than all
     return l != kInfinity && (r == kInfinity || point_of(mesh, l) < point_of(mesh, r));
   });

@@ -59,10 +59,6 @@ void code_quarter(Coder& coder, Quarters& quarters, Lines& lines, FastInt line) 
   halve(lines, code_bit(coder, quarters.bit[upper ? 2 : 1], is_in_upper_half(lines, line)));
 }
 
-struct Halves {
-  uint32_t low, high;  // weights, 1..2^15
-};
-
 template <class Coder>
 bool code_half(Coder& coder, Calibration& calibration, Lines& lines, Halves weight, FastInt line) {
   const FastInt count = count_of(lines), half = count >> 1;
@@ -85,7 +81,7 @@ inline Halves halves_of(Halves weight, bool upper) {
                 static_cast<uint32_t>(second > least ? second : least)};
 }
 
-// Keeps of `lines` a part that holds `line`. `weigh` is asked at twice a number.
+// Keeps of `lines` a part that holds `line`. `weigh` is asked at twice two numbers.
 template <class Coder, class Weigh>
 void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, Depth depth,
                  const Weigh& weigh) {
@@ -95,7 +91,7 @@ void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, D
   for (uint32_t i = 0; i < depth.halvings && lines.first < lines.last; ++i) {
     if (i < depth.weighed) {
       const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1;
-      weight = Halves{weigh(middle), weigh(middle + count)};
+      weight = weigh(middle, middle + count);
     }
     const bool upper = code_half(coder, level[i], lines, weight, line);
     if (i + 1 >= depth.weighed) weight = halves_of(weight, upper);
@@ -138,8 +134,9 @@ inline int32_t twice_shift(const Ruling& ruling, int32_t shift) {
 
 // Codes x, or the nearest column with legal places.
 template <class Coder>
-FastInt code_column(Coder& coder, PlaceModel& model, const Tally& tally, const FreeRegion& region,
-                    const Place& place, Depth depth, FastInt x) {
+MICROTIN_IN_PLACE inline FastInt code_column(Coder& coder, PlaceModel& model, const Tally& tally,
+                                             const FreeRegion& region, const Place& place,
+                                             Depth depth, FastInt x) {
   const LegalPlaces& legal = place.legal;
   const Columns columns = legal_columns(legal, region);
   if (x < columns.lines.first) x = columns.lines.first;
@@ -148,22 +145,25 @@ FastInt code_column(Coder& coder, PlaceModel& model, const Tally& tally, const F
   const FastInt number = number_of(ruling, x);
   if (depth.weighed == 0) {
     const uint32_t context = (columns.open_east ? 0u : 1u) + (columns.open_west ? 0u : 2u) +
-                             (region.side[0].certified ? 4u : 0u) +
+                             (region.next.certified ? 4u : 0u) +
                              (expected_points(region) > 1 ? 8u : 0u);
     code_quarter(coder, model.quick_column[context], ruling.numbers, number);
   } else {
     const FastInt base = ruling.base;
     const int32_t shift = twice_shift(ruling, legal.shift);
-    code_halves(coder, model.column, ruling.numbers, number, depth, [=, &place](FastInt twice) {
-      return column_weight(place.odds, place.legal, shifted(twice + base, shift));
-    });
+    code_halves(
+        coder, model.column, ruling.numbers, number, depth, [=, &place](FastInt low, FastInt high) {
+          return Halves{column_weight(place.odds, place.legal, shifted(low + base, shift)),
+                        column_weight(place.odds, place.legal, shifted(high + base, shift))};
+        });
   }
   return line_at(ruling, code_line(coder, ruling.numbers, number));
 }
 
 template <class Coder>
-FastInt code_row(Coder& coder, PlaceModel& model, const Tally& tally, const FreeRegion& region,
-                 const Place& place, Depth depth, Offset at, Lines rows, Span own) {
+MICROTIN_IN_PLACE inline FastInt code_row(Coder& coder, PlaceModel& model, const Tally& tally,
+                                          const FreeRegion& region, const Place& place, Depth depth,
+                                          Offset at, Lines rows, Span own) {
   const LegalPlaces& legal = place.legal;
   const int32_t x = grains(2 * at.x, legal.shift);
   Ruling ruling = rule(coder, tally, rows, legal.odd_row, at.y);
@@ -174,17 +174,21 @@ FastInt code_row(Coder& coder, PlaceModel& model, const Tally& tally, const Free
   } else {
     const FastInt base = ruling.base;
     const int32_t shift = twice_shift(ruling, legal.shift);
-    code_halves(coder, model.row, ruling.numbers, number, depth, [=, &place](FastInt twice) {
-      return weight_at(place.odds, place.legal, own, x, shifted(twice + base, shift));
-    });
+    code_halves(coder, model.row, ruling.numbers, number, depth,
+                [=, &place](FastInt low, FastInt high) {
+                  return weights_at(place.odds, place.legal, own, x, shifted(low + base, shift),
+                                    shifted(high + base, shift));
+                });
   }
   return line_at(ruling, code_line(coder, ruling.numbers, number));
 }
 
 // Codes `at`, as seen from v and turned.
 template <class Coder>
-Offset code_turned_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
-                         const Place& place, Decoding decoding, Offset at, PlaceHabits& habits) {
+MICROTIN_IN_PLACE inline Offset code_turned_place(Coder& coder, PlaceModel& model,
+                                                  const FreeRegion& region, const Place& place,
+                                                  Decoding decoding, Offset at,
+                                                  PlaceHabits& habits) {
   const Depth depth = depth_of(decoding);
   const LegalPlaces& legal = place.legal;
 #if defined(__clang_analyzer__)
@@ -216,8 +220,8 @@ Offset code_turned_place(Coder& coder, PlaceModel& model, const FreeRegion& regi
 template <class Coder>
 Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
                   const Contract& contract, Log2 density, Place& place, PlaceHabits& habits) {
-  const Cotangent own = cotangent(region.cc - region.ca, region.twice, kOwnCap);
-  const Side& chord = region.side[kChord];
+  const Cotangent own = cotangent(region.cc - region.ca, region.by_twice, kOwnCap);
+  const Side& chord = region.chord;
   Cotangent behind = chord.ghost ? -4 * (1 << kCotangentBits) : chord.behind;
   if (behind > own) behind = own;
   find_places(place.legal, region, contract, own, behind);

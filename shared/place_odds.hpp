@@ -9,7 +9,7 @@
 #ifndef MICROTIN_SHARED_PLACE_ODDS_HPP
 #define MICROTIN_SHARED_PLACE_ODDS_HPP
 
-#include "shared/legal_places.hpp"
+#include "shared/corner_distances.hpp"
 
 namespace microtin {
 
@@ -26,9 +26,7 @@ struct PlaceOdds {
   // The power of a place with respect to the circle behind less that to the triangle's: across.x x
   // + across.y y, both below 2^16.
   Spot across;
-  // The squared distance, in grains, from which on nothing is repelled, at most 2^28; 255 / it.
-  int32_t reach;
-  uint32_t reach_shift, factor;
+  Reach reach;  // of repulsion
 };
 
 // 511 * chance of being first after twice the swept area; `rate` is the logarithm of the density by
@@ -62,11 +60,7 @@ inline void estimate_repulsion(PlaceOdds& odds, const LegalPlaces& places, Log2 
                                Crowding crowding) {
   // log2 of what is 255 / 2^16 of the inverse of the squared distance that counts.
   const Log2 inverse = rough_log2(crowding) - 8 * kLog2One + density - 2 * places.shift * kLog2One;
-  const Log2 reach = kept_within(-inverse, 2 * kLog2One, 28 * kLog2One);
-  odds.reach = static_cast<int32_t>(rough_exp2(reach));
-  const uint32_t bits = static_cast<uint32_t>(reach) >> 8;
-  odds.reach_shift = bits > 14 ? bits - 14 : 0;
-  odds.factor = 255u * 65536u / static_cast<uint32_t>(odds.reach >> odds.reach_shift);
+  odds.reach = reach_of(kept_within(-inverse, 2 * kLog2One, 28 * kLog2One));
 }
 
 // 0..511. `own` is what the triangle's circle covers of the column, |x|, |y| < 2^14.4.
@@ -83,29 +77,40 @@ inline int32_t chance_at(const PlaceOdds& odds, Span own, int32_t x, int32_t y) 
   return chance > 0 ? chance : 0;
 }
 
-inline int32_t squared_distance(Spot p, int32_t x, int32_t y) {
-  return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y);  // < 2^30.5
+// Of two places, or of all in two halves.
+struct Halves {
+  uint32_t low, high;  // weights, 1..2^15
+};
+
+#if defined(MICROTIN_PAIRS)
+
+// Of two places of a column: 4..521 each.
+inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, Span own, int32_t x,
+                         int32_t low, int32_t high) {
+  int32_t first = chance_at(odds, own, x, low), second = chance_at(odds, own, x, high);
+  if (odds.repels) {
+    const Distances distance = distances_at(odds.reach, places, x, low, high);
+    first = first * (distance.low + 4) >> 8;
+    second = second * (distance.high + 4) >> 8;
+  }
+  return Halves{static_cast<uint32_t>(first) + 4u, static_cast<uint32_t>(second) + 4u};
 }
 
-// 0..255: how far from all corners a place is.
-inline int32_t distance_at(const PlaceOdds& odds, const LegalPlaces& places, int32_t x, int32_t y) {
-  const int32_t from_v = x * x + y * y;
-  const int32_t from_c = squared_distance(places.c, x, y);
-  const int32_t from_a = squared_distance(places.a, x, y);
-  int32_t least = from_v < odds.reach ? from_v : odds.reach;
-  if (from_c < least) least = from_c;
-  if (from_a < least) least = from_a;
-  return static_cast<int32_t>((static_cast<uint32_t>(least) >> odds.reach_shift) * odds.factor >>
-                              16);
-}
+#else
 
-// 4..521.
 inline uint32_t weight_at(const PlaceOdds& odds, const LegalPlaces& places, Span own, int32_t x,
                           int32_t y) {
   int32_t weight = chance_at(odds, own, x, y);
-  if (odds.repels) weight = weight * (distance_at(odds, places, x, y) + 4) >> 8;
+  if (odds.repels) weight = weight * (distance_at(odds.reach, places, x, y) + 4) >> 8;
   return static_cast<uint32_t>(weight) + 4u;
 }
+
+inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, Span own, int32_t x,
+                         int32_t low, int32_t high) {
+  return Halves{weight_at(odds, places, own, x, low), weight_at(odds, places, own, x, high)};
+}
+
+#endif
 
 // Of a column: its legal length times the mean weight. 4..2^14.6.
 inline uint32_t column_weight(const PlaceOdds& odds, const LegalPlaces& places, int32_t x) {
@@ -114,15 +119,14 @@ inline uint32_t column_weight(const PlaceOdds& odds, const LegalPlaces& places, 
   const int32_t length = legal.high - legal.low;
   if (length <= 0) return 4;
   const int32_t quarter = length >> 2;
-  const uint32_t chance = weight_at(odds, places, own, x, legal.low + quarter) +
-                          weight_at(odds, places, own, x, legal.high - quarter);
-  return (static_cast<uint32_t>(length) * chance >> 10) + 4u;
+  const Halves weight = weights_at(odds, places, own, x, legal.low + quarter, legal.high - quarter);
+  return (static_cast<uint32_t>(length) * (weight.low + weight.high) >> 10) + 4u;
 }
 
 // `place` in grains: where the point was.
 inline void learn(Crowding& crowding, const PlaceOdds& odds, const LegalPlaces& places,
                   Spot place) {
-  if (distance_at(odds, places, place.x, place.y) < 254) crowding += crowding >> 4;
+  if (distance_at(odds.reach, places, place.x, place.y) < 254) crowding += crowding >> 4;
   crowding -= 12;
   if (crowding < kCrowdingLeast) crowding = kCrowdingLeast;
   if (crowding > kCrowdingMost) crowding = kCrowdingMost;

@@ -6,6 +6,7 @@
 #define MICROTIN_SHARED_PROBABILITY_HPP
 
 #include "shared/fixed_math.hpp"
+#include "shared/vectors.hpp"
 
 namespace microtin {
 
@@ -33,12 +34,35 @@ inline AdaptiveBit adaptive_bit(uint32_t start) {
   return AdaptiveBit{probability, probability};
 }
 
-inline void learn(AdaptiveBit& bit, bool one) {
-  const int32_t towards =
-      one ? static_cast<int32_t>(kProbabilityOne) - kProbabilityMargin : kProbabilityMargin;
+// Where a bit's means go: both never get there.
+constexpr int32_t kTowardsOne = static_cast<int32_t>(kProbabilityOne) - kProbabilityMargin;
+constexpr int32_t kTowardsZero = kProbabilityMargin;
+
+#if defined(MICROTIN_PAIRS) && defined(__SSE2__)
+
+// Both means at once: ways are within 2^15, and the high half of a product with 2^(16 - n) is a
+// way's 2^n-th part, rounded down.
+MICROTIN_IN_PLACE inline void learn(AdaptiveBit& bit, bool one) {
+  static_assert(sizeof bit == sizeof(int32_t), "both means make a word");
+  const int32_t towards = one ? kTowardsOne << 16 | kTowardsOne : kTowardsZero << 16 | kTowardsZero;
+  int32_t means;
+  __builtin_memcpy(&means, &bit, sizeof means);
+  const __m128i was = _mm_cvtsi32_si128(means);
+  const __m128i way = _mm_sub_epi16(_mm_cvtsi32_si128(towards), was);
+  const __m128i step = _mm_mulhi_epi16(way, _mm_cvtsi32_si128(1 << (16 - 5) | 1 << (32 - 8)));
+  means = _mm_cvtsi128_si32(_mm_add_epi16(was, step));
+  __builtin_memcpy(&bit, &means, sizeof means);
+}
+
+#else
+
+MICROTIN_IN_PLACE inline void learn(AdaptiveBit& bit, bool one) {
+  const int32_t towards = one ? kTowardsOne : kTowardsZero;
   bit.fast = static_cast<uint16_t>(bit.fast + ((towards - bit.fast) >> 5));
   bit.slow = static_cast<uint16_t>(bit.slow + ((towards - bit.slow) >> 8));
 }
+
+#endif
 
 template <class Coder>
 bool code_bit(Coder& coder, AdaptiveBit& bit, bool value) {

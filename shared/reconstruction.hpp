@@ -127,27 +127,54 @@ inline void mark(Reconstruction& r, Index v, uint8_t mark) {
 
 // --- The triangle in hand ------------------------------------------------------------------------
 
-inline void look_behind(const Reconstruction& r, Index h, Side& side) {
-  const Index apex = r.mesh->origin[previous_in_triangle(r.mesh->twin[h])];
+// The far corner of the triangle of the chord.
+struct Corner {
+  Index into;    // half-edge from it into `vertex`, of the next triangle
+  Index number;  // of the corner
+  uint32_t marks;
+};
+
+inline Corner far_corner(const Reconstruction& r) {
+  const Index into = r.mesh->twin[next_in_triangle(r.chord)];
+  const Index number = r.mesh->origin[into];
+  return Corner{into, number, marks_of(r, number)};
+}
+
+// The corner opposite to a side whose half-edge beyond is h.
+inline Index apex_behind(const Mesh& mesh, Index h) {
+  return mesh.origin[previous_in_triangle(h)];
+}
+
+inline void look_at(const Reconstruction& r, Index apex, Side& side) {
+  side.certified = true;
   side.ghost = apex == kInfinity;
-  side.certified = marked(r, apex, kDone);
   if (!side.ghost) side.apex = point_of(*r.mesh, apex) - r.region.origin;
 }
 
 // Describes the free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
-inline void look_around(Reconstruction& r) {
+// What is behind that was passed in this turn, or has a done vertex.
+inline void look_around(Reconstruction& r, Index into) {
   FreeRegion& region = r.region;
   const Mesh& mesh = *r.mesh;
-  const Index edge[3] = {next_in_triangle(r.chord), previous_in_triangle(r.chord), r.chord};
   region.origin = point_of(mesh, r.vertex);
-  region.corner[0] = point_of(mesh, mesh.origin[edge[1]]) - region.origin;
+  region.corner[0] = point_of(mesh, mesh.origin[into]) - region.origin;
   region.corner[1] = point_of(mesh, mesh.origin[r.chord]) - region.origin;
-  for (int i = 0; i < 3; ++i) look_behind(r, edge[i], region.side[i]);
-  region.side[kChord].certified = true;  // it was passed in this turn, or has a done vertex
+  const Index next = apex_behind(mesh, into);
+  region.next.certified = marked(r, next, kDone);
+  if (region.next.certified) look_at(r, next, region.next);
+  const Index across = mesh.twin[previous_in_triangle(r.chord)];
+  region.opposite_certified = marked(r, apex_behind(mesh, across), kDone);
+  look_at(r, apex_behind(mesh, mesh.twin[r.chord]), region.chord);
 }
 
 // log2 of the mean area of a Delaunay triangle of random points less the mean log2 of it.
 constexpr Log2 kMeanOfLogs = 220;
+
+// Of the origin, a, b, counter-clockwise, if each sees the others on the lattice: below 2^32.
+inline uint32_t twice_area(Offset a, Offset b) {
+  return wrapping_product32(static_cast<int32_t>(a.x), static_cast<int32_t>(b.y)) -
+         wrapping_product32(static_cast<int32_t>(a.y), static_cast<int32_t>(b.x));
+}
 
 // Takes a final triangle into the running mean of what such suggest about the density: of n final
 // vertices each has two triangles to itself, and of these vertices `share` are the batch's.
@@ -209,7 +236,7 @@ inline HullEdge hull_edge(const Reconstruction& r) {
 // The longer the edge, against the spacing of the vertices, the likelier is a hit.
 inline HitEstimate estimate_hull_hit(const HullEdge& edge, Log2 density) {
   const FastInt length = absolute(edge.along.x) | absolute(edge.along.y);
-  return HitEstimate{6, 2 * log2_of(static_cast<uint64_t>(length)) + density + 6 * 256};
+  return HitEstimate{6, 2 * log2_of(static_cast<uint32_t>(length)) + density + 6 * 256};
 }
 
 // The degree of the vertex where h starts, infinity counted, but at most `most`.
@@ -225,15 +252,13 @@ inline uint32_t degree_up_to(const Mesh& mesh, Index h, uint32_t most) {
 
 // A miss makes c known to the walk if it is not yet. The encoder removes every vertex whose degree
 // is at most D when the walk comes to know it, so such a c must still get neighbours: a hit.
-inline HitEstimate estimate_hit(Reconstruction& r, Log2 density) {
-  const Mesh& mesh = *r.mesh;
-  const Index from_c = previous_in_triangle(r.chord);
+inline HitEstimate estimate_hit(Reconstruction& r, Index into, uint32_t marks, Log2 density) {
   HitEstimate estimate;
   r.region.expected = free_area(r.region) + density;
   estimate.position = r.region.expected + 6 * 256;
-  estimate.context = (r.region.side[0].certified ? 1 : 0) + (r.region.side[1].certified ? 2 : 0);
-  if (marked(r, mesh.origin[from_c], kQueued)) return estimate;
-  const uint32_t degree = degree_up_to(mesh, from_c, r.contract.degree + 2u);
+  estimate.context = (r.region.next.certified ? 1 : 0) + (r.region.opposite_certified ? 2 : 0);
+  if ((marks & kQueued) != 0) return estimate;
+  const uint32_t degree = degree_up_to(*r.mesh, into, r.contract.degree + 2u);
   estimate.context = degree < r.contract.degree + 2u ? 4 : 5;
   if (degree <= r.contract.degree) estimate.position = static_cast<int32_t>(kHitEntries) * 256;
   return estimate;
@@ -271,15 +296,14 @@ Decision decide_at_hull(Reconstruction& r, Coder& coder, Log2 density) {
 }
 
 template <class Coder>
-Decision decide(Reconstruction& r, Coder& coder) {
+Decision decide(Reconstruction& r, Coder& coder, Index into, uint32_t marks) {
   const Log2 density = r.density / 256;
   if (r.vertex == kInfinity) return decide_at_hull(r, coder, density);
-  look_around(r);
-  const bool hit = code_hit(r, coder, estimate_hit(r, density));
+  look_around(r, into);
+  const bool hit = code_hit(r, coder, estimate_hit(r, into, marks, density));
   if (hit && !insert(r, coder, locate(r, coder, density))) return Decision::kMalformed;
   // The triangle of the chord and c, or the new vertex, is final.
-  const int64_t twice = cross(r.region.corner[0], r.region.corner[1]);
-  note_final_triangle(r, rough_log2(static_cast<uint64_t>(twice)));
+  note_final_triangle(r, rough_log2(twice_area(r.region.corner[0], r.region.corner[1])));
   return hit ? Decision::kHit : Decision::kMiss;
 }
 
@@ -350,7 +374,8 @@ StepOutcome step_phase(Reconstruction& r, Coder& coder) {
   const Log2 log_batch = log2_of(batch);
   r.share = log_batch - log2_of(placed + batch) - kMeanOfLogs;
   // Before anything is known: the lattice's bounds, shared by all.
-  r.density = (log_batch - log2_of(lattice_places(r.contract))) * 256;
+  const uint32_t places = lattice_places(r.contract);
+  r.density = (log_batch - (places == 0 ? 32 * kLog2One : log2_of(places))) * 256;
   r.stage = Stage::kWalk;
   return StepOutcome::kStep;
 }
@@ -376,19 +401,6 @@ inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
   return true;
 }
 
-// The far corner of the triangle of the chord.
-struct Corner {
-  Index into;    // half-edge from it into `vertex`, of the next triangle
-  Index number;  // of the corner
-  uint32_t marks;
-};
-
-inline Corner far_corner(const Reconstruction& r) {
-  const Index into = r.mesh->twin[next_in_triangle(r.chord)];
-  const Index number = r.mesh->origin[into];
-  return Corner{into, number, marks_of(r, number)};
-}
-
 // Leaves the triangle of the chord, which is final. False if the walk is over.
 inline bool pass(Reconstruction& r, const Corner& corner) {
   r.chord = corner.into;
@@ -398,7 +410,7 @@ inline bool pass(Reconstruction& r, const Corner& corner) {
 // Says hit or miss at the triangle of the chord, which is not certified, and leaves it.
 template <class Coder>
 StepOutcome step_decision(Reconstruction& r, Coder& coder, const Corner& corner) {
-  const Decision decision = decide(r, coder);
+  const Decision decision = decide(r, coder, corner.into, corner.marks);
   if (decision == Decision::kMalformed) return StepOutcome::kMalformed;
   if (decision == Decision::kMiss)
     return pass(r, corner) ? StepOutcome::kStep : StepOutcome::kMalformed;

@@ -33,9 +33,7 @@ static int height_at(const microtin_mesh* mesh, int32_t longitude, int32_t latit
   if (!microtin_to_lattice(&x, longitude, 10000000, &place_x)) return 0;
   if (!microtin_to_lattice(&y, latitude, 10000000, &place_y)) return 0;
   if (microtin_height_at(mesh, place_x, place_y, 0, &hint, &steps) != MICROTIN_HEIGHT) return 0;
-  *height = (int32_t)((z.offset * 1000 + (int64_t)z.numerator * steps * 1000 / 65536) /
-                      (int64_t)z.denominator);
-  return 1;
+  return microtin_real_height(&z, steps, 1000, height);
 }
 
 int firmware_main(void) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "encoder/import/prepared_terrain.hpp"
@@ -40,6 +41,26 @@ struct DecodeRequest {
 void run_decode(const DecodeRequest& request);
 
 void run_embed(const std::string& input, const std::string& output);
+
+// A place in the terrain's units, or in steps of its lattice.
+struct Place {
+  Decimal x, y;
+};
+
+// Two numbers with blanks, a comma or a semicolon between; nothing for any other text.
+std::optional<Place> parse_place(std::string_view text);
+
+struct HeightRequest {
+  std::string input;
+  std::optional<Place> place;  // else those on standard input, one a line
+  bool lattice = false;
+};
+
+// Where a place has no height, and where the file is damaged: exit codes.
+constexpr int kOutside = 5, kInVoid = 6, kDamaged = 7;
+
+// Prints heights, or words where there are none. Returns the exit code.
+int run_height(const HeightRequest& request);
 
 void run_info(const std::string& input, bool json);
 

@@ -30,6 +30,18 @@ std::string workspace_bytes_16(uint32_t vertices) {
   return json(MICROTIN_MESH_BYTES_FOR(vertices, 16) + MICROTIN_DECODER_BYTES_FOR(vertices, 16));
 }
 
+// What a device needs to keep four tiles, which a place can touch at once.
+void add_device_memory(JsonObject& report, uint32_t most_vertices) {
+  constexpr unsigned long kSlots = 4;
+  const uint32_t capacity = std::max<uint32_t>(most_vertices, 3);
+  const bool narrow = capacity <= MICROTIN_MAX_VERTICES_FOR(16);
+  report.emplace_back("device_memory", json("MICROTIN_PACK_BYTES(" + std::to_string(kSlots) + ", " +
+                                            std::to_string(capacity) + ")"));
+  report.emplace_back("workspace_bytes_16",
+                      narrow ? json(MICROTIN_PACK_BYTES_FOR(kSlots, capacity, 16)) : "null");
+  report.emplace_back("workspace_bytes_32", json(MICROTIN_PACK_BYTES_FOR(kSlots, capacity, 32)));
+}
+
 // Of a device that decodes one tile and keeps four, in compact form.
 uint64_t workspace_bytes_4_compact_tiles(const PackHeader& header) {
   const uint64_t most = header.most_vertices, bytes = header.compact_bytes;
@@ -236,6 +248,7 @@ JsonObject report_of(const PackFile& pack) {
   const PackHeader& header = pack.header();
   add_extent(report, {0, 0, grid.x_max, grid.y_max, header.lowest, header.highest},
              pack.metadata().placement);
+  add_device_memory(report, header.most_vertices);
   add_placement(report, pack.metadata());
   add_notes(report, pack.metadata());
   add_accuracy(report, pack.metadata().accuracy);

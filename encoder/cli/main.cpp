@@ -425,6 +425,33 @@ void add_embed(CLI::App& app, Action& action) {
       [request, &action] { action = [request] { run_embed(request->input, request->output); }; });
 }
 
+void add_height_command(CLI::App& app, Action& action, int& code) {
+  struct Request : HeightRequest {
+    std::string x, y;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand("height", "Tell the height at places");
+  add_stream(command, request->input);
+  CLI::Option* const x =
+      command.add_option("x", request->x, "A place in the terrain's units: to the east");
+  CLI::Option* const y = command.add_option(
+      "y", request->y,
+      "... and to the north; without a place those on standard input, a line X Y each");
+  x->needs(y);
+  command.add_flag("--lattice", request->lattice, "Places and heights in steps of the lattice");
+  command.footer(
+      "A word stands where there is no height: outside, void or damaged. For a place on the "
+      "command "
+      "line their exit codes are 5, 6 and 7; 7 also if the file is damaged.");
+  command.callback([request, x, &action, &code] {
+    if (x->count() != 0) {
+      request->place = parse_place(request->x + ' ' + request->y);
+      if (!request->place) throw CLI::ValidationError("x y", "are not two numbers");
+    }
+    action = [request, &code] { code = run_height(*request); };
+  });
+}
+
 void add_info(CLI::App& app, Action& action) {
   struct Request {
     std::string input;
@@ -523,6 +550,7 @@ int fail(const char* text, int code) {
 int run(int argc, char** argv) {
   CLI::App app("Terrain TINs for microcontrollers");
   Action action;
+  int code = 0;
   app.set_version_flag("--version", versions(), "Print the versions of library and formats");
   app.require_subcommand(1);
   app.footer(kExitCodes);
@@ -531,6 +559,7 @@ int run(int argc, char** argv) {
   add_merge(app, action);
   add_decode(app, action);
   add_embed(app, action);
+  add_height_command(app, action, code);
   add_info(app, action);
   add_verify(app, action);
   add_fractal(app, action);
@@ -546,7 +575,7 @@ int run(int argc, char** argv) {
     return 0;
   }
   action();
-  return 0;
+  return code;
 }
 
 }  // namespace

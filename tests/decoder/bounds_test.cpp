@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "shared/free_region.hpp"
+#include "shared/probability.hpp"
 #include "tests/support/layers.hpp"
 
 namespace microtin::tests {
@@ -64,12 +65,15 @@ TEST_CASE("logarithms, powers and segments are as close as the format says") {
   const auto close = [](double value, double exact, double error) {
     REQUIRE(std::abs(value - exact) <= error);
   };
-  for (uint64_t v = 1; v < 1 << 18; ++v) {
+  const auto check = [&close](uint32_t v) {
     const double exact = 256 * std::log2(static_cast<double>(v));
     close(log2_of(v), exact, 1);
     close(rough_log2(v) + 11.5, exact, 11.6);
-    REQUIRE(rough_exp2(rough_log2(v)) <= v);
-  }
+    REQUIRE(highest_bit(v) == static_cast<uint32_t>(std::ilogb(static_cast<double>(v))));
+    if (v < 1 << 18) REQUIRE(rough_exp2(rough_log2(v)) <= v);
+  };
+  for (uint32_t v = 1; v < 1 << 18; ++v) check(v);
+  for (uint32_t i = 0; i < 1 << 18; ++i) check(0xFFFFFFFFu - i * 16381u);
   for (Log2 l = 0; l < 1 << 13; ++l) {
     const double exact = std::exp2(l / 256.0);
     close(rough_exp2(l), 1.03 * exact, 1 + 0.032 * exact);
@@ -91,12 +95,30 @@ TEST_CASE("cotangents stay below their cap, at every quotient of the largest num
     for (uint32_t i = 0; i < 25; ++i) {
       for (const int32_t h : {1 << i, (2 << i) - 1}) {
         for (const int32_t q : {0, 1, h, 33554431}) {
-          REQUIRE(magnitude(cotangent(q, h, most)) <= cap);
-          REQUIRE(magnitude(cotangent(-q, h, most)) <= cap);
+          REQUIRE(magnitude(cotangent(q, divisor_of(h), most)) <= cap);
+          REQUIRE(magnitude(cotangent(-q, divisor_of(h), most)) <= cap);
         }
       }
     }
   }
+}
+
+// By the means' definition, on numbers that divide exactly.
+TEST_CASE("both means of a bit learn as the format says, whatever instructions do it") {
+  const auto moved = [](int mean, int towards, int part) {
+    return mean + static_cast<int>(std::floor(static_cast<double>(towards - mean) / part));
+  };
+  size_t wrong = 0;
+  for (int mean = 64; mean <= 32704; ++mean) {
+    for (const bool one : {false, true}) {
+      const int towards = one ? 32704 : 64, other = 32768 - mean;
+      AdaptiveBit bit{static_cast<uint16_t>(mean), static_cast<uint16_t>(other)};
+      learn(bit, one);
+      wrong += bit.fast != moved(mean, towards, 32) || bit.slow != moved(other, towards, 256);
+      wrong += bit.fast < 64 || bit.fast > 32704 || bit.slow < 64 || bit.slow > 32704;
+    }
+  }
+  CHECK(wrong == 0);
 }
 
 }  // namespace microtin::tests

@@ -42,7 +42,8 @@ struct Player {
 
 struct Case {
   Point v, c, a;  // counter-clockwise
-  Side side[3];
+  Side chord, next;
+  bool opposite_certified;
   Log2 density;
   PlaceHabits habits;
 };
@@ -52,7 +53,9 @@ FreeRegion region_of(const Case& given) {
   region.origin = given.v;
   region.corner[0] = given.c - given.v;
   region.corner[1] = given.a - given.v;
-  for (int i = 0; i < 3; ++i) region.side[i] = given.side[i];
+  region.chord = given.chord;
+  region.next = given.next;
+  region.opposite_certified = given.opposite_certified;
   region.expected = free_area(region) + given.density;
   return region;
 }
@@ -119,9 +122,9 @@ Case random_case(Random& random, uint32_t size) {
     given.c = point_in(random, size);
     given.a = point_in(random, size);
   } while (orient2d(given.v, given.c, given.a) <= 0);
-  given.side[0] = random_side(random, size, given.v, given.v, given.c, random.below(2) == 0);
-  given.side[1] = random_side(random, size, given.v, given.c, given.a, random.below(2) == 0);
-  given.side[kChord] = random_side(random, size, given.v, given.a, given.v, true);
+  given.next = random_side(random, size, given.v, given.v, given.c, random.below(2) == 0);
+  given.opposite_certified = random.below(2) == 0;
+  given.chord = random_side(random, size, given.v, given.a, given.v, true);
   given.density = static_cast<Log2>(random.below(32768)) - 16384;
   given.habits.crowding = kCrowdingLeast + static_cast<Crowding>(random.below(kCrowdingMost));
   for (Tally& tally : given.habits.parities.first) tally = random_tally(random);
@@ -204,10 +207,11 @@ TEST_CASE("hardly a legal place is missed") {
       if (conflicts_with_triangle(given.a, behind, given.v, given.c)) continue;
       if (!conflicts_with_triangle(given.v, given.c, given.a, place)) continue;
       if (conflicts_with_triangle(given.a, behind, given.v, place)) continue;
-      given.side[kChord].certified = true;
-      given.side[kChord].apex = behind - given.v;
+      given.chord.certified = true;
+      given.chord.apex = behind - given.v;
       const FreeRegion region = region_of(given);
-      if (cotangent(region.cc - region.ca, region.twice, kOwnCap) >= 16 << kCotangentBits) continue;
+      if (cotangent(region.cc - region.ca, region.by_twice, kOwnCap) >= 16 << kCotangentBits)
+        continue;
       ++legal;
       Place at;
       PlaceModel bits = model();
@@ -224,6 +228,35 @@ TEST_CASE("hardly a legal place is missed") {
   CHECK(legal > 1000);
   CHECK(missed * 200 <= legal);
 }
+
+#if defined(MICROTIN_PAIRS)
+
+TEST_CASE("distances of two places at once are those of each") {
+  Random random(63);
+  const auto within = [&random](int32_t most) {
+    const uint32_t kind = random.below(8);
+    if (kind < 2) return kind == 0 ? most : -most;
+    return static_cast<int32_t>(random.below(2 * static_cast<uint32_t>(most) + 1)) - most;
+  };
+  size_t wrong = 0, counted = 0;
+  for (int i = 0; i < 2000000; ++i) {
+    LegalPlaces places{};
+    places.c = Spot{within(2047), within(2047)};
+    places.a = Spot{within(2047), within(2047)};
+    const Reach reach = reach_of(2 * kLog2One + static_cast<Log2>(random.below(26 * 256 + 1)));
+    const int32_t most = 1 << random.below(15);  // near the corners, too
+    const int32_t x = within(most < 1 << 14 ? most : 23170);
+    const int32_t low = within(i % 3 == 0 ? 35900 : most), high = within(i % 5 == 0 ? 35900 : most);
+    const Distances at = distances_at(reach, places, x, low, high);
+    const int32_t first = distance_at(reach, places, x, low);
+    wrong += at.low != first || at.high != distance_at(reach, places, x, high);
+    counted += first > 0 && first < 254;
+  }
+  CHECK(wrong == 0);
+  CHECK(counted > 100000);
+}
+
+#endif
 
 TEST_CASE("places are turned back to where they were") {
   for (const Offset a : {Offset{-9, 4}, Offset{9, 4}, Offset{3, 9}, Offset{3, -9}, Offset{-5, -5},

@@ -17,11 +17,14 @@ class CompactPack : public PackFace {
   static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
 
  public:
-  CompactPack() {
+  CompactPack() { begin(); }
+  constexpr explicit CompactPack(Later) : storage_{} {}
+
+  microtin_status begin() {
     status_ =
         microtin_compact_pack_init(storage_, sizeof storage_, Slots, Capacity, TileBytes, &pack_);
+    return status_;
   }
-
   microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
                           void* context) {
     if (status_ != MICROTIN_DONE) return status_;

@@ -7,8 +7,8 @@
  *   mesh     what queries need; one per terrain that is kept
  *   decoder  needed only while decoding; may be reused for one terrain after another
  *
- * Numbers called x, y and z are lattice integers: 0..65535 for x and y, int16_t for z. A stream's
- * placement says what they mean in real units.
+ * Numbers called x, y and z are lattice integers: 0..65535 for x and y, int16_t for z. x grows
+ * east, y grows north, z up. A stream's placement says what they mean in real units.
  *
  * Pointers must not be null; calls that can say MICROTIN_ARGUMENT check theirs. A call that changes
  * an object must not run, say in an interrupt, while another uses the same. Costs are in steps or
@@ -20,21 +20,14 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "microtin/config.h"
+
 /* The version of this library; all else that tells it takes it from here. */
 #define MICROTIN_VERSION_MAJOR 0
 #define MICROTIN_VERSION_MINOR 1
 #define MICROTIN_VERSION_PATCH 0
 
-/* Width of vertex and half-edge numbers, fixed when the library is built; the user's code must be
- * compiled with the same value, or will not link. 16 bits reach 10,923 vertices, 32 bits the
- * format's 2^24. */
-#ifndef MICROTIN_INDEX_BITS
-#define MICROTIN_INDEX_BITS 32
-#endif
-#if MICROTIN_INDEX_BITS != 16 && MICROTIN_INDEX_BITS != 32
-#error "MICROTIN_INDEX_BITS must be 16 or 32"
-#endif
-
+/* What holds for MICROTIN_INDEX_BITS, which config.h chooses. */
 #define MICROTIN_MAX_VERTICES MICROTIN_MAX_VERTICES_FOR(MICROTIN_INDEX_BITS)
 #define MICROTIN_MAX_VERTICES_FOR(index_bits) ((index_bits) == 16 ? 10923ul : 16777216ul)
 
@@ -72,6 +65,12 @@
 extern "C" {
 #endif
 
+/* The version of the library that is linked, as 65536 * major + 256 * minor + patch, and those of
+ * the formats of streams and of packs that it reads: others are MICROTIN_UNSUPPORTED_VERSION. */
+uint32_t microtin_decoder_version(void);
+uint8_t microtin_stream_version(void);
+uint8_t microtin_pack_version(void);
+
 typedef enum microtin_status {
   MICROTIN_DONE = 0,       /* the whole stream is decoded and verified */
   MICROTIN_NEED_INPUT = 1, /* every byte given was taken; more are needed */
@@ -91,6 +90,10 @@ typedef enum microtin_status {
   MICROTIN_IO = 25,       /* reading failed; nothing is lost, and the next call tries again */
   MICROTIN_BAD_TILES = 26 /* all tiles are there but bad ones: see microtin_pack_bad_tile */
 } microtin_status;
+
+/* Its name, without MICROTIN_; "" where MICROTIN_NO_NAMES leaves names out, "?" if it is none. On
+ * AVR the string lies in flash, as PSTR's do. */
+const char* microtin_status_name(microtin_status status);
 
 /* One axis: the real coordinate of lattice value k is (offset + numerator * k) / denominator units.
  */
@@ -231,6 +234,9 @@ typedef enum microtin_answer {
   MICROTIN_IN_BAD_TILE = 6   /* of packs alone: a tile that is needed is damaged or breaks a rule */
 } microtin_answer;
 
+/* As microtin_status_name. */
+const char* microtin_answer_name(microtin_answer answer);
+
 #define MICROTIN_ANSWER_UNVERIFIED 1u /* flag: answer from vertices not yet verified too */
 
 /* Height of the terrain at (x, y), given with 8 fractional bits (0 .. 65535 * 256): z with 16
@@ -281,6 +287,19 @@ void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_ax
  * offset outside +-2^61; *lattice is then left alone. Exact. A few 64-bit divisions. */
 int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
                         int32_t* lattice);
+
+/* The other way, for streams and packs: the real coordinate of a place with 8 fractional bits, in
+ * units / `per_unit`, rounded to nearest, halves up. Returns 1, or 0 when per_unit lies outside
+ * 1 .. 2^24, the axis' offset outside +-2^61, the place, in steps times the axis' numerator,
+ * outside
+ * +-2^62, or the coordinate outside +-2^38 units; *value is then left alone. Exact. A few 64-bit
+ * divisions. */
+int microtin_from_lattice(const microtin_axis* axis, int64_t lattice, uint32_t per_unit,
+                          int64_t* value);
+
+/* The same for a height with 16 fractional bits, on the z axis: with a per_unit of 1000, where the
+ * unit is the metre, in millimetres. Returns 0 also if an int32_t does not hold it. */
+int microtin_real_height(const microtin_axis* z, int32_t height, uint32_t per_unit, int32_t* value);
 
 #ifdef __cplusplus
 }

@@ -8,6 +8,12 @@
 
 namespace microtin {
 
+// Told to the constructor of a static object, `static Terrain<5000> terrain(later)`, it leaves
+// nothing to be done before main: the object lies in zeroed memory, and begin must be called before
+// all else. Buckets and compact terrains, which are made when they can be, are like that always.
+struct Later {};
+constexpr Later later = {};
+
 // A terrain of up to Capacity vertices. Queries live here; see microtin.h for units and costs.
 // Should its initialisation fail, status tells why, as does feeding its decoder, and nothing else
 // may be called.
@@ -17,10 +23,15 @@ class Terrain {
   static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
 
  public:
-  Terrain() : mesh_(nullptr), status_(microtin_mesh_init(storage_, sizeof storage_, &mesh_)) {}
+  Terrain() { begin(); }
+  constexpr explicit Terrain(Later) : storage_{} {}
   Terrain(const Terrain&) = delete;
   Terrain& operator=(const Terrain&) = delete;
 
+  microtin_status begin() {
+    status_ = microtin_mesh_init(storage_, sizeof storage_, &mesh_);
+    return status_;
+  }
   microtin_status status() const { return status_; }
   microtin_mesh* mesh() { return mesh_; }
   const microtin_mesh* mesh() const { return mesh_; }
@@ -36,8 +47,8 @@ class Terrain {
 
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_MESH_BYTES(Capacity)];
-  microtin_mesh* mesh_;
-  microtin_status status_;  // of its initialisation
+  microtin_mesh* mesh_ = nullptr;
+  microtin_status status_ = MICROTIN_DONE;  // of its initialisation
 };
 
 // The state needed while decoding a terrain of up to Capacity vertices. Should its initialisation,
@@ -48,16 +59,26 @@ class Decoder {
   static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
 
  public:
-  explicit Decoder(microtin_mesh* mesh)
-      : decoder_(nullptr),
-        status_(microtin_decoder_init(storage_, sizeof storage_, mesh, &decoder_)) {}
+  explicit Decoder(microtin_mesh* mesh) { begin(mesh); }
   template <uint32_t MeshCapacity>
-  explicit Decoder(Terrain<MeshCapacity>& target) : Decoder(target.mesh()) {
-    if (target.status() != MICROTIN_DONE) status_ = target.status();
+  explicit Decoder(Terrain<MeshCapacity>& target) {
+    begin(target);
   }
+  constexpr explicit Decoder(Later) : storage_{} {}
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
 
+  // May be called again, for another terrain.
+  microtin_status begin(microtin_mesh* mesh) {
+    status_ = microtin_decoder_init(storage_, sizeof storage_, mesh, &decoder_);
+    return status_;
+  }
+  template <uint32_t MeshCapacity>
+  microtin_status begin(Terrain<MeshCapacity>& target) {
+    begin(target.mesh());
+    if (target.status() != MICROTIN_DONE) status_ = target.status();
+    return status_;
+  }
   microtin_status status() const { return status_; }
   void stop_after_phase(uint32_t phase) { microtin_stop_after_phase(decoder_, phase); }
   microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t step_limit = 0) {
@@ -73,8 +94,8 @@ class Decoder {
 
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_DECODER_BYTES(Capacity)];
-  microtin_decoder* decoder_;
-  microtin_status status_;  // of its initialisation
+  microtin_decoder* decoder_ = nullptr;
+  microtin_status status_ = MICROTIN_DONE;  // of its initialisation
 };
 
 // Hints for places anywhere in a terrain, from Side x Side buckets.
@@ -83,7 +104,7 @@ class Buckets {
   static_assert(Side >= 1 && Side <= 1024, "1 to 1,024 buckets a side");
 
  public:
-  Buckets() : buckets_(nullptr) {}
+  constexpr Buckets() : storage_{}, buckets_(nullptr) {}
   Buckets(const Buckets&) = delete;
   Buckets& operator=(const Buckets&) = delete;
 
@@ -108,7 +129,7 @@ class CompactTerrain {
   static constexpr unsigned long kBytes =
       Narrow ? MICROTIN_COMPACT_NARROW_BYTES(Capacity) : MICROTIN_COMPACT_BYTES(Capacity);
 
-  CompactTerrain() = default;
+  constexpr CompactTerrain() : storage_{}, compact_(nullptr) {}
   CompactTerrain(const CompactTerrain&) = delete;
   CompactTerrain& operator=(const CompactTerrain&) = delete;
 
@@ -134,7 +155,7 @@ class CompactTerrain {
 
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[kBytes];
-  microtin_compact* compact_ = nullptr;
+  microtin_compact* compact_;
 };
 
 }  // namespace microtin

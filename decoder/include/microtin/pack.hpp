@@ -3,6 +3,7 @@
 #ifndef MICROTIN_PACK_HPP
 #define MICROTIN_PACK_HPP
 
+#include "microtin/microtin.hpp"
 #include "microtin/pack.h"
 
 namespace microtin {
@@ -24,11 +25,11 @@ class PackFace {
   bool header(microtin_pack_info* info) const { return microtin_pack_header(pack_, info) != 0; }
 
  protected:
-  PackFace() : pack_(nullptr), status_(MICROTIN_ARGUMENT) {}
+  constexpr PackFace() = default;
   ~PackFace() = default;
 
-  microtin_pack* pack_;
-  microtin_status status_;  // of its initialisation
+  microtin_pack* pack_ = nullptr;
+  microtin_status status_ = MICROTIN_DONE;  // of its initialisation
 };
 
 // A pack of which Slots tiles of up to Capacity vertices are kept. See pack.h for units, costs and
@@ -40,8 +41,13 @@ class Pack : public PackFace {
   static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
 
  public:
-  Pack() { status_ = microtin_pack_init(storage_, sizeof storage_, Slots, Capacity, &pack_); }
+  Pack() { begin(); }
+  constexpr explicit Pack(Later) : storage_{} {}
 
+  microtin_status begin() {
+    status_ = microtin_pack_init(storage_, sizeof storage_, Slots, Capacity, &pack_);
+    return status_;
+  }
   microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
                           void* context) {
     if (status_ != MICROTIN_DONE) return status_;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Names for people: of statuses and answers, and the versions.
+#include "microtin/microtin.h"
+#include "shared/format.hpp"
+#include "shared/pack_format.hpp"
+#include "shared/tables.hpp"
+
+namespace microtin {
+namespace {
+
+#if !defined(MICROTIN_NO_NAMES)
+
+constexpr int kFirstError = MICROTIN_BAD_MAGIC;
+
+// The last entry of each is for what has no name.
+constexpr char kStatuses[][20] MICROTIN_IN_FLASH = {"DONE", "NEED_INPUT", "STEP_LIMIT", "STOPPED",
+                                                    "?"};
+constexpr char kErrors[][20] MICROTIN_IN_FLASH = {
+    "BAD_MAGIC",  "UNSUPPORTED_VERSION", "TOO_BIG",  "CHECKSUM", "MALFORMED", "TRUNCATED",
+    "MISALIGNED", "WORKSPACE_TOO_SMALL", "ARGUMENT", "IO",       "BAD_TILES", "?"};
+constexpr char kAnswers[][14] MICROTIN_IN_FLASH = {
+    "HEIGHT", "OUTSIDE", "IN_VOID", "NOT_DECODED", "NOT_VERIFIED", "NOT_YET", "IN_BAD_TILE", "?"};
+
+template <size_t Count, size_t Bytes>
+const char* entry(const char (&names)[Count][Bytes], int number) {
+  const size_t i = static_cast<size_t>(number);
+  return names[i < Count ? i : Count - 1];
+}
+
+#endif
+
+}  // namespace
+}  // namespace microtin
+
+using namespace microtin;
+
+uint32_t microtin_decoder_version() {
+  return static_cast<uint32_t>(MICROTIN_VERSION_MAJOR) << 16 | MICROTIN_VERSION_MINOR << 8 |
+         MICROTIN_VERSION_PATCH;
+}
+
+uint8_t microtin_stream_version() {
+  return kVersion;
+}
+
+uint8_t microtin_pack_version() {
+  return kPackVersion;
+}
+
+#if defined(MICROTIN_NO_NAMES)
+
+const char* microtin_status_name(microtin_status) {
+  return "";
+}
+
+const char* microtin_answer_name(microtin_answer) {
+  return "";
+}
+
+#else
+
+const char* microtin_status_name(microtin_status status) {
+  const int number = status;
+  return number < kFirstError ? entry(kStatuses, number) : entry(kErrors, number - kFirstError);
+}
+
+const char* microtin_answer_name(microtin_answer answer) {
+  return entry(kAnswers, answer);
+}
+
+#endif

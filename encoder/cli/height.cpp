@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// The command height: the heights at places that are named, one on the command line or many on
+// standard input.
+#include <algorithm>
+#include <cstdio>
+
+#include "encoder/cli/commands.hpp"
+#include "encoder/cli/report.hpp"
+#include "encoder/exact/wide.hpp"
+#include "encoder/files/file_target.hpp"
+#include "encoder/files/input_file.hpp"
+#include "encoder/product/place_query.hpp"
+
+namespace microtin::cli {
+namespace {
+
+constexpr int kDecimals = 3;  // of a height: millimetres, where the unit is the metre
+
+const char* word_for(microtin_answer answer) {
+  switch (answer) {
+    case MICROTIN_IN_VOID:
+      return "void";
+    case MICROTIN_IN_BAD_TILE:
+      return "damaged";
+    default:
+      return "outside";
+  }
+}
+
+int code_for(microtin_answer answer) {
+  switch (answer) {
+    case MICROTIN_HEIGHT:
+      return 0;
+    case MICROTIN_IN_VOID:
+      return kInVoid;
+    case MICROTIN_IN_BAD_TILE:
+      return kDamaged;
+    default:
+      return kOutside;
+  }
+}
+
+std::string text_of_height(int32_t height, const Axis& z) {
+  const Wide parts = Wide{z.offset} * 65536 + Wide(z.numerator) * height;
+  return to_string(make_decimal(
+      round_divide(parts * power_of_ten(kDecimals), Wide(z.denominator) * 65536), kDecimals));
+}
+
+struct Answer {
+  microtin_answer kind;
+  std::string text;  // a number or a word
+};
+
+Answer ask(PlaceQuery& query, const Place& place, bool on_lattice) {
+  int32_t height = 0;
+  const microtin_answer kind = query.height_at(place.x, place.y, on_lattice, &height);
+  if (kind != MICROTIN_HEIGHT) return {kind, word_for(kind)};
+  return {kind, text_of_height(height, on_lattice ? Axis{0, 1, 1} : query.placement().z)};
+}
+
+// The next line of a text, which is taken off.
+std::string_view take_line(std::string_view& text) {
+  const size_t end = std::min(text.find('\n'), text.size());
+  std::string_view line = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
+}
+
+// Answers behind the lines that ask.
+std::string answered(PlaceQuery& query, std::string_view lines, bool on_lattice) {
+  std::string text;
+  for (uint64_t number = 1; !lines.empty(); ++number) {
+    const std::string_view line = take_line(lines);
+    if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
+    const std::optional<Place> place = parse_place(line);
+    if (!place) {
+      throw Error("standard input, line " + std::to_string(number) + ": is not a place, X Y");
+    }
+    text += std::string(line) + ' ' + ask(query, *place, on_lattice).text + '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+std::optional<Place> parse_place(std::string_view text) {
+  constexpr const char* kBetween = " \t,;";
+  std::vector<Decimal> numbers;
+  while (true) {
+    const size_t begin = text.find_first_not_of(kBetween);
+    if (begin == std::string_view::npos) break;
+    const size_t end = std::min(text.find_first_of(kBetween, begin), text.size());
+    const auto number = parse_decimal(text.substr(begin, end - begin), PlaceQuery::kDecimals);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    text.remove_prefix(end);
+  }
+  if (numbers.size() != 2) return std::nullopt;
+  return Place{numbers[0], numbers[1]};
+}
+
+int run_height(const HeightRequest& request) {
+  refuse_overwriting({request.input}, "-");
+  if (!request.place && request.input == "-") {
+    throw Error("standard input holds the stream or the places, not both");
+  }
+  try {
+    PlaceQuery query(request.input);
+    if (!request.place) {
+      print(answered(query, read_file("-"), request.lattice));
+      return 0;
+    }
+    const Answer answer = ask(query, *request.place, request.lattice);
+    print(answer.text + '\n');
+    return code_for(answer.kind);
+  } catch (const Damaged& damaged) {
+    std::fputs(("microtin: " + std::string(damaged.what()) + '\n').c_str(), stderr);
+    return kDamaged;
+  }
+}
+
+}  // namespace microtin::cli

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "encoder/product/place_query.hpp"
+
+#include "encoder/base/status_text.hpp"
+#include "encoder/files/input_file.hpp"
+#include "encoder/pack/file.hpp"
+
+namespace microtin::product {
+namespace {
+
+constexpr uint32_t kSlots = 4;  // a place can lie in so many tiles at once
+
+// Most vertices for each byte of a file (SECURITY.md, 25).
+constexpr uint64_t kVerticesPerByte = 1421;
+
+// As microtin_read; `context` is a ByteSource.
+int32_t read_source(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+  try {
+    return static_cast<int32_t>(
+        static_cast<const ByteSource*>(context)->read(offset, buffer, size));
+  } catch (const Error&) {
+    return -1;
+  }
+}
+
+// Throws unless the header was read.
+void expect_header(microtin_status status) {
+  if (status == MICROTIN_CHECKSUM || status == MICROTIN_MALFORMED || status == MICROTIN_TRUNCATED) {
+    throw Damaged(describe(status));
+  }
+  if (status == MICROTIN_UNSUPPORTED_VERSION || status == MICROTIN_IO)
+    throw Error(describe(status));
+}
+
+DecodedTerrain decoded(const std::vector<uint8_t>& bytes) {
+  microtin_info info;
+  const microtin_status status = microtin_peek(bytes.data(), bytes.size(), &info);
+  if (status == MICROTIN_BAD_MAGIC || status == MICROTIN_UNSUPPORTED_VERSION) {
+    throw Error(describe(status));
+  }
+  try {
+    return DecodedTerrain(bytes);
+  } catch (const Error& error) {
+    throw Damaged(error.what());
+  }
+}
+
+std::variant<DecodedTerrain, AskedPack> opened(const std::string& path) {
+  std::unique_ptr<ByteSource> source;
+  if (is_regular_file(path)) source = open_file(path);
+  const bool pack = source && is_pack(*source);
+  const std::string text = pack ? std::string() : read_file(path);
+  try {
+    if (pack) return AskedPack(std::move(source));
+    return decoded(std::vector<uint8_t>(text.begin(), text.end()));
+  } catch (const Damaged& damaged) {
+    throw Damaged(path + ": " + damaged.what());
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
+}
+
+uint32_t parts_of(Decimal value) {
+  return static_cast<uint32_t>(power_of_ten(value.decimals));
+}
+
+}  // namespace
+
+void AskedPack::lay_out(uint32_t slots, uint32_t capacity) {
+  space_.assign((MICROTIN_PACK_BYTES(uint64_t{slots}, uint64_t{capacity}) + 7) / 8, 0);
+  microtin_pack_init(space_.data(), space_.size() * 8, slots, capacity, &pack_);
+}
+
+microtin_status AskedPack::serve(int64_t x, int64_t y) {
+  const microtin_course course = {x, y, x, y};
+  return microtin_pack_service(pack_, &course, 0, read_source, bytes_.get());
+}
+
+AskedPack::AskedPack(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {
+  lay_out(1, 3);
+  const microtin_status status = serve(-1, -1);  // outside: the header alone is read
+  if (microtin_pack_header(pack_, &info_) == 0) expect_header(status);
+  if (info_.most_vertices > 3 + kVerticesPerByte * bytes_->size()) {
+    throw Damaged("more vertices are announced than so few bytes can hold");
+  }
+  lay_out(kSlots, info_.most_vertices < 3 ? 3 : info_.most_vertices);
+}
+
+microtin_answer AskedPack::height_at(int64_t x, int64_t y, int32_t* height) {
+  if (serve(x, y) == MICROTIN_IO) throw Error(describe(MICROTIN_IO));
+  return microtin_pack_height_at(pack_, x, y, &hint_, height);
+}
+
+PlaceQuery::PlaceQuery(const std::string& path) : content_(opened(path)) {}
+
+Placement PlaceQuery::placement() const {
+  Placement placement;
+  if (const auto* pack = std::get_if<AskedPack>(&content_)) {
+    placement = {pack->info().x, pack->info().y, pack->info().z};
+  } else {
+    microtin_placement(std::get<DecodedTerrain>(content_).mesh(), &placement.x, &placement.y,
+                       &placement.z);
+  }
+  return placement;
+}
+
+microtin_answer PlaceQuery::height_at(Decimal x, Decimal y, bool on_lattice, int32_t* height) {
+  const Placement place = on_lattice ? Placement() : placement();
+  return std::holds_alternative<AskedPack>(content_) ? pack_height_at(place, x, y, height)
+                                                     : stream_height_at(place, x, y, height);
+}
+
+microtin_answer PlaceQuery::stream_height_at(const Placement& place, Decimal x, Decimal y,
+                                             int32_t* height) {
+  int32_t column = 0, row = 0;
+  if (microtin_to_lattice(&place.x, x.mantissa, parts_of(x), &column) == 0 ||
+      microtin_to_lattice(&place.y, y.mantissa, parts_of(y), &row) == 0) {
+    return MICROTIN_OUTSIDE;
+  }
+  return microtin_height_at(std::get<DecodedTerrain>(content_).mesh(), column, row, 0, &hint_,
+                            height);
+}
+
+microtin_answer PlaceQuery::pack_height_at(const Placement& place, Decimal x, Decimal y,
+                                           int32_t* height) {
+  AskedPack& pack = std::get<AskedPack>(content_);
+  int64_t column = 0, row = 0;
+  if (microtin_pack_to_lattice(&place.x, pack.info().x_max, x.mantissa, parts_of(x), &column) ==
+          0 ||
+      microtin_pack_to_lattice(&place.y, pack.info().y_max, y.mantissa, parts_of(y), &row) == 0) {
+    return MICROTIN_OUTSIDE;
+  }
+  return pack.height_at(column, row, height);
+}
+
+}  // namespace microtin::product

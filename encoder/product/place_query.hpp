@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Heights at single places of a stream or a pack, asked as a device asks.
+#ifndef MICROTIN_ENCODER_PRODUCT_PLACE_QUERY_HPP
+#define MICROTIN_ENCODER_PRODUCT_PLACE_QUERY_HPP
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/metadata.hpp"
+#include "encoder/files/byte_source.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "microtin/pack.h"
+
+namespace microtin::product {
+
+// What begins as a stream or a pack, but is not whole.
+struct Damaged : Error {
+  using Error::Error;
+};
+
+// A pack with the memory that the pack's largest tiles need; tiles are read when they are asked.
+class AskedPack {
+ public:
+  // Throws Damaged, or Error if the header is of another version or claims too much.
+  explicit AskedPack(std::unique_ptr<ByteSource> bytes);
+
+  const microtin_pack_info& info() const { return info_; }
+
+  // As microtin_pack_height_at. Throws Error if the file cannot be read.
+  microtin_answer height_at(int64_t x, int64_t y, int32_t* height);
+
+ private:
+  microtin_status serve(int64_t x, int64_t y);
+  void lay_out(uint32_t slots, uint32_t capacity);
+
+  std::unique_ptr<ByteSource> bytes_;
+  std::vector<uint64_t> space_;
+  microtin_pack* pack_ = nullptr;
+  microtin_pack_info info_{};
+  uint32_t hint_ = 0;
+};
+
+class PlaceQuery {
+ public:
+  // "-" is a stream on standard input. Throws Error or Damaged, naming the file.
+  explicit PlaceQuery(const std::string& path);
+
+  Placement placement() const;
+
+  // The height, with 16 fractional bits, at a place in real units or, with `on_lattice`, in steps;
+  // both with at most kDecimals decimals. HEIGHT, OUTSIDE, IN_VOID or IN_BAD_TILE.
+  static constexpr int kDecimals = 7;
+  microtin_answer height_at(Decimal x, Decimal y, bool on_lattice, int32_t* height);
+
+ private:
+  microtin_answer stream_height_at(const Placement& place, Decimal x, Decimal y, int32_t* height);
+  microtin_answer pack_height_at(const Placement& place, Decimal x, Decimal y, int32_t* height);
+
+  std::variant<DecodedTerrain, AskedPack> content_;
+  uint32_t hint_ = 0;
+};
+
+}  // namespace microtin::product
+
+#endif

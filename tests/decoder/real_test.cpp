@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// From the lattice to real units: what exact arithmetic says, or a refusal. Names and versions.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <random>
+#include <string_view>
+
+#include "microtin/microtin.h"
+#include "shared/format.hpp"
+#include "shared/pack_format.hpp"
+#include "tests/support/reference_heights.hpp"
+
+namespace microtin::tests {
+namespace {
+
+using reference::rounded;
+using reference::Wide;
+
+constexpr int64_t kFar = int64_t{1} << 61;
+constexpr uint64_t kMostOfAxis = (uint64_t{1} << 40) - 1;
+constexpr uint32_t kMostPerUnit = 1u << 24;
+
+constexpr uint64_t kParts[] = {1, 2, 3, 1200, kMostOfAxis - 1, kMostOfAxis};
+constexpr int64_t kOffsets[] = {INT64_MIN, -kFar, 1 - kFar, -7777,    -1,
+                                0,         1,     7777,     kFar - 1, INT64_MAX};
+constexpr uint32_t kPerUnit[] = {0, 1, 3, 1000, 10000000, kMostPerUnit, kMostPerUnit + 1};
+
+// The largest whole number that is not above n / d.
+Wide floor_of(Wide n, Wide d) {
+  return n / d - (n % d < 0 ? 1 : 0);
+}
+
+struct Expected {
+  bool known;
+  Wide value;
+};
+
+Expected expected(const microtin_axis& axis, int64_t place, Wide fraction, uint32_t per_unit) {
+  const bool legal =
+      per_unit >= 1 && per_unit <= kMostPerUnit && axis.offset > -kFar && axis.offset < kFar;
+  const Wide steps = floor_of(place, fraction);
+  const Wide far = (steps < 0 ? -steps : steps) * Wide(axis.numerator);
+  if (!legal || far > (Wide{1} << 62)) return {false, 0};
+  const Wide parts = Wide{axis.offset} * fraction + Wide(axis.numerator) * place;
+  const Wide d = Wide(axis.denominator) * fraction;
+  const Wide units = floor_of(parts, d), most = Wide{1} << 38;
+  if (units >= most || units < -most) return {false, 0};
+  return {true, units * per_unit + rounded((parts - units * d) * per_unit, d)};
+}
+
+uint32_t check_place(const microtin_axis& axis, int64_t place, uint32_t per_unit) {
+  const Expected right = expected(axis, place, 256, per_unit);
+  int64_t found = -1;
+  const bool known = microtin_from_lattice(&axis, place, per_unit, &found) != 0;
+  CHECK(known == right.known);
+  CHECK(found == (right.known ? right.value : -1));
+  return known ? 1 : 0;
+}
+
+uint32_t check_height(const microtin_axis& axis, int32_t height, uint32_t per_unit) {
+  const Expected right = expected(axis, height, 65536, per_unit);
+  const bool fits = right.known && right.value >= INT32_MIN && right.value <= INT32_MAX;
+  int32_t found = -1;
+  const bool known = microtin_real_height(&axis, height, per_unit, &found) != 0;
+  CHECK(known == fits);
+  CHECK(found == (fits ? right.value : -1));
+  return known ? 1 : 0;
+}
+
+TEST_CASE("real units: places and heights at the ends of all ranges") {
+  uint32_t places = 0, heights = 0;
+  for (const uint64_t numerator : kParts) {
+    for (const uint64_t denominator : kParts) {
+      for (const int64_t offset : kOffsets) {
+        const microtin_axis axis = {offset, numerator, denominator};
+        for (const uint32_t per_unit : kPerUnit) {
+          for (const int64_t place :
+               {INT64_MIN, -(int64_t{1} << 40), int64_t{-1}, int64_t{0}, int64_t{1}, int64_t{12345},
+                int64_t{65535} * 256, int64_t{1} << 40, INT64_MAX}) {
+            places += check_place(axis, place, per_unit);
+          }
+          for (const int32_t height : {INT32_MIN, -65537, -1, 0, 1, 99999, INT32_MAX}) {
+            heights += check_height(axis, height, per_unit);
+          }
+        }
+      }
+    }
+  }
+  CHECK(places > 1000);
+  CHECK(heights > 1000);
+}
+
+TEST_CASE("real units: random places and heights") {
+  std::mt19937_64 random(11);
+  uint32_t known = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const microtin_axis axis = {static_cast<int64_t>(random()) >> (2 + random() % 60),
+                                (1 + random() % kMostOfAxis) >> (random() % 40),
+                                (1 + random() % kMostOfAxis) >> (random() % 40)};
+    if (axis.numerator == 0 || axis.denominator == 0) continue;
+    const uint32_t per_unit = 1 + static_cast<uint32_t>(random() % kMostPerUnit);
+    known += check_place(axis, static_cast<int64_t>(random() % (65536 * 256)), per_unit);
+    known += check_height(axis, static_cast<int32_t>(random()), per_unit);
+  }
+  CHECK(known > 5000);
+}
+
+TEST_CASE("real units: a place comes back from its coordinate") {
+  const microtin_axis degrees = {-117 * 3600, 1, 3600};
+  for (int32_t place = 0; place < 65535 * 256; place += 4099) {
+    int64_t value = 0;
+    REQUIRE(microtin_from_lattice(&degrees, place, 10000000, &value) == 1);
+    int32_t back = -1;
+    REQUIRE(microtin_to_lattice(&degrees, value, 10000000, &back) == 1);
+    CHECK(back == place);
+  }
+}
+
+TEST_CASE("names of statuses and answers, and versions") {
+  const auto status = [](int number) {
+    return std::string_view(microtin_status_name(static_cast<microtin_status>(number)));
+  };
+  const auto answer = [](int number) {
+    return std::string_view(microtin_answer_name(static_cast<microtin_answer>(number)));
+  };
+  CHECK(status(MICROTIN_DONE) == "DONE");
+  CHECK(status(MICROTIN_STOPPED) == "STOPPED");
+  CHECK(status(MICROTIN_BAD_MAGIC) == "BAD_MAGIC");
+  CHECK(status(MICROTIN_WORKSPACE_TOO_SMALL) == "WORKSPACE_TOO_SMALL");
+  CHECK(status(MICROTIN_BAD_TILES) == "BAD_TILES");
+  CHECK(answer(MICROTIN_HEIGHT) == "HEIGHT");
+  CHECK(answer(MICROTIN_NOT_VERIFIED) == "NOT_VERIFIED");
+  CHECK(answer(MICROTIN_IN_BAD_TILE) == "IN_BAD_TILE");
+  for (const int none : {4, 15, 27}) CHECK(status(none) == "?");
+  CHECK(answer(7) == "?");
+  CHECK(microtin_decoder_version() ==
+        MICROTIN_VERSION_MAJOR * 65536 + MICROTIN_VERSION_MINOR * 256 + MICROTIN_VERSION_PATCH);
+  CHECK(microtin_stream_version() == kVersion);
+  CHECK(microtin_pack_version() == kPackVersion);
+}
+
+}  // namespace
+}  // namespace microtin::tests

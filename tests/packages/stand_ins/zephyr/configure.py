@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: MIT
+"""configure.py KCONFIG CMAKE NAME=VALUE...: sets symbols of a module's Kconfig below that of Zephyr's stand-in, and
+writes CONFIG_... as CMake reads them."""
+
+import os
+import sys
+from pathlib import Path
+
+import kconfiglib
+
+os.environ["MODULE_KCONFIG"] = sys.argv[1]
+config = kconfiglib.Kconfig(str(Path(__file__).parent / "Kconfig"), warn_to_stderr=False)
+for choice in sys.argv[3:]:
+    name, value = choice.split("=")
+    config.syms[name].set_value(value)
+    if config.syms[name].str_value != value:
+        sys.exit(f"rejected: {name} is not {value}")
+if config.warnings:
+    sys.exit("rejected: " + "; ".join(config.warnings))
+lines = [f"set(CONFIG_{s.name} {s.str_value})\n" for s in config.unique_defined_syms if s.str_value == "y"]
+Path(sys.argv[2]).write_text("".join(lines))
+
+# What the module needs of C++ is asked for.
+config.syms["STD_CPP11"].set_value("y")
+if config.syms["MICROTIN"].str_value != "n":
+    sys.exit("rejected: C++11 is enough")
