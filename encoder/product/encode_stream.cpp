@@ -172,7 +172,6 @@ std::optional<Attempt> attempt_narrowly(const Source& source, const EncodeOption
 
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress) {
-  metadata_of(options, reference_of(source));  // throws if units are not known
   Attempt made = attempt_some(source, options, options.lattice.max_error, progress);
   if (made.missed == 0) return std::move(made.encoded);
   std::optional<Attempt> narrow = attempt_narrowly(source, options, made, progress);
