@@ -68,8 +68,9 @@ inline uint32_t repeats_of(const microtin_compact& header) {
 // Bytes that it takes with numbers of so many bytes. With those at hand less than the mesh, which
 // is in memory.
 inline size_t compact_bytes(const microtin_compact& header, uint32_t index_bytes) {
-  const size_t each = 2 * index_bytes + (header.is_narrow != 0 ? 4u : 6u);
-  return sizeof(microtin_compact) + header.positions * each + repeats_of(header) * index_bytes;
+  const uint32_t each = 2 * index_bytes + (header.is_narrow != 0 ? 4u : 6u);
+  return sizeof(microtin_compact) +
+         static_cast<size_t>(header.positions * each + repeats_of(header) * index_bytes);
 }
 
 inline size_t body_bytes(const microtin_compact& header) {

@@ -139,7 +139,7 @@ void HeightFit::add_face(Index triangle) {
 }
 
 void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
-  const auto& [va, vb, vc] = corner;
+  const Vertex &va = corner[0], &vb = corner[1], &vc = corner[2];
   const Point a{va.x, va.y}, b{vb.x, vb.y}, c{vc.x, vc.y};
   // The weights of b and c grow evenly along x and y.
   const float scale = 1.0F / static_cast<float>(orient2d(a, b, c));

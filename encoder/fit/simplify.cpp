@@ -111,7 +111,7 @@ Tin simplify(const Survey& survey, const SimplifyOptions& options) {
                         keep_all ? all_of(survey.samples) : first_vertices(survey));
   refinement.refine(options.max_vertices != 0 ? options.max_vertices
                                               : std::numeric_limits<std::size_t>::max());
-  const Tin refined = refinement.tin();
+  Tin refined = refinement.tin();
   if (!options.bounded || options.max_vertices != 0 || options.search == Search::kGreedy) {
     return refined;
   }

@@ -138,12 +138,11 @@ class WktReader {
 
   void add_unit(Kind kind, const Node& node) {
     const std::string& length = node.values[1];
-    if (kind == Kind::kVertical) {
+    const bool is_of_third_axis = kind != Kind::kProjected && node.keyword == "lengthunit";
+    if (kind == Kind::kVertical || is_of_third_axis) {
       reference_.vertical_unit = length_unit(length);
     } else if (kind == Kind::kProjected) {
       reference_.horizontal_unit = length_unit(length);
-    } else if (node.keyword == "lengthunit") {
-      reference_.vertical_unit = length_unit(length);  // of the third axis
     } else {
       reference_.horizontal_unit = angular_unit(length);
     }

@@ -135,7 +135,7 @@ std::optional<CodedSystem> system_of_code(uint32_t code) {
 }
 
 std::string wkt_of_code(uint32_t code) {
-  const std::string text = built_in_wkt(code);
+  std::string text = built_in_wkt(code);
 #ifdef MICROTIN_WITH_GDAL
   if (text.empty() && code != 0) return wkt_by_proj(code);
 #endif
