@@ -97,6 +97,8 @@ class TileCourse {
   TileCourse(const TileBox& box, const microtin_course& course)
       : begin_(local(box, course.x, course.y)),
         end_(local(box, course.x_end, course.y_end)),
+        x_{0, 0},
+        y_{0, 0},
         enters_{0, 1},
         leaves_{begin_.x != end_.x || begin_.y != end_.y, 1} {
     clip(begin_.x, end_.x, static_cast<int32_t>(box.x_end - box.x) * 256);

@@ -31,23 +31,24 @@ class SystemFile {
   SystemFile(const std::string& grid, const Metadata& metadata)
       : path_(fs::path(grid).replace_extension(".prj").string()), code_(metadata.horizontal_epsg) {
     const std::string text = system_text(metadata);
-    if (!text.empty()) out_.emplace(path_).write(text);
-  }
-
-  void commit() {
-    if (out_) {
-      out_->commit();
+    if (!text.empty()) {
+      out_.emplace(path_).write(text);
     } else if (std::error_code none; fs::exists(path_, none)) {
-      warn(path_ + " lies beside the grid, but is not its coordinate system");
+      warning_ = warning(path_ + " lies beside the grid, but is not its coordinate system");
     } else if (code_ != 0) {
       const std::string code = "EPSG:" + std::to_string(code_);
-      warn("no " + path_ + " is written: the text of " + code +
-           " is not known here; \"gdalsrsinfo -o wkt_esri " + code + "\" prints it");
+      warning_ = warning("no " + path_ + " is written: the text of " + code +
+                         " is not known here; \"gdalsrsinfo -o wkt_esri " + code + "\" prints it");
     }
   }
 
+  void commit() {
+    if (out_) out_->commit();
+    std::fputs(warning_.c_str(), stderr);
+  }
+
  private:
-  std::string path_;
+  std::string path_, warning_;
   uint32_t code_;
   std::optional<OutputFile> out_;
 };
@@ -142,8 +143,10 @@ void run_decode(const DecodeRequest& request) {
   const bool is_real = !request.lattice;
   OutputFile out(request.output);
   export_model(model, format, is_real ? Coordinates::kReal : Coordinates::kLattice, out);
+  const bool has_units = format == MeshFormat::kGlb && is_real;
+  const std::string of_units = has_units ? warning_of_units(request.output, model) : "";
   out.commit();
-  if (format == MeshFormat::kGlb && is_real) warn_of_units(request.output, model);
+  std::fputs(of_units.c_str(), stderr);
 }
 
 }  // namespace microtin::cli

@@ -2,6 +2,7 @@
 // The commands render and fractal: pictures, and terrains to try the program with.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -75,8 +76,9 @@ void write_page(const RenderRequest& request, const Portrait& portrait) {
   });
   OutputFile out(request.output);
   out.write(page);
+  const std::string of_units = warning_of_units(request.output, portrait.model);
   out.commit();
-  warn_of_units(request.output, portrait.model);
+  std::fputs(of_units.c_str(), stderr);
 }
 
 void draw(const RenderRequest& request, const Portrait& portrait, const Comparison* comparison) {
@@ -89,9 +91,10 @@ void draw(const RenderRequest& request, const Portrait& portrait, const Comparis
     world.emplace(world_path(request.output))
         .write(world_file(portrait, request.width, comparison != nullptr));
   }
+  const std::string of_units = warning_of_units(request.output, portrait.model);
   out.commit();
   if (world) world->commit();
-  warn_of_units(request.output, portrait.model);
+  std::fputs(of_units.c_str(), stderr);
 }
 
 }  // namespace

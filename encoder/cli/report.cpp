@@ -73,18 +73,19 @@ void print(const std::string& text) {
   if (!tell(text)) throw ReportLost("nobody reads the report");
 }
 
-void warn(const std::string& text) {
-  std::fputs(("microtin: warning: " + text + '\n').c_str(), stderr);
+std::string warning(const std::string& text) {
+  return "microtin: warning: " + text + '\n';
 }
 
-void warn_of_units(const std::string& path, const SurfaceModel& model) {
+std::string warning_of_units(const std::string& path, const SurfaceModel& model) {
   const bool plane = model.horizontal_unit == Unit::kUnknown;
   const bool up = model.vertical_unit == Unit::kUnknown || model.vertical_unit == Unit::kDegree;
-  if (!plane && !up) return;
+  if (!plane && !up) return {};
   const std::string what = plane && up ? "units are"
                            : plane     ? "the unit of x and y is"
                                        : "the unit of heights is";
-  warn(path + ": " + what + " not known and taken as metres; encode with --units says them");
+  return warning(path + ": " + what +
+                 " not known and taken as metres; encode with --units says them");
 }
 
 std::string text_of(const JsonObject& report, bool as_json) {

@@ -38,11 +38,12 @@ bool tell(const std::string& text);
 // The same for commands that do no more. Throws ReportLost if nobody reads.
 void print(const std::string& text);
 
-// Says on standard error, in one line, what a user should know of an output that is complete.
-void warn(const std::string& text);
+// The line for standard error that says what a user should know of an output, to be made before it
+// is complete: memory may be short only before.
+std::string warning(const std::string& text);
 
-// Warns that a picture or a scene may be too high or too low, if units are not known.
-void warn_of_units(const std::string& path, const SurfaceModel& model);
+// The one that a picture or a scene may be too high or too low, if units are not known; else empty.
+std::string warning_of_units(const std::string& path, const SurfaceModel& model);
 
 // The report as JSON, or as a line "name: value" for each entry.
 std::string text_of(const JsonObject& report, bool as_json);

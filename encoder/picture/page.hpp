@@ -15,8 +15,8 @@ constexpr uint64_t kLargestPage = 100'000'000;  // bytes of a terrain
 
 // The page of a terrain in a file with the given content; `flat` is a PNG for browsers that cannot
 // draw. Throws Error if the program was built without the page, and for larger files.
-std::string render_page(const Portrait& portrait, const std::string& title,
-                        const std::string& file, const std::vector<uint8_t>& flat);
+std::string render_page(const Portrait& portrait, const std::string& title, const std::string& file,
+                        const std::vector<uint8_t>& flat);
 
 }  // namespace microtin::picture
 

@@ -48,7 +48,11 @@ double value_of(Decimal d) {
 class Budget {
  public:
   Budget(const Source& source, const EncodeOptions& options, const Progress& progress)
-      : source_(source), asked_(options), options_(options), progress_(progress), largest_(height_range(source)) {
+      : source_(source),
+        asked_(options),
+        options_(options),
+        progress_(progress),
+        largest_(height_range(source)) {
     const uint32_t vertices = vertex_limit(options);
     of_vertices_ = vertices != 0;
     limit_ = of_vertices_ ? vertices : options.max_bytes;

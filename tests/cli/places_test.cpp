@@ -224,7 +224,7 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
   REQUIRE(session.run("encode t.asc --units m -o t.mtin").code == 0);
   for (const char* const name : {"t.jpg", "t.svg", "t.tif"}) {
     CHECK(contains(session.failure("render t.mtin -o " + std::string(name)),
-                   std::string(name) + ": not a kind of picture that is written (.png)"));
+                   std::string(name) + ": not a kind of picture that is written (.png, .html)"));
   }
   CHECK(session.run("render t.mtin --no-mesh --palette sea --world-file -o t.png").code == 0);
   const std::string world = session.read("t.pgw");

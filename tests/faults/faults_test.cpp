@@ -222,9 +222,12 @@ TEST_CASE("a decoder that betrays the encoder: a fault of ours, told as that, an
       REQUIRE(stage.run(words).status == 0);
       const uint64_t asked = (stage.counters().*counter).asked;
       CHECK(asked > 0);
+      // A search for a size begins with a trial that has no bound: what errors it finds are not
+      // wrong.
+      const bool is_search = words[4] == "--max-bytes" && counter == &Counters::heights;
       // The last heights of a pack of points are asked for only to know that there are some.
-      const uint64_t last = counter == &Counters::heights ? 1 : asked;
-      for (const uint64_t first : {uint64_t{1}, last}) {
+      const uint64_t last = counter == &Counters::heights && !is_search ? 1 : asked;
+      for (const uint64_t first : {is_search ? asked : 1, last}) {
         Counters faults;
         (faults.*counter).first = first;
         const Stage::Result result = stage.run(words, faults);

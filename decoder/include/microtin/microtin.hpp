@@ -12,7 +12,7 @@ namespace microtin {
 // nothing to be done before main: the object lies in zeroed memory, and begin must be called before
 // all else. Buckets and compact terrains, which are made when they can be, are like that always.
 struct Later {};
-constexpr Later later = {};
+constexpr Later later = {};  // NOLINT(readability-identifier-naming): a word of the interface
 
 // A terrain of up to Capacity vertices. Queries live here; see microtin.h for units and costs.
 // Should its initialisation fail, status tells why, as does feeding its decoder, and nothing else
