@@ -57,6 +57,8 @@ def link(options, library, entries, image):
         command += ["-Wl,-u," + name for name in names]
     if options.target == "xtensa":
         command += ["-Wl,-Ttext=0x1000"]  # within reach of the helpers that its libgcc lacks
+    if options.target == "avr":
+        command += ["-Wl,--defsym=__TEXT_REGION_LENGTH__=0x40000"]  # all of packs at -O2 is more than the device has
     subprocess.run(command, check=True)
 
 
