@@ -39,14 +39,12 @@ export interface Header {
   wkt?: string;
   /** In units of height: the bound asked for, and the errors measured at every sample of the source. */
   accuracy?: { bound?: number; largest: number; rms: number; mean: number };
-  source?: string;
   /** Triangles of which all vertices have this very height are water. */
   waterLevel?: number;
 }
 
 export interface TerrainHeader extends Header {
   vertices: number;
-  decoding: "quick" | "balanced" | "dense";
 }
 
 export interface Mesh {

@@ -61,7 +61,6 @@ const NOTES = {
       vertical: Number(note.varint()) || undefined,
     },
   }),
-  3: (note) => ({ source: note.text() }),
   4: (note) => {
     const isBound = note.byte() === 1;
     const [bound, largest, rms, mean] = Array.from({ length: 4 }, () => note.decimal());

@@ -16,7 +16,7 @@ export const version = MICROTIN_VERSION;
 
 export class Instance {
   constructor() {
-    if (!compiled) throw new Error("microtin is not there yet: await ready first");
+    if (!compiled) throw new Error("await ready first");
     this.calls = new WebAssembly.Instance(compiled).exports;
     this.end = this.calls.__heap_base.value;
     this.results = this.reserve(128);

@@ -90,7 +90,7 @@ export class Pack {
   // The corners of a tile on the pack's lattice: x, y, largest x, largest y.
   #box(tile) {
     if (!(Number.isInteger(tile) && tile >= 0 && tile < this.columns * this.rows)) {
-      throw new RangeError(`the pack has no tile ${tile}`);
+      throw new RangeError(`no tile ${tile}`);
     }
     const first = [tile % this.columns, Math.floor(tile / this.columns)].map((n, i) => n * this.tileSize[i]);
     return [...first, ...first.map((n, i) => Math.min(n + this.tileSize[i], this.extent[i]))];

@@ -7,11 +7,10 @@ import { DONE, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED } from "./status
 
 const REAL = 0, VOID = 1;
 const UNVERIFIED = 1;
-const INFO_BYTES = 96, INFO_VERTICES = 0, INFO_DECODING = 10, INFO_AXES = 16, INFO_MESH_BYTES = 88,
+const INFO_BYTES = 96, INFO_VERTICES = 0, INFO_AXES = 16, INFO_MESH_BYTES = 88,
   INFO_DECODER_BYTES = 92; // where they are in microtin_info
 const CHUNK = 65536;
 const STEPS = 1 << 16;
-const DECODINGS = [, "quick", "balanced", "dense"];
 
 // Vertices and triangles of a mesh, 0 if there is none, whose lattice begins at (x0, y0) of the axes'.
 export function meshArrays(instance, mesh, axes, x0 = 0, y0 = 0) {
@@ -142,7 +141,7 @@ export class Decoder {
     const number = (at) => view.getUint32(info + at, true);
     const [meshBytes, decoderBytes] = [number(INFO_MESH_BYTES), number(INFO_DECODER_BYTES)];
     const axes = axesAt(view, info + INFO_AXES);
-    const header = { vertices: number(INFO_VERTICES), decoding: DECODINGS[view.getUint8(info + INFO_DECODING)], axes, ...notes };
+    const header = { vertices: number(INFO_VERTICES), axes, ...notes };
     instance.end = start;
     const workspace = instance.reserve(meshBytes);
     calls.microtin_mesh_init_32(workspace, meshBytes, instance.results);
