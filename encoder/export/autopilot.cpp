@@ -12,7 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <regex>
+#include <string_view>
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/fraction.hpp"
@@ -29,6 +29,10 @@ constexpr size_t kBlockBytes = 2048, kHeights = 22;
 constexpr int64_t kDegree = 10000000;  // places are in 1e-7 degrees
 
 constexpr double kMetres = 0.011131884502145034F, kPerMetre = 89.83204953368922F;
+
+bool are_digits(std::string_view text) {
+  return text.find_first_not_of("0123456789") == std::string_view::npos;
+}
 
 // How much shorter a degree of longitude is, in single precision as there.
 double longitude_scale(double latitude) {
@@ -412,12 +416,13 @@ std::optional<Autopilot> autopilot_of(const std::string& path) {
 }
 
 DegreeCell cell_of(const std::string& path) {
-  static const std::regex form("([NS])([0-9]{2})([EW])([0-9]{3})");
   const std::string name = upper_case(std::filesystem::path(path).stem().string());
-  std::smatch part;
-  if (std::regex_match(name, part, form)) {
-    const int latitude = std::stoi(part[2]) * (part[1] == "S" ? -1 : 1);
-    const int longitude = std::stoi(part[4]) * (part[3] == "W" ? -1 : 1);
+  const bool has_form = name.size() == 7 && (name[0] == 'N' || name[0] == 'S') &&
+                        (name[3] == 'E' || name[3] == 'W') && are_digits(name.substr(1, 2)) &&
+                        are_digits(name.substr(4));
+  if (has_form) {
+    const int latitude = std::stoi(name.substr(1, 2)) * (name[0] == 'S' ? -1 : 1);
+    const int longitude = std::stoi(name.substr(4)) * (name[3] == 'W' ? -1 : 1);
     if (latitude >= -90 && latitude < 90 && longitude >= -180 && longitude < 180) {
       return {latitude, longitude};
     }

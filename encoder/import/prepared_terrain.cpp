@@ -70,6 +70,7 @@ std::vector<std::string> parts_of(const std::string& path, const Preparation& pr
 
 OpenSource open_parts(const std::vector<std::string>& parts, const Preparation& preparation) {
   std::vector<NamedSource> sources;
+  sources.reserve(parts.size());
   for (const std::string& part : parts) {
     sources.push_back(
         {part, open_terrain(part, preparation.classes, preparation.indirect, preparation.band)});
