@@ -137,7 +137,7 @@ class Firmware {
     bytes.push_back(0);
     uint32_t rest = 0;
     for (size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-      rest = rest << 1 | (bytes[bit / 8] >> (7 - bit % 8) & 1u);
+      rest = rest << 1 | (static_cast<uint32_t>(bytes[bit / 8]) >> (7 - bit % 8) & 1u);
       if ((rest & 0x10000) != 0) rest ^= 0x11021;
     }
     return rest;
