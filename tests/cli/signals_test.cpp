@@ -124,7 +124,8 @@ TEST_CASE("cli: a terminal shows how much is done and how long it will take") {
   REQUIRE(unlockpt(terminal) == 0);
   const int other_side = open(ptsname(terminal), O_RDWR | O_NOCTTY);
   REQUIRE(other_side >= 0);
-  Running running(session, kLongWork, other_side);
+  Running running(session, {"encode", "t.asc", "--max-error", "1", "--best", "-o", "new.mtin"},
+                  other_side);
   std::string shown;
   const auto start = Clock::now();
   fcntl(terminal, F_SETFL, O_NONBLOCK);
