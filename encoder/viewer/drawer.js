@@ -31,6 +31,7 @@ const WISHES = {
 
 // What the decoder has to be drawn, and that it is all.
 function take({ data }) {
+  if (!scene) return; // the page shows the flat picture
   if (data.kind === "mesh") scene.add(data);
   else self.postMessage(data);
   refresh();
