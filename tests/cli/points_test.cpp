@@ -88,7 +88,9 @@ TEST_CASE("points: one of those that meet stands for all, and verify knows which
   for (const auto& [rule, height] :
        {std::pair<std::string, std::string>{"lowest", "1"}, {"highest", "7"}, {"mean", "4"}}) {
     for (const std::string name : {"p.mtin", "p.mtp --tile-vertices 90"}) {
-      const std::string out = session.run("encode p.xyz --duplicates " + rule + " -o " + name).out;
+      std::string words = "encode p.xyz --duplicates ";
+      words.append(rule).append(" -o ").append(name);
+      const std::string out = session.run(words).out;
       CHECK(
           contains(out, "merged: 2 shared a place with another; the " + rule + " stands for all"));
       const std::string file = name.substr(0, name.find(' '));

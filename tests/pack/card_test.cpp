@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "decoder/examples/flight.h"
 #include "encoder/base/error.hpp"
 #include "encoder/files/input_file.hpp"
 #include "tests/support/files.hpp"
@@ -17,8 +18,6 @@
 #include "tests/support/packs.hpp"
 
 extern "C" void put_char(char) {}  // the device's, of which only the flight is wanted here
-
-#include "decoder/examples/flight.h"
 
 namespace microtin::tests {
 namespace {
