@@ -107,7 +107,7 @@ void run_render(const RenderRequest& request) {
   const Document document(request.input);
   const Portrait portrait{document.model(), document.metadata(), document.vertices(),
                           document.bytes(), document.tiles(),    request.mesh,
-                          request.palette};
+                          request.palette,  request.contours,    request.interval};
   if (std::filesystem::path(request.output).extension() == kPage) {
     write_page(request, portrait);
     return;
