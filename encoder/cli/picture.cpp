@@ -70,6 +70,7 @@ void expect_picture(const RenderRequest& request) {
 // One file, which shows the terrain in a browser.
 void write_page(const RenderRequest& request, const Portrait& portrait) {
   if (!request.source.empty()) throw Error(request.output + ": a page has no map of errors");
+  if (request.contours) throw Error(request.output + ": a page has no contours");
   const std::string page = with_file_context(request.input, [&] {
     return render_page(portrait, std::filesystem::path(request.input).stem().string(),
                        read_file(request.input), render_png(portrait, kFlatWidth));
