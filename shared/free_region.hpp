@@ -138,20 +138,14 @@ struct SegmentTable {
   }
 };
 
-template <class Nothing>  // so that a program has one of it
-struct SegmentTables {
-  static constexpr SegmentTable kTable{};
-};
-
-template <class Nothing>
-constexpr SegmentTable SegmentTables<Nothing>::kTable;
+constexpr SegmentTable kSegments{};
 
 inline uint32_t minor_segment_under(uint32_t k) {
-  return SegmentTables<void>::kTable.under[k].minor;
+  return kSegments.under[k].minor;
 }
 
 inline uint32_t whole_disc_under(uint32_t k) {
-  return SegmentTables<void>::kTable.under[k].disc;
+  return kSegments.under[k].disc;
 }
 
 #else
