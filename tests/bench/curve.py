@@ -20,7 +20,7 @@ VERSION_4 = {  # levels: bits, then what `measured` tells of costs
 PEERS = {"Draco points (level 10) + CGAL": 17.80}
 COLOURS = {"quick balanced dense": "#1f6f8b", "version 4": "#c0562b", "peers": "#5a7d2a"}
 MARKED = re.compile(r"(<!-- curve: .* -->\n\n).*?(\n<!-- end of curve -->)", re.S)
-WIDTH, HEIGHT, LEFT, TOP, BOTTOM = 420, 320, 56, 34, 48
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 320, 56, 76, 34, 48
 
 
 def rows_of(text):
@@ -64,13 +64,13 @@ def panel(lines, column, left, title):
     most = max(x for _, _, x in shown) * 1.12
     low, high = 17.7, 18.65
     place = lambda x, y: (
-        left + LEFT + x / most * (WIDTH - LEFT - 20),
+        left + LEFT + x / most * (WIDTH - LEFT - RIGHT),
         TOP + (high - y) / (high - low) * (HEIGHT - TOP - BOTTOM),
     )
     out = [f"<text x='{left + WIDTH / 2:.0f}' y='20' text-anchor='middle'>{title}</text>"]
     for y in (17.8, 18.0, 18.2, 18.4, 18.6):
         x0, at = place(0, y)
-        out.append(f"<path d='M{x0:.0f} {at:.1f}H{left + WIDTH - 20}' stroke='#ddd'/>")
+        out.append(f"<path d='M{x0:.0f} {at:.1f}H{left + WIDTH - RIGHT}' stroke='#ddd'/>")
         out.append(f"<text x='{x0 - 6:.0f}' y='{at + 4:.1f}' text-anchor='end'>{y}</text>")
     for x in range(0, int(most), 2000 if most < 11000 else 4000):
         at, y0 = place(x, low)
@@ -81,10 +81,13 @@ def panel(lines, column, left, title):
         path = "L".join("{:.1f} {:.1f}".format(*place(x, y)) for _, y, x in points)
         if points:
             out.append(f"<path fill='none' stroke-width='2' stroke='{colour}' d='M{path}'/>")
+        last = None
         for name, y, x in points:
             cx, cy = place(x, y)
+            near = last is not None and abs(cx - last[0]) < 60 and abs(cy - last[1]) < 14  # its label goes below
+            last = cx, cy
             out.append(f"<circle r='4' cx='{cx:.1f}' cy='{cy:.1f}' fill='{colour}'/>")
-            out.append(f"<text x='{cx + 7:.1f}' y='{cy - 5:.1f}' fill='{colour}'>{name}</text>")
+            out.append(f"<text x='{cx + 7:.1f}' y='{cy + (14 if near else -5):.1f}' fill='{colour}'>{name}</text>")
     return out
 
 
