@@ -517,6 +517,11 @@ void add_render(CLI::App& app, Action& action) {
       },
       "auto or a decimal number above 0",
       "Draw lines of equal height: so far apart, in the terrain's unit, or auto");
+  command.add_flag("--coordinates", request->coordinates,
+                   "Ticks on the frame at round coordinates, with numbers");
+  command.add_option("--title", request->title,
+                     "Text above the map: Latin letters, digits, common signs");
+  command.add_flag("--north-arrow", request->north_arrow, "An arrow to the north, which is up");
   command.add_flag("--world-file", request->world,
                    "Write beside the picture, as .pgw, where its map lies");
   command.add_option("--source", request->source, "Draw a map of the errors against this terrain")

@@ -70,7 +70,9 @@ void expect_picture(const RenderRequest& request) {
 // One file, which shows the terrain in a browser.
 void write_page(const RenderRequest& request, const Portrait& portrait) {
   if (!request.source.empty()) throw Error(request.output + ": a page has no map of errors");
-  if (request.contours) throw Error(request.output + ": a page has no contours");
+  if (request.contours || !request.title.empty() || request.coordinates || request.north_arrow) {
+    throw Error(request.output + ": a page has no contours, coordinates, title or north arrow");
+  }
   const std::string page = with_file_context(request.input, [&] {
     return render_page(portrait, std::filesystem::path(request.input).stem().string(),
                        read_file(request.input), render_png(portrait, kFlatWidth));
@@ -108,7 +110,8 @@ void run_render(const RenderRequest& request) {
   const Document document(request.input);
   const Portrait portrait{document.model(), document.metadata(), document.vertices(),
                           document.bytes(), document.tiles(),    request.mesh,
-                          request.palette,  request.contours,    request.interval};
+                          request.palette,  request.contours,    request.interval,
+                          request.title,    request.coordinates, request.north_arrow};
   if (std::filesystem::path(request.output).extension() == kPage) {
     write_page(request, portrait);
     return;

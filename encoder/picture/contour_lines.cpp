@@ -41,6 +41,8 @@ class LabelRoom {
  public:
   LabelRoom(const MapFrame& frame, double apart) : frame_(frame), apart_(apart) {}
 
+  void occupy(Spot place) { taken_.push_back(place); }
+
   // The straightest stretch of a line that is so long, if one is straight enough; takes its room.
   std::optional<Label> take(const Line& line, double length) {
     constexpr double kStraight = 0.93;
@@ -60,7 +62,7 @@ class LabelRoom {
       found = label_on(a, b);
       if (best > 0.99) break;
     }
-    if (found) taken_.push_back(found->middle);
+    if (found) occupy(found->middle);
     return found;
   }
 
@@ -105,7 +107,8 @@ void draw_label(Canvas& canvas, const PixelBox& box, const std::string& text, co
 }  // namespace
 
 void draw_contours(Canvas& canvas, const MapFrame& frame, const std::vector<Contour>& contours,
-                   Decimal interval, PaletteKind palette, double unit) {
+                   Decimal interval, PaletteKind palette, double unit,
+                   std::optional<Spot> occupied) {
   const double thin = 0.55 * std::sqrt(unit), size = kLabelSize * unit;
   Cover land(frame.box), sea(frame.box);
   const auto is_sea = [&](const Contour& contour) {
@@ -123,6 +126,7 @@ void draw_contours(Canvas& canvas, const MapFrame& frame, const std::vector<Cont
   sea.blend(canvas, kInSea, [](uint32_t) { return 1; });
   const bool has_index = std::any_of(contours.begin(), contours.end(), is_index);
   LabelRoom room(frame, 60 * unit);
+  if (occupied) room.occupy({occupied->x - frame.box.left, occupied->y - frame.box.top});
   for (const Contour& contour : contours) {
     if (has_index && !is_index(contour)) continue;
     const std::string text = height_of(contour.level, interval, has_index ? kIndexContour : 1);

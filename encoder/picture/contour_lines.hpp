@@ -11,9 +11,11 @@
 namespace microtin::picture {
 
 // Index contours are heavier, and told apart by their heights where there is room along them; if
-// there are none, all are. `unit` as of legends.
+// there are none, all are. No number is near a place of the picture that something else occupies.
+// `unit` as of legends.
 void draw_contours(Canvas& canvas, const MapFrame& frame, const std::vector<Contour>& contours,
-                   Decimal interval, PaletteKind palette, double unit);
+                   Decimal interval, PaletteKind palette, double unit,
+                   std::optional<Spot> occupied);
 
 }  // namespace microtin::picture
 

@@ -9,6 +9,7 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/picture/contour_lines.hpp"
 #include "encoder/picture/error_map.hpp"
+#include "encoder/picture/frame.hpp"
 #include "encoder/picture/legend.hpp"
 #include "encoder/picture/lettering.hpp"
 #include "encoder/picture/png.hpp"
@@ -20,7 +21,8 @@ namespace {
 constexpr Colour kPaper{1, 1, 1}, kNoTerrain{0.66, 0.66, 0.67}, kHatch{0.53, 0.53, 0.54};
 
 // In units of the text.
-constexpr double kMargin = 10, kLegendHeight = 36, kRampShare = 0.56, kBarAt = 0.66;
+constexpr double kMargin = 10, kLegendHeight = 36, kRampShare = 0.56, kBarAt = 0.66,
+                 kTitleSize = 1.6;  // of other text
 
 double as_number(Decimal value) {
   return std::stod(to_string(value));
@@ -51,20 +53,27 @@ struct Layout {
   uint32_t width, height;
 };
 
+// What stands above the map, in units.
+double head_of(const Portrait& portrait) {
+  return 2 * kMargin + kCapHeight + (portrait.title.empty() ? 0 : 20) +
+         (portrait.coordinates ? kFrameRoom : 0);
+}
+
 Layout lay_out(const Portrait& portrait, const Ground& ground, uint32_t width, bool two) {
   constexpr double kTallest = 1.6, kNarrowestRoom = 250, kWide = 2.2;
   Layout layout{};
   layout.width = width;
   layout.unit = std::max(1.1, width / 760.0);
   const double margin = std::round(kMargin * layout.unit);
-  const double head = std::round((2 * kMargin + kCapHeight) * layout.unit);
-  const double whole = width - 2 * margin, half = std::floor((whole - 2 * margin) / 2);
+  const double left = margin + std::round(portrait.coordinates ? kFrameRoom * layout.unit : 0);
+  const double head = std::round(head_of(portrait) * layout.unit);
+  const double whole = width - left - margin, half = std::floor((whole - 2 * margin) / 2);
   const MapFrame large = fit_map(portrait.model, ground, whole, kTallest * whole);
   const bool beside =
       two && half >= kNarrowestRoom * layout.unit && large.box.width < kWide * large.box.height;
   layout.room = beside ? half : whole;
   MapFrame frame = fit_map(portrait.model, ground, layout.room, kTallest * layout.room);
-  frame.box.left = margin;
+  frame.box.left = left;
   frame.box.top = head;
   layout.relief = layout.errors = frame;
   const double panel = frame.box.height + std::round(kLegendHeight * layout.unit) + margin;
@@ -96,12 +105,12 @@ void draw_background(Canvas& canvas, const MapFrame& frame, double unit) {
 }
 
 // Smaller if it is too long.
-void draw_line(Canvas& canvas, const std::string& text, Spot start, double unit, double room) {
+void draw_line(Drawing& drawing, const std::string& text, Spot start, double unit, double room) {
   const double fitting = room / std::max(1.0, text_width(text));
-  draw_text(canvas, text, start, std::min(unit, fitting), kInk);
+  draw_text(drawing, text, start, std::min(unit, fitting), kInk);
 }
 
-std::string title_of(const Portrait& portrait) {
+std::string facts_of(const Portrait& portrait) {
   const auto count = [](uint64_t number) { return grouped(static_cast<double>(number), 0); };
   std::string text = count(portrait.vertices) + " vertices";
   if (portrait.tiles != 0) {
@@ -114,6 +123,18 @@ std::string title_of(const Portrait& portrait) {
             rounded_text(as_number(accuracy->rms_error)) + unit;
   }
   return text;
+}
+
+void draw_head(Drawing& drawing, const Portrait& portrait, const Layout& layout) {
+  const double left = (kMargin + (portrait.coordinates ? kFrameRoom : 0)) * layout.unit;
+  const double room = layout.width - left - kMargin * layout.unit;
+  double line = (kMargin + kCapHeight) * layout.unit;
+  if (!portrait.title.empty()) {
+    line += 4 * layout.unit;
+    draw_line(drawing, portrait.title, {left, line}, kTitleSize * layout.unit, room);
+    line += 16 * layout.unit;
+  }
+  draw_line(drawing, facts_of(portrait), {left, line}, layout.unit, room);
 }
 
 // The places of a legend under a map.
@@ -147,7 +168,7 @@ std::optional<Decimal> interval_of(const Portrait& portrait, const Relief& relie
   return round_interval(low, high);
 }
 
-void draw_relief_legend(Canvas& canvas, const Portrait& portrait, const Relief& relief,
+void draw_relief_legend(Drawing& drawing, const Portrait& portrait, const Relief& relief,
                         const Ground& ground, const Layout& layout) {
   const std::string unit = unit_text(portrait.metadata.vertical_unit);
   const auto [low, high] = heights_of(portrait, relief);
@@ -156,14 +177,14 @@ void draw_relief_legend(Canvas& canvas, const Portrait& portrait, const Relief& 
   if (const std::optional<Decimal> interval = interval_of(portrait, relief)) {
     line += ", contours every " + to_string(*interval) + unit;
   }
-  draw_line(canvas, line, at.line, layout.unit, at.width);
-  draw_ramp(canvas, at.ramp, at.width, layout.unit, low, high,
+  draw_line(drawing, line, at.line, layout.unit, at.width);
+  draw_ramp(drawing, at.ramp, at.width, layout.unit, low, high,
             [&relief](double relative) { return relief.palette().at(relative); });
-  draw_scale_bar(canvas, at.side, 0.8 * at.side_room, layout.unit, layout.relief.x_step * ground.x,
+  draw_scale_bar(drawing, at.side, 0.8 * at.side_room, layout.unit, layout.relief.x_step * ground.x,
                  ground.unit);
   if (!relief.has_water()) return;
   const double level = as_number(*portrait.metadata.water_level);
-  draw_swatch(canvas, {at.side.x, at.line.y - kCapHeight * layout.unit}, layout.unit, kWater,
+  draw_swatch(drawing, {at.side.x, at.line.y - kCapHeight * layout.unit}, layout.unit, kWater,
               "water " + rounded_text(level) + unit);
 }
 
@@ -193,6 +214,14 @@ void draw_errors(Canvas& canvas, const Portrait& portrait, const Comparison& com
   if (bound > 0) draw_fact(2, "bound", bound);
 }
 
+void expect_letters(const std::string& title) {
+  const std::string_view missing = missing_letter(title);
+  if (missing.empty()) return;
+  throw Error("the title has \"" + std::string(missing) +
+              "\", which cannot be drawn: there are Latin letters with Western accents, digits and "
+              "common signs");
+}
+
 }  // namespace
 
 std::string world_file(const Portrait& portrait, uint32_t width, bool with_comparison) {
@@ -218,22 +247,28 @@ std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
                 " pixels wide");
   }
   const SurfaceModel& model = portrait.model;
+  expect_letters(portrait.title);
   if (model.vertices.empty()) throw Error("there is nothing to draw");
   const Ground ground = ground_of(model, portrait.metadata.horizontal_unit);
   const Layout layout = lay_out(portrait, ground, width, comparison != nullptr);
   const Relief relief(model, ground, water_step(portrait.metadata), portrait.palette);
   Canvas canvas(layout.width, layout.height, kPaper);
-  draw_line(canvas, title_of(portrait),
-            {kMargin * layout.unit, (kMargin + kCapHeight) * layout.unit}, layout.unit,
-            layout.width - 2 * kMargin * layout.unit);
+  draw_head(canvas, portrait, layout);
   draw_background(canvas, layout.relief, layout.unit);
   relief.draw_ground(canvas, layout.relief);
   if (portrait.mesh) relief.draw_lines(canvas, layout.relief, 0.8 * std::sqrt(layout.unit));
   const std::optional<Decimal> interval = interval_of(portrait, relief);
   if (interval) {
-    draw_contours(canvas, layout.relief, contours_of(model, *interval), *interval, portrait.palette,
-                  layout.unit);
+    draw_contours(
+        canvas, layout.relief, contours_of(model, *interval), *interval, portrait.palette,
+        layout.unit,
+        portrait.north_arrow ? north_arrow_of(layout.relief.box, layout.unit) : std::nullopt);
   }
+  if (portrait.coordinates) {
+    draw_coordinates(canvas, layout.relief, model.placement, portrait.metadata.horizontal_unit,
+                     layout.unit);
+  }
+  if (portrait.north_arrow) draw_north_arrow(canvas, layout.relief.box, layout.unit);
   draw_relief_legend(canvas, portrait, relief, ground, layout);
   if (comparison != nullptr) {
     draw_background(canvas, layout.errors, layout.unit);

@@ -26,6 +26,9 @@ struct Portrait {
   PaletteKind palette = PaletteKind::kLand;
   bool contours = false;
   std::optional<Decimal> interval;  // of contours, in the unit of heights; a round one if not given
+  std::string title;                // above the map; letters that lettering.hpp has
+  bool coordinates = false;         // on the frame
+  bool north_arrow = false;
 };
 
 // How a terrain compares with its source.
