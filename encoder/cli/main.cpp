@@ -517,7 +517,7 @@ void add_fractal(CLI::App& app, Action& action) {
 void add_render(CLI::App& app, Action& action) {
   auto request = std::make_shared<RenderRequest>();
   CLI::App& command =
-      *app.add_subcommand("render", "Draw a terrain (.png), or a page that shows it (.html)");
+      *app.add_subcommand("render", "Draw a terrain (.png, .svg), or a page that shows it (.html)");
   add_stream(command, request->input);
   add_output(command, request->output);
   command.add_option("--width", request->width, "Pixels in a row")

@@ -87,20 +87,18 @@ Layout lay_out(const Portrait& portrait, const Ground& ground, uint32_t width, b
 }
 
 // What is not known: darker than snow and than an error of 0, hatched closely for small places.
-void draw_background(Canvas& canvas, const MapFrame& frame, double unit) {
+void draw_background(Drawing& drawing, const MapFrame& frame, double unit) {
   const PixelBox& box = frame.box;
-  canvas.fill(box, kNoTerrain);
-  const double step = 4 * unit, reach = 0.4 * unit + 0.5;
+  drawing.fill(box, kNoTerrain);
+  const double step = 4 * unit, pen = 0.8 * unit, inset = pen / 2;  // lines have round ends
   const auto lines = static_cast<uint32_t>((box.width + box.height) / step) + 1;
   for (uint32_t line = 0; line < lines; ++line) {
-    const double start = line * step - box.height;
-    for_each_pixel_near({start, box.height}, {start + box.height, 0}, reach,
-                        {0, 0, box.width, box.height},
-                        [&](uint32_t column, uint32_t row, double distance) {
-                          canvas.blend(static_cast<uint32_t>(box.left) + column,
-                                       static_cast<uint32_t>(box.top) + row, kHatch,
-                                       std::min(1.0, reach - distance));
-                        });
+    const double foot = line * step - box.height;  // where it is at the bottom, to the right
+    const double low = std::max(0.0, -foot) + inset;
+    const double high = std::min(box.height, box.width - foot) - inset;
+    if (low >= high) continue;
+    const double bottom = box.top + box.height, left = box.left + foot;
+    drawing.stroke({left + low, bottom - low}, {left + high, bottom - high}, pen, kHatch);
   }
 }
 
@@ -222,6 +220,58 @@ void expect_letters(const std::string& title) {
               "common signs");
 }
 
+void expect_drawable(const Portrait& portrait, uint32_t width) {
+  if (width < kNarrowest || width > kWidest) {
+    throw Error("a picture is " + std::to_string(kNarrowest) + " to " + std::to_string(kWidest) +
+                " pixels wide");
+  }
+  expect_letters(portrait.title);
+  if (portrait.model.vertices.empty()) throw Error("there is nothing to draw");
+}
+
+// All but the ground: what is drawn the same on both kinds of pictures.
+struct Sheet {
+  Sheet(const Portrait& of, uint32_t width, bool two)
+      : portrait(of),
+        ground(ground_of(of.model, of.metadata.horizontal_unit)),
+        layout(lay_out(of, ground, width, two)),
+        relief(of.model, ground, water_step(of.metadata), of.palette),
+        interval(interval_of(of, relief)) {
+    if (!interval) return;
+    contours = contours_of(of.model, *interval);
+    lines = contour_lines(layout.relief, contours, of.palette, layout.unit);
+  }
+
+  void begin(Drawing& drawing) const {
+    draw_head(drawing, portrait, layout);
+    draw_background(drawing, layout.relief, layout.unit);
+  }
+
+  void end(Drawing& drawing) const {
+    const MapFrame& frame = layout.relief;
+    if (interval) {
+      label_contours(drawing, frame, contours, lines, *interval, layout.unit,
+                     portrait.north_arrow ? north_arrow_of(frame.box, layout.unit) : std::nullopt);
+    }
+    if (portrait.coordinates) {
+      draw_coordinates(drawing, frame, portrait.model.placement, portrait.metadata.horizontal_unit,
+                       layout.unit);
+    }
+    if (portrait.north_arrow) draw_north_arrow(drawing, frame.box, layout.unit);
+    draw_relief_legend(drawing, portrait, relief, ground, layout);
+  }
+
+  double wire() const { return 0.8 * std::sqrt(layout.unit); }
+
+  const Portrait& portrait;
+  Ground ground;
+  Layout layout;
+  Relief relief;
+  std::optional<Decimal> interval;
+  std::vector<Contour> contours;
+  std::vector<ContourLine> lines;
+};
+
 }  // namespace
 
 std::string world_file(const Portrait& portrait, uint32_t width, bool with_comparison) {
@@ -242,39 +292,42 @@ std::string world_file(const Portrait& portrait, uint32_t width, bool with_compa
 
 std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
                                 const Comparison* comparison) {
-  if (width < kNarrowest || width > kWidest) {
-    throw Error("a picture is " + std::to_string(kNarrowest) + " to " + std::to_string(kWidest) +
-                " pixels wide");
-  }
-  const SurfaceModel& model = portrait.model;
-  expect_letters(portrait.title);
-  if (model.vertices.empty()) throw Error("there is nothing to draw");
-  const Ground ground = ground_of(model, portrait.metadata.horizontal_unit);
-  const Layout layout = lay_out(portrait, ground, width, comparison != nullptr);
-  const Relief relief(model, ground, water_step(portrait.metadata), portrait.palette);
+  expect_drawable(portrait, width);
+  const Sheet sheet(portrait, width, comparison != nullptr);
+  const Layout& layout = sheet.layout;
   Canvas canvas(layout.width, layout.height, kPaper);
-  draw_head(canvas, portrait, layout);
-  draw_background(canvas, layout.relief, layout.unit);
-  relief.draw_ground(canvas, layout.relief);
-  if (portrait.mesh) relief.draw_lines(canvas, layout.relief, 0.8 * std::sqrt(layout.unit));
-  const std::optional<Decimal> interval = interval_of(portrait, relief);
-  if (interval) {
-    draw_contours(
-        canvas, layout.relief, contours_of(model, *interval), *interval, portrait.palette,
-        layout.unit,
-        portrait.north_arrow ? north_arrow_of(layout.relief.box, layout.unit) : std::nullopt);
-  }
-  if (portrait.coordinates) {
-    draw_coordinates(canvas, layout.relief, model.placement, portrait.metadata.horizontal_unit,
-                     layout.unit);
-  }
-  if (portrait.north_arrow) draw_north_arrow(canvas, layout.relief.box, layout.unit);
-  draw_relief_legend(canvas, portrait, relief, ground, layout);
+  sheet.begin(canvas);
+  sheet.relief.draw_ground(canvas, layout.relief);
+  if (portrait.mesh) sheet.relief.draw_lines(canvas, layout.relief, sheet.wire());
+  draw_contours(canvas, layout.relief, sheet.lines);
+  sheet.end(canvas);
   if (comparison != nullptr) {
     draw_background(canvas, layout.errors, layout.unit);
     draw_errors(canvas, portrait, *comparison, layout);
   }
   return png(canvas.rgb(), canvas.width(), canvas.height());
+}
+
+std::string render_svg(const Portrait& portrait, uint32_t width) {
+  expect_drawable(portrait, width);
+  const size_t triangles = portrait.model.triangles.size();
+  if (triangles > kMostSvgTriangles) {
+    throw Error("it has " + std::to_string(triangles) + " triangles; an .svg file has at most " +
+                std::to_string(kMostSvgTriangles) + ": draw a .png, or encode with a larger bound");
+  }
+  const Sheet sheet(portrait, width, false);
+  const Layout& layout = sheet.layout;
+  Svg svg(layout.width, layout.height, kPaper);
+  sheet.begin(svg);
+  sheet.relief.draw_facets(svg, layout.relief);
+  if (portrait.mesh) sheet.relief.draw_wires(svg, layout.relief, sheet.wire() / 2);
+  for (const ContourLine& line : sheet.lines) {
+    std::vector<Spot> places;
+    for (const Spot place : line.places) places.push_back(layout.relief.in_picture(place));
+    svg.line(places, line.width, colour_of(line), line.strength);
+  }
+  sheet.end(svg);
+  return svg.take();
 }
 
 }  // namespace microtin::picture

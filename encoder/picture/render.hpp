@@ -46,6 +46,13 @@ constexpr uint32_t kNarrowest = 200, kWidest = 8192;
 std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
                                 const Comparison* comparison = nullptr);
 
+constexpr size_t kMostSvgTriangles = 200'000;
+
+// An SVG file of the same, without errors: a path for the triangles of each colour, lines and
+// contours as paths, letters as strokes; some 25 bytes a triangle, twice that with lines. Throws
+// Error for more triangles, too.
+std::string render_svg(const Portrait& portrait, uint32_t width);
+
 // Where the map of such a picture lies, as a world file says it: six lines, in the units of x and
 // y.
 std::string world_file(const Portrait& portrait, uint32_t width, bool with_comparison);
