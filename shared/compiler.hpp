@@ -53,7 +53,7 @@
 // call (ROOMY_IN_PLACE).
 #if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__OPTIMIZE_SIZE__)
 #define MICROTIN_LARGE_TABLES
-#define MICROTIN_ROOMY_IN_PLACE MICROTIN_IN_PLACE
+#define MICROTIN_ROOMY_IN_PLACE MICROTIN_IN_PLACE inline
 #else
 #define MICROTIN_ROOMY_IN_PLACE
 #endif
