@@ -49,9 +49,13 @@
 #define MICROTIN_WITHOUT_CALLS
 #endif
 
-// Where a table of some KB is cheaper than a division.
+// Where a table of some KB is cheaper than a division, and a copy of some KB of code cheaper than a
+// call (ROOMY_IN_PLACE).
 #if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__OPTIMIZE_SIZE__)
 #define MICROTIN_LARGE_TABLES
+#define MICROTIN_ROOMY_IN_PLACE MICROTIN_IN_PLACE inline
+#else
+#define MICROTIN_ROOMY_IN_PLACE
 #endif
 
 // Where a multiplication makes 32 bits at most: wider ones are calls.

@@ -426,7 +426,7 @@ constexpr uint32_t kStepTriangles = 8;  // most that one step passes
 
 // Passes certified triangles, but only a few, and looks at one that is not.
 template <class Coder>
-StepOutcome step_walk(Reconstruction& r, Coder& coder) {
+MICROTIN_ROOMY_IN_PLACE StepOutcome step_walk(Reconstruction& r, Coder& coder) {
   for (uint32_t i = 0;; ++i) {
     const Corner corner = far_corner(r);
     if (((r.from | corner.marks) & kDone) == 0) return step_decision(r, coder, corner);
@@ -463,7 +463,7 @@ StepOutcome step_void(Reconstruction& r, Coder& coder) {
 
 // One step: bounded work, at most kStepBytes of the payload, nothing half done.
 template <class Coder>
-StepOutcome step(Reconstruction& r, Coder& coder) {
+MICROTIN_ROOMY_IN_PLACE StepOutcome step(Reconstruction& r, Coder& coder) {
   switch (r.stage) {
     case Stage::kSeed:
       return step_seed(r, coder);
