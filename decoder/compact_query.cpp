@@ -8,8 +8,8 @@ namespace microtin {
 namespace {
 
 // Hints: vertices looked at along the whole path, and the distance along it where that ends.
-constexpr uint32_t kSamples = 16;
-constexpr uint32_t kFinest = 4;
+constexpr uint32_t kSamples = 22;
+constexpr uint32_t kFinest = 2;
 
 // In a triangle that is no ghost: that with a number, or one near it.
 RingCursor start_at(const Ring& r, uint32_t number) {
@@ -131,13 +131,14 @@ uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32
   uint32_t stride = end / kSamples + 1, step = stride, i = stride / 2 + 1, last = end;
   uint32_t best = 1, least = 0xFFFFFFFFu;
   for (;;) {
-    for (; i < last; i += step) {
+    do {  // there is one: end is 3 at least
       const uint32_t far = distance(place_of(r, i), px, py);
       if (far < least) {
         least = far;
         best = i;
       }
-    }
+      i += step;
+    } while (i < last);
     // Half as far, to both sides of the nearest.
     stride /= 2;
     if (stride < kFinest) return 2 * best - kFirstNumber;

@@ -10,6 +10,21 @@
 #define CAPACITY 2500 /* microtin info: most vertices of a tile. Smaller tiles: more sectors */
 #define STEPS 200     /* of decoding, in a turn of the main loop */
 
+#ifdef COMPACT_SLOTS /* three times as many tiles in the same memory */
+#include "microtin/compact_pack.h"
+#define TILE_BYTES MICROTIN_COMPACT_BYTES(CAPACITY) /* or what microtin info says */
+#define PACK_BYTES MICROTIN_COMPACT_PACK_BYTES(SLOTS, CAPACITY, TILE_BYTES)
+#define pack_init(space, pack) \
+  microtin_compact_pack_init(space, sizeof(space), SLOTS, CAPACITY, TILE_BYTES, pack)
+#define pack_service microtin_compact_pack_service
+#define pack_height_at microtin_compact_pack_height_at
+#else
+#define PACK_BYTES MICROTIN_PACK_BYTES(SLOTS, CAPACITY)
+#define pack_init(space, pack) microtin_pack_init(space, sizeof(space), SLOTS, CAPACITY, pack)
+#define pack_service microtin_pack_service
+#define pack_height_at microtin_pack_height_at
+#endif
+
 /* --- The card. A file system would find the file's sectors here: f_lseek and f_read, of which each
  * call reads a sector unless it is the one in the window. --- */
 
@@ -70,7 +85,7 @@ static struct {
 static void on_tick(void) {
   static uint32_t hint;
   if (!vehicle.is_set) return;
-  vehicle.answer = microtin_pack_height_at(pack, vehicle.x, vehicle.y, &hint, &vehicle.height);
+  vehicle.answer = pack_height_at(pack, vehicle.x, vehicle.y, &hint, &vehicle.height);
   if (vehicle.answer == MICROTIN_HEIGHT) {
     if (vehicle.has_height && vehicle.height != vehicle.first_height) ++vehicle.wrong;
     vehicle.first_height = vehicle.height;
@@ -100,7 +115,7 @@ static void wait_for_answer(void) {
  * did not answer: the vehicle flies on by the tiles that are there. 0: it is no pack. */
 static int serve(const microtin_course* course, struct card* card, uint32_t* failures) {
   for (;;) {
-    switch (microtin_pack_service(pack, course, STEPS, read_card, card)) {
+    switch (pack_service(pack, course, STEPS, read_card, card)) {
       case MICROTIN_DONE:
       case MICROTIN_BAD_TILES:
         return 1;
@@ -138,7 +153,7 @@ static void report(const struct card* card, uint32_t failures) {
 }
 
 int firmware_main(void) {
-  static uint64_t workspace[(MICROTIN_PACK_BYTES(SLOTS, CAPACITY) + 7) / 8];
+  static uint64_t workspace[(PACK_BYTES + 7) / 8];
   static struct card card;
   const microtin_course origin = {0, 0, 0, 0};
   uint32_t failures = 0;
@@ -146,9 +161,7 @@ int firmware_main(void) {
   int32_t i;
   card.filled = -1;
   if (!open_card()) return 1;
-  if (microtin_pack_init(workspace, sizeof workspace, SLOTS, CAPACITY, &pack) != MICROTIN_DONE) {
-    return 2;
-  }
+  if (pack_init(workspace, &pack) != MICROTIN_DONE) return 2;
   microtin_pack_align_reads(pack, SECTOR);
   go_to(&origin);
   start_ticks(on_tick);

@@ -223,6 +223,43 @@ void serve(Card& card, const Device& device, const microtin_course& course, uint
   if (status == MICROTIN_DONE) EXPECT(highest != MICROTIN_NOT_DECODED);
 }
 
+// What a device says of a course and of a block at its beginning.
+struct Answers {
+  microtin_answer begin, highest, fill;
+  int32_t heights[2] = {};
+  int16_t block[6] = {};
+
+  Answers(const Device& device, const microtin_course& course) {
+    uint32_t hint = 0;
+    begin = device.height_at(course.x, course.y, &hint, &heights[0]);
+    highest = device.highest(course, &heights[1]);
+    fill = device.fill({course.x, course.y, 300, -256, 3, 2, -9999}, block);
+  }
+  // Blocks reach beyond the course, to tiles that may be there or not.
+  bool operator==(const Answers& other) const {
+    const bool are_blocks = fill == MICROTIN_HEIGHT && other.fill == MICROTIN_HEIGHT;
+    return begin == other.begin && highest == other.highest &&
+           std::equal(heights, heights + 2, other.heights) &&
+           (!are_blocks || std::equal(block, block + 6, other.block));
+  }
+};
+
+// Storage without faults: slots of both forms that hold a course answer the same.
+void check_forms(const uint8_t* data, size_t size, uint32_t slots,
+                 const std::vector<microtin_course>& courses) {
+  const uint32_t room = 40 * kCapacity + 100;  // for any tile
+  const Device meshes(slots, 0), compact(slots, room);
+  FuzzedDataProvider none(nullptr, 0);
+  Card card{data, size, none};
+  for (const microtin_course& course : courses) {
+    const auto is_served = [&](const Device& device) {
+      return device.service(course, 0, Card::read, &card) == MICROTIN_DONE;
+    };
+    if (!is_served(meshes) || !is_served(compact)) continue;
+    EXPECT(Answers(meshes, course) == Answers(compact, course));
+  }
+}
+
 }  // namespace
 
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t most, unsigned seed) {
@@ -245,11 +282,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   } catch (const Error&) {
   }
   Card card{data, size, asked};
+  std::vector<microtin_course> courses;
   for (int i = 0; i < 3; ++i) {
     microtin_pack_info info = {1000, 1000, 0, 0, 0, 0, 0, 0, {}, {}, {}};
     microtin_pack_header(device.pack, &info);
     const microtin_course course = {coordinate(asked, info.x_max), coordinate(asked, info.y_max),
                                     coordinate(asked, info.x_max), coordinate(asked, info.y_max)};
+    courses.push_back(course);
     serve(card, device, course, step_limit);
     if (file) check_height(*file, device, course.x, course.y);
     if (microtin_pack_header(device.pack, &info) == 0) continue;
@@ -258,5 +297,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     check_to_lattice(info.x, info.x_max, value >> asked.ConsumeIntegralInRange(0, 63),
                      asked.ConsumeIntegral<uint32_t>());
   }
+  if (asked.ConsumeBool()) check_forms(data, size, slots, courses);
   return 0;
 }

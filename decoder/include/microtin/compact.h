@@ -121,7 +121,7 @@ microtin_answer microtin_compact_fill(const microtin_compact* compact, const mic
                                       int16_t* heights);
 
 /* A hint for (x, y), given with 8 fractional bits, where none from nearby is at hand: by the
- * nearest of some vertices along the path, then of others beside that. Looks at about 16 vertices
+ * nearest of some vertices along the path, then of others beside that. Looks at about 22 vertices
  * and two for each halving of what lies between. */
 uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32_t y);
 

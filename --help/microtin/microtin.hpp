@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+// The C++ face of microtin.h: one object that holds the storage. C++14, freestanding.
+#ifndef MICROTIN_MICROTIN_HPP
+#define MICROTIN_MICROTIN_HPP
+
+#include "microtin/compact.h"
+#include "microtin/course.h"
+
+namespace microtin {
+
+// Told to the constructor of a static object, `static Terrain<5000> terrain(later)`, it leaves
+// nothing to be done before main: the object lies in zeroed memory, and begin must be called before
+// all else. Buckets and compact terrains, which are made when they can be, are like that always.
+struct Later {};
+constexpr Later later = {};  // NOLINT(readability-identifier-naming): a word of the interface
+
+// A terrain of up to Capacity vertices. Queries live here; see microtin.h for units and costs.
+// Should its initialisation fail, status tells why, as does feeding its decoder, and nothing else
+// may be called.
+template <uint32_t Capacity>
+class Terrain {
+  static_assert(Capacity >= 3, "a terrain has at least three vertices");
+  static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
+
+ public:
+  Terrain() { begin(); }
+  constexpr explicit Terrain(Later) : storage_{} {}
+  Terrain(const Terrain&) = delete;
+  Terrain& operator=(const Terrain&) = delete;
+
+  microtin_status begin() {
+    status_ = microtin_mesh_init(storage_, sizeof storage_, &mesh_);
+    return status_;
+  }
+  microtin_status status() const { return status_; }
+  microtin_mesh* mesh() { return mesh_; }
+  const microtin_mesh* mesh() const { return mesh_; }
+
+  uint32_t vertices() const { return microtin_vertex_count(mesh_); }
+  uint32_t triangles() const { return microtin_triangle_count(mesh_); }
+  uint64_t digest() const { return microtin_digest(mesh_); }
+
+  microtin_answer height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
+                            uint32_t flags = 0, uint32_t step_limit = 0) const {
+    return microtin_height_at_limited(mesh_, x, y, flags, step_limit, hint, height);
+  }
+  microtin_answer highest(const microtin_course& course, int32_t* height) const {
+    return microtin_highest(mesh_, &course, height);
+  }
+  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
+    return microtin_fill(mesh_, &block, heights);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_MESH_BYTES(Capacity)];
+  microtin_mesh* mesh_ = nullptr;
+  microtin_status status_ = MICROTIN_DONE;  // of its initialisation
+};
+
+// The state needed while decoding a terrain of up to Capacity vertices. Should its initialisation,
+// or the terrain's, fail, status, feed and finish tell why, and nothing else may be called.
+template <uint32_t Capacity>
+class Decoder {
+  static_assert(Capacity >= 3, "a terrain has at least three vertices");
+  static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
+
+ public:
+  explicit Decoder(microtin_mesh* mesh) { begin(mesh); }
+  template <uint32_t MeshCapacity>
+  explicit Decoder(Terrain<MeshCapacity>& target) {
+    begin(target);
+  }
+  constexpr explicit Decoder(Later) : storage_{} {}
+  Decoder(const Decoder&) = delete;
+  Decoder& operator=(const Decoder&) = delete;
+
+  // May be called again, for another terrain.
+  microtin_status begin(microtin_mesh* mesh) {
+    status_ = microtin_decoder_init(storage_, sizeof storage_, mesh, &decoder_);
+    return status_;
+  }
+  template <uint32_t MeshCapacity>
+  microtin_status begin(Terrain<MeshCapacity>& target) {
+    begin(target.mesh());
+    if (target.status() != MICROTIN_DONE) status_ = target.status();
+    return status_;
+  }
+  microtin_status status() const { return status_; }
+  void stop_after_phase(uint32_t phase) { microtin_stop_after_phase(decoder_, phase); }
+  microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t step_limit = 0) {
+    if (status_ == MICROTIN_DONE) return microtin_feed(decoder_, bytes, size, step_limit, used);
+    *used = 0;
+    return status_;
+  }
+  microtin_status finish() {
+    return status_ == MICROTIN_DONE ? microtin_finish(decoder_) : status_;
+  }
+  uint32_t phase() const { return microtin_phase(decoder_); }
+  uint64_t bytes_used() const { return microtin_bytes_used(decoder_); }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_DECODER_BYTES(Capacity)];
+  microtin_decoder* decoder_ = nullptr;
+  microtin_status status_ = MICROTIN_DONE;  // of its initialisation
+};
+
+// Hints for places anywhere in a terrain, from Side x Side buckets.
+template <uint32_t Side>
+class Buckets {
+  static_assert(Side >= 1 && Side <= 1024, "1 to 1,024 buckets a side");
+
+ public:
+  constexpr Buckets() : storage_{}, buckets_(nullptr) {}
+  Buckets(const Buckets&) = delete;
+  Buckets& operator=(const Buckets&) = delete;
+
+  // To be called when the terrain is decoded; before, every hint is 0.
+  void build(const microtin_mesh* mesh) {
+    microtin_buckets_init(storage_, sizeof storage_, mesh, &buckets_);
+  }
+  uint32_t hint(int32_t x, int32_t y) const {
+    return buckets_ == nullptr ? 0 : microtin_buckets_hint(buckets_, x, y);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_BUCKETS_BYTES(Side)];
+  microtin_buckets* buckets_;
+};
+
+// The compact form of a terrain of up to Capacity vertices; see compact.h. Narrow: its places lie
+// in a box less than 256 steps wide and high.
+template <uint32_t Capacity, bool Narrow = false>
+class CompactTerrain {
+ public:
+  static constexpr unsigned long kBytes =
+      Narrow ? MICROTIN_COMPACT_NARROW_BYTES(Capacity) : MICROTIN_COMPACT_BYTES(Capacity);
+
+  constexpr CompactTerrain() : storage_{}, compact_(nullptr) {}
+  CompactTerrain(const CompactTerrain&) = delete;
+  CompactTerrain& operator=(const CompactTerrain&) = delete;
+
+  // Makes it of a terrain that is decoded, and lost by that; the decoder serves as scratch.
+  template <class TerrainType, class DecoderType>
+  microtin_status make(TerrainType& terrain, DecoderType& decoder) {
+    microtin_compactor* compactor = nullptr;
+    const microtin_status status = microtin_compact_begin(storage_, sizeof storage_, terrain.mesh(),
+                                                          &decoder, sizeof decoder, &compactor);
+    return status == MICROTIN_DONE ? microtin_compact_proceed(compactor, 0, &compact_) : status;
+  }
+
+  // Null before it is made.
+  const microtin_compact* compact() const { return compact_; }
+
+  uint32_t vertices() const { return microtin_compact_vertex_count(compact_); }
+  uint64_t digest() const { return microtin_compact_digest(compact_); }
+  uint32_t hint(int32_t x, int32_t y) const { return microtin_compact_hint(compact_, x, y); }
+  microtin_answer height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
+                            uint32_t step_limit = 0) const {
+    return microtin_compact_height_at(compact_, x, y, step_limit, hint, height);
+  }
+  microtin_answer highest(const microtin_course& course, int32_t* height) const {
+    return microtin_compact_highest(compact_, &course, height);
+  }
+  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
+    return microtin_compact_fill(compact_, &block, heights);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[kBytes];
+  microtin_compact* compact_;
+};
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The C++ face of pack.h: one object that holds the storage. C++14, freestanding.
+#ifndef MICROTIN_PACK_HPP
+#define MICROTIN_PACK_HPP
+
+#include "microtin/microtin.hpp"
+#include "microtin/pack.h"
+
+namespace microtin {
+
+// What packs with slots of any form have. Should its initialisation fail, status and service tell
+// why, and nothing else may be called.
+class PackFace {
+ public:
+  PackFace(const PackFace&) = delete;
+  PackFace& operator=(const PackFace&) = delete;
+
+  microtin_status status() const { return status_; }
+  void reset() { microtin_pack_reset(pack_); }
+  bool bad_tile(uint32_t i, uint32_t* tile, microtin_status* why) const {
+    return microtin_pack_bad_tile(pack_, i, tile, why) != 0;
+  }
+  void retry() { microtin_pack_retry(pack_); }
+  microtin_status align_reads(uint32_t sector) { return microtin_pack_align_reads(pack_, sector); }
+  bool header(microtin_pack_info* info) const { return microtin_pack_header(pack_, info) != 0; }
+
+ protected:
+  constexpr PackFace() = default;
+  ~PackFace() = default;
+
+  microtin_pack* pack_ = nullptr;
+  microtin_status status_ = MICROTIN_DONE;  // of its initialisation
+};
+
+// A pack of which Slots tiles of up to Capacity vertices are kept. See pack.h for units, costs and
+// who may interrupt whom.
+template <uint32_t Slots, uint32_t Capacity>
+class Pack : public PackFace {
+  static_assert(Slots >= 1 && Slots <= 255, "1 to 255 slots");
+  static_assert(Capacity >= 3, "a tile has at least three vertices");
+  static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
+
+ public:
+  Pack() { begin(); }
+  constexpr explicit Pack(Later) : storage_{} {}
+
+  microtin_status begin() {
+    status_ = microtin_pack_init(storage_, sizeof storage_, Slots, Capacity, &pack_);
+    return status_;
+  }
+  microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
+                          void* context) {
+    if (status_ != MICROTIN_DONE) return status_;
+    return microtin_pack_service(pack_, &course, step_limit, read, context);
+  }
+  microtin_answer height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
+    return microtin_pack_height_at(pack_, x, y, hint, height);
+  }
+  microtin_answer highest(const microtin_course& course, int32_t* height) const {
+    return microtin_pack_highest(pack_, &course, height);
+  }
+  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
+    return microtin_pack_fill(pack_, &block, heights);
+  }
+
+ private:
+  alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_PACK_BYTES(Slots, Capacity)];
+};
+
+}  // namespace microtin
+
+#endif
