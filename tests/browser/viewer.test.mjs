@@ -104,7 +104,7 @@ const onDisk = (name) => pathToFileURL(file(name)).href;
 test("a page opens from disk and shows a pack, and a stream", async () => {
   for (const name of ["mtp.html", "mtin.html"]) {
     const page = await open(onDisk(name), "complete");
-    assert.match(await facts(page), /^[\d,]+ vertices, [\d,]+ bytes, at most 8 m off$/);
+    assert.match(await facts(page), /^[\d,]+ vertices, [\d,]+ bytes, at most 8 m off, first seen after [\d,]+ bytes$/);
     await page.mouse.move(450, 450);
     await page.waitForFunction("document.getElementById('pointer').textContent !== ''", { timeout: 10_000 });
     assert.match(await page.$eval("#pointer", (element) => element.textContent), /^[\d.,-]+ m ± 8\n[\d.-]+, [\d.-]+$/);
