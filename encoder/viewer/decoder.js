@@ -53,8 +53,8 @@ async function showPack(source) {
   send({ kind: "begin", header: pack.header, box, tiles: boxes });
   let vertices = 0;
   const show = (mesh, tile, phase) => {
-    sendMesh(mesh, tile, phase);
     if (mesh.done) vertices += mesh.positions.length / 3;
+    sendMesh(mesh, tile, phase); // which gives the arrays away
     send({ kind: "progress", first, phase, bytes: pack.bytesRead, vertices });
   };
   const coarse = await showFirstPhases(pack, count, show);
