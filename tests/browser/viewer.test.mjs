@@ -5,12 +5,9 @@ import fs from "node:fs";
 import path from "node:path";
 import test, { after, before } from "node:test";
 import { pathToFileURL } from "node:url";
-import puppeteer from "puppeteer-core";
-import { file, golden, microtin, npm, remove, served } from "./files.mjs";
+import { file, golden, launch, microtin, npm, remove, served } from "./files.mjs";
 
 const { MICROTIN_SCREENSHOT: screenshot } = process.env;
-const GL = ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader"];
-const launch = (args = GL) => puppeteer.launch({ executablePath: "/usr/bin/chromium", args });
 
 let browser;
 
