@@ -5,10 +5,12 @@ import fs from "node:fs";
 import http from "node:http";
 import os from "node:os";
 import path from "node:path";
+import { fileURLToPath } from "node:url";
 import puppeteer from "puppeteer-core";
 
 const { MICROTIN: tool } = process.env;
 export const { MICROTIN_NPM: npm, MICROTIN_GOLDEN: golden } = process.env;
+export const here = path.dirname(fileURLToPath(import.meta.url));
 export const folder = fs.mkdtempSync(path.join(os.tmpdir(), "browser-"));
 export const file = (name) => path.join(folder, name);
 export const microtin = (...words) => execFileSync(tool, words, { stdio: ["ignore", "pipe", "pipe"], cwd: folder });

@@ -5,9 +5,8 @@ import { execFileSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import test, { after } from "node:test";
-import { degrees, file, launch, remove, served } from "./files.mjs";
+import { degrees, file, here, launch, remove, served } from "./files.mjs";
 
-const here = import.meta.dirname;
 const cesium = path.join(here, "node_modules/@cesium/engine");
 const PAGE = `<!doctype html><div id="map" style="width: 500px; height: 400px"></div>
   <script>window.CESIUM_BASE_URL = "/Build/"</script><script type="module" src="/page.js"></script>`;

@@ -5,7 +5,7 @@ import fs from "node:fs";
 import path from "node:path";
 import test, { after, before } from "node:test";
 import { pathToFileURL } from "node:url";
-import { file, golden, launch, microtin, npm, remove, served } from "./files.mjs";
+import { file, golden, here, launch, microtin, npm, remove, served } from "./files.mjs";
 
 const { MICROTIN_SCREENSHOT: screenshot } = process.env;
 
@@ -101,7 +101,7 @@ const onDisk = (name) => pathToFileURL(file(name)).href;
 // The picture of the README is what is seen, but for what another encoder or driver changes. MICROTIN_SCREENSHOT: makes it.
 async function compareWithReadme(page, seen) {
   if (screenshot) fs.writeFileSync(screenshot, seen);
-  const [now, then] = [await pixelsOf(page, seen), await pixelsOf(page, fs.readFileSync(path.join(import.meta.dirname, "viewer.png")))];
+  const [now, then] = [await pixelsOf(page, seen), await pixelsOf(page, fs.readFileSync(path.join(here, "viewer.png")))];
   assert.deepEqual([now.width, now.height], [then.width, then.height]);
   const sum = now.pixels.reduce((total, value, i) => total + Math.abs(value - then.pixels[i]), 0);
   assert.ok(sum / now.pixels.length < 8, `on average ${sum / now.pixels.length} of 255`);
