@@ -5,6 +5,7 @@ import { edgesOf, normalsOf } from "./surface.js";
 
 let drawer; // takes meshes
 let heightAt = async () => NaN;
+let first; // bytes, after which all that is in view was there, if coarse
 let scene; // the page's: how long units are beside each other, and how light finds slopes
 
 function send(message, transfer = []) {
@@ -37,9 +38,10 @@ async function showStream(source) {
       send({ kind: "begin", header: terrain.header, box, tiles: [] });
     }
     sendMesh(copyOf(terrain), 0, ++phase);
-    send({ kind: "progress", phase, bytes: terrain.bytes, vertices: terrain.vertexCount });
+    first ??= terrain.bytes;
+    send({ kind: "progress", first, phase, bytes: terrain.bytes, vertices: terrain.vertexCount });
   }
-  drawer.postMessage({ kind: "end", bytes: terrain.bytes, vertices: terrain.vertexCount });
+  drawer.postMessage({ kind: "end", first, bytes: terrain.bytes, vertices: terrain.vertexCount });
 }
 
 async function showPack(source) {
@@ -50,15 +52,36 @@ async function showPack(source) {
   heightAt = (x, y) => pack.heightAt(x, y);
   send({ kind: "begin", header: pack.header, box, tiles: boxes });
   let vertices = 0;
+  const show = (mesh, tile, phase) => {
+    if (mesh.done) vertices += mesh.positions.length / 3;
+    sendMesh(mesh, tile, phase); // which gives the arrays away
+    send({ kind: "progress", first, phase, bytes: pack.bytesRead, vertices });
+  };
+  const coarse = await showFirstPhases(pack, count, show);
+  first = pack.bytesRead;
+  for (const [tile, size] of coarse) await showRest(pack, tile, size, show);
+  drawer.postMessage({ kind: "end", first, bytes: pack.bytesRead, vertices });
+}
+
+// Of all tiles, which are in view. Returns how much there is of those that have more phases.
+async function showFirstPhases(pack, count, show) {
+  const coarse = new Map();
   for (let tile = 0; tile < count; ++tile) {
-    let phase = 0;
     for await (const mesh of pack.tilePhases(tile)) {
-      if (mesh.done) vertices += mesh.positions.length / 3;
-      sendMesh(mesh, tile, ++phase);
+      if (!mesh.done) coarse.set(tile, mesh.positions.length);
+      show(mesh, tile, 1);
+      break;
     }
-    send({ kind: "progress", phase, bytes: pack.bytesRead, vertices });
   }
-  drawer.postMessage({ kind: "end", bytes: pack.bytesRead, vertices });
+  return coarse;
+}
+
+// The phases of a tile that have more than is known of it.
+async function showRest(pack, tile, size, show) {
+  let phase = 1;
+  for await (const mesh of pack.tilePhases(tile)) {
+    if (mesh.done || mesh.positions.length > size) show(mesh, tile, ++phase);
+  }
 }
 
 const isPack = (bytes) => String.fromCharCode(...bytes.subarray(0, 4)) === "mtpk";

@@ -55,11 +55,12 @@ function showFlat({ message }) {
   document.body.dataset.state = "flat";
 }
 
-function factsOf({ kind, bytes, vertices }) {
+function factsOf({ kind, bytes, vertices, first }) {
   const { accuracy, units } = header;
   const unit = SYMBOLS[units?.vertical] ?? "";
   const error = accuracy ? `, at most ${text(accuracy.largest)} ${unit} off` : "";
-  return `${text(vertices)} vertices, ${text(bytes)} bytes${kind === "end" ? "" : " so far"}${error}`;
+  const seen = first ? `, first seen after ${text(first)} bytes` : "";
+  return `${text(vertices)} vertices, ${text(bytes)} bytes${kind === "end" ? "" : " so far"}${error}${seen}`;
 }
 
 const ANSWERS = {

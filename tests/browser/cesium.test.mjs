@@ -161,7 +161,7 @@ test("coarse levels of one tile take fewer bytes", async (t) => {
   assert.ok(fresh.bytesRead < 0.75 * file.length);
 });
 
-test("beyond the pack and in voids tiles are empty, and Cesium is told not to divide them", async () => {
+test("beyond the pack tiles are empty, and Cesium is told not to divide them", async () => {
   const level = levels - 1;
   const [columns, rows] = countsAt(level);
   const [x, y] = [columns - 1, 0];

@@ -9,6 +9,8 @@
 #include <memory>
 
 #include "encoder/base/error.hpp"
+#include "encoder/picture/page.hpp"
+#include "encoder/picture/viewer_page.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/support/layers.hpp"
@@ -308,4 +310,23 @@ TEST_CASE("render: sizes out of range are refused") {
       "the title has \"\xE2\x82\xAC\", which cannot be drawn: there are Latin letters "
       "with Western accents, digits and common signs",
       Error);
+}
+
+TEST_CASE("render: a page holds the file, unless it is too large: that is told with its size") {
+  const Portrait triangle = portrait({{0, 0, 0}, {20, 0, 5}, {0, 20, 9}});
+  const auto page = [&](const std::string& file) {
+    try {
+      return render_page(triangle, "a < b", file, {1, 2, 3});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  if (viewer_page().empty()) {
+    CHECK(page("abc").find("for want of") != std::string::npos);
+    return;
+  }
+  CHECK(page("terrain").find(">dGVycmFpbg==<") != std::string::npos);
+  CHECK(page("terrain").find("<title>a &#60; b</title>") != std::string::npos);
+  CHECK(page(std::string(kLargestPage + 1, 'a')) ==
+        "it has 100000001 bytes; a page holds at most 100000000");
 }
