@@ -90,6 +90,8 @@ struct RenderRequest {
   bool mesh = true;    // draw the triangles
   bool world = false;  // write a world file beside the picture
   PaletteKind palette = PaletteKind::kLand;
+  bool contours = false;
+  std::optional<Decimal> interval;  // of contours; a round one if not given
 };
 
 void run_render(const RenderRequest& request);

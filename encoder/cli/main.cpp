@@ -529,6 +529,15 @@ void add_render(CLI::App& app, Action& action) {
                           {{"land", PaletteKind::kLand}, {"sea", PaletteKind::kSea}}, "land or sea",
                           "Colours of heights: land from the lowest on, or land from 0 on and sea, "
                           "blue, below");
+  add_read(
+      command, "--contours",
+      [request](const std::string& text) {
+        request->contours = true;
+        request->interval = parse_decimal(text);
+        return text == "auto" || (request->interval && request->interval->mantissa > 0);
+      },
+      "auto or a decimal number above 0",
+      "Draw lines of equal height: so far apart, in the terrain's unit, or auto");
   command.add_flag("--world-file", request->world,
                    "Write beside the picture, as .pgw, where its map lies");
   command.add_option("--source", request->source, "Draw a map of the errors against this terrain")
