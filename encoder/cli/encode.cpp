@@ -17,6 +17,7 @@
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/import/cloud_size.hpp"
+#include "encoder/import/mosaic.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
 #include "encoder/product/reference.hpp"
@@ -169,6 +170,15 @@ std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
   return text_of(terrain, encoded, request) + units(request, reference_of(terrain.source));
 }
 
+void announce_left_out(const EncodeRequest& request) {
+  std::vector<std::string> names = request.preparation.more_files;
+  names.insert(names.begin(), request.input);
+  for (const std::string& name : names) {
+    const std::string text = left_out_of(name);
+    if (!text.empty()) std::fputs(warning(text).c_str(), stderr);
+  }
+}
+
 // What the points of all files take, which are read into memory, if that is much.
 void announce_memory(const EncodeRequest& request) {
   constexpr double kGigabyte = 1e9, kOfStream = 100, kOfPack = 170;  // bytes for a point
@@ -190,6 +200,7 @@ void announce_memory(const EncodeRequest& request) {
 void run_encode(const EncodeRequest& request) {
   refuse_overwriting(inputs_of(request), request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
+  announce_left_out(request);
   announce_memory(request);
   deliver(out, request.output,
           makes_pack(request) ? encode_tiled(request, out) : encode_whole(request, out));

@@ -15,6 +15,7 @@
 #include "encoder/exact/coordinates.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
+#include "encoder/exact/units.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {
@@ -28,10 +29,20 @@ bool is_alike(const Reference& a, const Reference& b) {
          a.wkt == b.wkt;
 }
 
+std::string text_of(const Reference& reference) {
+  std::string text = "x and y " + std::string(name_of(reference.horizontal_unit)) + ", heights " +
+                     std::string(name_of(reference.vertical_unit));
+  if (reference.horizontal_epsg != 0) text += ", EPSG:" + std::to_string(reference.horizontal_epsg);
+  if (reference.vertical_epsg != 0) text += ":" + std::to_string(reference.vertical_epsg);
+  return text;
+}
+
 void expect_alike(const NamedSource& first, const NamedSource& part, const Reference& a,
                   const Reference& b) {
   if (is_alike(a, b)) return;
-  throw Error(part.path + ": its units or its coordinate system are not those of " + first.path);
+  throw Error(part.path + ": its units or its coordinate system (" + text_of(b) +
+              ") are not those of " + first.path + " (" + text_of(a) +
+              "): add the .prj that is missing, or bring it there with gdalwarp");
 }
 
 // A rectangle on the grid of the first raster's posts.
@@ -323,26 +334,54 @@ bool is_cloud(const NamedSource& named) {
 
 }  // namespace
 
-std::vector<std::string> files_in(const std::string& path) {
-  std::error_code none;
-  if (!fs::is_directory(path, none)) return {path};
-  std::map<std::string, std::vector<std::string>> by_suffix;
+namespace {
+
+using FilesBySuffix = std::map<std::string, std::vector<std::string>>;
+
+FilesBySuffix terrain_files_in(const std::string& folder) {
+  FilesBySuffix by_suffix;
   std::error_code error;
-  const fs::directory_iterator entries(path, error);
-  if (error) throw Error(path + ": cannot be read: " + error.message());
+  const fs::directory_iterator entries(folder, error);
+  if (error) throw Error(folder + ": cannot be read: " + error.message());
   for (const auto& entry : entries) {
     const std::string suffix = lower_case(entry.path().extension().string());
     if (entry.is_regular_file() && is_terrain_suffix(suffix)) {
       by_suffix[suffix].push_back(entry.path().string());
     }
   }
-  const auto most = std::max_element(
-      by_suffix.begin(), by_suffix.end(),
-      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
-  if (most == by_suffix.end()) throw Error(path + ": holds no terrain file");
-  std::vector<std::string> files = most->second;
+  return by_suffix;
+}
+
+FilesBySuffix::const_iterator most_of(const FilesBySuffix& files) {
+  return std::max_element(files.begin(), files.end(), [](const auto& a, const auto& b) {
+    return a.second.size() < b.second.size();
+  });
+}
+
+}  // namespace
+
+std::vector<std::string> files_in(const std::string& path) {
+  std::error_code none;
+  if (!fs::is_directory(path, none)) return {path};
+  const FilesBySuffix by_suffix = terrain_files_in(path);
+  if (by_suffix.empty()) throw Error(path + ": holds no terrain file");
+  std::vector<std::string> files = most_of(by_suffix)->second;
   std::sort(files.begin(), files.end());
   return files;
+}
+
+std::string left_out_of(const std::string& path) {
+  std::error_code none;
+  if (!fs::is_directory(path, none)) return "";
+  const FilesBySuffix by_suffix = terrain_files_in(path);
+  if (by_suffix.size() < 2) return "";
+  const auto most = most_of(by_suffix);
+  std::string text = path + ": its " + most->first + " files are taken; left out are";
+  for (auto other = by_suffix.begin(); other != by_suffix.end(); ++other) {
+    if (other == most) continue;
+    text += ' ' + std::to_string(other->second.size()) + " of " + other->first;
+  }
+  return text;
 }
 
 OpenSource join(std::vector<NamedSource> parts) {

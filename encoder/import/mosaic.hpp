@@ -17,6 +17,9 @@ namespace microtin::importing {
 // files have. Throws Error if a folder holds none.
 std::vector<std::string> files_in(const std::string& path);
 
+// What people should know of a folder that holds terrain files of other suffixes, too; else empty.
+std::string left_out_of(const std::string& path);
+
 struct NamedSource {
   std::string path;
   OpenSource source;

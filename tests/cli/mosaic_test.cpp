@@ -77,7 +77,17 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   CHECK(contains(session.failure("encode a.asc size.asc -o t.mtp --tile-vertices 60"),
                  "size.asc: its cells are not of the size"));
   CHECK(contains(session.failure("encode a.asc off.asc -o t.mtin"), "off.asc: its cells are not"));
-  CHECK(contains(session.failure("encode a.asc unit.asc -o t.mtin"), "unit.asc: its units"));
+  CHECK(contains(
+      session.failure("encode a.asc unit.asc -o t.mtin"),
+      "unit.asc: its units or its coordinate system (x and y foot, heights unknown) are not "
+      "those of a.asc (x and y unknown, heights unknown): add the .prj that is missing, "
+      "or bring it there with gdalwarp"));
+  fs::create_directory(session.folder() + "/mixed");
+  for (const char* const name : {"a.asc", "unit.asc", "p.xyz"}) {
+    fs::copy_file(session.folder() + "/" + name, session.folder() + "/mixed/" + name);
+  }
+  CHECK(contains(session.run("encode mixed -o t.mtin").err,
+                 "warning: mixed: its .asc files are taken; left out are 1 of .xyz\n"));
   CHECK(contains(session.failure("encode a.asc p.xyz -o t.mtin"), "p.xyz: are points, but a.asc"));
   CHECK(session.run("encode a.asc size.asc -o size.asc").code == 1);
   CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "3"));
