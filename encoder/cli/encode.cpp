@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The commands encode, plan and merge: streams and packs from a terrain, and what to say of them.
+#include <unistd.h>
+
+#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <sstream>
@@ -13,6 +16,8 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
+#include "encoder/import/cloud_size.hpp"
+#include "encoder/import/mosaic.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
 #include "encoder/product/reference.hpp"
@@ -165,11 +170,38 @@ std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
   return text_of(terrain, encoded, request) + units(request, reference_of(terrain.source));
 }
 
+void announce_left_out(const EncodeRequest& request) {
+  std::vector<std::string> names = request.preparation.more_files;
+  names.insert(names.begin(), request.input);
+  for (const std::string& name : names) {
+    const std::string text = left_out_of(name);
+    if (!text.empty()) std::fputs(warning(text).c_str(), stderr);
+  }
+}
+
+// What the points of all files take, which are read into memory, if that is much.
+void announce_memory(const EncodeRequest& request) {
+  constexpr double kGigabyte = 1e9, kOfStream = 100, kOfPack = 170;  // bytes for a point
+  uint64_t points = 0;
+  for (const std::string& file : inputs_of(request)) points += points_expected(file);
+  const double bytes = static_cast<double>(points) * (makes_pack(request) ? kOfPack : kOfStream);
+  if (bytes < kGigabyte) return;
+  const double machine =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "about %.0f points take about %.2g GB of memory; this machine has %.2g GB",
+                static_cast<double>(points), bytes / kGigabyte, machine / kGigabyte);
+  std::fputs(warning(request.input + ": " + text).c_str(), stderr);
+}
+
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
   refuse_overwriting(inputs_of(request), request.output);
   OutputFile out(request.output);  // fails early if it cannot be written
+  announce_left_out(request);
+  announce_memory(request);
   deliver(out, request.output,
           makes_pack(request) ? encode_tiled(request, out) : encode_whole(request, out));
 }

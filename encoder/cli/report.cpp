@@ -93,7 +93,7 @@ void announce_size(const std::string& path, double most_bytes, bool forced,
   constexpr double kGigabyte = 1e9;
   if (most_bytes <= kGigabyte) return;
   char size[64];
-  std::snprintf(size, sizeof size, "up to %.3g GB", most_bytes / kGigabyte);
+  std::snprintf(size, sizeof size, "up to %.1f GB", most_bytes / kGigabyte);
   if (!forced) {
     throw Error(path + ": would take " + size + ": --force writes it" + else_there_is);
   }

@@ -48,7 +48,9 @@ MeshFormat mesh_format_of(const std::string& path) {
   if (suffix == ".obj") return MeshFormat::kObj;
   if (suffix == ".ply") return MeshFormat::kPly;
   if (suffix == ".glb") return MeshFormat::kGlb;
-  throw Error(path + ": not a kind of file that is written (.xyz, .obj, .ply, .glb, .asc)");
+  throw Error(path +
+              ": not a kind of file that is written (.xyz, .obj, .ply, .glb, .asc); "
+              "gdal_translate and ogr2ogr with the driver MTIN write others");
 }
 
 uint64_t most_mesh_bytes(const SampledSurface& surface, uint64_t vertices, MeshFormat format,

@@ -87,6 +87,7 @@ Source import_other(const std::string& path, Indirect indirect, uint32_t band) {
 }
 #else
 Source import_other(const std::string& path, Indirect, uint32_t) {
+  open_file(path);  // throws Error if it is not there
   throw Error(path +
               ": not a kind of terrain file known here (.hgt, .zip, .asc, .xyz, .csv, .txt, .las, "
               ".ply, .obj); for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build "

@@ -85,6 +85,23 @@ uint32_t most_vertices(const TiledCloud& tiled) {
   return *std::max_element(vertices.begin(), vertices.end());
 }
 
+[[noreturn]] void refuse_extent(const TiledCloud& tiled) {
+  const uint64_t points = tiled.cloud.points.size();
+  throw Error("tiles are at most " + std::to_string(kLatticeMax) + " steps wide: at --xy-step " +
+              to_string(tiled.survey.xy_step) + " more than " + std::to_string(kMostTiles) +
+              " are needed; --xy-step " +
+              to_string(finest_step(tiled.cloud, std::min<uint64_t>(points, kMostTiles))) +
+              " makes no more than there are points");
+}
+
+[[noreturn]] void refuse_tiles(uint32_t most_vertices) {
+  throw Error("more than " + std::to_string(kMostTiles) + " tiles, or tiles of one step, are " +
+              "needed: --tile-vertices must be more" +
+              (most_vertices == 0
+                   ? std::string()
+                   : "; one still has " + std::to_string(most_vertices) + " vertices"));
+}
+
 // The fewest pieces along the longer side, at least `fewest`, found to keep tiles within the number
 // of vertices.
 uint32_t choose_pieces(TiledCloud tiled, const PackOptions& options, uint32_t fewest) {
@@ -94,15 +111,13 @@ uint32_t choose_pieces(TiledCloud tiled, const PackOptions& options, uint32_t fe
   const double guess = std::sqrt(tiles * std::max(x_max, y_max) / std::min(x_max, y_max));
   const auto longer = static_cast<uint32_t>(std::max(x_max, y_max));
   fewest = std::max(fewest, (longer - 1) / kLatticeMax + 1);
-  uint32_t fitting = 0;
+  if (tile_count(grid_in_pieces(tiled.survey, fewest)) > kMostTiles) refuse_extent(tiled);
+  uint32_t fitting = 0, most = 0;
   uint32_t pieces = std::max(fewest, static_cast<uint32_t>(std::min<double>(guess, longer)));
   for (;;) {
     tiled.grid = grid_in_pieces(tiled.survey, pieces);
-    if (pieces > longer || tile_count(tiled.grid) > kMostTiles) {
-      throw Error("more than " + std::to_string(kMostTiles) + " tiles, or tiles of one step, are " +
-                  "needed: --tile-vertices must be more or --xy-step coarser");
-    }
-    const uint32_t most = most_vertices(tiled);
+    if (pieces > longer || tile_count(tiled.grid) > kMostTiles) refuse_tiles(most);
+    most = most_vertices(tiled);
     const uint32_t allowed = most_vertices(options, tiled.grid);
     if (most <= allowed) fitting = pieces;
     if (most > allowed) fewest = pieces + 1;
@@ -133,6 +148,22 @@ bool all_fit(const std::vector<EncodedTile>& tiles, uint32_t most) {
 }
 
 }  // namespace
+
+Decimal finest_step(const PointCloud& cloud, uint64_t tiles) {
+  NumberRange x, y;
+  for (const SourcePoint& p : cloud.points) {
+    x.add(p.x);
+    y.add(p.y);
+  }
+  for (Wide power = 1;; power *= 10) {
+    for (const int digit : {1, 2, 5}) {
+      const auto across = [step = power * digit](const NumberRange& range) {
+        return ceil_divide(Wide{range.high} - range.low + step, step * kLatticeMax);
+      };
+      if (across(x) * across(y) <= tiles) return make_decimal(power * digit, cloud.xy_decimals);
+    }
+  }
+}
 
 PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
                             Metadata metadata) {

@@ -24,6 +24,10 @@ struct PointPack {
 
 constexpr uint32_t kMostTiles = 1u << 20;
 
+// Of 1, 2, 5, 10 ... of the last decimal of the points' places the finest step at which so many
+// tiles, as large as they can be, cover them. O(points).
+Decimal finest_step(const PointCloud& cloud, uint64_t tiles);
+
 // Cuts the hull of the cloud into tiles and encodes each, on all processors; the result depends
 // neither on their number nor on the order of the points. Every place of the hull, so every point,
 // is covered by a tile, and every point within the bound; without one, every place that points have

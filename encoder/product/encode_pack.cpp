@@ -11,6 +11,7 @@
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/shard.hpp"
 #include "encoder/pack/tile_plan.hpp"
+#include "encoder/product/true_bound.hpp"
 #include "encoder/terrain/duplicates.hpp"
 #include "encoder/terrain/true_places.hpp"
 
@@ -113,26 +114,77 @@ void write_pack(const PackContent& pack, StreamSpool& streams, OutputFile& out) 
 
 namespace {
 
-// Notes the errors where points truly lie, if the pack moves them.
-std::optional<Verification> measured_at_true_places(PointPack& made, const PointCloud& cloud,
-                                                    const EncodeOptions& options) {
-  Metadata& metadata = made.content.metadata;
-  if (!moves_points(metadata.placement, cloud)) return std::nullopt;
+// The largest of 1, 2, 5 times a power of ten that is not larger.
+Decimal round_step(double step) {
+  Decimal rounded = make_decimal(1, kMaxDecimals);
+  for (int64_t power = 1; power <= power_of_ten(kMaxDecimals); power *= 10) {
+    for (const int64_t digit : {1, 2, 5}) {
+      const Wide number = Wide{power} * digit;
+      if (static_cast<double>(number) <= step * 1e9) rounded = make_decimal(number, kMaxDecimals);
+    }
+  }
+  return rounded;
+}
+
+double real(Decimal value) {
+  return static_cast<double>(value.mantissa) / static_cast<double>(power_of_ten(value.decimals));
+}
+
+// A step that does better: the points' own, if tiles can be so small, or one by how far the bound
+// is missed, which shrinks with the step until half of the bound makes up for it.
+std::string finer_step(const PointCloud& cloud, Decimal step, Decimal bound, Decimal error) {
+  const Decimal finest = pack::finest_step(cloud, pack::kMostTiles);
+  if (finest <= make_decimal(1, cloud.xy_decimals)) return "leave it out";
+  const double missed = std::max(real(error) - real(bound), real(bound) / 2);
+  const Decimal likely = round_step(real(step) * real(bound) / 2.5 / missed);
+  if (likely <= finest) return to_string(finest) + " is the finest for so wide a cloud";
+  return "try " + to_string(likely);
+}
+
+// An attempt, with the errors where points truly lie, if it moves them.
+struct Attempt {
+  PointPack made;
+  std::optional<Verification> true_places;
+  bool is_kept = true;  // the bound, there
+};
+
+Attempt attempt(const PointCloud& cloud, const EncodeOptions& options,
+                const std::optional<Decimal>& room) {
+  EncodeOptions fitted = options;
+  fitted.lattice.max_error = room;
+  Attempt result{
+      encode_point_pack(cloud, point_options(fitted), metadata_of(options, cloud.reference)),
+      std::nullopt};
+  Metadata& metadata = result.made.content.metadata;
   const std::optional<Decimal> none, &bound = options.lattice.max_error;
+  metadata.accuracy->bound = bound;
+  if (!moves_points(metadata.placement, cloud)) return result;
   const bool is_bound = options.bound_at == BoundAt::kTruePlaces;
-  const PackFile pack(pack::write_pack(made.content, made.streams));
+  const PackFile pack(pack::write_pack(result.made.content, result.made.streams));
   const Verification found =
       verify_at_true_places(sampled(pack).height_at, metadata.placement, cloud, bound);
-  const bool is_kept =
-      found.within_bound && !(options.lattice.never_below && found.max_below.mantissa != 0);
-  if (is_bound && !is_kept) {
-    throw Error("--max-error " + to_string(*bound) + " is not kept where points truly lie, by " +
-                to_string(found.max_error) + " at most: --xy-step " + to_string(made.xy_step) +
-                " is too coarse; leave it out, or ask for less with --bound-at lattice");
-  }
+  const bool too_low = options.lattice.never_below && found.max_below.mantissa != 0;
+  result.is_kept = !is_bound || (found.within_bound && !too_low);
   metadata.true_places =
       Accuracy{is_bound ? bound : none, found.max_error, found.rms_error, found.mean_error};
-  return found;
+  result.true_places = found;
+  return result;
+}
+
+// Where the first attempt does not keep the bound at points' true places, another within less may.
+Attempt attempt_twice(const PointCloud& cloud, const EncodeOptions& options) {
+  const std::optional<Decimal>& bound = options.lattice.max_error;
+  Attempt first = attempt(cloud, options, bound);
+  if (first.is_kept) return first;
+  try {
+    const Decimal room = narrower(*bound, first.true_places->max_error);
+    if (Attempt second = attempt(cloud, options, room); second.is_kept) return second;
+  } catch (const Error&) {  // the terrain does not go within that
+  }
+  const Decimal step = first.made.xy_step, error = first.true_places->max_error;
+  throw Error("--max-error " + to_string(*bound) + " is not kept where points truly lie, by " +
+              to_string(error) + " at most: --xy-step " + to_string(step) + " is too coarse; " +
+              finer_step(cloud, step, *bound, error) + ", or ask for less with --bound-at lattice");
 }
 
 }  // namespace
@@ -141,11 +193,9 @@ EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options)
   const Placement lattice = choose_pack_lattice(cloud, options.lattice).placement;
   const std::optional<PointCloud> thin = thinned(cloud, lattice, options.lattice.duplicates);
   const PointCloud& kept = thin ? *thin : cloud;
-  PointPack made =
-      encode_point_pack(kept, point_options(options), metadata_of(options, cloud.reference));
+  auto [made, true_places, is_kept] = attempt_twice(kept, options);
   const uint64_t dropped = cloud.points.size() - kept.points.size();
   if (dropped != 0) made.content.metadata.duplicates = options.lattice.duplicates;
-  const auto true_places = measured_at_true_places(made, kept, options);
   std::vector<uint8_t> bytes = pack::write_pack(made.content, made.streams);
   const Verification found =
       on_our_own([&] { return verify(PackFile(bytes), kept, options.lattice.max_error); });

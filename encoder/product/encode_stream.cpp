@@ -10,6 +10,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/export/height_sampler.hpp"
+#include "encoder/pack/point_pack.hpp"
 #include "encoder/product/budget.hpp"
 #include "encoder/product/true_bound.hpp"
 #include "encoder/stream/compact_form.hpp"
@@ -134,15 +135,26 @@ Attempt attempt(const Source& source, const EncodeOptions& options, LatticeOptio
                 approximate(source, fitted, simplify_options(options, progress)));
 }
 
-[[noreturn]] void refuse_lattice(const Attempt& last, const EncodeOptions& options) {
+// A pack keeps the points' decimals, unless they reach too far for its tiles.
+std::string pack_that_is_finer(const PointCloud& cloud) {
+  const Decimal own = make_decimal(1, cloud.xy_decimals);
+  if (pack::finest_step(cloud, pack::kMostTiles) <= own) return "make a pack (.mtp)";
+  const uint64_t tiles = std::min<uint64_t>(cloud.points.size(), pack::kMostTiles);
+  return "make a pack (.mtp) with --xy-step " + to_string(pack::finest_step(cloud, tiles)) +
+         " or finer";
+}
+
+[[noreturn]] void refuse_lattice(const Source& source, const Attempt& last,
+                                 const EncodeOptions& options) {
   const std::string step = to_string(last.encoded.laid.xy_step);
-  throw Error("--max-error " + to_string(*options.lattice.max_error) + " is not kept where " +
-              std::to_string(last.missed) + " points truly lie, by at most " +
-              to_string(last.encoded.true_places->max_error) + ": --xy-step " + step +
-              " is too coarse; " +
-              (options.lattice.xy_step ? "leave it out, "
-                                       : "16 bits hold no finer one: make a pack (.mtp), ") +
-              "or ask for less with --bound-at lattice");
+  throw Error(
+      "--max-error " + to_string(*options.lattice.max_error) + " is not kept where " +
+      std::to_string(last.missed) + " points truly lie, by at most " +
+      to_string(last.encoded.true_places->max_error) + ": --xy-step " + step + " is too coarse; " +
+      (options.lattice.xy_step ? std::string("leave it out, ")
+                               : "16 bits hold no finer one: " +
+                                     pack_that_is_finer(std::get<PointCloud>(source)) + ", ") +
+      "or ask for less with --bound-at lattice");
 }
 
 // Attempts until points keep the bound where they truly lie, as many as are allowed.
@@ -156,15 +168,12 @@ Attempt attempt_some(const Source& source, const EncodeOptions& options,
   }
 }
 
-// The same everywhere within less than the bound: by a tenth, and twice what the attempts missed it
-// by, but at least half of it. Nothing if the terrain does not go within that.
+// The same everywhere within less than the bound. Nothing if the terrain does not go within that.
 std::optional<Attempt> attempt_narrowly(const Source& source, const EncodeOptions& options,
                                         const Attempt& last, const Progress& progress) {
-  const Wide bound = mantissa_at(*options.lattice.max_error, kMaxDecimals);
-  const Wide missed = mantissa_at(last.encoded.true_places->max_error, kMaxDecimals) - bound;
-  const Wide room = std::max(bound - bound / 10 - 2 * missed, bound / 2);
+  const Decimal room = narrower(*options.lattice.max_error, last.encoded.true_places->max_error);
   try {
-    return attempt_some(source, options, make_decimal(room, kMaxDecimals), progress);
+    return attempt_some(source, options, room, progress);
   } catch (const Error&) {
     return std::nullopt;
   }
@@ -177,7 +186,7 @@ EncodedStream encode_measured(const Source& source, const EncodeOptions& options
   Attempt made = attempt_some(source, options, options.lattice.max_error, progress);
   if (made.missed == 0) return std::move(made.encoded);
   std::optional<Attempt> narrow = attempt_narrowly(source, options, made, progress);
-  if (!narrow || narrow->missed != 0) refuse_lattice(made, options);
+  if (!narrow || narrow->missed != 0) refuse_lattice(source, made, options);
   return std::move(narrow->encoded);
 }
 

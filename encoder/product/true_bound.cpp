@@ -45,4 +45,10 @@ int32_t TrueBound::moved(int32_t height, double by) const {
   return static_cast<int32_t>(std::clamp<double>(moved, INT32_MIN, INT32_MAX));
 }
 
+Decimal narrower(Decimal bound, Decimal error) {
+  const Wide all = mantissa_at(bound, kMaxDecimals);
+  const Wide missed = std::max<Wide>(mantissa_at(error, kMaxDecimals) - all, 0);
+  return make_decimal(std::max(all - all / 10 - 2 * missed, all / 2), kMaxDecimals);
+}
+
 }  // namespace microtin::product

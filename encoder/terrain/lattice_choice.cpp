@@ -60,6 +60,21 @@ GroupFit fit_all(const AxisGroup& group, Decimal step) {
   return fits;
 }
 
+struct FinestFit {
+  GroupFit fits;
+  Decimal step;
+};
+
+FinestFit fit_finest(const AxisGroup& group) {
+  for (int64_t power = 1;; power *= 10) {
+    for (const int64_t digit : {1, 2, 5}) {
+      const Decimal step = make_decimal(digit * power, group.decimals);
+      GroupFit fits = fit_all(group, step);
+      if (!fits.maps.empty()) return {std::move(fits), step};
+    }
+  }
+}
+
 GroupFit fit_explicit(const AxisGroup& group, Decimal step) {
   constexpr int64_t kLargest = 1000000000;  // keeps products with an axis in 128 bits
   const std::string name = std::string(group.option) + " " + to_string(step);
@@ -67,22 +82,14 @@ GroupFit fit_explicit(const AxisGroup& group, Decimal step) {
   GroupFit fits = fit_all(group, step);
   if (fits.maps.empty()) {
     throw Error(name + " is too fine: " + std::to_string(group.bits) +
-                " bits do not hold the source's range in such steps");
+                " bits do not hold the source's range in such steps; " +
+                to_string(fit_finest(group).step) + " fits");
   }
   return fits;
 }
 
-GroupFit fit_finest(const AxisGroup& group) {
-  for (int64_t power = 1;; power *= 10) {
-    for (const int64_t digit : {1, 2, 5}) {
-      GroupFit fits = fit_all(group, make_decimal(digit * power, group.decimals));
-      if (!fits.maps.empty()) return fits;
-    }
-  }
-}
-
 GroupFit choose(const AxisGroup& group, const std::optional<Decimal>& step) {
-  return step ? fit_explicit(group, *step) : fit_finest(group);
+  return step ? fit_explicit(group, *step) : fit_finest(group).fits;
 }
 
 // The real coordinates of a map's lattice, given those of the source's numbers, which are

@@ -77,6 +77,7 @@ class Sampler {
       : map_(lattice.z),
         decimals_(lattice.z_decimals),
         bounded_(options.max_error.has_value()),
+        is_step_asked_(options.z_step.has_value()),
         above_(bounded_ ? mantissa_at(*options.max_error, decimals_) : Wide{0}),
         below_(options.never_below ? Wide{0} : above_),
         water_(water) {}
@@ -116,11 +117,8 @@ class Sampler {
                   "; --duplicates lowest, highest or mean lets one of them stand for all");
     }
     if (without_step_ != 0) {
-      const Decimal enough = make_decimal(std::max<Wide>(narrowest_, 1), decimals_);
-      throw Error(
-          refusal + std::to_string(without_step_) +
-          " places: no whole step of height is near enough; the largest --z-step that always is: " +
-          to_string(enough));
+      throw Error(refusal + std::to_string(without_step_) +
+                  " places: no whole step of height is near enough; " + remedy());
     }
   }
 
@@ -138,6 +136,21 @@ class Sampler {
     }
   }
 
+  // A step that was not asked for is the finest that fits: then the bound must be wider.
+  std::string remedy() const {
+    const Wide narrowest = std::max<Wide>(narrowest_, 1);
+    if (is_step_asked_) {
+      return "the largest --z-step that always is: " +
+             to_string(make_decimal(narrowest, decimals_));
+    }
+    const Wide missing = map_.step - narrowest;
+    const bool grows_twice = below_ != 0 && !water_;
+    const Wide more = grows_twice ? ceil_divide(missing, 2) : missing;
+    return "16 bits hold these heights in steps of " +
+           to_string(make_decimal(map_.step, decimals_)) + ", which keep --max-error " +
+           to_string(make_decimal(above_ + more, decimals_));
+  }
+
   struct Wall {
     Point place;
     Heights heights;
@@ -145,7 +158,7 @@ class Sampler {
 
   const LatticeMap& map_;
   int decimals_;
-  bool bounded_;
+  bool bounded_, is_step_asked_;
   Wide above_, below_;  // how far the surface may be from a height
   std::optional<int64_t> water_;
   Wide narrowest_ = std::numeric_limits<int64_t>::max();

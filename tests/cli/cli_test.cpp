@@ -247,6 +247,7 @@ TEST_CASE("cli: bad input gives one line with file and line, and no output") {
   const auto failure = [&](const std::string& arguments) {
     return session.failure("encode " + arguments + " -o out.mtin");
   };
+  CHECK(contains(failure("missing.tif"), "No such file or directory"));
   CHECK(failure("missing.asc") == "missing.asc: cannot be read: No such file or directory\n");
   CHECK(failure("image.tif").find("image.tif: ") == 0);
   CHECK(failure("short.asc").find("short.asc:7: ") == 0);

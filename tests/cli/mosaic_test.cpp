@@ -77,7 +77,17 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   CHECK(contains(session.failure("encode a.asc size.asc -o t.mtp --tile-vertices 60"),
                  "size.asc: its cells are not of the size"));
   CHECK(contains(session.failure("encode a.asc off.asc -o t.mtin"), "off.asc: its cells are not"));
-  CHECK(contains(session.failure("encode a.asc unit.asc -o t.mtin"), "unit.asc: its units"));
+  CHECK(contains(
+      session.failure("encode a.asc unit.asc -o t.mtin"),
+      "unit.asc: its units or its coordinate system (x and y foot, heights unknown) are not "
+      "those of a.asc (x and y unknown, heights unknown): add the .prj that is missing, "
+      "or bring it there with gdalwarp"));
+  fs::create_directory(session.folder() + "/mixed");
+  for (const char* const name : {"a.asc", "unit.asc", "p.xyz"}) {
+    fs::copy_file(session.folder() + "/" + name, session.folder() + "/mixed/" + name);
+  }
+  CHECK(contains(session.run("encode mixed -o t.mtin").err,
+                 "warning: mixed: its .asc files are taken; left out are 1 of .xyz\n"));
   CHECK(contains(session.failure("encode a.asc p.xyz -o t.mtin"), "p.xyz: are points, but a.asc"));
   CHECK(session.run("encode a.asc size.asc -o size.asc").code == 1);
   CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "3"));
@@ -87,8 +97,46 @@ TEST_CASE("mosaic: clouds are joined, with the decimals of both") {
   const Session session;
   session.write("a.xyz", "0 0 1\n2 0 1\n0 2 1.5\n");
   session.write("b.xyz", "2.25 2 4\n1 1 2.125\n");
-  CHECK(contains(session.run("encode a.xyz b.xyz -o t.mtin").out, "source: 5 points, 2 files"));
+  CHECK(contains(session.run("encode a.xyz b.xyz -o t.mtin").out,
+                 "source: 5 points, 2 files, which share no place\n"));
   CHECK(session.run("verify t.mtin b.xyz a.xyz").code == 0);
   REQUIRE(session.run("decode t.mtin -o o.xyz").code == 0);
   CHECK(contains(session.read("o.xyz"), "2.25 2"));
+}
+
+TEST_CASE("mosaic: how far clouds differ where they share places") {
+  const Session session;
+  session.write("a.xyz", "0 0 1\n2 0 1\n0 2 1.5\n1 1 5\n1 1 5.5\n");
+  session.write("b.xyz", "2 0 1\n0.5 0.5 9\n");
+  session.write("c.xyz", "1 1 4.25\n2 0 2\n");
+  const std::string encode = "encode a.xyz b.xyz ", rule = " --duplicates mean -o t.mtin";
+  CHECK(
+      contains(session.run(encode + rule).out, "2 files, which agree at 1 places that they share"));
+  CHECK(contains(session.run(encode + "c.xyz" + rule).out,
+                 "3 files; at 2 places that they share they differ by up to 1.25, most at x 1, y 1 "
+                 "in a.xyz and c.xyz; all count\n"));
+  session.write("d.xyz", "2 0 -1\n0 0 1\n");
+  CHECK(
+      contains(session.run("encode a.xyz b.xyz c.xyz d.xyz" + rule).out,
+               "at 3 places that they share they differ by up to 3, most at x 2, y 0 in c.xyz and "
+               "d.xyz; all count\n"));
+}
+
+TEST_CASE("clouds: the memory that they take is told before they are read") {
+  const Session session;
+  std::string las(227, '\0');
+  las.replace(0, 4, "LASF");
+  las[24] = 1;
+  las[25] = 2;
+  las.replace(107, 4, std::string("\0\x2D\x31\x01", 4));  // 20,000,000
+  session.write("a.las", las);
+  session.write("b.LAS", las);
+  const std::string told = session.run("encode a.las b.LAS --tile-vertices 500 -o t.mtp").err;
+  CHECK(contains(told,
+                 "warning: a.las: about 40000000 points take about 6.8 GB of memory; this "
+                 "machine has "));
+  CHECK(told.find("memory") < told.find("microtin: a.las: "));
+  CHECK(contains(session.run("encode a.las -o t.mtin").err, "about 2 GB of memory"));
+  session.write("a.xyz", "0 0 1\n2 0 1\n0 2 1.5\n");
+  CHECK(!contains(session.run("encode a.xyz -o t.mtin").err, "memory"));
 }

@@ -71,14 +71,45 @@ TEST_CASE("points: a lattice that is too coarse is named, with what is fine enou
   session.write("p.xyz", slope());
   CHECK(contains(session.failure("encode p.xyz --max-error 0.5 --xy-step 500 -o p.mtin"),
                  ": --xy-step 500 is too coarse; leave it out, or ask for less with --bound-at"));
-  CHECK(contains(
-      session.failure("encode p.xyz --max-error 0.5 --xy-step 500 --tile-vertices 500 -o p.mtp"),
-      ": --xy-step 500 is too coarse; leave it out, or ask for less with --bound-at lattice"));
+  // Left out, more tiles are needed than there can be: a step is named that does.
+  const std::string pack = "encode p.xyz --max-error 0.5 --tile-vertices 500 -o p.mtp --xy-step ";
+  CHECK(contains(session.failure(pack + "500"),
+                 ": --xy-step 500 is too coarse; try 5, or ask for "
+                 "less with --bound-at lattice"));
+  CHECK(session.run(pack + "5").code == 0);
   REQUIRE(session
               .run("encode p.xyz --max-error 0.5 --xy-step 500 --bound-at lattice --tile-vertices "
                    "500 -o coarse.mtp")
               .code == 0);
   CHECK(contains(session.run("info coarse.mtp").out, "true_places: {\"bound\": null"));
+}
+
+TEST_CASE("points: fine decimals over a large area are told a step that works, at each turn") {
+  const Session session;
+  std::string rough;
+  for (uint32_t i = 1; i <= 300; ++i) {  // millimetres over 100 km, up to 1500 m high
+    const uint32_t x = i * 2654435761u, y = x * 1597334677u, z = y * 3812015801u;
+    rough += std::to_string(x % 100000000 / 1000.0) + ' ' + std::to_string(y % 100000000 / 1000.0) +
+             ' ' + std::to_string(z % 1500) + '\n';
+  }
+  session.write("p.xyz", rough);
+  const auto step_behind = [](const std::string& text, const std::string& words) {
+    REQUIRE(contains(text, words));
+    const std::string rest = text.substr(text.find(words) + words.size());
+    return rest.substr(0, rest.find_first_not_of(".0123456789"));
+  };
+  const std::string encode = "encode p.xyz --max-error 0.1 -o ";
+  const std::string stream = session.failure(encode + "p.mtin");
+  const std::string coarse = step_behind(stream, "make a pack (.mtp) with --xy-step ");
+  CHECK(contains(session.failure(encode + "p.mtp --tile-vertices 300"),
+                 "; --xy-step " + coarse + " makes no more than there are points"));
+  std::string pack = encode + "p.mtp --tile-vertices 300 --xy-step ";
+  const std::string finer = step_behind(session.failure(pack + coarse), "too coarse; try ");
+  CHECK(session.run(pack + finer).code == 0);
+  CHECK(session.run("verify p.mtp p.xyz").code == 0);
+  CHECK(contains(session.failure("encode p.xyz --xy-step 0.5 -o p.mtin"),
+                 "--xy-step 0.5 is too fine: 16 bits do not hold the source's range in such steps; "
+                 "2 fits"));
 }
 
 TEST_CASE("points: one of those that meet stands for all, and verify knows which") {

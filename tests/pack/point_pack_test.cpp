@@ -275,15 +275,16 @@ TEST_CASE("point packs: what cannot be is refused") {
   square.scatter(50, 0, 0, 2000000000, 2000000000);
   const PointCloud wide = square.take();
   CHECK_THROWS_WITH_AS(pack_bytes(wide, point_options(1, 90)),
-                       "more than 1048576 tiles, or tiles of one step, are needed: --tile-vertices "
-                       "must be more or --xy-step coarser",
+                       "tiles are at most 65535 steps wide: at --xy-step 1 more than 1048576 are "
+                       "needed; --xy-step 5000 makes no more than there are points",
                        Error);
   PackOptions fine = point_options(1, 90);
   fine.lattice.xy_step = Decimal{1, 1};
   CHECK_THROWS_WITH_AS(
       pack_bytes(wide, fine),
-      "--xy-step 0.1 is too fine: 31 bits do not hold the source's range in such steps", Error);
-  fine.lattice.xy_step = Decimal{100000, 0};
+      "--xy-step 0.1 is too fine: 31 bits do not hold the source's range in such steps; 1 fits",
+      Error);
+  fine.lattice.xy_step = Decimal{5000, 0};
   check_pack(wide, fine);
 }
 

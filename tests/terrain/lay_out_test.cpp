@@ -115,6 +115,11 @@ TEST_CASE("a step of height too coarse for the bound is refused with one that is
       "--max-error cannot be kept at 2 places: no whole step of height is near enough; the largest "
       "--z-step that always is: 1");
   CHECK(error_of(points, options("", "1", "0")) == "none");
+  const std::string high = "0 0 0.01\n5 0 2.03\n0 5 3000.06\n";  // in steps of 0.05 at finest
+  CHECK(error_of(high, options("", "", "0.01")) ==
+        "--max-error cannot be kept at 1 places: no whole step of height is near enough; 16 bits "
+        "hold these heights in steps of 0.05, which keep --max-error 0.03");
+  CHECK(error_of(high, options("", "", "0.03")) == "none");
 }
 
 TEST_CASE("voids of rasters are kept; a lattice that merges them with heights is refused") {
