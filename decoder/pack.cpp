@@ -10,7 +10,7 @@ uint32_t room_of(const microtin_pack& p) {
   return kPackBuffer - p.kept * kPackEntryBytes;
 }
 
-void want(microtin_pack& p, PackStage stage, uint64_t offset, uint32_t size) {
+MICROTIN_ONE_COPY void want(microtin_pack& p, PackStage stage, uint64_t offset, uint32_t size) {
   const uint32_t room = room_of(p);
   p.stage = stage;
   p.next = offset;
