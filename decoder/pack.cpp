@@ -5,13 +5,19 @@
 namespace microtin {
 namespace {
 
+// Bytes of the buffer in front of the entries that are kept.
+uint32_t room_of(const microtin_pack& p) {
+  return kPackBuffer - p.kept * kPackEntryBytes;
+}
+
 MICROTIN_ONE_COPY void want(microtin_pack& p, PackStage stage, uint64_t offset, uint32_t size) {
+  const uint32_t room = room_of(p);
   p.stage = stage;
   p.next = offset;
   p.buffered = 0;
   p.fed = 0;
   p.is_counted = false;
-  p.wanted = static_cast<uint8_t>(size < kPackBuffer ? size : kPackBuffer);
+  p.wanted = static_cast<uint8_t>(size < room ? size : room);
 }
 
 // Queries do not look at an empty slot, so the order of these writes matters to those that
@@ -104,6 +110,7 @@ void set_why(BadTile& bad, microtin_status why) {
 void forget_bad_tiles(microtin_pack& p) {
   for (BadTile& bad : p.bad) set_why(bad, MICROTIN_DONE);
   p.has_passed = false;
+  p.kept = 0;
 }
 
 }  // namespace
@@ -143,9 +150,36 @@ microtin_status finish_tile(microtin_pack& p, PackSlot& slot, bool has_terrain) 
 
 namespace {
 
+// Wants the entry of the tile in hand, or takes it from those that are kept. From a card the next
+// ones come with it: another read, after the stream, would want their sector once more.
+void want_entry(microtin_pack& p) {
+  const uint32_t place = p.tile - p.kept_from;
+  if (place < p.kept) {
+    __builtin_memcpy(p.buffer, p.buffer + room_of(p) + place * kPackEntryBytes, kPackEntryBytes);
+    want(p, PackStage::kEntry, 0, kPackEntryBytes);
+    p.buffered = p.wanted;
+    return;
+  }
+  const TileGrid& grid = p.header.grid;
+  const uint32_t left = tile_columns(grid) * tile_rows(grid) - p.tile;
+  const uint32_t most = p.sector == 0 ? 1 : kEntriesOfRead;
+  p.kept = 0;
+  want(p, PackStage::kEntry, pack_entry_start(p.header, p.tile),
+       kPackEntryBytes * (left < most ? left : most));
+}
+
+// Moves the entries behind the first one to the buffer's end.
+void keep_entries(microtin_pack& p) {
+  p.kept = static_cast<uint8_t>(p.buffered / kPackEntryBytes - 1);
+  p.kept_from = p.tile + 1;
+  __builtin_memmove(p.buffer + room_of(p), p.buffer + kPackEntryBytes, p.kept * kPackEntryBytes);
+}
+
 microtin_status handle_entry(microtin_pack& p) {
+  if (p.buffered > kPackEntryBytes) keep_entries(p);
   if (pack_entry_check(p.crc, p.tile, p.buffer) !=
       read_u32(p.buffer + kPackEntryBytes - kCheckBytes)) {
+    p.kept = 0;  // it may be read better
     return refuse_tile(p, MICROTIN_CHECKSUM);
   }
   if (!read_pack_entry(p.buffer, p.header, &p.entry)) return refuse_tile(p, MICROTIN_MALFORMED);
@@ -284,7 +318,7 @@ microtin_status prepare_tile(microtin_pack& p, const microtin_course& course, ui
     if (p.stage == PackStage::kIdle) {
       if (!wishes.is_any) return verdict(p, wishes);
       p.tile = wishes.first;
-      want(p, PackStage::kEntry, pack_entry_start(p.header, p.tile), kPackEntryBytes);
+      want_entry(p);
     }
     status = handle(p, step_limit);
   }

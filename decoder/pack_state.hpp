@@ -10,7 +10,11 @@
 
 namespace microtin {
 
-constexpr uint32_t kPackBuffer = 128;  // holds every item of the header but the notes
+constexpr uint32_t kPackBuffer = 128;   // holds every item of the header but the notes
+constexpr uint32_t kEntriesOfRead = 4;  // of the index, if reads are aligned
+static_assert(kEntriesOfRead * kPackEntryBytes <= kPackBuffer, "they are read at once");
+static_assert(kPackBuffer - (kEntriesOfRead - 1) * kPackEntryBytes >= kPackEntryBytes + 16,
+              "an entry, or all that is_tile_start looks at, has room in front of those kept");
 
 // What is read next.
 enum class PackStage : uint8_t {
@@ -82,7 +86,9 @@ struct microtin_pack {
   // The next bytes wanted, and those that came.
   uint64_t next;
   uint8_t wanted, buffered, fed;
-  uint16_t sector;  // no read crosses a multiple of it; a power of two, or 0: they may
+  uint8_t kept;        // entries of the index at the buffer's end
+  uint32_t kept_from;  // the first one's tile
+  uint16_t sector;     // no read crosses a multiple of it; a power of two, or 0: they may
   bool is_counted;
   bool is_legal;  // the stream begins as a tile's does
   uint8_t buffer[microtin::kPackBuffer];

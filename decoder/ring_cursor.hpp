@@ -177,8 +177,8 @@ class RingCursor {
     const uint32_t last = ring_.positions - 1, other = side() ^ 1u;
     if (from_ + to_ != last) {
       enter();
-    } else {
-      apex_side_ = 2 * below(ring_, 0, last, other) + other;
+    } else {  // below that edge
+      apex_side_ = beyond(ring_, last * other, last * (other ^ 1u), other);
     }
   }
 

@@ -5,6 +5,7 @@
 
 #include "encoder/base/error.hpp"
 #include "tests/bench/bounds.hpp"
+#include "tests/bench/grids/autopilots.hpp"
 #include "tests/bench/grids/firmware_grids.hpp"
 #include "tests/bench/grids/flight.hpp"
 #include "tests/bench/grids/raster_rate.hpp"
@@ -54,6 +55,11 @@ void run(const std::string& command, const Arguments& arguments) {
   } else if (command == "flight" && arguments.size() == 6) {
     print_flight(
         {arguments[0], arguments[1], arguments[2], arguments[3], arguments[4], arguments[5]});
+  } else if (command == "cell" && arguments.size() == 1) {
+    write_cell(arguments[0]);
+  } else if (command == "autopilots" && arguments.size() == 6) {
+    print_autopilots(
+        {arguments[0], arguments[1], arguments[2], arguments[3], arguments[4], arguments[5]});
   } else if (command == "linearity" && arguments.size() == 1) {
     print_linearity(
         {"nanoseconds", [](const Work& work) { return 1e9 * seconds_of(work); }, 4096000},
@@ -80,6 +86,7 @@ void run(const std::string& command, const Arguments& arguments) {
     throw Error(
         "usage: microtin_bench rate | bounds | curves FILE | paper | peers | peer-instructions "
         "FILE | "
+        "cell FILE | autopilots CALLGRIND TERRAIN PACK TER DAT DAT | "
         "grid TERRAIN GRID | flight TERRAIN PACK GRID LOG LOG LOG | linearity PLOT | growth FILE "
         "PLOT "
         "| train | streams FOLDER | curve-streams FOLDER | times STREAM... | "

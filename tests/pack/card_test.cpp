@@ -156,10 +156,52 @@ TEST_CASE("pack: aligned reads lie in one sector, and answers are the same") {
           aligned.height_at(here.x, here.y, heights[1]));
     CHECK(heights[0] == heights[1]);
   }
-  CHECK(cards[0].asked == cards[1].asked);
   CHECK(cards[0].most_sectors == 2);
   CHECK(cards[1].most_sectors == 1);
   CHECK(cards[1].sectors <= cards[0].sectors);
+}
+
+TEST_CASE("pack: along a row, sectors of small and of large tiles") {
+  for (const uint32_t width : {12u, 24u, 48u}) {
+    constexpr uint32_t kTiles = 16;
+    PackOptions options = pack_options(0, 2500);
+    options.tile_steps = width;
+    const EncodedPack encoded = encode_pack(rough_raster(kTiles * width + 1, width + 1), options);
+    REQUIRE(encoded.streams.size() == kTiles);
+    SectorCard cards[2] = {{write_pack(encoded)}, {write_pack(encoded)}};
+    const MeshSlots loose(4, 2500), aligned(4, 2500);
+    CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_DONE);
+    for (int32_t x = 4; x < static_cast<int32_t>(kTiles * width); x += 4) {
+      const microtin_course ahead = {(x - 4) * 256, 1280, x * 256, 1280};
+      CHECK(loose.service(ahead, 0, SectorCard::read, cards) == MICROTIN_DONE);
+      CHECK(aligned.service(ahead, 0, SectorCard::read, cards + 1) == MICROTIN_DONE);
+    }
+    // Every sector once, and for four tiles the index and the sector that was left for it.
+    const uint64_t file = (cards[1].bytes.size() + 511) / 512;
+    CHECK(cards[1].sectors <= file + kTiles / 4 * 2);
+    if (width > 12) CHECK(cards[1].sectors * 512 <= 2 * cards[1].asked);
+    CHECK(cards[1].asked == cards[0].asked);
+    CHECK(cards[0].sectors >= file + kTiles);
+  }
+}
+
+TEST_CASE(
+    "pack: of entries that were read together each is checked, and read again after a fault") {
+  PackOptions options = pack_options(3, 400);
+  options.tile_steps = 12;
+  Card card{write_pack(encode_pack(rough_raster(61, 53), options))};
+  const PackFile pack(card.bytes);
+  const size_t second =
+      static_cast<size_t>(pack.entries()[0].offset) - (pack.entries().size() - 1) * size_t{28};
+  const MeshSlots device(4, 400);
+  CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_DONE);
+  card.bytes[second] ^= 1;
+  CHECK(device.service(card, at(5, 5)) == MICROTIN_DONE);
+  card.bytes[second] ^= 1;
+  CHECK(device.service(card, at(17, 5)) == MICROTIN_BAD_TILES);
+  CHECK(device.service(card, at(30, 5)) == MICROTIN_DONE);
+  microtin_pack_retry(device.pack);
+  CHECK(device.service(card, at(17, 5)) == MICROTIN_DONE);
 }
 
 TEST_CASE("pack: only powers of two align reads, and all of them do") {

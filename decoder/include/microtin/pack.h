@@ -55,7 +55,8 @@ void microtin_pack_reset(microtin_pack* pack);
 typedef int32_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer, size_t size);
 
 /* From now on no read crosses a multiple of `sector`, a power of two up to 32768, so that each asks
- * for one sector of a card, and one that is kept is read from once; 0, as at first: they may.
+ * for one sector of a card, and one that is kept is read from once; and the index is read for four
+ * tiles of a row at a time, since going back to it costs a sector. 0, as at first: neither.
  * ARGUMENT: another number. */
 microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
 
