@@ -89,6 +89,7 @@ Tin with_heights(Surface& surface, const Tin& before, const SimplifyOptions& opt
   HeightChoice heights(surface, options.effort.degree);
   const int passes = options.search == Search::kTrial ? kTrialPasses : kHeightPasses;
   for (int i = 0; i < passes; ++i) heights.pass();
+  if (options.search != Search::kTrial) heights.balance();
   Tin improved = surface.tin();
   const auto bytes = [&](const Tin& t) { return encode(t, {}, options.effort).size(); };
   return bytes(improved) <= bytes(before) ? improved : before;

@@ -169,29 +169,6 @@ Surface::Interval Surface::allowed_heights(Index v) const {
           weights != 0 ? heights / weights : 0, weights};
 }
 
-double Surface::mean_error() const {
-  double sum = 0;
-  std::size_t count = 0;
-  const auto add = [&](Vertex a, Vertex b, Vertex c) {
-    const Plane plane(a, b, c);
-    posts_.visit_runs({a.x, a.y}, {b.x, b.y}, {c.x, c.y}, [&](std::size_t first, std::size_t last) {
-      count += last - first;
-      for (std::size_t i = first; i < last; ++i) {
-        sum += plane.at(posts_.place(i)) - middles_[i];
-      }
-    });
-  };
-  for (Index v = 0; v < vertex_limit(); ++v) {
-    if (!has_vertex(v)) continue;
-    visit_around(v, [&](Index h) {
-      const Index b = mesh().origin[next_in_triangle(h)],
-                  c = mesh().origin[previous_in_triangle(h)];
-      if (v < b && v < c && is_covered(triangle_of(h))) add(vertex(v), vertex(b), vertex(c));
-    });
-  }
-  return count != 0 ? sum / static_cast<double>(count) : 0;
-}
-
 Index Surface::finite_neighbour(Index v) const {
   const Index h = edge_of(v), neighbour = mesh().origin[next_in_triangle(h)];
   return neighbour != kInfinity ? neighbour : mesh().origin[previous_in_triangle(h)];
