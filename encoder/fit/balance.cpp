@@ -12,7 +12,7 @@ namespace {
 constexpr double kFirstWeight = 4;
 
 // Means that are near enough to zero, in radii.
-constexpr double kTolerance = 0.02, kFlatTolerance = 0.07;
+constexpr double kTolerance = 0.01, kFlatTolerance = 0.07;
 
 constexpr std::size_t kLargeParts = 32;  // flat parts with that part of all posts
 constexpr double kOneSided = 0.25;       // middles so far above the source, in radii

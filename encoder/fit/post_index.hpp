@@ -25,6 +25,9 @@ class PostIndex {
   std::size_t size() const { return places_.size(); }
   Point place(std::size_t position) const { return places_[position]; }
   uint32_t number(std::size_t position) const { return numbers_[position]; }
+  // The y of places by position, and kReadAhead numbers more.
+  const float* rows() const { return rows_of_places_.data(); }
+  static constexpr std::size_t kReadAhead = 4;
 
   // Calls visit(first, last) for all positions in first .. last - 1, so that together they are
   // those of all posts in the closed counter-clockwise triangle. Each time all have the same x.
@@ -148,7 +151,8 @@ class PostIndex {
 
   uint32_t cell_ = 1, columns_ = 0, rows_ = 0;
   std::vector<Point> places_;      // by position
-  std::vector<uint32_t> numbers_;  // the same
+  std::vector<float> rows_of_places_;
+  std::vector<uint32_t> numbers_;  // by position
   std::vector<uint32_t> first_;    // position in each cell, and one more
 };
 

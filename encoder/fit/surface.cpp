@@ -66,6 +66,8 @@ Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts,
     radii_.push_back(static_cast<float>(radius));
     while (4 * widest_stride_ < radius && widest_stride_ < 4096) widest_stride_ *= 2;
   }
+  middles_.resize(posts.size() + PostIndex::kReadAhead);
+  radii_.resize(posts.size() + PostIndex::kReadAhead);
   find_voids();
   find_corners();
   find_fixed_samples();

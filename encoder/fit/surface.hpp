@@ -27,7 +27,7 @@ class Surface {
   const Triangulation& triangulation() const { return triangulation_; }
 
   // The middle of what a post allows, and how far from there its ends are, in steps: by position
-  // in the index.
+  // in the index, and PostIndex::kReadAhead numbers more.
   const double* middles() const { return middles_.data(); }
   const float* radii() const { return radii_.data(); }
 
