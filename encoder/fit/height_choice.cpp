@@ -209,11 +209,8 @@ void HeightChoice::pass() {
 }
 
 void HeightChoice::balance() {
-  constexpr int kMostPasses = 8;
-  for (int i = 0; i < kMostPasses && !balance_.is_kept(); ++i) {
-    balance_.weigh_more();
-    pass();
-  }
+  balance_.weigh_more();
+  pass();
 }
 
 }  // namespace microtin::fit

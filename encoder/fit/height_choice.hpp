@@ -26,9 +26,12 @@ class HeightChoice {
   // where small errors, the source's height on flat ground and means near zero are worth some bits.
   void pass();
 
-  // More such passes, in each of which means are worth twice as much, until they are near zero:
-  // what costs least is changed first. Gives up after some.
+  // Such a pass in which means are worth twice as much as before: what costs least is changed
+  // first.
   void balance();
+
+  // Whether means are near zero.
+  bool is_balanced() const { return balance_.is_kept(); }
 
  private:
   // Numbers of vertices here are places in the order of sending.

@@ -150,7 +150,7 @@ class PostIndex {
   }
 
   uint32_t cell_ = 1, columns_ = 0, rows_ = 0;
-  std::vector<Point> places_;      // by position
+  std::vector<Point> places_;  // by position
   std::vector<float> rows_of_places_;
   std::vector<uint32_t> numbers_;  // by position
   std::vector<uint32_t> first_;    // position in each cell, and one more
