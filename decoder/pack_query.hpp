@@ -6,29 +6,14 @@
 
 #include "decoder/border_edges.hpp"
 #include "decoder/pack_state.hpp"
+#include "decoder/places.hpp"
 
 namespace microtin {
-
-inline microtin_course place(int64_t x, int64_t y) {
-  return microtin_course{x, y, x, y};
-}
 
 inline bool is_inside(const microtin_pack& p, int64_t x, int64_t y) {
   const TileGrid& grid = p.header.grid;
   return x >= 0 && x <= static_cast<int64_t>(grid.x_max) * 256 && y >= 0 &&
          y <= static_cast<int64_t>(grid.y_max) * 256;
-}
-
-// How bad an answer is. No switch: compilers make tables of those, which AVR would keep in RAM.
-inline int rank(microtin_answer answer) {
-  if (answer == MICROTIN_NOT_DECODED) return 4;
-  if (answer == MICROTIN_IN_BAD_TILE) return 3;
-  if (answer == MICROTIN_OUTSIDE) return 2;
-  return answer == MICROTIN_IN_VOID ? 1 : 0;
-}
-
-inline microtin_answer worse(microtin_answer a, microtin_answer b) {
-  return rank(a) > rank(b) ? a : b;
 }
 
 // Of a tile that is not there.
@@ -100,17 +85,6 @@ microtin_answer answer_of_tile(const microtin_pack& p, const TouchedTiles& tiles
   return worse(absent, MICROTIN_IN_VOID);
 }
 
-// A height in whole units, halves up, kept within int16_t. |z| < 2^31, the numerator < 2^31, the
-// offset within 2^45, the denominator < 2^40: sums below 2^62 + 2^61 + 2^55.
-inline int16_t in_units(int32_t z, const microtin_axis& axis) {
-  const int64_t unit = static_cast<int64_t>(axis.denominator) * 65536;
-  const int64_t sum = static_cast<int64_t>(axis.numerator) * z + axis.offset * 65536 + unit / 2;
-  int64_t height = sum / unit;
-  if (sum % unit < 0) --height;
-  if (height > INT16_MAX) return INT16_MAX;
-  return static_cast<int16_t>(height < INT16_MIN ? INT16_MIN : height);
-}
-
 template <class Form>
 microtin_answer height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
                                int32_t* height) {
@@ -132,12 +106,14 @@ microtin_answer highest_in_pack(const microtin_pack& p, const microtin_course& c
                                 int32_t* height) {
   *height = INT32_MIN;
   if (!is_legal(course)) return MICROTIN_OUTSIDE;
-  uint32_t hint = 0;
-  int32_t begin = INT32_MIN, end = INT32_MIN;
-  microtin_answer answer = worse(height_in_pack<Form>(p, course.x, course.y, &hint, &begin),
-                                 height_in_pack<Form>(p, course.x_end, course.y_end, &hint, &end));
+  int32_t highest = INT32_MIN;
+  microtin_answer answer = ask_ends(
+      course,
+      [&p](int64_t x, int64_t y, uint32_t* hint, int32_t* end) {
+        return height_in_pack<Form>(p, x, y, hint, end);
+      },
+      &highest);
   if (answer == MICROTIN_NOT_DECODED) return answer;
-  int32_t highest = larger(begin, end);
   for (TouchedTiles tiles(p.header.grid, course); !tiles.at_end(); tiles.next()) {
     answer = worse(answer, answer_of_tile<Form>(p, tiles, course, &highest));
     if (answer == MICROTIN_NOT_DECODED) return answer;
@@ -149,25 +125,13 @@ microtin_answer highest_in_pack(const microtin_pack& p, const microtin_course& c
 template <class Form>
 microtin_answer fill_from_pack(const microtin_pack& p, const microtin_block& block,
                                int16_t* heights) {
-  const microtin_axis& axis = p.axis[2];
-  const int64_t furthest = static_cast<int64_t>(1) << 45;
-  const microtin_course corner = place(block.x, block.y);
-  const bool is_usable =
-      axis.numerator >> 31 == 0 && axis.offset <= furthest && axis.offset >= -furthest;
-  if (!is_legal(corner) || (p.has_header && !is_usable)) return MICROTIN_OUTSIDE;
-  microtin_answer answer = MICROTIN_HEIGHT;
-  uint32_t hint = 0;
-  for (uint32_t row = 0; row < block.rows; ++row) {
-    const int64_t y = block.y + static_cast<int64_t>(block.dy) * row;
-    for (uint32_t column = 0; column < block.columns; ++column) {
-      const int64_t x = block.x + static_cast<int64_t>(block.dx) * column;
-      int32_t z = 0;
-      const microtin_answer here = height_in_pack<Form>(p, x, y, &hint, &z);
-      *heights++ = here == MICROTIN_HEIGHT ? in_units(z, axis) : block.missing;
-      if (here != MICROTIN_HEIGHT && answer != MICROTIN_NOT_DECODED) answer = here;
-    }
-  }
-  return answer;
+  if (p.has_header && !has_small_units(p.axis[2])) return MICROTIN_OUTSIDE;
+  return fill(
+      block, p.axis[2],
+      [&p](int64_t x, int64_t y, uint32_t* hint, int32_t* height) {
+        return height_in_pack<Form>(p, x, y, hint, height);
+      },
+      heights);
 }
 
 }  // namespace microtin

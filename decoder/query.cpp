@@ -69,10 +69,8 @@ microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x,
                                            uint32_t flags, uint32_t step_limit, uint32_t* hint,
                                            int32_t* height) {
   const Mesh& m = mesh->mesh;
-  if (m.triangles == 0) return MICROTIN_NOT_DECODED;
-  if (mesh->verified_vertices != m.vertices && (flags & MICROTIN_ANSWER_UNVERIFIED) == 0) {
-    return MICROTIN_NOT_VERIFIED;
-  }
+  const microtin_answer refusal = refusal_of(*mesh, flags);
+  if (refusal != MICROTIN_HEIGHT) return refusal;
   const int32_t most = static_cast<int32_t>(kLatticeMax) * 256;
   if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
   const FinePoint p = {x, y};

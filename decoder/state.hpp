@@ -23,6 +23,14 @@ inline bool has_terrain(const microtin_mesh& m, Index t) {
   return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
 }
 
+// Why it must not be asked yet; HEIGHT if it may.
+inline microtin_answer refusal_of(const microtin_mesh& m, uint32_t flags) {
+  if (m.mesh.triangles == 0) return MICROTIN_NOT_DECODED;
+  const bool is_usable =
+      m.verified_vertices == m.mesh.vertices || (flags & MICROTIN_ANSWER_UNVERIFIED) != 0;
+  return is_usable ? MICROTIN_HEIGHT : MICROTIN_NOT_VERIFIED;
+}
+
 MICROTIN_ONE_COPY inline void empty_mesh(microtin_mesh& m) {
   m.mesh.vertices = 0;
   m.mesh.triangles = 0;

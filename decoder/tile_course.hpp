@@ -10,7 +10,7 @@
 #define MICROTIN_DECODER_TILE_COURSE_HPP
 
 #include "decoder/walk.hpp"
-#include "microtin/pack.h"
+#include "microtin/course.h"
 #include "shared/pack_format.hpp"
 
 namespace microtin {

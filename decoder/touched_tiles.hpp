@@ -3,7 +3,7 @@
 #ifndef MICROTIN_DECODER_TOUCHED_TILES_HPP
 #define MICROTIN_DECODER_TOUCHED_TILES_HPP
 
-#include "microtin/pack.h"
+#include "microtin/course.h"
 #include "shared/pack_format.hpp"
 
 namespace microtin {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "encoder/export/post_grid.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/picture/palette.hpp"
@@ -34,8 +35,12 @@ void run_merge(const std::vector<std::string>& shards, const std::string& output
 struct DecodeRequest {
   std::string input;
   std::string output;
-  bool lattice = false;         // integers instead of real coordinates
-  std::optional<Decimal> cell;  // of a grid
+  bool lattice = false;          // integers instead of real coordinates
+  bool force = false;            // write more than 1 GB
+  std::optional<Decimal> cell;   // of a grid
+  std::optional<Extent> extent;  // ... and where its posts lie
+  std::string like;              // ... or the raster whose posts it has; empty: none
+  Preparation like_preparation;  // how that is read
 };
 
 void run_decode(const DecodeRequest& request);
@@ -85,6 +90,8 @@ struct RenderRequest {
   bool mesh = true;    // draw the triangles
   bool world = false;  // write a world file beside the picture
   PaletteKind palette = PaletteKind::kLand;
+  bool contours = false;
+  std::optional<Decimal> interval;  // of contours; a round one if not given
 };
 
 void run_render(const RenderRequest& request);

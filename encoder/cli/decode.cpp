@@ -6,11 +6,10 @@
 
 #include "encoder/base/error_context.hpp"
 #include "encoder/cli/commands.hpp"
+#include "encoder/cli/decode_grid.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/export/autopilot.hpp"
 #include "encoder/export/export.hpp"
-#include "encoder/export/grid.hpp"
-#include "encoder/export/system.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/product/document.hpp"
@@ -18,57 +17,6 @@
 namespace microtin::cli {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-bool is_grid(const std::string& path) {
-  return std::filesystem::path(path).extension() == ".asc";
-}
-
-// A grid's coordinate system, in a file beside it.
-class SystemFile {
- public:
-  SystemFile(const std::string& grid, const Metadata& metadata)
-      : path_(fs::path(grid).replace_extension(".prj").string()), code_(metadata.horizontal_epsg) {
-    const std::string text = system_text(metadata);
-    if (!text.empty()) {
-      out_.emplace(path_).write(text);
-    } else if (std::error_code none; fs::exists(path_, none)) {
-      warning_ = warning(path_ + " lies beside the grid, but is not its coordinate system");
-    } else if (code_ != 0) {
-      const std::string code = "EPSG:" + std::to_string(code_);
-      warning_ = warning("no " + path_ + " is written: the text of " + code +
-                         " is not known here; \"gdalsrsinfo -o wkt_esri " + code + "\" prints it");
-    }
-  }
-
-  void commit() {
-    if (out_) out_->commit();
-    std::fputs(warning_.c_str(), stderr);
-  }
-
- private:
-  std::string path_, warning_;
-  uint32_t code_;
-  std::optional<OutputFile> out_;
-};
-
-void decode_to_grid(const DecodeRequest& request) {
-  constexpr uint64_t kMostPosts = uint64_t{1} << 26;  // of a stream, without a word on cells
-  const Document document(request.input);
-  SampledSurface surface = document.sampled();
-  if (document.stream() != nullptr && !request.cell && lattice_posts(surface) > kMostPosts) {
-    throw Error(request.input + ": has " + std::to_string(lattice_posts(surface)) +
-                " places on its lattice: give the size of the grid's cells, --cell");
-  }
-  if (request.lattice) surface.placement = Placement();
-  OutputFile out(request.output);
-  export_grid(surface, request.cell, out);
-  std::optional<SystemFile> system;
-  if (!request.lattice) system.emplace(request.output, document.metadata());
-  out.commit();
-  if (system) system->commit();
-}
 
 // Metres between an autopilot's posts.
 uint32_t spacing_of(const DecodeRequest& request, Autopilot autopilot) {
@@ -122,31 +70,47 @@ void decode_for_autopilot(const DecodeRequest& request, Autopilot autopilot) {
   deliver(out, request.output, text_of(file, spacing));
 }
 
-}  // namespace
-
-void run_decode(const DecodeRequest& request) {
-  refuse_overwriting({request.input}, request.output);
-  if (const auto autopilot = autopilot_of(request.output)) {
-    decode_for_autopilot(request, *autopilot);
-    return;
-  }
-  if (is_grid(request.output)) {
-    decode_to_grid(request);
-    return;
-  }
-  if (request.cell) throw Error(request.output + ": only grids (.asc, .DAT, .TER) have cells");
+void decode_to_mesh(const DecodeRequest& request) {
   const MeshFormat format = mesh_format_of(request.output);
-  const SurfaceModel model = Document(request.input).model();
+  const bool is_real = !request.lattice;
+  const Coordinates coordinates = is_real ? Coordinates::kReal : Coordinates::kLattice;
+  const Document document(request.input);
+  announce_size(request.output,
+                static_cast<double>(
+                    most_mesh_bytes(document.sampled(), document.vertices(), format, coordinates)),
+                request.force);
+  const SurfaceModel model = document.model();
   if (format == MeshFormat::kGlb && model.triangles.empty()) {
     throw Error(request.input + ": holds no triangle");
   }
-  const bool is_real = !request.lattice;
   OutputFile out(request.output);
-  export_model(model, format, is_real ? Coordinates::kReal : Coordinates::kLattice, out);
+  export_model(model, format, coordinates, out);
   const bool has_units = format == MeshFormat::kGlb && is_real;
   const std::string of_units = has_units ? warning_of_units(request.output, model) : "";
   out.commit();
   std::fputs(of_units.c_str(), stderr);
+}
+
+}  // namespace
+
+void run_decode(const DecodeRequest& request) {
+  std::vector<std::string> inputs = files_of(request.like, request.like_preparation);
+  inputs.push_back(request.input);
+  refuse_overwriting(inputs, request.output);
+  const bool is_grid = std::filesystem::path(request.output).extension() == ".asc";
+  if (!is_grid && (!request.like.empty() || request.extent)) {
+    throw Error(request.output + ": --like and --extent are for grids (.asc)");
+  }
+  if (const auto autopilot = autopilot_of(request.output)) {
+    decode_for_autopilot(request, *autopilot);
+    return;
+  }
+  if (is_grid) {
+    decode_to_grid(request);
+    return;
+  }
+  if (request.cell) throw Error(request.output + ": only grids (.asc, .DAT, .TER) have cells");
+  decode_to_mesh(request);
 }
 
 }  // namespace microtin::cli

@@ -214,6 +214,14 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
       ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));
 }
 
+void add_indirect([[maybe_unused]] CLI::App& command, [[maybe_unused]] Preparation& preparation) {
+#ifdef MICROTIN_WITH_GDAL
+  command.add_flag_callback(
+      "--allow-vrt", [&preparation] { preparation.indirect = Indirect::kAllowed; },
+      "Read .vrt files, which name other files to be read, and names that begin with /vsi");
+#endif
+}
+
 // For encoding, and alike for every comparison with the source.
 void add_preparation(CLI::App& command, Preparation& preparation) {
   const auto read = [&preparation](const std::string& text) {
@@ -223,10 +231,8 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
       command, "--classes", read, "a list such as 2,9, nor all",
       "Points to take from a .las file: their classes, 2,9 for instance, or all. If not given: "
       "the ground (2) or, if there is none, all but noise (7, 18)");
+  add_indirect(command, preparation);
 #ifdef MICROTIN_WITH_GDAL
-  command.add_flag_callback(
-      "--allow-vrt", [&preparation] { preparation.indirect = Indirect::kAllowed; },
-      "Read .vrt files, which name other files to be read, and names that begin with /vsi");
   command
       .add_option("--band", preparation.band,
                   "Band of heights, from 1 on, in a file that has several (read by GDAL)")
@@ -397,11 +403,26 @@ void add_decode(CLI::App& app, Action& action) {
   add_output(command, request->output,
              "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); N43E007.DAT, "
              "N43E007.TER (that cell for ArduPilot, INAV); - is .xyz on standard output");
-  add_decimal(command, "--cell", request->cell,
-              "Size of an .asc grid's cells, in the terrain's unit; if not given, the lattice's "
-              "step: for rasters the posts. Metres between the posts of a .DAT");
-  command.add_flag("--lattice", request->lattice, "Write the lattice's integers");
+  CLI::Option* const cell = add_decimal(
+      command, "--cell", request->cell,
+      "Distance of an .asc grid's posts, in the terrain's unit; if not given, the source's posts, "
+      "or of points the lattice's places. Metres between the posts of a .DAT");
+  const auto read = [request](const std::string& text) {
+    request->extent = parse_extent(text);
+    return request->extent.has_value();
+  };
+  add_read(command, "--extent", read, "WEST,SOUTH,EAST,NORTH, as 7.5,43,8,43.5",
+           "Write the posts in this rectangle of the terrain's coordinates: WEST,SOUTH,EAST,NORTH; "
+           "with --cell from its south-west corner on");
+  CLI::Option* const like =
+      command.add_option("--like", request->like, "Write the posts of this raster")
+          ->type_name(kFile)
+          ->excludes(cell);
+  add_indirect(command, request->like_preparation);
+  command.add_flag("--force", request->force, "Write a file that can take more than 1 GB");
+  command.add_flag("--lattice", request->lattice, "Write the lattice's integers")->excludes(like);
   command.callback([request, &action] {
+    request->like_preparation.band = 1;  // all bands have the same posts
     if (request->cell && request->cell->mantissa == 0) {
       throw CLI::ValidationError("--cell", "must be above 0");
     }
@@ -508,6 +529,15 @@ void add_render(CLI::App& app, Action& action) {
                           {{"land", PaletteKind::kLand}, {"sea", PaletteKind::kSea}}, "land or sea",
                           "Colours of heights: land from the lowest on, or land from 0 on and sea, "
                           "blue, below");
+  add_read(
+      command, "--contours",
+      [request](const std::string& text) {
+        request->contours = true;
+        request->interval = parse_decimal(text);
+        return text == "auto" || (request->interval && request->interval->mantissa > 0);
+      },
+      "auto or a decimal number above 0",
+      "Draw lines of equal height: so far apart, in the terrain's unit, or auto");
   command.add_flag("--world-file", request->world,
                    "Write beside the picture, as .pgw, where its map lies");
   command.add_option("--source", request->source, "Draw a map of the errors against this terrain")

@@ -70,6 +70,7 @@ void expect_picture(const RenderRequest& request) {
 // One file, which shows the terrain in a browser.
 void write_page(const RenderRequest& request, const Portrait& portrait) {
   if (!request.source.empty()) throw Error(request.output + ": a page has no map of errors");
+  if (request.contours) throw Error(request.output + ": a page has no contours");
   const std::string page = with_file_context(request.input, [&] {
     return render_page(portrait, std::filesystem::path(request.input).stem().string(),
                        read_file(request.input), render_png(portrait, kFlatWidth));
@@ -107,7 +108,7 @@ void run_render(const RenderRequest& request) {
   const Document document(request.input);
   const Portrait portrait{document.model(), document.metadata(), document.vertices(),
                           document.bytes(), document.tiles(),    request.mesh,
-                          request.palette};
+                          request.palette,  request.contours,    request.interval};
   if (std::filesystem::path(request.output).extension() == kPage) {
     write_page(request, portrait);
     return;

@@ -88,6 +88,18 @@ std::string warning_of_units(const std::string& path, const SurfaceModel& model)
                  " not known and taken as metres; encode with --units says them");
 }
 
+void announce_size(const std::string& path, double most_bytes, bool forced,
+                   const std::string& else_there_is) {
+  constexpr double kGigabyte = 1e9;
+  if (most_bytes <= kGigabyte) return;
+  char size[64];
+  std::snprintf(size, sizeof size, "up to %.3g GB", most_bytes / kGigabyte);
+  if (!forced) {
+    throw Error(path + ": would take " + size + ": --force writes it" + else_there_is);
+  }
+  std::fputs(warning(path + " takes " + size).c_str(), stderr);
+}
+
 std::string text_of(const JsonObject& report, bool as_json) {
   std::string text;
   for (const auto& [name, value] : report) {

@@ -45,6 +45,11 @@ std::string warning(const std::string& text);
 // The one that a picture or a scene may be too high or too low, if units are not known; else empty.
 std::string warning_of_units(const std::string& path, const SurfaceModel& model);
 
+// Throws Error if an output can take more than 1 GB, and says what else there is; if it is forced,
+// tells its size on standard error.
+void announce_size(const std::string& path, double most_bytes, bool forced,
+                   const std::string& else_there_is = "");
+
 // The report as JSON, or as a line "name: value" for each entry.
 std::string text_of(const JsonObject& report, bool as_json);
 

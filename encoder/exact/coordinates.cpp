@@ -44,4 +44,13 @@ std::string CoordinateText::operator()(int64_t number) const {
   return (negative ? "-" : "") + std::to_string(static_cast<uint64_t>(whole)) + behind_zero;
 }
 
+size_t CoordinateText::longest(int64_t low, int64_t high) const {
+  const auto whole = [this](int64_t number) {
+    const std::string text = (*this)(number);
+    return std::min(text.find('.'), text.size());
+  };
+  const size_t behind_point = decimals_ == 0 ? 0 : 1 + static_cast<size_t>(decimals_);
+  return std::max(whole(low), whole(high)) + behind_point;
+}
+
 }  // namespace microtin::exact

@@ -3,6 +3,7 @@
 #ifndef MICROTIN_ENCODER_EXACT_COORDINATES_HPP
 #define MICROTIN_ENCODER_EXACT_COORDINATES_HPP
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -21,6 +22,9 @@ class CoordinateText {
 
   // |number| <= 10^18, and the coordinate below 2^64.
   std::string operator()(int64_t number) const;
+
+  // Characters that the texts of numbers from `low` to `high` have at most.
+  size_t longest(int64_t low, int64_t high) const;
 
  private:
   Axis axis_;

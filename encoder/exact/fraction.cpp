@@ -113,4 +113,10 @@ Axis reduced_axis(Wide offset, Wide numerator, Wide denominator) {
           static_cast<uint64_t>(denominator)};
 }
 
+Axis moved_axis(const Axis& axis, Wide first) {
+  const Wide numerator = static_cast<Wide>(axis.numerator);
+  return reduced_axis(axis.offset + numerator * first, numerator,
+                      static_cast<Wide>(axis.denominator));
+}
+
 }  // namespace microtin::exact

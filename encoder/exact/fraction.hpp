@@ -49,6 +49,10 @@ Axis axis_of_cells(Decimal place, Decimal size, int64_t half_cells);
 // (offset + numerator * k) / denominator in lowest terms. Throws Error if it does not fit an axis.
 Axis reduced_axis(Wide offset, Wide numerator, Wide denominator);
 
+// The same places, counted from number `first` on; its coordinate lies below 2^62. Throws Error as
+// reduced_axis.
+Axis moved_axis(const Axis& axis, Wide first);
+
 }  // namespace microtin::exact
 
 #endif

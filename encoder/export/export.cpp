@@ -51,6 +51,20 @@ MeshFormat mesh_format_of(const std::string& path) {
   throw Error(path + ": not a kind of file that is written (.xyz, .obj, .ply, .glb, .asc)");
 }
 
+uint64_t most_mesh_bytes(const SampledSurface& surface, uint64_t vertices, MeshFormat format,
+                         Coordinates coordinates) {
+  constexpr uint64_t kHead = 65536 + 4096;  // a ply's has a text of the header
+  const uint64_t triangles = format == MeshFormat::kXyz ? 0 : 2 * vertices;
+  if (format == MeshFormat::kGlb) return kHead + glb_bytes(vertices, triangles);
+  const Placement placement = coordinates == Coordinates::kReal ? surface.placement : Placement();
+  const size_t vertex = std::string("v   \n").size() +
+                        CoordinateText(placement.x).longest(surface.x_min, surface.x_max) +
+                        CoordinateText(placement.y).longest(surface.y_min, surface.y_max) +
+                        CoordinateText(placement.z).longest(surface.lowest, surface.highest);
+  const size_t triangle = std::string("f   \n").size() + 3 * std::to_string(vertices).size();
+  return kHead + vertices * vertex + triangles * triangle;
+}
+
 void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coordinates,
                   OutputFile& out) {
   switch (format) {

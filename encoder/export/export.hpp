@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "encoder/export/height_sampler.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/stream/surface_model.hpp"
@@ -23,6 +24,10 @@ enum class MeshFormat {
 MeshFormat mesh_format_of(const std::string& path);
 
 enum class Coordinates { kReal, kLattice };
+
+// At least as many bytes as a mesh of so many vertices on the surface takes.
+uint64_t most_mesh_bytes(const SampledSurface& surface, uint64_t vertices, MeshFormat format,
+                         Coordinates coordinates);
 
 void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coordinates,
                   OutputFile& out);

@@ -191,10 +191,13 @@ class WordWriter {
 
 }  // namespace
 
+uint64_t glb_bytes(uint64_t vertices, uint64_t triangles) {
+  return vertices * (kPositionBytes + kNormalBytes + kColourBytes) + triangles * kTriangleBytes;
+}
+
 void export_glb(const SurfaceModel& model, Coordinates coordinates, OutputFile& out) {
   constexpr uint32_t kMagic = 0x46546C67, kVersion = 2, kJson = 0x4E4F534A, kBinary = 0x004E4942;
-  const uint64_t body = model.vertices.size() * (kPositionBytes + kNormalBytes + kColourBytes) +
-                        model.triangles.size() * kTriangleBytes;
+  const uint64_t body = glb_bytes(model.vertices.size(), model.triangles.size());
   const Scene scene(model, coordinates);
   std::string head = describe(model, scene);
   head.resize((head.size() + 3) / 4 * 4, ' ');

@@ -6,50 +6,10 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/coordinates.hpp"
-#include "encoder/exact/fraction.hpp"
-#include "encoder/exact/lattice_map.hpp"
+#include "encoder/export/post_grid.hpp"
 
 namespace microtin::exporting {
 namespace {
-
-// The posts along one axis of the grid.
-class Posts {
- public:
-  Posts(const Axis& lattice, int64_t low, int64_t high, const std::optional<Decimal>& cell)
-      : low_(low), high_(high) {
-    const Wide offset = lattice.offset + static_cast<Wide>(lattice.numerator) * low;
-    const Wide numerator = static_cast<Wide>(lattice.numerator);
-    const Wide denominator = static_cast<Wide>(lattice.denominator);
-    if (!cell) {
-      axis_ = reduced_axis(offset, numerator, denominator);
-      count_ = high - low + 1;
-    } else {
-      const Fraction step = meaning_of(*cell);
-      axis_ = make_axis(reduced(offset, denominator), step);
-      count_ = static_cast<int64_t>(numerator * (high - low) * step.denominator /
-                                    (denominator * step.numerator)) +
-               1;
-    }
-    map_ = map_between(axis_, lattice);
-  }
-
-  const Axis& axis() const { return axis_; }
-  int64_t count() const { return count_; }
-
-  // Of a post on the lattice, with 8 fractional bits.
-  int64_t place(int64_t post) const {
-    const Wide place = round_divide(256 * map_.numerator(post), map_.step);
-    return static_cast<int64_t>(std::clamp<Wide>(place, Wide{256} * low_, Wide{256} * high_));
-  }
-
-  // The distance between posts.
-  std::string step() const { return CoordinateText({0, axis_.numerator, axis_.denominator})(1); }
-
- private:
-  int64_t low_, high_, count_;
-  Axis axis_{0, 1, 1};
-  LatticeMap map_{};
-};
 
 // Answers of the height query as text.
 class HeightText {
@@ -61,6 +21,13 @@ class HeightText {
     const Wide numerator = Wide{z_.offset} * 65536 + static_cast<Wide>(z_.numerator) * height;
     const Wide denominator = static_cast<Wide>(z_.denominator) * 65536;
     return make_decimal(round_divide(numerator * power_of_ten(decimals_), denominator), decimals_);
+  }
+
+  // Characters that a height has at most, up to one of the lattice's on its side of zero.
+  size_t longest(int32_t step) const {
+    const Wide whole = mantissa_at(value(step * 65536), decimals_) / power_of_ten(decimals_);
+    const std::string digits = std::to_string(static_cast<int64_t>(magnitude(whole)));
+    return std::string("-.").size() + digits.size() + static_cast<size_t>(decimals_);
   }
 
  private:
@@ -75,37 +42,59 @@ int64_t no_data_below(Decimal lowest) {
   return value;
 }
 
-void write_header(const Posts& x, const Posts& y, const std::string& no_data, OutputFile& out) {
-  const std::string dx = x.step(), dy = y.step();
-  out.write("ncols " + std::to_string(x.count()) + "\nnrows " + std::to_string(y.count()) +
-            "\nxllcenter " + CoordinateText(x.axis())(0) + "\nyllcenter " +
-            CoordinateText(y.axis())(0) + '\n' +
-            (dx == dy ? "cellsize " + dx : "dx " + dx + "\ndy " + dy) + "\nNODATA_value " +
-            no_data + '\n');
-}
+// What is written, but for the heights.
+class GridText {
+ public:
+  explicit GridText(const SampledSurface& surface)
+      : heights_(surface.placement.z),
+        no_data_(std::to_string(no_data_below(heights_.value(surface.lowest * 65536)))) {}
+
+  std::string header(const PostGrid& posts) const {
+    const std::string dx = step_text(posts.x), dy = step_text(posts.y);
+    return "ncols " + std::to_string(posts.columns) + "\nnrows " + std::to_string(posts.rows) +
+           "\nxllcenter " + CoordinateText(posts.x)(0) + "\nyllcenter " +
+           CoordinateText(posts.y)(0) + '\n' +
+           (dx == dy ? "cellsize " + dx : "dx " + dx + "\ndy " + dy) + "\nNODATA_value " +
+           no_data_ + '\n';
+  }
+
+  std::string height(const std::optional<int32_t>& height) const {
+    return height ? to_string(heights_.value(*height)) : no_data_;
+  }
+
+ private:
+  static std::string step_text(const Axis& axis) {
+    return CoordinateText({0, axis.numerator, axis.denominator})(1);
+  }
+
+  HeightText heights_;
+  std::string no_data_;
+};
 
 }  // namespace
 
-uint64_t lattice_posts(const SampledSurface& surface) {
-  return static_cast<uint64_t>(surface.x_max - surface.x_min + 1) *
-         static_cast<uint64_t>(surface.y_max - surface.y_min + 1);
+double most_grid_bytes(const SampledSurface& surface, const PostGrid& posts) {
+  const HeightText heights(surface.placement.z);
+  const size_t longest =
+      std::max({GridText(surface).height(std::nullopt).size(), heights.longest(surface.lowest),
+                heights.longest(surface.highest)});
+  return static_cast<double>(posts.columns) * static_cast<double>(posts.rows) *
+         static_cast<double>(longest + 1);
 }
 
-void export_grid(const SampledSurface& surface, const std::optional<Decimal>& cell,
-                 OutputFile& out) {
-  const Posts x(surface.placement.x, surface.x_min, surface.x_max, cell);
-  const Posts y(surface.placement.y, surface.y_min, surface.y_max, cell);
-  const HeightText text(surface.placement.z);
-  const std::string no_data = std::to_string(no_data_below(text.value(surface.lowest * 65536)));
-  write_header(x, y, no_data, out);
-  for (int64_t row = y.count(); row-- > 0;) {
-    std::string line;
-    for (int64_t column = 0; column < x.count(); ++column) {
-      const std::optional<int32_t> height = surface.height_at(x.place(column), y.place(row));
-      if (column != 0) line += ' ';
-      line += height ? to_string(text.value(*height)) : no_data;
+void export_grid(const SampledSurface& surface, const PostGrid& posts, OutputFile& out) {
+  const PostPlaces x(posts.x, surface.placement.x, surface.x_min, surface.x_max);
+  const PostPlaces y(posts.y, surface.placement.y, surface.y_min, surface.y_max);
+  const GridText text(surface);
+  out.write(text.header(posts));
+  for (int64_t row = posts.rows; row-- > 0;) {
+    const std::optional<int64_t> py = y(row);
+    for (int64_t column = 0; column < posts.columns; ++column) {
+      const std::optional<int64_t> px = x(column);
+      const auto height = px && py ? surface.height_at(*px, *py) : std::nullopt;
+      out.write((column != 0 ? " " : "") + text.height(height));
     }
-    out.write(line + '\n');
+    out.write("\n");
   }
 }
 

@@ -143,13 +143,8 @@ class Mosaic : public RasterReader {
     y_ = all.y;
     frame_.width = static_cast<uint32_t>(all.width);
     frame_.height = static_cast<uint32_t>(all.height);
-    frame_.x = moved(frame_.x, x_);
-    frame_.y = moved(frame_.y, y_);
-  }
-
-  static Axis moved(const Axis& axis, int64_t posts) {
-    return reduced_axis(axis.offset + static_cast<Wide>(axis.numerator) * posts,
-                        static_cast<Wide>(axis.numerator), static_cast<Wide>(axis.denominator));
+    frame_.x = moved_axis(frame_.x, x_);
+    frame_.y = moved_axis(frame_.y, y_);
   }
 
   void compare_parts() {

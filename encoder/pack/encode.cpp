@@ -94,10 +94,7 @@ uint32_t most_vertices(const PackOptions& options, const TileGrid& grid) {
 }
 
 bool fits(const TileSummary& tile, uint32_t most) {
-  if (!tile.compact) return true;
-  const uint32_t bits = index_bits(most);
-  return bytes_of(*tile.compact, bits) <=
-         promised_compact_bytes(most, tile.compact->is_narrow, bits);
+  return !tile.compact || keeps_promise(*tile.compact, most);
 }
 
 PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {

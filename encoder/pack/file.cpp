@@ -3,11 +3,13 @@
 #include "encoder/pack/file.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
+#include "encoder/base/parallel.hpp"
 #include "encoder/base/status_text.hpp"
 #include "encoder/exact/mesh_vertex.hpp"
 #include "encoder/stream/header.hpp"
@@ -221,6 +223,21 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
     check_box(decoded.mesh(), tile_box(header_.grid, number));
     return std::optional<DecodedTerrain>(std::move(decoded));
   });
+}
+
+void PackFile::expect_compact_bytes() const {
+  if (header_.compact_bytes == 0) return;
+  const uint32_t bits = index_bits(header_.most_vertices);
+  std::vector<uint64_t> needed(entries_.size());
+  for_each_parallel(needed.size(), [&](std::size_t i) {
+    std::optional<DecodedTerrain> decoded = tile(static_cast<uint32_t>(i));
+    if (decoded) needed[i] = bytes_of(measured_form(decoded->mesh()), bits);
+  });
+  const auto most = std::max_element(needed.begin(), needed.end());
+  if (*most == header_.compact_bytes) return;
+  throw Error("the header says that a tile takes at most " + std::to_string(header_.compact_bytes) +
+              " bytes in compact form; tile " + std::to_string(most - needed.begin()) +
+              " takes most, " + std::to_string(*most));
 }
 
 }  // namespace microtin::pack

@@ -65,6 +65,10 @@ class PackFile {
   // not the one in the index, or leaves its box.
   std::optional<DecodedTerrain> tile(uint32_t number) const;
 
+  // Decodes all tiles, and throws Error unless the one that takes most in compact form takes what
+  // the header says, if it says so.
+  void expect_compact_bytes() const;
+
  private:
   void read_header();
   void read_index();

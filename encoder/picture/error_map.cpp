@@ -18,11 +18,16 @@ std::pair<uint32_t, uint32_t> pixels(double middle, double reach, uint32_t count
   const auto within = [count](double at) {
     return static_cast<uint32_t>(std::clamp<double>(at, 0, count));
   };
-  const uint32_t first = within(std::ceil(middle - reach - 0.5));
-  const uint32_t end = within(std::ceil(middle + reach - 0.5));
+  constexpr double kSlack = 1e-6;  // rounding must not part neighbours
+  const uint32_t first = within(std::ceil(middle - reach - 0.5 - kSlack));
+  const uint32_t end = within(std::ceil(middle + reach - 0.5 + kSlack));
   if (first < end) return {first, end};
   const uint32_t own = std::min(within(std::floor(middle)), count - 1);
   return {own, own + 1};
+}
+
+double whole_steps(double cell) {
+  return std::max(1.0, std::ceil(cell - 1e-9));
 }
 
 }  // namespace
@@ -35,7 +40,7 @@ Colour error_colour(double relative) {
 
 ErrorMap::ErrorMap(const MapFrame& frame, Spot cell)
     : frame_(frame),
-      reach_{cell.x / frame.x_step / 2, cell.y / frame.y_step / 2},
+      reach_{whole_steps(cell.x) / frame.x_step / 2, whole_steps(cell.y) / frame.y_step / 2},
       errors_(size_t{frame.columns()} * frame.rows(), kNone) {}
 
 void ErrorMap::add(double x, double y, double above) {

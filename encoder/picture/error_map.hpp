@@ -13,7 +13,8 @@ Colour error_colour(double relative);
 
 class ErrorMap {
  public:
-  // Each post is drawn with so many lattice steps around it.
+  // So many lattice steps lie between posts. Each is drawn as large as the whole steps that may
+  // lie between their places on the lattice, so that neighbours meet.
   ErrorMap(const MapFrame& frame, Spot cell);
 
   // The error of a post at a place on the lattice. A pixel keeps the largest one in it.

@@ -63,7 +63,7 @@ constexpr std::array<Glyph, 44> kGlyphs = {{
     {')', 1, "~0715120b"},
 }};
 
-constexpr double kGap = 2, kBlank = 3, kPen = 0.8;
+constexpr double kGap = 2, kBlank = 3;
 
 const Glyph* glyph_of(char character) {
   for (const Glyph& glyph : kGlyphs) {
@@ -113,16 +113,23 @@ Polyline rounded(const Polyline& line) {
   return cut;
 }
 
-void draw_line(Canvas& canvas, std::string_view line, Spot start, double unit, Colour colour) {
+// Where letters go: from here, in this direction, so large.
+struct Script {
+  Spot start, along;
+  double unit;
+
+  Spot on_canvas(Spot p) const {
+    return {start.x + unit * p.x * along.x + unit * p.y * along.y,
+            start.y + unit * p.x * along.y - unit * p.y * along.x};
+  }
+};
+
+Polyline polyline_of(std::string_view line) {
   constexpr int kCuts = 3;
   const bool round = line.front() == '~';
   Polyline polyline = points_of(line.substr(round ? 1 : 0));
   for (int i = 0; round && i < kCuts; ++i) polyline = rounded(polyline);
-  const auto on_canvas = [&](Spot p) { return Spot{start.x + unit * p.x, start.y - unit * p.y}; };
-  for (size_t i = 0; i + 1 < polyline.size; ++i) {
-    canvas.stroke(on_canvas(polyline.points[i]), on_canvas(polyline.points[i + 1]), kPen * unit,
-                  colour);
-  }
+  return polyline;
 }
 
 }  // namespace
@@ -133,15 +140,21 @@ double text_width(std::string_view text) {
   return std::max(0.0, width - kGap);
 }
 
-void draw_text(Canvas& canvas, std::string_view text, Spot start, double unit, Colour colour) {
+void draw_text(Canvas& canvas, std::string_view text, Spot start, double unit, Colour colour,
+               Spot along, double pen) {
+  Script script{start, along, unit};
   for (const char c : text) {
     const Glyph* const glyph = glyph_of(c);
     for (std::string_view rest = glyph != nullptr ? glyph->lines : ""; !rest.empty();) {
       const std::string_view line = rest.substr(0, rest.find('|'));
-      draw_line(canvas, line, start, unit, colour);
+      const Polyline strokes = polyline_of(line);
+      for (size_t i = 0; i + 1 < strokes.size; ++i) {
+        canvas.stroke(script.on_canvas(strokes.points[i]), script.on_canvas(strokes.points[i + 1]),
+                      pen * unit, colour);
+      }
       rest.remove_prefix(std::min(rest.size(), line.size() + 1));
     }
-    start.x += unit * advance_of(glyph);
+    script.start = script.on_canvas({advance_of(glyph), 0});
   }
 }
 

@@ -16,9 +16,13 @@ constexpr double kCapHeight = 7;
 // In units: without the room behind the last character.
 double text_width(std::string_view text);
 
-// `start` is where the first character begins on the line, `unit` a number of pixels. There are
-// digits, small letters, blanks and . , : + - / ( ); other characters leave a blank.
-void draw_text(Canvas& canvas, std::string_view text, Spot start, double unit, Colour colour);
+constexpr double kPen = 0.8;  // how wide strokes are, in units
+
+// `start` is where the first character begins on the line, `unit` a number of pixels, `along` the
+// direction in which text runs, of length 1. There are digits, small letters, blanks and
+// . , : + - / ( ); other characters leave a blank.
+void draw_text(Canvas& canvas, std::string_view text, Spot start, double unit, Colour colour,
+               Spot along = {1, 0}, double pen = kPen);
 
 }  // namespace microtin::picture
 

@@ -10,7 +10,8 @@
 
 namespace microtin::picture {
 
-// kLand: from the lowest height to the highest. kSea: the same from 0 on, and blue below.
+// kLand: from the lowest height to the highest. kSea: the same from 0 on, and blue below: from 0,
+// or from the highest height if all are below.
 enum class PaletteKind { kLand, kSea };
 
 class Palette {
@@ -21,7 +22,10 @@ class Palette {
   // From the lowest, at 0, to the highest, at 1.
   Colour at(double relative) const {
     const double height = low_ + relative * (high_ - low_);
-    if (kind_ == PaletteKind::kSea && height < 0) return sea(height / std::min(low_, -1e-9));
+    if (kind_ == PaletteKind::kSea && height < 0) {
+      const double top = std::min(high_, 0.0);
+      return sea(top > low_ ? (top - height) / (top - low_) : 0);
+    }
     const double ground = kind_ == PaletteKind::kSea ? std::max(low_, 0.0) : low_;
     return tint(high_ > ground ? (height - ground) / (high_ - ground) : 0);
   }

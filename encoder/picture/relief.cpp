@@ -2,6 +2,8 @@
 // Light from the north-west on normals, colours by height, lines of triangles.
 #include "encoder/picture/relief.hpp"
 
+#include "encoder/picture/cover.hpp"
+
 namespace microtin::picture {
 namespace {
 
@@ -219,32 +221,19 @@ void Relief::draw_ground(Canvas& canvas, const MapFrame& frame) const {
   }
 }
 
-// Each pixel takes the nearest line alone: where several meet it is no darker. Short lines are
-// faint, so that small triangles do not hide the ground.
+// Short lines are faint, so that small triangles do not hide the ground.
 void Relief::draw_lines(Canvas& canvas, const MapFrame& frame, double line_width) const {
-  std::vector<uint8_t> cover(size_t{frame.columns()} * frame.rows());
-  const PixelBox all{0, 0, frame.box.width, frame.box.height};
-  const double reach = line_width / 2 + 0.5;
+  Cover cover(frame.box);
   for (const Triangle& triangle : model_.triangles) {
     const std::array<Spot, 3> spots = spots_of(model_, triangle, frame);
     for (size_t i = 0; i < 3; ++i) {
       const Spot a = spots[i], b = spots[(i + 1) % 3];
-      const double strength =
-          255 * smooth_step(line_width, 7 * line_width, std::hypot(b.x - a.x, b.y - a.y));
-      for_each_pixel_near(a, b, reach, all, [&](uint32_t column, uint32_t row, double distance) {
-        uint8_t& pixel = cover[size_t{row} * frame.columns() + column];
-        pixel = std::max(pixel, static_cast<uint8_t>(strength * std::min(1.0, reach - distance)));
-      });
+      cover.stroke(a, b, line_width,
+                   smooth_step(line_width, 7 * line_width, std::hypot(b.x - a.x, b.y - a.y)));
     }
   }
-  for (uint32_t row = 0; row < frame.rows(); ++row) {
-    for (uint32_t column = 0; column < frame.columns(); ++column) {
-      const double part = cover[size_t{row} * frame.columns() + column] / 255.0;
-      canvas.blend(static_cast<uint32_t>(frame.box.left) + column,
-                   static_cast<uint32_t>(frame.box.top) + row, kLine,
-                   part * line_strength(column / frame.box.width));
-    }
-  }
+  cover.blend(canvas, kLine,
+              [&](uint32_t column) { return line_strength(column / frame.box.width); });
 }
 
 }  // namespace microtin::picture

@@ -7,6 +7,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/units.hpp"
+#include "encoder/picture/contour_lines.hpp"
 #include "encoder/picture/error_map.hpp"
 #include "encoder/picture/legend.hpp"
 #include "encoder/picture/lettering.hpp"
@@ -16,7 +17,7 @@
 namespace microtin::picture {
 namespace {
 
-constexpr Colour kPaper{1, 1, 1}, kNoTerrain{0.95, 0.95, 0.945}, kHatch{0.86, 0.86, 0.85};
+constexpr Colour kPaper{1, 1, 1}, kNoTerrain{0.66, 0.66, 0.67}, kHatch{0.53, 0.53, 0.54};
 
 // In units of the text.
 constexpr double kMargin = 10, kLegendHeight = 36, kRampShare = 0.56, kBarAt = 0.66;
@@ -76,11 +77,11 @@ Layout lay_out(const Portrait& portrait, const Ground& ground, uint32_t width, b
   return layout;
 }
 
-// A frame around what is not known, too.
+// What is not known: darker than snow and than an error of 0, hatched closely for small places.
 void draw_background(Canvas& canvas, const MapFrame& frame, double unit) {
   const PixelBox& box = frame.box;
   canvas.fill(box, kNoTerrain);
-  const double step = 6 * unit, reach = 0.4 * unit + 0.5;
+  const double step = 4 * unit, reach = 0.4 * unit + 0.5;
   const auto lines = static_cast<uint32_t>((box.width + box.height) / step) + 1;
   for (uint32_t line = 0; line < lines; ++line) {
     const double start = line * step - box.height;
@@ -128,15 +129,34 @@ struct LegendPlaces {
   double width, side_room;
 };
 
+struct HeightRange {
+  double low, high;
+};
+
+HeightRange heights_of(const Portrait& portrait, const Relief& relief) {
+  const Axis& z = portrait.metadata.placement.z;
+  return {offset_of(z) + step_of(z) * static_cast<double>(relief.lowest()),
+          offset_of(z) + step_of(z) * static_cast<double>(relief.highest())};
+}
+
+// Nothing if there are no contours.
+std::optional<Decimal> interval_of(const Portrait& portrait, const Relief& relief) {
+  if (!portrait.contours) return std::nullopt;
+  if (portrait.interval) return portrait.interval;
+  const auto [low, high] = heights_of(portrait, relief);
+  return round_interval(low, high);
+}
+
 void draw_relief_legend(Canvas& canvas, const Portrait& portrait, const Relief& relief,
                         const Ground& ground, const Layout& layout) {
-  const Axis& z = portrait.metadata.placement.z;
   const std::string unit = unit_text(portrait.metadata.vertical_unit);
-  const double low = offset_of(z) + step_of(z) * static_cast<double>(relief.lowest());
-  const double high = offset_of(z) + step_of(z) * static_cast<double>(relief.highest());
+  const auto [low, high] = heights_of(portrait, relief);
   const LegendPlaces at(layout.relief, layout);
-  draw_line(canvas, "height " + rounded_text(low) + " to " + rounded_text(high) + unit, at.line,
-            layout.unit, at.width);
+  std::string line = "height " + rounded_text(low) + " to " + rounded_text(high) + unit;
+  if (const std::optional<Decimal> interval = interval_of(portrait, relief)) {
+    line += ", contours every " + to_string(*interval) + unit;
+  }
+  draw_line(canvas, line, at.line, layout.unit, at.width);
   draw_ramp(canvas, at.ramp, at.width, layout.unit, low, high,
             [&relief](double relative) { return relief.palette().at(relative); });
   draw_scale_bar(canvas, at.side, 0.8 * at.side_room, layout.unit, layout.relief.x_step * ground.x,
@@ -209,6 +229,11 @@ std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
   draw_background(canvas, layout.relief, layout.unit);
   relief.draw_ground(canvas, layout.relief);
   if (portrait.mesh) relief.draw_lines(canvas, layout.relief, 0.8 * std::sqrt(layout.unit));
+  const std::optional<Decimal> interval = interval_of(portrait, relief);
+  if (interval) {
+    draw_contours(canvas, layout.relief, contours_of(model, *interval), *interval, portrait.palette,
+                  layout.unit);
+  }
   draw_relief_legend(canvas, portrait, relief, ground, layout);
   if (comparison != nullptr) {
     draw_background(canvas, layout.errors, layout.unit);

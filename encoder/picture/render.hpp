@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Portrait {
   uint64_t tiles = 0;  // 0: a stream
   bool mesh = true;    // draw the triangles' lines
   PaletteKind palette = PaletteKind::kLand;
+  bool contours = false;
+  std::optional<Decimal> interval;  // of contours, in the unit of heights; a round one if not given
 };
 
 // How a terrain compares with its source.

@@ -12,6 +12,7 @@
 #include "encoder/export/height_sampler.hpp"
 #include "encoder/product/budget.hpp"
 #include "encoder/product/true_bound.hpp"
+#include "encoder/stream/compact_form.hpp"
 #include "encoder/stream/device_ram.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/duplicates.hpp"
@@ -90,7 +91,8 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
   check_vertices(found.tin, options);
   const std::optional<Decimal>& bound = lattice.max_error;
   Metadata metadata = metadata_for(source, options, found.laid);
-  const auto [stream, decoded] = encode_and_decode(found.tin, metadata, options.effort);
+  auto [stream, decoded] = encode_and_decode(found.tin, metadata, options.effort);
+  expect_promised(measured_form(decoded.mesh()));
   const auto* cloud = std::get_if<PointCloud>(&source);
   std::optional<Source> thin;
   if (cloud != nullptr) {

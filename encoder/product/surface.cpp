@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/fraction.hpp"
-#include "encoder/exact/lattice_map.hpp"
+#include "encoder/export/post_grid.hpp"
 #include "encoder/product/document.hpp"
 
 namespace microtin::encoder {
@@ -91,31 +90,10 @@ std::vector<std::optional<int64_t>> places_of(const microtin_axis& posts, int64_
                                               uint32_t count, const microtin_axis& axis,
                                               int64_t low, int64_t high) {
   if (posts.numerator == 0 || posts.denominator == 0) throw base::Error("an axis has no step");
-  const exact::LatticeMap map = exact::map_between(posts, axis);
-  if (map.step == 0) throw base::InternalFault("an axis of the lattice has no step");
+  const exporting::PostPlaces place(posts, axis, low, high);
   std::vector<std::optional<int64_t>> places(count);
-  for (uint32_t i = 0; i < count; ++i) {
-    const exact::Wide place = exact::round_divide(kFraction * map.numerator(first + i), map.step);
-    if (place >= low * kFraction && place <= high * kFraction) {
-      places[i] = static_cast<int64_t>(place);
-    }
-  }
+  for (uint32_t i = 0; i < count; ++i) places[i] = place(first + i);
   return places;
-}
-
-// Posts from `low` to `high` of the lattice, a step of the decimal apart.
-std::pair<microtin_axis, uint32_t> posts_between(const microtin_axis& lattice, int64_t low,
-                                                 int64_t high, exact::Decimal cell) {
-  const auto numerator = static_cast<exact::Wide>(lattice.numerator);
-  const auto denominator = static_cast<exact::Wide>(lattice.denominator);
-  const exact::Fraction step = exact::meaning_of(cell);
-  const exact::Wide count =
-      numerator * (high - low) * step.denominator / (denominator * step.numerator) + 1;
-  if (count > std::numeric_limits<int32_t>::max()) {
-    throw base::Error("a cell of " + to_string(cell) + " makes more than 2^31 columns or rows");
-  }
-  const exact::Fraction first = exact::reduced(lattice.offset + numerator * low, denominator);
-  return {exact::make_axis(first, step), static_cast<uint32_t>(count)};
 }
 
 }  // namespace
@@ -228,10 +206,8 @@ Box Surface::tile_box(uint32_t column, uint32_t row) const {
 Grid Surface::grid(const std::string& cell) const {
   const std::optional<exact::Decimal> size = exact::parse_decimal(cell, exact::kPlaceDecimals);
   if (!size || size->mantissa <= 0) throw base::Error("cell: " + cell + " is not a length above 0");
-  const exporting::SampledSurface& s = content_->sampled;
-  const auto [x, columns] = posts_between(s.placement.x, s.x_min, s.x_max, *size);
-  const auto [y, rows] = posts_between(s.placement.y, s.y_min, s.y_max, *size);
-  return {columns, rows, x, y};
+  const exact::PostGrid posts = exporting::grid_of_cells(content_->sampled, *size);
+  return {posts.columns, posts.rows, posts.x, posts.y};
 }
 
 void Surface::heights(size_t count, const double* x, const double* y, double* heights) const {

@@ -7,23 +7,13 @@
 #include "encoder/exact/fraction.hpp"
 
 namespace microtin::terrain {
-namespace {
-
-Axis from_post(const Axis& axis, uint32_t post) {
-  const Wide numerator = static_cast<Wide>(axis.numerator);
-  return reduced_axis(axis.offset + numerator * post, numerator,
-                      static_cast<Wide>(axis.denominator));
-}
-
-}  // namespace
-
 Raster crop_frame(const Raster& raster, const PostRectangle& r) {
   Raster part;
   part.width = r.width;
   part.height = r.height;
   part.decimals = raster.decimals;
-  part.x = from_post(raster.x, r.x);
-  part.y = from_post(raster.y, r.y);
+  part.x = moved_axis(raster.x, r.x);
+  part.y = moved_axis(raster.y, r.y);
   part.reference = raster.reference;
   return part;
 }

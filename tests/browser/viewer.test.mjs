@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The page of render -o FILE.html and the npm module, in Debian's chromium with its software GL.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import fs from "node:fs";
-import http from "node:http";
-import os from "node:os";
 import path from "node:path";
 import test, { after, before } from "node:test";
 import { pathToFileURL } from "node:url";
 import puppeteer from "puppeteer-core";
+import { file, golden, microtin, npm, remove, served } from "./files.mjs";
 
-const { MICROTIN: tool, MICROTIN_NPM: npm, MICROTIN_GOLDEN: golden, MICROTIN_SCREENSHOT: screenshot } = process.env;
-const folder = fs.mkdtempSync(path.join(os.tmpdir(), "viewer-"));
-const file = (name) => path.join(folder, name);
-const microtin = (...words) => execFileSync(tool, words, { stdio: ["ignore", "pipe", "pipe"], cwd: folder });
+const { MICROTIN_SCREENSHOT: screenshot } = process.env;
 const GL = ["--no-sandbox", "--enable-unsafe-swiftshader", "--use-gl=angle", "--use-angle=swiftshader"];
 const launch = (args = GL) => puppeteer.launch({ executablePath: "/usr/bin/chromium", args });
 
@@ -34,7 +29,7 @@ before(async () => {
 
 after(async () => {
   await browser?.close();
-  fs.rmSync(folder, { recursive: true });
+  remove();
 });
 
 // A page that has come to an end: "complete", "failed" or "flat".
@@ -102,17 +97,6 @@ function colourAt({ width, pixels }, map, u, v) {
     }
   }
   return sum.map((value) => value / count);
-}
-
-async function served(answer, use) {
-  const server = http.createServer(answer);
-  await new Promise((done) => server.listen(0, "127.0.0.1", done));
-  try {
-    await use(`http://127.0.0.1:${server.address().port}`);
-  } finally {
-    server.closeAllConnections();
-    server.close();
-  }
 }
 
 const onDisk = (name) => pathToFileURL(file(name)).href;

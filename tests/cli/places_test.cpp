@@ -231,6 +231,16 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
   CHECK(std::count(world.begin(), world.end(), '\n') == 6);
   CHECK(
       contains(session.failure("render t.mtin --world-file -o -"), "-: a world file lies beside"));
+  CHECK(session.run("render t.mtin --contours auto -o v.png").code == 0);
+  CHECK(session.run("render t.mtin --contours 0.5 -o w.png").code == 0);
+  CHECK(session.read("v.png") != session.read("t.png"));
+  CHECK(session.read("v.png") != session.read("w.png"));
+  CHECK(contains(session.failure("render t.mtin --contours 0 -o u.png", 2),
+                 "0 is not auto or a decimal number above 0"));
+  CHECK(contains(session.failure("render t.mtin --contours 0.000000001 -o u.png"),
+                 "t.mtin: the interval of contours is too small"));
+  CHECK(session.failure("render t.mtin --contours auto -o u.html") ==
+        "u.html: a page has no contours\n");
   CHECK(contains(session.failure("render t.mtin --palette sky -o u.png", 2),
                  "sky is not land or sea"));
 }

@@ -3,38 +3,17 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <array>
-#include <utility>
 #include <vector>
 
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/pack_device.hpp"
 #include "tests/support/packs.hpp"
-#include "tests/support/reference_heights.hpp"
+#include "tests/support/reference_course.hpp"
 
 namespace microtin::tests {
 namespace {
 
-using reference::Wide;
-
-// A part of the way along a course, whole > 0.
-struct Way {
-  Wide part, whole;
-};
-
-bool operator<(const Way& a, const Way& b) {
-  return a.part * b.whole < b.part * a.whole;
-}
-
-// The known triangles of all tiles that are there, in global steps.
-struct Facet {
-  std::array<std::array<int64_t, 3>, 3> v;
-};
-
-struct Surface {
-  std::vector<Facet> facets;
-  std::vector<std::array<int64_t, 3>> vertices;  // of voids too: they know their heights
-};
+using namespace reference;
 
 Surface surface_of(const PackFile& pack) {
   Surface surface;
@@ -42,107 +21,9 @@ Surface surface_of(const PackFile& pack) {
     const std::optional<DecodedTerrain> tile = pack.tile(number);
     if (!tile) continue;
     const TileBox box = tile_box(pack.grid(), number);
-    for (const reference::Corners& t : reference::real_triangles(tile->mesh())) {
-      Facet facet;
-      for (size_t i = 0; i < 3; ++i) {
-        facet.v[i] = {int64_t{box.x} + t.v[i].x, int64_t{box.y} + t.v[i].y, t.v[i].z};
-        surface.vertices.push_back(facet.v[i]);
-      }
-      if (!t.is_void) surface.facets.push_back(facet);
-    }
+    surface.add(tile->mesh(), box.x, box.y);
   }
   return surface;
-}
-
-// 256 times twice the area of (a, b, p), where p has 8 fractional bits.
-Wide area(const std::array<int64_t, 3>& a, const std::array<int64_t, 3>& b, int64_t x, int64_t y) {
-  return (Wide{b[0]} - a[0]) * (y - Wide{a[1]} * 256) -
-         (Wide{b[1]} - a[1]) * (x - Wide{a[0]} * 256);
-}
-
-struct Expected {
-  bool is_known = false;
-  Wide highest = INT32_MIN;  // in any tile
-  Wide between = INT32_MIN;  // the same without the ends, whose heights may be any of their tiles'
-};
-
-// The part of the course in a closed triangle, and the heights at its ends.
-struct Stretch {
-  Way from = {0, 1}, to = {1, 1};
-  bool is_empty = false;
-
-  Stretch(const Facet& t, const microtin_course& c) {
-    for (size_t i = 0; i < 3; ++i) {
-      const auto &a = t.v[i], &b = t.v[(i + 1) % 3];
-      const Wide begin = area(a, b, c.x, c.y), end = area(a, b, c.x_end, c.y_end);
-      if (begin < 0 && end < 0) is_empty = true;
-      if (begin < 0 && end >= 0) from = std::max(from, Way{-begin, end - begin});
-      if (begin >= 0 && end < 0) to = std::min(to, Way{begin, begin - end});
-    }
-    is_empty = is_empty || to < from;
-  }
-};
-
-Wide height_at(const Facet& t, const microtin_course& c, const Way& way) {
-  Wide sum = 0, all = 0;
-  for (size_t i = 0; i < 3; ++i) {
-    const auto &a = t.v[(i + 1) % 3], &b = t.v[(i + 2) % 3];
-    const Wide weight =
-        area(a, b, c.x, c.y) * (way.whole - way.part) + area(a, b, c.x_end, c.y_end) * way.part;
-    sum += weight * t.v[i][2];
-    all += weight;
-  }
-  return reference::rounded(sum * 65536, all);
-}
-
-std::vector<Stretch> stretches_of(const Surface& surface, const microtin_course& c) {
-  std::vector<Stretch> stretches;
-  for (const Facet& t : surface.facets) {
-    const Stretch stretch(t, c);
-    if (!stretch.is_empty) stretches.push_back(stretch);
-  }
-  return stretches;
-}
-
-// Whether a course of more than one place is covered.
-bool cover(std::vector<Stretch> stretches) {
-  std::sort(stretches.begin(), stretches.end(),
-            [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
-  Way known = {0, 1};
-  for (const Stretch& stretch : stretches) {
-    if (!(known < stretch.from)) known = std::max(known, stretch.to);
-  }
-  return !stretches.empty() && stretches[0].from.part == 0 && !(known < Way{1, 1});
-}
-
-// By definition: closed triangles cover the course, or do not.
-Expected expect(const Surface& surface, const microtin_course& c) {
-  Expected expected;
-  std::vector<Stretch> stretches;
-  const bool is_place = c.x == c.x_end && c.y == c.y_end;
-  for (const Facet& t : surface.facets) {
-    const Stretch stretch(t, c);
-    if (stretch.is_empty) continue;
-    stretches.push_back(stretch);
-    for (const Way& way : {stretch.from, stretch.to}) {
-      const Wide height = height_at(t, c, way);
-      expected.highest = std::max(expected.highest, height);
-      if (way.part != 0 && way.part != way.whole) {
-        expected.between = std::max(expected.between, height);
-      }
-    }
-  }
-  for (const auto& v : surface.vertices) {
-    const Wide x = Wide{v[0]} * 256 - c.x, y = Wide{v[1]} * 256 - c.y, dx = c.x_end - c.x,
-               dy = c.y_end - c.y, along = x * dx + y * dy;
-    if (x * dy != y * dx || along < 0 || along > dx * dx + dy * dy) continue;
-    if (is_place && (x != 0 || y != 0)) continue;
-    expected.highest = std::max<Wide>(expected.highest, Wide{v[2]} * 65536);
-    expected.is_known = is_place;
-  }
-  expected.is_known =
-      expected.is_known || (is_place ? !stretches.empty() : cover(std::move(stretches)));
-  return expected;
 }
 
 // Courses of all kinds: any, between lattice places, along lines of them, along borders, places.

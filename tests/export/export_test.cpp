@@ -98,6 +98,26 @@ TEST_CASE("ply: counts and lines agree") {
   CHECK(lines[13].substr(0, 2) == "3 ");
 }
 
+TEST_CASE("most_mesh_bytes is never too low, and as sharp as lines allow") {
+  const DecodedTerrain terrain = square(false);
+  constexpr uint64_t kHead = 65536 + 4096;  // which is for texts that these have not
+  for (const auto format :
+       {MeshFormat::kXyz, MeshFormat::kObj, MeshFormat::kPly, MeshFormat::kGlb}) {
+    for (const auto coordinates : {Coordinates::kReal, Coordinates::kLattice}) {
+      const TemporaryFolder folder;
+      OutputFile out(folder / "mesh");
+      export_mesh(terrain.mesh(), format, coordinates, out);
+      out.commit();
+      const uint64_t most = most_mesh_bytes(sampled(terrain.mesh()), 4, format, coordinates);
+      CHECK(std::filesystem::file_size(folder / "mesh") <= most);
+      CHECK(most - kHead <= 3 * std::filesystem::file_size(folder / "mesh"));
+    }
+  }
+  constexpr uint64_t kMany = 1000000000;
+  CHECK(most_mesh_bytes(sampled(terrain.mesh()), kMany, MeshFormat::kGlb, Coordinates::kReal) ==
+        kHead + kMany * (28 + 2 * 12));
+}
+
 TEST_CASE("the suffix tells the format") {
   CHECK(mesh_format_of("a/b.obj") == MeshFormat::kObj);
   CHECK(mesh_format_of("-") == MeshFormat::kXyz);

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "encoder/exact/lattice_map.hpp"
+#include "encoder/export/post_grid.hpp"
 #include "encoder/fit/approximation.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/stream/encode.hpp"
@@ -18,14 +20,27 @@ using namespace microtin::tests;
 
 namespace {
 
-std::string grid(const SampledSurface& surface, const std::optional<Decimal>& cell = {}) {
+std::string grid(const SampledSurface& surface, const PostGrid& posts) {
   const TemporaryFolder folder;
   OutputFile out(folder / "grid.asc");
-  export_grid(surface, cell, out);
+  export_grid(surface, posts, out);
   out.commit();
   std::ostringstream text;
   text << std::ifstream(folder / "grid.asc").rdbuf();
+  CHECK(static_cast<double>(text.str().size()) <= 200 + most_grid_bytes(surface, posts));
   return text.str();
+}
+
+std::string grid(const SampledSurface& surface) {
+  return grid(surface, lattice_grid(surface));
+}
+
+std::string grid(const SampledSurface& surface, Decimal cell) {
+  return grid(surface, grid_of_cells(surface, cell));
+}
+
+std::string grid(const SampledSurface& surface, const std::string& extent, Decimal cell) {
+  return grid(surface, grid_of_cells(parse_extent(extent).value(), cell));
 }
 
 // Every post a vertex.
@@ -38,13 +53,6 @@ DecodedTerrain decoded(const Source& source) {
 
 Raster read_back(const std::string& text) {
   return import_asc("grid.asc", text);
-}
-
-bool same(const Axis& a, const Axis& b) {
-  return Wide{a.offset} * static_cast<Wide>(b.denominator) ==
-             Wide{b.offset} * static_cast<Wide>(a.denominator) &&
-         static_cast<Wide>(a.numerator) * static_cast<Wide>(b.denominator) ==
-             static_cast<Wide>(b.numerator) * static_cast<Wide>(a.denominator);
 }
 
 // Two triangles over (0, 0), (4, 0), (0, 4) and (4, 4) with heights 0, 4, 8 and 13.
@@ -81,7 +89,49 @@ TEST_CASE("grid: the value for voids is below every height") {
   CHECK(grid(sampled(terrain.mesh())).find("NODATA_value -999999\n") != std::string::npos);
 }
 
-TEST_CASE("grid: what is written is read back as the same raster, voids included") {
+TEST_CASE("grid: an extent's posts begin at its south-west corner, or are those of a grid") {
+  const DecodedTerrain terrain = square({{100, 1, 1}, {0, 1, 1}, {0, 1, 1}});
+  const SampledSurface surface = sampled(terrain.mesh());
+  CHECK(grid(surface, "99.5,-1,102.5,1.9", {1, 0})
+            .find("ncols 4\nnrows 3\nxllcenter 99.5\n"
+                  "yllcenter -1\ncellsize 1\n") == 0);
+  const std::string rows = grid(surface, "99.5,-1,102.5,1.9", {1, 0});
+  CHECK(rows.substr(rows.find("-9999\n") + 6) ==
+        "-9999 2.5 3.5 4.5\n-9999 0.5 1.5 2.5\n-9999 -9999 -9999 -9999\n");
+  const PostGrid posts{3, 2, {100, 2, 1}, {1, 2, 1}};  // at 100, 102, 104 and 1, 3
+  const auto within = [&](const std::string& extent) {
+    return posts_within(posts, parse_extent(extent).value());
+  };
+  const PostGrid all = within("100,1,104,3"), west = within("99,0.5,101.999,3.1"),
+                 wide = within("95.9,-1.0,104,9");
+  CHECK((all.columns == 3 && all.rows == 2 && is_same(all.x, posts.x) && is_same(all.y, posts.y)));
+  CHECK((west.columns == 1 && west.rows == 2 && is_same(west.x, posts.x)));
+  CHECK((wide.columns == 5 && wide.rows == 6 && is_same(wide.x, {96, 2, 1}) &&
+         is_same(wide.y, {-1, 2, 1})));
+  CHECK_THROWS_WITH_AS(within("100.1,1,101.9,3"), "no post of the grid lies in the extent", Error);
+  CHECK(meets(surface, within("95,1,100,3")));
+  CHECK(!meets(surface, within("95,1,99,3")));
+  CHECK(!meets(surface, within("104,5,107,9")));
+}
+
+TEST_CASE("grid: the posts of an extent are found in numbers of any size") {
+  const PostGrid tiny = grid_of_cells(parse_extent("0,0,0.000000002,1").value(), {1, 9});
+  CHECK((tiny.columns == 3 && tiny.rows == 1000000001));
+  CHECK_THROWS_AS(grid_of_cells(parse_extent("0,0,1,999999999999").value(), {1, 9}), Error);
+  CHECK_THROWS_AS(posts_within({1, 1, {0, 1, 1}, {0, 1, 1}},
+                               parse_extent("-999999999999,0,999999999999,1").value()),
+                  Error);
+  const PostGrid far = grid_of_cells(
+      parse_extent("999999999000.000000000001,0,999999999999.000000000001,1").value(), {1, 0});
+  CHECK((far.columns == 1000 && far.rows == 2));
+  for (const char* const text :
+       {"", "1,2,3", "1,2,3,", "3,2,1,4", "1,2,1,4", "1,4,3,2", "1,2,3,4,5", "1;2;3;4", "a,2,3,4",
+        "0,0,1000000000000,1", "-1e12,0,1,1"}) {
+    CHECK_MESSAGE(!parse_extent(text), text);
+  }
+}
+
+TEST_CASE("grid: what is written is read back as the same raster, voids at the margins included") {
   for (const VoidKind& kind : void_kinds()) {
     Raster raster = rough_raster(61, 53, kind.at);
     for (const auto& [x, y] : {std::pair<Axis, Axis>{{7 * 1200, 1, 1200}, {43 * 1200, 1, 1200}},
@@ -91,33 +141,11 @@ TEST_CASE("grid: what is written is read back as the same raster, voids included
       raster.x = x;
       raster.y = y;
       const DecodedTerrain terrain = decoded(raster);
-      const Raster again = read_back(grid(sampled(terrain.mesh())));
-      // Void columns and rows at the rim are outside the surface.
-      size_t south_west = raster.heights.size();
-      uint32_t dx = 0, dy = 0;
-      for (uint32_t shift_y = 0; shift_y + again.height <= raster.height; ++shift_y) {
-        for (uint32_t shift_x = 0; shift_x + again.width <= raster.width; ++shift_x) {
-          Axis moved_x = raster.x, moved_y = raster.y;
-          moved_x.offset += shift_x * static_cast<int64_t>(raster.x.numerator);
-          moved_y.offset += shift_y * static_cast<int64_t>(raster.y.numerator);
-          if (!same(moved_x, again.x) || !same(moved_y, again.y)) continue;
-          south_west = size_t{shift_y} * raster.width + shift_x;
-          dx = shift_x;
-          dy = shift_y;
-        }
-      }
-      REQUIRE_MESSAGE(south_west < raster.heights.size(), kind.name);
-      size_t different = 0;
-      for (uint32_t row = 0; row < raster.height; ++row) {
-        for (uint32_t column = 0; column < raster.width; ++column) {
-          const bool inside =
-              column >= dx && column - dx < again.width && row >= dy && row - dy < again.height;
-          const int64_t found =
-              inside ? again.heights[size_t{row - dy} * again.width + column - dx] : kVoidHeight;
-          if (found != raster.heights[size_t{row} * raster.width + column]) ++different;
-        }
-      }
-      CHECK_MESSAGE(different == 0, kind.name);
+      const Raster again = read_back(grid(sampled(terrain.mesh()), posts_of(raster)));
+      CHECK(again.width == raster.width);
+      CHECK(is_same(again.x, raster.x));
+      CHECK(is_same(again.y, raster.y));
+      CHECK_MESSAGE(again.heights == raster.heights, kind.name);
       CHECK(again.decimals == 0);
     }
   }
@@ -131,7 +159,7 @@ TEST_CASE("grid: a pack is one surface, with the posts of its raster") {
     const Raster again = read_back(grid(sampled(pack)));
     CHECK(again.width == raster.width);
     CHECK(again.height == raster.height);
-    CHECK(same(again.x, raster.x));
+    CHECK(is_same(again.x, raster.x));
     CHECK_MESSAGE(again.heights == raster.heights, kind.name);
   }
 }

@@ -119,6 +119,28 @@ uint32_t sum_of_probes(const ProbeBox& box, HeightAt height_at) {
   return sum;
 }
 
+// ... on 8 courses through the box and in a block of the places around.
+template <class Highest, class Fill>
+uint32_t sum_of_courses(const ProbeBox& box, Highest highest, Fill fill) {
+  ProbeNumbers numbers;
+  uint32_t sum = 0;
+  for (int i = 0; i < 8; ++i) {
+    const int32_t x = numbers.between(box.west, box.east);
+    const int32_t y = numbers.between(box.south, box.north);
+    const int32_t x_end = numbers.between(box.west, box.east);
+    const microtin_course course = {x, y, x_end, numbers.between(box.south, box.north)};
+    int32_t height = 0;
+    const microtin_answer answer = highest(&course, &height);
+    sum = sum * 31 + static_cast<uint32_t>(height) * 7 + static_cast<uint32_t>(answer);
+  }
+  const microtin_block block = {
+      box.west - 256, box.south, (box.east - box.west) / 3, (box.north - box.south) / 3, 5, 4, -1};
+  int16_t heights[20];
+  sum = sum * 31 + static_cast<uint32_t>(fill(&block, heights));
+  for (int i = 0; i < 20; ++i) sum = sum * 31 + static_cast<uint16_t>(heights[i]);
+  return sum;
+}
+
 // Makes the compact form of a mesh in its place, in calls of a few steps: whether it answers as the
 // mesh did, or the mesh is too small for that or, by a few vertices, too large.
 inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size_t scratch_size) {
@@ -127,6 +149,11 @@ inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size
   const uint32_t sum = sum_of_probes(box, [mesh](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
     return microtin_height_at(mesh, x, y, 0, hint, z);
   });
+  const uint32_t courses = sum_of_courses(
+      box, [mesh](const microtin_course* c, int32_t* z) { return microtin_highest(mesh, c, z); },
+      [mesh](const microtin_block* b, int16_t* heights) {
+        return microtin_fill(mesh, b, heights);
+      });
   microtin_compactor* compactor = 0;
   microtin_compact* compact = 0;
   microtin_status status =
@@ -139,9 +166,18 @@ inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size
   if (status == MICROTIN_WORKSPACE_TOO_SMALL) return n < 100;
   if (status == MICROTIN_TOO_BIG) return n + 10 > MICROTIN_MAX_VERTICES;
   return microtin_compact_digest(compact) == digest &&
-         sum == sum_of_probes(box, [compact](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
-           return microtin_compact_height_at(compact, x, y, 0, hint, z);
-         });
+         sum == sum_of_probes(box,
+                              [compact](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
+                                return microtin_compact_height_at(compact, x, y, 0, hint, z);
+                              }) &&
+         courses == sum_of_courses(
+                        box,
+                        [compact](const microtin_course* c, int32_t* z) {
+                          return microtin_compact_highest(compact, c, z);
+                        },
+                        [compact](const microtin_block* b, int16_t* heights) {
+                          return microtin_compact_fill(compact, b, heights);
+                        });
 }
 
 }  // namespace microtin

@@ -11,6 +11,7 @@
 #include "encoder/pack/tile_plan.hpp"
 #include "microtin/compact.h"
 #include "tests/support/border_walk.hpp"
+#include "tests/support/forged_pack.hpp"
 #include "tests/support/packs.hpp"
 
 namespace microtin::tests {
@@ -164,6 +165,32 @@ TEST_CASE("packs: the header says what the tile that needs most takes in compact
     CHECK(pack.header().compact_bytes == most);
     CHECK(most <= promised_compact_bytes(pack.header().most_vertices, width < 256, 16));
   }
+}
+
+TEST_CASE("packs: what the header says of compact forms is compared with the tiles") {
+  Bytes bytes = write_pack(encode_pack(rough_raster(61, 33), pack_options(6, 200)));
+  const uint32_t needed = PackFile(bytes).header().compact_bytes;
+  const auto say = [&](uint32_t stated) {
+    put_number(bytes, 32, stated, 4);
+    repair_checks(bytes);
+    PackFile(bytes).expect_compact_bytes();
+  };
+  CHECK_NOTHROW(say(needed));
+  CHECK_NOTHROW(say(0));  // nothing
+  for (const uint32_t stated : {needed - 1, needed + 1}) {
+    const std::string message = "the header says that a tile takes at most " +
+                                std::to_string(stated) + " bytes in compact form; tile ";
+    CHECK_THROWS_WITH_AS(say(stated), doctest::Contains(message.c_str()), Error);
+    CHECK_THROWS_WITH_AS(
+        say(stated), doctest::Contains(("takes most, " + std::to_string(needed)).c_str()), Error);
+  }
+}
+
+TEST_CASE("a stream that takes more in compact form than is promised is not written") {
+  const uint32_t promised = MICROTIN_COMPACT_REPEATS(100);
+  CHECK_NOTHROW(expect_promised({100, promised, true}));
+  CHECK_THROWS_AS(expect_promised({100, promised + 1, true}), Error);
+  CHECK_THROWS_AS(expect_promised({100, promised + 1, false}), Error);
 }
 
 TEST_CASE("packs: a tile that takes more in compact form than is promised is too large") {

@@ -12,6 +12,7 @@
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/support/layers.hpp"
+#include "tests/support/packs.hpp"
 
 #define STBI_ONLY_PNG
 #define STB_IMAGE_STATIC
@@ -130,6 +131,110 @@ TEST_CASE("render: below zero there is sea, if that is asked for") {
   CHECK(deep.at(0).b > deep.at(0).r);
   CHECK(deep.at(1).b > deep.at(1).r);
   CHECK(deep.at(1).r > deep.at(0).r);
+}
+
+TEST_CASE("render: posts between the places of the lattice leave no gaps in the error map") {
+  const Portrait flat = portrait({{0, 0, 5}, {40, 0, 5}, {0, 40, 5}, {40, 40, 5}});
+  // Steps of the lattice for a post: places are rounded, so that some are further apart.
+  for (const double cell : {0.3, 1.0, 1.4, 2.5, 4.0}) {
+    const Comparison comparison{{cell, cell}, [cell](const PostVisitor& visit) {
+                                  const auto posts = static_cast<int>(40 / cell);
+                                  for (int y = 0; y <= posts; ++y) {
+                                    for (int x = 0; x <= posts; ++x) {
+                                      visit(std::lround(x * cell), std::lround(y * cell), 0, 1);
+                                    }
+                                  }
+                                  Verification found;
+                                  found.max_error = {1, 0};
+                                  return found;
+                                }};
+    for (const uint32_t width : {200u, 333u}) {
+      const Picture picture(render_png(flat, width, &comparison));
+      int gaps = 0;
+      for (int row = 0; row < picture.width - 30; ++row) {
+        for (int column = 0; column < picture.width - 30; ++column) {
+          gaps += !is_red(picture.at(kLeft + 2 + column, picture.height / 2 + 18 + row));
+        }
+      }
+      CHECK_MESSAGE(gaps == 0, cell);
+    }
+  }
+}
+
+TEST_CASE("render: small voids in snow are darker than snow and than no error") {
+  Portrait snow = portrait({{0, 0, 0},
+                            {0, 100, 500},
+                            {60, 100, 500},
+                            {60, 0, 500},
+                            {100, 100, 500},
+                            {100, 0, 500},
+                            {80, 50, 500},
+                            {81, 50, 500},
+                            {80, 51, 500}});
+  auto& triangles = snow.model.triangles;
+  const auto is_void = [&](const std::array<uint32_t, 3>& triangle) {
+    return std::all_of(triangle.begin(), triangle.end(), [&](uint32_t v) {
+      const auto& at = snow.model.vertices[v];
+      return at[0] >= 80 && at[0] <= 81 && at[1] >= 50 && at[1] <= 51;
+    });
+  };
+  const size_t before = triangles.size();
+  triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_void), triangles.end());
+  CHECK(triangles.size() + 1 == before);
+  snow.mesh = false;
+  const Picture picture(render_png(snow, 1000));
+  const int left = 13 + 974 * 80 / 100, top = picture.height - 47 - 13 - 974 * 51 / 100;
+  int darkest = 255;
+  for (int row = -9; row < 19; ++row) {
+    for (int column = 1; column < 8; ++column) {
+      darkest = std::min(darkest, picture.at(left + column, top + row)[0]);
+    }
+  }
+  CHECK(darkest < 190);
+  CHECK(picture.at(left - 40, top)[0] > 225);
+}
+
+TEST_CASE("render: the sea's colours tell its heights also where there is no land") {
+  const Palette deep(PaletteKind::kSea, -52.7, -51.1);
+  CHECK(deep.at(1).r > deep.at(0.5).r + 0.1);
+  CHECK(deep.at(0.5).r > deep.at(0).r + 0.1);
+}
+
+TEST_CASE("render: borders of tiles do not show in the shading") {
+  Raster raster;
+  raster.width = raster.height = 129;
+  for (int y = 0; y < 129; ++y) {
+    for (int x = 0; x < 129; ++x) {
+      raster.heights.push_back(std::lround(4000 * (std::sin(x * 0.07) + std::cos(y * 0.06))));
+    }
+  }
+  PackOptions options = pack_options(20, 200);
+  options.tile_steps = 32;
+  const PackFile pack(write_pack(encode_pack(raster, options)));
+  Portrait all;
+  all.model = pack::model_of(pack);
+  all.metadata = pack.metadata();
+  all.mesh = false;
+  const Picture picture(render_png(all, 1046));  // 8 pixels a step
+  REQUIRE(tile_columns(pack.grid()) > 2);
+  // How much neighbouring pixels differ, on the mean, across a border and in all the rest.
+  const auto left = 14, size = 1018;
+  const auto jump = [&](int column) {
+    double sum = 0;
+    for (int row = 40; row < size; ++row) {
+      sum += std::abs(picture.at(column, row)[0] - picture.at(column - 1, row)[0]);
+    }
+    return sum / (size - 40);
+  };
+  double inside = 0;
+  for (int column = left + 20; column < left + size - 20; ++column) inside += jump(column);
+  inside /= size - 40;
+  for (uint32_t tile = 1; tile < tile_columns(pack.grid()); ++tile) {
+    const double x = left + size * (tile * pack.grid().width) / 128.0;
+    double most = 0;
+    for (int near = -1; near <= 1; ++near) most = std::max(most, jump(static_cast<int>(x) + near));
+    CHECK_MESSAGE(most < 3 * inside, "across a border " << most << ", elsewhere " << inside);
+  }
 }
 
 TEST_CASE("render: triangles are drawn on the right, or not at all") {

@@ -157,13 +157,49 @@ inline std::string difference_of_heights(const microtin_mesh* mesh, const microt
   return "";
 }
 
+// A course between two such places, along one of the axes at times, or a place.
+inline microtin_course course_near(const microtin_mesh* mesh, Random& random) {
+  const FinePlace a = place_near(mesh, random), b = place_near(mesh, random);
+  const uint32_t kind = random.below(8);
+  return {a.x, a.y, kind == 0 || kind == 2 ? a.x : b.x, kind == 1 || kind == 2 ? a.y : b.y};
+}
+
+inline std::string difference_of_courses(const microtin_mesh* mesh, const microtin_compact* compact,
+                                         int courses, Random& random) {
+  for (int i = 0; i < courses; ++i) {
+    const microtin_course c = course_near(mesh, random);
+    int32_t expected = 1, highest = 1;
+    const microtin_answer answer = microtin_highest(mesh, &c, &expected);
+    if (answer != microtin_compact_highest(compact, &c, &highest) || expected != highest) {
+      return "on the course " + std::to_string(c.x) + " " + std::to_string(c.y) + " to " +
+             std::to_string(c.x_end) + " " + std::to_string(c.y_end);
+    }
+    const microtin_block block = {c.x,
+                                  c.y,
+                                  static_cast<int32_t>((c.x_end - c.x) / 4),
+                                  static_cast<int32_t>((c.y_end - c.y) / 3),
+                                  5,
+                                  4,
+                                  -9999};
+    std::array<int16_t, 20> heights{}, others{};
+    if (microtin_fill(mesh, &block, heights.data()) !=
+            microtin_compact_fill(compact, &block, others.data()) ||
+        heights != others) {
+      return "in the block at " + std::to_string(c.x) + " " + std::to_string(c.y);
+    }
+  }
+  return "";
+}
+
 inline std::string difference(const microtin_mesh* mesh, const microtin_compact* compact,
                               int places, Random& random) {
   if (microtin_compact_vertex_count(compact) != microtin_vertex_count(mesh)) return "vertex count";
   if (microtin_compact_digest(compact) != microtin_digest(mesh)) return "digest";
   if (!have_same_placement(mesh, compact)) return "placement";
   if (!(told_by(mesh) == told_by(compact))) return "vertices and triangles by number";
-  return difference_of_heights(mesh, compact, places, random);
+  const std::string of_heights = difference_of_heights(mesh, compact, places, random);
+  if (!of_heights.empty()) return of_heights;
+  return difference_of_courses(mesh, compact, places / 20, random);
 }
 
 }  // namespace microtin::tests

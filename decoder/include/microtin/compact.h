@@ -11,12 +11,12 @@
 #ifndef MICROTIN_COMPACT_H
 #define MICROTIN_COMPACT_H
 
-#include "microtin/microtin.h"
+#include "microtin/course.h"
 
 /* Bytes of a compact terrain of so many vertices; NARROW if its places lie in a box less than 256
  * steps wide and high. Constant expressions, also usable in #if. The path passes vertices that it
  * cannot reach by taking a neighbour twice, which costs as much as two vertices: these macros allow
- * for more of them than any terrain of our encoder has had. A mesh made to need more is told from
+ * for as many as the encoder lets pass. A mesh made to need more is told from
  * them by its status, MICROTIN_WORKSPACE_TOO_SMALL, before anything is changed. */
 #define MICROTIN_COMPACT_BYTES(vertices) \
   MICROTIN_COMPACT_BYTES_FOR(vertices, 2ul, MICROTIN_INDEX_BITS)
@@ -113,6 +113,12 @@ void microtin_compact_placement(const microtin_compact* compact, microtin_axis* 
  * do. A step is O(1) mostly; on meshes made for it O(n), but all steps of a walk are O(n log n). */
 microtin_answer microtin_compact_height_at(const microtin_compact* compact, int32_t x, int32_t y,
                                            uint32_t step_limit, uint32_t* hint, int32_t* height);
+
+/* As microtin_highest and microtin_fill, with the same answers. */
+microtin_answer microtin_compact_highest(const microtin_compact* compact,
+                                         const microtin_course* course, int32_t* height);
+microtin_answer microtin_compact_fill(const microtin_compact* compact, const microtin_block* block,
+                                      int16_t* heights);
 
 /* A hint for (x, y), given with 8 fractional bits, where none from nearby is at hand: by the
  * nearest of some vertices along the path, then of others beside that. Looks at about 16 vertices

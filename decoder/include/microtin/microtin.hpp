@@ -4,7 +4,7 @@
 #define MICROTIN_MICROTIN_HPP
 
 #include "microtin/compact.h"
-#include "microtin/microtin.h"
+#include "microtin/course.h"
 
 namespace microtin {
 
@@ -43,6 +43,12 @@ class Terrain {
   microtin_answer height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
                             uint32_t flags = 0, uint32_t step_limit = 0) const {
     return microtin_height_at_limited(mesh_, x, y, flags, step_limit, hint, height);
+  }
+  microtin_answer highest(const microtin_course& course, int32_t* height) const {
+    return microtin_highest(mesh_, &course, height);
+  }
+  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
+    return microtin_fill(mesh_, &block, heights);
   }
 
  private:
@@ -151,6 +157,12 @@ class CompactTerrain {
   microtin_answer height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
                             uint32_t step_limit = 0) const {
     return microtin_compact_height_at(compact_, x, y, step_limit, hint, height);
+  }
+  microtin_answer highest(const microtin_course& course, int32_t* height) const {
+    return microtin_compact_highest(compact_, &course, height);
+  }
+  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
+    return microtin_compact_fill(compact_, &block, heights);
   }
 
  private:

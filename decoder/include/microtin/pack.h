@@ -16,7 +16,7 @@
 #ifndef MICROTIN_PACK_H
 #define MICROTIN_PACK_H
 
-#include "microtin/microtin.h"
+#include "microtin/course.h"
 
 /* Bytes of the workspace of a pack that keeps `slots` tiles of up to `capacity` vertices: a
  * constant expression, also usable in #if. It must be aligned to MICROTIN_ALIGNMENT. A place can
@@ -47,12 +47,6 @@ microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots,
 
 /* Forgets all tiles, bad ones too, and the header, as after microtin_pack_init: another card. */
 void microtin_pack_reset(microtin_pack* pack);
-
-/* A straight way, or a place if both ends are the same. Each end within +-2^40, and less than 65536
- * steps (2^24 here) from the other along x and y. */
-typedef struct microtin_course {
-  int64_t x, y, x_end, y_end;
-} microtin_course;
 
 /* --- Reading and decoding. --- */
 
@@ -176,19 +170,7 @@ microtin_answer microtin_pack_height_at(const microtin_pack* pack, int64_t x, in
 microtin_answer microtin_pack_highest(const microtin_pack* pack, const microtin_course* course,
                                       int32_t* height);
 
-/* A block of places in rows: columns from (x, y) on by dx, rows by dy. */
-typedef struct microtin_block {
-  int64_t x, y;
-  int32_t dx, dy; /* 8 fractional bits, too */
-  uint16_t columns, rows;
-  int16_t missing; /* what to write where there is no height */
-} microtin_block;
-
-/* Writes columns * rows heights in whole units of the pack (such as metres), rounded to nearest,
- * halves up, kept within int16_t; `heights` is row by row. Returns HEIGHT if all are heights, else
- * the reason of the last that is not, NOT_DECODED before all others. OUTSIDE, and nothing is
- * written, if the z axis has a numerator of 2^31 or more or an offset beyond +-2^45, or x or y is
- * beyond +-2^40. */
+/* As microtin_fill. NOT_DECODED is told before all other answers. */
 microtin_answer microtin_pack_fill(const microtin_pack* pack, const microtin_block* block,
                                    int16_t* heights);
 

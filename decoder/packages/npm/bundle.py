@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """bundle.py MODULE.wasm VERSION FOLDER: makes the npm package: the sources with the WebAssembly within as one module,
-and what stands beside it. With binaryen, zopfli and esbuild."""
+and what stands beside it. With zopfli and esbuild."""
 import base64
 import json
 import shutil
@@ -11,7 +11,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[2]
-BESIDE = "README.md loader.js loader.d.ts microtin.d.ts".split()
+BESIDE = "README.md cesium.js cesium.d.ts loader.js loader.d.ts microtin.d.ts".split()
 
 
 def output(*command):
@@ -20,11 +20,7 @@ def output(*command):
 
 def module(wasm, version):
     """The text of the module."""
-    small = Path(wasm).with_suffix(".opt.wasm")
-    # Low memory is the far end of the stack, where no object lies.
-    output("wasm-opt", "--flatten", "--rereloop", "-Oz", "-Oz", "--converge", "--low-memory-unused",
-           "--enable-bulk-memory", "--enable-sign-ext", wasm, "-o", small)
-    text = base64.b64encode(output("zopfli", "-c", "--deflate", small)).decode()
+    text = base64.b64encode(output("zopfli", "-c", "--deflate", wasm)).decode()
     return output("esbuild", HERE / "src/index.js", "--bundle", "--minify", "--format=esm", "--target=es2022",
                   "--log-level=warning", f"--banner:js=// SPDX-License-Identifier: MIT\n// microtin {version}",
                   f"--define:MICROTIN_WASM={json.dumps(text)}", f"--define:MICROTIN_VERSION={json.dumps(version)}")

@@ -116,6 +116,8 @@ export class Pack {
   /** Tiles in a row and rows; tile 0 is the south-western one, and numbers grow along rows. */
   readonly columns: number;
   readonly rows: number;
+  /** Width and height of a tile in steps of x and y; those of the last column and row may be smaller. */
+  readonly tileSize: [number, number];
   readonly mostVertices: number;
   /** The lowest and highest vertex. */
   readonly lowest: number;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /* microtin: encoder and reader for languages that call C, as the shared library libmicrotin has
- * them beside all of microtin.h, compact.h and pack.h. C99 and C++.
+ * them beside all of microtin.h, course.h, compact.h and pack.h. C99 and C++.
  *
  * encoder.hpp and surface.hpp say more of what options mean and of what is returned. Numbers here
  * are real units; raster rows begin in the north. Texts are UTF-8 and end in 0; a null is an empty

@@ -13,7 +13,7 @@ const INFO_BYTES = 96, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12, 
   AXES = 24; // where they are in microtin_pack_info
 const MOST_SLOTS = 255;
 const FIRST_PIECE = 1024; // bytes of a tile that are read first; then twice as many
-const PACK_STEPS = 1024;
+const PACK_STEPS = 256;
 const IN_VOID = 2, IN_BAD_TILE = 6;
 
 export class Pack {

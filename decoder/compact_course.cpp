@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Courses and blocks on a compact terrain.
+#include "decoder/ring_form.hpp"
+#include "decoder/terrain_query.hpp"
+
+using namespace microtin;
+
+microtin_answer microtin_compact_highest(const microtin_compact* compact,
+                                         const microtin_course* course, int32_t* height) {
+  return highest_in_terrain(RingForm(compact), *course, height);
+}
+
+microtin_answer microtin_compact_fill(const microtin_compact* compact, const microtin_block* block,
+                                      int16_t* heights) {
+  return fill_from_terrain(RingForm(compact), compact->axis[2], *block, heights);
+}

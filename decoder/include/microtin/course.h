@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+/* microtin questions about many places of a terrain: the greatest height on a course, and blocks of
+ * heights. C99 and C++.
+ *
+ * Coordinates have 8 fractional bits. Nothing here allocates, recurses, uses floating point or
+ * keeps global state.
+ */
+#ifndef MICROTIN_COURSE_H
+#define MICROTIN_COURSE_H
+
+#include "microtin/microtin.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A straight way, or a place if both ends are the same. Each end within +-2^40, and less than 65536
+ * steps (2^24 here) from the other along x and y. */
+typedef struct microtin_course {
+  int64_t x, y, x_end, y_end;
+} microtin_course;
+
+/* The greatest height on the course: exact, rounded once, found where it crosses edges. HEIGHT:
+ * every place of it, those between lattice places too, has a height by microtin_height_at. OUTSIDE,
+ * IN_VOID: a part of it, be it a point, is outside the hull, or else void; *height is that of the
+ * rest, INT32_MIN if there is none, or if an end is outside 0 .. 65535 * 256. Also NOT_DECODED,
+ * NOT_VERIFIED. Looks at every triangle. */
+microtin_answer microtin_highest(const microtin_mesh* mesh, const microtin_course* course,
+                                 int32_t* height);
+
+/* A block of places in rows: columns from (x, y) on by dx, rows by dy. */
+typedef struct microtin_block {
+  int64_t x, y;
+  int32_t dx, dy; /* 8 fractional bits, too */
+  uint16_t columns, rows;
+  int16_t missing; /* what to write where there is no height */
+} microtin_block;
+
+/* Writes columns * rows heights in whole units of the z axis (such as metres), rounded to nearest,
+ * halves up, kept within int16_t; `heights` is row by row. Returns HEIGHT if all are heights, else
+ * the reason of the last that is not. OUTSIDE, and nothing is written, if the z axis has a
+ * numerator of 2^31 or more or an offset beyond +-2^45, or x or y is beyond +-2^40. A query for
+ * each place, from where the one before ended. */
+microtin_answer microtin_fill(const microtin_mesh* mesh, const microtin_block* block,
+                              int16_t* heights);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Questions about many places, whatever knows their heights: a function of x, y, hint and height
+// that answers as microtin_height_at does.
+#ifndef MICROTIN_DECODER_PLACES_HPP
+#define MICROTIN_DECODER_PLACES_HPP
+
+#include "decoder/touched_tiles.hpp"
+
+namespace microtin {
+
+inline microtin_course place(int64_t x, int64_t y) {
+  return microtin_course{x, y, x, y};
+}
+
+// How bad an answer is. No switch: compilers make tables of those, which AVR would keep in RAM.
+inline int rank(microtin_answer answer) {
+  if (answer == MICROTIN_NOT_DECODED) return 4;
+  if (answer == MICROTIN_IN_BAD_TILE) return 3;
+  if (answer == MICROTIN_OUTSIDE) return 2;
+  return answer == MICROTIN_IN_VOID ? 1 : 0;
+}
+
+inline microtin_answer worse(microtin_answer a, microtin_answer b) {
+  return rank(a) > rank(b) ? a : b;
+}
+
+// At the ends of a course. *highest becomes the greater height, if there is one.
+template <class HeightAt>
+microtin_answer ask_ends(const microtin_course& course, const HeightAt& height_at,
+                         int32_t* highest) {
+  uint32_t hint = 0;
+  int32_t begin = INT32_MIN, end = INT32_MIN;
+  const microtin_answer answer = worse(height_at(course.x, course.y, &hint, &begin),
+                                       height_at(course.x_end, course.y_end, &hint, &end));
+  *highest = begin > end ? begin : end;
+  return answer;
+}
+
+// Whether heights on an axis can be told in whole units.
+inline bool has_small_units(const microtin_axis& z) {
+  const int64_t furthest = static_cast<int64_t>(1) << 45;
+  return z.numerator >> 31 == 0 && z.offset <= furthest && z.offset >= -furthest;
+}
+
+// A height in whole units, halves up, kept within int16_t. |z| < 2^31, the numerator < 2^31, the
+// offset within 2^45, the denominator < 2^40: sums below 2^62 + 2^61 + 2^55.
+inline int16_t in_units(int32_t z, const microtin_axis& axis) {
+  const int64_t unit = static_cast<int64_t>(axis.denominator) * 65536;
+  const int64_t sum = static_cast<int64_t>(axis.numerator) * z + axis.offset * 65536 + unit / 2;
+  int64_t height = sum / unit;
+  if (sum % unit < 0) --height;
+  if (height > INT16_MAX) return INT16_MAX;
+  return static_cast<int16_t>(height < INT16_MIN ? INT16_MIN : height);
+}
+
+// The heights of a block in whole units of the axis z, as microtin_pack_fill tells them.
+template <class HeightAt>
+microtin_answer fill(const microtin_block& block, const microtin_axis& axis,
+                     const HeightAt& height_at, int16_t* heights) {
+  if (!is_legal(place(block.x, block.y))) return MICROTIN_OUTSIDE;
+  microtin_answer answer = MICROTIN_HEIGHT;
+  uint32_t hint = 0;
+  for (uint32_t row = 0; row < block.rows; ++row) {
+    const int64_t y = block.y + static_cast<int64_t>(block.dy) * row;
+    for (uint32_t column = 0; column < block.columns; ++column) {
+      const int64_t x = block.x + static_cast<int64_t>(block.dx) * column;
+      int32_t z = 0;
+      const microtin_answer here = height_at(x, y, &hint, &z);
+      *heights++ = here == MICROTIN_HEIGHT ? in_units(z, axis) : block.missing;
+      if (here != MICROTIN_HEIGHT && answer != MICROTIN_NOT_DECODED) answer = here;
+    }
+  }
+  return answer;
+}
+
+}  // namespace microtin
+
+#endif

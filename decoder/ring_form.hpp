@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// A compact terrain, as courses want to see terrains: tile_course.hpp.
+#ifndef MICROTIN_DECODER_RING_FORM_HPP
+#define MICROTIN_DECODER_RING_FORM_HPP
+
+#include "decoder/ring_cursor.hpp"
+#include "decoder/tile_course.hpp"
+
+namespace microtin {
+
+class RingForm {
+ public:
+  typedef RingCursor Cursor;
+  static constexpr bool kIsCompact = true;
+
+  explicit RingForm(const void* space)
+      : c_(static_cast<const microtin_compact*>(space)), ring_(ring_of(c_)) {}
+
+  uint32_t triangles() const { return triangle_count(ring_); }
+  Point corner() const { return Point{c_->west, c_->south}; }
+  RingCursor at(uint32_t t) const { return cursor_at(ring_, t); }
+  bool places(uint32_t t, Point* places) const {
+    const uint32_t middle = middle_of(t), low = low_of(ring_, middle, t & 1u);
+    if (low == 0) return false;
+    places[0] = place_of(ring_, low);
+    places[1] = place_of(ring_, middle);
+    places[2] = place_of(ring_, high_of(ring_, middle, t & 1u));
+    return true;
+  }
+  microtin_answer height_at(LocalPoint p, uint32_t* hint, int32_t* height) const {
+    return microtin_compact_height_at(c_, p.x, p.y, 0, hint, height);
+  }
+
+ private:
+  const microtin_compact* c_;
+  Ring ring_;
+};
+
+}  // namespace microtin
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Which posts a grid of a surface has, and where they are on its lattice.
+#ifndef MICROTIN_ENCODER_EXPORT_POST_GRID_HPP
+#define MICROTIN_ENCODER_EXPORT_POST_GRID_HPP
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "encoder/exact/decimal.hpp"
+#include "encoder/exact/lattice_map.hpp"
+#include "encoder/export/height_sampler.hpp"
+#include "encoder/layers.hpp"
+
+namespace microtin::exporting {
+
+// A rectangle in a surface's coordinates: west < east, south < north, with at most 12 decimals and
+// magnitudes below 10^12.
+struct Extent {
+  Decimal west, south, east, north;
+};
+
+// Four such decimals, "WEST,SOUTH,EAST,NORTH"; nothing for any other text.
+std::optional<Extent> parse_extent(const std::string& text);
+
+// The surface's box, for people: "x 2 to 5, y -1 to 8".
+std::string extent_text(const SampledSurface& surface);
+
+// The lattice's places in the surface's box.
+PostGrid lattice_grid(const SampledSurface& surface);
+
+// Posts `cell` > 0 apart, from the south-west corner of the surface's box, or of an extent, on.
+// Throws Error if they are more than 2^31 in a row or column, or if an axis cannot say where.
+PostGrid grid_of_cells(const SampledSurface& surface, Decimal cell);
+PostGrid grid_of_cells(const Extent& extent, Decimal cell);
+
+// Those of a grid's posts, continued to all sides, that lie in the extent. Throws Error as above,
+// and if there are none.
+PostGrid posts_within(const PostGrid& grid, const Extent& extent);
+
+// From posts of one axis to their places on the lattice.
+class PostPlaces {
+ public:
+  // Places lie between `low` and `high`. No step is 0.
+  PostPlaces(const Axis& posts, const Axis& lattice, int64_t low, int64_t high)
+      : map_(map_between(posts, lattice)), low_(low), high_(high) {}
+
+  // With 8 fractional bits, to the nearest; nothing if it is not between these.
+  std::optional<int64_t> operator()(int64_t post) const;
+
+ private:
+  LatticeMap map_;
+  int64_t low_, high_;
+};
+
+// If the box of the posts meets that of the surface.
+bool meets(const SampledSurface& surface, const PostGrid& posts);
+
+}  // namespace microtin::exporting
+
+#endif

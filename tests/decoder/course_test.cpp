@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Courses and blocks on a single terrain, as a mesh and in compact form: against exact fractions.
+#include "microtin/course.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "microtin/microtin.hpp"
+#include "tests/support/compact_pair.hpp"
+#include "tests/support/device.hpp"
+#include "tests/support/reference_course.hpp"
+#include "tests/support/streams.hpp"
+
+namespace microtin::tests {
+namespace {
+
+using namespace reference;
+
+constexpr uint32_t kCapacity = 400;
+
+// A terrain twice: as a mesh, and compact.
+struct Both {
+  Terrain<kCapacity> mesh, made;
+  CompactTerrain<kCapacity> compact;
+
+  explicit Both(const Bytes& stream) {
+    Decoder<kCapacity> decoder(mesh);
+    size_t used = 0;
+    REQUIRE(decoder.feed(stream.data(), stream.size(), &used) == MICROTIN_DONE);
+    decoder.begin(made);
+    REQUIRE(decoder.feed(stream.data(), stream.size(), &used) == MICROTIN_DONE);
+    REQUIRE(compact.make(made, decoder) == MICROTIN_DONE);
+  }
+};
+
+struct Counts {
+  int known = 0, in_void = 0, outside = 0;
+};
+
+microtin_answer answer_at(const Both& terrain, int64_t x, int64_t y, int32_t* height) {
+  uint32_t hint = 0;
+  return terrain.mesh.height_at(static_cast<int32_t>(x), static_cast<int32_t>(y), &hint, height);
+}
+
+void check_course(const Both& terrain, const Surface& surface, const microtin_course& c,
+                  Counts& counts) {
+  CAPTURE(c.x);
+  CAPTURE(c.y);
+  CAPTURE(c.x_end);
+  CAPTURE(c.y_end);
+  const Expected expected = expect(surface, c);
+  int32_t highest = 1, compact_highest = 2, begin = INT32_MIN, end = INT32_MIN;
+  const microtin_answer answer = terrain.mesh.highest(c, &highest);
+  REQUIRE(terrain.compact.highest(c, &compact_highest) == answer);
+  REQUIRE(compact_highest == highest);
+  REQUIRE(highest == expected.highest);
+  REQUIRE((answer == MICROTIN_HEIGHT) == expected.is_known);
+  const bool leaves = answer_at(terrain, c.x, c.y, &begin) == MICROTIN_OUTSIDE ||
+                      answer_at(terrain, c.x_end, c.y_end, &end) == MICROTIN_OUTSIDE;
+  REQUIRE((answer == MICROTIN_OUTSIDE) == leaves);
+  ++(expected.is_known ? counts.known : leaves ? counts.outside : counts.in_void);
+}
+
+Tin small_tin(uint32_t seed) {
+  Random random(seed);
+  const uint32_t side = 4 + random.below(20);
+  Points points = uniform_points(4 + random.below(60), random, side);
+  points.push_back(point(side, side + 1));
+  points.push_back(point(side + 1, side));
+  Tin tin;
+  for (const Point p : points) {
+    tin.vertices.push_back({p.x, p.y, static_cast<int16_t>(random.below(2000) - 1000)});
+  }
+  return seed % 3 == 0 ? tin : with_voids(tin);
+}
+
+// Whole steps at times, along an axis at times; now and then beside the terrain.
+microtin_course small_course(Random& random, int64_t side) {
+  const int64_t unit = random.below(3) == 0 ? 1 : 256;
+  const auto pick = [&] {
+    return static_cast<int64_t>(random.below(static_cast<uint32_t>(side * 256))) / unit * unit;
+  };
+  microtin_course c = {pick(), pick(), pick(), pick()};
+  const uint32_t kind = random.below(8);
+  if (kind == 0 || kind == 2) c.x_end = c.x;
+  if (kind == 1 || kind == 2) c.y_end = c.y;
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("the highest on a course of a terrain is exact, and known if every place is") {
+  Counts counts;
+  for (uint32_t seed = 0; seed < 160; ++seed) {
+    CAPTURE(seed);
+    const Both terrain(encode(small_tin(seed), Metadata(), Effort{32, Decoding::kQuick}));
+    Surface surface;
+    surface.add(terrain.mesh.mesh(), 0, 0);
+    Random random(seed);
+    for (int i = 0; i < 60; ++i) check_course(terrain, surface, small_course(random, 27), counts);
+  }
+  CHECK(counts.known > 500);
+  CHECK(counts.in_void > 500);
+  CHECK(counts.outside > 500);
+}
+
+TEST_CASE("the highest of courses with an end off the lattice, and of meshes that are not there") {
+  const Both terrain(terrain_stream(300, 4));
+  int32_t height = 1;
+  for (const microtin_course& c :
+       {microtin_course{-1, 0, 5000, 0}, microtin_course{0, 0, 65535 * 256 + 1, 0},
+        microtin_course{INT64_MIN, 0, INT64_MAX, 0}, microtin_course{0, INT64_MAX, 0, INT64_MIN}}) {
+    CHECK(terrain.mesh.highest(c, &height) == MICROTIN_OUTSIDE);
+    CHECK(height == INT32_MIN);
+    CHECK(terrain.compact.highest(c, &height) == MICROTIN_OUTSIDE);
+  }
+  CHECK(terrain.made.highest({0, 0, 5, 5}, &height) == MICROTIN_NOT_DECODED);
+  const Bytes stream = terrain_stream(900, 6);
+  const Device device(900);
+  size_t used = 0;
+  REQUIRE(device.feed(stream.data(), stream.size(), &used, 300) == MICROTIN_STEP_LIMIT);
+  const microtin_course c = {0, 0, 65535 * 256, 65535 * 256};
+  CHECK(microtin_highest(device.mesh, &c, &height) == MICROTIN_NOT_VERIFIED);
+}
+
+TEST_CASE("blocks of a terrain hold what single answers say, in whole units") {
+  Metadata metadata;
+  metadata.placement.z = {-7, 3, 4};
+  const Both terrain(encode(small_tin(7), metadata, Effort{32, Decoding::kQuick}));
+  const microtin_block block = {-100, 100, 80, 150, 40, 20, -9999};
+  std::array<int16_t, 800> heights{}, others{};
+  const microtin_answer answer = terrain.mesh.fill(block, heights.data());
+  CHECK(terrain.compact.fill(block, others.data()) == answer);
+  CHECK(heights == others);
+  microtin_answer last = MICROTIN_HEIGHT;
+  int known = 0;
+  for (int i = 0; i < 800; ++i) {
+    int32_t z = 0;
+    const microtin_answer here =
+        answer_at(terrain, block.x + i % 40 * block.dx, block.y + i / 40 * block.dy, &z);
+    if (here != MICROTIN_HEIGHT) last = here;
+    known += here == MICROTIN_HEIGHT ? 1 : 0;
+    const Wide real = rounded((Wide{z} * 3 - Wide{7} * 65536), Wide{4} * 65536);
+    CHECK(heights[static_cast<size_t>(i)] == (here == MICROTIN_HEIGHT ? real : -9999));
+  }
+  CHECK(answer == last);
+  CHECK(known > 150);
+  CHECK(known < 800);
+  CHECK(terrain.compact.fill({INT64_MAX, 0, 1, 1, 1, 1, 0}, others.data()) == MICROTIN_OUTSIDE);
+}
+
+}  // namespace microtin::tests
