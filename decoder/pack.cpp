@@ -5,7 +5,7 @@
 namespace microtin {
 namespace {
 
-void want(microtin_pack& p, PackStage stage, uint64_t offset, uint32_t size) {
+MICROTIN_ONE_COPY void want(microtin_pack& p, PackStage stage, uint64_t offset, uint32_t size) {
   p.stage = stage;
   p.next = offset;
   p.buffered = 0;

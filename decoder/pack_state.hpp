@@ -97,7 +97,7 @@ static_assert(sizeof(microtin_pack) % alignof(microtin::PackSlot) == 0, "slots f
 namespace microtin {
 
 // The slot where a tile is; slot_count if it is not there.
-inline uint32_t slot_of(const microtin_pack& p, uint32_t tile) {
+MICROTIN_ONE_COPY inline uint32_t slot_of(const microtin_pack& p, uint32_t tile) {
   for (uint32_t i = 0; i < p.slot_count; ++i) {
     if (p.slots[i].state == SlotState::kReady && p.slots[i].tile == tile) return i;
   }
@@ -120,7 +120,7 @@ microtin_status refuse_tile(microtin_pack& p, microtin_status why);
 microtin_status fail_pack(microtin_pack& p, microtin_status status);
 
 // Where it is remembered that a tile is bad; MICROTIN_PACK_BAD_TILES if it is not.
-inline uint32_t bad_tile(const microtin_pack& p, uint32_t tile) {
+MICROTIN_ONE_COPY inline uint32_t bad_tile(const microtin_pack& p, uint32_t tile) {
   uint32_t i = 0;
   while (i < MICROTIN_PACK_BAD_TILES && (p.bad[i].is_empty() || p.bad[i].tile != tile)) ++i;
   return i;

@@ -5,6 +5,7 @@
 #define MICROTIN_DECODER_PLACES_HPP
 
 #include "decoder/touched_tiles.hpp"
+#include "shared/division.hpp"
 
 namespace microtin {
 
@@ -38,17 +39,19 @@ microtin_answer ask_ends(const microtin_course& course, const HeightAt& height_a
 
 // Whether heights on an axis can be told in whole units.
 inline bool has_small_units(const microtin_axis& z) {
-  const int64_t furthest = static_cast<int64_t>(1) << 45;
-  return z.numerator >> 31 == 0 && z.offset <= furthest && z.offset >= -furthest;
+  return z.numerator >> 31 == 0 && is_within(z.offset, static_cast<int64_t>(1) << 45);
 }
 
 // A height in whole units, halves up, kept within int16_t. |z| < 2^31, the numerator < 2^31, the
 // offset within 2^45, the denominator < 2^40: sums below 2^62 + 2^61 + 2^55.
-inline int16_t in_units(int32_t z, const microtin_axis& axis) {
+MICROTIN_ONE_COPY inline int16_t in_units(int32_t z, const microtin_axis& axis) {
   const int64_t unit = static_cast<int64_t>(axis.denominator) * 65536;
-  const int64_t sum = static_cast<int64_t>(axis.numerator) * z + axis.offset * 65536 + unit / 2;
-  int64_t height = sum / unit;
-  if (sum % unit < 0) --height;
+  const int64_t sum = static_cast<int64_t>(static_cast<int32_t>(axis.numerator)) * z +
+                      axis.offset * 65536 + unit / 2;
+  // Rounded down, of both signs.
+  const uint64_t whole =
+      divide(static_cast<uint64_t>(sum < 0 ? ~sum : sum), static_cast<uint64_t>(unit)).whole;
+  const int64_t height = sum < 0 ? ~static_cast<int64_t>(whole) : static_cast<int64_t>(whole);
   if (height > INT16_MAX) return INT16_MAX;
   return static_cast<int16_t>(height < INT16_MIN ? INT16_MIN : height);
 }
@@ -57,13 +60,13 @@ inline int16_t in_units(int32_t z, const microtin_axis& axis) {
 template <class HeightAt>
 microtin_answer fill(const microtin_block& block, const microtin_axis& axis,
                      const HeightAt& height_at, int16_t* heights) {
-  if (!is_legal(place(block.x, block.y))) return MICROTIN_OUTSIDE;
+  if (!is_within(block.x, kCourseMost) || !is_within(block.y, kCourseMost)) return MICROTIN_OUTSIDE;
   microtin_answer answer = MICROTIN_HEIGHT;
   uint32_t hint = 0;
-  for (uint32_t row = 0; row < block.rows; ++row) {
-    const int64_t y = block.y + static_cast<int64_t>(block.dy) * row;
-    for (uint32_t column = 0; column < block.columns; ++column) {
-      const int64_t x = block.x + static_cast<int64_t>(block.dx) * column;
+  int64_t y = block.y;  // below 2^40 + 2^47
+  for (uint32_t row = 0; row < block.rows; ++row, y += block.dy) {
+    int64_t x = block.x;
+    for (uint32_t column = 0; column < block.columns; ++column, x += block.dx) {
       int32_t z = 0;
       const microtin_answer here = height_at(x, y, &hint, &z);
       *heights++ = here == MICROTIN_HEIGHT ? in_units(z, axis) : block.missing;

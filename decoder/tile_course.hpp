@@ -9,6 +9,7 @@
 #ifndef MICROTIN_DECODER_TILE_COURSE_HPP
 #define MICROTIN_DECODER_TILE_COURSE_HPP
 
+#include "decoder/local_point.hpp"
 #include "decoder/walk.hpp"
 #include "microtin/course.h"
 #include "shared/pack_format.hpp"
@@ -21,29 +22,6 @@ inline int32_t smaller(int32_t a, int32_t b) {
 
 inline int32_t larger(int32_t a, int32_t b) {
   return a < b ? b : a;
-}
-
-// In steps with 8 fractional bits, from the first corner of a tile that the course touches: within
-// 2^25.
-struct LocalPoint {
-  int32_t x, y;
-};
-
-inline LocalPoint local(const TileBox& box, int64_t x, int64_t y) {
-  return LocalPoint{static_cast<int32_t>(x - static_cast<int64_t>(box.x) * 256),
-                    static_cast<int32_t>(y - static_cast<int64_t>(box.y) * 256)};
-}
-
-inline LocalPoint fine_point(Point p) {
-  return LocalPoint{p.x * static_cast<int32_t>(256), p.y * static_cast<int32_t>(256)};
-}
-
-// Twice the signed area of (a, b, p): positive if p lies to the left of a -> b. Ends of courses are
-// less than 2^24 apart, corners of triangles too, and none is farther than 2^26 from another: below
-// 2^51.
-inline int64_t orient(LocalPoint a, LocalPoint b, LocalPoint p) {
-  return static_cast<int64_t>(b.x - a.x) * (p.y - a.y) -
-         static_cast<int64_t>(b.y - a.y) * (p.x - a.x);
 }
 
 inline int64_t magnitude(int64_t v) {
@@ -123,11 +101,17 @@ class TileCourse {
 
  private:
   struct Corner {
-    Vertex vertex;
+    LocalPoint at;
+    int32_t z;
     int64_t side;  // of the course: positive to the left
-
-    LocalPoint at() const { return fine_point(Point{vertex.x, vertex.y}); }
   };
+
+  template <class Cursor>
+  Corner corner_of(const Cursor& cursor, uint32_t i) const {
+    const Vertex v = cursor.vertex(cursor.corner(i));
+    const LocalPoint at = fine_point(Point{v.x, v.y});
+    return Corner{at, v.z, orient(begin_, end_, at)};
+  }
 
   // Whole steps that the course reaches along an axis.
   struct Reach {
@@ -153,8 +137,7 @@ class TileCourse {
     if (cursor.is_ghost())
       return !leaves_at(cursor.place(cursor.start()), cursor.place(cursor.end()));
     Corner corner[3];
-    for (uint32_t i = 0; i < 3; ++i) corner[i] = Corner{cursor.vertex(cursor.corner(i)), 0};
-    for (Corner& c : corner) c.side = orient(begin_, end_, c.at());
+    for (uint32_t i = 0; i < 3; ++i) corner[i] = corner_of(cursor, i);
     if (!cursor.has_terrain()) {
       for (const Corner& c : corner) look_at_corner(c, highest);
       return !loses_in(cursor, corner);
@@ -187,7 +170,7 @@ class TileCourse {
   // Whether the course has a point on the closed edge, given its ends' sides.
   bool meets(const Corner& a, const Corner& b) const {
     if ((a.side > 0 && b.side > 0) || (a.side < 0 && b.side < 0)) return false;
-    const int64_t from = orient(a.at(), b.at(), begin_), to = orient(a.at(), b.at(), end_);
+    const int64_t from = orient(a.at, b.at, begin_), to = orient(a.at, b.at, end_);
     return (from <= 0 && to >= 0) || (from >= 0 && to <= 0);
   }
 
@@ -200,15 +183,14 @@ class TileCourse {
       look_at_corner(b, highest);
     } else if (meets(a, b)) {
       // The share may not fit in 32 bits; the sum lies between the ends.
-      const int64_t height =
-          static_cast<int64_t>(a.vertex.z) * 65536 + share(b.vertex.z - a.vertex.z, part, whole);
+      const int64_t height = static_cast<int64_t>(a.z) * 65536 + share(b.z - a.z, part, whole);
       raise(static_cast<int32_t>(height), highest);
     }
   }
 
   // A vertex on the course.
   void look_at_corner(const Corner& a, int32_t* highest) const {
-    if (a.side == 0 && spans(a.at())) raise(a.vertex.z * 65536, highest);
+    if (a.side == 0 && spans(a.at)) raise(a.z * 65536, highest);
   }
 
   static void raise(int32_t height, int32_t* highest) {
@@ -230,7 +212,7 @@ class TileCourse {
     if (passes_inside(corner)) return true;
     for (uint32_t i = 0; i < 3; ++i, cursor.turn()) {
       const Corner &a = corner[i], &b = corner[i == 2 ? 0 : i + 1];
-      if (a.side != 0 || b.side != 0 || !runs_along(a.at(), b.at())) continue;
+      if (a.side != 0 || b.side != 0 || !runs_along(a.at, b.at)) continue;
       Cursor other = cursor;
       other.cross();
       if (!other.has_terrain()) return true;
@@ -244,7 +226,7 @@ class TileCourse {
     bool some_left = false, some_right = false;
     for (int i = 0; i < 3; ++i) {
       const Corner &a = corner[i], &b = corner[i == 2 ? 0 : i + 1];
-      if (orient(a.at(), b.at(), begin_) <= 0 && orient(a.at(), b.at(), end_) <= 0) return false;
+      if (orient(a.at, b.at, begin_) <= 0 && orient(a.at, b.at, end_) <= 0) return false;
       some_left = some_left || a.side > 0;
       some_right = some_right || a.side < 0;
     }

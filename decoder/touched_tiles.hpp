@@ -3,28 +3,30 @@
 #ifndef MICROTIN_DECODER_TOUCHED_TILES_HPP
 #define MICROTIN_DECODER_TOUCHED_TILES_HPP
 
+#include "decoder/local_point.hpp"
 #include "microtin/course.h"
-#include "shared/pack_format.hpp"
 
 namespace microtin {
 
 constexpr int64_t kCourseMost = static_cast<int64_t>(1) << 40;
 constexpr int64_t kCourseLongest = static_cast<int64_t>(1) << 24;
 
-inline bool is_legal(const microtin_course& c) {
-  const int64_t ends[4] = {c.x, c.y, c.x_end, c.y_end};
-  for (int i = 0; i < 4; ++i) {
-    if (ends[i] > kCourseMost || ends[i] < -kCourseMost) return false;
-  }
-  const int64_t dx = c.x_end - c.x, dy = c.y_end - c.y;
-  return dx < kCourseLongest && dx > -kCourseLongest && dy < kCourseLongest && dy > -kCourseLongest;
+MICROTIN_ONE_COPY inline bool is_within(int64_t value, int64_t most) {
+  return value <= most && value >= -most;
+}
+
+MICROTIN_ONE_COPY inline bool is_legal(const microtin_course& c) {
+  return is_within(c.x, kCourseMost) && is_within(c.y, kCourseMost) &&
+         is_within(c.x_end, kCourseMost) && is_within(c.y_end, kCourseMost) &&
+         is_within(c.x_end - c.x, kCourseLongest - 1) &&
+         is_within(c.y_end - c.y, kCourseLongest - 1);
 }
 
 // The tiles whose closed boxes a legal course meets, row by row from where it begins. Looks at no
 // more than twice as many boxes as its bounding box has columns and rows, together.
 class TouchedTiles {
  public:
-  TouchedTiles(const TileGrid& grid, const microtin_course& course)
+  MICROTIN_ONE_COPY TouchedTiles(const TileGrid& grid, const microtin_course& course)
       : grid_(grid),
         course_(course),
         columns_(slices(course.x, course.x_end, grid.width, grid.x_max)),
@@ -53,20 +55,19 @@ class TouchedTiles {
   enum class Side { kLeft, kOn, kRight };
 
   // Where a box is, seen along the course. Its corners are within 2^25 of the beginning, the end
-  // within 2^24: products stay below 2^50.
+  // within 2^24.
   Side side() const {
     const TileBox b = box();
-    const int64_t left = static_cast<int64_t>(b.x) * 256 - course_.x,
-                  right = static_cast<int64_t>(b.x_end) * 256 - course_.x,
-                  below = static_cast<int64_t>(b.y) * 256 - course_.y,
-                  above = static_cast<int64_t>(b.y_end) * 256 - course_.y;
-    const int64_t dx = course_.x_end - course_.x, dy = course_.y_end - course_.y;
-    const int64_t corner[4] = {dx * below - dy * left, dx * below - dy * right,
-                               dx * above - dy * left, dx * above - dy * right};
+    const LocalPoint begin = local(b, course_.x, course_.y),
+                     end = local(b, course_.x_end, course_.y_end),
+                     size = {static_cast<int32_t>(b.x_end - b.x) * 256,
+                             static_cast<int32_t>(b.y_end - b.y) * 256};
     bool some_left = false, some_right = false;
-    for (int i = 0; i < 4; ++i) {
-      some_left = some_left || corner[i] >= 0;
-      some_right = some_right || corner[i] <= 0;
+    for (uint32_t i = 0; i < 4; ++i) {
+      const int64_t corner =
+          orient(begin, end, LocalPoint{(i & 1u) != 0 ? size.x : 0, (i & 2u) != 0 ? size.y : 0});
+      some_left = some_left || corner >= 0;
+      some_right = some_right || corner <= 0;
     }
     return !some_left ? Side::kRight : some_right ? Side::kOn : Side::kLeft;
   }

@@ -49,6 +49,11 @@
 #define MICROTIN_WITHOUT_CALLS
 #endif
 
+// Where a table of some KB is cheaper than a division.
+#if (defined(__x86_64__) || defined(__aarch64__)) && !defined(__OPTIMIZE_SIZE__)
+#define MICROTIN_LARGE_TABLES
+#endif
+
 // Where a multiplication makes 32 bits at most: wider ones are calls.
 #if defined(__ARM_ARCH_6M__) || defined(__AVR__) || (defined(__riscv) && !defined(__riscv_mul))
 #define MICROTIN_NARROW_MACHINE

@@ -57,10 +57,10 @@ inline int32_t kept_within(int32_t v, int32_t least, int32_t most) {
   return v < least ? least : v > most ? most : v;
 }
 
-// The root of v < 2^31 but for 1 / 256 of it.
+// The root of v but for 1 / 256 of it, for 0 < v < 2^31.
 inline uint32_t rough_root(uint32_t v) {
-  const uint32_t half = highest_bit(v | 1u) >> 1;
-  const uint32_t guess = (11u * ((2u << half) + (v >> half)) >> 5) + 1;
+  const uint32_t half = highest_bit(v) >> 1;
+  const uint32_t guess = (11u * (v >> half) + ((22u << half) + 32u)) >> 5;
   return (guess + v / guess) >> 1;
 }
 

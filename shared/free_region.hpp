@@ -33,10 +33,17 @@ inline int32_t cross(Spot a, Spot b) {
   return a.x * b.y - a.y * b.x;
 }
 
-// v * 2^shift, rounded down; the result fits.
+// v * 2^shift, rounded down; the result fits. |v| < 2^19, -26 <= shift <= 10.
+#if UINTPTR_MAX > 0xFFFFFFFFu
 inline int32_t shifted(FastInt v, int32_t shift) {
-  return static_cast<int32_t>(shift >= 0 ? v * (static_cast<FastInt>(1) << shift) : v >> -shift);
+  constexpr int32_t kFiner = 32;  // by so much more, which leaves all below 2^61, and back
+  return static_cast<int32_t>(v * (static_cast<FastInt>(1) << (shift + kFiner)) >> kFiner);
 }
+#else
+inline int32_t shifted(FastInt v, int32_t shift) {
+  return shift >= 0 ? v * (static_cast<FastInt>(1) << shift) : v >> -shift;
+}
+#endif
 
 inline Spot shifted(Offset v, int32_t shift) {
   return Spot{shifted(v.x, shift), shifted(v.y, shift)};
@@ -103,20 +110,64 @@ struct FreeRegion {
 // Area, over the squared chord, of the segment that is seen under k >= 0 (8 fractional bits, at
 // most 2^14): 12 fractional bits, at most 1592. It is about 1/6 (k + 0.734) / (k^2 + 0.734 k +
 // 0.315), off by at most 1.25 %.
-inline uint32_t minor_segment(uint32_t k) {
+constexpr uint32_t minor_segment(uint32_t k) {
   return (k + 188u) * 174763u / (k * (k + 188u) + 20643u);
 }
 
+// Twice the area of a whole disc over the squared chord, pi / 2 (1 + k^2), with k <= 4 (8
+// fractional bits): 8 fractional bits, at most 6834.
+constexpr uint32_t whole_disc(uint32_t k) {
+  return (65536u + (k < 1024 ? k * k : 1024u * 1024u)) * 201u >> 15;
+}
+
+#if defined(MICROTIN_LARGE_TABLES)
+
+// Both, for all cotangents up to the largest cap: 64 KB, of which few are met often.
+struct SegmentTable {
+  struct Entry {
+    uint16_t minor, disc;
+  } under[kOwnCap * 256 + 1];
+
+  constexpr SegmentTable() : under() {
+    uint32_t k = 0;
+    for (Entry& entry : under) {
+      entry.minor = static_cast<uint16_t>(minor_segment(k));
+      entry.disc = static_cast<uint16_t>(whole_disc(k));
+      ++k;
+    }
+  }
+};
+
+constexpr SegmentTable kSegments{};
+
+inline uint32_t minor_segment_under(uint32_t k) {
+  return kSegments.under[k].minor;
+}
+
+inline uint32_t whole_disc_under(uint32_t k) {
+  return kSegments.under[k].disc;
+}
+
+#else
+
+inline uint32_t minor_segment_under(uint32_t k) {
+  return minor_segment(k);
+}
+
+inline uint32_t whole_disc_under(uint32_t k) {
+  return whole_disc(k);
+}
+
+#endif
+
 // Twice the area of the segment to the left of a chord of squared length `square` < 2^25: below
-// 2^30. Up to a half disc (k <= 0) it is minor; beyond it is what the disc has left, pi / 4 (1 +
-// k^2), with k <= 4.
+// 2^30. Up to a half disc (k <= 0) it is minor; beyond it is what the disc has left.
 inline int32_t segment(uint32_t square, Cotangent fine) {
   const int32_t k = fine >> (kCotangentBits - 8);
   const uint32_t size = static_cast<uint32_t>(k < 0 ? -k : k);
-  const int32_t minor = static_cast<int32_t>((square >> 4) * minor_segment(size) >> 7);
+  const int32_t minor = static_cast<int32_t>((square >> 4) * minor_segment_under(size) >> 7);
   if (k <= 0) return minor;
-  const uint32_t kept = size < 4u * 256u ? size : 4u * 256u;
-  return static_cast<int32_t>((square >> 8) * ((65536u + kept * kept) * 201u >> 15)) - minor;
+  return static_cast<int32_t>((square >> 8) * whole_disc_under(size)) - minor;
 }
 
 // The circle over the side from v to `end`, seen from the apex of the triangle behind it; `turn` is
@@ -161,7 +212,7 @@ inline int32_t segment_behind(const FreeRegion& region, Side& side, Spot end, in
 // log2 of the free region's area in lattice units: the triangle and what its circle reaches beyond
 // open sides, less what circles behind certified sides reach into it, but never less than a part
 // of the triangle. Two segments below 2^30 and a triangle below 2^23 fit.
-inline Log2 free_area(FreeRegion& region) {
+MICROTIN_OUT_OF_LINE inline Log2 free_area(FreeRegion& region) {
   const int32_t triangle = measure(region);
   const int32_t cc = region.cc, aa = region.aa, ca = region.ca;
   int32_t twice = triangle;

@@ -150,7 +150,7 @@ struct Columns {
 inline Columns legal_columns(const LegalPlaces& places, const FreeRegion& region) {
   const Spot centre = {places.own.x2 >> 1, places.own.y};
   const uint32_t square = static_cast<uint32_t>(centre.x * centre.x + places.own.yy);
-  const int32_t radius = static_cast<int32_t>(fine_root(square)) + 1;
+  const int32_t radius = (square == 0 ? 0 : static_cast<int32_t>(fine_root(square))) + 1;
   int32_t west = places.c.x < places.a.x ? places.c.x : places.a.x;
   int32_t east = places.c.x > 0 ? places.c.x : 0;
   Columns columns;

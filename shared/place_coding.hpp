@@ -88,13 +88,15 @@ void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, D
   Halves weight;  // number by number: on AVR a constant to copy from would be in RAM
   weight.low = 1;
   weight.high = 1;
+  bool upper = false;
   for (uint32_t i = 0; i < depth.halvings && lines.first < lines.last; ++i) {
     if (i < depth.weighed) {
       const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1;
       weight = weigh(middle, middle + count);
+    } else {
+      weight = halves_of(weight, upper);
     }
-    const bool upper = code_half(coder, level[i], lines, weight, line);
-    if (i + 1 >= depth.weighed) weight = halves_of(weight, upper);
+    upper = code_half(coder, level[i], lines, weight, line);
   }
 }
 

@@ -63,14 +63,14 @@ inline void estimate_repulsion(PlaceOdds& odds, const LegalPlaces& places, Log2 
   odds.reach = reach_of(kept_within(-inverse, 2 * kLog2One, 28 * kLog2One));
 }
 
-// 0..511. `own` is what the triangle's circle covers of the column, |x|, |y| < 2^14.4.
+// 0..511. `own` is what the triangle's circle covers of the column, and holds y: |x|, |y| < 2^14.4.
 inline int32_t chance_at(const PlaceOdds& odds, Span own, int32_t x, int32_t y) {
   const int32_t all = odds.across.x * x + odds.across.y * y;  // < 2^31
   if (all <= 0) return 511;
   const int32_t above = own.high - y, below = y - own.low;
-  if (above <= 0 || below <= 0) return odds.last;
-  const uint32_t left = static_cast<uint32_t>(above) * static_cast<uint32_t>(below);  // < 2^28
-  const uint32_t f = left / ((static_cast<uint32_t>(all) >> 8) + 1);
+  const int32_t left = above * below;  // < 2^28
+  if (left <= 0) return odds.last;
+  const uint32_t f = static_cast<uint32_t>(left) / ((static_cast<uint32_t>(all) >> 8) + 1);
   if (f >= 256) return 511;
   const int32_t way = static_cast<int32_t>(f);
   const int32_t chance = odds.last + (way * (odds.linear + (way * odds.bend >> 8)) >> 8);

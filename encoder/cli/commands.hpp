@@ -92,6 +92,8 @@ struct RenderRequest {
   PaletteKind palette = PaletteKind::kLand;
   bool contours = false;
   std::optional<Decimal> interval;  // of contours; a round one if not given
+  std::string title;
+  bool coordinates = false, north_arrow = false;
 };
 
 void run_render(const RenderRequest& request);

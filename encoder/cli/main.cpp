@@ -517,7 +517,7 @@ void add_fractal(CLI::App& app, Action& action) {
 void add_render(CLI::App& app, Action& action) {
   auto request = std::make_shared<RenderRequest>();
   CLI::App& command =
-      *app.add_subcommand("render", "Draw a terrain (.png), or a page that shows it (.html)");
+      *app.add_subcommand("render", "Draw a terrain (.png, .svg), or a page that shows it (.html)");
   add_stream(command, request->input);
   add_output(command, request->output);
   command.add_option("--width", request->width, "Pixels in a row")
@@ -538,6 +538,11 @@ void add_render(CLI::App& app, Action& action) {
       },
       "auto or a decimal number above 0",
       "Draw lines of equal height: so far apart, in the terrain's unit, or auto");
+  command.add_flag("--coordinates", request->coordinates,
+                   "Ticks on the frame at round coordinates, with numbers");
+  command.add_option("--title", request->title,
+                     "Text above the map: Latin letters, digits, common signs");
+  command.add_flag("--north-arrow", request->north_arrow, "An arrow to the north, which is up");
   command.add_flag("--world-file", request->world,
                    "Write beside the picture, as .pgw, where its map lies");
   command.add_option("--source", request->source, "Draw a map of the errors against this terrain")

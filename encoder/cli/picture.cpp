@@ -51,7 +51,7 @@ Spot cell_of(const Raster& raster, const SurfaceModel& model) {
 }
 
 constexpr uint32_t kFlatWidth = 512;  // of the picture for browsers that cannot draw
-constexpr const char* kPage = ".html";
+constexpr const char *kPage = ".html", *kDrawing = ".svg";
 
 std::string world_path(const std::string& picture) {
   return std::filesystem::path(picture).replace_extension(".pgw").string();
@@ -59,8 +59,8 @@ std::string world_path(const std::string& picture) {
 
 void expect_picture(const RenderRequest& request) {
   const std::string suffix = std::filesystem::path(request.output).extension().string();
-  if (!suffix.empty() && suffix != ".png" && suffix != kPage) {
-    throw Error(request.output + ": not a kind of picture that is written (.png, .html)");
+  if (!suffix.empty() && suffix != ".png" && suffix != kDrawing && suffix != kPage) {
+    throw Error(request.output + ": not a kind of picture that is written (.png, .svg, .html)");
   }
   if (request.world && suffix != ".png") {
     throw Error(request.output + ": a world file lies beside a .png file");
@@ -70,13 +70,26 @@ void expect_picture(const RenderRequest& request) {
 // One file, which shows the terrain in a browser.
 void write_page(const RenderRequest& request, const Portrait& portrait) {
   if (!request.source.empty()) throw Error(request.output + ": a page has no map of errors");
-  if (request.contours) throw Error(request.output + ": a page has no contours");
+  if (request.contours || !request.title.empty() || request.coordinates || request.north_arrow) {
+    throw Error(request.output + ": a page has no contours, coordinates, title or north arrow");
+  }
   const std::string page = with_file_context(request.input, [&] {
     return render_page(portrait, std::filesystem::path(request.input).stem().string(),
                        read_file(request.input), render_png(portrait, kFlatWidth));
   });
   OutputFile out(request.output);
   out.write(page);
+  const std::string of_units = warning_of_units(request.output, portrait.model);
+  out.commit();
+  std::fputs(of_units.c_str(), stderr);
+}
+
+void write_drawing(const RenderRequest& request, const Portrait& portrait) {
+  if (!request.source.empty()) throw Error(request.output + ": a drawing has no map of errors");
+  const std::string svg =
+      with_file_context(request.input, [&] { return render_svg(portrait, request.width); });
+  OutputFile out(request.output);
+  out.write(svg);
   const std::string of_units = warning_of_units(request.output, portrait.model);
   out.commit();
   std::fputs(of_units.c_str(), stderr);
@@ -108,11 +121,11 @@ void run_render(const RenderRequest& request) {
   const Document document(request.input);
   const Portrait portrait{document.model(), document.metadata(), document.vertices(),
                           document.bytes(), document.tiles(),    request.mesh,
-                          request.palette,  request.contours,    request.interval};
-  if (std::filesystem::path(request.output).extension() == kPage) {
-    write_page(request, portrait);
-    return;
-  }
+                          request.palette,  request.contours,    request.interval,
+                          request.title,    request.coordinates, request.north_arrow};
+  const std::string suffix = std::filesystem::path(request.output).extension().string();
+  if (suffix == kPage) return write_page(request, portrait);
+  if (suffix == kDrawing) return write_drawing(request, portrait);
   if (request.source.empty()) {
     draw(request, portrait, nullptr);
     return;

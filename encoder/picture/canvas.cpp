@@ -19,7 +19,7 @@ double shared_length(double low, double high, uint32_t pixel) {
 
 Canvas::Canvas(uint32_t width, uint32_t height, Colour paper)
     : width_(width), height_(height), rgb_(size_t{3} * width * height) {
-  fill({0, 0, static_cast<double>(width), static_cast<double>(height)}, paper);
+  Canvas::fill({0, 0, static_cast<double>(width), static_cast<double>(height)}, paper);
 }
 
 void Canvas::blend(uint32_t column, uint32_t row, Colour colour, double part) {
@@ -46,15 +46,6 @@ void Canvas::stroke(Spot a, Spot b, double line_width, Colour colour) {
   for_each_pixel_near(a, b, reach, all, [&](uint32_t column, uint32_t row, double distance) {
     blend(column, row, colour, std::min(1.0, reach - distance));
   });
-}
-
-void Canvas::outline(const PixelBox& box, double line_width, Colour colour) {
-  const double right = box.left + box.width, bottom = box.top + box.height;
-  fill({box.left - line_width, box.top - line_width, box.width + 2 * line_width, line_width},
-       colour);
-  fill({box.left - line_width, bottom, box.width + 2 * line_width, line_width}, colour);
-  fill({box.left - line_width, box.top, line_width, box.height}, colour);
-  fill({right, box.top, line_width, box.height}, colour);
 }
 
 }  // namespace microtin::picture

@@ -8,19 +8,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "encoder/export/colour.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/picture/drawing.hpp"
 
 namespace microtin::picture {
-
-// In pixels, from the upper left corner of the picture; the middle of the first pixel is at 0.5.
-struct Spot {
-  double x, y;
-};
-
-struct PixelBox {
-  double left, top, width, height;
-};
 
 // Calls visit(column, row, distance) for the pixels with middles nearer than `reach` to a segment.
 template <class Visit>
@@ -51,7 +42,7 @@ void for_each_pixel_near(Spot a, Spot b, double reach, const PixelBox& within, c
   }
 }
 
-class Canvas {
+class Canvas final : public Drawing {
  public:
   Canvas(uint32_t width, uint32_t height, Colour paper);
 
@@ -61,12 +52,8 @@ class Canvas {
   // Covers a part of a pixel of the picture: 0 .. 1.
   void blend(uint32_t column, uint32_t row, Colour colour, double part);
 
-  void fill(const PixelBox& box, Colour colour);
-
-  // A line with round ends. What lies outside the picture is left out.
-  void stroke(Spot a, Spot b, double line_width, Colour colour);
-
-  void outline(const PixelBox& box, double line_width, Colour colour);
+  void fill(const PixelBox& box, Colour colour) override;
+  void stroke(Spot a, Spot b, double line_width, Colour colour) override;
 
   // Three bytes for each pixel, top row first.
   const std::vector<uint8_t>& rgb() const { return rgb_; }

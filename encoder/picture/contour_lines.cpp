@@ -41,6 +41,8 @@ class LabelRoom {
  public:
   LabelRoom(const MapFrame& frame, double apart) : frame_(frame), apart_(apart) {}
 
+  void occupy(Spot place) { taken_.push_back(place); }
+
   // The straightest stretch of a line that is so long, if one is straight enough; takes its room.
   std::optional<Label> take(const Line& line, double length) {
     constexpr double kStraight = 0.93;
@@ -60,7 +62,7 @@ class LabelRoom {
       found = label_on(a, b);
       if (best > 0.99) break;
     }
-    if (found) taken_.push_back(found->middle);
+    if (found) occupy(found->middle);
     return found;
   }
 
@@ -93,44 +95,57 @@ std::string height_of(int64_t level, Decimal interval, int64_t every) {
   return grouped(std::stod(to_string(times(level))), times(every).decimals);
 }
 
-void draw_label(Canvas& canvas, const PixelBox& box, const std::string& text, const Label& label,
+void draw_label(Drawing& drawing, const PixelBox& box, const std::string& text, const Label& label,
                 double unit, Colour colour) {
   const double back = unit * text_width(text) / 2, down = unit * kCapHeight / 2;
   const Spot start{box.left + label.middle.x - back * label.along.x - down * label.along.y,
                    box.top + label.middle.y - back * label.along.y + down * label.along.x};
-  draw_text(canvas, text, start, unit, kHalo, label.along, 3.2);
-  draw_text(canvas, text, start, unit, colour, label.along, 1);
+  draw_text(drawing, text, start, unit, kHalo, label.along, 3.2);
+  draw_text(drawing, text, start, unit, colour, label.along, 1);
 }
 
 }  // namespace
 
-void draw_contours(Canvas& canvas, const MapFrame& frame, const std::vector<Contour>& contours,
-                   Decimal interval, PaletteKind palette, double unit) {
-  const double thin = 0.55 * std::sqrt(unit), size = kLabelSize * unit;
-  Cover land(frame.box), sea(frame.box);
-  const auto is_sea = [&](const Contour& contour) {
-    return palette == PaletteKind::kSea && contour.level < 0;
-  };
+Colour colour_of(const ContourLine& line) {
+  return line.is_sea ? kInSea : kOnLand;
+}
+
+std::vector<ContourLine> contour_lines(const MapFrame& frame, const std::vector<Contour>& contours,
+                                       PaletteKind palette, double unit) {
+  const double thin = 0.55 * std::sqrt(unit);
+  std::vector<ContourLine> lines;
   for (const Contour& contour : contours) {
-    const Line line = line_of(contour, frame);
     const bool heavy = is_index(contour);
-    for (size_t i = 0; i + 1 < line.size(); ++i) {
-      (is_sea(contour) ? sea : land)
-          .stroke(line[i], line[i + 1], (heavy ? 1.9 : 1) * thin, heavy ? 0.85 : 0.6);
+    lines.push_back({line_of(contour, frame), (heavy ? 1.9 : 1) * thin, heavy ? 0.85 : 0.6,
+                     palette == PaletteKind::kSea && contour.level < 0});
+  }
+  return lines;
+}
+
+void draw_contours(Canvas& canvas, const MapFrame& frame, const std::vector<ContourLine>& lines) {
+  Cover land(frame.box), sea(frame.box);
+  for (const ContourLine& line : lines) {
+    for (size_t i = 0; i + 1 < line.places.size(); ++i) {
+      (line.is_sea ? sea : land)
+          .stroke(line.places[i], line.places[i + 1], line.width, line.strength);
     }
   }
   land.blend(canvas, kOnLand, [](uint32_t) { return 1; });
   sea.blend(canvas, kInSea, [](uint32_t) { return 1; });
+}
+
+void label_contours(Drawing& drawing, const MapFrame& frame, const std::vector<Contour>& contours,
+                    const std::vector<ContourLine>& lines, Decimal interval, double unit,
+                    std::optional<Spot> occupied) {
+  const double size = kLabelSize * unit;
   const bool has_index = std::any_of(contours.begin(), contours.end(), is_index);
   LabelRoom room(frame, 60 * unit);
-  for (const Contour& contour : contours) {
-    if (has_index && !is_index(contour)) continue;
-    const std::string text = height_of(contour.level, interval, has_index ? kIndexContour : 1);
-    const std::optional<Label> label =
-        room.take(line_of(contour, frame), size * (text_width(text) + 6));
-    if (label) {
-      draw_label(canvas, frame.box, text, *label, size, is_sea(contour) ? kInSea : kOnLand);
-    }
+  if (occupied) room.occupy({occupied->x - frame.box.left, occupied->y - frame.box.top});
+  for (size_t i = 0; i < contours.size(); ++i) {
+    if (has_index && !is_index(contours[i])) continue;
+    const std::string text = height_of(contours[i].level, interval, has_index ? kIndexContour : 1);
+    const std::optional<Label> label = room.take(lines[i].places, size * (text_width(text) + 6));
+    if (label) draw_label(drawing, frame.box, text, *label, size, colour_of(lines[i]));
   }
 }
 

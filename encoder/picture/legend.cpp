@@ -2,6 +2,8 @@
 // A ramp of colours with round numbers, and a bar of a round length.
 #include "encoder/picture/legend.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "encoder/picture/lettering.hpp"
@@ -11,11 +13,6 @@ namespace {
 
 constexpr double kBarHeight = 6, kTick = 2, kLabelLine = 17;  // of labels: from the top of the bar
 constexpr Colour kPaper{1, 1, 1};
-
-// Decimals that multiples of a step need.
-int decimals_for(double step) {
-  return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
-}
 
 double label_width(double value, double step) {
   return text_width(grouped(value, decimals_for(step)));
@@ -35,14 +32,18 @@ double tick_step(double low, double high, double units) {
   return best;
 }
 
-void draw_label(Canvas& canvas, const std::string& text, double middle, double top, double left,
+void draw_label(Drawing& drawing, const std::string& text, double middle, double top, double left,
                 double right, double unit) {
   const double width = unit * text_width(text);
   const double start = std::max(left, std::min(middle - width / 2, right - width));
-  draw_text(canvas, text, {start, top + kLabelLine * unit}, unit, kInk);
+  draw_text(drawing, text, {start, top + kLabelLine * unit}, unit, kInk);
 }
 
 }  // namespace
+
+int decimals_for(double step) {
+  return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
+}
 
 std::string grouped(double value, int decimals) {
   char buffer[400];
@@ -73,14 +74,14 @@ double round_length(double most) {
   return power;
 }
 
-void draw_ramp(Canvas& canvas, Spot corner, double width, double unit, double low, double high,
+void draw_ramp(Drawing& drawing, Spot corner, double width, double unit, double low, double high,
                const std::function<Colour(double)>& colour) {
   const PixelBox box{corner.x, corner.y, width, kBarHeight * unit};
   for (uint32_t x = 0; x < width; ++x) {
     const double step = std::min(1.0, width - x);
-    canvas.fill({corner.x + x, corner.y, step, box.height}, colour((x + step / 2) / width));
+    drawing.fill({corner.x + x, corner.y, step, box.height}, colour((x + step / 2) / width));
   }
-  canvas.outline(box, std::max(1.0, 0.6 * unit), kInk);
+  drawing.outline(box, std::max(1.0, 0.6 * unit), kInk);
   if (high <= low) return;  // one colour, told already
   const double step = tick_step(low, high, width / unit);
   const double first = step * std::ceil(low / step - 1e-9);
@@ -88,13 +89,13 @@ void draw_ramp(Canvas& canvas, Spot corner, double width, double unit, double lo
   for (uint32_t tick = 0; tick < ticks; ++tick) {
     const double value = first + tick * step;
     const double x = corner.x + width * (value - low) / (high - low);
-    canvas.fill({x - unit * 0.4, corner.y + box.height, unit * 0.8, kTick * unit}, kInk);
-    draw_label(canvas, grouped(value, decimals_for(step)), x, corner.y, corner.x, corner.x + width,
+    drawing.fill({x - unit * 0.4, corner.y + box.height, unit * 0.8, kTick * unit}, kInk);
+    draw_label(drawing, grouped(value, decimals_for(step)), x, corner.y, corner.x, corner.x + width,
                unit);
   }
 }
 
-void draw_scale_bar(Canvas& canvas, Spot corner, double most, double unit, double ground,
+void draw_scale_bar(Drawing& drawing, Spot corner, double most, double unit, double ground,
                     const std::string& ground_unit) {
   constexpr int kParts = 4;
   const double length = round_length(most * ground);
@@ -102,23 +103,24 @@ void draw_scale_bar(Canvas& canvas, Spot corner, double most, double unit, doubl
   const double told = in_thousands ? length / 1000 : length;
   const PixelBox box{corner.x, corner.y + (kBarHeight - 4) * unit, length / ground, 4 * unit};
   for (int part = 0; part < kParts; ++part) {
-    canvas.fill({box.left + part * box.width / kParts, box.top, box.width / kParts, box.height},
-                part % 2 == 0 ? kInk : kPaper);
+    drawing.fill({box.left + part * box.width / kParts, box.top, box.width / kParts, box.height},
+                 part % 2 == 0 ? kInk : kPaper);
   }
-  canvas.outline(box, std::max(1.0, 0.6 * unit), kInk);
+  drawing.outline(box, std::max(1.0, 0.6 * unit), kInk);
   const std::string text =
       grouped(told, decimals_for(told)) + " " + (in_thousands ? "k" : "") + ground_unit;
-  draw_text(canvas, "0", {corner.x, corner.y + kLabelLine * unit}, unit, kInk);
+  draw_text(drawing, "0", {corner.x, corner.y + kLabelLine * unit}, unit, kInk);
   const double end =
       std::max(box.left + box.width - unit * text_width(text) / 2, corner.x + 12 * unit);
-  draw_text(canvas, text, {end, corner.y + kLabelLine * unit}, unit, kInk);
+  draw_text(drawing, text, {end, corner.y + kLabelLine * unit}, unit, kInk);
 }
 
-void draw_swatch(Canvas& canvas, Spot corner, double unit, Colour colour, const std::string& text) {
+void draw_swatch(Drawing& drawing, Spot corner, double unit, Colour colour,
+                 const std::string& text) {
   const PixelBox box{corner.x, corner.y, 9 * unit, 7 * unit};
-  canvas.fill(box, colour);
-  canvas.outline(box, std::max(1.0, 0.6 * unit), kInk);
-  draw_text(canvas, text, {corner.x + 13 * unit, corner.y + kCapHeight * unit}, unit, kInk);
+  drawing.fill(box, colour);
+  drawing.outline(box, std::max(1.0, 0.6 * unit), kInk);
+  draw_text(drawing, text, {corner.x + 13 * unit, corner.y + kCapHeight * unit}, unit, kInk);
 }
 
 }  // namespace microtin::picture

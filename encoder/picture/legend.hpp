@@ -7,7 +7,7 @@
 #include <string>
 
 #include "encoder/layers.hpp"
-#include "encoder/picture/canvas.hpp"
+#include "encoder/picture/drawing.hpp"
 
 namespace microtin::picture {
 
@@ -18,6 +18,9 @@ constexpr Colour kInk{0.16, 0.18, 0.22};
 // "1,234.5": with commas between thousands and so many decimals.
 std::string grouped(double value, int decimals);
 
+// Decimals that multiples of a round step need.
+int decimals_for(double step);
+
 // With four digits that matter, at most.
 std::string rounded_text(double value);
 
@@ -25,16 +28,17 @@ std::string rounded_text(double value);
 double round_length(double most);
 
 // Colours from a lowest to a highest number, and round numbers below them; 18 units high.
-void draw_ramp(Canvas& canvas, Spot corner, double width, double unit, double low, double high,
+void draw_ramp(Drawing& drawing, Spot corner, double width, double unit, double low, double high,
                const std::function<Colour(double)>& colour);
 
 // A bar of a round length, at most so many pixels, its ends labelled below; 18 units high. A pixel
 // is `ground` units on the ground; a thousand of "m" are told as "km".
-void draw_scale_bar(Canvas& canvas, Spot corner, double most, double unit, double ground,
+void draw_scale_bar(Drawing& drawing, Spot corner, double most, double unit, double ground,
                     const std::string& ground_unit);
 
 // A small box and what it means, 7 units high; the corner is the upper left one.
-void draw_swatch(Canvas& canvas, Spot corner, double unit, Colour colour, const std::string& text);
+void draw_swatch(Drawing& drawing, Spot corner, double unit, Colour colour,
+                 const std::string& text);
 
 }  // namespace microtin::picture
 

@@ -26,6 +26,8 @@ struct MapFrame {
 
   // From the upper left corner of the box.
   Spot spot(double x, double y) const { return {(x - west) / x_step, (north - y) / y_step}; }
+  // The same from the corner of the picture.
+  Spot in_picture(Spot spot) const { return {box.left + spot.x, box.top + spot.y}; }
   uint32_t columns() const { return static_cast<uint32_t>(box.width); }
   uint32_t rows() const { return static_cast<uint32_t>(box.height); }
 };

@@ -2,6 +2,9 @@
 // Light from the north-west on normals, colours by height, lines of triangles.
 #include "encoder/picture/relief.hpp"
 
+#include <map>
+#include <set>
+
 #include "encoder/picture/cover.hpp"
 
 namespace microtin::picture {
@@ -234,6 +237,37 @@ void Relief::draw_lines(Canvas& canvas, const MapFrame& frame, double line_width
   }
   cover.blend(canvas, kLine,
               [&](uint32_t column) { return line_strength(column / frame.box.width); });
+}
+
+void Relief::draw_facets(Svg& svg, const MapFrame& frame) const {
+  constexpr double kTones = 40;  // of each colour, so that many triangles have the same
+  std::map<std::array<int, 3>, std::vector<const Triangle*>> by_tone;
+  for (const Triangle& triangle : model_.triangles) {
+    const Colour c = colour(triangle, {1.0 / 3, 1.0 / 3, 1.0 / 3});
+    const auto tone = [](double part) { return static_cast<int>(std::lround(part * kTones)); };
+    by_tone[{tone(c.r), tone(c.g), tone(c.b)}].push_back(&triangle);
+  }
+  for (const auto& [tone, triangles] : by_tone) {
+    const Colour colour{tone[0] / kTones, tone[1] / kTones, tone[2] / kTones};
+    for (const Triangle* const triangle : triangles) {
+      const std::array<Spot, 3> spots = spots_of(model_, *triangle, frame);
+      svg.area({frame.in_picture(spots[0]), frame.in_picture(spots[1]), frame.in_picture(spots[2])},
+               colour);
+    }
+  }
+}
+
+void Relief::draw_wires(Svg& svg, const MapFrame& frame, double line_width) const {
+  constexpr double kStrength = 0.3;
+  std::set<std::pair<uint32_t, uint32_t>> edges;
+  for (const Triangle& triangle : model_.triangles) {
+    for (size_t i = 0; i < 3; ++i) edges.insert(std::minmax(triangle[i], triangle[(i + 1) % 3]));
+  }
+  for (const auto& [a, b] : edges) {
+    const std::array<Spot, 3> spots = spots_of(model_, {a, b, b}, frame);
+    svg.line({frame.in_picture(spots[0]), frame.in_picture(spots[1])}, line_width, kLine,
+             kStrength);
+  }
 }
 
 }  // namespace microtin::picture

@@ -9,6 +9,7 @@
 #include "encoder/layers.hpp"
 #include "encoder/picture/map_frame.hpp"
 #include "encoder/picture/palette.hpp"
+#include "encoder/picture/svg.hpp"
 
 namespace microtin::picture {
 
@@ -28,11 +29,17 @@ class Relief {
 
   void draw_ground(Canvas& canvas, const MapFrame& frame) const;
 
+  // The same as areas, each of one colour, for a drawing. Those of a colour together.
+  void draw_facets(Svg& svg, const MapFrame& frame) const;
+
   // What heights are multiplied with for the light.
   double slope_scale() const { return slope_scale_; }
 
   // The triangles' lines fade in from the middle to the right. `line_width` in pixels.
   void draw_lines(Canvas& canvas, const MapFrame& frame, double line_width) const;
+
+  // All of the same strength.
+  void draw_wires(Svg& svg, const MapFrame& frame, double line_width) const;
 
  private:
   using Triangle = std::array<uint32_t, 3>;

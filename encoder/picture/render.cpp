@@ -9,6 +9,7 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/picture/contour_lines.hpp"
 #include "encoder/picture/error_map.hpp"
+#include "encoder/picture/frame.hpp"
 #include "encoder/picture/legend.hpp"
 #include "encoder/picture/lettering.hpp"
 #include "encoder/picture/png.hpp"
@@ -20,7 +21,8 @@ namespace {
 constexpr Colour kPaper{1, 1, 1}, kNoTerrain{0.66, 0.66, 0.67}, kHatch{0.53, 0.53, 0.54};
 
 // In units of the text.
-constexpr double kMargin = 10, kLegendHeight = 36, kRampShare = 0.56, kBarAt = 0.66;
+constexpr double kMargin = 10, kLegendHeight = 36, kRampShare = 0.56, kBarAt = 0.66,
+                 kTitleSize = 1.6;  // of other text
 
 double as_number(Decimal value) {
   return std::stod(to_string(value));
@@ -51,20 +53,27 @@ struct Layout {
   uint32_t width, height;
 };
 
+// What stands above the map, in units.
+double head_of(const Portrait& portrait) {
+  return 2 * kMargin + kCapHeight + (portrait.title.empty() ? 0 : 20) +
+         (portrait.coordinates ? kFrameRoom : 0);
+}
+
 Layout lay_out(const Portrait& portrait, const Ground& ground, uint32_t width, bool two) {
   constexpr double kTallest = 1.6, kNarrowestRoom = 250, kWide = 2.2;
   Layout layout{};
   layout.width = width;
   layout.unit = std::max(1.1, width / 760.0);
   const double margin = std::round(kMargin * layout.unit);
-  const double head = std::round((2 * kMargin + kCapHeight) * layout.unit);
-  const double whole = width - 2 * margin, half = std::floor((whole - 2 * margin) / 2);
+  const double left = margin + std::round(portrait.coordinates ? kFrameRoom * layout.unit : 0);
+  const double head = std::round(head_of(portrait) * layout.unit);
+  const double whole = width - left - margin, half = std::floor((whole - 2 * margin) / 2);
   const MapFrame large = fit_map(portrait.model, ground, whole, kTallest * whole);
   const bool beside =
       two && half >= kNarrowestRoom * layout.unit && large.box.width < kWide * large.box.height;
   layout.room = beside ? half : whole;
   MapFrame frame = fit_map(portrait.model, ground, layout.room, kTallest * layout.room);
-  frame.box.left = margin;
+  frame.box.left = left;
   frame.box.top = head;
   layout.relief = layout.errors = frame;
   const double panel = frame.box.height + std::round(kLegendHeight * layout.unit) + margin;
@@ -78,30 +87,28 @@ Layout lay_out(const Portrait& portrait, const Ground& ground, uint32_t width, b
 }
 
 // What is not known: darker than snow and than an error of 0, hatched closely for small places.
-void draw_background(Canvas& canvas, const MapFrame& frame, double unit) {
+void draw_background(Drawing& drawing, const MapFrame& frame, double unit) {
   const PixelBox& box = frame.box;
-  canvas.fill(box, kNoTerrain);
-  const double step = 4 * unit, reach = 0.4 * unit + 0.5;
+  drawing.fill(box, kNoTerrain);
+  const double step = 4 * unit, pen = 0.8 * unit, inset = pen / 2;  // lines have round ends
   const auto lines = static_cast<uint32_t>((box.width + box.height) / step) + 1;
   for (uint32_t line = 0; line < lines; ++line) {
-    const double start = line * step - box.height;
-    for_each_pixel_near({start, box.height}, {start + box.height, 0}, reach,
-                        {0, 0, box.width, box.height},
-                        [&](uint32_t column, uint32_t row, double distance) {
-                          canvas.blend(static_cast<uint32_t>(box.left) + column,
-                                       static_cast<uint32_t>(box.top) + row, kHatch,
-                                       std::min(1.0, reach - distance));
-                        });
+    const double foot = line * step - box.height;  // where it is at the bottom, to the right
+    const double low = std::max(0.0, -foot) + inset;
+    const double high = std::min(box.height, box.width - foot) - inset;
+    if (low >= high) continue;
+    const double bottom = box.top + box.height, left = box.left + foot;
+    drawing.stroke({left + low, bottom - low}, {left + high, bottom - high}, pen, kHatch);
   }
 }
 
 // Smaller if it is too long.
-void draw_line(Canvas& canvas, const std::string& text, Spot start, double unit, double room) {
+void draw_line(Drawing& drawing, const std::string& text, Spot start, double unit, double room) {
   const double fitting = room / std::max(1.0, text_width(text));
-  draw_text(canvas, text, start, std::min(unit, fitting), kInk);
+  draw_text(drawing, text, start, std::min(unit, fitting), kInk);
 }
 
-std::string title_of(const Portrait& portrait) {
+std::string facts_of(const Portrait& portrait) {
   const auto count = [](uint64_t number) { return grouped(static_cast<double>(number), 0); };
   std::string text = count(portrait.vertices) + " vertices";
   if (portrait.tiles != 0) {
@@ -114,6 +121,18 @@ std::string title_of(const Portrait& portrait) {
             rounded_text(as_number(accuracy->rms_error)) + unit;
   }
   return text;
+}
+
+void draw_head(Drawing& drawing, const Portrait& portrait, const Layout& layout) {
+  const double left = (kMargin + (portrait.coordinates ? kFrameRoom : 0)) * layout.unit;
+  const double room = layout.width - left - kMargin * layout.unit;
+  double line = (kMargin + kCapHeight) * layout.unit;
+  if (!portrait.title.empty()) {
+    line += 4 * layout.unit;
+    draw_line(drawing, portrait.title, {left, line}, kTitleSize * layout.unit, room);
+    line += 16 * layout.unit;
+  }
+  draw_line(drawing, facts_of(portrait), {left, line}, layout.unit, room);
 }
 
 // The places of a legend under a map.
@@ -147,7 +166,7 @@ std::optional<Decimal> interval_of(const Portrait& portrait, const Relief& relie
   return round_interval(low, high);
 }
 
-void draw_relief_legend(Canvas& canvas, const Portrait& portrait, const Relief& relief,
+void draw_relief_legend(Drawing& drawing, const Portrait& portrait, const Relief& relief,
                         const Ground& ground, const Layout& layout) {
   const std::string unit = unit_text(portrait.metadata.vertical_unit);
   const auto [low, high] = heights_of(portrait, relief);
@@ -156,14 +175,14 @@ void draw_relief_legend(Canvas& canvas, const Portrait& portrait, const Relief& 
   if (const std::optional<Decimal> interval = interval_of(portrait, relief)) {
     line += ", contours every " + to_string(*interval) + unit;
   }
-  draw_line(canvas, line, at.line, layout.unit, at.width);
-  draw_ramp(canvas, at.ramp, at.width, layout.unit, low, high,
+  draw_line(drawing, line, at.line, layout.unit, at.width);
+  draw_ramp(drawing, at.ramp, at.width, layout.unit, low, high,
             [&relief](double relative) { return relief.palette().at(relative); });
-  draw_scale_bar(canvas, at.side, 0.8 * at.side_room, layout.unit, layout.relief.x_step * ground.x,
+  draw_scale_bar(drawing, at.side, 0.8 * at.side_room, layout.unit, layout.relief.x_step * ground.x,
                  ground.unit);
   if (!relief.has_water()) return;
   const double level = as_number(*portrait.metadata.water_level);
-  draw_swatch(canvas, {at.side.x, at.line.y - kCapHeight * layout.unit}, layout.unit, kWater,
+  draw_swatch(drawing, {at.side.x, at.line.y - kCapHeight * layout.unit}, layout.unit, kWater,
               "water " + rounded_text(level) + unit);
 }
 
@@ -193,6 +212,66 @@ void draw_errors(Canvas& canvas, const Portrait& portrait, const Comparison& com
   if (bound > 0) draw_fact(2, "bound", bound);
 }
 
+void expect_letters(const std::string& title) {
+  const std::string_view missing = missing_letter(title);
+  if (missing.empty()) return;
+  throw Error("the title has \"" + std::string(missing) +
+              "\", which cannot be drawn: there are Latin letters with Western accents, digits and "
+              "common signs");
+}
+
+void expect_drawable(const Portrait& portrait, uint32_t width) {
+  if (width < kNarrowest || width > kWidest) {
+    throw Error("a picture is " + std::to_string(kNarrowest) + " to " + std::to_string(kWidest) +
+                " pixels wide");
+  }
+  expect_letters(portrait.title);
+  if (portrait.model.vertices.empty()) throw Error("there is nothing to draw");
+}
+
+// All but the ground: what is drawn the same on both kinds of pictures.
+struct Sheet {
+  Sheet(const Portrait& of, uint32_t width, bool two)
+      : portrait(of),
+        ground(ground_of(of.model, of.metadata.horizontal_unit)),
+        layout(lay_out(of, ground, width, two)),
+        relief(of.model, ground, water_step(of.metadata), of.palette),
+        interval(interval_of(of, relief)) {
+    if (!interval) return;
+    contours = contours_of(of.model, *interval);
+    lines = contour_lines(layout.relief, contours, of.palette, layout.unit);
+  }
+
+  void begin(Drawing& drawing) const {
+    draw_head(drawing, portrait, layout);
+    draw_background(drawing, layout.relief, layout.unit);
+  }
+
+  void end(Drawing& drawing) const {
+    const MapFrame& frame = layout.relief;
+    if (interval) {
+      label_contours(drawing, frame, contours, lines, *interval, layout.unit,
+                     portrait.north_arrow ? north_arrow_of(frame.box, layout.unit) : std::nullopt);
+    }
+    if (portrait.coordinates) {
+      draw_coordinates(drawing, frame, portrait.model.placement, portrait.metadata.horizontal_unit,
+                       layout.unit);
+    }
+    if (portrait.north_arrow) draw_north_arrow(drawing, frame.box, layout.unit);
+    draw_relief_legend(drawing, portrait, relief, ground, layout);
+  }
+
+  double wire() const { return 0.8 * std::sqrt(layout.unit); }
+
+  const Portrait& portrait;
+  Ground ground;
+  Layout layout;
+  Relief relief;
+  std::optional<Decimal> interval;
+  std::vector<Contour> contours;
+  std::vector<ContourLine> lines;
+};
+
 }  // namespace
 
 std::string world_file(const Portrait& portrait, uint32_t width, bool with_comparison) {
@@ -213,33 +292,42 @@ std::string world_file(const Portrait& portrait, uint32_t width, bool with_compa
 
 std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
                                 const Comparison* comparison) {
-  if (width < kNarrowest || width > kWidest) {
-    throw Error("a picture is " + std::to_string(kNarrowest) + " to " + std::to_string(kWidest) +
-                " pixels wide");
-  }
-  const SurfaceModel& model = portrait.model;
-  if (model.vertices.empty()) throw Error("there is nothing to draw");
-  const Ground ground = ground_of(model, portrait.metadata.horizontal_unit);
-  const Layout layout = lay_out(portrait, ground, width, comparison != nullptr);
-  const Relief relief(model, ground, water_step(portrait.metadata), portrait.palette);
+  expect_drawable(portrait, width);
+  const Sheet sheet(portrait, width, comparison != nullptr);
+  const Layout& layout = sheet.layout;
   Canvas canvas(layout.width, layout.height, kPaper);
-  draw_line(canvas, title_of(portrait),
-            {kMargin * layout.unit, (kMargin + kCapHeight) * layout.unit}, layout.unit,
-            layout.width - 2 * kMargin * layout.unit);
-  draw_background(canvas, layout.relief, layout.unit);
-  relief.draw_ground(canvas, layout.relief);
-  if (portrait.mesh) relief.draw_lines(canvas, layout.relief, 0.8 * std::sqrt(layout.unit));
-  const std::optional<Decimal> interval = interval_of(portrait, relief);
-  if (interval) {
-    draw_contours(canvas, layout.relief, contours_of(model, *interval), *interval, portrait.palette,
-                  layout.unit);
-  }
-  draw_relief_legend(canvas, portrait, relief, ground, layout);
+  sheet.begin(canvas);
+  sheet.relief.draw_ground(canvas, layout.relief);
+  if (portrait.mesh) sheet.relief.draw_lines(canvas, layout.relief, sheet.wire());
+  draw_contours(canvas, layout.relief, sheet.lines);
+  sheet.end(canvas);
   if (comparison != nullptr) {
     draw_background(canvas, layout.errors, layout.unit);
     draw_errors(canvas, portrait, *comparison, layout);
   }
   return png(canvas.rgb(), canvas.width(), canvas.height());
+}
+
+std::string render_svg(const Portrait& portrait, uint32_t width) {
+  expect_drawable(portrait, width);
+  const size_t triangles = portrait.model.triangles.size();
+  if (triangles > kMostSvgTriangles) {
+    throw Error("it has " + std::to_string(triangles) + " triangles; an .svg file has at most " +
+                std::to_string(kMostSvgTriangles) + ": draw a .png, or encode with a larger bound");
+  }
+  const Sheet sheet(portrait, width, false);
+  const Layout& layout = sheet.layout;
+  Svg svg(layout.width, layout.height, kPaper);
+  sheet.begin(svg);
+  sheet.relief.draw_facets(svg, layout.relief);
+  if (portrait.mesh) sheet.relief.draw_wires(svg, layout.relief, sheet.wire() / 2);
+  for (const ContourLine& line : sheet.lines) {
+    std::vector<Spot> places;
+    for (const Spot place : line.places) places.push_back(layout.relief.in_picture(place));
+    svg.line(places, line.width, colour_of(line), line.strength);
+  }
+  sheet.end(svg);
+  return svg.take();
 }
 
 }  // namespace microtin::picture

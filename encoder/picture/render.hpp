@@ -26,6 +26,9 @@ struct Portrait {
   PaletteKind palette = PaletteKind::kLand;
   bool contours = false;
   std::optional<Decimal> interval;  // of contours, in the unit of heights; a round one if not given
+  std::string title;                // above the map; letters that lettering.hpp has
+  bool coordinates = false;         // on the frame
+  bool north_arrow = false;
 };
 
 // How a terrain compares with its source.
@@ -42,6 +45,13 @@ constexpr uint32_t kNarrowest = 200, kWidest = 8192;
 // level are water. Throws Error for other widths and if there is no vertex.
 std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
                                 const Comparison* comparison = nullptr);
+
+constexpr size_t kMostSvgTriangles = 200'000;
+
+// An SVG file of the same, without errors: a path for the triangles of each colour, lines and
+// contours as paths, letters as strokes; some 25 bytes a triangle, twice that with lines. Throws
+// Error for more triangles, too.
+std::string render_svg(const Portrait& portrait, uint32_t width);
 
 // Where the map of such a picture lies, as a world file says it: six lines, in the units of x and
 // y.

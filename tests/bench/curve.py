@@ -1,23 +1,26 @@
 # SPDX-License-Identifier: MIT
-"""curve.py TABLE BUDGET PLOT: draws bits against instructions per vertex, on the host from the table that `run speed`
-printed of 80,000 uniform points, on Cortex-M4 from the budget of tests/footprint, and prints the same as a table.
+"""curve.py TABLE BUDGET PLOT DOCUMENT...: draws bits against instructions per vertex, on the host from the table that `run speed`
+printed of 80,000 uniform points, on Cortex-M4 from the budget of tests/footprint, and prints the same as a table, which it
+puts into each document between its markers.
 
 Version 4 and Draco's bits are quoted: the former is no longer in the sources, the latter is what `run rate` prints.
 """
 
 import json
+import re
 import sys
 from pathlib import Path
 
 SETTINGS = {"quick": "_D10_quick", "balanced": "", "dense": "_D10_dense"}
-VERSION_4 = {  # levels: bits, host, Cortex-M4 -O2, -Os
-    "version 4, 1": (18.55, 5217, 8752, 11547),
-    "version 4, 2": (18.02, 6746, 11422, 14735),
-    "version 4, 3": (17.90, 8129, 12134, 15571),
+VERSION_4 = {  # levels: bits, then what `measured` tells of costs
+    "version 4, 1": (18.55, 5217, 6355, 8752, 11547),
+    "version 4, 2": (18.02, 6746, 7883, 11422, 14735),
+    "version 4, 3": (17.90, 8129, 8657, 12134, 15571),
 }
 PEERS = {"Draco points (level 10) + CGAL": 17.80}
 COLOURS = {"quick balanced dense": "#1f6f8b", "version 4": "#c0562b", "peers": "#5a7d2a"}
-WIDTH, HEIGHT, LEFT, TOP, BOTTOM = 420, 320, 56, 34, 48
+MARKED = re.compile(r"(<!-- curve: .* -->\n\n).*?(\n<!-- end of curve -->)", re.S)
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 320, 56, 76, 34, 48
 
 
 def rows_of(text):
@@ -37,18 +40,22 @@ def number(cell):
 
 
 def measured(table, sizes, budget):
-    """A line for each way: name, bits, instructions on the host, on Cortex-M4 at -O2 and -Os; None is not measured."""
+    """A line for each way: name, bits, instructions on the host of uniform points and of a tile, on Cortex-M4 of a tile at
+    -O2 and -Os; None is not measured."""
     rows = rows_of(table)
     runs = {level: budget["cortex-m4"][level]["run"] for level in ("O2", "Os")}
+    host = lambda stream, way="microtin": number(rows[stream][way]) if stream in rows else None
     lines = []
     for setting, suffix in SETTINGS.items():
         row = rows["2_uniform_80k" + suffix]
         bits = 8 * sizes[row["stream"]] / number(row["vertices"])
         device = [runs[level]["decode_" + setting] for level in ("O2", "Os")]
-        lines.append((setting, bits, number(row["microtin"]), *device))
+        lines.append((setting, bits, host(row["stream"]), host("tile_" + setting), *device))
     lines += [(name, *values) for name, values in VERSION_4.items()]
-    peers = rows["2_uniform_80k"]
-    return lines + [(name, bits, number(peers[name]), None, None) for name, bits in PEERS.items() if name in peers]
+    for name, bits in PEERS.items():
+        if name in rows["2_uniform_80k"]:
+            lines.append((name, bits, host("2_uniform_80k", name), host("tile_balanced", name), None, None))
+    return lines
 
 
 def panel(lines, column, left, title):
@@ -57,13 +64,13 @@ def panel(lines, column, left, title):
     most = max(x for _, _, x in shown) * 1.12
     low, high = 17.7, 18.65
     place = lambda x, y: (
-        left + LEFT + x / most * (WIDTH - LEFT - 20),
+        left + LEFT + x / most * (WIDTH - LEFT - RIGHT),
         TOP + (high - y) / (high - low) * (HEIGHT - TOP - BOTTOM),
     )
     out = [f"<text x='{left + WIDTH / 2:.0f}' y='20' text-anchor='middle'>{title}</text>"]
     for y in (17.8, 18.0, 18.2, 18.4, 18.6):
         x0, at = place(0, y)
-        out.append(f"<path d='M{x0:.0f} {at:.1f}H{left + WIDTH - 20}' stroke='#ddd'/>")
+        out.append(f"<path d='M{x0:.0f} {at:.1f}H{left + WIDTH - RIGHT}' stroke='#ddd'/>")
         out.append(f"<text x='{x0 - 6:.0f}' y='{at + 4:.1f}' text-anchor='end'>{y}</text>")
     for x in range(0, int(most), 2000 if most < 11000 else 4000):
         at, y0 = place(x, low)
@@ -74,10 +81,13 @@ def panel(lines, column, left, title):
         path = "L".join("{:.1f} {:.1f}".format(*place(x, y)) for _, y, x in points)
         if points:
             out.append(f"<path fill='none' stroke-width='2' stroke='{colour}' d='M{path}'/>")
+        last = None
         for name, y, x in points:
             cx, cy = place(x, y)
+            near = last is not None and abs(cx - last[0]) < 60 and abs(cy - last[1]) < 14  # its label goes below
+            last = cx, cy
             out.append(f"<circle r='4' cx='{cx:.1f}' cy='{cy:.1f}' fill='{colour}'/>")
-            out.append(f"<text x='{cx + 7:.1f}' y='{cy - 5:.1f}' fill='{colour}'>{name}</text>")
+            out.append(f"<text x='{cx + 7:.1f}' y='{cy + (14 if near else -5):.1f}' fill='{colour}'>{name}</text>")
     return out
 
 
@@ -87,27 +97,40 @@ def group_of(name):
     return "version 4" if name.startswith("version 4") else "quick balanced dense"
 
 
-def main(table, budget, plot):
+def table_of(lines):
+    out = ["| | bits of a uniform point | host: uniform, tile | Cortex-M4, tile: -O2, -Os |", "| --- | --- | --- | --- |"]
+    for name, bits, *costs in lines:
+        uniform, tile, o2, os = [f"{cost:,.0f}" if cost else "-" for cost in costs]
+        out.append(f"| {name} | {bits:.2f} | {uniform}, {tile} | {o2}, {os} |")
+    return "\n".join(out) + "\n"
+
+
+def put_into(document, table):
+    text, found = MARKED.subn(lambda m: m[1] + table + m[2], Path(document).read_text())
+    if found != 1:
+        sys.exit(f"{document} has no place for the table, or several")
+    Path(document).write_text(text)
+
+
+def main(table, budget, plot, *documents):
     text = Path(table).read_text()
     streams = Path(table).parent / "streams"
     sizes = {path.stem: path.stat().st_size for path in streams.glob("*.mtin")}
     lines = measured(text, sizes, json.loads(Path(budget).read_text()))
-    titles = ["x86-64, 80,000 uniform points", "Cortex-M4 -O2, a tile", "Cortex-M4 -Os, a tile"]
+    titles = [(1, "x86-64, 80,000 uniform points"), (3, "Cortex-M4 -O2, a tile"), (4, "Cortex-M4 -Os, a tile")]
     out = [
         f"<svg xmlns='http://www.w3.org/2000/svg' width='{3 * WIDTH}' height='{HEIGHT}' "
         "font-family='sans-serif' font-size='12' fill='#333'>",
         "<rect width='100%' height='100%' fill='white'/>",
     ]
-    for i, title in enumerate(titles):
-        out += panel(lines, i + 1, i * WIDTH, title)
+    for i, (column, title) in enumerate(titles):
+        out += panel(lines, column, i * WIDTH, title)
     caption = "bits of a uniform point against instructions per vertex"
     out.append(f"<text x='{1.5 * WIDTH}' y='{HEIGHT - 10}' text-anchor='middle'>{caption}</text></svg>")
     Path(plot).write_text("\n".join(out) + "\n")
-    print("\n### Bits against instructions per vertex\n")
-    print("| | bits of a uniform point | host | Cortex-M4 -O2 | -Os |\n| --- | --- | --- | --- | --- |")
-    for name, bits, *costs in lines:
-        cells = [f"{cost:,.0f}" if cost else "-" for cost in costs]
-        print(f"| {name} | {bits:.2f} | {' | '.join(cells)} |")
+    for document in documents:
+        put_into(document, table_of(lines))
+    print("\n### Bits against instructions per vertex\n\n" + table_of(lines))
 
 
 main(*sys.argv[1:])

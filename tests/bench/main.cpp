@@ -65,6 +65,8 @@ void run(const std::string& command, const Arguments& arguments) {
     print_start_probabilities();
   } else if (command == "streams" && arguments.size() == 1) {
     write_streams(arguments[0]);
+  } else if (command == "curve-streams" && arguments.size() == 1) {
+    write_curve_streams(arguments[0]);
   } else if (command == "times") {
     print_missing_peers();
     print_decode_speed(arguments, nanoseconds, "nanoseconds");
@@ -80,7 +82,7 @@ void run(const std::string& command, const Arguments& arguments) {
         "FILE | "
         "grid TERRAIN GRID | flight TERRAIN PACK GRID LOG LOG LOG | linearity PLOT | growth FILE "
         "PLOT "
-        "| train | streams FOLDER | times STREAM... | "
+        "| train | streams FOLDER | curve-streams FOLDER | times STREAM... | "
         "instructions FILE STREAM...");
   }
 }

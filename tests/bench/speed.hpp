@@ -19,7 +19,10 @@ void print_decode_speed(const std::vector<std::string>& paths, const Measure& me
 
 void print_encode_speed();
 
-// Writes the streams that are measured into a folder.
+// Writes the streams that make the curve of bits against instructions into a folder.
+void write_curve_streams(const std::string& folder);
+
+// Writes these, and all others that are measured.
 void write_streams(const std::string& folder);
 
 }  // namespace microtin::bench

@@ -21,32 +21,43 @@ std::string file_name_of(const Dataset& dataset) {
   return std::string(dataset.name) + (bound ? "_" + to_string(*bound) : "");
 }
 
+std::string path_of(const std::string& folder, const std::string& name) {
+  return folder + "/" + name + ".mtin";
+}
+
+void write_uniform(const std::string& folder, const Effort& effort) {
+  const std::string name =
+      "2_uniform_80k_D" + std::to_string(effort.degree) + "_" + name_of(effort.decoding);
+  write(path_of(folder, name), {uniform_tin(80000, 0), {}}, effort);
+}
+
 }  // namespace
 
-void write_streams(const std::string& folder) {
-  const auto path = [&](const std::string& name) { return folder + "/" + name + ".mtin"; };
-  write(path("1_uniform_10k"), {uniform_tin(10000, 0), {}});
-  write(path("2_uniform_80k"), {uniform_tin(80000, 0), {}});
-  for (const Effort& effort : {Effort{8, Decoding::kBalanced}, Effort{10, Decoding::kQuick},
-                               Effort{10, Decoding::kDense}}) {
-    write(path("2_uniform_80k_D" + std::to_string(effort.degree) + "_" + name_of(effort.decoding)),
-          {uniform_tin(80000, 0), {}}, effort);
-  }
-  write(path("3_uniform_1M"), {uniform_tin(1000000, 0), {}});
+void write_curve_streams(const std::string& folder) {
+  write(path_of(folder, "2_uniform_80k"), {uniform_tin(80000, 0), {}});
+  write_uniform(folder, {10, Decoding::kQuick});
+  write_uniform(folder, {10, Decoding::kDense});
+  constexpr uint32_t kTileVertices = 2000;
   const std::vector<Dataset> grids = rasters();
-  for (const Dataset& dataset : grids) {
+  if (grids.empty()) return;
+  const Dataset& first = grids.front();
+  const Model tile = simplified(read_raster(first), first.options, kTileVertices);
+  for (const Decoding decoding : kDecodings) {
+    write(path_of(folder, "tile_" + name_of(decoding)), tile, {Effort().degree, decoding});
+  }
+}
+
+void write_streams(const std::string& folder) {
+  const auto path = [&](const std::string& name) { return path_of(folder, name); };
+  write_curve_streams(folder);
+  write(path("1_uniform_10k"), {uniform_tin(10000, 0), {}});
+  write_uniform(folder, {8, Decoding::kBalanced});
+  write(path("3_uniform_1M"), {uniform_tin(1000000, 0), {}});
+  for (const Dataset& dataset : rasters()) {
     write(path(file_name_of(dataset)), simplified(read_raster(dataset), dataset.options));
   }
   for (const Dataset& dataset : clouds()) {
     write(path(file_name_of(dataset)), simplified(read_cloud(dataset), dataset.options));
-  }
-  constexpr uint32_t kTileVertices = 2000;
-  if (!grids.empty()) {
-    const Dataset& first = grids.front();
-    const Model tile = simplified(read_raster(first), first.options, kTileVertices);
-    for (const Decoding decoding : kDecodings) {
-      write(path("tile_" + name_of(decoding)), tile, {Effort().degree, decoding});
-    }
   }
 }
 

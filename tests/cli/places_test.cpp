@@ -222,9 +222,10 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
   const Session session;
   REQUIRE(session.run("fractal --size 17 -o t.asc").code == 0);
   REQUIRE(session.run("encode t.asc --units m -o t.mtin").code == 0);
-  for (const char* const name : {"t.jpg", "t.svg", "t.tif"}) {
-    CHECK(contains(session.failure("render t.mtin -o " + std::string(name)),
-                   std::string(name) + ": not a kind of picture that is written (.png, .html)"));
+  for (const char* const name : {"t.jpg", "t.pdf", "t.tif"}) {
+    CHECK(contains(
+        session.failure("render t.mtin -o " + std::string(name)),
+        std::string(name) + ": not a kind of picture that is written (.png, .svg, .html)"));
   }
   CHECK(session.run("render t.mtin --no-mesh --palette sea --world-file -o t.png").code == 0);
   const std::string world = session.read("t.pgw");
@@ -233,6 +234,12 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
       contains(session.failure("render t.mtin --world-file -o -"), "-: a world file lies beside"));
   CHECK(session.run("render t.mtin --contours auto -o v.png").code == 0);
   CHECK(session.run("render t.mtin --contours 0.5 -o w.png").code == 0);
+  CHECK(session.run("render t.mtin --contours 5 -o t.svg").code == 0);
+  CHECK(session.read("t.svg").compare(0, 5, "<svg ") == 0);
+  CHECK(session.failure("render t.mtin --source t.asc -o u.svg") ==
+        "u.svg: a drawing has no map of errors\n");
+  CHECK(session.run("render t.mtin --title Hill --coordinates --north-arrow -o x.png").code == 0);
+  CHECK(contains(session.failure("render t.mtin --title a#b -o u.png"), "the title has \"#\""));
   CHECK(session.read("v.png") != session.read("t.png"));
   CHECK(session.read("v.png") != session.read("w.png"));
   CHECK(contains(session.failure("render t.mtin --contours 0 -o u.png", 2),
@@ -240,7 +247,7 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
   CHECK(contains(session.failure("render t.mtin --contours 0.000000001 -o u.png"),
                  "t.mtin: the interval of contours is too small"));
   CHECK(session.failure("render t.mtin --contours auto -o u.html") ==
-        "u.html: a page has no contours\n");
+        "u.html: a page has no contours, coordinates, title or north arrow\n");
   CHECK(contains(session.failure("render t.mtin --palette sky -o u.png", 2),
                  "sky is not land or sea"));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The autopilots' adapters on a device, over a pack in flash.
 #include "tests/firmware/adapters_report.hpp"
-#include "tests/firmware/linked_stream.hpp"
+#include "tests/firmware/linked_pack.hpp"
 #include "toolchains/firmware.h"
 
 namespace {
@@ -9,14 +9,6 @@ namespace {
 constexpr uint32_t kSlots = 5, kCapacity = 300;
 
 alignas(MICROTIN_ALIGNMENT) uint8_t workspace[MICROTIN_PACK_BYTES(kSlots, kCapacity)];
-
-int32_t read_flash(void*, uint64_t offset, uint8_t* buffer, size_t size) {
-  size_t count = 0;
-  for (; count < size && offset + count < stream_size(); ++count) {
-    buffer[count] = stream_byte(static_cast<size_t>(offset) + count);
-  }
-  return static_cast<int32_t>(count);
-}
 
 }  // namespace
 

@@ -3,28 +3,11 @@
 #include "microtin/pack.hpp"
 
 #include "decoder/examples/flight.h"
-#include "tests/firmware/linked_stream.hpp"
+#include "tests/firmware/linked_pack.hpp"
 
 namespace {
 
 constexpr uint32_t kSlots = 4, kCapacity = 60;
-
-int32_t read_flash(void*, uint64_t offset, uint8_t* buffer, size_t size) {
-  size_t count = 0;
-  for (; count < size && offset + count < stream_size(); ++count) {
-    buffer[count] = stream_byte(static_cast<size_t>(offset) + count);
-  }
-  return static_cast<int32_t>(count);
-}
-
-// In turns of a few steps.
-microtin_status serve(microtin::Pack<kSlots, kCapacity>& pack, const microtin_course& course) {
-  microtin_status status = MICROTIN_NEED_INPUT;
-  while (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
-    status = pack.service(course, 50, read_flash, nullptr);
-  }
-  return status;
-}
 
 }  // namespace
 

@@ -26,6 +26,8 @@ BUCKETS = ["buckets_init", "buckets_hint"]
 COMPACT = ["compact_begin", "compact_proceed", "compact_needs", "compact_height_at", "compact_hint"]
 PACK = ["pack_init", "pack_prepare", "pack_wanted", "pack_given", "pack_align_reads", "pack_bad_tile", "pack_header"]
 PACK_QUERIES = ["pack_height_at", "pack_to_lattice", "pack_highest", "pack_fill"]
+COMPACT_PACK = [{"pack_init": "compact_pack_init", "pack_prepare": "compact_pack_prepare"}.get(e, e) for e in PACK]
+COMPACT_PACK_QUERIES = ["compact_pack_height_at", "pack_to_lattice", "compact_pack_highest", "compact_pack_fill"]
 USES = {
     "decoding": DECODING,
     "queries": DECODING + QUERIES,
@@ -33,8 +35,10 @@ USES = {
     "compact": DECODING + COMPACT,
     "pack": PACK + ["pack_height_at"],
     "pack_queries": PACK + PACK_QUERIES,
+    "compact_pack": COMPACT_PACK + ["compact_pack_height_at"],
+    "compact_pack_queries": COMPACT_PACK + COMPACT_PACK_QUERIES,
 }
-WIDTH_IN_NAME = ["peek", "mesh_init", "decoder_init", "buckets_init", "compact_begin", "pack_init"]
+WIDTH_IN_NAME = ["peek", "mesh_init", "decoder_init", "buckets_init", "compact_begin", "pack_init", "compact_pack_init"]
 
 
 # --- Measuring ------------------------------------------------------------------------------------
@@ -86,11 +90,12 @@ def measure_library(options, library):
         graphs = [str(Path(o).with_suffix(".ci")) for o in options.objects[library].split(":")]
         graphs = [graph for graph in graphs if Path(graph).exists()]
         image = str(options.build / "linked")
-        link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + PACK + PACK_QUERIES, image)
+        all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
+        link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + all_packs, image)
         calls = stack.Stack(options.target, options.objdump, image, graphs)
         own = {
             "decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT, "pack": PACK,
-            "pack_queries": PACK_QUERIES,
+            "pack_queries": PACK_QUERIES, "compact_pack": COMPACT_PACK, "compact_pack_queries": COMPACT_PACK_QUERIES,
         }  # fmt: skip
         for use, entries in own.items():
             result["stack_" + use] = max(calls.depth(symbol(options, entry)) for entry in entries)
@@ -115,6 +120,7 @@ def measure_images(options, level):
         for setting in ("quick", "balanced", "dense")
     }
     numbers |= printed["tile_balanced"]
+    numbers |= run_image(options, f"{options.images}{level}.pack")
     for name in ("worst_step", "compact_worst_step"):
         numbers[name] = max(p[name] for p in printed.values())
     return numbers
@@ -179,13 +185,13 @@ def table(head, rows):
 def code_table(budget):
     head = ["target"]
     for level in ("-Os", "-O2"):
-        head += [f"{level}: decoding", "and queries", "and buckets", "compact instead", "packs", "all of packs", "stack", "of a pack's service", "of its queries"]
+        head += [f"{level}: decoding", "and queries", "and buckets", "compact instead", "packs", "all of packs", "packs, compact slots", "all of these", "stack", "of a pack's service", "of its queries", "of a service, compact slots", "of its queries"]
     rows = []
     for target, numbers in budget.items():
         row = [target]
         for level in (numbers["Os"], numbers["O2"]):
             row += [f"{count(level[u]['text'])} + {count(level[u]['rodata'])}" if u in level else "-" for u in USES]
-            for use in ("decoding", "pack", "pack_queries"):
+            for use in ("decoding", "pack", "pack_queries", "compact_pack", "compact_pack_queries"):
                 row.append(count(level["stack_" + use]) if "stack_" + use in level else "-")
         rows.append(row)
     return table(head, rows)
@@ -206,6 +212,14 @@ RUN_ROWS = {
     "compact_warm": "compact: height on a straight path: mean, worst",
     "compact_far": "... height anywhere, from where the last one was: mean, worst",
     "compact_found": "... from a hint of microtin_compact_hint: mean, worst",
+    "pack_tile": "a pack's service, per tile of 64 vertices, from flash",
+    "pack_worst_call": "dearest call of that, of one step",
+    "pack_height": "height anywhere in 9 such tiles: mean, worst",
+    "pack_highest": "highest on a course through them: mean, worst",
+    "compact_pack_tile": "compact slots: service, per tile",
+    "compact_pack_worst_call": "... dearest call",
+    "compact_pack_height": "... height: mean, worst",
+    "compact_pack_highest": "... highest: mean, worst",
 }
 
 

@@ -12,6 +12,13 @@ trap 'rm -r "$terrain"' EXIT
 size=$(wc -c <"$here/card.mtp")
 printf 'damage' | dd of="$here/card.mtp" bs=1 seek=$((size * 2 / 5)) conv=notrunc status=none
 "$microtin" encode "$terrain/t.asc" --max-error 30 --tile-vertices 60 -o "$here/tiles.mtp"
+# kept.mtp is all kept in 16 KB of RAM: 22 x 22 posts, of which none can be left out.
+awk 'BEGIN {
+  print "ncols 22\nnrows 22\nxllcenter 0\nyllcenter 0\ncellsize 30"
+  for (y = 0; y < 22; ++y)
+    for (x = 0; x < 22; ++x) printf "%d%s", (x * x * 37 + y * y * y * 61 + x * y * 17) % 89, x < 21 ? " " : "\n"
+}' >"$terrain/k.asc"
+"$microtin" encode "$terrain/k.asc" --max-error 0 --tile-vertices 64 --tile-steps 7 -o "$here/kept.mtp"
 # degree.mtp is for the adapters: in degrees and metres.
 "$microtin" fractal --size 129 --seed 4 -o "$terrain/d.asc"
 sed -i 's/^cellsize.*/cellsize 0.0008/; s/^xll[a-z]*.*/xllcenter 7.2/; s/^yll[a-z]*.*/yllcenter 43.3/' "$terrain/d.asc"

@@ -53,14 +53,44 @@ TEST_CASE("legend: round lengths") {
 }
 
 TEST_CASE("legend: every character that is written leaves ink, others a blank") {
-  for (const char* text = "0123456789abcdefghijklmnopqrstuvwxyz.,:+-/()"; *text != '\0'; ++text) {
-    const char one[] = {*text, '\0'};
+  std::string letters =
+      "0123456789abcdefghijklmnopqrstuvwxyz.,:+-/()ABCDEFGHIJKLMNOPQRSTUVWXYZ;!?&=_'\"";
+  for (const char letter : letters) {
+    const char one[] = {letter, '\0'};
     CHECK_MESSAGE(ink_of(one) > 0, one);
+    CHECK(missing_letter(one).empty());
   }
   CHECK(ink_of(" ") == 0);
-  CHECK(ink_of("\xC3\xA9") == 0);
+  for (const char* const none : {"\xE2\x82\xAC", "\xC3\x97", "\xC5\xBE", "\xFF", "\n", "#"}) {
+    CHECK(ink_of(none) == 0);
+    CHECK(missing_letter(std::string("a ") + none + " b") == none);
+  }
   CHECK(text_width("") == 0);
   CHECK(text_width("11") > text_width("1"));
+}
+
+TEST_CASE("legend: accents are on their letters, whose width they leave") {
+  const std::pair<const char*, const char*> marked[] = {
+      {"\xC3\xA9", "e"}, {"\xC3\xA4", "a"}, {"\xC3\x84", "A"}, {"\xC3\xBF", "y"}, {"\xC3\xA7", "c"},
+      {"\xC3\x91", "N"}, {"\xC3\xA5", "a"}, {"\xC3\xAE", "i"}, {"\xC3\x9D", "Y"}};
+  for (const auto& [with, without] : marked) {
+    CHECK(missing_letter(with).empty());
+    CHECK(text_width(with) == text_width(without));
+    CHECK_MESSAGE(ink_of(with) > ink_of(without), without);
+  }
+  CHECK(text_width("\xC3\x9F") > 0);  // a letter of its own
+}
+
+TEST_CASE("legend: text runs along its direction") {
+  Canvas across(80, 80, kPaper), up(80, 80, kPaper);
+  draw_text(across, "L7e", {20, 60}, 2, {0, 0, 0});
+  draw_text(up, "L7e", {60, 60}, 2, {0, 0, 0}, {0, -1});
+  for (uint32_t row = 0; row < 80; ++row) {
+    for (uint32_t column = 0; column < 80; ++column) {
+      const auto turned = 3 * (size_t{79 - column} * 80 + row);
+      CHECK(std::abs(across.rgb()[3 * (size_t{row} * 80 + column)] - up.rgb()[turned]) <= 1);
+    }
+  }
 }
 
 TEST_CASE("legend: a scale bar is as long as it says") {

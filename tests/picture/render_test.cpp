@@ -267,6 +267,10 @@ TEST_CASE("render: any shape and width") {
                                     visit(0, 0, 0, 0);
                                     return Verification();
                                   }};
+      Portrait full = portrait(shape);
+      full.coordinates = full.north_arrow = full.contours = true;
+      full.title = "Title";
+      CHECK(Picture(render_png(full, width, &comparison)).width == static_cast<int>(width));
       CHECK(Picture(render_png(portrait(shape), width)).width == static_cast<int>(width));
       CHECK(Picture(render_png(portrait(shape), width, &comparison)).width ==
             static_cast<int>(width));
@@ -281,4 +285,11 @@ TEST_CASE("render: sizes out of range are refused") {
                          Error);
   }
   CHECK_THROWS_WITH_AS(render_png(Portrait(), 200), "there is nothing to draw", Error);
+  Portrait titled = triangle;
+  titled.title = "a\xE2\x82\xAC";
+  CHECK_THROWS_WITH_AS(
+      render_png(titled, 200),
+      "the title has \"\xE2\x82\xAC\", which cannot be drawn: there are Latin letters "
+      "with Western accents, digits and common signs",
+      Error);
 }

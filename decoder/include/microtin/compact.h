@@ -16,8 +16,8 @@
 /* Bytes of a compact terrain of so many vertices; NARROW if its places lie in a box less than 256
  * steps wide and high. Constant expressions, also usable in #if. The path passes vertices that it
  * cannot reach by taking a neighbour twice, which costs as much as two vertices: these macros allow
- * for as many as the encoder lets pass. A mesh made to need more is told from
- * them by its status, MICROTIN_WORKSPACE_TOO_SMALL, before anything is changed. */
+ * for as many as the encoder lets pass. A mesh that needs more is told by its status,
+ * MICROTIN_WORKSPACE_TOO_SMALL, before anything is changed. */
 #define MICROTIN_COMPACT_BYTES(vertices) \
   MICROTIN_COMPACT_BYTES_FOR(vertices, 2ul, MICROTIN_INDEX_BITS)
 #define MICROTIN_COMPACT_NARROW_BYTES(vertices) \

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Measures what the linked pack takes to serve and to ask, with slots of meshes and compact ones:
+// prints a line "name value" for each number, all in instructions.
+#include "microtin/compact_pack.hpp"
+#include "tests/firmware/linked_pack.hpp"
+#include "tests/firmware/report.hpp"
+#include "toolchains/counter.hpp"
+#include "toolchains/firmware.h"
+
+namespace {
+
+constexpr uint32_t kSlots = 9, kCapacity = 64, kPlaces = 1024, kCourses = 64;
+
+class Statistics {
+ public:
+  void add(uint32_t value) {
+    sum_ += value;
+    ++count_;
+    if (value > most_) most_ = value;
+  }
+  uint32_t sum() const { return sum_; }
+  uint32_t mean() const { return sum_ / count_; }
+  uint32_t most() const { return most_; }
+
+ private:
+  uint32_t sum_ = 0, count_ = 0, most_ = 0;
+};
+
+class Told {
+ public:
+  explicit Told(const char* form) : form_(form) {}
+
+  void say(const char* what, uint32_t value) const {
+    microtin::print(put_char, form_);
+    microtin::print(put_char, what);
+    microtin::print(put_char, " ");
+    microtin::print(put_char, value);
+    microtin::print(put_char, "\n");
+  }
+
+ private:
+  const char* form_;
+};
+
+template <class Work>
+uint32_t counted(const Work& work) {
+  const uint32_t before = instruction_count();
+  work();
+  const uint32_t after = instruction_count();
+  return after - before - (instruction_count() - after);
+}
+
+// Has all tiles there, in calls of one step: reading is counted, too, from flash.
+template <class Pack>
+Statistics fetch(Pack& pack, microtin_pack_info& info) {
+  Statistics calls;
+  serve(pack, {0, 0, 0, 0});
+  pack.header(&info);
+  pack.reset();
+  for (uint32_t i = 0; i < kSlots; ++i) {
+    const int64_t x = static_cast<int64_t>(i % 3 * info.tile_width) * 256 + 128;
+    const int64_t y = static_cast<int64_t>(i / 3 * info.tile_height) * 256 + 128;
+    microtin_status status = MICROTIN_NEED_INPUT;
+    while (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
+      calls.add(counted([&] { status = pack.service({x, y, x, y}, 1, read_flash, nullptr); }));
+    }
+  }
+  return calls;
+}
+
+template <class Pack>
+void measure(Pack& pack, const Told& told) {
+  microtin_pack_info info;
+  const Statistics service = fetch(pack, info);
+  told.say("_tile", service.sum() / kSlots);
+  told.say("_worst_call", service.most());
+  Statistics heights, courses;
+  microtin::ProbeNumbers numbers;
+  const int32_t x_most = static_cast<int32_t>(info.x_max) * 256,
+                y_most = static_cast<int32_t>(info.y_max) * 256;
+  uint32_t hint = 0;
+  int32_t height = 0;
+  for (uint32_t i = 0; i < kPlaces; ++i) {
+    const int32_t x = numbers.between(0, x_most), y = numbers.between(0, y_most);
+    heights.add(counted([&] { pack.height_at(x, y, &hint, &height); }));
+  }
+  told.say("_height_mean", heights.mean());
+  told.say("_height_worst", heights.most());
+  for (uint32_t i = 0; i < kCourses; ++i) {
+    const int32_t x = numbers.between(0, x_most), y = numbers.between(0, y_most),
+                  x_end = numbers.between(0, x_most), y_end = numbers.between(0, y_most);
+    courses.add(counted([&] { pack.highest({x, y, x_end, y_end}, &height); }));
+  }
+  told.say("_highest_mean", courses.mean());
+  told.say("_highest_worst", courses.most());
+}
+
+}  // namespace
+
+int firmware_main() {
+  static microtin::Pack<kSlots, kCapacity> meshes(microtin::later);
+  static microtin::CompactPack<kSlots, kCapacity> compact(microtin::later);
+  if (meshes.begin() != MICROTIN_DONE || compact.begin() != MICROTIN_DONE) return 1;
+  measure(meshes, Told("pack"));
+  measure(compact, Told("compact_pack"));
+  return 0;
+}
