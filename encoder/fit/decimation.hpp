@@ -24,8 +24,8 @@ class Decimation {
   // The surface keeps its bounds and must outlive this.
   explicit Decimation(Surface& surface);
 
-  // Tries every vertex around which something has changed since it was tried last, in an order
-  // that looks random. Returns how many vertices fewer there are.
+  // Tries every vertex around which something has changed since it was tried last. Returns how many
+  // vertices fewer there are.
   std::size_t remove_vertices(const Progress& progress);
   // `done`: how much of the search is over, 0 .. 1.
   std::size_t remove_and_move_vertices(double done, const Progress& progress);
@@ -39,6 +39,7 @@ class Decimation {
     std::vector<Index> ring, triangles;
   };
 
+  std::vector<Index> order_of_attempts();
   template <class Try>
   std::size_t try_each(const Progress& progress, const Try& attempt);
   bool try_removal(Index v);

@@ -28,7 +28,8 @@ constexpr double kCloseness = 4, kFlatness = 30;
 
 }  // namespace
 
-HeightChoice::HeightChoice(Surface& surface, uint32_t degree) : surface_(surface) {
+HeightChoice::HeightChoice(Surface& surface, uint32_t degree)
+    : surface_(surface), balance_(surface), allowed_(surface.vertex_limit()) {
   find_rings(degree);
   find_dependents();
   for (const Index v : vertex_) z_.push_back(surface_.height(v));
@@ -136,12 +137,12 @@ float HeightChoice::price(const Goal& goal, int32_t height) {
 
 HeightChoice::Goal HeightChoice::goal_of(Index i, const Surface::Interval& allowed) const {
   if (level_[i]) return {*level_[i], kFlatness / (radius_ * radius_)};
-  return {allowed.best - bias_, kCloseness * allowed.curvature * vertices_per_radius_};
+  return {allowed.best, kCloseness * allowed.curvature * vertices_per_radius_};
 }
 
 void HeightChoice::choose(Index i) {
   const Index v = vertex_[i];
-  const Surface::Interval allowed = surface_.allowed_heights(v);
+  const Surface::Interval allowed = allowed_heights(v);
   const Goal goal = goal_of(i, allowed);
   const int32_t before = z_[i], predicted = predict(i).height;
   const int32_t around =
@@ -149,7 +150,8 @@ void HeightChoice::choose(Index i) {
   float lowest = cost_at(i, before) + price(goal, before);
   int32_t best = before;
   const auto consider = [&](int32_t z) {
-    const float cost = cost_at(i, z) + price(goal, z);
+    const float cost =
+        cost_at(i, z) + price(goal, z) + static_cast<float>(balance_.price(v, z - before));
     if (cost >= lowest) return;
     surface_.set_height(v, static_cast<int16_t>(z));
     if (!surface_.keeps_bounds_around(v)) return;
@@ -161,9 +163,27 @@ void HeightChoice::choose(Index i) {
   for (int32_t z = low; z <= high; ++z) consider(z);
   const auto aim = static_cast<int32_t>(std::lround(std::clamp(goal.height, -32768.0, 32767.0)));
   if ((aim < low || aim > high) && aim >= allowed.low && aim <= allowed.high) consider(aim);
-  z_[i] = static_cast<int16_t>(best);
+  z_[i] = static_cast<int16_t>(before);
   surface_.set_height(v, z_[i]);
+  if (best != before) set_height(i, best);
   residual_[i] = residual_of(best - predict(i).height);
+}
+
+void HeightChoice::set_height(Index i, int32_t height) {
+  const Index v = vertex_[i];
+  balance_.move(v, height - z_[i]);
+  z_[i] = static_cast<int16_t>(height);
+  surface_.set_height(v, z_[i]);
+  surface_.visit_around(v, [this](Index h) {
+    const Index neighbour = surface_.mesh().origin[next_in_triangle(h)];
+    if (neighbour != kInfinity) allowed_[neighbour].reset();
+  });
+}
+
+// They depend on the heights of its neighbours alone.
+const Surface::Interval& HeightChoice::allowed_heights(Index v) {
+  if (!allowed_[v]) allowed_[v] = surface_.allowed_heights(v);
+  return *allowed_[v];
 }
 
 // Vertices amid posts of one height.
@@ -186,7 +206,11 @@ void HeightChoice::find_levels() {
 void HeightChoice::pass() {
   learn_costs();
   for (Index i = 0; i < z_.size(); ++i) choose(i);
-  bias_ += surface_.mean_error();
+}
+
+void HeightChoice::balance() {
+  balance_.weigh_more();
+  pass();
 }
 
 }  // namespace microtin::fit

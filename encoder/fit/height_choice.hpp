@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "encoder/fit/balance.hpp"
 #include "encoder/fit/surface.hpp"
 #include "encoder/layers.hpp"
 #include "shared/height_coding.hpp"
@@ -22,9 +23,15 @@ class HeightChoice {
   HeightChoice(Surface& surface, uint32_t degree);
 
   // Gives each vertex in turn the allowed height that makes it and those that it predicts cheapest,
-  // where small errors, the source's height on flat ground and what brings the mean error nearer to
-  // zero than the pass before are worth some bits.
+  // where small errors, the source's height on flat ground and means near zero are worth some bits.
   void pass();
+
+  // Such a pass in which means are worth twice as much as before: what costs least is changed
+  // first.
+  void balance();
+
+  // Whether means are near zero.
+  bool is_balanced() const { return balance_.is_kept(); }
 
  private:
   // Numbers of vertices here are places in the order of sending.
@@ -41,8 +48,11 @@ class HeightChoice {
   Goal goal_of(Index i, const Surface::Interval& allowed) const;
   static float price(const Goal& goal, int32_t height);
   void choose(Index i);
+  void set_height(Index i, int32_t height);
+  const Surface::Interval& allowed_heights(Index v);
 
   Surface& surface_;
+  Balance balance_;
   std::vector<Index> vertex_;  // of the surface
   std::vector<Point> place_;
   std::vector<int16_t> z_;
@@ -55,7 +65,9 @@ class HeightChoice {
   std::vector<std::optional<double>> level_;  // the source's height where it is flat, in steps
   double radius_ = 0;                         // of the bounds, on average
   double vertices_per_radius_ = 0;            // for each post, and squared
-  double bias_ = 0;                           // to be made up for, in steps
+
+  // By vertex of the surface: what it may be while nothing around changes.
+  std::vector<std::optional<Surface::Interval>> allowed_;
 };
 
 }  // namespace microtin::fit

@@ -24,6 +24,23 @@ Lanes load(const float* from) {
   return lanes;
 }
 
+void store(Lanes lanes, float* to) {
+  std::memcpy(to, &lanes, sizeof lanes);
+}
+
+Lanes height_above(int16_t z, const double* middles) {
+  Lanes above;
+  for (std::size_t i = 0; i < kLanes; ++i) above[i] = static_cast<float>(z - middles[i]);
+  return above;
+}
+
+// How far each is beyond its radius, squared.
+Lanes squared_excess(Lanes error, Lanes radius) {
+  const Lanes over = (error < 0 ? -error : error) - radius;
+  const Lanes excess = over < 0 ? Lanes{} : over;
+  return excess * excess;
+}
+
 float sum_of(Lanes lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
 }
@@ -55,8 +72,7 @@ void HeightFit::settle() {
     const int32_t shift = step_to_source(movers_[m]);
     const auto stays = [&](const std::pair<uint32_t, uint32_t>& at) {
       const Face& face = faces_[at.first];
-      const float* const weight = weight_[at.second].data();
-      return excess_of(face, weight, static_cast<float>(shift)) <= face.excess;
+      return excess_of(face, at.second, static_cast<float>(shift))[1] <= face.excess;
     };
     const auto& corners = movers_[m].corners;
     if (shift != 0 && std::all_of(corners.begin(), corners.end(), stays)) move(movers_[m], shift);
@@ -128,7 +144,7 @@ void HeightFit::add_face(Index triangle) {
   face.begin = posts_;
   add_posts({surface_.vertex(corner[0]), surface_.vertex(corner[1]), surface_.vertex(corner[2])});
   face.end = posts_;
-  face.excess = excess_of(face, weight_[0].data(), 0);
+  face.excess = excess_of(face);
   for (uint32_t i = 0; i < 3; ++i) {
     face.mover[i] = mover_[corner[i]];
     if (face.mover[i] == kFixed) continue;
@@ -150,29 +166,21 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
   const auto b_rise = static_cast<float>(vb.z - va.z), c_rise = static_cast<float>(vc.z - va.z);
   const PostIndex& posts = surface_.posts();
   posts.visit_runs(a, b, c, [&](std::size_t first, std::size_t last) {
-    const std::size_t size = last - first;
-    reserve(posts_ + size);
+    reserve(posts_ + (last - first));
     const auto x = static_cast<float>(posts.place(first).x - a.x);
     const float b_before = b_along_x * x, c_before = c_along_x * x;
-    const double* const middle = surface_.middles() + first;
-    const float* const radius = surface_.radii() + first;
-    float* const radius_here = radius_.data() + posts_;
-    uint32_t* const position = position_.data() + posts_;
-    float* const error = error_.data() + posts_;
-    float* const of_a = weight_[0].data() + posts_;
-    float* const of_b = weight_[1].data() + posts_;
-    float* const of_c = weight_[2].data() + posts_;
-    for (std::size_t i = 0; i < size; ++i) {
-      const auto y = static_cast<float>(posts.place(first + i).y - a.y);
-      const float to_b = b_before + b_along_y * y, to_c = c_before + c_along_y * y;
-      position[i] = static_cast<uint32_t>(first + i);
-      error[i] = static_cast<float>(va.z - middle[i]) + to_b * b_rise + to_c * c_rise;
-      radius_here[i] = radius[i];
-      of_a[i] = 1.0F - to_b - to_c;
-      of_b[i] = to_b;
-      of_c[i] = to_c;
+    for (std::size_t i = first; i < last; i += kLanes) {
+      const Lanes y = load(posts.rows() + i) - static_cast<float>(a.y);
+      const Lanes to_b = b_before + b_along_y * y, to_c = c_before + c_along_y * y;
+      const std::size_t to = posts_ + (i - first);
+      const Lanes above = height_above(va.z, surface_.middles() + i);
+      store(above + to_b * b_rise + to_c * c_rise, error_.data() + to);
+      store(load(surface_.radii() + i), radius_.data() + to);
+      store(1.0F - to_b - to_c, weight_[0].data() + to);
+      store(to_b, weight_[1].data() + to);
+      store(to_c, weight_[2].data() + to);
     }
-    posts_ += size;
+    for (std::size_t i = first; i < last; ++i) position_[posts_++] = static_cast<uint32_t>(i);
   });
   for (; posts_ % kLanes != 0; ++posts_) {  // posts that nothing moves
     reserve(posts_ + 1);
@@ -182,7 +190,7 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
 }
 
 void HeightFit::reserve(std::size_t posts) {
-  if (posts <= error_.size()) return;
+  if (posts + kLanes <= error_.size()) return;
   const std::size_t size = 2 * posts + kLanes;
   position_.resize(size);
   error_.resize(size);
@@ -190,26 +198,32 @@ void HeightFit::reserve(std::size_t posts) {
   for (std::vector<float>& weight : weight_) weight.resize(size);
 }
 
-// The sum of squared distances from the bounds if a corner with these weights moved.
-float HeightFit::excess_of(const Face& face, const float* weight, float shift) const {
+// The sum of squared distances from the bounds.
+float HeightFit::excess_of(const Face& face) const {
   Lanes sum{};
-  const Lanes none{};
   for (std::size_t i = face.begin; i < face.end; i += kLanes) {
-    const Lanes error = load(error_.data() + i) + shift * load(weight + i);
-    const Lanes over = (error < 0 ? -error : error) - load(radius_.data() + i);
-    const Lanes excess = over < 0 ? none : over;
-    sum += excess * excess;
+    sum += squared_excess(load(error_.data() + i), load(radius_.data() + i));
   }
   return sum_of(sum);
 }
 
+// The same if a corner moved down, and up.
+std::array<float, 2> HeightFit::excess_of(const Face& face, uint32_t corner, float shift) const {
+  Lanes down{}, up{};
+  for (std::size_t i = face.begin; i < face.end; i += kLanes) {
+    const Lanes error = load(error_.data() + i), radius = load(radius_.data() + i);
+    const Lanes change = shift * load(weight_[corner].data() + i);
+    down += squared_excess(error - change, radius);
+    up += squared_excess(error + change, radius);
+  }
+  return {sum_of(down), sum_of(up)};
+}
+
 void HeightFit::evaluate(Face& face) const {
-  const auto stride = static_cast<float>(stride_);
-  face.excess = excess_of(face, weight_[0].data(), 0);
+  face.excess = excess_of(face);
   for (uint32_t i = 0; i < 3; ++i) {
     if (face.mover[i] == kFixed) continue;
-    face.shifted[i][0] = excess_of(face, weight_[i].data(), -stride);
-    face.shifted[i][1] = excess_of(face, weight_[i].data(), stride);
+    face.shifted[i] = excess_of(face, i, static_cast<float>(stride_));
   }
 }
 
@@ -247,8 +261,11 @@ void HeightFit::move(Mover& mover, int32_t shift) {
   mover.shift += shift;
   const auto steps = static_cast<float>(shift);
   for (const auto& [f, corner] : mover.corners) {
+    float* const error = error_.data();
     const float* const weight = weight_[corner].data();
-    for (std::size_t i = faces_[f].begin; i < faces_[f].end; ++i) error_[i] += steps * weight[i];
+    for (std::size_t i = faces_[f].begin; i < faces_[f].end; i += kLanes) {
+      store(load(error + i) + steps * load(weight + i), error + i);
+    }
   }
 }
 

@@ -39,7 +39,7 @@ class HeightFit {
     std::size_t begin, end;         // its posts, a multiple of the lanes
     std::array<uint32_t, 3> mover;  // of each corner
     float excess;
-    float shifted[3][2];  // the excess if a corner moved by a stride down or up
+    std::array<float, 2> shifted[3];  // the excess if a corner moved by a stride down or up
   };
   struct Mover {
     int32_t shift;
@@ -57,7 +57,8 @@ class HeightFit {
   void add_face(Index triangle);
   void add_posts(const std::array<Vertex, 3>& corner);
   void reserve(std::size_t posts);
-  float excess_of(const Face& face, const float* weight, float shift) const;
+  float excess_of(const Face& face) const;
+  std::array<float, 2> excess_of(const Face& face, uint32_t corner, float shift) const;
   void evaluate(Face& face) const;
   double excess() const;
   Step best_step() const;

@@ -24,10 +24,12 @@ PostIndex::PostIndex(const std::vector<Point>& places) {
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   std::vector<uint32_t> next(first_);
   places_.resize(places.size());
+  rows_of_places_.resize(places.size() + kReadAhead);
   numbers_.resize(places.size());
   for (uint32_t i = 0; i < places.size(); ++i) {
     const uint32_t position = next[cell_of(places[i])]++;
     places_[position] = places[i];
+    rows_of_places_[position] = places[i].y;
     numbers_[position] = i;
   }
 }

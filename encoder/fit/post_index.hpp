@@ -25,6 +25,9 @@ class PostIndex {
   std::size_t size() const { return places_.size(); }
   Point place(std::size_t position) const { return places_[position]; }
   uint32_t number(std::size_t position) const { return numbers_[position]; }
+  // The y of places by position, and kReadAhead numbers more.
+  const float* rows() const { return rows_of_places_.data(); }
+  static constexpr std::size_t kReadAhead = 4;
 
   // Calls visit(first, last) for all positions in first .. last - 1, so that together they are
   // those of all posts in the closed counter-clockwise triangle. Each time all have the same x.
@@ -32,6 +35,10 @@ class PostIndex {
   void visit_runs(Point a, Point b, Point c, const Visit& visit) const {
     if (places_.empty()) return;
     const Outline outline(a, b, c);
+    if (cell_ == 1) {
+      visit_columns(outline, visit);
+      return;
+    }
     const uint32_t last = std::min<uint32_t>(outline.right().x / cell_, columns_ - 1);
     for (uint32_t column = outline.left().x / cell_; column <= last; ++column) {
       const int64_t x = int64_t{column} * cell_;
@@ -41,12 +48,7 @@ class PostIndex {
       const auto low = static_cast<std::size_t>(span.low / cell_);
       const auto high =
           std::min<std::size_t>(static_cast<std::size_t>(span.high / cell_), rows_ - 1);
-      const std::size_t begin = cells[low], end = cells[high + 1];
-      if (cell_ == 1) {
-        if (begin != end) visit(begin, end);
-        continue;
-      }
-      for (std::size_t i = begin; i < end; ++i) {
+      for (std::size_t i = cells[low]; i < cells[high + 1]; ++i) {
         if (covers(a, b, c, places_[i])) visit(i, i + 1);
       }
     }
@@ -93,6 +95,13 @@ class PostIndex {
       return span;
     }
 
+    // The same where from = to, within the triangle.
+    Span at(int64_t x) const {
+      const Line& bent = x < corner_[1].x ? before_ : after_;
+      if (bends_up_) return {long_.ceil_at(x), bent.floor_at(x)};
+      return {bent.ceil_at(x), long_.floor_at(x)};
+    }
+
    private:
     static void join(Span& span, Span other) {
       span.low = std::min(span.low, other.low);
@@ -117,24 +126,33 @@ class PostIndex {
       double slope_ = 0;
     };
 
-    Span at(int64_t x) const {
-      const Line& bent = x < corner_[1].x ? before_ : after_;
-      if (bends_up_) return {long_.ceil_at(x), bent.floor_at(x)};
-      return {bent.ceil_at(x), long_.floor_at(x)};
-    }
-
     Point corner_[3];
     bool bends_up_;
     Line long_, before_, after_;
   };
+
+  // The same where a cell is a place: no post has to be tested.
+  template <class Visit>
+  void visit_columns(const Outline& outline, const Visit& visit) const {
+    const uint32_t last = std::min<uint32_t>(outline.right().x, columns_ - 1);
+    for (uint32_t x = outline.left().x; x <= last; ++x) {
+      const Outline::Span span = outline.at(x);
+      const int64_t high = std::min<int64_t>(span.high, int64_t{rows_} - 1);
+      if (span.low > high) continue;
+      const uint32_t* const cells = first_.data() + std::size_t{x} * rows_;
+      const std::size_t begin = cells[span.low], end = cells[high + 1];
+      if (begin != end) visit(begin, end);
+    }
+  }
 
   static bool covers(Point a, Point b, Point c, Point p) {
     return orient2d(a, b, p) >= 0 && orient2d(b, c, p) >= 0 && orient2d(c, a, p) >= 0;
   }
 
   uint32_t cell_ = 1, columns_ = 0, rows_ = 0;
-  std::vector<Point> places_;      // by position
-  std::vector<uint32_t> numbers_;  // the same
+  std::vector<Point> places_;  // by position
+  std::vector<float> rows_of_places_;
+  std::vector<uint32_t> numbers_;  // by position
   std::vector<uint32_t> first_;    // position in each cell, and one more
 };
 

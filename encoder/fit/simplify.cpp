@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include "encoder/fit/decimation.hpp"
@@ -84,14 +85,29 @@ void remove_and_move(Decimation& decimation, uint32_t rounds, const Progress& pr
   }
 }
 
-// The surface with cheaper heights, or the one before if that was cheaper nevertheless.
+// What means near zero may cost, and how often that is tried.
+constexpr double kBalanceCost = 0.005;
+constexpr int kBalancePasses = 8;
+
+// The surface with cheaper heights and means near zero, or the one before if that was cheaper
+// nevertheless.
 Tin with_heights(Surface& surface, const Tin& before, const SimplifyOptions& options) {
-  HeightChoice heights(surface, options.effort.degree);
-  const int passes = options.search == Search::kTrial ? kTrialPasses : kHeightPasses;
-  for (int i = 0; i < passes; ++i) heights.pass();
-  Tin improved = surface.tin();
   const auto bytes = [&](const Tin& t) { return encode(t, {}, options.effort).size(); };
-  return bytes(improved) <= bytes(before) ? improved : before;
+  HeightChoice heights(surface, options.effort.degree);
+  const bool is_trial = options.search == Search::kTrial;
+  for (int i = 0; i < (is_trial ? kTrialPasses : kHeightPasses); ++i) heights.pass();
+  Tin improved = surface.tin();
+  const std::size_t most = bytes(before), fewest = bytes(improved);
+  if (fewest > most) return before;
+  if (is_trial) return improved;
+  const auto allowed = static_cast<std::size_t>(static_cast<double>(fewest) * (1 + kBalanceCost));
+  for (int i = 0; i < kBalancePasses && !heights.is_balanced(); ++i) {
+    heights.balance();
+    Tin balanced = surface.tin();
+    if (bytes(balanced) > std::min(allowed, most)) break;
+    improved = std::move(balanced);
+  }
+  return improved;
 }
 
 // Of the time: the first attempt to remove all.

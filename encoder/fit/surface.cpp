@@ -66,6 +66,8 @@ Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts,
     radii_.push_back(static_cast<float>(radius));
     while (4 * widest_stride_ < radius && widest_stride_ < 4096) widest_stride_ *= 2;
   }
+  middles_.resize(posts.size() + PostIndex::kReadAhead);
+  radii_.resize(posts.size() + PostIndex::kReadAhead);
   find_voids();
   find_corners();
   find_fixed_samples();
@@ -167,29 +169,6 @@ Surface::Interval Surface::allowed_heights(Index v) const {
   return {static_cast<int32_t>(std::ceil(std::min(low, kBeyond) - kSlack)),
           static_cast<int32_t>(std::floor(std::max(high, -kBeyond) + kSlack)),
           weights != 0 ? heights / weights : 0, weights};
-}
-
-double Surface::mean_error() const {
-  double sum = 0;
-  std::size_t count = 0;
-  const auto add = [&](Vertex a, Vertex b, Vertex c) {
-    const Plane plane(a, b, c);
-    posts_.visit_runs({a.x, a.y}, {b.x, b.y}, {c.x, c.y}, [&](std::size_t first, std::size_t last) {
-      count += last - first;
-      for (std::size_t i = first; i < last; ++i) {
-        sum += plane.at(posts_.place(i)) - middles_[i];
-      }
-    });
-  };
-  for (Index v = 0; v < vertex_limit(); ++v) {
-    if (!has_vertex(v)) continue;
-    visit_around(v, [&](Index h) {
-      const Index b = mesh().origin[next_in_triangle(h)],
-                  c = mesh().origin[previous_in_triangle(h)];
-      if (v < b && v < c && is_covered(triangle_of(h))) add(vertex(v), vertex(b), vertex(c));
-    });
-  }
-  return count != 0 ? sum / static_cast<double>(count) : 0;
 }
 
 Index Surface::finite_neighbour(Index v) const {

@@ -27,7 +27,7 @@ class Surface {
   const Triangulation& triangulation() const { return triangulation_; }
 
   // The middle of what a post allows, and how far from there its ends are, in steps: by position
-  // in the index.
+  // in the index, and PostIndex::kReadAhead numbers more.
   const double* middles() const { return middles_.data(); }
   const float* radii() const { return radii_.data(); }
 
@@ -67,9 +67,6 @@ class Surface {
   };
   Interval allowed_heights(Index v) const;
 
-  // How far the surface is above the middle of what posts allow, on average; in steps.
-  double mean_error() const;
-
   // Removes a vertex that is not fixed. False, and nothing changes, if it has too many neighbours.
   bool remove(Index v);
 
@@ -92,6 +89,19 @@ class Surface {
       visit(h);
       h = mesh().twin[previous_in_triangle(h)];
     } while (h != start);
+  }
+
+  // Calls visit(triangle) for every covered triangle.
+  template <class Visit>
+  void visit_covered(const Visit& visit) const {
+    for (Index v = 0; v < vertex_limit(); ++v) {
+      if (!has_vertex(v)) continue;
+      visit_around(v, [&](Index h) {
+        const Index b = mesh().origin[next_in_triangle(h)];
+        const Index c = mesh().origin[previous_in_triangle(h)];
+        if (v < b && v < c && is_covered(triangle_of(h))) visit(triangle_of(h));
+      });
+    }
   }
 
   Tin tin() const;

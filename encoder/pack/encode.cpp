@@ -18,8 +18,8 @@
 namespace microtin::pack {
 namespace {
 
-// Of the time, estimated.
-constexpr double kScanPart = 0.02, kPlanPart = 0.1;
+// Of the time, estimated: reading the raster first, and choosing the step of heights.
+constexpr double kScanPart = 0.02, kStepPart = 0.05;
 
 // Steps that suit borders, too, in hundredths of the bound: of coarser ones, which may suit a
 // stream, their chains have too few heights to choose from.
@@ -30,16 +30,25 @@ std::vector<int> steps_to_try(bool never_below) {
 // The z step that suits a part of the raster best: that of its stream, or one of ours.
 Decimal choose_z_step(const Raster& part, const LatticeOptions& lattice, SimplifyOptions options) {
   if (options.search == Search::kNormal) options.search = Search::kFast;
-  options.progress = {};
+  const std::vector<int> steps = steps_to_try(lattice.never_below);
+  const Progress progress = options.progress;
+  double done = 0;
+  const auto next_part = [&] {
+    const double before = done;
+    done += 1.0 / static_cast<double>(steps.size() + 1);
+    return progress.part(before, done);
+  };
+  options.progress = next_part();
   const auto bytes_of = [&](const Tin& tin) { return encode(tin, {}, options.effort).size(); };
   const Approximation stream = approximate(part, lattice, options);
   Decimal best = stream.laid.z_step;
   std::size_t fewest = bytes_of(stream.tin);
-  for (const int hundredths : steps_to_try(lattice.never_below)) {
+  for (const int hundredths : steps) {
     if (lattice.max_error->decimals + 2 > kMaxDecimals) break;
     LatticeOptions with_step = lattice;
     with_step.z_step = make_decimal(Wide{lattice.max_error->mantissa} * hundredths,
                                     lattice.max_error->decimals + 2);
+    options.progress = next_part();
     const std::size_t bytes = bytes_of(approximate(part, with_step, options).tin);
     if (bytes >= fewest) continue;
     fewest = bytes;
@@ -50,12 +59,14 @@ Decimal choose_z_step(const Raster& part, const LatticeOptions& lattice, Simplif
 
 // Chooses the heights' lattice for all tiles.
 TiledRaster tiled_raster(const RasterReader& raster, const RasterScan& scanned,
-                         const PackOptions& options) {
+                         const PackOptions& options, const Progress& progress) {
   LatticeOptions lattice = options.lattice;
   const Raster& frame = raster.frame();
   if (options.simplify.bounded && !lattice.z_step) {
     try {
-      lattice.z_step = choose_z_step(raster.read(scanned.roughest), lattice, options.simplify);
+      SimplifyOptions simplify = options.simplify;
+      simplify.progress = progress;
+      lattice.z_step = choose_z_step(raster.read(scanned.roughest), lattice, simplify);
       return {raster, choose_post_lattice(frame, scanned.heights, lattice), lattice, {}};
     } catch (const Error&) {  // too little terrain there, or too fine for the whole
       lattice.z_step.reset();
@@ -104,10 +115,12 @@ PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   const bool chooses_z_step = options.simplify.bounded && !options.lattice.z_step;
   const RasterScan scanned =
       scan(raster, options.lattice.max_error, chooses_z_step, progress.part(0, kScanPart));
-  PackPlan plan{tiled_raster(raster, scanned, options), options, options.tile_steps,
-                scanned.fingerprint};
+  const double begun = chooses_z_step ? kStepPart : kScanPart;
+  PackPlan plan{tiled_raster(raster, scanned, options, progress.part(kScanPart, begun)), options,
+                options.tile_steps, scanned.fingerprint, begun};
   if (plan.tile_steps == 0) {
-    plan.tile_steps = choose_tile_steps(plan.tiled, options);
+    plan.part += (1 - begun) * counting_part(raster.frame(), options);
+    plan.tile_steps = choose_tile_steps(plan.tiled, options, progress.part(begun, plan.part));
   }
   plan.tiled.grid = grid_of(raster.frame(), plan.tile_steps);
   return plan;
@@ -127,7 +140,7 @@ void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
   InOrder in_order(range.first, take);
   SimplifyOptions options = plan.options.simplify;
   const std::size_t count = std::size_t{range.last} - range.first + 1;
-  CountedProgress done(options.progress.part(kPlanPart, 1), count);
+  CountedProgress done(options.progress.part(plan.part, 1), count);
   options.progress = {};
   for_each_parallel(count, [&](std::size_t i) {
     const uint32_t tile = range.first + static_cast<uint32_t>(i);

@@ -27,6 +27,9 @@ uint32_t divide_up(uint32_t a, uint32_t b) {
 
 constexpr std::size_t kSimplifiedTiles = 24;
 
+// How often tiles are counted, and how much of encoding them that takes, as met.
+constexpr double kUsualCounts = 4, kCountOfTile = 0.4;
+
 // The tiles that probably have most vertices.
 std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
   const std::size_t count = tile_count(tiled.grid), kept = std::min(count, kSimplifiedTiles);
@@ -50,19 +53,30 @@ std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
 // The vertices of the tile that probably has most, without searching long. Tiles that are a little
 // too large that way are counted as they will be encoded.
 uint32_t most_vertices(const TiledRaster& tiled, uint32_t max_vertices,
-                       const SimplifyOptions& options) {
+                       const SimplifyOptions& options, const Progress& progress) {
   SimplifyOptions quick = options;
   if (options.bounded) quick.search = Search::kFast;
   const std::vector<uint32_t> tiles = roughest_tiles(tiled);
   std::vector<uint32_t> vertices(tiles.size());
+  CountedProgress done(progress, tiles.size());
   for_each_parallel(tiles.size(), [&](std::size_t i) {
     vertices[i] = count_vertices(tiled, tiles[i], quick);
     const bool nearly_fits = vertices[i] > max_vertices && vertices[i] <= max_vertices / 8.0 * 9;
     if (nearly_fits && quick.search != options.search) {
       vertices[i] = count_vertices(tiled, tiles[i], options);
     }
+    done.add_one();
   });
   return *std::max_element(vertices.begin(), vertices.end());
+}
+
+// Into how many pieces the longer side goes, to begin with.
+uint32_t guessed_pieces(const Raster& frame, const PackOptions& options) {
+  const uint32_t longer = std::max(frame.width, frame.height) - 1;
+  const double posts =
+      options.simplify.bounded ? options.max_vertices * kPostsPerVertex : options.max_vertices;
+  const auto guess = static_cast<uint32_t>(longer / std::max(std::sqrt(posts) - 1, 1.0)) + 1;
+  return std::clamp(guess, 1u, longer);
 }
 
 [[noreturn]] void fail_at_one_step(uint32_t max_vertices, uint32_t most) {
@@ -85,19 +99,26 @@ TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps) {
   return grid;
 }
 
-uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options) {
+double counting_part(const Raster& frame, const PackOptions& options) {
+  const double longer = std::max(frame.width, frame.height),
+               pieces = guessed_pieces(frame, options);
+  const double tiles = pieces * pieces * std::min(frame.width, frame.height) / longer;
+  const double counted = std::min(tiles, double{kSimplifiedTiles}) * kUsualCounts * kCountOfTile;
+  return counted / (counted + tiles);
+}
+
+uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options,
+                           const Progress& progress) {
   SimplifyOptions simplify = options.simplify;
   simplify.progress = {};
   const Raster& frame = tiled.raster.frame();
   const uint32_t longer = std::max(frame.width, frame.height) - 1;
-  const double posts =
-      simplify.bounded ? options.max_vertices * kPostsPerVertex : options.max_vertices;
-  const auto guess = static_cast<uint32_t>(longer / std::max(std::sqrt(posts) - 1, 1.0)) + 1;
-  uint32_t fitting = 0, fewest = 1, pieces = std::clamp(guess, 1u, longer);
-  for (;;) {  // in pieces of the longer side
+  uint32_t fitting = 0, fewest = 1, pieces = guessed_pieces(frame, options);
+  for (double done = 0;; done += (1 - done) / kUsualCounts) {
     tiled.grid = grid_of(frame, divide_up(longer, pieces));
     const uint32_t allowed = most_vertices(options, tiled.grid);
-    const uint32_t most = most_vertices(tiled, allowed, simplify);
+    const Progress part = progress.part(done, done + (1 - done) / kUsualCounts);
+    const uint32_t most = most_vertices(tiled, allowed, simplify, part);
     if (most <= allowed) fitting = pieces;
     if (most > allowed) fewest = pieces + 1;
     const double ratio = std::sqrt(static_cast<double>(most) / allowed);

@@ -22,7 +22,10 @@ TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps);
 // the roughest tiles tell: up to 24 of them are simplified, two or three times, without searching
 // long unless they are a little too large then, and the raster is read as often. Throws Error if
 // there are none.
-uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options);
+uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options, const Progress& progress);
+
+// How much of the time of a pack that takes, estimated.
+double counting_part(const Raster& frame, const PackOptions& options);
 
 // What to try next if a tile has too many vertices; less than tile_steps. Throws Error if there is
 // nothing smaller.

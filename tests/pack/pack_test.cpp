@@ -121,6 +121,16 @@ TEST_CASE("packs: streams say whether their tiles begin at odd places") {
   CHECK(odd != 0);
 }
 
+TEST_CASE("packs: looking for the size of tiles tells how far it is") {
+  const Raster raster = rough_raster(121, 121);
+  PackOptions options = pack_options(6, 150);
+  std::vector<double> told;
+  options.simplify.progress = Progress([&](double done) { told.push_back(done); });
+  const PackPlan plan = plan_pack(RasterInMemory(raster), options);
+  const auto counting = [&](double done) { return done > 0.06 && done < plan.part; };
+  CHECK(std::count_if(told.begin(), told.end(), counting) > 3);
+}
+
 TEST_CASE("packs: a later version, or a flag of one, is not called broken") {
   const std::vector<uint8_t> bytes =
       write_pack(encode_pack(rough_raster(31, 33), pack_options(6, 60)));

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Mean errors: of all posts, and of each large flat part of the source.
+#ifndef MICROTIN_ENCODER_FIT_BALANCE_HPP
+#define MICROTIN_ENCODER_FIT_BALANCE_HPP
+
+#include <cstdint>
+#include <vector>
+
+#include "encoder/fit/surface.hpp"
+#include "encoder/layers.hpp"
+
+namespace microtin::fit {
+
+// The sum of errors is linear in the heights of vertices, so a change of one tells at once what
+// becomes of every mean. Where bounds are not around the source's heights (--never-below) no mean
+// is looked at: errors lie on one side there.
+class Balance {
+ public:
+  // Linear in posts, but for an inverse Ackermann function. Of the surface only heights may change
+  // then, and each change is told by `move`.
+  explicit Balance(const Surface& surface);
+
+  // What a change of a height makes of the means, in bits: below 0 where they come nearer to zero.
+  double price(Index v, int32_t steps) const;
+  void move(Index v, int32_t steps);
+
+  // Whether every mean is near zero, and if not, how much that is worth.
+  bool is_kept() const;
+  void weigh_more() { weight_ *= 2; }
+
+ private:
+  struct Part {
+    double sum;        // of errors, in steps
+    double posts;      // how many there are
+    double tolerance;  // of the mean, in steps
+    double vertices;   // that it depends on
+  };
+  struct Share {
+    uint32_t part;
+    double weight;  // what a step of the vertex adds to the part's sum
+  };
+
+  void find_parts(const Survey& survey);
+  void add_face(const Surface& surface, Index triangle, std::vector<bool>& met);
+  void add_error(uint32_t part, double error, const Index* corner, const double* weight);
+  double excess(const Part& part, double change) const;
+
+  std::vector<Part> parts_;                 // the first: all posts
+  std::vector<uint32_t> part_;              // by sample: its flat part, or 0
+  std::vector<std::vector<Share>> shares_;  // by vertex
+  double radius_ = 0;                       // of the bounds, on average
+  double weight_;                           // bits a vertex, if a mean is off by a radius
+};
+
+}  // namespace microtin::fit
+
+#endif
