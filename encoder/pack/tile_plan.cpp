@@ -27,7 +27,8 @@ uint32_t divide_up(uint32_t a, uint32_t b) {
 
 constexpr std::size_t kSimplifiedTiles = 24;
 
-// How often tiles are counted, and how much of encoding them that takes: guesses, for the time left alone.
+// How often tiles are counted, and how much of encoding them that takes: guesses, for the time left
+// alone.
 constexpr double kUsualCounts = 4, kCountOfTile = 0.4;
 
 // The tiles that probably have most vertices.
