@@ -13,14 +13,14 @@ from pathlib import Path
 
 SETTINGS = {"quick": "_D10_quick", "balanced": "", "dense": "_D10_dense"}
 VERSION_4 = {  # levels: bits, then what `measured` tells of costs
-    "version 4, 1": (18.55, 5217, 6355, 8752, 11547),
-    "version 4, 2": (18.02, 6746, 7883, 11422, 14735),
-    "version 4, 3": (17.90, 8129, 8657, 12134, 15571),
+    "version 4, 1 level": (18.55, 5217, 6355, 8752, 11547),
+    "version 4, 2 levels": (18.02, 6746, 7883, 11422, 14735),
+    "version 4, 3 levels": (17.90, 8129, 8657, 12134, 15571),
 }
 PEERS = {"Draco points (level 10) + CGAL": 17.80}
 COLOURS = {"quick balanced dense": "#1f6f8b", "version 4": "#c0562b", "peers": "#5a7d2a"}
 MARKED = re.compile(r"(<!-- curve: .* -->\n\n).*?(\n<!-- end of curve -->)", re.S)
-WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 320, 56, 76, 34, 48
+WIDTH, HEIGHT, LEFT, RIGHT, TOP, BOTTOM = 420, 320, 56, 100, 34, 48
 
 
 def rows_of(text):
