@@ -173,7 +173,7 @@ void keep_entries(microtin_pack& p) {
   p.kept = static_cast<uint8_t>(p.buffered / kPackEntryBytes - 1);
   p.kept_from = p.tile + 1;
   __builtin_memmove(p.buffer + room_of(p), p.buffer + kPackEntryBytes,
-                    static_cast<size_t>(p.kept * kPackEntryBytes));
+                    p.kept * static_cast<size_t>(kPackEntryBytes));
 }
 
 microtin_status handle_entry(microtin_pack& p) {

@@ -47,8 +47,8 @@ struct EncodedPoints {
   std::optional<Verification> true_places;  // of points that the lattice moves
 };
 
-// Points that the lattice moves are fitted within less than the bound where they truly lie, if it is
-// missed there. Throws Error also if that is not enough: without an --xy-step a pack moves none.
+// Points that the lattice moves are fitted within less than the bound where they truly lie, if it
+// is missed there. Throws Error also if that is not enough: without an --xy-step a pack moves none.
 EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options);
 
 // Writes a shard with some of the tiles that the pack of a raster has. Throws Error also if there

@@ -73,10 +73,10 @@ TEST_CASE("legend: accents are on their letters, whose width they leave") {
   const std::pair<const char*, const char*> marked[] = {
       {"\xC3\xA9", "e"}, {"\xC3\xA4", "a"}, {"\xC3\x84", "A"}, {"\xC3\xBF", "y"}, {"\xC3\xA7", "c"},
       {"\xC3\x91", "N"}, {"\xC3\xA5", "a"}, {"\xC3\xAE", "i"}, {"\xC3\x9D", "Y"}};
-  for (const auto& [with, without] : marked) {
-    CHECK(missing_letter(with).empty());
-    CHECK(text_width(with) == text_width(without));
-    CHECK_MESSAGE(ink_of(with) > ink_of(without), without);
+  for (const auto& pair : marked) {
+    CHECK(missing_letter(pair.first).empty());
+    CHECK(text_width(pair.first) == text_width(pair.second));
+    CHECK_MESSAGE(ink_of(pair.first) > ink_of(pair.second), pair.second);
   }
   CHECK(text_width("\xC3\x9F") > 0);  // a letter of its own
 }

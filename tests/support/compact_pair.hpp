@@ -197,7 +197,7 @@ inline std::string difference(const microtin_mesh* mesh, const microtin_compact*
   if (microtin_compact_digest(compact) != microtin_digest(mesh)) return "digest";
   if (!have_same_placement(mesh, compact)) return "placement";
   if (!(told_by(mesh) == told_by(compact))) return "vertices and triangles by number";
-  const std::string of_heights = difference_of_heights(mesh, compact, places, random);
+  std::string of_heights = difference_of_heights(mesh, compact, places, random);
   if (!of_heights.empty()) return of_heights;
   return difference_of_courses(mesh, compact, places / 20, random);
 }
