@@ -60,7 +60,7 @@ inline int32_t kept_within(int32_t v, int32_t least, int32_t most) {
 // The root of v but for 1 / 256 of it, for 0 < v < 2^31.
 inline uint32_t rough_root(uint32_t v) {
   const uint32_t half = highest_bit(v) >> 1;
-  const uint32_t guess = (11u * (v >> half) + ((22u << half) + 32u)) >> 5;
+  const uint32_t guess = (11u * (v >> half) + ((static_cast<uint32_t>(22) << half) + 32u)) >> 5;
   return (guess + v / guess) >> 1;
 }
 

@@ -117,7 +117,7 @@ constexpr uint32_t minor_segment(uint32_t k) {
 // Twice the area of a whole disc over the squared chord, pi / 2 (1 + k^2), with k <= 4 (8
 // fractional bits): 8 fractional bits, at most 6834.
 constexpr uint32_t whole_disc(uint32_t k) {
-  return (65536u + (k < 1024 ? k * k : 1024u * 1024u)) * 201u >> 15;
+  return (65536u + (k < 1024 ? k * k : 1048576u)) * 201u >> 15;
 }
 
 #if defined(MICROTIN_LARGE_TABLES)

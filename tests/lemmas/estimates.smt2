@@ -32,7 +32,7 @@
 (pop)
 
 ; Both segments of open sides and the triangle fit 31 bits.
-;; shared/free_region.hpp: return (65536u + (k < 1024 ? k * k : 1024u * 1024u)) * 201u >> 15;
+;; shared/free_region.hpp: return (65536u + (k < 1024 ? k * k : 1048576u)) * 201u >> 15;
 ;; shared/free_region.hpp: const int32_t minor = static_cast<int32_t>((square >> 4) * minor_segment_under(size) >> 7);
 ;; shared/free_region.hpp: return static_cast<int32_t>((square >> 8) * whole_disc_under(size)) - minor;
 (push)
