@@ -107,7 +107,7 @@ class TileCourse {
   };
 
   template <class Cursor>
-  Corner corner_of(const Cursor& cursor, uint32_t i) const {
+  MICROTIN_ONE_COPY Corner corner_of(const Cursor& cursor, uint32_t i) const {
     const Vertex v = cursor.vertex(cursor.corner(i));
     const LocalPoint at = fine_point(Point{v.x, v.y});
     return Corner{at, v.z, orient(begin_, end_, at)};
@@ -136,8 +136,7 @@ class TileCourse {
     if (!cursor.may_stop()) return true;
     if (cursor.is_ghost())
       return !leaves_at(cursor.place(cursor.start()), cursor.place(cursor.end()));
-    Corner corner[3];
-    for (uint32_t i = 0; i < 3; ++i) corner[i] = corner_of(cursor, i);
+    const Corner corner[3] = {corner_of(cursor, 0), corner_of(cursor, 1), corner_of(cursor, 2)};
     if (!cursor.has_terrain()) {
       for (const Corner& c : corner) look_at_corner(c, highest);
       return !loses_in(cursor, corner);

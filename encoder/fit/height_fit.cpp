@@ -29,7 +29,7 @@ void store(Lanes lanes, float* to) {
 }
 
 Lanes height_above(int16_t z, const double* middles) {
-  Lanes above;
+  Lanes above{};
   for (std::size_t i = 0; i < kLanes; ++i) above[i] = static_cast<float>(z - middles[i]);
   return above;
 }

@@ -110,9 +110,14 @@ TEST_CASE("the highest on a course of a terrain is exact, and known if every pla
 
 TEST_CASE("the highest of courses with an end off the lattice, and of meshes that are not there") {
   const Both terrain(terrain_stream(300, 4));
+  uint16_t column = 0, row = 0;
+  int16_t z = 0;
+  microtin_vertex(terrain.mesh.mesh(), 0, &column, &row, &z);
+  const int64_t x = int64_t{column} * 256, y = int64_t{row} * 256;
   int32_t height = 1;
+  REQUIRE(answer_at(terrain, x, y, &height) == MICROTIN_HEIGHT);
   for (const microtin_course& c :
-       {microtin_course{-1, 0, 5000, 0}, microtin_course{0, 0, 65535 * 256 + 1, 0},
+       {microtin_course{-1, 0, 5000, 0}, microtin_course{x, y, 65535 * 256 + 1, y},
         microtin_course{INT64_MIN, 0, INT64_MAX, 0}, microtin_course{0, INT64_MAX, 0, INT64_MIN}}) {
     CHECK(terrain.mesh.highest(c, &height) == MICROTIN_OUTSIDE);
     CHECK(height == INT32_MIN);
