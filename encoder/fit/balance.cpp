@@ -115,7 +115,7 @@ void Balance::add_face(const Surface& surface, Index triangle, std::vector<bool>
       const double of_b = static_cast<double>(orient2d(c, a, p)) / area;
       const double of_c = static_cast<double>(orient2d(a, b, p)) / area;
       const double weight[3] = {1 - of_b - of_c, of_b, of_c};
-      double error = -surface.survey().samples[sample].height / 65536.0;
+      double error = surface.survey().samples[sample].height / -65536.0;
       for (int k = 0; k < 3; ++k) error += weight[k] * surface.height(corner[k]);
       add_error(0, error, corner, weight);
       if (part_[sample] != 0) add_error(part_[sample], error, corner, weight);
