@@ -219,7 +219,8 @@ TEST_CASE("a decoder that betrays the encoder: a fault of ours, told as that, an
   for (const Words& words : commands) {
     for (Counter Counters::*const counter : {&Counters::streams, &Counters::heights}) {
       CAPTURE(words[1] + " " + words[3]);
-      REQUIRE(stage.run(words).status == 0);
+      const Stage::Result whole = stage.run(words);
+      REQUIRE_MESSAGE(whole.status == 0, whole.error);
       const uint64_t asked = (stage.counters().*counter).asked;
       CHECK(asked > 0);
       // A search for a size begins with a trial that has no bound: what errors it finds are not
