@@ -66,9 +66,8 @@ PostGrid grid_of_file(const DecodeRequest& request, const Metadata& terrain) {
   const OpenSource source = prepared_source(request.like, request.like_preparation);
   const auto* raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
-    throw Error(request.like +
-                ": are points, which have no grid; --cell says how far apart posts "
-                "are");
+    throw Error(request.like + ": are points, which have no grid; --cell says how far apart " +
+                "posts are");
   }
   expect_same_system(request.like, (*raster)->frame().reference, terrain);
   return posts_of((*raster)->frame());

@@ -181,7 +181,7 @@ void announce_left_out(const EncodeRequest& request) {
 
 // What the points of all files take, which are read into memory, if that is much.
 void announce_memory(const EncodeRequest& request) {
-  constexpr double kGigabyte = 1e9, kOfStream = 100, kOfPack = 170;  // bytes for a point
+  constexpr double kGigabyte = 1e9, kOfStream = 100, kOfPack = 180;  // bytes for a point
   uint64_t points = 0;
   for (const std::string& file : inputs_of(request)) points += points_expected(file);
   const double bytes = static_cast<double>(points) * (makes_pack(request) ? kOfPack : kOfStream);

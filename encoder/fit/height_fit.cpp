@@ -16,6 +16,7 @@ constexpr double kNegligible = 1e-8;  // excess, in squared steps
 
 // Several numbers at once.
 constexpr std::size_t kLanes = 4;
+static_assert(kLanes <= PostIndex::kReadAhead, "runs are read beyond their ends");
 typedef float Lanes __attribute__((vector_size(kLanes * sizeof(float))));
 
 Lanes load(const float* from) {

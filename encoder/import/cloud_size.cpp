@@ -15,21 +15,6 @@ namespace {
 
 constexpr uint64_t kLookedAt = 65536;
 
-// Bytes of a number in a LAS header, lowest first; 0 beyond the end.
-uint64_t number_at(const std::vector<uint8_t>& head, size_t at, size_t size) {
-  uint64_t number = 0;
-  for (size_t i = 0; i < size && at + i < head.size(); ++i) {
-    number |= uint64_t{head[at + i]} << 8 * i;
-  }
-  return number;
-}
-
-uint64_t points_of_las(const std::vector<uint8_t>& head) {
-  constexpr size_t kMinor = 25, kOld = 107, kNew = 247;
-  const uint64_t points = number_at(head, kMinor, 1) >= 4 ? number_at(head, kNew, 8) : 0;
-  return points != 0 ? points : number_at(head, kOld, 4);
-}
-
 uint64_t points_of_ply(const std::string& head) {
   const std::string element = "element vertex ";
   const size_t at = head.find(element);
@@ -52,8 +37,8 @@ uint64_t lines_of(const std::string& head, uint64_t bytes) {
 uint64_t points_in(const std::string& path, const std::string& suffix) {
   const std::unique_ptr<ByteSource> file = open_file(path);
   const std::vector<uint8_t> head = bytes_at(*file, 0, std::min(kLookedAt, file->size()));
-  if (suffix == ".las") return points_of_las(head);
   const std::string text(head.begin(), head.end());
+  if (suffix == ".las") return points_of_las(ByteReader(path, text));
   return suffix == ".ply" ? points_of_ply(text) : lines_of(text, file->size());
 }
 

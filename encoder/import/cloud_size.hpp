@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "encoder/files/byte_reader.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::importing {
@@ -14,6 +15,9 @@ namespace microtin::importing {
 // there are in a text if all are as long as its first. 0 of other files, and of those that cannot
 // be read, which reading tells.
 uint64_t points_expected(const std::string& path);
+
+// How many points the header of a LAS file says there are. Throws Error if it is cut off.
+uint64_t points_of_las(const ByteReader& file);
 
 }  // namespace microtin::importing
 

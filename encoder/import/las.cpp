@@ -7,6 +7,7 @@
 
 #include "encoder/exact/scaled_integers.hpp"
 #include "encoder/files/byte_reader.hpp"
+#include "encoder/import/cloud_size.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
@@ -62,11 +63,7 @@ Header read_header(const ByteReader& file) {
   expect_points_behind(file, header.first_point, header.bytes);
   header.point_format = file.number<uint8_t>(104);
   header.point_bytes = file.number<uint16_t>(105);
-  header.points = file.number<uint32_t>(107);
-  if (header.minor_version == 4) {
-    const uint64_t points = file.number<uint64_t>(247);
-    if (points != 0) header.points = points;
-  }
+  header.points = points_of_las(file);
   if ((header.point_format & 0xC0) != 0) refuse_compressed(file);
   if (header.point_format >= kPointBytes.size()) {
     file.fail("has points of format " + std::to_string(header.point_format) + "; 0 to 10 are read");
@@ -218,6 +215,12 @@ class PointReader {
 };
 
 }  // namespace
+
+uint64_t points_of_las(const ByteReader& file) {
+  const bool has_both = file.number<uint8_t>(25) == 4;  // the minor version
+  const uint64_t points = has_both ? file.number<uint64_t>(247) : 0;
+  return points != 0 ? points : file.number<uint32_t>(107);
+}
 
 PointCloud import_las(const std::string& name, const std::string& bytes,
                       const std::optional<ClassSet>& classes) {

@@ -119,8 +119,8 @@ PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
   PackPlan plan{tiled_raster(raster, scanned, options, progress.part(kScanPart, begun)), options,
                 options.tile_steps, scanned.fingerprint, begun};
   if (plan.tile_steps == 0) {
-    plan.part += (1 - begun) * counting_part(raster.frame(), options);
-    plan.tile_steps = choose_tile_steps(plan.tiled, options, progress.part(begun, plan.part));
+    plan.planned += (1 - begun) * counting_part(raster.frame(), options);
+    plan.tile_steps = choose_tile_steps(plan.tiled, options, progress.part(begun, plan.planned));
   }
   plan.tiled.grid = grid_of(raster.frame(), plan.tile_steps);
   return plan;
@@ -140,7 +140,7 @@ void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
   InOrder in_order(range.first, take);
   SimplifyOptions options = plan.options.simplify;
   const std::size_t count = std::size_t{range.last} - range.first + 1;
-  CountedProgress done(options.progress.part(plan.part, 1), count);
+  CountedProgress done(options.progress.part(plan.planned, 1), count);
   options.progress = {};
   for_each_parallel(count, [&](std::size_t i) {
     const uint32_t tile = range.first + static_cast<uint32_t>(i);

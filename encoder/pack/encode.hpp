@@ -36,7 +36,7 @@ struct PackPlan {
   PackOptions options;
   uint32_t tile_steps;
   uint64_t fingerprint;  // of the raster
-  double part;           // of all the time, estimated
+  double planned;        // part of all the time that planning took, estimated
 };
 
 // Chooses the step of heights by the roughest part of the raster, and the size of tiles by their

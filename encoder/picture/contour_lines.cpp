@@ -11,7 +11,7 @@
 namespace microtin::picture {
 namespace {
 
-constexpr Colour kOnLand{0.36, 0.22, 0.10}, kInSea{0.02, 0.08, 0.24}, kHalo{0.98, 0.97, 0.94};
+constexpr Colour kOnLand{0.36, 0.22, 0.10}, kInSea{0.02, 0.08, 0.24};
 constexpr double kLabelSize = 0.8;  // of the legend's text
 
 using Line = std::vector<Spot>;  // in pixels, from the corner of the map

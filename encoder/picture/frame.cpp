@@ -102,7 +102,6 @@ std::optional<Spot> north_arrow_of(const PixelBox& map, double unit) {
 }
 
 void draw_north_arrow(Drawing& drawing, const PixelBox& map, double unit) {
-  constexpr Colour kHalo{0.98, 0.97, 0.94};
   constexpr double kHalf = 13;  // of the height
   const std::optional<Spot> middle = north_arrow_of(map, unit);
   if (!middle) return;

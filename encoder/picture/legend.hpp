@@ -12,6 +12,7 @@
 namespace microtin::picture {
 
 constexpr Colour kInk{0.16, 0.18, 0.22};
+constexpr Colour kHalo{0.98, 0.97, 0.94};  // around what stands on a map
 
 // Sizes of legends are in units of so many pixels, as those of text.
 

@@ -4,6 +4,7 @@
 #include "microtin/microtin.hpp"
 #include "tests/firmware/linked_stream.hpp"
 #include "tests/firmware/report.hpp"
+#include "tests/footprint/statistics.hpp"
 #include "toolchains/counter.hpp"
 #include "toolchains/firmware.h"
 
@@ -26,20 +27,6 @@ uint32_t overhead() {
   const uint32_t before = instruction_count();
   return instruction_count() - before;
 }
-
-class Statistics {
- public:
-  void add(uint32_t value) {
-    sum_ += value;
-    ++count_;
-    if (value > most_) most_ = value;
-  }
-  uint32_t mean() const { return sum_ / count_; }
-  uint32_t most() const { return most_; }
-
- private:
-  uint32_t sum_ = 0, count_ = 0, most_ = 0;
-};
 
 // Decodes in pieces of one step: the dearest of them.
 uint32_t dearest_step(TerrainOfTile& terrain) {

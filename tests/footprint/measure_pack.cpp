@@ -4,27 +4,13 @@
 #include "microtin/compact_pack.hpp"
 #include "tests/firmware/linked_pack.hpp"
 #include "tests/firmware/report.hpp"
+#include "tests/footprint/statistics.hpp"
 #include "toolchains/counter.hpp"
 #include "toolchains/firmware.h"
 
 namespace {
 
 constexpr uint32_t kSlots = 9, kCapacity = 64, kPlaces = 1024, kCourses = 64;
-
-class Statistics {
- public:
-  void add(uint32_t value) {
-    sum_ += value;
-    ++count_;
-    if (value > most_) most_ = value;
-  }
-  uint32_t sum() const { return sum_; }
-  uint32_t mean() const { return sum_ / count_; }
-  uint32_t most() const { return most_; }
-
- private:
-  uint32_t sum_ = 0, count_ = 0, most_ = 0;
-};
 
 class Told {
  public:

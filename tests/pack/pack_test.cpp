@@ -127,7 +127,7 @@ TEST_CASE("packs: looking for the size of tiles tells how far it is") {
   std::vector<double> told;
   options.simplify.progress = Progress([&](double done) { told.push_back(done); });
   const PackPlan plan = plan_pack(RasterInMemory(raster), options);
-  const auto counting = [&](double done) { return done > 0.06 && done < plan.part; };
+  const auto counting = [&](double done) { return done > 0.06 && done < plan.planned; };
   CHECK(std::count_if(told.begin(), told.end(), counting) > 3);
 }
 
