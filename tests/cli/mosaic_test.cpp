@@ -133,7 +133,7 @@ TEST_CASE("clouds: the memory that they take is told before they are read") {
   session.write("b.LAS", las);
   const std::string told = session.run("encode a.las b.LAS --tile-vertices 500 -o t.mtp").err;
   CHECK(contains(told,
-                 "warning: a.las: about 40000000 points take about 6.8 GB of memory; this "
+                 "warning: a.las: about 40000000 points take about 7.2 GB of memory; this "
                  "machine has "));
   CHECK(told.find("memory") < told.find("microtin: a.las: "));
   CHECK(contains(session.run("encode a.las -o t.mtin").err, "about 2 GB of memory"));
