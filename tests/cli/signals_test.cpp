@@ -15,6 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kLongEnough(60);
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU};
 
 // The program in a process of its own, which runs while the test goes on.
 class Running {
@@ -28,8 +29,8 @@ class Running {
     std::vector<char*> argv{path.data()};
     for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
-    // A shell starts what runs in its background with both ignored, and the test may be there.
-    for (const int one : {SIGINT, SIGQUIT}) std::signal(one, SIG_DFL);
+    // A shell starts what runs in its background with some ignored, nohup with another.
+    for (const int one : kSignals) std::signal(one, SIG_DFL);
     if (ignores) std::signal(SIGINT, SIG_IGN);
     if (chdir(session.folder().c_str()) == 0 && dup2(open("/dev/null", O_WRONLY), 1) >= 0 &&
         dup2(errors, 2) >= 0) {
@@ -89,7 +90,7 @@ TEST_CASE("cli: a signal ends the program and leaves no file") {
   REQUIRE(session.run("fractal --size 129 -o t.asc").code == 0);
   session.write("new.mtp", "precious");
   const int nowhere = open("/dev/null", O_WRONLY);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGXCPU}) {
+  for (const int signal : kSignals) {
     CAPTURE(signal);
     Running running(session, kLongWork, nowhere);
     wait_for_temporary(session);
