@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "encoder/cli/options.hpp"
+
+#include <unistd.h>
+
+#include <charconv>
+#include <filesystem>
+#include <vector>
+
+#include "encoder/cli/definitions.hpp"
+#include "encoder/files/file_target.hpp"
+
+namespace microtin::cli {
+namespace {
+
+constexpr const char* kTerrainFiles =
+    "Rasters: .hgt, .zip with one .hgt, .asc. Points: .xyz, .csv, .txt, .las, .ply, .obj; - reads "
+    "points. Several files, or a folder of them, are one terrain"
+#ifdef MICROTIN_WITH_GDAL
+    ". Others by GDAL"
+#endif
+    ;
+
+// Other names of standard output are "-" for all that follows, unless a suffix asks for a format.
+std::string plain_output(const std::string& path) {
+  const bool is_plain = std::filesystem::path(path).extension().empty();
+  return is_plain && descriptor_named(path) == STDOUT_FILENO ? "-" : path;
+}
+
+bool read_classes(std::string_view text, ClassSet& classes) {
+  if (text == "all") {
+    classes.set();
+    return true;
+  }
+  uint32_t code = 0;
+  for (size_t start = 0, end = 0; end != std::string_view::npos; start = end + 1) {
+    end = text.find(',', start);
+    if (!read_number(text.substr(start, end - start), code) || code >= classes.size()) return false;
+    classes.set(code);
+  }
+  return true;
+}
+
+}  // namespace
+
+void add_output(CLI::App& command, std::string& path, const std::string& description) {
+  command.add_option("-o,--output", path, description)
+      ->required()
+      ->type_name(kFile)
+      ->transform(plain_output);
+}
+
+void add_stream(CLI::App& command, std::string& path, const std::string& description) {
+  command.add_option("stream", path, description)->required()->type_name(kFile);
+}
+
+void add_terrain(CLI::App& command, std::string& path, Preparation& preparation) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "terrain",
+          [&path, &preparation](const std::vector<std::string>& files) {
+            path = files[0];
+            preparation.more_files.assign(files.begin() + 1, files.end());
+          },
+          kTerrainFiles)
+      ->required()
+      ->type_name(kFile);
+}
+
+void add_json(CLI::App& command, bool& json) {
+  command.add_flag("--json", json, "Print JSON");
+}
+
+CLI::Option* add_read(CLI::App& command, const std::string& name,
+                      std::function<bool(const std::string&)> read, const std::string& wanted,
+                      const std::string& description) {
+  return command.add_option_function<std::string>(
+      name,
+      [name, read = std::move(read), wanted](const std::string& text) {
+        if (!read(text)) throw CLI::ValidationError(name, text + " is not " + wanted);
+      },
+      description);
+}
+
+bool read_number(std::string_view text, uint32_t& number) {
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && next == end;
+}
+
+CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
+                        const std::string& description) {
+  const auto read = [&value](const std::string& text) {
+    value = parse_decimal(text);
+    return value.has_value();
+  };
+  return add_read(command, name, read, "a decimal number", description);
+}
+
+CLI::Option* add_decimal(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
+                         const std::string& description) {
+  const auto read = [&value](const std::string& text) {
+    value = parse_decimal(text);
+    return value && value->mantissa >= 0;
+  };
+  return add_read(command, name, read, "a decimal number from 0 on", description);
+}
+
+void add_indirect([[maybe_unused]] CLI::App& command, [[maybe_unused]] Preparation& preparation) {
+#ifdef MICROTIN_WITH_GDAL
+  command.add_flag_callback(
+      "--allow-vrt", [&preparation] { preparation.indirect = Indirect::kAllowed; },
+      "Read .vrt files, which name other files to be read, and names that begin with /vsi");
+#endif
+}
+
+void add_preparation(CLI::App& command, Preparation& preparation) {
+  const auto read = [&preparation](const std::string& text) {
+    return read_classes(text, preparation.classes.emplace());
+  };
+  add_read(
+      command, "--classes", read, "a list such as 2,9, nor all",
+      "Points to take from a .las file: their classes, 2,9 for instance, or all. If not given: "
+      "the ground (2) or, if there is none, all but noise (7, 18)");
+  add_indirect(command, preparation);
+#ifdef MICROTIN_WITH_GDAL
+  command
+      .add_option("--band", preparation.band,
+                  "Band of heights, from 1 on, in a file that has several (read by GDAL)")
+      ->check(CLI::PositiveNumber);
+#endif
+  command.add_option("--fill-voids", preparation.fill_voids,
+                     "Interpolate voids of up to so many posts");
+  CLI::Option* const level = add_height(
+      command, "--water-level", preparation.water_level,
+      "Voids that are left are water at this height, as are posts at this height (rasters)");
+  command
+      .add_option("--water-mask", preparation.water_mask,
+                  "An .asc grid of the terrain's posts: 1 where voids are water, else 0")
+      ->type_name(kFile)
+      ->needs(level);
+}
+
+}  // namespace microtin::cli
