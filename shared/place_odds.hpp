@@ -114,8 +114,8 @@ inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, Span 
 
 // Of a column: its legal length times the mean weight. 4..2^14.6.
 inline uint32_t column_weight(const PlaceOdds& odds, const LegalPlaces& places, int32_t x) {
-  const Span own = own_span(places.own, x, 0, RoughRoot());
-  const Span legal = legal_span(places, x, own, 0, RoughRoot());
+  Span own;
+  const Span legal = legal_span(places, x, false, own);
   const int32_t length = legal.high - legal.low;
   if (length <= 0) return 4;
   const int32_t quarter = length >> 2;
