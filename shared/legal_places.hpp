@@ -26,16 +26,17 @@ struct Span {
   int32_t low, high;
 };
 
+// Flags come first, where short instructions reach them: here and elsewhere.
 struct LegalPlaces {
-  int32_t turns;             // quarters, counter-clockwise
-  int32_t shift;             // of grains: -10 .. 10
-  Lines columns, rows;       // of the lattice
-  Span height;               // the lattice's rows in grains
-  Spot c, a;                 // corners, below 2^11
-  Circle own;                // its centre is below 2^13, its radius below 2^13.5
-  Circle behind[2];          // the chord, side 0
-  bool cuts[2];              // whether that circle is known and near
-  bool odd[2];               // whether v's column and row are odd
+  bool cuts[2];         // whether that circle is known and near
+  bool odd[2];          // whether v's column and row are odd
+  int32_t turns;        // quarters, counter-clockwise
+  int32_t shift;        // of grains: -10 .. 10
+  Lines columns, rows;  // of the lattice
+  Span height;          // the lattice's rows in grains
+  Spot c, a;            // corners, below 2^11
+  Circle own;           // its centre is below 2^13, its radius below 2^13.5
+  Circle behind[2];     // the chord, side 0
 };
 
 template <class Place>
@@ -95,6 +96,13 @@ inline void find_lattice(LegalPlaces& places, const Contract& contract, Point or
       Span{shifted(places.rows.first, places.shift), shifted(places.rows.last, places.shift)};
 }
 
+// That behind a side from v to `end`, seen under k.
+MICROTIN_FOLDED void add_circle(LegalPlaces& places, uint32_t i, const Side& side, Spot end,
+                                Cotangent k, uint32_t shift) {
+  places.cuts[i] = cuts(side);
+  if (places.cuts[i]) places.behind[i] = circle_about(twice_centre(end, k), shift);
+}
+
 // `own` and `behind` are the cotangents over the chord.
 inline void find_places(LegalPlaces& places, const FreeRegion& region, const Contract& contract,
                         Cotangent own, Cotangent behind) {
@@ -104,11 +112,8 @@ inline void find_places(LegalPlaces& places, const FreeRegion& region, const Con
   const uint32_t shift = coarsening_for(centre);
   places.shift = region.shift - static_cast<int32_t>(shift);
   places.own = circle_about(centre, shift);
-  const Side &chord = region.chord, &next = region.next;
-  places.cuts[0] = cuts(chord);
-  places.cuts[1] = cuts(next);
-  if (places.cuts[0]) places.behind[0] = circle_about(twice_centre(a, behind), shift);
-  if (places.cuts[1]) places.behind[1] = circle_about(twice_centre(c, -next.behind), shift);
+  add_circle(places, 0, region.chord, a, behind, shift);
+  add_circle(places, 1, region.next, c, -region.next.behind, shift);
   places.c = coarser(c, shift);
   places.a = coarser(a, shift);
   find_lattice(places, contract, region.origin);

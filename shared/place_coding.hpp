@@ -50,7 +50,8 @@ void code_quarter(Coder& coder, Quarters& quarters, Lines& lines, FastInt line) 
 }
 
 template <class Coder>
-bool code_half(Coder& coder, Calibration& calibration, Lines& lines, Halves weight, FastInt line) {
+MICROTIN_IN_PLACE inline bool code_half(Coder& coder, Calibration& calibration, Lines& lines,
+                                        Halves weight, FastInt line) {
   const FastInt count = count_of(lines), half = count >> 1;
   if (count < kFewLines) {
     weight.low *= static_cast<uint32_t>(half);
@@ -129,8 +130,9 @@ inline Halves weights_of(const Place& place, const Column* column, int32_t low, 
 
 // Keeps a part of the lines that holds `number`.
 template <class Coder>
-void code_halves(Coder& coder, Calibration* level, Ruling& ruling, FastInt number,
-                 const Place& place, const Column* column) {
+MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruling& ruling,
+                                          FastInt number, const Place& place,
+                                          const Column* column) {
   Lines& lines = ruling.numbers;
   const FastInt base = ruling.base;
   const int32_t shift = twice_shift(ruling, place.legal.shift);
