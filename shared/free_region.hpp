@@ -79,7 +79,7 @@ inline Divisor divisor_of(int32_t h) {
 }
 
 // q / h, at most `most` <= 64 in magnitude.
-MICROTIN_IN_PLACE inline Cotangent cotangent(int32_t q, Divisor by, int32_t most) {
+MICROTIN_FOLDED Cotangent cotangent(int32_t q, Divisor by, int32_t most) {
   const int32_t h = by.h;
   q = kept_within(q >> by.shift, -h * most, h * most);
   return q * (static_cast<int32_t>(1) << kCotangentBits) / h;

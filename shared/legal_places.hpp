@@ -135,7 +135,7 @@ inline int32_t grains(FastInt twice, int32_t shift) {
 }
 
 // Whether e is on the right of p -> q. Of corners and the own circle: below 2^27.
-inline bool is_beyond(Spot p, Spot q, Spot e) {
+MICROTIN_IN_PLACE inline bool is_beyond(Spot p, Spot q, Spot e) {
   return cross(q - p, e - p) < 0;
 }
 

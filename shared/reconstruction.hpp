@@ -156,7 +156,7 @@ inline void look_at(const Reconstruction& r, Index apex, Side& side) {
 
 // Describes the free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
 // What is behind that was passed in this turn, or has a done vertex.
-inline void look_around(Reconstruction& r, Index into) {
+MICROTIN_IN_PLACE inline void look_around(Reconstruction& r, Index into) {
   FreeRegion& region = r.region;
   const Mesh& mesh = *r.mesh;
   region.origin = point_of(mesh, r.vertex);
@@ -268,8 +268,7 @@ inline HitEstimate estimate_hit(Reconstruction& r, Index into, uint32_t marks, L
 }
 
 template <class Coder>
-MICROTIN_IN_PLACE inline bool code_hit(Reconstruction& r, Coder& coder,
-                                       const HitEstimate& estimate) {
+MICROTIN_IN_PLACE inline bool code_hit(Reconstruction& r, Coder& coder, const HitEstimate& estimate) {
   return code_on_curve(coder, r.models.hit[estimate.context], estimate.position,
                        coder.conflicts(*r.mesh, r.chord));
 }
@@ -412,7 +411,7 @@ inline bool pass(Reconstruction& r, const Corner& corner) {
 
 // Says hit or miss at the triangle of the chord, which is not certified, and leaves it.
 template <class Coder>
-StepOutcome step_decision(Reconstruction& r, Coder& coder, const Corner& corner) {
+MICROTIN_IN_PLACE inline StepOutcome step_decision(Reconstruction& r, Coder& coder, const Corner& corner) {
   const Decision decision = decide(r, coder, corner.into, corner.marks);
   if (decision == Decision::kMalformed) return StepOutcome::kMalformed;
   if (decision == Decision::kMiss)
