@@ -14,7 +14,8 @@ Size smaller(Size a, Size b) {
 static_assert(kHeaderMostBytes <= sizeof(ByteWindow::bytes), "a header fits up to its notes");
 
 // Bytes that must be at hand before an item can be handled as a whole, if its payload has so many.
-constexpr uint8_t kItemBytes[] MICROTIN_IN_FLASH = {kIdentityBytes, 1, kHeaderMostBytes, 4, kStepBytes, 1, kCheckBytes};
+constexpr uint8_t kItemBytes[] MICROTIN_IN_FLASH = {kIdentityBytes, 1, kHeaderMostBytes, 4,
+                                                    kStepBytes,     1, kCheckBytes};
 
 uint32_t bytes_needed(const microtin_decoder& d) {
   const uint32_t most = read_table(kItemBytes + static_cast<uint8_t>(d.item));

@@ -135,8 +135,7 @@ MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruli
   for (uint32_t i = 0; i < kLevels && lines.first < lines.last; ++i) {
     if (i < place.weighed) {
       const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1 + base;
-      weight =
-          weights_of(place, column, shifted(middle, shift), shifted(middle + count, shift));
+      weight = weights_of(place, column, shifted(middle, shift), shifted(middle + count, shift));
     } else {
       weight = halves_of(weight, upper);
     }

@@ -268,7 +268,8 @@ inline HitEstimate estimate_hit(Reconstruction& r, Index into, uint32_t marks, L
 }
 
 template <class Coder>
-MICROTIN_IN_PLACE inline bool code_hit(Reconstruction& r, Coder& coder, const HitEstimate& estimate) {
+MICROTIN_IN_PLACE inline bool code_hit(Reconstruction& r, Coder& coder,
+                                       const HitEstimate& estimate) {
   return code_on_curve(coder, r.models.hit[estimate.context], estimate.position,
                        coder.conflicts(*r.mesh, r.chord));
 }
@@ -411,7 +412,8 @@ inline bool pass(Reconstruction& r, const Corner& corner) {
 
 // Says hit or miss at the triangle of the chord, which is not certified, and leaves it.
 template <class Coder>
-MICROTIN_IN_PLACE inline StepOutcome step_decision(Reconstruction& r, Coder& coder, const Corner& corner) {
+MICROTIN_IN_PLACE inline StepOutcome step_decision(Reconstruction& r, Coder& coder,
+                                                   const Corner& corner) {
   const Decision decision = decide(r, coder, corner.into, corner.marks);
   if (decision == Decision::kMalformed) return StepOutcome::kMalformed;
   if (decision == Decision::kMiss)
