@@ -35,6 +35,7 @@ struct microtin_compactor {
   uint32_t position;  // of the corner in hand; the first of its vertex is
   uint32_t first;
   uint32_t low, full_low;  // a of the triangle before, of the last full one
+  microtin::RingShape header;
   uint32_t ringed;         // vertices that the expansion reached, infinity included
   uint8_t* triangles;      // a bit each: to the left of the path
   uint8_t* vertices;       // a bit each: on the path
@@ -48,7 +49,7 @@ struct microtin_compactor {
   microtin_compact* target;
   size_t body_bytes;
   size_t body_most, order_most;  // bytes, positions for which there is room
-  microtin_compact header;
+  microtin_axis axis[3];
 };
 
 static_assert(sizeof(microtin_compactor) % sizeof(microtin::Index) == 0, "numbers follow it");
@@ -265,30 +266,8 @@ bool move(Compactor& c) {
   return c.cursor == c.body_bytes;
 }
 
-// Handles items, as long as there are steps; true if the last was among them.
-template <class Item>
-MICROTIN_IN_PLACE inline bool each(Compactor& c, uint32_t* left, Item handle) {
-  bool last = false;
-  for (; *left != 0 && !last; --*left) last = handle(c);
-  return last;
-}
-
-// Handles items where there are many, else one. A step left.
-bool handle(Compactor& c, uint32_t* left) {
-  switch (c.work) {
-    case Work::kExpand:
-      return each(c, left, expand);
-    case Work::kNumber:
-      return each(c, left, number);
-    case Work::kTriangles:
-      return each(c, left, put_triangle);
-    case Work::kLeft:
-    case Work::kRight:
-      return each(c, left, put_leaf);
-    default:
-      break;
-  }
-  --*left;
+// Handles an item.
+bool handle(Compactor& c) {
   switch (c.work) {
     case Work::kClear:
       return clear(c);
@@ -296,10 +275,19 @@ bool handle(Compactor& c, uint32_t* left) {
       return extend_box(c);
     case Work::kInfinity:
       return find_infinity(c);
+    case Work::kExpand:
+      return expand(c);
+    case Work::kNumber:
+      return number(c);
     case Work::kNodes:
       return put_node(c);
+    case Work::kTriangles:
+      return put_triangle(c);
     case Work::kSlits:
       return put_slit(c);
+    case Work::kLeft:
+    case Work::kRight:
+      return put_leaf(c);
     default:
       break;
   }
@@ -308,7 +296,7 @@ bool handle(Compactor& c, uint32_t* left) {
 
 // What is needed, and whether it is there.
 microtin_status measure(Compactor& c) {
-  microtin_compact& header = c.header;
+  RingShape& header = c.header;
   header.positions = 2 * (header.vertices + 1) - c.ringed;
   header.is_narrow = c.most.x - c.least.x < 256 && c.most.y - c.least.y < 256;
   if (header.is_narrow != 0) {
@@ -340,20 +328,16 @@ void begin_numbering(Compactor& c) {
 }
 
 // Without a call of memcpy, which may be slow: no step takes longer than an item.
-void copy_header(microtin_compact* to, const microtin_compact& from) {
-  for (int i = 0; i < 3; ++i) to->axis[i] = from.axis[i];
-  to->vertices = from.vertices;
-  to->positions = from.positions;
-  to->west = from.west;
-  to->south = from.south;
-  to->is_narrow = from.is_narrow;
+void put_header(const Compactor& c) {
+  static_cast<RingShape&>(*c.target) = c.header;
+  for (int i = 0; i < 3; ++i) c.target->axis[i] = c.axis[i];
 }
 
-// Makes ready for the next work.
-microtin_status go_on(Compactor& c) {
+// Makes ready for the next work. False if there is none, or no room.
+bool go_on(Compactor& c) {
   if (c.work == Work::kExpand) {
-    const microtin_status status = measure(c);
-    if (status != MICROTIN_STEP_LIMIT) return status;
+    c.status = static_cast<uint8_t>(measure(c));
+    if (c.status != MICROTIN_STEP_LIMIT) return false;
   }
   if (c.work == Work::kRight) empty_mesh(*c.source);  // its end: what is moved may lie over it
   c.work = work_after(c);
@@ -367,9 +351,10 @@ microtin_status go_on(Compactor& c) {
     c.cursor = 1;
     c.low = c.full_low = 0;
   }
-  if (c.work != Work::kComplete) return MICROTIN_STEP_LIMIT;
-  copy_header(c.target, c.header);
-  return MICROTIN_DONE;
+  if (c.work != Work::kComplete) return true;
+  put_header(c);
+  c.status = MICROTIN_DONE;
+  return false;
 }
 
 // Where the body is written, and how much room is there: over the twins if the target is the mesh,
@@ -406,7 +391,7 @@ microtin_status microtin_compact_begin(void* workspace, size_t size, microtin_me
   if (scratch_size < order_at) return MICROTIN_WORKSPACE_TOO_SMALL;
   Compactor& c = *static_cast<Compactor*>(scratch);
   c = Compactor();
-  for (int i = 0; i < 3; ++i) c.header.axis[i] = mesh->axis[i];
+  __builtin_memcpy(c.axis, mesh->axis, sizeof c.axis);
   c.header.vertices = n;
   c.source = mesh;
   c.mesh = mesh->mesh;
@@ -430,9 +415,8 @@ microtin_status microtin_compact_proceed(microtin_compactor* compactor, uint32_t
   Compactor& c = *compactor;
   *compact = nullptr;
   uint32_t left = step_limit == 0 ? 0xFFFFFFFFu : step_limit;
-  while (c.status == MICROTIN_STEP_LIMIT && left != 0) {
-    if (handle(c, &left)) c.status = static_cast<uint8_t>(go_on(c));
-  }
+  bool goes_on = c.status == MICROTIN_STEP_LIMIT;
+  for (; goes_on && left != 0; --left) goes_on = !handle(c) || go_on(c);
   if (c.status == MICROTIN_DONE) *compact = c.target;
   return static_cast<microtin_status>(c.status);
 }

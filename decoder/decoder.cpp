@@ -13,29 +13,14 @@ Size smaller(Size a, Size b) {
 
 static_assert(kHeaderMostBytes <= sizeof(ByteWindow::bytes), "a header fits up to its notes");
 
-// Bytes that must be at hand before the next item can be handled as a whole.
+// Bytes that must be at hand before an item can be handled as a whole, if its payload has so many.
+constexpr uint8_t kItemBytes[] MICROTIN_IN_FLASH = {kIdentityBytes, 1, kHeaderMostBytes, 4,
+                                                    kStepBytes,     1, kCheckBytes};
+
 uint32_t bytes_needed(const microtin_decoder& d) {
-  uint32_t most = 1;
-  switch (d.item) {
-    case Item::kIdentity:
-      return kIdentityBytes;
-    case Item::kLength:
-      return 1;
-    case Item::kCheck:
-      return kCheckBytes;
-    case Item::kHeader:
-      most = kHeaderMostBytes;
-      break;
-    case Item::kPayloadStart:
-      most = 4;
-      break;
-    case Item::kStep:
-      most = kStepBytes;
-      break;
-    case Item::kRest:
-      break;
-  }
-  return smaller(d.coder.payload_left, most);
+  const uint32_t most = read_table(kItemBytes + static_cast<uint8_t>(d.item));
+  const bool is_framed = d.item >= Item::kHeader && d.item <= Item::kRest;
+  return is_framed ? smaller(d.coder.payload_left, most) : most;
 }
 
 // Whatever is wrong is told once the check ahead has passed: before, it is damage.
@@ -335,9 +320,10 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   info->decoding = static_cast<uint8_t>(contract.decoding);
   info->has_heights = contract.has_heights;
   info->has_voids = contract.has_voids;
-  info->x = axis[0];
-  info->y = axis[1];
-  info->z = axis[2];
+  static_assert(offsetof(microtin_info, z) == offsetof(microtin_info, x) + 2 * sizeof *axis,
+                "axes lie in a row");
+  __builtin_memcpy(reinterpret_cast<uint8_t*>(info) + offsetof(microtin_info, x), axis,
+                   sizeof axis);
   info->mesh_bytes = saturated(MICROTIN_MESH_BYTES(contract.vertices));
   info->decoder_bytes = saturated(MICROTIN_DECODER_BYTES(contract.vertices));
   return MICROTIN_DONE;

@@ -52,9 +52,9 @@ uint64_t microtin_digest(const microtin_mesh* mesh) {
   uint64_t sum = 0;
   for (Index t = 0; t < mesh->mesh.triangles; ++t) {
     if (is_ghost(mesh->mesh, t)) continue;
-    const MeshCursor cursor(*mesh, first_edge(t));
+    const Index* const v = mesh->mesh.origin + first_edge(t);
     Vertex corner[3];
-    for (uint32_t i = 0; i < 3; ++i) corner[i] = cursor.vertex(cursor.corner(i));
+    for (uint32_t i = 0; i < 3; ++i) corner[i] = vertex_of(mesh->mesh, v[i]);
     sum += triangle_digest(corner, !has_terrain(*mesh, t));
   }
   return sum;

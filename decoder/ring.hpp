@@ -36,16 +36,19 @@ constexpr bool has_room_for(uint32_t positions) {
   return positions <= (kRingNumber + 5) / 3;
 }
 
-}  // namespace microtin
-
-// It holds no pointers, so that it can be moved. Behind it lies its body: a node for each position,
-// the positions that repeat a vertex, in order, and y of each position if it is not narrow.
-struct microtin_compact {
-  microtin_axis axis[3];
+struct RingShape {
   uint32_t vertices;
   uint32_t positions;
   uint16_t west, south;  // of the box if it is narrow, else 0
   uint32_t is_narrow;    // the box is less than 256 steps wide and high
+};
+
+}  // namespace microtin
+
+// It holds no pointers, so that it can be moved. Behind it lies its body: a node for each position,
+// the positions that repeat a vertex, in order, and y of each position if it is not narrow.
+struct microtin_compact : microtin::RingShape {
+  microtin_axis axis[3];
 };
 
 static_assert(sizeof(microtin_compact) == MICROTIN_COMPACT_HEADER_BYTES, "see compact.h, PACK.md");
@@ -61,19 +64,19 @@ struct Ring {
   uint32_t repeats;
 };
 
-inline uint32_t repeats_of(const microtin_compact& header) {
+inline uint32_t repeats_of(const RingShape& header) {
   return header.positions - 1 - header.vertices;
 }
 
 // Bytes that it takes with numbers of so many bytes. With those at hand less than the mesh, which
 // is in memory.
-inline size_t compact_bytes(const microtin_compact& header, uint32_t index_bytes) {
+inline size_t compact_bytes(const RingShape& header, uint32_t index_bytes) {
   const uint32_t each = 2 * index_bytes + (header.is_narrow != 0 ? 4u : 6u);
   return sizeof(microtin_compact) +
          static_cast<size_t>(header.positions * each + repeats_of(header) * index_bytes);
 }
 
-inline size_t body_bytes(const microtin_compact& header) {
+inline size_t body_bytes(const RingShape& header) {
   return compact_bytes(header, sizeof(Index)) - sizeof(microtin_compact);
 }
 

@@ -67,17 +67,13 @@ inline bool walk(Cursor& cursor, FinePoint p, uint32_t step_limit) {
 // Whether p, in a closed triangle without terrain, is a corner or on an edge with terrain beyond.
 template <class Cursor>
 MICROTIN_OUT_OF_LINE inline bool touches_terrain(Cursor cursor, FinePoint p) {
-  bool touches = false;
-  for (uint32_t i = 0; i < 3 && !touches; ++i) {
-    const Point from = cursor.place(cursor.start()), to = cursor.place(cursor.end());
-    const FinePoint at = fine(from);
-    touches = at.x == p.x && at.y == p.y;
-    if (!touches && orient_fine(from, to, p) == 0) {
-      Cursor other = cursor;
-      other.cross();
-      touches = other.has_terrain();
-    }
-    cursor.turn();
+  bool touches = false, is_on_edge = false;
+  for (uint32_t i = 0; i < 3 && !touches; ++i, cursor.turn()) {
+    if (orient_fine(cursor.place(cursor.start()), cursor.place(cursor.end()), p) != 0) continue;
+    Cursor other = cursor;
+    other.cross();
+    touches = is_on_edge || other.has_terrain();  // on two edges: a corner
+    is_on_edge = true;
   }
   return touches;
 }
@@ -90,6 +86,11 @@ inline microtin_answer answer_at(const Cursor& cursor, FinePoint p, int32_t* hei
   *height = height_in_triangle(cursor.vertex(cursor.corner(0)), cursor.vertex(cursor.corner(1)),
                                cursor.vertex(cursor.corner(2)), p);
   return MICROTIN_HEIGHT;
+}
+
+inline Vertex vertex_of(const Mesh& mesh, uint32_t v) {
+  const Point at = mesh.place[v];
+  return Vertex{at.x, at.y, mesh.z[v]};
 }
 
 // The half-edge mesh's.
@@ -119,10 +120,7 @@ class MeshCursor {
   MICROTIN_IN_PLACE Index corner(uint32_t i) const {
     return mesh().origin[first_edge(triangle()) + i];
   }
-  Vertex vertex(uint32_t v) const {
-    const Point at = place(v);
-    return Vertex{at.x, at.y, mesh().z[v]};
-  }
+  Vertex vertex(uint32_t v) const { return vertex_of(mesh(), v); }
 
  private:
   const Mesh& mesh() const { return m_.mesh; }

@@ -41,6 +41,14 @@
 #endif
 #endif
 
+// What is wanted in few places, and folds by what is known there: one copy where size counts, put
+// in place where speed does.
+#if defined(__OPTIMIZE_SIZE__)
+#define MICROTIN_FOLDED MICROTIN_ONE_COPY inline
+#else
+#define MICROTIN_FOLDED MICROTIN_IN_PLACE inline
+#endif
+
 // A function that keeps no call but those of ONE_COPY, also where size counts and others share what
 // it calls.
 #if defined(__GNUC__) && !defined(__clang__)

@@ -15,18 +15,12 @@ inline uint64_t triangle_digest(const Vertex corner[3], bool is_void) {
     const Point p = {corner[i].x, corner[i].y}, least = {corner[first].x, corner[first].y};
     if (p < least) first = i;
   }
-  uint16_t words[10];
-  for (uint32_t i = 0; i < 3; ++i) {
-    const Vertex& v = corner[(first + i) % 3];
-    words[3 * i] = v.x;
-    words[3 * i + 1] = v.y;
-    words[3 * i + 2] = static_cast<uint16_t>(v.z);
-  }
-  words[9] = is_void;
+  static_assert(sizeof(Vertex) == 3 * sizeof(uint16_t), "corners are nine words in a row");
+  const uint16_t* const words = &corner->x;
   uint64_t hash = 0xCBF29CE484222325u;
-  for (uint32_t i = 0; i < 20; ++i) {
-    const uint32_t byte = static_cast<uint32_t>(words[i / 2]) >> (i % 2 * 8) & 255u;
-    hash = (hash ^ byte) * 0x100000001B3u;
+  for (uint32_t i = 0, at = 3 * first; i < 10; ++i, at = at == 8 ? 0 : at + 1) {
+    uint32_t word = i < 9 ? words[at] : is_void ? 1u : 0u;
+    for (uint32_t k = 0; k < 2; ++k, word >>= 8) hash = (hash ^ (word & 255u)) * 0x100000001B3u;
   }
   return hash;
 }

@@ -79,7 +79,7 @@ inline Divisor divisor_of(int32_t h) {
 }
 
 // q / h, at most `most` <= 64 in magnitude.
-MICROTIN_IN_PLACE inline Cotangent cotangent(int32_t q, Divisor by, int32_t most) {
+MICROTIN_FOLDED Cotangent cotangent(int32_t q, Divisor by, int32_t most) {
   const int32_t h = by.h;
   q = kept_within(q >> by.shift, -h * most, h * most);
   return q * (static_cast<int32_t>(1) << kCotangentBits) / h;
@@ -95,16 +95,16 @@ struct Side {
 
 // All places are relative to corner v.
 struct FreeRegion {
-  Point origin;      // v
-  Offset corner[2];  // c, a: v, c, a turn counter-clockwise and are not on a line
-  int32_t shift;     // -5 .. 10
-  Spot c, a;
-  int32_t cc, aa, ca;       // dot products
-  Divisor by_twice;         // twice the area
-  Log2 expected;            // log2 of the points that it should hold
+  bool opposite_certified;  // from c to a: all that counts of it
   Side chord;               // from a to v, which the walk came across: certified
   Side next;                // from v to c
-  bool opposite_certified;  // from c to a: all that counts of it
+  Point origin;             // v
+  Offset corner[2];         // c, a: v, c, a turn counter-clockwise and are not on a line
+  int32_t shift;            // -5 .. 10
+  Spot c, a;
+  int32_t cc, aa, ca;  // dot products
+  Divisor by_twice;    // twice the area
+  Log2 expected;       // log2 of the points that it should hold
 };
 
 // Area, over the squared chord, of the segment that is seen under k >= 0 (8 fractional bits, at

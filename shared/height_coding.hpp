@@ -81,6 +81,7 @@ struct RingSums {
   uint32_t spread;     // of their magnitudes
   int32_t residuals;   // weighted: within +-2^21
   uint32_t roughness;  // of their magnitudes
+  uint32_t first;      // distance_bits of the first neighbour
 };
 
 inline uint32_t magnitude_of(int32_t v) {
@@ -94,14 +95,15 @@ inline uint32_t distance_bits(Point a, Point b) {
 }
 
 inline RingSums sum_ring(const Mesh& mesh, const Residual* residual, const Index* ring,
-                         uint32_t size, Point place, uint32_t first) {
-  RingSums sums = {0, 0, 0, 0, 0};
+                         uint32_t size, Point place) {
+  RingSums sums = {0, 0, 0, 0, 0, 0};
   const int32_t base = mesh.z[ring[0]];
   for (uint32_t i = 0; i < size; ++i) {
     const Index v = ring[i];
     if (v == kInfinity) continue;
     const uint32_t bits = distance_bits(point_of(mesh, v), place) + 4u;
-    const uint32_t farther = bits < first ? 0 : bits - first;
+    if (i == 0) sums.first = bits - 4u;
+    const uint32_t farther = bits < sums.first ? 0 : bits - sums.first;
     if (farther > 9) continue;
     const int32_t weight = 512 >> farther;
     const int32_t height = weight * (mesh.z[v] - base);
@@ -142,8 +144,7 @@ inline uint32_t expected_sign(int32_t residuals, int32_t roughness) {
 // Predicts from the ring's vertex numbers, of which the first is finite and some may be kInfinity.
 inline HeightPrediction predict_height(const Mesh& mesh, const Residual* residual,
                                        const Index* ring, uint32_t size, Point place) {
-  const uint32_t first = distance_bits(point_of(mesh, ring[0]), place);
-  const RingSums sums = sum_ring(mesh, residual, ring, size, place, first);
+  const RingSums sums = sum_ring(mesh, residual, ring, size, place);
   // Rounded to nearest, halves up. 2^16 is added to stay positive: all is below 2^32.
   const uint32_t divisor = 2u * sums.weights;  // not 0
   const uint32_t dividend =
@@ -153,7 +154,7 @@ inline HeightPrediction predict_height(const Mesh& mesh, const Residual* residua
   HeightPrediction prediction;
   prediction.height = mesh.z[ring[0]] + static_cast<int32_t>(mean) - 65536;
   prediction.scale = expected_scale(sums.weights, sums.roughness, sums.spread,
-                                    14u + first - highest_bit(sums.weights));
+                                    14u + sums.first - highest_bit(sums.weights));
   prediction.tendency =
       2u * expected_sign(sums.residuals, static_cast<int32_t>(sums.roughness)) + rounded_down;
   return prediction;

@@ -26,16 +26,17 @@ struct Span {
   int32_t low, high;
 };
 
+// Flags come first, where short instructions reach them: here and elsewhere.
 struct LegalPlaces {
-  int32_t turns;             // quarters, counter-clockwise
-  int32_t shift;             // of grains: -10 .. 10
-  Lines columns, rows;       // of the lattice
-  Span height;               // the lattice's rows in grains
-  Spot c, a;                 // corners, below 2^11
-  Circle own;                // its centre is below 2^13, its radius below 2^13.5
-  Circle behind[2];          // the chord, side 0
-  bool cuts[2];              // whether that circle is known and near
-  bool odd_column, odd_row;  // whether v's are odd
+  bool cuts[2];         // whether that circle is known and near
+  bool odd[2];          // whether v's column and row are odd
+  int32_t turns;        // quarters, counter-clockwise
+  int32_t shift;        // of grains: -10 .. 10
+  Lines columns, rows;  // of the lattice
+  Span height;          // the lattice's rows in grains
+  Spot c, a;            // corners, below 2^11
+  Circle own;           // its centre is below 2^13, its radius below 2^13.5
+  Circle behind[2];     // the chord, side 0
 };
 
 template <class Place>
@@ -89,10 +90,17 @@ inline void find_lattice(LegalPlaces& places, const Contract& contract, Point or
   const bool odd_x = is_odd(origin.x, contract.odd_origin_x);
   const bool odd_y = is_odd(origin.y, contract.odd_origin_y);
   const bool upright = (places.turns & 1) == 0;
-  places.odd_column = upright ? odd_x : odd_y;
-  places.odd_row = upright ? odd_y : odd_x;
+  places.odd[0] = upright ? odd_x : odd_y;
+  places.odd[1] = upright ? odd_y : odd_x;
   places.height =
       Span{shifted(places.rows.first, places.shift), shifted(places.rows.last, places.shift)};
+}
+
+// That behind a side from v to `end`, seen under k.
+MICROTIN_FOLDED void add_circle(LegalPlaces& places, uint32_t i, const Side& side, Spot end,
+                                Cotangent k, uint32_t shift) {
+  places.cuts[i] = cuts(side);
+  if (places.cuts[i]) places.behind[i] = circle_about(twice_centre(end, k), shift);
 }
 
 // `own` and `behind` are the cotangents over the chord.
@@ -104,11 +112,8 @@ inline void find_places(LegalPlaces& places, const FreeRegion& region, const Con
   const uint32_t shift = coarsening_for(centre);
   places.shift = region.shift - static_cast<int32_t>(shift);
   places.own = circle_about(centre, shift);
-  const Side &chord = region.chord, &next = region.next;
-  places.cuts[0] = cuts(chord);
-  places.cuts[1] = cuts(next);
-  if (places.cuts[0]) places.behind[0] = circle_about(twice_centre(a, behind), shift);
-  if (places.cuts[1]) places.behind[1] = circle_about(twice_centre(c, -next.behind), shift);
+  add_circle(places, 0, region.chord, a, behind, shift);
+  add_circle(places, 1, region.next, c, -region.next.behind, shift);
   places.c = coarser(c, shift);
   places.a = coarser(a, shift);
   find_lattice(places, contract, region.origin);
@@ -130,7 +135,7 @@ inline int32_t grains(FastInt twice, int32_t shift) {
 }
 
 // Whether e is on the right of p -> q. Of corners and the own circle: below 2^27.
-inline bool is_beyond(Spot p, Spot q, Spot e) {
+MICROTIN_IN_PLACE inline bool is_beyond(Spot p, Spot q, Spot e) {
   return cross(q - p, e - p) < 0;
 }
 
@@ -166,17 +171,11 @@ inline Columns legal_columns(const LegalPlaces& places, const FreeRegion& region
   return columns;
 }
 
-// Roots for many columns, and for one.
-struct RoughRoot {
-  int32_t operator()(int32_t v) const {
-    return static_cast<int32_t>(rough_root(static_cast<uint32_t>(v)));
-  }
-};
-struct FineRoot {
-  int32_t operator()(int32_t v) const {
-    return static_cast<int32_t>(fine_root(static_cast<uint32_t>(v)));
-  }
-};
+// Roots for many columns are rough, for one they are fine.
+inline int32_t root_of(int32_t square, bool fine) {
+  const uint32_t v = static_cast<uint32_t>(square);
+  return static_cast<int32_t>(fine ? fine_root(v) : rough_root(v));
+}
 
 // Takes away what lies within a circle, at one end.
 MICROTIN_IN_PLACE inline void cut(Span& span, int32_t from, int32_t to) {
@@ -192,24 +191,19 @@ inline int32_t square_at(const Circle& circle, int32_t x) {
   return x * (circle.x2 - x) + circle.yy;
 }
 
-// What the own circle covers at x, whose radius is taken to be `wider`.
-template <class Root>
-Span own_span(const Circle& own, int32_t x, int32_t wider, const Root& root) {
-  const int32_t square = square_at(own, x);
-  const int32_t radius = (square > 0 ? root(square) : 0) + wider;
-  return Span{own.y - radius, own.y + radius};
-}
-
-// The legal part of it. Circles behind are taken to be narrower.
-template <class Root>
-Span legal_span(const LegalPlaces& places, int32_t x, Span span, int32_t narrower,
-                const Root& root) {
+// The legal part of the column at x, and what the own circle covers of it. If that is to be fine,
+// the own circle is taken to be wider by a grain, those behind narrower.
+MICROTIN_FOLDED Span legal_span(const LegalPlaces& places, int32_t x, bool fine, Span& own) {
+  const int32_t margin = fine ? 1 : 0, square = square_at(places.own, x);
+  const int32_t reach = (square > 0 ? root_of(square, fine) : 0) + margin;
+  own = Span{places.own.y - reach, places.own.y + reach};
+  Span span = own;
   for (int i = 0; i < 2; ++i) {
     const Circle& circle = places.behind[i];
     if (!places.cuts[i]) continue;
-    const int32_t square = square_at(circle, x);
-    if (square <= 0) continue;
-    const int32_t radius = root(square) - narrower;
+    const int32_t covered = square_at(circle, x);
+    if (covered <= 0) continue;
+    const int32_t radius = root_of(covered, fine) - margin;
     cut(span, circle.y - radius, circle.y + radius);
   }
   if (span.low < places.height.low) span.low = places.height.low;

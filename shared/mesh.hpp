@@ -88,9 +88,11 @@ MICROTIN_IN_PLACE inline void pair(Mesh& mesh, size_t a, size_t b) {
 // in_conflict for the rare cases: a ghost, or p on the circle.
 MICROTIN_OUT_OF_LINE inline bool in_rare_conflict(const Mesh& mesh, Index a, Index b, Index c,
                                                   Point p) {
-  turn_largest_last(a, b, c, [&mesh](Index l, Index r) {  // infinity is larger than all
-    return l != kInfinity && (r == kInfinity || point_of(mesh, l) < point_of(mesh, r));
-  });
+  // Infinity, or the largest, comes last: after two turns at most.
+  while (c != kInfinity && (is_ghost(a, b, b) || point_of(mesh, c) < point_of(mesh, a) ||
+                            point_of(mesh, c) < point_of(mesh, b))) {
+    turn(a, b, c);
+  }
   const Angle angle = angle_at(p, point_of(mesh, a), point_of(mesh, b));
   return c == kInfinity ? conflicts_with_ghost(angle)
                         : conflicts_on_circle(angle, point_of(mesh, c), p);

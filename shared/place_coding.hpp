@@ -19,22 +19,12 @@ struct Quarters {
   AdaptiveBit bit[3];
 };
 
+// Columns come before rows.
 struct PlaceModel {
-  Calibration column[kLevels], row[kLevels];  // odds learned for the estimated ones
-  Quarters quick_column[kColumnContexts], quick_row[kRowContexts];
+  Calibration calibration[2][kLevels];  // of estimated odds
+  Quarters quick[kColumnContexts + kRowContexts];
   AdaptiveBit escape;
 };
-
-// How often lines are halved, and how often by weights taken at the middles of both halves; after
-// that the last two tell what is left.
-struct Depth {
-  uint32_t weighed, halvings;
-};
-
-inline Depth depth_of(Decoding decoding) {
-  if (decoding == Decoding::kQuick) return Depth{0, 0};
-  return Depth{decoding == Decoding::kDense ? 4u : 3u, kLevels};
-}
 
 // Keeps the upper or the lower half.
 inline void halve(Lines& lines, bool upper) {
@@ -60,7 +50,8 @@ void code_quarter(Coder& coder, Quarters& quarters, Lines& lines, FastInt line) 
 }
 
 template <class Coder>
-bool code_half(Coder& coder, Calibration& calibration, Lines& lines, Halves weight, FastInt line) {
+MICROTIN_IN_PLACE inline bool code_half(Coder& coder, Calibration& calibration, Lines& lines,
+                                        Halves weight, FastInt line) {
   const FastInt count = count_of(lines), half = count >> 1;
   if (count < kFewLines) {
     weight.low *= static_cast<uint32_t>(half);
@@ -81,28 +72,9 @@ inline Halves halves_of(Halves weight, bool upper) {
                 static_cast<uint32_t>(second > least ? second : least)};
 }
 
-// Keeps of `lines` a part that holds `line`. `weigh` is asked at twice two numbers.
-template <class Coder, class Weigh>
-void code_halves(Coder& coder, Calibration* level, Lines& lines, FastInt line, Depth depth,
-                 const Weigh& weigh) {
-  Halves weight;  // number by number: on AVR a constant to copy from would be in RAM
-  weight.low = 1;
-  weight.high = 1;
-  bool upper = false;
-  for (uint32_t i = 0; i < depth.halvings && lines.first < lines.last; ++i) {
-    if (i < depth.weighed) {
-      const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1;
-      weight = weigh(middle, middle + count);
-    } else {
-      weight = halves_of(weight, upper);
-    }
-    upper = code_half(coder, level[i], lines, weight, line);
-  }
-}
-
 // Codes one of `lines`, all equally likely.
 template <class Coder>
-FastInt code_line(Coder& coder, const Lines& lines, FastInt line) {
+FastInt code_any(Coder& coder, const Lines& lines, FastInt line) {
   return lines.first +
          static_cast<FastInt>(coder.uniform(static_cast<uint32_t>(count_of(lines)),
                                             static_cast<uint32_t>(line - lines.first)));
@@ -113,10 +85,17 @@ inline uint32_t expected_points(const FreeRegion& region) {
   return static_cast<uint32_t>(kept_within((region.expected + kLog2One) >> 8, 0, 3));
 }
 
+// `weighed`: how often lines are halved by weights taken at the middles of both halves; after that
+// the last two tell what is left. Quick decoding has none.
 struct Place {
   LegalPlaces legal;
   PlaceOdds odds;
+  uint32_t weighed;
 };
+
+inline uint32_t weighed_in(Decoding decoding) {
+  return decoding == Decoding::kQuick ? 0 : decoding == Decoding::kDense ? 4 : 3;
+}
 
 // What is learned of places beside adaptive bits.
 struct PlaceHabits {
@@ -134,85 +113,101 @@ inline int32_t twice_shift(const Ruling& ruling, int32_t shift) {
   return shift - (ruling.step == 1 ? 1 : 0);
 }
 
+// Of two columns or, in one, of two rows.
+inline Halves weights_of(const Place& place, const Column* column, int32_t low, int32_t high) {
+  if (column != nullptr) return weights_at(place.odds, place.legal, *column, low, high);
+  return Halves{column_weight(place.odds, place.legal, low),
+                column_weight(place.odds, place.legal, high)};
+}
+
+// Keeps a part of the lines that holds `number`.
+template <class Coder>
+MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruling& ruling,
+                                          FastInt number, const Place& place,
+                                          const Column* column) {
+  Lines& lines = ruling.numbers;
+  const FastInt base = ruling.base;
+  const int32_t shift = twice_shift(ruling, place.legal.shift);
+  Halves weight;  // number by number: on AVR a constant to copy from would be in RAM
+  weight.low = 1;
+  weight.high = 1;
+  bool upper = false;
+  for (uint32_t i = 0; i < kLevels && lines.first < lines.last; ++i) {
+    if (i < place.weighed) {
+      const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1 + base;
+      weight = weights_of(place, column, shifted(middle, shift), shifted(middle + count, shift));
+    } else {
+      weight = halves_of(weight, upper);
+    }
+    upper = code_half(coder, level[i], lines, weight, number);
+  }
+}
+
+// Codes one of several columns or, in a column, of several rows. Quick decoding has the context.
+template <class Coder>
+MICROTIN_FOLDED FastInt code_line(Coder& coder, PlaceModel& model, const Tally& tally,
+                                  const Place& place, const Lines& lines, uint32_t context,
+                                  const Column* column, FastInt line) {
+  const uint32_t kind = column != nullptr ? 1 : 0;
+  Ruling ruling = rule(coder, tally, lines, place.legal.odd[kind], line);
+  const FastInt number = number_of(ruling, line);
+  if (place.weighed == 0) {
+    code_quarter(coder, model.quick[context], ruling.numbers, number);
+  } else {
+    code_halves(coder, model.calibration[kind], ruling, number, place, column);
+  }
+  return line_at(ruling, code_any(coder, ruling.numbers, number));
+}
+
 // Codes x, or the nearest column with legal places.
 template <class Coder>
 MICROTIN_IN_PLACE inline FastInt code_column(Coder& coder, PlaceModel& model, const Tally& tally,
                                              const FreeRegion& region, const Place& place,
-                                             Depth depth, FastInt x) {
-  const LegalPlaces& legal = place.legal;
-  const Columns columns = legal_columns(legal, region);
+                                             FastInt x) {
+  const Columns columns = legal_columns(place.legal, region);
   if (x < columns.lines.first) x = columns.lines.first;
   if (x > columns.lines.last) x = columns.lines.last;
-  Ruling ruling = rule(coder, tally, columns.lines, legal.odd_column, x);
-  const FastInt number = number_of(ruling, x);
-  if (depth.weighed == 0) {
-    const uint32_t context = (columns.open_east ? 0u : 1u) + (columns.open_west ? 0u : 2u) +
-                             (region.next.certified ? 4u : 0u) +
-                             (expected_points(region) > 1 ? 8u : 0u);
-    code_quarter(coder, model.quick_column[context], ruling.numbers, number);
-  } else {
-    const FastInt base = ruling.base;
-    const int32_t shift = twice_shift(ruling, legal.shift);
-    code_halves(
-        coder, model.column, ruling.numbers, number, depth, [=, &place](FastInt low, FastInt high) {
-          return Halves{column_weight(place.odds, place.legal, shifted(low + base, shift)),
-                        column_weight(place.odds, place.legal, shifted(high + base, shift))};
-        });
-  }
-  return line_at(ruling, code_line(coder, ruling.numbers, number));
+  const uint32_t context = (columns.open_east ? 0u : 1u) + (columns.open_west ? 0u : 2u) +
+                           (region.next.certified ? 4u : 0u) +
+                           (expected_points(region) > 1 ? 8u : 0u);
+  return code_line(coder, model, tally, place, columns.lines, context, nullptr, x);
 }
 
 template <class Coder>
 MICROTIN_IN_PLACE inline FastInt code_row(Coder& coder, PlaceModel& model, const Tally& tally,
-                                          const FreeRegion& region, const Place& place, Depth depth,
-                                          Offset at, Lines rows, Span own) {
-  const LegalPlaces& legal = place.legal;
-  const int32_t x = grains(2 * at.x, legal.shift);
-  Ruling ruling = rule(coder, tally, rows, legal.odd_row, at.y);
-  const FastInt number = number_of(ruling, at.y);
-  if (depth.weighed == 0) {
-    const uint32_t zone = x < legal.a.x ? 4u : x > 0 ? 8u : 0u;
-    code_quarter(coder, model.quick_row[zone + expected_points(region)], ruling.numbers, number);
-  } else {
-    const FastInt base = ruling.base;
-    const int32_t shift = twice_shift(ruling, legal.shift);
-    code_halves(coder, model.row, ruling.numbers, number, depth,
-                [=, &place](FastInt low, FastInt high) {
-                  return weights_at(place.odds, place.legal, own, x, shifted(low + base, shift),
-                                    shifted(high + base, shift));
-                });
-  }
-  return line_at(ruling, code_line(coder, ruling.numbers, number));
+                                          const FreeRegion& region, const Place& place,
+                                          const Column& column, const Lines& rows, FastInt y) {
+  const uint32_t zone = column.x < place.legal.a.x ? 4u : column.x > 0 ? 8u : 0u;
+  const uint32_t context = kColumnContexts + zone + expected_points(region);
+  return code_line(coder, model, tally, place, rows, context, &column, y);
 }
 
 // Codes `at`, as seen from v and turned.
 template <class Coder>
 MICROTIN_IN_PLACE inline Offset code_turned_place(Coder& coder, PlaceModel& model,
                                                   const FreeRegion& region, const Place& place,
-                                                  Decoding decoding, Offset at,
-                                                  PlaceHabits& habits) {
-  const Depth depth = depth_of(decoding);
+                                                  Offset at, PlaceHabits& habits) {
   const LegalPlaces& legal = place.legal;
 #if defined(__clang_analyzer__)
   if (legal.shift < -10 || legal.shift > 10) return at;  // never: it does not follow so far
 #endif
   Tally& first = habits.parities.first[legal.turns & 1];
-  const FastInt x = code_column(coder, model, first, region, place, depth, at.x);
-  const int32_t column = grains(2 * x, legal.shift);
-  const Span own = own_span(legal.own, column, 1, FineRoot());
-  const Lines rows = legal_rows(legal, legal_span(legal, column, own, 1, FineRoot()));
-  Tally& second = habits.parities.second[legal.turns & 1][is_odd(x, legal.odd_column) ? 1 : 0];
+  const FastInt x = code_column(coder, model, first, region, place, at.x);
+  Column column;
+  column.x = grains(2 * x, legal.shift);
+  const Lines rows = legal_rows(legal, legal_span(legal, column.x, true, column.own));
+  Tally& second = habits.parities.second[legal.turns & 1][is_odd(x, legal.odd[0]) ? 1 : 0];
   const bool missed = x != at.x || at.y < rows.first || at.y > rows.last;
   if (code_bit(coder, model.escape, missed)) {
-    at.x = code_line(coder, legal.columns, at.x);
-    at.y = code_line(coder, legal.rows, at.y);
+    at.x = code_any(coder, legal.columns, at.x);
+    at.y = code_any(coder, legal.rows, at.y);
     return at;
   }
-  at = Offset{x, code_row(coder, model, second, region, place, depth, Offset{x, at.y}, rows, own)};
-  learn(first, is_odd(at.x, legal.odd_column));
-  learn(second, is_odd(at.y, legal.odd_row));
+  at = Offset{x, code_row(coder, model, second, region, place, column, rows, at.y)};
+  learn(first, is_odd(at.x, legal.odd[0]));
+  learn(second, is_odd(at.y, legal.odd[1]));
   if (place.odds.repels) {
-    learn(habits.crowding, place.odds, legal, Spot{column, grains(2 * at.y, legal.shift)});
+    learn(habits.crowding, place.odds, legal, Spot{column.x, grains(2 * at.y, legal.shift)});
   }
   return at;
 }
@@ -232,10 +227,10 @@ Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
     estimate_sweep(place.odds, place.legal, region, density, own, behind);
     if (place.odds.repels) estimate_repulsion(place.odds, place.legal, density, habits.crowding);
   }
+  place.weighed = weighed_in(contract.decoding);
   const Vertex next = coder.next();
   const Offset known = turned(Point{next.x, next.y} - region.origin, place.legal.turns);
-  const Offset at =
-      code_turned_place(coder, model, region, place, contract.decoding, known, habits);
+  const Offset at = code_turned_place(coder, model, region, place, known, habits);
   return turned(at, -place.legal.turns & 3);
 }
 

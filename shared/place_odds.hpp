@@ -63,11 +63,17 @@ inline void estimate_repulsion(PlaceOdds& odds, const LegalPlaces& places, Log2 
   odds.reach = reach_of(kept_within(-inverse, 2 * kLog2One, 28 * kLog2One));
 }
 
-// 0..511. `own` is what the triangle's circle covers of the column, and holds y: |x|, |y| < 2^14.4.
-inline int32_t chance_at(const PlaceOdds& odds, Span own, int32_t x, int32_t y) {
-  const int32_t all = odds.across.x * x + odds.across.y * y;  // < 2^31
+// A column, in grains, and what the own circle covers of it.
+struct Column {
+  int32_t x;
+  Span own;
+};
+
+// 0..511. The own circle holds y: |x|, |y| < 2^14.4.
+inline int32_t chance_at(const PlaceOdds& odds, const Column& column, int32_t y) {
+  const int32_t all = odds.across.x * column.x + odds.across.y * y;  // < 2^31
   if (all <= 0) return 511;
-  const int32_t above = own.high - y, below = y - own.low;
+  const int32_t above = column.own.high - y, below = y - column.own.low;
   const int32_t left = above * below;  // < 2^28
   if (left <= 0) return odds.last;
   const uint32_t f = static_cast<uint32_t>(left) / ((static_cast<uint32_t>(all) >> 8) + 1);
@@ -85,11 +91,11 @@ struct Halves {
 #if defined(MICROTIN_PAIRS)
 
 // Of two places of a column: 4..521 each.
-inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, Span own, int32_t x,
+inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, const Column& column,
                          int32_t low, int32_t high) {
-  int32_t first = chance_at(odds, own, x, low), second = chance_at(odds, own, x, high);
+  int32_t first = chance_at(odds, column, low), second = chance_at(odds, column, high);
   if (odds.repels) {
-    const Distances distance = distances_at(odds.reach, places, x, low, high);
+    const Distances distance = distances_at(odds.reach, places, column.x, low, high);
     first = first * (distance.low + 4) >> 8;
     second = second * (distance.high + 4) >> 8;
   }
@@ -98,28 +104,29 @@ inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, Span 
 
 #else
 
-inline uint32_t weight_at(const PlaceOdds& odds, const LegalPlaces& places, Span own, int32_t x,
+inline uint32_t weight_at(const PlaceOdds& odds, const LegalPlaces& places, const Column& column,
                           int32_t y) {
-  int32_t weight = chance_at(odds, own, x, y);
-  if (odds.repels) weight = weight * (distance_at(odds.reach, places, x, y) + 4) >> 8;
+  int32_t weight = chance_at(odds, column, y);
+  if (odds.repels) weight = weight * (distance_at(odds.reach, places, column.x, y) + 4) >> 8;
   return static_cast<uint32_t>(weight) + 4u;
 }
 
-inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, Span own, int32_t x,
+inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, const Column& column,
                          int32_t low, int32_t high) {
-  return Halves{weight_at(odds, places, own, x, low), weight_at(odds, places, own, x, high)};
+  return Halves{weight_at(odds, places, column, low), weight_at(odds, places, column, high)};
 }
 
 #endif
 
 // Of a column: its legal length times the mean weight. 4..2^14.6.
 inline uint32_t column_weight(const PlaceOdds& odds, const LegalPlaces& places, int32_t x) {
-  const Span own = own_span(places.own, x, 0, RoughRoot());
-  const Span legal = legal_span(places, x, own, 0, RoughRoot());
+  Column column;
+  column.x = x;
+  const Span legal = legal_span(places, x, false, column.own);
   const int32_t length = legal.high - legal.low;
   if (length <= 0) return 4;
   const int32_t quarter = length >> 2;
-  const Halves weight = weights_at(odds, places, own, x, legal.low + quarter, legal.high - quarter);
+  const Halves weight = weights_at(odds, places, column, legal.low + quarter, legal.high - quarter);
   return (static_cast<uint32_t>(length) * (weight.low + weight.high) >> 10) + 4u;
 }
 

@@ -114,12 +114,6 @@ void turn(Corner& a, Corner& b, Corner& c) {
   c = first;
 }
 
-// Turns the triangle until its largest corner comes last: twice at most, as no two are the same.
-template <class Corner, class Less>
-void turn_largest_last(Corner& a, Corner& b, Corner& c, const Less& less) {
-  while (less(c, a) || less(c, b)) turn(a, b, c);
-}
-
 // Whether p conflicts with a counter-clockwise triangle on whose circle it lies, of which c is the
 // largest corner and `angle` that under which p sees the other two. Ties are broken by lifting each
 // point by an infinitesimal that grows with its lexicographic rank (Devillers and Teillaud,
@@ -134,7 +128,7 @@ inline bool conflicts_on_circle(Angle angle, Point c, Point p) {
 inline bool conflicts_with_triangle(Point a, Point b, Point c, Point p) {
   const int64_t d = incircle(a, b, c, p);
   if (d != 0) return d > 0;
-  turn_largest_last(a, b, c, [](Point l, Point r) { return l < r; });
+  while (c < a || c < b) turn(a, b, c);  // the largest last
   return conflicts_on_circle(angle_at(p, a, b), c, p);
 }
 

@@ -54,35 +54,38 @@ enum class StepOutcome : uint8_t {
   kMalformed
 };
 
+// Small numbers come first, where short instructions reach them.
 struct Reconstruction {
-  Mesh* mesh;
-  uint8_t* voids;      // a bit per triangle
-  Index* queue;        // half-edges parent -> vertex, one per vertex
-  uint8_t* marks;      // two bits per vertex: queued, done
-  Residual* residual;  // per vertex, see height_coding.hpp
   Contract contract;
 
   Stage stage;
+  uint8_t from;      // marks of the vertex that the chord comes from
   Index vertex;      // being walked around
   Index chord;       // half-edge into `vertex`, of the triangle to be looked at next
-  uint8_t from;      // marks of the vertex that the chord comes from
   Index turn_start;  // the neighbour where the turn around `vertex` began
   Index anchor;      // the half-edge from vertex 0 to infinity
   Index queue_head;
   Index queue_tail;
   Index phase_end;  // vertices when the phase is complete
+  Index void_cursor;
+
+  Mesh* mesh;
+  uint8_t* voids;      // a bit per triangle
+  Index* queue;        // half-edges parent -> vertex, one per vertex
+  uint8_t* marks;      // two bits per vertex: queued, done
+  Residual* residual;  // per vertex, see height_coding.hpp
+  Cavity cavity;
+
   uint32_t phase;   // phases complete
   uint32_t work;    // vertices walked around so far, all phases together
   Log2 share;       // for note_final_triangle
   int32_t density;  // log2 of this batch's points per unit area, 16 fractional bits
-  Index void_cursor;
 
   PlaceHabits habits;
   // Of the triangle in hand: here to spare the stack.
   FreeRegion region;
   Place place;
 
-  Cavity cavity;
   Index cavity_triangles[kMaxDegree];
   Index cavity_origin[kMaxDegree];
   Index cavity_twin[kMaxDegree];
@@ -153,7 +156,7 @@ inline void look_at(const Reconstruction& r, Index apex, Side& side) {
 
 // Describes the free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
 // What is behind that was passed in this turn, or has a done vertex.
-inline void look_around(Reconstruction& r, Index into) {
+MICROTIN_IN_PLACE inline void look_around(Reconstruction& r, Index into) {
   FreeRegion& region = r.region;
   const Mesh& mesh = *r.mesh;
   region.origin = point_of(mesh, r.vertex);
@@ -409,7 +412,8 @@ inline bool pass(Reconstruction& r, const Corner& corner) {
 
 // Says hit or miss at the triangle of the chord, which is not certified, and leaves it.
 template <class Coder>
-StepOutcome step_decision(Reconstruction& r, Coder& coder, const Corner& corner) {
+MICROTIN_IN_PLACE inline StepOutcome step_decision(Reconstruction& r, Coder& coder,
+                                                   const Corner& corner) {
   const Decision decision = decide(r, coder, corner.into, corner.marks);
   if (decision == Decision::kMalformed) return StepOutcome::kMalformed;
   if (decision == Decision::kMiss)
