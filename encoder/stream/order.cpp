@@ -111,6 +111,20 @@ Index opposite_corner(const Mesh& mesh, const std::array<Index, 3>& seed) {
 
 constexpr Index kFewVertices = 48;
 
+// In a large terrain one in so many stays for a phase of its own, to be a first picture early: each
+// costs some 4 bits.
+constexpr Index kPictureShare = 1024;
+
+// Every how many vertices of `left` one stays beside those of high degree; 0: none. Only where the
+// phase before left one in 64 of `all` or less: even if all stay, these two phases and the others,
+// each at most 3/4 of the one before, have less than all * (1 + 5 / 64) vertices at their ends
+// together (FORMAT.md, "Work").
+Index spread_to_keep(Index vertices, Index all, Index left) {
+  const Index picture = vertices / kPictureShare;
+  if (picture < kSectionVertices || left > all / 64 || left < 2 * picture) return 0;
+  return left / picture;
+}
+
 }  // namespace
 
 Order breadth_first_order(Triangulation& triangulation, uint32_t degree) {
@@ -121,8 +135,11 @@ Order breadth_first_order(Triangulation& triangulation, uint32_t degree) {
   };
   const Index last = opposite_corner(triangulation.mesh(), order.seed);
   Walk walk(triangulation);
-  Index left = triangulation.mesh().vertices;
+  const Index all = triangulation.mesh().vertices;
+  Index before = all, left = all;
   while (left > 3) {
+    const Index spread = spread_to_keep(all, before, left);
+    before = left;
     const std::vector<Index>& vertices = walk.breadth_first(order.seed[0]);
     std::vector<Index> batch;
     for (std::size_t i = vertices.size(); i-- != 0;) {
@@ -131,8 +148,10 @@ Order breadth_first_order(Triangulation& triangulation, uint32_t degree) {
       }
       const Index v = vertices[i];
       if (v == last && left > kFewVertices) continue;
+      if (spread != 0 && i % spread == 0) continue;
       if (!in_seed(v) && triangulation.remove(v, degree)) batch.push_back(v);
     }
+    if (batch.empty()) continue;  // all that may go were kept, and are not again
     left -= static_cast<Index>(batch.size());
     std::reverse(batch.begin(), batch.end());
     order.batches.push_back(std::move(batch));

@@ -17,8 +17,9 @@ function say(text) {
   element("facts").textContent = text;
 }
 
+// With one decimal at most, and thousands apart; the first toLocaleString keeps the page waiting for 10 ms.
 function text(value) {
-  return value.toLocaleString("en", { maximumFractionDigits: 1 });
+  return value.toFixed(1).replace(/\.0$/, "").replace(/\B(?=(\d{3})+(?!\d))/g, ",");
 }
 
 // --- What the decoder and the drawer say.

@@ -2,6 +2,7 @@
 // The page of render -o FILE.html and the npm module, in Debian's chromium with its software GL.
 import assert from "node:assert/strict";
 import fs from "node:fs";
+import os from "node:os";
 import path from "node:path";
 import test, { after, before } from "node:test";
 import { pathToFileURL } from "node:url";
@@ -19,7 +20,7 @@ before(async () => {
   }
   microtin("render", "area.mtp", "--width", "600", "-o", "area.png");
   microtin("fractal", "--size", "1025", "--seed", "5", "-o", "large.asc"); // so large that it has phases
-  microtin("encode", "large.asc", "--units", "metre", "--max-error", "2", "--fast", "-o", "large.mtin");
+  microtin("encode", "large.asc", "--units", "metre", "--max-error", "1.8", "--fast", "-o", "large.mtin");
   microtin("render", "large.mtin", "-o", "large.html");
   browser = await launch();
 });
@@ -96,6 +97,12 @@ function colourAt({ width, pixels }, map, u, v) {
   return sum.map((value) => value / count);
 }
 
+// The middle of the page, to be compared.
+async function viewOf(page) {
+  const clip = { x: 100, y: 120, width: 700, height: 600 };
+  return Buffer.from(await page.screenshot({ clip })).toString("base64");
+}
+
 const onDisk = (name) => pathToFileURL(file(name)).href;
 
 // The picture of the README is what is seen, but for what another encoder or driver changes. MICROTIN_SCREENSHOT: makes it.
@@ -154,7 +161,7 @@ test("phases, mesh and tiles change what is seen; keys move", async () => {
   const views = new Set();
   const look = async () => {
     await settled(page);
-    views.add(Buffer.from(await page.screenshot({ clip: { x: 100, y: 120, width: 700, height: 600 } })).toString("base64"));
+    views.add(await viewOf(page));
   };
   await look();
   for (const id of ["mesh", "tiles"]) {
@@ -167,6 +174,42 @@ test("phases, mesh and tiles change what is seen; keys move", async () => {
     await look();
   }
   assert.equal(views.size, 9);
+  await page.close();
+});
+
+test("one finger turns the terrain, two bring it nearer", async () => {
+  const page = await open(onDisk("mtp.html"), "complete");
+  await page.addStyleTag({ content: "#pointer { visibility: hidden }" });
+  const input = await page.createCDPSession();
+  const touch = (type, ...places) =>
+    input.send("Input.dispatchTouchEvent", { type, touchPoints: places.map(([x, y], id) => ({ x, y, id })) });
+  const views = new Set();
+  const look = async () => {
+    await settled(page);
+    views.add(await viewOf(page));
+  };
+  await look();
+  for (const [from, to] of [[[[400, 400]], [[460, 420]]], [[[400, 400], [500, 500]], [[350, 350], [550, 550]]]]) {
+    await touch("touchStart", ...from);
+    await touch("touchMove", ...to);
+    await touch("touchEnd");
+    await look();
+  }
+  assert.equal(views.size, 3);
+  await page.close();
+});
+
+test("the page is dark or light as the reader wants it", async () => {
+  const page = await open(onDisk("mtin.html"), "complete");
+  const lightness = async (scheme) => {
+    await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: scheme }]);
+    return page.evaluate(() => ["backgroundColor", "color"].map((name) =>
+      Math.max(...getComputedStyle(document.body)[name].match(/\d+/g).map(Number))));
+  };
+  const [paper, ink] = await lightness("light");
+  assert.ok(paper > ink + 150);
+  const [night, glow] = await lightness("dark");
+  assert.ok(glow > night + 150);
   await page.close();
 });
 
@@ -185,10 +228,22 @@ test("phases arrive live from a slow server, and can be gone back to", async () 
     response.end();
   }, async (address) => {
     const page = await browser.newPage();
+    await page.setViewport({ width: 900, height: 900 });
     await page.goto(`${address}/?file=large.mtin`);
     await page.waitForFunction("document.getElementById('facts').textContent.includes('so far')", { timeout: 10_000 });
     await page.waitForFunction("document.body.dataset.state === 'complete'", { timeout: 20_000 });
-    assert.ok(Number(await page.$eval("#phase", (element) => element.max)) > 1);
+    const phases = Number(await page.$eval("#phase", (element) => element.max));
+    assert.ok(phases > 1);
+    const views = new Set();
+    for (const phase of [phases, 1, phases]) {
+      await page.$eval("#phase", (element, value) => {
+        element.value = value;
+        element.dispatchEvent(new Event("input", { bubbles: true }));
+      }, phase);
+      await settled(page);
+      views.add(await viewOf(page));
+    }
+    assert.equal(views.size, 2);
     await page.close();
   });
 });
@@ -217,34 +272,39 @@ test("without WebGL there are a sentence and the flat picture", async () => {
   }
 });
 
-// The longest task of the page's thread while it shows a terrain, in milliseconds; 0 if all are below 50.
-async function longestTask() {
-  const page = await open(onDisk("large.html"), "complete", {
-    prepare: (blank) => blank.evaluateOnNewDocument(() => {
-      window.longest = 0;
-      new PerformanceObserver((list) => {
-        for (const { duration } of list.getEntries()) window.longest = Math.max(window.longest, duration);
-      }).observe({ type: "longtask" });
-    }),
+// The tasks of the page's own thread while it shows a terrain: the longest, and the one that takes the processor for the
+// longest time, in milliseconds.
+async function longestTasks(url) {
+  const page = await open(url, "complete", {
+    prepare: (blank) => blank.tracing.start({ categories: ["toplevel", "disabled-by-default-devtools.timeline"] }),
   });
-  const [vertices, , first] = (await facts(page)).replaceAll(",", "").match(/\d+(?= vertices| bytes)/g).map(Number);
-  const longest = await page.evaluate("window.longest");
+  const { traceEvents } = JSON.parse(Buffer.from(await page.tracing.stop()).toString());
+  const committed = traceEvents.find(({ name, args }) => name === "FrameCommittedInBrowser" && args.data.url === url);
+  const { pid, tid } = traceEvents.find(({ name, pid, args }) =>
+    name === "thread_name" && args.name === "CrRendererMain" && pid === committed.args.data.processId);
+  const tasks = traceEvents.filter((event) =>
+    event.name === "ThreadControllerImpl::RunTask" && event.ph === "X" && event.pid === pid && event.tid === tid);
+  assert.ok(tasks.length > 10);
+  const shown = await facts(page);
   await page.close();
-  return { vertices, first, longest };
+  const longest = (kind) => Math.max(...tasks.map((task) => task[kind] ?? 0)) / 1000;
+  return { shown, length: longest("dur"), work: longest("tdur") };
 }
 
 test("200,000 vertices leave the page's thread free, and are seen after 2 % of the bytes", async (t) => {
-  let shown, longest = Infinity;
-  for (let run = 0; run < 3 && longest > 50; ++run) { // what else runs on the machine makes tasks longer, never shorter
-    shown = await longestTask();
-    longest = Math.min(longest, shown.longest);
-  }
+  const runs = [];
+  for (let run = 0; run < 3; ++run) runs.push(await longestTasks(onDisk("large.html")));
+  const [vertices, , first] = runs[0].shown.replaceAll(",", "").match(/\d+(?= vertices| bytes)/g).map(Number);
   const bytes = fs.statSync(file("large.mtin")).size;
-  t.diagnostic(`${shown.vertices} vertices; the longest task of the page's thread ${longest} ms (0: below 50)`);
-  t.diagnostic(`first seen after ${shown.first} of ${bytes} bytes`);
-  assert.ok(shown.vertices >= 150_000);
-  assert.ok(longest <= 50);
-  assert.ok(shown.first <= 0.02 * bytes);
+  const work = Math.max(...runs.map((run) => run.work)), length = Math.min(...runs.map((run) => run.length));
+  t.diagnostic(`${vertices} vertices; a task of the page's thread works for ${work} ms at most`);
+  t.diagnostic(`with what it waits for, ${length} ms in the best of three runs`);
+  t.diagnostic(`first seen after ${first} of ${bytes} bytes`);
+  assert.ok(vertices >= 200_000);
+  assert.ok(work <= 50);
+  // On a busy machine tasks last longer than they work: one waits for a processor.
+  if (os.loadavg()[0] < os.availableParallelism()) assert.ok(length <= 50);
+  assert.ok(first <= 0.02 * bytes);
 });
 
 test("every golden stream has its digest in a worker of the browser", async () => {

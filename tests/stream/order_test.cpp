@@ -33,6 +33,23 @@ double table1_bits_per_vertex(const std::vector<Point>& points, const Order& ord
   return static_cast<double>(bits) / static_cast<double>(points.size());
 }
 
+// Reads a varint, and steps over it.
+size_t take_varint(const std::vector<uint8_t>& bytes, size_t& at) {
+  size_t value = 0;
+  while (bytes[at] & 128u) value = (value | (bytes[at++] & 127u)) << 7u;
+  return value | bytes[at++];
+}
+
+// The bytes of a stream up to the end of its first section (FORMAT.md, section 4).
+size_t first_section_end(const std::vector<uint8_t>& stream) {
+  constexpr size_t kIdentity = 5, kCheck = 4;
+  size_t at = kIdentity;
+  const size_t header = take_varint(stream, at);
+  at += header + kCheck;
+  const size_t payload = take_varint(stream, at);
+  return at + payload + kCheck;
+}
+
 }  // namespace
 
 TEST_CASE("with the paper's code the order costs what the paper's Table 2 prints") {
@@ -76,4 +93,17 @@ TEST_CASE("80,000 uniform points, x and y alone, stay near the entropy floor") {
   const double bits = 8.0 * static_cast<double>(encode(tin, Metadata()).size()) / 80000;
   MESSAGE(bits << " bits/vertex; the floor, log2 C(2^32, n) / n, is 17.155");
   CHECK(bits < 19.5);
+}
+
+TEST_CASE("a large terrain is seen first after half a percent of its bytes") {
+  constexpr uint32_t kVertices = 270000;
+  Random random(4);
+  Tin tin;
+  for (const Point& p : uniform_points(kVertices, random)) {
+    tin.vertices.push_back(Vertex{p.x, p.y, static_cast<int16_t>((p.x + p.y) >> 6)});
+  }
+  const std::vector<uint8_t> stream = encode(tin, Metadata());
+  const size_t first = first_section_end(stream);
+  MESSAGE(first << " of " << stream.size() << " bytes");
+  CHECK(200 * first <= stream.size());
 }
