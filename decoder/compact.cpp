@@ -12,12 +12,12 @@ enum class Work : uint8_t {
   kInfinity,   // half-edges, up to one that starts at infinity
   kExpand,     // triangles, as the path is found
   kNumber,     // corners, along the path
-  kNodes,      // positions
+  kVertices,   // positions
   kTriangles,  // triangles of the mesh
   kSlits,      // positions
   kLeft,       // positions: leaves to the left of the path
   kRight,      // ... to the right
-  kMove,       // nodes, where the mesh was
+  kMove,       // eight bytes, where the mesh was
   kComplete
 };
 
@@ -40,11 +40,12 @@ struct microtin_compactor {
   uint8_t* triangles;      // a bit each: to the left of the path
   uint8_t* vertices;       // a bit each: on the path
   microtin::Index* order;  // by position: a vertex or, with kRingFlag, the position it repeats
-  microtin::RingNode*
-      body;  // where it is written: in the target or, if that is the mesh, over its twins
-  microtin::Index* repeat;  // there, the next to be listed
-  uint16_t* y;              // ... of the first position
-  microtin::Mesh mesh;      // the source's
+  // The body, where it is written: in the target or, if that is the mesh, over its twins.
+  microtin::Index* looks;
+  microtin::RingVertex* vertex;
+  microtin::Index* repeat;  // the next to be listed
+  uint16_t* y;
+  microtin::Mesh mesh;  // the source's
   microtin_mesh* source;
   microtin_compact* target;
   size_t body_bytes;
@@ -168,20 +169,20 @@ bool number(Compactor& c) {
   return false;
 }
 
-bool put_node(Compactor& c) {
+bool put_vertex(Compactor& c) {
   const uint32_t i = c.cursor++;
   const Mesh& mesh = c.mesh;
   Index v = c.order[i];
   if ((v & kRingFlag) != 0) v = c.order[v & kRingNumber];
   if (i == 0) v = 0;  // of infinity, any
   const Point at = point_of(mesh, v);
-  RingNode& node = c.body[i];
-  node.look[0] = node.look[1] = 0;
-  node.z = mesh.z[v];
+  c.looks[2 * i] = c.looks[2 * i + 1] = 0;
+  RingVertex& vertex = c.vertex[i];
+  vertex.z = mesh.z[v];
   if (c.header.is_narrow != 0) {
-    node.place = static_cast<uint16_t>((at.x - c.least.x) | (at.y - c.least.y) << 8);
+    vertex.place = static_cast<uint16_t>((at.x - c.least.x) | (at.y - c.least.y) << 8);
   } else {
-    node.place = at.x;
+    vertex.place = at.x;
     c.y[i] = at.y;
   }
   return c.cursor == c.header.positions;
@@ -189,11 +190,10 @@ bool put_node(Compactor& c) {
 
 // The triangle of the positions low < middle < high. What a full one lacks, its leaf gets later.
 void put(Compactor& c, uint32_t side, uint32_t low, uint32_t middle, uint32_t high, uint32_t flag) {
-  const uint32_t n = c.header.positions;
   const bool has_left = low + 1 != middle, has_right = middle + 1 != high;
-  uint32_t value = has_right ? high : low;
-  if (has_left == has_right) value = has_left ? n + high : 2 * n;
-  c.body[middle].look[side] = static_cast<Index>(value | flag);
+  uint32_t value = has_right ? high : has_left ? low : 0;
+  if (has_left == has_right) value |= kRingPair;
+  c.looks[2 * middle + side] = static_cast<Index>(value | flag);
 }
 
 // A triangle of the mesh, whose corners are positions now.
@@ -226,8 +226,8 @@ bool put_slit(Compactor& c) {
     c.order[i] = static_cast<Index>(i);
   } else {
     const uint32_t first = value & kRingNumber, last = c.order[first];
-    put(c, 0, last, i - 1, i, 0);
-    put(c, 0, first - 1, last, i, 0);
+    put(c, 0, last, i - 1, i, kRingFlag);
+    put(c, 0, first - 1, last, i, kRingFlag);
     c.order[first] = static_cast<Index>(i);
     *c.repeat++ = static_cast<Index>(i);
   }
@@ -238,28 +238,29 @@ bool put_slit(Compactor& c) {
 // before. A full one's left child is what the triangle before has grown to, going up as long as
 // that is a right child: one further up is an item, too, so that there are at most two for each.
 bool put_leaf(Compactor& c) {
-  const uint32_t side = c.work == Work::kLeft ? 0 : 1, middle = c.cursor, n = c.header.positions;
-  Index& slot = c.body[middle].look[side];
-  const uint32_t seen = slot & kRingNumber;
-  if (seen >= 2 * n) {
-    slot = static_cast<Index>(slot + c.full_low);
-  } else if (seen >= n) {
-    const uint32_t above = c.body[c.low].look[side] & kRingNumber;
-    if (above == middle || above == n + middle) {
+  const uint32_t side = c.work == Work::kLeft ? 0 : 1, middle = c.cursor;
+  Index* const looks = c.looks + side;
+  Index& slot = looks[2 * middle];
+  const uint32_t number = slot & kRingNumber;
+  const bool is_pair = (slot & kRingPair) != 0;
+  if (is_pair && number > middle) {
+    if (told(looks, c.low) == middle) {
       c.low = c.order[c.low];
       return false;
     }
     c.full_low = c.low;
+  } else {
+    if (is_pair) slot = static_cast<Index>(slot + c.full_low);
+    c.low = !is_pair && number < middle ? number : middle - 1;
   }
-  if (seen < n || seen >= 2 * n) c.low = seen < middle ? seen : middle - 1;
   c.order[middle] = static_cast<Index>(c.low);
-  return ++c.cursor == n - 1;
+  return ++c.cursor == c.header.positions - 1;
 }
 
 // Eight bytes. The body ends where it begins, or further ahead.
 bool move(Compactor& c) {
   uint8_t* const to = reinterpret_cast<uint8_t*>(c.target + 1);
-  const uint8_t* const from = reinterpret_cast<const uint8_t*>(c.body);
+  const uint8_t* const from = reinterpret_cast<const uint8_t*>(c.looks);
   for (uint32_t i = 0; i < 8 && c.cursor != c.body_bytes; ++i, ++c.cursor) {
     to[c.cursor] = from[c.cursor];
   }
@@ -279,8 +280,8 @@ bool handle(Compactor& c) {
       return expand(c);
     case Work::kNumber:
       return number(c);
-    case Work::kNodes:
-      return put_node(c);
+    case Work::kVertices:
+      return put_vertex(c);
     case Work::kTriangles:
       return put_triangle(c);
     case Work::kSlits:
@@ -304,8 +305,9 @@ microtin_status measure(Compactor& c) {
     header.south = c.least.y;
   }
   c.body_bytes = body_bytes(header);
-  c.repeat = reinterpret_cast<Index*>(c.body + header.positions);
-  c.y = reinterpret_cast<uint16_t*>(c.repeat + repeats_of(header));
+  c.repeat = c.looks + 2 * header.positions;
+  c.vertex = reinterpret_cast<RingVertex*>(c.repeat + repeats_of(header));
+  c.y = reinterpret_cast<uint16_t*>(c.vertex + header.positions);
   if (!has_room_for(header.positions)) return MICROTIN_TOO_BIG;
   const bool fits = c.body_bytes <= c.body_most && header.positions <= c.order_most;
   return fits ? MICROTIN_STEP_LIMIT : MICROTIN_WORKSPACE_TOO_SMALL;
@@ -315,7 +317,7 @@ microtin_status measure(Compactor& c) {
 Work work_after(const Compactor& c) {
   Work next = static_cast<Work>(static_cast<uint8_t>(c.work) + 1);
   if (next == Work::kSlits && c.header.positions == c.header.vertices + 1) next = Work::kLeft;
-  if (next == Work::kMove && c.body == reinterpret_cast<RingNode*>(c.target + 1)) {
+  if (next == Work::kMove && c.looks == reinterpret_cast<Index*>(c.target + 1)) {
     next = Work::kComplete;
   }
   return next;
@@ -360,10 +362,10 @@ bool go_on(Compactor& c) {
 // Where the body is written, and how much room is there: over the twins if the target is the mesh,
 // since nothing needs these once corners have numbers.
 void find_room(Compactor& c, size_t size) {
-  c.body = reinterpret_cast<RingNode*>(c.target + 1);
+  c.looks = reinterpret_cast<Index*>(c.target + 1);
   c.body_most = size < sizeof(microtin_compact) ? 0 : size - sizeof(microtin_compact);
   if (static_cast<void*>(c.target) != c.source) return;
-  c.body = reinterpret_cast<RingNode*>(c.mesh.twin);
+  c.looks = c.mesh.twin;
   const size_t twins = 6 * static_cast<size_t>(c.source->capacity) * sizeof(Index);
   if (twins < c.body_most) c.body_most = twins;
 }

@@ -11,6 +11,9 @@ namespace {
 constexpr uint32_t kSamples = 22;
 constexpr uint32_t kFinest = 2;
 
+// Steps of a walk after which it looks for a start that is nearer: this costs about as many.
+constexpr uint32_t kFirstSteps = 12;
+
 // In a triangle that is no ghost: that with a number, or one near it.
 RingCursor start_at(const Ring& r, uint32_t number) {
   if (number >= triangle_count(r)) number = 0;
@@ -21,20 +24,22 @@ RingCursor start_at(const Ring& r, uint32_t number) {
 }
 
 // The position of a vertex, past repeats; and back.
-uint32_t position_of(const Ring& r, uint32_t v) {
+uint32_t position_of(const microtin_compact* c, uint32_t v) {
+  const Index* const repeat = repeats_in(c);
   uint32_t position = v + 1;
-  for (uint32_t i = 0; i < r.repeats && r.repeat[i] <= position; ++i) ++position;
+  for (uint32_t i = 0; i < repeats_of(*c) && repeat[i] <= position; ++i) ++position;
   return position;
 }
 
-uint32_t vertex_of(const Ring& r, uint32_t position) {
+uint32_t vertex_of(const microtin_compact* c, uint32_t position) {
   if (position == 0) return static_cast<uint32_t>(MICROTIN_INFINITY);
-  uint32_t before = r.repeats;
+  const Index* const repeat = repeats_in(c);
+  uint32_t before = repeats_of(*c);
   // A repeat's slit has its last position and the one before for corners.
-  while (before != 0 && r.repeat[before - 1] >= position) {
+  while (before != 0 && repeat[before - 1] >= position) {
     --before;
-    if (r.repeat[before] != position) continue;
-    position = low_of(r, position - 1, 0);
+    if (repeat[before] != position) continue;
+    position = low_of(ring_of(c).left, position - 1);
   }
   return position - 1 - before;
 }
@@ -46,6 +51,34 @@ Vertex on_lattice(const microtin_compact* c, Vertex v) {
 uint32_t distance(Point at, int32_t x, int32_t y) {
   const int32_t dx = x - at.x, dy = y - at.y;
   return static_cast<uint32_t>((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
+}
+
+// A triangle at a position that is nearer to p than `best`, or at that.
+uint32_t number_near(const Ring& r, FinePoint p, uint32_t best) {
+  const int32_t x = p.x >> 8, y = p.y >> 8;
+  const uint32_t end = r.positions - 1;
+  uint32_t stride = end / kSamples + 1, step = stride, i = stride / 2 + 1, last = end;
+  uint32_t least = distance(place_of(r, best), x, y);
+  for (;;) {
+    for (; i < last; i += step) {
+      const uint32_t far = distance(place_of(r, i), x, y);
+      if (far < least) {
+        least = far;
+        best = i;
+      }
+    }
+    // Half as far, to both sides of the nearest.
+    stride /= 2;
+    if (stride < kFinest) return 2 * best - kFirstNumber;
+    i = best > stride ? best - stride : 1;
+    last = best + stride < end ? best + stride + 1 : end;
+    step = 2 * stride;
+  }
+}
+
+FinePoint seen_from_box(const microtin_compact* c, int32_t x, int32_t y) {
+  const FinePoint corner = fine(Point{c->west, c->south});
+  return FinePoint{x - corner.x, y - corner.y};
 }
 
 }  // namespace
@@ -64,9 +97,9 @@ uint32_t microtin_compact_vertex_count(const microtin_compact* compact) {
 void microtin_compact_vertex(const microtin_compact* compact, uint32_t v, uint16_t* x, uint16_t* y,
                              int16_t* z) {
   const Ring r = ring_of(compact);
-  const uint32_t i = position_of(r, v);
+  const uint32_t i = position_of(compact, v);
   const Point at = place_of(r, i);
-  const Vertex vertex = on_lattice(compact, Vertex{at.x, at.y, r.node[i].z});
+  const Vertex vertex = on_lattice(compact, Vertex{at.x, at.y, r.vertex[i].z});
   *x = vertex.x;
   *y = vertex.y;
   *z = vertex.z;
@@ -80,9 +113,9 @@ microtin_triangle_kind microtin_compact_triangle(const microtin_compact* compact
                                                  uint32_t v[3]) {
   const Ring r = ring_of(compact);
   const RingCursor cursor = cursor_at(r, t);
-  v[0] = vertex_of(r, cursor.start());
-  v[1] = vertex_of(r, cursor.end());
-  v[2] = vertex_of(r, cursor.apex());
+  v[0] = vertex_of(compact, cursor.start());
+  v[1] = vertex_of(compact, cursor.end());
+  v[2] = vertex_of(compact, cursor.apex());
   if (v[0] == v[1] || v[0] == v[2] || v[1] == v[2]) return MICROTIN_NO_AREA;
   if (cursor.is_ghost()) return MICROTIN_GHOST;
   return cursor.has_terrain() ? MICROTIN_REAL : MICROTIN_VOID;
@@ -115,35 +148,19 @@ microtin_answer microtin_compact_height_at(const microtin_compact* compact, int3
   const int32_t most = static_cast<int32_t>(kLatticeMax) * 256;
   if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
   const Ring r = ring_of(compact);
-  const FinePoint corner = fine(Point{compact->west, compact->south});
-  const FinePoint p = {x - corner.x, y - corner.y};
-  RingCursor cursor = start_at(r, *hint);
-  const bool arrived = walk(cursor, p, step_limit == 0 ? triangle_count(r) : step_limit);
-  *hint = number_of(cursor);
-  if (!arrived) return MICROTIN_NOT_YET;
-  return cursor.is_ghost() ? MICROTIN_OUTSIDE : answer_at(cursor, p, height);
+  const FinePoint p = seen_from_box(compact, x, y);
+  uint32_t number = *hint, limit = step_limit == 0 ? kFirstSteps : step_limit;
+  for (;;) {  // twice at most
+    RingCursor cursor = start_at(r, number);
+    const bool arrived = walk(cursor, p, limit);
+    *hint = number_of(cursor);
+    if (arrived) return cursor.is_ghost() ? MICROTIN_OUTSIDE : answer_at(cursor, p, height);
+    if (step_limit != 0) return MICROTIN_NOT_YET;
+    number = number_near(r, p, cursor.start());
+    step_limit = limit = triangle_count(r);
+  }
 }
 
 uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32_t y) {
-  const Ring r = ring_of(compact);
-  const int32_t px = (x >> 8) - compact->west, py = (y >> 8) - compact->south;
-  const uint32_t end = r.positions - 1;
-  uint32_t stride = end / kSamples + 1, step = stride, i = stride / 2 + 1, last = end;
-  uint32_t best = 1, least = 0xFFFFFFFFu;
-  for (;;) {
-    do {  // there is one: end is 3 at least
-      const uint32_t far = distance(place_of(r, i), px, py);
-      if (far < least) {
-        least = far;
-        best = i;
-      }
-      i += step;
-    } while (i < last);
-    // Half as far, to both sides of the nearest.
-    stride /= 2;
-    if (stride < kFinest) return 2 * best - kFirstNumber;
-    i = best > stride ? best - stride : 1;
-    last = best + stride < end ? best + stride + 1 : end;
-    step = 2 * stride;
-  }
+  return number_near(ring_of(compact), seen_from_box(compact, x, y), 1);
 }

@@ -15,25 +15,31 @@
 
 namespace microtin {
 
-// The highest bit of a look: the triangle is void.
+// A look's highest bit: the triangle is void, or has no area. The next: it has two children, a
+// *full* one, or none, a *leaf*. The rest is a number of a position.
 constexpr uint32_t kRingFlag = 1ul << (MICROTIN_INDEX_BITS - 1);
-constexpr uint32_t kRingNumber = kRingFlag - 1;
+constexpr uint32_t kRingPair = kRingFlag >> 1;
+constexpr uint32_t kRingNumber = kRingPair - 1;
 
-// A position, as the middle of a triangle on each side. Its look says, below kRingFlag:
-//   0 .. N - 1     one child: a if it is less than b, then c = b + 1; else c, then a = b - 1
-//   N .. 2 N - 1   two children, a *full* triangle: N + c
-//   2 N on         none, a *leaf*: 2 N + the a of the last full one before, if there is one
-// Full ones and leaves take turns along a side. The looks of positions that are no middles are 0.
-struct RingNode {
-  Index look[2];
+// The number of a position's look, as the middle of a triangle of a side, is
+//   of one with one child   the far end: a, then c = b + 1, or c, then a = b - 1
+//   of a full one           c
+//   of a leaf               the a of the last full one before, 0 if there is none
+// so that it tells a from c, and full ones from leaves, by being less than b or not. Full ones and
+// leaves take turns along a side. The looks of positions that are no middles are 0.
+//
+// The looks of a side: of position i at [2 * i], since those of both sides take turns, too.
+typedef const Index* RingSide;
+
+// What is at a position.
+struct RingVertex {
   uint16_t place;  // x | y << 8 from the corner of the terrain's box if that is narrow, else x
   int16_t z;
 };
 
-// Whether so many positions have room in a look. Behind the a of a full triangle come at least a
-// child, b, a child and c, so that 2 N + a is at most 3 N - 5.
+// Whether a look can tell so many positions.
 constexpr bool has_room_for(uint32_t positions) {
-  return positions <= (kRingNumber + 5) / 3;
+  return positions <= kRingNumber + 1;
 }
 
 struct RingShape {
@@ -45,23 +51,23 @@ struct RingShape {
 
 }  // namespace microtin
 
-// It holds no pointers, so that it can be moved. Behind it lies its body: a node for each position,
-// the positions that repeat a vertex, in order, and y of each position if it is not narrow.
+// It holds no pointers, so that it can be moved. Behind it lies its body: two looks for each
+// position, the positions that repeat a vertex, in order, the vertex of each position, and y of
+// each if it is not narrow.
 struct microtin_compact : microtin::RingShape {
   microtin_axis axis[3];
 };
 
 static_assert(sizeof(microtin_compact) == MICROTIN_COMPACT_HEADER_BYTES, "see compact.h, PACK.md");
-static_assert(sizeof(microtin_compact) % alignof(microtin::RingNode) == 0, "nodes follow it");
+static_assert(sizeof(microtin_compact) % alignof(microtin::Index) == 0, "looks follow it");
 
 namespace microtin {
 
 struct Ring {
-  const RingNode* node;
+  RingSide left;  // the right is one further
+  const RingVertex* vertex;
   const uint16_t* y;  // null: narrow
-  const Index* repeat;
   uint32_t positions;
-  uint32_t repeats;
 };
 
 inline uint32_t repeats_of(const RingShape& header) {
@@ -81,40 +87,64 @@ inline size_t body_bytes(const RingShape& header) {
 }
 
 inline Ring ring_of(const microtin_compact* c) {
-  const uint32_t repeats = repeats_of(*c);
-  const RingNode* const node = reinterpret_cast<const RingNode*>(c + 1);
-  const Index* const repeat = reinterpret_cast<const Index*>(node + c->positions);
-  const uint16_t* const y = reinterpret_cast<const uint16_t*>(repeat + repeats);
-  return Ring{node, c->is_narrow != 0 ? nullptr : y, repeat, c->positions, repeats};
+  const RingSide left = reinterpret_cast<RingSide>(c + 1);
+  const RingVertex* const vertex =
+      reinterpret_cast<const RingVertex*>(left + 2 * c->positions + repeats_of(*c));
+  const uint16_t* const y = reinterpret_cast<const uint16_t*>(vertex + c->positions);
+  return Ring{left, vertex, c->is_narrow != 0 ? nullptr : y, c->positions};
 }
 
-MICROTIN_IN_PLACE inline uint32_t look(const Ring& r, uint32_t middle, uint32_t side) {
-  return r.node[middle].look[side] & kRingNumber;
+// The positions that repeat a vertex.
+inline const Index* repeats_in(const microtin_compact* c) {
+  return reinterpret_cast<const Index*>(c + 1) + 2 * c->positions;
+}
+
+MICROTIN_IN_PLACE inline uint32_t look(RingSide side, uint32_t middle) {
+  return side[2 * middle];
+}
+
+// The number of a look.
+MICROTIN_IN_PLACE inline uint32_t told(RingSide side, uint32_t middle) {
+  return look(side, middle) & kRingNumber;
+}
+
+MICROTIN_IN_PLACE inline bool has_left_child(uint32_t seen, uint32_t middle) {
+  return ((seen & kRingNumber) < middle) != ((seen & kRingPair) != 0);
 }
 
 // The a of a full triangle, from the next leaf.
-MICROTIN_ONE_COPY inline uint32_t low_of_full(const Ring& r, uint32_t middle, uint32_t side) {
-  const uint32_t leaves = 2 * r.positions;
-  uint32_t seen = 0;
-  while (seen < leaves) seen = look(r, ++middle, side);
-  return seen - leaves;
+MICROTIN_ONE_COPY inline uint32_t low_of_full(RingSide side, uint32_t middle) {
+  RingSide seen = side + 2 * middle;
+  do {
+    seen += 2;
+  } while ((*seen & kRingPair) == 0);
+  return *seen & kRingNumber;
 }
 
-inline uint32_t low_of(const Ring& r, uint32_t middle, uint32_t side) {
-  const uint32_t seen = look(r, middle, side), n = r.positions;
-  if (seen >= n && seen < 2 * n) return low_of_full(r, middle, side);
-  return seen < middle ? seen : middle - 1;
+// The least and the greatest corner of the triangle with a middle.
+struct RingSpan {
+  uint32_t low, high;
+};
+
+MICROTIN_IN_PLACE inline RingSpan span_of(RingSide side, uint32_t middle) {
+  const uint32_t seen = look(side, middle), number = seen & kRingNumber;
+  const bool is_pair = (seen & kRingPair) != 0;
+  if (number > middle) return RingSpan{is_pair ? low_of_full(side, middle) : middle - 1, number};
+  return RingSpan{is_pair ? middle - 1 : number, middle + 1};
 }
 
-inline uint32_t high_of(const Ring& r, uint32_t middle, uint32_t side) {
-  const uint32_t seen = look(r, middle, side), n = r.positions;
-  if (seen >= n && seen < 2 * n) return seen - n;
-  return seen > middle && seen < n ? seen : middle + 1;
+inline uint32_t low_of(RingSide side, uint32_t middle) {
+  return span_of(side, middle).low;
+}
+
+MICROTIN_IN_PLACE inline uint32_t high_of(RingSide side, uint32_t middle) {
+  const uint32_t number = told(side, middle);
+  return number > middle ? number : middle + 1;
 }
 
 // Relative to the corner of the box if narrow.
 MICROTIN_IN_PLACE inline Point place_of(const Ring& r, uint32_t i) {
-  const uint16_t place = r.node[i].place;
+  const uint16_t place = r.vertex[i].place;
   if (r.y != nullptr) return Point{place, r.y[i]};
   return Point{static_cast<uint16_t>(place & 255u), static_cast<uint16_t>(place >> 8)};
 }

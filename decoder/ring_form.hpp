@@ -20,11 +20,12 @@ class RingForm {
   Point corner() const { return Point{c_->west, c_->south}; }
   RingCursor at(uint32_t t) const { return cursor_at(ring_, t); }
   bool places(uint32_t t, Point* places) const {
-    const uint32_t middle = middle_of(t), low = low_of(ring_, middle, t & 1u);
-    if (low == 0) return false;
-    places[0] = place_of(ring_, low);
+    const uint32_t middle = middle_of(t);
+    const RingSpan span = span_of(ring_.left + (t & 1u), middle);
+    if (span.low == 0) return false;
+    places[0] = place_of(ring_, span.low);
     places[1] = place_of(ring_, middle);
-    places[2] = place_of(ring_, high_of(ring_, middle, t & 1u));
+    places[2] = place_of(ring_, span.high);
     return true;
   }
   microtin_answer height_at(LocalPoint p, uint32_t* hint, int32_t* height) const {

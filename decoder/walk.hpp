@@ -6,11 +6,11 @@
 //   is_ghost()                  whether the third corner is infinity
 //   has_terrain()               whether the triangle is neither ghost nor void
 //   cross()                     to the triangle beyond, on the half-edge the other way
-//   cross_next(), cross_last()  ... beyond end() -> apex(), beyond apex() -> start(), or into what
-//                               is no triangle of the mesh, where may_stop() is false
-//   cross_around(forward)       in a ghost with infinity for apex: as cross_next() or cross_last(),
-//   to
-//                               the ghost beside it
+//   leave_next(), leave_last(), then enter()   ... beyond end() -> apex(), beyond apex() ->
+//                               start(), or into what is no triangle of the mesh, where may_stop()
+//                               is false
+//   cross_around(forward)       in a ghost with infinity for apex: beyond end() -> apex(), else
+//                               beyond apex() -> start(), to the ghost beside it
 //   turn()                      to the next half-edge of the triangle
 //   corner(0), (1), (2)         the same three, counter-clockwise from any
 //   place(number), vertex(number)   of a finite vertex
@@ -52,14 +52,15 @@ inline bool walk(Cursor& cursor, FinePoint p, uint32_t step_limit) {
     if (cursor.is_ghost()) return true;
     const Offset apex = seen_from(p, cursor.place(cursor.apex()));
     if (cross(to, apex) < 0) {
-      cursor.cross_next();
+      cursor.leave_next();
       from = apex;
     } else if (cross(apex, from) < 0) {
-      cursor.cross_last();
+      cursor.leave_last();
       to = apex;
     } else {
       return true;
     }
+    cursor.enter();
   }
   return false;
 }
@@ -69,7 +70,8 @@ template <class Cursor>
 MICROTIN_OUT_OF_LINE inline bool touches_terrain(Cursor cursor, FinePoint p) {
   bool touches = false, is_on_edge = false;
   for (uint32_t i = 0; i < 3 && !touches; ++i, cursor.turn()) {
-    if (orient_fine(cursor.place(cursor.start()), cursor.place(cursor.end()), p) != 0) continue;
+    const Offset from = seen_from(p, cursor.place(cursor.start()));
+    if (cross(from, seen_from(p, cursor.place(cursor.end()))) != 0) continue;
     Cursor other = cursor;
     other.cross();
     touches = is_on_edge || other.has_terrain();  // on two edges: a corner
@@ -105,15 +107,17 @@ class MeshCursor {
   bool is_ghost() const { return apex() == kInfinity; }
   bool may_stop() const { return true; }
   bool has_terrain() const { return microtin::has_terrain(m_, triangle()); }
-  void cross() { h_ = mesh().twin[h_]; }
-  void cross_next() { h_ = mesh().twin[next_in_triangle(h_)]; }
-  void cross_last() { h_ = mesh().twin[previous_in_triangle(h_)]; }
+  void cross() { enter(); }
+  void leave_next() { h_ = next_in_triangle(h_); }
+  void leave_last() { h_ = previous_in_triangle(h_); }
+  void enter() { h_ = mesh().twin[h_]; }
   void cross_around(bool forward) {
     if (forward) {
-      cross_next();
+      leave_next();
     } else {
-      cross_last();
+      leave_last();
     }
+    enter();
   }
   void turn() { h_ = next_in_triangle(h_); }
   MICROTIN_IN_PLACE Point place(uint32_t v) const { return mesh().place[v]; }

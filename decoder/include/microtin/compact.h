@@ -71,7 +71,7 @@ microtin_status microtin_compact_begin(void* workspace, size_t size, microtin_me
  *
  * The first third of the steps only looks at the mesh. If it ends with WORKSPACE_TOO_SMALL the mesh
  * is as it was, and microtin_compact_needs tells what would do. TOO_BIG, too: the mesh is as it
- * was, and the width of the numbers does not reach, if there are more than 10,923 vertices and
+ * was, and the width of the numbers does not reach, if there are more than 16,383 vertices and
  * vertices taken twice. */
 microtin_status microtin_compact_proceed(microtin_compactor* compactor, uint32_t step_limit,
                                          microtin_compact** compact);
@@ -110,7 +110,9 @@ void microtin_compact_placement(const microtin_compact* compact, microtin_axis* 
                                 microtin_axis* z);
 
 /* As microtin_height_at_limited, with the same answers. *hint is a number of a triangle; any will
- * do. A step is O(1) mostly; on meshes made for it O(n), but all steps of a walk are O(n log n). */
+ * do. A step is O(1) mostly; on meshes made for it O(n), but all steps of a walk are O(n log n).
+ * Without a limit, a walk that has not arrived after 12 steps goes on from what
+ * microtin_compact_hint would find, if that is nearer. */
 microtin_answer microtin_compact_height_at(const microtin_compact* compact, int32_t x, int32_t y,
                                            uint32_t step_limit, uint32_t* hint, int32_t* height);
 
