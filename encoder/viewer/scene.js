@@ -179,8 +179,8 @@ export class Scene {
     gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.enable(gl.BLEND);
     const line = this.#use("line", matrix);
+    if (tiles) this.#drawLines(line, TILE_LINE, 2, phase); // first: the mesh has the same lines, no nearer
     if (mesh) this.#drawLines(line, MESH_LINE, 1, phase);
-    if (tiles) this.#drawLines(line, TILE_LINE, 2, phase);
     gl.disable(gl.BLEND);
   }
 
