@@ -85,9 +85,9 @@ export class Scene {
     this.#putTints(tints);
     this.#makePlaceTarget();
     gl.enable(gl.DEPTH_TEST);
-    gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(2, 8);
-    gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+    // What covers the page covers it still beneath a line.
+    gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
   }
 
   #putTints(tints) {
@@ -170,14 +170,17 @@ export class Scene {
     gl.viewport(0, 0, gl.drawingBufferWidth, gl.drawingBufferHeight);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    // Not while lines are drawn, which it should not move: a software renderer moves them at random.
+    gl.enable(gl.POLYGON_OFFSET_FILL);
     const ground = this.#use("ground", matrix);
     gl.uniform2f(gl.getUniformLocation(ground, "heights"), ...this.heights);
     gl.uniform4f(gl.getUniformLocation(ground, "water"), this.water?.height ?? 0, this.water?.half ?? -1, 0, 0);
     this.#drawAll(ground, gl.TRIANGLES, 0, phase);
+    gl.disable(gl.POLYGON_OFFSET_FILL);
     gl.enable(gl.BLEND);
     const line = this.#use("line", matrix);
+    if (tiles) this.#drawLines(line, TILE_LINE, 2, phase); // first: the mesh has the same lines, no nearer
     if (mesh) this.#drawLines(line, MESH_LINE, 1, phase);
-    if (tiles) this.#drawLines(line, TILE_LINE, 2, phase);
     gl.disable(gl.BLEND);
   }
 

@@ -8,7 +8,7 @@ import path from "node:path";
 import { fileURLToPath } from "node:url";
 import puppeteer from "puppeteer-core";
 
-const { MICROTIN: tool } = process.env;
+export const { MICROTIN: tool } = process.env;
 export const { MICROTIN_NPM: npm, MICROTIN_GOLDEN: golden } = process.env;
 export const here = path.dirname(fileURLToPath(import.meta.url));
 export const folder = fs.mkdtempSync(path.join(os.tmpdir(), "browser-"));

@@ -234,6 +234,7 @@ test("phases arrive live from a slow server, and can be gone back to", async () 
     await page.waitForFunction("document.body.dataset.state === 'complete'", { timeout: 20_000 });
     const phases = Number(await page.$eval("#phase", (element) => element.max));
     assert.ok(phases > 1);
+    await page.click("#mesh");
     const views = new Set();
     for (const phase of [phases, 1, phases]) {
       await page.$eval("#phase", (element, value) => {

@@ -186,6 +186,39 @@ TEST_CASE("pack: along a row, sectors of small and of large tiles") {
 }
 
 TEST_CASE(
+    "pack: in any direction, sectors of streams of 1.2 KB are at most twice what was asked for") {
+  constexpr int32_t kTiles = 5, kFlights = 8;
+  for (const int32_t width : {16, 48}) {
+    PackOptions options = pack_options(0, 2500);
+    options.tile_steps = static_cast<uint32_t>(width);
+    const int32_t side = kTiles * width;
+    const auto posts = static_cast<uint32_t>(side + 1);
+    const EncodedPack encoded = encode_pack(rough_raster(posts, posts), options);
+    const Bytes file = write_pack(encoded);
+    const size_t stream = file.size() / encoded.streams.size() - kPackEntryBytes;
+    double worst = 0;
+    for (int32_t flight = 0; flight < kFlights; ++flight) {
+      // From the southern border to the northern one, and from the western to the eastern, more or
+      // less aslant.
+      const int32_t drift = (flight / 2 * 2 + 1) * side / kFlights;
+      SectorCard cards[2] = {{file}, {file}};
+      const MeshSlots loose(4, 2500), aligned(4, 2500);
+      CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_DONE);
+      for (int32_t along = 0; along <= side; along += 2) {
+        const int32_t across = drift * along / side;
+        const microtin_course here = flight % 2 != 0 ? at(along, across) : at(across, along);
+        CHECK(loose.service(here, 0, SectorCard::read, cards) == MICROTIN_DONE);
+        CHECK(aligned.service(here, 0, SectorCard::read, cards + 1) == MICROTIN_DONE);
+      }
+      worst = std::max(worst, 512.0 * static_cast<double>(cards[1].sectors) /
+                                  static_cast<double>(cards[0].asked));
+    }
+    MESSAGE("streams of " << stream << " bytes: at most " << worst << " times what was asked for");
+    if (stream >= 1200) CHECK(worst <= 2);
+  }
+}
+
+TEST_CASE(
     "pack: of entries that were read together each is checked, and read again after a fault") {
   PackOptions options = pack_options(3, 400);
   options.tile_steps = 12;
