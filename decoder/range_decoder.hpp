@@ -44,6 +44,11 @@ struct ByteWindow {
   size_t fill(const uint8_t* from, size_t size) {
     settle();
     size_t added = 0;
+#if defined(MICROTIN_LARGE_TABLES)
+    for (; size - added >= 8 && sizeof bytes - left >= 8; added += 8, left += 8) {
+      __builtin_memcpy(bytes + left, from + added, 8);
+    }
+#endif
     while (added < size && left < sizeof bytes) bytes[left++] = from[added++];
     return added;
   }

@@ -63,7 +63,7 @@
 #define MICROTIN_LARGE_TABLES
 #define MICROTIN_ROOMY_IN_PLACE MICROTIN_IN_PLACE inline
 #else
-#define MICROTIN_ROOMY_IN_PLACE
+#define MICROTIN_ROOMY_IN_PLACE inline
 #endif
 
 // Where a multiplication makes 32 bits at most: wider ones are calls.

@@ -33,12 +33,50 @@ inline uint32_t shift_byte(uint32_t crc) {
 
 #endif
 
+#if defined(MICROTIN_LARGE_TABLES)
+
+// What each of four bytes shifted out together adds: the last of them first. 4 KB.
+struct CrcTable {
+  uint32_t behind[4][256];
+
+  constexpr CrcTable() : behind() {
+    for (uint32_t byte = 0; byte < 256; ++byte) {
+      uint32_t crc = byte;
+      for (auto& table : behind) {
+        for (int i = 0; i < 8; ++i) crc = crc >> 1 ^ ((crc & 1u) != 0 ? 0xEDB88320u : 0u);
+        table[byte] = crc;
+      }
+    }
+  }
+};
+
+constexpr CrcTable kCrcOfFour{};
+
+// Takes four bytes at a time, as long as there are so many.
+inline uint32_t shift_fours(uint32_t crc, const uint8_t*& bytes, size_t& size) {
+  for (; size >= 4; size -= 4, bytes += 4) {
+    crc ^= static_cast<uint32_t>(bytes[0]) | static_cast<uint32_t>(bytes[1]) << 8 |
+           static_cast<uint32_t>(bytes[2]) << 16 | static_cast<uint32_t>(bytes[3]) << 24;
+    crc = kCrcOfFour.behind[3][crc & 255u] ^ kCrcOfFour.behind[2][crc >> 8 & 255u] ^
+          kCrcOfFour.behind[1][crc >> 16 & 255u] ^ kCrcOfFour.behind[0][crc >> 24];
+  }
+  return crc;
+}
+
+#else
+
+inline uint32_t shift_fours(uint32_t crc, const uint8_t*&, size_t&) {
+  return crc;
+}
+
+#endif
+
 // The check of anything and its own check, low byte first, behind it.
 constexpr uint32_t kCheckedCrc = 0x2144DF1C;
 
 // Feed 0 first, then each result: crc32(crc32(0, a), b) is the check of a followed by b.
 inline uint32_t crc32(uint32_t crc, const uint8_t* bytes, size_t size) {
-  crc = ~crc;
+  crc = shift_fours(~crc, bytes, size);
   for (size_t i = 0; i < size; ++i) crc = shift_byte(crc ^ bytes[i]);
   return ~crc;
 }

@@ -8,6 +8,7 @@
 
 #include "shared/fixed_math.hpp"
 #include "shared/predicates.hpp"
+#include "shared/region_vectors.hpp"
 
 namespace microtin {
 
@@ -45,12 +46,12 @@ inline int32_t shifted(FastInt v, int32_t shift) {
 }
 #endif
 
-inline Spot shifted(Offset v, int32_t shift) {
+inline Spot shifted(Spot v, int32_t shift) {
   return Spot{shifted(v.x, shift), shifted(v.y, shift)};
 }
 
 // Has the highest bit of the longer coordinate.
-inline uint32_t extent_of(Offset v) {
+inline uint32_t extent_of(Spot v) {
   return static_cast<uint32_t>(absolute(v.x)) | static_cast<uint32_t>(absolute(v.y));
 }
 
@@ -89,18 +90,18 @@ MICROTIN_FOLDED Cotangent cotangent(int32_t q, Divisor by, int32_t most) {
 struct Side {
   bool certified;    // the triangle behind is final: its circle is empty
   bool ghost;        // ... and lies outside the hull: nothing at all is behind
-  Offset apex;       // ... otherwise, the corner opposite to this side
+  Point apex;        // ... otherwise, the corner opposite to this side
   Cotangent behind;  // ... and the circle there, over this side
 };
 
-// All places are relative to corner v.
+// All places but apexes are relative to corner v.
 struct FreeRegion {
   bool opposite_certified;  // from c to a: all that counts of it
   Side chord;               // from a to v, which the walk came across: certified
   Side next;                // from v to c
   Point origin;             // v
-  Offset corner[2];         // c, a: v, c, a turn counter-clockwise and are not on a line
-  int32_t shift;            // -5 .. 10
+  Spot corner[2];  // c, a, in lattice steps: v, c, a turn counter-clockwise and are not on a line
+  int32_t shift;   // -5 .. 10
   Spot c, a;
   int32_t cc, aa, ca;  // dot products
   Divisor by_twice;    // twice the area
@@ -170,20 +171,61 @@ inline int32_t segment(uint32_t square, Cotangent fine) {
   return static_cast<int32_t>((square >> 8) * whole_disc_under(size)) - minor;
 }
 
-// The circle over the side from v to `end`, seen from the apex of the triangle behind it; `turn` is
-// 1 if that turns counter-clockwise from `end`, else -1. An apex farther than corners may be counts
-// in coarser grains.
-inline Cotangent cotangent_behind(const FreeRegion& region, Offset apex, Spot end, int32_t turn) {
-  const int32_t beyond = size_of(extent_of(apex)) + region.shift - (kCornerBits - 1);
-  const int32_t coarser = beyond > 0 ? beyond : 0;  // at most 16
-  const Spot to_apex = shifted(apex, region.shift - coarser);
-  end = Spot{end.x >> coarser, end.y >> coarser};
-  const int32_t height = turn * cross(end, to_apex) >> coarser;
-  return cotangent(dot(to_apex, end - to_apex), divisor_of(height > 1 ? height : 1), kBehindCap);
+inline Spot spot_of(Offset v) {
+  return Spot{static_cast<int32_t>(v.x), static_cast<int32_t>(v.y)};
 }
 
-// Brings the corners to grains. Returns twice the area, > 0.
-inline int32_t measure(FreeRegion& region) {
+// What an apex, behind a side from v to `end`, sees of it: a dot product, and 2^-coarser of twice
+// the triangle's area. An apex farther than corners may be counts in coarser grains.
+struct View {
+  int32_t q, h;
+};
+
+// How much coarser: at most 16.
+inline int32_t coarser_grains(const FreeRegion& region, uint32_t extent) {
+  const int32_t beyond = size_of(extent) + region.shift - (kCornerBits - 1);
+  return beyond > 0 ? beyond : 0;
+}
+
+#if defined(MICROTIN_PAIRS) && defined(__SSE2__)
+
+inline void see_corners(FreeRegion& region, Point v, Point c, Point a) {
+  region.origin = v;
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(region.corner),
+                   _mm_sub_epi32(both_of(c, a), both_of(v, v)));
+}
+
+inline int32_t bring_to_grains(FreeRegion& region) {
+  const __m128i corners = _mm_loadu_si128(reinterpret_cast<const __m128i*>(region.corner));
+  region.shift = kCornerBits - 1 - size_of(extent_of_both(corners));
+  const __m128i both = all_shifted(corners, region.shift);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(&region.c), both);
+  _mm_storel_epi64(reinterpret_cast<__m128i*>(&region.a), _mm_unpackhi_epi64(both, both));
+  const __m128i products = products_of(both);
+  region.cc = lane<0>(products);
+  region.aa = lane<1>(products);
+  region.ca = lane<2>(products);
+  return lane<3>(products);
+}
+
+inline View view_from(const FreeRegion& region, Point apex, const Spot& end, int32_t turn) {
+  const __m128i way = _mm_sub_epi32(place_of(apex), place_of(region.origin));
+  const int32_t coarser = coarser_grains(region, extent_of_first(way));
+  const __m128i ends = _mm_sra_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&end)),
+                                     _mm_cvtsi32_si128(coarser));
+  const __m128i view = view_of(all_shifted(way, region.shift - coarser), ends, turn);
+  return View{lane<0>(view), lane<2>(view) >> coarser};
+}
+
+#else
+
+inline void see_corners(FreeRegion& region, Point v, Point c, Point a) {
+  region.origin = v;
+  region.corner[0] = spot_of(c - v);
+  region.corner[1] = spot_of(a - v);
+}
+
+inline int32_t bring_to_grains(FreeRegion& region) {
   const uint32_t extent = extent_of(region.corner[0]) | extent_of(region.corner[1]);
   region.shift = kCornerBits - 1 - size_of(extent);
   region.c = shifted(region.corner[0], region.shift);
@@ -191,7 +233,30 @@ inline int32_t measure(FreeRegion& region) {
   region.cc = dot(region.c, region.c);
   region.aa = dot(region.a, region.a);
   region.ca = dot(region.c, region.a);
-  const int32_t twice = cross(region.c, region.a), kept = twice > 1 ? twice : 1;
+  return cross(region.c, region.a);
+}
+
+inline View view_from(const FreeRegion& region, Point apex, Spot end, int32_t turn) {
+  const Spot way = spot_of(apex - region.origin);
+  const int32_t coarser = coarser_grains(region, extent_of(way));
+  const Spot to_apex = shifted(way, region.shift - coarser);
+  end = Spot{end.x >> coarser, end.y >> coarser};
+  return View{dot(to_apex, end - to_apex), turn * cross(end, to_apex) >> coarser};
+}
+
+#endif
+
+// The circle over the side from v to `end`, seen from the apex of the triangle behind it; `turn` is
+// 1 if that turns counter-clockwise from `end`, else -1.
+inline Cotangent cotangent_behind(const FreeRegion& region, Point apex, const Spot& end,
+                                  int32_t turn) {
+  const View view = view_from(region, apex, end, turn);
+  return cotangent(view.q, divisor_of(view.h > 1 ? view.h : 1), kBehindCap);
+}
+
+// Brings the corners to grains. Returns twice the area, > 0.
+inline int32_t measure(FreeRegion& region) {
+  const int32_t twice = bring_to_grains(region), kept = twice > 1 ? twice : 1;
   region.by_twice = divisor_of(kept);
   return kept;
 }
@@ -202,7 +267,7 @@ inline int32_t segment_beyond(const FreeRegion& region, int32_t square, int32_t 
 }
 
 // Twice what the circle behind a side from v to `end` takes away. Finds the circle.
-inline int32_t segment_behind(const FreeRegion& region, Side& side, Spot end, int32_t square,
+inline int32_t segment_behind(const FreeRegion& region, Side& side, const Spot& end, int32_t square,
                               int32_t turn) {
   if (side.ghost) return 0;
   side.behind = cotangent_behind(region, side.apex, end, turn);

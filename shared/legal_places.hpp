@@ -45,13 +45,9 @@ Place turned(Place p, int32_t turns) {
   return (turns & 2) != 0 ? Place{-p.x, -p.y} : p;
 }
 
-inline int32_t turns_for(Offset a) {
+inline int32_t turns_for(Spot a) {
   if (absolute(a.x) >= absolute(a.y)) return a.x < 0 ? 0 : 2;
   return a.y > 0 ? 1 : 3;
-}
-
-inline Lines in_order(FastInt a, FastInt b) {
-  return a < b ? Lines{a, b} : Lines{b, a};
 }
 
 // Twice the centre of the circle through v and `end`, seen from the right of v -> end under k:
@@ -82,16 +78,30 @@ inline bool cuts(const Side& side) {
   return side.certified && !side.ghost && side.behind > -kBehindCap * (1 << kCotangentBits);
 }
 
+template <class T>
+void exchange(T& a, T& b) {
+  const T was = a;
+  a = b;
+  b = was;
+}
+
+// Lines 0 to `last` of one axis as seen from line `origin`, forwards or backwards.
+inline Lines lines_from(FastInt origin, FastInt last, bool backwards) {
+  return backwards ? Lines{origin - last, origin} : Lines{-origin, last - origin};
+}
+
 inline void find_lattice(LegalPlaces& places, const Contract& contract, Point origin) {
-  const Offset first = turned(Point{0, 0} - origin, places.turns);
-  const Offset last = turned(Point{contract.x_max, contract.y_max} - origin, places.turns);
-  places.columns = in_order(first.x, last.x);
-  places.rows = in_order(first.y, last.y);
-  const bool odd_x = is_odd(origin.x, contract.odd_origin_x);
-  const bool odd_y = is_odd(origin.y, contract.odd_origin_y);
-  const bool upright = (places.turns & 1) == 0;
-  places.odd[0] = upright ? odd_x : odd_y;
-  places.odd[1] = upright ? odd_y : odd_x;
+  FastInt x = origin.x, x_max = contract.x_max, y = origin.y, y_max = contract.y_max;
+  bool odd_x = is_odd(x, contract.odd_origin_x), odd_y = is_odd(y, contract.odd_origin_y);
+  if ((places.turns & 1) != 0) {
+    exchange(x, y);
+    exchange(x_max, y_max);
+    exchange(odd_x, odd_y);
+  }
+  places.columns = lines_from(x, x_max, ((places.turns + 1) & 2) != 0);
+  places.rows = lines_from(y, y_max, (places.turns & 2) != 0);
+  places.odd[0] = odd_x;
+  places.odd[1] = odd_y;
   places.height =
       Span{shifted(places.rows.first, places.shift), shifted(places.rows.last, places.shift)};
 }

@@ -57,7 +57,7 @@ MICROTIN_IN_PLACE inline bool code_half(Coder& coder, Calibration& calibration, 
     weight.low *= static_cast<uint32_t>(half);
     weight.high *= static_cast<uint32_t>(count - half);
   }
-  const uint32_t share = (weight.high << 11) / (weight.low + weight.high + 1) << 4;  // < 2^31
+  const uint32_t share = (weight.high << 11) / (weight.low + weight.high + 1);  // < 2^31
   const bool upper = code_calibrated(coder, calibration, share, is_in_upper_half(lines, line));
   halve(lines, upper);
   return upper;

@@ -119,7 +119,8 @@ inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, const
 #endif
 
 // Of a column: its legal length times the mean weight. 4..2^14.6.
-inline uint32_t column_weight(const PlaceOdds& odds, const LegalPlaces& places, int32_t x) {
+MICROTIN_ROOMY_IN_PLACE uint32_t column_weight(const PlaceOdds& odds, const LegalPlaces& places,
+                                               int32_t x) {
   Column column;
   column.x = x;
   const Span legal = legal_span(places, x, false, column.own);

@@ -104,10 +104,10 @@ struct Calibration {
   AdaptiveBit entry[9];
 };
 
-// `estimate` has 15 fractional bits and is below 1.
+// `estimate` has 11 fractional bits and is below 1.
 template <class Coder>
 bool code_calibrated(Coder& coder, Calibration& calibration, uint32_t estimate, bool value) {
-  return code_between(coder, calibration.entry + (estimate >> 12), estimate >> 4 & 255u, value);
+  return code_between(coder, calibration.entry + (estimate >> 8), estimate & 255u, value);
 }
 
 }  // namespace microtin

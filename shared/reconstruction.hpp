@@ -151,7 +151,7 @@ inline Index apex_behind(const Mesh& mesh, Index h) {
 inline void look_at(const Reconstruction& r, Index apex, Side& side) {
   side.certified = true;
   side.ghost = apex == kInfinity;
-  if (!side.ghost) side.apex = point_of(*r.mesh, apex) - r.region.origin;
+  if (!side.ghost) side.apex = point_of(*r.mesh, apex);
 }
 
 // Describes the free region of the real triangle (v, c, a) whose half-edge a -> v is the chord.
@@ -159,9 +159,8 @@ inline void look_at(const Reconstruction& r, Index apex, Side& side) {
 MICROTIN_IN_PLACE inline void look_around(Reconstruction& r, Index into) {
   FreeRegion& region = r.region;
   const Mesh& mesh = *r.mesh;
-  region.origin = point_of(mesh, r.vertex);
-  region.corner[0] = point_of(mesh, mesh.origin[into]) - region.origin;
-  region.corner[1] = point_of(mesh, mesh.origin[r.chord]) - region.origin;
+  see_corners(region, point_of(mesh, r.vertex), point_of(mesh, mesh.origin[into]),
+              point_of(mesh, mesh.origin[r.chord]));
   const Index next = apex_behind(mesh, into);
   region.next.certified = marked(r, next, kDone);
   if (region.next.certified) look_at(r, next, region.next);
@@ -174,9 +173,8 @@ MICROTIN_IN_PLACE inline void look_around(Reconstruction& r, Index into) {
 constexpr Log2 kMeanOfLogs = 220;
 
 // Of the origin, a, b, counter-clockwise, if each sees the others on the lattice: below 2^32.
-inline uint32_t twice_area(Offset a, Offset b) {
-  return wrapping_product32(static_cast<int32_t>(a.x), static_cast<int32_t>(b.y)) -
-         wrapping_product32(static_cast<int32_t>(a.y), static_cast<int32_t>(b.x));
+inline uint32_t twice_area(Spot a, Spot b) {
+  return wrapping_product32(a.x, b.y) - wrapping_product32(a.y, b.x);
 }
 
 // Takes a final triangle into the running mean of what such suggest about the density: of n final
@@ -280,7 +278,7 @@ MICROTIN_IN_PLACE inline Point locate(Reconstruction& r, Coder& coder, Log2 dens
   FreeRegion& region = r.region;
   const Offset found =
       code_place(coder, r.models.place, region, r.contract, density, r.place, r.habits);
-  region.corner[0] = found;
+  region.corner[0] = spot_of(found);
   return Point{static_cast<uint16_t>(region.origin.x + found.x),
                static_cast<uint16_t>(region.origin.y + found.y)};
 }

@@ -796,8 +796,8 @@ class PlaceDecoder:
                 middle = 2 * lines.first + half - 1
                 low, high = (weigh(self.grain(ruling.line(at) + ruling.base)) for at in (middle, middle + n))
             below, above = (low * half, high * (n - half)) if n < 32 else (low, high)
-            estimate = (above << 11) // (below + above + 1) << 4
-            upper = decode_between(self.coder, row, estimate >> 12, estimate >> 4 & 255)
+            estimate = (above << 11) // (below + above + 1)
+            upper = decode_between(self.coder, row, estimate >> 8, estimate & 255)
             lines = lines.half(upper)
             tilt, mean = (high - low) >> 2, high if upper else low
             low, high = (max(w, (mean >> 2) + 1) for w in (mean - tilt, mean + tilt))

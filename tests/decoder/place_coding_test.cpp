@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <vector>
 
 #include "tests/support/point_sets.hpp"
@@ -50,9 +52,7 @@ struct Case {
 
 FreeRegion region_of(const Case& given) {
   FreeRegion region{};
-  region.origin = given.v;
-  region.corner[0] = given.c - given.v;
-  region.corner[1] = given.a - given.v;
+  see_corners(region, given.v, given.c, given.a);
   region.chord = given.chord;
   region.next = given.next;
   region.opposite_certified = given.opposite_certified;
@@ -100,13 +100,12 @@ Contract square_lattice(uint32_t side) {
 }
 
 // A random side with an apex anywhere behind it.
-Side random_side(Random& random, uint32_t size, Point v, Point from, Point to, bool certified) {
+Side random_side(Random& random, uint32_t size, Point from, Point to, bool certified) {
   Side side{};
   side.certified = certified;
   side.ghost = random.below(8) == 0;
-  const Point apex = point_in(random, size);
-  side.ghost = side.ghost || orient2d(to, from, apex) <= 0;
-  side.apex = side.ghost ? Offset{0, 0} : apex - v;
+  side.apex = point_in(random, size);
+  side.ghost = side.ghost || orient2d(to, from, side.apex) <= 0;
   return side;
 }
 
@@ -122,9 +121,9 @@ Case random_case(Random& random, uint32_t size) {
     given.c = point_in(random, size);
     given.a = point_in(random, size);
   } while (orient2d(given.v, given.c, given.a) <= 0);
-  given.next = random_side(random, size, given.v, given.v, given.c, random.below(2) == 0);
+  given.next = random_side(random, size, given.v, given.c, random.below(2) == 0);
   given.opposite_certified = random.below(2) == 0;
-  given.chord = random_side(random, size, given.v, given.a, given.v, true);
+  given.chord = random_side(random, size, given.a, given.v, true);
   given.density = static_cast<Log2>(random.below(32768)) - 16384;
   given.habits.crowding = kCrowdingLeast + static_cast<Crowding>(random.below(kCrowdingMost));
   for (Tally& tally : given.habits.parities.first) tally = random_tally(random);
@@ -208,7 +207,7 @@ TEST_CASE("hardly a legal place is missed") {
       if (!conflicts_with_triangle(given.v, given.c, given.a, place)) continue;
       if (conflicts_with_triangle(given.a, behind, given.v, place)) continue;
       given.chord.certified = true;
-      given.chord.apex = behind - given.v;
+      given.chord.apex = behind;
       const FreeRegion region = region_of(given);
       if (cotangent(region.cc - region.ca, region.by_twice, kOwnCap) >= 16 << kCotangentBits)
         continue;
@@ -227,6 +226,51 @@ TEST_CASE("hardly a legal place is missed") {
   CAPTURE(missed);
   CHECK(legal > 1000);
   CHECK(missed * 200 <= legal);
+}
+
+// FORMAT.md's cotangent of the circle behind a side from v to `end`.
+int64_t behind_of(const FreeRegion& region, Point apex, Spot end, int64_t turn) {
+  const auto scaled = [](int64_t v, int64_t shift) { return shift < 0 ? v >> -shift : v << shift; };
+  const auto bit = [](int64_t v) { return int64_t{highest_bit(static_cast<uint32_t>(v))}; };
+  const int64_t x = int64_t{apex.x} - region.origin.x, y = int64_t{apex.y} - region.origin.y;
+  const int64_t m = std::max<int64_t>(0, bit(std::abs(x) | std::abs(y)) + region.shift - 10);
+  const int64_t dx = scaled(x, region.shift - m), dy = scaled(y, region.shift - m);
+  const int64_t ex = end.x >> m, ey = end.y >> m;
+  const int64_t q = dx * (ex - dx) + dy * (ey - dy);
+  const int64_t h = std::max<int64_t>(1, turn * (ex * dy - ey * dx) >> m);
+  const int64_t s = std::max<int64_t>(0, bit(h) - 11), most = 16 * (h >> s);
+  return std::clamp(q >> s, -most, most) * 4096 / (h >> s);
+}
+
+TEST_CASE("regions are measured as FORMAT.md says") {
+  Random random(64);
+  size_t wrong = 0, behind = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const uint32_t size = uint32_t{4} << random.below(15);
+    const Case given = random_case(random, size);
+    const FreeRegion region = region_of(given);
+    const int64_t scale = region.shift;
+    const auto scaled = [scale](int v) { return scale < 0 ? v >> -scale : v << scale; };
+    const Spot c = {scaled(given.c.x - given.v.x), scaled(given.c.y - given.v.y)};
+    const Spot a = {scaled(given.a.x - given.v.x), scaled(given.a.y - given.v.y)};
+    const int longest =
+        std::max({std::abs(given.c.x - given.v.x), std::abs(given.c.y - given.v.y),
+                  std::abs(given.a.x - given.v.x), std::abs(given.a.y - given.v.y)});
+    wrong += longest >> (10 - scale) != 1;
+    wrong += region.c.x != c.x || region.c.y != c.y || region.a.x != a.x || region.a.y != a.y;
+    wrong += region.cc != dot(c, c) || region.aa != dot(a, a) || region.ca != dot(c, a);
+    wrong += region.by_twice.h != divisor_of(std::max(1, cross(c, a))).h;
+    if (!region.chord.ghost) {
+      wrong += region.chord.behind != behind_of(region, region.chord.apex, a, 1);
+      ++behind;
+    }
+    if (region.next.certified && !region.next.ghost) {
+      wrong += region.next.behind != behind_of(region, region.next.apex, c, -1);
+      ++behind;
+    }
+  }
+  CHECK(wrong == 0);
+  CHECK(behind > 50000);
 }
 
 #if defined(MICROTIN_PAIRS)
@@ -259,10 +303,10 @@ TEST_CASE("distances of two places at once are those of each") {
 #endif
 
 TEST_CASE("places are turned back to where they were") {
-  for (const Offset a : {Offset{-9, 4}, Offset{9, 4}, Offset{3, 9}, Offset{3, -9}, Offset{-5, -5},
-                         Offset{5, 5}, Offset{5, -5}, Offset{-5, 5}}) {
+  for (const Spot a : {Spot{-9, 4}, Spot{9, 4}, Spot{3, 9}, Spot{3, -9}, Spot{-5, -5}, Spot{5, 5},
+                       Spot{5, -5}, Spot{-5, 5}}) {
     const int32_t turns = turns_for(a);
-    const Offset west = turned(a, turns), back = turned(west, -turns & 3);
+    const Spot west = turned(a, turns), back = turned(west, -turns & 3);
     CHECK(west.x < 0);
     CHECK(absolute(west.y) <= -west.x);
     CHECK(back.x == a.x);
