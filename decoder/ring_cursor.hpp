@@ -138,8 +138,8 @@ class RingCursor {
   }
   void change_sides() { looks_ = ring_->left + (side() ^ 1u); }
   MICROTIN_IN_PLACE bool is_flagged() const { return look(looks_, middle_) >= kRingFlag; }
-  // Infinity is nothing else, whatever is at its position.
-  bool is_same(uint32_t i, uint32_t k) const { return i != 0 && k != 0 && place(i) == place(k); }
+  // Of a marked triangle, which has infinity for a corner only if the other two are the same.
+  bool is_same(uint32_t i, uint32_t k) const { return place(i) == place(k); }
   // ... if one of its ends is infinity. The path is closed: from the last position it goes to 0.
   void enter_beside_infinity() {
     const uint32_t last = ring_->positions - 1;

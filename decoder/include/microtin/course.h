@@ -40,7 +40,8 @@ typedef struct microtin_block {
  * halves up, kept within int16_t; `heights` is row by row. Returns HEIGHT if all are heights, else
  * the reason of the last that is not. OUTSIDE, and nothing is written, if the z axis has a
  * numerator of 2^31 or more or an offset beyond +-2^45, or x or y is beyond +-2^40. A query for
- * each place, from where the one before ended. */
+ * each place, from where the one before ended. Parts of a block have the same heights: who may not
+ * stay long asks for a row or less at a time. */
 microtin_answer microtin_fill(const microtin_mesh* mesh, const microtin_block* block,
                               int16_t* heights);
 
