@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <ctime>
+#include <optional>
+#include <vector>
 
 #include "encoder/base/error.hpp"
 #include "tests/bench/curves.hpp"
+#include "tests/bench/flat_parts.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/layers.hpp"
 #include "tests/bench/table.hpp"
@@ -44,11 +47,14 @@ constexpr Task kTasks[] = {
 struct Result {
   size_t bytes, vertices;
   Decimal z_step;
-  double rms, mean, seconds;  // of processor time
+  double rms, mean;
+  std::optional<double> flat_mean;
+  double seconds;  // of processor time
 };
 
 // Throws Error if the decoded terrain is not within the bound.
-Result measure(const Source& source, const char* bound, Search search, bool never_below = false) {
+Result measure(const Raster& raster, const char* bound, Search search, bool never_below = false) {
+  const Source source = raster;
   const std::clock_t start = std::clock();
   LatticeOptions lattice;
   lattice.max_error = parse_decimal(bound);
@@ -57,11 +63,16 @@ Result measure(const Source& source, const char* bound, Search search, bool neve
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   const bool below = never_below && verified.max_below.mantissa != 0;
   if (!verified.within_bound || verified.uncovered != 0 || below) throw Error("a bound is broken");
+  std::vector<double> errors(raster.heights.size());
+  verify(encoding.decoded.mesh(), source, {}, [&](int64_t x, int64_t y, int64_t, double above) {
+    errors[static_cast<size_t>(y * raster.width + x)] = above;
+  });
   return {encoding.stream.size(),
           found.tin.vertices.size(),
           found.laid.z_step,
           std::stod(to_string(verified.rms_error)),
           std::stod(to_string(verified.mean_error)),
+          worst_flat_mean(raster, errors),
           seconds};
 }
 
@@ -69,65 +80,84 @@ std::string known(size_t bytes) {
   return bytes != 0 ? number(bytes) : "";
 }
 
+std::string known(std::optional<double> value) {
+  return value ? number(*value, 3) : "";
+}
+
+Row columns() {
+  return {"terrain, bound in metres",
+          "LERC (quoted)",
+          "SPERR (quoted)",
+          "SZ3 (quoted)",
+          "greedy",
+          "`--fast`",
+          "rms",
+          "mean",
+          "flat",
+          "s",
+          "microtin",
+          "rms",
+          "mean",
+          "flat",
+          "s",
+          "vertices",
+          "z step",
+          "`--best`",
+          "rms",
+          "mean",
+          "flat",
+          "s",
+          "microtin / SZ3",
+          "`--never-below`"};
+}
+
+// Prints the row of a task; adds to the mean of ratios where all are known.
+void print_task(const Task& task, GeometricMean& mean) {
+  const Raster raster = read_raster({task.terrain, {}});
+  const Result greedy = measure(raster, task.bound, Search::kGreedy);
+  const Result fast = measure(raster, task.bound, Search::kFast);
+  const Result normal = measure(raster, task.bound, Search::kNormal);
+  const Result best = measure(raster, task.bound, Search::kBest);
+  const Result above = measure(raster, task.bound, Search::kNormal, true);
+  const double ratio =
+      static_cast<double>(normal.bytes) / static_cast<double>(std::max<size_t>(task.quoted.sz3, 1));
+  if (task.quoted.lerc != 0) mean.add(ratio);
+  print_row({std::string(task.terrain) + " " + task.bound,
+             known(task.quoted.lerc),
+             known(task.quoted.sperr),
+             known(task.quoted.sz3),
+             number(greedy.bytes),
+             number(fast.bytes),
+             number(fast.rms, 3),
+             number(fast.mean, 3),
+             known(fast.flat_mean),
+             number(fast.seconds, 1),
+             number(normal.bytes),
+             number(normal.rms, 3),
+             number(normal.mean, 3),
+             known(normal.flat_mean),
+             number(normal.seconds, 1),
+             number(normal.vertices),
+             to_string(normal.z_step),
+             number(best.bytes),
+             number(best.rms, 3),
+             number(best.mean, 3),
+             known(best.flat_mean),
+             number(best.seconds, 1),
+             task.quoted.sz3 != 0 ? number(ratio, 3) : "",
+             number(above.bytes)});
+}
+
 }  // namespace
 
 void print_bounds() {
   if (rasters().empty()) return;
-  print_head("Bytes at a guaranteed error; quoted: LERC + zstd, SPERR, SZ3",
-             {"terrain, bound in metres",
-              "LERC (quoted)",
-              "SPERR (quoted)",
-              "SZ3 (quoted)",
-              "greedy",
-              "`--fast`",
-              "rms",
-              "mean",
-              "s",
-              "microtin",
-              "rms",
-              "mean",
-              "s",
-              "vertices",
-              "z step",
-              "`--best`",
-              "rms",
-              "mean",
-              "s",
-              "microtin / SZ3",
-              "`--never-below`"});
+  print_head(
+      "Bytes at a guaranteed error, mean error of all and of the worst flat part; quoted: LERC + "
+      "zstd, SPERR, SZ3",
+      columns());
   GeometricMean mean;
-  for (const Task& task : kTasks) {
-    const Raster raster = read_raster({task.terrain, {}});
-    const Result greedy = measure(raster, task.bound, Search::kGreedy);
-    const Result fast = measure(raster, task.bound, Search::kFast);
-    const Result normal = measure(raster, task.bound, Search::kNormal);
-    const Result best = measure(raster, task.bound, Search::kBest);
-    const Result above = measure(raster, task.bound, Search::kNormal, true);
-    const double ratio = static_cast<double>(normal.bytes) /
-                         static_cast<double>(std::max<size_t>(task.quoted.sz3, 1));
-    if (task.quoted.lerc != 0) mean.add(ratio);
-    print_row({std::string(task.terrain) + " " + task.bound,
-               known(task.quoted.lerc),
-               known(task.quoted.sperr),
-               known(task.quoted.sz3),
-               number(greedy.bytes),
-               number(fast.bytes),
-               number(fast.rms, 3),
-               number(fast.mean, 3),
-               number(fast.seconds, 1),
-               number(normal.bytes),
-               number(normal.rms, 3),
-               number(normal.mean, 3),
-               number(normal.seconds, 1),
-               number(normal.vertices),
-               to_string(normal.z_step),
-               number(best.bytes),
-               number(best.rms, 3),
-               number(best.mean, 3),
-               number(best.seconds, 1),
-               task.quoted.sz3 != 0 ? number(ratio, 3) : "",
-               number(above.bytes)});
-  }
+  for (const Task& task : kTasks) print_task(task, mean);
   std::printf("\nGeometric mean of microtin / SZ3 over the first five: %.3f\n", mean.value());
 }
 
