@@ -94,7 +94,8 @@ void print_bounds() {
               "mean",
               "s",
               "microtin / SZ3",
-              "`--never-below`"});
+              "`--never-below`",
+              "at half the bound"});
   GeometricMean mean;
   for (const Task& task : kTasks) {
     const Raster raster = read_raster({task.terrain, {}});
@@ -103,6 +104,8 @@ void print_bounds() {
     const Result normal = measure(raster, task.bound, Search::kNormal);
     const Result best = measure(raster, task.bound, Search::kBest);
     const Result above = measure(raster, task.bound, Search::kNormal, true);
+    const std::string half_bound = number(std::stod(task.bound) / 2, 3);
+    const Result half = measure(raster, half_bound.c_str(), Search::kNormal);
     const double ratio = static_cast<double>(normal.bytes) /
                          static_cast<double>(std::max<size_t>(task.quoted.sz3, 1));
     if (task.quoted.lerc != 0) mean.add(ratio);
@@ -126,7 +129,8 @@ void print_bounds() {
                number(best.mean, 3),
                number(best.seconds, 1),
                task.quoted.sz3 != 0 ? number(ratio, 3) : "",
-               number(above.bytes)});
+               number(above.bytes),
+               number(half.bytes)});
   }
   std::printf("\nGeometric mean of microtin / SZ3 over the first five: %.3f\n", mean.value());
 }
