@@ -27,7 +27,7 @@ TEST_CASE("bound search: a few trials find the bound of any power law") {
       const double wanted = 12.5;
       const auto size_at = [&](double bound) { return 1e6 * std::pow(wanted / bound, power); };
       BoundSearch search({500, 0}, guess, 1e6);
-      for (int i = 0; i < 5; ++i) {
+      for (int i = 0; i < 8; ++i) {
         const Decimal bound = search.bound_for(1e6);
         search.add(bound, size_at(value_of(bound)));
       }
