@@ -14,9 +14,10 @@ namespace microtin::fit {
 namespace {
 
 // The z steps to be tried, in tenths of the bound: smaller ones cost more in heights than they save
-// in vertices.
-std::vector<int> tenths_to_try(Search search) {
-  switch (search) {
+// in vertices, of which larger ones take more.
+std::vector<int> tenths_to_try(const SimplifyOptions& options) {
+  if (options.few_vertices) return {4};
+  switch (options.search) {
     case Search::kBest:
       return {10, 8, 6, 5, 4, 3};
     case Search::kNormal:
@@ -33,11 +34,12 @@ Decimal half(Decimal value) {
 }
 
 // Lays the source out with every step that fits it.
-std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattice, Search search) {
+std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattice,
+                                     const SimplifyOptions& options) {
   // A one-sided bound leaves half the room.
   const Decimal bound = lattice.never_below ? half(*lattice.max_error) : *lattice.max_error;
   std::vector<Laid> all;
-  for (const int tenths : tenths_to_try(search)) {
+  for (const int tenths : tenths_to_try(options)) {
     if (bound.decimals >= kMaxDecimals) break;
     lattice.z_step = make_decimal(Wide{bound.mantissa} * tenths, bound.decimals + 1);
     try {
@@ -49,7 +51,7 @@ std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattic
   lattice.z_step.reset();
   Laid own = lay_out(source, lattice);
   const Decimal steps = make_decimal(Wide{own.z_step.mantissa} * kOwnSteps, own.z_step.decimals);
-  if (search == Search::kFast && bound <= steps) all.clear();
+  if (tenths_to_try(options).size() == 1 && bound <= steps) all.clear();
   if (all.empty() || bound <= steps) all.push_back(std::move(own));
   return all;
 }
@@ -83,7 +85,7 @@ Approximation approximate(const Source& source, const LatticeOptions& lattice,
                           const SimplifyOptions& options) {
   std::vector<Laid> all;
   if (options.bounded && !lattice.z_step) {
-    all = lay_out_with_steps(source, lattice, options.search);
+    all = lay_out_with_steps(source, lattice, options);
   } else {
     all.push_back(lay_out(source, lattice));
   }

@@ -10,27 +10,35 @@
 
 namespace microtin::fit {
 
-// Sizes fall with a power of the bound: a straight line of logarithms, through the last two trials.
+// Sizes fall with a power of the bound: a straight line of logarithms, through the last two trials
+// or, once some were too large and others not, between the nearest two of these.
 class BoundSearch {
  public:
-  // Bounds lie between a millionth of `largest` and that. guess > 0: the first to be tried.
-  BoundSearch(Decimal largest, double guess);
+  // Bounds lie between a millionth of `largest` and that. guess > 0: the first to be tried. limit:
+  // the size that is allowed.
+  BoundSearch(Decimal largest, double guess, double limit);
 
-  // The bound, to four digits, that should take that size.
+  // The bound, to five digits, that should take that size.
   Decimal bound_for(double size) const;
 
   // What a trial took; nothing if the bound was too small to be kept at all.
   void add(Decimal bound, std::optional<double> size);
+
+  // Trials so far were rough: they tell of the line, but not which bounds are too small.
+  void forget_ends();
 
  private:
   struct Trial {
     double bound, size;  // logarithms
   };
 
+  double between_ends(double size) const;
+
   Decimal largest_;
   double lowest_, highest_;  // logarithms of bounds
-  double guess_;
+  double guess_, limit_;     // logarithms
   std::optional<Trial> last_;
+  std::optional<Trial> too_large_, fitting_;  // with the largest bound, and with the smallest
   double slope_;
 };
 

@@ -31,22 +31,22 @@ struct ErrorModel {
     return {(highest + lowest) / 131072, (highest - lowest) / 131072};
   }
 
-  // The whole step nearest to the sample's height (halves up) that is allowed there.
+  // The whole step nearest to the middle of what the sample allows (halves up) that is allowed.
   int16_t vertex_height(const Sample& sample) const {
     int64_t lowest = std::numeric_limits<int16_t>::min();
     int64_t highest = std::numeric_limits<int16_t>::max();
+    int64_t twice_middle = int64_t{sample.height} * 2;
     if (bounded) {
-      lowest = std::max(lowest, floor_steps(sample.lowest + int64_t{65535}));
-      highest = std::min(highest, floor_steps(sample.highest));
+      lowest = std::max(lowest, floor_divide(sample.lowest + int64_t{65535}, 65536));
+      highest = std::min(highest, floor_divide(sample.highest, 65536));
+      twice_middle = int64_t{sample.lowest} + sample.highest;
     }
-    return static_cast<int16_t>(
-        std::min(std::max(floor_steps(sample.height + int64_t{32768}), lowest), highest));
+    const int64_t nearest = floor_divide(twice_middle + 65536, 131072);
+    return static_cast<int16_t>(std::min(std::max(nearest, lowest), highest));
   }
 
  private:
-  static int64_t floor_steps(int64_t height) {
-    return (height >= 0 ? height : height - 65535) / 65536;
-  }
+  static int64_t floor_divide(int64_t a, int64_t b) { return (a >= 0 ? a : a - (b - 1)) / b; }
 };
 
 }  // namespace microtin::fit

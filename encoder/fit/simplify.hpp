@@ -25,8 +25,9 @@ struct SimplifyOptions {
   bool bounded = false;       // the surface must lie in lowest .. highest at every sample
   uint32_t max_vertices = 0;  // if not 0: no more than that, except where hull and voids need them
   Search search = Search::kNormal;
-  Effort effort;      // with which the result will be encoded
-  Progress progress;  // of the search
+  bool few_vertices = false;  // rather than few bytes
+  Effort effort;              // with which the result will be encoded
+  Progress progress;          // of the search
 };
 
 // Without options every sample becomes a vertex. With one of them, as few as greedy insertion of

@@ -31,6 +31,9 @@ constexpr std::size_t kSimplifiedTiles = 24;
 // alone.
 constexpr double kUsualCounts = 4, kCountOfTile = 0.4;
 
+constexpr uint32_t kMostCounts = 5;    // where some fit
+constexpr double kQuickExcess = 1.25;  // of vertices, without searching long: at most, about
+
 // The tiles that probably have most vertices.
 std::vector<uint32_t> roughest_tiles(const TiledRaster& tiled) {
   const std::size_t count = tile_count(tiled.grid), kept = std::min(count, kSimplifiedTiles);
@@ -62,7 +65,8 @@ uint32_t most_vertices(const TiledRaster& tiled, uint32_t max_vertices,
   CountedProgress done(progress, tiles.size());
   for_each_parallel(tiles.size(), [&](std::size_t i) {
     vertices[i] = count_vertices(tiled, tiles[i], quick);
-    const bool nearly_fits = vertices[i] > max_vertices && vertices[i] <= max_vertices / 8.0 * 9;
+    const bool nearly_fits =
+        vertices[i] > max_vertices && vertices[i] <= max_vertices * kQuickExcess;
     if (nearly_fits && quick.search != options.search) {
       vertices[i] = count_vertices(tiled, tiles[i], options);
     }
@@ -114,7 +118,7 @@ uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options,
   simplify.progress = {};
   const Raster& frame = tiled.raster.frame();
   const uint32_t longer = std::max(frame.width, frame.height) - 1;
-  uint32_t fitting = 0, fewest = 1, pieces = guessed_pieces(frame, options);
+  uint32_t fitting = 0, fewest = 1, counts = 0, pieces = guessed_pieces(frame, options);
   for (double done = 0;; done += (1 - done) / kUsualCounts) {
     tiled.grid = grid_of(frame, divide_up(longer, pieces));
     const uint32_t allowed = most_vertices(options, tiled.grid);
@@ -123,8 +127,11 @@ uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options,
     if (most <= allowed) fitting = pieces;
     if (most > allowed) fewest = pieces + 1;
     const double ratio = std::sqrt(static_cast<double>(most) / allowed);
-    const uint32_t next = std::max(fewest, static_cast<uint32_t>(std::ceil(pieces * ratio)));
-    if (fitting != 0 && next >= fitting) return divide_up(longer, fitting);
+    const auto likely = static_cast<uint32_t>(std::ceil(pieces * ratio));
+    const uint32_t fewer = fitting != 0 ? fitting - 1 : longer;  // not every tile grows alike
+    const uint32_t next = std::max(fewest, std::min(likely, fewer));
+    const bool is_last = ++counts >= kMostCounts;
+    if (fitting != 0 && (next >= fitting || is_last)) return divide_up(longer, fitting);
     if (fewest > longer) fail_at_one_step(allowed, most);
     pieces = std::min(next, longer);
   }

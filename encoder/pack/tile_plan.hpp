@@ -19,9 +19,9 @@ TileGrid grid_of(const Raster& frame, uint32_t tile_steps);
 TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps);
 
 // The largest tile_steps found with which no tile has more vertices than it may, as far as
-// the roughest tiles tell: up to 24 of them are simplified, two or three times, without searching
-// long unless they are a little too large then, and the raster is read as often. Throws Error if
-// there are none.
+// the roughest tiles tell: up to 24 of them are simplified, at most five times once some fit,
+// without searching long unless they are a little too large then, and the raster is read as often.
+// Throws Error if there are none.
 uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options, const Progress& progress);
 
 // How much of the time of a pack that takes, estimated.

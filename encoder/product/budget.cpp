@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds a bound that takes a little more than there is, then searches on until it fits.
+// Finds a bound that takes a little more than there is, then widens it, searching on, until it
+// fits.
 #include "encoder/product/budget.hpp"
 
 #include <algorithm>
@@ -14,19 +15,40 @@
 namespace microtin::product {
 namespace {
 
-// A little more than fits, as searching on saves that; nearly as much as fits if not.
-constexpr double kAim = 1.012, kLastAim = 0.994;
-constexpr double kSavings = 1.03;  // how much more than fits searching on may save
-constexpr double kWasted = 0.99;   // what fits and is above needs no more trials
-constexpr double kClose = 0.1;     // of the logarithm of a size: near enough for a rough trial
-constexpr int kRoughTrials = 4, kTrials = 3, kMoreTrials = 12;
-constexpr int kSmallTrials = 8;  // where each has a large effect, and takes no time
-constexpr double kSmall = 500;   // vertices
-constexpr uint32_t kPieces = 4;  // of a search that goes on
+// More than fits, as searching on within a little wider bound then makes it fit for a part of the
+// time that another trial takes; each trial comes nearer.
+constexpr double kMore = 0.05, kNearer = 0.4;
+constexpr double kWideAim = 0.997, kUsed = 0.994;  // of a wider bound; what is enough
+constexpr double kNearlyUsed = 0.97;               // before a round bound is tried
+constexpr double kLoose = 1.35;  // how much more than fits a wider bound may have to save
+constexpr double kClose = 0.2;   // of the logarithm of a size: near enough for a rough trial
+constexpr double kRound = 0.97;  // of a bound: round ones above that are tried
+constexpr int kRoughTrials = 3, kWiderBounds = 5, kMoreTrials = 12;
+constexpr uint32_t kPieces = 4;  // of the rounds of a search: what each wider bound takes
 
-// A quick search takes so much more.
-double excess_of_quick(Search search) {
-  return search == Search::kFast ? 1 : search == Search::kNormal ? 1.25 : 1.28;
+constexpr double kHeaderBytes = 100, kBytesPerVertex = 1.4;  // usually
+
+// What all may take, in times of one encoding, as measured on development terrains.
+constexpr double kMost = 3.6;
+
+// What efforts take, and what comes of them.
+struct Costs {
+  double greedy, rough, trial, widening;  // times of one encoding
+  double quick_excess;                    // how much more a quick search takes
+  double rest;                            // of a size, if it is searched on
+  double guess;                           // the bound, as a part of the greedy error
+  double one_step;                        // of a trial: one that compares no steps of height
+};
+
+Costs costs_of(Search search) {
+  switch (search) {
+    case Search::kFast:
+      return {0.3, 1, 1, 0.5, 1, 0.94, 0.58, 1};
+    case Search::kBest:
+      return {0.05, 0.1, 1, 0.25, 1.25, 0.995, 0.5, 0.85};
+    default:
+      return {0.1, 0.3, 1, 0.25, 1.2, 0.99, 0.5, 0.7};
+  }
 }
 
 // The distance of the lowest and the highest height; 1 if there is none.
@@ -45,16 +67,25 @@ double value_of(Decimal d) {
   return static_cast<double>(d.mantissa) / std::pow(10.0, d.decimals);
 }
 
+// The largest number of two digits that is not larger.
+Decimal rounded_down(Decimal bound) {
+  int64_t digit = 1;
+  while (bound.mantissa / digit >= 100) digit *= 10;
+  return make_decimal(Wide{bound.mantissa / digit} * digit, bound.decimals);
+}
+
 class Budget {
  public:
   Budget(const Source& source, const EncodeOptions& options, const Progress& progress)
       : source_(source),
         asked_(options),
         options_(options),
+        costs_(costs_of(options.search)),
         progress_(progress),
         largest_(height_range(source)) {
     const uint32_t vertices = vertex_limit(options);
     of_vertices_ = vertices != 0;
+    if (of_vertices_) costs_.trial *= costs_.one_step;
     limit_ = of_vertices_ ? vertices : options.max_bytes;
     options_.max_vertices = options_.max_bytes = 0;
     options_.device_ram = 0;
@@ -62,13 +93,17 @@ class Budget {
 
   EncodedStream spend() {
     if (greedy()) return std::move(*best_);
-    BoundSearch search(largest_, guess_);
+    BoundSearch search(largest_, guess_, limit_);
     if (options_.search != Search::kFast) try_roughly(search);
-    const int trials = limit_ < kSmall ? kSmallTrials : kTrials;
-    for (int i = 0; i < trials && !is_spent(); ++i) {
-      try_bound(search, i + 1 < trials || !best_bound_ ? kAim : kLastAim);
+    for (double more = kMore; affords(costs_.trial); more *= kNearer) {
+      try_bound(search, (1 + more) / costs_.rest * limit_);
+      if (best_bound_ && best_size_ >= kNearlyUsed * limit_ && affords(costs_.trial)) {
+        try_round_bound();
+      }
     }
-    for (int i = 0; i < kMoreTrials && !best_; ++i) try_bound(search, std::pow(kLastAim, 1 << i));
+    for (int i = 0; i < kMoreTrials && !best_; ++i) {
+      try_bound(search, std::pow(kWideAim, 1 << i) * limit_);
+    }
     if (!best_) fail();
     return std::move(*best_);
   }
@@ -78,16 +113,24 @@ class Budget {
     return of_vertices_ ? encoded.vertices : static_cast<double>(encoded.stream.size());
   }
   bool fits(double size) const { return size <= limit_; }
-  bool is_spent() const { return best_bound_ && best_size_ >= kWasted * limit_; }
 
-  void keep(EncodedStream&& encoded) {
+  bool affords(double cost) const { return spent_ + cost <= kMost; }
+  Progress spending(double cost) {
+    const double before = std::min(spent_ / kMost, 1.0);
+    spent_ += cost;
+    return progress_.part(before, std::min(spent_ / kMost, 1.0));
+  }
+
+  // Says what it takes.
+  double keep(EncodedStream&& encoded) {
     const double size = size_of(encoded);
     smallest_ = std::min(smallest_, size);
-    if (!fits(size)) return;
-    if (best_ && best_->verification.max_error <= encoded.verification.max_error) return;
+    if (!fits(size)) return size;
+    if (best_ && best_->verification.max_error <= encoded.verification.max_error) return size;
     best_bound_ = encoded.bound;
     best_size_ = size;
     best_ = std::move(encoded);
+    return size;
   }
 
   // Insertion of the worst sample alone, which also tells about which bound to try. Says whether
@@ -96,20 +139,23 @@ class Budget {
     EncodeOptions options = asked_;
     options.max_bytes = 0;
     options.lattice.never_below = false;
-    if (!of_vertices_) options.max_vertices = static_cast<uint32_t>(std::max(limit_ / 2, 4.0));
-    EncodedStream encoded = encode_measured(source_, options, {});
+    if (!of_vertices_) {
+      const double vertices = (limit_ - kHeaderBytes) / kBytesPerVertex;
+      options.max_vertices = static_cast<uint32_t>(std::max(vertices, 4.0));
+    }
+    EncodedStream encoded = encode_measured(source_, options, spending(costs_.greedy));
     const double error = value_of(encoded.verification.max_error);
-    guess_ = error > 0 ? error / 2 : value_of(largest_) / 1000;
+    guess_ = error > 0 ? error * costs_.guess : value_of(largest_) / 1000;
     const bool exact = error == 0 && of_vertices_;
     if (of_vertices_) keep(std::move(encoded));
     return exact;
   }
 
-  std::optional<Approximation> approximate_at(Decimal bound, Search effort, double until) {
+  std::optional<Approximation> approximate_at(Decimal bound, Search effort, double cost) {
     options_.lattice.max_error = bound;
-    SimplifyOptions simplify = simplify_options(options_, progress_.part(done_, until));
+    SimplifyOptions simplify = simplify_options(options_, spending(cost));
     simplify.search = effort;
-    done_ = until;
+    simplify.few_vertices = of_vertices_;
     try {
       return approximate(source_, options_.lattice, simplify);
     } catch (const Error&) {  // points that share a place, or the step of heights, rule it out
@@ -118,41 +164,66 @@ class Budget {
   }
 
   void try_roughly(BoundSearch& search) {
+    const double wanted = limit_ * costs_.quick_excess;
     for (int i = 0; i < kRoughTrials; ++i) {
-      const double wanted = limit_ * excess_of_quick(options_.search);
       const Decimal bound = search.bound_for(wanted);
-      const auto found = approximate_at(bound, Search::kFast, 0.05 * (i + 1));
+      auto found = approximate_at(bound, Search::kFast, costs_.rough);
       if (!found) {
         search.add(bound, std::nullopt);
         continue;
       }
-      const EncodedStream encoded = measured(source_, options_, Approximation(*found));
-      const double size = size_of(encoded);
-      search.add(bound, size / excess_of_quick(options_.search));
-      if (std::abs(std::log(size / wanted)) < kClose) return;
+      const double size = size_of(measured(source_, options_, std::move(*found)));
+      search.add(bound, size / costs_.quick_excess);
+      if (std::abs(std::log(size / wanted)) < kClose) break;
     }
+    search.forget_ends();
   }
 
-  void try_bound(BoundSearch& search, double aim) {
-    const Decimal bound = search.bound_for(aim * limit_);
-    const double room = 0.9 * (1 - done_);
-    std::optional<Approximation> found = approximate_at(bound, options_.search, done_ + room / 3);
+  void try_bound(BoundSearch& search, double wanted) {
+    const Decimal bound = search.bound_for(wanted);
+    const auto found = approximate_at(bound, options_.search, costs_.trial);
     if (!found) {
       search.add(bound, std::nullopt);
       return;
     }
-    EncodedStream encoded = measured(source_, options_, Approximation(*found));
-    double size = size_of(encoded);
+    const double size = keep(measured(source_, options_, Approximation(*found)));
     search.add(bound, size);
+    if (size > limit_ && size <= kLoose * limit_) widen(search, bound, size, *found);
+  }
+
+  // Searches on from a surface that takes too much, within wider bounds, until it fits closely.
+  void widen(BoundSearch search, Decimal bound, double size, const Approximation& tight) {
+    search.forget_ends();
+    search.add(bound, size * costs_.rest);
+    const Decimal least = bound;
     const uint32_t rounds = std::max(rounds_of(options_.search) / kPieces, 1u);
-    for (uint32_t i = 0; i < kPieces && !fits(size) && size <= kSavings * limit_; ++i) {
-      const double until = done_ + room / 3 / kPieces;
-      search_further(*found, rounds, simplify_options(options_, progress_.part(done_, until)));
-      done_ = until;
-      encoded = measured(source_, options_, Approximation(*found));
-      size = size_of(encoded);
+    LatticeOptions& lattice = options_.lattice;
+    for (int i = 0; i < kWiderBounds && affords(costs_.widening); ++i) {
+      bound = search.bound_for(kWideAim * limit_);
+      if (bound <= least) bound = least;
+      lattice.max_error = bound;
+      Approximation wide{lay_out_at_step(tight.laid.z_step), tight.tin};
+      search_further(wide, rounds, simplify_options(options_, spending(costs_.widening)));
+      size = keep(measured(source_, options_, std::move(wide)));
+      if (fits(size) && (bound <= least || size >= kUsed * limit_)) return;
+      search.add(bound, size);
     }
-    keep(std::move(encoded));
+  }
+
+  Laid lay_out_at_step(Decimal z_step) const {
+    LatticeOptions lattice = options_.lattice;
+    lattice.z_step = z_step;
+    return lay_out(source_, lattice);
+  }
+
+  // Such bounds, and steps, suit sources of round heights.
+  void try_round_bound() {
+    if (tried_round_) return;
+    tried_round_ = true;
+    const Decimal bound = *best_bound_, round = rounded_down(bound);
+    if (bound <= round || value_of(round) < kRound * value_of(bound)) return;
+    auto found = approximate_at(round, options_.search, costs_.trial);
+    if (found) keep(measured(source_, options_, std::move(*found)));
   }
 
   [[noreturn]] void fail() {
@@ -166,14 +237,17 @@ class Budget {
   const Source& source_;
   const EncodeOptions& asked_;
   EncodeOptions options_;  // of a trial
+  Costs costs_;
   Progress progress_;
   Decimal largest_;  // bound
   bool of_vertices_ = false;
-  double limit_ = 0, guess_ = 1, done_ = 0;
+  double limit_ = 0, guess_ = 1;
+  double spent_ = 0;                                      // times of one encoding
   double smallest_ = std::numeric_limits<double>::max();  // of all that were tried
   std::optional<EncodedStream> best_;
   std::optional<Decimal> best_bound_;
   double best_size_ = 0;
+  bool tried_round_ = false;
 };
 
 }  // namespace

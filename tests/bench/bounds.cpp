@@ -108,7 +108,8 @@ Row columns() {
           "flat",
           "s",
           "microtin / SZ3",
-          "`--never-below`"};
+          "`--never-below`",
+          "at half the bound"};
 }
 
 // Prints the row of a task; adds to the mean of ratios where all are known.
@@ -119,6 +120,8 @@ void print_task(const Task& task, GeometricMean& mean) {
   const Result normal = measure(raster, task.bound, Search::kNormal);
   const Result best = measure(raster, task.bound, Search::kBest);
   const Result above = measure(raster, task.bound, Search::kNormal, true);
+  const std::string half_bound = number(std::stod(task.bound) / 2, 3);
+  const Result half = measure(raster, half_bound.c_str(), Search::kNormal);
   const double ratio =
       static_cast<double>(normal.bytes) / static_cast<double>(std::max<size_t>(task.quoted.sz3, 1));
   if (task.quoted.lerc != 0) mean.add(ratio);
@@ -145,7 +148,8 @@ void print_task(const Task& task, GeometricMean& mean) {
              known(best.flat_mean),
              number(best.seconds, 1),
              task.quoted.sz3 != 0 ? number(ratio, 3) : "",
-             number(above.bytes)});
+             number(above.bytes),
+             number(half.bytes)});
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "encoder/base/error.hpp"
 #include "tests/bench/bounds.hpp"
+#include "tests/bench/budgets.hpp"
 #include "tests/bench/grids/autopilots.hpp"
 #include "tests/bench/grids/firmware_grids.hpp"
 #include "tests/bench/grids/flight.hpp"
@@ -39,6 +40,8 @@ void run(const std::string& command, const Arguments& arguments) {
     print_tile_rate();
   } else if (command == "bounds") {
     print_bounds();
+  } else if (command == "budgets" && arguments.size() <= 1) {
+    print_budgets(arguments.empty() ? "" : arguments[0]);
   } else if (command == "curves" && arguments.size() == 1) {
     draw_curves(arguments[0]);
   } else if (command == "paper") {
@@ -84,7 +87,8 @@ void run(const std::string& command, const Arguments& arguments) {
     print_decode_speed(Arguments(arguments.begin() + 1, arguments.end()), measure, "instructions");
   } else {
     throw Error(
-        "usage: microtin_bench rate | bounds | curves FILE | paper | peers | peer-instructions "
+        "usage: microtin_bench rate | bounds | budgets [TERRAIN] | curves FILE | paper | peers | "
+        "peer-instructions "
         "FILE | "
         "cell FILE | autopilots CALLGRIND TERRAIN PACK TER DAT DAT | "
         "grid TERRAIN GRID | flight TERRAIN PACK GRID LOG LOG LOG | linearity PLOT | growth FILE "

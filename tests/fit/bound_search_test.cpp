@@ -26,8 +26,8 @@ TEST_CASE("bound search: a few trials find the bound of any power law") {
       CAPTURE(guess);
       const double wanted = 12.5;
       const auto size_at = [&](double bound) { return 1e6 * std::pow(wanted / bound, power); };
-      BoundSearch search({500, 0}, guess);
-      for (int i = 0; i < 3; ++i) {
+      BoundSearch search({500, 0}, guess, 1e6);
+      for (int i = 0; i < 8; ++i) {
         const Decimal bound = search.bound_for(1e6);
         search.add(bound, size_at(value_of(bound)));
       }
@@ -37,17 +37,17 @@ TEST_CASE("bound search: a few trials find the bound of any power law") {
 }
 
 TEST_CASE("bound search: bounds stay within their range") {
-  BoundSearch search({500, 0}, 10);
+  BoundSearch search({500, 0}, 10, 1000);
   CHECK(value_of(search.bound_for(1000)) == 10);
   search.add({10, 0}, 1e9);
   CHECK(to_string(search.bound_for(1)) == "500");
   search.add({500, 0}, 1);
-  search.add({500, 0}, 1);
+  search.forget_ends();
   CHECK(value_of(search.bound_for(1e30)) == doctest::Approx(0.0005));
 }
 
 TEST_CASE("bound search: larger bounds follow one that cannot be kept") {
-  BoundSearch search({500, 0}, 10);
+  BoundSearch search({500, 0}, 10, 1000);
   Decimal bound = search.bound_for(1000);
   for (int i = 0; i < 20 && !(Decimal{500, 0} <= bound); ++i) {
     search.add(bound, std::nullopt);
@@ -56,4 +56,21 @@ TEST_CASE("bound search: larger bounds follow one that cannot be kept") {
     bound = next;
   }
   CHECK(to_string(bound) == "500");
+}
+
+TEST_CASE("bound search: between a bound that takes too much and one that fits") {
+  BoundSearch search({500, 0}, 10, 1000);
+  search.add({10, 0}, 4000);
+  search.add({20, 0}, 100);  // the line through both is steeper than any that is trusted
+  const double between = value_of(search.bound_for(990));
+  CHECK(between > 10);
+  CHECK(between < 20);
+  search.add({16, 0}, 1001);
+  const double closer = value_of(search.bound_for(990));
+  CHECK(closer > 16);
+  CHECK(closer < 20);
+  search.add({15, 0}, 900);  // the line bends: what was too small is not
+  CHECK(value_of(search.bound_for(990)) < 15);
+  search.forget_ends();
+  CHECK(value_of(search.bound_for(1)) > 20);
 }

@@ -164,7 +164,7 @@ SimplifyOptions at_most(uint32_t vertices) {
 
 }  // namespace
 
-TEST_CASE("error model: the nearest whole step, halves up, that is allowed") {
+TEST_CASE("error model: the whole step nearest to the middle, halves up, that is allowed") {
   const auto at = [](int32_t height) { return Sample{point(0, 0), height, 0, 0}; };
   const ErrorModel free{false};
   CHECK(free.vertex_height(at(0)) == 0);
@@ -179,8 +179,9 @@ TEST_CASE("error model: the nearest whole step, halves up, that is allowed") {
   CHECK(bound.vertex_height({point(0, 0), 20000, 1, 70000}) == 1);
   CHECK(bound.vertex_height({point(0, 0), -40000, -65535, 0}) == 0);
   CHECK(bound.vertex_height({point(0, 0), -20000, -70000, -1}) == -1);
+  CHECK(bound.vertex_height({point(0, 0), 0, 0, 3 * 65536}) == 2);
   CHECK(bound.vertex_height({point(0, 0), 40000, std::numeric_limits<int32_t>::min(),
-                             std::numeric_limits<int32_t>::max()}) == 1);
+                             std::numeric_limits<int32_t>::max()}) == 0);
 }
 
 TEST_CASE("error model: the distance from what is allowed") {

@@ -227,6 +227,24 @@ TEST_CASE("packs: a tile that takes more in compact form than is promised is too
   }
 }
 
+TEST_CASE("packs: no larger tiles would fit, though the roughest does not grow as all do") {
+  Raster raster = rough_raster(97, 97);
+  for (uint32_t y = 0; y < raster.height; ++y) {  // rough in a corner alone
+    for (uint32_t x = 0; x < raster.width; ++x) {
+      if (x > 20 || y > 20) raster.heights[std::size_t{y} * raster.width + x] = 7;
+    }
+  }
+  for (const uint32_t vertices : {120u, 160u, 240u}) {
+    CAPTURE(vertices);
+    PackOptions options = pack_options(4, vertices);
+    const PackContent pack = encode_pack(raster, options).content;
+    const uint32_t pieces = tile_columns(pack.grid);
+    if (pieces == 1) continue;
+    options.tile_steps = (96 + pieces - 2) / (pieces - 1);
+    CHECK_THROWS_AS(encode_pack(raster, options), TileTooLarge);
+  }
+}
+
 TEST_CASE("packs: a changed byte is noticed") {
   const Raster raster = rough_raster(31, 33);
   const std::vector<uint8_t> bytes = write_pack(encode_pack(raster, pack_options(6, 60)));
