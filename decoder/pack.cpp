@@ -48,7 +48,7 @@ void want_notes(microtin_pack& p, uint64_t offset) {
   }
 }
 
-microtin_status handle_fixed(microtin_pack& p) {
+MICROTIN_IN_PLACE inline microtin_status handle_fixed(microtin_pack& p) {
   const microtin_status known = check_pack_identity(p.buffer);
   if (known != MICROTIN_DONE) return fail_pack(p, known);
   if (!read_pack_header(p.buffer, &p.header)) return fail_pack(p, MICROTIN_MALFORMED);
@@ -115,7 +115,7 @@ void forget_bad_tiles(microtin_pack& p) {
 
 }  // namespace
 
-microtin_status fail_pack(microtin_pack& p, microtin_status status) {
+MICROTIN_ONE_COPY microtin_status fail_pack(microtin_pack& p, microtin_status status) {
   give_up(p);
   return status;
 }
