@@ -56,9 +56,8 @@ inline void place_on_lattice(microtin_axis* axis) {
 // In an info all at once, since there they lie in a row.
 template <class Info>
 MICROTIN_IN_PLACE inline void put_axes(const microtin_axis* axis, Info* info) {
-  constexpr size_t at = offsetof(Info, x), bytes = 3 * sizeof *axis;
-  static_assert(offsetof(Info, z) + sizeof *axis == at + bytes, "nothing between them");
-  __builtin_memcpy(reinterpret_cast<uint8_t*>(info) + at, axis, bytes);
+  static_assert(offsetof(Info, z) == offsetof(Info, x) + 2 * sizeof *axis, "nothing between them");
+  __builtin_memcpy(reinterpret_cast<uint8_t*>(info) + offsetof(Info, x), axis, 3 * sizeof *axis);
 }
 
 // The offset (zigzag), numerator and denominator.
