@@ -28,14 +28,14 @@ class BorderEdges {
   // How far the known edges that hold a place reach; that place if none does. Places do not fall
   // from call to call.
   int32_t reach(int32_t from) {
-    while (has_more_ && larger(along(start()), along(end())) <= from) {
+    while (has_more_ && last() <= from) {
       advance();
       has_more_ = is_on_line();
     }
-    if (!has_more_ || smaller(along(start()), along(end())) > from) return from;
+    if (!has_more_ || first() > from) return from;
     typename Form::Cursor inside = cursor_;
     inside.cross();
-    return inside.has_terrain() ? larger(along(start()), along(end())) : from;
+    return inside.has_terrain() ? last() : from;
   }
 
  private:
@@ -45,15 +45,18 @@ class BorderEdges {
     return form.at(t);
   }
 
-  LocalPoint at(uint32_t vertex) const {
+  // Of a vertex, x or y.
+  MICROTIN_ONE_COPY int32_t coordinate(uint32_t vertex, bool y) const {
     const LocalPoint p = fine_point(cursor_.place(vertex));
-    return LocalPoint{p.x + corner_.x, p.y + corner_.y};
+    return y ? p.y + corner_.y : p.x + corner_.x;
   }
-  LocalPoint start() const { return at(cursor_.start()); }
-  LocalPoint end() const { return at(cursor_.end()); }
-  int32_t along(LocalPoint p) const { return vertical_ ? p.y : p.x; }
-  int32_t across(LocalPoint p) const { return vertical_ ? p.x : p.y; }
-  bool is_on_line() const { return across(start()) == line_ && across(end()) == line_; }
+  // Where the edge begins and ends along the line.
+  int32_t first() const { return coordinate(rises_ ? cursor_.start() : cursor_.end(), vertical_); }
+  int32_t last() const { return coordinate(rises_ ? cursor_.end() : cursor_.start(), vertical_); }
+  bool is_on_line() const {
+    return coordinate(cursor_.start(), !vertical_) == line_ &&
+           coordinate(cursor_.end(), !vertical_) == line_;
+  }
 
   // To the hull edge that follows as places rise. The outside lies to the left of hull edges: along
   // the first vertical side they run up, and so around the tile.

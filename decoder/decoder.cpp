@@ -320,10 +320,7 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   info->decoding = static_cast<uint8_t>(contract.decoding);
   info->has_heights = contract.has_heights;
   info->has_voids = contract.has_voids;
-  static_assert(offsetof(microtin_info, z) == offsetof(microtin_info, x) + 2 * sizeof *axis,
-                "axes lie in a row");
-  __builtin_memcpy(reinterpret_cast<uint8_t*>(info) + offsetof(microtin_info, x), axis,
-                   sizeof axis);
+  put_axes(axis, info);
   info->mesh_bytes = saturated(MICROTIN_MESH_BYTES(contract.vertices));
   info->decoder_bytes = saturated(MICROTIN_DECODER_BYTES(contract.vertices));
   return MICROTIN_DONE;

@@ -48,7 +48,7 @@ void want_notes(microtin_pack& p, uint64_t offset) {
   }
 }
 
-microtin_status handle_fixed(microtin_pack& p) {
+MICROTIN_IN_PLACE inline microtin_status handle_fixed(microtin_pack& p) {
   const microtin_status known = check_pack_identity(p.buffer);
   if (known != MICROTIN_DONE) return fail_pack(p, known);
   if (!read_pack_header(p.buffer, &p.header)) return fail_pack(p, MICROTIN_MALFORMED);
@@ -115,7 +115,7 @@ void forget_bad_tiles(microtin_pack& p) {
 
 }  // namespace
 
-microtin_status fail_pack(microtin_pack& p, microtin_status status) {
+MICROTIN_ONE_COPY microtin_status fail_pack(microtin_pack& p, microtin_status status) {
   give_up(p);
   return status;
 }
@@ -212,7 +212,8 @@ bool is_tile(const microtin_pack& p) {
   return p.is_legal && p.decoder->reconstruction.contract.vertices == p.entry.vertices;
 }
 
-microtin_status handle_stream(microtin_pack& p, uint32_t step_limit) {
+// Counts what came of the stream. STEP_LIMIT: it is to be decoded.
+microtin_status handle_stream(microtin_pack& p) {
   if (!p.is_counted) {
     if (p.left == p.entry.size) {
       p.is_legal = is_tile_start(p.buffer, p.buffered, tile_box(p.header.grid, p.tile));
@@ -221,11 +222,12 @@ microtin_status handle_stream(microtin_pack& p, uint32_t step_limit) {
     p.stream_hash = stream_hash(p.stream_hash, p.buffer, p.buffered);
     p.left -= p.buffered;
   }
-  size_t used = 0;
-  const microtin_status status = microtin_feed(
-      p.decoder, p.buffer + p.fed, static_cast<size_t>(p.buffered - p.fed), step_limit, &used);
-  p.fed = static_cast<uint8_t>(p.fed + used);
-  if (status == MICROTIN_STEP_LIMIT) return status;
+  return MICROTIN_STEP_LIMIT;
+}
+
+// What follows from what the decoder said, but for STEP_LIMIT.
+MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status hear_decoder(microtin_pack& p,
+                                                                    microtin_status status) {
   if (status == MICROTIN_NEED_INPUT && p.left != 0) {
     want(p, PackStage::kStream, p.next, p.left);
     return status;
@@ -238,8 +240,17 @@ microtin_status handle_stream(microtin_pack& p, uint32_t step_limit) {
   return MICROTIN_STEP_LIMIT;
 }
 
+// Decodes what is in the buffer: in place, so that only one frame lies above the decoder's.
+MICROTIN_IN_PLACE inline microtin_status decode(microtin_pack& p, uint32_t step_limit) {
+  size_t used = 0;
+  const microtin_status status = microtin_feed(
+      p.decoder, p.buffer + p.fed, static_cast<size_t>(p.buffered - p.fed), step_limit, &used);
+  p.fed = static_cast<uint8_t>(p.fed + used);
+  return status == MICROTIN_STEP_LIMIT ? status : hear_decoder(p, status);
+}
+
 // Handles what is in the buffer, if it is complete. DONE: a tile is ready, or refused.
-microtin_status handle(microtin_pack& p, uint32_t step_limit) {
+MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status handle(microtin_pack& p) {
   if (p.buffered < p.wanted) return MICROTIN_NEED_INPUT;
   switch (p.stage) {
     case PackStage::kFixed:
@@ -253,7 +264,7 @@ microtin_status handle(microtin_pack& p, uint32_t step_limit) {
     case PackStage::kEntry:
       return handle_entry(p);
     case PackStage::kStream:
-      return handle_stream(p, step_limit);
+      return handle_stream(p);
     case PackStage::kStore:
       return MICROTIN_STEP_LIMIT;
     case PackStage::kIdle:
@@ -321,7 +332,10 @@ microtin_status prepare_tile(microtin_pack& p, const microtin_course& course, ui
       p.tile = wishes.first;
       want_entry(p);
     }
-    status = handle(p, step_limit);
+    status = handle(p);
+    if (status == MICROTIN_STEP_LIMIT && p.stage == PackStage::kStream) {
+      status = decode(p, step_limit);
+    }
   }
   return status;
 }
@@ -420,7 +434,7 @@ microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course
   const microtin_status heard = hear_storage(*pack);
   if (heard != MICROTIN_NEED_INPUT) return heard;
   if (!pack->has_header) {
-    const microtin_status status = handle(*pack, step_limit);
+    const microtin_status status = handle(*pack);
     if (!pack->has_header) return status;
   }
   return prepare_tile(*pack, *course, step_limit);

@@ -18,9 +18,7 @@ int microtin_pack_header(const microtin_pack* pack, microtin_pack_info* info) {
   info->compact_bytes = header.compact_bytes;
   info->lowest = header.lowest;
   info->highest = header.highest;
-  info->x = pack->axis[0];
-  info->y = pack->axis[1];
-  info->z = pack->axis[2];
+  put_axes(pack->axis, info);
   return 1;
 }
 

@@ -32,11 +32,12 @@ MICROTIN_ONE_COPY inline const void* terrain_of(const microtin_pack& p, uint32_t
 
 // Whether a course lies on a side of the box, more than a point of which it touches.
 inline bool runs_along_side(const TileBox& box, const microtin_course& c) {
-  const auto is = [](int64_t place, uint32_t step) {
-    return place == static_cast<int64_t>(step) * 256;
+  const LocalPoint a = local(box, c.x, c.y), b = local(box, c.x_end, c.y_end);
+  const auto is_side = [](int32_t place, uint32_t steps) {
+    return place == 0 || place == static_cast<int32_t>(steps) * 256;
   };
-  return (c.x == c.x_end && (is(c.x, box.x) || is(c.x, box.x_end))) ||
-         (c.y == c.y_end && (is(c.y, box.y) || is(c.y, box.y_end)));
+  return (a.x == b.x && is_side(a.x, box.x_end - box.x)) ||
+         (a.y == b.y && is_side(a.y, box.y_end - box.y));
 }
 
 // HEIGHT if every place of a course along a side of a tile is known to it or to the tile beyond, or
@@ -46,10 +47,12 @@ microtin_answer answer_along_side(const microtin_pack& p, uint32_t tile,
                                   const microtin_course& course) {
   const TileGrid& grid = p.header.grid;
   const TileBox box = tile_box(grid, tile);
-  const bool vertical = course.x == course.x_end;
+  const LocalPoint a = local(box, course.x, course.y), b = local(box, course.x_end, course.y_end);
+  const bool vertical = a.x == b.x;
   const uint32_t first = vertical ? box.x : box.y, last = vertical ? box.x_end : box.y_end,
                  most = vertical ? grid.x_max : grid.y_max;
-  const bool is_last = (vertical ? course.x : course.y) == static_cast<int64_t>(last) * 256;
+  int32_t line = vertical ? a.x : a.y, other_line = 0;  // of its tile: the first side, or the last
+  const bool is_last = line != 0;
   if (!is_last && first != 0) return MICROTIN_HEIGHT;
   microtin_answer worst = MICROTIN_IN_VOID;
   const void *one = terrain_of(p, tile, &worst), *other = nullptr;
@@ -57,15 +60,20 @@ microtin_answer answer_along_side(const microtin_pack& p, uint32_t tile,
     other = terrain_of(p, tile + (vertical ? 1u : tile_columns(grid)), &worst);
   }
   if (one == nullptr && other == nullptr) return worst;
-  const int32_t line = is_last ? static_cast<int32_t>(last - first) * 256 : 0;
-  const LocalPoint a = local(box, course.x, course.y), b = local(box, course.x_end, course.y_end);
   const int32_t begin = vertical ? a.y : a.x, end = vertical ? b.y : b.x;
   const int32_t length =
       static_cast<int32_t>(vertical ? box.y_end - box.y : box.x_end - box.x) * 256;
   // What is not there is not known, as if the one that is there were on both sides.
+  if (other == nullptr) {
+    other = one;
+    other_line = line;
+  }
+  if (one == nullptr) {
+    one = other;
+    line = 0;
+  }
   const bool is_known =
-      know_border(Form(one != nullptr ? one : other), one != nullptr ? line : 0,
-                  Form(other != nullptr ? other : one), other != nullptr ? 0 : line, vertical,
+      know_border(Form(one), line, Form(other), other_line, vertical,
                   larger(smaller(begin, end), 0), smaller(larger(begin, end), length));
   return is_known ? MICROTIN_HEIGHT : worst;
 }

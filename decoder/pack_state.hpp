@@ -55,42 +55,45 @@ enum class Storage : uint8_t { kWell, kEnds, kFailed };
 
 }  // namespace microtin
 
+// What is small and used most comes first, where short instructions reach it.
 struct microtin_pack {
-  uint8_t* decoder_space;
-  size_t decoder_bytes;
-  microtin_mesh* work;  // where tiles are decoded that will be compact; null: in their slots
-  size_t slot_bytes;
-  microtin::PackSlot* slots;
-  uint32_t capacity;  // vertices of a slot
-  uint8_t slot_count;
-  volatile bool has_header;
   microtin::PackStage stage;
+  volatile bool has_header;
+  uint8_t slot_count;
   uint8_t slot;  // being filled
-  microtin::PackHeader header;
-  microtin_axis axis[3];
-  uint32_t crc;  // of the header so far, or its check
-  uint32_t clock;
-  microtin::BadTile bad[MICROTIN_PACK_BAD_TILES];
-  // All of a course up to this tile has been tried, and this was bad: there was no room to
+  // All of a course up to the tile `passed` has been tried, and this was bad: there was no room to
   // remember.
-  uint32_t passed;
   bool has_passed;
   microtin::Storage storage;
+  bool is_counted;
+  bool is_legal;  // the stream begins as a tile's does
+  // Of the next bytes wanted, and those that came.
+  uint8_t wanted, buffered, fed;
+  uint8_t kept;     // entries of the index at the buffer's end
+  uint16_t sector;  // no read crosses a multiple of it; a power of two, or 0: they may
+
   // The tile being read.
   uint32_t tile;
+  uint32_t left;  // bytes of notes or stream, those in the buffer too until they are counted
+  uint64_t next;  // where in the file
+  uint32_t stream_hash;
+  uint32_t kept_from;  // the first one's tile
+  uint32_t crc;        // of the header so far, or its check
+  uint32_t clock;
+  uint32_t passed;
+  uint32_t capacity;  // vertices of a slot
   microtin::PackEntry entry;
   microtin_decoder* decoder;
   microtin_compactor* compactor;  // of the tile decoded; null: not begun
-  uint32_t stream_hash;
-  uint32_t left;  // bytes of notes or stream, those in the buffer too until they are counted
-  // The next bytes wanted, and those that came.
-  uint64_t next;
-  uint8_t wanted, buffered, fed;
-  uint8_t kept;        // entries of the index at the buffer's end
-  uint32_t kept_from;  // the first one's tile
-  uint16_t sector;     // no read crosses a multiple of it; a power of two, or 0: they may
-  bool is_counted;
-  bool is_legal;  // the stream begins as a tile's does
+
+  microtin_mesh* work;  // where tiles are decoded that will be compact; null: in their slots
+  microtin::PackSlot* slots;
+  uint8_t* decoder_space;
+  size_t decoder_bytes;
+  size_t slot_bytes;
+  microtin::PackHeader header;
+  microtin_axis axis[3];
+  microtin::BadTile bad[MICROTIN_PACK_BAD_TILES];
   uint8_t buffer[microtin::kPackBuffer];
 };
 

@@ -19,7 +19,7 @@ struct microtin_mesh {
 
 namespace microtin {
 
-inline bool has_terrain(const microtin_mesh& m, Index t) {
+MICROTIN_ONE_COPY inline bool has_terrain(const microtin_mesh& m, Index t) {
   return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
 }
 

@@ -15,11 +15,14 @@ MICROTIN_ONE_COPY inline bool is_within(int64_t value, int64_t most) {
   return value <= most && value >= -most;
 }
 
+// Along an axis.
+MICROTIN_ONE_COPY inline bool is_legal(int64_t begin, int64_t end) {
+  return is_within(begin, kCourseMost) && is_within(end, kCourseMost) &&
+         is_within(end - begin, kCourseLongest - 1);
+}
+
 MICROTIN_ONE_COPY inline bool is_legal(const microtin_course& c) {
-  return is_within(c.x, kCourseMost) && is_within(c.y, kCourseMost) &&
-         is_within(c.x_end, kCourseMost) && is_within(c.y_end, kCourseMost) &&
-         is_within(c.x_end - c.x, kCourseLongest - 1) &&
-         is_within(c.y_end - c.y, kCourseLongest - 1);
+  return is_legal(c.x, c.x_end) && is_legal(c.y, c.y_end);
 }
 
 // The tiles whose closed boxes a legal course meets, row by row from where it begins. Looks at no

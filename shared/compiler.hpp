@@ -20,33 +20,36 @@
 #endif
 
 // Where speed counts, rare code, and code that is vectorised only if no loop is around it, is kept
-// out of its callers (OUT_OF_LINE). Where size counts, there is one copy of what is small but
-// wanted in many places (ONE_COPY). What is smaller than a call of it, or wanted in one place, is
-// put there (IN_PLACE): compilers do not see that no other file calls it.
+// out of its callers (OUT_OF_LINE). Where size counts, which on AVR is everywhere, there is one
+// copy of what is small but wanted in many places (ONE_COPY), and of what is wanted in few and
+// folds by what is known there: where speed counts that is put in place (FOLDED). What is smaller
+// than a call of it, or wanted in one place, is put there (IN_PLACE): compilers do not see that no
+// other file calls it.
+#if defined(__OPTIMIZE_SIZE__) || defined(__AVR__)
+#define MICROTIN_SIZE_COUNTS
+#endif
 #if !defined(__GNUC__)
 #define MICROTIN_IN_PLACE
 #define MICROTIN_OUT_OF_LINE
 #define MICROTIN_ONE_COPY
+#define MICROTIN_FOLDED inline
 #else
 #define MICROTIN_IN_PLACE __attribute__((always_inline))
-#if !defined(__OPTIMIZE_SIZE__)
-#define MICROTIN_OUT_OF_LINE __attribute__((noinline))
-#define MICROTIN_ONE_COPY
-#elif defined(__clang__)
-#define MICROTIN_OUT_OF_LINE
-#define MICROTIN_ONE_COPY __attribute__((noinline))
-#else
-#define MICROTIN_OUT_OF_LINE
-#define MICROTIN_ONE_COPY __attribute__((noinline, noclone))
-#endif
-#endif
-
-// What is wanted in few places, and folds by what is known there: one copy where size counts, put
-// in place where speed does.
 #if defined(__OPTIMIZE_SIZE__)
+#define MICROTIN_OUT_OF_LINE
+#else
+#define MICROTIN_OUT_OF_LINE __attribute__((noinline))
+#endif
+#if !defined(MICROTIN_SIZE_COUNTS)
+#define MICROTIN_ONE_COPY
+#define MICROTIN_FOLDED MICROTIN_IN_PLACE inline
+#elif defined(__clang__)
+#define MICROTIN_ONE_COPY __attribute__((noinline))
 #define MICROTIN_FOLDED MICROTIN_ONE_COPY inline
 #else
-#define MICROTIN_FOLDED MICROTIN_IN_PLACE inline
+#define MICROTIN_ONE_COPY __attribute__((noinline, noclone))
+#define MICROTIN_FOLDED MICROTIN_ONE_COPY inline
+#endif
 #endif
 
 // A function that keeps no call but those of ONE_COPY, also where size counts and others share what

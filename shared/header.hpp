@@ -53,6 +53,13 @@ inline void place_on_lattice(microtin_axis* axis) {
   }
 }
 
+// In an info all at once, since there they lie in a row.
+template <class Info>
+MICROTIN_IN_PLACE inline void put_axes(const microtin_axis* axis, Info* info) {
+  static_assert(offsetof(Info, z) == offsetof(Info, x) + 2 * sizeof *axis, "nothing between them");
+  __builtin_memcpy(reinterpret_cast<uint8_t*>(info) + offsetof(Info, x), axis, 3 * sizeof *axis);
+}
+
 // The offset (zigzag), numerator and denominator.
 inline bool read_axis(const uint8_t** bytes, const uint8_t* end, microtin_axis* axis) {
   uint64_t offset = 0;

@@ -4,7 +4,7 @@ set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR avr)
 
 set(CMAKE_CXX_COMPILER avr-g++)
-set(CMAKE_CXX_FLAGS_INIT "-mmcu=atmega1284p")
+set(CMAKE_CXX_FLAGS_INIT "-mmcu=atmega1284p -mcall-prologues -mstrict-X")  # 8 % less code
 
 set(MICROTIN_RUNTIME ${CMAKE_CURRENT_LIST_DIR}/avr/machine.cpp)
 set(MICROTIN_RUN ${CMAKE_CURRENT_LIST_DIR}/run.sh)

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
 # cmake -DNM=... -DOBJDUMP=... [-DOBJ2YAML=...] "-DOBJECTS=..." -P symbols.cmake
 # Rejects a library's objects if they need anything from outside but the four mem functions and the compiler's
-# arithmetic helpers, or hold writable data, static constructors or unwind tables.
+# arithmetic and prologue helpers, or hold writable data, static constructors or unwind tables.
 
 set(mem "mem(cpy|move|set|cmp)")
 set(arm "__aeabi_(mem(cpy|move|set|clr)[48]?|u?idiv(mod)?|u?ldivmod|lmul|llsl|llsr|lasr|u?lcmp)")
 set(arithmetic "__[a-z]+[qhsd]i[0-9](_s8)?")
+set(registers "__(prologue_save|epilogue_restore)s__")
 set(switch "__gnu_thumb1_case_[us]?[qhs]i|__tablejump2__")
-set(allowed_symbol "^(${mem}|${arm}|${arithmetic}|${switch}|__stack_pointer)$")
+set(allowed_symbol "^(${mem}|${arm}|${arithmetic}|${switch}|${registers}|__stack_pointer)$")
 set(forbidden_section
   "^\\.([st]?(data|bss)|init_array|ctors|eh_frame|gcc_except_table|ARM\\.ex)|^InitFunctions")
 

@@ -99,7 +99,7 @@ class Stack:
     def __init__(self, target, objdump, image, call_graphs):
         self.processor = next(p for name, p in PROCESSORS if target.startswith(name))
         self.known = known_frames(call_graphs)
-        self.before = ""
+        self.before, self.loaded, self.returned = "", [0, 0], False
         self.frames, self.callees, self.trouble, self.depths, self.inside = {}, {}, {}, {}, {}
         text = subprocess.run([objdump, "-d", image], check=True, capture_output=True, text=True)
         self.read(text.stdout)
@@ -120,6 +120,16 @@ class Stack:
         for pattern, size in self.processor.takes:
             if match := re.match(pattern, self.before + code):
                 self.frames[name] += size(match)
+        # AVR's helper takes a frame of r26:r27, and stores 18 registers or, two bytes further, one less.
+        if match := re.match(r"ldi\s+r2([67]), 0x(..)", code):
+            self.loaded[int(match[1]) - 6] = int(match[2], 16)
+        if match := re.search(r"<__prologue_saves__(?:\+0x([0-9a-f]+))?>", code):
+            self.frames[name] += self.loaded[0] + 256 * self.loaded[1] + 18 - int(match[1] or "0", 16) // 2
+            return
+        # What follows the other, a jump to the function's end, is never met.
+        returned, self.returned = self.returned, "<__epilogue_restores__" in code
+        if self.returned or (returned and code.startswith(("rjmp", "jmp"))):
+            return
         # AVR moves r28:r29 for other reasons too.
         if re.match(r"in\s+r29, 0x3e", code):
             self.before = "framed "
