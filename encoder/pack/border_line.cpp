@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Finds the fewest vertices along a line of posts by dynamic programming.
+// Finds the cheapest vertices along a line of posts by dynamic programming.
 #include "encoder/pack/border_line.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdlib>
 #include <limits>
 #include <utility>
+
+#include "encoder/exact/wide.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -36,22 +37,62 @@ class Cone {
   Slope low_{-(int64_t{1} << 33), 1}, high_{int64_t{1} << 33, 1};
 };
 
-// What a chain costs up to a vertex: vertices, then distances from the source.
-using Cost = std::pair<uint32_t, uint64_t>;
-constexpr Cost kUnreached{std::numeric_limits<uint32_t>::max(), 0};
+// Sums about a straight piece from behind its first vertex on. Heights here have four fractional
+// bits and differ by less than 2^20, so that sums for 65535 posts are below 2^57, products below
+// 2^110.
+class Piece {
+ public:
+  void add(int64_t aim_above_first, int64_t run) {
+    const int64_t aim = aim_above_first / kUnit;
+    squares_ += aim * aim;
+    moments_ += aim * run;
+    squared_runs_ += run * run;
+    linear_ = Wide{moments_} * 2 * kFine / run;
+    quadratic_ = Wide{squared_runs_} * kFine / (run * run);
+  }
+
+  // The sum of the squared distances of the posts' aims if it ends at the last of them, `rise`
+  // above the first vertex.
+  uint64_t squares(int64_t rise) const {
+    const int64_t up = rise / kUnit;
+    const Wide sum = squares_ + up * (up * quadratic_ - linear_) / kFine;
+    return static_cast<uint64_t>(std::max<Wide>(0, sum));
+  }
+
+  static uint64_t square(int64_t height) {
+    return static_cast<uint64_t>((height / kUnit) * (height / kUnit));
+  }
+
+ private:
+  static constexpr int64_t kUnit = kStep / 16, kFine = int64_t{1} << 32;
+  int64_t squares_ = 0, moments_ = 0, squared_runs_ = 0;
+  Wide linear_ = 0, quadratic_ = 0;  // in parts of kFine
+};
+
+// What a chain costs up to a vertex: squared distances from the aims, and a price for each vertex.
+using Cost = uint64_t;
+constexpr Cost kUnreached = std::numeric_limits<Cost>::max();
+constexpr Cost kPrice = 4;  // squares of the bound; dearer ones make ridges of noisy borders
+constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 // A post that may become a vertex at this height.
 struct State {
   uint32_t post;
   int16_t height;
   Cost cost;
-  std::size_t before;  // state of the vertex before
+  std::size_t before;  // state of the vertex before, if there is one
 };
 
 class Chain {
  public:
   Chain(const std::vector<LinePost>& posts, ErrorModel model) : posts_(posts), model_(model) {
-    for (uint32_t post = 0; post < posts.size(); ++post) add_states(post);
+    for (uint32_t post = 0; post < posts.size(); ++post) {
+      add_states(post);
+      if (is_void(post)) continue;
+      const Sample& sample = *posts[post].sample;
+      price_ =
+          std::max(price_, kPrice * Piece::square((int64_t{sample.highest} - sample.lowest) / 2));
+    }
     first_.push_back(states_.size());
   }
 
@@ -94,18 +135,13 @@ class Chain {
                         height <= std::numeric_limits<int16_t>::max();
       if (!fits || (k != 0 && model_.violation(sample, static_cast<int32_t>(height * kStep)) != 0))
         continue;
-      states_.push_back({post, static_cast<int16_t>(height), kUnreached, 0});
+      states_.push_back({post, static_cast<int16_t>(height), kUnreached, kNone});
     }
-  }
-
-  uint64_t deviation(const State& state) const {
-    return static_cast<uint64_t>(
-        std::abs(state.height * kStep - int64_t{posts_[state.post].sample->height}));
   }
 
   void start(uint32_t post) {
     for (std::size_t s = first_[post]; s < first_[post + 1]; ++s) {
-      states_[s].cost = {1, deviation(states_[s])};
+      states_[s].cost = price_ + Piece::square(posts_[post].aim - states_[s].height * kStep);
     }
   }
 
@@ -115,13 +151,16 @@ class Chain {
     if (start.cost == kUnreached) return;
     const int64_t height = start.height * kStep;
     Cone cone;
+    Piece piece;
     for (uint32_t post = start.post + 1; post < posts_.size() && !is_void(post); ++post) {
       const int64_t run = position(post) - position(start.post);
+      piece.add(posts_[post].aim - height, run);
       for (std::size_t s = first_[post]; s < first_[post + 1]; ++s) {
         State& state = states_[s];
-        if (!cone.holds({state.height * kStep - height, run})) continue;
-        const Cost cost{start.cost.first + 1, start.cost.second + deviation(state)};
-        if (!(cost < state.cost)) continue;
+        const int64_t rise = state.height * kStep - height;
+        if (!cone.holds({rise, run})) continue;
+        const Cost cost = start.cost + price_ + piece.squares(rise);
+        if (cost >= state.cost) continue;
         state.cost = cost;
         state.before = from;
       }
@@ -140,7 +179,7 @@ class Chain {
                          begin + static_cast<std::ptrdiff_t>(first_[post + 1]), cheaper);
     const std::size_t size = vertices.size();
     std::size_t s = static_cast<std::size_t>(best - begin);
-    for (uint32_t left = best->cost.first; left > 0; --left, s = states_[s].before) {
+    for (; s != kNone; s = states_[s].before) {
       vertices.push_back({states_[s].post, states_[s].height});
     }
     std::reverse(vertices.begin() + static_cast<std::ptrdiff_t>(size), vertices.end());
@@ -148,6 +187,7 @@ class Chain {
 
   const std::vector<LinePost>& posts_;
   ErrorModel model_;
+  Cost price_ = kPrice * Piece::square(kStep);  // of a vertex, at least
   std::vector<State> states_;
   std::vector<std::size_t> first_;  // of each post, and one more
 };

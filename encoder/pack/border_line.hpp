@@ -17,17 +17,22 @@ namespace microtin::pack {
 struct LinePost {
   std::optional<Sample> sample;
   bool kept = false;  // must become a vertex
+  int32_t aim = 0;    // the height that is best here, within the bounds or not, as a Sample's
 };
+
+// Where the surface has as much room above as below.
+inline int32_t middle_of(const Sample& sample) {
+  return static_cast<int32_t>((int64_t{sample.lowest} + sample.highest) / 2);
+}
 
 struct ChainVertex {
   uint32_t post;
   int16_t height;
 };
 
-// The fewest vertices, of equally many those nearest to the source, whose chain passes every post
-// within its bounds: all posts if there are none. Chains end at voids and at the ends of the line,
-// where heights depend on the sample there alone. At most 65536 posts. O(n * the posts that a piece
-// of the chain reaches).
+// Few vertices whose chain passes every post within its bounds and near its aim: all posts if there
+// are no bounds. Chains end at voids and at the ends of the line, where heights depend on the
+// sample there alone. At most 65536 posts. O(n * the posts that a piece of the chain reaches).
 std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, ErrorModel model);
 
 }  // namespace microtin::pack

@@ -34,13 +34,35 @@ std::vector<TileBox> border_lines(const TileGrid& grid, const TileBox& box) {
   return lines;
 }
 
+// The line so many posts away. Borders lie within the raster, so that there is one on both sides.
+TileBox beside(const TileBox& line, int posts) {
+  const auto moved = [posts](uint32_t at, bool across) {
+    return static_cast<uint32_t>(int64_t{at} + (across ? posts : 0));
+  };
+  const bool goes_north = line.x == line.x_end;
+  return {moved(line.x, goes_north), moved(line.y, !goes_north), moved(line.x_end, goes_north),
+          moved(line.y_end, !goes_north)};
+}
+
+// Aims at the mean of three lines: of noise it keeps less than the border alone, so that the border
+// does not stand out of the ground around it.
 std::vector<LinePost> posts_of_line(const TiledRaster& tiled, const TilePosts& posts,
                                     const TileBox& line) {
   std::vector<LinePost> on_line((line.x_end - line.x) + (line.y_end - line.y) + 1);
-  for (const Sample& sample : survey_of(tiled, posts.crop_of(line)).samples) {
-    const uint32_t post = uint32_t{sample.place.x} + sample.place.y;
-    const GlobalPost place = post_of(line, post);
-    on_line[post] = {sample, posts.is_beside_void(place.x, place.y)};
+  std::vector<std::pair<int64_t, int64_t>> sums(on_line.size());  // of heights, and of how many
+  for (const int side : {-1, 0, 1}) {
+    for (const Sample& sample : survey_of(tiled, posts.crop_of(beside(line, side))).samples) {
+      const uint32_t post = uint32_t{sample.place.x} + sample.place.y;
+      sums[post].first += middle_of(sample);
+      ++sums[post].second;
+      if (side != 0) continue;
+      const GlobalPost place = post_of(line, post);
+      on_line[post].sample = sample;
+      on_line[post].kept = posts.is_beside_void(place.x, place.y);
+    }
+  }
+  for (std::size_t i = 0; i < on_line.size(); ++i) {
+    if (on_line[i].sample) on_line[i].aim = static_cast<int32_t>(sums[i].first / sums[i].second);
   }
   return on_line;
 }

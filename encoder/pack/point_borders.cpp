@@ -194,17 +194,18 @@ std::optional<Crossing> PointBorders::corner(GlobalPost post) const {
 }
 
 LinePost PointBorders::line_post(const Crossing& crossing, uint32_t at) const {
-  const Point place{static_cast<uint16_t>(at), 0};
-  if (crossing.sample == nullptr) {
-    return {Sample{place, crossing.height, saturated(crossing.height - tolerance_.below),
-                   saturated(crossing.height + tolerance_.above)}};
-  }
-  Sample sample{place, crossing.height, crossing.sample->lowest, crossing.sample->highest};
+  Sample sample{{static_cast<uint16_t>(at), 0},
+                crossing.height,
+                saturated(crossing.height - tolerance_.below),
+                saturated(crossing.height + tolerance_.above)};
+  if (crossing.sample == nullptr) return {sample, false, middle_of(sample)};
+  sample.lowest = crossing.sample->lowest;
+  sample.highest = crossing.sample->highest;
   if (tolerance_.keep_samples) {
     sample.height = ErrorModel{false}.vertex_height(sample) * 65536;
     sample.lowest = sample.highest = sample.height;
   }
-  return {sample, tolerance_.keep_samples};
+  return {sample, tolerance_.keep_samples, middle_of(sample)};
 }
 
 SharedVertices PointBorders::of_tile(uint32_t tile) const {

@@ -61,7 +61,9 @@ void expect_posts_of(const Raster& frame, const PackFile& pack) {
   const Placement& placement = pack.metadata().placement;
   if (frame.width != pack.grid().x_max + 1 || frame.height != pack.grid().y_max + 1 ||
       !is_same(frame.x, placement.x) || !is_same(frame.y, placement.y)) {
-    throw Error("the terrain is not a raster with the posts of the pack");
+    throw Error(
+        "the terrain is not a raster with the posts of the pack: name all files that it was made "
+        "of");
   }
 }
 

@@ -65,7 +65,8 @@ Layout lay_out(const Portrait& portrait, const Ground& ground, uint32_t width, b
   layout.width = width;
   layout.unit = std::max(1.1, width / 760.0);
   const double margin = std::round(kMargin * layout.unit);
-  const double left = margin + std::round(portrait.coordinates ? kFrameRoom * layout.unit : 0);
+  const double numbers = std::round(portrait.coordinates ? kFrameRoom * layout.unit : 0);
+  const double left = margin + numbers;
   const double head = std::round(head_of(portrait) * layout.unit);
   const double whole = width - left - margin, half = std::floor((whole - 2 * margin) / 2);
   const MapFrame large = fit_map(portrait.model, ground, whole, kTallest * whole);
@@ -80,9 +81,9 @@ Layout lay_out(const Portrait& portrait, const Ground& ground, uint32_t width, b
   if (beside) {
     layout.errors.box.left += half + 2 * margin;
   } else {
-    layout.errors.box.top += panel;
+    layout.errors.box.top += panel + numbers;
   }
-  layout.height = static_cast<uint32_t>(head + panel * (two && !beside ? 2 : 1));
+  layout.height = static_cast<uint32_t>((two && !beside ? layout.errors.box.top : head) + panel);
   return layout;
 }
 
@@ -253,12 +254,15 @@ struct Sheet {
       label_contours(drawing, frame, contours, lines, *interval, layout.unit,
                      portrait.north_arrow ? north_arrow_of(frame.box, layout.unit) : std::nullopt);
     }
-    if (portrait.coordinates) {
-      draw_coordinates(drawing, frame, portrait.model.placement, portrait.metadata.horizontal_unit,
-                       layout.unit);
-    }
+    draw_frame(drawing, frame);
     if (portrait.north_arrow) draw_north_arrow(drawing, frame.box, layout.unit);
     draw_relief_legend(drawing, portrait, relief, ground, layout);
+  }
+
+  void draw_frame(Drawing& drawing, const MapFrame& frame) const {
+    if (!portrait.coordinates) return;
+    draw_coordinates(drawing, frame, portrait.model.placement, portrait.metadata.horizontal_unit,
+                     layout.unit);
   }
 
   double wire() const { return 0.8 * std::sqrt(layout.unit); }
@@ -304,6 +308,7 @@ std::vector<uint8_t> render_png(const Portrait& portrait, uint32_t width,
   if (comparison != nullptr) {
     draw_background(canvas, layout.errors, layout.unit);
     draw_errors(canvas, portrait, *comparison, layout);
+    sheet.draw_frame(canvas, layout.errors);
   }
   return png(canvas.rgb(), canvas.width(), canvas.height());
 }

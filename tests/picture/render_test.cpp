@@ -146,6 +146,30 @@ TEST_CASE("render: errors are blue where the terrain is too low, red where too h
   CHECK(wide.height < 600);  // beside
 }
 
+TEST_CASE("render: the map of errors has coordinates, too") {
+  Portrait flat = portrait({{0, 0, 5}, {100, 0, 5}, {0, 100, 5}, {100, 100, 5}});
+  const Comparison comparison{{50, 50}, [](const PostVisitor& visit) {
+                                visit(50, 50, 0, 0);
+                                return Verification();
+                              }};
+  const auto inked_below = [&](const Picture& picture) {  // where numbers left of that map are
+    int inked = 0;
+    for (int row = picture.height / 2 + 15; row < picture.height - 60; ++row) {
+      for (int column = 0; column < 20; ++column) inked += picture.at(column, row)[0] < 128;
+    }
+    return inked;
+  };
+  flat.coordinates = true;
+  const Picture above(render_png(flat, 400)), both(render_png(flat, 400, &comparison));
+  CHECK(inked_below(both) > 30);
+  // Numbers and ticks above the second map need room below the first.
+  CHECK(both.height > 2 * (above.height - 42) + 10);
+  const Picture beside(render_png(flat, 900, &comparison));
+  int ticks = 0;
+  for (int column = 460; column < 890; ++column) ticks += beside.at(column, 44)[0] < 128;
+  CHECK(ticks > 2);
+}
+
 TEST_CASE("render: below zero there is sea, if that is asked for") {
   Portrait shore = portrait({{0, 0, -50}, {100, 0, 50}, {0, 100, -50}, {100, 100, 50}});
   CHECK(!is_blue(Picture(render_png(shore, 200)).at(kLeft + 20, kTop + 90)));
