@@ -80,8 +80,9 @@ enum class FirstRow { kNorth, kSouth };
 
 FirstRow place(GDALDatasetH dataset, Raster& raster) {
   std::array<double, 6> t{};  // x0, dx by column, dx by row, y0, dy by column, dy by row
-  if (GDALGetGeoTransform(dataset, t.data()) != CE_None)
+  if (GDALGetGeoTransform(dataset, t.data()) != CE_None) {
     throw Error("does not say where it lies: gdal_translate -a_ullr WEST NORTH EAST SOUTH adds it");
+  }
   if (t[2] != 0 || t[4] != 0 || t[1] <= 0 || t[5] == 0) {
     throw Error("its rows do not run from west to east: bring them there with gdalwarp");
   }
