@@ -29,7 +29,8 @@ constexpr uint32_t kPieces = 4;  // of the rounds of a search: what each wider b
 constexpr double kHeaderBytes = 100, kBytesPerVertex = 1.4;  // usually
 
 // What all may take, in times of one encoding, as measured on development terrains.
-constexpr double kMost = 3.6;
+constexpr double kMost = 3.6, kMostOfFew = 10;
+constexpr uint64_t kFewPosts = 20000;  // which take no time
 
 // What efforts take, and what comes of them.
 struct Costs {
@@ -114,11 +115,11 @@ class Budget {
   }
   bool fits(double size) const { return size <= limit_; }
 
-  bool affords(double cost) const { return spent_ + cost <= kMost; }
+  bool affords(double cost) const { return spent_ + cost <= most_; }
   Progress spending(double cost) {
-    const double before = std::min(spent_ / kMost, 1.0);
+    const double before = std::min(spent_ / most_, 1.0);
     spent_ += cost;
-    return progress_.part(before, std::min(spent_ / kMost, 1.0));
+    return progress_.part(before, std::min(spent_ / most_, 1.0));
   }
 
   // Says what it takes.
@@ -144,6 +145,7 @@ class Budget {
       options.max_vertices = static_cast<uint32_t>(std::max(vertices, 4.0));
     }
     EncodedStream encoded = encode_measured(source_, options, spending(costs_.greedy));
+    if (encoded.verification.posts < kFewPosts) most_ = kMostOfFew;
     const double error = value_of(encoded.verification.max_error);
     guess_ = error > 0 ? error * costs_.guess : value_of(largest_) / 1000;
     const bool exact = error == 0 && of_vertices_;
@@ -242,7 +244,7 @@ class Budget {
   Decimal largest_;  // bound
   bool of_vertices_ = false;
   double limit_ = 0, guess_ = 1;
-  double spent_ = 0;                                      // times of one encoding
+  double most_ = kMost, spent_ = 0;                       // times of one encoding
   double smallest_ = std::numeric_limits<double>::max();  // of all that were tried
   std::optional<EncodedStream> best_;
   std::optional<Decimal> best_bound_;
