@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // What the commands accept; for those that encode see encode_options.cpp.
+#include "encoder/cli/command_line.hpp"
+
 #include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
-#include "encoder/cli/command_line.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/completion.hpp"
 #include "encoder/cli/definitions.hpp"
