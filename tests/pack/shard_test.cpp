@@ -85,7 +85,9 @@ TEST_CASE("shards: tiles encoded one by one, in any split, are those of a single
   for (const VoidKind& kind : void_kinds()) {
     if (kind.name == "30 of 100") continue;  // many tiles
     CAPTURE(kind.name);
-    Shards shards(rough_raster(61, 53, kind.at), pack_options(4, 40));
+    PackOptions options = pack_options(4, 250);
+    options.tile_steps = 25;
+    Shards shards(rough_raster(61, 53, kind.at), options);
     const Bytes single = shards.single();
     const uint32_t last = shards.tiles() - 1;
     REQUIRE(last > 3);
@@ -101,7 +103,9 @@ TEST_CASE("shards: tiles encoded one by one, in any split, are those of a single
 
 TEST_CASE("shards: what is missing, double, foreign or damaged is refused") {
   const Raster raster = rough_raster(61, 53);
-  Shards shards(raster, pack_options(6, 34));
+  PackOptions several = pack_options(6, 60);
+  several.tile_steps = 25;
+  Shards shards(raster, several);
   const uint32_t last = shards.tiles() - 1;
   const std::string all = std::to_string(last), first = shards.write({0, 2}),
                     rest = shards.write({3, last});
@@ -114,9 +118,11 @@ TEST_CASE("shards: what is missing, double, foreign or damaged is refused") {
 
   for (const auto& [other, options] :
        {std::pair(rough_raster(61, 53, [](int x, int y) { return x == 60 && y == 52; }),
-                  pack_options(6, 34)),
-        std::pair(raster, pack_options(5, 34)), std::pair(raster, pack_options(6, 35))}) {
-    Shards foreign(other, options);
+                  pack_options(6, 60)),
+        std::pair(raster, pack_options(5, 60)), std::pair(raster, pack_options(6, 61))}) {
+    PackOptions tiled = options;
+    tiled.tile_steps = several.tile_steps;
+    Shards foreign(other, tiled);
     const std::string text = shards.refusal({first, foreign.write({3, 3})});
     CHECK(text.find("is of another terrain, or made with other options, than 0-2") !=
           std::string::npos);
