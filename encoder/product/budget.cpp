@@ -29,7 +29,7 @@ constexpr uint32_t kPieces = 4;  // of the rounds of a search: what each wider b
 constexpr double kHeaderBytes = 100, kBytesPerVertex = 1.4;  // usually
 
 // What all may take, in times of one encoding, as measured on development terrains.
-constexpr double kMost = 3.6, kMostOfFew = 10;
+constexpr double kMost = 3.6, kMostOfFew = 20;
 constexpr uint64_t kFewPosts = 20000;  // which take no time
 
 // What efforts take, and what comes of them.

@@ -19,7 +19,7 @@
 namespace microtin::tests {
 namespace {
 
-Bytes pack_bytes(const Raster& raster, int64_t bound = 3, uint32_t vertices = 60) {
+Bytes pack_bytes(const Raster& raster, int64_t bound = 3, uint32_t vertices = 40) {
   return write_pack(encode_pack(raster, pack_options(bound, vertices)));
 }
 
@@ -443,7 +443,7 @@ TEST_CASE_TEMPLATE("pack: damaged, swapped and foreign bytes are told, and never
                    swapped.begin() + index + last * kPackEntryBytes);
   CHECK(is_refused(0, swapped));
   CHECK(is_refused(last, swapped));
-  const Bytes other = pack_bytes(rough_raster(61, 53), 4, 60);
+  const Bytes other = pack_bytes(rough_raster(61, 53), 4);
   Bytes foreign = good;
   std::copy(other.begin() + index,
             other.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(other.size()),

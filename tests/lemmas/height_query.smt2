@@ -68,7 +68,7 @@
 
 ; A real place on an axis: whole units times the denominator, less the offset, with the parts of the rest and a step,
 ; fit 64 bits; so do the first three of these alone.
-;; decoder/axis.cpp: if (whole > divide(static_cast<uint64_t>(1) << 62, denominator).whole) return outside;
+;; decoder/axis.cpp: if (part.whole > divide(static_cast<uint64_t>(1) << 62, denominator).whole) return outside;
 ;; decoder/axis.cpp: const int64_t ahead = static_cast<int64_t>(part.whole + numerator) - axis.offset +
 (push)
 (declare-const product Int)
@@ -76,7 +76,7 @@
 (declare-const part Int)
 (declare-const numerator Int)
 (define-fun limit () Int 2305843009213693952)
-(assert (and (< (- limit) offset limit) (<= (* -2 limit) product (* 2 limit))))
+(assert (and (< (- limit) offset limit) (<= (- (* -2 limit) 1099511627776) product (* 2 limit))))
 (assert (and (<= 0 part 1099511627776) (<= 1 numerator 1099511627776)))
 (define-fun before () Int (- (+ part numerator) offset))
 (check-sat)
@@ -86,7 +86,7 @@
 (pop)
 
 ; What is refused there is outside: a place from half a 1/256 step before the first to as much behind the last.
-;; decoder/axis.cpp: if (whole > divide(static_cast<uint64_t>(1) << 62, denominator).whole) return outside;
+;; decoder/axis.cpp: if (part.whole > divide(static_cast<uint64_t>(1) << 62, denominator).whole) return outside;
 (push)
 (declare-const product Int)
 (declare-const offset Int)
@@ -103,7 +103,7 @@
 (pop)
 
 ; ... and the rest of a unit, brought to the same, is a part below the denominator.
-;; decoder/axis.cpp: part = divide(rest * denominator, per_unit);   // < 2^64; < 2^40
+;; decoder/axis.cpp: part = divide(rest * denominator, per_unit);                        // < 2^64; < 2^40
 (push)
 (declare-const per_unit Int)
 (declare-const rest Int)
