@@ -76,7 +76,7 @@ inline uint32_t repeats_of(const RingShape& header) {
 
 // Bytes that it takes with numbers of so many bytes. With those at hand less than the mesh, which
 // is in memory.
-inline size_t compact_bytes(const RingShape& header, uint32_t index_bytes) {
+MICROTIN_IN_PLACE inline size_t compact_bytes(const RingShape& header, uint32_t index_bytes) {
   const uint32_t each = 2 * index_bytes + (header.is_narrow != 0 ? 4u : 6u);
   return sizeof(microtin_compact) +
          static_cast<size_t>(header.positions * each + repeats_of(header) * index_bytes);
