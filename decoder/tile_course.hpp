@@ -136,8 +136,7 @@ class TileCourse {
     if (!cursor.may_stop()) return true;
     if (cursor.is_ghost())
       return !leaves_at(cursor.place(cursor.start()), cursor.place(cursor.end()));
-    Corner corner[3];
-    for (uint32_t i = 0; i < 3; ++i) corner[i] = corner_of(cursor, i);
+    const Corner corner[3] = {corner_of(cursor, 0), corner_of(cursor, 1), corner_of(cursor, 2)};
     if (!cursor.has_terrain()) {
       for (const Corner& c : corner) look_at_corner(c, highest);
       return !loses_in(cursor, corner);
