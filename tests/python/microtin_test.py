@@ -168,6 +168,7 @@ class Refusals(unittest.TestCase):
         self.refused("only one of max_error", array, max_error=1, max_vertices=4)
         self.refused("'slow' is none of fast, normal, best", array, search="slow")
         self.refused("units of x and y|unit of heights|heights", array, crs=4326)
+        self.refused("'nonsense' is neither EPSG:CODE nor well-known text", array, crs="nonsense")
         with self.assertRaisesRegex(TypeError, "no option colour"):
             microtin.encode(array, colour=1)
 

@@ -20,6 +20,7 @@ from __future__ import annotations
 import ctypes
 import decimal
 import os
+import re
 import threading
 import weakref
 from dataclasses import dataclass
@@ -266,10 +267,17 @@ def _epsg_of(crs: Optional[Crs]) -> Optional[int]:
     return None
 
 
+# KEYWORD["name", ...], with brackets of either kind.
+_WELL_KNOWN_TEXT = re.compile(r"\s*\w+\s*[\[(].*[\])]\s*", re.DOTALL)
+
+
 def _wkt_of(crs: Optional[Crs]) -> Optional[bytes]:
     if crs is None or _epsg_of(crs) is not None:
         return None
-    return (crs if isinstance(crs, str) else crs.to_wkt()).encode()
+    text = crs if isinstance(crs, str) else crs.to_wkt()
+    if not _WELL_KNOWN_TEXT.fullmatch(text):
+        raise Error(f"{text[:40]!r} is neither EPSG:CODE nor well-known text")
+    return text.encode()
 
 
 def _transform_of(transform: Optional[Sequence[float]], rows: int) -> Tuple[float, ...]:
