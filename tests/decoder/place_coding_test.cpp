@@ -143,6 +143,9 @@ Case needle(Random& random, uint32_t size) {
   const auto middle = static_cast<uint16_t>(random.below(last));
   given.c = Point{middle, static_cast<uint16_t>(middle + 1)};
   if (orient2d(given.v, given.c, given.a) <= 0) std::swap(given.c, given.a);
+  for (Side* const side : {&given.chord, &given.next}) {
+    if (side->apex == given.v) side->ghost = true;
+  }
   return given;
 }
 
@@ -230,7 +233,9 @@ TEST_CASE("hardly a legal place is missed") {
 
 // FORMAT.md's cotangent of the circle behind a side from v to `end`.
 int64_t behind_of(const FreeRegion& region, Point apex, Spot end, int64_t turn) {
-  const auto scaled = [](int64_t v, int64_t shift) { return shift < 0 ? v >> -shift : v << shift; };
+  const auto scaled = [](int64_t v, int64_t shift) {
+    return shift < 0 ? v >> -shift : v * (int64_t{1} << shift);
+  };
   const auto bit = [](int64_t v) { return int64_t{highest_bit(static_cast<uint32_t>(v))}; };
   const int64_t x = int64_t{apex.x} - region.origin.x, y = int64_t{apex.y} - region.origin.y;
   const int64_t m = std::max<int64_t>(0, bit(std::abs(x) | std::abs(y)) + region.shift - 10);
@@ -250,7 +255,7 @@ TEST_CASE("regions are measured as FORMAT.md says") {
     const Case given = random_case(random, size);
     const FreeRegion region = region_of(given);
     const int64_t scale = region.shift;
-    const auto scaled = [scale](int v) { return scale < 0 ? v >> -scale : v << scale; };
+    const auto scaled = [scale](int v) { return scale < 0 ? v >> -scale : v * (1 << scale); };
     const Spot c = {scaled(given.c.x - given.v.x), scaled(given.c.y - given.v.y)};
     const Spot a = {scaled(given.a.x - given.v.x), scaled(given.a.y - given.v.y)};
     const int longest =
