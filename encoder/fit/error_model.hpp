@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "encoder/exact/wide.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/survey.hpp"
 
@@ -33,20 +34,17 @@ struct ErrorModel {
 
   // The whole step nearest to the middle of what the sample allows (halves up) that is allowed.
   int16_t vertex_height(const Sample& sample) const {
-    int64_t lowest = std::numeric_limits<int16_t>::min();
-    int64_t highest = std::numeric_limits<int16_t>::max();
+    Wide lowest = std::numeric_limits<int16_t>::min();
+    Wide highest = std::numeric_limits<int16_t>::max();
     int64_t twice_middle = int64_t{sample.height} * 2;
     if (bounded) {
-      lowest = std::max(lowest, floor_divide(sample.lowest + int64_t{65535}, 65536));
+      lowest = std::max(lowest, ceil_divide(sample.lowest, 65536));
       highest = std::min(highest, floor_divide(sample.highest, 65536));
       twice_middle = int64_t{sample.lowest} + sample.highest;
     }
-    const int64_t nearest = floor_divide(twice_middle + 65536, 131072);
+    const Wide nearest = round_divide(twice_middle, 131072);
     return static_cast<int16_t>(std::min(std::max(nearest, lowest), highest));
   }
-
- private:
-  static int64_t floor_divide(int64_t a, int64_t b) { return (a >= 0 ? a : a - (b - 1)) / b; }
 };
 
 }  // namespace microtin::fit

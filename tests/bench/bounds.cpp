@@ -84,72 +84,48 @@ std::string known(std::optional<double> value) {
   return value ? number(*value, 3) : "";
 }
 
+// What is printed of a search, and of its result.
+void add_columns(Row& row, const std::string& search) {
+  row.insert(row.end(), {search, "rms", "mean", "flat", "s"});
+}
+
+void add_cells(Row& row, const Result& result) {
+  row.insert(row.end(), {number(result.bytes), number(result.rms, 3), number(result.mean, 3),
+                         known(result.flat_mean), number(result.seconds, 1)});
+}
+
 Row columns() {
-  return {"terrain, bound in metres",
-          "LERC (quoted)",
-          "SPERR (quoted)",
-          "SZ3 (quoted)",
-          "greedy",
-          "`--fast`",
-          "rms",
-          "mean",
-          "flat",
-          "s",
-          "microtin",
-          "rms",
-          "mean",
-          "flat",
-          "s",
-          "vertices",
-          "z step",
-          "`--best`",
-          "rms",
-          "mean",
-          "flat",
-          "s",
-          "microtin / SZ3",
-          "`--never-below`",
-          "at half the bound"};
+  Row row = {"terrain, bound in metres", "LERC (quoted)", "SPERR (quoted)", "SZ3 (quoted)",
+             "greedy"};
+  add_columns(row, "`--fast`");
+  add_columns(row, "microtin");
+  row.insert(row.end(), {"vertices", "z step"});
+  add_columns(row, "`--best`");
+  row.insert(row.end(), {"microtin / SZ3", "`--never-below`", "at half the bound"});
+  return row;
 }
 
 // Prints the row of a task; adds to the mean of ratios where all are known.
 void print_task(const Task& task, GeometricMean& mean) {
   const Raster raster = read_raster({task.terrain, {}});
-  const Result greedy = measure(raster, task.bound, Search::kGreedy);
-  const Result fast = measure(raster, task.bound, Search::kFast);
-  const Result normal = measure(raster, task.bound, Search::kNormal);
-  const Result best = measure(raster, task.bound, Search::kBest);
+  const auto measured = [&](Search search) { return measure(raster, task.bound, search); };
+  const Result normal = measured(Search::kNormal);
   const Result above = measure(raster, task.bound, Search::kNormal, true);
   const std::string half_bound = number(std::stod(task.bound) / 2, 3);
   const Result half = measure(raster, half_bound.c_str(), Search::kNormal);
   const double ratio =
       static_cast<double>(normal.bytes) / static_cast<double>(std::max<size_t>(task.quoted.sz3, 1));
   if (task.quoted.lerc != 0) mean.add(ratio);
-  print_row({std::string(task.terrain) + " " + task.bound,
-             known(task.quoted.lerc),
-             known(task.quoted.sperr),
-             known(task.quoted.sz3),
-             number(greedy.bytes),
-             number(fast.bytes),
-             number(fast.rms, 3),
-             number(fast.mean, 3),
-             known(fast.flat_mean),
-             number(fast.seconds, 1),
-             number(normal.bytes),
-             number(normal.rms, 3),
-             number(normal.mean, 3),
-             known(normal.flat_mean),
-             number(normal.seconds, 1),
-             number(normal.vertices),
-             to_string(normal.z_step),
-             number(best.bytes),
-             number(best.rms, 3),
-             number(best.mean, 3),
-             known(best.flat_mean),
-             number(best.seconds, 1),
-             task.quoted.sz3 != 0 ? number(ratio, 3) : "",
-             number(above.bytes),
-             number(half.bytes)});
+  Row row = {std::string(task.terrain) + " " + task.bound, known(task.quoted.lerc),
+             known(task.quoted.sperr), known(task.quoted.sz3),
+             number(measured(Search::kGreedy).bytes)};
+  add_cells(row, measured(Search::kFast));
+  add_cells(row, normal);
+  row.insert(row.end(), {number(normal.vertices), to_string(normal.z_step)});
+  add_cells(row, measured(Search::kBest));
+  row.insert(row.end(), {task.quoted.sz3 != 0 ? number(ratio, 3) : "", number(above.bytes),
+                         number(half.bytes)});
+  print_row(row);
 }
 
 }  // namespace

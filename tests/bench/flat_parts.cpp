@@ -8,8 +8,8 @@
 namespace microtin::bench {
 namespace {
 
-constexpr size_t kSmallest =
-    20;  // a flat part has more than the posts with a height divided by that
+// A flat part has more posts than all that have a height, divided by this.
+constexpr size_t kShare = 20;
 
 // Adds the posts beside one that have its height and were not met yet.
 void spread(const Raster& raster, size_t post, std::vector<bool>& met, std::vector<size_t>& part) {
@@ -37,7 +37,7 @@ std::optional<double> worst_flat_mean(const Raster& raster, const std::vector<do
     met[first] = true;
     std::vector<size_t> part{first};
     for (size_t i = 0; i < part.size(); ++i) spread(raster, part[i], met, part);
-    if (part.size() * kSmallest <= posts) continue;
+    if (part.size() * kShare <= posts) continue;
     double sum = 0;
     for (const size_t post : part) sum += errors[post];
     const double mean = sum / static_cast<double>(part.size());

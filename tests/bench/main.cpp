@@ -88,9 +88,7 @@ void run(const std::string& command, const Arguments& arguments) {
   } else {
     throw Error(
         "usage: microtin_bench rate | bounds | budgets [TERRAIN] | curves FILE | paper | peers | "
-        "peer-instructions "
-        "FILE | "
-        "cell FILE | autopilots CALLGRIND TERRAIN PACK TER DAT DAT | "
+        "peer-instructions FILE | cell FILE | autopilots CALLGRIND TERRAIN PACK TER DAT DAT | "
         "grid TERRAIN GRID | flight TERRAIN PACK GRID LOG LOG LOG | linearity PLOT | growth FILE "
         "PLOT "
         "| train | streams FOLDER | curve-streams FOLDER | times STREAM... | "

@@ -16,15 +16,6 @@ Bytes rough_pack() {
   return write_pack(encode_pack(rough_raster(61, 53), pack_options(3, 60)));
 }
 
-microtin_status why_bad(const PackDevice& device, uint32_t tile) {
-  for (uint32_t i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
-    uint32_t number = 0;
-    microtin_status why = MICROTIN_DONE;
-    if (microtin_pack_bad_tile(device.pack, i, &number, &why) == 1 && number == tile) return why;
-  }
-  return MICROTIN_DONE;
-}
-
 }  // namespace
 
 TEST_CASE("compact pack: a tile that goes stays until the next is decoded") {

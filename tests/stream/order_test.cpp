@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "encoder/stream/encode.hpp"
+#include "shared/header.hpp"
 #include "tests/support/point_sets.hpp"
 
 using namespace microtin;
@@ -33,21 +34,15 @@ double table1_bits_per_vertex(const std::vector<Point>& points, const Order& ord
   return static_cast<double>(bits) / static_cast<double>(points.size());
 }
 
-// Reads a varint, and steps over it.
-size_t take_varint(const std::vector<uint8_t>& bytes, size_t& at) {
-  size_t value = 0;
-  while (bytes[at] & 128u) value = (value | (bytes[at++] & 127u)) << 7u;
-  return value | bytes[at++];
-}
-
 // The bytes of a stream up to the end of its first section (FORMAT.md, section 4).
 size_t first_section_end(const std::vector<uint8_t>& stream) {
-  constexpr size_t kIdentity = 5, kCheck = 4;
-  size_t at = kIdentity;
-  const size_t header = take_varint(stream, at);
-  at += header + kCheck;
-  const size_t payload = take_varint(stream, at);
-  return at + payload + kCheck;
+  const uint8_t* at = stream.data() + kIdentityBytes;
+  for (int framed = 0; framed < 2; ++framed) {  // the header and the section
+    uint64_t size = 0;
+    REQUIRE(read_varint(&at, stream.data() + stream.size(), &size));
+    at += size + kCheckBytes;
+  }
+  return static_cast<size_t>(at - stream.data());
 }
 
 }  // namespace

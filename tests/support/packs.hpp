@@ -79,6 +79,11 @@ inline std::vector<uint8_t> write_pack(const EncodedPack& pack) {
   return write_pack(pack.content, pack.streams);
 }
 
+inline std::vector<uint8_t> pack_bytes(const Raster& raster, int64_t bound = 3,
+                                       uint32_t vertices = 40) {
+  return write_pack(encode_pack(raster, pack_options(bound, vertices)));
+}
+
 inline Verification verify(const PackFile& pack, const Raster& raster,
                            const std::optional<Decimal>& bound) {
   return verify(pack, RasterInMemory(raster), bound);

@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: MIT
+// Packs that are damaged, or break a rule: a device tells so, and never answers from them.
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <vector>
+
+#include "microtin/compact_pack.hpp"
+#include "tests/support/forged_pack.hpp"
+#include "tests/support/pack_device.hpp"
+#include "tests/support/packs.hpp"
+
+namespace microtin::tests {
+namespace {
+
+uint32_t bad_tiles(const PackDevice& device) {
+  uint32_t all = 0, number = 0;
+  microtin_status why = MICROTIN_DONE;
+  for (uint32_t i = 0; i < 2 * MICROTIN_PACK_BAD_TILES; ++i) {
+    all += microtin_pack_bad_tile(device.pack, i, &number, &why) != 0 ? 1u : 0u;
+  }
+  return all;
+}
+
+// What a service says in the end; NEED_INPUT if there is none.
+microtin_status served(const PackDevice& device, Card& card, const microtin_course& course) {
+  for (int calls = 0; calls < 10000; ++calls) {
+    const microtin_status status = device.service(card, course, 100);
+    if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) return status;
+  }
+  return MICROTIN_NEED_INPUT;
+}
+
+// A row of flat tiles of two steps, each as high as its number.
+Bytes row_of_tiles(uint32_t tiles) {
+  std::vector<ForgedTile> row;
+  for (uint32_t i = 0; i < tiles; ++i) {
+    const int16_t z = static_cast<int16_t>(i);
+    row.push_back(forged_tile({{{0, 0, z}, {2, 0, z}, {0, 2, z}, {2, 2, z}}, {}}));
+  }
+  return forged_pack({2 * tiles, 2, 2, 2}, row);
+}
+
+size_t stream_at(const Bytes& pack, uint32_t tile) {
+  return static_cast<size_t>(PackFile(pack).entries()[tile].offset);
+}
+
+// Three vertices within 4 x 3 steps, in a stream whose header says that it reaches so far: found by
+// trying what payloads say.
+Bytes loose_stream(uint16_t x_max, uint16_t y_max) {
+  const Bytes header =
+      write_header(Contract{3, x_max, y_max, kMinDegree, Decoding::kBalanced, false, false}, {});
+  for (uint32_t payload = 0; payload < 65536; ++payload) {
+    Bytes stream = header;
+    for (const uint32_t byte : {2u, payload >> 8, payload & 255u}) {
+      stream.push_back(static_cast<uint8_t>(byte));
+    }
+    append_check(stream, header.size());
+    const Device device(3);
+    if (device.decode(stream) != MICROTIN_DONE) continue;
+    bool fits = true;
+    for (uint32_t v = 0; v < 3; ++v) {
+      Point p{};
+      int16_t z = 0;
+      microtin_vertex(device.mesh, v, &p.x, &p.y, &z);
+      fits = fits && p.x <= 4 && p.y <= 3;
+    }
+    if (fits) return stream;
+  }
+  FAIL("there is no such stream");
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("pack: bad tiles are passed over, told, and tried again when the caller says so",
+                   Device, MeshSlots, CompactSlots) {
+  const Bytes good = row_of_tiles(6);
+  Card card{good};
+  card.bytes[stream_at(good, 0) + 20] ^= 1;
+  card.bytes[stream_at(good, 3) + 20] ^= 1;
+  const Device device(6);
+  const microtin_course all = {0, 300, 12 * 256, 300};
+  CHECK(bad_tiles(device) == 0);
+  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(bad_tiles(device) == 2);
+  CHECK(why_bad(device, 0) == MICROTIN_CHECKSUM);
+  CHECK(why_bad(device, 3) == MICROTIN_CHECKSUM);
+  CHECK(why_bad(device, 1) == MICROTIN_DONE);
+  const auto answer = [&](int64_t x, int64_t y) {
+    int32_t height = 0;
+    return device.height_at(x, y, height);
+  };
+  CHECK(answer(256, 300) == MICROTIN_IN_BAD_TILE);
+  CHECK(answer(512, 300) == MICROTIN_HEIGHT);  // on the border, by the other tile
+  CHECK(answer(3 * 256, 300) == MICROTIN_HEIGHT);
+  CHECK(answer(7 * 256, 300) == MICROTIN_IN_BAD_TILE);
+  CHECK(answer(11 * 256, 300) == MICROTIN_HEIGHT);
+  int32_t highest = 0;
+  CHECK(device.highest(all, &highest) == MICROTIN_IN_BAD_TILE);
+  CHECK(highest == 5 * 65536);
+  const microtin_course between = {512, 300, 6 * 256, 300}, along = {6 * 256, 0, 6 * 256, 512};
+  CHECK(device.highest(between, &highest) == MICROTIN_HEIGHT);
+  CHECK(device.highest(along, &highest) == MICROTIN_HEIGHT);
+  const uint32_t reads = card.reads;
+  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(card.reads == reads);
+  card.bytes = good;
+  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);  // not yet
+  CHECK(card.reads == reads);
+  microtin_pack_retry(device.pack);
+  CHECK(answer(256, 300) == MICROTIN_NOT_DECODED);
+  CHECK(device.service(card, all) == MICROTIN_DONE);
+  CHECK(answer(256, 300) == MICROTIN_HEIGHT);
+  CHECK(bad_tiles(device) == 0);
+  card.bytes[stream_at(good, 2) + 20] ^= 1;
+  microtin_pack_reset(device.pack);
+  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(bad_tiles(device) == 1);
+  microtin_pack_reset(device.pack);  // another card
+  CHECK(bad_tiles(device) == 0);
+  card.bytes = good;
+  CHECK(device.service(card, all) == MICROTIN_DONE);
+}
+
+TEST_CASE_TEMPLATE("pack: with a step limit, too, a bad tile is no stop, and is read once", Device,
+                   MeshSlots, CompactSlots) {
+  const Bytes good = row_of_tiles(6);
+  Card card{good};
+  card.bytes[stream_at(good, 1) + 20] ^= 1;
+  card.most = 11;
+  const Device device(6);
+  const microtin_course all = {0, 300, 12 * 256, 300};
+  microtin_status status = MICROTIN_NEED_INPUT;
+  uint32_t calls = 0;
+  for (; calls < 10000; ++calls) {
+    const uint32_t reads = card.reads;
+    status = device.service(card, all, 1);
+    REQUIRE(card.reads <= reads + 1);
+    if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) break;
+  }
+  CHECK(status == MICROTIN_BAD_TILES);
+  CHECK(why_bad(device, 1) == MICROTIN_CHECKSUM);
+}
+
+TEST_CASE_TEMPLATE(
+    "pack: more bad tiles than are remembered cost an attempt a service, never a stop", Device,
+    MeshSlots, CompactSlots) {
+  constexpr uint32_t kTiles = 20, kBad = 14;
+  const Bytes good = row_of_tiles(kTiles);
+  Card card{good};
+  for (uint32_t i = 0; i < kBad; ++i) card.bytes[stream_at(good, i) + 20] ^= 1;
+  const Device device(kTiles);
+  const microtin_course all = {0, 300, kTiles * 512, 300};
+  CHECK(served(device, card, all) == MICROTIN_BAD_TILES);
+  for (uint32_t i = 0; i < kTiles; ++i) {
+    int32_t height = 0;
+    const microtin_answer expected = i >= kBad                     ? MICROTIN_HEIGHT
+                                     : i < MICROTIN_PACK_BAD_TILES ? MICROTIN_IN_BAD_TILE
+                                                                   : MICROTIN_NOT_DECODED;
+    CHECK(device.height_at(i * 512 + 256, 300, height) == expected);
+  }
+  uint32_t reads = card.reads;
+  CHECK(served(device, card, all) == MICROTIN_BAD_TILES);
+  CHECK(card.reads == reads + 2 * (kBad - MICROTIN_PACK_BAD_TILES));  // an entry and a stream each
+  // Those that are wanted no more make room for others.
+  const microtin_course behind = {(kBad - 2) * 512 + 256, 300, kTiles * 512, 300};
+  CHECK(served(device, card, behind) == MICROTIN_BAD_TILES);
+  CHECK(why_bad(device, kBad - 1) == MICROTIN_CHECKSUM);
+  CHECK(why_bad(device, kBad - 2) == MICROTIN_CHECKSUM);
+  reads = card.reads;
+  CHECK(served(device, card, behind) == MICROTIN_BAD_TILES);
+  CHECK(card.reads == reads);
+}
+
+TEST_CASE_TEMPLATE("pack: what is beyond the end is truncated, in the header and in tiles", Device,
+                   MeshSlots, CompactSlots) {
+  const Bytes good = row_of_tiles(3);
+  const size_t header = pack_index_start(PackFile(good).header());
+  const auto cut = [&](size_t size) {
+    return Card{Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size))};
+  };
+  for (const uint32_t steps : {0u, 3u}) {
+    for (size_t size = 0; size < good.size(); ++size) {
+      Card card = cut(size);
+      const Device device(3);
+      const microtin_course all = {0, 300, 6 * 256, 300};
+      microtin_status status = MICROTIN_NEED_INPUT;
+      for (int calls = 0; calls < 1000; ++calls) {
+        status = device.service(card, all, steps);
+        if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) break;
+      }
+      CHECK(status == (size < header ? MICROTIN_TRUNCATED : MICROTIN_BAD_TILES));
+      if (size >= header) CHECK(why_bad(device, 2) == MICROTIN_TRUNCATED);
+      if (size >= stream_at(good, 2)) CHECK(why_bad(device, 1) == MICROTIN_DONE);
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("pack: damaged, swapped and foreign bytes are told, and never answered from",
+                   Device, MeshSlots, CompactSlots) {
+  const Bytes good = pack_bytes(rough_raster(61, 53));
+  const PackFile pack(good);
+  const auto status_of = [](const Bytes& bytes) {
+    Card card{bytes};
+    const Device device(4);
+    const microtin_status status = device.service(card, at(30, 26));
+    int32_t height = 0;
+    const microtin_answer answer = device.height_at(30 * 256, 26 * 256, height);
+    CHECK((status == MICROTIN_DONE || status == MICROTIN_BAD_TILES) ==
+          (answer == MICROTIN_HEIGHT || answer == MICROTIN_IN_BAD_TILE));
+    if (status == MICROTIN_DONE) CHECK(answer == MICROTIN_HEIGHT);
+    return status;
+  };
+  CHECK(status_of(good) == MICROTIN_DONE);
+  CHECK(status_of(Bytes(good.size())) == MICROTIN_BAD_MAGIC);
+  CHECK(status_of({}) == MICROTIN_TRUNCATED);
+  const uint32_t index = pack_index_start(pack.header());
+  Bytes zeros = good;
+  std::fill(zeros.begin() + index, zeros.end(), uint8_t{0});
+  CHECK(status_of(zeros) == MICROTIN_BAD_TILES);
+  // Every byte changed: all that matters for this place is noticed.
+  uint32_t noticed = 0;
+  for (size_t i = 0; i < good.size(); ++i) {
+    Bytes changed = good;
+    changed[i] ^= static_cast<uint8_t>(1u << i % 8);
+    if (status_of(changed) != MICROTIN_DONE) ++noticed;
+  }
+  CHECK(noticed > index + kPackEntryBytes);
+  // Entries and streams of two tiles swapped.
+  const uint32_t last = static_cast<uint32_t>(pack.entries().size()) - 1;
+  const auto is_refused = [&](uint32_t tile, const Bytes& bytes) {
+    Card card{bytes};
+    const Device device(4);
+    const TileBox box = tile_box(pack.grid(), tile);
+    return device.service(card, at(box.x + 1, box.y + 1)) == MICROTIN_BAD_TILES &&
+           why_bad(device, tile) == MICROTIN_CHECKSUM;
+  };
+  Bytes swapped = good;
+  std::swap_ranges(swapped.begin() + index, swapped.begin() + index + kPackEntryBytes,
+                   swapped.begin() + index + last * kPackEntryBytes);
+  CHECK(is_refused(0, swapped));
+  CHECK(is_refused(last, swapped));
+  const Bytes other = pack_bytes(rough_raster(61, 53), 4);
+  Bytes foreign = good;
+  std::copy(other.begin() + index,
+            other.begin() + std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(other.size()),
+                                                     static_cast<std::ptrdiff_t>(good.size())),
+            foreign.begin() + index);
+  CHECK(is_refused(0, foreign));
+}
+
+TEST_CASE_TEMPLATE("pack: of a placement that was damage nothing stays", Device, MeshSlots,
+                   CompactSlots) {
+  Card card{pack_bytes(rough_raster(61, 53), 0)};
+  REQUIRE(card.bytes[6] == 0);
+  for (const uint8_t denominator : Bytes{0, 3}) {
+    const Bytes placement = {2, 2, denominator, 2, 2, denominator, 2, 2, denominator};
+    Card damaged = card;
+    damaged.bytes[6] = static_cast<uint8_t>(placement.size());
+    std::copy(placement.begin(), placement.end(), damaged.bytes.begin() + kPackFixedBytes);
+    const Device device(1);
+    CHECK(device.service(damaged, at(1, 1)) ==
+          (denominator == 0 ? MICROTIN_MALFORMED : MICROTIN_CHECKSUM));
+    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+    microtin_pack_info info;
+    REQUIRE(microtin_pack_header(device.pack, &info) == 1);
+    for (const microtin_axis& axis : {info.x, info.y, info.z}) {
+      CHECK(axis.offset == 0);
+      CHECK(axis.numerator == 1);
+      CHECK(axis.denominator == 1);
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("pack: a tile of another tile's place is refused, whatever its checks", Device,
+                   MeshSlots, CompactSlots) {
+  // Two tiles that differ by one height, by one that takes as many bytes; right CRCs of their own.
+  Raster raster = rough_raster(9, 5);
+  for (size_t i = 0; i < raster.heights.size(); ++i) raster.heights[i] = i % 9 % 4 == 2 ? 50 : 0;
+  EncodedPack encoded;
+  do {
+    REQUIRE(++raster.heights[9 * 2 + 6] < 100);
+    encoded = encode_pack(raster, {{}, {}, 30, 0});
+    REQUIRE(encoded.streams.size() == 2);
+  } while (encoded.streams[0].size() != encoded.streams[1].size());
+  const Bytes &west = encoded.streams[0], &east = encoded.streams[1];
+  REQUIRE(west != east);
+  Bytes bytes = write_pack(encoded);
+  const auto status_of = [&](uint32_t x) {
+    Card card{bytes};
+    const Device device(4);
+    return device.service(card, at(x, 1));
+  };
+  CHECK(status_of(1) == MICROTIN_DONE);
+  CHECK(status_of(7) == MICROTIN_DONE);
+  std::swap_ranges(bytes.end() - static_cast<std::ptrdiff_t>(2 * west.size()),
+                   bytes.end() - static_cast<std::ptrdiff_t>(west.size()),
+                   bytes.end() - static_cast<std::ptrdiff_t>(west.size()));
+  CHECK(status_of(1) == MICROTIN_BAD_TILES);
+  CHECK(status_of(7) == MICROTIN_BAD_TILES);
+}
+
+TEST_CASE_TEMPLATE("pack: a placement that is not verified is not used", Device, MeshSlots,
+                   CompactSlots) {
+  Metadata metadata;
+  metadata.placement.z = {0, uint64_t{1} << 31, 1};
+  Card card{
+      forged_pack({4, 4, 4, 4}, {forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, {}})}, metadata)};
+  const Device device(1);
+  int16_t height = 5;
+  const microtin_block block{256, 256, 0, 0, 1, 1, -9};
+  for (int calls = 0; calls < 1000; ++calls) {
+    microtin_pack_info info;
+    if (microtin_pack_header(device.pack, &info) != 0) break;
+    height = 5;
+    REQUIRE(device.fill(block, &height) == MICROTIN_NOT_DECODED);
+    REQUIRE(height == -9);
+    card.most = 1;
+    device.service(card, at(1, 1), 1);
+  }
+  REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+  height = 5;
+  CHECK(device.fill(block, &height) == MICROTIN_OUTSIDE);  // too coarse
+  CHECK(height == 5);
+}
+
+TEST_CASE_TEMPLATE("pack: headers that break a rule are malformed, damaged ones are told as such",
+                   Device, MeshSlots, CompactSlots) {
+  const Bytes good = row_of_tiles(2);
+  const auto status_of = [](const Bytes& bytes) {
+    Card card{bytes};
+    const Device device(2);
+    return device.service(card, at(1, 1));
+  };
+  const auto with = [&](size_t at, uint8_t value) {
+    Bytes bytes = good;
+    bytes[at] = value;
+    const size_t index = pack_index_start(PackFile(good).header());
+    put_number(bytes, index - 4, crc32(0, bytes.data(), index - 4), 4);
+    return bytes;
+  };
+  CHECK(status_of(good) == MICROTIN_DONE);
+  CHECK(status_of(with(0, 'M')) == MICROTIN_BAD_MAGIC);
+  CHECK(status_of(with(4, kPackVersion + 1)) == MICROTIN_UNSUPPORTED_VERSION);
+  CHECK(status_of(with(5, 1)) == MICROTIN_UNSUPPORTED_VERSION);
+  for (const size_t at : {7u, 18u, 19u}) CHECK(status_of(with(at, 1)) == MICROTIN_MALFORMED);
+  CHECK(status_of(with(6, 67)) == MICROTIN_MALFORMED);
+  for (const size_t at : {10u, 12u, 20u, 24u}) CHECK(status_of(with(at, 0)) == MICROTIN_MALFORMED);
+  for (const size_t at : {23u, 27u}) CHECK(status_of(with(at, 128)) == MICROTIN_MALFORMED);
+  CHECK(status_of(with(30, 255)) == MICROTIN_BAD_TILES);  // entries are of the header before
+  CHECK(status_of(with(31, 1)) == MICROTIN_MALFORMED);    // above 2^24 vertices
+  for (size_t at = 8; at < pack_index_start(PackFile(good).header()); ++at) {
+    Bytes damaged = good;
+    damaged[at] ^= 4;
+    const microtin_status status = status_of(damaged);
+    CHECK(status != MICROTIN_DONE);
+    CHECK(status != MICROTIN_BAD_TILES);
+  }
+}
+
+TEST_CASE_TEMPLATE("pack: tiles that break a rule are refused, here and on the host", Device,
+                   MeshSlots, CompactSlots) {
+  const Tin fits{{{0, 0, 1}, {4, 0, 2}, {0, 3, 3}, {4, 3, 4}}, {}};
+  const ForgedTile good = forged_tile(fits);
+  const TileGrid grid = {8, 3, 4, 3};
+  const auto check = [&](const Bytes& bytes, microtin_status expected) {
+    Card card{bytes};
+    const Device device(2);
+    CHECK(device.service(card, at(6, 1)) ==
+          (expected == MICROTIN_DONE ? MICROTIN_DONE : MICROTIN_BAD_TILES));
+    CHECK(why_bad(device, 1) == expected);
+    const auto read = [&] { PackFile(bytes).tile(1); };
+    if (expected == MICROTIN_DONE) {
+      CHECK_NOTHROW(read());
+    } else {
+      CHECK_THROWS_AS(read(), Error);
+    }
+  };
+  const auto refuse = [&](const ForgedTile& tile) {
+    check(forged_pack(grid, {good, tile}), MICROTIN_MALFORMED);
+  };
+  check(forged_pack(grid, {good, good}), MICROTIN_DONE);
+  refuse(forged_tile({{{0, 0, 1}, {5, 0, 2}, {0, 3, 3}}, {}}));  // too far to the east
+  refuse(forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, {}}));  // and to the north
+  refuse({good.stream, good.vertices + 1});
+  refuse({good.stream, good.vertices - 1});
+  Bytes few = forged_pack(grid, {good, good});  // more than the header says of any tile
+  put_number(few, 28, good.vertices - 1, 4);
+  repair_checks(few);
+  check(few, MICROTIN_MALFORMED);
+  Metadata placed, noted;
+  placed.placement.x = {1, 1, 1};
+  noted.source = "here";
+  refuse({encode(fits, placed), good.vertices});
+  refuse({encode(fits, noted), good.vertices});
+  // The header claims more than the vertices need.
+  check(forged_pack(grid, {good, {loose_stream(4, 3), 3}}), MICROTIN_DONE);
+  refuse({loose_stream(5, 3), 3});
+  refuse({loose_stream(4, 4), 3});
+  // A stream inside the notes: all its checks pass.
+  Metadata notes;
+  notes.source = std::string(good.stream.begin(), good.stream.end());
+  Bytes inside = forged_pack(grid, {good, good}, notes);
+  const size_t entry = static_cast<size_t>(pack_entry_start(PackFile(inside).header(), 1));
+  const auto found =
+      std::search(inside.begin(), inside.end(), good.stream.begin(), good.stream.end());
+  REQUIRE(found - inside.begin() < static_cast<std::ptrdiff_t>(entry));
+  put_number(inside, entry, static_cast<uint64_t>(found - inside.begin()), 5);
+  repair_checks(inside);
+  check(inside, MICROTIN_MALFORMED);
+  Bytes last = forged_pack(grid, {good, good});  // the first place where a stream may be
+  put_number(last, static_cast<size_t>(pack_entry_start(PackFile(last).header(), 1)),
+             pack_streams_start(PackFile(last).header()), 5);
+  repair_checks(last);
+  check(last, MICROTIN_DONE);
+}
+
+}  // namespace microtin::tests
