@@ -15,12 +15,12 @@ inline uint64_t triangle_digest(const Vertex corner[3], bool is_void) {
     const Point p = {corner[i].x, corner[i].y}, least = {corner[first].x, corner[first].y};
     if (p < least) first = i;
   }
-  uint16_t words[9];
-  static_assert(sizeof words == 3 * sizeof(Vertex), "corners are nine words in a row");
-  __builtin_memcpy(words, corner, sizeof words);
+  static_assert(sizeof(Vertex) == 3 * sizeof(uint16_t), "corners are nine words in a row");
+  const uint8_t* const words = reinterpret_cast<const uint8_t*>(corner);
   uint64_t hash = 0xCBF29CE484222325u;
   for (uint32_t i = 0, at = 3 * first; i < 10; ++i, at = at == 8 ? 0 : at + 1) {
-    uint32_t word = i < 9 ? words[at] : is_void ? 1u : 0u;
+    uint16_t word = is_void;
+    if (i < 9) __builtin_memcpy(&word, words + 2 * at, sizeof word);
     for (uint32_t k = 0; k < 2; ++k, word >>= 8) hash = (hash ^ (word & 255u)) * 0x100000001B3u;
   }
   return hash;
