@@ -55,7 +55,10 @@ std::string text_of(const AutopilotFile& file, uint32_t spacing) {
 }
 
 void decode_for_autopilot(const DecodeRequest& request, Autopilot autopilot) {
-  const DegreeCell cell = cell_of(request.output);
+  const auto cell = cell_of(request.output);
+  if (!cell) {
+    throw Error(request.output + ": the name must be that of a cell, such as N43E007");
+  }
   const uint32_t spacing = spacing_of(request, autopilot);
   if (request.lattice) throw Error(request.output + ": has real coordinates, not --lattice");
   const Document document(request.input);
@@ -63,8 +66,9 @@ void decode_for_autopilot(const DecodeRequest& request, Autopilot autopilot) {
   if (metadata.horizontal_unit != Unit::kDegree || metadata.vertical_unit != Unit::kMetre) {
     throw Error(request.input + ": autopilots want places in degrees and heights in metres");
   }
-  const AutopilotFile file = with_file_context(
-      request.output, [&] { return autopilot_file(document.sampled(), autopilot, cell, spacing); });
+  const AutopilotFile file = with_file_context(request.output, [&] {
+    return autopilot_file(document.sampled(), autopilot, *cell, spacing);
+  });
   OutputFile out(request.output);
   out.write(file.bytes);
   deliver(out, request.output, text_of(file, spacing));

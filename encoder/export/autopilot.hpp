@@ -9,23 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "encoder/export/autopilot_layout.hpp"
 #include "encoder/export/height_sampler.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::exporting {
 
-enum class Autopilot { kArduPilot, kInav };
-
 // By the suffix, .DAT or .TER; nothing for others.
 std::optional<Autopilot> autopilot_of(const std::string& path);
-
-// The south-west corner of a cell, in whole degrees.
-struct DegreeCell {
-  int latitude, longitude;
-};
-
-// What a file is named after, such as N43E007. Throws Error for other names.
-DegreeCell cell_of(const std::string& path);
 
 // Metres between the posts that firmware expects if nothing else is set.
 constexpr uint32_t kArduPilotSpacing = 100, kInavSpacing = 30;

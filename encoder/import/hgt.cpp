@@ -1,44 +1,16 @@
 // SPDX-License-Identifier: MIT
 // SRTM tiles, read whole or in rectangles.
-#include <charconv>
-#include <filesystem>
 #include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/import/import.hpp"
-#include "encoder/import/text.hpp"
+#include "encoder/terrain/degree_cell.hpp"
 
 namespace microtin::importing {
 namespace {
 
 constexpr uint32_t kWgs84 = 4326;
 constexpr uint32_t kEgm96Height = 5773;
-
-// "n43" as 43, "s05" as -5; nothing if the text does not read so.
-std::optional<int> degrees(std::string_view text, char positive, char negative, int most) {
-  if (text.empty() || (text[0] != positive && text[0] != negative)) return std::nullopt;
-  const char* const end = text.data() + text.size();
-  int value = 0;
-  const auto [next, error] = std::from_chars(text.data() + 1, end, value);
-  if (next != end || error != std::errc() || value < 0 || value > most) return std::nullopt;
-  return text[0] == positive ? value : -value;
-}
-
-struct Corner {
-  int latitude;
-  int longitude;
-};
-
-Corner south_west_corner(const std::string& name) {
-  const std::string file = lower_case(std::filesystem::path(name).filename().string());
-  const std::string_view place = std::string_view(file).substr(0, file.find_first_of("._"));
-  if (place.size() == 7) {
-    const auto latitude = degrees(place.substr(0, 3), 'n', 's', 90);
-    const auto longitude = degrees(place.substr(3), 'e', 'w', 180);
-    if (latitude && longitude) return {*latitude, *longitude};
-  }
-  throw Error(name + ": the file's name does not say where it lies, as N43E007.hgt does");
-}
 
 int64_t height_of(const uint8_t* bytes) {
   const int value = bytes[0] * 256 + bytes[1];
@@ -67,11 +39,14 @@ class HgtReader : public RasterReader {
                   " bytes; an .hgt file has two for each post of a square, as 25934402 for 3601 x "
                   "3601");
     }
-    const Corner corner = south_west_corner(name);
+    const auto cell = cell_of(name);
+    if (!cell) {
+      throw Error(name + ": the file's name does not say where it lies, as N43E007.hgt does");
+    }
     const uint64_t per_degree = side - 1;
     frame_.width = frame_.height = side;
-    frame_.x = {corner.longitude * static_cast<int64_t>(per_degree), 1, per_degree};
-    frame_.y = {corner.latitude * static_cast<int64_t>(per_degree), 1, per_degree};
+    frame_.x = {cell->longitude * static_cast<int64_t>(per_degree), 1, per_degree};
+    frame_.y = {cell->latitude * static_cast<int64_t>(per_degree), 1, per_degree};
     frame_.reference = {Unit::kDegree, Unit::kMetre, kWgs84, kEgm96Height, {}};
   }
 

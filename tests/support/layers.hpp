@@ -4,10 +4,8 @@
 #define MICROTIN_TESTS_SUPPORT_LAYERS_HPP
 
 #include "encoder/layers.hpp"
-#include "tests/support/layers.hpp"
 
 namespace microtin::tests {
-using namespace microtin::tests;
 using namespace cli;
 }  // namespace microtin::tests
 

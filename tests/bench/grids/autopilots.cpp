@@ -170,7 +170,7 @@ class GridAnswerer : public Answerer {
       : Answerer(path),
         autopilot_(autopilot),
         spacing_(spacing),
-        firmware_(card.bytes(), autopilot, exporting::cell_of(path), spacing) {}
+        firmware_(card.bytes(), autopilot, terrain::cell_of(path).value(), spacing) {}
 
   bool height(microtin_spot at, float* metres) override {
     const auto place = firmware_.place(at.latitude, at.longitude);

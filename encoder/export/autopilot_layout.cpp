@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "encoder/export/autopilot_layout.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace microtin::exporting {
+namespace {
+
+constexpr double kMetres = 0.011131884502145034F;  // in 1e-7 degrees of a meridian
+
+}  // namespace
+
+double longitude_scale(double latitude) {
+  constexpr double kRadian = 0.017453292519943295;
+  const auto angle = static_cast<float>(latitude * 1e-7 * kRadian);
+  return std::max(static_cast<double>(static_cast<float>(std::cos(static_cast<double>(angle)))),
+                  0.01);
+}
+
+AutopilotLayout::AutopilotLayout(Autopilot autopilot, DegreeCell cell, uint32_t spacing)
+    : autopilot_(autopilot),
+      cell_(cell),
+      origin_{cell.latitude * kDegree, cell.longitude * kDegree},
+      spacing_(spacing),
+      block_columns_(columns_of_blocks()) {
+  while (north_of(block_rows_ * kOwnRows) < kDegree) ++block_rows_;
+}
+
+GeoPlace AutopilotLayout::post(uint32_t row, uint32_t column) const {
+  const int64_t north = north_of(row);
+  return place(north, column, scale_on_the_way(static_cast<double>(north)));
+}
+
+GeoPlace AutopilotLayout::corner(uint32_t block_row, uint32_t block_column) const {
+  const int64_t north = north_of(block_row * kOwnRows);
+  return place(north, block_column * kOwnColumns,
+               longitude_scale(latitude_at(static_cast<double>(north) * 0.5)));
+}
+
+void AutopilotLayout::locate(double latitude, double longitude, double* row, double* column) const {
+  const double north = latitude - static_cast<double>(origin_.latitude);
+  *row = north * kMetres / spacing_;
+  *column = (longitude - static_cast<double>(origin_.longitude)) * kMetres *
+            scale_on_the_way(north) / spacing_;
+}
+
+double AutopilotLayout::scale_on_the_way(double north) const {
+  return longitude_scale(latitude_at(north * (autopilot_ == Autopilot::kInav ? 1 : 0.5)));
+}
+
+int64_t AutopilotLayout::north_of(uint32_t row) const {
+  return static_cast<int64_t>(static_cast<double>(row) * spacing_ * kPerMetre);
+}
+
+GeoPlace AutopilotLayout::place(int64_t north, uint32_t column, double scale) const {
+  const auto east =
+      static_cast<int64_t>(static_cast<double>(column) * spacing_ * kPerMetre / scale);
+  return {origin_.latitude + north, origin_.longitude + east};
+}
+
+// Blocks in a row of the file: those that a degree takes at the cell's south, and two more.
+uint32_t AutopilotLayout::columns_of_blocks() const {
+  const double scale = longitude_scale(static_cast<double>(origin_.latitude));
+  const double more = 2.0 * spacing_ * kBlockColumns;
+  const double east =
+      autopilot_ == Autopilot::kInav ? more / (111319.5 * scale) * 1e7 : more * kPerMetre / scale;
+  const double metres = (kDegree + std::trunc(east)) * kMetres * scale;
+  return static_cast<uint32_t>(metres / (spacing_ * kOwnColumns));
+}
+
+}  // namespace microtin::exporting
