@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Packs that make tiles compact: between decoding a tile and telling that it is there.
-#include "decoder/pack_state.hpp"
+#include "decoder/pack_service.hpp"
 #include "decoder/ring.hpp"
 
 namespace microtin {
@@ -18,10 +18,9 @@ bool is_as_stated(const PackHeader& header, const microtin_compact& tile) {
 // Makes the tile in hand compact. DONE: it is there, or refused.
 microtin_status store(microtin_pack& p, uint32_t step_limit) {
   if (p.compactor == nullptr) {
-    PackSlot* const slot = take_slot(p);
-    if (slot == nullptr) return fail_pack(p, MICROTIN_WORKSPACE_TOO_SMALL);
-    p.slot = static_cast<uint8_t>(slot - p.slots);
-    microtin_compact_begin(slot->space, p.slot_bytes, p.work, p.decoder_space, p.decoder_bytes,
+    if (!choose_slot(p)) return fail_pack(p, MICROTIN_WORKSPACE_TOO_SMALL);
+    set_state(*p.slot, SlotState::kEmpty);
+    microtin_compact_begin(p.slot->space, p.slot_bytes, p.work, p.decoder_space, p.decoder_bytes,
                            &p.compactor);
   }
   const uint32_t most = 0xFFFFFFFFu / kItemsOfStep;
@@ -31,7 +30,7 @@ microtin_status store(microtin_pack& p, uint32_t step_limit) {
   if (status == MICROTIN_STEP_LIMIT) return status;
   if (status != MICROTIN_DONE) return refuse_tile(p, MICROTIN_TOO_BIG);
   if (!is_as_stated(p.header, *compact)) return refuse_tile(p, MICROTIN_MALFORMED);
-  return finish_tile(p, p.slots[p.slot], true);
+  return finish_tile(p, true);
 }
 
 }  // namespace
@@ -54,15 +53,13 @@ microtin_status microtin_compact_pack_init(void* workspace, size_t size, uint32_
 
 microtin_status microtin_compact_pack_prepare(microtin_pack* pack, const microtin_course* course,
                                               uint32_t step_limit) {
-  if (pack == nullptr || pack->work == nullptr) return MICROTIN_ARGUMENT;
-  for (;;) {
-    const bool was_decoded = pack->stage == PackStage::kStore;
-    const microtin_status status = microtin_pack_prepare(pack, course, step_limit);
-    const bool has_steps = was_decoded || step_limit == 0;  // decoding has taken some
-    if (status != MICROTIN_STEP_LIMIT || pack->stage != PackStage::kStore || !has_steps) {
-      return status;
-    }
-    const microtin_status stored = store(*pack, step_limit);
-    if (stored != MICROTIN_DONE) return stored;
+  if (pack == nullptr || course == nullptr || pack->work == nullptr) return MICROTIN_ARGUMENT;
+  microtin_status status = MICROTIN_DONE;
+  while (status == MICROTIN_DONE || (status == MICROTIN_STEP_LIMIT && step_limit == 0)) {
+    status = go_on(*pack, *course);
+    if (status != MICROTIN_STEP_LIMIT) return status;
+    const bool is_decoded = pack->stage == PackStage::kStore;
+    status = is_decoded ? store(*pack, step_limit) : decode(*pack, step_limit);
   }
+  return status;
 }

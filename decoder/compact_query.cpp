@@ -48,14 +48,15 @@ Vertex on_lattice(const microtin_compact* c, Vertex v) {
   return Vertex{static_cast<uint16_t>(v.x + c->west), static_cast<uint16_t>(v.y + c->south), v.z};
 }
 
+// The square, in half steps: each part is at most 2^30.
 uint32_t distance(Point at, int32_t x, int32_t y) {
-  const int32_t dx = x - at.x, dy = y - at.y;
-  return static_cast<uint32_t>((dx < 0 ? -dx : dx) + (dy < 0 ? -dy : dy));
+  const int32_t dx = x - (at.x >> 1), dy = y - (at.y >> 1);
+  return static_cast<uint32_t>(dx * dx) + static_cast<uint32_t>(dy * dy);
 }
 
 // A triangle at a position that is nearer to p than `best`, or at that.
 uint32_t number_near(const Ring& r, FinePoint p, uint32_t best) {
-  const int32_t x = p.x >> 8, y = p.y >> 8;
+  const int32_t x = p.x >> 9, y = p.y >> 9;
   const uint32_t end = r.positions - 1;
   uint32_t stride = end / kSamples + 1, step = stride, i = stride / 2 + 1, last = end;
   uint32_t least = distance(place_of(r, best), x, y);
@@ -156,7 +157,7 @@ microtin_answer microtin_compact_height_at(const microtin_compact* compact, int3
     *hint = number_of(cursor);
     if (arrived) return cursor.is_ghost() ? MICROTIN_OUTSIDE : answer_at(cursor, p, height);
     if (step_limit != 0) return MICROTIN_NOT_YET;
-    number = number_near(r, p, cursor.start());
+    number = number_near(r, p, cursor.middle());
     step_limit = limit = triangle_count(r);
   }
 }

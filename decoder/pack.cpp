@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reading packs: which tiles are wanted, which are there, and bringing the one to the other.
-#include "decoder/pack_state.hpp"
+#include "decoder/pack_service.hpp"
 
 namespace microtin {
 namespace {
@@ -10,41 +10,34 @@ uint32_t room_of(const microtin_pack& p) {
   return kPackBuffer - p.kept * kPackEntryBytes;
 }
 
-MICROTIN_ONE_COPY void want(microtin_pack& p, PackStage stage, uint64_t offset, uint32_t size) {
+// From where the last bytes ended, unless `next` is set too.
+MICROTIN_ONE_COPY void want(microtin_pack& p, PackStage stage, uint32_t size) {
   const uint32_t room = room_of(p);
   p.stage = stage;
-  p.next = offset;
   p.buffered = 0;
   p.fed = 0;
   p.is_counted = false;
   p.wanted = static_cast<uint8_t>(size < room ? size : room);
 }
 
-// Queries do not look at an empty slot, so the order of these writes matters to those that
-// interrupt.
-void set_state(PackSlot& slot, SlotState state) {
-  __atomic_signal_fence(__ATOMIC_SEQ_CST);
-  slot.state = state;
-  __atomic_signal_fence(__ATOMIC_SEQ_CST);
-}
-
 // Gives up what is in hand; begins again with the header if that is not known.
 void give_up(microtin_pack& p) {
   if (p.has_header) {
-    want(p, PackStage::kIdle, 0, 0);
+    want(p, PackStage::kIdle, 0);
     return;
   }
   place_on_lattice(p.axis);
-  want(p, PackStage::kFixed, 0, kPackFixedBytes);
+  p.next = 0;
+  want(p, PackStage::kFixed, kPackFixedBytes);
 }
 
 // --- The header. The bytes of each item are in the buffer when it is handled.
 
-void want_notes(microtin_pack& p, uint64_t offset) {
+void want_notes(microtin_pack& p) {
   if (p.left != 0) {
-    want(p, PackStage::kNotes, offset, p.left);
+    want(p, PackStage::kNotes, p.left);
   } else {
-    want(p, PackStage::kCheck, offset, kCheckBytes);
+    want(p, PackStage::kCheck, kCheckBytes);
   }
 }
 
@@ -55,9 +48,9 @@ MICROTIN_IN_PLACE inline microtin_status handle_fixed(microtin_pack& p) {
   p.crc = crc32(0, p.buffer, kPackFixedBytes);
   p.left = p.header.note_bytes;
   if (p.header.placement_bytes == 0) {
-    want_notes(p, kPackFixedBytes);
+    want_notes(p);
   } else {
-    want(p, PackStage::kPlacement, kPackFixedBytes, p.header.placement_bytes);
+    want(p, PackStage::kPlacement, p.header.placement_bytes);
   }
   return MICROTIN_NEED_INPUT;
 }
@@ -65,20 +58,20 @@ MICROTIN_IN_PLACE inline microtin_status handle_fixed(microtin_pack& p) {
 microtin_status handle_placement(microtin_pack& p) {
   if (!read_pack_placement(p.buffer, p.header, p.axis)) return fail_pack(p, MICROTIN_MALFORMED);
   p.crc = crc32(p.crc, p.buffer, p.buffered);
-  want_notes(p, kPackFixedBytes + p.header.placement_bytes);
+  want_notes(p);
   return MICROTIN_NEED_INPUT;
 }
 
 microtin_status handle_notes(microtin_pack& p) {
   p.crc = crc32(p.crc, p.buffer, p.buffered);
   p.left -= p.buffered;
-  want_notes(p, p.next);
+  want_notes(p);
   return MICROTIN_NEED_INPUT;
 }
 
 microtin_status handle_check(microtin_pack& p) {
   if (read_u32(p.buffer) != p.crc) return fail_pack(p, MICROTIN_CHECKSUM);
-  want(p, PackStage::kIdle, 0, 0);
+  want(p, PackStage::kIdle, 0);
   __atomic_signal_fence(__ATOMIC_SEQ_CST);
   p.has_header = true;
   return MICROTIN_NEED_INPUT;
@@ -91,11 +84,15 @@ microtin_status handle_check(microtin_pack& p) {
 template <class Place>
 Place* place_to_fill(Place* places, uint32_t count, uint32_t clock) {
   Place* oldest = nullptr;
+  uint32_t most = 0;
   for (uint32_t i = 0; i < count; ++i) {
     Place& place = places[i];
     if (place.is_empty()) return &place;
     const uint32_t age = clock - place.wanted;
-    if (age != 0 && (oldest == nullptr || age > clock - oldest->wanted)) oldest = &place;
+    if (age > most) {
+      most = age;
+      oldest = &place;
+    }
   }
   return oldest;
 }
@@ -120,10 +117,9 @@ MICROTIN_ONE_COPY microtin_status fail_pack(microtin_pack& p, microtin_status st
   return status;
 }
 
-PackSlot* take_slot(microtin_pack& p) {
-  PackSlot* const slot = place_to_fill(p.slots, p.slot_count, p.clock);
-  if (slot != nullptr) set_state(*slot, SlotState::kEmpty);
-  return slot;
+MICROTIN_ONE_COPY bool choose_slot(microtin_pack& p) {
+  p.slot = place_to_fill(p.slots, p.slot_count, p.clock);
+  return p.slot != nullptr;
 }
 
 microtin_status refuse_tile(microtin_pack& p, microtin_status why) {
@@ -140,7 +136,8 @@ microtin_status refuse_tile(microtin_pack& p, microtin_status why) {
   return fail_pack(p, MICROTIN_DONE);
 }
 
-microtin_status finish_tile(microtin_pack& p, PackSlot& slot, bool has_terrain) {
+microtin_status finish_tile(microtin_pack& p, bool has_terrain) {
+  PackSlot& slot = *p.slot;
   slot.tile = p.tile;
   slot.wanted = p.clock;
   slot.has_terrain = has_terrain;
@@ -156,7 +153,7 @@ void want_entry(microtin_pack& p) {
   const uint32_t place = p.tile - p.kept_from;
   if (place < p.kept) {
     __builtin_memcpy(p.buffer, p.buffer + room_of(p) + place * kPackEntryBytes, kPackEntryBytes);
-    want(p, PackStage::kEntry, 0, kPackEntryBytes);
+    want(p, PackStage::kEntry, kPackEntryBytes);
     p.buffered = p.wanted;
     return;
   }
@@ -164,8 +161,8 @@ void want_entry(microtin_pack& p) {
   const uint32_t left = tile_columns(grid) * tile_rows(grid) - p.tile;
   const uint32_t most = p.sector == 0 ? 1 : kEntriesOfRead;
   p.kept = 0;
-  want(p, PackStage::kEntry, pack_entry_start(p.header, p.tile),
-       kPackEntryBytes * (left < most ? left : most));
+  p.next = pack_entry_start(p.header, p.tile);
+  want(p, PackStage::kEntry, kPackEntryBytes * (left < most ? left : most));
 }
 
 // Moves the entries behind the first one to the buffer's end.
@@ -185,20 +182,17 @@ microtin_status handle_entry(microtin_pack& p) {
   }
   if (!read_pack_entry(p.buffer, p.header, &p.entry)) return refuse_tile(p, MICROTIN_MALFORMED);
   if (p.entry.vertices > p.capacity) return refuse_tile(p, MICROTIN_TOO_BIG);
-  PackSlot* const slot = place_to_fill(p.slots, p.slot_count, p.clock);
-  if (slot == nullptr) return fail_pack(p, MICROTIN_WORKSPACE_TOO_SMALL);
-  microtin_mesh* mesh = p.work;
+  if (!choose_slot(p)) return fail_pack(p, MICROTIN_WORKSPACE_TOO_SMALL);
   // What is to be made compact needs its slot not before then.
-  if (mesh == nullptr || p.entry.size == 0) {
-    set_state(*slot, SlotState::kEmpty);
-    if (p.entry.size == 0) return finish_tile(p, *slot, false);
-    p.slot = static_cast<uint8_t>(slot - p.slots);
-    mesh = static_cast<microtin_mesh*>(slot->space);
-  }
+  if (p.work == nullptr || p.entry.size == 0) set_state(*p.slot, SlotState::kEmpty);
+  if (p.entry.size == 0) return finish_tile(p, false);
+  microtin_mesh* const mesh =
+      p.work != nullptr ? p.work : static_cast<microtin_mesh*>(p.slot->space);
   microtin_decoder_init(p.decoder_space, p.decoder_bytes, mesh, &p.decoder);
   p.left = p.entry.size;
   p.stream_hash = kStreamHash;
-  want(p, PackStage::kStream, p.entry.offset, p.left);
+  p.next = p.entry.offset;
+  want(p, PackStage::kStream, p.left);
   return MICROTIN_NEED_INPUT;
 }
 
@@ -223,30 +217,6 @@ microtin_status handle_stream(microtin_pack& p) {
     p.left -= p.buffered;
   }
   return MICROTIN_STEP_LIMIT;
-}
-
-// What follows from what the decoder said, but for STEP_LIMIT.
-MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status hear_decoder(microtin_pack& p,
-                                                                    microtin_status status) {
-  if (status == MICROTIN_NEED_INPUT && p.left != 0) {
-    want(p, PackStage::kStream, p.next, p.left);
-    return status;
-  }
-  if (status != MICROTIN_DONE || !is_stream(p)) return refuse_tile(p, MICROTIN_CHECKSUM);
-  if (!is_tile(p)) return refuse_tile(p, MICROTIN_MALFORMED);
-  if (p.work == nullptr) return finish_tile(p, p.slots[p.slot], true);
-  want(p, PackStage::kStore, 0, 0);
-  p.compactor = nullptr;
-  return MICROTIN_STEP_LIMIT;
-}
-
-// Decodes what is in the buffer: in place, so that only one frame lies above the decoder's.
-MICROTIN_IN_PLACE inline microtin_status decode(microtin_pack& p, uint32_t step_limit) {
-  size_t used = 0;
-  const microtin_status status = microtin_feed(
-      p.decoder, p.buffer + p.fed, static_cast<size_t>(p.buffered - p.fed), step_limit, &used);
-  p.fed = static_cast<uint8_t>(p.fed + used);
-  return status == MICROTIN_STEP_LIMIT ? status : hear_decoder(p, status);
 }
 
 // Handles what is in the buffer, if it is complete. DONE: a tile is ready, or refused.
@@ -321,25 +291,6 @@ microtin_status verdict(microtin_pack& p, const Wishes& wishes) {
   return wishes.has_bad ? MICROTIN_BAD_TILES : MICROTIN_DONE;
 }
 
-microtin_status prepare_tile(microtin_pack& p, const microtin_course& course, uint32_t step_limit) {
-  microtin_status status = MICROTIN_DONE;
-  // Once a tile is finished, the next one wants input first.
-  for (int finished = 0; status == MICROTIN_DONE && finished < 2; ++finished) {
-    const Wishes wishes = wishes_of(p, course);
-    if (p.stage != PackStage::kIdle && !wishes.in_hand) give_up(p);
-    if (p.stage == PackStage::kIdle) {
-      if (!wishes.is_any) return verdict(p, wishes);
-      p.tile = wishes.first;
-      want_entry(p);
-    }
-    status = handle(p);
-    if (status == MICROTIN_STEP_LIMIT && p.stage == PackStage::kStream) {
-      status = decode(p, step_limit);
-    }
-  }
-  return status;
-}
-
 // Bytes that are wanted next and lie in one sector.
 uint32_t wanted_now(const microtin_pack& p) {
   const uint32_t left = static_cast<uint32_t>(p.wanted - p.buffered);
@@ -361,6 +312,42 @@ microtin_status hear_storage(microtin_pack& p) {
 }
 
 }  // namespace
+
+microtin_status hear_decoder(microtin_pack& p, microtin_status status) {
+  if (status == MICROTIN_NEED_INPUT && p.left != 0) {
+    want(p, PackStage::kStream, p.left);
+    return status;
+  }
+  if (status != MICROTIN_DONE || !is_stream(p)) return refuse_tile(p, MICROTIN_CHECKSUM);
+  if (!is_tile(p)) return refuse_tile(p, MICROTIN_MALFORMED);
+  if (p.work == nullptr) return finish_tile(p, true);
+  want(p, PackStage::kStore, 0);
+  p.compactor = nullptr;
+  return MICROTIN_STEP_LIMIT;
+}
+
+microtin_status go_on(microtin_pack& p, const microtin_course& course) {
+  if (!is_legal(course)) return MICROTIN_ARGUMENT;
+  const microtin_status heard = hear_storage(p);
+  if (heard != MICROTIN_NEED_INPUT) return heard;
+  if (!p.has_header) {
+    const microtin_status status = handle(p);
+    if (!p.has_header) return status;
+  }
+  // Each time ends with a tile of which the entry was kept: the one after these wants input.
+  microtin_status status = MICROTIN_DONE;
+  while (status == MICROTIN_DONE) {
+    const Wishes wishes = wishes_of(p, course);
+    if (p.stage != PackStage::kIdle && !wishes.in_hand) give_up(p);
+    if (p.stage == PackStage::kIdle) {
+      if (!wishes.is_any) return verdict(p, wishes);
+      p.tile = wishes.first;
+      want_entry(p);
+    }
+    status = handle(p);
+  }
+  return status;
+}
 
 microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
                              uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack) {
@@ -430,14 +417,14 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector) 
 
 microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course* course,
                                       uint32_t step_limit) {
-  if (pack == nullptr || course == nullptr || !is_legal(*course)) return MICROTIN_ARGUMENT;
-  const microtin_status heard = hear_storage(*pack);
-  if (heard != MICROTIN_NEED_INPUT) return heard;
-  if (!pack->has_header) {
-    const microtin_status status = handle(*pack);
-    if (!pack->has_header) return status;
+  if (pack == nullptr || course == nullptr) return MICROTIN_ARGUMENT;
+  microtin_status status = MICROTIN_DONE;
+  while (status == MICROTIN_DONE) {
+    status = go_on(*pack, *course);
+    if (status != MICROTIN_STEP_LIMIT) return status;
+    status = decode(*pack, step_limit);
   }
-  return prepare_tile(*pack, *course, step_limit);
+  return status;
 }
 
 void microtin_pack_wanted(microtin_pack* pack, uint64_t* offset, uint8_t** buffer, size_t* size) {

@@ -60,7 +60,6 @@ struct microtin_pack {
   microtin::PackStage stage;
   volatile bool has_header;
   uint8_t slot_count;
-  uint8_t slot;  // being filled
   // All of a course up to the tile `passed` has been tried, and this was bad: there was no room to
   // remember.
   bool has_passed;
@@ -88,6 +87,7 @@ struct microtin_pack {
 
   microtin_mesh* work;  // where tiles are decoded that will be compact; null: in their slots
   microtin::PackSlot* slots;
+  microtin::PackSlot* slot;  // being filled
   uint8_t* decoder_space;
   size_t decoder_bytes;
   size_t slot_bytes;
@@ -112,21 +112,6 @@ MICROTIN_ONE_COPY inline uint32_t slot_of(const microtin_pack& p, uint32_t tile)
   }
   return p.slot_count;
 }
-
-// Lays out a pack with so many bytes in front of the slots, and for each. Of the arguments that
-// users give, the status tells.
-microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
-                             uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack);
-
-// Empties a slot for the tile in hand. Null if all are wanted by the course in hand.
-PackSlot* take_slot(microtin_pack& p);
-
-// Ends with the tile in hand: it is in the slot taken, or to be remembered as bad. DONE.
-microtin_status finish_tile(microtin_pack& p, PackSlot& slot, bool has_terrain);
-microtin_status refuse_tile(microtin_pack& p, microtin_status why);
-
-// Gives up what is in hand, and returns the status.
-microtin_status fail_pack(microtin_pack& p, microtin_status status);
 
 // Where it is remembered that a tile is bad; MICROTIN_PACK_BAD_TILES if it is not.
 MICROTIN_ONE_COPY inline uint32_t bad_tile(const microtin_pack& p, uint32_t tile) {

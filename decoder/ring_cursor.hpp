@@ -78,17 +78,22 @@ class RingCursor {
     const bool rises = to_ < from_;  // there
     const uint32_t a = rises ? to_ : from_, c = rises ? from_ : to_;
     bool is_high = true;  // c is the middle, else a
+    uint32_t low = 0;     // then
     if (rises == (side() != 0)) {
-      is_high = told(looks_, a) != c;
+      const uint32_t seen = look(looks_, a);
+      is_high = (seen & kRingNumber) != c;
+      if (!is_high) low = (seen & kRingPair) != 0 ? low_of_full(looks_, a) : a - 1;
     } else if (a + 1 == c) {
       change_sides();
       is_high = !has_left_child(look(looks_, c), c);
+      const uint32_t seen = look(looks_, a);
+      low = (seen & kRingPair) != 0 ? a - 1 : seen & kRingNumber;
     } else {
       apex_ = middle_ = below(looks_, a, c);
       return;
     }
     middle_ = is_high ? c : a;
-    apex_ = is_high ? high_of(looks_, c) : low_of(looks_, a);
+    apex_ = is_high ? high_of(looks_, c) : low;
   }
   void cross_around(bool forward) {
     (forward ? from_ : to_) = 0;
@@ -140,15 +145,11 @@ class RingCursor {
   MICROTIN_IN_PLACE bool is_flagged() const { return look(looks_, middle_) >= kRingFlag; }
   // Of a marked triangle, which has infinity for a corner only if the other two are the same.
   bool is_same(uint32_t i, uint32_t k) const { return place(i) == place(k); }
-  // ... if one of its ends is infinity. The path is closed: from the last position it goes to 0.
+  // ... if one of its ends is infinity. The path is closed: from the last position it goes to 0,
+  // and that edge is above all triangles of either side, so seen from the other the way leads down.
   void enter_beside_infinity() {
-    const uint32_t last = ring_->positions - 1;
-    if (from_ + to_ != last) {
-      enter();
-    } else {  // below that edge
-      change_sides();
-      apex_ = middle_ = below(looks_, 0, last);
-    }
+    if (from_ + to_ == ring_->positions - 1) change_sides();
+    enter();
   }
 
   const Ring* ring_;

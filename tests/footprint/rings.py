@@ -15,6 +15,7 @@ KINDS = {
     "five rows, askew": lambda i, r: (9 * (i // 5) + 4 * (i % 2), 8 * (i % 5) + r.randrange(2)),
     "circle": lambda i, r: at(2 * math.pi * i / COUNT, 20000),
     "rim and hub": lambda i, r: (20000, 20000) if i == 0 else at(2 * math.pi * i / COUNT + 0.001 * r.random(), 20000),
+    "rim and hub aside": lambda i, r: aside(r) if i == 0 else at(2 * math.pi * i / COUNT + 0.001 * r.random(), 20000),
     "fan": lambda i, r: (0, 0) if i == 0 else (20000 + r.randrange(3), 150 * i),
     "line and a point": lambda i, r: (300, 999) if i == 0 else (10 * i, 5),
     "spiral": lambda i, r: at(0.3 * i, 40 * i + r.randrange(9)),
@@ -25,6 +26,10 @@ KINDS = {
 
 def at(angle, radius):
     return 20000 + round(radius * math.cos(angle)), 20000 + round(radius * math.sin(angle))
+
+
+def aside(r):
+    return (r.randrange(6500, 19500),) * 2
 
 
 def spoke(i, spokes):

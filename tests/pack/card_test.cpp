@@ -14,6 +14,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/files/input_file.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/forged_pack.hpp"
 #include "tests/support/pack_device.hpp"
 #include "tests/support/packs.hpp"
 
@@ -237,6 +238,25 @@ TEST_CASE(
   CHECK(device.service(card, at(30, 5)) == MICROTIN_DONE);
   microtin_pack_retry(device.pack);
   CHECK(device.service(card, at(17, 5)) == MICROTIN_DONE);
+}
+
+TEST_CASE_TEMPLATE("pack: tiles without terrain, of entries that are kept, end no service", Device,
+                   MeshSlots, CompactSlots) {
+  const ForgedTile flat = forged_tile({{{0, 0, 7}, {2, 0, 7}, {0, 2, 7}, {2, 2, 7}}, {}}), none;
+  Card card{forged_pack({12, 2, 2, 2}, {flat, none, none, none, none, flat})};
+  const microtin_course all = {0, 300, 12 * 256, 300};
+  for (const uint32_t steps : {0u, 1000u}) {
+    const Device device(6);
+    CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_DONE);
+    microtin_status status = MICROTIN_NEED_INPUT;
+    while (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
+      status = device.service(card, all, steps);
+    }
+    CHECK(status == MICROTIN_DONE);
+    int32_t height = 0;
+    CHECK(device.height_at(11 * 256, 300, height) == MICROTIN_HEIGHT);
+    CHECK(device.height_at(7 * 256, 300, height) == MICROTIN_IN_VOID);
+  }
 }
 
 TEST_CASE("pack: only powers of two align reads, and all of them do") {

@@ -24,7 +24,8 @@ typedef struct microtin_course {
  * every place of it, those between lattice places too, has a height by microtin_height_at. OUTSIDE,
  * IN_VOID: a part of it, be it a point, is outside the hull, or else void; *height is that of the
  * rest, INT32_MIN if there is none, or if an end is outside 0 .. 65535 * 256. Also NOT_DECODED,
- * NOT_VERIFIED. Looks at every triangle. */
+ * NOT_VERIFIED. Looks at every triangle, in one call: of a large terrain who may not stay long
+ * keeps tiles of it, as a pack does, of which only those on the course are looked at. */
 microtin_answer microtin_highest(const microtin_mesh* mesh, const microtin_course* course,
                                  int32_t* height);
 

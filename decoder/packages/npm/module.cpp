@@ -64,14 +64,15 @@ uint32_t pack_bytes(uint32_t slots, uint32_t capacity) {
 // The mesh of a tile that is there, or that is just being read; null if it is neither, or has no
 // terrain.
 const microtin_mesh* tile_mesh(const microtin_pack* pack, uint32_t tile) {
-  uint32_t slot = slot_of(*pack, tile);
-  if (slot == pack->slot_count) {
+  const uint32_t ready = slot_of(*pack, tile);
+  const PackSlot* slot = pack->slots + ready;
+  if (ready == pack->slot_count) {
     if (pack->stage != PackStage::kStream || pack->tile != tile) return nullptr;
     slot = pack->slot;
-  } else if (!pack->slots[slot].has_terrain) {
+  } else if (!slot->has_terrain) {
     return nullptr;
   }
-  return static_cast<const microtin_mesh*>(pack->slots[slot].space);
+  return static_cast<const microtin_mesh*>(slot->space);
 }
 
 // Where the stream that is being read ends; 0 if none is.

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Serving packs: what both kinds of slots share.
+#ifndef MICROTIN_DECODER_PACK_SERVICE_HPP
+#define MICROTIN_DECODER_PACK_SERVICE_HPP
+
+#include "decoder/pack_state.hpp"
+
+namespace microtin {
+
+// Lays out a pack with so many bytes in front of the slots, and for each. Of the arguments that
+// users give, the status tells.
+microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
+                             uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack);
+
+// Goes on with a course, up to where its next tile is to be decoded or made compact, which the
+// stage tells: then STEP_LIMIT.
+microtin_status go_on(microtin_pack& p, const microtin_course& course);
+
+// Chooses a slot for the tile in hand. False if all are wanted by the course in hand.
+bool choose_slot(microtin_pack& p);
+
+// Queries do not look at an empty slot, so the order of these writes matters to those that
+// interrupt.
+inline void set_state(PackSlot& slot, SlotState state) {
+  __atomic_signal_fence(__ATOMIC_SEQ_CST);
+  slot.state = state;
+  __atomic_signal_fence(__ATOMIC_SEQ_CST);
+}
+
+// Ends with the tile in hand: it is in the slot, or to be remembered as bad. DONE.
+microtin_status finish_tile(microtin_pack& p, bool has_terrain);
+microtin_status refuse_tile(microtin_pack& p, microtin_status why);
+
+// Gives up what is in hand, and returns the status.
+microtin_status fail_pack(microtin_pack& p, microtin_status status);
+
+// What follows from what the decoder said, but for STEP_LIMIT. DONE: the tile is ready, or refused;
+// STEP_LIMIT: it is to be made compact.
+microtin_status hear_decoder(microtin_pack& p, microtin_status status);
+
+// Decodes what is in the buffer: in place, so that only the caller's frame lies above the
+// decoder's.
+MICROTIN_IN_PLACE inline microtin_status decode(microtin_pack& p, uint32_t step_limit) {
+  size_t used = 0;
+  const microtin_status status = microtin_feed(
+      p.decoder, p.buffer + p.fed, static_cast<size_t>(p.buffered - p.fed), step_limit, &used);
+  p.fed = static_cast<uint8_t>(p.fed + used);
+  return status == MICROTIN_STEP_LIMIT ? status : hear_decoder(p, status);
+}
+
+}  // namespace microtin
+
+#endif
