@@ -157,7 +157,7 @@ Tin finished(Surface& surface, Decimation& decimation, const Tin& before,
   const double dearer = static_cast<double>(found.bytes) * (1 + kBalanceCost);
   const std::size_t most = std::min(allowed, static_cast<std::size_t>(dearer));
   balance(surface, heights, most, found, options);
-  centre(surface, decimation, most, found, options);
+  if (options.centred) centre(surface, decimation, most, found, options);
   return std::move(found.tin);
 }
 
