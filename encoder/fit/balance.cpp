@@ -13,6 +13,7 @@ constexpr double kFirstWeight = 4;
 
 // Means that are near enough to zero, in radii.
 constexpr double kTolerance = 0.01, kFlatTolerance = 0.07;
+constexpr double kCentred = 0.02;  // that of all posts, without moving vertices
 
 constexpr std::size_t kLargeParts = 32;  // flat parts with that part of all posts
 constexpr double kOneSided = 0.25;       // middles so far above the source, in radii
@@ -157,6 +158,10 @@ double Balance::price(Index v, int32_t steps) const {
 
 void Balance::move(Index v, int32_t steps) {
   for (const Share& share : shares_[v]) parts_[share.part].sum += share.weight * steps;
+}
+
+bool Balance::is_centred() const {
+  return std::abs(mean()) <= kCentred * radius_;
 }
 
 bool Balance::is_kept() const {

@@ -24,6 +24,10 @@ class Balance {
   double price(Index v, int32_t steps) const;
   void move(Index v, int32_t steps);
 
+  // Of all posts' errors, in steps, and whether that is near enough to zero as it is.
+  double mean() const { return parts_.empty() ? 0 : parts_[0].sum / parts_[0].posts; }
+  bool is_centred() const;
+
   // Whether every mean is near zero, and if not, how much that is worth.
   bool is_kept() const;
   void weigh_more() { weight_ *= 2; }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 namespace microtin::fit {
@@ -115,10 +114,12 @@ std::vector<Index> Decimation::ring(Index v) const {
 // Moves vertices up and down until all around is within bounds, and says whether it is.
 bool Decimation::fit(const std::vector<Index>& vertices, const std::vector<Index>& fresh) {
   if (!fit_.fit(vertices, fresh)) return false;
+  raised_ -= surface_.volume(fit_.triangles());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (fit_.shift(i) == 0) continue;
     if (!edits_.set_height(vertices[i], surface_.height(vertices[i]) + fit_.shift(i))) return false;
   }
+  raised_ += surface_.volume(fit_.triangles());
   if (!std::all_of(fit_.triangles().begin(), fit_.triangles().end(),
                    [this](Index t) { return surface_.keeps_bounds(t); })) {
     return false;
@@ -127,12 +128,21 @@ bool Decimation::fit(const std::vector<Index>& vertices, const std::vector<Index
   return true;
 }
 
+// Nothing, and nothing has changed, if the vertex has too many neighbours.
+std::optional<Decimation::Hole> Decimation::remove(Index v) {
+  Hole hole{ring(v), {}, -surface_.volume_around(v)};
+  if (!edits_.remove(v)) return std::nullopt;
+  hole.triangles = surface_.new_triangles();
+  hole.raised += surface_.volume(hole.triangles);
+  raised_ = hole.raised;
+  return hole;
+}
+
 bool Decimation::try_removal(Index v) {
   const std::size_t before = edits_.size();
-  const std::vector<Index> neighbours = ring(v);
-  if (!edits_.remove(v)) return false;
-  const std::vector<Index> fresh = surface_.new_triangles();
-  if (fit(neighbours, fresh)) return true;
+  const std::optional<Hole> hole = remove(v);
+  if (!hole) return false;
+  if (fit(hole->ring, hole->triangles)) return true;
   edits_.roll_back(before);
   return false;
 }
@@ -140,16 +150,15 @@ bool Decimation::try_removal(Index v) {
 // Moves a vertex where the bound is missed without it. Says whether there is a vertex less.
 bool Decimation::try_move(Index v) {
   const Vertex old = surface_.vertex(v);
-  Hole hole{ring(v), {}};
-  if (!edits_.remove(v)) return false;
-  hole.triangles = surface_.new_triangles();
-  if (fit(hole.ring, hole.triangles)) return true;
+  const std::optional<Hole> hole = remove(v);
+  if (!hole) return false;
+  if (fit(hole->ring, hole->triangles)) return true;
   const Sample& worst = surface_.survey().samples[fit_.worst_sample(random_below(kRanks))];
   edits_.roll_back(1);
-  if (try_cheaper_posts(old, hole)) return false;
+  if (try_cheaper_posts(old, *hole)) return false;
   const Point to{cheap(worst.place.x), cheap(worst.place.y)};
   const std::optional<std::size_t> post = surface_.posts().find(to);
-  if (!post || to == Point{old.x, old.y} || !insert(to, nearest_height(*post), hole)) {
+  if (!post || to == Point{old.x, old.y} || !insert({to.x, to.y, nearest_height(*post)}, *hole)) {
     edits_.roll_back(0);
     return false;
   }
@@ -173,31 +182,84 @@ int16_t Decimation::nearest_height(std::size_t post) const {
 // Moves a vertex that was removed to a place beside its own that costs less, as far above the
 // source. Says whether there is one.
 bool Decimation::try_cheaper_posts(Vertex old, const Hole& hole) {
-  const std::optional<std::size_t> from = surface_.posts().find({old.x, old.y});
   for (const bool right : {false, true}) {
     for (const bool up : {false, true}) {
       const bool odd_x = old.x % 2 != 0, odd_y = old.y % 2 != 0;
       if ((!odd_x && right) || (!odd_y && up) || (!odd_x && !odd_y)) continue;
-      const Point to{odd_x ? neighbour_of(old.x, right) : old.x,
-                     odd_y ? neighbour_of(old.y, up) : old.y};
-      const std::optional<std::size_t> post = surface_.posts().find(to);
-      if (!post) continue;
-      const double z = old.z + surface_.middles()[*post] - surface_.middles()[*from];
-      if (insert(to, static_cast<int16_t>(std::lround(std::clamp(z, -32768.0, 32767.0))), hole)) {
-        return true;
-      }
+      const std::optional<Vertex> to = carried(old, odd_x ? neighbour_of(old.x, right) : old.x,
+                                               odd_y ? neighbour_of(old.y, up) : old.y);
+      if (to && insert(*to, hole)) return true;
     }
   }
   return false;
 }
 
+// A vertex at another post, as far above the source; nothing if there is no post.
+std::optional<Vertex> Decimation::carried(Vertex old, int x, int y) const {
+  if (std::min(x, y) < 0 || std::max(x, y) > kLatticeMax) return std::nullopt;
+  const Point to{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
+  const PostIndex& posts = surface_.posts();
+  const std::optional<std::size_t> from = posts.find({old.x, old.y}), post = posts.find(to);
+  if (!post) return std::nullopt;
+  const double z = old.z + surface_.middles()[*post] - surface_.middles()[*from];
+  const long height = std::lround(std::clamp(z, -32768.0, 32767.0));
+  return Vertex{to.x, to.y, static_cast<int16_t>(height)};
+}
+
+void Decimation::centre(double mean, int near, const Progress& progress) {
+  rise_ = std::llround(-3 * mean * static_cast<double>(surface_.covered_area()));
+  const int32_t direction = rise_ < 0 ? -1 : 1;
+  fit_.prefer(direction);
+  forget();
+  try_each(progress, [&](Index v) { return direction * rise_ > 0 && try_towards_centre(v, near); });
+  fit_.prefer(0);
+  forget();
+}
+
+// Says whether there is a vertex less.
+bool Decimation::try_towards_centre(Index v, int near) {
+  const Vertex old = surface_.vertex(v);
+  const std::optional<Hole> hole = remove(v);
+  if (!hole) return false;
+  const bool removed = fit(hole->ring, hole->triangles) && gain() >= 0;
+  if (!removed) {
+    edits_.roll_back(1);
+    const std::optional<Vertex> best = best_near(old, near, *hole);
+    if (!best || !insert(*best, *hole)) {
+      edits_.roll_back(0);
+      return false;
+    }
+  }
+  rise_ -= raised_;
+  return removed;
+}
+
+// The vertex at that post, its own among them, which helps the mean error most, if any does.
+std::optional<Vertex> Decimation::best_near(Vertex old, int near, const Hole& hole) {
+  std::optional<Vertex> best;
+  int64_t most = 0;
+  for (int x = old.x - near; x <= old.x + near; ++x) {
+    const int rest = near - std::abs(x - old.x);
+    for (int y = old.y - rest; y <= old.y + rest; ++y) {
+      const std::optional<Vertex> to = carried(old, x, y);
+      if (!to || to->x % 2 + to->y % 2 > old.x % 2 + old.y % 2 || !insert(*to, hole)) continue;
+      if (gain() > most) best = to;
+      most = std::max(most, gain());
+      edits_.roll_back(1);
+    }
+  }
+  return best;
+}
+
 // Puts a vertex in the hole that another left, and says whether the bounds are kept then; nothing
 // has changed if not.
-bool Decimation::insert(Point place, int16_t height, const Hole& hole) {
+bool Decimation::insert(Vertex vertex, const Hole& hole) {
   const Index hint = surface_.edge_of(hole.ring[0]);
   const std::size_t before = edits_.size();
-  if (!surface_.can_insert(place, hint)) return false;
-  moved_ = edits_.insert({place.x, place.y, height}, hint);
+  if (!surface_.can_insert({vertex.x, vertex.y}, hint)) return false;
+  raised_ = hole.raised - surface_.volume(surface_.new_triangles());  // those that are replaced
+  moved_ = edits_.insert(vertex, hint);
+  raised_ += surface_.volume_around(moved_);
   Hole filled = hole;
   const std::vector<Index>& made = surface_.new_triangles();
   filled.triangles.insert(filled.triangles.end(), made.begin(), made.end());

@@ -4,6 +4,7 @@
 #define MICROTIN_ENCODER_FIT_DECIMATION_HPP
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "encoder/base/progress.hpp"
@@ -30,6 +31,11 @@ class Decimation {
   // `done`: how much of the search is over, 0 .. 1.
   std::size_t remove_and_move_vertices(double done, const Progress& progress);
 
+  // Brings the mean error, so many steps, nearer zero: removes vertices, or moves them to posts
+  // whose places cost no more and which are at most so near, along x and y together. Of the posts
+  // it takes that which helps most. Tries every vertex once, until the mean is there.
+  void centre(double mean, int near, const Progress& progress);
+
   // Lets every vertex be tried again.
   void forget() { stale_.assign(stale_.size(), false); }
 
@@ -37,6 +43,7 @@ class Decimation {
   // Where a vertex was removed: its neighbours, and the triangles between them.
   struct Hole {
     std::vector<Index> ring, triangles;
+    int64_t raised;  // what the surface's volume became larger by
   };
 
   std::vector<Index> order_of_attempts();
@@ -44,13 +51,18 @@ class Decimation {
   std::size_t try_each(const Progress& progress, const Try& attempt);
   bool try_removal(Index v);
   bool try_move(Index v);
+  bool try_towards_centre(Index v, int near);
+  std::optional<Vertex> best_near(Vertex old, int near, const Hole& hole);
+  int64_t gain() const { return rise_ < 0 ? -raised_ : raised_; }
   bool try_cheaper_posts(Vertex old, const Hole& hole);
-  bool insert(Point place, int16_t height, const Hole& hole);
+  bool insert(Vertex vertex, const Hole& hole);
+  std::optional<Vertex> carried(Vertex old, int x, int y) const;
   uint16_t cheap(uint16_t coordinate);
   int16_t nearest_height(std::size_t post) const;
   double even_part() const;
   bool fit(const std::vector<Index>& vertices, const std::vector<Index>& fresh);
   std::vector<Index> ring(Index v) const;
+  std::optional<Hole> remove(Index v);
   void note_changes();
   std::size_t random_below(std::size_t limit);
 
@@ -58,6 +70,8 @@ class Decimation {
   Edits edits_;
   HeightFit fit_;
   std::vector<Index> fitted_;  // by the attempt in hand
+  int64_t raised_ = 0;         // by it: what the volume became larger by
+  int64_t rise_ = 0;           // of the volume, which brings the mean error to zero
   std::vector<bool> stale_;    // by vertex: nothing has changed there since it was tried
   Index moved_ = 0;            // inserted last
   double cheapness_ = 0;       // how likely an odd coordinate is replaced by an even one

@@ -32,6 +32,8 @@ class HeightChoice {
 
   // Whether means are near zero.
   bool is_balanced() const { return balance_.is_kept(); }
+  bool is_centred() const { return balance_.is_centred(); }
+  double mean_error() const { return balance_.mean(); }
 
  private:
   // Numbers of vertices here are places in the order of sending.

@@ -67,10 +67,11 @@ bool HeightFit::fit(const std::vector<Index>& vertices, const std::vector<Index>
   return fits;
 }
 
-// Brings heights nearer to the source, one step each, where no excess comes of it.
+// Brings heights nearer to the source, or where they are preferred, one step each, where no excess
+// comes of it.
 void HeightFit::settle() {
   for (std::size_t m = 0; m < mover_count_; ++m) {
-    const int32_t shift = step_to_source(movers_[m]);
+    const int32_t shift = preferred_ != 0 ? preferred_ : step_to_source(movers_[m]);
     const auto stays = [&](const std::pair<uint32_t, uint32_t>& at) {
       const Face& face = faces_[at.first];
       return excess_of(face, at.second, static_cast<float>(shift))[1] <= face.excess;

@@ -26,6 +26,10 @@ class HeightFit {
   // may be out of bounds: what no heights mend there alone is given up soon.
   bool fit(const std::vector<Index>& vertices, const std::vector<Index>& fresh);
 
+  // Heights that are free then to go one step nearer to the source go up or down instead (1, -1; 0:
+  // no longer).
+  void prefer(int32_t direction) { preferred_ = direction; }
+
   // What the last call found: the change of a height, by place in `vertices`, ...
   int32_t shift(std::size_t vertex) const { return movers_[vertex].shift; }
 
@@ -71,6 +75,7 @@ class HeightFit {
   std::vector<uint32_t> met_;    // by triangle of the surface: the last call that met it
   uint32_t call_ = 0;
   int32_t stride_ = 1;
+  int32_t preferred_ = 0;
 
   std::vector<Index> triangles_;
   std::vector<Face> faces_;  // of these

@@ -3,6 +3,7 @@
 #include "encoder/fit/simplify.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <numeric>
@@ -85,33 +86,88 @@ void remove_and_move(Decimation& decimation, uint32_t rounds, const Progress& pr
   }
 }
 
-// What means near zero may cost, and how often that is tried.
+// What means near zero may cost, and how often that is tried, by heights and by moves.
 constexpr double kBalanceCost = 0.005;
-constexpr int kBalancePasses = 8;
+constexpr int kBalancePasses = 8, kCentringRounds = 6;
+
+// How far a vertex goes for that, at first and at most: its place is even as before then.
+constexpr int kNear = 2, kFar = 6;
+
+std::size_t bytes_of(const Tin& tin, const SimplifyOptions& options) {
+  return encode(tin, {}, options.effort).size();
+}
+
+// A surface with heights that were chosen, and its mean error, in steps.
+struct Fitted {
+  Tin tin;
+  std::size_t bytes;
+  double mean;
+  bool is_centred;
+};
+
+Fitted fitted(const Surface& surface, const HeightChoice& heights, const SimplifyOptions& options) {
+  Tin tin = surface.tin();
+  const std::size_t bytes = bytes_of(tin, options);
+  return {std::move(tin), bytes, heights.mean_error(), heights.is_centred()};
+}
+
+Fitted with_cheap_heights(const Surface& surface, HeightChoice& heights,
+                          const SimplifyOptions& options) {
+  const int passes = options.search == Search::kTrial ? kTrialPasses : kHeightPasses;
+  for (int i = 0; i < passes; ++i) heights.pass();
+  return fitted(surface, heights, options);
+}
+
+// Means nearer zero by heights alone, for at most so many bytes.
+void balance(const Surface& surface, HeightChoice& heights, std::size_t most, Fitted& found,
+             const SimplifyOptions& options) {
+  for (int i = 0; i < kBalancePasses && !heights.is_balanced(); ++i) {
+    heights.balance();
+    Fitted balanced = fitted(surface, heights, options);
+    if (balanced.bytes > most) return;
+    found = std::move(balanced);
+  }
+}
+
+// The mean of all nearer zero by moves and removals, farther and farther, where heights alone did
+// not bring it there: most vertices have one allowed height.
+void centre(Surface& surface, Decimation& decimation, std::size_t most, Fitted& found,
+            const SimplifyOptions& options) {
+  for (int i = 0; i < kCentringRounds && !found.is_centred; ++i) {
+    const Progress part = options.progress.part(static_cast<double>(i) / kCentringRounds,
+                                                static_cast<double>(i + 1) / kCentringRounds);
+    decimation.centre(found.mean, std::min(kNear * (i + 1), kFar), part);
+    HeightChoice heights(surface, options.effort.degree);
+    Fitted next = with_cheap_heights(surface, heights, options);
+    balance(surface, heights, most, next, options);
+    if (next.bytes > most || std::abs(next.mean) >= std::abs(found.mean)) return;
+    found = std::move(next);
+  }
+}
 
 // The surface with cheaper heights and means near zero, or the one before if that was cheaper
 // nevertheless.
-Tin with_heights(Surface& surface, const Tin& before, const SimplifyOptions& options) {
-  const auto bytes = [&](const Tin& t) { return encode(t, {}, options.effort).size(); };
+Tin finished(Surface& surface, Decimation& decimation, const Tin& before,
+             const SimplifyOptions& options) {
   HeightChoice heights(surface, options.effort.degree);
-  const bool is_trial = options.search == Search::kTrial;
-  for (int i = 0; i < (is_trial ? kTrialPasses : kHeightPasses); ++i) heights.pass();
-  Tin improved = surface.tin();
-  const std::size_t most = bytes(before), fewest = bytes(improved);
-  if (fewest > most) return before;
-  if (is_trial) return improved;
-  const auto allowed = static_cast<std::size_t>(static_cast<double>(fewest) * (1 + kBalanceCost));
-  for (int i = 0; i < kBalancePasses && !heights.is_balanced(); ++i) {
-    heights.balance();
-    Tin balanced = surface.tin();
-    if (bytes(balanced) > std::min(allowed, most)) break;
-    improved = std::move(balanced);
-  }
-  return improved;
+  Fitted found = with_cheap_heights(surface, heights, options);
+  const std::size_t allowed = bytes_of(before, options);
+  if (found.bytes > allowed) return before;
+  if (options.search == Search::kTrial) return std::move(found.tin);
+  const double dearer = static_cast<double>(found.bytes) * (1 + kBalanceCost);
+  const std::size_t most = std::min(allowed, static_cast<std::size_t>(dearer));
+  balance(surface, heights, most, found, options);
+  if (options.centred) centre(surface, decimation, most, found, options);
+  return std::move(found.tin);
 }
 
-// Of the time: the first attempt to remove all.
-constexpr double kRemovalPart = 0.1;
+// Of the time: the first attempt to remove all, and until means come last.
+constexpr double kRemovalPart = 0.1, kSearchPart = 0.8;
+
+SimplifyOptions after_search(SimplifyOptions options) {
+  options.progress = options.progress.part(kSearchPart, 1);
+  return options;
+}
 
 }  // namespace
 
@@ -134,8 +190,9 @@ Tin simplify(const Survey& survey, const SimplifyOptions& options) {
   Surface surface(survey, ErrorModel{true}, posts, refined);
   Decimation decimation(surface);
   decimation.remove_vertices(options.progress.part(0, kRemovalPart));
-  remove_and_move(decimation, rounds_of(options.search), options.progress.part(kRemovalPart, 1));
-  return with_heights(surface, refined, options);
+  remove_and_move(decimation, rounds_of(options.search),
+                  options.progress.part(kRemovalPart, kSearchPart));
+  return finished(surface, decimation, refined, after_search(options));
 }
 
 Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
@@ -143,8 +200,8 @@ Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
   const PostIndex posts(places_of(survey.samples));
   Surface surface(survey, ErrorModel{true}, posts, tin);
   Decimation decimation(surface);
-  remove_and_move(decimation, rounds, options.progress);
-  return with_heights(surface, tin, options);
+  remove_and_move(decimation, rounds, options.progress.part(0, kSearchPart));
+  return finished(surface, decimation, tin, after_search(options));
 }
 
 }  // namespace microtin::fit

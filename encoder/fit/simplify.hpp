@@ -26,6 +26,7 @@ struct SimplifyOptions {
   uint32_t max_vertices = 0;  // if not 0: no more than that, except where hull and voids need them
   Search search = Search::kNormal;
   bool few_vertices = false;  // rather than few bytes
+  bool centred = true;        // vertices move for the sake of the mean error, too
   Effort effort;              // with which the result will be encoded
   Progress progress;          // of the search
 };

@@ -195,6 +195,35 @@ bool Surface::can_insert(Point p, Index hint) {
          std::none_of(replaced.begin(), replaced.end(), [this](Index t) { return void_[t]; });
 }
 
+// Below 2^33 (area, of which all together have no more) times 2^17.
+int64_t Surface::volume(Index triangle) const {
+  if (!is_covered(triangle)) return 0;
+  const Index* const corner = mesh().origin + first_edge(triangle);
+  const int64_t heights = int64_t{heights_[corner[0]]} + heights_[corner[1]] + heights_[corner[2]];
+  return orient2d(place(corner[0]), place(corner[1]), place(corner[2])) * heights;
+}
+
+int64_t Surface::volume(const std::vector<Index>& triangles) const {
+  int64_t sum = 0;
+  for (const Index t : triangles) sum += volume(t);
+  return sum;
+}
+
+int64_t Surface::volume_around(Index v) const {
+  int64_t sum = 0;
+  visit_around(v, [&](Index h) { sum += volume(triangle_of(h)); });
+  return sum;
+}
+
+int64_t Surface::covered_area() const {
+  int64_t sum = 0;
+  visit_covered([&](Index t) {
+    const Index* const corner = mesh().origin + first_edge(t);
+    sum += orient2d(place(corner[0]), place(corner[1]), place(corner[2]));
+  });
+  return sum;
+}
+
 Tin Surface::tin() const {
   Tin tin;
   for (Index v = 0; v < vertex_limit(); ++v) {

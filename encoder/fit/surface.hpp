@@ -73,7 +73,7 @@ class Surface {
   // Adds a vertex near a half-edge, where can_insert says so.
   Index insert(Vertex vertex, Index hint);
 
-  // The triangles that the last change made.
+  // The triangles that the last change made, or after can_insert those that would be replaced.
   const std::vector<Index>& new_triangles() const { return triangulation_.new_triangles(); }
 
   // Whether there is no vertex yet, and an insertion would replace no void triangle and could be
@@ -104,9 +104,16 @@ class Surface {
     }
   }
 
+  // Six times the volume between covered triangles and height 0, and the area that is covered,
+  // twice: the mean height is a third of the one by the other.
+  int64_t volume(const std::vector<Index>& triangles) const;
+  int64_t volume_around(Index v) const;
+  int64_t covered_area() const;
+
   Tin tin() const;
 
  private:
+  int64_t volume(Index triangle) const;
   void find_voids();
   void find_corners();
   void find_fixed_samples();

@@ -153,9 +153,16 @@ class Budget {
     return exact;
   }
 
+  // Moves for the mean error would take more time than there is.
+  SimplifyOptions simplify_for(double cost) {
+    SimplifyOptions simplify = simplify_options(options_, spending(cost));
+    simplify.centred = false;
+    return simplify;
+  }
+
   std::optional<Approximation> approximate_at(Decimal bound, Search effort, double cost) {
     options_.lattice.max_error = bound;
-    SimplifyOptions simplify = simplify_options(options_, spending(cost));
+    SimplifyOptions simplify = simplify_for(cost);
     simplify.search = effort;
     simplify.few_vertices = of_vertices_;
     try {
@@ -205,7 +212,7 @@ class Budget {
       if (bound <= least) bound = least;
       lattice.max_error = bound;
       Approximation wide{lay_out_at_step(tight.laid.z_step), tight.tin};
-      search_further(wide, rounds, simplify_options(options_, spending(costs_.widening)));
+      search_further(wide, rounds, simplify_for(costs_.widening));
       size = keep(measured(source_, options_, std::move(wide)));
       if (fits(size) && (bound <= least || size >= kUsed * limit_)) return;
       search.add(bound, size);
