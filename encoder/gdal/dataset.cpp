@@ -155,6 +155,7 @@ std::string valid_text(const std::string& text) {
 int identify(GDALOpenInfo* info) {
   if (info->nHeaderBytes < 8) return FALSE;
   const uint8_t* const bytes = info->pabyHeader;
+  if (std::memcmp(bytes, "mtsh", 4) == 0) return TRUE;  // a shard, to be told what it is
   const uint8_t* note = nullptr;
   uint32_t size = 0;
   return microtin_find_note(bytes, static_cast<size_t>(info->nHeaderBytes), 0, &note, &size) !=
