@@ -150,6 +150,12 @@ std::string valid_text(const std::string& text) {
   return ascii.get();
 }
 
+std::string name_of_system(const Facts& facts) {
+  if (facts.horizontal_epsg == 0) return "a text";
+  const std::string name = "EPSG " + std::to_string(facts.horizontal_epsg);
+  return facts.vertical_epsg != 0 ? name + ':' + std::to_string(facts.vertical_epsg) : name;
+}
+
 }  // namespace
 
 int identify(GDALOpenInfo* info) {
@@ -228,7 +234,9 @@ void Dataset::read_system() {
     }
   }
   if (error != OGRERR_NONE) {
-    CPLError(CE_Warning, CPLE_AppDefined, "MTIN: the coordinate system is not understood");
+    CPLError(CE_Warning, CPLE_AppDefined,
+             "MTIN: the coordinate system, %s, is not understood: assign one with -a_srs",
+             name_of_system(facts).c_str());
   }
   system_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
 }
