@@ -46,6 +46,10 @@ std::string units(const EncodeRequest& request, const Reference& file) {
   std::string text = "units: x and y " + std::string(name_of(reference.horizontal_unit)) + ", z " +
                      std::string(name_of(reference.vertical_unit)) + '\n';
   for (const std::string& remark : remarks) text += "warning: " + remark + '\n';
+  const bool is_grid = std::filesystem::path(request.input).extension() == ".asc";
+  if (reference.horizontal_unit == Unit::kUnknown && is_grid) {
+    text += "warning: a .prj beside " + request.input + " would say it\n";
+  }
   return text;
 }
 
@@ -195,10 +199,24 @@ void announce_memory(const EncodeRequest& request) {
   std::fputs(warning(request.input + ": " + text).c_str(), stderr);
 }
 
+// A name that says something else would have other programs read what is none of theirs. Shards are
+// named at will.
+void expect_own_suffix(const EncodeRequest& request) {
+  const std::string suffix = std::filesystem::path(request.output).extension().string();
+  const bool is_own = suffix.empty() || request.tiles || suffix == ".mtp" ||
+                      (suffix == ".mtin" && !makes_pack(request));
+  if (is_own) return;
+  throw Error(request.output + (makes_pack(request) ? ": a pack is named .mtp"
+                                                    : ": a stream is named .mtin, a pack .mtp; "
+                                                      "\"microtin decode\" and \"render\" write "
+                                                      "other files from them"));
+}
+
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
   refuse_overwriting(inputs_of(request), request.output);
+  expect_own_suffix(request);
   OutputFile out(request.output);  // fails early if it cannot be written
   announce_left_out(request);
   announce_memory(request);

@@ -51,7 +51,11 @@ void expect_kept(const Original::Judgement& judgement, const std::string& input)
   if (judgement.true_places && !judgement.true_places->within_bound) {
     throw Error(input + ": where the points truly lie, the largest error is above the bound");
   }
-  if (found.uncovered != 0) throw Error(input + ": heights of the source are not covered");
+  if (found.uncovered != 0) {
+    throw Error(input + ": " + std::to_string(found.uncovered) + " of " +
+                std::to_string(found.posts) + " heights of the source are not covered" +
+                (found.covered == 0 ? "; it lies elsewhere" : ""));
+  }
   if (found.voids_answered != 0) throw Error(input + ": voids of the source answer heights");
   if (judgement.water_moved != 0) throw Error(input + ": water of the source is not at its level");
 }
@@ -67,7 +71,10 @@ void run_verify(const VerifyRequest& request) {
   const Original original(document, request.source, request.preparation);
   ProgressBar bar;
   const Original::Judgement judgement = original.judge(bar.progress());
-  const JsonObject report = report_of(judgement, document.metadata(), original.cloud() != nullptr);
+  JsonObject report = report_of(judgement, document.metadata(), original.cloud() != nullptr);
+  if (original.raster() != nullptr && !original.raster()->selection.empty()) {
+    report.emplace_back("source", json(original.raster()->selection));
+  }
   const bool told = tell(text_of(report, request.json));
   expect_kept(judgement, input);
   if (!told) throw ReportLost(input + ": keeps its promises, but nobody reads the report");

@@ -33,8 +33,8 @@ void write_triangles(const SurfaceModel& model, const std::string& prefix, uint3
 void write_ply_header(const SurfaceModel& model, Coordinates coordinates, OutputFile& out) {
   const bool is_placed = coordinates == Coordinates::kReal && !model.system.empty();
   out.write("ply\nformat ascii 1.0\n" +
-            (is_placed ? "comment crs " + model.system + '\n' : std::string()) + "element vertex " +
-            std::to_string(model.vertices.size()) +
+            (is_placed ? "comment crs: " + model.system + '\n' : std::string()) +
+            "element vertex " + std::to_string(model.vertices.size()) +
             "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
             std::to_string(model.triangles.size()) +
             "\nproperty list uchar int vertex_indices\nend_header\n");

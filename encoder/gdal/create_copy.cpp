@@ -91,16 +91,12 @@ std::string wkt_of(const GDALDataset& source) {
   return wkt;
 }
 
-// Of heights: the option comes before what the band says.
+// Of heights: the option comes before what the band says, which the encoder refuses if it does not
+// know that unit.
 std::string units_of(GDALDataset& source, char** options) {
   if (const char* const given = CSLFetchNameValue(options, "UNITS")) return given;
   const std::string unit = source.GetRasterBand(1)->GetUnitType();
-  if (EQUAL(unit.c_str(), "m") || EQUAL(unit.c_str(), "metre") || EQUAL(unit.c_str(), "meter")) {
-    return ":metre";
-  }
-  if (EQUAL(unit.c_str(), "ft") || EQUAL(unit.c_str(), "foot")) return ":foot";
-  if (EQUAL(unit.c_str(), "us-ft") || EQUAL(unit.c_str(), "US survey foot")) return ":us-foot";
-  return "";
+  return unit.empty() ? unit : ':' + unit;
 }
 
 template <class AllOptions>
@@ -128,22 +124,26 @@ void write_bytes(const char* path, const std::vector<uint8_t>& bytes) {
   refuse(std::string(path) + ": cannot be written");
 }
 
-void encode(const char* path, GDALDataset& source, char** given,
-            const encoder::Callbacks& callbacks) {
+encoder::Report encode(const char* path, GDALDataset& source, char** given,
+                       const encoder::Callbacks& callbacks) {
+  if (!ends_with(path, ".mtin") && !ends_with(path, ".mtp")) {
+    refuse(std::string(path) + ": name a stream .mtin or a pack .mtp");
+  }
   Posts posts = posts_of(source);
   posts.wkt = wkt_of(source);
   const encoder::Terrain terrain(std::move(posts));
   if (!ends_with(path, ".mtp")) {
     const auto options = options_of<encoder::StreamOptions>(source, given);
-    write_bytes(path, encoder::encode_stream(terrain, options, callbacks).bytes);
-    return;
+    encoder::Stream stream = encoder::encode_stream(terrain, options, callbacks);
+    write_bytes(path, stream.bytes);
+    return std::move(stream.report);
   }
   if (STARTS_WITH(path, "/vsi")) refuse("packs are written to files alone, not to /vsi...");
   auto options = options_of<encoder::PackOptions>(source, given);
   const int most = atoi(CSLFetchNameValueDef(given, "TILE_VERTICES", "2000"));
   if (most < 16) refuse("TILE_VERTICES: 16 or more");
   options.tile_vertices = static_cast<uint32_t>(most);
-  encoder::encode_pack(terrain, options, path, callbacks);
+  return encoder::encode_pack(terrain, options, path, callbacks);
 }
 
 }  // namespace
@@ -156,7 +156,10 @@ GDALDataset* create_copy(const char* path, GDALDataset* source, int /*strict*/, 
   };
   return guarded(
       [&]() -> GDALDataset* {
-        encode(path, *source, options, callbacks);
+        const encoder::Report report = encode(path, *source, options, callbacks);
+        for (const std::string& remark : report.remarks) {
+          CPLError(CE_Warning, CPLE_AppDefined, "MTIN: %s: %s", path, remark.c_str());
+        }
         progress(1, "", context);
         GDALOpenInfo info(path, GDAL_OF_RASTER);
         return Dataset::open(&info);

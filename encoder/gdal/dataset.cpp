@@ -150,11 +150,18 @@ std::string valid_text(const std::string& text) {
   return ascii.get();
 }
 
+std::string name_of_system(const Facts& facts) {
+  if (facts.horizontal_epsg == 0) return "a text";
+  const std::string name = "EPSG " + std::to_string(facts.horizontal_epsg);
+  return facts.vertical_epsg != 0 ? name + ':' + std::to_string(facts.vertical_epsg) : name;
+}
+
 }  // namespace
 
 int identify(GDALOpenInfo* info) {
   if (info->nHeaderBytes < 8) return FALSE;
   const uint8_t* const bytes = info->pabyHeader;
+  if (std::memcmp(bytes, "mtsh", 4) == 0) return TRUE;  // a shard, to be told what it is
   const uint8_t* note = nullptr;
   uint32_t size = 0;
   return microtin_find_note(bytes, static_cast<size_t>(info->nHeaderBytes), 0, &note, &size) !=
@@ -227,7 +234,9 @@ void Dataset::read_system() {
     }
   }
   if (error != OGRERR_NONE) {
-    CPLError(CE_Warning, CPLE_AppDefined, "MTIN: the coordinate system is not understood");
+    CPLError(CE_Warning, CPLE_AppDefined,
+             "MTIN: the coordinate system, %s, is not understood: assign one with -a_srs",
+             name_of_system(facts).c_str());
   }
   system_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
 }

@@ -76,6 +76,15 @@ bool is_laser_scan(const std::string& suffix) {
   return suffix == ".las" || suffix == ".laz";
 }
 
+constexpr const char* kKinds =
+    ".hgt, .zip, .asc, .xyz, .csv, .txt, .las, .ply, .obj"
+#ifdef MICROTIN_WITH_GDAL
+    ", .tif and others by GDAL";
+#else
+    "; for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build with "
+    "-DMICROTIN_WITH_GDAL=ON";
+#endif
+
 #ifdef MICROTIN_WITH_GDAL
 bool is_for_others(const std::string& path) {
   const std::string suffix = suffix_of(path);
@@ -88,21 +97,41 @@ Source import_other(const std::string& path, Indirect indirect, uint32_t band) {
 #else
 Source import_other(const std::string& path, Indirect, uint32_t) {
   open_file(path);  // throws Error if it is not there
-  throw Error(path +
-              ": not a kind of terrain file known here (.hgt, .zip, .asc, .xyz, .csv, .txt, .las, "
-              ".ply, .obj); for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build "
-              "with -DMICROTIN_WITH_GDAL=ON");
+  throw Error(path + ": not a kind of terrain file known here: " + kKinds);
 }
 #endif
 
+// Of what GDAL reads, the files that folders hold sheets in.
+bool is_sheet_for_others([[maybe_unused]] const std::string& suffix) {
+#ifdef MICROTIN_WITH_GDAL
+  for (const char* const known :
+       {".tif", ".tiff", ".dem", ".dt0", ".dt1", ".dt2", ".bil", ".flt", ".bt", ".grd"}) {
+    if (suffix == known) return true;
+  }
+#endif
+  return false;
+}
+
+void expect_source(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  if (suffix != ".mtin" && suffix != ".mtp") return;
+  throw Error(path + ": is " + (suffix == ".mtp" ? "a pack" : "a stream") +
+              ", which \"microtin decode\" turns into a terrain file");
+}
+
 }  // namespace
 
+std::string terrain_kinds() {
+  return kKinds;
+}
+
 bool is_terrain_suffix(const std::string& suffix) {
-  return is_laser_scan(suffix) || importer_for(suffix) != nullptr;
+  return is_laser_scan(suffix) || importer_for(suffix) != nullptr || is_sheet_for_others(suffix);
 }
 
 std::vector<std::string> terrain_files(const std::string& path,
                                        [[maybe_unused]] Indirect indirect) {
+  expect_source(path);
 #ifdef MICROTIN_WITH_GDAL
   if (is_for_others(path)) return gdal_files(path, indirect);
 #endif
@@ -111,20 +140,10 @@ std::vector<std::string> terrain_files(const std::string& path,
   return files;
 }
 
-namespace {
-
-void expect_source(const std::string& path, const std::string& suffix) {
-  if (suffix != ".mtin" && suffix != ".mtp") return;
-  throw Error(path + ": is " + (suffix == ".mtp" ? "a pack" : "a stream") +
-              ", which \"microtin decode\" turns into a terrain file");
-}
-
-}  // namespace
-
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes,
                       Indirect indirect, uint32_t band) {
   const std::string suffix = suffix_of(path);
-  expect_source(path, suffix);
+  expect_source(path);
   if (is_laser_scan(suffix)) return import_las(path, read_file(path), classes);
   if (classes) throw Error(path + ": only .las files have classes");
   if (path == "-") return import_points("standard input", read_file(path));

@@ -30,7 +30,10 @@ Source import_terrain(const std::string& path, const std::optional<ClassSet>& cl
 // All files that it is read from: more than one by GDAL only. Throws Error if GDAL cannot open it.
 std::vector<std::string> terrain_files(const std::string& path, Indirect indirect);
 
-// Of files that are read without GDAL: ".asc", in lower case.
+// The suffixes of files that are read, for people.
+std::string terrain_kinds();
+
+// Of files that a folder is searched for: ".asc", in lower case.
 bool is_terrain_suffix(const std::string& suffix);
 
 using OpenSource = std::variant<std::unique_ptr<RasterReader>, PointCloud>;

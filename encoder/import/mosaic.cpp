@@ -37,12 +37,25 @@ std::string text_of(const Reference& reference) {
   return text;
 }
 
+// What to do about two files that are not alike.
+std::string remedy(const NamedSource& first, const NamedSource& part, const Reference& a,
+                   const Reference& b) {
+  for (const auto& [file, reference] : {std::tie(first, a), std::tie(part, b)}) {
+    if (reference.horizontal_unit != Unit::kUnknown || !reference.wkt.empty()) continue;
+    if (lower_case(fs::path(file.path).extension().string()) == ".asc") {
+      return "put the .prj that is missing beside " + file.path;
+    }
+  }
+  return std::holds_alternative<PointCloud>(part.source) ? "bring all points into one system first"
+                                                         : "bring it there with gdalwarp";
+}
+
 void expect_alike(const NamedSource& first, const NamedSource& part, const Reference& a,
                   const Reference& b) {
   if (is_alike(a, b)) return;
   throw Error(part.path + ": its units or its coordinate system (" + text_of(b) +
               ") are not those of " + first.path + " (" + text_of(a) +
-              "): add the .prj that is missing, or bring it there with gdalwarp");
+              "): " + remedy(first, part, a, b));
 }
 
 // A rectangle on the grid of the first raster's posts.
@@ -61,11 +74,31 @@ struct Box {
   bool empty() const { return width == 0 || height == 0; }
 };
 
+// "10 x 10"
+std::string cells_of(const Raster& frame) {
+  const auto step = [](const Axis& axis) {
+    return CoordinateText({0, axis.numerator, axis.denominator})(1);
+  };
+  return step(frame.x) + " x " + step(frame.y);
+}
+
 // Where a raster's first post is among those of another.
-std::optional<int64_t> place_on(const Axis& axis, const Axis& grid) {
+int64_t place_on(const Axis& axis, const Axis& grid, const std::string& path,
+                 const std::string& first) {
   const LatticeMap map = map_between(axis, grid);
-  if (map.scale != map.step || map.shift % map.step != 0) return std::nullopt;
+  if (map.shift % map.step != 0) {
+    throw Error(path + ": its posts lie between those of " + first +
+                ": bring all onto one grid with gdalwarp -tr -tap");
+  }
   return static_cast<int64_t>(map.shift / map.step);
+}
+
+void expect_same_cells(const Raster& frame, const Raster& grid, const std::string& path,
+                       const std::string& first) {
+  const LatticeMap x = map_between(frame.x, grid.x), y = map_between(frame.y, grid.y);
+  if (x.scale == x.step && y.scale == y.step) return;
+  throw Error(path + ": its cells are " + cells_of(frame) + ", those of " + first + " are " +
+              cells_of(grid) + ": bring all onto one grid with gdalwarp -tr -tap");
 }
 
 struct Part {
@@ -91,12 +124,12 @@ Part part_of(const NamedSource& first, NamedSource& named) {
   const Raster& grid = std::get<std::unique_ptr<RasterReader>>(first.source)->frame();
   const Raster& frame = raster->frame();
   expect_alike(first, named, grid.reference, frame.reference);
-  const auto x = place_on(frame.x, grid.x), y = place_on(frame.y, grid.y);
-  if (!x || !y) {
-    throw Error(named.path + ": its cells are not of the size, or not at the places, of " +
-                first.path + ": bring them there with gdalwarp");
-  }
-  return {named.path, nullptr, {*x, *y, int64_t{frame.width}, int64_t{frame.height}}};
+  expect_same_cells(frame, grid, named.path, first.path);
+  return {named.path,
+          nullptr,
+          {place_on(frame.x, grid.x, named.path, first.path),
+           place_on(frame.y, grid.y, named.path, first.path), int64_t{frame.width},
+           int64_t{frame.height}}};
 }
 
 // The largest difference of two heights at a post.
@@ -364,7 +397,7 @@ std::vector<std::string> files_in(const std::string& path) {
   std::error_code none;
   if (!fs::is_directory(path, none)) return {path};
   const FilesBySuffix by_suffix = terrain_files_in(path);
-  if (by_suffix.empty()) throw Error(path + ": holds no terrain file");
+  if (by_suffix.empty()) throw Error(path + ": holds no terrain file: " + terrain_kinds());
   std::vector<std::string> files = most_of(by_suffix)->second;
   std::sort(files.begin(), files.end());
   return files;

@@ -85,9 +85,9 @@ class HeaderReader {
     return true;
   }
 
-  // "comment crs ...", as the mesh readers of GIS have it.
+  // "comment crs: ...", as the mesh reader of QGIS has it, or without the colon, as it had.
   void read_comment() {
-    if (fields_.size() < 3 || fields_[1] != "crs") return;
+    if (fields_.size() < 3 || (fields_[1] != "crs:" && fields_[1] != "crs")) return;
     const auto start = static_cast<size_t>(fields_[2].data() - text_.data());
     const std::string_view system =
         text_.substr(start, text_.find_last_not_of(" \t\r") + 1 - start);

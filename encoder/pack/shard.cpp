@@ -230,11 +230,14 @@ PackContent read_content(const Bytes& head) {
 
 }  // namespace
 
-bool is_shard(const ByteSource& bytes) {
+void refuse_shard(const std::string& name, const ByteSource& bytes) {
   constexpr std::size_t kWithoutVersion = sizeof kShardMagic - 1;
   uint8_t magic[kWithoutVersion] = {};
-  return bytes.read(0, magic, sizeof magic) == sizeof magic &&
-         std::equal(magic, magic + kWithoutVersion, kShardMagic);
+  if (bytes.read(0, magic, sizeof magic) != sizeof magic ||
+      !std::equal(magic, magic + kWithoutVersion, kShardMagic)) {
+    return;
+  }
+  throw Error(name + ": is a shard, a part of a pack: join all shards with \"microtin merge\"");
 }
 
 ShardWriter::ShardWriter(const PackPlan& plan, const PackContent& pack, TileRange range,

@@ -21,8 +21,8 @@
 
 namespace microtin::pack {
 
-// Whether bytes begin as those of a shard do, of any version.
-bool is_shard(const ByteSource& bytes);
+// Throws Error if a file of this name begins as a shard does, of any version.
+void refuse_shard(const std::string& name, const ByteSource& bytes);
 
 class ShardWriter {
  public:

@@ -21,11 +21,6 @@
 namespace microtin::product {
 namespace {
 
-void refuse_shard(const std::string& name, const ByteSource& bytes) {
-  if (!is_shard(bytes)) return;
-  throw Error(name + ": is a shard, a part of a pack: join all shards with \"microtin merge\"");
-}
-
 DecodedStream decoded(const std::string& name, std::vector<uint8_t> bytes) {
   DecodedTerrain terrain = with_file_context(name, [&] { return DecodedTerrain(bytes); });
   return {std::move(bytes), std::move(terrain)};

@@ -183,7 +183,8 @@ Report report_of(const product::EncodedStream& encoded) {
           to_string(measured.rms_error),
           to_string(measured.mean_error),
           to_string(measured.max_below),
-          largest_of(encoded.true_places)};
+          largest_of(encoded.true_places),
+          {}};
 }
 
 Report report_of(const product::PackReport& pack, uint64_t samples) {
@@ -196,6 +197,7 @@ Report report_of(const product::PackReport& pack, uint64_t samples) {
           to_string(pack.measured.rms_error),
           to_string(pack.measured.mean_error),
           to_string(pack.measured.max_below),
+          {},
           {}};
 }
 
@@ -221,6 +223,11 @@ Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOpti
   Report report = report_of(made.report, cloud.points.size());
   report.max_error_at_points = largest_of(made.true_places);
   return report;
+}
+
+std::vector<std::string> remarks_on(const terrain::Source& source,
+                                    const product::EncodeOptions& options) {
+  return product::settle(terrain::reference_of(source), options.reference).remarks;
 }
 
 }  // namespace
@@ -254,6 +261,7 @@ Stream encode_stream(const Terrain& terrain, const StreamOptions& options,
   product::EncodedStream encoded =
       product::encode_stream(terrain.content().source, all, progress_of(callbacks));
   Report report = report_of(encoded);
+  report.remarks = remarks_on(terrain.content().source, all);
   return {std::move(encoded.stream), std::move(report)};
 }
 
@@ -272,6 +280,7 @@ Report encode_pack(const Terrain& terrain, const PackOptions& options, const std
   Report report = raster != nullptr
                       ? encode_posts(*raster, all, path, out, callbacks)
                       : encode_points(std::get<terrain::PointCloud>(source), all, out);
+  report.remarks = remarks_on(source, all);
   out.commit();
   return report;
 }

@@ -30,7 +30,7 @@ struct microtin_surface {
 
 namespace {
 
-thread_local std::string last_message;
+thread_local std::string last_message, last_remarks;
 
 microtin_outcome failed(microtin_outcome outcome, const char* why) {
   try {
@@ -125,6 +125,8 @@ void copy_decimal(const std::string& decimal, char (&to)[24]) {
 }
 
 void copy_report(const Report& report, microtin_report* to) {
+  last_remarks.clear();
+  for (const std::string& remark : report.remarks) last_remarks += remark + '\n';
   if (to == nullptr) return;
   *to = {};
   to->samples = report.samples;
@@ -184,6 +186,10 @@ microtin_outcome hand_out(microtin_surface* surface, microtin_triangles* triangl
 
 const char* microtin_message(void) {
   return last_message.c_str();
+}
+
+const char* microtin_remarks(void) {
+  return last_remarks.c_str();
 }
 
 const char* microtin_version(void) {

@@ -4,6 +4,7 @@
 #include "encoder/base/status_text.hpp"
 #include "encoder/files/input_file.hpp"
 #include "encoder/pack/file.hpp"
+#include "encoder/pack/shard.hpp"
 
 namespace microtin::product {
 namespace {
@@ -48,6 +49,7 @@ DecodedTerrain decoded(const std::vector<uint8_t>& bytes) {
 std::variant<DecodedTerrain, AskedPack> opened(const std::string& path) {
   std::unique_ptr<ByteSource> source;
   if (is_regular_file(path)) source = open_file(path);
+  if (source) refuse_shard(path, *source);
   const bool pack = source && is_pack(*source);
   const std::string text = pack ? std::string() : read_file(path);
   try {

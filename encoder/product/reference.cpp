@@ -31,7 +31,7 @@ class Settlement {
     const std::optional<CodedSystem> system = system_of_code(wanted.code);
     if (!system) {
       remarks_.push_back(name + " is not among the codes known here, and is taken as it is" +
-                         (wanted.unit == Unit::kUnknown ? ": give its units with --units" : ""));
+                         (wanted.unit == Unit::kUnknown ? ": give its units" : ""));
       return wanted;
     }
     if (system->is_vertical != is_vertical) {
@@ -45,7 +45,16 @@ class Settlement {
     return {wanted.code, system->unit};
   }
 
-  // Which of the file's units give way is told.
+  // Which of the file's codes and units give way is told.
+  uint32_t chosen(uint32_t asked, uint32_t file) {
+    if (asked == 0) return file;
+    if (file != 0 && file != asked) {
+      remarks_.push_back("EPSG " + std::to_string(asked) + " is taken; the file says EPSG " +
+                         std::to_string(file));
+    }
+    return asked;
+  }
+
   Unit chosen(const char* what, Unit asked, Unit file) {
     if (asked == Unit::kUnknown) return file;
     if (file != Unit::kUnknown && file != asked) {
@@ -57,18 +66,18 @@ class Settlement {
 
   void complete(Reference& reference) {
     if (reference.horizontal_unit == Unit::kUnknown) {
-      remarks_.push_back("the unit of x and y is not known: give it with --units or --epsg");
+      remarks_.push_back("the unit of x and y is not known: give units or an EPSG code");
     }
     if (reference.vertical_unit != Unit::kUnknown) return;
     if (reference.horizontal_unit == Unit::kDegree) {
       throw Error(
-          "places are degrees, and the unit of heights is not known: give it with --units "
-          "degree:metre or degree:foot, or with a vertical code, --epsg 4326:5773");
+          "places are degrees, and the unit of heights is not known: give units, degree:metre or "
+          "degree:foot, or a vertical code, as in EPSG 4326:5773");
     }
     reference.vertical_unit = reference.horizontal_unit;
     if (reference.vertical_unit == Unit::kUnknown) return;
     remarks_.push_back("heights are taken as " + text_of(reference.vertical_unit) +
-                       ", as x and y are; if they are not, give --units");
+                       ", as x and y are; if they are not, give units, such as :metre");
   }
 
   std::vector<std::string> take_remarks() { return std::move(remarks_); }
@@ -84,11 +93,9 @@ SettledReference settle(const Reference& file, const Reference& asked) {
   const System xy = settlement.asked(false, {asked.horizontal_epsg, asked.horizontal_unit});
   const System z = settlement.asked(true, {asked.vertical_epsg, asked.vertical_unit});
   Reference all = file;
-  if (xy.code != 0) {
-    all.horizontal_epsg = xy.code;
-    all.wkt.clear();
-  }
-  if (z.code != 0) all.vertical_epsg = z.code;
+  if (xy.code != 0) all.wkt.clear();
+  all.horizontal_epsg = settlement.chosen(xy.code, file.horizontal_epsg);
+  all.vertical_epsg = settlement.chosen(z.code, file.vertical_epsg);
   all.horizontal_unit = settlement.chosen("x and y", xy.unit, file.horizontal_unit);
   all.vertical_unit = settlement.chosen("heights", z.unit, file.vertical_unit);
   settlement.complete(all);

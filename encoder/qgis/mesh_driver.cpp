@@ -2,6 +2,8 @@
 // A mesh driver for MDAL, the library by which QGIS reads meshes: the C functions that it looks for
 // in a plugin, with its names. A mesh has one group of data, the heights of its vertices.
 #include <algorithm>
+#include <cstdio>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -110,14 +112,16 @@ MICROTIN_MDAL bool MDAL_DRIVER_canReadMesh(const char* path) {
   file.read(reinterpret_cast<char*>(begin), sizeof begin);
   const uint8_t* note = nullptr;
   uint32_t size = 0;
+  if (std::memcmp(begin, "mtsh", 4) == 0) return true;  // a shard, to be told what it is
   return file && microtin_find_note(begin, sizeof begin, 0, &note, &size) != MICROTIN_BAD_MAGIC;
 }
 
-// The number of the mesh, -1 if it cannot be read.
+// The number of the mesh, -1 if it cannot be read. QGIS has no place for the reason.
 MICROTIN_MDAL int MDAL_DRIVER_openMesh(const char* path, const char* /*name*/) {
   try {
     return meshes().add(open(path));
-  } catch (const std::exception&) {
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "microtin: %s\n", error.what());
     return -1;
   }
 }

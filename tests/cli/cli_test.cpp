@@ -268,7 +268,11 @@ TEST_CASE("cli: directories and unwritable places") {
   session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n");
   session.run("fractal --size 3 -o sub.asc");
   fs::create_directory(session.folder() + "/none");
-  CHECK(session.failure("encode none -o out.mtin") == "none: holds no terrain file\n");
+  CHECK(session.failure("encode none -o out.mtin").find("none: holds no terrain file: .hgt, ") ==
+        0);
+  CHECK(session.failure("encode ok.xyz -o ok.tif").find("ok.tif: a stream is named .mtin") == 0);
+  CHECK(session.failure("encode sub.asc --tile-vertices 16 -o sub.mtin") ==
+        "sub.mtin: a pack is named .mtp\n");
   CHECK(session.failure("encode ok.xyz -o .") == ".: is a directory\n");
   CHECK(contains(session.failure("encode ok.xyz -o no/such/out.mtin"), "no/such/out.mtin: "));
   CHECK(contains(session.failure("decode . -o out.xyz"), ".: "));

@@ -44,7 +44,9 @@ TEST_CASE("mosaic: rasters that touch or overlap are one; the first counts, gaps
                    "-9999 7 7 -9999 -9999\n7 7 7 -9999 -9999\n-9999 -9999 -9999 -9999 -9999\n"
                    "1 2 3 5 6\n4 5 6 8 9\n"));
   }
-  CHECK(session.run("verify t.mtin b.asc a.asc c.asc").code == 0);  // without a bound
+  const auto swapped = session.run("verify t.mtin b.asc a.asc c.asc");  // without a bound
+  CHECK(swapped.code == 0);
+  CHECK(contains(swapped.out, "source: \"3 files; where they overlap they differ by up to "));
   CHECK(
       contains(session.run("encode a.asc c.asc -o u.mtin").out, "2 files, none of which overlap"));
 }
@@ -75,13 +77,14 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   session.write("unit.prj", "LOCAL_CS[\"a\",UNIT[\"Foot\",0.3048]]");
   session.write("p.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   CHECK(contains(session.failure("encode a.asc size.asc -o t.mtp --tile-vertices 60"),
-                 "size.asc: its cells are not of the size"));
-  CHECK(contains(session.failure("encode a.asc off.asc -o t.mtin"), "off.asc: its cells are not"));
+                 "size.asc: its cells are 3 x 3, those of a.asc are 2 x 2: bring all onto one"));
+  CHECK(contains(session.failure("encode a.asc off.asc -o t.mtin"),
+                 "off.asc: its posts lie between those of a.asc: bring all onto one grid"));
   CHECK(contains(
       session.failure("encode a.asc unit.asc -o t.mtin"),
       "unit.asc: its units or its coordinate system (x and y foot, heights unknown) are not "
-      "those of a.asc (x and y unknown, heights unknown): add the .prj that is missing, "
-      "or bring it there with gdalwarp"));
+      "those of a.asc (x and y unknown, heights unknown): put the .prj that is missing "
+      "beside a.asc"));
   fs::create_directory(session.folder() + "/mixed");
   for (const char* const name : {"a.asc", "unit.asc", "p.xyz"}) {
     fs::copy_file(session.folder() + "/" + name, session.folder() + "/mixed/" + name);

@@ -88,7 +88,9 @@ TEST_CASE("places: codes set units, and may not contradict them") {
   CHECK(
       contains(report("--units foot"), "units: x and y foot, z foot\nwarning: heights are taken"));
   CHECK(contains(report("--units us-ft:m"), "units: x and y US survey foot, z metre\n"));
-  CHECK(contains(report(""), "warning: the unit of x and y is not known"));
+  CHECK(contains(report(""),
+                 "warning: the unit of x and y is not known: give units or an EPSG code\n"
+                 "warning: a .prj beside t.asc would say it\n"));
   CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 32633 --units foot"),
                  "EPSG 32633 has the unit metre, not foot"));
   CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 5773"),
@@ -115,6 +117,9 @@ TEST_CASE("places: an option that goes against the file is told") {
   session.write("t.prj", kZone);
   CHECK(contains(session.run("encode t.asc -o t.mtin --units foot").out,
                  "warning: x and y are taken as foot; the file says metre"));
+  CHECK(contains(session.run("encode t.asc -o t.mtin --epsg 32632").out,
+                 "warning: EPSG 32632 is taken; the file says EPSG 32633\n"));
+  CHECK(!contains(session.run("encode t.asc -o t.mtin --epsg 32633").out, "EPSG 32633 is taken"));
 }
 
 TEST_CASE("places: scenes and pictures of unknown units warn") {
@@ -137,14 +142,14 @@ TEST_CASE("places: meshes name their system, and points of meshes bring it back"
   session.write("t.asc", kGrid);
   REQUIRE(session.run("encode t.asc -o t.mtin --epsg 25832").code == 0);
   REQUIRE(session.run("decode t.mtin -o t.ply").code == 0);
-  CHECK(contains(session.read("t.ply"), "\ncomment crs EPSG:25832\n"));
+  CHECK(contains(session.read("t.ply"), "\ncomment crs: EPSG:25832\n"));
   REQUIRE(session.run("encode t.ply -o back.mtin").code == 0);
   CHECK(contains(session.run("info back.mtin").out, "horizontal_epsg: 25832\n"));
   session.write("u.asc", kGrid);
   session.write("u.prj", "LOCAL_CS[\"a site\",\n  UNIT[\"Meter\",1.0]]");
   REQUIRE(session.run("encode u.asc -o u.mtin").code == 0);
   REQUIRE(session.run("decode u.mtin -o u.ply").code == 0);
-  CHECK(contains(session.read("u.ply"), "comment crs LOCAL_CS[\"a site\",   UNIT["));
+  CHECK(contains(session.read("u.ply"), "comment crs: LOCAL_CS[\"a site\",   UNIT["));
   CHECK(!contains(session.run("decode u.mtin --lattice -o lattice.ply && cat lattice.ply").out,
                   "comment"));
 }
@@ -209,7 +214,7 @@ TEST_CASE("places: shards and packs are told as such") {
   REQUIRE(session.run("encode t.asc -o t.mtin").code == 0);
   for (const char* const command :
        {"info t.shard", "decode t.shard -o o.ply", "verify t.shard t.asc",
-        "render t.shard -o o.png", "embed t.shard -o o.h"}) {
+        "render t.shard -o o.png", "embed t.shard -o o.h", "height t.shard 1 2"}) {
     CHECK(contains(session.failure(command), "t.shard: is a shard, a part of a pack"));
   }
   CHECK(contains(session.failure("info - < t.mtp"), "-: is a pack"));

@@ -193,7 +193,9 @@ class Driver(unittest.TestCase):
     def test_what_cannot_be_encoded(self):
         memory, driver = gdal.GetDriverByName("MEM"), gdal.GetDriverByName("MTIN")
 
-        def refused(sentence, bands=1, kind=gdal.GDT_Float64, transform=TRANSFORM, epsg=None, options=()):
+        def refused(
+            sentence, bands=1, kind=gdal.GDT_Float64, transform=TRANSFORM, epsg=None, unit="", options=(), name="refused.mtin"
+        ):
             source = memory.Create("", 4, 4, bands, kind)
             if transform:
                 source.SetGeoTransform(transform)
@@ -201,9 +203,10 @@ class Driver(unittest.TestCase):
                 system = osr.SpatialReference()
                 system.ImportFromEPSG(epsg)
                 source.SetProjection(system.ExportToWkt())
+            source.GetRasterBand(1).SetUnitType(unit)
             with self.assertRaisesRegex(RuntimeError, sentence):
-                driver.CreateCopy(self.path("refused.mtin"), source, options=list(options))
-            self.assertFalse(os.path.exists(self.path("refused.mtin")))
+                driver.CreateCopy(self.path(name), source, options=list(options))
+            self.assertFalse(os.path.exists(self.path(name)))
 
         refused("choose one with -b", bands=2)
         refused("does not say where it lies", transform=None)
@@ -211,6 +214,9 @@ class Driver(unittest.TestCase):
         refused("no complex numbers", kind=gdal.GDT_CFloat32)
         refused("max_error: much", options=["MAX_ERROR=much"])
         refused("heights", epsg=4326)
+        refused("units: :fathom is not a unit", unit="fathom")
+        refused("fathom is not a unit", options=["UNITS=fathom"])
+        refused("name a stream .mtin or a pack .mtp", name="refused.tif")
 
     def test_feet(self):
         source = gdal.GetDriverByName("MEM").Create("", 9, 9, 1, gdal.GDT_Int16)
@@ -218,10 +224,36 @@ class Driver(unittest.TestCase):
         system = osr.SpatialReference()
         system.ImportFromEPSG(4326)
         source.SetProjection(system.ExportToWkt())
-        source.GetRasterBand(1).SetUnitType("ft")
-        copy = gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/feet.mtin", source)
-        self.assertEqual(copy.GetRasterBand(1).GetUnitType(), "ft")
-        self.assertEqual(copy.GetGeoTransform(), (7, 0.001, 0, 43, 0, -0.001))
+        for unit in ("ft", "feet", "foot"):
+            source.GetRasterBand(1).SetUnitType(unit)
+            copy = gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/feet.mtin", source)
+            self.assertEqual(copy.GetRasterBand(1).GetUnitType(), "ft")
+            self.assertEqual(copy.GetGeoTransform(), (7, 0.001, 0, 43, 0, -0.001))
+
+    def test_guesses_are_told(self):
+        source = gdal.GetDriverByName("MEM").Create("", 9, 9, 1, gdal.GDT_Int16)
+        source.SetGeoTransform(TRANSFORM)
+        system = osr.SpatialReference()
+        system.ImportFromEPSG(2227)
+        source.SetProjection(system.ExportToWkt())
+        told = []
+        gdal.PushErrorHandler(lambda _kind, _number, text: told.append(text))
+        try:
+            for options in ([], ["UNITS=:metre"]):
+                gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/guess.mtin", source, options=options)
+        finally:
+            gdal.PopErrorHandler()
+        self.assertEqual(
+            told,
+            ["MTIN: /vsimem/guess.mtin: heights are taken as US survey foot, as x and y are; if they are not, give units, "
+             "such as :metre"],
+        )
+
+    def test_shards_are_told(self):
+        gdal.Translate(self.path("source.asc"), self.path("hills.tif"), format="AAIGrid")
+        run(TOOL, "encode", self.path("source.asc"), "--tile-vertices", "9999", "--tiles", "0:0", "-o", self.path("a.shard"))
+        with self.assertRaisesRegex(RuntimeError, "a.shard: is a shard, a part of a pack"):
+            gdal.Open(self.path("a.shard"))
 
 
 class QuietHandler(http.server.SimpleHTTPRequestHandler):

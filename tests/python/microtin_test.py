@@ -7,6 +7,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import warnings
 
 try:
     import numpy
@@ -171,6 +172,16 @@ class Refusals(unittest.TestCase):
         self.refused("'nonsense' is neither EPSG:CODE nor well-known text", array, crs="nonsense")
         with self.assertRaisesRegex(TypeError, "no option colour"):
             microtin.encode(array, colour=1)
+
+    def test_guesses_are_told(self):
+        array = [[1.0, 2.0], [3.0, 4.0]]
+        with self.assertWarnsRegex(UserWarning, "heights are taken as metre, as x and y are"):
+            stream = microtin.encode(array, crs=25832)
+        self.assertEqual(len(stream.report.remarks), 1)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(microtin.encode(array, crs=25832, units=":metre").report.remarks, ())
+            self.assertEqual(len(microtin.encode(array).report.remarks), 1)  # nothing is said, so nothing is guessed
 
     def test_damaged_streams(self):
         data = bytearray(microtin.encode(hills(), max_error=1))

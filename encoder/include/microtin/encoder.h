@@ -31,6 +31,10 @@ typedef enum microtin_outcome {
 /* A sentence on the last failure in this thread; valid until its next call. Never null. */
 const char* microtin_message(void);
 
+/* What the last terrain that this thread encoded leaves to a guess, or unknown, of units and
+ * systems: sentences, each on a line; "" if nothing. Valid until its next call. Never null. */
+const char* microtin_remarks(void);
+
 /* "0.1.0" */
 const char* microtin_version(void);
 

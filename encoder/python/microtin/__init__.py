@@ -22,9 +22,10 @@ import decimal
 import os
 import re
 import threading
+import warnings
 import weakref
 from dataclasses import dataclass
-from typing import Any, Callable, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy
 from numpy.typing import ArrayLike, NDArray
@@ -56,6 +57,7 @@ class Report:
     rms_error: float
     mean_error: float  # above 0: the surface is too high
     max_below: float  # how far the surface is below a height at most
+    remarks: Tuple[str, ...] = ()  # what is guessed or not known of units and reference systems
 
 
 class Stream(bytes):
@@ -102,7 +104,9 @@ def encode(
     an array is not two-dimensional or a height out of range.
     """
     with _terrain_of_array(array, transform, crs, nodata) as terrain:
-        return _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
+        stream = _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
+    _warn(stream.report, crs, options)
+    return stream
 
 
 def encode_points(
@@ -116,7 +120,9 @@ def encode_points(
 ) -> Stream:
     """Encodes points, an array of rows x, y, height in any order, as a stream. All else is as for `encode`."""
     with _terrain_of_points(points, crs) as terrain:
-        return _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
+        stream = _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
+    _warn(stream.report, crs, options)
+    return stream
 
 
 def encode_pack(
@@ -140,7 +146,9 @@ def encode_pack(
     made = _terrain_of_points(array, crs) if points else _terrain_of_array(array, transform, crs, nodata)
     with made as terrain, caller:
         library.microtin_encode_pack(terrain.pointer, filled, os.fsencode(path), report)
-    return _report(report)
+    told = _report(report)
+    _warn(told, crs, options)
+    return told
 
 
 class _Terrain:
@@ -248,7 +256,15 @@ def _report(report: _library.Report) -> Report:
         float(report.rms_error),
         float(report.mean_error),
         float(report.max_below),
+        tuple(library.microtin_remarks().decode().splitlines()),
     )
+
+
+def _warn(report: Report, crs: Optional[Crs], options: Mapping[str, Any]) -> None:
+    """Of what is guessed about a terrain that says where it lies; to the caller of the function that calls this."""
+    if crs is not None or options.get("units"):
+        for remark in report.remarks:
+            warnings.warn(remark, stacklevel=3)
 
 
 def _decimal(number: Optional[Number]) -> Optional[bytes]:

@@ -154,6 +154,7 @@ _WITHOUT_OUTCOME = {
     "surface_free": ([c_void_p], None),
     "surface_facts": ([c_void_p, POINTER(Facts)], None),
     "message": ([], c_char_p),
+    "remarks": ([], c_char_p),
     "version": ([], c_char_p),
 }
 
