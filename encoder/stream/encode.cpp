@@ -89,16 +89,15 @@ class WritingCoder {
 // The arrays behind a Reconstruction on the host.
 class Workspace {
  public:
-  explicit Workspace(uint32_t n)
-      : places_(n),
+  Workspace(uint32_t n, Triangulation::Arrays arrays)
+      : arrays_(std::move(arrays)),
         z_(n),
-        origin_(6u * n),
-        twin_(6u * n),
         queue_(n),
         marks_(n / 4 + 1),
         voids_(n / 4 + 1),
         residual_(n) {
-    mesh_ = Mesh{places_.data(), z_.data(), origin_.data(), twin_.data(), 0, 0};
+    mesh_ =
+        Mesh{arrays_.places.data(), z_.data(), arrays_.origin.data(), arrays_.twin.data(), 0, 0};
     state_.mesh = &mesh_;
     state_.queue = queue_.data();
     state_.marks = marks_.data();
@@ -111,9 +110,9 @@ class Workspace {
   Reconstruction& state() { return state_; }
 
  private:
-  std::vector<Point> places_;
+  Triangulation::Arrays arrays_;
   std::vector<int16_t> z_;
-  std::vector<Index> origin_, twin_, queue_;
+  std::vector<Index> queue_;
   std::vector<uint8_t> marks_, voids_;
   std::vector<Residual> residual_;
   Mesh mesh_{};
@@ -128,9 +127,9 @@ void append_section(std::vector<uint8_t>& stream, const std::vector<uint8_t>& pa
 }
 
 std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& metadata,
-                                  WritingCoder& coder) {
+                                  WritingCoder& coder, Triangulation::Arrays arrays) {
   std::vector<uint8_t> stream = write_header(contract, metadata);
-  Workspace workspace(contract.vertices);
+  Workspace workspace(contract.vertices, std::move(arrays));
   Reconstruction& r = workspace.state();
   r.contract = contract;
   start(r);
@@ -212,7 +211,8 @@ Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effor
   const VoidSet voids = void_set(tin);
   const uint64_t expected = fingerprint_of(triangulation.mesh(), vertices, voids);
   WritingCoder coder(vertices, breadth_first_order(triangulation, effort.degree), voids);
-  std::vector<uint8_t> stream = write_stream(contract_of(tin, effort, origin), metadata, coder);
+  std::vector<uint8_t> stream = write_stream(contract_of(tin, effort, origin), metadata, coder,
+                                             std::move(triangulation).take_arrays());
   DecodedTerrain decoded = on_our_own([&] { return DecodedTerrain(stream); });
   if (microtin_vertex_count(decoded.mesh()) != vertices.size() ||
       fingerprint_of(decoded.mesh()) != expected) {

@@ -15,6 +15,11 @@ namespace {
 // memory that it takes is long.
 constexpr std::size_t kAhead = 8;
 
+// next_in_triangle without a branch: nobody can predict which of the three half-edges h is.
+Index next_without_branch(Index h) {
+  return h + 1 - 3 * static_cast<Index>(is_first_edge(h + 1));
+}
+
 // Walks over a triangulation breadth first, again and again while vertices are removed from it.
 class Walk {
  public:
@@ -49,7 +54,7 @@ class Walk {
         uint8_t& mark = met[static_cast<Index>(neighbour + 1u)];
         found += mark != walk;
         mark = walk;
-        into = mesh.twin[next_in_triangle(into)];
+        into = mesh.twin[next_without_branch(into)];
       } while (into != arrival);
       if (done == found) break;
       if (found - done > kAhead) {
@@ -142,6 +147,7 @@ Order breadth_first_order(Triangulation& triangulation, uint32_t degree) {
     before = left;
     const std::vector<Index>& vertices = walk.breadth_first(order.seed[0]);
     std::vector<Index> batch;
+    batch.reserve(vertices.size());
     for (std::size_t i = vertices.size(); i-- != 0;) {
       if (i >= 2 * kAhead) {
         triangulation.expect(vertices[i - kAhead], vertices[i - 2 * kAhead]);

@@ -25,7 +25,7 @@ Triangulation::Triangulation(const std::vector<Point>& points, std::vector<Index
   set_sizes(points.size());
   set_cavity_limit(64);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    places_[i] = points[order[i]];
+    arrays_.places[i] = points[order[i]];
   }
   start_mesh(mesh_);
   Index hint = 0;
@@ -35,13 +35,13 @@ Triangulation::Triangulation(const std::vector<Point>& points, std::vector<Index
 }
 
 void Triangulation::set_sizes(std::size_t vertices) {
-  places_.resize(vertices);
-  origin_.resize(6 * vertices);
-  twin_.resize(6 * vertices);
+  arrays_.places.resize(vertices);
+  arrays_.origin.resize(6 * vertices);
+  arrays_.twin.resize(6 * vertices);
   edge_of_.resize(vertices + 1);
-  mesh_.place = places_.data();
-  mesh_.origin = origin_.data();
-  mesh_.twin = twin_.data();
+  mesh_.place = arrays_.places.data();
+  mesh_.origin = arrays_.origin.data();
+  mesh_.twin = arrays_.twin.data();
 }
 
 void Triangulation::set_cavity_limit(std::size_t limit) {
@@ -59,13 +59,13 @@ void Triangulation::renumber(const std::vector<Index>& order) {
   std::vector<Point> places(order.size());
   std::vector<Index> edge_of(edge_of_);
   for (std::size_t i = 0; i < order.size(); ++i) {
-    places[order[i]] = places_[i];
+    places[order[i]] = mesh_.place[i];
     edge_of[std::size_t{order[i]} + 1] = edge_of_[i + 1];
   }
-  std::copy(places.begin(), places.end(), places_.begin());
+  std::copy(places.begin(), places.end(), mesh_.place);
   edge_of_.swap(edge_of);
   for (Index h = 0; h < first_edge(mesh_.triangles); ++h) {
-    if (origin_[h] != kInfinity) origin_[h] = order[origin_[h]];
+    if (mesh_.origin[h] != kInfinity) mesh_.origin[h] = order[mesh_.origin[h]];
   }
 }
 
@@ -136,15 +136,16 @@ Index Triangulation::insert(Point p, Index hint) {
     v = free_vertices_.back();
     free_vertices_.pop_back();
   }
-  places_[v] = p;
+  mesh_.place[v] = p;
   connect(v, hint);
   new_triangles_.assign(cavity_.triangles, cavity_.triangles + cavity_.size + 2);
   if (v == mesh_.vertices) {
     ++mesh_.vertices;
   } else {
     for (std::size_t i = new_triangles_.size(); i-- > cavity_.size;) {
-      new_triangles_[i] = free_triangles_.back();
-      free_triangles_.pop_back();
+      const Index slot = free_slot_;
+      free_slot_ = mesh_.twin[slot];
+      new_triangles_[i] = triangle_of(slot);
       move_last_triangle(new_triangles_[i]);
     }
   }
@@ -216,7 +217,8 @@ void Triangulation::fill_hole(const Hole& hole) {
     new_triangles_.push_back(triangle_of(c->slot));
   for (; freed <= hole.last; ++freed) {
     mesh_.origin[freed->slot + 1] = mesh_.origin[freed->slot];
-    free_triangles_.push_back(triangle_of(freed->slot));
+    mesh_.twin[freed->slot] = free_slot_;
+    free_slot_ = freed->slot;
   }
 }
 
@@ -276,28 +278,28 @@ inline const Triangulation::Corner* Triangulation::apex_of(const Corner* first,
 }
 
 // Of all corners to the left of last -> first the one whose circle through these two holds no
-// other. With h(p) and q(p) as in `incircle`, p lies inside the circle through the apex if
-// q(apex) h(p) - q(p) h(apex) is positive.
+// other.
 inline const Triangulation::Corner* Triangulation::finite_apex_of(const Corner* first,
                                                                   const Corner* last) {
   const Corner a = *last, b = *first;
-  int64_t h_apex = 0, q_apex = 1;  // no apex yet: the circle is the half-plane to the left
-  const Corner* apex = last;
-  for (const Corner* p = first + 1; p != last; ++p) {
-    const int64_t ax = a.x - p->x, ay = a.y - p->y, bx = b.x - p->x, by = b.y - p->y;
-    const int64_t h = ax * by - ay * bx;
-    const int64_t q = ax * bx + ay * by;
-    const auto inside =
-        static_cast<int64_t>(wrapping_product(q_apex, h) - wrapping_product(q, h_apex));
-    bool better = (h > 0) & (inside > 0);
-    if (inside == 0 && h > 0) {
-      better = conflicts_with_triangle(place(a), place(b), place(*apex), place(*p));
+  Angle best = {1, 0};  // no apex yet: the circle is the half-plane to the left
+  std::ptrdiff_t apex = last - first;
+  for (std::ptrdiff_t i = 1; first + i != last; ++i) {
+    const Corner& p = first[i];
+    const int64_t ax = a.x - p.x, ay = a.y - p.y, bx = b.x - p.x, by = b.y - p.y;
+    const Angle angle = {ax * bx + ay * by, ax * by - ay * bx};
+    const int64_t inside = incircle(best, angle);
+    bool better = (angle.h > 0) & (inside > 0);
+    if ((inside == 0) & (angle.h > 0)) {
+      better = conflicts_with_triangle(place(a), place(b), place(first[apex]), place(p));
     }
-    h_apex = better ? h : h_apex;
-    q_apex = better ? q : q_apex;
-    apex = better ? p : apex;
+    // Without a branch: nobody can predict which is better.
+    const int64_t take = -static_cast<int64_t>(better);
+    best.h ^= (best.h ^ angle.h) & take;
+    best.q ^= (best.q ^ angle.q) & take;
+    apex ^= (apex ^ i) & take;
   }
-  return apex;
+  return first + apex;
 }
 
 // The same where the closing side comes from infinity: circles are half-planes, and all corners lie

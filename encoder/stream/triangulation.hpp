@@ -5,6 +5,7 @@
 #define MICROTIN_ENCODER_STREAM_TRIANGULATION_HPP
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "encoder/base/prefetch.hpp"
@@ -32,6 +33,13 @@ class Triangulation {
   const Mesh& mesh() const { return mesh_; }
 
   bool has_vertex(Index v) const { return edge_of(v) != kNoEdge; }
+
+  // The arrays behind the mesh: memory for another one of as many vertices.
+  struct Arrays {
+    std::vector<Point> places;
+    std::vector<Index> origin, twin;
+  };
+  Arrays take_arrays() && { return std::move(arrays_); }
 
   // Some half-edge from v, which may be kInfinity; kNoEdge if v was removed.
   static constexpr Index kNoEdge = kInfinity;
@@ -103,14 +111,14 @@ class Triangulation {
   static const Corner* hull_apex_of(const Corner* first, const Corner* last);
 
   Mesh mesh_ = {};
-  std::vector<Point> places_;
-  std::vector<Index> origin_, twin_;
+  Arrays arrays_;
   std::vector<Index> edge_of_;  // entry v + 1; kInfinity + 1 wraps round to entry 0
 
   Cavity cavity_ = {};
   std::vector<Index> cavity_triangles_, cavity_origin_, cavity_twin_;
   std::vector<Index> new_triangles_;
-  std::vector<Index> free_vertices_, free_triangles_;  // two triangles for each vertex
+  std::vector<Index> free_vertices_;
+  Index free_slot_ = kNoEdge;  // the last that a removal left over; its twin is the one before
 };
 
 }  // namespace microtin::stream
