@@ -98,7 +98,7 @@ struct RangeDecoder {
   }
 
   MICROTIN_OUT_OF_LINE void refill() {
-    do {  // at most twice: range >= 2^8 here
+    do {  // at most twice, as range >= 2^8 here; three times where a number is none
       range <<= 8;
       code = code << 8 | next_byte();
     } while (range < kRangeLeast);
@@ -121,15 +121,31 @@ struct RangeDecoder {
 
   // A number below `count`, all equally likely; 1 <= count <= 2^16.
   uint32_t uniform(uint32_t count, uint32_t) {
-    if (count == 1) return 0;
-    range /= count;
-    uint32_t value = code / range;
-    if (value >= count) {  // in the part of the interval lost to rounding: no encoder goes there
-      overrun = true;
-      value = 0;
-      code = 0;
+    const uint32_t value = take(range, count);
+    if (value < count) return value;
+    overrun = true;  // in the part of the interval lost to rounding: no encoder goes there
+    range = 0xFFFFFFFFu;
+    code = 0;
+    return 0;
+  }
+
+  // The same, or `count` for an escape; count <= 2^14.
+  uint32_t uniform_or_escape(uint32_t count, uint32_t) {
+    return take(range - (range >> kEscapeBits), count);
+  }
+
+  // One of `count` equal parts of `width`, or `count` for what they leave of the interval. A part
+  // is at least 2^8 wide.
+  MICROTIN_ONE_COPY uint32_t take(uint32_t width, uint32_t count) {
+    const uint32_t part = width / count;
+    uint32_t value = code / part;
+    if (value < count) {
+      range = part;
+    } else {
+      value = count;
+      range -= count * part;
     }
-    code -= value * range;
+    code -= value * part;
     normalise();
     return value;
   }

@@ -57,16 +57,10 @@ inline int32_t kept_within(int32_t v, int32_t least, int32_t most) {
   return v < least ? least : v > most ? most : v;
 }
 
-// The root of v but for 1 / 256 of it, for 0 < v < 2^31.
+// The root of v, rounded down, or up to 2^-11 of it and 1 more, for 0 < v < 2^31.
 inline uint32_t rough_root(uint32_t v) {
   const uint32_t half = highest_bit(v) >> 1;
   const uint32_t guess = (11u * (v >> half) + ((static_cast<uint32_t>(22) << half) + 32u)) >> 5;
-  return (guess + v / guess) >> 1;
-}
-
-// The root but for 1 of 2^15.
-inline uint32_t fine_root(uint32_t v) {
-  const uint32_t guess = rough_root(v) | 1u;
   return (guess + v / guess) >> 1;
 }
 

@@ -33,7 +33,6 @@ struct LegalPlaces {
   int32_t turns;        // quarters, counter-clockwise
   int32_t shift;        // of grains: -10 .. 10
   Lines columns, rows;  // of the lattice
-  Span height;          // the lattice's rows in grains
   Spot c, a;            // corners, below 2^11
   Circle own;           // its centre is below 2^13, its radius below 2^13.5
   Circle behind[2];     // the chord, side 0
@@ -102,8 +101,6 @@ inline void find_lattice(LegalPlaces& places, const Contract& contract, Point or
   places.rows = lines_from(y, y_max, (places.turns & 2) != 0);
   places.odd[0] = odd_x;
   places.odd[1] = odd_y;
-  places.height =
-      Span{shifted(places.rows.first, places.shift), shifted(places.rows.last, places.shift)};
 }
 
 // That behind a side from v to `end`, seen under k.
@@ -144,16 +141,12 @@ inline int32_t grains(FastInt twice, int32_t shift) {
   return shifted(twice, shift - 1);
 }
 
-// Whether e is on the right of p -> q. Of corners and the own circle: below 2^27.
-MICROTIN_IN_PLACE inline bool is_beyond(Spot p, Spot q, Spot e) {
-  return cross(q - p, e - p) < 0;
-}
-
-// Whether a place on the own circle is legal as far as sides tell.
+// Whether a place on the own circle is legal as far as sides tell. Of corners and the own circle:
+// below 2^27.
 inline bool is_open(const LegalPlaces& places, const FreeRegion& region, Spot e) {
-  const Spot v = {0, 0};
-  return !is_beyond(places.a, v, e) && !(region.next.certified && is_beyond(v, places.c, e)) &&
-         !(region.opposite_certified && is_beyond(places.c, places.a, e));
+  const Spot c = places.c, a = places.a;
+  return cross(a, e) <= 0 && !(region.next.certified && cross(c, e) < 0) &&
+         !(region.opposite_certified && cross(a - c, e - c) < 0);
 }
 
 struct Columns {
@@ -161,11 +154,15 @@ struct Columns {
   bool open_west, open_east;  // whether they end where the circle does; else at a corner
 };
 
+inline int32_t root_of(int32_t square) {
+  return static_cast<int32_t>(rough_root(static_cast<uint32_t>(square)));
+}
+
 // The columns with legal places. That of v is one of them.
 inline Columns legal_columns(const LegalPlaces& places, const FreeRegion& region) {
   const Spot centre = {places.own.x2 >> 1, places.own.y};
-  const uint32_t square = static_cast<uint32_t>(centre.x * centre.x + places.own.yy);
-  const int32_t radius = (square == 0 ? 0 : static_cast<int32_t>(fine_root(square))) + 1;
+  const int32_t square = centre.x * centre.x + places.own.yy;
+  const int32_t radius = root_of(square | 1) + 1;
   int32_t west = places.c.x < places.a.x ? places.c.x : places.a.x;
   int32_t east = places.c.x > 0 ? places.c.x : 0;
   Columns columns;
@@ -179,12 +176,6 @@ inline Columns legal_columns(const LegalPlaces& places, const FreeRegion& region
   if (columns.lines.first < lattice.first) columns.lines.first = lattice.first;
   if (columns.lines.last > lattice.last) columns.lines.last = lattice.last;
   return columns;
-}
-
-// Roots for many columns are rough, for one they are fine.
-inline int32_t root_of(int32_t square, bool fine) {
-  const uint32_t v = static_cast<uint32_t>(square);
-  return static_cast<int32_t>(fine ? fine_root(v) : rough_root(v));
 }
 
 // Takes away what lies within a circle, at one end.
@@ -201,11 +192,11 @@ inline int32_t square_at(const Circle& circle, int32_t x) {
   return x * (circle.x2 - x) + circle.yy;
 }
 
-// The legal part of the column at x, and what the own circle covers of it. If that is to be fine,
-// the own circle is taken to be wider by a grain, those behind narrower.
-MICROTIN_FOLDED Span legal_span(const LegalPlaces& places, int32_t x, bool fine, Span& own) {
-  const int32_t margin = fine ? 1 : 0, square = square_at(places.own, x);
-  const int32_t reach = (square > 0 ? root_of(square, fine) : 0) + margin;
+// The legal part of the column at x but for the lattice's ends, and what the own circle covers of
+// it. Where all places count the circles behind lose what their root may be too large by.
+MICROTIN_FOLDED Span legal_span(const LegalPlaces& places, int32_t x, bool all, Span& own) {
+  const int32_t square = square_at(places.own, x);
+  const int32_t reach = (square > 0 ? root_of(square) : 0) + (all ? 1 : 0);
   own = Span{places.own.y - reach, places.own.y + reach};
   Span span = own;
   for (int i = 0; i < 2; ++i) {
@@ -213,11 +204,10 @@ MICROTIN_FOLDED Span legal_span(const LegalPlaces& places, int32_t x, bool fine,
     if (!places.cuts[i]) continue;
     const int32_t covered = square_at(circle, x);
     if (covered <= 0) continue;
-    const int32_t radius = root_of(covered, fine) - margin;
+    const int32_t root = root_of(covered);
+    const int32_t radius = all ? root - (root >> 11) - 1 : root;
     cut(span, circle.y - radius, circle.y + radius);
   }
-  if (span.low < places.height.low) span.low = places.height.low;
-  if (span.high > places.height.high) span.high = places.height.high;
   return span;
 }
 

@@ -23,7 +23,6 @@ struct Quarters {
 struct PlaceModel {
   Calibration calibration[2][kLevels];  // of estimated odds
   Quarters quick[kColumnContexts + kRowContexts];
-  AdaptiveBit escape;
 };
 
 // Keeps the upper or the lower half.
@@ -63,13 +62,13 @@ MICROTIN_IN_PLACE inline bool code_half(Coder& coder, Calibration& calibration, 
   return upper;
 }
 
-// The halves of a half, on the line through the weights of both, but at least a quarter of its own.
-inline Halves halves_of(Halves weight, bool upper) {
-  const int32_t low = static_cast<int32_t>(weight.low), high = static_cast<int32_t>(weight.high);
-  const int32_t tilt = (high - low) >> 2, mean = upper ? high : low, least = (mean >> 2) + 1;
-  const int32_t first = mean - tilt, second = mean + tilt;
-  return Halves{static_cast<uint32_t>(first > least ? first : least),
-                static_cast<uint32_t>(second > least ? second : least)};
+// Codes one of `lines`, all equally likely, or that it is none of them: then false.
+template <class Coder>
+MICROTIN_IN_PLACE inline bool code_any_or_none(Coder& coder, const Lines& lines, FastInt& line) {
+  const uint32_t count = static_cast<uint32_t>(count_of(lines));
+  const uint32_t number = coder.uniform_or_escape(count, static_cast<uint32_t>(line - lines.first));
+  line = lines.first + static_cast<FastInt>(number);
+  return number < count;
 }
 
 // Codes one of `lines`, all equally likely.
@@ -85,8 +84,8 @@ inline uint32_t expected_points(const FreeRegion& region) {
   return static_cast<uint32_t>(kept_within((region.expected + kLog2One) >> 8, 0, 3));
 }
 
-// `weighed`: how often lines are halved by weights taken at the middles of both halves; after that
-// the last two tell what is left. Quick decoding has none.
+// `weighed`: how often lines are halved by weights found anew; after that those that are known tell
+// what is left. Quick decoding has none.
 struct Place {
   LegalPlaces legal;
   PlaceOdds odds;
@@ -120,7 +119,21 @@ inline Halves weights_of(const Place& place, const Column* column, int32_t low, 
                 column_weight(place.odds, place.legal, high)};
 }
 
-// Keeps a part of the lines that holds `number`.
+inline uint32_t weight_of(const Place& place, const Column* column, int32_t at) {
+  if (column != nullptr) return weight_at(place.odds, place.legal, *column, at);
+  return column_weight(place.odds, place.legal, at);
+}
+
+// The weight of the half of a half away from the other half: `towards` is that of the half towards
+// it, `mean` of both.
+inline uint32_t outer_weight(uint32_t mean, uint32_t towards) {
+  const uint32_t least = (mean >> 2) + 1;
+  return 2 * mean > towards + least ? 2 * mean - towards : least;
+}
+
+// Keeps a part of the lines that holds `number`. The first two times lines are halved both halves
+// are weighed at their middles, then that away from what was left out: the other's middle is
+// between those of the two halves that were kept last.
 template <class Coder>
 MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruling& ruling,
                                           FastInt number, const Place& place,
@@ -128,26 +141,32 @@ MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruli
   Lines& lines = ruling.numbers;
   const FastInt base = ruling.base;
   const int32_t shift = twice_shift(ruling, place.legal.shift);
-  Halves weight;  // number by number: on AVR a constant to copy from would be in RAM
-  weight.low = 1;
-  weight.high = 1;
+  uint32_t before = 0, kept = 0;
   bool upper = false;
   for (uint32_t i = 0; i < kLevels && lines.first < lines.last; ++i) {
-    if (i < place.weighed) {
-      const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1 + base;
+    const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1 + base;
+    Halves weight;
+    if (i < 2) {
       weight = weights_of(place, column, shifted(middle, shift), shifted(middle + count, shift));
     } else {
-      weight = halves_of(weight, upper);
+      const uint32_t towards = (kept + before) >> 1;
+      const uint32_t outer =
+          i < place.weighed
+              ? weight_of(place, column, shifted(upper ? middle + count : middle, shift))
+              : outer_weight(kept, towards);
+      weight = upper ? Halves{towards, outer} : Halves{outer, towards};
     }
     upper = code_half(coder, level[i], lines, weight, number);
+    before = kept;
+    kept = upper ? weight.high : weight.low;
   }
 }
 
 // Codes one of several columns or, in a column, of several rows. Quick decoding has the context.
 template <class Coder>
-MICROTIN_FOLDED FastInt code_line(Coder& coder, PlaceModel& model, const Tally& tally,
-                                  const Place& place, const Lines& lines, uint32_t context,
-                                  const Column* column, FastInt line) {
+MICROTIN_FOLDED bool code_line(Coder& coder, PlaceModel& model, const Tally& tally,
+                               const Place& place, const Lines& lines, uint32_t context,
+                               const Column* column, FastInt& line) {
   const uint32_t kind = column != nullptr ? 1 : 0;
   Ruling ruling = rule(coder, tally, lines, place.legal.odd[kind], line);
   const FastInt number = number_of(ruling, line);
@@ -156,17 +175,18 @@ MICROTIN_FOLDED FastInt code_line(Coder& coder, PlaceModel& model, const Tally& 
   } else {
     code_halves(coder, model.calibration[kind], ruling, number, place, column);
   }
-  return line_at(ruling, code_any(coder, ruling.numbers, number));
+  FastInt found = number;
+  const bool is_there = code_any_or_none(coder, ruling.numbers, found);
+  line = line_at(ruling, found);
+  return is_there;
 }
 
-// Codes x, or the nearest column with legal places.
+// Codes x. False if that is none of the columns with legal places.
 template <class Coder>
-MICROTIN_IN_PLACE inline FastInt code_column(Coder& coder, PlaceModel& model, const Tally& tally,
-                                             const FreeRegion& region, const Place& place,
-                                             FastInt x) {
+MICROTIN_IN_PLACE inline bool code_column(Coder& coder, PlaceModel& model, const Tally& tally,
+                                          const FreeRegion& region, const Place& place,
+                                          FastInt& x) {
   const Columns columns = legal_columns(place.legal, region);
-  if (x < columns.lines.first) x = columns.lines.first;
-  if (x > columns.lines.last) x = columns.lines.last;
   const uint32_t context = (columns.open_east ? 0u : 1u) + (columns.open_west ? 0u : 2u) +
                            (region.next.certified ? 4u : 0u) +
                            (expected_points(region) > 1 ? 8u : 0u);
@@ -174,9 +194,9 @@ MICROTIN_IN_PLACE inline FastInt code_column(Coder& coder, PlaceModel& model, co
 }
 
 template <class Coder>
-MICROTIN_IN_PLACE inline FastInt code_row(Coder& coder, PlaceModel& model, const Tally& tally,
-                                          const FreeRegion& region, const Place& place,
-                                          const Column& column, const Lines& rows, FastInt y) {
+MICROTIN_IN_PLACE inline bool code_row(Coder& coder, PlaceModel& model, const Tally& tally,
+                                       const FreeRegion& region, const Place& place,
+                                       const Column& column, const Lines& rows, FastInt& y) {
   const uint32_t zone = column.x < place.legal.a.x ? 4u : column.x > 0 ? 8u : 0u;
   const uint32_t context = kColumnContexts + zone + expected_points(region);
   return code_line(coder, model, tally, place, rows, context, &column, y);
@@ -192,18 +212,20 @@ MICROTIN_IN_PLACE inline Offset code_turned_place(Coder& coder, PlaceModel& mode
   if (legal.shift < -10 || legal.shift > 10) return at;  // never: it does not follow so far
 #endif
   Tally& first = habits.parities.first[legal.turns & 1];
-  const FastInt x = code_column(coder, model, first, region, place, at.x);
+  const Offset known = at;
   Column column;
-  column.x = grains(2 * x, legal.shift);
-  const Lines rows = legal_rows(legal, legal_span(legal, column.x, true, column.own));
-  Tally& second = habits.parities.second[legal.turns & 1][is_odd(x, legal.odd[0]) ? 1 : 0];
-  const bool missed = x != at.x || at.y < rows.first || at.y > rows.last;
-  if (code_bit(coder, model.escape, missed)) {
-    at.x = code_any(coder, legal.columns, at.x);
-    at.y = code_any(coder, legal.rows, at.y);
+  bool is_there = code_column(coder, model, first, region, place, at.x);
+  Tally& second = habits.parities.second[legal.turns & 1][is_odd(at.x, legal.odd[0]) ? 1 : 0];
+  if (is_there) {
+    column.x = grains(2 * at.x, legal.shift);
+    const Lines rows = legal_rows(legal, legal_span(legal, column.x, true, column.own));
+    is_there = code_row(coder, model, second, region, place, column, rows, at.y);
+  }
+  if (!is_there) {
+    at.x = code_any(coder, legal.columns, known.x);
+    at.y = code_any(coder, legal.rows, known.y);
     return at;
   }
-  at = Offset{x, code_row(coder, model, second, region, place, column, rows, at.y)};
   learn(first, is_odd(at.x, legal.odd[0]));
   learn(second, is_odd(at.y, legal.odd[1]));
   if (place.odds.repels) {

@@ -69,13 +69,12 @@ struct Column {
   Span own;
 };
 
-// 0..511. The own circle holds y: |x|, |y| < 2^14.4.
+// 0..511. Near the own circle: |x|, |y| < 2^14.5. Beside it, and beyond the chord, what is negative
+// is taken for a large number: the chance is then 511 or `last`.
 inline int32_t chance_at(const PlaceOdds& odds, const Column& column, int32_t y) {
   const int32_t all = odds.across.x * column.x + odds.across.y * y;  // < 2^31
-  if (all <= 0) return 511;
   const int32_t above = column.own.high - y, below = y - column.own.low;
   const int32_t left = above * below;  // < 2^28
-  if (left <= 0) return odds.last;
   const uint32_t f = static_cast<uint32_t>(left) / ((static_cast<uint32_t>(all) >> 8) + 1);
   if (f >= 256) return 511;
   const int32_t way = static_cast<int32_t>(f);
@@ -87,6 +86,13 @@ inline int32_t chance_at(const PlaceOdds& odds, const Column& column, int32_t y)
 struct Halves {
   uint32_t low, high;  // weights, 1..2^15
 };
+
+inline uint32_t weight_at(const PlaceOdds& odds, const LegalPlaces& places, const Column& column,
+                          int32_t y) {
+  int32_t weight = chance_at(odds, column, y);
+  if (odds.repels) weight = weight * (distance_at(odds.reach, places, column.x, y) + 4) >> 8;
+  return static_cast<uint32_t>(weight) + 4u;
+}
 
 #if defined(MICROTIN_PAIRS)
 
@@ -103,13 +109,6 @@ inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, const
 }
 
 #else
-
-inline uint32_t weight_at(const PlaceOdds& odds, const LegalPlaces& places, const Column& column,
-                          int32_t y) {
-  int32_t weight = chance_at(odds, column, y);
-  if (odds.repels) weight = weight * (distance_at(odds.reach, places, column.x, y) + 4) >> 8;
-  return static_cast<uint32_t>(weight) + 4u;
-}
 
 inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, const Column& column,
                          int32_t low, int32_t high) {

@@ -182,7 +182,7 @@ inline uint32_t twice_area(Spot a, Spot b) {
 // Logarithms are below 2^14: the difference stays below 2^23.
 inline void note_final_triangle(Reconstruction& r, Log2 twice_area) {
   const Log2 density = r.share - twice_area;
-  r.density += (density * 256 - r.density) / 16;
+  r.density += (density * 256 - r.density) >> 4;
 }
 
 // --- Insertion -----------------------------------------------------------------------------------
@@ -298,7 +298,7 @@ Decision decide_at_hull(Reconstruction& r, Coder& coder, Log2 density) {
 
 template <class Coder>
 Decision decide(Reconstruction& r, Coder& coder, Index into, uint32_t marks) {
-  const Log2 density = r.density / 256;
+  const Log2 density = r.density >> 8;
   if (r.vertex == kInfinity) return decide_at_hull(r, coder, density);
   look_around(r, into);
   const bool hit = code_hit(r, coder, estimate_hit(r, into, marks, density));

@@ -111,11 +111,6 @@ def rough_root(v):
     return (guess + v // guess) >> 1
 
 
-def root(v):
-    guess = rough_root(v) | 1
-    return (guess + v // guess) >> 1
-
-
 ONE = 4096  # a cotangent of 1
 
 
@@ -170,12 +165,24 @@ class RangeDecoder:
         return int(one)
 
     def uniform(self, count):
-        if count == 1:
-            return 0
-        self.range //= count
-        number = self.code // self.range
-        require(number < count, "uniform number is too large")
-        self.code -= number * self.range
+        number = self.part(self.range, count)
+        require(number is not None, "uniform number is too large")
+        return number
+
+    def uniform_or_escape(self, count):
+        """None is an escape."""
+        return self.part(self.range - (self.range >> 10), count)
+
+    def part(self, width, count):
+        size = width // count
+        number = self.code // size
+        if number < count:
+            self.code -= number * size
+            self.range = size
+        else:
+            self.code -= count * size
+            self.range -= count * size
+            number = None
         self.normalise()
         return number
 
@@ -429,7 +436,6 @@ class Models:
         self.hit = bits(7, 15)
         self.column, self.row = bits(4, 9), bits(4, 9)
         self.quick_column, self.quick_row = bits(16, 3), bits(12, 3)
-        self.escape = bits()
         self.height = bits(12, 7)
         self.second = bits(10)
         self.negative = bits(10, 3)
@@ -484,10 +490,10 @@ class Density:
         self.mean = 256 * (log2(batch) - log2(header.columns * header.rows))
 
     def value(self):
-        return divide(self.mean, 256)
+        return self.mean >> 8
 
     def add(self, area):
-        self.mean += divide(256 * (self.share - rlog(area)) - self.mean, 16)
+        self.mean += (256 * (self.share - rlog(area)) - self.mean) >> 4
 
 
 class HullEdge:
@@ -657,12 +663,8 @@ class Sweep:
 
     def chance(self, x, y, own):
         whole = dot(self.across, (x, y))
-        if whole <= 0:
-            return 511
         low, high = own
-        if not low < y < high:
-            return self.last
-        w = (high - y) * (y - low) // ((whole >> 8) + 1)
+        w = (high - y) * (y - low) % 2**32 // ((whole % 2**32 >> 8) + 1)
         return 511 if w >= 256 else max(0, self.last + (w * (self.linear + (w * self.bend >> 8)) >> 8))
 
 
@@ -734,7 +736,7 @@ class PlaceDecoder:
     def legal_columns(self):
         """And whether they are open in the west and in the east."""
         x, y = self.own.centre()
-        radius = root(x * x + y * y) + 1
+        radius = rough_root(x * x + y * y | 1) + 1
         west, east = [self.c[0], self.a[0]], [self.c[0], 0]
         is_open = [self.is_open((end, y)) for end in (x - radius, x + radius)]
         if is_open[0]:
@@ -744,25 +746,22 @@ class PlaceDecoder:
         lines = self.lines(min(west), max(east))
         return Lines(max(lines.first, self.columns.first), min(lines.last, self.columns.last)), *is_open
 
-    def spans(self, x, square_root, wider):
+    def spans(self, x, wider):
         """What the own circle covers, and what is legal of it."""
-
-        def radius(circle, wider):
-            return (square_root(circle.square(x)) if circle.square(x) > 0 else 0) + wider
-
-        r = radius(self.own, wider)
+        r = (rough_root(self.own.square(x)) if self.own.square(x) > 0 else 0) + wider
         own = low, high = self.own.y - r, self.own.y + r
         for circle in self.cutting:
             if circle.square(x) <= 0:
                 continue
-            r = radius(circle, -wider)
+            r = rough_root(circle.square(x))
+            if wider:
+                r -= (r >> 11) + 1
             begin, end = circle.y - r, circle.y + r
             if begin <= low:
                 low = max(low, end)
             elif end >= high and begin < high:
                 high = begin
-        first, last = (shifted((row,), self.s)[0] for row in self.rows)
-        return own, (max(low, first), min(high, last))
+        return own, (low, high)
 
     def place_weight(self, x, y, own):
         chance = self.sweep.chance(x, y, own)
@@ -771,7 +770,7 @@ class PlaceDecoder:
         return chance + 4
 
     def column_weight(self, x):
-        own, (low, high) = self.spans(x, rough_root, 0)
+        own, (low, high) = self.spans(x, 0)
         length = high - low
         if length <= 0:
             return 4
@@ -788,23 +787,36 @@ class PlaceDecoder:
 
     def decode_halves(self, calibrations, ruling, weigh):
         lines = ruling.numbers
+        before = kept = 0
         for time, row in enumerate(calibrations):
             if lines.count() < 2:
                 break
             n, half = lines.count(), lines.count() >> 1
-            if time < 3 or self.header.decoding == self.DENSE:
-                middle = 2 * lines.first + half - 1
-                low, high = (weigh(self.grain(ruling.line(at) + ruling.base)) for at in (middle, middle + n))
+            middle = 2 * lines.first + half - 1
+            grains = [self.grain(ruling.line(at) + ruling.base) for at in (middle, middle + n)]
+            if time < 2:
+                low, high = (weigh(at) for at in grains)
+            else:
+                inner = (kept + before) >> 1
+                if time < 3 or self.header.decoding == self.DENSE:
+                    outer = weigh(grains[upper])
+                else:
+                    outer = max(2 * kept - inner, (kept >> 2) + 1)
+                low, high = (inner, outer) if upper else (outer, inner)
             below, above = (low * half, high * (n - half)) if n < 32 else (low, high)
             estimate = (above << 11) // (below + above + 1)
             upper = decode_between(self.coder, row, estimate >> 8, estimate & 255)
             lines = lines.half(upper)
-            tilt, mean = (high - low) >> 2, high if upper else low
-            low, high = (max(w, (mean >> 2) + 1) for w in (mean - tilt, mean + tilt))
+            before, kept = kept, high if upper else low
         return lines
 
-    def decode_line(self, lines):
+    def decode_any(self, lines):
         return lines.first + self.coder.uniform(lines.count())
+
+    def decode_line(self, ruling, left):
+        """None if it is none of these."""
+        number = self.coder.uniform_or_escape(left.count())
+        return None if number is None else ruling.line(left.first + number)
 
     def decode_column(self, n):
         lines, west, east = self.legal_columns()
@@ -814,7 +826,7 @@ class PlaceDecoder:
             left = self.decode_quarter(self.models.quick_column[row], ruling.numbers)
         else:
             left = self.decode_halves(self.models.column, ruling, self.column_weight)
-        return ruling.line(self.decode_line(left))
+        return self.decode_line(ruling, left)
 
     def decode_row(self, n, column, lines, own):
         x = self.grain(2 * column)
@@ -825,19 +837,23 @@ class PlaceDecoder:
             left = self.decode_quarter(self.models.quick_row[n + zone], ruling.numbers)
         else:
             left = self.decode_halves(self.models.row, ruling, lambda y: self.place_weight(x, y, own))
-        row = ruling.line(self.decode_line(left))
+        row = self.decode_line(ruling, left)
+        if row is None:
+            return None
         self.tally.learn((column + self.odd[0]) % 2)
         tally.learn((row + self.odd[1]) % 2)
         return row
 
     def decode(self, expected):
         n = keep_within(0, (expected + 256) >> 8, 3)
-        column = self.decode_column(n)
-        own, span = self.spans(self.grain(2 * column), root, 1)
-        if self.models.escape.decode(self.coder):
-            place = self.decode_line(self.columns), self.decode_line(self.rows)
+        row, column = None, self.decode_column(n)
+        if column is not None:
+            own, span = self.spans(self.grain(2 * column), 1)
+            row = self.decode_row(n, column, self.lines(*span).kept_within(*self.rows), own)
+        if row is None:
+            place = self.decode_any(self.columns), self.decode_any(self.rows)
         else:
-            place = column, self.decode_row(n, column, self.lines(*span).kept_within(*self.rows), own)
+            place = column, row
             self.learn_crowding(place)
         x, y = self.turn.back(place)
         return self.candidate.v[0] + x, self.candidate.v[1] + y

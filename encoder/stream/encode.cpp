@@ -58,6 +58,9 @@ class WritingCoder {
 
   bool bit(uint32_t probability, bool value) { return payload_.bit(probability, value); }
   uint32_t uniform(uint32_t count, uint32_t value) { return payload_.uniform(count, value); }
+  uint32_t uniform_or_escape(uint32_t count, uint32_t value) {
+    return payload_.uniform_or_escape(count, value);
+  }
 
   Vertex next() const { return sequence_[placed_]; }
   bool last_phase() const { return phase_ + 1 == batches_.size(); }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shared/format.hpp"
+#include "shared/probability.hpp"
 
 namespace microtin::stream {
 
@@ -12,6 +13,15 @@ uint32_t RangeEncoder::uniform(uint32_t count, uint32_t value) {
   if (count == 1) return 0;
   range_ /= count;
   low_ += static_cast<uint64_t>(value) * range_;
+  normalise();
+  return value;
+}
+
+uint32_t RangeEncoder::uniform_or_escape(uint32_t count, uint32_t value) {
+  const uint32_t part = (range_ - (range_ >> kEscapeBits)) / count;
+  if (value >= count) value = count;
+  low_ += static_cast<uint64_t>(value) * part;
+  range_ = value == count ? range_ - value * part : part;
   normalise();
   return value;
 }

@@ -39,6 +39,13 @@ class Choices {
     return choice % count;
   }
 
+  uint32_t uniform_or_escape(uint32_t count, uint32_t) {
+    EXPECT(count <= 16384);
+    const uint32_t choice = uniform(count + 1, 0);
+    cost_ += choice == count ? 10.01 : 0.01;
+    return choice;
+  }
+
   Vertex next() const { return Vertex{0, 0, 0}; }
   bool last_phase() const { return false; }
   uint32_t batch() const { return 0; }

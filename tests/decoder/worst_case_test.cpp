@@ -2,6 +2,7 @@
 // The bound on steps (shared/SECURITY.md), and streams made to come near it.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <string>
 
@@ -105,6 +106,10 @@ struct WatchedCoder : Coder {
     symbols += count > 1;
     return Coder::uniform(count, value);
   }
+  uint32_t uniform_or_escape(uint32_t count, uint32_t value) {
+    ++symbols;
+    return Coder::uniform_or_escape(count, value);
+  }
 
   uint64_t free_steps = 0;
   uint32_t work = 0;  // vertices at the ends of all phases
@@ -146,6 +151,9 @@ TEST_CASE("a decision narrows the range by 513/512 at least, a number by 2") {
         REQUIRE(narrowed(range, range - 1, bit) <= 512.0 / 513);
       }
       REQUIRE(narrowed(range, 0, [&] { coder.uniform(2, 0); }) <= 0.5);
+      const auto number = [&] { coder.uniform_or_escape(1, 0); };
+      REQUIRE(std::pow(narrowed(range, 0, number), 2) <= 512.0 / 513);
+      REQUIRE(narrowed(range, range - 1, number) <= 1.0 / 1000);
     }
   }
 }

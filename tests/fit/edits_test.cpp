@@ -45,7 +45,7 @@ TEST_CASE("edits: rolled back, everything is as it was") {
   const Survey survey = bumps();
   const PostIndex posts(places_of(survey));
   Surface surface(survey, ErrorModel{true}, posts,
-                  simplify(survey, {true, 0, Search::kGreedy, false, {}, {}}));
+                  simplify(survey, {true, 0, Search::kGreedy, false, true, {}, {}}));
   Edits edits(surface);
   const std::vector<Place> before = vertices_of(surface);
   Random random(31);
@@ -89,7 +89,7 @@ TEST_CASE("edits: heights beyond 16 bits are refused") {
   const Survey survey = bumps();
   const PostIndex posts(places_of(survey));
   Surface surface(survey, ErrorModel{true}, posts,
-                  simplify(survey, {true, 0, Search::kGreedy, false, {}, {}}));
+                  simplify(survey, {true, 0, Search::kGreedy, false, true, {}, {}}));
   Edits edits(surface);
   CHECK_FALSE(edits.set_height(0, 32768));
   CHECK_FALSE(edits.set_height(0, -32769));

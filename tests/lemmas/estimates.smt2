@@ -98,13 +98,13 @@
 (check-sat)
 (pop)
 
-; A half's share: columns' weights are below 2^14.6 = 24833, of fewer than 32 lines.
+; A half's share: columns' weights are below 2^14.6 = 24833, or twice that if not found there; times a count, at most 16.
 ;; shared/place_coding.hpp: const uint32_t share = (weight.high << 11) / (weight.low + weight.high + 1);
 (push)
 (declare-const low Int)
 (declare-const high Int)
 (declare-const share Int)
-(assert (and (<= 1 low 794656) (<= 1 high 794656)))  ; 32 times that
+(assert (and (<= 1 low 794656) (<= 1 high 794656)))
 (assert (and (<= 0 share) (<= (* share (+ low high 1)) (* 2048 high))))
 (check-sat)
 (assert (not (and (< (* 2048 high) 4294967296) (< share 2048))))

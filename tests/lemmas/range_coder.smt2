@@ -37,7 +37,7 @@
 (pop)
 
 ; A number: what is left of the range is at least 2^8.
-;; decoder/range_decoder.hpp: range /= count;
+;; decoder/range_decoder.hpp: const uint32_t part = width / count;
 (push)
 (declare-const count Int)
 (assert (<= 2 count 65536))
@@ -50,7 +50,7 @@
 (pop)
 
 ; ... and at most half of it, and the code stays within.
-;; decoder/range_decoder.hpp: code -= value * range;
+;; decoder/range_decoder.hpp: code -= value * part;
 (push)
 (declare-const count Int)
 (assert (<= 2 count 65536))
@@ -62,6 +62,28 @@
 (assert (and (= code (+ (* value part) rest)) (<= 0 rest) (< rest part)))
 (check-sat)
 (assert (not (and (<= (* 2 part) range) (<= (* value part) code) (< (- code (* value part)) part))))
+(check-sat)
+(pop)
+
+; A number or an escape: either leaves at least 2^8 of the range, and the code stays within.
+;; decoder/range_decoder.hpp: return take(range - (range >> kEscapeBits), count);
+;; decoder/range_decoder.hpp: range -= count * part;
+(push)
+(declare-const count Int)
+(assert (<= 1 count 16384))
+(declare-const escape Int)
+(declare-const below Int)
+(assert (and (= range (+ (* 1024 escape) below)) (<= 0 below) (< below 1024)))
+(declare-const part Int)
+(declare-const lost Int)
+(assert (and (= (- range escape) (+ (* count part) lost)) (<= 0 lost) (< lost count)))
+(declare-const value Int)
+(declare-const rest Int)
+(assert (and (= code (+ (* value part) rest)) (<= 0 rest) (< rest part)))
+(define-fun kept () Int (ite (< value count) part (- range (* count part))))
+(define-fun new_code () Int (ite (< value count) rest (- code (* count part))))
+(check-sat)
+(assert (not (and (<= 256 kept) (<= 0 new_code) (< new_code kept) (< (* count part) range))))
 (check-sat)
 (pop)
 

@@ -70,6 +70,9 @@ class PlanCoder {
     return payload_.bit(probability, value);
   }
   uint32_t uniform(uint32_t count, uint32_t value) { return payload_.uniform(count, value); }
+  uint32_t uniform_or_escape(uint32_t count, uint32_t value) {
+    return payload_.uniform_or_escape(count, value);
+  }
 
   // The next of the seed; in a phase what is left of it and conflicts with the triangle in hand: of
   // several the one that makes a final triangle with the chord.

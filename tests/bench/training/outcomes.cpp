@@ -24,6 +24,10 @@ struct RecordingCoder : RangeDecoder {
     decisions.push_back(RangeDecoder::uniform(count, 0));
     return decisions.back();
   }
+  uint32_t uniform_or_escape(uint32_t count, uint32_t) {
+    decisions.push_back(RangeDecoder::uniform_or_escape(count, 0));
+    return decisions.back();
+  }
 };
 
 // Makes recorded decisions again, and tells which adaptive bit learned from each: the only one that
@@ -40,6 +44,7 @@ class ReplayingCoder : public RangeDecoder {
     return *next_++ != 0;
   }
   uint32_t uniform(uint32_t, uint32_t) { return *next_++; }
+  uint32_t uniform_or_escape(uint32_t, uint32_t) { return *next_++; }
 
   const Outcomes& outcomes() {
     attribute();

@@ -1,6 +1,6 @@
 ; SPDX-License-Identifier: MIT
 ; True, but of nothing: the assumptions contradict each other.
-;; decoder/range_decoder.hpp: range /= count;
+;; decoder/range_decoder.hpp: const uint32_t part = width / count;
 (push)
 (declare-const count Int)
 (assert (and (<= 2 count 65536) (< 65536 count)))
