@@ -133,15 +133,17 @@ void balance(const Surface& surface, HeightChoice& heights, std::size_t most, Fi
 // not bring it there: most vertices have one allowed height.
 void centre(Surface& surface, Decimation& decimation, std::size_t most, Fitted& found,
             const SimplifyOptions& options) {
+  double mean = found.mean;
   for (int i = 0; i < kCentringRounds && !found.is_centred; ++i) {
     const Progress part = options.progress.part(static_cast<double>(i) / kCentringRounds,
                                                 static_cast<double>(i + 1) / kCentringRounds);
-    decimation.centre(found.mean, std::min(kNear * (i + 1), kFar), part);
+    decimation.centre(mean, std::min(kNear * (i + 1), kFar), part);
     HeightChoice heights(surface, options.effort.degree);
     Fitted next = with_cheap_heights(surface, heights, options);
     balance(surface, heights, most, next, options);
-    if (next.bytes > most || std::abs(next.mean) >= std::abs(found.mean)) return;
-    found = std::move(next);
+    if (next.bytes > most) return;
+    mean = next.mean;
+    if (std::abs(mean) < std::abs(found.mean)) found = std::move(next);
   }
 }
 

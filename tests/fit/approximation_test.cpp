@@ -100,7 +100,8 @@ TEST_CASE("approximation: the step is a good one, or the one asked for") {
   }
   LatticeOptions coarse = within("1.5");
   coarse.z_step = parse_decimal("4");
-  CHECK_THROWS_AS(approximate(raster, coarse, {true, 0, Search::kFast, false, true, {}, {}}), Error);
+  CHECK_THROWS_AS(approximate(raster, coarse, {true, 0, Search::kFast, false, true, {}, {}}),
+                  Error);
 }
 
 TEST_CASE("approximation: a longer search takes fewer bytes") {

@@ -211,8 +211,8 @@ TEST_CASE("files that are not there, or of no known kind, are refused by name") 
   std::ofstream(path) << "II";
   CHECK(error(path) ==
         path +
-            ": not a kind of terrain file known here (.hgt, .zip, .asc, .xyz, .csv, .txt, .las, "
-            ".ply, .obj); for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build with "
+            ": not a kind of terrain file known here: .hgt, .zip, .asc, .xyz, .csv, .txt, .las, "
+            ".ply, .obj; for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build with "
             "-DMICROTIN_WITH_GDAL=ON");
 #endif
 }

@@ -54,7 +54,8 @@ void check_round_trip(const Source& source, std::optional<Decimal> bound) {
   LatticeOptions options;
   options.max_error = bound;
   const Laid laid = lay_out(source, options);
-  const Tin tin = simplify(laid.survey, {bound.has_value(), 0, Search::kNormal, false, true, {}, {}});
+  const Tin tin =
+      simplify(laid.survey, {bound.has_value(), 0, Search::kNormal, false, true, {}, {}});
   Metadata metadata;
   metadata.placement = laid.placement;
   const std::vector<uint8_t> stream = encode(tin, metadata);
