@@ -4,6 +4,7 @@
 length   the README has at most 200 lines
 links    files that the documents link to are there
 licence  every source names its licence
+faults   the text that a planted fault replaces stands once in its source
 """
 
 import re
@@ -49,14 +50,14 @@ def length(folder):
 
 
 def links(folder):
-    faults = []
+    found = []
     for document in files(folder):
         if document.suffix != ".md":
             continue
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", document.read_text()):
             if not (document.parent / target).exists():
-                faults.append(f"{document.relative_to(folder)} links to {target}, which is not there")
-    return faults
+                found.append(f"{document.relative_to(folder)} links to {target}, which is not there")
+    return found
 
 
 def licence(folder):
@@ -67,12 +68,22 @@ def licence(folder):
     ]
 
 
+def faults(folder):
+    found = []
+    for path in sorted((folder / "fuzz/mutants").iterdir()):
+        lines = [line for line in lines_of(path) if not line.startswith("#")]
+        old = "".join(line[1:] + "\n" for line in lines if line.startswith("-"))
+        if (folder / lines[0]).read_text().count(old) != 1:
+            found.append(f"{path.name} replaces what is not found exactly once in {lines[0]}")
+    return found
+
+
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    faults = {"length": length, "links": links, "licence": licence}[sys.argv[1]](folder)
-    for fault in faults:
+    found = {"length": length, "links": links, "licence": licence, "faults": faults}[sys.argv[1]](folder)
+    for fault in found:
         print("rejected:", fault)
-    sys.exit(1 if faults else 0)
+    sys.exit(1 if found else 0)
 
 
 if __name__ == "__main__":
