@@ -17,7 +17,7 @@
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/output_file.hpp"
 #include "encoder/import/cloud_size.hpp"
-#include "encoder/import/mosaic.hpp"
+#include "encoder/import/folder.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
 #include "encoder/product/reference.hpp"

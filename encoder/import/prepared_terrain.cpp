@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "encoder/base/error_context.hpp"
+#include "encoder/import/folder.hpp"
 #include "encoder/import/mosaic.hpp"
 #include "encoder/terrain/voids.hpp"
 #include "encoder/terrain/water.hpp"

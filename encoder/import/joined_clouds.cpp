@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#include "encoder/import/joined_clouds.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/coordinates.hpp"
+#include "encoder/exact/fraction.hpp"
+
+namespace microtin::importing {
+namespace {
+
+// Brings numbers to more decimals; false if they do not fit.
+bool refine(std::array<int64_t*, 2> numbers, int64_t factor) {
+  for (int64_t* const number : numbers) {
+    if (number == nullptr) continue;
+    const Wide exact = Wide{*number} * factor;
+    if (magnitude(exact) > power_of_ten(18)) return false;
+    *number = static_cast<int64_t>(exact);
+  }
+  return true;
+}
+
+void refine(PointCloud& cloud, int xy_decimals, int z_decimals, const std::string& path) {
+  const int64_t xy = power_of_ten(xy_decimals - cloud.xy_decimals);
+  const int64_t z = power_of_ten(z_decimals - cloud.z_decimals);
+  for (SourcePoint& p : cloud.points) {
+    if (!refine({&p.x, &p.y}, xy) || !refine({&p.z, nullptr}, z)) {
+      throw Error(path + ": its numbers do not go with the decimals of the other files");
+    }
+  }
+  cloud.xy_decimals = xy_decimals;
+  cloud.z_decimals = z_decimals;
+}
+
+// Where points of several files share a place: how far they differ there.
+class SharedPlaces {
+ public:
+  // Files' points follow each other; `ends` says where each one's do.
+  SharedPlaces(const PointCloud& cloud, const std::vector<size_t>& ends)
+      : cloud_(cloud), ends_(ends), order_(cloud.points.size()) {
+    std::iota(order_.begin(), order_.end(), size_t{0});
+    std::sort(order_.begin(), order_.end(), [this](size_t a, size_t b) {
+      const SourcePoint &p = cloud_.points[a], &q = cloud_.points[b];
+      return std::tie(p.x, p.y, a) < std::tie(q.x, q.y, b);
+    });
+    for (size_t begin = 0; begin < order_.size();) begin = compare_from(begin);
+  }
+
+  std::string text(const std::vector<NamedSource>& parts) const {
+    if (places_ == 0) return ", which share no place";
+    const std::string at = std::to_string(places_) + " places that they share";
+    if (difference_ == 0) return ", which agree at " + at;
+    const CoordinateText place({0, 1, static_cast<uint64_t>(power_of_ten(cloud_.xy_decimals))});
+    const SourcePoint& p = cloud_.points[first_];
+    return "; at " + at + " they differ by up to " +
+           to_string(make_decimal(difference_, cloud_.z_decimals)) + ", most at x " + place(p.x) +
+           ", y " + place(p.y) + " in " + parts[file_of(first_)].path + " and " +
+           parts[file_of(second_)].path + "; all count";
+  }
+
+ private:
+  size_t file_of(size_t point) const {
+    return static_cast<size_t>(std::upper_bound(ends_.begin(), ends_.end(), point) - ends_.begin());
+  }
+
+  // The points of one place, in the order of their files; those of earlier files are compared by
+  // their lowest and highest. Returns where the next place begins.
+  size_t compare_from(size_t begin) {
+    const SourcePoint& place = cloud_.points[order_[begin]];
+    const size_t first_file = file_of(order_[begin]);
+    size_t low = order_[begin], high = low, own_low = low, own_high = low, file = first_file;
+    bool is_shared = false;
+    size_t end = begin;
+    for (; end < order_.size(); ++end) {
+      const size_t point = order_[end];
+      const SourcePoint& p = cloud_.points[point];
+      if (p.x != place.x || p.y != place.y) break;
+      if (const size_t own = file_of(point); own != file) {
+        file = own;
+        low = lower(low, own_low);
+        high = higher(high, own_high);
+        own_low = own_high = point;
+      }
+      own_low = lower(own_low, point);
+      own_high = higher(own_high, point);
+      if (file == first_file) continue;
+      is_shared = true;
+      note(low, point);
+      note(high, point);
+    }
+    if (is_shared) ++places_;
+    return end;
+  }
+
+  size_t lower(size_t a, size_t b) const { return cloud_.points[b].z < cloud_.points[a].z ? b : a; }
+  size_t higher(size_t a, size_t b) const {
+    return cloud_.points[b].z > cloud_.points[a].z ? b : a;
+  }
+
+  void note(size_t a, size_t b) {
+    const Wide difference = magnitude(Wide{cloud_.points[a].z} - cloud_.points[b].z);
+    if (difference <= difference_) return;
+    difference_ = difference;
+    first_ = a;
+    second_ = b;
+  }
+
+  const PointCloud& cloud_;
+  const std::vector<size_t>& ends_;
+  std::vector<size_t> order_;
+  uint64_t places_ = 0;
+  Wide difference_ = 0;
+  size_t first_ = 0, second_ = 0;
+};
+
+}  // namespace
+
+PointCloud join_clouds(std::vector<NamedSource> parts) {
+  PointCloud whole = std::move(std::get<PointCloud>(parts[0].source));
+  std::vector<size_t> ends = {whole.points.size()};
+  for (size_t i = 1; i < parts.size(); ++i) {
+    PointCloud& part = std::get<PointCloud>(parts[i].source);
+    expect_alike(parts[0], parts[i], whole.reference, part.reference);
+    const int xy = std::max(whole.xy_decimals, part.xy_decimals);
+    const int z = std::max(whole.z_decimals, part.z_decimals);
+    refine(whole, xy, z, parts[i].path);
+    refine(part, xy, z, parts[i].path);
+    whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
+    if (whole.classes && part.classes) *whole.classes |= *part.classes;
+    ends.push_back(whole.points.size());
+    part = PointCloud();
+  }
+  whole.selection = std::to_string(parts.size()) + " files" + SharedPlaces(whole, ends).text(parts);
+  return whole;
+}
+
+}  // namespace microtin::importing
