@@ -62,13 +62,14 @@ static_assert(kRangeLeast >> 16 >= 1 << 8, "after any number two bytes are enoug
 
 // Interval coding after Schindler and LZMA: `code` is the stream's value relative to the interval's
 // low end, always below `range`; `range` stays at or above 2^24 between calls.
+// The two are not side by side: else GCC makes a vector of them, and takes it apart for each bit.
 struct RangeDecoder {
   uint32_t range;
-  uint32_t code;
   uint32_t payload_left;  // bytes not read yet before the check: of notes, or a section's payload
   uint32_t virtual_left;  // zero bytes that may still be read behind it
-  bool overrun;           // more was asked for than there is, or no encoder can have written this
-  ByteWindow window;      // holds at least min(payload_left, kStepBytes) bytes when a step starts
+  uint32_t code;
+  bool overrun;       // more was asked for than there is, or no encoder can have written this
+  ByteWindow window;  // holds at least min(payload_left, kStepBytes) bytes when a step starts
 
   uint32_t next_byte() {
     if (payload_left != 0) {

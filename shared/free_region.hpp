@@ -104,8 +104,8 @@ struct FreeRegion {
   int32_t shift;   // -5 .. 10
   Spot c, a;
   int32_t cc, aa, ca;  // dot products
-  Divisor by_twice;    // twice the area
   Log2 expected;       // log2 of the points that it should hold
+  Divisor by_twice;    // twice the area
 };
 
 // Area, over the squared chord, of the segment that is seen under k >= 0 (8 fractional bits, at

@@ -54,7 +54,7 @@ int32_t code_gap(Coder& coder, ExponentModel& gap, MantissaModel& mantissa, Pari
   const FastInt number = first + static_cast<FastInt>(code_magnitude(
                                      coder, gap, mantissa, bits,
                                      static_cast<uint32_t>(number_of(steps, known) - first)));
-  if (number > steps.numbers.last) return 0;
+  if (number - first >= steps.numbers.count) return 0;
   const FastInt gone = line_at(steps, number);
   learn(tally, is_odd(gone, odd));
   return static_cast<int32_t>(gone);

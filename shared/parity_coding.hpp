@@ -73,9 +73,18 @@ inline uint32_t probability_of_odd(const Tally& tally, const Lines& lines) {
       probability, kProbabilityMargin, static_cast<int32_t>(kProbabilityOne) - kProbabilityMargin));
 }
 
+// As many as `count`, from the first on: halves are told sooner than by both ends.
+struct Numbers {
+  FastInt first, count;
+};
+
+inline Numbers numbers_of(const Lines& lines) {
+  return Numbers{lines.first, count_of(lines)};
+}
+
 // Lines that are left to choose from: all, or those of one parity. Number i is line step i + base.
 struct Ruling {
-  Lines numbers;
+  Numbers numbers;
   FastInt step, base;  // 1, 0 or 2, -1 .. 1
 };
 
@@ -88,28 +97,24 @@ inline FastInt number_of(const Ruling& ruling, FastInt line) {
   return (line - ruling.base) >> (ruling.step - 1);
 }
 
-// Codes the parity of one of several lines, which count from one that may be odd itself, and leaves
+// Codes the parity of one of several lines, which count from one that may be odd itself. Returns
 // those of this parity.
 template <class Coder>
-MICROTIN_OUT_OF_LINE void code_parity(Coder& coder, const Tally& tally, Ruling& ruling,
-                                      bool odd_origin, FastInt line) {
+MICROTIN_OUT_OF_LINE Ruling code_parity(Coder& coder, const Tally& tally, const Lines& all,
+                                        bool odd_origin, FastInt line) {
   const FastInt origin = odd_origin ? 1 : 0;
-  const Lines lines = {ruling.numbers.first + origin, ruling.numbers.last + origin};
+  const Lines lines = {all.first + origin, all.last + origin};
   const FastInt odd =
       coder.bit(probability_of_odd(tally, lines), ((line + origin) & 1) != 0) ? 1 : 0;
-  ruling.numbers = Lines{(lines.first + 1 - odd) >> 1, (lines.last - odd) >> 1};
-  ruling.step = 2;
-  ruling.base = odd - origin;
+  return Ruling{numbers_of(Lines{(lines.first + 1 - odd) >> 1, (lines.last - odd) >> 1}), 2,
+                odd - origin};
 }
 
 // Where no parity is preferred none is coded: that would take longer, and save nothing.
 template <class Coder>
 Ruling rule(Coder& coder, const Tally& tally, const Lines& lines, bool odd_origin, FastInt line) {
-  Ruling ruling = {lines, 1, 0};
-  if (lines.first < lines.last && prefers_one(tally)) {
-    code_parity(coder, tally, ruling, odd_origin, line);
-  }
-  return ruling;
+  if (lines.first >= lines.last || !prefers_one(tally)) return Ruling{numbers_of(lines), 1, 0};
+  return code_parity(coder, tally, lines, odd_origin, line);
 }
 
 }  // namespace microtin

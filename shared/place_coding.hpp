@@ -26,49 +26,52 @@ struct PlaceModel {
 };
 
 // Keeps the upper or the lower half.
-inline void halve(Lines& lines, bool upper) {
-  const FastInt half = count_of(lines) >> 1;
+inline void halve(Numbers& numbers, bool upper) {
+  const FastInt half = numbers.count >> 1;
   if (upper) {
-    lines.first += half;
+    numbers.first += half;
+    numbers.count -= half;
   } else {
-    lines.last = lines.first + half - 1;
+    numbers.count = half;
   }
 }
 
-inline bool is_in_upper_half(const Lines& lines, FastInt line) {
-  return line - lines.first >= count_of(lines) >> 1;
+inline bool is_in_upper_half(const Numbers& numbers, FastInt number) {
+  return number - numbers.first >= numbers.count >> 1;
 }
 
-// Codes a line in one of four quarters, if there are so many lines; keeps the quarter.
+// Codes a number in one of four quarters, if there are so many numbers; keeps the quarter.
 template <class Coder>
-void code_quarter(Coder& coder, Quarters& quarters, Lines& lines, FastInt line) {
-  if (count_of(lines) < 4) return;
-  const bool upper = code_bit(coder, quarters.bit[0], is_in_upper_half(lines, line));
-  halve(lines, upper);
-  halve(lines, code_bit(coder, quarters.bit[upper ? 2 : 1], is_in_upper_half(lines, line)));
+void code_quarter(Coder& coder, Quarters& quarters, Numbers& numbers, FastInt number) {
+  if (numbers.count < 4) return;
+  const bool upper = code_bit(coder, quarters.bit[0], is_in_upper_half(numbers, number));
+  halve(numbers, upper);
+  halve(numbers, code_bit(coder, quarters.bit[upper ? 2 : 1], is_in_upper_half(numbers, number)));
 }
 
 template <class Coder>
-MICROTIN_IN_PLACE inline bool code_half(Coder& coder, Calibration& calibration, Lines& lines,
-                                        Halves weight, FastInt line) {
-  const FastInt count = count_of(lines), half = count >> 1;
+MICROTIN_IN_PLACE inline bool code_half(Coder& coder, Calibration& calibration, Numbers& numbers,
+                                        Halves weight, FastInt number) {
+  const FastInt count = numbers.count, half = count >> 1;
   if (count < kFewLines) {
     weight.low *= static_cast<uint32_t>(half);
     weight.high *= static_cast<uint32_t>(count - half);
   }
   const uint32_t share = (weight.high << 11) / (weight.low + weight.high + 1);  // < 2^31
-  const bool upper = code_calibrated(coder, calibration, share, is_in_upper_half(lines, line));
-  halve(lines, upper);
+  const bool upper = code_calibrated(coder, calibration, share, is_in_upper_half(numbers, number));
+  halve(numbers, upper);
   return upper;
 }
 
-// Codes one of `lines`, all equally likely, or that it is none of them: then false.
+// Codes one of `numbers`, all equally likely, or that it is none of them: then false.
 template <class Coder>
-MICROTIN_IN_PLACE inline bool code_any_or_none(Coder& coder, const Lines& lines, FastInt& line) {
-  const uint32_t count = static_cast<uint32_t>(count_of(lines));
-  const uint32_t number = coder.uniform_or_escape(count, static_cast<uint32_t>(line - lines.first));
-  line = lines.first + static_cast<FastInt>(number);
-  return number < count;
+MICROTIN_IN_PLACE inline bool code_any_or_none(Coder& coder, const Numbers& numbers,
+                                               FastInt& number) {
+  const uint32_t count = static_cast<uint32_t>(numbers.count);
+  const uint32_t which =
+      coder.uniform_or_escape(count, static_cast<uint32_t>(number - numbers.first));
+  number = numbers.first + static_cast<FastInt>(which);
+  return which < count;
 }
 
 // Codes one of `lines`, all equally likely.
@@ -131,20 +134,20 @@ inline uint32_t outer_weight(uint32_t mean, uint32_t towards) {
   return 2 * mean > towards + least ? 2 * mean - towards : least;
 }
 
-// Keeps a part of the lines that holds `number`. The first two times lines are halved both halves
+// Keeps a part of the numbers that holds `number`. The first two times lines are halved both halves
 // are weighed at their middles, then that away from what was left out: the other's middle is
 // between those of the two halves that were kept last.
 template <class Coder>
 MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruling& ruling,
                                           FastInt number, const Place& place,
                                           const Column* column) {
-  Lines& lines = ruling.numbers;
+  Numbers& numbers = ruling.numbers;
   const FastInt base = ruling.base;
   const int32_t shift = twice_shift(ruling, place.legal.shift);
   uint32_t before = 0, kept = 0;
   bool upper = false;
-  for (uint32_t i = 0; i < kLevels && lines.first < lines.last; ++i) {
-    const FastInt count = count_of(lines), middle = 2 * lines.first + (count >> 1) - 1 + base;
+  for (uint32_t i = 0; i < kLevels && numbers.count > 1; ++i) {
+    const FastInt count = numbers.count, middle = 2 * numbers.first + (count >> 1) - 1 + base;
     Halves weight;
     if (i < 2) {
       weight = weights_of(place, column, shifted(middle, shift), shifted(middle + count, shift));
@@ -156,7 +159,7 @@ MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruli
               : outer_weight(kept, towards);
       weight = upper ? Halves{towards, outer} : Halves{outer, towards};
     }
-    upper = code_half(coder, level[i], lines, weight, number);
+    upper = code_half(coder, level[i], numbers, weight, number);
     before = kept;
     kept = upper ? weight.high : weight.low;
   }

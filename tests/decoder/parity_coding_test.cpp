@@ -29,8 +29,8 @@ struct Teller {
 
 std::vector<FastInt> lines_of(const Ruling& ruling) {
   std::vector<FastInt> lines;
-  for (FastInt i = ruling.numbers.first; i <= ruling.numbers.last; ++i) {
-    lines.push_back(line_at(ruling, i));
+  for (FastInt i = 0; i < ruling.numbers.count; ++i) {
+    lines.push_back(line_at(ruling, ruling.numbers.first + i));
   }
   return lines;
 }
