@@ -12,7 +12,11 @@ namespace {
 constexpr double kUsualSlope = -1.2, kSteepest = -5, kFlattest = -0.5;
 constexpr double kNearby = 0.01;  // logarithms of bounds too close to tell a slope
 constexpr double kRange = 1e-6;
-constexpr double kMargin = 0.1;  // of the way between two ends: nearer to one tells little
+constexpr double kFarthest = 0.4;  // logarithm: beyond it the usual slope misleads
+constexpr double kFarSlope = 4;    // ... unless sizes differ by more than that explains
+constexpr double kMargin = 0.1;    // of the way between two ends: nearer to one tells little
+constexpr int kHalving = 5;        // margins: bisection
+constexpr double kFarOff = 0.1;    // of the logarithm of a size
 
 double value_of(Decimal d) {
   return static_cast<double>(d.mantissa) / std::pow(10.0, d.decimals);
@@ -29,7 +33,7 @@ BoundSearch::BoundSearch(Decimal largest, double guess, double limit)
       slope_(kUsualSlope) {}
 
 Decimal BoundSearch::bound_for(double size) const {
-  const double by_line = last_ ? last_->bound + (std::log(size) - last_->size) / slope_ : guess_;
+  const double by_line = last_ ? beyond_last(size) : guess_;
   const double wanted = too_large_ && fitting_ ? between_ends(size) : by_line;
   const double bound = std::clamp(wanted, lowest_, highest_);
   if (bound >= highest_) return largest_;
@@ -39,10 +43,20 @@ Decimal BoundSearch::bound_for(double size) const {
                   [](Decimal a, Decimal b) { return !(b <= a); });
 }
 
+double BoundSearch::beyond_last(double size) const {
+  const double ratio = std::log(size) - last_->size, way = ratio / slope_;
+  if (slope_known_) return last_->bound + way;
+  const double farthest = std::max(kFarthest, std::abs(ratio) / kFarSlope);
+  return last_->bound + std::clamp(way, -farthest, farthest);
+}
+
 double BoundSearch::between_ends(double size) const {
   const double way = (std::log(size) - too_large_->size) / (fitting_->size - too_large_->size);
+  const bool far_off = on_one_side_ > 1 && std::abs(last_->size - std::log(size)) > kFarOff;
+  const double margin =
+      kMargin * (far_off ? kHalving : std::min(std::max(on_one_side_, 1), kHalving));
   return too_large_->bound +
-         std::clamp(way, kMargin, 1 - kMargin) * (fitting_->bound - too_large_->bound);
+         std::clamp(way, margin, 1 - margin) * (fitting_->bound - too_large_->bound);
 }
 
 void BoundSearch::add(Decimal bound, std::optional<double> size) {
@@ -57,7 +71,10 @@ void BoundSearch::add(Decimal bound, std::optional<double> size) {
   if (last_ && std::abs(trial.bound - last_->bound) > kNearby) {
     slope_ =
         std::clamp((trial.size - last_->size) / (trial.bound - last_->bound), kSteepest, kFlattest);
+    slope_known_ = true;
   }
+  const bool same_side = last_ && (trial.size > limit_) == (last_->size > limit_);
+  on_one_side_ = same_side ? on_one_side_ + 1 : 1;
   last_ = trial;
   if (trial.size > limit_) {
     if (!too_large_ || at > too_large_->bound) too_large_ = trial;
@@ -71,6 +88,7 @@ void BoundSearch::add(Decimal bound, std::optional<double> size) {
 void BoundSearch::forget_ends() {
   too_large_.reset();
   fitting_.reset();
+  on_one_side_ = 0;
 }
 
 }  // namespace microtin::fit

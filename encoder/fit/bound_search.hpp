@@ -11,7 +11,8 @@
 namespace microtin::fit {
 
 // Sizes fall with a power of the bound: a straight line of logarithms, through the last two trials
-// or, once some were too large and others not, between the nearest two of these.
+// or, once some were too large and others not, between the nearest two of these: the nearer to the
+// middle the more trials ended on one side, as sizes may jump.
 class BoundSearch {
  public:
   // Bounds lie between a millionth of `largest` and that. guess > 0: the first to be tried. limit:
@@ -32,6 +33,7 @@ class BoundSearch {
     double bound, size;  // logarithms
   };
 
+  double beyond_last(double size) const;
   double between_ends(double size) const;
 
   Decimal largest_;
@@ -39,7 +41,9 @@ class BoundSearch {
   double guess_, limit_;     // logarithms
   std::optional<Trial> last_;
   std::optional<Trial> too_large_, fitting_;  // with the largest bound, and with the smallest
+  int on_one_side_ = 0;                       // the last trials, of the limit
   double slope_;
+  bool slope_known_ = false;  // not just usual
 };
 
 }  // namespace microtin::fit

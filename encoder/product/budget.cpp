@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Finds a bound that takes a little more than there is, then widens it, searching on, until it
-// fits.
+// fits; takes longer if that leaves much unused.
 #include "encoder/product/budget.hpp"
 
 #include <algorithm>
@@ -20,16 +20,19 @@ namespace {
 constexpr double kMore = 0.05, kNearer = 0.4;
 constexpr double kWideAim = 0.997, kUsed = 0.994;  // of a wider bound; what is enough
 constexpr double kNearlyUsed = 0.97;               // before a round bound is tried
+constexpr double kLastAim = 0.99;                  // of the last wider bound, if less is used
 constexpr double kLoose = 1.35;  // how much more than fits a wider bound may have to save
 constexpr double kClose = 0.2;   // of the logarithm of a size: near enough for a rough trial
 constexpr double kRound = 0.97;  // of a bound: round ones above that are tried
-constexpr int kRoughTrials = 3, kWiderBounds = 5, kMoreTrials = 12;
+constexpr int kRoughTrials = 3, kWiderBounds = 7, kMoreTrials = 12;
 constexpr uint32_t kPieces = 4;  // of the rounds of a search: what each wider bound takes
 
 constexpr double kHeaderBytes = 100, kBytesPerVertex = 1.4;  // usually
 
 // What all may take, in times of one encoding, as measured on development terrains.
 constexpr double kMost = 3.6, kMostOfFew = 20;
+constexpr double kRescue = 1.25, kLittleMore = 0.5;  // more while the limit is badly used
+constexpr double kWellUsed = 0.99;
 constexpr uint64_t kFewPosts = 20000;  // which take no time
 
 // What efforts take, and what comes of them.
@@ -98,9 +101,7 @@ class Budget {
     if (options_.search != Search::kFast) try_roughly(search);
     for (double more = kMore; affords(costs_.trial); more *= kNearer) {
       try_bound(search, (1 + more) / costs_.rest * limit_);
-      if (best_bound_ && best_size_ >= kNearlyUsed * limit_ && affords(costs_.trial)) {
-        try_round_bound();
-      }
+      if (nearly_used() && affords(costs_.trial)) try_round_bound();
     }
     for (int i = 0; i < kMoreTrials && !best_; ++i) {
       try_bound(search, std::pow(kWideAim, 1 << i) * limit_);
@@ -115,7 +116,15 @@ class Budget {
   }
   bool fits(double size) const { return size <= limit_; }
 
-  bool affords(double cost) const { return spent_ + cost <= most_; }
+  // By a bound: insertion alone uses all vertices, but badly.
+  bool uses(double part) const { return best_bound_ && best_size_ >= part * limit_; }
+  bool nearly_used() const { return uses(kNearlyUsed); }
+
+  double most() const {
+    if (uses(kWellUsed)) return most_;
+    return most_ + (nearly_used() ? kLittleMore : kRescue);
+  }
+  bool affords(double cost) const { return spent_ + cost <= most(); }
   Progress spending(double cost) {
     const double before = std::min(spent_ / most_, 1.0);
     spent_ += cost;
@@ -197,7 +206,8 @@ class Budget {
     }
     const double size = keep(measured(source_, options_, Approximation(*found)));
     search.add(bound, size);
-    if (size > limit_ && size <= kLoose * limit_) widen(search, bound, size, *found);
+    if (size <= limit_) return;
+    if (size <= kLoose * limit_ || !affords(costs_.trial)) widen(search, bound, size, *found);
   }
 
   // Searches on from a surface that takes too much, within wider bounds, until it fits closely.
@@ -208,7 +218,8 @@ class Budget {
     const uint32_t rounds = std::max(rounds_of(options_.search) / kPieces, 1u);
     LatticeOptions& lattice = options_.lattice;
     for (int i = 0; i < kWiderBounds && affords(costs_.widening); ++i) {
-      bound = search.bound_for(kWideAim * limit_);
+      const bool last = !uses(kWellUsed) && !affords(2 * costs_.widening);
+      bound = search.bound_for((last ? kLastAim : kWideAim) * limit_);
       if (bound <= least) bound = least;
       lattice.max_error = bound;
       Approximation wide{lay_out_at_step(tight.laid.z_step), tight.tin};
