@@ -58,7 +58,7 @@ inline int32_t kept_within(int32_t v, int32_t least, int32_t most) {
 }
 
 // The root of v, rounded down, or up to 2^-11 of it and 1 more, for 0 < v < 2^31.
-inline uint32_t rough_root(uint32_t v) {
+MICROTIN_ONE_COPY inline uint32_t rough_root(uint32_t v) {
   const uint32_t half = highest_bit(v) >> 1;
   const uint32_t guess = (11u * (v >> half) + ((static_cast<uint32_t>(22) << half) + 32u)) >> 5;
   return (guess + v / guess) >> 1;
