@@ -76,8 +76,9 @@ class Settlement {
     }
     reference.vertical_unit = reference.horizontal_unit;
     if (reference.vertical_unit == Unit::kUnknown) return;
+    const Unit other = reference.vertical_unit == Unit::kMetre ? Unit::kFoot : Unit::kMetre;
     remarks_.push_back("heights are taken as " + text_of(reference.vertical_unit) +
-                       ", as x and y are; if they are not, give units, such as :metre");
+                       ", as x and y are; if they are not, give units, such as :" + text_of(other));
   }
 
   std::vector<std::string> take_remarks() { return std::move(remarks_); }
