@@ -8,8 +8,9 @@
 
 namespace microtin::product {
 
-// As encode_stream, for options with a limit of bytes or of vertices and without a bound. At most
-// about four encodings' time, twenty of small terrains. Throws Error if no bound is large enough.
+// As encode_stream, for options with a limit of bytes or of vertices and without a bound. About
+// four encodings' time, at most five; of small terrains twenty. Throws Error if no bound is large
+// enough.
 EncodedStream encode_within_budget(const Source& source, const EncodeOptions& options,
                                    const Progress& progress);
 
