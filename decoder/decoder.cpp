@@ -256,7 +256,7 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
   r.voids = mesh->voids;
   r.queue = reinterpret_cast<Index*>(&d + 1);
   r.marks = reinterpret_cast<uint8_t*>(r.queue + capacity);
-  r.residual = reinterpret_cast<Residual*>(r.marks + (capacity + 3) / 4);
+  r.residual = reinterpret_cast<Residual*>(r.marks + mark_bytes(capacity));
   r.phase = 0;
   empty_mesh(*mesh);
   *decoder = &d;

@@ -4,8 +4,8 @@
 #define MICROTIN_SHARED_HEIGHT_CODING_HPP
 
 #include "shared/format.hpp"
-#include "shared/mesh.hpp"
 #include "shared/probability.hpp"
+#include "shared/ring_sums.hpp"
 
 namespace microtin {
 
@@ -22,24 +22,17 @@ struct MantissaModel {
   AdaptiveBit second[kMantissas];
 };
 
-// Codes whether a magnitude has more than `bits` bits.
-template <class Coder>
-bool code_longer(Coder& coder, ExponentModel& model, uint32_t typical, uint32_t bits, bool longer) {
-  uint32_t i = bits + kExponents / 2;
-  i = i < typical ? 0 : i - typical;
-  return code_bit(coder, model.longer[i < kExponents ? i : kExponents - 1], longer);
-}
-
 // Codes a number of bits up to kMagnitudeBits: upwards or downwards from the typical one, which is
 // smaller.
 template <class Coder>
 uint32_t code_exponent(Coder& coder, ExponentModel& model, uint32_t typical, uint32_t value) {
-  uint32_t bits = typical;
-  const bool upwards = code_longer(coder, model, typical, bits, bits < value);
+  uint32_t bits = typical, i = kExponents / 2;
+  const bool upwards = code_bit(coder, model.longer[i], bits < value);
   do {
     bits = upwards ? bits + 1 : bits - 1;  // below 0 is above all
-  } while (bits < kMagnitudeBits &&
-           code_longer(coder, model, typical, bits, bits < value) == upwards);
+    if (upwards && i != kExponents - 1) ++i;
+    if (!upwards && i != 0) --i;
+  } while (bits < kMagnitudeBits && code_bit(coder, model.longer[i], bits < value) == upwards);
   return upwards ? bits : bits + 1;
 }
 
@@ -66,55 +59,8 @@ struct HeightModel {
   AdaptiveBit negative[kTendencies][kSignSizes];
 };
 
-// What is kept of a vertex's difference from its prediction.
-typedef int8_t Residual;
-
 inline Residual residual_of(int32_t difference) {
   return static_cast<Residual>(difference < -127 ? -127 : difference > 127 ? 127 : difference);
-}
-
-// The ring of a new vertex has at most 32 neighbours; each weighs 1 / distance^2, rounded to a
-// power of two: 2^5 if it is as far as the first, at most 2^9, nothing below 1.
-struct RingSums {
-  uint32_t weights;    // 2^5 .. 31 * 2^9 + 2^5
-  int32_t heights;     // weighted, less that of the first: within +-2^30
-  uint32_t spread;     // of their magnitudes
-  int32_t residuals;   // weighted: within +-2^21
-  uint32_t roughness;  // of their magnitudes
-  uint32_t first;      // distance_bits of the first neighbour
-};
-
-inline uint32_t magnitude_of(int32_t v) {
-  return static_cast<uint32_t>(v < 0 ? -v : v);
-}
-
-// The position of the highest bit of half the squared distance, which is below 2^32; 0 for 1.
-inline uint32_t distance_bits(Point a, Point b) {
-  const uint32_t dx = static_cast<uint32_t>(a.x) - b.x, dy = static_cast<uint32_t>(a.y) - b.y;
-  return highest_bit(((dx * dx >> 1) + (dy * dy >> 1)) | 1u);  // squares are right modulo 2^32
-}
-
-inline RingSums sum_ring(const Mesh& mesh, const Residual* residual, const Index* ring,
-                         uint32_t size, Point place) {
-  RingSums sums = {0, 0, 0, 0, 0, 0};
-  const int32_t base = mesh.z[ring[0]];
-  for (uint32_t i = 0; i < size; ++i) {
-    const Index v = ring[i];
-    if (v == kInfinity) continue;
-    const uint32_t bits = distance_bits(point_of(mesh, v), place) + 4u;
-    if (i == 0) sums.first = bits - 4u;
-    const uint32_t farther = bits < sums.first ? 0 : bits - sums.first;
-    if (farther > 9) continue;
-    const int32_t weight = 512 >> farther;
-    const int32_t height = weight * (mesh.z[v] - base);
-    const int32_t difference = weight * residual[v];
-    sums.weights += static_cast<uint32_t>(weight);
-    sums.heights += height;
-    sums.spread += magnitude_of(height);
-    sums.residuals += difference;
-    sums.roughness += magnitude_of(difference);
-  }
-  return sums;
 }
 
 struct HeightPrediction {

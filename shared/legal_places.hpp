@@ -33,7 +33,7 @@ struct LegalPlaces {
   int32_t turns;        // quarters, counter-clockwise
   int32_t shift;        // of grains: -10 .. 10
   Lines columns, rows;  // of the lattice
-  Spot c, a;            // corners, below 2^11
+  Spot corner[2];       // c, a, below 2^11
   Circle own;           // its centre is below 2^13, its radius below 2^13.5
   Circle behind[2];     // the chord, side 0
 };
@@ -121,8 +121,8 @@ inline void find_places(LegalPlaces& places, const FreeRegion& region, const Con
   places.own = circle_about(centre, shift);
   add_circle(places, 0, region.chord, a, behind, shift);
   add_circle(places, 1, region.next, c, -region.next.behind, shift);
-  places.c = coarser(c, shift);
-  places.a = coarser(a, shift);
+  places.corner[0] = coarser(c, shift);
+  places.corner[1] = coarser(a, shift);
   find_lattice(places, contract, region.origin);
 }
 
@@ -144,7 +144,7 @@ inline int32_t grains(FastInt twice, int32_t shift) {
 // Whether a place on the own circle is legal as far as sides tell. Of corners and the own circle:
 // below 2^27.
 inline bool is_open(const LegalPlaces& places, const FreeRegion& region, Spot e) {
-  const Spot c = places.c, a = places.a;
+  const Spot c = places.corner[0], a = places.corner[1];
   return cross(a, e) <= 0 && !(region.next.certified && cross(c, e) < 0) &&
          !(region.opposite_certified && cross(a - c, e - c) < 0);
 }
@@ -163,8 +163,8 @@ inline Columns legal_columns(const LegalPlaces& places, const FreeRegion& region
   const Spot centre = {places.own.x2 >> 1, places.own.y};
   const int32_t square = centre.x * centre.x + places.own.yy;
   const int32_t radius = root_of(square | 1) + 1;
-  int32_t west = places.c.x < places.a.x ? places.c.x : places.a.x;
-  int32_t east = places.c.x > 0 ? places.c.x : 0;
+  const int32_t c = places.corner[0].x, a = places.corner[1].x;
+  int32_t west = c < a ? c : a, east = c > 0 ? c : 0;
   Columns columns;
   const Spot west_end = {centre.x - radius, centre.y}, east_end = {centre.x + radius, centre.y};
   columns.open_west = is_open(places, region, west_end);

@@ -42,7 +42,8 @@ inline bool is_in_upper_half(const Numbers& numbers, FastInt number) {
 
 // Codes a number in one of four quarters, if there are so many numbers; keeps the quarter.
 template <class Coder>
-void code_quarter(Coder& coder, Quarters& quarters, Numbers& numbers, FastInt number) {
+MICROTIN_ROOMY_IN_PLACE void code_quarter(Coder& coder, Quarters& quarters, Numbers& numbers,
+                                          FastInt number) {
   if (numbers.count < 4) return;
   const bool upper = code_bit(coder, quarters.bit[0], is_in_upper_half(numbers, number));
   halve(numbers, upper);
@@ -87,14 +88,13 @@ inline uint32_t expected_points(const FreeRegion& region) {
   return static_cast<uint32_t>(kept_within((region.expected + kLog2One) >> 8, 0, 3));
 }
 
-// `weighed`: how often lines are halved by weights found anew; after that those that are known tell
-// what is left. Quick decoding has none.
 struct Place {
   LegalPlaces legal;
   PlaceOdds odds;
-  uint32_t weighed;
 };
 
+// How often lines are halved by weights found anew; after that those that are known tell what is
+// left. Quick decoding has none.
 inline uint32_t weighed_in(Decoding decoding) {
   return decoding == Decoding::kQuick ? 0 : decoding == Decoding::kDense ? 4 : 3;
 }
@@ -139,8 +139,8 @@ inline uint32_t outer_weight(uint32_t mean, uint32_t towards) {
 // between those of the two halves that were kept last.
 template <class Coder>
 MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruling& ruling,
-                                          FastInt number, const Place& place,
-                                          const Column* column) {
+                                          FastInt number, const Place& place, const Column* column,
+                                          uint32_t weighed) {
   Numbers& numbers = ruling.numbers;
   const FastInt base = ruling.base;
   const int32_t shift = twice_shift(ruling, place.legal.shift);
@@ -154,9 +154,8 @@ MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruli
     } else {
       const uint32_t towards = (kept + before) >> 1;
       const uint32_t outer =
-          i < place.weighed
-              ? weight_of(place, column, shifted(upper ? middle + count : middle, shift))
-              : outer_weight(kept, towards);
+          i < weighed ? weight_of(place, column, shifted(upper ? middle + count : middle, shift))
+                      : outer_weight(kept, towards);
       weight = upper ? Halves{towards, outer} : Halves{outer, towards};
     }
     upper = code_half(coder, level[i], numbers, weight, number);
@@ -169,14 +168,14 @@ MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruli
 template <class Coder>
 MICROTIN_FOLDED bool code_line(Coder& coder, PlaceModel& model, const Tally& tally,
                                const Place& place, const Lines& lines, uint32_t context,
-                               const Column* column, FastInt& line) {
+                               const Column* column, FastInt& line, uint32_t weighed) {
   const uint32_t kind = column != nullptr ? 1 : 0;
   Ruling ruling = rule(coder, tally, lines, place.legal.odd[kind], line);
   const FastInt number = number_of(ruling, line);
-  if (place.weighed == 0) {
+  if (weighed == 0) {
     code_quarter(coder, model.quick[context], ruling.numbers, number);
   } else {
-    code_halves(coder, model.calibration[kind], ruling, number, place, column);
+    code_halves(coder, model.calibration[kind], ruling, number, place, column, weighed);
   }
   FastInt found = number;
   const bool is_there = code_any_or_none(coder, ruling.numbers, found);
@@ -187,29 +186,31 @@ MICROTIN_FOLDED bool code_line(Coder& coder, PlaceModel& model, const Tally& tal
 // Codes x. False if that is none of the columns with legal places.
 template <class Coder>
 MICROTIN_IN_PLACE inline bool code_column(Coder& coder, PlaceModel& model, const Tally& tally,
-                                          const FreeRegion& region, const Place& place,
-                                          FastInt& x) {
+                                          const FreeRegion& region, const Place& place, FastInt& x,
+                                          uint32_t weighed) {
   const Columns columns = legal_columns(place.legal, region);
   const uint32_t context = (columns.open_east ? 0u : 1u) + (columns.open_west ? 0u : 2u) +
                            (region.next.certified ? 4u : 0u) +
                            (expected_points(region) > 1 ? 8u : 0u);
-  return code_line(coder, model, tally, place, columns.lines, context, nullptr, x);
+  return code_line(coder, model, tally, place, columns.lines, context, nullptr, x, weighed);
 }
 
 template <class Coder>
 MICROTIN_IN_PLACE inline bool code_row(Coder& coder, PlaceModel& model, const Tally& tally,
                                        const FreeRegion& region, const Place& place,
-                                       const Column& column, const Lines& rows, FastInt& y) {
-  const uint32_t zone = column.x < place.legal.a.x ? 4u : column.x > 0 ? 8u : 0u;
+                                       const Column& column, const Lines& rows, FastInt& y,
+                                       uint32_t weighed) {
+  const uint32_t zone = column.x < place.legal.corner[1].x ? 4u : column.x > 0 ? 8u : 0u;
   const uint32_t context = kColumnContexts + zone + expected_points(region);
-  return code_line(coder, model, tally, place, rows, context, &column, y);
+  return code_line(coder, model, tally, place, rows, context, &column, y, weighed);
 }
 
 // Codes `at`, as seen from v and turned.
 template <class Coder>
 MICROTIN_IN_PLACE inline Offset code_turned_place(Coder& coder, PlaceModel& model,
                                                   const FreeRegion& region, const Place& place,
-                                                  Offset at, PlaceHabits& habits) {
+                                                  Offset at, PlaceHabits& habits,
+                                                  uint32_t weighed) {
   const LegalPlaces& legal = place.legal;
 #if defined(__clang_analyzer__)
   if (legal.shift < -10 || legal.shift > 10) return at;  // never: it does not follow so far
@@ -217,12 +218,12 @@ MICROTIN_IN_PLACE inline Offset code_turned_place(Coder& coder, PlaceModel& mode
   Tally& first = habits.parities.first[legal.turns & 1];
   const Offset known = at;
   Column column;
-  bool is_there = code_column(coder, model, first, region, place, at.x);
+  bool is_there = code_column(coder, model, first, region, place, at.x, weighed);
   Tally& second = habits.parities.second[legal.turns & 1][is_odd(at.x, legal.odd[0]) ? 1 : 0];
   if (is_there) {
     column.x = grains(2 * at.x, legal.shift);
     const Lines rows = legal_rows(legal, legal_span(legal, column.x, true, column.own));
-    is_there = code_row(coder, model, second, region, place, column, rows, at.y);
+    is_there = code_row(coder, model, second, region, place, column, rows, at.y, weighed);
   }
   if (!is_there) {
     at.x = code_any(coder, legal.columns, known.x);
@@ -252,10 +253,17 @@ Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
     estimate_sweep(place.odds, place.legal, region, density, own, behind);
     if (place.odds.repels) estimate_repulsion(place.odds, place.legal, density, habits.crowding);
   }
-  place.weighed = weighed_in(contract.decoding);
+  const uint32_t weighed = weighed_in(contract.decoding);
   const Vertex next = coder.next();
   const Offset known = turned(Point{next.x, next.y} - region.origin, place.legal.turns);
-  const Offset at = code_turned_place(coder, model, region, place, known, habits);
+#if defined(MICROTIN_LARGE_TABLES)
+  // Quick decoding has a copy without weights.
+  const Offset at = weighed == 0
+                        ? code_turned_place(coder, model, region, place, known, habits, 0)
+                        : code_turned_place(coder, model, region, place, known, habits, weighed);
+#else
+  const Offset at = code_turned_place(coder, model, region, place, known, habits, weighed);
+#endif
   return turned(at, -place.legal.turns & 3);
 }
 

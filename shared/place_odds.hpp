@@ -60,7 +60,7 @@ inline void estimate_repulsion(PlaceOdds& odds, const LegalPlaces& places, Log2 
                                Crowding crowding) {
   // log2 of what is 255 / 2^16 of the inverse of the squared distance that counts.
   const Log2 inverse = rough_log2(crowding) - 8 * kLog2One + density - 2 * places.shift * kLog2One;
-  odds.reach = reach_of(kept_within(-inverse, 2 * kLog2One, 28 * kLog2One));
+  odds.reach = reach_of(kept_within(-inverse, 2 * kLog2One, 28 * kLog2One), places);
 }
 
 // A column, in grains, and what the own circle covers of it.

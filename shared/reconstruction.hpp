@@ -72,7 +72,7 @@ struct Reconstruction {
   Mesh* mesh;
   uint8_t* voids;      // a bit per triangle
   Index* queue;        // half-edges parent -> vertex, one per vertex
-  uint8_t* marks;      // two bits per vertex: queued, done
+  uint8_t* marks;      // mark_bytes() of them: queued, done
   Residual* residual;  // per vertex, see height_coding.hpp
   Cavity cavity;
 
@@ -113,10 +113,21 @@ inline void start(Reconstruction& r) {
 
 constexpr uint8_t kQueued = 1, kDone = 2;
 
+// A vertex's marks are two bits of a byte, or where numbers are wide the whole byte.
+constexpr uint32_t kMarkBits = MICROTIN_INDEX_BITS == 16 ? 2 : 8, kMarksInByte = 8 / kMarkBits;
+
+constexpr uint32_t mark_bytes(uint32_t vertices) {
+  return (vertices + kMarksInByte - 1u) / kMarksInByte;
+}
+
+inline uint32_t mark_shift(Index v) {
+  return kMarkBits * (v % kMarksInByte);
+}
+
 // In the two lowest bits; those above are other vertices'.
 inline uint32_t marks_of(const Reconstruction& r, Index v) {
   if (v == kInfinity) return kQueued | kDone;  // nobody asks before its turn is over
-  return static_cast<uint32_t>(r.marks[v >> 2]) >> (2u * (v & 3u));
+  return static_cast<uint32_t>(r.marks[v / kMarksInByte]) >> mark_shift(v);
 }
 
 inline bool marked(const Reconstruction& r, Index v, uint8_t mark) {
@@ -125,7 +136,8 @@ inline bool marked(const Reconstruction& r, Index v, uint8_t mark) {
 
 inline void mark(Reconstruction& r, Index v, uint8_t mark) {
   if (v == kInfinity) return;
-  r.marks[v >> 2] = static_cast<uint8_t>(r.marks[v >> 2] | mark << (2u * (v & 3u)));
+  uint8_t& marks = r.marks[v / kMarksInByte];
+  marks = static_cast<uint8_t>(marks | mark << mark_shift(v));
 }
 
 // --- The triangle in hand ------------------------------------------------------------------------
@@ -363,8 +375,8 @@ StepOutcome step_phase(Reconstruction& r, Coder& coder) {
   r.phase_end = static_cast<Index>(placed + batch);
   r.work += placed + batch;
   if (r.work > work_budget(placed + batch)) return StepOutcome::kMalformed;
-  const uint32_t mark_bytes = (placed + batch + 3u) / 4u;
-  for (uint32_t i = 0; i < mark_bytes; ++i) r.marks[i] = 0;
+  uint8_t* const marks = r.marks;
+  for (uint32_t i = mark_bytes(placed + batch); i-- != 0;) marks[i] = 0;
   r.vertex = kInfinity;
   r.turn_start = 0;
   mark(r, 0, kQueued);

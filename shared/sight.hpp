@@ -29,9 +29,9 @@ class Sight {
         place_(difference(pair_of(p), window_)),
         all_(place_) {}
 
+  // Infinity is taken for the point itself: then its tests come out even, which is a rare case.
   Seen see(Index v) {
-    const Pair place =
-        v == kInfinity ? pair_of(kOutside) : difference(pair_of(point_of(mesh_, v)), window_);
+    const Pair place = v == kInfinity ? place_ : difference(pair_of(point_of(mesh_, v)), window_);
     all_ = either(all_, place);
     return Seen{v, place};
   }

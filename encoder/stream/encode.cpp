@@ -96,7 +96,7 @@ class Workspace {
       : arrays_(std::move(arrays)),
         z_(n),
         queue_(n),
-        marks_(n / 4 + 1),
+        marks_(mark_bytes(n)),
         voids_(n / 4 + 1),
         residual_(n) {
     mesh_ =

@@ -68,7 +68,7 @@ class Choices {
 Point place[kCapacity];
 int16_t z[kCapacity];
 Index origin[6 * kCapacity], twin[6 * kCapacity], queue[kCapacity];
-uint8_t marks[(kCapacity + 3) / 4], voids[(kCapacity + 3) / 4];
+uint8_t marks[mark_bytes(kCapacity)], voids[(kCapacity + 3) / 4];
 Residual residual[kCapacity];
 Mesh mesh;
 Reconstruction state;

@@ -299,9 +299,10 @@ TEST_CASE("distances of two places at once are those of each") {
   size_t wrong = 0, counted = 0;
   for (int i = 0; i < 2000000; ++i) {
     LegalPlaces places{};
-    places.c = Spot{within(2047), within(2047)};
-    places.a = Spot{within(2047), within(2047)};
-    const Reach reach = reach_of(2 * kLog2One + static_cast<Log2>(random.below(26 * 256 + 1)));
+    places.corner[0] = Spot{within(2047), within(2047)};
+    places.corner[1] = Spot{within(2047), within(2047)};
+    const Reach reach =
+        reach_of(2 * kLog2One + static_cast<Log2>(random.below(26 * 256 + 1)), places);
     const int32_t most = 1 << random.below(15);  // near the corners, too
     const int32_t x = within(most < 1 << 14 ? most : 23170);
     const int32_t low = within(i % 3 == 0 ? 35900 : most), high = within(i % 5 == 0 ? 35900 : most);

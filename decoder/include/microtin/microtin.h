@@ -39,11 +39,11 @@
 
 /* The same for a build with the given index width. Per vertex: six half-edges (origin and twin
  * each), x, y, z, and a void bit for each of two triangles; while decoding a queue entry, two marks
- * and a byte of height context. */
+ * (a byte if numbers are wide) and a byte of height context. */
 #define MICROTIN_MESH_BYTES_FOR(capacity, bits) \
   (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
-  (((bits) == 16 ? 2463ul : 2671ul) + (1ul + (bits) / 8) * (capacity) + ((capacity) + 3ul) / 4)
+  ((bits) == 16 ? 2463ul + 3ul * (capacity) + ((capacity) + 3ul) / 4 : 2671ul + 6ul * (capacity))
 
 /* Bytes of the buckets of microtin_buckets_init: a constant expression, side * side numbers. */
 #define MICROTIN_BUCKETS_BYTES(side) (20ul + MICROTIN_INDEX_BITS / 8 * 1ul * (side) * (side))
