@@ -26,6 +26,7 @@ struct RingSums {
 constexpr int32_t kFirstBits = 5, kMostBits = 9;  // of weights
 
 // The position of the highest bit of half the squared distance, which is below 2^32; 0 for 1.
+// Halving the squares or their sum is the same to it: two odd squares add up to 2 modulo 8.
 #if UINTPTR_MAX > 0xFFFFFFFFu
 inline uint32_t distance_bits(Point a, Point b) {
   const FastInt dx = static_cast<FastInt>(a.x) - b.x, dy = static_cast<FastInt>(a.y) - b.y;
