@@ -72,28 +72,31 @@ class RingCursor {
   }
   void leave_next() { from_ = apex_; }
   void leave_last() { to_ = apex_; }
-  // From the triangle beyond the half-edge to this. To the left of the path, counter-clockwise, all
-  // edges but that opposite to the middle go upwards; to the right, downwards.
+  // From the triangle beyond the half-edge to this: up, if that has its middle opposite to it.
   void enter() {
-    const bool rises = to_ < from_;  // there
-    const uint32_t a = rises ? to_ : from_, c = rises ? from_ : to_;
-    bool is_high = true;  // c is the middle, else a
-    uint32_t low = 0;     // then
-    if (rises == (side() != 0)) {
+    const bool falls = to_ < from_;
+    const uint32_t a = falls ? to_ : from_, c = falls ? from_ : to_;
+    if (a != middle_ && c != middle_) {
       const uint32_t seen = look(looks_, a);
-      is_high = (seen & kRingNumber) != c;
-      if (!is_high) low = (seen & kRingPair) != 0 ? low_of_full(looks_, a) : a - 1;
+      if ((seen & kRingNumber) == c) {
+        middle_ = a;
+        apex_ = (seen & kRingPair) != 0 ? low_of_full(looks_, a) : a - 1;
+        return;
+      }
     } else if (a + 1 == c) {
       change_sides();
-      is_high = !has_left_child(look(looks_, c), c);
-      const uint32_t seen = look(looks_, a);
-      low = (seen & kRingPair) != 0 ? a - 1 : seen & kRingNumber;
+      if (has_left_child(look(looks_, c), c)) {
+        const uint32_t seen = look(looks_, a);
+        middle_ = a;
+        apex_ = (seen & kRingPair) != 0 ? a - 1 : seen & kRingNumber;
+        return;
+      }
     } else {
       apex_ = middle_ = below(looks_, a, c);
       return;
     }
-    middle_ = is_high ? c : a;
-    apex_ = is_high ? high_of(looks_, c) : low;
+    middle_ = c;
+    apex_ = high_of(looks_, c);
   }
   void cross_around(bool forward) {
     (forward ? from_ : to_) = 0;
@@ -119,6 +122,7 @@ class RingCursor {
   }
 
   Point place(uint32_t i) const { return place_of(*ring_, i); }
+  MICROTIN_IN_PLACE Point apex_place() const { return place_of(*ring_, apex_); }
   Vertex vertex(uint32_t i) const {
     const Point p = place_of(*ring_, i);
     return Vertex{p.x, p.y, ring_->vertex[i].z};
@@ -148,7 +152,10 @@ class RingCursor {
   // ... if one of its ends is infinity. The path is closed: from the last position it goes to 0,
   // and that edge is above all triangles of either side, so seen from the other the way leads down.
   void enter_beside_infinity() {
-    if (from_ + to_ == ring_->positions - 1) change_sides();
+    if (from_ + to_ == ring_->positions - 1) {
+      change_sides();
+      middle_ = 0;
+    }
     enter();
   }
 

@@ -50,7 +50,7 @@ inline bool walk(Cursor& cursor, FinePoint p, uint32_t step_limit) {
   for (uint32_t step = 0; step < step_limit || !cursor.may_stop(); ++step) {
     // p does not lie beyond the half-edge.
     if (cursor.is_ghost()) return true;
-    const Offset apex = seen_from(p, cursor.place(cursor.apex()));
+    const Offset apex = seen_from(p, cursor.apex_place());
     if (cross(to, apex) < 0) {
       cursor.leave_next();
       from = apex;
@@ -121,6 +121,7 @@ class MeshCursor {
   }
   void turn() { h_ = next_in_triangle(h_); }
   MICROTIN_IN_PLACE Point place(uint32_t v) const { return mesh().place[v]; }
+  MICROTIN_IN_PLACE Point apex_place() const { return place(apex()); }
   MICROTIN_IN_PLACE Index corner(uint32_t i) const {
     return mesh().origin[first_edge(triangle()) + i];
   }

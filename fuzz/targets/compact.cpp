@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The mesh and its compact form side by side, of whatever was decoded, also after an early stop:
-// made in calls of any length, in memory of its own or in place, it answers the same, from any
-// hint. The fuzzer asks by the last bytes of its input.
+// A mesh, as any stream may make it, and its compact form side by side: made in calls of any
+// length, in memory of its own or in place, it answers the same, from any hint. Every decision of
+// decoding is the fuzzer's, so that nearly all inputs lead to a mesh; it asks by their last bytes.
 #include <fuzzer/FuzzedDataProvider.h>
 
+#include <cstring>
+#include <iterator>
 #include <vector>
 
+#include "fuzz/support/choices.hpp"
 #include "fuzz/support/device.hpp"
-#include "fuzz/support/stream_mutator.hpp"
+#include "shared/header.hpp"
 #include "tests/support/compact_pair.hpp"
 
 namespace {
@@ -15,7 +18,9 @@ namespace {
 using namespace microtin;
 using namespace microtin::tests;
 
-constexpr uint32_t kCapacity = 1200;
+constexpr uint32_t kCapacity = 200;
+
+Workspaces<kCapacity> workspaces;
 
 struct Made {
   microtin_status status;
@@ -38,62 +43,101 @@ Made make(void* target, size_t size, microtin_mesh* mesh, void* scratch, size_t 
   return made;
 }
 
-// In exactly the memory that it asks for; from the heap, so that nothing beside is touched unseen.
-void check_exact(const microtin_mesh* mesh, Device& victim, FuzzedDataProvider& asked) {
-  const uint64_t digest = microtin_digest(mesh);
-  std::vector<uint64_t> scratch(MICROTIN_DECODER_BYTES(2 * kCapacity) / 8);
-  uint64_t none = 0;
-  const Made told = make(&none, sizeof none, victim.mesh, scratch.data(), 8 * scratch.size(), 999);
-  EXPECT(told.status == MICROTIN_WORKSPACE_TOO_SMALL);
-  EXPECT(microtin_digest(victim.mesh) == digest);
-  std::vector<uint64_t> exact((told.bytes + 7) / 8), exact_scratch((told.scratch_bytes + 7) / 8);
-  const uint32_t piece = asked.ConsumeIntegralInRange<uint32_t>(1, 2000);
-  const Made made =
-      make(exact.data(), told.bytes, victim.mesh, exact_scratch.data(), told.scratch_bytes, piece);
-  EXPECT(made.status == MICROTIN_DONE && made.bytes == told.bytes);
-  EXPECT(microtin_compact_size(made.compact) == told.bytes);
-  Random random(asked.ConsumeIntegral<uint64_t>());
-  EXPECT(difference(mesh, made.compact, 60, random).empty());
+// From the heap, so that nothing beside is touched unseen.
+typedef std::vector<uint64_t> Memory;
+
+Memory memory_of(size_t bytes) {
+  return Memory((bytes + 7) / 8);
 }
 
-void check_in_place(const microtin_mesh* mesh, Workspaces<kCapacity>& own, Device& victim,
-                    FuzzedDataProvider& asked) {
-  const uint32_t piece = asked.ConsumeIntegralInRange<uint32_t>(1, 2000);
-  const Made made =
-      make(own.mesh, sizeof own.mesh, victim.mesh, own.decoder, sizeof own.decoder, piece);
-  if (made.status != MICROTIN_DONE) {
-    EXPECT(made.status == MICROTIN_WORKSPACE_TOO_SMALL);
-    EXPECT(microtin_digest(victim.mesh) == microtin_digest(mesh));
-    return;
+Memory copy_of(const void* from, size_t bytes) {
+  Memory copy = memory_of(bytes);
+  std::memcpy(copy.data(), from, bytes);
+  return copy;
+}
+
+// In exactly the memory that it asks for.
+Memory made_apart(microtin_mesh* mesh, uint32_t piece) {
+  const uint64_t digest = microtin_digest(mesh);
+  Memory none(1), all = memory_of(MICROTIN_DECODER_BYTES(2 * kCapacity));
+  const Made told = make(none.data(), 8, mesh, all.data(), 8 * all.size(), 999);
+  EXPECT(told.status == MICROTIN_WORKSPACE_TOO_SMALL);
+  EXPECT(microtin_digest(mesh) == digest);
+  Memory space = memory_of(told.bytes), scratch = memory_of(told.scratch_bytes);
+  const Made made = make(space.data(), told.bytes, mesh, scratch.data(), told.scratch_bytes, piece);
+  EXPECT(made.status == MICROTIN_DONE && made.bytes == told.bytes);
+  EXPECT(microtin_compact_size(made.compact) == told.bytes);
+  return space;
+}
+
+// Nothing, if there is no room.
+Memory made_in_place(microtin_mesh* mesh, uint32_t piece) {
+  const uint64_t digest = microtin_digest(mesh);
+  const Made made = make(workspaces.mesh, sizeof workspaces.mesh, mesh, workspaces.decoder,
+                         sizeof workspaces.decoder, piece);
+  if (made.status == MICROTIN_DONE) return copy_of(made.compact, made.bytes);
+  EXPECT(made.status == MICROTIN_WORKSPACE_TOO_SMALL && microtin_digest(mesh) == digest);
+  return Memory();
+}
+
+// One input of eight goes on at random: most are short, so their meshes are small.
+std::vector<uint8_t> decisions(const uint8_t* data, size_t size, FuzzedDataProvider& asked) {
+  std::vector<uint8_t> bytes(data, data + size);
+  if (asked.ConsumeIntegralInRange(0, 7) == 7) {
+    Random random(asked.ConsumeIntegral<uint64_t>());
+    std::generate_n(std::back_inserter(bytes), 3000,
+                    [&random] { return static_cast<uint8_t>(random.next()); });
   }
-  Random random(asked.ConsumeIntegral<uint64_t>());
-  EXPECT(difference(mesh, made.compact, 60, random).empty());
+  return bytes;
+}
+
+void decide(Reconstruction& state, Choices choices) {
+  state.contract = contract_from(choices, kCapacity);
+  start(state);
+  while (state.stage != Stage::kComplete && !choices.ended()) {
+    if (step(state, choices) == StepOutcome::kMalformed) break;
+  }
+}
+
+// As if a section ended here; what bytes would be wasted on is at random.
+void finish(microtin_mesh* mesh, Random random) {
+  place_on_lattice(mesh->axis);
+  mesh->is_placed = true;
+  mesh->verified_vertices = mesh->mesh.vertices;
+  mesh->has_voids = random.below(2) == 0;
+  for (Index v = 0; v < mesh->mesh.vertices; ++v) {
+    mesh->mesh.z[v] = static_cast<int16_t>(random.next());
+  }
+  for (Index t = 0; t < mesh->mesh.triangles; t += 8) {
+    mesh->voids[t / 8] = static_cast<uint8_t>(random.next() & random.next());
+  }
+}
+
+void check_refused(microtin_mesh* mesh) {
+  microtin_compactor* compactor = nullptr;
+  Memory space(40), scratch(40);
+  EXPECT(microtin_compact_begin(space.data(), 320, mesh, scratch.data(), 320, &compactor) ==
+         MICROTIN_ARGUMENT);
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-  static Workspaces<kCapacity> workspaces, victims;
   FuzzedDataProvider asked(data, size);
   Device device = workspaces.device();
-  const uint32_t phases = asked.ConsumeIntegralInRange<uint32_t>(0, 12);
-  microtin_stop_after_phase(device.decoder, phases);
-  device.decode(data, size);
-  Device victim = victims.device();
-  microtin_stop_after_phase(victim.decoder, phases);
-  victim.decode(data, size);
-  const uint32_t vertices = microtin_vertex_count(device.mesh);
-  if (vertices == 0 || device.mesh->verified_vertices != vertices) {
-    microtin_compactor* compactor = nullptr;
-    uint64_t scratch[40];
-    EXPECT(microtin_compact_begin(victims.decoder, sizeof victims.decoder, victim.mesh, scratch,
-                                  sizeof scratch, &compactor) == MICROTIN_ARGUMENT);
-    return 0;
-  }
-  if (asked.ConsumeBool()) {
-    check_exact(device.mesh, victim, asked);
-  } else {
-    check_in_place(device.mesh, victims, victim, asked);
-  }
+  const std::vector<uint8_t> bytes = decisions(data, size, asked);
+  decide(device.decoder->reconstruction, Choices(bytes.data(), bytes.size()));
+  check_refused(device.mesh);
+  if (device.mesh->mesh.triangles == 0) return 0;
+  finish(device.mesh, Random(asked.ConsumeIntegral<uint64_t>()));
+  const Memory mesh = copy_of(workspaces.mesh, sizeof workspaces.mesh);
+  const uint32_t piece = asked.ConsumeIntegralInRange<uint32_t>(1, 2000);
+  const bool apart = asked.ConsumeBool();
+  const Memory made = apart ? made_apart(device.mesh, piece) : made_in_place(device.mesh, piece);
+  if (made.empty()) return 0;
+  std::memcpy(workspaces.mesh, mesh.data(), sizeof workspaces.mesh);
+  Random random(asked.ConsumeIntegral<uint64_t>());
+  EXPECT(difference(device.mesh, reinterpret_cast<const microtin_compact*>(made.data()), 60, random)
+             .empty());
   return 0;
 }

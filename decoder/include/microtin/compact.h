@@ -111,7 +111,7 @@ void microtin_compact_placement(const microtin_compact* compact, microtin_axis* 
 
 /* As microtin_height_at_limited, with the same answers. *hint is a number of a triangle; any will
  * do. A step is O(1) mostly; on meshes made for it O(n), but all steps of a walk are O(n log n).
- * Without a limit, a walk that has not arrived after 12 steps goes on from what
+ * Without a limit, a walk that has not arrived after 24 steps goes on from what
  * microtin_compact_hint would find, if that is nearer. */
 microtin_answer microtin_compact_height_at(const microtin_compact* compact, int32_t x, int32_t y,
                                            uint32_t step_limit, uint32_t* hint, int32_t* height);
