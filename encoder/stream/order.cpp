@@ -15,11 +15,6 @@ namespace {
 // memory that it takes is long.
 constexpr std::size_t kAhead = 8;
 
-// next_in_triangle without a branch: nobody can predict which of the three half-edges h is.
-Index next_without_branch(Index h) {
-  return h + 1 - 3 * static_cast<Index>(is_first_edge(h + 1));
-}
-
 // Walks over a triangulation breadth first, again and again while vertices are removed from it.
 class Walk {
  public:

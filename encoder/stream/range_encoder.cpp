@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Carries are put off until bytes are sure.
+// Bytes are written before all carries are known: one that comes later raises them.
 #include "encoder/stream/range_encoder.hpp"
 
 #include <utility>
@@ -11,6 +11,7 @@ namespace microtin::stream {
 
 uint32_t RangeEncoder::uniform(uint32_t count, uint32_t value) {
   if (count == 1) return 0;
+  move_out();
   range_ /= count;
   low_ += static_cast<uint64_t>(value) * range_;
   normalise();
@@ -18,6 +19,7 @@ uint32_t RangeEncoder::uniform(uint32_t count, uint32_t value) {
 }
 
 uint32_t RangeEncoder::uniform_or_escape(uint32_t count, uint32_t value) {
+  move_out();
   const uint32_t part = (range_ - (range_ >> kEscapeBits)) / count;
   if (value >= count) value = count;
   low_ += static_cast<uint64_t>(value) * part;
@@ -26,19 +28,19 @@ uint32_t RangeEncoder::uniform_or_escape(uint32_t count, uint32_t value) {
   return value;
 }
 
-void RangeEncoder::shift_low() {
-  const bool carry = low_ >> 32 != 0;
-  if (carry || low_ < 0xFF000000u) {
-    if (started_) bytes_.push_back(static_cast<uint8_t>(held_ + carry));
-    for (; held_ones_ != 0; --held_ones_) {
-      bytes_.push_back(static_cast<uint8_t>(0xFF + carry));
+// Moves the bytes ahead to those written.
+void RangeEncoder::move_out() {
+  const uint64_t digits = low_ >> 32;
+  if (digits >> ahead_ != 0) {
+    for (std::size_t i = size_; ++bytes_[--i] == 0;) {
     }
-    held_ = static_cast<uint8_t>(low_ >> 24);
-    started_ = true;
-  } else {
-    ++held_ones_;
   }
-  low_ = (low_ & 0x00FFFFFFu) << 8;
+  if (bytes_.size() < size_ + 4) bytes_.resize(2 * size_ + 64);
+  const uint32_t left = static_cast<uint32_t>(digits << (32 - ahead_));
+  for (uint32_t i = 0; i < 4; ++i) bytes_[size_ + i] = static_cast<uint8_t>(left >> (24 - 8 * i));
+  size_ += ahead_ / 8;
+  low_ &= 0xFFFFFFFFu;
+  ahead_ = 0;
 }
 
 std::vector<uint8_t> RangeEncoder::finish() {
@@ -51,10 +53,12 @@ std::vector<uint8_t> RangeEncoder::finish() {
       break;
     }
   }
-  for (int i = 0; i < 5; ++i) shift_low();
-  for (uint32_t i = 0; i < kVirtualBytes && !bytes_.empty() && bytes_.back() == 0; ++i) {
-    bytes_.pop_back();
-  }
+  move_out();
+  low_ <<= 32;
+  ahead_ = 32;
+  move_out();
+  for (uint32_t i = 0; i < kVirtualBytes && size_ != 0 && bytes_[size_ - 1] == 0; ++i) --size_;
+  bytes_.resize(size_);
   return std::move(bytes_);
 }
 

@@ -3,10 +3,12 @@
 #ifndef MICROTIN_ENCODER_STREAM_RANGE_ENCODER_HPP
 #define MICROTIN_ENCODER_STREAM_RANGE_ENCODER_HPP
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "encoder/layers.hpp"
+#include "shared/fixed_math.hpp"
 
 namespace microtin::stream {
 
@@ -14,13 +16,10 @@ class RangeEncoder {
  public:
   // Writes `value`, a one having `probability` / 2^15, and returns it.
   bool bit(uint32_t probability, bool value) {
-    const uint32_t bound = (range_ >> 15) * probability;
-    if (value) {
-      range_ = bound;
-    } else {
-      low_ += bound;
-      range_ -= bound;
-    }
+    // Without a branch: nobody can predict the value.
+    const uint32_t bound = (range_ >> 15) * probability, if_zero = static_cast<uint32_t>(value) - 1;
+    low_ += bound & if_zero;
+    range_ = bound + ((range_ - 2 * bound) & if_zero);
     normalise();
     return value;
   }
@@ -36,21 +35,22 @@ class RangeEncoder {
   std::vector<uint8_t> finish();
 
  private:
+  // A bit leaves a range of 2^15 or more, a number one of 2^7.
   void normalise() {
-    while (range_ < (1u << 24)) {
-      range_ <<= 8;
-      shift_low();
-    }
+    const uint32_t shift = (31 - highest_bit(range_)) & 24u;
+    range_ <<= shift;
+    low_ <<= shift;
+    ahead_ += shift;
+    if (ahead_ >= 16) move_out();
   }
 
-  void shift_low();
+  void move_out();
 
-  uint64_t low_ = 0;  // 32 bits and a carry
+  uint64_t low_ = 0;    // 32 bits, those ahead of them and a carry
+  uint32_t ahead_ = 0;  // 0 or 8 before a bit, 0 before a number: at most 24 after either
   uint32_t range_ = 0xFFFFFFFFu;
-  uint8_t held_ = 0;        // the last byte, which a carry may still raise ...
-  uint64_t held_ones_ = 0;  // ... and the 0xFF bytes behind it
-  bool started_ = false;    // the first byte held is always 0 and not written
   std::vector<uint8_t> bytes_;
+  std::size_t size_ = 0;  // of them, so many are written
 };
 
 }  // namespace microtin::stream

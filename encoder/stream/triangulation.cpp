@@ -185,11 +185,8 @@ bool Triangulation::open_hole(Index v, Index max_corners, Hole& hole) const {
   do {
     if (corner == most) return false;
     corner->slot = first_edge(triangle_of(h));
-    // next_in_triangle and previous_in_triangle, but surely without a branch: bits 2i, 2i + 1 say
-    // which of the three half-edges follows or precedes number i.
-    const Index twice = 2 * (h - corner->slot);
-    const Index side = corner->slot + (0b001001u >> twice & 3u);
-    const Index into = corner->slot + (0b010010u >> twice & 3u);
+    const Index side = next_without_branch(h);
+    const Index into = previous_without_branch(h);
     corner->outside = mesh_.twin[side];
     corner->vertex = mesh_.origin[side];
     if (corner->vertex == kInfinity) {
@@ -226,11 +223,6 @@ void Triangulation::fill_hole(const Hole& hole) {
 // with at most as many levels as there are corners. The slots come from `freed` on.
 void Triangulation::fill(const Corner* first, const Corner* last, Index closing,
                          const Corner*& freed) {
-  if (last == first + 1) {
-    pair(mesh_, closing, first->outside);
-    edge_of_[entry(first->vertex)] = closing;
-    return;
-  }
   if (last == first + 3 && last->vertex != kInfinity) {
     fill_quadrangle(first, closing, freed);
     return;
@@ -241,8 +233,16 @@ void Triangulation::fill(const Corner* first, const Corner* last, Index closing,
   mesh_.origin[h + 1] = first->vertex;
   mesh_.origin[h + 2] = apex->vertex;
   pair(mesh_, h, closing);
-  fill(first, apex, h + 1, freed);
-  fill(apex, last, h + 2, freed);
+  close(first, apex, h + 1, freed);
+  close(apex, last, h + 2, freed);
+}
+
+// Closes the side of a new triangle that a pocket lies beyond, or nothing.
+inline void Triangulation::close(const Corner* first, const Corner* last, Index closing,
+                                 const Corner*& freed) {
+  if (last != first + 1) return fill(first, last, closing, freed);
+  pair(mesh_, closing, first->outside);
+  edge_of_[entry(first->vertex)] = closing;
 }
 
 // The most frequent part of all, without branches: its diagonal starts at corner s = 0 or 1.

@@ -16,6 +16,16 @@
 
 namespace microtin::stream {
 
+// next_in_triangle and previous_in_triangle where nobody can predict which of the three half-edges
+// h is.
+inline Index next_without_branch(Index h) {
+  return h + 1 - 3 * static_cast<Index>(is_first_edge(h + 1));
+}
+
+inline Index previous_without_branch(Index h) {
+  return h - 1 + 3 * static_cast<Index>(is_first_edge(h));
+}
+
 class Triangulation {
  public:
   // Vertex i is points[i]. Throws Error if two points share a place or all form no triangle.
@@ -105,6 +115,7 @@ class Triangulation {
   bool open_hole(Index v, Index max_corners, Hole& hole) const;
   void fill_hole(const Hole& hole);
   void fill(const Corner* first, const Corner* last, Index closing, const Corner*& freed);
+  void close(const Corner* first, const Corner* last, Index closing, const Corner*& freed);
   void fill_quadrangle(const Corner* first, Index closing, const Corner*& freed);
   static const Corner* apex_of(const Corner* first, const Corner* last);
   static const Corner* finite_apex_of(const Corner* first, const Corner* last);
