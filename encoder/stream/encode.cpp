@@ -11,11 +11,11 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
 #include "encoder/exact/mesh_vertex.hpp"
+#include "encoder/stream/fingerprint.hpp"
 #include "encoder/stream/order.hpp"
 #include "encoder/stream/range_encoder.hpp"
 #include "encoder/stream/triangulation.hpp"
 #include "shared/reconstruction.hpp"
-#include "tests/bench/paper/fingerprint.hpp"
 
 namespace microtin::stream {
 namespace {

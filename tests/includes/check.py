@@ -3,8 +3,8 @@
 """check.py [ROOT] fails if an include points the wrong way, and else says how many there are.
 
 A layer of the encoder includes those above it in encoder/layers.hpp alone, the command line neither fit nor pack; the
-decoder and shared/ include nothing of the encoder; drivers of other programs its public face alone; a test includes what its subject may include, its subject, and
-tests/support.
+decoder and shared/ include nothing of the encoder; drivers of other programs its public face alone; a test includes what
+its subject may include, its subject, and tests/support; nothing else includes tests.
 """
 import pathlib
 import re
@@ -25,8 +25,8 @@ def layers():
 
 def may_include(path, target, order):
     """Whether the file `path` may include `target`, both as parts of paths from the root."""
-    if target[0] == "tests" and path[0] == "tests":
-        return path[1] in SUPPORT or target[1] in ("support", "firmware", path[1])
+    if target[0] == "tests":
+        return path[0] == "tests" and (path[1] in SUPPORT or target[1] in ("support", "firmware", path[1]))
     if path[0] == "encoder" and path[1] in DRIVERS:
         return target[0] == "microtin" or target[:2] == path[:2]
     if target[0] == "microtin" and target[-1] in PUBLIC:

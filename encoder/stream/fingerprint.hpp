@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A number that tells meshes apart, quicker to compute than their digest (shared/digest.hpp). Not
 // part of the format, and no match for somebody who wants to deceive it.
-#ifndef MICROTIN_TESTS_BENCH_PAPER_FINGERPRINT_HPP
-#define MICROTIN_TESTS_BENCH_PAPER_FINGERPRINT_HPP
+#ifndef MICROTIN_ENCODER_STREAM_FINGERPRINT_HPP
+#define MICROTIN_ENCODER_STREAM_FINGERPRINT_HPP
 
 #include <cstdint>
 #include <vector>
@@ -10,7 +10,7 @@
 #include "encoder/base/scramble.hpp"
 #include "shared/lattice.hpp"
 
-namespace microtin {
+namespace microtin::stream {
 
 // The sum over a mesh's real triangles: neither their order nor which corner comes first counts,
 // but their sense of rotation does.
@@ -41,6 +41,6 @@ class Fingerprint {
   uint64_t sum_ = 0;
 };
 
-}  // namespace microtin
+}  // namespace microtin::stream
 
 #endif

@@ -1,0 +1,3 @@
+// SPDX-License-Identifier: MIT
+// Includes a test.
+#include "tests/support/streams.hpp"
