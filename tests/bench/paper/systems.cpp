@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tests/bench/paper/fingerprint.hpp"
+#include "encoder/stream/fingerprint.hpp"
 #include "tests/bench/paper/independent_sets.hpp"
 
 namespace microtin::bench {
