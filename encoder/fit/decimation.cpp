@@ -112,15 +112,15 @@ std::vector<Index> Decimation::ring(Index v) const {
 }
 
 // Moves vertices up and down until all around is within bounds, and says whether it is.
-bool Decimation::fit(const std::vector<Index>& vertices, const std::vector<Index>& fresh) {
-  if (!fit_.fit(vertices, fresh)) return false;
-  raised_ -= surface_.volume(fit_.triangles());
+bool Decimation::fit(const std::vector<Index>& vertices) {
+  if (!fit_.fit(vertices)) return false;
+  raised_ -= surface_.volume(fit_.changed());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     if (fit_.shift(i) == 0) continue;
     if (!edits_.set_height(vertices[i], surface_.height(vertices[i]) + fit_.shift(i))) return false;
   }
-  raised_ += surface_.volume(fit_.triangles());
-  if (!std::all_of(fit_.triangles().begin(), fit_.triangles().end(),
+  raised_ += surface_.volume(fit_.changed());
+  if (!std::all_of(fit_.changed().begin(), fit_.changed().end(),
                    [this](Index t) { return surface_.keeps_bounds(t); })) {
     return false;
   }
@@ -130,10 +130,9 @@ bool Decimation::fit(const std::vector<Index>& vertices, const std::vector<Index
 
 // Nothing, and nothing has changed, if the vertex has too many neighbours.
 std::optional<Decimation::Hole> Decimation::remove(Index v) {
-  Hole hole{ring(v), {}, -surface_.volume_around(v)};
+  Hole hole{ring(v), -surface_.volume_around(v)};
   if (!edits_.remove(v)) return std::nullopt;
-  hole.triangles = surface_.new_triangles();
-  hole.raised += surface_.volume(hole.triangles);
+  hole.raised += surface_.volume(surface_.new_triangles());
   raised_ = hole.raised;
   return hole;
 }
@@ -142,7 +141,7 @@ bool Decimation::try_removal(Index v) {
   const std::size_t before = edits_.size();
   const std::optional<Hole> hole = remove(v);
   if (!hole) return false;
-  if (fit(hole->ring, hole->triangles)) return true;
+  if (fit(hole->ring)) return true;
   edits_.roll_back(before);
   return false;
 }
@@ -152,7 +151,7 @@ bool Decimation::try_move(Index v) {
   const Vertex old = surface_.vertex(v);
   const std::optional<Hole> hole = remove(v);
   if (!hole) return false;
-  if (fit(hole->ring, hole->triangles)) return true;
+  if (fit(hole->ring)) return true;
   const Sample& worst = surface_.survey().samples[fit_.worst_sample(random_below(kRanks))];
   edits_.roll_back(1);
   if (try_cheaper_posts(old, *hole)) return false;
@@ -221,11 +220,10 @@ bool Decimation::try_towards_centre(Index v, int near) {
   const Vertex old = surface_.vertex(v);
   const std::optional<Hole> hole = remove(v);
   if (!hole) return false;
-  const bool removed = fit(hole->ring, hole->triangles) && gain() >= 0;
+  const bool removed = fit(hole->ring) && gain() >= 0;
   if (!removed) {
     edits_.roll_back(1);
-    const std::optional<Vertex> best = best_near(old, near, *hole);
-    if (!best || !insert(*best, *hole)) {
+    if (!move_near(old, near, *hole)) {
       edits_.roll_back(0);
       return false;
     }
@@ -234,40 +232,50 @@ bool Decimation::try_towards_centre(Index v, int near) {
   return removed;
 }
 
-// The vertex at that post, its own among them, which helps the mean error most, if any does.
-std::optional<Vertex> Decimation::best_near(Vertex old, int near, const Hole& hole) {
-  std::optional<Vertex> best;
-  int64_t most = 0;
+// Moves a vertex that was removed to a post near its own, or back there with other heights around,
+// so that the mean error comes nearer zero: to the one that brings it nearest before heights are
+// fitted, of those that keep their bounds. Says whether there is one.
+bool Decimation::move_near(Vertex old, int near, const Hole& hole) {
+  std::vector<std::pair<int64_t, Vertex>> posts;  // and what they gain
   for (int x = old.x - near; x <= old.x + near; ++x) {
     const int rest = near - std::abs(x - old.x);
     for (int y = old.y - rest; y <= old.y + rest; ++y) {
       const std::optional<Vertex> to = carried(old, x, y);
-      if (!to || to->x % 2 + to->y % 2 > old.x % 2 + old.y % 2 || !insert(*to, hole)) continue;
-      if (gain() > most) best = to;
-      most = std::max(most, gain());
+      if (!to || to->x % 2 + to->y % 2 > old.x % 2 + old.y % 2 || !place(*to, hole)) continue;
+      posts.emplace_back(gain(), *to);
       edits_.roll_back(1);
     }
   }
-  return best;
+  std::stable_sort(posts.begin(), posts.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& post : posts) {
+    if (!insert(post.second, hole)) continue;
+    if (gain() > 0) return true;
+    edits_.roll_back(1);
+  }
+  return false;
 }
 
-// Puts a vertex in the hole that another left, and says whether the bounds are kept then; nothing
-// has changed if not.
-bool Decimation::insert(Vertex vertex, const Hole& hole) {
+// Puts a vertex in the hole that another left. Says whether it can be there.
+bool Decimation::place(Vertex vertex, const Hole& hole) {
   const Index hint = surface_.edge_of(hole.ring[0]);
-  const std::size_t before = edits_.size();
   if (!surface_.can_insert({vertex.x, vertex.y}, hint)) return false;
   raised_ = hole.raised - surface_.volume(surface_.new_triangles());  // those that are replaced
   moved_ = edits_.insert(vertex, hint);
   raised_ += surface_.volume_around(moved_);
-  Hole filled = hole;
-  const std::vector<Index>& made = surface_.new_triangles();
-  filled.triangles.insert(filled.triangles.end(), made.begin(), made.end());
+  return true;
+}
+
+// The same, and says whether the bounds are kept then; nothing has changed if not.
+bool Decimation::insert(Vertex vertex, const Hole& hole) {
+  const std::size_t before = edits_.size();
+  if (!place(vertex, hole)) return false;
+  std::vector<Index> around = hole.ring;
   for (const Index r : ring(moved_)) {
-    if (!contains(filled.ring, r)) filled.ring.push_back(r);
+    if (!contains(around, r)) around.push_back(r);
   }
-  filled.ring.push_back(moved_);
-  if (fit(filled.ring, filled.triangles)) return true;
+  around.push_back(moved_);
+  if (fit(around)) return true;
   edits_.roll_back(before);
   return false;
 }

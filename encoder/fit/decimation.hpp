@@ -40,10 +40,10 @@ class Decimation {
   void forget() { stale_.assign(stale_.size(), false); }
 
  private:
-  // Where a vertex was removed: its neighbours, and the triangles between them.
+  // Where a vertex was removed.
   struct Hole {
-    std::vector<Index> ring, triangles;
-    int64_t raised;  // what the surface's volume became larger by
+    std::vector<Index> ring;  // its neighbours
+    int64_t raised;           // what the surface's volume became larger by
   };
 
   std::vector<Index> order_of_attempts();
@@ -52,15 +52,16 @@ class Decimation {
   bool try_removal(Index v);
   bool try_move(Index v);
   bool try_towards_centre(Index v, int near);
-  std::optional<Vertex> best_near(Vertex old, int near, const Hole& hole);
+  bool move_near(Vertex old, int near, const Hole& hole);
   int64_t gain() const { return rise_ < 0 ? -raised_ : raised_; }
   bool try_cheaper_posts(Vertex old, const Hole& hole);
+  bool place(Vertex vertex, const Hole& hole);
   bool insert(Vertex vertex, const Hole& hole);
   std::optional<Vertex> carried(Vertex old, int x, int y) const;
   uint16_t cheap(uint16_t coordinate);
   int16_t nearest_height(std::size_t post) const;
   double even_part() const;
-  bool fit(const std::vector<Index>& vertices, const std::vector<Index>& fresh);
+  bool fit(const std::vector<Index>& vertices);
   std::vector<Index> ring(Index v) const;
   std::optional<Hole> remove(Index v);
   void note_changes();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 
 #include "encoder/stream/order.hpp"
@@ -119,11 +120,12 @@ float HeightChoice::cost(Index i) const {
   return bits_[prediction.scale][bits_of(z_[i] - prediction.height)];
 }
 
-// What vertex i and those that it predicts take at a height.
-float HeightChoice::cost_at(Index i, int32_t height) {
+// What vertex i and those that it predicts take at a height, if that is below `most`; else a part
+// of it that is not.
+float HeightChoice::cost_at(Index i, int32_t height, float most) {
   z_[i] = static_cast<int16_t>(height);
   float sum = cost(i);
-  for (uint32_t k = dependent_start_[i]; k < dependent_start_[i + 1]; ++k) {
+  for (uint32_t k = dependent_start_[i]; k < dependent_start_[i + 1] && sum < most; ++k) {
     sum += cost(dependents_[k]);
   }
   return sum;
@@ -141,17 +143,27 @@ HeightChoice::Goal HeightChoice::goal_of(Index i, const Surface::Interval& allow
 }
 
 void HeightChoice::choose(Index i) {
+  const Surface::Interval allowed = allowed_heights(vertex_[i]);
+  const int32_t before = z_[i];
+  const bool is_free = allowed.low < before || allowed.high > before;
+  const int32_t best = is_free ? cheapest(i, allowed) : before;
+  if (best != before) set_height(i, best);
+  residual_[i] = residual_of(best - predict(i).height);
+}
+
+// The allowed height of vertex i that takes the fewest bits; the one that it has if none is better.
+int32_t HeightChoice::cheapest(Index i, const Surface::Interval& allowed) {
   const Index v = vertex_[i];
-  const Surface::Interval allowed = allowed_heights(v);
   const Goal goal = goal_of(i, allowed);
   const int32_t before = z_[i], predicted = predict(i).height;
   const int32_t around =
       std::clamp(predicted, std::min(allowed.low, before), std::max(allowed.high, before));
-  float lowest = cost_at(i, before) + price(goal, before);
+  float lowest = cost_at(i, before, std::numeric_limits<float>::max()) + price(goal, before);
   int32_t best = before;
   const auto consider = [&](int32_t z) {
-    const float cost =
-        cost_at(i, z) + price(goal, z) + static_cast<float>(balance_.price(v, z - before));
+    if (z == before) return;
+    const float errors = price(goal, z) + static_cast<float>(balance_.price(v, z - before));
+    const float cost = cost_at(i, z, lowest - errors) + errors;
     if (cost >= lowest) return;
     surface_.set_height(v, static_cast<int16_t>(z));
     if (!surface_.keeps_bounds_around(v)) return;
@@ -165,8 +177,7 @@ void HeightChoice::choose(Index i) {
   if ((aim < low || aim > high) && aim >= allowed.low && aim <= allowed.high) consider(aim);
   z_[i] = static_cast<int16_t>(before);
   surface_.set_height(v, z_[i]);
-  if (best != before) set_height(i, best);
-  residual_[i] = residual_of(best - predict(i).height);
+  return best;
 }
 
 void HeightChoice::set_height(Index i, int32_t height) {

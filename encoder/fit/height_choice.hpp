@@ -42,7 +42,7 @@ class HeightChoice {
   HeightPrediction predict(Index i) const;
   void learn_costs();
   float cost(Index i) const;
-  float cost_at(Index i, int32_t height);
+  float cost_at(Index i, int32_t height, float most);
   void find_levels();
   struct Goal {
     double height, weight;
@@ -50,6 +50,7 @@ class HeightChoice {
   Goal goal_of(Index i, const Surface::Interval& allowed) const;
   static float price(const Goal& goal, int32_t height);
   void choose(Index i);
+  int32_t cheapest(Index i, const Surface::Interval& allowed);
   void set_height(Index i, int32_t height);
   const Surface::Interval& allowed_heights(Index v);
 

@@ -22,9 +22,9 @@ class HeightFit {
   explicit HeightFit(const Surface& surface);
 
   // Looks for heights of these vertices, all else as it is. Says whether all posts around them are
-  // within their bounds then. The surface stays as it is. `fresh` are triangles between them that
-  // may be out of bounds: what no heights mend there alone is given up soon.
-  bool fit(const std::vector<Index>& vertices, const std::vector<Index>& fresh);
+  // within their bounds then. The surface stays as it is. Triangles between them may be out of
+  // bounds: what no heights mend there alone is given up soon. All others keep theirs.
+  bool fit(const std::vector<Index>& vertices);
 
   // Heights that are free then to go one step nearer to the source go up or down instead (1, -1; 0:
   // no longer).
@@ -33,17 +33,19 @@ class HeightFit {
   // What the last call found: the change of a height, by place in `vertices`, ...
   int32_t shift(std::size_t vertex) const { return movers_[vertex].shift; }
 
-  // ... the covered triangles around, and the worst sample of the triangle that is worst there, or
-  // second worst, ...; any sample if all are within their bounds.
-  const std::vector<Index>& triangles() const { return triangles_; }
-  uint32_t worst_sample(std::size_t rank) const;
+  // ... the covered triangles between vertices, or with one that moves, and, after a call that
+  // found nothing, the worst sample of the triangle that is worst, or second worst, ...
+  const std::vector<Index>& changed() const { return triangles_; }
+  uint32_t worst_sample(std::size_t rank);
 
  private:
   struct Face {
     std::size_t begin, end;         // its posts, a multiple of the lanes
     std::array<uint32_t, 3> mover;  // of each corner
     float excess;
-    std::array<float, 2> shifted[3];  // the excess if a corner moved by a stride down or up
+    float slope[3];  // of the excess, by a step of each corner
+    // The excess if a corner moved by a stride down or up; kUnknown.
+    std::array<float, 2> shifted[3];
   };
   struct Mover {
     int32_t shift;
@@ -55,18 +57,24 @@ class HeightFit {
   };
 
   void begin(const std::vector<Index>& vertices);
-  bool is_hopeless() const;
+  void find_triangles(const std::vector<Index>& vertices);
+  bool add_hopeful();
+  bool is_hopeless(const Face& face) const;
+  void assess(Face& face) const;
   bool descend();
   void settle();
+  void keep_changed();
+  bool moves(const Face& face) const;
+  void go_back();
   void add_face(Index triangle);
   void add_posts(const std::array<Vertex, 3>& corner);
+  std::size_t position_of(Index triangle, std::size_t post) const;
+  void complete_posts(std::size_t begin, float b_rise, float c_rise);
   void reserve(std::size_t posts);
-  float excess_of(const Face& face) const;
-  std::array<float, 2> excess_of(const Face& face, uint32_t corner, float shift) const;
-  void evaluate(Face& face) const;
+  float excess_of(const Face& face, uint32_t corner, int32_t shift) const;
   double excess() const;
-  Step best_step() const;
-  void take(Step step);
+  Step best_step();
+  double change_of(const Mover& mover, bool up);
   void move(Mover& mover, int32_t shift);
   int32_t step_to_source(const Mover& mover) const;
 
@@ -77,14 +85,15 @@ class HeightFit {
   int32_t stride_ = 1;
   int32_t preferred_ = 0;
 
+  std::vector<Index> inner_, outer_;  // triangles between vertices, and others around them
+  std::size_t added_ = 0;             // of the inner ones: fewer where a call gave up
   std::vector<Index> triangles_;
   std::vector<Face> faces_;  // of these
   std::vector<Mover> movers_;
   std::size_t mover_count_ = 0;
 
-  // By post of a face: its position in the index, how far the surface is above the middle of the
-  // bounds, how far the bounds are from there, and what a step of each corner adds.
-  std::vector<uint32_t> position_;
+  // By post of a face: how far the surface is above the middle of the bounds, how far the bounds
+  // are from there, and what a step of each corner adds.
   std::vector<float> error_, radius_, weight_[3];
   std::size_t posts_ = 0;
 };

@@ -31,7 +31,7 @@ constexpr double kHeaderBytes = 100, kBytesPerVertex = 1.4;  // usually
 
 // What all may take, in times of one encoding, as measured on development terrains.
 constexpr double kMost = 3.6, kMostOfFew = 20;
-constexpr double kRescue = 1.25, kLittleMore = 0.5;  // more while the limit is badly used
+constexpr double kRescue = 1.75, kLittleMore = 1;  // more while the limit is badly used
 constexpr double kWellUsed = 0.99;
 constexpr uint64_t kFewPosts = 20000;  // which take no time
 
