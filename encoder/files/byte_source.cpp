@@ -32,7 +32,7 @@ class FileBytes : public ByteSource {
     }
     close(file_);
     if (!is_known) fail();
-    throw Error(path + ": is not a file that can be read in pieces");
+    throw Error(path + ": is not a file that can be read in pieces: copy it into one");
   }
   ~FileBytes() override { close(file_); }
   FileBytes(const FileBytes&) = delete;

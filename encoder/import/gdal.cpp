@@ -230,7 +230,12 @@ Raster import_gdal(const std::string& path, Indirect indirect, uint32_t band) {
 }
 
 std::vector<std::string> gdal_files(const std::string& path, Indirect indirect) {
-  const Dataset dataset = with_file_context(path, [&] { return open(path, indirect); });
+  Dataset dataset;
+  try {
+    dataset = open(path, indirect);
+  } catch (const Error&) {  // reading it says why
+    return {path};
+  }
   std::vector<std::string> files;
   char** const list = GDALGetFileList(dataset.get());
   for (char** file = list; file != nullptr && *file != nullptr; ++file) files.emplace_back(*file);

@@ -91,7 +91,12 @@ bool is_for_others(const std::string& path) {
   return path != "-" && !is_laser_scan(suffix) && importer_for(suffix) == nullptr;
 }
 
+// GDAL has names of its own, and folders. Pipes and devices it refuses in words that help nobody.
 Source import_other(const std::string& path, Indirect indirect, uint32_t band) {
+  std::error_code none;
+  if (std::filesystem::exists(path, none) && !std::filesystem::is_directory(path, none)) {
+    open_file(path);  // throws Error if it cannot be read in pieces
+  }
   return import_gdal(path, indirect, band);
 }
 #else

@@ -27,7 +27,7 @@ enum class Indirect { kRefused, kAllowed };
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},
                       Indirect indirect = Indirect::kRefused, uint32_t band = 0);
 
-// All files that it is read from: more than one by GDAL only. Throws Error if GDAL cannot open it.
+// All files that it is read from: more than one by GDAL, where GDAL can open it.
 std::vector<std::string> terrain_files(const std::string& path, Indirect indirect);
 
 // The suffixes of files that are read, for people.

@@ -13,7 +13,7 @@ namespace microtin::pack {
 namespace {
 
 constexpr int64_t kStep = 65536;  // heights of samples have 16 fractional bits
-constexpr int kReach = 4;         // heights that are tried above and below that of the source
+constexpr int kReach = 4;         // heights that are tried above and below the aim
 
 // A slope in 1/65536 steps a post; |rise| < 2^33, run in 1..65535.
 struct Slope {
@@ -72,7 +72,6 @@ class Piece {
 // What a chain costs up to a vertex: squared distances from the aims, and a price for each vertex.
 using Cost = uint64_t;
 constexpr Cost kUnreached = std::numeric_limits<Cost>::max();
-constexpr Cost kPrice = 4;  // squares of the bound; dearer ones make ridges of noisy borders
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 // A post that may become a vertex at this height.
@@ -85,13 +84,14 @@ struct State {
 
 class Chain {
  public:
-  Chain(const std::vector<LinePost>& posts, ErrorModel model) : posts_(posts), model_(model) {
+  Chain(const std::vector<LinePost>& posts, ErrorModel model, uint32_t price)
+      : posts_(posts), model_(model), price_(price * Piece::square(kStep)) {
     for (uint32_t post = 0; post < posts.size(); ++post) {
       add_states(post);
       if (is_void(post)) continue;
       const Sample& sample = *posts[post].sample;
       price_ =
-          std::max(price_, kPrice * Piece::square((int64_t{sample.highest} - sample.lowest) / 2));
+          std::max(price_, price * Piece::square((int64_t{sample.highest} - sample.lowest) / 2));
     }
     first_.push_back(states_.size());
   }
@@ -123,7 +123,7 @@ class Chain {
     first_.push_back(states_.size());
     if (is_void(post)) return;
     const Sample& sample = *posts_[post].sample;
-    const int64_t nearest = model_.vertex_height(sample);
+    const int64_t nearest = height_near_aim(posts_[post]);
     const bool is_corner = post == 0 || post + 1 == posts_.size();
     const int64_t reach = is_corner || !model_.bounded ? 0 : kReach;
     const int64_t room =
@@ -137,6 +137,16 @@ class Chain {
         continue;
       states_.push_back({post, static_cast<int16_t>(height), kUnreached, kNone});
     }
+  }
+
+  // The allowed height that is nearest to the aim.
+  int64_t height_near_aim(const LinePost& post) const {
+    const int64_t nearest = model_.vertex_height(*post.sample);
+    if (!model_.bounded) return nearest;
+    const Wide aim = round_divide(Wide{post.aim}, kStep);
+    const Wide lowest = ceil_divide(post.sample->lowest, kStep),
+               highest = floor_divide(post.sample->highest, kStep);
+    return lowest > highest ? nearest : static_cast<int64_t>(std::clamp(aim, lowest, highest));
   }
 
   void start(uint32_t post) {
@@ -187,15 +197,16 @@ class Chain {
 
   const std::vector<LinePost>& posts_;
   ErrorModel model_;
-  Cost price_ = kPrice * Piece::square(kStep);  // of a vertex, at least
+  Cost price_;  // of a vertex
   std::vector<State> states_;
   std::vector<std::size_t> first_;  // of each post, and one more
 };
 
 }  // namespace
 
-std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, ErrorModel model) {
-  return Chain(posts, model).vertices();
+std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, ErrorModel model,
+                                       uint32_t price) {
+  return Chain(posts, model, price).vertices();
 }
 
 }  // namespace microtin::pack

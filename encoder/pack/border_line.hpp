@@ -32,8 +32,12 @@ struct ChainVertex {
 
 // Few vertices whose chain passes every post within its bounds and near its aim: all posts if there
 // are no bounds. Chains end at voids and at the ends of the line, where heights depend on the
-// sample there alone. At most 65536 posts. O(n * the posts that a piece of the chain reaches).
-std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, ErrorModel model);
+// sample and the aim there alone. At most 65536 posts. O(n * the posts that a piece of the chain
+// reaches).
+// `price` says what a vertex is worth: squares of the bound, in sums of squared distances from
+// aims.
+std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, ErrorModel model,
+                                       uint32_t price);
 
 }  // namespace microtin::pack
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "encoder/pack/border_line.hpp"
+#include "encoder/pack/ground.hpp"
 
 namespace microtin::pack {
 namespace {
@@ -34,35 +35,28 @@ std::vector<TileBox> border_lines(const TileGrid& grid, const TileBox& box) {
   return lines;
 }
 
-// The line so many posts away. Borders lie within the raster, so that there is one on both sides.
-TileBox beside(const TileBox& line, int posts) {
-  const auto moved = [posts](uint32_t at, bool across) {
-    return static_cast<uint32_t>(int64_t{at} + (across ? posts : 0));
-  };
-  const bool goes_north = line.x == line.x_end;
-  return {moved(line.x, goes_north), moved(line.y, !goes_north), moved(line.x_end, goes_north),
-          moved(line.y_end, !goes_north)};
+// A line and the posts around it on which its aims depend.
+TileBox around(const TileGrid& grid, const TileBox& line) {
+  return {line.x - std::min(line.x, kGroundReach), line.y - std::min(line.y, kGroundReach),
+          std::min(line.x_end + kGroundReach, grid.x_max),
+          std::min(line.y_end + kGroundReach, grid.y_max)};
 }
 
-// Aims at the mean of three lines: of noise it keeps less than the border alone, so that the border
-// does not stand out of the ground around it.
+constexpr uint32_t kVertexPrice = 2;  // dearer ones make ridges of noisy borders
+
+// Aims at the ground on both sides: a border that follows the noise of its own posts stands out.
 std::vector<LinePost> posts_of_line(const TiledRaster& tiled, const TilePosts& posts,
                                     const TileBox& line) {
   std::vector<LinePost> on_line((line.x_end - line.x) + (line.y_end - line.y) + 1);
-  std::vector<std::pair<int64_t, int64_t>> sums(on_line.size());  // of heights, and of how many
-  for (const int side : {-1, 0, 1}) {
-    for (const Sample& sample : survey_of(tiled, posts.crop_of(beside(line, side))).samples) {
-      const uint32_t post = uint32_t{sample.place.x} + sample.place.y;
-      sums[post].first += middle_of(sample);
-      ++sums[post].second;
-      if (side != 0) continue;
-      const GlobalPost place = post_of(line, post);
-      on_line[post].sample = sample;
-      on_line[post].kept = posts.is_beside_void(place.x, place.y);
-    }
-  }
-  for (std::size_t i = 0; i < on_line.size(); ++i) {
-    if (on_line[i].sample) on_line[i].aim = static_cast<int32_t>(sums[i].first / sums[i].second);
+  const TileBox strip = around(tiled.grid, line);
+  const Ground ground(survey_of(tiled, posts.crop_of(strip)).samples, strip.x_end - strip.x + 1,
+                      strip.y_end - strip.y + 1);
+  for (const Sample& sample : survey_of(tiled, posts.crop_of(line)).samples) {
+    const uint32_t post = uint32_t{sample.place.x} + sample.place.y;
+    const GlobalPost place = post_of(line, post);
+    const int64_t bounds = int64_t{sample.highest} - sample.lowest;
+    on_line[post] = {sample, posts.is_beside_void(place.x, place.y),
+                     ground.at(place.x - strip.x, place.y - strip.y, bounds / 8)};
   }
   return on_line;
 }
@@ -71,10 +65,10 @@ std::vector<LinePost> posts_of_line(const TiledRaster& tiled, const TilePosts& p
 
 TilePosts::TilePosts(const TiledRaster& tiled, uint32_t tile)
     : box_(tile_box(tiled.grid, tile)),
-      x_(box_.x - std::min(box_.x, 1u)),
-      y_(box_.y - std::min(box_.y, 1u)) {
-  const uint32_t x_end = std::min(box_.x_end + 1, tiled.grid.x_max);
-  const uint32_t y_end = std::min(box_.y_end + 1, tiled.grid.y_max);
+      x_(box_.x - std::min(box_.x, kGroundReach)),
+      y_(box_.y - std::min(box_.y, kGroundReach)) {
+  const uint32_t x_end = std::min(box_.x_end + kGroundReach, tiled.grid.x_max);
+  const uint32_t y_end = std::min(box_.y_end + kGroundReach, tiled.grid.y_max);
   posts_ = tiled.raster.read({x_, y_, x_end - x_ + 1, y_end - y_ + 1});
 }
 
@@ -117,7 +111,7 @@ SharedVertices shared_vertices(const TiledRaster& tiled, const TilePosts& posts)
   for (const TileBox& line : border_lines(tiled.grid, box)) {
     const std::vector<LinePost> on_line = posts_of_line(tiled, posts, line);
     const ErrorModel model{tiled.options.max_error.has_value()};
-    for (const ChainVertex& vertex : simplify_line(on_line, model)) {
+    for (const ChainVertex& vertex : simplify_line(on_line, model, kVertexPrice)) {
       const GlobalPost post = post_of(line, vertex.post);
       shared[{static_cast<uint16_t>(post.x - box.x), static_cast<uint16_t>(post.y - box.y)}] =
           vertex.height;

@@ -23,7 +23,7 @@ struct TiledRaster {
   TileGrid grid;
 };
 
-// The posts of a tile and those beside it: all that a tile depends on.
+// The posts of a tile and those within kGroundReach: all that a tile depends on.
 class TilePosts {
  public:
   TilePosts(const TiledRaster& tiled, uint32_t tile);
@@ -63,8 +63,8 @@ std::vector<uint32_t> tiles_at(const TileGrid& grid, GlobalPost post);
 using SharedVertices = std::map<Point, int16_t>;
 
 // The vertices that a tile shares with others. They depend on the posts of its borders and those
-// beside them alone, so that both sides find the same. Posts beside voids are vertices: voids
-// beside a border then part it from no triangle.
+// within kGroundReach alone, so that both sides find the same. Posts beside voids are vertices:
+// voids beside a border then part it from no triangle.
 SharedVertices shared_vertices(const TiledRaster& tiled, const TilePosts& posts);
 
 }  // namespace microtin::pack

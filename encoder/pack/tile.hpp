@@ -70,10 +70,10 @@ std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster&
 // How many vertices a tile takes; 0 without terrain. Throws Error as encode_tile does.
 uint32_t count_vertices(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options);
 
-// Depends on the posts of the tile and those beside it alone, or, if it has no terrain, on those of
-// its neighbours. A tile covers all its posts that have heights; if they form no triangle, each of
-// them is another tile's, too, that does. Throws Error if there is none, or if the decoded stream
-// does not keep the bound or the shared vertices.
+// Depends on the posts of the tile and those within kGroundReach alone, or, if it has no terrain,
+// on those of its neighbours. A tile covers all its posts that have heights; if they form no
+// triangle, each of them is another tile's, too, that does. Throws Error if there is none, or if
+// the decoded stream does not keep the bound or the shared vertices.
 EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options);
 
 }  // namespace microtin::pack

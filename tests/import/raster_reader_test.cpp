@@ -122,9 +122,10 @@ TEST_CASE("raster reader: what cannot be read in pieces is told") {
   CHECK_THROWS_WITH_AS(open_terrain("gone.asc"),
                        "gone.asc: cannot be read: No such file or directory", Error);
   std::filesystem::create_symlink("/dev/null", folder / "null.asc");
-  CHECK_THROWS_WITH_AS(open_terrain(folder / "null.asc"),
-                       (folder / "null.asc: is not a file that can be read in pieces").c_str(),
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      open_terrain(folder / "null.asc"),
+      (folder / "null.asc: is not a file that can be read in pieces: copy it into one").c_str(),
+      Error);
 }
 
 }  // namespace microtin::tests

@@ -45,7 +45,7 @@ TEST_CASE("border lines: few vertices, every post within its bounds") {
                           static_cast<int32_t>(random.below(3)) - 1;
       posts.push_back(post_at(i, height, bound, height));
     }
-    const std::vector<ChainVertex> chain = simplify_line(posts, ErrorModel{true});
+    const std::vector<ChainVertex> chain = simplify_line(posts, ErrorModel{true}, 4);
     const std::vector<double> heights = heights_of(chain);
     REQUIRE(heights.size() == posts.size());
     for (std::size_t i = 0; i < posts.size(); ++i) {
@@ -62,7 +62,7 @@ TEST_CASE("border lines: where posts leave room, they come near to the aims") {
   for (uint16_t i = 0; i < 500; ++i) {
     posts.push_back(post_at(i, static_cast<int32_t>(random.below(17)) - 8, 20, 5));
   }
-  const std::vector<ChainVertex> chain = simplify_line(posts, ErrorModel{true});
+  const std::vector<ChainVertex> chain = simplify_line(posts, ErrorModel{true}, 4);
   CHECK(chain.size() < 10);
   double above = 0;
   for (const double height : heights_of(chain)) above += height - 5;
@@ -72,10 +72,10 @@ TEST_CASE("border lines: where posts leave room, they come near to the aims") {
 TEST_CASE("border lines: without bounds all posts are vertices, and voids part chains") {
   std::vector<LinePost> posts;
   for (uint16_t i = 0; i < 9; ++i) posts.push_back(post_at(i, 7 * i, 0, 0));
-  CHECK(simplify_line(posts, ErrorModel{false}).size() == 9);
-  CHECK(simplify_line(posts, ErrorModel{true}).size() == 2);
+  CHECK(simplify_line(posts, ErrorModel{false}, 4).size() == 9);
+  CHECK(simplify_line(posts, ErrorModel{true}, 4).size() == 2);
   posts[4].sample.reset();
-  const std::vector<ChainVertex> chain = simplify_line(posts, ErrorModel{true});
+  const std::vector<ChainVertex> chain = simplify_line(posts, ErrorModel{true}, 4);
   REQUIRE(chain.size() == 4);
   CHECK(chain[1].post == 3);
   CHECK(chain[2].post == 5);
