@@ -7,7 +7,15 @@ using namespace microtin;
 
 microtin_answer microtin_compact_highest(const microtin_compact* compact,
                                          const microtin_course* course, int32_t* height) {
-  return highest_in_terrain(RingForm(compact), *course, height);
+  microtin_course_progress progress = {};
+  return microtin_compact_highest_limited(compact, course, 0, &progress, height);
+}
+
+microtin_answer microtin_compact_highest_limited(const microtin_compact* compact,
+                                                 const microtin_course* course, uint32_t step_limit,
+                                                 microtin_course_progress* progress,
+                                                 int32_t* height) {
+  return highest_in_terrain(RingForm(compact), *course, step_limit, progress, height);
 }
 
 microtin_answer microtin_compact_fill(const microtin_compact* compact, const microtin_block* block,

@@ -104,7 +104,7 @@ microtin_answer height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uin
     const void* const terrain = terrain_of(p, tiles.number(), &answer);
     if (terrain == nullptr) continue;
     const LocalPoint at = local(tiles.box(), x, y);
-    if (Form(terrain).height_at(at, hint, height) == MICROTIN_HEIGHT) return MICROTIN_HEIGHT;
+    if (Form(terrain).height_at(at, 0, hint, height) == MICROTIN_HEIGHT) return MICROTIN_HEIGHT;
   }
   return answer;
 }

@@ -13,29 +13,57 @@ inline bool is_on_lattice(int64_t x, int64_t y) {
   return x >= 0 && x <= most && y >= 0 && y <= most;
 }
 
+inline LocalPoint local_place(int64_t x, int64_t y) {
+  return LocalPoint{static_cast<int32_t>(x), static_cast<int32_t>(y)};
+}
+
 template <class Form>
 microtin_answer height_in_terrain(const Form& form, int64_t x, int64_t y, uint32_t* hint,
                                   int32_t* height) {
   if (!is_on_lattice(x, y)) return MICROTIN_OUTSIDE;
-  return form.height_at(LocalPoint{static_cast<int32_t>(x), static_cast<int32_t>(y)}, hint, height);
+  return form.height_at(local_place(x, y), 0, hint, height);
+}
+
+// The ends of a course come before the triangles.
+constexpr uint32_t kCourseEnds = 2;
+
+// A step, or without a limit all, of the walk to the end that comes next.
+template <class Form>
+void walk_to_end(const Form& form, const microtin_course& course, uint32_t step_limit,
+                 microtin_course_progress* done) {
+  const bool is_first = done->next == 0;
+  const LocalPoint end =
+      is_first ? local_place(course.x, course.y) : local_place(course.x_end, course.y_end);
+  int32_t height = INT32_MIN;
+  const microtin_answer answer =
+      form.height_at(end, step_limit == 0 ? 0u : 1u, &done->hint, &height);
+  if (answer == MICROTIN_NOT_YET) return;
+  done->highest = is_first ? height : larger(height, done->highest);
+  done->worst = worse(answer, done->worst);
+  ++done->next;
 }
 
 // Hulls are convex: a course leaves them only if it ends outside.
 template <class Form>
 microtin_answer highest_in_terrain(const Form& form, const microtin_course& course,
+                                   uint32_t step_limit, microtin_course_progress* done,
                                    int32_t* height) {
   *height = INT32_MIN;
   if (!is_on_lattice(course.x, course.y) || !is_on_lattice(course.x_end, course.y_end)) {
     return MICROTIN_OUTSIDE;
   }
-  const microtin_answer answer = ask_ends(
-      course,
-      [&form](int64_t x, int64_t y, uint32_t* hint, int32_t* end) {
-        return height_in_terrain(form, x, y, hint, end);
-      },
-      height);
   TileCourse all(TileBox{0, 0, kLatticeMax, kLatticeMax}, course);
-  return all.look(form, height) ? answer : worse(answer, MICROTIN_IN_VOID);
+  all.move(form.corner());
+  for (uint32_t step = 0; done->next < kCourseEnds + form.triangles(); ++step) {
+    if (step_limit != 0 && step == step_limit) return MICROTIN_NOT_YET;
+    if (done->next < kCourseEnds) {
+      walk_to_end(form, course, step_limit, done);
+    } else if (!all.look(form, done->next++ - kCourseEnds, &done->highest)) {
+      done->worst = worse(done->worst, MICROTIN_IN_VOID);
+    }
+  }
+  *height = done->highest;
+  return done->worst;
 }
 
 template <class Form>

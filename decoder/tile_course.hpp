@@ -5,7 +5,7 @@
 //   triangles(), at(t)   the numbers of triangles; in a ghost the cursor's apex is infinity
 //   places(t, places)    those of a triangle's corners; false if it is a ghost
 //   corner()     the place from which its places are seen
-//   height_at(x, y, hint, height)
+//   height_at(place, step_limit, hint, height)
 #ifndef MICROTIN_DECODER_TILE_COURSE_HPP
 #define MICROTIN_DECODER_TILE_COURSE_HPP
 
@@ -92,11 +92,25 @@ class TileCourse {
     move(form.corner());
     bool is_known = true;
     for (uint32_t t = 0; t < form.triangles(); ++t) {
-      Point place[3];
-      const bool is_aside = form.places(t, place) && are_aside(place);
-      if (!is_aside && !look_at(form.at(t), highest)) is_known = false;
+      if (!look(form, t, highest)) is_known = false;
     }
     return is_known;
+  }
+
+  // To be seen from a place of the tile, before single triangles are looked at.
+  void move(Point corner) {
+    const FinePoint by = fine(corner);
+    begin_ = LocalPoint{begin_.x - by.x, begin_.y - by.y};
+    end_ = LocalPoint{end_.x - by.x, end_.y - by.y};
+    x_ = reach(begin_.x, end_.x);
+    y_ = reach(begin_.y, end_.y);
+  }
+
+  template <class Form>
+  MICROTIN_IN_PLACE bool look(const Form& form, uint32_t t, int32_t* highest) const {
+    Point place[3];
+    const bool is_aside = form.places(t, place) && are_aside(place);
+    return is_aside || look_at(form.at(t), highest);
   }
 
  private:
@@ -120,15 +134,6 @@ class TileCourse {
 
   static Reach reach(int32_t begin, int32_t end) {
     return begin < end ? Reach{begin >> 8, (end + 255) >> 8} : Reach{end >> 8, (begin + 255) >> 8};
-  }
-
-  // Seen from a place of the tile.
-  void move(Point corner) {
-    const FinePoint by = fine(corner);
-    begin_ = LocalPoint{begin_.x - by.x, begin_.y - by.y};
-    end_ = LocalPoint{end_.x - by.x, end_.y - by.y};
-    x_ = reach(begin_.x, end_.x);
-    y_ = reach(begin_.y, end_.y);
   }
 
   template <class Cursor>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Queries on whatever was decoded, also after an early stop: heights are those of exact arithmetic,
-// from any start of the search. The fuzzer asks by the last bytes of its input.
+// from any start of the search, and courses are as high in calls of any length. The fuzzer asks by
+// the last bytes of its input.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "fuzz/support/device.hpp"
 #include "fuzz/support/stream_mutator.hpp"
 #include "shared/digest.hpp"
+#include "tests/support/limited_course.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/reference_heights.hpp"
 
@@ -72,6 +74,16 @@ void check_heights(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataPr
   }
 }
 
+// In calls of any length, as in one.
+void check_courses(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataProvider& asked) {
+  for (int i = 0; i < 3; ++i) {
+    const Place a = place_from(asked, copy), b = place_from(asked, copy);
+    const microtin_course c = {a.x, a.y, b.x, b.y};
+    Random random(asked.ConsumeIntegral<uint32_t>());
+    EXPECT(highest_in_pieces(mesh, c, 1 + random.below(300), random) == highest_on(mesh, c));
+  }
+}
+
 bool same(const microtin_axis& a, const microtin_axis& b) {
   return a.offset == b.offset && a.numerator == b.numerator && a.denominator == b.denominator;
 }
@@ -114,5 +126,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const MeshCopy copy(mesh);
   EXPECT(pairing_fault(copy.mesh).empty());
   check_heights(mesh, copy, asked);
+  check_courses(mesh, copy, asked);
   return 0;
 }

@@ -12,6 +12,7 @@
 #include "microtin/microtin.hpp"
 #include "tests/support/compact_pair.hpp"
 #include "tests/support/device.hpp"
+#include "tests/support/limited_course.hpp"
 #include "tests/support/reference_course.hpp"
 #include "tests/support/streams.hpp"
 
@@ -46,6 +47,23 @@ microtin_answer answer_at(const Both& terrain, int64_t x, int64_t y, int32_t* he
   return terrain.mesh.height_at(static_cast<int32_t>(x), static_cast<int32_t>(y), &hint, height);
 }
 
+// Both forms say the same in calls of any length, of one step, and of all that are left.
+void check_in_pieces(const Both& terrain, const microtin_course& c, const Highest& highest) {
+  Random random(static_cast<uint64_t>(c.x + c.y_end));
+  for (const uint32_t most : {1u, 7u, 200u}) {
+    REQUIRE(highest_in_pieces(terrain.mesh.mesh(), c, most, random) == highest);
+    REQUIRE(highest_in_pieces(terrain.compact.compact(), c, most, random) == highest);
+  }
+  microtin_course_progress mesh = {}, compact = {};
+  int32_t height = 0;
+  REQUIRE(terrain.mesh.highest(c, &height, &mesh, 5) != MICROTIN_HEIGHT);
+  REQUIRE(terrain.mesh.highest(c, &height, &mesh, 0) == highest.answer);
+  REQUIRE(height == highest.height);
+  terrain.compact.highest(c, &height, &compact, 5);
+  REQUIRE(terrain.compact.highest(c, &height, &compact, 0) == highest.answer);
+  REQUIRE(height == highest.height);
+}
+
 void check_course(const Both& terrain, const Surface& surface, const microtin_course& c,
                   Counts& counts) {
   CAPTURE(c.x);
@@ -59,6 +77,7 @@ void check_course(const Both& terrain, const Surface& surface, const microtin_co
   REQUIRE(compact_highest == highest);
   REQUIRE(highest == expected.highest);
   REQUIRE((answer == MICROTIN_HEIGHT) == expected.is_known);
+  check_in_pieces(terrain, c, {answer, highest});
   const bool leaves = answer_at(terrain, c.x, c.y, &begin) == MICROTIN_OUTSIDE ||
                       answer_at(terrain, c.x_end, c.y_end, &end) == MICROTIN_OUTSIDE;
   REQUIRE((answer == MICROTIN_OUTSIDE) == leaves);
@@ -130,6 +149,28 @@ TEST_CASE("the highest of courses with an end off the lattice, and of meshes tha
   REQUIRE(device.feed(stream.data(), stream.size(), &used, 300) == MICROTIN_STEP_LIMIT);
   const microtin_course c = {0, 0, 65535 * 256, 65535 * 256};
   CHECK(microtin_highest(device.mesh, &c, &height) == MICROTIN_NOT_VERIFIED);
+  microtin_course_progress progress = {};
+  CHECK(microtin_highest_limited(device.mesh, &c, 9, &progress, &height) == MICROTIN_NOT_VERIFIED);
+  CHECK(progress.next == 0);
+}
+
+TEST_CASE("a course goes on where it was left, and an older progress stays in the terrain") {
+  const Both large(terrain_stream(300, 4)), small(terrain_stream(20, 5));
+  const microtin_course c = {0, 0, 65535 * 256, 65535 * 256}, off = {-1, 0, 0, 0};
+  for (uint32_t next = 0; next < triangles_of(large.mesh.mesh()) + 4; ++next) {
+    microtin_course_progress progress = {next, UINT32_MAX, 0, MICROTIN_HEIGHT}, other = progress;
+    for (uint32_t i = 0; i < 3; ++i) {
+      const uint32_t before = progress.next;
+      limited_highest(small.mesh.mesh(), c, 2, &progress);
+      limited_highest(small.compact.compact(), c, 2, &other);
+      CHECK(progress.next - before <= 2);
+    }
+    const uint32_t end = triangles_of(small.mesh.mesh()) + 2;
+    if (next > end) CHECK(progress.next == next);
+    CHECK(limited_highest(small.mesh.mesh(), off, 1, &progress).answer == MICROTIN_OUTSIDE);
+  }
+  microtin_course_progress most = {UINT32_MAX, 0, 7, MICROTIN_IN_VOID};
+  CHECK(limited_highest(large.mesh.mesh(), c, 1, &most) == Highest{MICROTIN_IN_VOID, 7});
 }
 
 TEST_CASE("blocks of a terrain hold what single answers say, in whole units") {

@@ -125,7 +125,12 @@ inline microtin_answer highest_on(const microtin_mesh* mesh, const microtin_cour
 }
 inline microtin_answer highest_on(const microtin_compact* compact, const microtin_course* c,
                                   int32_t* z) {
-  return microtin_compact_highest(compact, c, z);
+  microtin_course_progress progress = {};
+  microtin_answer answer;
+  do {
+    answer = microtin_compact_highest_limited(compact, c, 9, &progress, z);
+  } while (answer == MICROTIN_NOT_YET);
+  return answer;
 }
 inline microtin_answer fill_from(const microtin_mesh* mesh, const microtin_block* b, int16_t* z) {
   return microtin_fill(mesh, b, z);

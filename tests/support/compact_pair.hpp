@@ -12,6 +12,7 @@
 
 #include "microtin/compact.h"
 #include "tests/support/layers.hpp"
+#include "tests/support/limited_course.hpp"
 #include "tests/support/point_sets.hpp"
 
 namespace microtin::tests {
@@ -168,9 +169,11 @@ inline std::string difference_of_courses(const microtin_mesh* mesh, const microt
                                          int courses, Random& random) {
   for (int i = 0; i < courses; ++i) {
     const microtin_course c = course_near(mesh, random);
-    int32_t expected = 1, highest = 1;
-    const microtin_answer answer = microtin_highest(mesh, &c, &expected);
-    if (answer != microtin_compact_highest(compact, &c, &highest) || expected != highest) {
+    const Highest highest = highest_on(mesh, c);
+    const uint32_t most = i % 2 == 0 ? 3 : 2 * microtin_triangle_count(mesh);
+    if (!(highest == highest_on(compact, c)) ||
+        !(highest == highest_in_pieces(mesh, c, most, random)) ||
+        !(highest == highest_in_pieces(compact, c, most, random))) {
       return "on the course " + std::to_string(c.x) + " " + std::to_string(c.y) + " to " +
              std::to_string(c.x_end) + " " + std::to_string(c.y_end);
     }

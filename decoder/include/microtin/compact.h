@@ -116,9 +116,14 @@ void microtin_compact_placement(const microtin_compact* compact, microtin_axis* 
 microtin_answer microtin_compact_height_at(const microtin_compact* compact, int32_t x, int32_t y,
                                            uint32_t step_limit, uint32_t* hint, int32_t* height);
 
-/* As microtin_highest and microtin_fill, with the same answers. */
+/* As microtin_highest, microtin_highest_limited and microtin_fill, with the same answers. Steps are
+ * O(1) as those of microtin_compact_height_at are. */
 microtin_answer microtin_compact_highest(const microtin_compact* compact,
                                          const microtin_course* course, int32_t* height);
+microtin_answer microtin_compact_highest_limited(const microtin_compact* compact,
+                                                 const microtin_course* course, uint32_t step_limit,
+                                                 microtin_course_progress* progress,
+                                                 int32_t* height);
 microtin_answer microtin_compact_fill(const microtin_compact* compact, const microtin_block* block,
                                       int16_t* heights);
 

@@ -24,10 +24,32 @@ typedef struct microtin_course {
  * every place of it, those between lattice places too, has a height by microtin_height_at. OUTSIDE,
  * IN_VOID: a part of it, be it a point, is outside the hull, or else void; *height is that of the
  * rest, INT32_MIN if there is none, or if an end is outside 0 .. 65535 * 256. Also NOT_DECODED,
- * NOT_VERIFIED. Looks at every triangle, in one call: of a large terrain who may not stay long
- * keeps tiles of it, as a pack does, of which only those on the course are looked at. */
+ * NOT_VERIFIED. Looks at every triangle: about two for each vertex. */
 microtin_answer microtin_highest(const microtin_mesh* mesh, const microtin_course* course,
                                  int32_t* height);
+
+/* How far microtin_highest_limited has come. All zero to begin; 16 bytes where enumerations have
+ * four. */
+typedef struct microtin_course_progress {
+  uint32_t next; /* 0, 1: an end of the course, then triangles from number 0 on */
+  uint32_t hint;
+  int32_t highest;       /* so far */
+  microtin_answer worst; /* so far */
+} microtin_course_progress;
+
+/* The same, with the same answers whatever the limits, in at most `step_limit` steps (0: no limit)
+ * a call. NOT_YET: call again with the same course and *progress; *height is INT32_MIN. A step is
+ * one of a walk to an end of the course, as microtin_height_at_limited takes them, or looks at one
+ * triangle, in O(1): in all one for each triangle and about
+ * sqrt(n) for the ends, whatever the stream at most three times microtin_triangle_count. Any other
+ * answer is the last; asked again, it is given again.
+ *
+ * Whoever replaces the terrain, lets its decoder go on, or wants another course begins anew with
+ * zeros. Nothing tells an older progress apart: with it the answer holds for neither, but no number
+ * in it leads out of the terrain. */
+microtin_answer microtin_highest_limited(const microtin_mesh* mesh, const microtin_course* course,
+                                         uint32_t step_limit, microtin_course_progress* progress,
+                                         int32_t* height);
 
 /* A block of places in rows: columns from (x, y) on by dx, rows by dy. */
 typedef struct microtin_block {

@@ -47,6 +47,10 @@ class Terrain {
   microtin_answer highest(const microtin_course& course, int32_t* height) const {
     return microtin_highest(mesh_, &course, height);
   }
+  microtin_answer highest(const microtin_course& course, int32_t* height,
+                          microtin_course_progress* progress, uint32_t step_limit) const {
+    return microtin_highest_limited(mesh_, &course, step_limit, progress, height);
+  }
   microtin_answer fill(const microtin_block& block, int16_t* heights) const {
     return microtin_fill(mesh_, &block, heights);
   }
@@ -160,6 +164,10 @@ class CompactTerrain {
   }
   microtin_answer highest(const microtin_course& course, int32_t* height) const {
     return microtin_compact_highest(compact_, &course, height);
+  }
+  microtin_answer highest(const microtin_course& course, int32_t* height,
+                          microtin_course_progress* progress, uint32_t step_limit) const {
+    return microtin_compact_highest_limited(compact_, &course, step_limit, progress, height);
   }
   microtin_answer fill(const microtin_block& block, int16_t* heights) const {
     return microtin_compact_fill(compact_, &block, heights);
