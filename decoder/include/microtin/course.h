@@ -40,9 +40,9 @@ typedef struct microtin_course_progress {
 /* The same, with the same answers whatever the limits, in at most `step_limit` steps (0: no limit)
  * a call. NOT_YET: call again with the same course and *progress; *height is INT32_MIN. A step is
  * one of a walk to an end of the course, as microtin_height_at_limited takes them, or looks at one
- * triangle, in O(1): in all one for each triangle and about
- * sqrt(n) for the ends, whatever the stream at most three times microtin_triangle_count. Any other
- * answer is the last; asked again, it is given again.
+ * triangle, in O(1): in all one for each triangle and about sqrt(n) for the ends, whatever the
+ * stream at most three times microtin_triangle_count. Any other answer is the last; asked again, it
+ * is given again.
  *
  * Whoever replaces the terrain, lets its decoder go on, or wants another course begins anew with
  * zeros. Nothing tells an older progress apart: with it the answer holds for neither, but no number
