@@ -21,6 +21,8 @@
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
 #include "encoder/product/reference.hpp"
+#include "encoder/terrain/fill_value.hpp"
+#include "encoder/terrain/raster_scan.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -111,18 +113,29 @@ std::string text_of(const PackReport& pack) {
   return text.str();
 }
 
+// What may be no heights at all is told before the work begins.
+void announce(const EncodeRequest& request, const std::string& remark) {
+  if (!remark.empty()) std::fputs(warning(request.input + ": " + remark).c_str(), stderr);
+}
+
+void announce_fill(const EncodeRequest& request, const RasterReader& raster) {
+  announce(request, remark_on_fill(scan(raster, {}, false, {}).extremes, raster.frame().decimals));
+}
+
 std::unique_ptr<RasterReader> open_raster(const EncodeRequest& request) {
   OpenSource source = prepared_source(request.input, request.preparation);
   auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
     throw Error(request.input + ": shards are of packs of rasters; these are points");
   }
+  announce_fill(request, **raster);
   return std::move(*raster);
 }
 
 // Each of these writes what is asked for and returns what to say of it.
 std::string encode_raster(const RasterReader& raster, const EncodeRequest& request,
                           OutputFile& out) {
+  announce_fill(request, raster);
   StreamSpool streams(request.output);
   const PackContent pack = with_file_context(request.input, [&] {
     ProgressBar bar;
@@ -135,6 +148,7 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
 }
 
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
+  announce(request, remark_on_fill(cloud));
   const EncodedPoints made =
       with_file_context(request.input, [&] { return encode_pack(cloud, request); });
   out.write(made.bytes);
@@ -166,6 +180,8 @@ std::string encode_tiled(const EncodeRequest& request, OutputFile& out) {
 
 std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
   const PreparedTerrain terrain = prepared_terrain(request.input, request.preparation);
+  announce(request,
+           std::visit([](const auto& source) { return remark_on_fill(source); }, terrain.source));
   const EncodedStream encoded = with_file_context(request.input, [&] {
     ProgressBar bar;
     return encode_stream(terrain.source, request, bar.progress());

@@ -9,6 +9,7 @@
 #include "encoder/exact/wide.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/input_file.hpp"
+#include "encoder/import/text.hpp"
 #include "encoder/product/place_query.hpp"
 
 namespace microtin::cli {
@@ -108,7 +109,7 @@ int run_height(const HeightRequest& request) {
   try {
     PlaceQuery query(request.input);
     if (!request.place) {
-      print(answered(query, read_file("-"), request.lattice));
+      print(answered(query, without_mark(read_file("-")), request.lattice));
       return 0;
     }
     const Answer answer = ask(query, *request.place, request.lattice);

@@ -62,6 +62,13 @@ class Words {
   size_t line_ = 1;
 };
 
+// Behind the byte order mark, if there is one.
+uint64_t begin_of(const ByteSource& text) {
+  std::array<char, 3> bytes{};
+  const std::string_view begin(bytes.data(), text.read(0, bytes.data(), bytes.size()));
+  return begin.size() - without_mark(begin).size();
+}
+
 // Heights equal to it are void. Writers put numbers here that no height can have, such as -3.4e38;
 // heights that repeat the text count as equal, too.
 struct NoData {
@@ -164,7 +171,12 @@ Header read_header(Words& words) {
 std::optional<Decimal> read_height(const Words& words, const NoData& no_data) {
   const std::optional<Decimal> height = parse_decimal(words.word());
   if (no_data.matches(words.word(), height) || is_nan(words.word())) return std::nullopt;
-  if (!height) words.fail(quoted(words.word()) + " is not a number in range");
+  if (!height) {
+    const bool may_be_void = is_finite_number(words.word());
+    words.fail(
+        quoted(words.word()) + " is not a number in range" +
+        (may_be_void ? "; if it marks voids, the header's NODATA_value must be the same" : ""));
+  }
   return height;
 }
 
@@ -200,7 +212,7 @@ class AscReader : public RasterReader {
  public:
   AscReader(const std::string& name, std::unique_ptr<ByteSource> text, Reference reference)
       : name_(name), text_(std::move(text)) {
-    Words words(name_, *text_);
+    Words words(name_, *text_, begin_of(*text_));
     const Header header = read_header(words);
     no_data_ = header.no_data;
     frame_ = frame_of(name_, header);
@@ -265,7 +277,7 @@ std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<
 
 Raster import_asc(const std::string& name, const std::string& text) {
   const std::unique_ptr<ByteSource> bytes = bytes_in_memory({text.begin(), text.end()});
-  Words words(name, *bytes);
+  Words words(name, *bytes, begin_of(*bytes));
   const Header header = read_header(words);
   Raster raster = frame_of(name, header);
   DecimalColumn heights;

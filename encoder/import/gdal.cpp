@@ -55,6 +55,15 @@ bool is_virtual(const std::string& path) {
   return at == 0 || (at != path.npos && (path[at - 1] == ':' || path[at - 1] == '"'));
 }
 
+// GDAL's own words, which begin with the file's name in one way or another.
+std::string reason(const std::string& path) {
+  const std::string text = CPLGetLastErrorMsg();
+  for (const std::string& name : {path + ": ", '`' + path + "' ", '\'' + path + "' "}) {
+    if (text.compare(0, name.size(), name) == 0) return text.substr(name.size());
+  }
+  return text;
+}
+
 Dataset open(const std::string& path, Indirect indirect) {
   register_drivers(indirect);
   CPLSetErrorHandler(CPLQuietErrorHandler);
@@ -69,7 +78,7 @@ Dataset open(const std::string& path, Indirect indirect) {
     if (is_vrt && indirect == Indirect::kRefused) {
       throw Error("names other files, which are read with --allow-vrt only");
     }
-    throw Error(std::string("GDAL cannot open it: ") + CPLGetLastErrorMsg());
+    throw Error("GDAL cannot open it: " + reason(path));
   }
   if (GDALGetRasterCount(dataset.get()) == 0) throw Error("has no raster band");
   return dataset;
@@ -171,8 +180,8 @@ class BandReader {
       if (is_void) {
         heights.add_void();
       } else if (!height || !heights.add(*height)) {
-        throw Error("row " + std::to_string(row) + ", column " + std::to_string(column) +
-                    ": is not a number in range");
+        throw Error("row " + std::to_string(row) + ", column " + std::to_string(column) + ": " +
+                    not_a_height(value));
       }
     }
   }

@@ -33,7 +33,7 @@ std::string system_file_of(const std::string& path) {
 Reference reference_beside(const std::string& path) {
   const std::string file = system_file_of(path);
   if (file.empty()) return {};
-  const std::string text = read_file(file);
+  const std::string text(without_mark(read_file(file)));
   if (!is_wkt(text)) {
     throw Error(file +
                 ": is no well-known text of a coordinate system; \"gdalsrsinfo -o wkt_esri\" "

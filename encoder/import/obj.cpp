@@ -9,7 +9,7 @@ namespace microtin::importing {
 PointCloud import_obj(const std::string& name, const std::string& text) {
   PointColumns points;
   std::vector<std::string_view> fields;
-  std::string_view rest = text;
+  std::string_view rest = without_mark(text);
   for (size_t line = 1; !rest.empty(); ++line) {
     split(take_line(rest), fields);
     if (fields.empty() || fields[0] != "v") continue;

@@ -41,7 +41,8 @@ enum class Encoding { kText, kLittleEndian, kBigEndian };
 
 class HeaderReader {
  public:
-  HeaderReader(const std::string& name, std::string_view text) : name_(name), rest_(text) {
+  HeaderReader(const std::string& name, std::string_view text)
+      : name_(name), rest_(without_mark(text)) {
     read();
   }
 

@@ -118,8 +118,19 @@ class PointReader {
     for (size_t axis = 0; axis < 3; ++axis) {
       const size_t column = axes_[axis];
       const Decimal value = column < columns_ ? values_[column] : Decimal{};
+      if (unit_ == Unit::kDegree) expect_degrees(axis, value);
       if (!points_.add(axis, value)) fail_on(fields_[column]);
     }
+  }
+
+  void expect_degrees(size_t axis, Decimal value) const {
+    constexpr std::array<int64_t, 2> kMost = {360, 90};
+    if (axis > 1 || Decimal{static_cast<int64_t>(magnitude(value.mantissa)), value.decimals} <=
+                        Decimal{kMost[axis], 0}) {
+      return;
+    }
+    fail(std::string(axis == 0 ? "longitude " : "latitude ") + to_string(value) + " is beyond " +
+         std::to_string(kMost[axis]) + " degrees: name the columns as they are, x,y,z for others");
   }
 
   [[noreturn]] void fail_on(std::string_view field) const {
@@ -140,11 +151,7 @@ class PointReader {
 }  // namespace
 
 PointCloud import_points(const std::string& name, const std::string& text) {
-  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  std::string_view rest = text;
-  if (rest.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
-    rest.remove_prefix(kByteOrderMark.size());
-  }
+  std::string_view rest = without_mark(text);
   PointReader reader(name);
   while (!rest.empty()) reader.read_line(take_line(rest));
   return reader.cloud();

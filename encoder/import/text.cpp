@@ -3,6 +3,7 @@
 #include "encoder/import/text.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "encoder/base/error.hpp"
 
@@ -24,6 +25,15 @@ std::string quoted(std::string_view piece) {
     if (c < ' ' || c > '~') c = '?';
   }
   return '"' + text + (piece.size() > kMost ? "...\"" : "\"");
+}
+
+std::string not_a_height(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return std::string(text) +
+         " is not a height in range: if that marks voids, the source must say so: NaN in an array, "
+         "else \"gdal_translate -a_nodata " +
+         text + '"';
 }
 
 std::string lower_case(std::string text) {
@@ -76,6 +86,11 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
     skip_blanks();
     if (!line.empty() && (line.front() == ',' || line.front() == ';')) line.remove_prefix(1);
   }
+}
+
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  return text.substr(text.substr(0, kByteOrderMark.size()) == kByteOrderMark ? 3 : 0);
 }
 
 std::string_view take_line(std::string_view& text) {

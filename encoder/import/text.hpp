@@ -18,6 +18,10 @@ namespace microtin::importing {
 // A piece of the input for a message: in quotes, printable, short.
 std::string quoted(std::string_view piece);
 
+// What is wrong with a binary number that is none of a raster's heights, and what to do if it marks
+// voids.
+std::string not_a_height(double value);
+
 std::string lower_case(std::string text);
 
 inline bool is_blank(char c) {
@@ -72,6 +76,9 @@ class PointColumns {
 // Splits a line at runs of blanks with at most one comma or semicolon in each; an empty field is
 // kept, unless it is the last.
 void split(std::string_view line, std::vector<std::string_view>& fields);
+
+// A text without the byte order mark that it may begin with.
+std::string_view without_mark(std::string_view text);
 
 // Takes the first line away from a text that is not empty; without its end.
 std::string_view take_line(std::string_view& text);

@@ -43,8 +43,8 @@ Posts binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const
       if (std::isnan(value)) {
         numbers.add_void();
       } else if (!decimal || !numbers.add(*decimal)) {
-        throw Error("row " + std::to_string(row) + ", column " + std::to_string(column) +
-                    ": is not a height in range");
+        throw Error("row " + std::to_string(row) + ", column " + std::to_string(column) + ": " +
+                    importing::not_a_height(value));
       }
     }
   }

@@ -14,6 +14,7 @@
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
 #include "encoder/product/reference.hpp"
+#include "encoder/terrain/fill_value.hpp"
 
 namespace microtin::encoder {
 
@@ -227,7 +228,12 @@ Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOpti
 
 std::vector<std::string> remarks_on(const terrain::Source& source,
                                     const product::EncodeOptions& options) {
-  return product::settle(terrain::reference_of(source), options.reference).remarks;
+  std::vector<std::string> remarks =
+      product::settle(terrain::reference_of(source), options.reference).remarks;
+  const std::string fill =
+      std::visit([](const auto& one) { return terrain::remark_on_fill(one); }, source);
+  if (!fill.empty()) remarks.push_back(fill);
+  return remarks;
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ uint64_t mixed(uint64_t fingerprint, uint64_t number) {
 
 struct BlockScan {
   NumberRange heights;
+  Extremes extremes;
   uint64_t fingerprint;
   uint64_t roughness;
 };
@@ -62,7 +63,10 @@ struct BlockScan {
 BlockScan scan_block(const Raster& block) {
   BlockScan result{};
   for (const int64_t height : block.heights) {
-    if (height != kVoidHeight) result.heights.add(height);
+    if (height != kVoidHeight) {
+      result.heights.add(height);
+      result.extremes.add(height);
+    }
     result.fingerprint = mixed(result.fingerprint, static_cast<uint64_t>(height));
   }
   return result;
@@ -108,6 +112,7 @@ RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_er
   std::size_t roughest = 0;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     all.heights.add(blocks[i].heights);
+    all.extremes.add(blocks[i].extremes);
     if (blocks[i].roughness > blocks[roughest].roughness) roughest = i;
     all.fingerprint = mixed(all.fingerprint, blocks[i].fingerprint);
   }

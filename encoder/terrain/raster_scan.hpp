@@ -8,6 +8,7 @@
 
 #include "encoder/base/progress.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/fill_value.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
 #include "encoder/terrain/raster_reader.hpp"
 
@@ -15,6 +16,7 @@ namespace microtin::terrain {
 
 struct RasterScan {
   NumberRange heights;
+  Extremes extremes;
   uint64_t fingerprint = 0;  // of all heights; no match for somebody who wants to deceive it
   PostRectangle roughest{};  // the block of up to 257 x 257 posts that will take most vertices
 };

@@ -106,6 +106,8 @@ TEST_CASE("height: what is no place is refused, with its line") {
   CHECK(three.out.empty());
   CHECK(contains(three.err, "standard input, line 2"));
   CHECK(session.shell("microtin height - <plane.mtin").code == 1);
+  CHECK(session.shell("printf '\\357\\273\\2771 2\\n' | microtin height plane.mtin").out ==
+        "1 2 5\n");
   CHECK(session.shell("microtin height - 1 2 <plane.mtin").out == "5\n");
 }
 

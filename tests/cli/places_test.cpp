@@ -256,3 +256,29 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
   CHECK(contains(session.failure("render t.mtin --palette sky -o u.png", 2),
                  "sky is not land or sea"));
 }
+
+TEST_CASE("places: heights that only mark voids are told of, wherever rasters go") {
+  const Session session;
+  session.write("t.asc",
+                "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 2\n"
+                "1 2 3 4\n5 -9999 7 8\n1 -9999 3 9\n");
+  const std::string told =
+      "warning: t.asc: taken as they are: 2 posts of height -9999, far from all others; if they "
+      "mark voids, the source must say so: NODATA_value -9999 in an .asc, ";
+  for (const char* const command :
+       {"encode t.asc -o t.mtin", "encode t.asc --tile-vertices 100 -o t.mtp",
+        "plan t.asc --max-error 1 --tile-vertices 100 --shards 2",
+        "encode t.asc --tile-vertices 100 --tiles 0:0 -o t.shard"}) {
+    const Session::Result result = session.run(command);
+    CHECK_MESSAGE(result.code == 0, result.err);
+    CHECK_MESSAGE(contains(result.err, told), result.err);
+  }
+  session.write("t.xyz", "0 0 1\n1 0 2\n0 1 3\n1 1 -9999\n");
+  for (const char* const output : {"t.mtin", "t.mtp --tile-vertices 100"}) {
+    CHECK(contains(
+        session.run("encode t.xyz -o " + std::string(output)).err,
+        "1 point of height -9999, far from all others; if they mark voids, leave them out"));
+  }
+  session.write("u.asc", "NODATA_value -9999\n" + session.read("t.asc"));
+  CHECK(session.run("encode u.asc -o u.mtin").err.empty());
+}

@@ -249,6 +249,23 @@ class Driver(unittest.TestCase):
              "such as :metre"],
         )
 
+    def test_undeclared_voids_are_told(self):
+        source = gdal.GetDriverByName("MEM").Create("", 9, 9, 1, gdal.GDT_Float32)
+        source.SetGeoTransform(TRANSFORM)
+        source.GetRasterBand(1).WriteRaster(3, 3, 2, 1, b"\x00\x3c\x1c\xc6" * 2)
+        told = []
+        gdal.PushErrorHandler(lambda _kind, _number, text: told.append(text))
+        try:
+            gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/fill.mtin", source, options=["UNITS=metre:metre"])
+        finally:
+            gdal.PopErrorHandler()
+        self.assertEqual(len(told), 1)
+        self.assertIn("taken as they are: 2 posts of height -9999, far from all others", told[0])
+        self.assertIn("gdal_translate -a_nodata -9999", told[0])
+        source.GetRasterBand(1).WriteRaster(3, 3, 1, 1, b"\xff\xff\x7f\xff")
+        with self.assertRaisesRegex(RuntimeError, "row 3, column 3: -3.402.* -a_nodata -3.4028234663852886e.38"):
+            gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/fill.mtin", source)
+
     def test_shards_are_told(self):
         gdal.Translate(self.path("source.asc"), self.path("hills.tif"), format="AAIGrid")
         run(TOOL, "encode", self.path("source.asc"), "--tile-vertices", "9999", "--tiles", "0:0", "-o", self.path("a.shard"))

@@ -72,6 +72,11 @@ TEST_CASE("gdal: what cannot be read is refused with advice") {
         std::string::npos);
   CHECK(grid.error(vrt(kPlace, "\"CFloat32\">")).find("type CFloat32") != std::string::npos);
   CHECK(grid.error("nonsense").find("t.vrt: GDAL cannot open it: ") == 0);
+  CHECK(grid.session.failure("encode nosuch.tif -o new.mtin") ==
+        "nosuch.tif: GDAL cannot open it: No such file or directory\n");
+  grid.session.write("text.tif", "nonsense");
+  CHECK(grid.session.failure("encode text.tif -o new.mtin") ==
+        "text.tif: GDAL cannot open it: not recognized as a supported file format.\n");
 }
 
 TEST_CASE("gdal: rows from south to north") {
@@ -110,6 +115,36 @@ TEST_CASE("gdal: masks make voids, one of several bands is chosen") {
                  "both.tif: has no band 3; its last is 2"));
   CHECK(session.run("encode both.tif --band 2 -o new.mtin").code == 0);
   CHECK(session.run("verify new.mtin both.tif --band 2").code == 0);
+}
+
+TEST_CASE("gdal: voids that the file does not tell of are refused or told, with the remedy") {
+  const Grid grid;
+  const Session& session = grid.session;
+  if (session.shell("command -v gdal_translate").out.empty()) {
+    MESSAGE("skipped: gdal_translate is not installed");
+    return;
+  }
+  const auto write = [&](const std::string& last) {  // 1, 2, 3 and another, in binary
+    session.write("v.hdr",
+                  "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 2\nbyteorder LSBFIRST\n");
+    const char others[] = "\0\0\x80\x3F\0\0\0\x40\0\0\x40\x40";
+    session.write("v.flt", std::string(others, sizeof others - 1) + last);
+  };
+  const std::pair<std::string, std::string> values[] = {
+      {"-inf", {"\0\0\x80\xFF", 4}}, {"-3.4028234663852886e+38", "\xFF\xFF\x7F\xFF"}};
+  for (const auto& [value, bytes] : values) {
+    write(bytes);
+    const std::string remedy = "gdal_translate -a_nodata " + value;
+    const std::string error = session.failure("encode v.flt -o new.mtin");
+    CHECK_MESSAGE(contains(error, "v.flt: row 1, column 1: " + value + " is not a height in range"),
+                  error);
+    CHECK(contains(error, remedy));
+    REQUIRE(session.shell(remedy + " -q v.flt w.tif").code == 0);
+    CHECK(contains(session.run("encode w.tif --units m -o w.mtin").out, "3 posts, 1 void posts"));
+  }
+  write({"\0\0\0\xC7", 4});
+  CHECK(contains(session.run("encode v.flt --units m -o w.mtin").err,
+                 "v.flt: taken as they are: 1 post of height -32768, far from all others"));
 }
 
 TEST_CASE("gdal: real files") {

@@ -76,7 +76,24 @@ TEST_CASE("asc: a void value that no height can have is known by its text") {
       import_asc("grid", kHeader + "NODATA_value " + huge + "\n1 " + huge + " 3\n4 5 " + huge);
   CHECK(raster.heights == std::vector<int64_t>{4, 5, kVoidHeight, 1, kVoidHeight, 3});
   CHECK(grid_error(kHeader + "1 2 3\n4 5 " + huge) ==
-        "grid:7: \"" + huge + "\" is not a number in range");
+        "grid:7: \"" + huge +
+            "\" is not a number in range; if it marks voids, the header's NODATA_value must be the "
+            "same");
+}
+
+TEST_CASE("texts may begin with a byte order mark") {
+  const std::string mark = "\xEF\xBB\xBF";
+  CHECK(import_asc("grid", mark + kHeader + "1 2 3\n4 5 6").heights.size() == 6);
+  const std::string text = mark + kHeader + "1 2 3\n4 5 6";
+  const auto reader = open_asc("grid", bytes_in_memory({text.begin(), text.end()}));
+  CHECK(reader->read({0, 0, 3, 2}).heights == std::vector<int64_t>{4, 5, 6, 1, 2, 3});
+  CHECK(grid_error(mark + kHeader + "1 2 3\n4 x 6\n") == "grid:7: \"x\" is not a number in range");
+  CHECK(grid_error(mark) == "grid: the header does not give ncols");
+  CHECK(points(mark + "1 2 3") == "1,2,3");
+  CHECK(text_of(import_obj("mesh", mark + "v 1 2 3\nv 4 5 6\n")) == "1,2,3 4,5,6");
+  CHECK(text_of(import_ply(
+            "mesh", mark + "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\n"
+                           "property int y\nproperty int z\nend_header\n1 2 3\n")) == "1,2,3");
 }
 
 TEST_CASE("asc: what is not a number is void, whatever the header says") {
@@ -99,7 +116,10 @@ TEST_CASE("asc: whatever is wrong is told with its line") {
   CHECK(grid_error(kHeader + "1 2 3\n4 x 6\n") == "grid:7: \"x\" is not a number in range");
   CHECK(grid_error(kHeader + "1 2 3\n4 inf 6\n") == "grid:7: \"inf\" is not a number in range");
   CHECK(grid_error(kHeader + "1 2 3\n4 inf 6\n") == "grid:7: \"inf\" is not a number in range");
-  CHECK(grid_error(kHeader + "1 2 3\n4 1e30 6\n") == "grid:7: \"1e30\" is not a number in range");
+  CHECK(
+      grid_error(kHeader + "1 2 3\n4 -3.4e38 6\n") ==
+      "grid:7: \"-3.4e38\" is not a number in range; if it marks voids, the header's NODATA_value "
+      "must be the same");
   CHECK(grid_error(kHeader + "1e17 2 3\n4 0.5 .000000001\n") ==
         "grid:7: \".000000001\" is not a number in range");
   CHECK(grid_error(kHeader + "nodata_value abc\n1 2 3") == "grid:6: \"abc\" is not a number");
@@ -170,6 +190,15 @@ TEST_CASE("points: separators, comments, headers, two columns") {
   CHECK(points("1 2 3 255 0.5\n4 5 6 0 1e-3\n") == "1,2,3 4,5,6");
   CHECK(import_points("cloud", "1.25 2 3.5").xy_decimals == 2);
   CHECK(import_points("cloud", "1.25 2 3.5").z_decimals == 1);
+}
+
+TEST_CASE("points: places that are none on Earth are refused where columns are named so") {
+  CHECK(points("lat,lon\n-90,360\n90,-360") == "360,-90,0 -360,90,0");
+  const std::string remedy = " degrees: name the columns as they are, x,y,z for others";
+  CHECK(point_error("lon,lat,z\n45.5,7,1\n45.5,107.25,1\n") ==
+        "cloud:3: latitude 107.25 is beyond 90" + remedy);
+  CHECK(point_error("lat;lon\n-90.5;7\n") == "cloud:2: latitude -90.5 is beyond 90" + remedy);
+  CHECK(point_error("lat,lon\n45,600000\n") == "cloud:2: longitude 600000 is beyond 360" + remedy);
 }
 
 TEST_CASE("points: whatever is wrong is told with its line") {

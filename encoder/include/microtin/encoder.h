@@ -32,7 +32,8 @@ typedef enum microtin_outcome {
 const char* microtin_message(void);
 
 /* What the last terrain that this thread encoded leaves to a guess, or unknown, of units and
- * systems: sentences, each on a line; "" if nothing. Valid until its next call. Never null. */
+ * systems, and doubtful heights: sentences, each on a line; "" if nothing. Valid until its next
+ * call. Never null. */
 const char* microtin_remarks(void);
 
 /* "0.1.0" */

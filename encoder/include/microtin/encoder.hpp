@@ -139,7 +139,7 @@ struct Report {
   std::string mean_error;           /* above 0: the surface is too high */
   std::string max_below;            /* how far the surface is below a height at most */
   std::string max_error_at_points;  /* where points truly lie, if the lattice moves them; else "" */
-  std::vector<std::string> remarks; /* what is guessed or not known of units and systems */
+  std::vector<std::string> remarks; /* what is guessed of units and systems; doubtful heights */
 };
 
 struct Stream {

@@ -57,7 +57,7 @@ class Report:
     rms_error: float
     mean_error: float  # above 0: the surface is too high
     max_below: float  # how far the surface is below a height at most
-    remarks: Tuple[str, ...] = ()  # what is guessed or not known of units and reference systems
+    remarks: Tuple[str, ...] = ()  # what is guessed or not known of units and systems; doubtful heights
 
 
 class Stream(bytes):

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Heights that look as if somebody had marked voids by them, and not said so.
+#ifndef MICROTIN_ENCODER_TERRAIN_FILL_VALUE_HPP
+#define MICROTIN_ENCODER_TERRAIN_FILL_VALUE_HPP
+
+#include <cstdint>
+#include <string>
+
+#include "encoder/layers.hpp"
+#include "encoder/terrain/source.hpp"
+
+namespace microtin::terrain {
+
+// The lowest and the highest of some numbers, how many there are of both, and what comes next.
+class Extremes {
+ public:
+  void add(int64_t number);
+  void add(const Extremes& others);
+
+  // The lowest or the highest, if it is a number that programs fill voids with, such as -9999, and
+  // is farther from the next than all others are from each other. No land has such a place.
+  struct Fill {
+    int64_t value = 0;
+    uint64_t count = 0;  // 0: there is none
+  };
+  Fill fill(int decimals) const;
+
+ private:
+  // Of numbers times a sign the lowest, and the lowest of all others.
+  struct End {
+    int64_t first = 0, next = 0;
+    uint64_t count = 0;
+    bool has_next = false;
+
+    void add(int64_t number, uint64_t times);
+  };
+
+  End low_, high_;  // high_: of the negative numbers
+};
+
+// A sentence that says so, with the remedy; empty if there is no such value.
+std::string remark_on_fill(const Raster& raster);
+std::string remark_on_fill(const PointCloud& cloud);
+std::string remark_on_fill(const Extremes& posts, int decimals);
+
+}  // namespace microtin::terrain
+
+#endif
