@@ -65,6 +65,7 @@ inline int32_t size_of(uint32_t extent) {
 typedef int32_t Cotangent;
 constexpr uint32_t kCotangentBits = 12;
 constexpr int32_t kOwnCap = 64, kBehindCap = 16;  // of a triangle's own circle, of that behind
+constexpr int32_t kBeyondCap = 4;                 // ... where it reaches beyond open sides
 
 // A divisor brought below 2^12, so that dividends fit.
 struct Divisor {
@@ -115,10 +116,10 @@ constexpr uint32_t minor_segment(uint32_t k) {
   return (k + 188u) * 174763u / (k * (k + 188u) + 20643u);
 }
 
-// Twice the area of a whole disc over the squared chord, pi / 2 (1 + k^2), with k <= 4 (8
-// fractional bits): 8 fractional bits, at most 6834.
+// Twice the area of a whole disc over the squared chord, pi / 2 (1 + k^2), with k <= 8 (8
+// fractional bits): 8 fractional bits, at most 26130; with k <= 4 at most 6834.
 constexpr uint32_t whole_disc(uint32_t k) {
-  return (65536u + (k < 1024 ? k * k : 1048576u)) * 201u >> 15;
+  return (65536u + (k < 2048 ? k * k : 4194304u)) * 201u >> 15;
 }
 
 #if defined(MICROTIN_LARGE_TABLES)
@@ -161,8 +162,9 @@ inline uint32_t whole_disc_under(uint32_t k) {
 
 #endif
 
-// Twice the area of the segment to the left of a chord of squared length `square` < 2^25: below
-// 2^30. Up to a half disc (k <= 0) it is minor; beyond it is what the disc has left.
+// Twice the area of the segment to the left of a chord of squared length `square` < 2^23, or 2^25
+// if k <= 4: below 2^30. Up to a half disc (k <= 0) it is minor; beyond it is what the disc has
+// left.
 inline int32_t segment(uint32_t square, Cotangent fine) {
   const int32_t k = fine >> (kCotangentBits - 8);
   const uint32_t size = static_cast<uint32_t>(k < 0 ? -k : k);
@@ -263,7 +265,7 @@ inline int32_t measure(FreeRegion& region) {
 
 // Twice what an open side lets the circle add; the opposite corner sees it under q / twice.
 inline int32_t segment_beyond(const FreeRegion& region, int32_t square, int32_t q) {
-  return segment(static_cast<uint32_t>(square), cotangent(q, region.by_twice, kBehindCap));
+  return segment(static_cast<uint32_t>(square), cotangent(q, region.by_twice, kBeyondCap));
 }
 
 // Twice what the circle behind a side from v to `end` takes away. Finds the circle.

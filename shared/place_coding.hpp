@@ -93,10 +93,10 @@ struct Place {
   PlaceOdds odds;
 };
 
-// How often lines are halved by weights found anew; after that those that are known tell what is
-// left. Quick decoding has none.
+// How often columns are halved by weights found anew, rows once less; after that those that are
+// known tell what is left. Quick decoding has none.
 inline uint32_t weighed_in(Decoding decoding) {
-  return decoding == Decoding::kQuick ? 0 : decoding == Decoding::kDense ? 4 : 3;
+  return decoding == Decoding::kQuick ? 0 : decoding == Decoding::kDense ? 5 : 3;
 }
 
 // What is learned of places beside adaptive bits.
@@ -144,6 +144,7 @@ MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruli
   Numbers& numbers = ruling.numbers;
   const FastInt base = ruling.base;
   const int32_t shift = twice_shift(ruling, place.legal.shift);
+  const uint32_t kind = column != nullptr ? 1 : 0;
   uint32_t before = 0, kept = 0;
   bool upper = false;
   for (uint32_t i = 0; i < kLevels && numbers.count > 1; ++i) {
@@ -154,8 +155,9 @@ MICROTIN_IN_PLACE inline void code_halves(Coder& coder, Calibration* level, Ruli
     } else {
       const uint32_t towards = (kept + before) >> 1;
       const uint32_t outer =
-          i < weighed ? weight_of(place, column, shifted(upper ? middle + count : middle, shift))
-                      : outer_weight(kept, towards);
+          i + kind < weighed
+              ? weight_of(place, column, shifted(upper ? middle + count : middle, shift))
+              : outer_weight(kept, towards);
       weight = upper ? Halves{towards, outer} : Halves{outer, towards};
     }
     upper = code_half(coder, level[i], numbers, weight, number);

@@ -18,11 +18,15 @@ namespace microtin {
 typedef uint32_t Crowding;
 constexpr Crowding kCrowdingStart = 2048, kCrowdingLeast = 512, kCrowdingMost = 65536;
 
+// 511 * chance of being first, along a third of the way from the triangle's circle to that behind
+// the chord, which is 768 long: at f of it, (start + f slope) >> 8.
+struct Third {
+  int32_t start, slope;
+};
+
 struct PlaceOdds {
   bool repels;
-  // 511 * chance of being first, f of the way from the triangle's circle to that behind the chord:
-  // last + f (linear + f bend).
-  int32_t last, linear, bend;
+  Third third[3];
   // The power of a place with respect to the circle behind less that to the triangle's: across.x x
   // + across.y y, both below 2^16.
   Spot across;
@@ -42,15 +46,19 @@ inline int32_t chance_after(int32_t twice, Log2 rate) {
 // chord.
 inline void estimate_sweep(PlaceOdds& odds, const LegalPlaces& places, const FreeRegion& region,
                            Log2 density, Cotangent own, Cotangent behind) {
-  // log2(log2(e)) = 135 / 256.
-  const Log2 rate = density - (2 * region.shift + 1) * kLog2One + 135 + 8 * kLog2One;
+  // log2(log2(e)) = 135 / 256; of the density 7 / 8, log2 of which is -49 / 256, suits best.
+  const Log2 rate = density - (2 * region.shift + 1) * kLog2One + 135 - 49 + 8 * kLog2One;
   const uint32_t square = static_cast<uint32_t>(region.aa);
   const int32_t start = segment(square, behind);
-  const int32_t last = chance_after(segment(square, own) - start, rate);
-  const int32_t middle = chance_after(segment(square, (own + behind) >> 1) - start, rate);
-  odds.last = last;
-  odds.linear = 4 * middle - 3 * last - 511;
-  odds.bend = 2 * (last + 511 - 2 * middle);
+  const Cotangent step = (own - behind) / 3;
+  Cotangent k = own - 2 * step;
+  int32_t last = 511;
+  for (int i = 2; i >= 0; --i, k += step) {
+    const int32_t first = chance_after(segment(square, k) - start, rate);
+    const int32_t slope = last - first;
+    odds.third[i] = Third{256 * (first - i * slope), slope};
+    last = first;
+  }
   const Spot a = turned(region.a, places.turns);
   const uint32_t shift = static_cast<uint32_t>(region.shift - places.shift) + kCotangentBits;
   odds.across = Spot{(own - behind) * a.y >> shift, (behind - own) * a.x >> shift};  // < 2^30
@@ -70,16 +78,16 @@ struct Column {
 };
 
 // 0..511. Near the own circle: |x|, |y| < 2^14.5. Beside it, and beyond the chord, what is negative
-// is taken for a large number: the chance is then 511 or `last`.
+// is taken for a large number: the chance is then 511 or that on the triangle's circle.
 inline int32_t chance_at(const PlaceOdds& odds, const Column& column, int32_t y) {
   const int32_t all = odds.across.x * column.x + odds.across.y * y;  // < 2^31
   const int32_t above = column.own.high - y, below = y - column.own.low;
   const int32_t left = above * below;  // < 2^28
   const uint32_t f = static_cast<uint32_t>(left) / ((static_cast<uint32_t>(all) >> 8) + 1);
   if (f >= 256) return 511;
-  const int32_t way = static_cast<int32_t>(f);
-  const int32_t chance = odds.last + (way * (odds.linear + (way * odds.bend >> 8)) >> 8);
-  return chance > 0 ? chance : 0;
+  const uint32_t way = 3 * f;
+  const Third& third = odds.third[way >> 8];
+  return (third.start + static_cast<int32_t>(way) * third.slope) >> 8;
 }
 
 // Of two places, or of all in two halves.
@@ -117,7 +125,8 @@ inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, const
 
 #endif
 
-// Of a column: its legal length times the mean weight. 4..2^14.6.
+// Of a column: its legal length times the mean weight, which places near its ends tell best.
+// 4..2^14.6.
 MICROTIN_ROOMY_IN_PLACE uint32_t column_weight(const PlaceOdds& odds, const LegalPlaces& places,
                                                int32_t x) {
   Column column;
@@ -125,8 +134,8 @@ MICROTIN_ROOMY_IN_PLACE uint32_t column_weight(const PlaceOdds& odds, const Lega
   const Span legal = legal_span(places, x, false, column.own);
   const int32_t length = legal.high - legal.low;
   if (length <= 0) return 4;
-  const int32_t quarter = length >> 2;
-  const Halves weight = weights_at(odds, places, column, legal.low + quarter, legal.high - quarter);
+  const int32_t eighth = length >> 3;
+  const Halves weight = weights_at(odds, places, column, legal.low + eighth, legal.high - eighth);
   return (static_cast<uint32_t>(length) * (weight.low + weight.high) >> 10) + 4u;
 }
 

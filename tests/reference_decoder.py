@@ -127,7 +127,7 @@ def segment(square, k):
     minor = ((square >> 4) * ((size + 188) * 174763 // (size * (size + 188) + 20643))) >> 7
     if j <= 0:
         return minor
-    i = min(size, 1024)
+    i = min(size, 2048)
     return (square >> 8) * ((65536 + i * i) * 201 >> 15) - minor
 
 
@@ -578,9 +578,9 @@ class Candidate:
         """A logarithm."""
         free = self.T
         if not self.sides[0].certified:
-            free += segment(self.cc, cotangent(self.ca - self.aa, self.T, 16))
+            free += segment(self.cc, cotangent(self.ca - self.aa, self.T, 4))
         if not self.sides[1].certified:
-            free += segment(self.cc + self.aa - 2 * self.ca, cotangent(-self.ca, self.T, 16))
+            free += segment(self.cc + self.aa - 2 * self.ca, cotangent(-self.ca, self.T, 4))
         for number, square in ((0, self.cc), (2, self.aa)):
             if self.behind[number] is not None:
                 free -= segment(square, self.behind[number])
@@ -649,10 +649,9 @@ class Sweep:
         def swept(k):
             return segment(candidate.aa, k) - segment(candidate.aa, k0)
 
-        self.rate = density - 256 * (2 * candidate.shift + 1) + 2183
-        self.last, middle = self.left(swept(k1)), self.left(swept((k1 + k0) >> 1))
-        self.linear = 4 * middle - 3 * self.last - 511
-        self.bend = 2 * (self.last + 511 - 2 * middle)
+        self.rate = density - 256 * (2 * candidate.shift + 1) + 2134
+        third = (k1 - k0) // 3
+        self.nodes = [self.left(swept(k1 - i * third)) for i in range(3)] + [511]
         self.across = ((k1 - k0) * a[1] >> (12 + f), (k0 - k1) * a[0] >> (12 + f))
 
     def left(self, u):
@@ -665,7 +664,10 @@ class Sweep:
         whole = dot(self.across, (x, y))
         low, high = own
         w = (high - y) * (y - low) % 2**32 // ((whole % 2**32 >> 8) + 1)
-        return 511 if w >= 256 else max(0, self.last + (w * (self.linear + (w * self.bend >> 8)) >> 8))
+        if w >= 256:
+            return 511
+        i, way = divmod(3 * w, 256)
+        return self.nodes[i] + ((self.nodes[i + 1] - self.nodes[i]) * way >> 8)
 
 
 class Repulsion:
@@ -774,8 +776,8 @@ class PlaceDecoder:
         length = high - low
         if length <= 0:
             return 4
-        quarter = length >> 2
-        both = self.place_weight(x, low + quarter, own) + self.place_weight(x, high - quarter, own)
+        eighth = length >> 3
+        both = self.place_weight(x, low + eighth, own) + self.place_weight(x, high - eighth, own)
         return (length * both >> 10) + 4
 
     def decode_quarter(self, bits, lines):
@@ -787,6 +789,7 @@ class PlaceDecoder:
 
     def decode_halves(self, calibrations, ruling, weigh):
         lines = ruling.numbers
+        weighed = (5 if self.header.decoding == self.DENSE else 3) - (calibrations is self.models.row)
         before = kept = 0
         for time, row in enumerate(calibrations):
             if lines.count() < 2:
@@ -798,7 +801,7 @@ class PlaceDecoder:
                 low, high = (weigh(at) for at in grains)
             else:
                 inner = (kept + before) >> 1
-                if time < 3 or self.header.decoding == self.DENSE:
+                if time < weighed:
                     outer = weigh(grains[upper])
                 else:
                     outer = max(2 * kept - inner, (kept >> 2) + 1)

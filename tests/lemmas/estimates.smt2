@@ -31,19 +31,22 @@
 (check-sat)
 (pop)
 
-; Both segments of open sides and the triangle fit 31 bits.
-;; shared/free_region.hpp: return (65536u + (k < 1024 ? k * k : 1048576u)) * 201u >> 15;
+; Both segments of open sides, under at most 4 * 256, and the triangle fit 31 bits; so do those of circles behind, taken away.
+;; shared/free_region.hpp: return (65536u + (k < 2048 ? k * k : 4194304u)) * 201u >> 15;
 ;; shared/free_region.hpp: const int32_t minor = static_cast<int32_t>((square >> 4) * minor_segment_under(size) >> 7);
 ;; shared/free_region.hpp: return static_cast<int32_t>((square >> 8) * whole_disc_under(size)) - minor;
 (push)
 (declare-const square Int)
 (declare-const minor Int)
 (declare-const kept Int)
-(assert (and (<= 0 square 33554432) (<= 0 minor 1592) (<= 0 kept 1024)))
+(assert (and (<= 0 square 33554432) (<= 0 minor 1592) (<= 0 kept 2048)))
 (define-fun major () Int (* (div square 256) 6834))  ; (65536 + 1024^2) 201 / 2^15
+(define-fun behind () Int (* (div (div square 4) 256) 26130))  ; of a square below 2^23: (65536 + 2048^2) 201 / 2^15
 (check-sat)
 (assert (not (and (< (* (div square 16) minor) 4294967296) (< (* 201 (+ 65536 (* kept kept))) 4294967296)
-                  (<= (div (* 201 (+ 65536 (* kept kept))) 32768) 6834) (< (+ major major 8388608) 2147483648))))
+                  (<= (div (* 201 (+ 65536 (* kept kept))) 32768) 26130) (< behind 1073741824)
+                  (=> (<= kept 1024) (<= (div (* 201 (+ 65536 (* kept kept))) 32768) 6834))
+                  (< (+ major major 8388608) 2147483648))))
 (check-sat)
 (pop)
 
@@ -83,18 +86,22 @@
 (check-sat)
 (pop)
 
-; The parabola of the chance of being first.
-;; shared/place_odds.hpp: const int32_t chance = odds.last + (way * (odds.linear + (way * odds.bend >> 8)) >> 8);
+; The chance of being first, between two of the four that are found: the same as from + ((to - from) (3 f mod 256) >> 8).
+;; shared/place_odds.hpp: odds.third[i] = Third{256 * (first - i * slope), slope};
+;; shared/place_odds.hpp: return (third.start + static_cast<int32_t>(way) * third.slope) >> 8;
 (push)
-(declare-const last Int)
-(declare-const middle Int)
-(declare-const way Int)
-(assert (and (<= 0 last 511) (<= 0 middle 511) (<= 0 way 255)))
-(define-fun linear () Int (- (* 4 middle) (* 3 last) 511))
-(define-fun bend () Int (* 2 (- (+ last 511) (* 2 middle))))
-(define-fun chance () Int (+ last (div (* way (+ linear (div (* way bend) 256))) 256)))
+(declare-const f Int)
+(declare-const from Int)
+(declare-const to Int)
+(assert (and (<= 0 f 255) (<= 0 from 511) (<= 0 to 511)))
+(define-fun way () Int (* 3 f))
+(define-fun third () Int (div way 256))
+(define-fun slope () Int (- to from))
+(define-fun start () Int (* 256 (- from (* third slope))))
+(define-fun chance () Int (div (+ start (* way slope)) 256))
 (check-sat)
-(assert (not (<= (- 2048) chance 640)))
+(assert (not (and (<= 0 third 2) (< (- 524288) start 524288) (< (- 524288) (* way slope) 524288) (<= 0 chance 511)
+                  (= chance (+ from (div (* slope (mod way 256)) 256))))))
 (check-sat)
 (pop)
 
