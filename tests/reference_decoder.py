@@ -650,7 +650,7 @@ class Sweep:
             return segment(candidate.aa, k) - segment(candidate.aa, k0)
 
         self.rate = density - 256 * (2 * candidate.shift + 1) + 2134
-        third = (k1 - k0) // 3
+        third = divide(k1 - k0, 3)
         self.nodes = [self.left(swept(k1 - i * third)) for i in range(3)] + [511]
         self.across = ((k1 - k0) * a[1] >> (12 + f), (k0 - k1) * a[0] >> (12 + f))
 
