@@ -39,8 +39,9 @@ int32_t Ground::at(uint32_t x, uint32_t y, int64_t tolerance) const {
   for (uint32_t reach = 0; reach <= kGroundReach; ++reach) {
     const uint32_t reach_x = std::min(reach, most_x), reach_y = std::min(reach, most_y);
     const Sum all = sum(x, y, reach_x, reach_y);
-    if (all.posts != int64_t{2 * reach_x + 1} * (2 * reach_y + 1)) break;
-    const int64_t wider = all.heights / all.posts;
+    const int64_t posts = int64_t{2 * reach_x + 1} * (2 * reach_y + 1);
+    if (all.posts != posts) break;
+    const int64_t wider = all.heights / posts;
     if (wider < lowest || wider > highest) break;
     mean = wider;
     if (reach == 0) continue;

@@ -61,10 +61,10 @@ void Extremes::add(const Extremes& others) {
 }
 
 Extremes::Fill Extremes::fill(int decimals) const {
-  // Of an end, seen as the low one.
+  // Of an end, seen as the low one: whether the next is farther from it than from the other end.
   const auto is_far = [](const End& end, const End& other) {
-    const Wide gap = Wide{end.next} - end.first, rest = -Wide{other.first} - end.next;
-    return end.has_next && gap > rest;
+    const Wide next = end.next;
+    return end.has_next && next - end.first > -Wide{other.first} - next;
   };
   const Fill low{low_.first, low_.count}, high{-high_.first, high_.count};
   if (is_far(low_, high_) && is_usual(make_decimal(low.value, decimals))) return low;
