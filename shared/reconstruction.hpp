@@ -376,7 +376,7 @@ StepOutcome step_phase(Reconstruction& r, Coder& coder) {
   r.work += placed + batch;
   if (r.work > work_budget(placed + batch)) return StepOutcome::kMalformed;
   uint8_t* const marks = r.marks;
-  for (uint32_t i = mark_bytes(placed + batch); i-- != 0;) marks[i] = 0;
+  for (uint32_t i = mark_bytes(placed + batch); i != 0; --i) marks[i - 1] = 0;
   r.vertex = kInfinity;
   r.turn_start = 0;
   mark(r, 0, kQueued);
