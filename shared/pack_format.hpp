@@ -10,10 +10,10 @@
 namespace microtin {
 
 constexpr uint8_t kPackMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'p', 'k'};
-constexpr uint8_t kPackVersion = 3;
+constexpr uint8_t kPackVersion = 4;
 constexpr uint32_t kPackIdentityBytes = 6;
 constexpr uint32_t kPackFixedBytes = 36;
-constexpr uint32_t kPackEntryBytes = 28;
+constexpr uint32_t kPackEntryBytes = 24;
 constexpr uint32_t kPackExtentMost = 0x7FFFFFFF;
 
 // The parts of a terrain: rectangles of one size, those in the last column and row cut off at the
@@ -113,10 +113,8 @@ struct PackEntry {
   uint64_t offset;  // of its stream in the file, below 2^40
   uint32_t size;    // bytes of the stream, below 2^24; 0: there is no terrain
   uint32_t vertices;
-  int16_t lowest, highest;    // vertices
-  uint32_t max_error;         // in 1/256 of a z step, rounded up; 65535: that much or more
-  uint32_t root_mean_square;  // alike
-  uint32_t stream_hash;       // FNV-1a of the stream
+  int16_t lowest, highest;  // vertices
+  uint32_t stream_hash;     // FNV-1a of the stream
 };
 
 // Where the streams may begin: behind the index, below 2^37.
@@ -131,9 +129,7 @@ inline bool read_pack_entry(const uint8_t* bytes, const PackHeader& header, Pack
   entry->vertices = read_u16(bytes + 8) | static_cast<uint32_t>(bytes[10]) << 16;
   entry->lowest = read_i16(bytes + 12);
   entry->highest = read_i16(bytes + 14);
-  entry->max_error = read_u16(bytes + 16);
-  entry->root_mean_square = read_u16(bytes + 18);
-  entry->stream_hash = read_u32(bytes + 20);
+  entry->stream_hash = read_u32(bytes + 16);
   uint32_t used = bytes[11];
   if (entry->size != 0) {
     return used == 0 && entry->vertices <= header.most_vertices &&

@@ -177,11 +177,6 @@ JsonObject report_of(const DecodedStream& stream) {
   return report;
 }
 
-std::string in_units(uint32_t error, const Axis& z) {
-  return json(error / 256.0 * static_cast<double>(z.numerator) /
-              static_cast<double>(z.denominator));
-}
-
 JsonObject tile_report(const PackFile& pack, uint32_t number) {
   const TileBox box = tile_box(pack.grid(), number);
   const PackEntry& entry = pack.entries()[number];
@@ -192,9 +187,7 @@ JsonObject tile_report(const PackFile& pack, uint32_t number) {
           {"bytes", json(entry.size)},
           {"vertices", json(entry.vertices)},
           {"lowest", entry.size != 0 ? json(real(z, entry.lowest)) : "null"},
-          {"highest", entry.size != 0 ? json(real(z, entry.highest)) : "null"},
-          {"max_error", in_units(entry.max_error, z)},
-          {"rms_error", in_units(entry.root_mean_square, z)}};
+          {"highest", entry.size != 0 ? json(real(z, entry.highest)) : "null"}};
 }
 
 // A line for each tile, under a line of names; columns end on the right.

@@ -20,20 +20,11 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-constexpr uint32_t kMostError = 65535;
-
-// In 1/256 of a z step, rounded up.
-uint32_t in_steps(Decimal error, const Axis& z) {
-  const Wide steps = ceil_divide(Wide{error.mantissa} * 256 * static_cast<Wide>(z.denominator),
-                                 static_cast<Wide>(z.numerator) * power_of_ten(error.decimals));
-  return static_cast<uint32_t>(std::min<Wide>(steps, kMostError));
-}
-
 uint64_t to_unsigned(int16_t value) {
   return static_cast<uint16_t>(value);
 }
 
-Bytes write_entry(const TileSummary& tile, uint64_t offset, const Axis& z) {
+Bytes write_entry(const TileSummary& tile, uint64_t offset) {
   Bytes entry;
   if (tile.bytes == 0) return Bytes(kPackEntryBytes - kCheckBytes);
   if (tile.bytes >> 24 != 0 || offset >> 40 != 0) throw Error("the pack grows too large");
@@ -42,8 +33,6 @@ Bytes write_entry(const TileSummary& tile, uint64_t offset, const Axis& z) {
   append_number(entry, tile.vertices, 4);
   append_number(entry, to_unsigned(tile.lowest), 2);
   append_number(entry, to_unsigned(tile.highest), 2);
-  append_number(entry, in_steps(tile.measured.max_error, z), 2);
-  append_number(entry, in_steps(tile.measured.rms_error, z), 2);
   append_number(entry, tile.stream_hash, 4);
   return entry;
 }
@@ -131,7 +120,7 @@ Bytes write_pack_head(PackContent pack) {
   const uint32_t header_check = read_u32(head.data() + head.size() - kCheckBytes);
   uint64_t offset = head.size() + pack.tiles.size() * kPackEntryBytes;
   for (std::size_t i = 0; i < pack.tiles.size(); ++i) {
-    const Bytes entry = write_entry(pack.tiles[i], offset, pack.metadata.placement.z);
+    const Bytes entry = write_entry(pack.tiles[i], offset);
     head.insert(head.end(), entry.begin(), entry.end());
     append_number(head, pack_entry_check(header_check, static_cast<uint32_t>(i), entry.data()),
                   kCheckBytes);
