@@ -30,9 +30,6 @@ Bytes write_entry(const TileSummary& tile, uint64_t offset) {
   if (tile.bytes >> 24 != 0 || offset >> 40 != 0) throw Error("the pack grows too large");
   append_number(entry, offset, 5);
   append_number(entry, tile.bytes, 3);
-  append_number(entry, tile.vertices, 4);
-  append_number(entry, to_unsigned(tile.lowest), 2);
-  append_number(entry, to_unsigned(tile.highest), 2);
   append_number(entry, tile.stream_hash, 4);
   return entry;
 }
@@ -198,6 +195,22 @@ void PackFile::read_entry(const uint8_t* at) {
   entries_.push_back(entry);
 }
 
+uint32_t PackFile::vertices(uint32_t number) const {
+  constexpr uint32_t kHeaderMost = 64;  // a tile's has no notes
+  const PackEntry& entry = entries_[number];
+  if (entry.size == 0) return 0;
+  return with_file_context("tile " + std::to_string(number), [&] {
+    const Bytes start = bytes_at(*bytes_, entry.offset, std::min(entry.size, kHeaderMost));
+    return stream::read_header(start).info.vertices;
+  });
+}
+
+uint64_t PackFile::vertices() const {
+  uint64_t sum = 0;
+  for (uint32_t tile = 0; tile < entries_.size(); ++tile) sum += vertices(tile);
+  return sum;
+}
+
 std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
   const PackEntry& entry = entries_[number];
   if (entry.size == 0) return std::nullopt;
@@ -207,9 +220,9 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
       throw Error(describe(MICROTIN_CHECKSUM));
     }
     DecodedTerrain decoded(stream);
-    expect(is_tile_start(stream.data(), stream.size(), tile_box(header_.grid, number)));
-    expect(microtin_vertex_count(decoded.mesh()) == entry.vertices);
-    check_box(decoded.mesh(), tile_box(header_.grid, number));
+    const TileBox box = tile_box(header_.grid, number);
+    expect(is_tile_start(stream.data(), stream.size(), header_, box));
+    check_box(decoded.mesh(), box);
     return std::optional<DecodedTerrain>(std::move(decoded));
   });
 }
