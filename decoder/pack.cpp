@@ -181,7 +181,6 @@ microtin_status handle_entry(microtin_pack& p) {
     return refuse_tile(p, MICROTIN_CHECKSUM);
   }
   if (!read_pack_entry(p.buffer, p.header, &p.entry)) return refuse_tile(p, MICROTIN_MALFORMED);
-  if (p.entry.vertices > p.capacity) return refuse_tile(p, MICROTIN_TOO_BIG);
   if (!choose_slot(p)) return fail_pack(p, MICROTIN_WORKSPACE_TOO_SMALL);
   // What is to be made compact needs its slot not before then.
   if (p.work == nullptr || p.entry.size == 0) set_state(*p.slot, SlotState::kEmpty);
@@ -201,16 +200,11 @@ bool is_stream(const microtin_pack& p) {
   return p.left == 0 && p.fed == p.buffered && p.stream_hash == p.entry.stream_hash;
 }
 
-// Whether it keeps the rules for tiles.
-bool is_tile(const microtin_pack& p) {
-  return p.is_legal && p.decoder->reconstruction.contract.vertices == p.entry.vertices;
-}
-
 // Counts what came of the stream. STEP_LIMIT: it is to be decoded.
 microtin_status handle_stream(microtin_pack& p) {
   if (!p.is_counted) {
     if (p.left == p.entry.size) {
-      p.is_legal = is_tile_start(p.buffer, p.buffered, tile_box(p.header.grid, p.tile));
+      p.is_legal = is_tile_start(p.buffer, p.buffered, p.header, tile_box(p.header.grid, p.tile));
     }
     p.is_counted = true;
     p.stream_hash = stream_hash(p.stream_hash, p.buffer, p.buffered);
@@ -318,8 +312,9 @@ microtin_status hear_decoder(microtin_pack& p, microtin_status status) {
     want(p, PackStage::kStream, p.left);
     return status;
   }
+  if (status == MICROTIN_TOO_BIG) return refuse_tile(p, status);
   if (status != MICROTIN_DONE || !is_stream(p)) return refuse_tile(p, MICROTIN_CHECKSUM);
-  if (!is_tile(p)) return refuse_tile(p, MICROTIN_MALFORMED);
+  if (!p.is_legal) return refuse_tile(p, MICROTIN_MALFORMED);
   if (p.work == nullptr) return finish_tile(p, true);
   want(p, PackStage::kStore, 0);
   p.compactor = nullptr;
@@ -366,7 +361,6 @@ microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint3
   uint8_t* const bytes = static_cast<uint8_t*>(workspace);
   p.slots = reinterpret_cast<PackSlot*>(&p + 1);
   p.slot_count = static_cast<uint8_t>(slots);
-  p.capacity = capacity;
   p.decoder_space = bytes + own_bytes;
   p.decoder_bytes = static_cast<size_t>(decoder_bytes);
   p.slot_bytes = static_cast<size_t>(slot_bytes);

@@ -80,7 +80,6 @@ struct microtin_pack {
   uint32_t crc;        // of the header so far, or its check
   uint32_t clock;
   uint32_t passed;
-  uint32_t capacity;  // vertices of a slot
   microtin::PackEntry entry;
   microtin_decoder* decoder;
   microtin_compactor* compactor;  // of the tile decoded; null: not begun

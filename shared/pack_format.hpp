@@ -10,10 +10,10 @@
 namespace microtin {
 
 constexpr uint8_t kPackMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'p', 'k'};
-constexpr uint8_t kPackVersion = 3;
+constexpr uint8_t kPackVersion = 4;
 constexpr uint32_t kPackIdentityBytes = 6;
 constexpr uint32_t kPackFixedBytes = 36;
-constexpr uint32_t kPackEntryBytes = 28;
+constexpr uint32_t kPackEntryBytes = 16;
 constexpr uint32_t kPackExtentMost = 0x7FFFFFFF;
 
 // The parts of a terrain: rectangles of one size, those in the last column and row cut off at the
@@ -110,13 +110,9 @@ inline bool read_pack_placement(const uint8_t* placement, const PackHeader& head
 
 // What the index says of a tile.
 struct PackEntry {
-  uint64_t offset;  // of its stream in the file, below 2^40
-  uint32_t size;    // bytes of the stream, below 2^24; 0: there is no terrain
-  uint32_t vertices;
-  int16_t lowest, highest;    // vertices
-  uint32_t max_error;         // in 1/256 of a z step, rounded up; 65535: that much or more
-  uint32_t root_mean_square;  // alike
-  uint32_t stream_hash;       // FNV-1a of the stream
+  uint64_t offset;       // of its stream in the file, below 2^40
+  uint32_t size;         // bytes of the stream, below 2^24; 0: there is no terrain
+  uint32_t stream_hash;  // FNV-1a of the stream
 };
 
 // Where the streams may begin: behind the index, below 2^37.
@@ -128,24 +124,16 @@ inline uint64_t pack_streams_start(const PackHeader& header) {
 inline bool read_pack_entry(const uint8_t* bytes, const PackHeader& header, PackEntry* entry) {
   entry->offset = read_u32(bytes) | static_cast<uint64_t>(bytes[4]) << 32;
   entry->size = read_u16(bytes + 5) | static_cast<uint32_t>(bytes[7]) << 16;
-  entry->vertices = read_u16(bytes + 8) | static_cast<uint32_t>(bytes[10]) << 16;
-  entry->lowest = read_i16(bytes + 12);
-  entry->highest = read_i16(bytes + 14);
-  entry->max_error = read_u16(bytes + 16);
-  entry->root_mean_square = read_u16(bytes + 18);
-  entry->stream_hash = read_u32(bytes + 20);
-  uint32_t used = bytes[11];
-  if (entry->size != 0) {
-    return used == 0 && entry->vertices <= header.most_vertices &&
-           entry->offset >= pack_streams_start(header);
-  }
-  for (uint32_t i = 0; i < kPackEntryBytes - kCheckBytes; ++i) used |= bytes[i];
-  return used == 0;
+  entry->stream_hash = read_u32(bytes + 8);
+  if (entry->size != 0) return entry->offset >= pack_streams_start(header);
+  return entry->offset == 0 && entry->stream_hash == 0;
 }
 
 // Whether a stream, of which the first bytes are given, begins as that of a tile: it has neither
-// placement nor notes, and reaches no farther than the tile.
-inline bool is_tile_start(const uint8_t* bytes, size_t size, const TileBox& box) {
+// placement nor notes, no more vertices than the header says of any, and reaches no farther than
+// the tile.
+inline bool is_tile_start(const uint8_t* bytes, size_t size, const PackHeader& header,
+                          const TileBox& box) {
   if (size < kIdentityBytes) return false;
   const uint8_t *next = bytes + kIdentityBytes, *const given = bytes + size;
   uint32_t length = 0;
@@ -158,7 +146,8 @@ inline bool is_tile_start(const uint8_t* bytes, size_t size, const TileBox& box)
   microtin_axis axis[3];
   return read_varint(&at, end, &properties) && (properties & kHasPlacement) == 0 &&
          read_header(&next, end, &contract, axis) == MICROTIN_DONE && next == end &&
-         contract.x_max <= box.x_end - box.x && contract.y_max <= box.y_end - box.y;
+         contract.vertices <= header.most_vertices && contract.x_max <= box.x_end - box.x &&
+         contract.y_max <= box.y_end - box.y;
 }
 
 // FNV-1a: tells which stream it is. A CRC-32 could not: over bytes that hold their own CRC-32, as

@@ -177,24 +177,13 @@ JsonObject report_of(const DecodedStream& stream) {
   return report;
 }
 
-std::string in_units(uint32_t error, const Axis& z) {
-  return json(error / 256.0 * static_cast<double>(z.numerator) /
-              static_cast<double>(z.denominator));
-}
-
 JsonObject tile_report(const PackFile& pack, uint32_t number) {
   const TileBox box = tile_box(pack.grid(), number);
-  const PackEntry& entry = pack.entries()[number];
-  const Axis& z = pack.metadata().placement.z;
   return {{"tile", json(number)},
           {"x", json(box.x)},
           {"y", json(box.y)},
-          {"bytes", json(entry.size)},
-          {"vertices", json(entry.vertices)},
-          {"lowest", entry.size != 0 ? json(real(z, entry.lowest)) : "null"},
-          {"highest", entry.size != 0 ? json(real(z, entry.highest)) : "null"},
-          {"max_error", in_units(entry.max_error, z)},
-          {"rms_error", in_units(entry.root_mean_square, z)}};
+          {"bytes", json(pack.entries()[number].size)},
+          {"vertices", json(pack.vertices(number))}};
 }
 
 // A line for each tile, under a line of names; columns end on the right.
@@ -226,8 +215,6 @@ std::string array(const std::vector<JsonObject>& tiles) {
 }
 
 JsonObject report_of(const PackFile& pack) {
-  uint64_t vertices = 0;
-  for (const PackEntry& entry : pack.entries()) vertices += entry.vertices;
   const TileGrid& grid = pack.grid();
   const uint32_t compact = pack.header().compact_bytes;
   JsonObject report = {
@@ -239,7 +226,7 @@ JsonObject report_of(const PackFile& pack) {
       {"tile_height", json(grid.height)},
       {"x_max", json(grid.x_max)},
       {"y_max", json(grid.y_max)},
-      {"vertices", json(vertices)},
+      {"vertices", json(pack.vertices())},
       {"most_vertices", json(pack.header().most_vertices)},
       {"compact_bytes", compact != 0 ? json(compact) : "null"},
       {"workspace_bytes_4_compact_tiles",

@@ -20,30 +20,16 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-constexpr uint32_t kMostError = 65535;
-
-// In 1/256 of a z step, rounded up.
-uint32_t in_steps(Decimal error, const Axis& z) {
-  const Wide steps = ceil_divide(Wide{error.mantissa} * 256 * static_cast<Wide>(z.denominator),
-                                 static_cast<Wide>(z.numerator) * power_of_ten(error.decimals));
-  return static_cast<uint32_t>(std::min<Wide>(steps, kMostError));
-}
-
 uint64_t to_unsigned(int16_t value) {
   return static_cast<uint16_t>(value);
 }
 
-Bytes write_entry(const TileSummary& tile, uint64_t offset, const Axis& z) {
+Bytes write_entry(const TileSummary& tile, uint64_t offset) {
   Bytes entry;
   if (tile.bytes == 0) return Bytes(kPackEntryBytes - kCheckBytes);
   if (tile.bytes >> 24 != 0 || offset >> 40 != 0) throw Error("the pack grows too large");
   append_number(entry, offset, 5);
   append_number(entry, tile.bytes, 3);
-  append_number(entry, tile.vertices, 4);
-  append_number(entry, to_unsigned(tile.lowest), 2);
-  append_number(entry, to_unsigned(tile.highest), 2);
-  append_number(entry, in_steps(tile.measured.max_error, z), 2);
-  append_number(entry, in_steps(tile.measured.rms_error, z), 2);
   append_number(entry, tile.stream_hash, 4);
   return entry;
 }
@@ -131,7 +117,7 @@ Bytes write_pack_head(PackContent pack) {
   const uint32_t header_check = read_u32(head.data() + head.size() - kCheckBytes);
   uint64_t offset = head.size() + pack.tiles.size() * kPackEntryBytes;
   for (std::size_t i = 0; i < pack.tiles.size(); ++i) {
-    const Bytes entry = write_entry(pack.tiles[i], offset, pack.metadata.placement.z);
+    const Bytes entry = write_entry(pack.tiles[i], offset);
     head.insert(head.end(), entry.begin(), entry.end());
     append_number(head, pack_entry_check(header_check, static_cast<uint32_t>(i), entry.data()),
                   kCheckBytes);
@@ -209,6 +195,22 @@ void PackFile::read_entry(const uint8_t* at) {
   entries_.push_back(entry);
 }
 
+uint32_t PackFile::vertices(uint32_t number) const {
+  constexpr uint32_t kHeaderMost = 64;  // a tile's has no notes
+  const PackEntry& entry = entries_[number];
+  if (entry.size == 0) return 0;
+  return with_file_context("tile " + std::to_string(number), [&] {
+    const Bytes start = bytes_at(*bytes_, entry.offset, std::min(entry.size, kHeaderMost));
+    return stream::read_header(start).info.vertices;
+  });
+}
+
+uint64_t PackFile::vertices() const {
+  uint64_t sum = 0;
+  for (uint32_t tile = 0; tile < entries_.size(); ++tile) sum += vertices(tile);
+  return sum;
+}
+
 std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
   const PackEntry& entry = entries_[number];
   if (entry.size == 0) return std::nullopt;
@@ -218,9 +220,9 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
       throw Error(describe(MICROTIN_CHECKSUM));
     }
     DecodedTerrain decoded(stream);
-    expect(is_tile_start(stream.data(), stream.size(), tile_box(header_.grid, number)));
-    expect(microtin_vertex_count(decoded.mesh()) == entry.vertices);
-    check_box(decoded.mesh(), tile_box(header_.grid, number));
+    const TileBox box = tile_box(header_.grid, number);
+    expect(is_tile_start(stream.data(), stream.size(), header_, box));
+    check_box(decoded.mesh(), box);
     return std::optional<DecodedTerrain>(std::move(decoded));
   });
 }

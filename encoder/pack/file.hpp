@@ -61,6 +61,11 @@ class PackFile {
   const std::vector<PackEntry>& entries() const { return entries_; }  // by tile
   uint64_t bytes() const { return bytes_->size(); }
 
+  // Of a tile, as its stream's header says, and of all. Throws Error naming the tile of which the
+  // header is damaged.
+  uint32_t vertices(uint32_t tile) const;
+  uint64_t vertices() const;
+
   // A tile, decoded; nothing if it has no terrain. Throws Error naming the tile if it is damaged,
   // not the one in the index, or leaves its box.
   std::optional<DecodedTerrain> tile(uint32_t number) const;

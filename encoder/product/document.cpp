@@ -97,9 +97,7 @@ uint64_t Document::bytes() const {
 
 uint64_t Document::vertices() const {
   if (pack() == nullptr) return microtin_vertex_count(stream()->terrain.mesh());
-  uint64_t vertices = 0;
-  for (const PackEntry& entry : pack()->entries()) vertices += entry.vertices;
-  return vertices;
+  return with_file_context(path_, [&] { return pack()->vertices(); });
 }
 
 uint64_t Document::tiles() const {

@@ -47,10 +47,12 @@ void repair_pack(uint8_t* bytes, size_t size) {
       uint8_t* const stream = bytes + entry.offset;
       if (entry.size != 0) repair(stream, entry.size);
       const uint32_t check = stream_hash(kStreamHash, stream, entry.size);
-      for (int i = 0; i < 4; ++i) entry_bytes[20 + i] = static_cast<uint8_t>(check >> 8 * i);
+      for (int i = 0; i < 4; ++i)
+        entry_bytes[kPackEntryBytes - 8 + i] = static_cast<uint8_t>(check >> 8 * i);
     }
     const uint32_t check = pack_entry_check(header_check, tile, entry_bytes);
-    for (int i = 0; i < 4; ++i) entry_bytes[24 + i] = static_cast<uint8_t>(check >> 8 * i);
+    for (int i = 0; i < 4; ++i)
+      entry_bytes[kPackEntryBytes - 4 + i] = static_cast<uint8_t>(check >> 8 * i);
   }
 }
 

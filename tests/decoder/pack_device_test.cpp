@@ -480,14 +480,15 @@ TEST_CASE_TEMPLATE("pack: far from the origin, in the largest extent", Device, M
   const uint64_t streams = index + tiles * kPackEntryBytes;
   put(index, streams, 5);
   const uint32_t number = static_cast<uint32_t>(tiles - 1);
-  put(index + 24, pack_entry_check(read_u32(head.data() + index - 4), number, head.data() + index),
-      4);
+  put(index + kPackEntryBytes - kCheckBytes,
+      pack_entry_check(read_u32(head.data() + index - 4), number, head.data() + index), 4);
   struct FarCard {
     Bytes bytes;
     uint64_t entry, index, streams;
     static int32_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
       const FarCard& card = *static_cast<FarCard*>(context);
-      const uint64_t from = offset >= card.streams ? offset - card.streams + card.index + 28
+      const uint64_t from = offset >= card.streams
+                                ? offset - card.streams + card.index + kPackEntryBytes
                             : offset >= card.entry ? offset - card.entry + card.index
                                                    : offset;
       if (from >= card.bytes.size()) return 0;

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# packs.sh MICROTIN: makes the packs of this folder, after a change of the format; card_report says what a host answers.
+# packs.sh MICROTIN: makes the packs of this folder anew; tests/pack/card_test.cpp writes what a host answers.
 # card.mtp is for decoder/examples/card.c: a byte of one of its tiles is damaged. tiles.mtp fits into 16 KB of RAM.
 set -eu
 microtin=$1

@@ -142,13 +142,13 @@ TEST_CASE("card: sectors are at most twice what was asked for, and the damaged t
 }
 
 TEST_CASE("pack: aligned reads lie in one sector, and answers are the same") {
-  const EncodedPack encoded = encode_pack(rough_raster(61, 53), pack_options(3, 60));
+  const EncodedPack encoded = encode_pack(rough_raster(121, 105), pack_options(3, 60));
   SectorCard cards[2] = {{write_pack(encoded)}, {write_pack(encoded)}};
   const MeshSlots loose(4), aligned(4);
   CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_DONE);
   Random random(5);
   for (int i = 0; i < 300; ++i) {
-    const microtin_course here = at(random.below(61), random.below(53));
+    const microtin_course here = at(random.below(121), random.below(105));
     CHECK(microtin_pack_service(loose.pack, &here, 0, SectorCard::read, cards) == MICROTIN_DONE);
     CHECK(microtin_pack_service(aligned.pack, &here, 0, SectorCard::read, cards + 1) ==
           MICROTIN_DONE);
@@ -227,8 +227,8 @@ TEST_CASE(
   options.tile_steps = 12;
   Card card{write_pack(encode_pack(rough_raster(61, 53), options))};
   const PackFile pack(card.bytes);
-  const size_t second =
-      static_cast<size_t>(pack.entries()[0].offset) - (pack.entries().size() - 1) * size_t{28};
+  const size_t second = static_cast<size_t>(pack.entries()[0].offset) -
+                        (pack.entries().size() - 1) * size_t{kPackEntryBytes};
   const MeshSlots device(4, 400);
   CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_DONE);
   card.bytes[second] ^= 1;

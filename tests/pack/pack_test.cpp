@@ -23,7 +23,7 @@ PackFile pack_of(const Raster& raster, const PackOptions& options) {
 
 void check_pack(const Raster& raster, const PackOptions& options) {
   const PackFile pack = pack_of(raster, options);
-  for (const PackEntry& entry : pack.entries()) CHECK(entry.vertices <= options.max_vertices);
+  CHECK(pack.header().most_vertices <= options.max_vertices);
   const BorderCount count = walk_borders(pack, raster);
   CHECK(count.differ == 0);
   CHECK(count.wrong_posts == 0);
@@ -168,7 +168,7 @@ TEST_CASE("packs: the header says what the tile that needs most takes in compact
     for (uint32_t number = 0; number < pack.entries().size(); ++number) {
       const CompactForm form = compact_form(*pack.tile(number));
       CHECK(form.is_narrow == (width < 256));
-      CHECK(form.vertices == pack.entries()[number].vertices);
+      CHECK(form.vertices == pack.vertices(number));
       most = std::max(most, static_cast<uint32_t>(bytes_of(form, 16)));
     }
     CHECK(most != 0);

@@ -15,7 +15,7 @@
 
 namespace microtin::tests {
 
-// A tile: a stream, and what the index says of its vertices. Empty: no terrain.
+// A tile: a stream, and of how many vertices the header knows. Empty: no terrain.
 struct ForgedTile {
   Bytes stream;
   uint32_t vertices = 0;

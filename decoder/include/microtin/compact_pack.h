@@ -20,7 +20,7 @@
 #define MICROTIN_COMPACT_PACK_BYTES(slots, capacity, tile_bytes) \
   MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, MICROTIN_INDEX_BITS)
 #define MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, bits)   \
-  (512ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
+  (472ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
    MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits)) +            \
    (slots) * (24ul + MICROTIN_PACK_ROUND(tile_bytes)))
 

@@ -24,7 +24,7 @@
 #define MICROTIN_PACK_BYTES(slots, capacity) \
   MICROTIN_PACK_BYTES_FOR(slots, capacity, MICROTIN_INDEX_BITS)
 #define MICROTIN_PACK_BYTES_FOR(slots, capacity, bits)                       \
-  (512ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
+  (472ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
    (slots) * (24ul + MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits))))
 #define MICROTIN_PACK_ROUND(bytes) (((bytes) + 7ul) / 8 * 8)
 
