@@ -1,3 +1,4 @@
+#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """amalgamate.py FOLDER: writes the decoder to be added to any firmware's sources: one source, microtin.cpp (C++14), the
 public headers under the paths that they have everywhere, microtin/..., and microtin.h, which includes them all, for C

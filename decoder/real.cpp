@@ -52,7 +52,7 @@ bool real_value(const microtin_axis& axis, int64_t place, int bits, uint32_t per
   const uint64_t fine = (units.rest << bits) + axis.numerator * fraction,
                  d = axis.denominator << bits;
   const Quotient more = divide(fine, d);
-  const int64_t whole = units.whole + static_cast<int64_t>(more.whole);  // < 2^63 + 2^41
+  const int64_t whole = units.whole + static_cast<int64_t>(more.whole);  // and 2^40 more
   if (whole >= kMostUnits || whole < -kMostUnits) return false;
   *value = whole * static_cast<int64_t>(per_unit) + scaled(more.rest, d, per_unit);
   return true;

@@ -4,8 +4,7 @@
 #define MICROTIN_SHARED_COMPILER_HPP
 
 // GCC 12 at -O2, where there are no vector registers, puts two 16-bit numbers into a word and takes
-// the high half of the word's square for that of each: seen on
-// RISC-V and on x86 without SSE.
+// the high half of the word's square for that of each: seen on RISC-V and on x86 without SSE.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__OPTIMIZE__) &&     \
     !defined(__OPTIMIZE_SIZE__) && !defined(__SSE2__) && !defined(__VX__) && \
     !defined(__ARM_NEON) && !defined(__ALTIVEC__) && !defined(__riscv_vector)

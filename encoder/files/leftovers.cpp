@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstring>
+#include <mutex>
 
 namespace microtin::files {
 namespace {
@@ -20,6 +21,7 @@ struct Slot {
 };
 
 Slot slots[kSlots];
+std::mutex mutex;  // of who takes slots and gives them back
 
 extern "C" void remove_and_die(int signal) {
   for (const Slot& slot : slots) {
@@ -59,6 +61,7 @@ SignalsHeld::~SignalsHeld() {
 }
 
 Leftover::Leftover(const std::string& path) : slot_(0) {
+  const std::lock_guard<std::mutex> lock(mutex);
   while (slot_ < kSlots && slots[slot_].used != 0) ++slot_;
   if (slot_ == kSlots || path.size() >= kLongest) {
     slot_ = kSlots;
@@ -70,6 +73,7 @@ Leftover::Leftover(const std::string& path) : slot_(0) {
 }
 
 Leftover::~Leftover() {
+  const std::lock_guard<std::mutex> lock(mutex);
   if (slot_ != kSlots) slots[slot_].used = 0;
 }
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """build.py MICROTIN.js OUTPUT.cpp: the page that shows a terrain, with places for it, as a source of the program.
 With esbuild."""

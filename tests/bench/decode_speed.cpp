@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// What decoding a stream costs, beside other programs.
 #include <filesystem>
 #include <memory>
 

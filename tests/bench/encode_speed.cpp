@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// Where the time of encoding goes.
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/order.hpp"

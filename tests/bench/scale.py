@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """scale.py MICROTIN FOLDER: time and memory of packs of large rasters, as a Markdown table.
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// The streams that are measured, written as files.
 #include "encoder/files/output_file.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// How many bytes more a terrain takes in tiles.
 #include <algorithm>
 #include <optional>
 

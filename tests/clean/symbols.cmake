@@ -37,8 +37,8 @@ foreach(object IN LISTS OBJECTS)
   else()
     # "index name size ..."
     execute_process(COMMAND ${OBJDUMP} -h ${object} OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
-    string(REGEX MATCHALL "\n +[0-9]+ [^ ]+ +0*[1-9a-f]" names "${lines}")
-    list(TRANSFORM names REPLACE "\n +[0-9]+ ([^ ]+) .*" "\\1")
+    string(REGEX MATCHALL "\n *[0-9]+ [^ ]+ +0*[1-9a-f]" names "${lines}")
+    list(TRANSFORM names REPLACE "\n *[0-9]+ ([^ ]+) .*" "\\1")
     list(APPEND sections ${names})
     if(lines MATCHES "elf32-avr")
       string(APPEND forbidden_section "|^\\.rodata")  # lies in RAM there

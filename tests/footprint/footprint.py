@@ -81,7 +81,7 @@ def section_bytes(options, image):
     kinds = {"text": 0, "rodata": 0, "data": 0, "bss": 0}
     # The linker of RISC-V puts small constants beside small data, of which the library has none.
     others = {"CODE": "text", "DATA": "rodata", ".sdata": "rodata"}
-    for name, size in re.findall(r"^ +\d+ ([^ ]+) +([0-9a-f]{8})", run.stdout, re.M):
+    for name, size in re.findall(r"^ *\d+ ([^ ]+) +([0-9a-f]{8})", run.stdout, re.M):
         kind = re.match(r"\.(text|rodata|data|bss)", name)
         kind = kind[1] if kind else others.get(name)
         if kind:

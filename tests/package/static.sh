@@ -8,7 +8,7 @@ shift
 object=$(mktemp)
 trap 'rm -f "$object"' EXIT
 "$@" -O0 -c -o "$object"
-found=$("$objdump" -h "$object" | grep -oE '^ +[0-9]+ \.(init_array|ctors|data)[^ ]* +0*[1-9a-f]' | awk '{ print $2 }')
+found=$("$objdump" -h "$object" | grep -oE '^ *[0-9]+ \.(init_array|ctors|data)[^ ]* +0*[1-9a-f]' | awk '{ print $2 }')
 if [ -n "$found" ]; then
   echo "rejected: $found"
   exit 1

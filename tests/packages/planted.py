@@ -17,6 +17,7 @@ FAULTS = [
     ("arduino", "LICENSE", None, None, "LICENSE is not there"),
     ("platformio", "library.json", '"version": "', '"version": "9', "version is not the header's"),
     ("platformio", "library.json", '"includeDir": "src"', '"includeDir": "include"', "include is not there"),
+    ("platformio", "library.json", '"microtin/pack.h",', "", "headers that are not named"),
     ("platformio", "library.json", '"terrain"', '"Terrain"', "a keyword is not small"),
     ("platformio", "library.json", '"license"', '"licence"', "unknown fields"),
     ("esp-idf", "idf_component.yml", ">=4.4", "new", "no range of versions"),

@@ -91,7 +91,11 @@ def platformio(folder):
               "libCompatMode", "builder"}  # fmt: skip
     faults.unless(not set(build) - places, f"unknown fields of build {set(build) - places}")
     faults.files(library, [build.get("srcDir", "src"), build.get("includeDir", "include")])
-    faults.files(library / build.get("includeDir", "include"), manifest.get("headers", []))
+    includes = library / build.get("includeDir", "include")
+    named = set(manifest.get("headers", []))
+    faults.files(includes, named)
+    there = {str(path.relative_to(includes)) for path in includes.rglob("*.h*")}
+    faults.unless(there - named <= {"microtin/config.h"}, f"headers that are not named: {there - named}")
     return faults
 
 

@@ -66,7 +66,7 @@ microtin_status microtin_compact_begin(void* workspace, size_t size, microtin_me
                                        microtin_compactor** compactor);
 
 /* Goes on for at most `step_limit` steps (0: no limit), each of O(1); STEP_LIMIT: call again. About
- * 13 steps a vertex, whatever the mesh at most 44. DONE: *compact is the terrain, the mesh is empty
+ * 17 steps a vertex, whatever the mesh at most 44. DONE: *compact is the terrain, the mesh is empty
  * (or overwritten), and the scratch is free.
  *
  * The first third of the steps only looks at the mesh. If it ends with WORKSPACE_TOO_SMALL the mesh
@@ -85,7 +85,7 @@ void microtin_compact_needs(const microtin_compactor* compactor, size_t* bytes,
 size_t microtin_compact_size(const microtin_compact* compact);
 
 /* --- The terrain. Each call is O(1) if not said otherwise; numbers out of range are not checked.
- * A *repeat* is a vertex taken twice: terrains have none to three. --- */
+ * A *repeat* is a vertex taken twice: terrains have few. --- */
 
 uint32_t microtin_compact_vertex_count(const microtin_compact* compact);
 

@@ -95,8 +95,8 @@ typedef enum microtin_status {
  * AVR the string lies in flash, as PSTR's do. */
 const char* microtin_status_name(microtin_status status);
 
-/* One axis: the real coordinate of lattice value k is (offset + numerator * k) / denominator units.
- */
+/* One axis: the real coordinate of lattice value k, in units, is (offset + numerator * k) /
+ * denominator. */
 typedef struct microtin_axis {
   int64_t offset;
   uint64_t numerator;   /* 1 .. 2^40 - 1 */
@@ -290,10 +290,9 @@ int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_u
 
 /* The other way, for streams and packs: the real coordinate of a place with 8 fractional bits, in
  * units / `per_unit`, rounded to nearest, halves up. Returns 1, or 0 when per_unit lies outside
- * 1 .. 2^24, the axis' offset outside +-2^61, the place, in steps times the axis' numerator,
- * outside
- * +-2^62, or the coordinate outside +-2^38 units; *value is then left alone. Exact. A few 64-bit
- * divisions. */
+ * 1 .. 2^24, the axis' offset outside +-2^61, the place (in steps) times the axis' numerator
+ * outside +-2^62, or the coordinate outside +-2^38 units; *value is then left alone. Exact. A few
+ * 64-bit divisions. */
 int microtin_from_lattice(const microtin_axis* axis, int64_t lattice, uint32_t per_unit,
                           int64_t* value);
 

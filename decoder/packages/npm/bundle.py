@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """bundle.py MODULE.wasm VERSION FOLDER: makes the npm package: the sources with the WebAssembly within as one module,
 and what stands beside it. With zopfli and esbuild."""
