@@ -25,6 +25,10 @@ using namespace microtin::tests;
 
 constexpr uint32_t kCapacity = 120;
 
+void write_u32(uint8_t* bytes, uint32_t value) {
+  for (int i = 0; i < 4; ++i) bytes[i] = static_cast<uint8_t>(value >> 8 * i);
+}
+
 // Makes the checks of streams, entries and header right again, as far as lengths allow.
 void repair_pack(uint8_t* bytes, size_t size) {
   if (size < kPackFixedBytes) return;
@@ -46,13 +50,11 @@ void repair_pack(uint8_t* bytes, size_t size) {
     if (entry.offset <= size && entry.size <= size - entry.offset) {
       uint8_t* const stream = bytes + entry.offset;
       if (entry.size != 0) repair(stream, entry.size);
-      const uint32_t check = stream_hash(kStreamHash, stream, entry.size);
-      for (int i = 0; i < 4; ++i)
-        entry_bytes[kPackEntryBytes - 8 + i] = static_cast<uint8_t>(check >> 8 * i);
+      write_u32(entry_bytes + kPackEntryBytes - kCheckBytes - 4,
+                stream_hash(kStreamHash, stream, entry.size));
     }
-    const uint32_t check = pack_entry_check(header_check, tile, entry_bytes);
-    for (int i = 0; i < 4; ++i)
-      entry_bytes[kPackEntryBytes - 4 + i] = static_cast<uint8_t>(check >> 8 * i);
+    write_u32(entry_bytes + kPackEntryBytes - kCheckBytes,
+              pack_entry_check(header_check, tile, entry_bytes));
   }
 }
 
