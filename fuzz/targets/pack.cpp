@@ -47,9 +47,9 @@ void repair_pack(uint8_t* bytes, size_t size) {
     uint8_t* const entry_bytes = bytes + at;
     PackEntry entry;
     read_pack_entry(entry_bytes, header, &entry);
-    if (entry.offset <= size && entry.size <= size - entry.offset) {
+    if (entry.size != 0 && entry.offset <= size && entry.size <= size - entry.offset) {
       uint8_t* const stream = bytes + entry.offset;
-      if (entry.size != 0) repair(stream, entry.size);
+      repair(stream, entry.size);
       write_u32(entry_bytes + kPackEntryBytes - kCheckBytes - 4,
                 stream_hash(kStreamHash, stream, entry.size));
     }
