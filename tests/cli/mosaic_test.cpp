@@ -64,6 +64,9 @@ TEST_CASE("mosaic: a folder of SRTM cells") {
   CHECK(contains(session.run("info t.mtp").out,
                  "extent: {\"west\": 7.0, \"south\": 43.0, \"east\": 9.0, \"north\": 44.0}"));
   CHECK(session.run("render t.mtp --source cells -o t.png").code == 0);
+  CHECK(session.run("render --source cells/N43E007.hgt --source cells/N43E008.hgt t.mtp -o u.png")
+            .code == 0);
+  CHECK(session.read("t.png") == session.read("u.png"));
   fs::create_directory(session.folder() + "/empty");
   CHECK(contains(session.failure("encode empty -o e.mtin"), "empty: holds no terrain file"));
 }
@@ -89,8 +92,9 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   for (const char* const name : {"a.asc", "unit.asc", "p.xyz"}) {
     fs::copy_file(session.folder() + "/" + name, session.folder() + "/mixed/" + name);
   }
+  session.write("mixed/t.obj", "v 0 0 0\n");
   CHECK(contains(session.run("encode mixed -o t.mtin").err,
-                 "warning: mixed: its .asc files are taken; left out are 1 of .xyz\n"));
+                 "warning: mixed: its .asc files are taken; left out are 1 of .obj, 1 of .xyz\n"));
   CHECK(contains(session.failure("encode a.asc p.xyz -o t.mtin"), "p.xyz: are points, but a.asc"));
   CHECK(session.run("encode a.asc size.asc -o size.asc").code == 1);
   CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "3"));
