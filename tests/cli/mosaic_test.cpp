@@ -2,6 +2,7 @@
 // One terrain from several files.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <string>
 
 #include "tests/support/session.hpp"
@@ -21,6 +22,31 @@ std::string cell(const std::string& heights) {
   std::string bytes;
   for (const char height : heights) bytes += std::string(1, '\0') + height;
   return bytes;
+}
+
+// Four points of LAS 1.2, of classes 2 and 5.
+std::string scan() {
+  std::string las(227, '\0');
+  las.replace(0, 4, "LASF");
+  las[24] = 1;
+  las[25] = 2;
+  las[94] = las[96] = '\xE3';
+  las[105] = 20;
+  las[107] = 4;
+  for (const size_t axis : {0u, 1u, 2u}) {
+    las.replace(131 + 8 * axis, 8, std::string("\0\0\0\0\0\0\xF0\x3F", 8));  // a scale of 1
+  }
+  using Return = std::array<char, 4>;  // x, y, z, class
+  for (const auto& [x, y, z, code] :
+       {Return{0, 0, 1, 2}, Return{9, 0, 1, 2}, Return{0, 9, 1, 2}, Return{4, 4, 9, 5}}) {
+    std::string point(20, '\0');
+    point[0] = x;
+    point[4] = y;
+    point[8] = z;
+    point[15] = code;
+    las += point;
+  }
+  return las;
 }
 
 }  // namespace
@@ -127,6 +153,14 @@ TEST_CASE("mosaic: how far clouds differ where they share places") {
       contains(session.run("encode a.xyz b.xyz c.xyz d.xyz" + rule).out,
                "at 3 places that they share they differ by up to 3, most at x 2, y 0 in c.xyz and "
                "d.xyz; all count\n"));
+}
+
+TEST_CASE("mosaic: a folder of scans is verified by the classes that were taken") {
+  const Session session;
+  fs::create_directory(session.folder() + "/scans");
+  session.write("scans/a.las", scan());
+  REQUIRE(session.run("encode scans --classes 2,5 -o t.mtin").code == 0);
+  CHECK(contains(session.run("verify t.mtin scans").out, "points: 4\n"));
 }
 
 TEST_CASE("clouds: the memory that they take is told before they are read") {
