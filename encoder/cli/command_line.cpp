@@ -177,8 +177,9 @@ void add_render(CLI::App& app, Action& action) {
   command.add_flag("--north-arrow", request->north_arrow, "An arrow to the north, which is up");
   command.add_flag("--world-file", request->world,
                    "Write beside the picture, as .pgw, where its map lies");
-  command.add_option("--source", request->source, "Draw a map of the errors against this terrain")
-      ->type_name(kFile);
+  add_terrain(command, request->source, request->preparation, "--source",
+              "Draw a map of the errors against this terrain; of several files once for each")
+      ->allow_extra_args(false);
   add_preparation(command, request->preparation);
   command.callback([request, &action] { action = [request] { run_render(*request); }; });
 }

@@ -54,17 +54,21 @@ void add_stream(CLI::App& command, std::string& path, const std::string& descrip
   command.add_option("stream", path, description)->required()->type_name(kFile);
 }
 
-void add_terrain(CLI::App& command, std::string& path, Preparation& preparation) {
-  command
+CLI::Option* add_terrain(CLI::App& command, std::string& path, Preparation& preparation,
+                         const std::string& name, const std::string& description) {
+  return command
       .add_option_function<std::vector<std::string>>(
-          "terrain",
+          name,
           [&path, &preparation](const std::vector<std::string>& files) {
             path = files[0];
             preparation.more_files.assign(files.begin() + 1, files.end());
           },
-          kTerrainFiles)
-      ->required()
+          description)
       ->type_name(kFile);
+}
+
+void add_terrain(CLI::App& command, std::string& path, Preparation& preparation) {
+  add_terrain(command, path, preparation, "terrain", kTerrainFiles)->required();
 }
 
 void add_json(CLI::App& command, bool& json) {

@@ -27,6 +27,10 @@ void add_stream(CLI::App& command, std::string& path,
 // One or several files, or folders of them, that make up one terrain.
 void add_terrain(CLI::App& command, std::string& path, Preparation& preparation);
 
+// The same by an option, given once for each file.
+CLI::Option* add_terrain(CLI::App& command, std::string& path, Preparation& preparation,
+                         const std::string& name, const std::string& description);
+
 void add_json(CLI::App& command, bool& json);
 
 // An option whose text is read by `read`, which says whether it is what is `wanted`. Numbers and

@@ -27,9 +27,11 @@ bool ends_with(const std::string& text, const char* end) {
 Transform transform_of(GDALDataset& source) {
   Transform transform{};
   if (source.GetGeoTransform(transform.data()) != CE_None) {
-    refuse("the source does not say where it lies");
+    refuse("the source does not say where it lies: -a_ullr WEST NORTH EAST SOUTH adds it");
   }
-  if (transform[1] < 0) refuse("the source's columns run west: bring them east with gdalwarp");
+  if (transform[1] < 0 || transform[2] != 0 || transform[4] != 0) {
+    refuse("the source's rows do not run from west to east: bring them there with gdalwarp");
+  }
   return transform;
 }
 
@@ -72,7 +74,9 @@ Posts posts_of(GDALDataset& source) {
   const auto columns = static_cast<uint32_t>(band.GetXSize()),
              rows = static_cast<uint32_t>(band.GetYSize());
   const GDALDataType type = band.GetRasterDataType();
-  if (GDALDataTypeIsComplex(type) != 0) refuse("heights are no complex numbers");
+  if (GDALDataTypeIsComplex(type) != 0) {
+    refuse("heights are no complex numbers: -ot Float64 takes their real parts");
+  }
   if (type == GDT_Float32) {
     return encoder::posts_of(columns, rows, heights_of<float>(band, GDT_Float32).data(), transform);
   }
@@ -133,6 +137,9 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
   posts.wkt = wkt_of(source);
   const encoder::Terrain terrain(std::move(posts));
   if (!ends_with(path, ".mtp")) {
+    if (CSLFetchNameValue(given, "TILE_VERTICES") != nullptr) {
+      refuse(std::string(path) + ": is a stream; a pack, which has tiles, is named .mtp");
+    }
     const auto options = options_of<encoder::StreamOptions>(source, given);
     encoder::Stream stream = encoder::encode_stream(terrain, options, callbacks);
     write_bytes(path, stream.bytes);

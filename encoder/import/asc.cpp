@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -125,10 +124,16 @@ bool is_known(std::string_view key) {
   return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 
-bool is_finite_number(std::string_view word) {
+// Of any size, infinite ones too.
+bool is_number(std::string_view word) {
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+  return error == std::errc() && end == word.data() + word.size();
+}
+
+// What to do about a word that is none of a header or a grid.
+std::string remedy(std::string_view word) {
+  return word.find(',') == word.npos ? "" : "; decimals are written with a point";
 }
 
 // As printf writes what is not a number.
@@ -140,7 +145,9 @@ bool is_nan(std::string_view word) {
 
 NoData no_data_of(const Words& words) {
   if (is_nan(words.word())) return {};
-  if (!is_finite_number(words.word())) words.fail(quoted(words.word()) + " is not a number");
+  if (!is_number(words.word())) {
+    words.fail(quoted(words.word()) + " is not a number" + remedy(words.word()));
+  }
   return {std::string(words.word()), parse_decimal(words.word())};
 }
 
@@ -161,7 +168,9 @@ Header read_header(Words& words) {
       continue;
     }
     const std::optional<Decimal> value = parse_decimal(words.word(), kPlaceDecimals);
-    if (!value) words.fail(key + " is not a number in range: " + quoted(words.word()));
+    if (!value) {
+      words.fail(key + " is not a number in range: " + quoted(words.word()) + remedy(words.word()));
+    }
     if (!header.add(key, *value)) words.fail(key + " is given twice");
   }
   return header;
@@ -172,10 +181,10 @@ std::optional<Decimal> read_height(const Words& words, const NoData& no_data) {
   const std::optional<Decimal> height = parse_decimal(words.word());
   if (no_data.matches(words.word(), height) || is_nan(words.word())) return std::nullopt;
   if (!height) {
-    const bool may_be_void = is_finite_number(words.word());
-    words.fail(
-        quoted(words.word()) + " is not a number in range" +
-        (may_be_void ? "; if it marks voids, the header's NODATA_value must be the same" : ""));
+    words.fail(quoted(words.word()) + " is not a number in range" +
+               (is_number(words.word())
+                    ? "; if it marks voids, the header's NODATA_value must be the same"
+                    : remedy(words.word())));
   }
   return height;
 }

@@ -171,8 +171,9 @@ class WktReader {
 // Units that are not stated follow from codes that are known.
 void complete_units(Reference& reference) {
   const auto complete = [](uint32_t code, bool is_vertical, Unit& unit) {
-    const std::optional<CodedSystem> system = built_in_system(code);
-    if (unit == Unit::kUnknown && system && system->is_vertical == is_vertical) unit = system->unit;
+    if (unit != Unit::kUnknown) return;
+    const std::optional<CodedSystem> system = system_of_file_code(code);
+    if (system && system->is_vertical == is_vertical) unit = system->unit;
   };
   complete(reference.horizontal_epsg, false, reference.horizontal_unit);
   complete(reference.vertical_epsg, true, reference.vertical_unit);

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "encoder/base/error.hpp"
+
 namespace microtin::importing {
 namespace {
 
@@ -132,6 +134,14 @@ std::optional<CodedSystem> system_of_code(uint32_t code) {
   if (!system) return system_by_proj(code);
 #endif
   return system;
+}
+
+std::optional<CodedSystem> system_of_file_code(uint32_t code) {
+  try {
+    return code == 0 ? std::nullopt : system_of_code(code);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
 }
 
 std::string wkt_of_code(uint32_t code) {

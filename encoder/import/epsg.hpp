@@ -23,6 +23,9 @@ struct CodedSystem {
 // throws Error if PROJ knows that there is none, or one of another kind.
 std::optional<CodedSystem> system_of_code(uint32_t code);
 
+// The same of a code that a file states: nothing, too, if there is none.
+std::optional<CodedSystem> system_of_file_code(uint32_t code);
+
 // The same without PROJ.
 std::optional<CodedSystem> built_in_system(uint32_t code);
 

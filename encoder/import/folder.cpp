@@ -54,12 +54,13 @@ std::string left_out_of(const std::string& path) {
   const FilesBySuffix by_suffix = terrain_files_in(path);
   if (by_suffix.size() < 2) return "";
   const auto most = most_of(by_suffix);
-  std::string text = path + ": its " + most->first + " files are taken; left out are";
+  std::string others;
   for (auto other = by_suffix.begin(); other != by_suffix.end(); ++other) {
     if (other == most) continue;
-    text += ' ' + std::to_string(other->second.size()) + " of " + other->first;
+    others +=
+        (others.empty() ? "" : ", ") + std::to_string(other->second.size()) + " of " + other->first;
   }
-  return text;
+  return path + ": its " + most->first + " files are taken; left out are " + others;
 }
 
 }  // namespace microtin::importing

@@ -11,6 +11,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/coordinates.hpp"
 #include "encoder/exact/fraction.hpp"
+#include "encoder/import/class_counts.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -119,6 +120,14 @@ class SharedPlaces {
   size_t first_ = 0, second_ = 0;
 };
 
+// The ground of one file does not go with all but the noise of another.
+void expect_same_classes(const NamedSource& first, const NamedSource& part, const PointCloud& a,
+                         const PointCloud& b) {
+  if (!a.classes || !b.classes || *a.classes == *b.classes) return;
+  throw Error(part.path + ": " + b.selection + "; but of " + first.path + ": " + a.selection +
+              ": --classes says which ones to take of all files");
+}
+
 }  // namespace
 
 PointCloud join_clouds(std::vector<NamedSource> parts) {
@@ -127,16 +136,19 @@ PointCloud join_clouds(std::vector<NamedSource> parts) {
   for (size_t i = 1; i < parts.size(); ++i) {
     PointCloud& part = std::get<PointCloud>(parts[i].source);
     expect_alike(parts[0], parts[i], whole.reference, part.reference);
+    expect_same_classes(parts[0], parts[i], whole, part);
     const int xy = std::max(whole.xy_decimals, part.xy_decimals);
     const int z = std::max(whole.z_decimals, part.z_decimals);
     refine(whole, xy, z, parts[i].path);
     refine(part, xy, z, parts[i].path);
     whole.points.insert(whole.points.end(), part.points.begin(), part.points.end());
-    if (whole.classes && part.classes) *whole.classes |= *part.classes;
+    if (!part.classes) whole.classes.reset();
+    add(whole.counts, part.counts);
     ends.push_back(whole.points.size());
     part = PointCloud();
   }
   whole.selection = std::to_string(parts.size()) + " files" + SharedPlaces(whole, ends).text(parts);
+  if (whole.classes) whole.selection += "; " + taken_text(whole.counts, *whole.classes);
   return whole;
 }
 

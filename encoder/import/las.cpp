@@ -3,10 +3,10 @@
 // Ours: of its many fields four are read, as the integers that they are.
 #include <algorithm>
 #include <array>
-#include <sstream>
 
 #include "encoder/exact/scaled_integers.hpp"
 #include "encoder/files/byte_reader.hpp"
+#include "encoder/import/class_counts.hpp"
 #include "encoder/import/cloud_size.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
@@ -92,8 +92,9 @@ class References {
     }
   }
 
+  // Some writers leave a text empty beside keys.
   Reference take() const {
-    return wkt_.empty() ? reference_of_geo_keys(keys_) : reference_of_wkt(wkt_);
+    return is_wkt(wkt_) ? reference_of_wkt(wkt_) : reference_of_geo_keys(keys_);
   }
 
  private:
@@ -145,17 +146,18 @@ class PointReader {
         if (!points.add(axis, value)) fail_on(i, value);
       }
     }
-    if (points.empty()) file_.fail("no point is taken" + selection(classes));
+    if (points.empty()) file_.fail("no point is " + taken_text(counts_, classes));
     PointCloud cloud = points.take();
-    cloud.selection = "taken" + selection(classes);
+    cloud.selection = taken_text(counts_, classes);
     cloud.classes = classes;
+    cloud.counts = counts_;
     return cloud;
   }
 
   // What a terrain model is made of: the ground or, if nobody looked for it, all but noise.
   ClassSet default_classes() const {
     ClassSet classes;
-    if (count_[kGround] != 0) return classes.set(kGround);
+    if (counts_.points[kGround] != 0) return classes.set(kGround);
     return classes.set().reset(kLowNoise).reset(kHighNoise);
   }
 
@@ -182,24 +184,8 @@ class PointReader {
   void count_classes() {
     for (uint64_t i = 0; i < header_.points; ++i) {
       const uint64_t at = place_of(i);
-      ++(is_withheld(at) ? withheld_ : count_[class_of(at)]);
+      ++(is_withheld(at) ? counts_.withheld : counts_.points[class_of(at)]);
     }
-  }
-
-  // "class 2 (812 points); left out: class 1 (240), withheld (13)".
-  std::string selection(const ClassSet& classes) const {
-    std::ostringstream taken, left;
-    taken.exceptions(std::ios::badbit);
-    left.exceptions(std::ios::badbit);
-    for (size_t c = 0; c < classes.size(); ++c) {
-      if (count_[c] == 0) continue;
-      std::ostringstream& list = classes[c] ? taken : left;
-      list << (list.tellp() == 0 ? " class " : ", ") << c << " (" << count_[c] << ")";
-    }
-    if (withheld_ != 0)
-      left << (left.tellp() == 0 ? " " : ", ") << "withheld (" << withheld_ << ")";
-    return (taken.tellp() == 0 ? "" : ":" + taken.str()) +
-           (left.tellp() == 0 ? "" : "; left out:" + left.str());
   }
 
   [[noreturn]] void fail_on(uint64_t point, Decimal value) const {
@@ -210,8 +196,7 @@ class PointReader {
   const ByteReader& file_;
   const Header& header_;
   std::array<ScaledIntegers, 3> axes_;
-  std::array<uint64_t, 256> count_{};
-  uint64_t withheld_ = 0;
+  ClassCounts counts_;
 };
 
 }  // namespace

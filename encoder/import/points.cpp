@@ -17,7 +17,14 @@ struct Meaning {
   bool is_degree;
 };
 
-std::optional<Meaning> meaning_of(std::string_view field) {
+// Without quotes, and without a unit in brackets.
+std::string plain_name(std::string_view field) {
+  std::string name = lower_case(std::string(field.substr(0, field.find_first_of("(["))));
+  name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
+  return name;
+}
+
+std::optional<Meaning> meaning_of(const std::string& name) {
   struct Name {
     std::string_view text;
     Meaning meaning;
@@ -41,10 +48,6 @@ std::optional<Meaning> meaning_of(std::string_view field) {
                                             {"altitude", {2, false}},
                                             {"alt", {2, false}},
                                             {"lng", {0, true}}}};
-  std::string name = lower_case(std::string(field));
-  if (name.size() > 2 && name.front() == '"' && name.back() == '"') {
-    name = name.substr(1, name.size() - 2);
-  }
   for (const Name& known : kNames) {
     if (known.text == name) return known.meaning;
   }
@@ -63,7 +66,10 @@ class PointReader {
       fail("commas and semicolons are mixed; decimals are written with a point");
     }
     const bool first = !header_seen_ && columns_ == 0;
-    if (first && is_header()) return check_header();
+    if (first && is_header()) {
+      split_names(line);
+      return check_header();
+    }
     read_point();
   }
 
@@ -82,19 +88,37 @@ class PointReader {
                         [](std::string_view field) { return parse_decimal(field).has_value(); });
   }
 
+  // Between commas or semicolons names may hold blanks; their first words count.
+  void split_names(std::string_view line) {
+    if (line.find_first_of(",;") == line.npos) return;
+    std::vector<std::string_view> words;
+    fields_.clear();
+    while (!line.empty()) {
+      const size_t end = std::min(line.find_first_of(",;"), line.size());
+      split(line.substr(0, end), words);
+      fields_.push_back(words.empty() ? std::string_view() : words[0]);
+      line.remove_prefix(std::min(end + 1, line.size()));
+    }
+  }
+
   // Names may be any; those of coordinates say where these are. Latitudes are degrees.
   void check_header() {
     header_seen_ = true;
     std::array<std::optional<size_t>, 3> found;
+    bool has_depth = false;
     for (size_t i = 0; i < fields_.size(); ++i) {
-      const std::optional<Meaning> meaning = meaning_of(fields_[i]);
+      const std::string name = plain_name(fields_[i]);
+      const std::optional<Meaning> meaning = meaning_of(name);
+      has_depth = has_depth || name == "depth";
       if (!meaning) continue;
       if (found[meaning->axis])
         fail(std::string("two columns are named as ") + "xyz"[meaning->axis]);
       found[meaning->axis] = i;
       if (meaning->is_degree) unit_ = Unit::kDegree;
     }
+    if (has_depth && !found[2]) fail("depths grow downwards: write heights, and name them z");
     if (!found[0] && !found[1] && !found[2]) return;
+    names_ = fields_.size();
     for (size_t axis = 0; axis < 3; ++axis) axes_[axis] = found[axis].value_or(axis);
     const bool is_clear = axes_[0] != axes_[1] && axes_[0] != axes_[2] && axes_[1] != axes_[2];
     if (!is_clear || found[0].has_value() != found[1].has_value()) {
@@ -108,7 +132,10 @@ class PointReader {
     if (fields_.size() != columns_) {
       fail(std::to_string(fields_.size()) + " columns after lines of " + std::to_string(columns_));
     }
-    if (axes_[0] >= columns_ || axes_[1] >= columns_) fail("x or y of the header is missing");
+    if (columns_ < names_) {
+      fail(std::to_string(columns_) + " columns under " + std::to_string(names_) +
+           " names: blanks in names need commas between them");
+    }
     values_.clear();
     for (const std::string_view field : fields_) {
       const std::optional<Decimal> value = parse_decimal(field);
@@ -140,6 +167,7 @@ class PointReader {
   const std::string& name_;
   size_t line_ = 0;
   size_t columns_ = 0;  // 0 until the first point
+  size_t names_ = 0;    // of columns, if coordinates are among them
   bool header_seen_ = false;
   std::vector<std::string_view> fields_;
   std::vector<Decimal> values_;

@@ -21,8 +21,9 @@ class Palette {
 
   // From the lowest, at 0, to the highest, at 1.
   Colour at(double relative) const {
+    constexpr double kRounding = 1e-9;  // of what is at 0
     const double height = low_ + relative * (high_ - low_);
-    if (kind_ == PaletteKind::kSea && height < 0) {
+    if (kind_ == PaletteKind::kSea && height < -kRounding * (high_ - low_)) {
       const double top = std::min(high_, 0.0);
       return sea(top > low_ ? (top - height) / (top - low_) : 0);
     }

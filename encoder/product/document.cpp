@@ -10,6 +10,7 @@
 #include "encoder/base/error_context.hpp"
 #include "encoder/export/system.hpp"
 #include "encoder/files/input_file.hpp"
+#include "encoder/import/folder.hpp"
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/shard.hpp"
 #include "encoder/pack/surface.hpp"
@@ -42,7 +43,8 @@ std::variant<PackFile, DecodedStream> content_of(const std::string& path) {
 }
 
 bool has_classes(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension().string();
+  const std::string first = path.empty() ? path : files_in(path)[0];
+  const std::string suffix = std::filesystem::path(first).extension().string();
   return suffix == ".las" || suffix == ".LAS";
 }
 

@@ -87,9 +87,14 @@ Posts read_raster(const microtin_raster& raster) {
 
 // 0 is what is usual, else it is 1 above the number that it has in C++.
 template <class Choice>
-Choice choice(const char* name, uint32_t given, Choice usual) {
-  if (given > 3) throw Error(std::string(name) + ": 0 .. 3");
+Choice choice(const char* name, uint32_t given, Choice usual, Choice last) {
+  const auto most = static_cast<uint32_t>(last) + 1;
+  if (given > most) throw Error(std::string(name) + ": 0 .. " + std::to_string(most));
   return given == 0 ? usual : static_cast<Choice>(given - 1);
+}
+
+void expect_none(uint32_t one, uint32_t other, const char* rule) {
+  if (one != 0 || other != 0) throw Error(rule);
 }
 
 template <class Options>
@@ -99,9 +104,12 @@ Options common_options(const microtin_options& given) {
   options.never_below = given.never_below != 0;
   options.z_step = text_of(given.z_step);
   options.xy_step = text_of(given.xy_step);
-  options.search = choice("search", given.search, options.search);
+  options.search = choice("search", given.search, options.search, Search::kBest);
   if (given.degree != 0) options.degree = given.degree;
-  options.decoding = choice("decoding", given.decoding, options.decoding);
+  options.decoding = choice("decoding", given.decoding, options.decoding, Decoding::kDense);
+  options.bound_at = choice("bound_at", given.bound_at, options.bound_at, BoundAt::kLattice);
+  options.duplicates =
+      choice("duplicates", given.duplicates, options.duplicates, Duplicates::kMean);
   options.units = text_of(given.units);
   options.horizontal_epsg = given.horizontal_epsg;
   options.vertical_epsg = given.vertical_epsg;
@@ -232,6 +240,8 @@ microtin_outcome microtin_encode_stream(const microtin_terrain* terrain,
     expect(bytes);
     expect(size);
     auto all = common_options<StreamOptions>(checked(options));
+    expect_none(options->tile_vertices, options->tile_steps,
+                "tile_vertices and tile_steps are for packs");
     all.max_vertices = options->max_vertices;
     all.max_bytes = options->max_bytes;
     const Stream stream = encode_stream(terrain->terrain, all, callbacks_of(*options));
@@ -254,6 +264,8 @@ microtin_outcome microtin_encode_pack(const microtin_terrain* terrain,
     expect(terrain);
     expect(path);
     auto all = common_options<PackOptions>(checked(options));
+    expect_none(options->max_vertices, options->max_bytes,
+                "max_vertices and max_bytes are for streams");
     all.tile_vertices = options->tile_vertices;
     all.tile_steps = options->tile_steps;
     copy_report(encode_pack(terrain->terrain, all, path, callbacks_of(*options)), report);

@@ -66,7 +66,10 @@ class Settlement {
 
   void complete(Reference& reference) {
     if (reference.horizontal_unit == Unit::kUnknown) {
-      remarks_.push_back("the unit of x and y is not known: give units or an EPSG code");
+      const uint32_t code = reference.horizontal_epsg;
+      remarks_.push_back(code == 0 ? "the unit of x and y is not known: give units or an EPSG code"
+                                   : "the unit of x and y is not known, nor is EPSG " +
+                                         std::to_string(code) + " here: give units");
     }
     if (reference.vertical_unit != Unit::kUnknown) return;
     if (reference.horizontal_unit == Unit::kDegree) {

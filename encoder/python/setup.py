@@ -13,6 +13,7 @@ from setuptools.command.build_py import build_py
 from wheel.bdist_wheel import bdist_wheel
 
 SOURCES = Path(__file__).resolve().parents[2]
+BUILD = SOURCES / "build" / "python-package"  # so that nothing is built among the sources
 
 
 def version():
@@ -45,4 +46,9 @@ class WheelOfThePlatform(bdist_wheel):
         return "py3", "none", super().get_tag()[2]
 
 
-setup(version=version(), cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelOfThePlatform})
+BUILD.mkdir(parents=True, exist_ok=True)
+setup(
+    version=version(),
+    cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelOfThePlatform},
+    options={"build": {"build_base": str(BUILD)}, "egg_info": {"egg_base": str(BUILD)}},
+)

@@ -3,6 +3,7 @@
 #ifndef MICROTIN_ENCODER_TERRAIN_SOURCE_HPP
 #define MICROTIN_ENCODER_TERRAIN_SOURCE_HPP
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -43,13 +44,20 @@ struct SourcePoint {
   int64_t z;     // times 10^-z_decimals
 };
 
+// How many points of each class there are, but for those that are withheld.
+struct ClassCounts {
+  std::array<uint64_t, 256> points{};
+  uint64_t withheld = 0;
+};
+
 struct PointCloud {
   std::vector<SourcePoint> points;
   int xy_decimals = 0;
   int z_decimals = 0;
   Reference reference;
   std::string selection;            // which points of the file these are, for the user; empty: all
-  std::optional<ClassSet> classes;  // that were taken, of a file that has them
+  std::optional<ClassSet> classes;  // that were taken, of files that have them
+  ClassCounts counts;               // ... and what was in these, taken or not
 };
 
 using Source = std::variant<Raster, PointCloud>;

@@ -2,6 +2,7 @@
 // One terrain from several files.
 #include <doctest/doctest.h>
 
+#include <array>
 #include <string>
 
 #include "tests/support/session.hpp"
@@ -21,6 +22,31 @@ std::string cell(const std::string& heights) {
   std::string bytes;
   for (const char height : heights) bytes += std::string(1, '\0') + height;
   return bytes;
+}
+
+// Four points of LAS 1.2, of classes 2 and 5.
+std::string scan() {
+  std::string las(227, '\0');
+  las.replace(0, 4, "LASF");
+  las[24] = 1;
+  las[25] = 2;
+  las[94] = las[96] = '\xE3';
+  las[105] = 20;
+  las[107] = 4;
+  for (const size_t axis : {0u, 1u, 2u}) {
+    las.replace(131 + 8 * axis, 8, std::string("\0\0\0\0\0\0\xF0\x3F", 8));  // a scale of 1
+  }
+  using Return = std::array<char, 4>;  // x, y, z, class
+  for (const auto& [x, y, z, code] :
+       {Return{0, 0, 1, 2}, Return{9, 0, 1, 2}, Return{0, 9, 1, 2}, Return{4, 4, 9, 5}}) {
+    std::string point(20, '\0');
+    point[0] = x;
+    point[4] = y;
+    point[8] = z;
+    point[15] = code;
+    las += point;
+  }
+  return las;
 }
 
 }  // namespace
@@ -64,6 +90,9 @@ TEST_CASE("mosaic: a folder of SRTM cells") {
   CHECK(contains(session.run("info t.mtp").out,
                  "extent: {\"west\": 7.0, \"south\": 43.0, \"east\": 9.0, \"north\": 44.0}"));
   CHECK(session.run("render t.mtp --source cells -o t.png").code == 0);
+  CHECK(session.run("render --source cells/N43E007.hgt --source cells/N43E008.hgt t.mtp -o u.png")
+            .code == 0);
+  CHECK(session.read("t.png") == session.read("u.png"));
   fs::create_directory(session.folder() + "/empty");
   CHECK(contains(session.failure("encode empty -o e.mtin"), "empty: holds no terrain file"));
 }
@@ -89,8 +118,9 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   for (const char* const name : {"a.asc", "unit.asc", "p.xyz"}) {
     fs::copy_file(session.folder() + "/" + name, session.folder() + "/mixed/" + name);
   }
+  session.write("mixed/t.obj", "v 0 0 0\n");
   CHECK(contains(session.run("encode mixed -o t.mtin").err,
-                 "warning: mixed: its .asc files are taken; left out are 1 of .xyz\n"));
+                 "warning: mixed: its .asc files are taken; left out are 1 of .obj, 1 of .xyz\n"));
   CHECK(contains(session.failure("encode a.asc p.xyz -o t.mtin"), "p.xyz: are points, but a.asc"));
   CHECK(session.run("encode a.asc size.asc -o size.asc").code == 1);
   CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "3"));
@@ -123,6 +153,14 @@ TEST_CASE("mosaic: how far clouds differ where they share places") {
       contains(session.run("encode a.xyz b.xyz c.xyz d.xyz" + rule).out,
                "at 3 places that they share they differ by up to 3, most at x 2, y 0 in c.xyz and "
                "d.xyz; all count\n"));
+}
+
+TEST_CASE("mosaic: a folder of scans is verified by the classes that were taken") {
+  const Session session;
+  fs::create_directory(session.folder() + "/scans");
+  session.write("scans/a.las", scan());
+  REQUIRE(session.run("encode scans --classes 2,5 -o t.mtin").code == 0);
+  CHECK(contains(session.run("verify t.mtin scans").out, "points: 4\n"));
 }
 
 TEST_CASE("clouds: the memory that they take is told before they are read") {

@@ -107,7 +107,11 @@ TEST_CASE("places: codes set units, and may not contradict them") {
                  "EPSG has no coordinate reference system 999999"));
   CHECK(contains(report("--epsg 2992"), "units: x and y foot, z foot"));
 #else
-  CHECK(contains(report("--epsg 2992"), "warning: EPSG 2992 is not among the codes known here"));
+  CHECK(
+      contains(report("--epsg 2992"),
+               "warning: EPSG 2992 is not among the codes known here, and is taken as it is: give "
+               "its units\nwarning: the unit of x and y is not known, nor is EPSG 2992 here: give "
+               "units\n"));
 #endif
 }
 

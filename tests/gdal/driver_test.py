@@ -209,9 +209,11 @@ class Driver(unittest.TestCase):
             self.assertFalse(os.path.exists(self.path(name)))
 
         refused("choose one with -b", bands=2)
-        refused("does not say where it lies", transform=None)
-        refused("columns must run east", transform=(0, 1, 0.5, 0, 0, -1))
-        refused("no complex numbers", kind=gdal.GDT_CFloat32)
+        refused("does not say where it lies: -a_ullr", transform=None)
+        for transform in ((0, 1, 0.5, 0, 0, -1), (0, 1, 0, 0, 0.5, -1), (9, -1, 0, 0, 0, -1)):
+            refused("rows do not run from west to east: .* gdalwarp", transform=transform)
+        refused("no complex numbers: -ot Float64", kind=gdal.GDT_CFloat32)
+        refused("refused.mtin: is a stream; a pack, which has tiles, is named .mtp", options=["TILE_VERTICES=50"])
         refused("max_error: much", options=["MAX_ERROR=much"])
         refused("heights", epsg=4326)
         refused("units: :fathom is not a unit", unit="fathom")

@@ -68,3 +68,19 @@ TEST_CASE("crs: GeoTIFF keys; user-defined codes and values elsewhere do not cou
   CHECK(keys({1024, 0, 1, 2, 2048, 0, 1, 4258, 4099, 0, 1}).horizontal_unit == Unit::kDegree);
   CHECK(reference_of_geo_keys({}).horizontal_unit == Unit::kUnknown);
 }
+
+TEST_CASE("crs: codes of files set units that are not stated, as far as they are known") {
+  const Reference r =
+      reference_of_geo_keys({1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 2263, 4096, 0, 1, 6360});
+  CHECK(r.horizontal_epsg == 2263);
+  CHECK(r.vertical_unit == Unit::kUsSurveyFoot);
+#ifdef MICROTIN_WITH_GDAL
+  CHECK(r.horizontal_unit == Unit::kUsSurveyFoot);
+#else
+  CHECK(r.horizontal_unit == Unit::kUnknown);
+#endif
+  // 5103 is a datum, which old files name instead of its heights.
+  const Reference datum = reference_of_geo_keys({1, 1, 0, 1, 4096, 0, 1, 5103});
+  CHECK(datum.vertical_epsg == 5103);
+  CHECK(datum.vertical_unit == Unit::kUnknown);
+}

@@ -114,16 +114,19 @@ TEST_CASE("asc: whatever is wrong is told with its line") {
   CHECK(grid_error(kHeader + "1 2 3\n4 5 6\n7\n") ==
         "grid:8: the grid goes on after its 6 heights");
   CHECK(grid_error(kHeader + "1 2 3\n4 x 6\n") == "grid:7: \"x\" is not a number in range");
-  CHECK(grid_error(kHeader + "1 2 3\n4 inf 6\n") == "grid:7: \"inf\" is not a number in range");
-  CHECK(grid_error(kHeader + "1 2 3\n4 inf 6\n") == "grid:7: \"inf\" is not a number in range");
-  CHECK(
-      grid_error(kHeader + "1 2 3\n4 -3.4e38 6\n") ==
-      "grid:7: \"-3.4e38\" is not a number in range; if it marks voids, the header's NODATA_value "
-      "must be the same");
+  for (const std::string mark : {"inf", "-3.4e38"}) {
+    CHECK(grid_error(kHeader + "1 2 3\n4 " + mark + " 6\n") ==
+          "grid:7: \"" + mark +
+              "\" is not a number in range; if it marks voids, the header's NODATA_value must be "
+              "the same");
+    CHECK(import_asc("grid", kHeader + "NODATA_value " + mark + "\n1 2 3\n4 " + mark + " 6\n")
+              .heights == std::vector<int64_t>{4, kVoidHeight, 6, 1, 2, 3});
+  }
+  CHECK(grid_error(kHeader + "1,5 2 3\n4 5 6\n") ==
+        "grid:6: \"1,5\" is not a number in range; decimals are written with a point");
   CHECK(grid_error(kHeader + "1e17 2 3\n4 0.5 .000000001\n") ==
         "grid:7: \".000000001\" is not a number in range");
   CHECK(grid_error(kHeader + "nodata_value abc\n1 2 3") == "grid:6: \"abc\" is not a number");
-  CHECK(grid_error(kHeader + "nodata_value inf\n1 2 3") == "grid:6: \"inf\" is not a number");
   CHECK(grid_error(kHeader + "\x01\x02\xFF") == "grid:6: \"???\" is not a number in range");
   CHECK(grid_error(kHeader + "ncols 4\n1") == "grid:6: ncols is given twice");
   CHECK(grid_error(kHeader + "zone 4\n1") ==
@@ -185,6 +188,9 @@ TEST_CASE("points: separators, comments, headers, two columns") {
   CHECK(points("lat,lon,ele\n50,7,100\n51,8,200\n") == "7,50,100 8,51,200");
   CHECK(points("id;northing;easting;class;HEIGHT\n9;2;1;5;3\n") == "1,2,3");
   CHECK(points("y x\n1 2\n3 4\n") == "2,1,0 4,3,0");
+  CHECK(points("Northing [m], Easting (m) ,\"Height above sea\"\r\n1,2,3\n") == "2,1,3");
+  CHECK(points("Y[ft] X[ft] Z[ft]\n1 2 3\n") == "2,1,3");
+  CHECK(points("x,y,z\n1,2,3,255\n") == "1,2,3");
   CHECK(import_points("c", "lat,lon\n1,2\n").reference.horizontal_unit == Unit::kDegree);
   CHECK(import_points("c", "y,x\n1,2\n").reference.horizontal_unit == Unit::kUnknown);
   CHECK(points("1 2 3 255 0.5\n4 5 6 0 1e-3\n") == "1,2,3 4,5,6");
@@ -220,7 +226,13 @@ TEST_CASE("points: whatever is wrong is told with its line") {
   CHECK(point_error("id,x,y\n1,2,3\n") == unclear);
   CHECK(point_error("x,lon,y\n1,2,3\n") == "cloud:1: two columns are named as x");
   CHECK(point_error("a,b,x,y\n1,2\n") == unclear);
-  CHECK(point_error("z,a,x,y\n1,2\n") == "cloud:2: x or y of the header is missing");
+  const std::string blanks = " names: blanks in names need commas between them";
+  CHECK(point_error("z,a,x,y\n1,2\n") == "cloud:2: 2 columns under 4" + blanks);
+  CHECK(point_error("x y z\n1 2\n") == "cloud:2: 2 columns under 3" + blanks);
+  CHECK(point_error("X [m] Y [m] Z [m]\n1 2 3\n") == "cloud:2: 3 columns under 6" + blanks);
+  CHECK(point_error("lon,lat,depth\n7,45,20\n") ==
+        "cloud:1: depths grow downwards: write heights, and name them z");
+  CHECK(points("x,depth,y,z\n1,2,3,4\n") == "1,3,4");
   CHECK(point_error("1 2 3\n1e300 2 3") == "cloud:2: \"1e300\" is not a number in range");
   CHECK(point_error("0.000000001 1\n10000000000 2") ==
         "cloud:2: \"10000000000\" is not a number in range");

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "encoder/import/import.hpp"
+#include "encoder/import/joined_clouds.hpp"
 #include "tests/support/binary_file.hpp"
 #include "tests/support/imports.hpp"
 
@@ -130,6 +131,26 @@ TEST_CASE("las: scales of many decimals are rounded at the end") {
   CHECK(points.points[0].z == -4999999);
 }
 
+TEST_CASE("las: files of one terrain give the same classes, and what is left out is summed up") {
+  const std::string scan = las(2, 1, kScan).bytes(),
+                    bare = las(2, 1, {{{0, 0, 7}, 0}, {{9, 0, 7}, 5}}).bytes();
+  const auto joined = [&](const std::string& other, const std::optional<ClassSet>& classes = {}) {
+    std::vector<NamedSource> parts;
+    parts.push_back({"a.las", cloud(scan, classes)});
+    parts.push_back({"b.las", cloud(other, classes)});
+    return join_clouds(std::move(parts));
+  };
+  CHECK(joined(scan).classes == ClassSet().set(2));
+  CHECK(joined(scan).selection ==
+        "2 files, which agree at 2 places that they share; taken: class 2 (4); left out: class 5 "
+        "(2), 7 (2), withheld (2)");
+  CHECK(
+      import_error([&] { joined(bare); }) ==
+      "b.las: taken: class 0 (1), 5 (1); but of a.las: taken: class 2 (2); left out: class 5 (1), "
+      "7 (1), withheld (1): --classes says which ones to take of all files");
+  CHECK(joined(bare, ClassSet().set(5)).points.size() == 2);
+}
+
 TEST_CASE("las: codes and units from GeoTIFF keys and from well-known text") {
   const std::string utm =
       geo_keys({1024, 1, 2048, 4326, 3072, 25832, 3076, 9001, 4096, 5783, 4099, 9001});
@@ -144,6 +165,8 @@ TEST_CASE("las: codes and units from GeoTIFF keys and from well-known text") {
       record("other", 1, "x") + record("LASF_Projection", 34735, geo_keys({1024, 2, 2048, 4269}));
   CHECK(reference(las(3, 0, kScan, degrees, 2).bytes()).horizontal_unit == Unit::kDegree);
   CHECK(reference(las(3, 0, kScan, degrees, 2).bytes()).horizontal_epsg == 4269);
+  const std::string nothing = degrees + record("LASF_Projection", 2112, std::string(1, '\0'));
+  CHECK(reference(las(4, 6, kScan, nothing, 3).bytes()).horizontal_epsg == 4269);
   const std::string wkt =
       "PROJCS[\"x\",GEOGCS[\"y\",AUTHORITY[\"EPSG\",\"4269\"]],UNIT[\"US survey foot\","
       "0.3048006096012192],AUTHORITY[\"EPSG\",\"2992\"]]";

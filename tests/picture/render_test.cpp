@@ -250,6 +250,15 @@ TEST_CASE("render: the sea's colours tell its heights also where there is no lan
   CHECK(deep.at(0.5).r > deep.at(0).r + 0.1);
 }
 
+TEST_CASE("render: a plain at zero has one colour, however its heights are rounded") {
+  const Palette shore(PaletteKind::kSea, -18, 2070);
+  for (const double rounding : {-1e-15, 0.0, 1e-15}) {
+    const Colour plain = shore.at(18.0 / 2088 * (1 + rounding));
+    CHECK_MESSAGE(plain.g > plain.b, rounding);
+  }
+  CHECK(shore.at(17.9 / 2088).b > shore.at(17.9 / 2088).g);
+}
+
 // Tiles share their borders' vertices, and these the light of both sides: without that the contrast
 // is 3 and more. Borders that are fitted to noise alone are somewhat rougher than the rest.
 TEST_CASE("render: the shading does not jump at borders of tiles") {

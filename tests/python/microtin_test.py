@@ -183,6 +183,38 @@ class Refusals(unittest.TestCase):
             self.assertEqual(microtin.encode(array, crs=25832, units=":metre").report.remarks, ())
             self.assertEqual(len(microtin.encode(array).report.remarks), 1)  # nothing is said, so nothing is guessed
 
+    def test_marks_of_voids_are_told_without_a_place_too(self):
+        with self.assertWarnsRegex(UserWarning, "1 post of height -9999"):
+            microtin.encode(numpy.where((ROW == 3) & (COLUMN == 4), -9999, hills()), max_error=1)
+
+    def test_points_that_share_a_place(self):
+        points = [[0, 0, 1], [0, 0, 9], [2, 3, 1], [4, 1, 1]]
+        with self.assertRaisesRegex(microtin.Error, "max-error cannot be kept at 1 places"):
+            microtin.encode_points(points, 1)
+        for rule, height in (("lowest", 1), ("highest", 9), ("mean", 5)):
+            tin = microtin.decode(microtin.encode_points(points, 0.25, duplicates=rule))
+            self.assertAlmostEqual(tin.height_at(0, 0), height, delta=0.25)
+        with self.assertRaisesRegex(microtin.Error, "'first' is none of middle, lowest, highest, mean"):
+            microtin.encode_points(points, 1, duplicates="first")
+
+    def test_the_bound_may_hold_on_the_lattice_alone(self):
+        walls = [(0.01 + x, y, 900 * up) for x in range(0, 9000, 1000) for y in range(0, 9000, 1000) for up in (0, 1)]
+        points = [(x + 0.27 * (z > 0), y + 0.13, z) for x, y, z in walls]
+        with self.assertRaisesRegex(microtin.Error, "bound-at lattice"):
+            microtin.encode_points(points, 0.5)
+        self.assertLessEqual(microtin.encode_points(points, 0.5, bound_at="lattice").report.max_error, 0.5)
+
+    def test_options_of_streams_are_none_of_packs(self):
+        self.refused("tile_vertices and tile_steps are for packs", hills(), tile_vertices=50)
+        with self.assertRaisesRegex(microtin.Error, "max_vertices and max_bytes are for streams"):
+            microtin.encode_pack(hills(), "none.mtp", tile_vertices=50, max_bytes=500)
+        self.assertFalse(os.path.exists("none.mtp"))
+
+    def test_systems(self):
+        for wrong in (-5, 0, 1 << 32, "EPSG:25832+5783"):
+            self.refused("is no code of a reference system", hills(), crs=wrong)
+        self.refused("crs is a code, well-known text or has to_wkt.., not float", hills(), crs=1.5)
+
     def test_damaged_streams(self):
         data = bytearray(microtin.encode(hills(), max_error=1))
         for wrong in (b"", b"something else", data[:-1], data + b"x"):

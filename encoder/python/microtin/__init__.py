@@ -42,6 +42,8 @@ Path = Union[str, "os.PathLike[str]"]
 
 _SEARCHES = {"fast": 1, "normal": 2, "best": 3}
 _DECODINGS = {"quick": 1, "balanced": 2, "dense": 3}
+_BOUND_AT = {"points": 1, "lattice": 2}
+_DUPLICATES = {"middle": 1, "lowest": 2, "highest": 3, "mean": 4}
 UNITS = {0: None, 1: "metre", 2: "degree", 3: "foot", 4: "US survey foot"}
 
 
@@ -118,7 +120,12 @@ def encode_points(
     max_bytes: int = 0,
     **options: Any,
 ) -> Stream:
-    """Encodes points, an array of rows x, y, height in any order, as a stream. All else is as for `encode`."""
+    """Encodes points, an array of rows x, y, height in any order, as a stream. All else is as for `encode`.
+
+    More options: duplicates="middle" | "lowest" | "highest" | "mean", which of the points that share a place stands for
+    all (middle: all count); bound_at="points" | "lattice", whether max_error holds where points truly lie, or at the
+    places of the lattice alone, which has 16 bits.
+    """
     with _terrain_of_points(points, crs) as terrain:
         stream = _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
     _warn(stream.report, crs, options)
@@ -208,6 +215,8 @@ def _options(
     *,
     search: str = "normal",
     decoding: str = "balanced",
+    bound_at: str = "points",
+    duplicates: str = "middle",
     progress: Optional[Callable[[float], Any]] = None,
     never_below: bool = False,
     z_step: Optional[Number] = None,
@@ -218,7 +227,8 @@ def _options(
     lineage: str = "",
     **numbers: int,
 ) -> Tuple[_library.Options, _Caller]:
-    for value, choices in ((search, _SEARCHES), (decoding, _DECODINGS)):
+    chosen = ((search, _SEARCHES), (decoding, _DECODINGS), (bound_at, _BOUND_AT), (duplicates, _DUPLICATES))
+    for value, choices in chosen:
         if value not in choices:
             raise Error(f"{value!r} is none of {', '.join(choices)}")
     allowed = ("degree", "vertical_epsg", "max_vertices", "max_bytes", "tile_vertices", "tile_steps")
@@ -235,6 +245,8 @@ def _options(
         never_below=never_below,
         search=_SEARCHES[search],
         decoding=_DECODINGS[decoding],
+        bound_at=_BOUND_AT[bound_at],
+        duplicates=_DUPLICATES[duplicates],
         units=units.encode(),
         horizontal_epsg=_epsg_of(crs) or 0,
         source=source.encode(),
@@ -261,9 +273,10 @@ def _report(report: _library.Report) -> Report:
 
 
 def _warn(report: Report, crs: Optional[Crs], options: Mapping[str, Any]) -> None:
-    """Of what is guessed about a terrain that says where it lies; to the caller of the function that calls this."""
-    if crs is not None or options.get("units"):
-        for remark in report.remarks:
+    """To the caller of the function that calls this. Unknown units are no news where nothing is said of them."""
+    is_placed = crs is not None or options.get("units")
+    for remark in report.remarks:
+        if is_placed or not remark.startswith("the unit of x and y is not known"):
             warnings.warn(remark, stacklevel=3)
 
 
@@ -274,13 +287,15 @@ def _decimal(number: Optional[Number]) -> Optional[bytes]:
 
 
 def _epsg_of(crs: Optional[Crs]) -> Optional[int]:
-    if isinstance(crs, (int, numpy.integer)):
-        return int(crs)
     if isinstance(crs, str) and crs.upper().startswith("EPSG:"):
-        if not crs[5:].isdigit():
-            raise Error(f"{crs!r} is no code of a reference system")
-        return int(crs[5:])
-    return None
+        code = int(crs[5:]) if crs[5:].isdigit() else 0
+    elif isinstance(crs, (int, numpy.integer)):
+        code = int(crs)
+    else:
+        return None
+    if not 0 < code < 1 << 32:
+        raise Error(f"{crs!r} is no code of a reference system; that of heights is vertical_epsg")
+    return code
 
 
 # KEYWORD["name", ...], with brackets of either kind.
@@ -290,6 +305,8 @@ _WELL_KNOWN_TEXT = re.compile(r"\s*\w+\s*[\[(].*[\])]\s*", re.DOTALL)
 def _wkt_of(crs: Optional[Crs]) -> Optional[bytes]:
     if crs is None or _epsg_of(crs) is not None:
         return None
+    if not isinstance(crs, str) and not hasattr(crs, "to_wkt"):
+        raise Error(f"crs is a code, well-known text or has to_wkt(), not {type(crs).__name__}")
     text = crs if isinstance(crs, str) else crs.to_wkt()
     if not _WELL_KNOWN_TEXT.fullmatch(text):
         raise Error(f"{text[:40]!r} is neither EPSG:CODE nor well-known text")

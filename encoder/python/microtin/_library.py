@@ -56,6 +56,8 @@ class Options(_Sized):
         ("search", c_uint32),
         ("degree", c_uint32),
         ("decoding", c_uint32),
+        ("bound_at", c_uint32),
+        ("duplicates", c_uint32),
         ("units", c_char_p),
         ("horizontal_epsg", c_uint32),
         ("vertical_epsg", c_uint32),
