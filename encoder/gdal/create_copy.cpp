@@ -74,6 +74,10 @@ Posts posts_of(GDALDataset& source) {
   const auto columns = static_cast<uint32_t>(band.GetXSize()),
              rows = static_cast<uint32_t>(band.GetYSize());
   const GDALDataType type = band.GetRasterDataType();
+  const char* const bytes = band.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
+  if (bytes != nullptr && EQUAL(bytes, "SIGNEDBYTE")) {
+    refuse("heights are signed bytes, which GDAL reads as unsigned: gdal_calc.py makes them wider");
+  }
   if (GDALDataTypeIsComplex(type) != 0) {
     refuse("heights are no complex numbers: -ot Float64 takes their real parts");
   }

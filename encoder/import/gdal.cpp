@@ -134,6 +134,12 @@ GDALRasterBandH mask_of(GDALRasterBandH band) {
   return (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0 ? GDALGetMaskBand(band) : nullptr;
 }
 
+// Up to GDAL 3.6 such bytes have a mark instead of a type.
+bool is_signed_byte(GDALRasterBandH band) {
+  const char* const type = GDALGetMetadataItem(band, "PIXELTYPE", "IMAGE_STRUCTURE");
+  return type != nullptr && EQUAL(type, "SIGNEDBYTE");
+}
+
 // Reads a band's heights one row after the other.
 class BandReader {
  public:
@@ -157,6 +163,11 @@ class BandReader {
     if (!is_whole && !is_binary) {
       throw Error(std::string("its heights are of type ") + GDALGetDataTypeName(type_) +
                   ": translate them with \"gdal_translate -ot Float64\"");
+    }
+    if (is_signed_byte(band)) {
+      throw Error(
+          "its heights are signed bytes, which GDAL reads as unsigned: \"gdal_calc.py -A IN "
+          "--outfile OUT --type Int16 --calc 'numpy.int16(numpy.int8(A))'\" makes them wider");
     }
     if (!scaled_ || (is_binary && (factor != 1 || shift != 0))) {
       throw Error(

@@ -137,6 +137,7 @@ class PointReader {
 
   // The points of these classes that are not withheld.
   PointCloud read(const ClassSet& classes) {
+    if (header_.points == 0) file_.fail("holds no point");
     PointColumns points;
     for (uint64_t i = 0; i < header_.points; ++i) {
       const uint64_t at = place_of(i);
@@ -146,7 +147,8 @@ class PointReader {
         if (!points.add(axis, value)) fail_on(i, value);
       }
     }
-    if (points.empty()) file_.fail("no point is " + taken_text(counts_, classes));
+    if (points.empty())
+      file_.fail("no point is " + taken_text(counts_, classes) + ": --classes takes others");
     PointCloud cloud = points.take();
     cloud.selection = taken_text(counts_, classes);
     cloud.classes = classes;

@@ -39,15 +39,17 @@ std::string cells_of(const Raster& frame) {
   return step(frame.x) + " x " + step(frame.y);
 }
 
-// Where a raster's first post is among those of another.
+// Where a raster's first post is among those of another, but for what writers round corners by.
 int64_t place_on(const Axis& axis, const Axis& grid, const std::string& path,
                  const std::string& first) {
+  constexpr Wide kRounding = 1000000;  // parts of a cell
   const LatticeMap map = map_between(axis, grid);
-  if (map.shift % map.step != 0) {
+  const Wide place = map.nearest(0);
+  if (magnitude(map.shift - place * map.step) > map.step / kRounding) {
     throw Error(path + ": its posts lie between those of " + first +
                 ": bring all onto one grid with gdalwarp -tr -tap");
   }
-  return static_cast<int64_t>(map.shift / map.step);
+  return static_cast<int64_t>(place);
 }
 
 void expect_same_cells(const Raster& frame, const Raster& grid, const std::string& path,

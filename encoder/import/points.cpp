@@ -17,10 +17,11 @@ struct Meaning {
   bool is_degree;
 };
 
-// Without quotes, and without a unit in brackets.
+// Without quotes, the slashes that CloudCompare begins with, and a unit in brackets.
 std::string plain_name(std::string_view field) {
   std::string name = lower_case(std::string(field.substr(0, field.find_first_of("(["))));
-  name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
+  const auto is_mark = [](char c) { return c == '"' || c == '/'; };
+  name.erase(std::remove_if(name.begin(), name.end(), is_mark), name.end());
   return name;
 }
 

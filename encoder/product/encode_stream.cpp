@@ -147,14 +147,15 @@ std::string pack_that_is_finer(const PointCloud& cloud) {
 [[noreturn]] void refuse_lattice(const Source& source, const Attempt& last,
                                  const EncodeOptions& options) {
   const std::string step = to_string(last.encoded.laid.xy_step);
-  throw Error(
-      "--max-error " + to_string(*options.lattice.max_error) + " is not kept where " +
-      std::to_string(last.missed) + " points truly lie, by at most " +
-      to_string(last.encoded.true_places->max_error) + ": --xy-step " + step + " is too coarse; " +
-      (options.lattice.xy_step ? std::string("leave it out, ")
-                               : "16 bits hold no finer one: " +
-                                     pack_that_is_finer(std::get<PointCloud>(source)) + ", ") +
-      "or ask for less with --bound-at lattice");
+  throw Error("--max-error " + to_string(*options.lattice.max_error) +
+              " is not kept where points truly lie, by " +
+              to_string(last.encoded.true_places->max_error) + " at most, at " +
+              std::to_string(last.missed) + " of them: --xy-step " + step + " is too coarse; " +
+              (options.lattice.xy_step
+                   ? std::string("leave it out, ")
+                   : "16 bits hold no finer one: " +
+                         pack_that_is_finer(std::get<PointCloud>(source)) + ", ") +
+              "or ask for less with --bound-at lattice");
 }
 
 // Attempts until points keep the bound where they truly lie, as many as are allowed.

@@ -126,6 +126,25 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "3"));
 }
 
+TEST_CASE("mosaic: corners may be rounded by a millionth of a cell") {
+  const Session session;
+  session.write("a.asc", grid(100, 50, "1 2 3\n4 5 6"));
+  const auto moved = [](const std::string& x) {
+    return "ncols 3\nnrows 2\nxllcenter " + x + "\nyllcenter 50\ncellsize 2\n7 8 9\n10 11 12\n";
+  };
+  for (const char* const x : {"105.999998", "106.000002"}) {
+    session.write("b.asc", moved(x));
+    REQUIRE(session.run("encode a.asc b.asc -o t.mtin").code == 0);
+    CHECK(session.run("verify t.mtin a.asc b.asc").code == 0);
+    REQUIRE(session.run("decode t.mtin -o back.asc").code == 0);
+    CHECK(contains(session.read("back.asc"),
+                   "xllcenter 100\nyllcenter 50\ncellsize 2\nNODATA_value -9999\n1 2 3 7 8 9\n"
+                   "4 5 6 10 11 12\n"));
+  }
+  session.write("b.asc", moved("106.000003"));
+  CHECK(contains(session.failure("encode a.asc b.asc -o t.mtin"), "b.asc: its posts lie between"));
+}
+
 TEST_CASE("mosaic: clouds are joined, with the decimals of both") {
   const Session session;
   session.write("a.xyz", "0 0 1\n2 0 1\n0 2 1.5\n");

@@ -214,6 +214,11 @@ class Driver(unittest.TestCase):
             refused("rows do not run from west to east: .* gdalwarp", transform=transform)
         refused("no complex numbers: -ot Float64", kind=gdal.GDT_CFloat32)
         refused("refused.mtin: is a stream; a pack, which has tiles, is named .mtp", options=["TILE_VERTICES=50"])
+        signed = memory.Create("", 4, 4, 1, gdal.GDT_Byte)
+        signed.SetGeoTransform(TRANSFORM)
+        signed.GetRasterBand(1).SetMetadataItem("PIXELTYPE", "SIGNEDBYTE", "IMAGE_STRUCTURE")
+        with self.assertRaisesRegex(RuntimeError, "signed bytes, which GDAL reads as unsigned"):
+            driver.CreateCopy(self.path("refused.mtin"), signed)
         refused("max_error: much", options=["MAX_ERROR=much"])
         refused("heights", epsg=4326)
         refused("units: :fathom is not a unit", unit="fathom")

@@ -71,6 +71,11 @@ TEST_CASE("gdal: what cannot be read is refused with advice") {
   CHECK(grid.error(vrt(kPlace, "\"Float32\"><Scale>2</Scale>")).find("gdal_translate -unscale") !=
         std::string::npos);
   CHECK(grid.error(vrt(kPlace, "\"CFloat32\">")).find("type CFloat32") != std::string::npos);
+  CHECK(grid.error(vrt(kPlace,
+                       "\"Byte\"><Metadata domain=\"IMAGE_STRUCTURE\"><MDI key=\"PIXELTYPE\">"
+                       "SIGNEDBYTE</MDI></Metadata>"))
+            .find("signed bytes, which GDAL reads as unsigned: \"gdal_calc.py") !=
+        std::string::npos);
   CHECK(grid.error("nonsense").find("t.vrt: GDAL cannot open it: ") == 0);
   CHECK(grid.session.failure("encode nosuch.tif -o new.mtin") ==
         "nosuch.tif: GDAL cannot open it: No such file or directory\n");

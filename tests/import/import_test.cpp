@@ -190,6 +190,7 @@ TEST_CASE("points: separators, comments, headers, two columns") {
   CHECK(points("y x\n1 2\n3 4\n") == "2,1,0 4,3,0");
   CHECK(points("Northing [m], Easting (m) ,\"Height above sea\"\r\n1,2,3\n") == "2,1,3");
   CHECK(points("Y[ft] X[ft] Z[ft]\n1 2 3\n") == "2,1,3");
+  CHECK(points("//Y X Z R G B\n1 2 3 255 255 0\n") == "2,1,3");
   CHECK(points("x,y,z\n1,2,3,255\n") == "1,2,3");
   CHECK(import_points("c", "lat,lon\n1,2\n").reference.horizontal_unit == Unit::kDegree);
   CHECK(import_points("c", "y,x\n1,2\n").reference.horizontal_unit == Unit::kUnknown);

@@ -112,8 +112,10 @@ TEST_CASE("las: classes that are asked for; without ground all but noise") {
   CHECK(text_of(cloud(bytes, ClassSet().set(5).set(7))) == "100200,250,8500 100004,5,-494");
   CHECK(cloud(bytes, ClassSet().set(5).set(7)).classes == ClassSet().set(5).set(7));
   CHECK(cloud(bytes, ClassSet().set()).points.size() == 4);
-  CHECK(error(bytes, ClassSet().set(9)) ==
-        "scan: no point is taken; left out: class 2 (2), 5 (1), 7 (1), withheld (1)");
+  CHECK(
+      error(bytes, ClassSet().set(9)) ==
+      "scan: no point is taken; left out: class 2 (2), 5 (1), 7 (1), withheld (1): --classes takes "
+      "others");
   const PointCloud rest =
       cloud(las(4, 6, {{{0, 0, 0}, 1}, {{1, 0, 0}, 7}, {{2, 0, 0}, 18}, {{3, 0, 0}, 200}}).bytes());
   CHECK(text_of(rest) == "100000,0,-5 100003,0,-5");
@@ -197,7 +199,7 @@ TEST_CASE("las: whatever is wrong is told") {
   CHECK(with(105, uint16_t{27}) == "scan: has points of 27 bytes; format 1 takes 28");
   CHECK(with(107, uint32_t{6}) == "scan: cut off: has 5 of 6 points");
   CHECK(with(96, uint32_t{0xFFFFFFFF}) == "scan: cut off: has 0 of 5 points");
-  CHECK(with(107, uint32_t{0}) == "scan: no point is taken");
+  CHECK(with(107, uint32_t{0}) == "scan: holds no point");
   CHECK(with(100, uint32_t{1000}).find("scan: cut off") == 0);
   for (const double scale : {0.0, -0.01, 1e7, 1e-300, 0.0 / 0.0}) {
     CHECK(with(131, scale) == "scan: the header's scale or offset of an axis is out of range");
