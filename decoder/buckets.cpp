@@ -6,7 +6,7 @@
 // The box is divided into side x side buckets of equal size, row by row from the south-west.
 struct microtin_buckets {
   uint16_t west, south, width, height;  // of the vertices' box, in lattice steps
-  uint32_t x_scale, y_scale;            // buckets per lattice step, 16 fractional bits
+  uint32_t x_scale, y_scale;            // buckets per lattice step, 16 fractional bits: < 2^27
   uint32_t side;
 };
 

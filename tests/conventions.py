@@ -5,6 +5,7 @@ length   the README has at most 200 lines
 links    files that the documents link to are there
 licence  every source names its licence
 faults   the text that a planted fault replaces stands once in its source
+locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
 """
 
 import re
@@ -16,6 +17,7 @@ MOST_LINES = 200
 LICENCE = "SPDX-License-Identifier: MIT"
 SLASHES = (".c", ".h", ".cpp", ".hpp", ".js")
 HASHES = (".py", ".sh", ".cmake", "CMakeLists.txt")
+COMMA = re.compile(r"\b(sto[dfl]|stold|strto[df]|strtold|atof)\b|\bsn?printf\(.*%[-+ #0-9.*]*[aefg]", re.I)
 
 
 def files(folder):
@@ -78,9 +80,21 @@ def faults(folder):
     return found
 
 
+def locale(folder):
+    """The commands, and the pictures that they draw, run in the C locale."""
+    return [
+        f"{path.relative_to(folder)}:{number} follows the locale"
+        for path in files(folder / "encoder")
+        if path.name.endswith((".cpp", ".hpp")) and path.parent.name not in ("cli", "picture")
+        for number, line in enumerate(lines_of(path), 1)
+        if COMMA.search(line)
+    ]
+
+
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    found = {"length": length, "links": links, "licence": licence, "faults": faults}[sys.argv[1]](folder)
+    checks = {"length": length, "links": links, "licence": licence, "faults": faults, "locale": locale}
+    found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)
     sys.exit(1 if found else 0)

@@ -9,7 +9,7 @@
 namespace microtin::cli {
 
 std::string number(Decimal value) {
-  return json(std::stod(to_string(value)));
+  return json(real(value));
 }
 
 std::string_view text_of(DuplicateRule rule) {

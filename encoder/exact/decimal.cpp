@@ -137,4 +137,11 @@ std::string to_string(Decimal value) {
   return negative ? "-" + text : text;
 }
 
+double real(Decimal value) {
+  const std::string text = to_string(value);
+  double nearest = 0;
+  std::from_chars(text.data(), text.data() + text.size(), nearest);
+  return nearest;
+}
+
 }  // namespace microtin::exact

@@ -48,6 +48,9 @@ std::optional<Decimal> shortest_decimal(double value, int max_decimals = kMaxDec
 // "-0.25": shortest form that reads back equal.
 std::string to_string(Decimal value);
 
+// The nearest binary number.
+double real(Decimal value);
+
 }  // namespace microtin::exact
 
 #endif

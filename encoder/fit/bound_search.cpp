@@ -3,8 +3,10 @@
 #include "encoder/fit/bound_search.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
+#include <cstddef>
+#include <string_view>
 
 namespace microtin::fit {
 namespace {
@@ -18,16 +20,12 @@ constexpr double kMargin = 0.1;    // of the way between two ends: nearer to one
 constexpr int kHalving = 5;        // margins: bisection
 constexpr double kFarOff = 0.1;    // of the logarithm of a size
 
-double value_of(Decimal d) {
-  return static_cast<double>(d.mantissa) / std::pow(10.0, d.decimals);
-}
-
 }  // namespace
 
 BoundSearch::BoundSearch(Decimal largest, double guess, double limit)
     : largest_(largest),
-      lowest_(std::log(value_of(largest) * kRange)),
-      highest_(std::log(value_of(largest))),
+      lowest_(std::log(real(largest) * kRange)),
+      highest_(std::log(real(largest))),
       guess_(std::clamp(std::log(guess), lowest_, highest_)),
       limit_(std::log(limit)),
       slope_(kUsualSlope) {}
@@ -38,8 +36,11 @@ Decimal BoundSearch::bound_for(double size) const {
   const double bound = std::clamp(wanted, lowest_, highest_);
   if (bound >= highest_) return largest_;
   char text[32];
-  std::snprintf(text, sizeof text, "%.4e", std::exp(bound));
-  return std::min(parse_decimal(text).value_or(largest_), largest_,
+  const char* const end =
+      std::to_chars(text, text + sizeof text, std::exp(bound), std::chars_format::scientific, 4)
+          .ptr;
+  const std::string_view digits(text, static_cast<std::size_t>(end - text));
+  return std::min(parse_decimal(digits).value_or(largest_), largest_,
                   [](Decimal a, Decimal b) { return !(b <= a); });
 }
 
@@ -60,7 +61,7 @@ double BoundSearch::between_ends(double size) const {
 }
 
 void BoundSearch::add(Decimal bound, std::optional<double> size) {
-  const double at = std::log(value_of(bound));
+  const double at = std::log(real(bound));
   if (!size) {  // larger ones only
     lowest_ = std::min(at + kNearby, highest_);
     guess_ = std::min(at + 1, highest_);

@@ -3,7 +3,7 @@
 #include "encoder/import/text.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <charconv>
 
 #include "encoder/base/error.hpp"
 
@@ -28,9 +28,11 @@ std::string quoted(std::string_view piece) {
 }
 
 std::string not_a_height(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return std::string(text) +
+  char digits[32];
+  const std::string text(
+      digits,
+      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 17).ptr);
+  return text +
          " is not a height in range: if that marks voids, the source must say so: NaN in an array, "
          "else \"gdal_translate -a_nodata " +
          text + '"';

@@ -92,7 +92,7 @@ std::string height_of(int64_t level, Decimal interval, int64_t every) {
   const auto times = [interval](int64_t count) {
     return make_decimal(Wide{count} * interval.mantissa, interval.decimals);
   };
-  return grouped(std::stod(to_string(times(level))), times(every).decimals);
+  return grouped(real(times(level)), times(every).decimals);
 }
 
 void draw_label(Drawing& drawing, const PixelBox& box, const std::string& text, const Label& label,

@@ -24,10 +24,6 @@ constexpr Colour kPaper{1, 1, 1}, kNoTerrain{0.66, 0.66, 0.67}, kHatch{0.53, 0.5
 constexpr double kMargin = 10, kLegendHeight = 36, kRampShare = 0.56, kBarAt = 0.66,
                  kTitleSize = 1.6;  // of other text
 
-double as_number(Decimal value) {
-  return std::stod(to_string(value));
-}
-
 std::string unit_text(Unit unit) {
   const std::string symbol(symbol_of(unit));
   return symbol.empty() ? symbol : " " + symbol;
@@ -118,8 +114,8 @@ std::string facts_of(const Portrait& portrait) {
   text += ", " + count(portrait.bytes) + " bytes";
   if (const std::optional<Accuracy>& accuracy = portrait.metadata.accuracy) {
     const std::string unit = unit_text(portrait.metadata.vertical_unit);
-    text += ", largest error " + rounded_text(as_number(accuracy->max_error)) + unit + ", rms " +
-            rounded_text(as_number(accuracy->rms_error)) + unit;
+    text += ", largest error " + rounded_text(real(accuracy->max_error)) + unit + ", rms " +
+            rounded_text(real(accuracy->rms_error)) + unit;
   }
   return text;
 }
@@ -182,7 +178,7 @@ void draw_relief_legend(Drawing& drawing, const Portrait& portrait, const Relief
   draw_scale_bar(drawing, at.side, 0.8 * at.side_room, layout.unit, layout.relief.x_step * ground.x,
                  ground.unit);
   if (!relief.has_water()) return;
-  const double level = as_number(*portrait.metadata.water_level);
+  const double level = real(*portrait.metadata.water_level);
   draw_swatch(drawing, {at.side.x, at.line.y - kCapHeight * layout.unit}, layout.unit, kWater,
               "water " + rounded_text(level) + unit);
 }
@@ -194,8 +190,8 @@ void draw_errors(Canvas& canvas, const Portrait& portrait, const Comparison& com
     map.add(static_cast<double>(x), static_cast<double>(y), above);
   });
   const std::optional<Accuracy>& accuracy = portrait.metadata.accuracy;
-  const double largest = as_number(found.max_error);
-  const double bound = accuracy && accuracy->bound ? as_number(*accuracy->bound) : 0;
+  const double largest = real(found.max_error);
+  const double bound = accuracy && accuracy->bound ? real(*accuracy->bound) : 0;
   const double scale = std::max(largest, bound) > 0 ? std::max(largest, bound) : 1;
   map.draw(canvas, scale);
   const std::string unit = unit_text(portrait.metadata.vertical_unit);
@@ -209,7 +205,7 @@ void draw_errors(Canvas& canvas, const Portrait& portrait, const Comparison& com
               {at.side.x, at.line.y + 11.5 * layout.unit * line}, layout.unit, at.side_room);
   };
   draw_fact(0, "largest", largest);
-  draw_fact(1, "rms", as_number(found.rms_error));
+  draw_fact(1, "rms", real(found.rms_error));
   if (bound > 0) draw_fact(2, "bound", bound);
 }
 

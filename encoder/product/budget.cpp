@@ -67,10 +67,6 @@ Decimal height_range(const Source& source) {
   return make_decimal(Wide{high} - low, height_decimals(source));
 }
 
-double value_of(Decimal d) {
-  return static_cast<double>(d.mantissa) / std::pow(10.0, d.decimals);
-}
-
 // The largest number of two digits that is not larger.
 Decimal rounded_down(Decimal bound) {
   int64_t digit = 1;
@@ -155,8 +151,8 @@ class Budget {
     }
     EncodedStream encoded = encode_measured(source_, options, spending(costs_.greedy));
     if (encoded.verification.posts < kFewPosts) most_ = kMostOfFew;
-    const double error = value_of(encoded.verification.max_error);
-    guess_ = error > 0 ? error * costs_.guess : value_of(largest_) / 1000;
+    const double error = real(encoded.verification.max_error);
+    guess_ = error > 0 ? error * costs_.guess : real(largest_) / 1000;
     const bool exact = error == 0 && of_vertices_;
     if (of_vertices_) keep(std::move(encoded));
     return exact;
@@ -241,7 +237,7 @@ class Budget {
     if (tried_round_) return;
     tried_round_ = true;
     const Decimal bound = *best_bound_, round = rounded_down(bound);
-    if (bound <= round || value_of(round) < kRound * value_of(bound)) return;
+    if (bound <= round || real(round) < kRound * real(bound)) return;
     auto found = approximate_at(round, options_.search, costs_.trial);
     if (found) keep(measured(source_, options_, std::move(*found)));
   }

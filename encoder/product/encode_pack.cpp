@@ -126,10 +126,6 @@ Decimal round_step(double step) {
   return rounded;
 }
 
-double real(Decimal value) {
-  return static_cast<double>(value.mantissa) / static_cast<double>(power_of_ten(value.decimals));
-}
-
 // A step that does better: the points' own, if tiles can be so small, or one by how far the bound
 // is missed, which shrinks with the step until half of the bound makes up for it.
 std::string finer_step(const PointCloud& cloud, Decimal step, Decimal bound, Decimal error) {

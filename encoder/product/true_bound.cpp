@@ -9,7 +9,7 @@
 namespace microtin::product {
 
 TrueBound::TrueBound(const LatticeOptions& options, const SampledSurface& surface)
-    : above_(std::stod(to_string(*options.max_error))),
+    : above_(real(*options.max_error)),
       below_(options.never_below ? 0 : -above_),
       step_(step_of(surface.placement.z)),
       surface_(surface) {}

@@ -35,7 +35,7 @@ class RangeEncoder {
   std::vector<uint8_t> finish();
 
  private:
-  // A bit leaves a range of 2^15 or more, a number one of 2^7.
+  // A bit leaves a range of 2^15 or more, a number one of 2^8.
   void normalise() {
     const uint32_t shift = (31 - highest_bit(range_)) & 24u;
     range_ <<= shift;

@@ -106,7 +106,7 @@ Verification combine(const std::vector<Verification>& parts) {
     all.voids_answered += part.voids_answered;
     if (all.max_error <= part.max_error) all.max_error = part.max_error;
     if (all.max_below <= part.max_below) all.max_below = part.max_below;
-    const double rms = std::stod(to_string(part.rms_error));
+    const double rms = real(part.rms_error);
     squares += rms * rms * static_cast<double>(part.covered);
     sum += mantissa_at(part.mean_error, kMaxDecimals) * static_cast<Wide>(part.covered);
     all.within_bound = all.within_bound && part.within_bound;

@@ -85,6 +85,15 @@ TEST_CASE("to_string and parse_decimal are inverse") {
   CHECK(to_string({-5, 3}) == "-0.005");
 }
 
+TEST_CASE("a decimal's binary number is the nearest") {
+  CHECK(real({0, 0}) == 0);
+  CHECK(real({-25, 2}) == -0.25);
+  CHECK(real({3683392158, 9}) == 3.683392158);
+  CHECK(real({123456789012345678, 9}) == 123456789.012345678);
+  CHECK(real({999999999999999999, 0}) == 999999999999999999.0);
+  CHECK(real({9007199254740993, 9}) == 9007199.254740993);  // its mantissa is no binary number
+}
+
 TEST_CASE("decimals compare by value") {
   CHECK(Decimal{5, 1} <= Decimal{1, 0});
   CHECK_FALSE(Decimal{11, 1} <= Decimal{1, 0});

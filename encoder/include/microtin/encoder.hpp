@@ -99,7 +99,7 @@ struct Options {
   std::string max_error;    /* the largest distance of the surface from any height; "": see below */
   bool never_below = false; /* with a bound: no height is below the terrain */
   std::string z_step;       /* of heights; "": the one that suits the bound, or the terrain's own */
-  std::string xy_step;      /* of places, for streams; "": the terrain's own. Posts: in posts */
+  std::string xy_step;      /* of places; "": the terrain's own. Posts: in posts, not in packs */
   BoundAt bound_at = BoundAt::kPoints;
   Duplicates duplicates = Duplicates::kMiddle;
   Search search = Search::kNormal;
