@@ -55,13 +55,15 @@ bool is_virtual(const std::string& path) {
   return at == 0 || (at != path.npos && (path[at - 1] == ':' || path[at - 1] == '"'));
 }
 
-// GDAL's own words, which begin with the file's name in one way or another.
+// GDAL's own words, which begin with the file's name in one way or another. It may know formats
+// whose drivers are gone.
 std::string reason(const std::string& path) {
-  const std::string text = CPLGetLastErrorMsg();
+  std::string text = CPLGetLastErrorMsg();
   for (const std::string& name : {path + ": ", '`' + path + "' ", '\'' + path + "' "}) {
-    if (text.compare(0, name.size(), name) == 0) return text.substr(name.size());
+    if (text.compare(0, name.size(), name) == 0) text.erase(0, name.size());
   }
-  return text;
+  if (text.find("not recognized as") == text.npos) return text;
+  return text + " \"gdal_translate IN OUT.tif\" makes a GeoTIFF of what is not read here";
 }
 
 Dataset open(const std::string& path, Indirect indirect) {

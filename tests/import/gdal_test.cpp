@@ -81,7 +81,8 @@ TEST_CASE("gdal: what cannot be read is refused with advice") {
         "nosuch.tif: GDAL cannot open it: No such file or directory\n");
   grid.session.write("text.tif", "nonsense");
   CHECK(grid.session.failure("encode text.tif -o new.mtin") ==
-        "text.tif: GDAL cannot open it: not recognized as a supported file format.\n");
+        "text.tif: GDAL cannot open it: not recognized as a supported file format. "
+        "\"gdal_translate IN OUT.tif\" makes a GeoTIFF of what is not read here\n");
 }
 
 TEST_CASE("gdal: rows from south to north") {
