@@ -12,7 +12,7 @@ namespace microtin {
 constexpr uint8_t kPackMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'p', 'k'};
 constexpr uint8_t kPackVersion = 4;
 constexpr uint32_t kPackIdentityBytes = 6;
-constexpr uint32_t kPackFixedBytes = 36;
+constexpr uint32_t kPackFixedBytes = 40;
 constexpr uint32_t kPackEntryBytes = 16;
 constexpr uint32_t kPackExtentMost = 0x7FFFFFFF;
 
@@ -98,6 +98,11 @@ inline bool read_pack_header(const uint8_t* bytes, PackHeader* header) {
          grid.height != 0 && grid.x_max != 0 && grid.x_max <= kPackExtentMost && grid.y_max != 0 &&
          grid.y_max <= kPackExtentMost && header->most_vertices <= kMaxVertices &&
          static_cast<uint64_t>(tile_columns(grid)) * tile_rows(grid) <= 0xFFFFFFFF;
+}
+
+// The vertices of all tiles together, which devices have no use for.
+inline uint32_t read_all_vertices(const uint8_t* header) {
+  return read_u32(header + 36);
 }
 
 // The placement behind the fixed part, which must fill its bytes.

@@ -81,11 +81,13 @@ Bytes write_pack_header(const PackContent& pack) {
   const Bytes notes = write_notes(pack.metadata);
   int16_t lowest = INT16_MAX, highest = INT16_MIN;
   uint32_t most = 0;
+  uint64_t all = 0;
   for (const TileSummary& tile : pack.tiles) {
     if (tile.bytes == 0) continue;
     lowest = std::min(lowest, tile.lowest);
     highest = std::max(highest, tile.highest);
     most = std::max(most, tile.vertices);
+    all += tile.vertices;
   }
   Bytes header(kPackMagic, kPackMagic + sizeof kPackMagic);
   append_number(header, kPackVersion, 2);
@@ -100,6 +102,7 @@ Bytes write_pack_header(const PackContent& pack) {
   append_number(header, pack.grid.y_max, 4);
   append_number(header, most, 4);
   append_number(header, compact_bytes(pack.tiles, most), 4);
+  append_number(header, std::min<uint64_t>(all, UINT32_MAX), 4);
   header.insert(header.end(), placement.begin(), placement.end());
   header.insert(header.end(), notes.begin(), notes.end());
   append_check(header, 0);
@@ -163,6 +166,7 @@ void PackFile::read_header() {
   const uint32_t end = pack_index_start(header_);
   const Bytes header = bytes_at(*bytes_, 0, end);
   const uint8_t* const data = header.data();
+  vertices_ = read_all_vertices(data);
   header_check_ = read_u32(data + end - kCheckBytes);
   if (crc32(0, data, end - kCheckBytes) != header_check_) throw Error(describe(MICROTIN_CHECKSUM));
   expect(legal);
@@ -203,12 +207,6 @@ uint32_t PackFile::vertices(uint32_t number) const {
     const Bytes start = bytes_at(*bytes_, entry.offset, std::min(entry.size, kHeaderMost));
     return stream::read_header(start).info.vertices;
   });
-}
-
-uint64_t PackFile::vertices() const {
-  uint64_t sum = 0;
-  for (uint32_t tile = 0; tile < entries_.size(); ++tile) sum += vertices(tile);
-  return sum;
 }
 
 std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {

@@ -61,10 +61,11 @@ class PackFile {
   const std::vector<PackEntry>& entries() const { return entries_; }  // by tile
   uint64_t bytes() const { return bytes_->size(); }
 
-  // Of a tile, as its stream's header says, and of all. Throws Error naming the tile of which the
-  // header is damaged.
+  // Of all tiles, those on borders once for each; 2^32 - 1: so many or more.
+  uint32_t vertices() const { return vertices_; }
+
+  // Of a tile, as its stream's header says. Throws Error naming the tile if that is damaged.
   uint32_t vertices(uint32_t tile) const;
-  uint64_t vertices() const;
 
   // A tile, decoded; nothing if it has no terrain. Throws Error naming the tile if it is damaged,
   // not the one in the index, or leaves its box.
@@ -81,7 +82,7 @@ class PackFile {
 
   std::unique_ptr<ByteSource> bytes_;
   PackHeader header_{};
-  uint32_t header_check_ = 0;
+  uint32_t header_check_ = 0, vertices_ = 0;
   Metadata metadata_;
   std::vector<PackEntry> entries_;
 };

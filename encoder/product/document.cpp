@@ -98,8 +98,7 @@ uint64_t Document::bytes() const {
 }
 
 uint64_t Document::vertices() const {
-  if (pack() == nullptr) return microtin_vertex_count(stream()->terrain.mesh());
-  return with_file_context(path_, [&] { return pack()->vertices(); });
+  return pack() != nullptr ? pack()->vertices() : microtin_vertex_count(stream()->terrain.mesh());
 }
 
 uint64_t Document::tiles() const {

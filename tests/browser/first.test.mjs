@@ -12,7 +12,7 @@ const ENTRY = 16, AHEAD = 4096, PIECE = 1024; // PACK.md, section 2; src/source.
 
 // Where the index begins: behind the fixed header, placement, notes and check.
 function indexOf(bytes) {
-  return 36 + bytes[6] + (bytes[8] | (bytes[9] << 8)) + 4;
+  return 40 + bytes[6] + (bytes[8] | (bytes[9] << 8)) + 4;
 }
 
 // The bytes of a tile's stream up to the end of its first section.

@@ -164,15 +164,17 @@ TEST_CASE("packs: the header says what the tile that needs most takes in compact
     PackOptions options = pack_options(6, 2000);
     options.tile_steps = width;
     const PackFile pack(write_pack(encode_pack(rough_raster(width + 1, 33), options)));
-    uint32_t most = 0;
+    uint32_t most = 0, all = 0;
     for (uint32_t number = 0; number < pack.entries().size(); ++number) {
       const CompactForm form = compact_form(*pack.tile(number));
       CHECK(form.is_narrow == (width < 256));
       CHECK(form.vertices == pack.vertices(number));
+      all += form.vertices;
       most = std::max(most, static_cast<uint32_t>(bytes_of(form, 16)));
     }
     CHECK(most != 0);
     CHECK(pack.header().compact_bytes == most);
+    CHECK(pack.vertices() == all);
     CHECK(most <= promised_compact_bytes(pack.header().most_vertices, width < 256, 16));
   }
 }
