@@ -65,7 +65,7 @@ class PackFile {
   uint32_t vertices() const { return vertices_; }
 
   // Of a tile, as its stream's header says. Throws Error naming the tile if that is damaged.
-  uint32_t vertices(uint32_t tile) const;
+  uint32_t vertices(uint32_t number) const;
 
   // A tile, decoded; nothing if it has no terrain. Throws Error naming the tile if it is damaged,
   // not the one in the index, or leaves its box.
