@@ -114,13 +114,16 @@ TEST_CASE("asc: whatever is wrong is told with its line") {
   CHECK(grid_error(kHeader + "1 2 3\n4 5 6\n7\n") ==
         "grid:8: the grid goes on after its 6 heights");
   CHECK(grid_error(kHeader + "1 2 3\n4 x 6\n") == "grid:7: \"x\" is not a number in range");
+  const std::string rows = "1 2 3\n4 MARK 6\n";
   for (const std::string mark : {"inf", "-3.4e38"}) {
-    CHECK(grid_error(kHeader + "1 2 3\n4 " + mark + " 6\n") ==
+    const std::string marked = std::string(rows).replace(rows.find("MARK"), 4, mark);
+    CHECK(grid_error(kHeader + marked) ==
           "grid:7: \"" + mark +
               "\" is not a number in range; if it marks voids, the header's NODATA_value must be "
               "the same");
-    CHECK(import_asc("grid", kHeader + "NODATA_value " + mark + "\n1 2 3\n4 " + mark + " 6\n")
-              .heights == std::vector<int64_t>{4, kVoidHeight, 6, 1, 2, 3});
+    std::string declared = kHeader;
+    declared.append("NODATA_value ").append(mark).append("\n").append(marked);
+    CHECK(import_asc("grid", declared).heights == std::vector<int64_t>{4, kVoidHeight, 6, 1, 2, 3});
   }
   CHECK(grid_error(kHeader + "1,5 2 3\n4 5 6\n") ==
         "grid:6: \"1,5\" is not a number in range; decimals are written with a point");
