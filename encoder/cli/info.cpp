@@ -258,7 +258,7 @@ void run_info(const std::string& input, bool json) {
   refuse_overwriting({input}, "-");
   const Document document(input);
   if (document.pack() != nullptr) {
-    print(text_of_pack(*document.pack(), json));
+    print(with_file_context(input, [&] { return text_of_pack(*document.pack(), json); }));
   } else {
     print(text_of(with_file_context(input, [&] { return report_of(*document.stream()); }), json));
   }

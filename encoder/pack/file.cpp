@@ -225,6 +225,19 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
   });
 }
 
+void PackFile::expect_as_stated() const {
+  expect_vertices();
+  expect_compact_bytes();
+}
+
+void PackFile::expect_vertices() const {
+  uint64_t all = 0;
+  for (uint32_t number = 0; number < entries_.size(); ++number) all += vertices(number);
+  if (std::min<uint64_t>(all, UINT32_MAX) == vertices_) return;
+  throw Error("the header says that all tiles have " + std::to_string(vertices_) +
+              " vertices; they have " + std::to_string(all));
+}
+
 void PackFile::expect_compact_bytes() const {
   if (header_.compact_bytes == 0) return;
   const uint32_t bits = index_bits(header_.most_vertices);

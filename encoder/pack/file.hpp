@@ -71,14 +71,16 @@ class PackFile {
   // not the one in the index, or leaves its box.
   std::optional<DecodedTerrain> tile(uint32_t number) const;
 
-  // Decodes all tiles, and throws Error unless the one that takes most in compact form takes what
-  // the header says, if it says so.
-  void expect_compact_bytes() const;
+  // Decodes all tiles, and throws Error unless they have as many vertices as the header says, and
+  // the one that takes most in compact form takes what it says, if it says so.
+  void expect_as_stated() const;
 
  private:
   void read_header();
   void read_index();
   void read_entry(const uint8_t* at);
+  void expect_vertices() const;
+  void expect_compact_bytes() const;
 
   std::unique_ptr<ByteSource> bytes_;
   PackHeader header_{};

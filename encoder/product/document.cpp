@@ -172,7 +172,7 @@ Original::Judgement Original::judge(const Progress& progress) const {
   const int decimals = raster() != nullptr ? raster()->decimals : cloud()->z_decimals;
   WaterGauge gauge(decimals, promised.water_level);
   const Verification found = with_file_context(document_.path(), [&] {
-    if (document_.pack() != nullptr) document_.pack()->expect_compact_bytes();
+    if (document_.pack() != nullptr) document_.pack()->expect_as_stated();
     return compare(promised.bound, progress,
                    promised.water_level ? gauge.visitor() : PostVisitor());
   });

@@ -13,9 +13,12 @@
 
 namespace microtin::tests {
 
+inline void write_u32(uint8_t* bytes, uint32_t value) {
+  for (int i = 0; i < 4; ++i) bytes[i] = static_cast<uint8_t>(value >> 8 * i);
+}
+
 inline void write_check(uint8_t* bytes, size_t from, size_t at) {
-  const uint32_t check = crc32(0, bytes + from, at - from);
-  for (size_t i = 0; i < kCheckBytes; ++i) bytes[at + i] = static_cast<uint8_t>(check >> 8 * i);
+  write_u32(bytes + at, crc32(0, bytes + from, at - from));
 }
 
 // Sets magic, version, and the check of the header and of every section that is there whole. False

@@ -25,10 +25,6 @@ using namespace microtin::tests;
 
 constexpr uint32_t kCapacity = 120;
 
-void write_u32(uint8_t* bytes, uint32_t value) {
-  for (int i = 0; i < 4; ++i) bytes[i] = static_cast<uint8_t>(value >> 8 * i);
-}
-
 // Makes the checks of streams, entries and header right again, as far as lengths allow.
 void repair_pack(uint8_t* bytes, size_t size) {
   if (size < kPackFixedBytes) return;

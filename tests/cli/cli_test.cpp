@@ -340,6 +340,10 @@ TEST_CASE("cli: packs") {
   damaged[damaged.size() - 9] ^= 4;
   session.write("damaged.mtp", damaged);
   CHECK(contains(session.failure("decode damaged.mtp -o out.ply"), "damaged.mtp: tile "));
+  const std::size_t first = damaged.find("mtin");
+  damaged[first + 7] ^= 4;  // in its header
+  session.write("damaged.mtp", damaged);
+  CHECK(contains(session.failure("info damaged.mtp"), "damaged.mtp: tile 0: "));
 }
 
 TEST_CASE("cli: packs of points") {

@@ -185,7 +185,7 @@ TEST_CASE("packs: what the header says of compact forms is compared with the til
   const auto say = [&](uint32_t stated) {
     put_number(bytes, 32, stated, 4);
     repair_checks(bytes);
-    PackFile(bytes).expect_compact_bytes();
+    PackFile(bytes).expect_as_stated();
   };
   CHECK_NOTHROW(say(needed));
   CHECK_NOTHROW(say(0));  // nothing
@@ -203,6 +203,18 @@ TEST_CASE("a stream that takes more in compact form than is promised is not writ
   CHECK_NOTHROW(expect_promised({100, promised, true}));
   CHECK_THROWS_AS(expect_promised({100, promised + 1, true}), Error);
   CHECK_THROWS_AS(expect_promised({100, promised + 1, false}), Error);
+}
+
+TEST_CASE("packs: how many vertices the header says is compared with the tiles") {
+  Bytes bytes = write_pack(encode_pack(rough_raster(61, 33), pack_options(6, 200)));
+  const uint32_t all = PackFile(bytes).vertices();
+  CHECK_NOTHROW(PackFile(bytes).expect_as_stated());
+  put_number(bytes, 36, all + 1, 4);
+  repair_checks(bytes);
+  const std::string message =
+      "have " + std::to_string(all + 1) + " vertices; they have " + std::to_string(all);
+  CHECK_THROWS_WITH_AS(PackFile(bytes).expect_as_stated(), doctest::Contains(message.c_str()),
+                       Error);
 }
 
 TEST_CASE("packs: a tile that takes more in compact form than is promised is too large") {

@@ -124,7 +124,7 @@ static inline microtin_status microtin_pack_service(microtin_pack* pack,
  * with its number and
  *   CHECKSUM    what was read is damaged, or is another tile's or another pack's
  *   MALFORMED   it is undamaged and breaks a rule
- *   TOO_BIG     it has more vertices than a slot holds
+ *   TOO_BIG     what lies in its place has more vertices than a slot holds
  *   TRUNCATED   the pack ends before it does
  * else 0. */
 int microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile,
