@@ -138,7 +138,7 @@ void centre(Surface& surface, Decimation& decimation, std::size_t most, Fitted& 
     const Progress part = options.progress.part(static_cast<double>(i) / kCentringRounds,
                                                 static_cast<double>(i + 1) / kCentringRounds);
     decimation.centre(mean, std::min(kNear * (i + 1), kFar), part);
-    HeightChoice heights(surface, options.effort.degree);
+    HeightChoice heights(surface, usual_degree(options.effort));
     Fitted next = with_cheap_heights(surface, heights, options);
     balance(surface, heights, most, next, options);
     if (next.bytes > most) return;
@@ -151,7 +151,7 @@ void centre(Surface& surface, Decimation& decimation, std::size_t most, Fitted& 
 // nevertheless.
 Tin finished(Surface& surface, Decimation& decimation, const Tin& before,
              const SimplifyOptions& options) {
-  HeightChoice heights(surface, options.effort.degree);
+  HeightChoice heights(surface, usual_degree(options.effort));
   Fitted found = with_cheap_heights(surface, heights, options);
   const std::size_t allowed = bytes_of(before, options);
   if (found.bytes > allowed) return before;

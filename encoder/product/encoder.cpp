@@ -147,7 +147,8 @@ product::EncodeOptions options_of(const Options& options) {
                                                                 : product::BoundAt::kTruePlaces;
   all.lattice.duplicates = rule_of(options.duplicates);
   all.search = search_of(options.search);
-  expect(options.degree >= kMinDegree && options.degree <= kMaxDegree, "degree: 6 .. 32");
+  expect(options.degree == 0 || (options.degree >= kMinDegree && options.degree <= kMaxDegree),
+         "degree: 6 .. 32");
   all.effort = {options.degree, decoding_of(options.decoding)};
   all.reference.horizontal_epsg = options.horizontal_epsg;
   all.reference.vertical_epsg = options.vertical_epsg;

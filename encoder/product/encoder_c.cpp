@@ -105,7 +105,7 @@ Options common_options(const microtin_options& given) {
   options.z_step = text_of(given.z_step);
   options.xy_step = text_of(given.xy_step);
   options.search = choice("search", given.search, options.search, Search::kBest);
-  if (given.degree != 0) options.degree = given.degree;
+  options.degree = given.degree;
   options.decoding = choice("decoding", given.decoding, options.decoding, Decoding::kDense);
   options.bound_at = choice("bound_at", given.bound_at, options.bound_at, BoundAt::kLattice);
   options.duplicates =

@@ -20,6 +20,10 @@
 namespace microtin::stream {
 namespace {
 
+// Fewer phases may save a smaller terrain more bytes than wide free regions cost.
+constexpr std::size_t kFewVertices = 2000;
+constexpr uint32_t kWideDegree = 20;
+
 // Void triangles, by their corners from the smallest on.
 using VoidSet = std::set<std::tuple<Point, Point, Point>>;
 
@@ -149,7 +153,7 @@ std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& meta
 Contract contract_of(const Tin& tin, const Effort& effort, Origin origin) {
   Contract contract{};
   contract.vertices = static_cast<uint32_t>(tin.vertices.size());
-  contract.degree = effort.degree;
+  contract.degree = usual_degree(effort);
   contract.decoding = effort.decoding;
   contract.has_voids = !tin.voids.empty();
   contract.odd_origin_x = origin.odd_x;
@@ -194,6 +198,36 @@ uint64_t fingerprint_of(const microtin_mesh* mesh) {
   return fingerprint.sum();
 }
 
+// A stream that was not decoded yet, and what its decoder should make of it.
+struct Draft {
+  std::vector<uint8_t> stream;
+  uint64_t fingerprint;
+};
+
+Draft draft_of(const Tin& tin, const VoidSet& voids, const Metadata& metadata,
+               const Contract& contract) {
+  std::vector<Index> numbers;
+  Triangulation triangulation(places_of(tin.vertices), numbers);
+  std::vector<Vertex> vertices;
+  vertices.reserve(numbers.size());
+  for (const Index number : numbers) vertices.push_back(tin.vertices[number]);
+  const uint64_t fingerprint = fingerprint_of(triangulation.mesh(), vertices, voids);
+  WritingCoder coder(vertices, breadth_first_order(triangulation, contract.degree), voids);
+  return {write_stream(contract, metadata, coder, std::move(triangulation).take_arrays()),
+          fingerprint};
+}
+
+Draft smallest_draft(const Tin& tin, const Metadata& metadata, const Effort& effort,
+                     Origin origin) {
+  const VoidSet voids = void_set(tin);
+  Contract contract = contract_of(tin, effort, origin);
+  Draft usual = draft_of(tin, voids, metadata, contract);
+  if (effort.degree != 0 || tin.vertices.size() >= kFewVertices) return usual;
+  contract.degree = kWideDegree;
+  Draft wide = draft_of(tin, voids, metadata, contract);
+  return wide.stream.size() < usual.stream.size() ? std::move(wide) : std::move(usual);
+}
+
 }  // namespace
 
 std::string name_of(Decoding decoding) {
@@ -206,19 +240,10 @@ Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effor
   if (tin.vertices.size() > kMaxVertices) {
     throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
   }
-  std::vector<Index> numbers;
-  Triangulation triangulation(places_of(tin.vertices), numbers);
-  std::vector<Vertex> vertices;
-  vertices.reserve(numbers.size());
-  for (const Index number : numbers) vertices.push_back(tin.vertices[number]);
-  const VoidSet voids = void_set(tin);
-  const uint64_t expected = fingerprint_of(triangulation.mesh(), vertices, voids);
-  WritingCoder coder(vertices, breadth_first_order(triangulation, effort.degree), voids);
-  std::vector<uint8_t> stream = write_stream(contract_of(tin, effort, origin), metadata, coder,
-                                             std::move(triangulation).take_arrays());
+  auto [stream, fingerprint] = smallest_draft(tin, metadata, effort, origin);
   DecodedTerrain decoded = on_our_own([&] { return DecodedTerrain(stream); });
-  if (microtin_vertex_count(decoded.mesh()) != vertices.size() ||
-      fingerprint_of(decoded.mesh()) != expected) {
+  if (microtin_vertex_count(decoded.mesh()) != tin.vertices.size() ||
+      fingerprint_of(decoded.mesh()) != fingerprint) {
     throw InternalFault("the stream does not decode to the terrain it was made from");
   }
   return {std::move(stream), std::move(decoded)};

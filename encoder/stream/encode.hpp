@@ -21,11 +21,19 @@ constexpr Decoding kDecodings[] = {Decoding::kQuick, Decoding::kBalanced, Decodi
 // quick, balanced or dense.
 std::string name_of(Decoding decoding);
 
-// What smaller streams may cost. Both are at their best for most terrain.
+// What smaller streams may cost.
 struct Effort {
-  uint32_t degree = 10;  // most triangles around a vertex when it is inserted: 6 .. 32
+  // Most triangles around a vertex when it is inserted: 6 .. 32. 0: usual_degree, or, of terrains
+  // of less than 2,000 vertices, 20 if that is smaller.
+  uint32_t degree = 0;
   Decoding decoding = Decoding::kBalanced;
 };
+
+// The given degree, or the one that takes the fewest bytes of most terrain.
+inline uint32_t usual_degree(const Effort& effort) {
+  if (effort.degree != 0) return effort.degree;
+  return effort.decoding == Decoding::kQuick ? 9 : 10;
+}
 
 // Where the lattice of a tile's stream begins on that of its pack, as far as coding wants to know.
 struct Origin {

@@ -11,7 +11,7 @@ import re
 import sys
 from pathlib import Path
 
-SETTINGS = {"quick": "_D10_quick", "balanced": "", "dense": "_D10_dense"}
+SETTINGS = {"quick": "_D9_quick", "balanced": "", "dense": "_D10_dense"}
 VERSION_4 = {  # levels: bits, then what `measured` tells of costs
     "version 4, 1 level": (18.55, 5217, 6355, 8752, 11547),
     "version 4, 2 levels": (18.02, 6746, 7883, 11422, 14735),

@@ -24,7 +24,7 @@ void print_encode_speed() {
       [&] { Triangulation(points, numbers); },
       [&] {
         Triangulation triangulation(points, numbers);
-        breadth_first_order(triangulation, Effort().degree);
+        breadth_first_order(triangulation, usual_degree(Effort()));
       },
       [&] { encode(tin, {}); },
       [&] { DecodedTerrain{stream}; },

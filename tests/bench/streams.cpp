@@ -28,7 +28,7 @@ std::string path_of(const std::string& folder, const std::string& name) {
 
 void write_uniform(const std::string& folder, const Effort& effort) {
   const std::string name =
-      "2_uniform_80k_D" + std::to_string(effort.degree) + "_" + name_of(effort.decoding);
+      "2_uniform_80k_D" + std::to_string(usual_degree(effort)) + "_" + name_of(effort.decoding);
   write(path_of(folder, name), {uniform_tin(80000, 0), {}}, effort);
 }
 
@@ -36,15 +36,15 @@ void write_uniform(const std::string& folder, const Effort& effort) {
 
 void write_curve_streams(const std::string& folder) {
   write(path_of(folder, "2_uniform_80k"), {uniform_tin(80000, 0), {}});
-  write_uniform(folder, {10, Decoding::kQuick});
-  write_uniform(folder, {10, Decoding::kDense});
+  write_uniform(folder, {0, Decoding::kQuick});
+  write_uniform(folder, {0, Decoding::kDense});
   constexpr uint32_t kTileVertices = 2000;
   const std::vector<Dataset> grids = rasters();
   if (grids.empty()) return;
   const Dataset& first = grids.front();
   const Model tile = simplified(read_raster(first), first.options, kTileVertices);
   for (const Decoding decoding : kDecodings) {
-    write(path_of(folder, "tile_" + name_of(decoding)), tile, {Effort().degree, decoding});
+    write(path_of(folder, "tile_" + name_of(decoding)), tile, {0, decoding});
   }
 }
 

@@ -44,7 +44,7 @@ class TerrainRate {
     Row row{label(dataset), number(vertices), number(floor_bits(surface), 2), number(stream.size()),
             number(8 * size / static_cast<double>(vertices), 2)};
     for (const Decoding decoding : {Decoding::kQuick, Decoding::kDense}) {
-      const Effort effort{Effort().degree, decoding};
+      const Effort effort{0, decoding};
       const size_t bytes = encode(model.tin, model.metadata, effort).size();
       decoding_means_[decoding == Decoding::kDense].add(static_cast<double>(bytes) / size);
       row.push_back(number(bytes));

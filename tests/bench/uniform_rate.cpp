@@ -18,7 +18,7 @@ struct Size {
 
 constexpr Size kSizes[] = {{5000, 8, "27.49"},  {10000, 4, "26.50"}, {20000, 4, "25.45"},
                            {40000, 2, "24.39"}, {80000, 2, "23.42"}, {1000000, 1, "-"}};
-constexpr Effort kEfforts[] = {{10, Decoding::kBalanced}, {10, Decoding::kQuick},
+constexpr Effort kEfforts[] = {{10, Decoding::kBalanced}, {9, Decoding::kQuick},
                                {10, Decoding::kDense},    {8, Decoding::kBalanced},
                                {8, Decoding::kQuick},     {32, Decoding::kDense}};
 

@@ -191,7 +191,7 @@ TEST_CASE("notes: the parity of a tile's origin reaches the header, and nothing 
     const Contract contract = read_header(encoding.stream).contract;
     CHECK(contract.odd_origin_x == origin.odd_x);
     CHECK(contract.odd_origin_y == origin.odd_y);
-    CHECK(contract.degree == Effort().degree);
+    CHECK(contract.degree == usual_degree(Effort()));
     const Contract kept = read_header(with_metadata(encoding.stream, full_metadata())).contract;
     CHECK(kept.odd_origin_x == origin.odd_x);
     CHECK(kept.odd_origin_y == origin.odd_y);

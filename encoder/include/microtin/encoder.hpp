@@ -103,7 +103,9 @@ struct Options {
   BoundAt bound_at = BoundAt::kPoints;
   Duplicates duplicates = Duplicates::kMiddle;
   Search search = Search::kNormal;
-  uint32_t degree = 10; /* most triangles around a vertex when it is added: 6 .. 32 */
+  /* Most triangles around a vertex when it is added: 6 .. 32. 0: 10, quick 9, or, of terrains of
+   * less than 2,000 vertices, 20 if that is smaller. */
+  uint32_t degree = 0;
   Decoding decoding = Decoding::kBalanced;
   /* Units of x and y and of heights, "metre", "foot", "us-foot" or "degree": "degree:metre",
    * ":foot"; "": as the codes or the terrain's file say. Heights of unknown unit have that of x and

@@ -33,7 +33,7 @@ constexpr System kAlgorithm1 = {"Algorithm 1", Walk::kTriangles, 6};
 constexpr System kAlgorithm1Degree9 = {"Algorithm 1", Walk::kTriangles, 9};
 constexpr System kAlgorithm1Vertices = {"Algorithm 1, vertex walk", Walk::kVertices, 6};
 constexpr System kAlgorithm2 = {"Algorithm 2", std::nullopt, 6};
-const System kProduct = {"microtin", std::nullopt, Effort().degree};
+const System kProduct = {"microtin", std::nullopt, usual_degree(Effort())};
 
 double per_vertex(uint64_t count, const Sequence& sequence) {
   return static_cast<double>(count) / static_cast<double>(sequence.points.size());

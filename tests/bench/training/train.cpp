@@ -36,7 +36,7 @@ class Costs {
 
   void add(const Tin& tin) {
     for (const Decoding decoding : kDecodings) {
-      add(outcomes_of(encode(tin, {}, {Effort().degree, decoding})));
+      add(outcomes_of(encode(tin, {}, {0, decoding})));
     }
   }
 
