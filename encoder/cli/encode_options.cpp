@@ -159,9 +159,10 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
       "Step of heights; with --max-error, if not given, the one that takes the fewest bytes");
   add_decimal(command, "--xy-step", request->lattice.xy_step, "Step of places (rasters: in posts)");
   command
-      .add_option("--degree", request->effort.degree,
-                  "Most triangles around a vertex when it is added; if not given 10, quick 9, or, of "
-                  "less than 2,000 vertices, 20 if that is smaller")
+      .add_option(
+          "--degree", request->effort.degree,
+          "Most triangles around a vertex when it is added; if not given 10, quick 9, or, of "
+          "less than 2,000 vertices, 20 if that is smaller")
       ->check(CLI::Range(kMinDegree, kMaxDegree));
   add_decoding(command, request->effort.decoding);
   add_preparation(command, request->preparation);
