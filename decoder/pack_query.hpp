@@ -74,7 +74,7 @@ microtin_answer answer_along_side(const microtin_pack& p, uint32_t tile,
   }
   const bool is_known =
       know_border(Form(one), line, Form(other), other_line, vertical,
-                  larger(smaller(begin, end), 0), smaller(larger(begin, end), length));
+                  larger<int32_t>(smaller(begin, end), 0), smaller(larger(begin, end), length));
   return is_known ? MICROTIN_HEIGHT : worst;
 }
 
