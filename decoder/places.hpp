@@ -9,10 +9,6 @@
 
 namespace microtin {
 
-inline microtin_course place(int64_t x, int64_t y) {
-  return microtin_course{x, y, x, y};
-}
-
 // How bad an answer is. No switch: compilers make tables of those, which AVR would keep in RAM.
 inline int rank(microtin_answer answer) {
   if (answer == MICROTIN_NOT_DECODED) return 4;
