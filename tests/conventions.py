@@ -17,7 +17,7 @@ MOST_LINES = 200
 LICENCE = "SPDX-License-Identifier: MIT"
 SLASHES = (".c", ".h", ".cpp", ".hpp", ".js")
 HASHES = (".py", ".sh", ".cmake", "CMakeLists.txt")
-COMMA = re.compile(r"\b(sto[dfl]|stold|strto[df]|strtold|atof)\b|\bsn?printf\(.*%[-+ #0-9.*]*[aefg]", re.I)
+COMMA = re.compile(r"\b(o?stringstream|sto[dfl]|stold|strto[df]|strtold|atof)\b|\bsn?printf\(.*%[-+ #0-9.*]*[aefg]", re.I)
 
 
 def files(folder):
