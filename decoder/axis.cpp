@@ -7,9 +7,8 @@ namespace microtin {
 
 // A place is (value / per_unit * denominator - offset) / numerator steps.
 int64_t half_steps(const microtin_axis& axis, uint32_t most, int64_t value, uint32_t per_unit) {
-  const int64_t limit = static_cast<int64_t>(1) << 61, outside = -2;
-  if (per_unit == 0 || per_unit > (1ul << 24)) return outside;
-  if (axis.offset >= limit || axis.offset <= -limit) return outside;
+  const int64_t outside = -2;
+  if (!is_convertible(axis, per_unit)) return outside;
   const uint64_t denominator = axis.denominator, numerator = axis.numerator;  // < 2^40
   // Split into whole units, the most that are not above, and rest. One Quotient for all divisions
   // saves stack.

@@ -39,6 +39,7 @@ class BorderEdges {
   }
 
  private:
+  // There is one: a hull has three edges at least.
   static typename Form::Cursor first_ghost(const Form& form) {
     uint32_t t = 0;
     while (!form.at(t).is_ghost() || !form.at(t).may_stop()) ++t;

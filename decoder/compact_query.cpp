@@ -151,8 +151,7 @@ void microtin_compact_placement(const microtin_compact* compact, microtin_axis* 
 
 microtin_answer microtin_compact_height_at(const microtin_compact* compact, int32_t x, int32_t y,
                                            uint32_t step_limit, uint32_t* hint, int32_t* height) {
-  const int32_t most = static_cast<int32_t>(kLatticeMax) * 256;
-  if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
+  if (!is_on_lattice(x, y)) return MICROTIN_OUTSIDE;
   const Ring r = ring_of(compact);
   const FinePoint p = seen_from_box(compact, x, y);
   uint32_t number = *hint, limit = step_limit == 0 ? kFirstSteps : step_limit;

@@ -6,11 +6,6 @@
 namespace microtin {
 namespace {
 
-template <class Size>
-Size smaller(Size a, Size b) {
-  return a < b ? a : b;
-}
-
 static_assert(kHeaderMostBytes <= sizeof(ByteWindow::bytes), "a header fits up to its notes");
 
 // Bytes that must be at hand before an item can be handled as a whole, if its payload has so many.
@@ -180,88 +175,10 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
   return status;
 }
 
-// How many vertices a workspace holds, of which `fixed` bytes and `per_four` bytes for four,
-// rounded up, are needed.
-MICROTIN_ONE_COPY microtin_status capacity_of(const void* workspace, size_t size, uint32_t fixed,
-                                              uint32_t per_four, uint32_t* capacity) {
-  if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
-  const uint32_t most = MICROTIN_MAX_VERTICES, enough = fixed + per_four * ((most + 3) / 4);
-  const uint32_t bytes = size < enough ? static_cast<uint32_t>(size) : enough;
-  *capacity = bytes < fixed ? 0 : smaller((bytes - fixed) * 4 / per_four, most);
-  return *capacity < 3 ? MICROTIN_WORKSPACE_TOO_SMALL : MICROTIN_DONE;
-}
-
-// A size, or the largest where size_t is too narrow for it.
-size_t saturated(unsigned long size) {
-  const size_t most = ~static_cast<size_t>(0);
-  return size < most ? static_cast<size_t>(size) : most;
-}
-
-constexpr uint32_t kMeshFixed = MICROTIN_MESH_BYTES(0);
-constexpr uint32_t kMeshPerFour = MICROTIN_MESH_BYTES(4) - kMeshFixed;
-constexpr uint32_t kDecoderFixed = MICROTIN_DECODER_BYTES(0);
-constexpr uint32_t kDecoderPerFour = MICROTIN_DECODER_BYTES(4) - kDecoderFixed;
-
-static_assert(uint64_t{kMeshPerFour} * (MICROTIN_MAX_VERTICES + 3) <= UINT32_MAX &&
-                  kDecoderPerFour <= kMeshPerFour,
-              "products of capacity_of fit");
-
 }  // namespace
 }  // namespace microtin
 
 using namespace microtin;
-
-microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh** mesh) {
-  if (workspace == nullptr || mesh == nullptr) return MICROTIN_ARGUMENT;
-  *mesh = nullptr;
-  uint32_t capacity = 0;
-  const microtin_status status = capacity_of(workspace, size, kMeshFixed, kMeshPerFour, &capacity);
-  if (status != MICROTIN_DONE) return status;
-  microtin_mesh& m = *static_cast<microtin_mesh*>(workspace);
-  // Widest numbers first, so that everything is aligned.
-  const size_t half_edges = 6 * static_cast<size_t>(capacity);
-  m.mesh.origin = reinterpret_cast<Index*>(&m + 1);
-  m.mesh.twin = m.mesh.origin + half_edges;
-  m.mesh.place = reinterpret_cast<Point*>(m.mesh.twin + half_edges);
-  m.mesh.z = reinterpret_cast<int16_t*>(m.mesh.place + capacity);
-  m.voids = reinterpret_cast<uint8_t*>(m.mesh.z + capacity);
-  m.capacity = capacity;
-  empty_mesh(m);
-  *mesh = &m;
-  return MICROTIN_DONE;
-}
-
-microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mesh* mesh,
-                                      microtin_decoder** decoder) {
-  if (workspace == nullptr || mesh == nullptr || decoder == nullptr) return MICROTIN_ARGUMENT;
-  *decoder = nullptr;
-  uint32_t capacity = 0;
-  const microtin_status status =
-      capacity_of(workspace, size, kDecoderFixed, kDecoderPerFour, &capacity);
-  if (status != MICROTIN_DONE) return status;
-  microtin_decoder& d = *static_cast<microtin_decoder*>(workspace);
-  d.mesh = mesh;
-  d.capacity = capacity;
-  d.status = MICROTIN_NEED_INPUT;
-  d.stop_phase = 0;
-  d.verdict = MICROTIN_DONE;
-  d.item = Item::kIdentity;
-  d.in_header = true;
-  d.coder.window.next = d.coder.window.bytes;
-  d.coder.window.left = 0;
-  d.coder.window.crc = 0;
-  d.coder.window.used = 0;
-  Reconstruction& r = d.reconstruction;
-  r.mesh = &mesh->mesh;
-  r.voids = mesh->voids;
-  r.queue = reinterpret_cast<Index*>(&d + 1);
-  r.marks = reinterpret_cast<uint8_t*>(r.queue + capacity);
-  r.residual = reinterpret_cast<Residual*>(r.marks + mark_bytes(capacity));
-  r.phase = 0;
-  empty_mesh(*mesh);
-  *decoder = &d;
-  return MICROTIN_DONE;
-}
 
 void microtin_stop_after_phase(microtin_decoder* decoder, uint32_t phase) {
   decoder->stop_phase = phase;
@@ -291,37 +208,4 @@ uint32_t microtin_phase(const microtin_decoder* decoder) {
 
 uint64_t microtin_bytes_used(const microtin_decoder* decoder) {
   return decoder->coder.window.taken();
-}
-
-microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info) {
-  if (info == nullptr || (bytes == nullptr && size != 0)) return MICROTIN_ARGUMENT;
-  info->header_bytes = 0;
-  if (size < kIdentityBytes) return MICROTIN_NEED_INPUT;
-  const microtin_status known = check_identity(bytes);
-  if (known != MICROTIN_DONE) return known;
-  const uint8_t* next = bytes + kIdentityBytes;
-  uint32_t length = 0;
-  bool legal = true, more = true;
-  while (more && next != bytes + size) more = take_length(&length, *next++, &legal);
-  if (more) return MICROTIN_NEED_INPUT;
-  const uint32_t checked = static_cast<uint32_t>(next - bytes) + length;  // length < 2^31
-  info->header_bytes = checked + kCheckBytes;
-  if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
-  if (crc32(0, bytes, static_cast<size_t>(info->header_bytes)) != kCheckedCrc) {
-    return MICROTIN_CHECKSUM;
-  }
-  Contract contract;
-  microtin_axis axis[3];
-  const microtin_status read = read_header(&next, bytes + checked, &contract, axis);
-  if (!legal || read != MICROTIN_DONE) return legal ? read : MICROTIN_MALFORMED;
-  info->vertices = contract.vertices;
-  info->version = kVersion;
-  info->degree = static_cast<uint8_t>(contract.degree);
-  info->decoding = static_cast<uint8_t>(contract.decoding);
-  info->has_heights = contract.has_heights;
-  info->has_voids = contract.has_voids;
-  put_axes(axis, info);
-  info->mesh_bytes = saturated(MICROTIN_MESH_BYTES(contract.vertices));
-  info->decoder_bytes = saturated(MICROTIN_DECODER_BYTES(contract.vertices));
-  return MICROTIN_DONE;
 }

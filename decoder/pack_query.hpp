@@ -74,7 +74,7 @@ microtin_answer answer_along_side(const microtin_pack& p, uint32_t tile,
   }
   const bool is_known =
       know_border(Form(one), line, Form(other), other_line, vertical,
-                  larger(smaller(begin, end), 0), smaller(larger(begin, end), length));
+                  larger<int32_t>(smaller(begin, end), 0), smaller(larger(begin, end), length));
   return is_known ? MICROTIN_HEIGHT : worst;
 }
 
@@ -99,7 +99,7 @@ microtin_answer height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uin
   if (!p.has_header || (p.work != nullptr) != Form::kIsCompact) return MICROTIN_NOT_DECODED;
   if (!is_inside(p, x, y)) return MICROTIN_OUTSIDE;
   microtin_answer answer = MICROTIN_IN_VOID;
-  const microtin_course here = place(x, y);
+  const microtin_course here = {x, y, x, y};
   for (TouchedTiles tiles(p.header.grid, here); !tiles.at_end(); tiles.next()) {
     const void* const terrain = terrain_of(p, tiles.number(), &answer);
     if (terrain == nullptr) continue;

@@ -9,10 +9,6 @@
 
 namespace microtin {
 
-inline microtin_course place(int64_t x, int64_t y) {
-  return microtin_course{x, y, x, y};
-}
-
 // How bad an answer is. No switch: compilers make tables of those, which AVR would keep in RAM.
 inline int rank(microtin_answer answer) {
   if (answer == MICROTIN_NOT_DECODED) return 4;
@@ -48,10 +44,7 @@ MICROTIN_ONE_COPY inline int16_t in_units(int32_t z, const microtin_axis& axis) 
   const int64_t unit = static_cast<int64_t>(axis.denominator) * 65536;
   const int64_t sum = static_cast<int64_t>(static_cast<int32_t>(axis.numerator)) * z +
                       axis.offset * 65536 + unit / 2;
-  // Rounded down, of both signs.
-  const uint64_t whole =
-      divide(static_cast<uint64_t>(sum < 0 ? ~sum : sum), static_cast<uint64_t>(unit)).whole;
-  const int64_t height = sum < 0 ? ~static_cast<int64_t>(whole) : static_cast<int64_t>(whole);
+  const int64_t height = floor_of(sum, unit);
   if (height > INT16_MAX) return INT16_MAX;
   return static_cast<int16_t>(height < INT16_MIN ? INT16_MIN : height);
 }

@@ -71,8 +71,7 @@ microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x,
   const Mesh& m = mesh->mesh;
   const microtin_answer refusal = refusal_of(*mesh, flags);
   if (refusal != MICROTIN_HEIGHT) return refusal;
-  const int32_t most = static_cast<int32_t>(kLatticeMax) * 256;
-  if (x < 0 || x > most || y < 0 || y > most) return MICROTIN_OUTSIDE;
+  if (!is_on_lattice(x, y)) return MICROTIN_OUTSIDE;
   const FinePoint p = {x, y};
   Index t = *hint < m.triangles ? static_cast<Index>(*hint) : static_cast<Index>(0);
   const bool arrived = walk_to(*mesh, p, step_limit == 0 ? m.triangles : step_limit, &t);

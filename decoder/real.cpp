@@ -1,32 +1,19 @@
 // SPDX-License-Identifier: MIT
 // From the lattice to real units.
-#include "microtin/microtin.h"
+#include "decoder/axis.hpp"
 #include "shared/division.hpp"
 
 namespace microtin {
 namespace {
 
-constexpr int64_t kMostOffset = static_cast<int64_t>(1) << 61;
 constexpr int64_t kMostUnits = static_cast<int64_t>(1) << 38;
-
-struct Floor {
-  int64_t whole;
-  uint64_t rest;
-};
-
-Floor floor_of(int64_t n, uint64_t d) {
-  const bool negative = n < 0;
-  const Quotient part = divide(negative ? ~static_cast<uint64_t>(n) : static_cast<uint64_t>(n), d);
-  const int64_t whole = static_cast<int64_t>(part.whole);
-  return negative ? Floor{~whole, d - 1 - part.rest} : Floor{whole, part.rest};
-}
 
 // rest / d * factor, rounded to nearest, halves up; rest < d < 2^57, factor < 2^25. Bit by bit: the
 // product has more than 64.
 int64_t scaled(uint64_t rest, uint64_t d, uint32_t factor) {
   uint64_t left = 0;
   int64_t whole = 0;
-  for (uint32_t bit = 1ul << 24; bit != 0; bit >>= 1) {
+  for (uint32_t bit = kMostPerUnit; bit != 0; bit >>= 1) {
     whole *= 2;
     left *= 2;  // < 2 d
     if ((factor & bit) != 0) left += rest;
@@ -39,20 +26,20 @@ int64_t scaled(uint64_t rest, uint64_t d, uint32_t factor) {
 // most 16.
 bool real_value(const microtin_axis& axis, int64_t place, int bits, uint32_t per_unit,
                 int64_t* value) {
-  if (per_unit == 0 || per_unit > (1ul << 24)) return false;
-  if (axis.offset >= kMostOffset || axis.offset <= -kMostOffset) return false;
+  if (!is_convertible(axis, per_unit)) return false;
   const int64_t steps = place >> bits;  // rounded down
   const uint64_t size = static_cast<uint64_t>(steps < 0 ? -steps : steps);
   if (size > divide(static_cast<uint64_t>(1) << 62, axis.numerator).whole) return false;
-  // Within 2^61 + 2^62.
   const int64_t numerator = static_cast<int64_t>(axis.numerator);
-  const Floor units = floor_of(axis.offset + numerator * steps, axis.denominator);
+  const int64_t denominator = static_cast<int64_t>(axis.denominator);
+  const int64_t parts = axis.offset + numerator * steps;  // within 2^61 + 2^62
+  const int64_t units = floor_of(parts, denominator);
+  const uint64_t rest = static_cast<uint64_t>(parts - units * denominator);
   // Below 2^40 * 2^16 each.
   const uint64_t fraction = static_cast<uint64_t>(place) & ((static_cast<uint64_t>(1) << bits) - 1);
-  const uint64_t fine = (units.rest << bits) + axis.numerator * fraction,
-                 d = axis.denominator << bits;
+  const uint64_t fine = (rest << bits) + axis.numerator * fraction, d = axis.denominator << bits;
   const Quotient more = divide(fine, d);
-  const int64_t whole = units.whole + static_cast<int64_t>(more.whole);  // and 2^40 more
+  const int64_t whole = units + static_cast<int64_t>(more.whole);  // and 2^40 more
   if (whole >= kMostUnits || whole < -kMostUnits) return false;
   *value = whole * static_cast<int64_t>(per_unit) + scaled(more.rest, d, per_unit);
   return true;

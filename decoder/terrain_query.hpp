@@ -8,11 +8,6 @@
 
 namespace microtin {
 
-inline bool is_on_lattice(int64_t x, int64_t y) {
-  const int64_t most = static_cast<int64_t>(kLatticeMax) * 256;
-  return x >= 0 && x <= most && y >= 0 && y <= most;
-}
-
 inline LocalPoint local_place(int64_t x, int64_t y) {
   return LocalPoint{static_cast<int32_t>(x), static_cast<int32_t>(y)};
 }

@@ -16,14 +16,6 @@
 
 namespace microtin {
 
-inline int32_t smaller(int32_t a, int32_t b) {
-  return a < b ? a : b;
-}
-
-inline int32_t larger(int32_t a, int32_t b) {
-  return a < b ? b : a;
-}
-
 inline int64_t magnitude(int64_t v) {
   return v < 0 ? -v : v;
 }

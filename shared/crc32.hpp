@@ -75,7 +75,8 @@ inline uint32_t shift_fours(uint32_t crc, const uint8_t*&, size_t&) {
 constexpr uint32_t kCheckedCrc = 0x2144DF1C;
 
 // Feed 0 first, then each result: crc32(crc32(0, a), b) is the check of a followed by b.
-inline uint32_t crc32(uint32_t crc, const uint8_t* bytes, size_t size) {
+MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE inline uint32_t crc32(uint32_t crc, const uint8_t* bytes,
+                                                             size_t size) {
   crc = shift_fours(~crc, bytes, size);
   for (size_t i = 0; i < size; ++i) crc = shift_byte(crc ^ bytes[i]);
   return ~crc;

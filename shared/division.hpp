@@ -56,6 +56,13 @@ inline uint64_t divide_finely(uint64_t n, uint64_t d) {
 
 #endif
 
+// n / d, rounded down; d > 0.
+inline int64_t floor_of(int64_t n, int64_t d) {
+  const int64_t whole = static_cast<int64_t>(
+      divide(static_cast<uint64_t>(n < 0 ? ~n : n), static_cast<uint64_t>(d)).whole);
+  return n < 0 ? ~whole : whole;
+}
+
 }  // namespace microtin
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Integer logarithms, power and roots for estimates. Identical on every target.
+// Comparisons, and integer logarithms, power and roots for estimates. Identical on every target.
 #ifndef MICROTIN_SHARED_FIXED_MATH_HPP
 #define MICROTIN_SHARED_FIXED_MATH_HPP
 
@@ -51,6 +51,16 @@ inline uint32_t rough_exp2(Log2 l) {
   if (l < 0) return 0;
   const uint32_t bit = static_cast<uint32_t>(l) >> 8;
   return (256u + (static_cast<uint32_t>(l) & 255u)) << 23 >> (31u - bit);
+}
+
+template <class Number>
+constexpr Number smaller(Number a, Number b) {
+  return a < b ? a : b;
+}
+
+template <class Number>
+constexpr Number larger(Number a, Number b) {
+  return a < b ? b : a;
 }
 
 inline int32_t kept_within(int32_t v, int32_t least, int32_t most) {

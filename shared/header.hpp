@@ -10,7 +10,8 @@
 namespace microtin {
 
 // Whether the first bytes are those of a stream that this code can read.
-inline microtin_status check_identity(const uint8_t* identity) {
+MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE inline microtin_status check_identity(
+    const uint8_t* identity) {
   for (uint32_t i = 0; i < sizeof kMagic; ++i) {
     if (identity[i] != read_table(kMagic + i)) return MICROTIN_BAD_MAGIC;
   }

@@ -15,6 +15,12 @@ struct FinePoint {
   int32_t y;
 };
 
+template <class Number>
+bool is_on_lattice(Number x, Number y) {
+  const Number most = static_cast<Number>(kLatticeMax) * 256;
+  return x >= 0 && x <= most && y >= 0 && y <= most;
+}
+
 inline FinePoint fine(Point p) {
   return FinePoint{static_cast<int32_t>(p.x) * 256, static_cast<int32_t>(p.y) * 256};
 }

@@ -15,19 +15,18 @@
 
 #include "shared/format.hpp"
 #include "shared/height_coding.hpp"
+#include "shared/hit_coding.hpp"
 #include "shared/hull_coding.hpp"
 #include "shared/insertion.hpp"
+#include "shared/marks.hpp"
 #include "shared/place_coding.hpp"
 #include "shared/start_probabilities.hpp"
 
 namespace microtin {
 
-constexpr uint32_t kHitEntries = 15;
-constexpr int kHitContexts = 7;
-
 // Everything that is learned while coding.
 struct Models {
-  Curve<kHitEntries> hit[kHitContexts];
+  HitModel hit;
   PlaceModel place;
   HeightModel height;
   ExponentModel gap;
@@ -109,37 +108,6 @@ inline void start(Reconstruction& r) {
   reset(r.habits);
 }
 
-// --- Marks -------------------------------------------------------------------------------------
-
-constexpr uint8_t kQueued = 1, kDone = 2;
-
-// A vertex's marks are two bits of a byte, or where numbers are wide the whole byte.
-constexpr uint32_t kMarkBits = MICROTIN_INDEX_BITS == 16 ? 2 : 8, kMarksInByte = 8 / kMarkBits;
-
-constexpr uint32_t mark_bytes(uint32_t vertices) {
-  return (vertices + kMarksInByte - 1u) / kMarksInByte;
-}
-
-inline uint32_t mark_shift(Index v) {
-  return kMarkBits * (v % kMarksInByte);
-}
-
-// In the two lowest bits; those above are other vertices'.
-inline uint32_t marks_of(const Reconstruction& r, Index v) {
-  if (v == kInfinity) return kQueued | kDone;  // nobody asks before its turn is over
-  return static_cast<uint32_t>(r.marks[v / kMarksInByte]) >> mark_shift(v);
-}
-
-inline bool marked(const Reconstruction& r, Index v, uint8_t mark) {
-  return (marks_of(r, v) & mark) != 0;
-}
-
-inline void mark(Reconstruction& r, Index v, uint8_t mark) {
-  if (v == kInfinity) return;
-  uint8_t& marks = r.marks[v / kMarksInByte];
-  marks = static_cast<uint8_t>(marks | mark << mark_shift(v));
-}
-
 // --- The triangle in hand ------------------------------------------------------------------------
 
 // The far corner of the triangle of the chord.
@@ -152,7 +120,7 @@ struct Corner {
 inline Corner far_corner(const Reconstruction& r) {
   const Index into = r.mesh->twin[next_in_triangle(r.chord)];
   const Index number = r.mesh->origin[into];
-  return Corner{into, number, marks_of(r, number)};
+  return Corner{into, number, marks_of(r.marks, number)};
 }
 
 // The corner opposite to a side whose half-edge beyond is h.
@@ -174,10 +142,10 @@ MICROTIN_IN_PLACE inline void look_around(Reconstruction& r, Index into) {
   see_corners(region, point_of(mesh, r.vertex), point_of(mesh, mesh.origin[into]),
               point_of(mesh, mesh.origin[r.chord]));
   const Index next = apex_behind(mesh, into);
-  region.next.certified = marked(r, next, kDone);
+  region.next.certified = is_done(r.marks, next);
   if (region.next.certified) look_at(r, next, region.next);
   const Index across = mesh.twin[previous_in_triangle(r.chord)];
-  region.opposite_certified = marked(r, apex_behind(mesh, across), kDone);
+  region.opposite_certified = is_done(r.marks, apex_behind(mesh, across));
   look_at(r, apex_behind(mesh, mesh.twin[r.chord]), region.chord);
 }
 
@@ -209,8 +177,8 @@ bool insert(Reconstruction& r, Coder& coder, Point place) {
   // Final triangles must stay. Those with a done vertex are met through that vertex, since the
   // chord's has none. Those passed in this turn can only be reached across the chord: around
   // infinity the first of them is at vertex 0, which is the smallest and so stays on the hull.
-  const auto is_done = [&r](Index corner) { return marked(r, corner, kDone); };
-  if (!grow_cavity(mesh, chord, place, r.cavity, is_done)) return false;
+  const auto forbids = [&r](Index corner) { return is_done(r.marks, corner); };
+  if (!grow_cavity(mesh, chord, place, r.cavity, forbids)) return false;
   if (r.cavity.size == 0 || r.cavity_twin[0] != mesh.twin[chord]) return false;
   const Index v = mesh.vertices;
   int16_t z = 0;
@@ -234,54 +202,11 @@ bool insert(Reconstruction& r, Coder& coder, Point place) {
 
 // --- Coding of one decision ----------------------------------------------------------------------
 
-struct HitEstimate {
-  int context;
-  int32_t position;  // on the context's curve
-};
-
 // The hull edge beside the chord to infinity.
 inline HullEdge hull_edge(const Reconstruction& r) {
   const Mesh& mesh = *r.mesh;
   return hull_edge(r.contract, point_of(mesh, mesh.origin[r.chord]),
                    point_of(mesh, mesh.origin[previous_in_triangle(r.chord)]));
-}
-
-// The longer the edge, against the spacing of the vertices, the likelier is a hit.
-inline HitEstimate estimate_hull_hit(const HullEdge& edge, Log2 density) {
-  const FastInt length = absolute(edge.along.x) | absolute(edge.along.y);
-  return HitEstimate{6, 2 * log2_of(static_cast<uint32_t>(length)) + density + 6 * 256};
-}
-
-// The degree of the vertex where h starts, infinity counted, but at most `most`.
-inline uint32_t degree_up_to(const Mesh& mesh, Index h, uint32_t most) {
-  const Index first = h;
-  uint32_t degree = 0;
-  do {
-    ++degree;
-    h = mesh.twin[previous_in_triangle(h)];
-  } while (h != first && degree < most);
-  return degree;
-}
-
-// A miss makes c known to the walk if it is not yet. The encoder removes every vertex whose degree
-// is at most D when the walk comes to know it, so such a c must still get neighbours: a hit.
-inline HitEstimate estimate_hit(Reconstruction& r, Index into, uint32_t marks, Log2 density) {
-  HitEstimate estimate;
-  r.region.expected = free_area(r.region) + density;
-  estimate.position = r.region.expected + 6 * 256;
-  estimate.context = (r.region.next.certified ? 1 : 0) + (r.region.opposite_certified ? 2 : 0);
-  if ((marks & kQueued) != 0) return estimate;
-  const uint32_t degree = degree_up_to(*r.mesh, into, r.contract.degree + 2u);
-  estimate.context = degree < r.contract.degree + 2u ? 4 : 5;
-  if (degree <= r.contract.degree) estimate.position = static_cast<int32_t>(kHitEntries) * 256;
-  return estimate;
-}
-
-template <class Coder>
-MICROTIN_IN_PLACE inline bool code_hit(Reconstruction& r, Coder& coder,
-                                       const HitEstimate& estimate) {
-  return code_on_curve(coder, r.models.hit[estimate.context], estimate.position,
-                       coder.conflicts(*r.mesh, r.chord));
 }
 
 // Where a hit is. It takes the place of c.
@@ -302,7 +227,10 @@ template <class Coder>
 Decision decide_at_hull(Reconstruction& r, Coder& coder, Log2 density) {
   const HullEdge edge = hull_edge(r);
   if (edge.length == 1) return Decision::kMiss;  // there is no place beyond it
-  if (!code_hit(r, coder, estimate_hull_hit(edge, density))) return Decision::kMiss;
+  if (!code_hit(coder, r.models.hit, estimate_hull_hit(edge, density),
+                coder.conflicts(*r.mesh, r.chord))) {
+    return Decision::kMiss;
+  }
   const Point place = code_hull_place(coder, r.models.gap, r.models.height.mantissa,
                                       r.habits.parities, r.contract, edge, density);
   return insert(r, coder, place) ? Decision::kHit : Decision::kMalformed;
@@ -313,7 +241,9 @@ Decision decide(Reconstruction& r, Coder& coder, Index into, uint32_t marks) {
   const Log2 density = r.density >> 8;
   if (r.vertex == kInfinity) return decide_at_hull(r, coder, density);
   look_around(r, into);
-  const bool hit = code_hit(r, coder, estimate_hit(r, into, marks, density));
+  HitEstimate estimate = estimate_hit(r.region, density);
+  if ((marks & kQueued) == 0) estimate_newcomer(*r.mesh, into, r.contract.degree, estimate);
+  const bool hit = code_hit(coder, r.models.hit, estimate, coder.conflicts(*r.mesh, r.chord));
   if (hit && !insert(r, coder, locate(r, coder, density))) return Decision::kMalformed;
   // The triangle of the chord and c, or the new vertex, is final.
   note_final_triangle(r, rough_log2(twice_area(r.region.corner[0], r.region.corner[1])));
@@ -379,7 +309,7 @@ StepOutcome step_phase(Reconstruction& r, Coder& coder) {
   for (uint32_t i = mark_bytes(placed + batch); i != 0; --i) marks[i - 1] = 0;
   r.vertex = kInfinity;
   r.turn_start = 0;
-  mark(r, 0, kQueued);
+  mark(r.marks, 0, kQueued);
   r.queue_head = 0;
   r.queue_tail = 1;  // entry 0 is vertex 0's, known when the turn around infinity ends
   r.chord = r.anchor;
@@ -400,12 +330,12 @@ inline bool advance(Reconstruction& r, Index neighbour, uint32_t marks) {
     r.from = static_cast<uint8_t>(marks);
     if ((marks & kQueued) == 0) {
       r.queue[r.queue_tail++] = r.mesh->twin[r.chord];
-      mark(r, neighbour, kQueued);
+      mark(r.marks, neighbour, kQueued);
     }
     return true;
   }
   if (r.vertex == kInfinity) r.queue[0] = r.mesh->twin[r.chord];
-  mark(r, r.vertex, kDone);
+  mark(r.marks, r.vertex, kDone);
   if (r.queue_head == r.queue_tail) return false;
   r.chord = r.queue[r.queue_head++];
   r.from = kDone;  // the parent's turn is over

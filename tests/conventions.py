@@ -5,6 +5,7 @@ length   the README has at most 200 lines
 links    files that the documents link to are there
 licence  every source names its licence
 faults   the text that a planted fault replaces stands once in its source
+columns  documents have lines of at most 122 columns, tables and what links lead to aside
 locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
 """
 
@@ -14,10 +15,11 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 MOST_LINES = 200
+MOST_COLUMNS = 122
 LICENCE = "SPDX-License-Identifier: MIT"
 SLASHES = (".c", ".h", ".cpp", ".hpp", ".js")
 HASHES = (".py", ".sh", ".cmake", "CMakeLists.txt")
-COMMA = re.compile(r"\b(sto[dfl]|stold|strto[df]|strtold|atof)\b|\bsn?printf\(.*%[-+ #0-9.*]*[aefg]", re.I)
+COMMA = re.compile(r"\b(o?stringstream|sto[dfl]|stold|strto[df]|strtold|atof)\b|\bsn?printf\(.*%[-+ #0-9.*]*[aefg]", re.I)
 
 
 def files(folder):
@@ -46,6 +48,10 @@ def lines_of(path):
     return path.read_text().splitlines()
 
 
+def documents(folder):
+    return (path for path in files(folder) if path.suffix == ".md")
+
+
 def length(folder):
     lines = len(lines_of(folder / "README.md"))
     return [f"README.md has {lines} lines, more than {MOST_LINES}"] if lines > MOST_LINES else []
@@ -53,13 +59,20 @@ def length(folder):
 
 def links(folder):
     found = []
-    for document in files(folder):
-        if document.suffix != ".md":
-            continue
+    for document in documents(folder):
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", document.read_text()):
             if not (document.parent / target).exists():
                 found.append(f"{document.relative_to(folder)} links to {target}, which is not there")
     return found
+
+
+def columns(folder):
+    return [
+        f"{document.relative_to(folder)}:{number} is longer than {MOST_COLUMNS} columns"
+        for document in documents(folder)
+        for number, line in enumerate(lines_of(document), 1)
+        if not line.startswith("|") and len(re.sub(r"\]\([^)]*\)", "]", line)) > MOST_COLUMNS
+    ]
 
 
 def licence(folder):
@@ -93,7 +106,7 @@ def locale(folder):
 
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    checks = {"length": length, "links": links, "licence": licence, "faults": faults, "locale": locale}
+    checks = {check.__name__: check for check in (length, links, columns, licence, faults, locale)}
     found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)

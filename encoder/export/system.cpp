@@ -3,9 +3,9 @@
 #include "encoder/export/system.hpp"
 
 #include <optional>
-#include <sstream>
 
 #include "encoder/exact/units.hpp"
+#include "encoder/export/json.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/epsg.hpp"
 
@@ -21,16 +21,12 @@ std::string vertical_text(const Metadata& metadata) {
   const std::optional<double> metres = metres_per(metadata.vertical_unit);
   if (!metres) return "";
   const std::string name(esri_name_of_heights(metadata.vertical_epsg));
-  std::ostringstream text;
-  text.precision(16);
-  text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
-  text << ",VERTCS[\"" << name << "\",VDATUM[\"" << name
-       << "\"],PARAMETER[\"Vertical_Shift\",0.0],PARAMETER[\"Direction\",1.0],UNIT[\""
-       << (metadata.vertical_unit == Unit::kMetre  ? "Meter"
-           : metadata.vertical_unit == Unit::kFoot ? "Foot"
-                                                   : "Foot_US")
-       << "\"," << *metres << "]]";
-  return text.str();
+  const std::string unit = metadata.vertical_unit == Unit::kMetre  ? "Meter"
+                           : metadata.vertical_unit == Unit::kFoot ? "Foot"
+                                                                   : "Foot_US";
+  return ",VERTCS[\"" + name + "\",VDATUM[\"" + name +
+         "\"],PARAMETER[\"Vertical_Shift\",0.0],PARAMETER[\"Direction\",1.0],UNIT[\"" + unit +
+         "\"," + json(*metres) + "]]";
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
  *
  *   MICROTIN_INDEX_BITS   width of vertex and half-edge numbers, the same for the library and its
  *                         users, or they do not link: 16 bits reach 10,923 vertices, 32 bits the
- *                         format's 2^24
+ *                         format's 2^24. CMake, pkg-config and Zephyr give it by -D, as their own
+ *                         option says: with them it is that option which rules, and
+ *                         microtin_config.h must leave it out
  *   MICROTIN_ASSERT(c)    called with what a caller promises and no status tells, such as a
  *                         vertex's number that is in range; nothing if not given
  *   MICROTIN_NO_NAMES     leaves the strings of microtin_status_name and microtin_answer_name out
