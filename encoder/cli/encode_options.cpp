@@ -162,7 +162,7 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
       .add_option(
           "--degree", request->effort.degree,
           "Most triangles around a vertex when it is added; if not given 10, quick 9, or, of "
-          "less than 2,000 vertices, 20 if that is smaller")
+          "less than 2,000 vertices, 16 if that saves a 256th")
       ->check(CLI::Range(kMinDegree, kMaxDegree));
   add_decoding(command, request->effort.decoding);
   add_preparation(command, request->preparation);

@@ -104,7 +104,7 @@ struct Options {
   Duplicates duplicates = Duplicates::kMiddle;
   Search search = Search::kNormal;
   /* Most triangles around a vertex when it is added: 6 .. 32. 0: 10, quick 9, or, of terrains of
-   * less than 2,000 vertices, 20 if that is smaller. */
+   * less than 2,000 vertices, 16 if that saves a 256th. */
   uint32_t degree = 0;
   Decoding decoding = Decoding::kBalanced;
   /* Units of x and y and of heights, "metre", "foot", "us-foot" or "degree": "degree:metre",
