@@ -219,8 +219,7 @@ Draft draft_of(const Tin& tin, const VoidSet& voids, const Metadata& metadata,
           fingerprint};
 }
 
-Draft smallest_draft(const Tin& tin, const Metadata& metadata, const Effort& effort,
-                     Origin origin) {
+Draft chosen_draft(const Tin& tin, const Metadata& metadata, const Effort& effort, Origin origin) {
   const VoidSet voids = void_set(tin);
   Contract contract = contract_of(tin, effort, origin);
   Draft usual = draft_of(tin, voids, metadata, contract);
@@ -243,7 +242,7 @@ Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effor
   if (tin.vertices.size() > kMaxVertices) {
     throw Error(std::to_string(tin.vertices.size()) + " vertices; the format holds 16,777,216");
   }
-  Draft draft = smallest_draft(tin, metadata, effort, origin);
+  Draft draft = chosen_draft(tin, metadata, effort, origin);
   DecodedTerrain decoded = on_our_own([&] { return DecodedTerrain(draft.stream); });
   if (microtin_vertex_count(decoded.mesh()) != tin.vertices.size() ||
       fingerprint_of(decoded.mesh()) != draft.fingerprint) {
