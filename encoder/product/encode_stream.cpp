@@ -79,7 +79,7 @@ void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, Bou
   TrueBound bound(lattice, surface);
   found = verify_at_true_places(
       surface.height_at, surface.placement, cloud, lattice.max_error,
-      [&](int64_t x, int64_t y, int64_t, double above) { bound.see(x, y, above); });
+      [&](FinePlace nearest, FinePlace exact, double above) { bound.see(nearest, exact, above); });
   attempt.missed = bound.missed();
   if (attempt.missed == 0 && !found.within_bound)
     attempt.missed = 1;  // by less than a double tells
@@ -144,18 +144,25 @@ std::string pack_that_is_finer(const PointCloud& cloud) {
          " or finer";
 }
 
+// True if a step that is left out is as coarse.
+bool is_finest(Decimal xy_step, const Source& source, LatticeOptions lattice) {
+  lattice.xy_step.reset();
+  const Lattice finest = choose_lattice(source, lattice);
+  return xy_step <= make_decimal(finest.x.step, finest.xy_decimals);
+}
+
 [[noreturn]] void refuse_lattice(const Source& source, const Attempt& last,
                                  const EncodeOptions& options) {
-  const std::string step = to_string(last.encoded.laid.xy_step);
-  throw Error("--max-error " + to_string(*options.lattice.max_error) +
-              " is not kept where points truly lie, by " +
-              to_string(last.encoded.true_places->max_error) + " at most, at " +
-              std::to_string(last.missed) + " of them: --xy-step " + step + " is too coarse; " +
-              (options.lattice.xy_step
-                   ? std::string("leave it out, ")
-                   : "16 bits hold no finer one: " +
-                         pack_that_is_finer(std::get<PointCloud>(source)) + ", ") +
-              "or ask for less with --bound-at lattice");
+  const Decimal step = last.encoded.laid.xy_step;
+  throw Error(
+      "--max-error " + to_string(*options.lattice.max_error) +
+      " is not kept where points truly lie, by " + to_string(last.encoded.true_places->max_error) +
+      " at most, at " + std::to_string(last.missed) + " of them: --xy-step " + to_string(step) +
+      " is too coarse; " +
+      (is_finest(step, source, options.lattice)
+           ? "16 bits hold no finer one: " + pack_that_is_finer(std::get<PointCloud>(source)) + ", "
+           : std::string("leave it out, ")) +
+      "or ask for less with --bound-at lattice");
 }
 
 // Attempts until points keep the bound where they truly lie, as many as are allowed.

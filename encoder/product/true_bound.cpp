@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Narrows limits by what points miss the bound by, and a little more.
+// Narrows limits by what points miss the bound by, and a little more. Where a point lies in a
+// sliver along the hull that does not help: limits on both sides of it make the sliver go.
 #include "encoder/product/true_bound.hpp"
 
 #include <algorithm>
@@ -12,19 +13,43 @@ TrueBound::TrueBound(const LatticeOptions& options, const SampledSurface& surfac
     : above_(real(*options.max_error)),
       below_(options.never_below ? 0 : -above_),
       step_(step_of(surface.placement.z)),
-      surface_(surface) {}
+      surface_(surface) {
+  for (const Tightening& old : options.tightenings) before_.emplace(old.place.x, old.place.y);
+}
 
-void TrueBound::see(int64_t x, int64_t y, double above) {
+Tightening& TrueBound::limits_at(Point place) {
+  const Tightening all{place, INT32_MIN, INT32_MAX};
+  return limits_.try_emplace({place.x, place.y}, all).first->second;
+}
+
+void TrueBound::see(FinePlace nearest, FinePlace exact, double above) {
   if (above >= below_ && above <= above_) return;
   ++missed_;
-  const std::optional<int32_t> here = surface_.height_at(256 * x, 256 * y);
+  const std::optional<int32_t> here = surface_.height_at(nearest.x, nearest.y);
   if (!here) return;
-  const Tightening all{{static_cast<uint16_t>(x), static_cast<uint16_t>(y)}, INT32_MIN, INT32_MAX};
-  Tightening& limits = limits_.try_emplace({x, y}, all).first->second;
+  const Point place{static_cast<uint16_t>(nearest.x / 256), static_cast<uint16_t>(nearest.y / 256)};
+  constexpr double kMore = 1.25;  // the surface around will be another
+  Tightening& limits = limits_at(place);
   if (above > above_) {
-    limits.highest = std::min(limits.highest, moved(*here, above_ - above));
+    limits.highest = std::min(limits.highest, moved(*here, kMore * (above_ - above)));
   } else {
-    limits.lowest = std::max(limits.lowest, moved(*here, below_ - above));
+    limits.lowest = std::max(limits.lowest, moved(*here, kMore * (below_ - above)));
+  }
+  if (before_.count({place.x, place.y}) == 0) return;
+  const std::optional<int32_t> there = surface_.height_at(exact.x, exact.y);
+  surround(exact, there ? *there : *here, above);
+}
+
+// A point's limits at all places around it.
+void TrueBound::surround(FinePlace exact, int32_t height, double above) {
+  const double margin = (above_ - below_) / 16;  // the surface may bend between them
+  for (const int64_t x : {exact.x / 256, (exact.x + 255) / 256}) {
+    for (const int64_t y : {exact.y / 256, (exact.y + 255) / 256}) {
+      if (x < 0 || y < 0 || x > kLatticeMax || y > kLatticeMax) continue;
+      Tightening& limits = limits_at({static_cast<uint16_t>(x), static_cast<uint16_t>(y)});
+      limits.lowest = std::max(limits.lowest, moved(height, below_ + margin - above));
+      limits.highest = std::min(limits.highest, moved(height, above_ - margin - above));
+    }
   }
 }
 
@@ -38,10 +63,8 @@ void TrueBound::add_to(std::vector<Tightening>& tightenings) {
   for (const auto& entry : limits_) tightenings.push_back(entry.second);
 }
 
-// A height moved by so much, and a quarter more: the surface around will be another.
 int32_t TrueBound::moved(int32_t height, double by) const {
-  constexpr double kMore = 1.25;
-  const double moved = height + kMore * by / step_ * 65536;
+  const double moved = height + by / step_ * 65536;
   return static_cast<int32_t>(std::clamp<double>(moved, INT32_MIN, INT32_MAX));
 }
 

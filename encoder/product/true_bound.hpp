@@ -5,23 +5,26 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "encoder/export/height_sampler.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
+#include "encoder/terrain/true_places.hpp"
 
 namespace microtin::product {
 
-// Collects narrower limits for the heights at places near which points miss the bound.
+// Collects narrower limits for the heights at places near which points miss the bound; where a
+// place had such limits in vain, limits at all places around the point.
 class TrueBound {
  public:
   // The options have a bound. The surface must outlive it.
   TrueBound(const LatticeOptions& options, const SampledSurface& surface);
 
-  // A point's place on the lattice, and how far the surface is above it where it truly lies.
-  void see(int64_t x, int64_t y, double above);
+  // A point's place on the lattice, where it truly lies, and how far the surface is above it there.
+  void see(FinePlace nearest, FinePlace exact, double above);
 
   uint64_t missed() const { return missed_; }
 
@@ -29,10 +32,13 @@ class TrueBound {
   void add_to(std::vector<Tightening>& tightenings);
 
  private:
+  Tightening& limits_at(Point place);
+  void surround(FinePlace exact, int32_t height, double above);
   int32_t moved(int32_t height, double by) const;
 
   double above_, below_, step_;
   const SampledSurface& surface_;
+  std::set<std::pair<int64_t, int64_t>> before_;  // places that had narrower limits already
   std::map<std::pair<int64_t, int64_t>, Tightening> limits_;
   uint64_t missed_ = 0;
 };

@@ -15,7 +15,8 @@
 
 namespace microtin::terrain {
 
-// Narrower limits at a place than the bound sets: lattice steps with 16 fractional bits.
+// Narrower limits at a place than the bound sets, or limits at one without points: lattice steps
+// with 16 fractional bits.
 struct Tightening {
   Point place;
   int32_t lowest, highest;

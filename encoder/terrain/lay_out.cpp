@@ -210,19 +210,36 @@ void keep_a_step(const Sample& before, Sample& after) {
   }
 }
 
+// A place that the surface must pass though no point is there: within the limits, or as near their
+// middle as a vertex can be.
+Sample sample_within(const Tightening& limits) {
+  const int32_t middle = saturated((Wide{limits.lowest} + limits.highest) / 2);
+  if (ceil_divide(Wide{limits.lowest}, kOne) <= floor_divide(Wide{limits.highest}, kOne)) {
+    return {limits.place, middle, limits.lowest, limits.highest};
+  }
+  const int32_t step = saturated(round_divide(Wide{middle}, kOne) * kOne);
+  return {limits.place, step, step, step};
+}
+
 // Both are in the order of places.
 void tighten(std::vector<Sample>& samples, const std::vector<Tightening>& tightenings) {
-  auto sample = samples.begin();
+  const size_t own = samples.size();
+  size_t at = 0;
   for (const Tightening& tight : tightenings) {
-    while (sample != samples.end() && sample->place < tight.place) ++sample;
-    if (sample == samples.end()) return;
-    if (sample->place != tight.place) continue;
+    while (at != own && samples[at].place < tight.place) ++at;
+    if (at == own || samples[at].place != tight.place) {
+      samples.push_back(sample_within(tight));
+      continue;
+    }
+    Sample* const sample = &samples[at];
     Sample narrow = *sample;
     narrow.lowest = std::clamp(tight.lowest, sample->lowest, sample->highest);
     narrow.highest = std::clamp(tight.highest, narrow.lowest, sample->highest);
     keep_a_step(*sample, narrow);
     *sample = narrow;
   }
+  std::inplace_merge(samples.begin(), samples.begin() + static_cast<ptrdiff_t>(own), samples.end(),
+                     [](const Sample& a, const Sample& b) { return a.place < b.place; });
 }
 
 }  // namespace
@@ -249,6 +266,7 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
   Laid laid;
   laid.survey.samples = make_samples(placing.posts(), sampler);
   sampler.check(lattice.placement, placement_of(source).z);
+  laid.merged = placing.posts().size() - laid.survey.samples.size();
   tighten(laid.survey.samples, options.tightenings);
   check_voids(placing.voids(), laid.survey.samples, lattice.placement);
   laid.survey.voids = placing.voids();
@@ -257,7 +275,6 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
   laid.z_step = make_decimal(lattice.z.step, lattice.z_decimals);
   laid.xy_displacement = placing.xy_displacement();
   laid.z_displacement = placing.z_displacement();
-  laid.merged = placing.posts().size() - laid.survey.samples.size();
   return laid;
 }
 

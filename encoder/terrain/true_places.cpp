@@ -16,10 +16,6 @@ namespace {
 constexpr int64_t kFraction = 256;
 constexpr int64_t kBand = 256 * kFraction;  // rows that are asked from west to east together
 
-struct Place {
-  int64_t x, y;  // with 8 fractional bits
-};
-
 class TruePlaces {
  public:
   TruePlaces(const Placement& lattice, const PointCloud& cloud) {
@@ -29,8 +25,8 @@ class TruePlaces {
   }
 
   // Numbers lie below 2^60, and lattices are no finer than sources.
-  Place exact(const SourcePoint& p) const { return {scaled(x_, p.x), scaled(y_, p.y)}; }
-  Place nearest(const SourcePoint& p) const {
+  FinePlace exact(const SourcePoint& p) const { return {scaled(x_, p.x), scaled(y_, p.y)}; }
+  FinePlace nearest(const SourcePoint& p) const {
     return {static_cast<int64_t>(x_.nearest(p.x)) * kFraction,
             static_cast<int64_t>(y_.nearest(p.y)) * kFraction};
   }
@@ -53,7 +49,7 @@ std::vector<uint32_t> order_of(const PointCloud& cloud, const TruePlaces& places
   std::vector<std::tuple<int64_t, int64_t>> keys;
   keys.reserve(order.size());
   for (const SourcePoint& p : cloud.points) {
-    const Place place = places.nearest(p);
+    const FinePlace place = places.nearest(p);
     keys.emplace_back(-(place.y / kBand), place.x);
   }
   std::sort(order.begin(), order.end(),
@@ -71,20 +67,20 @@ bool moves_points(const Placement& lattice, const PointCloud& cloud) {
 
 Verification verify_at_true_places(const HeightQuery& height_at, const Placement& lattice,
                                    const PointCloud& cloud, const std::optional<Decimal>& bound,
-                                   const PostVisitor& visit) {
+                                   const TruePlaceVisitor& visit) {
   const TruePlaces places(lattice, cloud);
   ErrorMeter meter({0, 1, static_cast<uint64_t>(power_of_ten(cloud.z_decimals))}, lattice.z);
   Verification result;
   for (const uint32_t i : order_of(cloud, places)) {
     const SourcePoint& p = cloud.points[i];
-    const Place there = places.exact(p), nearest = places.nearest(p);
+    const FinePlace there = places.exact(p), nearest = places.nearest(p);
     std::optional<int32_t> height = height_at(there.x, there.y);
     if (!height) height = height_at(nearest.x, nearest.y);
     ++result.posts;
     if (!height) continue;
     ++result.covered;
     const double above = meter.add(p.z, *height);
-    if (visit) visit(nearest.x / kFraction, nearest.y / kFraction, p.z, above);
+    if (visit) visit(nearest, there, above);
   }
   result.uncovered = result.posts - result.covered;
   meter.tell(bound, result);

@@ -17,15 +17,22 @@ namespace microtin::terrain {
 // nothing where there is none.
 using HeightQuery = std::function<std::optional<int32_t>(int64_t x, int64_t y)>;
 
+// With 8 fractional bits.
+struct FinePlace {
+  int64_t x, y;
+};
+
+// Told of each point's place on the lattice, where it truly lies, and how far the surface is above.
+using TruePlaceVisitor = std::function<void(FinePlace nearest, FinePlace exact, double above)>;
+
 // True if a lattice does not hold all points where they lie.
 bool moves_points(const Placement& lattice, const PointCloud& cloud);
 
 // As verify, but asks at each point's true place, to 1/256 of a step; where that is outside the
-// terrain, at its place on the lattice. Asks from north to south. The visitor is told the place on
-// the lattice.
+// terrain, at its place on the lattice. Asks from north to south.
 Verification verify_at_true_places(const HeightQuery& height_at, const Placement& lattice,
                                    const PointCloud& cloud, const std::optional<Decimal>& bound,
-                                   const PostVisitor& visit = {});
+                                   const TruePlaceVisitor& visit = {});
 
 }  // namespace microtin::terrain
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <cstdlib>
 #include <string>
 
 #include "tests/support/session.hpp"
@@ -27,6 +28,19 @@ std::string slope() {
     text += in_thousands(x) + " " + in_thousands(y) + " " + std::to_string(x / 20000) + "." +
             std::to_string(i * i % 10) + "\n";
   }
+  return text;
+}
+
+// A ridge between 0 and 1000 in x and y, with points a centimetre within the cut in the south.
+std::string cut_ridge() {
+  const auto height = [](int64_t x) { return in_thousands(200000 - 400 * std::abs(x - 500)); };
+  std::string text = "0 0 0\n1000 0 0\n0 1000 0\n1000 1000 0\n";
+  for (int64_t i = 1; i < 400; ++i) {
+    const int64_t x = i * 7919 % 997 + 1, y = i * 104729 % 991 + 1;
+    text += std::to_string(x) + " " + std::to_string(y) + " " + height(x) + "\n";
+  }
+  for (int64_t x = 25; x < 1000; x += 25)
+    text += std::to_string(x) + ".01 0.01 " + height(x) + "\n";
   return text;
 }
 
@@ -58,6 +72,18 @@ TEST_CASE("points: the bound holds where they truly lie, or on the lattice alone
   CHECK(session.run("verify lattice.mtin p.xyz").code == 0);
 }
 
+TEST_CASE("points: the bound holds in slivers along the hull, too") {
+  const Session session;
+  session.write("p.xyz", cut_ridge());
+  const std::string report = session.run("encode p.xyz --max-error 1 -o p.mtin").out;
+  CHECK(contains(report, "step of x and y: 0.02,"));
+  CHECK(!contains(report, "merged"));  // what is added beside the points does not count
+  const Session::Result verified = session.run("verify p.mtin p.xyz");
+  CHECK(verified.code == 0);
+  CHECK(contains(verified.out, "points: 442\n"));
+  CHECK(contains(verified.out, "true_places: {\"bound\": 1.0, "));
+}
+
 TEST_CASE("points: one that is right on the lattice alone fails where it truly lies") {
   const Session session;
   session.write("p.xyz", "0 0 0\n100 0 100\n0 100 0\n100 100 100\n49.9 50 50\n");
@@ -71,6 +97,11 @@ TEST_CASE("points: a lattice that is too coarse is named, with what is fine enou
   session.write("p.xyz", slope());
   CHECK(contains(session.failure("encode p.xyz --max-error 0.5 --xy-step 500 -o p.mtin"),
                  ": --xy-step 500 is too coarse; leave it out, or ask for less with --bound-at"));
+  // Left out, it would be as coarse.
+  session.write("wide.xyz",
+                "0 0 0\n1000 0 0\n0 1000 0\n1000 1000 0\n500.01 400.01 9\n500.03 400.01 0\n");
+  CHECK(contains(session.failure("encode wide.xyz --max-error 0.1 --xy-step 0.02 -o p.mtin"),
+                 ": --xy-step 0.02 is too coarse; 16 bits hold no finer one: make a pack (.mtp)"));
   // Left out, more tiles are needed than there can be: a step is named that does.
   const std::string pack = "encode p.xyz --max-error 0.5 --tile-vertices 500 -o p.mtp --xy-step ";
   CHECK(contains(session.failure(pack + "500"),
@@ -86,7 +117,7 @@ TEST_CASE("points: a lattice that is too coarse is named, with what is fine enou
 
 TEST_CASE("points: fine decimals over a large area are told a step that works, at each turn") {
   const Session session;
-  std::string rough;
+  std::string rough = "50000.9 50000 0\n50001.1 50000 3\n";  // steeper than a coarse lattice holds
   for (uint32_t i = 1; i <= 300; ++i) {  // millimetres over 100 km, up to 1500 m high
     const uint32_t x = i * 2654435761u, y = x * 1597334677u, z = y * 3812015801u;
     rough += std::to_string(x % 100000000 / 1000.0) + ' ' + std::to_string(y % 100000000 / 1000.0) +

@@ -85,6 +85,26 @@ TEST_CASE("merged points leave what all of them allow") {
   CHECK(laid.survey.samples[1].highest == 6 * 65536);
 }
 
+TEST_CASE("limits at places without points are samples of their own, in order") {
+  LatticeOptions narrow = options("1", "1", "2");
+  narrow.tightenings = {{{0, 0}, -65536, 65536},         // of a point
+                        {{3, 4}, 3 * 65536, 5 * 65536},  // of none
+                        {{9, 9}, 70000, 60000}};         // of none, and they contradict each other
+  const Laid laid = lay("0 0 0\n9 0 10\n0 9 20", narrow);
+  REQUIRE(laid.survey.samples.size() == 5);
+  CHECK(laid.merged == 0);
+  CHECK(laid.survey.samples[0].highest == 65536);
+  const Sample& added = laid.survey.samples[2];
+  CHECK(added.place == Point{3, 4});
+  CHECK(added.height == 4 * 65536);
+  CHECK(added.lowest == 3 * 65536);
+  CHECK(added.highest == 5 * 65536);
+  const Sample& forced = laid.survey.samples[4];
+  CHECK(forced.place == Point{9, 9});
+  CHECK(forced.lowest == 65536);
+  CHECK(forced.highest == 65536);
+}
+
 TEST_CASE("a wall is refused with count and place") {
   const std::string remedy =
       "; --duplicates lowest, highest or mean lets one of them stand for all";
