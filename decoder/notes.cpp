@@ -43,7 +43,7 @@ microtin_status notes_of_pack(const uint8_t* bytes, size_t size, Notes* notes) {
   if (size < kPackFixedBytes) return MICROTIN_NEED_INPUT;
   PackHeader header;
   const bool legal = read_pack_header(bytes, &header);
-  notes->size = pack_index_start(header);  // at most 36 + 255 + 65535 + 4
+  notes->size = pack_index_start(header);  // at most 40 + 255 + 65535 + 4
   if (size < notes->size) return MICROTIN_NEED_INPUT;
   if (crc32(0, bytes, static_cast<size_t>(notes->size)) != kCheckedCrc) return MICROTIN_CHECKSUM;
   if (!legal) return MICROTIN_MALFORMED;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What compilers are told. Included before all other code, since it holds for what follows.
+// What gcc and clang are told. Included before all other code, since it holds for what follows.
 #ifndef MICROTIN_SHARED_COMPILER_HPP
 #define MICROTIN_SHARED_COMPILER_HPP
 
@@ -27,12 +27,6 @@
 #if defined(__OPTIMIZE_SIZE__) || defined(__AVR__)
 #define MICROTIN_SIZE_COUNTS
 #endif
-#if !defined(__GNUC__)
-#define MICROTIN_IN_PLACE
-#define MICROTIN_OUT_OF_LINE
-#define MICROTIN_ONE_COPY
-#define MICROTIN_FOLDED inline
-#else
 #define MICROTIN_IN_PLACE __attribute__((always_inline))
 #if defined(__OPTIMIZE_SIZE__)
 #define MICROTIN_OUT_OF_LINE
@@ -48,7 +42,6 @@
 #else
 #define MICROTIN_ONE_COPY __attribute__((noinline, noclone))
 #define MICROTIN_FOLDED MICROTIN_ONE_COPY inline
-#endif
 #endif
 
 // A function that keeps no call but those of ONE_COPY, also where size counts and others share what

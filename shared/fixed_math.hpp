@@ -14,7 +14,7 @@ typedef int32_t Log2;
 constexpr Log2 kLog2One = 256;
 
 // Position of the highest set bit of v > 0.
-#if defined(__GNUC__) && !defined(__AVR__)
+#if __SIZEOF_INT__ == 4  // what the builtin takes
 MICROTIN_IN_PLACE inline uint32_t highest_bit(uint32_t v) {
   return 31u ^ static_cast<uint32_t>(__builtin_clz(v));
 }

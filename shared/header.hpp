@@ -84,9 +84,9 @@ MICROTIN_ONE_COPY inline bool read_placement(const uint8_t** bytes, const uint8_
   return true;
 }
 
-// Reads a header's payload up to its notes. Not DONE: MALFORMED, or UNSUPPORTED_VERSION if it has
-// properties unknown here, since these may change what follows. Then, and without a placement,
-// `axis` is on the lattice itself.
+// Reads a header's payload up to its notes. Without a placement `axis` is on the lattice itself.
+// Not DONE: MALFORMED, or UNSUPPORTED_VERSION if it has properties unknown here, since these may
+// change what follows.
 inline microtin_status read_header(const uint8_t** bytes, const uint8_t* end, Contract* contract,
                                    microtin_axis* axis) {
   uint64_t number[4];  // properties, vertices, x_max, y_max

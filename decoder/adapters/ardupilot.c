@@ -15,13 +15,6 @@ microtin_status microtin_ardupilot_service(microtin_ardupilot* terrain, uint32_t
   return microtin_spots_service(&terrain->spots, step_limit, read, context);
 }
 
-/* Millimetres; what is missing is wished for, up to `far`. */
-static bool ask(microtin_spots* spots, microtin_spot at, microtin_spot far, int32_t* height) {
-  const microtin_answer answer = microtin_spots_height(spots, at, height);
-  if (answer == MICROTIN_NOT_DECODED) microtin_spots_wish(spots, at, far);
-  return answer == MICROTIN_HEIGHT;
-}
-
 void microtin_ardupilot_set_reference(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
                                       int32_t altitude_cm, float most) {
   terrain->reference.latitude = lat;
@@ -38,7 +31,7 @@ static int32_t correction_of(microtin_ardupilot* terrain) {
   int32_t ground;
   if (!terrain->has_reference) return 0;
   if (!terrain->has_correction &&
-      ask(&terrain->spots, terrain->reference, terrain->reference, &ground)) {
+      microtin_spots_ask(&terrain->spots, terrain->reference, terrain->reference, &ground)) {
     const int64_t above = (int64_t)terrain->reference_altitude - ground;
     terrain->correction = (int32_t)(above > most ? most : above < -most ? -most : above);
     terrain->has_correction = 1;
@@ -50,7 +43,7 @@ bool microtin_ardupilot_height_amsl(microtin_ardupilot* terrain, int32_t lat, in
                                     float* height, bool corrected) {
   const microtin_spot at = {lat, lng};
   int32_t millimetres;
-  if (!ask(&terrain->spots, at, at, &millimetres)) return false;
+  if (!microtin_spots_ask(&terrain->spots, at, at, &millimetres)) return false;
   *height = (float)millimetres / 1000.0f;
   if (corrected) *height += (float)correction_of(terrain) / 1000.0f;
   return true;
@@ -73,10 +66,10 @@ float microtin_ardupilot_lookahead(microtin_ardupilot* terrain, int32_t lat, int
   int64_t most = 0;
   int32_t base, height, i;
   terrain->missed = 0;
-  if (!ask(&terrain->spots, from, far, &base)) return 0.0f;
+  if (!microtin_spots_ask(&terrain->spots, from, far, &base)) return 0.0f;
   for (i = 1; i <= samples; ++i) {
     at = microtin_spot_beside(at, stride.north, stride.east);
-    if (!ask(&terrain->spots, at, at, &height)) {
+    if (!microtin_spots_ask(&terrain->spots, at, at, &height)) {
       ++terrain->missed;
     } else if (height - (int64_t)base - climb * i > most) {
       most = height - (int64_t)base - climb * i;

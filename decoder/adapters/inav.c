@@ -10,17 +10,10 @@ microtin_status microtin_inav_service(microtin_inav* inav, uint32_t step_limit, 
   return microtin_spots_service(&inav->spots, step_limit, read, context);
 }
 
-/* Millimetres; what is missing is wished for, up to `far`. */
-static bool ask(microtin_spots* spots, microtin_spot at, microtin_spot far, int32_t* height) {
-  const microtin_answer answer = microtin_spots_height(spots, at, height);
-  if (answer == MICROTIN_NOT_DECODED) microtin_spots_wish(spots, at, far);
-  return answer == MICROTIN_HEIGHT;
-}
-
 bool microtin_inav_height(microtin_inav* inav, int32_t lat, int32_t lon, float* height_m) {
   const microtin_spot at = {lat, lon};
   int32_t height;
-  if (!ask(&inav->spots, at, at, &height)) return false;
+  if (!microtin_spots_ask(&inav->spots, at, at, &height)) return false;
   *height_m = (float)height / 1000.0f;
   return true;
 }
@@ -39,10 +32,10 @@ bool microtin_inav_lookahead(microtin_inav* inav, int32_t lat, int32_t lon, floa
   microtin_spot at = from;
   int64_t needed = 0, deficit = 0;
   int32_t base, height, missed = 0, i;
-  if (!ask(&inav->spots, from, far, &base)) return false;
+  if (!microtin_spots_ask(&inav->spots, from, far, &base)) return false;
   for (i = 1; i <= samples; ++i) {
     at = microtin_spot_beside(at, stride.north, stride.east);
-    if (!ask(&inav->spots, at, far, &height)) {
+    if (!microtin_spots_ask(&inav->spots, at, far, &height)) {
       ++missed;
       continue;
     }

@@ -39,7 +39,10 @@ static inline microtin_status microtin_spots_service(microtin_spots* s, uint32_t
   status =
       microtin_pack_service(s->pack, s->has_info ? &s->wish : &origin, step_limit, read, context);
   if (!s->has_info) {
-    if (microtin_pack_header(s->pack, &s->info)) s->has_info = 1;
+    if (microtin_pack_header(s->pack, &s->info)) {
+      __atomic_signal_fence(__ATOMIC_SEQ_CST); /* no question sees half of it */
+      s->has_info = 1;
+    }
     return status == MICROTIN_DONE ? MICROTIN_NEED_INPUT : status;
   }
   if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT && status != MICROTIN_IO) {
@@ -91,6 +94,14 @@ static inline microtin_answer microtin_spots_height(microtin_spots* s, microtin_
   if (sum > INT32_MAX || sum < INT32_MIN) return MICROTIN_OUTSIDE;
   *millimetres = (int32_t)sum;
   return MICROTIN_HEIGHT;
+}
+
+/* The same; what is missing is wished for, up to `far`. 0: there is no height. */
+static inline int microtin_spots_ask(microtin_spots* s, microtin_spot at, microtin_spot far,
+                                     int32_t* millimetres) {
+  const microtin_answer answer = microtin_spots_height(s, at, millimetres);
+  if (answer == MICROTIN_NOT_DECODED) microtin_spots_wish(s, at, far);
+  return answer == MICROTIN_HEIGHT;
 }
 
 /* The sine of an angle in 1/100 degree, times 65536; within 10 of it. A polynomial with x, x^3 and

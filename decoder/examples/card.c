@@ -70,13 +70,13 @@ static int32_t read_card(void* context, uint64_t offset, uint8_t* buffer, size_t
 
 static microtin_pack* pack;
 
-static struct {
-  volatile uint8_t is_set;    /* the vehicle is at a place; the interrupt may look */
-  volatile uint8_t is_wanted; /* all is decoded that can be: the next answer is the last one */
+/* All of it is volatile: no compiler may move what is written past a flag that tells of it. */
+static volatile struct {
+  uint8_t is_set;    /* the vehicle is at a place; the interrupt may look */
+  uint8_t is_wanted; /* all is decoded that can be: the next answer is the last one */
   int64_t x, y;
   microtin_answer answer;
-  int32_t height;
-  int32_t first_height; /* that was answered here */
+  int32_t height; /* that was answered here */
   uint8_t has_height;
   uint32_t early, wrong; /* answers before all was decoded; heights that changed */
 } vehicle;
@@ -84,13 +84,16 @@ static struct {
 /* Some thousand times a second, at any moment of the service. */
 static void on_tick(void) {
   static uint32_t hint;
+  microtin_answer answer;
+  int32_t height;
   if (!vehicle.is_set) return;
-  vehicle.answer = pack_height_at(pack, vehicle.x, vehicle.y, &hint, &vehicle.height);
-  if (vehicle.answer == MICROTIN_HEIGHT) {
-    if (vehicle.has_height && vehicle.height != vehicle.first_height) ++vehicle.wrong;
-    vehicle.first_height = vehicle.height;
+  answer = pack_height_at(pack, vehicle.x, vehicle.y, &hint, &height);
+  if (answer == MICROTIN_HEIGHT) {
+    if (vehicle.has_height && height != vehicle.height) ++vehicle.wrong;
+    vehicle.height = height;
     vehicle.has_height = 1;
   }
+  vehicle.answer = answer;
   if (!vehicle.is_wanted) ++vehicle.early;
   vehicle.is_wanted = 0;
 }

@@ -76,7 +76,8 @@ typedef enum microtin_status {
   MICROTIN_NEED_INPUT = 1, /* every byte given was taken; more are needed */
   MICROTIN_STEP_LIMIT = 2, /* the steps allowed for this call are used up; call again */
   MICROTIN_STOPPED = 3,    /* the phase asked for is complete; nothing more will be decoded */
-  /* Errors. Once one is returned, every further call returns it again. */
+  /* Errors. Once a decoder returns one but ARGUMENT, every further call returns it again; a pack
+   * goes on, see microtin_pack_prepare. */
   MICROTIN_BAD_MAGIC = 16,           /* not a microtin stream */
   MICROTIN_UNSUPPORTED_VERSION = 17, /* a version of the format, or a part of it, unknown here */
   MICROTIN_TOO_BIG = 18,             /* more vertices than the workspace holds: see microtin_peek */

@@ -143,7 +143,8 @@ class CompactTerrain {
   CompactTerrain(const CompactTerrain&) = delete;
   CompactTerrain& operator=(const CompactTerrain&) = delete;
 
-  // Makes it of a terrain that is decoded, and lost by that; the decoder serves as scratch.
+  // Makes it of a terrain that is decoded, and lost by that; the decoder serves as scratch, and
+  // must begin before it is fed again.
   template <class TerrainType, class DecoderType>
   microtin_status make(TerrainType& terrain, DecoderType& decoder) {
     microtin_compactor* compactor = nullptr;

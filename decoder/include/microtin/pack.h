@@ -148,9 +148,10 @@ typedef struct microtin_pack_info {
 /* Returns 1, or 0 if the header is not known yet. */
 int microtin_pack_header(const microtin_pack* pack, microtin_pack_info* info);
 
-/* As microtin_to_lattice, for places of a pack, 0 .. 256 * `most` steps: `value` / `per_unit` units
- * on an axis. Returns 1, or 0 when the place lies outside, per_unit outside 1 .. 2^24, the axis'
- * numerator is 2^30 or more or its offset outside +-2^61. Exact: integers only. */
+/* As microtin_to_lattice, for places of a pack, 0 .. `most` steps: `value` / `per_unit` units on an
+ * axis. Returns 1, or 0 when the place lies outside (below 0 also if it would be rounded to 0),
+ * per_unit outside 1 .. 2^24, the axis' numerator is 2^30 or more or its offset outside +-2^61.
+ * Exact: integers only. */
 int microtin_pack_to_lattice(const microtin_axis* axis, uint32_t most, int64_t value,
                              uint32_t per_unit, int64_t* lattice);
 
