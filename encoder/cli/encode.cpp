@@ -73,19 +73,36 @@ std::string at_true_places(const std::optional<Verification>& measured,
          (is_bound ? " (the bound holds there, too)\n" : "\n");
 }
 
-std::string text_of(const PreparedTerrain& terrain, const EncodedStream& encoded,
+std::string source_of_posts(uint64_t posts, uint64_t voids, const Mended& mended,
+                            const std::string& selection) {
+  std::string text = "source: " + std::to_string(posts) + " posts";
+  if (voids != 0) text += ", " + std::to_string(voids) + " void posts";
+  return text + describe_preparation(mended, selection) + '\n';
+}
+
+std::string source_of_points(uint64_t points, const std::string& selection) {
+  return "source: " + std::to_string(points) + " points" + describe_preparation({}, selection) +
+         '\n';
+}
+
+std::string source_of(const Source& source, const Verification& measured) {
+  if (const auto* const cloud = std::get_if<PointCloud>(&source)) {
+    return source_of_points(measured.posts, cloud->selection);
+  }
+  const auto& raster = std::get<Raster>(source);
+  return source_of_posts(measured.posts, measured.voids, raster.mended, raster.selection);
+}
+
+std::string text_of(const Source& source, const EncodedStream& encoded,
                     const EncodeRequest& request) {
   const Laid& laid = encoded.laid;
-  const bool posts = std::holds_alternative<Raster>(terrain.source);
+  const bool posts = std::holds_alternative<Raster>(source);
   const Verification& measured = encoded.verification;
   std::ostringstream text;
   text.exceptions(std::ios::badbit);  // else a text for which memory is short ends early, unsaid
-  text << "source: " << measured.posts << (posts ? " posts" : " points");
-  if (measured.voids != 0) text << ", " << measured.voids << " void posts";
-  text << describe_preparation(terrain);
-  text << "\nstep of x and y: " << to_string(laid.xy_step) << (posts ? " (in posts)" : "")
-       << moved(laid.xy_displacement) << "\nstep of z: " << to_string(laid.z_step)
-       << moved(laid.z_displacement) << '\n'
+  text << source_of(source, measured) << "step of x and y: " << to_string(laid.xy_step)
+       << (posts ? " (in posts)" : "") << moved(laid.xy_displacement)
+       << "\nstep of z: " << to_string(laid.z_step) << moved(laid.z_displacement) << '\n'
        << merged(laid.merged, request.lattice.duplicates) << "stream: " << encoded.vertices
        << " vertices, " << encoded.stream.size() << " bytes, "
        << bits_per_vertex(encoded.stream.size(), encoded.vertices) << " bits/vertex\n"
@@ -118,8 +135,10 @@ void announce(const EncodeRequest& request, const std::string& remark) {
   if (!remark.empty()) std::fputs(warning(request.input + ": " + remark).c_str(), stderr);
 }
 
-void announce_fill(const EncodeRequest& request, const RasterReader& raster) {
-  announce(request, remark_on_fill(scan(raster, {}, false, {}).extremes, raster.frame().decimals));
+RasterScan scan_for_fill(const EncodeRequest& request, const RasterReader& raster) {
+  RasterScan scanned = scan(raster, {}, false, {});
+  announce(request, remark_on_fill(scanned.extremes, raster.frame().decimals));
+  return scanned;
 }
 
 std::unique_ptr<RasterReader> open_raster(const EncodeRequest& request) {
@@ -128,23 +147,23 @@ std::unique_ptr<RasterReader> open_raster(const EncodeRequest& request) {
   if (raster == nullptr) {
     throw Error(request.input + ": shards are of packs of rasters; these are points");
   }
-  announce_fill(request, **raster);
+  scan_for_fill(request, **raster);
   return std::move(*raster);
 }
 
 // Each of these writes what is asked for and returns what to say of it.
 std::string encode_raster(const RasterReader& raster, const EncodeRequest& request,
                           OutputFile& out) {
-  announce_fill(request, raster);
+  const RasterScan scanned = scan_for_fill(request, raster);
   StreamSpool streams(request.output);
   const PackContent pack = with_file_context(request.input, [&] {
     ProgressBar bar;
     return encode_pack(raster, request, streams, bar.progress());
   });
   write_pack(pack, streams, out);
-  const std::string& selection = raster.frame().selection;
-  const std::string text = selection.empty() ? "" : "source: " + selection + "\n";
-  return text + text_of(report_of(pack)) + units(request, raster.frame().reference);
+  const Raster& frame = raster.frame();
+  return source_of_posts(scanned.posts, scanned.voids, scanned.mended, frame.selection) +
+         text_of(report_of(pack)) + units(request, frame.reference);
 }
 
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
@@ -152,9 +171,8 @@ std::string encode_points(const PointCloud& cloud, const EncodeRequest& request,
   const EncodedPoints made =
       with_file_context(request.input, [&] { return encode_pack(cloud, request); });
   out.write(made.bytes);
-  std::string text = "source: " + std::to_string(cloud.points.size()) + " points";
-  if (!cloud.selection.empty()) text += ", " + cloud.selection;
-  text += "\nstep of x and y: " + to_string(made.xy_step) + moved(made.xy_displacement) + "\n";
+  std::string text = source_of_points(cloud.points.size(), cloud.selection);
+  text += "step of x and y: " + to_string(made.xy_step) + moved(made.xy_displacement) + "\n";
   return text + merged(made.merged, request.lattice.duplicates) + text_of(made.report) +
          at_true_places(made.true_places, request) + units(request, cloud.reference);
 }
@@ -179,15 +197,14 @@ std::string encode_tiled(const EncodeRequest& request, OutputFile& out) {
 }
 
 std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
-  const PreparedTerrain terrain = prepared_terrain(request.input, request.preparation);
-  announce(request,
-           std::visit([](const auto& source) { return remark_on_fill(source); }, terrain.source));
+  const Source source = prepared_terrain(request.input, request.preparation);
+  announce(request, std::visit([](const auto& one) { return remark_on_fill(one); }, source));
   const EncodedStream encoded = with_file_context(request.input, [&] {
     ProgressBar bar;
-    return encode_stream(terrain.source, request, bar.progress());
+    return encode_stream(source, request, bar.progress());
   });
   out.write(encoded.stream);
-  return text_of(terrain, encoded, request) + units(request, reference_of(terrain.source));
+  return text_of(source, encoded, request) + units(request, reference_of(source));
 }
 
 void announce_left_out(const EncodeRequest& request) {

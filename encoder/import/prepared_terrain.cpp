@@ -116,18 +116,17 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
   return files;
 }
 
-PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation) {
-  PreparedTerrain terrain{read_parts(parts_of(path, preparation), preparation), 0, 0};
-  terrain.filled = fill_voids(terrain.source, preparation.fill_voids);
-  if (!preparation.water_level) return terrain;
-  auto* const raster = std::get_if<Raster>(&terrain.source);
+Source prepared_terrain(const std::string& path, const Preparation& preparation) {
+  Source source = read_parts(parts_of(path, preparation), preparation);
+  auto* const raster = std::get_if<Raster>(&source);
+  if (raster != nullptr) fill_voids(*raster, preparation.fill_voids);
+  if (!preparation.water_level) return source;
   if (raster == nullptr) refuse_water(path);
   std::optional<Raster> mask;
   if (!preparation.water_mask.empty()) mask = read_mask(preparation.water_mask, *raster);
-  terrain.flooded = with_file_context(path, [&] {
-    return flood_voids(*raster, *preparation.water_level, mask ? &*mask : nullptr);
-  });
-  return terrain;
+  with_file_context(
+      path, [&] { flood_voids(*raster, *preparation.water_level, mask ? &*mask : nullptr); });
+  return source;
 }
 
 OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
@@ -145,17 +144,14 @@ OpenSource prepared_source(const std::string& path, const Preparation& preparati
   });
 }
 
-std::string describe_preparation(const PreparedTerrain& terrain) {
+std::string describe_preparation(const Mended& mended, const std::string& selection) {
   std::string text;
-  if (terrain.filled != 0) {
-    text += ", " + std::to_string(terrain.filled) + " of the posts were void and are filled";
+  if (mended.filled != 0) {
+    text += ", " + std::to_string(mended.filled) + " of the posts were void and are filled";
   }
-  if (terrain.flooded != 0) {
-    text += ", " + std::to_string(terrain.flooded) + " of the posts were void and are water";
+  if (mended.flooded != 0) {
+    text += ", " + std::to_string(mended.flooded) + " of the posts were void and are water";
   }
-  const auto* cloud = std::get_if<PointCloud>(&terrain.source);
-  const std::string& selection =
-      cloud != nullptr ? cloud->selection : std::get<Raster>(terrain.source).selection;
   if (!selection.empty()) text += ", " + selection;
   return text;
 }

@@ -29,19 +29,14 @@ struct Preparation {
 // Error as preparing does.
 std::vector<std::string> files_of(const std::string& path, const Preparation& preparation);
 
-struct PreparedTerrain {
-  Source source;
-  uint32_t filled = 0, flooded = 0;  // posts that were void
-};
-
 // Throws Error naming the file.
-PreparedTerrain prepared_terrain(const std::string& path, const Preparation& preparation);
+Source prepared_terrain(const std::string& path, const Preparation& preparation);
 
 // The same for a source whose raster is read in pieces. Throws Error when a piece is read, too.
 OpenSource prepared_source(const std::string& path, const Preparation& preparation);
 
-// A part of a sentence about what was done to a terrain: empty if nothing was.
-std::string describe_preparation(const PreparedTerrain& terrain);
+// Parts of a sentence about what was done to a terrain: empty if nothing was.
+std::string describe_preparation(const Mended& mended, const std::string& selection);
 
 }  // namespace microtin::importing
 

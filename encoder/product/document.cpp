@@ -63,7 +63,7 @@ std::variant<Source, OpenSource> source_for(const Document& document, const std:
     if (auto* const cloud = std::get_if<PointCloud>(&source)) thin(*cloud, metadata);
     return source;
   }
-  Source source = prepared_terrain(path, preparation).source;
+  Source source = prepared_terrain(path, preparation);
   if (auto* const cloud = std::get_if<PointCloud>(&source)) thin(*cloud, metadata);
   return source;
 }

@@ -54,6 +54,8 @@ uint64_t mixed(uint64_t fingerprint, uint64_t number) {
 }
 
 struct BlockScan {
+  uint64_t voids;
+  Mended mended;
   NumberRange heights;
   Extremes extremes;
   uint64_t fingerprint;
@@ -62,6 +64,8 @@ struct BlockScan {
 
 BlockScan scan_block(const Raster& block) {
   BlockScan result{};
+  result.voids = void_posts(block);
+  result.mended = block.mended;
   for (const int64_t height : block.heights) {
     if (height != kVoidHeight) {
       result.heights.add(height);
@@ -76,8 +80,7 @@ BlockScan scan_block(const Raster& block) {
 
 uint64_t roughness(const Raster& part, const std::optional<Decimal>& max_error) {
   if (!max_error) {
-    return static_cast<uint64_t>(std::count_if(part.heights.begin(), part.heights.end(),
-                                               [](int64_t z) { return z != kVoidHeight; }));
+    return part.heights.size() - void_posts(part);
   }
   const double bound = static_cast<double>(max_error->mantissa) *
                        static_cast<double>(power_of_ten(part.decimals)) /
@@ -111,11 +114,14 @@ RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_er
   RasterScan all;
   std::size_t roughest = 0;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
+    all.voids += blocks[i].voids;
+    all.mended.add(blocks[i].mended);
     all.heights.add(blocks[i].heights);
     all.extremes.add(blocks[i].extremes);
     if (blocks[i].roughness > blocks[roughest].roughness) roughest = i;
     all.fingerprint = mixed(all.fingerprint, blocks[i].fingerprint);
   }
+  all.posts = uint64_t{frame.width} * frame.height - all.voids;
   all.roughest = box(roughest);
   return all;
 }

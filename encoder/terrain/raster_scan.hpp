@@ -15,6 +15,8 @@
 namespace microtin::terrain {
 
 struct RasterScan {
+  uint64_t posts = 0, voids = 0;  // with a height, and without one
+  Mended mended;
   NumberRange heights;
   Extremes extremes;
   uint64_t fingerprint = 0;  // of all heights; no match for somebody who wants to deceive it

@@ -34,9 +34,11 @@ class FilledRaster : public RasterReader {
       Raster wide = raster_->read({x.from, y.from, x.size, y.size});
       const PostRectangle inner{r.x - x.from, r.y - y.from, r.width, r.height};
       if (is_cut(wide, x, y, inner)) continue;
+      const uint64_t voids = void_posts(crop(wide, inner));
       fill_voids(wide, largest_);
       Raster part = crop_frame(frame_, r);
       part.heights = crop(wide, inner).heights;
+      part.mended.filled = voids - void_posts(part);
       return part;
     }
   }

@@ -3,6 +3,7 @@
 #ifndef MICROTIN_ENCODER_TERRAIN_SOURCE_HPP
 #define MICROTIN_ENCODER_TERRAIN_SOURCE_HPP
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -29,6 +30,17 @@ struct Reference {
   std::string wkt;  // of the horizontal system, where it has no code
 };
 
+// Posts that were void when they were read and have a height nevertheless.
+struct Mended {
+  uint64_t filled = 0;   // interpolated
+  uint64_t flooded = 0;  // at the water level
+
+  void add(const Mended& others) {
+    filled += others.filled;
+    flooded += others.flooded;
+  }
+};
+
 struct Raster {
   uint32_t width = 0;
   uint32_t height = 0;
@@ -37,6 +49,7 @@ struct Raster {
   Axis x{0, 1, 1}, y{0, 1, 1};  // from a post's column and row to where its centre lies
   Reference reference;
   std::string selection = {};  // how it was put together of files, for the user; empty: it was not
+  Mended mended = {};          // of its posts
 };
 
 struct SourcePoint {
@@ -92,6 +105,11 @@ inline Placement placement_of(const Source& source) {
   const auto& cloud = std::get<PointCloud>(source);
   const Axis xy = decimal_axis(cloud.xy_decimals);
   return {xy, xy, decimal_axis(cloud.z_decimals)};
+}
+
+inline uint64_t void_posts(const Raster& raster) {
+  return static_cast<uint64_t>(
+      std::count(raster.heights.begin(), raster.heights.end(), kVoidHeight));
 }
 
 inline PostGrid posts_of(const Raster& frame) {

@@ -90,9 +90,8 @@ int64_t rim_height(const Raster& raster, const std::vector<size_t>& region) {
 
 }  // namespace
 
-uint32_t fill_voids(Raster& raster, uint32_t largest) {
+void fill_voids(Raster& raster, uint32_t largest) {
   std::vector<bool> seen(raster.heights.size());
-  uint32_t filled = 0;
   for (size_t start = 0; start < raster.heights.size(); ++start) {
     if (raster.heights[start] != kVoidHeight || seen[start]) continue;
     std::vector<size_t> region = void_region(raster, start, seen);
@@ -105,9 +104,8 @@ uint32_t fill_voids(Raster& raster, uint32_t largest) {
     for (size_t i = 0; i < region.size(); ++i) {
       raster.heights[region[i]] = base + std::llround(unknowns[i].height);
     }
-    filled += static_cast<uint32_t>(region.size());
+    raster.mended.filled += region.size();
   }
-  return filled;
 }
 
 bool reaches_side(const Raster& raster, const PostRectangle& inner, Sides sides, uint32_t largest) {
@@ -127,11 +125,6 @@ bool reaches_side(const Raster& raster, const PostRectangle& inner, Sides sides,
     }
   }
   return false;
-}
-
-uint32_t fill_voids(Source& source, uint32_t largest) {
-  auto* raster = std::get_if<Raster>(&source);
-  return raster != nullptr ? fill_voids(*raster, largest) : 0;
 }
 
 }  // namespace microtin::terrain

@@ -10,12 +10,9 @@
 namespace microtin::terrain {
 
 // Fills the void regions (connected by sides) of up to `largest` posts with heights whose every one
-// is the mean of its four neighbours, like a soap film on the region's rim. Returns how many posts
-// that were.
-uint32_t fill_voids(Raster& raster, uint32_t largest);
-
-// The same for any source; points have no voids.
-uint32_t fill_voids(Source& source, uint32_t largest);
+// is the mean of its four neighbours, like a soap film on the region's rim. Counts
+// them as filled.
+void fill_voids(Raster& raster, uint32_t largest);
 
 struct Sides {
   bool west, south, east, north;

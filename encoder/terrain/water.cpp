@@ -27,18 +27,16 @@ void refine(Raster& raster, int decimals) {
 
 }  // namespace
 
-uint32_t flood_voids(Raster& raster, Decimal level, const Raster* mask) {
+void flood_voids(Raster& raster, Decimal level, const Raster* mask) {
   refine(raster, level.decimals);
   const std::optional<int64_t> height = number_of(level, raster.decimals);
   if (!height) throw Error("the water level is out of range");
-  uint32_t flooded = 0;
   for (size_t i = 0; i < raster.heights.size(); ++i) {
     if (raster.heights[i] != kVoidHeight) continue;
     if (mask != nullptr && mask->heights[i] != power_of_ten(mask->decimals)) continue;
     raster.heights[i] = *height;
-    ++flooded;
+    ++raster.mended.flooded;
   }
-  return flooded;
 }
 
 WaterGauge::WaterGauge(int decimals, const std::optional<Decimal>& level)

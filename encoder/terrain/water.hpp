@@ -12,9 +12,9 @@
 namespace microtin::terrain {
 
 // Gives void posts the height of the water level: all, or those where the mask is 1. Posts with
-// heights keep them. Returns how many it gave. Throws Error if the level needs more decimals than
+// heights keep them. Counts those as flooded. Throws Error if the level needs more decimals than
 // go beside the heights.
-uint32_t flood_voids(Raster& raster, Decimal level, const Raster* mask);
+void flood_voids(Raster& raster, Decimal level, const Raster* mask);
 
 // Throws Error if the mask has not the posts of the raster, or holds anything but 0, 1 and voids.
 void check_water_mask(const Raster& mask, const Raster& raster);

@@ -229,6 +229,8 @@ TEST_CASE("cli: voids are filled on request") {
                  "12 posts, 2 of the posts were void and are filled"));
   CHECK(contains(session.failure("verify t.mtin t.asc"), "voids"));
   CHECK(session.run("verify t.mtin t.asc --fill-voids 2").code == 0);
+  CHECK(contains(session.run("encode t.asc --fill-voids 2 --tile-vertices 60 -o t.mtp").out,
+                 "source: 12 posts, 2 of the posts were void and are filled"));
 }
 
 TEST_CASE("cli: bad input gives one line with file and line, and no output") {
@@ -470,6 +472,8 @@ TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
   CHECK(contains(session.run("encode " + masked + " -o m.mtin").out,
                  "11 posts, 1 void posts, 1 of the posts were void and are water"));
   CHECK(session.run("verify m.mtin " + masked).code == 0);
+  CHECK(contains(session.run("encode " + masked + " --tile-vertices 60 -o m.mtp").out,
+                 "source: 11 posts, 1 void posts, 1 of the posts were void and are water"));
   session.write("p.xyz", "0 0 0\n9 0 3\n0 9 7\n");
   CHECK(session.failure("encode p.xyz --water-level 3 -o p.mtin") ==
         "p.xyz: --water-level is for rasters; these are points\n");

@@ -85,7 +85,7 @@ TEST_CASE("mosaic: a folder of SRTM cells") {
   session.write("cells/readme.txt.old", "no terrain");
   const std::string out =
       session.run("encode cells --max-error 0.5 --tile-vertices 60 -o t.mtp").out;
-  CHECK(contains(out, "source: 2 files, which agree where they overlap"));
+  CHECK(contains(out, "source: 15 posts, 2 files, which agree where they overlap"));
   CHECK(session.run("verify t.mtp cells").code == 0);
   CHECK(contains(session.run("info t.mtp").out,
                  "extent: {\"west\": 7.0, \"south\": 43.0, \"east\": 9.0, \"north\": 44.0}"));

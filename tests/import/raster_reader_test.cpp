@@ -9,6 +9,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/import/import.hpp"
+#include "encoder/terrain/raster_scan.hpp"
 #include "encoder/terrain/voids.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/packs.hpp"
@@ -111,6 +112,10 @@ TEST_CASE("raster reader: small voids are filled alike in every rectangle") {
       const auto filled = with_voids_filled(std::make_unique<RasterInMemory>(whole), largest);
       fill_voids(whole, largest);
       check_rectangles(*filled, whole);
+      const RasterScan scanned = scan(*filled, {}, false, {});
+      CHECK(scanned.mended.filled == whole.mended.filled);
+      CHECK(scanned.voids == void_posts(whole));
+      CHECK(scanned.posts + scanned.voids == whole.heights.size());
     }
   }
 }
