@@ -7,39 +7,49 @@
 namespace microtin::fit {
 
 PostIndex::PostIndex(const std::vector<Point>& places) {
-  uint32_t width = 1, height = 1;
+  if (places.empty()) return;
+  west_ = south_ = kLatticeMax;
   for (const Point p : places) {
-    width = std::max(width, p.x + 1u);
-    height = std::max(height, p.y + 1u);
+    west_ = std::min<uint32_t>(west_, p.x);
+    south_ = std::min<uint32_t>(south_, p.y);
+    east_ = std::max<uint32_t>(east_, p.x);
+    north_ = std::max<uint32_t>(north_, p.y);
   }
-  const auto cells = [&] {
-    return std::size_t{(width + cell_ - 1) / cell_} * ((height + cell_ - 1) / cell_);
-  };
-  while (cells() > 2 * places.size() + 64) ++cell_;
-  columns_ = (width + cell_ - 1) / cell_;
-  rows_ = (height + cell_ - 1) / cell_;
-  first_.resize(cells() + 1);
-  const auto cell_of = [&](Point p) { return std::size_t{p.x / cell_} * rows_ + p.y / cell_; };
+  const auto columns = [&] { return std::size_t{(east_ - west_) / cell_ + 1}; };
+  const auto rows = [&] { return std::size_t{(north_ - south_) / cell_ + 1}; };
+  while (columns() * rows() > 2 * places.size() + 64) ++cell_;
+  rows_ = rows();
+  first_.resize(columns() * rows_ + 1);
   for (const Point p : places) ++first_[cell_of(p) + 1];
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   std::vector<uint32_t> next(first_);
-  places_.resize(places.size());
-  rows_of_places_.resize(places.size() + kReadAhead);
   numbers_.resize(places.size());
-  for (uint32_t i = 0; i < places.size(); ++i) {
-    const uint32_t position = next[cell_of(places[i])]++;
-    places_[position] = places[i];
-    rows_of_places_[position] = places[i].y;
-    numbers_[position] = i;
+  for (uint32_t i = 0; i < places.size(); ++i) numbers_[next[cell_of(places[i])]++] = i;
+  sort_cells(places);
+  rows_of_places_.resize(places.size() + kReadAhead);
+  for (const uint32_t i : numbers_) {
+    rows_of_places_[places_.size()] = places[i].y;
+    places_.push_back(places[i]);
+  }
+}
+
+void PostIndex::sort_cells(const std::vector<Point>& places) {
+  for (std::size_t cell = 0; cell + 1 < first_.size(); ++cell) {
+    if (first_[cell + 1] - first_[cell] < 2) continue;
+    std::sort(numbers_.begin() + first_[cell], numbers_.begin() + first_[cell + 1],
+              [&](uint32_t a, uint32_t b) { return places[a] < places[b]; });
+    has_crowds_ = has_crowds_ || is_crowded(cell);
   }
 }
 
 std::optional<std::size_t> PostIndex::find(Point p) const {
-  if (p.x / cell_ >= columns_ || p.y / cell_ >= rows_) return std::nullopt;
-  const std::size_t cell = std::size_t{p.x / cell_} * rows_ + p.y / cell_;
-  const auto begin = places_.begin() + first_[cell], end = places_.begin() + first_[cell + 1];
-  const auto at = std::find(begin, end, p);
-  if (at == end) return std::nullopt;
+  if (places_.empty() || p.x < west_ || p.x > east_ || p.y < south_ || p.y > north_) {
+    return std::nullopt;
+  }
+  const std::size_t cell = cell_of(p);
+  const auto end = places_.begin() + first_[cell + 1];
+  const auto at = std::lower_bound(places_.begin() + first_[cell], end, p);
+  if (at == end || *at != p) return std::nullopt;
   return static_cast<std::size_t>(at - places_.begin());
 }
 

@@ -15,10 +15,11 @@
 namespace microtin::fit {
 
 // Posts sorted into square cells, about as many cells as posts: on a raster one post a cell, whose
-// triangles are then scanned column by column without a test.
+// triangles are then scanned column by column without a test. So are cells that hold many posts, of
+// clouds with crowds far apart.
 class PostIndex {
  public:
-  // `places` are distinct. Linear.
+  // `places` are distinct. Linear, where they are in order or no cell holds many.
   explicit PostIndex(const std::vector<Point>& places);
 
   // Posts have positions, from 0 on: by column of cells, then row, then place.
@@ -39,17 +40,28 @@ class PostIndex {
       visit_columns(outline, visit);
       return;
     }
-    const uint32_t last = std::min<uint32_t>(outline.right().x / cell_, columns_ - 1);
-    for (uint32_t column = outline.left().x / cell_; column <= last; ++column) {
-      const int64_t x = int64_t{column} * cell_;
-      const Outline::Span span = outline.over(x, x + cell_ - 1);
-      if (span.low > span.high || span.low / cell_ >= rows_) continue;
-      const uint32_t* const cells = first_.data() + std::size_t{column} * rows_;
-      const auto low = static_cast<std::size_t>(span.low / cell_);
-      const auto high =
-          std::min<std::size_t>(static_cast<std::size_t>(span.high / cell_), rows_ - 1);
-      for (std::size_t i = cells[low]; i < cells[high + 1]; ++i) {
-        if (covers(a, b, c, places_[i])) visit(i, i + 1);
+    const uint32_t left = std::max<uint32_t>(outline.left().x, west_);
+    const uint32_t right = std::min<uint32_t>(outline.right().x, east_);
+    for (uint32_t x = left - (left - west_) % cell_; x <= right; x += cell_) {
+      const Outline::Span span = within_rows(outline.over(x, int64_t{x} + cell_ - 1));
+      if (span.low > span.high) continue;
+      const std::size_t column = std::size_t{(x - west_) / cell_} * rows_;
+      const std::size_t low = column + row_of(span.low), high = column + row_of(span.high);
+      const auto test = [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) {
+          if (covers(a, b, c, places_[i])) visit(i, i + 1);
+        }
+      };
+      if (!has_crowds_) {
+        test(first_[low], first_[high + 1]);
+        continue;
+      }
+      for (std::size_t cell = low; cell <= high; ++cell) {
+        if (is_crowded(cell)) {
+          visit_crowd(outline, x, cell, visit);
+        } else {
+          test(first_[cell], first_[cell + 1]);
+        }
       }
     }
   }
@@ -134,22 +146,56 @@ class PostIndex {
   // The same where a cell is a place: no post has to be tested.
   template <class Visit>
   void visit_columns(const Outline& outline, const Visit& visit) const {
-    const uint32_t last = std::min<uint32_t>(outline.right().x, columns_ - 1);
-    for (uint32_t x = outline.left().x; x <= last; ++x) {
-      const Outline::Span span = outline.at(x);
-      const int64_t high = std::min<int64_t>(span.high, int64_t{rows_} - 1);
-      if (span.low > high) continue;
-      const uint32_t* const cells = first_.data() + std::size_t{x} * rows_;
-      const std::size_t begin = cells[span.low], end = cells[high + 1];
+    const uint32_t last = std::min<uint32_t>(outline.right().x, east_);
+    for (uint32_t x = std::max<uint32_t>(outline.left().x, west_); x <= last; ++x) {
+      const Outline::Span span = within_rows(outline.at(x));
+      if (span.low > span.high) continue;
+      const uint32_t* const cells = first_.data() + std::size_t{x - west_} * rows_;
+      const std::size_t begin = cells[span.low - south_], end = cells[span.high - south_ + 1];
       if (begin != end) visit(begin, end);
     }
   }
+
+  // The same in a cell whose first column is at x.
+  template <class Visit>
+  void visit_crowd(const Outline& outline, uint32_t x, std::size_t cell, const Visit& visit) const {
+    const uint32_t last = std::min<uint32_t>(outline.right().x, x + cell_ - 1);
+    for (x = std::max<uint32_t>(outline.left().x, x); x <= last; ++x) {
+      const Outline::Span span = outline.at(x);
+      if (span.low > span.high) continue;
+      const auto at = [x](int64_t y) {
+        return Point{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
+      };
+      const auto from = places_.begin() + first_[cell], to = places_.begin() + first_[cell + 1];
+      const auto begin = std::lower_bound(from, to, at(span.low));
+      const auto end = std::upper_bound(begin, to, at(span.high));
+      if (begin != end) {
+        visit(static_cast<std::size_t>(begin - places_.begin()),
+              static_cast<std::size_t>(end - places_.begin()));
+      }
+    }
+  }
+
+  // A search in each of its columns takes less than a look at every post.
+  bool is_crowded(std::size_t cell) const { return first_[cell + 1] - first_[cell] > 2 * cell_; }
+
+  Outline::Span within_rows(Outline::Span span) const {
+    return {std::max<int64_t>(span.low, south_), std::min<int64_t>(span.high, north_)};
+  }
+  std::size_t row_of(int64_t y) const { return (static_cast<uint32_t>(y) - south_) / cell_; }
+  std::size_t cell_of(Point p) const {
+    return std::size_t{(p.x - west_) / cell_} * rows_ + row_of(p.y);
+  }
+  void sort_cells(const std::vector<Point>& places);
 
   static bool covers(Point a, Point b, Point c, Point p) {
     return orient2d(a, b, p) >= 0 && orient2d(b, c, p) >= 0 && orient2d(c, a, p) >= 0;
   }
 
-  uint32_t cell_ = 1, columns_ = 0, rows_ = 0;
+  uint32_t west_ = 0, south_ = 0, east_ = 0, north_ = 0;  // of all places
+  uint32_t cell_ = 1;                                     // a side
+  std::size_t rows_ = 0;                                  // of cells
+  bool has_crowds_ = false;
   std::vector<Point> places_;  // by position
   std::vector<float> rows_of_places_;
   std::vector<uint32_t> numbers_;  // by position

@@ -75,6 +75,16 @@ TEST_CASE("post index: scattered points of every kind") {
   }
 }
 
+TEST_CASE("post index: crowds far apart, far from the origin") {
+  Random random(23);
+  Points crowds = lattice_points(80, 60, random, 80);
+  for (Point& p : crowds) p = {static_cast<uint16_t>(p.x + 60000), static_cast<uint16_t>(p.y + 9)};
+  check(crowds, 65536, random);
+  crowds.push_back({3, 65000});
+  std::reverse(crowds.begin(), crowds.end());  // their order does not matter
+  check(crowds, 65536, random);
+}
+
 TEST_CASE("post index: none") {
   CHECK(found(PostIndex({}), {0, 0}, {9, 0}, {0, 9}).empty());
 }
