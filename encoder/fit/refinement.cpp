@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "encoder/stream/void_triangles.hpp"
 #include "shared/interpolation.hpp"
 
 namespace microtin::fit {
@@ -165,11 +166,7 @@ Tin Refinement::tin() const {
   Tin tin;
   for (Index v = 0; v < mesh.vertices; ++v) tin.vertices.push_back(vertex(v));
   for (Index t = 0; t < mesh.triangles; ++t) {
-    if (!void_[t]) continue;
-    Point corner[3];
-    for (Index i = 0; i < 3; ++i) corner[i] = point_of(mesh, mesh.origin[first_edge(t) + i]);
-    std::rotate(corner, std::min_element(corner, corner + 3), corner + 3);
-    tin.voids.push_back({corner[0], corner[1], corner[2]});
+    if (void_[t]) tin.voids.push_back(listed_triangle(mesh, t));
   }
   return tin;
 }

@@ -5,20 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
-#include <tuple>
 
+#include "encoder/stream/void_triangles.hpp"
 #include "shared/interpolation.hpp"
 
 namespace microtin::fit {
 namespace {
-
-std::vector<Point> places_of(const std::vector<Vertex>& vertices) {
-  std::vector<Point> places;
-  places.reserve(vertices.size());
-  for (const Vertex& v : vertices) places.push_back({v.x, v.y});
-  return places;
-}
 
 // A triangle's height in floating point.
 class Plane {
@@ -51,7 +43,7 @@ Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts,
     : survey_(survey),
       model_(model),
       posts_(posts),
-      triangulation_(places_of(tin.vertices)),
+      triangulation_(places_of(tin)),
       vertices_(static_cast<Index>(tin.vertices.size())),
       fixed_(tin.vertices.size()),
       void_(triangulation_.mesh().triangles),
@@ -74,16 +66,12 @@ Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts,
 }
 
 void Surface::find_voids() {
-  std::set<std::tuple<Point, Point, Point>> voids;
-  for (const Tin::Triangle& t : voids_) voids.emplace(t.a, t.b, t.c);
+  const VoidTriangles voids(voids_);
   if (voids.empty()) return;
   for (Index t = 0; t < mesh().triangles; ++t) {
-    if (!is_covered(t)) continue;
-    const Index* const corner = mesh().origin + first_edge(t);
-    Point p[3] = {place(corner[0]), place(corner[1]), place(corner[2])};
-    std::rotate(p, std::min_element(p, p + 3), p + 3);
-    if (voids.count({p[0], p[1], p[2]}) == 0) continue;
+    if (!is_covered(t) || !voids.has(mesh(), t)) continue;
     void_[t] = true;
+    const Index* const corner = mesh().origin + first_edge(t);
     for (Index i = 0; i < 3; ++i) fixed_[corner[i]] = true;
   }
 }

@@ -3,9 +3,7 @@
 #include "encoder/stream/encode.hpp"
 
 #include <algorithm>
-#include <set>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "encoder/base/error.hpp"
@@ -15,6 +13,7 @@
 #include "encoder/stream/order.hpp"
 #include "encoder/stream/range_encoder.hpp"
 #include "encoder/stream/triangulation.hpp"
+#include "encoder/stream/void_triangles.hpp"
 #include "shared/reconstruction.hpp"
 
 namespace microtin::stream {
@@ -27,26 +26,10 @@ constexpr uint32_t kWideDegree = 16;
 constexpr std::size_t kPartSaved = 256;
 
 // Void triangles, by their corners from the smallest on.
-using VoidSet = std::set<std::tuple<Point, Point, Point>>;
-
-VoidSet void_set(const Tin& tin) {
-  VoidSet voids;
-  for (const Tin::Triangle& t : tin.voids) voids.emplace(t.a, t.b, t.c);
-  return voids;
-}
-
-std::tuple<Point, Point, Point> corners_from_smallest(const Mesh& mesh, Index triangle) {
-  const Index f = first_edge(triangle);
-  Point p[3];
-  for (Index i = 0; i < 3; ++i) p[i] = point_of(mesh, mesh.origin[f + i]);
-  std::rotate(p, std::min_element(p, p + 3), p + 3);
-  return {p[0], p[1], p[2]};
-}
-
 // Knows what is to be sent, and writes it: the coder of shared/reconstruction.hpp.
 class WritingCoder {
  public:
-  WritingCoder(const std::vector<Vertex>& vertices, const Order& order, VoidSet voids)
+  WritingCoder(const std::vector<Vertex>& vertices, const Order& order, VoidTriangles voids)
       : voids_(std::move(voids)) {
     sequence_.reserve(vertices.size());
     for (const Index v : order.seed) sequence_.push_back(vertices[v]);
@@ -76,9 +59,7 @@ class WritingCoder {
     return in_conflict(mesh, mesh.origin[f], mesh.origin[f + 1], mesh.origin[f + 2],
                        Point{sequence_[placed_].x, sequence_[placed_].y});
   }
-  bool is_void(const Mesh& mesh, Index triangle) const {
-    return voids_.count(corners_from_smallest(mesh, triangle)) != 0;
-  }
+  bool is_void(const Mesh& mesh, Index triangle) const { return voids_.has(mesh, triangle); }
 
   std::vector<uint8_t> take_payload() {
     std::vector<uint8_t> bytes = payload_.finish();
@@ -89,7 +70,7 @@ class WritingCoder {
  private:
   std::vector<Vertex> sequence_;
   std::vector<uint32_t> batches_;
-  VoidSet voids_;
+  VoidTriangles voids_;
   uint32_t placed_ = 0;
   uint32_t phase_ = 0;
   RangeEncoder payload_;
@@ -168,21 +149,13 @@ Contract contract_of(const Tin& tin, const Effort& effort, Origin origin) {
   return contract;
 }
 
-std::vector<Point> places_of(const std::vector<Vertex>& vertices) {
-  std::vector<Point> places;
-  places.reserve(vertices.size());
-  for (const Vertex& v : vertices) places.push_back(Point{v.x, v.y});
-  return places;
-}
-
 uint64_t fingerprint_of(const Mesh& mesh, const std::vector<Vertex>& vertices,
-                        const VoidSet& voids) {
+                        const VoidTriangles& voids) {
   Fingerprint fingerprint(vertices);
   for (Index t = 0; t < mesh.triangles; ++t) {
     const Index* const v = mesh.origin + first_edge(t);
     if (v[0] == kInfinity || v[1] == kInfinity || v[2] == kInfinity) continue;
-    const bool is_void = !voids.empty() && voids.count(corners_from_smallest(mesh, t)) != 0;
-    fingerprint.add(v[0], v[1], v[2], is_void);
+    fingerprint.add(v[0], v[1], v[2], voids.has(mesh, t));
   }
   return fingerprint.sum();
 }
@@ -206,10 +179,10 @@ struct Draft {
   uint64_t fingerprint;
 };
 
-Draft draft_of(const Tin& tin, const VoidSet& voids, const Metadata& metadata,
+Draft draft_of(const Tin& tin, const VoidTriangles& voids, const Metadata& metadata,
                const Contract& contract) {
   std::vector<Index> numbers;
-  Triangulation triangulation(places_of(tin.vertices), numbers);
+  Triangulation triangulation(places_of(tin), numbers);
   std::vector<Vertex> vertices;
   vertices.reserve(numbers.size());
   for (const Index number : numbers) vertices.push_back(tin.vertices[number]);
@@ -220,7 +193,7 @@ Draft draft_of(const Tin& tin, const VoidSet& voids, const Metadata& metadata,
 }
 
 Draft chosen_draft(const Tin& tin, const Metadata& metadata, const Effort& effort, Origin origin) {
-  const VoidSet voids = void_set(tin);
+  const VoidTriangles voids(tin.voids);
   Contract contract = contract_of(tin, effort, origin);
   Draft usual = draft_of(tin, voids, metadata, contract);
   if (effort.degree != 0 || tin.vertices.size() >= kFewVertices) return usual;

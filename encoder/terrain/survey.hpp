@@ -36,6 +36,13 @@ struct Tin {
   std::vector<Triangle> voids;   // those triangles of their Delaunay triangulation that are void
 };
 
+inline std::vector<Point> places_of(const Tin& tin) {
+  std::vector<Point> places;
+  places.reserve(tin.vertices.size());
+  for (const Vertex& v : tin.vertices) places.push_back({v.x, v.y});
+  return places;
+}
+
 }  // namespace microtin::terrain
 
 #endif
