@@ -15,6 +15,19 @@ namespace {
 
 constexpr int64_t kFraction = 256;  // places have 8 fractional bits
 
+bool holds(const SampledSurface& surface, int64_t x, int64_t y) {
+  return surface.x_min * kFraction <= x && x <= surface.x_max * kFraction &&
+         surface.y_min * kFraction <= y && y <= surface.y_max * kFraction;
+}
+
+// A sampler answers in the surface's box alone.
+template <class Sampler>
+void ask(SampledSurface& surface, std::shared_ptr<Sampler> sampler) {
+  surface.height_at = [box = surface, sampler](int64_t x, int64_t y) {
+    return holds(box, x, y) ? sampler->height_at(x, y) : std::nullopt;
+  };
+}
+
 // Walks from where the last question ended or, if that is far, from a bucket.
 class MeshSampler {
  public:
@@ -127,8 +140,7 @@ SampledSurface sampled(const microtin_mesh* mesh) {
     surface.lowest = v == 0 ? z : std::min<int32_t>(surface.lowest, z);
     surface.highest = v == 0 ? z : std::max<int32_t>(surface.highest, z);
   }
-  const auto sampler = std::make_shared<MeshSampler>(mesh);
-  surface.height_at = [sampler](int64_t x, int64_t y) { return sampler->height_at(x, y); };
+  ask(surface, std::make_shared<MeshSampler>(mesh));
   return surface;
 }
 
@@ -139,8 +151,7 @@ SampledSurface sampled(const PackFile& pack) {
   surface.y_max = pack.grid().y_max;
   surface.lowest = pack.header().lowest;
   surface.highest = pack.header().highest;
-  const auto sampler = std::make_shared<PackSampler>(pack);
-  surface.height_at = [sampler](int64_t x, int64_t y) { return sampler->height_at(x, y); };
+  ask(surface, std::make_shared<PackSampler>(pack));
   return surface;
 }
 

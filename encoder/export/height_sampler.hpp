@@ -19,8 +19,8 @@ struct SampledSurface {
   Placement placement;
   int64_t x_min = 0, y_min = 0, x_max = 0, y_max = 0;  // the box that holds it
   int32_t lowest = 0, highest = 0;                     // vertex
-  // The height at a place in the box, given with 8 fractional bits: with 16 fractional bits,
-  // nothing where there is none. Quick anywhere, quickest near the place before.
+  // The height at a place, given with 8 fractional bits: with 16 fractional bits, nothing where
+  // there is none. Quick anywhere, quickest near the place before.
   std::function<std::optional<int32_t>(int64_t x, int64_t y)> height_at;
 };
 

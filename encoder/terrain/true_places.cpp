@@ -24,11 +24,9 @@ class TruePlaces {
     y_ = map_between(numbers, lattice.y);
   }
 
-  // Numbers lie below 2^60, and lattices are no finer than sources.
   FinePlace exact(const SourcePoint& p) const { return {scaled(x_, p.x), scaled(y_, p.y)}; }
   FinePlace nearest(const SourcePoint& p) const {
-    return {static_cast<int64_t>(x_.nearest(p.x)) * kFraction,
-            static_cast<int64_t>(y_.nearest(p.y)) * kFraction};
+    return {limited(x_.nearest(p.x) * kFraction), limited(y_.nearest(p.y) * kFraction)};
   }
   bool moves(const SourcePoint& p) const {
     return x_.numerator(p.x) % x_.step != 0 || y_.numerator(p.y) % y_.step != 0;
@@ -36,7 +34,12 @@ class TruePlaces {
 
  private:
   static int64_t scaled(const LatticeMap& map, int64_t number) {
-    return static_cast<int64_t>(round_divide(kFraction * map.numerator(number), map.step));
+    return limited(round_divide(kFraction * map.numerator(number), map.step));
+  }
+  // Points of a source that is not the lattice's own may lie anywhere; no terrain goes so far.
+  static int64_t limited(Wide place) {
+    constexpr Wide kFar = Wide{1} << 62;
+    return static_cast<int64_t>(std::clamp(place, -kFar, kFar));
   }
 
   LatticeMap x_{}, y_{};

@@ -115,6 +115,24 @@ TEST_CASE("points: a lattice that is too coarse is named, with what is fine enou
   CHECK(contains(session.run("info coarse.mtp").out, "true_places: {\"bound\": null"));
 }
 
+TEST_CASE("points: those beside the terrain are not covered, however far away") {
+  const Session session;
+  session.write("p.xyz", slope());
+  REQUIRE(session.run("encode p.xyz --max-error 0.5 --xy-step 5 -o p.mtin").code == 0);
+  REQUIRE(
+      session.run("encode p.xyz --max-error 0.5 --xy-step 5 --tile-vertices 99 -o p.mtp").code ==
+      0);
+  for (const char* place : {"-9000 50000", "50000 -90", "99000000 50000", "50000 123456789012",
+                            "83886080 50000"}) {  // 2^24 steps
+    session.write("more.xyz", slope() + place + " 3\n");
+    for (const char* file : {"p.mtin", "p.mtp"}) {
+      CHECK_MESSAGE(contains(session.failure(std::string("verify ") + file + " more.xyz"),
+                             "1 of 401 heights of the source are not covered"),
+                    place);
+    }
+  }
+}
+
 TEST_CASE("points: fine decimals over a large area are told a step that works, at each turn") {
   const Session session;
   std::string rough = "50000.9 50000 0\n50001.1 50000 3\n";  // steeper than a coarse lattice holds
