@@ -18,9 +18,11 @@ namespace {
 
 constexpr mode_t kPrivate = 0600, kUsual = 0666, kAllBits = 07777;
 
-// Owner, if we may, and mode. What is private was so from the first byte on.
+// Owner, if we may and a container knows it, and mode. What is private was so from the first byte
+// on.
 bool take_after(int file, const struct stat& old) {
-  if (fchown(file, old.st_uid, old.st_gid) != 0 && errno != EPERM) return false;
+  const bool has_owner = fchown(file, old.st_uid, old.st_gid) == 0;
+  if (!has_owner && errno != EPERM && errno != EINVAL) return false;
   return fchmod(file, old.st_mode & kAllBits) == 0;
 }
 
@@ -34,6 +36,17 @@ std::FILE* stream_of(int file, const char* mode) {
     errno = error;
   }
   return stream;
+}
+
+int open_new(std::string& name, int access, mode_t mode) {
+  constexpr int kMostLeftovers = 1000;
+  const std::string stem = name + std::to_string(getpid());
+  name = stem;
+  for (int i = 0;; ++i) {
+    const int file = open(name.c_str(), access | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (file >= 0 || errno != EEXIST || i == kMostLeftovers) return file;
+    name = stem + '-' + std::to_string(i);
+  }
 }
 
 OutputFile::OutputFile(const std::string& path) : path_(path) {
@@ -54,12 +67,11 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
 }
 
 void OutputFile::open_temporary() {
-  std::string name = target_ + ".part-" + std::to_string(getpid());
+  std::string name = target_ + ".part-";
   struct stat old {};
   const bool replaces = stat(target_.c_str(), &old) == 0;
   const SignalsHeld held;
-  const int file =
-      open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, replaces ? kPrivate : kUsual);
+  const int file = open_new(name, O_WRONLY, replaces ? kPrivate : kUsual);
   if (file < 0) fail();
   file_ = stream_of(file, "wb");
   if (file_ == nullptr || (replaces && !take_after(file, old))) {

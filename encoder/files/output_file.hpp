@@ -3,6 +3,8 @@
 #ifndef MICROTIN_ENCODER_FILES_OUTPUT_FILE_HPP
 #define MICROTIN_ENCODER_FILES_OUTPUT_FILE_HPP
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <cstdio>
 #include <optional>
@@ -50,6 +52,11 @@ class OutputFile {
   std::optional<Leftover> leftover_;
   std::FILE* file_ = nullptr;
 };
+
+// Opens a new file, for reading too if `access` says so, named `name` and the process; another
+// number follows where a file has that name, left by a process that was killed. `name` becomes what
+// it is called; -1 with errno if there is none.
+int open_new(std::string& name, int access, mode_t mode);
 
 // A stream on a descriptor, which it then owns; null with errno if it cannot be, or there is none.
 std::FILE* stream_of(int file, const char* mode);

@@ -3,7 +3,6 @@
 #include "encoder/files/stream_spool.hpp"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -19,9 +18,9 @@ namespace {
 std::FILE* open_nameless(const std::string& output) {
   const std::optional<std::string> target = replaced_by(output);
   if (!target) return std::tmpfile();
-  const std::string name = *target + ".streams-" + std::to_string(getpid());
+  std::string name = *target + ".streams-";
   const SignalsHeld held;
-  const int number = open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  const int number = open_new(name, O_RDWR, 0600);
   if (number >= 0) std::remove(name.c_str());
   return stream_of(number, "w+b");
 }

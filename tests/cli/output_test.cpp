@@ -173,6 +173,18 @@ TEST_CASE("cli: a report that nobody reads is lost, not the output") {
   for (const auto& [name, content] : made.everything()) CHECK_FALSE(contains(name, ".part-"));
 }
 
+TEST_CASE("cli: what a killed process left does not keep one of the same number from writing") {
+  const Made made;
+  for (const Output& o : kOutputs) {
+    const std::string left = "touch " + o.output + ".part-$$ " + o.output + ".part-$$-0 " +
+                             o.output + ".streams-$$; exec '" + program() + "' ";
+    const Session::Result result = made.shell(left + o.command);
+    CHECK_MESSAGE(result.code == 0, result.err);
+    CHECK(made.read(o.output) == made.read(o.same_as));
+    fs::remove(made.folder() + "/" + o.output);
+  }
+}
+
 TEST_CASE("cli: no command writes over any of its inputs, by whatever name") {
   const Made made;
   made.shell(
