@@ -24,7 +24,7 @@ Fraction simplest_between(Fraction low, Fraction high) {
 }
 
 [[noreturn]] void refuse_axis() {
-  throw Error("the coordinates or their step are out of the format's range");
+  throw Error("the coordinates, the heights or their steps are out of the format's range");
 }
 
 }  // namespace

@@ -148,7 +148,8 @@ class PointReader {
       }
     }
     if (points.empty())
-      file_.fail("no point is " + taken_text(counts_, classes) + ": --classes takes others");
+      file_.fail("no point is " + taken_text(counts_, classes) +
+                 (has_others() ? ": --classes takes others" : ""));
     PointCloud cloud = points.take();
     cloud.selection = taken_text(counts_, classes);
     cloud.classes = classes;
@@ -181,6 +182,11 @@ class PointReader {
   }
   bool is_withheld(uint64_t at) const {
     return (file_.number<uint8_t>(at + 15) & (is_recent() ? 4 : 128)) != 0;
+  }
+
+  bool has_others() const {
+    return std::any_of(counts_.points.begin(), counts_.points.end(),
+                       [](uint64_t count) { return count != 0; });
   }
 
   void count_classes() {

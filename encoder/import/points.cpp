@@ -30,29 +30,42 @@ std::optional<Meaning> meaning_of(const std::string& name) {
     std::string_view text;
     Meaning meaning;
   };
-  constexpr std::array<Name, 19> kNames = {{{"x", {0, false}},
-                                            {"y", {1, false}},
-                                            {"z", {2, false}},
-                                            {"easting", {0, false}},
-                                            {"northing", {1, false}},
-                                            {"height", {2, false}},
-                                            {"east", {0, false}},
-                                            {"north", {1, false}},
-                                            {"elevation", {2, false}},
-                                            {"lon", {0, true}},
-                                            {"lat", {1, true}},
-                                            {"elev", {2, false}},
-                                            {"long", {0, true}},
-                                            {"latitude", {1, true}},
-                                            {"ele", {2, false}},
-                                            {"longitude", {0, true}},
-                                            {"altitude", {2, false}},
-                                            {"alt", {2, false}},
-                                            {"lng", {0, true}}}};
+  constexpr std::array<Name, 23> kNames = {
+      {{"x", {0, false}},        {"y", {1, false}},        {"z", {2, false}},
+       {"easting", {0, false}},  {"northing", {1, false}}, {"height", {2, false}},
+       {"east", {0, false}},     {"north", {1, false}},    {"elevation", {2, false}},
+       {"lon", {0, true}},       {"lat", {1, true}},       {"elev", {2, false}},
+       {"long", {0, true}},      {"latitude", {1, true}},  {"ele", {2, false}},
+       {"longitude", {0, true}}, {"altitude", {2, false}}, {"alt", {2, false}},
+       {"lng", {0, true}},       {"h", {2, false}},        {"point_x", {0, false}},
+       {"point_y", {1, false}},  {"point_z", {2, false}}}};
   for (const Name& known : kNames) {
     if (known.text == name) return known.meaning;
   }
   return std::nullopt;
+}
+
+// Whether commas separate numbers, and blanks without a comma do, too: then one of them may be the
+// mark of decimals.
+bool has_mixed_separators(std::string_view line) {
+  if (line.find(',') == line.npos) return false;
+  bool has_bare_comma = false, has_bare_blank = false, after_comma = true, after_blank = false;
+  for (const char c : line) {
+    const bool comma = c == ',', blank = is_blank(c);
+    if (!comma && !blank) {
+      has_bare_comma = has_bare_comma || (after_comma && !after_blank);
+      has_bare_blank = has_bare_blank || (after_blank && !after_comma);
+      after_comma = after_blank = false;
+    }
+    after_comma = after_comma || comma;
+    after_blank = after_blank || blank;
+  }
+  return has_bare_comma && has_bare_blank;
+}
+
+std::string_view without_quotes(std::string_view field) {
+  const bool is_quoted = field.size() > 1 && field.front() == '"' && field.back() == '"';
+  return is_quoted ? field.substr(1, field.size() - 2) : field;
 }
 
 class PointReader {
@@ -71,6 +84,9 @@ class PointReader {
       split_names(line);
       return check_header();
     }
+    if (has_mixed_separators(line)) {
+      fail("commas and blanks are mixed; decimals are written with a point");
+    }
     read_point();
   }
 
@@ -86,7 +102,7 @@ class PointReader {
 
   bool is_header() const {
     return std::none_of(fields_.begin(), fields_.end(),
-                        [](std::string_view field) { return parse_decimal(field).has_value(); });
+                        [](std::string_view field) { return number_in(field).has_value(); });
   }
 
   // Between commas or semicolons names may hold blanks; their first words count.
@@ -102,7 +118,11 @@ class PointReader {
     }
   }
 
-  // Names may be any; those of coordinates say where these are. Latitudes are degrees.
+  static std::optional<Decimal> number_in(std::string_view field) {
+    return parse_decimal(without_quotes(field));
+  }
+
+  // Those of coordinates say where these are, others may be any. Latitudes are degrees.
   void check_header() {
     header_seen_ = true;
     std::array<std::optional<size_t>, 3> found;
@@ -118,12 +138,17 @@ class PointReader {
       if (meaning->is_degree) unit_ = Unit::kDegree;
     }
     if (has_depth && !found[2]) fail("depths grow downwards: write heights, and name them z");
-    if (!found[0] && !found[1] && !found[2]) return;
+    if (!found[0] && !found[1] && !found[2]) {
+      fail(
+          "no column is named as x, y or z: name these, or begin the line with # if they are "
+          "first");
+    }
     names_ = fields_.size();
     for (size_t axis = 0; axis < 3; ++axis) axes_[axis] = found[axis].value_or(axis);
     const bool is_clear = axes_[0] != axes_[1] && axes_[0] != axes_[2] && axes_[1] != axes_[2];
-    if (!is_clear || found[0].has_value() != found[1].has_value()) {
-      fail("the header names some of x, y and z: it must name all, or x and y first");
+    const bool has_other = !found[2] && names_ > 2;  // where z would be
+    if (!is_clear || has_other || found[0].has_value() != found[1].has_value()) {
+      fail("the header names some of x, y and z: it must name all, or x and y alone");
     }
   }
 
@@ -137,9 +162,13 @@ class PointReader {
       fail(std::to_string(columns_) + " columns under " + std::to_string(names_) +
            " names: blanks in names need commas between them");
     }
+    if (names_ != 0 && columns_ == 2 * names_) {
+      fail(std::to_string(columns_) + " columns under " + std::to_string(names_) +
+           " names; decimals are written with a point");
+    }
     values_.clear();
     for (const std::string_view field : fields_) {
-      const std::optional<Decimal> value = parse_decimal(field);
+      const std::optional<Decimal> value = number_in(field);
       if (!value) fail_on(field);
       values_.push_back(*value);
     }

@@ -148,7 +148,7 @@ TEST_CASE("asc: whatever is wrong is told with its line") {
   CHECK(grid_error("ncols 2000000000 nrows 2000000000 xllcorner 0 yllcorner 0 cellsize 1 5 6") ==
         "grid:1: the grid ends after 2 of 4000000000000000000 heights");
   CHECK(grid_error("ncols 1 nrows 1 xllcorner 0 yllcorner 0 cellsize 1e17 5") ==
-        "grid: the coordinates or their step are out of the format's range");
+        "grid: the coordinates, the heights or their steps are out of the format's range");
 }
 
 TEST_CASE("hgt: big-endian from the north, its place in exact degrees") {
@@ -195,6 +195,8 @@ TEST_CASE("points: separators, comments, headers, two columns") {
   CHECK(points("Y[ft] X[ft] Z[ft]\n1 2 3\n") == "2,1,3");
   CHECK(points("//Y X Z R G B\n1 2 3 255 255 0\n") == "2,1,3");
   CHECK(points("x,y,z\n1,2,3,255\n") == "1,2,3");
+  CHECK(points("OBJECTID,POINT_X,POINT_Y,POINT_Z\n9,1,2,3\n") == "1,2,3");
+  CHECK(points("\"1\",\"2.5\",\"3\"\n1, 2 ,3 \n") == "10,25,3 10,20,3");
   CHECK(import_points("c", "lat,lon\n1,2\n").reference.horizontal_unit == Unit::kDegree);
   CHECK(import_points("c", "y,x\n1,2\n").reference.horizontal_unit == Unit::kUnknown);
   CHECK(points("1 2 3 255 0.5\n4 5 6 0 1e-3\n") == "1,2,3 4,5,6");
@@ -223,10 +225,22 @@ TEST_CASE("points: whatever is wrong is told with its line") {
   CHECK(point_error("1 2 3 4\n1 2 3 q\n") == "cloud:2: \"q\" is not a number in range");
   CHECK(point_error("1,5;2,5;3,5\n") ==
         "cloud:1: commas and semicolons are mixed; decimals are written with a point");
+  for (const char* line : {"1,5 20,25 301,5\n", "1,5\t20,25\t301,5\n", "1, 2,3 4\n"}) {
+    CHECK(point_error(line) ==
+          "cloud:1: commas and blanks are mixed; decimals are written with a point");
+  }
+  CHECK(point_error("x,y,z\n1,5,20,25,301,5\n") ==
+        "cloud:2: 6 columns under 3 names; decimals are written with a point");
+  for (const char* line : {"OBJECTID,EAST_X,NORTH_Y\n1,2,3\n", "a b c\n1 2 3\n"}) {
+    CHECK(point_error(line) ==
+          "cloud:1: no column is named as x, y or z: name these, or begin the line with # if they "
+          "are first");
+  }
   const std::string unclear =
-      "cloud:1: the header names some of x, y and z: it must name all, or x and y first";
+      "cloud:1: the header names some of x, y and z: it must name all, or x and y alone";
   CHECK(point_error("z,a,b\n1,2,3\n") == unclear);
   CHECK(point_error("x,a,b\n1,2,3\n") == unclear);
+  CHECK(point_error("x,y,class\n1,2,3\n") == unclear);
   CHECK(point_error("id,x,y\n1,2,3\n") == unclear);
   CHECK(point_error("x,lon,y\n1,2,3\n") == "cloud:1: two columns are named as x");
   CHECK(point_error("a,b,x,y\n1,2\n") == unclear);
