@@ -149,12 +149,18 @@ class Budget {
       const double vertices = (limit_ - kHeaderBytes) / kBytesPerVertex;
       options.max_vertices = static_cast<uint32_t>(std::max(vertices, 4.0));
     }
-    EncodedStream encoded = encode_measured(source_, options, spending(costs_.greedy));
-    if (encoded.verification.posts < kFewPosts) most_ = kMostOfFew;
-    const double error = real(encoded.verification.max_error);
+    std::optional<EncodedStream> encoded;
+    try {
+      encoded = encode_measured(source_, options, spending(costs_.greedy));
+    } catch (const Error&) {  // it takes outlines as they are, which a bound may simplify
+      guess_ = real(largest_) / 10;
+      return false;
+    }
+    if (encoded->verification.posts < kFewPosts) most_ = kMostOfFew;
+    const double error = real(encoded->verification.max_error);
     guess_ = error > 0 ? error * costs_.guess : real(largest_) / 1000;
     const bool exact = error == 0 && of_vertices_;
-    if (of_vertices_) keep(std::move(encoded));
+    if (of_vertices_) keep(std::move(*encoded));
     return exact;
   }
 
@@ -243,11 +249,13 @@ class Budget {
   }
 
   [[noreturn]] void fail() {
-    options_.lattice.max_error = largest_;
-    encode_measured(source_, options_, {});  // throws if that was the reason
+    EncodeOptions options = asked_;
+    options.max_bytes = 0;
+    options.lattice.max_error = largest_;
+    const double size = size_of(encode_measured(source_, options, {}));  // says of other limits
     throw Error("--max-bytes " + std::to_string(static_cast<uint64_t>(limit_)) +
                 " is not enough: at any error, at least " +
-                std::to_string(static_cast<uint64_t>(smallest_)));
+                std::to_string(static_cast<uint64_t>(std::min(size, smallest_))));
   }
 
   const Source& source_;

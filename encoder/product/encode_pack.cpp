@@ -23,7 +23,10 @@ uint32_t tile_vertices(const EncodeOptions& options, bool is_narrow) {
   if (options.device_ram == 0) throw Error("a pack needs --tile-vertices or --device-ram");
   const uint32_t vertices = vertices_for_ram(options.device_ram, is_narrow);
   if (vertices < kFewestTileVertices) {
-    throw Error("--device-ram " + std::to_string(options.device_ram) + " is too few for a pack");
+    const uint64_t tile = promised_compact_bytes(kFewestTileVertices, false, 16);
+    throw Error("--device-ram " + std::to_string(options.device_ram) +
+                " is too few for a pack, which takes at least " +
+                std::to_string(pack_ram(kFewestTileVertices, tile)));
   }
   return vertices;
 }

@@ -2,6 +2,8 @@
 // Takes apart what is asked for.
 #include "encoder/product/options.hpp"
 
+#include <algorithm>
+
 #include "encoder/product/reference.hpp"
 #include "encoder/stream/device_ram.hpp"
 
@@ -23,10 +25,9 @@ Metadata metadata_of(const EncodeOptions& options, const Reference& file) {
 }
 
 uint32_t vertex_limit(const EncodeOptions& options) {
-  if (options.device_ram == 0 || options.max_vertices != 0 || options.lattice.max_error) {
-    return options.max_vertices;
-  }
-  return most_vertices(options.device_ram);
+  if (options.device_ram == 0 || options.lattice.max_error) return options.max_vertices;
+  const uint32_t fitting = most_vertices(options.device_ram);
+  return options.max_vertices == 0 ? fitting : std::min(options.max_vertices, fitting);
 }
 
 SimplifyOptions simplify_options(const EncodeOptions& options, const Progress& progress) {

@@ -35,8 +35,8 @@ struct EncodeOptions {
 // Throws Error as settle does.
 Metadata metadata_of(const EncodeOptions& options, const Reference& file);
 
-// The vertices that a stream may have, 0 for as many as it takes. A device's RAM is a limit only if
-// nothing else asks for vertices.
+// The vertices that a stream may have, 0 for as many as it takes. A device's RAM limits them, too;
+// with a bound it can only refuse.
 uint32_t vertex_limit(const EncodeOptions& options);
 
 SimplifyOptions simplify_options(const EncodeOptions& options, const Progress& progress);
