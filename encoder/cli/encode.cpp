@@ -234,22 +234,19 @@ void announce_memory(const EncodeRequest& request) {
 
 // A name that says something else would have other programs read what is none of theirs. Shards are
 // named at will.
-void expect_own_suffix(const EncodeRequest& request) {
-  const std::string suffix = std::filesystem::path(request.output).extension().string();
-  const bool is_own = suffix.empty() || request.tiles || suffix == ".mtp" ||
-                      (suffix == ".mtin" && !makes_pack(request));
-  if (is_own) return;
-  throw Error(request.output + (makes_pack(request) ? ": a pack is named .mtp"
-                                                    : ": a stream is named .mtin, a pack .mtp; "
-                                                      "\"microtin decode\" and \"render\" write "
-                                                      "other files from them"));
+void expect_own_suffix(const std::string& output, bool is_pack) {
+  const std::string suffix = std::filesystem::path(output).extension().string();
+  if (suffix.empty() || suffix == ".mtp" || (suffix == ".mtin" && !is_pack)) return;
+  throw Error(output + (is_pack ? ": a pack is named .mtp"
+                                : ": a stream is named .mtin, a pack .mtp; \"microtin decode\" and "
+                                  "\"render\" write other files from them"));
 }
 
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
   refuse_overwriting(inputs_of(request), request.output);
-  expect_own_suffix(request);
+  if (!request.tiles) expect_own_suffix(request.output, makes_pack(request));
   OutputFile out(request.output);  // fails early if it cannot be written
   announce_left_out(request);
   announce_memory(request);
@@ -274,6 +271,7 @@ void run_plan(const EncodeRequest& request, uint32_t shards) {
 
 void run_merge(const std::vector<std::string>& shards, const std::string& output) {
   refuse_overwriting(shards, output);
+  expect_own_suffix(output, true);
   OutputFile out(output);
   deliver(out, output, text_of(join_shards(shards, out)));
 }

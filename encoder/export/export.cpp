@@ -49,7 +49,7 @@ MeshFormat mesh_format_of(const std::string& path) {
   if (suffix == ".ply") return MeshFormat::kPly;
   if (suffix == ".glb") return MeshFormat::kGlb;
   throw Error(path +
-              ": not a kind of file that is written (.xyz, .obj, .ply, .glb, .asc); "
+              ": not a kind of file that is written (.xyz, .obj, .ply, .glb, .asc, .dat, .ter); "
               "gdal_translate and ogr2ogr with the driver MTIN write others");
 }
 
@@ -86,11 +86,6 @@ void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coor
       export_glb(model, coordinates, out);
       break;
   }
-}
-
-void export_mesh(const microtin_mesh* mesh, MeshFormat format, Coordinates coordinates,
-                 OutputFile& out) {
-  export_model(model_of(mesh), format, coordinates, out);
 }
 
 }  // namespace microtin::exporting

@@ -32,9 +32,6 @@ uint64_t most_mesh_bytes(const SampledSurface& surface, uint64_t vertices, MeshF
 void export_model(const SurfaceModel& model, MeshFormat format, Coordinates coordinates,
                   OutputFile& out);
 
-void export_mesh(const microtin_mesh* mesh, MeshFormat format, Coordinates coordinates,
-                 OutputFile& out);
-
 }  // namespace microtin::exporting
 
 #endif

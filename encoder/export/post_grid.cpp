@@ -23,7 +23,7 @@ struct Row {
 
 uint32_t checked_count(Wide count) {
   if (count > std::numeric_limits<int32_t>::max()) {
-    throw Error("the grid has more than 2^31 columns or rows");
+    throw Error("the grid has 2^31 columns or rows or more");
   }
   return static_cast<uint32_t>(count);
 }

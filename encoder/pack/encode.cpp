@@ -132,8 +132,7 @@ TileRange all_tiles(const TileGrid& grid) {
 
 TileTooLarge::TileTooLarge(uint32_t tile, uint32_t vertices, uint32_t steps)
     : Error("tile " + std::to_string(tile) + " has " + std::to_string(vertices) +
-            " vertices, too many; all tiles can be encoded with --tile-steps " +
-            std::to_string(steps)),
+            " vertices, too many: try --tile-steps " + std::to_string(steps)),
       fewer_steps(steps) {}
 
 void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {

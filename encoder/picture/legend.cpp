@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kBarHeight = 6, kTick = 2, kLabelLine = 17;  // of labels: from the top of the bar
 constexpr Colour kPaper{1, 1, 1};
+constexpr int kMostDecimals = 9;
 
 double label_width(double value, double step) {
   return text_width(grouped(value, decimals_for(step)));
@@ -42,7 +43,7 @@ void draw_label(Drawing& drawing, const std::string& text, double middle, double
 }  // namespace
 
 int decimals_for(double step) {
-  return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9);
+  return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, kMostDecimals);
 }
 
 std::string grouped(double value, int decimals) {
@@ -58,8 +59,8 @@ std::string grouped(double value, int decimals) {
 
 std::string rounded_text(double value) {
   const double magnitude = std::abs(value);
-  const int whole = magnitude < 1 ? 0 : static_cast<int>(std::floor(std::log10(magnitude))) + 1;
-  std::string text = grouped(value, std::clamp(4 - whole, 0, 3));
+  const int whole = magnitude == 0 ? 1 : static_cast<int>(std::floor(std::log10(magnitude))) + 1;
+  std::string text = grouped(value, std::clamp(4 - whole, 0, kMostDecimals));
   if (text.find('.') == std::string::npos) return text;
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();

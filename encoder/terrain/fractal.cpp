@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sums octaves of value noise.
+// Sums octaves of value noise and lets rivers cut into them.
 #include "encoder/terrain/fractal.hpp"
 
 #include <algorithm>

@@ -104,17 +104,20 @@ class Sampler {
     return sample;
   }
 
-  // Throws Error if there are such places. `numbers` places the source's heights.
-  void check(const Placement& placement, const Axis& numbers) const {
+  // Throws Error if there are such places.
+  void check(const Placement& placement, const Source& source) const {
     const std::string refusal = "--max-error cannot be kept at ";
     if (walls_ != 0) {
-      const CoordinateText height(numbers);
+      const CoordinateText height(placement_of(source).z);
+      const bool posts = std::holds_alternative<Raster>(source);
       throw Error(refusal + std::to_string(walls_) +
                   " places where points of different heights meet, the first at x " +
                   CoordinateText(placement.x)(first_wall_.place.x) + ", y " +
                   CoordinateText(placement.y)(first_wall_.place.y) + " with heights from " +
                   height(first_wall_.heights.low) + " to " + height(first_wall_.heights.high) +
-                  "; --duplicates lowest, highest or mean lets one of them stand for all");
+                  (posts
+                       ? "; a smaller --xy-step, or none, keeps posts apart"
+                       : "; --duplicates lowest, highest or mean lets one of them stand for all"));
     }
     if (without_step_ != 0) {
       throw Error(refusal + std::to_string(without_step_) +
@@ -265,7 +268,7 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
   Sampler sampler(lattice, options, number_of(options.water_level, height_decimals(source)));
   Laid laid;
   laid.survey.samples = make_samples(placing.posts(), sampler);
-  sampler.check(lattice.placement, placement_of(source).z);
+  sampler.check(lattice.placement, source);
   laid.merged = placing.posts().size() - laid.survey.samples.size();
   tighten(laid.survey.samples, options.tightenings);
   check_voids(placing.voids(), laid.survey.samples, lattice.placement);

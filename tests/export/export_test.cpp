@@ -33,7 +33,7 @@ std::vector<std::string> exported(const DecodedTerrain& terrain, MeshFormat form
                                   Coordinates coordinates) {
   const TemporaryFolder folder;
   OutputFile out(folder / "mesh");
-  export_mesh(terrain.mesh(), format, coordinates, out);
+  export_model(model_of(terrain.mesh()), format, coordinates, out);
   out.commit();
   std::ifstream file(folder / "mesh");
   std::vector<std::string> lines;
@@ -106,7 +106,7 @@ TEST_CASE("most_mesh_bytes is never too low, and as sharp as lines allow") {
     for (const auto coordinates : {Coordinates::kReal, Coordinates::kLattice}) {
       const TemporaryFolder folder;
       OutputFile out(folder / "mesh");
-      export_mesh(terrain.mesh(), format, coordinates, out);
+      export_model(model_of(terrain.mesh()), format, coordinates, out);
       out.commit();
       const uint64_t most = most_mesh_bytes(sampled(terrain.mesh()), 4, format, coordinates);
       CHECK(std::filesystem::file_size(folder / "mesh") <= most);

@@ -39,7 +39,10 @@ TEST_CASE("legend: numbers") {
   CHECK(rounded_text(12) == "12");
   CHECK(rounded_text(0.5) == "0.5");
   CHECK(rounded_text(12345.67) == "12,346");
-  CHECK(rounded_text(-0.0001) == "0");
+  CHECK(rounded_text(-0.00022) == "-0.00022");
+  CHECK(rounded_text(0.123456) == "0.1235");
+  CHECK(rounded_text(-1e-16) == "0");
+  CHECK(rounded_text(0) == "0");
 }
 
 TEST_CASE("legend: round lengths") {

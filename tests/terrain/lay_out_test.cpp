@@ -8,6 +8,7 @@
 
 #include "encoder/base/error.hpp"
 #include "tests/support/cloud_text.hpp"
+#include "tests/support/packs.hpp"
 
 using namespace microtin;
 using namespace microtin::tests;
@@ -103,6 +104,18 @@ TEST_CASE("limits at places without points are samples of their own, in order") 
   CHECK(forced.place == Point{9, 9});
   CHECK(forced.lowest == 65536);
   CHECK(forced.highest == 65536);
+}
+
+TEST_CASE("posts that a coarse lattice brings together are told how to stay apart") {
+  try {
+    LatticeOptions coarse = options("2", "", "1");
+    lay_out(raster_of(4, {0, 0, 0, 0, 0, 50, 0, 0, 0, 0, 90, 0, 0, 0, 0, 0}), coarse);
+    FAIL("is not refused");
+  } catch (const Error& error) {
+    CHECK_MESSAGE(std::string(error.what()).find("; a smaller --xy-step, or none, keeps") !=
+                      std::string::npos,
+                  error.what());
+  }
 }
 
 TEST_CASE("a wall is refused with count and place") {
