@@ -21,6 +21,9 @@ namespace {
 constexpr std::size_t kPilot = 20000;    // points
 constexpr double kPointsPerVertex = 16;  // of simplified terrain, to begin with
 
+// More tiles than that are nearly all empty.
+constexpr uint64_t kTilesOfFew = 30000, kTilesPerPoint = 16;
+
 // Of points in ascending order of a coordinate, those in the middle, as many as wanted.
 template <class Before>
 void keep_middle(std::vector<uint32_t>& points, std::size_t wanted, const Before& before) {
@@ -102,6 +105,12 @@ uint32_t most_vertices(const TiledCloud& tiled) {
                    : "; one still has " + std::to_string(most_vertices) + " vertices"));
 }
 
+[[noreturn]] void refuse_crowds(uint64_t tiles, uint32_t most_vertices) {
+  throw Error("the points lie in crowds so far apart that they need more than " +
+              std::to_string(tiles) + " tiles (one still has " + std::to_string(most_vertices) +
+              " vertices): encode each crowd by itself, or ask for more --tile-vertices");
+}
+
 // The fewest pieces along the longer side, at least `fewest`, found to keep tiles within the number
 // of vertices.
 uint32_t choose_pieces(TiledCloud tiled, const PackOptions& options, uint32_t fewest) {
@@ -114,9 +123,13 @@ uint32_t choose_pieces(TiledCloud tiled, const PackOptions& options, uint32_t fe
   if (tile_count(grid_in_pieces(tiled.survey, fewest)) > kMostTiles) refuse_extent(tiled);
   uint32_t fitting = 0, most = 0;
   uint32_t pieces = std::max(fewest, static_cast<uint32_t>(std::min<double>(guess, longer)));
+  const uint64_t plenty =
+      std::max<uint64_t>(kTilesOfFew + kTilesPerPoint * tiled.survey.samples.size(),
+                         tile_count(grid_in_pieces(tiled.survey, pieces)));
   for (;;) {
     tiled.grid = grid_in_pieces(tiled.survey, pieces);
     if (pieces > longer || tile_count(tiled.grid) > kMostTiles) refuse_tiles(most);
+    if (tile_count(tiled.grid) > plenty) refuse_crowds(plenty, most);
     most = most_vertices(tiled);
     const uint32_t allowed = most_vertices(options, tiled.grid);
     if (most <= allowed) fitting = pieces;

@@ -9,9 +9,20 @@ namespace {
 
 constexpr int64_t kBillion = 1000000000;
 
-// Larger errors (a million units, in billionths) count as this in the mean, so that 2^26 squares
-// fit.
-constexpr Wide kLargestSquared = Wide{1} << 50;
+// Errors above a million units are squared without their last bits, so that 2^26 squares fit: of
+// these below 2^100 each, as of the others. Still larger ones, of 2^44 units, count as that.
+constexpr Wide kFine = Wide{1} << 50, kLargest = Wide{1} << 74;
+constexpr int kLastBits = 24;
+
+// Rounded up, of a number up to 2^100.
+Wide square_root(Wide square) {
+  Wide low = -1, high = Wide{1} << 50;  // low^2 < square <= high^2
+  while (high - low > 1) {
+    const Wide middle = (low + high) / 2;
+    (middle * middle < square ? low : high) = middle;
+  }
+  return high;
+}
 
 }  // namespace
 
@@ -29,8 +40,13 @@ double ErrorMeter::add(int64_t number, int32_t answer) {
       error / common_ * kBillion + ceil_divide(error % common_ * kBillion, common_);
   largest_ = std::max(largest_, billionths);
   if (below > 0) deepest_ = std::max(deepest_, billionths);
-  const Wide limited = std::min(billionths, kLargestSquared);
-  squares_ += limited * limited;
+  const Wide limited = std::min(billionths, kLargest);
+  if (limited <= kFine) {
+    squares_ += limited * limited;
+  } else {
+    const Wide coarse = ceil_divide(limited, Wide{1} << kLastBits);
+    coarse_squares_ += coarse * coarse;
+  }
   sum_ += below > 0 ? -limited : limited;
   ++count_;
   return -static_cast<double>(below) / static_cast<double>(common_);
@@ -50,13 +66,11 @@ Decimal ErrorMeter::mean() const {
 
 Decimal ErrorMeter::root_mean_square() const {
   if (count_ == 0) return {};
-  const Wide mean = ceil_divide(squares_, count_);
-  Wide low = -1, high = kLargestSquared;  // low^2 < mean <= high^2
-  while (high - low > 1) {
-    const Wide middle = (low + high) / 2;
-    (middle * middle < mean ? low : high) = middle;
+  if (coarse_squares_ == 0) {
+    return make_decimal(square_root(ceil_divide(squares_, count_)), kMaxDecimals);
   }
-  return make_decimal(high, kMaxDecimals);
+  const Wide all = coarse_squares_ + ceil_divide(squares_, Wide{1} << (2 * kLastBits));
+  return make_decimal(square_root(ceil_divide(all, count_)) << kLastBits, kMaxDecimals);
 }
 
 }  // namespace microtin::terrain

@@ -29,7 +29,7 @@ class ErrorMeter {
 
   Wide to_common_, offset_, step_, from_common_, common_;
   Wide largest_ = 0, deepest_ = 0;
-  Wide squares_ = 0, sum_ = 0;
+  Wide squares_ = 0, coarse_squares_ = 0, sum_ = 0;
   int64_t count_ = 0;
 };
 

@@ -97,7 +97,7 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
 Verification combine(const std::vector<Verification>& parts) {
   Verification all;
   double squares = 0;
-  Wide sum = 0;  // of billionths: below 2^63 for each of at most 2^62 samples
+  Wide sum = 0;  // of billionths: at most 2^74 for each of at most 2^52 samples
   for (const Verification& part : parts) {
     all.posts += part.posts;
     all.covered += part.covered;

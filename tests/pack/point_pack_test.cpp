@@ -288,6 +288,22 @@ TEST_CASE("point packs: what cannot be is refused") {
   check_pack(wide, fine);
 }
 
+TEST_CASE("point packs: crowds far apart are refused before all is empty tiles") {
+  CloudMaker crowds(3);
+  for (int64_t i = 0; i < 200; ++i) {
+    crowds.add(2 * (i % 20), 3 * (i / 20));
+    crowds.add(30000 + 2 * (i % 20), 30000 + 3 * (i / 20));
+  }
+  try {
+    pack_bytes(crowds.take(), point_options(1, 40));
+    FAIL("is not refused");
+  } catch (const Error& error) {
+    CHECK_MESSAGE(
+        std::string(error.what()).find("encode each crowd by itself") != std::string::npos,
+        error.what());
+  }
+}
+
 TEST_CASE("a point beside a pack is not covered") {
   PointCloud cloud = cloud_kinds()[0].cloud;
   const PackFile pack(pack_bytes(cloud, point_options(5, 40)));

@@ -43,6 +43,14 @@ TEST_CASE("errors are exact, and rounded up only to print") {
   CHECK_FALSE(verify_points("0 0 0.25\n", "0.249999999").within_bound);
 }
 
+TEST_CASE("errors of millions count in the mean as they are") {
+  const Verification found = verify_points("0 0 3000000\n0 1 4000000\n0 2 0\n", "0");
+  CHECK(to_string(found.mean_error) == "-2333333.333333333");
+  const double rms = real(found.rms_error), expected = std::sqrt(25e12 / 3);
+  CHECK(rms >= expected);
+  CHECK(rms < expected + 0.04);
+}
+
 TEST_CASE("no bound is always kept") {
   const Verification found = verify(tilted_square().mesh(), cloud_of("0 0 1e15"), std::nullopt);
   CHECK(found.within_bound);
