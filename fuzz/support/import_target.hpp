@@ -80,7 +80,7 @@ int import_and_encode(const Import& import, const Options& options) {
     size_t posts = 0;
     for_each_post(source, [&posts](int64_t, int64_t, int64_t) { ++posts; });
     if (posts > 2000) return 0;
-    fill_voids(source, options.fill_voids);
+    if (auto* raster = std::get_if<Raster>(&source)) fill_voids(*raster, options.fill_voids);
     encode_bounded(source, options);
   } catch (const Error& error) {
     check_message(error);
