@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The command decode: a mesh or a grid from a stream or a pack.
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 
 #include "encoder/base/error_context.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/decode_grid.hpp"
 #include "encoder/cli/report.hpp"
@@ -101,7 +101,7 @@ void run_decode(const DecodeRequest& request) {
   std::vector<std::string> inputs = files_of(request.like, request.like_preparation);
   inputs.push_back(request.input);
   refuse_overwriting(inputs, request.output);
-  const bool is_grid = std::filesystem::path(request.output).extension() == ".asc";
+  const bool is_grid = suffix_of(request.output) == ".asc";
   if (!is_grid && (!request.like.empty() || request.extent)) {
     throw Error(request.output + ": --like and --extent are for grids (.asc)");
   }

@@ -3,13 +3,13 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <sstream>
 #include <variant>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/progress.hpp"
 #include "encoder/cli/report.hpp"
@@ -32,9 +32,7 @@ std::vector<std::string> inputs_of(const EncodeRequest& request) {
 }
 
 bool makes_pack(const EncodeRequest& request) {
-  const std::string& name = request.output;
-  return request.tile_vertices != 0 || request.tiles ||
-         (name.size() > 4 && name.substr(name.size() - 4) == ".mtp");
+  return request.tile_vertices != 0 || request.tiles || suffix_of(request.output) == ".mtp";
 }
 
 std::string moved(Decimal displacement) {
@@ -48,7 +46,7 @@ std::string units(const EncodeRequest& request, const Reference& file) {
   std::string text = "units: x and y " + std::string(name_of(reference.horizontal_unit)) + ", z " +
                      std::string(name_of(reference.vertical_unit)) + '\n';
   for (const std::string& remark : remarks) text += "warning: " + remark + '\n';
-  const bool is_grid = std::filesystem::path(request.input).extension() == ".asc";
+  const bool is_grid = suffix_of(request.input) == ".asc";
   if (reference.horizontal_unit == Unit::kUnknown && is_grid) {
     text += "warning: a .prj beside " + request.input + " would say it\n";
   }
@@ -235,7 +233,7 @@ void announce_memory(const EncodeRequest& request) {
 // A name that says something else would have other programs read what is none of theirs. Shards are
 // named at will.
 void expect_own_suffix(const std::string& output, bool is_pack) {
-  const std::string suffix = std::filesystem::path(output).extension().string();
+  const std::string suffix = suffix_of(output);
   if (suffix.empty() || suffix == ".mtp" || (suffix == ".mtin" && !is_pack)) return;
   throw Error(output + (is_pack ? ": a pack is named .mtp"
                                 : ": a stream is named .mtin, a pack .mtp; \"microtin decode\" and "

@@ -10,6 +10,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/files/file_target.hpp"
@@ -58,7 +59,7 @@ std::string world_path(const std::string& picture) {
 }
 
 void expect_picture(const RenderRequest& request) {
-  const std::string suffix = std::filesystem::path(request.output).extension().string();
+  const std::string suffix = suffix_of(request.output);
   if (!suffix.empty() && suffix != ".png" && suffix != kDrawing && suffix != kPage) {
     throw Error(request.output + ": not a kind of picture that is written (.png, .svg, .html)");
   }
@@ -123,7 +124,7 @@ void run_render(const RenderRequest& request) {
                           document.bytes(), document.tiles(),    request.mesh,
                           request.palette,  request.contours,    request.interval,
                           request.title,    request.coordinates, request.north_arrow};
-  const std::string suffix = std::filesystem::path(request.output).extension().string();
+  const std::string suffix = suffix_of(request.output);
   if (suffix == kPage) return write_page(request, portrait);
   if (suffix == kDrawing) return write_drawing(request, portrait);
   if (request.source.empty()) {

@@ -3,13 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/export/autopilot_block.hpp"
-#include "encoder/import/text.hpp"
 
 namespace microtin::exporting {
 namespace {
@@ -139,7 +138,7 @@ void measure(const SampledSurface& surface, const AutopilotLayout& layout, Autop
 }  // namespace
 
 std::optional<Autopilot> autopilot_of(const std::string& path) {
-  const std::string suffix = lower_case(std::filesystem::path(path).extension().string());
+  const std::string suffix = suffix_of(path);
   if (suffix == ".dat") return Autopilot::kArduPilot;
   if (suffix == ".ter") return Autopilot::kInav;
   return std::nullopt;

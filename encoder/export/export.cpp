@@ -2,9 +2,8 @@
 // Writes XYZ, OBJ and PLY line by line.
 #include "encoder/export/export.hpp"
 
-#include <filesystem>
-
 #include "encoder/base/error.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/exact/coordinates.hpp"
 #include "encoder/export/glb.hpp"
 
@@ -43,7 +42,7 @@ void write_ply_header(const SurfaceModel& model, Coordinates coordinates, Output
 }  // namespace
 
 MeshFormat mesh_format_of(const std::string& path) {
-  const std::string suffix = std::filesystem::path(path).extension().string();
+  const std::string suffix = suffix_of(path);
   if (path == "-" || suffix == ".xyz") return MeshFormat::kXyz;
   if (suffix == ".obj") return MeshFormat::kObj;
   if (suffix == ".ply") return MeshFormat::kPly;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "encoder/base/error_context.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"

@@ -3,12 +3,11 @@
 #include "encoder/import/cloud_size.hpp"
 
 #include <algorithm>
-#include <filesystem>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/files/byte_source.hpp"
 #include "encoder/files/input_file.hpp"
-#include "encoder/import/text.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -45,7 +44,7 @@ uint64_t points_in(const std::string& path, const std::string& suffix) {
 }  // namespace
 
 uint64_t points_expected(const std::string& path) {
-  const std::string suffix = lower_case(std::filesystem::path(path).extension().string());
+  const std::string suffix = suffix_of(path);
   constexpr const char* kClouds[] = {".las", ".ply", ".xyz", ".csv", ".txt", ".obj"};
   const bool is_cloud =
       std::find(std::begin(kClouds), std::end(kClouds), suffix) != std::end(kClouds);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "encoder/base/suffix.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/import/epsg.hpp"
 #include "encoder/import/text.hpp"

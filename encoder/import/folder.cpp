@@ -6,8 +6,8 @@
 #include <map>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/import/import.hpp"
-#include "encoder/import/text.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -22,7 +22,7 @@ FilesBySuffix terrain_files_in(const std::string& folder) {
   const fs::directory_iterator entries(folder, error);
   if (error) throw Error(folder + ": cannot be read: " + error.message());
   for (const auto& entry : entries) {
-    const std::string suffix = lower_case(entry.path().extension().string());
+    const std::string suffix = suffix_of(entry.path().string());
     if (entry.is_regular_file() && is_terrain_suffix(suffix)) {
       by_suffix[suffix].push_back(entry.path().string());
     }

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/scaled_integers.hpp"
 #include "encoder/exact/units.hpp"
@@ -76,7 +76,7 @@ Dataset open(const std::string& path, Indirect indirect) {
                              GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
                              nullptr, nullptr));
   if (!dataset) {
-    const bool is_vrt = lower_case(std::filesystem::path(path).extension().string()) == ".vrt";
+    const bool is_vrt = suffix_of(path) == ".vrt";
     if (is_vrt && indirect == Indirect::kRefused) {
       throw Error("names other files, which are read with --allow-vrt only");
     }

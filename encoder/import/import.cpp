@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/files/input_file.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/text.hpp"
@@ -14,10 +15,6 @@
 namespace microtin::importing {
 
 namespace {
-
-std::string suffix_of(const std::string& path) {
-  return lower_case(std::filesystem::path(path).extension().string());
-}
 
 // A grid's well-known text stands in a file beside it. Empty: there is none.
 std::string system_file_of(const std::string& path) {

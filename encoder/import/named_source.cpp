@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "encoder/import/named_source.hpp"
 
-#include <filesystem>
 #include <tuple>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/import/text.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -30,7 +29,7 @@ std::string remedy(const NamedSource& first, const NamedSource& part, const Refe
                    const Reference& b) {
   for (const auto& [file, reference] : {std::tie(first, a), std::tie(part, b)}) {
     if (reference.horizontal_unit != Unit::kUnknown || !reference.wkt.empty()) continue;
-    if (lower_case(std::filesystem::path(file.path).extension().string()) == ".asc") {
+    if (suffix_of(file.path) == ".asc") {
       return "put the .prj that is missing beside " + file.path;
     }
   }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
 

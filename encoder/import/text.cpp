@@ -38,13 +38,6 @@ std::string not_a_height(double value) {
          text + '"';
 }
 
-std::string lower_case(std::string text) {
-  for (char& c : text) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return text;
-}
-
 bool DecimalRange::add(Decimal value) {
   if (value.decimals > decimals_) {
     largest_ *= power_of_ten(value.decimals - decimals_);

@@ -22,8 +22,6 @@ std::string quoted(std::string_view piece);
 // voids.
 std::string not_a_height(double value);
 
-std::string lower_case(std::string text);
-
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }

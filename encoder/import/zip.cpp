@@ -5,9 +5,9 @@
 #include <array>
 #include <new>
 
+#include "encoder/base/suffix.hpp"
 #include "encoder/files/byte_reader.hpp"
 #include "encoder/import/import.hpp"
-#include "encoder/import/text.hpp"
 
 namespace microtin::importing {
 namespace {

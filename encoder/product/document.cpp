@@ -2,12 +2,12 @@
 // Asks a stream or a pack, so that nobody else needs to know which of them it is.
 #include "encoder/product/document.hpp"
 
-#include <filesystem>
 #include <memory>
 #include <utility>
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
+#include "encoder/base/suffix.hpp"
 #include "encoder/export/system.hpp"
 #include "encoder/files/input_file.hpp"
 #include "encoder/import/folder.hpp"
@@ -44,8 +44,7 @@ std::variant<PackFile, DecodedStream> content_of(const std::string& path) {
 
 bool has_classes(const std::string& path) {
   const std::string first = path.empty() ? path : files_in(path)[0];
-  const std::string suffix = std::filesystem::path(first).extension().string();
-  return suffix == ".las" || suffix == ".LAS";
+  return suffix_of(first) == ".las";
 }
 
 // Keeps the points that the document stands for.

@@ -227,6 +227,22 @@ TEST_CASE("cli: no command writes over any of its inputs, by whatever name") {
   CHECK(made.everything() == before);
 }
 
+TEST_CASE("cli: suffixes may be in capitals") {
+  const Made made;
+  REQUIRE(made.run("encode t.asc --max-error 10 --fast -o U.MTIN").code == 0);
+  CHECK(made.read("U.MTIN") == made.read("t.mtin"));
+  REQUIRE(made.run("encode t.asc --max-error 10 --tile-vertices 99 -o U.MTP").code == 0);
+  CHECK(made.read("U.MTP") == made.read("t.mtp"));
+  for (const auto& [output, begin] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"U.ASC", "ncols"}, {"U.PLY", "ply"}, {"U.GLB", "glTF"}}) {
+    REQUIRE(made.run("decode t.mtin -o " + std::string(output)).code == 0);
+    CHECK(made.read(output).rfind(begin, 0) == 0);
+  }
+  REQUIRE(made.run("render t.mtin -o U.SVG").code == 0);
+  CHECK(contains(made.read("U.SVG"), "<svg"));
+  CHECK(contains(made.failure("render t.mtin -o U.GIF"), "not a kind of picture"));
+}
+
 TEST_CASE("cli: other names of standard output are standard output") {
   const Made made;
   made.shell("ln -s /dev/stdout link; ln -s link link2");

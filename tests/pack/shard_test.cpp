@@ -19,14 +19,14 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-// A raster whose tiles are encoded one by one, as if by as many machines.
+// A raster whose tiles are encoded one by one, as if by as many machines, of which each plans the
+// same.
 class Shards {
  public:
   Shards(const Raster& raster, const PackOptions& options)
-      : raster_(raster), options_(options), single_(encode_pack(raster, options)) {
-    const PackPlan plan = plan_pack(raster_, options_);
-    for (uint32_t tile = 0; tile <= all_tiles(plan.tiled.grid).last; ++tile) {
-      encode_tiles(plan, {tile, tile}, [&](uint32_t number, EncodedTile&& encoded) {
+      : raster_(raster), single_(encode_pack(raster, options)), plan_(plan_pack(raster_, options)) {
+    for (uint32_t tile = 0; tile <= all_tiles(plan_.tiled.grid).last; ++tile) {
+      encode_tiles(plan_, {tile, tile}, [&](uint32_t number, EncodedTile&& encoded) {
         CHECK(number == tile);
         tiles_.push_back(std::move(encoded));
       });
@@ -37,10 +37,9 @@ class Shards {
   uint32_t tiles() const { return static_cast<uint32_t>(tiles_.size()); }
 
   std::string write(TileRange range) {
-    const PackPlan plan = plan_pack(raster_, options_);
     std::string path = folder_ / (std::to_string(range.first) + "-" + std::to_string(range.last));
     OutputFile out(path);
-    ShardWriter shard(plan, content_of(plan, {}), range, out);
+    ShardWriter shard(plan_, content_of(plan_, {}), range, out);
     for (uint32_t tile = range.first; tile <= range.last; ++tile) shard.add(tiles_[tile]);
     out.commit();
     return path;
@@ -73,8 +72,8 @@ class Shards {
 
  private:
   RasterInMemory raster_;
-  PackOptions options_;
   EncodedPack single_;
+  PackPlan plan_;
   std::vector<EncodedTile> tiles_;
   TemporaryFolder folder_;
 };
