@@ -41,10 +41,10 @@ using namespace microtin;
 microtin_status microtin_compact_pack_init(void* workspace, size_t size, uint32_t slots,
                                            uint32_t capacity, uint32_t tile_bytes,
                                            microtin_pack** pack) {
-  if (tile_bytes > 0x80000000u) return MICROTIN_ARGUMENT;
   const uint64_t work_bytes = MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES(capacity));
-  const microtin_status status = lay_out_pack(workspace, size, slots, capacity, work_bytes,
-                                              MICROTIN_PACK_ROUND(tile_bytes), pack);
+  const uint64_t slot_bytes = MICROTIN_PACK_ROUND(uint64_t{tile_bytes});
+  const microtin_status status =
+      lay_out_pack(workspace, size, slots, capacity, work_bytes, slot_bytes, pack);
   if (status != MICROTIN_DONE) return status;
   microtin_pack& p = **pack;
   return microtin_mesh_init(p.decoder_space + p.decoder_bytes, static_cast<size_t>(work_bytes),
@@ -57,9 +57,13 @@ microtin_status microtin_compact_pack_prepare(microtin_pack* pack, const microti
   microtin_status status = MICROTIN_DONE;
   while (status == MICROTIN_DONE || (status == MICROTIN_STEP_LIMIT && step_limit == 0)) {
     status = go_on(*pack, *course);
-    if (status != MICROTIN_STEP_LIMIT) return status;
-    const bool is_decoded = pack->stage == PackStage::kStore;
-    status = is_decoded ? store(*pack, step_limit) : decode(*pack, step_limit);
+    if (status == MICROTIN_STEP_LIMIT) {
+      status = decode(*pack, step_limit);
+    } else if (status == MICROTIN_STOPPED) {
+      status = store(*pack, step_limit);
+    } else {
+      return status;
+    }
   }
   return status;
 }

@@ -55,18 +55,21 @@ MICROTIN_IN_PLACE inline microtin_status handle_fixed(microtin_pack& p) {
   return MICROTIN_NEED_INPUT;
 }
 
-microtin_status handle_placement(microtin_pack& p) {
-  if (!read_pack_placement(p.buffer, p.header, p.axis)) return fail_pack(p, MICROTIN_MALFORMED);
+// What is in the buffer counts for the check.
+MICROTIN_OUT_OF_LINE microtin_status go_on_to_notes(microtin_pack& p) {
   p.crc = crc32(p.crc, p.buffer, p.buffered);
   want_notes(p);
   return MICROTIN_NEED_INPUT;
 }
 
+microtin_status handle_placement(microtin_pack& p) {
+  if (!read_pack_placement(p.buffer, p.header, p.axis)) return fail_pack(p, MICROTIN_MALFORMED);
+  return go_on_to_notes(p);
+}
+
 microtin_status handle_notes(microtin_pack& p) {
-  p.crc = crc32(p.crc, p.buffer, p.buffered);
   p.left -= p.buffered;
-  want_notes(p);
-  return MICROTIN_NEED_INPUT;
+  return go_on_to_notes(p);
 }
 
 microtin_status handle_check(microtin_pack& p) {
@@ -213,7 +216,8 @@ microtin_status handle_stream(microtin_pack& p) {
   return MICROTIN_STEP_LIMIT;
 }
 
-// Handles what is in the buffer, if it is complete. DONE: a tile is ready, or refused.
+// Handles what is in the buffer, if it is complete. DONE: a tile is ready, or refused; STOPPED: it
+// is to be made compact, and who cannot tells that.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status handle(microtin_pack& p) {
   if (p.buffered < p.wanted) return MICROTIN_NEED_INPUT;
   switch (p.stage) {
@@ -229,12 +233,12 @@ MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status handle(microtin_pack& p) 
       return handle_entry(p);
     case PackStage::kStream:
       return handle_stream(p);
-    case PackStage::kStore:
-      return MICROTIN_STEP_LIMIT;
     case PackStage::kIdle:
+      return MICROTIN_DONE;
+    case PackStage::kStore:
       break;
   }
-  return MICROTIN_DONE;
+  return MICROTIN_STOPPED;
 }
 
 // What a course wants of a pack.
@@ -346,16 +350,16 @@ microtin_status go_on(microtin_pack& p, const microtin_course& course) {
 
 microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
                              uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack) {
-  if (workspace == nullptr || pack == nullptr || slots == 0 || slots > 255 || capacity < 3 ||
-      capacity > MICROTIN_MAX_VERTICES) {
+  if (workspace == nullptr || pack == nullptr) return MICROTIN_ARGUMENT;
+  *pack = nullptr;
+  if (slots == 0 || slots > 255 || capacity < 3 || capacity > MICROTIN_MAX_VERTICES) {
     return MICROTIN_ARGUMENT;
   }
-  *pack = nullptr;
   if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
   const uint64_t own_bytes = MICROTIN_PACK_ROUND(sizeof(microtin_pack) + slots * sizeof(PackSlot));
   const uint64_t decoder_bytes = MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES(capacity));
   const uint64_t before_slots = own_bytes + decoder_bytes + work_bytes;
-  // Below 2^8 * 2^32.
+  // Below 2^8 * 2^33.
   if (before_slots + slots * slot_bytes > size) return MICROTIN_WORKSPACE_TOO_SMALL;
   microtin_pack& p = *static_cast<microtin_pack*>(workspace);
   uint8_t* const bytes = static_cast<uint8_t*>(workspace);
@@ -395,7 +399,6 @@ microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots,
 void microtin_pack_reset(microtin_pack* pack) {
   microtin_pack& p = *pack;
   p.has_header = false;
-  p.stage = PackStage::kFixed;
   p.storage = Storage::kWell;
   p.tile = 0;
   forget_bad_tiles(p);

@@ -12,8 +12,8 @@ namespace microtin {
 microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
                              uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack);
 
-// Goes on with a course, up to where its next tile is to be decoded or made compact, which the
-// stage tells: then STEP_LIMIT.
+// Goes on with a course, up to where its next tile is to be decoded (STEP_LIMIT) or made compact
+// (STOPPED).
 microtin_status go_on(microtin_pack& p, const microtin_course& course);
 
 // Chooses a slot for the tile in hand. False if all are wanted by the course in hand.
@@ -35,7 +35,7 @@ microtin_status refuse_tile(microtin_pack& p, microtin_status why);
 microtin_status fail_pack(microtin_pack& p, microtin_status status);
 
 // What follows from what the decoder said, but for STEP_LIMIT. DONE: the tile is ready, or refused;
-// STEP_LIMIT: it is to be made compact.
+// STEP_LIMIT: it is to be made compact next.
 microtin_status hear_decoder(microtin_pack& p, microtin_status status);
 
 // Decodes what is in the buffer: in place, so that only the caller's frame lies above the

@@ -140,6 +140,31 @@ TEST_CASE("compact pack: each form's functions refuse packs of the other") {
   CHECK(microtin_compact_pack_prepare(nullptr, &c, 0) == MICROTIN_ARGUMENT);
 }
 
+// It can read and decode, but not make compact.
+TEST_CASE("compact pack: the other form's service ends at any moment, and nothing is lost") {
+  Card card{rough_pack()};
+  const PackFile pack(card.bytes);
+  const microtin_course c = at(3, 3);
+  bool is_there = false;
+  uint32_t stopped = 0;
+  for (int calls = 0; !is_there; ++calls) {
+    const CompactSlots device(1);
+    for (int i = 0; i < calls && !is_there; ++i)
+      is_there = device.service(card, c, 1) == MICROTIN_DONE;
+    microtin_status status = MICROTIN_STEP_LIMIT;
+    for (int i = 0; i < 9 && status != MICROTIN_STOPPED && status != MICROTIN_DONE; ++i) {
+      status = microtin_pack_service(device.pack, &c, 0, Card::read, &card);
+    }
+    CHECK(status == (is_there ? MICROTIN_DONE : MICROTIN_STOPPED));
+    ++stopped;
+    REQUIRE(device.service(card, c) == MICROTIN_DONE);
+    int32_t height = 0;
+    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
+    CHECK(height == *expected_height(pack, c.x, c.y));
+  }
+  CHECK(stopped > 30);
+}
+
 TEST_CASE("compact pack: workspaces and arguments") {
   microtin_pack* pack = nullptr;
   Workspace space(MICROTIN_COMPACT_PACK_BYTES(3, 50, 600));
@@ -149,8 +174,12 @@ TEST_CASE("compact pack: workspaces and arguments") {
   CHECK(init(space.size(), 3, 50, 600) == MICROTIN_DONE);
   CHECK(init(space.size(), 3, 50, 1100) == MICROTIN_WORKSPACE_TOO_SMALL);
   CHECK(init(space.size(), 3, 500, 600) == MICROTIN_WORKSPACE_TOO_SMALL);
-  CHECK(init(space.size(), 0, 50, 600) == MICROTIN_ARGUMENT);
-  CHECK(init(space.size(), 3, 50, 0xFFFFFFFF) == MICROTIN_ARGUMENT);
+  CHECK(init(space.size(), 3, 50, 0xFFFFFFFF) == MICROTIN_WORKSPACE_TOO_SMALL);
+  for (const uint32_t slots : {0u, 256u}) {
+    pack = reinterpret_cast<microtin_pack*>(space.begin());
+    CHECK(init(space.size(), slots, 50, 600) == MICROTIN_ARGUMENT);
+    CHECK(pack == nullptr);
+  }
   CHECK(init(space.size(), 3, 2, 600) == MICROTIN_ARGUMENT);
   CHECK(init(100, 1, 50, 600) == MICROTIN_WORKSPACE_TOO_SMALL);
 }

@@ -15,8 +15,9 @@
 
 /* Bytes of the workspace of a pack that decodes tiles of up to `capacity` vertices and keeps
  * `slots` of them in `tile_bytes` each: what microtin_pack_info says of the pack, as `microtin
- * info` does, or for any of our encoder's packs MICROTIN_COMPACT_BYTES(capacity), and _NARROW_BYTES
- * where tiles are less than 256 steps wide and high. A constant expression, also usable in #if. */
+ * info` does (of builds with the width of numbers that is told there), or for any of our encoder's
+ * packs MICROTIN_COMPACT_BYTES(capacity), and _NARROW_BYTES where tiles are less than 256 steps
+ * wide and high. A constant expression, also usable in #if. */
 #define MICROTIN_COMPACT_PACK_BYTES(slots, capacity, tile_bytes) \
   MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, MICROTIN_INDEX_BITS)
 #define MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, bits)   \
@@ -34,7 +35,7 @@ extern "C" {
 #define microtin_compact_pack_init microtin_compact_pack_init_32
 #endif
 
-/* As microtin_pack_init. ARGUMENT: also if tile_bytes is above 2^31. */
+/* As microtin_pack_init. */
 microtin_status microtin_compact_pack_init(void* workspace, size_t size, uint32_t slots,
                                            uint32_t capacity, uint32_t tile_bytes,
                                            microtin_pack** pack);
@@ -53,7 +54,7 @@ static inline microtin_status microtin_compact_pack_service(microtin_pack* pack,
                                                             void* context) {
   for (;;) {
     microtin_status status;
-    if (pack == 0 || read == 0) return MICROTIN_ARGUMENT;
+    if (!pack || !read) return MICROTIN_ARGUMENT;
     microtin_pack_fetch(pack, read, context);
     status = microtin_compact_pack_prepare(pack, course, step_limit);
     if (status != MICROTIN_NEED_INPUT || step_limit != 0) return status;

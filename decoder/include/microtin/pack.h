@@ -41,7 +41,8 @@ extern "C" {
 typedef struct microtin_pack microtin_pack;
 
 /* Lays out a pack without tiles in `workspace`, with `slots` (1 .. 255) slots for tiles of up to
- * `capacity` vertices, and sets *pack. WORKSPACE_TOO_SMALL: see MICROTIN_PACK_BYTES. */
+ * `capacity` (3 .. MICROTIN_MAX_VERTICES) vertices, and sets *pack, to null if the status is not
+ * DONE: WORKSPACE_TOO_SMALL, see MICROTIN_PACK_BYTES; MISALIGNED; ARGUMENT. */
 microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
                                    microtin_pack** pack);
 
@@ -70,6 +71,8 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
  *   IO                   reading failed; the same bytes stay wanted
  *   WORKSPACE_TOO_SMALL  the course touches more tiles than there are slots; some are there
  *   ARGUMENT             a null pointer, or too long a course
+ *   STOPPED              a pack of compact_pack.h: a tile is decoded, and what makes it compact is
+ *                        there. Nothing is lost
  * Of the header:
  *   BAD_MAGIC, UNSUPPORTED_VERSION, MALFORMED   it is not that of a pack
  *   CHECKSUM             it is damaged
@@ -106,7 +109,7 @@ static inline microtin_status microtin_pack_service(microtin_pack* pack,
                                                     void* context) {
   for (;;) {
     microtin_status status;
-    if (pack == 0 || read == 0) return MICROTIN_ARGUMENT;
+    if (!pack || !read) return MICROTIN_ARGUMENT;
     microtin_pack_fetch(pack, read, context);
     status = microtin_pack_prepare(pack, course, step_limit);
     if (status != MICROTIN_NEED_INPUT || step_limit != 0) return status;
