@@ -41,7 +41,8 @@ typedef struct microtin_ardupilot {
   microtin_ardupilot_block block;
 } microtin_ardupilot;
 
-/* The pack is serviced by microtin_ardupilot_service alone. */
+/* The pack is serviced by microtin_ardupilot_service alone. Another card: microtin_pack_reset and
+ * this once more, while nobody asks; else places are taken for those of the pack before. */
 void microtin_ardupilot_init(microtin_ardupilot* terrain, microtin_pack* pack, uint16_t spacing);
 
 /* For the thread that may read the card: see microtin_pack_service. */

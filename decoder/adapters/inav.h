@@ -23,7 +23,8 @@ typedef struct microtin_inav {
   microtin_spots spots;
 } microtin_inav;
 
-/* The pack is serviced by microtin_inav_service alone. */
+/* The pack is serviced by microtin_inav_service alone. Another card: microtin_pack_reset and this
+ * once more, while nobody asks; else places are taken for those of the pack before. */
 void microtin_inav_init(microtin_inav* inav, microtin_pack* pack);
 
 /* To be called by the task that may read the card: see microtin_pack_service. */

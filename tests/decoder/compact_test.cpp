@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -121,7 +122,8 @@ uint32_t check(const Bytes& stream, uint32_t seed, int places = 300) {
       make(own->mesh, own->mesh_space.size(), own->mesh, own->decoder_space.begin(),
            own->decoder_space.size(), 1 + seed % 5, &in_place, &needs);
   CHECK(own->guards_are_whole());
-  CHECK((status == MICROTIN_DONE || own->vertices() < 100 || compact.repeats() > 10));
+  const uint32_t n = own->vertices();
+  CHECK((status == MICROTIN_DONE || n < 64 || compact.repeats() > MICROTIN_COMPACT_REPEATS(n)));
   if (status == MICROTIN_DONE) {
     const uint8_t* const begin = reinterpret_cast<const uint8_t*>(in_place);
     CHECK(Bytes(begin, begin + needs.bytes) == compact.bytes());
@@ -140,6 +142,16 @@ void check_tin(const Tin& tin, uint32_t seed, bool voids = true) {
 }
 
 }  // namespace
+
+TEST_CASE("in place there is room for what the macros allow for, from 64 vertices on") {
+  for (const unsigned long bits : {16ul, 32ul}) {
+    for (unsigned long n = 3; n < 20000; ++n) {
+      const unsigned long twins = bits / 8 * 6 * std::max(n, 64ul);
+      const unsigned long most = MICROTIN_COMPACT_HEADER_BYTES + twins;
+      REQUIRE(MICROTIN_COMPACT_BYTES_FOR(n, 2ul, bits) <= most);
+    }
+  }
+}
 
 TEST_CASE("compact terrains answer as the mesh does: golden streams") {
   uint32_t streams = 0;

@@ -58,9 +58,11 @@ typedef struct microtin_compactor microtin_compactor;
 
 /* Begins to make a compact terrain of a mesh that is complete and verified: after MICROTIN_DONE, or
  * MICROTIN_STOPPED with 256 vertices or more. It will lie at the start of `workspace`. That may be
- * the mesh's own: give the mesh and its size. `scratch` holds what is needed meanwhile. Both must
- * be aligned to MICROTIN_ALIGNMENT. Changes nothing but the scratch. DONE, or MISALIGNED, ARGUMENT,
- * WORKSPACE_TOO_SMALL: the scratch cannot hold even what is needed to measure. O(1). */
+ * the mesh's own: give the mesh and its size. (There is room for what the macros allow for, then,
+ * if the mesh's capacity is 64 or more; with less even what microtin_compact_needs tells may not
+ * do.) `scratch` holds what is needed meanwhile. Both must be aligned to MICROTIN_ALIGNMENT.
+ * Changes nothing but the scratch. DONE, or MISALIGNED, ARGUMENT, WORKSPACE_TOO_SMALL: the scratch
+ * cannot hold even what is needed to measure. O(1). */
 microtin_status microtin_compact_begin(void* workspace, size_t size, microtin_mesh* mesh,
                                        void* scratch, size_t scratch_size,
                                        microtin_compactor** compactor);

@@ -80,7 +80,7 @@ typedef enum microtin_status {
    * goes on, see microtin_pack_prepare. */
   MICROTIN_BAD_MAGIC = 16,           /* not a microtin stream */
   MICROTIN_UNSUPPORTED_VERSION = 17, /* a version of the format, or a part of it, unknown here */
-  MICROTIN_TOO_BIG = 18,             /* more vertices than the workspace holds: see microtin_peek */
+  MICROTIN_TOO_BIG = 18,             /* more vertices than the workspaces hold: see microtin_info */
   MICROTIN_CHECKSUM = 19,            /* the bytes were damaged */
   MICROTIN_MALFORMED = 20,           /* undamaged bytes that break a rule of the format */
   MICROTIN_TRUNCATED = 21,           /* microtin_finish: the stream ends too early */
@@ -114,8 +114,8 @@ typedef struct microtin_info {
   uint8_t has_heights; /* 0: every z is 0 */
   uint8_t has_voids;
   microtin_axis x, y, z; /* offset 0 and step 1 where the stream does not say */
-  size_t mesh_bytes;     /* workspaces that this build needs for the stream */
-  size_t decoder_bytes;
+  size_t mesh_bytes;     /* workspaces that this build needs for the stream; none will do for */
+  size_t decoder_bytes;  /* more than MICROTIN_MAX_VERTICES */
 } microtin_info;
 
 typedef struct microtin_mesh microtin_mesh;
