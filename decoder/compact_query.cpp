@@ -53,7 +53,7 @@ uint32_t number_at(uint32_t position) {
   return 2 * position - kFirstNumber;
 }
 
-// The square, in half steps: each part is below 2^30.1, as a narrow box may lie 2^15 from p.
+// The square of half of it: each part is below 2^30.1, as a narrow box may lie 2^16 steps from p.
 uint32_t distance(Point at, int32_t x, int32_t y) {
   const int32_t dx = x - (at.x >> 1), dy = y - (at.y >> 1);
   return static_cast<uint32_t>(dx * dx) + static_cast<uint32_t>(dy * dy);

@@ -92,7 +92,7 @@ inline int32_t chance_at(const PlaceOdds& odds, const Column& column, int32_t y)
 
 // Of two places, or of all in two halves.
 struct Halves {
-  uint32_t low, high;  // weights, 1..2^15
+  uint32_t low, high;  // weights: below 2^15.6, times a count below 2^19.6
 };
 
 inline uint32_t weight_at(const PlaceOdds& odds, const LegalPlaces& places, const Column& column,
@@ -104,7 +104,7 @@ inline uint32_t weight_at(const PlaceOdds& odds, const LegalPlaces& places, cons
 
 #if defined(MICROTIN_PAIRS)
 
-// Of two places of a column: 4..521 each.
+// Of two places of a column: 4..520 each.
 inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, const Column& column,
                          int32_t low, int32_t high) {
   int32_t first = chance_at(odds, column, low), second = chance_at(odds, column, high);

@@ -9,6 +9,7 @@ columns  documents have lines of at most 122 columns, tables and what links lead
 locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
 """
 
+import functools
 import re
 import sys
 from pathlib import Path
@@ -19,6 +20,7 @@ MOST_COLUMNS = 122
 LICENCE = "SPDX-License-Identifier: MIT"
 SLASHES = (".c", ".h", ".cpp", ".hpp", ".js")
 HASHES = (".py", ".sh", ".cmake", "CMakeLists.txt")
+CALL = re.compile(r"\b(\w+)\(")
 COMMA = re.compile(r"\b(o?stringstream|sto[dfl]|stold|strto[df]|strtold|atof)\b|\bsn?printf\(.*%[-+ #0-9.*]*[aefg]", re.I)
 
 
@@ -83,13 +85,23 @@ def licence(folder):
     ]
 
 
+@functools.cache
+def called_in(path):
+    """What the sources of a folder, or one source, call or define."""
+    sources = [source for source in (files(path) if path.is_dir() else [path]) if source.suffix in (".cpp", ".hpp", ".h")]
+    return {name for source in sources for name in CALL.findall(source.read_text())}
+
+
 def faults(folder):
     found = []
     for path in sorted((folder / "fuzz/mutants").iterdir()):
         lines = [line for line in lines_of(path) if not line.startswith("#")]
-        old = "".join(line[1:] + "\n" for line in lines if line.startswith("-"))
+        old, new = ("".join(line[1:] + "\n" for line in lines if line.startswith(sign)) for sign in "-+")
         if (folder / lines[0]).read_text().count(old) != 1:
             found.append(f"{path.name} replaces what is not found exactly once in {lines[0]}")
+        tops = [folder / top for top in (lines[0].split("/")[0], "decoder", "shared") if (folder / top).exists()]
+        for name in sorted(set(CALL.findall(new)).difference(*map(called_in, tops))):
+            found.append(f"{path.name} calls {name}, which is not there")
     return found
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Packs, damaged and forged, on storage that fails: a service ends within its bounds, answers come
-// from tiles that a host accepts alone, and are the host's. The fuzzer chooses courses and faults
-// by the last bytes of its input.
+// Packs, damaged and forged, on storage that fails, read in sectors or not: a service ends within
+// its bounds, answers come from tiles that a host accepts alone, and are the host's. The fuzzer
+// chooses courses, sectors and faults by the last bytes of its input.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -59,11 +59,13 @@ struct Card {
   const uint8_t* bytes;
   size_t size;
   FuzzedDataProvider& faults;
+  uint32_t sector = 0;  // that no read leaves; 0: there are none
   uint32_t reads = 0;
 
   static int32_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
     Card& card = *static_cast<Card*>(context);
     EXPECT(size != 0 && size <= 128);
+    EXPECT(card.sector == 0 || offset / card.sector == (offset + size - 1) / card.sector);
     ++card.reads;
     const uint8_t fault = card.faults.ConsumeIntegral<uint8_t>();  // 0 when there are no more
     if (fault % 8 == 1) return -1 - fault;
@@ -276,12 +278,14 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       slots,
       asked.ConsumeBool() ? asked.ConsumeIntegralInRange<uint32_t>(most_bytes / 4, most_bytes) : 0);
   const uint32_t step_limit = asked.ConsumeIntegralInRange<uint32_t>(0, 40);
+  const uint32_t sector = asked.ConsumeBool() ? 1u << asked.ConsumeIntegralInRange(3, 9) : 0;
+  EXPECT(microtin_pack_align_reads(device.pack, sector) == MICROTIN_DONE);
   std::optional<PackFile> file;
   try {
     file.emplace(std::vector<uint8_t>(data, data + size));
   } catch (const Error&) {
   }
-  Card card{data, size, asked};
+  Card card{data, size, asked, sector};
   std::vector<microtin_course> courses;
   for (int i = 0; i < 3; ++i) {
     microtin_pack_info info = {1000, 1000, 0, 0, 0, 0, 0, 0, {}, {}, {}};
@@ -289,6 +293,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const microtin_course course = {coordinate(asked, info.x_max), coordinate(asked, info.y_max),
                                     coordinate(asked, info.x_max), coordinate(asked, info.y_max)};
     courses.push_back(course);
+    if (asked.ConsumeBool()) microtin_pack_retry(device.pack);
     serve(card, device, course, step_limit);
     if (file) check_height(*file, device, course.x, course.y);
     if (microtin_pack_header(device.pack, &info) == 0) continue;

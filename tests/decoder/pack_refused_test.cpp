@@ -350,12 +350,17 @@ TEST_CASE_TEMPLATE("pack: headers that break a rule are malformed, damaged ones 
   for (const size_t at : {23u, 27u}) CHECK(status_of(with(at, 128)) == MICROTIN_MALFORMED);
   CHECK(status_of(with(30, 255)) == MICROTIN_BAD_TILES);  // entries are of the header before
   CHECK(status_of(with(31, 1)) == MICROTIN_MALFORMED);    // above 2^24 vertices
+  // Damage is told as such, unless the rest ends too early for it, or breaks a rule.
   for (size_t at = 8; at < pack_index_start(PackFile(good).header()); ++at) {
     Bytes damaged = good;
     damaged[at] ^= 4;
-    const microtin_status status = status_of(damaged);
-    CHECK(status != MICROTIN_DONE);
-    CHECK(status != MICROTIN_BAD_TILES);
+    PackHeader header{};
+    const bool is_legal = read_pack_header(damaged.data(), &header);
+    const bool is_short = pack_index_start(header) > damaged.size();
+    CAPTURE(at);
+    CHECK(status_of(damaged) == (!is_legal  ? MICROTIN_MALFORMED
+                                 : is_short ? MICROTIN_TRUNCATED
+                                            : MICROTIN_CHECKSUM));
   }
 }
 
@@ -396,6 +401,12 @@ TEST_CASE_TEMPLATE("pack: tiles that break a rule are refused, here and on the h
   check(forged_pack(grid, {good, {loose_stream(4, 3), 3}}), MICROTIN_DONE);
   refuse({loose_stream(5, 3), 3});
   refuse({loose_stream(4, 4), 3});
+  // No stream that can be decoded: nothing tells that it is the right one.
+  Bytes later = good.stream;
+  later[4] = kVersion + 1;
+  check(forged_pack(grid, {good, {later, good.vertices}}), MICROTIN_CHECKSUM);
+  const Contract two = {2, 4, 3, kMinDegree, Decoding::kBalanced, false, false};
+  check(forged_pack(grid, {good, {write_header(two, {}), good.vertices}}), MICROTIN_CHECKSUM);
   // A stream inside the notes: all its checks pass.
   Metadata notes;
   notes.source = std::string(good.stream.begin(), good.stream.end());

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// shared/SECURITY.md names the tests that check its sentences: they exist.
+// The tests that documents name exist: shared/SECURITY.md has one for each sentence.
 #include <doctest/doctest.h>
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tests/support/files.hpp"
 
@@ -30,6 +31,20 @@ std::string all_tests() {
   return text;
 }
 
+// What stands between quotes in italics: *"one name", "another"*.
+std::vector<std::string> names_in(const std::string& document) {
+  std::vector<std::string> names;
+  for (size_t at = document.find("*\""); at != std::string::npos; at = document.find("*\"", at)) {
+    do {
+      const size_t begin = document.find('"', at) + 1, end = document.find('"', begin);
+      REQUIRE(end != std::string::npos);
+      names.push_back(document.substr(begin, end - begin));
+      at = end + 1;
+    } while (document.compare(at, 3, ", \"") == 0);
+  }
+  return names;
+}
+
 }  // namespace
 
 TEST_CASE("every test case that SECURITY.md names exists") {
@@ -46,6 +61,21 @@ TEST_CASE("every test case that SECURITY.md names exists") {
     CAPTURE(name);
     CHECK(tests.find(name.insert(0, "TEST_CASE(\"")) != std::string::npos);
     ++named;
+  }
+  CHECK(named > 20);
+}
+
+// There a subject, such as "pack: ", may be left out.
+TEST_CASE("every test case that other documents of the decoder name exists") {
+  const std::string tests = all_tests();
+  size_t named = 0;
+  for (const char* document : {"shared/PACK.md", "shared/COMPACT.md", "decoder/GUIDE.md"}) {
+    for (const std::string& name : names_in(text_of(kTests / ".." / document))) {
+      CAPTURE(name);
+      CHECK((tests.find('"' + name + '"') != std::string::npos ||
+             tests.find(": " + name + '"') != std::string::npos));
+      ++named;
+    }
   }
   CHECK(named > 20);
 }

@@ -126,6 +126,36 @@ void check_free_steps(const Contract& contract, const Plan& plan) {
   CHECK(2 * coder.free_steps <= 3 * uint64_t{coder.work});
 }
 
+// What decisions cost.
+struct Cost {
+  double bits = 0;
+
+  bool bit(uint32_t probability, bool value) {
+    const uint32_t part = value ? probability : kProbabilityOne - probability;
+    bits -= std::log2(static_cast<double>(part) / kProbabilityOne);
+    return value;
+  }
+};
+
+// Of a length, whatever its adaptive bits have learned before.
+double dearest_length() {
+  double dearest = 0;
+  for (uint32_t learned = 0; learned < 1u << kExponents; ++learned) {
+    for (uint32_t typical = 0; typical < kMagnitudeBits; ++typical) {
+      for (uint32_t length = 0; length <= kMagnitudeBits; ++length) {
+        ExponentModel model;
+        for (uint32_t i = 0; i < kExponents; ++i) {
+          model.longer[i] = adaptive_bit((learned >> i & 1u) != 0 ? 255 : 0);
+        }
+        Cost cost;
+        REQUIRE(code_exponent(cost, model, typical, length) == length);
+        dearest = std::max(dearest, cost.bits);
+      }
+    }
+  }
+  return dearest;
+}
+
 uint32_t triangles_at(const MeshCopy& copy, uint32_t vertex) {
   return static_cast<uint32_t>(std::count(copy.origin.begin(), copy.origin.end(), vertex));
 }
@@ -171,6 +201,18 @@ TEST_CASE("an adaptive bit never leaves its margins") {
     const uint16_t start = adaptive_bit(table_start(i)).fast;
     CHECK((start >= low && start <= high));
   }
+}
+
+// FORMAT.md counts numbers as they are legal. One that is none may leave 1 of 2^32, but lengths
+// learn on the way. The parts of a step are those that FORMAT.md lists.
+TEST_CASE("the bytes of a step are enough, also where its numbers are none") {
+  const double decision = 9.003, none = 32;
+  const double magnitude = dearest_length() + decision + none;
+  const double at_border = 3 * decision + 2 * magnitude;  // hit, parity, sign; gap and height
+  const double elsewhere = 12 * decision + 14 + 10 + 2 * none + magnitude;
+  MESSAGE("bits of a step: " << at_border << " at the border, " << elsewhere << " elsewhere");
+  CHECK(at_border + 8 < 8 * kStepBytes);
+  CHECK(elsewhere + 8 < 8 * kStepBytes);
 }
 
 TEST_CASE("steps of a walk without a symbol are at most 3/2 of the vertices it ends with") {

@@ -240,6 +240,26 @@ TEST_CASE(
   CHECK(device.service(card, at(17, 5)) == MICROTIN_DONE);
 }
 
+// With so many bad tiles that this one is not remembered, and so tried again.
+TEST_CASE("pack: an entry that was misread together with others is not kept") {
+  constexpr uint32_t kTiles = 12, kBad = MICROTIN_PACK_BAD_TILES, kMisread = kBad + 1;
+  const ForgedTile flat = forged_tile({{{0, 0, 7}, {2, 0, 7}, {0, 2, 7}, {2, 2, 7}}, {}});
+  Card card{forged_pack({2 * kTiles, 2, 2, 2}, std::vector<ForgedTile>(kTiles, flat))};
+  const PackFile pack(card.bytes);
+  for (uint32_t i = 0; i < kBad; ++i) card.bytes[pack.entries()[i].offset + 20] ^= 1;
+  uint8_t& misread = card.bytes[pack_entry_start(pack.header(), kMisread)];
+  const microtin_course all = {0, 300, kTiles * 512, 300};
+  const MeshSlots device(kTiles);
+  CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_DONE);
+  int32_t height = 0;
+  misread ^= 1;
+  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(device.height_at(kMisread * 512 + 256, 300, height) == MICROTIN_NOT_DECODED);
+  misread ^= 1;
+  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(device.height_at(kMisread * 512 + 256, 300, height) == MICROTIN_HEIGHT);
+}
+
 TEST_CASE_TEMPLATE("pack: tiles without terrain, of entries that are kept, end no service", Device,
                    MeshSlots, CompactSlots) {
   const ForgedTile flat = forged_tile({{{0, 0, 7}, {2, 0, 7}, {0, 2, 7}, {2, 2, 7}}, {}}), none;

@@ -74,7 +74,7 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
  *   STOPPED              a pack of compact_pack.h: a tile is decoded, and what makes it compact is
  *                        there. Nothing is lost
  * Of the header:
- *   BAD_MAGIC, UNSUPPORTED_VERSION, MALFORMED   it is not that of a pack
+ *   BAD_MAGIC, UNSUPPORTED_VERSION, MALFORMED   it is not that of a pack, or damaged
  *   CHECKSUM             it is damaged
  *   TRUNCATED            the pack ends within it
  * After these the next call begins anew. Tiles that are there stay until their slots are needed.
@@ -125,8 +125,9 @@ static inline microtin_status microtin_pack_service(microtin_pack* pack,
 
 /* Place `i` < MICROTIN_PACK_BAD_TILES, in no order: returns 1 if a bad tile is remembered there,
  * with its number and
- *   CHECKSUM    what was read is damaged, or is another tile's or another pack's
- *   MALFORMED   it is undamaged and breaks a rule
+ *   CHECKSUM    what was read is damaged, is another tile's or another pack's, or no stream that
+ *               can be decoded: only a whole one tells whether it is the right one
+ *   MALFORMED   it is undamaged and breaks a rule of packs
  *   TOO_BIG     what lies in its place has more vertices than a slot holds
  *   TRUNCATED   the pack ends before it does
  * else 0. */
