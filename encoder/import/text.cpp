@@ -8,11 +8,6 @@
 #include "encoder/base/error.hpp"
 
 namespace microtin::importing {
-namespace {
-
-constexpr int64_t kLargest = 1000000000000000000;  // 10^18
-
-}  // namespace
 
 void fail_at(const std::string& name, size_t line, const std::string& what) {
   throw Error(name + ":" + std::to_string(line) + ": " + what);
@@ -41,11 +36,11 @@ std::string not_a_height(double value) {
 bool DecimalRange::add(Decimal value) {
   if (value.decimals > decimals_) {
     largest_ *= power_of_ten(value.decimals - decimals_);
-    if (largest_ > kLargest) return false;
+    if (largest_ > kLargestNumber) return false;
     decimals_ = value.decimals;
   }
   largest_ = std::max(largest_, magnitude(mantissa_at(value, decimals_)));
-  return largest_ <= kLargest;
+  return largest_ <= kLargestNumber;
 }
 
 bool DecimalColumn::add(Decimal value) {

@@ -31,8 +31,7 @@ void expect(bool holds, const std::string& rule) {
 }
 
 bool is_number(int64_t value) {
-  constexpr int64_t kLargest = 1000000000000000000;
-  return value >= -kLargest && value <= kLargest;
+  return value >= -terrain::kLargestNumber && value <= terrain::kLargestNumber;
 }
 
 void check_decimals(int decimals) {
