@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <new>
 
 #include "encoder/base/error.hpp"
 
@@ -52,6 +53,11 @@ bool DecimalColumn::add(Decimal value) {
   }
   mantissas_.push_back(static_cast<int64_t>(mantissa_at(value, range_.decimals())));
   return true;
+}
+
+void DecimalColumn::reserve(size_t count) {
+  if (count > mantissas_.max_size()) throw std::bad_alloc();
+  mantissas_.reserve(count);
 }
 
 PointCloud PointColumns::take() {
