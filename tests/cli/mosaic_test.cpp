@@ -99,6 +99,15 @@ TEST_CASE("mosaic: a folder of SRTM cells") {
   CHECK(contains(session.failure("encode empty -o e.mtin"), "empty: holds no terrain file"));
 }
 
+TEST_CASE("mosaic: what a folder holds beside files is passed over") {
+  const Session session;
+  fs::create_directories(session.folder() + "/cells/folder.asc");
+  session.write("cells/a.asc", grid(100, 50, "1 2 3\n4 5 6"));
+  fs::create_symlink("b.asc", session.folder() + "/cells/b.asc");  // to itself
+  fs::create_symlink("nowhere", session.folder() + "/cells/c.asc");
+  CHECK(contains(session.run("encode cells -o t.mtin").out, "source: 6 posts\n"));
+}
+
 TEST_CASE("mosaic: files that do not go together are refused by name") {
   const Session session;
   session.write("a.asc", grid(100, 50, "1 2 3\n4 5 6"));
