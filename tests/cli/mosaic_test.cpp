@@ -108,6 +108,17 @@ TEST_CASE("mosaic: what a folder holds beside files is passed over") {
   CHECK(contains(session.run("encode cells -o t.mtin").out, "source: 6 posts\n"));
 }
 
+TEST_CASE("mosaic: more files than may be open to begin with") {
+  const Session session;
+  fs::create_directory(session.folder() + "/cells");
+  for (int i = 0; i < 40; ++i) {
+    session.write("cells/N43E0" + std::to_string(10 + i) + ".hgt", cell("123456789"));
+  }
+  const std::string encode = "microtin encode cells --tile-vertices 60 -o t.mtp";
+  CHECK(contains(session.shell("ulimit -Sn 30; " + encode).out, "40 files"));
+  CHECK(contains(session.shell("ulimit -n 30; " + encode).err, "Too many open files"));
+}
+
 TEST_CASE("mosaic: files that do not go together are refused by name") {
   const Session session;
   session.write("a.asc", grid(100, 50, "1 2 3\n4 5 6"));
