@@ -9,6 +9,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
 #include "encoder/base/iso_date.hpp"
+#include "encoder/exact/fraction.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/product/encode_pack.hpp"
@@ -38,16 +39,16 @@ void check_decimals(int decimals) {
   expect(decimals >= 0 && decimals <= 18, "decimals: 0 .. 18");
 }
 
-void check_axis(const microtin_axis& axis) {
+// In lowest terms: headers hold 40 bits of each.
+microtin_axis checked(const microtin_axis& axis) {
   expect(axis.numerator != 0 && axis.denominator != 0, "an axis has no step");
+  return exact::reduced_axis(axis.offset, axis.numerator, axis.denominator);
 }
 
 terrain::Source raster_of(Posts posts) {
   expect(posts.heights.size() == uint64_t{posts.columns} * posts.rows,
          "not as many heights as columns times rows");
   check_decimals(posts.decimals);
-  check_axis(posts.x);
-  check_axis(posts.y);
   for (const int64_t height : posts.heights) {
     expect(height == kVoid || is_number(height), "a height is beyond 10^18");
   }
@@ -56,8 +57,8 @@ terrain::Source raster_of(Posts posts) {
                          posts.rows,
                          std::move(posts.heights),
                          posts.decimals,
-                         posts.x,
-                         posts.y,
+                         checked(posts.x),
+                         checked(posts.y),
                          importing::reference_of_wkt(posts.wkt)};
 }
 
