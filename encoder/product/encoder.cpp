@@ -203,19 +203,13 @@ Report report_of(const product::PackReport& pack, uint64_t samples) {
           {}};
 }
 
-uint64_t count_heights(const terrain::Raster& raster) {
-  uint64_t count = 0;
-  for (const int64_t height : raster.heights) count += height != terrain::kVoidHeight;
-  return count;
-}
-
 Report encode_posts(const terrain::Raster& raster, const product::EncodeOptions& options,
                     const std::string& path, files::OutputFile& out, const Callbacks& callbacks) {
   files::StreamSpool streams(path);
   const pack::PackContent pack =
       product::encode_pack(KeptRaster(raster), options, streams, progress_of(callbacks));
   product::write_pack(pack, streams, out);
-  return report_of(product::report_of(pack), count_heights(raster));
+  return report_of(product::report_of(pack), raster.heights.size() - void_posts(raster));
 }
 
 Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOptions& options,
