@@ -13,6 +13,7 @@
 #include "encoder/cli/options.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/picture/render.hpp"
+#include "encoder/terrain/fractal.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -138,7 +139,7 @@ void add_fractal(CLI::App& app, Action& action) {
   CLI::App& command = *app.add_subcommand("fractal", "Make a terrain (.asc)");
   add_output(command, request->output);
   command.add_option("--size", request->size, "Posts in a row")
-      ->check(CLI::Range(2u, 16384u))
+      ->check(CLI::Range(kSmallestFractal, kLargestFractal))
       ->capture_default_str();
   command.add_option("--seed", request->seed, "Another terrain for each")->capture_default_str();
   command.callback([request, &action] {

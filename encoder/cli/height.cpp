@@ -59,20 +59,12 @@ Answer ask(PlaceQuery& query, const Place& place, bool on_lattice) {
   return {kind, text_of_height(height, on_lattice ? Axis{0, 1, 1} : query.placement().z)};
 }
 
-// The next line of a text, which is taken off.
-std::string_view take_line(std::string_view& text) {
-  const size_t end = std::min(text.find('\n'), text.size());
-  std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-  return line;
-}
-
 // Answers behind the lines that ask.
 std::string answered(PlaceQuery& query, std::string_view lines, bool on_lattice) {
   std::string text;
   for (uint64_t number = 1; !lines.empty(); ++number) {
-    const std::string_view line = take_line(lines);
+    std::string_view line = take_line(lines);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
     const std::optional<Place> place = parse_place(line);
     if (!place) {

@@ -12,6 +12,7 @@
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
 #include "microtin/compact_pack.h"
+#include "microtin/surface.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -76,12 +77,6 @@ void add_accuracy(JsonObject& report, const std::optional<Accuracy>& accuracy) {
   report.emplace_back("mean_error", accuracy ? number(accuracy->mean_error) : "null");
 }
 
-double real(const Axis& axis, int64_t number) {
-  return (static_cast<double>(axis.offset) +
-          static_cast<double>(axis.numerator) * static_cast<double>(number)) /
-         static_cast<double>(axis.denominator);
-}
-
 // What of the lattice a terrain takes.
 struct LatticeBox {
   int64_t x_min, y_min, x_max, y_max;
@@ -90,16 +85,19 @@ struct LatticeBox {
 
 // Where it lies and how large it is, in the terrain's units.
 void add_extent(JsonObject& report, const LatticeBox& box, const Placement& p) {
-  const double west = real(p.x, box.x_min), east = real(p.x, box.x_max);
-  const double south = real(p.y, box.y_min), north = real(p.y, box.y_max);
+  const double west = encoder::coordinate(p.x, box.x_min),
+               east = encoder::coordinate(p.x, box.x_max);
+  const double south = encoder::coordinate(p.y, box.y_min),
+               north = encoder::coordinate(p.y, box.y_max);
   report.emplace_back("extent", json(JsonObject{{"west", json(west)},
                                                 {"south", json(south)},
                                                 {"east", json(east)},
                                                 {"north", json(north)}}));
   report.emplace_back("size",
                       json(JsonObject{{"x", json(east - west)}, {"y", json(north - south)}}));
-  report.emplace_back("heights", json(JsonObject{{"lowest", json(real(p.z, box.lowest))},
-                                                 {"highest", json(real(p.z, box.highest))}}));
+  report.emplace_back("heights",
+                      json(JsonObject{{"lowest", json(encoder::coordinate(p.z, box.lowest))},
+                                      {"highest", json(encoder::coordinate(p.z, box.highest))}}));
 }
 
 LatticeBox box_of(const microtin_mesh* mesh) {

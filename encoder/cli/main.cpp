@@ -14,6 +14,7 @@
 #include "encoder/cli/report.hpp"
 #include "encoder/cli/version.hpp"
 #include "encoder/files/leftovers.hpp"
+#include "encoder/files/open_files.hpp"
 #include "encoder/files/standard_files.hpp"
 
 namespace microtin::cli {
@@ -81,6 +82,7 @@ int main(int argc, char** argv) {
   if (!cli::hold_closed_standard_files()) return cli::kFailed;
   for (const int ignored : {SIGXFSZ, SIGPIPE}) std::signal(ignored, SIG_IGN);  // errors like others
   cli::remove_leftovers_on_signals();
+  cli::allow_many_open_files();
   try {
     return cli::run(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -68,15 +68,22 @@ void expect_picture(const RenderRequest& request) {
   }
 }
 
+// The bytes of what was read: of a stream those that it was decoded from, as it may come by a pipe.
+std::string content_of(const Document& document) {
+  if (document.pack() != nullptr) return read_file(document.path());
+  const std::vector<uint8_t>& bytes = document.stream()->bytes;
+  return {bytes.begin(), bytes.end()};
+}
+
 // One file, which shows the terrain in a browser.
-void write_page(const RenderRequest& request, const Portrait& portrait) {
+void write_page(const RenderRequest& request, const Document& document, const Portrait& portrait) {
   if (!request.source.empty()) throw Error(request.output + ": a page has no map of errors");
   if (request.contours || !request.title.empty() || request.coordinates || request.north_arrow) {
     throw Error(request.output + ": a page has no contours, coordinates, title or north arrow");
   }
   const std::string page = with_file_context(request.input, [&] {
     return render_page(portrait, std::filesystem::path(request.input).stem().string(),
-                       read_file(request.input), render_png(portrait, kFlatWidth));
+                       content_of(document), render_png(portrait, kFlatWidth));
   });
   OutputFile out(request.output);
   out.write(page);
@@ -125,7 +132,7 @@ void run_render(const RenderRequest& request) {
                           request.palette,  request.contours,    request.interval,
                           request.title,    request.coordinates, request.north_arrow};
   const std::string suffix = suffix_of(request.output);
-  if (suffix == kPage) return write_page(request, portrait);
+  if (suffix == kPage) return write_page(request, document, portrait);
   if (suffix == kDrawing) return write_drawing(request, portrait);
   if (request.source.empty()) {
     draw(request, portrait, nullptr);

@@ -2,15 +2,14 @@
 // Versions of the library and of the formats, as their headers define them.
 #include "encoder/cli/version.hpp"
 
-#include "microtin/microtin.h"
+#include "microtin/encoder.h"
 #include "shared/format.hpp"
 #include "shared/pack_format.hpp"
 
 namespace microtin::cli {
 
 std::string library_version() {
-  return std::to_string(MICROTIN_VERSION_MAJOR) + "." + std::to_string(MICROTIN_VERSION_MINOR) +
-         "." + std::to_string(MICROTIN_VERSION_PATCH);
+  return microtin_version();
 }
 
 std::string versions() {

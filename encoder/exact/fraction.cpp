@@ -93,6 +93,7 @@ Axis axis_of_cells(Decimal place, Decimal size, int64_t half_cells) {
                                     : reduced(place.mantissa, power_of_ten(place.decimals));
   Fraction step = reciprocal ? *reciprocal : reduced(size.mantissa, power_of_ten(size.decimals));
   if (std::max(step.numerator, step.denominator) >= kAxisLimit) step = simplest_fraction(size);
+  if (step.numerator >= kAxisLimit) refuse_axis();  // before its products leave 128 bits
   const Fraction first = reduced(
       2 * start.numerator * step.denominator + half_cells * step.numerator * start.denominator,
       2 * start.denominator * step.denominator);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "encoder/base/suffix.hpp"
+
 namespace microtin::exact {
 namespace {
 
@@ -69,10 +71,7 @@ std::string_view symbol_of(Unit unit) {
 }
 
 std::optional<Unit> unit_named(std::string_view name) {
-  std::string lower(name);
-  for (char& c : lower) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string lower = lower_case(std::string(name));
   for (const Name& known : kNames) {
     if (known.text == lower) return known.unit;
   }

@@ -16,6 +16,8 @@
 namespace microtin::importing {
 namespace {
 
+constexpr size_t kDeepest = 64;  // brackets in brackets; real ones have a dozen
+
 // A node of well-known text as it is being read: KEYWORD["name", 1, CHILD[...], ...].
 struct Node {
   std::string keyword;              // lower case
@@ -86,7 +88,7 @@ Unit unit_of_code(uint32_t code) {
 
 class WktReader {
  public:
-  // Goes on to where the brackets end, or the text does.
+  // Goes on to where the brackets end, or the text does, or they are too deep.
   Reference read(std::string_view text) {
     std::string word;
     bool in_quotes = false;
@@ -98,6 +100,7 @@ class WktReader {
         const bool is_space = std::isspace(static_cast<unsigned char>(c)) != 0 || c == '\0';
         if (in_quotes || !is_space) word += c;
       } else if (c == '[' || c == '(') {
+        if (open_.size() == kDeepest) break;
         open_.push_back({lower_case(word), {}});
         word.clear();
       } else {

@@ -7,6 +7,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/suffix.hpp"
+#include "encoder/files/byte_source.hpp"
 #include "encoder/import/import.hpp"
 
 namespace microtin::importing {
@@ -22,10 +23,8 @@ FilesBySuffix terrain_files_in(const std::string& folder) {
   const fs::directory_iterator entries(folder, error);
   if (error) throw Error(folder + ": cannot be read: " + error.message());
   for (const auto& entry : entries) {
-    const std::string suffix = suffix_of(entry.path().string());
-    if (entry.is_regular_file() && is_terrain_suffix(suffix)) {
-      by_suffix[suffix].push_back(entry.path().string());
-    }
+    const std::string path = entry.path().string(), suffix = suffix_of(path);
+    if (is_terrain_suffix(suffix) && is_regular_file(path)) by_suffix[suffix].push_back(path);
   }
   return by_suffix;
 }

@@ -2,7 +2,6 @@
 #include "encoder/import/joined_clouds.hpp"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <string>
 #include <tuple>
@@ -16,22 +15,12 @@
 namespace microtin::importing {
 namespace {
 
-// Brings numbers to more decimals; false if they do not fit.
-bool refine(std::array<int64_t*, 2> numbers, int64_t factor) {
-  for (int64_t* const number : numbers) {
-    if (number == nullptr) continue;
-    const Wide exact = Wide{*number} * factor;
-    if (magnitude(exact) > power_of_ten(18)) return false;
-    *number = static_cast<int64_t>(exact);
-  }
-  return true;
-}
-
 void refine(PointCloud& cloud, int xy_decimals, int z_decimals, const std::string& path) {
   const int64_t xy = power_of_ten(xy_decimals - cloud.xy_decimals);
   const int64_t z = power_of_ten(z_decimals - cloud.z_decimals);
+  if (xy == 1 && z == 1) return;  // as for most files: else time would be quadratic in them
   for (SourcePoint& p : cloud.points) {
-    if (!refine({&p.x, &p.y}, xy) || !refine({&p.z, nullptr}, z)) {
+    if (!terrain::refine(p.x, xy) || !terrain::refine(p.y, xy) || !terrain::refine(p.z, z)) {
       throw Error(path + ": its numbers do not go with the decimals of the other files");
     }
   }

@@ -70,9 +70,8 @@ struct Part {
     Raster piece = raster->read(
         {static_cast<uint32_t>(wanted.x - box.x), static_cast<uint32_t>(wanted.y - box.y),
          static_cast<uint32_t>(wanted.width), static_cast<uint32_t>(wanted.height)});
-    const int64_t factor = power_of_ten(decimals - piece.decimals);
-    for (int64_t& z : piece.heights) {
-      if (z != kVoidHeight) z *= factor;
+    if (!refine(piece.heights, power_of_ten(decimals - piece.decimals))) {
+      throw Error(path + ": its heights do not go with the decimals of the other files");
     }
     return std::move(piece.heights);
   }

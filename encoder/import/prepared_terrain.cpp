@@ -30,8 +30,9 @@ std::unique_ptr<RasterReader> open_mask(const std::string& path, const Raster& f
 // Reads a raster with its water.
 class FloodedRaster : public RasterReader {
  public:
-  FloodedRaster(std::unique_ptr<RasterReader> raster, Decimal level, std::string mask_path)
-      : raster_(std::move(raster)), level_(level), mask_path_(std::move(mask_path)) {
+  FloodedRaster(const std::string& path, std::unique_ptr<RasterReader> raster, Decimal level,
+                std::string mask_path)
+      : path_(path), raster_(std::move(raster)), level_(level), mask_path_(std::move(mask_path)) {
     frame_ = raster_->frame();
     flood_voids(frame_, level_, nullptr);
     if (!mask_path_.empty()) mask_ = open_mask(mask_path_, frame_);
@@ -44,11 +45,12 @@ class FloodedRaster : public RasterReader {
       mask = mask_->read(rectangle);
       with_file_context(mask_path_, [&] { check_water_mask(*mask, part); });
     }
-    flood_voids(part, level_, mask ? &*mask : nullptr);
+    with_file_context(path_, [&] { flood_voids(part, level_, mask ? &*mask : nullptr); });
     return part;
   }
 
  private:
+  std::string path_;
   std::unique_ptr<RasterReader> raster_, mask_;
   Decimal level_;
   std::string mask_path_;
@@ -139,7 +141,7 @@ OpenSource prepared_source(const std::string& path, const Preparation& preparati
   *raster = with_voids_filled(std::move(*raster), preparation.fill_voids);
   if (!preparation.water_level) return source;
   return with_file_context(path, [&]() -> OpenSource {
-    return std::make_unique<FloodedRaster>(std::move(*raster), *preparation.water_level,
+    return std::make_unique<FloodedRaster>(path, std::move(*raster), *preparation.water_level,
                                            preparation.water_mask);
   });
 }

@@ -4,15 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <new>
 
 #include "encoder/base/error.hpp"
 
 namespace microtin::importing {
-namespace {
-
-constexpr int64_t kLargest = 1000000000000000000;  // 10^18
-
-}  // namespace
 
 void fail_at(const std::string& name, size_t line, const std::string& what) {
   throw Error(name + ":" + std::to_string(line) + ": " + what);
@@ -41,11 +37,11 @@ std::string not_a_height(double value) {
 bool DecimalRange::add(Decimal value) {
   if (value.decimals > decimals_) {
     largest_ *= power_of_ten(value.decimals - decimals_);
-    if (largest_ > kLargest) return false;
+    if (largest_ > kLargestNumber) return false;
     decimals_ = value.decimals;
   }
   largest_ = std::max(largest_, magnitude(mantissa_at(value, decimals_)));
-  return largest_ <= kLargest;
+  return largest_ <= kLargestNumber;
 }
 
 bool DecimalColumn::add(Decimal value) {
@@ -57,6 +53,11 @@ bool DecimalColumn::add(Decimal value) {
   }
   mantissas_.push_back(static_cast<int64_t>(mantissa_at(value, range_.decimals())));
   return true;
+}
+
+void DecimalColumn::reserve(size_t count) {
+  if (count > mantissas_.max_size()) throw std::bad_alloc();
+  mantissas_.reserve(count);
 }
 
 PointCloud PointColumns::take() {

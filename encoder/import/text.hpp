@@ -45,7 +45,7 @@ class DecimalColumn {
   // False as DecimalRange::add is.
   bool add(Decimal value);
   void add_void() { mantissas_.push_back(kVoidHeight); }
-  void reserve(size_t count) { mantissas_.reserve(count); }
+  void reserve(size_t count);  // throws std::bad_alloc also where there can be no such memory
 
   int decimals() const { return range_.decimals(); }
   std::vector<int64_t>& mantissas() { return mantissas_; }

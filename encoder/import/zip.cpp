@@ -12,7 +12,9 @@
 namespace microtin::importing {
 namespace {
 
-constexpr uint64_t kMostBytes = uint64_t{2} * 3601 * 3601;  // of an .hgt
+constexpr uint64_t kMostBytes = uint64_t{2} * 10801 * 10801;  // of an .hgt: a third of a second
+
+constexpr uint64_t kMostFromByte = 1032;  // that deflating packs into one: more is forged
 
 struct Entry {
   std::string_view name;
@@ -92,7 +94,7 @@ std::string unpacked(const ByteReader& file, const Entry& entry) {
   }
   if (entry.size > kMostBytes) {
     file.fail("the .hgt file would have " + std::to_string(entry.size) +
-              " bytes, more than any has");
+              " bytes, more than 10801 x 10801 posts: unpack it first");
   }
   const uint64_t local = entry.local_header;
   if (file.bytes(local, 4) != std::string_view("PK\3\4")) file.fail("the archive is damaged");
@@ -100,7 +102,9 @@ std::string unpacked(const ByteReader& file, const Entry& entry) {
       local + 30 + file.number<uint16_t>(local + 26) + file.number<uint16_t>(local + 28);
   const std::string_view packed = file.bytes(at, entry.packed);
   std::optional<std::string> bytes;
-  if (entry.method == kDeflated) bytes = inflated(packed, entry.size);
+  if (entry.method == kDeflated && entry.size <= kMostFromByte * entry.packed) {
+    bytes = inflated(packed, entry.size);
+  }
   if (entry.method == kStored && packed.size() == entry.size) bytes = packed;
   const auto check_of = [](const std::string& all) {
     return crc32(0, reinterpret_cast<const Bytef*>(all.data()), static_cast<uInt>(all.size()));

@@ -30,11 +30,6 @@ Lattice lattice_from(Lattice whole, GlobalPost first) {
   return whole;
 }
 
-Axis axis_from(const Axis& axis, uint32_t first) {
-  return reduced_axis(axis.offset + static_cast<Wide>(axis.numerator) * first,
-                      static_cast<Wide>(axis.numerator), static_cast<Wide>(axis.denominator));
-}
-
 Decimal larger(Decimal a, Decimal b) {
   return a <= b ? b : a;
 }
@@ -90,7 +85,7 @@ std::vector<GlobalPost> places_on(const PointCloud& cloud, const Placement& latt
 }
 
 Placement placement_from(const Placement& whole, GlobalPost first) {
-  return {axis_from(whole.x, first.x), axis_from(whole.y, first.y), whole.z};
+  return {moved_axis(whole.x, first.x), moved_axis(whole.y, first.y), whole.z};
 }
 
 PointCloud part_of(const PointCloud& cloud, const std::vector<uint32_t>& points) {

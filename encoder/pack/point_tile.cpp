@@ -9,6 +9,7 @@
 #include "encoder/stream/encode.hpp"
 
 namespace microtin::pack {
+
 PointTiles::PointTiles(const TiledCloud& tiled, const PointBorders& borders)
     : tiled_(tiled), borders_(borders), samples_(tiled.grid, places_of(tiled.survey.samples)) {}
 

@@ -9,6 +9,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
 #include "encoder/base/iso_date.hpp"
+#include "encoder/exact/fraction.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/product/encode_pack.hpp"
@@ -31,24 +32,23 @@ void expect(bool holds, const std::string& rule) {
 }
 
 bool is_number(int64_t value) {
-  constexpr int64_t kLargest = 1000000000000000000;
-  return value >= -kLargest && value <= kLargest;
+  return value >= -terrain::kLargestNumber && value <= terrain::kLargestNumber;
 }
 
 void check_decimals(int decimals) {
   expect(decimals >= 0 && decimals <= 18, "decimals: 0 .. 18");
 }
 
-void check_axis(const microtin_axis& axis) {
+// In lowest terms: headers hold 40 bits of each.
+microtin_axis checked(const microtin_axis& axis) {
   expect(axis.numerator != 0 && axis.denominator != 0, "an axis has no step");
+  return exact::reduced_axis(axis.offset, axis.numerator, axis.denominator);
 }
 
 terrain::Source raster_of(Posts posts) {
   expect(posts.heights.size() == uint64_t{posts.columns} * posts.rows,
          "not as many heights as columns times rows");
   check_decimals(posts.decimals);
-  check_axis(posts.x);
-  check_axis(posts.y);
   for (const int64_t height : posts.heights) {
     expect(height == kVoid || is_number(height), "a height is beyond 10^18");
   }
@@ -57,8 +57,8 @@ terrain::Source raster_of(Posts posts) {
                          posts.rows,
                          std::move(posts.heights),
                          posts.decimals,
-                         posts.x,
-                         posts.y,
+                         checked(posts.x),
+                         checked(posts.y),
                          importing::reference_of_wkt(posts.wkt)};
 }
 
@@ -203,19 +203,13 @@ Report report_of(const product::PackReport& pack, uint64_t samples) {
           {}};
 }
 
-uint64_t count_heights(const terrain::Raster& raster) {
-  uint64_t count = 0;
-  for (const int64_t height : raster.heights) count += height != terrain::kVoidHeight;
-  return count;
-}
-
 Report encode_posts(const terrain::Raster& raster, const product::EncodeOptions& options,
                     const std::string& path, files::OutputFile& out, const Callbacks& callbacks) {
   files::StreamSpool streams(path);
   const pack::PackContent pack =
       product::encode_pack(KeptRaster(raster), options, streams, progress_of(callbacks));
   product::write_pack(pack, streams, out);
-  return report_of(product::report_of(pack), count_heights(raster));
+  return report_of(product::report_of(pack), raster.heights.size() - void_posts(raster));
 }
 
 Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOptions& options,

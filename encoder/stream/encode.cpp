@@ -25,7 +25,6 @@ constexpr std::size_t kFewVertices = 2000;
 constexpr uint32_t kWideDegree = 16;
 constexpr std::size_t kPartSaved = 256;
 
-// Void triangles, by their corners from the smallest on.
 // Knows what is to be sent, and writes it: the coder of shared/reconstruction.hpp.
 class WritingCoder {
  public:

@@ -2,11 +2,10 @@
 // Copies a rectangle out of a raster.
 #include "encoder/terrain/crop.hpp"
 
-#include <iterator>
-
 #include "encoder/exact/fraction.hpp"
 
 namespace microtin::terrain {
+
 Raster crop_frame(const Raster& raster, const PostRectangle& r) {
   Raster part;
   part.width = r.width;

@@ -3,7 +3,6 @@
 #include "encoder/terrain/duplicates.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 #include <vector>
 

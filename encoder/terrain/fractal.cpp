@@ -172,10 +172,11 @@ class Landscape {
 }  // namespace
 
 std::vector<int16_t> fractal_heights(uint32_t size, uint64_t seed) {
-  constexpr uint32_t kLargest = 8193;
   constexpr uint32_t kMargin = 32;  // cut off, and with it the sea along the borders
   constexpr int kSteps = 30;
-  if (size < 2 || size > kLargest) throw Error("a fractal has 2 to 8193 posts a side");
+  if (size < kSmallestFractal || size > kLargestFractal) {
+    throw Error("a fractal has 2 to 8193 posts a side");
+  }
   Landscape landscape(size + 2 * kMargin, seed);
   for (int i = 0; i < kSteps; ++i) landscape.evolve();
   std::vector<int16_t> heights;

@@ -11,6 +11,8 @@
 
 namespace microtin::terrain {
 
+constexpr uint32_t kSmallestFractal = 2, kLargestFractal = 8193;  // posts a side
+
 // Heights in metres of size x size posts, row 0 southernmost: mountains cut by rivers, in a sea of
 // height 0. Computed with integers only, so a seed gives the same terrain everywhere.
 std::vector<int16_t> fractal_heights(uint32_t size, uint64_t seed);

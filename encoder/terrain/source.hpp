@@ -18,8 +18,9 @@
 
 namespace microtin::terrain {
 
-// A raster's height where there is none. All other numbers have magnitudes up to 10^18.
+// A raster's height where there is none; of all other numbers the largest magnitude.
 constexpr int64_t kVoidHeight = std::numeric_limits<int64_t>::min();
+constexpr int64_t kLargestNumber = 1000000000000000000;
 
 // What the file format implies.
 struct Reference {
@@ -87,11 +88,25 @@ inline int height_decimals(const Source& source) {
 
 // The number that stands for a height, if there is one: of so many decimals.
 inline std::optional<int64_t> number_of(const std::optional<Decimal>& height, int decimals) {
-  constexpr Wide kLargest = 1000000000000000000;
   if (!height || height->decimals > decimals) return std::nullopt;
   const Wide number = mantissa_at(*height, decimals);
-  if (magnitude(number) > kLargest) return std::nullopt;
+  if (magnitude(number) > kLargestNumber) return std::nullopt;
   return static_cast<int64_t>(number);
+}
+
+// Gives a number more decimals: `factor` is a power of ten. False if it is too large for them.
+inline bool refine(int64_t& number, int64_t factor) {
+  if (magnitude(number) > kLargestNumber / factor) return false;
+  number *= factor;
+  return true;
+}
+
+// The same for all heights of a raster that are not void.
+inline bool refine(std::vector<int64_t>& heights, int64_t factor) {
+  for (int64_t& height : heights) {
+    if (height != kVoidHeight && !refine(height, factor)) return false;
+  }
+  return true;
 }
 
 // From the numbers of a source (posts: column, row, height) to real coordinates.

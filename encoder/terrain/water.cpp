@@ -12,15 +12,9 @@ namespace {
 
 // Writes all heights with so many decimals at least.
 void refine(Raster& raster, int decimals) {
-  constexpr int64_t kLargest = 1000000000000000000;
   if (decimals <= raster.decimals) return;
-  const int64_t factor = power_of_ten(decimals - raster.decimals);
-  for (int64_t& height : raster.heights) {
-    if (height == kVoidHeight) continue;
-    if (magnitude(height) > kLargest / factor) {
-      throw Error("the water level has too many decimals beside such heights");
-    }
-    height *= factor;
+  if (!terrain::refine(raster.heights, power_of_ten(decimals - raster.decimals))) {
+    throw Error("the water level has too many decimals beside such heights");
   }
   raster.decimals = decimals;
 }

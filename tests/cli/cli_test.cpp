@@ -495,6 +495,13 @@ TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
   CHECK(contains(session.run("encode " + masked + " --tile-vertices 60 -o m.mtp").out,
                  "source: 11 posts, 1 void posts, 1 of the posts were void and are water"));
   session.write("p.xyz", "0 0 0\n9 0 3\n0 9 7\n");
+  session.write("high.asc",
+                "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nnodata_value -9\n"
+                "1 2 999999999999 -9\n");
+  for (const char* const output : {"p.mtin", "p.mtp --tile-vertices 60"}) {
+    CHECK(session.failure("encode high.asc --water-level 0.000000001 -o " + std::string(output)) ==
+          "high.asc: the water level has too many decimals beside such heights\n");
+  }
   CHECK(session.failure("encode p.xyz --water-level 3 -o p.mtin") ==
         "p.xyz: --water-level is for rasters; these are points\n");
   CHECK(session.failure("encode t.asc --water-level 3 --water-mask t.asc -o p.mtin") ==
@@ -535,6 +542,7 @@ TEST_CASE("cli: wrong usage is told apart") {
                                 "encode ok.xyz -o o --date 2026-02-30",
                                 "encode ok.xyz -o o --water-level high",
                                 "encode ok.xyz -o o --water-mask m.asc",
+                                "fractal --size 8194 -o o.asc",
                                 "render ok.mtin -o o --width 199",
                                 "info",
                                 "decode ok.xyz",

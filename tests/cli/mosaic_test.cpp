@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <ctime>
 #include <string>
 
+#include "encoder/import/joined_clouds.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -97,6 +99,26 @@ TEST_CASE("mosaic: a folder of SRTM cells") {
   CHECK(contains(session.failure("encode empty -o e.mtin"), "empty: holds no terrain file"));
 }
 
+TEST_CASE("mosaic: what a folder holds beside files is passed over") {
+  const Session session;
+  fs::create_directories(session.folder() + "/cells/folder.asc");
+  session.write("cells/a.asc", grid(100, 50, "1 2 3\n4 5 6"));
+  fs::create_symlink("b.asc", session.folder() + "/cells/b.asc");  // to itself
+  fs::create_symlink("nowhere", session.folder() + "/cells/c.asc");
+  CHECK(contains(session.run("encode cells -o t.mtin").out, "source: 6 posts\n"));
+}
+
+TEST_CASE("mosaic: more files than may be open to begin with") {
+  const Session session;
+  fs::create_directory(session.folder() + "/cells");
+  for (int i = 0; i < 40; ++i) {
+    session.write("cells/N43E0" + std::to_string(10 + i) + ".hgt", cell("123456789"));
+  }
+  const std::string encode = "microtin encode cells --tile-vertices 60 -o t.mtp";
+  CHECK(contains(session.shell("ulimit -Sn 30; " + encode).out, "40 files"));
+  CHECK(contains(session.shell("ulimit -n 30; " + encode).err, "Too many open files"));
+}
+
 TEST_CASE("mosaic: files that do not go together are refused by name") {
   const Session session;
   session.write("a.asc", grid(100, 50, "1 2 3\n4 5 6"));
@@ -122,6 +144,10 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   CHECK(contains(session.run("encode mixed -o t.mtin").err,
                  "warning: mixed: its .asc files are taken; left out are 1 of .obj, 1 of .xyz\n"));
   CHECK(contains(session.failure("encode a.asc p.xyz -o t.mtin"), "p.xyz: are points, but a.asc"));
+  session.write("far.asc", grid(106, 50, "1 2 99999999999\n4 5 6"));
+  session.write("fine.asc", grid(112, 50, "1 2 0.000000001\n4 5 6"));
+  CHECK(session.failure("encode far.asc fine.asc -o t.mtin") ==
+        "far.asc: its heights do not go with the decimals of the other files\n");
   CHECK(session.run("encode a.asc size.asc -o size.asc").code == 1);
   CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "3"));
 }
@@ -154,6 +180,25 @@ TEST_CASE("mosaic: clouds are joined, with the decimals of both") {
   CHECK(session.run("verify t.mtin b.xyz a.xyz").code == 0);
   REQUIRE(session.run("decode t.mtin -o o.xyz").code == 0);
   CHECK(contains(session.read("o.xyz"), "2.25 2"));
+}
+
+TEST_CASE("mosaic: a cloud is not gone over again for every file that joins it") {
+  const auto time_of = [](int files) {
+    PointCloud large;
+    for (int64_t i = 0; i < 300000; ++i) large.points.push_back({i % 1000, i / 1000, 0});
+    std::vector<NamedSource> parts;
+    parts.push_back({"large", std::move(large)});
+    while (static_cast<int>(parts.size()) < files) {
+      PointCloud small;
+      small.points.push_back({0, 0, 0});
+      parts.push_back({"small", std::move(small)});
+    }
+    const std::clock_t begin = std::clock();
+    CHECK(join_clouds(std::move(parts)).points.size() == 299999u + static_cast<size_t>(files));
+    return static_cast<double>(std::clock() - begin);
+  };
+  const double of_few = time_of(2);
+  CHECK(time_of(1000) < 5 * of_few);  // 40 times that, were it so
 }
 
 TEST_CASE("mosaic: how far clouds differ where they share places") {

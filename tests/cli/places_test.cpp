@@ -255,6 +255,16 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
                  "0 is not auto or a decimal number above 0"));
   CHECK(contains(session.failure("render t.mtin --contours 0.000000001 -o u.png"),
                  "t.mtin: the interval of contours is too small"));
+  if (session.run("render t.mtin -o t.html").code == 0) {  // the page was built in
+    CHECK(session.shell("microtin render - -o u.html <t.mtin").code == 0);
+    const auto terrain_of = [&](const std::string& name) {
+      const std::string page = session.read(name), place = "bXRpbg";  // "mtin"
+      return page.substr(std::min(page.find(place), page.size()), 100);
+    };
+    CHECK(terrain_of("t.html").size() == 100);
+    CHECK(terrain_of("u.html") == terrain_of("t.html"));
+    std::filesystem::remove(session.folder() + "/u.html");
+  }
   CHECK(session.failure("render t.mtin --contours auto -o u.html") ==
         "u.html: a page has no contours, coordinates, title or north arrow\n");
   CHECK(contains(session.failure("render t.mtin --palette sky -o u.png", 2),

@@ -100,4 +100,6 @@ TEST_CASE("axes beyond the format are refused") {
   CHECK_THROWS_AS(make_axis({Wide{1} << 62, 1}, {1, 1000}), Error);
   CHECK_THROWS_AS(reduced_axis(Wide{1} << 63, 1, 1), Error);
   CHECK(text_of(reduced_axis(Wide{1} << 63, 2, 2)) == "4611686018427387904+1k/1");
+  const Decimal largest{999999999999999999, 0}, smallest{1, kPlaceDecimals};
+  CHECK_THROWS_AS(axis_of_cells(smallest, largest, (int64_t{1} << 33) - 1), Error);
 }

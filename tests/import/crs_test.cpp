@@ -57,6 +57,16 @@ TEST_CASE("crs: what is not understood stays unknown") {
   }
 }
 
+TEST_CASE("crs: brackets deeper than any system has end the reading, so that it is linear") {
+  const auto system_within = [](int depth) {
+    std::string text;
+    for (int i = 0; i < depth; ++i) text += "X[";
+    return reference_of_wkt(text + "GEOGCS[\"x\",AUTHORITY[\"EPSG\",\"4326\"]]");
+  };
+  CHECK(system_within(20).horizontal_epsg == 4326);
+  CHECK(system_within(200).horizontal_epsg == 0);
+}
+
 TEST_CASE("crs: GeoTIFF keys; user-defined codes and values elsewhere do not count") {
   const auto keys = [](std::vector<uint16_t> entries) {
     entries.insert(entries.begin(), {1, 1, 0, 9});

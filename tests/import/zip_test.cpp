@@ -94,6 +94,14 @@ TEST_CASE("zip: the tile in it, stored or deflated, among other files") {
   }
 }
 
+TEST_CASE("zip: tiles of half an arc second, and none that so few bytes cannot hold") {
+  const Member fine = member("N43E007.hgt", std::string(size_t{2} * 7201 * 7201, '\1'), kDeflated);
+  CHECK(import_zip("a.zip", zip({fine})).width == 7201);
+  Member forged = fine;
+  forged.packed.resize(1000);
+  CHECK(error(forged) == "a.zip: the .hgt file in it is damaged");
+}
+
 TEST_CASE("zip: whatever is wrong is told") {
   const Member good = member("N43E007.hgt", tile(), kDeflated);
   const auto with = [&](const auto& change) {
@@ -113,8 +121,9 @@ TEST_CASE("zip: whatever is wrong is told") {
   CHECK(with([](Member& m) { m.method = 12; }) ==
         "a.zip: the .hgt file is packed by method 12; stored and deflated ones are read: unpack it "
         "first");
-  CHECK(with([](Member& m) { m.size = 25934403; }) ==
-        "a.zip: the .hgt file would have 25934403 bytes, more than any has");
+  CHECK(with([](Member& m) { m.size = 233323203; }) ==
+        "a.zip: the .hgt file would have 233323203 bytes, more than 10801 x 10801 posts: unpack it "
+        "first");
   const std::string damaged = "a.zip: the .hgt file in it is damaged";
   CHECK(with([](Member& m) { m.size -= 1; }) == damaged);
   CHECK(with([](Member& m) { m.size += 1; }) == damaged);

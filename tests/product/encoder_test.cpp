@@ -181,6 +181,27 @@ TEST_CASE("library: work that is cancelled leaves nothing") {
   CHECK(last > 0.5);
 }
 
+TEST_CASE("library: axes in lowest terms or not are the same, those that no header holds refused") {
+  const TemporaryFolder folder;
+  PackOptions options;
+  options.max_error = "1";
+  options.tile_vertices = 40;
+  const auto encoded = [&](uint64_t numerator, uint64_t denominator) {
+    Posts posts = cone(9);
+    posts.x = {0, numerator, denominator};
+    const Terrain terrain(std::move(posts));
+    encode_pack(terrain, options, folder / "cone.mtp");
+    return encode_stream(terrain, bounded("1")).bytes;
+  };
+  constexpr uint64_t kLarge = uint64_t{1} << 42;
+  const std::vector<uint8_t> half = encoded(1, 2);
+  const uint64_t pack = Document(folder / "cone.mtp").bytes();
+  CHECK(encoded(kLarge, 2 * kLarge) == half);
+  CHECK(Document(folder / "cone.mtp").bytes() == pack);
+  CHECK_THROWS_AS(encoded(kLarge, 1), std::runtime_error);
+  CHECK_THROWS_AS(encoded(1, kLarge), std::runtime_error);
+}
+
 TEST_CASE("library: what makes no sense is refused with a sentence") {
   const auto error_of = [](Posts posts, const StreamOptions& options) -> std::string {
     try {

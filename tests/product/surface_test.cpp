@@ -228,6 +228,18 @@ TEST_CASE(
   CHECK(coordinate(south.y, 0) == coordinate(north.y, 0));
 }
 
+TEST_CASE("C: an array of more posts than there can be is short of memory, no fault") {
+  const double height = 0;
+  microtin_raster raster = {};
+  raster.size = sizeof raster;
+  raster.columns = raster.rows = UINT32_MAX;
+  raster.heights = &height;
+  std::copy(kTransform.begin(), kTransform.end(), raster.transform);
+  microtin_terrain* terrain = nullptr;
+  CHECK(microtin_terrain_of_raster(&raster, &terrain) == MICROTIN_NO_MEMORY);
+  CHECK(terrain == nullptr);
+}
+
 TEST_CASE("C: an array goes to a stream and back") {
   const std::vector<double> heights = bowl();
   microtin_raster raster = {};

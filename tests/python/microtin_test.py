@@ -8,6 +8,7 @@ import tempfile
 import threading
 import unittest
 import warnings
+import zlib
 
 try:
     import numpy
@@ -222,6 +223,15 @@ class Refusals(unittest.TestCase):
                 microtin.decode(bytes(wrong))
         with self.assertRaisesRegex(microtin.Error, "/nowhere/a.mtin"):
             microtin.decode("/nowhere/a.mtin")
+
+    def test_texts_that_are_no_utf_8(self):
+        with self.assertRaisesRegex(microtin.Error, "nowhere"):
+            microtin.decode(os.fsdecode(b"/nowhere/\xff.mtin"))
+        stream = microtin.encode(hills(), max_error=1, crs='LOCAL_CS["Stra\xdfe",UNIT["metre",1]]')
+        end = next(i for i in range(len(stream)) if stream[i : i + 4] == zlib.crc32(stream[:i]).to_bytes(4, "little"))
+        header = stream[:end].replace("\xdf".encode(), b"\xdf\xdf")  # as a .prj in Latin-1 has it
+        forged = header + zlib.crc32(header).to_bytes(4, "little") + stream[end + 4 :]
+        self.assertEqual(microtin.decode(forged).crs, 'LOCAL_CS["Stra\ufffd\ufffde",UNIT["metre",1]]')
 
     def test_what_progress_raises_ends_the_work(self):
         def stop(_done):

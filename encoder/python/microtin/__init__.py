@@ -268,7 +268,7 @@ def _report(report: _library.Report) -> Report:
         float(report.rms_error),
         float(report.mean_error),
         float(report.max_below),
-        tuple(library.microtin_remarks().decode().splitlines()),
+        tuple(library.microtin_remarks().decode(errors="replace").splitlines()),
     )
 
 
@@ -397,7 +397,7 @@ class Terrain:
         self.is_pack = bool(facts.is_pack)
         self.tiles: Tuple[int, int] = (facts.tile_columns, facts.tile_rows)
         self.bounds: Tuple[float, float, float, float] = (facts.west, facts.south, facts.east, facts.north)
-        self.crs: Union[int, str, None] = facts.horizontal_epsg or facts.wkt.decode() or None
+        self.crs: Union[int, str, None] = facts.horizontal_epsg or facts.wkt.decode(errors="replace") or None
         self.vertical_epsg: int = facts.vertical_epsg
         self.units = (UNITS[facts.horizontal_unit], UNITS[facts.vertical_unit])
         self.bound = float(facts.bound) if facts.bound else None
