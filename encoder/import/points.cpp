@@ -31,7 +31,7 @@ std::optional<Meaning> meaning_of(const std::string& name) {
     std::string_view text;
     Meaning meaning;
   };
-  constexpr std::array<Name, 23> kNames = {
+  constexpr std::array<Name, 25> kNames = {
       {{"x", {0, false}},        {"y", {1, false}},        {"z", {2, false}},
        {"easting", {0, false}},  {"northing", {1, false}}, {"height", {2, false}},
        {"east", {0, false}},     {"north", {1, false}},    {"elevation", {2, false}},
@@ -39,7 +39,8 @@ std::optional<Meaning> meaning_of(const std::string& name) {
        {"long", {0, true}},      {"latitude", {1, true}},  {"ele", {2, false}},
        {"longitude", {0, true}}, {"altitude", {2, false}}, {"alt", {2, false}},
        {"lng", {0, true}},       {"h", {2, false}},        {"point_x", {0, false}},
-       {"point_y", {1, false}},  {"point_z", {2, false}}}};
+       {"point_y", {1, false}},  {"point_z", {2, false}},  {"e", {0, false}},
+       {"n", {1, false}}}};
   for (const Name& known : kNames) {
     if (known.text == name) return known.meaning;
   }
@@ -146,9 +147,8 @@ class PointReader {
     }
     names_ = fields_.size();
     for (size_t axis = 0; axis < 3; ++axis) axes_[axis] = found[axis].value_or(axis);
-    const bool is_clear = axes_[0] != axes_[1] && axes_[0] != axes_[2] && axes_[1] != axes_[2];
     const bool has_other = !found[2] && names_ > 2;  // where z would be
-    if (!is_clear || has_other || found[0].has_value() != found[1].has_value()) {
+    if (!found[0] || !found[1] || has_other) {
       fail("the header names some of x, y and z: it must name all, or x and y alone");
     }
   }
@@ -161,7 +161,7 @@ class PointReader {
     }
     if (columns_ < names_) {
       fail(std::to_string(columns_) + " columns under " + std::to_string(names_) +
-           " names: blanks in names need commas between them");
+           " names: a number is missing, or blanks in names need commas between them");
     }
     if (names_ != 0 && columns_ == 2 * names_) {
       fail(std::to_string(columns_) + " columns under " + std::to_string(names_) +

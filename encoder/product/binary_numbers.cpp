@@ -31,7 +31,9 @@ microtin_axis centres(double corner, double size, uint32_t cells) {
 template <class Number>
 Posts binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const Transform& t) {
   if (t[2] != 0 || t[4] != 0 || !(t[1] > 0)) {
-    throw Error("transform: columns must run east and rows north or south");
+    throw Error(
+        "transform: columns must run east and rows north or south: WEST, WIDTH, 0, NORTH, 0, "
+        "-HEIGHT, GDAL's order");
   }
   importing::DecimalColumn numbers;
   numbers.reserve(size_t{columns} * rows);

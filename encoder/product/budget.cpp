@@ -254,7 +254,7 @@ class Budget {
     options.lattice.max_error = largest_;
     const double size = size_of(encode_measured(source_, options, {}));  // says of other limits
     throw Error("--max-bytes " + std::to_string(static_cast<uint64_t>(limit_)) +
-                " is not enough: at any error, at least " +
+                " is not enough: the smallest file found, at any error, takes " +
                 std::to_string(static_cast<uint64_t>(std::min(size, smallest_))));
   }
 

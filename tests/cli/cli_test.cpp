@@ -128,7 +128,7 @@ TEST_CASE("cli: the bound that a number of bytes allows") {
     CHECK(session.run("verify f.mtin f.asc").code == 0);
   }
   CHECK(contains(session.failure("encode f.asc --max-bytes 30 --fast -o g.mtin"),
-                 "--max-bytes 30 is not enough: at any error, at least "));
+                 "--max-bytes 30 is not enough: the smallest file found, at any error, takes "));
 }
 
 TEST_CASE("cli: outlines of voids are simplified to use a limit") {

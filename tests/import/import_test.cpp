@@ -193,6 +193,7 @@ TEST_CASE("points: separators, comments, headers, two columns") {
   CHECK(points("y x\n1 2\n3 4\n") == "2,1,0 4,3,0");
   CHECK(points("Northing [m], Easting (m) ,\"Height above sea\"\r\n1,2,3\n") == "2,1,3");
   CHECK(points("Y[ft] X[ft] Z[ft]\n1 2 3\n") == "2,1,3");
+  CHECK(points("N,E,H\n1,2,3\n") == "2,1,3");
   CHECK(points("//Y X Z R G B\n1 2 3 255 255 0\n") == "2,1,3");
   CHECK(points("x,y,z\n1,2,3,255\n") == "1,2,3");
   CHECK(points("OBJECTID,POINT_X,POINT_Y,POINT_Z\n9,1,2,3\n") == "1,2,3");
@@ -239,13 +240,17 @@ TEST_CASE("points: whatever is wrong is told with its line") {
   const std::string unclear =
       "cloud:1: the header names some of x, y and z: it must name all, or x and y alone";
   CHECK(point_error("z,a,b\n1,2,3\n") == unclear);
+  CHECK(point_error("Hochwert;Rechtswert;H\n1;2;3\n") == unclear);
+  CHECK(point_error("id,class,z\n1,2,3\n") == unclear);
   CHECK(point_error("x,a,b\n1,2,3\n") == unclear);
   CHECK(point_error("x,y,class\n1,2,3\n") == unclear);
   CHECK(point_error("id,x,y\n1,2,3\n") == unclear);
   CHECK(point_error("x,lon,y\n1,2,3\n") == "cloud:1: two columns are named as x");
   CHECK(point_error("a,b,x,y\n1,2\n") == unclear);
-  const std::string blanks = " names: blanks in names need commas between them";
+  const std::string blanks =
+      " names: a number is missing, or blanks in names need commas between them";
   CHECK(point_error("z,a,x,y\n1,2\n") == "cloud:2: 2 columns under 4" + blanks);
+  CHECK(point_error("x,y,z\n1,2,\n") == "cloud:2: 2 columns under 3" + blanks);
   CHECK(point_error("x y z\n1 2\n") == "cloud:2: 2 columns under 3" + blanks);
   CHECK(point_error("X [m] Y [m] Z [m]\n1 2 3\n") == "cloud:2: 3 columns under 6" + blanks);
   CHECK(point_error("lon,lat,depth\n7,45,20\n") ==

@@ -204,7 +204,9 @@ TEST_CASE("binary numbers: what is refused, and where") {
   };
   CHECK(posts(kTransform).decimals == 1);
   CHECK_THROWS_WITH(posts({0, 1, 0.5, 0, 0, -1}),
-                    "transform: columns must run east and rows north or south");
+                    "transform: columns must run east and rows north or south: WEST, WIDTH, 0, "
+                    "NORTH, 0, -HEIGHT, GDAL's order");
+  CHECK_THROWS_WITH(posts({10, 0, 400000, 0, -10, 5000000}), doctest::Contains("GDAL's order"));
   CHECK_THROWS(posts({0, -1, 0, 0, 0, -1}));
   CHECK_THROWS_WITH(posts({0, 1, 0, 0, 0, 0}), "transform: cells have no extent");
   CHECK_THROWS_WITH(posts({std::nan(""), 1, 0, 0, 0, -1}), "transform: a number is out of range");
