@@ -6,6 +6,8 @@
 #ifndef MICROTIN_SHARED_FREE_REGION_HPP
 #define MICROTIN_SHARED_FREE_REGION_HPP
 
+#include <stddef.h>
+
 #include "shared/fixed_math.hpp"
 #include "shared/predicates.hpp"
 #include "shared/region_vectors.hpp"
@@ -191,6 +193,9 @@ inline int32_t coarser_grains(const FreeRegion& region, uint32_t extent) {
 
 #if defined(MICROTIN_PAIRS) && defined(__SSE2__)
 
+static_assert(offsetof(FreeRegion, a) == offsetof(FreeRegion, c) + sizeof(Spot),
+              "a vector holds both");
+
 inline void see_corners(FreeRegion& region, Point v, Point c, Point a) {
   region.origin = v;
   _mm_storeu_si128(reinterpret_cast<__m128i*>(region.corner),
@@ -201,8 +206,7 @@ inline int32_t bring_to_grains(FreeRegion& region) {
   const __m128i corners = _mm_loadu_si128(reinterpret_cast<const __m128i*>(region.corner));
   region.shift = kCornerBits - 1 - size_of(extent_of_both(corners));
   const __m128i both = all_shifted(corners, region.shift);
-  _mm_storel_epi64(reinterpret_cast<__m128i*>(&region.c), both);
-  _mm_storel_epi64(reinterpret_cast<__m128i*>(&region.a), _mm_unpackhi_epi64(both, both));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(&region.c), both);
   const __m128i products = products_of(both);
   region.cc = lane<0>(products);
   region.aa = lane<1>(products);

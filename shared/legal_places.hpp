@@ -21,6 +21,9 @@ struct Circle {
   int32_t yy;  // its square
 };
 
+// Covers nothing, at |x| < 2^14.5.
+constexpr Circle kNoCircle = {0, 0, -0x40000000};
+
 // A part of a column, in grains.
 struct Span {
   int32_t low, high;
@@ -28,7 +31,6 @@ struct Span {
 
 // Flags come first, where short instructions reach them: here and elsewhere.
 struct LegalPlaces {
-  bool cuts[2];         // whether that circle is known and near
   bool odd[2];          // whether v's column and row are odd
   int32_t turns;        // quarters, counter-clockwise
   int32_t shift;        // of grains: -10 .. 10
@@ -38,15 +40,44 @@ struct LegalPlaces {
   Circle behind[2];     // the chord, side 0
 };
 
+#if defined(MICROTIN_LARGE_TABLES)
+
+// Sines of quarters, cosines one further: nothing foretells a branch by them.
+constexpr int8_t kSines[5] = {0, 1, 0, -1, 0};
+
+template <class Place>
+Place turned(Place p, int32_t turns) {
+  const int32_t sine = kSines[turns], cosine = kSines[turns + 1];
+  return Place{p.x * cosine - p.y * sine, p.x * sine + p.y * cosine};
+}
+
+#else
+
 template <class Place>
 Place turned(Place p, int32_t turns) {
   if ((turns & 1) != 0) p = Place{-p.y, p.x};
   return (turns & 2) != 0 ? Place{-p.x, -p.y} : p;
 }
 
+#endif
+
+// Both corners, c and a, in `to`.
+#if defined(MICROTIN_PAIRS) && defined(__SSE2__)
+inline void turn_corners(const FreeRegion& region, int32_t turns, Spot* to) {
+  const __m128i corners = _mm_loadu_si128(reinterpret_cast<const __m128i*>(&region.c));
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(to), turned_both(corners, turns));
+}
+#else
+inline void turn_corners(const FreeRegion& region, int32_t turns, Spot* to) {
+  to[0] = turned(region.c, turns);
+  to[1] = turned(region.a, turns);
+}
+#endif
+
 inline int32_t turns_for(Spot a) {
-  if (absolute(a.x) >= absolute(a.y)) return a.x < 0 ? 0 : 2;
-  return a.y > 0 ? 1 : 3;
+  const bool flat = absolute(a.x) >= absolute(a.y);
+  const int32_t way = flat ? a.x : -a.y;
+  return (flat ? 0 : 1) + (way < 0 ? 0 : 2);
 }
 
 // Twice the centre of the circle through v and `end`, seen from the right of v -> end under k:
@@ -106,24 +137,25 @@ inline void find_lattice(LegalPlaces& places, const Contract& contract, Point or
 // That behind a side from v to `end`, seen under k.
 MICROTIN_FOLDED void add_circle(LegalPlaces& places, uint32_t i, const Side& side, Spot end,
                                 Cotangent k, uint32_t shift) {
-  places.cuts[i] = cuts(side);
-  if (places.cuts[i]) places.behind[i] = circle_about(twice_centre(end, k), shift);
+  places.behind[i] = cuts(side) ? circle_about(twice_centre(end, k), shift) : kNoCircle;
 }
 
-// `own` and `behind` are the cotangents over the chord.
-inline void find_places(LegalPlaces& places, const FreeRegion& region, const Contract& contract,
+// `own` and `behind` are the cotangents over the chord. Returns its start, turned.
+inline Spot find_places(LegalPlaces& places, const FreeRegion& region, const Contract& contract,
                         Cotangent own, Cotangent behind) {
   places.turns = turns_for(region.corner[1]);
-  const Spot c = turned(region.c, places.turns), a = turned(region.a, places.turns);
+  Spot corner[2];
+  turn_corners(region, places.turns, corner);
+  const Spot c = corner[0], a = corner[1];
   const Spot centre = twice_centre(a, own);
   const uint32_t shift = coarsening_for(centre);
   places.shift = region.shift - static_cast<int32_t>(shift);
   places.own = circle_about(centre, shift);
   add_circle(places, 0, region.chord, a, behind, shift);
   add_circle(places, 1, region.next, c, -region.next.behind, shift);
-  places.corner[0] = coarser(c, shift);
-  places.corner[1] = coarser(a, shift);
+  for (int i = 0; i < 2; ++i) places.corner[i] = coarser(corner[i], shift);
   find_lattice(places, contract, region.origin);
+  return a;
 }
 
 // Lines from `low` to `high`, in grains. Where a step has less than one, lines count as far as
@@ -201,7 +233,6 @@ MICROTIN_FOLDED Span legal_span(const LegalPlaces& places, int32_t x, bool all, 
   Span span = own;
   for (int i = 0; i < 2; ++i) {
     const Circle& circle = places.behind[i];
-    if (!places.cuts[i]) continue;
     const int32_t covered = square_at(circle, x);
     if (covered <= 0) continue;
     const int32_t root = root_of(covered);

@@ -249,10 +249,10 @@ Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
   const Side& chord = region.chord;
   Cotangent behind = chord.ghost ? -4 * (1 << kCotangentBits) : chord.behind;
   if (behind > own) behind = own;
-  find_places(place.legal, region, contract, own, behind);
+  const Spot a = find_places(place.legal, region, contract, own, behind);
   place.odds.repels = contract.has_heights && contract.decoding != Decoding::kQuick;
   if (contract.decoding != Decoding::kQuick) {
-    estimate_sweep(place.odds, place.legal, region, density, own, behind);
+    estimate_sweep(place.odds, place.legal, region, a, density, own, behind);
     if (place.odds.repels) estimate_repulsion(place.odds, place.legal, density, habits.crowding);
   }
   const uint32_t weighed = weighed_in(contract.decoding);

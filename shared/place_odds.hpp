@@ -45,7 +45,7 @@ inline int32_t chance_after(int32_t twice, Log2 rate) {
 // `density` is the logarithm of points per unit area, `own` and `behind` the cotangents over the
 // chord.
 inline void estimate_sweep(PlaceOdds& odds, const LegalPlaces& places, const FreeRegion& region,
-                           Log2 density, Cotangent own, Cotangent behind) {
+                           Spot a, Log2 density, Cotangent own, Cotangent behind) {
   // log2(log2(e)) = 135 / 256; of the density 7 / 8, log2 of which is -49 / 256, suits best.
   const Log2 rate = density - (2 * region.shift + 1) * kLog2One + 135 - 49 + 8 * kLog2One;
   const uint32_t square = static_cast<uint32_t>(region.aa);
@@ -59,7 +59,6 @@ inline void estimate_sweep(PlaceOdds& odds, const LegalPlaces& places, const Fre
     odds.third[i] = Third{256 * (first - i * slope), slope};
     last = first;
   }
-  const Spot a = turned(region.a, places.turns);
   const uint32_t shift = static_cast<uint32_t>(region.shift - places.shift) + kCotangentBits;
   odds.across = Spot{(own - behind) * a.y >> shift, (behind - own) * a.x >> shift};  // < 2^30
 }

@@ -43,6 +43,16 @@ inline uint32_t extent_of_first(__m128i v) {
       _mm_cvtsi128_si32(_mm_or_si128(sizes, _mm_shuffle_epi32(sizes, 0xB1))));
 }
 
+// Two places, below 2^15, turned by so many quarters: what x of both, then y, are made of.
+inline __m128i turned_both(__m128i v, int32_t turns) {
+  static constexpr int16_t kFactors[4][8] = {{1, 0, 1, 0, 0, 1, 0, 1},
+                                             {0, -1, 0, -1, 1, 0, 1, 0},
+                                             {-1, 0, -1, 0, 0, -1, 0, -1},
+                                             {0, 1, 0, 1, -1, 0, -1, 0}};
+  const __m128i factors = _mm_loadu_si128(reinterpret_cast<const __m128i*>(kFactors[turns]));
+  return _mm_shuffle_epi32(_mm_madd_epi16(_mm_packs_epi32(v, v), factors), 0xD8);
+}
+
 // v * 2^shift, rounded down; |v| < 2^16, -5 <= shift <= 10.
 inline __m128i all_shifted(__m128i v, int32_t shift) {
   return _mm_sra_epi32(_mm_slli_epi32(v, 15), _mm_cvtsi32_si128(15 - shift));

@@ -317,6 +317,33 @@ TEST_CASE("distances of two places at once are those of each") {
 
 #endif
 
+TEST_CASE("quarters turn a place, and both corners at once, by definition") {
+  Random random(64);
+  const auto coordinate = [&random] { return static_cast<int32_t>(random.below(4095)) - 2047; };
+  size_t wrong = 0;
+  for (int i = 0; i < 100000; ++i) {
+    FreeRegion region{};
+    region.c = Spot{coordinate(), i % 7 == 0 ? -2047 : coordinate()};
+    region.a = Spot{i % 5 == 0 ? 2047 : coordinate(), coordinate()};
+    Spot expected[2] = {region.c, region.a};
+    for (int32_t turns = 0; turns < 4; ++turns) {
+      const Spot place = turned(region.c, turns);
+      wrong += place.x != expected[0].x || place.y != expected[0].y;
+      Spot corner[2];
+      turn_corners(region, turns, corner);
+      for (int k = 0; k < 2; ++k) {
+        wrong += corner[k].x != expected[k].x || corner[k].y != expected[k].y;
+        expected[k] = Spot{-expected[k].y, expected[k].x};
+      }
+    }
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("what is not known covers nothing") {
+  for (const int32_t x : {-23170, -1, 0, 1, 23170}) CHECK(square_at(kNoCircle, x) < 0);
+}
+
 TEST_CASE("places are turned back to where they were") {
   for (const Spot a : {Spot{-9, 4}, Spot{9, 4}, Spot{3, 9}, Spot{3, -9}, Spot{-5, -5}, Spot{5, 5},
                        Spot{5, -5}, Spot{-5, 5}}) {
