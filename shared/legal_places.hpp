@@ -153,7 +153,8 @@ inline Spot find_places(LegalPlaces& places, const FreeRegion& region, const Con
   places.own = circle_about(centre, shift);
   add_circle(places, 0, region.chord, a, behind, shift);
   add_circle(places, 1, region.next, c, -region.next.behind, shift);
-  for (int i = 0; i < 2; ++i) places.corner[i] = coarser(corner[i], shift);
+  places.corner[0] = coarser(c, shift);
+  places.corner[1] = coarser(a, shift);
   find_lattice(places, contract, region.origin);
   return a;
 }

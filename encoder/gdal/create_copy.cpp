@@ -24,6 +24,15 @@ bool ends_with(const std::string& text, const char* end) {
   return text.size() >= size && EQUAL(text.c_str() + text.size() - size, end);
 }
 
+uint32_t tile_vertices(const char* text) {
+  const GIntBig most = CPLAtoGIntBig(text);
+  if (CPLGetValueType(text) != CPL_VALUE_INTEGER || most < 16 ||
+      most > std::numeric_limits<uint32_t>::max()) {
+    refuse(std::string("TILE_VERTICES ") + text + ": a number, 16 or more");
+  }
+  return static_cast<uint32_t>(most);
+}
+
 Transform transform_of(GDALDataset& source) {
   Transform transform{};
   if (source.GetGeoTransform(transform.data()) != CE_None) {
@@ -151,9 +160,7 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
   }
   if (STARTS_WITH(path, "/vsi")) refuse("packs are written to files alone, not to /vsi...");
   auto options = options_of<encoder::PackOptions>(source, given);
-  const int most = atoi(CSLFetchNameValueDef(given, "TILE_VERTICES", "2000"));
-  if (most < 16) refuse("TILE_VERTICES: 16 or more");
-  options.tile_vertices = static_cast<uint32_t>(most);
+  options.tile_vertices = tile_vertices(CSLFetchNameValueDef(given, "TILE_VERTICES", "2000"));
   return encoder::encode_pack(terrain, options, path, callbacks);
 }
 

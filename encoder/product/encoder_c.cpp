@@ -181,6 +181,7 @@ microtin_outcome open(microtin_surface** surface, const std::function<Surface()>
 microtin_outcome hand_out(microtin_surface* surface, microtin_triangles* triangles,
                           const std::function<Mesh()>& read) {
   return guarded([&] {
+    expect(surface);
     expect(triangles);
     surface->mesh = read();
     const Mesh& mesh = surface->mesh;
@@ -245,10 +246,10 @@ microtin_outcome microtin_encode_stream(const microtin_terrain* terrain,
     all.max_vertices = options->max_vertices;
     all.max_bytes = options->max_bytes;
     const Stream stream = encode_stream(terrain->terrain, all, callbacks_of(*options));
+    copy_report(stream.report, report);  // first: what fails leaves no bytes behind
     *bytes = new uint8_t[stream.bytes.size()];
     std::copy(stream.bytes.begin(), stream.bytes.end(), *bytes);
     *size = stream.bytes.size();
-    copy_report(stream.report, report);
   });
 }
 
@@ -331,12 +332,20 @@ microtin_outcome microtin_surface_tile(microtin_surface* surface, uint32_t colum
 
 microtin_outcome microtin_surface_heights(microtin_surface* surface, uint64_t count,
                                           const double* x, const double* y, double* heights) {
-  return guarded([&] { surface->surface.heights(count, x, y, heights); });
+  return guarded([&] {
+    expect(surface);
+    if (count == 0) return;
+    expect(x);
+    expect(y);
+    expect(heights);
+    surface->surface.heights(count, x, y, heights);
+  });
 }
 
 microtin_outcome microtin_surface_grid(const microtin_surface* surface, const char* cell,
                                        microtin_grid* grid) {
   return guarded([&] {
+    expect(surface);
     expect(grid);
     const Grid found = surface->surface.grid(text_of(cell));
     *grid = {found.columns, found.rows, found.x, found.y};
@@ -346,7 +355,9 @@ microtin_outcome microtin_surface_grid(const microtin_surface* surface, const ch
 microtin_outcome microtin_surface_raster(microtin_surface* surface, const microtin_grid* grid,
                                          double* heights) {
   return guarded([&] {
+    expect(surface);
     expect(grid);
+    expect(heights);
     surface->surface.heights({grid->columns, grid->rows, grid->x, grid->y},
                              {0, 0, grid->columns, grid->rows}, heights);
   });

@@ -5,14 +5,12 @@
 #include "encoder/files/input_file.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/pack/shard.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
 
 namespace microtin::product {
 namespace {
 
 constexpr uint32_t kSlots = 4;  // a place can lie in so many tiles at once
-
-// Most vertices for each byte of a file (SECURITY.md, 25).
-constexpr uint64_t kVerticesPerByte = 1421;
 
 // As microtin_read; `context` is a ByteSource.
 int32_t read_source(void* context, uint64_t offset, uint8_t* buffer, size_t size) {

@@ -15,10 +15,6 @@ void expect_done(microtin_status status) {
   if (status != MICROTIN_DONE) throw Error(describe(status));
 }
 
-// Most vertices beyond the seed for each byte behind the header: each takes two symbols at least,
-// of which a byte holds fewer than 2842 (SECURITY.md, proof of 21).
-constexpr uint64_t kVerticesPerByte = 1421;
-
 // So that a few bytes do not claim much memory.
 void expect_room_for_vertices(const microtin_info& info, size_t stream_bytes) {
   if (info.vertices > 3 + kVerticesPerByte * (stream_bytes - info.header_bytes)) {

@@ -214,6 +214,8 @@ class Driver(unittest.TestCase):
             refused("rows do not run from west to east: .* gdalwarp", transform=transform)
         refused("no complex numbers: -ot Float64", kind=gdal.GDT_CFloat32)
         refused("refused.mtin: is a stream; a pack, which has tiles, is named .mtp", options=["TILE_VERTICES=50"])
+        for most in ("15", "99999999999", "100abc"):
+            refused(f"TILE_VERTICES {most}: a number, 16 or more", options=[f"TILE_VERTICES={most}"], name="refused.mtp")
         signed = memory.Create("", 4, 4, 1, gdal.GDT_Byte)
         signed.SetGeoTransform(TRANSFORM)
         signed.GetRasterBand(1).SetMetadataItem("PIXELTYPE", "SIGNEDBYTE", "IMAGE_STRUCTURE")

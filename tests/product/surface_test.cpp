@@ -285,6 +285,11 @@ TEST_CASE("C: an array goes to a stream and back") {
   CHECK(triangles.vertices == report.vertices);
   CHECK(triangles.corners[3 * triangles.triangles - 1] < triangles.vertices);
   CHECK(microtin_surface_tile(surface, 1, 0, &triangles) == MICROTIN_REFUSED);
+  double height = 0;
+  CHECK(microtin_surface_mesh(nullptr, &triangles) == MICROTIN_REFUSED);
+  CHECK(microtin_surface_heights(nullptr, 1, &height, &height, &height) == MICROTIN_REFUSED);
+  CHECK(microtin_surface_heights(surface, 1, &height, &height, nullptr) == MICROTIN_REFUSED);
+  CHECK(microtin_surface_heights(surface, 0, nullptr, nullptr, nullptr) == MICROTIN_OK);
   microtin_surface_free(surface);
   microtin_bytes_free(bytes);
   CHECK(microtin_surface_open("/nowhere/a.mtin", &surface) == MICROTIN_REFUSED);
