@@ -43,7 +43,7 @@ struct LegalPlaces {
 #if defined(MICROTIN_LARGE_TABLES)
 
 // Sines of quarters, cosines one further: nothing foretells a branch by them.
-constexpr int8_t kSines[5] = {0, 1, 0, -1, 0};
+constexpr int32_t kSines[5] = {0, 1, 0, -1, 0};
 
 template <class Place>
 Place turned(Place p, int32_t turns) {
