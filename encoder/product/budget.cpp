@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Finds a bound that takes a little more than there is; from its surface searches on and on, within
-// bounds that grow where it takes too much and shrink where it fits.
+// Finds a bound that takes a little more than there is. Of bytes, and if fast, it is then widened, searching
+// on, until it fits; that takes longer if it leaves much unused. Of vertices a longer
+// search goes on from its surface, within bounds that grow where it takes too many and shrink where
+// it fits.
 #include "encoder/product/budget.hpp"
 
 #include <algorithm>
@@ -15,42 +17,55 @@
 namespace microtin::product {
 namespace {
 
-// More than fits, as searching on makes it less for a part of the time that another trial takes.
-constexpr double kMore = 0.05, kAim = 0.997;
-constexpr double kNear = 0.3;   // of the logarithm of a size: near enough to search on from there
-constexpr double kClose = 0.2;  // ... for a rough trial
-constexpr int kRoughTrials = 3, kMoreTrials = 12;
+// More than fits, as searching on within a little wider bound then makes it fit for a part of the
+// time that another trial takes; each trial comes nearer.
+constexpr double kMore = 0.05, kNearer = 0.4;
+constexpr double kWideAim = 0.997, kUsed = 0.994;  // of a wider bound; what is enough
+constexpr double kNearlyUsed = 0.97;               // before a round bound is tried
+constexpr double kLastAim = 0.99;                  // of the last wider bound, if less is used
+constexpr double kLoose = 1.35;  // how much more than fits a wider bound may have to save
+constexpr double kClose = 0.2;   // of the logarithm of a size: near enough for a rough trial
+constexpr double kRound = 0.97;  // of a bound: round ones above that are tried
+constexpr int kRoughTrials = 3, kWiderBounds = 7, kMoreTrials = 12;
+constexpr uint32_t kPieces = 4;  // of the rounds of a search: what each wider bound takes
 
-// Sizes fall with such a power of the bound where a search goes on: at first, and once one fitted,
-// when small steps lose least of what was found. A step's largest ones, as parts of a bound.
+constexpr double kNear = 0.3;  // of the logarithm of a number of vertices: to search on from there
+
+// Vertices fall with such a power of the bound where a search goes on: at first, and once one
+// fitted, when small steps lose least of what was found. A step's largest ones, as parts of a
+// bound.
 constexpr double kFirstSlope = 2, kSlope = 4;
 constexpr double kNarrowest = 0.95, kWidest = 1.2;
-constexpr int kMisses = 2;  // after so many a search is not relied on to make sizes fit
+constexpr int kMisses = 2;  // after so many a search is not relied on to make vertices fit
 
 constexpr double kHeaderBytes = 100, kBytesPerVertex = 1.4;  // usually
 
 // What all may take, in times of one encoding, as measured on development terrains.
-constexpr double kMost = 3.75, kMostOfFew = 20;
+constexpr double kMost = 3.6, kMostOfVertices = 3.75, kMostOfFew = 20;
+constexpr double kRescue = 1.75, kLittleMore = 1;  // more while the limit is badly used
+constexpr double kWellUsed = 0.99;
 constexpr uint64_t kFewPosts = 20000;  // which take no time
 
 // What efforts take, and what comes of them.
 struct Costs {
-  double greedy, rough, trial, further;  // times of one encoding
-  uint32_t rounds;                       // of searching further
-  double quick_excess;                   // how much more a quick search takes
-  double first_rest, rest;               // of a size, if it is searched on, at first and later
-  double guess;                          // the bound, as a part of the greedy error
-  double one_step;                       // of a trial: one that compares no steps of height
+  double greedy, rough, trial, widening;  // times of one encoding
+  double further;                         // of vertices, searching on from the last surface
+  uint32_t rounds;                        // ... so many
+  double first_vertices, vertices;        // the part that this leaves, at first and later
+  double quick_excess;                    // how much more a quick search takes
+  double rest;                            // of a size, if it is searched on
+  double guess;                           // the bound, as a part of the greedy error
+  double one_step;                        // of a trial: one that compares no steps of height
 };
 
 Costs costs_of(Search search) {
   switch (search) {
     case Search::kFast:
-      return {0.3, 1, 1, 0.6, 2, 1, 0.9, 0.98, 0.58, 1};
+      return {0.3, 1, 1, 0.5, 0.6, 2, 0.9, 0.98, 1, 0.94, 0.58, 1};
     case Search::kBest:
-      return {0.05, 0.1, 1, 0.25, 40, 1.25, 0.995, 0.995, 0.5, 0.85};
+      return {0.05, 0.1, 1, 0.25, 0.25, 40, 0.995, 0.995, 1.25, 0.995, 0.5, 0.85};
     default:
-      return {0.1, 0.3, 1, 0.25, 7, 1.2, 0.99, 0.99, 0.5, 0.7};
+      return {0.1, 0.3, 1, 0.25, 0.25, 7, 0.99, 0.99, 1.2, 0.99, 0.5, 0.7};
   }
 }
 
@@ -66,6 +81,13 @@ Decimal height_range(const Source& source) {
   return make_decimal(Wide{high} - low, height_decimals(source));
 }
 
+// The largest number of two digits that is not larger.
+Decimal rounded_down(Decimal bound) {
+  int64_t digit = 1;
+  while (bound.mantissa / digit >= 100) digit *= 10;
+  return make_decimal(Wide{bound.mantissa / digit} * digit, bound.decimals);
+}
+
 class Budget {
  public:
   Budget(const Source& source, const EncodeOptions& options, const Progress& progress)
@@ -77,7 +99,11 @@ class Budget {
         largest_(height_range(source)) {
     const uint32_t vertices = vertex_limit(options);
     of_vertices_ = vertices != 0;
-    if (of_vertices_) costs_.trial *= costs_.one_step;
+    if (of_vertices_) {
+      costs_.trial *= costs_.one_step;
+    }
+    goes_on_ = of_vertices_ && options.search != Search::kFast;
+    if (goes_on_) most_ = kMostOfVertices;
     limit_ = of_vertices_ ? vertices : options.max_bytes;
     options_.max_vertices = options_.max_bytes = 0;
     options_.device_ram = 0;
@@ -87,25 +113,44 @@ class Budget {
     if (greedy()) return std::move(*best_);
     BoundSearch search(largest_, guess_, limit_);
     if (options_.search != Search::kFast) try_roughly(search);
-    do {
-      try_bound(search, (1 + kMore) / costs_.first_rest * limit_);
-    } while (!is_near() && affords(costs_.trial));
-    while (surface_ && affords(costs_.further) && search_further_on()) {
-    }
+    goes_on_ ? spend_vertices(search) : spend_bytes(search);
     for (int i = 0; i < kMoreTrials && !best_; ++i) {
-      try_bound(search, std::pow(kAim, 1 << i) * limit_);
+      try_bound(search, std::pow(kWideAim, 1 << i) * limit_);
     }
     if (!best_) fail();
     return std::move(*best_);
   }
 
  private:
+  void spend_bytes(BoundSearch& search) {
+    for (double more = kMore; affords(costs_.trial); more *= kNearer) {
+      try_bound(search, (1 + more) / costs_.rest * limit_);
+      if (nearly_used() && affords(costs_.trial)) try_round_bound();
+    }
+  }
+
+  void spend_vertices(BoundSearch& search) {
+    do {
+      try_vertices(search);
+    } while (!is_near() && affords(costs_.trial));
+    while (surface_ && affords(costs_.further) && search_further_on()) {
+    }
+  }
+
   double size_of(const EncodedStream& encoded) const {
     return of_vertices_ ? encoded.vertices : static_cast<double>(encoded.stream.size());
   }
   bool fits(double size) const { return size <= limit_; }
 
-  bool affords(double cost) const { return spent_ + cost <= most_; }
+  // By a bound: insertion alone uses all vertices, but badly.
+  bool uses(double part) const { return best_bound_ && best_size_ >= part * limit_; }
+  bool nearly_used() const { return uses(kNearlyUsed); }
+
+  double most() const {
+    if (goes_on_ || uses(kWellUsed)) return most_;
+    return most_ + (nearly_used() ? kLittleMore : kRescue);
+  }
+  bool affords(double cost) const { return spent_ + cost <= most(); }
   Progress spending(double cost) {
     const double before = std::min(spent_ / most_, 1.0);
     spent_ += cost;
@@ -118,6 +163,8 @@ class Budget {
     smallest_ = std::min(smallest_, size);
     if (!fits(size)) return size;
     if (best_ && best_->verification.max_error <= encoded.verification.max_error) return size;
+    best_bound_ = encoded.bound;
+    best_size_ = size;
     best_ = std::move(encoded);
     return size;
   }
@@ -184,6 +231,55 @@ class Budget {
 
   void try_bound(BoundSearch& search, double wanted) {
     const Decimal bound = search.bound_for(wanted);
+    const auto found = approximate_at(bound, options_.search, costs_.trial);
+    if (!found) {
+      search.add(bound, std::nullopt);
+      return;
+    }
+    const double size = keep(measured(source_, options_, Approximation(*found)));
+    search.add(bound, size);
+    if (size <= limit_) return;
+    if (size <= kLoose * limit_ || !affords(costs_.trial)) widen(search, bound, size, *found);
+  }
+
+  // Searches on from a surface that takes too much, within wider bounds, until it fits closely.
+  void widen(BoundSearch search, Decimal bound, double size, const Approximation& tight) {
+    search.forget_ends();
+    search.add(bound, size * costs_.rest);
+    const Decimal least = bound;
+    const uint32_t rounds = std::max(rounds_of(options_.search) / kPieces, 1u);
+    LatticeOptions& lattice = options_.lattice;
+    for (int i = 0; i < kWiderBounds && affords(costs_.widening); ++i) {
+      const bool last = !uses(kWellUsed) && !affords(2 * costs_.widening);
+      bound = search.bound_for((last ? kLastAim : kWideAim) * limit_);
+      if (bound <= least) bound = least;
+      lattice.max_error = bound;
+      Approximation wide{lay_out_at_step(tight.laid.z_step), tight.tin};
+      search_further(wide, rounds, simplify_for(costs_.widening));
+      size = keep(measured(source_, options_, std::move(wide)));
+      if (fits(size) && (bound <= least || size >= kUsed * limit_)) return;
+      search.add(bound, size);
+    }
+  }
+
+  Laid lay_out_at_step(Decimal z_step) const {
+    LatticeOptions lattice = options_.lattice;
+    lattice.z_step = z_step;
+    return lay_out(source_, lattice);
+  }
+
+  // Such bounds, and steps, suit sources of round heights.
+  void try_round_bound() {
+    if (tried_round_) return;
+    tried_round_ = true;
+    const Decimal bound = *best_bound_, round = rounded_down(bound);
+    if (bound <= round || real(round) < kRound * real(bound)) return;
+    auto found = approximate_at(round, options_.search, costs_.trial);
+    if (found) keep(measured(source_, options_, std::move(*found)));
+  }
+
+  void try_vertices(BoundSearch& search) {
+    const Decimal bound = search.bound_for((1 + kMore) / costs_.first_vertices * limit_);
     auto found = approximate_at(bound, options_.search, costs_.trial);
     if (!found) {
       search.add(bound, std::nullopt);
@@ -203,9 +299,9 @@ class Budget {
 
   // Within which the surface should use what there is after some rounds more.
   Decimal next_bound() const {
-    const double rest = misses_ >= kMisses ? 1 : fitted_ ? costs_.rest : costs_.first_rest;
+    const double rest = misses_ >= kMisses ? 1 : fitted_ ? costs_.vertices : costs_.first_vertices;
     const double part =
-        std::pow(rest * size_ / (kAim * limit_), 1 / (fitted_ ? kSlope : kFirstSlope));
+        std::pow(rest * size_ / (kWideAim * limit_), 1 / (fitted_ ? kSlope : kFirstSlope));
     return rounded(real(surface_->bound) * std::clamp(part, kNarrowest, kWidest))
         .value_or(surface_->bound);
   }
@@ -214,11 +310,9 @@ class Budget {
   bool search_further_on() {
     if (best_ && best_->verification.max_error.mantissa == 0) return false;
     options_.lattice.max_error = next_bound();
-    LatticeOptions lattice = options_.lattice;
-    lattice.z_step = surface_->z_step;
     std::optional<Approximation> next;
     try {
-      next = {lay_out(source_, lattice), {}};
+      next = {lay_out_at_step(surface_->z_step), {}};
     } catch (const Error&) {
       return false;
     }
@@ -244,11 +338,15 @@ class Budget {
   Costs costs_;
   Progress progress_;
   Decimal largest_;  // bound
-  bool of_vertices_ = false;
+  bool of_vertices_ = false, goes_on_ = false;
   double limit_ = 0, guess_ = 1;
   double most_ = kMost, spent_ = 0;                       // times of one encoding
   double smallest_ = std::numeric_limits<double>::max();  // of all that were tried
   std::optional<EncodedStream> best_;
+  std::optional<Decimal> best_bound_;
+  double best_size_ = 0;
+  bool tried_round_ = false;
+
   struct Bounded {
     Tin tin;
     Decimal bound, z_step;
