@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds a bound that takes a little more than there is. Of bytes, and if fast, it is then widened, searching
-// on, until it fits; that takes longer if it leaves much unused. Of vertices a longer
+// Finds a bound that takes a little more than there is. Of bytes, or if fast, it is then widened,
+// searching on, until it fits; that takes longer if it leaves much unused. Of vertices a longer
 // search goes on from its surface, within bounds that grow where it takes too many and shrink where
 // it fits.
 #include "encoder/product/budget.hpp"
