@@ -22,6 +22,13 @@ constexpr double kFarOff = 0.1;    // of the logarithm of a size
 
 }  // namespace
 
+std::optional<Decimal> rounded(double bound) {
+  char text[32];
+  const char* const end =
+      std::to_chars(text, text + sizeof text, bound, std::chars_format::scientific, 4).ptr;
+  return parse_decimal(std::string_view(text, static_cast<std::size_t>(end - text)));
+}
+
 BoundSearch::BoundSearch(Decimal largest, double guess, double limit)
     : largest_(largest),
       lowest_(std::log(real(largest) * kRange)),
@@ -35,12 +42,7 @@ Decimal BoundSearch::bound_for(double size) const {
   const double wanted = too_large_ && fitting_ ? between_ends(size) : by_line;
   const double bound = std::clamp(wanted, lowest_, highest_);
   if (bound >= highest_) return largest_;
-  char text[32];
-  const char* const end =
-      std::to_chars(text, text + sizeof text, std::exp(bound), std::chars_format::scientific, 4)
-          .ptr;
-  const std::string_view digits(text, static_cast<std::size_t>(end - text));
-  return std::min(parse_decimal(digits).value_or(largest_), largest_,
+  return std::min(rounded(std::exp(bound)).value_or(largest_), largest_,
                   [](Decimal a, Decimal b) { return !(b <= a); });
 }
 

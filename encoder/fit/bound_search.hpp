@@ -10,6 +10,9 @@
 
 namespace microtin::fit {
 
+// To five digits. Nothing if a decimal has no room for them.
+std::optional<Decimal> rounded(double bound);
+
 // Sizes fall with a power of the bound: a straight line of logarithms, through the last two trials
 // or, once some were too large and others not, between the nearest two of these: the nearer to the
 // middle the more trials ended on one side, as sizes may jump.

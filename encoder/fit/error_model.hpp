@@ -34,16 +34,20 @@ struct ErrorModel {
 
   // The whole step nearest to the middle of what the sample allows (halves up) that is allowed.
   int16_t vertex_height(const Sample& sample) const {
+    const int64_t twice_middle =
+        bounded ? int64_t{sample.lowest} + sample.highest : int64_t{sample.height} * 2;
+    return nearest_height(sample, round_divide(twice_middle, 131072));
+  }
+
+  // The allowed step that is nearest to a height in steps; any is allowed without bounds.
+  int16_t nearest_height(const Sample& sample, Wide height) const {
     Wide lowest = std::numeric_limits<int16_t>::min();
     Wide highest = std::numeric_limits<int16_t>::max();
-    int64_t twice_middle = int64_t{sample.height} * 2;
     if (bounded) {
       lowest = std::max(lowest, ceil_divide(sample.lowest, 65536));
       highest = std::min(highest, floor_divide(sample.highest, 65536));
-      twice_middle = int64_t{sample.lowest} + sample.highest;
     }
-    const Wide nearest = round_divide(twice_middle, 131072);
-    return static_cast<int16_t>(std::min(std::max(nearest, lowest), highest));
+    return static_cast<int16_t>(std::min(std::max(height, lowest), highest));
   }
 };
 

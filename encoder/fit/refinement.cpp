@@ -33,10 +33,32 @@ Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& 
       triangulation_(places_of(survey, corners)),
       is_vertex_(survey.samples.size()),
       on_rim_(survey.samples.size()) {
-  for (const uint32_t s : corners) {
-    heights_.push_back(model_.vertex_height(survey_.samples[s]));
-    is_vertex_[s] = true;
+  for (const uint32_t s : corners) add_vertex(s, model_.vertex_height(survey_.samples[s]));
+  begin();
+}
+
+Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
+                       const Tin& tin)
+    : survey_(survey),
+      model_(model),
+      posts_(posts),
+      void_posts_(survey.voids),
+      triangulation_(places_of(tin)),
+      is_vertex_(survey.samples.size()),
+      on_rim_(survey.samples.size()) {
+  for (const Vertex& v : tin.vertices) {
+    const uint32_t s = posts.number(*posts.find({v.x, v.y}));
+    add_vertex(s, model_.nearest_height(survey_.samples[s], v.z));
   }
+  begin();
+}
+
+void Refinement::add_vertex(uint32_t sample, int16_t height) {
+  heights_.push_back(height);
+  is_vertex_[sample] = true;
+}
+
+void Refinement::begin() {
   find_rims();
   set_triangles();
   for (Index t = 0; t < triangulation_.mesh().triangles; ++t) look_for_voids(t);
@@ -91,8 +113,7 @@ void Refinement::refine(std::size_t max_vertices) {
 void Refinement::insert(uint32_t sample, Index triangle) {
   const Mesh& mesh = triangulation_.mesh();
   triangulation_.insert(survey_.samples[sample].place, first_edge(triangle));
-  heights_.push_back(model_.vertex_height(survey_.samples[sample]));
-  is_vertex_[sample] = true;
+  add_vertex(sample, model_.vertex_height(survey_.samples[sample]));
   set_triangles();
   for (const Index t : triangulation_.new_triangles()) look_for_voids(t);
   for (const Index t : triangulation_.new_triangles()) assess(t);

@@ -23,6 +23,9 @@ class Refinement {
   Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
              const std::vector<uint32_t>& corners);
 
+  // Starts with a surface through samples, at its heights or the nearest that these allow.
+  Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts, const Tin& tin);
+
   // Inserts samples until none is violated or there are max_vertices; samples in void triangles are
   // inserted even then.
   void refine(std::size_t max_vertices);
@@ -55,6 +58,8 @@ class Refinement {
     }
   };
 
+  void add_vertex(uint32_t sample, int16_t height);
+  void begin();
   void find_rims();
   void insert(uint32_t sample, Index triangle);
   void set_triangles();

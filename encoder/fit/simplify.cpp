@@ -206,4 +206,11 @@ Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
   return finished(surface, decimation, tin, after_search(options));
 }
 
+Tin mended(const Survey& survey, const Tin& tin) {
+  const PostIndex posts(places_of(survey.samples));
+  Refinement refinement(survey, ErrorModel{true}, posts, tin);
+  refinement.refine(std::numeric_limits<std::size_t>::max());
+  return refinement.tin();
+}
+
 }  // namespace microtin::fit

@@ -47,6 +47,10 @@ Tin simplify(const Survey& survey, const SimplifyOptions& options);
 Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
               const SimplifyOptions& options);
 
+// A surface of a survey with other bounds, which may be narrower: with more vertices where it takes
+// them to keep these.
+Tin mended(const Survey& survey, const Tin& tin);
+
 // How many of them simplify does.
 uint32_t rounds_of(Search search);
 

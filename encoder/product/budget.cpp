@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Finds a bound that takes a little more than there is, then widens it, searching on, until it
-// fits; takes longer if that leaves much unused.
+// Finds a bound that takes a little more than there is. Of bytes, or if fast, it is then widened,
+// searching on, until it fits; that takes longer if it leaves much unused. Of vertices a longer
+// search goes on from its surface, within bounds that grow where it takes too many and shrink where
+// it fits.
 #include "encoder/product/budget.hpp"
 
 #include <algorithm>
@@ -27,10 +29,19 @@ constexpr double kRound = 0.97;  // of a bound: round ones above that are tried
 constexpr int kRoughTrials = 3, kWiderBounds = 7, kMoreTrials = 12;
 constexpr uint32_t kPieces = 4;  // of the rounds of a search: what each wider bound takes
 
+constexpr double kNear = 0.3;  // of the logarithm of a number of vertices: to search on from there
+
+// Vertices fall with such a power of the bound where a search goes on: at first, and once one
+// fitted, when small steps lose least of what was found. A step's largest ones, as parts of a
+// bound.
+constexpr double kFirstSlope = 2, kSlope = 4;
+constexpr double kNarrowest = 0.95, kWidest = 1.2;
+constexpr int kMisses = 2;  // after so many a search is not relied on to make vertices fit
+
 constexpr double kHeaderBytes = 100, kBytesPerVertex = 1.4;  // usually
 
 // What all may take, in times of one encoding, as measured on development terrains.
-constexpr double kMost = 3.6, kMostOfFew = 20;
+constexpr double kMost = 3.6, kMostOfVertices = 3.75, kMostOfFew = 20;
 constexpr double kRescue = 1.75, kLittleMore = 1;  // more while the limit is badly used
 constexpr double kWellUsed = 0.99;
 constexpr uint64_t kFewPosts = 20000;  // which take no time
@@ -38,6 +49,9 @@ constexpr uint64_t kFewPosts = 20000;  // which take no time
 // What efforts take, and what comes of them.
 struct Costs {
   double greedy, rough, trial, widening;  // times of one encoding
+  double further;                         // of vertices, searching on from the last surface
+  uint32_t rounds;                        // ... so many
+  double first_vertices, vertices;        // the part that this leaves, at first and later
   double quick_excess;                    // how much more a quick search takes
   double rest;                            // of a size, if it is searched on
   double guess;                           // the bound, as a part of the greedy error
@@ -47,11 +61,11 @@ struct Costs {
 Costs costs_of(Search search) {
   switch (search) {
     case Search::kFast:
-      return {0.3, 1, 1, 0.5, 1, 0.94, 0.58, 1};
+      return {0.3, 1, 1, 0.5, 0.6, 2, 0.9, 0.98, 1, 0.94, 0.58, 1};
     case Search::kBest:
-      return {0.05, 0.1, 1, 0.25, 1.25, 0.995, 0.5, 0.85};
+      return {0.05, 0.1, 1, 0.25, 0.25, 40, 0.995, 0.995, 1.25, 0.995, 0.5, 0.85};
     default:
-      return {0.1, 0.3, 1, 0.25, 1.2, 0.99, 0.5, 0.7};
+      return {0.1, 0.3, 1, 0.25, 0.25, 7, 0.99, 0.99, 1.2, 0.99, 0.5, 0.7};
   }
 }
 
@@ -85,7 +99,11 @@ class Budget {
         largest_(height_range(source)) {
     const uint32_t vertices = vertex_limit(options);
     of_vertices_ = vertices != 0;
-    if (of_vertices_) costs_.trial *= costs_.one_step;
+    if (of_vertices_) {
+      costs_.trial *= costs_.one_step;
+    }
+    goes_on_ = of_vertices_ && options.search != Search::kFast;
+    if (goes_on_) most_ = kMostOfVertices;
     limit_ = of_vertices_ ? vertices : options.max_bytes;
     options_.max_vertices = options_.max_bytes = 0;
     options_.device_ram = 0;
@@ -95,10 +113,7 @@ class Budget {
     if (greedy()) return std::move(*best_);
     BoundSearch search(largest_, guess_, limit_);
     if (options_.search != Search::kFast) try_roughly(search);
-    for (double more = kMore; affords(costs_.trial); more *= kNearer) {
-      try_bound(search, (1 + more) / costs_.rest * limit_);
-      if (nearly_used() && affords(costs_.trial)) try_round_bound();
-    }
+    goes_on_ ? spend_vertices(search) : spend_bytes(search);
     for (int i = 0; i < kMoreTrials && !best_; ++i) {
       try_bound(search, std::pow(kWideAim, 1 << i) * limit_);
     }
@@ -107,6 +122,21 @@ class Budget {
   }
 
  private:
+  void spend_bytes(BoundSearch& search) {
+    for (double more = kMore; affords(costs_.trial); more *= kNearer) {
+      try_bound(search, (1 + more) / costs_.rest * limit_);
+      if (nearly_used() && affords(costs_.trial)) try_round_bound();
+    }
+  }
+
+  void spend_vertices(BoundSearch& search) {
+    do {
+      try_vertices(search);
+    } while (!is_near() && affords(costs_.trial));
+    while (surface_ && affords(costs_.further) && search_further_on()) {
+    }
+  }
+
   double size_of(const EncodedStream& encoded) const {
     return of_vertices_ ? encoded.vertices : static_cast<double>(encoded.stream.size());
   }
@@ -117,7 +147,7 @@ class Budget {
   bool nearly_used() const { return uses(kNearlyUsed); }
 
   double most() const {
-    if (uses(kWellUsed)) return most_;
+    if (goes_on_ || uses(kWellUsed)) return most_;
     return most_ + (nearly_used() ? kLittleMore : kRescue);
   }
   bool affords(double cost) const { return spent_ + cost <= most(); }
@@ -248,6 +278,50 @@ class Budget {
     if (found) keep(measured(source_, options_, std::move(*found)));
   }
 
+  void try_vertices(BoundSearch& search) {
+    const Decimal bound = search.bound_for((1 + kMore) / costs_.first_vertices * limit_);
+    auto found = approximate_at(bound, options_.search, costs_.trial);
+    if (!found) {
+      search.add(bound, std::nullopt);
+      return;
+    }
+    go_on_from(std::move(*found));
+    search.add(bound, size_);
+  }
+
+  void go_on_from(Approximation&& found) {
+    surface_ = {found.tin, *options_.lattice.max_error, found.laid.z_step};
+    size_ = keep(measured(source_, options_, std::move(found)));
+    fitted_ = fitted_ || fits(size_);
+    misses_ = fits(size_) ? 0 : misses_ + 1;
+  }
+  bool is_near() const { return surface_ && std::abs(std::log(size_ / limit_)) < kNear; }
+
+  // Within which the surface should use what there is after some rounds more.
+  Decimal next_bound() const {
+    const double rest = misses_ >= kMisses ? 1 : fitted_ ? costs_.vertices : costs_.first_vertices;
+    const double part =
+        std::pow(rest * size_ / (kWideAim * limit_), 1 / (fitted_ ? kSlope : kFirstSlope));
+    return rounded(real(surface_->bound) * std::clamp(part, kNarrowest, kWidest))
+        .value_or(surface_->bound);
+  }
+
+  // Says whether it can be done: the step of heights rules some bounds out.
+  bool search_further_on() {
+    if (best_ && best_->verification.max_error.mantissa == 0) return false;
+    options_.lattice.max_error = next_bound();
+    std::optional<Approximation> next;
+    try {
+      next = {lay_out_at_step(surface_->z_step), {}};
+    } catch (const Error&) {
+      return false;
+    }
+    next->tin = mended(next->laid.survey, surface_->tin);
+    search_further(*next, costs_.rounds, simplify_for(costs_.further));
+    go_on_from(std::move(*next));
+    return true;
+  }
+
   [[noreturn]] void fail() {
     EncodeOptions options = asked_;
     options.max_bytes = 0;
@@ -264,7 +338,7 @@ class Budget {
   Costs costs_;
   Progress progress_;
   Decimal largest_;  // bound
-  bool of_vertices_ = false;
+  bool of_vertices_ = false, goes_on_ = false;
   double limit_ = 0, guess_ = 1;
   double most_ = kMost, spent_ = 0;                       // times of one encoding
   double smallest_ = std::numeric_limits<double>::max();  // of all that were tried
@@ -272,6 +346,15 @@ class Budget {
   std::optional<Decimal> best_bound_;
   double best_size_ = 0;
   bool tried_round_ = false;
+
+  struct Bounded {
+    Tin tin;
+    Decimal bound, z_step;
+  };
+  std::optional<Bounded> surface_;  // from which to go on
+  double size_ = 0;                 // its own
+  bool fitted_ = false;             // it, or one before
+  int misses_ = 0;                  // since
 };
 
 }  // namespace
