@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Finds a bound that takes a little more than there is. Of bytes, or if fast, it is then widened,
-// searching on, until it fits; that takes longer if it leaves much unused. Of vertices a longer
-// search goes on from its surface, within bounds that grow where it takes too many and shrink where
-// it fits.
+// searching on, until it fits; that takes longer if it leaves much unused. Of vertices what time is
+// left goes on from the last surface, within bounds that grow where it takes too many and shrink
+// where it fits.
 #include "encoder/product/budget.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ constexpr int kMisses = 2;  // after so many a search is not relied on to make v
 constexpr double kHeaderBytes = 100, kBytesPerVertex = 1.4;  // usually
 
 // What all may take, in times of one encoding, as measured on development terrains.
-constexpr double kMost = 3.6, kMostOfVertices = 3.75, kMostOfFew = 20;
+constexpr double kMost = 3.6, kMostOfFew = 20;
 constexpr double kRescue = 1.75, kLittleMore = 1;  // more while the limit is badly used
 constexpr double kWellUsed = 0.99;
 constexpr uint64_t kFewPosts = 20000;  // which take no time
@@ -49,9 +49,6 @@ constexpr uint64_t kFewPosts = 20000;  // which take no time
 // What efforts take, and what comes of them.
 struct Costs {
   double greedy, rough, trial, widening;  // times of one encoding
-  double further;                         // of vertices, searching on from the last surface
-  uint32_t rounds;                        // ... so many
-  double first_vertices, vertices;        // the part that this leaves, at first and later
   double quick_excess;                    // how much more a quick search takes
   double rest;                            // of a size, if it is searched on
   double guess;                           // the bound, as a part of the greedy error
@@ -61,11 +58,11 @@ struct Costs {
 Costs costs_of(Search search) {
   switch (search) {
     case Search::kFast:
-      return {0.3, 1, 1, 0.5, 0.6, 2, 0.9, 0.98, 1, 0.94, 0.58, 1};
+      return {0.3, 1, 1, 0.5, 1, 0.94, 0.58, 1};
     case Search::kBest:
-      return {0.05, 0.1, 1, 0.25, 0.25, 40, 0.995, 0.995, 1.25, 0.995, 0.5, 0.85};
+      return {0.05, 0.1, 1, 0.25, 1.25, 0.995, 0.5, 0.85};
     default:
-      return {0.1, 0.3, 1, 0.25, 0.25, 7, 0.99, 0.99, 1.2, 0.99, 0.5, 0.7};
+      return {0.1, 0.3, 1, 0.25, 1.2, 0.99, 0.5, 0.7};
   }
 }
 
@@ -99,11 +96,7 @@ class Budget {
         largest_(height_range(source)) {
     const uint32_t vertices = vertex_limit(options);
     of_vertices_ = vertices != 0;
-    if (of_vertices_) {
-      costs_.trial *= costs_.one_step;
-    }
-    goes_on_ = of_vertices_ && options.search != Search::kFast;
-    if (goes_on_) most_ = kMostOfVertices;
+    if (of_vertices_) costs_.trial *= costs_.one_step;
     limit_ = of_vertices_ ? vertices : options.max_bytes;
     options_.max_vertices = options_.max_bytes = 0;
     options_.device_ram = 0;
@@ -112,8 +105,11 @@ class Budget {
   EncodedStream spend() {
     if (greedy()) return std::move(*best_);
     BoundSearch search(largest_, guess_, limit_);
-    if (options_.search != Search::kFast) try_roughly(search);
-    goes_on_ ? spend_vertices(search) : spend_bytes(search);
+    const bool fast = options_.search == Search::kFast;
+    if (!fast) try_roughly(search);
+    of_vertices_ && !fast ? come_near(search) : come_nearer(search);
+    bool goes_on = of_vertices_ && surface_;
+    while (goes_on && spent_ + costs_.widening <= most_) goes_on = go_on();
     for (int i = 0; i < kMoreTrials && !best_; ++i) {
       try_bound(search, std::pow(kWideAim, 1 << i) * limit_);
     }
@@ -122,21 +118,6 @@ class Budget {
   }
 
  private:
-  void spend_bytes(BoundSearch& search) {
-    for (double more = kMore; affords(costs_.trial); more *= kNearer) {
-      try_bound(search, (1 + more) / costs_.rest * limit_);
-      if (nearly_used() && affords(costs_.trial)) try_round_bound();
-    }
-  }
-
-  void spend_vertices(BoundSearch& search) {
-    do {
-      try_vertices(search);
-    } while (!is_near() && affords(costs_.trial));
-    while (surface_ && affords(costs_.further) && search_further_on()) {
-    }
-  }
-
   double size_of(const EncodedStream& encoded) const {
     return of_vertices_ ? encoded.vertices : static_cast<double>(encoded.stream.size());
   }
@@ -147,7 +128,7 @@ class Budget {
   bool nearly_used() const { return uses(kNearlyUsed); }
 
   double most() const {
-    if (goes_on_ || uses(kWellUsed)) return most_;
+    if (uses(kWellUsed)) return most_;
     return most_ + (nearly_used() ? kLittleMore : kRescue);
   }
   bool affords(double cost) const { return spent_ + cost <= most(); }
@@ -166,6 +147,16 @@ class Budget {
     best_bound_ = encoded.bound;
     best_size_ = size;
     best_ = std::move(encoded);
+    return size;
+  }
+
+  // The same of a surface, from which to go on.
+  double take(Approximation&& found) {
+    surface_ = {found.tin, *options_.lattice.max_error, found.laid.z_step, 0};
+    const double size = keep(measured(source_, options_, std::move(found)));
+    surface_->size = size;
+    fitted_ = fitted_ || fits(size);
+    misses_ = fits(size) ? 0 : misses_ + 1;
     return size;
   }
 
@@ -229,6 +220,23 @@ class Budget {
     search.forget_ends();
   }
 
+  // Until a trial is near enough to go on from.
+  void come_near(BoundSearch& search) {
+    do {
+      const Decimal bound = search.bound_for((1 + kMore) / costs_.rest * limit_);
+      auto found = approximate_at(bound, options_.search, costs_.trial);
+      search.add(bound, found ? std::optional<double>(take(std::move(*found))) : std::nullopt);
+    } while (!(surface_ && std::abs(std::log(surface_->size / limit_)) < kNear) &&
+             affords(costs_.trial));
+  }
+
+  void come_nearer(BoundSearch& search) {
+    for (double more = kMore; affords(costs_.trial); more *= kNearer) {
+      try_bound(search, (1 + more) / costs_.rest * limit_);
+      if (nearly_used() && affords(costs_.trial)) try_round_bound();
+    }
+  }
+
   void try_bound(BoundSearch& search, double wanted) {
     const Decimal bound = search.bound_for(wanted);
     const auto found = approximate_at(bound, options_.search, costs_.trial);
@@ -236,7 +244,7 @@ class Budget {
       search.add(bound, std::nullopt);
       return;
     }
-    const double size = keep(measured(source_, options_, Approximation(*found)));
+    const double size = take(Approximation(*found));
     search.add(bound, size);
     if (size <= limit_) return;
     if (size <= kLoose * limit_ || !affords(costs_.trial)) widen(search, bound, size, *found);
@@ -247,7 +255,6 @@ class Budget {
     search.forget_ends();
     search.add(bound, size * costs_.rest);
     const Decimal least = bound;
-    const uint32_t rounds = std::max(rounds_of(options_.search) / kPieces, 1u);
     LatticeOptions& lattice = options_.lattice;
     for (int i = 0; i < kWiderBounds && affords(costs_.widening); ++i) {
       const bool last = !uses(kWellUsed) && !affords(2 * costs_.widening);
@@ -255,12 +262,14 @@ class Budget {
       if (bound <= least) bound = least;
       lattice.max_error = bound;
       Approximation wide{lay_out_at_step(tight.laid.z_step), tight.tin};
-      search_further(wide, rounds, simplify_for(costs_.widening));
-      size = keep(measured(source_, options_, std::move(wide)));
+      search_further(wide, rounds_of_a_piece(), simplify_for(costs_.widening));
+      size = take(std::move(wide));
       if (fits(size) && (bound <= least || size >= kUsed * limit_)) return;
       search.add(bound, size);
     }
   }
+
+  uint32_t rounds_of_a_piece() const { return std::max(rounds_of(options_.search) / kPieces, 1u); }
 
   Laid lay_out_at_step(Decimal z_step) const {
     LatticeOptions lattice = options_.lattice;
@@ -275,51 +284,32 @@ class Budget {
     const Decimal bound = *best_bound_, round = rounded_down(bound);
     if (bound <= round || real(round) < kRound * real(bound)) return;
     auto found = approximate_at(round, options_.search, costs_.trial);
-    if (found) keep(measured(source_, options_, std::move(*found)));
+    if (found) take(std::move(*found));
   }
 
-  void try_vertices(BoundSearch& search) {
-    const Decimal bound = search.bound_for((1 + kMore) / costs_.first_vertices * limit_);
-    auto found = approximate_at(bound, options_.search, costs_.trial);
-    if (!found) {
-      search.add(bound, std::nullopt);
-      return;
-    }
-    go_on_from(std::move(*found));
-    search.add(bound, size_);
-  }
-
-  void go_on_from(Approximation&& found) {
-    surface_ = {found.tin, *options_.lattice.max_error, found.laid.z_step};
-    size_ = keep(measured(source_, options_, std::move(found)));
-    fitted_ = fitted_ || fits(size_);
-    misses_ = fits(size_) ? 0 : misses_ + 1;
-  }
-  bool is_near() const { return surface_ && std::abs(std::log(size_ / limit_)) < kNear; }
-
-  // Within which the surface should use what there is after some rounds more.
-  Decimal next_bound() const {
-    const double rest = misses_ >= kMisses ? 1 : fitted_ ? costs_.vertices : costs_.first_vertices;
-    const double part =
-        std::pow(rest * size_ / (kWideAim * limit_), 1 / (fitted_ ? kSlope : kFirstSlope));
-    return rounded(real(surface_->bound) * std::clamp(part, kNarrowest, kWidest))
-        .value_or(surface_->bound);
-  }
-
-  // Says whether it can be done: the step of heights rules some bounds out.
-  bool search_further_on() {
+  // Searches on within a bound that should then use what there is. Says whether there is one: the
+  // step of heights rules some out.
+  bool go_on() {
     if (best_ && best_->verification.max_error.mantissa == 0) return false;
     options_.lattice.max_error = next_bound();
-    std::optional<Approximation> next;
+    Approximation next;
     try {
-      next = {lay_out_at_step(surface_->z_step), {}};
+      next.laid = lay_out_at_step(surface_->z_step);
     } catch (const Error&) {
       return false;
     }
-    next->tin = mended(next->laid.survey, surface_->tin);
-    search_further(*next, costs_.rounds, simplify_for(costs_.further));
-    go_on_from(std::move(*next));
+    next.tin = mended(next.laid.survey, surface_->tin);
+    search_further(next, rounds_of_a_piece(), simplify_for(costs_.widening));
+    take(std::move(next));
     return true;
+  }
+
+  Decimal next_bound() const {
+    const double rest = misses_ >= kMisses ? 1 : costs_.rest;
+    const double part =
+        std::pow(rest * surface_->size / (kWideAim * limit_), 1 / (fitted_ ? kSlope : kFirstSlope));
+    return rounded(real(surface_->bound) * std::clamp(part, kNarrowest, kWidest))
+        .value_or(surface_->bound);
   }
 
   [[noreturn]] void fail() {
@@ -338,7 +328,7 @@ class Budget {
   Costs costs_;
   Progress progress_;
   Decimal largest_;  // bound
-  bool of_vertices_ = false, goes_on_ = false;
+  bool of_vertices_ = false;
   double limit_ = 0, guess_ = 1;
   double most_ = kMost, spent_ = 0;                       // times of one encoding
   double smallest_ = std::numeric_limits<double>::max();  // of all that were tried
@@ -347,14 +337,15 @@ class Budget {
   double best_size_ = 0;
   bool tried_round_ = false;
 
+  // The last surface that was found, from which to go on.
   struct Bounded {
     Tin tin;
     Decimal bound, z_step;
+    double size;
   };
-  std::optional<Bounded> surface_;  // from which to go on
-  double size_ = 0;                 // its own
-  bool fitted_ = false;             // it, or one before
-  int misses_ = 0;                  // since
+  std::optional<Bounded> surface_;
+  bool fitted_ = false;  // it, or one before
+  int misses_ = 0;       // since one fitted
 };
 
 }  // namespace

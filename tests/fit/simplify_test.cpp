@@ -320,6 +320,21 @@ TEST_CASE("simplify: a longer search finds fewer vertices, always the same") {
   }
 }
 
+TEST_CASE("simplify: a surface is mended where narrower bounds do not hold") {
+  const auto hole = [](int x, int y) { return x > 20 && x < 30 && y > 5 && y < 40; };
+  const Survey wide = raster(65, 65, rough, 6 * kStep, hole);
+  const Survey narrow = raster(65, 65, rough, 3 * kStep, hole);
+  const Tin tin = simplify(wide, bounded());
+  const std::size_t vertices = tin.vertices.size();
+  CHECK(mended(wide, tin).vertices.size() == vertices);
+  CHECK(largest_violation(narrow, tin, true) > 0);
+  const Tin more = mended(narrow, tin);
+  CHECK(largest_violation(narrow, more, true) == 0);
+  REQUIRE(more.vertices.size() > vertices);
+  CHECK(std::equal(tin.vertices.begin(), tin.vertices.end(), more.vertices.begin(),
+                   [](Vertex a, Vertex b) { return a.x == b.x && a.y == b.y; }));
+}
+
 TEST_CASE("simplify: never more bytes than greedy insertion takes") {
   Random random(3);
   const auto noise = [&](int, int) { return static_cast<int32_t>(random.below(9 * kStep)); };
