@@ -231,9 +231,11 @@ class Budget {
   }
 
   void come_nearer(BoundSearch& search) {
-    for (double more = kMore; affords(costs_.trial); more *= kNearer) {
+    // Of vertices some time is left to go on.
+    const double reserve = of_vertices_ ? 2 * costs_.widening : 0;
+    for (double more = kMore; affords(costs_.trial + reserve); more *= kNearer) {
       try_bound(search, (1 + more) / costs_.rest * limit_);
-      if (nearly_used() && affords(costs_.trial)) try_round_bound();
+      if (nearly_used() && affords(costs_.trial + reserve)) try_round_bound();
     }
   }
 
