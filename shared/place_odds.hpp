@@ -42,8 +42,8 @@ inline int32_t chance_after(int32_t twice, Log2 rate) {
   return static_cast<int32_t>(rough_exp2(9 * kLog2One - 1 - static_cast<Log2>(rough_exp2(loss))));
 }
 
-// `density` is the logarithm of points per unit area, `own` and `behind` the cotangents over the
-// chord.
+// `a` is the chord's start, turned, `density` the logarithm of points per unit area, `own` and
+// `behind` are the cotangents over the chord.
 inline void estimate_sweep(PlaceOdds& odds, const LegalPlaces& places, const FreeRegion& region,
                            Spot a, Log2 density, Cotangent own, Cotangent behind) {
   // log2(log2(e)) = 135 / 256; of the density 7 / 8, log2 of which is -49 / 256, suits best.
