@@ -37,7 +37,7 @@ struct LegalPlaces {
   Lines columns, rows;  // of the lattice
   Spot corner[2];       // c, a, below 2^11
   Circle own;           // its centre is below 2^13, its radius below 2^13.5
-  Circle behind[2];     // the chord, side 0
+  Circle behind[2];     // the chord, side 0; kNoCircle if not known, or far
 };
 
 #if defined(MICROTIN_LARGE_TABLES)

@@ -25,27 +25,25 @@ uint64_t squared_distance(Point a, Point b) {
 }  // namespace
 
 Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
-                       const std::vector<uint32_t>& corners)
+                       const std::vector<Point>& places)
     : survey_(survey),
       model_(model),
       posts_(posts),
       void_posts_(survey.voids),
-      triangulation_(places_of(survey, corners)),
+      triangulation_(places),
       is_vertex_(survey.samples.size()),
-      on_rim_(survey.samples.size()) {
+      on_rim_(survey.samples.size()) {}
+
+Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
+                       const std::vector<uint32_t>& corners)
+    : Refinement(survey, model, posts, places_of(survey, corners)) {
   for (const uint32_t s : corners) add_vertex(s, model_.vertex_height(survey_.samples[s]));
   begin();
 }
 
 Refinement::Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
                        const Tin& tin)
-    : survey_(survey),
-      model_(model),
-      posts_(posts),
-      void_posts_(survey.voids),
-      triangulation_(places_of(tin)),
-      is_vertex_(survey.samples.size()),
-      on_rim_(survey.samples.size()) {
+    : Refinement(survey, model, posts, places_of(tin)) {
   for (const Vertex& v : tin.vertices) {
     const uint32_t s = posts.number(*posts.find({v.x, v.y}));
     add_vertex(s, model_.nearest_height(survey_.samples[s], v.z));

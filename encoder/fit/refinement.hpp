@@ -58,6 +58,10 @@ class Refinement {
     }
   };
 
+  // Vertices at these places are still to be added, in their order.
+  Refinement(const Survey& survey, ErrorModel model, const PostIndex& posts,
+             const std::vector<Point>& places);
+
   void add_vertex(uint32_t sample, int16_t height);
   void begin();
   void find_rims();
