@@ -15,6 +15,7 @@
 #include "tests/support/device.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/forged_stream.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {
@@ -155,7 +156,7 @@ TEST_CASE("in place there is room for what the macros allow for, from 64 vertice
 
 TEST_CASE("compact terrains answer as the mesh does: golden streams") {
   uint32_t streams = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(MICROTIN_GOLDEN_DIR)) {
+  for (const auto& entry : std::filesystem::directory_iterator(golden_folder())) {
     if (entry.path().extension() != ".mtin") continue;
     CAPTURE(entry.path().string());
     check(bytes_of_file(entry.path().string()), ++streams);

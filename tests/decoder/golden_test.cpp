@@ -14,6 +14,7 @@
 #include "shared/start_probabilities.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/mesh_copy.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {
@@ -103,7 +104,7 @@ std::vector<Golden> golden_streams() {
 
 // The indented lines of FORMAT.md, and an empty one for each heading.
 std::vector<std::string> indented_lines_of_the_format() {
-  std::ifstream text(MICROTIN_GOLDEN_DIR "/../../shared/FORMAT.md");
+  std::ifstream text(golden("../../shared/FORMAT.md"));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) {
     if (line.rfind("    ", 0) == 0) lines.push_back(line);
@@ -116,7 +117,7 @@ std::vector<std::string> indented_lines_of_the_format() {
 
 TEST_CASE("golden streams are what the encoder writes and the decoder reads") {
   for (const Golden& golden : golden_streams()) {
-    const std::string path = MICROTIN_GOLDEN_DIR "/" + golden.name + ".mtin";
+    const std::string path = tests::golden(golden.name + ".mtin");
     if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) write_file(path, golden.stream);
     CAPTURE(golden.name);
     CHECK(bytes_of_file(path) == golden.stream);

@@ -9,6 +9,7 @@
 
 #include "tests/support/files.hpp"
 #include "tests/support/forged_stream.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {
@@ -331,7 +332,7 @@ TEST_CASE("golden streams that must be refused are, each with its status") {
   for (const auto& refused : refused_streams()) {
     const std::string& name = refused.first;
     const Bytes& stream = refused.second;
-    const std::string path = MICROTIN_GOLDEN_DIR "/refused/" + name + ".mtin";
+    const std::string path = golden("refused/" + name + ".mtin");
     if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) write_file(path, stream);
     CAPTURE(name);
     CHECK(bytes_of_file(path) == stream);

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "tests/support/files.hpp"
+#include "tests/support/paths.hpp"
 
 namespace microtin::tests {
 namespace {
 
-const std::filesystem::path kTests = std::filesystem::path(MICROTIN_GOLDEN_DIR) / "..";
+const std::filesystem::path kTests = golden_folder() / "..";
 
 // With every run of spaces and line breaks as one space.
 std::string text_of(const std::filesystem::path& path) {

@@ -9,6 +9,7 @@
 #include "fuzz/support/repair.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/forged_stream.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {
@@ -223,7 +224,7 @@ TEST_CASE("steps of a walk without a symbol are at most 3/2 of the vertices it e
 
 TEST_CASE("no golden stream takes more steps than its bytes allow") {
   size_t done = 0;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(MICROTIN_GOLDEN_DIR)) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(golden_folder())) {
     if (entry.path().extension() != ".mtin") continue;
     const Bytes stream = bytes_of_file(entry.path().string());
     microtin_info info;

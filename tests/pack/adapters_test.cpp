@@ -9,6 +9,7 @@
 #include "encoder/files/input_file.hpp"
 #include "tests/firmware/adapters_report.hpp"
 #include "tests/support/pack_device.hpp"
+#include "tests/support/paths.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 std::string printed;
 
 Bytes degree_pack() {
-  const std::string text = read_file(MICROTIN_GOLDEN_DIR "/degree.mtp");
+  const std::string text = read_file(golden("degree.mtp"));
   return {text.begin(), text.end()};
 }
 
@@ -57,7 +58,7 @@ TEST_CASE("adapters: a flight is what devices print") {
   printed.clear();
   const auto put = [](char c) { printed += c; };
   CHECK(AdaptersReport(put, device.pack, Card::read, &card).run() == 0);
-  CHECK(printed == read_file(MICROTIN_GOLDEN_DIR "/degree.report"));
+  CHECK(printed == read_file(golden("degree.report")));
 }
 
 TEST_CASE("adapters: INAV's height and look ahead are those of the tiles") {

@@ -17,6 +17,7 @@
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/pack_device.hpp"
 #include "tests/support/packs.hpp"
+#include "tests/support/paths.hpp"
 
 extern "C" void put_char(char) {}  // the device's, of which only the flight is wanted here
 
@@ -74,10 +75,6 @@ class HostPack {
   std::vector<uint32_t> bad_;
 };
 
-std::string golden(const std::string& name) {
-  return MICROTIN_GOLDEN_DIR "/" + name;
-}
-
 std::string report_of(const HostPack& pack) {
   std::string report;
   const microtin_pack_info info = pack.info();
@@ -134,7 +131,7 @@ TEST_CASE("card: recorded flights are what a host answers") {
 }
 
 TEST_CASE("card: sectors are at most twice what was asked for, and the damaged tile is told") {
-  const std::string facts = read_file(MICROTIN_GOLDEN_DIR "/../../decoder/examples/card.txt");
+  const std::string facts = read_file(golden("../../decoder/examples/card.txt"));
   CHECK(fact(facts, "bytes of sectors read") <= 2 * fact(facts, "bytes asked for"));
   CHECK(fact(facts, "turns without a card") > 0);
   CHECK(facts.find("damaged: tile " + std::to_string(HostPack(golden("card.mtp")).bad()[0]) +

@@ -17,6 +17,7 @@
 #include "encoder/pack/point_survey.hpp"
 #include "tests/support/border_walk.hpp"
 #include "tests/support/pack_device.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/point_clouds.hpp"
 
 namespace microtin::tests {
@@ -107,7 +108,7 @@ void check_pack(const PointCloud& cloud, const PackOptions& options) {
 
 // Nothing if it is not here.
 std::optional<PointCloud> read_cloud(const std::string& name) {
-  const std::string path = std::string(MICROTIN_DATA_DIR) + "/" + name + ".xyz.gz";
+  const std::string path = (data_folder() / (name + ".xyz.gz")).string();
   if (!std::filesystem::exists(path)) {
     MESSAGE("skipped: " << name << " is not here");
     return std::nullopt;

@@ -11,6 +11,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/terrain/source.hpp"
 #include "tests/support/layers.hpp"
+#include "tests/support/paths.hpp"
 
 namespace microtin::tests {
 
@@ -37,7 +38,7 @@ inline std::string text_of(const PointCloud& cloud) {
 
 // The path of a file that is no part of the project; empty if it is not here.
 inline std::string data_file(const std::string& name) {
-  const std::filesystem::path path = std::filesystem::path(MICROTIN_DATA_DIR) / "formats" / name;
+  const std::filesystem::path path = data_folder() / "formats" / name;
   if (std::filesystem::exists(path)) return path.string();
   MESSAGE("skipped: " << name << " is not here");
   return "";

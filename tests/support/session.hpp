@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "tests/support/layers.hpp"
+#include "tests/support/paths.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace microtin::tests {
@@ -23,7 +24,7 @@ namespace microtin::tests {
 // The program that was built with the tests; another one with faults, to see that they tell.
 inline std::string program() {
   const char* const other = std::getenv("MICROTIN_PROGRAM");
-  return other != nullptr ? other : MICROTIN_CLI;
+  return other != nullptr ? other : built_program();
 }
 
 // Runs the program in a folder of its own.

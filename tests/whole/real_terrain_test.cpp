@@ -17,6 +17,7 @@
 #include "encoder/terrain/verify.hpp"
 #include "tests/support/border_walk.hpp"
 #include "tests/support/packs.hpp"
+#include "tests/support/paths.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -24,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_here(const fs::path& path) {
-  const bool here = !std::string(MICROTIN_DATA_DIR).empty() && fs::exists(path);
+  const bool here = !data_folder().empty() && fs::exists(path);
   if (!here) MESSAGE("skipped: " << path.filename().string() << " is not here");
   return here;
 }
@@ -78,7 +79,7 @@ TEST_CASE("real rasters keep their bound at every post, voids stay voids") {
     uint32_t width, height;
   } rasters[] = {{"scottish_borders", 769, 769}, {"sthelens", 327, 468}, {"andorra", 1025, 1025}};
   for (const auto& r : rasters) {
-    const fs::path path = fs::path(MICROTIN_DATA_DIR) / (r.name + std::string(".hgt16.gz"));
+    const fs::path path = data_folder() / (r.name + std::string(".hgt16.gz"));
     if (!is_here(path)) continue;
     CAPTURE(std::string(r.name));
     check_round_trip(read_centre(path, r.width, r.height), Decimal{10, 0});
@@ -91,7 +92,7 @@ TEST_CASE("packs of real rasters have no cracks and keep their bound") {
     uint32_t width, height, vertices;
   } rasters[] = {{"scottish_borders", 769, 769, 1000}, {"sthelens", 327, 468, 250}};
   for (const auto& r : rasters) {
-    const fs::path path = fs::path(MICROTIN_DATA_DIR) / (r.name + std::string(".hgt16.gz"));
+    const fs::path path = data_folder() / (r.name + std::string(".hgt16.gz"));
     if (!is_here(path)) continue;
     CAPTURE(std::string(r.name));
     const Raster raster = read_centre(path, r.width, r.height);
@@ -115,7 +116,7 @@ TEST_CASE("packs of real rasters have no cracks and keep their bound") {
 TEST_CASE("real files come back exactly, and within a bound") {
   for (const char* name :
        {"srtm_rmnp.asc", "bijou5m.asc", "hugo.asc", "quebec_forest_ground.xyz"}) {
-    const fs::path path = fs::path(MICROTIN_DATA_DIR) / "formats" / name;
+    const fs::path path = data_folder() / "formats" / name;
     if (!is_here(path)) continue;
     CAPTURE(std::string(name));
     const Source source = import_terrain(path.string());
