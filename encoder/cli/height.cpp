@@ -63,12 +63,12 @@ Answer ask(PlaceQuery& query, const Place& place, bool on_lattice) {
 std::string answered(PlaceQuery& query, std::string_view lines, bool on_lattice) {
   std::string text;
   for (uint64_t number = 1; !lines.empty(); ++number) {
-    std::string_view line = take_line(lines);
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    const std::string_view line = take_line(lines);
     if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
     const std::optional<Place> place = parse_place(line);
     if (!place) {
-      throw Error("standard input, line " + std::to_string(number) + ": is not a place, X Y");
+      throw Error("standard input, line " + std::to_string(number) + ": is not a place, X Y" +
+                  remedy_for_commas(line));
     }
     text += std::string(line) + ' ' + ask(query, *place, on_lattice).text + '\n';
   }

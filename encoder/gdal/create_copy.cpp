@@ -38,7 +38,7 @@ Transform transform_of(GDALDataset& source) {
   if (source.GetGeoTransform(transform.data()) != CE_None) {
     refuse("the source does not say where it lies: -a_ullr WEST NORTH EAST SOUTH adds it");
   }
-  if (transform[1] < 0 || transform[2] != 0 || transform[4] != 0) {
+  if (!encoder::runs_east(transform)) {
     refuse("the source's rows do not run from west to east: bring them there with gdalwarp");
   }
   return transform;

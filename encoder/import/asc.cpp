@@ -26,7 +26,8 @@ class Words {
   bool next() {
     start_ = end_;
     while (has(start_) && is_space(buffer_[start_])) {
-      if (buffer_[start_++] == '\n') ++line_;
+      if (ends_line(start_)) ++line_;
+      ++start_;
     }
     end_ = start_;
     while (has(end_) && !is_space(buffer_[end_])) ++end_;
@@ -38,6 +39,13 @@ class Words {
   [[noreturn]] void fail(const std::string& what) const { fail_at(name_, line_, what); }
 
  private:
+  // LF, or CR without one.
+  bool ends_line(size_t place) {
+    if (buffer_[place] != '\r') return buffer_[place] == '\n';
+    size_t next = place + 1;
+    return has(next) && buffer_[next] != '\n';
+  }
+
   static bool is_space(char c) { return is_blank(c) || c == '\n'; }
 
   // Whether there is a byte at that place of the buffer, which is filled if need be.
@@ -104,6 +112,9 @@ class Header {
     const Decimal size = required(size_key);
     if (size.mantissa <= 0) throw Error(size_key + " is not above 0");
     const bool is_centre = has(lower_left + "center");
+    if (is_centre && has(lower_left + "corner")) {
+      throw Error(lower_left + "corner and " + lower_left + "center are both given: leave one");
+    }
     const Decimal place = required(lower_left + (is_centre ? "center" : "corner"));
     return axis_of_cells(place, size, is_centre ? 0 : 1);
   }
@@ -119,6 +130,8 @@ class Header {
   std::map<std::string, Decimal> numbers_;
 };
 
+constexpr std::string_view kNoDataKey = "nodata_value";
+
 bool is_known(std::string_view key) {
   constexpr std::array<std::string_view, 9> kKeys = {
       "ncols", "nrows", "xllcorner", "xllcenter", "yllcorner", "yllcenter", "cellsize", "dx", "dy"};
@@ -132,11 +145,6 @@ bool is_number(std::string_view word) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-// What to do about a word that is none of a header or a grid.
-std::string remedy(std::string_view word) {
-  return word.find(',') == word.npos ? "" : "; decimals are written with a point";
-}
-
 // As printf writes what is not a number.
 bool is_nan(std::string_view word) {
   if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.remove_prefix(1);
@@ -147,7 +155,7 @@ bool is_nan(std::string_view word) {
 NoData no_data_of(const Words& words) {
   if (is_nan(words.word())) return {};
   if (!is_number(words.word())) {
-    words.fail(quoted(words.word()) + " is not a number" + remedy(words.word()));
+    words.fail(quoted(words.word()) + " is not a number" + remedy_for_commas(words.word()));
   }
   return {std::string(words.word()), parse_decimal(words.word())};
 }
@@ -160,17 +168,18 @@ Header read_header(Words& words) {
     if (is_nan(words.word())) return header;
     if ((first < 'A' || first > 'Z') && (first < 'a' || first > 'z')) return header;
     const std::string key = lower_case(std::string(words.word()));
-    if (key != "nodata_value" && !is_known(key)) {
+    if (key != kNoDataKey && !is_known(key)) {
       words.fail(quoted(words.word()) + " is neither a number nor a key of an ASCII grid's header");
     }
     if (!words.next()) words.fail("the value of " + key + " is missing");
-    if (key == "nodata_value") {
+    if (key == kNoDataKey) {
       header.no_data = no_data_of(words);
       continue;
     }
     const std::optional<Decimal> value = parse_decimal(words.word(), kPlaceDecimals);
     if (!value) {
-      words.fail(key + " is not a number in range: " + quoted(words.word()) + remedy(words.word()));
+      words.fail(key + " is not a number in range: " + quoted(words.word()) +
+                 remedy_for_commas(words.word()));
     }
     if (!header.add(key, *value)) words.fail(key + " is given twice");
   }
@@ -185,7 +194,7 @@ std::optional<Decimal> read_height(const Words& words, const NoData& no_data) {
     words.fail(quoted(words.word()) + " is not a number in range" +
                (is_number(words.word())
                     ? "; if it marks voids, the header's NODATA_value must be the same"
-                    : remedy(words.word())));
+                    : remedy_for_commas(words.word())));
   }
   return height;
 }
@@ -279,6 +288,14 @@ class AscReader : public RasterReader {
 };
 
 }  // namespace
+
+bool is_grid(std::string_view text) {
+  text = without_mark(text);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\v\f\r\n"), text.size()));
+  const std::string key =
+      lower_case(std::string(text.substr(0, text.find_first_of(" \t\v\f\r\n"))));
+  return key == kNoDataKey || is_known(key);
+}
 
 std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<ByteSource> text,
                                        Reference reference) {

@@ -13,12 +13,12 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/error_context.hpp"
 #include "encoder/base/suffix.hpp"
-#include "encoder/exact/fraction.hpp"
 #include "encoder/exact/scaled_integers.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
+#include "encoder/import/transform.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -94,21 +94,12 @@ FirstRow place(GDALDatasetH dataset, Raster& raster) {
   if (GDALGetGeoTransform(dataset, t.data()) != CE_None) {
     throw Error("does not say where it lies: gdal_translate -a_ullr WEST NORTH EAST SOUTH adds it");
   }
-  if (t[2] != 0 || t[4] != 0 || t[1] <= 0 || t[5] == 0) {
+  if (!runs_east(t)) {
     throw Error("its rows do not run from west to east: bring them there with gdalwarp");
   }
-  const auto decimal = [](double value) {
-    const std::optional<Decimal> number = shortest_decimal(value, kPlaceDecimals);
-    if (!number) throw Error("its place is out of range");
-    return *number;
-  };
-  const FirstRow first = t[5] < 0 ? FirstRow::kNorth : FirstRow::kSouth;
-  const Decimal dx = decimal(t[1]), dy = decimal(std::abs(t[5]));
-  if (dx.mantissa == 0 || dy.mantissa == 0) throw Error("its cells are too small");
-  raster.x = axis_of_cells(decimal(t[0]), dx, 1);
-  raster.y = axis_of_cells(decimal(t[3]), dy,
-                           first == FirstRow::kSouth ? 1 : 1 - 2 * int64_t{raster.height});
-  return first;
+  raster.x = axis_of_cells_from(t[0], t[1], raster.width);
+  raster.y = axis_of_cells_from(t[3], t[5], raster.height);
+  return t[5] < 0 ? FirstRow::kNorth : FirstRow::kSouth;
 }
 
 // Bands of heights: not those that say how opaque others are.

@@ -18,6 +18,10 @@ int64_t height_of(const uint8_t* bytes) {
   return height == -32768 ? kVoidHeight : height;
 }
 
+struct Size {
+  uint32_t columns = 0, rows = 0;
+};
+
 // Posts in a row of a square that takes so many bytes; 0 if there is none.
 uint32_t side_of(uint64_t bytes) {
   constexpr uint64_t kMost = uint64_t{1} << 30;  // far beyond any disk, and a square fits 64 bits
@@ -29,24 +33,37 @@ uint32_t side_of(uint64_t bytes) {
   return low >= 2 && 2 * low * low == bytes ? static_cast<uint32_t>(low) : 0;
 }
 
+// Towards the poles columns are 2, 3, 4 or 6 times as far apart as rows, as in DTED. No square of
+// posts takes as many bytes.
+Size size_of(uint64_t bytes) {
+  for (const uint32_t rows : {1201U, 3601U}) {
+    for (const uint32_t times : {2U, 3U, 4U, 6U}) {
+      const uint32_t columns = (rows - 1) / times + 1;
+      if (uint64_t{2} * columns * rows == bytes) return {columns, rows};
+    }
+  }
+  const uint32_t side = side_of(bytes);
+  return {side, side};
+}
+
 class HgtReader : public RasterReader {
  public:
   HgtReader(const std::string& name, std::unique_ptr<ByteSource> bytes)
       : name_(name), bytes_(std::move(bytes)) {
-    const uint32_t side = side_of(bytes_->size());
-    if (side == 0) {
+    const auto [columns, rows] = size_of(bytes_->size());
+    if (rows == 0) {
       throw Error(name + ": has " + std::to_string(bytes_->size()) +
                   " bytes; an .hgt file has two for each post of a square, as 25934402 for 3601 x "
-                  "3601");
+                  "3601, or of 1801 x 3601 and the like towards the poles");
     }
     const auto cell = cell_of(name);
     if (!cell) {
       throw Error(name + ": the file's name does not say where it lies, as N43E007.hgt does");
     }
-    const uint64_t per_degree = side - 1;
-    frame_.width = frame_.height = side;
-    frame_.x = {cell->longitude * static_cast<int64_t>(per_degree), 1, per_degree};
-    frame_.y = {cell->latitude * static_cast<int64_t>(per_degree), 1, per_degree};
+    frame_.width = columns;
+    frame_.height = rows;
+    frame_.x = degree_from(cell->longitude, columns);
+    frame_.y = degree_from(cell->latitude, rows);
     frame_.reference = {Unit::kDegree, Unit::kMetre, kWgs84, kEgm96Height, {}};
   }
 
@@ -65,6 +82,10 @@ class HgtReader : public RasterReader {
   }
 
  private:
+  static Axis degree_from(int first, uint32_t posts) {
+    return {int64_t{first} * (posts - 1), 1, posts - 1};
+  }
+
   std::string name_;
   std::unique_ptr<ByteSource> bytes_;
 };

@@ -2,6 +2,7 @@
 // Chooses the reader of a file by its suffix.
 #include "encoder/import/import.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <utility>
@@ -16,9 +17,23 @@ namespace microtin::importing {
 
 namespace {
 
+bool is_text_of_points(const std::string& suffix) {
+  return suffix == ".xyz" || suffix == ".csv" || suffix == ".txt";
+}
+
+// Grids are found by their content where a name may be that of points.
+bool is_grid_file(const std::string& path) {
+  const std::string suffix = suffix_of(path);
+  if (!is_text_of_points(suffix) || !is_regular_file(path)) return suffix == ".asc";
+  constexpr uint64_t kLookedAt = 4096;
+  const std::unique_ptr<ByteSource> file = open_file(path);
+  const std::vector<uint8_t> head = bytes_at(*file, 0, std::min(kLookedAt, file->size()));
+  return is_grid({reinterpret_cast<const char*>(head.data()), head.size()});
+}
+
 // A grid's well-known text stands in a file beside it. Empty: there is none.
 std::string system_file_of(const std::string& path) {
-  if (suffix_of(path) != ".asc") return "";
+  if (!is_grid_file(path)) return "";
   for (const char* const suffix : {".prj", ".PRJ"}) {
     const std::filesystem::path file = std::filesystem::path(path).replace_extension(suffix);
     std::error_code none;
@@ -45,17 +60,16 @@ Source import_grid(const std::string& path, const std::string& text) {
   return raster;
 }
 
+Source import_points_or_grid(const std::string& path, const std::string& text) {
+  if (is_grid(text)) return import_grid(path, text);
+  return import_points(path, text);
+}
+
 using Import = Source (*)(const std::string&, const std::string&);
 
 // By suffix. Null: none of these.
 Import importer_for(const std::string& suffix) {
-  const Import points = [](const auto& name, const auto& text) -> Source {
-    return import_points(name, text);
-  };
   const std::map<std::string, Import> importers = {
-      {".xyz", points},
-      {".csv", points},
-      {".txt", points},
       {".hgt",
        [](const auto& name, const auto& bytes) -> Source { return import_hgt(name, bytes); }},
       {".zip",
@@ -65,6 +79,7 @@ Import importer_for(const std::string& suffix) {
        [](const auto& name, const auto& bytes) -> Source { return import_ply(name, bytes); }},
       {".obj",
        [](const auto& name, const auto& text) -> Source { return import_obj(name, text); }}};
+  if (is_text_of_points(suffix)) return import_points_or_grid;
   const auto found = importers.find(suffix);
   return found == importers.end() ? nullptr : found->second;
 }
@@ -148,7 +163,7 @@ Source import_terrain(const std::string& path, const std::optional<ClassSet>& cl
   expect_source(path);
   if (is_laser_scan(suffix)) return import_las(path, read_file(path), classes);
   if (classes) throw Error(path + ": only .las files have classes");
-  if (path == "-") return import_points("standard input", read_file(path));
+  if (path == "-") return import_points_or_grid("standard input", read_file(path));
   const Import import = importer_for(suffix);
   if (import == nullptr) return import_other(path, indirect, band);
   return import(path, read_file(path));
@@ -158,7 +173,9 @@ OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& 
                         Indirect indirect, uint32_t band) {
   const std::string suffix = suffix_of(path);
   if (!classes && suffix == ".hgt") return open_hgt(path, open_file(path));
-  if (!classes && suffix == ".asc") return open_asc(path, open_file(path), reference_beside(path));
+  if (!classes && is_grid_file(path)) {
+    return open_asc(path, open_file(path), reference_beside(path));
+  }
   Source source = import_terrain(path, classes, indirect, band);
   if (auto* const cloud = std::get_if<PointCloud>(&source)) return std::move(*cloud);
   return std::make_unique<RasterInMemory>(std::move(std::get<Raster>(source)));

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -21,9 +22,10 @@ namespace microtin::importing {
 enum class Indirect { kRefused, kAllowed };
 
 // Reads a file by its suffix: .hgt, .zip (one .hgt), .asc (with a .prj beside it, if there is one),
-// .xyz, .csv, .txt (points), .las, .ply, .obj; in builds with GDAL all others by GDAL. "-" reads
-// points from standard input. `classes` are for .las alone; `band`, from 1 on, says which one of
-// several GDAL reads. Throws Error naming the file and, for text, the line.
+// .xyz, .csv, .txt (points, or a grid by what they begin with), .las, .ply, .obj; in builds with
+// GDAL all others by GDAL. "-" reads points from standard input. `classes` are for .las alone;
+// `band`, from 1 on, says which one of several GDAL reads. Throws Error naming the file and, for
+// text, the line.
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},
                       Indirect indirect = Indirect::kRefused, uint32_t band = 0);
 
@@ -47,10 +49,14 @@ OpenSource open_terrain(const std::string& path, const std::optional<ClassSet>& 
 // The formats, from a file's content. `name` goes into messages.
 
 // SRTM: a square of posts, 3601 in a row or any number from 2 on, of which the first and the last
-// lie a degree apart; big-endian metres from the north-west corner, -32768 where there is none. The
+// lie a degree apart, or 3601 or 1201 rows of fewer columns, 2, 3, 4 or 6 times as far apart, such
+// as 1801; big-endian metres from the north-west corner, -32768 where there is none. The
 // name's first seven characters (N43E007) place the south-west post.
 Raster import_hgt(const std::string& name, const std::string& bytes);
 std::unique_ptr<RasterReader> open_hgt(const std::string& name, std::unique_ptr<ByteSource> bytes);
+
+// Whether a text begins as an ESRI ASCII grid does, by a key of its header.
+bool is_grid(std::string_view text);
 
 // ESRI ASCII grid. Heights lie at the centres of cells. What it refers to stands elsewhere.
 Raster import_asc(const std::string& name, const std::string& text);
@@ -62,7 +68,7 @@ std::unique_ptr<RasterReader> open_asc(const std::string& name, std::unique_ptr<
 // header: it is one if none of its fields is a number. Where it names x and y (also easting,
 // longitude, lon; northing, latitude, lat) and z (height, elevation, altitude), it says which
 // columns these are; z is the third if it names none. Longitudes are degrees. All lines have the
-// same number of columns; others are ignored, but must hold numbers.
+// same number of columns; others are ignored, but must hold numbers unless they are named.
 PointCloud import_points(const std::string& name, const std::string& text);
 
 // Points of LAS 1.0 to 1.4, formats 0 to 10, with codes and units from GeoTIFF keys or well-known

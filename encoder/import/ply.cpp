@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // PLY, the Stanford polygon format: of its elements the vertices, of these x, y and z.
 // Ours: a reader that keeps the decimals of text as they are is not at hand.
+#include <algorithm>
 #include <array>
 
 #include "encoder/files/byte_reader.hpp"
@@ -42,7 +43,7 @@ enum class Encoding { kText, kLittleEndian, kBigEndian };
 class HeaderReader {
  public:
   HeaderReader(const std::string& name, std::string_view text)
-      : name_(name), rest_(without_mark(text)) {
+      : name_(name), rest_(without_mark(text)), line_end_(line_end_of(rest_)) {
     read();
   }
 
@@ -78,11 +79,20 @@ class HeaderReader {
     fail("the header does not end");
   }
 
+  // A binary body follows the last line at once, so that all lines must end as the first one does;
+  // the CR of CR LF is a blank.
+  static char line_end_of(std::string_view text) {
+    const size_t end = text.find_first_of("\r\n");
+    return end != text.npos && text[end] == '\r' && text.substr(end, 2) != "\r\n" ? '\r' : '\n';
+  }
+
   bool next_line() {
     if (rest_.empty()) return false;
     ++line_;
-    text_ = take_line(rest_);
-    split(text_, fields_);
+    const size_t end = std::min(rest_.find(line_end_), rest_.size());
+    text_ = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    split_at_blanks(text_, fields_);
     return true;
   }
 
@@ -124,6 +134,7 @@ class HeaderReader {
 
   const std::string& name_;
   std::string_view rest_, text_;  // text_: the line
+  char line_end_;
   size_t line_ = 0;
   std::vector<std::string_view> fields_;
   Reference reference_;
@@ -131,16 +142,24 @@ class HeaderReader {
   std::vector<Element> elements_;
 };
 
-// Where x, y and z stand among the properties of vertices.
+// Which property has a name; their number if none has.
+size_t property_named(const Element& element, char name) {
+  size_t at = 0;
+  const auto is_it = [&](const Property& property) {
+    return !property.list_count && property.name == std::string(1, name);
+  };
+  while (at < element.properties.size() && !is_it(element.properties[at])) ++at;
+  return at;
+}
+
+// Where x, y and z, or X, Y and Z, stand among the properties of vertices.
 std::array<size_t, 3> find_axes(const std::string& name, const Element& vertices) {
   std::array<size_t, 3> found{};
   for (size_t axis = 0; axis < 3; ++axis) {
-    size_t& at = found[axis];
-    const auto is_axis = [&](const Property& property) {
-      return !property.list_count && property.name == std::string(1, "xyz"[axis]);
-    };
-    while (at < vertices.properties.size() && !is_axis(vertices.properties[at])) ++at;
-    if (at == vertices.properties.size()) {
+    const size_t small = property_named(vertices, "xyz"[axis]);
+    const bool is_small = small < vertices.properties.size();
+    found[axis] = is_small ? small : property_named(vertices, "XYZ"[axis]);
+    if (found[axis] == vertices.properties.size()) {
       throw Error(name + ": its vertices have no property " + "xyz"[axis]);
     }
   }
@@ -167,7 +186,7 @@ class TextBody {
         const std::string_view word = fields_[values_[axes[axis]]];
         const std::optional<Decimal> value = parse_decimal(word);
         if (!value || !points.add(axis, *value)) {
-          fail_at(name_, line_, quoted(word) + " is not a number in range");
+          fail_at(name_, line_, not_a_number(word));
         }
       }
     }
@@ -179,7 +198,7 @@ class TextBody {
     do {
       if (rest_.empty()) fail_at(name_, line_, "the file ends before its elements do");
       ++line_;
-      split(take_line(rest_), fields_);
+      split_at_blanks(take_line(rest_), fields_);
     } while (fields_.empty());
   }
 

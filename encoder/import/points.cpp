@@ -20,7 +20,7 @@ struct Meaning {
 
 // Without quotes, the slashes that CloudCompare begins with, and a unit in brackets.
 std::string plain_name(std::string_view field) {
-  std::string name = lower_case(std::string(field.substr(0, field.find_first_of("(["))));
+  std::string name = lower_case(std::string(field.substr(0, field.find_first_of("([,;"))));
   const auto is_mark = [](char c) { return c == '"' || c == '/'; };
   name.erase(std::remove_if(name.begin(), name.end(), is_mark), name.end());
   return name;
@@ -78,17 +78,13 @@ class PointReader {
     ++line_;
     split(line, fields_);
     if (fields_.empty() || line[line.find_first_not_of(" \t\r\v\f")] == '#') return;
-    if (line.find(',') != line.npos && line.find(';') != line.npos) {
-      fail("commas and semicolons are mixed; decimals are written with a point");
-    }
     const bool first = !header_seen_ && columns_ == 0;
     if (first && is_header()) {
       split_names(line);
       return check_header();
     }
-    if (has_mixed_separators(line)) {
-      fail("commas and blanks are mixed; decimals are written with a point");
-    }
+    split_values(line);
+    check_columns(line);
     read_point();
   }
 
@@ -110,13 +106,81 @@ class PointReader {
   // Between commas or semicolons names may hold blanks; their first words count.
   void split_names(std::string_view line) {
     if (line.find_first_of(",;") == line.npos) return;
+    separator_ = line.find(';') == line.npos ? ',' : ';';
     std::vector<std::string_view> words;
-    fields_.clear();
-    while (!line.empty()) {
-      const size_t end = std::min(line.find_first_of(",;"), line.size());
-      split(line.substr(0, end), words);
-      fields_.push_back(words.empty() ? std::string_view() : words[0]);
-      line.remove_prefix(std::min(end + 1, line.size()));
+    split_at(separator_, line, fields_);
+    if (fields_.back().empty()) fields_.pop_back();
+    for (std::string_view& field : fields_) {
+      split_at_blanks(field, words);
+      field = words.empty() ? std::string_view() : words[0];
+    }
+  }
+
+  // By what separates the names, if there is any of it: so columns of text may hold all else.
+  void split_values(std::string_view line) {
+    if (separator_ != ' ' && line.find(separator_) != line.npos) {
+      split_at(separator_, line, fields_);
+      const bool ends_in_place = is_coordinate(names_ - 1) || fields_.size() > names_;
+      if (fields_.back().empty() && ends_in_place) fields_.pop_back();
+      return;
+    }
+    if (line.find(',') != line.npos && line.find(';') != line.npos) {
+      fail("commas and semicolons are mixed; decimals are written with a point");
+    }
+    if (has_mixed_separators(line)) {
+      fail("commas and blanks are mixed; decimals are written with a point");
+    }
+  }
+
+  bool is_coordinate(size_t column) const {
+    return std::find(axes_.begin(), axes_.end(), column) != axes_.end();
+  }
+
+  bool has_text() const {
+    for (size_t i = 0; i < fields_.size(); ++i) {
+      if (!is_coordinate(i) && !number_in(fields_[i])) return true;
+    }
+    return false;
+  }
+
+  // Whether what is between commas may be decimals: 5,07 and not 5, 7.
+  bool has_torn_decimals(std::string_view line) const {
+    if (line.find(',') == line.npos || line.find('.') != line.npos) return false;
+    return std::any_of(fields_.begin() + 1, fields_.end(), [](std::string_view field) {
+      return field.size() > 1 && field[0] == '0' &&
+             field.find_first_not_of("0123456789") == field.npos;
+    });
+  }
+
+  void check_columns(std::string_view line) {
+    if (columns_ == 0) columns_ = fields_.size();
+    if (fields_.size() < 2) fail("a point needs two or three numbers");
+    if (fields_.size() != columns_) {
+      fail(std::to_string(fields_.size()) + " columns after lines of " + std::to_string(columns_));
+    }
+    if (names_ != 0) {
+      check_names(separator_ == ',' && line.find(',') != line.npos);
+    } else if (columns_ > 3 && has_torn_decimals(line)) {
+      fail("a number after a comma begins with 0, as decimals do, which are written with a point");
+    }
+  }
+
+  // Whether the columns may be what the names say. One more is common, of a header that names
+  // coordinates alone; decimal commas make as many more as there are numbers, or fewer.
+  void check_names(bool by_commas) const {
+    const std::string under =
+        std::to_string(columns_) + " columns under " + std::to_string(names_) + " names";
+    if (columns_ < names_) {
+      fail(under + ": a number is missing, or blanks in names need commas between them");
+    }
+    if (columns_ == 2 * names_) fail(under + "; decimals are written with a point");
+    const bool names_others = names_ > 3 || !is_coordinate(names_ - 1);
+    const bool too_many = columns_ > names_ + (names_others ? 0 : 1);
+    if (by_commas && too_many) {
+      fail(under + "; decimals are written with a point, and texts with commas between quotes");
+    }
+    if (columns_ != names_ && has_text()) {
+      fail(under + ": texts with blanks need commas or semicolons between the columns");
     }
   }
 
@@ -154,28 +218,14 @@ class PointReader {
   }
 
   void read_point() {
-    if (columns_ == 0) columns_ = fields_.size();
-    if (fields_.size() < 2) fail("a point needs two or three numbers");
-    if (fields_.size() != columns_) {
-      fail(std::to_string(fields_.size()) + " columns after lines of " + std::to_string(columns_));
-    }
-    if (columns_ < names_) {
-      fail(std::to_string(columns_) + " columns under " + std::to_string(names_) +
-           " names: a number is missing, or blanks in names need commas between them");
-    }
-    if (names_ != 0 && columns_ == 2 * names_) {
-      fail(std::to_string(columns_) + " columns under " + std::to_string(names_) +
-           " names; decimals are written with a point");
-    }
-    values_.clear();
-    for (const std::string_view field : fields_) {
-      const std::optional<Decimal> value = number_in(field);
-      if (!value) fail_on(field);
-      values_.push_back(*value);
+    for (size_t i = 0; names_ == 0 && i < columns_; ++i) {
+      if (!number_in(fields_[i])) fail_on(fields_[i]);
     }
     for (size_t axis = 0; axis < 3; ++axis) {
       const size_t column = axes_[axis];
-      const Decimal value = column < columns_ ? values_[column] : Decimal{};
+      const auto given = column < columns_ ? number_in(fields_[column]) : Decimal{};
+      if (!given) fail_on(fields_[column]);
+      const Decimal value = *given;
       if (unit_ == Unit::kDegree) expect_degrees(axis, value);
       if (!points_.add(axis, value)) fail_on(fields_[column]);
     }
@@ -191,17 +241,15 @@ class PointReader {
          std::to_string(kMost[axis]) + " degrees: name the columns as they are, x,y,z for others");
   }
 
-  [[noreturn]] void fail_on(std::string_view field) const {
-    fail(quoted(field) + " is not a number in range");
-  }
+  [[noreturn]] void fail_on(std::string_view field) const { fail(not_a_number(field)); }
 
   const std::string& name_;
   size_t line_ = 0;
-  size_t columns_ = 0;  // 0 until the first point
-  size_t names_ = 0;    // of columns, if coordinates are among them
+  size_t columns_ = 0;    // 0 until the first point
+  size_t names_ = 0;      // of columns, if coordinates are among them
+  char separator_ = ' ';  // between these; blanks stand for themselves
   bool header_seen_ = false;
   std::vector<std::string_view> fields_;
-  std::vector<Decimal> values_;
   std::array<size_t, 3> axes_ = {0, 1, 2};  // columns of x, y and z
   Unit unit_ = Unit::kUnknown;
   PointColumns points_;

@@ -23,6 +23,14 @@ std::string quoted(std::string_view piece) {
   return '"' + text + (piece.size() > kMost ? "...\"" : "\"");
 }
 
+std::string remedy_for_commas(std::string_view piece) {
+  return piece.find(',') == piece.npos ? "" : "; decimals are written with a point";
+}
+
+std::string not_a_number(std::string_view word) {
+  return quoted(word) + " is not a number in range" + remedy_for_commas(word);
+}
+
 std::string not_a_height(double value) {
   char digits[32];
   const std::string text(
@@ -84,15 +92,46 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
   }
 }
 
+void split_at(char separator, std::string_view line, std::vector<std::string_view>& fields) {
+  const auto skip_blanks = [&line] {
+    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+  };
+  fields.clear();
+  for (bool more = true; more;) {
+    skip_blanks();
+    bool in_quotes = false;
+    size_t end = 0;
+    for (; end < line.size() && (in_quotes || line[end] != separator); ++end) {
+      if (line[end] == '"' && line[0] == '"') in_quotes = !in_quotes;
+    }
+    std::string_view field = line.substr(0, end);
+    while (!field.empty() && is_blank(field.back())) field.remove_suffix(1);
+    fields.push_back(field);
+    more = end < line.size();
+    line.remove_prefix(std::min(end + 1, line.size()));
+  }
+}
+
+void split_at_blanks(std::string_view line, std::vector<std::string_view>& fields) {
+  fields.clear();
+  for (size_t at = 0; at < line.size();) {
+    const size_t begin = at;
+    while (at < line.size() && !is_blank(line[at])) ++at;
+    if (at != begin) fields.push_back(line.substr(begin, at - begin));
+    while (at < line.size() && is_blank(line[at])) ++at;
+  }
+}
+
 std::string_view without_mark(std::string_view text) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
   return text.substr(text.substr(0, kByteOrderMark.size()) == kByteOrderMark ? 3 : 0);
 }
 
 std::string_view take_line(std::string_view& text) {
-  const size_t end = std::min(text.find('\n'), text.size());
+  const size_t end = std::min(text.find_first_of("\r\n"), text.size());
   const std::string_view line = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
+  const size_t end_bytes = text.substr(end, 2) == "\r\n" ? 2 : 1;
+  text.remove_prefix(std::min(end + end_bytes, text.size()));
   return line;
 }
 

@@ -18,6 +18,12 @@ namespace microtin::importing {
 // A piece of the input for a message: in quotes, printable, short.
 std::string quoted(std::string_view piece);
 
+// What is wrong with a word that stands where a number in range is needed, and what to do about it.
+std::string not_a_number(std::string_view word);
+
+// The remedy for decimal commas, to follow what is wrong; empty if there is no comma.
+std::string remedy_for_commas(std::string_view piece);
+
 // What is wrong with a binary number that is none of a raster's heights, and what to do if it marks
 // voids.
 std::string not_a_height(double value);
@@ -75,10 +81,17 @@ class PointColumns {
 // kept, unless it is the last.
 void split(std::string_view line, std::vector<std::string_view>& fields);
 
+// Splits a line at each of these separators, but for those between quotes around a whole field;
+// fields are without the blanks around them.
+void split_at(char separator, std::string_view line, std::vector<std::string_view>& fields);
+
+// Splits a line at runs of blanks alone.
+void split_at_blanks(std::string_view line, std::vector<std::string_view>& fields);
+
 // A text without the byte order mark that it may begin with.
 std::string_view without_mark(std::string_view text);
 
-// Takes the first line away from a text that is not empty; without its end.
+// Takes the first line away from a text that is not empty; without its end: LF, CR LF or CR.
 std::string_view take_line(std::string_view& text);
 
 }  // namespace microtin::importing

@@ -3,34 +3,24 @@
 #include <cmath>
 #include <string>
 
-#include "encoder/base/error.hpp"
-#include "encoder/exact/fraction.hpp"
+#include "encoder/base/error_context.hpp"
 #include "encoder/import/text.hpp"
+#include "encoder/import/transform.hpp"
 #include "microtin/encoder.hpp"
 
 namespace microtin::encoder {
 namespace {
 
 using base::Error;
-using exact::Decimal;
 
-Decimal place_of(double value) {
-  const std::optional<Decimal> place = exact::shortest_decimal(value, exact::kPlaceDecimals);
-  if (!place) throw Error("transform: a number is out of range");
-  return *place;
-}
-
-// Where the centres of cells lie, of which the first begins or, if their size is below 0, the last
-// ends at the corner.
 microtin_axis centres(double corner, double size, uint32_t cells) {
-  const Decimal length = place_of(std::fabs(size));
-  if (length.mantissa == 0) throw Error("transform: cells have no extent");
-  return exact::axis_of_cells(place_of(corner), length, size > 0 ? 1 : 1 - 2 * int64_t{cells});
+  return base::with_file_context(
+      "transform", [&] { return importing::axis_of_cells_from(corner, size, cells); });
 }
 
 template <class Number>
 Posts binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const Transform& t) {
-  if (t[2] != 0 || t[4] != 0 || !(t[1] > 0)) {
+  if (!runs_east(t)) {
     throw Error(
         "transform: columns must run east and rows north or south: WEST, WIDTH, 0, NORTH, 0, "
         "-HEIGHT, GDAL's order");
@@ -61,6 +51,10 @@ Posts binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const
 }
 
 }  // namespace
+
+bool runs_east(const Transform& transform) {
+  return importing::runs_east(transform);
+}
 
 Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform) {
   return binary_posts(columns, rows, heights, transform);

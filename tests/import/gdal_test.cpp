@@ -85,6 +85,12 @@ TEST_CASE("gdal: what cannot be read is refused with advice") {
         "\"gdal_translate IN OUT.tif\" makes a GeoTIFF of what is not read here\n");
 }
 
+TEST_CASE("gdal: skews that rounding leaves are none") {
+  const Grid grid;
+  CHECK(grid.read(vrt("500000, 10, 1e-18, 200, -1e-9, -10", "\"Int16\">")).x.offset == 500005);
+  CHECK(contains(grid.error(vrt("500000, 10, 1e-6, 200, 0, -10", "\"Int16\">")), "gdalwarp"));
+}
+
 TEST_CASE("gdal: rows from south to north") {
   const Grid grid;
   const Raster raster = grid.read(vrt("500000, 10, 0, 180, 0, 10", "\"Int16\">"));

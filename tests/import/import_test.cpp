@@ -183,6 +183,46 @@ TEST_CASE("hgt: other sizes and names are refused") {
   CHECK_NOTHROW(import_hgt("N43E007.SRTMGL3.hgt", bytes));
 }
 
+TEST_CASE("hgt: fewer columns than rows, as towards the poles") {
+  std::string bytes(size_t{2} * 1801 * 3601, '\0');
+  bytes[2 * 1801 * 3600 + 1] = '\x07';  // south-west post
+  const Raster raster = import_hgt("N55E010.hgt", bytes);
+  CHECK(raster.width == 1801);
+  CHECK(raster.height == 3601);
+  CHECK(raster.heights[0] == 7);
+  CHECK(raster.x.offset == 10 * 1800);
+  CHECK(raster.x.denominator == 1800);
+  CHECK(raster.y.offset == 55 * 3600);
+  CHECK(raster.y.denominator == 3600);
+  for (const size_t columns : {601U, 401U, 301U, 201U}) {
+    CHECK(import_hgt("N80E010.hgt", std::string(2 * columns * 1201, '\0')).width == columns);
+  }
+  CHECK(error_of(import_hgt, std::string(size_t{2} * 1800 * 3601, '\0')) ==
+        "grid: has 12963600 bytes; an .hgt file has two for each post of a square, as 25934402 for "
+        "3601 x 3601, or of 1801 x 3601 and the like towards the poles");
+}
+
+TEST_CASE("a grid is known by its content where its name may be that of points") {
+  const TemporaryFolder folder;
+  const std::string system = R"(PROJCS["WGS_1984_UTM_Zone_33N",UNIT["Meter",1.0]])";
+  std::ofstream(folder / "grid.prj") << system;
+  for (const char* const name : {"grid.txt", "grid.xyz", "grid.csv"}) {
+    const std::string path = folder / name;
+    std::ofstream(path) << "\n  " << kHeader << "1 2 3\n4 5 6\n";
+    const Raster raster = std::get<Raster>(import_terrain(path));
+    CHECK(raster.heights == std::vector<int64_t>{4, 5, 6, 1, 2, 3});
+    CHECK(raster.reference.horizontal_epsg == 32633);
+    const OpenSource opened = open_terrain(path);
+    const Raster& frame = std::get<std::unique_ptr<RasterReader>>(opened)->frame();
+    CHECK(frame.width == 3);
+    CHECK(frame.reference.horizontal_epsg == 32633);
+    CHECK(terrain_files(path, Indirect::kRefused).size() == 2);
+  }
+  CHECK(is_grid("NODATA_value -9\nncols 2"));
+  CHECK_FALSE(is_grid("x y z\n1 2 3"));
+  CHECK_FALSE(is_grid(""));
+}
+
 TEST_CASE("points: separators, comments, headers, two columns") {
   CHECK(points("1 2 3\n4\t5\t6\r\n7,8,9\n10;11;12\n") == "1,2,3 4,5,6 7,8,9 10,11,12");
   CHECK(points("  1 , 2 ,\n\n # x y\n 3  4") == "1,2,0 3,4,0");
@@ -203,6 +243,66 @@ TEST_CASE("points: separators, comments, headers, two columns") {
   CHECK(points("1 2 3 255 0.5\n4 5 6 0 1e-3\n") == "1,2,3 4,5,6");
   CHECK(import_points("cloud", "1.25 2 3.5").xy_decimals == 2);
   CHECK(import_points("cloud", "1.25 2 3.5").z_decimals == 1);
+}
+
+TEST_CASE("points: named columns are taken, whatever stands in others") {
+  CHECK(points("P,N,E,Z,D\n1,4500000.5,500000,100,edge of road\nB2,4500010,500010,101,\n"
+               "\"3\",4500020,500020,102,\"fence, wood \"\"old\"\"\"\n") ==
+        "5000000,45000005,100 5000100,45000100,101 5000200,45000200,102");
+  CHECK(points("Point;Northing;Easting;Elevation;Description\nA-1;2;1;3;tree, 4 m\nA-2;5;4;6;\n") ==
+        "1,2,3 4,5,6");
+  CHECK(points("code,\"Height, above sea\",x,y\nabc,3,1,2\n") == "1,2,3");
+  CHECK(points("P\tN\tE\tZ\tD\nb1\t2\t1\t3\ttree\n") == "1,2,3");
+  CHECK(points("id x y z\na1 1 2 3\n") == "1,2,3");
+  CHECK(points("x,y,z,remark\n1,2,3,nan\n") == "1,2,3");
+  CHECK(point_error("P,N,E,Z,D\n1,2,3,tree,4\n") == "cloud:2: \"tree\" is not a number in range");
+  const std::string quotes =
+      " names; decimals are written with a point, and texts with commas between quotes";
+  CHECK(point_error("P,N,E,Z,D\n1,2,3,4,fence, wood\n") == "cloud:2: 6 columns under 5" + quotes);
+  CHECK(point_error("P,N,E,Z,D\n1,4500000,25,500000,50,100,00,\n") ==
+        "cloud:2: 7 columns under 5" + quotes);
+  CHECK(point_error("P N E Z D\n1 2 3 4 edge of road\n") ==
+        "cloud:2: 7 columns under 5 names: texts with blanks need commas or semicolons between the "
+        "columns");
+  CHECK(point_error("P,N,E,Z,D\n1,2,3,4,5\n1,2,3,4\n") == "cloud:3: 4 columns after lines of 5");
+}
+
+TEST_CASE("points: decimal commas are refused, whatever separates the numbers") {
+  const std::string remedy = "; decimals are written with a point";
+  CHECK(point_error("P;N;E;Z;D\n1;4500000,25;500000,5;100,2;tree\n") ==
+        "cloud:2: \"500000,5\" is not a number in range" + remedy);
+  CHECK(point_error("x,y,z\n1,5,20,25,301\n") ==
+        "cloud:2: 5 columns under 3 names" + remedy + ", and texts with commas between quotes");
+  CHECK(point_error("500000,25,4500000,50,100,00\n") ==
+        "cloud:1: a number after a comma begins with 0, as decimals do, which are written with a "
+        "point");
+  CHECK(points("1.5,2.5,3.5,255,0,07\n") == "15,25,35");
+  CHECK(points("1,2,3,255,0,0\n") == "1,2,3");
+}
+
+TEST_CASE("texts whose lines end with CR alone") {
+  CHECK(points("x,y,z\r1,2,3\r\r4,5,6\r") == "1,2,3 4,5,6");
+  CHECK(point_error("1 2 3\r4 5 x\r\n") == "cloud:2: \"x\" is not a number in range");
+  std::string grid = kHeader + "1 2 3\n4 x 6\n";
+  std::replace(grid.begin(), grid.end(), '\n', '\r');
+  CHECK(grid_error(grid) == "grid:7: \"x\" is not a number in range");
+  grid[grid.rfind('x')] = '5';
+  CHECK(import_asc("grid", grid).heights == std::vector<int64_t>{4, 5, 6, 1, 2, 3});
+}
+
+TEST_CASE("asc: each axis goes by its own key, corner or centre") {
+  const std::string size = "ncols 2\nnrows 2\ncellsize 10\n", heights = "1 2\n3 4\n";
+  for (const bool x_centre : {false, true}) {
+    for (const bool y_centre : {false, true}) {
+      const Raster raster =
+          import_asc("grid", size + (x_centre ? "xllcenter 100\n" : "xllcorner 100\n") +
+                                 (y_centre ? "yllcenter 200\n" : "yllcorner 200\n") + heights);
+      CHECK(raster.x.offset == (x_centre ? 100 : 105));
+      CHECK(raster.y.offset == (y_centre ? 200 : 205));
+    }
+  }
+  CHECK(grid_error(size + "xllcenter 1\nxllcorner 1\nyllcorner 2\n" + heights) ==
+        "grid: xllcorner and xllcenter are both given: leave one");
 }
 
 TEST_CASE("points: places that are none on Earth are refused where columns are named so") {

@@ -2,6 +2,8 @@
 // Reading the vertices of meshes.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "encoder/import/import.hpp"
 #include "tests/support/binary_file.hpp"
 #include "tests/support/imports.hpp"
@@ -71,6 +73,41 @@ TEST_CASE("ply: binary, of either byte order and every type") {
   CHECK(single("ushort", uint16_t{65535}) == "65535,65535,65535");
   CHECK(single("int32", int32_t{-2000000000}) == "-2000000000,-2000000000,-2000000000");
   CHECK(single("uint", uint32_t{4000000000}) == "4000000000,4000000000,4000000000");
+}
+
+TEST_CASE("ply: coordinates in capitals, as QGIS names them") {
+  const std::string capitals = "element vertex 1\nproperty double X\nproperty double Y\n";
+  CHECK(ply(text_head(capitals + "property double Z\nend_header\n500000 4500000 100.5 \n")) ==
+        "500000,4500000,1005");
+  CHECK(ply(text_head(capitals + "property int x\nproperty int z\nend_header\n1 2 3 4\n")) ==
+        "3,2,4");
+}
+
+TEST_CASE("ply and obj: decimal commas are refused with the remedy") {
+  const std::string remedy = "\" is not a number in range; decimals are written with a point";
+  CHECK(obj_error("v 500000,25 4500000,50 100,00\nv 500010,75 4500000,25 101,00\n") ==
+        "mesh:1: \"500000,25" + remedy);
+  CHECK(obj_error("v 1 2 3\nv 1 2 3,5\n") == "mesh:2: \"3,5" + remedy);
+  CHECK(obj_error("v 1,2,3,4\n") == "mesh:1: a vertex needs three numbers");
+  const std::string one = text_head("element vertex 1\n" + kXyz + "end_header\n");
+  CHECK(ply_error(one + "1,5 2,5 3\n") == "mesh:8: \"1,5" + remedy);
+  const std::string six = "property int r\nproperty int g\nproperty int b\nend_header\n";
+  CHECK(ply_error(text_head("element vertex 1\n" + kXyz + six) + "1,5 2,5 3,5\n") ==
+        "mesh:11: the line does not hold the element's values");
+}
+
+TEST_CASE("ply and obj: lines that end with CR alone") {
+  CHECK(obj("v 1 2 3\rv 4 5 6\r") == "1,2,3 4,5,6");
+  std::string text = text_head("element vertex 2\n" + kXyz + "end_header\n1 2 3\n4 5 6\n");
+  std::string binary = BinaryFile(false)
+                           .add(binary_head(false, "element vertex 1\n" + kXyz + "end_header\n"))
+                           .bytes();
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  CHECK(ply(text) == "1,2,3 4,5,6");
+  std::replace(binary.begin(), binary.end(), '\n', '\r');
+  BinaryFile file;
+  file.add(binary).add(std::string("\n\0\0\0", 4)).add(2.0).add(int16_t{3});  // begins with LF
+  CHECK(ply(file.bytes()) != "");
 }
 
 TEST_CASE("ply: whatever is wrong is told, in text with its line") {

@@ -203,6 +203,10 @@ TEST_CASE("binary numbers: what is refused, and where") {
     return posts_of(kColumns, kRows, heights.data(), t);
   };
   CHECK(posts(kTransform).decimals == 1);
+  CHECK(posts({0, 1, 1e-18, 0, -1e-9, -1}).x.offset == posts({0, 1, 0, 0, 0, -1}).x.offset);
+  CHECK_THROWS(posts({0, 1, 2e-9, 0, 0, -1}));
+  CHECK_THROWS(posts({0, 1000, 0, 0, -2e-9, -1}));
+  CHECK_THROWS(posts({0, 1, std::nan(""), 0, 0, -1}));
   CHECK_THROWS_WITH(posts({0, 1, 0.5, 0, 0, -1}),
                     "transform: columns must run east and rows north or south: WEST, WIDTH, 0, "
                     "NORTH, 0, -HEIGHT, GDAL's order");

@@ -55,6 +55,11 @@ struct Points {
  * is none; the transform is GDAL's, from the outer corner of the first cell: x, width of a cell, 0,
  * y, 0, its height, below 0 if row 0 is the northernmost. Cells are not rotated. */
 using Transform = std::array<double, 6>;
+
+/* Whether columns run east and rows north or south; skews of up to 10^-9 of a cell are what
+ * rounding leaves, and count as none. posts_of throws for all others. */
+bool runs_east(const Transform& transform);
+
 Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform);
 Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform);
 
