@@ -7,11 +7,15 @@
 #include "shared/compiler.hpp"
 
 #if defined(__SSE2__) && defined(__x86_64__) && !defined(__OPTIMIZE_SIZE__)
-#if defined(__has_include)
-#if __has_include(<stdlib.h>)  // gcc's emmintrin.h includes it
 #define MICROTIN_PAIRS
+// gcc's emmintrin.h includes mm_malloc.h, for which a freestanding <stdlib.h> has no malloc, or is
+// not there. Nothing here allocates.
+#if !defined(__clang__) && !__STDC_HOSTED__ && !defined(_MM_MALLOC_H_INCLUDED)
+#define _MM_MALLOC_H_INCLUDED
 #include <emmintrin.h>
-#endif
+#undef _MM_MALLOC_H_INCLUDED
+#else
+#include <emmintrin.h>
 #endif
 #elif defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32) && !defined(__OPTIMIZE_SIZE__)
 #define MICROTIN_PAIRS

@@ -7,6 +7,8 @@
 #include <charconv>
 #include <limits>
 
+#include "encoder/base/real_number.hpp"
+
 namespace microtin::exact {
 namespace {
 
@@ -138,10 +140,7 @@ std::string to_string(Decimal value) {
 }
 
 double real(Decimal value) {
-  const std::string text = to_string(value);
-  double nearest = 0;
-  std::from_chars(text.data(), text.data() + text.size(), nearest);
-  return nearest;
+  return real_number(to_string(value)).value_or(0);
 }
 
 }  // namespace microtin::exact

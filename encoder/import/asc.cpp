@@ -2,11 +2,11 @@
 // ESRI ASCII grids, read whole or in rectangles.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 #include <utility>
 
 #include "encoder/base/error_context.hpp"
+#include "encoder/base/real_number.hpp"
 #include "encoder/base/suffix.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/import/import.hpp"
@@ -140,9 +140,7 @@ bool is_known(std::string_view key) {
 
 // Of any size, infinite ones too.
 bool is_number(std::string_view word) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  return error == std::errc() && end == word.data() + word.size();
+  return real_number(word).has_value();
 }
 
 // As printf writes what is not a number.

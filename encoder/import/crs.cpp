@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "encoder/base/real_number.hpp"
 #include "encoder/base/suffix.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/import/epsg.hpp"
@@ -55,17 +56,15 @@ uint32_t code_of(const std::string& text) {
 
 // By its length in metres.
 Unit length_unit(const std::string& text) {
-  double metres = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), metres);
-  return result.ec == std::errc() ? unit_of_metres(metres) : Unit::kUnknown;
+  const std::optional<double> metres = real_number(text);
+  return metres ? unit_of_metres(*metres) : Unit::kUnknown;
 }
 
 // By its radians.
 Unit angular_unit(const std::string& text) {
   constexpr double kDegree = 0.017453292519943295, kAlike = 1e-9;
-  double radians = 0;
-  const auto result = std::from_chars(text.data(), text.data() + text.size(), radians);
-  const bool is_degree = result.ec == std::errc() && std::abs(radians - kDegree) < kAlike;
+  const std::optional<double> radians = real_number(text);
+  const bool is_degree = radians && std::abs(*radians - kDegree) < kAlike;
   return is_degree ? Unit::kDegree : Unit::kUnknown;
 }
 
