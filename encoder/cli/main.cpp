@@ -61,6 +61,10 @@ int run(int argc, char** argv) {
   add_fractal(app, action);
   add_render(app, action);
   add_documents(app, action);
+  if (argc <= 1) {
+    std::fputs(app.help().c_str(), stderr);
+    return kUsage;
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

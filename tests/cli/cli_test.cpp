@@ -514,8 +514,7 @@ TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
 TEST_CASE("cli: wrong usage is told apart") {
   const Session session;
   session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n");
-  for (const char* arguments : {"",
-                                "frobnicate",
+  for (const char* arguments : {"frobnicate",
                                 "encode",
                                 "encode ok.xyz",
                                 "encode ok.xyz -o o --degree 5",

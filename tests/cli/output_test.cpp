@@ -329,4 +329,12 @@ TEST_CASE("cli: the help tells the exit codes") {
   }
 }
 
+TEST_CASE("cli: the program alone prints its help on standard error, as wrong usage") {
+  const Session session;
+  const Session::Result alone = session.run("");
+  CHECK(alone.code == 2);
+  CHECK(alone.out.empty());
+  CHECK(alone.err == session.run("--help").out);
+}
+
 }  // namespace microtin::tests
