@@ -15,6 +15,7 @@
 #include "encoder/cli/options.hpp"
 #include "encoder/product/reference.hpp"
 #include "encoder/stream/device_ram.hpp"
+#include "microtin/encoder.hpp"
 #include "microtin/microtin.h"
 #include "shared/format.hpp"
 
@@ -71,7 +72,9 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
   CLI::Option* const tile =
       command
           .add_option("--tile-vertices", request.tile_vertices,
-                      "Write a pack of tiles with at most so many vertices each")
+                      "Write a pack of tiles with at most so many vertices each. For a .mtp file without "
+                  "--device-ram the default is " +
+                      std::to_string(encoder::kUsualTileVertices))
           ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
           ->excludes(&vertices)
           ->excludes(&bytes);

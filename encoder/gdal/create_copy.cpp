@@ -25,6 +25,7 @@ bool ends_with(const std::string& text, const char* end) {
 }
 
 uint32_t tile_vertices(const char* text) {
+  if (text == nullptr) return encoder::kUsualTileVertices;
   const GIntBig most = CPLAtoGIntBig(text);
   if (CPLGetValueType(text) != CPL_VALUE_INTEGER || most < 16 ||
       most > std::numeric_limits<uint32_t>::max()) {
@@ -160,7 +161,7 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
   }
   if (STARTS_WITH(path, "/vsi")) refuse("packs are written to files alone, not to /vsi...");
   auto options = options_of<encoder::PackOptions>(source, given);
-  options.tile_vertices = tile_vertices(CSLFetchNameValueDef(given, "TILE_VERTICES", "2000"));
+  options.tile_vertices = tile_vertices(CSLFetchNameValue(given, "TILE_VERTICES"));
   return encoder::encode_pack(terrain, options, path, callbacks);
 }
 

@@ -2,6 +2,9 @@
 // What GDAL calls when it has loaded the plugin.
 #include <microtin/microtin.h>
 
+#include <microtin/encoder.hpp>
+#include <string>
+
 #include "encoder/gdal/dataset.hpp"
 
 extern "C" CPL_DLL void GDALRegister_MTIN();
@@ -25,8 +28,8 @@ void GDALRegister_MTIN() {
       "<Option name='CELL_SIZE' type='string' description='Size of the raster&apos;s cells in "
       "units of x and y, if not that of the source'/>"
       "</OpenOptionList>");
-  driver->SetMetadataItem(
-      GDAL_DMD_CREATIONOPTIONLIST,
+  const std::string usual_vertices = std::to_string(microtin::encoder::kUsualTileVertices);
+  const std::string creation_options =
       "<CreationOptionList>"
       "<Option name='MAX_ERROR' type='string' description='Largest error of any height, in its "
       "unit; without, every height is kept'/>"
@@ -38,9 +41,11 @@ void GDALRegister_MTIN() {
       "<Value>QUICK</Value><Value>BALANCED</Value><Value>DENSE</Value></Option>"
       "<Option name='UNITS' type='string' description='Units of x and y and of heights, such as "
       "degree:metre or :foot'/>"
-      "<Option name='TILE_VERTICES' type='int' default='2000' description='Of packs: vertices of "
-      "a tile at most'/>"
-      "</CreationOptionList>");
+      "<Option name='TILE_VERTICES' type='int' default='" +
+      usual_vertices +
+      "' description='Of packs: vertices of a tile at most'/>"
+      "</CreationOptionList>";
+  driver->SetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST, creation_options.c_str());
   driver->pfnIdentify = microtin::gdal::identify;
   driver->pfnOpen = microtin::gdal::Dataset::open;
   driver->pfnCreateCopy = microtin::gdal::create_copy;

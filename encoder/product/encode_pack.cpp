@@ -14,13 +14,14 @@
 #include "encoder/product/true_bound.hpp"
 #include "encoder/terrain/duplicates.hpp"
 #include "encoder/terrain/true_places.hpp"
+#include "microtin/encoder.hpp"
 
 namespace microtin::product {
 namespace {
 
 uint32_t tile_vertices(const EncodeOptions& options, bool is_narrow) {
   if (options.tile_vertices != 0) return options.tile_vertices;
-  if (options.device_ram == 0) throw Error("a pack needs --tile-vertices or --device-ram");
+  if (options.device_ram == 0) return encoder::kUsualTileVertices;
   const uint32_t vertices = vertices_for_ram(options.device_ram, is_narrow);
   if (vertices < kFewestTileVertices) {
     const uint64_t tile = promised_compact_bytes(kFewestTileVertices, false, 16);

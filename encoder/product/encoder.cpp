@@ -270,9 +270,9 @@ Report encode_pack(const Terrain& terrain, const PackOptions& options, const std
                    const Callbacks& callbacks) {
   product::EncodeOptions all = options_of(options);
   expect(!options.never_below || all.lattice.max_error, "never_below needs max_error");
-  expect(
-      options.tile_vertices >= pack::kFewestTileVertices && options.tile_vertices <= kMaxVertices,
-      "tile_vertices: 16 .. 2^24");
+  expect(options.tile_vertices == 0 || (options.tile_vertices >= pack::kFewestTileVertices &&
+                                        options.tile_vertices <= kMaxVertices),
+         "tile_vertices: 16 .. 2^24, or 0 for the usual number");
   all.tile_vertices = options.tile_vertices;
   all.tile_steps = options.tile_steps;
   files::OutputFile out(path);

@@ -9,11 +9,13 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "encoder/files/input_file.hpp"
 #include "encoder/product/document.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace microtin::encoder;
+using microtin::files::read_file;
 using microtin::product::Document;
 using microtin::tests::TemporaryFolder;
 
@@ -151,6 +153,22 @@ TEST_CASE("library: packs are files, whole or not there") {
   CHECK(document.vertices() == report.vertices);
   CHECK(document.tiles() == report.tiles);
   CHECK(document.model().triangles.size() > 100);
+}
+
+TEST_CASE("library: a pack without a number of vertices has tiles of the usual one") {
+  const TemporaryFolder folder;
+  const Terrain terrain(noisy_dome(70));
+  PackOptions options;
+  options.max_error = "0";
+  options.search = Search::kFast;
+  const Report report = encode_pack(terrain, options, folder / "usual.mtp");
+  CHECK(report.tiles > 1);
+  options.tile_vertices = kUsualTileVertices;
+  encode_pack(terrain, options, folder / "same.mtp");
+  CHECK(read_file(folder / "usual.mtp") == read_file(folder / "same.mtp"));
+  options.tile_vertices = 15;
+  CHECK_THROWS_WITH(encode_pack(terrain, options, folder / "few.mtp"),
+                    "tile_vertices: 16 .. 2^24, or 0 for the usual number");
 }
 
 TEST_CASE("library: work that is cancelled leaves nothing") {

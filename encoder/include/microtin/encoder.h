@@ -75,7 +75,7 @@ typedef struct microtin_options {
   uint32_t horizontal_epsg, vertical_epsg;
   const char *source, *date, *lineage;
   uint32_t max_vertices, max_bytes;            /* of streams alone */
-  uint32_t tile_vertices, tile_steps;          /* of packs alone, the first of them needed */
+  uint32_t tile_vertices, tile_steps;          /* of packs alone */
   int (*progress)(void* context, double done); /* 0 .. 1; returns 1 to cancel. May be null */
   void* context;
 } microtin_options;

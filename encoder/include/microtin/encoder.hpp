@@ -128,8 +128,11 @@ struct StreamOptions : Options {
   uint32_t max_bytes = 0;    /* the smallest bound that so many bytes allow; without both */
 };
 
+/* Of a tile at most, if a pack's options set neither a number of vertices nor a device's memory. */
+constexpr uint32_t kUsualTileVertices = 2000;
+
 struct PackOptions : Options {
-  uint32_t tile_vertices = 0; /* of a tile at most: 16 .. 2^24 */
+  uint32_t tile_vertices = 0; /* of a tile at most: 16 .. 2^24; 0: kUsualTileVertices */
   uint32_t tile_steps = 0;    /* extent of a tile of posts; 0: to be chosen */
 };
 
@@ -171,8 +174,7 @@ struct Callbacks {
 Stream encode_stream(const Terrain& terrain, const StreamOptions& options,
                      const Callbacks& callbacks = {});
 
-/* Writes a file that appears complete or not at all. Options other than tile_vertices may be left
- * as they are. The memory that it needs beside the terrain is that of a few tiles for posts, a few
+/* Writes a file that appears complete or not at all. The memory that it needs beside the terrain is that of a few tiles for posts, a few
  * hundred bytes a point for points. */
 Report encode_pack(const Terrain& terrain, const PackOptions& options, const std::string& path,
                    const Callbacks& callbacks = {});

@@ -137,7 +137,7 @@ def encode_pack(
     path: Path,
     max_error: Optional[Number] = None,
     *,
-    tile_vertices: int,
+    tile_vertices: int = 0,
     tile_steps: int = 0,
     points: bool = False,
     transform: Optional[Sequence[float]] = None,
@@ -146,8 +146,8 @@ def encode_pack(
     **options: Any,
 ) -> Report:
     """Encodes a raster, or with points=True points, as a pack of tiles and writes it to a .mtp file, which appears complete
-    or not at all. No tile has more than `tile_vertices` (16 .. 2^24) vertices; `tile_steps` fixes the extent of a raster's
-    tiles. All else is as for `encode`."""
+    or not at all. No tile has more than `tile_vertices` (16 .. 2^24, default 2000) vertices; `tile_steps` fixes the extent of
+    a raster's tiles. All else is as for `encode`."""
     filled, caller = _options(max_error, crs, tile_vertices=tile_vertices, tile_steps=tile_steps, **options)
     report = _library.Report()
     made = _terrain_of_points(array, crs) if points else _terrain_of_array(array, transform, crs, nodata)
