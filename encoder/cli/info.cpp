@@ -9,6 +9,7 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/stream/compact_form.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
 #include "microtin/compact_pack.h"
@@ -148,9 +149,15 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
   }
 }
 
-JsonObject report_of(const DecodedStream& stream) {
+// Of a terrain in compact form, on a device with numbers as wide as it needs.
+uint64_t compact_bytes(DecodedTerrain& terrain) {
+  const CompactForm form = measured_form(terrain.mesh());
+  return bytes_of(form, index_bits(form.vertices));
+}
+
+JsonObject report_of(DecodedStream& stream) {
   const Header header = read_header(stream.bytes);
-  const DecodedTerrain& terrain = stream.terrain;
+  DecodedTerrain& terrain = stream.terrain;
   const size_t bytes = stream.bytes.size();
   const uint32_t vertices = header.info.vertices;
   const uint32_t voids = count_triangles(terrain.mesh(), MICROTIN_VOID);
@@ -165,6 +172,7 @@ JsonObject report_of(const DecodedStream& stream) {
                        {"phases", json(terrain.phases())},
                        {"degree", json(header.info.degree)},
                        {"decoding", json(stream::name_of(header.contract.decoding))},
+                       {"compact_bytes", json(compact_bytes(terrain))},
                        {"workspace_bytes_16", workspace_bytes_16(vertices)},
                        {"workspace_bytes_32", json(MICROTIN_MESH_BYTES_FOR(vertices, 32) +
                                                    MICROTIN_DECODER_BYTES_FOR(vertices, 32))}};
@@ -254,7 +262,7 @@ std::string text_of_pack(const PackFile& pack, bool as_json) {
 
 void run_info(const std::string& input, bool json) {
   refuse_overwriting({input}, "-");
-  const Document document(input);
+  Document document(input);
   if (document.pack() != nullptr) {
     print(with_file_context(input, [&] { return text_of_pack(*document.pack(), json); }));
   } else {

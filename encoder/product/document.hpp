@@ -40,6 +40,7 @@ class Document {
   // What it is: one of them is not null.
   const PackFile* pack() const { return std::get_if<PackFile>(&content_); }
   const DecodedStream* stream() const { return std::get_if<DecodedStream>(&content_); }
+  DecodedStream* stream() { return std::get_if<DecodedStream>(&content_); }
 
   Metadata metadata() const;
   uint64_t bytes() const;

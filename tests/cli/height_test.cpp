@@ -125,3 +125,18 @@ TEST_CASE("info: the memory that a device needs for a pack, and the macro that t
   CHECK(contains(info, "\"workspace_bytes_32\": " +
                            std::to_string(MICROTIN_PACK_BYTES_FOR(4, uint64_t{most}, 32))));
 }
+
+TEST_CASE("info: a stream takes as much in compact form as a pack of that one tile says") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 33 --seed 5 -o t.asc").code == 0);
+  REQUIRE(session.run("encode t.asc -o t.mtin").code == 0);
+  REQUIRE(session.run("encode t.asc -o t.mtp").code == 0);
+  const auto compact_bytes = [&](const std::string& file) {
+    const std::string info = session.run("info " + file).out, key = "\ncompact_bytes: ";
+    const size_t at = info.find(key);
+    REQUIRE(at != std::string::npos);
+    return std::stoul(info.substr(at + key.size()));
+  };
+  CHECK(compact_bytes("t.mtin") == compact_bytes("t.mtp"));
+  CHECK(compact_bytes("t.mtin") > 8 * 33 * 33);
+}
