@@ -3,9 +3,12 @@
 #include "encoder/cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "encoder/base/suffix.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/completion.hpp"
 #include "encoder/cli/definitions.hpp"
@@ -25,6 +28,22 @@ void add_document(CLI::App& parent, const std::string& name, const CLI::App& app
                   std::string (*writer)(const CommandText& program)) {
   parent.add_subcommand(name)->group(kHidden)->callback(
       [&app, &action, writer] { action = [&app, writer] { print(writer(describe(app))); }; });
+}
+
+// A list of sources takes the stream that follows it, which is none of them.
+void take_stream_from_sources(RenderRequest& request) {
+  if (!request.input.empty() || request.source.empty()) return;
+  std::vector<std::string> files = request.preparation.more_files;
+  files.insert(files.begin(), request.source);
+  const auto stream = std::find_if(files.begin(), files.end(), [](const std::string& file) {
+    return suffix_of(file) == ".mtin" || suffix_of(file) == ".mtp";
+  });
+  if (stream == files.end()) return;
+  request.input = *stream;
+  files.erase(stream);
+  if (files.empty()) throw CLI::ArgumentMismatch("--source: names no terrain");
+  request.source = files.front();
+  request.preparation.more_files.assign(files.begin() + 1, files.end());
 }
 
 }  // namespace
@@ -151,7 +170,7 @@ void add_render(CLI::App& app, Action& action) {
   auto request = std::make_shared<RenderRequest>();
   CLI::App& command =
       *app.add_subcommand("render", "Draw a terrain (.png, .svg), or a page that shows it (.html)");
-  add_stream(command, request->input);
+  add_stream(command, request->input)->required(false);  // as far as CLI11 can see
   add_output(command, request->output);
   command.add_option("--width", request->width, "Pixels in a row")
       ->check(CLI::Range(kNarrowest, kWidest))
@@ -179,10 +198,13 @@ void add_render(CLI::App& app, Action& action) {
   command.add_flag("--world-file", request->world,
                    "Write beside the picture, as .pgw, where its map lies");
   add_terrain(command, request->source, request->preparation, "--source",
-              "Draw a map of the errors against this terrain; of several files once for each")
-      ->allow_extra_args(false);
+              "Draw a map of the errors against this terrain: a file, several, or a folder of them");
   add_preparation(command, request->preparation);
-  command.callback([request, &action] { action = [request] { run_render(*request); }; });
+  command.callback([request, &action] {
+    take_stream_from_sources(*request);
+    if (request->input.empty()) throw CLI::RequiredError("stream");
+    action = [request] { run_render(*request); };
+  });
 }
 
 void add_documents(CLI::App& app, Action& action) {

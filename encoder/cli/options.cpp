@@ -50,8 +50,8 @@ void add_output(CLI::App& command, std::string& path, const std::string& descrip
       ->transform(plain_output);
 }
 
-void add_stream(CLI::App& command, std::string& path, const std::string& description) {
-  command.add_option("stream", path, description)->required()->type_name(kFile);
+CLI::Option* add_stream(CLI::App& command, std::string& path, const std::string& description) {
+  return command.add_option("stream", path, description)->required()->type_name(kFile);
 }
 
 CLI::Option* add_terrain(CLI::App& command, std::string& path, Preparation& preparation,

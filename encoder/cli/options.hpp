@@ -21,13 +21,13 @@ namespace microtin::cli {
 void add_output(CLI::App& command, std::string& path,
                 const std::string& description = "File to write; - is standard output");
 
-void add_stream(CLI::App& command, std::string& path,
-                const std::string& description = "A stream (.mtin) or a pack (.mtp)");
+CLI::Option* add_stream(CLI::App& command, std::string& path,
+                        const std::string& description = "A stream (.mtin) or a pack (.mtp)");
 
 // One or several files, or folders of them, that make up one terrain.
 void add_terrain(CLI::App& command, std::string& path, Preparation& preparation);
 
-// The same by an option, given once for each file.
+// The same by an option.
 CLI::Option* add_terrain(CLI::App& command, std::string& path, Preparation& preparation,
                          const std::string& name, const std::string& description);
 

@@ -95,6 +95,16 @@ TEST_CASE("mosaic: a folder of SRTM cells") {
   CHECK(session.run("render --source cells/N43E007.hgt --source cells/N43E008.hgt t.mtp -o u.png")
             .code == 0);
   CHECK(session.read("t.png") == session.read("u.png"));
+  for (const char* const order :
+       {"t.mtp --source cells/*.hgt -o v.png", "--source cells/*.hgt t.mtp -o v.png",
+        "-o v.png --source cells t.mtp", "--source cells/N43E007.hgt t.mtp -o v.png --source "
+                                         "cells/N43E008.hgt"}) {
+    fs::remove(session.folder() + "/v.png");
+    CHECK_MESSAGE(session.run(std::string("render ") + order).code == 0, order);
+    CHECK_MESSAGE(session.read("t.png") == session.read("v.png"), order);
+  }
+  CHECK(session.failure("render --source cells/N43E007.hgt -o w.png", 2) == "stream is required\n");
+  CHECK(session.failure("render --source t.mtp -o w.png", 2) == "--source: names no terrain\n");
   fs::create_directory(session.folder() + "/empty");
   CHECK(contains(session.failure("encode empty -o e.mtin"), "empty: holds no terrain file"));
 }
