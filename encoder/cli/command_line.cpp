@@ -197,8 +197,9 @@ void add_render(CLI::App& app, Action& action) {
   command.add_flag("--north-arrow", request->north_arrow, "An arrow to the north, which is up");
   command.add_flag("--world-file", request->world,
                    "Write beside the picture, as .pgw, where its map lies");
-  add_terrain(command, request->source, request->preparation, "--source",
-              "Draw a map of the errors against this terrain: a file, several, or a folder of them");
+  add_terrain(
+      command, request->source, request->preparation, "--source",
+      "Draw a map of the errors against this terrain: a file, several, or a folder of them");
   add_preparation(command, request->preparation);
   command.callback([request, &action] {
     take_stream_from_sources(*request);

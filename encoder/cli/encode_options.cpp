@@ -71,10 +71,11 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
                CLI::Option& bytes) {
   CLI::Option* const tile =
       command
-          .add_option("--tile-vertices", request.tile_vertices,
-                      "Write a pack of tiles with at most so many vertices each. For a .mtp file without "
-                  "--device-ram the default is " +
-                      std::to_string(encoder::kUsualTileVertices))
+          .add_option(
+              "--tile-vertices", request.tile_vertices,
+              "Write a pack of tiles with at most so many vertices each. For a .mtp file without "
+              "--device-ram the default is " +
+                  std::to_string(encoder::kUsualTileVertices))
           ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
           ->excludes(&vertices)
           ->excludes(&bytes);

@@ -61,13 +61,13 @@ int run(int argc, char** argv) {
   add_fractal(app, action);
   add_render(app, action);
   add_documents(app, action);
-  if (argc <= 1) {
-    std::fputs(app.help().c_str(), stderr);
-    return kUsage;
-  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (argc <= 1) {
+      std::fputs(app.help().c_str(), stderr);
+      return kUsage;
+    }
     if (error.get_exit_code() != 0) return fail(error.what(), kUsage);
     std::ostringstream help;  // was asked for
     app.exit(error, help);

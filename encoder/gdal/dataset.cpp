@@ -171,7 +171,10 @@ int identify(GDALOpenInfo* info) {
 GDALDataset* Dataset::open(GDALOpenInfo* info) {
   if (identify(info) == FALSE || info->fpL == nullptr) return nullptr;
   if (info->eAccess == GA_Update) {
-    CPLError(CE_Failure, CPLE_NotSupported, "MTIN: files are not updated; translate them");
+    // Programs that try this first, as ogrinfo and QGIS do, go on to read and want no error.
+    if ((info->nOpenFlags & GDAL_OF_VERBOSE_ERROR) != 0) {
+      CPLError(CE_Failure, CPLE_NotSupported, "MTIN: files are not updated; translate them");
+    }
     return nullptr;
   }
   return guarded(

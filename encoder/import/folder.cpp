@@ -17,6 +17,11 @@ namespace fs = std::filesystem;
 
 using FilesBySuffix = std::map<std::string, std::vector<std::string>>;
 
+// The suffix that counts: a format may have two.
+std::string counted(const std::string& suffix) {
+  return suffix == ".tiff" ? ".tif" : suffix;
+}
+
 FilesBySuffix terrain_files_in(const std::string& folder) {
   FilesBySuffix by_suffix;
   std::error_code error;
@@ -24,7 +29,9 @@ FilesBySuffix terrain_files_in(const std::string& folder) {
   if (error) throw Error(folder + ": cannot be read: " + error.message());
   for (const auto& entry : entries) {
     const std::string path = entry.path().string(), suffix = suffix_of(path);
-    if (is_terrain_suffix(suffix) && is_regular_file(path)) by_suffix[suffix].push_back(path);
+    if (is_terrain_suffix(suffix) && is_regular_file(path)) {
+      by_suffix[counted(suffix)].push_back(path);
+    }
   }
   return by_suffix;
 }

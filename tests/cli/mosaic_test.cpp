@@ -97,8 +97,9 @@ TEST_CASE("mosaic: a folder of SRTM cells") {
   CHECK(session.read("t.png") == session.read("u.png"));
   for (const char* const order :
        {"t.mtp --source cells/*.hgt -o v.png", "--source cells/*.hgt t.mtp -o v.png",
-        "-o v.png --source cells t.mtp", "--source cells/N43E007.hgt t.mtp -o v.png --source "
-                                         "cells/N43E008.hgt"}) {
+        "-o v.png --source cells t.mtp",
+        "--source cells/N43E007.hgt t.mtp -o v.png --source "
+        "cells/N43E008.hgt"}) {
     fs::remove(session.folder() + "/v.png");
     CHECK_MESSAGE(session.run(std::string("render ") + order).code == 0, order);
     CHECK_MESSAGE(session.read("t.png") == session.read("v.png"), order);

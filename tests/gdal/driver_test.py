@@ -75,6 +75,14 @@ class Driver(unittest.TestCase):
         numpy.testing.assert_array_equal(array == band.GetNoDataValue(), VOID)
         self.assertLessEqual(numpy.abs(array - hills())[~VOID].max(), BOUND + ROUNDING)
 
+    def test_opens_that_try_to_update_first_end_in_reading_without_an_error(self):
+        for name in ("hills.mtin", "hills.mtp"):
+            opened = subprocess.run(["ogrinfo", self.path(name)], check=True, capture_output=True, text=True)
+            self.assertEqual(opened.stderr, "")
+            self.assertIn("vertices", opened.stdout)
+            with self.assertRaisesRegex(RuntimeError, "files are not updated; translate them"):
+                gdal.OpenEx(self.path(name), gdal.OF_VECTOR | gdal.OF_UPDATE)
+
     def test_raster(self):
         for path in self.both():
             dataset = gdal.Open(path)

@@ -98,6 +98,20 @@ TEST_CASE("gdal: rows from south to north") {
   CHECK(raster.y.offset == 185);
 }
 
+TEST_CASE("gdal: a folder's .tif and .tiff files are one terrain") {
+  const Session session;
+  session.write("w.asc", "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1\n1 2\n3 4\n");
+  session.write("e.asc", "ncols 2\nnrows 2\nxllcenter 2\nyllcenter 0\ncellsize 1\n5 6\n7 8\n");
+  REQUIRE(session
+              .shell("mkdir cells && gdal_translate -q w.asc cells/w.tif && "
+                     "gdal_translate -q -of GTiff e.asc cells/e.TIFF")
+              .code == 0);
+  const Session::Result encoded = session.run("encode cells --units metre -o t.mtin");
+  CHECK(encoded.code == 0);
+  CHECK(contains(encoded.out, "source: 8 posts, 2 files"));
+  CHECK(!contains(encoded.err, "left out"));
+}
+
 TEST_CASE("gdal: masks make voids, one of several bands is chosen") {
   const Grid grid;
   const Session& session = grid.session;

@@ -174,8 +174,8 @@ struct Callbacks {
 Stream encode_stream(const Terrain& terrain, const StreamOptions& options,
                      const Callbacks& callbacks = {});
 
-/* Writes a file that appears complete or not at all. The memory that it needs beside the terrain is that of a few tiles for posts, a few
- * hundred bytes a point for points. */
+/* Writes a file that appears complete or not at all. The memory that it needs beside the terrain is
+ * that of a few tiles for posts, a few hundred bytes a point for points. */
 Report encode_pack(const Terrain& terrain, const PackOptions& options, const std::string& path,
                    const Callbacks& callbacks = {});
 
