@@ -169,7 +169,7 @@ std::string encode_points(const PointCloud& cloud, const EncodeRequest& request,
   const EncodedPoints made =
       with_file_context(request.input, [&] { return encode_pack(cloud, request); });
   out.write(made.bytes);
-  std::string text = source_of_points(cloud.points.size(), cloud.selection);
+  std::string text = source_of_points(made.points, cloud.selection);
   text += "step of x and y: " + to_string(made.xy_step) + moved(made.xy_displacement) + "\n";
   return text + merged(made.merged, request.lattice.duplicates) + text_of(made.report) +
          at_true_places(made.true_places, request) + units(request, cloud.reference);

@@ -202,8 +202,8 @@ EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options)
   if (!found.within_bound || found.uncovered != 0) {
     throw InternalFault("the pack does not keep what was asked for");
   }
-  return {std::move(bytes),     report_of(made.content), made.xy_step,
-          made.xy_displacement, made.merged + dropped,   true_places};
+  return {std::move(bytes),   report_of(made.content), made.xy_step, made.xy_displacement,
+          kept.points.size(), made.merged + dropped,   true_places};
 }
 
 ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& options, TileRange tiles,

@@ -43,6 +43,7 @@ struct EncodedPoints {
   std::vector<uint8_t> bytes;
   PackReport report;
   Decimal xy_step, xy_displacement;
+  uint64_t points;  // compared: without those for which another stands
   uint64_t merged;
   std::optional<Verification> true_places;  // of points that the lattice moves
 };

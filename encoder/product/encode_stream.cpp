@@ -207,6 +207,7 @@ EncodedStream measured(const Source& source, const EncodeOptions& options, Appro
 
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
                             const Progress& progress) {
+  if (options.tile_steps != 0) throw Error("--tile-steps is for packs; this is a stream");
   metadata_of(options, reference_of(source));  // fails before the work, if it does
   const bool limited = options.max_bytes != 0 || vertex_limit(options) != 0;
   if (!limited || options.lattice.max_error) return encode_measured(source, options, progress);

@@ -216,7 +216,7 @@ Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOpti
                      files::OutputFile& out) {
   const product::EncodedPoints made = product::encode_pack(cloud, options);
   out.write(made.bytes);
-  Report report = report_of(made.report, cloud.points.size());
+  Report report = report_of(made.report, made.points);
   report.max_error_at_points = largest_of(made.true_places);
   return report;
 }

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// Every number and note that the library says of a product in C++ and C, for every kind of product.
+// A member without a row fails.
+#include <doctest/doctest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "microtin/encoder.h"
+#include "microtin/encoder.hpp"
+#include "tests/support/products.hpp"
+
+using namespace microtin::tests;
+using namespace microtin::tests::products;
+
+namespace {
+
+constexpr const char* kC = "encoder/include/microtin/encoder.h";
+constexpr const char* kCpp = "encoder/include/microtin/encoder.hpp";
+constexpr const char* kSurface = "encoder/include/microtin/surface.hpp";
+
+std::string in_lines(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line + '\n';
+  return text;
+}
+
+// As `Made` encodes the product with texts for notes.
+template <class Options>
+Options library_options(const Product& product) {
+  Options options;
+  options.max_error = "1.9";
+  options.degree = 12;
+  options.decoding = library::Decoding::kDense;
+  options.date = "2026-11";
+  options.source = "a \"survey\"";
+  options.lineage = "thinned twice";
+  if (product.is_raster) return options;
+  options.units = ":us-foot";
+  options.duplicates = library::Duplicates::kHighest;
+  if (product.is_pack) options.xy_step = "0.003";
+  return options;
+}
+
+library::Report report_in_cpp(const Product& product, const Made& made) {
+  const auto terrain = library::Terrain::from_file(made.source_path());
+  if (!product.is_pack) {
+    return encode_stream(terrain, library_options<library::StreamOptions>(product)).report;
+  }
+  auto options = library_options<library::PackOptions>(product);
+  options.tile_vertices = 60;
+  return encode_pack(terrain, options, made.path());
+}
+
+microtin_report report_in_c(const Product& product, const Made& made) {
+  microtin_options options{};
+  options.size = sizeof options;
+  options.max_error = "1.9";
+  options.degree = 12;
+  options.decoding = 3;
+  options.date = "2026-11";
+  options.source = "a \"survey\"";
+  options.lineage = "thinned twice";
+  if (!product.is_raster) {
+    options.units = ":us-foot";
+    options.duplicates = 3;
+  }
+  if (!product.is_raster && product.is_pack) options.xy_step = "0.003";
+  if (product.is_pack) options.tile_vertices = 60;
+  microtin_terrain* terrain = nullptr;
+  REQUIRE(microtin_terrain_of_file(made.source_path().c_str(), &terrain) == MICROTIN_OK);
+  microtin_report report{};
+  uint8_t* bytes = nullptr;
+  uint64_t size = 0;
+  const microtin_outcome outcome =
+      product.is_pack ? microtin_encode_pack(terrain, &options, made.path().c_str(), &report)
+                      : microtin_encode_stream(terrain, &options, &bytes, &size, &report);
+  CHECK(outcome == MICROTIN_OK);
+  microtin_bytes_free(bytes);
+  microtin_terrain_free(terrain);
+  return report;
+}
+
+// Both have the same names, but for what only C++ has.
+template <class Report>
+Fields common_fields(const Report& report) {
+  return {{"samples", std::to_string(report.samples)},
+          {"vertices", std::to_string(report.vertices)},
+          {"bytes", std::to_string(report.bytes)},
+          {"tiles", std::to_string(report.tiles)},
+          {"bound", report.bound},
+          {"max_error", report.max_error},
+          {"rms_error", report.rms_error},
+          {"mean_error", report.mean_error},
+          {"max_below", report.max_below}};
+}
+
+// The warnings of the command line, but for the one that names a file.
+std::string warnings(const Made& made) {
+  std::istringstream lines(made.text());
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("warning: ") == 0 && line.find(".prj") == line.npos)
+      text += line.substr(9) + '\n';
+  }
+  return text;
+}
+
+template <class Grid>
+void add_grid(const Grid& grid, Fields& fields) {
+  if (grid.columns == 0) return;
+  fields["grid.columns"] = std::to_string(grid.columns);
+  fields["grid.rows"] = std::to_string(grid.rows);
+  add_axis("grid.x", grid.x, fields);
+  add_axis("grid.y", grid.y, fields);
+}
+
+// What both call by the same names.
+template <class Facts>
+Fields facts_of(const Facts& facts) {
+  Fields fields = {{"bytes", std::to_string(facts.bytes)},
+                   {"vertices", std::to_string(facts.vertices)},
+                   {"tile_columns", std::to_string(facts.tile_columns)},
+                   {"tile_rows", std::to_string(facts.tile_rows)},
+                   {"kind", facts.is_pack ? "pack" : "stream"},
+                   {"heights.lowest", text_of(facts.lowest)},
+                   {"heights.highest", text_of(facts.highest)},
+                   {"horizontal_epsg", std::to_string(facts.horizontal_epsg)},
+                   {"vertical_epsg", std::to_string(facts.vertical_epsg)},
+                   {"wkt", facts.wkt},
+                   {"source", facts.origin},
+                   {"date", facts.date},
+                   {"lineage", facts.lineage},
+                   {"bound", facts.bound},
+                   {"max_error", facts.max_error},
+                   {"rms_error", facts.rms_error},
+                   {"mean_error", facts.mean_error}};
+  constexpr const char* kUnits[] = {"unknown", "metre", "degree", "foot", "US survey foot"};
+  fields["units.horizontal"] = kUnits[static_cast<uint32_t>(facts.horizontal_unit)];
+  fields["units.vertical"] = kUnits[static_cast<uint32_t>(facts.vertical_unit)];
+  add_axis("placement.x", facts.x, fields);
+  add_axis("placement.y", facts.y, fields);
+  add_axis("placement.z", facts.z, fields);
+  add_grid(facts.source, fields);
+  return fields;
+}
+
+void add_extent(double west, double south, double east, double north, Fields& fields) {
+  fields["extent.west"] = text_of(west);
+  fields["extent.south"] = text_of(south);
+  fields["extent.east"] = text_of(east);
+  fields["extent.north"] = text_of(north);
+}
+
+Names names_of_facts(bool is_raster) {
+  Names names = {"bytes",
+                 "vertices",
+                 "tile_columns",
+                 "tile_rows",
+                 "kind",
+                 "heights.lowest",
+                 "heights.highest",
+                 "horizontal_epsg",
+                 "vertical_epsg",
+                 "wkt",
+                 "source",
+                 "date",
+                 "lineage",
+                 "units.vertical",
+                 "units.horizontal",
+                 "extent.west",
+                 "extent.south",
+                 "extent.east",
+                 "extent.north"};
+  names = united(united(names, kErrors), axes("placement.", {"x", "y", "z"}));
+  if (!is_raster) return names;
+  return united(united(names, axes("grid.", {"x", "y"})), {"grid.columns", "grid.rows"});
+}
+
+}  // namespace
+
+TEST_CASE("reports: every field of the library's is true of every kind of product") {
+  for (const Product& product : kProducts) {
+    if (product.is_merged) continue;
+    CAPTURE(product.file);
+    const Made made(product, Notes::kText);
+    const Fields& truth = made.truth().fields();
+    const library::Report cpp = report_in_cpp(product, made);
+    Fields said = common_fields(cpp);
+    said["max_error_at_points"] = cpp.max_error_at_points;
+    expect("C++", said, truth, without(members_of(kCpp, "Report"), {"remarks"}));
+    CHECK(in_lines(cpp.remarks) == warnings(made));
+    const microtin_report c = report_in_c(product, made);
+    expect("C", common_fields(c), truth, members_of(kC, "microtin_report"));
+    CHECK(microtin_remarks() == warnings(made));
+  }
+}
+
+TEST_CASE("reports: every fact is true of every kind of product, in C++ and C") {
+  for_each_product([](const Product& product, const Made& made) {
+    Fields truth = made.truth().fields();
+    truth.insert({{"horizontal_epsg", "0"}, {"vertical_epsg", "0"}, {"wkt", ""}});
+    const auto surface = library::Surface::from_file(made.path());
+    Fields cpp = facts_of(surface.facts());
+    const library::Box& box = surface.facts().box;
+    add_extent(box.west, box.south, box.east, box.north, cpp);
+    expect("C++", cpp, truth, names_of_facts(product.is_raster));
+    microtin_surface* in_c = nullptr;
+    REQUIRE(microtin_surface_open(made.path().c_str(), &in_c) == MICROTIN_OK);
+    microtin_facts facts{};
+    microtin_surface_facts(in_c, &facts);
+    Fields c = facts_of(facts);
+    add_extent(facts.west, facts.south, facts.east, facts.north, c);
+    expect("C", c, truth, names_of_facts(product.is_raster));
+    microtin_surface_free(in_c);
+  });
+}
+
+TEST_CASE("reports: no fact is without a row") {
+  const Names both = {"bytes",
+                      "vertices",
+                      "tile_columns",
+                      "tile_rows",
+                      "is_pack",
+                      "lowest",
+                      "highest",
+                      "x",
+                      "y",
+                      "z",
+                      "source",
+                      "horizontal_unit",
+                      "vertical_unit",
+                      "horizontal_epsg",
+                      "vertical_epsg",
+                      "wkt",
+                      "origin",
+                      "date",
+                      "lineage",
+                      "bound",
+                      "max_error",
+                      "rms_error",
+                      "mean_error"};
+  CHECK(text_of(members_of(kSurface, "Facts")) == text_of(united(both, {"box"})));
+  CHECK(text_of(members_of(kC, "microtin_facts")) ==
+        text_of(united(both, {"west", "south", "east", "north"})));
+}
