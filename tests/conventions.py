@@ -7,6 +7,7 @@ licence  every source names its licence
 faults   the text that a planted fault replaces stands once in its source
 columns  documents have lines of at most 122 columns, tables and what links lead to aside
 locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
+prose    the documents in folders named docs have short sentences and plain words; those in docs/lab are notes
 """
 
 import functools
@@ -20,6 +21,13 @@ MOST_COLUMNS = 122
 LICENCE = "SPDX-License-Identifier: MIT"
 SLASHES = (".c", ".h", ".cpp", ".hpp", ".js")
 HASHES = (".py", ".sh", ".cmake", "CMakeLists.txt")
+MOST_WORDS = 40
+MOST_WORDS_IN_MEAN = 18
+# Words of another century, and verbs of speech for what programs do.
+ODD_WORDS = re.compile(
+    r"\b(told|tells?|amid|aslant|dear(er|est)|so many|the like|but for|for want of|whoever|would-be|no longer)\b"
+    r"|\b(is|are) (no|none)\b|^(Of|Beside|What|Where)\b"
+)
 CALL = re.compile(r"\b(\w+)\(")
 COMMA = re.compile(r"\b(o?stringstream|sto[dfl]|stold|strto[df]|strtold|atof)\b|\bsn?printf\(.*%[-+ #0-9.*]*[aefg]", re.I)
 
@@ -116,9 +124,49 @@ def locale(folder):
     ]
 
 
+def paragraphs(document):
+    """Number of the first line and text of each paragraph or list item; without code, tables, headings and pictures."""
+    text, first, fenced = "", 0, False
+    for number, line in enumerate([*lines_of(document), ""], 1):
+        fenced ^= line.startswith("```")
+        item = re.match(r" *([-*]|[0-9]+\.) ", line)
+        if fenced or not line.strip() or item or re.match(r"[|#!`]|    ", line):
+            if text:
+                yield first, text
+            text = line[item.end():] if item and not fenced else ""
+            first = number
+        else:
+            first = number if not text else first
+            text = f"{text} {line}".strip()
+
+
+def sentences(document):
+    for number, text in paragraphs(document):
+        plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", re.sub(r"`[^`]*`", "code", text)).replace("*", "")
+        for sentence in re.split(r"(?<=[.:?]) +(?=[A-Z\"(])", plain):
+            yield number, sentence
+
+
+def prose(folder):
+    found = []
+    for document in documents(folder):
+        if "docs" not in document.parts or "lab" in document.parts:
+            continue
+        name, lengths = document.relative_to(folder), []
+        for number, sentence in sentences(document):
+            lengths.append(len(sentence.split()))
+            if lengths[-1] > MOST_WORDS:
+                found.append(f"{name}:{number} has a sentence of {lengths[-1]} words, more than {MOST_WORDS}")
+            if odd := ODD_WORDS.search(sentence):
+                found.append(f"{name}:{number} says {odd.group()!r}: {sentence[:60]}")
+        if lengths and sum(lengths) > MOST_WORDS_IN_MEAN * len(lengths):
+            found.append(f"{name} has {sum(lengths) / len(lengths):.1f} words a sentence, more than {MOST_WORDS_IN_MEAN}")
+    return found
+
+
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    checks = {check.__name__: check for check in (length, links, columns, licence, faults, locale)}
+    checks = {check.__name__: check for check in (length, links, columns, licence, faults, locale, prose)}
     found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)
