@@ -26,7 +26,7 @@ MOST_WORDS_IN_MEAN = 18
 # Words of another century, and verbs of speech for what programs do.
 ODD_WORDS = re.compile(
     r"\b(told|tells?|amid|aslant|dear(er|est)|so many|the like|but for|for want of|whoever|would-be|no longer)\b"
-    r"|\b(is|are) (no|none)\b|^(Of|Beside|What|Where)\b"
+    r"|(?<!here )\b(is|are) (no|none)\b|^(Of|Beside|What|Where)\b"
 )
 CALL = re.compile(r"\b(\w+)\(")
 COMMA = re.compile(r"\b(o?stringstream|sto[dfl]|stold|strto[df]|strtold|atof)\b|\bsn?printf\(.*%[-+ #0-9.*]*[aefg]", re.I)
