@@ -6,5 +6,5 @@ if ! command -v clang-format >/dev/null; then
   echo "skipped: clang-format is not installed"
   exit 77
 fi
-find . -path ./build -prune -o \( -name '*.[ch]pp' -o -name '*.[ch]' \) -print |
+find . \( -path ./build -o -path ./encoder/viewer/generated \) -prune -o \( -name '*.[ch]pp' -o -name '*.[ch]' \) -print |
   xargs clang-format --dry-run -Werror

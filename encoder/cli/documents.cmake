@@ -2,6 +2,12 @@
 # What man and shells know of the program, printed by itself and installed with it.
 include(GNUInstallDirs)
 
+if(CMAKE_CROSSCOMPILING AND NOT CMAKE_CROSSCOMPILING_EMULATOR)
+  message(NOTICE "Left out: manual page and completions, which the program prints. It cannot run here; "
+    "set CMAKE_CROSSCOMPILING_EMULATOR to a program that runs it.")
+  return()
+endif()
+
 function(add_document name folder)
   set(file ${CMAKE_CURRENT_BINARY_DIR}/documents/${name})
   cmake_path(GET file PARENT_PATH parent)

@@ -90,8 +90,8 @@ std::string render_page(const Portrait& portrait, const std::string& title, cons
                         const std::vector<uint8_t>& flat) {
   const std::string_view page = viewer_page();
   if (page.empty()) {
-    throw Error("this program was built without the page that shows terrains, for want of " +
-                std::string(viewer_wants()));
+    throw Error("this program was built without the page that shows terrains: " +
+                std::string(viewer_absence()));
   }
   if (file.size() > kLargestPage) {
     throw Error("it has " + std::to_string(file.size()) + " bytes; a page holds at most " +

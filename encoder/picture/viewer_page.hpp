@@ -7,11 +7,11 @@
 
 namespace microtin::picture {
 
-// With @TITLE@ and other places to be filled; empty if it could not be built.
+// With @TITLE@ and other places to be filled; empty if the build left the page out.
 std::string_view viewer_page();
 
-// The tools that were missing then.
-std::string_view viewer_wants();
+// Why the build left the page out; empty if it has the page.
+std::string_view viewer_absence();
 
 }  // namespace microtin::picture
 

@@ -43,7 +43,7 @@ std::string_view viewer_page() {{
 }}
 // NOLINTEND
 
-std::string_view viewer_wants() {{
+std::string_view viewer_absence() {{
   return {{}};
 }}
 

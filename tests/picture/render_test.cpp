@@ -355,7 +355,8 @@ TEST_CASE("render: a page holds the file, unless it is too large: that is told w
     }
   };
   if (viewer_page().empty()) {
-    CHECK(page("abc").find("for want of") != std::string::npos);
+    CHECK(page("abc").find("without the page that shows terrains: " +
+                           std::string(viewer_absence())) != std::string::npos);
     return;
   }
   CHECK(page("terrain").find(">dGVycmFpbg==<") != std::string::npos);
