@@ -91,10 +91,16 @@ Posts posts_of(GDALDataset& source) {
   if (GDALDataTypeIsComplex(type) != 0) {
     refuse("heights are no complex numbers: -ot Float64 takes their real parts");
   }
+  int has_value = 0;
+  const double value = band.GetNoDataValue(&has_value);
+  // Beside a mask of the file GDAL passes the value over.
+  const double no_data = has_value != 0 ? value : encoder::kNoValue;
   if (type == GDT_Float32) {
-    return encoder::posts_of(columns, rows, heights_of<float>(band, GDT_Float32).data(), transform);
+    return encoder::posts_of(columns, rows, heights_of<float>(band, GDT_Float32).data(), transform,
+                             no_data);
   }
-  return encoder::posts_of(columns, rows, heights_of<double>(band, GDT_Float64).data(), transform);
+  return encoder::posts_of(columns, rows, heights_of<double>(band, GDT_Float64).data(), transform,
+                           no_data);
 }
 
 std::string wkt_of(const GDALDataset& source) {

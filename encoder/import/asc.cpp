@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "encoder/base/error_context.hpp"
-#include "encoder/base/real_number.hpp"
 #include "encoder/base/suffix.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/import/import.hpp"
+#include "encoder/import/no_data.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {
@@ -77,17 +77,6 @@ uint64_t begin_of(const ByteSource& text) {
   return begin.size() - without_mark(begin).size();
 }
 
-// Heights equal to it are void. Writers put numbers here that no height can have, such as -3.4e38;
-// heights that repeat the text count as equal, too.
-struct NoData {
-  std::string text;
-  std::optional<Decimal> value;
-
-  bool matches(std::string_view word, const std::optional<Decimal>& number) const {
-    return (number && value && *number == *value) || (!text.empty() && word == text);
-  }
-};
-
 // What the header says; errors do not name the file.
 class Header {
  public:
@@ -138,24 +127,12 @@ bool is_known(std::string_view key) {
   return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 
-// Of any size, infinite ones too.
-bool is_number(std::string_view word) {
-  return real_number(word).has_value();
-}
-
-// As printf writes what is not a number.
-bool is_nan(std::string_view word) {
-  if (!word.empty() && (word[0] == '-' || word[0] == '+')) word.remove_prefix(1);
-  return lower_case(std::string(word.substr(0, 3))) == "nan" &&
-         (word.size() == 3 || word[3] == '(');
-}
-
 NoData no_data_of(const Words& words) {
-  if (is_nan(words.word())) return {};
-  if (!is_number(words.word())) {
-    words.fail(quoted(words.word()) + " is not a number" + remedy_for_commas(words.word()));
+  const std::string_view word = words.word();
+  if (!NoData().marks(word) && !number_of_any_size(word)) {
+    words.fail(quoted(word) + " is not a number" + remedy_for_commas(word));
   }
-  return {std::string(words.word()), parse_decimal(words.word())};
+  return NoData(word);
 }
 
 // Reads keys and values up to the first word that begins no key: the first height.
@@ -163,7 +140,7 @@ Header read_header(Words& words) {
   Header header;
   while (words.next()) {
     const char first = words.word()[0];
-    if (is_nan(words.word())) return header;
+    if (NoData().marks(words.word())) return header;
     if ((first < 'A' || first > 'Z') && (first < 'a' || first > 'z')) return header;
     const std::string key = lower_case(std::string(words.word()));
     if (key != kNoDataKey && !is_known(key)) {
@@ -186,11 +163,11 @@ Header read_header(Words& words) {
 
 // The height that the current word says; nothing if it is void. Throws Error if it is neither.
 std::optional<Decimal> read_height(const Words& words, const NoData& no_data) {
+  if (no_data.marks(words.word())) return std::nullopt;
   const std::optional<Decimal> height = parse_decimal(words.word());
-  if (no_data.matches(words.word(), height) || is_nan(words.word())) return std::nullopt;
   if (!height) {
     words.fail(quoted(words.word()) + " is not a number in range" +
-               (is_number(words.word())
+               (number_of_any_size(words.word())
                     ? "; if it marks voids, the header's NODATA_value must be the same"
                     : remedy_for_commas(words.word())));
   }
@@ -268,8 +245,8 @@ class AscReader : public RasterReader {
 
   // What was read once cannot be wrong, unless it is changed meanwhile.
   int64_t mantissa_of(std::string_view word) const {
+    if (no_data_.marks(word)) return kVoidHeight;
     const std::optional<Decimal> height = parse_decimal(word);
-    if (no_data_.matches(word, height) || is_nan(word)) return kVoidHeight;
     DecimalRange range;
     if (!height || height->decimals > frame_.decimals || !range.add(*height)) {
       throw Error(name_ + ": changed while it was read");

@@ -17,6 +17,7 @@
 #include "encoder/exact/units.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
+#include "encoder/import/no_data.hpp"
 #include "encoder/import/text.hpp"
 #include "encoder/import/transform.hpp"
 
@@ -121,10 +122,9 @@ GDALRasterBandH band_of(GDALDatasetH dataset, uint32_t number) {
   return GDALGetRasterBand(dataset, bands.empty() ? 1 : bands[0]);
 }
 
-// Whether voids are told by a mask, not by a value alone.
+// GDAL's own view of voids: a mask of the file, or one made of the no-data value. Null: none.
 GDALRasterBandH mask_of(GDALRasterBandH band) {
-  const int flags = GDALGetMaskFlags(band);
-  return (flags & (GMF_ALL_VALID | GMF_NODATA)) == 0 ? GDALGetMaskBand(band) : nullptr;
+  return (GDALGetMaskFlags(band) & GMF_ALL_VALID) == 0 ? GDALGetMaskBand(band) : nullptr;
 }
 
 // Up to GDAL 3.6 such bytes have a mark instead of a type.
@@ -143,8 +143,8 @@ class BandReader {
         row_(width()),
         mask_(width(), 255) {
     int given = 0;
-    no_data_ = GDALGetRasterNoDataValue(band, &given);
-    has_no_data_ = given != 0;
+    const double no_data = GDALGetRasterNoDataValue(band, &given);
+    if (given != 0) no_data_ = NoData(no_data);  // beside a mask of the file GDAL passes it over
     const double scale = GDALGetRasterScale(band, &given);
     const double factor = given != 0 ? scale : 1;
     const double offset = GDALGetRasterOffset(band, &given);
@@ -178,8 +178,7 @@ class BandReader {
     if (mask_band_ != nullptr) read_row(mask_band_, row, mask_.data(), GDT_Byte);
     for (size_t column = 0; column < row_.size(); ++column) {
       const double value = row_[column];
-      const bool is_void =
-          std::isnan(value) || (has_no_data_ && value == no_data_) || mask_[column] == 0;
+      const bool is_void = mask_[column] == 0 || is_no_data(value);
       const std::optional<Decimal> height = is_void ? std::nullopt : decimal(value);
       if (is_void) {
         heights.add_void();
@@ -199,6 +198,10 @@ class BandReader {
     }
   }
 
+  bool is_no_data(double value) const {
+    return type_ == GDT_Float32 ? no_data_.marks(static_cast<float>(value)) : no_data_.marks(value);
+  }
+
   std::optional<Decimal> decimal(double value) const {
     if (scaled_) return (*scaled_)(static_cast<int64_t>(value));
     return type_ == GDT_Float32 ? shortest_decimal(static_cast<float>(value))
@@ -210,8 +213,7 @@ class BandReader {
   std::vector<double> row_;
   std::vector<uint8_t> mask_;             // of the row; 0: void
   std::optional<ScaledIntegers> scaled_;  // for integers
-  double no_data_;
-  bool has_no_data_;
+  NoData no_data_;
 };
 
 Raster read(const std::string& path, Indirect indirect, uint32_t number) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Arrays of binary numbers, as other programs hold them, become exact posts and points.
-#include <cmath>
 #include <string>
 
 #include "encoder/base/error_context.hpp"
+#include "encoder/import/no_data.hpp"
 #include "encoder/import/text.hpp"
 #include "encoder/import/transform.hpp"
 #include "microtin/encoder.hpp"
@@ -19,22 +19,26 @@ microtin_axis centres(double corner, double size, uint32_t cells) {
 }
 
 template <class Number>
-Posts binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const Transform& t) {
+Posts binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const Transform& t,
+                   double no_data) {
   if (!runs_east(t)) {
     throw Error(
         "transform: columns must run east and rows north or south: WEST, WIDTH, 0, NORTH, 0, "
         "-HEIGHT, GDAL's order");
   }
+  const importing::NoData voids(no_data);
   importing::DecimalColumn numbers;
   numbers.reserve(size_t{columns} * rows);
   for (uint32_t i = 0; i < rows; ++i) {
     const uint32_t row = t[5] < 0 ? rows - 1 - i : i;
     for (uint32_t column = 0; column < columns; ++column) {
       const Number value = heights[size_t{row} * columns + column];
-      const auto decimal = exact::shortest_decimal(value);
-      if (std::isnan(value)) {
+      if (voids.marks(value)) {
         numbers.add_void();
-      } else if (!decimal || !numbers.add(*decimal)) {
+        continue;
+      }
+      const auto decimal = exact::shortest_decimal(value);
+      if (!decimal || !numbers.add(*decimal)) {
         throw Error("row " + std::to_string(row) + ", column " + std::to_string(column) + ": " +
                     importing::not_a_height(value));
       }
@@ -56,12 +60,14 @@ bool runs_east(const Transform& transform) {
   return importing::runs_east(transform);
 }
 
-Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform) {
-  return binary_posts(columns, rows, heights, transform);
+Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform,
+               double no_data) {
+  return binary_posts(columns, rows, heights, transform, no_data);
 }
 
-Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform) {
-  return binary_posts(columns, rows, heights, transform);
+Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform,
+               double no_data) {
+  return binary_posts(columns, rows, heights, transform, no_data);
 }
 
 Points points_of(uint64_t count, const double* coordinates) {

@@ -78,11 +78,12 @@ void expect(Pointer* pointer) {
 Posts read_raster(const microtin_raster& raster) {
   Transform transform{};
   std::copy(std::begin(raster.transform), std::end(raster.transform), transform.begin());
+  const double no_data = raster.no_data != nullptr ? *raster.no_data : kNoValue;
   if (raster.heights != nullptr) {
-    return posts_of(raster.columns, raster.rows, raster.heights, transform);
+    return posts_of(raster.columns, raster.rows, raster.heights, transform, no_data);
   }
   expect(raster.float_heights);
-  return posts_of(raster.columns, raster.rows, raster.float_heights, transform);
+  return posts_of(raster.columns, raster.rows, raster.float_heights, transform, no_data);
 }
 
 // 0 is what is usual, else it is 1 above the number that it has in C++.

@@ -198,6 +198,14 @@ class Driver(unittest.TestCase):
         self.assertEqual(copy.GetGeoTransform(), (0, 1, 0, ROWS, 0, -1))
         self.expect_hills(copy)
 
+    def test_no_data_values_are_compared_in_the_type_of_the_cells(self):
+        for value, cell in ((-9999.99, -9999.99), (-3.4e38, numpy.finfo(numpy.float32).min), (-9999, -9999)):
+            source = gdal.GetDriverByName("MEM").Create("", COLUMNS, ROWS, 1, gdal.GDT_Float32)
+            source.SetGeoTransform((0, 1, 1e-18, ROWS, 0, -1))
+            source.GetRasterBand(1).WriteArray(numpy.where(VOID, cell, hills()).astype(numpy.float32))
+            source.GetRasterBand(1).SetNoDataValue(value)
+            self.expect_hills(gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/n.mtin", source, options=["MAX_ERROR=0.5"]))
+
     def test_what_cannot_be_encoded(self):
         memory, driver = gdal.GetDriverByName("MEM"), gdal.GetDriverByName("MTIN")
 

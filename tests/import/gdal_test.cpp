@@ -173,6 +173,22 @@ TEST_CASE("gdal: voids that the file does not tell of are refused or told, with 
                  "v.flt: taken as they are: 1 post of height -32768, far from all others"));
 }
 
+TEST_CASE("gdal: no-data values are compared in the type of the cells") {
+  const Grid grid;
+  const Session& session = grid.session;
+  session.write("n.hdr",
+                "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 2\nbyteorder LSBFIRST\n"
+                "nodata_value -9999.99\n");
+  session.write("n.flt", std::string("\0\0\x80\x3F\0\0\0\x40\0\0\x40\x40\xF6\x3F\x1C\xC6", 16));
+  CHECK(std::get<Raster>(import_terrain(session.folder() + "/n.flt")).heights ==
+        std::vector<int64_t>{3, kVoidHeight, 1, 2});
+  const std::string band = "\"Float32\"><NoDataValue>-3.4e38</NoDataValue>";
+  session.write("t.asc",
+                "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n-3.40282346638529e+38 2 "
+                "3\n4 5 6\n");
+  CHECK(grid.read(vrt(kPlace, band)).heights == std::vector<int64_t>{4, 5, 6, kVoidHeight, 2, 3});
+}
+
 TEST_CASE("gdal: real files") {
   if (const std::string path = data_file("olinda_f32.tif"); !path.empty()) {
     const Raster raster = std::get<Raster>(import_terrain(path));

@@ -52,11 +52,22 @@ class Streams(unittest.TestCase):
         for array, nodata in (
             (expected, None),
             (numpy.where(void, -9999, hills()), -9999),
+            (numpy.where(void, -9999.99, hills()).astype(numpy.float32), -9999.99),
+            (numpy.where(void, -9999.99, hills()).astype(numpy.float32).astype(numpy.float64), -9999.99),
+            (numpy.where(void, numpy.finfo(numpy.float32).min, hills()).astype(numpy.float32), -3.4e38),
             (numpy.ma.masked_array(hills(), void), None),
         ):
             back, _ = microtin.decode(microtin.encode(array, max_error=1, nodata=nodata)).raster()
             numpy.testing.assert_array_equal(numpy.isnan(back), void)
             self.assertLessEqual(numpy.nanmax(numpy.abs(back - expected)), 1 + ROUNDING)
+
+    def test_voids_of_whole_numbers_beyond_those_of_heights(self):
+        heights = numpy.arange(12, dtype=numpy.int64).reshape(3, 4)
+        heights[1, 2] = -(2**63)
+        back, _ = microtin.decode(microtin.encode(heights, nodata=-(2**63))).raster()
+        numpy.testing.assert_array_equal(numpy.isnan(back), heights < 0)
+        with self.assertRaisesRegex(microtin.Error, "beyond 2.53"):
+            microtin.encode(heights, nodata=-9999)
 
     def test_heights_are_those_of_the_triangles(self):
         tin = microtin.decode(microtin.encode(hills(), max_error=2))

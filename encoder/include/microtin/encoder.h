@@ -50,6 +50,7 @@ typedef struct microtin_raster {
   const float* float_heights; /* ... these */
   double transform[6];        /* as GDAL's: see encoder.hpp */
   const char* wkt;            /* systems of places and heights */
+  const double* no_data; /* of void cells, compared in the heights' own type; null: NaN alone */
 } microtin_raster;
 
 /* Points in any order. */

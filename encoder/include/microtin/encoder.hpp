@@ -52,16 +52,20 @@ struct Points {
  * most 9 decimals. Throws, naming row and column or the point, if one is out of range.
  *
  * A raster as GDAL and numpy hold it: heights row by row at the centres of cells, NaN where there
- * is none; the transform is GDAL's, from the outer corner of the first cell: x, width of a cell, 0,
- * y, 0, its height, below 0 if row 0 is the northernmost. Cells are not rotated. */
+ * is none, or that value for it, compared in the heights' own type; the transform is GDAL's, from
+ * the outer corner of the first cell: x, width of a cell, 0, y, 0, its height, below 0 if row 0 is
+ * the northernmost. Cells are not rotated. */
 using Transform = std::array<double, 6>;
 
 /* Whether columns run east and rows north or south; skews of up to 10^-9 of a cell are what
  * rounding leaves, and count as none. posts_of throws for all others. */
 bool runs_east(const Transform& transform);
 
-Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform);
-Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform);
+constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform,
+               double no_data = kNoValue);
+Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform,
+               double no_data = kNoValue);
 
 /* x, y, z of each point in turn. */
 Points points_of(uint64_t count, const double* coordinates);

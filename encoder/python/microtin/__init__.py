@@ -91,7 +91,8 @@ def encode(
 ) -> Stream:
     """Encodes a raster of heights as a stream.
 
-    array         heights in rows and columns, row 0 northernmost; NaN, masked ones and `nodata` are void
+    array         heights in rows and columns, row 0 northernmost; NaN and masked ones are void
+    nodata        of more void ones, compared in the type of the heights
     max_error     no height of the surface is further from the array's; a float stands for its shortest decimal
     transform     the place of the cells, whose centres have the heights: six numbers in GDAL's order, or an Affine
     crs           of x, y: an EPSG code, well-known text, or an object that has to_wkt()
@@ -331,18 +332,21 @@ def _terrain_of_array(
     if heights.ndim != 2:
         raise Error(f"a raster has two dimensions, not {heights.ndim}")
     kind = numpy.float32 if heights.dtype == numpy.float32 else numpy.float64
-    if heights.dtype.kind in "iu" and heights.size and numpy.abs(heights.astype(numpy.float64)).max() > 2**53:
-        raise Error("a height is beyond 2^53")
+    if heights.dtype.kind in "iu":
+        beyond = numpy.abs(heights.astype(numpy.float64)) > 2**53
+        if (beyond if nodata is None else beyond & (heights != nodata)).any():
+            raise Error("a height is beyond 2^53")
     if heights.dtype.kind not in "iuf" or heights.dtype.itemsize > 8:
         raise Error(f"heights are integers or floats of up to 64 bits, not {heights.dtype}")
-    void = heights == nodata if nodata is not None else numpy.zeros(heights.shape, bool)
-    if mask is not None:
-        void |= mask
-    if void.any():
-        heights = numpy.where(void, numpy.nan, heights)
+    if nodata is not None and heights.dtype == numpy.float16:
+        nodata = float(numpy.float16(nodata))  # the library compares in 32 and 64 bits
+    if mask is not None and mask.any():
+        heights = numpy.where(mask, numpy.nan, heights)
     heights = numpy.ascontiguousarray(heights, kind)
     raster = _library.Raster(columns=heights.shape[1], rows=heights.shape[0], wkt=_wkt_of(crs))
     raster.transform[:] = _transform_of(transform, heights.shape[0])
+    if nodata is not None:
+        raster.no_data = ctypes.pointer(ctypes.c_double(float(nodata)))
     if kind == numpy.float32:
         raster.float_heights = heights.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
     else:

@@ -39,6 +39,7 @@ class Raster(_Sized):
         ("float_heights", POINTER(c_float)),
         ("transform", c_double * 6),
         ("wkt", c_char_p),
+        ("no_data", POINTER(c_double)),
     ]
 
 
