@@ -92,7 +92,7 @@ int firmware_main() {
   static Terrain terrain;
   if (!decode(terrain)) return 1;
   static Buckets buckets;
-  buckets.build(terrain.mesh());
+  if (buckets.build(terrain.mesh()) != MICROTIN_DONE) return 1;
   const bool above = fly(terrain, buckets, Place{100 * 256, 500 * 256});
   print(above ? "always above the terrain\n" : "hit the terrain\n");
   return above ? 0 : 1;

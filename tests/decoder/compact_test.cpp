@@ -387,6 +387,15 @@ TEST_CASE("the C++ face of compact terrains") {
   uint32_t hint = compact.hint(500 * 256, 500 * 256);
   int32_t height = 0;
   CHECK(compact.height_at(500 * 256, 500 * 256, &hint, &height) == MICROTIN_HEIGHT);
+
+  decoder.begin(terrain);
+  REQUIRE(decoder.feed(stream.data(), stream.size(), &used) == MICROTIN_DONE);
+  CHECK(compact.make(terrain, decoder) == MICROTIN_ARGUMENT);  // it holds a terrain
+  CHECK(compact.digest() == digest);
+  CHECK(terrain.digest() == digest);
+  compact.clear();
+  CHECK(compact.make(terrain, decoder) == MICROTIN_DONE);
+  CHECK(compact.digest() == digest);
 }
 
 }  // namespace microtin::tests

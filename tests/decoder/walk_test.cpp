@@ -75,7 +75,7 @@ TEST_CASE("from buckets the walk is short, and its end the same") {
   const DecodedTerrain terrain = flat_terrain(points);
   Buckets<45> buckets;
   CHECK(buckets.hint(0, 0) == 0);
-  buckets.build(terrain.mesh());
+  CHECK(buckets.build(terrain.mesh()) == MICROTIN_DONE);
   uint32_t total = 0;
   constexpr int kProbes = 2000;
   for (int probe = 0; probe < kProbes; ++probe) {
@@ -89,6 +89,7 @@ TEST_CASE("from buckets the walk is short, and its end the same") {
     CHECK(height == cold_height);
   }
   CHECK(total < 4 * kProbes);
+  CHECK(buckets.build(nullptr) == MICROTIN_ARGUMENT);
 }
 
 TEST_CASE("buckets of any terrain, for places anywhere") {

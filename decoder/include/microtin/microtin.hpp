@@ -118,9 +118,9 @@ class Buckets {
   Buckets(const Buckets&) = delete;
   Buckets& operator=(const Buckets&) = delete;
 
-  // To be called when the terrain is decoded; before, every hint is 0.
-  void build(const microtin_mesh* mesh) {
-    microtin_buckets_init(storage_, sizeof storage_, mesh, &buckets_);
+  // Call it when the terrain is decoded. Before that every hint is 0.
+  microtin_status build(const microtin_mesh* mesh) {
+    return microtin_buckets_init(storage_, sizeof storage_, mesh, &buckets_);
   }
   uint32_t hint(int32_t x, int32_t y) const {
     return buckets_ == nullptr ? 0 : microtin_buckets_hint(buckets_, x, y);
@@ -143,18 +143,21 @@ class CompactTerrain {
   CompactTerrain(const CompactTerrain&) = delete;
   CompactTerrain& operator=(const CompactTerrain&) = delete;
 
-  // Makes it of a terrain that is decoded, and lost by that; the decoder serves as scratch, and
-  // must begin before it is fed again.
+  // Makes the compact form of a decoded terrain, which is lost by that. The decoder serves as
+  // scratch; call its begin before you feed it again. ARGUMENT: this object holds a terrain
+  // already, which stays as it is; call clear first.
   template <class TerrainType, class DecoderType>
   microtin_status make(TerrainType& terrain, DecoderType& decoder) {
+    if (compact_ != nullptr) return MICROTIN_ARGUMENT;
     microtin_compactor* compactor = nullptr;
     const microtin_status status = microtin_compact_begin(storage_, sizeof storage_, terrain.mesh(),
                                                           &decoder, sizeof decoder, &compactor);
     return status == MICROTIN_DONE ? microtin_compact_proceed(compactor, 0, &compact_) : status;
   }
 
-  // Null before it is made.
+  // Null before make succeeds, and after clear.
   const microtin_compact* compact() const { return compact_; }
+  void clear() { compact_ = nullptr; }
 
   uint32_t vertices() const { return microtin_compact_vertex_count(compact_); }
   uint64_t digest() const { return microtin_compact_digest(compact_); }
