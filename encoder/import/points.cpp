@@ -8,6 +8,7 @@
 #include "encoder/base/suffix.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"
+#include "encoder/terrain/degrees.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -232,13 +233,8 @@ class PointReader {
   }
 
   void expect_degrees(size_t axis, Decimal value) const {
-    constexpr std::array<int64_t, 2> kMost = {360, 90};
-    if (axis > 1 || Decimal{static_cast<int64_t>(magnitude(value.mantissa)), value.decimals} <=
-                        Decimal{kMost[axis], 0}) {
-      return;
-    }
-    fail(std::string(axis == 0 ? "longitude " : "latitude ") + to_string(value) + " is beyond " +
-         std::to_string(kMost[axis]) + " degrees: name the columns as they are, x,y,z for others");
+    const std::string wrong = beyond_degrees(axis, value);
+    if (!wrong.empty()) fail(wrong + ": name the columns as they are, x,y,z for others");
   }
 
   [[noreturn]] void fail_on(std::string_view field) const { fail(not_a_number(field)); }

@@ -98,7 +98,7 @@ PackReport report_of(const PackContent& pack) {
 PackContent encode_pack(const RasterReader& raster, const EncodeOptions& options,
                         StreamSpool& streams, const Progress& progress) {
   PackContent pack;
-  const Metadata notes = metadata_of(options, raster.frame().reference);
+  const Metadata notes = metadata_of(options, raster.frame());
   const auto begin = [&](const PackPlan& plan) {
     pack = content_of(plan, notes);
     streams.clear();
@@ -152,9 +152,8 @@ Attempt attempt(const PointCloud& cloud, const EncodeOptions& options,
                 const std::optional<Decimal>& room) {
   EncodeOptions fitted = options;
   fitted.lattice.max_error = room;
-  Attempt result{
-      encode_point_pack(cloud, point_options(fitted), metadata_of(options, cloud.reference)),
-      std::nullopt};
+  Attempt result{encode_point_pack(cloud, point_options(fitted), metadata_of(options, cloud)),
+                 std::nullopt};
   Metadata& metadata = result.made.content.metadata;
   const std::optional<Decimal> none, &bound = options.lattice.max_error;
   metadata.accuracy->bound = bound;
@@ -208,7 +207,7 @@ EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options)
 
 ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& options, TileRange tiles,
                          OutputFile& out, const Progress& progress) {
-  const Metadata notes = metadata_of(options, raster.frame().reference);
+  const Metadata notes = metadata_of(options, raster.frame());
   const PackPlan plan = plan_pack(raster, raster_options(options, progress));
   ShardReport report{existing(tiles, plan.tiled.grid), all_tiles(plan.tiled.grid), 0};
   ShardWriter shard(plan, content_of(plan, notes), report.tiles, out);

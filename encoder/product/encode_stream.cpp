@@ -54,7 +54,8 @@ void expect_promises(const Verification& measured, const WaterGauge& gauge,
 }
 
 Metadata metadata_for(const Source& source, const EncodeOptions& options, const Laid& laid) {
-  Metadata metadata = metadata_of(options, reference_of(source));
+  Metadata metadata =
+      std::visit([&](const auto& one) { return metadata_of(options, one); }, source);
   metadata.placement = laid.placement;
   if (const auto* raster = std::get_if<Raster>(&source)) metadata.grid = posts_of(*raster);
   if (const auto* cloud = std::get_if<PointCloud>(&source)) metadata.classes = cloud->classes;
@@ -208,7 +209,8 @@ EncodedStream measured(const Source& source, const EncodeOptions& options, Appro
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
                             const Progress& progress) {
   if (options.tile_steps != 0) throw Error("--tile-steps is for packs; this is a stream");
-  metadata_of(options, reference_of(source));  // fails before the work, if it does
+  // Fails before the work, if it does.
+  std::visit([&](const auto& one) { metadata_of(options, one); }, source);
   const bool limited = options.max_bytes != 0 || vertex_limit(options) != 0;
   if (!limited || options.lattice.max_error) return encode_measured(source, options, progress);
   return encode_within_budget(source, options, progress);

@@ -6,10 +6,12 @@
 
 #include "encoder/product/reference.hpp"
 #include "encoder/stream/device_ram.hpp"
+#include "encoder/terrain/degrees.hpp"
 
 namespace microtin::product {
+namespace {
 
-Metadata metadata_of(const EncodeOptions& options, const Reference& file) {
+Metadata metadata_for(const EncodeOptions& options, const Reference& file) {
   const Reference reference = settle(file, options.reference).reference;
   Metadata metadata;
   metadata.horizontal_unit = reference.horizontal_unit;
@@ -22,6 +24,23 @@ Metadata metadata_of(const EncodeOptions& options, const Reference& file) {
   metadata.lineage = options.lineage;
   metadata.water_level = options.lattice.water_level;
   return metadata;
+}
+
+template <class Terrain>
+Metadata checked_metadata(const EncodeOptions& options, const Terrain& terrain) {
+  Metadata metadata = metadata_for(options, terrain.reference);
+  if (metadata.horizontal_unit == Unit::kDegree) expect_on_earth(terrain);
+  return metadata;
+}
+
+}  // namespace
+
+Metadata metadata_of(const EncodeOptions& options, const Raster& frame) {
+  return checked_metadata(options, frame);
+}
+
+Metadata metadata_of(const EncodeOptions& options, const PointCloud& cloud) {
+  return checked_metadata(options, cloud);
 }
 
 uint32_t vertex_limit(const EncodeOptions& options) {

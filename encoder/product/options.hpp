@@ -33,8 +33,9 @@ struct EncodeOptions {
 };
 
 // What the header will say of a terrain whose file says this, but for its place and the accuracy.
-// Throws Error as settle does.
-Metadata metadata_of(const EncodeOptions& options, const Reference& file);
+// Throws Error as settle does, and if the places of a terrain in degrees are none on Earth.
+Metadata metadata_of(const EncodeOptions& options, const Raster& frame);
+Metadata metadata_of(const EncodeOptions& options, const PointCloud& cloud);
 
 // The vertices that a stream may have, 0 for as many as it takes. A device's RAM limits them, too;
 // with a bound it can only refuse.

@@ -183,3 +183,20 @@ TEST_CASE("points: one of those that meet stands for all, and verify knows which
   CHECK(contains(session.failure("encode p.xyz --duplicates any -o p.mtin", 2),
                  "any is not middle, lowest, highest or mean"));
 }
+
+TEST_CASE("points: latitude before longitude is refused where the system says degrees") {
+  const Session session;
+  session.write("swap.xyz", "47.1 158.2 3\n47.2 158.2 4\n47.1 158.3 6\n");
+  for (const std::string name : {"p.mtin", "p.mtp"}) {
+    CHECK(session.failure("encode swap.xyz --epsg 4326:5773 -o " + name) ==
+          "swap.xyz: point 1, at x 47.1, y 158.2: latitude 158.2 is beyond 90 degrees: x is the "
+          "longitude and y the latitude; exchange them, or give the coordinate system that they "
+          "are in\n");
+  }
+  session.write("swap.asc",
+                "ncols 2\nnrows 2\nxllcenter 47\nyllcenter 158\ncellsize 0.5\n1 2\n3 4\n");
+  for (const std::string name : {"p.mtin", "p.mtp", "p.shard --tiles 0:0 --tile-vertices 90"}) {
+    CHECK(contains(session.failure("encode swap.asc --units degree:metre -o " + name),
+                   "swap.asc: row 1 from the south: latitude 158 is beyond 90 degrees"));
+  }
+}

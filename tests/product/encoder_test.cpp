@@ -220,6 +220,32 @@ TEST_CASE("library: axes in lowest terms or not are the same, those that no head
   CHECK_THROWS_AS(encoded(1, kLarge), std::runtime_error);
 }
 
+TEST_CASE("library: places in degrees that are none on Earth are refused, of posts and of points") {
+  const TemporaryFolder folder;
+  const Points points{{{471, 1582, 3}, {472, 1582, 4}, {471, 1583, 6}}, 1, 0, ""};
+  Posts posts = cone(8);
+  posts.y = {158, 1, 1};
+  PackOptions pack;
+  pack.tile_vertices = 100;
+  for (const Terrain& terrain : {Terrain(points), Terrain(posts)}) {
+    for (const bool is_known : {true, false}) {
+      StreamOptions options;
+      options.units = pack.units = is_known ? "degree:metre" : "metre:metre";
+      options.max_error = pack.max_error = "100";
+      options.bound_at = pack.bound_at = BoundAt::kLattice;
+      const auto stream = [&] { encode_stream(terrain, options); };
+      const auto packed = [&] { encode_pack(terrain, pack, folder / "p.mtp"); };
+      if (is_known) {
+        CHECK_THROWS_WITH(stream(), doctest::Contains("is beyond 90 degrees"));
+        CHECK_THROWS_WITH(packed(), doctest::Contains("is beyond 90 degrees"));
+      } else {
+        CHECK_NOTHROW(stream());
+        CHECK_NOTHROW(packed());
+      }
+    }
+  }
+}
+
 TEST_CASE("library: what makes no sense is refused with a sentence") {
   const auto error_of = [](Posts posts, const StreamOptions& options) -> std::string {
     try {
