@@ -160,7 +160,10 @@ void add_fractal(CLI::App& app, Action& action) {
   command.add_option("--size", request->size, "Posts in a row")
       ->check(CLI::Range(kSmallestFractal, kLargestFractal))
       ->capture_default_str();
-  command.add_option("--seed", request->seed, "Another terrain for each")->capture_default_str();
+  const auto read = [request](const std::string& text) { return read_number(text, request->seed); };
+  add_read(command, "--seed", read, "a number up to 2^64 - 1", "Another terrain for each")
+      ->type_name("UINT")
+      ->default_str("1");
   command.callback([request, &action] {
     action = [request] { run_fractal(request->output, request->size, request->seed); };
   });

@@ -27,6 +27,13 @@ std::string plain_output(const std::string& path) {
   return is_plain && descriptor_named(path) == STDOUT_FILENO ? "-" : path;
 }
 
+template <class Number>
+bool read_all(std::string_view text, Number& number) {
+  const char* const end = text.data() + text.size();
+  const auto [next, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && next == end;
+}
+
 bool read_classes(std::string_view text, ClassSet& classes) {
   if (text == "all") {
     classes.set();
@@ -87,9 +94,11 @@ CLI::Option* add_read(CLI::App& command, const std::string& name,
 }
 
 bool read_number(std::string_view text, uint32_t& number) {
-  const char* const end = text.data() + text.size();
-  const auto [next, error] = std::from_chars(text.data(), end, number);
-  return error == std::errc() && next == end;
+  return read_all(text, number);
+}
+
+bool read_number(std::string_view text, uint64_t& number) {
+  return read_all(text, number);
 }
 
 CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,

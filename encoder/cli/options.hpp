@@ -42,6 +42,7 @@ CLI::Option* add_read(CLI::App& command, const std::string& name,
 
 // A number of decimal digits, all of the text.
 bool read_number(std::string_view text, uint32_t& number);
+bool read_number(std::string_view text, uint64_t& number);
 
 // A height, of either sign.
 CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,

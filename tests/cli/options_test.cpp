@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+// Every option of every command makes a difference to what the command writes or prints, and shards
+// made with different options do not join unless these make no difference. An option without a row
+// fails.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "tests/support/members.hpp"
+#include "tests/support/session.hpp"
+
+using namespace microtin::tests;
+
+namespace {
+
+// The long options of a command, as its help lists them.
+Names options_of(const Session& session, const std::string& command) {
+  const std::string help = session.run(command + " --help").out;
+  const std::regex line("\n  (?:-\\w,)?(--[a-z-]+)");
+  Names names;
+  for (std::sregex_iterator at(help.begin(), help.end(), line), end; at != end; ++at) {
+    names.insert((*at)[1]);
+  }
+  names.erase("--help");
+  return names;
+}
+
+// Waves with a hole of a post, one at the rim, and a lake at 50; `change` more somewhere.
+std::string grid(double change = 0) {
+  std::string text =
+      "ncols 40\nnrows 30\nxllcenter 500\nyllcenter 700\ncellsize 2\nnodata_value -9\n";
+  for (int row = 0; row < 30; ++row) {
+    for (int column = 0; column < 40; ++column) {
+      double z = 60 + 25 * std::sin(column * 0.31) * std::cos(row * 0.23) + (7 * column + row) % 3;
+      if (row > 9 && row < 16 && column > 9 && column < 17) z = 50;
+      if (row == 20 && column == 7) z += change;
+      const bool is_void = (row < 4 && column > 34) || (row == 22 && column == 30);
+      text += is_void ? "-9" : std::to_string(z).substr(0, 4);
+      text += column < 39 ? ' ' : '\n';
+    }
+  }
+  return text;
+}
+
+// 1 at the lone void and 0 elsewhere.
+std::string mask() {
+  std::string text = "ncols 40\nnrows 30\nxllcenter 500\nyllcenter 700\ncellsize 2\n";
+  for (int i = 0; i < 30 * 40; ++i) {
+    text += i == 22 * 40 + 30 ? '1' : '0';
+    text += i % 40 < 39 ? ' ' : '\n';
+  }
+  return text;
+}
+
+// Points of LAS 1.2, of classes 2 and 5.
+std::string scan() {
+  std::string las(227, '\0');
+  las.replace(0, 4, "LASF");
+  las[24] = 1;
+  las[25] = 2;
+  las[94] = las[96] = '\xE3';
+  las[105] = 20;
+  las[107] = 100;
+  for (const size_t axis : {0u, 1u, 2u}) {
+    las.replace(131 + 8 * axis, 8, std::string("\0\0\0\0\0\0\xF0\x3F", 8));  // a scale of 1
+  }
+  for (int i = 0; i < 100; ++i) {
+    std::string point(20, '\0');
+    point[0] = static_cast<char>(i % 10);
+    point[4] = static_cast<char>(i / 10);
+    point[8] = static_cast<char>(i * i % 23);
+    point[15] = i % 7 == 3 ? 5 : 2;
+    las += point;
+  }
+  return las;
+}
+
+struct Row {
+  std::string command, option;
+  std::string words;  // without the option
+  std::string value;  // of the option
+};
+
+const char* const kRender = "m.mtin -o m.png --width 300";
+
+const std::vector<Row> kRows = {
+    {"encode", "--max-error", "t.asc -o o.mtin", "2"},
+    {"encode", "--max-vertices", "t.asc -o o.mtin", "99"},
+    {"encode", "--max-bytes", "t.asc --fast -o o.mtin", "300"},
+    {"encode", "--tile-vertices", "t.asc --max-error 2 -o o.mtp", "60"},
+    {"encode", "--tile-steps", "t.asc --max-error 2 --tile-vertices 90 -o o.mtp", "9"},
+    {"encode", "--device-ram", "t.asc -o o.mtin", "9000"},
+    {"encode", "--never-below", "t.asc --max-error 2 -o o.mtin", ""},
+    {"encode", "--bound-at", "p.xyz --max-error 2 --xy-step 0.05 -o o.mtin", "lattice"},
+    {"encode", "--duplicates", "p.xyz --max-error 2 -o o.mtin", "lowest"},
+    {"encode", "--fast", "t.asc --max-error 2 -o o.mtin", ""},
+    {"encode", "--best", "t.asc --max-error 2 -o o.mtin", ""},
+    {"encode", "--z-step", "t.asc --max-error 2 -o o.mtin", "0.7"},
+    {"encode", "--xy-step", "t.asc --max-error 2 -o o.mtin", "0.5"},
+    {"encode", "--degree", "t.asc --max-error 2 -o o.mtin", "6"},
+    {"encode", "--decoding", "t.asc --max-error 2 -o o.mtin", "quick"},
+    {"encode", "--classes", "s.las -o o.mtin", "all"},
+    {"encode", "--fill-voids", "t.asc --max-error 2 -o o.mtin", "1"},
+    {"encode", "--water-level", "t.asc --max-error 2 -o o.mtin", "50"},
+    {"encode", "--water-mask", "t.asc --max-error 2 --water-level 50 -o o.mtin", "mask.asc"},
+    {"encode", "--epsg", "t.asc --max-error 2 -o o.mtin", "25832"},
+    {"encode", "--units", "t.asc --max-error 2 -o o.mtin", "foot"},
+    {"encode", "--source-text", "t.asc --max-error 2 -o o.mtin", "survey"},
+    {"encode", "--date", "t.asc --max-error 2 -o o.mtin", "2026"},
+    {"encode", "--lineage", "t.asc --max-error 2 -o o.mtin", "thinned"},
+    {"encode", "--tiles", "t.asc --max-error 2 --tile-vertices 60 -o o.mtp", "0:1"},
+    {"encode", "--output", "", ""},
+    {"plan", "--shards", "t.asc --max-error 2 --tile-vertices 60", "2"},
+    {"merge", "--output", "", ""},
+    {"decode", "--output", "", ""},
+    {"decode", "--cell", "t.mtin -o o.asc", "1"},
+    {"decode", "--extent", "t.mtin -o o.asc", "510,710,520,720"},
+    {"decode", "--like", "t.mtin -o o.asc", "part.asc"},
+    {"decode", "--lattice", "t.mtin -o o.xyz", ""},
+    {"decode", "--force", "", ""},  // a gigabyte: tests/cli/decode_grid_test.cpp
+    {"embed", "--output", "", ""},
+    {"height", "--lattice", "t.mtin 20 20", ""},
+    {"info", "--json", "t.mtin", ""},
+    {"verify", "--json", "t.mtin t.asc", ""},
+    {"verify", "--classes", "s.mtin s.las", "2"},
+    {"verify", "--fill-voids", "m.mtin t.asc", "1"},
+    {"verify", "--water-level", "m.mtin t.asc", "50"},
+    {"verify", "--water-mask", "lake.mtin t.asc --water-level 50", "mask.asc"},
+    {"fractal", "--output", "", ""},
+    {"fractal", "--size", "-o o.asc", "9"},
+    {"fractal", "--seed", "-o o.asc --size 9", "2"},
+    {"render", "--output", "", ""},
+    {"render", "--width", "m.mtin -o m.png", "300"},
+    {"render", "--no-mesh", kRender, ""},
+    {"render", "--palette", "sea.mtin -o o.png --width 300", "sea"},
+    {"render", "--contours", kRender, "5"},
+    {"render", "--coordinates", kRender, ""},
+    {"render", "--title", kRender, "Hills"},
+    {"render", "--north-arrow", kRender, ""},
+    {"render", "--world-file", kRender, ""},
+    {"render", "--source", kRender, "t.asc"},
+    {"render", "--classes", "s.mtin -o o.png --width 300 --source s.las", "2"},
+    {"render", "--fill-voids", "filled.mtin -o o.png --width 300 --source t.asc", "99"},
+    {"render", "--water-level", "lake.mtin -o m.png --width 300 --source t.asc", "50"},
+    {"render", "--water-mask", "water.mtin -o o.png --width 300 --source t.asc --water-level 50",
+     "mask.asc"},
+};
+
+// All that a command says and leaves behind.
+std::string all_of(const Session& session, const std::string& words) {
+  const Session::Result made = session.run(words);
+  std::string all = std::to_string(made.code) + made.out + made.err;
+  for (const char* name : {"o.mtin", "o.mtp", "o.asc", "o.xyz", "o.png", "m.png", "m.pgw"}) {
+    all += std::string("\n") + name + "\n" + session.read(name);
+    std::filesystem::remove(session.folder() + "/" + name);
+  }
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("options: each of every command makes a difference") {
+  const Session session;
+  session.write("t.asc", grid());
+  session.write("mask.asc", mask());
+  session.write("s.las", scan());
+  session.write("part.asc",
+                "ncols 2\nnrows 2\nxllcenter 510\nyllcenter 710\ncellsize 4\n1 2 3 4\n");
+  std::string points = "10 10 3\n10 10 4\n";
+  for (int i = 0; i < 200; ++i) {
+    points += std::to_string(i * 7919 % 1000) + '.' + std::to_string(10 + i % 89) + ' ' +
+              std::to_string(i * 104729 % 997) + " " + std::to_string(i % 9) + '\n';
+  }
+  session.write("p.xyz", points);
+  session.write("sea.xyz", "0 0 -9\n9 0 5\n0 9 3\n9 9 -4\n");
+  for (const char* words :
+       {"t.asc -o t.mtin", "t.asc --max-error 2 -o m.mtin", "s.las -o s.mtin --classes all",
+        "sea.xyz -o sea.mtin", "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
+        "t.asc --max-error 2 --water-level 50 -o water.mtin",
+        "t.asc --max-error 2 --water-level 50 --water-mask mask.asc -o lake.mtin"}) {
+    REQUIRE(session.run(std::string("encode ") + words).code == 0);
+  }
+  for (const Row& row : kRows) {
+    if (row.words.empty()) continue;
+    CAPTURE(row.command);
+    CAPTURE(row.option);
+    std::string words = row.command;
+    words.append(" ").append(row.words);
+    const std::string without = all_of(session, words);
+    CHECK(without != all_of(session, words + " " + row.option + " " + row.value));
+  }
+}
+
+TEST_CASE("options: none is without a row") {
+  const Session session;
+  for (const char* command :
+       {"encode", "merge", "decode", "embed", "height", "info", "verify", "fractal", "render"}) {
+    CAPTURE(command);
+    Names known;
+    for (const Row& row : kRows) {
+      if (row.command == command) known.insert(row.option);
+    }
+    // These are in a program with GDAL alone, and checked by tests/import/gdal_test.cpp.
+    const Names options = without(options_of(session, command), {"--allow-vrt", "--band"});
+    CHECK(text_of(options) == text_of(known));
+  }
+  const Names encode = without(options_of(session, "encode"), {"--output", "--tiles"});
+  CHECK(text_of(options_of(session, "plan")) == text_of(united(encode, {"--shards"})));
+}
+
+namespace {
+
+// Beside `--max-error 1.9 --z-step 0.5 --tile-vertices 60 --tile-steps 10`.
+const std::vector<std::string> kOfShards = {"--max-error 1.8",
+                                            "--tile-vertices 61",
+                                            "--tile-steps 9",
+                                            "--z-step 0.6",
+                                            "--never-below",
+                                            "--bound-at lattice",
+                                            "--fast",
+                                            "--duplicates lowest",
+                                            "--best",
+                                            "--degree 6",
+                                            "--degree 20",
+                                            "--decoding quick",
+                                            "--decoding dense",
+                                            "--fill-voids 1",
+                                            "--epsg 25832",
+                                            "--water-level 50",
+                                            "--units foot",
+                                            "--date 2026",
+                                            "--lineage thinned",
+                                            "--water-level 50 --water-mask mask.asc",
+                                            "--source-text s"};
+
+// Rules for points, which say nothing of a raster.
+const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};
+
+// With which no shard of posts is made, or which say which shard.
+const Names kNotOfShards = {"--max-vertices", "--max-bytes", "--xy-step", "--device-ram",
+                            "--output",       "--tiles",     "--classes"};
+
+const std::vector<std::string> kCommon = {"--max-error 1.9", "--z-step 0.5", "--tile-vertices 60",
+                                          "--tile-steps 10"};
+
+std::string name_of(const std::string& option) {
+  return option.substr(0, option.find(' '));
+}
+
+// The common options, of which one may be another.
+std::string with(const std::string& option) {
+  std::string words;
+  for (const std::string& common : kCommon) {
+    if (name_of(common) != name_of(option)) words += " " + common;
+  }
+  return words + " " + option;
+}
+
+}  // namespace
+
+TEST_CASE("options: shards with another option do not join") {
+  const Session session;
+  session.write("t.asc", grid());
+  session.write("u.asc", grid(0.1));
+  session.write("mask.asc", mask());
+  const auto encode = [&](const std::string& words) {
+    const Session::Result made = session.run("encode " + words);
+    CHECK_MESSAGE(made.code == 0, (words + made.err));
+  };
+  encode("t.asc" + with("") + " --tiles 0:5 -o first");
+  encode("t.asc" + with("") + " -o base.mtp");
+  const auto joins = [&](const std::string& words) {
+    CAPTURE(words);
+    encode(words + " -o other.mtp");
+    encode(words + " --tiles 6:11 -o rest");
+    const bool is_joined = session.run("merge first rest -o merged.mtp").code == 0;
+    if (is_joined) {
+      CHECK((session.read("merged.mtp") == session.read("base.mtp")));
+      CHECK((session.read("merged.mtp") == session.read("other.mtp")));
+    }
+    return is_joined;
+  };
+  CHECK(joins("t.asc" + with("")));
+  CHECK(!joins("u.asc" + with("")));
+  for (const std::string& option : kOfShards) {
+    CAPTURE(option);
+    CHECK(joins("t.asc" + with(option)) == (kWithoutEffect.count(name_of(option)) != 0));
+  }
+}
+
+TEST_CASE("options: none is without a row in the table of shards") {
+  const Session session;
+  Names known = kNotOfShards;
+  for (const std::string& option : kOfShards) known.insert(name_of(option));
+  known.insert("--water-mask");
+  CHECK(text_of(without(options_of(session, "encode"), {"--allow-vrt", "--band"})) ==
+        text_of(known));
+}

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: MIT
+// The public face in C against that in C++: each member of its structs, each function.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "microtin/encoder.h"
+#include "microtin/encoder.hpp"
+#include "microtin/surface.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/members.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace microtin::tests {
+namespace {
+
+namespace library = microtin::encoder;
+using Bytes = std::vector<uint8_t>;
+
+constexpr const char* kC = "encoder/include/microtin/encoder.h";
+constexpr const char* kSystem = "LOCAL_CS[\"site\",UNIT[\"Foot\",0.3048]]";
+
+// 12 columns and 7 rows, the first height void.
+std::vector<double> heights() {
+  std::vector<double> all;
+  for (int i = 0; i < 84; ++i) all.push_back(0.5 * (i * i % 37) - 3);
+  all[0] = std::numeric_limits<double>::quiet_NaN();
+  return all;
+}
+
+struct InC {
+  microtin_raster raster{};
+  std::vector<double> doubles = heights();
+  std::vector<float> floats{doubles.begin(), doubles.end()};
+
+  InC() {
+    raster.size = sizeof raster;
+    raster.columns = 12;
+    raster.rows = 7;
+    raster.heights = doubles.data();
+    const double usual[] = {-0.5, 1, 0, 6.5, 0, -1};
+    std::copy(std::begin(usual), std::end(usual), raster.transform);
+  }
+  InC(const InC&) = delete;
+  InC& operator=(const InC&) = delete;
+};
+
+template <class Content>
+Bytes encoded(const Content& content,
+              microtin_outcome (*make)(const Content*, microtin_terrain**)) {
+  microtin_terrain* terrain = nullptr;
+  REQUIRE(make(&content, &terrain) == MICROTIN_OK);
+  microtin_options options{};
+  options.size = sizeof options;
+  uint8_t* bytes = nullptr;
+  uint64_t size = 0;
+  REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, nullptr) == MICROTIN_OK);
+  Bytes stream(bytes, bytes + size);
+  microtin_bytes_free(bytes);
+  microtin_terrain_free(terrain);
+  return stream;
+}
+
+struct RasterRow {
+  std::string member;
+  std::function<void(InC&)> change;
+};
+
+const std::vector<RasterRow> kRasterRows = {
+    {"columns", [](InC& c) { c.raster.columns = 6; }},
+    {"rows", [](InC& c) { c.raster.rows = 5; }},
+    {"heights", [](InC& c) { c.doubles[13] += 1; }},
+    {"wkt", [](InC& c) { c.raster.wkt = kSystem; }},
+    {"transform", [](InC& c) { c.raster.transform[0] += 2; }},
+    {"transform", [](InC& c) { c.raster.transform[1] = 2; }},
+    {"transform", [](InC& c) { c.raster.transform[3] += 2; }},
+    {"transform", [](InC& c) { c.raster.transform[5] = -2; }},
+    {"transform", [](InC& c) { c.raster.transform[5] = 1; }},
+    {"float_heights",
+     [](InC& c) {
+       c.raster.heights = nullptr;
+       c.floats[13] += 1;
+       c.raster.float_heights = c.floats.data();
+     }},
+};
+
+Bytes stream_in_cpp(const InC& c) {
+  library::Transform transform{};
+  std::copy(std::begin(c.raster.transform), std::end(c.raster.transform), transform.begin());
+  library::Posts posts =
+      c.raster.heights != nullptr
+          ? library::posts_of(c.raster.columns, c.raster.rows, c.raster.heights, transform)
+          : library::posts_of(c.raster.columns, c.raster.rows, c.raster.float_heights, transform);
+  if (c.raster.wkt != nullptr) posts.wkt = c.raster.wkt;
+  return encode_stream(library::Terrain(std::move(posts)), {}).bytes;
+}
+
+const std::vector<double> kPoints = {0, 0, 1, 9, 0, 2.5, 0, 9, 3, 9, 9, 4, 4, 5, 9, 2, 3, 1};
+
+microtin_points points_in_c() {
+  return {sizeof(microtin_points), kPoints.size() / 3, kPoints.data(), nullptr};
+}
+
+Bytes points_in_cpp(uint64_t count, const double* coordinates, const std::string& wkt) {
+  library::Points points = library::points_of(count, coordinates);
+  points.wkt = wkt;
+  return encode_stream(library::Terrain(points), {}).bytes;
+}
+
+// A surface in both languages.
+class Both {
+ public:
+  explicit Both(const std::string& path) : cpp(library::Surface::from_file(path)) {
+    REQUIRE(microtin_surface_open(path.c_str(), &c) == MICROTIN_OK);
+  }
+  ~Both() { microtin_surface_free(c); }
+  Both(const Both&) = delete;
+  Both& operator=(const Both&) = delete;
+
+  library::Surface cpp;
+  microtin_surface* c = nullptr;
+};
+
+void expect_same(const library::Mesh& mesh, const microtin_triangles& triangles) {
+  REQUIRE(triangles.vertices == mesh.vertices.size());
+  REQUIRE(triangles.triangles == mesh.triangles.size());
+  for (size_t i = 0; i < mesh.vertices.size(); ++i) {
+    for (size_t k = 0; k < 3; ++k) CHECK(triangles.coordinates[3 * i + k] == mesh.vertices[i][k]);
+  }
+  for (size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (size_t k = 0; k < 3; ++k) CHECK(triangles.corners[3 * i + k] == mesh.triangles[i][k]);
+  }
+}
+
+bool is_same(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), 8 * a.size()) == 0;
+}
+
+void expect_same_raster(const Both& both, const char* cell) {
+  const library::Grid grid = both.cpp.grid(cell);
+  microtin_grid in_c{};
+  REQUIRE(microtin_surface_grid(both.c, cell, &in_c) == MICROTIN_OK);
+  CHECK(in_c.columns == grid.columns);
+  CHECK(in_c.rows == grid.rows);
+  for (const auto& [a, b] : {std::pair(in_c.x, grid.x), std::pair(in_c.y, grid.y)}) {
+    CHECK(std::tuple(a.offset, a.numerator, a.denominator) ==
+          std::tuple(b.offset, b.numerator, b.denominator));
+  }
+  std::vector<double> expected(size_t{grid.columns} * grid.rows), found(expected.size());
+  both.cpp.heights(grid, {0, 0, grid.columns, grid.rows}, expected.data());
+  REQUIRE(microtin_surface_raster(both.c, &in_c, found.data()) == MICROTIN_OK);
+  CHECK(is_same(expected, found));
+}
+
+void expect_same_heights(const Both& both) {
+  std::vector<double> x, y;
+  for (int i = 0; i < 300; ++i) {
+    x.push_back(i * 7 % 130 / 10.0 - 0.5);
+    y.push_back(i * 11 % 80 / 10.0 - 0.5);
+  }
+  std::vector<double> expected(x.size()), found(x.size());
+  both.cpp.heights(x.size(), x.data(), y.data(), expected.data());
+  REQUIRE(microtin_surface_heights(both.c, x.size(), x.data(), y.data(), found.data()) ==
+          MICROTIN_OK);
+  CHECK(is_same(expected, found));
+}
+
+}  // namespace
+
+TEST_CASE("C: each member of a raster makes the difference that it makes in C++") {
+  const Bytes usual = encoded(InC().raster, microtin_terrain_of_raster);
+  CHECK(usual == stream_in_cpp(InC()));
+  Names known = {"size"};
+  for (const RasterRow& row : kRasterRows) {
+    CAPTURE(row.member);
+    known.insert(row.member);
+    InC changed;
+    row.change(changed);
+    const Bytes stream = encoded(changed.raster, microtin_terrain_of_raster);
+    CHECK(stream != usual);
+    CHECK(stream == stream_in_cpp(changed));
+  }
+  CHECK(text_of(members_of(kC, "microtin_raster")) == text_of(known));
+}
+
+TEST_CASE("C: each member of points makes the difference that it makes in C++") {
+  const Bytes usual = encoded(points_in_c(), microtin_terrain_of_points);
+  CHECK(usual == points_in_cpp(6, kPoints.data(), ""));
+  microtin_points fewer = points_in_c(), others = points_in_c(), placed = points_in_c();
+  fewer.count = 5;
+  others.coordinates += 3;
+  others.count = 5;
+  placed.wkt = kSystem;
+  CHECK(encoded(fewer, microtin_terrain_of_points) == points_in_cpp(5, kPoints.data(), ""));
+  CHECK(encoded(others, microtin_terrain_of_points) == points_in_cpp(5, kPoints.data() + 3, ""));
+  CHECK(encoded(placed, microtin_terrain_of_points) == points_in_cpp(6, kPoints.data(), kSystem));
+  CHECK(encoded(placed, microtin_terrain_of_points) != usual);
+  CHECK(text_of(members_of(kC, "microtin_points")) == "coordinates count size wkt ");
+}
+
+TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
+  const TemporaryFolder folder;
+  InC c;
+  write_file(folder / "a.mtin", encoded(c.raster, microtin_terrain_of_raster));
+  library::PackOptions options;
+  options.tile_vertices = 30;
+  library::Transform transform{-0.5, 1, 0, 6.5, 0, -1};
+  encode_pack(library::Terrain(library::posts_of(12, 7, c.doubles.data(), transform)), options,
+              folder / "a.mtp");
+  for (const char* name : {"a.mtin", "a.mtp"}) {
+    CAPTURE(name);
+    Both both(folder / name);
+    microtin_triangles triangles{};
+    REQUIRE(microtin_surface_mesh(both.c, &triangles) == MICROTIN_OK);
+    expect_same(both.cpp.mesh(), triangles);
+    const library::Facts& facts = both.cpp.facts();
+    CHECK((facts.tile_columns * facts.tile_rows > 1) == facts.is_pack);
+    for (uint32_t row = 0; row < facts.tile_rows; ++row) {
+      for (uint32_t column = 0; column < facts.tile_columns; ++column) {
+        REQUIRE(microtin_surface_tile(both.c, column, row, &triangles) == MICROTIN_OK);
+        expect_same(both.cpp.tile(column, row), triangles);
+      }
+    }
+    CHECK(microtin_surface_tile(both.c, facts.tile_columns, 0, &triangles) == MICROTIN_REFUSED);
+    CHECK(microtin_surface_tile(both.c, 0, facts.tile_rows, &triangles) == MICROTIN_REFUSED);
+    expect_same_raster(both, "0.5");
+    expect_same_heights(both);
+  }
+  CHECK(text_of(members_of(kC, "microtin_triangles")) == "coordinates corners triangles vertices ");
+  CHECK(text_of(members_of(kC, "microtin_grid")) == "columns rows x y ");
+}
+
+TEST_CASE("C: bytes in memory are the surface that their file is, to the last of them") {
+  const Bytes stream = encoded(InC().raster, microtin_terrain_of_raster);
+  microtin_surface* surface = nullptr;
+  REQUIRE(microtin_surface_of_bytes(stream.data(), stream.size(), "here", &surface) == MICROTIN_OK);
+  microtin_facts facts{};
+  microtin_surface_facts(surface, &facts);
+  CHECK(facts.bytes == stream.size());
+  microtin_surface_free(surface);
+  CHECK(microtin_surface_of_bytes(stream.data(), stream.size() - 1, "here", &surface) ==
+        MICROTIN_REFUSED);
+  CHECK(std::string(microtin_message()).find("here: ") == 0);
+}
+
+TEST_CASE("C: a struct of another size is refused, whichever it is") {
+  InC c;
+  microtin_terrain* terrain = nullptr;
+  REQUIRE(microtin_terrain_of_raster(&c.raster, &terrain) == MICROTIN_OK);
+  microtin_points points = points_in_c();
+  microtin_options options{};
+  options.tile_vertices = 30;
+  uint8_t* bytes = nullptr;
+  uint64_t size = 0;
+  microtin_terrain* none = nullptr;
+  for (const int change : {-1, 1}) {
+    const auto other = [change](size_t real) {
+      return static_cast<size_t>(static_cast<int>(real) + change);
+    };
+    c.raster.size = other(sizeof c.raster);
+    points.size = other(sizeof points);
+    options.size = other(sizeof options);
+    CHECK(microtin_terrain_of_raster(&c.raster, &none) == MICROTIN_REFUSED);
+    CHECK(microtin_terrain_of_points(&points, &none) == MICROTIN_REFUSED);
+    CHECK(microtin_encode_stream(terrain, &options, &bytes, &size, nullptr) == MICROTIN_REFUSED);
+    CHECK(microtin_encode_pack(terrain, &options, "/nowhere/a.mtp", nullptr) == MICROTIN_REFUSED);
+    CHECK(std::string(microtin_message()) == "a struct of another size");
+  }
+  microtin_terrain_free(terrain);
+}
+
+TEST_CASE("C: progress is heard by streams and packs of posts, and ends their work") {
+  const TemporaryFolder folder;
+  struct Heard {
+    int calls = 0;
+    double last = 0;
+    int answer = 0;
+  };
+  InC c;
+  microtin_terrain* terrain = nullptr;
+  REQUIRE(microtin_terrain_of_raster(&c.raster, &terrain) == MICROTIN_OK);
+  for (const bool is_pack : {false, true}) {
+    for (const int answer : {0, 1}) {
+      Heard heard;
+      heard.answer = answer;
+      microtin_options options{};
+      options.size = sizeof options;
+      options.max_error = "2";
+      options.tile_vertices = is_pack ? 30 : 0;
+      options.context = &heard;
+      options.progress = [](void* context, double done) {
+        auto& told = *static_cast<Heard*>(context);
+        CHECK((done >= told.last && done <= 1));
+        told.last = done;
+        ++told.calls;
+        return told.answer;
+      };
+      uint8_t* bytes = nullptr;
+      uint64_t size = 0;
+      const microtin_outcome outcome =
+          is_pack ? microtin_encode_pack(terrain, &options, (folder / "a.mtp").c_str(), nullptr)
+                  : microtin_encode_stream(terrain, &options, &bytes, &size, nullptr);
+      microtin_bytes_free(bytes);
+      CHECK(outcome == (answer == 0 ? MICROTIN_OK : MICROTIN_CANCELLED));
+      CHECK(heard.calls > 0);
+    }
+  }
+  microtin_terrain_free(terrain);
+}
+
+}  // namespace microtin::tests

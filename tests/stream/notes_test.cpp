@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+// Every member of the metadata comes back from the header of a stream and of a pack, alone and
+// beside all others. A member without a row fails.
+#include "encoder/stream/notes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/lattice_map.hpp"
+#include "encoder/stream/encode.hpp"
+#include "encoder/stream/header.hpp"
+#include "tests/support/members.hpp"
+#include "tests/support/streams.hpp"
+
+namespace microtin::tests {
+namespace {
+
+bool is_same_decimal(const std::optional<Decimal>& a, const std::optional<Decimal>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->mantissa == b->mantissa && a->decimals == b->decimals;
+}
+
+bool is_same_accuracy(const std::optional<Accuracy>& a, const std::optional<Accuracy>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return is_same_decimal(a->bound, b->bound) && is_same_decimal(a->max_error, b->max_error) &&
+         is_same_decimal(a->rms_error, b->rms_error) &&
+         is_same_decimal(a->mean_error, b->mean_error);
+}
+
+bool is_same_placement(const Placement& a, const Placement& b) {
+  return is_same(a.x, b.x) && is_same(a.y, b.y) && is_same(a.z, b.z);
+}
+
+bool is_same_grid(const std::optional<PostGrid>& a, const std::optional<PostGrid>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->columns == b->columns && a->rows == b->rows && is_same(a->x, b->x) &&
+         is_same(a->y, b->y);
+}
+
+struct Row {
+  std::string member;
+  std::function<void(Metadata&)> set;
+  std::function<bool(const Metadata&, const Metadata&)> is_same;
+};
+
+template <class Value>
+Row row(const std::string& member, Value Metadata::*at, const Value& value) {
+  return {member, [=](Metadata& m) { m.*at = value; },
+          [=](const Metadata& a, const Metadata& b) { return a.*at == b.*at; }};
+}
+
+template <class Value, class Same>
+Row row(const std::string& member, Value Metadata::*at, const Value& value, const Same& is_same) {
+  return {member, [=](Metadata& m) { m.*at = value; },
+          [=](const Metadata& a, const Metadata& b) { return is_same(a.*at, b.*at); }};
+}
+
+// Values with all bits of a few lengths, ends of what can be written, and all of an enumeration.
+std::vector<Row> rows() {
+  using std::optional;
+  const Accuracy bounded{Decimal{10, 0}, Decimal{99, 1}, Decimal{345, 2}, Decimal{-12, 18}};
+  const Accuracy measured{std::nullopt, Decimal{INT64_MAX, 9}, Decimal{0, 0},
+                          Decimal{INT64_MIN, 1}};
+  std::vector<Row> all = {
+      row("placement", &Metadata::placement, Placement{{-7, 3, 1200}, {33, 1, 7}, {-250, 5, 2}},
+          is_same_placement),
+      row("horizontal_epsg", &Metadata::horizontal_epsg, 1u),
+      row("horizontal_epsg", &Metadata::horizontal_epsg, UINT32_MAX),
+      row("vertical_epsg", &Metadata::vertical_epsg, 1u),
+      row("vertical_epsg", &Metadata::vertical_epsg, UINT32_MAX),
+      row<std::string>("wkt", &Metadata::wkt, "LOCAL_CS[\"w\"]"),
+      row<std::string>("source", &Metadata::source, "s"),
+      row<std::string>("source", &Metadata::source, std::string(300, 's')),
+      row<std::string>("date", &Metadata::date, "2026-11"),
+      row<std::string>("lineage", &Metadata::lineage, "l\n\xC3\xA4"),
+      row("water_level", &Metadata::water_level, optional(Decimal{-445, 1}), is_same_decimal),
+      row("accuracy", &Metadata::accuracy, optional(bounded), is_same_accuracy),
+      row("accuracy", &Metadata::accuracy, optional(measured), is_same_accuracy),
+      row("true_places", &Metadata::true_places, optional(bounded), is_same_accuracy),
+      row("true_places", &Metadata::true_places, optional(measured), is_same_accuracy),
+      row("grid", &Metadata::grid, optional(PostGrid{1, UINT32_MAX, {1, 2, 3}, {-4, 5, 6}}),
+          is_same_grid),
+      row("grid", &Metadata::grid, optional(PostGrid{300, 2, {0, 1, 1}, {0, 1, 1}}), is_same_grid),
+      row("grid", &Metadata::grid, optional(PostGrid{300, 2, {0, 1, 1}, {0, 1, 2}}), is_same_grid),
+      row("grid", &Metadata::grid, optional(PostGrid{300, 2, {0, 1, 2}, {0, 1, 1}}), is_same_grid),
+  };
+  for (const int unit : {0, 1, 2, 3, 4}) {
+    all.push_back(row("horizontal_unit", &Metadata::horizontal_unit, static_cast<Unit>(unit)));
+    all.push_back(row("vertical_unit", &Metadata::vertical_unit, static_cast<Unit>(unit)));
+  }
+  for (const int rule : {0, 1, 2, 3, 4, 5}) {
+    all.push_back(row("duplicates", &Metadata::duplicates, static_cast<DuplicateRule>(rule)));
+  }
+  for (const ClassSet& classes :
+       {ClassSet(), ClassSet().set(), ClassSet().set(0), ClassSet().set(255),
+        ClassSet().set(2).set(3).set(9), ClassSet().set().reset(7)}) {
+    all.push_back(row("classes", &Metadata::classes, optional(classes)));
+  }
+  return all;
+}
+
+Metadata with_all(const std::vector<Row>& all) {
+  Metadata metadata;
+  for (const Row& row : all) row.set(metadata);
+  return metadata;
+}
+
+// How many bytes all texts may have beside the heads of their notes.
+void write_text(std::string Metadata::*text, size_t size) {
+  Metadata metadata;
+  metadata.*text = std::string(size, 'a');
+  CHECK(write_notes(metadata).size() == size + kNoteHeadBytes);
+}
+
+}  // namespace
+
+TEST_CASE("notes: each comes back from a header, alone and beside all others") {
+  const std::vector<Row> all = rows();
+  const Tin tin = rolling_tin(10, 5);
+  for (const Row& row : all) {
+    CAPTURE(row.member);
+    for (Metadata metadata : {Metadata(), full_metadata(), with_all(all)}) {
+      row.set(metadata);
+      const Metadata back = read_header(encode(tin, metadata)).metadata;
+      for (const Row& other : all) {
+        CAPTURE(other.member);
+        CHECK(other.is_same(metadata, back));
+      }
+    }
+  }
+}
+
+TEST_CASE("notes: no member of the metadata is without a row") {
+  Names known;
+  for (const Row& row : rows()) known.insert(row.member);
+  CHECK(text_of(members_of("encoder/exact/metadata.hpp", "Metadata")) == text_of(known));
+  CHECK(text_of(members_of("encoder/exact/metadata.hpp", "Accuracy")) ==
+        "bound max_error mean_error rms_error ");
+  CHECK(text_of(members_of("encoder/exact/metadata.hpp", "PostGrid")) == "columns rows x y ");
+  CHECK(text_of(members_of("encoder/exact/metadata.hpp", "Placement")) == "x y z ");
+}
+
+TEST_CASE("notes: texts take as many bytes as notes have, and no more") {
+  for (std::string Metadata::*const text :
+       {&Metadata::wkt, &Metadata::source, &Metadata::date, &Metadata::lineage}) {
+    write_text(text, kNotesMostBytes - kNoteHeadBytes);
+    CHECK_THROWS_AS(write_text(text, kNotesMostBytes - kNoteHeadBytes + 1), Error);
+    CHECK_THROWS_AS(write_text(text, UINT16_MAX + 1), Error);
+    Metadata two;
+    two.*text = std::string(40000, 'a');
+    (text == &Metadata::source ? two.lineage : two.source) =
+        std::string(kNotesMostBytes - 2 * kNoteHeadBytes - 40000, 'b');
+    CHECK(write_notes(two).size() == kNotesMostBytes);
+    (text == &Metadata::source ? two.lineage : two.source) += 'b';
+    CHECK_THROWS_AS(write_notes(two), Error);
+  }
+}
+
+}  // namespace microtin::tests
