@@ -79,6 +79,38 @@ TEST_CASE("mosaic: rasters that touch or overlap are one; the first counts, gaps
       contains(session.run("encode a.asc c.asc -o u.mtin").out, "2 files, none of which overlap"));
 }
 
+TEST_CASE("mosaic: the place of the largest difference, wherever it is") {
+  const Session session;
+  const auto heights = [](int rows, int columns, int at, const char* there) {
+    std::string text;
+    for (int i = 0; i < rows * columns; ++i) {
+      text += i == at ? there : "1";
+      text += i % columns < columns - 1 ? ' ' : '\n';
+    }
+    return text;
+  };
+  const auto write = [&](const std::string& name, int x, int y, int rows, const std::string& text) {
+    session.write(name, "ncols 3\nnrows " + std::to_string(rows) + "\nxllcenter " +
+                            std::to_string(x) + "\nyllcenter " + std::to_string(y) +
+                            "\ncellsize 2\n" + text);
+  };
+  write("a.asc", 100, 50, 70, heights(70, 3, -1, ""));
+  for (int column = 1; column < 3; ++column) {
+    for (const int row : {0, 1, 63, 64, 68}) {  // rows from the south, compared 64 at a time
+      write("b.asc", 102, 50, 69, heights(69, 3, (68 - row) * 3 + column - 1, "4"));
+      write("c.asc", 98, 48, 70, heights(70, 3, 0, "2"));
+      const std::string place =
+          "x " + std::to_string(100 + 2 * column) + ", y " + std::to_string(50 + 2 * row);
+      CAPTURE(place);
+      const std::string said =
+          session.run("encode a.asc b.asc c.asc --max-error 9 --fast -o t.mtin").out;
+      CHECK(contains(said, "differ by up to 3, most at " + place + " in a.asc and b.asc;"));
+      CHECK(contains(session.run("encode c.asc b.asc a.asc --max-error 9 --fast -o t.mtin").out,
+                     "differ by up to 3, most at " + place + " in "));
+    }
+  }
+}
+
 TEST_CASE("mosaic: a folder of SRTM cells") {
   const Session session;
   fs::create_directory(session.folder() + "/cells");

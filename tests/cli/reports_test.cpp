@@ -38,8 +38,8 @@ Names info_names(bool is_pack) {
   names = united(names, with_prefix("offsets.", xyz));
   names = united(names, axes("placement.", xyz));
   if (!is_pack) {
-    return united(names, {"format_version", "triangles", "void_triangles", "bits_per_vertex",
-                          "phases", "degree", "decoding"});
+    return united(names, {"format_version", "compact_bytes", "triangles", "void_triangles",
+                          "bits_per_vertex", "phases", "degree", "decoding"});
   }
   return united(names, {"pack_version", "columns", "rows", "tile_width", "tile_height", "x_max",
                         "y_max", "most_vertices", "compact_bytes", "device_memory",

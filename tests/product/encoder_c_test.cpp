@@ -83,6 +83,11 @@ const std::vector<RasterRow> kRasterRows = {
     {"transform", [](InC& c) { c.raster.transform[3] += 2; }},
     {"transform", [](InC& c) { c.raster.transform[5] = -2; }},
     {"transform", [](InC& c) { c.raster.transform[5] = 1; }},
+    {"no_data",
+     [](InC& c) {
+       static const double value = -3;
+       c.raster.no_data = &value;
+     }},
     {"float_heights",
      [](InC& c) {
        c.raster.heights = nullptr;
@@ -94,10 +99,12 @@ const std::vector<RasterRow> kRasterRows = {
 Bytes stream_in_cpp(const InC& c) {
   library::Transform transform{};
   std::copy(std::begin(c.raster.transform), std::end(c.raster.transform), transform.begin());
+  const microtin_raster& r = c.raster;
+  const double no_data = r.no_data != nullptr ? *r.no_data : library::kNoValue;
   library::Posts posts =
-      c.raster.heights != nullptr
-          ? library::posts_of(c.raster.columns, c.raster.rows, c.raster.heights, transform)
-          : library::posts_of(c.raster.columns, c.raster.rows, c.raster.float_heights, transform);
+      r.heights != nullptr
+          ? library::posts_of(r.columns, r.rows, r.heights, transform, no_data)
+          : library::posts_of(r.columns, r.rows, r.float_heights, transform, no_data);
   if (c.raster.wkt != nullptr) posts.wkt = c.raster.wkt;
   return encode_stream(library::Terrain(std::move(posts)), {}).bytes;
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// A pack whose tiles are planned again, since one was too large, is the one with tiles of that
+// size.
+#include "encoder/product/encode_pack.hpp"
+
+#include <doctest/doctest.h>
+
+#include "tests/support/files.hpp"
+#include "tests/support/packs.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace microtin::tests {
+namespace {
+
+// The bytes; the number of tiles' steps is given away.
+std::vector<uint8_t> written(const product::EncodeOptions& options, uint32_t& steps) {
+  const TemporaryFolder folder;
+  const RasterInMemory raster(rough_raster(61, 53));
+  StreamSpool streams(folder / "pack");
+  const PackContent pack = product::encode_pack(raster, options, streams, {});
+  OutputFile out(folder / "pack");
+  product::write_pack(pack, streams, out);
+  out.commit();
+  steps = pack.grid.width;
+  const std::vector<uint8_t> bytes = bytes_of_file(folder / "pack");
+  const Verification found = verify(PackFile(bytes), raster, options.lattice.max_error);
+  CHECK(found.within_bound);
+  CHECK(found.uncovered == 0);
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("product: a pack that is planned again holds what its last plan does") {
+  product::EncodeOptions options;
+  options.lattice.max_error = Decimal{2, 0};
+  options.tile_vertices = 80;
+  options.search = Search::kGreedy;  // finds more vertices than planning expects
+  const RasterInMemory raster(rough_raster(61, 53));
+  PackOptions first = pack_options(2, 80);
+  first.simplify.search = Search::kGreedy;
+  uint32_t steps = 0, same = 0;
+  const std::vector<uint8_t> bytes = written(options, steps);
+  CHECK(plan_pack(raster, first).tile_steps > steps);  // else nothing is planned again
+  options.tile_steps = steps;
+  CHECK((written(options, same) == bytes));
+}
+
+}  // namespace microtin::tests
