@@ -30,10 +30,7 @@ build/release/tests/host_report "$terrain.mtin" >"$terrain.report"
 build/release/microtin embed tests/golden/hills.mtin -o build/devices/terrain.h
 # What the module for browsers is tested on.
 area=build/devices/area
-mkdir -p $area
-build/release/microtin fractal --size 257 --seed 3 -o $area/area.asc
-build/release/microtin encode $area/area.asc --units metre --max-error 2 --fast -o $area/area.mtin
-build/release/microtin encode $area/area.asc --units metre --max-error 8 --fast --tile-vertices 500 -o $area/area.mtp
+tests/npm/area build/release/microtin $area
 tests/footprint/streams.sh build/release/microtin build/devices/footprint
 
 for preset; do

@@ -1,28 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Packs: out of memory and by HTTP, from servers that know ranges, know none, and break off.
 import assert from "node:assert/strict";
-import http from "node:http";
 import test from "node:test";
-import { area, areaFile, bytesOf, microtin, postsOf } from "./support.mjs";
+import { areaBytes, areaFile, bytesOf, microtin, postsOf, served, skip } from "./support.mjs";
 
 const { MicrotinError, Pack, decode } = microtin;
-const skip = area ? false : "skipped: no files of a host; tests/devices.sh makes them";
-const bytes = area && bytesOf(areaFile("mtp"));
-
-// Runs with a server's address; `answer` handles a request for bytes from .. to.
-async function served(answer, use) {
-  const server = http.createServer((request, response) => {
-    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range);
-    answer(response, range && range.slice(1).map(Number));
-  });
-  await new Promise((done) => server.listen(0, "127.0.0.1", done));
-  try {
-    return await use(`http://127.0.0.1:${server.address().port}/area.mtp`);
-  } finally {
-    server.closeAllConnections();
-    server.close();
-  }
-}
+const bytes = areaBytes("area.mtp");
 
 function withRanges(response, [from, to]) {
   if (from >= bytes.length) {

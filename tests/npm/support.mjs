@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The package under test, and files to test it on.
 import fs from "node:fs";
+import http from "node:http";
 import path from "node:path";
 
 export const microtin = await import(path.join(process.env.MICROTIN_NPM, "microtin.js"));
@@ -20,9 +21,26 @@ export function reportOf(name) {
   return Object.fromEntries(text.trim().split("\n").map((line) => [line.split(" ")[0], line.split(" ").slice(1).join(" ")]));
 }
 
-// Files that a host made: area.asc, area.mtin and area.mtp, of one terrain; undefined without.
+// Files that a host made, by tests/npm/area; undefined without.
 export const area = process.env.MICROTIN_AREA || undefined;
+export const skip = area ? false : "skipped: no files of a host; tests/devices.sh makes them";
 export const areaFile = (ending) => path.join(area, `area.${ending}`);
+export const areaBytes = (name) => area && bytesOf(path.join(area, name));
+
+// Runs with a server's address; `answer` handles a request for bytes from .. to.
+export async function served(answer, use) {
+  const server = http.createServer((request, response) => {
+    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range);
+    answer(response, range && range.slice(1).map(Number));
+  });
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  try {
+    return await use(`http://127.0.0.1:${server.address().port}/area.mtp`);
+  } finally {
+    server.closeAllConnections();
+    server.close();
+  }
+}
 
 // The heights of an .asc file of square cells: its posts, row by row from the south.
 export function postsOf(file) {

@@ -39,6 +39,9 @@ export interface Header {
   wkt?: string;
   /** In units of height: the bound asked for, and the errors measured at every sample of the source. */
   accuracy?: { bound?: number; largest: number; rms: number; mean: number };
+  /** Where the terrain comes from, as its maker states it, and the date of the source in ISO 8601. */
+  source?: string;
+  date?: string;
   /** Triangles of which all vertices have this very height are water. */
   waterLevel?: number;
 }
@@ -59,29 +62,35 @@ export interface Mesh {
   voids: Uint32Array;
 }
 
-/** A terrain. While it is being decoded it grows: arrays are those of the moment. */
+/** A terrain. While it is being decoded it holds what the sections that have passed their checks contain, and nothing of
+ * a later section: no vertices before the first one has passed, and the last verified terrain after an error. It changes
+ * only when {@link Decoder.push} or {@link decodeStream} yields it. Its arrays are copies, which it returns again until
+ * then. */
 export interface Terrain extends Mesh {
   readonly header: TerrainHeader;
   readonly vertexCount: number;
-  /** Bytes of the stream that have been decoded. */
+  /** Bytes of the stream up to the end of the last verified section. */
   readonly bytes: number;
   /** Whether all is decoded and verified. */
   readonly done: boolean;
   /** A number that depends on the set of triangles alone; equal on every machine. */
   readonly digest: bigint;
-  /** The height at a real place; NaN outside, or where the terrain is not known. */
+  /** The height at a real place; NaN outside, for NaN and infinities, or where the terrain is not known. Voids are known
+   * once all is decoded. @throws TypeError if an argument is not a number */
   heightAt(x: number, y: number): number;
 }
 
-/** Decodes a whole stream; await {@link ready} first. @throws MicrotinError */
+/** Decodes a whole stream; await {@link ready} first. @throws MicrotinError, or TypeError if it is not a Uint8Array */
 export function decode(bytes: Uint8Array): Terrain;
 
 /** Decodes a stream from its bytes in any pieces; await {@link ready} first. */
 export class Decoder {
   /** Undefined until the header is complete. */
   readonly terrain: Terrain | undefined;
-  /** Takes the next bytes. Yields the terrain each time that a section of it, one phase or the first few together,
-   * has passed its check: coarse at first, then finer. @throws MicrotinError */
+  /** Takes a copy of the next bytes at once. The generator decodes them, and yields the terrain each time that a section
+   * of it, one phase or the first few together, has passed its check: coarse at first, then finer. Bytes that an
+   * iteration leaves are decoded by the next one, or by {@link finish}. An error is final: later calls throw it again.
+   * @throws MicrotinError, or TypeError if it is not a Uint8Array */
   push(bytes: Uint8Array): Generator<Terrain, void>;
   /** No byte will follow. @throws MicrotinError if the terrain is not complete */
   finish(): Terrain;
@@ -94,11 +103,14 @@ export type Chunks =
   | AsyncIterable<Uint8Array>
   | Iterable<Uint8Array>;
 
-/** Decodes a stream while it arrives: see {@link Decoder.push}. @throws MicrotinError */
+/** Decodes a stream while it arrives: see {@link Decoder.push}. The same terrain is yielded each time.
+ * @throws MicrotinError, with status IO if the source fails or is an HTTP error; TypeError if it does not yield
+ * Uint8Arrays */
 export function decodeStream(source: Chunks): AsyncGenerator<Terrain, void>;
 
-/** Where a pack lies: a URL, fetched by HTTP ranges; a file; all its bytes; or a function that reads up to `size`
- * bytes at `offset`, none only behind the end. */
+/** Where a pack lies: a URL, fetched by HTTP ranges, or as a whole if the server has none; a file; all its bytes; or a
+ * function that reads up to `size` bytes at `offset`, at least one, and none only behind the end. What it returns is
+ * copied. */
 export type PackSource =
   | string
   | URL
@@ -106,12 +118,14 @@ export type PackSource =
   | Uint8Array
   | ((offset: number, size: number) => Promise<Uint8Array>);
 
-/** A terrain in tiles; only what is asked for is read. Its calls may overlap; they are served one by one. A call that
- * fails with status IO may be tried again. */
+/** A terrain in tiles; only what is asked for is read, and nothing twice while it is kept. Its calls may overlap; they
+ * are served one by one. A call that fails with status IO may be tried again; one that touches a damaged tile fails each
+ * time. Calls throw a TypeError if an argument is not a number, and a RangeError if there is no such tile. */
 export class Pack {
   private constructor();
-  /** @param options.slots tiles that are kept in memory; more where one question needs more */
-  static open(source: PackSource, options?: { slots?: number }): Promise<Pack>;
+  /** @param options.slots decoded tiles that are kept in memory, 1 to 255; more where one question needs more
+   * @param options.cacheBytes bytes of the file that are kept in memory, those used last; 64 MiB if not given */
+  static open(source: PackSource, options?: { slots?: number; cacheBytes?: number }): Promise<Pack>;
   readonly header: Header;
   /** Tiles in a row and rows; tile 0 is the south-western one, and numbers grow along rows. */
   readonly columns: number;
@@ -124,16 +138,22 @@ export class Pack {
   readonly highest: number;
   /** Bytes read from the source so far. */
   readonly bytesRead: number;
+  /** Bytes of the file; undefined if the source does not state it, as read functions do not. */
+  readonly size: number | undefined;
   /** The real extent of a tile: x, y, largest x, largest y. */
   tileBox(tile: number): [number, number, number, number];
-  /** The numbers of the tiles that touch an extent. */
+  /** The numbers of the tiles that touch an extent; none for NaN. */
   tilesIn(xMin: number, yMin: number, xMax: number, yMax: number): number[];
   /** A tile's mesh; empty if the terrain is not known there. Neighbours share their border, so there are no cracks. */
   tile(tile: number): Promise<Mesh & { done: true }>;
-  /** The same, coarse at first, each as soon as its bytes are there. */
+  /** Yields a tile's mesh, coarse at first, each as soon as its bytes are there. A mesh that is not `done` holds the
+   * sections that have passed their checks, of a stream of the tile's size. Only the end shows whether the stream is
+   * undamaged and the one that the index names: if not, the generator throws. Iterations may overlap. */
   tilePhases(tile: number): AsyncGenerator<Mesh & { done: boolean }, void>;
-  /** The height at a real place; NaN outside, or where the terrain is not known. */
+  /** The height at a real place; NaN outside, for NaN and infinities, or where the terrain is not known.
+   * @throws MicrotinError if the tile is damaged */
   heightAt(x: number, y: number): Promise<number>;
-  /** The exact greatest height on the straight course; NaN if a part of it lies outside or where nothing is known. */
+  /** The exact greatest height on the straight course; NaN if a part of it lies outside or where nothing is
+   * known. @throws MicrotinError if a tile is damaged, RangeError if the course touches more than 255 tiles */
   highestOn(x: number, y: number, xEnd: number, yEnd: number): Promise<number>;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What JavaScript calls beside the decoder's own functions: much at a time, and what only the
 // memory knows. Pointers are addresses in the module's memory.
-#include "decoder/pack_state.hpp"
+#include "decoder/pack_service.hpp"
 
 using namespace microtin;
 
@@ -59,6 +59,24 @@ uint32_t triangles(const microtin_mesh* mesh, uint32_t kind, uint32_t* to) {
 
 uint32_t pack_bytes(uint32_t slots, uint32_t capacity) {
   return MICROTIN_PACK_BYTES(slots, capacity);
+}
+
+// Like microtin_pack_prepare without a step limit, but returns STEP_LIMIT as soon as the tile in
+// hand has more than `verified` vertices and all of them have passed their checks.
+uint32_t prepare_section(microtin_pack* pack, const microtin_course* course, uint32_t verified) {
+  microtin_status status = MICROTIN_DONE;
+  while (status == MICROTIN_DONE) {
+    status = go_on(*pack, *course);
+    if (status != MICROTIN_STEP_LIMIT) return status;
+    const auto& mesh = *static_cast<const microtin_mesh*>(pack->slot->space);
+    while (status == MICROTIN_STEP_LIMIT) {
+      const uint32_t vertices = mesh.mesh.vertices;
+      if (pack->is_legal && vertices > verified && vertices == mesh.verified_vertices)
+        return status;
+      status = decode(*pack, 1);
+    }
+  }
+  return status;
 }
 
 // The mesh of a tile that is there, or that is just being read; null if it is neither, or has no

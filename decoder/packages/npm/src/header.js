@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a header says beside the terrain: FORMAT.md, section 4.
 
+import { checkNumber } from "./check.js";
+
 const UNITS = [undefined, "metre", "degree", "international foot", "US survey foot"];
 const AXIS_BYTES = 24;
 
@@ -17,9 +19,10 @@ export function axesAt(view, at) {
   return { x: axisAt(view, at), y: axisAt(view, at + AXIS_BYTES), z: axisAt(view, at + 2 * AXIS_BYTES) };
 }
 
-// On an axis, with the 8 fractional bits of queries.
-export function toLattice(axis, value) {
-  return Math.round(((value - axis.start) / axis.step) * 256);
+// The place of a coordinate on an axis, with the 8 fractional bits of queries; NaN outside 0 .. `most` steps.
+export function toLattice(axis, most, value) {
+  const place = Math.round(((checkNumber("a coordinate", value) - axis.start) / axis.step) * 256);
+  return place >= 0 && place <= 256 * most ? place : NaN;
 }
 
 // Reads a note from its beginning; what it lacks is 0.
@@ -61,11 +64,13 @@ const NOTES = {
       vertical: Number(note.varint()) || undefined,
     },
   }),
+  3: (note) => ({ source: note.text() }),
   4: (note) => {
     const isBound = note.byte() === 1;
     const [bound, largest, rms, mean] = Array.from({ length: 4 }, () => note.decimal());
     return { accuracy: { bound: isBound ? bound : undefined, largest, rms, mean } };
   },
+  5: (note) => ({ date: note.text() }),
   7: (note) => ({ waterLevel: note.decimal() }),
   9: (note) => ({ wkt: note.text() }),
 };

@@ -2,6 +2,8 @@
 // The decoder as WebAssembly. Every terrain is an instance with a memory of its own, which is freed
 // with it. What builds the package puts MICROTIN_WASM, deflated in base64, and MICROTIN_VERSION here.
 
+import { MicrotinError, TOO_BIG } from "./status.js";
+
 let compiled;
 
 async function compile() {
@@ -27,9 +29,23 @@ export class Instance {
     const { memory } = this.calls;
     const start = Math.ceil(this.end / 8) * 8;
     const missing = start + size - memory.buffer.byteLength;
-    if (missing > 0) memory.grow(Math.ceil(missing / 65536));
+    if (missing > 0) this.#grow(memory, Math.ceil(missing / 65536));
     this.end = start + size;
     return start;
+  }
+
+  #grow(memory, pages) {
+    try {
+      memory.grow(pages);
+    } catch (cause) {
+      throw new MicrotinError(TOO_BIG, { cause });
+    }
+  }
+
+  // Copies `size` bytes at `start` from another instance, to the same addresses.
+  mirror(other, start, size) {
+    if (this.end < start + size) this.reserve(start + size - this.end);
+    this.put(start, other.array(Uint8Array, start, size));
   }
 
   // What it returns, with memory that is free again afterwards.

@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: MIT
 // A terrain in tiles, of which those are read that are asked for.
 
+import { checkInteger, checkNumber } from "./check.js";
 import { axesAt, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
-import { AHEAD, Source } from "./source.js";
+import { Source } from "./source.js";
 import {
-  ARGUMENT, BAD_TILES, CHECKSUM, DONE, IO, MicrotinError, NEED_INPUT, STEP_LIMIT, WORKSPACE_TOO_SMALL,
+  ARGUMENT, BAD_TILES, CHECKSUM, DONE, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED, WORKSPACE_TOO_SMALL,
 } from "./status.js";
 import { meshArrays } from "./terrain.js";
 
 const INFO_BYTES = 96, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12, LOWEST = 20, HIGHEST = 22,
   AXES = 24; // where they are in microtin_pack_info
-const MOST_SLOTS = 255;
+const MOST_SLOTS = 255, MOST_BAD = 8; // MICROTIN_PACK_BAD_TILES
+const CACHE_BYTES = 2 ** 26;
+const FIXED = 40; // bytes of a header, at least
 const FIRST_PIECE = 1024; // bytes of a tile that are read first; then twice as many
-const PACK_STEPS = 256;
-const IN_VOID = 2, IN_BAD_TILE = 6;
+const WHOLE = 0xffffffff; // more vertices than a tile has
+const FOUND = 0, OUTSIDE = 1, IN_VOID = 2; // microtin_answer
 
 export class Pack {
   #source;
@@ -24,19 +27,18 @@ export class Pack {
   #slots;
   #last = Promise.resolve();
 
-  static async open(source, { slots = 16 } = {}) {
+  static async open(source, { slots = 16, cacheBytes = CACHE_BYTES } = {}) {
     await ready;
     const pack = new Pack();
-    await pack.#open(source, slots);
+    pack.#source = new Source(source, cacheBytes);
+    await pack.#open(checkInteger("slots", slots, 1, MOST_SLOTS));
     return pack;
   }
 
-  async #open(source, slots) {
-    this.#source = new Source(source);
+  async #open(slots) {
     this.#course = this.#instance.reserve(32);
     this.#init(1, 3); // enough for the header
     await this.#readHeader();
-    this.#slots = slots;
     this.#init(slots, Math.max(3, this.mostVertices));
   }
 
@@ -47,6 +49,7 @@ export class Pack {
     const status = calls.microtin_pack_init_32(this.#instance.reserve(size), size, slots, capacity, results);
     if (status !== DONE) throw new MicrotinError(status);
     this.#pack = this.#instance.result();
+    this.#slots = slots;
   }
 
   async #readHeader() {
@@ -71,27 +74,31 @@ export class Pack {
   async #readNotes() {
     const instance = this.#instance;
     const { results, calls } = instance;
-    for (let head = this.#source.known(0, AHEAD); ; head = await this.#source.read(0, instance.result(1))) {
+    for (let size = FIXED; ; size = instance.result(1) > size ? instance.result(1) : 2 * size) {
+      const head = await this.#source.first(size);
       const notes = instance.borrow(head.length, (at) => {
         instance.put(at, head);
         const status = calls.microtin_find_note(at, head.length, 0, results, results + 4);
-        return status === NEED_INPUT ? undefined : notesAt(instance, at, head.length);
+        if (status !== DONE && status !== NEED_INPUT) throw new MicrotinError(status);
+        return status === DONE && notesAt(instance, at, head.length);
       });
       if (notes) return notes;
+      if (head.length < size) throw new MicrotinError(TRUNCATED);
     }
   }
 
   get bytesRead() {
     return this.#source.bytes;
   }
+  get size() {
+    return this.#source.size;
+  }
 
   // --- Tiles.
 
   // The corners of a tile on the pack's lattice: x, y, largest x, largest y.
   #box(tile) {
-    if (!(Number.isInteger(tile) && tile >= 0 && tile < this.columns * this.rows)) {
-      throw new RangeError(`no tile ${tile}`);
-    }
+    checkInteger("a tile", tile, 0, this.columns * this.rows - 1);
     const first = [tile % this.columns, Math.floor(tile / this.columns)].map((n, i) => n * this.tileSize[i]);
     return [...first, ...first.map((n, i) => Math.min(n + this.tileSize[i], this.extent[i]))];
   }
@@ -103,7 +110,8 @@ export class Pack {
 
   tilesIn(xMin, yMin, xMax, yMax) {
     const { axes } = this.header;
-    const near = (axis, value, i) => Math.floor((value - axis.start) / axis.step / this.tileSize[i]);
+    const near = (axis, value, i) =>
+      Math.floor((checkNumber("a coordinate", value) - axis.start) / axis.step / this.tileSize[i]);
     const [left, right] = [Math.max(0, near(axes.x, xMin, 0)), Math.min(this.columns - 1, near(axes.x, xMax, 0))];
     const [bottom, top] = [Math.max(0, near(axes.y, yMin, 1)), Math.min(this.rows - 1, near(axes.y, yMax, 1))];
     const tiles = [];
@@ -123,69 +131,73 @@ export class Pack {
     return this.#tileArrays(number, false);
   }
 
+  // Each piece of work begins where the last one ended, or anew from the bytes that are kept, if other calls came in
+  // between. It ends when more vertices have passed their checks than before, so that it never goes round.
   async *#tileArrays(tile, whole) {
     const [x, y, xEnd, yEnd] = this.#box(tile);
     const [midX, midY] = [(x + xEnd) * 128, (y + yEnd) * 128]; // in no other tile
-    const { calls } = this.#instance;
-    let verified = 0;
-    for (let done = false, piece = FIRST_PIECE; !done; piece *= 2) {
-      const arrays = await this.#alone(async () => {
-        this.#putCourse([midX, midY, midX, midY]);
-        const limits = whole ? {} : { piece, until: () => this.#verified(tile) !== verified };
-        done = await this.#serve(limits) !== STEP_LIMIT;
-        if (done && this.#why(tile)) throw new MicrotinError(this.#why(tile), { where: `tile ${tile}` });
-        if (!done && this.#verified(tile) === verified) return undefined;
-        verified = this.#verified(tile);
-        return meshArrays(this.#instance, calls.tile_mesh(this.#pack, tile), this.header.axes, x, y);
+    const course = [midX, midY, midX, midY];
+    let done = false, verified = whole ? WHOLE : 0;
+    for (let piece = whole ? Infinity : FIRST_PIECE; !done; piece *= 2) {
+      yield await this.#alone(async () => {
+        this.#putCourse(course);
+        const status = await this.#serve({ piece, verified });
+        if (status === BAD_TILES) throw this.#badTile(course);
+        done = status === DONE;
+        const { calls } = this.#instance;
+        const mesh = calls.tile_mesh(this.#pack, tile);
+        verified = mesh && calls.verified_vertices(mesh);
+        return { ...meshArrays(this.#instance, mesh, this.header.axes, x, y), done };
       });
-      if (arrays) yield { ...arrays, done };
     }
   }
 
-  #verified(tile) {
-    const mesh = this.#instance.calls.tile_mesh(this.#pack, tile);
-    return mesh ? this.#instance.calls.verified_vertices(mesh) : 0;
-  }
-
-  // Why a tile is bad; 0 if it is not.
-  #why(tile) {
+  // The error of a course that touches bad tiles. The decoder remembers some of them.
+  #badTile([x, y, xEnd, yEnd]) {
     const instance = this.#instance;
     const { results } = instance;
-    for (let i = 0; i < 8; ++i) {
-      if (instance.calls.microtin_pack_bad_tile(this.#pack, i, results, results + 4) && instance.result() === tile) {
-        return instance.result(1);
-      }
+    for (let i = 0; i < MOST_BAD; ++i) {
+      if (!instance.calls.microtin_pack_bad_tile(this.#pack, i, results, results + 4)) continue;
+      const tile = instance.result();
+      const [left, bottom, right, top] = this.#box(tile).map((k) => 256 * k);
+      if (left <= Math.max(x, xEnd) && right >= Math.min(x, xEnd) && bottom <= Math.max(y, yEnd) &&
+          top >= Math.min(y, yEnd)) return new MicrotinError(instance.result(1), { where: `tile ${tile}` });
     }
-    return 0;
+    return new MicrotinError(CHECKSUM, { where: "a tile" });
   }
 
   // --- Heights.
 
-  async heightAt(x, y) {
+  #place(x, y) {
     const { axes } = this.header;
-    const place = [toLattice(axes.x, x), toLattice(axes.y, y)];
+    return [toLattice(axes.x, this.extent[0], x), toLattice(axes.y, this.extent[1], y)];
+  }
+
+  async heightAt(x, y) {
+    const place = this.#place(x, y);
     return this.#ask([...place, ...place], ({ calls, results }) =>
       calls.microtin_pack_height_at(this.#pack, ...place.map(BigInt), results, results + 4));
   }
 
   async highestOn(x, y, xEnd, yEnd) {
-    const { axes } = this.header;
-    const course = [toLattice(axes.x, x), toLattice(axes.y, y), toLattice(axes.x, xEnd), toLattice(axes.y, yEnd)];
-    return this.#ask(course, ({ calls, results }) =>
+    return this.#ask([...this.#place(x, y), ...this.#place(xEnd, yEnd)], ({ calls, results }) =>
       calls.microtin_pack_highest(this.#pack, this.#course, results + 4));
   }
 
-  // The height that a query on a course finds behind the second result.
+  // The height that a query on a course finds behind the second result. Both ends are within the pack, and so is all
+  // between them, or there is none.
   #ask(course, query) {
     return this.#alone(async () => {
-      if (!course.every(Number.isFinite)) return NaN;
+      if (course.some(Number.isNaN)) return NaN;
       this.#putCourse(course);
-      await this.#serve();
+      const status = await this.#serve();
       const answer = query(this.#instance);
-      if (answer === IN_BAD_TILE) throw new MicrotinError(CHECKSUM, { where: "a tile of the pack" });
-      if (answer !== DONE) return NaN; // void or outside
       const { z } = this.header.axes;
-      return z.start + (this.#instance.view.getInt32(this.#instance.results + 4, true) / 65536) * z.step;
+      if (answer === FOUND) {
+        return z.start + (this.#instance.view.getInt32(this.#instance.results + 4, true) / 65536) * z.step;
+      }
+      if (answer === OUTSIDE || answer === IN_VOID) return NaN;
+      throw status === BAD_TILES ? this.#badTile(course) : new MicrotinError(-1, { where: `answer ${answer}` });
     });
   }
 
@@ -203,28 +215,27 @@ export class Pack {
     ends.forEach((end, i) => view.setBigInt64(this.#course + 8 * i, BigInt(end), true));
   }
 
-  // Brings the tiles of the course, or works until a condition holds; STEP_LIMIT: it does.
-  async #serve({ piece = Infinity, until } = {}) {
+  // Brings the tiles of the course. STEP_LIMIT: more vertices than `verified` of the tile in hand have passed their
+  // checks. Each read brings a byte or more that was missing, or ends the work.
+  async #serve({ piece = Infinity, verified = WHOLE } = {}) {
     const { calls } = this.#instance;
     for (;;) {
-      const status = calls.microtin_pack_prepare(this.#pack, this.#course, until ? PACK_STEPS : 0);
-      if (until?.()) return STEP_LIMIT;
+      const status = calls.prepare_section(this.#pack, this.#course, verified);
       if (status === NEED_INPUT) await this.#give(piece);
       else if (status === WORKSPACE_TOO_SMALL && this.#slots < MOST_SLOTS) this.#grow();
-      else if (status !== STEP_LIMIT) return this.#settled(status);
+      else return this.#settled(status);
     }
   }
 
-  // DONE or BAD_TILES; everything else is an error.
+  // DONE, BAD_TILES or STEP_LIMIT; everything else is an error.
   #settled(status) {
-    if (status === DONE || status === BAD_TILES) return status;
+    if (status === DONE || status === BAD_TILES || status === STEP_LIMIT) return status;
     if (status === WORKSPACE_TOO_SMALL || status === ARGUMENT) throw new RangeError("the course is too long");
     throw new MicrotinError(status);
   }
 
   #grow() {
-    this.#slots = Math.min(2 * this.#slots, MOST_SLOTS);
-    this.#init(this.#slots, Math.max(3, this.mostVertices));
+    this.#init(Math.min(2 * this.#slots, MOST_SLOTS), Math.max(3, this.mostVertices));
   }
 
   async #give(piece) {
@@ -233,13 +244,8 @@ export class Pack {
     calls.microtin_pack_wanted(this.#pack, results, results + 8, results + 12);
     const offset = Number(instance.view.getBigUint64(results, true));
     const [buffer, size] = [instance.result(2), instance.result(3)];
-    if (size === 0) return;
-    let bytes = this.#source.known(offset, size);
-    try {
-      bytes ??= await this.#source.read(offset, Math.min(calls.stream_end(this.#pack), offset + piece));
-    } catch (cause) {
-      throw new MicrotinError(IO, { cause });
-    }
+    const bytes = this.#source.known(offset, size) ??
+      await this.#source.read(offset, Math.min(calls.stream_end(this.#pack), offset + piece));
     instance.put(buffer, bytes.subarray(0, size));
     calls.microtin_pack_given(this.#pack, Math.min(bytes.length, size));
   }

@@ -11,12 +11,13 @@ const STATUSES = {
   25: ["IO", "reading failed"],
 };
 export const DONE = 0, NEED_INPUT = 1, STEP_LIMIT = 2;
-export const CHECKSUM = 19, TRUNCATED = 21, WORKSPACE_TOO_SMALL = 23, ARGUMENT = 24, IO = 25, BAD_TILES = 26;
+export const TOO_BIG = 18, CHECKSUM = 19, TRUNCATED = 21, WORKSPACE_TOO_SMALL = 23, ARGUMENT = 24, IO = 25, BAD_TILES = 26;
 
 export class MicrotinError extends Error {
   constructor(code, { where = "", cause } = {}) {
     const [status, text] = STATUSES[code] ?? ["INTERNAL", `status ${code}`];
-    super(where ? `${where}: ${text}` : text, { cause });
+    const why = cause?.message ? `${text}: ${cause.message}` : text;
+    super(where ? `${where}: ${why}` : why, { cause });
     this.name = "MicrotinError";
     this.status = status;
   }

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 // A terrain, and its decoding from a stream.
 
+import { checkBytes } from "./check.js";
 import { axesAt, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
-import { DONE, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED } from "./status.js";
+import { DONE, IO, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED } from "./status.js";
 
 const REAL = 0, VOID = 1;
-const UNVERIFIED = 1;
+const HINT = 64; // in an instance's results: where heights keep theirs, and the height behind it
 const INFO_BYTES = 96, INFO_VERTICES = 0, INFO_AXES = 16, INFO_MESH_BYTES = 88,
   INFO_DECODER_BYTES = 92; // where they are in microtin_info
 const CHUNK = 65536;
 const STEPS = 1 << 16;
+const MOST = 65535; // steps of a stream's lattice
+const MOST_EMPTY = 1 << 16; // pieces of no bytes, one after another
 
 // Vertices and triangles of a mesh, 0 if there is none, whose lattice begins at (x0, y0) of the axes'.
 export function meshArrays(instance, mesh, axes, x0 = 0, y0 = 0) {
@@ -36,30 +39,28 @@ export function meshArrays(instance, mesh, axes, x0 = 0, y0 = 0) {
   };
 }
 
+let show; // what a terrain shows from now on: a mesh of which all vertices are verified
+
 export class Terrain {
   #instance;
   #mesh;
-  #axes;
   #arrays;
-  #hint;
 
-  constructor(instance, mesh, header, axes) {
-    this.#instance = instance;
-    this.#mesh = mesh;
-    this.#axes = axes;
-    this.#hint = instance.reserve(8);
+  static {
+    show = (terrain, instance, mesh, state) => {
+      terrain.#instance = instance;
+      terrain.#mesh = mesh;
+      terrain.#arrays = undefined;
+      Object.assign(terrain, state);
+    };
+  }
+
+  constructor(header) {
     this.header = header;
-    this.bytes = 0;
-    this.done = false;
   }
 
   get #now() {
-    const count = this.vertexCount;
-    if (this.#arrays?.count !== count || this.#arrays.done !== this.done) {
-      const arrays = meshArrays(this.#instance, this.#mesh, this.#axes);
-      this.#arrays = { ...arrays, count, done: this.done };
-    }
-    return this.#arrays;
+    return this.#arrays ??= meshArrays(this.#instance, this.#mesh, this.header.axes);
   }
 
   get vertexCount() {
@@ -82,48 +83,71 @@ export class Terrain {
   }
 
   heightAt(x, y) {
-    const { calls, view } = this.#instance;
-    const [i, j] = [toLattice(this.#axes.x, x), toLattice(this.#axes.y, y)];
-    const most = 65535 * 256;
-    if (!(i >= 0 && i <= most && j >= 0 && j <= most)) return NaN;
-    const answer = calls.microtin_height_at(this.#mesh, i, j, UNVERIFIED, this.#hint, this.#hint + 4);
-    return answer ? NaN : this.#axes.z.start + (view.getInt32(this.#hint + 4, true) / 65536) * this.#axes.z.step;
+    const { calls, results, view } = this.#instance;
+    const { axes } = this.header;
+    const [i, j] = [toLattice(axes.x, MOST, x), toLattice(axes.y, MOST, y)];
+    if (Number.isNaN(i + j)) return NaN;
+    const answer = calls.microtin_height_at(this.#mesh, i, j, 0, results + HINT, results + HINT + 4);
+    return answer ? NaN : axes.z.start + (view.getInt32(results + HINT + 4, true) / 65536) * axes.z.step;
   }
 }
 
 export class Decoder {
-  #instance = new Instance();
-  #head = new Uint8Array(0);
+  #instance = new Instance(); // decodes
+  #shown; // has a copy of the last verified mesh while another grows
+  #waiting = []; // pieces of the stream
+  #used = 0; // bytes of the first one
+  #bytes = 0; // used so far
+  #failure;
   #decoder = 0;
   #mesh = 0;
+  #meshBytes = 0;
   #chunk = 0;
-  #fed = 0;
 
   terrain = undefined;
 
-  // Yields the terrain each time that a section, one phase or the first few, has passed its check.
-  *push(bytes) {
-    if (!this.terrain) {
-      const head = new Uint8Array(this.#head.length + bytes.length);
-      head.set(this.#head);
-      head.set(bytes, this.#head.length);
-      this.#head = head;
-      if (!this.#begin(head)) return;
-      bytes = head;
-    }
-    for (let i = 0; i < bytes.length && !this.terrain.done; i += CHUNK) {
-      yield* this.#feed(bytes.subarray(i, i + CHUNK));
-    }
+  // Takes the bytes at once. The generator yields the terrain each time that a section, one phase or the first few,
+  // has passed its check. All generators of a decoder go on where the last one stopped.
+  push(bytes) {
+    this.#waiting.push(checkBytes("a piece of a stream", bytes).slice());
+    return this.#phases();
   }
 
   finish() {
+    for (const _ of this.#phases()); // which are left
     if (!this.terrain?.done) throw new MicrotinError(TRUNCATED);
     return this.terrain;
   }
 
+  *#phases() {
+    while (this.#grow()) yield this.terrain;
+  }
+
+  // Decodes up to the end of a section; false if bytes are missing, or all is done. A failure is final.
+  #grow() {
+    if (this.#failure) throw this.#failure;
+    try {
+      while (this.#waiting.length > 0 && !this.terrain?.done && (this.terrain || this.#begin())) {
+        if (this.#feed()) return true;
+      }
+    } catch (error) {
+      this.#failure = error;
+      throw error;
+    }
+    if (this.terrain?.done) this.#waiting = [];
+    return false;
+  }
+
   // Whether the header is complete, which then makes a terrain.
-  #begin(head) {
+  #begin() {
     const instance = this.#instance;
+    const head = new Uint8Array(this.#waiting.reduce((sum, { length }) => sum + length, 0));
+    let length = 0;
+    for (const piece of this.#waiting) {
+      head.set(piece, length);
+      length += piece.length;
+    }
+    this.#waiting = [head];
     const start = instance.end;
     const at = instance.reserve(head.length);
     const info = instance.reserve(INFO_BYTES);
@@ -139,53 +163,69 @@ export class Decoder {
     const instance = this.#instance;
     const { view, calls } = instance;
     const number = (at) => view.getUint32(info + at, true);
-    const [meshBytes, decoderBytes] = [number(INFO_MESH_BYTES), number(INFO_DECODER_BYTES)];
-    const axes = axesAt(view, info + INFO_AXES);
-    const header = { vertices: number(INFO_VERTICES), axes, ...notes };
+    const decoderBytes = number(INFO_DECODER_BYTES);
+    const header = { vertices: number(INFO_VERTICES), axes: axesAt(view, info + INFO_AXES), ...notes };
+    this.#meshBytes = number(INFO_MESH_BYTES);
     instance.end = start;
-    const workspace = instance.reserve(meshBytes);
-    calls.microtin_mesh_init_32(workspace, meshBytes, instance.results);
+    const workspace = instance.reserve(this.#meshBytes);
+    calls.microtin_mesh_init_32(workspace, this.#meshBytes, instance.results);
     this.#mesh = instance.result();
-    this.terrain = new Terrain(instance, this.#mesh, header, axes);
     this.#chunk = instance.reserve(CHUNK);
     calls.microtin_decoder_init_32(instance.reserve(decoderBytes), decoderBytes, this.#mesh, instance.results);
     this.#decoder = instance.result();
+    const terrain = new Terrain(header);
+    this.#show(terrain, false);
+    this.terrain = terrain;
   }
 
-  *#feed(bytes) {
+  // The mesh as it is now: itself if no vertex will follow, else a copy.
+  #show(terrain, done) {
+    if (!done) {
+      this.#shown ??= new Instance();
+      this.#shown.mirror(this.#instance, this.#mesh, this.#meshBytes);
+    }
+    show(terrain, done ? this.#instance : this.#shown, this.#mesh, { bytes: this.#bytes, done });
+    if (done) this.#shown = undefined;
+  }
+
+  // Decodes from the first piece. Whether one more section has passed its check, or the last one.
+  #feed() {
     const instance = this.#instance;
     const { calls } = instance;
-    let verified = calls.verified_vertices(this.#mesh);
+    const bytes = this.#waiting[0].subarray(this.#used, this.#used + CHUNK);
+    const verified = calls.verified_vertices(this.#mesh);
     instance.put(this.#chunk, bytes);
-    let status = STEP_LIMIT;
-    for (let used = 0; status === STEP_LIMIT; ) {
-      status = calls.feed_section(this.#decoder, this.#chunk + used, bytes.length - used, STEPS, instance.results);
-      used += instance.result();
-      if (status > STEP_LIMIT) throw new MicrotinError(status);
-      this.terrain.bytes = this.#fed + used;
-      this.terrain.done = status === DONE;
-      if (calls.verified_vertices(this.#mesh) !== verified || this.terrain.done) {
-        verified = calls.verified_vertices(this.#mesh);
-        yield this.terrain;
-      }
+    const status = calls.feed_section(this.#decoder, this.#chunk, bytes.length, STEPS, instance.results);
+    const used = instance.result();
+    if (status > STEP_LIMIT) throw new MicrotinError(status);
+    this.#used += used;
+    this.#bytes += used;
+    if (this.#used === this.#waiting[0].length && status !== STEP_LIMIT) {
+      this.#waiting.shift();
+      this.#used = 0;
     }
-    this.#fed += bytes.length;
+    const done = status === DONE;
+    if (!done && calls.verified_vertices(this.#mesh) === verified) return false;
+    this.#show(this.terrain, done);
+    return true;
   }
 }
 
 export function decode(bytes) {
   const decoder = new Decoder();
-  for (const _ of decoder.push(bytes)); // to the end
+  decoder.push(bytes);
   return decoder.finish();
 }
 
 // The bytes of a Response, a ReadableStream, a Blob, or anything that yields Uint8Arrays.
 async function* chunksOf(source) {
-  const stream = source.body ?? source.stream?.() ?? source;
-  if (stream[Symbol.asyncIterator] || stream[Symbol.iterator]) {
+  if (source?.ok === false) throw new Error(`${source.url}: ${source.status} ${source.statusText}`);
+  const stream = source?.body === null ? [] : source?.body ?? source?.stream?.() ?? source;
+  if (stream?.[Symbol.asyncIterator] || stream?.[Symbol.iterator]) {
     yield* stream;
     return;
   }
+  if (!stream?.getReader) throw new TypeError("a stream must be a Response, a Blob, a ReadableStream or an iterable");
   const reader = stream.getReader(); // not every browser iterates over streams
   try {
     for (let piece; !(piece = await reader.read()).done; ) yield piece.value;
@@ -194,10 +234,24 @@ async function* chunksOf(source) {
   }
 }
 
+// Pieces that are bytes; what fails on the way is an error of reading.
+async function* bytesOf(source) {
+  try {
+    let empty = 0;
+    for await (const bytes of chunksOf(source)) {
+      empty = checkBytes("a piece of a stream", bytes).length ? 0 : empty + 1;
+      if (empty > MOST_EMPTY) throw new Error("only empty pieces");
+      yield bytes;
+    }
+  } catch (cause) {
+    throw cause instanceof TypeError ? cause : new MicrotinError(IO, { cause });
+  }
+}
+
 export async function* decodeStream(source) {
   await ready;
   const decoder = new Decoder();
-  for await (const bytes of chunksOf(source)) {
+  for await (const bytes of bytesOf(source)) {
     yield* decoder.push(bytes);
     if (decoder.terrain?.done) return;
   }
