@@ -5,6 +5,7 @@ import { edgesOf, normalsOf } from "./surface.js";
 
 let drawer; // takes meshes
 let heightAt = async () => NaN;
+let size; // of the file, if known
 let first; // bytes, after which all that is in view was there, if coarse
 let scene; // the page's: how long units are beside each other, and how light finds slopes
 
@@ -23,7 +24,8 @@ function copyOf({ origin, positions, indices }) {
   return { origin, positions: positions.slice(), indices: indices.slice() };
 }
 
-async function showStream(source) {
+async function showStream(source, fileSize) {
+  size = fileSize;
   let phase = 0, terrain;
   for await (terrain of decodeStream(source)) {
     if (phase === 0) {
@@ -39,13 +41,13 @@ async function showStream(source) {
     }
     sendMesh(copyOf(terrain), 0, ++phase);
     first ??= terrain.bytes;
-    send({ kind: "progress", first, phase, bytes: terrain.bytes, vertices: terrain.vertexCount });
+    send({ kind: "progress", first, phase, size, bytes: terrain.bytes, vertices: terrain.vertexCount });
   }
-  drawer.postMessage({ kind: "end", first, bytes: terrain.bytes, vertices: terrain.vertexCount });
+  drawer.postMessage({ kind: "end", first, size, bytes: terrain.bytes, vertices: terrain.vertexCount });
 }
 
 async function showPack(source) {
-  const pack = await Pack.open(source, { slots: 64 });
+  const pack = await Pack.open(source, { slots: 64, cacheBytes: 2 ** 40 }); // all of the file, which is shown twice
   const count = pack.columns * pack.rows;
   const boxes = Array.from({ length: count }, (_, tile) => pack.tileBox(tile));
   const box = [boxes[0][0], boxes[0][1], boxes[count - 1][2], boxes[count - 1][3]];
@@ -55,12 +57,12 @@ async function showPack(source) {
   const show = (mesh, tile, phase) => {
     if (mesh.done) vertices += mesh.positions.length / 3;
     sendMesh(mesh, tile, phase); // which gives the arrays away
-    send({ kind: "progress", first, phase, bytes: pack.bytesRead, vertices });
+    send({ kind: "progress", first, phase, size: pack.size, bytes: pack.bytesRead, vertices });
   };
   const coarse = await showFirstPhases(pack, count, show);
   first = pack.bytesRead;
   for (const [tile, size] of coarse) await showRest(pack, tile, size, show);
-  drawer.postMessage({ kind: "end", first, bytes: pack.bytesRead, vertices });
+  drawer.postMessage({ kind: "end", first, size: pack.size, bytes: pack.bytesRead, vertices });
 }
 
 // Of all tiles, which are in view. Returns how much there is of those that have more phases.
@@ -92,12 +94,12 @@ async function show({ text, url, port, ...given }) {
   await ready;
   if (!url) {
     const bytes = Uint8Array.from(atob(text.trim()), (character) => character.charCodeAt(0));
-    return isPack(bytes) ? showPack(bytes) : showStream([bytes]);
+    return isPack(bytes) ? showPack(bytes) : showStream([bytes], bytes.length);
   }
   if (url.endsWith(".mtp")) return showPack(url);
   const response = await fetch(url);
-  if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
-  return showStream(response);
+  const isCoded = response.headers.get("Content-Encoding"); // its length is then not the file's
+  return showStream(response, isCoded ? undefined : Number(response.headers.get("Content-Length")) || undefined);
 }
 
 self.onmessage = async ({ data }) => {

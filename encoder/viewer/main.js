@@ -24,22 +24,63 @@ function text(value) {
 
 // --- What the decoder and the drawer say.
 
-const STEEPEST = 0.15; // the range of heights in the world, at least, where the slider begins
+const FLATTEST = 0.15, TALLEST = 2; // the range of heights in the world where the slider begins
+let range; // of heights in the world, without the slider
+let unit; // the world's length of one on the ground
 
 function begin(message) {
   ({ header } = message);
   const { box, tiles } = message;
+  const scale = element("scale");
   const { waterLevel, axes } = header;
   const size = [box[2] - box[0], box[3] - box[1]];
-  const unit = 2 / Math.max(size[0] * given.ground[0], size[1] * given.ground[1], 1e-9);
+  unit = 2 / Math.max(size[0] * given.ground[0], size[1] * given.ground[1], 1e-9);
   const units = given.ground.map((length) => length * unit);
-  const range = (given.heights[1] - given.heights[0]) * units[2];
-  element("scale").value = Math.max(1, STEEPEST / (range || STEEPEST));
+  range = (given.heights[1] - given.heights[0]) * units[2];
+  scale.min = Math.min(0.5, TALLEST / (range || TALLEST));
+  scale.value = Math.min(Math.max(1, FLATTEST / (range || FLATTEST)), TALLEST / (range || TALLEST));
+  camera.box = [size[0] * units[0], size[1] * units[1], 0];
+  show("Whole");
+  showLegend();
   element("tiles-label").hidden = tiles.length < 2;
   drawer.postMessage({
     kind: "frame", units, heights: given.heights, middle: [box[0] + size[0] / 2, box[1] + size[1] / 2],
     water: waterLevel === undefined ? undefined : { height: waterLevel, half: axes.z.step / 100 },
   });
+}
+
+// "Whole" or "Map", with heights as the slider has them.
+function show(what) {
+  camera.box[2] = range * element("scale").value;
+  camera.aspect = aspect();
+  camera[`show${what}`]();
+}
+
+// Colours of heights, and where the terrain comes from.
+function showLegend() {
+  const { source = "", date = "", units } = header;
+  const { tints, heights } = given;
+  const colours = tints.flatMap((_, i) => (i % 3 ? [] : `rgb(${tints.slice(i, i + 3)})`));
+  element("tints").style.background = `linear-gradient(to top, ${colours})`;
+  [element("lowest").textContent, element("highest").textContent] =
+    heights.map((height) => `${text(height)} ${SYMBOLS[units?.vertical] ?? ""}`);
+  element("source").textContent = [source, date].filter(Boolean).join(", ");
+  element("legend").hidden = false;
+}
+
+// A bar of a round length at the middle of the view, and where north is.
+function showScale() {
+  if (!header) return;
+  const perPixel = camera.span / unit / canvas.clientHeight;
+  const most = 100 * perPixel, power = 10 ** Math.floor(Math.log10(most));
+  const length = power * [5, 2, 1].find((digit) => digit * power <= most);
+  const horizontal = header.units?.horizontal;
+  const symbol = horizontal === "degree" ? "m" : SYMBOLS[horizontal] ?? "";
+  const isLong = symbol === "m" && length >= 1000;
+  element("bar").style.width = `${length / perPixel}px`;
+  element("length").textContent = `${+(isLong ? length / 1000 : length).toPrecision(1)} ${isLong ? "km" : symbol}`;
+  element("north").style.rotate = `${-camera.azimuth}rad`;
+  element("factor").textContent = +Number(element("scale").value).toPrecision(2);
 }
 
 function progress(message) {
@@ -52,16 +93,17 @@ function progress(message) {
 function showFlat({ message }) {
   element("why").textContent = `The terrain is shown flat: ${message}.`;
   element("flat").hidden = false;
-  for (const id of ["view", "controls"]) element(id).hidden = true;
+  for (const id of ["view", "controls", "legend"]) element(id).hidden = true;
   document.body.dataset.state = "flat";
 }
 
-function factsOf({ kind, bytes, vertices, first }) {
+function factsOf({ kind, size, bytes, vertices, first }) {
   const { accuracy, units } = header;
   const unit = SYMBOLS[units?.vertical] ?? "";
   const error = accuracy ? `, at most ${text(accuracy.largest)} ${unit} off` : "";
   const seen = first ? `, first seen after ${text(first)} bytes` : "";
-  return `${text(vertices)} vertices, ${text(bytes)} bytes${kind === "end" ? "" : " so far"}${error}${seen}`;
+  const read = size ? `${text(bytes)} of ${text(size)}` : text(bytes);
+  return `${text(vertices)} vertices, ${read} bytes${kind === "end" ? "" : " so far"}${error}${seen}`;
 }
 
 const ANSWERS = {
@@ -91,12 +133,16 @@ const ANSWERS = {
 
 // --- Drawing.
 
+const aspect = () => Math.max(1, canvas.clientWidth) / Math.max(1, canvas.clientHeight);
+
 function refresh() {
+  camera.aspect = aspect();
+  showScale();
   const density = Math.min(2, devicePixelRatio || 1);
   const [width, height] = [canvas.clientWidth * density, canvas.clientHeight * density].map(Math.round);
   document.body.dataset.asked = ++number;
   drawer.postMessage({
-    kind: "draw", number, width, height, matrix: camera.matrix(width / height),
+    kind: "draw", number, width, height, matrix: camera.matrix(),
     phase: Number(element("phase").value), scale: Number(element("scale").value),
     mesh: element("mesh").checked, tiles: element("tiles").checked,
     pointer: pointer && [Math.round(pointer[0] * density), Math.round(height - 1 - pointer[1] * density)],
@@ -122,8 +168,8 @@ const KEYS = {
   "-": () => camera.approach(1 / 0.9),
   m: () => element("mesh").click(),
   t: () => element("tiles").click(),
-  0: () => camera.showMap(),
-  Home: () => camera.showWhole(),
+  0: () => show("Map"),
+  Home: () => show("Whole"),
 };
 const isFlying = () => element("fly").checked;
 
@@ -176,8 +222,8 @@ function listen() {
     KEYS[key]();
     refresh();
   });
-  element("whole").addEventListener("click", () => { camera.showWhole(); refresh(); });
-  element("map").addEventListener("click", () => { camera.showMap(); refresh(); });
+  element("whole").addEventListener("click", () => { show("Whole"); refresh(); });
+  element("map").addEventListener("click", () => { show("Map"); refresh(); });
   element("controls").addEventListener("input", () => {
     following = Number(element("phase").value) === phases;
     refresh();

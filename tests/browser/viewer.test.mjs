@@ -18,6 +18,13 @@ before(async () => {
     microtin("encode", "area.asc", "--units", "metre", "--max-error", "8", "--fast", ...words, "-o", name);
     microtin("render", name, "-o", name.replace("area.", "") + ".html");
   }
+  microtin("encode", "area.asc", "--units", "metre", "--max-error", "8", "--fast", "--tile-vertices", "100", "--degree", "6",
+    "--source-text", "Survey <of> A & B", "--date", "2026-11", "-o", "many.mtp");
+  microtin("render", "many.mtp", "-o", "many.html");
+  const tall = fs.readFileSync(file("area.asc"), "utf8").replace("cellsize 30", "cellsize 0.2");
+  fs.writeFileSync(file("tall.asc"), tall);
+  microtin("encode", "tall.asc", "--units", "metre", "--max-error", "8", "--fast", "-o", "tall.mtin");
+  microtin("render", "tall.mtin", "-o", "tall.html");
   microtin("render", "area.mtp", "--width", "600", "-o", "area.png");
   microtin("fractal", "--size", "1025", "--seed", "5", "-o", "large.asc"); // so large that it has phases
   microtin("encode", "large.asc", "--units", "metre", "--max-error", "1.8", "--fast", "-o", "large.mtin");
@@ -114,10 +121,38 @@ async function compareWithReadme(page, seen) {
   assert.ok(sum / now.pixels.length < 8, `on average ${sum / now.pixels.length} of 255`);
 }
 
+const PLAIN = "header, #controls, #legend, #pointer { display: none }"; // nothing but the terrain
+
+// What the page says of a whole file: its bytes, those read, and those of the first picture.
+async function bytesIn(page) {
+  const [read, size, first] = (await facts(page)).replaceAll(",", "").match(/\d+(?= of | bytes)/g).map(Number);
+  return { read, size, first };
+}
+
+const setSlider = (page, id, value) => page.$eval(`#${id}`, (element, to) => {
+  element.value = to;
+  element.dispatchEvent(new Event("input", { bubbles: true }));
+}, value);
+
+// How many pixels the terrain covers, and how many of them lie at the rim of the view.
+async function covered(page) {
+  await settled(page);
+  const { width, height, pixels } = await pixelsOf(page, await page.screenshot());
+  let all = 0, rim = 0;
+  for (let y = 0; y < height; ++y) {
+    for (let x = 0; x < width; ++x) {
+      if (Math.min(...pixels.subarray(4 * (y * width + x), 4 * (y * width + x) + 3)) > 250) continue;
+      ++all;
+      if (x === 0 || y === 0 || x === width - 1 || y === height - 1) ++rim;
+    }
+  }
+  return { all, rim };
+}
+
 test("a page opens from disk and shows a pack, and a stream", async () => {
   for (const name of ["mtp.html", "mtin.html"]) {
     const page = await open(onDisk(name), "complete");
-    assert.match(await facts(page), /^[1-9][\d,]+ vertices, [\d,]+ bytes, at most 8 m off, first seen after [\d,]+ bytes$/);
+    assert.match(await facts(page), /^[1-9][\d,]+ vertices, ([\d,]+) of \1 bytes, at most 8 m off, first seen after [\d,]+ bytes$/);
     await page.mouse.move(450, 450);
     await page.waitForFunction("document.getElementById('pointer').textContent !== ''", { timeout: 10_000 });
     assert.match(await page.$eval("#pointer", (element) => element.textContent), /^[\d.,-]+ m ± 8\n[\d.-]+, [\d.-]+$/);
@@ -134,7 +169,7 @@ test("a page opens from disk and shows a pack, and a stream", async () => {
 test("the map has the colours of the picture that render draws", async () => {
   const page = await open(onDisk("mtp.html"), "complete");
   await page.click("#map");
-  await page.addStyleTag({ content: "header, #controls, #pointer { display: none }" });
+  await page.addStyleTag({ content: PLAIN });
   await settled(page);
   const seen = await pixelsOf(page, await page.screenshot());
   const drawn = await pixelsOf(page, fs.readFileSync(file("area.png")));
@@ -152,6 +187,78 @@ test("the map has the colours of the picture that render draws", async () => {
     }
   }
   assert.ok(sum / count < 6, `on average ${sum / count} of 255, at most ${worst}`);
+  await page.close();
+});
+
+test("a pack of more tiles than are kept is read once, from a page and from a server", async () => {
+  const bytes = fs.readFileSync(file("many.mtp"));
+  const inPage = await open(onDisk("many.html"), "complete");
+  const told = await bytesIn(inPage);
+  assert.deepEqual([told.read, told.size], [bytes.length, bytes.length]);
+  assert.ok(told.first <= bytes.length);
+  await inPage.close();
+  let sent = 0;
+  await served((request, response) => {
+    if (!request.url.startsWith("/many.mtp")) return response.end(fs.readFileSync(file("many.html")));
+    const [from, to] = /(\d+)-(\d+)/.exec(request.headers.range).slice(1).map(Number);
+    const part = bytes.subarray(from, to + 1);
+    sent += part.length;
+    response.writeHead(206, { "Content-Range": `bytes ${from}-${from + part.length - 1}/${bytes.length}` }).end(part);
+  }, async (address) => {
+    const page = await open(`${address}/?file=many.mtp`, "complete");
+    assert.deepEqual(await bytesIn(page), told);
+    assert.equal(sent, bytes.length);
+    await page.close();
+  });
+});
+
+test("a terrain taller than wide is in view, and whole finds it at any scale of heights", async () => {
+  const page = await open(onDisk("tall.html"), "complete");
+  await page.addStyleTag({ content: PLAIN });
+  const first = await covered(page);
+  assert.ok(first.all > 20_000 && first.rim === 0, JSON.stringify(first));
+  for (const scale of [1, 10]) {
+    await setSlider(page, "scale", scale);
+    await page.$eval("#whole", (button) => button.click());
+    const whole = await covered(page);
+    assert.ok(whole.all > 500 && whole.rim === 0, `${scale}: ${JSON.stringify(whole)}`);
+    await page.$eval("#map", (button) => button.click());
+    const map = await covered(page);
+    assert.ok(map.all > 300_000 && map.rim === 0, `${scale}: ${JSON.stringify(map)}`);
+  }
+  await page.close();
+});
+
+test("the legend tells heights, a length, north and the source", async () => {
+  const page = await open(onDisk("many.html"), "complete");
+  const words = (id) => page.$eval(`#${id}`, (element) => element.textContent);
+  const { heights } = JSON.parse(microtin("info", "many.mtp", "--json").toString());
+  const number = (value) => value.toFixed(1).replace(/\.0$/, "").replace(/\B(?=(\d{3})+$)/, ",");
+  assert.deepEqual([await words("lowest"), await words("highest")],
+    [`${number(heights.lowest)} m`, `${number(heights.highest)} m`]);
+  assert.equal(await words("source"), "Survey <of> A & B, 2026-11");
+  const rotation = () => page.$eval("#north", (element) => parseFloat(getComputedStyle(element).rotate));
+  await settled(page);
+  const before = await rotation();
+  await page.focus("#view");
+  await page.keyboard.press("ArrowRight");
+  await settled(page);
+  assert.ok(Math.abs(await rotation() - before) > 1);
+  await page.click("#map");
+  await settled(page);
+  assert.equal(Math.abs(await rotation()), 0);
+  const placeAt = async (x) => {
+    await page.mouse.move(x, 450);
+    await settled(page);
+    await page.waitForFunction("document.getElementById('pointer').textContent !== ''", { timeout: 10_000 });
+    await new Promise((done) => setTimeout(done, 300));
+    return Number(/\n([\d.-]+),/.exec(await words("pointer"))[1]);
+  };
+  const perPixel = (await placeAt(650) - await placeAt(250)) / 400;
+  const [length, unit] = (await words("length")).split(" ");
+  const width = await page.$eval("#bar", (bar) => bar.getBoundingClientRect().width);
+  assert.ok(width > 30 && width <= 100);
+  assert.ok(Math.abs(Number(length) * (unit === "km" ? 1000 : 1) / width / perPixel - 1) < 0.02);
   await page.close();
 });
 
