@@ -96,7 +96,8 @@ def licence(folder):
 @functools.cache
 def called_in(path):
     """What the sources of a folder, or one source, call or define."""
-    sources = [source for source in (files(path) if path.is_dir() else [path]) if source.suffix in (".cpp", ".hpp", ".h")]
+    kinds = (".cpp", ".hpp", ".h", ".js")
+    sources = [source for source in (files(path) if path.is_dir() else [path]) if source.suffix in kinds]
     return {name for source in sources for name in CALL.findall(source.read_text())}
 
 

@@ -73,7 +73,7 @@ function showScale() {
   if (!header) return;
   const perPixel = camera.span / unit / canvas.clientHeight;
   const most = 100 * perPixel, power = 10 ** Math.floor(Math.log10(most));
-  const length = power * [5, 2, 1].find((digit) => digit * power <= most);
+  const length = power * ([5, 2].find((digit) => digit * power <= most) ?? 1);
   const horizontal = header.units?.horizontal;
   const symbol = horizontal === "degree" ? "m" : SYMBOLS[horizontal] ?? "";
   const isLong = symbol === "m" && length >= 1000;
