@@ -75,6 +75,7 @@ void add_decode(CLI::App& app, Action& action) {
   command.add_flag("--lattice", request->lattice, "Write the lattice's integers")->excludes(like);
   command.callback([request, &action] {
     request->like_preparation.band = 1;  // all bands have the same posts
+    request->like_preparation.asked.reset();
     if (request->cell && request->cell->mantissa == 0) {
       throw CLI::ValidationError("--cell", "must be above 0");
     }

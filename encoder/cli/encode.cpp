@@ -18,9 +18,9 @@
 #include "encoder/files/output_file.hpp"
 #include "encoder/import/cloud_size.hpp"
 #include "encoder/import/folder.hpp"
+#include "encoder/import/reference.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
-#include "encoder/product/reference.hpp"
 #include "encoder/terrain/fill_value.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 
@@ -40,17 +40,21 @@ std::string moved(Decimal displacement) {
   return ", values move by up to " + to_string(displacement);
 }
 
-// In which units the header says that the terrain is.
-std::string units(const EncodeRequest& request, const Reference& file) {
-  const auto [reference, remarks] = settle(file, request.reference);
-  std::string text = "units: x and y " + std::string(name_of(reference.horizontal_unit)) + ", z " +
-                     std::string(name_of(reference.vertical_unit)) + '\n';
-  for (const std::string& remark : remarks) text += "warning: " + remark + '\n';
+std::string warnings(const EncodeRequest& request, const Reference& reference) {
+  std::string text;
+  for (const std::string& remark : reference.remarks) text += "warning: " + remark + '\n';
   const bool is_grid = suffix_of(request.input) == ".asc";
   if (reference.horizontal_unit == Unit::kUnknown && is_grid) {
     text += "warning: a .prj beside " + request.input + " would say it\n";
   }
   return text;
+}
+
+// In which units the header says that the terrain is.
+std::string units(const EncodeRequest& request, const Reference& source) {
+  const Reference reference = completed(source);
+  return "units: x and y " + std::string(name_of(reference.horizontal_unit)) + ", z " +
+         std::string(name_of(reference.vertical_unit)) + '\n' + warnings(request, reference);
 }
 
 std::string merged(uint64_t points, DuplicateRule rule) {
@@ -182,7 +186,8 @@ std::string encode_tiles(const EncodeRequest& request, OutputFile& out) {
     return encode_shard(*raster, request, *request.tiles, out, bar.progress());
   });
   return "tiles: " + range_text(shard.tiles) + " of " + range_text(shard.all) + ", " +
-         std::to_string(shard.vertices) + " vertices\n";
+         std::to_string(shard.vertices) + " vertices\n" +
+         warnings(request, completed(raster->frame().reference));
 }
 
 std::string encode_tiled(const EncodeRequest& request, OutputFile& out) {

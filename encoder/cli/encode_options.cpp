@@ -13,7 +13,6 @@
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/definitions.hpp"
 #include "encoder/cli/options.hpp"
-#include "encoder/product/reference.hpp"
 #include "encoder/stream/device_ram.hpp"
 #include "microtin/encoder.hpp"
 #include "microtin/microtin.h"
@@ -21,16 +20,6 @@
 
 namespace microtin::cli {
 namespace {
-
-bool read_code(std::string_view text, uint32_t& code) {
-  return read_number(text, code) && code != 0;
-}
-
-bool read_epsg(std::string_view text, uint32_t& horizontal, uint32_t& vertical) {
-  const size_t colon = text.find(':');
-  return read_code(text.substr(0, colon), horizontal) &&
-         (colon == std::string_view::npos || read_code(text.substr(colon + 1), vertical));
-}
 
 bool read_tiles(std::string_view text, TileRange& range) {
   const size_t colon = text.find(':');
@@ -98,18 +87,6 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
 
 // What the header tells people.
 void add_notes(CLI::App& command, EncodeRequest& request) {
-  const auto read = [&request](const std::string& text) {
-    return read_epsg(text, request.reference.horizontal_epsg, request.reference.vertical_epsg);
-  };
-  add_read(
-      command, "--epsg", read, "a code, nor two with a colon between",
-      "Codes of the coordinates: horizontal, or horizontal:vertical; known ones set the units");
-  add_read(
-      command, "--units",
-      [&request](const std::string& text) { return read_units(text, request.reference); },
-      "a unit, nor two with a colon between",
-      "Units of x and y and of heights: metre, foot, us-foot or degree; degree:metre, or :foot for "
-      "heights alone. If not given: as the file or its codes say; heights as x and y");
   command.add_option("--source-text", request.source_text, "Where the terrain comes from");
   command
       .add_option("--date", request.date, "Of the source: 2026, 2026-11 or 2026-11-21 (ISO 8601)")

@@ -9,6 +9,7 @@
 
 #include "encoder/cli/definitions.hpp"
 #include "encoder/files/file_target.hpp"
+#include "encoder/import/reference.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -46,6 +47,37 @@ bool read_classes(std::string_view text, ClassSet& classes) {
     classes.set(code);
   }
   return true;
+}
+
+bool read_code(std::string_view text, uint32_t& code) {
+  return read_number(text, code) && code != 0;
+}
+
+bool read_epsg(std::string_view text, uint32_t& horizontal, uint32_t& vertical) {
+  const size_t colon = text.find(':');
+  return read_code(text.substr(0, colon), horizontal) &&
+         (colon == std::string_view::npos || read_code(text.substr(colon + 1), vertical));
+}
+
+// In which units and systems the source's numbers are; they come before what its files say.
+void add_reference(CLI::App& command, Preparation& preparation) {
+  Reference& asked = preparation.asked.emplace();
+  add_read(
+      command, "--epsg",
+      [&asked](const std::string& text) {
+        return read_epsg(text, asked.horizontal_epsg, asked.vertical_epsg);
+      },
+      "a code, nor two with a colon between",
+      "Codes of the coordinates: horizontal, or horizontal:vertical; known ones set the units");
+  add_read(
+      command, "--units", [&asked](const std::string& text) { return read_units(text, asked); },
+      "a unit, nor two with a colon between",
+      "Units of x and y and of heights: metre, foot or us-foot; degree:metre; or :foot for "
+      "heights alone; cm, km, yard, fathom and others are converted to metres. If not given: as "
+      "the "
+      "file or its codes say; heights as x and y");
+  command.add_flag("--depths", asked.depths,
+                   "The source's heights grow downwards: turn them into heights, by their sign");
 }
 
 }  // namespace
@@ -135,6 +167,7 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
       command, "--classes", read, "a list such as 2,9, nor all",
       "Points to take from a .las file: their classes, 2,9 for instance, or all. If not given: "
       "the ground (2) or, if there is none, all but noise (7, 18)");
+  add_reference(command, preparation);
   add_indirect(command, preparation);
 #ifdef MICROTIN_WITH_GDAL
   command

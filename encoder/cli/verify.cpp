@@ -45,6 +45,17 @@ JsonObject report_of(const Original::Judgement& judgement, const Metadata& notes
   return report;
 }
 
+// What was overridden or converted of the source's units and systems.
+void add_warnings(JsonObject& report, const Original& original) {
+  const Reference& reference =
+      original.raster() != nullptr ? original.raster()->reference : original.cloud()->reference;
+  std::string list;
+  for (const std::string& remark : reference.remarks) {
+    list += (list.empty() ? "" : ", ") + json(remark);
+  }
+  if (!list.empty()) report.emplace_back("warnings", '[' + list + ']');
+}
+
 void expect_kept(const Original::Judgement& judgement, const std::string& input) {
   const Verification& found = judgement.found;
   if (!found.within_bound) throw Error(input + ": the largest error is above the bound");
@@ -75,6 +86,7 @@ void run_verify(const VerifyRequest& request) {
   if (original.raster() != nullptr && !original.raster()->selection.empty()) {
     report.emplace_back("source", json(original.raster()->selection));
   }
+  add_warnings(report, original);
   const bool told = tell(text_of(report, request.json));
   expect_kept(judgement, input);
   if (!told) throw ReportLost(input + ": keeps its promises, but nobody reads the report");

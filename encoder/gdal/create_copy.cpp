@@ -115,21 +115,14 @@ std::string wkt_of(const GDALDataset& source) {
   return wkt;
 }
 
-// Of heights: the option comes before what the band says, which the encoder refuses if it does not
-// know that unit.
-std::string units_of(GDALDataset& source, char** options) {
-  if (const char* const given = CSLFetchNameValue(options, "UNITS")) return given;
-  const std::string unit = source.GetRasterBand(1)->GetUnitType();
-  return unit.empty() ? unit : ':' + unit;
-}
-
 template <class AllOptions>
-AllOptions options_of(GDALDataset& source, char** given) {
+AllOptions options_of(char** given) {
   AllOptions options;
   options.max_error = CSLFetchNameValueDef(given, "MAX_ERROR", "");
   options.z_step = CSLFetchNameValueDef(given, "Z_STEP", "");
   options.never_below = CPLFetchBool(given, "NEVER_BELOW", false);
-  options.units = units_of(source, given);
+  options.units = CSLFetchNameValueDef(given, "UNITS", "");
+  options.depths = CPLFetchBool(given, "DEPTHS", false);
   const std::string search = CSLFetchNameValueDef(given, "SEARCH", "NORMAL");
   if (EQUAL(search.c_str(), "FAST")) options.search = Search::kFast;
   if (EQUAL(search.c_str(), "BEST")) options.search = Search::kBest;
@@ -155,18 +148,19 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
   }
   Posts posts = posts_of(source);
   posts.wkt = wkt_of(source);
+  posts.z_unit = source.GetRasterBand(1)->GetUnitType();
   const encoder::Terrain terrain(std::move(posts));
   if (!ends_with(path, ".mtp")) {
     if (CSLFetchNameValue(given, "TILE_VERTICES") != nullptr) {
       refuse(std::string(path) + ": is a stream; a pack, which has tiles, is named .mtp");
     }
-    const auto options = options_of<encoder::StreamOptions>(source, given);
+    const auto options = options_of<encoder::StreamOptions>(given);
     encoder::Stream stream = encoder::encode_stream(terrain, options, callbacks);
     write_bytes(path, stream.bytes);
     return std::move(stream.report);
   }
   if (STARTS_WITH(path, "/vsi")) refuse("packs are written to files alone, not to /vsi...");
-  auto options = options_of<encoder::PackOptions>(source, given);
+  auto options = options_of<encoder::PackOptions>(given);
   options.tile_vertices = tile_vertices(CSLFetchNameValue(given, "TILE_VERTICES"));
   return encoder::encode_pack(terrain, options, path, callbacks);
 }

@@ -41,6 +41,7 @@ void GDALRegister_MTIN() {
       "<Value>QUICK</Value><Value>BALANCED</Value><Value>DENSE</Value></Option>"
       "<Option name='UNITS' type='string' description='Units of x and y and of heights, such as "
       "degree:metre or :foot'/>"
+      "<Option name='DEPTHS' type='boolean' description='Heights grow downwards, and are negated'/>"
       "<Option name='TILE_VERTICES' type='int' default='" +
       usual_vertices +
       "' description='Of packs: vertices of a tile at most'/>"

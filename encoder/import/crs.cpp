@@ -2,6 +2,7 @@
 // Finds codes and units in well-known text and GeoTIFF keys.
 #include "encoder/import/crs.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include "encoder/base/suffix.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/import/epsg.hpp"
+#include "encoder/import/reference.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {
@@ -55,34 +57,17 @@ uint32_t code_of(const std::string& text) {
 }
 
 // By its length in metres.
-Unit length_unit(const std::string& text) {
-  const std::optional<double> metres = real_number(text);
-  return metres ? unit_of_metres(*metres) : Unit::kUnknown;
+StatedUnit length_unit(const Node& node) {
+  const std::optional<double> metres = real_number(node.values[1]);
+  return metres ? unit_of_length(*metres, node.values[0]) : unit_named(node.values[0]);
 }
 
 // By its radians.
-Unit angular_unit(const std::string& text) {
+StatedUnit angular_unit(const Node& node) {
   constexpr double kDegree = 0.017453292519943295, kAlike = 1e-9;
-  const std::optional<double> radians = real_number(text);
-  const bool is_degree = radians && std::abs(*radians - kDegree) < kAlike;
-  return is_degree ? Unit::kDegree : Unit::kUnknown;
-}
-
-// By its EPSG code.
-Unit unit_of_code(uint32_t code) {
-  constexpr uint32_t kMetre = 9001, kFoot = 9002, kUsSurveyFoot = 9003, kDegree = 9102;
-  switch (code) {
-    case kMetre:
-      return Unit::kMetre;
-    case kFoot:
-      return Unit::kFoot;
-    case kUsSurveyFoot:
-      return Unit::kUsSurveyFoot;
-    case kDegree:
-      return Unit::kDegree;
-    default:
-      return Unit::kUnknown;
-  }
+  const std::optional<double> radians = real_number(node.values[1]);
+  if (radians && std::abs(*radians - kDegree) < kAlike) return {Unit::kDegree, {}};
+  return {Unit::kUnknown, node.values[0]};
 }
 
 class WktReader {
@@ -115,6 +100,7 @@ class WktReader {
   void close() {
     const Node node = std::move(open_.back());
     open_.pop_back();
+    find_direction(node);
     const Kind own = kind_of(node.keyword);
     if (own != Kind::kNone && !node.values.empty()) name_system(own, node.values[0]);
     if (open_.empty() || node.values.size() < 2) return;
@@ -139,15 +125,30 @@ class WktReader {
     if (code != 0 && built_in_system(code)->unit == unit) known = code;
   }
 
+  // By the vertical axis, or by ESRI's parameter.
+  void find_direction(const Node& node) {
+    if (open_.empty() || node.values.size() < 2 || is_of_another(Kind::kVertical)) return;
+    const std::string first = lower_case(node.values[0]), second = lower_case(node.values[1]);
+    const bool is_own = kind_of(open_.back().keyword) == Kind::kVertical;
+    if (node.keyword == "axis" && second == "down") reference_.depths = true;
+    if (!is_own || node.keyword != "parameter" || first != "direction") return;
+    const std::optional<double> direction = real_number(second);
+    reference_.depths = direction && *direction < 0;
+  }
+
+  bool is_in_vertical_axis() const {
+    if (open_.back().keyword != "axis" || open_.back().values.size() < 2) return false;
+    const std::string direction = lower_case(open_.back().values[1]);
+    return direction == "up" || direction == "down";
+  }
+
   void add_unit(Kind kind, const Node& node) {
-    const std::string& length = node.values[1];
-    const bool is_of_third_axis = kind != Kind::kProjected && node.keyword == "lengthunit";
-    if (kind == Kind::kVertical || is_of_third_axis) {
-      reference_.vertical_unit = length_unit(length);
-    } else if (kind == Kind::kProjected) {
-      reference_.horizontal_unit = length_unit(length);
+    const bool is_of_third_axis = kind == Kind::kGeographic && node.keyword == "lengthunit";
+    if (kind == Kind::kVertical || is_of_third_axis || is_in_vertical_axis()) {
+      state_vertical_unit(length_unit(node), reference_);
     } else {
-      reference_.horizontal_unit = angular_unit(length);
+      state_horizontal_unit(kind == Kind::kProjected ? length_unit(node) : angular_unit(node),
+                            reference_);
     }
   }
 
@@ -173,13 +174,18 @@ class WktReader {
 
 // Units that are not stated follow from codes that are known.
 void complete_units(Reference& reference) {
-  const auto complete = [](uint32_t code, bool is_vertical, Unit& unit) {
-    if (unit != Unit::kUnknown) return;
+  const auto complete = [](uint32_t code, bool is_vertical, const StatedUnit& unit) {
+    if (unit.is_stated()) return unit;
     const std::optional<CodedSystem> system = system_of_file_code(code);
-    if (system && system->is_vertical == is_vertical) unit = system->unit;
+    if (!system || system->is_vertical != is_vertical) return unit;
+    return StatedUnit{system->unit, system->other};
   };
-  complete(reference.horizontal_epsg, false, reference.horizontal_unit);
-  complete(reference.vertical_epsg, true, reference.vertical_unit);
+  state_horizontal_unit(complete(reference.horizontal_epsg, false,
+                                 {reference.horizontal_unit, reference.horizontal_other}),
+                        reference);
+  state_vertical_unit(
+      complete(reference.vertical_epsg, true, {reference.vertical_unit, reference.vertical_other}),
+      reference);
 }
 
 }  // namespace
@@ -206,19 +212,23 @@ Reference reference_of_line(std::string_view text) {
   constexpr std::string_view kCode = "EPSG:";
   if (text.substr(0, kCode.size()) != kCode) return reference_of_wkt(text);
   Reference reference;
-  reference.horizontal_epsg = code_of(std::string(text.substr(kCode.size())));
+  const std::string_view codes = text.substr(kCode.size());
+  const size_t plus = codes.find('+');
+  reference.horizontal_epsg = code_of(std::string(codes.substr(0, plus)));
+  if (plus != codes.npos) reference.vertical_epsg = code_of(std::string(codes.substr(plus + 1)));
   complete_units(reference);
   return reference;
 }
 
-Reference reference_of_geo_keys(const std::vector<uint16_t>& directory) {
+Reference reference_of_geo_keys(const std::vector<uint16_t>& directory,
+                                const std::vector<double>& doubles) {
   constexpr uint16_t kModel = 1024, kGeographic = 2048, kAngularUnit = 2054, kProjected = 3072,
-                     kLinearUnit = 3076, kVertical = 4096, kVerticalUnit = 4099,
-                     kUserDefined = 32767;
+                     kLinearUnit = 3076, kLinearSize = 3077, kVertical = 4096, kVerticalUnit = 4099,
+                     kUserDefined = 32767, kDoubles = 34736;
   Reference reference;
   bool is_geographic = false;
   uint32_t geographic = 0, projected = 0;
-  Unit angular = Unit::kDegree, linear = Unit::kUnknown;
+  StatedUnit angular{Unit::kDegree, {}}, linear;
   // A head of four numbers, then for each key: what, where, how many, value.
   for (size_t at = 4; at + 4 <= directory.size(); at += 4) {
     const uint16_t key = directory[at], value = directory[at + 3];
@@ -229,13 +239,41 @@ Reference reference_of_geo_keys(const std::vector<uint16_t>& directory) {
     if (key == kProjected) projected = code;
     if (key == kVertical) reference.vertical_epsg = code;
     if (key == kAngularUnit) angular = unit_of_code(code);
-    if (key == kLinearUnit) linear = unit_of_code(code);
-    if (key == kVerticalUnit) reference.vertical_unit = unit_of_code(code);
+    if (key == kLinearUnit && is_here) linear = unit_of_code(code);
+    if (key == kLinearSize && directory[at + 1] == kDoubles && value < doubles.size()) {
+      linear = unit_of_length(doubles[value], "user-defined");
+    }
+    if (key == kVerticalUnit) {
+      state_vertical_unit(is_here ? unit_of_code(code) : StatedUnit{Unit::kUnknown, "user-defined"},
+                          reference);
+    }
   }
   reference.horizontal_epsg = is_geographic ? geographic : projected;
-  reference.horizontal_unit = is_geographic ? angular : linear;
+  state_horizontal_unit(is_geographic ? angular : linear, reference);
   complete_units(reference);
   return reference;
+}
+
+std::string horizontal_part(const std::string& text) {
+  size_t depth = 0, begin = 0;
+  bool in_quotes = false;
+  const size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+  const size_t open = std::min(text.find_first_of("[(", first), text.size());
+  const std::string root = lower_case(text.substr(first, open - first));
+  const bool is_compound = is_one_of(root, {"compd_cs", "compoundcrs"});
+  const size_t own = is_compound ? 1 : 0;  // how deep the horizontal system lies
+  for (size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '"') in_quotes = !in_quotes;
+    if (in_quotes) continue;
+    if (c == '[' || c == '(') ++depth;
+    if (is_compound && c == ',' && depth == own && begin == 0) begin = at + 1;
+    if ((c == ']' || c == ')') && depth != 0 && --depth == own) {
+      begin = std::min(text.find_first_not_of(" \t\r\n", begin), at);
+      return text.substr(begin, at + 1 - begin);
+    }
+  }
+  return text;
 }
 
 }  // namespace microtin::importing

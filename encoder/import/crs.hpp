@@ -4,6 +4,7 @@
 #define MICROTIN_ENCODER_IMPORT_CRS_HPP
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,11 +23,15 @@ bool is_wkt(std::string_view text);
 // NUL, is kept if the horizontal system has no code and the text is not longer than kLongestWkt.
 Reference reference_of_wkt(std::string_view text);
 
-// The same of such a text or a code, EPSG:32633.
+// The same of such a text or a code, EPSG:32633 or, with heights, EPSG:32633+5773.
 Reference reference_of_line(std::string_view text);
 
-// The same of a GeoTIFF key directory: its 16-bit numbers.
-Reference reference_of_geo_keys(const std::vector<uint16_t>& directory);
+// The same of a GeoTIFF key directory, its 16-bit numbers, and of the doubles that it refers to.
+Reference reference_of_geo_keys(const std::vector<uint16_t>& directory,
+                                const std::vector<double>& doubles = {});
+
+// A well-known text without the vertical system that it has beside the horizontal one.
+std::string horizontal_part(const std::string& text);
 
 }  // namespace microtin::importing
 

@@ -28,23 +28,67 @@ constexpr std::array<Geographic, 3> kGeographic = {
 constexpr uint32_t kWebMercator = 3857;
 constexpr std::string_view kWebMercatorName = "WGS_1984_Web_Mercator_Auxiliary_Sphere";
 
-struct Vertical {
-  uint32_t code;
-  Unit unit;
-};
-
 // EGM96, EGM2008, EGM84, mean sea level, NAVD88 (metre, US survey foot, foot), NGVD29 (US survey
 // foot), DHHN92, DHHN2016, EVRF2000, EVRF2007, EVRF2019, ODN, NAP, NGF-IGN69, LN02, LHN95, Baltic
-// 1977, AHD, NZVD2016, CGVD28, CGVD2013, JGD2011.
-constexpr std::array<Vertical, 24> kVertical = {
-    {{5773, Unit::kMetre}, {3855, Unit::kMetre},        {5798, Unit::kMetre},
-     {5714, Unit::kMetre}, {5703, Unit::kMetre},        {6360, Unit::kUsSurveyFoot},
-     {8228, Unit::kFoot},  {5702, Unit::kUsSurveyFoot}, {5783, Unit::kMetre},
-     {7837, Unit::kMetre}, {5730, Unit::kMetre},        {5621, Unit::kMetre},
-     {9389, Unit::kMetre}, {5701, Unit::kMetre},        {5709, Unit::kMetre},
-     {5720, Unit::kMetre}, {5728, Unit::kMetre},        {5729, Unit::kMetre},
-     {5705, Unit::kMetre}, {5711, Unit::kMetre},        {7839, Unit::kMetre},
-     {5713, Unit::kMetre}, {6647, Unit::kMetre},        {6695, Unit::kMetre}}};
+// 1977, AHD, NZVD2016, CGVD28, CGVD2013, JGD2011; others in feet; then all depths.
+constexpr std::array<VerticalCode, 58> kVertical = {{{5773, Unit::kMetre},
+                                                     {3855, Unit::kMetre},
+                                                     {5798, Unit::kMetre},
+                                                     {5714, Unit::kMetre},
+                                                     {5703, Unit::kMetre},
+                                                     {6360, Unit::kUsSurveyFoot},
+                                                     {8228, Unit::kFoot},
+                                                     {5702, Unit::kUsSurveyFoot},
+                                                     {5783, Unit::kMetre},
+                                                     {7837, Unit::kMetre},
+                                                     {5730, Unit::kMetre},
+                                                     {5621, Unit::kMetre},
+                                                     {9389, Unit::kMetre},
+                                                     {5701, Unit::kMetre},
+                                                     {5709, Unit::kMetre},
+                                                     {5720, Unit::kMetre},
+                                                     {5728, Unit::kMetre},
+                                                     {5729, Unit::kMetre},
+                                                     {5705, Unit::kMetre},
+                                                     {5711, Unit::kMetre},
+                                                     {7839, Unit::kMetre},
+                                                     {5713, Unit::kMetre},
+                                                     {6647, Unit::kMetre},
+                                                     {6695, Unit::kMetre},
+                                                     {6130, Unit::kFoot},
+                                                     {6131, Unit::kFoot},
+                                                     {6132, Unit::kFoot},
+                                                     {8050, Unit::kFoot},
+                                                     {8052, Unit::kUsSurveyFoot},
+                                                     {5336, Unit::kMetre, true, 5735},
+                                                     {5612, Unit::kMetre, true, 5705},
+                                                     {5614, Unit::kFoot, true, 0},
+                                                     {5706, Unit::kMetre, true, 5611},
+                                                     {5715, Unit::kMetre, true, 5714},
+                                                     {5734, Unit::kMetre, true, 5797},
+                                                     {5739, Unit::kMetre, true, 0},
+                                                     {5789, Unit::kMetre, true, 7979},
+                                                     {5831, Unit::kMetre, true, 5829},
+                                                     {5861, Unit::kMetre, true, 0},
+                                                     {5862, Unit::kMetre, true, 0},
+                                                     {5863, Unit::kMetre, true, 0},
+                                                     {5864, Unit::kMetre, true, 0},
+                                                     {5865, Unit::kMetre, true, 0},
+                                                     {5866, Unit::kMetre, true, 0},
+                                                     {5867, Unit::kMetre, true, 0},
+                                                     {5873, Unit::kMetre, true, 0},
+                                                     {6357, Unit::kMetre, true, 5703},
+                                                     {6358, Unit::kUsSurveyFoot, true, 6360},
+                                                     {6359, Unit::kUsSurveyFoot, true, 5702},
+                                                     {7976, Unit::kMetre, true, 5738},
+                                                     {8051, Unit::kFoot, true, 8050},
+                                                     {8053, Unit::kUsSurveyFoot, true, 8052},
+                                                     {8358, Unit::kMetre, true, 8357},
+                                                     {8378, Unit::kMetre, true, 0},
+                                                     {8897, Unit::kFoot, true, 0},
+                                                     {9287, Unit::kMetre, true, 0},
+                                                     {9288, Unit::kMetre, true, 0},
+                                                     {9672, Unit::kMetre, true, 0}}};
 
 struct NamedHeights {
   uint32_t code;
@@ -122,10 +166,20 @@ std::string built_in_wkt(uint32_t code) {
 std::optional<CodedSystem> built_in_system(uint32_t code) {
   if (geographic(code) != nullptr) return CodedSystem{false, Unit::kDegree};
   if (code == kWebMercator || zone_of(code)) return CodedSystem{false, Unit::kMetre};
-  for (const Vertical& system : kVertical) {
-    if (system.code == code) return CodedSystem{true, system.unit};
+  for (const VerticalCode& system : kVertical) {
+    if (system.code == code) {
+      return CodedSystem{true, system.unit, {}, system.is_depth, system.heights};
+    }
   }
   return std::nullopt;
+}
+
+const VerticalCode* begin_of_verticals() {
+  return kVertical.data();
+}
+
+const VerticalCode* end_of_verticals() {
+  return kVertical.data() + kVertical.size();
 }
 
 std::optional<CodedSystem> system_of_code(uint32_t code) {

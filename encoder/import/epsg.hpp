@@ -15,12 +15,27 @@ namespace microtin::importing {
 
 struct CodedSystem {
   bool is_vertical;
-  Unit unit;  // of its coordinates
+  Unit unit;               // of its coordinates
+  std::string other = {};  // name of a unit that streams do not have; the unit is kUnknown then
+  bool is_depth = false;   // a vertical one that grows downwards
+  uint32_t heights = 0;    // ... and the one that is alike but for that; 0: there is none
 };
 
-// Known here: WGS 84 (4326), ETRS89 (4258), NAD83 (4269), UTM on these, web Mercator (3857) and the
-// heights in use. Others are asked of PROJ in builds with GDAL. Nothing if the code is not known;
-// throws Error if PROJ knows that there is none, or one of another kind.
+struct VerticalCode {
+  uint32_t code;
+  Unit unit;
+  bool is_depth = false;
+  uint32_t heights = 0;  // as of CodedSystem
+};
+
+// The vertical systems that are known without PROJ, as begin and end.
+const VerticalCode* begin_of_verticals();
+const VerticalCode* end_of_verticals();
+
+// Known here: WGS 84 (4326), ETRS89 (4258), NAD83 (4269), UTM on these, web Mercator (3857), the
+// heights in use, all heights in feet and all depths. Others are asked of PROJ in builds with GDAL.
+// Nothing if the code is not known; throws Error if PROJ knows that there is none, or one of
+// another kind.
 std::optional<CodedSystem> system_of_code(uint32_t code);
 
 // The same of a code that a file states: nothing, too, if there is none.

@@ -30,14 +30,22 @@ System system_for(uint32_t code) {
   return system;
 }
 
-Unit unit_of(OGRSpatialReferenceH system, bool is_vertical) {
+StatedUnit unit_of(OGRSpatialReferenceH system, bool is_vertical) {
+  char* name = nullptr;  // of the system, which frees it
   if (!is_vertical && OSRIsGeographic(system) != 0) {
     constexpr double kDegree = 0.017453292519943295, kAlike = 1e-12;
-    const double radians = OSRGetAngularUnits(system, nullptr);
-    return std::abs(radians - kDegree) < kAlike ? Unit::kDegree : Unit::kUnknown;
+    const double radians = OSRGetAngularUnits(system, &name);
+    if (std::abs(radians - kDegree) < kAlike) return {Unit::kDegree, {}};
+    return {Unit::kUnknown, name};
   }
-  const char* const target = is_vertical ? "VERT_CS" : "PROJCS";
-  return unit_of_metres(OSRGetTargetLinearUnits(system, target, nullptr));
+  const double metres = OSRGetTargetLinearUnits(system, is_vertical ? "VERT_CS" : "PROJCS", &name);
+  return unit_of_length(metres, name);
+}
+
+bool grows_downwards(OGRSpatialReferenceH system) {
+  OGRAxisOrientation orientation = OAO_Other;
+  OSRGetAxis(system, nullptr, 0, &orientation);
+  return orientation == OAO_Down;
 }
 
 }  // namespace
@@ -52,7 +60,9 @@ std::optional<CodedSystem> system_by_proj(uint32_t code) {
     throw Error("EPSG " + std::to_string(code) +
                 " is neither a horizontal nor a vertical system: give both, HORIZONTAL:VERTICAL");
   }
-  return CodedSystem{is_vertical, unit_of(system.get(), is_vertical)};
+  const StatedUnit unit = unit_of(system.get(), is_vertical);
+  return CodedSystem{is_vertical, unit.unit, unit.other,
+                     is_vertical && grows_downwards(system.get())};
 }
 
 std::string wkt_by_proj(uint32_t code) {

@@ -18,6 +18,7 @@
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/no_data.hpp"
+#include "encoder/import/reference.hpp"
 #include "encoder/import/text.hpp"
 #include "encoder/import/transform.hpp"
 
@@ -226,8 +227,7 @@ Raster read(const std::string& path, Indirect indirect, uint32_t number) {
   const FirstRow first = place(dataset.get(), raster);
   if (const char* wkt = GDALGetProjectionRef(dataset.get()))
     raster.reference = reference_of_wkt(wkt);
-  const std::optional<Unit> unit = unit_named(GDALGetRasterUnitType(band));
-  if (unit) raster.reference.vertical_unit = *unit;
+  state_vertical_unit(unit_named(GDALGetRasterUnitType(band)), raster.reference);
   DecimalColumn heights;
   heights.reserve(reader.width() * reader.height());
   for (size_t row = 0; row < reader.height(); ++row) {

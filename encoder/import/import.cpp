@@ -42,16 +42,21 @@ std::string system_file_of(const std::string& path) {
   return "";
 }
 
+// An option may decide in its place, so that what is wrong with it is kept, not thrown.
 Reference reference_beside(const std::string& path) {
   const std::string file = system_file_of(path);
   if (file.empty()) return {};
-  const std::string text(without_mark(read_file(file)));
-  if (!is_wkt(text)) {
-    throw Error(file +
-                ": is no well-known text of a coordinate system; \"gdalsrsinfo -o wkt_esri\" "
-                "writes one");
+  Reference unread;
+  try {
+    const std::string text(without_mark(read_file(file)));
+    if (is_wkt(text)) return reference_of_wkt(text);
+    unread.unread = file +
+                    ": is no well-known text of a coordinate system; \"gdalsrsinfo -o wkt_esri\" "
+                    "writes one, or give an EPSG code or units";
+  } catch (const Error& error) {
+    unread.unread = error.what();
   }
-  return reference_of_wkt(text);
+  return unread;
 }
 
 Source import_grid(const std::string& path, const std::string& text) {

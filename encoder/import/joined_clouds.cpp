@@ -11,6 +11,7 @@
 #include "encoder/exact/coordinates.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/import/class_counts.hpp"
+#include "encoder/import/reference.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -125,6 +126,7 @@ PointCloud join_clouds(std::vector<NamedSource> parts) {
   for (size_t i = 1; i < parts.size(); ++i) {
     PointCloud& part = std::get<PointCloud>(parts[i].source);
     expect_alike(parts[0], parts[i], whole.reference, part.reference);
+    add_remarks(part.reference, whole.reference);
     expect_same_classes(parts[0], parts[i], whole, part);
     const int xy = std::max(whole.xy_decimals, part.xy_decimals);
     const int z = std::max(whole.z_decimals, part.z_decimals);

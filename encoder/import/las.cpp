@@ -94,7 +94,7 @@ class References {
 
   // Some writers leave a text empty beside keys.
   Reference take() const {
-    return is_wkt(wkt_) ? reference_of_wkt(wkt_) : reference_of_geo_keys(keys_);
+    return is_wkt(wkt_) ? reference_of_wkt(wkt_) : reference_of_geo_keys(keys_, doubles_);
   }
 
  private:
@@ -113,11 +113,15 @@ class References {
   }
 
   void add(std::string_view user, uint16_t record, uint64_t at, uint64_t size) {
-    constexpr uint16_t kGeoKeys = 34735, kWkt = 2112, kLaszip = 22204;
+    constexpr uint16_t kGeoKeys = 34735, kGeoDoubles = 34736, kWkt = 2112, kLaszip = 22204;
     const std::string_view content = file_.bytes(at, size);
     if (user == "laszip encoded" && record == kLaszip) refuse_compressed(file_);
     if (user != "LASF_Projection") return;
     if (record == kWkt) wkt_ = content;
+    if (record == kGeoDoubles) {
+      doubles_.clear();
+      for (uint64_t i = 0; i + 8 <= size; i += 8) doubles_.push_back(file_.number<double>(at + i));
+    }
     if (record != kGeoKeys) return;
     keys_.clear();
     for (uint64_t i = 0; i + 2 <= size; i += 2) keys_.push_back(file_.number<uint16_t>(at + i));
@@ -126,6 +130,7 @@ class References {
   const ByteReader& file_;
   std::string_view wkt_;
   std::vector<uint16_t> keys_;
+  std::vector<double> doubles_;
 };
 
 class PointReader {

@@ -11,6 +11,7 @@
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/import/joined_clouds.hpp"
+#include "encoder/import/reference.hpp"
 
 namespace microtin::importing {
 namespace {
@@ -103,6 +104,8 @@ class Mosaic : public RasterReader {
     for (NamedSource& source : sources) parts_.push_back(part_of(sources[0], source));
     frame_ = std::get<std::unique_ptr<RasterReader>>(sources[0].source)->frame();
     for (size_t i = 0; i < parts_.size(); ++i) {
+      add_remarks(std::get<std::unique_ptr<RasterReader>>(sources[i].source)->frame().reference,
+                  frame_.reference);
       parts_[i].raster = std::move(std::get<std::unique_ptr<RasterReader>>(sources[i].source));
       frame_.decimals = std::max(frame_.decimals, parts_[i].raster->frame().decimals);
     }

@@ -30,11 +30,14 @@ std::string remedy(const NamedSource& first, const NamedSource& part, const Refe
   for (const auto& [file, reference] : {std::tie(first, a), std::tie(part, b)}) {
     if (reference.horizontal_unit != Unit::kUnknown || !reference.wkt.empty()) continue;
     if (suffix_of(file.path) == ".asc") {
-      return "put the .prj that is missing beside " + file.path;
+      return "put the .prj that is missing beside " + file.path + ", or give units for all";
     }
   }
-  return std::holds_alternative<PointCloud>(part.source) ? "bring all points into one system first"
-                                                         : "bring it there with gdalwarp";
+  const bool is_unknown = a.vertical_unit == Unit::kUnknown || b.vertical_unit == Unit::kUnknown;
+  const std::string others = is_unknown ? ", or give units for all" : "";
+  return (std::holds_alternative<PointCloud>(part.source) ? "bring all points into one system first"
+                                                          : "bring it there with gdalwarp") +
+         others;
 }
 
 }  // namespace

@@ -5,48 +5,14 @@
 #include <optional>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/suffix.hpp"
 #include "encoder/import/import.hpp"
+#include "encoder/import/point_columns.hpp"
+#include "encoder/import/reference.hpp"
 #include "encoder/import/text.hpp"
 #include "encoder/terrain/degrees.hpp"
 
 namespace microtin::importing {
 namespace {
-
-// What a column's name says.
-struct Meaning {
-  size_t axis;
-  bool is_degree;
-};
-
-// Without quotes, the slashes that CloudCompare begins with, and a unit in brackets.
-std::string plain_name(std::string_view field) {
-  std::string name = lower_case(std::string(field.substr(0, field.find_first_of("([,;"))));
-  const auto is_mark = [](char c) { return c == '"' || c == '/'; };
-  name.erase(std::remove_if(name.begin(), name.end(), is_mark), name.end());
-  return name;
-}
-
-std::optional<Meaning> meaning_of(const std::string& name) {
-  struct Name {
-    std::string_view text;
-    Meaning meaning;
-  };
-  constexpr std::array<Name, 25> kNames = {
-      {{"x", {0, false}},        {"y", {1, false}},        {"z", {2, false}},
-       {"easting", {0, false}},  {"northing", {1, false}}, {"height", {2, false}},
-       {"east", {0, false}},     {"north", {1, false}},    {"elevation", {2, false}},
-       {"lon", {0, true}},       {"lat", {1, true}},       {"elev", {2, false}},
-       {"long", {0, true}},      {"latitude", {1, true}},  {"ele", {2, false}},
-       {"longitude", {0, true}}, {"altitude", {2, false}}, {"alt", {2, false}},
-       {"lng", {0, true}},       {"h", {2, false}},        {"point_x", {0, false}},
-       {"point_y", {1, false}},  {"point_z", {2, false}},  {"e", {0, false}},
-       {"n", {1, false}}}};
-  for (const Name& known : kNames) {
-    if (known.text == name) return known.meaning;
-  }
-  return std::nullopt;
-}
 
 // Whether commas separate numbers, and blanks without a comma do, too: then one of them may be the
 // mark of decimals.
@@ -92,7 +58,7 @@ class PointReader {
   PointCloud cloud() {
     if (points_.empty()) throw Error(name_ + ": holds no point");
     PointCloud cloud = points_.take();
-    cloud.reference.horizontal_unit = unit_;
+    cloud.reference = reference_;
     return cloud;
   }
 
@@ -104,17 +70,12 @@ class PointReader {
                         [](std::string_view field) { return number_in(field).has_value(); });
   }
 
-  // Between commas or semicolons names may hold blanks; their first words count.
+  // Between commas or semicolons names may hold blanks.
   void split_names(std::string_view line) {
     if (line.find_first_of(",;") == line.npos) return;
     separator_ = line.find(';') == line.npos ? ',' : ';';
-    std::vector<std::string_view> words;
     split_at(separator_, line, fields_);
     if (fields_.back().empty()) fields_.pop_back();
-    for (std::string_view& field : fields_) {
-      split_at_blanks(field, words);
-      field = words.empty() ? std::string_view() : words[0];
-    }
   }
 
   // By what separates the names, if there is any of it: so columns of text may hold all else.
@@ -193,18 +154,20 @@ class PointReader {
   void check_header() {
     header_seen_ = true;
     std::array<std::optional<size_t>, 3> found;
-    bool has_depth = false;
+    std::array<PointColumn, 3> columns;
     for (size_t i = 0; i < fields_.size(); ++i) {
-      const std::string name = plain_name(fields_[i]);
-      const std::optional<Meaning> meaning = meaning_of(name);
-      has_depth = has_depth || name == "depth";
-      if (!meaning) continue;
-      if (found[meaning->axis])
-        fail(std::string("two columns are named as ") + "xyz"[meaning->axis]);
-      found[meaning->axis] = i;
-      if (meaning->is_degree) unit_ = Unit::kDegree;
+      const std::optional<PointColumn> column = column_named(fields_[i]);
+      if (!column) continue;
+      PointColumn& known = columns[column->axis];
+      std::optional<size_t>& place = found[column->axis];
+      if (place && column->is_depth && !known.is_depth) continue;  // heights come before depths
+      if (place && column->is_depth == known.is_depth) {
+        fail(std::string("two columns are named as ") + "xyz"[column->axis]);
+      }
+      place = i;
+      known = *column;
     }
-    if (has_depth && !found[2]) fail("depths grow downwards: write heights, and name them z");
+    state_units(columns);
     if (!found[0] && !found[1] && !found[2]) {
       fail(
           "no column is named as x, y or z: name these, or begin the line with # if they are "
@@ -218,6 +181,17 @@ class PointReader {
     }
   }
 
+  void state_units(const std::array<PointColumn, 3>& columns) {
+    const auto& [x, y, z] = columns;
+    if (x.unit.unit != y.unit.unit || x.unit.other != y.unit.other) {
+      fail("x and y are in different units");
+    }
+    state_horizontal_unit(x.unit, reference_);
+    if (x.is_degree || y.is_degree) reference_.horizontal_unit = Unit::kDegree;
+    state_vertical_unit(z.unit, reference_);
+    reference_.depths = z.is_depth;
+  }
+
   void read_point() {
     for (size_t i = 0; names_ == 0 && i < columns_; ++i) {
       if (!number_in(fields_[i])) fail_on(fields_[i]);
@@ -227,7 +201,7 @@ class PointReader {
       const auto given = column < columns_ ? number_in(fields_[column]) : Decimal{};
       if (!given) fail_on(fields_[column]);
       const Decimal value = *given;
-      if (unit_ == Unit::kDegree) expect_degrees(axis, value);
+      if (reference_.horizontal_unit == Unit::kDegree) expect_degrees(axis, value);
       if (!points_.add(axis, value)) fail_on(fields_[column]);
     }
   }
@@ -247,7 +221,7 @@ class PointReader {
   bool header_seen_ = false;
   std::vector<std::string_view> fields_;
   std::array<size_t, 3> axes_ = {0, 1, 2};  // columns of x, y and z
-  Unit unit_ = Unit::kUnknown;
+  Reference reference_;
   PointColumns points_;
 };
 

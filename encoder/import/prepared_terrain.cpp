@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "encoder/base/error_context.hpp"
+#include "encoder/import/conversion.hpp"
 #include "encoder/import/folder.hpp"
 #include "encoder/import/mosaic.hpp"
 #include "encoder/terrain/voids.hpp"
@@ -71,12 +72,20 @@ std::vector<std::string> parts_of(const std::string& path, const Preparation& pr
   return parts;
 }
 
+template <class AnySource>
+AnySource settled(const std::string& path, AnySource source, const Preparation& preparation) {
+  if (!preparation.asked) return source;
+  with_file_context(path, [&] { settle_source(source, *preparation.asked); });
+  return source;
+}
+
 OpenSource open_parts(const std::vector<std::string>& parts, const Preparation& preparation) {
   std::vector<NamedSource> sources;
   sources.reserve(parts.size());
   for (const std::string& part : parts) {
-    sources.push_back(
-        {part, open_terrain(part, preparation.classes, preparation.indirect, preparation.band)});
+    OpenSource source =
+        open_terrain(part, preparation.classes, preparation.indirect, preparation.band);
+    sources.push_back({part, settled(part, std::move(source), preparation)});
   }
   return join(std::move(sources));
 }
@@ -84,7 +93,9 @@ OpenSource open_parts(const std::vector<std::string>& parts, const Preparation& 
 // One file is read without a detour.
 Source read_parts(const std::vector<std::string>& parts, const Preparation& preparation) {
   if (parts.size() == 1) {
-    return import_terrain(parts[0], preparation.classes, preparation.indirect, preparation.band);
+    Source source =
+        import_terrain(parts[0], preparation.classes, preparation.indirect, preparation.band);
+    return settled(parts[0], std::move(source), preparation);
   }
   OpenSource source = open_parts(parts, preparation);
   if (auto* const cloud = std::get_if<PointCloud>(&source)) return std::move(*cloud);

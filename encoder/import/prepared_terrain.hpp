@@ -14,7 +14,7 @@
 
 namespace microtin::importing {
 
-// What is done to a terrain, in this order.
+// What is done to a terrain.
 struct Preparation {
   std::vector<std::string> more_files;  // of the same terrain, beside the one named first
   std::optional<ClassSet> classes;      // take these points of a .las file
@@ -23,6 +23,8 @@ struct Preparation {
   std::string water_mask;               // ... where this file says so; everywhere if there is none
   Indirect indirect = Indirect::kRefused;  // files that name others
   uint32_t band = 0;                       // of a file that has several, from 1 on
+  // Settled with each file's; nothing: units and systems are left alone, where no heights are used.
+  std::optional<Reference> asked = Reference{};
 };
 
 // All files that a terrain is read from, those of a folder too; none for one without a name. Throws

@@ -10,11 +10,11 @@
 #include "encoder/base/error_context.hpp"
 #include "encoder/base/iso_date.hpp"
 #include "encoder/exact/fraction.hpp"
+#include "encoder/import/conversion.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
-#include "encoder/product/reference.hpp"
 #include "encoder/terrain/fill_value.hpp"
 
 namespace microtin::encoder {
@@ -45,6 +45,12 @@ microtin_axis checked(const microtin_axis& axis) {
   return exact::reduced_axis(axis.offset, axis.numerator, axis.denominator);
 }
 
+terrain::Reference reference_of(const std::string& wkt, const std::string& z_unit) {
+  terrain::Reference reference = importing::reference_of_wkt(wkt);
+  importing::state_vertical_unit(exact::unit_named(z_unit), reference);
+  return reference;
+}
+
 terrain::Source raster_of(Posts posts) {
   expect(posts.heights.size() == uint64_t{posts.columns} * posts.rows,
          "not as many heights as columns times rows");
@@ -59,7 +65,7 @@ terrain::Source raster_of(Posts posts) {
                          posts.decimals,
                          checked(posts.x),
                          checked(posts.y),
-                         importing::reference_of_wkt(posts.wkt)};
+                         reference_of(posts.wkt, posts.z_unit)};
 }
 
 terrain::Source cloud_of(const Points& points) {
@@ -68,7 +74,7 @@ terrain::Source cloud_of(const Points& points) {
   terrain::PointCloud cloud;
   cloud.xy_decimals = points.xy_decimals;
   cloud.z_decimals = points.z_decimals;
-  cloud.reference = importing::reference_of_wkt(points.wkt);
+  cloud.reference = reference_of(points.wkt, points.z_unit);
   cloud.points.reserve(points.points.size());
   for (const auto& [x, y, z] : points.points) {
     expect(is_number(x) && is_number(y) && is_number(z), "a coordinate is beyond 10^18");
@@ -150,10 +156,6 @@ product::EncodeOptions options_of(const Options& options) {
   expect(options.degree == 0 || (options.degree >= kMinDegree && options.degree <= kMaxDegree),
          "degree: 6 .. 32");
   all.effort = {options.degree, decoding_of(options.decoding)};
-  all.reference.horizontal_epsg = options.horizontal_epsg;
-  all.reference.vertical_epsg = options.vertical_epsg;
-  expect(options.units.empty() || product::read_units(options.units, all.reference),
-         "units: " + options.units + " is not a unit such as metre or degree:foot");
   expect(options.date.empty() || base::is_iso_date(options.date),
          "date: " + options.date + " is not a date such as 2026-11-21");
   all.source_text = options.source;
@@ -161,6 +163,36 @@ product::EncodeOptions options_of(const Options& options) {
   all.lineage = options.lineage;
   return all;
 }
+
+terrain::Reference asked_of(const Options& options) {
+  terrain::Reference asked;
+  asked.horizontal_epsg = options.horizontal_epsg;
+  asked.vertical_epsg = options.vertical_epsg;
+  asked.depths = options.depths;
+  expect(options.units.empty() || importing::read_units(options.units, asked),
+         "units: " + options.units + " is not a unit such as metre or degree:foot");
+  return asked;
+}
+
+// A terrain in the units that are asked for: a copy only where numbers are converted.
+class SettledTerrain {
+ public:
+  SettledTerrain(const terrain::Source& source, const Options& options)
+      : source_(source),
+        settled_(importing::settle(terrain::reference_of(source), asked_of(options))) {
+    if (importing::is_plain(settled_.conversion)) return;
+    converted_ = source;
+    importing::convert(*converted_, settled_);
+  }
+
+  const terrain::Source& source() const { return converted_ ? *converted_ : source_; }
+  const terrain::Reference& reference() const { return settled_.reference; }
+
+ private:
+  const terrain::Source& source_;
+  importing::SettledReference settled_;
+  std::optional<terrain::Source> converted_;
+};
 
 // Ends the work by an exception when it is told to.
 base::Progress progress_of(const Callbacks& callbacks) {
@@ -221,12 +253,10 @@ Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOpti
   return report;
 }
 
-std::vector<std::string> remarks_on(const terrain::Source& source,
-                                    const product::EncodeOptions& options) {
-  std::vector<std::string> remarks =
-      product::settle(terrain::reference_of(source), options.reference).remarks;
+std::vector<std::string> remarks_on(const SettledTerrain& terrain) {
+  std::vector<std::string> remarks = importing::completed(terrain.reference()).remarks;
   const std::string fill =
-      std::visit([](const auto& one) { return terrain::remark_on_fill(one); }, source);
+      std::visit([](const auto& one) { return terrain::remark_on_fill(one); }, terrain.source());
   if (!fill.empty()) remarks.push_back(fill);
   return remarks;
 }
@@ -259,10 +289,12 @@ Stream encode_stream(const Terrain& terrain, const StreamOptions& options,
          "max_vertices: 3 .. 2^24");
   all.max_vertices = options.max_vertices;
   all.max_bytes = options.max_bytes;
+  const SettledTerrain settled(terrain.content().source, options);
+  all.reference = settled.reference();
   product::EncodedStream encoded =
-      product::encode_stream(terrain.content().source, all, progress_of(callbacks));
+      product::encode_stream(settled.source(), all, progress_of(callbacks));
   Report report = report_of(encoded);
-  report.remarks = remarks_on(terrain.content().source, all);
+  report.remarks = remarks_on(settled);
   return {std::move(encoded.stream), std::move(report)};
 }
 
@@ -275,13 +307,15 @@ Report encode_pack(const Terrain& terrain, const PackOptions& options, const std
          "tile_vertices: 16 .. 2^24, or 0 for the usual number");
   all.tile_vertices = options.tile_vertices;
   all.tile_steps = options.tile_steps;
+  const SettledTerrain settled(terrain.content().source, options);
+  all.reference = settled.reference();
   files::OutputFile out(path);
-  const terrain::Source& source = terrain.content().source;
+  const terrain::Source& source = settled.source();
   const auto* const raster = std::get_if<terrain::Raster>(&source);
   Report report = raster != nullptr
                       ? encode_posts(*raster, all, path, out, callbacks)
                       : encode_points(std::get<terrain::PointCloud>(source), all, out);
-  report.remarks = remarks_on(source, all);
+  report.remarks = remarks_on(settled);
   out.commit();
   return report;
 }

@@ -112,6 +112,7 @@ Options common_options(const microtin_options& given) {
   options.duplicates =
       choice("duplicates", given.duplicates, options.duplicates, Duplicates::kMean);
   options.units = text_of(given.units);
+  options.depths = given.depths != 0;
   options.horizontal_epsg = given.horizontal_epsg;
   options.vertical_epsg = given.vertical_epsg;
   options.source = text_of(given.source);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "encoder/product/reference.hpp"
+#include "encoder/import/reference.hpp"
 #include "encoder/stream/device_ram.hpp"
 #include "encoder/terrain/degrees.hpp"
 
@@ -12,7 +12,7 @@ namespace microtin::product {
 namespace {
 
 Metadata metadata_for(const EncodeOptions& options, const Reference& file) {
-  const Reference reference = settle(file, options.reference).reference;
+  const Reference reference = completed(options.reference ? *options.reference : file);
   Metadata metadata;
   metadata.horizontal_unit = reference.horizontal_unit;
   metadata.vertical_unit = reference.vertical_unit;

@@ -4,6 +4,7 @@
 #define MICROTIN_ENCODER_PRODUCT_OPTIONS_HPP
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "encoder/exact/metadata.hpp"
@@ -28,12 +29,12 @@ struct EncodeOptions {
   BoundAt bound_at = BoundAt::kTruePlaces;
   Search search = Search::kNormal;
   Effort effort;
-  Reference reference;  // where it says something, it comes before what the terrain's file says
+  std::optional<Reference> reference;  // in place of the terrain's own, settled
   std::string source_text, date, lineage;
 };
 
 // What the header will say of a terrain whose file says this, but for its place and the accuracy.
-// Throws Error as settle does, and if the places of a terrain in degrees are none on Earth.
+// Throws Error as completed does, and if the places of a terrain in degrees are none on Earth.
 Metadata metadata_of(const EncodeOptions& options, const Raster& frame);
 Metadata metadata_of(const EncodeOptions& options, const PointCloud& cloud);
 

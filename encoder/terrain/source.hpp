@@ -22,13 +22,19 @@ namespace microtin::terrain {
 constexpr int64_t kVoidHeight = std::numeric_limits<int64_t>::min();
 constexpr int64_t kLargestNumber = 1000000000000000000;
 
-// What the file format implies.
+// What the file format implies, or what is asked for instead.
 struct Reference {
   Unit horizontal_unit = Unit::kUnknown;
   Unit vertical_unit = Unit::kUnknown;
   uint32_t horizontal_epsg = 0;
   uint32_t vertical_epsg = 0;
-  std::string wkt;  // of the horizontal system, where it has no code
+  std::string wkt = {};  // of the horizontal system, where it has no code
+  // Names of units that streams do not have, where they are stated: they are converted, or refused.
+  std::string horizontal_other = {}, vertical_other = {};
+  bool one_unit = false;    // asked for: heights have the unit of places, if that is a length
+  bool depths = false;      // heights grow downwards
+  std::string unread = {};  // why the file that says its system is not read; empty: it is, or none
+  std::vector<std::string> remarks = {};  // sentences for people: what was overridden or converted
 };
 
 // Posts that were void when they were read and have a height nevertheless.

@@ -179,6 +179,18 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
       "unit.asc: its units or its coordinate system (x and y foot, heights unknown) are not "
       "those of a.asc (x and y unknown, heights unknown): put the .prj that is missing "
       "beside a.asc"));
+  for (const std::string output : {"t.mtin", "t.mtp --tile-vertices 60"}) {
+    const Session::Result made = session.run("encode a.asc unit.asc --units metre -o " + output);
+    CHECK(contains(made.out,
+                   "units: x and y metre, z metre\nwarning: x and y are taken as metre; "
+                   "the file says foot\n"));
+  }
+  session.write("cm.asc", grid(106, 50, "100 200 300\n400 500 600"));
+  session.write("cm.prj", "LOCAL_CS[\"a\",UNIT[\"m\",1]],VERT_CS[\"b\",UNIT[\"cm\",0.01]]");
+  session.write("m.asc", grid(112, 50, "1 2 3\n4 5 6"));
+  session.write("m.prj", "LOCAL_CS[\"a\",UNIT[\"m\",1]],VERT_CS[\"b\",UNIT[\"m\",1]]");
+  REQUIRE(session.run("encode cm.asc m.asc --epsg 32633 -o t.mtin").code == 0);
+  CHECK(contains(session.run("info t.mtin").out, "\"lowest\": 1.0, \"highest\": 6.0"));
   fs::create_directory(session.folder() + "/mixed");
   for (const char* const name : {"a.asc", "unit.asc", "p.xyz"}) {
     fs::copy_file(session.folder() + "/" + name, session.folder() + "/mixed/" + name);

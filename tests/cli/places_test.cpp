@@ -36,7 +36,7 @@ TEST_CASE("places: a grid's .prj says its system and units; decode writes one th
   session.write("t.prj", kZone);
   for (const char* const output : {"t.mtin", "t.mtp --tile-vertices 100"}) {
     const Session::Result made = session.run("encode t.asc -o " + std::string(output));
-    CHECK(contains(made.out, "units: x and y metre, z metre\nwarning: heights are taken as metre"));
+    CHECK(contains(made.out, "units: x and y metre, z metre\n"));
   }
   for (const char* const name : {"t.mtin", "t.mtp"}) {
     const std::string info = session.run("info " + std::string(name)).out;
@@ -54,11 +54,93 @@ TEST_CASE("places: a grid's .prj says its system and units; decode writes one th
   CHECK(session.read("t.prj") == kZone);
 }
 
-TEST_CASE("places: a .prj that is none is refused") {
+TEST_CASE("places: a .prj that is none is refused, or what is asked for decides") {
   const Session session;
   session.write("t.asc", kGrid);
   session.write("t.prj", "Projection UTM\nZone 33\n");
-  CHECK(contains(session.failure("encode t.asc -o t.mtin"), "t.prj: is no well-known text"));
+  for (const char* const output : {"t.mtin", "t.mtp --tile-vertices 100"}) {
+    const std::string encode = "encode t.asc -o " + std::string(output);
+    CHECK(contains(session.failure(encode), "t.prj: is no well-known text"));
+    CHECK(contains(session.failure(encode + " --units :metre"), "t.prj: is no well-known text"));
+    for (const char* const asked : {" --epsg 32633", " --units metre"}) {
+      const Session::Result made = session.run(encode + asked);
+      CHECK(made.code == 0);
+      CHECK(contains(made.out, "warning: what is asked for decides; not read is t.prj: is no"));
+    }
+  }
+  CHECK(session.run("verify t.mtin t.asc --units metre").code == 0);
+}
+
+TEST_CASE("places: heights in other units are converted, in every command that reads a source") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  session.write("t.prj", std::string(kZone) + R"(,VERTCS["v",UNIT["Centimeter",0.01]])");
+  for (const char* const name : {"t.mtin", "t.mtp"}) {
+    const std::string tiles = std::string(name) == "t.mtp" ? " --tile-vertices 100" : "";
+    const std::string file = name;
+    const Session::Result made = session.run("encode t.asc -o " + file + tiles);
+    CHECK(contains(made.out,
+                   "units: x and y metre, z metre\nwarning: heights in the unit "
+                   "centimetre are converted to metre: times 0.01\n"));
+    CHECK(session.run("verify " + file + " t.asc").code == 0);
+    CHECK(contains(session.run("verify --json " + file + " t.asc").out,
+                   "\"warnings\": [\"heights in the unit centimetre are converted"));
+    CHECK(contains(session.run("info " + file).out, "\"highest\": 0.09"));
+    CHECK(session.run("render --source t.asc -o t.png " + file).code == 0);
+    const Session::Result other = session.run("encode t.asc --units :metre -o u" + file + tiles);
+    CHECK(contains(other.out, "heights are taken as metre; the file says centimetre\n"));
+    CHECK(session.run("verify u" + file + " t.asc").code == 1);
+    CHECK(session.run("verify u" + file + " t.asc --units :metre").code == 0);
+  }
+  REQUIRE(session.run("decode t.mtin -o back.asc").code == 0);
+  CHECK(contains(session.read("back.prj"), "UNIT[\"Meter\",1.0]]\n"));
+  session.write("t.prj", std::string(kZone) + R"(,VERTCS["v",UNIT["span",0.2286]])");
+  CHECK(contains(session.failure("encode t.asc -o v.mtin"),
+                 "t.asc: the unit of heights is \"span\", which is not known"));
+}
+
+TEST_CASE("places: headers of points say units, which options override aloud") {
+  const Session session;
+  session.write("ft.csv", "Easting [m],Northing [m],Height [ft]\n0,0,328\n100,0,330\n0,100,5\n");
+  CHECK(contains(session.run("encode ft.csv -o t.mtin").out, "units: x and y metre, z foot\n"));
+  CHECK(contains(session.run("encode ft.csv --units metre -o t.mtin").out,
+                 "z metre\nwarning: heights are taken as metre; the file says foot\n"));
+  session.write("km.csv", "x [km];y [km];z_ft_us\n0;0;328\n0.1;0;330\n0;0.1;5\n");
+  CHECK(
+      contains(session.run("encode km.csv -o t.mtin").out,
+               "units: x and y metre, z US survey foot\nwarning: x and y in the unit kilometre are "
+               "converted to metre: times 1000\n"));
+  CHECK(contains(session.run("info t.mtin").out, "\"east\": 100.0"));
+  session.write("odd.csv", "x,y,z [span]\n0,0,328\n100,0,330\n0,100,5\n");
+  CHECK(contains(session.failure("encode odd.csv -o u.mtin"), "\"span\", which is not known"));
+  session.write("two.csv", "x [m],y [km],z\n0,0,328\n100,0,330\n0,100,5\n");
+  CHECK(contains(session.failure("encode two.csv -o u.mtin"), "x and y are in different units"));
+}
+
+TEST_CASE("places: depths are refused, or turned into heights, so that never-below holds upwards") {
+  const Session session;
+  session.write("t.asc", kGrid);
+  session.write("t.prj", std::string(kZone) +
+                             R"(,VERTCS["v",PARAMETER["Direction",-1.0],UNIT["Meter",1.0]])");
+  session.write("t.csv", "x,y,depth\n0,0,3\n100,0,4\n0,100,5\n");
+  for (const std::string source : {"t.asc", "t.csv --units metre"}) {
+    const std::string input = source.substr(0, 5);
+    CHECK(contains(session.failure("encode " + source + " -o u.mtin"),
+                   input + ": heights are depths by the file's system, which grow downwards: the "
+                           "option depths"));
+    const Session::Result made = session.run("encode " + source + " --depths -o t.mtin");
+    CHECK(contains(made.out, "warning: depths are turned into heights\n"));
+    CHECK(contains(session.failure("verify t.mtin " + source), "the option depths"));
+    CHECK(session.run("verify t.mtin --depths " + source).code == 0);
+  }
+  REQUIRE(session.run("encode t.asc --depths --max-error 1 --never-below -o t.mtin").code == 0);
+  CHECK(contains(session.run("verify t.mtin t.asc --depths").out, "max_below: 0"));
+  CHECK(contains(session.run("info t.mtin").out, "\"lowest\": -9"));
+  session.write("t.prj", kZone);
+  CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 32633:5715"),
+                 "heights are depths (EPSG 5715), which grow downwards"));
+  REQUIRE(session.run("encode t.asc -o t.mtin --epsg 32633:5715 --depths").code == 0);
+  CHECK(contains(session.run("info t.mtin").out, "vertical_epsg: 5714"));
 }
 
 TEST_CASE("places: beside degrees the unit of heights is asked for") {
@@ -85,8 +167,8 @@ TEST_CASE("places: codes set units, and may not contradict them") {
     return session.run("encode t.asc -o t.mtin " + options).out;
   };
   CHECK(contains(report("--epsg 32633:6360"), "units: x and y metre, z US survey foot\n"));
-  CHECK(
-      contains(report("--units foot"), "units: x and y foot, z foot\nwarning: heights are taken"));
+  CHECK(contains(report("--units foot"), "units: x and y foot, z foot\n"));
+  CHECK(!contains(report("--units foot"), "warning"));
   CHECK(contains(report("--units us-ft:m"), "units: x and y US survey foot, z metre\n"));
   CHECK(contains(report(""),
                  "warning: the unit of x and y is not known: give units or an EPSG code\n"
@@ -97,7 +179,7 @@ TEST_CASE("places: codes set units, and may not contradict them") {
                  "EPSG 5773 is a vertical system"));
   CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 4326:32633"),
                  "EPSG 32633 is a horizontal system"));
-  for (const char* const wrong : {"chain", "m:deg", "m:", "", ":"}) {
+  for (const char* const wrong : {"furlong", "m:deg", "m:", "", ":"}) {
     CHECK(
         contains(session.failure("encode t.asc -o u.mtin --units '" + std::string(wrong) + "'", 2),
                  "is not a unit"));
@@ -139,6 +221,18 @@ TEST_CASE("places: scenes and pictures of unknown units warn") {
   REQUIRE(session.run("encode t.asc -o t.mtin --units m").code == 0);
   CHECK(session.run("decode t.mtin -o t.glb").err.empty());
   CHECK(session.run("render t.mtin -o t.png").err.empty());
+}
+
+TEST_CASE("places: files for autopilots have heights in metres beside degrees, or are refused") {
+  const Session session;
+  session.write("N43E007.hgt", std::string("\0\1\0\2\0\3\0\4\0\5\0\6\0\7\0\10\0\11", 18));
+  for (const char* const units : {"degree:foot", "degree:us-foot", "metre:metre", "foot:metre"}) {
+    REQUIRE(session.run("encode N43E007.hgt -o t.mtin --units " + std::string(units)).code == 0);
+    for (const char* const output : {"N43E007.DAT", "N43E007.TER"}) {
+      CHECK(contains(session.failure("decode t.mtin -o " + std::string(output)),
+                     "autopilots want places in degrees and heights in metres"));
+    }
+  }
 }
 
 TEST_CASE("places: meshes name their system, and points of meshes bring it back") {

@@ -29,16 +29,21 @@ DecodedTerrain square(bool with_void) {
   return DecodedTerrain(encode(tin, metadata));
 }
 
-std::vector<std::string> exported(const DecodedTerrain& terrain, MeshFormat format,
+std::vector<std::string> exported(const SurfaceModel& model, MeshFormat format,
                                   Coordinates coordinates) {
   const TemporaryFolder folder;
   OutputFile out(folder / "mesh");
-  export_model(model_of(terrain.mesh()), format, coordinates, out);
+  export_model(model, format, coordinates, out);
   out.commit();
   std::ifstream file(folder / "mesh");
   std::vector<std::string> lines;
   for (std::string line; std::getline(file, line);) lines.push_back(line);
   return lines;
+}
+
+std::vector<std::string> exported(const DecodedTerrain& terrain, MeshFormat format,
+                                  Coordinates coordinates) {
+  return exported(model_of(terrain.mesh()), format, coordinates);
 }
 
 }  // namespace
@@ -49,6 +54,20 @@ TEST_CASE("xyz: a line for each vertex, in exact decimals") {
   CHECK(lines == std::vector<std::string>{"5274357.669 -0.25 -1", "5274357.669 1.75 0.333333333333",
                                           "5274357.689 -0.25 0",
                                           "5274357.694 2.25 2.333333333333"});
+}
+
+TEST_CASE("meshes in text keep the numbers of the terrain, whatever its units are") {
+  for (const MeshFormat format : {MeshFormat::kXyz, MeshFormat::kObj, MeshFormat::kPly}) {
+    SurfaceModel model = model_of(square(false).mesh());
+    const std::vector<std::string> plain = exported(model, format, Coordinates::kReal);
+    for (const Unit flat : {Unit::kMetre, Unit::kDegree, Unit::kFoot, Unit::kUsSurveyFoot}) {
+      for (const Unit up : {Unit::kMetre, Unit::kFoot, Unit::kUsSurveyFoot}) {
+        model.horizontal_unit = flat;
+        model.vertical_unit = up;
+        CHECK(exported(model, format, Coordinates::kReal) == plain);
+      }
+    }
+  }
 }
 
 TEST_CASE("xyz: lattice integers") {

@@ -145,6 +145,31 @@ TEST_CASE("glb: triangles turn counter-clockwise, normals are of length 1 and on
   CHECK(glb.normals[2] == doctest::Approx(0));
 }
 
+TEST_CASE("glb: places and heights have units of their own, each of its length in metres") {
+  constexpr double kRounding = 2e-7;  // of floats; the two feet differ by ten times as much
+  struct Length {
+    Unit unit;
+    double metres;
+  };
+  for (const Length& flat : {Length{Unit::kMetre, 1}, Length{Unit::kFoot, 0.3048},
+                             Length{Unit::kUsSurveyFoot, 0.304800609601219},
+                             Length{Unit::kUnknown, 1}, Length{Unit::kDegree, 0}}) {
+    for (const Length& up :
+         {Length{Unit::kMetre, 1}, Length{Unit::kFoot, 0.3048},
+          Length{Unit::kUsSurveyFoot, 0.304800609601219}, Length{Unit::kUnknown, 1}}) {
+      SurfaceModel model = square();
+      if (flat.unit == Unit::kDegree) model.placement.y = {4498, 1, 100};
+      model.horizontal_unit = flat.unit;
+      model.vertical_unit = up.unit;
+      const Glb glb = exported(model);
+      CHECK(std::abs(glb.positions[1] / (-40 * up.metres) - 1) < kRounding);
+      if (flat.unit == Unit::kDegree) continue;
+      CHECK(std::abs(glb.positions[0] / (-2 * flat.metres) - 1) < kRounding);
+      CHECK(std::abs(glb.positions[2] / (1 * flat.metres) - 1) < kRounding);
+    }
+  }
+}
+
 TEST_CASE("glb: units become metres, degrees by the latitude") {
   SurfaceModel model = square();
   model.horizontal_unit = Unit::kFoot;

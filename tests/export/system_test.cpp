@@ -30,4 +30,24 @@ TEST_CASE("systems: the unit of heights follows the system, whatever the program
   CHECK(text.find(",UNIT[\"Foot_US\",0.3048006096012192]]\n") != text.npos);
 }
 
+TEST_CASE("systems: each unit of heights has its name and its length, beside any unit of places") {
+  struct Case {
+    Unit unit;
+    std::string text;
+  };
+  for (const std::string horizontal :
+       {"LOCAL_CS[\"a\",UNIT[\"Meter\",1.0]]", "LOCAL_CS[\"a\",UNIT[\"Foot\",0.3048]]"}) {
+    for (const auto& [unit, text] :
+         {Case{Unit::kMetre, "UNIT[\"Meter\",1.0]"}, Case{Unit::kFoot, "UNIT[\"Foot\",0.3048]"},
+          Case{Unit::kUsSurveyFoot, "UNIT[\"Foot_US\",0.3048006096"}}) {
+      Metadata metadata;
+      metadata.wkt = horizontal;
+      metadata.vertical_unit = unit;
+      const std::string all = system_text(metadata);
+      CHECK(all.find(horizontal + ",VERTCS[") == 0);
+      CHECK(all.find(text, horizontal.size()) != all.npos);
+    }
+  }
+}
+
 }  // namespace microtin::tests

@@ -239,8 +239,8 @@ class Driver(unittest.TestCase):
             driver.CreateCopy(self.path("refused.mtin"), signed)
         refused("max_error: much", options=["MAX_ERROR=much"])
         refused("heights", epsg=4326)
-        refused("units: :fathom is not a unit", unit="fathom")
-        refused("fathom is not a unit", options=["UNITS=fathom"])
+        refused('the unit of heights is "furlong", which is not known', unit="furlong")
+        refused("furlong is not a unit", options=["UNITS=furlong"])
         refused("name a stream .mtin or a pack .mtp", name="refused.tif")
 
     def test_feet(self):
@@ -254,6 +254,44 @@ class Driver(unittest.TestCase):
             copy = gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/feet.mtin", source)
             self.assertEqual(copy.GetRasterBand(1).GetUnitType(), "ft")
             self.assertEqual(copy.GetGeoTransform(), (7, 0.001, 0, 43, 0, -0.001))
+
+    def depths(self, codes, unit=""):
+        source = gdal.GetDriverByName("MEM").Create("", 9, 9, 1, gdal.GDT_Int16)
+        source.SetGeoTransform(TRANSFORM)
+        system = osr.SpatialReference()
+        system.SetFromUserInput(codes)
+        source.SetProjection(system.ExportToWkt())
+        source.GetRasterBand(1).WriteArray(numpy.arange(81).reshape(9, 9))
+        source.GetRasterBand(1).SetUnitType(unit)
+        return source
+
+    def test_units_of_bands_are_converted(self):
+        driver, told = gdal.GetDriverByName("MTIN"), []
+        gdal.PushErrorHandler(lambda _kind, _number, text: told.append(text))
+        try:
+            copy = driver.CreateCopy("/vsimem/cm.mtin", self.depths("EPSG:32633", "cm"))
+            raw = driver.CreateCopy("/vsimem/m.mtin", self.depths("EPSG:32633", "cm"), options=["UNITS=:metre"])
+        finally:
+            gdal.PopErrorHandler()
+        band = copy.GetRasterBand(1)
+        self.assertEqual((band.GetUnitType(), band.ReadAsArray()[8, 8]), ("m", 0.8))
+        self.assertEqual(raw.GetRasterBand(1).ReadAsArray()[8, 8], 80)
+        self.assertEqual(
+            [text.split(": ", 2)[2] for text in told],
+            ["heights in the unit centimetre are converted to metre: times 0.01",
+             "heights are taken as metre; the file says centimetre"],
+        )
+
+    def test_depths(self):
+        driver = gdal.GetDriverByName("MTIN")
+        for codes in ("EPSG:32633+5715", "EPSG:32633+5861"):
+            with self.assertRaisesRegex(RuntimeError, "heights are depths .*: the option depths"):
+                driver.CreateCopy("/vsimem/depth.mtin", self.depths(codes))
+            with gdal.quiet_errors() if hasattr(gdal, "quiet_errors") else tempfile.TemporaryDirectory():
+                copy = driver.CreateCopy("/vsimem/depth.mtin", self.depths(codes), options=["DEPTHS=YES"])
+            self.assertEqual(copy.GetRasterBand(1).ReadAsArray()[8, 8], -80)
+            self.assertEqual("MSL height" in copy.GetProjection(), codes.endswith("5715"))
+            self.assertNotIn("DOWN", copy.GetProjection())
 
     def test_guesses_are_told(self):
         source = gdal.GetDriverByName("MEM").Create("", 9, 9, 1, gdal.GDT_Int16)

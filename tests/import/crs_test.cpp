@@ -79,6 +79,53 @@ TEST_CASE("crs: GeoTIFF keys; user-defined codes and values elsewhere do not cou
   CHECK(reference_of_geo_keys({}).horizontal_unit == Unit::kUnknown);
 }
 
+TEST_CASE("crs: GeoTIFF keys of other units; user-defined ones by their size") {
+  const auto keys = [](std::vector<uint16_t> entries, const std::vector<double>& doubles = {}) {
+    entries.insert(entries.begin(), {1, 1, 0, 9});
+    return reference_of_geo_keys(entries, doubles);
+  };
+  CHECK(keys({4099, 0, 1, 9001}).vertical_unit == Unit::kMetre);
+  CHECK(keys({4099, 0, 1, 9002}).vertical_unit == Unit::kFoot);
+  CHECK(keys({4099, 0, 1, 9003}).vertical_unit == Unit::kUsSurveyFoot);
+  CHECK(keys({4099, 0, 1, 1033}).vertical_other == "centimetre");
+  CHECK(keys({4099, 0, 1, 32767}).vertical_other == "user-defined");
+  CHECK(keys({4099, 0, 1, 77}).vertical_other == "EPSG unit 77");
+  CHECK(keys({1024, 0, 1, 1, 3076, 0, 1, 9036}).horizontal_other == "kilometre");
+  const std::vector<double> sizes = {0, 0.3048006096};
+  CHECK(keys({1024, 0, 1, 1, 3076, 0, 1, 32767, 3077, 34736, 1, 1}, sizes).horizontal_unit ==
+        Unit::kUsSurveyFoot);
+  CHECK(keys({1024, 0, 1, 1, 3076, 0, 1, 32767, 3077, 34736, 1, 2}, sizes).horizontal_unit ==
+        Unit::kUnknown);
+}
+
+TEST_CASE("crs: codes in a line, of heights too") {
+  CHECK(reference_of_line("EPSG:25832").horizontal_epsg == 25832);
+  const Reference both = reference_of_line("EPSG:25832+6358");
+  CHECK(both.horizontal_epsg == 25832);
+  CHECK(both.vertical_epsg == 6358);
+  CHECK(both.vertical_unit == Unit::kUsSurveyFoot);
+}
+
+TEST_CASE("crs: the vertical axis of a plane has its own unit") {
+  const Reference r = reference_of_wkt(
+      R"(PROJCRS["p",CS[Cartesian,3],AXIS["E",east,LENGTHUNIT["metre",1]],AXIS["N",north,)"
+      R"(LENGTHUNIT["metre",1]],AXIS["h",up,LENGTHUNIT["foot",0.3048]]])");
+  CHECK(r.horizontal_unit == Unit::kMetre);
+  CHECK(r.vertical_unit == Unit::kFoot);
+  CHECK(!r.depths);
+}
+
+TEST_CASE("crs: the horizontal part of a text") {
+  const std::string plane = R"(PROJCS["a, ] b",UNIT["m",1]])";
+  const std::string up = R"(VERT_CS["v",UNIT["m",1]])";
+  CHECK(horizontal_part(plane) == plane);
+  CHECK(horizontal_part(plane + "," + up) == plane);
+  CHECK(horizontal_part("COMPD_CS[\"c, d\", " + plane + "," + up + "]") == plane);
+  CHECK(horizontal_part(" COMPOUNDCRS[\"c\",\n" + plane + "," + up + "]") == plane);
+  CHECK(horizontal_part("").empty());
+  CHECK(horizontal_part("]][") == "]][");
+}
+
 TEST_CASE("crs: codes of files set units that are not stated, as far as they are known") {
   const Reference r =
       reference_of_geo_keys({1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 2263, 4096, 0, 1, 6360});

@@ -63,6 +63,28 @@ TEST_CASE("gdal: rows to the south first, place, code, units, voids, scale") {
             .x.denominator == 2400);
 }
 
+TEST_CASE("gdal: a band's unit is converted, and a system of depths turned, in the program too") {
+  const Grid grid;
+  const auto with_unit = [](const std::string& unit, const std::string& codes) {
+    std::string text = vrt(kPlace, "\"Int16\"><UnitType>" + unit + "</UnitType>");
+    return text.replace(text.find("EPSG:32633"), 10, codes);
+  };
+  CHECK(grid.read(with_unit("cm", "EPSG:32633")).reference.vertical_other == "centimetre");
+  const Session& session = grid.session;
+  const std::string encode = "encode t.vrt --allow-vrt -o t.mtin";
+  CHECK(contains(session.run(encode).out, "centimetre are converted to metre: times 0.01\n"));
+  CHECK(contains(session.run("info t.mtin").out, "\"highest\": 0.06"));
+  CHECK(session.run("verify t.mtin t.vrt --allow-vrt").code == 0);
+  session.write("t.vrt", with_unit("span", "EPSG:32633"));
+  CHECK(contains(session.run(encode).err, "\"span\", which is not known"));
+  session.write("t.vrt", with_unit("m", "EPSG:32633+5715"));
+  CHECK(contains(session.run(encode).err, "heights are depths (EPSG 5715)"));
+  CHECK(contains(session.run(encode + " --depths").out, "EPSG 5715 becomes EPSG 5714\n"));
+  CHECK(contains(session.run("info t.mtin").out, "\"lowest\": -6"));
+  CHECK(session.run("decode t.mtin --like t.vrt -o like.asc").code == 1);  // without --allow-vrt
+  CHECK(session.run("decode t.mtin --allow-vrt --like t.vrt -o like.asc").code == 0);
+}
+
 TEST_CASE("gdal: what cannot be read is refused with advice") {
   const Grid grid;
   CHECK(grid.error(vrt("0, -10, 0, 0, 0, 10", "\"Int16\">")) ==

@@ -11,6 +11,7 @@
 
 #include "encoder/files/input_file.hpp"
 #include "encoder/product/document.hpp"
+#include "microtin/surface.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -244,6 +245,42 @@ TEST_CASE("library: places in degrees that are none on Earth are refused, of pos
       }
     }
   }
+}
+
+TEST_CASE("library: units are converted and depths turned, in streams and packs alike") {
+  const TemporaryFolder folder;
+  Posts posts = cone(9);
+  posts.heights.assign(81, 100);
+  posts.heights[40] = 500;
+  posts.z_unit = "cm";
+  posts.wkt = R"(LOCAL_CS["a",UNIT["m",1]])";
+  PackOptions options;
+  options.tile_vertices = 100;
+  options.depths = true;
+  const Report report = encode_pack(Terrain(posts), options, folder / "t.mtp");
+  CHECK(report.remarks == std::vector<std::string>{
+                              "heights in the unit centimetre are converted to metre: times 0.01",
+                              "depths are turned into heights"});
+  const Surface pack = Surface::from_file(folder / "t.mtp");
+  CHECK(pack.facts().lowest == -0.5);
+  CHECK(pack.facts().highest == -0.1);
+  CHECK(pack.facts().vertical_unit == microtin::encoder::Unit::kMetre);
+  posts.wkt +=
+      R"(,VERT_CS["MSL depth",UNIT["metre",1],AXIS["Depth",DOWN],AUTHORITY["EPSG","5715"]])";
+  StreamOptions stream;
+  stream.units = "metre:metre";
+  CHECK_THROWS_AS(encode_stream(Terrain(posts), stream), std::runtime_error);
+  stream.depths = true;
+  const Stream made = encode_stream(Terrain(posts), stream);
+  CHECK(made.report.remarks ==
+        std::vector<std::string>{"heights are taken as metre; the file says centimetre",
+                                 "depths are turned into heights: EPSG 5715 becomes EPSG 5714"});
+  Points points;
+  points.points = {{0, 0, 1}, {9, 0, 2}, {0, 9, 3}};
+  points.z_unit = "furlong";
+  stream.depths = false;
+  stream.units.clear();
+  CHECK_THROWS_AS(encode_stream(Terrain(points), stream), std::runtime_error);
 }
 
 TEST_CASE("library: what makes no sense is refused with a sentence") {

@@ -270,6 +270,20 @@ TEST_CASE("C: an array goes to a stream and back") {
   CHECK(report.bytes == size);
   CHECK(std::strtod(report.max_error, nullptr) <= 0.5);
 
+  options.depths = 1;
+  uint8_t* turned = nullptr;
+  REQUIRE(microtin_encode_stream(terrain, &options, &turned, &size, nullptr) == MICROTIN_OK);
+  CHECK(std::strstr(microtin_remarks(), "depths are turned into heights") != nullptr);
+  microtin_surface* upside_down = nullptr;
+  REQUIRE(microtin_surface_of_bytes(turned, size, "turned", &upside_down) == MICROTIN_OK);
+  microtin_facts below;
+  microtin_surface_facts(upside_down, &below);
+  CHECK(below.lowest < -100);
+  CHECK(below.highest <= 0.5);
+  microtin_surface_free(upside_down);
+  microtin_bytes_free(turned);
+  options.depths = 0;
+
   options.progress = [](void*, double) { return 1; };
   uint8_t* none = nullptr;
   CHECK(microtin_encode_stream(terrain, &options, &none, &size, nullptr) == MICROTIN_CANCELLED);

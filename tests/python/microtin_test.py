@@ -187,13 +187,30 @@ class Refusals(unittest.TestCase):
 
     def test_guesses_are_told(self):
         array = [[1.0, 2.0], [3.0, 4.0]]
-        with self.assertWarnsRegex(UserWarning, "heights are taken as metre, as x and y are"):
-            stream = microtin.encode(array, crs=25832)
+        with self.assertWarnsRegex(UserWarning, "heights are taken as foot, as x and y are"):
+            stream = microtin.encode(array, crs='LOCAL_CS["a",UNIT["Foot",0.3048]]')
         self.assertEqual(len(stream.report.remarks), 1)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             self.assertEqual(microtin.encode(array, crs=25832, units=":metre").report.remarks, ())
+            self.assertEqual(microtin.encode(array, crs=25832).report.remarks, ())
             self.assertEqual(len(microtin.encode(array).report.remarks), 1)  # nothing is said, so nothing is guessed
+
+    def test_units_are_converted_and_depths_turned(self):
+        array = [[100.0, 200.0], [300.0, 400.0]]
+        with self.assertWarnsRegex(UserWarning, "in the unit centimetre are converted to metre: times 0.01"):
+            tin = microtin.decode(microtin.encode(array, crs=25832, units=":cm"))
+        self.assertEqual((tin.units, tin.height_at(0, 0)), (("metre", "metre"), 3.0))
+        self.refused("heights are depths .EPSG 5715., .* the option depths", array, crs=25832, vertical_epsg=5715)
+        for depths in ({"vertical_epsg": 5715}, {"units": ":metre"}):
+            with self.assertWarnsRegex(UserWarning, "depths are turned into heights"):
+                tin = microtin.decode(microtin.encode(array, crs=25832, depths=True, **depths))
+            self.assertEqual(tin.height_at(0, 0), -300.0)
+            self.assertEqual(tin.vertical_epsg, 5714 if "vertical_epsg" in depths else 0)
+        points = [[0, 0, 1], [9, 0, 2], [0, 9, 3]]
+        with self.assertWarnsRegex(UserWarning, "depths are turned into heights"):
+            tin = microtin.decode(microtin.encode_points(points, units="m", depths=True))
+        self.assertEqual(tin.height_at(0, 9), -3.0)
 
     def test_marks_of_voids_are_told_without_a_place_too(self):
         with self.assertWarnsRegex(UserWarning, "1 post of height -9999"):

@@ -79,6 +79,7 @@ typedef struct microtin_options {
   uint32_t tile_vertices, tile_steps;          /* of packs alone */
   int (*progress)(void* context, double done); /* 0 .. 1; returns 1 to cancel. May be null */
   void* context;
+  uint32_t depths; /* 1: heights grow downwards, and are negated */
 } microtin_options;
 
 /* As encoder::Report; numbers are decimals as text, "" if there is none. */

@@ -39,13 +39,14 @@ struct Posts {
   microtin_axis x{0, 1, 1};       /* from a column to where its posts lie, east */
   microtin_axis y{0, 1, 1};       /* ... and from a row, north */
   std::string wkt;                /* well-known text of the systems of places and heights, or "" */
+  std::string z_unit = {};        /* as GDAL's bands name it, "cm"; "": as wkt says */
 };
 
 /* Points in any order, none of which needs to be unlike all others. */
 struct Points {
   std::vector<std::array<int64_t, 3>> points; /* x, y times 10^-xy_decimals, z 10^-z_decimals */
   int xy_decimals = 0, z_decimals = 0;        /* 0 .. 18 */
-  std::string wkt;                            /* as of Posts */
+  std::string wkt, z_unit = {};               /* as of Posts */
 };
 
 /* Binary numbers, each of which stands for the shortest decimal that becomes it, of heights with at
@@ -116,10 +117,13 @@ struct Options {
    * less than 2,000 vertices, 16 if that saves a 256th. */
   uint32_t degree = 0;
   Decoding decoding = Decoding::kBalanced;
-  /* Units of x and y and of heights, "metre", "foot", "us-foot" or "degree": "degree:metre",
-   * ":foot"; "": as the codes or the terrain's file say. Heights of unknown unit have that of x and
-   * y; beside degrees they are refused. */
+  /* Units of x and y and of heights: "metre", "degree:metre", ":foot"; "": as the codes or the
+   * terrain's file say. Numbers in other units of length than metre, foot and us-foot, such as "cm"
+   * or "fathom", are converted to metres, exactly, or refused. Heights of unknown unit have that of
+   * x and y; beside degrees they are refused. */
   std::string units;
+  /* Heights grow downwards: they are negated. Without, systems of depths are refused. */
+  bool depths = false;
   /* Notes of the header; 0 or empty: not stated. Codes that are known set the units. All texts
    * together up to 65,535 bytes of UTF-8. */
   uint32_t horizontal_epsg = 0, vertical_epsg = 0;

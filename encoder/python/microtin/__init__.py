@@ -100,8 +100,9 @@ def encode(
     max_bytes     the smallest bound that so many bytes allow, instead of both; takes minutes
 
     Options: never_below=True, z_step, xy_step, search="fast" | "normal" | "best", degree,
-    decoding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", vertical_epsg, source, date, lineage, and
-    progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights.
+    decoding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", depths=True, vertical_epsg, source, date,
+    lineage, and progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights
+    in other units of length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
 
     Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
     an array is not two-dimensional or a height out of range.
@@ -223,6 +224,7 @@ def _options(
     z_step: Optional[Number] = None,
     xy_step: Optional[Number] = None,
     units: str = "",
+    depths: bool = False,
     source: str = "",
     date: str = "",
     lineage: str = "",
@@ -249,6 +251,7 @@ def _options(
         bound_at=_BOUND_AT[bound_at],
         duplicates=_DUPLICATES[duplicates],
         units=units.encode(),
+        depths=depths,
         horizontal_epsg=_epsg_of(crs) or 0,
         source=source.encode(),
         date=date.encode(),

@@ -71,6 +71,7 @@ class Options(_Sized):
         ("tile_steps", c_uint32),
         ("progress", Progress),
         ("context", c_void_p),
+        ("depths", c_uint32),
     ]
 
 

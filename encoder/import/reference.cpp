@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+// Puts together what is known of units and systems, and says what is not.
+#include "encoder/import/reference.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/import/crs.hpp"
+#include "encoder/import/epsg.hpp"
+
+namespace microtin::importing {
+namespace {
+
+std::string text_of(Unit unit) {
+  return std::string(name_of(unit));
+}
+
+std::string text_of(const StatedUnit& unit) {
+  return unit.other.empty() ? text_of(unit.unit) : unit.other;
+}
+
+bool is_same(const StatedUnit& a, const StatedUnit& b) {
+  return a.unit == b.unit && a.other == b.other;
+}
+
+std::string code_text(uint32_t code) {
+  return "EPSG " + std::to_string(code);
+}
+
+// One of both kinds of systems, by its code and its unit.
+struct System {
+  uint32_t code;
+  StatedUnit unit;
+};
+
+System horizontal_of(const Reference& reference) {
+  return {reference.horizontal_epsg, {reference.horizontal_unit, reference.horizontal_other}};
+}
+
+System vertical_of(const Reference& reference) {
+  return {reference.vertical_epsg, {reference.vertical_unit, reference.vertical_other}};
+}
+
+std::string factor_text(const DecimalFactor& factor) {
+  const Wide power = power_of_ten(std::max(0, -factor.decimals));
+  return to_string(make_decimal(factor.numerator * power, std::max(0, factor.decimals)));
+}
+
+class Settlement {
+ public:
+  Settlement(const Reference& file, const Reference& asked) : file_(file), asked_(asked) {
+    all_.remarks = file.remarks;
+    all_.wkt = file.wkt;
+  }
+
+  SettledReference settle() {
+    settle_places();
+    settle_heights();
+    if (keeps_no_vertical_part_) all_.wkt = horizontal_part(all_.wkt);
+    return {std::move(all_), conversion_};
+  }
+
+ private:
+  void remark(const std::string& text) { all_.remarks.push_back(text); }
+
+  void settle_places() {
+    const System asked = complete(false, horizontal_of(asked_)), file = horizontal_of(file_);
+    if (!file_.unread.empty()) {
+      if (asked.code == 0 && !asked.unit.is_stated()) throw Error(file_.unread);
+      remark("what is asked for decides; not read is " + file_.unread);
+    }
+    if (asked.code != 0) all_.wkt.clear();
+    all_.horizontal_epsg = chosen(asked.code, file.code);
+    StatedUnit unit = chosen("x and y", asked.unit, file.unit);
+    if (!unit.other.empty()) {
+      const bool is_own = !asked.unit.is_stated();
+      if (is_own && (all_.horizontal_epsg != 0 || !all_.wkt.empty())) {
+        throw Error("the unit of x and y is " + unit.other +
+                    ", and their system has no other: bring them into a system of metres or feet " +
+                    "with gdalwarp -t_srs, or give units that say what they are");
+      }
+      unit.unit = converted("x and y", unit.other, conversion_.xy);
+      const std::optional<CodedSystem> system = system_of_file_code(all_.horizontal_epsg);
+      if (system && system->unit != unit.unit) {
+        throw Error(code_text(all_.horizontal_epsg) + " has the unit " + text_of(system->unit) +
+                    ", not " + text_of(unit.unit));
+      }
+    }
+    all_.horizontal_unit = unit.unit;
+  }
+
+  // One unit that is asked for is that of heights, too, unless codes say another.
+  System asked_heights() const {
+    const System asked = vertical_of(asked_), places = horizontal_of(asked_);
+    const bool is_length = places.unit.is_stated() && places.unit.unit != Unit::kDegree;
+    return asked_.one_unit && is_length && asked.code == 0 ? System{0, places.unit} : asked;
+  }
+
+  void settle_heights() {
+    const System asked = complete(true, asked_heights()), file = vertical_of(file_);
+    keeps_no_vertical_part_ = asked.code != 0 || asked.unit.is_stated();
+    all_.vertical_epsg = chosen(asked.code, file.code);
+    StatedUnit unit = chosen("heights", asked.unit, file.unit);
+    if (!unit.other.empty()) {
+      unit.unit = converted("heights", unit.other, conversion_.z);
+      forget_system_of_other_unit(unit.unit);
+      keeps_no_vertical_part_ = true;
+    }
+    all_.vertical_unit = unit.unit;
+    settle_direction(asked.code);
+  }
+
+  // What the codes and units that are asked for say together.
+  System complete(bool is_vertical, System wanted) {
+    if (wanted.code == 0) return wanted;
+    const std::optional<CodedSystem> system = system_of_code(wanted.code);
+    if (!system) {
+      remark(code_text(wanted.code) + " is not among the codes known here, and is taken as it is" +
+             (wanted.unit.is_stated() ? "" : ": give its units"));
+      return wanted;
+    }
+    if (system->is_vertical != is_vertical) {
+      throw Error(code_text(wanted.code) +
+                  (is_vertical ? " is a horizontal system" : " is a vertical system") +
+                  ": codes are given as HORIZONTAL:VERTICAL");
+    }
+    const StatedUnit unit{system->unit, system->other};
+    if (wanted.unit.is_stated() && wanted.unit.other.empty() && !is_same(wanted.unit, unit)) {
+      throw Error(code_text(wanted.code) + " has the unit " + text_of(unit) + ", not " +
+                  text_of(wanted.unit));
+    }
+    return {wanted.code, wanted.unit.is_stated() ? wanted.unit : unit};
+  }
+
+  // Which of the file's codes and units give way is told.
+  uint32_t chosen(uint32_t asked, uint32_t file) {
+    if (asked == 0) return file;
+    if (file != 0 && file != asked) {
+      remark(code_text(asked) + " is taken; the file says " + code_text(file));
+    }
+    return asked;
+  }
+
+  StatedUnit chosen(const char* what, const StatedUnit& asked, const StatedUnit& file) {
+    if (!asked.is_stated()) return file;
+    if (file.is_stated() && !is_same(asked, file)) {
+      remark(std::string(what) + " are taken as " + text_of(asked) + "; the file says " +
+             text_of(file));
+    }
+    return asked;
+  }
+
+  // The unit that numbers are in after it.
+  Unit converted(const std::string& what, const std::string& name, DecimalFactor& factor) {
+    const LengthUnit* const length = length_named(name);
+    if (length == nullptr) {
+      throw Error("the unit of " + what + " is \"" + name +
+                  "\", which is not known: convert them, or give units that say what they are");
+    }
+    const std::optional<DecimalFactor> exact = factor_of(*length);
+    if (!exact) {
+      throw Error("the unit of " + what + " is " + name + ", " + std::to_string(length->numerator) +
+                  "/" + std::to_string(length->denominator) + " " + text_of(length->base) +
+                  ", which no decimal is exactly: convert them, or give units that say what " +
+                  "they are");
+    }
+    factor = *exact;
+    remark(what + " in the unit " + name + " are converted to " + text_of(length->base) +
+           ": times " + factor_text(factor));
+    return length->base;
+  }
+
+  void forget_system_of_other_unit(Unit unit) {
+    const std::optional<CodedSystem> system = system_of_file_code(all_.vertical_epsg);
+    if (!system || system->unit == unit) return;
+    remark(code_text(all_.vertical_epsg) + " has another unit, and is not noted");
+    all_.vertical_epsg = 0;
+  }
+
+  // Codes that are asked for decide the direction, too.
+  void settle_direction(uint32_t asked_code) {
+    const uint32_t code = all_.vertical_epsg;
+    const std::optional<CodedSystem> system = system_of_file_code(code);
+    const bool is_coded_depth = system && system->is_depth;
+    const bool stated = is_coded_depth || (asked_code == 0 && file_.depths);
+    if (stated && !asked_.depths) {
+      throw Error((is_coded_depth ? "heights are depths (" + code_text(code) + ")"
+                                  : std::string("heights are depths by the file's system")) +
+                  ", which grow downwards: the option depths turns them into heights, or a "
+                  "vertical EPSG code of heights says that they are heights");
+    }
+    if (!stated && file_.depths) remark("heights are taken as they are; the file says depths");
+    if (!asked_.depths) return;
+    conversion_.z.numerator = -conversion_.z.numerator;
+    keeps_no_vertical_part_ = true;
+    remark(depths_remark(stated, is_coded_depth, system));
+  }
+
+  std::string depths_remark(bool stated, bool is_coded_depth,
+                            const std::optional<CodedSystem>& system) {
+    std::string text = "depths are turned into heights";
+    if (is_coded_depth) {
+      text += ": " + code_text(all_.vertical_epsg) +
+              (system->heights != 0 ? " becomes " + code_text(system->heights)
+                                    : ", which has no system of heights, is not noted");
+      all_.vertical_epsg = system->heights;
+    } else if (!stated && file_.vertical_epsg != 0) {
+      text += "; the file says heights (" + code_text(file_.vertical_epsg) + ")";
+    }
+    return text;
+  }
+
+  const Reference &file_, &asked_;
+  Reference all_;
+  Conversion conversion_;
+  bool keeps_no_vertical_part_ = false;  // of well-known text, as it says something else
+};
+
+}  // namespace
+
+SettledReference settle(const Reference& file, const Reference& asked) {
+  return Settlement(file, asked).settle();
+}
+
+Reference completed(Reference reference) {
+  const auto remark = [&](const std::string& text) { reference.remarks.push_back(text); };
+  if (reference.horizontal_unit == Unit::kUnknown) {
+    const uint32_t code = reference.horizontal_epsg;
+    remark(code == 0 ? "the unit of x and y is not known: give units or an EPSG code"
+                     : "the unit of x and y is not known, nor is " + code_text(code) +
+                           " here: give units");
+  }
+  if (reference.vertical_unit != Unit::kUnknown) return reference;
+  if (reference.horizontal_unit == Unit::kDegree) {
+    throw Error(
+        "places are degrees, and the unit of heights is not known: give units, degree:metre or "
+        "degree:foot, or a vertical code, as in EPSG 4326:5773");
+  }
+  reference.vertical_unit = reference.horizontal_unit;
+  if (reference.vertical_unit == Unit::kFoot || reference.vertical_unit == Unit::kUsSurveyFoot) {
+    remark("heights are taken as " + text_of(reference.vertical_unit) +
+           ", as x and y are; if they are not, give units, such as :metre");
+  }
+  return reference;
+}
+
+bool read_units(const std::string& text, Reference& asked) {
+  const size_t colon = text.find(':');
+  const auto is_known = [](const StatedUnit& unit) {
+    return unit.unit != Unit::kUnknown || length_named(unit.other) != nullptr;
+  };
+  if (colon == std::string::npos || colon != 0) {
+    const StatedUnit unit = unit_named(text.substr(0, colon));
+    if (!is_known(unit)) return false;
+    state_horizontal_unit(unit, asked);
+  }
+  asked.one_unit = colon == std::string::npos;
+  if (asked.one_unit) return true;
+  const StatedUnit unit = unit_named(text.substr(colon + 1));
+  if (!is_known(unit) || unit.unit == Unit::kDegree) return false;
+  state_vertical_unit(unit, asked);
+  return true;
+}
+
+void state_horizontal_unit(const StatedUnit& unit, Reference& reference) {
+  if (!unit.is_stated()) return;
+  reference.horizontal_unit = unit.unit;
+  reference.horizontal_other = unit.other;
+}
+
+void state_vertical_unit(const StatedUnit& unit, Reference& reference) {
+  if (!unit.is_stated()) return;
+  const bool is_angle = unit.unit == Unit::kDegree;
+  reference.vertical_unit = is_angle ? Unit::kUnknown : unit.unit;
+  reference.vertical_other = is_angle ? text_of(unit.unit) : unit.other;
+}
+
+void add_remarks(const Reference& from, Reference& to) {
+  for (const std::string& remark : from.remarks) {
+    if (std::find(to.remarks.begin(), to.remarks.end(), remark) == to.remarks.end()) {
+      to.remarks.push_back(remark);
+    }
+  }
+}
+
+}  // namespace microtin::importing

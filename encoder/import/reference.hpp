@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// In which units and systems a terrain lies: what its file, codes and people say, made one.
+#ifndef MICROTIN_ENCODER_IMPORT_REFERENCE_HPP
+#define MICROTIN_ENCODER_IMPORT_REFERENCE_HPP
+
+#include <string>
+#include <string_view>
+
+#include "encoder/exact/units.hpp"
+#include "encoder/layers.hpp"
+#include "encoder/terrain/source.hpp"
+
+namespace microtin::importing {
+
+// What the numbers of a file are multiplied by, so that they are in units that streams have. Depths
+// have a factor below 0.
+struct Conversion {
+  DecimalFactor xy, z;
+};
+
+struct SettledReference {
+  Reference reference;  // after the conversion
+  Conversion conversion;
+};
+
+// What is asked for, where it says something, comes before what the file says; remarks tell what
+// gave way, and what is converted. Codes that are asked for bring their units. `asked.depths` turns
+// heights that grow downwards into heights. Throws Error if what is asked for contradicts itself,
+// and if the file's system is not read, its heights are depths, or a unit cannot be converted
+// exactly, and nothing that is asked for decides.
+SettledReference settle(const Reference& file, const Reference& asked);
+
+// Heights of unknown unit have that of x and y if that is a length. Remarks tell what is guessed or
+// not known. Throws Error if x and y are degrees and nobody knows the unit of heights.
+Reference completed(Reference reference);
+
+// "metre", of heights, too; or "degree:foot", horizontal before vertical; ":fathom" is the vertical
+// unit alone. False if it is none of these, or degrees are vertical.
+bool read_units(const std::string& text, Reference& asked);
+
+// Takes a unit as a file states it. Nothing changes if none is stated.
+void state_horizontal_unit(const StatedUnit& unit, Reference& reference);
+void state_vertical_unit(const StatedUnit& unit, Reference& reference);
+
+// Adds those remarks that are not there yet.
+void add_remarks(const Reference& from, Reference& to);
+
+}  // namespace microtin::importing
+
+#endif
