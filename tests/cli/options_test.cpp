@@ -108,6 +108,7 @@ const std::vector<Row> kRows = {
     {"encode", "--water-mask", "t.asc --max-error 2 --water-level 50 -o o.mtin", "mask.asc"},
     {"encode", "--epsg", "t.asc --max-error 2 -o o.mtin", "25832"},
     {"encode", "--units", "t.asc --max-error 2 -o o.mtin", "foot"},
+    {"encode", "--depths", "t.asc --max-error 2 -o o.mtin", ""},
     {"encode", "--source-text", "t.asc --max-error 2 -o o.mtin", "survey"},
     {"encode", "--date", "t.asc --max-error 2 -o o.mtin", "2026"},
     {"encode", "--lineage", "t.asc --max-error 2 -o o.mtin", "thinned"},
@@ -126,6 +127,9 @@ const std::vector<Row> kRows = {
     {"info", "--json", "t.mtin", ""},
     {"verify", "--json", "t.mtin t.asc", ""},
     {"verify", "--classes", "s.mtin s.las", "2"},
+    {"verify", "--epsg", "m.mtin t.asc", "32633:5715"},
+    {"verify", "--units", "m.mtin t.asc", ":cm"},
+    {"verify", "--depths", "m.mtin t.asc", ""},
     {"verify", "--fill-voids", "m.mtin t.asc", "1"},
     {"verify", "--water-level", "m.mtin t.asc", "50"},
     {"verify", "--water-mask", "lake.mtin t.asc --water-level 50", "mask.asc"},
@@ -143,6 +147,9 @@ const std::vector<Row> kRows = {
     {"render", "--world-file", kRender, ""},
     {"render", "--source", kRender, "t.asc"},
     {"render", "--classes", "s.mtin -o o.png --width 300 --source s.las", "2"},
+    {"render", "--epsg", "m.mtin -o o.png --width 300 --source t.asc", "32633:5715"},
+    {"render", "--units", "m.mtin -o o.png --width 300 --source t.asc", ":cm"},
+    {"render", "--depths", "m.mtin -o o.png --width 300 --source t.asc", ""},
     {"render", "--fill-voids", "filled.mtin -o o.png --width 300 --source t.asc", "99"},
     {"render", "--water-level", "lake.mtin -o m.png --width 300 --source t.asc", "50"},
     {"render", "--water-mask", "water.mtin -o o.png --width 300 --source t.asc --water-level 50",
@@ -214,27 +221,15 @@ TEST_CASE("options: none is without a row") {
 namespace {
 
 // Beside `--max-error 1.9 --z-step 0.5 --tile-vertices 60 --tile-steps 10`.
-const std::vector<std::string> kOfShards = {"--max-error 1.8",
-                                            "--tile-vertices 61",
-                                            "--tile-steps 9",
-                                            "--z-step 0.6",
-                                            "--never-below",
-                                            "--bound-at lattice",
-                                            "--fast",
-                                            "--duplicates lowest",
-                                            "--best",
-                                            "--degree 6",
-                                            "--degree 20",
-                                            "--decoding quick",
-                                            "--decoding dense",
-                                            "--fill-voids 1",
-                                            "--epsg 25832",
-                                            "--water-level 50",
-                                            "--units foot",
-                                            "--date 2026",
-                                            "--lineage thinned",
-                                            "--water-level 50 --water-mask mask.asc",
-                                            "--source-text s"};
+const std::vector<std::string> kOfShards = {
+    "--max-error 1.8",  "--tile-vertices 61",  "--tile-steps 9",
+    "--z-step 0.6",     "--never-below",       "--bound-at lattice",
+    "--fast",           "--duplicates lowest", "--best",
+    "--degree 6",       "--degree 20",         "--decoding quick",
+    "--decoding dense", "--fill-voids 1",      "--epsg 25832",
+    "--water-level 50", "--units foot",        "--depths",
+    "--date 2026",      "--lineage thinned",   "--water-level 50 --water-mask mask.asc",
+    "--source-text s"};
 
 // Rules for points, which say nothing of a raster.
 const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};
