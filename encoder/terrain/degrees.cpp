@@ -56,10 +56,10 @@ void expect_on_earth(const Raster& frame) {
     const int64_t count = axis == 0 ? frame.width : frame.height;
     for (const int64_t number : {int64_t{0}, count - 1}) {
       if (!is_beyond(axis, posts, number)) continue;
-      const std::string row = axis == 0 ? "column " : "row ";
-      const std::string from = axis == 0 ? " from the west" : " from the south";
-      throw Error(row + std::to_string(number + 1) + from + ": " +
-                  beyond(axis, CoordinateText(posts)(number)) + kRemedy);
+      std::string text = axis == 0 ? "column " : "row ";
+      text += std::to_string(number + 1);
+      text += axis == 0 ? " from the west: " : " from the south: ";
+      throw Error(text + beyond(axis, CoordinateText(posts)(number)) + kRemedy);
     }
   }
 }

@@ -190,7 +190,7 @@ void add_rows_of_posts(std::vector<Cell>& table) {
 
 std::set<std::string> known_readers() {
   const std::string kinds = microtin::importing::terrain_kinds();
-  const std::string list = kinds.substr(0, kinds.find_first_of(";"));
+  const std::string list = kinds.substr(0, kinds.find(';'));
   std::set<std::string> readers = {kArrayOfPosts, kArrayOfPoints};
   for (size_t at = list.find('.'); at != list.npos; at = list.find('.', at + 1)) {
     readers.insert(list.substr(at, list.find_first_of(", ", at) - at));
