@@ -1,17 +1,22 @@
 # SPDX-License-Identifier: MIT
-# find_package(microtin [COMPONENTS encoder]): the decoder is there always, the encoder if it was built.
+# find_package(microtin [COMPONENTS encoder shared]): the decoder is there always; the encoder, and the shared library of
+# both (microtin::microtin), if they were built.
 include(CMakeFindDependencyMacro)
 include(${CMAKE_CURRENT_LIST_DIR}/microtin-decoder.cmake)
 set(microtin_decoder_FOUND TRUE)
 if("encoder" IN_LIST microtin_FIND_COMPONENTS AND EXISTS ${CMAKE_CURRENT_LIST_DIR}/microtin-encoder.cmake)
   find_dependency(Threads)
-  set(ZLIB_USE_STATIC_LIBS ON)
+  set(ZLIB_USE_STATIC_LIBS @MICROTIN_STATIC_ZLIB@)
   find_dependency(ZLIB)
   if("@MICROTIN_WITH_GDAL@")
     find_dependency(GDAL)
   endif()
   include(${CMAKE_CURRENT_LIST_DIR}/microtin-encoder.cmake)
   set(microtin_encoder_FOUND TRUE)
+endif()
+if("shared" IN_LIST microtin_FIND_COMPONENTS AND EXISTS ${CMAKE_CURRENT_LIST_DIR}/microtin-shared.cmake)
+  include(${CMAKE_CURRENT_LIST_DIR}/microtin-shared.cmake)
+  set(microtin_shared_FOUND TRUE)
 endif()
 foreach(component IN LISTS microtin_FIND_COMPONENTS)
   if(microtin_FIND_REQUIRED_${component} AND NOT microtin_${component}_FOUND)

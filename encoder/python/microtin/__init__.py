@@ -180,7 +180,7 @@ class _Caller:
     def __init__(self, progress: Optional[Callable[[float], Any]]) -> None:
         self._progress = progress
         self._raised: Optional[BaseException] = None
-        self.function = _library.Progress(self._call) if progress else _library.Progress()
+        self.function = _library.Progress(self._call) if progress else _library.Progress(0)
 
     def _call(self, _context: Any, done: float) -> int:
         try:
@@ -309,9 +309,9 @@ _WELL_KNOWN_TEXT = re.compile(r"\s*\w+\s*[\[(].*[\])]\s*", re.DOTALL)
 def _wkt_of(crs: Optional[Crs]) -> Optional[bytes]:
     if crs is None or _epsg_of(crs) is not None:
         return None
-    if not isinstance(crs, str) and not hasattr(crs, "to_wkt"):
+    if isinstance(crs, int) or not (isinstance(crs, str) or hasattr(crs, "to_wkt")):
         raise Error(f"crs is a code, well-known text or has to_wkt(), not {type(crs).__name__}")
-    text = crs if isinstance(crs, str) else crs.to_wkt()
+    text = crs if isinstance(crs, str) else str(crs.to_wkt())
     if not _WELL_KNOWN_TEXT.fullmatch(text):
         raise Error(f"{text[:40]!r} is neither EPSG:CODE nor well-known text")
     return text.encode()
@@ -330,7 +330,7 @@ def _transform_of(transform: Optional[Sequence[float]], rows: int) -> Tuple[floa
 def _terrain_of_array(
     array: ArrayLike, transform: Optional[Sequence[float]], crs: Optional[Crs], nodata: Optional[float]
 ) -> _Terrain:
-    mask = numpy.ma.getmaskarray(array) if isinstance(array, numpy.ma.MaskedArray) else None
+    mask = numpy.broadcast_to(array.mask, array.shape) if isinstance(array, numpy.ma.MaskedArray) else None
     heights = numpy.asarray(array)
     if heights.ndim != 2:
         raise Error(f"a raster has two dimensions, not {heights.ndim}")

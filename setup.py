@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Puts the shared library into the package: that of the environment's MICROTIN_LIBRARY, or one built of the sources
-two folders above, which takes CMake, a C++ compiler and the packages of the tool."""
+beside this file, which takes CMake, a C++ compiler and the packages of the tool."""
 
 import os
 import re
@@ -8,11 +8,11 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from setuptools import setup
+from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
 from wheel.bdist_wheel import bdist_wheel
 
-SOURCES = Path(__file__).resolve().parents[2]
+SOURCES = Path(__file__).resolve().parent
 BUILD = SOURCES / "build" / "python-package"  # so that nothing is built among the sources
 
 
@@ -38,17 +38,21 @@ class BuildWithLibrary(build_py):
 class WheelOfThePlatform(bdist_wheel):
     """Any Python, but one kind of machine: the library is called by ctypes."""
 
-    def finalize_options(self):
-        super().finalize_options()
-        self.root_is_pure = False
-
     def get_tag(self):
         return "py3", "none", super().get_tag()[2]
+
+
+class Binary(Distribution):
+    """Installed where packages with machine code are, as its wheel says."""
+
+    def has_ext_modules(self):
+        return True
 
 
 BUILD.mkdir(parents=True, exist_ok=True)
 setup(
     version=version(),
+    distclass=Binary,
     cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": WheelOfThePlatform},
     options={"build": {"build_base": str(BUILD)}, "egg_info": {"egg_base": str(BUILD)}},
 )
