@@ -6,12 +6,14 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "encoder/files/input_file.hpp"
 #include "encoder/import/import.hpp"
 #include "microtin/encoder.h"
 #include "microtin/encoder.hpp"
+#include "microtin/surface.hpp"
 #include "tests/support/binary_file.hpp"
 #include "tests/support/session.hpp"
 
@@ -20,8 +22,8 @@ using microtin::encoder::Terrain;
 
 namespace {
 
-const std::vector<std::string> kRules = {"no data", "commas",     "ranges",
-                                         "skew",    "duplicates", "sidecars"};
+const std::vector<std::string> kRules = {"no data", "commas",     "ranges",   "skew",
+                                         "units",   "duplicates", "sidecars", "depths"};
 const std::string kArrayOfPosts = "array of posts", kArrayOfPoints = "array of points";
 
 struct Cell {
@@ -32,6 +34,7 @@ struct Cell {
   std::string units = "metre:metre";
   std::string system = {};              // the .prj beside it
   std::function<Terrain()> array = {};  // instead of a file
+  std::optional<double> highest = {};   // of the heights, for which the bound is 0.001, not 1
 };
 
 using Rows = std::vector<std::array<std::string, 3>>;
@@ -120,6 +123,16 @@ const std::string kDegrees =
     R"(GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],)"
     R"(PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]])";
 
+// Heights from 1 to `highest`: centimetres, then depths.
+void add_conversions(std::vector<Cell>& table, const std::string& reader, const std::string& bytes,
+                     double highest, const std::string& xy,
+                     const std::function<Terrain()>& array = {}) {
+  const uint64_t samples = static_cast<uint64_t>(highest);
+  table.push_back({"units", reader, bytes, "", samples, xy + ":cm", "", array, highest / 100});
+  const std::string metres = xy.empty() ? "" : xy + ":metre";
+  table.push_back({"depths", reader, bytes, "", samples, metres, "", array, -1.0});
+}
+
 void add_rows_of_points(std::vector<Cell>& table, const std::string& reader) {
   const auto file = [&](const std::string& rule, const Rows& rows, const std::string& outcome) {
     table.push_back({rule, reader, points(reader, rows), outcome});
@@ -137,6 +150,10 @@ void add_rows_of_points(std::vector<Cell>& table, const std::string& reader) {
        "point 1, at x 47, y 158: latitude 158 is beyond 90 degrees");
   table.back().units = "degree:metre";
   table.push_back({"skew", reader, "", "points are in no rows"});
+  const Rows three = {{"0", "0", "1"}, {"9", "0", "2"}, {"0", "9", "3"}};
+  const std::function<Terrain()> array = [three] { return cloud(three); };
+  add_conversions(table, reader, points(reader, three), 3, "metre",
+                  reader == kArrayOfPoints ? array : std::function<Terrain()>());
   file("duplicates", {{"0", "0", "0"}, {"9", "0", "0"}, {"0", "9", "0"}, {"9", "0", "9"}},
        "--duplicates");
   if (reader == ".xyz" || reader == ".csv" || reader == ".txt") {  // a grid by such a name
@@ -151,6 +168,7 @@ void add_rows_of_rasters(std::vector<Cell>& table) {
   for (const std::string reader : {".hgt", ".zip"}) {
     const std::string bytes = reader == ".hgt" ? tile() : zipped(tile());
     table.push_back({"no data", reader, bytes, "", 3, ""});
+    add_conversions(table, reader, bytes, 3, "");
     table.push_back({"commas", reader, "", "binary numbers have none"});
     table.push_back({"ranges", reader, "", "the name places it, and none is beyond the poles"});
     table.push_back({"skew", reader, "", "has none"});
@@ -159,6 +177,7 @@ void add_rows_of_rasters(std::vector<Cell>& table) {
   }
   for (const std::string reader : {".asc", ".tif"}) {  // GDAL knows such a grid by any name
     table.push_back({"no data", reader, grid("0", "-9999.990234375"), "", 3});
+    add_conversions(table, reader, grid("0", "1"), 4, "metre");
     table.push_back({"ranges", reader, grid("158", "1"), "latitude 158 is beyond 90 degrees", 0,
                      "degree:metre"});
     table.push_back({"duplicates", reader, "", "posts do not meet"});
@@ -184,6 +203,9 @@ void add_rows_of_posts(std::vector<Cell>& table) {
   });
   add("skew", "", 4, metres, [] { return posts(1, {0, 1, 1e-18, 0, -1e-18, -1}); });
   add("skew", "columns must run east", 0, metres, [] { return posts(1, {0, 1, 1e-6, 0, 0, -1}); });
+  add_conversions(table, kArrayOfPosts, "", 4, "metre", [] {
+    return posts(1, {0, 1, 0, 0, 0, -1});
+  });
   add("duplicates", "posts do not meet", 0, "", {});
   add("sidecars", "the caller says the system", 0, "", {});
 }
@@ -214,24 +236,44 @@ void check(const Cell& cell, uint64_t samples, const std::string& message) {
   CHECK_MESSAGE(contains(message, cell.outcome), message);
 }
 
+const char* bound_of(const Cell& cell) {
+  return cell.highest ? "0.001" : "1";
+}
+
+bool is_of_depths(const Cell& cell) {
+  return cell.rule == "depths";
+}
+
+void check_highest(const Cell& cell, const std::string& path) {
+  if (!cell.highest) return;
+  const double highest = microtin::encoder::Surface::from_file(path).facts().highest;
+  CHECK(highest == doctest::Approx(*cell.highest).epsilon(0.01));
+}
+
 // Behind the library's doors, in C++ and in C.
 void check_library(const Cell& cell, const std::function<Terrain()>& make) {
+  const Session session;
   microtin::encoder::StreamOptions options;
   options.units = cell.units;
-  options.max_error = "1";
+  options.depths = is_of_depths(cell);
+  options.max_error = bound_of(cell);
   try {
-    check(cell, encode_stream(make(), options).report.samples, "");
+    const microtin::encoder::Stream stream = encode_stream(make(), options);
+    check(cell, stream.report.samples, "");
+    session.write("a.mtin", {stream.bytes.begin(), stream.bytes.end()});
+    check_highest(cell, session.folder() + "/a.mtin");
   } catch (const std::runtime_error& refused) {
     check(cell, 0, refused.what());
   }
 }
 
-void check_c(const Cell& cell, const std::string& path) {
+void check_c(const Cell& cell, const Session& session, const std::string& path) {
   microtin_terrain* terrain = nullptr;
   microtin_options options = {};
   options.size = sizeof options;
-  options.max_error = "1";
+  options.max_error = bound_of(cell);
   options.units = cell.units.c_str();
+  options.depths = is_of_depths(cell) ? 1 : 0;
   uint8_t* bytes = nullptr;
   uint64_t size = 0;
   microtin_report report = {};
@@ -239,6 +281,10 @@ void check_c(const Cell& cell, const std::string& path) {
       microtin_terrain_of_file(path.c_str(), &terrain) == MICROTIN_OK &&
       microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_OK;
   check(cell, done ? report.samples : 0, done ? "" : microtin_message());
+  if (done) {
+    session.write("c.mtin", {reinterpret_cast<const char*>(bytes), static_cast<size_t>(size)});
+    check_highest(cell, session.folder() + "/c.mtin");
+  }
   microtin_bytes_free(bytes);
   microtin_terrain_free(terrain);
 }
@@ -250,14 +296,17 @@ void check_file(const Cell& cell) {
   if (!cell.system.empty()) session.write("N43E007.prj", cell.system);
   const std::string path = session.folder() + '/' + name;
   check_library(cell, [&] { return Terrain::from_file(path); });
-  check_c(cell, path);
-  std::string words = "encode " + name + " --max-error 1 -o out.mtin";
+  check_c(cell, session, path);
+  std::string words = "encode " + name + " -o out.mtin --max-error ";
+  words += bound_of(cell);
   if (!cell.units.empty()) words += " --units " + cell.units;
+  if (is_of_depths(cell)) words += " --depths";
   if (cell.samples == 0) {
     CHECK(contains(session.failure(words), cell.outcome));
-  } else {
-    CHECK(contains(session.run(words).out, "source: " + std::to_string(cell.samples) + " posts"));
+    return;
   }
+  CHECK(contains(session.run(words).out, "source: " + std::to_string(cell.samples) + " po"));
+  check_highest(cell, session.folder() + "/out.mtin");
 }
 
 // Of a table in a document the line that begins so.
