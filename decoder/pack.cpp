@@ -441,11 +441,10 @@ void microtin_pack_given(microtin_pack* pack, int32_t taken) {
   pack->next += static_cast<uint32_t>(taken);
 }
 
-int microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile,
-                           microtin_status* why) {
+int microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile, uint32_t* why) {
   if (i >= MICROTIN_PACK_BAD_TILES || pack->bad[i].is_empty()) return 0;
   *tile = pack->bad[i].tile;
-  *why = static_cast<microtin_status>(pack->bad[i].why);
+  *why = pack->bad[i].why;
   return 1;
 }
 

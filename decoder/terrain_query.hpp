@@ -22,6 +22,10 @@ microtin_answer height_in_terrain(const Form& form, int64_t x, int64_t y, uint32
 // The ends of a course come before the triangles.
 constexpr uint32_t kCourseEnds = 2;
 
+inline void note_answer(microtin_course_progress* done, microtin_answer answer) {
+  done->worst = worse(answer, static_cast<microtin_answer>(done->worst));
+}
+
 // A step, or without a limit all, of the walk to the end that comes next.
 template <class Form>
 void walk_to_end(const Form& form, const microtin_course& course, uint32_t step_limit,
@@ -34,7 +38,7 @@ void walk_to_end(const Form& form, const microtin_course& course, uint32_t step_
       form.height_at(end, step_limit == 0 ? 0u : 1u, &done->hint, &height);
   if (answer == MICROTIN_NOT_YET) return;
   done->highest = is_first ? height : larger(height, done->highest);
-  done->worst = worse(answer, done->worst);
+  note_answer(done, answer);
   ++done->next;
 }
 
@@ -54,11 +58,11 @@ microtin_answer highest_in_terrain(const Form& form, const microtin_course& cour
     if (done->next < kCourseEnds) {
       walk_to_end(form, course, step_limit, done);
     } else if (!all.look(form, done->next++ - kCourseEnds, &done->highest)) {
-      done->worst = worse(done->worst, MICROTIN_IN_VOID);
+      note_answer(done, MICROTIN_IN_VOID);
     }
   }
   *height = done->highest;
-  return done->worst;
+  return static_cast<microtin_answer>(done->worst);
 }
 
 template <class Form>

@@ -6,6 +6,7 @@ links    files that the documents link to are there
 licence  every source names its licence
 faults   the text that a planted fault replaces stands once in its source
 columns  documents have lines of at most 122 columns, tables and what links lead to aside
+widths   no struct of a C header has an enumeration, whose width flags change, and no pointer leads to one
 locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
 prose    the README and documents in folders named docs have short, plain sentences; those in docs/lab are notes
 """
@@ -114,6 +115,23 @@ def faults(folder):
     return found
 
 
+def widths(folder):
+    """An enumeration has one byte with -fshort-enums, and four without: none is in a struct or behind a pointer."""
+    tops = [folder / top for top in ("decoder/include", "decoder/adapters", "encoder/include")]
+    headers = [path for top in tops if top.exists() for path in files(top) if path.suffix == ".h"]
+    names = "|".join(name for path in headers for name in re.findall(r"typedef enum (\w+)", path.read_text()))
+    kind = rf"\b(?:enum\s+\w+|{names})\b"
+    found = []
+    for path in headers:
+        in_struct = False
+        for number, text in enumerate(lines_of(path), 1):
+            line = re.sub(r"/\*.*?(\*/|$)|^ \*.*", "", text)
+            in_struct = in_struct and not line.startswith("}") or line.startswith("typedef struct") and "{" in line
+            if re.search(rf"{kind}\s*(?:const\s*)?[*\[]", line) or in_struct and re.search(rf"{kind} \w|\benum {{", line):
+                found.append(f"{path.relative_to(folder)}:{number} has the width of an enumeration, which flags change")
+    return found
+
+
 def locale(folder):
     """The commands, and the pictures that they draw, run in the C locale."""
     return [
@@ -167,7 +185,7 @@ def prose(folder):
 
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    checks = {check.__name__: check for check in (length, links, columns, licence, faults, locale, prose)}
+    checks = {check.__name__: check for check in (length, links, columns, licence, faults, widths, locale, prose)}
     found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)

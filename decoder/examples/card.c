@@ -142,8 +142,7 @@ static void say(const char* what, uint32_t number) {
 }
 
 static void report(const struct card* card, uint32_t failures) {
-  uint32_t i, tile;
-  microtin_status why;
+  uint32_t i, tile, why;
   for (i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
     if (microtin_pack_bad_tile(pack, i, &tile, &why)) say("damaged: tile ", tile);
   }

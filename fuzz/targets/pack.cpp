@@ -184,8 +184,7 @@ void check_to_lattice(const microtin_axis& axis, uint32_t most, int64_t value, u
 }
 
 bool remembers_bad_tile(const microtin_pack* pack) {
-  uint32_t tile = 0, all = 0;
-  microtin_status why = MICROTIN_DONE;
+  uint32_t tile = 0, all = 0, why = MICROTIN_DONE;
   for (uint32_t i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
     if (microtin_pack_bad_tile(pack, i, &tile, &why) == 0) continue;
     ++all;

@@ -14,8 +14,7 @@ namespace microtin::tests {
 namespace {
 
 uint32_t bad_tiles(const PackDevice& device) {
-  uint32_t all = 0, number = 0;
-  microtin_status why = MICROTIN_DONE;
+  uint32_t all = 0, number = 0, why = MICROTIN_DONE;
   for (uint32_t i = 0; i < 2 * MICROTIN_PACK_BAD_TILES; ++i) {
     all += microtin_pack_bad_tile(device.pack, i, &number, &why) != 0 ? 1u : 0u;
   }

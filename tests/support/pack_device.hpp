@@ -150,9 +150,10 @@ inline double highest_on_edges(const SurfaceModel& model, const microtin_course&
 // Why a tile is bad; DONE if it is not known to be.
 inline microtin_status why_bad(const PackDevice& device, uint32_t tile) {
   for (uint32_t i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
-    uint32_t number = 0;
-    microtin_status why = MICROTIN_DONE;
-    if (microtin_pack_bad_tile(device.pack, i, &number, &why) == 1 && number == tile) return why;
+    uint32_t number = 0, why = MICROTIN_DONE;
+    if (microtin_pack_bad_tile(device.pack, i, &number, &why) == 1 && number == tile) {
+      return static_cast<microtin_status>(why);
+    }
   }
   return MICROTIN_DONE;
 }

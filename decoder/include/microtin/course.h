@@ -28,13 +28,12 @@ typedef struct microtin_course {
 microtin_answer microtin_highest(const microtin_mesh* mesh, const microtin_course* course,
                                  int32_t* height);
 
-/* How far microtin_highest_limited has come. All zero to begin; 16 bytes where enumerations have
- * four. */
+/* How far microtin_highest_limited has come. All zero to begin. */
 typedef struct microtin_course_progress {
   uint32_t next; /* 0, 1: an end of the course, then triangles from number 0 on */
   uint32_t hint;
-  int32_t highest;       /* so far */
-  microtin_answer worst; /* so far */
+  int32_t highest; /* so far */
+  uint32_t worst;  /* a microtin_answer, so far */
 } microtin_course_progress;
 
 /* The same, with the same answers whatever the limits, in at most `step_limit` steps (0: no limit)

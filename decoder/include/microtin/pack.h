@@ -119,20 +119,19 @@ static inline microtin_status microtin_pack_service(microtin_pack* pack,
 /* --- Bad tiles: damaged, breaking a rule, another pack's, beyond the end, or too big for a slot.
  * They are passed over and not tried again while they are remembered. --- */
 
-/* So many are remembered: of more, those that were wanted last. Where one course touches more, the
- * others cost an attempt each time it is served to its end. */
+/* So many are remembered: of more, those that were wanted last. If one course touches more, the
+ * others cost an attempt each time it is served to its end; they keep no good tile from coming. */
 #define MICROTIN_PACK_BAD_TILES 8
 
 /* Place `i` < MICROTIN_PACK_BAD_TILES, in no order: returns 1 if a bad tile is remembered there,
- * with its number and
+ * with its number and a microtin_status:
  *   CHECKSUM    what was read is damaged, is another tile's or another pack's, or no stream that
  *               can be decoded: only a whole one tells whether it is the right one
  *   MALFORMED   it is undamaged and breaks a rule of packs
  *   TOO_BIG     what lies in its place has more vertices than a slot holds
  *   TRUNCATED   the pack ends before it does
  * else 0. */
-int microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile,
-                           microtin_status* why);
+int microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile, uint32_t* why);
 
 /* Forgets the bad tiles, so that they are tried again. */
 void microtin_pack_retry(microtin_pack* pack);

@@ -17,7 +17,7 @@ class PackFace {
 
   microtin_status status() const { return status_; }
   void reset() { microtin_pack_reset(pack_); }
-  bool bad_tile(uint32_t i, uint32_t* tile, microtin_status* why) const {
+  bool bad_tile(uint32_t i, uint32_t* tile, uint32_t* why) const {
     return microtin_pack_bad_tile(pack_, i, tile, why) != 0;
   }
   void retry() { microtin_pack_retry(pack_); }
