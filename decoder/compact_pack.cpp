@@ -18,7 +18,7 @@ bool is_as_stated(const PackHeader& header, const microtin_compact& tile) {
 // Makes the tile in hand compact. DONE: it is there, or refused.
 microtin_status store(microtin_pack& p, uint32_t step_limit) {
   if (p.compactor == nullptr) {
-    if (!choose_slot(p)) return fail_pack(p, MICROTIN_WORKSPACE_TOO_SMALL);
+    if (!choose_slot(p)) return lack_slot(p);
     set_state(*p.slot, SlotState::kEmpty);
     microtin_compact_begin(p.slot->space, p.slot_bytes, p.work, p.decoder_space, p.decoder_bytes,
                            &p.compactor);

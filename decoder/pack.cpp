@@ -148,12 +148,19 @@ microtin_status finish_tile(microtin_pack& p, bool has_terrain) {
   return fail_pack(p, MICROTIN_DONE);
 }
 
+MICROTIN_ONE_COPY microtin_status lack_slot(microtin_pack& p) {
+  p.is_sound = true;
+  return fail_pack(p, MICROTIN_DONE);
+}
+
 namespace {
 
 // Wants the entry of the tile in hand, or takes it from those that are kept. From a card the next
 // ones come with it: another read, after the stream, would want their sector once more.
-void want_entry(microtin_pack& p) {
-  const uint32_t place = p.tile - p.kept_from;
+void want_entry(microtin_pack& p, uint32_t tile) {
+  p.tile = tile;
+  p.is_sound = false;
+  const uint32_t place = tile - p.kept_from;
   if (place < p.kept) {
     __builtin_memcpy(p.buffer, p.buffer + room_of(p) + place * kPackEntryBytes, kPackEntryBytes);
     want(p, PackStage::kEntry, kPackEntryBytes);
@@ -161,10 +168,10 @@ void want_entry(microtin_pack& p) {
     return;
   }
   const TileGrid& grid = p.header.grid;
-  const uint32_t left = tile_columns(grid) * tile_rows(grid) - p.tile;
+  const uint32_t left = tile_columns(grid) * tile_rows(grid) - tile;
   const uint32_t most = p.sector == 0 ? 1 : kEntriesOfRead;
   p.kept = 0;
-  p.next = pack_entry_start(p.header, p.tile);
+  p.next = pack_entry_start(p.header, tile);
   want(p, PackStage::kEntry, kPackEntryBytes * (left < most ? left : most));
 }
 
@@ -176,6 +183,11 @@ void keep_entries(microtin_pack& p) {
                     p.kept * static_cast<size_t>(kPackEntryBytes));
 }
 
+microtin_mesh* mesh_to_fill(const microtin_pack& p, const PackSlot& slot) {
+  return p.work != nullptr ? p.work : static_cast<microtin_mesh*>(slot.space);
+}
+
+// Where there is no slot, the stream is compared with its hash: only a good tile wants one.
 microtin_status handle_entry(microtin_pack& p) {
   if (p.buffered > kPackEntryBytes) keep_entries(p);
   if (pack_entry_check(p.crc, p.tile, p.buffer) !=
@@ -184,13 +196,14 @@ microtin_status handle_entry(microtin_pack& p) {
     return refuse_tile(p, MICROTIN_CHECKSUM);
   }
   if (!read_pack_entry(p.buffer, p.header, &p.entry)) return refuse_tile(p, MICROTIN_MALFORMED);
-  if (!choose_slot(p)) return fail_pack(p, MICROTIN_WORKSPACE_TOO_SMALL);
-  // What is to be made compact needs its slot not before then.
-  if (p.work == nullptr || p.entry.size == 0) set_state(*p.slot, SlotState::kEmpty);
-  if (p.entry.size == 0) return finish_tile(p, false);
-  microtin_mesh* const mesh =
-      p.work != nullptr ? p.work : static_cast<microtin_mesh*>(p.slot->space);
-  microtin_decoder_init(p.decoder_space, p.decoder_bytes, mesh, &p.decoder);
+  if (choose_slot(p)) {
+    // What is to be made compact needs its slot not before then.
+    if (p.work == nullptr || p.entry.size == 0) set_state(*p.slot, SlotState::kEmpty);
+    if (p.entry.size == 0) return finish_tile(p, false);
+    microtin_decoder_init(p.decoder_space, p.decoder_bytes, mesh_to_fill(p, *p.slot), &p.decoder);
+  } else if (p.entry.size == 0) {
+    return lack_slot(p);
+  }
   p.left = p.entry.size;
   p.stream_hash = kStreamHash;
   p.next = p.entry.offset;
@@ -203,21 +216,29 @@ bool is_stream(const microtin_pack& p) {
   return p.left == 0 && p.fed == p.buffered && p.stream_hash == p.entry.stream_hash;
 }
 
+// What the first bytes of a stream say of the tile.
+microtin_status start_of_tile(const microtin_pack& p) {
+  const uint32_t vertices =
+      tile_vertices(p.buffer, p.buffered, p.header, tile_box(p.header.grid, p.tile));
+  if (vertices == 0) return MICROTIN_MALFORMED;
+  return vertices > mesh_to_fill(p, *p.slots)->capacity ? MICROTIN_TOO_BIG : MICROTIN_DONE;
+}
+
 // Counts what came of the stream. STEP_LIMIT: it is to be decoded.
 microtin_status handle_stream(microtin_pack& p) {
   if (!p.is_counted) {
-    if (p.left == p.entry.size) {
-      p.is_legal = is_tile_start(p.buffer, p.buffered, p.header, tile_box(p.header.grid, p.tile));
-    }
+    if (p.left == p.entry.size) p.start = static_cast<uint8_t>(start_of_tile(p));
     p.is_counted = true;
     p.stream_hash = stream_hash(p.stream_hash, p.buffer, p.buffered);
     p.left -= p.buffered;
   }
-  return MICROTIN_STEP_LIMIT;
+  if (p.slot != nullptr) return MICROTIN_STEP_LIMIT;
+  p.fed = p.buffered;
+  return hear_decoder(p, p.left != 0 ? MICROTIN_NEED_INPUT : MICROTIN_DONE);
 }
 
-// Handles what is in the buffer, if it is complete. DONE: a tile is ready, or refused; STOPPED: it
-// is to be made compact, and who cannot tells that.
+// Handles what is in the buffer, if it is complete. DONE: a tile is ready, or refused, or lacks a
+// slot; STOPPED: it is to be made compact, and who cannot tells that.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status handle(microtin_pack& p) {
   if (p.buffered < p.wanted) return MICROTIN_NEED_INPUT;
   switch (p.stage) {
@@ -246,7 +267,6 @@ struct Wishes {
   bool is_any;   // a tile is neither there nor known to be bad, nor was it tried
   bool in_hand;  // the tile that is being read is among them
   bool has_bad;
-  bool has_more;   // tiles that were not looked at
   uint32_t first;  // the first if there is any
 };
 
@@ -254,39 +274,38 @@ struct Wishes {
 // needs on the stack is not there while a tile is decoded.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE Wishes wishes_of(microtin_pack& p,
                                                         const microtin_course& course) {
-  Wishes wishes = {false, false, false, false, 0};
+  Wishes wishes = {false, false, false, 0};
   ++p.clock;
   uint32_t left = p.slot_count + 1u;  // one that does not fit is enough to know
-  TouchedTiles tiles(p.header.grid, course);
-  for (; !tiles.at_end() && left != 0; tiles.next()) {
+  bool is_behind = !p.has_passed;
+  for (TouchedTiles tiles(p.header.grid, course); !tiles.at_end() && (left != 0 || !is_behind);
+       tiles.next()) {
     const uint32_t tile = tiles.number(), slot = slot_of(p, tile), bad = bad_tile(p, tile);
     wishes.in_hand = wishes.in_hand || tile == p.tile;
     if (bad != MICROTIN_PACK_BAD_TILES) {
       p.bad[bad].wanted = p.clock;
-      wishes.has_bad = true;
-      continue;  // it needs no slot
-    }
-    --left;
-    if (slot != p.slot_count) {
+      wishes.has_bad = true;  // it needs no slot
+    } else if (slot != p.slot_count) {
       p.slots[slot].wanted = p.clock;
-    } else if (!wishes.is_any) {
+      --left;
+    } else if (!is_behind) {
+      wishes.has_bad = true;  // as it was when it was tried
+    } else {
+      --left;
+      if (!wishes.is_any) wishes.first = tile;
       wishes.is_any = true;
-      wishes.first = tile;
     }
-    if (p.has_passed && tile == p.passed) {  // what was missing so far has been tried
-      wishes.is_any = false;
-      wishes.has_bad = true;
-    }
+    is_behind = is_behind || tile == p.passed;
   }
-  wishes.has_more = !tiles.at_end();
   return wishes;
 }
 
-// What is said of a course of which no tile is to be tried.
-microtin_status verdict(microtin_pack& p, const Wishes& wishes) {
-  p.has_passed = false;
-  if (wishes.has_more) return MICROTIN_WORKSPACE_TOO_SMALL;
-  return wishes.has_bad ? MICROTIN_BAD_TILES : MICROTIN_DONE;
+// Takes up a course: what was tried for another counts for that alone.
+void take_up(microtin_pack& p, const microtin_course& course) {
+  const uint32_t hash =
+      stream_hash(kStreamHash, reinterpret_cast<const uint8_t*>(&course), sizeof course);
+  if (hash != p.course_hash) p.is_whole = false;
+  p.course_hash = hash;
 }
 
 // Bytes that are wanted next and lie in one sector.
@@ -297,14 +316,18 @@ uint32_t wanted_now(const microtin_pack& p) {
   return left < room ? left : room;
 }
 
-// What follows from what storage said. NEED_INPUT: go on.
+// What follows from what storage said. NEED_INPUT: go on; DONE: a tile was refused.
 microtin_status hear_storage(microtin_pack& p) {
   const Storage said = p.storage;
   p.storage = Storage::kWell;
+  // Of entries that are read together only the first is needed.
+  if (said != Storage::kWell && p.stage == PackStage::kEntry && p.buffered >= kPackEntryBytes) {
+    p.wanted = p.buffered;
+    return MICROTIN_NEED_INPUT;
+  }
   if (said == Storage::kFailed) return MICROTIN_IO;
   if (said == Storage::kEnds) {
-    if (!p.has_header) return fail_pack(p, MICROTIN_TRUNCATED);
-    refuse_tile(p, MICROTIN_TRUNCATED);
+    return p.has_header ? refuse_tile(p, MICROTIN_TRUNCATED) : fail_pack(p, MICROTIN_TRUNCATED);
   }
   return MICROTIN_NEED_INPUT;
 }
@@ -318,7 +341,8 @@ microtin_status hear_decoder(microtin_pack& p, microtin_status status) {
   }
   if (status == MICROTIN_TOO_BIG) return refuse_tile(p, status);
   if (status != MICROTIN_DONE || !is_stream(p)) return refuse_tile(p, MICROTIN_CHECKSUM);
-  if (!p.is_legal) return refuse_tile(p, MICROTIN_MALFORMED);
+  if (p.start != MICROTIN_DONE) return refuse_tile(p, static_cast<microtin_status>(p.start));
+  if (p.slot == nullptr) return lack_slot(p);
   if (p.work == nullptr) return finish_tile(p, true);
   want(p, PackStage::kStore, 0);
   p.compactor = nullptr;
@@ -327,9 +351,9 @@ microtin_status hear_decoder(microtin_pack& p, microtin_status status) {
 
 microtin_status go_on(microtin_pack& p, const microtin_course& course) {
   if (!is_legal(course)) return MICROTIN_ARGUMENT;
-  const microtin_status heard = hear_storage(p);
-  if (heard != MICROTIN_NEED_INPUT) return heard;
   if (!p.has_header) {
+    const microtin_status heard = hear_storage(p);
+    if (heard != MICROTIN_NEED_INPUT) return heard;
     const microtin_status status = handle(p);
     if (!p.has_header) return status;
   }
@@ -337,11 +361,26 @@ microtin_status go_on(microtin_pack& p, const microtin_course& course) {
   microtin_status status = MICROTIN_DONE;
   while (status == MICROTIN_DONE) {
     const Wishes wishes = wishes_of(p, course);
-    if (p.stage != PackStage::kIdle && !wishes.in_hand) give_up(p);
+    if (p.stage != PackStage::kIdle && !wishes.in_hand) {
+      give_up(p);
+      p.storage = Storage::kWell;  // it was not asked for this course
+    }
+    status = hear_storage(p);
+    if (status == MICROTIN_DONE) continue;
+    if (status == MICROTIN_IO) return status;
     if (p.stage == PackStage::kIdle) {
-      if (!wishes.is_any) return verdict(p, wishes);
-      p.tile = wishes.first;
-      want_entry(p);
+      take_up(p, course);
+      if (!wishes.is_any) {
+        const bool is_all = !p.has_passed || p.is_whole;
+        p.has_passed = false;
+        if (is_all) return wishes.has_bad ? MICROTIN_BAD_TILES : MICROTIN_DONE;
+        continue;  // with those in front of the tile passed
+      }
+      if (p.is_sound && wishes.first == p.tile && !choose_slot(p)) {
+        return MICROTIN_WORKSPACE_TOO_SMALL;
+      }
+      if (!p.has_passed) p.is_whole = true;
+      want_entry(p, wishes.first);
     }
     status = handle(p);
   }
@@ -372,6 +411,7 @@ microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint3
     p.slots[i].space = bytes + static_cast<size_t>(before_slots) + i * p.slot_bytes;
   }
   p.clock = 0;
+  p.course_hash = 0;
   p.sector = 0;
   microtin_pack_reset(&p);
   *pack = &p;
@@ -401,6 +441,7 @@ void microtin_pack_reset(microtin_pack* pack) {
   p.has_header = false;
   p.storage = Storage::kWell;
   p.tile = 0;
+  p.is_sound = false;
   forget_bad_tiles(p);
   for (uint32_t i = 0; i < p.slot_count; ++i) set_state(p.slots[i], SlotState::kEmpty);
   give_up(p);

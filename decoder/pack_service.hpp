@@ -19,6 +19,9 @@ microtin_status go_on(microtin_pack& p, const microtin_course& course);
 // Chooses a slot for the tile in hand. False if all are wanted by the course in hand.
 bool choose_slot(microtin_pack& p);
 
+// Ends with the tile in hand, which is good, but for which there is no slot. DONE.
+microtin_status lack_slot(microtin_pack& p);
+
 // Queries do not look at an empty slot, so the order of these writes matters to those that
 // interrupt.
 inline void set_state(PackSlot& slot, SlotState state) {

@@ -14,7 +14,7 @@ constexpr uint32_t kPackBuffer = 128;   // holds every item of the header but th
 constexpr uint32_t kEntriesOfRead = 4;  // of the index, if reads are aligned
 static_assert(kEntriesOfRead * kPackEntryBytes <= kPackBuffer, "they are read at once");
 static_assert(kPackBuffer - (kEntriesOfRead - 1) * kPackEntryBytes >= kPackEntryBytes + 16,
-              "an entry, or all that is_tile_start looks at, has room in front of those kept");
+              "an entry, or all that tile_vertices looks at, has room in front of those kept");
 
 // What is read next.
 enum class PackStage : uint8_t {
@@ -60,12 +60,14 @@ struct microtin_pack {
   microtin::PackStage stage;
   volatile bool has_header;
   uint8_t slot_count;
-  // All of a course up to the tile `passed` has been tried, and this was bad: there was no room to
-  // remember.
+  // The tile `passed` was bad, and there was no room to remember it. Those behind it on a course
+  // are tried before those in front of it, so that bad tiles never keep others from being tried.
   bool has_passed;
+  bool is_whole;  // all of the course in hand up to `passed` has been tried
+  bool is_sound;  // the stream of `tile` is the right one, but there was no slot for it
   microtin::Storage storage;
   bool is_counted;
-  bool is_legal;  // the stream begins as a tile's does
+  uint8_t start;  // a status: what the first bytes of the stream say of the tile
   // Of the next bytes wanted, and those that came.
   uint8_t wanted, buffered, fed;
   uint8_t kept;     // entries of the index at the buffer's end
@@ -80,13 +82,14 @@ struct microtin_pack {
   uint32_t crc;        // of the header so far, or its check
   uint32_t clock;
   uint32_t passed;
+  uint32_t course_hash;  // of the course in hand
   microtin::PackEntry entry;
   microtin_decoder* decoder;
   microtin_compactor* compactor;  // of the tile decoded; null: not begun
 
   microtin_mesh* work;  // where tiles are decoded that will be compact; null: in their slots
   microtin::PackSlot* slots;
-  microtin::PackSlot* slot;  // being filled
+  microtin::PackSlot* slot;  // being filled; null: the stream is only compared with its hash
   uint8_t* decoder_space;
   size_t decoder_bytes;
   size_t slot_bytes;

@@ -134,32 +134,33 @@ inline bool read_pack_entry(const uint8_t* bytes, const PackHeader& header, Pack
   return entry->offset == 0 && entry->stream_hash == 0;
 }
 
-// Whether a stream, of which the first bytes are given, begins as that of a tile: it has neither
-// placement nor notes, no more vertices than the header says of any, and reaches no farther than
-// the tile.
-inline bool is_tile_start(const uint8_t* bytes, size_t size, const PackHeader& header,
-                          const TileBox& box) {
-  if (size < kIdentityBytes) return false;
+// The vertices that a stream, of which the first bytes are given, announces; 0 unless it begins as
+// that of a tile: it has neither placement nor notes, no more vertices than the header says of any,
+// and reaches no farther than the tile.
+inline uint32_t tile_vertices(const uint8_t* bytes, size_t size, const PackHeader& header,
+                              const TileBox& box) {
+  if (size < kIdentityBytes) return 0;
   const uint8_t *next = bytes + kIdentityBytes, *const given = bytes + size;
   uint32_t length = 0;
   bool legal = true, more = true;
   while (more && next != given) more = take_length(&length, *next++, &legal);
-  if (more || length > static_cast<size_t>(given - next)) return false;
+  if (more || length > static_cast<size_t>(given - next)) return 0;
   const uint8_t *const end = next + length, *at = next;
   uint64_t properties = 0;
   Contract contract;
   microtin_axis axis[3];
-  return read_varint(&at, end, &properties) && (properties & kHasPlacement) == 0 &&
-         read_header(&next, end, &contract, axis) == MICROTIN_DONE && next == end &&
-         contract.vertices <= header.most_vertices && contract.x_max <= box.x_end - box.x &&
-         contract.y_max <= box.y_end - box.y;
+  const bool is_legal = read_varint(&at, end, &properties) && (properties & kHasPlacement) == 0 &&
+                        read_header(&next, end, &contract, axis) == MICROTIN_DONE && next == end &&
+                        contract.vertices <= header.most_vertices &&
+                        contract.x_max <= box.x_end - box.x && contract.y_max <= box.y_end - box.y;
+  return is_legal ? contract.vertices : 0;
 }
 
 // FNV-1a: tells which stream it is. A CRC-32 could not: over bytes that hold their own CRC-32, as
 // those of streams do, it depends on their number alone. Feed kStreamHash first, then each result.
 constexpr uint32_t kStreamHash = 0x811C9DC5;
 
-inline uint32_t stream_hash(uint32_t hash, const uint8_t* bytes, size_t size) {
+MICROTIN_ONE_COPY inline uint32_t stream_hash(uint32_t hash, const uint8_t* bytes, size_t size) {
   for (size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x01000193u;
   return hash;
 }

@@ -219,7 +219,7 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
     }
     DecodedTerrain decoded(stream);
     const TileBox box = tile_box(header_.grid, number);
-    expect(is_tile_start(stream.data(), stream.size(), header_, box));
+    expect(tile_vertices(stream.data(), stream.size(), header_, box) != 0);
     check_box(decoded.mesh(), box);
     return std::optional<DecodedTerrain>(std::move(decoded));
   });

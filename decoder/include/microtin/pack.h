@@ -68,8 +68,9 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
  *   NEED_INPUT           bytes are wanted: see microtin_pack_wanted
  *   STEP_LIMIT           call again
  *   BAD_TILES            they are there but for bad ones: see microtin_pack_bad_tile
- *   IO                   reading failed; the same bytes stay wanted
- *   WORKSPACE_TOO_SMALL  the course touches more tiles than there are slots; some are there
+ *   IO                   reading failed; the same bytes stay wanted. Not of a tile that the course
+ *                        does not touch
+ *   WORKSPACE_TOO_SMALL  the course touches more good tiles than there are slots; so many are there
  *   ARGUMENT             a null pointer, or too long a course
  *   STOPPED              a pack of compact_pack.h: a tile is decoded, and what makes it compact is
  *                        there. Nothing is lost
@@ -78,7 +79,8 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
  *   CHECKSUM             it is damaged
  *   TRUNCATED            the pack ends within it
  * After these the next call begins anew. Tiles that are there stay until their slots are needed.
- * Besides the steps, O(columns + rows of tiles in the course's bounding box + slots^2).
+ * Besides the steps, O(columns + rows of tiles in the course's bounding box + slots^2); with more
+ * bad tiles than are remembered, O((columns + rows) * slots).
  */
 microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course* course,
                                       uint32_t step_limit);

@@ -71,8 +71,10 @@ uint32_t prepare_section(microtin_pack* pack, const microtin_course* course, uin
     const auto& mesh = *static_cast<const microtin_mesh*>(pack->slot->space);
     while (status == MICROTIN_STEP_LIMIT) {
       const uint32_t vertices = mesh.mesh.vertices;
-      if (pack->is_legal && vertices > verified && vertices == mesh.verified_vertices)
+      if (pack->start == MICROTIN_DONE && vertices > verified &&
+          vertices == mesh.verified_vertices) {
         return status;
+      }
       status = decode(*pack, 1);
     }
   }
@@ -87,6 +89,7 @@ const microtin_mesh* tile_mesh(const microtin_pack* pack, uint32_t tile) {
   if (ready == pack->slot_count) {
     if (pack->stage != PackStage::kStream || pack->tile != tile) return nullptr;
     slot = pack->slot;
+    if (slot == nullptr) return nullptr;
   } else if (!slot->has_terrain) {
     return nullptr;
   }
