@@ -17,6 +17,17 @@ have() {
   done
 }
 
+# Another generation of compilers, on a fresh Debian 13 that comes from the network.
+debian_13() {
+  have debootstrap || return 0
+  mirror=http://deb.debian.org/debian/dists/trixie/InRelease
+  if [ "$(id -u)" != 0 ] || ! python3 -c "import urllib.request as r; r.urlopen('$mirror', timeout=20)" 2>/dev/null; then
+    echo "skipped: Debian 13, which takes root and $mirror"
+    return 0
+  fi
+  .ci/prove trixie compilers
+}
+
 beside() {
   part devices
   tests/devices.sh
@@ -24,6 +35,8 @@ beside() {
   tests/analyse.sh || [ $? -eq 77 ] # skipped
   part planted faults
   fuzz/mutate cavity_bound certified no_conflict staged_bytes tie_break
+  part Debian 13
+  debian_13
 }
 
 part release
