@@ -30,7 +30,7 @@ std::string remedy(const NamedSource& first, const NamedSource& part, const Refe
   for (const auto& [file, reference] : {std::tie(first, a), std::tie(part, b)}) {
     if (reference.horizontal_unit != Unit::kUnknown || !reference.wkt.empty()) continue;
     if (suffix_of(file.path) == ".asc") {
-      return "put the .prj that is missing beside " + file.path + ", or give units for all";
+      return "put the .prj that is missing beside " + file.path + ", or give an EPSG code for all";
     }
   }
   const bool is_unknown = a.vertical_unit == Unit::kUnknown || b.vertical_unit == Unit::kUnknown;

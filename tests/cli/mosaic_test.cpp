@@ -180,7 +180,7 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
       "those of a.asc (x and y unknown, heights unknown): put the .prj that is missing "
       "beside a.asc"));
   for (const std::string output : {"t.mtin", "t.mtp --tile-vertices 60"}) {
-    const Session::Result made = session.run("encode a.asc unit.asc --units metre -o " + output);
+    const Session::Result made = session.run("encode a.asc unit.asc --epsg 32633 -o " + output);
     CHECK(contains(made.out,
                    "units: x and y metre, z metre\nwarning: x and y are taken as metre; "
                    "the file says foot\n"));

@@ -353,8 +353,8 @@ TEST_CASE("points: whatever is wrong is told with its line") {
   CHECK(point_error("x,y,z\n1,2,\n") == "cloud:2: 2 columns under 3" + blanks);
   CHECK(point_error("x y z\n1 2\n") == "cloud:2: 2 columns under 3" + blanks);
   CHECK(point_error("X [m] Y [m] Z [m]\n1 2 3\n") == "cloud:2: 3 columns under 6" + blanks);
-  CHECK(point_error("lon,lat,depth\n7,45,20\n") ==
-        "cloud:1: depths grow downwards: write heights, and name them z");
+  CHECK(import_points("c", "lon,lat,depth\n7,45,20\n").reference.depths);
+  CHECK(!import_points("c", "x,depth,y,z\n1,2,3,4\n").reference.depths);
   CHECK(points("x,depth,y,z\n1,2,3,4\n") == "1,3,4");
   CHECK(point_error("1 2 3\n1e300 2 3") == "cloud:2: \"1e300\" is not a number in range");
   CHECK(point_error("0.000000001 1\n10000000000 2") ==
