@@ -11,7 +11,9 @@
 #include <string>
 #include <utility>
 
+#include "shared/pack_format.hpp"
 #include "shared/start_probabilities.hpp"
+#include "tests/support/device.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/paths.hpp"
@@ -123,6 +125,19 @@ TEST_CASE("golden streams are what the encoder writes and the decoder reads") {
     CHECK(bytes_of_file(path) == golden.stream);
     CHECK_NOTHROW(DecodedTerrain{golden.stream});
   }
+}
+
+// Too large to be kept as a file; recorded by the hash of its bytes. The last batch has 69,449.
+TEST_CASE("a golden stream has a batch above 65,535 vertices") {
+  constexpr uint32_t kVertices = 70000;
+  Random random(41);
+  const Points points = uniform_points(kVertices, random);
+  const Bytes stream = encode(flat(points), Metadata(), kUsual);
+  CHECK(stream.size() == 158268);
+  CHECK(stream_hash(kStreamHash, stream.data(), stream.size()) == 0x341059F1);
+  const Device device(kVertices);
+  REQUIRE(device.decode(stream) == MICROTIN_DONE);
+  CHECK(microtin_digest(device.mesh) == 0xC00E6F9B15BD70D9);
 }
 
 TEST_CASE("the hexdump in FORMAT.md is the example stream") {

@@ -8,6 +8,7 @@
 
 #include "encoder/files/input_file.hpp"
 #include "tests/firmware/adapters_report.hpp"
+#include "tests/support/forged_pack.hpp"
 #include "tests/support/pack_device.hpp"
 #include "tests/support/paths.hpp"
 
@@ -180,6 +181,77 @@ TEST_CASE(
   microtin_ardupilot_statistics(&terrain, &pending, &loaded);
   CHECK(pending + loaded == 56);
   CHECK(pending > 0);
+}
+
+TEST_CASE("adapters: looks ahead count what is missing, over the date line and for any bearing") {
+  Metadata metadata;
+  metadata.placement.x = {-1800, 1, 10};
+  metadata.placement.y = {-900, 1, 10};
+  Card card{forged_pack(
+      {3600, 1800, 3600, 1800},
+      {forged_tile({{{0, 0, 0}, {3600, 0, 100}, {0, 1800, 50}, {3600, 1800, 150}}, {}})},
+      metadata)};
+  const MeshSlots device(1);
+  microtin_inav inav;
+  microtin_inav_init(&inav, device.pack);
+  float height = 0;
+  for (int i = 0; i < 100 && !microtin_inav_height(&inav, 0, 0, &height); ++i) {
+    microtin_inav_service(&inav, 100, Card::read, &card);
+  }
+  microtin_inav_look look{};
+  const auto missed = [&](int32_t latitude, int32_t longitude, float bearing) {
+    REQUIRE(microtin_inav_lookahead(&inav, latitude, longitude, bearing, 300, 0, 0, &look));
+    CHECK(look.samples_total == 10);
+    return look.samples_missed;
+  };
+  CHECK(missed(0, 1799990000, 90) == 0);    // to the east, into the west
+  CHECK(missed(0, -1799990000, 270) == 0);  // to the west, into the east
+  CHECK(look.climb_needed_m > 90);
+  CHECK(missed(0, -1799990000, -90) == 0);
+  CHECK(look.climb_needed_m > 90);
+  CHECK(missed(899989000, 0, 0) == 6);
+  microtin_ardupilot terrain;
+  microtin_ardupilot_init(&terrain, device.pack, 30);
+  microtin_ardupilot_service(&terrain, 100, Card::read, &card);
+  microtin_ardupilot_lookahead(&terrain, 899989000, 0, 0, 300, 0);
+  CHECK(terrain.missed == 6);
+  microtin_ardupilot_lookahead(&terrain, 0, 0, 0, 300, 0);
+  CHECK(terrain.missed == 0);
+}
+
+TEST_CASE("adapters: a wish reaches as far as a look ahead, and ends with its pack") {
+  Loaded here;
+  microtin_inav inav;
+  microtin_inav_init(&inav, here.device.pack);
+  here.load(inav, [] {});
+  microtin_inav_look look{};
+  CHECK(!microtin_inav_lookahead(&inav, 433300000, 72300000, 45, 1500, 0, 0, &look));
+  REQUIRE(inav.spots.is_wished);
+  CHECK(inav.spots.wish.x_end > inav.spots.wish.x);
+  CHECK(inav.spots.wish.y_end > inav.spots.wish.y);
+  microtin_pack_reset(here.device.pack);
+  microtin_inav_init(&inav, here.device.pack);
+  CHECK(!inav.spots.is_wished);
+
+  microtin_ardupilot terrain;
+  const auto begin = [&] {
+    microtin_pack_reset(here.device.pack);
+    microtin_ardupilot_init(&terrain, here.device.pack, 100);
+    float height = 0;
+    here.load(terrain, [&] {
+      microtin_ardupilot_height_amsl(&terrain, 433300000, 72300000, &height, false);
+    });
+    return height;
+  };
+  const float plain = begin();
+  float corrected = 0;
+  microtin_ardupilot_set_reference(&terrain, 433300000, 72300000,
+                                   static_cast<int32_t>(plain * 100) + 1000, 30);
+  REQUIRE(microtin_ardupilot_height_amsl(&terrain, 433300000, 72300000, &corrected, true));
+  CHECK(corrected > plain + 5);
+  begin();
+  REQUIRE(microtin_ardupilot_height_amsl(&terrain, 433300000, 72300000, &corrected, true));
+  CHECK(corrected == plain);
 }
 
 TEST_CASE("adapters: the sine is within 10 of 65536") {
