@@ -133,6 +133,7 @@ std::vector<Row> rows() {
       {"duplicates", kClouds, duplicates("--duplicates mean", Duplicates::kMean, 4), two},
       {"units", kAll, setting("--units", &W::units, &C::units, "foot:us-foot"), two},
       {"depths", kAll, setting("--depths", &W::depths, true, &C::depths, 1u), two},
+      {"depths", kAll, setting("--depths", &W::depths, true, &C::depths, 1u), two},
       {"horizontal_epsg", kAll, setting("--epsg", &W::horizontal_epsg, &C::horizontal_epsg, 25832u),
        two},
       {"vertical_epsg", kAll, epsg(25832) + height_code, two},

@@ -109,6 +109,7 @@ const std::vector<Row> kRows = {
     {"encode", "--epsg", "t.asc --max-error 2 -o o.mtin", "25832"},
     {"encode", "--units", "t.asc --max-error 2 -o o.mtin", "foot"},
     {"encode", "--depths", "t.asc --max-error 2 -o o.mtin", ""},
+    {"encode", "--depths", "t.asc --max-error 2 -o o.mtin", ""},
     {"encode", "--source-text", "t.asc --max-error 2 -o o.mtin", "survey"},
     {"encode", "--date", "t.asc --max-error 2 -o o.mtin", "2026"},
     {"encode", "--lineage", "t.asc --max-error 2 -o o.mtin", "thinned"},
@@ -130,6 +131,9 @@ const std::vector<Row> kRows = {
     {"verify", "--epsg", "m.mtin t.asc", "32633:5715"},
     {"verify", "--units", "m.mtin t.asc", ":cm"},
     {"verify", "--depths", "m.mtin t.asc", ""},
+    {"verify", "--depths", "m.mtin t.asc", ""},
+    {"verify", "--units", "m.mtin t.asc", ":cm"},
+    {"verify", "--epsg", "m.mtin t.asc", "25832:5715"},
     {"verify", "--fill-voids", "m.mtin t.asc", "1"},
     {"verify", "--water-level", "m.mtin t.asc", "50"},
     {"verify", "--water-mask", "lake.mtin t.asc --water-level 50", "mask.asc"},
@@ -150,6 +154,9 @@ const std::vector<Row> kRows = {
     {"render", "--epsg", "m.mtin -o o.png --width 300 --source t.asc", "32633:5715"},
     {"render", "--units", "m.mtin -o o.png --width 300 --source t.asc", ":cm"},
     {"render", "--depths", "m.mtin -o o.png --width 300 --source t.asc", ""},
+    {"render", "--depths", "m.mtin -o m.png --width 300 --source t.asc", ""},
+    {"render", "--units", "m.mtin -o m.png --width 300 --source t.asc", ":cm"},
+    {"render", "--epsg", "m.mtin -o m.png --width 300 --source t.asc", "25832:5715"},
     {"render", "--fill-voids", "filled.mtin -o o.png --width 300 --source t.asc", "99"},
     {"render", "--water-level", "lake.mtin -o m.png --width 300 --source t.asc", "50"},
     {"render", "--water-mask", "water.mtin -o o.png --width 300 --source t.asc --water-level 50",
@@ -229,7 +236,7 @@ const std::vector<std::string> kOfShards = {
     "--decoding dense", "--fill-voids 1",      "--epsg 25832",
     "--water-level 50", "--units foot",        "--depths",
     "--date 2026",      "--lineage thinned",   "--water-level 50 --water-mask mask.asc",
-    "--source-text s"};
+    "--depths",         "--source-text s"};
 
 // Rules for points, which say nothing of a raster.
 const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};

@@ -9,6 +9,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import xml.etree.ElementTree
 import zipfile
 
 try:
@@ -92,6 +93,40 @@ class Driver(unittest.TestCase):
             self.assertEqual(float(dataset.GetMetadataItem("MAX_ERROR_ASKED")), BOUND)
             self.assertEqual(dataset.GetRasterBand(1).GetUnitType(), "m")
             self.expect_hills(dataset)
+
+    def test_each_creation_option_makes_a_difference(self):
+        """Those that the driver lists, with a row for each of their values, alone and beside a bound."""
+        rows = {
+            "MAX_ERROR": ["1"],
+            "NEVER_BELOW": ["YES"],
+            "Z_STEP": ["0.7"],
+            "SEARCH": ["FAST", "BEST"],
+            "DECODING": ["QUICK", "DENSE"],
+            "UNITS": ["metre:foot"],
+            "DEPTHS": ["YES"],
+            "TILE_VERTICES": ["100"],
+        }
+        text = gdal.GetDriverByName("MTIN").GetMetadataItem("DMD_CREATIONOPTIONLIST")
+        listed = xml.etree.ElementTree.fromstring(text).iter("Option")
+        self.assertEqual({option.get("name") for option in listed}, set(rows))
+        small = self.path("small.tif")
+        gdal.Translate(small, self.path("hills.tif"), srcWin=[0, 100, 60, 50])
+
+        def encoded(suffix, options):
+            path = self.path("option" + suffix)
+            gdal.Translate(path, small, format="MTIN", creationOptions=[f"{k}={v}" for k, v in options.items()])
+            with open(path, "rb") as file:
+                return file.read()
+
+        for suffix in (".mtin", ".mtp"):
+            base = {"MAX_ERROR": "2"} if suffix == ".mtin" else {"MAX_ERROR": "2", "TILE_VERTICES": "60"}
+            without = encoded(suffix, base)
+            for name, values in rows.items():
+                if suffix == ".mtin" and name == "TILE_VERTICES":
+                    continue
+                made = [encoded(suffix, dict(base, **{name: value})) for value in values]
+                with self.subTest(suffix + " " + name):
+                    self.assertEqual(len({without, *made}), 1 + len(made))
 
     def test_overviews_lie_where_the_raster_does(self):
         for path in self.both():

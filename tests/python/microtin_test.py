@@ -2,7 +2,9 @@
 """The package, on arrays made here. Skipped (77) without numpy."""
 
 import doctest
+import inspect
 import os
+import subprocess
 import sys
 import tempfile
 import threading
@@ -108,6 +110,85 @@ class Streams(unittest.TestCase):
         south = (-0.5, 1, 0, -0.5, 0, 1)
         array, _ = microtin.decode(microtin.encode(hills()[::-1], transform=south)).raster()
         numpy.testing.assert_array_almost_equal(array, hills())
+
+
+class Options(unittest.TestCase):
+    """Each keyword of `_options` makes other bytes, and those of the command line if MICROTIN_TOOL names it."""
+
+    BOUND = {"max_error": 2}
+    # Keyword: what is beside it, the same on the command line, and values with their flags.
+    ROWS = {
+        "max_error": ({}, "", {1: "--max-error 1"}),
+        "z_step": (BOUND, "--max-error 2", {0.7: "--z-step 0.7"}),
+        "xy_step": (BOUND, "--max-error 2", {0.5: "--xy-step 0.5"}),
+        "never_below": (BOUND, "--max-error 2", {True: "--never-below"}),
+        "search": (BOUND, "--max-error 2", {"fast": "--fast", "best": "--best"}),
+        "degree": (BOUND, "--max-error 2", {6: "--degree 6"}),
+        "decoding": (BOUND, "--max-error 2", {"quick": "--decoding quick", "dense": "--decoding dense"}),
+        "bound_at": (BOUND, "--max-error 2", {"lattice": "--bound-at lattice"}),
+        "duplicates": (BOUND, "--max-error 2", {name: f"--duplicates {name}" for name in ("lowest", "highest", "mean")}),
+        "depths": (BOUND, "--max-error 2", {True: "--depths"}),
+        "units": (BOUND, "--max-error 2", {"foot": "--units foot"}),
+        "crs": (BOUND, "--max-error 2", {25832: "--epsg 25832"}),
+        "vertical_epsg": (dict(BOUND, crs=25832), "--max-error 2", {7837: "--epsg 25832:7837"}),
+        "source": (BOUND, "--max-error 2", {"survey": "--source-text survey"}),
+        "date": (BOUND, "--max-error 2", {"2026": "--date 2026"}),
+        "lineage": (BOUND, "--max-error 2", {"thinned": "--lineage thinned"}),
+        "max_vertices": ({"search": "fast"}, "--fast", {60: "--max-vertices 60"}),
+        "max_bytes": ({"search": "fast"}, "--fast", {900: "--max-bytes 900"}),
+    }
+    OF_PACKS = {"tile_vertices", "tile_steps"}
+    ELSEWHERE = {"progress", "numbers"}
+
+    def points(self):
+        """Of three decimals that 16 bits do not hold, some at the same place."""
+        i = numpy.arange(300)
+        points = numpy.stack([i % 20 * 10 + i * 7919 % 4993 / 1000, i // 20 * 10 + i % 8 / 1000, i * i % 13], axis=1)
+        twins = points[20:24] + (0, 0, 1.5)
+        return numpy.concatenate([points, twins, twins - (0, 0, 0.5)]).round(3)
+
+    def by_tool(self, flags):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "points.xyz")
+            numpy.savetxt(path, self.points(), fmt="%.3f")
+            output = os.path.join(folder, "points.mtin")
+            command = [os.environ["MICROTIN_TOOL"], "encode", path, "-o", output, *flags.split()]
+            subprocess.run(command, check=True, capture_output=True)
+            with open(output, "rb") as file:
+                return file.read()
+
+    def test_each_keyword_makes_the_difference_that_the_command_line_makes(self):
+        for keyword, (beside, words, values) in self.ROWS.items():
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                without = bytes(microtin.encode_points(self.points(), **beside))
+                for value, flags in values.items():
+                    with self.subTest(f"{keyword}={value}"):
+                        stream = bytes(microtin.encode_points(self.points(), **dict(beside, **{keyword: value})))
+                        self.assertNotEqual(stream, without)
+                        if "MICROTIN_TOOL" in os.environ:
+                            self.assertEqual(stream, self.by_tool(f"{words} {flags}"))
+
+    def test_each_keyword_of_packs_makes_a_difference(self):
+        with tempfile.TemporaryDirectory() as folder:
+            def pack(**options):
+                path = os.path.join(folder, "pack.mtp")
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    microtin.encode_pack(hills(), path, max_error=2, **options)
+                with open(path, "rb") as file:
+                    return file.read()
+
+            self.assertNotEqual(pack(tile_vertices=60), pack(tile_vertices=300))
+            self.assertNotEqual(pack(tile_vertices=60), pack(tile_vertices=60, tile_steps=9))
+
+    def test_no_keyword_is_without_a_row(self):
+        known = set(self.ROWS) | self.OF_PACKS
+        numbers = {"degree", "vertical_epsg", "max_vertices", "max_bytes", "tile_vertices", "tile_steps"}
+        keywords = set(inspect.signature(microtin._options).parameters) | numbers
+        self.assertEqual(keywords - self.ELSEWHERE, known)
+        in_c = {name for name, _ in microtin._library.Options._fields_}
+        self.assertEqual(in_c - {"size", "progress", "context"} | {"crs"}, known | {"horizontal_epsg"})
 
 
 class Packs(unittest.TestCase):
