@@ -96,6 +96,19 @@ Decimal make_decimal(Wide mantissa, int decimals) {
   return {static_cast<int64_t>(std::clamp(mantissa, -kMost, kMost)), decimals};
 }
 
+Decimal make_decimal_up(Wide mantissa, int decimals) {
+  constexpr Wide kMost = std::numeric_limits<int64_t>::max();
+  for (; decimals > 0 && mantissa > kMost; --decimals) mantissa = ceil_divide(mantissa, 10);
+  return make_decimal(mantissa, decimals);
+}
+
+Decimal make_decimal_nearest(Wide mantissa, int decimals) {
+  constexpr Wide kMost = std::numeric_limits<int64_t>::max();
+  Wide power = 1;
+  for (; decimals > 0 && magnitude(mantissa) / power >= kMost; --decimals) power *= 10;
+  return make_decimal(round_divide(mantissa, power), decimals);
+}
+
 Wide mantissa_at(Decimal value, int decimals) {
   return Wide{value.mantissa} * power_of_ten(decimals - value.decimals);
 }

@@ -32,6 +32,10 @@ int64_t power_of_ten(int exponent);
 // then is still too large is the largest possible.
 Decimal make_decimal(Wide mantissa, int decimals);
 
+// As make_decimal, but decimals that do not fit are rounded: up, of a magnitude, or to nearest.
+Decimal make_decimal_up(Wide mantissa, int decimals);
+Decimal make_decimal_nearest(Wide mantissa, int decimals);
+
 // The mantissa that `value` has with `decimals` >= value.decimals decimals.
 Wide mantissa_at(Decimal value, int decimals);
 

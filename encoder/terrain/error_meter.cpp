@@ -3,23 +3,46 @@
 #include "encoder/terrain/error_meter.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace microtin::terrain {
 namespace {
 
 constexpr int64_t kBillion = 1000000000;
+constexpr int kHalf = 46;  // bits
+constexpr Wide kHalfMask = (Wide{1} << kHalf) - 1;
 
-// Errors above a million units are squared without their last bits, so that 2^26 squares fit: of
-// these below 2^100 each, as of the others. Still larger ones, of 2^44 units, count as that.
-constexpr Wide kFine = Wide{1} << 50, kLargest = Wide{1} << 74;
-constexpr int kLastBits = 24;
+// Rounds down.
+Wide shifted(Wide number) {
+  return (number - (number & kHalfMask)) / (Wide{1} << kHalf);
+}
 
-// Rounded up, of a number up to 2^100.
-Wide square_root(Wide square) {
-  Wide low = -1, high = Wide{1} << 50;  // low^2 < square <= high^2
+}  // namespace
+
+void SquareSum::add(Wide number, Wide times) {
+  const Wide high = shifted(number), low = number & kHalfMask;
+  high_ += high * high * times;
+  middle_ += high * low * times;
+  low_ += low * low * times;
+}
+
+bool SquareSum::operator<=(const SquareSum& other) const {
+  // other - this, carried from part to part; what the parts keep is not negative.
+  const Wide low = other.low_ - low_;
+  const Wide middle = 2 * (other.middle_ - middle_) + shifted(low);
+  return other.high_ - high_ + shifted(middle) >= 0;
+}
+
+namespace {
+
+// The root of the mean of `count` squares, rounded up. At most 2^92.
+Wide root_of_mean(const SquareSum& sum, int64_t count) {
+  Wide low = -1, high = Wide{1} << (2 * kHalf);  // low^2 * count < sum <= high^2 * count
   while (high - low > 1) {
-    const Wide middle = (low + high) / 2;
-    (middle * middle < square ? low : high) = middle;
+    const Wide middle = low + (high - low) / 2;
+    SquareSum all;
+    all.add(middle, count);
+    (sum <= all ? high : low) = middle;
   }
   return high;
 }
@@ -40,37 +63,27 @@ double ErrorMeter::add(int64_t number, int32_t answer) {
       error / common_ * kBillion + ceil_divide(error % common_ * kBillion, common_);
   largest_ = std::max(largest_, billionths);
   if (below > 0) deepest_ = std::max(deepest_, billionths);
-  const Wide limited = std::min(billionths, kLargest);
-  if (limited <= kFine) {
-    squares_ += limited * limited;
-  } else {
-    const Wide coarse = ceil_divide(limited, Wide{1} << kLastBits);
-    coarse_squares_ += coarse * coarse;
-  }
-  sum_ += below > 0 ? -limited : limited;
+  squares_.add(billionths, 1);
+  sum_ += below > 0 ? -billionths : billionths;
   ++count_;
   return -static_cast<double>(below) / static_cast<double>(common_);
 }
 
 void ErrorMeter::tell(const std::optional<Decimal>& bound, Verification& found) const {
-  found.max_error = make_decimal(largest_, kMaxDecimals);
-  found.max_below = make_decimal(deepest_, kMaxDecimals);
+  found.max_error = make_decimal_up(largest_, kMaxDecimals);
+  found.max_below = make_decimal_up(deepest_, kMaxDecimals);
   found.rms_error = root_mean_square();
   found.mean_error = mean();
   found.within_bound = !bound || found.max_error <= *bound;
 }
 
 Decimal ErrorMeter::mean() const {
-  return count_ == 0 ? Decimal{} : make_decimal(round_divide(sum_, count_), kMaxDecimals);
+  return count_ == 0 ? Decimal{} : make_decimal_nearest(round_divide(sum_, count_), kMaxDecimals);
 }
 
 Decimal ErrorMeter::root_mean_square() const {
   if (count_ == 0) return {};
-  if (coarse_squares_ == 0) {
-    return make_decimal(square_root(ceil_divide(squares_, count_)), kMaxDecimals);
-  }
-  const Wide all = coarse_squares_ + ceil_divide(squares_, Wide{1} << (2 * kLastBits));
-  return make_decimal(square_root(ceil_divide(all, count_)) << kLastBits, kMaxDecimals);
+  return make_decimal_up(root_of_mean(squares_, count_), kMaxDecimals);
 }
 
 }  // namespace microtin::terrain

@@ -10,13 +10,25 @@
 
 namespace microtin::terrain {
 
+// Squares of up to 2^33 numbers from 0 to 2^92, added up exactly in parts of 46 bits: each part
+// stays below 2^125.
+class SquareSum {
+ public:
+  void add(Wide number, Wide times);
+  bool operator<=(const SquareSum& other) const;
+
+ private:
+  Wide high_ = 0, middle_ = 0, low_ = 0;  // high * 2^92 + middle * 2^47 + low
+};
+
 // Differences between heights of the source and answers of the terrain, in billionths of a unit.
 class ErrorMeter {
  public:
   ErrorMeter(const Axis& source, const Axis& lattice);
 
   // `number` is the source's; `answer` is a lattice height with 16 fractional bits. With 60 and 31
-  // bits in these, 40 in the axes and 30 in the source's denominator, sums stay below 2^117.
+  // bits in these, 40 in the axes and 30 in the source's denominator, sums stay below 2^117, and an
+  // error below 2^62 units, which are 2^92 billionths.
   // Returns how far the answer is above, in units.
   double add(int64_t number, int32_t answer);
 
@@ -29,7 +41,8 @@ class ErrorMeter {
 
   Wide to_common_, offset_, step_, from_common_, common_;
   Wide largest_ = 0, deepest_ = 0;
-  Wide squares_ = 0, coarse_squares_ = 0, sum_ = 0;
+  SquareSum squares_;
+  Wide sum_ = 0;
   int64_t count_ = 0;
 };
 

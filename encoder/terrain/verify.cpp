@@ -94,10 +94,30 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
   return result;
 }
 
+namespace {
+
+// The mean of means in billionths, each of as many samples as it covers. Where 127 bits do not hold
+// twice the sum, the means' last bits do not count.
+Wide mean_of(const std::vector<Verification>& parts, uint64_t samples) {
+  constexpr Wide kMost = Wide{1} << 125;
+  Wide largest = 0, sum = 0;
+  for (const Verification& part : parts) {
+    largest = std::max(largest, magnitude(mantissa_at(part.mean_error, kMaxDecimals)));
+  }
+  Wide unit = 1;
+  while (largest / unit >= kMost / static_cast<Wide>(samples)) unit *= 2;
+  for (const Verification& part : parts) {
+    const Wide mean = mantissa_at(part.mean_error, kMaxDecimals);
+    sum += mean / unit * static_cast<Wide>(part.covered);
+  }
+  return round_divide(sum, static_cast<Wide>(samples)) * unit;
+}
+
+}  // namespace
+
 Verification combine(const std::vector<Verification>& parts) {
   Verification all;
   double squares = 0;
-  Wide sum = 0;  // of billionths: at most 2^74 for each of at most 2^52 samples
   for (const Verification& part : parts) {
     all.posts += part.posts;
     all.covered += part.covered;
@@ -108,15 +128,13 @@ Verification combine(const std::vector<Verification>& parts) {
     if (all.max_below <= part.max_below) all.max_below = part.max_below;
     const double rms = real(part.rms_error);
     squares += rms * rms * static_cast<double>(part.covered);
-    sum += mantissa_at(part.mean_error, kMaxDecimals) * static_cast<Wide>(part.covered);
     all.within_bound = all.within_bound && part.within_bound;
   }
+  if (all.covered == 0) return all;
   constexpr int64_t kBillion = 1000000000;
-  const double rms = all.covered == 0 ? 0 : std::sqrt(squares / static_cast<double>(all.covered));
-  all.rms_error = make_decimal(static_cast<Wide>(std::ceil(rms * kBillion)), kMaxDecimals);
-  if (all.covered != 0) {
-    all.mean_error = make_decimal(round_divide(sum, static_cast<Wide>(all.covered)), kMaxDecimals);
-  }
+  const double rms = std::sqrt(squares / static_cast<double>(all.covered));
+  all.rms_error = make_decimal_up(static_cast<Wide>(std::ceil(rms * kBillion)), kMaxDecimals);
+  all.mean_error = make_decimal_nearest(mean_of(parts, all.covered), kMaxDecimals);
   return all;
 }
 

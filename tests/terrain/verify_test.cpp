@@ -51,6 +51,66 @@ TEST_CASE("errors of millions count in the mean as they are") {
   CHECK(rms < expected + 0.04);
 }
 
+namespace {
+
+// A square of side 8 in one height.
+DecodedTerrain flat_square(int64_t height = 0) {
+  Tin tin;
+  tin.vertices = {{0, 0, 0}, {8, 0, 0}, {0, 8, 0}, {8, 8, 0}};
+  Metadata metadata;
+  metadata.placement.z.offset = height;
+  return DecodedTerrain(encode(tin, metadata));
+}
+
+PointCloud heights(const std::vector<int64_t>& z, int decimals) {
+  PointCloud cloud;
+  cloud.z_decimals = decimals;
+  for (const int64_t height : z) {
+    cloud.points.push_back({static_cast<int64_t>(cloud.points.size()), 0, height});
+  }
+  return cloud;
+}
+
+}  // namespace
+
+TEST_CASE("errors of any size are rounded up, and none is cut off") {
+  const DecodedTerrain square = flat_square();
+  // More than a decimal's 63 bits hold of nine decimals.
+  const Verification fine = verify(square.mesh(), heights({99999999999000001, 0}, 6), Decimal{});
+  CHECK(to_string(fine.max_error) == "99999999999.000001");
+  CHECK(to_string(fine.max_below) == "99999999999.000001");
+  CHECK(to_string(fine.mean_error) == "-49999999999.5000005");
+  const DecodedTerrain high = flat_square(10000000000);  // a billionth above what is cut
+  const Verification cut =
+      verify(high.mesh(), heights({1, 1}, 9), parse_decimal("9999999999.99999999"));
+  CHECK(to_string(cut.max_error) == "10000000000");
+  CHECK(to_string(cut.rms_error) == "10000000000");
+  CHECK(to_string(cut.mean_error) == "10000000000");
+  CHECK_FALSE(cut.within_bound);
+  const Verification third =
+      verify(square.mesh(), heights({99999999999000001, 0, 0}, 6), std::nullopt);
+  CHECK(to_string(third.mean_error) == "-33333333333.0000003");  // to nearest
+
+  const int64_t largest = 1000000000000000000;
+  const Verification huge = verify(square.mesh(), heights({largest, -largest}, 0), std::nullopt);
+  CHECK(to_string(huge.max_error) == std::to_string(largest));
+  CHECK(to_string(huge.rms_error) == std::to_string(largest));
+  CHECK(to_string(huge.mean_error) == "0");
+  const Verification one = verify(square.mesh(), heights({largest, 0, 0, 0}, 0), std::nullopt);
+  CHECK(to_string(one.rms_error) == std::to_string(largest / 2));
+  CHECK(to_string(one.mean_error) == std::to_string(-largest / 4));
+  const Verification all = combine(std::vector<Verification>(1000, one));
+  CHECK(to_string(all.mean_error) == std::to_string(-largest / 4));
+  CHECK(real(all.rms_error) >= static_cast<double>(largest) / 2);
+}
+
+TEST_CASE("the root of a mean square is exact where squares are many and large") {
+  const DecodedTerrain square = flat_square();
+  const Verification found =
+      verify(square.mesh(), heights({3000000000000001, 4000000000000007}, 3), std::nullopt);
+  CHECK(to_string(found.rms_error) == "3535533905932.742007");  // of ...2006066...
+}
+
 TEST_CASE("no bound is always kept") {
   const Verification found = verify(tilted_square().mesh(), cloud_of("0 0 1e15"), std::nullopt);
   CHECK(found.within_bound);
