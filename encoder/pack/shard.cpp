@@ -93,6 +93,15 @@ class NumberReader {
   const uint8_t* at_;
 };
 
+// What a tile can have: no more posts than the lattice has places, and no error above the largest.
+bool is_possible(const Verification& v) {
+  constexpr uint64_t kMostPosts = uint64_t{kLatticeMax + 1} * (kLatticeMax + 1);
+  const Decimal mean = v.mean_error;
+  return v.posts <= kMostPosts && v.voids <= kMostPosts - v.posts && v.covered <= v.posts &&
+         v.max_below <= v.max_error && v.rms_error <= v.max_error && mean.mantissa > INT64_MIN &&
+         mean <= v.max_error && Decimal{-mean.mantissa, mean.decimals} <= v.max_error;
+}
+
 TileSummary read_summary(const Bytes& bytes) {
   NumberReader reader(bytes);
   TileSummary tile;
@@ -112,6 +121,8 @@ TileSummary read_summary(const Bytes& bytes) {
   v.mean_error = reader.next_decimal();
   const uint32_t repeats = reader.next32();
   const bool is_narrow = reader.next(1) != 0;
+  expect(is_possible(v) && tile.vertices <= kMaxVertices &&
+         (repeats <= kMaxVertices || repeats == kNotMade));
   if (repeats != kNotMade) tile.compact = CompactForm{tile.vertices, repeats, is_narrow};
   return tile;
 }

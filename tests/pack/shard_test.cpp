@@ -142,6 +142,48 @@ TEST_CASE("shards: what is missing, double, foreign or damaged is refused") {
   CHECK(shards.refusal({bad}) == "bad: not a shard that this version of microtin made");
 }
 
+namespace {
+
+// A shard whose first tile's summary has other bytes, and the right checks.
+Bytes with_summary(Bytes shard, size_t offset, const Bytes& bytes) {
+  constexpr size_t kStart = 9, kCheck = 4, kRange = 8, kSummary = 89;
+  const size_t summary = kStart + read_u32(shard.data() + 5) + kCheck + kRange + kCheck;
+  std::copy(bytes.begin(), bytes.end(),
+            shard.begin() + static_cast<std::ptrdiff_t>(summary + offset));
+  const uint32_t check = crc32(0, shard.data() + summary, kSummary);
+  for (size_t i = 0; i < kCheck; ++i) {
+    shard[summary + kSummary + i] = static_cast<uint8_t>(check >> 8 * i);
+  }
+  return shard;
+}
+
+}  // namespace
+
+TEST_CASE("shards: no tile claims what no tile can have") {
+  PackOptions options = pack_options(6, 250);
+  options.tile_steps = 25;
+  Shards shards(rough_raster(61, 53), options);
+  const Bytes good = bytes_of_file(shards.write({0, shards.tiles() - 1}));
+  const std::string forged = shards.folder() / "forged";
+  write_file(forged, with_summary(good, 0, {}));
+  REQUIRE(shards.refusal({forged}).empty());
+  const Bytes all(8, 0xFF), most = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F},
+                            least = {0, 0, 0, 0, 0, 0, 0, 0x80};
+  constexpr size_t kVertices = 8, kPosts = 16, kCovered = 24, kVoids = 32, kMaxError = 48,
+                   kMaxBelow = 57, kRms = 66, kMean = 75, kRepeats = 84;
+  for (const auto& [offset, bytes] :
+       {std::pair(kVertices, Bytes{0, 0, 0, 2}), std::pair(kPosts, all), std::pair(kPosts, most),
+        std::pair(kCovered, most), std::pair(kVoids, all), std::pair(kVoids, most),
+        std::pair(kMaxError, least), std::pair(kMaxError + 8, Bytes{10}),
+        std::pair(kMaxBelow, most), std::pair(kRms, most), std::pair(kMean, most),
+        std::pair(kMean, least), std::pair(kMean, Bytes{1, 0, 0, 0, 0, 0, 0, 0x80}),
+        std::pair(kRepeats, Bytes{0, 0, 0, 2})}) {
+    CAPTURE(offset);
+    write_file(forged, with_summary(good, offset, bytes));
+    CHECK(shards.refusal({forged}).find("malformed") != std::string::npos);
+  }
+}
+
 TEST_CASE("packs: tiles become smaller until none has too many vertices") {
   PackOptions options = pack_options(2, 80);
   options.simplify.search = Search::kGreedy;  // finds more vertices than planning expects
