@@ -67,12 +67,13 @@ std::string merged(uint64_t points, DuplicateRule rule) {
 }
 
 std::string at_true_places(const std::optional<Verification>& measured,
-                           const EncodeRequest& request) {
+                           const std::optional<Decimal>& bound, const EncodeRequest& request) {
   if (!measured) return "";
-  const bool is_bound = request.bound_at == BoundAt::kTruePlaces && request.lattice.max_error;
+  const bool is_bound = request.bound_at == BoundAt::kTruePlaces && bound;
   return "... where the points truly lie: at most " + to_string(measured->max_error) + ", rms " +
          to_string(measured->rms_error) + ", mean " + to_string(measured->mean_error) +
-         (is_bound ? " (the bound holds there, too)\n" : "\n");
+         (is_bound ? " (the bound holds there, too)" : "") + "; below the points: at most " +
+         to_string(measured->max_below) + '\n';
 }
 
 std::string source_of_posts(uint64_t posts, uint64_t voids, const Mended& mended,
@@ -110,10 +111,13 @@ std::string text_of(const Source& source, const EncodedStream& encoded,
        << bits_per_vertex(encoded.stream.size(), encoded.vertices) << " bits/vertex\n"
        << "error: at most " << to_string(measured.max_error) << ", rms "
        << to_string(measured.rms_error) << ", mean " << to_string(measured.mean_error);
-  if (encoded.bound) text << " (asked for: at most " << to_string(*encoded.bound) << ")";
+  if (encoded.bound) {
+    text << (request.lattice.max_error ? " (asked for: at most " : " (found: at most ")
+         << to_string(*encoded.bound) << ")";
+  }
   text << '\n'
-       << at_true_places(encoded.true_places, request) << "below the source: at most "
-       << to_string(measured.max_below) << '\n';
+       << at_true_places(encoded.true_places, encoded.bound, request)
+       << "below the source: at most " << to_string(measured.max_below) << '\n';
   return text.str();
 }
 
@@ -176,7 +180,8 @@ std::string encode_points(const PointCloud& cloud, const EncodeRequest& request,
   std::string text = source_of_points(made.points, cloud.selection);
   text += "step of x and y: " + to_string(made.xy_step) + moved(made.xy_displacement) + "\n";
   return text + merged(made.merged, request.lattice.duplicates) + text_of(made.report) +
-         at_true_places(made.true_places, request) + units(request, cloud.reference);
+         at_true_places(made.true_places, made.report.bound, request) +
+         units(request, cloud.reference);
 }
 
 std::string encode_tiles(const EncodeRequest& request, OutputFile& out) {

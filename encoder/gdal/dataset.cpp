@@ -207,6 +207,7 @@ void Dataset::describe() {
       {"TILES", facts.is_pack ? CPLSPrintf("%u x %u", facts.tile_columns, facts.tile_rows) : ""},
       {"MAX_ERROR_ASKED", facts.bound},
       {"MAX_ERROR", facts.max_error},
+      {"MAX_ERROR_AT_POINTS", facts.max_error_at_points},
       {"RMS_ERROR", facts.rms_error},
       {"SOURCE", valid_text(facts.origin)},
       {"DATE", valid_text(facts.date)},

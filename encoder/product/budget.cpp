@@ -2,7 +2,8 @@
 // Finds a bound that takes a little more than there is. Of bytes, or if fast, it is then widened,
 // searching on, until it fits; that takes longer if it leaves much unused. Of vertices what time is
 // left goes on from the last surface, within bounds that grow where it takes too many and shrink
-// where it fits.
+// where it fits. Where the lattice moves points so far that errors are much larger where they truly
+// lie, bounds are then tried that hold there.
 #include "encoder/product/budget.hpp"
 
 #include <algorithm>
@@ -37,6 +38,11 @@ constexpr double kNear = 0.3;  // of the logarithm of a number of vertices: to s
 constexpr double kFirstSlope = 2, kSlope = 4;
 constexpr double kNarrowest = 0.95, kWidest = 1.2;
 constexpr int kMisses = 2;  // after so many a search is not relied on to make vertices fit
+
+// The error where points truly lie, as a part of that on the lattice, from which on bounds are
+// tried there; how many.
+constexpr double kFarOff = 1.05;
+constexpr int kTrialsOfFew = 14, kTrialsOfMany = 4;
 
 constexpr double kHeaderBytes = 100, kBytesPerVertex = 1.4;  // usually
 
@@ -110,6 +116,7 @@ class Budget {
     of_vertices_ && !fast ? come_near(search) : come_nearer(search);
     bool goes_on = of_vertices_ && surface_;
     while (goes_on && spent_ + costs_.widening <= most_) goes_on = go_on();
+    if (misses_points_) try_true_places();
     for (int i = 0; i < kMoreTrials && !best_; ++i) {
       try_bound(search, std::pow(kWideAim, 1 << i) * limit_);
     }
@@ -122,6 +129,20 @@ class Budget {
     return of_vertices_ ? encoded.vertices : static_cast<double>(encoded.stream.size());
   }
   bool fits(double size) const { return size <= limit_; }
+
+  bool bounds_points() const { return asked_.bound_at == BoundAt::kTruePlaces; }
+
+  // Where points truly lie, too, if the bound is to hold there.
+  Decimal error_of(const EncodedStream& encoded) const {
+    const Decimal error = encoded.verification.max_error;
+    if (!encoded.true_places || !bounds_points()) return error;
+    const Decimal there = encoded.true_places->max_error;
+    return there <= error ? error : there;
+  }
+  bool is_too_low(const EncodedStream& encoded) const {
+    return asked_.lattice.never_below && bounds_points() && encoded.true_places &&
+           encoded.true_places->max_below.mantissa != 0;
+  }
 
   // By a bound: insertion alone uses all vertices, but badly.
   bool uses(double part) const { return best_bound_ && best_size_ >= part * limit_; }
@@ -143,7 +164,13 @@ class Budget {
     const double size = size_of(encoded);
     smallest_ = std::min(smallest_, size);
     if (!fits(size)) return size;
-    if (best_ && best_->verification.max_error <= encoded.verification.max_error) return size;
+    const Decimal error = error_of(encoded);
+    const bool is_low = is_too_low(encoded);
+    const bool is_best = !best_ || !(error_of(*best_) <= error);
+    if (is_low || is_best) {
+      misses_points_ = is_low || real(error) > kFarOff * real(encoded.verification.max_error);
+    }
+    if (is_low || !is_best) return size;
     best_bound_ = encoded.bound;
     best_size_ = size;
     best_ = std::move(encoded);
@@ -279,6 +306,24 @@ class Budget {
     return lay_out(source_, lattice);
   }
 
+  // Bounds that hold where points truly lie, for each of which limits narrow in several attempts.
+  void try_true_places() {
+    BoundSearch search(largest_, best_ ? real(best_->verification.max_error) : guess_, limit_);
+    options_.few_vertices = of_vertices_;
+    const int trials = most_ >= kMostOfFew ? kTrialsOfFew : kTrialsOfMany;
+    for (int i = 0; i < trials; ++i) {
+      const Decimal bound = search.bound_for(kWideAim * limit_);
+      options_.lattice.max_error = bound;
+      std::optional<double> size;
+      try {
+        size = keep(encode_measured(source_, options_, spending(costs_.trial)));
+      } catch (const Error&) {  // points miss it, whatever is tried
+      }
+      search.add(bound, size);
+      if (size && fits(*size) && *size >= kUsed * limit_) return;
+    }
+  }
+
   // Such bounds, and steps, suit sources of round heights.
   void try_round_bound() {
     if (tried_round_) return;
@@ -338,6 +383,7 @@ class Budget {
   std::optional<Decimal> best_bound_;
   double best_size_ = 0;
   bool tried_round_ = false;
+  bool misses_points_ = false;  // by far, or by heights that are too low
 
   // The last surface that was found, from which to go on.
   struct Bounded {

@@ -9,8 +9,9 @@
 namespace microtin::product {
 
 // As encode_stream, for options with a limit of bytes or of vertices and without a bound. About
-// four encodings' time, at most five; of small terrains twenty. Throws Error if no bound is large
-// enough.
+// four encodings' time, at most five; of small terrains twenty. If the lattice moves points so far
+// that errors grow by a twentieth where they truly lie, a few bounds more are tried there, each in
+// several encodings. Throws Error if no bound is large enough.
 EncodedStream encode_within_budget(const Source& source, const EncodeOptions& options,
                                    const Progress& progress);
 

@@ -67,13 +67,18 @@ Accuracy accuracy_of(const Verification& measured, const std::optional<Decimal>&
   return {bound, measured.max_error, measured.rms_error, measured.mean_error};
 }
 
-// Measures points where they truly lie; adds narrower limits to the lattice's options.
-void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, BoundAt bound_at,
+// What becomes of a bound that points miss where they truly lie: the limits of the next attempt
+// become narrower, or the bound wider.
+enum class Miss { kNarrows, kWidens };
+
+// Measures points where they truly lie; adds narrower limits to the lattice's options if they are
+// to be kept there.
+void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, bool is_kept,
                          LatticeOptions& lattice, Attempt& attempt) {
   const SampledSurface surface = sampled(mesh);
   if (!moves_points(surface.placement, cloud)) return;
   Verification& found = attempt.encoded.true_places.emplace();
-  if (bound_at == BoundAt::kLattice || !lattice.max_error) {
+  if (!is_kept || !lattice.max_error) {
     found = verify_at_true_places(surface.height_at, surface.placement, cloud, std::nullopt);
     return;
   }
@@ -87,9 +92,22 @@ void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, Bou
   bound.add_to(lattice.tightenings);
 }
 
+// The errors that a header notes. A bound that holds where points truly lie holds at both.
+void note_accuracy(EncodedStream& encoded, const EncodeOptions& options, Miss miss,
+                   Metadata& metadata) {
+  const bool is_bound = options.bound_at == BoundAt::kTruePlaces;
+  const std::optional<Verification>& there = encoded.true_places;
+  if (there && is_bound && miss == Miss::kWidens && encoded.bound &&
+      *encoded.bound <= there->max_error) {
+    encoded.bound = there->max_error;
+  }
+  metadata.accuracy = accuracy_of(encoded.verification, encoded.bound);
+  if (there) metadata.true_places = accuracy_of(*there, is_bound ? encoded.bound : std::nullopt);
+}
+
 // The lattice's options become those of the next attempt.
 Attempt assess(const Source& source, const EncodeOptions& options, LatticeOptions& lattice,
-               Approximation&& found) {
+               Approximation&& found, Miss miss) {
   check_vertices(found.tin, options);
   const std::optional<Decimal>& bound = lattice.max_error;
   Metadata metadata = metadata_for(source, options, found.laid);
@@ -105,7 +123,6 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
   WaterGauge gauge(height_decimals(source), bound ? lattice.water_level : std::nullopt);
   const Verification measured = verify(decoded.mesh(), kept, bound, gauge.visitor());
   expect_promises(measured, gauge, lattice);
-  metadata.accuracy = accuracy_of(measured, bound);
   lattice.z_step = found.laid.z_step;
   Attempt result{{std::move(found.laid),
                   bound,
@@ -116,13 +133,10 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
                  0};
   EncodedStream& encoded = result.encoded;
   if (cloud != nullptr) {
-    measure_true_places(std::get<PointCloud>(kept), decoded.mesh(), options.bound_at, lattice,
-                        result);
+    const bool is_kept = options.bound_at == BoundAt::kTruePlaces && miss == Miss::kNarrows;
+    measure_true_places(std::get<PointCloud>(kept), decoded.mesh(), is_kept, lattice, result);
   }
-  if (encoded.true_places) {
-    const bool is_bound = options.bound_at == BoundAt::kTruePlaces;
-    metadata.true_places = accuracy_of(*encoded.true_places, is_bound ? bound : std::nullopt);
-  }
+  note_accuracy(encoded, options, miss, metadata);
   encoded.stream = with_metadata(stream, metadata);
   return result;
 }
@@ -133,7 +147,7 @@ Attempt attempt(const Source& source, const EncodeOptions& options, LatticeOptio
   LatticeOptions fitted = lattice;
   fitted.max_error = room;
   return assess(source, options, lattice,
-                approximate(source, fitted, simplify_options(options, progress)));
+                approximate(source, fitted, simplify_options(options, progress)), Miss::kNarrows);
 }
 
 // A pack keeps the points' decimals, unless they reach too far for its tiles.
@@ -200,10 +214,8 @@ EncodedStream encode_measured(const Source& source, const EncodeOptions& options
 }
 
 EncodedStream measured(const Source& source, const EncodeOptions& options, Approximation&& found) {
-  EncodeOptions on_lattice = options;
-  on_lattice.bound_at = BoundAt::kLattice;
   LatticeOptions lattice = options.lattice;
-  return assess(source, on_lattice, lattice, std::move(found)).encoded;
+  return assess(source, options, lattice, std::move(found), Miss::kWidens).encoded;
 }
 
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,

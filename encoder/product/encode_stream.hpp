@@ -28,8 +28,9 @@ struct EncodedStream {
 // what is returned keeps the bound, covers all heights, leaves all voids open and keeps water at
 // its level. Points keep max_error where they truly lie, too, unless options leave that: after each
 // attempt limits become narrower where one does not. With a limit of bytes or vertices, that is the
-// smallest bound found whose stream keeps the limit on the lattice, in about the time of four
-// encodings. Throws Error if what is asked for cannot be had.
+// smallest bound found whose stream keeps the limit, in about the time of four encodings, or of
+// more where the lattice moves points so far that bounds must be tried at their true places. Throws
+// Error if what is asked for cannot be had.
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
                             const Progress& progress);
 
@@ -37,7 +38,8 @@ EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress);
 
-// What becomes of an approximation with these options, whose bound holds on the lattice.
+// What becomes of an approximation with these options, whose bound holds on the lattice. Where
+// points truly lie it becomes as wide as it must, unless options leave that.
 EncodedStream measured(const Source& source, const EncodeOptions& options, Approximation&& found);
 
 }  // namespace microtin::product

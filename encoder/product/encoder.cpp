@@ -202,23 +202,28 @@ base::Progress progress_of(const Callbacks& callbacks) {
   });
 }
 
-std::string largest_of(const std::optional<terrain::Verification>& measured) {
-  return measured ? to_string(measured->max_error) : std::string();
+void add_true_places(Report& report, const std::optional<terrain::Verification>& measured) {
+  if (!measured) return;
+  report.max_error_at_points = to_string(measured->max_error);
+  report.max_below_at_points = to_string(measured->max_below);
 }
 
 Report report_of(const product::EncodedStream& encoded) {
   const terrain::Verification& measured = encoded.verification;
-  return {measured.posts,
-          encoded.vertices,
-          encoded.stream.size(),
-          0,
-          encoded.bound ? to_string(*encoded.bound) : std::string(),
-          to_string(measured.max_error),
-          to_string(measured.rms_error),
-          to_string(measured.mean_error),
-          to_string(measured.max_below),
-          largest_of(encoded.true_places),
-          {}};
+  Report report{measured.posts,
+                encoded.vertices,
+                encoded.stream.size(),
+                0,
+                encoded.bound ? to_string(*encoded.bound) : std::string(),
+                to_string(measured.max_error),
+                to_string(measured.rms_error),
+                to_string(measured.mean_error),
+                to_string(measured.max_below),
+                {},
+                {},
+                {}};
+  add_true_places(report, encoded.true_places);
+  return report;
 }
 
 Report report_of(const product::PackReport& pack, uint64_t samples) {
@@ -231,6 +236,7 @@ Report report_of(const product::PackReport& pack, uint64_t samples) {
           to_string(pack.measured.rms_error),
           to_string(pack.measured.mean_error),
           to_string(pack.measured.max_below),
+          {},
           {},
           {}};
 }
@@ -249,7 +255,7 @@ Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOpti
   const product::EncodedPoints made = product::encode_pack(cloud, options);
   out.write(made.bytes);
   Report report = report_of(made.report, made.points);
-  report.max_error_at_points = largest_of(made.true_places);
+  add_true_places(report, made.true_places);
   return report;
 }
 

@@ -148,6 +148,8 @@ void copy_report(const Report& report, microtin_report* to) {
   copy_decimal(report.rms_error, to->rms_error);
   copy_decimal(report.mean_error, to->mean_error);
   copy_decimal(report.max_below, to->max_below);
+  copy_decimal(report.max_error_at_points, to->max_error_at_points);
+  copy_decimal(report.max_below_at_points, to->max_below_at_points);
 }
 
 microtin_outcome make(microtin_terrain** terrain, const std::function<Terrain()>& read) {
@@ -321,6 +323,7 @@ void microtin_surface_facts(const microtin_surface* surface, microtin_facts* fac
   facts->max_error = all.max_error.c_str();
   facts->rms_error = all.rms_error.c_str();
   facts->mean_error = all.mean_error.c_str();
+  facts->max_error_at_points = all.max_error_at_points.c_str();
 }
 
 microtin_outcome microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles) {

@@ -55,6 +55,7 @@ SimplifyOptions simplify_options(const EncodeOptions& options, const Progress& p
   simplify.max_vertices = vertex_limit(options);
   simplify.search = options.search;
   simplify.effort = options.effort;
+  simplify.few_vertices = options.few_vertices;
   simplify.progress = progress;
   return simplify;
 }

@@ -52,6 +52,9 @@ Mesh mesh_of(const stream::SurfaceModel& model, int64_t x, int64_t y) {
 }
 
 void take_accuracy(const exact::Metadata& metadata, Facts& facts) {
+  if (metadata.true_places) {
+    facts.max_error_at_points = to_string(metadata.true_places->max_error);
+  }
   if (!metadata.accuracy) return;
   if (metadata.accuracy->bound) facts.bound = to_string(*metadata.accuracy->bound);
   facts.max_error = to_string(metadata.accuracy->max_error);

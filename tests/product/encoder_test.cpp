@@ -140,6 +140,55 @@ TEST_CASE("library: points, exactly without a bound") {
   CHECK(stream.report.bound.empty());
 }
 
+namespace {
+
+// Pairs of points with a wall between, closer to each other than the steps of a lattice for all.
+Points walls() {
+  Points points;
+  points.xy_decimals = 2;
+  points.z_decimals = 1;
+  for (int64_t i = 0; i < 36; ++i) {
+    const int64_t x = i % 6 * 1000000 + i * i * 7919 % 5000, y = i / 6 * 1000000 + i * 97 % 5000;
+    points.points.push_back({x, y, i * 37 % 11});
+    points.points.push_back({x + 200, y + 100, 600 + i * 53 % 13});
+  }
+  return points;
+}
+
+}  // namespace
+
+TEST_CASE("library: what limits find holds where points truly lie, or is told there") {
+  const Terrain terrain(walls());
+  for (const uint32_t limit : {40u, 70u}) {
+    CAPTURE(limit);
+    StreamOptions options;
+    options.search = Search::kFast;
+    options.max_vertices = limit;
+    const Report few = encode_stream(terrain, options).report;
+    REQUIRE(!few.max_error_at_points.empty());
+    CHECK(few.vertices <= limit);
+    CHECK(std::stod(few.max_error_at_points) <= std::stod(few.bound));
+    options.bound_at = BoundAt::kLattice;
+    const Report lattice = encode_stream(terrain, options).report;
+    CHECK(std::stod(lattice.max_error) <= std::stod(lattice.bound));
+    CHECK(std::stod(few.max_error_at_points) <= std::stod(lattice.max_error_at_points));
+  }
+}
+
+TEST_CASE("library: never below the points where they truly lie, by limits, too") {
+  const Terrain terrain(walls());
+  StreamOptions options;
+  options.search = Search::kFast;
+  options.never_below = true;
+  options.max_bytes = 330;
+  const Report by_bytes = encode_stream(terrain, options).report;
+  CHECK(by_bytes.bytes <= 330);
+  CHECK(by_bytes.max_below == "0");
+  CHECK(by_bytes.max_below_at_points == "0");
+  options.bound_at = BoundAt::kLattice;
+  CHECK(encode_stream(terrain, options).report.max_below_at_points != "0");  // the check can fail
+}
+
 TEST_CASE("library: packs are files, whole or not there") {
   const TemporaryFolder folder;
   PackOptions options;

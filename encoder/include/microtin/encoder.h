@@ -87,6 +87,7 @@ typedef struct microtin_report {
   uint64_t samples, vertices, bytes;
   uint32_t tiles;
   char bound[24], max_error[24], rms_error[24], mean_error[24], max_below[24];
+  char max_error_at_points[24], max_below_at_points[24];
 } microtin_report;
 
 typedef struct microtin_terrain microtin_terrain;
@@ -141,6 +142,7 @@ typedef struct microtin_facts {
   uint32_t horizontal_epsg, vertical_epsg;
   const char *wkt, *origin, *date, *lineage;
   const char *bound, *max_error, *rms_error, *mean_error;
+  const char* max_error_at_points; /* where points truly lie, if the lattice moves them */
 } microtin_facts;
 
 void microtin_surface_facts(const microtin_surface* surface, microtin_facts* facts);

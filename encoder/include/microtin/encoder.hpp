@@ -154,9 +154,10 @@ struct Report {
   std::string bound;     /* asked for, or found for a limit; "": none */
   std::string max_error; /* measured, in the terrain's unit, rounded up to 9 decimals */
   std::string rms_error;
-  std::string mean_error;           /* above 0: the surface is too high */
-  std::string max_below;            /* how far the surface is below a height at most */
-  std::string max_error_at_points;  /* where points truly lie, if the lattice moves them; else "" */
+  std::string mean_error; /* above 0: the surface is too high */
+  std::string max_below;  /* how far the surface is below a height at most */
+  /* Where points truly lie, if the lattice moves them; else "". */
+  std::string max_error_at_points, max_below_at_points;
   std::vector<std::string> remarks; /* what is guessed of units and systems; doubtful heights */
 };
 

@@ -70,6 +70,7 @@ struct Facts {
   std::string wkt;                                     /* horizontal system without a code */
   std::string origin, date, lineage;                   /* "": not stated, as all below */
   std::string bound, max_error, rms_error, mean_error; /* of heights, as measured */
+  std::string max_error_at_points; /* where points truly lie, if the lattice moves them */
 };
 
 /* Triangles are counter-clockwise from above; void ones are left out. */

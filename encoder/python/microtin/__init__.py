@@ -59,6 +59,8 @@ class Report:
     rms_error: float
     mean_error: float  # above 0: the surface is too high
     max_below: float  # how far the surface is below a height at most
+    max_error_at_points: Optional[float] = None  # where points truly lie, if the lattice moves them
+    max_below_at_points: Optional[float] = None
     remarks: Tuple[str, ...] = ()  # what is guessed or not known of units and systems; doubtful heights
 
 
@@ -262,6 +264,10 @@ def _options(
     return filled, caller
 
 
+def _number(text: bytes) -> Optional[float]:
+    return float(text) if text else None
+
+
 def _report(report: _library.Report) -> Report:
     return Report(
         report.samples,
@@ -272,6 +278,8 @@ def _report(report: _library.Report) -> Report:
         float(report.rms_error),
         float(report.mean_error),
         float(report.max_below),
+        _number(report.max_error_at_points),
+        _number(report.max_below_at_points),
         tuple(library.microtin_remarks().decode(errors="replace").splitlines()),
     )
 
@@ -384,6 +392,7 @@ class Terrain:
     vertical_epsg     0 if it is not stated
     units             of x and y, and of heights: "metre", "degree", "foot", "US survey foot" or None
     bound, max_error  the error asked for, and the largest that was measured; None if they are not stated
+    max_error_at_points  the largest where points truly lie; None if the lattice holds them where they are
     tiles             (columns, rows) of a pack, (1, 1) of a stream
     """
 
@@ -407,8 +416,9 @@ class Terrain:
         self.crs: Union[int, str, None] = facts.horizontal_epsg or facts.wkt.decode(errors="replace") or None
         self.vertical_epsg: int = facts.vertical_epsg
         self.units = (UNITS[facts.horizontal_unit], UNITS[facts.vertical_unit])
-        self.bound = float(facts.bound) if facts.bound else None
-        self.max_error = float(facts.max_error) if facts.max_error else None
+        self.bound = _number(facts.bound)
+        self.max_error = _number(facts.max_error)
+        self.max_error_at_points = _number(facts.max_error_at_points)
         self.source: str = facts.origin.decode(errors="replace")
         self.date: str = facts.date.decode(errors="replace")
         self.lineage: str = facts.lineage.decode(errors="replace")

@@ -86,6 +86,8 @@ class Report(ctypes.Structure):
         ("rms_error", c_char * 24),
         ("mean_error", c_char * 24),
         ("max_below", c_char * 24),
+        ("max_error_at_points", c_char * 24),
+        ("max_below_at_points", c_char * 24),
     ]
 
 
@@ -122,6 +124,7 @@ class Facts(ctypes.Structure):
         ("max_error", c_char_p),
         ("rms_error", c_char_p),
         ("mean_error", c_char_p),
+        ("max_error_at_points", c_char_p),
     ]
 
 
