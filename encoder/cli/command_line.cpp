@@ -145,6 +145,8 @@ void add_verify(CLI::App& app, Action& action) {
   add_stream(command, request->input);
   add_terrain(command, request->source, request->preparation);
   add_preparation(command, request->preparation);
+  command.add_flag("--never-below", request->never_below,
+                   "Fail also if the surface is below the source anywhere");
   add_json(command, request->json);
   command.callback([request, &action] { action = [request] { run_verify(*request); }; });
 }

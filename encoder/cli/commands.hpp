@@ -73,6 +73,7 @@ struct VerifyRequest {
   std::string input;
   std::string source;
   Preparation preparation;  // as the stream was encoded
+  bool never_below = false;
   bool json = false;
 };
 

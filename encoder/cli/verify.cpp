@@ -56,6 +56,19 @@ void add_warnings(JsonObject& report, const Original& original) {
   if (!list.empty()) report.emplace_back("warnings", '[' + list + ']');
 }
 
+// What no header notes; where points truly lie, too, if the bound is to hold there.
+void expect_never_below(const Original::Judgement& judgement, const std::string& input) {
+  const auto expect = [&](const Verification& found, const std::string& where) {
+    if (found.max_below.mantissa == 0) return;
+    throw Error(input + ": " + where + "the surface is below the source, by " +
+                to_string(found.max_below) + " at most");
+  };
+  expect(judgement.found, "");
+  if (judgement.true_places && judgement.true_bound) {
+    expect(*judgement.true_places, "where the points truly lie, ");
+  }
+}
+
 void expect_kept(const Original::Judgement& judgement, const std::string& input) {
   const Verification& found = judgement.found;
   if (!found.within_bound) throw Error(input + ": the largest error is above the bound");
@@ -89,6 +102,7 @@ void run_verify(const VerifyRequest& request) {
   add_warnings(report, original);
   const bool told = tell(text_of(report, request.json));
   expect_kept(judgement, input);
+  if (request.never_below) expect_never_below(judgement, input);
   if (!told) throw ReportLost(input + ": keeps its promises, but nobody reads the report");
 }
 

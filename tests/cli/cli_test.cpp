@@ -114,6 +114,7 @@ TEST_CASE("cli: searches, and surfaces that are never below") {
     CHECK(verified.code == 0);
     const bool above = std::string(option).find("--never") == 0;
     CHECK(contains(verified.out, "\"max_below\": 0.0,") == above);
+    CHECK(session.run("verify f.mtin f.asc --never-below").code == (above ? 0 : 1));
   }
 }
 

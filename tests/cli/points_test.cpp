@@ -72,6 +72,28 @@ TEST_CASE("points: the bound holds where they truly lie, or on the lattice alone
   CHECK(session.run("verify lattice.mtin p.xyz").code == 0);
 }
 
+TEST_CASE("points: verify judges whether the surface is below them, where they truly lie, too") {
+  const Session session;
+  session.write("p.xyz", slope());
+  const std::string command = "encode p.xyz --max-error 0.5 --never-below ";
+  REQUIRE(session.run(command + "-o points.mtin").code == 0);
+  CHECK(session.run("verify points.mtin p.xyz --never-below").code == 0);
+  CHECK(session.run("verify points.mtin p.xyz --never-below --json")
+            .out.find("\"max_below\": 0.0,") != std::string::npos);
+  REQUIRE(session.run(command + "--bound-at lattice -o lattice.mtin").code == 0);
+  CHECK(session.run("verify lattice.mtin p.xyz --never-below").code == 0);
+  REQUIRE(session.run("encode p.xyz --max-error 0.5 -o both.mtin").code == 0);
+  CHECK(contains(session.failure("verify both.mtin p.xyz --never-below"),
+                 "both.mtin: the surface is below the source, by 0."));
+
+  session.write("q.xyz", "0 0 0\n100 0 100\n0 100 0\n100 100 100\n49.9 50 50\n");
+  REQUIRE(session.run("encode q.xyz --max-error 1 --never-below --xy-step 1 -o q.mtin").code == 0);
+  session.write("moved.xyz", "0 0 0\n100 0 100\n0 100 0\n100 100 100\n50.4 50 50\n50.6 50 51\n");
+  REQUIRE(session.run("verify q.mtin moved.xyz").code == 0);
+  CHECK(contains(session.failure("verify q.mtin moved.xyz --never-below"),
+                 "the surface is below the source, by "));
+}
+
 TEST_CASE("points: the bound holds in slivers along the hull, too") {
   const Session session;
   session.write("p.xyz", cut_ridge());

@@ -48,6 +48,39 @@ TEST_CASE("packs have no cracks, and voids stay voids, on borders too") {
   }
 }
 
+TEST_CASE("packs: heights stay, and are missed if they do not, beside voids along borders") {
+  const Raster full = rough_raster(61, 53);
+  PackOptions options = pack_options(2, 600);
+  options.tile_steps = 20;
+  const std::vector<VoidKind> kinds = {
+      {"a row on a border", [](int, int y) { return y == 20; }},
+      {"a part of it", [](int x, int y) { return y == 20 && x > 4 && x < 31; }},
+      {"one post", [](int x, int y) { return x == 30 && y == 20; }},
+      {"a corner of four tiles", [](int x, int y) { return x == 20 && y == 40; }},
+      {"a column on a border", [](int x, int) { return x == 40; }},
+      {"rows beside a border", [](int, int y) { return y == 19 || y == 21; }},
+      {"the row south of it", [](int, int y) { return y == 39; }},
+      {"all but a border's row", [](int x, int y) { return x < 21 && y > 20 && y < 41; }},
+      {"the first row", [](int, int y) { return y == 0; }},
+      {"the last row", [](int, int y) { return y == 52; }},
+      {"the last column", [](int x, int) { return x == 60; }}};
+  for (const VoidKind& kind : kinds) {
+    CAPTURE(kind.name);
+    const Raster lacking = rough_raster(61, 53, kind.at);
+    const uint64_t voids = static_cast<uint64_t>(
+        std::count(lacking.heights.begin(), lacking.heights.end(), kVoidHeight));
+    check_pack(lacking, options);
+    const PackFile pack = pack_of(lacking, options);
+    const Verification kept = verify(pack, lacking, options.lattice.max_error);
+    CHECK(kept.voids == voids);
+    CHECK(kept.covered == 61 * 53 - voids);
+    const Verification missed = verify(pack, full, std::nullopt);
+    CHECK(missed.voids == 0);
+    CHECK(missed.uncovered == voids);
+    CHECK(missed.covered == 61 * 53 - voids);
+  }
+}
+
 TEST_CASE("packs without a bound keep every post") {
   PackOptions options{{}, {}, 400, 0};
   const Raster raster = rough_raster(50, 70);
