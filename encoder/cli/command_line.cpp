@@ -71,7 +71,9 @@ void add_decode(CLI::App& app, Action& action) {
           ->type_name(kFile)
           ->excludes(cell);
   add_indirect(command, request->like_preparation);
-  command.add_flag("--force", request->force, "Write a file that can take more than 1 GB");
+  command.add_flag(
+      "--force", request->force,
+      "Write a file that can take more than 1 GB, or a mesh of more than 2^24 vertices");
   command.add_flag("--lattice", request->lattice, "Write the lattice's integers")->excludes(like);
   command.callback([request, &action] {
     request->like_preparation.band = 1;  // all bands have the same posts
@@ -201,6 +203,7 @@ void add_render(CLI::App& app, Action& action) {
   command.add_option("--title", request->title,
                      "Text above the map: Latin letters, digits, common signs");
   command.add_flag("--north-arrow", request->north_arrow, "An arrow to the north, which is up");
+  command.add_flag("--force", request->force, "Draw a pack of more than 2^24 vertices");
   command.add_flag("--world-file", request->world,
                    "Write beside the picture, as .pgw, where its map lies");
   add_terrain(

@@ -36,7 +36,7 @@ struct DecodeRequest {
   std::string input;
   std::string output;
   bool lattice = false;          // integers instead of real coordinates
-  bool force = false;            // write more than 1 GB
+  bool force = false;            // write more than 1 GB, read more than a stream's vertices
   std::optional<Decimal> cell;   // of a grid
   std::optional<Extent> extent;  // ... and where its posts lie
   std::string like;              // ... or the raster whose posts it has; empty: none
@@ -95,6 +95,7 @@ struct RenderRequest {
   std::optional<Decimal> interval;  // of contours; a round one if not given
   std::string title;
   bool coordinates = false, north_arrow = false;
+  bool force = false;  // read a pack of more vertices than a stream can have
 };
 
 void run_render(const RenderRequest& request);

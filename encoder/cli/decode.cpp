@@ -79,11 +79,12 @@ void decode_to_mesh(const DecodeRequest& request) {
   const bool is_real = !request.lattice;
   const Coordinates coordinates = is_real ? Coordinates::kReal : Coordinates::kLattice;
   const Document document(request.input);
-  announce_size(request.output,
-                static_cast<double>(
-                    most_mesh_bytes(document.sampled(), document.vertices(), format, coordinates)),
-                request.force);
-  const SurfaceModel model = document.model();
+  const uint64_t vertices = document.counted_vertices();
+  announce_size(
+      request.output,
+      static_cast<double>(most_mesh_bytes(document.sampled(), vertices, format, coordinates)),
+      request.force);
+  const SurfaceModel model = document.model(most_vertices(request.input, vertices, request.force));
   if (format == MeshFormat::kGlb && model.triangles.empty()) {
     throw Error(request.input + ": holds no triangle");
   }

@@ -127,10 +127,11 @@ void run_render(const RenderRequest& request) {
   refuse_overwriting(inputs, request.output);
   expect_picture(request);
   const Document document(request.input);
-  const Portrait portrait{document.model(), document.metadata(), document.vertices(),
-                          document.bytes(), document.tiles(),    request.mesh,
-                          request.palette,  request.contours,    request.interval,
-                          request.title,    request.coordinates, request.north_arrow};
+  const uint64_t most = most_vertices(request.input, document.counted_vertices(), request.force);
+  const Portrait portrait{document.model(most), document.metadata(), document.vertices(),
+                          document.bytes(),     document.tiles(),    request.mesh,
+                          request.palette,      request.contours,    request.interval,
+                          request.title,        request.coordinates, request.north_arrow};
   const std::string suffix = suffix_of(request.output);
   if (suffix == kPage) return write_page(request, document, portrait);
   if (suffix == kDrawing) return write_drawing(request, portrait);

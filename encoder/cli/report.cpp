@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "encoder/base/error.hpp"
+#include "encoder/product/document.hpp"
 
 namespace microtin::cli {
 
@@ -98,6 +99,15 @@ void announce_size(const std::string& path, double most_bytes, bool forced,
     throw Error(path + ": would take " + size + ": --force writes it" + else_there_is);
   }
   std::fputs(warning(path + " takes " + size).c_str(), stderr);
+}
+
+uint64_t most_vertices(const std::string& path, uint64_t vertices, bool forced) {
+  if (vertices > product::kMostVerticesAtOnce && !forced) {
+    throw Error(path + ": its tiles have " + std::to_string(vertices) +
+                " vertices, which take about " + std::to_string(vertices / 6666667) +
+                " GB of memory: --force reads them");
+  }
+  return vertices;
 }
 
 std::string text_of(const JsonObject& report, bool as_json) {

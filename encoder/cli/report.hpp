@@ -50,6 +50,9 @@ std::string warning_of_units(const std::string& path, const SurfaceModel& model)
 void announce_size(const std::string& path, double most_bytes, bool forced,
                    const std::string& else_there_is = "");
 
+// So many as a pack has, or Error if it has more than a stream can have and that is not forced.
+uint64_t most_vertices(const std::string& path, uint64_t vertices, bool forced);
+
 // The report as JSON, or as a line "name: value" for each entry.
 std::string text_of(const JsonObject& report, bool as_json);
 

@@ -67,7 +67,8 @@ class MeshSampler {
 
 class PackSampler {
  public:
-  explicit PackSampler(const PackFile& pack) : pack_(pack), grid_(pack.grid()) {}
+  PackSampler(const PackFile& pack, uint64_t most_vertices)
+      : pack_(pack), grid_(pack.grid()), most_vertices_(most_vertices) {}
 
   std::optional<int32_t> height_at(int64_t x, int64_t y) {
     const Range columns = tiles(x, grid_.width, tile_columns(grid_));
@@ -92,6 +93,8 @@ class PackSampler {
     std::optional<DecodedTerrain> terrain;  // nothing if there is none
     MeshSampler sampler;
     uint64_t asked = 0;  // when it was asked last
+
+    uint32_t vertices() const { return terrain ? microtin_vertex_count(terrain->mesh()) : 0; }
   };
 
   // On a border two tiles have a say.
@@ -104,8 +107,9 @@ class PackSampler {
   std::optional<int32_t> ask_tile(uint32_t number, int64_t x, int64_t y) {
     auto found = tiles_.find(number);
     if (found == tiles_.end()) {
-      if (tiles_.size() >= 2 * size_t{tile_columns(grid_)}) forget_one();
+      make_room();
       found = tiles_.try_emplace(number, pack_.tile(number)).first;
+      vertices_ += found->second.vertices();
     }
     Tile& tile = found->second;
     tile.asked = ++clock_;
@@ -114,15 +118,25 @@ class PackSampler {
     return tile.sampler.height_at(x - box.x * kFraction, y - box.y * kFraction);
   }
 
+  // For one tile more.
+  void make_room() {
+    constexpr size_t kFewest = 3;
+    if (tiles_.size() >= 2 * size_t{tile_columns(grid_)}) forget_one();
+    while (tiles_.size() > kFewest && vertices_ > most_vertices_) forget_one();
+  }
+
   void forget_one() {
-    tiles_.erase(std::min_element(tiles_.begin(), tiles_.end(), [](const auto& a, const auto& b) {
-      return a.second.asked < b.second.asked;
-    }));
+    const auto first = std::min_element(
+        tiles_.begin(), tiles_.end(),
+        [](const auto& a, const auto& b) { return a.second.asked < b.second.asked; });
+    vertices_ -= first->second.vertices();
+    tiles_.erase(first);
   }
 
   const PackFile& pack_;
   TileGrid grid_;
   std::map<uint32_t, Tile> tiles_;
+  uint64_t most_vertices_, vertices_ = 0;  // of the tiles that are kept
   uint64_t clock_ = 0;
 };
 
@@ -144,14 +158,14 @@ SampledSurface sampled(const microtin_mesh* mesh) {
   return surface;
 }
 
-SampledSurface sampled(const PackFile& pack) {
+SampledSurface sampled(const PackFile& pack, uint64_t kept_vertices) {
   SampledSurface surface;
   surface.placement = pack.metadata().placement;
   surface.x_max = pack.grid().x_max;
   surface.y_max = pack.grid().y_max;
   surface.lowest = pack.header().lowest;
   surface.highest = pack.header().highest;
-  ask(surface, std::make_shared<PackSampler>(pack));
+  ask(surface, std::make_shared<PackSampler>(pack, kept_vertices));
   return surface;
 }
 

@@ -27,9 +27,10 @@ struct SampledSurface {
 // The mesh must outlive it.
 SampledSurface sampled(const microtin_mesh* mesh);
 
-// Decodes tiles when they are asked and keeps as many as two rows have, those asked last. The pack
-// must outlive it. Throws Error, also from height_at, as PackFile::tile does.
-SampledSurface sampled(const PackFile& pack);
+// Decodes tiles when they are asked and keeps as many as two rows have, those asked last; fewer,
+// but four, if they have more vertices together than `kept_vertices`. The pack must outlive it.
+// Throws Error, also from height_at, as PackFile::tile does.
+SampledSurface sampled(const PackFile& pack, uint64_t kept_vertices = kMaxVertices);
 
 }  // namespace microtin::exporting
 

@@ -230,9 +230,14 @@ void PackFile::expect_as_stated() const {
   expect_compact_bytes();
 }
 
-void PackFile::expect_vertices() const {
+uint64_t PackFile::counted_vertices() const {
   uint64_t all = 0;
   for (uint32_t number = 0; number < entries_.size(); ++number) all += vertices(number);
+  return all;
+}
+
+void PackFile::expect_vertices() const {
+  const uint64_t all = counted_vertices();
   if (std::min<uint64_t>(all, UINT32_MAX) == vertices_) return;
   throw Error("the header says that all tiles have " + std::to_string(vertices_) +
               " vertices; they have " + std::to_string(all));

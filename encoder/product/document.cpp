@@ -100,6 +100,11 @@ uint64_t Document::vertices() const {
   return pack() != nullptr ? pack()->vertices() : microtin_vertex_count(stream()->terrain.mesh());
 }
 
+uint64_t Document::counted_vertices() const {
+  if (pack() == nullptr) return vertices();
+  return with_file_context(path_, [&] { return pack()->counted_vertices(); });
+}
+
 uint64_t Document::tiles() const {
   return pack() != nullptr ? pack()->entries().size() : 0;
 }
@@ -108,7 +113,12 @@ std::optional<DecodedTerrain> Document::tile(uint32_t number) const {
   return with_file_context(path_, [&] { return pack()->tile(number); });
 }
 
-SurfaceModel Document::model() const {
+SurfaceModel Document::model(uint64_t most_vertices) const {
+  const uint64_t vertices = counted_vertices();
+  if (vertices > most_vertices) {
+    throw Error(path_ + ": its tiles have " + std::to_string(vertices) + " vertices; more than " +
+                std::to_string(most_vertices) + " are not read at once: read tile by tile");
+  }
   SurfaceModel model = with_file_context(path_, [&] {
     return pack() != nullptr ? model_of(*pack()) : model_of(stream()->terrain.mesh());
   });

@@ -28,6 +28,9 @@ struct DecodedStream {
 // The bytes of a stream's file, or of standard input for "-", decoded. Throws Error naming it.
 DecodedStream read_stream(const std::string& path);
 
+// As many as a stream can have.
+constexpr uint64_t kMostVerticesAtOnce = kMaxVertices;
+
 // All functions throw Error naming the file.
 class Document {
  public:
@@ -44,14 +47,16 @@ class Document {
 
   Metadata metadata() const;
   uint64_t bytes() const;
-  uint64_t vertices() const;  // of a pack: those on borders once for each tile
-  uint64_t tiles() const;     // 0: a stream
+  uint64_t vertices() const;  // of a pack: those on borders once for each tile, as its header says
+  uint64_t counted_vertices() const;  // as the streams' own headers say
+  uint64_t tiles() const;             // 0: a stream
 
   // A tile of a pack as PackFile has it.
   std::optional<DecodedTerrain> tile(uint32_t number) const;
 
-  // With units. All of a pack's tiles are decoded.
-  SurfaceModel model() const;
+  // With units. All of a pack's tiles are decoded, if they have at most so many vertices together;
+  // each takes some 150 bytes.
+  SurfaceModel model(uint64_t most_vertices = kMostVerticesAtOnce) const;
 
   // The document must outlive it.
   SampledSurface sampled() const;

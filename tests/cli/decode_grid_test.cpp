@@ -2,8 +2,12 @@
 // Grids that decode writes: which posts they have, and when they are refused.
 #include <doctest/doctest.h>
 
+#include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "microtin/surface.hpp"
+#include "tests/support/forged_pack.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -103,4 +107,40 @@ TEST_CASE("cli: an output that can take more than 1 GB is announced, and forced"
   // To where nobody writes much: the announcement comes before.
   CHECK(contains(session.run("decode t.mtin --cell 0.0002 --force -o missing/x.asc").err,
                  "warning: missing/x.asc takes up to 2.8 GB"));
+}
+
+namespace {
+
+// A pack of 257 tiles, each of a flat stream of 65,536 vertices, whose header says that all have as
+// many as one.
+Bytes understated_pack() {
+  Tin tin;
+  for (uint32_t place = 0; place < 65536; ++place) {
+    tin.vertices.push_back(
+        {static_cast<uint16_t>(place % 256), static_cast<uint16_t>(place / 256), 0});
+  }
+  constexpr uint32_t kTiles = 257;
+  const ForgedTile tile = forged_tile(tin);
+  Bytes pack = forged_pack({255 * kTiles, 255, 255, 255}, std::vector<ForgedTile>(kTiles, tile));
+  put_number(pack, microtin::kPackFixedBytes - 4, 65536, 4);
+  repair_checks(pack);
+  return pack;
+}
+
+}  // namespace
+
+TEST_CASE("cli: what a pack takes is counted, whatever its header says") {
+  const Session session;
+  const Bytes pack = understated_pack();
+  session.write("t.mtp", {pack.begin(), pack.end()});
+  REQUIRE(contains(session.run("info t.mtp").out, "\nvertices: 65536\n"));
+  CHECK(contains(session.failure("decode t.mtp -o t.ply"), "t.ply: would take up to "));
+  const std::string many = "t.mtp: its tiles have 16842752 vertices, which take about ";
+  CHECK(contains(session.failure("decode t.mtp --lattice -o t.xyz"), many));
+  CHECK(contains(session.failure("render t.mtp -o t.png"), many));
+  CHECK(contains(session.failure("render t.mtp -o t.svg"), "--force reads them"));
+  const microtin::encoder::Surface surface =
+      microtin::encoder::Surface::from_file(session.folder() + "/t.mtp");
+  CHECK_THROWS_WITH_AS(surface.mesh(), doctest::Contains("16842752 vertices; more than 16777216"),
+                       std::runtime_error);
 }

@@ -5,10 +5,14 @@
 #include <doctest/doctest.h>
 
 #include <fstream>
+#include <memory>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/export/post_grid.hpp"
+#include "encoder/files/byte_source.hpp"
 #include "encoder/fit/approximation.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/stream/encode.hpp"
@@ -161,5 +165,47 @@ TEST_CASE("grid: a pack is one surface, with the posts of its raster") {
     CHECK(again.height == raster.height);
     CHECK(is_same(again.x, raster.x));
     CHECK_MESSAGE(again.heights == raster.heights, kind.name);
+  }
+}
+
+namespace {
+
+// Counts how often bytes behind an offset are read.
+class CountedBytes : public files::ByteSource {
+ public:
+  CountedBytes(std::vector<uint8_t> bytes, uint64_t from, uint32_t& count)
+      : bytes_(files::bytes_in_memory(std::move(bytes))), from_(from), count_(count) {}
+  uint64_t size() const override { return bytes_->size(); }
+  std::size_t read(uint64_t offset, void* to, std::size_t size) const override {
+    if (offset >= from_) ++count_;
+    return bytes_->read(offset, to, size);
+  }
+
+ private:
+  std::unique_ptr<files::ByteSource> bytes_;
+  uint64_t from_;
+  uint32_t& count_;
+};
+
+}  // namespace
+
+TEST_CASE("sampled packs: no more tiles are kept than have so many vertices, but four") {
+  PackOptions options = pack_options(2, 400);
+  options.tile_steps = 10;
+  const std::vector<uint8_t> bytes = write_pack(encode_pack(rough_raster(121, 11), options));
+  const PackFile plain(bytes);
+  const uint64_t streams = pack_entry_start(plain.header(), 12);
+  for (const auto& [kept, again] : {std::pair(uint64_t{1} << 24, 0u), std::pair(uint64_t{1}, 8u)}) {
+    uint32_t reads = 0;
+    const PackFile pack(std::make_unique<CountedBytes>(bytes, streams, reads));
+    REQUIRE(tile_columns(pack.grid()) == 12);
+    const SampledSurface surface = sampled(pack, kept);
+    const auto ask = [&](int64_t tile) {
+      CHECK(surface.height_at((10 * tile + 5) * 256, 5 * 256).has_value());
+    };
+    for (int64_t tile = 0; tile < 12; ++tile) ask(tile);
+    CHECK(reads == 12);
+    for (int64_t tile = 11; tile >= 0; --tile) ask(tile);
+    CHECK(reads == 12 + again);
   }
 }

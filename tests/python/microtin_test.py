@@ -105,6 +105,8 @@ class Streams(unittest.TestCase):
         self.assertEqual(sorted(map(tuple, tin.vertices.round(2))), sorted(map(tuple, points)))
         with self.assertRaisesRegex(microtin.Error, "give the size of a cell"):
             tin.raster()
+        with self.assertRaisesRegex(microtin.Error, "the raster takes 4.[0-9] GB: give a larger cell, or force=True"):
+            tin.raster(cell=0.01)
 
     def test_south_up(self):
         south = (-0.5, 1, 0, -0.5, 0, 1)

@@ -451,16 +451,19 @@ class Terrain:
             library.microtin_surface_heights(self._surface, x.size, *pointers)
         return heights if numpy.ndim(xs) or numpy.ndim(ys) else float(heights.reshape(-1)[0])
 
-    def raster(self, cell: Optional[Number] = None) -> Tuple[NDArray[numpy.float64], Tuple[float, ...]]:
+    def raster(self, cell: Optional[Number] = None, force: bool = False) -> Tuple[NDArray[numpy.float64], Tuple[float, ...]]:
         """Heights of all posts of the source, or of posts `cell` apart, row 0 northernmost, NaN where there is none; and
         the transform, in GDAL's order, of the cells around them. Raises Error if the source was no raster and no cell
-        size is given."""
+        size is given, or if the array takes more than 1 GB, which `force` allows."""
         grid = self._source
         if cell is not None:
             grid = _library.Grid()
             library.microtin_surface_grid(self._surface, _decimal(cell), grid)
         if grid.columns == 0:
             raise Error("the source was no raster: give the size of a cell")
+        size = grid.rows * grid.columns * numpy.dtype(numpy.float64).itemsize
+        if size > 10**9 and not force:
+            raise Error(f"the raster takes {size / 1e9:.1f} GB: give a larger cell, or force=True")
         heights = numpy.empty((grid.rows, grid.columns))
         with self._lock:
             library.microtin_surface_raster(self._surface, grid, heights.ctypes.data_as(_library.Doubles))
