@@ -42,7 +42,8 @@ constexpr int kMisses = 2;  // after so many a search is not relied on to make v
 // The error where points truly lie, as a part of that on the lattice, from which on bounds are
 // tried there; how many.
 constexpr double kFarOff = 1.05;
-constexpr int kTrialsOfFew = 14, kTrialsOfMany = 4;
+constexpr double kLeastStep = 1.5;  // from a bound that takes too much to the next
+constexpr int kTrialsOfFew = 16, kTrialsOfMany = 4;
 
 constexpr double kHeaderBytes = 100, kBytesPerVertex = 1.4;  // usually
 
@@ -116,10 +117,10 @@ class Budget {
     of_vertices_ && !fast ? come_near(search) : come_nearer(search);
     bool goes_on = of_vertices_ && surface_;
     while (goes_on && spent_ + costs_.widening <= most_) goes_on = go_on();
-    if (misses_points_) try_true_places();
-    for (int i = 0; i < kMoreTrials && !best_; ++i) {
+    for (int i = 0; i < kMoreTrials && !best_ && !misses_points_; ++i) {
       try_bound(search, std::pow(kWideAim, 1 << i) * limit_);
     }
+    if (misses_points_) try_true_places();
     if (!best_) fail();
     return std::move(*best_);
   }
@@ -171,7 +172,7 @@ class Budget {
       misses_points_ = is_low || real(error) > kFarOff * real(encoded.verification.max_error);
     }
     if (is_low || !is_best) return size;
-    best_bound_ = encoded.bound;
+    if (encoded.bound) best_bound_ = options_.lattice.max_error;
     best_size_ = size;
     best_ = std::move(encoded);
     return size;
@@ -311,8 +312,11 @@ class Budget {
     BoundSearch search(largest_, best_ ? real(best_->verification.max_error) : guess_, limit_);
     options_.few_vertices = of_vertices_;
     const int trials = most_ >= kMostOfFew ? kTrialsOfFew : kTrialsOfMany;
+    Decimal least;  // until one fits: sizes are flat where few points are left out
+    bool fitted = false;
     for (int i = 0; i < trials; ++i) {
-      const Decimal bound = search.bound_for(kWideAim * limit_);
+      Decimal bound = search.bound_for(kWideAim * limit_);
+      if (bound <= least) bound = least;
       options_.lattice.max_error = bound;
       std::optional<double> size;
       try {
@@ -321,6 +325,8 @@ class Budget {
       }
       search.add(bound, size);
       if (size && fits(*size) && *size >= kUsed * limit_) return;
+      fitted = fitted || (size && fits(*size));
+      least = fitted ? Decimal{} : rounded(kLeastStep * real(bound)).value_or(largest_);
     }
   }
 

@@ -159,7 +159,7 @@ Points walls() {
 
 TEST_CASE("library: what limits find holds where points truly lie, or is told there") {
   const Terrain terrain(walls());
-  for (const uint32_t limit : {40u, 70u}) {
+  for (const uint32_t limit : {30u, 40u}) {
     CAPTURE(limit);
     StreamOptions options;
     options.search = Search::kFast;
