@@ -22,6 +22,7 @@
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
 #include "encoder/terrain/fill_value.hpp"
+#include "encoder/terrain/gridded.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 
 namespace microtin::cli {
@@ -174,6 +175,7 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
 
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
   announce(request, remark_on_fill(cloud));
+  announce(request, remark_on_grid(cloud));
   const EncodedPoints made =
       with_file_context(request.input, [&] { return encode_pack(cloud, request); });
   out.write(made.bytes);
@@ -207,6 +209,9 @@ std::string encode_tiled(const EncodeRequest& request, OutputFile& out) {
 std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
   const Source source = prepared_terrain(request.input, request.preparation);
   announce(request, std::visit([](const auto& one) { return remark_on_fill(one); }, source));
+  if (const auto* const cloud = std::get_if<PointCloud>(&source)) {
+    announce(request, remark_on_grid(*cloud));
+  }
   const EncodedStream encoded = with_file_context(request.input, [&] {
     ProgressBar bar;
     return encode_stream(source, request, bar.progress());

@@ -168,6 +168,8 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
       "Points to take from a .las file: their classes, 2,9 for instance, or all. If not given: "
       "the ground (2) or, if there is none, all but noise (7, 18)");
   add_reference(command, preparation);
+  command.add_flag("--gridded", preparation.gridded,
+                   "Take points that are the posts of a raster as that raster");
   add_indirect(command, preparation);
 #ifdef MICROTIN_WITH_GDAL
   command

@@ -9,6 +9,7 @@
 #include "encoder/import/conversion.hpp"
 #include "encoder/import/folder.hpp"
 #include "encoder/import/mosaic.hpp"
+#include "encoder/terrain/gridded.hpp"
 #include "encoder/terrain/voids.hpp"
 #include "encoder/terrain/water.hpp"
 #include "shared/lattice.hpp"
@@ -79,6 +80,13 @@ AnySource settled(const std::string& path, AnySource source, const Preparation& 
   return source;
 }
 
+Raster raster_of_points(const std::string& path, const PointCloud& cloud) {
+  std::optional<Raster> raster = gridded(cloud);
+  if (!raster)
+    throw Error(path + ": the points are not the posts of a raster: leave out --gridded");
+  return std::move(*raster);
+}
+
 OpenSource open_parts(const std::vector<std::string>& parts, const Preparation& preparation) {
   std::vector<NamedSource> sources;
   sources.reserve(parts.size());
@@ -87,12 +95,15 @@ OpenSource open_parts(const std::vector<std::string>& parts, const Preparation& 
         open_terrain(part, preparation.classes, preparation.indirect, preparation.band);
     sources.push_back({part, settled(part, std::move(source), preparation)});
   }
-  return join(std::move(sources));
+  OpenSource all = join(std::move(sources));
+  const auto* const cloud = std::get_if<PointCloud>(&all);
+  if (!preparation.gridded || cloud == nullptr) return all;
+  return std::make_unique<RasterInMemory>(raster_of_points(parts[0], *cloud));
 }
 
 // One file is read without a detour.
 Source read_parts(const std::vector<std::string>& parts, const Preparation& preparation) {
-  if (parts.size() == 1) {
+  if (parts.size() == 1 && !preparation.gridded) {
     Source source =
         import_terrain(parts[0], preparation.classes, preparation.indirect, preparation.band);
     return settled(parts[0], std::move(source), preparation);

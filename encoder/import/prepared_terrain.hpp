@@ -18,6 +18,7 @@ namespace microtin::importing {
 struct Preparation {
   std::vector<std::string> more_files;  // of the same terrain, beside the one named first
   std::optional<ClassSet> classes;      // take these points of a .las file
+  bool gridded = false;                 // points are the posts of a raster
   uint32_t fill_voids = 0;              // interpolate voids of up to so many posts
   std::optional<Decimal> water_level;   // voids that are left are water at this height
   std::string water_mask;               // ... where this file says so; everywhere if there is none

@@ -16,6 +16,7 @@
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
 #include "encoder/terrain/fill_value.hpp"
+#include "encoder/terrain/gridded.hpp"
 
 namespace microtin::encoder {
 
@@ -264,6 +265,10 @@ std::vector<std::string> remarks_on(const SettledTerrain& terrain) {
   const std::string fill =
       std::visit([](const auto& one) { return terrain::remark_on_fill(one); }, terrain.source());
   if (!fill.empty()) remarks.push_back(fill);
+  if (const auto* const cloud = std::get_if<terrain::PointCloud>(&terrain.source())) {
+    const std::string grid = terrain::remark_on_grid(*cloud);
+    if (!grid.empty()) remarks.push_back(grid);
+  }
   return remarks;
 }
 

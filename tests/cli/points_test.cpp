@@ -75,16 +75,18 @@ TEST_CASE("points: the bound holds where they truly lie, or on the lattice alone
 TEST_CASE("points: verify judges whether the surface is below them, where they truly lie, too") {
   const Session session;
   session.write("p.xyz", slope());
-  const std::string command = "encode p.xyz --max-error 0.5 --never-below ";
+  const std::string command = "encode p.xyz --max-error 2 --never-below ";
   REQUIRE(session.run(command + "-o points.mtin").code == 0);
   CHECK(session.run("verify points.mtin p.xyz --never-below").code == 0);
   CHECK(session.run("verify points.mtin p.xyz --never-below --json")
             .out.find("\"max_below\": 0.0,") != std::string::npos);
-  REQUIRE(session.run(command + "--bound-at lattice -o lattice.mtin").code == 0);
+  REQUIRE(
+      session.run("encode p.xyz --max-error 0.5 --never-below --bound-at lattice -o lattice.mtin")
+          .code == 0);
   CHECK(session.run("verify lattice.mtin p.xyz --never-below").code == 0);
-  REQUIRE(session.run("encode p.xyz --max-error 0.5 -o both.mtin").code == 0);
+  REQUIRE(session.run("encode p.xyz --max-error 2 -o both.mtin").code == 0);
   CHECK(contains(session.failure("verify both.mtin p.xyz --never-below"),
-                 "both.mtin: the surface is below the source, by 0."));
+                 "both.mtin: the surface is below the source, by 1."));
 
   session.write("q.xyz", "0 0 0\n100 0 100\n0 100 0\n100 100 100\n49.9 50 50\n");
   REQUIRE(session.run("encode q.xyz --max-error 1 --never-below --xy-step 1 -o q.mtin").code == 0);
@@ -92,6 +94,26 @@ TEST_CASE("points: verify judges whether the surface is below them, where they t
   REQUIRE(session.run("verify q.mtin moved.xyz").code == 0);
   CHECK(contains(session.failure("verify q.mtin moved.xyz --never-below"),
                  "the surface is below the source, by "));
+}
+
+TEST_CASE("points: those of a raster are recognised, and taken as it on request") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
+  REQUIRE(session.run("encode f.asc -o all.mtin && microtin decode all.mtin -o f.xyz").code == 0);
+  const Session::Result points = session.run("encode f.xyz --max-error 5 --fast -o points.mtin");
+  CHECK(contains(points.err, "warning: f.xyz: the points are the posts of a raster, 65 x 65, and"));
+  const Session::Result raster =
+      session.run("encode f.xyz --gridded --max-error 5 --fast -o raster.mtin");
+  CHECK(raster.code == 0);
+  CHECK(raster.err.empty());
+  CHECK(contains(raster.out, "source: 4225 posts"));
+  CHECK(10 * session.read("raster.mtin").size() < 9 * session.read("points.mtin").size());
+  CHECK(session.run("verify raster.mtin f.xyz --gridded").code == 0);
+  CHECK(session.run("render raster.mtin --source f.xyz --gridded -o f.png").code == 0);
+  REQUIRE(session.run("encode f.xyz --gridded --max-error 5 --fast -o raster.mtp").code == 0);
+  CHECK(session.run("verify raster.mtp f.xyz --gridded").code == 0);
+  session.write("p.xyz", slope());
+  CHECK(contains(session.failure("encode p.xyz --gridded -o p.mtin"), "leave out --gridded"));
 }
 
 TEST_CASE("points: the bound holds in slivers along the hull, too") {
