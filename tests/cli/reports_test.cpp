@@ -21,6 +21,7 @@ Names info_names(bool is_pack) {
   Names names = {"kind",
                  "vertices",
                  "bytes",
+                 "compact_bytes",
                  "workspace_bytes_16",
                  "workspace_bytes_32",
                  "extent.west",
@@ -41,9 +42,9 @@ Names info_names(bool is_pack) {
     return united(names, {"format_version", "compact_bytes", "triangles", "void_triangles",
                           "bits_per_vertex", "phases", "degree", "decoding"});
   }
-  return united(names, {"pack_version", "columns", "rows", "tile_width", "tile_height", "x_max",
-                        "y_max", "most_vertices", "compact_bytes", "device_memory",
-                        "workspace_bytes_4_compact_tiles", "tiles"});
+  return united(names,
+                {"pack_version", "columns", "rows", "tile_width", "tile_height", "x_max", "y_max",
+                 "most_vertices", "device_memory", "workspace_bytes_4_compact_tiles", "tiles"});
 }
 
 // Of `verify --json`.
@@ -98,11 +99,12 @@ std::string report_text(const Product& product, const Made& made) {
           ? ""
           : "merged: {merged} shared a place with another; the highest stands for all there\n";
   const std::string below = "below the source: at most {max_below}\n";
-  const std::string truly = !is_moved
-                                ? ""
-                                : "... where the points truly lie: at most "
-                                  "{true_places.max_error}, rms {true_places.rms_error}, "
-                                  "mean {true_places.mean_error} (the bound holds there, too)\n";
+  const std::string truly =
+      !is_moved ? ""
+                : "... where the points truly lie: at most "
+                  "{true_places.max_error}, rms {true_places.rms_error}, "
+                  "mean {true_places.mean_error} (the bound holds there, too); below "
+                  "the points: at most {true_places.max_below}\n";
   text += product.is_pack
               ? merged + z +
                     "pack: {columns} x {rows} tiles of {tile_width} x {tile_height} steps, "

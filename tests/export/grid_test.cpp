@@ -171,10 +171,10 @@ TEST_CASE("grid: a pack is one surface, with the posts of its raster") {
 namespace {
 
 // Counts how often bytes behind an offset are read.
-class CountedBytes : public files::ByteSource {
+class CountedBytes : public microtin::files::ByteSource {
  public:
   CountedBytes(std::vector<uint8_t> bytes, uint64_t from, uint32_t& count)
-      : bytes_(files::bytes_in_memory(std::move(bytes))), from_(from), count_(count) {}
+      : bytes_(microtin::files::bytes_in_memory(std::move(bytes))), from_(from), count_(count) {}
   uint64_t size() const override { return bytes_->size(); }
   std::size_t read(uint64_t offset, void* to, std::size_t size) const override {
     if (offset >= from_) ++count_;
@@ -182,7 +182,7 @@ class CountedBytes : public files::ByteSource {
   }
 
  private:
-  std::unique_ptr<files::ByteSource> bytes_;
+  std::unique_ptr<microtin::files::ByteSource> bytes_;
   uint64_t from_;
   uint32_t& count_;
 };

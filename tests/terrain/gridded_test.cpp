@@ -42,7 +42,7 @@ TEST_CASE("gridded: posts may be missing, up to half of them") {
 
 TEST_CASE("gridded: others are not") {
   const std::string posts = kPosts;
-  for (const std::string& more : {"11 7 9\n", "11 7.001 9\n", "10.25001 3 1\n", "1000 3 1\n"}) {
+  for (const char* const more : {"11 7 9\n", "11 7.001 9\n", "10.25001 3 1\n", "1000 3 1\n"}) {
     CAPTURE(more);
     CHECK_FALSE(gridded(cloud_of(posts + more)).has_value());
     CHECK(remark_on_grid(cloud_of(posts + more)).empty());
