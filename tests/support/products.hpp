@@ -409,8 +409,10 @@ class Made {
   }
 
   std::string info() const { return run("info --json '" + product_.file + "'"); }
+  // Classes are those that the product notes.
   std::string verify() const {
-    return run("verify --json '" + product_.file + "' " + terrain_.file + preparation());
+    const std::string words = "verify --json '" + product_.file + "' " + terrain_.file;
+    return run(words + (product_.is_raster ? preparation() : ""));
   }
 
   const std::string& text() const { return text_; }
