@@ -23,7 +23,7 @@ def version():
 
 def built_library(folder):
     subprocess.check_call(["cmake", "-S", SOURCES, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DMICROTIN_TESTS=OFF"])
-    subprocess.check_call(["cmake", "--build", folder, "--parallel", "--target", "microtin_shared"])
+    subprocess.check_call(["cmake", "--build", folder, "--parallel", str(os.cpu_count() or 1), "--target", "microtin_shared"])
     return Path(folder) / "libmicrotin.so"
 
 
