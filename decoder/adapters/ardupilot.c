@@ -105,7 +105,8 @@ static microtin_answer fill_row(microtin_ardupilot* terrain, int32_t row, int32_
   int64_t last_x, last_y;
   if (!terrain->spots.has_info) return MICROTIN_NOT_DECODED;
   if (!microtin_spots_place(&terrain->spots, post_of(block, row, column), &part.x, &part.y) ||
-      !microtin_spots_place(&terrain->spots, post_of(block, row, column + 3), &last_x, &last_y)) {
+      !microtin_spots_place(&terrain->spots, post_of(block, row, column + 3), &last_x, &last_y) ||
+      last_x < part.x) { /* a seam of the pack's longitudes lies between */
     return MICROTIN_OUTSIDE;
   }
   part.dx = (int32_t)((last_x - part.x) / 3);

@@ -51,11 +51,19 @@ static inline microtin_status microtin_spots_service(microtin_spots* s, uint32_t
   return status;
 }
 
-/* Lattice coordinates with 8 fractional bits. 0: outside, or the header is not known. */
+static inline int microtin_spots_column(const microtin_spots* s, int64_t longitude, int64_t* x) {
+  return microtin_pack_to_lattice(&s->info.x, s->info.x_max, longitude, 10000000, x);
+}
+
+/* Lattice coordinates with 8 fractional bits, also in a pack that names longitudes a turn farther
+ * west or east. 0: outside, or the header is not known. */
 static inline int microtin_spots_place(const microtin_spots* s, microtin_spot at, int64_t* x,
                                        int64_t* y) {
+  const int64_t turn = 3600000000;
   return s->has_info &&
-         microtin_pack_to_lattice(&s->info.x, s->info.x_max, at.longitude, 10000000, x) &&
+         (microtin_spots_column(s, at.longitude, x) ||
+          microtin_spots_column(s, at.longitude + turn, x) ||
+          microtin_spots_column(s, at.longitude - turn, x)) &&
          microtin_pack_to_lattice(&s->info.y, s->info.y_max, at.latitude, 10000000, y);
 }
 

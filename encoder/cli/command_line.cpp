@@ -115,13 +115,15 @@ void add_height_command(CLI::App& app, Action& action, int& code) {
       "... and to the north; without a place those on standard input, a line X Y each");
   x->needs(y);
   command.add_flag("--lattice", request->lattice, "Places and heights in steps of the lattice");
+  command.add_flag("--device", request->device,
+                   "Answer as a device: at the nearest 1/256 of a lattice step");
   command.footer(
       "A word stands where there is no height: outside, void or damaged. For a place on the "
       "command "
       "line their exit codes are 5, 6 and 7; 7 also if the file is damaged.");
   command.callback([request, x, &action, &code] {
     if (x->count() != 0) {
-      request->place = parse_place(request->x + ' ' + request->y);
+      request->place = parse_place(request->x + ' ' + request->y, request->device);
       if (!request->place) throw CLI::ValidationError("x y", "are not two numbers");
     }
     action = [request, &code] { code = run_height(*request); };

@@ -52,13 +52,15 @@ struct Place {
   Decimal x, y;
 };
 
-// Two numbers with blanks, a comma or a semicolon between; nothing for any other text.
-std::optional<Place> parse_place(std::string_view text);
+// Two numbers with blanks, a comma or a semicolon between; nothing for any other text. Decimals
+// are kept as the host's queries take them, or a device's.
+std::optional<Place> parse_place(std::string_view text, bool for_device);
 
 struct HeightRequest {
   std::string input;
   std::optional<Place> place;  // else those on standard input, one a line
   bool lattice = false;
+  bool device = false;  // answers as a device does
 };
 
 // Where a place has no height, and where the file is damaged: exit codes.

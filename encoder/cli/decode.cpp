@@ -72,6 +72,16 @@ void decode_for_autopilot(const DecodeRequest& request, Autopilot autopilot) {
   OutputFile out(request.output);
   out.write(file.bytes);
   deliver(out, request.output, text_of(file, spacing));
+  if (file.missed != 0) {
+    const double percent =
+        100.0 * static_cast<double>(file.missed) / static_cast<double>(file.asked);
+    std::fputs(warning("firmware that computes in single precision finds no height at " +
+                       std::to_string(file.missed) + " of " + std::to_string(file.asked) +
+                       " places with terrain (" + fixed(percent) +
+                       " %): its distances are too coarse at this latitude")
+                   .c_str(),
+               stderr);
+  }
 }
 
 void decode_to_mesh(const DecodeRequest& request) {

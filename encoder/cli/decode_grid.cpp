@@ -96,7 +96,10 @@ void decode_to_grid(const DecodeRequest& request) {
   const Document document(request.input);
   const Metadata metadata = document.metadata();
   SampledSurface surface = document.sampled();
-  if (request.lattice) surface.placement = Placement();
+  if (request.lattice) {
+    surface.placement = Placement();
+    surface.is_degrees = false;
+  }
   const PostGrid grid = grid_of(request, surface, metadata);
   if (!meets(surface, grid)) {
     throw Error(request.input + ": no post of the grid lies on the terrain, which has " +

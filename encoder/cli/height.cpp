@@ -6,7 +6,7 @@
 
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
-#include "encoder/exact/wide.hpp"
+#include "encoder/exact/fraction.hpp"
 #include "encoder/files/file_target.hpp"
 #include "encoder/files/input_file.hpp"
 #include "encoder/import/text.hpp"
@@ -41,50 +41,47 @@ int code_for(microtin_answer answer) {
   }
 }
 
-std::string text_of_height(int32_t height, const Axis& z) {
-  const Wide parts = Wide{z.offset} * 65536 + Wide(z.numerator) * height;
-  return to_string(make_decimal(
-      round_divide(parts * power_of_ten(kDecimals), Wide(z.denominator) * 65536), kDecimals));
-}
-
 struct Answer {
   microtin_answer kind;
   std::string text;  // a number or a word
 };
 
-Answer ask(PlaceQuery& query, const Place& place, bool on_lattice) {
-  int32_t height = 0;
-  const microtin_answer kind = query.height_at(place.x, place.y, on_lattice, &height);
+Answer ask(PlaceQuery& query, const Place& place, const HeightRequest& request) {
+  const bool on_lattice = request.lattice;
+  const auto [kind, height] = request.device ? query.device_height_at(place.x, place.y, on_lattice)
+                                             : query.height_at(place.x, place.y, on_lattice);
   if (kind != MICROTIN_HEIGHT) return {kind, word_for(kind)};
-  return {kind, text_of_height(height, on_lattice ? Axis{0, 1, 1} : query.placement().z)};
+  const Axis z = on_lattice ? Axis{0, 1, 1} : query.placement().z;
+  return {kind, to_string(rounded_height(z, height, kDecimals))};
 }
 
 // Answers behind the lines that ask.
-std::string answered(PlaceQuery& query, std::string_view lines, bool on_lattice) {
+std::string answered(PlaceQuery& query, std::string_view lines, const HeightRequest& request) {
   std::string text;
   for (uint64_t number = 1; !lines.empty(); ++number) {
     const std::string_view line = take_line(lines);
     if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
-    const std::optional<Place> place = parse_place(line);
+    const std::optional<Place> place = parse_place(line, request.device);
     if (!place) {
       throw Error("standard input, line " + std::to_string(number) + ": is not a place, X Y" +
                   remedy_for_commas(line));
     }
-    text += std::string(line) + ' ' + ask(query, *place, on_lattice).text + '\n';
+    text += std::string(line) + ' ' + ask(query, *place, request).text + '\n';
   }
   return text;
 }
 
 }  // namespace
 
-std::optional<Place> parse_place(std::string_view text) {
+std::optional<Place> parse_place(std::string_view text, bool for_device) {
+  const int decimals = for_device ? PlaceQuery::kDeviceDecimals : kPlaceDecimals;
   constexpr const char* kBetween = " \t,;";
   std::vector<Decimal> numbers;
   while (true) {
     const size_t begin = text.find_first_not_of(kBetween);
     if (begin == std::string_view::npos) break;
     const size_t end = std::min(text.find_first_of(kBetween, begin), text.size());
-    const auto number = parse_decimal(text.substr(begin, end - begin), PlaceQuery::kDecimals);
+    const auto number = parse_decimal(text.substr(begin, end - begin), decimals);
     if (!number) return std::nullopt;
     numbers.push_back(*number);
     text.remove_prefix(end);
@@ -101,10 +98,10 @@ int run_height(const HeightRequest& request) {
   try {
     PlaceQuery query(request.input);
     if (!request.place) {
-      print(answered(query, without_mark(read_file("-")), request.lattice));
+      print(answered(query, without_mark(read_file("-")), request));
       return 0;
     }
-    const Answer answer = ask(query, *request.place, request.lattice);
+    const Answer answer = ask(query, *request.place, request);
     print(answer.text + '\n');
     return code_for(answer.kind);
   } catch (const Damaged& damaged) {

@@ -8,6 +8,7 @@
 #include "encoder/base/suffix.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
+#include "encoder/exact/real_place.hpp"
 #include "encoder/export/autopilot_block.hpp"
 
 namespace microtin::exporting {
@@ -17,20 +18,18 @@ namespace {
 class GeoAxis {
  public:
   GeoAxis(const Axis& axis, int64_t low, int64_t high)
-      : axis_(axis), low_(low * 256), high_(high * 256) {}
+      : axis_(axis), map_(map_between({0, 1, kDegree}, axis)), low_(low), high_(high) {}
 
-  // With 8 fractional bits, kept within the surface. Nothing if it is farther away than that.
-  std::optional<int64_t> inside(int64_t degrees, double most_beyond, bool* is_beyond) const {
-    const Wide numerator =
-        Wide{degrees} * static_cast<Wide>(axis_.denominator) - Wide{axis_.offset} * kDegree;
-    const Wide denominator = static_cast<Wide>(axis_.numerator) * kDegree;
-    const Wide place = round_divide(256 * numerator, denominator);
-    const Wide kept = std::clamp<Wide>(place, low_, high_);
-    if (kept == place) return static_cast<int64_t>(kept);
+  // The lattice coordinate, kept within the surface. Nothing if it is farther away than that.
+  std::optional<RealCoordinate> inside(int64_t degrees, double most_beyond, bool* is_beyond) const {
+    const Wide place = map_.numerator(degrees),
+               kept = std::clamp(place, low_ * map_.step, high_ * map_.step);
+    if (kept == place) return coordinate_of(map_, degrees, axis_);
     *is_beyond = true;
-    const double beyond = std::abs(static_cast<double>(place - kept)) / 256 * step_of(axis_);
-    if (beyond * 1e7 > most_beyond) return std::nullopt;
-    return static_cast<int64_t>(kept);
+    const double beyond =
+        std::abs(static_cast<double>(place - kept) / static_cast<double>(map_.step));
+    if (beyond * step_of(axis_) * 1e7 > most_beyond) return std::nullopt;
+    return RealCoordinate{static_cast<int64_t>(kept / map_.step), 0, 1};
   }
 
   double degrees(int64_t lattice) const {
@@ -39,12 +38,12 @@ class GeoAxis {
 
  private:
   Axis axis_;
-  int64_t low_, high_;
+  LatticeMap map_;
+  Wide low_, high_;
 };
 
-int32_t millimetres(int32_t height, const Axis& z) {
-  const Wide numerator = Wide{z.offset} * 65536 + static_cast<Wide>(z.numerator) * height;
-  const Wide rounded = round_divide(numerator * 1000, static_cast<Wide>(z.denominator) * 65536);
+int32_t millimetres(const ExactHeight& height, const Axis& z) {
+  const Wide rounded = mantissa_at(rounded_height(z, height, 3), 3);
   if (rounded < -32768000 || rounded > 32767000) {
     throw Error("a height of " + std::to_string(static_cast<int64_t>(rounded / 1000)) +
                 " m does not fit 16 bits");
@@ -67,14 +66,28 @@ AutopilotPosts posts_of(const SampledSurface& surface, const AutopilotLayout& la
       const auto lattice_y = y.inside(at.latitude, reach, &is_beyond);
       const auto lattice_x = x.inside(at.longitude, reach / scale, &is_beyond);
       if (!lattice_x || !lattice_y) continue;
-      const auto height = surface.height_at(*lattice_x, *lattice_y);
-      if (!height) continue;
+      const ExactAnswer answer = surface.height_at(place_of(*lattice_x, *lattice_y));
+      if (answer.kind != MICROTIN_HEIGHT) continue;
       posts.heights[size_t{row} * layout.columns() + column] =
-          millimetres(*height, surface.placement.z);
+          millimetres(answer.height, surface.placement.z);
       posts.beyond += is_beyond ? 1u : 0u;
     }
   }
   return posts;
+}
+
+// The surface by the longitudes of a cell: they may be a turn from its own.
+SampledSurface named_as(DegreeCell cell, SampledSurface surface) {
+  for (const Axis& name : names_of_x(surface.placement.x, surface.is_degrees)) {
+    const GeoAxis x(name, surface.x_min, surface.x_max);
+    if (x.degrees(surface.x_min) >= static_cast<double>((cell.longitude + 1) * kDegree) ||
+        x.degrees(surface.x_max) <= static_cast<double>(cell.longitude * kDegree)) {
+      continue;
+    }
+    surface.placement.x = name;
+    break;
+  }
+  return surface;
 }
 
 // The height at a place in metres, as the firmware finds it; nothing if a post of four is missing.
@@ -123,10 +136,15 @@ void measure(const SampledSurface& surface, const AutopilotLayout& layout, Autop
     for (int64_t column = surface.x_min; column <= surface.x_max; column += step) {
       const double longitude = x.degrees(column);
       if (longitude >= static_cast<double>(origin.longitude + kDegree)) break;
+      if (longitude < static_cast<double>(origin.longitude)) continue;
+      const ExactAnswer answer = surface.height_at(place_on_lattice(column, row));
+      if (answer.kind != MICROTIN_HEIGHT) continue;
+      ++file.asked;
+      const GeoPlace place{std::llround(latitude), std::llround(longitude)};
+      file.missed += layout.is_found_in_single_precision(place) ? 0u : 1u;
       const auto found = grid_height(layout, file.bytes, latitude, longitude);
-      const auto height = found ? surface.height_at(column * 256, row * 256) : std::nullopt;
-      if (!height) continue;
-      const double there = offset_of(z) + step_of(z) * *height / 65536, error = *found - there;
+      if (!found) continue;
+      const double error = *found - real_height(z, answer.height);
       ++file.places;
       squares += error * error;
       file.largest = std::max(file.largest, std::abs(error));
@@ -144,8 +162,13 @@ std::optional<Autopilot> autopilot_of(const std::string& path) {
   return std::nullopt;
 }
 
-AutopilotFile autopilot_file(const SampledSurface& surface, Autopilot autopilot, DegreeCell cell,
+AutopilotFile autopilot_file(const SampledSurface& any, Autopilot autopilot, DegreeCell cell,
                              uint32_t spacing) {
+  const SampledSurface surface = named_as(cell, any);
+  // From here on firmware takes the shortest degree of longitude that it knows for all of them.
+  if (cell.latitude == -90 || cell.latitude == 89) {
+    throw Error("firmware's distances end at 89.43 degrees: cells at the poles are not written");
+  }
   const AutopilotLayout layout(autopilot, cell, spacing);
   const AutopilotPosts posts = posts_of(surface, layout);
   AutopilotFile file;

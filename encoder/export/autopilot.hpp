@@ -31,11 +31,15 @@ struct AutopilotFile {
   // What the grid, read as the firmware does, is away from the surface; metres.
   uint64_t places = 0;  // of the lattice that were looked at
   double largest = 0, rms = 0;
+
+  // Places of the lattice with terrain, and those of them that firmware in single precision misses.
+  uint64_t asked = 0, missed = 0;
 };
 
 // The surface as posts every `spacing` (10 .. 1000) metres. Its places must be in degrees, its
-// heights in metres. Throws Error if the surface has no height in the cell, where heights do not
-// fit 16 bits or, in a block of INAV's, 10 bits of 2 m above the lowest, and as the surface does.
+// heights in metres. Throws Error at the poles, where firmware's distances are not those of the
+// file, if the surface has no height in the cell, where heights do not fit 16 bits or, in a block
+// of INAV's, 10 bits of 2 m above the lowest, and as the surface does.
 AutopilotFile autopilot_file(const SampledSurface& surface, Autopilot autopilot, DegreeCell cell,
                              uint32_t spacing);
 

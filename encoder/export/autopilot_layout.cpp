@@ -3,11 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace microtin::exporting {
 namespace {
 
 constexpr double kMetres = 0.011131884502145034F;  // in 1e-7 degrees of a meridian
+
+// As longitude_scale, all in single precision.
+float single_scale(int64_t latitude) {
+  constexpr float kRadian = 1.0e-7F * 0.01745329252F;
+  return std::max(std::cos(static_cast<float>(latitude) * kRadian), 0.01F);
+}
 
 }  // namespace
 
@@ -43,6 +50,32 @@ void AutopilotLayout::locate(double latitude, double longitude, double* row, dou
   *row = north * kMetres / spacing_;
   *column = (longitude - static_cast<double>(origin_.longitude)) * kMetres *
             scale_on_the_way(north) / spacing_;
+}
+
+GeoPlace AutopilotLayout::single_corner(uint32_t block_row, uint32_t block_column) const {
+  const auto inverse = static_cast<float>(kPerMetre);
+  const auto north =
+      static_cast<int64_t>(static_cast<float>(block_row * kOwnRows * spacing_) * inverse);
+  const auto east = static_cast<int64_t>(static_cast<float>(block_column * kOwnColumns * spacing_) *
+                                         inverse / single_scale(origin_.latitude + north / 2));
+  return {north, east};
+}
+
+bool AutopilotLayout::is_found_in_single_precision(GeoPlace place) const {
+  constexpr int64_t kTolerance = 5;  // ArduPilot's; INAV's is larger
+  const auto metres = static_cast<float>(kMetres), step = static_cast<float>(spacing_);
+  const int64_t up = place.latitude - origin_.latitude;
+  const int64_t middle =
+      autopilot_ == Autopilot::kInav ? place.latitude : origin_.latitude + up / 2;
+  const float north = static_cast<float>(up) * metres;
+  const float east =
+      static_cast<float>(place.longitude - origin_.longitude) * metres * single_scale(middle);
+  const uint32_t row = static_cast<uint32_t>(north / step) / kOwnRows;
+  const uint32_t column = static_cast<uint32_t>(east / step) / kOwnColumns;
+  if (row >= block_rows_ || column >= block_columns_) return false;
+  const GeoPlace written = corner(row, column), expected = single_corner(row, column);
+  return std::abs(written.latitude - origin_.latitude - expected.latitude) <= kTolerance &&
+         std::abs(written.longitude - origin_.longitude - expected.longitude) <= kTolerance;
 }
 
 double AutopilotLayout::scale_on_the_way(double north) const {

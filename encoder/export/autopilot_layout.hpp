@@ -59,7 +59,14 @@ class AutopilotLayout {
   // Rows and columns from the corner to a place, as the firmware counts.
   void locate(double latitude, double longitude, double* row, double* column) const;
 
+  // Whether firmware that computes in single precision finds a block for a place in the cell, and
+  // takes its corner for right: near the poles its roundings move places into other columns and
+  // corners out of tolerance.
+  bool is_found_in_single_precision(GeoPlace place) const;
+
  private:
+  // A corner's distance from the cell's, as such firmware expects it.
+  GeoPlace single_corner(uint32_t block_row, uint32_t block_column) const;
   double latitude_at(double north) const { return static_cast<double>(origin_.latitude) + north; }
   double scale_on_the_way(double north) const;
   int64_t north_of(uint32_t row) const;

@@ -11,21 +11,17 @@
 namespace microtin::exporting {
 namespace {
 
-// Answers of the height query as text.
+// Heights as text.
 class HeightText {
  public:
   explicit HeightText(const Axis& z)
       : z_(z), decimals_(std::min(decimals_of(z) + 3, kMaxDecimals)) {}
 
-  Decimal value(int32_t height) const {
-    const Wide numerator = Wide{z_.offset} * 65536 + static_cast<Wide>(z_.numerator) * height;
-    const Wide denominator = static_cast<Wide>(z_.denominator) * 65536;
-    return make_decimal(round_divide(numerator * power_of_ten(decimals_), denominator), decimals_);
-  }
+  Decimal value(const ExactHeight& height) const { return rounded_height(z_, height, decimals_); }
 
   // Characters that a height has at most, up to one of the lattice's on its side of zero.
   size_t longest(int32_t step) const {
-    const Wide whole = mantissa_at(value(step * 65536), decimals_) / power_of_ten(decimals_);
+    const Wide whole = mantissa_at(value({step, 0, 1}), decimals_) / power_of_ten(decimals_);
     const std::string digits = std::to_string(static_cast<int64_t>(magnitude(whole)));
     return std::string("-.").size() + digits.size() + static_cast<size_t>(decimals_);
   }
@@ -47,7 +43,7 @@ class GridText {
  public:
   explicit GridText(const SampledSurface& surface)
       : heights_(surface.placement.z),
-        no_data_(std::to_string(no_data_below(heights_.value(surface.lowest * 65536)))) {}
+        no_data_(std::to_string(no_data_below(heights_.value({surface.lowest, 0, 1})))) {}
 
   std::string header(const PostGrid& posts) const {
     const std::string dx = step_text(posts.x), dy = step_text(posts.y);
@@ -58,9 +54,11 @@ class GridText {
            no_data_ + '\n';
   }
 
-  std::string height(const std::optional<int32_t>& height) const {
-    return height ? to_string(heights_.value(*height)) : no_data_;
+  std::string height(const ExactAnswer& answer) const {
+    return answer.kind == MICROTIN_HEIGHT ? to_string(heights_.value(answer.height)) : no_data_;
   }
+
+  const std::string& no_data() const { return no_data_; }
 
  private:
   static std::string step_text(const Axis& axis) {
@@ -76,23 +74,22 @@ class GridText {
 double most_grid_bytes(const SampledSurface& surface, const PostGrid& posts) {
   const HeightText heights(surface.placement.z);
   const size_t longest =
-      std::max({GridText(surface).height(std::nullopt).size(), heights.longest(surface.lowest),
+      std::max({GridText(surface).no_data().size(), heights.longest(surface.lowest),
                 heights.longest(surface.highest)});
   return static_cast<double>(posts.columns) * static_cast<double>(posts.rows) *
          static_cast<double>(longest + 1);
 }
 
 void export_grid(const SampledSurface& surface, const PostGrid& posts, OutputFile& out) {
-  const PostPlaces x(posts.x, surface.placement.x, surface.x_min, surface.x_max);
-  const PostPlaces y(posts.y, surface.placement.y, surface.y_min, surface.y_max);
+  const PostPlaces x = places_of_x(surface, posts.x), y = places_of_y(surface, posts.y);
   const GridText text(surface);
   out.write(text.header(posts));
   for (int64_t row = posts.rows; row-- > 0;) {
-    const std::optional<int64_t> py = y(row);
+    const std::optional<RealCoordinate> py = y(row);
     for (int64_t column = 0; column < posts.columns; ++column) {
-      const std::optional<int64_t> px = x(column);
-      const auto height = px && py ? surface.height_at(*px, *py) : std::nullopt;
-      out.write((column != 0 ? " " : "") + text.height(height));
+      const std::optional<RealCoordinate> px = x(column);
+      out.write((column != 0 ? " " : "") +
+                (px && py ? text.height(surface.height_at(place_of(*px, *py))) : text.no_data()));
     }
     out.write("\n");
   }

@@ -12,12 +12,11 @@ namespace microtin::exporting {
 // At least as many bytes as export_grid writes.
 double most_grid_bytes(const SampledSurface& surface, const PostGrid& posts);
 
-// Heights at posts, which reach beyond the surface where they like. Each is that of its place,
-// rounded to 1/256 of a lattice step, with three decimals more than the step of heights has, but at
-// most nine. Corner and cell size have all their decimals, or 12, which import_asc reads as the
-// fraction they stand for. Posts without a height get a NODATA_value below all others. Written post
-// by post: memory is the surface's alone. Throws Error if the surface
-// cannot be asked.
+// Heights at posts, which reach beyond the surface where they like. Each is that of the exact
+// plane, rounded to three decimals more than the step of heights has, but at most nine. Corner and
+// cell size have all their decimals, or 12, which import_asc reads as the fraction they stand for.
+// Posts without a height get a NODATA_value below all others. Written post by post: memory is the
+// surface's alone. Throws Error if the surface cannot be asked.
 void export_grid(const SampledSurface& surface, const PostGrid& posts, OutputFile& out);
 
 }  // namespace microtin::exporting

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -13,18 +16,22 @@
 namespace microtin::exporting {
 namespace {
 
-constexpr int64_t kFraction = 256;  // places have 8 fractional bits
+constexpr ExactAnswer kNothing{MICROTIN_OUTSIDE, {0, 0, 1}};
 
-bool holds(const SampledSurface& surface, int64_t x, int64_t y) {
-  return surface.x_min * kFraction <= x && x <= surface.x_max * kFraction &&
-         surface.y_min * kFraction <= y && y <= surface.y_max * kFraction;
+bool holds(int64_t low, int64_t high, int64_t whole, Wide part) {
+  return low <= whole && (whole < high || (whole == high && part == 0));
+}
+
+bool holds(const SampledSurface& surface, const RealPlace& p) {
+  return holds(surface.x_min, surface.x_max, p.x, p.x_part) &&
+         holds(surface.y_min, surface.y_max, p.y, p.y_part);
 }
 
 // A sampler answers in the surface's box alone.
 template <class Sampler>
 void ask(SampledSurface& surface, std::shared_ptr<Sampler> sampler) {
-  surface.height_at = [box = surface, sampler](int64_t x, int64_t y) {
-    return holds(box, x, y) ? sampler->height_at(x, y) : std::nullopt;
+  surface.height_at = [box = surface, sampler](const RealPlace& place) {
+    return holds(box, place) ? sampler->height_at(place) : kNothing;
   };
 }
 
@@ -35,17 +42,13 @@ class MeshSampler {
   MeshSampler(const MeshSampler&) = delete;
   MeshSampler& operator=(const MeshSampler&) = delete;
 
-  std::optional<int32_t> height_at(int64_t x, int64_t y) {
+  ExactAnswer height_at(const RealPlace& place) {
     constexpr uint32_t kNearby = 16;  // steps
-    const auto px = static_cast<int32_t>(x), py = static_cast<int32_t>(y);
-    int32_t height = 0;
-    microtin_answer answer = microtin_height_at_limited(mesh_, px, py, 0, kNearby, &hint_, &height);
-    if (answer == MICROTIN_NOT_YET) {
-      hint_ = microtin_buckets_hint(buckets(), px, py);
-      answer = microtin_height_at(mesh_, px, py, 0, &hint_, &height);
-    }
-    if (answer != MICROTIN_HEIGHT) return std::nullopt;
-    return height;
+    const ExactAnswer answer = exact_answer(mesh_, place, kNearby, &hint_);
+    if (answer.kind != MICROTIN_NOT_YET) return answer;
+    hint_ = microtin_buckets_hint(buckets(), static_cast<int32_t>(place.x * 256),
+                                  static_cast<int32_t>(place.y * 256));
+    return exact_answer(mesh_, place, 0, &hint_);
   }
 
  private:
@@ -67,19 +70,22 @@ class MeshSampler {
 
 class PackSampler {
  public:
-  PackSampler(const PackFile& pack, uint64_t most_vertices)
-      : pack_(pack), grid_(pack.grid()), most_vertices_(most_vertices) {}
+  PackSampler(const PackFile& pack, BadTiles bad_tiles, uint64_t most_vertices)
+      : pack_(pack), grid_(pack.grid()), bad_tiles_(bad_tiles), most_vertices_(most_vertices) {}
 
-  std::optional<int32_t> height_at(int64_t x, int64_t y) {
-    const Range columns = tiles(x, grid_.width, tile_columns(grid_));
-    const Range rows = tiles(y, grid_.height, tile_rows(grid_));
+  // A height that any tile has counts, then that one is bad, then that none has terrain there.
+  ExactAnswer height_at(const RealPlace& place) {
+    const Range columns = tiles(place.x, place.x_part, grid_.width, tile_columns(grid_));
+    const Range rows = tiles(place.y, place.y_part, grid_.height, tile_rows(grid_));
+    ExactAnswer worst{MICROTIN_IN_VOID, {0, 0, 1}};
     for (uint32_t row = rows.first; row <= rows.last; ++row) {
       for (uint32_t column = columns.first; column <= columns.last; ++column) {
-        const auto height = ask_tile(row * tile_columns(grid_) + column, x, y);
-        if (height) return height;
+        const ExactAnswer answer = ask_tile(row * tile_columns(grid_) + column, place);
+        if (answer.kind == MICROTIN_HEIGHT) return answer;
+        if (answer.kind == MICROTIN_IN_BAD_TILE) worst = answer;
       }
     }
-    return std::nullopt;
+    return worst;
   }
 
  private:
@@ -92,30 +98,45 @@ class PackSampler {
 
     std::optional<DecodedTerrain> terrain;  // nothing if there is none
     MeshSampler sampler;
+    bool is_bad = false;
     uint64_t asked = 0;  // when it was asked last
 
     uint32_t vertices() const { return terrain ? microtin_vertex_count(terrain->mesh()) : 0; }
   };
 
   // On a border two tiles have a say.
-  static Range tiles(int64_t place, uint32_t side, uint32_t count) {
-    const int64_t width = side * kFraction;
-    const auto last = static_cast<uint32_t>(std::min<int64_t>(place / width, count - 1));
-    return {place % width == 0 && place == last * width && last != 0 ? last - 1 : last, last};
+  static Range tiles(int64_t whole, Wide part, uint32_t side, uint32_t count) {
+    const auto last = static_cast<uint32_t>(std::min<int64_t>(whole / side, count - 1));
+    const bool is_border = part == 0 && last != 0 && whole == int64_t{last} * side;
+    return {is_border ? last - 1 : last, last};
   }
 
-  std::optional<int32_t> ask_tile(uint32_t number, int64_t x, int64_t y) {
-    auto found = tiles_.find(number);
-    if (found == tiles_.end()) {
-      make_room();
-      found = tiles_.try_emplace(number, pack_.tile(number)).first;
-      vertices_ += found->second.vertices();
+  Tile& tile_of(uint32_t number) {
+    const auto found = tiles_.find(number);
+    if (found != tiles_.end()) return found->second;
+    make_room();
+    try {
+      Tile& tile = tiles_.try_emplace(number, pack_.tile(number)).first->second;
+      vertices_ += tile.vertices();
+      return tile;
+    } catch (const Error&) {
+      if (bad_tiles_ == BadTiles::kThrow) throw;
     }
-    Tile& tile = found->second;
+    Tile& bad = tiles_.try_emplace(number, std::nullopt).first->second;
+    bad.is_bad = true;
+    return bad;
+  }
+
+  ExactAnswer ask_tile(uint32_t number, const RealPlace& place) {
+    Tile& tile = tile_of(number);
     tile.asked = ++clock_;
-    if (!tile.terrain) return std::nullopt;
+    if (tile.is_bad) return {MICROTIN_IN_BAD_TILE, {0, 0, 1}};
+    if (!tile.terrain) return {MICROTIN_IN_VOID, {0, 0, 1}};
     const TileBox box = tile_box(grid_, number);
-    return tile.sampler.height_at(x - box.x * kFraction, y - box.y * kFraction);
+    RealPlace local = place;
+    local.x -= box.x;
+    local.y -= box.y;
+    return tile.sampler.height_at(local);
   }
 
   // For one tile more.
@@ -135,6 +156,7 @@ class PackSampler {
 
   const PackFile& pack_;
   TileGrid grid_;
+  BadTiles bad_tiles_;
   std::map<uint32_t, Tile> tiles_;
   uint64_t most_vertices_, vertices_ = 0;  // of the tiles that are kept
   uint64_t clock_ = 0;
@@ -158,14 +180,14 @@ SampledSurface sampled(const microtin_mesh* mesh) {
   return surface;
 }
 
-SampledSurface sampled(const PackFile& pack, uint64_t kept_vertices) {
+SampledSurface sampled(const PackFile& pack, BadTiles bad_tiles, uint64_t kept_vertices) {
   SampledSurface surface;
   surface.placement = pack.metadata().placement;
   surface.x_max = pack.grid().x_max;
   surface.y_max = pack.grid().y_max;
   surface.lowest = pack.header().lowest;
   surface.highest = pack.header().highest;
-  ask(surface, std::make_shared<PackSampler>(pack, kept_vertices));
+  ask(surface, std::make_shared<PackSampler>(pack, bad_tiles, kept_vertices));
   return surface;
 }
 

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Heights anywhere on a stream's or a pack's surface, by the product's own query.
+// Heights anywhere on a stream's or a pack's surface: of its exact plane, at the real place.
 #ifndef MICROTIN_ENCODER_EXPORT_HEIGHT_SAMPLER_HPP
 #define MICROTIN_ENCODER_EXPORT_HEIGHT_SAMPLER_HPP
 
 #include <cstdint>
 #include <functional>
-#include <map>
-#include <memory>
-#include <optional>
 
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
+#include "encoder/terrain/exact_query.hpp"
 
 namespace microtin::exporting {
 
@@ -19,18 +17,23 @@ struct SampledSurface {
   Placement placement;
   int64_t x_min = 0, y_min = 0, x_max = 0, y_max = 0;  // the box that holds it
   int32_t lowest = 0, highest = 0;                     // vertex
-  // The height at a place, given with 8 fractional bits: with 16 fractional bits, nothing where
-  // there is none. Quick anywhere, quickest near the place before.
-  std::function<std::optional<int32_t>(int64_t x, int64_t y)> height_at;
+  bool is_degrees = false;  // places whose x is 360 more or less are the same
+  // The exact height at a place, HEIGHT, or OUTSIDE, IN_VOID or IN_BAD_TILE. Quick anywhere,
+  // quickest near the place before.
+  std::function<ExactAnswer(const RealPlace& place)> height_at;
 };
 
 // The mesh must outlive it.
 SampledSurface sampled(const microtin_mesh* mesh);
 
+// What becomes of a tile that cannot be read: Error is thrown as by PackFile::tile, or its places
+// are answered IN_BAD_TILE.
+enum class BadTiles : uint8_t { kThrow, kAnswer };
+
 // Decodes tiles when they are asked and keeps as many as two rows have, those asked last; fewer,
 // but four, if they have more vertices together than `kept_vertices`. The pack must outlive it.
-// Throws Error, also from height_at, as PackFile::tile does.
-SampledSurface sampled(const PackFile& pack, uint64_t kept_vertices = kMaxVertices);
+SampledSurface sampled(const PackFile& pack, BadTiles bad_tiles = BadTiles::kThrow,
+                       uint64_t kept_vertices = kMaxVertices);
 
 }  // namespace microtin::exporting
 

@@ -13,8 +13,6 @@
 namespace microtin::exporting {
 namespace {
 
-constexpr Wide kFraction = 256;  // places have 8 fractional bits
-
 // Posts along one axis, from the first at `axis` on.
 struct Row {
   Axis axis;
@@ -119,10 +117,26 @@ PostGrid posts_within(const PostGrid& grid, const Extent& extent) {
                  row_within(grid.y, extent.south, extent.north));
 }
 
-std::optional<int64_t> PostPlaces::operator()(int64_t post) const {
-  const Wide place = round_divide(kFraction * map_.numerator(post), map_.step);
-  if (place < kFraction * low_ || place > kFraction * high_) return std::nullopt;
-  return static_cast<int64_t>(place);
+PostPlaces::PostPlaces(const Axis& posts, const std::vector<Axis>& names, int64_t low, int64_t high)
+    : low_(low), high_(high) {
+  for (const Axis& name : names) names_.push_back({map_between(posts, name), name});
+}
+
+std::optional<RealCoordinate> PostPlaces::operator()(int64_t post) const {
+  for (const Name& name : names_) {
+    const std::optional<RealCoordinate> at = coordinate_of(name.map, post, name.axis);
+    if (!at || at->whole < low_) continue;
+    if (at->whole < high_ || (at->whole == high_ && at->part == 0)) return at;
+  }
+  return std::nullopt;
+}
+
+PostPlaces places_of_x(const SampledSurface& s, const Axis& posts) {
+  return {posts, names_of_x(s.placement.x, s.is_degrees), s.x_min, s.x_max};
+}
+
+PostPlaces places_of_y(const SampledSurface& s, const Axis& posts) {
+  return {posts, {s.placement.y}, s.y_min, s.y_max};
 }
 
 bool meets(const SampledSurface& surface, const PostGrid& posts) {
@@ -132,7 +146,11 @@ bool meets(const SampledSurface& surface, const PostGrid& posts) {
     return map.numerator(0) <= high * map.step && map.numerator(Wide{count} - 1) >= low * map.step;
   };
   const Placement& p = surface.placement;
-  return overlaps(posts.x, posts.columns, p.x, surface.x_min, surface.x_max) &&
+  const std::vector<Axis> names = names_of_x(p.x, surface.is_degrees);
+  return std::any_of(names.begin(), names.end(),
+                     [&](const Axis& x) {
+                       return overlaps(posts.x, posts.columns, x, surface.x_min, surface.x_max);
+                     }) &&
          overlaps(posts.y, posts.rows, p.y, surface.y_min, surface.y_max);
 }
 

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/lattice_map.hpp"
+#include "encoder/exact/real_place.hpp"
 #include "encoder/export/height_sampler.hpp"
 #include "encoder/layers.hpp"
 
@@ -41,17 +43,24 @@ PostGrid posts_within(const PostGrid& grid, const Extent& extent);
 // From posts of one axis to their places on the lattice.
 class PostPlaces {
  public:
-  // Places lie between `low` and `high`. No step is 0.
-  PostPlaces(const Axis& posts, const Axis& lattice, int64_t low, int64_t high)
-      : map_(map_between(posts, lattice)), low_(low), high_(high) {}
+  // Places lie between `low` and `high` by any of the lattice's axes. No step is 0.
+  PostPlaces(const Axis& posts, const std::vector<Axis>& names, int64_t low, int64_t high);
 
-  // With 8 fractional bits, to the nearest; nothing if it is not between these.
-  std::optional<int64_t> operator()(int64_t post) const;
+  // Exact (see coordinate_of); nothing if it is not between these.
+  std::optional<RealCoordinate> operator()(int64_t post) const;
 
  private:
-  LatticeMap map_;
+  struct Name {
+    LatticeMap map;
+    Axis axis;
+  };
+  std::vector<Name> names_;
   int64_t low_, high_;
 };
+
+// Places of a grid's columns and rows on a surface.
+PostPlaces places_of_x(const SampledSurface& surface, const Axis& posts);
+PostPlaces places_of_y(const SampledSurface& surface, const Axis& posts);
 
 // If the box of the posts meets that of the surface.
 bool meets(const SampledSurface& surface, const PostGrid& posts);

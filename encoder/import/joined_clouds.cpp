@@ -11,6 +11,7 @@
 #include "encoder/exact/coordinates.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/import/class_counts.hpp"
+#include "encoder/import/longitudes.hpp"
 #include "encoder/import/reference.hpp"
 
 namespace microtin::importing {
@@ -118,9 +119,30 @@ void expect_same_classes(const NamedSource& first, const NamedSource& part, cons
               ": --classes says which ones to take of all files");
 }
 
-}  // namespace
+// In degrees, files beyond 180 continue their neighbours' longitudes. Says so for the user.
+std::string turn(std::vector<NamedSource>& parts) {
+  std::vector<LongitudeSpan> spans;
+  for (const NamedSource& part : parts) {
+    const auto& cloud = std::get<PointCloud>(part.source);
+    if (cloud.reference.horizontal_unit != Unit::kDegree || cloud.points.empty()) return "";
+    const auto [west, east] =
+        std::minmax_element(cloud.points.begin(), cloud.points.end(),
+                            [](const SourcePoint& p, const SourcePoint& q) { return p.x < q.x; });
+    const auto scale = static_cast<double>(power_of_ten(cloud.xy_decimals));
+    spans.push_back({static_cast<double>(west->x) / scale, static_cast<double>(east->x) / scale});
+  }
+  const std::vector<bool> turned = turned_east(spans);
+  double east = 0;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    if (!turned[i]) continue;
+    auto& cloud = std::get<PointCloud>(parts[i].source);
+    for (SourcePoint& p : cloud.points) p.x += 360 * power_of_ten(cloud.xy_decimals);
+    east = std::max(east, spans[i].east + 360);
+  }
+  return turned_text(turned, east);
+}
 
-PointCloud join_clouds(std::vector<NamedSource> parts) {
+PointCloud joined(std::vector<NamedSource> parts) {
   PointCloud whole = std::move(std::get<PointCloud>(parts[0].source));
   std::vector<size_t> ends = {whole.points.size()};
   for (size_t i = 1; i < parts.size(); ++i) {
@@ -140,6 +162,15 @@ PointCloud join_clouds(std::vector<NamedSource> parts) {
   }
   whole.selection = std::to_string(parts.size()) + " files" + SharedPlaces(whole, ends).text(parts);
   if (whole.classes) whole.selection += "; " + taken_text(whole.counts, *whole.classes);
+  return whole;
+}
+
+}  // namespace
+
+PointCloud join_clouds(std::vector<NamedSource> parts) {
+  const std::string turned = turn(parts);
+  PointCloud whole = joined(std::move(parts));
+  whole.selection += turned;
   return whole;
 }
 

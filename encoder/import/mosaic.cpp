@@ -10,7 +10,9 @@
 #include "encoder/exact/coordinates.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
+#include "encoder/exact/real_place.hpp"
 #include "encoder/import/joined_clouds.hpp"
+#include "encoder/import/longitudes.hpp"
 #include "encoder/import/reference.hpp"
 
 namespace microtin::importing {
@@ -53,6 +55,33 @@ int64_t place_on(const Axis& axis, const Axis& grid, const std::string& path,
   return static_cast<int64_t>(place);
 }
 
+// Frames of rasters; in degrees those beyond 180 continue their neighbours' longitudes.
+struct Frames {
+  explicit Frames(const std::vector<NamedSource>& sources) {
+    std::vector<LongitudeSpan> spans;
+    bool is_degrees = true;
+    for (const NamedSource& source : sources) {
+      all.push_back(std::get<std::unique_ptr<RasterReader>>(source.source)->frame());
+      const Raster& frame = all.back();
+      is_degrees = is_degrees && frame.reference.horizontal_unit == Unit::kDegree;
+      const double west = offset_of(frame.x);
+      spans.push_back({west, west + step_of(frame.x) * (frame.width - 1)});
+    }
+    if (!is_degrees) return;
+    const std::vector<bool> turned = turned_east(spans);
+    double east = 0;
+    for (size_t i = 0; i < all.size(); ++i) {
+      if (!turned[i]) continue;
+      all[i].x = names_of_x(all[i].x, true).back();
+      east = std::max(east, spans[i].east + 360);
+    }
+    text = turned_text(turned, east);
+  }
+
+  std::vector<Raster> all;
+  std::string text;  // for the user
+};
+
 void expect_same_cells(const Raster& frame, const Raster& grid, const std::string& path,
                        const std::string& first) {
   const LatticeMap x = map_between(frame.x, grid.x), y = map_between(frame.y, grid.y);
@@ -78,10 +107,8 @@ struct Part {
   }
 };
 
-Part part_of(const NamedSource& first, NamedSource& named) {
-  auto& raster = std::get<std::unique_ptr<RasterReader>>(named.source);
-  const Raster& grid = std::get<std::unique_ptr<RasterReader>>(first.source)->frame();
-  const Raster& frame = raster->frame();
+Part part_of(const NamedSource& first, const Raster& grid, const NamedSource& named,
+             const Raster& frame) {
   expect_alike(first, named, grid.reference, frame.reference);
   expect_same_cells(frame, grid, named.path, first.path);
   return {named.path,
@@ -101,8 +128,11 @@ struct Difference {
 class Mosaic : public RasterReader {
  public:
   explicit Mosaic(std::vector<NamedSource> sources) {
-    for (NamedSource& source : sources) parts_.push_back(part_of(sources[0], source));
-    frame_ = std::get<std::unique_ptr<RasterReader>>(sources[0].source)->frame();
+    const Frames frames(sources);
+    frame_ = frames.all[0];
+    for (size_t i = 0; i < sources.size(); ++i) {
+      parts_.push_back(part_of(sources[0], frame_, sources[i], frames.all[i]));
+    }
     for (size_t i = 0; i < parts_.size(); ++i) {
       add_remarks(std::get<std::unique_ptr<RasterReader>>(sources[i].source)->frame().reference,
                   frame_.reference);
@@ -111,6 +141,7 @@ class Mosaic : public RasterReader {
     }
     find_frame();
     compare_parts();
+    frame_.selection += frames.text;
   }
 
   Raster read(const PostRectangle& r) const override {

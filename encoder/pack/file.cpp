@@ -154,9 +154,9 @@ Metadata read_placement_and_notes(const PackHeader& header, const uint8_t* bytes
   return metadata;
 }
 
-PackFile::PackFile(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {
+PackFile::PackFile(std::unique_ptr<ByteSource> bytes, Index index) : bytes_(std::move(bytes)) {
   read_header();
-  read_index();
+  if (index == Index::kNow) read_index();
 }
 
 void PackFile::read_header() {
@@ -183,12 +183,14 @@ void PackFile::read_index() {
     const uint64_t count = std::min<uint64_t>(tiles - entries_.size(), kAtOnce);
     const uint64_t offset = pack_entry_start(header_, static_cast<uint32_t>(entries_.size()));
     const Bytes bytes = bytes_at(*bytes_, offset, count * kPackEntryBytes);
-    for (uint64_t i = 0; i < count; ++i) read_entry(bytes.data() + i * kPackEntryBytes);
+    for (uint64_t i = 0; i < count; ++i) {
+      entries_.push_back(
+          entry_at(static_cast<uint32_t>(entries_.size()), bytes.data() + i * kPackEntryBytes));
+    }
   }
 }
 
-void PackFile::read_entry(const uint8_t* at) {
-  const auto tile = static_cast<uint32_t>(entries_.size());
+PackEntry PackFile::entry_at(uint32_t tile, const uint8_t* at) const {
   if (pack_entry_check(header_check_, tile, at) != read_u32(at + kPackEntryBytes - kCheckBytes)) {
     throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_CHECKSUM));
   }
@@ -196,7 +198,12 @@ void PackFile::read_entry(const uint8_t* at) {
   if (!read_pack_entry(at, header_, &entry)) {
     throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_MALFORMED));
   }
-  entries_.push_back(entry);
+  return entry;
+}
+
+PackEntry PackFile::entry_of(uint32_t tile) const {
+  if (!entries_.empty()) return entries_[tile];
+  return entry_at(tile, bytes_at(*bytes_, pack_entry_start(header_, tile), kPackEntryBytes).data());
 }
 
 uint32_t PackFile::vertices(uint32_t number) const {
@@ -210,7 +217,7 @@ uint32_t PackFile::vertices(uint32_t number) const {
 }
 
 std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
-  const PackEntry& entry = entries_[number];
+  const PackEntry entry = entry_of(number);
   if (entry.size == 0) return std::nullopt;
   return with_file_context("tile " + std::to_string(number), [&] {
     const Bytes stream = bytes_at(*bytes_, entry.offset, entry.size);

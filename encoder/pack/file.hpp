@@ -50,9 +50,14 @@ bool is_pack(const ByteSource& bytes);
 
 class PackFile {
  public:
+  // When the index is read: whole at once, or with each tile the tile's entry alone, and
+  // `entries` is empty.
+  enum class Index : uint8_t { kNow, kLater };
+  PackFile(std::unique_ptr<ByteSource> bytes, Index index);
+
   // Reads header and index; streams when they are asked for. Throws Error if they are damaged or
   // break a rule.
-  explicit PackFile(std::unique_ptr<ByteSource> bytes);
+  explicit PackFile(std::unique_ptr<ByteSource> bytes) : PackFile(std::move(bytes), Index::kNow) {}
   explicit PackFile(std::vector<uint8_t> bytes) : PackFile(bytes_in_memory(std::move(bytes))) {}
 
   const TileGrid& grid() const { return header_.grid; }
@@ -82,7 +87,8 @@ class PackFile {
  private:
   void read_header();
   void read_index();
-  void read_entry(const uint8_t* at);
+  PackEntry entry_at(uint32_t tile, const uint8_t* bytes) const;
+  PackEntry entry_of(uint32_t tile) const;
   void expect_vertices() const;
   void expect_compact_bytes() const;
 

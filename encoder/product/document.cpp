@@ -132,8 +132,9 @@ SurfaceModel Document::model(uint64_t most_vertices) const {
 SampledSurface Document::sampled() const {
   SampledSurface surface = pack() != nullptr ? exporting::sampled(*pack())
                                              : exporting::sampled(stream()->terrain.mesh());
-  surface.height_at = [this, height_at = std::move(surface.height_at)](int64_t x, int64_t y) {
-    return with_file_context(path_, [&] { return height_at(x, y); });
+  surface.is_degrees = metadata().horizontal_unit == Unit::kDegree;
+  surface.height_at = [this, height_at = std::move(surface.height_at)](const RealPlace& place) {
+    return with_file_context(path_, [&] { return height_at(place); });
   };
   return surface;
 }

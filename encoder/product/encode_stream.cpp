@@ -83,9 +83,9 @@ void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, boo
     return;
   }
   TrueBound bound(lattice, surface);
-  found = verify_at_true_places(
-      surface.height_at, surface.placement, cloud, lattice.max_error,
-      [&](FinePlace nearest, FinePlace exact, double above) { bound.see(nearest, exact, above); });
+  found = verify_at_true_places(surface.height_at, surface.placement, cloud, lattice.max_error,
+                                [&](const RealPlace& nearest, const RealPlace& exact,
+                                    double above) { bound.see(nearest, exact, above); });
   attempt.missed = bound.missed();
   if (attempt.missed == 0 && !found.within_bound)
     attempt.missed = 1;  // by less than a double tells

@@ -5,7 +5,7 @@
 #include "encoder/files/input_file.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/pack/shard.hpp"
-#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/stream/header.hpp"
 
 namespace microtin::product {
 namespace {
@@ -31,34 +31,39 @@ void expect_header(microtin_status status) {
     throw Error(describe(status));
 }
 
-DecodedTerrain decoded(const std::vector<uint8_t>& bytes) {
+DecodedStream decoded(std::vector<uint8_t> bytes) {
   microtin_info info;
   const microtin_status status = microtin_peek(bytes.data(), bytes.size(), &info);
   if (status == MICROTIN_BAD_MAGIC || status == MICROTIN_UNSUPPORTED_VERSION) {
     throw Error(describe(status));
   }
   try {
-    return DecodedTerrain(bytes);
+    DecodedTerrain terrain(bytes);
+    return {std::move(bytes), std::move(terrain)};
   } catch (const Error& error) {
     throw Damaged(error.what());
   }
 }
 
-std::variant<DecodedTerrain, AskedPack> opened(const std::string& path) {
-  std::unique_ptr<ByteSource> source;
-  if (is_regular_file(path)) source = open_file(path);
-  if (source) refuse_shard(path, *source);
-  const bool pack = source && is_pack(*source);
-  const std::string text = pack ? std::string() : read_file(path);
-  try {
-    if (pack) return AskedPack(std::move(source));
-    return decoded(std::vector<uint8_t>(text.begin(), text.end()));
-  } catch (const Damaged& damaged) {
-    throw Damaged(path + ": " + damaged.what());
-  } catch (const Error& error) {
-    throw Error(path + ": " + error.what());
+// A file's bytes; whether one could not be read is remembered.
+class WatchedBytes : public ByteSource {
+ public:
+  explicit WatchedBytes(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {}
+  uint64_t size() const override { return bytes_->size(); }
+  size_t read(uint64_t offset, void* to, size_t size) const override {
+    try {
+      return bytes_->read(offset, to, size);
+    } catch (const Error&) {
+      has_failed_ = true;
+      throw;
+    }
   }
-}
+  const bool* has_failed() const { return &has_failed_; }
+
+ private:
+  std::unique_ptr<ByteSource> bytes_;
+  mutable bool has_failed_ = false;
+};
 
 uint32_t parts_of(Decimal value) {
   return static_cast<uint32_t>(power_of_ten(value.decimals));
@@ -91,23 +96,77 @@ microtin_answer AskedPack::height_at(int64_t x, int64_t y, int32_t* height) {
   return microtin_pack_height_at(pack_, x, y, &hint_, height);
 }
 
-PlaceQuery::PlaceQuery(const std::string& path) : content_(opened(path)) {}
-
-Placement PlaceQuery::placement() const {
-  Placement placement;
-  if (const auto* pack = std::get_if<AskedPack>(&content_)) {
-    placement = {pack->info().x, pack->info().y, pack->info().z};
-  } else {
-    microtin_placement(std::get<DecodedTerrain>(content_).mesh(), &placement.x, &placement.y,
-                       &placement.z);
+PlaceQuery::Pack PlaceQuery::opened_pack(const std::string& path) {
+  AskedPack device(open_file(path));
+  auto watched = std::make_unique<WatchedBytes>(open_file(path));
+  const bool* const has_failed = watched->has_failed();
+  try {
+    auto file = std::make_unique<PackFile>(std::move(watched), PackFile::Index::kLater);
+    return {std::move(device), std::move(file), has_failed};
+  } catch (const Error& error) {  // which a device does not look at
+    throw Damaged(error.what());
   }
-  return placement;
 }
 
-microtin_answer PlaceQuery::height_at(Decimal x, Decimal y, bool on_lattice, int32_t* height) {
-  const Placement place = on_lattice ? Placement() : placement();
-  return std::holds_alternative<AskedPack>(content_) ? pack_height_at(place, x, y, height)
-                                                     : stream_height_at(place, x, y, height);
+std::variant<DecodedStream, PlaceQuery::Pack> PlaceQuery::opened(const std::string& path) {
+  std::unique_ptr<ByteSource> source;
+  if (is_regular_file(path)) source = open_file(path);
+  if (source) refuse_shard(path, *source);
+  const bool pack = source && is_pack(*source);
+  const std::string text = pack ? std::string() : read_file(path);
+  try {
+    if (pack) return opened_pack(path);
+    return decoded(std::vector<uint8_t>(text.begin(), text.end()));
+  } catch (const Damaged& damaged) {
+    throw Damaged(path + ": " + damaged.what());
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
+}
+
+PlaceQuery::PlaceQuery(const std::string& path) : content_(opened(path)) {
+  const auto* const pack = std::get_if<Pack>(&content_);
+  surface_ = pack != nullptr ? sampled(*pack->file, BadTiles::kAnswer)
+                             : sampled(std::get<DecodedStream>(content_).terrain.mesh());
+  const Metadata notes = pack != nullptr
+                             ? pack->file->metadata()
+                             : read_header(std::get<DecodedStream>(content_).bytes).metadata;
+  surface_.is_degrees = notes.horizontal_unit == Unit::kDegree;
+}
+
+std::vector<Axis> PlaceQuery::names_of_x(bool on_lattice) const {
+  if (on_lattice) return {Axis{0, 1, 1}};
+  return exact::names_of_x(surface_.placement.x, surface_.is_degrees);
+}
+
+Placement PlaceQuery::placement() const {
+  return surface_.placement;
+}
+
+ExactAnswer PlaceQuery::height_at(Decimal x, Decimal y, bool on_lattice) {
+  const auto row = coordinate_of(y, on_lattice ? Axis{0, 1, 1} : surface_.placement.y);
+  ExactAnswer answer{MICROTIN_OUTSIDE, {0, 0, 1}};
+  for (const Axis& name : names_of_x(on_lattice)) {
+    const auto column = coordinate_of(x, name);
+    if (!column || !row || answer.kind != MICROTIN_OUTSIDE) continue;
+    answer = surface_.height_at(place_of(*column, *row));
+  }
+  const auto* const pack = std::get_if<Pack>(&content_);
+  if (pack != nullptr && *pack->has_failed) throw Error(describe(MICROTIN_IO));
+  return answer;
+}
+
+ExactAnswer PlaceQuery::device_height_at(Decimal x, Decimal y, bool on_lattice) {
+  Placement place = on_lattice ? Placement() : placement();
+  int32_t height = 0;
+  microtin_answer kind = MICROTIN_OUTSIDE;
+  for (const Axis& name : names_of_x(on_lattice)) {
+    if (kind != MICROTIN_OUTSIDE) break;
+    place.x = name;
+    kind = std::holds_alternative<Pack>(content_) ? pack_height_at(place, x, y, &height)
+                                                  : stream_height_at(place, x, y, &height);
+  }
+  return {kind, height_of_answer(height)};
 }
 
 microtin_answer PlaceQuery::stream_height_at(const Placement& place, Decimal x, Decimal y,
@@ -117,13 +176,13 @@ microtin_answer PlaceQuery::stream_height_at(const Placement& place, Decimal x, 
       microtin_to_lattice(&place.y, y.mantissa, parts_of(y), &row) == 0) {
     return MICROTIN_OUTSIDE;
   }
-  return microtin_height_at(std::get<DecodedTerrain>(content_).mesh(), column, row, 0, &hint_,
-                            height);
+  return microtin_height_at(std::get<DecodedStream>(content_).terrain.mesh(), column, row, 0,
+                            &hint_, height);
 }
 
 microtin_answer PlaceQuery::pack_height_at(const Placement& place, Decimal x, Decimal y,
                                            int32_t* height) {
-  AskedPack& pack = std::get<AskedPack>(content_);
+  AskedPack& pack = std::get<Pack>(content_).device;
   int64_t column = 0, row = 0;
   if (microtin_pack_to_lattice(&place.x, pack.info().x_max, x.mantissa, parts_of(x), &column) ==
           0 ||

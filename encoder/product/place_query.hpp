@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Heights at single places of a stream or a pack, asked as a device asks.
+// Heights at single places of a stream or a pack: of the exact plane, or as a device answers.
 #ifndef MICROTIN_ENCODER_PRODUCT_PLACE_QUERY_HPP
 #define MICROTIN_ENCODER_PRODUCT_PLACE_QUERY_HPP
 
@@ -11,9 +11,11 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/metadata.hpp"
+#include "encoder/export/height_sampler.hpp"
 #include "encoder/files/byte_source.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/pack/file.hpp"
+#include "encoder/product/document.hpp"
 #include "microtin/pack.h"
 
 namespace microtin::product {
@@ -52,16 +54,31 @@ class PlaceQuery {
 
   Placement placement() const;
 
-  // The height, with 16 fractional bits, at a place in real units or, with `on_lattice`, in steps;
-  // both with at most kDecimals decimals. HEIGHT, OUTSIDE, IN_VOID or IN_BAD_TILE.
-  static constexpr int kDecimals = 7;
-  microtin_answer height_at(Decimal x, Decimal y, bool on_lattice, int32_t* height);
+  // The height at a place in real units or, with `on_lattice`, in lattice steps: HEIGHT, OUTSIDE,
+  // IN_VOID or IN_BAD_TILE. Throws Error if a pack's file cannot be read.
+  ExactAnswer height_at(Decimal x, Decimal y, bool on_lattice);
+
+  // The answer of a device, which rounds the place, of at most kDeviceDecimals decimals, to 1/256
+  // of a lattice step, and the height to 1/65536 of a z step.
+  static constexpr int kDeviceDecimals = 7;
+  ExactAnswer device_height_at(Decimal x, Decimal y, bool on_lattice);
 
  private:
+  // A pack's tiles are read twice: by a device's code and by the host's.
+  struct Pack {
+    AskedPack device;
+    std::unique_ptr<PackFile> file;
+    const bool* has_failed;  // a read of the file's bytes
+  };
+
+  std::vector<Axis> names_of_x(bool on_lattice) const;
   microtin_answer stream_height_at(const Placement& place, Decimal x, Decimal y, int32_t* height);
   microtin_answer pack_height_at(const Placement& place, Decimal x, Decimal y, int32_t* height);
+  static std::variant<DecodedStream, Pack> opened(const std::string& path);
+  static Pack opened_pack(const std::string& path);
 
-  std::variant<DecodedTerrain, AskedPack> content_;
+  std::variant<DecodedStream, Pack> content_;
+  SampledSurface surface_;
   uint32_t hint_ = 0;
 };
 

@@ -11,6 +11,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/fraction.hpp"
+#include "encoder/exact/real_place.hpp"
 #include "encoder/export/post_grid.hpp"
 #include "encoder/product/document.hpp"
 
@@ -18,7 +19,6 @@ namespace microtin::encoder {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr int64_t kFraction = 256;  // places have 8 fractional bits
 
 // Somebody's bytes, for readers that know only ours.
 class ForeignBytes : public files::ByteSource {
@@ -66,38 +66,37 @@ Unit unit_of(exact::Unit unit) {
   return static_cast<Unit>(unit);  // the same numbers, those of the note
 }
 
-// Heights of z with 16 fractional bits.
-double real_height(const microtin_axis& z, int32_t height) {
-  return (static_cast<double>(z.offset) * 65536 +
-          static_cast<double>(z.numerator) * static_cast<double>(height)) /
-         (static_cast<double>(z.denominator) * 65536);
-}
+using Coordinates = std::vector<std::optional<exact::RealCoordinate>>;
 
-// The lattice place of a coordinate, with 8 fractional bits; nothing outside low .. high.
-std::optional<int64_t> place_of(const microtin_axis& axis, double value, int64_t low,
-                                int64_t high) {
-  using Long = long double;
-  const Long lattice = (static_cast<Long>(value) * static_cast<Long>(axis.denominator) -
-                        static_cast<Long>(axis.offset)) /
-                       static_cast<Long>(axis.numerator);
-  const Long place = std::floor(lattice * kFraction + Long{0.5});
-  if (!(place >= static_cast<Long>(low * kFraction) &&
-        place <= static_cast<Long>(high * kFraction))) {
-    return std::nullopt;
-  }
-  return static_cast<int64_t>(place);
-}
-
-// The same of `count` posts from `first` on.
-std::vector<std::optional<int64_t>> places_of(const microtin_axis& posts, int64_t first,
-                                              uint32_t count, const microtin_axis& axis,
-                                              int64_t low, int64_t high) {
-  if (posts.numerator == 0 || posts.denominator == 0) throw base::Error("an axis has no step");
-  const exporting::PostPlaces place(posts, axis, low, high);
-  std::vector<std::optional<int64_t>> places(count);
+// The places of `count` posts from `first` on; nothing outside the surface.
+Coordinates places_of(const exporting::PostPlaces& place, int64_t first, uint32_t count) {
+  Coordinates places(count);
   for (uint32_t i = 0; i < count; ++i) places[i] = place(first + i);
   return places;
 }
+
+void expect_step(const microtin_axis& posts) {
+  if (posts.numerator == 0 || posts.denominator == 0) throw base::Error("an axis has no step");
+}
+
+// x on a surface, by the first name of a place that lies on it.
+class BinaryNames {
+ public:
+  explicit BinaryNames(const exporting::SampledSurface& s) {
+    for (const exact::Axis& name : exact::names_of_x(s.placement.x, s.is_degrees)) {
+      names_.emplace_back(name, s.x_min, s.x_max);
+    }
+  }
+  std::optional<exact::RealCoordinate> operator()(double value) const {
+    for (const exact::BinaryAxis& name : names_) {
+      if (const auto at = name(value)) return at;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::vector<exact::BinaryAxis> names_;
+};
 
 }  // namespace
 
@@ -106,7 +105,7 @@ struct Surface::Content {
       : document(std::move(read)), sampled(document.sampled()), facts(facts_of()) {}
 
   Facts facts_of() const;
-  double height(const std::optional<int64_t>& x, const std::optional<int64_t>& y) const;
+  double height(const exact::RealPlace& place) const;
   uint32_t tile_at(int64_t x, int64_t y) const;
 
   product::Document document;
@@ -145,19 +144,17 @@ Facts Surface::Content::facts_of() const {
   return all;
 }
 
-double Surface::Content::height(const std::optional<int64_t>& x,
-                                const std::optional<int64_t>& y) const {
-  if (!x || !y) return kNone;
-  const std::optional<int32_t> found = sampled.height_at(*x, *y);
-  return found ? real_height(facts.z, *found) : kNone;
+double Surface::Content::height(const exact::RealPlace& place) const {
+  const terrain::ExactAnswer found = sampled.height_at(place);
+  return found.kind == MICROTIN_HEIGHT ? exact::real_height(facts.z, found.height) : kNone;
 }
 
 // A tile near the place.
 uint32_t Surface::Content::tile_at(int64_t x, int64_t y) const {
   const pack::PackFile* const pack = document.pack();
   if (pack == nullptr) return 0;
-  const auto column = static_cast<uint32_t>(x / (pack->grid().width * kFraction));
-  const auto row = static_cast<uint32_t>(y / (pack->grid().height * kFraction));
+  const auto column = static_cast<uint32_t>(x / pack->grid().width);
+  const auto row = static_cast<uint32_t>(y / pack->grid().height);
   return row * facts.tile_columns + column;
 }
 
@@ -218,28 +215,40 @@ void Surface::heights(size_t count, const double* x, const double* y, double* he
   struct Query {
     uint32_t tile;
     size_t index;
-    int64_t x, y;
+    exact::RealPlace place;
   };
+  const BinaryNames on_x(s);
+  const exact::BinaryAxis on_y(s.placement.y, s.y_min, s.y_max);
   std::vector<Query> queries;
   for (size_t i = 0; i < count; ++i) {
     heights[i] = kNone;
-    const auto px = place_of(s.placement.x, x[i], s.x_min, s.x_max);
-    const auto py = place_of(s.placement.y, y[i], s.y_min, s.y_max);
-    if (px && py) queries.push_back({content_->tile_at(*px, *py), i, *px, *py});
+    const auto px = on_x(x[i]), py = on_y(y[i]);
+    if (!px || !py) continue;
+    const exact::RealPlace place = exact::place_of(*px, *py);
+    if (content_->document.pack() == nullptr) {
+      heights[i] = content_->height(place);
+    } else {
+      queries.push_back({content_->tile_at(place.x, place.y), i, place});
+    }
   }
   // So that each tile is decoded once.
   std::stable_sort(queries.begin(), queries.end(),
                    [](const Query& a, const Query& b) { return a.tile < b.tile; });
-  for (const Query& query : queries) heights[query.index] = content_->height(query.x, query.y);
+  for (const Query& query : queries) heights[query.index] = content_->height(query.place);
 }
 
 void Surface::heights(const Grid& grid, const Rectangle& rectangle, double* heights) const {
   const exporting::SampledSurface& s = content_->sampled;
-  const auto xs =
-      places_of(grid.x, rectangle.column, rectangle.columns, s.placement.x, s.x_min, s.x_max);
-  const auto ys = places_of(grid.y, rectangle.row, rectangle.rows, s.placement.y, s.y_min, s.y_max);
+  expect_step(grid.x);
+  expect_step(grid.y);
+  const Coordinates xs =
+      places_of(exporting::places_of_x(s, grid.x), rectangle.column, rectangle.columns);
+  const Coordinates ys =
+      places_of(exporting::places_of_y(s, grid.y), rectangle.row, rectangle.rows);
   for (auto y = ys.rbegin(); y != ys.rend(); ++y) {
-    for (const std::optional<int64_t>& x : xs) *heights++ = content_->height(x, *y);
+    for (const auto& x : xs) {
+      *heights++ = x && *y ? content_->height(exact::place_of(*x, **y)) : kNone;
+    }
   }
 }
 

@@ -22,29 +22,30 @@ Tightening& TrueBound::limits_at(Point place) {
   return limits_.try_emplace({place.x, place.y}, all).first->second;
 }
 
-void TrueBound::see(FinePlace nearest, FinePlace exact, double above) {
+void TrueBound::see(const RealPlace& nearest, const RealPlace& exact, double above) {
   if (above >= below_ && above <= above_) return;
   ++missed_;
-  const std::optional<int32_t> here = surface_.height_at(nearest.x, nearest.y);
-  if (!here) return;
-  const Point place{static_cast<uint16_t>(nearest.x / 256), static_cast<uint16_t>(nearest.y / 256)};
+  const ExactAnswer known = surface_.height_at(nearest);
+  if (known.kind != MICROTIN_HEIGHT) return;
+  const int32_t here = fixed_height(known.height);
+  const Point place{static_cast<uint16_t>(nearest.x), static_cast<uint16_t>(nearest.y)};
   constexpr double kMore = 1.25;  // the surface around will be another
   Tightening& limits = limits_at(place);
   if (above > above_) {
-    limits.highest = std::min(limits.highest, moved(*here, kMore * (above_ - above)));
+    limits.highest = std::min(limits.highest, moved(here, kMore * (above_ - above)));
   } else {
-    limits.lowest = std::max(limits.lowest, moved(*here, kMore * (below_ - above)));
+    limits.lowest = std::max(limits.lowest, moved(here, kMore * (below_ - above)));
   }
   if (before_.count({place.x, place.y}) == 0) return;
-  const std::optional<int32_t> there = surface_.height_at(exact.x, exact.y);
-  surround(exact, there ? *there : *here, above);
+  const ExactAnswer there = surface_.height_at(exact);
+  surround(exact, there.kind == MICROTIN_HEIGHT ? fixed_height(there.height) : here, above);
 }
 
 // A point's limits at all places around it.
-void TrueBound::surround(FinePlace exact, int32_t height, double above) {
+void TrueBound::surround(const RealPlace& exact, int32_t height, double above) {
   const double margin = (above_ - below_) / 16;  // the surface may bend between them
-  for (const int64_t x : {exact.x / 256, (exact.x + 255) / 256}) {
-    for (const int64_t y : {exact.y / 256, (exact.y + 255) / 256}) {
+  for (const int64_t x : {exact.x, exact.x + (exact.x_part != 0 ? 1 : 0)}) {
+    for (const int64_t y : {exact.y, exact.y + (exact.y_part != 0 ? 1 : 0)}) {
       if (x < 0 || y < 0 || x > kLatticeMax || y > kLatticeMax) continue;
       Tightening& limits = limits_at({static_cast<uint16_t>(x), static_cast<uint16_t>(y)});
       limits.lowest = std::max(limits.lowest, moved(height, below_ + margin - above));

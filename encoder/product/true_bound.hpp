@@ -24,7 +24,7 @@ class TrueBound {
   TrueBound(const LatticeOptions& options, const SampledSurface& surface);
 
   // A point's place on the lattice, where it truly lies, and how far the surface is above it there.
-  void see(FinePlace nearest, FinePlace exact, double above);
+  void see(const RealPlace& nearest, const RealPlace& exact, double above);
 
   uint64_t missed() const { return missed_; }
 
@@ -33,7 +33,7 @@ class TrueBound {
 
  private:
   Tightening& limits_at(Point place);
-  void surround(FinePlace exact, int32_t height, double above);
+  void surround(const RealPlace& exact, int32_t height, double above);
   int32_t moved(int32_t height, double by) const;
 
   double above_, below_, step_;

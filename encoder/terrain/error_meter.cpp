@@ -61,12 +61,39 @@ double ErrorMeter::add(int64_t number, int32_t answer) {
   const Wide error = magnitude(below);
   const Wide billionths =
       error / common_ * kBillion + ceil_divide(error % common_ * kBillion, common_);
-  largest_ = std::max(largest_, billionths);
-  if (below > 0) deepest_ = std::max(deepest_, billionths);
-  squares_.add(billionths, 1);
-  sum_ += below > 0 ? -billionths : billionths;
-  ++count_;
+  count(billionths, below > 0);
   return -static_cast<double>(below) / static_cast<double>(common_);
+}
+
+// In parts of a unit that source and lattice have in common, the surface is below by whole + rest /
+// under. Both go into the billionths, which are rounded up once.
+double ErrorMeter::add(int64_t number, const ExactHeight& height) {
+  const Wide common = from_common_ * (to_common_ / 65536), base = offset_ / 65536;
+  const auto [over, over_rest] = multiply_divide(from_common_ * step_, height.above, height.under);
+  Wide whole = number * (to_common_ / 65536) - from_common_ * (base + step_ * height.base) - over;
+  Wide rest = height.under - over_rest;
+  whole += rest == height.under ? 0 : -1;
+  rest = rest == height.under ? 0 : rest;
+  const bool is_below = whole > 0 || (whole == 0 && rest != 0);
+  if (whole < 0) {
+    whole = rest == 0 ? -whole : -whole - 1;
+    rest = rest == 0 ? 0 : height.under - rest;
+  }
+  const auto [fine, fine_rest] = multiply_divide(kBillion, rest, height.under);
+  const Wide in_part = whole % common * kBillion + fine + (fine_rest != 0 ? 1 : 0);
+  count(whole / common * kBillion + ceil_divide(in_part, common), is_below);
+  const double away =
+      (static_cast<double>(whole) + static_cast<double>(rest) / static_cast<double>(height.under)) /
+      static_cast<double>(common);
+  return is_below ? -away : away;
+}
+
+void ErrorMeter::count(Wide billionths, bool is_below) {
+  largest_ = std::max(largest_, billionths);
+  if (is_below) deepest_ = std::max(deepest_, billionths);
+  squares_.add(billionths, 1);
+  sum_ += is_below ? -billionths : billionths;
+  ++count_;
 }
 
 void ErrorMeter::tell(const std::optional<Decimal>& bound, Verification& found) const {

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "encoder/exact/exact_height.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/verify.hpp"
 
@@ -32,10 +33,14 @@ class ErrorMeter {
   // Returns how far the answer is above, in units.
   double add(int64_t number, int32_t answer);
 
+  // The same of an exact height.
+  double add(int64_t number, const ExactHeight& height);
+
   // Writes the errors, and whether they keep the bound.
   void tell(const std::optional<Decimal>& bound, Verification& found) const;
 
  private:
+  void count(Wide billionths, bool is_below);
   Decimal mean() const;
   Decimal root_mean_square() const;  // rounded up
 

@@ -13,8 +13,7 @@
 namespace microtin::terrain {
 namespace {
 
-constexpr int64_t kFraction = 256;
-constexpr int64_t kBand = 256 * kFraction;  // rows that are asked from west to east together
+constexpr int64_t kBand = 256;  // rows that are asked from west to east together
 
 class TruePlaces {
  public:
@@ -24,17 +23,20 @@ class TruePlaces {
     y_ = map_between(numbers, lattice.y);
   }
 
-  FinePlace exact(const SourcePoint& p) const { return {scaled(x_, p.x), scaled(y_, p.y)}; }
-  FinePlace nearest(const SourcePoint& p) const {
-    return {limited(x_.nearest(p.x) * kFraction), limited(y_.nearest(p.y) * kFraction)};
+  RealPlace exact(const SourcePoint& p) const {
+    return place_of(coordinate(x_, p.x), coordinate(y_, p.y));
+  }
+  RealPlace nearest(const SourcePoint& p) const {
+    return place_on_lattice(limited(x_.nearest(p.x)), limited(y_.nearest(p.y)));
   }
   bool moves(const SourcePoint& p) const {
     return x_.numerator(p.x) % x_.step != 0 || y_.numerator(p.y) % y_.step != 0;
   }
 
  private:
-  static int64_t scaled(const LatticeMap& map, int64_t number) {
-    return limited(round_divide(kFraction * map.numerator(number), map.step));
+  static RealCoordinate coordinate(const LatticeMap& map, int64_t number) {
+    const Wide numerator = map.numerator(number), whole = floor_divide(numerator, map.step);
+    return {limited(whole), numerator - whole * map.step, map.step};
   }
   // Points of a source that is not the lattice's own may lie anywhere; no terrain goes so far.
   static int64_t limited(Wide place) {
@@ -52,7 +54,7 @@ std::vector<uint32_t> order_of(const PointCloud& cloud, const TruePlaces& places
   std::vector<std::tuple<int64_t, int64_t>> keys;
   keys.reserve(order.size());
   for (const SourcePoint& p : cloud.points) {
-    const FinePlace place = places.nearest(p);
+    const RealPlace place = places.nearest(p);
     keys.emplace_back(-(place.y / kBand), place.x);
   }
   std::sort(order.begin(), order.end(),
@@ -76,13 +78,13 @@ Verification verify_at_true_places(const HeightQuery& height_at, const Placement
   Verification result;
   for (const uint32_t i : order_of(cloud, places)) {
     const SourcePoint& p = cloud.points[i];
-    const FinePlace there = places.exact(p), nearest = places.nearest(p);
-    std::optional<int32_t> height = height_at(there.x, there.y);
-    if (!height) height = height_at(nearest.x, nearest.y);
+    const RealPlace there = places.exact(p), nearest = places.nearest(p);
+    ExactAnswer answer = height_at(there);
+    if (answer.kind != MICROTIN_HEIGHT) answer = height_at(nearest);
     ++result.posts;
-    if (!height) continue;
+    if (answer.kind != MICROTIN_HEIGHT) continue;
     ++result.covered;
-    const double above = meter.add(p.z, *height);
+    const double above = meter.add(p.z, answer.height);
     if (visit) visit(nearest, there, above);
   }
   result.uncovered = result.posts - result.covered;

@@ -94,6 +94,39 @@ TEST_CASE("height: a pack answers as its stream does, but for a damaged tile") {
   CHECK(session.run("height bad.mtp --lattice 1 1").code == 7);
 }
 
+TEST_CASE("height: the exact plane at the real place; as a device answers with --device") {
+  const Session session;
+  session.write("slope.asc",
+                "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1000\n0 1000\n0 1000\n");
+  for (const char* const name : {"slope.mtin", "slope.mtp --tile-vertices 10"}) {
+    REQUIRE(session.run(std::string("encode slope.asc -o ") + name).code == 0);
+    const std::string file = std::string(name).substr(0, std::string(name).find(' '));
+    CHECK(session.run("height " + file + " 1.9 500").out == "1.9\n");
+    CHECK(session.run("height " + file + " 2 500").out == "2\n");
+    CHECK(session.run("height " + file + " 0.1235 0.0000001").out == "0.124\n");  // halves up
+    CHECK(session.run("height " + file + " 999.999 1000").out == "999.999\n");
+    CHECK(session.run("height " + file + " 1000.000001 0").out == "outside\n");
+    CHECK(session.run("height " + file + " -- -0.000001 0").out == "outside\n");
+    CHECK(session.run("height " + file + " --device 1.9 500").out == "0\n");
+    CHECK(session.run("height " + file + " --device 2 500").out == "3.906\n");
+    CHECK(session.run("height " + file + " --device 1000.000001 0").out == "1000\n");
+  }
+  REQUIRE(session.run("decode slope.mtin --cell 0.5 --extent 0,0,4,0.5 -o fine.asc").code == 0);
+  CHECK(contains(session.read("fine.asc"), "\n0 0.5 1 1.5 2 2.5 3 3.5 4\n"));
+}
+
+TEST_CASE("height: a place with twelve decimals of a border lies on it") {
+  const Session session;
+  session.write("third.asc",
+                "ncols 2\nnrows 2\nxllcenter 0.333333333333\nyllcenter 0\n"
+                "cellsize 0.333333333333\n0 3\n0 3\n");
+  REQUIRE(session.run("encode third.asc -o third.mtin").code == 0);
+  CHECK(session.run("height third.mtin 0.333333333333 0").out == "0\n");
+  CHECK(session.run("height third.mtin 0.666666666667 0").out == "3\n");
+  CHECK(session.run("height third.mtin 0.66666666667 0").out == "outside\n");
+  CHECK(session.run("height third.mtin 0.5 0").out == "1.5\n");
+}
+
 TEST_CASE("height: what is no place is refused, with its line") {
   const Session session;
   session.write("plane.xyz", kPlane);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "encoder/import/joined_clouds.hpp"
+#include "microtin/surface.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -52,6 +53,64 @@ std::string scan() {
 }
 
 }  // namespace
+
+TEST_CASE("mosaic: cells beyond 180 degrees continue their neighbours' longitudes") {
+  const Session session;
+  fs::create_directory(session.folder() + "/cells");
+  session.write("cells/N00E179.hgt", cell("\1\2\3\4\5\6\7\10\11"));
+  session.write("cells/N00W180.hgt", cell("\3\2\1\6\5\4\11\10\7"));
+  const char* const kBoth[] = {"cells", "cells/N00E179.hgt cells/N00W180.hgt",
+                               "cells/N00W180.hgt cells/N00E179.hgt"};
+  for (const std::string source : kBoth) {
+    for (const std::string file : {"both.mtin", "both.mtp"}) {
+      const Session::Result made = session.run("encode " + source + " --max-error 0 -o " + file);
+      REQUIRE(made.code == 0);
+      CHECK(contains(made.out + made.err,
+                     "1 lies beyond 180 degrees east and continues its neighbours' longitudes, to "
+                     "181"));
+      CHECK(session.run("verify " + file + " " + source).code == 0);
+      for (const std::string by : {"", " --device"}) {
+        const std::string ask = "height " + file + by + " -- ";
+        CHECK(session.run(ask + "179.5 0").out == "8\n");
+        CHECK(session.run(ask + "180.5 0.5").out == "5\n");
+        CHECK(session.run(ask + "-179.5 0.5").out == "5\n");
+        CHECK(session.run(ask + "-180 1").out == "3\n");
+        CHECK(session.run(ask + "180 1").out == "3\n");
+        CHECK(session.run(ask + "-178.9 0.5").out == "outside\n");
+        CHECK(session.run(ask + "0.5 0.5").out == "outside\n");
+      }
+      const auto surface = microtin::encoder::Surface::from_file(session.folder() + "/" + file);
+      CHECK(surface.facts().box.west == 179);
+      CHECK(surface.facts().box.east == 181);
+      const double x[] = {-179.5, 180.5, -180, 181, -179}, y[] = {0.5, 0.5, 1, 0, 0};
+      double heights[5];
+      surface.heights(5, x, y, heights);
+      CHECK(heights[0] == 5);
+      CHECK(heights[1] == 5);
+      CHECK(heights[2] == 3);
+      CHECK(heights[3] == 7);
+      CHECK(heights[4] == 7);
+      REQUIRE(session.run("decode " + file + " --like cells/N00W180.hgt -o west.asc").code == 0);
+      CHECK(contains(session.read("west.asc"), "xllcenter -180\n"));
+      CHECK(contains(session.read("west.asc"), "3 2 1\n6 5 4\n9 8 7\n"));
+      CHECK(session.run("decode " + file + " -o N00W180.DAT").code == 0);
+      CHECK(session.run("decode " + file + " -o N00E179.DAT").code == 0);
+      CHECK(session.run("decode " + file + " -o N00E178.DAT").code == 1);
+    }
+  }
+  session.write("east.csv", "lon,lat,z\n179.5,0,1\n179.9,1,2\n179.9,0,3\n");
+  session.write("west.csv", "lon,lat,z\n-179.9,0,1\n-179.5,1,2\n-179.5,0,3\n");
+  const Session::Result points =
+      session.run("encode east.csv west.csv --units degree:metre -o points.mtin");
+  REQUIRE(points.code == 0);
+  CHECK(contains(points.out + points.err, "to 180.5"));
+  CHECK(session.run("height points.mtin -- -179.5 0").out == "3\n");
+  CHECK(session.run("height points.mtin 179.9 0").out == "3\n");
+  session.write("cells/N00E010.hgt", cell("\1\1\1\1\1\1\1\1\1"));
+  const Session::Result wide = session.run("encode cells --max-error 1 -o wide.mtin");
+  CHECK(wide.code == 0);
+  CHECK(session.run("height wide.mtin -- -179.5 0.5").out == "5\n");
+}
 
 TEST_CASE("mosaic: rasters that touch or overlap are one; the first counts, gaps are void") {
   const Session session;

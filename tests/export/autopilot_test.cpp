@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,17 +28,30 @@ double wave(double x, double y) {
   return 900 + 300 * std::sin(x * 40) * std::cos(y * 35) + 200 * (x + y);
 }
 
+// A surface by its heights at places with 8 fractional bits, which have 16.
+using FineHeights = std::function<std::optional<int32_t>(int64_t x, int64_t y)>;
+
+std::function<ExactAnswer(const RealPlace&)> answering(const FineHeights& height_at) {
+  return [height_at](const RealPlace& p) -> ExactAnswer {
+    const auto height =
+        height_at(p.x * 256 + static_cast<int64_t>(round_divide(256 * p.x_part, p.parts)),
+                  p.y * 256 + static_cast<int64_t>(round_divide(256 * p.y_part, p.parts)));
+    if (!height) return {MICROTIN_OUTSIDE, {0, 0, 1}};
+    return {MICROTIN_HEIGHT, height_of_answer(*height)};
+  };
+}
+
 SampledSurface surface_of(DegreeCell cell, double scale = 1) {
   SampledSurface surface;
   surface.placement.x = {int64_t{cell.longitude} * 1200 - 12, 1, 1200};
   surface.placement.y = {int64_t{cell.latitude} * 1200 - 12, 1, 1200};
   surface.placement.z = {0, 1, 10};
   surface.x_max = surface.y_max = 1248;
-  surface.height_at = [scale](int64_t x, int64_t y) -> std::optional<int32_t> {
+  surface.height_at = answering([scale](int64_t x, int64_t y) {
     const double u = static_cast<double>(x - 12 * 256) / (1200 * 256),
                  v = static_cast<double>(y - 12 * 256) / (1200 * 256);
     return static_cast<int32_t>(std::lround(wave(u, v) * scale * 10 * 65536));
-  };
+  });
   return surface;
 }
 
@@ -113,10 +128,10 @@ TEST_CASE("autopilot: every byte of a block is that of the format") {
       // A plane that falls by whole metres, two at a time, from row to row of posts.
       SampledSurface surface = surface_of(cell);
       const double row = spacing * 89.83204953368922e-7 * 1200 * 256;
-      surface.height_at = [row](int64_t, int64_t y) -> std::optional<int32_t> {
+      surface.height_at = answering([row](int64_t, int64_t y) {
         const auto rows = std::lround(static_cast<double>(y - 12 * 256) / row);
         return static_cast<int32_t>((8000 - 2 * rows) * 10 * 65536 / 16);
-      };
+      });
       surface.placement.z = {0, 16, 10};
       const AutopilotFile file = autopilot_file(surface, autopilot, cell, spacing);
       const Firmware firmware(file.bytes, autopilot, cell, spacing);
@@ -141,9 +156,9 @@ TEST_CASE("autopilot: what is not known is marked, and told") {
   const DegreeCell cell{43, 7};
   SampledSurface surface = surface_of(cell);
   const auto whole = surface.height_at;
-  surface.height_at = [whole](int64_t x, int64_t y) -> std::optional<int32_t> {
-    if (x > 300 * 256 && x < 500 * 256 && y > 600 * 256) return std::nullopt;
-    return whole(x, y);
+  surface.height_at = [whole](const RealPlace& place) -> ExactAnswer {
+    if (place.x >= 300 && place.x < 500 && place.y >= 600) return {MICROTIN_IN_VOID, {0, 0, 1}};
+    return whole(place);
   };
   for (const Autopilot autopilot : {Autopilot::kArduPilot, Autopilot::kInav}) {
     const AutopilotFile file = autopilot_file(surface, autopilot, cell, 30);
@@ -185,6 +200,40 @@ TEST_CASE("autopilot: posts just beyond the edge have its height, farther ones n
   }
 }
 
+TEST_CASE("autopilot: places that firmware in single precision misses are counted") {
+  for (const Autopilot autopilot : {Autopilot::kArduPilot, Autopilot::kInav}) {
+    const uint32_t spacing = autopilot == Autopilot::kInav ? kInavSpacing : kArduPilotSpacing;
+    for (int south = -89; south < 89; ++south) {
+      if (south >= -70 && south < 70 && south % 10 != 0) continue;
+      const DegreeCell cell{south, -180};
+      SampledSurface surface = surface_of(cell);
+      surface.placement.x = {-180 * 50, 1, 50};
+      surface.placement.y = {south * 50, 1, 50};
+      surface.x_max = surface.y_max = 50;
+      surface.height_at = answering([](int64_t, int64_t) { return 0; });
+      const AutopilotFile file = autopilot_file(surface, autopilot, cell, spacing);
+      const Firmware firmware(file.bytes, autopilot, cell, spacing);
+      uint64_t missed = 0;
+      for (int32_t y = 0; y < 50; ++y) {
+        for (int32_t x = 0; x < 50; ++x) {
+          const auto place =
+              firmware.place(south * 10000000 + y * 200000, -1800000000 + x * 200000);
+          missed += place.block_y >= firmware.stride() || !firmware.accepts(place) ? 1u : 0u;
+        }
+      }
+      CAPTURE(south);
+      CHECK(file.asked == 2500);
+      CHECK(file.missed == missed);
+      if (south >= -75 && south < 75) CHECK(missed == 0);
+      if (south < -82 || south >= 82) CHECK(missed > 50);
+    }
+    CHECK_THROWS_WITH(
+        autopilot_file(surface_of({-90, 0}), autopilot, {-90, 0}, spacing),
+        "firmware's distances end at 89.43 degrees: cells at the poles are not written");
+    CHECK_THROWS(autopilot_file(surface_of({89, 0}), autopilot, {89, 0}, spacing));
+  }
+}
+
 TEST_CASE("autopilot: heights that do not fit and other cells are refused") {
   const DegreeCell cell{43, 7};
   const auto refusal = [&](const SampledSurface& surface, DegreeCell there, Autopilot autopilot) {
@@ -198,18 +247,16 @@ TEST_CASE("autopilot: heights that do not fit and other cells are refused") {
   CHECK(refusal(surface_of(cell), {44, 9}, Autopilot::kInav) ==
         "the terrain has no height in the cell");
   SampledSurface cliff = surface_of(cell);
-  cliff.height_at = [](int64_t x, int64_t) -> std::optional<int32_t> {
-    return x < 600 * 256 ? 0 : 2050 * 10 * 65536;
-  };
+  cliff.height_at =
+      answering([](int64_t x, int64_t) { return x < 600 * 256 ? 0 : 2050 * 10 * 65536; });
   CHECK(refusal(cliff, cell, Autopilot::kArduPilot).empty());
   CHECK(refusal(cliff, cell, Autopilot::kInav).find("from 0 m to 2050 m in the block at 43.") == 0);
-  cliff.height_at = [](int64_t x, int64_t) -> std::optional<int32_t> {
-    return x < 600 * 256 ? 0 : 2046 * 10 * 65536;
-  };
+  cliff.height_at =
+      answering([](int64_t x, int64_t) { return x < 600 * 256 ? 0 : 2046 * 10 * 65536; });
   CHECK(refusal(cliff, cell, Autopilot::kInav).empty());
   SampledSurface tower = surface_of(cell);
   tower.placement.z = {0, 100, 1};
-  tower.height_at = [](int64_t, int64_t) -> std::optional<int32_t> { return 400 * 65536; };
+  tower.height_at = answering([](int64_t, int64_t) { return 400 * 65536; });
   CHECK(refusal(tower, cell, Autopilot::kArduPilot) == "a height of 40000 m does not fit 16 bits");
 }
 

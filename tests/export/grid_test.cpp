@@ -199,9 +199,9 @@ TEST_CASE("sampled packs: no more tiles are kept than have so many vertices, but
     uint32_t reads = 0;
     const PackFile pack(std::make_unique<CountedBytes>(bytes, streams, reads));
     REQUIRE(tile_columns(pack.grid()) == 12);
-    const SampledSurface surface = sampled(pack, kept);
+    const SampledSurface surface = sampled(pack, BadTiles::kThrow, kept);
     const auto ask = [&](int64_t tile) {
-      CHECK(surface.height_at((10 * tile + 5) * 256, 5 * 256).has_value());
+      CHECK(surface.height_at(place_on_lattice(10 * tile + 5, 5)).kind == MICROTIN_HEIGHT);
     };
     for (int64_t tile = 0; tile < 12; ++tile) ask(tile);
     CHECK(reads == 12);

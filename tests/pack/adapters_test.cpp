@@ -10,6 +10,7 @@
 #include "tests/firmware/adapters_report.hpp"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/pack_device.hpp"
+#include "tests/support/packs.hpp"
 #include "tests/support/paths.hpp"
 
 namespace microtin::tests {
@@ -106,6 +107,34 @@ TEST_CASE("adapters: INAV's height and look ahead are those of the tiles") {
   const float none = std::nanf("");
   CHECK(microtin_inav_lookahead(&inav, 433300000, 72300000, none, none, none, none, &look));
   CHECK(look.samples_total == 0);
+}
+
+TEST_CASE("adapters: a pack across 180 degrees answers at either name of a longitude") {
+  Raster raster = rough_raster(41, 41);
+  raster.x = {179 * 20, 1, 20};  // 179 to 181 degrees
+  raster.y = {0, 1, 20};
+  const Bytes bytes = pack_bytes(raster);
+  const PackFile pack(bytes);
+  Card card{bytes};
+  MeshSlots device(50, 300);
+  microtin_spots spots;
+  microtin_spots_init(&spots, device.pack);
+  const auto ask = [&](int32_t longitude) {
+    int32_t height = INT32_MIN;
+    for (int i = 0; i < 200; ++i) {
+      const microtin_spot at{9100000, longitude};
+      if (microtin_spots_ask(&spots, at, at, &height) != 0) break;
+      microtin_spots_service(&spots, 1000, Card::read, &card);
+    }
+    return height;
+  };
+  const auto height = truth(pack, 9100000, 1805000000);
+  REQUIRE(height);
+  CHECK(std::abs(*height * 1000 - ask(1805000000)) < 2);
+  CHECK(ask(-1795000000) == ask(1805000000));
+  CHECK(ask(1795000000) != INT32_MIN);
+  CHECK(ask(-1785000000) == INT32_MIN);
+  CHECK(ask(5000000) == INT32_MIN);
 }
 
 TEST_CASE("adapters: a place outside is no wish, a place that is not there is one") {

@@ -118,6 +118,42 @@ TEST_CASE("surface: a pack keeps its bound at posts and is asked in any order") 
   CHECK(differ == 0);
 }
 
+TEST_CASE("surface: heights are those of the exact plane, between places of the lattice, too") {
+  // A slope of 1 in 10 across a single triangle's width, in a stream and in a pack's tiles.
+  std::vector<double> slope;
+  for (int i = 0; i < 33 * 33; ++i) slope.push_back(i % 33 * 1.0);
+  const Terrain terrain(posts_of(33, 33, slope.data(), kTransform));
+  const TemporaryFolder folder;
+  write_file(folder / "slope.mtin", encode_stream(terrain, {}).bytes);
+  PackOptions options;
+  options.max_error = "0";
+  options.tile_vertices = 16;
+  options.tile_steps = 8;
+  encode_pack(terrain, options, folder / "slope.mtp");
+  for (const char* const name : {"slope.mtin", "slope.mtp"}) {
+    const Surface surface = Surface::from_file(folder / name);
+    std::vector<double> x, y;
+    for (int i = 0; i < 3000; ++i) {
+      x.push_back(600000 + i % 1000 * 0.31998);
+      y.push_back(5000000 - i % 77 * 4.1);
+    }
+    std::vector<double> heights(x.size());
+    surface.heights(x.size(), x.data(), y.data(), heights.data());
+    double largest = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+      largest = std::max(largest, std::fabs(heights[i] - (x[i] - 600000) / 10));
+    }
+    CHECK(largest < 1e-13);
+    const Grid grid{32001, 1, {60000000, 1, 100}, {5000000, 1, 1}};
+    std::vector<double> row(grid.columns);
+    surface.heights(grid, {0, 0, grid.columns, 1}, row.data());
+    for (size_t i = 0; i < row.size(); ++i) {
+      largest = std::max(largest, std::fabs(row[i] - static_cast<double>(i) / 1000));
+    }
+    CHECK(largest < 1e-13);
+  }
+}
+
 TEST_CASE("surface: places outside and no numbers have no height") {
   const TemporaryFolder folder;
   const Surface surface = Surface::from_file(stream_file(folder, {}));

@@ -101,13 +101,15 @@ class Surface {
   /* Posts `cell` units apart, from the south-west corner of the box on; "0.25" is exact. */
   Grid grid(const std::string& cell) const;
 
-  /* Heights at places, in any order; NaN where there is none. Places go to the nearest 1/256 of a
-   * step of the lattice, heights have 16 fractional bits of a step. Tiles are decoded when they are
-   * needed, and two rows of them are kept. About 0.3 us a height beside that. */
+  /* Heights at places, in any order; NaN where there is none. A height is that of the exact plane
+   * at the place, off by at most three units in the last place of it or, if that is larger, of the
+   * difference in height across its triangle. A place within 2^-50 of its value of a coordinate of
+   * the lattice is taken there. Tiles are decoded when they are needed, and two rows of them are
+   * kept. About 0.3 us a height, and the decoding. */
   void heights(size_t count, const double* x, const double* y, double* heights) const;
 
   /* Heights at the posts of a rectangle of the grid, within it or not; the first row written is the
-   * northernmost. Exact: a post's place is rounded once. */
+   * northernmost. A post's place is an exact fraction. */
   struct Rectangle {
     int64_t column = 0, row = 0; /* the south-west post */
     uint32_t columns = 0, rows = 0;

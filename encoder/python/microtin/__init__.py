@@ -441,7 +441,7 @@ class Terrain:
         return self._triangles(library.microtin_surface_tile, column, row)
 
     def height_at(self, xs: ArrayLike, ys: ArrayLike) -> Any:
-        """Heights at places: an array of the shape that xs and ys have together, or a float for two numbers. NaN outside
+        """Heights of the exact plane at places: an array of the shape that xs and ys have together, or a float for two numbers. NaN outside
         and in voids. About 0.3 us each, and the decoding of the tiles that are needed."""
         x, y = numpy.broadcast_arrays(*(numpy.asarray(places, numpy.float64) for places in (xs, ys)))
         x, y = numpy.ascontiguousarray(x), numpy.ascontiguousarray(y)

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The height of a mesh's exact plane at a real place: what every host program answers. Devices
+// answer by microtin_height_at, at the nearest 1/256 of a lattice step.
+#ifndef MICROTIN_ENCODER_TERRAIN_EXACT_QUERY_HPP
+#define MICROTIN_ENCODER_TERRAIN_EXACT_QUERY_HPP
+
+#include <cstdint>
+
+#include "encoder/exact/exact_height.hpp"
+#include "encoder/exact/real_place.hpp"
+#include "encoder/layers.hpp"
+#include "microtin/microtin.h"
+
+namespace microtin::terrain {
+
+struct ExactAnswer {
+  microtin_answer kind;  // HEIGHT, OUTSIDE, IN_VOID; of a search that was limited, NOT_YET
+  ExactHeight height;    // of HEIGHT
+};
+
+// The answer at a place of a verified mesh: without rounding, and the same from either side of an
+// edge and in either tile at a border. The search begins at the triangle *hint, goes through at
+// most `step_limit` triangles (0: without a limit) and leaves in *hint where it ended.
+ExactAnswer exact_answer(const microtin_mesh* mesh, const RealPlace& place, uint32_t step_limit,
+                         uint32_t* hint);
+
+}  // namespace microtin::terrain
+
+#endif
