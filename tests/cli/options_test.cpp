@@ -125,6 +125,7 @@ const std::vector<Row> kRows = {
     {"decode", "--force", "", ""},  // a gigabyte: tests/cli/decode_grid_test.cpp
     {"embed", "--output", "", ""},
     {"height", "--lattice", "t.mtin 20 20", ""},
+    {"height", "--device", "t.mtin 520.0038 720.0038", ""},
     {"info", "--json", "t.mtin", ""},
     {"verify", "--json", "t.mtin t.asc", ""},
     {"verify", "--classes", "s.mtin s.las", "2"},

@@ -162,8 +162,8 @@ microtin_outcome microtin_surface_mesh(microtin_surface* surface, microtin_trian
 microtin_outcome microtin_surface_tile(microtin_surface* surface, uint32_t column, uint32_t row,
                                        microtin_triangles* triangles);
 
-/* Heights of the exact plane at `count` places, not a number where there is none. About 0.3 us each, and the decoding
- * of the tiles that are needed. */
+/* Heights of the exact plane at `count` places, not a number where there is none. About 0.3 us
+ * each, and the decoding of the tiles that are needed. */
 microtin_outcome microtin_surface_heights(microtin_surface* surface, uint64_t count,
                                           const double* x, const double* y, double* heights);
 
