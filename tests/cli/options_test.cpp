@@ -109,7 +109,7 @@ const std::vector<Row> kRows = {
     {"encode", "--epsg", "t.asc --max-error 2 -o o.mtin", "25832"},
     {"encode", "--units", "t.asc --max-error 2 -o o.mtin", "foot"},
     {"encode", "--depths", "t.asc --max-error 2 -o o.mtin", ""},
-    {"encode", "--depths", "t.asc --max-error 2 -o o.mtin", ""},
+    {"encode", "--gridded", "g.xyz --max-error 2 -o o.mtin", ""},
     {"encode", "--source-text", "t.asc --max-error 2 -o o.mtin", "survey"},
     {"encode", "--date", "t.asc --max-error 2 -o o.mtin", "2026"},
     {"encode", "--lineage", "t.asc --max-error 2 -o o.mtin", "thinned"},
@@ -132,9 +132,8 @@ const std::vector<Row> kRows = {
     {"verify", "--epsg", "m.mtin t.asc", "32633:5715"},
     {"verify", "--units", "m.mtin t.asc", ":cm"},
     {"verify", "--depths", "m.mtin t.asc", ""},
-    {"verify", "--depths", "m.mtin t.asc", ""},
-    {"verify", "--units", "m.mtin t.asc", ":cm"},
-    {"verify", "--epsg", "m.mtin t.asc", "25832:5715"},
+    {"verify", "--gridded", "t.mtin g.xyz", ""},
+    {"verify", "--never-below", "m.mtin t.asc", ""},
     {"verify", "--fill-voids", "m.mtin t.asc", "1"},
     {"verify", "--water-level", "m.mtin t.asc", "50"},
     {"verify", "--water-mask", "lake.mtin t.asc --water-level 50", "mask.asc"},
@@ -155,9 +154,8 @@ const std::vector<Row> kRows = {
     {"render", "--epsg", "m.mtin -o o.png --width 300 --source t.asc", "32633:5715"},
     {"render", "--units", "m.mtin -o o.png --width 300 --source t.asc", ":cm"},
     {"render", "--depths", "m.mtin -o o.png --width 300 --source t.asc", ""},
-    {"render", "--depths", "m.mtin -o m.png --width 300 --source t.asc", ""},
-    {"render", "--units", "m.mtin -o m.png --width 300 --source t.asc", ":cm"},
-    {"render", "--epsg", "m.mtin -o m.png --width 300 --source t.asc", "25832:5715"},
+    {"render", "--gridded", "m.mtin -o m.png --width 300 --source g.xyz", ""},
+    {"render", "--force", "", ""},  // 2^24 vertices: tests/cli/decode_grid_test.cpp
     {"render", "--fill-voids", "filled.mtin -o o.png --width 300 --source t.asc", "99"},
     {"render", "--water-level", "lake.mtin -o m.png --width 300 --source t.asc", "50"},
     {"render", "--water-mask", "water.mtin -o o.png --width 300 --source t.asc --water-level 50",
@@ -198,6 +196,7 @@ TEST_CASE("options: each of every command makes a difference") {
         "t.asc --max-error 2 --water-level 50 --water-mask mask.asc -o lake.mtin"}) {
     REQUIRE(session.run(std::string("encode ") + words).code == 0);
   }
+  REQUIRE(session.run("decode t.mtin -o g.xyz").code == 0);
   for (const Row& row : kRows) {
     if (row.words.empty()) continue;
     CAPTURE(row.command);
@@ -237,14 +236,14 @@ const std::vector<std::string> kOfShards = {
     "--decoding dense", "--fill-voids 1",      "--epsg 25832",
     "--water-level 50", "--units foot",        "--depths",
     "--date 2026",      "--lineage thinned",   "--water-level 50 --water-mask mask.asc",
-    "--depths",         "--source-text s"};
+    "--source-text s"};
 
 // Rules for points, which say nothing of a raster.
 const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};
 
 // With which no shard of posts is made, or which say which shard.
 const Names kNotOfShards = {"--max-vertices", "--max-bytes", "--xy-step", "--device-ram",
-                            "--output",       "--tiles",     "--classes"};
+                            "--output",       "--tiles",     "--classes", "--gridded"};
 
 const std::vector<std::string> kCommon = {"--max-error 1.9", "--z-step 0.5", "--tile-vertices 60",
                                           "--tile-steps 10"};

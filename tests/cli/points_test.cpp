@@ -90,7 +90,7 @@ TEST_CASE("points: verify judges whether the surface is below them, where they t
 
   session.write("q.xyz", "0 0 0\n100 0 100\n0 100 0\n100 100 100\n49.9 50 50\n");
   REQUIRE(session.run("encode q.xyz --max-error 1 --never-below --xy-step 1 -o q.mtin").code == 0);
-  session.write("moved.xyz", "0 0 0\n100 0 100\n0 100 0\n100 100 100\n50.4 50 50\n50.6 50 51\n");
+  session.write("moved.xyz", "0 0 0\n100 0 100\n0 100 0\n100 100 100\n50.4 50 50\n50.6 50 51.4\n");
   REQUIRE(session.run("verify q.mtin moved.xyz").code == 0);
   CHECK(contains(session.failure("verify q.mtin moved.xyz --never-below"),
                  "the surface is below the source, by "));
