@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""first_steps.py [PROGRAM]: runs the first steps of decoder/GUIDE.md, at most ten commands, and fails unless device and
+"""first_steps.py [PROGRAM]: runs the first steps of decoder/docs/quickstart.md, at most ten commands, and fails unless device and
 host tell the same height. With a PROGRAM that is built already, nothing is installed and the program is not built."""
 
 import re
@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 MOST = 10
 
-guide = (ROOT / "decoder/GUIDE.md").read_text()
+guide = (ROOT / "decoder/docs/quickstart.md").read_text()
 commands = re.search(r"^## First steps\n.*?^```sh\n(.*?)^```", guide, re.M | re.S)[1].splitlines()
 if len(commands) > MOST:
     sys.exit(f"rejected: the first steps are {len(commands)} commands")

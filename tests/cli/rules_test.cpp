@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The table of rules in MANUAL.md: each rule with each reader, behind the command line, the library
-// and C. A reader without a row fails.
+// The table in encoder/docs/rules.md: each rule with each reader, behind the command line, the
+// library and C. A reader without a row fails.
 #include <doctest/doctest.h>
 #include <zlib.h>
 
@@ -333,13 +333,13 @@ TEST_CASE("rules: each holds with each reader, behind each door, or says why it 
       check_file(cell);
     }
   }
-  const std::string manual = microtin::files::read_file(golden("../../encoder/MANUAL.md"));
+  const std::string manual = microtin::files::read_file(golden("../../encoder/docs/rules.md"));
   for (const std::string& reader : readers) {
     const bool is_told = reader[0] != '.' || contains(line_of(manual, "rule"), '`' + reader + '`');
-    CHECK_MESSAGE(is_told, reader << " is not in the manual's table");
+    CHECK_MESSAGE(is_told, reader << " is not in the document's table");
   }
   for (const std::string& rule : kRules) {
-    CHECK_MESSAGE(!line_of(manual, rule).empty(), rule << " is not in the manual's table");
+    CHECK_MESSAGE(!line_of(manual, rule).empty(), rule << " is not in the document's table");
     for (const std::string& reader : readers) {
       CHECK_MESSAGE(seen.count({rule, reader}) == 1, rule << " has no row for " << reader);
     }

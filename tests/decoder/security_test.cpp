@@ -70,7 +70,7 @@ TEST_CASE("every test case that SECURITY.md names exists") {
 TEST_CASE("every test case that other documents of the decoder name exists") {
   const std::string tests = all_tests();
   size_t named = 0;
-  for (const char* document : {"shared/PACK.md", "shared/COMPACT.md", "decoder/GUIDE.md"}) {
+  for (const char* document : {"shared/PACK.md", "shared/COMPACT.md"}) {
     for (const std::string& name : names_in(text_of(kTests / ".." / document))) {
       CAPTURE(name);
       CHECK((tests.find('"' + name + '"') != std::string::npos ||

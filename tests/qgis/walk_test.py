@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """walk_test.py: from an SRTM cell, a GeoTIFF with voids, a laser scan in US survey feet and a folder of cells, by the
-commands of README and MANUAL, to a map in QGIS and to an array. Each height, void, place, unit and system must be the
+commands of README and encoder/docs, to a map in QGIS and to an array. Each height, void, place, unit and system must be the
 source's. Then wrong turns. Skipped (77) without python3-qgis, numpy or python3-gdal."""
 
 import os
