@@ -162,15 +162,15 @@ std::optional<Autopilot> autopilot_of(const std::string& path) {
   return std::nullopt;
 }
 
-AutopilotFile autopilot_file(const SampledSurface& any, Autopilot autopilot, DegreeCell cell,
+AutopilotFile autopilot_file(const SampledSurface& surface, Autopilot autopilot, DegreeCell cell,
                              uint32_t spacing) {
-  const SampledSurface surface = named_as(cell, any);
+  const SampledSurface named = named_as(cell, surface);
   // From here on firmware takes the shortest degree of longitude that it knows for all of them.
   if (cell.latitude == -90 || cell.latitude == 89) {
     throw Error("firmware's distances end at 89.43 degrees: cells at the poles are not written");
   }
   const AutopilotLayout layout(autopilot, cell, spacing);
-  const AutopilotPosts posts = posts_of(surface, layout);
+  const AutopilotPosts posts = posts_of(named, layout);
   AutopilotFile file;
   file.beyond = posts.beyond;
   file.bytes.resize(size_t{layout.block_rows()} * layout.block_columns() * AutopilotBlock::kBytes);
@@ -186,7 +186,7 @@ AutopilotFile autopilot_file(const SampledSurface& any, Autopilot autopilot, Deg
     }
   }
   if (file.blocks == 0) throw Error("the terrain has no height in the cell");
-  measure(surface, layout, file);
+  measure(named, layout, file);
   return file;
 }
 
