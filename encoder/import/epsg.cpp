@@ -183,7 +183,7 @@ const VerticalCode* end_of_verticals() {
 }
 
 std::optional<CodedSystem> system_of_code(uint32_t code) {
-  const std::optional<CodedSystem> system = built_in_system(code);
+  std::optional<CodedSystem> system = built_in_system(code);
 #ifdef MICROTIN_WITH_GDAL
   if (!system) return system_by_proj(code);
 #endif

@@ -19,6 +19,7 @@ std::vector<bool> turned_east(const std::vector<LongitudeSpan>& spans) {
     east = std::max(east, span.east);
   }
   std::vector<bool> turned;
+  turned.reserve(spans.size());
   for (const LongitudeSpan& span : spans) turned.push_back(span.east <= last_west);
   return turned;
 }

@@ -35,7 +35,7 @@ std::optional<PointColumn> plain_column(std::string_view name) {
     std::string_view text;
     PointColumn column;
   };
-  static const std::array<Name, 26> kNames = {
+  static const std::array<Name, 26> names = {
       {{"x", {0, false}},        {"y", {1, false}},          {"z", {2, false}},
        {"easting", {0, false}},  {"northing", {1, false}},   {"height", {2, false}},
        {"east", {0, false}},     {"north", {1, false}},      {"elevation", {2, false}},
@@ -45,7 +45,7 @@ std::optional<PointColumn> plain_column(std::string_view name) {
        {"lng", {0, true}},       {"h", {2, false}},          {"point_x", {0, false}},
        {"point_y", {1, false}},  {"point_z", {2, false}},    {"e", {0, false}},
        {"n", {1, false}},        {"depth", {2, false, true}}}};
-  for (const Name& known : kNames) {
+  for (const Name& known : names) {
     if (known.text == name) return known.column;
   }
   return std::nullopt;
