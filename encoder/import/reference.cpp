@@ -251,7 +251,7 @@ bool read_units(const std::string& text, Reference& asked) {
   const auto is_known = [](const StatedUnit& unit) {
     return unit.unit != Unit::kUnknown || length_named(unit.other) != nullptr;
   };
-  if (colon == std::string::npos || colon != 0) {
+  if (colon != 0) {
     const StatedUnit unit = unit_named(text.substr(0, colon));
     if (!is_known(unit)) return false;
     state_horizontal_unit(unit, asked);

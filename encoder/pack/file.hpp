@@ -87,7 +87,7 @@ class PackFile {
  private:
   void read_header();
   void read_index();
-  PackEntry entry_at(uint32_t tile, const uint8_t* bytes) const;
+  PackEntry entry_at(uint32_t tile, const uint8_t* at) const;
   PackEntry entry_of(uint32_t tile) const;
   void expect_vertices() const;
   void expect_compact_bytes() const;
