@@ -4,6 +4,7 @@
 #include "encoder/terrain/exact_query.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -92,7 +93,7 @@ bool touches_terrain(const microtin_mesh* mesh, uint32_t triangle, const Seen& s
 
 int32_t nearest_256th(int64_t whole, Wide part, Wide parts) {
   const double fine = 256 * (static_cast<double>(part) / static_cast<double>(parts));
-  const int64_t place = whole * 256 + static_cast<int64_t>(fine + 0.5);
+  const int64_t place = whole * 256 + std::llround(fine);
   return static_cast<int32_t>(std::clamp<int64_t>(place, 0, int64_t{kLatticeMax} * 256));
 }
 
