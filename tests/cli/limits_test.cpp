@@ -12,6 +12,7 @@
 
 #include "microtin/encoder.h"
 #include "microtin/encoder.hpp"
+#include "tests/support/join.hpp"
 #include "tests/support/members.hpp"
 #include "tests/support/session.hpp"
 
@@ -131,8 +132,8 @@ const std::vector<Limit> kLimits = {
 };
 
 std::string error_in_c(const microtin_options& options) {
-  static const double kSquare[] = {0, 0, 0, 9, 0, 0, 0, 9, 0, 9, 9, 0};
-  const microtin_points square{sizeof(microtin_points), 4, kSquare, ""};
+  static const double corners[] = {0, 0, 0, 9, 0, 0, 0, 9, 0, 9, 9, 0};
+  const microtin_points square{sizeof(microtin_points), 4, corners, ""};
   microtin_terrain* terrain = nullptr;
   REQUIRE(microtin_terrain_of_points(&square, &terrain) == MICROTIN_OK);
   uint8_t* bytes = nullptr;
@@ -167,7 +168,7 @@ TEST_CASE("limits: no option that takes a number is without a row") {
       for (const Row& row : rows()) {
         found |= row.option == option && (row.command == command || row.command.empty());
       }
-      CHECK_MESSAGE(found, (command + " " + option));
+      CHECK_MESSAGE(found, join({command, " ", option}));
     }
   }
 }
@@ -195,9 +196,11 @@ TEST_CASE("limits: of numbers in C++ and C") {
 TEST_CASE("limits: vertices of tiles in C++ and C") {
   const Session session;
   const std::string path = session.folder() + "/o.mtp", message = "tile_vertices: 16 .. 2^24";
-  for (const auto& [value, is_taken] :
+  for (const auto& row :
        {std::pair(0u, true), std::pair(1u, false), std::pair(15u, false), std::pair(16u, true),
         std::pair(1u << 24, true), std::pair((1u << 24) + 1, false)}) {
+    const uint32_t value = row.first;
+    const bool is_taken = row.second;
     CAPTURE(value);
     library::PackOptions options;
     options.max_error = "1";

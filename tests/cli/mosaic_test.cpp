@@ -8,6 +8,7 @@
 
 #include "encoder/import/joined_clouds.hpp"
 #include "microtin/surface.hpp"
+#include "tests/support/join.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -59,18 +60,19 @@ TEST_CASE("mosaic: cells beyond 180 degrees continue their neighbours' longitude
   fs::create_directory(session.folder() + "/cells");
   session.write("cells/N00E179.hgt", cell("\1\2\3\4\5\6\7\10\11"));
   session.write("cells/N00W180.hgt", cell("\3\2\1\6\5\4\11\10\7"));
-  const char* const kBoth[] = {"cells", "cells/N00E179.hgt cells/N00W180.hgt",
-                               "cells/N00W180.hgt cells/N00E179.hgt"};
-  for (const std::string source : kBoth) {
+  const char* const sources[] = {"cells", "cells/N00E179.hgt cells/N00W180.hgt",
+                                 "cells/N00W180.hgt cells/N00E179.hgt"};
+  for (const std::string source : sources) {
     for (const std::string file : {"both.mtin", "both.mtp"}) {
-      const Session::Result made = session.run("encode " + source + " --max-error 0 -o " + file);
+      const Session::Result made =
+          session.run(join({"encode ", source, " --max-error 0 -o ", file}));
       REQUIRE(made.code == 0);
       CHECK(contains(made.out + made.err,
                      "1 lies beyond 180 degrees east and continues its neighbours' longitudes, to "
                      "181"));
-      CHECK(session.run("verify " + file + " " + source).code == 0);
+      CHECK(session.run(join({"verify ", file, " ", source})).code == 0);
       for (const std::string by : {"", " --device"}) {
-        const std::string ask = "height " + file + by + " -- ";
+        const std::string ask = join({"height ", file, by, " -- "});
         CHECK(session.run(ask + "179.5 0").out == "8\n");
         CHECK(session.run(ask + "180.5 0.5").out == "5\n");
         CHECK(session.run(ask + "-179.5 0.5").out == "5\n");

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "tests/support/join.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -78,7 +79,7 @@ TEST_CASE("places: heights in other units are converted, in every command that r
   for (const char* const name : {"t.mtin", "t.mtp"}) {
     const std::string tiles = std::string(name) == "t.mtp" ? " --tile-vertices 100" : "";
     const std::string file = name;
-    const Session::Result made = session.run("encode t.asc -o " + file + tiles);
+    const Session::Result made = session.run(join({"encode t.asc -o ", file, tiles}));
     CHECK(contains(made.out,
                    "units: x and y metre, z metre\nwarning: heights in the unit "
                    "centimetre are converted to metre: times 0.01\n"));
@@ -88,7 +89,7 @@ TEST_CASE("places: heights in other units are converted, in every command that r
     CHECK(contains(session.run("info " + file).out, "\"highest\": 0.09"));
     CHECK(session.run("render --source t.asc -o t.png " + file).code == 0);
     const Session::Result other =
-        session.run("encode t.asc --units :metre --max-error 0.1 -o u" + file + tiles);
+        session.run(join({"encode t.asc --units :metre --max-error 0.1 -o u", file, tiles}));
     CHECK(contains(other.out, "heights are taken as metre; the file says centimetre\n"));
     CHECK(session.run("verify u" + file + " t.asc").code == 1);
     CHECK(session.run("verify u" + file + " t.asc --units :metre").code == 0);

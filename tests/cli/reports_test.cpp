@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/join.hpp"
 #include "tests/support/products.hpp"
 
 using namespace microtin::tests;
@@ -67,7 +68,7 @@ void expect_text(const std::string& text, const std::string& wanted, const Field
     const std::string name = wanted.substr(i + 1, wanted.find('}', i) - i - 1);
     const size_t end = std::min(text.find_first_not_of("-+.e0123456789", at), text.size());
     const std::string number = text.substr(at, end - at);
-    CHECK_MESSAGE(is_same(number, truth.at(name)), (name + ": " + number));
+    CHECK_MESSAGE(is_same(number, truth.at(name)), join({name, ": ", number}));
     at = end;
     i += name.size() + 1;
   }

@@ -251,8 +251,8 @@ void run_sequence(uint32_t seed) {
   const Device device(slots, kFits);
   Model model = some_model(random);
   UnsteadyCard card{&model.bytes, Random(seed + 77), random.below(3) == 0 ? 10u : 0u};
-  std::vector<microtin_course> courses;
-  for (int i = 0; i < 3; ++i) courses.push_back(some_course(random, model));
+  std::vector<microtin_course> courses(3);
+  for (microtin_course& course : courses) course = some_course(random, model);
   courses.push_back({courses[0].x_end, courses[0].y_end, courses[0].x, courses[0].y});
   for (int i = 0; i < 25; ++i) {
     const uint32_t what = random.below(20);

@@ -23,7 +23,7 @@ struct Row {
 
 // US survey units are decimals of their foot.
 const std::map<std::string, Row>& rows() {
-  static const std::map<std::string, Row> kRows = {
+  static const std::map<std::string, Row> all = {
       {"millimetre", {1025, 0.001, true}},
       {"centimetre", {1033, 0.01, true}},
       {"decimetre", {0, 0.1, true}},
@@ -73,7 +73,7 @@ const std::map<std::string, Row>& rows() {
       {"British foot (Sears 1922 truncated)", {9300, 0.304799333333333, false}},
       {"British chain (Sears 1922 truncated)", {9301, 20.116756, true}},
       {"British link (Sears 1922 truncated)", {9302, 0.20116756, true}}};
-  return kRows;
+  return all;
 }
 
 double metres_of(const LengthUnit& length) {
@@ -201,7 +201,9 @@ TEST_CASE("units: names as files and people write them") {
                                                     {"Foot_Clarke", "Clarke's foot"},
                                                     {"Yard_Clarke", "Clarke's yard"},
                                                     {"Link_Clarke", "Clarke's link"}};
-  for (const auto& [text, name] : names) {
+  for (const auto& row : names) {
+    const auto& text = row.first;
+    const auto& name = row.second;
     const StatedUnit unit = unit_named(text);
     CHECK_MESSAGE((unit.other.empty() ? std::string(name_of(unit.unit)) : unit.other) == name,
                   text);

@@ -9,6 +9,7 @@
 
 #include "encoder/base/error.hpp"
 #include "tests/support/imports.hpp"
+#include "tests/support/join.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace microtin::tests;
@@ -295,8 +296,8 @@ TEST_CASE("asc: each axis goes by its own key, corner or centre") {
   for (const bool x_centre : {false, true}) {
     for (const bool y_centre : {false, true}) {
       const Raster raster =
-          import_asc("grid", size + (x_centre ? "xllcenter 100\n" : "xllcorner 100\n") +
-                                 (y_centre ? "yllcenter 200\n" : "yllcorner 200\n") + heights);
+          import_asc("grid", join({size, x_centre ? "xllcenter 100\n" : "xllcorner 100\n",
+                                   y_centre ? "yllcenter 200\n" : "yllcorner 200\n", heights}));
       CHECK(raster.x.offset == (x_centre ? 100 : 105));
       CHECK(raster.y.offset == (y_centre ? 200 : 205));
     }

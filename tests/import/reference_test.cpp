@@ -132,7 +132,7 @@ TEST_CASE("reference: depths are refused, or turned into heights, by whatever sa
     std::string vertical;
     uint32_t heights;  // code afterwards
   };
-  for (const auto& [vertical, code] :
+  for (const auto& row :
        {Case{R"(VERT_CS["MSL depth",UNIT["metre",1],AXIS["Depth",DOWN],AUTHORITY["EPSG","5715"]])",
              5714},
         Case{R"(VERT_CS["local",UNIT["metre",1],AXIS["Depth",DOWN]])", 0},
@@ -142,6 +142,8 @@ TEST_CASE("reference: depths are refused, or turned into heights, by whatever sa
         Case{R"x(VERTCRS["d",CS[vertical,1],AXIS["depth (D)",down,LENGTHUNIT["metre",1]],)x"
              R"(ID["EPSG",5861]])",
              0}}) {
+    const std::string& vertical = row.vertical;
+    const uint32_t code = row.heights;
     CAPTURE(vertical);
     const Reference file = reference_of_wkt(compound(vertical));
     CHECK(import_error([&] {

@@ -171,13 +171,15 @@ TEST_CASE("shards: no tile claims what no tile can have") {
                             least = {0, 0, 0, 0, 0, 0, 0, 0x80};
   constexpr size_t kVertices = 8, kPosts = 16, kCovered = 24, kVoids = 32, kMaxError = 48,
                    kMaxBelow = 57, kRms = 66, kMean = 75, kRepeats = 84;
-  for (const auto& [offset, bytes] :
+  for (const auto& row :
        {std::pair(kVertices, Bytes{0, 0, 0, 2}), std::pair(kPosts, all), std::pair(kPosts, most),
         std::pair(kCovered, most), std::pair(kVoids, all), std::pair(kVoids, most),
         std::pair(kMaxError, least), std::pair(kMaxError + 8, Bytes{10}),
         std::pair(kMaxBelow, most), std::pair(kRms, most), std::pair(kMean, most),
         std::pair(kMean, least), std::pair(kMean, Bytes{1, 0, 0, 0, 0, 0, 0, 0x80}),
         std::pair(kRepeats, Bytes{0, 0, 0, 2})}) {
+    const size_t offset = row.first;
+    const Bytes& bytes = row.second;
     CAPTURE(offset);
     write_file(forged, with_summary(good, offset, bytes));
     CHECK(shards.refusal({forged}).find("malformed") != std::string::npos);

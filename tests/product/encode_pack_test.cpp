@@ -31,7 +31,7 @@ std::vector<uint8_t> written(const product::EncodeOptions& options, uint32_t& st
   product::write_pack(pack, streams, out);
   out.commit();
   steps = pack.grid.width;
-  const std::vector<uint8_t> bytes = bytes_of_file(folder / "pack");
+  std::vector<uint8_t> bytes = bytes_of_file(folder / "pack");
   const Verification found = verify(PackFile(bytes), raster, options.lattice.max_error);
   CHECK(found.within_bound);
   CHECK(found.uncovered == 0);

@@ -29,8 +29,8 @@ constexpr const char* kSystem = "LOCAL_CS[\"site\",UNIT[\"Foot\",0.3048]]";
 
 // 12 columns and 7 rows, the first height void.
 std::vector<double> heights() {
-  std::vector<double> all;
-  for (int i = 0; i < 84; ++i) all.push_back(0.5 * (i * i % 37) - 3);
+  std::vector<double> all(84);
+  for (int i = 0; i < 84; ++i) all[static_cast<size_t>(i)] = 0.5 * (i * i % 37) - 3;
   all[0] = std::numeric_limits<double>::quiet_NaN();
   return all;
 }
@@ -268,9 +268,7 @@ TEST_CASE("C: a struct of another size is refused, whichever it is") {
   uint64_t size = 0;
   microtin_terrain* none = nullptr;
   for (const int change : {-1, 1}) {
-    const auto other = [change](size_t real) {
-      return static_cast<size_t>(static_cast<int>(real) + change);
-    };
+    const auto other = [change](size_t real) { return change < 0 ? real - 1 : real + 1; };
     c.raster.size = other(sizeof c.raster);
     points.size = other(sizeof points);
     options.size = other(sizeof options);

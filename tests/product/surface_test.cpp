@@ -120,8 +120,8 @@ TEST_CASE("surface: a pack keeps its bound at posts and is asked in any order") 
 
 TEST_CASE("surface: heights are those of the exact plane, between places of the lattice, too") {
   // A slope of 1 in 10 across a single triangle's width, in a stream and in a pack's tiles.
-  std::vector<double> slope;
-  for (int i = 0; i < 33 * 33; ++i) slope.push_back(i % 33 * 1.0);
+  std::vector<double> slope(size_t{33} * 33);
+  for (size_t i = 0; i < slope.size(); ++i) slope[i] = static_cast<double>(i % 33);
   const Terrain terrain(posts_of(33, 33, slope.data(), kTransform));
   const TemporaryFolder folder;
   write_file(folder / "slope.mtin", encode_stream(terrain, {}).bytes);

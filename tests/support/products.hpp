@@ -22,6 +22,7 @@
 
 #include "microtin/pack.h"
 #include "microtin/surface.hpp"
+#include "tests/support/join.hpp"
 #include "tests/support/members.hpp"
 #include "tests/support/session.hpp"
 
@@ -61,23 +62,27 @@ inline void expect(const std::string& door, const Fields& said, const Fields& tr
     if (said.count(name) == 0) continue;
     REQUIRE_MESSAGE(truth.count(name) != 0, ("no row for " + name));
     const std::string &value = said.at(name), &real = truth.at(name);
-    CHECK_MESSAGE((real == kAny || is_same(value, real)), (name + ": " + value + ", not " + real));
+    CHECK_MESSAGE((real == kAny || is_same(value, real)),
+                  join({name, ": ", value, ", not ", real}));
   }
 }
 
-inline void flatten(const nlohmann::json& json, const std::string& name, Fields& fields) {
-  if (!json.is_object()) {
-    fields[name] = json.is_string() ? json.get<std::string>() : json.dump();
-    return;
-  }
-  for (const auto& [key, value] : json.items()) {
-    flatten(value, name.empty() ? key : name + '.' + key, fields);
-  }
-}
-
+// The members of objects within objects are named by their path, "units.vertical".
 inline Fields fields_of(const std::string& text) {
   Fields fields;
-  flatten(nlohmann::json::parse(text), "", fields);
+  std::vector<std::pair<std::string, nlohmann::json>> open = {{"", nlohmann::json::parse(text)}};
+  while (!open.empty()) {
+    const auto [name, json] = std::move(open.back());
+    open.pop_back();
+    if (!json.is_object()) {
+      fields[name] = json.is_string() ? json.get<std::string>() : json.dump();
+      continue;
+    }
+    const std::string before = name.empty() ? name : name + '.';
+    for (const auto& member : json.items()) {
+      open.emplace_back(before + member.key(), member.value());
+    }
+  }
   return fields;
 }
 
@@ -222,7 +227,6 @@ class Truth {
  private:
   void add_mesh() {
     uint64_t vertices = 0, most = 0;
-    Errors heights, x, y;
     double lowest = 1e9, highest = -1e9, west = 1e9, south = 1e9, east = -1e9, north = -1e9;
     nlohmann::json tiles = nlohmann::json::array();
     for (uint32_t row = 0; row < facts_.tile_rows; ++row) {
@@ -461,7 +465,7 @@ class Made {
     std::string files;
     for (std::string line; std::getline(plan, line);) {
       const std::string shard = "shard" + std::to_string(files.size());
-      run("encode" + words + " " + line + " -o " + shard);
+      run(join({"encode", words, " ", line, " -o ", shard}));
       files += " " + shard;
     }
     return run("merge" + files + " -o '" + product_.file + "'");
