@@ -17,19 +17,6 @@ have() {
   done
 }
 
-# Another generation of compilers, on a fresh Debian 13 that comes from the network.
-debian_13() {
-  have debootstrap || return 0
-  probe=$(mktemp -d)
-  if [ "$(id -u)" != 0 ] || ! timeout 120 debootstrap --print-debs trixie "$probe/trixie" >/dev/null 2>&1; then
-    echo "skipped: Debian 13, for want of root or of Debian's mirror"
-    rm -rf "$probe"
-    return 0
-  fi
-  rm -rf "$probe"
-  .ci/prove trixie compilers
-}
-
 beside() {
   part devices
   tests/devices.sh
@@ -37,8 +24,6 @@ beside() {
   tests/analyse.sh || [ $? -eq 77 ] # skipped
   part planted faults
   fuzz/mutate cavity_bound certified no_conflict staged_bytes tie_break
-  part Debian 13
-  debian_13
 }
 
 part release
