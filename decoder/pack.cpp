@@ -320,7 +320,7 @@ uint32_t wanted_now(const microtin_pack& p) {
 microtin_status hear_storage(microtin_pack& p) {
   const Storage said = p.storage;
   p.storage = Storage::kWell;
-  // Of entries that are read together only the first is needed.
+  // Only the first of the entries that one read brings is needed.
   if (said != Storage::kWell && p.stage == PackStage::kEntry && p.buffered >= kPackEntryBytes) {
     p.wanted = p.buffered;
     return MICROTIN_NEED_INPUT;

@@ -149,7 +149,7 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
   }
 }
 
-// Of a terrain in compact form, on a device with numbers as wide as it needs.
+// Bytes of the terrain in compact form, with the smallest index width that fits.
 uint64_t compact_bytes(DecodedTerrain& terrain) {
   const CompactForm form = measured_form(terrain.mesh());
   return bytes_of(form, index_bits(form.vertices));

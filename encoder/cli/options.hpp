@@ -27,7 +27,7 @@ CLI::Option* add_stream(CLI::App& command, std::string& path,
 // One or several files, or folders of them, that make up one terrain.
 void add_terrain(CLI::App& command, std::string& path, Preparation& preparation);
 
-// The same by an option.
+// The files of a terrain, given by an option instead of as arguments.
 CLI::Option* add_terrain(CLI::App& command, std::string& path, Preparation& preparation,
                          const std::string& name, const std::string& description);
 

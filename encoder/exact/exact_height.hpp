@@ -23,7 +23,7 @@ inline ExactHeight height_of_answer(int32_t answer) {
   return {0, answer, 65536};
 }
 
-// In real units, to nearest (halves up), with so many decimals, at most kMaxDecimals.
+// The height in real units, rounded to `decimals` (at most kMaxDecimals), halves up.
 Decimal rounded_height(const Axis& z, const ExactHeight& height, int decimals);
 
 // In real units: off by at most three units in the last place of the result or, if that is larger,

@@ -31,7 +31,7 @@ constexpr std::array<KnownUnit, 5> kUnits = {
 
 constexpr int64_t kTen7 = 10000000, kTen8 = 100000000, kTen10 = 10000000000, kTen12 = 1000000000000;
 
-// Of metres; of the US survey foot, which is no decimal of them, where that defines the unit.
+// Ratios to the metre; US survey units count US survey feet, which no decimal of metres equals.
 constexpr std::array<LengthUnit, 49> kLengths = {
     {{1025, "millimetre", Unit::kMetre, 1, 1000},
      {1033, "centimetre", Unit::kMetre, 1, 100},
