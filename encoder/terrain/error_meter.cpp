@@ -33,21 +33,16 @@ bool SquareSum::operator<=(const SquareSum& other) const {
   return other.high_ - high_ + shifted(middle) >= 0;
 }
 
-namespace {
-
-// The root of the mean of `count` squares, rounded up. At most 2^92.
-Wide root_of_mean(const SquareSum& sum, int64_t count) {
-  Wide low = -1, high = Wide{1} << (2 * kHalf);  // low^2 * count < sum <= high^2 * count
+Wide SquareSum::root_of_mean(Wide count, Wide largest) const {
+  Wide low = -1, high = largest;  // low^2 * count < sum <= high^2 * count
   while (high - low > 1) {
     const Wide middle = low + (high - low) / 2;
     SquareSum all;
     all.add(middle, count);
-    (sum <= all ? high : low) = middle;
+    (*this <= all ? high : low) = middle;
   }
   return high;
 }
-
-}  // namespace
 
 ErrorMeter::ErrorMeter(const Axis& source, const Axis& lattice)
     : to_common_(static_cast<Wide>(lattice.denominator) * 65536),
@@ -110,7 +105,7 @@ Decimal ErrorMeter::mean() const {
 
 Decimal ErrorMeter::root_mean_square() const {
   if (count_ == 0) return {};
-  return make_decimal_up(root_of_mean(squares_, count_), kMaxDecimals);
+  return make_decimal_up(squares_.root_of_mean(count_, largest_), kMaxDecimals);
 }
 
 }  // namespace microtin::terrain

@@ -11,12 +11,15 @@
 
 namespace microtin::terrain {
 
-// Squares of up to 2^33 numbers from 0 to 2^92, added up exactly in parts of 46 bits: each part
-// stays below 2^125.
+// Squares of up to 2^33 numbers from 0 to 2^92, or of up to 2^52 from 0 to 2^36, added up exactly
+// in parts of 46 bits: each part stays below 2^125.
 class SquareSum {
  public:
   void add(Wide number, Wide times);
   bool operator<=(const SquareSum& other) const;
+
+  // The root of the mean of the `count` squares, of numbers up to `largest`, rounded up.
+  Wide root_of_mean(Wide count, Wide largest) const;
 
  private:
   Wide high_ = 0, middle_ = 0, low_ = 0;  // high * 2^92 + middle * 2^47 + low

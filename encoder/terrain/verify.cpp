@@ -3,7 +3,6 @@
 #include "encoder/terrain/verify.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "encoder/exact/lattice_map.hpp"
@@ -113,11 +112,27 @@ Wide mean_of(const std::vector<Verification>& parts, uint64_t samples) {
   return round_divide(sum, static_cast<Wide>(samples)) * unit;
 }
 
+// The root of the mean of squared roots in billionths, each of as many samples as it covers,
+// rounded up: in a coarser unit where a sum of squares does not hold them otherwise.
+Wide root_mean_square_of(const std::vector<Verification>& parts, uint64_t samples) {
+  const Wide most = Wide{1} << (samples <= uint64_t{1} << 33 ? 92 : 36);
+  const auto billionths = [](const Verification& part) {
+    return mantissa_at(part.rms_error, kMaxDecimals);
+  };
+  Wide largest = 0, unit = 1;
+  for (const Verification& part : parts) largest = std::max(largest, billionths(part));
+  while (ceil_divide(largest, unit) > most) unit *= 2;
+  SquareSum squares;
+  for (const Verification& part : parts) {
+    squares.add(ceil_divide(billionths(part), unit), static_cast<Wide>(part.covered));
+  }
+  return squares.root_of_mean(static_cast<Wide>(samples), ceil_divide(largest, unit)) * unit;
+}
+
 }  // namespace
 
 Verification combine(const std::vector<Verification>& parts) {
   Verification all;
-  double squares = 0;
   for (const Verification& part : parts) {
     all.posts += part.posts;
     all.covered += part.covered;
@@ -126,14 +141,10 @@ Verification combine(const std::vector<Verification>& parts) {
     all.voids_answered += part.voids_answered;
     if (all.max_error <= part.max_error) all.max_error = part.max_error;
     if (all.max_below <= part.max_below) all.max_below = part.max_below;
-    const double rms = real(part.rms_error);
-    squares += rms * rms * static_cast<double>(part.covered);
     all.within_bound = all.within_bound && part.within_bound;
   }
   if (all.covered == 0) return all;
-  constexpr int64_t kBillion = 1000000000;
-  const double rms = std::sqrt(squares / static_cast<double>(all.covered));
-  all.rms_error = make_decimal_up(static_cast<Wide>(std::ceil(rms * kBillion)), kMaxDecimals);
+  all.rms_error = make_decimal_up(root_mean_square_of(parts, all.covered), kMaxDecimals);
   all.mean_error = make_decimal_nearest(mean_of(parts, all.covered), kMaxDecimals);
   return all;
 }

@@ -101,7 +101,7 @@ TEST_CASE("errors of any size are rounded up, and none is cut off") {
   CHECK(to_string(one.mean_error) == std::to_string(-largest / 4));
   const Verification all = combine(std::vector<Verification>(1000, one));
   CHECK(to_string(all.mean_error) == std::to_string(-largest / 4));
-  CHECK(real(all.rms_error) == doctest::Approx(static_cast<double>(largest) / 2));
+  CHECK(to_string(all.rms_error) == std::to_string(largest / 2));
 }
 
 TEST_CASE("the root of a mean square is exact where squares are many and large") {
@@ -109,6 +109,44 @@ TEST_CASE("the root of a mean square is exact where squares are many and large")
   const Verification found =
       verify(square.mesh(), heights({3000000000000001, 4000000000000007}, 3), std::nullopt);
   CHECK(to_string(found.rms_error) == "3535533905932.742007");  // of ...2006066...
+}
+
+namespace {
+
+Verification part_of(uint64_t covered, const char* rms_error) {
+  Verification part;
+  part.covered = covered;
+  part.rms_error = *parse_decimal(rms_error);
+  return part;
+}
+
+std::string combined_rms(const std::vector<Verification>& parts) {
+  return to_string(combine(parts).rms_error);
+}
+
+}  // namespace
+
+TEST_CASE("errors of parts together are rounded up once, as those of each") {
+  for (const char* const rms : {"0.1", "0.3", "3.3", "0.000000001", "123456.789012345", "1e12"}) {
+    const std::string same = to_string(*parse_decimal(rms));
+    CHECK(combined_rms({part_of(1, rms), part_of(2, rms)}) == same);
+    CHECK(combined_rms(std::vector<Verification>(7, part_of(1000003, rms))) == same);
+  }
+  CHECK(combined_rms({part_of(1, "3"), part_of(1, "4")}) == "3.535533906");    // of ...905...
+  CHECK(combined_rms({part_of(2, "0.5"), part_of(1, "0")}) == "0.408248291");  // of ...0463
+  CHECK(combined_rms({part_of(1, "30000000.000000007"), part_of(2, "30000000.000000009")}) ==
+        "30000000.000000009");  // of ...0083
+  CHECK(combined_rms({part_of(9, "0"), part_of(7, "0")}) == "0");
+}
+
+TEST_CASE("errors of more parts than are added up exactly are not below their root") {
+  constexpr uint64_t kMany = uint64_t{1} << 32;
+  const std::vector<Verification> usual(1 << 20, part_of(kMany, "68.7"));
+  CHECK(combined_rms(usual) == "68.7");
+  const std::vector<Verification> huge(1 << 20, part_of(kMany, "999999999999999999"));
+  const double rms = real(combine(huge).rms_error);
+  CHECK(rms >= 999999999999999999.0);
+  CHECK(rms <= 1000000000100000000.0);
 }
 
 TEST_CASE("no bound is always kept") {
