@@ -270,34 +270,58 @@ struct Wishes {
   uint32_t first;  // the first if there is any
 };
 
+// Notes the slots and bad tiles that the course meets from here on, up to one good or unknown tile
+// more than there are slots, and the first of the unknown ones.
+MICROTIN_OUT_OF_LINE void look_along(microtin_pack& p, TouchedTiles& tiles, Wishes* wishes) {
+  uint32_t left = p.slot_count + 1u;  // one that does not fit is enough to know
+  for (; !tiles.at_end() && left != 0; tiles.next()) {
+    const uint32_t tile = tiles.number(), slot = slot_of(p, tile), bad = bad_tile(p, tile);
+    if (p.has_passed && tile == p.passed) continue;
+    wishes->in_hand = wishes->in_hand || tile == p.tile;
+    if (bad != MICROTIN_PACK_BAD_TILES) {
+      p.bad[bad].wanted = p.clock;
+      wishes->has_bad = true;  // it needs no slot
+      continue;
+    }
+    --left;
+    if (slot != p.slot_count) {
+      p.slots[slot].wanted = p.clock;
+      continue;
+    }
+    if (!wishes->is_any) wishes->first = tile;
+    wishes->is_any = true;
+  }
+}
+
+// Notes which slots and bad tiles the course meets, and goes to `passed`. False if the course does
+// not meet that. However many tiles were passed, none of them is looked at again.
+bool go_to_passed(microtin_pack& p, TouchedTiles& tiles, Wishes* wishes) {
+  for (uint32_t i = 0; i < p.slot_count; ++i) {
+    PackSlot& slot = p.slots[i];
+    if (!slot.is_empty() && tiles.go_to(slot.tile)) slot.wanted = p.clock;
+  }
+  for (BadTile& bad : p.bad) {
+    if (!bad.is_empty() && tiles.go_to(bad.tile)) bad.wanted = p.clock;
+  }
+  wishes->has_bad = tiles.go_to(p.passed);
+  return wishes->has_bad;
+}
+
 // Notes which slots and bad tiles the course touches, and finds the first tile to be tried. What it
 // needs on the stack is not there while a tile is decoded.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE Wishes wishes_of(microtin_pack& p,
                                                         const microtin_course& course) {
   Wishes wishes = {false, false, false, 0};
   ++p.clock;
-  uint32_t left = p.slot_count + 1u;  // one that does not fit is enough to know
-  bool is_behind = !p.has_passed;
-  for (TouchedTiles tiles(p.header.grid, course); !tiles.at_end() && (left != 0 || !is_behind);
-       tiles.next()) {
-    const uint32_t tile = tiles.number(), slot = slot_of(p, tile), bad = bad_tile(p, tile);
-    wishes.in_hand = wishes.in_hand || tile == p.tile;
-    if (bad != MICROTIN_PACK_BAD_TILES) {
-      p.bad[bad].wanted = p.clock;
-      wishes.has_bad = true;  // it needs no slot
-    } else if (slot != p.slot_count) {
-      p.slots[slot].wanted = p.clock;
-      --left;
-    } else if (!is_behind) {
-      wishes.has_bad = true;  // as it was when it was tried
-    } else {
-      --left;
-      if (!wishes.is_any) wishes.first = tile;
-      wishes.is_any = true;
+  for (;;) {  // twice at most
+    TouchedTiles tiles(p.header.grid, course);
+    if (p.has_passed) {
+      p.has_passed = go_to_passed(p, tiles, &wishes);
+      if (!p.has_passed) continue;  // from where the course begins
     }
-    is_behind = is_behind || tile == p.passed;
+    look_along(p, tiles, &wishes);
+    return wishes;
   }
-  return wishes;
 }
 
 // Takes up a course: what was tried for another counts for that alone.

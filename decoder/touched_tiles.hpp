@@ -26,7 +26,8 @@ MICROTIN_ONE_COPY inline bool is_legal(const microtin_course& c) {
 }
 
 // The tiles whose closed boxes a legal course meets, row by row from where it begins. Looks at no
-// more than twice as many boxes as its bounding box has columns and rows, together.
+// more than twice as many boxes as its bounding box has columns and rows, together, also after
+// go_to.
 class TouchedTiles {
  public:
   MICROTIN_ONE_COPY TouchedTiles(const TileGrid& grid, const microtin_course& course)
@@ -52,6 +53,20 @@ class TouchedTiles {
     is_met_ = true;
     step();
     seek();
+  }
+
+  // Goes to a tile of the grid at once. False if the course does not meet it: then the walk is
+  // over.
+  MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE bool go_to(uint32_t tile) {
+    row_ = tile / tile_columns(grid_);
+    column_ = tile % tile_columns(grid_);
+    at_end_ = !columns_.holds(column_) || !rows_.holds(row_) || side() != Side::kOn;
+    // The next row's boxes begin at most one column before any that is met in this one, but on a
+    // course along the border between the two.
+    const bool is_level = course_.y == course_.y_end || column_ == columns_.from;
+    first_ = is_level ? columns_.from : columns_.before(column_);
+    is_met_ = true;
+    return !at_end_;
   }
 
  private:
@@ -115,6 +130,10 @@ class TouchedTiles {
     bool none;
 
     uint32_t after(uint32_t i) const { return from < to ? i + 1 : i - 1; }
+    uint32_t before(uint32_t i) const { return from < to ? i - 1 : i + 1; }
+    bool holds(uint32_t i) const {
+      return !none && (from < to ? from <= i && i <= to : to <= i && i <= from);
+    }
   };
 
   static Slices slices(int64_t begin, int64_t end, uint32_t size, uint32_t most) {

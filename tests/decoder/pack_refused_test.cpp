@@ -2,6 +2,7 @@
 // Packs that are damaged, or break a rule: a device tells so, and never answers from them.
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <cstring>
 #include <vector>
 
@@ -170,6 +171,21 @@ TEST_CASE_TEMPLATE(
   reads = card.reads;
   CHECK(served(device, card, behind) == MICROTIN_BAD_TILES);
   CHECK(card.reads == reads);
+}
+
+TEST_CASE_TEMPLATE("pack: a course across many bad tiles takes time that grows as their number",
+                   Device, MeshSlots, CompactSlots) {
+  constexpr uint32_t kTiles = 60000;
+  Card card{forged_pack({kTiles, 2, 1, 2}, std::vector<ForgedTile>(kTiles))};
+  PackHeader header{};
+  REQUIRE(read_pack_header(card.bytes.data(), &header));
+  card.bytes.resize(pack_index_start(header));  // the index is gone: all tiles are truncated
+  const Device device(3);
+  const auto began = std::chrono::steady_clock::now();
+  CHECK(device.service(card, {0, 100, kTiles * 256, 100}) == MICROTIN_BAD_TILES);
+  // A fifth of a second with sanitizers; a minute if each attempt looked along the tiles before it.
+  CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(10));
+  CHECK(card.reads > kTiles);
 }
 
 TEST_CASE_TEMPLATE("pack: what is beyond the end is truncated, in the header and in tiles", Device,

@@ -72,6 +72,27 @@ TEST_CASE("touched tiles: all that meet the course, each once, from where it beg
   }
 }
 
+TEST_CASE("touched tiles: a walk that is sent to a tile goes on as if it had come there") {
+  Random random(12);
+  for (int i = 0; i < 3000; ++i) {
+    const TileGrid grid = {1 + random.below(12), 1 + random.below(12),
+                           static_cast<uint16_t>(1 + random.below(4)),
+                           static_cast<uint16_t>(1 + random.below(4))};
+    const microtin_course c = {coordinate(random, grid.x_max), coordinate(random, grid.y_max),
+                               coordinate(random, grid.x_max), coordinate(random, grid.y_max)};
+    const std::vector<uint32_t> all = touched(grid, c);
+    const uint32_t tiles = tile_columns(grid) * tile_rows(grid);
+    for (uint32_t tile = 0; tile < tiles + 3; ++tile) {
+      TouchedTiles walk(grid, c);
+      const auto met = std::find(all.begin(), all.end(), tile);
+      REQUIRE(walk.go_to(tile) == (met != all.end()));
+      std::vector<uint32_t> rest;
+      for (; !walk.at_end(); walk.next()) rest.push_back(walk.number());
+      REQUIRE(rest == std::vector<uint32_t>(met, all.end()));
+    }
+  }
+}
+
 TEST_CASE("pack: a course across 2^32 tiles is looked along, not around") {
   const TileGrid grid = {65535, 65535, 1, 1};
   const int64_t far = 65535 * 256;
