@@ -85,7 +85,7 @@ PostGrid grid_of(const DecodeRequest& request, const SampledSurface& surface,
   const std::optional<Extent>& extent = request.extent;
   if (!request.cell) {
     const PostGrid grid = posts_alike(request, surface, metadata);
-    return extent ? posts_within(grid, *extent) : grid;
+    return extent ? posts_within(grid, *extent, surface.is_degrees) : grid;
   }
   return extent ? grid_of_cells(*extent, *request.cell) : grid_of_cells(surface, *request.cell);
 }

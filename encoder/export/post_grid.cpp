@@ -47,16 +47,36 @@ Row row_over(Decimal low, Decimal high, Decimal cell) {
                   meaning_of(cell));
 }
 
-// The posts of an axis from `low` to `high`.
-Row row_within(const Axis& axis, Decimal low, Decimal high) {
+// The first and the last number of an axis from `low` to `high`.
+struct Numbers {
+  Wide first, last;
+
+  bool empty() const { return first > last; }
+};
+
+Numbers numbers_within(const Axis& axis, Decimal low, Decimal high) {
   const auto map_from = [&](Decimal value) {
     return map_between({0, 1, static_cast<uint64_t>(power_of_ten(value.decimals))}, axis);
   };
   const LatticeMap from = map_from(low), to = map_from(high);
-  const Wide first = ceil_divide(from.numerator(low.mantissa), from.step);
-  const Wide last = floor_divide(to.numerator(high.mantissa), to.step);
-  if (first > last) throw Error("no post of the grid lies in the extent");
-  return {moved_axis(axis, first), checked_count(last - first + 1)};
+  return {ceil_divide(from.numerator(low.mantissa), from.step),
+          floor_divide(to.numerator(high.mantissa), to.step)};
+}
+
+// The posts of an axis from `low` to `high`.
+Row row_within(const Axis& axis, Decimal low, Decimal high) {
+  const Numbers posts = numbers_within(axis, low, high);
+  if (posts.empty()) throw Error("no post of the grid lies in the extent");
+  return {moved_axis(axis, posts.first), checked_count(posts.last - posts.first + 1)};
+}
+
+// A grid's x by the name by which columns of its own lie in the extent; by its own if by none.
+Axis named_within(const PostGrid& grid, const Extent& extent, bool is_degrees) {
+  for (const Axis& name : names_of_x(grid.x, is_degrees)) {
+    const Numbers posts = numbers_within(name, extent.west, extent.east);
+    if (!posts.empty() && posts.first < grid.columns && posts.last >= 0) return name;
+  }
+  return grid.x;
 }
 
 PostGrid grid_of(const Row& x, const Row& y) {
@@ -112,8 +132,8 @@ PostGrid grid_of_cells(const Extent& extent, Decimal cell) {
                  row_over(extent.south, extent.north, cell));
 }
 
-PostGrid posts_within(const PostGrid& grid, const Extent& extent) {
-  return grid_of(row_within(grid.x, extent.west, extent.east),
+PostGrid posts_within(const PostGrid& grid, const Extent& extent, bool is_degrees) {
+  return grid_of(row_within(named_within(grid, extent, is_degrees), extent.west, extent.east),
                  row_within(grid.y, extent.south, extent.north));
 }
 

@@ -36,9 +36,9 @@ PostGrid lattice_grid(const SampledSurface& surface);
 PostGrid grid_of_cells(const SampledSurface& surface, Decimal cell);
 PostGrid grid_of_cells(const Extent& extent, Decimal cell);
 
-// Those of a grid's posts, continued to all sides, that lie in the extent. Throws Error as above,
-// and if there are none.
-PostGrid posts_within(const PostGrid& grid, const Extent& extent);
+// Those of a grid's posts, continued to all sides, that lie in the extent, which may be named a
+// turn from the grid's own in degrees. Throws Error as above, and if there are none.
+PostGrid posts_within(const PostGrid& grid, const Extent& extent, bool is_degrees);
 
 // From posts of one axis to their places on the lattice.
 class PostPlaces {

@@ -83,6 +83,24 @@ TEST_CASE("cli: decode --like writes another raster's posts") {
                "p.mtin: no post of the grid lies on the terrain, which has x 0 to 10, y 0 to 10"));
 }
 
+TEST_CASE("cli: an extent takes either name of a longitude, with the source's own posts") {
+  const Session session;
+  session.write("t.asc", head("5", "3", "179.5", "-3", "0.35") +  // to 180.9
+                             "1 2 3 4 5\n2 3 4 5 6\n3 4 5 6 7\n");
+  for (const std::string file : {"t.mtin", "t.mtp"}) {
+    REQUIRE(session.run("encode t.asc --units degree:metre -o " + file).code == 0);
+    for (const std::string grid : {"", " --like t.asc"}) {
+      const auto rows = [&](const std::string& extent, const std::string& west) {
+        REQUIRE(session.run("decode " + file + grid + " -o x.asc --extent=" + extent).code == 0);
+        CHECK(contains(session.read("x.asc"), head("3", "2", west, "-3", "0.35")));
+        CHECK(contains(session.read("x.asc"), "\n4 5 6\n5 6 7\n"));
+      };
+      rows("180.1,-3,181,-2.5", "180.2");
+      rows("-179.9,-3,-179,-2.5", "-179.8");
+    }
+  }
+}
+
 TEST_CASE("cli: decode refuses what does not go together") {
   const Session session;
   session.write("t.asc", kSource);

@@ -104,7 +104,7 @@ TEST_CASE("grid: an extent's posts begin at its south-west corner, or are those 
         "-9999 2.5 3.5 4.5\n-9999 0.5 1.5 2.5\n-9999 -9999 -9999 -9999\n");
   const PostGrid posts{3, 2, {100, 2, 1}, {1, 2, 1}};  // at 100, 102, 104 and 1, 3
   const auto within = [&](const std::string& extent) {
-    return posts_within(posts, parse_extent(extent).value());
+    return posts_within(posts, parse_extent(extent).value(), false);
   };
   const PostGrid all = within("100,1,104,3"), west = within("99,0.5,101.999,3.1"),
                  wide = within("95.9,-1.0,104,9");
@@ -118,12 +118,26 @@ TEST_CASE("grid: an extent's posts begin at its south-west corner, or are those 
   CHECK(!meets(surface, within("104,5,107,9")));
 }
 
+TEST_CASE("grid: an extent has a grid's own posts by either name of their longitudes") {
+  const PostGrid posts{29, 2, {17900, 7, 100}, {0, 1, 1}};  // from 179 to 180.96
+  const auto first_within = [](const PostGrid& grid, const std::string& extent, bool is_degrees) {
+    return posts_within(grid, parse_extent(extent).value(), is_degrees).x;
+  };
+  const std::string east = "180,0,180.5,1", west = "-180,0,-179.5,1", none = "-90,0,-89,1";
+  CHECK(is_same(first_within(posts, east, true), {18005, 7, 100}));
+  CHECK(is_same(first_within(posts, west, true), {-17995, 7, 100}));
+  CHECK(is_same(first_within(posts, west, false), {-17996, 7, 100}));  // 0.07 do not divide 360
+  CHECK(is_same(first_within(posts, none, true), first_within(posts, none, false)));
+  const PostGrid named_west{29, 2, {-18100, 7, 100}, {0, 1, 1}};  // from -181
+  CHECK(is_same(first_within(named_west, "179,0,180,1", true), {17900, 7, 100}));
+}
+
 TEST_CASE("grid: the posts of an extent are found in numbers of any size") {
   const PostGrid tiny = grid_of_cells(parse_extent("0,0,0.000000002,1").value(), {1, 9});
   CHECK((tiny.columns == 3 && tiny.rows == 1000000001));
   CHECK_THROWS_AS(grid_of_cells(parse_extent("0,0,1,999999999999").value(), {1, 9}), Error);
   CHECK_THROWS_AS(posts_within({1, 1, {0, 1, 1}, {0, 1, 1}},
-                               parse_extent("-999999999999,0,999999999999,1").value()),
+                               parse_extent("-999999999999,0,999999999999,1").value(), false),
                   Error);
   const PostGrid far = grid_of_cells(
       parse_extent("999999999000.000000000001,0,999999999999.000000000001,1").value(), {1, 0});
