@@ -120,7 +120,7 @@ uint32_t choose_pieces(TiledCloud tiled, const PackOptions& options, uint32_t fe
   const double guess = std::sqrt(tiles * std::max(x_max, y_max) / std::min(x_max, y_max));
   const auto longer = static_cast<uint32_t>(std::max(x_max, y_max));
   fewest = std::max(fewest, (longer - 1) / kLatticeMax + 1);
-  if (tile_count(grid_in_pieces(tiled.survey, fewest)) > kMostTiles) refuse_extent(tiled);
+  if (has_too_many_tiles(grid_in_pieces(tiled.survey, fewest))) refuse_extent(tiled);
   uint32_t fitting = 0, most = 0;
   uint32_t pieces = std::max(fewest, static_cast<uint32_t>(std::min<double>(guess, longer)));
   const uint64_t plenty =
@@ -128,7 +128,7 @@ uint32_t choose_pieces(TiledCloud tiled, const PackOptions& options, uint32_t fe
                          tile_count(grid_in_pieces(tiled.survey, pieces)));
   for (;;) {
     tiled.grid = grid_in_pieces(tiled.survey, pieces);
-    if (pieces > longer || tile_count(tiled.grid) > kMostTiles) refuse_tiles(most);
+    if (pieces > longer || has_too_many_tiles(tiled.grid)) refuse_tiles(most);
     if (tile_count(tiled.grid) > plenty) refuse_crowds(plenty, most);
     most = most_vertices(tiled);
     const uint32_t allowed = most_vertices(options, tiled.grid);

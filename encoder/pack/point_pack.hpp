@@ -22,8 +22,6 @@ struct PointPack {
   uint64_t merged = 0;
 };
 
-constexpr uint32_t kMostTiles = 1u << 20;
-
 // Of 1, 2, 5, 10 ... of the last decimal of the points' places the finest step at which so many
 // tiles, as large as they can be, cover them. O(points).
 Decimal finest_step(const PointCloud& cloud, uint64_t tiles);

@@ -92,16 +92,21 @@ uint32_t guessed_pieces(const Raster& frame, const PackOptions& options) {
 }  // namespace
 
 TileGrid grid_of(const Raster& frame, uint32_t tile_steps) {
-  return grid_of(frame.width - 1, frame.height - 1, tile_steps);
+  const TileGrid grid = grid_of(frame.width - 1, frame.height - 1, tile_steps);
+  if (has_too_many_tiles(grid)) {
+    throw Error(
+        "tiles of " + std::to_string(std::max(grid.width, grid.height)) + " steps are " +
+        std::to_string(tile_count(grid)) + ", and a pack has " + std::to_string(kMostTiles) +
+        " at most: ask for more --tile-steps or --tile-vertices, or make a pack of each " + "part");
+  }
+  return grid;
 }
 
 TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps) {
   const uint32_t size = std::min(tile_steps, uint32_t{kLatticeMax});
   const uint32_t width = divide_up(x_max, divide_up(x_max, size));
   const uint32_t height = divide_up(y_max, divide_up(y_max, size));
-  const TileGrid grid{x_max, y_max, static_cast<uint16_t>(width), static_cast<uint16_t>(height)};
-  if (tile_count(grid) > UINT32_MAX) throw Error("more than 4,294,967,295 tiles");
-  return grid;
+  return {x_max, y_max, static_cast<uint16_t>(width), static_cast<uint16_t>(height)};
 }
 
 double counting_part(const Raster& frame, const PackOptions& options) {

@@ -210,6 +210,35 @@ TEST_CASE("limits: vertices of tiles in C++ and C") {
   }
 }
 
+namespace {
+
+std::string flat_grid(uint32_t columns, uint32_t rows) {
+  std::string text = "ncols " + std::to_string(columns) + "\nnrows " + std::to_string(rows) +
+                     "\nxllcenter 0\nyllcenter 0\ncellsize 1\n";
+  for (uint64_t post = 0; post < uint64_t{columns} * rows; ++post) text += "1 ";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("limits: 2^20 tiles of a pack of a raster, at every door") {
+  const std::string message = "tiles of 1 steps are 1049600, and a pack has 1048576 at most: ";
+  const Session session;
+  const std::string options = " --units metre --max-error 1 --fast --tile-steps 1";
+  session.write("more.asc", flat_grid(1026, 1025));
+  CHECK(contains(session.failure("encode more.asc -o o.mtp" + options), message));
+  CHECK(contains(session.failure("encode more.asc --tiles 0:0 -o o.shard" + options), message));
+  CHECK(contains(session.failure("plan more.asc --shards 2" + options), message));
+  session.write("most.asc", flat_grid(1025, 1025));
+  CHECK(contains(session.run("plan most.asc --shards 2" + options).out, "524288:1048575"));
+  library::PackOptions pack;
+  pack.max_error = "1";
+  pack.tile_steps = 1;
+  CHECK(contains(
+      error_of([&] { encode_pack(terrain_of(1026, 1025), pack, session.folder() + "/o.mtp"); }),
+      message));
+}
+
 TEST_CASE("limits: of posts, their heights and their decimals") {
   constexpr int64_t kMost = 1000000000000000000;
   library::StreamOptions options;

@@ -144,17 +144,31 @@ TEST_CASE("shards: what is missing, double, foreign or damaged is refused") {
 
 namespace {
 
-// A shard whose first tile's summary has other bytes, and the right checks.
-Bytes with_summary(Bytes shard, size_t offset, const Bytes& bytes) {
-  constexpr size_t kStart = 9, kCheck = 4, kRange = 8, kSummary = 89;
-  const size_t summary = kStart + read_u32(shard.data() + 5) + kCheck + kRange + kCheck;
-  std::copy(bytes.begin(), bytes.end(),
-            shard.begin() + static_cast<std::ptrdiff_t>(summary + offset));
-  const uint32_t check = crc32(0, shard.data() + summary, kSummary);
+constexpr size_t kStart = 9, kCheck = 4;
+
+size_t head_bytes(const Bytes& shard) {
+  return read_u32(shard.data() + 5);
+}
+
+// A shard of which a part, in front of its check, has other bytes, and the right check.
+Bytes with_part(Bytes shard, size_t part, size_t size, size_t offset, const Bytes& bytes) {
+  std::copy(bytes.begin(), bytes.end(), shard.begin() + static_cast<std::ptrdiff_t>(part + offset));
+  const uint32_t check = crc32(0, shard.data() + part, size);
   for (size_t i = 0; i < kCheck; ++i) {
-    shard[summary + kSummary + i] = static_cast<uint8_t>(check >> 8 * i);
+    shard[part + size + i] = static_cast<uint8_t>(check >> 8 * i);
   }
   return shard;
+}
+
+Bytes with_head(const Bytes& shard, size_t offset, const Bytes& bytes) {
+  return with_part(shard, kStart, head_bytes(shard), offset, bytes);
+}
+
+// Of the first tile.
+Bytes with_summary(const Bytes& shard, size_t offset, const Bytes& bytes) {
+  constexpr size_t kRange = 8, kSummary = 89;
+  const size_t summary = kStart + head_bytes(shard) + kCheck + kRange + kCheck;
+  return with_part(shard, summary, kSummary, offset, bytes);
 }
 
 }  // namespace
@@ -184,6 +198,19 @@ TEST_CASE("shards: no tile claims what no tile can have") {
     write_file(forged, with_summary(good, offset, bytes));
     CHECK(shards.refusal({forged}).find("malformed") != std::string::npos);
   }
+}
+
+TEST_CASE("shards: no pack has more tiles than can be made") {
+  PackOptions options = pack_options(6, 250);
+  options.tile_steps = 25;
+  Shards shards(rough_raster(51, 26), options);  // two tiles
+  const Bytes good = bytes_of_file(shards.write({0, shards.tiles() - 1}));
+  const std::string forged = shards.folder() / "forged";
+  constexpr size_t kLargestX = 20;
+  write_file(forged, with_head(good, kLargestX, {0, 0, 0x90, 1}));  // 2^20 columns
+  CHECK(shards.refusal({forged}) == "tiles 2 to 1048575 are in no shard");
+  write_file(forged, with_head(good, kLargestX, {1, 0, 0x90, 1}));
+  CHECK(shards.refusal({forged}) == "forged: malformed: a rule of the format is broken");
 }
 
 TEST_CASE("packs: tiles become smaller until none has too many vertices") {
