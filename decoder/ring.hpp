@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The laced ring: what a compact terrain holds, and how its triangles are found. shared/COMPACT.md
-// explains it and proves what the comments here say.
+// The laced ring: what a compact terrain holds, and how its triangles are found.
+// shared/docs/format-compact.md explains it and proves what the comments here say.
 //
 // Positions 0 .. N - 1 run along a closed walk through all vertices; 0 is infinity. On each side of
 // it lies a polygon cut into triangles. Each triangle a < b < c of a side has a middle b of its
@@ -58,7 +58,8 @@ struct microtin_compact : microtin::RingShape {
   microtin_axis axis[3];
 };
 
-static_assert(sizeof(microtin_compact) == MICROTIN_COMPACT_HEADER_BYTES, "see compact.h, PACK.md");
+static_assert(sizeof(microtin_compact) == MICROTIN_COMPACT_HEADER_BYTES,
+              "see compact.h, format-pack.md");
 static_assert(sizeof(microtin_compact) % alignof(microtin::Index) == 0, "looks follow it");
 
 namespace microtin {

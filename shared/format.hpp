@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The constants of the format and the fixed part of its header. FORMAT.md explains them.
+// The constants of the format and the fixed part of its header. format-stream.md explains them.
 #ifndef MICROTIN_SHARED_FORMAT_HPP
 #define MICROTIN_SHARED_FORMAT_HPP
 
@@ -21,15 +21,16 @@ constexpr uint32_t kSectionVertices = 256;
 
 // Payload bytes that suffice for any step. Most are used by a vertex on a hull edge: a decision,
 // its gap (19 decisions and 15 uniform bits) and its height (19 decisions and 15 uniform bits), at
-// 9 bits a decision, are 48 bytes (FORMAT.md, "Payload bytes of a step"). A number that is none may
-// take 32 bits instead of 15: gaps and heights of which the decisions learn on the way leave room.
+// 9 bits a decision, are 48 bytes (format-stream.md, "Payload bytes of a step"). A number that is
+// none may take 32 bits instead of 15: gaps and heights of which the decisions learn on the way
+// leave room.
 constexpr uint32_t kStepBytes = 48;
 
 // Bytes of zero that stand virtually behind a section's payload.
 constexpr uint32_t kVirtualBytes = 4;
 
 // Vertices of all phases together that a stream may walk around. Every phase of the encoder leaves
-// about 3/4 of its vertices at most: 4 n and 7 per phase suffice (FORMAT.md, "Work").
+// about 3/4 of its vertices at most: 4 n and 7 per phase suffice (format-stream.md, "Work").
 constexpr uint32_t work_budget(uint32_t vertices) {
   return 4 * vertices + 512;
 }

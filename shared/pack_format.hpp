@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A pack: many tiles of one terrain in a file. PACK.md explains it.
+// A pack: many tiles of one terrain in a file. format-pack.md explains it.
 #ifndef MICROTIN_SHARED_PACK_FORMAT_HPP
 #define MICROTIN_SHARED_PACK_FORMAT_HPP
 

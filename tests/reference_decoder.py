@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A slow second decoder of microtin streams, written from shared/FORMAT.md and not from the C++ code.
+"""A slow second decoder of microtin streams, written from shared/docs/format-stream.md and not from the C++ code.
 
 Usage: reference_decoder.py FILE.mtin
 
 Prints the digest of the mesh, then x, y and z of each vertex in decoded order. Section numbers in this file
-are those of shared/FORMAT.md; names are its names wherever it has any.
+are those of shared/docs/format-stream.md; names are its names wherever it has any.
 """
 
 import itertools
@@ -416,8 +416,8 @@ class Mesh:
 
 
 def start_table():
-    """The numbers at the end of FORMAT.md."""
-    text = (Path(__file__).parent.parent / "shared" / "FORMAT.md").read_text(encoding="utf-8")
+    """The numbers at the end of format-stream.md."""
+    text = (Path(__file__).parent.parent / "shared" / "docs" / "format-stream.md").read_text(encoding="utf-8")
     appendix = text[text.index("## 14. Start table") :]
     return [int(word) for line in appendix.splitlines() if line.startswith("    ") for word in line.split()]
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Packs as bytes (PACK.md), on the host.
+// Packs as bytes (format-pack.md), on the host.
 #ifndef MICROTIN_ENCODER_PACK_FILE_HPP
 #define MICROTIN_ENCODER_PACK_FILE_HPP
 

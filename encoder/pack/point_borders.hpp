@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The borders between the tiles of a pack of points (PACK.md, section 3).
+// The borders between the tiles of a pack of points (format-pack.md, section 3).
 #ifndef MICROTIN_ENCODER_PACK_POINT_BORDERS_HPP
 #define MICROTIN_ENCODER_PACK_POINT_BORDERS_HPP
 

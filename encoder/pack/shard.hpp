@@ -2,8 +2,8 @@
 // A part of a pack's tiles in a file of its own, until merge puts all together.
 //
 //   head     "mtsh", the version, the length of what follows up to the check, 4 bytes; the pack's
-//            header (PACK.md) with errors and heights left open; the options and the raster's
-//            fingerprint; CRC-32 of all that: shards of one pack have the same
+//            header (format-pack.md) with errors and heights left open; the options and the
+//            raster's fingerprint; CRC-32 of all that: shards of one pack have the same
 //   range    the numbers of the first and the last tile, 4 bytes each
 //   tiles    in order: a summary of fixed size, its CRC-32, the stream
 #ifndef MICROTIN_ENCODER_PACK_SHARD_HPP

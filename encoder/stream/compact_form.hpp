@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What terrains take in compact form (COMPACT.md), on devices with numbers of any width.
+// What terrains take in compact form (format-compact.md), on devices with numbers of any width.
 #ifndef MICROTIN_ENCODER_STREAM_COMPACT_FORM_HPP
 #define MICROTIN_ENCODER_STREAM_COMPACT_FORM_HPP
 

@@ -12,7 +12,7 @@
 namespace microtin::stream {
 
 // Most vertices beyond the seed for each byte behind the header: each takes two symbols at least,
-// of which a byte holds fewer than 2842 (SECURITY.md, proof of 21).
+// of which a byte holds fewer than 2842 (guarantees.md, proof of 21).
 constexpr uint64_t kVerticesPerByte = 1421;
 
 class DecodedTerrain {

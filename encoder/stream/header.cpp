@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Header fields and notes as FORMAT.md lays them down.
+// Header fields and notes as format-stream.md lays them down.
 #include "encoder/stream/header.hpp"
 
 #include "encoder/base/error.hpp"

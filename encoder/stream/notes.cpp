@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Notes as FORMAT.md lays them down.
+// Notes as format-stream.md lays them down.
 #include "encoder/stream/notes.hpp"
 
 #include <bitset>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Notes: what headers of streams and packs say beside the terrain (FORMAT.md, section 4).
+// Notes: what headers of streams and packs say beside the terrain (format-stream.md, section 4).
 #ifndef MICROTIN_ENCODER_STREAM_NOTES_HPP
 #define MICROTIN_ENCODER_STREAM_NOTES_HPP
 

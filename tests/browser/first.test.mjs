@@ -8,7 +8,7 @@ import { degrees, remove } from "./files.mjs";
 after(remove);
 await ready;
 
-const ENTRY = 16, AHEAD = 4096, PIECE = 1024; // PACK.md, section 2; src/source.js; src/pack.js
+const ENTRY = 16, AHEAD = 4096, PIECE = 1024; // format-pack.md, section 2; src/source.js; src/pack.js
 
 // Where the index begins: behind the fixed header, placement, notes and check.
 function indexOf(bytes) {

@@ -7,11 +7,11 @@ foreach(document manual bash zsh)
 endforeach()
 
 # Its versions are those of the documents.
-foreach(document FORMAT PACK)
-  file(STRINGS ${PROJECT_SOURCE_DIR}/shared/${document}.md title LIMIT_COUNT 1)
+foreach(kind stream pack)
+  file(STRINGS ${PROJECT_SOURCE_DIR}/shared/docs/format-${kind}.md title LIMIT_COUNT 1)
   string(REGEX MATCH "version ([0-9]+)$" title "${title}")
-  set(${document} ${CMAKE_MATCH_1})
+  set(${kind}_version ${CMAKE_MATCH_1})
 endforeach()
 add_test(NAME cli.version COMMAND microtin --version)
 set_tests_properties(cli.version PROPERTIES
-  PASS_REGULAR_EXPRESSION "^microtin ${PROJECT_VERSION}\nstream format ${FORMAT}\npack format ${PACK}\n$")
+  PASS_REGULAR_EXPRESSION "^microtin ${PROJECT_VERSION}\nstream format ${stream_version}\npack format ${pack_version}\n$")

@@ -104,9 +104,9 @@ std::vector<Golden> golden_streams() {
   return all;
 }
 
-// The indented lines of FORMAT.md, and an empty one for each heading.
+// The indented lines of format-stream.md, and an empty one for each heading.
 std::vector<std::string> indented_lines_of_the_format() {
-  std::ifstream text(golden("../../shared/FORMAT.md"));
+  std::ifstream text(golden("../../shared/docs/format-stream.md"));
   std::vector<std::string> lines;
   for (std::string line; std::getline(text, line);) {
     if (line.rfind("    ", 0) == 0) lines.push_back(line);
@@ -140,7 +140,7 @@ TEST_CASE("a golden stream has a batch above 65,535 vertices") {
   CHECK(microtin_digest(device.mesh) == 0xC00E6F9B15BD70D9);
 }
 
-TEST_CASE("the hexdump in FORMAT.md is the example stream") {
+TEST_CASE("the hexdump in format-stream.md is the example stream") {
   std::vector<uint8_t> dump;
   for (const std::string& line : indented_lines_of_the_format()) {
     std::istringstream row(line);
@@ -152,7 +152,7 @@ TEST_CASE("the hexdump in FORMAT.md is the example stream") {
   CHECK(dump == golden_streams()[0].stream);
 }
 
-TEST_CASE("the table of starts in FORMAT.md is the decoder's") {
+TEST_CASE("the table of starts in format-stream.md is the decoder's") {
   std::vector<uint32_t> listed, expected;
   for (const std::string& line : indented_lines_of_the_format()) {
     if (line.empty()) listed.clear();  // it stands under the last heading

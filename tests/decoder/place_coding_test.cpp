@@ -240,7 +240,7 @@ TEST_CASE("hardly a legal place is missed") {
   CHECK(missed * 200 <= legal);
 }
 
-// FORMAT.md's cotangent of the circle behind a side from v to `end`.
+// format-stream.md's cotangent of the circle behind a side from v to `end`.
 int64_t behind_of(const FreeRegion& region, Point apex, Spot end, int64_t turn) {
   const auto scaled = [](int64_t v, int64_t shift) {
     return shift < 0 ? v >> -shift : v * (int64_t{1} << shift);
@@ -256,7 +256,7 @@ int64_t behind_of(const FreeRegion& region, Point apex, Spot end, int64_t turn) 
   return std::clamp(q >> s, -most, most) * 4096 / (h >> s);
 }
 
-TEST_CASE("regions are measured as FORMAT.md says") {
+TEST_CASE("regions are measured as format-stream.md says") {
   Random random(64);
   size_t wrong = 0, behind = 0;
   for (int i = 0; i < 200000; ++i) {

@@ -44,7 +44,7 @@ int32_t bits_of(Point a, Point b) {
   return bits;
 }
 
-// As FORMAT.md defines them, in 64 bits.
+// As format-stream.md defines them, in 64 bits.
 bool are_right(const RingSums& sums, const Neighbours& n, Point place) {
   const int32_t first = bits_of(n.places[0], place);
   int64_t weights = 0, heights = 0, spread = 0, residuals = 0, roughness = 0;

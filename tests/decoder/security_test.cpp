@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tests that documents name exist: shared/SECURITY.md has one for each sentence.
+// The tests that documents name exist: shared/docs/guarantees.md has one for each sentence.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -48,8 +48,8 @@ std::vector<std::string> names_in(const std::string& document) {
 
 }  // namespace
 
-TEST_CASE("every test case that SECURITY.md names exists") {
-  const std::string text = text_of(kTests / "../shared/SECURITY.md"), tests = all_tests();
+TEST_CASE("every test case that guarantees.md names exists") {
+  const std::string text = text_of(kTests / "../shared/docs/guarantees.md"), tests = all_tests();
   int named = 0;
   for (size_t at = text.find('"'); at != std::string::npos; at = text.find('"', at)) {
     const size_t end = text.find('"', at + 1);
@@ -70,7 +70,7 @@ TEST_CASE("every test case that SECURITY.md names exists") {
 TEST_CASE("every test case that other documents of the decoder name exists") {
   const std::string tests = all_tests();
   size_t named = 0;
-  for (const char* document : {"shared/PACK.md", "shared/COMPACT.md"}) {
+  for (const char* document : {"shared/docs/format-pack.md", "shared/docs/format-compact.md"}) {
     for (const std::string& name : names_in(text_of(kTests / ".." / document))) {
       CAPTURE(name);
       CHECK((tests.find('"' + name + '"') != std::string::npos ||

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The bound on steps (shared/SECURITY.md), and streams made to come near it.
+// The bound on steps (shared/docs/guarantees.md), and streams made to come near it.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@
 namespace microtin::tests {
 namespace {
 
-// Most steps for each byte behind the header, and beside these (shared/SECURITY.md).
+// Most steps for each byte behind the header, and beside these (shared/docs/guarantees.md).
 constexpr uint64_t kStepsPerByte = 12079, kStepsBeside = 795;
 
 struct Count {
@@ -204,8 +204,8 @@ TEST_CASE("an adaptive bit never leaves its margins") {
   }
 }
 
-// FORMAT.md counts numbers as they are legal. One that is none may leave 1 of 2^32, but lengths
-// learn on the way. The parts of a step are those that FORMAT.md lists.
+// format-stream.md counts numbers as they are legal. One that is none may leave 1 of 2^32, but
+// lengths learn on the way. The parts of a step are those that format-stream.md lists.
 TEST_CASE("the bytes of a step are enough, also where its numbers are none") {
   const double decision = 9.003, none = 32;
   const double magnitude = dearest_length() + decision + none;

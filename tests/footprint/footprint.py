@@ -341,7 +341,7 @@ def summary(budget):
     return table(head, rows)
 
 
-DOCUMENTS = {ROOT / "shared/SIZES.md": footprint, ROOT / "README.md": summary}
+DOCUMENTS = {ROOT / "shared/docs/sizes.md": footprint, ROOT / "README.md": summary}
 MARKED = re.compile(r"(<!-- footprint: .* -->\n\n)(.*?)(\n<!-- end of footprint -->)", re.S)
 
 

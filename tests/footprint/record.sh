@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # record.sh [PRESET...]: measures the decoder for all devices, or for some, and makes that the budget and the tables of
-# shared/SIZES.md and the README. build/release must hold the tools.
+# shared/docs/sizes.md and the README. build/release must hold the tools.
 set -eu
 cd "$(dirname "$0")/../.."
 [ $# -ne 0 ] || set -- cortex-m0 cortex-m3 cortex-m4 cortex-m7 cortex-m33 rv32imc rv32i avr s390x i386 wasm32 xtensa

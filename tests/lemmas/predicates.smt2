@@ -1,6 +1,6 @@
 ; SPDX-License-Identifier: MIT
 ; Orientation and in-circle test on the 16-bit lattice. That the determinant is at most S^4 / 2 is proved in
-; FORMAT.md, section 2, of which the steps that are algebra are here.
+; format-stream.md, section 2, of which the steps that are algebra are here.
 
 ; A product of two offsets is below 2^32.
 ;; shared/predicates.hpp: return static_cast<int64_t>(a.x) * b.y - static_cast<int64_t>(a.y) * b.x;
@@ -32,7 +32,7 @@
 (pop)
 
 ; The largest determinant, in units of S^4 / 4, where a and b are the distances from the diagonal.
-;; shared/FORMAT.md: diagonal, the determinant is at most 2 (a + b)(1 - a b) L^4 <= 2 L^4 = S^4 / 2, because a + b <= 1 + a b. It is
+;; shared/docs/format-stream.md: diagonal, the determinant is at most 2 (a + b)(1 - a b) L^4 <= 2 L^4 = S^4 / 2, because a + b <= 1 + a b. It is
 (push)
 (declare-const a Real)
 (declare-const b Real)

@@ -21,7 +21,7 @@
 (check-sat)
 (pop)
 
-; A bit narrows the range by 513/512 at least (SECURITY.md, proof of 21).
+; A bit narrows the range by 513/512 at least (guarantees.md, proof of 21).
 ;; decoder/range_decoder.hpp: range = bound;
 ;; decoder/range_decoder.hpp: range -= bound;
 (push)

@@ -9,7 +9,7 @@ const many = areaBytes("many.mtp"), packOfPhases = areaBytes("phases.mtp"), stre
 
 const copyOf = ({ positions, indices, voids }) => structuredClone({ positions, indices, voids });
 
-// Where the stream of a tile lies in a pack: PACK.md, section 2.
+// Where the stream of a tile lies in a pack: format-pack.md, section 2.
 function placeOf(pack, tile) {
   const view = new DataView(pack.buffer, pack.byteOffset);
   const entry = 40 + pack[6] + view.getUint16(8, true) + 4 + 16 * tile;

@@ -34,7 +34,7 @@ double table1_bits_per_vertex(const std::vector<Point>& points, const Order& ord
   return static_cast<double>(bits) / static_cast<double>(points.size());
 }
 
-// The bytes of a stream up to the end of its first section (FORMAT.md, section 4).
+// The bytes of a stream up to the end of its first section (format-stream.md, section 4).
 size_t first_section_end(const std::vector<uint8_t>& stream) {
   const uint8_t* at = stream.data() + kIdentityBytes;
   for (int framed = 0; framed < 2; ++framed) {  // the header and the section
@@ -73,7 +73,7 @@ TEST_CASE("every phase leaves at most the share of vertices that is proved") {
     for (auto batch = order.batches.rbegin(); batch != order.batches.rend(); ++batch) {
       const size_t before = after;
       after -= batch->size();
-      // FORMAT.md, "Work": at least (D - 5) (left - 3) / max(3, D / 2) are removed.
+      // format-stream.md, "Work": at least (D - 5) (left - 3) / max(3, D / 2) are removed.
       CHECK(batch->size() * std::max(3u, degree / 2) >= (degree - 5) * (after - 3));
       CHECK(4 * (after - 3) <= 3 * (before - 3));
     }

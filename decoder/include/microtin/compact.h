@@ -2,9 +2,9 @@
 /* microtin compact terrains: a decoded terrain in a third of the mesh's memory. C99 and C++.
  *
  * A compact terrain is made from a mesh, which is lost by that, and answers the same queries with
- * the same answers; shared/SIZES.md compares what they cost. Its vertices and triangles have other
- * numbers than the mesh's, since they are counted along a path through all of them. It holds no
- * pointers: it may be copied and moved as a whole, to any place aligned to MICROTIN_ALIGNMENT.
+ * the same answers; shared/docs/sizes.md compares what they cost. Its vertices and triangles have
+ * other numbers than the mesh's, since they are counted along a path through all of them. It holds
+ * no pointers: it may be copied and moved as a whole, to any place aligned to MICROTIN_ALIGNMENT.
  *
  * Nothing here allocates, recurses, uses floating point or keeps global state.
  */

@@ -12,7 +12,7 @@
  *
  * Pointers must not be null; calls that can say MICROTIN_ARGUMENT check theirs. A call that changes
  * an object must not run, say in an interrupt, while another uses the same. Costs are in steps or
- * in n, the vertices; shared/SIZES.md has instructions for several processors.
+ * in n, the vertices; shared/docs/sizes.md has instructions for several processors.
  */
 #ifndef MICROTIN_MICROTIN_H
 #define MICROTIN_MICROTIN_H
@@ -128,8 +128,8 @@ typedef struct microtin_buckets microtin_buckets;
  * usually below 100. */
 microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info);
 
-/* Types of notes: what a header says beside the terrain. FORMAT.md, section 4, has the content of
- * each. */
+/* Types of notes: what a header says beside the terrain. format-stream.md, section 4, has the
+ * content of each. */
 typedef enum microtin_note {
   MICROTIN_NOTE_UNITS = 1,
   MICROTIN_NOTE_SYSTEMS = 2, /* EPSG codes */
@@ -219,8 +219,8 @@ microtin_triangle_kind microtin_triangle(const microtin_mesh* mesh, uint32_t t, 
 /* The triangle across the edge from vertex `corner` (0..2) of triangle `t` to the next. */
 uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corner);
 
-/* A number that depends on the set of triangles alone, not on their order (FORMAT.md, "Digest").
- * Equal on every target. O(n). */
+/* A number that depends on the set of triangles alone, not on their order (format-stream.md,
+ * "Digest"). Equal on every target. O(n). */
 uint64_t microtin_digest(const microtin_mesh* mesh);
 
 /* --- Heights --- */

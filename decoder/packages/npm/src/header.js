@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a header says beside the terrain: FORMAT.md, section 4.
+// What a header says beside the terrain: format-stream.md, section 4.
 
 import { checkNumber } from "./check.js";
 
