@@ -226,48 +226,82 @@ def table(head, rows):
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 
 
-def code_table(budget):
-    head = ["target"]
-    for level in ("-Os", "-O2"):
-        head += [f"{level}: decoding", "and queries", "and buckets", "compact instead", "packs", "all of packs", "packs, compact slots", "all of these", "stack", "of a pack's service", "of its queries", "of a service, compact slots", "of its queries"]
-    rows = []
-    for target, numbers in budget.items():
-        row = [target]
-        for level in (numbers["Os"], numbers["O2"]):
-            row += [f"{count(level[u]['text'])} + {count(level[u]['rodata'])}" if u in level else "-" for u in USES]
-            for use in ("decoding", "pack", "pack_queries", "compact_pack", "compact_pack_queries"):
-                row.append(count(level["stack_" + use]) if "stack_" + use in level else "-")
-        rows.append(row)
-    return table(head, rows)
+def code_cell(numbers):
+    return f"{count(numbers['text'])} + {count(numbers['rodata'])}"
 
 
-RUN_ROWS = {
-    "decode_quick": "decoding, per vertex, `--decoding quick`",
-    "decode_balanced": "... balanced",
-    "decode_dense": "... dense",
-    "worst_step": "dearest step of decoding that a stream made for it causes",
-    "warm": "height on a straight path: mean, worst",
-    "cold": "height anywhere, from hint 0: mean, worst",
-    "far": "... from where the last one was: mean, worst",
-    "buckets": "... from a hint of 45 x 45 buckets: mean, worst",
-    "buckets_build": "building these buckets, once",
-    "compact_make": "making a compact terrain, per vertex",
-    "compact_worst_step": "dearest step of that",
-    "compact_warm": "compact: height on a straight path: mean, worst",
-    "compact_far": "... height anywhere, from where the last one was: mean, worst",
-    "compact_found": "... from a hint of microtin_compact_hint: mean, worst",
-    "pack_tile": "a pack's service, per tile of 64 vertices, from flash",
-    "pack_worst_call": "dearest call of that, of one step",
-    "pack_height": "height anywhere in 9 such tiles: mean, worst",
-    "pack_highest": "highest on a course through them: mean, worst",
-    "compact_pack_tile": "compact slots: service, per tile",
-    "compact_pack_worst_call": "... dearest call",
-    "compact_pack_height": "... height: mean, worst",
-    "compact_pack_highest": "... highest: mean, worst",
+USE_TITLES = {
+    "decoding": "decoding",
+    "queries": "decoding, queries",
+    "buckets": "decoding, queries, buckets",
+    "compact": "decoding, compact terrain",
+    "pack": "packs, heights",
+    "pack_queries": "packs, all queries",
+    "compact_pack": "packs with compact slots, heights",
+    "compact_pack_queries": "packs with compact slots, all queries",
+}
+STACK_TITLES = {
+    "decoding": "decoding",
+    "pack": "loading tiles",
+    "pack_queries": "queries of packs",
+    "compact_pack": "loading tiles, compact slots",
+    "compact_pack_queries": "queries of packs, compact slots",
 }
 
 
-def run_table(budget):
+def code_table(budget, level):
+    rows = [
+        [target, *(code_cell(numbers[level][use]) if use in numbers[level] else "-" for use in USES)]
+        for target, numbers in budget.items()
+    ]
+    return table(["target", *(USE_TITLES[use] for use in USES)], rows)
+
+
+def stack_table(budget, level):
+    rows = [
+        [target, *(count(numbers[level]["stack_" + use]) for use in STACK_TITLES)]
+        for target, numbers in budget.items()
+        if "stack_decoding" in numbers[level]
+    ]
+    return table(["target", *STACK_TITLES.values()], rows)
+
+
+MEAN_AND_WORST = ": mean, worst"
+RUNS = {
+    "How many instructions does decoding take?": {
+        "decode_quick": "a vertex, coding `quick`",
+        "decode_balanced": "a vertex, coding `balanced`",
+        "decode_dense": "a vertex, coding `dense`",
+        "worst_step": "the most expensive work unit, in a stream made for it",
+    },
+    "How many instructions does a height on a mesh take?": {
+        "warm": "positions on a straight path" + MEAN_AND_WORST,
+        "cold": "any position, from hint 0" + MEAN_AND_WORST,
+        "far": "any position, from the last one" + MEAN_AND_WORST,
+        "buckets": "any position, from 45 x 45 buckets" + MEAN_AND_WORST,
+        "buckets_build": "building these buckets, once",
+    },
+    "How many instructions does a compact terrain take?": {
+        "compact_make": "making it, a vertex",
+        "compact_worst_step": "making it, the most expensive work unit",
+        "compact_warm": "height on a straight path" + MEAN_AND_WORST,
+        "compact_far": "height at any position, from the last one" + MEAN_AND_WORST,
+        "compact_found": "height at any position, from a compact hint" + MEAN_AND_WORST,
+    },
+    "How many instructions does a pack take?": {
+        "pack_tile": "loading a tile of 64 vertices from flash",
+        "pack_worst_call": "loading, the most expensive call of one work unit",
+        "pack_height": "height anywhere in 9 tiles" + MEAN_AND_WORST,
+        "pack_highest": "highest on a segment through 9 tiles" + MEAN_AND_WORST,
+        "compact_pack_tile": "compact slots: loading a tile",
+        "compact_pack_worst_call": "compact slots: loading, the most expensive call",
+        "compact_pack_height": "compact slots: height" + MEAN_AND_WORST,
+        "compact_pack_highest": "compact slots: highest on a segment" + MEAN_AND_WORST,
+    },
+}
+
+
+def run_table(budget, titles):
     runs = {
         f"{target} -{level}": numbers[level]["run"]
         for target, numbers in budget.items()
@@ -275,8 +309,8 @@ def run_table(budget):
         if "run" in numbers[level]
     }
     rows = []
-    for name, title in RUN_ROWS.items():
-        keys = [f"{name}_mean", f"{name}_worst"] if title.endswith("mean, worst") else [name]
+    for name, title in titles.items():
+        keys = [f"{name}_mean", f"{name}_worst"] if title.endswith(MEAN_AND_WORST) else [name]
         rows.append([title] + [", ".join(count(run[key]) if key in run else "-" for key in keys) for run in runs.values()])
     return table(["instructions", *runs], rows)
 
@@ -287,42 +321,49 @@ def ram_table(budget):
     for capacity in (250, 1000, 10000):
         kinds = ("terrain", "decoder", "compact", "narrow")
         rows.append([count(n) for n in (capacity, *(run[f"ram_{kind}_{capacity}"] for kind in kinds))])
-    return table(["vertices", "terrain, kept", "decoder, only while decoding", "compact terrain", "... narrow"], rows)
+    head = ["vertices", "mesh, kept", "decoder, only while decoding", "compact terrain", "compact terrain, at most 256 steps wide"]
+    return table(head, rows)
 
 
-def one_source_table(budget):
-    sizes = budget["cortex-m4"].get("one_source")
-    if not sizes:
-        return ""
-    rows = []
-    for compiler in ("gcc", "clang"):
-        cells = (sizes[compiler][use] for use in ONE_SOURCE_USES)
-        rows.append([compiler, *(f"{count(cell['text'])} + {count(cell['rodata'])}" for cell in cells)])
+def one_source_table(sizes):
+    rows = [[compiler, *(code_cell(sizes[compiler][use]) for use in ONE_SOURCE_USES)] for compiler in ("gcc", "clang")]
     ratios = (bytes_of(sizes["clang"][use]) / bytes_of(sizes["gcc"][use]) for use in ONE_SOURCE_USES)
     rows.append(["clang / gcc", *(f"{ratio:.2f}" for ratio in ratios)])
-    return "\n" + paragraph(
-        f"The decoder in one source (`decoder/amalgamate.py`) on a Cortex-M4 at -Os, by gcc and by {sizes['clang_version']}, "
-        "on which Keil's compiler is built; linked alike:"
-    ) + "\n" + table(["compiler", "decoding", "and queries", "all of packs", "everything"], rows)
+    return table(["compiler", "decoding", "decoding, queries", "packs, all queries", "everything"], rows)
 
 
 def paragraph(text):
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
 
+def section(heading, text, rows):
+    return f"## {heading}\n\n{paragraph(text)}\n{rows}"
+
+
 def footprint(budget):
+    """One section for each question, with one table."""
+    linked = "Bytes of code + bytes of constants in a linked firmware image, the compiler's helpers included."
+    stack = "Bytes of stack of the deepest call, from the static call graph. Interrupts need their own."
+    emulated = "Counted under emulation for a terrain of 2,000 vertices. Instructions are not cycles."
+    sections = [
+        section("How much flash does the decoder take at -Os?", linked, code_table(budget, "Os")),
+        section("How much flash does the decoder take at -O2?", linked, code_table(budget, "O2")),
+        section("How much stack does the decoder take at -Os?", stack, stack_table(budget, "Os")),
+        section("How much stack does the decoder take at -O2?", stack, stack_table(budget, "O2")),
+        section("How much RAM does a terrain take?",
+                "Bytes, `sizeof` of the C++ objects on a Cortex-M with 16-bit indices. The library has no initialised and "
+                "no zeroed data.", ram_table(budget)),
+    ]  # fmt: skip
+    sections += [section(heading, emulated, run_table(budget, titles)) for heading, titles in RUNS.items()]
+    if sizes := budget["cortex-m4"].get("one_source"):
+        sections.append(section(
+            "Which compiler makes the smaller code?",
+            "The decoder in one source (`decoder/amalgamate.py`) on a Cortex-M4 at -Os, linked alike by both compilers. "
+            f"The clang is {sizes['clang_version']}; Keil's compiler is built on clang.", one_source_table(sizes),
+        ))  # fmt: skip
     compilers = "; ".join(sorted({numbers["compiler"] for numbers in budget.values()}))
-    return "\n".join((
-        paragraph("Bytes of code + constants that a firmware gets, the compiler's helpers included, and of stack while "
-                  "decoding:"),
-        code_table(budget) + one_source_table(budget),
-        paragraph("Initialised and zeroed data: none. RAM in bytes, `sizeof` of the C++ objects on a Cortex-M:"),
-        ram_table(budget),
-        paragraph("Instructions (not cycles) for a terrain of 2,000 vertices, counted under emulation:"),
-        run_table(budget),
-        paragraph(f"Compilers: {compilers}. Xtensa's helpers for 64-bit multiplication and division are not in Debian's "
-                  "package and not counted; the mem functions are the firmware's own."),
-    ))  # fmt: skip
+    sections.append("## Which compilers were used?\n\n" + paragraph(f"{compilers}."))
+    return "\n".join(sections)
 
 
 SHOWN = ["cortex-m0", "cortex-m4", "rv32imc", "avr"]
