@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tests that documents name exist: shared/docs/guarantees.md has one for each sentence.
+// The tests that documents name exist: shared/docs/guarantees.md has one for each number.
 #include <doctest/doctest.h>
 
 #include <filesystem>
