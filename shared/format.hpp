@@ -21,8 +21,8 @@ constexpr uint32_t kSectionVertices = 256;
 
 // Payload bytes that suffice for any step. Most are used by a vertex on a hull edge: a decision,
 // its gap (19 decisions and 15 uniform bits) and its height (19 decisions and 15 uniform bits), at
-// 9 bits a decision, are 48 bytes (format-stream.md, "Payload bytes of a step"). A number that is
-// none may take 32 bits instead of 15: gaps and heights of which the decisions learn on the way
+// 9 bits a decision, are 48 bytes (format-stream.md, "Payload bytes of a work unit"). A number that
+// is none may take 32 bits instead of 15: gaps and heights of which the decisions learn on the way
 // leave room.
 constexpr uint32_t kStepBytes = 48;
 
