@@ -221,6 +221,7 @@ void add_render(CLI::App& app, Action& action) {
 
 void add_documents(CLI::App& app, Action& action) {
   add_document(app, "manual", app, action, manual);
+  add_document(app, "reference", app, action, reference);
   CLI::App& completion = *app.add_subcommand("completion")->group(kHidden)->require_subcommand(1);
   add_document(completion, "bash", app, action, bash_completion);
   add_document(completion, "zsh", app, action, zsh_completion);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes the manual page: every command with its arguments and options, each told as --help tells
-// it.
+// Writes the manual page and the page of the documents that lists every command with its arguments
+// and options, from the texts of --help.
 #include "encoder/cli/manual.hpp"
 
 #include "encoder/cli/version.hpp"
@@ -47,6 +47,30 @@ std::string chapter(const CommandText& command, const CommandText& program) {
   return text + entries(command.arguments) + entries(options);
 }
 
+// A cell of a Markdown table.
+std::string cell(const std::string& text) {
+  return replaced(replaced(text, '|', "\\|"), '\n', " ");
+}
+
+std::string rows(const std::vector<OptionText>& options) {
+  std::string text;
+  for (const OptionText& option : options) {
+    text += "| `" + cell(option.title) + "` | " + cell(option.description) + " |\n";
+  }
+  return text;
+}
+
+// Without --help and the program's footer, which the page has once.
+std::string table(const CommandText& command, const CommandText& program) {
+  const std::vector<OptionText> options(command.options.begin() + 1, command.options.end());
+  std::string text = "\n## " + command.name + "\n\n    microtin " + command.name;
+  for (const OptionText& argument : command.arguments) text += " " + argument.usage;
+  text += " [OPTIONS]\n\n| argument or option | meaning |\n|---|---|\n| the command | ";
+  text += cell(command.description) + " |\n" + rows(command.arguments) + rows(options);
+  return command.footer == program.footer ? text
+                                          : text + "| note | " + cell(command.footer) + " |\n";
+}
+
 }  // namespace
 
 std::string manual(const CommandText& program) {
@@ -61,6 +85,17 @@ std::string manual(const CommandText& program) {
   text += section("OPTIONS") + entries(program.options) + section("COMMANDS");
   for (const CommandText& command : program.commands) text += chapter(command, program);
   return text + section("EXIT STATUS") + line(program.footer);
+}
+
+std::string reference(const CommandText& program) {
+  std::string text =
+      "# Command-line reference\n\n"
+      "This page lists every command and option of `microtin`, for people who write scripts. "
+      "The program\nwrites it: `microtin reference`. `microtin COMMAND --help` prints the same "
+      "texts.\n";
+  for (const CommandText& command : program.commands) text += table(command, program);
+  return text + "\n## All commands\n\n| option | meaning |\n|---|---|\n" + rows(program.options) +
+         "| exit codes | " + cell(program.footer) + " |\n";
 }
 
 }  // namespace microtin::cli

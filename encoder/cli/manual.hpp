@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The manual page, from the texts of --help.
+// The manual page and the page of the documents, from the texts of --help.
 #ifndef MICROTIN_ENCODER_CLI_MANUAL_HPP
 #define MICROTIN_ENCODER_CLI_MANUAL_HPP
 
@@ -11,6 +11,9 @@ namespace microtin::cli {
 
 // microtin(1) in roff with the macros of man(7).
 std::string manual(const CommandText& program);
+
+// encoder/docs/command-line.md, in Markdown.
+std::string reference(const CommandText& program);
 
 }  // namespace microtin::cli
 

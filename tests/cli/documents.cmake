@@ -6,6 +6,12 @@ foreach(document manual bash zsh)
   set_tests_properties(cli.${document} PROPERTIES SKIP_RETURN_CODE 77)
 endforeach()
 
+# The page of the documents is what the program prints: microtin reference > encoder/docs/command-line.md
+if(NOT MICROTIN_WITH_GDAL)  # which adds options
+  add_test(NAME cli.reference COMMAND ${CMAKE_COMMAND} "-DCOMMAND=$<TARGET_FILE:microtin>;reference"
+    -DEXPECTED=${PROJECT_SOURCE_DIR}/encoder/docs/command-line.md -P ${CMAKE_CURRENT_SOURCE_DIR}/compare_output.cmake)
+endif()
+
 # Its versions are those of the documents.
 foreach(kind stream pack)
   file(STRINGS ${PROJECT_SOURCE_DIR}/shared/docs/format-${kind}.md title LIMIT_COUNT 1)
