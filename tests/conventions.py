@@ -2,7 +2,9 @@
 """conventions.py CHECK [FOLDER]: what people expect of a repository holds in this one, or in a folder.
 
 length   the README has at most 150 lines
-links    files that the documents link to are there
+links    files and headings that the documents link to are there
+pointers documents that sources and documents name are there
+comments no comment begins as a fragment of a sentence
 licence  every source names its licence
 faults   the text that a planted fault replaces stands once in its source
 columns  documents have lines of at most 122 columns, tables and what links lead to aside
@@ -26,9 +28,12 @@ MOST_WORDS = 40
 MOST_WORDS_IN_MEAN = 18
 # Words of another century, and verbs of speech for what programs do.
 ODD_WORDS = re.compile(
-    r"\b(told|tells?|amid|aslant|dear(er|est)|so many|the like|but for|for want of|whoever|would-be|no longer)\b"
+    r"\b(told|tells?|says?|ask(s|ed|ing)?|wants?|hears?|heard|wish(es|ed)?|gives? up|beside|amid|aslant|dear(er|est)|so many|the like|but for|for want of|whoever|would-be|no longer)\b"
     r"|(?<!here )\b(is|are) (no|none)\b|^(Of|Beside|What|Where)\b"
 )
+COMMENT = re.compile(r"(^\s*|\s\s)(//|#|;|/\*|\*)")
+# How a comment begins that needs its neighbours. "Of" begins no sentence whose subject comes first.
+FRAGMENT = re.compile(r"(//|/\*|^\s*#) (Of |\.\.\. ?|The same\b|As microtin_|[Ww]ith so many |[Ss]o many |Beside )")
 CALL = re.compile(r"\b(\w+)\(")
 COMMA = re.compile(r"\b(o?stringstream|sto[dfl]|stold|strto[df]|strtold|atof)\b|\bsn?printf\(.*%[-+ #0-9.*]*[aefg]", re.I)
 
@@ -68,13 +73,52 @@ def length(folder):
     return [f"README.md has {lines} lines, more than {MOST_LINES}"] if lines > MOST_LINES else []
 
 
+def anchors(document):
+    """What links to headings of a document may name."""
+    headings = re.findall(r"^#+ (.*)$", document.read_text(), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading).lower().replace(" ", "-") for heading in headings}
+
+
 def links(folder):
     found = []
     for document in documents(folder):
-        for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", document.read_text()):
-            if not (document.parent / target).exists():
+        for target, heading in re.findall(r"\]\(([^)#:]*)(?:#([^)]*))?\)", document.read_text()):
+            to = document.parent / target if target else document
+            if not to.exists():
                 found.append(f"{document.relative_to(folder)} links to {target}, which is not there")
+            elif heading and to.suffix == ".md" and heading not in anchors(to):
+                found.append(f"{document.relative_to(folder)} links to {target}#{heading}, which is not there")
     return found
+
+
+def texts(folder):
+    """Sources and documents, with the lines of each; not the history, which names what was."""
+    for path in files(folder):
+        if path.suffix == ".md" or licence_line(path) or path.name.endswith((".cmake", ".mjs", ".dict")):
+            if path.name != "CHANGELOG.md" and "planted" not in path.parts[len(folder.parts):]:
+                yield path, path.read_text().splitlines()
+
+
+def pointers(folder):
+    names = {document.name for document in documents(folder)}
+    return [
+        f"{path.relative_to(folder)}:{number} names {name}, which is not there"
+        for path, lines in texts(folder)
+        for number, line in enumerate(lines, 1)
+        if path.suffix == ".md" or COMMENT.search(line)
+        for name in re.findall(r"(?<![\w${}])[\w-]+\.md\b", line)
+        if name not in names
+    ]
+
+
+def comments(folder):
+    return [
+        f"{path.relative_to(folder)}:{number} begins as a fragment: {begin.group().strip()}"
+        for path, lines in texts(folder)
+        if path.suffix != ".md"
+        for number, (line, before) in enumerate(zip(lines, ["", *lines]), 1)
+        if (begin := FRAGMENT.search(line)) and not before.lstrip().startswith(begin.group(1).strip())
+    ]
 
 
 def columns(folder):
@@ -185,7 +229,7 @@ def prose(folder):
 
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    checks = {check.__name__: check for check in (length, links, columns, licence, faults, widths, locale, prose)}
+    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, licence, faults, widths, locale, prose)}
     found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)

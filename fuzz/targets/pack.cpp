@@ -195,8 +195,8 @@ bool remembers_bad_tile(const microtin_pack* pack) {
   return all != 0;
 }
 
-// Boxes of tiles that one walk along a course may look at (PACK.md, 4.3); 0 before the header is
-// read.
+// Boxes of tiles that one walk along a course may look at (format-pack.md, 4.3); 0 before the
+// header is read.
 uint64_t boxes_of_walk(const microtin_pack* pack, const microtin_course& course) {
   microtin_pack_info info;
   if (microtin_pack_header(pack, &info) == 0) return 0;
