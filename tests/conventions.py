@@ -33,7 +33,7 @@ ODD_WORDS = re.compile(
 )
 COMMENT = re.compile(r"(^\s*|\s\s)(//|#|;|/\*|\*)")
 # How a comment begins that needs its neighbours. "Of" begins no sentence whose subject comes first.
-FRAGMENT = re.compile(r"(//|/\*|^\s*#) (Of |\.\.\. ?|The same\b|As microtin_|[Ww]ith so many |[Ss]o many |Beside )")
+FRAGMENT = re.compile(r"(?:^\s*|\s\s)(//|/\*|#) (Of |\.\.\. ?|The same\b|As microtin_|[Ww]ith so many |[Ss]o many |Beside )")
 CALL = re.compile(r"\b(\w+)\(")
 COMMA = re.compile(r"\b(o?stringstream|sto[dfl]|stold|strto[df]|strtold|atof)\b|\bsn?printf\(.*%[-+ #0-9.*]*[aefg]", re.I)
 
