@@ -14,13 +14,17 @@ double to_double(Wide number) {
 
 // Times the axis' denominator a height is whole + rest / under, of which rest / under < 1: a
 // quotient by an integer is rounded as if there were none of it, but for its half.
-Decimal rounded_height(const Axis& z, const ExactHeight& height, int decimals) {
+Wide rounded_mantissa(const Axis& z, const ExactHeight& height, int decimals) {
   const Wide scale = power_of_ten(decimals), denominator = static_cast<Wide>(z.denominator);
   const Wide numerator = static_cast<Wide>(z.numerator);
   const auto [whole, rest] = multiply_divide(scale * numerator, height.above, height.under);
   const Wide all = scale * (z.offset + numerator * height.base) + whole;
   const Wide half = rest >= height.under - rest ? 1 : 0;  // of twice the rest the whole part
-  return make_decimal(floor_divide(2 * all + half + denominator, 2 * denominator), decimals);
+  return floor_divide(2 * all + half + denominator, 2 * denominator);
+}
+
+Decimal rounded_height(const Axis& z, const ExactHeight& height, int decimals) {
+  return make_decimal(rounded_mantissa(z, height, decimals), decimals);
 }
 
 double real_height(const Axis& z, const ExactHeight& height) {

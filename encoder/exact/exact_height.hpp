@@ -26,6 +26,9 @@ inline ExactHeight height_of_answer(int32_t answer) {
 // The height in real units, rounded to `decimals` (at most kMaxDecimals), halves up.
 Decimal rounded_height(const Axis& z, const ExactHeight& height, int decimals);
 
+// The height in real units as a whole number of units in the last of `decimals`, halves rounded up.
+Wide rounded_mantissa(const Axis& z, const ExactHeight& height, int decimals);
+
 // In real units: off by at most three units in the last place of the result or, if that is larger,
 // of the difference between `base` and the height.
 double real_height(const Axis& z, const ExactHeight& height);

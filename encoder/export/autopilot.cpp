@@ -43,7 +43,7 @@ class GeoAxis {
 };
 
 int32_t millimetres(const ExactHeight& height, const Axis& z) {
-  const Wide rounded = mantissa_at(rounded_height(z, height, 3), 3);
+  const Wide rounded = rounded_mantissa(z, height, 3);
   if (rounded < -32768000 || rounded > 32767000) {
     throw Error("a height of " + std::to_string(static_cast<int64_t>(rounded / 1000)) +
                 " m does not fit 16 bits");
@@ -59,13 +59,15 @@ AutopilotPosts posts_of(const SampledSurface& surface, const AutopilotLayout& la
   AutopilotPosts posts;
   posts.heights.assign(size_t{layout.rows()} * layout.columns(), kNoHeight);
   for (uint32_t row = layout.rows(); row-- > 0;) {
+    const AutopilotLayout::Row line = layout.row(row);
+    bool is_row_beyond = false;
+    const auto lattice_y = y.inside(line.latitude, reach, &is_row_beyond);
+    if (!lattice_y) continue;
+    const double reach_east = reach / longitude_scale(static_cast<double>(line.latitude));
     for (uint32_t column = 0; column < layout.columns(); ++column) {
-      const GeoPlace at = layout.post(row, column);
-      const double scale = longitude_scale(static_cast<double>(at.latitude));
-      bool is_beyond = false;
-      const auto lattice_y = y.inside(at.latitude, reach, &is_beyond);
-      const auto lattice_x = x.inside(at.longitude, reach / scale, &is_beyond);
-      if (!lattice_x || !lattice_y) continue;
+      bool is_beyond = is_row_beyond;
+      const auto lattice_x = x.inside(layout.longitude(line, column), reach_east, &is_beyond);
+      if (!lattice_x) continue;
       const ExactAnswer answer = surface.height_at(place_of(*lattice_x, *lattice_y));
       if (answer.kind != MICROTIN_HEIGHT) continue;
       posts.heights[size_t{row} * layout.columns() + column] =

@@ -34,15 +34,21 @@ AutopilotLayout::AutopilotLayout(Autopilot autopilot, DegreeCell cell, uint32_t 
   while (north_of(block_rows_ * kOwnRows) < kDegree) ++block_rows_;
 }
 
-GeoPlace AutopilotLayout::post(uint32_t row, uint32_t column) const {
+AutopilotLayout::Row AutopilotLayout::row(uint32_t row) const {
   const int64_t north = north_of(row);
-  return place(north, column, scale_on_the_way(static_cast<double>(north)));
+  return {origin_.latitude + north, scale_on_the_way(static_cast<double>(north))};
+}
+
+int64_t AutopilotLayout::longitude(const Row& row, uint32_t column) const {
+  return origin_.longitude +
+         static_cast<int64_t>(static_cast<double>(column) * spacing_ * kPerMetre / row.scale);
 }
 
 GeoPlace AutopilotLayout::corner(uint32_t block_row, uint32_t block_column) const {
   const int64_t north = north_of(block_row * kOwnRows);
-  return place(north, block_column * kOwnColumns,
-               longitude_scale(latitude_at(static_cast<double>(north) * 0.5)));
+  const Row row{origin_.latitude + north,
+                longitude_scale(latitude_at(static_cast<double>(north) * 0.5))};
+  return {row.latitude, longitude(row, block_column * kOwnColumns)};
 }
 
 void AutopilotLayout::locate(double latitude, double longitude, double* row, double* column) const {
@@ -84,12 +90,6 @@ double AutopilotLayout::scale_on_the_way(double north) const {
 
 int64_t AutopilotLayout::north_of(uint32_t row) const {
   return static_cast<int64_t>(static_cast<double>(row) * spacing_ * kPerMetre);
-}
-
-GeoPlace AutopilotLayout::place(int64_t north, uint32_t column, double scale) const {
-  const auto east =
-      static_cast<int64_t>(static_cast<double>(column) * spacing_ * kPerMetre / scale);
-  return {origin_.latitude + north, origin_.longitude + east};
 }
 
 // Blocks in a row of the file: those that a degree takes at the cell's south, and two more.

@@ -49,9 +49,13 @@ class AutopilotLayout {
   uint32_t columns() const { return (block_columns_ - 1) * kOwnColumns + kBlockColumns; }
   GeoPlace origin() const { return origin_; }
 
-  // Where the firmware looks for a post's height: by the longitude's scale halfway to the post or,
-  // in INAV, at the post itself.
-  GeoPlace post(uint32_t row, uint32_t column) const;
+  // Where the firmware looks for the heights of a row of posts.
+  struct Row {
+    int64_t latitude;
+    double scale;  // of longitude: halfway to the row or, in INAV, at the row itself
+  };
+  Row row(uint32_t row) const;
+  int64_t longitude(const Row& row, uint32_t column) const;
 
   // What a block's header says. Both have the scale halfway.
   GeoPlace corner(uint32_t block_row, uint32_t block_column) const;
@@ -70,7 +74,6 @@ class AutopilotLayout {
   double latitude_at(double north) const { return static_cast<double>(origin_.latitude) + north; }
   double scale_on_the_way(double north) const;
   int64_t north_of(uint32_t row) const;
-  GeoPlace place(int64_t north, uint32_t column, double scale) const;
   uint32_t columns_of_blocks() const;
 
   Autopilot autopilot_;
