@@ -210,7 +210,9 @@ TEST_CASE("autopilot: places that firmware in single precision misses are counte
       surface.placement.x = {-180 * 50, 1, 50};
       surface.placement.y = {south * 50, 1, 50};
       surface.x_max = surface.y_max = 50;
-      surface.height_at = answering([](int64_t, int64_t) { return 0; });
+      surface.height_at = [](const RealPlace&) -> ExactAnswer {
+        return {MICROTIN_HEIGHT, height_of_answer(0)};
+      };
       const AutopilotFile file = autopilot_file(surface, autopilot, cell, spacing);
       const Firmware firmware(file.bytes, autopilot, cell, spacing);
       uint64_t missed = 0;

@@ -173,7 +173,7 @@ const std::vector<Words> kCommands = {
     {"decode", "t.mtin", "-o", "-", "--lattice"},
     {"info", "t.mtin"},
     {"verify", "t.mtin", "t.asc", "--json"},
-    {"encode", "t.asc", "-o", "new.mtin", "--max-error", "1", "--water-level", "0"},
+    {"encode", "t.asc", "-o", "new.mtin", "--max-error", "9", "--water-level", "0"},
     {"render", "t.mtin", "-o", "new.png", "--width", "200"},
     {"render", "t.mtin", "-o", "new.png", "--width", "200", "--source", "t.asc"},
     {"fractal", "-o", "new.asc", "--size", "5"},

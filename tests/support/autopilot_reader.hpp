@@ -4,6 +4,7 @@
 #define MICROTIN_TESTS_SUPPORT_AUTOPILOT_READER_HPP
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -108,16 +109,24 @@ class Firmware {
   }
   static uint32_t word(const uint8_t* at) { return at[0] + 256u * at[1]; }
 
-  // CRC-16/XMODEM by long division, a bit at a time with sixteen zeros behind.
-  static uint32_t remainder_of(std::vector<uint8_t> bytes) {
-    bytes.push_back(0);
-    bytes.push_back(0);
+  // CRC-16/XMODEM by long division, a byte at a time with sixteen zeros behind.
+  static uint32_t remainder_of(const std::vector<uint8_t>& bytes) {
+    static const std::array<uint32_t, 256> remainders = remainders_of_bytes();
     uint32_t rest = 0;
-    for (size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-      rest = rest << 1 | (static_cast<uint32_t>(bytes[bit / 8]) >> (7 - bit % 8) & 1u);
-      if ((rest & 0x10000) != 0) rest ^= 0x11021;
-    }
+    for (const uint8_t byte : bytes) rest = (rest << 8 & 0xFF00) ^ remainders[rest >> 8 ^ byte];
     return rest;
+  }
+
+  static std::array<uint32_t, 256> remainders_of_bytes() {
+    std::array<uint32_t, 256> remainders{};
+    for (uint32_t byte = 0; byte < 256; ++byte) {
+      uint32_t rest = byte << 16;
+      for (uint32_t bit = 8; bit-- > 0;) {
+        if ((rest >> bit & 0x10000) != 0) rest ^= 0x11021u << bit;
+      }
+      remainders[byte] = rest;
+    }
+    return remainders;
   }
 
   // Within 5 units, as ArduPilot allows; INAV allows 500.
