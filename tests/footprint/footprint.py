@@ -199,12 +199,13 @@ def compare(target, measured):
     if budget is None:
         print(f"skipped: there is no budget of {target}")
         return True
-    if budget["compiler"] != measured["compiler"]:
-        print(f"skipped: the budget was recorded with {budget['compiler']}, this is {measured['compiler']}")
-        return True
-    allowed, grown = dict(leaves(budget)), False
-    for name, value in leaves(measured):
-        if name == "compiler" or value == allowed.get(name):
+    allowed, found, grown = dict(leaves(budget)), dict(leaves(measured)), False
+    for name in ("compiler", "one_source.clang_version"):
+        if name in found and found[name] != allowed.get(name):
+            print(f"skipped: the budget was recorded with {allowed.get(name)}, this is {found[name]}")
+            return True
+    for name, value in found.items():
+        if value == allowed.get(name):
             continue
         above = name not in allowed or value > allowed[name]
         grown |= above
