@@ -5,6 +5,7 @@
 set -eu
 compiler=$1 prefix=$2 version=$3 source=$4
 shift 4
+command -v pkg-config >/dev/null || { echo "skipped: pkg-config is not installed"; exit 77; }
 PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name microtin.pc)")
 export PKG_CONFIG_PATH
 test "$(pkg-config --modversion microtin)" = "$version"
