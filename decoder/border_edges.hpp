@@ -46,7 +46,7 @@ class BorderEdges {
     return form.at(t);
   }
 
-  // Of a vertex, x or y.
+  // The x or y of a vertex.
   MICROTIN_ONE_COPY int32_t coordinate(uint32_t vertex, bool y) const {
     const LocalPoint p = fine_point(cursor_.place(vertex));
     return y ? p.y + corner_.y : p.x + corner_.x;

@@ -130,7 +130,7 @@ struct RangeDecoder {
     return 0;
   }
 
-  // The same, or `count` for an escape; count <= 2^14.
+  // A number below `count`, or `count` for an escape; count <= 2^14.
   uint32_t uniform_or_escape(uint32_t count, uint32_t) {
     return take(range - (range >> kEscapeBits), count);
   }

@@ -147,10 +147,12 @@ class RingCursor {
   }
   void change_sides() { looks_ = ring_->left + (side() ^ 1u); }
   MICROTIN_IN_PLACE bool is_flagged() const { return look(looks_, middle_) >= kRingFlag; }
-  // Of a marked triangle, which has infinity for a corner only if the other two are the same.
+  // Whether two corners of a marked triangle are the same vertex. Infinity is a corner of such a
+  // triangle only if the other two are the same.
   bool is_same(uint32_t i, uint32_t k) const { return place(i) == place(k); }
-  // ... if one of its ends is infinity. The path is closed: from the last position it goes to 0,
-  // and that edge is above all triangles of either side, so seen from the other the way leads down.
+  // Enters as enter() does, if one end of the half-edge is infinity. The path is closed: from the
+  // last position it goes to 0, and that edge is above all triangles of either side, so seen from
+  // the other the way leads down.
   void enter_beside_infinity() {
     if (from_ + to_ == ring_->positions - 1) {
       change_sides();

@@ -60,7 +60,7 @@ inline int32_t distance_at(const Reach& reach, const LegalPlaces& places, int32_
 
 #if defined(MICROTIN_PAIRS)
 
-// Of two places of a column.
+// The distances of two places of a column.
 struct Distances {
   int32_t low, high;
 };

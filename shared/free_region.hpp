@@ -27,7 +27,7 @@ inline Spot operator-(Spot a, Spot b) {
   return Spot{a.x - b.x, a.y - b.y};
 }
 
-// Of corners: below 2^23. Of a corner and a difference of two: below 2^24.
+// Below 2^23 for two corners, and below 2^24 for a corner and a difference of two.
 inline int32_t dot(Spot a, Spot b) {
   return a.x * b.x + a.y * b.y;
 }
@@ -67,7 +67,7 @@ inline int32_t size_of(uint32_t extent) {
 typedef int32_t Cotangent;
 constexpr uint32_t kCotangentBits = 12;
 constexpr int32_t kOwnCap = 64, kBehindCap = 16;  // of a triangle's own circle, of that behind
-constexpr int32_t kBeyondCap = 4;                 // ... where it reaches beyond open sides
+constexpr int32_t kBeyondCap = 4;                 // of a circle that reaches beyond open sides
 
 // A divisor brought below 2^12, so that dividends fit.
 struct Divisor {
@@ -92,9 +92,9 @@ MICROTIN_FOLDED Cotangent cotangent(int32_t q, Divisor by, int32_t most) {
 // The side from corner i to corner i + 1 of a triangle, and what is known behind it.
 struct Side {
   bool certified;    // the triangle behind is final: its circle is empty
-  bool ghost;        // ... and lies outside the hull: nothing at all is behind
-  Point apex;        // ... otherwise, the corner opposite to this side
-  Cotangent behind;  // ... and the circle there, over this side
+  bool ghost;        // certified, and outside the hull: nothing at all is behind
+  Point apex;        // if not a ghost, the corner opposite to this side
+  Cotangent behind;  // if not a ghost, the circle there, over this side
 };
 
 // All places but apexes are relative to corner v.

@@ -33,8 +33,8 @@ struct Tally {
 
 constexpr uint32_t kTallyMost = 512;
 
-// Of each axis, x or y: of the first line to be known of a place; of the second, where the first is
-// even, and where it is odd.
+// The tallies of each axis, x or y: for the first line of a place to be known, and for the second,
+// where the first is even and where it is odd.
 struct Parities {
   Tally first[2], second[2][2];
 };
@@ -92,7 +92,7 @@ inline FastInt line_at(const Ruling& ruling, FastInt number) {
   return ruling.step * number + ruling.base;
 }
 
-// Of a line that is one of them.
+// The number of a line that is one of them.
 inline FastInt number_of(const Ruling& ruling, FastInt line) {
   return (line - ruling.base) >> (ruling.step - 1);
 }

@@ -115,7 +115,7 @@ inline int32_t twice_shift(const Ruling& ruling, int32_t shift) {
   return shift - (ruling.step == 1 ? 1 : 0);
 }
 
-// Of two columns or, in one, of two rows.
+// The weights of two columns or, in one, of two rows.
 inline Halves weights_of(const Place& place, const Column* column, int32_t low, int32_t high) {
   if (column != nullptr) return weights_at(place.odds, place.legal, *column, low, high);
   return Halves{column_weight(place.odds, place.legal, low),

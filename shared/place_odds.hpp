@@ -89,7 +89,7 @@ inline int32_t chance_at(const PlaceOdds& odds, const Column& column, int32_t y)
   return (third.start + static_cast<int32_t>(way) * third.slope) >> 8;
 }
 
-// Of two places, or of all in two halves.
+// The weights of two places, or of all in two halves.
 struct Halves {
   uint32_t low, high;  // weights: below 2^15.6, times a count below 2^19.6
 };
@@ -103,7 +103,7 @@ inline uint32_t weight_at(const PlaceOdds& odds, const LegalPlaces& places, cons
 
 #if defined(MICROTIN_PAIRS)
 
-// Of two places of a column: 4..520 each.
+// The weights of two places of a column: 4..520 each.
 inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, const Column& column,
                          int32_t low, int32_t high) {
   int32_t first = chance_at(odds, column, low), second = chance_at(odds, column, high);
@@ -124,8 +124,8 @@ inline Halves weights_at(const PlaceOdds& odds, const LegalPlaces& places, const
 
 #endif
 
-// Of a column: its legal length times the mean weight, which places near its ends tell best.
-// 4..2^14.6.
+// The weight of a column: its legal length times the mean weight, which places near its ends tell
+// best. 4..2^14.6.
 MICROTIN_ROOMY_IN_PLACE uint32_t column_weight(const PlaceOdds& odds, const LegalPlaces& places,
                                                int32_t x) {
   Column column;

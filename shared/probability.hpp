@@ -23,7 +23,7 @@ constexpr uint32_t kEscapeBits = 10;
 // never leave the margins, to which each step goes only part of the way.
 struct AdaptiveBit {
   uint16_t fast;  // each bit weighs 1/32
-  uint16_t slow;  // ... 1/256
+  uint16_t slow;  // each bit weighs 1/256
 };
 
 // With 16 bits.

@@ -49,7 +49,7 @@ enum class Stage : uint8_t { kSeed, kPhase, kWalk, kVoids, kComplete };
 enum class StepOutcome : uint8_t {
   kStep,        // one step done, more to do in this section
   kPhaseEnd,    // the same, and it completed a phase
-  kSectionEnd,  // ... and the section
+  kSectionEnd,  // one step done, and it completed a phase and the section
   kMalformed
 };
 
@@ -81,7 +81,7 @@ struct Reconstruction {
   int32_t density;  // log2 of this batch's points per unit area, 16 fractional bits
 
   PlaceHabits habits;
-  // Of the triangle in hand: here to spare the stack.
+  // Data of the triangle in hand: here to spare the stack.
   FreeRegion region;
   Place place;
 
@@ -152,7 +152,8 @@ MICROTIN_IN_PLACE inline void look_around(Reconstruction& r, Index into) {
 // log2 of the mean area of a Delaunay triangle of random points less the mean log2 of it.
 constexpr Log2 kMeanOfLogs = 220;
 
-// Of the origin, a, b, counter-clockwise, if each sees the others on the lattice: below 2^32.
+// Twice the area of the origin, a, b, counter-clockwise, if each sees the others on the lattice:
+// below 2^32.
 inline uint32_t twice_area(Spot a, Spot b) {
   return wrapping_product32(a.x, b.y) - wrapping_product32(a.y, b.x);
 }

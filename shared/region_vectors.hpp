@@ -36,7 +36,7 @@ inline uint32_t extent_of_both(__m128i v) {
       _mm_cvtsi128_si32(_mm_or_si128(sums, _mm_shuffle_epi32(sums, 0xB1))));
 }
 
-// ... of the first.
+// The extent of the first place.
 inline uint32_t extent_of_first(__m128i v) {
   const __m128i sizes = magnitudes(v);
   return static_cast<uint32_t>(
@@ -58,7 +58,7 @@ inline __m128i all_shifted(__m128i v, int32_t shift) {
   return _mm_sra_epi32(_mm_slli_epi32(v, 15), _mm_cvtsi32_si128(15 - shift));
 }
 
-// Of places c and a, below 2^11: c . c, a . a, c . a, c x a.
+// Products of places c and a, below 2^11: c . c, a . a, c . a, c x a.
 inline __m128i products_of(__m128i both) {
   const __m128i pairs = _mm_packs_epi32(both, both);
   const __m128i from = _mm_shuffle_epi32(pairs, 0x04);                           // c, a, c, c
@@ -66,7 +66,7 @@ inline __m128i products_of(__m128i both) {
   return _mm_madd_epi16(from, _mm_mullo_epi16(to, _mm_set_epi16(-1, 1, 1, 1, 1, 1, 1, 1)));
 }
 
-// Of places d and `end`, below 2^11: d . (end - d) in the first lane, and in the third
+// The view of places d and `end`, below 2^11: d . (end - d) in the first lane, and in the third
 // d x end, or end x d if `turn` is 1.
 inline __m128i view_of(__m128i d, __m128i end, int32_t turn) {
   const __m128i turned = _mm_shuffle_epi32(end, 0xB1);

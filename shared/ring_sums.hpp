@@ -95,7 +95,7 @@ class RingTally {
 
 #endif
 
-// Of vertices some of which may be kInfinity, but not the first.
+// The sums over vertices some of which may be kInfinity, but not the first.
 inline RingSums sum_ring(const Mesh& mesh, const Residual* residual, const Index* ring,
                          uint32_t size, Point place) {
   const Index a = ring[0];

@@ -38,8 +38,8 @@ struct DecodeRequest {
   bool lattice = false;          // integers instead of real coordinates
   bool force = false;            // write more than 1 GB, read more than a stream's vertices
   std::optional<Decimal> cell;   // of a grid
-  std::optional<Extent> extent;  // ... and where its posts lie
-  std::string like;              // ... or the raster whose posts it has; empty: none
+  std::optional<Extent> extent;  // where the grid's posts lie
+  std::string like;              // the raster whose posts the grid has; empty: none
   Preparation like_preparation;  // how that is read
 };
 

@@ -35,7 +35,7 @@ void deliver(OutputFile& out, const std::string& path, const std::string& text);
 // Writes to standard output. Returns false if nobody reads; throws Error if it fails otherwise.
 bool tell(const std::string& text);
 
-// The same for commands that do no more. Throws ReportLost if nobody reads.
+// Prints the text of a command that does no more. Throws ReportLost if nobody reads.
 void print(const std::string& text);
 
 // The line for standard error that says what a user should know of an output, to be made before it
@@ -50,7 +50,8 @@ std::string warning_of_units(const std::string& path, const SurfaceModel& model)
 void announce_size(const std::string& path, double most_bytes, bool forced,
                    const std::string& else_there_is = "");
 
-// So many as a pack has, or Error if it has more than a stream can have and that is not forced.
+// The vertices of a pack. Throws Error if it has more than a stream can have and that is not
+// forced.
 uint64_t most_vertices(const std::string& path, uint64_t vertices, bool forced);
 
 // The report as JSON, or as a line "name: value" for each entry.

@@ -45,7 +45,7 @@ Fraction simplest_fraction(Decimal written) {
 Fraction meaning_of(Decimal written) {
   const Wide scale = power_of_ten(written.decimals);
   const Fraction simple = simplest_fraction(written);
-  // Of random decimals, about 0.3 q^2 / scale have a fraction of a denominator up to q.
+  // About 0.3 q^2 / scale of random decimals have a fraction of a denominator up to q.
   const bool striking = 100 * simple.denominator * simple.denominator <= scale;
   return striking ? simple : reduced(written.mantissa, scale);
 }

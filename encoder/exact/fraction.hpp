@@ -28,7 +28,7 @@ Fraction simplest_fraction(Decimal written);
 // simple that this is no accident; else the decimal itself.
 Fraction meaning_of(Decimal written);
 
-// The same, if that changes the number by no more than a tolerance.
+// The fraction that a decimal stands for, if that changes the number by no more than a tolerance.
 Fraction meaning_within(Decimal written, Fraction tolerance);
 
 // The reciprocal of a whole number, if a cell size stands for one: so many digits are written that
@@ -49,8 +49,8 @@ Axis axis_of_cells(Decimal place, Decimal size, int64_t half_cells);
 // (offset + numerator * k) / denominator in lowest terms. Throws Error if it does not fit an axis.
 Axis reduced_axis(Wide offset, Wide numerator, Wide denominator);
 
-// The same places, counted from number `first` on; its coordinate lies below 2^62. Throws Error as
-// reduced_axis.
+// An axis of the same places, counted from number `first` on; its coordinate lies below 2^62.
+// Throws Error as reduced_axis.
 Axis moved_axis(const Axis& axis, Wide first);
 
 }  // namespace microtin::exact

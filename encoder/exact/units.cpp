@@ -83,7 +83,7 @@ constexpr std::array<LengthUnit, 49> kLengths = {
      {9301, "British chain (Sears 1922 truncated)", Unit::kMetre, 20116756, 1000000},
      {9302, "British link (Sears 1922 truncated)", Unit::kMetre, 20116756, kTen8}}};
 
-// Beside the names of the tables above.
+// Names that the tables above do not have.
 constexpr std::array<Name, 63> kNames = {{{"m", "metre"},
                                           {"meter", "metre"},
                                           {"mtr", "metre"},

@@ -66,8 +66,8 @@ void AutopilotBlock::write(const AutopilotPosts& posts) {
   }
   const size_t end = is_inav ? kInavTrailer : kArduPilotTrailer;
   write_trailer(bytes_ + end);
-  // Of ArduPilot's block, what the check does not cover: below 1 it warns of old data, and does
-  // not arm.
+  // A byte of ArduPilot's block that the check does not cover: below 1 it warns of old data, and
+  // does not arm.
   if (!is_inav) bytes_[kArduPilotTrailer + kTrailerBytes] = 1;
   put(bytes_ + kCheck, crc16(bytes_, end + kTrailerBytes), 2);
 }

@@ -11,7 +11,7 @@
 
 namespace microtin::exporting {
 
-// Of sRGB.
+// A colour of sRGB.
 struct Colour {
   double r, g, b;  // 0 .. 1
 };

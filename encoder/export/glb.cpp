@@ -18,7 +18,7 @@
 namespace microtin::exporting {
 namespace {
 
-// Of one without a fixed length: as if it were a metre.
+// The length of a unit; of one without a fixed length as if it were a metre.
 double length_of(Unit unit) {
   return metres_per(unit).value_or(1);
 }

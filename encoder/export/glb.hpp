@@ -15,7 +15,7 @@ namespace microtin::exporting {
 // triangle. Throws Error if it takes more than 4 GB.
 void export_glb(const SurfaceModel& model, Coordinates coordinates, OutputFile& out);
 
-// Of so many vertices and triangles, but for the description before them, below 4 KB.
+// Bytes of vertices and triangles, without the description before them, below 4 KB.
 uint64_t glb_bytes(uint64_t vertices, uint64_t triangles);
 
 }  // namespace microtin::exporting

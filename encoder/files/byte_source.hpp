@@ -35,7 +35,7 @@ bool is_regular_file(const std::string& path);
 
 std::unique_ptr<ByteSource> bytes_in_memory(std::vector<uint8_t> bytes);
 
-// So many bytes from an offset on. Throws Error if they end before.
+// `size` bytes from an offset on. Throws Error if they end before.
 std::vector<uint8_t> bytes_at(const ByteSource& source, uint64_t offset, uint64_t size);
 
 }  // namespace microtin::files

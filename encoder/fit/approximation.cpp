@@ -74,7 +74,7 @@ Approximation cheapest(std::vector<Laid> all, const SimplifyOptions& options) {
   return std::move(*best);
 }
 
-// Of the time: looking for the step.
+// The part of the time that looking for the step takes.
 double trial_part(Search search) {
   return search == Search::kBest ? 0.15 : 0.3;
 }

@@ -20,7 +20,7 @@ struct Approximation {
 Approximation approximate(const Source& source, const LatticeOptions& lattice,
                           const SimplifyOptions& options);
 
-// So many rounds more of the same search.
+// Runs `rounds` more rounds of the same search.
 void search_further(Approximation& found, uint32_t rounds, const SimplifyOptions& options);
 
 }  // namespace microtin::fit

@@ -24,7 +24,7 @@ class Balance {
   double price(Index v, int32_t steps) const;
   void move(Index v, int32_t steps);
 
-  // Of all posts' errors, in steps, and whether that is near enough to zero as it is.
+  // The mean of all posts' errors, in steps, and whether it is near enough to zero as it is.
   double mean() const { return parts_.empty() ? 0 : parts_[0].sum / parts_[0].posts; }
   bool is_centred() const;
 

@@ -15,7 +15,7 @@ constexpr double kUsualSlope = -1.2, kSteepest = -5, kFlattest = -0.5;
 constexpr double kNearby = 0.01;  // logarithms of bounds too close to tell a slope
 constexpr double kRange = 1e-6;
 constexpr double kFarthest = 0.4;  // logarithm: beyond it the usual slope misleads
-constexpr double kFarSlope = 4;    // ... unless sizes differ by more than that explains
+constexpr double kFarSlope = 4;    // except where sizes differ by more than this slope explains
 constexpr double kMargin = 0.1;    // of the way between two ends: nearer to one tells little
 constexpr int kHalving = 5;        // margins: bisection
 constexpr double kFarOff = 0.1;    // of the logarithm of a size

@@ -266,7 +266,7 @@ bool Decimation::place(Vertex vertex, const Hole& hole) {
   return true;
 }
 
-// The same, and says whether the bounds are kept then; nothing has changed if not.
+// Places a vertex, and returns whether the bounds are kept then; nothing has changed if not.
 bool Decimation::insert(Vertex vertex, const Hole& hole) {
   const std::size_t before = edits_.size();
   if (!place(vertex, hole)) return false;

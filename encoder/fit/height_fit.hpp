@@ -33,7 +33,7 @@ class HeightFit {
   // What the last call found: the change of a height, by place in `vertices`, ...
   int32_t shift(std::size_t vertex) const { return movers_[vertex].shift; }
 
-  // ... the covered triangles between vertices, or with one that moves, and, after a call that
+  // The covered triangles between vertices, or with one that moves, and, after a call that
   // found nothing, the worst sample of the triangle that is worst, or second worst, ...
   const std::vector<Index>& changed() const { return triangles_; }
   uint32_t worst_sample(std::size_t rank);

@@ -107,7 +107,7 @@ class PostIndex {
       return span;
     }
 
-    // The same where from = to, within the triangle.
+    // The span at one x within the triangle.
     Span at(int64_t x) const {
       const Line& bent = x < corner_[1].x ? before_ : after_;
       if (bends_up_) return {long_.ceil_at(x), bent.floor_at(x)};
@@ -143,7 +143,7 @@ class PostIndex {
     Line long_, before_, after_;
   };
 
-  // The same where a cell is a place: no post has to be tested.
+  // Visits the posts where a cell is a place: no post has to be tested.
   template <class Visit>
   void visit_columns(const Outline& outline, const Visit& visit) const {
     const uint32_t last = std::min<uint32_t>(outline.right().x, east_);
@@ -156,7 +156,7 @@ class PostIndex {
     }
   }
 
-  // The same in a cell whose first column is at x.
+  // Visits the posts of a cell whose first column is at x.
   template <class Visit>
   void visit_crowd(const Outline& outline, uint32_t x, std::size_t cell, const Visit& visit) const {
     const uint32_t last = std::min<uint32_t>(outline.right().x, x + cell_ - 1);

@@ -55,7 +55,7 @@ std::vector<uint32_t> hull_corners(const std::vector<Sample>& samples) {
   return chain;
 }
 
-// The same and all samples that must become vertices.
+// The corners of the hull, and all samples that must become vertices.
 std::vector<uint32_t> first_vertices(const Survey& survey) {
   std::vector<uint32_t> first = hull_corners(survey.samples);
   if (survey.fixed.empty()) return first;
@@ -163,7 +163,7 @@ Tin finished(Surface& surface, Decimation& decimation, const Tin& before,
   return std::move(found.tin);
 }
 
-// Of the time: the first attempt to remove all, and until means come last.
+// Parts of the time: the first attempt to remove all, and until means come last.
 constexpr double kRemovalPart = 0.1, kSearchPart = 0.8;
 
 SimplifyOptions after_search(SimplifyOptions options) {

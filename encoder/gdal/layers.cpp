@@ -50,7 +50,7 @@ class Layer : public OGRLayer {
     return EQUAL(capability, OLCFastGetExtent) || EQUAL(capability, OLCZGeometries) ? TRUE : FALSE;
   }
 
-  // Of a pack the extent of its tiles, which may reach beyond the vertices.
+  // A pack's extent is that of its tiles, which may reach beyond the vertices.
   OGRErr GetExtent(OGREnvelope* extent, int /*force*/) override {
     *extent = envelope_of(facts_.box);
     return OGRERR_NONE;

@@ -23,10 +23,11 @@ bool is_wkt(std::string_view text);
 // NUL, is kept if the horizontal system has no code and the text is not longer than kLongestWkt.
 Reference reference_of_wkt(std::string_view text);
 
-// The same of such a text or a code, EPSG:32633 or, with heights, EPSG:32633+5773.
+// The reference of such a text or a code, EPSG:32633 or, with heights, EPSG:32633+5773.
 Reference reference_of_line(std::string_view text);
 
-// The same of a GeoTIFF key directory, its 16-bit numbers, and of the doubles that it refers to.
+// The reference of a GeoTIFF key directory, its 16-bit numbers, and of the doubles that it refers
+// to.
 Reference reference_of_geo_keys(const std::vector<uint16_t>& directory,
                                 const std::vector<double>& doubles = {});
 

@@ -18,7 +18,7 @@ struct CodedSystem {
   Unit unit;               // of its coordinates
   std::string other = {};  // name of a unit that streams do not have; the unit is kUnknown then
   bool is_depth = false;   // a vertical one that grows downwards
-  uint32_t heights = 0;    // ... and the one that is alike but for that; 0: there is none
+  uint32_t heights = 0;    // the code that differs in the heights alone; 0: there is none
 };
 
 struct VerticalCode {
@@ -38,10 +38,10 @@ const VerticalCode* end_of_verticals();
 // another kind.
 std::optional<CodedSystem> system_of_code(uint32_t code);
 
-// The same of a code that a file states: nothing, too, if there is none.
+// The system of a code that a file states: nothing, too, if there is none.
 std::optional<CodedSystem> system_of_file_code(uint32_t code);
 
-// The same without PROJ.
+// The system of a code, without PROJ.
 std::optional<CodedSystem> built_in_system(uint32_t code);
 
 // Well-known text, as ESRI writes it, of a horizontal system that is known as above; empty if it is

@@ -123,7 +123,7 @@ Source import_other(const std::string& path, Indirect, uint32_t) {
 }
 #endif
 
-// Of what GDAL reads, the files that folders hold sheets in.
+// Whether a file is one that GDAL reads and that folders hold sheets in.
 bool is_sheet_for_others([[maybe_unused]] const std::string& suffix) {
 #ifdef MICROTIN_WITH_GDAL
   for (const char* const known :

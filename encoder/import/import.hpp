@@ -35,7 +35,7 @@ std::vector<std::string> terrain_files(const std::string& path, Indirect indirec
 // The suffixes of files that are read, for people.
 std::string terrain_kinds();
 
-// Of files that a folder is searched for: ".asc", in lower case.
+// Whether a folder is searched for files with this suffix, such as ".asc", in lower case.
 bool is_terrain_suffix(const std::string& suffix);
 
 using OpenSource = std::variant<std::unique_ptr<RasterReader>, PointCloud>;

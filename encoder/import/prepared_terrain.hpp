@@ -16,12 +16,12 @@ namespace microtin::importing {
 
 // What is done to a terrain.
 struct Preparation {
-  std::vector<std::string> more_files;  // of the same terrain, beside the one named first
-  std::optional<ClassSet> classes;      // take these points of a .las file
-  bool gridded = false;                 // points are the posts of a raster
-  uint32_t fill_voids = 0;              // interpolate voids of up to so many posts
-  std::optional<Decimal> water_level;   // voids that are left are water at this height
-  std::string water_mask;               // ... where this file says so; everywhere if there is none
+  std::vector<std::string> more_files;     // of the same terrain, beside the one named first
+  std::optional<ClassSet> classes;         // take these points of a .las file
+  bool gridded = false;                    // points are the posts of a raster
+  uint32_t fill_voids = 0;                 // interpolate voids of up to so many posts
+  std::optional<Decimal> water_level;      // voids that are left are water at this height
+  std::string water_mask;                  // the file that marks water; everywhere if there is none
   Indirect indirect = Indirect::kRefused;  // files that name others
   uint32_t band = 0;                       // of a file that has several, from 1 on
   // Settled with each file's; nothing: units and systems are left alone, where no heights are used.
@@ -35,7 +35,7 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
 // Throws Error naming the file.
 Source prepared_terrain(const std::string& path, const Preparation& preparation);
 
-// The same for a source whose raster is read in pieces. Throws Error when a piece is read, too.
+// Opens a prepared source whose raster is read in pieces. Throws Error when a piece is read, too.
 OpenSource prepared_source(const std::string& path, const Preparation& preparation);
 
 // Parts of a sentence about what was done to a terrain: empty if nothing was.

@@ -50,7 +50,7 @@ inline std::size_t tile_count(const TileGrid& grid) {
   return std::size_t{tile_columns(grid)} * tile_rows(grid);
 }
 
-// Of a pack that is made: readers take as many as the format has numbers for.
+// Tiles of a pack that is made, at most. Readers take as many as the format has numbers for.
 constexpr uint32_t kMostTiles = 1u << 20;
 
 inline bool has_too_many_tiles(const TileGrid& grid) {

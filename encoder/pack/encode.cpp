@@ -18,7 +18,7 @@
 namespace microtin::pack {
 namespace {
 
-// Of the time, estimated: reading the raster first, and choosing the step of heights.
+// Parts of the time, estimated: reading the raster first, and choosing the step of heights.
 constexpr double kScanPart = 0.02, kStepPart = 0.05;
 
 // Steps that suit borders, too, in hundredths of the bound: of coarser ones, which may suit a

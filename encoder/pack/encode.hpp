@@ -25,7 +25,7 @@ struct PackOptions {
 // Whether a tile takes no more memory in compact form than macros promise for `most` vertices.
 bool fits(const TileSummary& tile, uint32_t most);
 
-// Of a tile of the grid: compact terrains take more where they are wide.
+// The most vertices of a tile of the grid: compact terrains take more where they are wide.
 uint32_t most_vertices(const PackOptions& options, const TileGrid& grid);
 
 constexpr uint32_t kFewestTileVertices = 16;

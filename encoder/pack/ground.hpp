@@ -15,7 +15,7 @@ namespace microtin::pack {
 // How many posts around one count, in each direction.
 constexpr uint32_t kGroundReach = 8;
 
-// Of the middles of a rectangle's samples.
+// The ground: means of the middles of a rectangle's samples.
 class Ground {
  public:
   // At most 2^24 posts.

@@ -24,7 +24,7 @@ constexpr double kPointsPerVertex = 16;  // of simplified terrain, to begin with
 // More tiles than that are nearly all empty.
 constexpr uint64_t kTilesOfFew = 30000, kTilesPerPoint = 16;
 
-// Of points in ascending order of a coordinate, those in the middle, as many as wanted.
+// Keeps the points in the middle, in ascending order of a coordinate, as many as wanted.
 template <class Before>
 void keep_middle(std::vector<uint32_t>& points, std::size_t wanted, const Before& before) {
   if (points.size() <= wanted) return;

@@ -22,7 +22,7 @@ struct PointPack {
   uint64_t merged = 0;
 };
 
-// Of 1, 2, 5, 10 ... of the last decimal of the points' places the finest step at which so many
+// The finest step among 1, 2, 5, 10 ... of the last decimal of the points' places at which `tiles`
 // tiles, as large as they can be, cover them. O(points).
 Decimal finest_step(const PointCloud& cloud, uint64_t tiles);
 

@@ -51,14 +51,14 @@ struct EncodedTile {
   std::vector<uint8_t> stream;
 };
 
-// Of a tile that is verified.
+// The summary of a tile that is verified.
 TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream, DecodedTerrain&& decoded,
                        const Verification& measured);
 
 // Throws Error unless the vertices on borders are the shared ones, at their heights.
 void check_shared(const microtin_mesh* mesh, const TileSides& sides, const SharedVertices& shared);
 
-// Of the tile's stream in the pack.
+// The origin of the tile's stream in the pack.
 inline Origin origin_of(const TileBox& box) {
   return {(box.x & 1) != 0, (box.y & 1) != 0};
 }

@@ -16,7 +16,7 @@ namespace microtin::pack {
 // these are too many.
 TileGrid grid_of(const Raster& frame, uint32_t tile_steps);
 
-// The same for any largest x and y, and for any number of tiles.
+// The grid of tiles for any largest x and y, and for any number of tiles.
 TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps);
 
 // The largest tile_steps found with which no tile has more vertices than it may, as far as

@@ -14,7 +14,7 @@ namespace microtin::picture {
 
 class Cover {
  public:
-  // Of a box of whole pixels.
+  // Covers a box of whole pixels.
   explicit Cover(const PixelBox& box)
       : box_(box),
         columns_(static_cast<uint32_t>(box.width)),

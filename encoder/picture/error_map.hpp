@@ -13,7 +13,7 @@ Colour error_colour(double relative);
 
 class ErrorMap {
  public:
-  // So many lattice steps lie between posts. Each is drawn as large as the whole steps that may
+  // `cell` lattice steps lie between posts. Each post is drawn as large as the whole steps that may
   // lie between their places on the lattice, so that neighbours meet.
   ErrorMap(const MapFrame& frame, Spot cell);
 

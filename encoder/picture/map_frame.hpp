@@ -15,7 +15,7 @@ struct Ground {
   const char* unit;  // "m", "ft" or, if it is not known, "units"
 };
 
-// Of degrees, metres at the model's middle latitude.
+// The length of a unit on the ground; of degrees, metres at the model's middle latitude.
 Ground ground_of(const SurfaceModel& model, Unit horizontal);
 
 // North is up, and a distance is as long in any direction. The box has whole pixels.
@@ -26,7 +26,7 @@ struct MapFrame {
 
   // From the upper left corner of the box.
   Spot spot(double x, double y) const { return {(x - west) / x_step, (north - y) / y_step}; }
-  // The same from the corner of the picture.
+  // A spot of the map, from the corner of the picture.
   Spot in_picture(Spot spot) const { return {box.left + spot.x, box.top + spot.y}; }
   uint32_t columns() const { return static_cast<uint32_t>(box.width); }
   uint32_t rows() const { return static_cast<uint32_t>(box.height); }

@@ -16,7 +16,7 @@ enum class PaletteKind { kLand, kSea };
 
 class Palette {
  public:
-  // Of heights from `low` to `high`.
+  // Colours of heights from `low` to `high`.
   Palette(PaletteKind kind, double low, double high) : kind_(kind), low_(low), high_(high) {}
 
   // From the lowest, at 0, to the highest, at 1.

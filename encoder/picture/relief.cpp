@@ -33,7 +33,7 @@ class Outline {
     std::array<double, 3> weights{};
     for (size_t i = 0; i < 3; ++i) {
       const size_t a = (i + 1) % 3, b = (i + 2) % 3;
-      // The same numbers for both triangles at an edge.
+      // Both triangles at an edge compute the same numbers.
       const bool turned = corners_[a] > corners_[b];
       const double raw = turned ? -side(spots_[b], spots_[a], p) : side(spots_[a], spots_[b], p);
       weights[i] = raw / area_;

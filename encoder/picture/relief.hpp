@@ -29,7 +29,7 @@ class Relief {
 
   void draw_ground(Canvas& canvas, const MapFrame& frame) const;
 
-  // The same as areas, each of one colour, for a drawing. Those of a colour together.
+  // Draws the relief as areas, each of one colour, for a drawing. Those of a colour together.
   void draw_facets(Svg& svg, const MapFrame& frame) const;
 
   // What heights are multiplied with for the light.

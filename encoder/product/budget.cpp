@@ -178,7 +178,7 @@ class Budget {
     return size;
   }
 
-  // The same of a surface, from which to go on.
+  // Keeps a surface, from which to go on.
   double take(Approximation&& found) {
     surface_ = {found.tin, *options_.lattice.max_error, found.laid.z_step, 0};
     const double size = keep(measured(source_, options_, std::move(found)));
@@ -259,7 +259,7 @@ class Budget {
   }
 
   void come_nearer(BoundSearch& search) {
-    // Of vertices some time is left to go on.
+    // A limit of vertices leaves some time to go on.
     const double reserve = of_vertices_ ? 2 * costs_.widening : 0;
     for (double more = kMore; affords(costs_.trial + reserve); more *= kNearer) {
       try_bound(search, (1 + more) / costs_.rest * limit_);

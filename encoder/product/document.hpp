@@ -91,7 +91,7 @@ class Original {
   Verification compare(const std::optional<Decimal>& bound, const Progress& progress,
                        const PostVisitor& visit) const;
 
-  // The same, and whether the promise is kept.
+  // What a comparison found, and whether the promise is kept.
   struct Judgement {
     Promise promise;
     Verification found;

@@ -52,7 +52,7 @@ PackOptions point_options(const EncodeOptions& options) {
   return pack_options(options, {});
 }
 
-// Of heights: a decimal, as the lattice was chosen.
+// The step of heights: a decimal, as the lattice was chosen.
 Decimal z_step(const PackContent& pack) {
   const Axis& z = pack.metadata.placement.z;
   int decimals = 0;

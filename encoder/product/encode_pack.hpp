@@ -38,7 +38,7 @@ PackContent encode_pack(const RasterReader& raster, const EncodeOptions& options
 
 void write_pack(const PackContent& pack, StreamSpool& streams, OutputFile& out);
 
-// The same for points.
+// The result of encoding points as a pack.
 struct EncodedPoints {
   std::vector<uint8_t> bytes;
   PackReport report;

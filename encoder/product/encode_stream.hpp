@@ -34,7 +34,7 @@ struct EncodedStream {
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
                             const Progress& progress);
 
-// The same without looking for a bound: only insertion of the worst sample keeps max_vertices.
+// Encodes without looking for a bound: only insertion of the worst sample keeps max_vertices.
 EncodedStream encode_measured(const Source& source, const EncodeOptions& options,
                               const Progress& progress);
 

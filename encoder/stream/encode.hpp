@@ -45,7 +45,7 @@ struct Origin {
 // a place, or are more than 2^24. O(n log n).
 std::vector<uint8_t> encode(const Tin& tin, const Metadata& metadata, const Effort& effort = {});
 
-// The same, together with what the decoder made of it.
+// A stream, together with what the decoder made of it.
 struct Encoding {
   std::vector<uint8_t> stream;
   DecodedTerrain decoded;

@@ -40,7 +40,7 @@ constexpr HilbertSteps hilbert_steps() {
 
 constexpr HilbertSteps kHilbertSteps = hilbert_steps();
 
-// Of a place on the curve through the places with coordinates of kBits bits.
+// The position of a place on the curve through the places with coordinates of kBits bits.
 template <int kBits>
 uint64_t hilbert_position(uint32_t x, uint32_t y) {
   constexpr int kSteps = (kBits + 3) / 4;

@@ -27,7 +27,7 @@ class RangeEncoder {
   // Writes `value` < `count` <= 2^16, all equally likely, and returns it.
   uint32_t uniform(uint32_t count, uint32_t value);
 
-  // The same, or, if `value` >= `count`, an escape: `count` is returned.
+  // Codes a value below `count`, or, if `value` >= `count`, an escape: `count` is returned.
   uint32_t uniform_or_escape(uint32_t count, uint32_t value);
 
   // Ends the payload and returns it. Trailing zero bytes that the decoder supplies itself are left

@@ -277,7 +277,7 @@ inline const Triangulation::Corner* Triangulation::apex_of(const Corner* first,
   return finite_apex_of(first, last);
 }
 
-// Of all corners to the left of last -> first the one whose circle through these two holds no
+// The one of all corners to the left of last -> first whose circle through these two holds no
 // other.
 inline const Triangulation::Corner* Triangulation::finite_apex_of(const Corner* first,
                                                                   const Corner* last) {
@@ -302,7 +302,7 @@ inline const Triangulation::Corner* Triangulation::finite_apex_of(const Corner* 
   return first + apex;
 }
 
-// The same where the closing side comes from infinity: circles are half-planes, and all corners lie
+// The apex where the closing side comes from infinity: circles are half-planes, and all corners lie
 // on one side of `first` along the hull.
 const Triangulation::Corner* Triangulation::hull_apex_of(const Corner* first, const Corner* last) {
   const Corner* apex = first + 1;

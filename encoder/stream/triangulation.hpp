@@ -31,8 +31,8 @@ class Triangulation {
   // Vertex i is points[i]. Throws Error if two points share a place or all form no triangle.
   explicit Triangulation(const std::vector<Point>& points);
 
-  // The same, but vertex i is points[order[i]], and neighbours have numbers close to one another:
-  // quicker to build and to use. Sets `order`.
+  // Triangulates such that vertex i is points[order[i]], and neighbours have numbers close to one
+  // another: quicker to build and to use. Sets `order`.
   Triangulation(const std::vector<Point>& points, std::vector<Index>& order);
 
   Triangulation(Triangulation&&) = default;

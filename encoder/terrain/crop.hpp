@@ -16,7 +16,7 @@ struct PostRectangle {
 // The posts of a rectangle, at the same real coordinates. Throws Error if an axis cannot say these.
 Raster crop(const Raster& raster, const PostRectangle& rectangle);
 
-// The same without heights.
+// Crops a raster without its heights.
 Raster crop_frame(const Raster& raster, const PostRectangle& rectangle);
 
 }  // namespace microtin::terrain

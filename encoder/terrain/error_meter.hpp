@@ -36,7 +36,7 @@ class ErrorMeter {
   // Returns how far the answer is above, in units.
   double add(int64_t number, int32_t answer);
 
-  // The same of an exact height.
+  // Adds the error of an exact height.
   double add(int64_t number, const ExactHeight& height);
 
   // Writes the errors, and whether they keep the bound.

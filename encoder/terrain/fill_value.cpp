@@ -61,7 +61,8 @@ void Extremes::add(const Extremes& others) {
 }
 
 Extremes::Fill Extremes::fill(int decimals) const {
-  // Of an end, seen as the low one: whether the next is farther from it than from the other end.
+  // Whether an end is far off, seen as the low one: whether the next is farther from it than from
+  // the other end.
   const auto is_far = [](const End& end, const End& other) {
     const Wide next = end.next;
     return end.has_next && next - end.first > -Wide{other.first} - next;

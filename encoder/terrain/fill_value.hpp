@@ -26,7 +26,7 @@ class Extremes {
   Fill fill(int decimals) const;
 
  private:
-  // Of numbers times a sign the lowest, and the lowest of all others.
+  // The lowest of numbers times a sign, and the lowest of all others.
   struct End {
     int64_t first = 0, next = 0;
     uint64_t count = 0;

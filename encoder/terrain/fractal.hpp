@@ -17,7 +17,7 @@ constexpr uint32_t kSmallestFractal = 2, kLargestFractal = 8193;  // posts a sid
 // height 0. Computed with integers only, so a seed gives the same terrain everywhere.
 std::vector<int16_t> fractal_heights(uint32_t size, uint64_t seed);
 
-// The same as an ESRI ASCII grid, posts 30 m apart.
+// Writes the fractal as an ESRI ASCII grid, posts 30 m apart.
 void write_fractal_asc(std::ostream& out, uint32_t size, uint64_t seed);
 
 }  // namespace microtin::terrain

@@ -59,11 +59,12 @@ struct NumberRange {
 // an explicit step does not fit.
 Lattice choose_lattice(const Source& source, const LatticeOptions& options);
 
-// The same for a pack: places count from the lowest x and y, and 31 bits hold them. O(points), but
-// for a copy of them.
+// Chooses the lattice of a pack: places count from the lowest x and y, and 31 bits hold them.
+// O(points), but for a copy of them.
 Lattice choose_pack_lattice(const PointCloud& cloud, const LatticeOptions& options);
 
-// The same for heights of that range; places are a raster's columns and rows, however many.
+// Chooses the lattice for heights of that range; places are a raster's columns and rows, however
+// many.
 Lattice choose_post_lattice(const Raster& frame, const NumberRange& heights,
                             const LatticeOptions& options);
 

@@ -27,7 +27,7 @@ struct Laid {
 // points differ by more than twice the bound, or where no whole z step lies within the bound.
 Laid lay_out(const Source& source, const LatticeOptions& options);
 
-// The same on a lattice that is chosen already, with the options that it was chosen by.
+// Lays out a source on a lattice that is chosen already, with the options that it was chosen by.
 Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions& options);
 
 }  // namespace microtin::terrain

@@ -77,7 +77,7 @@ struct PointCloud {
   Reference reference;
   std::string selection;            // which points of the file these are, for the user; empty: all
   std::optional<ClassSet> classes;  // that were taken, of files that have them
-  ClassCounts counts;               // ... and what was in these, taken or not
+  ClassCounts counts;               // points of each class in such files, taken or not
 };
 
 using Source = std::variant<Raster, PointCloud>;
@@ -107,7 +107,7 @@ inline bool refine(int64_t& number, int64_t factor) {
   return true;
 }
 
-// The same for all heights of a raster that are not void.
+// Refines all heights of a raster that are not void.
 inline bool refine(std::vector<int64_t>& heights, int64_t factor) {
   for (int64_t& height : heights) {
     if (height != kVoidHeight && !refine(height, factor)) return false;

@@ -37,11 +37,11 @@ using PostVisitor = std::function<void(int64_t x, int64_t y, int64_t z, double a
 Verification verify(const microtin_mesh* mesh, const Source& source,
                     const std::optional<Decimal>& bound, const PostVisitor& visit = {});
 
-// The same for a mesh whose lattice is placed otherwise than it says.
+// Verifies a mesh whose lattice is placed otherwise than it states.
 Verification verify(const microtin_mesh* mesh, const Placement& lattice, const Source& source,
                     const std::optional<Decimal>& bound, const PostVisitor& visit = {});
 
-// Of several parts together; what lies in more than one counts for each.
+// The verification of several parts together; what lies in more than one counts for each.
 Verification combine(const std::vector<Verification>& parts);
 
 }  // namespace microtin::terrain

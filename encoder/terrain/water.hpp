@@ -22,7 +22,7 @@ void check_water_mask(const Raster& mask, const Raster& raster);
 // Counts the posts at the water level where a terrain is not exactly there.
 class WaterGauge {
  public:
-  // Of a source whose heights have so many decimals. Without a level it counts nothing.
+  // Gauges a source whose heights have `decimals` decimals. Without a level it counts nothing.
   WaterGauge(int decimals, const std::optional<Decimal>& level);
 
   // The gauge must outlive it.

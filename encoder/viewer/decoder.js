@@ -65,7 +65,7 @@ async function showPack(source) {
   drawer.postMessage({ kind: "end", first, size: pack.size, bytes: pack.bytesRead, vertices });
 }
 
-// Of all tiles, which are in view. Returns how much there is of those that have more phases.
+// Shows the first phases of all tiles, which are in view. Returns how much there is of those that have more phases.
 async function showFirstPhases(pack, count, show) {
   const coarse = new Map();
   for (let tile = 0; tile < count; ++tile) {

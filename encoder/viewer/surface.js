@@ -12,7 +12,7 @@ function forEachNormal({ positions, indices }, [gx, gy], visit) {
   }
 }
 
-// Of each vertex, of any length, with heights scaled.
+// The normal of each vertex, of any length, with heights scaled.
 export function normalsOf(mesh, ground, scale) {
   const normals = new Float32Array(mesh.positions.length);
   forEachNormal(mesh, ground, (a, b, c, x, y, z) => {

@@ -64,7 +64,7 @@ class Choices {
   double cost_ = 0;
 };
 
-// Of at most `capacity` vertices, 258 at most.
+// A contract of at most `capacity` vertices, 258 at most.
 inline Contract contract_from(Choices& choices, uint32_t capacity) {
   constexpr uint16_t kSides[] = {0, 1, 2, 5, 20, 255, 1000, 65535};
   Contract contract{};

@@ -24,7 +24,8 @@ Surface surface_of(const Bytes& stream);
 
 bool same_vertices(const Surface& a, const Surface& b);
 
-// The same triangles, however their vertices are numbered and whether or not some are doubled.
+// Whether both have the same triangles, however their vertices are numbered, and whether or not
+// some are doubled.
 bool same_triangles(const Surface& a, const Surface& b);
 
 // log2 of the number of sets of as many places in the smallest box around them, per vertex: what no

@@ -32,7 +32,7 @@ function timeOfModule(bytes) {
   });
 }
 
-// Of a program, as a shell tells it: of children, user and system, each as 0m0.110s.
+// The time of a program, as a shell prints it: of children, user and system, each as 0m0.110s.
 function timeOfProgram(...words) {
   return least(() => {
     const times = execFileSync("bash", ["-c", '"$@" >/dev/null; times', "bash", ...words]).toString().trim().split("\n").at(-1);

@@ -227,7 +227,7 @@ TEST_CASE("options: none is without a row") {
 
 namespace {
 
-// Beside `--max-error 1.9 --z-step 0.5 --tile-vertices 60 --tile-steps 10`.
+// Options that differ from `--max-error 1.9 --z-step 0.5 --tile-vertices 60 --tile-steps 10`.
 const std::vector<std::string> kOfShards = {
     "--max-error 1.8",  "--tile-vertices 61",  "--tile-steps 9",
     "--z-step 0.6",     "--never-below",       "--bound-at lattice",

@@ -16,7 +16,7 @@ using namespace microtin::tests::products;
 
 namespace {
 
-// Of `info --json`, but for notes.
+// The names of `info --json`, without notes.
 Names info_names(bool is_pack) {
   const Names xyz = {"x", "y", "z"};
   Names names = {"kind",
@@ -48,7 +48,7 @@ Names info_names(bool is_pack) {
                  "most_vertices", "device_memory", "workspace_bytes_4_compact_tiles", "tiles"});
 }
 
-// Of `verify --json`.
+// The names of `verify --json`.
 Names verify_names(bool is_raster) {
   Names names = united(kErrors, {"covered", "uncovered", "max_below"});
   if (!is_raster) return united(names, {"points"});

@@ -184,7 +184,7 @@ TEST_CASE("predicates: cocircular points are decided, consistently from every tr
     const bool conflict = conflicts_with_triangle(a, b, c, p);
     wrong += conflict != reference::in_perturbed_circle(a, b, c, p);
     wrong += conflict != conflicts_with_triangle(b, c, a, p);
-    // Of the two diagonals of a convex quadrangle one is chosen: p beyond the edge b -> c sees
+    // One of the two diagonals of a convex quadrangle is chosen: p beyond the edge b -> c sees
     // (a, b, c) as a sees (p, c, b).
     if (orient2d(b, c, p) < 0) wrong += conflict != conflicts_with_triangle(p, c, b, a);
   }
@@ -244,7 +244,7 @@ TEST_CASE("predicates: the in-circle test of pairs is that of points") {
     wrong += !pairs_agree(a, b, c, p);
   }
   CHECK(wrong == 0);
-  // Of coordinates in each part of the lattice, from each.
+  // Coordinates in each part of the lattice, seen from each.
   for (uint32_t at = 0; at <= kLatticeMax; at += 255) {
     for (uint32_t to = 0; to <= kLatticeMax; to += 85) {
       wrong += !pairs_agree(point(to, at), point(at, to), point(to, to), point(at, at));

@@ -41,7 +41,7 @@ class Avr:
     takes = [
         (r"(?:framed )?push\s", lambda m: 1),
         (r"rcall\s+\.\+0\b", lambda m: 2),
-        # Of what follows `in r28, SPL; in r29, SPH`; elsewhere this is no change of the stack.
+        # Only behind `in r28, SPL; in r29, SPH`; elsewhere this is no change of the stack.
         (r"framed sbiw\s+r28, 0x([0-9a-fA-F]+)", lambda m: int(m[1], 16)),
         (r"framed subi\s+r28, 0x([0-9a-fA-F]+)", lambda m: int(m[1], 16)),
         (r"framed sbci\s+r29, 0x([0-9a-fA-F]+)", lambda m: 256 * int(m[1], 16)),

@@ -164,7 +164,7 @@ Bytes with_head(const Bytes& shard, size_t offset, const Bytes& bytes) {
   return with_part(shard, kStart, head_bytes(shard), offset, bytes);
 }
 
-// Of the first tile.
+// Writes bytes into the summary of the first tile.
 Bytes with_summary(const Bytes& shard, size_t offset, const Bytes& bytes) {
   constexpr size_t kRange = 8, kSummary = 89;
   const size_t summary = kStart + head_bytes(shard) + kCheck + kRange + kCheck;

@@ -33,7 +33,7 @@ SurfaceModel grid_model(int64_t side, const Height& height) {
   return model;
 }
 
-// Of the plane of the cell's triangle at a place.
+// The height of the plane of the cell's triangle at a place.
 double height_at(const SurfaceModel& model, int64_t side, Spot at) {
   const auto x = std::min<int64_t>(static_cast<int64_t>(at.x), side - 2),
              y = std::min<int64_t>(static_cast<int64_t>(at.y), side - 2);

@@ -237,7 +237,7 @@ def check_mesh(path, expected):
     rows, columns = expected.heights.shape
     for row in range(1, rows - 1, 13):
         for column in range(1, columns - 1, 17):
-            # Beside a void triangles may end between a post and its neighbour.
+            # Next to a void triangles may end between a post and its neighbour.
             if numpy.isnan(expected.heights[row - 1 : row + 2, column - 1 : column + 2]).any():
                 continue
             value = at(layer, x + (column + 0.5) * dx, y + (row + 0.5) * dy)

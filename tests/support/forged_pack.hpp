@@ -82,7 +82,7 @@ inline bool has_triangle(const Tin& tin) {
   return found;
 }
 
-// The same with some triangles void.
+// The terrain with some triangles void.
 inline Tin with_some_voids(Tin tin, Random& random, uint32_t voids_of_100) {
   const DecodedTerrain decoded(encode(tin, Metadata()));
   const MeshCopy copy(decoded.mesh());

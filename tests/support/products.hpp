@@ -145,7 +145,7 @@ inline void append(std::string& bytes, int64_t number, int width) {
   for (int i = 0; i < width; ++i) bytes += static_cast<char>(number >> 8 * i & 255);
 }
 
-// The same as LAS 1.2, of classes 2 and 5, and a point of class 7 far away.
+// The points of cloud() as LAS 1.2, of classes 2 and 5, and a point of class 7 far away.
 inline Terrain scan(const Session& session, const std::string& file) {
   Terrain terrain = cloud(session, "same.xyz");
   terrain.file = file;

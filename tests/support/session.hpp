@@ -38,7 +38,7 @@ class Session {
 
   Result run(const std::string& arguments) const { return shell("microtin " + arguments); }
 
-  // The same for commands of a shell, to which the program is `microtin`.
+  // Runs commands of a shell, to which the program is `microtin`.
   Result shell(const std::string& commands) const {
     const std::string command = "cd '" + folder_.path() + "' && microtin() { '" + program() +
                                 "' \"$@\"; } && { " + commands + "\n} 2>'" + error_path() + "'";

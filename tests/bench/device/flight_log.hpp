@@ -23,7 +23,7 @@ inline void log_height(int32_t height) {
   print(put_char, "\n");
 }
 
-// Of several costs.
+// The sum and the largest of several costs.
 struct Costs {
   uint32_t count = 0, most = 0;
   uint64_t all = 0;

@@ -232,7 +232,7 @@ void Rebuilder::turn(Index into) {
   finish_around(into);
 }
 
-// The same by sidedness tests. The next point becomes a neighbour of the vertex if and only if it
+// Turns by sidedness tests. The next point becomes a neighbour of the vertex if and only if it
 // destroys the triangle in front of which it lies, as seen from the vertex: that is found by
 // sidedness, and is the only one whose circle is asked for.
 void Rebuilder::turn_by_sides(Index into) {

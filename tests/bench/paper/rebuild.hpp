@@ -18,8 +18,8 @@ namespace microtin::bench {
 // How the triangles that an insertion destroys are found, from the first one on.
 enum class Traversal {
   kAllNeighbours,  // each neighbour of a destroyed triangle is tested
-  kUncertified,    // ... unless it is certified: it stays
-  kSidedness       // ... or sidedness tests can tell
+  kUncertified,    // every neighbour, unless it is certified: it stays
+  kSidedness       // every neighbour that sidedness tests do not decide
 };
 
 struct Method {

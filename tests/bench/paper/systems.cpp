@@ -24,7 +24,7 @@ uint64_t fingerprint_of(const Mesh& mesh) {
   return fingerprint.sum();
 }
 
-// Of the triangulation before each phase of the removal, coarsest first.
+// Fingerprints of the triangulation before each phase of the removal, coarsest first.
 std::vector<uint64_t> fingerprints(Triangulation& triangulation, const Order& order) {
   std::vector<uint64_t> sums;
   for (auto batch = order.batches.rbegin(); batch != order.batches.rend(); ++batch) {

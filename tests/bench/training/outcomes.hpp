@@ -11,7 +11,7 @@
 
 namespace microtin::bench {
 
-// Of each adaptive bit, in the order of Models, what it learned from, one after the other.
+// What each adaptive bit learned from, one after the other, in the order of Models.
 using Outcomes = std::array<std::vector<bool>, kStarts>;
 
 // The stream must be one of our own.
