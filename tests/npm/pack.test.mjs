@@ -2,7 +2,7 @@
 // Packs: out of memory and by HTTP, from servers that know ranges, know none, and break off.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { areaBytes, areaFile, bytesOf, microtin, postsOf, served, skip } from "./support.mjs";
+import { areaBytes, areaFile, bytesOf, grown, microtin, postsOf, served, skip, withChecks } from "./support.mjs";
 
 const { MicrotinError, Pack, decode } = microtin;
 const bytes = areaBytes("area.mtp");
@@ -124,6 +124,36 @@ test("damaged bytes and what is no pack are told", { skip }, async () => {
   assert.equal(results.filter(({ status }) => status === "rejected").length, 1);
   assert.equal(results.find(({ status }) => status === "rejected").reason.status, "CHECKSUM");
   await assert.rejects(pack.tile(-1), RangeError);
+});
+
+test("what a header alone says of the largest tile takes no memory", { skip }, async () => {
+  const good = await Pack.open(bytes);
+  const forged = bytes.slice();
+  new DataView(forged.buffer).setUint32(28, 2 ** 24, true);
+  const { result, bytes: taken } = await grown(async () => {
+    const pack = await Pack.open(withChecks(forged, good.columns * good.rows));
+    assert.equal(pack.mostVertices, 2 ** 24);
+    const [x, y] = pack.tileBox(0);
+    return pack.heightAt(x, y);
+  });
+  const [x, y] = good.tileBox(0);
+  assert.equal(result, await good.heightAt(x, y));
+  assert.ok(taken < 2 ** 25, `${taken}`);
+});
+
+test("a tile that is larger than usual ones has room, as its stream says", { skip }, async () => {
+  const large = areaBytes("large.mtp");
+  const posts = postsOf(areaFile("asc")).filter((_, i) => i % 4099 === 0);
+  for (const slots of [1, 16]) {
+    const pack = await Pack.open(large, { slots });
+    assert.equal(pack.mostVertices, 16641);
+    for (const { x, y, z } of posts) assert.ok(Math.abs((await pack.heightAt(x, y)) - z) < 1e-6 * Math.abs(z) + 1e-9);
+    const [left, bottom] = pack.tileBox(0), [, , right, top] = pack.tileBox(3);
+    assert.ok((await pack.highestOn(left, bottom, right, top)) <= pack.highest); // three tiles
+    let last;
+    for await (last of pack.tilePhases(3));
+    assert.equal(last.positions.length, 3 * 16641);
+  }
 });
 
 test("a stream of the same terrain agrees within both bounds", { skip }, async () => {

@@ -2,7 +2,9 @@
 // Streams: every golden one, in pieces, damaged; phases; heights.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { goldenBytes, goldenNames, microtin, refusedBytes, refusedNames, reportOf } from "./support.mjs";
+import {
+  areaBytes, goldenBytes, goldenNames, grown, microtin, refusedBytes, refusedNames, reportOf, skip,
+} from "./support.mjs";
 
 const { Decoder, MicrotinError, decode, decodeStream } = microtin;
 
@@ -45,6 +47,31 @@ test("a response, a blob and a stream can be decoded as they arrive", async () =
     for await (last of decodeStream(source));
     assert.equal(last.digest, decode(bytes).digest);
   }
+});
+
+test("vertices that a header alone announces take no memory", { skip }, async () => {
+  const bytes = areaBytes("all.mtin");
+  const { vertices } = decode(bytes).header;
+  assert.equal(vertices, 257 * 257);
+  const length = bytes[5] & 128 ? ((bytes[5] & 127) << 7) | bytes[6] : bytes[5];
+  const header = 5 + (bytes[5] & 128 ? 2 : 1) + length + 4; // the identity, the length, so many bytes, their check
+  const enough = header + Math.ceil((vertices - 3) / 1421);
+  const decoder = new Decoder();
+  const before = await grown(() => {
+    for (let n = 0; n + 1 < enough; ++n) for (const _ of decoder.push(bytes.subarray(n, n + 1)));
+  });
+  assert.equal(decoder.terrain, undefined);
+  assert.equal(before.bytes, 0);
+  const { bytes: taken } = await grown(() => {
+    for (const _ of decoder.push(bytes.subarray(enough - 1, enough)));
+  });
+  assert.equal(decoder.terrain.header.vertices, vertices);
+  assert.ok(taken > 60 * vertices);
+  for (const _ of decoder.push(bytes.subarray(enough)));
+  assert.equal(decoder.finish().digest, decode(bytes).digest);
+  const cut = new Decoder();
+  cut.push(bytes.subarray(0, enough - 1));
+  assert.throws(() => cut.finish(), { status: "TRUNCATED" });
 });
 
 test("phases grow, each a complete triangulation", () => {

@@ -27,6 +27,45 @@ export const skip = area ? false : "skipped: no files of a host; tests/devices.s
 export const areaFile = (ending) => path.join(area, `area.${ending}`);
 export const areaBytes = (name) => area && bytesOf(path.join(area, name));
 
+// The bytes of memory that instances ask for while something is done; what that returns, and these.
+export async function grown(work) {
+  const { grow } = WebAssembly.Memory.prototype;
+  let pages = 0;
+  WebAssembly.Memory.prototype.grow = function (more) {
+    pages += more;
+    return grow.call(this, more);
+  };
+  try {
+    return { result: await work(), bytes: 65536 * pages };
+  } finally {
+    WebAssembly.Memory.prototype.grow = grow;
+  }
+}
+
+function crc32(bytes, crc) {
+  let rest = ~crc;
+  for (const byte of bytes) {
+    rest ^= byte;
+    for (let bit = 0; bit < 8; ++bit) rest = (rest >>> 1) ^ (rest & 1 ? 0xedb88320 : 0);
+  }
+  return ~rest >>> 0;
+}
+
+// A pack with the checks of its header and of the index that belong to what they hold now.
+export function withChecks(pack, tiles) {
+  const bytes = pack.slice();
+  const view = new DataView(bytes.buffer);
+  const index = 40 + bytes[6] + view.getUint16(8, true) + 4;
+  const check = crc32(bytes.subarray(0, index - 4), 0);
+  view.setUint32(index - 4, check, true);
+  for (let tile = 0; tile < tiles; ++tile) {
+    const entry = index + 16 * tile;
+    const place = new Uint8Array(Uint32Array.of(tile).buffer);
+    view.setUint32(entry + 12, crc32(bytes.subarray(entry, entry + 12), crc32(place, check)), true);
+  }
+  return bytes;
+}
+
 // Runs with a server's address; `answer` handles a request for bytes from .. to.
 export async function served(answer, use) {
   const server = http.createServer((request, response) => {

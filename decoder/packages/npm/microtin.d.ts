@@ -85,7 +85,7 @@ export function decode(bytes: Uint8Array): Terrain;
 
 /** Decodes a stream from its bytes in any pieces; await {@link ready} first. */
 export class Decoder {
-  /** Undefined until the header is complete. */
+  /** Undefined until the header is complete, and a byte behind it for each 1421 vertices. */
   readonly terrain: Terrain | undefined;
   /** Takes a copy of the next bytes at once. The generator decodes them, and yields the terrain each time that a section
    * of it, one phase or the first few together, has passed its check: coarse at first, then finer. Bytes that an

@@ -57,8 +57,9 @@ uint32_t triangles(const microtin_mesh* mesh, uint32_t kind, uint32_t* to) {
 
 // --- Packs.
 
-uint32_t pack_bytes(uint32_t slots, uint32_t capacity) {
-  return MICROTIN_PACK_BYTES(slots, capacity);
+// More than memory can be where they are too many.
+double pack_bytes(uint32_t slots, uint32_t capacity) {
+  return static_cast<double>(MICROTIN_PACK_BYTES(uint64_t{slots}, uint64_t{capacity}));
 }
 
 // Like microtin_pack_prepare without a step limit, but returns STEP_LIMIT as soon as the tile in
@@ -94,6 +95,25 @@ const microtin_mesh* tile_mesh(const microtin_pack* pack, uint32_t tile) {
     return nullptr;
   }
   return static_cast<const microtin_mesh*>(slot->space);
+}
+
+// Where the index has the entry of a tile.
+double entry_start(const microtin_pack* pack, uint32_t tile) {
+  return static_cast<double>(pack_entry_start(pack->header, tile));
+}
+
+// The bytes of the stream that an entry tells of, and where it begins; 0 if it breaks a rule.
+uint32_t stream_bytes(const microtin_pack* pack, const uint8_t* bytes, double* offset) {
+  PackEntry entry{};
+  if (!read_pack_entry(bytes, pack->header, &entry)) return 0;
+  *offset = static_cast<double>(entry.offset);
+  return entry.size;
+}
+
+// The vertices of a tile by the first bytes of its stream; 0 if these break a rule.
+uint32_t announced_vertices(const microtin_pack* pack, uint32_t tile, const uint8_t* bytes,
+                            uint32_t size) {
+  return tile_vertices(bytes, size, pack->header, tile_box(pack->header.grid, tile));
 }
 
 // Where the stream that is being read ends; 0 if none is.

@@ -25,6 +25,12 @@ export function toLattice(axis, most, value) {
   return place >= 0 && place <= 256 * most ? place : NaN;
 }
 
+// Whether a stream can hold so many vertices behind its header: each takes two symbols at least, of which a byte holds
+// fewer than 2842 (SECURITY.md). No memory is taken for those that a header alone states.
+export function canHold(bytes, vertices) {
+  return vertices <= 3 + 1421 * bytes;
+}
+
 // Reads a note from its beginning; what it lacks is 0.
 class NoteReader {
   constructor(bytes) {

@@ -2,11 +2,11 @@
 // A terrain in tiles, of which those are read that are asked for.
 
 import { checkInteger, checkNumber } from "./check.js";
-import { axesAt, notesAt, toLattice } from "./header.js";
+import { axesAt, canHold, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
 import { Source } from "./source.js";
 import {
-  ARGUMENT, BAD_TILES, CHECKSUM, DONE, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED, WORKSPACE_TOO_SMALL,
+  ARGUMENT, BAD_TILES, CHECKSUM, DONE, MicrotinError, NEED_INPUT, STEP_LIMIT, TOO_BIG, TRUNCATED, WORKSPACE_TOO_SMALL,
 } from "./status.js";
 import { meshArrays } from "./terrain.js";
 
@@ -15,6 +15,9 @@ const INFO_BYTES = 96, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12, 
 const MOST_SLOTS = 255, MOST_BAD = 8; // MICROTIN_PACK_BAD_TILES
 const CACHE_BYTES = 2 ** 26;
 const FIXED = 40; // bytes of a header, at least
+const ENTRY = 16, START = 64; // bytes of an entry of the index, and of a stream that announce its vertices
+const USUAL = 2 ** 14; // vertices that a slot has room for, until a stream has more
+const ROOM = 2 ** 20; // vertices that slots have room for together, if one has as many as that
 const FIRST_PIECE = 1024; // bytes of a tile that are read first; then twice as many
 const WHOLE = 0xffffffff; // more vertices than a tile has
 const FOUND = 0, OUTSIDE = 1, IN_VOID = 2; // microtin_answer
@@ -25,6 +28,7 @@ export class Pack {
   #pack;
   #course;
   #slots;
+  #capacity;
   #last = Promise.resolve();
 
   static async open(source, { slots = 16, cacheBytes = CACHE_BYTES } = {}) {
@@ -39,7 +43,7 @@ export class Pack {
     this.#course = this.#instance.reserve(32);
     this.#init(1, 3); // enough for the header
     await this.#readHeader();
-    this.#init(slots, Math.max(3, this.mostVertices));
+    this.#init(slots, Math.min(Math.max(3, this.mostVertices), USUAL));
   }
 
   #init(slots, capacity) {
@@ -49,7 +53,7 @@ export class Pack {
     const status = calls.microtin_pack_init_32(this.#instance.reserve(size), size, slots, capacity, results);
     if (status !== DONE) throw new MicrotinError(status);
     this.#pack = this.#instance.result();
-    this.#slots = slots;
+    [this.#slots, this.#capacity] = [slots, capacity];
   }
 
   async #readHeader() {
@@ -154,16 +158,23 @@ export class Pack {
 
   // The error of a course that touches bad tiles. The decoder remembers some of them.
   #badTile([x, y, xEnd, yEnd]) {
-    const instance = this.#instance;
-    const { results } = instance;
-    for (let i = 0; i < MOST_BAD; ++i) {
-      if (!instance.calls.microtin_pack_bad_tile(this.#pack, i, results, results + 4)) continue;
-      const tile = instance.result();
+    for (const { tile, why } of this.#badTiles()) {
       const [left, bottom, right, top] = this.#box(tile).map((k) => 256 * k);
       if (left <= Math.max(x, xEnd) && right >= Math.min(x, xEnd) && bottom <= Math.max(y, yEnd) &&
-          top >= Math.min(y, yEnd)) return new MicrotinError(instance.result(1), { where: `tile ${tile}` });
+          top >= Math.min(y, yEnd)) return new MicrotinError(why, { where: `tile ${tile}` });
     }
     return new MicrotinError(CHECKSUM, { where: "a tile" });
+  }
+
+  #badTiles() {
+    const instance = this.#instance;
+    const { results, calls } = instance;
+    const tiles = [];
+    for (let i = 0; i < MOST_BAD; ++i) {
+      if (!calls.microtin_pack_bad_tile(this.#pack, i, results, results + 4)) continue;
+      tiles.push({ tile: instance.result(), why: instance.result(1) });
+    }
+    return tiles;
   }
 
   // --- Heights.
@@ -223,7 +234,7 @@ export class Pack {
       const status = calls.prepare_section(this.#pack, this.#course, verified);
       if (status === NEED_INPUT) await this.#give(piece);
       else if (status === WORKSPACE_TOO_SMALL && this.#slots < MOST_SLOTS) this.#grow();
-      else return this.#settled(status);
+      else if (status !== BAD_TILES || !await this.#widen()) return this.#settled(status);
     }
   }
 
@@ -235,7 +246,33 @@ export class Pack {
   }
 
   #grow() {
-    this.#init(Math.min(2 * this.#slots, MOST_SLOTS), Math.max(3, this.mostVertices));
+    this.#init(Math.min(2 * this.#slots, MOST_SLOTS), this.#capacity);
+  }
+
+  // Makes room for the largest of the tiles that were refused for want of it; false if there is none.
+  async #widen() {
+    let most = 0;
+    for (const { tile, why } of this.#badTiles()) {
+      if (why === TOO_BIG) most = Math.max(most, await this.#verticesOf(tile));
+    }
+    if (most <= this.#capacity) return false;
+    this.#init(Math.min(this.#slots, Math.max(1, Math.floor(ROOM / most))), most);
+    return true;
+  }
+
+  // As its stream announces; 0 if it cannot be so many.
+  async #verticesOf(tile) {
+    const instance = this.#instance;
+    const { results, calls } = instance;
+    const holding = (bytes, use) => instance.borrow(bytes.length, (at) => {
+      instance.put(at, bytes);
+      return use(at, bytes.length);
+    });
+    const entry = await this.#source.bytesAt(calls.entry_start(this.#pack, tile), ENTRY);
+    const size = holding(entry, (at, length) => (length < ENTRY ? 0 : calls.stream_bytes(this.#pack, at, results)));
+    const start = await this.#source.bytesAt(instance.view.getFloat64(results, true), Math.min(size, START));
+    const vertices = holding(start, (at, length) => calls.announced_vertices(this.#pack, tile, at, length));
+    return canHold(size, vertices) ? vertices : 0;
   }
 
   async #give(piece) {

@@ -132,11 +132,17 @@ export class Source {
   }
 
   // The first `size` bytes, or all up to the file's end.
-  async first(size) {
+  first(size) {
+    return this.bytesAt(0, size);
+  }
+
+  // `size` bytes from `offset` on, or all up to the file's end.
+  async bytesAt(offset, size) {
     const all = new Uint8Array(size);
     let length = 0;
     for (let part; length < size; length += part.length) {
-      part = (this.known(length, size) ?? await this.read(length, size)).subarray(0, size - length);
+      const at = offset + length, end = offset + size;
+      part = (this.known(at, end - at) ?? await this.read(at, end)).subarray(0, end - at);
       if (part.length === 0) break;
       all.set(part, length);
     }

@@ -2,13 +2,13 @@
 // A terrain, and its decoding from a stream.
 
 import { checkBytes } from "./check.js";
-import { axesAt, notesAt, toLattice } from "./header.js";
+import { axesAt, canHold, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
 import { DONE, IO, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED } from "./status.js";
 
 const REAL = 0, VOID = 1;
 const HINT = 64; // in an instance's results: where heights keep theirs, and the height behind it
-const INFO_BYTES = 96, INFO_VERTICES = 0, INFO_AXES = 16, INFO_MESH_BYTES = 88,
+const INFO_BYTES = 96, INFO_VERTICES = 0, INFO_HEADER_BYTES = 4, INFO_AXES = 16, INFO_MESH_BYTES = 88,
   INFO_DECODER_BYTES = 92; // where they are in microtin_info
 const CHUNK = 65536;
 const STEPS = 1 << 16;
@@ -138,7 +138,7 @@ export class Decoder {
     return false;
   }
 
-  // Whether the header is complete, which then makes a terrain.
+  // Whether the header is complete and so many bytes are there that its vertices can follow, which makes a terrain.
   #begin() {
     const instance = this.#instance;
     const head = new Uint8Array(this.#waiting.reduce((sum, { length }) => sum + length, 0));
@@ -154,9 +154,11 @@ export class Decoder {
     instance.put(at, head);
     const status = instance.calls.microtin_peek_32(at, head.length, info);
     if (status > NEED_INPUT) throw new MicrotinError(status);
-    if (status === DONE) this.#layOut(info, notesAt(instance, at, head.length), start);
+    const number = (place) => instance.view.getUint32(info + place, true);
+    const isEnough = status === DONE && canHold(head.length - number(INFO_HEADER_BYTES), number(INFO_VERTICES));
+    if (isEnough) this.#layOut(info, notesAt(instance, at, head.length), start);
     else instance.end = start;
-    return status === DONE;
+    return isEnough;
   }
 
   #layOut(info, notes, start) {
