@@ -71,6 +71,23 @@ std::vector<Number> heights_of(GDALRasterBand& band, GDALDataType type) {
   return heights;
 }
 
+// Of a source in memory, which is what its files hold, nothing is known.
+void expect_held(GDALDataset& source) {
+  char** const files = source.GetFileList();
+  uint64_t bytes = 0;
+  for (char** file = files; file != nullptr && *file != nullptr; ++file) {
+    VSIStatBufL status;
+    if (VSIStatL(*file, &status) == 0) bytes += static_cast<uint64_t>(status.st_size);
+  }
+  const bool has_files = files != nullptr && *files != nullptr;
+  CSLDestroy(files);
+  const auto columns = static_cast<uint32_t>(source.GetRasterXSize()),
+             rows = static_cast<uint32_t>(source.GetRasterYSize());
+  if (!has_files || encoder::can_hold(bytes, columns, rows)) return;
+  refuse("the source's " + std::to_string(bytes) + " bytes cannot hold " + std::to_string(columns) +
+         " x " + std::to_string(rows) + " posts: -projwin WEST NORTH EAST SOUTH cuts it");
+}
+
 Posts posts_of(GDALDataset& source) {
   if (source.GetRasterCount() != 1) {
     refuse("the source has not one band but " + std::to_string(source.GetRasterCount()) +
@@ -80,6 +97,7 @@ Posts posts_of(GDALDataset& source) {
   if (band.GetScale() != 1 || band.GetOffset() != 0) {
     refuse("the source's heights have a scale or an offset: apply them with -unscale");
   }
+  expect_held(source);
   const Transform transform = transform_of(source);
   const auto columns = static_cast<uint32_t>(band.GetXSize()),
              rows = static_cast<uint32_t>(band.GetYSize());

@@ -2,6 +2,7 @@
 // Whatever GDAL opens; part of builds with MICROTIN_WITH_GDAL only.
 #include <cpl_error.h>
 #include <cpl_string.h>
+#include <cpl_vsi.h>
 #include <gdal.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "encoder/base/suffix.hpp"
 #include "encoder/exact/scaled_integers.hpp"
 #include "encoder/exact/units.hpp"
+#include "encoder/import/claimed_posts.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/no_data.hpp"
@@ -217,9 +219,44 @@ class BandReader {
   NoData no_data_;
 };
 
+std::vector<std::string> files_of(GDALDatasetH dataset) {
+  std::vector<std::string> files;
+  char** const list = GDALGetFileList(dataset);
+  for (char** file = list; file != nullptr && *file != nullptr; ++file) files.emplace_back(*file);
+  CSLDestroy(list);
+  return files;
+}
+
+uint64_t bytes_of(GDALDatasetH dataset) {
+  uint64_t bytes = 0;
+  for (const std::string& file : files_of(dataset)) {
+    VSIStatBufL status;
+    if (VSIStatL(file.c_str(), &status) == 0) bytes += static_cast<uint64_t>(status.st_size);
+  }
+  return bytes;
+}
+
+// GDAL reads a block at a time, which a header may claim to be larger than the raster.
+void expect_held(GDALDatasetH dataset, GDALRasterBandH band) {
+  const auto columns = static_cast<uint64_t>(GDALGetRasterBandXSize(band));
+  const auto rows = static_cast<uint64_t>(GDALGetRasterBandYSize(band));
+  const uint64_t bytes = bytes_of(dataset);
+  int width = 0, height = 0;
+  GDALGetBlockSize(band, &width, &height);
+  if (can_hold(bytes, std::max<uint64_t>(columns, static_cast<uint64_t>(width)),
+               std::max<uint64_t>(rows, static_cast<uint64_t>(height)))) {
+    return;
+  }
+  throw Error(
+      "its " + std::to_string(bytes) + " bytes cannot hold " + std::to_string(columns) + " x " +
+      std::to_string(rows) +
+      " posts: \"gdal_translate -projwin WEST NORTH EAST SOUTH\" cuts out those that it has");
+}
+
 Raster read(const std::string& path, Indirect indirect, uint32_t number) {
   const Dataset dataset = open(path, indirect);
   const GDALRasterBandH band = band_of(dataset.get(), number);
+  expect_held(dataset.get(), band);
   BandReader reader(band);
   Raster raster;
   raster.width = static_cast<uint32_t>(reader.width());
@@ -251,11 +288,7 @@ std::vector<std::string> gdal_files(const std::string& path, Indirect indirect) 
   } catch (const Error&) {  // reading it says why
     return {path};
   }
-  std::vector<std::string> files;
-  char** const list = GDALGetFileList(dataset.get());
-  for (char** file = list; file != nullptr && *file != nullptr; ++file) files.emplace_back(*file);
-  CSLDestroy(list);
-  return files;
+  return files_of(dataset.get());
 }
 
 }  // namespace microtin::importing

@@ -11,6 +11,7 @@
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/exact/real_place.hpp"
+#include "encoder/import/claimed_posts.hpp"
 #include "encoder/import/joined_clouds.hpp"
 #include "encoder/import/longitudes.hpp"
 #include "encoder/import/reference.hpp"
@@ -177,12 +178,22 @@ class Mosaic : public RasterReader {
         throw Error(part.path + ": lies more than 2^31 posts from " + parts_[0].path);
       }
     }
+    expect_held(all);
     x_ = all.x;
     y_ = all.y;
     frame_.width = static_cast<uint32_t>(all.width);
     frame_.height = static_cast<uint32_t>(all.height);
     frame_.x = moved_axis(frame_.x, x_);
     frame_.y = moved_axis(frame_.y, y_);
+  }
+
+  void expect_held(const Box& all) const {
+    uint64_t held = 0;
+    for (const Part& part : parts_) held += static_cast<uint64_t>(part.box.width * part.box.height);
+    if (can_hold(held, static_cast<uint64_t>(all.width), static_cast<uint64_t>(all.height))) return;
+    throw Error(parts_[0].path + " and others: lie so far apart that they have " +
+                std::to_string(held) + " of " + std::to_string(all.width) + " x " +
+                std::to_string(all.height) + " posts: encode those far apart by themselves");
   }
 
   void compare_parts() {

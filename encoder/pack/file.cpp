@@ -208,11 +208,13 @@ PackEntry PackFile::entry_of(uint32_t tile) const {
 
 uint32_t PackFile::vertices(uint32_t number) const {
   constexpr uint32_t kHeaderMost = 64;  // a tile's has no notes
-  const PackEntry& entry = entries_[number];
+  const PackEntry entry = entry_of(number);
   if (entry.size == 0) return 0;
   return with_file_context("tile " + std::to_string(number), [&] {
     const Bytes start = bytes_at(*bytes_, entry.offset, std::min(entry.size, kHeaderMost));
-    return stream::read_header(start).info.vertices;
+    const microtin_info info = stream::read_header(start).info;
+    expect_room_for_vertices(info, entry.size);
+    return info.vertices;
   });
 }
 

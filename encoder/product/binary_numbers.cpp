@@ -3,6 +3,7 @@
 #include <string>
 
 #include "encoder/base/error_context.hpp"
+#include "encoder/import/claimed_posts.hpp"
 #include "encoder/import/no_data.hpp"
 #include "encoder/import/text.hpp"
 #include "encoder/import/transform.hpp"
@@ -58,6 +59,10 @@ Posts binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const
 
 bool runs_east(const Transform& transform) {
   return importing::runs_east(transform);
+}
+
+bool can_hold(uint64_t bytes, uint32_t columns, uint32_t rows) {
+  return importing::can_hold(bytes, columns, rows);
 }
 
 Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "encoder/product/place_query.hpp"
 
+#include <algorithm>
+
 #include "encoder/base/status_text.hpp"
 #include "encoder/files/input_file.hpp"
 #include "encoder/pack/file.hpp"
@@ -11,6 +13,9 @@ namespace microtin::product {
 namespace {
 
 constexpr uint32_t kSlots = 4;  // a place can lie in so many tiles at once
+
+// Vertices of a slot to begin with, whatever the header says of the largest tile.
+constexpr uint32_t kUsualCapacity = 1u << 14;
 
 // As microtin_read; `context` is a ByteSource.
 int32_t read_source(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
@@ -74,6 +79,7 @@ uint32_t parts_of(Decimal value) {
 void AskedPack::lay_out(uint32_t slots, uint32_t capacity) {
   space_.assign((MICROTIN_PACK_BYTES(uint64_t{slots}, uint64_t{capacity}) + 7) / 8, 0);
   microtin_pack_init(space_.data(), space_.size() * 8, slots, capacity, &pack_);
+  capacity_ = capacity;
 }
 
 microtin_status AskedPack::serve(int64_t x, int64_t y) {
@@ -85,14 +91,33 @@ AskedPack::AskedPack(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes
   lay_out(1, 3);
   const microtin_status status = serve(-1, -1);  // outside: the header alone is read
   if (microtin_pack_header(pack_, &info_) == 0) expect_header(status);
-  if (info_.most_vertices > 3 + kVerticesPerByte * bytes_->size()) {
-    throw Damaged("more vertices are announced than so few bytes can hold");
-  }
-  lay_out(kSlots, info_.most_vertices < 3 ? 3 : info_.most_vertices);
+  lay_out(kSlots, std::clamp(info_.most_vertices, 3u, kUsualCapacity));
 }
 
-microtin_answer AskedPack::height_at(int64_t x, int64_t y, int32_t* height) {
-  if (serve(x, y) == MICROTIN_IO) throw Error(describe(MICROTIN_IO));
+// The vertices of the largest tile that was refused for want of room, as its stream says. A tile of
+// which that cannot be read is a bad one.
+uint32_t AskedPack::wanted_capacity(const PackFile& file) const {
+  uint32_t most = 0, tile = 0, why = 0;
+  for (int i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
+    if (microtin_pack_bad_tile(pack_, static_cast<uint32_t>(i), &tile, &why) == 0) continue;
+    if (why != MICROTIN_TOO_BIG) continue;
+    try {
+      most = std::max(most, file.vertices(tile));
+    } catch (const Error&) {
+    }
+  }
+  return most;
+}
+
+microtin_answer AskedPack::height_at(int64_t x, int64_t y, const PackFile& file, int32_t* height) {
+  microtin_status status = serve(x, y);
+  while (status == MICROTIN_BAD_TILES) {
+    const uint32_t capacity = wanted_capacity(file);
+    if (capacity <= capacity_) break;
+    lay_out(kSlots, capacity);
+    status = serve(x, y);
+  }
+  if (status == MICROTIN_IO) throw Error(describe(MICROTIN_IO));
   return microtin_pack_height_at(pack_, x, y, &hint_, height);
 }
 
@@ -151,9 +176,13 @@ ExactAnswer PlaceQuery::height_at(Decimal x, Decimal y, bool on_lattice) {
     if (!column || !row || answer.kind != MICROTIN_OUTSIDE) continue;
     answer = surface_.height_at(place_of(*column, *row));
   }
+  expect_read();
+  return answer;
+}
+
+void PlaceQuery::expect_read() const {
   const auto* const pack = std::get_if<Pack>(&content_);
   if (pack != nullptr && *pack->has_failed) throw Error(describe(MICROTIN_IO));
-  return answer;
 }
 
 ExactAnswer PlaceQuery::device_height_at(Decimal x, Decimal y, bool on_lattice) {
@@ -166,6 +195,7 @@ ExactAnswer PlaceQuery::device_height_at(Decimal x, Decimal y, bool on_lattice) 
     kind = std::holds_alternative<Pack>(content_) ? pack_height_at(place, x, y, &height)
                                                   : stream_height_at(place, x, y, &height);
   }
+  expect_read();
   return {kind, height_of_answer(height)};
 }
 
@@ -182,14 +212,14 @@ microtin_answer PlaceQuery::stream_height_at(const Placement& place, Decimal x, 
 
 microtin_answer PlaceQuery::pack_height_at(const Placement& place, Decimal x, Decimal y,
                                            int32_t* height) {
-  AskedPack& pack = std::get<Pack>(content_).device;
+  Pack& pack = std::get<Pack>(content_);
+  const microtin_pack_info& info = pack.device.info();
   int64_t column = 0, row = 0;
-  if (microtin_pack_to_lattice(&place.x, pack.info().x_max, x.mantissa, parts_of(x), &column) ==
-          0 ||
-      microtin_pack_to_lattice(&place.y, pack.info().y_max, y.mantissa, parts_of(y), &row) == 0) {
+  if (microtin_pack_to_lattice(&place.x, info.x_max, x.mantissa, parts_of(x), &column) == 0 ||
+      microtin_pack_to_lattice(&place.y, info.y_max, y.mantissa, parts_of(y), &row) == 0) {
     return MICROTIN_OUTSIDE;
   }
-  return pack.height_at(column, row, height);
+  return pack.device.height_at(column, row, *pack.file, height);
 }
 
 }  // namespace microtin::product

@@ -25,25 +25,28 @@ struct Damaged : Error {
   using Error::Error;
 };
 
-// A pack with the memory that the pack's largest tiles need; tiles are read when they are asked.
+// A pack as a device reads it, tile by tile when they are asked. Its memory is that of usual tiles,
+// and grows when a larger one is asked whose stream says so.
 class AskedPack {
  public:
-  // Throws Damaged, or Error if the header is of another version or claims too much.
+  // Throws Damaged, or Error if the header is of another version.
   explicit AskedPack(std::unique_ptr<ByteSource> bytes);
 
   const microtin_pack_info& info() const { return info_; }
 
-  // As microtin_pack_height_at. Throws Error if the file cannot be read.
-  microtin_answer height_at(int64_t x, int64_t y, int32_t* height);
+  // As microtin_pack_height_at; `file` is the same pack. Throws Error if the file cannot be read.
+  microtin_answer height_at(int64_t x, int64_t y, const PackFile& file, int32_t* height);
 
  private:
   microtin_status serve(int64_t x, int64_t y);
   void lay_out(uint32_t slots, uint32_t capacity);
+  uint32_t wanted_capacity(const PackFile& file) const;
 
   std::unique_ptr<ByteSource> bytes_;
   std::vector<uint64_t> space_;
   microtin_pack* pack_ = nullptr;
   microtin_pack_info info_{};
+  uint32_t capacity_ = 0;  // vertices that a slot has room for
   uint32_t hint_ = 0;
 };
 
@@ -72,6 +75,7 @@ class PlaceQuery {
   };
 
   std::vector<Axis> names_of_x(bool on_lattice) const;
+  void expect_read() const;  // throws Error if a read of a pack's file has failed
   microtin_answer stream_height_at(const Placement& place, Decimal x, Decimal y, int32_t* height);
   microtin_answer pack_height_at(const Placement& place, Decimal x, Decimal y, int32_t* height);
   static std::variant<DecodedStream, Pack> opened(const std::string& path);

@@ -15,14 +15,13 @@ void expect_done(microtin_status status) {
   if (status != MICROTIN_DONE) throw Error(describe(status));
 }
 
-// So that a few bytes do not claim much memory.
-void expect_room_for_vertices(const microtin_info& info, size_t stream_bytes) {
+}  // namespace
+
+void expect_room_for_vertices(const microtin_info& info, uint64_t stream_bytes) {
   if (info.vertices > 3 + kVerticesPerByte * (stream_bytes - info.header_bytes)) {
     throw Error("cut off or malformed: more vertices are announced than so few bytes can hold");
   }
 }
-
-}  // namespace
 
 DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream) {
   const Header header = read_header(stream);

@@ -15,6 +15,10 @@ namespace microtin::stream {
 // of which a byte holds fewer than 2842 (guarantees.md, proof of 21).
 constexpr uint64_t kVerticesPerByte = 1421;
 
+// Throws Error if a stream of so many bytes announces more, so that few bytes do not claim much
+// memory.
+void expect_room_for_vertices(const microtin_info& info, uint64_t stream_bytes);
+
 class DecodedTerrain {
  public:
   // Decodes a whole stream. Throws Error, saying what the decoder found, if it is not valid or if

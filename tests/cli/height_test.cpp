@@ -6,6 +6,7 @@
 #include <string>
 
 #include "microtin/pack.h"
+#include "tests/support/forged_pack.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -113,6 +114,25 @@ TEST_CASE("height: the exact plane at the real place; as a device answers with -
   }
   REQUIRE(session.run("decode slope.mtin --cell 0.5 --extent 0,0,4,0.5 -o fine.asc").code == 0);
   CHECK(contains(session.read("fine.asc"), "\n0 0.5 1 1.5 2 2.5 3 3.5 4\n"));
+}
+
+TEST_CASE("height: a tile that is larger than usual ones has room, as its stream says") {
+  const Session session;
+  Tin small, large;
+  for (uint32_t place = 0; place < 65536; ++place) {
+    const auto x = static_cast<uint16_t>(place % 256), y = static_cast<uint16_t>(place / 256);
+    large.vertices.push_back({x, y, 7});
+    if (x % 255 == 0 && y % 255 == 0) small.vertices.push_back({x, y, 7});
+  }
+  const Bytes pack = forged_pack({765, 255, 255, 255},
+                                 {forged_tile(small), forged_tile(large), forged_tile(small)});
+  session.write("t.mtp", {pack.begin(), pack.end()});
+  for (const std::string device : {"", " --device"}) {
+    CHECK(session
+              .shell("printf '9 9\\n255 9\\n300 9\\n510 255\\n700 0\\n9 9\\n' | " +
+                     ("microtin height t.mtp --lattice" + device))
+              .out == "9 9 7\n255 9 7\n300 9 7\n510 255 7\n700 0 7\n9 9 7\n");
+  }
 }
 
 TEST_CASE("height: a place with twelve decimals of a border lies on it") {

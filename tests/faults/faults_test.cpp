@@ -15,6 +15,7 @@
 
 #include "tests/faults/injected.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/forged_pack.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 int microtin_main(int argc, char** argv);  // the program's, renamed
@@ -82,6 +83,11 @@ class Stage {
   }
 
   const Counters& counters() const { return counters_; }
+
+  void write(const std::string& name, const std::vector<uint8_t>& bytes) const {
+    write_file(folder_ / name, bytes);
+  }
+  std::vector<uint8_t> read(const std::string& name) const { return bytes_of_file(folder_ / name); }
 
  private:
   [[noreturn]] void run_as_child(Words words, const std::string& errors) {
@@ -217,6 +223,75 @@ TEST_CASE("memory refused from each request on: an error of one line, and no fil
 TEST_CASE("file functions failing at each call in turn: an error of one line, and no file") {
   Stage stage;
   for (const Words& words : kCommands) check(stage, words, &Counters::files, false, 1, 1);
+}
+
+namespace {
+
+void write_text(const Stage& stage, const std::string& name, const std::string& text) {
+  stage.write(name, {text.begin(), text.end()});
+}
+
+// A pack whose header says that a tile has 2^24 vertices, with bytes enough for these.
+void write_forged_pack(const Stage& stage) {
+  constexpr size_t kMostVertices = 28, kBytes = 16384;
+  Bytes pack = stage.read("t.mtp");
+  put_number(pack, kMostVertices, kMaxVertices, 4);
+  repair_checks(pack);
+  pack.resize(kBytes);
+  stage.write("forged.mtp", pack);
+}
+
+// A sheet of four posts.
+std::string sheet(const std::string& x, const std::string& y) {
+  return "ncols 2\nnrows 2\nxllcenter " + x + "\nyllcenter " + y + "\ncellsize 1\n1 2\n3 4\n";
+}
+
+void write_forged_sources(const Stage& stage) {
+  write_text(stage, "forged.asc",
+             "ncols 2147483647\nnrows 2147483647\nxllcenter 0\nyllcenter 0\ncellsize 1\n1 2 3\n");
+  write_text(stage, "forged.ply",
+             "ply\nformat ascii 1.0\nelement vertex 4294967295\nproperty float x\n"
+             "property float y\nproperty float z\nend_header\n1 2 3\n");
+  write_text(stage, "west.asc", sheet("0", "0"));
+  write_text(stage, "east.asc", sheet("65000", "65000"));
+  write_text(stage, "far.asc", sheet("2000000000", "2000000000"));
+}
+
+}  // namespace
+
+TEST_CASE("a count that only a header states takes no memory") {
+  constexpr uint64_t kMost = 1 << 25;
+  Stage stage;
+  write_forged_pack(stage);
+  write_forged_sources(stage);
+  const std::vector<Words> answered = {{"height", "forged.mtp", "3", "3"},
+                                       {"height", "forged.mtp", "3", "3", "--device"},
+                                       {"info", "forged.mtp"},
+                                       {"decode", "forged.mtp", "-o", "new.asc"},
+                                       {"decode", "forged.mtp", "-o", "new.ply"},
+                                       {"render", "forged.mtp", "-o", "new.png"}};
+  for (const Words& words : answered) {
+    CAPTURE(words[0]);
+    const Stage::Result result = stage.run(words);
+    CHECK_MESSAGE(result.status == 0, result.error);
+    CHECK(stage.counters().largest_request < kMost);
+  }
+  const std::vector<Words> refused = {
+      {"encode", "forged.asc", "-o", "new.mtin"},
+      {"encode", "forged.asc", "-o", "new.mtp"},
+      {"encode", "forged.ply", "-o", "new.mtin"},
+      {"encode", "west.asc", "east.asc", "-o", "new.mtin"},
+      {"encode", "west.asc", "east.asc", "-o", "new.mtp", "--max-error", "1"},
+      {"encode", "west.asc", "far.asc", "-o", "new.mtp", "--max-error", "1"},
+      {"plan", "west.asc", "far.asc", "--tile-vertices", "16", "--max-error", "1"},
+      {"verify", "t.mtp", "west.asc", "far.asc"},
+      {"decode", "t.mtp", "--like", "forged.asc", "-o", "new.asc"}};
+  for (const Words& words : refused) {
+    CAPTURE(words[1] + " " + words[2]);
+    const Stage::Result result = stage.run(words);  // a cloud's size is announced before
+    CHECK_MESSAGE((WIFEXITED(result.status) && WEXITSTATUS(result.status) == 1), result.error);
+    CHECK(stage.counters().largest_request < kMost);
+  }
 }
 
 TEST_CASE("a decoder that betrays the encoder: a fault of ours, told as that, and no file") {

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -16,8 +17,11 @@ namespace {
 Counters* active = nullptr;
 bool reading_failed = false;
 
-bool memory_fails() {
-  return active != nullptr && active->memory.fails();
+// Null if the request fails.
+void* memory_of(std::size_t size) {
+  if (active == nullptr) return std::malloc(size);
+  active->largest_request = std::max<uint64_t>(active->largest_request, size);
+  return active->memory.fails() ? nullptr : std::malloc(size);
 }
 
 bool file_fails() {
@@ -118,13 +122,13 @@ microtin_answer wrap_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, 
 }  // namespace microtin::faults
 
 void* operator new(std::size_t size) {
-  void* const memory = microtin::faults::memory_fails() ? nullptr : std::malloc(size);
+  void* const memory = microtin::faults::memory_of(size);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
 
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  return microtin::faults::memory_fails() ? nullptr : std::malloc(size);
+  return microtin::faults::memory_of(size);
 }
 
 void operator delete(void* memory) noexcept {

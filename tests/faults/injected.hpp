@@ -22,7 +22,8 @@ struct Counter {
 
 struct Counters {
   Counter memory, files;
-  Counter streams, heights;  // that the decoder refuses; that it answers wrongly
+  uint64_t largest_request = 0;  // of memory, in bytes
+  Counter streams, heights;      // that the decoder refuses; that it answers wrongly
 };
 
 // Whose faults apply from now on; none if null.

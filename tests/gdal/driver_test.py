@@ -128,6 +128,15 @@ class Driver(unittest.TestCase):
                 with self.subTest(suffix + " " + name):
                     self.assertEqual(len({without, *made}), 1 + len(made))
 
+    def test_a_source_of_more_posts_than_its_bytes_can_hold_is_refused(self):
+        path = self.path("sparse.tif")
+        sparse = gdal.GetDriverByName("GTiff").Create(path, 60000, 60000, 1, gdal.GDT_Float64, ["SPARSE_OK=TRUE"])
+        sparse.SetGeoTransform(TRANSFORM)
+        sparse = None
+        for suffix in (".mtin", ".mtp"):
+            with self.assertRaisesRegex(RuntimeError, "bytes cannot hold 60000 x 60000 posts"):
+                gdal.Translate(self.path("new" + suffix), path, format="MTIN", creationOptions=["MAX_ERROR=1"])
+
     def test_overviews_lie_where_the_raster_does(self):
         for path in self.both():
             dataset = gdal.Open(path)

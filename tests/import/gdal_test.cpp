@@ -107,6 +107,29 @@ TEST_CASE("gdal: what cannot be read is refused with advice") {
         "\"gdal_translate IN OUT.tif\" makes a GeoTIFF of what is not read here\n");
 }
 
+TEST_CASE("gdal: a raster of more posts than its bytes can hold is refused before it is read") {
+  const Session session;
+  if (session.shell("command -v gdal_create").out.empty()) {
+    MESSAGE("skipped: gdal_create is not installed");
+    return;
+  }
+  const auto create = [&](const std::string& size, const std::string& more) {
+    REQUIRE(session
+                .shell("gdal_create -q -of GTiff -ot Float64 -a_srs EPSG:32633 -outsize " + size +
+                       " -a_ullr 0 9 9 0 -co SPARSE_OK=TRUE " + more + " t.tif")
+                .code == 0);
+  };
+  create("60000 60000", "");
+  CHECK(contains(session.failure("encode t.tif -o new.mtin"),
+                 " bytes cannot hold 60000 x 60000 posts: "));
+  CHECK(contains(session.failure("encode t.tif --max-error 1 -o new.mtp"),
+                 "gdal_translate -projwin"));
+  create("40 30", "-co TILED=YES -co BLOCKXSIZE=65536 -co BLOCKYSIZE=65536");
+  CHECK(contains(session.failure("encode t.tif -o new.mtin"), " bytes cannot hold 40 x 30 posts"));
+  create("40 30", "");
+  CHECK(session.run("encode t.tif -o new.mtin").code == 0);
+}
+
 TEST_CASE("gdal: skews that rounding leaves are none") {
   const Grid grid;
   CHECK(grid.read(vrt("500000, 10, 1e-18, 200, -1e-9, -10", "\"Int16\">")).x.offset == 500005);

@@ -68,6 +68,10 @@ Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Tran
 Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform,
                double no_data = kNoValue);
 
+/* Whether files of so many bytes can hold so many columns and rows: up to 2^24 posts, or 1024 for
+ * each byte. A raster that claims more has a forged header, or is void but for a little. */
+bool can_hold(uint64_t bytes, uint32_t columns, uint32_t rows);
+
 /* x, y, z of each point in turn. */
 Points points_of(uint64_t count, const double* coordinates);
 

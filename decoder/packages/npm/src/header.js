@@ -26,7 +26,7 @@ export function toLattice(axis, most, value) {
 }
 
 // Whether a stream can hold so many vertices behind its header: each takes two symbols at least, of which a byte holds
-// fewer than 2842 (SECURITY.md). No memory is taken for those that a header alone states.
+// fewer than 2842 (shared/docs/guarantees.md). No memory is taken for those that a header alone states.
 export function canHold(bytes, vertices) {
   return vertices <= 3 + 1421 * bytes;
 }
