@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Builds every preset and runs its tests: the release; clang with clang-tidy and, at the same time, what seldom keeps
-# two processors busy, the devices, analyzers and some planted faults; other sanitizers; the fuzz targets for a short
-# while; and the sanitizers. Says what it skips for want of a compiler, and when each part began.
+# Builds every preset and runs its tests: the release; clang with clang-tidy; the fuzz targets for a short while; and the
+# sanitizers. At the same time as clang runs what seldom keeps two processors busy: the devices, analyzers, some planted
+# faults and other sanitizers; then the proof on Debian 13. Prints what it skips and why, and when each part began.
 set -eu
 cd "$(dirname "$0")/.."
 export CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL-$(nproc)}"
@@ -17,6 +17,19 @@ have() {
   done
 }
 
+# Another generation of compilers, on a fresh Debian 13 that comes from the network.
+debian_13() {
+  have debootstrap || return 0
+  probe=$(mktemp -d)
+  if [ "$(id -u)" != 0 ] || ! timeout 120 debootstrap --print-debs trixie "$probe/trixie" >/dev/null 2>&1; then
+    echo "skipped: Debian 13, which needs root and Debian's mirror"
+    rm -rf "$probe"
+    return 0
+  fi
+  rm -rf "$probe"
+  .ci/prove trixie compilers
+}
+
 beside() {
   part devices
   tests/devices.sh
@@ -24,6 +37,10 @@ beside() {
   tests/analyse.sh || [ $? -eq 77 ] # skipped
   part planted faults
   fuzz/mutate cavity_bound certified no_conflict staged_bytes tie_break
+  part strict sanitizers
+  if have clang++; then fuzz/strict; fi
+  part Debian 13
+  debian_13
 }
 
 part release
@@ -41,8 +58,6 @@ trap - EXIT
 cat $log
 [ $failed -eq 0 ] || exit $failed
 
-part strict sanitizers
-if have clang++; then fuzz/strict; fi
 part fuzz targets
 if have clang++; then cmake --workflow --preset fuzz; fi
 part sanitizers
