@@ -84,17 +84,19 @@ using namespace microtin;
 
 microtin_status microtin_buckets_init(void* workspace, size_t size, const microtin_mesh* mesh,
                                       microtin_buckets** buckets) {
-  if (workspace == nullptr || mesh == nullptr || buckets == nullptr) return MICROTIN_ARGUMENT;
+  if (workspace == nullptr || mesh == nullptr || buckets == nullptr)
+    return MICROTIN_STATUS_ARGUMENT;
   *buckets = nullptr;
-  if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
+  if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0)
+    return MICROTIN_STATUS_MISALIGNED;
   const uint32_t side = side_of(size);
-  if (side == 0) return MICROTIN_WORKSPACE_TOO_SMALL;
+  if (side == 0) return MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
   microtin_buckets& b = *static_cast<microtin_buckets*>(workspace);
   b.side = side;
   measure(b, mesh->mesh);
   fill(&b, *mesh);
   *buckets = &b;
-  return MICROTIN_DONE;
+  return MICROTIN_STATUS_OK;
 }
 
 uint32_t microtin_buckets_hint(const microtin_buckets* buckets, int32_t x, int32_t y) {

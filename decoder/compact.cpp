@@ -308,9 +308,9 @@ microtin_status measure(Compactor& c) {
   c.repeat = c.looks + 2 * header.positions;
   c.vertex = reinterpret_cast<RingVertex*>(c.repeat + repeats_of(header));
   c.y = reinterpret_cast<uint16_t*>(c.vertex + header.positions);
-  if (!has_room_for(header.positions)) return MICROTIN_TOO_BIG;
+  if (!has_room_for(header.positions)) return MICROTIN_STATUS_TOO_BIG;
   const bool fits = c.body_bytes <= c.body_most && header.positions <= c.order_most;
-  return fits ? MICROTIN_STEP_LIMIT : MICROTIN_WORKSPACE_TOO_SMALL;
+  return fits ? MICROTIN_STATUS_STEP_LIMIT : MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
 }
 
 // The work after that in hand, but for what is not wanted.
@@ -339,7 +339,7 @@ void put_header(const Compactor& c) {
 bool go_on(Compactor& c) {
   if (c.work == Work::kExpand) {
     c.status = static_cast<uint8_t>(measure(c));
-    if (c.status != MICROTIN_STEP_LIMIT) return false;
+    if (c.status != MICROTIN_STATUS_STEP_LIMIT) return false;
   }
   if (c.work == Work::kRight) empty_mesh(*c.source);  // its end: what is moved may lie over it
   c.work = work_after(c);
@@ -355,7 +355,7 @@ bool go_on(Compactor& c) {
   }
   if (c.work != Work::kComplete) return true;
   put_header(c);
-  c.status = MICROTIN_DONE;
+  c.status = MICROTIN_STATUS_OK;
   return false;
 }
 
@@ -375,22 +375,22 @@ void find_room(Compactor& c, size_t size) {
 
 using namespace microtin;
 
-microtin_status microtin_compact_begin(void* workspace, size_t size, microtin_mesh* mesh,
-                                       void* scratch, size_t scratch_size,
-                                       microtin_compactor** compactor) {
+microtin_status microtin_compactor_init(void* workspace, size_t size, microtin_mesh* mesh,
+                                        void* scratch, size_t scratch_size,
+                                        microtin_compactor** compactor) {
   if (workspace == nullptr || mesh == nullptr || scratch == nullptr || compactor == nullptr) {
-    return MICROTIN_ARGUMENT;
+    return MICROTIN_STATUS_ARGUMENT;
   }
   *compactor = nullptr;
   if ((reinterpret_cast<uintptr_t>(workspace) | reinterpret_cast<uintptr_t>(scratch)) %
           MICROTIN_ALIGNMENT !=
       0) {
-    return MICROTIN_MISALIGNED;
+    return MICROTIN_STATUS_MISALIGNED;
   }
   const uint32_t n = mesh->mesh.vertices;
-  if (n == 0 || mesh->verified_vertices != n) return MICROTIN_ARGUMENT;
+  if (n == 0 || mesh->verified_vertices != n) return MICROTIN_STATUS_ARGUMENT;
   const size_t order_at = sizeof(Compactor) + bit_bytes(n);
-  if (scratch_size < order_at) return MICROTIN_WORKSPACE_TOO_SMALL;
+  if (scratch_size < order_at) return MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
   Compactor& c = *static_cast<Compactor*>(scratch);
   c = Compactor();
   __builtin_memcpy(c.axis, mesh->axis, sizeof c.axis);
@@ -405,26 +405,26 @@ microtin_status microtin_compact_begin(void* workspace, size_t size, microtin_me
   c.ringed = 2;             // infinity, and the vertex where the expansion starts
   c.least.x = kLatticeMax;  // one by one: on AVR a constant to copy from would be in RAM
   c.least.y = kLatticeMax;
-  c.status = MICROTIN_STEP_LIMIT;
+  c.status = MICROTIN_STATUS_STEP_LIMIT;
   find_room(c, size);
   *compactor = &c;
-  return MICROTIN_DONE;
+  return MICROTIN_STATUS_OK;
 }
 
-microtin_status microtin_compact_proceed(microtin_compactor* compactor, uint32_t step_limit,
-                                         microtin_compact** compact) {
-  if (compactor == nullptr || compact == nullptr) return MICROTIN_ARGUMENT;
+microtin_status microtin_compactor_run(microtin_compactor* compactor, uint32_t step_limit,
+                                       microtin_compact** compact) {
+  if (compactor == nullptr || compact == nullptr) return MICROTIN_STATUS_ARGUMENT;
   Compactor& c = *compactor;
   *compact = nullptr;
   uint32_t left = step_limit == 0 ? 0xFFFFFFFFu : step_limit;
-  bool goes_on = c.status == MICROTIN_STEP_LIMIT;
+  bool goes_on = c.status == MICROTIN_STATUS_STEP_LIMIT;
   for (; goes_on && left != 0; --left) goes_on = !handle(c) || go_on(c);
-  if (c.status == MICROTIN_DONE) *compact = c.target;
+  if (c.status == MICROTIN_STATUS_OK) *compact = c.target;
   return static_cast<microtin_status>(c.status);
 }
 
-void microtin_compact_needs(const microtin_compactor* compactor, size_t* bytes,
-                            size_t* scratch_bytes) {
+void microtin_compactor_required_bytes(const microtin_compactor* compactor, size_t* bytes,
+                                       size_t* scratch_bytes) {
   const Compactor& c = *compactor;
   const uint32_t n = c.header.vertices;
   *bytes = sizeof(microtin_compact) + c.body_bytes;

@@ -15,21 +15,21 @@ bool is_as_stated(const PackHeader& header, const microtin_compact& tile) {
   return header.compact_bytes == 0 || compact_bytes(tile, index_bytes) <= header.compact_bytes;
 }
 
-// Makes the tile in hand compact. DONE: it is there, or refused.
+// Makes the tile in hand compact. OK: it is there, or refused.
 microtin_status store(microtin_pack& p, uint32_t step_limit) {
   if (p.compactor == nullptr) {
     if (!choose_slot(p)) return lack_slot(p);
     set_state(*p.slot, SlotState::kEmpty);
-    microtin_compact_begin(p.slot->space, p.slot_bytes, p.work, p.decoder_space, p.decoder_bytes,
-                           &p.compactor);
+    microtin_compactor_init(p.slot->space, p.slot_bytes, p.work, p.decoder_space, p.decoder_bytes,
+                            &p.compactor);
   }
   const uint32_t most = 0xFFFFFFFFu / kItemsOfStep;
   microtin_compact* compact = nullptr;
-  const microtin_status status = microtin_compact_proceed(
+  const microtin_status status = microtin_compactor_run(
       p.compactor, (step_limit < most ? step_limit : most) * kItemsOfStep, &compact);
-  if (status == MICROTIN_STEP_LIMIT) return status;
-  if (status != MICROTIN_DONE) return refuse_tile(p, MICROTIN_TOO_BIG);
-  if (!is_as_stated(p.header, *compact)) return refuse_tile(p, MICROTIN_MALFORMED);
+  if (status == MICROTIN_STATUS_STEP_LIMIT) return status;
+  if (status != MICROTIN_STATUS_OK) return refuse_tile(p, MICROTIN_STATUS_TOO_BIG);
+  if (!is_as_stated(p.header, *compact)) return refuse_tile(p, MICROTIN_STATUS_MALFORMED);
   return finish_tile(p, true);
 }
 
@@ -45,21 +45,23 @@ microtin_status microtin_compact_pack_init(void* workspace, size_t size, uint32_
   const uint64_t slot_bytes = MICROTIN_PACK_ROUND(uint64_t{tile_bytes});
   const microtin_status status =
       lay_out_pack(workspace, size, slots, capacity, work_bytes, slot_bytes, pack);
-  if (status != MICROTIN_DONE) return status;
+  if (status != MICROTIN_STATUS_OK) return status;
   microtin_pack& p = **pack;
   return microtin_mesh_init(p.decoder_space + p.decoder_bytes, static_cast<size_t>(work_bytes),
                             &p.work);
 }
 
-microtin_status microtin_compact_pack_prepare(microtin_pack* pack, const microtin_course* course,
-                                              uint32_t step_limit) {
-  if (pack == nullptr || course == nullptr || pack->work == nullptr) return MICROTIN_ARGUMENT;
-  microtin_status status = MICROTIN_DONE;
-  while (status == MICROTIN_DONE || (status == MICROTIN_STEP_LIMIT && step_limit == 0)) {
+microtin_status microtin_compact_pack_load(microtin_pack* pack, const microtin_segment* course,
+                                           uint32_t step_limit) {
+  if (pack == nullptr || course == nullptr || pack->work == nullptr)
+    return MICROTIN_STATUS_ARGUMENT;
+  microtin_status status = MICROTIN_STATUS_OK;
+  while (status == MICROTIN_STATUS_OK ||
+         (status == MICROTIN_STATUS_STEP_LIMIT && step_limit == 0)) {
     status = go_on(*pack, *course);
-    if (status == MICROTIN_STEP_LIMIT) {
+    if (status == MICROTIN_STATUS_STEP_LIMIT) {
       status = decode(*pack, step_limit);
-    } else if (status == MICROTIN_STOPPED) {
+    } else if (status == MICROTIN_STATUS_STOPPED) {
       status = store(*pack, step_limit);
     } else {
       return status;

@@ -5,17 +5,19 @@
 
 using namespace microtin;
 
-microtin_answer microtin_compact_pack_height_at(const microtin_pack* pack, int64_t x, int64_t y,
-                                                uint32_t* hint, int32_t* height) {
+microtin_query_result microtin_compact_pack_height_at(const microtin_pack* pack, int64_t x,
+                                                      int64_t y, uint32_t* hint, int32_t* height) {
   return height_in_pack<RingForm>(*pack, x, y, hint, height);
 }
 
-microtin_answer microtin_compact_pack_highest(const microtin_pack* pack,
-                                              const microtin_course* course, int32_t* height) {
+microtin_query_result microtin_compact_pack_segment_max(const microtin_pack* pack,
+                                                        const microtin_segment* course,
+                                                        int32_t* height) {
   return highest_in_pack<RingForm>(*pack, *course, height);
 }
 
-microtin_answer microtin_compact_pack_fill(const microtin_pack* pack, const microtin_block* block,
-                                           int16_t* heights) {
+microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,
+                                                        const microtin_grid_spec* block,
+                                                        int16_t* heights) {
   return fill_from_pack<RingForm>(*pack, *block, heights);
 }

@@ -32,7 +32,7 @@ uint32_t position_of(const microtin_compact* c, uint32_t v) {
 }
 
 uint32_t vertex_of(const microtin_compact* c, uint32_t position) {
-  if (position == 0) return static_cast<uint32_t>(MICROTIN_INFINITY);
+  if (position == 0) return static_cast<uint32_t>(MICROTIN_VERTEX_AT_INFINITY);
   const Index* const repeat = repeats_in(c);
   uint32_t before = repeats_of(*c);
   // A repeat's slit has its last position and the one before for corners.
@@ -122,9 +122,9 @@ microtin_triangle_kind microtin_compact_triangle(const microtin_compact* compact
   v[0] = vertex_of(compact, cursor.start());
   v[1] = vertex_of(compact, cursor.end());
   v[2] = vertex_of(compact, cursor.apex());
-  if (v[0] == v[1] || v[0] == v[2] || v[1] == v[2]) return MICROTIN_NO_AREA;
-  if (cursor.is_ghost()) return MICROTIN_GHOST;
-  return cursor.has_terrain() ? MICROTIN_REAL : MICROTIN_VOID;
+  if (v[0] == v[1] || v[0] == v[2] || v[1] == v[2]) return MICROTIN_TRIANGLE_NO_AREA;
+  if (cursor.is_ghost()) return MICROTIN_TRIANGLE_GHOST;
+  return cursor.has_terrain() ? MICROTIN_TRIANGLE_REAL : MICROTIN_TRIANGLE_VOID;
 }
 
 uint64_t microtin_compact_digest(const microtin_compact* compact) {
@@ -142,16 +142,17 @@ uint64_t microtin_compact_digest(const microtin_compact* compact) {
   return sum;
 }
 
-void microtin_compact_placement(const microtin_compact* compact, microtin_axis* x, microtin_axis* y,
-                                microtin_axis* z) {
+void microtin_compact_axes(const microtin_compact* compact, microtin_axis* x, microtin_axis* y,
+                           microtin_axis* z) {
   *x = compact->axis[0];
   *y = compact->axis[1];
   *z = compact->axis[2];
 }
 
-microtin_answer microtin_compact_height_at(const microtin_compact* compact, int32_t x, int32_t y,
-                                           uint32_t step_limit, uint32_t* hint, int32_t* height) {
-  if (!is_on_lattice(x, y)) return MICROTIN_OUTSIDE;
+microtin_query_result microtin_compact_height_at(const microtin_compact* compact, int32_t x,
+                                                 int32_t y, uint32_t step_limit, uint32_t* hint,
+                                                 int32_t* height) {
+  if (!is_on_lattice(x, y)) return MICROTIN_QUERY_OUTSIDE;
   const Ring r = ring_of(compact);
   const FinePoint p = seen_from_box(compact, x, y);
   uint32_t number = *hint, limit = step_limit == 0 ? kFirstSteps : step_limit;
@@ -159,8 +160,8 @@ microtin_answer microtin_compact_height_at(const microtin_compact* compact, int3
     RingCursor cursor = start_at(r, number);
     const bool arrived = walk(cursor, p, limit);
     *hint = number_of(cursor);
-    if (arrived) return cursor.is_ghost() ? MICROTIN_OUTSIDE : answer_at(cursor, p, height);
-    if (step_limit != 0) return MICROTIN_NOT_YET;
+    if (arrived) return cursor.is_ghost() ? MICROTIN_QUERY_OUTSIDE : answer_at(cursor, p, height);
+    if (step_limit != 0) return MICROTIN_QUERY_STEP_LIMIT;
     // Where nothing is nearer than the hub that it turns around, it had better turn on.
     const uint32_t hub = cursor.end(), near = number_near(r, p, hub);
     number = near == number_at(hub) ? *hint : near;

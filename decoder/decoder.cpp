@@ -20,7 +20,7 @@ uint32_t bytes_needed(const microtin_decoder& d) {
 
 // Whatever is wrong is told once the check ahead has passed: before, it is damage.
 MICROTIN_OUT_OF_LINE void note_malformed(microtin_decoder& d) {
-  d.verdict = MICROTIN_MALFORMED;
+  d.verdict = MICROTIN_STATUS_MALFORMED;
 }
 
 // The length of the header, or of a section, comes next.
@@ -33,9 +33,9 @@ microtin_status handle_identity(microtin_decoder& d) {
   const uint8_t* const identity = d.coder.window.next;
   d.coder.window.skip(kIdentityBytes);
   const microtin_status known = check_identity(identity);
-  if (known != MICROTIN_DONE) return known;
+  if (known != MICROTIN_STATUS_OK) return known;
   expect_length(d);
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 microtin_status handle_length(microtin_decoder& d) {
@@ -43,7 +43,7 @@ microtin_status handle_length(microtin_decoder& d) {
   const bool more = take_length(&d.coder.payload_left, d.coder.window.take(), &legal);
   if (!legal) note_malformed(d);
   if (!more) d.item = d.in_header ? Item::kHeader : Item::kPayloadStart;
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 microtin_status handle_header(microtin_decoder& d) {
@@ -52,25 +52,25 @@ microtin_status handle_header(microtin_decoder& d) {
   const microtin_status known =
       read_header(&end, end + smaller(d.coder.payload_left, kHeaderMostBytes),
                   &d.reconstruction.contract, d.mesh->axis);
-  if (known != MICROTIN_DONE) d.verdict = known;
+  if (known != MICROTIN_STATUS_OK) d.verdict = known;
   const uint32_t size = static_cast<uint32_t>(end - window.next);
   window.skip(size);
   d.coder.payload_left -= size;
   d.item = Item::kRest;
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 microtin_status end_payload(microtin_decoder& d, bool legal) {
   if (!legal || d.coder.payload_left != 0) note_malformed(d);
   d.item = Item::kRest;
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 microtin_status handle_payload_start(microtin_decoder& d) {
   d.coder.begin();
   d.item = Item::kStep;
-  const bool legal = d.verdict == MICROTIN_DONE && !d.coder.overrun;
-  return legal ? MICROTIN_NEED_INPUT : end_payload(d, false);
+  const bool legal = d.verdict == MICROTIN_STATUS_OK && !d.coder.overrun;
+  return legal ? MICROTIN_STATUS_NEED_INPUT : end_payload(d, false);
 }
 
 // Whether the phase after which decoding is to stop is complete.
@@ -87,11 +87,11 @@ microtin_status handle_steps(microtin_decoder& d, uint32_t* steps_left) {
     if (outcome == StepOutcome::kSectionEnd) return end_payload(d, true);
     if (outcome == StepOutcome::kPhaseEnd && d.reconstruction.stage == Stage::kPhase &&
         is_far_enough(d)) {
-      return MICROTIN_STOPPED;
+      return MICROTIN_STATUS_STOPPED;
     }
-    if (d.coder.window.left < kStepBytes) return MICROTIN_NEED_INPUT;
+    if (d.coder.window.left < kStepBytes) return MICROTIN_STATUS_NEED_INPUT;
   }
-  return MICROTIN_STEP_LIMIT;
+  return MICROTIN_STATUS_STEP_LIMIT;
 }
 
 // Takes what is at hand of the bytes that are not read.
@@ -100,25 +100,25 @@ microtin_status handle_rest(microtin_decoder& d) {
   d.coder.window.skip(taken);
   d.coder.payload_left -= taken;
   if (d.coder.payload_left == 0) d.item = Item::kCheck;
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 microtin_status end_header(microtin_decoder& d) {
   const uint32_t vertices = d.reconstruction.contract.vertices;
-  if (vertices > d.capacity || vertices > d.mesh->capacity) return MICROTIN_TOO_BIG;
+  if (vertices > d.capacity || vertices > d.mesh->capacity) return MICROTIN_STATUS_TOO_BIG;
   start(d.reconstruction);
   d.in_header = false;
   d.mesh->is_placed = true;
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 microtin_status end_section(microtin_decoder& d) {
   d.mesh->verified_vertices = d.mesh->mesh.vertices;
   if (d.reconstruction.stage == Stage::kComplete) {
     d.mesh->has_voids = d.reconstruction.contract.has_voids;
-    return MICROTIN_DONE;
+    return MICROTIN_STATUS_OK;
   }
-  return is_far_enough(d) ? MICROTIN_STOPPED : MICROTIN_NEED_INPUT;
+  return is_far_enough(d) ? MICROTIN_STATUS_STOPPED : MICROTIN_STATUS_NEED_INPUT;
 }
 
 // Of all since the last check.
@@ -128,8 +128,8 @@ microtin_status handle_check(microtin_decoder& d) {
   window.settle();
   const bool passes = window.crc == kCheckedCrc;
   window.crc = 0;
-  if (!passes) return MICROTIN_CHECKSUM;
-  if (d.verdict != MICROTIN_DONE) return d.verdict;
+  if (!passes) return MICROTIN_STATUS_CHECKSUM;
+  if (d.verdict != MICROTIN_STATUS_OK) return d.verdict;
   expect_length(d);
   return d.in_header ? end_header(d) : end_section(d);
 }
@@ -159,10 +159,10 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
                      size_t* used) {
   ByteWindow& window = d.coder.window;
   uint32_t steps_left = step_limit == 0 ? 0xFFFFFFFFu : step_limit;
-  microtin_status status = MICROTIN_NEED_INPUT;
-  while (status == MICROTIN_NEED_INPUT) {
+  microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+  while (status == MICROTIN_STATUS_NEED_INPUT) {
     while (window.left < bytes_needed(d)) {
-      if (*used == size) return MICROTIN_NEED_INPUT;
+      if (*used == size) return MICROTIN_STATUS_NEED_INPUT;
       *used += window.fill(bytes + *used, size - *used);
     }
     status = handle_item(d, &steps_left);
@@ -180,32 +180,32 @@ microtin_status feed(microtin_decoder& d, const uint8_t* bytes, size_t size, uin
 
 using namespace microtin;
 
-void microtin_stop_after_phase(microtin_decoder* decoder, uint32_t phase) {
+void microtin_decoder_stop_after_phase(microtin_decoder* decoder, uint32_t phase) {
   decoder->stop_phase = phase;
 }
 
-microtin_status microtin_feed(microtin_decoder* decoder, const uint8_t* bytes, size_t size,
-                              uint32_t step_limit, size_t* used) {
+microtin_status microtin_decoder_feed(microtin_decoder* decoder, const uint8_t* bytes, size_t size,
+                                      uint32_t step_limit, size_t* used) {
   if (decoder == nullptr || used == nullptr || (bytes == nullptr && size != 0)) {
-    return MICROTIN_ARGUMENT;
+    return MICROTIN_STATUS_ARGUMENT;
   }
   *used = 0;
-  if (decoder->status != MICROTIN_NEED_INPUT) return decoder->status;
+  if (decoder->status != MICROTIN_STATUS_NEED_INPUT) return decoder->status;
   const microtin_status status = feed(*decoder, bytes, size, step_limit, used);
-  if (status != MICROTIN_STEP_LIMIT) decoder->status = status;
+  if (status != MICROTIN_STATUS_STEP_LIMIT) decoder->status = status;
   return status;
 }
 
-microtin_status microtin_finish(microtin_decoder* decoder) {
-  if (decoder == nullptr) return MICROTIN_ARGUMENT;
-  if (decoder->status == MICROTIN_NEED_INPUT) decoder->status = MICROTIN_TRUNCATED;
+microtin_status microtin_decoder_finish(microtin_decoder* decoder) {
+  if (decoder == nullptr) return MICROTIN_STATUS_ARGUMENT;
+  if (decoder->status == MICROTIN_STATUS_NEED_INPUT) decoder->status = MICROTIN_STATUS_TRUNCATED;
   return decoder->status;
 }
 
-uint32_t microtin_phase(const microtin_decoder* decoder) {
+uint32_t microtin_decoder_phase(const microtin_decoder* decoder) {
   return decoder->reconstruction.phase;
 }
 
-uint64_t microtin_bytes_used(const microtin_decoder* decoder) {
+uint64_t microtin_decoder_bytes_used(const microtin_decoder* decoder) {
   return decoder->coder.window.taken();
 }

@@ -18,11 +18,12 @@ static_assert(uint64_t{kMeshPerFour} * (MICROTIN_MAX_VERTICES + 3) <= UINT32_MAX
 // rounded up, are needed.
 MICROTIN_ONE_COPY microtin_status capacity_of(const void* workspace, size_t size, uint32_t fixed,
                                               uint32_t per_four, uint32_t* capacity) {
-  if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
+  if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0)
+    return MICROTIN_STATUS_MISALIGNED;
   const uint32_t most = MICROTIN_MAX_VERTICES, enough = fixed + per_four * ((most + 3) / 4);
   const uint32_t bytes = size < enough ? static_cast<uint32_t>(size) : enough;
   *capacity = bytes < fixed ? 0 : smaller((bytes - fixed) * 4 / per_four, most);
-  return *capacity < 3 ? MICROTIN_WORKSPACE_TOO_SMALL : MICROTIN_DONE;
+  return *capacity < 3 ? MICROTIN_STATUS_WORKSPACE_TOO_SMALL : MICROTIN_STATUS_OK;
 }
 
 }  // namespace
@@ -31,11 +32,11 @@ MICROTIN_ONE_COPY microtin_status capacity_of(const void* workspace, size_t size
 using namespace microtin;
 
 microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh** mesh) {
-  if (workspace == nullptr || mesh == nullptr) return MICROTIN_ARGUMENT;
+  if (workspace == nullptr || mesh == nullptr) return MICROTIN_STATUS_ARGUMENT;
   *mesh = nullptr;
   uint32_t capacity = 0;
   const microtin_status status = capacity_of(workspace, size, kMeshFixed, kMeshPerFour, &capacity);
-  if (status != MICROTIN_DONE) return status;
+  if (status != MICROTIN_STATUS_OK) return status;
   microtin_mesh& m = *static_cast<microtin_mesh*>(workspace);
   // Widest numbers first, so that everything is aligned.
   const size_t half_edges = 6 * static_cast<size_t>(capacity);
@@ -47,23 +48,24 @@ microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh**
   m.capacity = capacity;
   empty_mesh(m);
   *mesh = &m;
-  return MICROTIN_DONE;
+  return MICROTIN_STATUS_OK;
 }
 
 microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mesh* mesh,
                                       microtin_decoder** decoder) {
-  if (workspace == nullptr || mesh == nullptr || decoder == nullptr) return MICROTIN_ARGUMENT;
+  if (workspace == nullptr || mesh == nullptr || decoder == nullptr)
+    return MICROTIN_STATUS_ARGUMENT;
   *decoder = nullptr;
   uint32_t capacity = 0;
   const microtin_status status =
       capacity_of(workspace, size, kDecoderFixed, kDecoderPerFour, &capacity);
-  if (status != MICROTIN_DONE) return status;
+  if (status != MICROTIN_STATUS_OK) return status;
   microtin_decoder& d = *static_cast<microtin_decoder*>(workspace);
   d.mesh = mesh;
   d.capacity = capacity;
-  d.status = MICROTIN_NEED_INPUT;
+  d.status = MICROTIN_STATUS_NEED_INPUT;
   d.stop_phase = 0;
-  d.verdict = MICROTIN_DONE;
+  d.verdict = MICROTIN_STATUS_OK;
   d.item = Item::kIdentity;
   d.in_header = true;
   d.coder.window.next = d.coder.window.bytes;
@@ -79,5 +81,5 @@ microtin_status microtin_decoder_init(void* workspace, size_t size, microtin_mes
   r.phase = 0;
   empty_mesh(*mesh);
   *decoder = &d;
-  return MICROTIN_DONE;
+  return MICROTIN_STATUS_OK;
 }

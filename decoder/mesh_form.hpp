@@ -28,9 +28,9 @@ class MeshForm {
     for (int i = 0; i < 3; ++i) places[i] = point_of(m_.mesh, v[i]);
     return true;
   }
-  microtin_answer height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
-                            int32_t* height) const {
-    return microtin_height_at_limited(&m_, p.x, p.y, 0, step_limit, hint, height);
+  microtin_query_result height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
+                                  int32_t* height) const {
+    return microtin_mesh_height_at_limited(&m_, p.x, p.y, 0, step_limit, hint, height);
   }
 
  private:

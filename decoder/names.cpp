@@ -10,16 +10,16 @@ namespace {
 
 #if !defined(MICROTIN_NO_NAMES)
 
-constexpr int kFirstError = MICROTIN_BAD_MAGIC;
+constexpr int kFirstError = MICROTIN_STATUS_BAD_MAGIC;
 
 // The last entry of each is for what has no name.
-constexpr char kStatuses[][20] MICROTIN_IN_FLASH = {"DONE", "NEED_INPUT", "STEP_LIMIT", "STOPPED",
+constexpr char kStatuses[][20] MICROTIN_IN_FLASH = {"OK", "NEED_INPUT", "STEP_LIMIT", "STOPPED",
                                                     "?"};
 constexpr char kErrors[][20] MICROTIN_IN_FLASH = {
     "BAD_MAGIC",  "UNSUPPORTED_VERSION", "TOO_BIG",  "CHECKSUM", "MALFORMED", "TRUNCATED",
     "MISALIGNED", "WORKSPACE_TOO_SMALL", "ARGUMENT", "IO",       "BAD_TILES", "?"};
 constexpr char kAnswers[][14] MICROTIN_IN_FLASH = {
-    "HEIGHT", "OUTSIDE", "IN_VOID", "NOT_DECODED", "NOT_VERIFIED", "NOT_YET", "IN_BAD_TILE", "?"};
+    "OK", "OUTSIDE", "VOID", "NOT_LOADED", "UNVERIFIED", "STEP_LIMIT", "BAD_TILE", "?"};
 
 template <size_t Count, size_t Bytes>
 const char* entry(const char (&names)[Count][Bytes], int number) {
@@ -34,16 +34,16 @@ const char* entry(const char (&names)[Count][Bytes], int number) {
 
 using namespace microtin;
 
-uint32_t microtin_decoder_version() {
+uint32_t microtin_version_number() {
   return static_cast<uint32_t>(MICROTIN_VERSION_MAJOR) << 16 | MICROTIN_VERSION_MINOR << 8 |
          MICROTIN_VERSION_PATCH;
 }
 
-uint8_t microtin_stream_version() {
+uint8_t microtin_stream_format_version() {
   return kVersion;
 }
 
-uint8_t microtin_pack_version() {
+uint8_t microtin_pack_format_version() {
   return kPackVersion;
 }
 
@@ -53,7 +53,7 @@ const char* microtin_status_name(microtin_status) {
   return "";
 }
 
-const char* microtin_answer_name(microtin_answer) {
+const char* microtin_query_result_name(microtin_query_result) {
   return "";
 }
 
@@ -64,7 +64,7 @@ const char* microtin_status_name(microtin_status status) {
   return number < kFirstError ? entry(kStatuses, number) : entry(kErrors, number - kFirstError);
 }
 
-const char* microtin_answer_name(microtin_answer answer) {
+const char* microtin_query_result_name(microtin_query_result answer) {
   return entry(kAnswers, answer);
 }
 

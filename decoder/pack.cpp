@@ -43,8 +43,8 @@ void want_notes(microtin_pack& p) {
 
 MICROTIN_IN_PLACE inline microtin_status handle_fixed(microtin_pack& p) {
   const microtin_status known = check_pack_identity(p.buffer);
-  if (known != MICROTIN_DONE) return fail_pack(p, known);
-  if (!read_pack_header(p.buffer, &p.header)) return fail_pack(p, MICROTIN_MALFORMED);
+  if (known != MICROTIN_STATUS_OK) return fail_pack(p, known);
+  if (!read_pack_header(p.buffer, &p.header)) return fail_pack(p, MICROTIN_STATUS_MALFORMED);
   p.crc = crc32(0, p.buffer, kPackFixedBytes);
   p.left = p.header.note_bytes;
   if (p.header.placement_bytes == 0) {
@@ -52,18 +52,19 @@ MICROTIN_IN_PLACE inline microtin_status handle_fixed(microtin_pack& p) {
   } else {
     want(p, PackStage::kPlacement, p.header.placement_bytes);
   }
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 // What is in the buffer counts for the check.
 MICROTIN_OUT_OF_LINE microtin_status go_on_to_notes(microtin_pack& p) {
   p.crc = crc32(p.crc, p.buffer, p.buffered);
   want_notes(p);
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 microtin_status handle_placement(microtin_pack& p) {
-  if (!read_pack_placement(p.buffer, p.header, p.axis)) return fail_pack(p, MICROTIN_MALFORMED);
+  if (!read_pack_placement(p.buffer, p.header, p.axis))
+    return fail_pack(p, MICROTIN_STATUS_MALFORMED);
   return go_on_to_notes(p);
 }
 
@@ -73,11 +74,11 @@ microtin_status handle_notes(microtin_pack& p) {
 }
 
 microtin_status handle_check(microtin_pack& p) {
-  if (read_u32(p.buffer) != p.crc) return fail_pack(p, MICROTIN_CHECKSUM);
+  if (read_u32(p.buffer) != p.crc) return fail_pack(p, MICROTIN_STATUS_CHECKSUM);
   want(p, PackStage::kIdle, 0);
   __atomic_signal_fence(__ATOMIC_SEQ_CST);
   p.has_header = true;
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 // --- A tile.
@@ -108,7 +109,7 @@ void set_why(BadTile& bad, microtin_status why) {
 }
 
 void forget_bad_tiles(microtin_pack& p) {
-  for (BadTile& bad : p.bad) set_why(bad, MICROTIN_DONE);
+  for (BadTile& bad : p.bad) set_why(bad, MICROTIN_STATUS_OK);
   p.has_passed = false;
   p.kept = 0;
 }
@@ -126,9 +127,9 @@ MICROTIN_ONE_COPY bool choose_slot(microtin_pack& p) {
 }
 
 microtin_status refuse_tile(microtin_pack& p, microtin_status why) {
-  BadTile* const bad = place_to_fill(p.bad, MICROTIN_PACK_BAD_TILES, p.clock);
+  BadTile* const bad = place_to_fill(p.bad, MICROTIN_PACK_MAX_BAD_TILES, p.clock);
   if (bad != nullptr) {
-    set_why(*bad, MICROTIN_DONE);
+    set_why(*bad, MICROTIN_STATUS_OK);
     bad->tile = p.tile;
     bad->wanted = p.clock;
     set_why(*bad, why);
@@ -136,7 +137,7 @@ microtin_status refuse_tile(microtin_pack& p, microtin_status why) {
     p.passed = p.tile;
     p.has_passed = true;
   }
-  return fail_pack(p, MICROTIN_DONE);
+  return fail_pack(p, MICROTIN_STATUS_OK);
 }
 
 microtin_status finish_tile(microtin_pack& p, bool has_terrain) {
@@ -145,12 +146,12 @@ microtin_status finish_tile(microtin_pack& p, bool has_terrain) {
   slot.wanted = p.clock;
   slot.has_terrain = has_terrain;
   set_state(slot, SlotState::kReady);
-  return fail_pack(p, MICROTIN_DONE);
+  return fail_pack(p, MICROTIN_STATUS_OK);
 }
 
 MICROTIN_ONE_COPY microtin_status lack_slot(microtin_pack& p) {
   p.is_sound = true;
-  return fail_pack(p, MICROTIN_DONE);
+  return fail_pack(p, MICROTIN_STATUS_OK);
 }
 
 namespace {
@@ -193,9 +194,10 @@ microtin_status handle_entry(microtin_pack& p) {
   if (pack_entry_check(p.crc, p.tile, p.buffer) !=
       read_u32(p.buffer + kPackEntryBytes - kCheckBytes)) {
     p.kept = 0;  // it may be read better
-    return refuse_tile(p, MICROTIN_CHECKSUM);
+    return refuse_tile(p, MICROTIN_STATUS_CHECKSUM);
   }
-  if (!read_pack_entry(p.buffer, p.header, &p.entry)) return refuse_tile(p, MICROTIN_MALFORMED);
+  if (!read_pack_entry(p.buffer, p.header, &p.entry))
+    return refuse_tile(p, MICROTIN_STATUS_MALFORMED);
   if (choose_slot(p)) {
     // What is to be made compact needs its slot not before then.
     if (p.work == nullptr || p.entry.size == 0) set_state(*p.slot, SlotState::kEmpty);
@@ -208,7 +210,7 @@ microtin_status handle_entry(microtin_pack& p) {
   p.stream_hash = kStreamHash;
   p.next = p.entry.offset;
   want(p, PackStage::kStream, p.left);
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 // Whether all of the stream was taken, and is that of which the index tells.
@@ -220,8 +222,9 @@ bool is_stream(const microtin_pack& p) {
 microtin_status start_of_tile(const microtin_pack& p) {
   const uint32_t vertices =
       tile_vertices(p.buffer, p.buffered, p.header, tile_box(p.header.grid, p.tile));
-  if (vertices == 0) return MICROTIN_MALFORMED;
-  return vertices > mesh_to_fill(p, *p.slots)->capacity ? MICROTIN_TOO_BIG : MICROTIN_DONE;
+  if (vertices == 0) return MICROTIN_STATUS_MALFORMED;
+  return vertices > mesh_to_fill(p, *p.slots)->capacity ? MICROTIN_STATUS_TOO_BIG
+                                                        : MICROTIN_STATUS_OK;
 }
 
 // Counts what came of the stream. STEP_LIMIT: it is to be decoded.
@@ -232,15 +235,15 @@ microtin_status handle_stream(microtin_pack& p) {
     p.stream_hash = stream_hash(p.stream_hash, p.buffer, p.buffered);
     p.left -= p.buffered;
   }
-  if (p.slot != nullptr) return MICROTIN_STEP_LIMIT;
+  if (p.slot != nullptr) return MICROTIN_STATUS_STEP_LIMIT;
   p.fed = p.buffered;
-  return hear_decoder(p, p.left != 0 ? MICROTIN_NEED_INPUT : MICROTIN_DONE);
+  return hear_decoder(p, p.left != 0 ? MICROTIN_STATUS_NEED_INPUT : MICROTIN_STATUS_OK);
 }
 
-// Handles what is in the buffer, if it is complete. DONE: a tile is ready, or refused, or lacks a
+// Handles what is in the buffer, if it is complete. OK: a tile is ready, or refused, or lacks a
 // slot; STOPPED: it is to be made compact, and who cannot tells that.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status handle(microtin_pack& p) {
-  if (p.buffered < p.wanted) return MICROTIN_NEED_INPUT;
+  if (p.buffered < p.wanted) return MICROTIN_STATUS_NEED_INPUT;
   switch (p.stage) {
     case PackStage::kFixed:
       return handle_fixed(p);
@@ -255,11 +258,11 @@ MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status handle(microtin_pack& p) 
     case PackStage::kStream:
       return handle_stream(p);
     case PackStage::kIdle:
-      return MICROTIN_DONE;
+      return MICROTIN_STATUS_OK;
     case PackStage::kStore:
       break;
   }
-  return MICROTIN_STOPPED;
+  return MICROTIN_STATUS_STOPPED;
 }
 
 // What a course wants of a pack.
@@ -278,7 +281,7 @@ MICROTIN_OUT_OF_LINE void look_along(microtin_pack& p, TouchedTiles& tiles, Wish
     const uint32_t tile = tiles.number(), slot = slot_of(p, tile), bad = bad_tile(p, tile);
     if (p.has_passed && tile == p.passed) continue;
     wishes->in_hand = wishes->in_hand || tile == p.tile;
-    if (bad != MICROTIN_PACK_BAD_TILES) {
+    if (bad != MICROTIN_PACK_MAX_BAD_TILES) {
       p.bad[bad].wanted = p.clock;
       wishes->has_bad = true;  // it needs no slot
       continue;
@@ -310,7 +313,7 @@ bool go_to_passed(microtin_pack& p, TouchedTiles& tiles, Wishes* wishes) {
 // Notes which slots and bad tiles the course touches, and finds the first tile to be tried. What it
 // needs on the stack is not there while a tile is decoded.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE Wishes wishes_of(microtin_pack& p,
-                                                        const microtin_course& course) {
+                                                        const microtin_segment& course) {
   Wishes wishes = {false, false, false, 0};
   ++p.clock;
   for (;;) {  // twice at most
@@ -325,7 +328,7 @@ MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE Wishes wishes_of(microtin_pack& p,
 }
 
 // Takes up a course: what was tried for another counts for that alone.
-void take_up(microtin_pack& p, const microtin_course& course) {
+void take_up(microtin_pack& p, const microtin_segment& course) {
   const uint32_t hash =
       stream_hash(kStreamHash, reinterpret_cast<const uint8_t*>(&course), sizeof course);
   if (hash != p.course_hash) p.is_whole = false;
@@ -340,68 +343,70 @@ uint32_t wanted_now(const microtin_pack& p) {
   return left < room ? left : room;
 }
 
-// What follows from what storage said. NEED_INPUT: go on; DONE: a tile was refused.
+// What follows from what storage said. NEED_INPUT: go on; OK: a tile was refused.
 microtin_status hear_storage(microtin_pack& p) {
   const Storage said = p.storage;
   p.storage = Storage::kWell;
   // Only the first of the entries that one read brings is needed.
   if (said != Storage::kWell && p.stage == PackStage::kEntry && p.buffered >= kPackEntryBytes) {
     p.wanted = p.buffered;
-    return MICROTIN_NEED_INPUT;
+    return MICROTIN_STATUS_NEED_INPUT;
   }
-  if (said == Storage::kFailed) return MICROTIN_IO;
+  if (said == Storage::kFailed) return MICROTIN_STATUS_IO;
   if (said == Storage::kEnds) {
-    return p.has_header ? refuse_tile(p, MICROTIN_TRUNCATED) : fail_pack(p, MICROTIN_TRUNCATED);
+    return p.has_header ? refuse_tile(p, MICROTIN_STATUS_TRUNCATED)
+                        : fail_pack(p, MICROTIN_STATUS_TRUNCATED);
   }
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 }  // namespace
 
 microtin_status hear_decoder(microtin_pack& p, microtin_status status) {
-  if (status == MICROTIN_NEED_INPUT && p.left != 0) {
+  if (status == MICROTIN_STATUS_NEED_INPUT && p.left != 0) {
     want(p, PackStage::kStream, p.left);
     return status;
   }
-  if (status == MICROTIN_TOO_BIG) return refuse_tile(p, status);
-  if (status != MICROTIN_DONE || !is_stream(p)) return refuse_tile(p, MICROTIN_CHECKSUM);
-  if (p.start != MICROTIN_DONE) return refuse_tile(p, static_cast<microtin_status>(p.start));
+  if (status == MICROTIN_STATUS_TOO_BIG) return refuse_tile(p, status);
+  if (status != MICROTIN_STATUS_OK || !is_stream(p))
+    return refuse_tile(p, MICROTIN_STATUS_CHECKSUM);
+  if (p.start != MICROTIN_STATUS_OK) return refuse_tile(p, static_cast<microtin_status>(p.start));
   if (p.slot == nullptr) return lack_slot(p);
   if (p.work == nullptr) return finish_tile(p, true);
   want(p, PackStage::kStore, 0);
   p.compactor = nullptr;
-  return MICROTIN_STEP_LIMIT;
+  return MICROTIN_STATUS_STEP_LIMIT;
 }
 
-microtin_status go_on(microtin_pack& p, const microtin_course& course) {
-  if (!is_legal(course)) return MICROTIN_ARGUMENT;
+microtin_status go_on(microtin_pack& p, const microtin_segment& course) {
+  if (!is_legal(course)) return MICROTIN_STATUS_ARGUMENT;
   if (!p.has_header) {
     const microtin_status heard = hear_storage(p);
-    if (heard != MICROTIN_NEED_INPUT) return heard;
+    if (heard != MICROTIN_STATUS_NEED_INPUT) return heard;
     const microtin_status status = handle(p);
     if (!p.has_header) return status;
   }
   // Each time ends with a tile of which the entry was kept: the one after these wants input.
-  microtin_status status = MICROTIN_DONE;
-  while (status == MICROTIN_DONE) {
+  microtin_status status = MICROTIN_STATUS_OK;
+  while (status == MICROTIN_STATUS_OK) {
     const Wishes wishes = wishes_of(p, course);
     if (p.stage != PackStage::kIdle && !wishes.in_hand) {
       give_up(p);
       p.storage = Storage::kWell;  // it was not asked for this course
     }
     status = hear_storage(p);
-    if (status == MICROTIN_DONE) continue;
-    if (status == MICROTIN_IO) return status;
+    if (status == MICROTIN_STATUS_OK) continue;
+    if (status == MICROTIN_STATUS_IO) return status;
     if (p.stage == PackStage::kIdle) {
       take_up(p, course);
       if (!wishes.is_any) {
         const bool is_all = !p.has_passed || p.is_whole;
         p.has_passed = false;
-        if (is_all) return wishes.has_bad ? MICROTIN_BAD_TILES : MICROTIN_DONE;
+        if (is_all) return wishes.has_bad ? MICROTIN_STATUS_BAD_TILES : MICROTIN_STATUS_OK;
         continue;  // with those in front of the tile passed
       }
       if (p.is_sound && wishes.first == p.tile && !choose_slot(p)) {
-        return MICROTIN_WORKSPACE_TOO_SMALL;
+        return MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
       }
       if (!p.has_passed) p.is_whole = true;
       want_entry(p, wishes.first);
@@ -413,17 +418,18 @@ microtin_status go_on(microtin_pack& p, const microtin_course& course) {
 
 microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
                              uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack) {
-  if (workspace == nullptr || pack == nullptr) return MICROTIN_ARGUMENT;
+  if (workspace == nullptr || pack == nullptr) return MICROTIN_STATUS_ARGUMENT;
   *pack = nullptr;
   if (slots == 0 || slots > 255 || capacity < 3 || capacity > MICROTIN_MAX_VERTICES) {
-    return MICROTIN_ARGUMENT;
+    return MICROTIN_STATUS_ARGUMENT;
   }
-  if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0) return MICROTIN_MISALIGNED;
+  if (reinterpret_cast<uintptr_t>(workspace) % MICROTIN_ALIGNMENT != 0)
+    return MICROTIN_STATUS_MISALIGNED;
   const uint64_t own_bytes = MICROTIN_PACK_ROUND(sizeof(microtin_pack) + slots * sizeof(PackSlot));
   const uint64_t decoder_bytes = MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES(capacity));
   const uint64_t before_slots = own_bytes + decoder_bytes + work_bytes;
   // Below 2^8 * 2^33.
-  if (before_slots + slots * slot_bytes > size) return MICROTIN_WORKSPACE_TOO_SMALL;
+  if (before_slots + slots * slot_bytes > size) return MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
   microtin_pack& p = *static_cast<microtin_pack*>(workspace);
   uint8_t* const bytes = static_cast<uint8_t*>(workspace);
   p.slots = reinterpret_cast<PackSlot*>(&p + 1);
@@ -439,7 +445,7 @@ microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint3
   p.sector = 0;
   microtin_pack_reset(&p);
   *pack = &p;
-  return MICROTIN_DONE;
+  return MICROTIN_STATUS_OK;
 }
 
 }  // namespace microtin
@@ -451,13 +457,13 @@ microtin_status microtin_pack_init(void* workspace, size_t size, uint32_t slots,
   const uint64_t slot_bytes = MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES(capacity));
   const microtin_status status =
       lay_out_pack(workspace, size, slots, capacity, 0, slot_bytes, pack);
-  if (status != MICROTIN_DONE) return status;
+  if (status != MICROTIN_STATUS_OK) return status;
   (*pack)->work = nullptr;
   for (uint32_t i = 0; i < slots; ++i) {
     microtin_mesh* mesh = nullptr;
     microtin_mesh_init((*pack)->slots[i].space, (*pack)->slot_bytes, &mesh);
   }
-  return MICROTIN_DONE;
+  return MICROTIN_STATUS_OK;
 }
 
 void microtin_pack_reset(microtin_pack* pack) {
@@ -472,30 +478,32 @@ void microtin_pack_reset(microtin_pack* pack) {
 }
 
 microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector) {
-  if (pack == nullptr || sector > 32768 || (sector & (sector - 1)) != 0) return MICROTIN_ARGUMENT;
+  if (pack == nullptr || sector > 32768 || (sector & (sector - 1)) != 0)
+    return MICROTIN_STATUS_ARGUMENT;
   pack->sector = static_cast<uint16_t>(sector);
-  return MICROTIN_DONE;
+  return MICROTIN_STATUS_OK;
 }
 
-microtin_status microtin_pack_prepare(microtin_pack* pack, const microtin_course* course,
-                                      uint32_t step_limit) {
-  if (pack == nullptr || course == nullptr) return MICROTIN_ARGUMENT;
-  microtin_status status = MICROTIN_DONE;
-  while (status == MICROTIN_DONE) {
+microtin_status microtin_pack_load(microtin_pack* pack, const microtin_segment* course,
+                                   uint32_t step_limit) {
+  if (pack == nullptr || course == nullptr) return MICROTIN_STATUS_ARGUMENT;
+  microtin_status status = MICROTIN_STATUS_OK;
+  while (status == MICROTIN_STATUS_OK) {
     status = go_on(*pack, *course);
-    if (status != MICROTIN_STEP_LIMIT) return status;
+    if (status != MICROTIN_STATUS_STEP_LIMIT) return status;
     status = decode(*pack, step_limit);
   }
   return status;
 }
 
-void microtin_pack_wanted(microtin_pack* pack, uint64_t* offset, uint8_t** buffer, size_t* size) {
+void microtin_pack_next_read(microtin_pack* pack, uint64_t* offset, uint8_t** buffer,
+                             size_t* size) {
   *offset = pack->next;
   *buffer = pack->buffer + pack->buffered;
   *size = static_cast<size_t>(wanted_now(*pack));
 }
 
-void microtin_pack_given(microtin_pack* pack, int32_t taken) {
+void microtin_pack_complete_read(microtin_pack* pack, int32_t taken) {
   const int32_t most = static_cast<int32_t>(wanted_now(*pack));
   if (most == 0) return;
   if (taken <= 0 || taken > most) {
@@ -507,12 +515,12 @@ void microtin_pack_given(microtin_pack* pack, int32_t taken) {
 }
 
 int microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile, uint32_t* why) {
-  if (i >= MICROTIN_PACK_BAD_TILES || pack->bad[i].is_empty()) return 0;
+  if (i >= MICROTIN_PACK_MAX_BAD_TILES || pack->bad[i].is_empty()) return 0;
   *tile = pack->bad[i].tile;
   *why = pack->bad[i].why;
   return 1;
 }
 
-void microtin_pack_retry(microtin_pack* pack) {
+void microtin_pack_clear_bad_tiles(microtin_pack* pack) {
   forget_bad_tiles(*pack);
 }

@@ -7,7 +7,7 @@
 
 using namespace microtin;
 
-int microtin_pack_header(const microtin_pack* pack, microtin_pack_info* info) {
+int microtin_pack_get_info(const microtin_pack* pack, microtin_pack_info* info) {
   if (!pack->has_header) return 0;
   const PackHeader& header = pack->header;
   info->x_max = header.grid.x_max;
@@ -22,8 +22,8 @@ int microtin_pack_header(const microtin_pack* pack, microtin_pack_info* info) {
   return 1;
 }
 
-int microtin_pack_to_lattice(const microtin_axis* axis, uint32_t most, int64_t value,
-                             uint32_t per_unit, int64_t* lattice) {
+int microtin_pack_axis_to_lattice(const microtin_axis* axis, uint32_t most, int64_t value,
+                                  uint32_t per_unit, int64_t* lattice) {
   if (axis->numerator >> 30 != 0 || most > kPackExtentMost) return 0;  // their product: < 2^61
   const int64_t found = half_steps(*axis, most, value, per_unit);
   if (found < 0) return 0;
@@ -31,17 +31,17 @@ int microtin_pack_to_lattice(const microtin_axis* axis, uint32_t most, int64_t v
   return 1;
 }
 
-microtin_answer microtin_pack_height_at(const microtin_pack* pack, int64_t x, int64_t y,
-                                        uint32_t* hint, int32_t* height) {
+microtin_query_result microtin_pack_height_at(const microtin_pack* pack, int64_t x, int64_t y,
+                                              uint32_t* hint, int32_t* height) {
   return height_in_pack<MeshForm>(*pack, x, y, hint, height);
 }
 
-microtin_answer microtin_pack_highest(const microtin_pack* pack, const microtin_course* course,
-                                      int32_t* height) {
+microtin_query_result microtin_pack_segment_max(const microtin_pack* pack,
+                                                const microtin_segment* course, int32_t* height) {
   return highest_in_pack<MeshForm>(*pack, *course, height);
 }
 
-microtin_answer microtin_pack_fill(const microtin_pack* pack, const microtin_block* block,
-                                   int16_t* heights) {
+microtin_query_result microtin_pack_sample_grid(const microtin_pack* pack,
+                                                const microtin_grid_spec* block, int16_t* heights) {
   return fill_from_pack<MeshForm>(*pack, *block, heights);
 }

@@ -17,13 +17,14 @@ inline bool is_inside(const microtin_pack& p, int64_t x, int64_t y) {
 }
 
 // Of a tile that is not there.
-inline microtin_answer answer_without(const microtin_pack& p, uint32_t tile) {
-  return bad_tile(p, tile) == MICROTIN_PACK_BAD_TILES ? MICROTIN_NOT_DECODED : MICROTIN_IN_BAD_TILE;
+inline microtin_query_result answer_without(const microtin_pack& p, uint32_t tile) {
+  return bad_tile(p, tile) == MICROTIN_PACK_MAX_BAD_TILES ? MICROTIN_QUERY_NOT_LOADED
+                                                          : MICROTIN_QUERY_BAD_TILE;
 }
 
 // Of a tile that is there; null if it has none, or is not there, and then *absent becomes worse.
 MICROTIN_ONE_COPY inline const void* terrain_of(const microtin_pack& p, uint32_t tile,
-                                                microtin_answer* absent) {
+                                                microtin_query_result* absent) {
   const uint32_t slot = slot_of(p, tile);
   if (slot != p.slot_count) return p.slots[slot].has_terrain ? p.slots[slot].space : nullptr;
   *absent = worse(*absent, answer_without(p, tile));
@@ -31,7 +32,7 @@ MICROTIN_ONE_COPY inline const void* terrain_of(const microtin_pack& p, uint32_t
 }
 
 // Whether a course lies on a side of the box, more than a point of which it touches.
-inline bool runs_along_side(const TileBox& box, const microtin_course& c) {
+inline bool runs_along_side(const TileBox& box, const microtin_segment& c) {
   const LocalPoint a = local(box, c.x, c.y), b = local(box, c.x_end, c.y_end);
   const auto is_side = [](int32_t place, uint32_t steps) {
     return place == 0 || place == static_cast<int32_t>(steps) * 256;
@@ -40,11 +41,11 @@ inline bool runs_along_side(const TileBox& box, const microtin_course& c) {
          (a.y == b.y && is_side(a.y, box.y_end - box.y));
 }
 
-// HEIGHT if every place of a course along a side of a tile is known to it or to the tile beyond, or
+// OK if every place of a course along a side of a tile is known to it or to the tile beyond, or
 // if the side is another tile's business: the first one's of two at a border.
 template <class Form>
-microtin_answer answer_along_side(const microtin_pack& p, uint32_t tile,
-                                  const microtin_course& course) {
+microtin_query_result answer_along_side(const microtin_pack& p, uint32_t tile,
+                                        const microtin_segment& course) {
   const TileGrid& grid = p.header.grid;
   const TileBox box = tile_box(grid, tile);
   const LocalPoint a = local(box, course.x, course.y), b = local(box, course.x_end, course.y_end);
@@ -53,8 +54,8 @@ microtin_answer answer_along_side(const microtin_pack& p, uint32_t tile,
                  most = vertical ? grid.x_max : grid.y_max;
   int32_t line = vertical ? a.x : a.y, other_line = 0;  // of its tile: the first side, or the last
   const bool is_last = line != 0;
-  if (!is_last && first != 0) return MICROTIN_HEIGHT;
-  microtin_answer worst = MICROTIN_IN_VOID;
+  if (!is_last && first != 0) return MICROTIN_QUERY_OK;
+  microtin_query_result worst = MICROTIN_QUERY_VOID;
   const void *one = terrain_of(p, tile, &worst), *other = nullptr;
   if (is_last && last != most) {
     other = terrain_of(p, tile + (vertical ? 1u : tile_columns(grid)), &worst);
@@ -75,65 +76,65 @@ microtin_answer answer_along_side(const microtin_pack& p, uint32_t tile,
   const bool is_known =
       know_border(Form(one), line, Form(other), other_line, vertical,
                   larger<int32_t>(smaller(begin, end), 0), smaller(larger(begin, end), length));
-  return is_known ? MICROTIN_HEIGHT : worst;
+  return is_known ? MICROTIN_QUERY_OK : worst;
 }
 
 // What a tile says of a course that touches it.
 template <class Form>
-microtin_answer answer_of_tile(const microtin_pack& p, const TouchedTiles& tiles,
-                               const microtin_course& course, int32_t* highest) {
-  microtin_answer absent = MICROTIN_HEIGHT;
+microtin_query_result answer_of_tile(const microtin_pack& p, const TouchedTiles& tiles,
+                                     const microtin_segment& course, int32_t* highest) {
+  microtin_query_result absent = MICROTIN_QUERY_OK;
   const void* const terrain = terrain_of(p, tiles.number(), &absent);
-  if (absent == MICROTIN_NOT_DECODED) return absent;
+  if (absent == MICROTIN_QUERY_NOT_LOADED) return absent;
   const TileBox box = tiles.box();
   TileCourse part(box, course);
   const bool is_known = terrain != nullptr && part.look(Form(terrain), highest);
-  if (!part.has_length() || is_known) return MICROTIN_HEIGHT;
+  if (!part.has_length() || is_known) return MICROTIN_QUERY_OK;
   if (runs_along_side(box, course)) return answer_along_side<Form>(p, tiles.number(), course);
-  return worse(absent, MICROTIN_IN_VOID);
+  return worse(absent, MICROTIN_QUERY_VOID);
 }
 
 template <class Form>
-microtin_answer height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
-                               int32_t* height) {
-  if (!p.has_header || (p.work != nullptr) != Form::kIsCompact) return MICROTIN_NOT_DECODED;
-  if (!is_inside(p, x, y)) return MICROTIN_OUTSIDE;
-  microtin_answer answer = MICROTIN_IN_VOID;
-  const microtin_course here = {x, y, x, y};
+microtin_query_result height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
+                                     int32_t* height) {
+  if (!p.has_header || (p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_NOT_LOADED;
+  if (!is_inside(p, x, y)) return MICROTIN_QUERY_OUTSIDE;
+  microtin_query_result answer = MICROTIN_QUERY_VOID;
+  const microtin_segment here = {x, y, x, y};
   for (TouchedTiles tiles(p.header.grid, here); !tiles.at_end(); tiles.next()) {
     const void* const terrain = terrain_of(p, tiles.number(), &answer);
     if (terrain == nullptr) continue;
     const LocalPoint at = local(tiles.box(), x, y);
-    if (Form(terrain).height_at(at, 0, hint, height) == MICROTIN_HEIGHT) return MICROTIN_HEIGHT;
+    if (Form(terrain).height_at(at, 0, hint, height) == MICROTIN_QUERY_OK) return MICROTIN_QUERY_OK;
   }
   return answer;
 }
 
 template <class Form>
-microtin_answer highest_in_pack(const microtin_pack& p, const microtin_course& course,
-                                int32_t* height) {
+microtin_query_result highest_in_pack(const microtin_pack& p, const microtin_segment& course,
+                                      int32_t* height) {
   *height = INT32_MIN;
-  if (!is_legal(course)) return MICROTIN_OUTSIDE;
+  if (!is_legal(course)) return MICROTIN_QUERY_OUTSIDE;
   int32_t highest = INT32_MIN;
-  microtin_answer answer = ask_ends(
+  microtin_query_result answer = ask_ends(
       course,
       [&p](int64_t x, int64_t y, uint32_t* hint, int32_t* end) {
         return height_in_pack<Form>(p, x, y, hint, end);
       },
       &highest);
-  if (answer == MICROTIN_NOT_DECODED) return answer;
+  if (answer == MICROTIN_QUERY_NOT_LOADED) return answer;
   for (TouchedTiles tiles(p.header.grid, course); !tiles.at_end(); tiles.next()) {
     answer = worse(answer, answer_of_tile<Form>(p, tiles, course, &highest));
-    if (answer == MICROTIN_NOT_DECODED) return answer;
+    if (answer == MICROTIN_QUERY_NOT_LOADED) return answer;
   }
   *height = highest;
   return answer;
 }
 
 template <class Form>
-microtin_answer fill_from_pack(const microtin_pack& p, const microtin_block& block,
-                               int16_t* heights) {
-  if (p.has_header && !has_small_units(p.axis[2])) return MICROTIN_OUTSIDE;
+microtin_query_result fill_from_pack(const microtin_pack& p, const microtin_grid_spec& block,
+                                     int16_t* heights) {
+  if (p.has_header && !has_small_units(p.axis[2])) return MICROTIN_QUERY_OUTSIDE;
   return fill(
       block, p.axis[2],
       [&p](int64_t x, int64_t y, uint32_t* hint, int32_t* height) {

@@ -14,12 +14,12 @@ microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint3
 
 // Goes on with a course, up to where its next tile is to be decoded (STEP_LIMIT) or made compact
 // (STOPPED).
-microtin_status go_on(microtin_pack& p, const microtin_course& course);
+microtin_status go_on(microtin_pack& p, const microtin_segment& course);
 
 // Chooses a slot for the tile in hand. False if all are wanted by the course in hand.
 bool choose_slot(microtin_pack& p);
 
-// Ends with the tile in hand, which is good, but for which there is no slot. DONE.
+// Ends with the tile in hand, which is good, but for which there is no slot. OK.
 microtin_status lack_slot(microtin_pack& p);
 
 // Queries do not look at an empty slot, so the order of these writes matters to those that
@@ -30,14 +30,14 @@ inline void set_state(PackSlot& slot, SlotState state) {
   __atomic_signal_fence(__ATOMIC_SEQ_CST);
 }
 
-// Ends with the tile in hand: it is in the slot, or to be remembered as bad. DONE.
+// Ends with the tile in hand: it is in the slot, or to be remembered as bad. OK.
 microtin_status finish_tile(microtin_pack& p, bool has_terrain);
 microtin_status refuse_tile(microtin_pack& p, microtin_status why);
 
 // Gives up what is in hand, and returns the status.
 microtin_status fail_pack(microtin_pack& p, microtin_status status);
 
-// What follows from what the decoder said, but for STEP_LIMIT. DONE: the tile is ready, or refused;
+// What follows from what the decoder said, but for STEP_LIMIT. OK: the tile is ready, or refused;
 // STEP_LIMIT: it is to be made compact next.
 microtin_status hear_decoder(microtin_pack& p, microtin_status status);
 
@@ -45,10 +45,10 @@ microtin_status hear_decoder(microtin_pack& p, microtin_status status);
 // decoder's.
 MICROTIN_IN_PLACE inline microtin_status decode(microtin_pack& p, uint32_t step_limit) {
   size_t used = 0;
-  const microtin_status status = microtin_feed(
+  const microtin_status status = microtin_decoder_feed(
       p.decoder, p.buffer + p.fed, static_cast<size_t>(p.buffered - p.fed), step_limit, &used);
   p.fed = static_cast<uint8_t>(p.fed + used);
-  return status == MICROTIN_STEP_LIMIT ? status : hear_decoder(p, status);
+  return status == MICROTIN_STATUS_STEP_LIMIT ? status : hear_decoder(p, status);
 }
 
 }  // namespace microtin

@@ -45,9 +45,9 @@ struct PackSlot {
 struct BadTile {
   uint32_t tile;
   uint32_t wanted;       // when it was wanted last
-  volatile uint8_t why;  // a status; queries may look only if it is not DONE
+  volatile uint8_t why;  // a status; queries may look only if it is not OK
 
-  bool is_empty() const { return why == MICROTIN_DONE; }
+  bool is_empty() const { return why == MICROTIN_STATUS_OK; }
 };
 
 // What storage said of the bytes wanted.
@@ -95,7 +95,7 @@ struct microtin_pack {
   size_t slot_bytes;
   microtin::PackHeader header;
   microtin_axis axis[3];
-  microtin::BadTile bad[MICROTIN_PACK_BAD_TILES];
+  microtin::BadTile bad[MICROTIN_PACK_MAX_BAD_TILES];
   uint8_t buffer[microtin::kPackBuffer];
 };
 
@@ -115,10 +115,10 @@ MICROTIN_ONE_COPY inline uint32_t slot_of(const microtin_pack& p, uint32_t tile)
   return p.slot_count;
 }
 
-// Where it is remembered that a tile is bad; MICROTIN_PACK_BAD_TILES if it is not.
+// Where it is remembered that a tile is bad; MICROTIN_PACK_MAX_BAD_TILES if it is not.
 MICROTIN_ONE_COPY inline uint32_t bad_tile(const microtin_pack& p, uint32_t tile) {
   uint32_t i = 0;
-  while (i < MICROTIN_PACK_BAD_TILES && (p.bad[i].is_empty() || p.bad[i].tile != tile)) ++i;
+  while (i < MICROTIN_PACK_MAX_BAD_TILES && (p.bad[i].is_empty() || p.bad[i].tile != tile)) ++i;
   return i;
 }
 

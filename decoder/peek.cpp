@@ -18,27 +18,28 @@ size_t saturated(unsigned long size) {
 
 using namespace microtin;
 
-microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* info) {
-  if (info == nullptr || (bytes == nullptr && size != 0)) return MICROTIN_ARGUMENT;
+microtin_status microtin_read_stream_info(const uint8_t* bytes, size_t size,
+                                          microtin_stream_info* info) {
+  if (info == nullptr || (bytes == nullptr && size != 0)) return MICROTIN_STATUS_ARGUMENT;
   info->header_bytes = 0;
-  if (size < kIdentityBytes) return MICROTIN_NEED_INPUT;
+  if (size < kIdentityBytes) return MICROTIN_STATUS_NEED_INPUT;
   const microtin_status known = check_identity(bytes);
-  if (known != MICROTIN_DONE) return known;
+  if (known != MICROTIN_STATUS_OK) return known;
   const uint8_t* next = bytes + kIdentityBytes;
   uint32_t length = 0;
   bool legal = true, more = true;
   while (more && next != bytes + size) more = take_length(&length, *next++, &legal);
-  if (more) return MICROTIN_NEED_INPUT;
+  if (more) return MICROTIN_STATUS_NEED_INPUT;
   const uint32_t checked = static_cast<uint32_t>(next - bytes) + length;  // length < 2^31
   info->header_bytes = checked + kCheckBytes;
-  if (size < info->header_bytes) return MICROTIN_NEED_INPUT;
+  if (size < info->header_bytes) return MICROTIN_STATUS_NEED_INPUT;
   if (crc32(0, bytes, static_cast<size_t>(info->header_bytes)) != kCheckedCrc) {
-    return MICROTIN_CHECKSUM;
+    return MICROTIN_STATUS_CHECKSUM;
   }
   Contract contract;
   microtin_axis axis[3];
   const microtin_status read = read_header(&next, bytes + checked, &contract, axis);
-  if (!legal || read != MICROTIN_DONE) return legal ? read : MICROTIN_MALFORMED;
+  if (!legal || read != MICROTIN_STATUS_OK) return legal ? read : MICROTIN_STATUS_MALFORMED;
   info->vertices = contract.vertices;
   info->version = kVersion;
   info->degree = static_cast<uint8_t>(contract.degree);
@@ -48,5 +49,5 @@ microtin_status microtin_peek(const uint8_t* bytes, size_t size, microtin_info* 
   put_axes(axis, info);
   info->mesh_bytes = saturated(MICROTIN_MESH_BYTES(contract.vertices));
   info->decoder_bytes = saturated(MICROTIN_DECODER_BYTES(contract.vertices));
-  return MICROTIN_DONE;
+  return MICROTIN_STATUS_OK;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Questions about many places, whatever knows their heights: a function of x, y, hint and height
-// that answers as microtin_height_at does.
+// that answers as microtin_mesh_height_at does.
 #ifndef MICROTIN_DECODER_PLACES_HPP
 #define MICROTIN_DECODER_PLACES_HPP
 
@@ -10,25 +10,25 @@
 namespace microtin {
 
 // How bad an answer is. No switch: compilers make tables of those, which AVR would keep in RAM.
-inline int rank(microtin_answer answer) {
-  if (answer == MICROTIN_NOT_DECODED) return 4;
-  if (answer == MICROTIN_IN_BAD_TILE) return 3;
-  if (answer == MICROTIN_OUTSIDE) return 2;
-  return answer == MICROTIN_IN_VOID ? 1 : 0;
+inline int rank(microtin_query_result answer) {
+  if (answer == MICROTIN_QUERY_NOT_LOADED) return 4;
+  if (answer == MICROTIN_QUERY_BAD_TILE) return 3;
+  if (answer == MICROTIN_QUERY_OUTSIDE) return 2;
+  return answer == MICROTIN_QUERY_VOID ? 1 : 0;
 }
 
-inline microtin_answer worse(microtin_answer a, microtin_answer b) {
+inline microtin_query_result worse(microtin_query_result a, microtin_query_result b) {
   return rank(a) > rank(b) ? a : b;
 }
 
 // At the ends of a course. *highest becomes the greater height, if there is one.
 template <class HeightAt>
-microtin_answer ask_ends(const microtin_course& course, const HeightAt& height_at,
-                         int32_t* highest) {
+microtin_query_result ask_ends(const microtin_segment& course, const HeightAt& height_at,
+                               int32_t* highest) {
   uint32_t hint = 0;
   int32_t begin = INT32_MIN, end = INT32_MIN;
-  const microtin_answer answer = worse(height_at(course.x, course.y, &hint, &begin),
-                                       height_at(course.x_end, course.y_end, &hint, &end));
+  const microtin_query_result answer = worse(height_at(course.x, course.y, &hint, &begin),
+                                             height_at(course.x_end, course.y_end, &hint, &end));
   *highest = begin > end ? begin : end;
   return answer;
 }
@@ -49,21 +49,22 @@ MICROTIN_ONE_COPY inline int16_t in_units(int32_t z, const microtin_axis& axis) 
   return static_cast<int16_t>(height < INT16_MIN ? INT16_MIN : height);
 }
 
-// The heights of a block in whole units of the axis z, as microtin_pack_fill tells them.
+// The heights of a block in whole units of the axis z, as microtin_pack_sample_grid tells them.
 template <class HeightAt>
-microtin_answer fill(const microtin_block& block, const microtin_axis& axis,
-                     const HeightAt& height_at, int16_t* heights) {
-  if (!is_within(block.x, kCourseMost) || !is_within(block.y, kCourseMost)) return MICROTIN_OUTSIDE;
-  microtin_answer answer = MICROTIN_HEIGHT;
+microtin_query_result fill(const microtin_grid_spec& block, const microtin_axis& axis,
+                           const HeightAt& height_at, int16_t* heights) {
+  if (!is_within(block.x, kCourseMost) || !is_within(block.y, kCourseMost))
+    return MICROTIN_QUERY_OUTSIDE;
+  microtin_query_result answer = MICROTIN_QUERY_OK;
   uint32_t hint = 0;
   int64_t y = block.y;  // below 2^40 + 2^47
   for (uint32_t row = 0; row < block.rows; ++row, y += block.dy) {
     int64_t x = block.x;
     for (uint32_t column = 0; column < block.columns; ++column, x += block.dx) {
       int32_t z = 0;
-      const microtin_answer here = height_at(x, y, &hint, &z);
-      *heights++ = here == MICROTIN_HEIGHT ? in_units(z, axis) : block.missing;
-      if (here != MICROTIN_HEIGHT && answer != MICROTIN_NOT_DECODED) answer = here;
+      const microtin_query_result here = height_at(x, y, &hint, &z);
+      *heights++ = here == MICROTIN_QUERY_OK ? in_units(z, axis) : block.missing;
+      if (here != MICROTIN_QUERY_OK && answer != MICROTIN_QUERY_NOT_LOADED) answer = here;
     }
   }
   return answer;

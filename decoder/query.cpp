@@ -10,7 +10,7 @@ namespace microtin {
 namespace {
 
 uint32_t public_vertex(Index v) {
-  return v == kInfinity ? static_cast<uint32_t>(MICROTIN_INFINITY) : v;
+  return v == kInfinity ? static_cast<uint32_t>(MICROTIN_VERTEX_AT_INFINITY) : v;
 }
 
 }  // namespace
@@ -18,11 +18,12 @@ uint32_t public_vertex(Index v) {
 
 using namespace microtin;
 
-uint32_t microtin_vertex_count(const microtin_mesh* mesh) {
+uint32_t microtin_mesh_vertex_count(const microtin_mesh* mesh) {
   return mesh->mesh.vertices;
 }
 
-void microtin_vertex(const microtin_mesh* mesh, uint32_t v, uint16_t* x, uint16_t* y, int16_t* z) {
+void microtin_mesh_vertex(const microtin_mesh* mesh, uint32_t v, uint16_t* x, uint16_t* y,
+                          int16_t* z) {
   MICROTIN_ASSERT(v < mesh->mesh.vertices);
   const Point at = mesh->mesh.place[v];
   *x = at.x;
@@ -30,25 +31,27 @@ void microtin_vertex(const microtin_mesh* mesh, uint32_t v, uint16_t* x, uint16_
   *z = mesh->mesh.z[v];
 }
 
-uint32_t microtin_triangle_count(const microtin_mesh* mesh) {
+uint32_t microtin_mesh_triangle_count(const microtin_mesh* mesh) {
   return mesh->mesh.triangles;
 }
 
-microtin_triangle_kind microtin_triangle(const microtin_mesh* mesh, uint32_t t, uint32_t v[3]) {
+microtin_triangle_kind microtin_mesh_triangle(const microtin_mesh* mesh, uint32_t t,
+                                              uint32_t v[3]) {
   MICROTIN_ASSERT(t < mesh->mesh.triangles);
   const Index f = first_edge(static_cast<Index>(t));
   for (uint32_t i = 0; i < 3; ++i) v[i] = public_vertex(mesh->mesh.origin[f + i]);
-  if (is_ghost(mesh->mesh, static_cast<Index>(t))) return MICROTIN_GHOST;
-  return has_terrain(*mesh, static_cast<Index>(t)) ? MICROTIN_REAL : MICROTIN_VOID;
+  if (is_ghost(mesh->mesh, static_cast<Index>(t))) return MICROTIN_TRIANGLE_GHOST;
+  return has_terrain(*mesh, static_cast<Index>(t)) ? MICROTIN_TRIANGLE_REAL
+                                                   : MICROTIN_TRIANGLE_VOID;
 }
 
-uint32_t microtin_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corner) {
+uint32_t microtin_mesh_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t corner) {
   MICROTIN_ASSERT(t < mesh->mesh.triangles && corner < 3);
   const Index f = first_edge(static_cast<Index>(t));
   return triangle_of(mesh->mesh.twin[static_cast<Index>(f + corner)]);
 }
 
-uint64_t microtin_digest(const microtin_mesh* mesh) {
+uint64_t microtin_mesh_digest(const microtin_mesh* mesh) {
   uint64_t sum = 0;
   for (Index t = 0; t < mesh->mesh.triangles; ++t) {
     if (is_ghost(mesh->mesh, t)) continue;
@@ -60,28 +63,29 @@ uint64_t microtin_digest(const microtin_mesh* mesh) {
   return sum;
 }
 
-microtin_answer microtin_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
-                                   uint32_t* hint, int32_t* height) {
-  return microtin_height_at_limited(mesh, x, y, flags, 0, hint, height);
+microtin_query_result microtin_mesh_height_at(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                              uint32_t flags, uint32_t* hint, int32_t* height) {
+  return microtin_mesh_height_at_limited(mesh, x, y, flags, 0, hint, height);
 }
 
-microtin_answer microtin_height_at_limited(const microtin_mesh* mesh, int32_t x, int32_t y,
-                                           uint32_t flags, uint32_t step_limit, uint32_t* hint,
-                                           int32_t* height) {
+microtin_query_result microtin_mesh_height_at_limited(const microtin_mesh* mesh, int32_t x,
+                                                      int32_t y, uint32_t flags,
+                                                      uint32_t step_limit, uint32_t* hint,
+                                                      int32_t* height) {
   const Mesh& m = mesh->mesh;
-  const microtin_answer refusal = refusal_of(*mesh, flags);
-  if (refusal != MICROTIN_HEIGHT) return refusal;
-  if (!is_on_lattice(x, y)) return MICROTIN_OUTSIDE;
+  const microtin_query_result refusal = refusal_of(*mesh, flags);
+  if (refusal != MICROTIN_QUERY_OK) return refusal;
+  if (!is_on_lattice(x, y)) return MICROTIN_QUERY_OUTSIDE;
   const FinePoint p = {x, y};
   Index t = *hint < m.triangles ? static_cast<Index>(*hint) : static_cast<Index>(0);
   const bool arrived = walk_to(*mesh, p, step_limit == 0 ? m.triangles : step_limit, &t);
   *hint = t;
-  if (!arrived) return MICROTIN_NOT_YET;
-  if (is_ghost(m, t)) return MICROTIN_OUTSIDE;
+  if (!arrived) return MICROTIN_QUERY_STEP_LIMIT;
+  if (is_ghost(m, t)) return MICROTIN_QUERY_OUTSIDE;
   return answer_at(MeshCursor(*mesh, first_edge(t)), p, height);
 }
 
-void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
+void microtin_mesh_axes(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
                         microtin_axis* z) {
   microtin_axis axis[3];
   place_on_lattice(axis);
@@ -91,8 +95,8 @@ void microtin_placement(const microtin_mesh* mesh, microtin_axis* x, microtin_ax
   *z = known[2];
 }
 
-int microtin_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
-                        int32_t* lattice) {
+int microtin_axis_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
+                             int32_t* lattice) {
   // Numerators are below 2^40.
   const int64_t found = half_steps(*axis, kLatticeMax, value, per_unit);
   if (found < -1) return 0;

@@ -50,12 +50,12 @@ bool real_value(const microtin_axis& axis, int64_t place, int bits, uint32_t per
 
 using namespace microtin;
 
-int microtin_from_lattice(const microtin_axis* axis, int64_t lattice, uint32_t per_unit,
-                          int64_t* value) {
+int microtin_axis_from_lattice(const microtin_axis* axis, int64_t lattice, uint32_t per_unit,
+                               int64_t* value) {
   return real_value(*axis, lattice, 8, per_unit, value) ? 1 : 0;
 }
 
-int microtin_real_height(const microtin_axis* z, int32_t height, uint32_t per_unit,
+int microtin_axis_height(const microtin_axis* z, int32_t height, uint32_t per_unit,
                          int32_t* value) {
   int64_t found = 0;
   if (!real_value(*z, height, 16, per_unit, &found)) return 0;

@@ -28,8 +28,8 @@ class RingForm {
     places[2] = place_of(ring_, span.high);
     return true;
   }
-  microtin_answer height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
-                            int32_t* height) const {
+  microtin_query_result height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
+                                  int32_t* height) const {
     return microtin_compact_height_at(c_, p.x, p.y, step_limit, hint, height);
   }
 

@@ -23,12 +23,12 @@ MICROTIN_ONE_COPY inline bool has_terrain(const microtin_mesh& m, Index t) {
   return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
 }
 
-// Why it must not be asked yet; HEIGHT if it may.
-inline microtin_answer refusal_of(const microtin_mesh& m, uint32_t flags) {
-  if (m.mesh.triangles == 0) return MICROTIN_NOT_DECODED;
+// Why it must not be asked yet; OK if it may.
+inline microtin_query_result refusal_of(const microtin_mesh& m, uint32_t flags) {
+  if (m.mesh.triangles == 0) return MICROTIN_QUERY_NOT_LOADED;
   const bool is_usable =
-      m.verified_vertices == m.mesh.vertices || (flags & MICROTIN_ANSWER_UNVERIFIED) != 0;
-  return is_usable ? MICROTIN_HEIGHT : MICROTIN_NOT_VERIFIED;
+      m.verified_vertices == m.mesh.vertices || (flags & MICROTIN_FLAG_ALLOW_UNVERIFIED) != 0;
+  return is_usable ? MICROTIN_QUERY_OK : MICROTIN_QUERY_UNVERIFIED;
 }
 
 MICROTIN_ONE_COPY inline void empty_mesh(microtin_mesh& m) {
@@ -58,7 +58,7 @@ struct microtin_decoder {
   uint32_t stop_phase;
   microtin::Item item;
   bool in_header;
-  microtin_status verdict;  // DONE, or what to say once the check ahead has passed
+  microtin_status verdict;  // OK, or what to say once the check ahead has passed
   microtin::RangeDecoder coder;
   microtin::Reconstruction reconstruction;
 };

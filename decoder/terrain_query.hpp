@@ -13,30 +13,30 @@ inline LocalPoint local_place(int64_t x, int64_t y) {
 }
 
 template <class Form>
-microtin_answer height_in_terrain(const Form& form, int64_t x, int64_t y, uint32_t* hint,
-                                  int32_t* height) {
-  if (!is_on_lattice(x, y)) return MICROTIN_OUTSIDE;
+microtin_query_result height_in_terrain(const Form& form, int64_t x, int64_t y, uint32_t* hint,
+                                        int32_t* height) {
+  if (!is_on_lattice(x, y)) return MICROTIN_QUERY_OUTSIDE;
   return form.height_at(local_place(x, y), 0, hint, height);
 }
 
 // The ends of a course come before the triangles.
 constexpr uint32_t kCourseEnds = 2;
 
-inline void note_answer(microtin_course_progress* done, microtin_answer answer) {
-  done->worst = worse(answer, static_cast<microtin_answer>(done->worst));
+inline void note_answer(microtin_segment_state* done, microtin_query_result answer) {
+  done->worst = worse(answer, static_cast<microtin_query_result>(done->worst));
 }
 
 // A step, or without a limit all, of the walk to the end that comes next.
 template <class Form>
-void walk_to_end(const Form& form, const microtin_course& course, uint32_t step_limit,
-                 microtin_course_progress* done) {
+void walk_to_end(const Form& form, const microtin_segment& course, uint32_t step_limit,
+                 microtin_segment_state* done) {
   const bool is_first = done->next == 0;
   const LocalPoint end =
       is_first ? local_place(course.x, course.y) : local_place(course.x_end, course.y_end);
   int32_t height = INT32_MIN;
-  const microtin_answer answer =
+  const microtin_query_result answer =
       form.height_at(end, step_limit == 0 ? 0u : 1u, &done->hint, &height);
-  if (answer == MICROTIN_NOT_YET) return;
+  if (answer == MICROTIN_QUERY_STEP_LIMIT) return;
   done->highest = is_first ? height : larger(height, done->highest);
   note_answer(done, answer);
   ++done->next;
@@ -44,31 +44,31 @@ void walk_to_end(const Form& form, const microtin_course& course, uint32_t step_
 
 // Hulls are convex: a course leaves them only if it ends outside.
 template <class Form>
-microtin_answer highest_in_terrain(const Form& form, const microtin_course& course,
-                                   uint32_t step_limit, microtin_course_progress* done,
-                                   int32_t* height) {
+microtin_query_result highest_in_terrain(const Form& form, const microtin_segment& course,
+                                         uint32_t step_limit, microtin_segment_state* done,
+                                         int32_t* height) {
   *height = INT32_MIN;
   if (!is_on_lattice(course.x, course.y) || !is_on_lattice(course.x_end, course.y_end)) {
-    return MICROTIN_OUTSIDE;
+    return MICROTIN_QUERY_OUTSIDE;
   }
   TileCourse all(TileBox{0, 0, kLatticeMax, kLatticeMax}, course);
   all.move(form.corner());
   for (uint32_t step = 0; done->next < kCourseEnds + form.triangles(); ++step) {
-    if (step_limit != 0 && step == step_limit) return MICROTIN_NOT_YET;
+    if (step_limit != 0 && step == step_limit) return MICROTIN_QUERY_STEP_LIMIT;
     if (done->next < kCourseEnds) {
       walk_to_end(form, course, step_limit, done);
     } else if (!all.look(form, done->next++ - kCourseEnds, &done->highest)) {
-      note_answer(done, MICROTIN_IN_VOID);
+      note_answer(done, MICROTIN_QUERY_VOID);
     }
   }
   *height = done->highest;
-  return static_cast<microtin_answer>(done->worst);
+  return static_cast<microtin_query_result>(done->worst);
 }
 
 template <class Form>
-microtin_answer fill_from_terrain(const Form& form, const microtin_axis& z,
-                                  const microtin_block& block, int16_t* heights) {
-  if (!has_small_units(z)) return MICROTIN_OUTSIDE;
+microtin_query_result fill_from_terrain(const Form& form, const microtin_axis& z,
+                                        const microtin_grid_spec& block, int16_t* heights) {
+  if (!has_small_units(z)) return MICROTIN_QUERY_OUTSIDE;
   return fill(
       block, z,
       [&form](int64_t x, int64_t y, uint32_t* hint, int32_t* height) {

@@ -11,7 +11,7 @@
 
 #include "decoder/local_point.hpp"
 #include "decoder/walk.hpp"
-#include "microtin/course.h"
+#include "microtin/segment.h"
 #include "shared/pack_format.hpp"
 
 namespace microtin {
@@ -64,7 +64,7 @@ inline bool is_positive_at(Fraction f, int64_t from, int64_t to) {
 // outside the hull; points that are not known alone are ends of such parts, or the whole course.
 class TileCourse {
  public:
-  TileCourse(const TileBox& box, const microtin_course& course)
+  TileCourse(const TileBox& box, const microtin_segment& course)
       : begin_(local(box, course.x, course.y)),
         end_(local(box, course.x_end, course.y_end)),
         x_{0, 0},

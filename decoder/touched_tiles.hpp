@@ -4,7 +4,7 @@
 #define MICROTIN_DECODER_TOUCHED_TILES_HPP
 
 #include "decoder/local_point.hpp"
-#include "microtin/course.h"
+#include "microtin/segment.h"
 
 namespace microtin {
 
@@ -21,7 +21,7 @@ MICROTIN_ONE_COPY inline bool is_legal(int64_t begin, int64_t end) {
          is_within(end - begin, kCourseLongest - 1);
 }
 
-MICROTIN_ONE_COPY inline bool is_legal(const microtin_course& c) {
+MICROTIN_ONE_COPY inline bool is_legal(const microtin_segment& c) {
   return is_legal(c.x, c.x_end) && is_legal(c.y, c.y_end);
 }
 
@@ -30,7 +30,7 @@ MICROTIN_ONE_COPY inline bool is_legal(const microtin_course& c) {
 // go_to.
 class TouchedTiles {
  public:
-  MICROTIN_ONE_COPY TouchedTiles(const TileGrid& grid, const microtin_course& course)
+  MICROTIN_ONE_COPY TouchedTiles(const TileGrid& grid, const microtin_segment& course)
       : grid_(grid),
         course_(course),
         columns_(slices(course.x, course.x_end, grid.width, grid.x_max)),
@@ -150,7 +150,7 @@ class TouchedTiles {
   }
 
   const TileGrid& grid_;
-  const microtin_course& course_;
+  const microtin_segment& course_;
   Slices columns_, rows_;
   bool rises_right_;  // or falls left: along a row the boxes to the left of the course come first
   uint32_t column_, row_;

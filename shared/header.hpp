@@ -13,9 +13,9 @@ namespace microtin {
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE inline microtin_status check_identity(
     const uint8_t* identity) {
   for (uint32_t i = 0; i < sizeof kMagic; ++i) {
-    if (identity[i] != read_table(kMagic + i)) return MICROTIN_BAD_MAGIC;
+    if (identity[i] != read_table(kMagic + i)) return MICROTIN_STATUS_BAD_MAGIC;
   }
-  return identity[4] == kVersion ? MICROTIN_DONE : MICROTIN_UNSUPPORTED_VERSION;
+  return identity[4] == kVersion ? MICROTIN_STATUS_OK : MICROTIN_STATUS_UNSUPPORTED_VERSION;
 }
 
 // Takes a byte into a length, 0 before the first: seven bits a byte, high ones first, the top bit
@@ -85,15 +85,15 @@ MICROTIN_ONE_COPY inline bool read_placement(const uint8_t** bytes, const uint8_
 }
 
 // Reads a header's payload up to its notes. Without a placement `axis` is on the lattice itself.
-// Not DONE: MALFORMED, or UNSUPPORTED_VERSION if it has properties unknown here, since these may
+// Not OK: MALFORMED, or UNSUPPORTED_VERSION if it has properties unknown here, since these may
 // change what follows.
 inline microtin_status read_header(const uint8_t** bytes, const uint8_t* end, Contract* contract,
                                    microtin_axis* axis) {
   uint64_t number[4];  // properties, vertices, x_max, y_max
   place_on_lattice(axis);
   for (int i = 0; i < 4; ++i) {
-    if (!read_varint(bytes, end, number + i)) return MICROTIN_MALFORMED;
-    if (number[0] >> kPropertyBits != 0) return MICROTIN_UNSUPPORTED_VERSION;
+    if (!read_varint(bytes, end, number + i)) return MICROTIN_STATUS_MALFORMED;
+    if (number[0] >> kPropertyBits != 0) return MICROTIN_STATUS_UNSUPPORTED_VERSION;
   }
   const uint32_t properties = static_cast<uint32_t>(number[0]);
   contract->has_heights = (properties & kHasHeights) != 0;
@@ -109,7 +109,7 @@ inline microtin_status read_header(const uint8_t** bytes, const uint8_t* end, Co
   legal = legal && contract->degree >= kMinDegree && contract->degree <= kMaxDegree &&
           (properties >> 3 & 3u) != 0 && number[1] >= 3 && number[1] <= kMaxVertices &&
           number[2] <= kLatticeMax && number[3] <= kLatticeMax;
-  return legal ? MICROTIN_DONE : MICROTIN_MALFORMED;
+  return legal ? MICROTIN_STATUS_OK : MICROTIN_STATUS_MALFORMED;
 }
 
 }  // namespace microtin

@@ -75,9 +75,10 @@ inline int16_t read_i16(const uint8_t* p) {
 // Of the first kPackIdentityBytes: a flag that is set is one of a later version.
 inline microtin_status check_pack_identity(const uint8_t* bytes) {
   for (uint32_t i = 0; i < sizeof kPackMagic; ++i) {
-    if (bytes[i] != read_table(kPackMagic + i)) return MICROTIN_BAD_MAGIC;
+    if (bytes[i] != read_table(kPackMagic + i)) return MICROTIN_STATUS_BAD_MAGIC;
   }
-  return bytes[4] == kPackVersion && bytes[5] == 0 ? MICROTIN_DONE : MICROTIN_UNSUPPORTED_VERSION;
+  return bytes[4] == kPackVersion && bytes[5] == 0 ? MICROTIN_STATUS_OK
+                                                   : MICROTIN_STATUS_UNSUPPORTED_VERSION;
 }
 
 // Reads the fixed part of a known identity. False if it breaks a rule.
@@ -150,8 +151,8 @@ inline uint32_t tile_vertices(const uint8_t* bytes, size_t size, const PackHeade
   Contract contract;
   microtin_axis axis[3];
   const bool is_legal = read_varint(&at, end, &properties) && (properties & kHasPlacement) == 0 &&
-                        read_header(&next, end, &contract, axis) == MICROTIN_DONE && next == end &&
-                        contract.vertices <= header.most_vertices &&
+                        read_header(&next, end, &contract, axis) == MICROTIN_STATUS_OK &&
+                        next == end && contract.vertices <= header.most_vertices &&
                         contract.x_max <= box.x_end - box.x && contract.y_max <= box.y_end - box.y;
   return is_legal ? contract.vertices : 0;
 }

@@ -10,9 +10,9 @@ void microtin_ardupilot_init(microtin_ardupilot* terrain, microtin_pack* pack, u
   microtin_ardupilot_begin_block(terrain, 0, 0, terrain->spacing);
 }
 
-microtin_status microtin_ardupilot_service(microtin_ardupilot* terrain, uint32_t step_limit,
-                                           microtin_read read, void* context) {
-  return microtin_spots_service(&terrain->spots, step_limit, read, context);
+microtin_status microtin_ardupilot_load(microtin_ardupilot* terrain, uint32_t step_limit,
+                                        microtin_read read, void* context) {
+  return microtin_spots_load(&terrain->spots, step_limit, read, context);
 }
 
 void microtin_ardupilot_set_reference(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
@@ -98,23 +98,23 @@ static microtin_spot post_of(const microtin_ardupilot_block* block, int32_t row,
 }
 
 /* Four posts of a row by one fill. */
-static microtin_answer fill_row(microtin_ardupilot* terrain, int32_t row, int32_t column,
-                                int16_t* heights) {
+static microtin_query_result fill_row(microtin_ardupilot* terrain, int32_t row, int32_t column,
+                                      int16_t* heights) {
   const microtin_ardupilot_block* const block = &terrain->block;
-  microtin_block part;
+  microtin_grid_spec part;
   int64_t last_x, last_y;
-  if (!terrain->spots.has_info) return MICROTIN_NOT_DECODED;
+  if (!terrain->spots.has_info) return MICROTIN_QUERY_NOT_LOADED;
   if (!microtin_spots_place(&terrain->spots, post_of(block, row, column), &part.x, &part.y) ||
       !microtin_spots_place(&terrain->spots, post_of(block, row, column + 3), &last_x, &last_y) ||
       last_x < part.x) { /* a seam of the pack's longitudes lies between */
-    return MICROTIN_OUTSIDE;
+    return MICROTIN_QUERY_OUTSIDE;
   }
   part.dx = (int32_t)((last_x - part.x) / 3);
   part.dy = 0;
   part.columns = 4;
   part.rows = 1;
   part.missing = 0;
-  return microtin_pack_fill(terrain->spots.pack, &part, heights);
+  return microtin_pack_sample_grid(terrain->spots.pack, &part, heights);
 }
 
 /* A group that is not all there leaves zeros. */
@@ -124,12 +124,12 @@ static void try_group(microtin_ardupilot* terrain, int32_t group) {
   int16_t heights[4][4];
   int32_t i, j;
   for (i = 0; i < 4; ++i) {
-    const microtin_answer answer = fill_row(terrain, row + i, column, heights[i]);
-    if (answer == MICROTIN_NOT_DECODED) {
+    const microtin_query_result answer = fill_row(terrain, row + i, column, heights[i]);
+    if (answer == MICROTIN_QUERY_NOT_LOADED) {
       microtin_spots_wish(&terrain->spots, post_of(block, row, column),
                           post_of(block, row + 3, column + 3));
     }
-    if (answer != MICROTIN_HEIGHT) return;
+    if (answer != MICROTIN_QUERY_OK) return;
   }
   for (i = 0; i < 4; ++i) {
     for (j = 0; j < 4; ++j) block->height[row + i][column + j] = heights[i][j];

@@ -2,7 +2,7 @@
 /* ArduPilot's questions about terrain, answered by a pack. Written from the declarations of
  * libraries/AP_Terrain/AP_Terrain.h: height_amsl, lookahead, set_reference_location,
  * get_statistics, and blocks of 28 x 32 heights for what wants grids. Nothing waits; only
- * microtin_ardupilot_service reads, from the IO thread.
+ * microtin_ardupilot_load reads, from the IO thread.
  *
  * Beside the library, no part of it; float at the signatures only. */
 #ifndef MICROTIN_ADAPTERS_ARDUPILOT_H
@@ -41,13 +41,13 @@ typedef struct microtin_ardupilot {
   microtin_ardupilot_block block;
 } microtin_ardupilot;
 
-/* The pack is serviced by microtin_ardupilot_service alone. Another card: microtin_pack_reset and
+/* The pack is serviced by microtin_ardupilot_load alone. Another card: microtin_pack_reset and
  * this once more, while nobody asks; else places are taken for those of the pack before. */
 void microtin_ardupilot_init(microtin_ardupilot* terrain, microtin_pack* pack, uint16_t spacing);
 
-/* For the thread that may read the card: see microtin_pack_service. */
-microtin_status microtin_ardupilot_service(microtin_ardupilot* terrain, uint32_t step_limit,
-                                           microtin_read read, void* context);
+/* For the thread that may read the card: see microtin_pack_load_with. */
+microtin_status microtin_ardupilot_load(microtin_ardupilot* terrain, uint32_t step_limit,
+                                        microtin_read read, void* context);
 
 /* The vehicle stands on the ground here, at this altitude above mean sea level: corrected heights
  * agree with that, by `most` metres at most; 0: no correction. */

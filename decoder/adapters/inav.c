@@ -5,9 +5,9 @@ void microtin_inav_init(microtin_inav* inav, microtin_pack* pack) {
   microtin_spots_init(&inav->spots, pack);
 }
 
-microtin_status microtin_inav_service(microtin_inav* inav, uint32_t step_limit, microtin_read read,
-                                      void* context) {
-  return microtin_spots_service(&inav->spots, step_limit, read, context);
+microtin_status microtin_inav_load(microtin_inav* inav, uint32_t step_limit, microtin_read read,
+                                   void* context) {
+  return microtin_spots_load(&inav->spots, step_limit, read, context);
 }
 
 bool microtin_inav_height(microtin_inav* inav, int32_t lat, int32_t lon, float* height_m) {

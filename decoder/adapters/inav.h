@@ -23,13 +23,13 @@ typedef struct microtin_inav {
   microtin_spots spots;
 } microtin_inav;
 
-/* The pack is serviced by microtin_inav_service alone. Another card: microtin_pack_reset and this
+/* The pack is serviced by microtin_inav_load alone. Another card: microtin_pack_reset and this
  * once more, while nobody asks; else places are taken for those of the pack before. */
 void microtin_inav_init(microtin_inav* inav, microtin_pack* pack);
 
-/* To be called by the task that may read the card: see microtin_pack_service. */
-microtin_status microtin_inav_service(microtin_inav* inav, uint32_t step_limit, microtin_read read,
-                                      void* context);
+/* To be called by the task that may read the card: see microtin_pack_load_with. */
+microtin_status microtin_inav_load(microtin_inav* inav, uint32_t step_limit, microtin_read read,
+                                   void* context);
 
 /* Terrain in metres at a place in 1e-7 degrees. */
 bool microtin_inav_height(microtin_inav* inav, int32_t lat, int32_t lon, float* height_m);

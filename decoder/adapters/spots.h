@@ -18,7 +18,7 @@ typedef struct microtin_spots {
   microtin_pack_info info;
   volatile uint8_t has_info;
   uint32_t hint;
-  microtin_course wish; /* owned by questions while it is not wished, else by the service */
+  microtin_segment wish; /* owned by questions while it is not wished, else by the service */
   volatile uint8_t is_wished;
 } microtin_spots;
 
@@ -29,30 +29,31 @@ static inline void microtin_spots_init(microtin_spots* s, microtin_pack* pack) {
   s->is_wished = 0;
 }
 
-/* A piece of what is wished: as microtin_pack_service, with its step limit of 1 or more. DONE also
+/* A piece of what is wished: as microtin_pack_load_with, with its step limit of 1 or more. OK also
  * if nothing is wished. */
-static inline microtin_status microtin_spots_service(microtin_spots* s, uint32_t step_limit,
-                                                     microtin_read read, void* context) {
-  const microtin_course origin = {0, 0, 0, 0};
+static inline microtin_status microtin_spots_load(microtin_spots* s, uint32_t step_limit,
+                                                  microtin_read read, void* context) {
+  const microtin_segment origin = {0, 0, 0, 0};
   microtin_status status;
-  if (s->has_info && !s->is_wished) return MICROTIN_DONE;
+  if (s->has_info && !s->is_wished) return MICROTIN_STATUS_OK;
   status =
-      microtin_pack_service(s->pack, s->has_info ? &s->wish : &origin, step_limit, read, context);
+      microtin_pack_load_with(s->pack, s->has_info ? &s->wish : &origin, step_limit, read, context);
   if (!s->has_info) {
-    if (microtin_pack_header(s->pack, &s->info)) {
+    if (microtin_pack_get_info(s->pack, &s->info)) {
       __atomic_signal_fence(__ATOMIC_SEQ_CST); /* no question sees half of it */
       s->has_info = 1;
     }
-    return status == MICROTIN_DONE ? MICROTIN_NEED_INPUT : status;
+    return status == MICROTIN_STATUS_OK ? MICROTIN_STATUS_NEED_INPUT : status;
   }
-  if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT && status != MICROTIN_IO) {
+  if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT &&
+      status != MICROTIN_STATUS_IO) {
     s->is_wished = 0;
   }
   return status;
 }
 
 static inline int microtin_spots_column(const microtin_spots* s, int64_t longitude, int64_t* x) {
-  return microtin_pack_to_lattice(&s->info.x, s->info.x_max, longitude, 10000000, x);
+  return microtin_pack_axis_to_lattice(&s->info.x, s->info.x_max, longitude, 10000000, x);
 }
 
 /* Lattice coordinates with 8 fractional bits, also in a pack that names longitudes a turn farther
@@ -64,13 +65,13 @@ static inline int microtin_spots_place(const microtin_spots* s, microtin_spot at
          (microtin_spots_column(s, at.longitude, x) ||
           microtin_spots_column(s, at.longitude + turn, x) ||
           microtin_spots_column(s, at.longitude - turn, x)) &&
-         microtin_pack_to_lattice(&s->info.y, s->info.y_max, at.latitude, 10000000, y);
+         microtin_pack_axis_to_lattice(&s->info.y, s->info.y_max, at.latitude, 10000000, y);
 }
 
 /* Wishes for what lies between two places, or for the first, unless something is wished already. */
 static inline void microtin_spots_wish(microtin_spots* s, microtin_spot from, microtin_spot to) {
   const int64_t farthest = (int64_t)1 << 24;
-  microtin_course c;
+  microtin_segment c;
   if (s->is_wished || !microtin_spots_place(s, from, &c.x, &c.y)) return;
   if (!microtin_spots_place(s, to, &c.x_end, &c.y_end) || c.x_end - c.x >= farthest ||
       c.x - c.x_end >= farthest || c.y_end - c.y >= farthest || c.y - c.y_end >= farthest) {
@@ -81,35 +82,35 @@ static inline void microtin_spots_wish(microtin_spots* s, microtin_spot from, mi
   s->is_wished = 1;
 }
 
-/* The terrain in millimetres. NOT_DECODED: it may be there later, if it is wished for. */
-static inline microtin_answer microtin_spots_height(microtin_spots* s, microtin_spot at,
-                                                    int32_t* millimetres) {
+/* The terrain in millimetres. NOT_LOADED: it may be there later, if it is wished for. */
+static inline microtin_query_result microtin_spots_height(microtin_spots* s, microtin_spot at,
+                                                          int32_t* millimetres) {
   const microtin_axis* const z = &s->info.z;
   const int64_t offset_most = (int64_t)1 << 31;
   int64_t x, y, sum;
   int32_t height;
-  microtin_answer answer;
-  if (!s->has_info) return MICROTIN_NOT_DECODED;
-  if (!microtin_spots_place(s, at, &x, &y)) return MICROTIN_OUTSIDE;
+  microtin_query_result answer;
+  if (!s->has_info) return MICROTIN_QUERY_NOT_LOADED;
+  if (!microtin_spots_place(s, at, &x, &y)) return MICROTIN_QUERY_OUTSIDE;
   if (z->numerator >> 20 != 0 || z->offset > offset_most || z->offset < -offset_most) {
-    return MICROTIN_OUTSIDE;
+    return MICROTIN_QUERY_OUTSIDE;
   }
   answer = microtin_pack_height_at(s->pack, x, y, &s->hint, &height);
-  if (answer != MICROTIN_HEIGHT) return answer;
+  if (answer != MICROTIN_QUERY_OK) return answer;
   /* Below 2^20 * 2^31 + 2^31 * 2^16, times 1000: 2^62. */
   sum = ((int64_t)z->numerator * height + z->offset * 65536) * 1000;
   sum /= (int64_t)z->denominator * 65536;
-  if (sum > INT32_MAX || sum < INT32_MIN) return MICROTIN_OUTSIDE;
+  if (sum > INT32_MAX || sum < INT32_MIN) return MICROTIN_QUERY_OUTSIDE;
   *millimetres = (int32_t)sum;
-  return MICROTIN_HEIGHT;
+  return MICROTIN_QUERY_OK;
 }
 
 /* The same; what is missing is wished for, up to `far`. 0: there is no height. */
 static inline int microtin_spots_ask(microtin_spots* s, microtin_spot at, microtin_spot far,
                                      int32_t* millimetres) {
-  const microtin_answer answer = microtin_spots_height(s, at, millimetres);
-  if (answer == MICROTIN_NOT_DECODED) microtin_spots_wish(s, at, far);
-  return answer == MICROTIN_HEIGHT;
+  const microtin_query_result answer = microtin_spots_height(s, at, millimetres);
+  if (answer == MICROTIN_QUERY_NOT_LOADED) microtin_spots_wish(s, at, far);
+  return answer == MICROTIN_QUERY_OK;
 }
 
 /* The sine of an angle in 1/100 degree, times 65536; within 10 of it. A polynomial with x, x^3 and

@@ -16,12 +16,12 @@
 #define PACK_BYTES MICROTIN_COMPACT_PACK_BYTES(SLOTS, CAPACITY, TILE_BYTES)
 #define pack_init(space, pack) \
   microtin_compact_pack_init(space, sizeof(space), SLOTS, CAPACITY, TILE_BYTES, pack)
-#define pack_service microtin_compact_pack_service
+#define pack_service microtin_compact_pack_load_with
 #define pack_height_at microtin_compact_pack_height_at
 #else
 #define PACK_BYTES MICROTIN_PACK_BYTES(SLOTS, CAPACITY)
 #define pack_init(space, pack) microtin_pack_init(space, sizeof(space), SLOTS, CAPACITY, pack)
-#define pack_service microtin_pack_service
+#define pack_service microtin_pack_load_with
 #define pack_height_at microtin_pack_height_at
 #endif
 
@@ -75,7 +75,7 @@ static volatile struct {
   uint8_t is_set;    /* the vehicle is at a place; the interrupt may look */
   uint8_t is_wanted; /* all is decoded that can be: the next answer is the last one */
   int64_t x, y;
-  microtin_answer answer;
+  microtin_query_result answer;
   int32_t height; /* that was answered here */
   uint8_t has_height;
   uint32_t early, wrong; /* answers before all was decoded; heights that changed */
@@ -84,11 +84,11 @@ static volatile struct {
 /* Some thousand times a second, at any moment of the service. */
 static void on_tick(void) {
   static uint32_t hint;
-  microtin_answer answer;
+  microtin_query_result answer;
   int32_t height;
   if (!vehicle.is_set) return;
   answer = pack_height_at(pack, vehicle.x, vehicle.y, &hint, &height);
-  if (answer == MICROTIN_HEIGHT) {
+  if (answer == MICROTIN_QUERY_OK) {
     if (vehicle.has_height && height != vehicle.height) ++vehicle.wrong;
     vehicle.height = height;
     vehicle.has_height = 1;
@@ -98,7 +98,7 @@ static void on_tick(void) {
   vehicle.is_wanted = 0;
 }
 
-static void go_to(const microtin_course* course) {
+static void go_to(const microtin_segment* course) {
   vehicle.is_set = 0; /* no interrupt sees half of a place */
   vehicle.x = course->x;
   vehicle.y = course->y;
@@ -116,17 +116,17 @@ static void wait_for_answer(void) {
 
 /* Turns of the loop until the course is known as far as it can be. Counts those in which the card
  * did not answer: the vehicle flies on by the tiles that are there. 0: it is no pack. */
-static int serve(const microtin_course* course, struct card* card, uint32_t* failures) {
+static int serve(const microtin_segment* course, struct card* card, uint32_t* failures) {
   for (;;) {
     switch (pack_service(pack, course, STEPS, read_card, card)) {
-      case MICROTIN_DONE:
-      case MICROTIN_BAD_TILES:
+      case MICROTIN_STATUS_OK:
+      case MICROTIN_STATUS_BAD_TILES:
         return 1;
-      case MICROTIN_IO:
+      case MICROTIN_STATUS_IO:
         ++*failures;
         break; /* mount again; another card: microtin_pack_reset */
-      case MICROTIN_NEED_INPUT:
-      case MICROTIN_STEP_LIMIT:
+      case MICROTIN_STATUS_NEED_INPUT:
+      case MICROTIN_STATUS_STEP_LIMIT:
         break;
       default:
         return 0;
@@ -143,7 +143,7 @@ static void say(const char* what, uint32_t number) {
 
 static void report(const struct card* card, uint32_t failures) {
   uint32_t i, tile, why;
-  for (i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
+  for (i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
     if (microtin_pack_bad_tile(pack, i, &tile, &why)) say("damaged: tile ", tile);
   }
   say("turns without a card: ", failures);
@@ -157,20 +157,20 @@ static void report(const struct card* card, uint32_t failures) {
 int firmware_main(void) {
   static uint64_t workspace[(PACK_BYTES + 7) / 8];
   static struct card card;
-  const microtin_course origin = {0, 0, 0, 0};
+  const microtin_segment origin = {0, 0, 0, 0};
   uint32_t failures = 0;
   microtin_pack_info info;
   int32_t i;
   card.filled = -1;
   if (!open_card()) return 1;
-  if (pack_init(workspace, &pack) != MICROTIN_DONE) return 2;
+  if (pack_init(workspace, &pack) != MICROTIN_STATUS_OK) return 2;
   microtin_pack_align_reads(pack, SECTOR);
   go_to(&origin);
   start_ticks(on_tick);
   if (!serve(&origin, &card, &failures)) return 3;
-  if (!microtin_pack_header(pack, &info)) return 4;
+  if (!microtin_pack_get_info(pack, &info)) return 4;
   for (i = 0; i < FLIGHT_PLACES; ++i) {
-    const microtin_course course = flight_course(i, &info);
+    const microtin_segment course = flight_course(i, &info);
     go_to(&course);
     if (!serve(&course, &card, &failures)) return 5;
     wait_for_answer();

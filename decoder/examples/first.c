@@ -15,17 +15,19 @@ int firmware_main(void) {
   size_t used;
   uint32_t hint = 0;
   int32_t height, millimetres;
-  if (microtin_mesh_init(mesh_space, sizeof mesh_space, &mesh) != MICROTIN_DONE ||
-      microtin_decoder_init(decoder_space, sizeof decoder_space, mesh, &decoder) != MICROTIN_DONE ||
-      microtin_feed(decoder, terrain_stream, sizeof terrain_stream, 0, &used) != MICROTIN_DONE) {
+  if (microtin_mesh_init(mesh_space, sizeof mesh_space, &mesh) != MICROTIN_STATUS_OK ||
+      microtin_decoder_init(decoder_space, sizeof decoder_space, mesh, &decoder) !=
+          MICROTIN_STATUS_OK ||
+      microtin_decoder_feed(decoder, terrain_stream, sizeof terrain_stream, 0, &used) !=
+          MICROTIN_STATUS_OK) {
     return 1;
   }
-  microtin_placement(mesh, &x, &y, &z);
-  if (microtin_height_at(mesh, 32 * 256, 32 * 256, 0, &hint, &height) != MICROTIN_HEIGHT ||
-      !microtin_real_height(&z, height, 1000, &millimetres)) {
+  microtin_mesh_axes(mesh, &x, &y, &z);
+  if (microtin_mesh_height_at(mesh, 32 * 256, 32 * 256, 0, &hint, &height) != MICROTIN_QUERY_OK ||
+      !microtin_axis_height(&z, height, 1000, &millimetres)) {
     return 1;
   }
-  print_number((int32_t)microtin_vertex_count(mesh));
+  print_number((int32_t)microtin_mesh_vertex_count(mesh));
   print(" vertices, height ");
   print_number(millimetres);
   print(" mm\n");

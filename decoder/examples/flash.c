@@ -12,15 +12,15 @@ static uint64_t decoder_space[(MICROTIN_DECODER_BYTES(TERRAIN_VERTICES) + 7) / 8
 static microtin_status decode(microtin_decoder* decoder, int32_t* pieces) {
   const uint8_t* next = terrain_stream;
   size_t left = sizeof terrain_stream;
-  microtin_status status = MICROTIN_STEP_LIMIT;
-  for (*pieces = 0; status == MICROTIN_STEP_LIMIT; ++*pieces) {
+  microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
+  for (*pieces = 0; status == MICROTIN_STATUS_STEP_LIMIT; ++*pieces) {
     size_t used;
-    status = microtin_feed(decoder, next, left, 200, &used);
+    status = microtin_decoder_feed(decoder, next, left, 200, &used);
     next += used;
     left -= used;
     /* Other tasks have their turn here. */
   }
-  return status == MICROTIN_NEED_INPUT ? microtin_finish(decoder) : status;
+  return status == MICROTIN_STATUS_NEED_INPUT ? microtin_decoder_finish(decoder) : status;
 }
 
 /* Height in millimetres at a place in 1e-7 degrees; 0 if there is none. */
@@ -29,11 +29,12 @@ static int height_at(const microtin_mesh* mesh, int32_t longitude, int32_t latit
   static uint32_t hint; /* the next place is likely to be near this one */
   microtin_axis x, y, z;
   int32_t place_x, place_y, steps;
-  microtin_placement(mesh, &x, &y, &z);
-  if (!microtin_to_lattice(&x, longitude, 10000000, &place_x)) return 0;
-  if (!microtin_to_lattice(&y, latitude, 10000000, &place_y)) return 0;
-  if (microtin_height_at(mesh, place_x, place_y, 0, &hint, &steps) != MICROTIN_HEIGHT) return 0;
-  return microtin_real_height(&z, steps, 1000, height);
+  microtin_mesh_axes(mesh, &x, &y, &z);
+  if (!microtin_axis_to_lattice(&x, longitude, 10000000, &place_x)) return 0;
+  if (!microtin_axis_to_lattice(&y, latitude, 10000000, &place_y)) return 0;
+  if (microtin_mesh_height_at(mesh, place_x, place_y, 0, &hint, &steps) != MICROTIN_QUERY_OK)
+    return 0;
+  return microtin_axis_height(&z, steps, 1000, height);
 }
 
 int firmware_main(void) {
@@ -42,12 +43,13 @@ int firmware_main(void) {
   microtin_mesh* mesh;
   microtin_decoder* decoder;
   int32_t pieces, i;
-  if (microtin_mesh_init(mesh_space, sizeof mesh_space, &mesh) != MICROTIN_DONE) return 1;
-  if (microtin_decoder_init(decoder_space, sizeof decoder_space, mesh, &decoder) != MICROTIN_DONE) {
+  if (microtin_mesh_init(mesh_space, sizeof mesh_space, &mesh) != MICROTIN_STATUS_OK) return 1;
+  if (microtin_decoder_init(decoder_space, sizeof decoder_space, mesh, &decoder) !=
+      MICROTIN_STATUS_OK) {
     return 1;
   }
-  if (decode(decoder, &pieces) != MICROTIN_DONE) return 1;
-  print_number((int32_t)microtin_vertex_count(mesh));
+  if (decode(decoder, &pieces) != MICROTIN_STATUS_OK) return 1;
+  print_number((int32_t)microtin_mesh_vertex_count(mesh));
   print(" vertices in ");
   print_number(pieces);
   print(" pieces\n");

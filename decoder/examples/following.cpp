@@ -34,9 +34,10 @@ class LookAhead {
     for (uint32_t left = kStepsPerCycle; left >= kPiece; left -= kPiece) {
       const int32_t x = vehicle.x + next_ * kSpeed;
       int32_t height = 0;
-      const microtin_answer answer = terrain_.height_at(x, vehicle.y, &hint_, &height, 0, kPiece);
-      if (answer == MICROTIN_NOT_YET) continue;  // goes on from the hint
-      if (answer == MICROTIN_HEIGHT && (next_ == 0 || height > round_)) round_ = height;
+      const microtin_query_result answer =
+          terrain_.height_at(x, vehicle.y, &hint_, &height, 0, kPiece);
+      if (answer == MICROTIN_QUERY_STEP_LIMIT) continue;  // goes on from the hint
+      if (answer == MICROTIN_QUERY_OK && (next_ == 0 || height > round_)) round_ = height;
       if (next_++ == kAhead) {
         highest_ = round_;
         next_ = 0;
@@ -55,7 +56,7 @@ class LookAhead {
 bool decode(Terrain& terrain) {
   static microtin::Decoder<TERRAIN_VERTICES> decoder(terrain);
   size_t used = 0;
-  return decoder.feed(terrain_stream, sizeof terrain_stream, &used) == MICROTIN_DONE;
+  return decoder.feed(terrain_stream, sizeof terrain_stream, &used) == MICROTIN_STATUS_OK;
 }
 
 void report(Place vehicle, int32_t height, int32_t altitude) {
@@ -79,7 +80,7 @@ bool fly(const Terrain& terrain, const Buckets& buckets, Place vehicle) {
     const int32_t wanted = ahead.highest() + kClearance * kStep - altitude;
     altitude += wanted > kClimb ? kClimb : wanted < -kClimb ? -kClimb : wanted;
     int32_t height = 0;
-    above = above && terrain.height_at(vehicle.x, vehicle.y, &hint, &height) == MICROTIN_HEIGHT &&
+    above = above && terrain.height_at(vehicle.x, vehicle.y, &hint, &height) == MICROTIN_QUERY_OK &&
             altitude > height;
     if (cycle % 24 == 0) report(vehicle, height, altitude);
   }
@@ -92,7 +93,7 @@ int firmware_main() {
   static Terrain terrain;
   if (!decode(terrain)) return 1;
   static Buckets buckets;
-  if (buckets.build(terrain.mesh()) != MICROTIN_DONE) return 1;
+  if (buckets.build(terrain.mesh()) != MICROTIN_STATUS_OK) return 1;
   const bool above = fly(terrain, buckets, Place{100 * 256, 500 * 256});
   print(above ? "always above the terrain\n" : "hit the terrain\n");
   return above ? 0 : 1;

@@ -87,8 +87,8 @@ int firmware_main() {
   static microtin::Decoder<1000> decoder(terrain);
   catch_interrupts();
   Uart::open();
-  microtin_status status = MICROTIN_NEED_INPUT;
-  while (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
+  microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+  while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
     const size_t size = ring.in_a_row();
     size_t used = 0;
     status = decoder.feed(ring.oldest(), size, &used, 20);
@@ -103,5 +103,5 @@ int firmware_main() {
   print(" vertices from ");
   print_number(static_cast<int32_t>(decoder.bytes_used()));
   print(" bytes\n");
-  return status == MICROTIN_DONE ? 0 : 1;
+  return status == MICROTIN_STATUS_OK ? 0 : 1;
 }

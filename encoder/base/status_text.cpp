@@ -1,41 +1,49 @@
 // SPDX-License-Identifier: MIT
-// Sentences for the decoder's statuses.
+// A sentence for each status.
 #include "encoder/base/status_text.hpp"
 
 namespace microtin::base {
 
 const char* describe(microtin_status status) {
   switch (status) {
-    case MICROTIN_DONE:
+    case MICROTIN_STATUS_OK:
       return "complete";
-    case MICROTIN_NEED_INPUT:
+    case MICROTIN_STATUS_NEED_INPUT:
       return "more bytes are needed";
-    case MICROTIN_STEP_LIMIT:
+    case MICROTIN_STATUS_STEP_LIMIT:
       return "the step limit was reached";
-    case MICROTIN_STOPPED:
+    case MICROTIN_STATUS_STOPPED:
       return "stopped after the phase asked for";
-    case MICROTIN_BAD_MAGIC:
+    case MICROTIN_STATUS_BAD_MAGIC:
       return "not a microtin stream";
-    case MICROTIN_UNSUPPORTED_VERSION:
+    case MICROTIN_STATUS_UNSUPPORTED_VERSION:
       return "a version of the format, or a part of it, that this program does not know";
-    case MICROTIN_TOO_BIG:
+    case MICROTIN_STATUS_TOO_BIG:
       return "more vertices than this build can hold";
-    case MICROTIN_CHECKSUM:
+    case MICROTIN_STATUS_CHECKSUM:
       return "damaged: a checksum does not match";
-    case MICROTIN_MALFORMED:
+    case MICROTIN_STATUS_MALFORMED:
       return "malformed: a rule of the format is broken";
-    case MICROTIN_TRUNCATED:
+    case MICROTIN_STATUS_TRUNCATED:
       return "cut off: the stream ends too early";
-    case MICROTIN_MISALIGNED:
+    case MICROTIN_STATUS_MISALIGNED:
       return "misaligned workspace";
-    case MICROTIN_WORKSPACE_TOO_SMALL:
+    case MICROTIN_STATUS_WORKSPACE_TOO_SMALL:
       return "workspace too small";
-    case MICROTIN_ARGUMENT:
+    case MICROTIN_STATUS_ARGUMENT:
       return "wrong argument";
-    case MICROTIN_IO:
+    case MICROTIN_STATUS_IO:
       return "reading failed";
-    case MICROTIN_BAD_TILES:
+    case MICROTIN_STATUS_BAD_TILES:
       return "bad tiles";
+    case MICROTIN_STATUS_REJECTED:
+      return "rejected";
+    case MICROTIN_STATUS_NO_MEMORY:
+      return "out of memory";
+    case MICROTIN_STATUS_CANCELLED:
+      return "cancelled";
+    case MICROTIN_STATUS_INTERNAL:
+      return "an internal fault of microtin";
   }
   return "unknown status";
 }

@@ -15,8 +15,8 @@ namespace {
 
 std::string source_of(const Document& document, const std::string& name) {
   if (const DecodedStream* const stream = document.stream()) {
-    return embed(stream->bytes, Embedded::kStream, microtin_vertex_count(stream->terrain.mesh()),
-                 name);
+    return embed(stream->bytes, Embedded::kStream,
+                 microtin_mesh_vertex_count(stream->terrain.mesh()), name);
   }
   const std::string bytes = read_file(document.path());
   return embed({bytes.begin(), bytes.end()}, Embedded::kPack,

@@ -17,24 +17,24 @@ namespace {
 
 constexpr int kDecimals = 3;  // of a height: millimetres, where the unit is the metre
 
-const char* word_for(microtin_answer answer) {
+const char* word_for(microtin_query_result answer) {
   switch (answer) {
-    case MICROTIN_IN_VOID:
+    case MICROTIN_QUERY_VOID:
       return "void";
-    case MICROTIN_IN_BAD_TILE:
+    case MICROTIN_QUERY_BAD_TILE:
       return "damaged";
     default:
       return "outside";
   }
 }
 
-int code_for(microtin_answer answer) {
+int code_for(microtin_query_result answer) {
   switch (answer) {
-    case MICROTIN_HEIGHT:
+    case MICROTIN_QUERY_OK:
       return 0;
-    case MICROTIN_IN_VOID:
+    case MICROTIN_QUERY_VOID:
       return kInVoid;
-    case MICROTIN_IN_BAD_TILE:
+    case MICROTIN_QUERY_BAD_TILE:
       return kDamaged;
     default:
       return kOutside;
@@ -42,7 +42,7 @@ int code_for(microtin_answer answer) {
 }
 
 struct Answer {
-  microtin_answer kind;
+  microtin_query_result kind;
   std::string text;  // a number or a word
 };
 
@@ -50,7 +50,7 @@ Answer ask(PlaceQuery& query, const Place& place, const HeightRequest& request) 
   const bool on_lattice = request.lattice;
   const auto [kind, height] = request.device ? query.device_height_at(place.x, place.y, on_lattice)
                                              : query.height_at(place.x, place.y, on_lattice);
-  if (kind != MICROTIN_HEIGHT) return {kind, word_for(kind)};
+  if (kind != MICROTIN_QUERY_OK) return {kind, word_for(kind)};
   const Axis z = on_lattice ? Axis{0, 1, 1} : query.placement().z;
   return {kind, to_string(rounded_height(z, height, kDecimals))};
 }

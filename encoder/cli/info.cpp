@@ -20,9 +20,9 @@ namespace {
 
 uint32_t count_triangles(const microtin_mesh* mesh, microtin_triangle_kind kind) {
   uint32_t count = 0;
-  for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {
+  for (uint32_t t = 0; t < microtin_mesh_triangle_count(mesh); ++t) {
     uint32_t corners[3];
-    if (microtin_triangle(mesh, t, corners) == kind) ++count;
+    if (microtin_mesh_triangle(mesh, t, corners) == kind) ++count;
   }
   return count;
 }
@@ -104,7 +104,7 @@ void add_extent(JsonObject& report, const LatticeBox& box, const Placement& p) {
 LatticeBox box_of(const microtin_mesh* mesh) {
   const Vertex first = vertex_of(mesh, 0);
   LatticeBox box{first.x, first.y, first.x, first.y, first.z, first.z};
-  for (uint32_t v = 1; v < microtin_vertex_count(mesh); ++v) {
+  for (uint32_t v = 1; v < microtin_mesh_vertex_count(mesh); ++v) {
     const Vertex vertex = vertex_of(mesh, v);
     box = {std::min<int64_t>(box.x_min, vertex.x),  std::min<int64_t>(box.y_min, vertex.y),
            std::max<int64_t>(box.x_max, vertex.x),  std::max<int64_t>(box.y_max, vertex.y),
@@ -160,8 +160,8 @@ JsonObject report_of(DecodedStream& stream) {
   DecodedTerrain& terrain = stream.terrain;
   const size_t bytes = stream.bytes.size();
   const uint32_t vertices = header.info.vertices;
-  const uint32_t voids = count_triangles(terrain.mesh(), MICROTIN_VOID);
-  const uint32_t triangles = count_triangles(terrain.mesh(), MICROTIN_REAL) + voids;
+  const uint32_t voids = count_triangles(terrain.mesh(), MICROTIN_TRIANGLE_VOID);
+  const uint32_t triangles = count_triangles(terrain.mesh(), MICROTIN_TRIANGLE_REAL) + voids;
   JsonObject report = {{"kind", json(std::string_view("stream"))},
                        {"format_version", json(header.info.version)},
                        {"vertices", json(vertices)},

@@ -9,7 +9,7 @@
 namespace microtin::cli {
 
 std::string library_version() {
-  return microtin_version();
+  return microtin_version_string();
 }
 
 std::string versions() {

@@ -13,7 +13,7 @@ namespace microtin::exact {
 
 inline Vertex vertex_of(const microtin_mesh* mesh, uint32_t v) {
   Vertex vertex{};
-  microtin_vertex(mesh, v, &vertex.x, &vertex.y, &vertex.z);
+  microtin_mesh_vertex(mesh, v, &vertex.x, &vertex.y, &vertex.z);
   return vertex;
 }
 

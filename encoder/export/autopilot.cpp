@@ -69,7 +69,7 @@ AutopilotPosts posts_of(const SampledSurface& surface, const AutopilotLayout& la
       const auto lattice_x = x.inside(layout.longitude(line, column), reach_east, &is_beyond);
       if (!lattice_x) continue;
       const ExactAnswer answer = surface.height_at(place_of(*lattice_x, *lattice_y));
-      if (answer.kind != MICROTIN_HEIGHT) continue;
+      if (answer.kind != MICROTIN_QUERY_OK) continue;
       posts.heights[size_t{row} * layout.columns() + column] =
           millimetres(answer.height, surface.placement.z);
       posts.beyond += is_beyond ? 1u : 0u;
@@ -140,7 +140,7 @@ void measure(const SampledSurface& surface, const AutopilotLayout& layout, Autop
       if (longitude >= static_cast<double>(origin.longitude + kDegree)) break;
       if (longitude < static_cast<double>(origin.longitude)) continue;
       const ExactAnswer answer = surface.height_at(place_on_lattice(column, row));
-      if (answer.kind != MICROTIN_HEIGHT) continue;
+      if (answer.kind != MICROTIN_QUERY_OK) continue;
       ++file.asked;
       const GeoPlace place{std::llround(latitude), std::llround(longitude)};
       file.missed += layout.is_found_in_single_precision(place) ? 0u : 1u;

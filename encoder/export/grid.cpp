@@ -55,7 +55,7 @@ class GridText {
   }
 
   std::string height(const ExactAnswer& answer) const {
-    return answer.kind == MICROTIN_HEIGHT ? to_string(heights_.value(answer.height)) : no_data_;
+    return answer.kind == MICROTIN_QUERY_OK ? to_string(heights_.value(answer.height)) : no_data_;
   }
 
   const std::string& no_data() const { return no_data_; }

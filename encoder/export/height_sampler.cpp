@@ -16,7 +16,7 @@
 namespace microtin::exporting {
 namespace {
 
-constexpr ExactAnswer kNothing{MICROTIN_OUTSIDE, {0, 0, 1}};
+constexpr ExactAnswer kNothing{MICROTIN_QUERY_OUTSIDE, {0, 0, 1}};
 
 bool holds(int64_t low, int64_t high, int64_t whole, Wide part) {
   return low <= whole && (whole < high || (whole == high && part == 0));
@@ -45,7 +45,7 @@ class MeshSampler {
   ExactAnswer height_at(const RealPlace& place) {
     constexpr uint32_t kNearby = 16;  // steps
     const ExactAnswer answer = exact_answer(mesh_, place, kNearby, &hint_);
-    if (answer.kind != MICROTIN_NOT_YET) return answer;
+    if (answer.kind != MICROTIN_QUERY_STEP_LIMIT) return answer;
     hint_ = microtin_buckets_hint(buckets(), static_cast<int32_t>(place.x * 256),
                                   static_cast<int32_t>(place.y * 256));
     return exact_answer(mesh_, place, 0, &hint_);
@@ -55,7 +55,7 @@ class MeshSampler {
   const microtin_buckets* buckets() {
     if (buckets_ != nullptr) return buckets_;
     constexpr double kMostBuckets = 1023;  // a side
-    const double side_wanted = std::sqrt(microtin_vertex_count(mesh_));
+    const double side_wanted = std::sqrt(microtin_mesh_vertex_count(mesh_));
     const size_t side = static_cast<size_t>(std::min(side_wanted, kMostBuckets)) + 1;
     storage_.resize((MICROTIN_BUCKETS_BYTES(side) + 7) / 8);
     microtin_buckets_init(storage_.data(), storage_.size() * 8, mesh_, &buckets_);
@@ -77,12 +77,12 @@ class PackSampler {
   ExactAnswer height_at(const RealPlace& place) {
     const Range columns = tiles(place.x, place.x_part, grid_.width, tile_columns(grid_));
     const Range rows = tiles(place.y, place.y_part, grid_.height, tile_rows(grid_));
-    ExactAnswer worst{MICROTIN_IN_VOID, {0, 0, 1}};
+    ExactAnswer worst{MICROTIN_QUERY_VOID, {0, 0, 1}};
     for (uint32_t row = rows.first; row <= rows.last; ++row) {
       for (uint32_t column = columns.first; column <= columns.last; ++column) {
         const ExactAnswer answer = ask_tile(row * tile_columns(grid_) + column, place);
-        if (answer.kind == MICROTIN_HEIGHT) return answer;
-        if (answer.kind == MICROTIN_IN_BAD_TILE) worst = answer;
+        if (answer.kind == MICROTIN_QUERY_OK) return answer;
+        if (answer.kind == MICROTIN_QUERY_BAD_TILE) worst = answer;
       }
     }
     return worst;
@@ -101,7 +101,7 @@ class PackSampler {
     bool is_bad = false;
     uint64_t asked = 0;  // when it was asked last
 
-    uint32_t vertices() const { return terrain ? microtin_vertex_count(terrain->mesh()) : 0; }
+    uint32_t vertices() const { return terrain ? microtin_mesh_vertex_count(terrain->mesh()) : 0; }
   };
 
   // On a border two tiles have a say.
@@ -130,8 +130,8 @@ class PackSampler {
   ExactAnswer ask_tile(uint32_t number, const RealPlace& place) {
     Tile& tile = tile_of(number);
     tile.asked = ++clock_;
-    if (tile.is_bad) return {MICROTIN_IN_BAD_TILE, {0, 0, 1}};
-    if (!tile.terrain) return {MICROTIN_IN_VOID, {0, 0, 1}};
+    if (tile.is_bad) return {MICROTIN_QUERY_BAD_TILE, {0, 0, 1}};
+    if (!tile.terrain) return {MICROTIN_QUERY_VOID, {0, 0, 1}};
     const TileBox box = tile_box(grid_, number);
     RealPlace local = place;
     local.x -= box.x;
@@ -166,8 +166,8 @@ class PackSampler {
 
 SampledSurface sampled(const microtin_mesh* mesh) {
   SampledSurface surface;
-  microtin_placement(mesh, &surface.placement.x, &surface.placement.y, &surface.placement.z);
-  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+  microtin_mesh_axes(mesh, &surface.placement.x, &surface.placement.y, &surface.placement.z);
+  for (uint32_t v = 0; v < microtin_mesh_vertex_count(mesh); ++v) {
     const auto [x, y, z] = vertex_of(mesh, v);
     surface.x_min = v == 0 ? x : std::min<int64_t>(surface.x_min, x);
     surface.y_min = v == 0 ? y : std::min<int64_t>(surface.y_min, y);

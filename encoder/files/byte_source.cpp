@@ -97,9 +97,10 @@ std::unique_ptr<ByteSource> bytes_in_memory(std::vector<uint8_t> bytes) {
 
 std::vector<uint8_t> bytes_at(const ByteSource& source, uint64_t offset, uint64_t size) {
   const uint64_t all = source.size();
-  if (offset > all || size > all - offset) throw Error(describe(MICROTIN_TRUNCATED));
+  if (offset > all || size > all - offset) throw Error(describe(MICROTIN_STATUS_TRUNCATED));
   std::vector<uint8_t> bytes(size);
-  if (source.read(offset, bytes.data(), size) != size) throw Error(describe(MICROTIN_TRUNCATED));
+  if (source.read(offset, bytes.data(), size) != size)
+    throw Error(describe(MICROTIN_STATUS_TRUNCATED));
   return bytes;
 }
 

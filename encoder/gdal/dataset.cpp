@@ -165,7 +165,7 @@ int identify(GDALOpenInfo* info) {
   const uint8_t* note = nullptr;
   uint32_t size = 0;
   return microtin_find_note(bytes, static_cast<size_t>(info->nHeaderBytes), 0, &note, &size) !=
-         MICROTIN_BAD_MAGIC;
+         MICROTIN_STATUS_BAD_MAGIC;
 }
 
 GDALDataset* Dataset::open(GDALOpenInfo* info) {

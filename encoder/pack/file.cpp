@@ -46,15 +46,15 @@ uint64_t compact_bytes(const std::vector<TileSummary>& tiles, uint32_t most_vert
 }
 
 void expect(bool legal) {
-  if (!legal) throw Error(describe(MICROTIN_MALFORMED));
+  if (!legal) throw Error(describe(MICROTIN_STATUS_MALFORMED));
 }
 
 void expect_done(microtin_status status) {
-  if (status != MICROTIN_DONE) throw Error(describe(status));
+  if (status != MICROTIN_STATUS_OK) throw Error(describe(status));
 }
 
 void check_box(const microtin_mesh* mesh, const TileBox& box) {
-  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+  for (uint32_t v = 0; v < microtin_mesh_vertex_count(mesh); ++v) {
     const Vertex p = vertex_of(mesh, v);
     expect(p.x <= box.x_end - box.x && p.y <= box.y_end - box.y);
   }
@@ -138,7 +138,7 @@ Bytes write_pack(const PackContent& pack, const std::vector<Bytes>& streams) {
 bool is_pack(const ByteSource& bytes) {
   uint8_t identity[kPackIdentityBytes] = {};
   return bytes.read(0, identity, sizeof identity) == sizeof identity &&
-         check_pack_identity(identity) != MICROTIN_BAD_MAGIC;
+         check_pack_identity(identity) != MICROTIN_STATUS_BAD_MAGIC;
 }
 
 Metadata read_placement_and_notes(const PackHeader& header, const uint8_t* bytes) {
@@ -168,7 +168,8 @@ void PackFile::read_header() {
   const uint8_t* const data = header.data();
   vertices_ = read_all_vertices(data);
   header_check_ = read_u32(data + end - kCheckBytes);
-  if (crc32(0, data, end - kCheckBytes) != header_check_) throw Error(describe(MICROTIN_CHECKSUM));
+  if (crc32(0, data, end - kCheckBytes) != header_check_)
+    throw Error(describe(MICROTIN_STATUS_CHECKSUM));
   expect(legal);
   metadata_ = read_placement_and_notes(header_, data);
 }
@@ -177,7 +178,8 @@ void PackFile::read_index() {
   constexpr uint32_t kAtOnce = 1024;
   const uint64_t tiles = uint64_t{tile_columns(header_.grid)} * tile_rows(header_.grid);
   const uint64_t start = pack_index_start(header_);
-  if ((bytes_->size() - start) / kPackEntryBytes < tiles) throw Error(describe(MICROTIN_TRUNCATED));
+  if ((bytes_->size() - start) / kPackEntryBytes < tiles)
+    throw Error(describe(MICROTIN_STATUS_TRUNCATED));
   entries_.reserve(tiles);
   while (entries_.size() < tiles) {
     const uint64_t count = std::min<uint64_t>(tiles - entries_.size(), kAtOnce);
@@ -192,11 +194,11 @@ void PackFile::read_index() {
 
 PackEntry PackFile::entry_at(uint32_t tile, const uint8_t* at) const {
   if (pack_entry_check(header_check_, tile, at) != read_u32(at + kPackEntryBytes - kCheckBytes)) {
-    throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_CHECKSUM));
+    throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_STATUS_CHECKSUM));
   }
   PackEntry entry{};
   if (!read_pack_entry(at, header_, &entry)) {
-    throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_MALFORMED));
+    throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_STATUS_MALFORMED));
   }
   return entry;
 }
@@ -212,7 +214,7 @@ uint32_t PackFile::vertices(uint32_t number) const {
   if (entry.size == 0) return 0;
   return with_file_context("tile " + std::to_string(number), [&] {
     const Bytes start = bytes_at(*bytes_, entry.offset, std::min(entry.size, kHeaderMost));
-    const microtin_info info = stream::read_header(start).info;
+    const microtin_stream_info info = stream::read_header(start).info;
     expect_room_for_vertices(info, entry.size);
     return info.vertices;
   });
@@ -224,7 +226,7 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
   return with_file_context("tile " + std::to_string(number), [&] {
     const Bytes stream = bytes_at(*bytes_, entry.offset, entry.size);
     if (stream_hash(kStreamHash, stream.data(), stream.size()) != entry.stream_hash) {
-      throw Error(describe(MICROTIN_CHECKSUM));
+      throw Error(describe(MICROTIN_STATUS_CHECKSUM));
     }
     DecodedTerrain decoded(stream);
     const TileBox box = tile_box(header_.grid, number);

@@ -62,7 +62,7 @@ Bytes write_summary(const TileSummary& tile) {
 }
 
 void expect(bool legal) {
-  if (!legal) throw Error(describe(MICROTIN_MALFORMED));
+  if (!legal) throw Error(describe(MICROTIN_STATUS_MALFORMED));
 }
 
 // Numbers one after the other, low bytes first.
@@ -130,7 +130,7 @@ TileSummary read_summary(const Bytes& bytes) {
 void expect_check(const Bytes& bytes) {
   const std::size_t size = bytes.size() - kCheckBytes;
   if (crc32(0, bytes.data(), size) != read_u32(bytes.data() + size)) {
-    throw Error(describe(MICROTIN_CHECKSUM));
+    throw Error(describe(MICROTIN_STATUS_CHECKSUM));
   }
 }
 
@@ -145,7 +145,8 @@ class Shard {
         throw Error("not a shard that this version of microtin made");
       }
       const uint32_t size = read_u32(start.data() + sizeof kShardMagic);
-      if (size < kPackFixedBytes || size > kMostHeadBytes) throw Error(describe(MICROTIN_CHECKSUM));
+      if (size < kPackFixedBytes || size > kMostHeadBytes)
+        throw Error(describe(MICROTIN_STATUS_CHECKSUM));
       head_ = take(size + kCheckBytes);
       expect_check(head_);
       const Bytes range = take(kRangeBytes + kCheckBytes);
@@ -174,7 +175,7 @@ class Shard {
       Bytes stream = take(tile.bytes);
       if (tile.bytes != 0 &&
           stream_hash(kStreamHash, stream.data(), stream.size()) != tile.stream_hash) {
-        throw Error(describe(MICROTIN_CHECKSUM));
+        throw Error(describe(MICROTIN_STATUS_CHECKSUM));
       }
       return stream;
     });

@@ -115,7 +115,7 @@ bool form_triangle(const std::vector<Sample>& samples) {
 
 void check_shared(const microtin_mesh* mesh, const TileSides& sides, const SharedVertices& shared) {
   std::size_t found = 0;
-  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+  for (uint32_t v = 0; v < microtin_mesh_vertex_count(mesh); ++v) {
     const auto [x, y, z] = vertex_of(mesh, v);
     const Point p = {x, y};
     if (!sides.shares(p)) continue;
@@ -148,8 +148,8 @@ std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster&
     int32_t height = 0;
     const bool covered =
         mesh != nullptr && z != kVoidHeight &&
-        microtin_height_at(mesh, static_cast<int32_t>(x * 256), static_cast<int32_t>(y * 256), 0,
-                           &hint, &height) == MICROTIN_HEIGHT;
+        microtin_mesh_height_at(mesh, static_cast<int32_t>(x * 256), static_cast<int32_t>(y * 256),
+                                0, &hint, &height) == MICROTIN_QUERY_OK;
     if (z == kVoidHeight || covered) return;
     posts.push_back({box.x + static_cast<uint32_t>(x), box.y + static_cast<uint32_t>(y)});
   });

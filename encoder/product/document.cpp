@@ -97,7 +97,8 @@ uint64_t Document::bytes() const {
 }
 
 uint64_t Document::vertices() const {
-  return pack() != nullptr ? pack()->vertices() : microtin_vertex_count(stream()->terrain.mesh());
+  return pack() != nullptr ? pack()->vertices()
+                           : microtin_mesh_vertex_count(stream()->terrain.mesh());
 }
 
 uint64_t Document::counted_vertices() const {

@@ -127,7 +127,7 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
   Attempt result{{std::move(found.laid),
                   bound,
                   {},
-                  microtin_vertex_count(decoded.mesh()),
+                  microtin_mesh_vertex_count(decoded.mesh()),
                   measured,
                   std::nullopt},
                  0};

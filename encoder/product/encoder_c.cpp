@@ -19,7 +19,7 @@
 using namespace microtin::encoder;
 using microtin::base::Error;
 
-struct microtin_terrain {
+struct microtin_source {
   Terrain terrain;
 };
 
@@ -32,7 +32,7 @@ namespace {
 
 thread_local std::string last_message, last_remarks;
 
-microtin_outcome failed(microtin_outcome outcome, const char* why) {
+microtin_status failed(microtin_status outcome, const char* why) {
   try {
     last_message = why;
   } catch (const std::bad_alloc&) {
@@ -43,20 +43,20 @@ microtin_outcome failed(microtin_outcome outcome, const char* why) {
 
 // Runs `work`, whose exceptions nobody in C can catch.
 template <class Work>
-microtin_outcome guarded(const Work& work) {
+microtin_status guarded(const Work& work) {
   try {
     work();
-    return MICROTIN_OK;
+    return MICROTIN_STATUS_OK;
   } catch (const Cancelled& cancelled) {
-    return failed(MICROTIN_CANCELLED, cancelled.what());
+    return failed(MICROTIN_STATUS_CANCELLED, cancelled.what());
   } catch (const std::bad_alloc&) {
-    return failed(MICROTIN_NO_MEMORY, "out of memory");
+    return failed(MICROTIN_STATUS_NO_MEMORY, "out of memory");
   } catch (const std::out_of_range& refused) {
-    return failed(MICROTIN_REFUSED, refused.what());
+    return failed(MICROTIN_STATUS_REJECTED, refused.what());
   } catch (const std::runtime_error& refused) {
-    return failed(MICROTIN_REFUSED, refused.what());
+    return failed(MICROTIN_STATUS_REJECTED, refused.what());
   } catch (const std::exception& fault) {
-    return failed(MICROTIN_FAULT, fault.what());
+    return failed(MICROTIN_STATUS_INTERNAL, fault.what());
   }
 }
 
@@ -75,7 +75,7 @@ void expect(Pointer* pointer) {
   if (pointer == nullptr) throw Error("a pointer is null");
 }
 
-Posts read_raster(const microtin_raster& raster) {
+Posts read_raster(const microtin_raster_data& raster) {
   Transform transform{};
   std::copy(std::begin(raster.transform), std::end(raster.transform), transform.begin());
   const double no_data = raster.no_data != nullptr ? *raster.no_data : kNoValue;
@@ -152,10 +152,10 @@ void copy_report(const Report& report, microtin_report* to) {
   copy_decimal(report.max_below_at_points, to->max_below_at_points);
 }
 
-microtin_outcome make(microtin_terrain** terrain, const std::function<Terrain()>& read) {
+microtin_status make(microtin_source** terrain, const std::function<Terrain()>& read) {
   return guarded([&] {
     expect(terrain);
-    *terrain = new microtin_terrain{read()};
+    *terrain = new microtin_source{read()};
   });
 }
 
@@ -175,15 +175,15 @@ class BytesInMemory : public Bytes {
   std::vector<uint8_t> bytes_;
 };
 
-microtin_outcome open(microtin_surface** surface, const std::function<Surface()>& read) {
+microtin_status open(microtin_surface** surface, const std::function<Surface()>& read) {
   return guarded([&] {
     expect(surface);
     *surface = new microtin_surface{read(), {}};
   });
 }
 
-microtin_outcome hand_out(microtin_surface* surface, microtin_triangles* triangles,
-                          const std::function<Mesh()>& read) {
+microtin_status hand_out(microtin_surface* surface, microtin_triangles* triangles,
+                         const std::function<Mesh()>& read) {
   return guarded([&] {
     expect(surface);
     expect(triangles);
@@ -197,21 +197,21 @@ microtin_outcome hand_out(microtin_surface* surface, microtin_triangles* triangl
 
 }  // namespace
 
-const char* microtin_message(void) {
+const char* microtin_last_error(void) {
   return last_message.c_str();
 }
 
-const char* microtin_remarks(void) {
+const char* microtin_last_warnings(void) {
   return last_remarks.c_str();
 }
 
-const char* microtin_version(void) {
+const char* microtin_version_string(void) {
   return MICROTIN_TEXT(MICROTIN_VERSION_MAJOR) "." MICROTIN_TEXT(
       MICROTIN_VERSION_MINOR) "." MICROTIN_TEXT(MICROTIN_VERSION_PATCH);
 }
 
-microtin_outcome microtin_terrain_of_raster(const microtin_raster* raster,
-                                            microtin_terrain** terrain) {
+microtin_status microtin_source_from_raster(const microtin_raster_data* raster,
+                                            microtin_source** terrain) {
   return make(terrain, [&] {
     Posts posts = read_raster(checked(raster));
     posts.wkt = text_of(raster->wkt);
@@ -219,8 +219,8 @@ microtin_outcome microtin_terrain_of_raster(const microtin_raster* raster,
   });
 }
 
-microtin_outcome microtin_terrain_of_points(const microtin_points* points,
-                                            microtin_terrain** terrain) {
+microtin_status microtin_source_from_points(const microtin_point_data* points,
+                                            microtin_source** terrain) {
   return make(terrain, [&] {
     expect(checked(points).coordinates);
     Points read = points_of(points->count, points->coordinates);
@@ -229,17 +229,17 @@ microtin_outcome microtin_terrain_of_points(const microtin_points* points,
   });
 }
 
-microtin_outcome microtin_terrain_of_file(const char* path, microtin_terrain** terrain) {
+microtin_status microtin_source_from_file(const char* path, microtin_source** terrain) {
   return make(terrain, [&] { return Terrain::from_file(text_of(path)); });
 }
 
-void microtin_terrain_free(microtin_terrain* terrain) {
+void microtin_source_free(microtin_source* terrain) {
   delete terrain;
 }
 
-microtin_outcome microtin_encode_stream(const microtin_terrain* terrain,
-                                        const microtin_options* options, uint8_t** bytes,
-                                        uint64_t* size, microtin_report* report) {
+microtin_status microtin_encode_stream(const microtin_source* terrain,
+                                       const microtin_options* options, uint8_t** bytes,
+                                       uint64_t* size, microtin_report* report) {
   return guarded([&] {
     expect(terrain);
     expect(bytes);
@@ -262,9 +262,9 @@ void microtin_bytes_free(uint8_t* bytes) {
   delete[] bytes;
 }
 
-microtin_outcome microtin_encode_pack(const microtin_terrain* terrain,
-                                      const microtin_options* options, const char* path,
-                                      microtin_report* report) {
+microtin_status microtin_encode_pack(const microtin_source* terrain,
+                                     const microtin_options* options, const char* path,
+                                     microtin_report* report) {
   return guarded([&] {
     expect(terrain);
     expect(path);
@@ -277,12 +277,12 @@ microtin_outcome microtin_encode_pack(const microtin_terrain* terrain,
   });
 }
 
-microtin_outcome microtin_surface_open(const char* path, microtin_surface** surface) {
+microtin_status microtin_surface_from_file(const char* path, microtin_surface** surface) {
   return open(surface, [&] { return Surface::from_file(text_of(path)); });
 }
 
-microtin_outcome microtin_surface_of_bytes(const uint8_t* bytes, uint64_t size, const char* name,
-                                           microtin_surface** surface) {
+microtin_status microtin_surface_from_bytes(const uint8_t* bytes, uint64_t size, const char* name,
+                                            microtin_surface** surface) {
   return open(surface, [&] {
     expect(bytes);
     return Surface::from_bytes(std::make_unique<BytesInMemory>(bytes, size), text_of(name));
@@ -293,7 +293,7 @@ void microtin_surface_free(microtin_surface* surface) {
   delete surface;
 }
 
-void microtin_surface_facts(const microtin_surface* surface, microtin_facts* facts) {
+void microtin_surface_get_info(const microtin_surface* surface, microtin_surface_info* facts) {
   const Facts& all = surface->surface.facts();
   *facts = {};
   facts->bytes = all.bytes;
@@ -326,17 +326,17 @@ void microtin_surface_facts(const microtin_surface* surface, microtin_facts* fac
   facts->max_error_at_points = all.max_error_at_points.c_str();
 }
 
-microtin_outcome microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles) {
+microtin_status microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles) {
   return hand_out(surface, triangles, [&] { return surface->surface.mesh(); });
 }
 
-microtin_outcome microtin_surface_tile(microtin_surface* surface, uint32_t column, uint32_t row,
-                                       microtin_triangles* triangles) {
+microtin_status microtin_surface_tile(microtin_surface* surface, uint32_t column, uint32_t row,
+                                      microtin_triangles* triangles) {
   return hand_out(surface, triangles, [&] { return surface->surface.tile(column, row); });
 }
 
-microtin_outcome microtin_surface_heights(microtin_surface* surface, uint64_t count,
-                                          const double* x, const double* y, double* heights) {
+microtin_status microtin_surface_heights(microtin_surface* surface, uint64_t count, const double* x,
+                                         const double* y, double* heights) {
   return guarded([&] {
     expect(surface);
     if (count == 0) return;
@@ -347,8 +347,8 @@ microtin_outcome microtin_surface_heights(microtin_surface* surface, uint64_t co
   });
 }
 
-microtin_outcome microtin_surface_grid(const microtin_surface* surface, const char* cell,
-                                       microtin_grid* grid) {
+microtin_status microtin_surface_grid(const microtin_surface* surface, const char* cell,
+                                      microtin_grid* grid) {
   return guarded([&] {
     expect(surface);
     expect(grid);
@@ -357,8 +357,8 @@ microtin_outcome microtin_surface_grid(const microtin_surface* surface, const ch
   });
 }
 
-microtin_outcome microtin_surface_raster(microtin_surface* surface, const microtin_grid* grid,
-                                         double* heights) {
+microtin_status microtin_surface_sample_grid(microtin_surface* surface, const microtin_grid* grid,
+                                             double* heights) {
   return guarded([&] {
     expect(surface);
     expect(grid);

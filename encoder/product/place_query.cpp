@@ -29,17 +29,18 @@ int32_t read_source(void* context, uint64_t offset, uint8_t* buffer, size_t size
 
 // Throws unless the header was read.
 void expect_header(microtin_status status) {
-  if (status == MICROTIN_CHECKSUM || status == MICROTIN_MALFORMED || status == MICROTIN_TRUNCATED) {
+  if (status == MICROTIN_STATUS_CHECKSUM || status == MICROTIN_STATUS_MALFORMED ||
+      status == MICROTIN_STATUS_TRUNCATED) {
     throw Damaged(describe(status));
   }
-  if (status == MICROTIN_UNSUPPORTED_VERSION || status == MICROTIN_IO)
+  if (status == MICROTIN_STATUS_UNSUPPORTED_VERSION || status == MICROTIN_STATUS_IO)
     throw Error(describe(status));
 }
 
 DecodedStream decoded(std::vector<uint8_t> bytes) {
-  microtin_info info;
-  const microtin_status status = microtin_peek(bytes.data(), bytes.size(), &info);
-  if (status == MICROTIN_BAD_MAGIC || status == MICROTIN_UNSUPPORTED_VERSION) {
+  microtin_stream_info info;
+  const microtin_status status = microtin_read_stream_info(bytes.data(), bytes.size(), &info);
+  if (status == MICROTIN_STATUS_BAD_MAGIC || status == MICROTIN_STATUS_UNSUPPORTED_VERSION) {
     throw Error(describe(status));
   }
   try {
@@ -83,14 +84,14 @@ void AskedPack::lay_out(uint32_t slots, uint32_t capacity) {
 }
 
 microtin_status AskedPack::serve(int64_t x, int64_t y) {
-  const microtin_course course = {x, y, x, y};
-  return microtin_pack_service(pack_, &course, 0, read_source, bytes_.get());
+  const microtin_segment course = {x, y, x, y};
+  return microtin_pack_load_with(pack_, &course, 0, read_source, bytes_.get());
 }
 
 AskedPack::AskedPack(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {
   lay_out(1, 3);
   const microtin_status status = serve(-1, -1);  // outside: the header alone is read
-  if (microtin_pack_header(pack_, &info_) == 0) expect_header(status);
+  if (microtin_pack_get_info(pack_, &info_) == 0) expect_header(status);
   lay_out(kSlots, std::clamp(info_.most_vertices, 3u, kUsualCapacity));
 }
 
@@ -98,9 +99,9 @@ AskedPack::AskedPack(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes
 // which that cannot be read is a bad one.
 uint32_t AskedPack::wanted_capacity(const PackFile& file) const {
   uint32_t most = 0, tile = 0, why = 0;
-  for (int i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
+  for (int i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
     if (microtin_pack_bad_tile(pack_, static_cast<uint32_t>(i), &tile, &why) == 0) continue;
-    if (why != MICROTIN_TOO_BIG) continue;
+    if (why != MICROTIN_STATUS_TOO_BIG) continue;
     try {
       most = std::max(most, file.vertices(tile));
     } catch (const Error&) {
@@ -109,15 +110,16 @@ uint32_t AskedPack::wanted_capacity(const PackFile& file) const {
   return most;
 }
 
-microtin_answer AskedPack::height_at(int64_t x, int64_t y, const PackFile& file, int32_t* height) {
+microtin_query_result AskedPack::height_at(int64_t x, int64_t y, const PackFile& file,
+                                           int32_t* height) {
   microtin_status status = serve(x, y);
-  while (status == MICROTIN_BAD_TILES) {
+  while (status == MICROTIN_STATUS_BAD_TILES) {
     const uint32_t capacity = wanted_capacity(file);
     if (capacity <= capacity_) break;
     lay_out(kSlots, capacity);
     status = serve(x, y);
   }
-  if (status == MICROTIN_IO) throw Error(describe(MICROTIN_IO));
+  if (status == MICROTIN_STATUS_IO) throw Error(describe(MICROTIN_STATUS_IO));
   return microtin_pack_height_at(pack_, x, y, &hint_, height);
 }
 
@@ -170,10 +172,10 @@ Placement PlaceQuery::placement() const {
 
 ExactAnswer PlaceQuery::height_at(Decimal x, Decimal y, bool on_lattice) {
   const auto row = coordinate_of(y, on_lattice ? Axis{0, 1, 1} : surface_.placement.y);
-  ExactAnswer answer{MICROTIN_OUTSIDE, {0, 0, 1}};
+  ExactAnswer answer{MICROTIN_QUERY_OUTSIDE, {0, 0, 1}};
   for (const Axis& name : names_of_x(on_lattice)) {
     const auto column = coordinate_of(x, name);
-    if (!column || !row || answer.kind != MICROTIN_OUTSIDE) continue;
+    if (!column || !row || answer.kind != MICROTIN_QUERY_OUTSIDE) continue;
     answer = surface_.height_at(place_of(*column, *row));
   }
   expect_read();
@@ -182,15 +184,15 @@ ExactAnswer PlaceQuery::height_at(Decimal x, Decimal y, bool on_lattice) {
 
 void PlaceQuery::expect_read() const {
   const auto* const pack = std::get_if<Pack>(&content_);
-  if (pack != nullptr && *pack->has_failed) throw Error(describe(MICROTIN_IO));
+  if (pack != nullptr && *pack->has_failed) throw Error(describe(MICROTIN_STATUS_IO));
 }
 
 ExactAnswer PlaceQuery::device_height_at(Decimal x, Decimal y, bool on_lattice) {
   Placement place = on_lattice ? Placement() : placement();
   int32_t height = 0;
-  microtin_answer kind = MICROTIN_OUTSIDE;
+  microtin_query_result kind = MICROTIN_QUERY_OUTSIDE;
   for (const Axis& name : names_of_x(on_lattice)) {
-    if (kind != MICROTIN_OUTSIDE) break;
+    if (kind != MICROTIN_QUERY_OUTSIDE) break;
     place.x = name;
     kind = std::holds_alternative<Pack>(content_) ? pack_height_at(place, x, y, &height)
                                                   : stream_height_at(place, x, y, &height);
@@ -199,25 +201,25 @@ ExactAnswer PlaceQuery::device_height_at(Decimal x, Decimal y, bool on_lattice) 
   return {kind, height_of_answer(height)};
 }
 
-microtin_answer PlaceQuery::stream_height_at(const Placement& place, Decimal x, Decimal y,
-                                             int32_t* height) {
+microtin_query_result PlaceQuery::stream_height_at(const Placement& place, Decimal x, Decimal y,
+                                                   int32_t* height) {
   int32_t column = 0, row = 0;
-  if (microtin_to_lattice(&place.x, x.mantissa, parts_of(x), &column) == 0 ||
-      microtin_to_lattice(&place.y, y.mantissa, parts_of(y), &row) == 0) {
-    return MICROTIN_OUTSIDE;
+  if (microtin_axis_to_lattice(&place.x, x.mantissa, parts_of(x), &column) == 0 ||
+      microtin_axis_to_lattice(&place.y, y.mantissa, parts_of(y), &row) == 0) {
+    return MICROTIN_QUERY_OUTSIDE;
   }
-  return microtin_height_at(std::get<DecodedStream>(content_).terrain.mesh(), column, row, 0,
-                            &hint_, height);
+  return microtin_mesh_height_at(std::get<DecodedStream>(content_).terrain.mesh(), column, row, 0,
+                                 &hint_, height);
 }
 
-microtin_answer PlaceQuery::pack_height_at(const Placement& place, Decimal x, Decimal y,
-                                           int32_t* height) {
+microtin_query_result PlaceQuery::pack_height_at(const Placement& place, Decimal x, Decimal y,
+                                                 int32_t* height) {
   Pack& pack = std::get<Pack>(content_);
   const microtin_pack_info& info = pack.device.info();
   int64_t column = 0, row = 0;
-  if (microtin_pack_to_lattice(&place.x, info.x_max, x.mantissa, parts_of(x), &column) == 0 ||
-      microtin_pack_to_lattice(&place.y, info.y_max, y.mantissa, parts_of(y), &row) == 0) {
-    return MICROTIN_OUTSIDE;
+  if (microtin_pack_axis_to_lattice(&place.x, info.x_max, x.mantissa, parts_of(x), &column) == 0 ||
+      microtin_pack_axis_to_lattice(&place.y, info.y_max, y.mantissa, parts_of(y), &row) == 0) {
+    return MICROTIN_QUERY_OUTSIDE;
   }
   return pack.device.height_at(column, row, *pack.file, height);
 }

@@ -35,7 +35,7 @@ class AskedPack {
   const microtin_pack_info& info() const { return info_; }
 
   // As microtin_pack_height_at; `file` is the same pack. Throws Error if the file cannot be read.
-  microtin_answer height_at(int64_t x, int64_t y, const PackFile& file, int32_t* height);
+  microtin_query_result height_at(int64_t x, int64_t y, const PackFile& file, int32_t* height);
 
  private:
   microtin_status serve(int64_t x, int64_t y);
@@ -57,8 +57,8 @@ class PlaceQuery {
 
   Placement placement() const;
 
-  // The height at a place in real units or, with `on_lattice`, in lattice steps: HEIGHT, OUTSIDE,
-  // IN_VOID or IN_BAD_TILE. Throws Error if a pack's file cannot be read.
+  // The height at a place in real units or, with `on_lattice`, in lattice steps: OK, OUTSIDE,
+  // VOID or BAD_TILE. Throws Error if a pack's file cannot be read.
   ExactAnswer height_at(Decimal x, Decimal y, bool on_lattice);
 
   // The answer of a device, which rounds the place, of at most kDeviceDecimals decimals, to 1/256
@@ -76,8 +76,10 @@ class PlaceQuery {
 
   std::vector<Axis> names_of_x(bool on_lattice) const;
   void expect_read() const;  // throws Error if a read of a pack's file has failed
-  microtin_answer stream_height_at(const Placement& place, Decimal x, Decimal y, int32_t* height);
-  microtin_answer pack_height_at(const Placement& place, Decimal x, Decimal y, int32_t* height);
+  microtin_query_result stream_height_at(const Placement& place, Decimal x, Decimal y,
+                                         int32_t* height);
+  microtin_query_result pack_height_at(const Placement& place, Decimal x, Decimal y,
+                                       int32_t* height);
   static std::variant<DecodedStream, Pack> opened(const std::string& path);
   static Pack opened_pack(const std::string& path);
 

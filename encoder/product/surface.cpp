@@ -146,7 +146,7 @@ Facts Surface::Content::facts_of() const {
 
 double Surface::Content::height(const exact::RealPlace& place) const {
   const terrain::ExactAnswer found = sampled.height_at(place);
-  return found.kind == MICROTIN_HEIGHT ? exact::real_height(facts.z, found.height) : kNone;
+  return found.kind == MICROTIN_QUERY_OK ? exact::real_height(facts.z, found.height) : kNone;
 }
 
 // A tile near the place.

@@ -26,7 +26,7 @@ void TrueBound::see(const RealPlace& nearest, const RealPlace& exact, double abo
   if (above >= below_ && above <= above_) return;
   ++missed_;
   const ExactAnswer known = surface_.height_at(nearest);
-  if (known.kind != MICROTIN_HEIGHT) return;
+  if (known.kind != MICROTIN_QUERY_OK) return;
   const int32_t here = fixed_height(known.height);
   const Point place{static_cast<uint16_t>(nearest.x), static_cast<uint16_t>(nearest.y)};
   constexpr double kMore = 1.25;  // the surface around will be another
@@ -38,7 +38,7 @@ void TrueBound::see(const RealPlace& nearest, const RealPlace& exact, double abo
   }
   if (before_.count({place.x, place.y}) == 0) return;
   const ExactAnswer there = surface_.height_at(exact);
-  surround(exact, there.kind == MICROTIN_HEIGHT ? fixed_height(there.height) : here, above);
+  surround(exact, there.kind == MICROTIN_QUERY_OK ? fixed_height(there.height) : here, above);
 }
 
 // A point's limits at all places around it.

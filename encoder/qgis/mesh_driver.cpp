@@ -113,7 +113,8 @@ MICROTIN_MDAL bool MDAL_DRIVER_canReadMesh(const char* path) {
   const uint8_t* note = nullptr;
   uint32_t size = 0;
   if (std::memcmp(begin, "mtsh", 4) == 0) return true;  // a shard, to be told what it is
-  return file && microtin_find_note(begin, sizeof begin, 0, &note, &size) != MICROTIN_BAD_MAGIC;
+  return file &&
+         microtin_find_note(begin, sizeof begin, 0, &note, &size) != MICROTIN_STATUS_BAD_MAGIC;
 }
 
 // The number of the mesh, -1 if it cannot be read. QGIS has no place for the reason.

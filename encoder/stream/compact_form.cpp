@@ -23,7 +23,7 @@ void expect(bool fulfilled) {
 
 // Whether the vertices' box is less than 256 steps wide and high.
 bool is_narrow(const microtin_mesh* mesh) {
-  const uint32_t vertices = microtin_vertex_count(mesh);
+  const uint32_t vertices = microtin_mesh_vertex_count(mesh);
   Vertex least = vertex_of(mesh, 0), most = least;
   for (uint32_t v = 1; v < vertices; ++v) {
     const Vertex p = vertex_of(mesh, v);
@@ -43,20 +43,20 @@ struct Making {
       : space(bytes / 8 + 1), scratch(scratch_bytes / 8 + 1) {}
 
   microtin_status run(microtin_mesh* mesh) {
-    expect(microtin_compact_begin(space.data(), space.size() * 8, mesh, scratch.data(),
-                                  scratch.size() * 8, &compactor) == MICROTIN_DONE);
-    return microtin_compact_proceed(compactor, 0, &compact);
+    expect(microtin_compactor_init(space.data(), space.size() * 8, mesh, scratch.data(),
+                                   scratch.size() * 8, &compactor) == MICROTIN_STATUS_OK);
+    return microtin_compactor_run(compactor, 0, &compact);
   }
 };
 
 }  // namespace
 
 CompactForm measured_form(microtin_mesh* mesh) {
-  const uint32_t vertices = microtin_vertex_count(mesh);
+  const uint32_t vertices = microtin_mesh_vertex_count(mesh);
   Making making(0, MICROTIN_COMPACTOR_BYTES(uint64_t{vertices}));
-  expect(making.run(mesh) == MICROTIN_WORKSPACE_TOO_SMALL);
+  expect(making.run(mesh) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
   size_t bytes = 0, scratch = 0;
-  microtin_compact_needs(making.compactor, &bytes, &scratch);
+  microtin_compactor_required_bytes(making.compactor, &bytes, &scratch);
   CompactForm form{vertices, 0, is_narrow(mesh)};
   const uint64_t least = bytes_of(form, MICROTIN_INDEX_BITS);
   form.repeats = 1;
@@ -69,10 +69,10 @@ CompactForm measured_form(microtin_mesh* mesh) {
 CompactForm compact_form(DecodedTerrain&& terrain) {
   DecodedTerrain source = std::move(terrain);
   const CompactForm form = measured_form(source.mesh());
-  const uint64_t digest = microtin_digest(source.mesh()),
+  const uint64_t digest = microtin_mesh_digest(source.mesh()),
                  bytes = bytes_of(form, MICROTIN_INDEX_BITS);
   Making making(bytes, MICROTIN_COMPACTOR_BYTES(uint64_t{form.vertices} + form.repeats));
-  expect(making.run(source.mesh()) == MICROTIN_DONE);
+  expect(making.run(source.mesh()) == MICROTIN_STATUS_OK);
   expect(microtin_compact_digest(making.compact) == digest);
   expect(microtin_compact_size(making.compact) == bytes);
   return form;

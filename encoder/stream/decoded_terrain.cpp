@@ -12,12 +12,12 @@ namespace microtin::stream {
 namespace {
 
 void expect_done(microtin_status status) {
-  if (status != MICROTIN_DONE) throw Error(describe(status));
+  if (status != MICROTIN_STATUS_OK) throw Error(describe(status));
 }
 
 }  // namespace
 
-void expect_room_for_vertices(const microtin_info& info, uint64_t stream_bytes) {
+void expect_room_for_vertices(const microtin_stream_info& info, uint64_t stream_bytes) {
   if (info.vertices > 3 + kVerticesPerByte * (stream_bytes - info.header_bytes)) {
     throw Error("cut off or malformed: more vertices are announced than so few bytes can hold");
   }
@@ -32,12 +32,12 @@ DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream) {
   microtin_decoder* decoder = nullptr;
   expect_done(microtin_decoder_init(working.data(), working.size() * 8, mesh_, &decoder));
   size_t used = 0;
-  microtin_feed(decoder, stream.data(), stream.size(), 0, &used);
-  expect_done(microtin_finish(decoder));
+  microtin_decoder_feed(decoder, stream.data(), stream.size(), 0, &used);
+  expect_done(microtin_decoder_finish(decoder));
   if (used != stream.size()) {
     throw Error(std::to_string(stream.size() - used) + " bytes follow the end of the stream");
   }
-  phases_ = microtin_phase(decoder);
+  phases_ = microtin_decoder_phase(decoder);
 }
 
 }  // namespace microtin::stream

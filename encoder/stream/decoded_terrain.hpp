@@ -17,7 +17,7 @@ constexpr uint64_t kVerticesPerByte = 1421;
 
 // Throws Error if a stream of so many bytes announces more, so that few bytes do not claim much
 // memory.
-void expect_room_for_vertices(const microtin_info& info, uint64_t stream_bytes);
+void expect_room_for_vertices(const microtin_stream_info& info, uint64_t stream_bytes);
 
 class DecodedTerrain {
  public:

@@ -160,14 +160,15 @@ uint64_t fingerprint_of(const Mesh& mesh, const std::vector<Vertex>& vertices,
 }
 
 uint64_t fingerprint_of(const microtin_mesh* mesh) {
-  std::vector<Vertex> vertices(microtin_vertex_count(mesh));
+  std::vector<Vertex> vertices(microtin_mesh_vertex_count(mesh));
   for (uint32_t i = 0; i < vertices.size(); ++i) vertices[i] = vertex_of(mesh, i);
   Fingerprint fingerprint(vertices);
-  const uint32_t triangles = microtin_triangle_count(mesh);
+  const uint32_t triangles = microtin_mesh_triangle_count(mesh);
   for (uint32_t t = 0; t < triangles; ++t) {
     uint32_t v[3];
-    const microtin_triangle_kind kind = microtin_triangle(mesh, t, v);
-    if (kind != MICROTIN_GHOST) fingerprint.add(v[0], v[1], v[2], kind == MICROTIN_VOID);
+    const microtin_triangle_kind kind = microtin_mesh_triangle(mesh, t, v);
+    if (kind != MICROTIN_TRIANGLE_GHOST)
+      fingerprint.add(v[0], v[1], v[2], kind == MICROTIN_TRIANGLE_VOID);
   }
   return fingerprint.sum();
 }
@@ -216,7 +217,7 @@ Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effor
   }
   Draft draft = chosen_draft(tin, metadata, effort, origin);
   DecodedTerrain decoded = on_our_own([&] { return DecodedTerrain(draft.stream); });
-  if (microtin_vertex_count(decoded.mesh()) != tin.vertices.size() ||
+  if (microtin_mesh_vertex_count(decoded.mesh()) != tin.vertices.size() ||
       fingerprint_of(decoded.mesh()) != draft.fingerprint) {
     throw InternalFault("the stream does not decode to the terrain it was made from");
   }

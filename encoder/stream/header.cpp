@@ -78,9 +78,9 @@ Bytes write_header(const Contract& contract, const Metadata& metadata) {
 
 Header read_header(const Bytes& stream) {
   Header header;
-  microtin_status status = microtin_peek(stream.data(), stream.size(), &header.info);
-  if (status == MICROTIN_NEED_INPUT) status = MICROTIN_TRUNCATED;
-  if (status != MICROTIN_DONE) throw Error(describe(status));
+  microtin_status status = microtin_read_stream_info(stream.data(), stream.size(), &header.info);
+  if (status == MICROTIN_STATUS_NEED_INPUT) status = MICROTIN_STATUS_TRUNCATED;
+  if (status != MICROTIN_STATUS_OK) throw Error(describe(status));
   const uint8_t* const end = stream.data() + header.info.header_bytes - kCheckBytes;
   const uint8_t* next = stream.data() + kIdentityBytes;
   uint64_t length = 0;

@@ -18,7 +18,7 @@ std::vector<uint8_t> write_header(const Contract& contract, const Metadata& meta
 
 // Everything a header says.
 struct Header {
-  microtin_info info;
+  microtin_stream_info info;
   Contract contract;
   Metadata metadata;
 };

@@ -17,14 +17,14 @@ using Bytes = std::vector<uint8_t>;
 
 // --- Writing -------------------------------------------------------------------------------------
 
-void append_note(Bytes& notes, microtin_note type, const Bytes& content) {
+void append_note(Bytes& notes, microtin_note_type type, const Bytes& content) {
   if (content.size() > UINT16_MAX) throw Error("a text for the header is longer than 65,535 bytes");
   notes.push_back(static_cast<uint8_t>(type));
   append_number(notes, static_cast<uint32_t>(content.size()), 2);
   notes.insert(notes.end(), content.begin(), content.end());
 }
 
-void append_text(Bytes& notes, microtin_note type, const std::string& text) {
+void append_text(Bytes& notes, microtin_note_type type, const std::string& text) {
   if (!text.empty()) append_note(notes, type, Bytes(text.begin(), text.end()));
 }
 
@@ -33,7 +33,8 @@ void append_decimal(Bytes& bytes, Decimal value) {
   bytes.push_back(static_cast<uint8_t>(value.decimals));
 }
 
-void append_accuracy(Bytes& notes, microtin_note type, const std::optional<Accuracy>& accuracy) {
+void append_accuracy(Bytes& notes, microtin_note_type type,
+                     const std::optional<Accuracy>& accuracy) {
   if (!accuracy) return;
   Bytes content;
   content.push_back(accuracy->bound.has_value() ? 1 : 0);
@@ -187,7 +188,7 @@ void read_note(uint8_t type, NoteReader reader, Metadata& m) {
       m.horizontal_epsg = reader.number32();
       m.vertical_epsg = reader.number32();
       break;
-    case MICROTIN_NOTE_SOURCE:
+    case MICROTIN_NOTE_ORIGIN:
       m.source = reader.text();
       break;
     case MICROTIN_NOTE_ACCURACY:
@@ -229,7 +230,7 @@ Bytes write_notes(const Metadata& m) {
   append_units(notes, m);
   append_systems(notes, m);
   append_text(notes, MICROTIN_NOTE_WKT, m.wkt);
-  append_text(notes, MICROTIN_NOTE_SOURCE, m.source);
+  append_text(notes, MICROTIN_NOTE_ORIGIN, m.source);
   append_accuracy(notes, MICROTIN_NOTE_ACCURACY, m.accuracy);
   append_accuracy(notes, MICROTIN_NOTE_TRUE_PLACES, m.true_places);
   append_text(notes, MICROTIN_NOTE_DATE, m.date);

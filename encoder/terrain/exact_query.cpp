@@ -18,8 +18,8 @@ class Seen {
  public:
   Seen(const microtin_mesh* mesh, uint32_t triangle, const RealPlace& place) : place_(place) {
     uint32_t v[3];
-    kind = microtin_triangle(mesh, triangle, v);
-    if (kind == MICROTIN_GHOST) return;
+    kind = microtin_mesh_triangle(mesh, triangle, v);
+    if (kind == MICROTIN_TRIANGLE_GHOST) return;
     for (uint32_t i = 0; i < 3; ++i) corner_[i] = vertex_of(mesh, v[i]);
     constexpr Wide kFew = Wide{1} << 27;  // so that sides have 64 bits
     for (uint32_t i = 0; i < 3; ++i) {
@@ -29,7 +29,7 @@ class Seen {
   }
 
   bool holds_place() const {
-    return kind != MICROTIN_GHOST && side[0] >= 0 && side[1] >= 0 && side[2] >= 0;
+    return kind != MICROTIN_TRIANGLE_GHOST && side[0] >= 0 && side[1] >= 0 && side[2] >= 0;
   }
 
   microtin_triangle_kind kind;
@@ -72,10 +72,11 @@ class Seen {
 // From a ghost to the triangle inside, whose neighbours are not all ghosts with it.
 uint32_t inside_of(const microtin_mesh* mesh, uint32_t ghost) {
   uint32_t v[3];
-  microtin_triangle(mesh, ghost, v);
+  microtin_mesh_triangle(mesh, ghost, v);
   uint32_t edge = 0;
-  while (v[edge] == MICROTIN_INFINITY || v[(edge + 1) % 3] == MICROTIN_INFINITY) ++edge;
-  return microtin_neighbour(mesh, ghost, edge);
+  while (v[edge] == MICROTIN_VERTEX_AT_INFINITY || v[(edge + 1) % 3] == MICROTIN_VERTEX_AT_INFINITY)
+    ++edge;
+  return microtin_mesh_neighbour(mesh, ghost, edge);
 }
 
 // A vertex always has its height; an edge has one if there is terrain on either side.
@@ -84,8 +85,8 @@ bool touches_terrain(const microtin_mesh* mesh, uint32_t triangle, const Seen& s
   for (uint32_t i = 0; i < 3; ++i) {
     if (seen.side[i] != 0) continue;
     uint32_t v[3];
-    const uint32_t other = microtin_neighbour(mesh, triangle, i);
-    if (is_on_edge || microtin_triangle(mesh, other, v) == MICROTIN_REAL) return true;
+    const uint32_t other = microtin_mesh_neighbour(mesh, triangle, i);
+    if (is_on_edge || microtin_mesh_triangle(mesh, other, v) == MICROTIN_TRIANGLE_REAL) return true;
     is_on_edge = true;
   }
   return false;
@@ -103,36 +104,37 @@ int32_t nearest_256th(int64_t whole, Wide part, Wide parts) {
 // Of edges beyond which the place lies any may be crossed: see decoder/walk.hpp.
 ExactAnswer exact_answer(const microtin_mesh* mesh, const RealPlace& place, uint32_t step_limit,
                          uint32_t* hint) {
-  if (*hint < microtin_triangle_count(mesh)) {
+  if (*hint < microtin_mesh_triangle_count(mesh)) {
     const Seen seen(mesh, *hint, place);
-    if (seen.kind == MICROTIN_REAL && seen.holds_place()) return {MICROTIN_HEIGHT, seen.height()};
+    if (seen.kind == MICROTIN_TRIANGLE_REAL && seen.holds_place())
+      return {MICROTIN_QUERY_OK, seen.height()};
   }
   int32_t rounded = 0;
-  const microtin_answer near = microtin_height_at_limited(
+  const microtin_query_result near = microtin_mesh_height_at_limited(
       mesh, nearest_256th(place.x, place.x_part, place.parts),
       nearest_256th(place.y, place.y_part, place.parts), 0, step_limit, hint, &rounded);
-  if (near != MICROTIN_HEIGHT && near != MICROTIN_OUTSIDE && near != MICROTIN_IN_VOID) {
+  if (near != MICROTIN_QUERY_OK && near != MICROTIN_QUERY_OUTSIDE && near != MICROTIN_QUERY_VOID) {
     return {near, {0, 0, 1}};
   }
   uint32_t triangle = *hint;
   for (bool is_first = true;; is_first = false) {
     *hint = triangle;
     const Seen seen(mesh, triangle, place);
-    if (seen.kind == MICROTIN_GHOST) {
-      if (!is_first) return {MICROTIN_OUTSIDE, {0, 0, 1}};
+    if (seen.kind == MICROTIN_TRIANGLE_GHOST) {
+      if (!is_first) return {MICROTIN_QUERY_OUTSIDE, {0, 0, 1}};
       triangle = inside_of(mesh, triangle);
       continue;
     }
     uint32_t beyond = 0;
     while (beyond < 3 && seen.side[beyond] >= 0) ++beyond;
     if (beyond < 3) {
-      triangle = microtin_neighbour(mesh, triangle, beyond);
+      triangle = microtin_mesh_neighbour(mesh, triangle, beyond);
       continue;
     }
-    if (seen.kind == MICROTIN_VOID && !touches_terrain(mesh, triangle, seen)) {
-      return {MICROTIN_IN_VOID, {0, 0, 1}};
+    if (seen.kind == MICROTIN_TRIANGLE_VOID && !touches_terrain(mesh, triangle, seen)) {
+      return {MICROTIN_QUERY_VOID, {0, 0, 1}};
     }
-    return {MICROTIN_HEIGHT, seen.height()};
+    return {MICROTIN_QUERY_OK, seen.height()};
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The height of a mesh's exact plane at a real place: what every host program answers. Devices
-// answer by microtin_height_at, at the nearest 1/256 of a lattice step.
+// answer by microtin_mesh_height_at, at the nearest 1/256 of a lattice step.
 #ifndef MICROTIN_ENCODER_TERRAIN_EXACT_QUERY_HPP
 #define MICROTIN_ENCODER_TERRAIN_EXACT_QUERY_HPP
 
@@ -14,8 +14,8 @@
 namespace microtin::terrain {
 
 struct ExactAnswer {
-  microtin_answer kind;  // HEIGHT, OUTSIDE, IN_VOID; of a search that was limited, NOT_YET
-  ExactHeight height;    // of HEIGHT
+  microtin_query_result kind;  // HEIGHT, OUTSIDE, IN_VOID; of a search that was limited, NOT_YET
+  ExactHeight height;          // of HEIGHT
 };
 
 // The answer at a place of a verified mesh: without rounding, and the same from either side of an

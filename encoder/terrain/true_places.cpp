@@ -80,9 +80,9 @@ Verification verify_at_true_places(const HeightQuery& height_at, const Placement
     const SourcePoint& p = cloud.points[i];
     const RealPlace there = places.exact(p), nearest = places.nearest(p);
     ExactAnswer answer = height_at(there);
-    if (answer.kind != MICROTIN_HEIGHT) answer = height_at(nearest);
+    if (answer.kind != MICROTIN_QUERY_OK) answer = height_at(nearest);
     ++result.posts;
-    if (answer.kind != MICROTIN_HEIGHT) continue;
+    if (answer.kind != MICROTIN_QUERY_OK) continue;
     ++result.covered;
     const double above = meter.add(p.z, answer.height);
     if (visit) visit(nearest, there, above);

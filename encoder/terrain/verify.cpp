@@ -18,10 +18,10 @@ class Asker {
  public:
   Asker(const microtin_mesh* mesh, const Placement& source, const Placement& lattice)
       : mesh_(mesh), x_(map_between(source.x, lattice.x)), y_(map_between(source.y, lattice.y)) {
-    const uint32_t triangles = microtin_triangle_count(mesh);
+    const uint32_t triangles = microtin_mesh_triangle_count(mesh);
     for (uint32_t t = 0; t < triangles; ++t) {
       uint32_t v[3];
-      if (microtin_triangle(mesh, t, v) == MICROTIN_GHOST) continue;
+      if (microtin_mesh_triangle(mesh, t, v) == MICROTIN_TRIANGLE_GHOST) continue;
       const Vertex first = vertex_of(mesh, v[0]);
       hint_for({first.x, first.y}) = t;
     }
@@ -39,10 +39,10 @@ class Asker {
     int32_t height = 0;
     uint32_t& hint = hint_for(place);
     if (hint == kNowhere) hint = last_;
-    const microtin_answer answer =
-        microtin_height_at(mesh_, place.x * 256, place.y * 256, 0, &hint, &height);
+    const microtin_query_result answer =
+        microtin_mesh_height_at(mesh_, place.x * 256, place.y * 256, 0, &hint, &height);
     last_ = hint;
-    if (answer != MICROTIN_HEIGHT) return std::nullopt;
+    if (answer != MICROTIN_QUERY_OK) return std::nullopt;
     return height;
   }
 
@@ -64,7 +64,7 @@ class Asker {
 Verification verify(const microtin_mesh* mesh, const Source& source,
                     const std::optional<Decimal>& bound, const PostVisitor& visit) {
   Placement lattice;
-  microtin_placement(mesh, &lattice.x, &lattice.y, &lattice.z);
+  microtin_mesh_axes(mesh, &lattice.x, &lattice.y, &lattice.z);
   return verify(mesh, lattice, source, bound, visit);
 }
 

@@ -22,21 +22,21 @@ constexpr uint32_t most_steps(uint32_t n) {
 class Device {
  public:
   Device(void* mesh_workspace, size_t mesh_bytes, void* decoder_workspace, size_t decoder_bytes) {
-    EXPECT(microtin_mesh_init(mesh_workspace, mesh_bytes, &mesh) == MICROTIN_DONE);
+    EXPECT(microtin_mesh_init(mesh_workspace, mesh_bytes, &mesh) == MICROTIN_STATUS_OK);
     EXPECT(microtin_decoder_init(decoder_workspace, decoder_bytes, mesh, &decoder) ==
-           MICROTIN_DONE);
+           MICROTIN_STATUS_OK);
   }
 
   // Feeds a whole stream in one call, which must end in its last status.
   microtin_status decode(const uint8_t* bytes, size_t size) {
     size_t used = 0;
     const microtin_status status =
-        microtin_feed(decoder, bytes, size, most_steps(decoder->capacity), &used);
-    EXPECT(status != MICROTIN_STEP_LIMIT);
-    EXPECT(used <= size && microtin_bytes_used(decoder) <= used);
-    if (status == MICROTIN_DONE) EXPECT(microtin_bytes_used(decoder) == used);
-    if (status == MICROTIN_NEED_INPUT) EXPECT(used == size);
-    return microtin_finish(decoder);
+        microtin_decoder_feed(decoder, bytes, size, most_steps(decoder->capacity), &used);
+    EXPECT(status != MICROTIN_STATUS_STEP_LIMIT);
+    EXPECT(used <= size && microtin_decoder_bytes_used(decoder) <= used);
+    if (status == MICROTIN_STATUS_OK) EXPECT(microtin_decoder_bytes_used(decoder) == used);
+    if (status == MICROTIN_STATUS_NEED_INPUT) EXPECT(used == size);
+    return microtin_decoder_finish(decoder);
   }
 
   microtin_mesh* mesh = nullptr;

@@ -21,9 +21,9 @@ constexpr uint32_t kCapacity = 1200;
 // they hold at first must not matter.
 struct ExactWorkspaces {
   ExactWorkspaces(const uint8_t* data, size_t size, unsigned char garbage) {
-    microtin_info info;
+    microtin_stream_info info;
     uint32_t vertices = 3;
-    if (microtin_peek(data, size, &info) == MICROTIN_DONE) {
+    if (microtin_read_stream_info(data, size, &info) == MICROTIN_STATUS_OK) {
       vertices = std::min(info.vertices, kCapacity);
     }
     mesh.assign(MICROTIN_MESH_BYTES(vertices), garbage);
@@ -61,17 +61,18 @@ class Cutter {
 
   microtin_status decode(Device& device, const uint8_t* data, size_t size) {
     uint32_t steps = 0;
-    microtin_status status = MICROTIN_NEED_INPUT;
-    for (size_t at = 0; at != size || status == MICROTIN_STEP_LIMIT;) {
+    microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+    for (size_t at = 0; at != size || status == MICROTIN_STATUS_STEP_LIMIT;) {
       const size_t wanted = cuts_.ConsumeIntegralInRange<size_t>(0, largest_);
       const size_t piece = std::min(cuts_.remaining_bytes() == 0 ? largest_ : wanted, size - at);
       size_t used = 0;
       status = feed(device, data + at, piece, &used, &steps);
       EXPECT(steps <= 2 * most_steps(kCapacity));
-      if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) return status;
+      if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT)
+        return status;
       at += used;
     }
-    return microtin_finish(device.decoder);
+    return microtin_decoder_finish(device.decoder);
   }
 
  private:
@@ -80,12 +81,13 @@ class Cutter {
     // Of exactly that size, on the heap, so that reading past the end is seen.
     const std::vector<uint8_t> piece(data, data + size);
     const uint32_t limit = cuts_.ConsumeIntegralInRange<uint32_t>(0, most_steps_);
-    const uint32_t before = microtin_vertex_count(device.mesh);
-    const microtin_status status = microtin_feed(device.decoder, piece.data(), size, limit, used);
+    const uint32_t before = microtin_mesh_vertex_count(device.mesh);
+    const microtin_status status =
+        microtin_decoder_feed(device.decoder, piece.data(), size, limit, used);
     EXPECT(*used <= size);
-    EXPECT(status != MICROTIN_NEED_INPUT || *used == size);
-    if (status == MICROTIN_STEP_LIMIT) *steps += limit;
-    const uint32_t now = microtin_vertex_count(device.mesh);
+    EXPECT(status != MICROTIN_STATUS_NEED_INPUT || *used == size);
+    if (status == MICROTIN_STATUS_STEP_LIMIT) *steps += limit;
+    const uint32_t now = microtin_mesh_vertex_count(device.mesh);
     if (limit != 0) EXPECT(now <= before + limit);
     if (now != before) check_last_vertex(device);
     if (now == checked_vertices_ && now != before) check_state(device);
@@ -105,13 +107,13 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Device whole = one.device(), pieces = other.device();
   const microtin_status status = whole.decode(data, size);
   EXPECT(Cutter(data, size).decode(pieces, data, size) == status);
-  EXPECT(microtin_bytes_used(pieces.decoder) == microtin_bytes_used(whole.decoder));
-  EXPECT(microtin_phase(pieces.decoder) == microtin_phase(whole.decoder));
-  EXPECT(microtin_vertex_count(pieces.mesh) == microtin_vertex_count(whole.mesh));
-  EXPECT(microtin_digest(pieces.mesh) == microtin_digest(whole.mesh));
+  EXPECT(microtin_decoder_bytes_used(pieces.decoder) == microtin_decoder_bytes_used(whole.decoder));
+  EXPECT(microtin_decoder_phase(pieces.decoder) == microtin_decoder_phase(whole.decoder));
+  EXPECT(microtin_mesh_vertex_count(pieces.mesh) == microtin_mesh_vertex_count(whole.mesh));
+  EXPECT(microtin_mesh_digest(pieces.mesh) == microtin_mesh_digest(whole.mesh));
   // Done and errors stay.
   size_t used = 0;
-  EXPECT(microtin_feed(pieces.decoder, data, size, 0, &used) == status && used == 0);
-  EXPECT(microtin_finish(pieces.decoder) == status);
+  EXPECT(microtin_decoder_feed(pieces.decoder, data, size, 0, &used) == status && used == 0);
+  EXPECT(microtin_decoder_finish(pieces.decoder) == status);
   return 0;
 }

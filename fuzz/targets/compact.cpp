@@ -30,16 +30,16 @@ struct Made {
 
 Made make(void* target, size_t size, microtin_mesh* mesh, void* scratch, size_t scratch_size,
           uint32_t piece) {
-  Made made = {MICROTIN_STEP_LIMIT, nullptr, 0, 0};
-  const uint32_t calls = (44 * microtin_vertex_count(mesh) + 44) / piece + 2;
+  Made made = {MICROTIN_STATUS_STEP_LIMIT, nullptr, 0, 0};
+  const uint32_t calls = (44 * microtin_mesh_vertex_count(mesh) + 44) / piece + 2;
   microtin_compactor* compactor = nullptr;
-  EXPECT(microtin_compact_begin(target, size, mesh, scratch, scratch_size, &compactor) ==
-         MICROTIN_DONE);
-  for (uint32_t i = 0; i < calls && made.status == MICROTIN_STEP_LIMIT; ++i) {
-    made.status = microtin_compact_proceed(compactor, piece, &made.compact);
+  EXPECT(microtin_compactor_init(target, size, mesh, scratch, scratch_size, &compactor) ==
+         MICROTIN_STATUS_OK);
+  for (uint32_t i = 0; i < calls && made.status == MICROTIN_STATUS_STEP_LIMIT; ++i) {
+    made.status = microtin_compactor_run(compactor, piece, &made.compact);
   }
-  EXPECT(made.status != MICROTIN_STEP_LIMIT);
-  microtin_compact_needs(compactor, &made.bytes, &made.scratch_bytes);
+  EXPECT(made.status != MICROTIN_STATUS_STEP_LIMIT);
+  microtin_compactor_required_bytes(compactor, &made.bytes, &made.scratch_bytes);
   return made;
 }
 
@@ -58,25 +58,26 @@ Memory copy_of(const void* from, size_t bytes) {
 
 // In exactly the memory that it asks for.
 Memory made_apart(microtin_mesh* mesh, uint32_t piece) {
-  const uint64_t digest = microtin_digest(mesh);
+  const uint64_t digest = microtin_mesh_digest(mesh);
   Memory none(1), all = memory_of(MICROTIN_DECODER_BYTES(2 * kCapacity));
   const Made told = make(none.data(), 8, mesh, all.data(), 8 * all.size(), 999);
-  EXPECT(told.status == MICROTIN_WORKSPACE_TOO_SMALL);
-  EXPECT(microtin_digest(mesh) == digest);
+  EXPECT(told.status == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
+  EXPECT(microtin_mesh_digest(mesh) == digest);
   Memory space = memory_of(told.bytes), scratch = memory_of(told.scratch_bytes);
   const Made made = make(space.data(), told.bytes, mesh, scratch.data(), told.scratch_bytes, piece);
-  EXPECT(made.status == MICROTIN_DONE && made.bytes == told.bytes);
+  EXPECT(made.status == MICROTIN_STATUS_OK && made.bytes == told.bytes);
   EXPECT(microtin_compact_size(made.compact) == told.bytes);
   return space;
 }
 
 // Nothing, if there is no room.
 Memory made_in_place(microtin_mesh* mesh, uint32_t piece) {
-  const uint64_t digest = microtin_digest(mesh);
+  const uint64_t digest = microtin_mesh_digest(mesh);
   const Made made = make(workspaces.mesh, sizeof workspaces.mesh, mesh, workspaces.decoder,
                          sizeof workspaces.decoder, piece);
-  if (made.status == MICROTIN_DONE) return copy_of(made.compact, made.bytes);
-  EXPECT(made.status == MICROTIN_WORKSPACE_TOO_SMALL && microtin_digest(mesh) == digest);
+  if (made.status == MICROTIN_STATUS_OK) return copy_of(made.compact, made.bytes);
+  EXPECT(made.status == MICROTIN_STATUS_WORKSPACE_TOO_SMALL &&
+         microtin_mesh_digest(mesh) == digest);
   return Memory();
 }
 
@@ -116,8 +117,8 @@ void finish(microtin_mesh* mesh, Random random) {
 void check_refused(microtin_mesh* mesh) {
   microtin_compactor* compactor = nullptr;
   Memory space(40), scratch(40);
-  EXPECT(microtin_compact_begin(space.data(), 320, mesh, scratch.data(), 320, &compactor) ==
-         MICROTIN_ARGUMENT);
+  EXPECT(microtin_compactor_init(space.data(), 320, mesh, scratch.data(), 320, &compactor) ==
+         MICROTIN_STATUS_ARGUMENT);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ void check_decoded(const microtin_mesh* mesh, std::vector<Vertex> vertices) {
 Tin::Triangle corners_of(const microtin_mesh* mesh, const uint32_t* v) {
   Point p[3];
   int16_t z = 0;
-  for (int i = 0; i < 3; ++i) microtin_vertex(mesh, v[i], &p[i].x, &p[i].y, &z);
+  for (int i = 0; i < 3; ++i) microtin_mesh_vertex(mesh, v[i], &p[i].x, &p[i].y, &z);
   std::rotate(p, std::min_element(p, p + 3), p + 3);
   return {p[0], p[1], p[2]};
 }
@@ -85,9 +85,9 @@ Tin::Triangle corners_of(const microtin_mesh* mesh, const uint32_t* v) {
 std::vector<Tin::Triangle> triangles_of_kind(const microtin_mesh* mesh,
                                              microtin_triangle_kind kind) {
   std::vector<Tin::Triangle> found;
-  for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {
+  for (uint32_t t = 0; t < microtin_mesh_triangle_count(mesh); ++t) {
     uint32_t v[3];
-    if (microtin_triangle(mesh, t, v) == kind) found.push_back(corners_of(mesh, v));
+    if (microtin_mesh_triangle(mesh, t, v) == kind) found.push_back(corners_of(mesh, v));
   }
   return found;
 }
@@ -100,7 +100,7 @@ std::set<std::array<Point, 3>> set_of(const std::vector<Tin::Triangle>& triangle
 
 // Some triangles become void, and the vertices come in another order.
 void check_voids(Tin tin, const Effort& effort, const microtin_mesh* mesh, uint64_t chosen) {
-  const std::vector<Tin::Triangle> all = triangles_of_kind(mesh, MICROTIN_REAL);
+  const std::vector<Tin::Triangle> all = triangles_of_kind(mesh, MICROTIN_TRIANGLE_REAL);
   for (size_t i = 0; i < all.size(); ++i) {
     if ((chosen >> i % 64 & 1) != 0) tin.voids.push_back(all[i]);
   }
@@ -109,7 +109,8 @@ void check_voids(Tin tin, const Effort& effort, const microtin_mesh* mesh, uint6
   std::rotate(tin.vertices.begin(), tin.vertices.begin() + 1, tin.vertices.end());
   std::reverse(tin.voids.begin(), tin.voids.end());
   EXPECT(encode(tin, Metadata(), effort) == first.stream);
-  EXPECT(set_of(triangles_of_kind(first.decoded.mesh(), MICROTIN_VOID)) == set_of(tin.voids));
+  EXPECT(set_of(triangles_of_kind(first.decoded.mesh(), MICROTIN_TRIANGLE_VOID)) ==
+         set_of(tin.voids));
 }
 
 }  // namespace

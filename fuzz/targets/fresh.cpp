@@ -20,20 +20,21 @@ struct Memory {
 
 // The sanitizer reports a branch on what was never written.
 void look_at(const microtin_mesh* mesh) {
-  EXPECT(microtin_digest(mesh) != 1);
-  const uint32_t vertices = microtin_vertex_count(mesh);
+  EXPECT(microtin_mesh_digest(mesh) != 1);
+  const uint32_t vertices = microtin_mesh_vertex_count(mesh);
   for (uint32_t v = 0; v < vertices; ++v) {
     uint16_t x = 0, y = 0;
     int16_t z = 0;
-    microtin_vertex(mesh, v, &x, &y, &z);
+    microtin_mesh_vertex(mesh, v, &x, &y, &z);
     uint32_t hint = 0;
     int32_t height = 0;
-    const microtin_answer answer =
-        microtin_height_at(mesh, x * 256, y * 256, MICROTIN_ANSWER_UNVERIFIED, &hint, &height);
-    EXPECT(answer == MICROTIN_NOT_DECODED || (answer == MICROTIN_HEIGHT && height == z * 65536));
+    const microtin_query_result answer = microtin_mesh_height_at(
+        mesh, x * 256, y * 256, MICROTIN_FLAG_ALLOW_UNVERIFIED, &hint, &height);
+    EXPECT(answer == MICROTIN_QUERY_NOT_LOADED ||
+           (answer == MICROTIN_QUERY_OK && height == z * 65536));
   }
   microtin_axis axis[3];
-  microtin_placement(mesh, axis, axis + 1, axis + 2);
+  microtin_mesh_axes(mesh, axis, axis + 1, axis + 2);
   for (const microtin_axis& a : axis) EXPECT(a.numerator != 0 && a.denominator != 0);
 }
 
@@ -48,8 +49,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const Memory mesh(mesh_bytes), decoder(decoder_bytes);
   Device device(mesh.bytes.get(), mesh_bytes, decoder.bytes.get(), decoder_bytes);
   const microtin_status status = device.decode(stream.data(), size);
-  EXPECT(microtin_finish(device.decoder) == status);
-  EXPECT(microtin_phase(device.decoder) <= kCapacity);
+  EXPECT(microtin_decoder_finish(device.decoder) == status);
+  EXPECT(microtin_decoder_phase(device.decoder) <= kCapacity);
   look_at(device.mesh);
   return 0;
 }

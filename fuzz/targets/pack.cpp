@@ -89,25 +89,25 @@ struct Device {
         is_compact ? microtin_compact_pack_init(memory.data(), memory.size(), slots, kCapacity,
                                                 tile_bytes, &pack)
                    : microtin_pack_init(memory.data(), memory.size(), slots, kCapacity, &pack);
-    EXPECT(status == MICROTIN_DONE);
+    EXPECT(status == MICROTIN_STATUS_OK);
   }
 
-  microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
+  microtin_status service(const microtin_segment& course, uint32_t step_limit, microtin_read read,
                           void* context) const {
-    return is_compact ? microtin_compact_pack_service(pack, &course, step_limit, read, context)
-                      : microtin_pack_service(pack, &course, step_limit, read, context);
+    return is_compact ? microtin_compact_pack_load_with(pack, &course, step_limit, read, context)
+                      : microtin_pack_load_with(pack, &course, step_limit, read, context);
   }
-  microtin_answer height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
+  microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return is_compact ? microtin_compact_pack_height_at(pack, x, y, hint, height)
                       : microtin_pack_height_at(pack, x, y, hint, height);
   }
-  microtin_answer highest(const microtin_course& course, int32_t* height) const {
-    return is_compact ? microtin_compact_pack_highest(pack, &course, height)
-                      : microtin_pack_highest(pack, &course, height);
+  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
+    return is_compact ? microtin_compact_pack_segment_max(pack, &course, height)
+                      : microtin_pack_segment_max(pack, &course, height);
   }
-  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
-    return is_compact ? microtin_compact_pack_fill(pack, &block, heights)
-                      : microtin_pack_fill(pack, &block, heights);
+  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
+    return is_compact ? microtin_compact_pack_sample_grid(pack, &block, heights)
+                      : microtin_pack_sample_grid(pack, &block, heights);
   }
 
   bool is_compact;
@@ -130,9 +130,9 @@ std::optional<int32_t> expected_height(const PackFile& file, uint32_t number, in
     if (!tile) return std::nullopt;
     uint32_t hint = 0;
     int32_t height = 0;
-    if (microtin_height_at(tile->mesh(), static_cast<int32_t>(x - int64_t{box.x} * 256),
-                           static_cast<int32_t>(y - int64_t{box.y} * 256), 0, &hint,
-                           &height) == MICROTIN_HEIGHT) {
+    if (microtin_mesh_height_at(tile->mesh(), static_cast<int32_t>(x - int64_t{box.x} * 256),
+                                static_cast<int32_t>(y - int64_t{box.y} * 256), 0, &hint,
+                                &height) == MICROTIN_QUERY_OK) {
       return height;
     }
   } catch (const Error&) {
@@ -144,8 +144,8 @@ std::optional<int32_t> expected_height(const PackFile& file, uint32_t number, in
 void check_height(const PackFile& file, const Device& device, int64_t x, int64_t y) {
   uint32_t hint = 12345;
   int32_t height = 0;
-  const microtin_answer answer = device.height_at(x, y, &hint, &height);
-  if (answer != MICROTIN_HEIGHT) return;
+  const microtin_query_result answer = device.height_at(x, y, &hint, &height);
+  if (answer != MICROTIN_QUERY_OK) return;
   bool is_right = false;
   for (uint32_t number = 0; number < file.entries().size(); ++number) {
     const TileBox box = tile_box(file.grid(), number);
@@ -160,16 +160,16 @@ void check_height(const PackFile& file, const Device& device, int64_t x, int64_t
 
 // Blocks hold what single answers and exact arithmetic say.
 void check_fill(const Device& device, const microtin_pack_info& info,
-                const microtin_course& course) {
-  const microtin_block block = {course.x, course.y, 300, -256, 3, 2, -9999};
+                const microtin_segment& course) {
+  const microtin_grid_spec block = {course.x, course.y, 300, -256, 3, 2, -9999};
   int16_t heights[6];
-  if (device.fill(block, heights) != MICROTIN_HEIGHT) return;
+  if (device.fill(block, heights) != MICROTIN_QUERY_OK) return;
   const Wide unit = Wide{65536} * static_cast<Wide>(info.z.denominator);
   uint32_t hint = 0;
   for (int i = 0; i < 6; ++i) {
     int32_t z = 0;
     EXPECT(device.height_at(block.x + i % 3 * block.dx, block.y + i / 3 * block.dy, &hint, &z) ==
-           MICROTIN_HEIGHT);
+           MICROTIN_QUERY_OK);
     const Wide real = static_cast<Wide>(info.z.numerator) * z + Wide{info.z.offset} * 65536;
     EXPECT(heights[i] == std::clamp<Wide>(round_divide(real, unit), INT16_MIN, INT16_MAX));
   }
@@ -177,7 +177,7 @@ void check_fill(const Device& device, const microtin_pack_info& info,
 
 void check_to_lattice(const microtin_axis& axis, uint32_t most, int64_t value, uint32_t per_unit) {
   int64_t lattice = 0;
-  if (microtin_pack_to_lattice(&axis, most, value, per_unit, &lattice) == 0) return;
+  if (microtin_pack_axis_to_lattice(&axis, most, value, per_unit, &lattice) == 0) return;
   const Wide parts =
       Wide{value} * static_cast<Wide>(axis.denominator) - Wide{axis.offset} * per_unit;
   EXPECT(lattice == round_divide(parts * 256, static_cast<Wide>(axis.numerator) * per_unit));
@@ -185,21 +185,21 @@ void check_to_lattice(const microtin_axis& axis, uint32_t most, int64_t value, u
 }
 
 bool remembers_bad_tile(const microtin_pack* pack) {
-  uint32_t tile = 0, all = 0, why = MICROTIN_DONE;
-  for (uint32_t i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
+  uint32_t tile = 0, all = 0, why = MICROTIN_STATUS_OK;
+  for (uint32_t i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
     if (microtin_pack_bad_tile(pack, i, &tile, &why) == 0) continue;
     ++all;
-    EXPECT(why == MICROTIN_CHECKSUM || why == MICROTIN_MALFORMED || why == MICROTIN_TOO_BIG ||
-           why == MICROTIN_TRUNCATED);
+    EXPECT(why == MICROTIN_STATUS_CHECKSUM || why == MICROTIN_STATUS_MALFORMED ||
+           why == MICROTIN_STATUS_TOO_BIG || why == MICROTIN_STATUS_TRUNCATED);
   }
   return all != 0;
 }
 
 // Boxes of tiles that one walk along a course may look at (format-pack.md, 4.3); 0 before the
 // header is read.
-uint64_t boxes_of_walk(const microtin_pack* pack, const microtin_course& course) {
+uint64_t boxes_of_walk(const microtin_pack* pack, const microtin_segment& course) {
   microtin_pack_info info;
-  if (microtin_pack_header(pack, &info) == 0) return 0;
+  if (microtin_pack_get_info(pack, &info) == 0) return 0;
   const auto tiles = [](int64_t from, int64_t to, uint32_t most, uint32_t tile_size) {
     const int64_t length = std::min<int64_t>(std::abs(to - from) / 256, most);
     return static_cast<uint64_t>(length) / tile_size + 2;
@@ -210,44 +210,44 @@ uint64_t boxes_of_walk(const microtin_pack* pack, const microtin_course& course)
 
 // Serves a course to its end, with interrupts between the calls. A course that touches thousands of
 // bad tiles walks along them at each call: it is left when that has taken a second.
-void serve(Card& card, const Device& device, const microtin_course& course, uint32_t step_limit) {
-  microtin_status status = MICROTIN_STEP_LIMIT;
+void serve(Card& card, const Device& device, const microtin_segment& course, uint32_t step_limit) {
+  microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
   uint64_t boxes = 0;
   for (uint32_t call = 0, failed = 0; failed < 3 && boxes < 4000000; ++call) {
     EXPECT(call < 200000);
     boxes += boxes_of_walk(device.pack, course);
     const uint32_t reads = card.reads;
     status = device.service(course, step_limit, Card::read, &card);
-    if (status == MICROTIN_IO) {
+    if (status == MICROTIN_STATUS_IO) {
       EXPECT(card.reads != reads);
       continue;
     }
     EXPECT(step_limit == 0 || card.reads <= reads + 1);
-    if (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
-      failed += status == MICROTIN_NEED_INPUT && step_limit == 0 ? 1u : 0u;
-      if (card.reads == reads && status == MICROTIN_NEED_INPUT) ++failed;
+    if (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
+      failed += status == MICROTIN_STATUS_NEED_INPUT && step_limit == 0 ? 1u : 0u;
+      if (card.reads == reads && status == MICROTIN_STATUS_NEED_INPUT) ++failed;
       if (card.reads > 20000) break;
       continue;
     }
-    if (status == MICROTIN_DONE) break;
-    if (status == MICROTIN_BAD_TILES) EXPECT(remembers_bad_tile(device.pack));
+    if (status == MICROTIN_STATUS_OK) break;
+    if (status == MICROTIN_STATUS_BAD_TILES) EXPECT(remembers_bad_tile(device.pack));
     ++failed;
   }
   int32_t height = 0;
   uint32_t hint = 0;
-  const microtin_answer answer = device.height_at(course.x, course.y, &hint, &height);
-  if (status == MICROTIN_DONE) EXPECT(answer != MICROTIN_NOT_DECODED);
-  const microtin_answer highest = device.highest(course, &height);
-  if (status == MICROTIN_DONE) EXPECT(highest != MICROTIN_NOT_DECODED);
+  const microtin_query_result answer = device.height_at(course.x, course.y, &hint, &height);
+  if (status == MICROTIN_STATUS_OK) EXPECT(answer != MICROTIN_QUERY_NOT_LOADED);
+  const microtin_query_result highest = device.highest(course, &height);
+  if (status == MICROTIN_STATUS_OK) EXPECT(highest != MICROTIN_QUERY_NOT_LOADED);
 }
 
 // What a device says of a course and of a block at its beginning.
 struct Answers {
-  microtin_answer begin, highest, fill;
+  microtin_query_result begin, highest, fill;
   int32_t heights[2] = {};
   int16_t block[6] = {};
 
-  Answers(const Device& device, const microtin_course& course) {
+  Answers(const Device& device, const microtin_segment& course) {
     uint32_t hint = 0;
     begin = device.height_at(course.x, course.y, &hint, &heights[0]);
     highest = device.highest(course, &heights[1]);
@@ -255,7 +255,7 @@ struct Answers {
   }
   // Blocks reach beyond the course, to tiles that may be there or not.
   bool operator==(const Answers& other) const {
-    const bool are_blocks = fill == MICROTIN_HEIGHT && other.fill == MICROTIN_HEIGHT;
+    const bool are_blocks = fill == MICROTIN_QUERY_OK && other.fill == MICROTIN_QUERY_OK;
     return begin == other.begin && highest == other.highest &&
            std::equal(heights, heights + 2, other.heights) &&
            (!are_blocks || std::equal(block, block + 6, other.block));
@@ -264,14 +264,14 @@ struct Answers {
 
 // Storage without faults: slots of both forms that hold a course answer the same.
 void check_forms(const uint8_t* data, size_t size, uint32_t slots,
-                 const std::vector<microtin_course>& courses) {
+                 const std::vector<microtin_segment>& courses) {
   const uint32_t room = 40 * kCapacity + 100;  // for any tile
   const Device meshes(slots, 0), compact(slots, room);
   FuzzedDataProvider none(nullptr, 0);
   Card card{data, size, none};
-  for (const microtin_course& course : courses) {
+  for (const microtin_segment& course : courses) {
     const auto is_served = [&](const Device& device) {
-      return device.service(course, 0, Card::read, &card) == MICROTIN_DONE;
+      return device.service(course, 0, Card::read, &card) == MICROTIN_STATUS_OK;
     };
     if (!is_served(meshes) || !is_served(compact)) continue;
     EXPECT(Answers(meshes, course) == Answers(compact, course));
@@ -295,24 +295,24 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
       asked.ConsumeBool() ? asked.ConsumeIntegralInRange<uint32_t>(most_bytes / 4, most_bytes) : 0);
   const uint32_t step_limit = asked.ConsumeIntegralInRange<uint32_t>(0, 40);
   const uint32_t sector = asked.ConsumeBool() ? 1u << asked.ConsumeIntegralInRange(3, 9) : 0;
-  EXPECT(microtin_pack_align_reads(device.pack, sector) == MICROTIN_DONE);
+  EXPECT(microtin_pack_align_reads(device.pack, sector) == MICROTIN_STATUS_OK);
   std::optional<PackFile> file;
   try {
     file.emplace(std::vector<uint8_t>(data, data + size));
   } catch (const Error&) {
   }
   Card card{data, size, asked, sector};
-  std::vector<microtin_course> courses;
+  std::vector<microtin_segment> courses;
   for (int i = 0; i < 3; ++i) {
     microtin_pack_info info = {1000, 1000, 0, 0, 0, 0, 0, 0, {}, {}, {}};
-    microtin_pack_header(device.pack, &info);
-    const microtin_course course = {coordinate(asked, info.x_max), coordinate(asked, info.y_max),
-                                    coordinate(asked, info.x_max), coordinate(asked, info.y_max)};
+    microtin_pack_get_info(device.pack, &info);
+    const microtin_segment course = {coordinate(asked, info.x_max), coordinate(asked, info.y_max),
+                                     coordinate(asked, info.x_max), coordinate(asked, info.y_max)};
     courses.push_back(course);
-    if (asked.ConsumeBool()) microtin_pack_retry(device.pack);
+    if (asked.ConsumeBool()) microtin_pack_clear_bad_tiles(device.pack);
     serve(card, device, course, step_limit);
     if (file) check_height(*file, device, course.x, course.y);
-    if (microtin_pack_header(device.pack, &info) == 0) continue;
+    if (microtin_pack_get_info(device.pack, &info) == 0) continue;
     check_fill(device, info, course);
     const int64_t value = asked.ConsumeIntegral<int64_t>();
     check_to_lattice(info.x, info.x_max, value >> asked.ConsumeIntegralInRange(0, 63),

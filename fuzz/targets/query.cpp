@@ -27,20 +27,20 @@ struct Place {
 };
 
 struct Answer {
-  microtin_answer kind;
+  microtin_query_result kind;
   int32_t height;
 };
 
 // By definition, looking at every triangle.
 Answer expected_at(const std::vector<reference::Corners>& triangles, Place p) {
-  Answer answer = {MICROTIN_OUTSIDE, 0};
+  Answer answer = {MICROTIN_QUERY_OUTSIDE, 0};
   if (p.x < 0 || p.x > kFineMost || p.y < 0 || p.y > kFineMost) return answer;
   for (const reference::Corners& t : triangles) {
     if (!reference::holds(t, p.x, p.y)) continue;
     const bool at_vertex = std::any_of(
         t.v, t.v + 3, [p](const Vertex& v) { return v.x * 256 == p.x && v.y * 256 == p.y; });
-    if (!t.is_void || at_vertex) return {MICROTIN_HEIGHT, reference::height_in(t, p.x, p.y)};
-    answer.kind = MICROTIN_IN_VOID;
+    if (!t.is_void || at_vertex) return {MICROTIN_QUERY_OK, reference::height_in(t, p.x, p.y)};
+    answer.kind = MICROTIN_QUERY_VOID;
   }
   return answer;
 }
@@ -66,10 +66,10 @@ void check_heights(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataPr
     const Place p = place_from(asked, copy);
     const Answer expected = expected_at(triangles, p);
     uint32_t hint = asked.ConsumeIntegral<uint32_t>();
-    if (hint % 4 != 0) hint %= microtin_triangle_count(mesh);
+    if (hint % 4 != 0) hint %= microtin_mesh_triangle_count(mesh);
     int32_t height = 0;
-    EXPECT(microtin_height_at(mesh, p.x, p.y, MICROTIN_ANSWER_UNVERIFIED, &hint, &height) ==
-           expected.kind);
+    EXPECT(microtin_mesh_height_at(mesh, p.x, p.y, MICROTIN_FLAG_ALLOW_UNVERIFIED, &hint,
+                                   &height) == expected.kind);
     EXPECT(height == expected.height);
   }
 }
@@ -78,7 +78,7 @@ void check_heights(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataPr
 void check_courses(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataProvider& asked) {
   for (int i = 0; i < 3; ++i) {
     const Place a = place_from(asked, copy), b = place_from(asked, copy);
-    const microtin_course c = {a.x, a.y, b.x, b.y};
+    const microtin_segment c = {a.x, a.y, b.x, b.y};
     Random random(asked.ConsumeIntegral<uint32_t>());
     EXPECT(highest_in_pieces(mesh, c, 1 + random.below(300), random) == highest_on(mesh, c));
   }
@@ -91,9 +91,9 @@ bool same(const microtin_axis& a, const microtin_axis& b) {
 // A stream that was begun lies where its header says.
 void check_placement(const microtin_mesh* mesh, const uint8_t* data, size_t size) {
   microtin_axis x, y, z;
-  microtin_info info;
-  microtin_placement(mesh, &x, &y, &z);
-  EXPECT(microtin_peek(data, size, &info) == MICROTIN_DONE);
+  microtin_stream_info info;
+  microtin_mesh_axes(mesh, &x, &y, &z);
+  EXPECT(microtin_read_stream_info(data, size, &info) == MICROTIN_STATUS_OK);
   EXPECT(same(x, info.x) && same(y, info.y) && same(z, info.z));
 }
 
@@ -104,25 +104,26 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   FuzzedDataProvider asked(data, size);
   Device device = workspaces.device();
   const uint32_t phases = asked.ConsumeIntegralInRange<uint32_t>(0, 12);
-  microtin_stop_after_phase(device.decoder, phases);
+  microtin_decoder_stop_after_phase(device.decoder, phases);
   const microtin_status status = device.decode(data, size);
-  if (status == MICROTIN_STOPPED) EXPECT(microtin_phase(device.decoder) == phases);
+  if (status == MICROTIN_STATUS_STOPPED) EXPECT(microtin_decoder_phase(device.decoder) == phases);
   const microtin_mesh* const mesh = device.mesh;
   uint32_t hint = asked.ConsumeIntegral<uint32_t>();
   int32_t height = 0;
-  const microtin_answer answer = microtin_height_at(mesh, 0, 0, 0, &hint, &height);
-  if (microtin_triangle_count(mesh) == 0) {
-    EXPECT(answer == MICROTIN_NOT_DECODED);
+  const microtin_query_result answer = microtin_mesh_height_at(mesh, 0, 0, 0, &hint, &height);
+  if (microtin_mesh_triangle_count(mesh) == 0) {
+    EXPECT(answer == MICROTIN_QUERY_NOT_LOADED);
     return 0;
   }
-  EXPECT(status != MICROTIN_DONE || answer != MICROTIN_NOT_VERIFIED);
-  EXPECT(answer == MICROTIN_NOT_VERIFIED || mesh->verified_vertices == microtin_vertex_count(mesh));
+  EXPECT(status != MICROTIN_STATUS_OK || answer != MICROTIN_QUERY_UNVERIFIED);
+  EXPECT(answer == MICROTIN_QUERY_UNVERIFIED ||
+         mesh->verified_vertices == microtin_mesh_vertex_count(mesh));
   check_placement(mesh, data, size);
   uint64_t digest = 0;
   for (const reference::Corners& t : reference::real_triangles(mesh)) {
     digest += triangle_digest(t.v, t.is_void);
   }
-  EXPECT(microtin_digest(mesh) == digest);
+  EXPECT(microtin_mesh_digest(mesh) == digest);
   const MeshCopy copy(mesh);
   EXPECT(pairing_fault(copy.mesh).empty());
   check_heights(mesh, copy, asked);

@@ -21,14 +21,14 @@ bool is_pack(const uint8_t* data, size_t size) {
 }
 
 // True if all notes of the header are sound.
-bool find_notes(const uint8_t* data, size_t size, const microtin_info* info) {
+bool find_notes(const uint8_t* data, size_t size, const microtin_stream_info* info) {
   bool sound = info != nullptr;
   for (int type = 0; type < 256; ++type) {
     const uint8_t* note = nullptr;
     uint32_t note_size = 0;
     const microtin_status status =
         microtin_find_note(data, size, static_cast<uint8_t>(type), &note, &note_size);
-    sound = sound && status == MICROTIN_DONE;
+    sound = sound && status == MICROTIN_STATUS_OK;
     if (note == nullptr) continue;
     EXPECT((info != nullptr || is_pack(data, size)) && note > data);
     const size_t end = (info != nullptr ? info->header_bytes : size) - microtin::kCheckBytes;
@@ -42,8 +42,8 @@ bool find_notes(const uint8_t* data, size_t size, const microtin_info* info) {
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const std::vector<uint8_t> stream(data, data + size);
-  microtin_info info;
-  const bool legal = microtin_peek(data, size, &info) == MICROTIN_DONE;
+  microtin_stream_info info;
+  const bool legal = microtin_read_stream_info(data, size, &info) == MICROTIN_STATUS_OK;
   const bool sound = find_notes(data, size, legal ? &info : nullptr);
   try {
     const Header header = read_header(stream);
@@ -54,7 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     EXPECT(once == twice);
     if (info.vertices > 2000) return 0;
     const DecodedTerrain decoded(stream);
-    EXPECT(microtin_vertex_count(decoded.mesh()) == info.vertices);
+    EXPECT(microtin_mesh_vertex_count(decoded.mesh()) == info.vertices);
   } catch (const Error& error) {
     EXPECT(error.what()[0] != '\0');
   }

@@ -34,28 +34,29 @@ struct Workspace {
 
 // The status of laying something out in a workspace that holds `vertices`, or one fewer.
 microtin_status expected(const Workspace& w, size_t missing) {
-  if (w.offset != 0) return MICROTIN_MISALIGNED;
-  return w.vertices < 3u + (missing != 0 ? 1u : 0u) ? MICROTIN_WORKSPACE_TOO_SMALL : MICROTIN_DONE;
+  if (w.offset != 0) return MICROTIN_STATUS_MISALIGNED;
+  return w.vertices < 3u + (missing != 0 ? 1u : 0u) ? MICROTIN_STATUS_WORKSPACE_TOO_SMALL
+                                                    : MICROTIN_STATUS_OK;
 }
 
 void check_null_pointers(microtin_mesh* mesh, microtin_decoder* decoder, void* memory) {
   microtin_mesh* no_mesh = nullptr;
   microtin_decoder* no_decoder = nullptr;
   size_t used = 0;
-  microtin_info info;
-  EXPECT(microtin_mesh_init(nullptr, 1000, &no_mesh) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_mesh_init(memory, 1000, nullptr) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_decoder_init(nullptr, 1000, mesh, &no_decoder) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_decoder_init(memory, 1000, nullptr, &no_decoder) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_decoder_init(memory, 1000, mesh, nullptr) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_feed(nullptr, nullptr, 0, 0, &used) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_feed(decoder, nullptr, 0, 0, nullptr) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_feed(decoder, nullptr, 1, 0, &used) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_finish(nullptr) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_peek(nullptr, 1, &info) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_peek(nullptr, 0, nullptr) == MICROTIN_ARGUMENT);
-  EXPECT(microtin_peek(nullptr, 0, &info) == MICROTIN_NEED_INPUT);
-  EXPECT(microtin_feed(decoder, nullptr, 0, 0, &used) == MICROTIN_NEED_INPUT);
+  microtin_stream_info info;
+  EXPECT(microtin_mesh_init(nullptr, 1000, &no_mesh) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_mesh_init(memory, 1000, nullptr) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_decoder_init(nullptr, 1000, mesh, &no_decoder) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_decoder_init(memory, 1000, nullptr, &no_decoder) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_decoder_init(memory, 1000, mesh, nullptr) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_decoder_feed(nullptr, nullptr, 0, 0, &used) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_decoder_feed(decoder, nullptr, 0, 0, nullptr) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_decoder_feed(decoder, nullptr, 1, 0, &used) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_decoder_finish(nullptr) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_read_stream_info(nullptr, 1, &info) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_read_stream_info(nullptr, 0, nullptr) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_read_stream_info(nullptr, 0, &info) == MICROTIN_STATUS_NEED_INPUT);
+  EXPECT(microtin_decoder_feed(decoder, nullptr, 0, 0, &used) == MICROTIN_STATUS_NEED_INPUT);
 }
 
 }  // namespace
@@ -70,20 +71,20 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   microtin_decoder* decoder = nullptr;
   microtin_status status = microtin_mesh_init(for_mesh.start(), for_mesh.size, &mesh);
   EXPECT(status == expected(for_mesh, missing));
-  if (status != MICROTIN_DONE) return 0;
+  if (status != MICROTIN_STATUS_OK) return 0;
   status = microtin_decoder_init(for_decoder.start(), for_decoder.size, mesh, &decoder);
   EXPECT(status == expected(for_decoder, missing));
-  if (status != MICROTIN_DONE) return 0;
+  if (status != MICROTIN_STATUS_OK) return 0;
   check_null_pointers(mesh, decoder, for_mesh.start());
   size_t used = 0;
-  microtin_feed(decoder, data, size, 0, &used);
-  status = microtin_finish(decoder);
-  microtin_info info;
-  if (microtin_peek(data, size, &info) != MICROTIN_DONE) return 0;
+  microtin_decoder_feed(decoder, data, size, 0, &used);
+  status = microtin_decoder_finish(decoder);
+  microtin_stream_info info;
+  if (microtin_read_stream_info(data, size, &info) != MICROTIN_STATUS_OK) return 0;
   const uint32_t lost = missing != 0 ? 1 : 0;
   const bool fits =
       info.vertices + lost <= for_mesh.vertices && info.vertices + lost <= for_decoder.vertices;
-  EXPECT((status == MICROTIN_TOO_BIG) == !fits);
+  EXPECT((status == MICROTIN_STATUS_TOO_BIG) == !fits);
   EXPECT(fits == (info.mesh_bytes <= for_mesh.size && info.decoder_bytes <= for_decoder.size));
   return 0;
 }

@@ -19,7 +19,7 @@ namespace {
 class Ours {
  public:
   explicit Ours(const Bytes& stream) : stream_(stream) {
-    const microtin_info info = read_header(stream).info;
+    const microtin_stream_info info = read_header(stream).info;
     mesh_.resize((info.mesh_bytes + 7) / 8);
     decoder_.resize((info.decoder_bytes + 7) / 8);
   }
@@ -30,8 +30,9 @@ class Ours {
     microtin_mesh_init(mesh_.data(), mesh_.size() * 8, &mesh);
     microtin_decoder_init(decoder_.data(), decoder_.size() * 8, mesh, &decoder);
     size_t used = 0;
-    microtin_feed(decoder, stream_.data(), stream_.size(), 0, &used);
-    if (microtin_finish(decoder) != MICROTIN_DONE) throw Error("a stream does not decode");
+    microtin_decoder_feed(decoder, stream_.data(), stream_.size(), 0, &used);
+    if (microtin_decoder_finish(decoder) != MICROTIN_STATUS_OK)
+      throw Error("a stream does not decode");
   }
 
  private:

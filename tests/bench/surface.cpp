@@ -40,15 +40,15 @@ std::set<std::array<Place, 3>> corners(const Surface& surface) {
 Surface surface_of(const Bytes& stream) {
   const DecodedTerrain terrain(stream);
   Surface surface;
-  surface.vertices.resize(microtin_vertex_count(terrain.mesh()));
+  surface.vertices.resize(microtin_mesh_vertex_count(terrain.mesh()));
   for (uint32_t i = 0; i < surface.vertices.size(); ++i) {
     Vertex& v = surface.vertices[i];
-    microtin_vertex(terrain.mesh(), i, &v.x, &v.y, &v.z);
+    microtin_mesh_vertex(terrain.mesh(), i, &v.x, &v.y, &v.z);
     surface.has_heights = surface.has_heights || v.z != 0;
   }
-  for (uint32_t i = 0; i < microtin_triangle_count(terrain.mesh()); ++i) {
+  for (uint32_t i = 0; i < microtin_mesh_triangle_count(terrain.mesh()); ++i) {
     std::array<uint32_t, 3> t;
-    if (microtin_triangle(terrain.mesh(), i, t.data()) == MICROTIN_REAL) {
+    if (microtin_mesh_triangle(terrain.mesh(), i, t.data()) == MICROTIN_TRIANGLE_REAL) {
       surface.triangles.push_back(t);
     }
   }

@@ -196,18 +196,18 @@ class Doors {
     options.size = sizeof options;
     if (is_pack(kind)) options.tile_vertices = 60;
     for (const Setting& setting : settings) setting.c(options);
-    microtin_terrain* terrain = nullptr;
-    REQUIRE(microtin_terrain_of_file(path(source(kind)).c_str(), &terrain) == MICROTIN_OK);
+    microtin_source* terrain = nullptr;
+    REQUIRE(microtin_source_from_file(path(source(kind)).c_str(), &terrain) == MICROTIN_STATUS_OK);
     uint8_t* bytes = nullptr;
     uint64_t size = 0;
     const std::string file = path(product(kind));
-    const microtin_outcome outcome =
+    const microtin_status outcome =
         is_pack(kind) ? microtin_encode_pack(terrain, &options, file.c_str(), nullptr)
                       : microtin_encode_stream(terrain, &options, &bytes, &size, nullptr);
-    microtin_terrain_free(terrain);
-    CHECK((outcome == MICROTIN_OK || outcome == MICROTIN_REFUSED));
+    microtin_source_free(terrain);
+    CHECK((outcome == MICROTIN_STATUS_OK || outcome == MICROTIN_STATUS_REJECTED));
     Made made;
-    if (outcome == MICROTIN_OK) {
+    if (outcome == MICROTIN_STATUS_OK) {
       made = is_pack(kind) ? bytes_of_file(file) : std::vector<uint8_t>(bytes, bytes + size);
     }
     microtin_bytes_free(bytes);

@@ -68,17 +68,17 @@ microtin_report report_in_c(const Product& product, const Made& made) {
   }
   if (!product.is_raster && product.is_pack) options.xy_step = "0.003";
   if (product.is_pack) options.tile_vertices = 60;
-  microtin_terrain* terrain = nullptr;
-  REQUIRE(microtin_terrain_of_file(made.source_path().c_str(), &terrain) == MICROTIN_OK);
+  microtin_source* terrain = nullptr;
+  REQUIRE(microtin_source_from_file(made.source_path().c_str(), &terrain) == MICROTIN_STATUS_OK);
   microtin_report report{};
   uint8_t* bytes = nullptr;
   uint64_t size = 0;
-  const microtin_outcome outcome =
+  const microtin_status outcome =
       product.is_pack ? microtin_encode_pack(terrain, &options, made.path().c_str(), &report)
                       : microtin_encode_stream(terrain, &options, &bytes, &size, &report);
-  CHECK(outcome == MICROTIN_OK);
+  CHECK(outcome == MICROTIN_STATUS_OK);
   microtin_bytes_free(bytes);
-  microtin_terrain_free(terrain);
+  microtin_source_free(terrain);
   return report;
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("reports: every field of the library's is true of every kind of produc
     CHECK(in_lines(cpp.remarks) == warnings(made));
     const microtin_report c = report_in_c(product, made);
     expect("C", common_fields(c), truth, members_of(kC, "microtin_report"));
-    CHECK(microtin_remarks() == warnings(made));
+    CHECK(microtin_last_warnings() == warnings(made));
   }
 }
 
@@ -209,9 +209,9 @@ TEST_CASE("reports: every fact is true of every kind of product, in C++ and C") 
     add_extent(box.west, box.south, box.east, box.north, cpp);
     expect("C++", cpp, truth, names_of_facts(product.is_raster));
     microtin_surface* in_c = nullptr;
-    REQUIRE(microtin_surface_open(made.path().c_str(), &in_c) == MICROTIN_OK);
-    microtin_facts facts{};
-    microtin_surface_facts(in_c, &facts);
+    REQUIRE(microtin_surface_from_file(made.path().c_str(), &in_c) == MICROTIN_STATUS_OK);
+    microtin_surface_info facts{};
+    microtin_surface_get_info(in_c, &facts);
     Fields c = facts_of(facts);
     add_extent(facts.west, facts.south, facts.east, facts.north, c);
     expect("C", c, truth, names_of_facts(product.is_raster));
@@ -245,6 +245,6 @@ TEST_CASE("reports: no fact is without a row") {
                       "mean_error",
                       "max_error_at_points"};
   CHECK(text_of(members_of(kSurface, "Facts")) == text_of(united(both, {"box"})));
-  CHECK(text_of(members_of(kC, "microtin_facts")) ==
+  CHECK(text_of(members_of(kC, "microtin_surface_info")) ==
         text_of(united(both, {"west", "south", "east", "north"})));
 }

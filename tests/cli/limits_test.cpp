@@ -133,16 +133,16 @@ const std::vector<Limit> kLimits = {
 
 std::string error_in_c(const microtin_options& options) {
   static const double corners[] = {0, 0, 0, 9, 0, 0, 0, 9, 0, 9, 9, 0};
-  const microtin_points square{sizeof(microtin_points), 4, corners, ""};
-  microtin_terrain* terrain = nullptr;
-  REQUIRE(microtin_terrain_of_points(&square, &terrain) == MICROTIN_OK);
+  const microtin_point_data square{sizeof(microtin_point_data), 4, corners, ""};
+  microtin_source* terrain = nullptr;
+  REQUIRE(microtin_source_from_points(&square, &terrain) == MICROTIN_STATUS_OK);
   uint8_t* bytes = nullptr;
   uint64_t size = 0;
   const bool done =
-      microtin_encode_stream(terrain, &options, &bytes, &size, nullptr) == MICROTIN_OK;
+      microtin_encode_stream(terrain, &options, &bytes, &size, nullptr) == MICROTIN_STATUS_OK;
   microtin_bytes_free(bytes);
-  microtin_terrain_free(terrain);
-  return done ? "" : microtin_message();
+  microtin_source_free(terrain);
+  return done ? "" : microtin_last_error();
 }
 
 }  // namespace

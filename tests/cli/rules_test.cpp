@@ -268,7 +268,7 @@ void check_library(const Cell& cell, const std::function<Terrain()>& make) {
 }
 
 void check_c(const Cell& cell, const Session& session, const std::string& path) {
-  microtin_terrain* terrain = nullptr;
+  microtin_source* terrain = nullptr;
   microtin_options options = {};
   options.size = sizeof options;
   options.max_error = bound_of(cell);
@@ -278,15 +278,15 @@ void check_c(const Cell& cell, const Session& session, const std::string& path) 
   uint64_t size = 0;
   microtin_report report = {};
   const bool done =
-      microtin_terrain_of_file(path.c_str(), &terrain) == MICROTIN_OK &&
-      microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_OK;
-  check(cell, done ? report.samples : 0, done ? "" : microtin_message());
+      microtin_source_from_file(path.c_str(), &terrain) == MICROTIN_STATUS_OK &&
+      microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_STATUS_OK;
+  check(cell, done ? report.samples : 0, done ? "" : microtin_last_error());
   if (done) {
     session.write("c.mtin", {reinterpret_cast<const char*>(bytes), static_cast<size_t>(size)});
     check_highest(cell, session.folder() + "/c.mtin");
   }
   microtin_bytes_free(bytes);
-  microtin_terrain_free(terrain);
+  microtin_source_free(terrain);
 }
 
 void check_file(const Cell& cell) {

@@ -13,12 +13,12 @@ microtin_decoder decoder_header;
 // What a workspace of that size would hold; nothing behind its first bytes is touched.
 uint32_t mesh_capacity(unsigned long size) {
   microtin_mesh* mesh = nullptr;
-  return microtin_mesh_init(&mesh_header, size, &mesh) == MICROTIN_DONE ? mesh->capacity : 0;
+  return microtin_mesh_init(&mesh_header, size, &mesh) == MICROTIN_STATUS_OK ? mesh->capacity : 0;
 }
 
 uint32_t decoder_capacity(unsigned long size) {
   microtin_decoder* decoder = nullptr;
-  return microtin_decoder_init(&decoder_header, size, &mesh_header, &decoder) == MICROTIN_DONE
+  return microtin_decoder_init(&decoder_header, size, &mesh_header, &decoder) == MICROTIN_STATUS_OK
              ? decoder->capacity
              : 0;
 }

@@ -23,22 +23,22 @@ TEST_CASE("compact pack: a tile that goes stays until the next is decoded") {
   const PackFile pack(card.bytes);
   const TileGrid& grid = pack.grid();
   const CompactSlots device(1);
-  const microtin_course first = at(grid.width / 2, grid.height / 2),
-                        second = at(grid.width * 3 / 2, grid.height / 2);
-  REQUIRE(device.service(card, first) == MICROTIN_DONE);
+  const microtin_segment first = at(grid.width / 2, grid.height / 2),
+                         second = at(grid.width * 3 / 2, grid.height / 2);
+  REQUIRE(device.service(card, first) == MICROTIN_STATUS_OK);
   const int32_t old_height = *expected_height(pack, first.x, first.y),
                 new_height = *expected_height(pack, second.x, second.y);
-  microtin_status status = MICROTIN_STEP_LIMIT;
+  microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
   uint32_t with_old = 0, with_none = 0;
-  while (status != MICROTIN_DONE) {
+  while (status != MICROTIN_STATUS_OK) {
     status = device.service(card, second, 1);
     int32_t height = 0;
-    const bool has_old = device.height_at(first.x, first.y, height) == MICROTIN_HEIGHT;
+    const bool has_old = device.height_at(first.x, first.y, height) == MICROTIN_QUERY_OK;
     if (has_old) CHECK(height == old_height);
-    const bool has_new = device.height_at(second.x, second.y, height) == MICROTIN_HEIGHT;
+    const bool has_new = device.height_at(second.x, second.y, height) == MICROTIN_QUERY_OK;
     if (has_new) CHECK(height == new_height);
     CHECK(!(has_old && has_new));
-    CHECK(has_new == (status == MICROTIN_DONE));
+    CHECK(has_new == (status == MICROTIN_STATUS_OK));
     ++(has_old ? with_old : with_none);
   }
   CHECK(with_old > 20);
@@ -50,23 +50,23 @@ TEST_CASE("compact pack: who wants another course meanwhile loses nothing") {
   Card card{rough_pack()};
   const PackFile pack(card.bytes);
   const TileGrid& grid = pack.grid();
-  const microtin_course first = at(grid.width / 2, grid.height / 2),
-                        second = at(grid.width * 3 / 2, grid.height / 2),
-                        both = {first.x, first.y, second.x, second.y};
+  const microtin_segment first = at(grid.width / 2, grid.height / 2),
+                         second = at(grid.width * 3 / 2, grid.height / 2),
+                         both = {first.x, first.y, second.x, second.y};
   for (int calls = 1; calls < 400; calls += 7) {
     const CompactSlots device(1);
-    REQUIRE(device.service(card, first) == MICROTIN_DONE);
+    REQUIRE(device.service(card, first) == MICROTIN_STATUS_OK);
     for (int i = 0; i < calls; ++i) device.service(card, second, 1);
     int32_t height = 0;
-    const bool is_there = device.height_at(first.x, first.y, height) == MICROTIN_HEIGHT;
-    const bool is_done = device.height_at(second.x, second.y, height) == MICROTIN_HEIGHT;
+    const bool is_there = device.height_at(first.x, first.y, height) == MICROTIN_QUERY_OK;
+    const bool is_done = device.height_at(second.x, second.y, height) == MICROTIN_QUERY_OK;
     // A slot that the course needs is not given away, whatever is decoded.
     if (is_there) {
-      CHECK(device.service(card, both) == MICROTIN_WORKSPACE_TOO_SMALL);
-      CHECK(device.height_at(first.x, first.y, height) == MICROTIN_HEIGHT);
+      CHECK(device.service(card, both) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
+      CHECK(device.height_at(first.x, first.y, height) == MICROTIN_QUERY_OK);
     }
-    REQUIRE(device.service(card, first) == MICROTIN_DONE);
-    CHECK(device.height_at(first.x, first.y, height) == MICROTIN_HEIGHT);
+    REQUIRE(device.service(card, first) == MICROTIN_STATUS_OK);
+    CHECK(device.height_at(first.x, first.y, height) == MICROTIN_QUERY_OK);
     CHECK(height == *expected_height(pack, first.x, first.y));
     if (is_done) break;
   }
@@ -89,10 +89,11 @@ TEST_CASE("compact pack: slots of what the header says are enough, smaller ones 
     const CompactSlots device(4, most, size);
     for (uint32_t tile = 0; tile < sizes.size(); ++tile) {
       const TileBox box = tile_box(pack.grid(), tile);
-      const microtin_course middle = at(box.x + 1, box.y + 1);
+      const microtin_segment middle = at(box.x + 1, box.y + 1);
       const bool fits = sizes[tile] <= (size + 7) / 8 * 8;
-      CHECK(device.service(card, middle) == (fits ? MICROTIN_DONE : MICROTIN_BAD_TILES));
-      CHECK(why_bad(device, tile) == (fits ? MICROTIN_DONE : MICROTIN_TOO_BIG));
+      CHECK(device.service(card, middle) ==
+            (fits ? MICROTIN_STATUS_OK : MICROTIN_STATUS_BAD_TILES));
+      CHECK(why_bad(device, tile) == (fits ? MICROTIN_STATUS_OK : MICROTIN_STATUS_TOO_BIG));
     }
   }
 }
@@ -111,8 +112,8 @@ TEST_CASE("compact pack: a tile that takes more than the header says breaks a ru
       const TileBox box = tile_box(pack.grid(), tile);
       device.service(card, at(box.x + 1, box.y + 1));
       const microtin_status why = why_bad(device, tile);
-      CHECK((why == MICROTIN_DONE || why == MICROTIN_MALFORMED));
-      count += why == MICROTIN_MALFORMED ? 1u : 0u;
+      CHECK((why == MICROTIN_STATUS_OK || why == MICROTIN_STATUS_MALFORMED));
+      count += why == MICROTIN_STATUS_MALFORMED ? 1u : 0u;
     }
     return count;
   };
@@ -126,40 +127,42 @@ TEST_CASE("compact pack: each form's functions refuse packs of the other") {
   Card card{rough_pack()};
   const MeshSlots mesh(1);
   const CompactSlots compact(1);
-  const microtin_course c = at(3, 3);
-  REQUIRE(mesh.service(card, c) == MICROTIN_DONE);
-  REQUIRE(compact.service(card, c) == MICROTIN_DONE);
+  const microtin_segment c = at(3, 3);
+  REQUIRE(mesh.service(card, c) == MICROTIN_STATUS_OK);
+  REQUIRE(compact.service(card, c) == MICROTIN_STATUS_OK);
   uint32_t hint = 0;
   int32_t height = 0;
-  CHECK(microtin_pack_height_at(compact.pack, c.x, c.y, &hint, &height) == MICROTIN_NOT_DECODED);
-  CHECK(microtin_pack_highest(compact.pack, &c, &height) == MICROTIN_NOT_DECODED);
+  CHECK(microtin_pack_height_at(compact.pack, c.x, c.y, &hint, &height) ==
+        MICROTIN_QUERY_NOT_LOADED);
+  CHECK(microtin_pack_segment_max(compact.pack, &c, &height) == MICROTIN_QUERY_NOT_LOADED);
   CHECK(microtin_compact_pack_height_at(mesh.pack, c.x, c.y, &hint, &height) ==
-        MICROTIN_NOT_DECODED);
-  CHECK(microtin_compact_pack_highest(mesh.pack, &c, &height) == MICROTIN_NOT_DECODED);
-  CHECK(microtin_compact_pack_prepare(mesh.pack, &c, 0) == MICROTIN_ARGUMENT);
-  CHECK(microtin_compact_pack_prepare(nullptr, &c, 0) == MICROTIN_ARGUMENT);
+        MICROTIN_QUERY_NOT_LOADED);
+  CHECK(microtin_compact_pack_segment_max(mesh.pack, &c, &height) == MICROTIN_QUERY_NOT_LOADED);
+  CHECK(microtin_compact_pack_load(mesh.pack, &c, 0) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(microtin_compact_pack_load(nullptr, &c, 0) == MICROTIN_STATUS_ARGUMENT);
 }
 
 // It can read and decode, but not make compact.
 TEST_CASE("compact pack: the other form's service ends at any moment, and nothing is lost") {
   Card card{rough_pack()};
   const PackFile pack(card.bytes);
-  const microtin_course c = at(3, 3);
+  const microtin_segment c = at(3, 3);
   bool is_there = false;
   uint32_t stopped = 0;
   for (int calls = 0; !is_there; ++calls) {
     const CompactSlots device(1);
     for (int i = 0; i < calls && !is_there; ++i)
-      is_there = device.service(card, c, 1) == MICROTIN_DONE;
-    microtin_status status = MICROTIN_STEP_LIMIT;
-    for (int i = 0; i < 9 && status != MICROTIN_STOPPED && status != MICROTIN_DONE; ++i) {
-      status = microtin_pack_service(device.pack, &c, 0, Card::read, &card);
+      is_there = device.service(card, c, 1) == MICROTIN_STATUS_OK;
+    microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
+    for (int i = 0; i < 9 && status != MICROTIN_STATUS_STOPPED && status != MICROTIN_STATUS_OK;
+         ++i) {
+      status = microtin_pack_load_with(device.pack, &c, 0, Card::read, &card);
     }
-    CHECK(status == (is_there ? MICROTIN_DONE : MICROTIN_STOPPED));
+    CHECK(status == (is_there ? MICROTIN_STATUS_OK : MICROTIN_STATUS_STOPPED));
     ++stopped;
-    REQUIRE(device.service(card, c) == MICROTIN_DONE);
+    REQUIRE(device.service(card, c) == MICROTIN_STATUS_OK);
     int32_t height = 0;
-    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
+    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_QUERY_OK);
     CHECK(height == *expected_height(pack, c.x, c.y));
   }
   CHECK(stopped > 30);
@@ -171,17 +174,17 @@ TEST_CASE("compact pack: workspaces and arguments") {
   const auto init = [&](size_t size, uint32_t slots, uint32_t capacity, uint32_t bytes) {
     return microtin_compact_pack_init(space.begin(), size, slots, capacity, bytes, &pack);
   };
-  CHECK(init(space.size(), 3, 50, 600) == MICROTIN_DONE);
-  CHECK(init(space.size(), 3, 50, 1100) == MICROTIN_WORKSPACE_TOO_SMALL);
-  CHECK(init(space.size(), 3, 500, 600) == MICROTIN_WORKSPACE_TOO_SMALL);
-  CHECK(init(space.size(), 3, 50, 0xFFFFFFFF) == MICROTIN_WORKSPACE_TOO_SMALL);
+  CHECK(init(space.size(), 3, 50, 600) == MICROTIN_STATUS_OK);
+  CHECK(init(space.size(), 3, 50, 1100) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
+  CHECK(init(space.size(), 3, 500, 600) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
+  CHECK(init(space.size(), 3, 50, 0xFFFFFFFF) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
   for (const uint32_t slots : {0u, 256u}) {
     pack = reinterpret_cast<microtin_pack*>(space.begin());
-    CHECK(init(space.size(), slots, 50, 600) == MICROTIN_ARGUMENT);
+    CHECK(init(space.size(), slots, 50, 600) == MICROTIN_STATUS_ARGUMENT);
     CHECK(pack == nullptr);
   }
-  CHECK(init(space.size(), 3, 2, 600) == MICROTIN_ARGUMENT);
-  CHECK(init(100, 1, 50, 600) == MICROTIN_WORKSPACE_TOO_SMALL);
+  CHECK(init(space.size(), 3, 2, 600) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(init(100, 1, 50, 600) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
 }
 
 }  // namespace microtin::tests

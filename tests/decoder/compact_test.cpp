@@ -22,10 +22,10 @@ namespace microtin::tests {
 namespace {
 
 std::unique_ptr<Device> decoded(const Bytes& stream) {
-  microtin_info info;
-  REQUIRE(microtin_peek(stream.data(), stream.size(), &info) == MICROTIN_DONE);
+  microtin_stream_info info;
+  REQUIRE(microtin_read_stream_info(stream.data(), stream.size(), &info) == MICROTIN_STATUS_OK);
   auto device = std::make_unique<Device>(info.vertices);
-  REQUIRE(device->decode(stream) == MICROTIN_DONE);
+  REQUIRE(device->decode(stream) == MICROTIN_STATUS_OK);
   return device;
 }
 
@@ -39,15 +39,15 @@ microtin_status make(void* target, size_t size, microtin_mesh* mesh, void* scrat
                      Needs* needs) {
   microtin_compactor* compactor = nullptr;
   microtin_status status =
-      microtin_compact_begin(target, size, mesh, scratch, scratch_size, &compactor);
-  if (status != MICROTIN_DONE) return status;
-  const uint32_t most = 44 * microtin_vertex_count(mesh) + 44;
+      microtin_compactor_init(target, size, mesh, scratch, scratch_size, &compactor);
+  if (status != MICROTIN_STATUS_OK) return status;
+  const uint32_t most = 44 * microtin_mesh_vertex_count(mesh) + 44;
   uint32_t steps = 0;
   do {
-    status = microtin_compact_proceed(compactor, piece, compact);
+    status = microtin_compactor_run(compactor, piece, compact);
     REQUIRE((steps += piece) <= most + piece);
-  } while (status == MICROTIN_STEP_LIMIT);
-  microtin_compact_needs(compactor, &needs->bytes, &needs->scratch);
+  } while (status == MICROTIN_STATUS_STEP_LIMIT);
+  microtin_compactor_required_bytes(compactor, &needs->bytes, &needs->scratch);
   return status;
 }
 
@@ -59,23 +59,23 @@ class Compact {
     const Told before = told_by(mesh);
     Workspace little(64), first_scratch(MICROTIN_DECODER_BYTES(device_->vertices()));
     REQUIRE(make(little.begin(), little.size(), mesh, first_scratch.begin(), first_scratch.size(),
-                 piece, &compact_, &needs_) == MICROTIN_WORKSPACE_TOO_SMALL);
+                 piece, &compact_, &needs_) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
     CHECK(compact_ == nullptr);
     CHECK(told_by(mesh) == before);
     space_ = std::make_unique<Workspace>(needs_.bytes);
     scratch_ = std::make_unique<Workspace>(needs_.scratch);
     const Needs told = needs_;
     REQUIRE(make(space_->begin(), told.bytes, mesh, scratch_->begin(), told.scratch - 1, piece,
-                 &compact_, &needs_) == MICROTIN_WORKSPACE_TOO_SMALL);
+                 &compact_, &needs_) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
     REQUIRE(make(space_->begin(), told.bytes - 1, mesh, scratch_->begin(), told.scratch, piece,
-                 &compact_, &needs_) == MICROTIN_WORKSPACE_TOO_SMALL);
+                 &compact_, &needs_) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
     CHECK(told_by(mesh) == before);
     REQUIRE(make(space_->begin(), told.bytes, mesh, scratch_->begin(), told.scratch, piece,
-                 &compact_, &needs_) == MICROTIN_DONE);
+                 &compact_, &needs_) == MICROTIN_STATUS_OK);
     CHECK(needs_.bytes == told.bytes);
     CHECK(needs_.scratch == told.scratch);
     CHECK(microtin_compact_size(compact_) == told.bytes);
-    CHECK(microtin_triangle_count(mesh) == 0);
+    CHECK(microtin_mesh_triangle_count(mesh) == 0);
     CHECK(space_->guards_are_whole());
     CHECK(scratch_->guards_are_whole());
     CHECK(device_->guards_are_whole());
@@ -124,13 +124,14 @@ uint32_t check(const Bytes& stream, uint32_t seed, int places = 300) {
            own->decoder_space.size(), 1 + seed % 5, &in_place, &needs);
   CHECK(own->guards_are_whole());
   const uint32_t n = own->vertices();
-  CHECK((status == MICROTIN_DONE || n < 64 || compact.repeats() > MICROTIN_COMPACT_REPEATS(n)));
-  if (status == MICROTIN_DONE) {
+  CHECK(
+      (status == MICROTIN_STATUS_OK || n < 64 || compact.repeats() > MICROTIN_COMPACT_REPEATS(n)));
+  if (status == MICROTIN_STATUS_OK) {
     const uint8_t* const begin = reinterpret_cast<const uint8_t*>(in_place);
     CHECK(Bytes(begin, begin + needs.bytes) == compact.bytes());
   } else {
-    CHECK(status == MICROTIN_WORKSPACE_TOO_SMALL);
-    CHECK(microtin_digest(own->mesh) == microtin_digest(mesh->mesh));
+    CHECK(status == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
+    CHECK(microtin_mesh_digest(own->mesh) == microtin_mesh_digest(mesh->mesh));
   }
   return compact.repeats();
 }
@@ -200,7 +201,7 @@ uint32_t repeats_of(const Points& points) {
   microtin_compact* compact = nullptr;
   Needs needs;
   REQUIRE(make(space.begin(), space.size(), device->mesh, scratch.begin(), scratch.size(), 1000,
-               &compact, &needs) == MICROTIN_DONE);
+               &compact, &needs) == MICROTIN_STATUS_OK);
   return microtin_compact_triangle_count(compact) / 2 + 1 - n;
 }
 
@@ -297,11 +298,12 @@ TEST_CASE("compact terrains: making takes 15 to 18.5 steps a vertex of a terrain
       void* const target = in_place ? device->mesh : elsewhere.begin();
       const size_t size = in_place ? device->mesh_space.size() : elsewhere.size();
       microtin_compactor* compactor = nullptr;
-      REQUIRE(microtin_compact_begin(target, size, device->mesh, device->decoder_space.begin(),
-                                     device->decoder_space.size(), &compactor) == MICROTIN_DONE);
+      REQUIRE(microtin_compactor_init(target, size, device->mesh, device->decoder_space.begin(),
+                                      device->decoder_space.size(),
+                                      &compactor) == MICROTIN_STATUS_OK);
       microtin_compact* compact = nullptr;
       uint32_t steps = 1;
-      while (microtin_compact_proceed(compactor, 1, &compact) == MICROTIN_STEP_LIMIT) ++steps;
+      while (microtin_compactor_run(compactor, 1, &compact) == MICROTIN_STATUS_STEP_LIMIT) ++steps;
       REQUIRE(compact != nullptr);
       const double each = steps / static_cast<double>(microtin_compact_vertex_count(compact));
       MESSAGE(std::string(in_place ? "in place: " : "elsewhere: ") << each << " steps");
@@ -347,27 +349,29 @@ TEST_CASE("compact terrains: arguments, and meshes that are not verified") {
   uint8_t* const begin = static_cast<uint8_t*>(space.begin());
   microtin_compactor* compactor = nullptr;
   const auto begins = [&](void* target, microtin_mesh* mesh, void* with, size_t size) {
-    return microtin_compact_begin(target, space.size(), mesh, with, size, &compactor);
+    return microtin_compactor_init(target, space.size(), mesh, with, size, &compactor);
   };
-  CHECK(begins(begin, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_ARGUMENT);  // empty
+  CHECK(begins(begin, device.mesh, scratch.begin(), scratch.size()) ==
+        MICROTIN_STATUS_ARGUMENT);  // empty
   size_t used = 0;
-  microtin_stop_after_phase(device.decoder, 100);
-  REQUIRE(device.feed(stream.data(), stream.size(), &used, 300) == MICROTIN_STEP_LIMIT);
-  CHECK(begins(begin, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_ARGUMENT);
+  microtin_decoder_stop_after_phase(device.decoder, 100);
+  REQUIRE(device.feed(stream.data(), stream.size(), &used, 300) == MICROTIN_STATUS_STEP_LIMIT);
+  CHECK(begins(begin, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_STATUS_ARGUMENT);
   device.feed(stream.data() + used, stream.size() - used, &used);
   REQUIRE(device.vertices() > 800);
-  CHECK(begins(nullptr, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_ARGUMENT);
-  CHECK(begins(begin, nullptr, scratch.begin(), scratch.size()) == MICROTIN_ARGUMENT);
-  CHECK(begins(begin, device.mesh, nullptr, scratch.size()) == MICROTIN_ARGUMENT);
-  CHECK(begins(begin + 4, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_MISALIGNED);
-  CHECK(begins(begin, device.mesh, scratch.begin(), 300) == MICROTIN_WORKSPACE_TOO_SMALL);
+  CHECK(begins(nullptr, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(begins(begin, nullptr, scratch.begin(), scratch.size()) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(begins(begin, device.mesh, nullptr, scratch.size()) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(begins(begin + 4, device.mesh, scratch.begin(), scratch.size()) ==
+        MICROTIN_STATUS_MISALIGNED);
+  CHECK(begins(begin, device.mesh, scratch.begin(), 300) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
   CHECK(compactor == nullptr);
-  REQUIRE(begins(begin, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_DONE);
+  REQUIRE(begins(begin, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_STATUS_OK);
   microtin_compact* compact = nullptr;
-  CHECK(microtin_compact_proceed(compactor, 1, nullptr) == MICROTIN_ARGUMENT);
-  CHECK(microtin_compact_proceed(nullptr, 1, &compact) == MICROTIN_ARGUMENT);
-  CHECK(microtin_compact_proceed(compactor, 0, &compact) == MICROTIN_DONE);
-  CHECK(microtin_compact_proceed(compactor, 1, &compact) == MICROTIN_DONE);  // said again
+  CHECK(microtin_compactor_run(compactor, 1, nullptr) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(microtin_compactor_run(nullptr, 1, &compact) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(microtin_compactor_run(compactor, 0, &compact) == MICROTIN_STATUS_OK);
+  CHECK(microtin_compactor_run(compactor, 1, &compact) == MICROTIN_STATUS_OK);  // said again
   CHECK(compact == space.begin());
 }
 
@@ -378,23 +382,23 @@ TEST_CASE("the C++ face of compact terrains") {
   static CompactTerrain<500> compact;
   CHECK(compact.compact() == nullptr);
   size_t used = 0;
-  REQUIRE(decoder.feed(stream.data(), stream.size(), &used) == MICROTIN_DONE);
+  REQUIRE(decoder.feed(stream.data(), stream.size(), &used) == MICROTIN_STATUS_OK);
   const uint64_t digest = terrain.digest();
   const uint32_t vertices = terrain.vertices();
-  REQUIRE(compact.make(terrain, decoder) == MICROTIN_DONE);
+  REQUIRE(compact.make(terrain, decoder) == MICROTIN_STATUS_OK);
   CHECK(compact.vertices() == vertices);
   CHECK(compact.digest() == digest);
   uint32_t hint = compact.hint(500 * 256, 500 * 256);
   int32_t height = 0;
-  CHECK(compact.height_at(500 * 256, 500 * 256, &hint, &height) == MICROTIN_HEIGHT);
+  CHECK(compact.height_at(500 * 256, 500 * 256, &hint, &height) == MICROTIN_QUERY_OK);
 
   decoder.begin(terrain);
-  REQUIRE(decoder.feed(stream.data(), stream.size(), &used) == MICROTIN_DONE);
-  CHECK(compact.make(terrain, decoder) == MICROTIN_ARGUMENT);  // it holds a terrain
+  REQUIRE(decoder.feed(stream.data(), stream.size(), &used) == MICROTIN_STATUS_OK);
+  CHECK(compact.make(terrain, decoder) == MICROTIN_STATUS_ARGUMENT);  // it holds a terrain
   CHECK(compact.digest() == digest);
   CHECK(terrain.digest() == digest);
   compact.clear();
-  CHECK(compact.make(terrain, decoder) == MICROTIN_DONE);
+  CHECK(compact.make(terrain, decoder) == MICROTIN_STATUS_OK);
   CHECK(compact.digest() == digest);
 }
 

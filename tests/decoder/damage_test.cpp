@@ -44,11 +44,14 @@ void for_each_damage(const Bytes& stream, const Visit& visit) {
 
 // Whether the decoder keeps saying so, takes nothing more and changes nothing.
 bool is_final(const Device& device, microtin_status status, const Bytes& bytes) {
-  const uint64_t digest = microtin_digest(device.mesh), taken = microtin_bytes_used(device.decoder);
+  const uint64_t digest = microtin_mesh_digest(device.mesh),
+                 taken = microtin_decoder_bytes_used(device.decoder);
   size_t used = 1;
   return device.feed(bytes.data(), bytes.size(), &used) == status && used == 0 &&
-         device.feed(nullptr, 0, &used, 1) == status && microtin_finish(device.decoder) == status &&
-         microtin_bytes_used(device.decoder) == taken && microtin_digest(device.mesh) == digest;
+         device.feed(nullptr, 0, &used, 1) == status &&
+         microtin_decoder_finish(device.decoder) == status &&
+         microtin_decoder_bytes_used(device.decoder) == taken &&
+         microtin_mesh_digest(device.mesh) == digest;
 }
 
 }  // namespace
@@ -57,22 +60,23 @@ TEST_CASE("every prefix needs input and, if finished there, is truncated for eve
   for (const Bytes& stream : small_streams()) {
     for (size_t size = 0; size < stream.size(); ++size) {
       const Device device(kCapacity);
-      CHECK(feed_copy(device, stream.data(), size) == MICROTIN_NEED_INPUT);
-      CHECK(microtin_finish(device.decoder) == MICROTIN_TRUNCATED);
-      CHECK(is_final(device, MICROTIN_TRUNCATED, stream));
+      CHECK(feed_copy(device, stream.data(), size) == MICROTIN_STATUS_NEED_INPUT);
+      CHECK(microtin_decoder_finish(device.decoder) == MICROTIN_STATUS_TRUNCATED);
+      CHECK(is_final(device, MICROTIN_STATUS_TRUNCATED, stream));
     }
-    CHECK(feed_copy(Device(kCapacity), stream.data(), stream.size()) == MICROTIN_DONE);
+    CHECK(feed_copy(Device(kCapacity), stream.data(), stream.size()) == MICROTIN_STATUS_OK);
   }
 }
 
 TEST_CASE("peek says of every prefix how many bytes the header needs, or tells the header") {
   for (const Bytes& stream : small_streams()) {
-    microtin_info whole, info;
-    REQUIRE(microtin_peek(stream.data(), stream.size(), &whole) == MICROTIN_DONE);
+    microtin_stream_info whole, info;
+    REQUIRE(microtin_read_stream_info(stream.data(), stream.size(), &whole) == MICROTIN_STATUS_OK);
     for (size_t size = 0; size < stream.size(); ++size) {
       const Bytes prefix(stream.begin(), stream.begin() + static_cast<std::ptrdiff_t>(size));
-      const microtin_status status = microtin_peek(prefix.data(), size, &info);
-      CHECK(status == (size < whole.header_bytes ? MICROTIN_NEED_INPUT : MICROTIN_DONE));
+      const microtin_status status = microtin_read_stream_info(prefix.data(), size, &info);
+      CHECK(status ==
+            (size < whole.header_bytes ? MICROTIN_STATUS_NEED_INPUT : MICROTIN_STATUS_OK));
       CHECK((info.header_bytes == whole.header_bytes || info.header_bytes == 0));
     }
   }
@@ -83,19 +87,20 @@ TEST_CASE("a flipped bit or a changed byte is damage, and never taken for anythi
     for_each_damage(stream, [&](const Bytes& damaged, size_t at) {
       const Device device(kCapacity);
       const microtin_status status = device.decode(damaged);
-      const bool longer = status == MICROTIN_TRUNCATED;  // as a damaged length makes it
+      const bool longer = status == MICROTIN_STATUS_TRUNCATED;  // as a damaged length makes it
       if (at < sizeof kMagic) {
-        CHECK(status == MICROTIN_BAD_MAGIC);
+        CHECK(status == MICROTIN_STATUS_BAD_MAGIC);
       } else if (at == sizeof kMagic) {
-        CHECK(status == MICROTIN_UNSUPPORTED_VERSION);
+        CHECK(status == MICROTIN_STATUS_UNSUPPORTED_VERSION);
       } else {
-        CHECK((status == MICROTIN_CHECKSUM || longer));
-        CHECK(microtin_bytes_used(device.decoder) > at);
+        CHECK((status == MICROTIN_STATUS_CHECKSUM || longer));
+        CHECK(microtin_decoder_bytes_used(device.decoder) > at);
       }
       if (at >= stream.size() - kCheckBytes) {
         uint32_t hint = 0;
         int32_t height = 0;
-        CHECK(microtin_height_at(device.mesh, 0, 0, 0, &hint, &height) == MICROTIN_NOT_VERIFIED);
+        CHECK(microtin_mesh_height_at(device.mesh, 0, 0, 0, &hint, &height) ==
+              MICROTIN_QUERY_UNVERIFIED);
       }
       CHECK(is_final(device, status, stream));
     });
@@ -109,10 +114,10 @@ TEST_CASE("damage behind right checks ends in a status, and the mesh stays sound
       const bool repaired = repair(damaged.data(), damaged.size());
       const Device device(kCapacity);
       const microtin_status status = device.decode(damaged);
-      done += status == MICROTIN_DONE;
-      malformed += status == MICROTIN_MALFORMED;
-      CHECK((status == MICROTIN_DONE || status >= MICROTIN_BAD_MAGIC));
-      CHECK((status != MICROTIN_CHECKSUM || !repaired));
+      done += status == MICROTIN_STATUS_OK;
+      malformed += status == MICROTIN_STATUS_MALFORMED;
+      CHECK((status == MICROTIN_STATUS_OK || status >= MICROTIN_STATUS_BAD_MAGIC));
+      CHECK((status != MICROTIN_STATUS_CHECKSUM || !repaired));
       CHECK(is_final(device, status, stream));
       CHECK(device.guards_are_whole());
       if (device.vertices() >= 3 && device.vertices() <= 60) CHECK(is_sound(MeshCopy(device.mesh)));
@@ -160,15 +165,16 @@ TEST_CASE("chunks of any size say the same of damaged streams") {
       if (round % 2 != 0) repair(damaged.data(), damaged.size());
       const Device whole(kCapacity), pieces(kCapacity);
       const microtin_status expected = whole.decode(damaged);
-      microtin_status status = MICROTIN_NEED_INPUT;
-      for (size_t at = 0; at < damaged.size() && status == MICROTIN_NEED_INPUT;) {
+      microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+      for (size_t at = 0; at < damaged.size() && status == MICROTIN_STATUS_NEED_INPUT;) {
         const size_t chunk = std::min<size_t>(random.below(90), damaged.size() - at);
         status = feed_copy(pieces, damaged.data() + at, chunk);
         at += chunk;
       }
-      CHECK(microtin_finish(pieces.decoder) == expected);
-      CHECK(microtin_bytes_used(pieces.decoder) == microtin_bytes_used(whole.decoder));
-      CHECK(microtin_digest(pieces.mesh) == microtin_digest(whole.mesh));
+      CHECK(microtin_decoder_finish(pieces.decoder) == expected);
+      CHECK(microtin_decoder_bytes_used(pieces.decoder) ==
+            microtin_decoder_bytes_used(whole.decoder));
+      CHECK(microtin_mesh_digest(pieces.mesh) == microtin_mesh_digest(whole.mesh));
     }
   }
 }

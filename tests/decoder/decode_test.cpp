@@ -21,13 +21,13 @@ TEST_CASE("every phase can be the last, and is a coarser terrain") {
   uint32_t before = 3;
   for (uint32_t phase = 1; phase <= phases; ++phase) {
     Device device(1500);
-    microtin_stop_after_phase(device.decoder, phase);
+    microtin_decoder_stop_after_phase(device.decoder, phase);
     const microtin_status status = device.feed_all(stream);
-    CHECK(status == (phase == phases ? MICROTIN_DONE : MICROTIN_STOPPED));
-    CHECK(microtin_phase(device.decoder) == phase);
-    const uint32_t vertices = microtin_vertex_count(device.mesh);
+    CHECK(status == (phase == phases ? MICROTIN_STATUS_OK : MICROTIN_STATUS_STOPPED));
+    CHECK(microtin_decoder_phase(device.decoder) == phase);
+    const uint32_t vertices = microtin_mesh_vertex_count(device.mesh);
     CHECK(vertices > before);
-    CHECK(microtin_triangle_count(device.mesh) == 2 * vertices - 2);
+    CHECK(microtin_mesh_triangle_count(device.mesh) == 2 * vertices - 2);
     before = vertices;
   }
 }
@@ -42,26 +42,26 @@ TEST_CASE("notes in the header are skipped, a broken placement is malformed") {
     if (is_placed) other[7] |= static_cast<uint8_t>(kHasPlacement);  // properties
     repair(other.data(), other.size());
     if (damaged) other[end] ^= 1;
-    microtin_info info;
-    const microtin_status peeked = microtin_peek(other.data(), other.size(), &info);
+    microtin_stream_info info;
+    const microtin_status peeked = microtin_read_stream_info(other.data(), other.size(), &info);
     Device device(20);
     const microtin_status status = device.feed_all(other);
     CHECK(status == peeked);
     microtin_axis x, y, z;
-    microtin_placement(device.mesh, &x, &y, &z);
+    microtin_mesh_axes(device.mesh, &x, &y, &z);
     for (const microtin_axis& axis : {x, y, z}) {
       CHECK(axis.numerator != 0);
       CHECK(axis.denominator != 0);
     }
     return status;
   };
-  CHECK(status_with(false, {0x7F, 2, 0, 9, 9}, false) == MICROTIN_DONE);
-  CHECK(status_with(false, {0xFF}, false) == MICROTIN_DONE);
-  CHECK(status_with(true, {1, 2, 3, 1, 2, 3, 1, 2, 3}, false) == MICROTIN_DONE);
+  CHECK(status_with(false, {0x7F, 2, 0, 9, 9}, false) == MICROTIN_STATUS_OK);
+  CHECK(status_with(false, {0xFF}, false) == MICROTIN_STATUS_OK);
+  CHECK(status_with(true, {1, 2, 3, 1, 2, 3, 1, 2, 3}, false) == MICROTIN_STATUS_OK);
   for (const Bytes& broken :
        {Bytes{1}, Bytes{1, 2, 3, 1, 2, 3, 1, 2}, Bytes{1, 0, 3, 1, 2, 3, 1, 2, 3}}) {
-    CHECK(status_with(true, broken, false) == MICROTIN_MALFORMED);
-    CHECK(status_with(true, broken, true) == MICROTIN_CHECKSUM);
+    CHECK(status_with(true, broken, false) == MICROTIN_STATUS_MALFORMED);
+    CHECK(status_with(true, broken, true) == MICROTIN_STATUS_CHECKSUM);
   }
 }
 
@@ -73,20 +73,20 @@ TEST_CASE("stopping after the last phase of a terrain with voids decodes it whol
   tin.voids.push_back(Tin::Triangle{t[0], t[1], t[2]});
   const Bytes stream = encode(tin, Metadata());
   Device device(900);
-  microtin_stop_after_phase(device.decoder, DecodedTerrain(stream).phases());
-  CHECK(device.feed_all(stream) == MICROTIN_DONE);
+  microtin_decoder_stop_after_phase(device.decoder, DecodedTerrain(stream).phases());
+  CHECK(device.feed_all(stream) == MICROTIN_STATUS_OK);
 }
 
 TEST_CASE("workspaces are checked") {
   std::vector<uint64_t> bytes(1000);
   microtin_mesh* mesh = nullptr;
-  CHECK(microtin_mesh_init(nullptr, 8000, &mesh) == MICROTIN_ARGUMENT);
+  CHECK(microtin_mesh_init(nullptr, 8000, &mesh) == MICROTIN_STATUS_ARGUMENT);
   CHECK(microtin_mesh_init(reinterpret_cast<uint8_t*>(bytes.data()) + 4, 7000, &mesh) ==
-        MICROTIN_MISALIGNED);
+        MICROTIN_STATUS_MISALIGNED);
   CHECK(microtin_mesh_init(bytes.data(), MICROTIN_MESH_BYTES(3) - 1, &mesh) ==
-        MICROTIN_WORKSPACE_TOO_SMALL);
+        MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
   CHECK(mesh == nullptr);
-  CHECK(microtin_mesh_init(bytes.data(), MICROTIN_MESH_BYTES(3), &mesh) == MICROTIN_DONE);
+  CHECK(microtin_mesh_init(bytes.data(), MICROTIN_MESH_BYTES(3), &mesh) == MICROTIN_STATUS_OK);
   CHECK(mesh != nullptr);
 }
 
@@ -102,16 +102,16 @@ TEST_CASE("queries on a mesh that is not decoded or not verified say so") {
   Device device(400);
   uint32_t hint = 0;
   int32_t height = 0;
-  CHECK(microtin_height_at(device.mesh, 0, 0, 0, &hint, &height) == MICROTIN_NOT_DECODED);
+  CHECK(microtin_mesh_height_at(device.mesh, 0, 0, 0, &hint, &height) == MICROTIN_QUERY_NOT_LOADED);
   size_t used = 0;
-  REQUIRE(device.feed(stream.data(), stream.size() - 2, &used) == MICROTIN_NEED_INPUT);
+  REQUIRE(device.feed(stream.data(), stream.size() - 2, &used) == MICROTIN_STATUS_NEED_INPUT);
   uint16_t x = 0, y = 0;
   int16_t z = 0;
-  microtin_vertex(device.mesh, 0, &x, &y, &z);
-  CHECK(microtin_height_at(device.mesh, x * 256, y * 256, 0, &hint, &height) ==
-        MICROTIN_NOT_VERIFIED);
-  CHECK(microtin_height_at(device.mesh, x * 256, y * 256, MICROTIN_ANSWER_UNVERIFIED, &hint,
-                           &height) == MICROTIN_HEIGHT);
+  microtin_mesh_vertex(device.mesh, 0, &x, &y, &z);
+  CHECK(microtin_mesh_height_at(device.mesh, x * 256, y * 256, 0, &hint, &height) ==
+        MICROTIN_QUERY_UNVERIFIED);
+  CHECK(microtin_mesh_height_at(device.mesh, x * 256, y * 256, MICROTIN_FLAG_ALLOW_UNVERIFIED,
+                                &hint, &height) == MICROTIN_QUERY_OK);
   CHECK(height == z * 65536);
 }
 

@@ -26,7 +26,7 @@ int64_t in_units(int32_t z, const microtin_axis& axis) {
   return static_cast<int64_t>(std::clamp<Wide>(height, INT16_MIN, INT16_MAX));
 }
 
-microtin_course course(Random& random, int64_t x_max, int64_t y_max) {
+microtin_segment course(Random& random, int64_t x_max, int64_t y_max) {
   const auto pick = [&](int64_t most) {
     return static_cast<int64_t>(random.below(static_cast<uint32_t>(most * 256 + 1)));
   };
@@ -45,18 +45,18 @@ TEST_CASE_TEMPLATE("pack: heights at every place are those of the tiles, voids a
     const Device device(4);
     Random random(5);
     for (int i = 0; i < 60; ++i) {
-      const microtin_course c = course(random, 60, 52);
+      const microtin_segment c = course(random, 60, 52);
       const int64_t x = i % 2 == 0 ? c.x : c.x / 256 * 256, y = i % 3 == 0 ? c.y / 256 * 256 : c.y;
-      REQUIRE(device.service(card, {x, y, x, y}) == MICROTIN_DONE);
+      REQUIRE(device.service(card, {x, y, x, y}) == MICROTIN_STATUS_OK);
       int32_t height = 0;
-      const microtin_answer answer = device.height_at(x, y, height);
+      const microtin_query_result answer = device.height_at(x, y, height);
       const std::optional<int32_t> expected = expected_height(pack, x, y);
-      CHECK(answer == (expected ? MICROTIN_HEIGHT : MICROTIN_IN_VOID));
+      CHECK(answer == (expected ? MICROTIN_QUERY_OK : MICROTIN_QUERY_VOID));
       if (expected) CHECK(height == *expected);
     }
     int32_t height = 0;
-    CHECK(device.height_at(-1, 0, height) == MICROTIN_OUTSIDE);
-    CHECK(device.height_at(60 * 256 + 1, 0, height) == MICROTIN_OUTSIDE);
+    CHECK(device.height_at(-1, 0, height) == MICROTIN_QUERY_OUTSIDE);
+    CHECK(device.height_at(60 * 256 + 1, 0, height) == MICROTIN_QUERY_OUTSIDE);
   }
 }
 
@@ -71,22 +71,22 @@ TEST_CASE_TEMPLATE("pack: tiles that are there need no reading, the least recent
     return at(column * grid.width + grid.width / 2, grid.height / 2);
   };
   int32_t height = 0;
-  CHECK(device.height_at(0, 0, height) == MICROTIN_NOT_DECODED);
-  REQUIRE(device.service(card, middle_of(0)) == MICROTIN_DONE);
-  REQUIRE(device.service(card, middle_of(1)) == MICROTIN_DONE);
+  CHECK(device.height_at(0, 0, height) == MICROTIN_QUERY_NOT_LOADED);
+  REQUIRE(device.service(card, middle_of(0)) == MICROTIN_STATUS_OK);
+  REQUIRE(device.service(card, middle_of(1)) == MICROTIN_STATUS_OK);
   const uint32_t reads = card.reads;
-  REQUIRE(device.service(card, middle_of(0)) == MICROTIN_DONE);
+  REQUIRE(device.service(card, middle_of(0)) == MICROTIN_STATUS_OK);
   CHECK(card.reads == reads);
-  REQUIRE(device.service(card, middle_of(2)) == MICROTIN_DONE);  // in the place of 1
+  REQUIRE(device.service(card, middle_of(2)) == MICROTIN_STATUS_OK);  // in the place of 1
   const auto is_there = [&](int64_t column) {
-    const microtin_course c = middle_of(column);
-    return device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT;
+    const microtin_segment c = middle_of(column);
+    return device.height_at(c.x, c.y, height) == MICROTIN_QUERY_OK;
   };
   CHECK(is_there(0));
   CHECK(!is_there(1));
   CHECK(is_there(2));
-  const microtin_course corner = at(grid.width, grid.height);
-  CHECK(device.service(card, corner) == MICROTIN_WORKSPACE_TOO_SMALL);
+  const microtin_segment corner = at(grid.width, grid.height);
+  CHECK(device.service(card, corner) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
   microtin_pack_reset(device.pack);
   CHECK(!is_there(0));
 }
@@ -96,71 +96,72 @@ TEST_CASE_TEMPLATE("pack: steps and reads of a call are bounded, and queries wor
   Card card{pack_bytes(rough_raster(61, 53))};
   card.most = 7;
   const Device device(4);
-  const microtin_course c = at(30, 26);
-  microtin_status status = MICROTIN_STEP_LIMIT;
+  const microtin_segment c = at(30, 26);
+  microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
   uint32_t calls = 0;
-  for (; status != MICROTIN_DONE && calls < 100000; ++calls) {
+  for (; status != MICROTIN_STATUS_OK && calls < 100000; ++calls) {
     const uint32_t reads = card.reads;
     status = device.service(card, c, 1);
     REQUIRE(card.reads <= reads + 1);
-    REQUIRE((status == MICROTIN_DONE || status == MICROTIN_NEED_INPUT ||
-             status == MICROTIN_STEP_LIMIT));
+    REQUIRE((status == MICROTIN_STATUS_OK || status == MICROTIN_STATUS_NEED_INPUT ||
+             status == MICROTIN_STATUS_STEP_LIMIT));
     int32_t height = 0;
-    const microtin_answer answer = device.height_at(c.x, c.y, height);
-    REQUIRE(answer == (status == MICROTIN_DONE ? MICROTIN_HEIGHT : MICROTIN_NOT_DECODED));
+    const microtin_query_result answer = device.height_at(c.x, c.y, height);
+    REQUIRE(answer ==
+            (status == MICROTIN_STATUS_OK ? MICROTIN_QUERY_OK : MICROTIN_QUERY_NOT_LOADED));
   }
-  CHECK(status == MICROTIN_DONE);
+  CHECK(status == MICROTIN_STATUS_OK);
   CHECK(calls > 50);
 }
 
 TEST_CASE_TEMPLATE("pack: every read fails in turn, and the next call goes on", Device, MeshSlots,
                    CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
-  const microtin_course c = at(30, 26);
+  const microtin_segment c = at(30, 26);
   uint32_t all = 0;
   {
     const Device device(4);
-    REQUIRE(device.service(card, c) == MICROTIN_DONE);
+    REQUIRE(device.service(card, c) == MICROTIN_STATUS_OK);
     all = card.reads;
   }
   for (uint32_t failing = 0; failing < all; ++failing) {
     const Device device(4);
     card.reads = 0;
     card.failing = failing;
-    CHECK(device.service(card, c) == MICROTIN_IO);
+    CHECK(device.service(card, c) == MICROTIN_STATUS_IO);
     CHECK(card.reads == failing + 1);
     int32_t height = 0;
-    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_NOT_DECODED);
-    CHECK(device.service(card, c) == MICROTIN_DONE);
+    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_QUERY_NOT_LOADED);
+    CHECK(device.service(card, c) == MICROTIN_STATUS_OK);
     CHECK(card.reads == all + 1);  // only what failed is read again
-    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
+    CHECK(device.height_at(c.x, c.y, height) == MICROTIN_QUERY_OK);
   }
 }
 
 TEST_CASE_TEMPLATE("pack: a pulled card is told at once, at any moment, and its return is enough",
                    Device, MeshSlots, CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
-  const microtin_course c = at(30, 26);
+  const microtin_segment c = at(30, 26);
   for (uint32_t pulled = 0; pulled < 100; ++pulled) {
     const Device device(4);
     card.is_pulled = false;
-    microtin_status status = MICROTIN_NEED_INPUT;
-    for (uint32_t call = 0; call < pulled && status != MICROTIN_DONE; ++call) {
+    microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+    for (uint32_t call = 0; call < pulled && status != MICROTIN_STATUS_OK; ++call) {
       status = device.service(card, c, 5);
     }
-    if (status == MICROTIN_DONE) break;
+    if (status == MICROTIN_STATUS_OK) break;
     card.is_pulled = true;
     for (int call = 0; call < 100; ++call) {
       status = device.service(card, c, 5);
-      if (status == MICROTIN_IO || status == MICROTIN_DONE) break;
-      REQUIRE(status == MICROTIN_STEP_LIMIT);  // it needs no bytes yet
+      if (status == MICROTIN_STATUS_IO || status == MICROTIN_STATUS_OK) break;
+      REQUIRE(status == MICROTIN_STATUS_STEP_LIMIT);  // it needs no bytes yet
     }
-    if (status == MICROTIN_DONE) break;
-    CHECK(status == MICROTIN_IO);
-    CHECK(device.service(card, c, 5) == MICROTIN_IO);
-    CHECK(device.service(card, c) == MICROTIN_IO);
+    if (status == MICROTIN_STATUS_OK) break;
+    CHECK(status == MICROTIN_STATUS_IO);
+    CHECK(device.service(card, c, 5) == MICROTIN_STATUS_IO);
+    CHECK(device.service(card, c) == MICROTIN_STATUS_IO);
     card.is_pulled = false;
-    CHECK(device.service(card, c) == MICROTIN_DONE);
+    CHECK(device.service(card, c) == MICROTIN_STATUS_OK);
   }
 }
 
@@ -168,39 +169,39 @@ TEST_CASE_TEMPLATE("pack: who puts bytes there by hand tells the same", Device, 
                    CompactSlots) {
   const Bytes bytes = pack_bytes(rough_raster(61, 53));
   const Device device(4);
-  const microtin_course c = at(30, 26);
+  const microtin_segment c = at(30, 26);
   uint64_t offset = 0;
   uint8_t* buffer = nullptr;
   size_t size = 0;
-  microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+  microtin_pack_next_read(device.pack, &offset, &buffer, &size);
   REQUIRE(size == kPackFixedBytes);
-  CHECK(device.prepare(c, 0) == MICROTIN_NEED_INPUT);  // nothing is said yet
-  microtin_pack_given(device.pack, -7);
-  CHECK(device.prepare(c, 0) == MICROTIN_IO);
-  CHECK(device.prepare(c, 0) == MICROTIN_NEED_INPUT);                // told once
-  microtin_pack_given(device.pack, static_cast<int32_t>(size) + 1);  // more than was wanted
-  CHECK(device.prepare(c, 0) == MICROTIN_IO);
+  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_NEED_INPUT);  // nothing is said yet
+  microtin_pack_complete_read(device.pack, -7);
+  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_IO);
+  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_NEED_INPUT);                 // told once
+  microtin_pack_complete_read(device.pack, static_cast<int32_t>(size) + 1);  // more than was wanted
+  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_IO);
   std::copy_n(bytes.begin(), 9, buffer);
-  microtin_pack_given(device.pack, 9);
-  microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+  microtin_pack_complete_read(device.pack, 9);
+  microtin_pack_next_read(device.pack, &offset, &buffer, &size);
   CHECK(offset == 9);
   CHECK(size == kPackFixedBytes - 9);
-  microtin_pack_given(device.pack, 0);
-  CHECK(device.prepare(c, 0) == MICROTIN_TRUNCATED);
-  microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+  microtin_pack_complete_read(device.pack, 0);
+  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_TRUNCATED);
+  microtin_pack_next_read(device.pack, &offset, &buffer, &size);
   CHECK(offset == 0);  // anew
-  microtin_status status = MICROTIN_NEED_INPUT;
-  for (int i = 0; i < 1000 && status == MICROTIN_NEED_INPUT; ++i) {
-    microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+  microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+  for (int i = 0; i < 1000 && status == MICROTIN_STATUS_NEED_INPUT; ++i) {
+    microtin_pack_next_read(device.pack, &offset, &buffer, &size);
     std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), size, buffer);
-    microtin_pack_given(device.pack, static_cast<int32_t>(size));
+    microtin_pack_complete_read(device.pack, static_cast<int32_t>(size));
     status = device.prepare(c, 0);
   }
-  CHECK(status == MICROTIN_DONE);
-  microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+  CHECK(status == MICROTIN_STATUS_OK);
+  microtin_pack_next_read(device.pack, &offset, &buffer, &size);
   CHECK(size == 0);
-  microtin_pack_given(device.pack, 0);  // nothing was wanted: nothing is heard
-  CHECK(device.prepare(c, 0) == MICROTIN_DONE);
+  microtin_pack_complete_read(device.pack, 0);  // nothing was wanted: nothing is heard
+  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_OK);
 }
 
 namespace {
@@ -215,11 +216,11 @@ struct Interrupted {
 
 void ask_in_interrupt(int) {
   int32_t height = 0;
-  const microtin_answer answer =
+  const microtin_query_result answer =
       interrupted.device->height_at(interrupted.x, interrupted.y, height);
-  if (answer == MICROTIN_NOT_DECODED) {
+  if (answer == MICROTIN_QUERY_NOT_LOADED) {
     interrupted.absent = interrupted.absent + 1;
-  } else if (answer == MICROTIN_HEIGHT && height == interrupted.expected) {
+  } else if (answer == MICROTIN_QUERY_OK && height == interrupted.expected) {
     interrupted.right = interrupted.right + 1;
   } else {
     interrupted.wrong = interrupted.wrong + 1;
@@ -244,8 +245,8 @@ TEST_CASE_TEMPLATE("pack: a query in an interrupt is right at any moment of the 
   bool done = true;
   for (int round = 0; round < 3000 && interrupted.right + interrupted.absent < 2000; ++round) {
     // The first tile comes and goes.
-    done = done && device.service(card, {x, y, x, y}) == MICROTIN_DONE;
-    done = done && device.service(card, {3 * x, y, 3 * x, y}) == MICROTIN_DONE;
+    done = done && device.service(card, {x, y, x, y}) == MICROTIN_STATUS_OK;
+    done = done && device.service(card, {3 * x, y, 3 * x, y}) == MICROTIN_STATUS_OK;
   }
   setitimer(ITIMER_REAL, &never, nullptr);
   sigaction(SIGALRM, &before, nullptr);
@@ -259,20 +260,22 @@ TEST_CASE_TEMPLATE("pack: too small slots, workspaces and wrong arguments", Devi
                    CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
   const Device device(4, 10);
-  CHECK(device.service(card, at(1, 1)) == MICROTIN_BAD_TILES);
-  CHECK(why_bad(device, 0) == MICROTIN_TOO_BIG);
-  CHECK(device.service(card, {0, 0, int64_t{1} << 24, 0}) == MICROTIN_ARGUMENT);
-  CHECK(device.service(card, {int64_t{1} << 41, 0, int64_t{1} << 41, 0}) == MICROTIN_ARGUMENT);
-  CHECK(device.service(card, at(-500, 9999)) == MICROTIN_DONE);  // no tile is there
+  CHECK(device.service(card, at(1, 1)) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(why_bad(device, 0) == MICROTIN_STATUS_TOO_BIG);
+  CHECK(device.service(card, {0, 0, int64_t{1} << 24, 0}) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(device.service(card, {int64_t{1} << 41, 0, int64_t{1} << 41, 0}) ==
+        MICROTIN_STATUS_ARGUMENT);
+  CHECK(device.service(card, at(-500, 9999)) == MICROTIN_STATUS_OK);  // no tile is there
   microtin_pack* pack = nullptr;
   Workspace space(MICROTIN_PACK_BYTES(3, 50));
-  CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, nullptr) == MICROTIN_ARGUMENT);
-  CHECK(microtin_pack_init(space.begin(), space.size(), 0, 50, &pack) == MICROTIN_ARGUMENT);
+  CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, nullptr) ==
+        MICROTIN_STATUS_ARGUMENT);
+  CHECK(microtin_pack_init(space.begin(), space.size(), 0, 50, &pack) == MICROTIN_STATUS_ARGUMENT);
   CHECK(microtin_pack_init(space.begin(), space.size(), 3, 500, &pack) ==
-        MICROTIN_WORKSPACE_TOO_SMALL);
+        MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
   CHECK(microtin_pack_init(static_cast<char*>(space.begin()) + 1, space.size() - 1, 1, 50, &pack) ==
-        MICROTIN_MISALIGNED);
-  CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, &pack) == MICROTIN_DONE);
+        MICROTIN_STATUS_MISALIGNED);
+  CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, &pack) == MICROTIN_STATUS_OK);
 }
 
 TEST_CASE_TEMPLATE("pack: the highest on a course is that of its edges and no sample is above",
@@ -285,30 +288,31 @@ TEST_CASE_TEMPLATE("pack: the highest on a course is that of its edges and no sa
     const Device device(60);
     Random random(7);
     for (int i = 0; i < 40; ++i) {
-      microtin_course c = course(random, 60, 52);
+      microtin_segment c = course(random, 60, 52);
       if (i % 4 == 0) c.x_end = c.x = c.x / 256 * 256;  // along posts, maybe a border
       if (i % 4 == 1)
         c = {c.x / 256 * 256, c.y / 256 * 256, c.x_end / 256 * 256, c.y_end / 256 * 256};
-      REQUIRE(device.service(card, c) == MICROTIN_DONE);
+      REQUIRE(device.service(card, c) == MICROTIN_STATUS_OK);
       int32_t highest = 0;
-      const microtin_answer answer = device.highest(c, &highest);
+      const microtin_query_result answer = device.highest(c, &highest);
       int32_t sampled = INT32_MIN, begin = INT32_MIN, end = INT32_MIN;
       bool gap = false;
       for (int64_t k = 0; k <= 4096; ++k) {  // those that lie on the course exactly
         const int64_t dx = (c.x_end - c.x) * k, dy = (c.y_end - c.y) * k;
         if (dx % 4096 != 0 || dy % 4096 != 0) continue;
         int32_t height = INT32_MIN;
-        const microtin_answer here = device.height_at(c.x + dx / 4096, c.y + dy / 4096, height);
-        if (here == MICROTIN_HEIGHT) sampled = std::max(sampled, height);
-        gap = gap || here == MICROTIN_IN_VOID;
+        const microtin_query_result here =
+            device.height_at(c.x + dx / 4096, c.y + dy / 4096, height);
+        if (here == MICROTIN_QUERY_OK) sampled = std::max(sampled, height);
+        gap = gap || here == MICROTIN_QUERY_VOID;
       }
       device.height_at(c.x, c.y, begin);
       device.height_at(c.x_end, c.y_end, end);
       const double exact = std::max({highest_on_edges(model, c) * 65536, begin * 1.0, end * 1.0});
       if (exact > INT32_MIN) CHECK(std::abs(highest - exact) < 1);
       CHECK(highest >= sampled);
-      if (gap) CHECK(answer == MICROTIN_IN_VOID);
-      if (kind.name == "none") CHECK(answer == MICROTIN_HEIGHT);
+      if (gap) CHECK(answer == MICROTIN_QUERY_VOID);
+      if (kind.name == "none") CHECK(answer == MICROTIN_QUERY_OK);
     }
   }
 }
@@ -316,20 +320,20 @@ TEST_CASE_TEMPLATE("pack: the highest on a course is that of its edges and no sa
 TEST_CASE_TEMPLATE("pack: a block of heights in whole units", Device, MeshSlots, CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53, void_kinds()[2].at))};
   const Device device(60);
-  REQUIRE(device.service(card, {0, 0, 60 * 256, 52 * 256}) == MICROTIN_DONE);
-  REQUIRE(device.service(card, {0, 52 * 256, 60 * 256, 0}) == MICROTIN_DONE);
+  REQUIRE(device.service(card, {0, 0, 60 * 256, 52 * 256}) == MICROTIN_STATUS_OK);
+  REQUIRE(device.service(card, {0, 52 * 256, 60 * 256, 0}) == MICROTIN_STATUS_OK);
   microtin_pack_info info;
-  REQUIRE(microtin_pack_header(device.pack, &info) == 1);
-  const microtin_block block{5 * 256, 3 * 256, 512, 384, 20, 25, -999};
+  REQUIRE(microtin_pack_get_info(device.pack, &info) == 1);
+  const microtin_grid_spec block{5 * 256, 3 * 256, 512, 384, 20, 25, -999};
   std::vector<int16_t> heights(500);
-  const microtin_answer answer = device.fill(block, heights.data());
-  CHECK(answer != MICROTIN_HEIGHT);
+  const microtin_query_result answer = device.fill(block, heights.data());
+  CHECK(answer != MICROTIN_QUERY_OK);
   for (int64_t i = 0; i < 500; ++i) {
     int32_t z = 0;
-    const microtin_answer here =
+    const microtin_query_result here =
         device.height_at(block.x + i % 20 * 512, block.y + i / 20 * 384, z);
     const int16_t found = heights[static_cast<size_t>(i)];
-    CHECK(found == (here == MICROTIN_HEIGHT ? in_units(z, info.z) : -999));
+    CHECK(found == (here == MICROTIN_QUERY_OK ? in_units(z, info.z) : -999));
   }
 }
 
@@ -343,15 +347,15 @@ TEST_CASE_TEMPLATE(
         {4, 4, 4, 4}, {forged_tile({{{0, 0, west}, {4, 0, east}, {0, 4, west}, {4, 4, east}}, {}})},
         metadata)};
     const Device device(1);
-    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_STATUS_OK);
     microtin_pack_info info;
-    REQUIRE(microtin_pack_header(device.pack, &info) == 1);
+    REQUIRE(microtin_pack_get_info(device.pack, &info) == 1);
     std::vector<int16_t> heights(257);
-    const microtin_block block{0, 128, 4, 0, 257, 1, 0};
-    REQUIRE(device.fill(block, heights.data()) == MICROTIN_HEIGHT);
+    const microtin_grid_spec block{0, 128, 4, 0, 257, 1, 0};
+    REQUIRE(device.fill(block, heights.data()) == MICROTIN_QUERY_OK);
     for (int64_t i = 0; i < 257; ++i) {
       int32_t z = 0;
-      REQUIRE(device.height_at(4 * i, 128, z) == MICROTIN_HEIGHT);
+      REQUIRE(device.height_at(4 * i, 128, z) == MICROTIN_QUERY_OK);
       CHECK(heights[static_cast<size_t>(i)] == in_units(z, info.z));
     }
     return std::make_pair(heights.front(), heights.back());
@@ -377,22 +381,22 @@ TEST_CASE_TEMPLATE(
   std::vector<int16_t> heights(3);
   const auto fill = [&](int64_t x, int64_t y, int32_t dx, uint16_t columns) {
     std::fill(heights.begin(), heights.end(), int16_t{0});
-    const microtin_block block{x * 256, y * 256, dx * 256, 0, columns, 1, -9};
+    const microtin_grid_spec block{x * 256, y * 256, dx * 256, 0, columns, 1, -9};
     return device.fill(block, heights.data());
   };
   const std::vector<int16_t> missing{-9, -9, -9}, untouched{0, 0, 0};
-  CHECK(fill(1, 1, 1, 3) == MICROTIN_NOT_DECODED);
+  CHECK(fill(1, 1, 1, 3) == MICROTIN_QUERY_NOT_LOADED);
   CHECK(heights == missing);
-  REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
-  CHECK(fill(0, 0, 1, 3) == MICROTIN_HEIGHT);
+  REQUIRE(device.service(card, at(1, 1)) == MICROTIN_STATUS_OK);
+  CHECK(fill(0, 0, 1, 3) == MICROTIN_QUERY_OK);
   CHECK(heights == std::vector<int16_t>{1, 1, 2});
-  CHECK(fill(-3, 3, 6, 2) == MICROTIN_IN_VOID);  // outside, void
-  CHECK(fill(3, 3, -6, 2) == MICROTIN_OUTSIDE);
-  CHECK(fill(-3, 3, 4, 2) == MICROTIN_OUTSIDE);  // outside, a height
-  CHECK(fill(5, 1, 4, 2) == MICROTIN_NOT_DECODED);
+  CHECK(fill(-3, 3, 6, 2) == MICROTIN_QUERY_VOID);  // outside, void
+  CHECK(fill(3, 3, -6, 2) == MICROTIN_QUERY_OUTSIDE);
+  CHECK(fill(-3, 3, 4, 2) == MICROTIN_QUERY_OUTSIDE);  // outside, a height
+  CHECK(fill(5, 1, 4, 2) == MICROTIN_QUERY_NOT_LOADED);
   CHECK(heights[0] == -9);
-  CHECK(fill(-3, 1, 9, 2) == MICROTIN_NOT_DECODED);
-  CHECK(fill((int64_t{1} << 32) + 1, 1, 1, 3) == MICROTIN_OUTSIDE);
+  CHECK(fill(-3, 1, 9, 2) == MICROTIN_QUERY_NOT_LOADED);
+  CHECK(fill((int64_t{1} << 32) + 1, 1, 1, 3) == MICROTIN_QUERY_OUTSIDE);
   CHECK(heights == untouched);
 }
 
@@ -418,7 +422,7 @@ TEST_CASE("pack: real coordinates become places, exactly rounded") {
     const bool outside = numerator < 0 || expected > Wide{most} * 256;
     int64_t lattice = 0;
     const int found =
-        microtin_pack_to_lattice(&axis, most, static_cast<int64_t>(value), per_unit, &lattice);
+        microtin_pack_axis_to_lattice(&axis, most, static_cast<int64_t>(value), per_unit, &lattice);
     CHECK(found == (outside ? 0 : 1));
     if (found != 0) CHECK(lattice == static_cast<int64_t>(expected));
     inside += found != 0 ? 1u : 0u;
@@ -426,12 +430,12 @@ TEST_CASE("pack: real coordinates become places, exactly rounded") {
   CHECK(inside > 5000);
   const microtin_axis degrees = {7 * 1200, 1, 1200};
   int64_t lattice = 0;
-  CHECK(microtin_pack_to_lattice(&degrees, 1200, 75000000, 10000000, &lattice) == 1);
+  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, 75000000, 10000000, &lattice) == 1);
   CHECK(lattice == 600 * 256);
-  CHECK(microtin_pack_to_lattice(&degrees, 1200, 69999999, 10000000, &lattice) == 0);
-  CHECK(microtin_pack_to_lattice(&degrees, 1200, INT64_MAX, 1, &lattice) == 0);
-  CHECK(microtin_pack_to_lattice(&degrees, 1200, INT64_MIN, 1, &lattice) == 0);
-  CHECK(microtin_pack_to_lattice(&degrees, 1200, 0, 0, &lattice) == 0);
+  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, 69999999, 10000000, &lattice) == 0);
+  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, INT64_MAX, 1, &lattice) == 0);
+  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, INT64_MIN, 1, &lattice) == 0);
+  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, 0, 0, &lattice) == 0);
 }
 
 using MeshPack = Pack<4, kCapacity>;
@@ -440,21 +444,21 @@ using PackOfCompact = CompactPack<4, kCapacity>;
 TEST_CASE_TEMPLATE("pack: the C++ face", Face, MeshPack, PackOfCompact) {
   static Face pack;
   Card card{pack_bytes(rough_raster(61, 53))};
-  const microtin_course c = at(30, 26);
+  const microtin_segment c = at(30, 26);
   microtin_pack_info info;
   CHECK(!pack.header(&info));
-  REQUIRE(pack.service(c, 0, Card::read, &card) == MICROTIN_DONE);
+  REQUIRE(pack.service(c, 0, Card::read, &card) == MICROTIN_STATUS_OK);
   REQUIRE(pack.header(&info));
   CHECK(info.x_max == 60);
   uint32_t hint = 0;
   int32_t height = 0, highest = 1;
-  CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_HEIGHT);
-  CHECK(pack.highest(c, &highest) == MICROTIN_HEIGHT);
+  CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_QUERY_OK);
+  CHECK(pack.highest(c, &highest) == MICROTIN_QUERY_OK);
   CHECK(highest == height);
   int16_t rounded = 0;
-  CHECK(pack.fill({c.x, c.y, 0, 0, 1, 1, -1}, &rounded) == MICROTIN_HEIGHT);
+  CHECK(pack.fill({c.x, c.y, 0, 0, 1, 1, -1}, &rounded) == MICROTIN_QUERY_OK);
   pack.reset();
-  CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_NOT_DECODED);
+  CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_QUERY_NOT_LOADED);
 }
 
 TEST_CASE_TEMPLATE("pack: far from the origin, in the largest extent", Device, MeshSlots,
@@ -499,12 +503,12 @@ TEST_CASE_TEMPLATE("pack: far from the origin, in the largest extent", Device, M
   } card{head, index + uint64_t{number} * kPackEntryBytes, index, streams};
   const Device device(4, 400);
   const int64_t corner = int64_t{32768} * 65535 * 256;
-  const microtin_course c{corner + 5 * 256, corner + 7 * 256, corner + 25 * 256, corner + 9 * 256};
-  REQUIRE(device.service(c, 0, FarCard::read, &card) == MICROTIN_DONE);
+  const microtin_segment c{corner + 5 * 256, corner + 7 * 256, corner + 25 * 256, corner + 9 * 256};
+  REQUIRE(device.service(c, 0, FarCard::read, &card) == MICROTIN_STATUS_OK);
   int32_t height = 0, highest = 0;
-  CHECK(device.height_at(c.x, c.y, height) == MICROTIN_HEIGHT);
+  CHECK(device.height_at(c.x, c.y, height) == MICROTIN_QUERY_OK);
   CHECK(height == *expected_height(PackFile(write_pack(encoded)), 5 * 256, 7 * 256));
-  CHECK(device.highest(c, &highest) == MICROTIN_HEIGHT);
+  CHECK(device.highest(c, &highest) == MICROTIN_QUERY_OK);
   CHECK(highest >= height);
 }
 

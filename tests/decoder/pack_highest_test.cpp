@@ -27,11 +27,11 @@ Surface surface_of(const PackFile& pack) {
 }
 
 // Courses of all kinds: any, between lattice places, along lines of them, along borders, places.
-microtin_course any_course(Random& random, const TileGrid& grid) {
+microtin_segment any_course(Random& random, const TileGrid& grid) {
   const auto pick = [&](uint32_t most) {
     return static_cast<int64_t>(random.below(most * 256 + 1));
   };
-  microtin_course c = {pick(grid.x_max), pick(grid.y_max), pick(grid.x_max), pick(grid.y_max)};
+  microtin_segment c = {pick(grid.x_max), pick(grid.y_max), pick(grid.x_max), pick(grid.y_max)};
   const uint32_t kind = random.below(8);
   const auto whole = [](int64_t& v, int64_t unit) { v = v / unit * unit; };
   if (kind != 0) {
@@ -55,16 +55,16 @@ struct Counts {
 };
 
 // The answer on a course is that of exact fractions, and those at places on it agree.
-void check_course(const PackDevice& device, const Surface& surface, const microtin_course& c,
+void check_course(const PackDevice& device, const Surface& surface, const microtin_segment& c,
                   bool tiles_agree, Counts& counts) {
   CAPTURE(c.x);
   CAPTURE(c.y);
   CAPTURE(c.x_end);
   CAPTURE(c.y_end);
   int32_t highest = 1;
-  const microtin_answer answer = device.highest(c, &highest);
+  const microtin_query_result answer = device.highest(c, &highest);
   const Expected expected = expect(surface, c);
-  REQUIRE(answer == (expected.is_known ? MICROTIN_HEIGHT : MICROTIN_IN_VOID));
+  REQUIRE(answer == (expected.is_known ? MICROTIN_QUERY_OK : MICROTIN_QUERY_VOID));
   REQUIRE(highest <= expected.highest);
   REQUIRE(highest >= expected.between);
   if (tiles_agree) REQUIRE(highest == expected.highest);
@@ -73,9 +73,9 @@ void check_course(const PackDevice& device, const Surface& surface, const microt
     const int64_t dx = (c.x_end - c.x) * k, dy = (c.y_end - c.y) * k;
     if (dx % 64 != 0 || dy % 64 != 0) continue;
     int32_t height = INT32_MIN;
-    const microtin_answer here = device.height_at(c.x + dx / 64, c.y + dy / 64, height);
-    REQUIRE((here == MICROTIN_HEIGHT || here == MICROTIN_IN_VOID));
-    if (here == MICROTIN_IN_VOID) REQUIRE(answer == MICROTIN_IN_VOID);
+    const microtin_query_result here = device.height_at(c.x + dx / 64, c.y + dy / 64, height);
+    REQUIRE((here == MICROTIN_QUERY_OK || here == MICROTIN_QUERY_VOID));
+    if (here == MICROTIN_QUERY_VOID) REQUIRE(answer == MICROTIN_QUERY_VOID);
     if (tiles_agree) REQUIRE(height <= highest);
   }
 }
@@ -90,8 +90,8 @@ void check_pack(const Bytes& bytes, Random& random, int courses, bool tiles_agre
                       std::max(3u, pack.header().most_vertices));
   for (uint32_t tile = 0; tile < pack.entries().size(); ++tile) {
     const TileBox box = tile_box(grid, tile);
-    REQUIRE(device.service(card, at(box.x, box.y)) == MICROTIN_DONE);
-    REQUIRE(device.service(card, at(box.x_end, box.y_end)) == MICROTIN_DONE);
+    REQUIRE(device.service(card, at(box.x, box.y)) == MICROTIN_STATUS_OK);
+    REQUIRE(device.service(card, at(box.x_end, box.y_end)) == MICROTIN_STATUS_OK);
   }
   for (int i = 0; i < courses; ++i) {
     check_course(device, surface, any_course(random, grid), tiles_agree, counts);
@@ -209,14 +209,14 @@ TEST_CASE_TEMPLATE(
   const ForgedTile square = forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}, {4, 4, 4}}, {}});
   Card card{forged_pack(grid, {square, {}})};
   const Device device(2);
-  REQUIRE(device.service(card, {0, 0, 2047, 0}) == MICROTIN_DONE);
+  REQUIRE(device.service(card, {0, 0, 2047, 0}) == MICROTIN_STATUS_OK);
   int32_t highest = 0;
-  const auto answer = [&](const microtin_course& c) { return device.highest(c, &highest); };
-  CHECK(answer({1024, 100, 1024, 100}) == MICROTIN_HEIGHT);  // a place on the border
-  CHECK(answer({1024, 0, 1024, 1024}) == MICROTIN_HEIGHT);   // along it
+  const auto answer = [&](const microtin_segment& c) { return device.highest(c, &highest); };
+  CHECK(answer({1024, 100, 1024, 100}) == MICROTIN_QUERY_OK);  // a place on the border
+  CHECK(answer({1024, 0, 1024, 1024}) == MICROTIN_QUERY_OK);   // along it
   CHECK(highest == 4 * 65536);
-  CHECK(answer({0, 512, 1024, 512}) == MICROTIN_HEIGHT);   // up to it
-  CHECK(answer({0, 512, 1025, 512}) == MICROTIN_IN_VOID);  // a 256th of a step too far
+  CHECK(answer({0, 512, 1024, 512}) == MICROTIN_QUERY_OK);    // up to it
+  CHECK(answer({0, 512, 1025, 512}) == MICROTIN_QUERY_VOID);  // a 256th of a step too far
 }
 
 TEST_CASE_TEMPLATE("pack: heights where a course leaves the terrain are rounded once, halves up",
@@ -228,7 +228,7 @@ TEST_CASE_TEMPLATE("pack: heights where a course leaves the terrain are rounded 
     const Tin tin{{{256, 0, low}, {256, 512, high}, {0, 0, -5}, {0, 512, -5}}, {}};
     Card card{forged_pack({512, 512, 512, 512}, {forged_tile(tin)})};
     const Device device(1);
-    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_STATUS_OK);
     const Surface surface = surface_of(PackFile(card.bytes));
     Counts counts;
     for (int64_t y = 1; y < 512 * 256; y += 998) {
@@ -259,7 +259,7 @@ TEST_CASE_TEMPLATE(
     }
     Card card{forged_pack(grid, tiles)};
     const Device device(2);
-    REQUIRE(device.service(card, at(65535, 7)) == MICROTIN_DONE);
+    REQUIRE(device.service(card, at(65535, 7)) == MICROTIN_STATUS_OK);
     const Surface surface = surface_of(PackFile(card.bytes));
     for (int i = 0; i < 60; ++i) {
       const auto pick = [&](int64_t most) {
@@ -271,13 +271,13 @@ TEST_CASE_TEMPLATE(
       const int64_t x = pick(2 * 65535 * 256), y = pick(65535 * 256);
       const int64_t x_end =
           std::clamp<int64_t>(pick(2 * 65535 * 256), x - 65535 * 256 + 1, x + 65535 * 256 - 1);
-      const microtin_course c = {x, y, std::min<int64_t>(x_end, 2 * 65535 * 256),
-                                 pick(65535 * 256 - 1)};
+      const microtin_segment c = {x, y, std::min<int64_t>(x_end, 2 * 65535 * 256),
+                                  pick(65535 * 256 - 1)};
       int32_t highest = 0;
-      const microtin_answer answer = device.highest(c, &highest);
+      const microtin_query_result answer = device.highest(c, &highest);
       // Heights of the reference would overflow: whether all is known alone.
       std::vector<Stretch> stretches = stretches_of(surface, c);
-      CHECK(answer == (cover(stretches) ? MICROTIN_HEIGHT : MICROTIN_IN_VOID));
+      CHECK(answer == (cover(stretches) ? MICROTIN_QUERY_OK : MICROTIN_QUERY_VOID));
     }
   }
 }

@@ -98,18 +98,19 @@ Model some_model(Random& random) {
     const PackEntry& stream = file.entries()[i];
     const bool is_small = model.kinds[i] == Kind::kSmall;
     Reasons why;
-    if (model.kinds[i] == Kind::kWithNotes) why.insert(MICROTIN_MALFORMED);
-    if (model.kinds[i] == Kind::kTooBig) why.insert(MICROTIN_TOO_BIG);
+    if (model.kinds[i] == Kind::kWithNotes) why.insert(MICROTIN_STATUS_MALFORMED);
+    if (model.kinds[i] == Kind::kTooBig) why.insert(MICROTIN_STATUS_TOO_BIG);
     if (is_small && random.below(100) < bad_of_100) {
       model.bytes[static_cast<size_t>(stream.offset) + 20] ^= 1;
-      why.insert(MICROTIN_CHECKSUM);
+      why.insert(MICROTIN_STATUS_CHECKSUM);
     }
-    if (stream.size != 0 && stream.offset + stream.size > size) why.insert(MICROTIN_TRUNCATED);
+    if (stream.size != 0 && stream.offset + stream.size > size)
+      why.insert(MICROTIN_STATUS_TRUNCATED);
     if (random.below(100) < bad_of_100 / 4) {
       model.bytes[static_cast<size_t>(entry) + random.below(kPackEntryBytes)] ^= 4;
-      why = {MICROTIN_CHECKSUM};
+      why = {MICROTIN_STATUS_CHECKSUM};
     }
-    if (entry + kPackEntryBytes > size) why = {MICROTIN_TRUNCATED};
+    if (entry + kPackEntryBytes > size) why = {MICROTIN_STATUS_TRUNCATED};
     model.reasons.push_back(why);
   }
   model.bytes.resize(size);
@@ -118,7 +119,7 @@ Model some_model(Random& random) {
 
 // Whether a course meets the closed box of a tile: no line parallel to an axis, nor the course
 // itself, has the one on this side and the other beyond.
-bool touches(const Model& model, const microtin_course& c, uint32_t tile) {
+bool touches(const Model& model, const microtin_segment& c, uint32_t tile) {
   const int64_t side = kTileSteps * 256;
   const int64_t left = tile % model.columns * side, low = tile / model.columns * side;
   if (std::max(c.x, c.x_end) < left || std::min(c.x, c.x_end) > left + side) return false;
@@ -134,7 +135,7 @@ bool touches(const Model& model, const microtin_course& c, uint32_t tile) {
   return is_left && is_right;
 }
 
-std::vector<uint32_t> touched(const Model& model, const microtin_course& course) {
+std::vector<uint32_t> touched(const Model& model, const microtin_segment& course) {
   std::vector<uint32_t> tiles;
   for (uint32_t i = 0; i < model.tiles(); ++i) {
     if (touches(model, course, i)) tiles.push_back(i);
@@ -142,21 +143,21 @@ std::vector<uint32_t> touched(const Model& model, const microtin_course& course)
   return tiles;
 }
 
-microtin_status verdict(const Model& model, const microtin_course& course, uint32_t slots) {
+microtin_status verdict(const Model& model, const microtin_segment& course, uint32_t slots) {
   uint32_t good = 0, bad = 0;
   for (const uint32_t tile : touched(model, course)) ++(model.is_bad(tile) ? bad : good);
-  return good > slots ? MICROTIN_WORKSPACE_TOO_SMALL
-         : bad != 0   ? MICROTIN_BAD_TILES
-                      : MICROTIN_DONE;
+  return good > slots ? MICROTIN_STATUS_WORKSPACE_TOO_SMALL
+         : bad != 0   ? MICROTIN_STATUS_BAD_TILES
+                      : MICROTIN_STATUS_OK;
 }
 
-microtin_course some_course(Random& random, const Model& model) {
+microtin_segment some_course(Random& random, const Model& model) {
   const auto pick = [&](uint32_t tiles) {
     const int64_t step = random.below(3) == 0 ? kTileSteps : 1;
     return static_cast<int64_t>(random.below(tiles * kTileSteps + 1)) / step * step * 256;
   };
-  microtin_course c = {pick(model.columns), pick(model.rows), pick(model.columns),
-                       pick(model.rows)};
+  microtin_segment c = {pick(model.columns), pick(model.rows), pick(model.columns),
+                        pick(model.rows)};
   if (random.below(4) == 0) c = {c.x, c.y, c.x, c.y};
   return c;
 }
@@ -191,20 +192,20 @@ void check_place(const PackDevice& device, const Model& model, uint32_t tile, bo
   const int64_t x = (tile % model.columns * kTileSteps + 5) * 256 + 7,
                 y = (tile / model.columns * kTileSteps + 9) * 256 + 100;
   int32_t height = 0;
-  const microtin_answer answer = device.height_at(x, y, height);
-  if (answer == MICROTIN_NOT_DECODED) {
+  const microtin_query_result answer = device.height_at(x, y, height);
+  if (answer == MICROTIN_QUERY_NOT_LOADED) {
     CHECK(!must_be_there);
   } else if (model.is_bad(tile)) {
-    CHECK(answer == MICROTIN_IN_BAD_TILE);
+    CHECK(answer == MICROTIN_QUERY_BAD_TILE);
   } else {
-    CHECK(answer == (model.kinds[tile] == Kind::kNone ? MICROTIN_IN_VOID : MICROTIN_HEIGHT));
-    if (answer == MICROTIN_HEIGHT) CHECK(height == plane(x, y) * 256);
+    CHECK(answer == (model.kinds[tile] == Kind::kNone ? MICROTIN_QUERY_VOID : MICROTIN_QUERY_OK));
+    if (answer == MICROTIN_QUERY_OK) CHECK(height == plane(x, y) * 256);
   }
 }
 
 void check_bad_tiles(const PackDevice& device, const Model& model) {
-  for (uint32_t i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
-    uint32_t tile = 0, why = MICROTIN_DONE;
+  for (uint32_t i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
+    uint32_t tile = 0, why = MICROTIN_STATUS_OK;
     if (microtin_pack_bad_tile(device.pack, i, &tile, &why) == 0) continue;
     CHECK(model.reasons[tile].count(static_cast<microtin_status>(why)) == 1);
   }
@@ -212,18 +213,19 @@ void check_bad_tiles(const PackDevice& device, const Model& model) {
 
 // What a call says, beside the model. True if there is no more to do for the course.
 bool check_status(const PackDevice& device, const Model& model, uint32_t slots,
-                  const microtin_course& course, microtin_status status, UnsteadyCard& card) {
+                  const microtin_segment& course, microtin_status status, UnsteadyCard& card) {
   const bool has_failed = card.has_failed;
   card.has_failed = false;
   check_bad_tiles(device, model);
-  if (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) return false;
-  if (status == MICROTIN_IO) {
+  if (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) return false;
+  if (status == MICROTIN_STATUS_IO) {
     CHECK(has_failed);
     return false;
   }
   CHECK(status == verdict(model, course, slots));
   for (const uint32_t tile : touched(model, course)) {
-    check_place(device, model, tile, status != MICROTIN_WORKSPACE_TOO_SMALL && !model.is_bad(tile));
+    check_place(device, model, tile,
+                status != MICROTIN_STATUS_WORKSPACE_TOO_SMALL && !model.is_bad(tile));
   }
   return true;
 }
@@ -232,7 +234,7 @@ constexpr uint32_t kLimits[] = {0, 1, 3, 50};
 
 // A course is served for a while, or to its end.
 void serve_course(const PackDevice& device, const Model& model, uint32_t slots,
-                  const microtin_course& course, UnsteadyCard& card) {
+                  const microtin_segment& course, UnsteadyCard& card) {
   const bool to_the_end = card.random.below(2) == 0;
   const uint32_t most = to_the_end ? 20000 : 1 + card.random.below(60),
                  steps = kLimits[card.random.below(4)];
@@ -251,20 +253,20 @@ void run_sequence(uint32_t seed) {
   const Device device(slots, kFits);
   Model model = some_model(random);
   UnsteadyCard card{&model.bytes, Random(seed + 77), random.below(3) == 0 ? 10u : 0u};
-  std::vector<microtin_course> courses(3);
-  for (microtin_course& course : courses) course = some_course(random, model);
+  std::vector<microtin_segment> courses(3);
+  for (microtin_segment& course : courses) course = some_course(random, model);
   courses.push_back({courses[0].x_end, courses[0].y_end, courses[0].x, courses[0].y});
   for (int i = 0; i < 25; ++i) {
     const uint32_t what = random.below(20);
-    if (what == 0) microtin_pack_retry(device.pack);
+    if (what == 0) microtin_pack_clear_bad_tiles(device.pack);
     if (what == 1) microtin_pack_align_reads(device.pack, random.below(2) * 16u << random.below(6));
     if (what == 2) {  // another card, sometimes right after a read that failed or ended
       if (random.below(2) == 0)
-        microtin_pack_given(device.pack, static_cast<int32_t>(random.below(2)) - 1);
+        microtin_pack_complete_read(device.pack, static_cast<int32_t>(random.below(2)) - 1);
       model = some_model(random);
       microtin_pack_reset(device.pack);
     }
-    microtin_course& course = courses[random.below(4)];
+    microtin_segment& course = courses[random.below(4)];
     if (random.below(4) == 0) course = some_course(random, model);
     serve_course(device, model, slots, course, card);
     check_place(device, model, random.below(model.tiles()), false);
@@ -284,7 +286,7 @@ Model row_model(const std::vector<uint32_t>& damaged, uint32_t columns = 24, uin
   const PackFile file(model.bytes);
   for (const uint32_t i : damaged) {
     model.bytes[static_cast<size_t>(file.entries()[i].offset) + 20] ^= 1;
-    model.reasons[i].insert(MICROTIN_CHECKSUM);
+    model.reasons[i].insert(MICROTIN_STATUS_CHECKSUM);
   }
   return model;
 }
@@ -296,19 +298,19 @@ std::vector<uint32_t> numbers(uint32_t from, uint32_t to) {
 }
 
 // From the middle of a tile of a row to that of another.
-microtin_course along(int64_t from, int64_t to) {
+microtin_segment along(int64_t from, int64_t to) {
   const int64_t side = kTileSteps * 256;
   return {from * side + side / 2, 500, to * side + side / 2, 500};
 }
 
 // What is said of a course in the end; NEED_INPUT if there is no end.
-microtin_status served(const PackDevice& device, const microtin_course& course, uint32_t steps,
+microtin_status served(const PackDevice& device, const microtin_segment& course, uint32_t steps,
                        UnsteadyCard& card) {
   for (int calls = 0; calls < 20000; ++calls) {
     const microtin_status status = device.service(course, steps, UnsteadyCard::read, &card);
-    if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) return status;
+    if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) return status;
   }
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 }  // namespace
@@ -324,10 +326,10 @@ TEST_CASE_TEMPLATE("pack: however many tiles are bad, the good ones come, with a
       const Device device(slots, kFits);
       UnsteadyCard card{&model.bytes, Random(1), 0};
       const int64_t last = bad + 1;
-      const auto check = [&](const microtin_course& course) {
+      const auto check = [&](const microtin_segment& course) {
         CHECK(served(device, course, 0, card) == verdict(model, course, slots));
         for (const uint32_t tile : touched(model, course)) {
-          if (verdict(model, course, slots) != MICROTIN_WORKSPACE_TOO_SMALL) {
+          if (verdict(model, course, slots) != MICROTIN_STATUS_WORKSPACE_TOO_SMALL) {
             check_place(device, model, tile, !model.is_bad(tile));
           }
         }
@@ -352,13 +354,13 @@ TEST_CASE_TEMPLATE("pack: bad tiles stop no course that moves with each call", D
   for (const uint32_t slots : {1u, 4u}) {
     const Device device(slots, kFits);
     UnsteadyCard card{&model.bytes, Random(1), 0};
-    microtin_course course = along(0, kBad);
+    microtin_segment course = along(0, kBad);
     uint32_t calls = 0;
     int32_t height = 0;
-    while (device.height_at(course.x_end, 500, height) != MICROTIN_HEIGHT && calls < 5000) {
+    while (device.height_at(course.x_end, 500, height) != MICROTIN_QUERY_OK && calls < 5000) {
       course.x = 500 + calls++ % 7;
       const microtin_status status = device.service(course, 1, UnsteadyCard::read, &card);
-      CHECK((status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT));
+      CHECK((status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT));
     }
     CHECK(calls < 5000);
   }
@@ -375,12 +377,13 @@ void check_unreadable(const Model& model, uint32_t sector, uint64_t from, uint64
   card.unreadable = from;
   card.unreadable_end = to;
   const Device device(2, kFits);
-  CHECK(microtin_pack_align_reads(device.pack, sector) == MICROTIN_DONE);
+  CHECK(microtin_pack_align_reads(device.pack, sector) == MICROTIN_STATUS_OK);
   for (uint32_t tile = 0; tile < model.tiles(); ++tile) {
     const PackEntry& stream = file.entries()[tile];
     const bool is_lost = is_hit(pack_entry_start(file.header(), tile), kPackEntryBytes) ||
                          is_hit(stream.offset, stream.size);
-    CHECK(served(device, along(tile, tile), 0, card) == (is_lost ? MICROTIN_IO : MICROTIN_DONE));
+    CHECK(served(device, along(tile, tile), 0, card) ==
+          (is_lost ? MICROTIN_STATUS_IO : MICROTIN_STATUS_OK));
     check_place(device, model, tile, !is_lost);
   }
 }
@@ -416,18 +419,18 @@ TEST_CASE_TEMPLATE("pack: tiles that are repaired come once the caller says so, 
       device.service(along(0, kBad), 1, UnsteadyCard::read, &card);
     }
     card.bytes = &good.bytes;
-    microtin_pack_retry(device.pack);
+    microtin_pack_clear_bad_tiles(device.pack);
     const microtin_status status = served(device, along(0, kBad), 1, card);
     uint32_t bad = 0;  // the one of which damaged bytes were in hand
     for (uint32_t tile = 0; tile <= kBad; ++tile) {
-      if (why_bad(device, tile) == MICROTIN_DONE) {
+      if (why_bad(device, tile) == MICROTIN_STATUS_OK) {
         check_place(device, good, tile, true);
       } else {
         ++bad;
       }
     }
     CHECK(bad <= 1);
-    CHECK(status == (bad == 0 ? MICROTIN_DONE : MICROTIN_BAD_TILES));
+    CHECK(status == (bad == 0 ? MICROTIN_STATUS_OK : MICROTIN_STATUS_BAD_TILES));
   }
 }
 
@@ -437,21 +440,21 @@ TEST_CASE_TEMPLATE("pack: nothing of one pack is left to the next, whatever was 
   for (const int32_t said : {-1, 0, 9999}) {
     for (int calls = 0; calls < 40; ++calls) {
       const Device device(2, kFits);
-      CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_DONE);
+      CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_STATUS_OK);
       UnsteadyCard card{&first.bytes, Random(1), 0};
       for (int i = 0; i < calls; ++i) {
         device.service(along(1, 3), 2, UnsteadyCard::read, &card);
       }
-      microtin_pack_given(device.pack, said);
+      microtin_pack_complete_read(device.pack, said);
       microtin_pack_reset(device.pack);
       microtin_pack_info info;
-      CHECK(microtin_pack_header(device.pack, &info) == 0);
+      CHECK(microtin_pack_get_info(device.pack, &info) == 0);
       int32_t height = 0;
-      CHECK(device.height_at(along(1, 1).x, 500, height) == MICROTIN_NOT_DECODED);
-      CHECK(why_bad(device, 2) == MICROTIN_DONE);
+      CHECK(device.height_at(along(1, 1).x, 500, height) == MICROTIN_QUERY_NOT_LOADED);
+      CHECK(why_bad(device, 2) == MICROTIN_STATUS_OK);
       card.bytes = &second.bytes;
-      CHECK(served(device, along(2, 3), 2, card) == MICROTIN_DONE);
-      CHECK(served(device, along(4, 5), 2, card) == MICROTIN_BAD_TILES);
+      CHECK(served(device, along(2, 3), 2, card) == MICROTIN_STATUS_OK);
+      CHECK(served(device, along(4, 5), 2, card) == MICROTIN_STATUS_BAD_TILES);
       check_place(device, second, 4, true);
     }
   }
@@ -462,15 +465,15 @@ TEST_CASE_TEMPLATE("pack: a course that is too long asks its card for nothing mo
   Model model = row_model({4});
   UnsteadyCard card{&model.bytes, Random(1), 0};
   const Device device(2, kFits);
-  CHECK(served(device, along(0, 3), 0, card) == MICROTIN_WORKSPACE_TOO_SMALL);
+  CHECK(served(device, along(0, 3), 0, card) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
   const uint32_t reads = card.reads;
-  CHECK(served(device, along(0, 3), 0, card) == MICROTIN_WORKSPACE_TOO_SMALL);
-  CHECK(served(device, along(1, 2), 0, card) == MICROTIN_DONE);
+  CHECK(served(device, along(0, 3), 0, card) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
+  CHECK(served(device, along(1, 2), 0, card) == MICROTIN_STATUS_OK);
   CHECK(card.reads > reads);
   // Another card with another tile there, of which nothing is known yet.
   microtin_pack_reset(device.pack);
   model = row_model({2});
-  CHECK(served(device, along(0, 2), 0, card) == MICROTIN_BAD_TILES);
+  CHECK(served(device, along(0, 2), 0, card) == MICROTIN_STATUS_BAD_TILES);
 }
 
 TEST_CASE_TEMPLATE("pack: what is said of a course depends on it and on its tiles alone", Device,

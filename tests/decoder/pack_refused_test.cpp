@@ -15,20 +15,20 @@ namespace microtin::tests {
 namespace {
 
 uint32_t bad_tiles(const PackDevice& device) {
-  uint32_t all = 0, number = 0, why = MICROTIN_DONE;
-  for (uint32_t i = 0; i < 2 * MICROTIN_PACK_BAD_TILES; ++i) {
+  uint32_t all = 0, number = 0, why = MICROTIN_STATUS_OK;
+  for (uint32_t i = 0; i < 2 * MICROTIN_PACK_MAX_BAD_TILES; ++i) {
     all += microtin_pack_bad_tile(device.pack, i, &number, &why) != 0 ? 1u : 0u;
   }
   return all;
 }
 
 // What a service says in the end; NEED_INPUT if there is none.
-microtin_status served(const PackDevice& device, Card& card, const microtin_course& course) {
+microtin_status served(const PackDevice& device, Card& card, const microtin_segment& course) {
   for (int calls = 0; calls < 10000; ++calls) {
     const microtin_status status = device.service(card, course, 100);
-    if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) return status;
+    if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) return status;
   }
-  return MICROTIN_NEED_INPUT;
+  return MICROTIN_STATUS_NEED_INPUT;
 }
 
 // A row of flat tiles of two steps, each as high as its number.
@@ -57,12 +57,12 @@ Bytes loose_stream(uint16_t x_max, uint16_t y_max) {
     }
     append_check(stream, header.size());
     const Device device(3);
-    if (device.decode(stream) != MICROTIN_DONE) continue;
+    if (device.decode(stream) != MICROTIN_STATUS_OK) continue;
     bool fits = true;
     for (uint32_t v = 0; v < 3; ++v) {
       Point p{};
       int16_t z = 0;
-      microtin_vertex(device.mesh, v, &p.x, &p.y, &z);
+      microtin_mesh_vertex(device.mesh, v, &p.x, &p.y, &z);
       fits = fits && p.x <= 4 && p.y <= 3;
     }
     if (fits) return stream;
@@ -80,47 +80,47 @@ TEST_CASE_TEMPLATE("pack: bad tiles are passed over, told, and tried again when 
   card.bytes[stream_at(good, 0) + 20] ^= 1;
   card.bytes[stream_at(good, 3) + 20] ^= 1;
   const Device device(6);
-  const microtin_course all = {0, 300, 12 * 256, 300};
+  const microtin_segment all = {0, 300, 12 * 256, 300};
   CHECK(bad_tiles(device) == 0);
-  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);
   CHECK(bad_tiles(device) == 2);
-  CHECK(why_bad(device, 0) == MICROTIN_CHECKSUM);
-  CHECK(why_bad(device, 3) == MICROTIN_CHECKSUM);
-  CHECK(why_bad(device, 1) == MICROTIN_DONE);
+  CHECK(why_bad(device, 0) == MICROTIN_STATUS_CHECKSUM);
+  CHECK(why_bad(device, 3) == MICROTIN_STATUS_CHECKSUM);
+  CHECK(why_bad(device, 1) == MICROTIN_STATUS_OK);
   const auto answer = [&](int64_t x, int64_t y) {
     int32_t height = 0;
     return device.height_at(x, y, height);
   };
-  CHECK(answer(256, 300) == MICROTIN_IN_BAD_TILE);
-  CHECK(answer(512, 300) == MICROTIN_HEIGHT);  // on the border, by the other tile
-  CHECK(answer(3 * 256, 300) == MICROTIN_HEIGHT);
-  CHECK(answer(7 * 256, 300) == MICROTIN_IN_BAD_TILE);
-  CHECK(answer(11 * 256, 300) == MICROTIN_HEIGHT);
+  CHECK(answer(256, 300) == MICROTIN_QUERY_BAD_TILE);
+  CHECK(answer(512, 300) == MICROTIN_QUERY_OK);  // on the border, by the other tile
+  CHECK(answer(3 * 256, 300) == MICROTIN_QUERY_OK);
+  CHECK(answer(7 * 256, 300) == MICROTIN_QUERY_BAD_TILE);
+  CHECK(answer(11 * 256, 300) == MICROTIN_QUERY_OK);
   int32_t highest = 0;
-  CHECK(device.highest(all, &highest) == MICROTIN_IN_BAD_TILE);
+  CHECK(device.highest(all, &highest) == MICROTIN_QUERY_BAD_TILE);
   CHECK(highest == 5 * 65536);
-  const microtin_course between = {512, 300, 6 * 256, 300}, along = {6 * 256, 0, 6 * 256, 512};
-  CHECK(device.highest(between, &highest) == MICROTIN_HEIGHT);
-  CHECK(device.highest(along, &highest) == MICROTIN_HEIGHT);
+  const microtin_segment between = {512, 300, 6 * 256, 300}, along = {6 * 256, 0, 6 * 256, 512};
+  CHECK(device.highest(between, &highest) == MICROTIN_QUERY_OK);
+  CHECK(device.highest(along, &highest) == MICROTIN_QUERY_OK);
   const uint32_t reads = card.reads;
-  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);
   CHECK(card.reads == reads);
   card.bytes = good;
-  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);  // not yet
+  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);  // not yet
   CHECK(card.reads == reads);
-  microtin_pack_retry(device.pack);
-  CHECK(answer(256, 300) == MICROTIN_NOT_DECODED);
-  CHECK(device.service(card, all) == MICROTIN_DONE);
-  CHECK(answer(256, 300) == MICROTIN_HEIGHT);
+  microtin_pack_clear_bad_tiles(device.pack);
+  CHECK(answer(256, 300) == MICROTIN_QUERY_NOT_LOADED);
+  CHECK(device.service(card, all) == MICROTIN_STATUS_OK);
+  CHECK(answer(256, 300) == MICROTIN_QUERY_OK);
   CHECK(bad_tiles(device) == 0);
   card.bytes[stream_at(good, 2) + 20] ^= 1;
   microtin_pack_reset(device.pack);
-  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
+  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);
   CHECK(bad_tiles(device) == 1);
   microtin_pack_reset(device.pack);  // another card
   CHECK(bad_tiles(device) == 0);
   card.bytes = good;
-  CHECK(device.service(card, all) == MICROTIN_DONE);
+  CHECK(device.service(card, all) == MICROTIN_STATUS_OK);
 }
 
 TEST_CASE_TEMPLATE("pack: with a step limit, too, a bad tile is no stop, and is read once", Device,
@@ -130,17 +130,17 @@ TEST_CASE_TEMPLATE("pack: with a step limit, too, a bad tile is no stop, and is 
   card.bytes[stream_at(good, 1) + 20] ^= 1;
   card.most = 11;
   const Device device(6);
-  const microtin_course all = {0, 300, 12 * 256, 300};
-  microtin_status status = MICROTIN_NEED_INPUT;
+  const microtin_segment all = {0, 300, 12 * 256, 300};
+  microtin_status status = MICROTIN_STATUS_NEED_INPUT;
   uint32_t calls = 0;
   for (; calls < 10000; ++calls) {
     const uint32_t reads = card.reads;
     status = device.service(card, all, 1);
     REQUIRE(card.reads <= reads + 1);
-    if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) break;
+    if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) break;
   }
-  CHECK(status == MICROTIN_BAD_TILES);
-  CHECK(why_bad(device, 1) == MICROTIN_CHECKSUM);
+  CHECK(status == MICROTIN_STATUS_BAD_TILES);
+  CHECK(why_bad(device, 1) == MICROTIN_STATUS_CHECKSUM);
 }
 
 TEST_CASE_TEMPLATE(
@@ -151,25 +151,27 @@ TEST_CASE_TEMPLATE(
   Card card{good};
   for (uint32_t i = 0; i < kBad; ++i) card.bytes[stream_at(good, i) + 20] ^= 1;
   const Device device(kTiles);
-  const microtin_course all = {0, 300, kTiles * 512, 300};
-  CHECK(served(device, card, all) == MICROTIN_BAD_TILES);
+  const microtin_segment all = {0, 300, kTiles * 512, 300};
+  CHECK(served(device, card, all) == MICROTIN_STATUS_BAD_TILES);
   for (uint32_t i = 0; i < kTiles; ++i) {
     int32_t height = 0;
-    const microtin_answer expected = i >= kBad                     ? MICROTIN_HEIGHT
-                                     : i < MICROTIN_PACK_BAD_TILES ? MICROTIN_IN_BAD_TILE
-                                                                   : MICROTIN_NOT_DECODED;
+    const microtin_query_result expected = i >= kBad ? MICROTIN_QUERY_OK
+                                           : i < MICROTIN_PACK_MAX_BAD_TILES
+                                               ? MICROTIN_QUERY_BAD_TILE
+                                               : MICROTIN_QUERY_NOT_LOADED;
     CHECK(device.height_at(i * 512 + 256, 300, height) == expected);
   }
   uint32_t reads = card.reads;
-  CHECK(served(device, card, all) == MICROTIN_BAD_TILES);
-  CHECK(card.reads == reads + 2 * (kBad - MICROTIN_PACK_BAD_TILES));  // an entry and a stream each
+  CHECK(served(device, card, all) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(card.reads ==
+        reads + 2 * (kBad - MICROTIN_PACK_MAX_BAD_TILES));  // an entry and a stream each
   // Those that are wanted no more make room for others.
-  const microtin_course behind = {(kBad - 2) * 512 + 256, 300, kTiles * 512, 300};
-  CHECK(served(device, card, behind) == MICROTIN_BAD_TILES);
-  CHECK(why_bad(device, kBad - 1) == MICROTIN_CHECKSUM);
-  CHECK(why_bad(device, kBad - 2) == MICROTIN_CHECKSUM);
+  const microtin_segment behind = {(kBad - 2) * 512 + 256, 300, kTiles * 512, 300};
+  CHECK(served(device, card, behind) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(why_bad(device, kBad - 1) == MICROTIN_STATUS_CHECKSUM);
+  CHECK(why_bad(device, kBad - 2) == MICROTIN_STATUS_CHECKSUM);
   reads = card.reads;
-  CHECK(served(device, card, behind) == MICROTIN_BAD_TILES);
+  CHECK(served(device, card, behind) == MICROTIN_STATUS_BAD_TILES);
   CHECK(card.reads == reads);
 }
 
@@ -182,7 +184,7 @@ TEST_CASE_TEMPLATE("pack: a course across many bad tiles takes time that grows a
   card.bytes.resize(pack_index_start(header));  // the index is gone: all tiles are truncated
   const Device device(3);
   const auto began = std::chrono::steady_clock::now();
-  CHECK(device.service(card, {0, 100, kTiles * 256, 100}) == MICROTIN_BAD_TILES);
+  CHECK(device.service(card, {0, 100, kTiles * 256, 100}) == MICROTIN_STATUS_BAD_TILES);
   // A fifth of a second with sanitizers; a minute if each attempt looked along the tiles before it.
   CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(10));
   CHECK(card.reads > kTiles);
@@ -199,15 +201,15 @@ TEST_CASE_TEMPLATE("pack: what is beyond the end is truncated, in the header and
     for (size_t size = 0; size < good.size(); ++size) {
       Card card = cut(size);
       const Device device(3);
-      const microtin_course all = {0, 300, 6 * 256, 300};
-      microtin_status status = MICROTIN_NEED_INPUT;
+      const microtin_segment all = {0, 300, 6 * 256, 300};
+      microtin_status status = MICROTIN_STATUS_NEED_INPUT;
       for (int calls = 0; calls < 1000; ++calls) {
         status = device.service(card, all, steps);
-        if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) break;
+        if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) break;
       }
-      CHECK(status == (size < header ? MICROTIN_TRUNCATED : MICROTIN_BAD_TILES));
-      if (size >= header) CHECK(why_bad(device, 2) == MICROTIN_TRUNCATED);
-      if (size >= stream_at(good, 2)) CHECK(why_bad(device, 1) == MICROTIN_DONE);
+      CHECK(status == (size < header ? MICROTIN_STATUS_TRUNCATED : MICROTIN_STATUS_BAD_TILES));
+      if (size >= header) CHECK(why_bad(device, 2) == MICROTIN_STATUS_TRUNCATED);
+      if (size >= stream_at(good, 2)) CHECK(why_bad(device, 1) == MICROTIN_STATUS_OK);
     }
   }
 }
@@ -221,25 +223,25 @@ TEST_CASE_TEMPLATE("pack: damaged, swapped and foreign bytes are told, and never
     const Device device(4);
     const microtin_status status = device.service(card, at(30, 26));
     int32_t height = 0;
-    const microtin_answer answer = device.height_at(30 * 256, 26 * 256, height);
-    CHECK((status == MICROTIN_DONE || status == MICROTIN_BAD_TILES) ==
-          (answer == MICROTIN_HEIGHT || answer == MICROTIN_IN_BAD_TILE));
-    if (status == MICROTIN_DONE) CHECK(answer == MICROTIN_HEIGHT);
+    const microtin_query_result answer = device.height_at(30 * 256, 26 * 256, height);
+    CHECK((status == MICROTIN_STATUS_OK || status == MICROTIN_STATUS_BAD_TILES) ==
+          (answer == MICROTIN_QUERY_OK || answer == MICROTIN_QUERY_BAD_TILE));
+    if (status == MICROTIN_STATUS_OK) CHECK(answer == MICROTIN_QUERY_OK);
     return status;
   };
-  CHECK(status_of(good) == MICROTIN_DONE);
-  CHECK(status_of(Bytes(good.size())) == MICROTIN_BAD_MAGIC);
-  CHECK(status_of({}) == MICROTIN_TRUNCATED);
+  CHECK(status_of(good) == MICROTIN_STATUS_OK);
+  CHECK(status_of(Bytes(good.size())) == MICROTIN_STATUS_BAD_MAGIC);
+  CHECK(status_of({}) == MICROTIN_STATUS_TRUNCATED);
   const uint32_t index = pack_index_start(pack.header());
   Bytes zeros = good;
   std::fill(zeros.begin() + index, zeros.end(), uint8_t{0});
-  CHECK(status_of(zeros) == MICROTIN_BAD_TILES);
+  CHECK(status_of(zeros) == MICROTIN_STATUS_BAD_TILES);
   // Every byte changed: all that matters for this place is noticed.
   uint32_t noticed = 0;
   for (size_t i = 0; i < good.size(); ++i) {
     Bytes changed = good;
     changed[i] ^= static_cast<uint8_t>(1u << i % 8);
-    if (status_of(changed) != MICROTIN_DONE) ++noticed;
+    if (status_of(changed) != MICROTIN_STATUS_OK) ++noticed;
   }
   CHECK(noticed > index + kPackEntryBytes);
   // Entries and streams of two tiles swapped.
@@ -248,8 +250,8 @@ TEST_CASE_TEMPLATE("pack: damaged, swapped and foreign bytes are told, and never
     Card card{bytes};
     const Device device(4);
     const TileBox box = tile_box(pack.grid(), tile);
-    return device.service(card, at(box.x + 1, box.y + 1)) == MICROTIN_BAD_TILES &&
-           why_bad(device, tile) == MICROTIN_CHECKSUM;
+    return device.service(card, at(box.x + 1, box.y + 1)) == MICROTIN_STATUS_BAD_TILES &&
+           why_bad(device, tile) == MICROTIN_STATUS_CHECKSUM;
   };
   Bytes swapped = good;
   std::swap_ranges(swapped.begin() + index, swapped.begin() + index + kPackEntryBytes,
@@ -276,10 +278,10 @@ TEST_CASE_TEMPLATE("pack: of a placement that was damage nothing stays", Device,
     std::copy(placement.begin(), placement.end(), damaged.bytes.begin() + kPackFixedBytes);
     const Device device(1);
     CHECK(device.service(damaged, at(1, 1)) ==
-          (denominator == 0 ? MICROTIN_MALFORMED : MICROTIN_CHECKSUM));
-    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+          (denominator == 0 ? MICROTIN_STATUS_MALFORMED : MICROTIN_STATUS_CHECKSUM));
+    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_STATUS_OK);
     microtin_pack_info info;
-    REQUIRE(microtin_pack_header(device.pack, &info) == 1);
+    REQUIRE(microtin_pack_get_info(device.pack, &info) == 1);
     for (const microtin_axis& axis : {info.x, info.y, info.z}) {
       CHECK(axis.offset == 0);
       CHECK(axis.numerator == 1);
@@ -307,13 +309,13 @@ TEST_CASE_TEMPLATE("pack: a tile of another tile's place is refused, whatever it
     const Device device(4);
     return device.service(card, at(x, 1));
   };
-  CHECK(status_of(1) == MICROTIN_DONE);
-  CHECK(status_of(7) == MICROTIN_DONE);
+  CHECK(status_of(1) == MICROTIN_STATUS_OK);
+  CHECK(status_of(7) == MICROTIN_STATUS_OK);
   std::swap_ranges(bytes.end() - static_cast<std::ptrdiff_t>(2 * west.size()),
                    bytes.end() - static_cast<std::ptrdiff_t>(west.size()),
                    bytes.end() - static_cast<std::ptrdiff_t>(west.size()));
-  CHECK(status_of(1) == MICROTIN_BAD_TILES);
-  CHECK(status_of(7) == MICROTIN_BAD_TILES);
+  CHECK(status_of(1) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(status_of(7) == MICROTIN_STATUS_BAD_TILES);
 }
 
 TEST_CASE_TEMPLATE("pack: a placement that is not verified is not used", Device, MeshSlots,
@@ -324,19 +326,19 @@ TEST_CASE_TEMPLATE("pack: a placement that is not verified is not used", Device,
       forged_pack({4, 4, 4, 4}, {forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, {}})}, metadata)};
   const Device device(1);
   int16_t height = 5;
-  const microtin_block block{256, 256, 0, 0, 1, 1, -9};
+  const microtin_grid_spec block{256, 256, 0, 0, 1, 1, -9};
   for (int calls = 0; calls < 1000; ++calls) {
     microtin_pack_info info;
-    if (microtin_pack_header(device.pack, &info) != 0) break;
+    if (microtin_pack_get_info(device.pack, &info) != 0) break;
     height = 5;
-    REQUIRE(device.fill(block, &height) == MICROTIN_NOT_DECODED);
+    REQUIRE(device.fill(block, &height) == MICROTIN_QUERY_NOT_LOADED);
     REQUIRE(height == -9);
     card.most = 1;
     device.service(card, at(1, 1), 1);
   }
-  REQUIRE(device.service(card, at(1, 1)) == MICROTIN_DONE);
+  REQUIRE(device.service(card, at(1, 1)) == MICROTIN_STATUS_OK);
   height = 5;
-  CHECK(device.fill(block, &height) == MICROTIN_OUTSIDE);  // too coarse
+  CHECK(device.fill(block, &height) == MICROTIN_QUERY_OUTSIDE);  // too coarse
   CHECK(height == 5);
 }
 
@@ -355,16 +357,17 @@ TEST_CASE_TEMPLATE("pack: headers that break a rule are malformed, damaged ones 
     put_number(bytes, index - 4, crc32(0, bytes.data(), index - 4), 4);
     return bytes;
   };
-  CHECK(status_of(good) == MICROTIN_DONE);
-  CHECK(status_of(with(0, 'M')) == MICROTIN_BAD_MAGIC);
-  CHECK(status_of(with(4, kPackVersion + 1)) == MICROTIN_UNSUPPORTED_VERSION);
-  CHECK(status_of(with(5, 1)) == MICROTIN_UNSUPPORTED_VERSION);
-  for (const size_t at : {7u, 18u, 19u}) CHECK(status_of(with(at, 1)) == MICROTIN_MALFORMED);
-  CHECK(status_of(with(6, 67)) == MICROTIN_MALFORMED);
-  for (const size_t at : {10u, 12u, 20u, 24u}) CHECK(status_of(with(at, 0)) == MICROTIN_MALFORMED);
-  for (const size_t at : {23u, 27u}) CHECK(status_of(with(at, 128)) == MICROTIN_MALFORMED);
-  CHECK(status_of(with(30, 255)) == MICROTIN_BAD_TILES);  // entries are of the header before
-  CHECK(status_of(with(31, 1)) == MICROTIN_MALFORMED);    // above 2^24 vertices
+  CHECK(status_of(good) == MICROTIN_STATUS_OK);
+  CHECK(status_of(with(0, 'M')) == MICROTIN_STATUS_BAD_MAGIC);
+  CHECK(status_of(with(4, kPackVersion + 1)) == MICROTIN_STATUS_UNSUPPORTED_VERSION);
+  CHECK(status_of(with(5, 1)) == MICROTIN_STATUS_UNSUPPORTED_VERSION);
+  for (const size_t at : {7u, 18u, 19u}) CHECK(status_of(with(at, 1)) == MICROTIN_STATUS_MALFORMED);
+  CHECK(status_of(with(6, 67)) == MICROTIN_STATUS_MALFORMED);
+  for (const size_t at : {10u, 12u, 20u, 24u})
+    CHECK(status_of(with(at, 0)) == MICROTIN_STATUS_MALFORMED);
+  for (const size_t at : {23u, 27u}) CHECK(status_of(with(at, 128)) == MICROTIN_STATUS_MALFORMED);
+  CHECK(status_of(with(30, 255)) == MICROTIN_STATUS_BAD_TILES);  // entries are of the header before
+  CHECK(status_of(with(31, 1)) == MICROTIN_STATUS_MALFORMED);    // above 2^24 vertices
   // Damage is told as such, unless the rest ends too early for it, or breaks a rule.
   for (size_t at = 8; at < pack_index_start(PackFile(good).header()); ++at) {
     Bytes damaged = good;
@@ -373,9 +376,9 @@ TEST_CASE_TEMPLATE("pack: headers that break a rule are malformed, damaged ones 
     const bool is_legal = read_pack_header(damaged.data(), &header);
     const bool is_short = pack_index_start(header) > damaged.size();
     CAPTURE(at);
-    CHECK(status_of(damaged) == (!is_legal  ? MICROTIN_MALFORMED
-                                 : is_short ? MICROTIN_TRUNCATED
-                                            : MICROTIN_CHECKSUM));
+    CHECK(status_of(damaged) == (!is_legal  ? MICROTIN_STATUS_MALFORMED
+                                 : is_short ? MICROTIN_STATUS_TRUNCATED
+                                            : MICROTIN_STATUS_CHECKSUM));
   }
 }
 
@@ -388,40 +391,41 @@ TEST_CASE_TEMPLATE("pack: tiles that break a rule are refused, here and on the h
     Card card{bytes};
     const Device device(2);
     CHECK(device.service(card, at(6, 1)) ==
-          (expected == MICROTIN_DONE ? MICROTIN_DONE : MICROTIN_BAD_TILES));
+          (expected == MICROTIN_STATUS_OK ? MICROTIN_STATUS_OK : MICROTIN_STATUS_BAD_TILES));
     CHECK(why_bad(device, 1) == expected);
     const auto read = [&] { PackFile(bytes).tile(1); };
-    if (expected == MICROTIN_DONE) {
+    if (expected == MICROTIN_STATUS_OK) {
       CHECK_NOTHROW(read());
     } else {
       CHECK_THROWS_AS(read(), Error);
     }
   };
   const auto refuse = [&](const ForgedTile& tile) {
-    check(forged_pack(grid, {good, tile}), MICROTIN_MALFORMED);
+    check(forged_pack(grid, {good, tile}), MICROTIN_STATUS_MALFORMED);
   };
-  check(forged_pack(grid, {good, good}), MICROTIN_DONE);
+  check(forged_pack(grid, {good, good}), MICROTIN_STATUS_OK);
   refuse(forged_tile({{{0, 0, 1}, {5, 0, 2}, {0, 3, 3}}, {}}));  // too far to the east
   refuse(forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}}, {}}));  // and to the north
   Bytes few = forged_pack(grid, {good, good});  // more than the header says of any tile
   put_number(few, 28, good.vertices - 1, 4);
   repair_checks(few);
-  check(few, MICROTIN_MALFORMED);
+  check(few, MICROTIN_STATUS_MALFORMED);
   Metadata placed, noted;
   placed.placement.x = {1, 1, 1};
   noted.source = "here";
   refuse({encode(fits, placed), good.vertices});
   refuse({encode(fits, noted), good.vertices});
   // The header claims more than the vertices need.
-  check(forged_pack(grid, {good, {loose_stream(4, 3), 3}}), MICROTIN_DONE);
+  check(forged_pack(grid, {good, {loose_stream(4, 3), 3}}), MICROTIN_STATUS_OK);
   refuse({loose_stream(5, 3), 3});
   refuse({loose_stream(4, 4), 3});
   // No stream that can be decoded: nothing tells that it is the right one.
   Bytes later = good.stream;
   later[4] = kVersion + 1;
-  check(forged_pack(grid, {good, {later, good.vertices}}), MICROTIN_CHECKSUM);
+  check(forged_pack(grid, {good, {later, good.vertices}}), MICROTIN_STATUS_CHECKSUM);
   const Contract two = {2, 4, 3, kMinDegree, Decoding::kBalanced, false, false};
-  check(forged_pack(grid, {good, {write_header(two, {}), good.vertices}}), MICROTIN_CHECKSUM);
+  check(forged_pack(grid, {good, {write_header(two, {}), good.vertices}}),
+        MICROTIN_STATUS_CHECKSUM);
   // A stream inside the notes: all its checks pass.
   Metadata notes;
   notes.source = std::string(good.stream.begin(), good.stream.end());
@@ -432,12 +436,12 @@ TEST_CASE_TEMPLATE("pack: tiles that break a rule are refused, here and on the h
   REQUIRE(found - inside.begin() < static_cast<std::ptrdiff_t>(entry));
   put_number(inside, entry, static_cast<uint64_t>(found - inside.begin()), 5);
   repair_checks(inside);
-  check(inside, MICROTIN_MALFORMED);
+  check(inside, MICROTIN_STATUS_MALFORMED);
   Bytes last = forged_pack(grid, {good, good});  // the first place where a stream may be
   put_number(last, static_cast<size_t>(pack_entry_start(PackFile(last).header(), 1)),
              pack_streams_start(PackFile(last).header()), 5);
   repair_checks(last);
-  check(last, MICROTIN_DONE);
+  check(last, MICROTIN_STATUS_OK);
 }
 
 }  // namespace microtin::tests

@@ -59,11 +59,12 @@ TEST_CASE("heights equal the exact plane, rounded, from any start and from eithe
         }
       }
       const std::vector<int32_t> expected = exact_heights(triangles, x, y);
-      uint32_t hint = random.below(microtin_triangle_count(terrain.mesh()));
+      uint32_t hint = random.below(microtin_mesh_triangle_count(terrain.mesh()));
       int32_t height = 0;
-      const microtin_answer answer = microtin_height_at(terrain.mesh(), x, y, 0, &hint, &height);
+      const microtin_query_result answer =
+          microtin_mesh_height_at(terrain.mesh(), x, y, 0, &hint, &height);
       CAPTURE(set.name);
-      CHECK(answer == (expected.empty() ? MICROTIN_OUTSIDE : MICROTIN_HEIGHT));
+      CHECK(answer == (expected.empty() ? MICROTIN_QUERY_OUTSIDE : MICROTIN_QUERY_OK));
       for (const int32_t e : expected) CHECK(height == e);
       inside += !expected.empty();
       on_edges += expected.size() > 1;
@@ -83,7 +84,7 @@ TEST_CASE("extreme heights and the largest triangle do not overflow") {
     const int32_t y = static_cast<int32_t>(random.below(65535 * 256 + 1));
     uint32_t hint = 0;
     int32_t height = 0;
-    REQUIRE(microtin_height_at(terrain.mesh(), x, y, 0, &hint, &height) == MICROTIN_HEIGHT);
+    REQUIRE(microtin_mesh_height_at(terrain.mesh(), x, y, 0, &hint, &height) == MICROTIN_QUERY_OK);
     CHECK(height == exact_heights(triangles, x, y).at(0));
   }
 }
@@ -95,26 +96,26 @@ TEST_CASE("voids: valid terrain wins on shared edges, and a vertex knows its own
   const DecodedTerrain terrain(encode(tin, Metadata()));
   const auto answer = [&](double x, double y, int32_t* height) {
     uint32_t hint = 0;
-    return microtin_height_at(terrain.mesh(), static_cast<int32_t>(x * 256),
-                              static_cast<int32_t>(y * 256), 0, &hint, height);
+    return microtin_mesh_height_at(terrain.mesh(), static_cast<int32_t>(x * 256),
+                                   static_cast<int32_t>(y * 256), 0, &hint, height);
   };
   int32_t height = 0;
-  CHECK(answer(4, 10, &height) == MICROTIN_IN_VOID);
-  CHECK(answer(0, 10, &height) == MICROTIN_IN_VOID);  // on the hull, void on its only side
-  CHECK(answer(16, 10, &height) == MICROTIN_HEIGHT);
-  CHECK(answer(5, 5, &height) == MICROTIN_HEIGHT);  // on the edge of the void
+  CHECK(answer(4, 10, &height) == MICROTIN_QUERY_VOID);
+  CHECK(answer(0, 10, &height) == MICROTIN_QUERY_VOID);  // on the hull, void on its only side
+  CHECK(answer(16, 10, &height) == MICROTIN_QUERY_OK);
+  CHECK(answer(5, 5, &height) == MICROTIN_QUERY_OK);  // on the edge of the void
   CHECK(height == 3 * 65536);
-  CHECK(answer(10, 10, &height) == MICROTIN_HEIGHT);
+  CHECK(answer(10, 10, &height) == MICROTIN_QUERY_OK);
   CHECK(height == 5 * 65536);
-  CHECK(answer(0, 20, &height) == MICROTIN_HEIGHT);
+  CHECK(answer(0, 20, &height) == MICROTIN_QUERY_OK);
   CHECK(height == 3 * 65536);
-  CHECK(answer(20.5, 10, &height) == MICROTIN_OUTSIDE);
+  CHECK(answer(20.5, 10, &height) == MICROTIN_QUERY_OUTSIDE);
 }
 
 TEST_CASE("real coordinates convert to the lattice exactly") {
   const auto to_lattice = [](const microtin_axis& axis, int64_t value, uint32_t per_unit) {
     int32_t lattice = -1;
-    return microtin_to_lattice(&axis, value, per_unit, &lattice) != 0 ? lattice : -1;
+    return microtin_axis_to_lattice(&axis, value, per_unit, &lattice) != 0 ? lattice : -1;
   };
   // A degree cell in steps of 1/1200 degree from 7 degrees east, asked in 1e-7 degrees.
   const microtin_axis east = {7 * 1200, 1, 1200};

@@ -52,7 +52,7 @@ Expected expected(const microtin_axis& axis, int64_t place, Wide fraction, uint3
 uint32_t check_place(const microtin_axis& axis, int64_t place, uint32_t per_unit) {
   const Expected right = expected(axis, place, 256, per_unit);
   int64_t found = -1;
-  const bool known = microtin_from_lattice(&axis, place, per_unit, &found) != 0;
+  const bool known = microtin_axis_from_lattice(&axis, place, per_unit, &found) != 0;
   CHECK(known == right.known);
   CHECK(found == (right.known ? right.value : -1));
   return known ? 1 : 0;
@@ -62,7 +62,7 @@ uint32_t check_height(const microtin_axis& axis, int32_t height, uint32_t per_un
   const Expected right = expected(axis, height, 65536, per_unit);
   const bool fits = right.known && right.value >= INT32_MIN && right.value <= INT32_MAX;
   int32_t found = -1;
-  const bool known = microtin_real_height(&axis, height, per_unit, &found) != 0;
+  const bool known = microtin_axis_height(&axis, height, per_unit, &found) != 0;
   CHECK(known == fits);
   CHECK(found == (fits ? right.value : -1));
   return known ? 1 : 0;
@@ -110,9 +110,9 @@ TEST_CASE("real units: a place comes back from its coordinate") {
   const microtin_axis degrees = {-117 * 3600, 1, 3600};
   for (int32_t place = 0; place < 65535 * 256; place += 4099) {
     int64_t value = 0;
-    REQUIRE(microtin_from_lattice(&degrees, place, 10000000, &value) == 1);
+    REQUIRE(microtin_axis_from_lattice(&degrees, place, 10000000, &value) == 1);
     int32_t back = -1;
-    REQUIRE(microtin_to_lattice(&degrees, value, 10000000, &back) == 1);
+    REQUIRE(microtin_axis_to_lattice(&degrees, value, 10000000, &back) == 1);
     CHECK(back == place);
   }
 }
@@ -122,22 +122,22 @@ TEST_CASE("names of statuses and answers, and versions") {
     return std::string_view(microtin_status_name(static_cast<microtin_status>(number)));
   };
   const auto answer = [](int number) {
-    return std::string_view(microtin_answer_name(static_cast<microtin_answer>(number)));
+    return std::string_view(microtin_query_result_name(static_cast<microtin_query_result>(number)));
   };
-  CHECK(status(MICROTIN_DONE) == "DONE");
-  CHECK(status(MICROTIN_STOPPED) == "STOPPED");
-  CHECK(status(MICROTIN_BAD_MAGIC) == "BAD_MAGIC");
-  CHECK(status(MICROTIN_WORKSPACE_TOO_SMALL) == "WORKSPACE_TOO_SMALL");
-  CHECK(status(MICROTIN_BAD_TILES) == "BAD_TILES");
-  CHECK(answer(MICROTIN_HEIGHT) == "HEIGHT");
-  CHECK(answer(MICROTIN_NOT_VERIFIED) == "NOT_VERIFIED");
-  CHECK(answer(MICROTIN_IN_BAD_TILE) == "IN_BAD_TILE");
+  CHECK(status(MICROTIN_STATUS_OK) == "OK");
+  CHECK(status(MICROTIN_STATUS_STOPPED) == "STOPPED");
+  CHECK(status(MICROTIN_STATUS_BAD_MAGIC) == "BAD_MAGIC");
+  CHECK(status(MICROTIN_STATUS_WORKSPACE_TOO_SMALL) == "WORKSPACE_TOO_SMALL");
+  CHECK(status(MICROTIN_STATUS_BAD_TILES) == "BAD_TILES");
+  CHECK(answer(MICROTIN_QUERY_OK) == "OK");
+  CHECK(answer(MICROTIN_QUERY_UNVERIFIED) == "UNVERIFIED");
+  CHECK(answer(MICROTIN_QUERY_BAD_TILE) == "BAD_TILE");
   for (const int none : {4, 15, 27}) CHECK(status(none) == "?");
   CHECK(answer(7) == "?");
-  CHECK(microtin_decoder_version() ==
+  CHECK(microtin_version_number() ==
         MICROTIN_VERSION_MAJOR * 65536 + MICROTIN_VERSION_MINOR * 256 + MICROTIN_VERSION_PATCH);
-  CHECK(microtin_stream_version() == kVersion);
-  CHECK(microtin_pack_version() == kPackVersion);
+  CHECK(microtin_stream_format_version() == kVersion);
+  CHECK(microtin_pack_format_version() == kPackVersion);
 }
 
 }  // namespace

@@ -320,9 +320,12 @@ Refused refused_streams() {
 
 microtin_status status_named(const std::string& name) {
   const std::map<std::string, microtin_status> statuses = {
-      {"bad", MICROTIN_BAD_MAGIC},       {"unsupported", MICROTIN_UNSUPPORTED_VERSION},
-      {"too", MICROTIN_TOO_BIG},         {"checksum", MICROTIN_CHECKSUM},
-      {"malformed", MICROTIN_MALFORMED}, {"truncated", MICROTIN_TRUNCATED}};
+      {"bad", MICROTIN_STATUS_BAD_MAGIC},
+      {"unsupported", MICROTIN_STATUS_UNSUPPORTED_VERSION},
+      {"too", MICROTIN_STATUS_TOO_BIG},
+      {"checksum", MICROTIN_STATUS_CHECKSUM},
+      {"malformed", MICROTIN_STATUS_MALFORMED},
+      {"truncated", MICROTIN_STATUS_TRUNCATED}};
   return statuses.at(name.substr(0, name.find('_')));
 }
 
@@ -349,11 +352,12 @@ TEST_CASE("a vertex that must be refused is not inserted first") {
   for (const auto& refused : all) {
     const std::string& name = refused.first;
     if (name.find("place_") == name.npos && name.find("cavity_") == name.npos) continue;
-    microtin_info info;
-    REQUIRE(microtin_peek(refused.second.data(), refused.second.size(), &info) == MICROTIN_DONE);
+    microtin_stream_info info;
+    REQUIRE(microtin_read_stream_info(refused.second.data(), refused.second.size(), &info) ==
+            MICROTIN_STATUS_OK);
     const Device device(info.vertices);
     CAPTURE(name);
-    CHECK(device.decode(refused.second) == MICROTIN_MALFORMED);
+    CHECK(device.decode(refused.second) == MICROTIN_STATUS_MALFORMED);
     CHECK(device.vertices() == info.vertices - 1);
   }
 }
@@ -379,12 +383,12 @@ TEST_CASE("the work of all phases is bounded to the vertex") {
     while (excess(first, last + 1) <= 0) ++last;
     if (!met && excess(first, last) == 0) {
       met = true;
-      CHECK(Device(kCapacity).decode(stream(first, last)) == MICROTIN_DONE);
+      CHECK(Device(kCapacity).decode(stream(first, last)) == MICROTIN_STATUS_OK);
     }
     if (!exceeded && excess(first, last + 1) == 1) {
       exceeded = true;
       const Device device(kCapacity);
-      CHECK(device.decode(stream(first, last + 1)) == MICROTIN_MALFORMED);
+      CHECK(device.decode(stream(first, last + 1)) == MICROTIN_STATUS_MALFORMED);
       CHECK(device.vertices() == last);
     }
   }
@@ -393,32 +397,33 @@ TEST_CASE("the work of all phases is bounded to the vertex") {
 }
 
 TEST_CASE("what is refused is one rule away from what is not") {
-  CHECK(Device(kCapacity).decode(valid_stream()) == MICROTIN_DONE);
-  CHECK(Device(kCapacity).decode(valid_stream_that_ends_in_zeros()) == MICROTIN_DONE);
+  CHECK(Device(kCapacity).decode(valid_stream()) == MICROTIN_STATUS_OK);
+  CHECK(Device(kCapacity).decode(valid_stream_that_ends_in_zeros()) == MICROTIN_STATUS_OK);
   Contract twelve = flat_contract(12);
   twelve.degree = kMaxDegree;
-  CHECK(Device(kCapacity).decode(forge(twelve, PlanCoder(scattered(12)))) == MICROTIN_DONE);
+  CHECK(Device(kCapacity).decode(forge(twelve, PlanCoder(scattered(12)))) == MICROTIN_STATUS_OK);
   Contract seven = flat_contract(7);
   seven.x_max = seven.y_max = kWheelSide;
-  CHECK(Device(kCapacity).decode(forge(seven, PlanCoder(wheel(6)))) == MICROTIN_DONE);
+  CHECK(Device(kCapacity).decode(forge(seven, PlanCoder(wheel(6)))) == MICROTIN_STATUS_OK);
 }
 
 TEST_CASE("peek tells of a header what decoding it tells") {
   for (const auto& refused : refused_streams()) {
     const std::string& name = refused.first;
     const Bytes& stream = refused.second;
-    microtin_info info;
-    const microtin_status peeked = microtin_peek(stream.data(), stream.size(), &info);
+    microtin_stream_info info;
+    const microtin_status peeked = microtin_read_stream_info(stream.data(), stream.size(), &info);
     const Device device(kCapacity);
     const microtin_status status = device.feed_all(stream);
     CAPTURE(name);
-    if (status == MICROTIN_TOO_BIG) {
-      CHECK(peeked == MICROTIN_DONE);
+    if (status == MICROTIN_STATUS_TOO_BIG) {
+      CHECK(peeked == MICROTIN_STATUS_OK);
       CHECK(info.vertices > kCapacity);
       CHECK(info.mesh_bytes == MICROTIN_MESH_BYTES(info.vertices));
       CHECK(info.decoder_bytes == MICROTIN_DECODER_BYTES(info.vertices));
     } else {
-      CHECK((peeked == status || (peeked == MICROTIN_DONE && stream.size() > info.header_bytes)));
+      CHECK((peeked == status ||
+             (peeked == MICROTIN_STATUS_OK && stream.size() > info.header_bytes)));
     }
   }
 }

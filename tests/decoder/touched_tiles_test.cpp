@@ -15,7 +15,7 @@ namespace {
 __extension__ typedef __int128 Wide;
 
 // Whether a segment meets a closed box, in exact fractions: the part of it within each slab.
-bool meets(const microtin_course& c, const TileBox& box) {
+bool meets(const microtin_segment& c, const TileBox& box) {
   Wide from = 0, to = 1, whole = 1;  // from / whole .. to / whole of the way
   const auto clip = [&](int64_t begin, int64_t end, int64_t low, int64_t high) {
     if (begin > end) {
@@ -36,7 +36,7 @@ bool meets(const microtin_course& c, const TileBox& box) {
          clip(c.y, c.y_end, int64_t{box.y} * 256, int64_t{box.y_end} * 256);
 }
 
-std::vector<uint32_t> touched(const TileGrid& grid, const microtin_course& course) {
+std::vector<uint32_t> touched(const TileGrid& grid, const microtin_segment& course) {
   std::vector<uint32_t> tiles;
   for (TouchedTiles t(grid, course); !t.at_end(); t.next()) tiles.push_back(t.number());
   return tiles;
@@ -56,8 +56,8 @@ TEST_CASE("touched tiles: all that meet the course, each once, from where it beg
     const TileGrid grid = {1 + random.below(12), 1 + random.below(12),
                            static_cast<uint16_t>(1 + random.below(4)),
                            static_cast<uint16_t>(1 + random.below(4))};
-    microtin_course c = {coordinate(random, grid.x_max), coordinate(random, grid.y_max),
-                         coordinate(random, grid.x_max), coordinate(random, grid.y_max)};
+    microtin_segment c = {coordinate(random, grid.x_max), coordinate(random, grid.y_max),
+                          coordinate(random, grid.x_max), coordinate(random, grid.y_max)};
     if (i % 5 == 0) c.x_end = c.x;
     if (i % 7 == 0) c.y_end = c.y;
     std::vector<uint32_t> found = touched(grid, c), expected;
@@ -78,8 +78,8 @@ TEST_CASE("touched tiles: a walk that is sent to a tile goes on as if it had com
     const TileGrid grid = {1 + random.below(12), 1 + random.below(12),
                            static_cast<uint16_t>(1 + random.below(4)),
                            static_cast<uint16_t>(1 + random.below(4))};
-    const microtin_course c = {coordinate(random, grid.x_max), coordinate(random, grid.y_max),
-                               coordinate(random, grid.x_max), coordinate(random, grid.y_max)};
+    const microtin_segment c = {coordinate(random, grid.x_max), coordinate(random, grid.y_max),
+                                coordinate(random, grid.x_max), coordinate(random, grid.y_max)};
     const std::vector<uint32_t> all = touched(grid, c);
     const uint32_t tiles = tile_columns(grid) * tile_rows(grid);
     for (uint32_t tile = 0; tile < tiles + 3; ++tile) {

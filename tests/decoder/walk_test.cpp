@@ -32,16 +32,17 @@ Place random_place(const Points& points, Random& random) {
 }
 
 struct Walked {
-  microtin_answer answer;
+  microtin_query_result answer;
   uint32_t steps;
 };
 
 // The walk in pieces of one step.
 Walked walk(const microtin_mesh* mesh, Place p, uint32_t* hint) {
   int32_t height = 0;
-  Walked walked = {MICROTIN_NOT_YET, 0};
-  while (walked.answer == MICROTIN_NOT_YET && walked.steps <= microtin_triangle_count(mesh)) {
-    walked.answer = microtin_height_at_limited(mesh, p.x, p.y, 0, 1, hint, &height);
+  Walked walked = {MICROTIN_QUERY_STEP_LIMIT, 0};
+  while (walked.answer == MICROTIN_QUERY_STEP_LIMIT &&
+         walked.steps <= microtin_mesh_triangle_count(mesh)) {
+    walked.answer = microtin_mesh_height_at_limited(mesh, p.x, p.y, 0, 1, hint, &height);
     ++walked.steps;
   }
   return walked;
@@ -57,12 +58,13 @@ TEST_CASE("a walk in pieces finds what one without a limit does, within the boun
     const DecodedTerrain terrain = flat_terrain(set.points);
     for (int probe = 0; probe < 300; ++probe) {
       const Place p = random_place(set.points, random);
-      uint32_t hint = random.below(microtin_triangle_count(terrain.mesh()));
+      uint32_t hint = random.below(microtin_mesh_triangle_count(terrain.mesh()));
       uint32_t whole_hint = hint;
       const Walked walked = walk(terrain.mesh(), p, &hint);
-      CHECK(walked.steps <= microtin_triangle_count(terrain.mesh()));
+      CHECK(walked.steps <= microtin_mesh_triangle_count(terrain.mesh()));
       int32_t height = 0;
-      CHECK(walked.answer == microtin_height_at(terrain.mesh(), p.x, p.y, 0, &whole_hint, &height));
+      CHECK(walked.answer ==
+            microtin_mesh_height_at(terrain.mesh(), p.x, p.y, 0, &whole_hint, &height));
       most = std::max(most, walked.steps);
     }
   }
@@ -75,21 +77,21 @@ TEST_CASE("from buckets the walk is short, and its end the same") {
   const DecodedTerrain terrain = flat_terrain(points);
   Buckets<45> buckets;
   CHECK(buckets.hint(0, 0) == 0);
-  CHECK(buckets.build(terrain.mesh()) == MICROTIN_DONE);
+  CHECK(buckets.build(terrain.mesh()) == MICROTIN_STATUS_OK);
   uint32_t total = 0;
   constexpr int kProbes = 2000;
   for (int probe = 0; probe < kProbes; ++probe) {
     const Place p = random_place(points, random);
     uint32_t cold = 0, hint = buckets.hint(p.x, p.y);
     int32_t cold_height = 0, height = 0;
-    const microtin_answer expected =
-        microtin_height_at(terrain.mesh(), p.x, p.y, 0, &cold, &cold_height);
+    const microtin_query_result expected =
+        microtin_mesh_height_at(terrain.mesh(), p.x, p.y, 0, &cold, &cold_height);
     total += walk(terrain.mesh(), p, &hint).steps;
-    CHECK(microtin_height_at(terrain.mesh(), p.x, p.y, 0, &hint, &height) == expected);
+    CHECK(microtin_mesh_height_at(terrain.mesh(), p.x, p.y, 0, &hint, &height) == expected);
     CHECK(height == cold_height);
   }
   CHECK(total < 4 * kProbes);
-  CHECK(buckets.build(nullptr) == MICROTIN_ARGUMENT);
+  CHECK(buckets.build(nullptr) == MICROTIN_STATUS_ARGUMENT);
 }
 
 TEST_CASE("buckets of any terrain, for places anywhere") {
@@ -100,10 +102,10 @@ TEST_CASE("buckets of any terrain, for places anywhere") {
     std::vector<uint64_t> storage(MICROTIN_BUCKETS_BYTES(9) / 8 + 1);
     microtin_buckets* buckets = nullptr;
     REQUIRE(microtin_buckets_init(storage.data(), MICROTIN_BUCKETS_BYTES(9), terrain.mesh(),
-                                  &buckets) == MICROTIN_DONE);
+                                  &buckets) == MICROTIN_STATUS_OK);
     for (const int32_t x : {INT32_MIN, -1, 0, 255, 256, 32768 * 256, 65535 * 256, INT32_MAX}) {
       for (const int32_t y : {INT32_MIN, 0, 65535 * 256, INT32_MAX}) {
-        CHECK(microtin_buckets_hint(buckets, x, y) < microtin_triangle_count(terrain.mesh()));
+        CHECK(microtin_buckets_hint(buckets, x, y) < microtin_mesh_triangle_count(terrain.mesh()));
       }
     }
   }
@@ -117,11 +119,11 @@ TEST_CASE("buckets refuse what they cannot use") {
   const auto init = [&](void* workspace, size_t size) {
     return microtin_buckets_init(workspace, size, terrain.mesh(), &buckets);
   };
-  CHECK(init(storage, MICROTIN_BUCKETS_BYTES(1)) == MICROTIN_DONE);
-  CHECK(init(storage, MICROTIN_BUCKETS_BYTES(1) - 1) == MICROTIN_WORKSPACE_TOO_SMALL);
+  CHECK(init(storage, MICROTIN_BUCKETS_BYTES(1)) == MICROTIN_STATUS_OK);
+  CHECK(init(storage, MICROTIN_BUCKETS_BYTES(1) - 1) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
   CHECK(buckets == nullptr);
-  CHECK(init(storage + 4, 60) == MICROTIN_MISALIGNED);
-  CHECK(init(nullptr, 64) == MICROTIN_ARGUMENT);
+  CHECK(init(storage + 4, 60) == MICROTIN_STATUS_MISALIGNED);
+  CHECK(init(nullptr, 64) == MICROTIN_STATUS_ARGUMENT);
 }
 
 }  // namespace microtin::tests

@@ -26,16 +26,17 @@ struct Count {
 
 // Decodes with a step a call, in workspaces for exactly as many vertices as the header says.
 Count count_steps(const Bytes& stream) {
-  microtin_info info;
-  if (microtin_peek(stream.data(), stream.size(), &info) != MICROTIN_DONE) return {};
+  microtin_stream_info info;
+  if (microtin_read_stream_info(stream.data(), stream.size(), &info) != MICROTIN_STATUS_OK)
+    return {};
   const Device device(info.vertices);
-  Count count = {MICROTIN_STEP_LIMIT, 0, 0};
-  for (size_t at = 0, used = 0; count.status == MICROTIN_STEP_LIMIT; at += used) {
+  Count count = {MICROTIN_STATUS_STEP_LIMIT, 0, 0};
+  for (size_t at = 0, used = 0; count.status == MICROTIN_STATUS_STEP_LIMIT; at += used) {
     count.status = device.feed(stream.data() + at, stream.size() - at, &used, 1);
     ++count.steps;
   }
   CHECK(device.guards_are_whole());
-  count.bytes = microtin_bytes_used(device.decoder) - info.header_bytes;
+  count.bytes = microtin_decoder_bytes_used(device.decoder) - info.header_bytes;
   return count;
 }
 
@@ -47,7 +48,7 @@ double part_of_bound(const Count& count) {
 // Prints how near a stream comes to the bound.
 void check_bound(const std::string& name, const Bytes& stream) {
   const Count count = count_steps(stream);
-  CHECK(count.status == MICROTIN_DONE);
+  CHECK(count.status == MICROTIN_STATUS_OK);
   CHECK(part_of_bound(count) <= 1);
   MESSAGE(name << ": " << count.steps << " steps for " << count.bytes << " bytes, "
                << 100 * part_of_bound(count) << " % of the bound");
@@ -227,14 +228,15 @@ TEST_CASE("no golden stream takes more steps than its bytes allow") {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(golden_folder())) {
     if (entry.path().extension() != ".mtin") continue;
     const Bytes stream = bytes_of_file(entry.path().string());
-    microtin_info info;
-    const bool is_large = microtin_peek(stream.data(), stream.size(), &info) == MICROTIN_DONE &&
-                          info.vertices > 100000;
+    microtin_stream_info info;
+    const bool is_large =
+        microtin_read_stream_info(stream.data(), stream.size(), &info) == MICROTIN_STATUS_OK &&
+        info.vertices > 100000;
     if (is_large) continue;
     const Count count = count_steps(stream);
     CAPTURE(entry.path().string());
     CHECK(part_of_bound(count) <= 1);
-    done += count.status == MICROTIN_DONE && count.steps != 0;
+    done += count.status == MICROTIN_STATUS_OK && count.steps != 0;
   }
   CHECK(done >= 10);
 }
@@ -280,11 +282,11 @@ TEST_CASE("phases that add too little are refused soon, however many vertices ar
     const Bytes stream = forge(
         Contract{announced, 999, 999, kMaxDegree, Decoding::kQuick, false, false}, PlanCoder(plan));
     const Count count = count_steps(stream);
-    CHECK(count.status == MICROTIN_MALFORMED);
+    CHECK(count.status == MICROTIN_STATUS_MALFORMED);
     CHECK(count.steps < 3000);
     const Device device(announced);
     device.decode(stream);
-    const uint32_t n = microtin_vertex_count(device.mesh);
+    const uint32_t n = microtin_mesh_vertex_count(device.mesh);
     CHECK(n < 50);
     CHECK((n + 1) * (n + 2) / 2 - 6 >
           work_budget(n + 1));  // 4 + 5 + .. + (n + 1), the phase refused
@@ -297,7 +299,7 @@ TEST_CASE("the largest cavity that fits is taken, one larger is refused") {
     const Bytes stream = forge(contract_of(plan), PlanCoder(plan));
     const Device device(degree + 1);
     const bool fits = degree == kMaxDegree;
-    CHECK(device.decode(stream) == (fits ? MICROTIN_DONE : MICROTIN_MALFORMED));
+    CHECK(device.decode(stream) == (fits ? MICROTIN_STATUS_OK : MICROTIN_STATUS_MALFORMED));
     CHECK(device.guards_are_whole());
     const MeshCopy copy(device.mesh);
     CHECK(is_sound(copy));

@@ -37,8 +37,8 @@ std::function<ExactAnswer(const RealPlace&)> answering(const FineHeights& height
     const auto height =
         height_at(p.x * 256 + static_cast<int64_t>(round_divide(256 * p.x_part, p.parts)),
                   p.y * 256 + static_cast<int64_t>(round_divide(256 * p.y_part, p.parts)));
-    if (!height) return {MICROTIN_OUTSIDE, {0, 0, 1}};
-    return {MICROTIN_HEIGHT, height_of_answer(*height)};
+    if (!height) return {MICROTIN_QUERY_OUTSIDE, {0, 0, 1}};
+    return {MICROTIN_QUERY_OK, height_of_answer(*height)};
   };
 }
 
@@ -173,7 +173,7 @@ TEST_CASE("autopilot: what is not known is marked, and told") {
   SampledSurface surface = surface_of(cell);
   const auto whole = surface.height_at;
   surface.height_at = [whole](const RealPlace& place) -> ExactAnswer {
-    if (place.x >= 300 && place.x < 500 && place.y >= 600) return {MICROTIN_IN_VOID, {0, 0, 1}};
+    if (place.x >= 300 && place.x < 500 && place.y >= 600) return {MICROTIN_QUERY_VOID, {0, 0, 1}};
     return whole(place);
   };
   for (const Autopilot autopilot : {Autopilot::kArduPilot, Autopilot::kInav}) {
@@ -226,7 +226,7 @@ TEST_CASE("autopilot: places that firmware in single precision misses are counte
       surface.placement.y = {south * 50, 1, 50};
       surface.x_max = surface.y_max = 50;
       surface.height_at = [](const RealPlace&) -> ExactAnswer {
-        return {MICROTIN_HEIGHT, height_of_answer(0)};
+        return {MICROTIN_QUERY_OK, height_of_answer(0)};
       };
       const AutopilotFile file = autopilot_file(surface, autopilot, cell, spacing);
       const Firmware firmware(file.bytes, autopilot, cell, spacing);

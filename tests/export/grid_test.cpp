@@ -215,7 +215,7 @@ TEST_CASE("sampled packs: no more tiles are kept than have so many vertices, but
     REQUIRE(tile_columns(pack.grid()) == 12);
     const SampledSurface surface = sampled(pack, BadTiles::kThrow, kept);
     const auto ask = [&](int64_t tile) {
-      CHECK(surface.height_at(place_on_lattice(10 * tile + 5, 5)).kind == MICROTIN_HEIGHT);
+      CHECK(surface.height_at(place_on_lattice(10 * tile + 5, 5)).kind == MICROTIN_QUERY_OK);
     };
     for (int64_t tile = 0; tile < 12; ++tile) ask(tile);
     CHECK(reads == 12);

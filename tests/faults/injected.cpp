@@ -98,24 +98,24 @@ ssize_t wrap_pread(int file, void* to, size_t size, off_t offset) {
   return file_fails() ? -1 : real_pread(file, to, size, offset);
 }
 
-microtin_status real_finish(microtin_decoder* decoder) __asm__("__real_microtin_finish");
-microtin_answer real_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
-                               uint32_t* hint,
-                               int32_t* height) __asm__("__real_microtin_height_at");
-microtin_status wrap_finish(microtin_decoder* decoder) __asm__("__wrap_microtin_finish");
-microtin_answer wrap_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
-                               uint32_t* hint,
-                               int32_t* height) __asm__("__wrap_microtin_height_at");
+microtin_status real_finish(microtin_decoder* decoder) __asm__("__real_microtin_decoder_finish");
+microtin_query_result real_height_at(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                     uint32_t flags, uint32_t* hint,
+                                     int32_t* height) __asm__("__real_microtin_mesh_height_at");
+microtin_status wrap_finish(microtin_decoder* decoder) __asm__("__wrap_microtin_decoder_finish");
+microtin_query_result wrap_height_at(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                     uint32_t flags, uint32_t* hint,
+                                     int32_t* height) __asm__("__wrap_microtin_mesh_height_at");
 
 microtin_status wrap_finish(microtin_decoder* decoder) {
   const microtin_status status = real_finish(decoder);
-  return active != nullptr && active->streams.fails() ? MICROTIN_MALFORMED : status;
+  return active != nullptr && active->streams.fails() ? MICROTIN_STATUS_MALFORMED : status;
 }
 
-microtin_answer wrap_height_at(const microtin_mesh* mesh, int32_t x, int32_t y, uint32_t flags,
-                               uint32_t* hint, int32_t* height) {
-  const microtin_answer kind = real_height_at(mesh, x, y, flags, hint, height);
-  if (active != nullptr && kind == MICROTIN_HEIGHT && active->heights.fails()) *height += 1 << 24;
+microtin_query_result wrap_height_at(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                     uint32_t flags, uint32_t* hint, int32_t* height) {
+  const microtin_query_result kind = real_height_at(mesh, x, y, flags, hint, height);
+  if (active != nullptr && kind == MICROTIN_QUERY_OK && active->heights.fails()) *height += 1 << 24;
   return kind;
 }
 

@@ -14,7 +14,8 @@ alignas(MICROTIN_ALIGNMENT) uint8_t workspace[MICROTIN_PACK_BYTES(kSlots, kCapac
 
 int firmware_main() {
   microtin_pack* pack = nullptr;
-  if (microtin_pack_init(workspace, sizeof workspace, kSlots, kCapacity, &pack) != MICROTIN_DONE) {
+  if (microtin_pack_init(workspace, sizeof workspace, kSlots, kCapacity, &pack) !=
+      MICROTIN_STATUS_OK) {
     return 3;
   }
   return microtin::AdaptersReport(put_char, pack, read_flash, nullptr).run();

@@ -38,8 +38,9 @@ class AdaptersReport {
   static bool serve(const Service& service) {
     for (int calls = 0; calls < kMostCalls; ++calls) {
       const microtin_status status = service();
-      if (status == MICROTIN_DONE) return true;
-      if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) return false;
+      if (status == MICROTIN_STATUS_OK) return true;
+      if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT)
+        return false;
     }
     return false;
   }
@@ -47,7 +48,7 @@ class AdaptersReport {
   bool fly_inav() {
     static microtin_inav inav;
     microtin_inav_init(&inav, pack_);
-    const auto service = [&] { return microtin_inav_service(&inav, kSteps, read_, context_); };
+    const auto service = [&] { return microtin_inav_load(&inav, kSteps, read_, context_); };
     if (!serve(service)) return false;
     int misses = 0;
     for (int i = 0; i < kPlaces; ++i) {
@@ -78,9 +79,7 @@ class AdaptersReport {
   bool fly_ardupilot() {
     static microtin_ardupilot terrain;
     microtin_ardupilot_init(&terrain, pack_, 30);
-    const auto service = [&] {
-      return microtin_ardupilot_service(&terrain, kSteps, read_, context_);
-    };
+    const auto service = [&] { return microtin_ardupilot_load(&terrain, kSteps, read_, context_); };
     const microtin_spot home = place(10);
     microtin_ardupilot_set_reference(&terrain, home.latitude, home.longitude, 30000, 20.0f);
     if (!serve(service)) return false;

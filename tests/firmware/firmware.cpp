@@ -12,8 +12,8 @@ template <uint32_t Capacity>
 microtin_status decode(microtin::Decoder<Capacity>& decoder) {
   uint8_t piece[61];
   size_t at = 0;
-  microtin_status status = MICROTIN_NEED_INPUT;
-  while (status == MICROTIN_NEED_INPUT && at < stream_size()) {
+  microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+  while (status == MICROTIN_STATUS_NEED_INPUT && at < stream_size()) {
     size_t size = 0;
     for (; size < sizeof piece && at + size < stream_size(); ++size) {
       piece[size] = stream_byte(at + size);
@@ -32,7 +32,7 @@ int firmware_main() {
   static microtin::Decoder<MICROTIN_CAPACITY> decoder(terrain);
   const microtin_status status = decode(decoder);
   microtin::report(put_char, terrain.mesh(), status);
-  if (status != MICROTIN_DONE) return 1;
+  if (status != MICROTIN_STATUS_OK) return 1;
   if (microtin::compact_agrees(terrain.mesh(), MICROTIN_MESH_BYTES(MICROTIN_CAPACITY), &decoder,
                                sizeof decoder)) {
     return 0;

@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   decoder->feed(stream.data(), stream.size(), &used);
   const microtin_status status = decoder->finish();
   microtin::report(put_char, terrain->mesh(), status);
-  if (status != MICROTIN_DONE) return 1;
+  if (status != MICROTIN_STATUS_OK) return 1;
   if (microtin::compact_agrees(terrain->mesh(), MICROTIN_MESH_BYTES(kCapacity), decoder.get(),
                                sizeof *decoder)) {
     return 0;

@@ -43,13 +43,13 @@ bool is_untouched() {
 // Has all tiles there, one after the other.
 microtin_status fetch_all(microtin_pack_info& info) {
   microtin_status status = serve(pack, {0, 0, 0, 0});
-  if (status != MICROTIN_DONE || !pack.header(&info)) return status;
+  if (status != MICROTIN_STATUS_OK || !pack.header(&info)) return status;
   for (uint32_t y = 0; y < info.y_max; y += info.tile_height) {
     for (uint32_t x = 0; x < info.x_max; x += info.tile_width) {
       const int64_t px = static_cast<int64_t>(x) * 256 + 128;
       const int64_t py = static_cast<int64_t>(y) * 256 + 128;
       status = serve(pack, {px, py, px, py});
-      if (status != MICROTIN_DONE) return status;
+      if (status != MICROTIN_STATUS_OK) return status;
     }
   }
   return status;
@@ -60,12 +60,12 @@ microtin_status fetch_all(microtin_pack_info& info) {
 int firmware_main() {
   begin();
   microtin_pack_info info;
-  if (pack.begin() != MICROTIN_DONE || fetch_all(info) != MICROTIN_DONE) return 1;
+  if (pack.begin() != MICROTIN_STATUS_OK || fetch_all(info) != MICROTIN_STATUS_OK) return 1;
   uint32_t hint = 0;
   for (int32_t i = 0; i < FLIGHT_PLACES; ++i) {
-    const microtin_course here = flight_course(i, &info);
+    const microtin_segment here = flight_course(i, &info);
     int32_t height = 0;
-    const microtin_answer answer = pack.height_at(here.x, here.y, &hint, &height);
+    const microtin_query_result answer = pack.height_at(here.x, here.y, &hint, &height);
     print_place(i, answer, height);
   }
   if (is_untouched()) return 0;

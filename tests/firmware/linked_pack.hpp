@@ -16,9 +16,9 @@ inline int32_t read_flash(void*, uint64_t offset, uint8_t* buffer, size_t size) 
 
 // In turns of a few steps.
 template <class Pack>
-microtin_status serve(Pack& pack, const microtin_course& course) {
-  microtin_status status = MICROTIN_NEED_INPUT;
-  while (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
+microtin_status serve(Pack& pack, const microtin_segment& course) {
+  microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+  while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
     status = pack.service(course, 50, read_flash, nullptr);
   }
   return status;

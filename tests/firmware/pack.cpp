@@ -13,17 +13,17 @@ constexpr uint32_t kSlots = 4, kCapacity = 60;
 
 int firmware_main() {
   static microtin::Pack<kSlots, kCapacity> pack;
-  const microtin_course origin = {0, 0, 0, 0};
+  const microtin_segment origin = {0, 0, 0, 0};
   microtin_pack_info info;
   uint32_t hint = 0;
-  if (serve(pack, origin) != MICROTIN_DONE || !pack.header(&info)) return 1;
+  if (serve(pack, origin) != MICROTIN_STATUS_OK || !pack.header(&info)) return 1;
   for (int32_t i = 0; i < FLIGHT_PLACES; ++i) {
-    microtin_course here = flight_course(i, &info);
+    microtin_segment here = flight_course(i, &info);
     here.x_end = here.x;
     here.y_end = here.y;
-    if (serve(pack, here) != MICROTIN_DONE) return 2;
+    if (serve(pack, here) != MICROTIN_STATUS_OK) return 2;
     int32_t height = 0;
-    const microtin_answer answer = pack.height_at(here.x, here.y, &hint, &height);
+    const microtin_query_result answer = pack.height_at(here.x, here.y, &hint, &height);
     print_place(i, answer, height);
   }
   return 0;

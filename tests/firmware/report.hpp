@@ -55,10 +55,10 @@ struct ProbeBox {
 
 inline ProbeBox probe_box(const microtin_mesh* mesh) {
   uint16_t west = 65535, south = 65535, east = 0, north = 0;
-  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v) {
+  for (uint32_t v = 0; v < microtin_mesh_vertex_count(mesh); ++v) {
     uint16_t x, y;
     int16_t z;
-    microtin_vertex(mesh, v, &x, &y, &z);
+    microtin_mesh_vertex(mesh, v, &x, &y, &z);
     if (x < west) west = x;
     if (y < south) south = y;
     if (x > east) east = x;
@@ -77,11 +77,11 @@ inline void report_probes(PutChar put, const microtin_mesh* mesh) {
     const int32_t x = numbers.between(box.west, box.east);
     const int32_t y = numbers.between(box.south, box.north);
     int32_t height = 0;
-    const microtin_answer answer = microtin_height_at(mesh, x, y, 0, &hint, &height);
+    const microtin_query_result answer = microtin_mesh_height_at(mesh, x, y, 0, &hint, &height);
     print(put, x);
     print(put, " ");
     print(put, y);
-    if (answer == MICROTIN_HEIGHT) {
+    if (answer == MICROTIN_QUERY_OK) {
       print(put, " ");
       print(put, height);
     } else {
@@ -97,11 +97,11 @@ inline void report(PutChar put, const microtin_mesh* mesh, microtin_status statu
   print(put, "status ");
   print(put, static_cast<uint32_t>(status));
   print(put, "\nvertices ");
-  print(put, microtin_vertex_count(mesh));
+  print(put, microtin_mesh_vertex_count(mesh));
   print(put, "\ndigest ");
-  print_hex(put, microtin_digest(mesh));
+  print_hex(put, microtin_mesh_digest(mesh));
   print(put, "\n");
-  if (status == MICROTIN_DONE) report_probes(put, mesh);
+  if (status == MICROTIN_STATUS_OK) report_probes(put, mesh);
 }
 
 // A sum of the answers at 64 places, in their order.
@@ -113,31 +113,33 @@ uint32_t sum_of_probes(const ProbeBox& box, HeightAt height_at) {
     const int32_t x = numbers.between(box.west, box.east);
     const int32_t y = numbers.between(box.south, box.north);
     int32_t height = 0;
-    const microtin_answer answer = height_at(x, y, &hint, &height);
+    const microtin_query_result answer = height_at(x, y, &hint, &height);
     sum = sum * 31 + static_cast<uint32_t>(height) * 7 + static_cast<uint32_t>(answer);
   }
   return sum;
 }
 
 #ifndef MICROTIN_WITHOUT_COURSES
-inline microtin_answer highest_on(const microtin_mesh* mesh, const microtin_course* c, int32_t* z) {
-  return microtin_highest(mesh, c, z);
+inline microtin_query_result highest_on(const microtin_mesh* mesh, const microtin_segment* c,
+                                        int32_t* z) {
+  return microtin_mesh_segment_max(mesh, c, z);
 }
-inline microtin_answer highest_on(const microtin_compact* compact, const microtin_course* c,
-                                  int32_t* z) {
-  microtin_course_progress progress = {};
-  microtin_answer answer;
+inline microtin_query_result highest_on(const microtin_compact* compact, const microtin_segment* c,
+                                        int32_t* z) {
+  microtin_segment_state progress = {};
+  microtin_query_result answer;
   do {
-    answer = microtin_compact_highest_limited(compact, c, 9, &progress, z);
-  } while (answer == MICROTIN_NOT_YET);
+    answer = microtin_compact_segment_max_limited(compact, c, 9, &progress, z);
+  } while (answer == MICROTIN_QUERY_STEP_LIMIT);
   return answer;
 }
-inline microtin_answer fill_from(const microtin_mesh* mesh, const microtin_block* b, int16_t* z) {
-  return microtin_fill(mesh, b, z);
+inline microtin_query_result fill_from(const microtin_mesh* mesh, const microtin_grid_spec* b,
+                                       int16_t* z) {
+  return microtin_mesh_sample_grid(mesh, b, z);
 }
-inline microtin_answer fill_from(const microtin_compact* compact, const microtin_block* b,
-                                 int16_t* z) {
-  return microtin_compact_fill(compact, b, z);
+inline microtin_query_result fill_from(const microtin_compact* compact, const microtin_grid_spec* b,
+                                       int16_t* z) {
+  return microtin_compact_sample_grid(compact, b, z);
 }
 
 // ... on 8 courses through the box and in a block of the places around.
@@ -149,12 +151,12 @@ uint32_t sum_of_courses(const ProbeBox& box, const Form* form) {
     const int32_t x = numbers.between(box.west, box.east);
     const int32_t y = numbers.between(box.south, box.north);
     const int32_t x_end = numbers.between(box.west, box.east);
-    const microtin_course course = {x, y, x_end, numbers.between(box.south, box.north)};
+    const microtin_segment course = {x, y, x_end, numbers.between(box.south, box.north)};
     int32_t height = 0;
-    const microtin_answer answer = highest_on(form, &course, &height);
+    const microtin_query_result answer = highest_on(form, &course, &height);
     sum = sum * 31 + static_cast<uint32_t>(height) * 7 + static_cast<uint32_t>(answer);
   }
-  const microtin_block block = {
+  const microtin_grid_spec block = {
       box.west - 256, box.south, (box.east - box.west) / 3, (box.north - box.south) / 3, 5, 4, -1};
   int16_t heights[20];
   sum = sum * 31 + static_cast<uint32_t>(fill_from(form, &block, heights));
@@ -172,22 +174,22 @@ uint32_t sum_of_courses(const ProbeBox&, const Form*) {
 // mesh did, or the mesh is too small for that or, by a few vertices, too large.
 inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size_t scratch_size) {
   const ProbeBox box = probe_box(mesh);
-  const uint64_t digest = microtin_digest(mesh);
+  const uint64_t digest = microtin_mesh_digest(mesh);
   const uint32_t sum = sum_of_probes(box, [mesh](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
-    return microtin_height_at(mesh, x, y, 0, hint, z);
+    return microtin_mesh_height_at(mesh, x, y, 0, hint, z);
   });
   const uint32_t courses = sum_of_courses(box, mesh);
   microtin_compactor* compactor = 0;
   microtin_compact* compact = 0;
   microtin_status status =
-      microtin_compact_begin(mesh, size, mesh, scratch, scratch_size, &compactor);
-  if (status != MICROTIN_DONE) return false;
+      microtin_compactor_init(mesh, size, mesh, scratch, scratch_size, &compactor);
+  if (status != MICROTIN_STATUS_OK) return false;
   do {
-    status = microtin_compact_proceed(compactor, 5, &compact);
-  } while (status == MICROTIN_STEP_LIMIT);
-  const uint32_t n = microtin_vertex_count(mesh);
-  if (status == MICROTIN_WORKSPACE_TOO_SMALL) return n < 100;
-  if (status == MICROTIN_TOO_BIG) return n + 10 > MICROTIN_MAX_VERTICES;
+    status = microtin_compactor_run(compactor, 5, &compact);
+  } while (status == MICROTIN_STATUS_STEP_LIMIT);
+  const uint32_t n = microtin_mesh_vertex_count(mesh);
+  if (status == MICROTIN_STATUS_WORKSPACE_TOO_SMALL) return n < 100;
+  if (status == MICROTIN_STATUS_TOO_BIG) return n + 10 > MICROTIN_MAX_VERTICES;
   return microtin_compact_digest(compact) == digest &&
          sum == sum_of_probes(box,
                               [compact](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {

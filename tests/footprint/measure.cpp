@@ -33,8 +33,8 @@ uint32_t dearest_step(TerrainOfTile& terrain) {
   static microtin::Decoder<MICROTIN_MAX_VERTICES> decoder(terrain);
   Statistics steps;
   size_t at = 0;
-  microtin_status status = MICROTIN_STEP_LIMIT;
-  while (status == MICROTIN_STEP_LIMIT) {
+  microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
+  while (status == MICROTIN_STATUS_STEP_LIMIT) {
     size_t used = 0;
     const uint32_t before = instruction_count();
     status = decoder.feed(stream_begin + at, stream_size() - at, &used, 1);
@@ -137,12 +137,12 @@ uint32_t make_compact(TerrainOfTile& terrain, uint32_t piece) {
       MICROTIN_ALIGNMENT) static unsigned char space[MICROTIN_COMPACT_BYTES(MICROTIN_MAX_VERTICES)],
       scratch[MICROTIN_COMPACTOR_BYTES(MICROTIN_MAX_VERTICES)];
   microtin_compactor* compactor = nullptr;
-  microtin_compact_begin(space, sizeof space, terrain.mesh(), scratch, sizeof scratch, &compactor);
+  microtin_compactor_init(space, sizeof space, terrain.mesh(), scratch, sizeof scratch, &compactor);
   Statistics pieces;
-  microtin_status status = MICROTIN_STEP_LIMIT;
-  while (status == MICROTIN_STEP_LIMIT) {
+  microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
+  while (status == MICROTIN_STATUS_STEP_LIMIT) {
     const uint32_t before = instruction_count();
-    status = microtin_compact_proceed(compactor, piece, &compact);
+    status = microtin_compactor_run(compactor, piece, &compact);
     pieces.add(instruction_count() - before);
   }
   return pieces.most() - overhead();
@@ -172,7 +172,7 @@ int firmware_main() {
   size_t used = 0;
   const microtin_status status = decoder.feed(stream_begin, stream_size(), &used);
   const uint32_t decoding = instruction_count() - before - overhead();
-  if (status != MICROTIN_DONE) return 1;
+  if (status != MICROTIN_STATUS_OK) return 1;
   const uint32_t vertices = terrain.vertices();
   say("decode_per_vertex", decoding / vertices);
 

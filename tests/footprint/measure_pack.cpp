@@ -46,8 +46,8 @@ Statistics fetch(Pack& pack, microtin_pack_info& info) {
   for (uint32_t i = 0; i < kSlots; ++i) {
     const int64_t x = static_cast<int64_t>(i % 3 * info.tile_width) * 256 + 128;
     const int64_t y = static_cast<int64_t>(i / 3 * info.tile_height) * 256 + 128;
-    microtin_status status = MICROTIN_NEED_INPUT;
-    while (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
+    microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+    while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
       calls.add(counted([&] { status = pack.service({x, y, x, y}, 1, read_flash, nullptr); }));
     }
   }
@@ -86,7 +86,7 @@ void measure(Pack& pack, const Told& told) {
 int firmware_main() {
   static microtin::Pack<kSlots, kCapacity> meshes(microtin::later);
   static microtin::CompactPack<kSlots, kCapacity> compact(microtin::later);
-  if (meshes.begin() != MICROTIN_DONE || compact.begin() != MICROTIN_DONE) return 1;
+  if (meshes.begin() != MICROTIN_STATUS_OK || compact.begin() != MICROTIN_STATUS_OK) return 1;
   measure(meshes, Told("pack"));
   measure(compact, Told("compact_pack"));
   return 0;

@@ -15,15 +15,15 @@ microtin_decoder* const kSomeDecoder = reinterpret_cast<microtin_decoder*>(&deco
 extern "C" {
 
 microtin_status microtin_mesh_init(void*, size_t, microtin_mesh** mesh) {
-  *mesh = mesh_status == MICROTIN_DONE ? kSomeMesh : nullptr;
+  *mesh = mesh_status == MICROTIN_STATUS_OK ? kSomeMesh : nullptr;
   return mesh_status;
 }
 
 microtin_status microtin_decoder_init(void*, size_t, microtin_mesh* mesh,
                                       microtin_decoder** decoder) {
   *decoder = nullptr;
-  if (mesh == nullptr) return MICROTIN_ARGUMENT;
-  if (decoder_status == MICROTIN_DONE) *decoder = kSomeDecoder;
+  if (mesh == nullptr) return MICROTIN_STATUS_ARGUMENT;
+  if (decoder_status == MICROTIN_STATUS_OK) *decoder = kSomeDecoder;
   return decoder_status;
 }
 
@@ -32,24 +32,24 @@ microtin_status microtin_pack_init(void*, size_t, uint32_t, uint32_t, microtin_p
   return pack_status;
 }
 
-microtin_status microtin_feed(microtin_decoder* decoder, const uint8_t*, size_t size, uint32_t,
-                              size_t* used) {
+microtin_status microtin_decoder_feed(microtin_decoder* decoder, const uint8_t*, size_t size,
+                                      uint32_t, size_t* used) {
   *used = size;
-  return decoder == nullptr ? MICROTIN_ARGUMENT : MICROTIN_NEED_INPUT;
+  return decoder == nullptr ? MICROTIN_STATUS_ARGUMENT : MICROTIN_STATUS_NEED_INPUT;
 }
 
-microtin_status microtin_finish(microtin_decoder* decoder) {
-  return decoder == nullptr ? MICROTIN_ARGUMENT : MICROTIN_TRUNCATED;
+microtin_status microtin_decoder_finish(microtin_decoder* decoder) {
+  return decoder == nullptr ? MICROTIN_STATUS_ARGUMENT : MICROTIN_STATUS_TRUNCATED;
 }
 
-void microtin_pack_wanted(microtin_pack*, uint64_t*, uint8_t**, size_t* size) {
+void microtin_pack_next_read(microtin_pack*, uint64_t*, uint8_t**, size_t* size) {
   *size = 0;
 }
 
-void microtin_pack_given(microtin_pack*, int32_t) {}
+void microtin_pack_complete_read(microtin_pack*, int32_t) {}
 
-microtin_status microtin_pack_prepare(microtin_pack*, const microtin_course*, uint32_t) {
-  return MICROTIN_DONE;
+microtin_status microtin_pack_load(microtin_pack*, const microtin_segment*, uint32_t) {
+  return MICROTIN_STATUS_OK;
 }
 }
 
@@ -67,21 +67,21 @@ bool says(microtin_status fed, microtin_status finished) {
   size_t used = 7;
   const bool right = decoder.feed(&byte, 1, &used) == fed && decoder.finish() == finished &&
                      terrain.status() == mesh_status;
-  return right && used == (fed == MICROTIN_NEED_INPUT ? 1u : 0u);
+  return right && used == (fed == MICROTIN_STATUS_NEED_INPUT ? 1u : 0u);
 }
 
 }  // namespace
 
 int main() {
-  bool right = says(MICROTIN_NEED_INPUT, MICROTIN_TRUNCATED);
-  mesh_status = MICROTIN_MISALIGNED;
-  right = right && says(MICROTIN_MISALIGNED, MICROTIN_MISALIGNED);
-  mesh_status = MICROTIN_DONE;
-  decoder_status = MICROTIN_WORKSPACE_TOO_SMALL;
-  right = right && says(MICROTIN_WORKSPACE_TOO_SMALL, MICROTIN_WORKSPACE_TOO_SMALL);
-  pack_status = MICROTIN_MISALIGNED;
+  bool right = says(MICROTIN_STATUS_NEED_INPUT, MICROTIN_STATUS_TRUNCATED);
+  mesh_status = MICROTIN_STATUS_MISALIGNED;
+  right = right && says(MICROTIN_STATUS_MISALIGNED, MICROTIN_STATUS_MISALIGNED);
+  mesh_status = MICROTIN_STATUS_OK;
+  decoder_status = MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
+  right = right && says(MICROTIN_STATUS_WORKSPACE_TOO_SMALL, MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
+  pack_status = MICROTIN_STATUS_MISALIGNED;
   microtin::Pack<1, 5> pack;
-  right = right && pack.status() == MICROTIN_MISALIGNED &&
-          pack.service({0, 0, 0, 0}, 1, nothing, nullptr) == MICROTIN_MISALIGNED;
+  right = right && pack.status() == MICROTIN_STATUS_MISALIGNED &&
+          pack.service({0, 0, 0, 0}, 1, nothing, nullptr) == MICROTIN_STATUS_MISALIGNED;
   return right ? 0 : 1;
 }

@@ -44,9 +44,9 @@ struct Loaded {
   template <class Ask, class Adapter>
   void load(Adapter& adapter, const Ask& ask) {
     for (int i = 0; i < 200 && (ask(), !adapter.spots.has_info || adapter.spots.is_wished); ++i) {
-      microtin_status status = MICROTIN_NEED_INPUT;
-      while (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
-        status = microtin_spots_service(&adapter.spots, 100, Card::read, &card);
+      microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+      while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
+        status = microtin_spots_load(&adapter.spots, 100, Card::read, &card);
       }
     }
   }
@@ -124,7 +124,7 @@ TEST_CASE("adapters: a pack across 180 degrees answers at either name of a longi
     for (int i = 0; i < 200; ++i) {
       const microtin_spot at{9100000, longitude};
       if (microtin_spots_ask(&spots, at, at, &height) != 0) break;
-      microtin_spots_service(&spots, 1000, Card::read, &card);
+      microtin_spots_load(&spots, 1000, Card::read, &card);
     }
     return height;
   };
@@ -149,8 +149,8 @@ TEST_CASE("adapters: a place outside is no wish, a place that is not there is on
   CHECK(!microtin_inav_height(&inav, 433900000, 72900000, &height));
   CHECK(inav.spots.is_wished);
   here.card.is_pulled = true;
-  microtin_inav_service(&inav, 50, Card::read, &here.card);  // asks for input, or has done so
-  CHECK(microtin_inav_service(&inav, 50, Card::read, &here.card) == MICROTIN_IO);
+  microtin_inav_load(&inav, 50, Card::read, &here.card);  // asks for input, or has done so
+  CHECK(microtin_inav_load(&inav, 50, Card::read, &here.card) == MICROTIN_STATUS_IO);
   CHECK(inav.spots.is_wished);
   here.card.is_pulled = false;
   here.load(inav, [&] { microtin_inav_height(&inav, 433900000, 72900000, &height); });
@@ -204,7 +204,7 @@ TEST_CASE(
   microtin_ardupilot_begin_block(&terrain, 433990000, 73000000, 100);
   for (int i = 0; i < 300; ++i) {
     is_full = microtin_ardupilot_fill_block(&terrain, 3);
-    microtin_spots_service(&terrain.spots, 500, Card::read, &here.card);
+    microtin_spots_load(&terrain.spots, 500, Card::read, &here.card);
   }
   CHECK(!is_full);
   microtin_ardupilot_statistics(&terrain, &pending, &loaded);
@@ -225,7 +225,7 @@ TEST_CASE("adapters: looks ahead count what is missing, over the date line and f
   microtin_inav_init(&inav, device.pack);
   float height = 0;
   for (int i = 0; i < 100 && !microtin_inav_height(&inav, 0, 0, &height); ++i) {
-    microtin_inav_service(&inav, 100, Card::read, &card);
+    microtin_inav_load(&inav, 100, Card::read, &card);
   }
   microtin_inav_look look{};
   const auto missed = [&](int32_t latitude, int32_t longitude, float bearing) {
@@ -241,7 +241,7 @@ TEST_CASE("adapters: looks ahead count what is missing, over the date line and f
   CHECK(missed(899989000, 0, 0) == 6);
   microtin_ardupilot terrain;
   microtin_ardupilot_init(&terrain, device.pack, 30);
-  microtin_ardupilot_service(&terrain, 100, Card::read, &card);
+  microtin_ardupilot_load(&terrain, 100, Card::read, &card);
   microtin_ardupilot_lookahead(&terrain, 899989000, 0, 0, 300, 0);
   CHECK(terrain.missed == 6);
   microtin_ardupilot_lookahead(&terrain, 0, 0, 0, 300, 0);

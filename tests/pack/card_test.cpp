@@ -60,9 +60,9 @@ class HostPack {
       }
       uint32_t hint = 0;
       int32_t height = 0;
-      if (found->second &&
-          microtin_height_at(found->second->mesh(), static_cast<int32_t>(lx),
-                             static_cast<int32_t>(ly), 0, &hint, &height) == MICROTIN_HEIGHT) {
+      if (found->second && microtin_mesh_height_at(found->second->mesh(), static_cast<int32_t>(lx),
+                                                   static_cast<int32_t>(ly), 0, &hint,
+                                                   &height) == MICROTIN_QUERY_OK) {
         return std::to_string(height);
       }
     }
@@ -79,7 +79,7 @@ std::string report_of(const HostPack& pack) {
   std::string report;
   const microtin_pack_info info = pack.info();
   for (int32_t i = 0; i < FLIGHT_PLACES; ++i) {
-    const microtin_course course = flight_course(i, &info);
+    const microtin_segment course = flight_course(i, &info);
     report += pack.answer(course.x, course.y) + (i % 10 == 9 ? "\n" : " ");
   }
   return report;
@@ -142,13 +142,14 @@ TEST_CASE("pack: aligned reads lie in one sector, and answers are the same") {
   const EncodedPack encoded = encode_pack(rough_raster(121, 105), pack_options(3, 60));
   SectorCard cards[2] = {{write_pack(encoded)}, {write_pack(encoded)}};
   const MeshSlots loose(4), aligned(4);
-  CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_DONE);
+  CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_STATUS_OK);
   Random random(5);
   for (int i = 0; i < 300; ++i) {
-    const microtin_course here = at(random.below(121), random.below(105));
-    CHECK(microtin_pack_service(loose.pack, &here, 0, SectorCard::read, cards) == MICROTIN_DONE);
-    CHECK(microtin_pack_service(aligned.pack, &here, 0, SectorCard::read, cards + 1) ==
-          MICROTIN_DONE);
+    const microtin_segment here = at(random.below(121), random.below(105));
+    CHECK(microtin_pack_load_with(loose.pack, &here, 0, SectorCard::read, cards) ==
+          MICROTIN_STATUS_OK);
+    CHECK(microtin_pack_load_with(aligned.pack, &here, 0, SectorCard::read, cards + 1) ==
+          MICROTIN_STATUS_OK);
     int32_t heights[2] = {0, 0};
     CHECK(loose.height_at(here.x, here.y, heights[0]) ==
           aligned.height_at(here.x, here.y, heights[1]));
@@ -168,11 +169,11 @@ TEST_CASE("pack: along a row, sectors of small and of large tiles") {
     REQUIRE(encoded.streams.size() == kTiles);
     SectorCard cards[2] = {{write_pack(encoded)}, {write_pack(encoded)}};
     const MeshSlots loose(4, 2500), aligned(4, 2500);
-    CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_DONE);
+    CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_STATUS_OK);
     for (int32_t x = 4; x < static_cast<int32_t>(kTiles * width); x += 4) {
-      const microtin_course ahead = {(x - 4) * 256, 1280, x * 256, 1280};
-      CHECK(loose.service(ahead, 0, SectorCard::read, cards) == MICROTIN_DONE);
-      CHECK(aligned.service(ahead, 0, SectorCard::read, cards + 1) == MICROTIN_DONE);
+      const microtin_segment ahead = {(x - 4) * 256, 1280, x * 256, 1280};
+      CHECK(loose.service(ahead, 0, SectorCard::read, cards) == MICROTIN_STATUS_OK);
+      CHECK(aligned.service(ahead, 0, SectorCard::read, cards + 1) == MICROTIN_STATUS_OK);
     }
     // Every sector once, and for four tiles the index and the sector that was left for it.
     const uint64_t file = (cards[1].bytes.size() + 511) / 512;
@@ -201,12 +202,12 @@ TEST_CASE(
       const int32_t drift = (flight / 2 * 2 + 1) * side / kFlights;
       SectorCard cards[2] = {{file}, {file}};
       const MeshSlots loose(4, 2500), aligned(4, 2500);
-      CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_DONE);
+      CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_STATUS_OK);
       for (int32_t along = 0; along <= side; along += 2) {
         const int32_t across = drift * along / side;
-        const microtin_course here = flight % 2 != 0 ? at(along, across) : at(across, along);
-        CHECK(loose.service(here, 0, SectorCard::read, cards) == MICROTIN_DONE);
-        CHECK(aligned.service(here, 0, SectorCard::read, cards + 1) == MICROTIN_DONE);
+        const microtin_segment here = flight % 2 != 0 ? at(along, across) : at(across, along);
+        CHECK(loose.service(here, 0, SectorCard::read, cards) == MICROTIN_STATUS_OK);
+        CHECK(aligned.service(here, 0, SectorCard::read, cards + 1) == MICROTIN_STATUS_OK);
       }
       worst = std::max(worst, 512.0 * static_cast<double>(cards[1].sectors) /
                                   static_cast<double>(cards[0].asked));
@@ -227,76 +228,77 @@ TEST_CASE(
   const size_t second = static_cast<size_t>(pack.entries()[0].offset) -
                         (pack.entries().size() - 1) * size_t{kPackEntryBytes};
   const MeshSlots device(4, 400);
-  CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_DONE);
+  CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_STATUS_OK);
   card.bytes[second] ^= 1;
-  CHECK(device.service(card, at(5, 5)) == MICROTIN_DONE);
+  CHECK(device.service(card, at(5, 5)) == MICROTIN_STATUS_OK);
   card.bytes[second] ^= 1;
-  CHECK(device.service(card, at(17, 5)) == MICROTIN_BAD_TILES);
-  CHECK(device.service(card, at(30, 5)) == MICROTIN_DONE);
-  microtin_pack_retry(device.pack);
-  CHECK(device.service(card, at(17, 5)) == MICROTIN_DONE);
+  CHECK(device.service(card, at(17, 5)) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.service(card, at(30, 5)) == MICROTIN_STATUS_OK);
+  microtin_pack_clear_bad_tiles(device.pack);
+  CHECK(device.service(card, at(17, 5)) == MICROTIN_STATUS_OK);
 }
 
 // With so many bad tiles that this one is not remembered, and so tried again.
 TEST_CASE("pack: an entry that was misread together with others is not kept") {
-  constexpr uint32_t kTiles = 12, kBad = MICROTIN_PACK_BAD_TILES, kMisread = kBad + 1;
+  constexpr uint32_t kTiles = 12, kBad = MICROTIN_PACK_MAX_BAD_TILES, kMisread = kBad + 1;
   const ForgedTile flat = forged_tile({{{0, 0, 7}, {2, 0, 7}, {0, 2, 7}, {2, 2, 7}}, {}});
   Card card{forged_pack({2 * kTiles, 2, 2, 2}, std::vector<ForgedTile>(kTiles, flat))};
   const PackFile pack(card.bytes);
   for (uint32_t i = 0; i < kBad; ++i) card.bytes[pack.entries()[i].offset + 20] ^= 1;
   uint8_t& misread = card.bytes[pack_entry_start(pack.header(), kMisread)];
-  const microtin_course all = {0, 300, kTiles * 512, 300};
+  const microtin_segment all = {0, 300, kTiles * 512, 300};
   const MeshSlots device(kTiles);
-  CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_DONE);
+  CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_STATUS_OK);
   int32_t height = 0;
   misread ^= 1;
-  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
-  CHECK(device.height_at(kMisread * 512 + 256, 300, height) == MICROTIN_NOT_DECODED);
+  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.height_at(kMisread * 512 + 256, 300, height) == MICROTIN_QUERY_NOT_LOADED);
   misread ^= 1;
-  CHECK(device.service(card, all) == MICROTIN_BAD_TILES);
-  CHECK(device.height_at(kMisread * 512 + 256, 300, height) == MICROTIN_HEIGHT);
+  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.height_at(kMisread * 512 + 256, 300, height) == MICROTIN_QUERY_OK);
 }
 
 TEST_CASE_TEMPLATE("pack: tiles without terrain, of entries that are kept, end no service", Device,
                    MeshSlots, CompactSlots) {
   const ForgedTile flat = forged_tile({{{0, 0, 7}, {2, 0, 7}, {0, 2, 7}, {2, 2, 7}}, {}}), none;
   Card card{forged_pack({12, 2, 2, 2}, {flat, none, none, none, none, flat})};
-  const microtin_course all = {0, 300, 12 * 256, 300};
+  const microtin_segment all = {0, 300, 12 * 256, 300};
   for (const uint32_t steps : {0u, 1000u}) {
     const Device device(6);
-    CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_DONE);
-    microtin_status status = MICROTIN_NEED_INPUT;
-    while (status == MICROTIN_NEED_INPUT || status == MICROTIN_STEP_LIMIT) {
+    CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_STATUS_OK);
+    microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+    while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
       status = device.service(card, all, steps);
     }
-    CHECK(status == MICROTIN_DONE);
+    CHECK(status == MICROTIN_STATUS_OK);
     int32_t height = 0;
-    CHECK(device.height_at(11 * 256, 300, height) == MICROTIN_HEIGHT);
-    CHECK(device.height_at(7 * 256, 300, height) == MICROTIN_IN_VOID);
+    CHECK(device.height_at(11 * 256, 300, height) == MICROTIN_QUERY_OK);
+    CHECK(device.height_at(7 * 256, 300, height) == MICROTIN_QUERY_VOID);
   }
 }
 
 TEST_CASE("pack: only powers of two align reads, and all of them do") {
   const Bytes bytes = write_pack(encode_pack(rough_raster(61, 53), pack_options(3, 60)));
   for (const uint32_t sector : {3u, 513u, 65536u, ~0u}) {
-    CHECK(microtin_pack_align_reads(MeshSlots(4).pack, sector) == MICROTIN_ARGUMENT);
+    CHECK(microtin_pack_align_reads(MeshSlots(4).pack, sector) == MICROTIN_STATUS_ARGUMENT);
   }
-  CHECK(microtin_pack_align_reads(nullptr, 512) == MICROTIN_ARGUMENT);
+  CHECK(microtin_pack_align_reads(nullptr, 512) == MICROTIN_STATUS_ARGUMENT);
   for (uint32_t sector = 1; sector <= 32768; sector *= 2) {
     const MeshSlots device(4);
     Card card{bytes};
-    CHECK(microtin_pack_align_reads(device.pack, sector) == MICROTIN_DONE);
+    CHECK(microtin_pack_align_reads(device.pack, sector) == MICROTIN_STATUS_OK);
     microtin_pack_reset(device.pack);  // keeps it
-    CHECK(device.service(card, at(20, 20)) == MICROTIN_DONE);
+    CHECK(device.service(card, at(20, 20)) == MICROTIN_STATUS_OK);
     uint64_t offset = 0;
     uint8_t* buffer = nullptr;
     size_t size = 0;
-    const microtin_course other = at(60, 50);
-    microtin_pack_prepare(device.pack, &other, 0);
-    microtin_pack_wanted(device.pack, &offset, &buffer, &size);
+    const microtin_segment other = at(60, 50);
+    microtin_pack_load(device.pack, &other, 0);
+    microtin_pack_next_read(device.pack, &offset, &buffer, &size);
     CHECK(offset / sector == (offset + size - 1) / sector);
-    microtin_pack_given(device.pack, static_cast<int32_t>(size) + 1);  // more than was wanted
-    CHECK(microtin_pack_prepare(device.pack, &other, 0) == MICROTIN_IO);
+    microtin_pack_complete_read(device.pack,
+                                static_cast<int32_t>(size) + 1);  // more than was wanted
+    CHECK(microtin_pack_load(device.pack, &other, 0) == MICROTIN_STATUS_IO);
   }
 }
 

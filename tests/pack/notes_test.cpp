@@ -21,7 +21,7 @@ struct Found {
 };
 
 Found find_note(const uint8_t* bytes, size_t size, uint8_t type) {
-  Found found{MICROTIN_DONE, bytes, 12345};
+  Found found{MICROTIN_STATUS_OK, bytes, 12345};
   found.status = microtin_find_note(bytes, size, type, &found.content, &found.size);
   return found;
 }
@@ -29,7 +29,7 @@ Found find_note(const uint8_t* bytes, size_t size, uint8_t type) {
 // Nothing if there is no such note.
 std::optional<Bytes> content_of(const Bytes& header, uint8_t type) {
   const Found found = find_note(header.data(), header.size(), type);
-  CHECK(found.status == MICROTIN_DONE);
+  CHECK(found.status == MICROTIN_STATUS_OK);
   if (found.content == nullptr) {
     CHECK(found.size == 0);
     return std::nullopt;
@@ -110,7 +110,7 @@ TEST_CASE("notes: a header that is not there whole says how much of it is wanted
     for (size_t size = 0; size < header.size(); ++size) {
       const Bytes prefix(header.begin(), header.begin() + static_cast<std::ptrdiff_t>(size));
       const Found found = find_note(prefix.data(), size, 7);
-      CHECK(found.status == MICROTIN_NEED_INPUT);
+      CHECK(found.status == MICROTIN_STATUS_NEED_INPUT);
       CHECK(found.content == nullptr);
       CHECK((found.size == 0 || (found.size > size && found.size <= header.size())));
       if (size >= kPackFixedBytes) CHECK(found.size == header.size());
@@ -123,19 +123,19 @@ TEST_CASE("notes: wrong arguments, and what is neither stream nor pack") {
   const Bytes header = stream_header({});
   const uint8_t* content = nullptr;
   uint32_t size = 0;
-  CHECK(microtin_find_note(nullptr, 9, 3, &content, &size) == MICROTIN_ARGUMENT);
-  CHECK(microtin_find_note(header.data(), 9, 3, nullptr, &size) == MICROTIN_ARGUMENT);
-  CHECK(microtin_find_note(header.data(), 9, 3, &content, nullptr) == MICROTIN_ARGUMENT);
-  CHECK(microtin_find_note(nullptr, 0, 3, &content, &size) == MICROTIN_NEED_INPUT);
+  CHECK(microtin_find_note(nullptr, 9, 3, &content, &size) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(microtin_find_note(header.data(), 9, 3, nullptr, &size) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(microtin_find_note(header.data(), 9, 3, &content, nullptr) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(microtin_find_note(nullptr, 0, 3, &content, &size) == MICROTIN_STATUS_NEED_INPUT);
   const Bytes other(40, 'm');
-  CHECK(find_note(other.data(), other.size(), 3).status == MICROTIN_BAD_MAGIC);
+  CHECK(find_note(other.data(), other.size(), 3).status == MICROTIN_STATUS_BAD_MAGIC);
   for (Bytes later : {stream_header({}), pack_header({})}) {
     ++later[4];
-    CHECK(find_note(later.data(), later.size(), 3).status == MICROTIN_UNSUPPORTED_VERSION);
+    CHECK(find_note(later.data(), later.size(), 3).status == MICROTIN_STATUS_UNSUPPORTED_VERSION);
   }
   Bytes flagged = pack_header({});
   flagged[5] = 1;
-  CHECK(find_note(flagged.data(), flagged.size(), 3).status == MICROTIN_UNSUPPORTED_VERSION);
+  CHECK(find_note(flagged.data(), flagged.size(), 3).status == MICROTIN_STATUS_UNSUPPORTED_VERSION);
 }
 
 TEST_CASE("notes: any bytes in their place are searched within bounds") {
@@ -149,7 +149,7 @@ TEST_CASE("notes: any bytes in their place are searched within bounds") {
     const int expected = position_of(notes, type);
     for (const Bytes& header : {stream_header(notes, placement), pack_header(notes, placement)}) {
       const Found found = find_note(header.data(), header.size(), type);
-      CHECK(found.status == (expected == -2 ? MICROTIN_MALFORMED : MICROTIN_DONE));
+      CHECK(found.status == (expected == -2 ? MICROTIN_STATUS_MALFORMED : MICROTIN_STATUS_OK));
       const size_t start = header.size() - kCheckBytes - notes.size();
       if (expected < 0) {
         CHECK(found.content == nullptr);
@@ -170,13 +170,13 @@ TEST_CASE("notes: a changed byte is told, and forged headers keep the search wit
         Bytes changed = header;
         changed[at] = static_cast<uint8_t>(changed[at] ^ 1 << bit);
         const Found damaged = find_note(changed.data(), changed.size(), 7);
-        CHECK(damaged.status != MICROTIN_DONE);
+        CHECK(damaged.status != MICROTIN_STATUS_OK);
         CHECK(damaged.content == nullptr);
         changed.resize(changed.size() - kCheckBytes);
         append_check(changed, 0);
         const Found forged = find_note(changed.data(), changed.size(), 7);
         if (forged.content == nullptr) continue;
-        CHECK(forged.status == MICROTIN_DONE);
+        CHECK(forged.status == MICROTIN_STATUS_OK);
         CHECK(forged.content >= changed.data());
         CHECK(forged.content + forged.size <= changed.data() + changed.size() - kCheckBytes);
       }

@@ -177,7 +177,7 @@ TEST_CASE("packs: a later version, or a flag of one, is not called broken") {
     } catch (const Error& error) {
       refusal = error.what();
     }
-    CHECK(refusal == describe(MICROTIN_UNSUPPORTED_VERSION));
+    CHECK(refusal == describe(MICROTIN_STATUS_UNSUPPORTED_VERSION));
   }
 }
 

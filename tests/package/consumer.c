@@ -8,6 +8,6 @@
 
 int main(void) {
   static const uint8_t bytes[64] = {'n', 'o', 't', ' ', 'o', 'n', 'e'};
-  microtin_info info;
-  return microtin_peek(bytes, sizeof bytes, &info) == MICROTIN_BAD_MAGIC ? 0 : 1;
+  microtin_stream_info info;
+  return microtin_read_stream_info(bytes, sizeof bytes, &info) == MICROTIN_STATUS_BAD_MAGIC ? 0 : 1;
 }

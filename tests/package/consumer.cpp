@@ -9,8 +9,8 @@ int main() {
   static microtin::Pack<1, 10> pack;
   size_t used = 0;
   const uint8_t bytes[7] = {'n', 'o', 't', ' ', 'o', 'n', 'e'};
-  return decoder.feed(bytes, sizeof bytes, &used) == MICROTIN_BAD_MAGIC &&
-                 pack.status() == MICROTIN_DONE
+  return decoder.feed(bytes, sizeof bytes, &used) == MICROTIN_STATUS_BAD_MAGIC &&
+                 pack.status() == MICROTIN_STATUS_OK
              ? 0
              : 1;
 }

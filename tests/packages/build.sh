@@ -79,8 +79,8 @@ case $kind in
     done
     # shellcheck disable=SC2086
     arm-none-eabi-gcc $cortex -I"$library/$includes" -c "$consumer" -o "$build/consumer.o"
-    arm-none-eabi-nm "$build/gcc.o" | grep -q ' T microtin_peek_16'
-    arm-none-eabi-nm "$build/consumer.o" | grep -q ' U microtin_peek_16'
+    arm-none-eabi-nm "$build/gcc.o" | grep -q ' T microtin_read_stream_info_16'
+    arm-none-eabi-nm "$build/consumer.o" | grep -q ' U microtin_read_stream_info_16'
     ;;
   meson)
     need meson ninja

@@ -36,7 +36,7 @@ std::vector<double> heights() {
 }
 
 struct InC {
-  microtin_raster raster{};
+  microtin_raster_data raster{};
   std::vector<double> doubles = heights();
   std::vector<float> floats{doubles.begin(), doubles.end()};
 
@@ -53,18 +53,17 @@ struct InC {
 };
 
 template <class Content>
-Bytes encoded(const Content& content,
-              microtin_outcome (*make)(const Content*, microtin_terrain**)) {
-  microtin_terrain* terrain = nullptr;
-  REQUIRE(make(&content, &terrain) == MICROTIN_OK);
+Bytes encoded(const Content& content, microtin_status (*make)(const Content*, microtin_source**)) {
+  microtin_source* terrain = nullptr;
+  REQUIRE(make(&content, &terrain) == MICROTIN_STATUS_OK);
   microtin_options options{};
   options.size = sizeof options;
   uint8_t* bytes = nullptr;
   uint64_t size = 0;
-  REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, nullptr) == MICROTIN_OK);
+  REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, nullptr) == MICROTIN_STATUS_OK);
   Bytes stream(bytes, bytes + size);
   microtin_bytes_free(bytes);
-  microtin_terrain_free(terrain);
+  microtin_source_free(terrain);
   return stream;
 }
 
@@ -99,7 +98,7 @@ const std::vector<RasterRow> kRasterRows = {
 Bytes stream_in_cpp(const InC& c) {
   library::Transform transform{};
   std::copy(std::begin(c.raster.transform), std::end(c.raster.transform), transform.begin());
-  const microtin_raster& r = c.raster;
+  const microtin_raster_data& r = c.raster;
   const double no_data = r.no_data != nullptr ? *r.no_data : library::kNoValue;
   library::Posts posts =
       r.heights != nullptr
@@ -111,8 +110,8 @@ Bytes stream_in_cpp(const InC& c) {
 
 const std::vector<double> kPoints = {0, 0, 1, 9, 0, 2.5, 0, 9, 3, 9, 9, 4, 4, 5, 9, 2, 3, 1};
 
-microtin_points points_in_c() {
-  return {sizeof(microtin_points), kPoints.size() / 3, kPoints.data(), nullptr};
+microtin_point_data points_in_c() {
+  return {sizeof(microtin_point_data), kPoints.size() / 3, kPoints.data(), nullptr};
 }
 
 Bytes points_in_cpp(uint64_t count, const double* coordinates, const std::string& wkt) {
@@ -125,7 +124,7 @@ Bytes points_in_cpp(uint64_t count, const double* coordinates, const std::string
 class Both {
  public:
   explicit Both(const std::string& path) : cpp(library::Surface::from_file(path)) {
-    REQUIRE(microtin_surface_open(path.c_str(), &c) == MICROTIN_OK);
+    REQUIRE(microtin_surface_from_file(path.c_str(), &c) == MICROTIN_STATUS_OK);
   }
   ~Both() { microtin_surface_free(c); }
   Both(const Both&) = delete;
@@ -153,7 +152,7 @@ bool is_same(const std::vector<double>& a, const std::vector<double>& b) {
 void expect_same_raster(const Both& both, const char* cell) {
   const library::Grid grid = both.cpp.grid(cell);
   microtin_grid in_c{};
-  REQUIRE(microtin_surface_grid(both.c, cell, &in_c) == MICROTIN_OK);
+  REQUIRE(microtin_surface_grid(both.c, cell, &in_c) == MICROTIN_STATUS_OK);
   CHECK(in_c.columns == grid.columns);
   CHECK(in_c.rows == grid.rows);
   for (const auto& [a, b] : {std::pair(in_c.x, grid.x), std::pair(in_c.y, grid.y)}) {
@@ -162,7 +161,7 @@ void expect_same_raster(const Both& both, const char* cell) {
   }
   std::vector<double> expected(size_t{grid.columns} * grid.rows), found(expected.size());
   both.cpp.heights(grid, {0, 0, grid.columns, grid.rows}, expected.data());
-  REQUIRE(microtin_surface_raster(both.c, &in_c, found.data()) == MICROTIN_OK);
+  REQUIRE(microtin_surface_sample_grid(both.c, &in_c, found.data()) == MICROTIN_STATUS_OK);
   CHECK(is_same(expected, found));
 }
 
@@ -175,14 +174,14 @@ void expect_same_heights(const Both& both) {
   std::vector<double> expected(x.size()), found(x.size());
   both.cpp.heights(x.size(), x.data(), y.data(), expected.data());
   REQUIRE(microtin_surface_heights(both.c, x.size(), x.data(), y.data(), found.data()) ==
-          MICROTIN_OK);
+          MICROTIN_STATUS_OK);
   CHECK(is_same(expected, found));
 }
 
 }  // namespace
 
 TEST_CASE("C: each member of a raster makes the difference that it makes in C++") {
-  const Bytes usual = encoded(InC().raster, microtin_terrain_of_raster);
+  const Bytes usual = encoded(InC().raster, microtin_source_from_raster);
   CHECK(usual == stream_in_cpp(InC()));
   Names known = {"size"};
   for (const RasterRow& row : kRasterRows) {
@@ -190,32 +189,32 @@ TEST_CASE("C: each member of a raster makes the difference that it makes in C++"
     known.insert(row.member);
     InC changed;
     row.change(changed);
-    const Bytes stream = encoded(changed.raster, microtin_terrain_of_raster);
+    const Bytes stream = encoded(changed.raster, microtin_source_from_raster);
     CHECK(stream != usual);
     CHECK(stream == stream_in_cpp(changed));
   }
-  CHECK(text_of(members_of(kC, "microtin_raster")) == text_of(known));
+  CHECK(text_of(members_of(kC, "microtin_raster_data")) == text_of(known));
 }
 
 TEST_CASE("C: each member of points makes the difference that it makes in C++") {
-  const Bytes usual = encoded(points_in_c(), microtin_terrain_of_points);
+  const Bytes usual = encoded(points_in_c(), microtin_source_from_points);
   CHECK(usual == points_in_cpp(6, kPoints.data(), ""));
-  microtin_points fewer = points_in_c(), others = points_in_c(), placed = points_in_c();
+  microtin_point_data fewer = points_in_c(), others = points_in_c(), placed = points_in_c();
   fewer.count = 5;
   others.coordinates += 3;
   others.count = 5;
   placed.wkt = kSystem;
-  CHECK(encoded(fewer, microtin_terrain_of_points) == points_in_cpp(5, kPoints.data(), ""));
-  CHECK(encoded(others, microtin_terrain_of_points) == points_in_cpp(5, kPoints.data() + 3, ""));
-  CHECK(encoded(placed, microtin_terrain_of_points) == points_in_cpp(6, kPoints.data(), kSystem));
-  CHECK(encoded(placed, microtin_terrain_of_points) != usual);
-  CHECK(text_of(members_of(kC, "microtin_points")) == "coordinates count size wkt ");
+  CHECK(encoded(fewer, microtin_source_from_points) == points_in_cpp(5, kPoints.data(), ""));
+  CHECK(encoded(others, microtin_source_from_points) == points_in_cpp(5, kPoints.data() + 3, ""));
+  CHECK(encoded(placed, microtin_source_from_points) == points_in_cpp(6, kPoints.data(), kSystem));
+  CHECK(encoded(placed, microtin_source_from_points) != usual);
+  CHECK(text_of(members_of(kC, "microtin_point_data")) == "coordinates count size wkt ");
 }
 
 TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
   const TemporaryFolder folder;
   InC c;
-  write_file(folder / "a.mtin", encoded(c.raster, microtin_terrain_of_raster));
+  write_file(folder / "a.mtin", encoded(c.raster, microtin_source_from_raster));
   library::PackOptions options;
   options.tile_vertices = 30;
   library::Transform transform{-0.5, 1, 0, 6.5, 0, -1};
@@ -225,18 +224,20 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
     CAPTURE(name);
     Both both(folder / name);
     microtin_triangles triangles{};
-    REQUIRE(microtin_surface_mesh(both.c, &triangles) == MICROTIN_OK);
+    REQUIRE(microtin_surface_mesh(both.c, &triangles) == MICROTIN_STATUS_OK);
     expect_same(both.cpp.mesh(), triangles);
     const library::Facts& facts = both.cpp.facts();
     CHECK((facts.tile_columns * facts.tile_rows > 1) == facts.is_pack);
     for (uint32_t row = 0; row < facts.tile_rows; ++row) {
       for (uint32_t column = 0; column < facts.tile_columns; ++column) {
-        REQUIRE(microtin_surface_tile(both.c, column, row, &triangles) == MICROTIN_OK);
+        REQUIRE(microtin_surface_tile(both.c, column, row, &triangles) == MICROTIN_STATUS_OK);
         expect_same(both.cpp.tile(column, row), triangles);
       }
     }
-    CHECK(microtin_surface_tile(both.c, facts.tile_columns, 0, &triangles) == MICROTIN_REFUSED);
-    CHECK(microtin_surface_tile(both.c, 0, facts.tile_rows, &triangles) == MICROTIN_REFUSED);
+    CHECK(microtin_surface_tile(both.c, facts.tile_columns, 0, &triangles) ==
+          MICROTIN_STATUS_REJECTED);
+    CHECK(microtin_surface_tile(both.c, 0, facts.tile_rows, &triangles) ==
+          MICROTIN_STATUS_REJECTED);
     expect_same_raster(both, "0.5");
     expect_same_heights(both);
   }
@@ -245,40 +246,43 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
 }
 
 TEST_CASE("C: bytes in memory are the surface that their file is, to the last of them") {
-  const Bytes stream = encoded(InC().raster, microtin_terrain_of_raster);
+  const Bytes stream = encoded(InC().raster, microtin_source_from_raster);
   microtin_surface* surface = nullptr;
-  REQUIRE(microtin_surface_of_bytes(stream.data(), stream.size(), "here", &surface) == MICROTIN_OK);
-  microtin_facts facts{};
-  microtin_surface_facts(surface, &facts);
+  REQUIRE(microtin_surface_from_bytes(stream.data(), stream.size(), "here", &surface) ==
+          MICROTIN_STATUS_OK);
+  microtin_surface_info facts{};
+  microtin_surface_get_info(surface, &facts);
   CHECK(facts.bytes == stream.size());
   microtin_surface_free(surface);
-  CHECK(microtin_surface_of_bytes(stream.data(), stream.size() - 1, "here", &surface) ==
-        MICROTIN_REFUSED);
-  CHECK(std::string(microtin_message()).find("here: ") == 0);
+  CHECK(microtin_surface_from_bytes(stream.data(), stream.size() - 1, "here", &surface) ==
+        MICROTIN_STATUS_REJECTED);
+  CHECK(std::string(microtin_last_error()).find("here: ") == 0);
 }
 
 TEST_CASE("C: a struct of another size is refused, whichever it is") {
   InC c;
-  microtin_terrain* terrain = nullptr;
-  REQUIRE(microtin_terrain_of_raster(&c.raster, &terrain) == MICROTIN_OK);
-  microtin_points points = points_in_c();
+  microtin_source* terrain = nullptr;
+  REQUIRE(microtin_source_from_raster(&c.raster, &terrain) == MICROTIN_STATUS_OK);
+  microtin_point_data points = points_in_c();
   microtin_options options{};
   options.tile_vertices = 30;
   uint8_t* bytes = nullptr;
   uint64_t size = 0;
-  microtin_terrain* none = nullptr;
+  microtin_source* none = nullptr;
   for (const int change : {-1, 1}) {
     const auto other = [change](size_t real) { return change < 0 ? real - 1 : real + 1; };
     c.raster.size = other(sizeof c.raster);
     points.size = other(sizeof points);
     options.size = other(sizeof options);
-    CHECK(microtin_terrain_of_raster(&c.raster, &none) == MICROTIN_REFUSED);
-    CHECK(microtin_terrain_of_points(&points, &none) == MICROTIN_REFUSED);
-    CHECK(microtin_encode_stream(terrain, &options, &bytes, &size, nullptr) == MICROTIN_REFUSED);
-    CHECK(microtin_encode_pack(terrain, &options, "/nowhere/a.mtp", nullptr) == MICROTIN_REFUSED);
-    CHECK(std::string(microtin_message()) == "a struct of another size");
+    CHECK(microtin_source_from_raster(&c.raster, &none) == MICROTIN_STATUS_REJECTED);
+    CHECK(microtin_source_from_points(&points, &none) == MICROTIN_STATUS_REJECTED);
+    CHECK(microtin_encode_stream(terrain, &options, &bytes, &size, nullptr) ==
+          MICROTIN_STATUS_REJECTED);
+    CHECK(microtin_encode_pack(terrain, &options, "/nowhere/a.mtp", nullptr) ==
+          MICROTIN_STATUS_REJECTED);
+    CHECK(std::string(microtin_last_error()) == "a struct of another size");
   }
-  microtin_terrain_free(terrain);
+  microtin_source_free(terrain);
 }
 
 TEST_CASE("C: progress is heard by streams and packs of posts, and ends their work") {
@@ -289,8 +293,8 @@ TEST_CASE("C: progress is heard by streams and packs of posts, and ends their wo
     int answer = 0;
   };
   InC c;
-  microtin_terrain* terrain = nullptr;
-  REQUIRE(microtin_terrain_of_raster(&c.raster, &terrain) == MICROTIN_OK);
+  microtin_source* terrain = nullptr;
+  REQUIRE(microtin_source_from_raster(&c.raster, &terrain) == MICROTIN_STATUS_OK);
   for (const bool is_pack : {false, true}) {
     for (const int answer : {0, 1}) {
       Heard heard;
@@ -309,15 +313,15 @@ TEST_CASE("C: progress is heard by streams and packs of posts, and ends their wo
       };
       uint8_t* bytes = nullptr;
       uint64_t size = 0;
-      const microtin_outcome outcome =
+      const microtin_status outcome =
           is_pack ? microtin_encode_pack(terrain, &options, (folder / "a.mtp").c_str(), nullptr)
                   : microtin_encode_stream(terrain, &options, &bytes, &size, nullptr);
       microtin_bytes_free(bytes);
-      CHECK(outcome == (answer == 0 ? MICROTIN_OK : MICROTIN_CANCELLED));
+      CHECK(outcome == (answer == 0 ? MICROTIN_STATUS_OK : MICROTIN_STATUS_CANCELLED));
       CHECK(heard.calls > 0);
     }
   }
-  microtin_terrain_free(terrain);
+  microtin_source_free(terrain);
 }
 
 }  // namespace microtin::tests

@@ -89,7 +89,7 @@ TEST_CASE("no data: the C face hands the value on") {
   const float floats[] = {0.1F, 1, 2, 3};
   const double no_float = 0.1;
   for (const bool has_floats : {false, true}) {
-    microtin_raster raster = {};
+    microtin_raster_data raster = {};
     raster.size = sizeof raster;
     raster.columns = raster.rows = 2;
     raster.heights = has_floats ? nullptr : heights;
@@ -97,16 +97,17 @@ TEST_CASE("no data: the C face hands the value on") {
     raster.no_data = has_floats ? &no_float : &no_data;
     raster.transform[1] = 1;
     raster.transform[5] = -1;
-    microtin_terrain* terrain = nullptr;
-    REQUIRE(microtin_terrain_of_raster(&raster, &terrain) == MICROTIN_OK);
+    microtin_source* terrain = nullptr;
+    REQUIRE(microtin_source_from_raster(&raster, &terrain) == MICROTIN_STATUS_OK);
     microtin_options options = {};
     options.size = sizeof options;
     uint8_t* bytes = nullptr;
     uint64_t size = 0;
     microtin_report report;
-    REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_OK);
+    REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, &report) ==
+            MICROTIN_STATUS_OK);
     CHECK(report.samples == 3);
     microtin_bytes_free(bytes);
-    microtin_terrain_free(terrain);
+    microtin_source_free(terrain);
   }
 }

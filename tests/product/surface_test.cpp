@@ -272,48 +272,49 @@ TEST_CASE(
 
 TEST_CASE("C: an array of more posts than there can be is short of memory, no fault") {
   const double height = 0;
-  microtin_raster raster = {};
+  microtin_raster_data raster = {};
   raster.size = sizeof raster;
   raster.columns = raster.rows = UINT32_MAX;
   raster.heights = &height;
   std::copy(kTransform.begin(), kTransform.end(), raster.transform);
-  microtin_terrain* terrain = nullptr;
-  CHECK(microtin_terrain_of_raster(&raster, &terrain) == MICROTIN_NO_MEMORY);
+  microtin_source* terrain = nullptr;
+  CHECK(microtin_source_from_raster(&raster, &terrain) == MICROTIN_STATUS_NO_MEMORY);
   CHECK(terrain == nullptr);
 }
 
 TEST_CASE("C: an array goes to a stream and back") {
   const std::vector<double> heights = bowl();
-  microtin_raster raster = {};
+  microtin_raster_data raster = {};
   raster.size = sizeof raster;
   raster.columns = kColumns;
   raster.rows = kRows;
   raster.heights = heights.data();
   std::copy(kTransform.begin(), kTransform.end(), raster.transform);
-  microtin_terrain* terrain = nullptr;
-  REQUIRE(microtin_terrain_of_raster(&raster, &terrain) == MICROTIN_OK);
+  microtin_source* terrain = nullptr;
+  REQUIRE(microtin_source_from_raster(&raster, &terrain) == MICROTIN_STATUS_OK);
 
   microtin_options options = {};
   uint8_t* bytes = nullptr;
   uint64_t size = 0;
   microtin_report report;
-  CHECK(microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_REFUSED);
-  CHECK(microtin_message() == std::string("a struct of another size"));
+  CHECK(microtin_encode_stream(terrain, &options, &bytes, &size, &report) ==
+        MICROTIN_STATUS_REJECTED);
+  CHECK(microtin_last_error() == std::string("a struct of another size"));
   options.size = sizeof options;
   options.max_error = "0.5";
   options.search = 1;
-  REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_OK);
+  REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_STATUS_OK);
   CHECK(report.bytes == size);
   CHECK(std::strtod(report.max_error, nullptr) <= 0.5);
 
   options.depths = 1;
   uint8_t* turned = nullptr;
-  REQUIRE(microtin_encode_stream(terrain, &options, &turned, &size, nullptr) == MICROTIN_OK);
-  CHECK(std::strstr(microtin_remarks(), "depths are turned into heights") != nullptr);
+  REQUIRE(microtin_encode_stream(terrain, &options, &turned, &size, nullptr) == MICROTIN_STATUS_OK);
+  CHECK(std::strstr(microtin_last_warnings(), "depths are turned into heights") != nullptr);
   microtin_surface* upside_down = nullptr;
-  REQUIRE(microtin_surface_of_bytes(turned, size, "turned", &upside_down) == MICROTIN_OK);
-  microtin_facts below;
-  microtin_surface_facts(upside_down, &below);
+  REQUIRE(microtin_surface_from_bytes(turned, size, "turned", &upside_down) == MICROTIN_STATUS_OK);
+  microtin_surface_info below;
+  microtin_surface_get_info(upside_down, &below);
   CHECK(below.lowest < -100);
   CHECK(below.highest <= 0.5);
   microtin_surface_free(upside_down);
@@ -322,30 +323,33 @@ TEST_CASE("C: an array goes to a stream and back") {
 
   options.progress = [](void*, double) { return 1; };
   uint8_t* none = nullptr;
-  CHECK(microtin_encode_stream(terrain, &options, &none, &size, nullptr) == MICROTIN_CANCELLED);
+  CHECK(microtin_encode_stream(terrain, &options, &none, &size, nullptr) ==
+        MICROTIN_STATUS_CANCELLED);
   CHECK(none == nullptr);
-  microtin_terrain_free(terrain);
+  microtin_source_free(terrain);
 
   microtin_surface* surface = nullptr;
-  REQUIRE(microtin_surface_of_bytes(bytes, report.bytes, "bowl", &surface) == MICROTIN_OK);
-  microtin_facts facts;
-  microtin_surface_facts(surface, &facts);
+  REQUIRE(microtin_surface_from_bytes(bytes, report.bytes, "bowl", &surface) == MICROTIN_STATUS_OK);
+  microtin_surface_info facts;
+  microtin_surface_get_info(surface, &facts);
   CHECK(facts.bound == std::string("0.5"));
   std::vector<double> back(size_t{facts.source.columns} * facts.source.rows);
-  REQUIRE(microtin_surface_raster(surface, &facts.source, back.data()) == MICROTIN_OK);
+  REQUIRE(microtin_surface_sample_grid(surface, &facts.source, back.data()) == MICROTIN_STATUS_OK);
   CHECK(largest_error(back) <= 0.5 + kRounding);
   microtin_triangles triangles;
-  REQUIRE(microtin_surface_mesh(surface, &triangles) == MICROTIN_OK);
+  REQUIRE(microtin_surface_mesh(surface, &triangles) == MICROTIN_STATUS_OK);
   CHECK(triangles.vertices == report.vertices);
   CHECK(triangles.corners[3 * triangles.triangles - 1] < triangles.vertices);
-  CHECK(microtin_surface_tile(surface, 1, 0, &triangles) == MICROTIN_REFUSED);
+  CHECK(microtin_surface_tile(surface, 1, 0, &triangles) == MICROTIN_STATUS_REJECTED);
   double height = 0;
-  CHECK(microtin_surface_mesh(nullptr, &triangles) == MICROTIN_REFUSED);
-  CHECK(microtin_surface_heights(nullptr, 1, &height, &height, &height) == MICROTIN_REFUSED);
-  CHECK(microtin_surface_heights(surface, 1, &height, &height, nullptr) == MICROTIN_REFUSED);
-  CHECK(microtin_surface_heights(surface, 0, nullptr, nullptr, nullptr) == MICROTIN_OK);
+  CHECK(microtin_surface_mesh(nullptr, &triangles) == MICROTIN_STATUS_REJECTED);
+  CHECK(microtin_surface_heights(nullptr, 1, &height, &height, &height) ==
+        MICROTIN_STATUS_REJECTED);
+  CHECK(microtin_surface_heights(surface, 1, &height, &height, nullptr) ==
+        MICROTIN_STATUS_REJECTED);
+  CHECK(microtin_surface_heights(surface, 0, nullptr, nullptr, nullptr) == MICROTIN_STATUS_OK);
   microtin_surface_free(surface);
   microtin_bytes_free(bytes);
-  CHECK(microtin_surface_open("/nowhere/a.mtin", &surface) == MICROTIN_REFUSED);
-  CHECK(std::strstr(microtin_message(), "/nowhere/a.mtin") != nullptr);
+  CHECK(microtin_surface_from_file("/nowhere/a.mtin", &surface) == MICROTIN_STATUS_REJECTED);
+  CHECK(std::strstr(microtin_last_error(), "/nowhere/a.mtin") != nullptr);
 }

@@ -160,13 +160,13 @@ TEST_CASE("void triangles come back, and no others") {
     if (tin.voids.empty()) continue;
     const DecodedTerrain decoded(encode(tin, Metadata()));
     std::set<std::array<Point, 3>> found;
-    for (uint32_t t = 0; t < microtin_triangle_count(decoded.mesh()); ++t) {
+    for (uint32_t t = 0; t < microtin_mesh_triangle_count(decoded.mesh()); ++t) {
       uint32_t v[3];
-      if (microtin_triangle(decoded.mesh(), t, v) != MICROTIN_VOID) continue;
+      if (microtin_mesh_triangle(decoded.mesh(), t, v) != MICROTIN_TRIANGLE_VOID) continue;
       std::array<Point, 3> corners;
       for (size_t i = 0; i < 3; ++i) {
         int16_t z = 0;
-        microtin_vertex(decoded.mesh(), v[i], &corners[i].x, &corners[i].y, &z);
+        microtin_mesh_vertex(decoded.mesh(), v[i], &corners[i].x, &corners[i].y, &z);
       }
       std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
       found.insert(corners);

@@ -22,12 +22,13 @@ class Tiles {
   }
 
   // The answer of one tile at a place with 8 fractional bits.
-  microtin_answer ask(uint32_t tile, int64_t x, int64_t y, int32_t& height) const {
-    if (!tiles_[tile]) return MICROTIN_IN_VOID;
+  microtin_query_result ask(uint32_t tile, int64_t x, int64_t y, int32_t& height) const {
+    if (!tiles_[tile]) return MICROTIN_QUERY_VOID;
     const TileBox box = tile_box(grid_, tile);
     uint32_t hint = 0;
-    return microtin_height_at(tiles_[tile]->mesh(), static_cast<int32_t>(x - int64_t{box.x} * 256),
-                              static_cast<int32_t>(y - int64_t{box.y} * 256), 0, &hint, &height);
+    return microtin_mesh_height_at(
+        tiles_[tile]->mesh(), static_cast<int32_t>(x - int64_t{box.x} * 256),
+        static_cast<int32_t>(y - int64_t{box.y} * 256), 0, &hint, &height);
   }
 
   bool has_terrain(uint32_t tile) const { return tiles_[tile].has_value(); }
@@ -63,7 +64,7 @@ inline bool compare_at(const Tiles& tiles, int64_t x, int64_t y, BorderCount& co
   bool missing = false;
   for (const uint32_t tile : holders_of(tiles.grid(), x, y)) {
     int32_t height = 0;
-    if (tiles.ask(tile, x, y, height) == MICROTIN_HEIGHT) {
+    if (tiles.ask(tile, x, y, height) == MICROTIN_QUERY_OK) {
       heights.push_back(height);
     } else if (tiles.has_terrain(tile)) {
       missing = true;

@@ -41,14 +41,15 @@ Told told_by(uint32_t vertices, uint32_t triangles, VertexCall vertex, TriangleC
   for (uint32_t i = 0; i < triangles; ++i) {
     uint32_t v[3];
     const int kind = triangle(i, v);
-    if (kind == MICROTIN_NO_AREA) continue;
+    if (kind == MICROTIN_TRIANGLE_NO_AREA) continue;
     std::array<VertexTuple, 3> corners;
     for (size_t k = 0; k < 3; ++k) {
       // Nothing is above infinity: a ghost's other two corners keep it apart from all else.
-      corners[k] = v[k] == MICROTIN_INFINITY ? VertexTuple{0, 0, 0} : told.vertices.at(v[k]);
+      corners[k] =
+          v[k] == MICROTIN_VERTEX_AT_INFINITY ? VertexTuple{0, 0, 0} : told.vertices.at(v[k]);
     }
-    const auto first = kind == MICROTIN_GHOST
-                           ? std::find(v, v + 3, MICROTIN_INFINITY) - v
+    const auto first = kind == MICROTIN_TRIANGLE_GHOST
+                           ? std::find(v, v + 3, MICROTIN_VERTEX_AT_INFINITY) - v
                            : std::min_element(corners.begin(), corners.end()) - corners.begin();
     std::rotate(corners.begin(), corners.begin() + first, corners.end());
     told.triangles.emplace_back(corners, kind);
@@ -60,9 +61,11 @@ Told told_by(uint32_t vertices, uint32_t triangles, VertexCall vertex, TriangleC
 
 inline Told told_by(const microtin_mesh* m) {
   return told_by(
-      microtin_vertex_count(m), microtin_triangle_count(m),
-      [m](uint32_t v, uint16_t* x, uint16_t* y, int16_t* z) { microtin_vertex(m, v, x, y, z); },
-      [m](uint32_t t, uint32_t* v) { return microtin_triangle(m, t, v); });
+      microtin_mesh_vertex_count(m), microtin_mesh_triangle_count(m),
+      [m](uint32_t v, uint16_t* x, uint16_t* y, int16_t* z) {
+        microtin_mesh_vertex(m, v, x, y, z);
+      },
+      [m](uint32_t t, uint32_t* v) { return microtin_mesh_triangle(m, t, v); });
 }
 
 inline Told told_by(const microtin_compact* c) {
@@ -80,8 +83,8 @@ inline bool is_same_axis(const microtin_axis& a, const microtin_axis& b) {
 
 inline bool have_same_placement(const microtin_mesh* mesh, const microtin_compact* compact) {
   microtin_axis a[3], b[3];
-  microtin_placement(mesh, &a[0], &a[1], &a[2]);
-  microtin_compact_placement(compact, &b[0], &b[1], &b[2]);
+  microtin_mesh_axes(mesh, &a[0], &a[1], &a[2]);
+  microtin_compact_axes(compact, &b[0], &b[1], &b[2]);
   return is_same_axis(a[0], b[0]) && is_same_axis(a[1], b[1]) && is_same_axis(a[2], b[2]);
 }
 
@@ -94,7 +97,7 @@ inline FinePlace place_near(const microtin_mesh* mesh, Random& random) {
   const auto vertex = [&] {
     uint16_t x = 0, y = 0;
     int16_t z = 0;
-    microtin_vertex(mesh, random.below(microtin_vertex_count(mesh)), &x, &y, &z);
+    microtin_mesh_vertex(mesh, random.below(microtin_mesh_vertex_count(mesh)), &x, &y, &z);
     return FinePlace{x * 256, y * 256};
   };
   const FinePlace p = vertex(), q = vertex();
@@ -104,11 +107,11 @@ inline FinePlace place_near(const microtin_mesh* mesh, Random& random) {
       return p;
     case 1: {  // on an edge
       uint32_t v[3];
-      microtin_triangle(mesh, random.below(microtin_triangle_count(mesh)), v);
-      if (v[0] == MICROTIN_INFINITY || v[1] == MICROTIN_INFINITY) return q;
+      microtin_mesh_triangle(mesh, random.below(microtin_mesh_triangle_count(mesh)), v);
+      if (v[0] == MICROTIN_VERTEX_AT_INFINITY || v[1] == MICROTIN_VERTEX_AT_INFINITY) return q;
       uint16_t x[2], y[2];
       int16_t z = 0;
-      for (int i = 0; i < 2; ++i) microtin_vertex(mesh, v[i], &x[i], &y[i], &z);
+      for (int i = 0; i < 2; ++i) microtin_mesh_vertex(mesh, v[i], &x[i], &y[i], &z);
       return {x[0] * (256 - part) + x[1] * part, y[0] * (256 - part) + y[1] * part};
     }
     case 2:
@@ -122,11 +125,11 @@ inline FinePlace place_near(const microtin_mesh* mesh, Random& random) {
 }
 
 // A walk that stops after each few steps, and goes on.
-inline microtin_answer height_in_pieces(const microtin_compact* compact, FinePlace p,
-                                        uint32_t piece, uint32_t* hint, int32_t* height) {
-  microtin_answer answer = MICROTIN_NOT_YET;
+inline microtin_query_result height_in_pieces(const microtin_compact* compact, FinePlace p,
+                                              uint32_t piece, uint32_t* hint, int32_t* height) {
+  microtin_query_result answer = MICROTIN_QUERY_STEP_LIMIT;
   const uint32_t most = microtin_compact_triangle_count(compact) / piece + 1;
-  for (uint32_t i = 0; i <= most && answer == MICROTIN_NOT_YET; ++i) {
+  for (uint32_t i = 0; i <= most && answer == MICROTIN_QUERY_STEP_LIMIT; ++i) {
     answer = microtin_compact_height_at(compact, p.x, p.y, piece, hint, height);
   }
   return answer;
@@ -143,8 +146,9 @@ inline std::string difference_of_heights(const microtin_mesh* mesh, const microt
     if (way == 1) hint = random.below(microtin_compact_triangle_count(compact));
     if (way == 2) hint = microtin_compact_hint(compact, p.x, p.y);
     int32_t expected = 1, height = 1;
-    const microtin_answer answer = microtin_height_at(mesh, p.x, p.y, 0, &mesh_hint, &expected);
-    const microtin_answer other =
+    const microtin_query_result answer =
+        microtin_mesh_height_at(mesh, p.x, p.y, 0, &mesh_hint, &expected);
+    const microtin_query_result other =
         way == 3 ? height_in_pieces(compact, p, 1 + random.below(3), &hint, &height)
                  : microtin_compact_height_at(compact, p.x, p.y, 0, &hint, &height);
     if (answer != other || expected != height) {
@@ -159,7 +163,7 @@ inline std::string difference_of_heights(const microtin_mesh* mesh, const microt
 }
 
 // A course between two such places, along one of the axes at times, or a place.
-inline microtin_course course_near(const microtin_mesh* mesh, Random& random) {
+inline microtin_segment course_near(const microtin_mesh* mesh, Random& random) {
   const FinePlace a = place_near(mesh, random), b = place_near(mesh, random);
   const uint32_t kind = random.below(8);
   return {a.x, a.y, kind == 0 || kind == 2 ? a.x : b.x, kind == 1 || kind == 2 ? a.y : b.y};
@@ -168,25 +172,25 @@ inline microtin_course course_near(const microtin_mesh* mesh, Random& random) {
 inline std::string difference_of_courses(const microtin_mesh* mesh, const microtin_compact* compact,
                                          int courses, Random& random) {
   for (int i = 0; i < courses; ++i) {
-    const microtin_course c = course_near(mesh, random);
+    const microtin_segment c = course_near(mesh, random);
     const Highest highest = highest_on(mesh, c);
-    const uint32_t most = i % 2 == 0 ? 3 : 2 * microtin_triangle_count(mesh);
+    const uint32_t most = i % 2 == 0 ? 3 : 2 * microtin_mesh_triangle_count(mesh);
     if (!(highest == highest_on(compact, c)) ||
         !(highest == highest_in_pieces(mesh, c, most, random)) ||
         !(highest == highest_in_pieces(compact, c, most, random))) {
       return "on the course " + std::to_string(c.x) + " " + std::to_string(c.y) + " to " +
              std::to_string(c.x_end) + " " + std::to_string(c.y_end);
     }
-    const microtin_block block = {c.x,
-                                  c.y,
-                                  static_cast<int32_t>((c.x_end - c.x) / 4),
-                                  static_cast<int32_t>((c.y_end - c.y) / 3),
-                                  5,
-                                  4,
-                                  -9999};
+    const microtin_grid_spec block = {c.x,
+                                      c.y,
+                                      static_cast<int32_t>((c.x_end - c.x) / 4),
+                                      static_cast<int32_t>((c.y_end - c.y) / 3),
+                                      5,
+                                      4,
+                                      -9999};
     std::array<int16_t, 20> heights{}, others{};
-    if (microtin_fill(mesh, &block, heights.data()) !=
-            microtin_compact_fill(compact, &block, others.data()) ||
+    if (microtin_mesh_sample_grid(mesh, &block, heights.data()) !=
+            microtin_compact_sample_grid(compact, &block, others.data()) ||
         heights != others) {
       return "in the block at " + std::to_string(c.x) + " " + std::to_string(c.y);
     }
@@ -196,8 +200,9 @@ inline std::string difference_of_courses(const microtin_mesh* mesh, const microt
 
 inline std::string difference(const microtin_mesh* mesh, const microtin_compact* compact,
                               int places, Random& random) {
-  if (microtin_compact_vertex_count(compact) != microtin_vertex_count(mesh)) return "vertex count";
-  if (microtin_compact_digest(compact) != microtin_digest(mesh)) return "digest";
+  if (microtin_compact_vertex_count(compact) != microtin_mesh_vertex_count(mesh))
+    return "vertex count";
+  if (microtin_compact_digest(compact) != microtin_mesh_digest(mesh)) return "digest";
   if (!have_same_placement(mesh, compact)) return "placement";
   if (!(told_by(mesh) == told_by(compact))) return "vertices and triangles by number";
   std::string of_heights = difference_of_heights(mesh, compact, places, random);

@@ -46,9 +46,9 @@ struct Device {
   Device(uint32_t mesh_capacity, uint32_t decoder_capacity)
       : mesh_space(MICROTIN_MESH_BYTES(mesh_capacity)),
         decoder_space(MICROTIN_DECODER_BYTES(decoder_capacity)) {
-    REQUIRE(microtin_mesh_init(mesh_space.begin(), mesh_space.size(), &mesh) == MICROTIN_DONE);
+    REQUIRE(microtin_mesh_init(mesh_space.begin(), mesh_space.size(), &mesh) == MICROTIN_STATUS_OK);
     REQUIRE(microtin_decoder_init(decoder_space.begin(), decoder_space.size(), mesh, &decoder) ==
-            MICROTIN_DONE);
+            MICROTIN_STATUS_OK);
   }
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -58,7 +58,7 @@ struct Device {
   }
 
   microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t steps = 0) const {
-    return microtin_feed(decoder, bytes, size, steps, used);
+    return microtin_decoder_feed(decoder, bytes, size, steps, used);
   }
   microtin_status feed_all(const Bytes& bytes) const {
     size_t used = 0;
@@ -67,10 +67,10 @@ struct Device {
   // What the decoder says of a stream that consists of these bytes.
   microtin_status decode(const Bytes& bytes) const {
     feed_all(bytes);
-    return microtin_finish(decoder);
+    return microtin_decoder_finish(decoder);
   }
 
-  uint32_t vertices() const { return microtin_vertex_count(mesh); }
+  uint32_t vertices() const { return microtin_mesh_vertex_count(mesh); }
 
   Workspace mesh_space, decoder_space;
   microtin_mesh* mesh = nullptr;

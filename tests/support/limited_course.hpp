@@ -9,7 +9,7 @@
 namespace microtin::tests {
 
 struct Highest {
-  microtin_answer answer;
+  microtin_query_result answer;
   int32_t height;
 
   bool operator==(const Highest& other) const {
@@ -17,53 +17,53 @@ struct Highest {
   }
 };
 
-inline Highest highest_on(const microtin_mesh* mesh, const microtin_course& c) {
-  Highest told = {MICROTIN_NOT_YET, 1};
-  told.answer = microtin_highest(mesh, &c, &told.height);
+inline Highest highest_on(const microtin_mesh* mesh, const microtin_segment& c) {
+  Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
+  told.answer = microtin_mesh_segment_max(mesh, &c, &told.height);
   return told;
 }
 
-inline Highest highest_on(const microtin_compact* compact, const microtin_course& c) {
-  Highest told = {MICROTIN_NOT_YET, 1};
-  told.answer = microtin_compact_highest(compact, &c, &told.height);
+inline Highest highest_on(const microtin_compact* compact, const microtin_segment& c) {
+  Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
+  told.answer = microtin_compact_segment_max(compact, &c, &told.height);
   return told;
 }
 
-inline Highest limited_highest(const microtin_mesh* mesh, const microtin_course& c, uint32_t limit,
-                               microtin_course_progress* progress) {
-  Highest told = {MICROTIN_NOT_YET, 1};
-  told.answer = microtin_highest_limited(mesh, &c, limit, progress, &told.height);
+inline Highest limited_highest(const microtin_mesh* mesh, const microtin_segment& c, uint32_t limit,
+                               microtin_segment_state* progress) {
+  Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
+  told.answer = microtin_mesh_segment_max_limited(mesh, &c, limit, progress, &told.height);
   return told;
 }
 
-inline Highest limited_highest(const microtin_compact* compact, const microtin_course& c,
-                               uint32_t limit, microtin_course_progress* progress) {
-  Highest told = {MICROTIN_NOT_YET, 1};
-  told.answer = microtin_compact_highest_limited(compact, &c, limit, progress, &told.height);
+inline Highest limited_highest(const microtin_compact* compact, const microtin_segment& c,
+                               uint32_t limit, microtin_segment_state* progress) {
+  Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
+  told.answer = microtin_compact_segment_max_limited(compact, &c, limit, progress, &told.height);
   return told;
 }
 
 inline uint32_t triangles_of(const microtin_mesh* mesh) {
-  return microtin_triangle_count(mesh);
+  return microtin_mesh_triangle_count(mesh);
 }
 
 inline uint32_t triangles_of(const microtin_compact* compact) {
   return microtin_compact_triangle_count(compact);
 }
 
-// In calls of 1 to `most` steps. NOT_YET if a call does more or says less than it may, if all
+// In calls of 1 to `most` steps. STEP_LIMIT if a call does more or says less than it may, if all
 // together take more steps than promised, or if the last answer is not kept.
 template <class Form>
-Highest highest_in_pieces(const Form* form, const microtin_course& c, uint32_t most,
+Highest highest_in_pieces(const Form* form, const microtin_segment& c, uint32_t most,
                           Random& random) {
-  const Highest failed = {MICROTIN_NOT_YET, 1};
-  microtin_course_progress progress = {};
+  const Highest failed = {MICROTIN_QUERY_STEP_LIMIT, 1};
+  microtin_segment_state progress = {};
   for (uint32_t steps = 0; steps < 3 * triangles_of(form) + most;) {
     const uint32_t limit = 1 + random.below(most), before = progress.next;
     const Highest told = limited_highest(form, c, limit, &progress);
     steps += limit;
     if (progress.next - before > limit) return failed;
-    if (told.answer == MICROTIN_NOT_YET) {
+    if (told.answer == MICROTIN_QUERY_STEP_LIMIT) {
       if (told.height != INT32_MIN) return failed;
     } else {
       return limited_highest(form, c, 1, &progress) == told ? told : failed;

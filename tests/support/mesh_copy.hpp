@@ -12,17 +12,18 @@ namespace microtin::tests {
 
 struct MeshCopy {
   explicit MeshCopy(const microtin_mesh* decoded)
-      : place(microtin_vertex_count(decoded)),
+      : place(microtin_mesh_vertex_count(decoded)),
         z(place.size()),
-        origin(3 * microtin_triangle_count(decoded)),
+        origin(3 * microtin_mesh_triangle_count(decoded)),
         twin(origin.size(), kInfinity) {
     for (uint32_t v = 0; v < place.size(); ++v) {
-      microtin_vertex(decoded, v, &place[v].x, &place[v].y, &z[v]);
+      microtin_mesh_vertex(decoded, v, &place[v].x, &place[v].y, &z[v]);
     }
-    for (uint32_t t = 0; t < origin.size() / 3; ++t) microtin_triangle(decoded, t, &origin[3 * t]);
+    for (uint32_t t = 0; t < origin.size() / 3; ++t)
+      microtin_mesh_triangle(decoded, t, &origin[3 * t]);
     // The interface tells neighbours only; the shared edge is the one with the same ends.
     for (uint32_t h = 0; h < twin.size(); ++h) {
-      const uint32_t other = 3 * microtin_neighbour(decoded, h / 3, h % 3);
+      const uint32_t other = 3 * microtin_mesh_neighbour(decoded, h / 3, h % 3);
       for (uint32_t g = other; g < other + 3; ++g) {
         if (origin[g] == origin[next_in_triangle(h)] && origin[next_in_triangle(g)] == origin[h]) {
           twin[h] = g;

@@ -44,30 +44,30 @@ class PackDevice {
   PackDevice(const PackDevice&) = delete;
   PackDevice& operator=(const PackDevice&) = delete;
 
-  microtin_status service(Card& card, const microtin_course& course, uint32_t steps = 0) const {
+  microtin_status service(Card& card, const microtin_segment& course, uint32_t steps = 0) const {
     return service(course, steps, Card::read, &card);
   }
-  microtin_status service(const microtin_course& course, uint32_t steps, microtin_read read,
+  microtin_status service(const microtin_segment& course, uint32_t steps, microtin_read read,
                           void* context) const {
-    return is_compact_ ? microtin_compact_pack_service(pack, &course, steps, read, context)
-                       : microtin_pack_service(pack, &course, steps, read, context);
+    return is_compact_ ? microtin_compact_pack_load_with(pack, &course, steps, read, context)
+                       : microtin_pack_load_with(pack, &course, steps, read, context);
   }
-  microtin_status prepare(const microtin_course& course, uint32_t steps) const {
-    return is_compact_ ? microtin_compact_pack_prepare(pack, &course, steps)
-                       : microtin_pack_prepare(pack, &course, steps);
+  microtin_status prepare(const microtin_segment& course, uint32_t steps) const {
+    return is_compact_ ? microtin_compact_pack_load(pack, &course, steps)
+                       : microtin_pack_load(pack, &course, steps);
   }
-  microtin_answer height_at(int64_t x, int64_t y, int32_t& height) const {
+  microtin_query_result height_at(int64_t x, int64_t y, int32_t& height) const {
     uint32_t hint = 0;
     return is_compact_ ? microtin_compact_pack_height_at(pack, x, y, &hint, &height)
                        : microtin_pack_height_at(pack, x, y, &hint, &height);
   }
-  microtin_answer highest(const microtin_course& course, int32_t* height) const {
-    return is_compact_ ? microtin_compact_pack_highest(pack, &course, height)
-                       : microtin_pack_highest(pack, &course, height);
+  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
+    return is_compact_ ? microtin_compact_pack_segment_max(pack, &course, height)
+                       : microtin_pack_segment_max(pack, &course, height);
   }
-  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
-    return is_compact_ ? microtin_compact_pack_fill(pack, &block, heights)
-                       : microtin_pack_fill(pack, &block, heights);
+  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
+    return is_compact_ ? microtin_compact_pack_sample_grid(pack, &block, heights)
+                       : microtin_pack_sample_grid(pack, &block, heights);
   }
 
  private:
@@ -88,7 +88,7 @@ struct MeshSlots : PackDevice {
   explicit MeshSlots(uint32_t slots, uint32_t capacity = kCapacity)
       : PackDevice(false, MICROTIN_PACK_BYTES(slots, capacity)) {
     REQUIRE(microtin_pack_init(space().begin(), space().size(), slots, capacity, &pack) ==
-            MICROTIN_DONE);
+            MICROTIN_STATUS_OK);
   }
 };
 
@@ -98,11 +98,11 @@ struct CompactSlots : PackDevice {
   CompactSlots(uint32_t slots, uint32_t capacity, uint32_t tile_bytes)
       : PackDevice(true, MICROTIN_COMPACT_PACK_BYTES(slots, capacity, tile_bytes)) {
     REQUIRE(microtin_compact_pack_init(space().begin(), space().size(), slots, capacity, tile_bytes,
-                                       &pack) == MICROTIN_DONE);
+                                       &pack) == MICROTIN_STATUS_OK);
   }
 };
 
-inline microtin_course at(int64_t x, int64_t y) {
+inline microtin_segment at(int64_t x, int64_t y) {
   return {x * 256, y * 256, x * 256, y * 256};
 }
 
@@ -117,8 +117,8 @@ inline std::optional<int32_t> expected_height(const PackFile& pack, int64_t x, i
     }
     uint32_t hint = 0;
     int32_t height = 0;
-    if (microtin_height_at(tile->mesh(), static_cast<int32_t>(lx), static_cast<int32_t>(ly), 0,
-                           &hint, &height) == MICROTIN_HEIGHT) {
+    if (microtin_mesh_height_at(tile->mesh(), static_cast<int32_t>(lx), static_cast<int32_t>(ly), 0,
+                                &hint, &height) == MICROTIN_QUERY_OK) {
       return height;
     }
   }
@@ -126,7 +126,7 @@ inline std::optional<int32_t> expected_height(const PackFile& pack, int64_t x, i
 }
 
 // The greatest height on a course where it meets edges of a surface, in floating point; steps.
-inline double highest_on_edges(const SurfaceModel& model, const microtin_course& c) {
+inline double highest_on_edges(const SurfaceModel& model, const microtin_segment& c) {
   const double x = static_cast<double>(c.x) / 256, y = static_cast<double>(c.y) / 256,
                dx = static_cast<double>(c.x_end) / 256 - x,
                dy = static_cast<double>(c.y_end) / 256 - y;
@@ -147,15 +147,15 @@ inline double highest_on_edges(const SurfaceModel& model, const microtin_course&
   return highest;
 }
 
-// Why a tile is bad; DONE if it is not known to be.
+// Why a tile is bad; OK if it is not known to be.
 inline microtin_status why_bad(const PackDevice& device, uint32_t tile) {
-  for (uint32_t i = 0; i < MICROTIN_PACK_BAD_TILES; ++i) {
-    uint32_t number = 0, why = MICROTIN_DONE;
+  for (uint32_t i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
+    uint32_t number = 0, why = MICROTIN_STATUS_OK;
     if (microtin_pack_bad_tile(device.pack, i, &number, &why) == 1 && number == tile) {
       return static_cast<microtin_status>(why);
     }
   }
-  return MICROTIN_DONE;
+  return MICROTIN_STATUS_OK;
 }
 
 }  // namespace microtin::tests

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "microtin/course.h"
+#include "microtin/segment.h"
 #include "tests/support/reference_heights.hpp"
 
 namespace microtin::tests {
@@ -63,7 +63,7 @@ struct Stretch {
   Way from = {0, 1}, to = {1, 1};
   bool is_empty = false;
 
-  Stretch(const Facet& t, const microtin_course& c) {
+  Stretch(const Facet& t, const microtin_segment& c) {
     for (size_t i = 0; i < 3; ++i) {
       const auto &a = t.v[i], &b = t.v[(i + 1) % 3];
       const Wide begin = area(a, b, c.x, c.y), end = area(a, b, c.x_end, c.y_end);
@@ -75,7 +75,7 @@ struct Stretch {
   }
 };
 
-inline Wide height_at(const Facet& t, const microtin_course& c, const Way& way) {
+inline Wide height_at(const Facet& t, const microtin_segment& c, const Way& way) {
   Wide sum = 0, all = 0;
   for (size_t i = 0; i < 3; ++i) {
     const auto &a = t.v[(i + 1) % 3], &b = t.v[(i + 2) % 3];
@@ -87,7 +87,7 @@ inline Wide height_at(const Facet& t, const microtin_course& c, const Way& way) 
   return rounded(sum * 65536, all);
 }
 
-inline std::vector<Stretch> stretches_of(const Surface& surface, const microtin_course& c) {
+inline std::vector<Stretch> stretches_of(const Surface& surface, const microtin_segment& c) {
   std::vector<Stretch> stretches;
   for (const Facet& t : surface.facets) {
     const Stretch stretch(t, c);
@@ -108,7 +108,7 @@ inline bool cover(std::vector<Stretch> stretches) {
 }
 
 // By definition: closed triangles cover the course, or do not.
-inline Expected expect(const Surface& surface, const microtin_course& c) {
+inline Expected expect(const Surface& surface, const microtin_segment& c) {
   Expected expected;
   std::vector<Stretch> stretches;
   const bool is_place = c.x == c.x_end && c.y == c.y_end;

@@ -33,14 +33,14 @@ struct Corners {
 
 inline std::vector<Corners> real_triangles(const microtin_mesh* mesh) {
   std::vector<Corners> triangles;
-  for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {
+  for (uint32_t t = 0; t < microtin_mesh_triangle_count(mesh); ++t) {
     uint32_t v[3];
-    const microtin_triangle_kind kind = microtin_triangle(mesh, t, v);
-    if (kind == MICROTIN_GHOST) continue;
+    const microtin_triangle_kind kind = microtin_mesh_triangle(mesh, t, v);
+    if (kind == MICROTIN_TRIANGLE_GHOST) continue;
     Corners corners;
-    corners.is_void = kind == MICROTIN_VOID;
+    corners.is_void = kind == MICROTIN_TRIANGLE_VOID;
     for (int i = 0; i < 3; ++i) {
-      microtin_vertex(mesh, v[i], &corners.v[i].x, &corners.v[i].y, &corners.v[i].z);
+      microtin_mesh_vertex(mesh, v[i], &corners.v[i].x, &corners.v[i].y, &corners.v[i].z);
     }
     triangles.push_back(corners);
   }

@@ -54,11 +54,11 @@ Known known_at(const std::vector<Corners>& triangles, const RealPlace& p) {
 
 void expect(const ExactAnswer& answer, const Known& known) {
   if (known.heights.empty()) {
-    CHECK(answer.kind == (known.is_inside ? MICROTIN_IN_VOID : MICROTIN_OUTSIDE));
+    CHECK(answer.kind == (known.is_inside ? MICROTIN_QUERY_VOID : MICROTIN_QUERY_OUTSIDE));
     return;
   }
   REQUIRE(known.heights.size() == 1);
-  REQUIRE(answer.kind == MICROTIN_HEIGHT);
+  REQUIRE(answer.kind == MICROTIN_QUERY_OK);
   const ExactHeight& h = answer.height;
   const Pair found = pair_of(reduced(h.base * h.under + h.above, h.under));
   CHECK((found == *known.heights.begin()));
@@ -103,7 +103,7 @@ TEST_CASE("exact heights equal the exact plane, from any start and from either s
     for (int probe = 0; probe < 300; ++probe) {
       const RealPlace place = random_place(tin, random);
       const Known known = known_at(triangles, place);
-      uint32_t hint = random.below(microtin_triangle_count(terrain.mesh()));
+      uint32_t hint = random.below(microtin_mesh_triangle_count(terrain.mesh()));
       expect(exact_answer(terrain.mesh(), place, 0, &hint), known);
       heights += known.heights.size() == 1;
     }
@@ -120,10 +120,10 @@ TEST_CASE("exact heights: a hull's edge holds the places on it, and no others") 
     return exact_answer(terrain.mesh(), place, 0, &hint).kind;
   };
   constexpr Wide kParts = kMostParts - 1;  // a multiple of 3: (1, 1/3) is on the edge to (30, 10)
-  CHECK(kind({1, 0, 0, kParts / 3, kParts}) == MICROTIN_HEIGHT);
-  CHECK(kind({1, 0, 0, kParts / 3 + 1, kParts}) == MICROTIN_HEIGHT);
-  CHECK(kind({1, 0, 0, kParts / 3 - 1, kParts}) == MICROTIN_OUTSIDE);
-  CHECK(kind({1, 0, 1, kParts / 3, kParts}) == MICROTIN_OUTSIDE);
+  CHECK(kind({1, 0, 0, kParts / 3, kParts}) == MICROTIN_QUERY_OK);
+  CHECK(kind({1, 0, 0, kParts / 3 + 1, kParts}) == MICROTIN_QUERY_OK);
+  CHECK(kind({1, 0, 0, kParts / 3 - 1, kParts}) == MICROTIN_QUERY_OUTSIDE);
+  CHECK(kind({1, 0, 1, kParts / 3, kParts}) == MICROTIN_QUERY_OUTSIDE);
   uint32_t hint = 0;
   const ExactAnswer on_edge = exact_answer(terrain.mesh(), {1, 0, 0, kParts / 3, kParts}, 0, &hint);
   CHECK(to_string(rounded_height({0, 1, 1}, on_edge.height, 9)) == "2");

@@ -91,7 +91,7 @@ TEST_CASE("water: with a bound the surface is at the level at its posts, at no o
       Metadata metadata;
       metadata.placement = found.laid.placement;
       const DecodedTerrain decoded(encode(found.tin, metadata));
-      CHECK(microtin_vertex_count(decoded.mesh()) < 61 * 53 / 2);
+      CHECK(microtin_mesh_vertex_count(decoded.mesh()) < 61 * 53 / 2);
       check_water(decoded.mesh(), raster);
     }
   }

@@ -40,34 +40,36 @@ microtin_status microtin_compact_pack_init(void* workspace, size_t size, uint32_
                                            uint32_t capacity, uint32_t tile_bytes,
                                            microtin_pack** pack);
 
-/* As microtin_pack_prepare; `step_limit` holds for decoding, and for making compact: 16 steps of
- * microtin_compact_proceed count as one. A tile that takes more than tile_bytes is a bad one,
+/* As microtin_pack_load; `step_limit` holds for decoding, and for making compact: 16 steps of
+ * microtin_compactor_run count as one. A tile that takes more than tile_bytes is a bad one,
  * TOO_BIG; MALFORMED, if it takes more than the pack's header says. Also ARGUMENT: a pack of
  * pack.h. */
-microtin_status microtin_compact_pack_prepare(microtin_pack* pack, const microtin_course* course,
-                                              uint32_t step_limit);
+microtin_status microtin_compact_pack_load(microtin_pack* pack, const microtin_segment* course,
+                                           uint32_t step_limit);
 
-/* As microtin_pack_service. */
-static inline microtin_status microtin_compact_pack_service(microtin_pack* pack,
-                                                            const microtin_course* course,
-                                                            uint32_t step_limit, microtin_read read,
-                                                            void* context) {
+/* As microtin_pack_load_with. */
+static inline microtin_status microtin_compact_pack_load_with(microtin_pack* pack,
+                                                              const microtin_segment* course,
+                                                              uint32_t step_limit,
+                                                              microtin_read read, void* context) {
   for (;;) {
     microtin_status status;
-    if (!pack || !read) return MICROTIN_ARGUMENT;
+    if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
     microtin_pack_fetch(pack, read, context);
-    status = microtin_compact_pack_prepare(pack, course, step_limit);
-    if (status != MICROTIN_NEED_INPUT || step_limit != 0) return status;
+    status = microtin_compact_pack_load(pack, course, step_limit);
+    if (status != MICROTIN_STATUS_NEED_INPUT || step_limit != 0) return status;
   }
 }
 
-/* As those of pack.h, with the same answers. NOT_DECODED, too: a pack of pack.h. */
-microtin_answer microtin_compact_pack_height_at(const microtin_pack* pack, int64_t x, int64_t y,
-                                                uint32_t* hint, int32_t* height);
-microtin_answer microtin_compact_pack_highest(const microtin_pack* pack,
-                                              const microtin_course* course, int32_t* height);
-microtin_answer microtin_compact_pack_fill(const microtin_pack* pack, const microtin_block* block,
-                                           int16_t* heights);
+/* As those of pack.h, with the same answers. NOT_LOADED, too: a pack of pack.h. */
+microtin_query_result microtin_compact_pack_height_at(const microtin_pack* pack, int64_t x,
+                                                      int64_t y, uint32_t* hint, int32_t* height);
+microtin_query_result microtin_compact_pack_segment_max(const microtin_pack* pack,
+                                                        const microtin_segment* course,
+                                                        int32_t* height);
+microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,
+                                                        const microtin_grid_spec* block,
+                                                        int16_t* heights);
 
 #ifdef __cplusplus
 }

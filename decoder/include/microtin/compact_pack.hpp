@@ -25,19 +25,19 @@ class CompactPack : public PackFace {
         microtin_compact_pack_init(storage_, sizeof storage_, Slots, Capacity, TileBytes, &pack_);
     return status_;
   }
-  microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
+  microtin_status service(const microtin_segment& course, uint32_t step_limit, microtin_read read,
                           void* context) {
-    if (status_ != MICROTIN_DONE) return status_;
-    return microtin_compact_pack_service(pack_, &course, step_limit, read, context);
+    if (status_ != MICROTIN_STATUS_OK) return status_;
+    return microtin_compact_pack_load_with(pack_, &course, step_limit, read, context);
   }
-  microtin_answer height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
+  microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return microtin_compact_pack_height_at(pack_, x, y, hint, height);
   }
-  microtin_answer highest(const microtin_course& course, int32_t* height) const {
-    return microtin_compact_pack_highest(pack_, &course, height);
+  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
+    return microtin_compact_pack_segment_max(pack_, &course, height);
   }
-  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
-    return microtin_compact_pack_fill(pack_, &block, heights);
+  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
+    return microtin_compact_pack_sample_grid(pack_, &block, heights);
   }
 
  private:

@@ -9,7 +9,8 @@
  *                         microtin_config.h must leave it out
  *   MICROTIN_ASSERT(c)    called with what a caller promises and no status tells, such as a
  *                         vertex's number that is in range; nothing if not given
- *   MICROTIN_NO_NAMES     leaves the strings of microtin_status_name and microtin_answer_name out
+ *   MICROTIN_NO_NAMES     leaves out the strings of microtin_status_name and of
+ *                         microtin_query_result_name
  */
 #ifndef MICROTIN_CONFIG_H
 #define MICROTIN_CONFIG_H

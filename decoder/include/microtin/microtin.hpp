@@ -4,7 +4,7 @@
 #define MICROTIN_MICROTIN_HPP
 
 #include "microtin/compact.h"
-#include "microtin/course.h"
+#include "microtin/segment.h"
 
 namespace microtin {
 
@@ -36,29 +36,29 @@ class Terrain {
   microtin_mesh* mesh() { return mesh_; }
   const microtin_mesh* mesh() const { return mesh_; }
 
-  uint32_t vertices() const { return microtin_vertex_count(mesh_); }
-  uint32_t triangles() const { return microtin_triangle_count(mesh_); }
-  uint64_t digest() const { return microtin_digest(mesh_); }
+  uint32_t vertices() const { return microtin_mesh_vertex_count(mesh_); }
+  uint32_t triangles() const { return microtin_mesh_triangle_count(mesh_); }
+  uint64_t digest() const { return microtin_mesh_digest(mesh_); }
 
-  microtin_answer height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
-                            uint32_t flags = 0, uint32_t step_limit = 0) const {
-    return microtin_height_at_limited(mesh_, x, y, flags, step_limit, hint, height);
+  microtin_query_result height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
+                                  uint32_t flags = 0, uint32_t step_limit = 0) const {
+    return microtin_mesh_height_at_limited(mesh_, x, y, flags, step_limit, hint, height);
   }
-  microtin_answer highest(const microtin_course& course, int32_t* height) const {
-    return microtin_highest(mesh_, &course, height);
+  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
+    return microtin_mesh_segment_max(mesh_, &course, height);
   }
-  microtin_answer highest(const microtin_course& course, int32_t* height,
-                          microtin_course_progress* progress, uint32_t step_limit) const {
-    return microtin_highest_limited(mesh_, &course, step_limit, progress, height);
+  microtin_query_result highest(const microtin_segment& course, int32_t* height,
+                                microtin_segment_state* progress, uint32_t step_limit) const {
+    return microtin_mesh_segment_max_limited(mesh_, &course, step_limit, progress, height);
   }
-  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
-    return microtin_fill(mesh_, &block, heights);
+  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
+    return microtin_mesh_sample_grid(mesh_, &block, heights);
   }
 
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_MESH_BYTES(Capacity)];
   microtin_mesh* mesh_ = nullptr;
-  microtin_status status_ = MICROTIN_DONE;  // of its initialisation
+  microtin_status status_ = MICROTIN_STATUS_OK;  // of its initialisation
 };
 
 // The state needed while decoding a terrain of up to Capacity vertices. Should its initialisation,
@@ -86,26 +86,27 @@ class Decoder {
   template <uint32_t MeshCapacity>
   microtin_status begin(Terrain<MeshCapacity>& target) {
     begin(target.mesh());
-    if (target.status() != MICROTIN_DONE) status_ = target.status();
+    if (target.status() != MICROTIN_STATUS_OK) status_ = target.status();
     return status_;
   }
   microtin_status status() const { return status_; }
-  void stop_after_phase(uint32_t phase) { microtin_stop_after_phase(decoder_, phase); }
+  void stop_after_phase(uint32_t phase) { microtin_decoder_stop_after_phase(decoder_, phase); }
   microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t step_limit = 0) {
-    if (status_ == MICROTIN_DONE) return microtin_feed(decoder_, bytes, size, step_limit, used);
+    if (status_ == MICROTIN_STATUS_OK)
+      return microtin_decoder_feed(decoder_, bytes, size, step_limit, used);
     *used = 0;
     return status_;
   }
   microtin_status finish() {
-    return status_ == MICROTIN_DONE ? microtin_finish(decoder_) : status_;
+    return status_ == MICROTIN_STATUS_OK ? microtin_decoder_finish(decoder_) : status_;
   }
-  uint32_t phase() const { return microtin_phase(decoder_); }
-  uint64_t bytes_used() const { return microtin_bytes_used(decoder_); }
+  uint32_t phase() const { return microtin_decoder_phase(decoder_); }
+  uint64_t bytes_used() const { return microtin_decoder_bytes_used(decoder_); }
 
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_DECODER_BYTES(Capacity)];
   microtin_decoder* decoder_ = nullptr;
-  microtin_status status_ = MICROTIN_DONE;  // of its initialisation
+  microtin_status status_ = MICROTIN_STATUS_OK;  // of its initialisation
 };
 
 // Hints for places anywhere in a terrain, from Side x Side buckets.
@@ -148,11 +149,11 @@ class CompactTerrain {
   // already, which stays as it is; call clear first.
   template <class TerrainType, class DecoderType>
   microtin_status make(TerrainType& terrain, DecoderType& decoder) {
-    if (compact_ != nullptr) return MICROTIN_ARGUMENT;
+    if (compact_ != nullptr) return MICROTIN_STATUS_ARGUMENT;
     microtin_compactor* compactor = nullptr;
-    const microtin_status status = microtin_compact_begin(storage_, sizeof storage_, terrain.mesh(),
-                                                          &decoder, sizeof decoder, &compactor);
-    return status == MICROTIN_DONE ? microtin_compact_proceed(compactor, 0, &compact_) : status;
+    const microtin_status status = microtin_compactor_init(
+        storage_, sizeof storage_, terrain.mesh(), &decoder, sizeof decoder, &compactor);
+    return status == MICROTIN_STATUS_OK ? microtin_compactor_run(compactor, 0, &compact_) : status;
   }
 
   // Null before make succeeds, and after clear.
@@ -162,19 +163,19 @@ class CompactTerrain {
   uint32_t vertices() const { return microtin_compact_vertex_count(compact_); }
   uint64_t digest() const { return microtin_compact_digest(compact_); }
   uint32_t hint(int32_t x, int32_t y) const { return microtin_compact_hint(compact_, x, y); }
-  microtin_answer height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
-                            uint32_t step_limit = 0) const {
+  microtin_query_result height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
+                                  uint32_t step_limit = 0) const {
     return microtin_compact_height_at(compact_, x, y, step_limit, hint, height);
   }
-  microtin_answer highest(const microtin_course& course, int32_t* height) const {
-    return microtin_compact_highest(compact_, &course, height);
+  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
+    return microtin_compact_segment_max(compact_, &course, height);
   }
-  microtin_answer highest(const microtin_course& course, int32_t* height,
-                          microtin_course_progress* progress, uint32_t step_limit) const {
-    return microtin_compact_highest_limited(compact_, &course, step_limit, progress, height);
+  microtin_query_result highest(const microtin_segment& course, int32_t* height,
+                                microtin_segment_state* progress, uint32_t step_limit) const {
+    return microtin_compact_segment_max_limited(compact_, &course, step_limit, progress, height);
   }
-  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
-    return microtin_compact_fill(compact_, &block, heights);
+  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
+    return microtin_compact_sample_grid(compact_, &block, heights);
   }
 
  private:

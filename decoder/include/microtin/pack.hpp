@@ -20,16 +20,16 @@ class PackFace {
   bool bad_tile(uint32_t i, uint32_t* tile, uint32_t* why) const {
     return microtin_pack_bad_tile(pack_, i, tile, why) != 0;
   }
-  void retry() { microtin_pack_retry(pack_); }
+  void retry() { microtin_pack_clear_bad_tiles(pack_); }
   microtin_status align_reads(uint32_t sector) { return microtin_pack_align_reads(pack_, sector); }
-  bool header(microtin_pack_info* info) const { return microtin_pack_header(pack_, info) != 0; }
+  bool header(microtin_pack_info* info) const { return microtin_pack_get_info(pack_, info) != 0; }
 
  protected:
   constexpr PackFace() = default;
   ~PackFace() = default;
 
   microtin_pack* pack_ = nullptr;
-  microtin_status status_ = MICROTIN_DONE;  // of its initialisation
+  microtin_status status_ = MICROTIN_STATUS_OK;  // of its initialisation
 };
 
 // A pack of which Slots tiles of up to Capacity vertices are kept. See pack.h for units, costs and
@@ -48,19 +48,19 @@ class Pack : public PackFace {
     status_ = microtin_pack_init(storage_, sizeof storage_, Slots, Capacity, &pack_);
     return status_;
   }
-  microtin_status service(const microtin_course& course, uint32_t step_limit, microtin_read read,
+  microtin_status service(const microtin_segment& course, uint32_t step_limit, microtin_read read,
                           void* context) {
-    if (status_ != MICROTIN_DONE) return status_;
-    return microtin_pack_service(pack_, &course, step_limit, read, context);
+    if (status_ != MICROTIN_STATUS_OK) return status_;
+    return microtin_pack_load_with(pack_, &course, step_limit, read, context);
   }
-  microtin_answer height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
+  microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return microtin_pack_height_at(pack_, x, y, hint, height);
   }
-  microtin_answer highest(const microtin_course& course, int32_t* height) const {
-    return microtin_pack_highest(pack_, &course, height);
+  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
+    return microtin_pack_segment_max(pack_, &course, height);
   }
-  microtin_answer fill(const microtin_block& block, int16_t* heights) const {
-    return microtin_pack_fill(pack_, &block, heights);
+  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
+    return microtin_pack_sample_grid(pack_, &block, heights);
   }
 
  private:

@@ -7,21 +7,23 @@ using namespace microtin;
 
 // What the sources read by place.
 static_assert(offsetof(microtin_pack_info, lowest) == 20 && offsetof(microtin_pack_info, x) == 24 &&
-                  offsetof(microtin_info, x) == 16 && offsetof(microtin_info, mesh_bytes) == 88,
+                  offsetof(microtin_stream_info, x) == 16 &&
+                  offsetof(microtin_stream_info, mesh_bytes) == 88,
               "see src/pack.js and src/terrain.js");
 
 extern "C" {
 
 // --- Streams.
 
-// Feeds until one more section has passed its check, or `steps` are done. As microtin_feed else.
+// Feeds until one more section has passed its check, or `steps` are done. As microtin_decoder_feed
+// else.
 uint32_t feed_section(microtin_decoder* decoder, const uint8_t* bytes, uint32_t size,
                       uint32_t steps, size_t* used) {
   const uint32_t verified = decoder->mesh->verified_vertices;
   uint32_t taken = 0;
-  microtin_status status = MICROTIN_STEP_LIMIT;
-  for (uint32_t i = 0; i < steps && status == MICROTIN_STEP_LIMIT; ++i) {
-    status = microtin_feed(decoder, bytes + taken, size - taken, 1, used);
+  microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
+  for (uint32_t i = 0; i < steps && status == MICROTIN_STATUS_STEP_LIMIT; ++i) {
+    status = microtin_decoder_feed(decoder, bytes + taken, size - taken, 1, used);
     taken += static_cast<uint32_t>(*used);
     if (decoder->mesh->verified_vertices != verified) break;
   }
@@ -36,10 +38,10 @@ uint32_t verified_vertices(const microtin_mesh* mesh) {
 
 // Writes x, y and z of each vertex.
 void vertices(const microtin_mesh* mesh, int32_t* to) {
-  for (uint32_t v = 0; v < microtin_vertex_count(mesh); ++v, to += 3) {
+  for (uint32_t v = 0; v < microtin_mesh_vertex_count(mesh); ++v, to += 3) {
     uint16_t x, y;
     int16_t z;
-    microtin_vertex(mesh, v, &x, &y, &z);
+    microtin_mesh_vertex(mesh, v, &x, &y, &z);
     to[0] = x;
     to[1] = y;
     to[2] = z;
@@ -49,8 +51,8 @@ void vertices(const microtin_mesh* mesh, int32_t* to) {
 // Writes the vertices of each triangle of a kind; returns how many there are.
 uint32_t triangles(const microtin_mesh* mesh, uint32_t kind, uint32_t* to) {
   uint32_t count = 0;
-  for (uint32_t t = 0; t < microtin_triangle_count(mesh); ++t) {
-    if (static_cast<uint32_t>(microtin_triangle(mesh, t, to + 3 * count)) == kind) ++count;
+  for (uint32_t t = 0; t < microtin_mesh_triangle_count(mesh); ++t) {
+    if (static_cast<uint32_t>(microtin_mesh_triangle(mesh, t, to + 3 * count)) == kind) ++count;
   }
   return count;
 }
@@ -62,17 +64,17 @@ double pack_bytes(uint32_t slots, uint32_t capacity) {
   return static_cast<double>(MICROTIN_PACK_BYTES(uint64_t{slots}, uint64_t{capacity}));
 }
 
-// Like microtin_pack_prepare without a step limit, but returns STEP_LIMIT as soon as the tile in
+// Like microtin_pack_load without a step limit, but returns STEP_LIMIT as soon as the tile in
 // hand has more than `verified` vertices and all of them have passed their checks.
-uint32_t prepare_section(microtin_pack* pack, const microtin_course* course, uint32_t verified) {
-  microtin_status status = MICROTIN_DONE;
-  while (status == MICROTIN_DONE) {
+uint32_t prepare_section(microtin_pack* pack, const microtin_segment* course, uint32_t verified) {
+  microtin_status status = MICROTIN_STATUS_OK;
+  while (status == MICROTIN_STATUS_OK) {
     status = go_on(*pack, *course);
-    if (status != MICROTIN_STEP_LIMIT) return status;
+    if (status != MICROTIN_STATUS_STEP_LIMIT) return status;
     const auto& mesh = *static_cast<const microtin_mesh*>(pack->slot->space);
-    while (status == MICROTIN_STEP_LIMIT) {
+    while (status == MICROTIN_STATUS_STEP_LIMIT) {
       const uint32_t vertices = mesh.mesh.vertices;
-      if (pack->start == MICROTIN_DONE && vertices > verified &&
+      if (pack->start == MICROTIN_STATUS_OK && vertices > verified &&
           vertices == mesh.verified_vertices) {
         return status;
       }

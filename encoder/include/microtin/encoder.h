@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 /* microtin: encoder and reader for languages that call C, as the shared library libmicrotin has
- * them beside all of microtin.h, course.h, compact.h and pack.h. C99 and C++.
+ * them beside all of microtin.h, segment.h, compact.h and pack.h. C99 and C++.
  *
  * encoder.hpp and surface.hpp say more of what options mean and of what is returned. Numbers here
  * are real units; raster rows begin in the north. Texts are UTF-8 and end in 0; a null is an empty
  * one. A struct of zeros with its `size` set asks for what is usual; structs grow at their end.
  *
  * Functions that can fail return an outcome; on all but OK nothing was made, no file either, and
- * microtin_message says why. Several threads may call them at the same time, for one surface one
+ * microtin_last_error says why. Several threads may call them at the same time, for one surface one
  * at a time. Memory that is handed out is freed by the function named for it alone, which takes
  * null, too.
  */
@@ -20,46 +20,38 @@
 extern "C" {
 #endif
 
-typedef enum microtin_outcome {
-  MICROTIN_OK = 0,
-  MICROTIN_REFUSED = 1, /* what is asked for cannot be done, or a file not be read */
-  MICROTIN_NO_MEMORY = 2,
-  MICROTIN_CANCELLED = 3, /* microtin_options.progress said so */
-  MICROTIN_FAULT = 4      /* of the library's own */
-} microtin_outcome;
-
 /* A sentence on the last failure in this thread; valid until its next call. Never null. */
-const char* microtin_message(void);
+const char* microtin_last_error(void);
 
 /* What the last terrain that this thread encoded leaves to a guess, or unknown, of units and
  * systems, and doubtful heights: sentences, each on a line; "" if nothing. Valid until its next
  * call. Never null. */
-const char* microtin_remarks(void);
+const char* microtin_last_warnings(void);
 
 /* "0.1.0" */
-const char* microtin_version(void);
+const char* microtin_version_string(void);
 
 /* --- Encoding --- */
 
 /* Heights at the centres of a raster's cells, not a number where there is none; each number stands
  * for the shortest decimal that becomes it. 2 .. 65536 columns and rows for a stream. */
-typedef struct microtin_raster {
-  size_t size; /* sizeof(microtin_raster), as in all structs below */
+typedef struct microtin_raster_data {
+  size_t size; /* sizeof(microtin_raster_data), as in all structs below */
   uint32_t columns, rows;
   const double* heights;      /* row by row; null: */
   const float* float_heights; /* ... these */
   double transform[6];        /* as GDAL's: see encoder.hpp */
   const char* wkt;            /* systems of places and heights */
   const double* no_data; /* of void cells, compared in the heights' own type; null: NaN alone */
-} microtin_raster;
+} microtin_raster_data;
 
 /* Points in any order. */
-typedef struct microtin_points {
+typedef struct microtin_point_data {
   size_t size;
   uint64_t count;
   const double* coordinates; /* x, y, z of each in turn */
   const char* wkt;
-} microtin_points;
+} microtin_point_data;
 
 /* As encoder::Options, StreamOptions and PackOptions; 0 everywhere is what is usual. */
 typedef struct microtin_options {
@@ -90,27 +82,27 @@ typedef struct microtin_report {
   char max_error_at_points[24], max_below_at_points[24];
 } microtin_report;
 
-typedef struct microtin_terrain microtin_terrain;
+typedef struct microtin_source microtin_source;
 
 /* Copies what it is given: 8 bytes a post, 24 a point. */
-microtin_outcome microtin_terrain_of_raster(const microtin_raster* raster,
-                                            microtin_terrain** terrain);
-microtin_outcome microtin_terrain_of_points(const microtin_points* points,
-                                            microtin_terrain** terrain);
+microtin_status microtin_source_from_raster(const microtin_raster_data* raster,
+                                            microtin_source** terrain);
+microtin_status microtin_source_from_points(const microtin_point_data* points,
+                                            microtin_source** terrain);
 /* Reads a file by its suffix. */
-microtin_outcome microtin_terrain_of_file(const char* path, microtin_terrain** terrain);
-void microtin_terrain_free(microtin_terrain* terrain);
+microtin_status microtin_source_from_file(const char* path, microtin_source** terrain);
+void microtin_source_free(microtin_source* terrain);
 
 /* The stream's bytes are freed by microtin_bytes_free. */
-microtin_outcome microtin_encode_stream(const microtin_terrain* terrain,
-                                        const microtin_options* options, uint8_t** bytes,
-                                        uint64_t* size, microtin_report* report);
+microtin_status microtin_encode_stream(const microtin_source* terrain,
+                                       const microtin_options* options, uint8_t** bytes,
+                                       uint64_t* size, microtin_report* report);
 void microtin_bytes_free(uint8_t* bytes);
 
 /* Writes a file that appears complete or not at all. */
-microtin_outcome microtin_encode_pack(const microtin_terrain* terrain,
-                                      const microtin_options* options, const char* path,
-                                      microtin_report* report);
+microtin_status microtin_encode_pack(const microtin_source* terrain,
+                                     const microtin_options* options, const char* path,
+                                     microtin_report* report);
 
 /* --- Reading --- */
 
@@ -119,9 +111,9 @@ typedef struct microtin_surface microtin_surface;
 /* A stream or a pack, from a file, or from bytes that are copied. A stream is decoded and checked
  * at once, of a pack header and index; its tiles when they are asked for. `name` is for messages.
  */
-microtin_outcome microtin_surface_open(const char* path, microtin_surface** surface);
-microtin_outcome microtin_surface_of_bytes(const uint8_t* bytes, uint64_t size, const char* name,
-                                           microtin_surface** surface);
+microtin_status microtin_surface_from_file(const char* path, microtin_surface** surface);
+microtin_status microtin_surface_from_bytes(const uint8_t* bytes, uint64_t size, const char* name,
+                                            microtin_surface** surface);
 void microtin_surface_free(microtin_surface* surface);
 
 /* Posts: the place of (column, row) is (x, y) of coordinates `x.offset + x.numerator * column`
@@ -132,7 +124,7 @@ typedef struct microtin_grid {
 } microtin_grid;
 
 /* As encoder::Facts. Texts are valid as long as the surface. */
-typedef struct microtin_facts {
+typedef struct microtin_surface_info {
   uint64_t bytes, vertices;
   uint32_t is_pack, tile_columns, tile_rows; /* 1 x 1 of a stream */
   double west, south, east, north, lowest, highest;
@@ -143,9 +135,9 @@ typedef struct microtin_facts {
   const char *wkt, *origin, *date, *lineage;
   const char *bound, *max_error, *rms_error, *mean_error;
   const char* max_error_at_points; /* where points truly lie, if the lattice moves them */
-} microtin_facts;
+} microtin_surface_info;
 
-void microtin_surface_facts(const microtin_surface* surface, microtin_facts* facts);
+void microtin_surface_get_info(const microtin_surface* surface, microtin_surface_info* facts);
 
 /* Vertices and triangles. They belong to the surface, until the next of these calls for it. */
 typedef struct microtin_triangles {
@@ -155,25 +147,25 @@ typedef struct microtin_triangles {
 } microtin_triangles;
 
 /* All of it; vertices on borders of tiles once. O(n). */
-microtin_outcome microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles);
+microtin_status microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles);
 
 /* A tile, columns from the west, rows from the south; a stream is tile 0, 0. Nothing in it if the
  * tile has no terrain. */
-microtin_outcome microtin_surface_tile(microtin_surface* surface, uint32_t column, uint32_t row,
-                                       microtin_triangles* triangles);
+microtin_status microtin_surface_tile(microtin_surface* surface, uint32_t column, uint32_t row,
+                                      microtin_triangles* triangles);
 
 /* Heights of the exact plane at `count` places, not a number where there is none. About 0.3 us
  * each, and the decoding of the tiles that are needed. */
-microtin_outcome microtin_surface_heights(microtin_surface* surface, uint64_t count,
-                                          const double* x, const double* y, double* heights);
+microtin_status microtin_surface_heights(microtin_surface* surface, uint64_t count, const double* x,
+                                         const double* y, double* heights);
 
 /* Posts `cell` units apart ("0.25"), from the south-west corner on. */
-microtin_outcome microtin_surface_grid(const microtin_surface* surface, const char* cell,
-                                       microtin_grid* grid);
+microtin_status microtin_surface_grid(const microtin_surface* surface, const char* cell,
+                                      microtin_grid* grid);
 
 /* Heights at all posts of a grid, columns * rows of them, the northernmost row first. */
-microtin_outcome microtin_surface_raster(microtin_surface* surface, const microtin_grid* grid,
-                                         double* heights);
+microtin_status microtin_surface_sample_grid(microtin_surface* surface, const microtin_grid* grid,
+                                             double* heights);
 
 #ifdef __cplusplus
 }

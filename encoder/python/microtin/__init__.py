@@ -34,7 +34,7 @@ from . import _library
 from ._library import Error, library
 
 __all__ = ["Error", "Report", "Stream", "Terrain", "Tile", "decode", "encode", "encode_pack", "encode_points"]
-__version__: str = library.microtin_version().decode()
+__version__: str = library.microtin_version_string().decode()
 
 Number = Union[int, float, str, decimal.Decimal]
 Crs = Union[int, str, Any]
@@ -173,7 +173,7 @@ class _Terrain:
         return self
 
     def __exit__(self, *_: Any) -> None:
-        library.microtin_terrain_free(self.pointer)
+        library.microtin_source_free(self.pointer)
 
 
 class _Caller:
@@ -280,7 +280,7 @@ def _report(report: _library.Report) -> Report:
         float(report.max_below),
         _number(report.max_error_at_points),
         _number(report.max_below_at_points),
-        tuple(library.microtin_remarks().decode(errors="replace").splitlines()),
+        tuple(library.microtin_last_warnings().decode(errors="replace").splitlines()),
     )
 
 
@@ -362,7 +362,7 @@ def _terrain_of_array(
         raster.float_heights = heights.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
     else:
         raster.heights = heights.ctypes.data_as(_library.Doubles)
-    return _Terrain(library.microtin_terrain_of_raster, raster)
+    return _Terrain(library.microtin_source_from_raster, raster)
 
 
 def _terrain_of_points(points: ArrayLike, crs: Optional[Crs]) -> _Terrain:
@@ -372,7 +372,7 @@ def _terrain_of_points(points: ArrayLike, crs: Optional[Crs]) -> _Terrain:
     content = _library.Points(
         count=len(rows), coordinates=rows.ctypes.data_as(_library.Doubles), wkt=_wkt_of(crs)
     )
-    return _Terrain(library.microtin_terrain_of_points, content)
+    return _Terrain(library.microtin_source_from_points, content)
 
 
 # --- Decoding ---
@@ -400,15 +400,15 @@ class Terrain:
         surface = ctypes.c_void_p()
         if isinstance(source, (bytes, bytearray, memoryview)):
             data = bytes(source)
-            library.microtin_surface_of_bytes(data, len(data), b"bytes", surface)
+            library.microtin_surface_from_bytes(data, len(data), b"bytes", surface)
         else:
-            library.microtin_surface_open(os.fsencode(source), surface)
+            library.microtin_surface_from_file(os.fsencode(source), surface)
         weakref.finalize(self, library.microtin_surface_free, surface)
         self._surface = surface
         self._lock = threading.Lock()
         self._mesh: Optional[Tile] = None
         facts = _library.Facts()
-        library.microtin_surface_facts(surface, facts)
+        library.microtin_surface_get_info(surface, facts)
         self._source = facts.source
         self.is_pack = bool(facts.is_pack)
         self.tiles: Tuple[int, int] = (facts.tile_columns, facts.tile_rows)
@@ -466,7 +466,7 @@ class Terrain:
             raise Error(f"the raster takes {size / 1e9:.1f} GB: give a larger cell, or force=True")
         heights = numpy.empty((grid.rows, grid.columns))
         with self._lock:
-            library.microtin_surface_raster(self._surface, grid, heights.ctypes.data_as(_library.Doubles))
+            library.microtin_surface_sample_grid(self._surface, grid, heights.ctypes.data_as(_library.Doubles))
         dx, dy = (axis.numerator / axis.denominator for axis in (grid.x, grid.y))
         west = (2 * grid.x.offset - grid.x.numerator) / (2 * grid.x.denominator)
         north = (2 * grid.y.offset + (2 * grid.rows - 1) * grid.y.numerator) / (2 * grid.y.denominator)

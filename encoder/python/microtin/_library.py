@@ -169,7 +169,7 @@ _WITHOUT_OUTCOME = {
 def _checked(outcome: int, _function: Any, _arguments: Any) -> None:
     if outcome == OK:
         return
-    message = library.microtin_message().decode(errors="replace")  # names of files may be any bytes
+    message = library.microtin_last_error().decode(errors="replace")  # names of files may be any bytes
     if outcome == NO_MEMORY:
         raise MemoryError(message)
     raise Error(message if outcome != FAULT else f"a fault of microtin's own: {message}")

@@ -27,7 +27,7 @@ int32_t read_card(void* bytes_read, uint64_t offset, uint8_t* buffer, size_t siz
   return static_cast<int32_t>(size);
 }
 
-microtin_course course(Post from, Post to) {
+microtin_segment course(Post from, Post to) {
   return {from.x * 256, from.y * 256, to.x * 256, to.y * 256};
 }
 
@@ -43,14 +43,14 @@ struct Measured {
 };
 
 // Calls the service until the course has its tiles.
-bool serve(Tiles& pack, const microtin_course& c, const InstructionCounter& instructions,
+bool serve(Tiles& pack, const microtin_segment& c, const InstructionCounter& instructions,
            Measured& measured) {
   for (uint32_t call = 0; call < 10000; ++call) {
     const uint32_t before = instructions.count();
     const microtin_status status = pack.service(c, kStepLimit, read_card, &measured.bytes_read);
     measured.service.add(instructions.count() - before);
-    if (status == MICROTIN_DONE) return true;
-    if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT) return false;
+    if (status == MICROTIN_STATUS_OK) return true;
+    if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) return false;
   }
   return false;
 }
@@ -61,16 +61,16 @@ bool fly(Tiles& pack, const Flight& flight, Measured& measured) {
   pack.header(&info);
   uint32_t hint = 0;
   for (int32_t i = 0; i < flight.posts(); ++i) {
-    const microtin_course c = course(flight.post(i), flight.ahead(i));
+    const microtin_segment c = course(flight.post(i), flight.ahead(i));
     if (!serve(pack, c, instructions, measured)) return false;
     int32_t height = 0;
     uint32_t before = instructions.count();
-    if (pack.height_at(c.x, c.y, &hint, &height) != MICROTIN_HEIGHT) return false;
+    if (pack.height_at(c.x, c.y, &hint, &height) != MICROTIN_QUERY_OK) return false;
     measured.height.add(instructions.count() - before);
     log_height(decimetres(height, info.z));
     if (i % Flight::kAhead != 0) continue;
     before = instructions.count();
-    if (pack.highest(c, &height) != MICROTIN_HEIGHT) return false;
+    if (pack.highest(c, &height) != MICROTIN_QUERY_OK) return false;
     measured.highest.add(instructions.count() - before);
   }
   return true;
@@ -79,7 +79,7 @@ bool fly(Tiles& pack, const Flight& flight, Measured& measured) {
 // A block such as ArduPilot keeps, from the tiles that are there.
 uint32_t cost_of_block(const Tiles& pack, Post at) {
   static int16_t heights[28 * 32];
-  const microtin_block block = {at.x * 256, at.y * 256, 256, 256, 28, 32, INT16_MIN};
+  const microtin_grid_spec block = {at.x * 256, at.y * 256, 256, 256, 28, 32, INT16_MIN};
   const InstructionCounter instructions;
   const uint32_t before = instructions.count();
   pack.fill(block, heights);
@@ -91,7 +91,7 @@ uint32_t cost_of_block(const Tiles& pack, Post at) {
 int firmware_main() {
   static Tiles pack;
   Measured measured;
-  const microtin_course corner = {0, 0, 0, 0};
+  const microtin_segment corner = {0, 0, 0, 0};
   microtin_pack_info info;
   pack.service(corner, 0, read_card, &measured.bytes_read);
   if (!pack.header(&info)) return 1;

@@ -90,7 +90,7 @@ class PackAnswerer : public Answerer {
       : Answerer(path), capacity_(PackFile(card.bytes()).header().most_vertices) {
     space_.resize(MICROTIN_PACK_BYTES(kSlots, capacity_) / sizeof(uint64_t) + 1);
     if (microtin_pack_init(space_.data(), space_.size() * sizeof(uint64_t), kSlots, capacity_,
-                           &pack) != MICROTIN_DONE) {
+                           &pack) != MICROTIN_STATUS_OK) {
       throw Error(path + ": there is no room for it");
     }
     microtin_pack_align_reads(pack, kSector);
@@ -106,7 +106,8 @@ class PackAnswerer : public Answerer {
     return spots.has_info == 0 || spots.is_wished != 0;
   }
   static void check(microtin_status status) {
-    if (status != MICROTIN_NEED_INPUT && status != MICROTIN_STEP_LIMIT && status != MICROTIN_DONE) {
+    if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT &&
+        status != MICROTIN_STATUS_OK) {
       throw Error("the pack cannot be served");
     }
   }
@@ -131,7 +132,7 @@ class Inav : public PackAnswerer {
                             kClimb, &found);
   }
   bool waits() const override { return PackAnswerer::waits(inav_.spots); }
-  void serve() override { check(microtin_inav_service(&inav_, kSteps, Sectors::read_card, &card)); }
+  void serve() override { check(microtin_inav_load(&inav_, kSteps, Sectors::read_card, &card)); }
 
  private:
   microtin_inav inav_{};
@@ -152,7 +153,7 @@ class ArduPilot : public PackAnswerer {
   }
   bool waits() const override { return PackAnswerer::waits(terrain_.spots); }
   void serve() override {
-    check(microtin_ardupilot_service(&terrain_, kSteps, Sectors::read_card, &card));
+    check(microtin_ardupilot_load(&terrain_, kSteps, Sectors::read_card, &card));
   }
   size_t ram() const override {  // with its block, which only those need who want a grid
     return PackAnswerer::ram() - sizeof(microtin_spots) + sizeof(microtin_ardupilot);

@@ -73,15 +73,15 @@ class ReplayingCoder : public RangeDecoder {
 class Started {
  public:
   explicit Started(const std::vector<uint8_t>& stream) {
-    microtin_info info;
-    microtin_peek(stream.data(), stream.size(), &info);
+    microtin_stream_info info;
+    microtin_read_stream_info(stream.data(), stream.size(), &info);
     mesh_.resize(info.mesh_bytes / 8 + 1);
     decoder_.resize(info.decoder_bytes / 8 + 1);
     microtin_mesh* mesh = nullptr;
     microtin_decoder* decoder = nullptr;
     microtin_mesh_init(mesh_.data(), 8 * mesh_.size(), &mesh);
     microtin_decoder_init(decoder_.data(), 8 * decoder_.size(), mesh, &decoder);
-    microtin_feed(decoder, stream.data(), info.header_bytes, 0, &header_bytes_);
+    microtin_decoder_feed(decoder, stream.data(), info.header_bytes, 0, &header_bytes_);
     reconstruction_ = &decoder->reconstruction;
   }
 

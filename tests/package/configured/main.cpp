@@ -18,9 +18,9 @@ int main() {
   static microtin::Terrain<10> terrain;
   uint16_t x = 0, y = 0;
   int16_t z = 0;
-  microtin_vertex(terrain.mesh(), 0, &x, &y, &z);  // it has none
-  return broken == 1 && microtin_status_name(MICROTIN_DONE)[0] == '\0' &&
-                 microtin_answer_name(MICROTIN_HEIGHT)[0] == '\0'
+  microtin_mesh_vertex(terrain.mesh(), 0, &x, &y, &z);  // it has none
+  return broken == 1 && microtin_status_name(MICROTIN_STATUS_OK)[0] == '\0' &&
+                 microtin_query_result_name(MICROTIN_QUERY_OK)[0] == '\0'
              ? 0
              : 1;
 }

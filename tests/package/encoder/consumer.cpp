@@ -18,7 +18,7 @@ int main() {
   decoder.feed(stream.bytes.data(), stream.bytes.size(), &used);
   uint32_t hint = 0;
   int32_t height = 0;
-  const bool done = decoder.finish() == MICROTIN_DONE;
-  const bool found = terrain.height_at(0, 0, &hint, &height) == MICROTIN_HEIGHT;
+  const bool done = decoder.finish() == MICROTIN_STATUS_OK;
+  const bool found = terrain.height_at(0, 0, &hint, &height) == MICROTIN_QUERY_OK;
   return done && found && stream.report.samples == 81 ? 0 : 1;
 }

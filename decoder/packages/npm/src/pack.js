@@ -6,13 +6,13 @@ import { axesAt, canHold, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
 import { Source } from "./source.js";
 import {
-  ARGUMENT, BAD_TILES, CHECKSUM, DONE, MicrotinError, NEED_INPUT, STEP_LIMIT, TOO_BIG, TRUNCATED, WORKSPACE_TOO_SMALL,
+  ARGUMENT, BAD_TILES, CHECKSUM, OK, MicrotinError, NEED_INPUT, STEP_LIMIT, TOO_BIG, TRUNCATED, WORKSPACE_TOO_SMALL,
 } from "./status.js";
 import { meshArrays } from "./terrain.js";
 
 const INFO_BYTES = 96, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12, LOWEST = 20, HIGHEST = 22,
   AXES = 24; // where they are in microtin_pack_info
-const MOST_SLOTS = 255, MOST_BAD = 8; // MICROTIN_PACK_BAD_TILES
+const MOST_SLOTS = 255, MOST_BAD = 8; // MICROTIN_PACK_MAX_BAD_TILES
 const CACHE_BYTES = 2 ** 26;
 const FIXED = 40; // bytes of a header, at least
 const ENTRY = 16, START = 64; // bytes of an entry of the index, and of a stream that announce its vertices
@@ -20,7 +20,7 @@ const USUAL = 2 ** 14; // vertices that a slot has room for, until a stream has 
 const ROOM = 2 ** 20; // vertices that slots have room for together, if one has as many as that
 const FIRST_PIECE = 1024; // bytes of a tile that are read first; then twice as many
 const WHOLE = 0xffffffff; // more vertices than a tile has
-const FOUND = 0, OUTSIDE = 1, IN_VOID = 2; // microtin_answer
+const FOUND = 0, OUTSIDE = 1, VOID = 2; // microtin_query_result
 
 export class Pack {
   #source;
@@ -51,7 +51,7 @@ export class Pack {
     const size = calls.pack_bytes(slots, capacity);
     const { results } = this.#instance;
     const status = calls.microtin_pack_init_32(this.#instance.reserve(size), size, slots, capacity, results);
-    if (status !== DONE) throw new MicrotinError(status);
+    if (status !== OK) throw new MicrotinError(status);
     this.#pack = this.#instance.result();
     [this.#slots, this.#capacity] = [slots, capacity];
   }
@@ -61,7 +61,7 @@ export class Pack {
     const at = instance.reserve(INFO_BYTES);
     this.#putCourse([-256, -256, -256, -256]); // touches no tile
     await this.#serve();
-    instance.calls.microtin_pack_header(this.#pack, at);
+    instance.calls.microtin_pack_get_info(this.#pack, at);
     const { view } = instance;
     const large = (place) => view.getUint32(at + place, true), small = (place) => view.getUint16(at + place, true);
     this.extent = [large(X_MAX), large(Y_MAX)];
@@ -83,8 +83,8 @@ export class Pack {
       const notes = instance.borrow(head.length, (at) => {
         instance.put(at, head);
         const status = calls.microtin_find_note(at, head.length, 0, results, results + 4);
-        if (status !== DONE && status !== NEED_INPUT) throw new MicrotinError(status);
-        return status === DONE && notesAt(instance, at, head.length);
+        if (status !== OK && status !== NEED_INPUT) throw new MicrotinError(status);
+        return status === OK && notesAt(instance, at, head.length);
       });
       if (notes) return notes;
       if (head.length < size) throw new MicrotinError(TRUNCATED);
@@ -147,7 +147,7 @@ export class Pack {
         this.#putCourse(course);
         const status = await this.#serve({ piece, verified });
         if (status === BAD_TILES) throw this.#badTile(course);
-        done = status === DONE;
+        done = status === OK;
         const { calls } = this.#instance;
         const mesh = calls.tile_mesh(this.#pack, tile);
         verified = mesh && calls.verified_vertices(mesh);
@@ -192,7 +192,7 @@ export class Pack {
 
   async highestOn(x, y, xEnd, yEnd) {
     return this.#ask([...this.#place(x, y), ...this.#place(xEnd, yEnd)], ({ calls, results }) =>
-      calls.microtin_pack_highest(this.#pack, this.#course, results + 4));
+      calls.microtin_pack_segment_max(this.#pack, this.#course, results + 4));
   }
 
   // The height that a query on a course finds behind the second result. Both ends are within the pack, and so is all
@@ -207,7 +207,7 @@ export class Pack {
       if (answer === FOUND) {
         return z.start + (this.#instance.view.getInt32(this.#instance.results + 4, true) / 65536) * z.step;
       }
-      if (answer === OUTSIDE || answer === IN_VOID) return NaN;
+      if (answer === OUTSIDE || answer === VOID) return NaN;
       throw status === BAD_TILES ? this.#badTile(course) : new MicrotinError(-1, { where: `answer ${answer}` });
     });
   }
@@ -238,9 +238,9 @@ export class Pack {
     }
   }
 
-  // DONE, BAD_TILES or STEP_LIMIT; everything else is an error.
+  // OK, BAD_TILES or STEP_LIMIT; everything else is an error.
   #settled(status) {
-    if (status === DONE || status === BAD_TILES || status === STEP_LIMIT) return status;
+    if (status === OK || status === BAD_TILES || status === STEP_LIMIT) return status;
     if (status === WORKSPACE_TOO_SMALL || status === ARGUMENT) throw new RangeError("the course is too long");
     throw new MicrotinError(status);
   }
@@ -278,12 +278,12 @@ export class Pack {
   async #give(piece) {
     const instance = this.#instance;
     const { results, calls } = instance;
-    calls.microtin_pack_wanted(this.#pack, results, results + 8, results + 12);
+    calls.microtin_pack_next_read(this.#pack, results, results + 8, results + 12);
     const offset = Number(instance.view.getBigUint64(results, true));
     const [buffer, size] = [instance.result(2), instance.result(3)];
     const bytes = this.#source.known(offset, size) ??
       await this.#source.read(offset, Math.min(calls.stream_end(this.#pack), offset + piece));
     instance.put(buffer, bytes.subarray(0, size));
-    calls.microtin_pack_given(this.#pack, Math.min(bytes.length, size));
+    calls.microtin_pack_complete_read(this.#pack, Math.min(bytes.length, size));
   }
 }

@@ -10,7 +10,7 @@ const STATUSES = {
   21: ["TRUNCATED", "ends too early"],
   25: ["IO", "reading failed"],
 };
-export const DONE = 0, NEED_INPUT = 1, STEP_LIMIT = 2;
+export const OK = 0, NEED_INPUT = 1, STEP_LIMIT = 2;
 export const TOO_BIG = 18, CHECKSUM = 19, TRUNCATED = 21, WORKSPACE_TOO_SMALL = 23, ARGUMENT = 24, IO = 25, BAD_TILES = 26;
 
 export class MicrotinError extends Error {

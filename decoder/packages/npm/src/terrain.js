@@ -4,12 +4,12 @@
 import { checkBytes } from "./check.js";
 import { axesAt, canHold, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
-import { DONE, IO, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED } from "./status.js";
+import { OK, IO, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED } from "./status.js";
 
 const REAL = 0, VOID = 1;
 const HINT = 64; // in an instance's results: where heights keep theirs, and the height behind it
 const INFO_BYTES = 96, INFO_VERTICES = 0, INFO_HEADER_BYTES = 4, INFO_AXES = 16, INFO_MESH_BYTES = 88,
-  INFO_DECODER_BYTES = 92; // where they are in microtin_info
+  INFO_DECODER_BYTES = 92; // where they are in microtin_stream_info
 const CHUNK = 65536;
 const STEPS = 1 << 16;
 const MOST = 65535; // steps of a stream's lattice
@@ -18,7 +18,7 @@ const MOST_EMPTY = 1 << 16; // pieces of no bytes, one after another
 // Vertices and triangles of a mesh, 0 if there is none, whose lattice begins at (x0, y0) of the axes'.
 export function meshArrays(instance, mesh, axes, x0 = 0, y0 = 0) {
   const { calls } = instance;
-  const count = mesh && calls.microtin_vertex_count(mesh);
+  const count = mesh && calls.microtin_mesh_vertex_count(mesh);
   const positions = new Float32Array(3 * count);
   instance.borrow(12 * count, (at) => {
     if (count) calls.vertices(mesh, at);
@@ -64,7 +64,7 @@ export class Terrain {
   }
 
   get vertexCount() {
-    return this.#instance.calls.microtin_vertex_count(this.#mesh);
+    return this.#instance.calls.microtin_mesh_vertex_count(this.#mesh);
   }
   get origin() {
     return this.#now.origin;
@@ -79,7 +79,7 @@ export class Terrain {
     return this.#now.voids;
   }
   get digest() {
-    return BigInt.asUintN(64, this.#instance.calls.microtin_digest(this.#mesh));
+    return BigInt.asUintN(64, this.#instance.calls.microtin_mesh_digest(this.#mesh));
   }
 
   heightAt(x, y) {
@@ -87,7 +87,7 @@ export class Terrain {
     const { axes } = this.header;
     const [i, j] = [toLattice(axes.x, MOST, x), toLattice(axes.y, MOST, y)];
     if (Number.isNaN(i + j)) return NaN;
-    const answer = calls.microtin_height_at(this.#mesh, i, j, 0, results + HINT, results + HINT + 4);
+    const answer = calls.microtin_mesh_height_at(this.#mesh, i, j, 0, results + HINT, results + HINT + 4);
     return answer ? NaN : axes.z.start + (view.getInt32(results + HINT + 4, true) / 65536) * axes.z.step;
   }
 }
@@ -152,10 +152,10 @@ export class Decoder {
     const at = instance.reserve(head.length);
     const info = instance.reserve(INFO_BYTES);
     instance.put(at, head);
-    const status = instance.calls.microtin_peek_32(at, head.length, info);
+    const status = instance.calls.microtin_read_stream_info_32(at, head.length, info);
     if (status > NEED_INPUT) throw new MicrotinError(status);
     const number = (place) => instance.view.getUint32(info + place, true);
-    const isEnough = status === DONE && canHold(head.length - number(INFO_HEADER_BYTES), number(INFO_VERTICES));
+    const isEnough = status === OK && canHold(head.length - number(INFO_HEADER_BYTES), number(INFO_VERTICES));
     if (isEnough) this.#layOut(info, notesAt(instance, at, head.length), start);
     else instance.end = start;
     return isEnough;
@@ -206,7 +206,7 @@ export class Decoder {
       this.#waiting.shift();
       this.#used = 0;
     }
-    const done = status === DONE;
+    const done = status === OK;
     if (!done && calls.verified_vertices(this.#mesh) === verified) return false;
     this.#show(this.terrain, done);
     return true;
