@@ -411,8 +411,8 @@ microtin_status microtin_compactor_init(void* workspace, size_t size, microtin_m
   return MICROTIN_STATUS_OK;
 }
 
-microtin_status microtin_compactor_run(microtin_compactor* compactor, uint32_t step_limit,
-                                       microtin_compact** compact) {
+microtin_status microtin_compactor_run(microtin_compactor* compactor, microtin_compact** compact,
+                                       uint32_t step_limit) {
   if (compactor == nullptr || compact == nullptr) return MICROTIN_STATUS_ARGUMENT;
   Compactor& c = *compactor;
   *compact = nullptr;

@@ -26,7 +26,7 @@ microtin_status store(microtin_pack& p, uint32_t step_limit) {
   const uint32_t most = 0xFFFFFFFFu / kItemsOfStep;
   microtin_compact* compact = nullptr;
   const microtin_status status = microtin_compactor_run(
-      p.compactor, (step_limit < most ? step_limit : most) * kItemsOfStep, &compact);
+      p.compactor, &compact, (step_limit < most ? step_limit : most) * kItemsOfStep);
   if (status == MICROTIN_STATUS_STEP_LIMIT) return status;
   if (status != MICROTIN_STATUS_OK) return refuse_tile(p, MICROTIN_STATUS_TOO_BIG);
   if (!is_as_stated(p.header, *compact)) return refuse_tile(p, MICROTIN_STATUS_MALFORMED);
@@ -53,8 +53,8 @@ microtin_status microtin_compact_pack_init(void* workspace, size_t size, uint32_
 
 microtin_status microtin_compact_pack_load(microtin_pack* pack, const microtin_segment* course,
                                            uint32_t step_limit) {
-  if (pack == nullptr || course == nullptr || pack->work == nullptr)
-    return MICROTIN_STATUS_ARGUMENT;
+  if (pack == nullptr || course == nullptr) return MICROTIN_STATUS_ARGUMENT;
+  if (pack->work == nullptr) return MICROTIN_STATUS_WRONG_PACK_KIND;
   microtin_status status = MICROTIN_STATUS_OK;
   while (status == MICROTIN_STATUS_OK ||
          (status == MICROTIN_STATUS_STEP_LIMIT && step_limit == 0)) {

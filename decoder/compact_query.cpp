@@ -150,8 +150,8 @@ void microtin_compact_axes(const microtin_compact* compact, microtin_axis* x, mi
 }
 
 microtin_query_result microtin_compact_height_at(const microtin_compact* compact, int32_t x,
-                                                 int32_t y, uint32_t step_limit, uint32_t* hint,
-                                                 int32_t* height) {
+                                                 int32_t y, uint32_t* hint, int32_t* height,
+                                                 uint32_t step_limit) {
   if (!is_on_lattice(x, y)) return MICROTIN_QUERY_OUTSIDE;
   const Ring r = ring_of(compact);
   const FinePoint p = seen_from_box(compact, x, y);

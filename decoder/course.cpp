@@ -6,20 +6,13 @@
 using namespace microtin;
 
 microtin_query_result microtin_mesh_segment_max(const microtin_mesh* mesh,
-                                                const microtin_segment* course, int32_t* height) {
-  microtin_segment_state progress = {};
-  return microtin_mesh_segment_max_limited(mesh, course, 0, &progress, height);
-}
-
-microtin_query_result microtin_mesh_segment_max_limited(const microtin_mesh* mesh,
-                                                        const microtin_segment* course,
-                                                        uint32_t step_limit,
-                                                        microtin_segment_state* progress,
-                                                        int32_t* height) {
+                                                const microtin_segment* segment,
+                                                microtin_segment_state* state, int32_t* height,
+                                                uint32_t step_limit) {
   *height = INT32_MIN;
   const microtin_query_result refusal = refusal_of(*mesh, 0);
   if (refusal != MICROTIN_QUERY_OK) return refusal;
-  return highest_in_terrain(MeshForm(mesh), *course, step_limit, progress, height);
+  return highest_in_terrain(MeshForm(mesh), *segment, state, height, step_limit);
 }
 
 microtin_query_result microtin_mesh_sample_grid(const microtin_mesh* mesh,

@@ -185,7 +185,7 @@ void microtin_decoder_stop_after_phase(microtin_decoder* decoder, uint32_t phase
 }
 
 microtin_status microtin_decoder_feed(microtin_decoder* decoder, const uint8_t* bytes, size_t size,
-                                      uint32_t step_limit, size_t* used) {
+                                      size_t* used, uint32_t step_limit) {
   if (decoder == nullptr || used == nullptr || (bytes == nullptr && size != 0)) {
     return MICROTIN_STATUS_ARGUMENT;
   }

@@ -30,7 +30,7 @@ class MeshForm {
   }
   microtin_query_result height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
                                   int32_t* height) const {
-    return microtin_mesh_height_at_limited(&m_, p.x, p.y, 0, step_limit, hint, height);
+    return microtin_mesh_height_at(&m_, p.x, p.y, hint, height, 0, step_limit);
   }
 
  private:

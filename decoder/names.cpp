@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names for people: of statuses and answers, and the versions.
+// Names of statuses and results for people to read, and the versions.
 #include "microtin/microtin.h"
 #include "shared/format.hpp"
 #include "shared/pack_format.hpp"
@@ -17,9 +17,11 @@ constexpr char kStatuses[][20] MICROTIN_IN_FLASH = {"OK", "NEED_INPUT", "STEP_LI
                                                     "?"};
 constexpr char kErrors[][20] MICROTIN_IN_FLASH = {
     "BAD_MAGIC",  "UNSUPPORTED_VERSION", "TOO_BIG",  "CHECKSUM", "MALFORMED", "TRUNCATED",
-    "MISALIGNED", "WORKSPACE_TOO_SMALL", "ARGUMENT", "IO",       "BAD_TILES", "?"};
-constexpr char kAnswers[][14] MICROTIN_IN_FLASH = {
-    "OK", "OUTSIDE", "VOID", "NOT_LOADED", "UNVERIFIED", "STEP_LIMIT", "BAD_TILE", "?"};
+    "MISALIGNED", "WORKSPACE_TOO_SMALL", "ARGUMENT", "IO",       "BAD_TILES", "OUT_OF_RANGE",
+    "NOT_FOUND",  "WRONG_PACK_KIND",     "?"};
+constexpr char kResults[][16] MICROTIN_IN_FLASH = {"OK",         "OUTSIDE",         "VOID",
+                                                   "NOT_LOADED", "UNVERIFIED",      "STEP_LIMIT",
+                                                   "BAD_TILE",   "WRONG_PACK_KIND", "?"};
 
 template <size_t Count, size_t Bytes>
 const char* entry(const char (&names)[Count][Bytes], int number) {
@@ -64,8 +66,8 @@ const char* microtin_status_name(microtin_status status) {
   return number < kFirstError ? entry(kStatuses, number) : entry(kErrors, number - kFirstError);
 }
 
-const char* microtin_query_result_name(microtin_query_result answer) {
-  return entry(kAnswers, answer);
+const char* microtin_query_result_name(microtin_query_result result) {
+  return entry(kResults, result);
 }
 
 #endif

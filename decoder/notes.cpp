@@ -53,8 +53,8 @@ microtin_status notes_of_pack(const uint8_t* bytes, size_t size, Notes* notes) {
   return MICROTIN_STATUS_OK;
 }
 
-// Makes `notes` the content of the first note of a type, or nothing. Each turn takes three bytes at
-// least.
+// Makes `notes` the content of the first note of a type, if there is one. Each turn takes three
+// bytes at least.
 microtin_status find(uint8_t type, Notes* notes) {
   while (notes->size != 0) {
     if (notes->size < kNoteHeadBytes) return MICROTIN_STATUS_MALFORMED;
@@ -70,8 +70,7 @@ microtin_status find(uint8_t type, Notes* notes) {
     notes->first += size;
     notes->size -= size;
   }
-  notes->first = nullptr;
-  return MICROTIN_STATUS_OK;
+  return MICROTIN_STATUS_NOT_FOUND;
 }
 
 }  // namespace

@@ -241,7 +241,7 @@ microtin_status handle_stream(microtin_pack& p) {
 }
 
 // Handles what is in the buffer, if it is complete. OK: a tile is ready, or refused, or lacks a
-// slot; STOPPED: it is to be made compact, and who cannot tells that.
+// slot; STOPPED: the tile is decoded, and a pack with compact slots must make it compact.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status handle(microtin_pack& p) {
   if (p.buffered < p.wanted) return MICROTIN_STATUS_NEED_INPUT;
   switch (p.stage) {
@@ -487,6 +487,7 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector) 
 microtin_status microtin_pack_load(microtin_pack* pack, const microtin_segment* course,
                                    uint32_t step_limit) {
   if (pack == nullptr || course == nullptr) return MICROTIN_STATUS_ARGUMENT;
+  if (pack->work != nullptr) return MICROTIN_STATUS_WRONG_PACK_KIND;
   microtin_status status = MICROTIN_STATUS_OK;
   while (status == MICROTIN_STATUS_OK) {
     status = go_on(*pack, *course);
@@ -514,11 +515,14 @@ void microtin_pack_complete_read(microtin_pack* pack, int32_t taken) {
   pack->next += static_cast<uint32_t>(taken);
 }
 
-int microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile, uint32_t* why) {
-  if (i >= MICROTIN_PACK_MAX_BAD_TILES || pack->bad[i].is_empty()) return 0;
+microtin_status microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, uint32_t* tile,
+                                       uint32_t* why) {
+  if (i >= MICROTIN_PACK_MAX_BAD_TILES || pack->bad[i].is_empty()) {
+    return MICROTIN_STATUS_NOT_FOUND;
+  }
   *tile = pack->bad[i].tile;
   *why = pack->bad[i].why;
-  return 1;
+  return MICROTIN_STATUS_OK;
 }
 
 void microtin_pack_clear_bad_tiles(microtin_pack* pack) {

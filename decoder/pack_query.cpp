@@ -7,28 +7,30 @@
 
 using namespace microtin;
 
-int microtin_pack_get_info(const microtin_pack* pack, microtin_pack_info* info) {
-  if (!pack->has_header) return 0;
+microtin_status microtin_pack_get_info(const microtin_pack* pack, microtin_pack_info* info) {
+  if (!pack->has_header) return MICROTIN_STATUS_NEED_INPUT;
   const PackHeader& header = pack->header;
   info->x_max = header.grid.x_max;
   info->y_max = header.grid.y_max;
   info->tile_width = header.grid.width;
   info->tile_height = header.grid.height;
-  info->most_vertices = header.most_vertices;
-  info->compact_bytes = header.compact_bytes;
+  info->max_tile_vertices = header.most_vertices;
+  info->max_compact_bytes = header.compact_bytes;
   info->lowest = header.lowest;
   info->highest = header.highest;
   put_axes(pack->axis, info);
-  return 1;
+  return MICROTIN_STATUS_OK;
 }
 
-int microtin_pack_axis_to_lattice(const microtin_axis* axis, uint32_t most, int64_t value,
-                                  uint32_t per_unit, int64_t* lattice) {
-  if (axis->numerator >> 30 != 0 || most > kPackExtentMost) return 0;  // their product: < 2^61
+microtin_status microtin_pack_axis_to_lattice(const microtin_axis* axis, uint32_t most,
+                                              int64_t value, uint32_t per_unit, int64_t* lattice) {
+  if (axis->numerator >> 30 != 0 || most > kPackExtentMost) {  // their product: < 2^61
+    return MICROTIN_STATUS_OUT_OF_RANGE;
+  }
   const int64_t found = half_steps(*axis, most, value, per_unit);
-  if (found < 0) return 0;
+  if (found < 0) return MICROTIN_STATUS_OUT_OF_RANGE;
   *lattice = rounded_steps(found);
-  return 1;
+  return MICROTIN_STATUS_OK;
 }
 
 microtin_query_result microtin_pack_height_at(const microtin_pack* pack, int64_t x, int64_t y,

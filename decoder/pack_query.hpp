@@ -97,7 +97,8 @@ microtin_query_result answer_of_tile(const microtin_pack& p, const TouchedTiles&
 template <class Form>
 microtin_query_result height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
                                      int32_t* height) {
-  if (!p.has_header || (p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_NOT_LOADED;
+  if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
+  if (!p.has_header) return MICROTIN_QUERY_NOT_LOADED;
   if (!is_inside(p, x, y)) return MICROTIN_QUERY_OUTSIDE;
   microtin_query_result answer = MICROTIN_QUERY_VOID;
   const microtin_segment here = {x, y, x, y};
@@ -122,7 +123,9 @@ microtin_query_result highest_in_pack(const microtin_pack& p, const microtin_seg
         return height_in_pack<Form>(p, x, y, hint, end);
       },
       &highest);
-  if (answer == MICROTIN_QUERY_NOT_LOADED) return answer;
+  if (answer == MICROTIN_QUERY_NOT_LOADED || answer == MICROTIN_QUERY_WRONG_PACK_KIND) {
+    return answer;
+  }
   for (TouchedTiles tiles(p.header.grid, course); !tiles.at_end(); tiles.next()) {
     answer = worse(answer, answer_of_tile<Form>(p, tiles, course, &highest));
     if (answer == MICROTIN_QUERY_NOT_LOADED) return answer;

@@ -46,7 +46,7 @@ microtin_status hear_decoder(microtin_pack& p, microtin_status status);
 MICROTIN_IN_PLACE inline microtin_status decode(microtin_pack& p, uint32_t step_limit) {
   size_t used = 0;
   const microtin_status status = microtin_decoder_feed(
-      p.decoder, p.buffer + p.fed, static_cast<size_t>(p.buffered - p.fed), step_limit, &used);
+      p.decoder, p.buffer + p.fed, static_cast<size_t>(p.buffered - p.fed), &used, step_limit);
   p.fed = static_cast<uint8_t>(p.fed + used);
   return status == MICROTIN_STATUS_STEP_LIMIT ? status : hear_decoder(p, status);
 }

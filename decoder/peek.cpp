@@ -42,8 +42,8 @@ microtin_status microtin_read_stream_info(const uint8_t* bytes, size_t size,
   if (!legal || read != MICROTIN_STATUS_OK) return legal ? read : MICROTIN_STATUS_MALFORMED;
   info->vertices = contract.vertices;
   info->version = kVersion;
-  info->degree = static_cast<uint8_t>(contract.degree);
-  info->decoding = static_cast<uint8_t>(contract.decoding);
+  info->max_degree = static_cast<uint8_t>(contract.degree);
+  info->coding = static_cast<uint8_t>(contract.decoding);
   info->has_heights = contract.has_heights;
   info->has_voids = contract.has_voids;
   put_axes(axis, info);

@@ -64,14 +64,8 @@ uint64_t microtin_mesh_digest(const microtin_mesh* mesh) {
 }
 
 microtin_query_result microtin_mesh_height_at(const microtin_mesh* mesh, int32_t x, int32_t y,
-                                              uint32_t flags, uint32_t* hint, int32_t* height) {
-  return microtin_mesh_height_at_limited(mesh, x, y, flags, 0, hint, height);
-}
-
-microtin_query_result microtin_mesh_height_at_limited(const microtin_mesh* mesh, int32_t x,
-                                                      int32_t y, uint32_t flags,
-                                                      uint32_t step_limit, uint32_t* hint,
-                                                      int32_t* height) {
+                                              uint32_t* hint, int32_t* height, uint32_t flags,
+                                              uint32_t step_limit) {
   const Mesh& m = mesh->mesh;
   const microtin_query_result refusal = refusal_of(*mesh, flags);
   if (refusal != MICROTIN_QUERY_OK) return refusal;
@@ -95,11 +89,11 @@ void microtin_mesh_axes(const microtin_mesh* mesh, microtin_axis* x, microtin_ax
   *z = known[2];
 }
 
-int microtin_axis_to_lattice(const microtin_axis* axis, int64_t value, uint32_t per_unit,
-                             int32_t* lattice) {
+microtin_status microtin_axis_to_lattice(const microtin_axis* axis, int64_t value,
+                                         uint32_t per_unit, int32_t* lattice) {
   // Numerators are below 2^40.
   const int64_t found = half_steps(*axis, kLatticeMax, value, per_unit);
-  if (found < -1) return 0;
+  if (found < -1) return MICROTIN_STATUS_OUT_OF_RANGE;
   *lattice = static_cast<int32_t>(rounded_steps(found));
-  return 1;
+  return MICROTIN_STATUS_OK;
 }

@@ -50,16 +50,18 @@ bool real_value(const microtin_axis& axis, int64_t place, int bits, uint32_t per
 
 using namespace microtin;
 
-int microtin_axis_from_lattice(const microtin_axis* axis, int64_t lattice, uint32_t per_unit,
-                               int64_t* value) {
-  return real_value(*axis, lattice, 8, per_unit, value) ? 1 : 0;
+microtin_status microtin_axis_from_lattice(const microtin_axis* axis, int64_t lattice,
+                                           uint32_t per_unit, int64_t* value) {
+  return real_value(*axis, lattice, 8, per_unit, value) ? MICROTIN_STATUS_OK
+                                                        : MICROTIN_STATUS_OUT_OF_RANGE;
 }
 
-int microtin_axis_height(const microtin_axis* z, int32_t height, uint32_t per_unit,
-                         int32_t* value) {
+microtin_status microtin_axis_height(const microtin_axis* z, int32_t height, uint32_t per_unit,
+                                     int32_t* value) {
   int64_t found = 0;
-  if (!real_value(*z, height, 16, per_unit, &found)) return 0;
-  if (found != static_cast<int32_t>(found)) return 0;
+  if (!real_value(*z, height, 16, per_unit, &found) || found != static_cast<int32_t>(found)) {
+    return MICROTIN_STATUS_OUT_OF_RANGE;
+  }
   *value = static_cast<int32_t>(found);
-  return 1;
+  return MICROTIN_STATUS_OK;
 }

@@ -30,7 +30,7 @@ class RingForm {
   }
   microtin_query_result height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
                                   int32_t* height) const {
-    return microtin_compact_height_at(c_, p.x, p.y, step_limit, hint, height);
+    return microtin_compact_height_at(c_, p.x, p.y, hint, height, step_limit);
   }
 
  private:

@@ -45,8 +45,10 @@ void walk_to_end(const Form& form, const microtin_segment& course, uint32_t step
 // Hulls are convex: a course leaves them only if it ends outside.
 template <class Form>
 microtin_query_result highest_in_terrain(const Form& form, const microtin_segment& course,
-                                         uint32_t step_limit, microtin_segment_state* done,
-                                         int32_t* height) {
+                                         microtin_segment_state* state, int32_t* height,
+                                         uint32_t step_limit) {
+  microtin_segment_state own = {};  // without a limit a call needs no state
+  microtin_segment_state* const done = state != nullptr ? state : &own;
   *height = INT32_MIN;
   if (!is_on_lattice(course.x, course.y) || !is_on_lattice(course.x_end, course.y_end)) {
     return MICROTIN_QUERY_OUTSIDE;

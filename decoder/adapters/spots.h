@@ -37,9 +37,9 @@ static inline microtin_status microtin_spots_load(microtin_spots* s, uint32_t st
   microtin_status status;
   if (s->has_info && !s->is_wished) return MICROTIN_STATUS_OK;
   status =
-      microtin_pack_load_with(s->pack, s->has_info ? &s->wish : &origin, step_limit, read, context);
+      microtin_pack_load_with(s->pack, s->has_info ? &s->wish : &origin, read, context, step_limit);
   if (!s->has_info) {
-    if (microtin_pack_get_info(s->pack, &s->info)) {
+    if (microtin_pack_get_info(s->pack, &s->info) == MICROTIN_STATUS_OK) {
       __atomic_signal_fence(__ATOMIC_SEQ_CST); /* no question sees half of it */
       s->has_info = 1;
     }
@@ -53,7 +53,8 @@ static inline microtin_status microtin_spots_load(microtin_spots* s, uint32_t st
 }
 
 static inline int microtin_spots_column(const microtin_spots* s, int64_t longitude, int64_t* x) {
-  return microtin_pack_axis_to_lattice(&s->info.x, s->info.x_max, longitude, 10000000, x);
+  return microtin_pack_axis_to_lattice(&s->info.x, s->info.x_max, longitude, 10000000, x) ==
+         MICROTIN_STATUS_OK;
 }
 
 /* Lattice coordinates with 8 fractional bits, also in a pack that names longitudes a turn farther
@@ -65,7 +66,8 @@ static inline int microtin_spots_place(const microtin_spots* s, microtin_spot at
          (microtin_spots_column(s, at.longitude, x) ||
           microtin_spots_column(s, at.longitude + turn, x) ||
           microtin_spots_column(s, at.longitude - turn, x)) &&
-         microtin_pack_axis_to_lattice(&s->info.y, s->info.y_max, at.latitude, 10000000, y);
+         microtin_pack_axis_to_lattice(&s->info.y, s->info.y_max, at.latitude, 10000000, y) ==
+             MICROTIN_STATUS_OK;
 }
 
 /* Wishes for what lies between two places, or for the first, unless something is wished already. */

@@ -16,12 +16,12 @@
 #define PACK_BYTES MICROTIN_COMPACT_PACK_BYTES(SLOTS, CAPACITY, TILE_BYTES)
 #define pack_init(space, pack) \
   microtin_compact_pack_init(space, sizeof(space), SLOTS, CAPACITY, TILE_BYTES, pack)
-#define pack_service microtin_compact_pack_load_with
+#define load_with microtin_compact_pack_load_with
 #define pack_height_at microtin_compact_pack_height_at
 #else
 #define PACK_BYTES MICROTIN_PACK_BYTES(SLOTS, CAPACITY)
 #define pack_init(space, pack) microtin_pack_init(space, sizeof(space), SLOTS, CAPACITY, pack)
-#define pack_service microtin_pack_load_with
+#define load_with microtin_pack_load_with
 #define pack_height_at microtin_pack_height_at
 #endif
 
@@ -118,7 +118,7 @@ static void wait_for_answer(void) {
  * did not answer: the vehicle flies on by the tiles that are there. 0: it is no pack. */
 static int serve(const microtin_segment* course, struct card* card, uint32_t* failures) {
   for (;;) {
-    switch (pack_service(pack, course, STEPS, read_card, card)) {
+    switch (load_with(pack, course, STEPS, read_card, card)) {
       case MICROTIN_STATUS_OK:
       case MICROTIN_STATUS_BAD_TILES:
         return 1;
@@ -144,7 +144,8 @@ static void say(const char* what, uint32_t number) {
 static void report(const struct card* card, uint32_t failures) {
   uint32_t i, tile, why;
   for (i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
-    if (microtin_pack_bad_tile(pack, i, &tile, &why)) say("damaged: tile ", tile);
+    if (microtin_pack_bad_tile(pack, i, &tile, &why) == MICROTIN_STATUS_OK)
+      say("damaged: tile ", tile);
   }
   say("turns without a card: ", failures);
   say("heights that changed: ", vehicle.wrong);
@@ -168,7 +169,7 @@ int firmware_main(void) {
   go_to(&origin);
   start_ticks(on_tick);
   if (!serve(&origin, &card, &failures)) return 3;
-  if (!microtin_pack_get_info(pack, &info)) return 4;
+  if (microtin_pack_get_info(pack, &info) != MICROTIN_STATUS_OK) return 4;
   for (i = 0; i < FLIGHT_PLACES; ++i) {
     const microtin_segment course = flight_course(i, &info);
     go_to(&course);

@@ -18,13 +18,14 @@ int firmware_main(void) {
   if (microtin_mesh_init(mesh_space, sizeof mesh_space, &mesh) != MICROTIN_STATUS_OK ||
       microtin_decoder_init(decoder_space, sizeof decoder_space, mesh, &decoder) !=
           MICROTIN_STATUS_OK ||
-      microtin_decoder_feed(decoder, terrain_stream, sizeof terrain_stream, 0, &used) !=
+      microtin_decoder_feed(decoder, terrain_stream, sizeof terrain_stream, &used, 0) !=
           MICROTIN_STATUS_OK) {
     return 1;
   }
   microtin_mesh_axes(mesh, &x, &y, &z);
-  if (microtin_mesh_height_at(mesh, 32 * 256, 32 * 256, 0, &hint, &height) != MICROTIN_QUERY_OK ||
-      !microtin_axis_height(&z, height, 1000, &millimetres)) {
+  if (microtin_mesh_height_at(mesh, 32 * 256, 32 * 256, &hint, &height, 0, 0) !=
+          MICROTIN_QUERY_OK ||
+      microtin_axis_height(&z, height, 1000, &millimetres) != MICROTIN_STATUS_OK) {
     return 1;
   }
   print_number((int32_t)microtin_mesh_vertex_count(mesh));

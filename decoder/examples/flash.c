@@ -15,7 +15,7 @@ static microtin_status decode(microtin_decoder* decoder, int32_t* pieces) {
   microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
   for (*pieces = 0; status == MICROTIN_STATUS_STEP_LIMIT; ++*pieces) {
     size_t used;
-    status = microtin_decoder_feed(decoder, next, left, 200, &used);
+    status = microtin_decoder_feed(decoder, next, left, &used, 200);
     next += used;
     left -= used;
     /* Other tasks have their turn here. */
@@ -30,11 +30,11 @@ static int height_at(const microtin_mesh* mesh, int32_t longitude, int32_t latit
   microtin_axis x, y, z;
   int32_t place_x, place_y, steps;
   microtin_mesh_axes(mesh, &x, &y, &z);
-  if (!microtin_axis_to_lattice(&x, longitude, 10000000, &place_x)) return 0;
-  if (!microtin_axis_to_lattice(&y, latitude, 10000000, &place_y)) return 0;
-  if (microtin_mesh_height_at(mesh, place_x, place_y, 0, &hint, &steps) != MICROTIN_QUERY_OK)
+  if (microtin_axis_to_lattice(&x, longitude, 10000000, &place_x) != MICROTIN_STATUS_OK) return 0;
+  if (microtin_axis_to_lattice(&y, latitude, 10000000, &place_y) != MICROTIN_STATUS_OK) return 0;
+  if (microtin_mesh_height_at(mesh, place_x, place_y, &hint, &steps, 0, 0) != MICROTIN_QUERY_OK)
     return 0;
-  return microtin_axis_height(&z, steps, 1000, height);
+  return microtin_axis_height(&z, steps, 1000, height) == MICROTIN_STATUS_OK;
 }
 
 int firmware_main(void) {

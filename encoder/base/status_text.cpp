@@ -36,6 +36,12 @@ const char* describe(microtin_status status) {
       return "reading failed";
     case MICROTIN_STATUS_BAD_TILES:
       return "bad tiles";
+    case MICROTIN_STATUS_OUT_OF_RANGE:
+      return "a number out of range";
+    case MICROTIN_STATUS_NOT_FOUND:
+      return "not found";
+    case MICROTIN_STATUS_WRONG_PACK_KIND:
+      return "a pack with slots of the other kind";
     case MICROTIN_STATUS_REJECTED:
       return "rejected";
     case MICROTIN_STATUS_NO_MEMORY:

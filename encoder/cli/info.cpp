@@ -170,7 +170,7 @@ JsonObject report_of(DecodedStream& stream) {
                        {"bytes", json(bytes)},
                        {"bits_per_vertex", json(bits_per_vertex(bytes, vertices))},
                        {"phases", json(terrain.phases())},
-                       {"degree", json(header.info.degree)},
+                       {"degree", json(header.info.max_degree)},
                        {"decoding", json(stream::name_of(header.contract.decoding))},
                        {"compact_bytes", json(compact_bytes(terrain))},
                        {"workspace_bytes_16", workspace_bytes_16(vertices)},

@@ -14,8 +14,8 @@ namespace {
 bool answers(const microtin_mesh* mesh, const TileBox& box, GlobalPost place, uint32_t* hint) {
   int32_t height = 0;
   return microtin_mesh_height_at(mesh, static_cast<int32_t>(place.x - box.x) * 256,
-                                 static_cast<int32_t>(place.y - box.y) * 256, 0, hint,
-                                 &height) == MICROTIN_QUERY_OK;
+                                 static_cast<int32_t>(place.y - box.y) * 256, hint, &height, 0,
+                                 0) == MICROTIN_QUERY_OK;
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster&
     const bool covered =
         mesh != nullptr && z != kVoidHeight &&
         microtin_mesh_height_at(mesh, static_cast<int32_t>(x * 256), static_cast<int32_t>(y * 256),
-                                0, &hint, &height) == MICROTIN_QUERY_OK;
+                                &hint, &height, 0, 0) == MICROTIN_QUERY_OK;
     if (z == kVoidHeight || covered) return;
     posts.push_back({box.x + static_cast<uint32_t>(x), box.y + static_cast<uint32_t>(y)});
   });

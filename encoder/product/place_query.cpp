@@ -85,14 +85,14 @@ void AskedPack::lay_out(uint32_t slots, uint32_t capacity) {
 
 microtin_status AskedPack::serve(int64_t x, int64_t y) {
   const microtin_segment course = {x, y, x, y};
-  return microtin_pack_load_with(pack_, &course, 0, read_source, bytes_.get());
+  return microtin_pack_load_with(pack_, &course, read_source, bytes_.get(), 0);
 }
 
 AskedPack::AskedPack(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {
   lay_out(1, 3);
   const microtin_status status = serve(-1, -1);  // outside: the header alone is read
-  if (microtin_pack_get_info(pack_, &info_) == 0) expect_header(status);
-  lay_out(kSlots, std::clamp(info_.most_vertices, 3u, kUsualCapacity));
+  if (microtin_pack_get_info(pack_, &info_) != MICROTIN_STATUS_OK) expect_header(status);
+  lay_out(kSlots, std::clamp(info_.max_tile_vertices, 3u, kUsualCapacity));
 }
 
 // The vertices of the largest tile that was refused for want of room, as its stream says. A tile of
@@ -100,8 +100,11 @@ AskedPack::AskedPack(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes
 uint32_t AskedPack::wanted_capacity(const PackFile& file) const {
   uint32_t most = 0, tile = 0, why = 0;
   for (int i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
-    if (microtin_pack_bad_tile(pack_, static_cast<uint32_t>(i), &tile, &why) == 0) continue;
-    if (why != MICROTIN_STATUS_TOO_BIG) continue;
+    if (microtin_pack_bad_tile(pack_, static_cast<uint32_t>(i), &tile, &why) !=
+            MICROTIN_STATUS_OK ||
+        why != MICROTIN_STATUS_TOO_BIG) {
+      continue;
+    }
     try {
       most = std::max(most, file.vertices(tile));
     } catch (const Error&) {
@@ -204,12 +207,12 @@ ExactAnswer PlaceQuery::device_height_at(Decimal x, Decimal y, bool on_lattice) 
 microtin_query_result PlaceQuery::stream_height_at(const Placement& place, Decimal x, Decimal y,
                                                    int32_t* height) {
   int32_t column = 0, row = 0;
-  if (microtin_axis_to_lattice(&place.x, x.mantissa, parts_of(x), &column) == 0 ||
-      microtin_axis_to_lattice(&place.y, y.mantissa, parts_of(y), &row) == 0) {
+  if (microtin_axis_to_lattice(&place.x, x.mantissa, parts_of(x), &column) != MICROTIN_STATUS_OK ||
+      microtin_axis_to_lattice(&place.y, y.mantissa, parts_of(y), &row) != MICROTIN_STATUS_OK) {
     return MICROTIN_QUERY_OUTSIDE;
   }
-  return microtin_mesh_height_at(std::get<DecodedStream>(content_).terrain.mesh(), column, row, 0,
-                                 &hint_, height);
+  return microtin_mesh_height_at(std::get<DecodedStream>(content_).terrain.mesh(), column, row,
+                                 &hint_, height, 0, 0);
 }
 
 microtin_query_result PlaceQuery::pack_height_at(const Placement& place, Decimal x, Decimal y,
@@ -217,8 +220,10 @@ microtin_query_result PlaceQuery::pack_height_at(const Placement& place, Decimal
   Pack& pack = std::get<Pack>(content_);
   const microtin_pack_info& info = pack.device.info();
   int64_t column = 0, row = 0;
-  if (microtin_pack_axis_to_lattice(&place.x, info.x_max, x.mantissa, parts_of(x), &column) == 0 ||
-      microtin_pack_axis_to_lattice(&place.y, info.y_max, y.mantissa, parts_of(y), &row) == 0) {
+  if (microtin_pack_axis_to_lattice(&place.x, info.x_max, x.mantissa, parts_of(x), &column) !=
+          MICROTIN_STATUS_OK ||
+      microtin_pack_axis_to_lattice(&place.y, info.y_max, y.mantissa, parts_of(y), &row) !=
+          MICROTIN_STATUS_OK) {
     return MICROTIN_QUERY_OUTSIDE;
   }
   return pack.device.height_at(column, row, *pack.file, height);

@@ -45,7 +45,7 @@ struct Making {
   microtin_status run(microtin_mesh* mesh) {
     expect(microtin_compactor_init(space.data(), space.size() * 8, mesh, scratch.data(),
                                    scratch.size() * 8, &compactor) == MICROTIN_STATUS_OK);
-    return microtin_compactor_run(compactor, 0, &compact);
+    return microtin_compactor_run(compactor, &compact, 0);
   }
 };
 

@@ -32,7 +32,7 @@ DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream) {
   microtin_decoder* decoder = nullptr;
   expect_done(microtin_decoder_init(working.data(), working.size() * 8, mesh_, &decoder));
   size_t used = 0;
-  microtin_decoder_feed(decoder, stream.data(), stream.size(), 0, &used);
+  microtin_decoder_feed(decoder, stream.data(), stream.size(), &used, 0);
   expect_done(microtin_decoder_finish(decoder));
   if (used != stream.size()) {
     throw Error(std::to_string(stream.size() - used) + " bytes follow the end of the stream");

@@ -110,9 +110,9 @@ ExactAnswer exact_answer(const microtin_mesh* mesh, const RealPlace& place, uint
       return {MICROTIN_QUERY_OK, seen.height()};
   }
   int32_t rounded = 0;
-  const microtin_query_result near = microtin_mesh_height_at_limited(
+  const microtin_query_result near = microtin_mesh_height_at(
       mesh, nearest_256th(place.x, place.x_part, place.parts),
-      nearest_256th(place.y, place.y_part, place.parts), 0, step_limit, hint, &rounded);
+      nearest_256th(place.y, place.y_part, place.parts), hint, &rounded, 0, step_limit);
   if (near != MICROTIN_QUERY_OK && near != MICROTIN_QUERY_OUTSIDE && near != MICROTIN_QUERY_VOID) {
     return {near, {0, 0, 1}};
   }

@@ -40,7 +40,7 @@ class Asker {
     uint32_t& hint = hint_for(place);
     if (hint == kNowhere) hint = last_;
     const microtin_query_result answer =
-        microtin_mesh_height_at(mesh_, place.x * 256, place.y * 256, 0, &hint, &height);
+        microtin_mesh_height_at(mesh_, place.x * 256, place.y * 256, &hint, &height, 0, 0);
     last_ = hint;
     if (answer != MICROTIN_QUERY_OK) return std::nullopt;
     return height;

@@ -31,7 +31,7 @@ class Device {
   microtin_status decode(const uint8_t* bytes, size_t size) {
     size_t used = 0;
     const microtin_status status =
-        microtin_decoder_feed(decoder, bytes, size, most_steps(decoder->capacity), &used);
+        microtin_decoder_feed(decoder, bytes, size, &used, most_steps(decoder->capacity));
     EXPECT(status != MICROTIN_STATUS_STEP_LIMIT);
     EXPECT(used <= size && microtin_decoder_bytes_used(decoder) <= used);
     if (status == MICROTIN_STATUS_OK) EXPECT(microtin_decoder_bytes_used(decoder) == used);

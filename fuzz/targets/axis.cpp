@@ -37,8 +37,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     known = expected >= 0 && expected <= 65535 * 256;
   }
   int32_t lattice = 0;
-  EXPECT((microtin_axis_to_lattice(&axis, static_cast<int64_t>(value), per_unit, &lattice) != 0) ==
-         known);
+  EXPECT((microtin_axis_to_lattice(&axis, static_cast<int64_t>(value), per_unit, &lattice) ==
+          MICROTIN_STATUS_OK) == known);
   EXPECT(lattice == expected || !known);
   return 0;
 }

@@ -83,7 +83,7 @@ class Cutter {
     const uint32_t limit = cuts_.ConsumeIntegralInRange<uint32_t>(0, most_steps_);
     const uint32_t before = microtin_mesh_vertex_count(device.mesh);
     const microtin_status status =
-        microtin_decoder_feed(device.decoder, piece.data(), size, limit, used);
+        microtin_decoder_feed(device.decoder, piece.data(), size, used, limit);
     EXPECT(*used <= size);
     EXPECT(status != MICROTIN_STATUS_NEED_INPUT || *used == size);
     if (status == MICROTIN_STATUS_STEP_LIMIT) *steps += limit;
@@ -113,7 +113,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   EXPECT(microtin_mesh_digest(pieces.mesh) == microtin_mesh_digest(whole.mesh));
   // Done and errors stay.
   size_t used = 0;
-  EXPECT(microtin_decoder_feed(pieces.decoder, data, size, 0, &used) == status && used == 0);
+  EXPECT(microtin_decoder_feed(pieces.decoder, data, size, &used, 0) == status && used == 0);
   EXPECT(microtin_decoder_finish(pieces.decoder) == status);
   return 0;
 }

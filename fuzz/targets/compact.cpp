@@ -36,7 +36,7 @@ Made make(void* target, size_t size, microtin_mesh* mesh, void* scratch, size_t 
   EXPECT(microtin_compactor_init(target, size, mesh, scratch, scratch_size, &compactor) ==
          MICROTIN_STATUS_OK);
   for (uint32_t i = 0; i < calls && made.status == MICROTIN_STATUS_STEP_LIMIT; ++i) {
-    made.status = microtin_compactor_run(compactor, piece, &made.compact);
+    made.status = microtin_compactor_run(compactor, &made.compact, piece);
   }
   EXPECT(made.status != MICROTIN_STATUS_STEP_LIMIT);
   microtin_compactor_required_bytes(compactor, &made.bytes, &made.scratch_bytes);

@@ -29,7 +29,7 @@ void look_at(const microtin_mesh* mesh) {
     uint32_t hint = 0;
     int32_t height = 0;
     const microtin_query_result answer = microtin_mesh_height_at(
-        mesh, x * 256, y * 256, MICROTIN_FLAG_ALLOW_UNVERIFIED, &hint, &height);
+        mesh, x * 256, y * 256, &hint, &height, MICROTIN_FLAG_ALLOW_UNVERIFIED, 0);
     EXPECT(answer == MICROTIN_QUERY_NOT_LOADED ||
            (answer == MICROTIN_QUERY_OK && height == z * 65536));
   }

@@ -92,20 +92,20 @@ struct Device {
     EXPECT(status == MICROTIN_STATUS_OK);
   }
 
-  microtin_status service(const microtin_segment& course, uint32_t step_limit, microtin_read read,
-                          void* context) const {
-    return is_compact ? microtin_compact_pack_load_with(pack, &course, step_limit, read, context)
-                      : microtin_pack_load_with(pack, &course, step_limit, read, context);
+  microtin_status load_with(const microtin_segment& course, microtin_read read, void* context,
+                            uint32_t step_limit) const {
+    return is_compact ? microtin_compact_pack_load_with(pack, &course, read, context, step_limit)
+                      : microtin_pack_load_with(pack, &course, read, context, step_limit);
   }
   microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return is_compact ? microtin_compact_pack_height_at(pack, x, y, hint, height)
                       : microtin_pack_height_at(pack, x, y, hint, height);
   }
-  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
+  microtin_query_result segment_max(const microtin_segment& course, int32_t* height) const {
     return is_compact ? microtin_compact_pack_segment_max(pack, &course, height)
                       : microtin_pack_segment_max(pack, &course, height);
   }
-  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
+  microtin_query_result sample_grid(const microtin_grid_spec& block, int16_t* heights) const {
     return is_compact ? microtin_compact_pack_sample_grid(pack, &block, heights)
                       : microtin_pack_sample_grid(pack, &block, heights);
   }
@@ -131,8 +131,8 @@ std::optional<int32_t> expected_height(const PackFile& file, uint32_t number, in
     uint32_t hint = 0;
     int32_t height = 0;
     if (microtin_mesh_height_at(tile->mesh(), static_cast<int32_t>(x - int64_t{box.x} * 256),
-                                static_cast<int32_t>(y - int64_t{box.y} * 256), 0, &hint,
-                                &height) == MICROTIN_QUERY_OK) {
+                                static_cast<int32_t>(y - int64_t{box.y} * 256), &hint, &height, 0,
+                                0) == MICROTIN_QUERY_OK) {
       return height;
     }
   } catch (const Error&) {
@@ -163,7 +163,7 @@ void check_fill(const Device& device, const microtin_pack_info& info,
                 const microtin_segment& course) {
   const microtin_grid_spec block = {course.x, course.y, 300, -256, 3, 2, -9999};
   int16_t heights[6];
-  if (device.fill(block, heights) != MICROTIN_QUERY_OK) return;
+  if (device.sample_grid(block, heights) != MICROTIN_QUERY_OK) return;
   const Wide unit = Wide{65536} * static_cast<Wide>(info.z.denominator);
   uint32_t hint = 0;
   for (int i = 0; i < 6; ++i) {
@@ -177,7 +177,8 @@ void check_fill(const Device& device, const microtin_pack_info& info,
 
 void check_to_lattice(const microtin_axis& axis, uint32_t most, int64_t value, uint32_t per_unit) {
   int64_t lattice = 0;
-  if (microtin_pack_axis_to_lattice(&axis, most, value, per_unit, &lattice) == 0) return;
+  if (microtin_pack_axis_to_lattice(&axis, most, value, per_unit, &lattice) != MICROTIN_STATUS_OK)
+    return;
   const Wide parts =
       Wide{value} * static_cast<Wide>(axis.denominator) - Wide{axis.offset} * per_unit;
   EXPECT(lattice == round_divide(parts * 256, static_cast<Wide>(axis.numerator) * per_unit));
@@ -187,7 +188,7 @@ void check_to_lattice(const microtin_axis& axis, uint32_t most, int64_t value, u
 bool remembers_bad_tile(const microtin_pack* pack) {
   uint32_t tile = 0, all = 0, why = MICROTIN_STATUS_OK;
   for (uint32_t i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
-    if (microtin_pack_bad_tile(pack, i, &tile, &why) == 0) continue;
+    if (microtin_pack_bad_tile(pack, i, &tile, &why) != MICROTIN_STATUS_OK) continue;
     ++all;
     EXPECT(why == MICROTIN_STATUS_CHECKSUM || why == MICROTIN_STATUS_MALFORMED ||
            why == MICROTIN_STATUS_TOO_BIG || why == MICROTIN_STATUS_TRUNCATED);
@@ -199,7 +200,7 @@ bool remembers_bad_tile(const microtin_pack* pack) {
 // header is read.
 uint64_t boxes_of_walk(const microtin_pack* pack, const microtin_segment& course) {
   microtin_pack_info info;
-  if (microtin_pack_get_info(pack, &info) == 0) return 0;
+  if (microtin_pack_get_info(pack, &info) != MICROTIN_STATUS_OK) return 0;
   const auto tiles = [](int64_t from, int64_t to, uint32_t most, uint32_t tile_size) {
     const int64_t length = std::min<int64_t>(std::abs(to - from) / 256, most);
     return static_cast<uint64_t>(length) / tile_size + 2;
@@ -217,7 +218,7 @@ void serve(Card& card, const Device& device, const microtin_segment& course, uin
     EXPECT(call < 200000);
     boxes += boxes_of_walk(device.pack, course);
     const uint32_t reads = card.reads;
-    status = device.service(course, step_limit, Card::read, &card);
+    status = device.load_with(course, Card::read, &card, step_limit);
     if (status == MICROTIN_STATUS_IO) {
       EXPECT(card.reads != reads);
       continue;
@@ -237,7 +238,7 @@ void serve(Card& card, const Device& device, const microtin_segment& course, uin
   uint32_t hint = 0;
   const microtin_query_result answer = device.height_at(course.x, course.y, &hint, &height);
   if (status == MICROTIN_STATUS_OK) EXPECT(answer != MICROTIN_QUERY_NOT_LOADED);
-  const microtin_query_result highest = device.highest(course, &height);
+  const microtin_query_result highest = device.segment_max(course, &height);
   if (status == MICROTIN_STATUS_OK) EXPECT(highest != MICROTIN_QUERY_NOT_LOADED);
 }
 
@@ -250,8 +251,8 @@ struct Answers {
   Answers(const Device& device, const microtin_segment& course) {
     uint32_t hint = 0;
     begin = device.height_at(course.x, course.y, &hint, &heights[0]);
-    highest = device.highest(course, &heights[1]);
-    fill = device.fill({course.x, course.y, 300, -256, 3, 2, -9999}, block);
+    highest = device.segment_max(course, &heights[1]);
+    fill = device.sample_grid({course.x, course.y, 300, -256, 3, 2, -9999}, block);
   }
   // Blocks reach beyond the course, to tiles that may be there or not.
   bool operator==(const Answers& other) const {
@@ -271,7 +272,7 @@ void check_forms(const uint8_t* data, size_t size, uint32_t slots,
   Card card{data, size, none};
   for (const microtin_segment& course : courses) {
     const auto is_served = [&](const Device& device) {
-      return device.service(course, 0, Card::read, &card) == MICROTIN_STATUS_OK;
+      return device.load_with(course, Card::read, &card, 0) == MICROTIN_STATUS_OK;
     };
     if (!is_served(meshes) || !is_served(compact)) continue;
     EXPECT(Answers(meshes, course) == Answers(compact, course));
@@ -312,7 +313,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (asked.ConsumeBool()) microtin_pack_clear_bad_tiles(device.pack);
     serve(card, device, course, step_limit);
     if (file) check_height(*file, device, course.x, course.y);
-    if (microtin_pack_get_info(device.pack, &info) == 0) continue;
+    if (microtin_pack_get_info(device.pack, &info) != MICROTIN_STATUS_OK) continue;
     check_fill(device, info, course);
     const int64_t value = asked.ConsumeIntegral<int64_t>();
     check_to_lattice(info.x, info.x_max, value >> asked.ConsumeIntegralInRange(0, 63),

@@ -68,8 +68,8 @@ void check_heights(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataPr
     uint32_t hint = asked.ConsumeIntegral<uint32_t>();
     if (hint % 4 != 0) hint %= microtin_mesh_triangle_count(mesh);
     int32_t height = 0;
-    EXPECT(microtin_mesh_height_at(mesh, p.x, p.y, MICROTIN_FLAG_ALLOW_UNVERIFIED, &hint,
-                                   &height) == expected.kind);
+    EXPECT(microtin_mesh_height_at(mesh, p.x, p.y, &hint, &height, MICROTIN_FLAG_ALLOW_UNVERIFIED,
+                                   0) == expected.kind);
     EXPECT(height == expected.height);
   }
 }
@@ -110,7 +110,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const microtin_mesh* const mesh = device.mesh;
   uint32_t hint = asked.ConsumeIntegral<uint32_t>();
   int32_t height = 0;
-  const microtin_query_result answer = microtin_mesh_height_at(mesh, 0, 0, 0, &hint, &height);
+  const microtin_query_result answer = microtin_mesh_height_at(mesh, 0, 0, &hint, &height, 0, 0);
   if (microtin_mesh_triangle_count(mesh) == 0) {
     EXPECT(answer == MICROTIN_QUERY_NOT_LOADED);
     return 0;

@@ -49,14 +49,14 @@ void check_null_pointers(microtin_mesh* mesh, microtin_decoder* decoder, void* m
   EXPECT(microtin_decoder_init(nullptr, 1000, mesh, &no_decoder) == MICROTIN_STATUS_ARGUMENT);
   EXPECT(microtin_decoder_init(memory, 1000, nullptr, &no_decoder) == MICROTIN_STATUS_ARGUMENT);
   EXPECT(microtin_decoder_init(memory, 1000, mesh, nullptr) == MICROTIN_STATUS_ARGUMENT);
-  EXPECT(microtin_decoder_feed(nullptr, nullptr, 0, 0, &used) == MICROTIN_STATUS_ARGUMENT);
-  EXPECT(microtin_decoder_feed(decoder, nullptr, 0, 0, nullptr) == MICROTIN_STATUS_ARGUMENT);
-  EXPECT(microtin_decoder_feed(decoder, nullptr, 1, 0, &used) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_decoder_feed(nullptr, nullptr, 0, &used, 0) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_decoder_feed(decoder, nullptr, 0, nullptr, 0) == MICROTIN_STATUS_ARGUMENT);
+  EXPECT(microtin_decoder_feed(decoder, nullptr, 1, &used, 0) == MICROTIN_STATUS_ARGUMENT);
   EXPECT(microtin_decoder_finish(nullptr) == MICROTIN_STATUS_ARGUMENT);
   EXPECT(microtin_read_stream_info(nullptr, 1, &info) == MICROTIN_STATUS_ARGUMENT);
   EXPECT(microtin_read_stream_info(nullptr, 0, nullptr) == MICROTIN_STATUS_ARGUMENT);
   EXPECT(microtin_read_stream_info(nullptr, 0, &info) == MICROTIN_STATUS_NEED_INPUT);
-  EXPECT(microtin_decoder_feed(decoder, nullptr, 0, 0, &used) == MICROTIN_STATUS_NEED_INPUT);
+  EXPECT(microtin_decoder_feed(decoder, nullptr, 0, &used, 0) == MICROTIN_STATUS_NEED_INPUT);
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (status != MICROTIN_STATUS_OK) return 0;
   check_null_pointers(mesh, decoder, for_mesh.start());
   size_t used = 0;
-  microtin_decoder_feed(decoder, data, size, 0, &used);
+  microtin_decoder_feed(decoder, data, size, &used, 0);
   status = microtin_decoder_finish(decoder);
   microtin_stream_info info;
   if (microtin_read_stream_info(data, size, &info) != MICROTIN_STATUS_OK) return 0;

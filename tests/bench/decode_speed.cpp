@@ -30,7 +30,7 @@ class Ours {
     microtin_mesh_init(mesh_.data(), mesh_.size() * 8, &mesh);
     microtin_decoder_init(decoder_.data(), decoder_.size() * 8, mesh, &decoder);
     size_t used = 0;
-    microtin_decoder_feed(decoder, stream_.data(), stream_.size(), 0, &used);
+    microtin_decoder_feed(decoder, stream_.data(), stream_.size(), &used, 0);
     if (microtin_decoder_finish(decoder) != MICROTIN_STATUS_OK)
       throw Error("a stream does not decode");
   }

@@ -41,7 +41,7 @@ bool has_range(const microtin_axis& axis, uint32_t per_unit) {
 
 void check_terrain(const microtin_axis& axis, int64_t value, uint32_t per_unit, Asked& asked) {
   int32_t found = -1;
-  const bool known = microtin_axis_to_lattice(&axis, value, per_unit, &found) != 0;
+  const bool known = microtin_axis_to_lattice(&axis, value, per_unit, &found) == MICROTIN_STATUS_OK;
   Wide expected = -1;
   if (has_range(axis, per_unit)) {
     const Wide parts = Wide{value} * Wide(axis.denominator) - Wide{axis.offset} * per_unit;
@@ -55,7 +55,8 @@ void check_terrain(const microtin_axis& axis, int64_t value, uint32_t per_unit, 
 
 void check_pack(const microtin_axis& axis, int64_t value, uint32_t per_unit, Asked& asked) {
   int64_t found = -1;
-  const bool known = microtin_pack_axis_to_lattice(&axis, asked.most, value, per_unit, &found) != 0;
+  const bool known = microtin_pack_axis_to_lattice(&axis, asked.most, value, per_unit, &found) ==
+                     MICROTIN_STATUS_OK;
   Wide parts = -1, expected = -1;
   if (has_range(axis, per_unit) && axis.numerator < kPackNumerators && asked.most <= kPackMost) {
     parts = Wide{value} * Wide(axis.denominator) - Wide{axis.offset} * per_unit;

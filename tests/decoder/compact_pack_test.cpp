@@ -25,13 +25,13 @@ TEST_CASE("compact pack: a tile that goes stays until the next is decoded") {
   const CompactSlots device(1);
   const microtin_segment first = at(grid.width / 2, grid.height / 2),
                          second = at(grid.width * 3 / 2, grid.height / 2);
-  REQUIRE(device.service(card, first) == MICROTIN_STATUS_OK);
+  REQUIRE(device.load(card, first) == MICROTIN_STATUS_OK);
   const int32_t old_height = *expected_height(pack, first.x, first.y),
                 new_height = *expected_height(pack, second.x, second.y);
   microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
   uint32_t with_old = 0, with_none = 0;
   while (status != MICROTIN_STATUS_OK) {
-    status = device.service(card, second, 1);
+    status = device.load(card, second, 1);
     int32_t height = 0;
     const bool has_old = device.height_at(first.x, first.y, height) == MICROTIN_QUERY_OK;
     if (has_old) CHECK(height == old_height);
@@ -55,17 +55,17 @@ TEST_CASE("compact pack: who wants another course meanwhile loses nothing") {
                          both = {first.x, first.y, second.x, second.y};
   for (int calls = 1; calls < 400; calls += 7) {
     const CompactSlots device(1);
-    REQUIRE(device.service(card, first) == MICROTIN_STATUS_OK);
-    for (int i = 0; i < calls; ++i) device.service(card, second, 1);
+    REQUIRE(device.load(card, first) == MICROTIN_STATUS_OK);
+    for (int i = 0; i < calls; ++i) device.load(card, second, 1);
     int32_t height = 0;
     const bool is_there = device.height_at(first.x, first.y, height) == MICROTIN_QUERY_OK;
     const bool is_done = device.height_at(second.x, second.y, height) == MICROTIN_QUERY_OK;
     // A slot that the course needs is not given away, whatever is decoded.
     if (is_there) {
-      CHECK(device.service(card, both) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
+      CHECK(device.load(card, both) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
       CHECK(device.height_at(first.x, first.y, height) == MICROTIN_QUERY_OK);
     }
-    REQUIRE(device.service(card, first) == MICROTIN_STATUS_OK);
+    REQUIRE(device.load(card, first) == MICROTIN_STATUS_OK);
     CHECK(device.height_at(first.x, first.y, height) == MICROTIN_QUERY_OK);
     CHECK(height == *expected_height(pack, first.x, first.y));
     if (is_done) break;
@@ -91,8 +91,7 @@ TEST_CASE("compact pack: slots of what the header says are enough, smaller ones 
       const TileBox box = tile_box(pack.grid(), tile);
       const microtin_segment middle = at(box.x + 1, box.y + 1);
       const bool fits = sizes[tile] <= (size + 7) / 8 * 8;
-      CHECK(device.service(card, middle) ==
-            (fits ? MICROTIN_STATUS_OK : MICROTIN_STATUS_BAD_TILES));
+      CHECK(device.load(card, middle) == (fits ? MICROTIN_STATUS_OK : MICROTIN_STATUS_BAD_TILES));
       CHECK(why_bad(device, tile) == (fits ? MICROTIN_STATUS_OK : MICROTIN_STATUS_TOO_BIG));
     }
   }
@@ -110,7 +109,7 @@ TEST_CASE("compact pack: a tile that takes more than the header says breaks a ru
     uint32_t count = 0;
     for (uint32_t tile = 0; tile < pack.entries().size(); ++tile) {
       const TileBox box = tile_box(pack.grid(), tile);
-      device.service(card, at(box.x + 1, box.y + 1));
+      device.load(card, at(box.x + 1, box.y + 1));
       const microtin_status why = why_bad(device, tile);
       CHECK((why == MICROTIN_STATUS_OK || why == MICROTIN_STATUS_MALFORMED));
       count += why == MICROTIN_STATUS_MALFORMED ? 1u : 0u;
@@ -128,44 +127,46 @@ TEST_CASE("compact pack: each form's functions refuse packs of the other") {
   const MeshSlots mesh(1);
   const CompactSlots compact(1);
   const microtin_segment c = at(3, 3);
-  REQUIRE(mesh.service(card, c) == MICROTIN_STATUS_OK);
-  REQUIRE(compact.service(card, c) == MICROTIN_STATUS_OK);
+  REQUIRE(mesh.load(card, c) == MICROTIN_STATUS_OK);
+  REQUIRE(compact.load(card, c) == MICROTIN_STATUS_OK);
   uint32_t hint = 0;
   int32_t height = 0;
+  const microtin_grid_spec grid = {c.x, c.y, 1, 1, 1, 1, -1};
+  int16_t sample = 0;
   CHECK(microtin_pack_height_at(compact.pack, c.x, c.y, &hint, &height) ==
-        MICROTIN_QUERY_NOT_LOADED);
-  CHECK(microtin_pack_segment_max(compact.pack, &c, &height) == MICROTIN_QUERY_NOT_LOADED);
+        MICROTIN_QUERY_WRONG_PACK_KIND);
+  CHECK(microtin_pack_segment_max(compact.pack, &c, &height) == MICROTIN_QUERY_WRONG_PACK_KIND);
+  CHECK(microtin_pack_sample_grid(compact.pack, &grid, &sample) == MICROTIN_QUERY_WRONG_PACK_KIND);
   CHECK(microtin_compact_pack_height_at(mesh.pack, c.x, c.y, &hint, &height) ==
-        MICROTIN_QUERY_NOT_LOADED);
-  CHECK(microtin_compact_pack_segment_max(mesh.pack, &c, &height) == MICROTIN_QUERY_NOT_LOADED);
-  CHECK(microtin_compact_pack_load(mesh.pack, &c, 0) == MICROTIN_STATUS_ARGUMENT);
+        MICROTIN_QUERY_WRONG_PACK_KIND);
+  CHECK(microtin_compact_pack_segment_max(mesh.pack, &c, &height) ==
+        MICROTIN_QUERY_WRONG_PACK_KIND);
+  CHECK(microtin_compact_pack_sample_grid(mesh.pack, &grid, &sample) ==
+        MICROTIN_QUERY_WRONG_PACK_KIND);
+  CHECK(microtin_pack_load(compact.pack, &c, 0) == MICROTIN_STATUS_WRONG_PACK_KIND);
+  CHECK(microtin_compact_pack_load(mesh.pack, &c, 0) == MICROTIN_STATUS_WRONG_PACK_KIND);
   CHECK(microtin_compact_pack_load(nullptr, &c, 0) == MICROTIN_STATUS_ARGUMENT);
 }
 
-// It can read and decode, but not make compact.
-TEST_CASE("compact pack: the other form's service ends at any moment, and nothing is lost") {
+TEST_CASE("compact pack: the other form's load refuses at any moment, and nothing is lost") {
   Card card{rough_pack()};
   const PackFile pack(card.bytes);
   const microtin_segment c = at(3, 3);
   bool is_there = false;
-  uint32_t stopped = 0;
+  uint32_t refused = 0;
   for (int calls = 0; !is_there; ++calls) {
     const CompactSlots device(1);
-    for (int i = 0; i < calls && !is_there; ++i)
-      is_there = device.service(card, c, 1) == MICROTIN_STATUS_OK;
-    microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
-    for (int i = 0; i < 9 && status != MICROTIN_STATUS_STOPPED && status != MICROTIN_STATUS_OK;
-         ++i) {
-      status = microtin_pack_load_with(device.pack, &c, 0, Card::read, &card);
+    for (int i = 0; i < calls && !is_there; ++i) {
+      is_there = device.load(card, c, 1) == MICROTIN_STATUS_OK;
     }
-    CHECK(status == (is_there ? MICROTIN_STATUS_OK : MICROTIN_STATUS_STOPPED));
-    ++stopped;
-    REQUIRE(device.service(card, c) == MICROTIN_STATUS_OK);
+    REQUIRE(microtin_pack_load(device.pack, &c, 0) == MICROTIN_STATUS_WRONG_PACK_KIND);
+    ++refused;
+    REQUIRE(device.load(card, c) == MICROTIN_STATUS_OK);
     int32_t height = 0;
     CHECK(device.height_at(c.x, c.y, height) == MICROTIN_QUERY_OK);
     CHECK(height == *expected_height(pack, c.x, c.y));
   }
-  CHECK(stopped > 30);
+  CHECK(refused > 30);
 }
 
 TEST_CASE("compact pack: workspaces and arguments") {

@@ -44,7 +44,7 @@ microtin_status make(void* target, size_t size, microtin_mesh* mesh, void* scrat
   const uint32_t most = 44 * microtin_mesh_vertex_count(mesh) + 44;
   uint32_t steps = 0;
   do {
-    status = microtin_compactor_run(compactor, piece, compact);
+    status = microtin_compactor_run(compactor, compact, piece);
     REQUIRE((steps += piece) <= most + piece);
   } while (status == MICROTIN_STATUS_STEP_LIMIT);
   microtin_compactor_required_bytes(compactor, &needs->bytes, &needs->scratch);
@@ -303,7 +303,7 @@ TEST_CASE("compact terrains: making takes 15 to 18.5 steps a vertex of a terrain
                                       &compactor) == MICROTIN_STATUS_OK);
       microtin_compact* compact = nullptr;
       uint32_t steps = 1;
-      while (microtin_compactor_run(compactor, 1, &compact) == MICROTIN_STATUS_STEP_LIMIT) ++steps;
+      while (microtin_compactor_run(compactor, &compact, 1) == MICROTIN_STATUS_STEP_LIMIT) ++steps;
       REQUIRE(compact != nullptr);
       const double each = steps / static_cast<double>(microtin_compact_vertex_count(compact));
       MESSAGE(std::string(in_place ? "in place: " : "elsewhere: ") << each << " steps");
@@ -368,10 +368,10 @@ TEST_CASE("compact terrains: arguments, and meshes that are not verified") {
   CHECK(compactor == nullptr);
   REQUIRE(begins(begin, device.mesh, scratch.begin(), scratch.size()) == MICROTIN_STATUS_OK);
   microtin_compact* compact = nullptr;
-  CHECK(microtin_compactor_run(compactor, 1, nullptr) == MICROTIN_STATUS_ARGUMENT);
-  CHECK(microtin_compactor_run(nullptr, 1, &compact) == MICROTIN_STATUS_ARGUMENT);
-  CHECK(microtin_compactor_run(compactor, 0, &compact) == MICROTIN_STATUS_OK);
-  CHECK(microtin_compactor_run(compactor, 1, &compact) == MICROTIN_STATUS_OK);  // said again
+  CHECK(microtin_compactor_run(compactor, nullptr, 1) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(microtin_compactor_run(nullptr, &compact, 1) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(microtin_compactor_run(compactor, &compact, 0) == MICROTIN_STATUS_OK);
+  CHECK(microtin_compactor_run(compactor, &compact, 1) == MICROTIN_STATUS_OK);  // said again
   CHECK(compact == space.begin());
 }
 

@@ -55,11 +55,11 @@ void check_in_pieces(const Both& terrain, const microtin_segment& c, const Highe
   }
   microtin_segment_state mesh = {}, compact = {};
   int32_t height = 0;
-  REQUIRE(terrain.mesh.highest(c, &height, &mesh, 5) != MICROTIN_QUERY_OK);
-  REQUIRE(terrain.mesh.highest(c, &height, &mesh, 0) == highest.answer);
+  REQUIRE(terrain.mesh.segment_max(c, &mesh, &height, 5) != MICROTIN_QUERY_OK);
+  REQUIRE(terrain.mesh.segment_max(c, &mesh, &height, 0) == highest.answer);
   REQUIRE(height == highest.height);
-  terrain.compact.highest(c, &height, &compact, 5);
-  REQUIRE(terrain.compact.highest(c, &height, &compact, 0) == highest.answer);
+  terrain.compact.segment_max(c, &compact, &height, 5);
+  REQUIRE(terrain.compact.segment_max(c, &compact, &height, 0) == highest.answer);
   REQUIRE(height == highest.height);
 }
 
@@ -71,8 +71,8 @@ void check_course(const Both& terrain, const Surface& surface, const microtin_se
   CAPTURE(c.y_end);
   const Expected expected = expect(surface, c);
   int32_t highest = 1, compact_highest = 2, begin = INT32_MIN, end = INT32_MIN;
-  const microtin_query_result answer = terrain.mesh.highest(c, &highest);
-  REQUIRE(terrain.compact.highest(c, &compact_highest) == answer);
+  const microtin_query_result answer = terrain.mesh.segment_max(c, &highest);
+  REQUIRE(terrain.compact.segment_max(c, &compact_highest) == answer);
   REQUIRE(compact_highest == highest);
   REQUIRE(highest == expected.highest);
   REQUIRE((answer == MICROTIN_QUERY_OK) == expected.is_known);
@@ -138,19 +138,20 @@ TEST_CASE("the highest of courses with an end off the lattice, and of meshes tha
        {microtin_segment{-1, 0, 5000, 0}, microtin_segment{x, y, 65535 * 256 + 1, y},
         microtin_segment{INT64_MIN, 0, INT64_MAX, 0},
         microtin_segment{0, INT64_MAX, 0, INT64_MIN}}) {
-    CHECK(terrain.mesh.highest(c, &height) == MICROTIN_QUERY_OUTSIDE);
+    CHECK(terrain.mesh.segment_max(c, &height) == MICROTIN_QUERY_OUTSIDE);
     CHECK(height == INT32_MIN);
-    CHECK(terrain.compact.highest(c, &height) == MICROTIN_QUERY_OUTSIDE);
+    CHECK(terrain.compact.segment_max(c, &height) == MICROTIN_QUERY_OUTSIDE);
   }
-  CHECK(terrain.made.highest({0, 0, 5, 5}, &height) == MICROTIN_QUERY_NOT_LOADED);
+  CHECK(terrain.made.segment_max({0, 0, 5, 5}, &height) == MICROTIN_QUERY_NOT_LOADED);
   const Bytes stream = terrain_stream(900, 6);
   const Device device(900);
   size_t used = 0;
   REQUIRE(device.feed(stream.data(), stream.size(), &used, 300) == MICROTIN_STATUS_STEP_LIMIT);
   const microtin_segment c = {0, 0, 65535 * 256, 65535 * 256};
-  CHECK(microtin_mesh_segment_max(device.mesh, &c, &height) == MICROTIN_QUERY_UNVERIFIED);
+  CHECK(microtin_mesh_segment_max(device.mesh, &c, nullptr, &height, 0) ==
+        MICROTIN_QUERY_UNVERIFIED);
   microtin_segment_state progress = {};
-  CHECK(microtin_mesh_segment_max_limited(device.mesh, &c, 9, &progress, &height) ==
+  CHECK(microtin_mesh_segment_max(device.mesh, &c, &progress, &height, 9) ==
         MICROTIN_QUERY_UNVERIFIED);
   CHECK(progress.next == 0);
 }
@@ -180,8 +181,8 @@ TEST_CASE("blocks of a terrain hold what single answers say, in whole units") {
   const Both terrain(encode(small_tin(7), metadata, Effort{32, Decoding::kQuick}));
   const microtin_grid_spec block = {-100, 100, 80, 150, 40, 20, -9999};
   std::array<int16_t, 800> heights{}, others{};
-  const microtin_query_result answer = terrain.mesh.fill(block, heights.data());
-  CHECK(terrain.compact.fill(block, others.data()) == answer);
+  const microtin_query_result answer = terrain.mesh.sample_grid(block, heights.data());
+  CHECK(terrain.compact.sample_grid(block, others.data()) == answer);
   CHECK(heights == others);
   microtin_query_result last = MICROTIN_QUERY_OK;
   int known = 0;
@@ -197,7 +198,7 @@ TEST_CASE("blocks of a terrain hold what single answers say, in whole units") {
   CHECK(answer == last);
   CHECK(known > 150);
   CHECK(known < 800);
-  CHECK(terrain.compact.fill({INT64_MAX, 0, 1, 1, 1, 1, 0}, others.data()) ==
+  CHECK(terrain.compact.sample_grid({INT64_MAX, 0, 1, 1, 1, 1, 0}, others.data()) ==
         MICROTIN_QUERY_OUTSIDE);
 }
 

@@ -99,7 +99,7 @@ TEST_CASE("a flipped bit or a changed byte is damage, and never taken for anythi
       if (at >= stream.size() - kCheckBytes) {
         uint32_t hint = 0;
         int32_t height = 0;
-        CHECK(microtin_mesh_height_at(device.mesh, 0, 0, 0, &hint, &height) ==
+        CHECK(microtin_mesh_height_at(device.mesh, 0, 0, &hint, &height, 0, 0) ==
               MICROTIN_QUERY_UNVERIFIED);
       }
       CHECK(is_final(device, status, stream));

@@ -102,16 +102,17 @@ TEST_CASE("queries on a mesh that is not decoded or not verified say so") {
   Device device(400);
   uint32_t hint = 0;
   int32_t height = 0;
-  CHECK(microtin_mesh_height_at(device.mesh, 0, 0, 0, &hint, &height) == MICROTIN_QUERY_NOT_LOADED);
+  CHECK(microtin_mesh_height_at(device.mesh, 0, 0, &hint, &height, 0, 0) ==
+        MICROTIN_QUERY_NOT_LOADED);
   size_t used = 0;
   REQUIRE(device.feed(stream.data(), stream.size() - 2, &used) == MICROTIN_STATUS_NEED_INPUT);
   uint16_t x = 0, y = 0;
   int16_t z = 0;
   microtin_mesh_vertex(device.mesh, 0, &x, &y, &z);
-  CHECK(microtin_mesh_height_at(device.mesh, x * 256, y * 256, 0, &hint, &height) ==
+  CHECK(microtin_mesh_height_at(device.mesh, x * 256, y * 256, &hint, &height, 0, 0) ==
         MICROTIN_QUERY_UNVERIFIED);
-  CHECK(microtin_mesh_height_at(device.mesh, x * 256, y * 256, MICROTIN_FLAG_ALLOW_UNVERIFIED,
-                                &hint, &height) == MICROTIN_QUERY_OK);
+  CHECK(microtin_mesh_height_at(device.mesh, x * 256, y * 256, &hint, &height,
+                                MICROTIN_FLAG_ALLOW_UNVERIFIED, 0) == MICROTIN_QUERY_OK);
   CHECK(height == z * 65536);
 }
 

@@ -47,7 +47,7 @@ TEST_CASE_TEMPLATE("pack: heights at every place are those of the tiles, voids a
     for (int i = 0; i < 60; ++i) {
       const microtin_segment c = course(random, 60, 52);
       const int64_t x = i % 2 == 0 ? c.x : c.x / 256 * 256, y = i % 3 == 0 ? c.y / 256 * 256 : c.y;
-      REQUIRE(device.service(card, {x, y, x, y}) == MICROTIN_STATUS_OK);
+      REQUIRE(device.load(card, {x, y, x, y}) == MICROTIN_STATUS_OK);
       int32_t height = 0;
       const microtin_query_result answer = device.height_at(x, y, height);
       const std::optional<int32_t> expected = expected_height(pack, x, y);
@@ -72,12 +72,12 @@ TEST_CASE_TEMPLATE("pack: tiles that are there need no reading, the least recent
   };
   int32_t height = 0;
   CHECK(device.height_at(0, 0, height) == MICROTIN_QUERY_NOT_LOADED);
-  REQUIRE(device.service(card, middle_of(0)) == MICROTIN_STATUS_OK);
-  REQUIRE(device.service(card, middle_of(1)) == MICROTIN_STATUS_OK);
+  REQUIRE(device.load(card, middle_of(0)) == MICROTIN_STATUS_OK);
+  REQUIRE(device.load(card, middle_of(1)) == MICROTIN_STATUS_OK);
   const uint32_t reads = card.reads;
-  REQUIRE(device.service(card, middle_of(0)) == MICROTIN_STATUS_OK);
+  REQUIRE(device.load(card, middle_of(0)) == MICROTIN_STATUS_OK);
   CHECK(card.reads == reads);
-  REQUIRE(device.service(card, middle_of(2)) == MICROTIN_STATUS_OK);  // in the place of 1
+  REQUIRE(device.load(card, middle_of(2)) == MICROTIN_STATUS_OK);  // in the place of 1
   const auto is_there = [&](int64_t column) {
     const microtin_segment c = middle_of(column);
     return device.height_at(c.x, c.y, height) == MICROTIN_QUERY_OK;
@@ -86,7 +86,7 @@ TEST_CASE_TEMPLATE("pack: tiles that are there need no reading, the least recent
   CHECK(!is_there(1));
   CHECK(is_there(2));
   const microtin_segment corner = at(grid.width, grid.height);
-  CHECK(device.service(card, corner) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
+  CHECK(device.load(card, corner) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
   microtin_pack_reset(device.pack);
   CHECK(!is_there(0));
 }
@@ -101,7 +101,7 @@ TEST_CASE_TEMPLATE("pack: steps and reads of a call are bounded, and queries wor
   uint32_t calls = 0;
   for (; status != MICROTIN_STATUS_OK && calls < 100000; ++calls) {
     const uint32_t reads = card.reads;
-    status = device.service(card, c, 1);
+    status = device.load(card, c, 1);
     REQUIRE(card.reads <= reads + 1);
     REQUIRE((status == MICROTIN_STATUS_OK || status == MICROTIN_STATUS_NEED_INPUT ||
              status == MICROTIN_STATUS_STEP_LIMIT));
@@ -121,18 +121,18 @@ TEST_CASE_TEMPLATE("pack: every read fails in turn, and the next call goes on", 
   uint32_t all = 0;
   {
     const Device device(4);
-    REQUIRE(device.service(card, c) == MICROTIN_STATUS_OK);
+    REQUIRE(device.load(card, c) == MICROTIN_STATUS_OK);
     all = card.reads;
   }
   for (uint32_t failing = 0; failing < all; ++failing) {
     const Device device(4);
     card.reads = 0;
     card.failing = failing;
-    CHECK(device.service(card, c) == MICROTIN_STATUS_IO);
+    CHECK(device.load(card, c) == MICROTIN_STATUS_IO);
     CHECK(card.reads == failing + 1);
     int32_t height = 0;
     CHECK(device.height_at(c.x, c.y, height) == MICROTIN_QUERY_NOT_LOADED);
-    CHECK(device.service(card, c) == MICROTIN_STATUS_OK);
+    CHECK(device.load(card, c) == MICROTIN_STATUS_OK);
     CHECK(card.reads == all + 1);  // only what failed is read again
     CHECK(device.height_at(c.x, c.y, height) == MICROTIN_QUERY_OK);
   }
@@ -147,21 +147,21 @@ TEST_CASE_TEMPLATE("pack: a pulled card is told at once, at any moment, and its 
     card.is_pulled = false;
     microtin_status status = MICROTIN_STATUS_NEED_INPUT;
     for (uint32_t call = 0; call < pulled && status != MICROTIN_STATUS_OK; ++call) {
-      status = device.service(card, c, 5);
+      status = device.load(card, c, 5);
     }
     if (status == MICROTIN_STATUS_OK) break;
     card.is_pulled = true;
     for (int call = 0; call < 100; ++call) {
-      status = device.service(card, c, 5);
+      status = device.load(card, c, 5);
       if (status == MICROTIN_STATUS_IO || status == MICROTIN_STATUS_OK) break;
       REQUIRE(status == MICROTIN_STATUS_STEP_LIMIT);  // it needs no bytes yet
     }
     if (status == MICROTIN_STATUS_OK) break;
     CHECK(status == MICROTIN_STATUS_IO);
-    CHECK(device.service(card, c, 5) == MICROTIN_STATUS_IO);
-    CHECK(device.service(card, c) == MICROTIN_STATUS_IO);
+    CHECK(device.load(card, c, 5) == MICROTIN_STATUS_IO);
+    CHECK(device.load(card, c) == MICROTIN_STATUS_IO);
     card.is_pulled = false;
-    CHECK(device.service(card, c) == MICROTIN_STATUS_OK);
+    CHECK(device.load(card, c) == MICROTIN_STATUS_OK);
   }
 }
 
@@ -175,19 +175,19 @@ TEST_CASE_TEMPLATE("pack: who puts bytes there by hand tells the same", Device, 
   size_t size = 0;
   microtin_pack_next_read(device.pack, &offset, &buffer, &size);
   REQUIRE(size == kPackFixedBytes);
-  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_NEED_INPUT);  // nothing is said yet
+  CHECK(device.load_without_reading(c, 0) == MICROTIN_STATUS_NEED_INPUT);  // nothing is said yet
   microtin_pack_complete_read(device.pack, -7);
-  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_IO);
-  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_NEED_INPUT);                 // told once
+  CHECK(device.load_without_reading(c, 0) == MICROTIN_STATUS_IO);
+  CHECK(device.load_without_reading(c, 0) == MICROTIN_STATUS_NEED_INPUT);    // told once
   microtin_pack_complete_read(device.pack, static_cast<int32_t>(size) + 1);  // more than was wanted
-  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_IO);
+  CHECK(device.load_without_reading(c, 0) == MICROTIN_STATUS_IO);
   std::copy_n(bytes.begin(), 9, buffer);
   microtin_pack_complete_read(device.pack, 9);
   microtin_pack_next_read(device.pack, &offset, &buffer, &size);
   CHECK(offset == 9);
   CHECK(size == kPackFixedBytes - 9);
   microtin_pack_complete_read(device.pack, 0);
-  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_TRUNCATED);
+  CHECK(device.load_without_reading(c, 0) == MICROTIN_STATUS_TRUNCATED);
   microtin_pack_next_read(device.pack, &offset, &buffer, &size);
   CHECK(offset == 0);  // anew
   microtin_status status = MICROTIN_STATUS_NEED_INPUT;
@@ -195,13 +195,13 @@ TEST_CASE_TEMPLATE("pack: who puts bytes there by hand tells the same", Device, 
     microtin_pack_next_read(device.pack, &offset, &buffer, &size);
     std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(offset), size, buffer);
     microtin_pack_complete_read(device.pack, static_cast<int32_t>(size));
-    status = device.prepare(c, 0);
+    status = device.load_without_reading(c, 0);
   }
   CHECK(status == MICROTIN_STATUS_OK);
   microtin_pack_next_read(device.pack, &offset, &buffer, &size);
   CHECK(size == 0);
   microtin_pack_complete_read(device.pack, 0);  // nothing was wanted: nothing is heard
-  CHECK(device.prepare(c, 0) == MICROTIN_STATUS_OK);
+  CHECK(device.load_without_reading(c, 0) == MICROTIN_STATUS_OK);
 }
 
 namespace {
@@ -245,8 +245,8 @@ TEST_CASE_TEMPLATE("pack: a query in an interrupt is right at any moment of the 
   bool done = true;
   for (int round = 0; round < 3000 && interrupted.right + interrupted.absent < 2000; ++round) {
     // The first tile comes and goes.
-    done = done && device.service(card, {x, y, x, y}) == MICROTIN_STATUS_OK;
-    done = done && device.service(card, {3 * x, y, 3 * x, y}) == MICROTIN_STATUS_OK;
+    done = done && device.load(card, {x, y, x, y}) == MICROTIN_STATUS_OK;
+    done = done && device.load(card, {3 * x, y, 3 * x, y}) == MICROTIN_STATUS_OK;
   }
   setitimer(ITIMER_REAL, &never, nullptr);
   sigaction(SIGALRM, &before, nullptr);
@@ -260,12 +260,11 @@ TEST_CASE_TEMPLATE("pack: too small slots, workspaces and wrong arguments", Devi
                    CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
   const Device device(4, 10);
-  CHECK(device.service(card, at(1, 1)) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.load(card, at(1, 1)) == MICROTIN_STATUS_BAD_TILES);
   CHECK(why_bad(device, 0) == MICROTIN_STATUS_TOO_BIG);
-  CHECK(device.service(card, {0, 0, int64_t{1} << 24, 0}) == MICROTIN_STATUS_ARGUMENT);
-  CHECK(device.service(card, {int64_t{1} << 41, 0, int64_t{1} << 41, 0}) ==
-        MICROTIN_STATUS_ARGUMENT);
-  CHECK(device.service(card, at(-500, 9999)) == MICROTIN_STATUS_OK);  // no tile is there
+  CHECK(device.load(card, {0, 0, int64_t{1} << 24, 0}) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(device.load(card, {int64_t{1} << 41, 0, int64_t{1} << 41, 0}) == MICROTIN_STATUS_ARGUMENT);
+  CHECK(device.load(card, at(-500, 9999)) == MICROTIN_STATUS_OK);  // no tile is there
   microtin_pack* pack = nullptr;
   Workspace space(MICROTIN_PACK_BYTES(3, 50));
   CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, nullptr) ==
@@ -292,9 +291,9 @@ TEST_CASE_TEMPLATE("pack: the highest on a course is that of its edges and no sa
       if (i % 4 == 0) c.x_end = c.x = c.x / 256 * 256;  // along posts, maybe a border
       if (i % 4 == 1)
         c = {c.x / 256 * 256, c.y / 256 * 256, c.x_end / 256 * 256, c.y_end / 256 * 256};
-      REQUIRE(device.service(card, c) == MICROTIN_STATUS_OK);
+      REQUIRE(device.load(card, c) == MICROTIN_STATUS_OK);
       int32_t highest = 0;
-      const microtin_query_result answer = device.highest(c, &highest);
+      const microtin_query_result answer = device.segment_max(c, &highest);
       int32_t sampled = INT32_MIN, begin = INT32_MIN, end = INT32_MIN;
       bool gap = false;
       for (int64_t k = 0; k <= 4096; ++k) {  // those that lie on the course exactly
@@ -320,13 +319,13 @@ TEST_CASE_TEMPLATE("pack: the highest on a course is that of its edges and no sa
 TEST_CASE_TEMPLATE("pack: a block of heights in whole units", Device, MeshSlots, CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53, void_kinds()[2].at))};
   const Device device(60);
-  REQUIRE(device.service(card, {0, 0, 60 * 256, 52 * 256}) == MICROTIN_STATUS_OK);
-  REQUIRE(device.service(card, {0, 52 * 256, 60 * 256, 0}) == MICROTIN_STATUS_OK);
+  REQUIRE(device.load(card, {0, 0, 60 * 256, 52 * 256}) == MICROTIN_STATUS_OK);
+  REQUIRE(device.load(card, {0, 52 * 256, 60 * 256, 0}) == MICROTIN_STATUS_OK);
   microtin_pack_info info;
-  REQUIRE(microtin_pack_get_info(device.pack, &info) == 1);
+  REQUIRE(microtin_pack_get_info(device.pack, &info) == MICROTIN_STATUS_OK);
   const microtin_grid_spec block{5 * 256, 3 * 256, 512, 384, 20, 25, -999};
   std::vector<int16_t> heights(500);
-  const microtin_query_result answer = device.fill(block, heights.data());
+  const microtin_query_result answer = device.sample_grid(block, heights.data());
   CHECK(answer != MICROTIN_QUERY_OK);
   for (int64_t i = 0; i < 500; ++i) {
     int32_t z = 0;
@@ -347,12 +346,12 @@ TEST_CASE_TEMPLATE(
         {4, 4, 4, 4}, {forged_tile({{{0, 0, west}, {4, 0, east}, {0, 4, west}, {4, 4, east}}, {}})},
         metadata)};
     const Device device(1);
-    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_STATUS_OK);
+    REQUIRE(device.load(card, at(1, 1)) == MICROTIN_STATUS_OK);
     microtin_pack_info info;
-    REQUIRE(microtin_pack_get_info(device.pack, &info) == 1);
+    REQUIRE(microtin_pack_get_info(device.pack, &info) == MICROTIN_STATUS_OK);
     std::vector<int16_t> heights(257);
     const microtin_grid_spec block{0, 128, 4, 0, 257, 1, 0};
-    REQUIRE(device.fill(block, heights.data()) == MICROTIN_QUERY_OK);
+    REQUIRE(device.sample_grid(block, heights.data()) == MICROTIN_QUERY_OK);
     for (int64_t i = 0; i < 257; ++i) {
       int32_t z = 0;
       REQUIRE(device.height_at(4 * i, 128, z) == MICROTIN_QUERY_OK);
@@ -382,12 +381,12 @@ TEST_CASE_TEMPLATE(
   const auto fill = [&](int64_t x, int64_t y, int32_t dx, uint16_t columns) {
     std::fill(heights.begin(), heights.end(), int16_t{0});
     const microtin_grid_spec block{x * 256, y * 256, dx * 256, 0, columns, 1, -9};
-    return device.fill(block, heights.data());
+    return device.sample_grid(block, heights.data());
   };
   const std::vector<int16_t> missing{-9, -9, -9}, untouched{0, 0, 0};
   CHECK(fill(1, 1, 1, 3) == MICROTIN_QUERY_NOT_LOADED);
   CHECK(heights == missing);
-  REQUIRE(device.service(card, at(1, 1)) == MICROTIN_STATUS_OK);
+  REQUIRE(device.load(card, at(1, 1)) == MICROTIN_STATUS_OK);
   CHECK(fill(0, 0, 1, 3) == MICROTIN_QUERY_OK);
   CHECK(heights == std::vector<int16_t>{1, 1, 2});
   CHECK(fill(-3, 3, 6, 2) == MICROTIN_QUERY_VOID);  // outside, void
@@ -421,21 +420,26 @@ TEST_CASE("pack: real coordinates become places, exactly rounded") {
     const Wide expected = round_divide(numerator * 256, step);
     const bool outside = numerator < 0 || expected > Wide{most} * 256;
     int64_t lattice = 0;
-    const int found =
+    const microtin_status status =
         microtin_pack_axis_to_lattice(&axis, most, static_cast<int64_t>(value), per_unit, &lattice);
-    CHECK(found == (outside ? 0 : 1));
-    if (found != 0) CHECK(lattice == static_cast<int64_t>(expected));
-    inside += found != 0 ? 1u : 0u;
+    CHECK(status == (outside ? MICROTIN_STATUS_OUT_OF_RANGE : MICROTIN_STATUS_OK));
+    if (!outside) CHECK(lattice == static_cast<int64_t>(expected));
+    inside += outside ? 0u : 1u;
   }
   CHECK(inside > 5000);
   const microtin_axis degrees = {7 * 1200, 1, 1200};
   int64_t lattice = 0;
-  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, 75000000, 10000000, &lattice) == 1);
+  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, 75000000, 10000000, &lattice) ==
+        MICROTIN_STATUS_OK);
   CHECK(lattice == 600 * 256);
-  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, 69999999, 10000000, &lattice) == 0);
-  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, INT64_MAX, 1, &lattice) == 0);
-  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, INT64_MIN, 1, &lattice) == 0);
-  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, 0, 0, &lattice) == 0);
+  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, 69999999, 10000000, &lattice) ==
+        MICROTIN_STATUS_OUT_OF_RANGE);
+  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, INT64_MAX, 1, &lattice) ==
+        MICROTIN_STATUS_OUT_OF_RANGE);
+  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, INT64_MIN, 1, &lattice) ==
+        MICROTIN_STATUS_OUT_OF_RANGE);
+  CHECK(microtin_pack_axis_to_lattice(&degrees, 1200, 0, 0, &lattice) ==
+        MICROTIN_STATUS_OUT_OF_RANGE);
 }
 
 using MeshPack = Pack<4, kCapacity>;
@@ -446,17 +450,17 @@ TEST_CASE_TEMPLATE("pack: the C++ face", Face, MeshPack, PackOfCompact) {
   Card card{pack_bytes(rough_raster(61, 53))};
   const microtin_segment c = at(30, 26);
   microtin_pack_info info;
-  CHECK(!pack.header(&info));
-  REQUIRE(pack.service(c, 0, Card::read, &card) == MICROTIN_STATUS_OK);
-  REQUIRE(pack.header(&info));
+  CHECK(pack.get_info(&info) != MICROTIN_STATUS_OK);
+  REQUIRE(pack.load_with(c, Card::read, &card, 0) == MICROTIN_STATUS_OK);
+  REQUIRE(pack.get_info(&info) == MICROTIN_STATUS_OK);
   CHECK(info.x_max == 60);
   uint32_t hint = 0;
   int32_t height = 0, highest = 1;
   CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_QUERY_OK);
-  CHECK(pack.highest(c, &highest) == MICROTIN_QUERY_OK);
+  CHECK(pack.segment_max(c, &highest) == MICROTIN_QUERY_OK);
   CHECK(highest == height);
   int16_t rounded = 0;
-  CHECK(pack.fill({c.x, c.y, 0, 0, 1, 1, -1}, &rounded) == MICROTIN_QUERY_OK);
+  CHECK(pack.sample_grid({c.x, c.y, 0, 0, 1, 1, -1}, &rounded) == MICROTIN_QUERY_OK);
   pack.reset();
   CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_QUERY_NOT_LOADED);
 }
@@ -504,11 +508,11 @@ TEST_CASE_TEMPLATE("pack: far from the origin, in the largest extent", Device, M
   const Device device(4, 400);
   const int64_t corner = int64_t{32768} * 65535 * 256;
   const microtin_segment c{corner + 5 * 256, corner + 7 * 256, corner + 25 * 256, corner + 9 * 256};
-  REQUIRE(device.service(c, 0, FarCard::read, &card) == MICROTIN_STATUS_OK);
+  REQUIRE(device.load_with(c, FarCard::read, &card, 0) == MICROTIN_STATUS_OK);
   int32_t height = 0, highest = 0;
   CHECK(device.height_at(c.x, c.y, height) == MICROTIN_QUERY_OK);
   CHECK(height == *expected_height(PackFile(write_pack(encoded)), 5 * 256, 7 * 256));
-  CHECK(device.highest(c, &highest) == MICROTIN_QUERY_OK);
+  CHECK(device.segment_max(c, &highest) == MICROTIN_QUERY_OK);
   CHECK(highest >= height);
 }
 

@@ -62,7 +62,7 @@ void check_course(const PackDevice& device, const Surface& surface, const microt
   CAPTURE(c.x_end);
   CAPTURE(c.y_end);
   int32_t highest = 1;
-  const microtin_query_result answer = device.highest(c, &highest);
+  const microtin_query_result answer = device.segment_max(c, &highest);
   const Expected expected = expect(surface, c);
   REQUIRE(answer == (expected.is_known ? MICROTIN_QUERY_OK : MICROTIN_QUERY_VOID));
   REQUIRE(highest <= expected.highest);
@@ -90,8 +90,8 @@ void check_pack(const Bytes& bytes, Random& random, int courses, bool tiles_agre
                       std::max(3u, pack.header().most_vertices));
   for (uint32_t tile = 0; tile < pack.entries().size(); ++tile) {
     const TileBox box = tile_box(grid, tile);
-    REQUIRE(device.service(card, at(box.x, box.y)) == MICROTIN_STATUS_OK);
-    REQUIRE(device.service(card, at(box.x_end, box.y_end)) == MICROTIN_STATUS_OK);
+    REQUIRE(device.load(card, at(box.x, box.y)) == MICROTIN_STATUS_OK);
+    REQUIRE(device.load(card, at(box.x_end, box.y_end)) == MICROTIN_STATUS_OK);
   }
   for (int i = 0; i < courses; ++i) {
     check_course(device, surface, any_course(random, grid), tiles_agree, counts);
@@ -209,9 +209,9 @@ TEST_CASE_TEMPLATE(
   const ForgedTile square = forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}, {4, 4, 4}}, {}});
   Card card{forged_pack(grid, {square, {}})};
   const Device device(2);
-  REQUIRE(device.service(card, {0, 0, 2047, 0}) == MICROTIN_STATUS_OK);
+  REQUIRE(device.load(card, {0, 0, 2047, 0}) == MICROTIN_STATUS_OK);
   int32_t highest = 0;
-  const auto answer = [&](const microtin_segment& c) { return device.highest(c, &highest); };
+  const auto answer = [&](const microtin_segment& c) { return device.segment_max(c, &highest); };
   CHECK(answer({1024, 100, 1024, 100}) == MICROTIN_QUERY_OK);  // a place on the border
   CHECK(answer({1024, 0, 1024, 1024}) == MICROTIN_QUERY_OK);   // along it
   CHECK(highest == 4 * 65536);
@@ -228,7 +228,7 @@ TEST_CASE_TEMPLATE("pack: heights where a course leaves the terrain are rounded 
     const Tin tin{{{256, 0, low}, {256, 512, high}, {0, 0, -5}, {0, 512, -5}}, {}};
     Card card{forged_pack({512, 512, 512, 512}, {forged_tile(tin)})};
     const Device device(1);
-    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_STATUS_OK);
+    REQUIRE(device.load(card, at(1, 1)) == MICROTIN_STATUS_OK);
     const Surface surface = surface_of(PackFile(card.bytes));
     Counts counts;
     for (int64_t y = 1; y < 512 * 256; y += 998) {
@@ -259,7 +259,7 @@ TEST_CASE_TEMPLATE(
     }
     Card card{forged_pack(grid, tiles)};
     const Device device(2);
-    REQUIRE(device.service(card, at(65535, 7)) == MICROTIN_STATUS_OK);
+    REQUIRE(device.load(card, at(65535, 7)) == MICROTIN_STATUS_OK);
     const Surface surface = surface_of(PackFile(card.bytes));
     for (int i = 0; i < 60; ++i) {
       const auto pick = [&](int64_t most) {
@@ -274,7 +274,7 @@ TEST_CASE_TEMPLATE(
       const microtin_segment c = {x, y, std::min<int64_t>(x_end, 2 * 65535 * 256),
                                   pick(65535 * 256 - 1)};
       int32_t highest = 0;
-      const microtin_query_result answer = device.highest(c, &highest);
+      const microtin_query_result answer = device.segment_max(c, &highest);
       // Heights of the reference would overflow: whether all is known alone.
       std::vector<Stretch> stretches = stretches_of(surface, c);
       CHECK(answer == (cover(stretches) ? MICROTIN_QUERY_OK : MICROTIN_QUERY_VOID));

@@ -206,7 +206,7 @@ void check_place(const PackDevice& device, const Model& model, uint32_t tile, bo
 void check_bad_tiles(const PackDevice& device, const Model& model) {
   for (uint32_t i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
     uint32_t tile = 0, why = MICROTIN_STATUS_OK;
-    if (microtin_pack_bad_tile(device.pack, i, &tile, &why) == 0) continue;
+    if (microtin_pack_bad_tile(device.pack, i, &tile, &why) != MICROTIN_STATUS_OK) continue;
     CHECK(model.reasons[tile].count(static_cast<microtin_status>(why)) == 1);
   }
 }
@@ -240,7 +240,7 @@ void serve_course(const PackDevice& device, const Model& model, uint32_t slots,
                  steps = kLimits[card.random.below(4)];
   bool is_over = false;
   for (uint32_t calls = 0; calls < most && !is_over; ++calls) {
-    const microtin_status status = device.service(course, steps, UnsteadyCard::read, &card);
+    const microtin_status status = device.load_with(course, UnsteadyCard::read, &card, steps);
     is_over = check_status(device, model, slots, course, status, card);
   }
   if (to_the_end) CHECK(is_over);
@@ -307,7 +307,7 @@ microtin_segment along(int64_t from, int64_t to) {
 microtin_status served(const PackDevice& device, const microtin_segment& course, uint32_t steps,
                        UnsteadyCard& card) {
   for (int calls = 0; calls < 20000; ++calls) {
-    const microtin_status status = device.service(course, steps, UnsteadyCard::read, &card);
+    const microtin_status status = device.load_with(course, UnsteadyCard::read, &card, steps);
     if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) return status;
   }
   return MICROTIN_STATUS_NEED_INPUT;
@@ -359,7 +359,7 @@ TEST_CASE_TEMPLATE("pack: bad tiles stop no course that moves with each call", D
     int32_t height = 0;
     while (device.height_at(course.x_end, 500, height) != MICROTIN_QUERY_OK && calls < 5000) {
       course.x = 500 + calls++ % 7;
-      const microtin_status status = device.service(course, 1, UnsteadyCard::read, &card);
+      const microtin_status status = device.load_with(course, UnsteadyCard::read, &card, 1);
       CHECK((status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT));
     }
     CHECK(calls < 5000);
@@ -416,7 +416,7 @@ TEST_CASE_TEMPLATE("pack: tiles that are repaired come once the caller says so, 
     const Device device(kBad + 1, kFits);
     UnsteadyCard card{&damaged.bytes, Random(1), 0};
     for (uint32_t i = 0; i < calls; ++i) {
-      device.service(along(0, kBad), 1, UnsteadyCard::read, &card);
+      device.load_with(along(0, kBad), UnsteadyCard::read, &card, 1);
     }
     card.bytes = &good.bytes;
     microtin_pack_clear_bad_tiles(device.pack);
@@ -443,12 +443,12 @@ TEST_CASE_TEMPLATE("pack: nothing of one pack is left to the next, whatever was 
       CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_STATUS_OK);
       UnsteadyCard card{&first.bytes, Random(1), 0};
       for (int i = 0; i < calls; ++i) {
-        device.service(along(1, 3), 2, UnsteadyCard::read, &card);
+        device.load_with(along(1, 3), UnsteadyCard::read, &card, 2);
       }
       microtin_pack_complete_read(device.pack, said);
       microtin_pack_reset(device.pack);
       microtin_pack_info info;
-      CHECK(microtin_pack_get_info(device.pack, &info) == 0);
+      CHECK(microtin_pack_get_info(device.pack, &info) != MICROTIN_STATUS_OK);
       int32_t height = 0;
       CHECK(device.height_at(along(1, 1).x, 500, height) == MICROTIN_QUERY_NOT_LOADED);
       CHECK(why_bad(device, 2) == MICROTIN_STATUS_OK);

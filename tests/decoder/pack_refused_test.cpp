@@ -17,7 +17,7 @@ namespace {
 uint32_t bad_tiles(const PackDevice& device) {
   uint32_t all = 0, number = 0, why = MICROTIN_STATUS_OK;
   for (uint32_t i = 0; i < 2 * MICROTIN_PACK_MAX_BAD_TILES; ++i) {
-    all += microtin_pack_bad_tile(device.pack, i, &number, &why) != 0 ? 1u : 0u;
+    all += microtin_pack_bad_tile(device.pack, i, &number, &why) == MICROTIN_STATUS_OK ? 1u : 0u;
   }
   return all;
 }
@@ -25,7 +25,7 @@ uint32_t bad_tiles(const PackDevice& device) {
 // What a service says in the end; NEED_INPUT if there is none.
 microtin_status served(const PackDevice& device, Card& card, const microtin_segment& course) {
   for (int calls = 0; calls < 10000; ++calls) {
-    const microtin_status status = device.service(card, course, 100);
+    const microtin_status status = device.load(card, course, 100);
     if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) return status;
   }
   return MICROTIN_STATUS_NEED_INPUT;
@@ -82,7 +82,7 @@ TEST_CASE_TEMPLATE("pack: bad tiles are passed over, told, and tried again when 
   const Device device(6);
   const microtin_segment all = {0, 300, 12 * 256, 300};
   CHECK(bad_tiles(device) == 0);
-  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.load(card, all) == MICROTIN_STATUS_BAD_TILES);
   CHECK(bad_tiles(device) == 2);
   CHECK(why_bad(device, 0) == MICROTIN_STATUS_CHECKSUM);
   CHECK(why_bad(device, 3) == MICROTIN_STATUS_CHECKSUM);
@@ -97,30 +97,30 @@ TEST_CASE_TEMPLATE("pack: bad tiles are passed over, told, and tried again when 
   CHECK(answer(7 * 256, 300) == MICROTIN_QUERY_BAD_TILE);
   CHECK(answer(11 * 256, 300) == MICROTIN_QUERY_OK);
   int32_t highest = 0;
-  CHECK(device.highest(all, &highest) == MICROTIN_QUERY_BAD_TILE);
+  CHECK(device.segment_max(all, &highest) == MICROTIN_QUERY_BAD_TILE);
   CHECK(highest == 5 * 65536);
   const microtin_segment between = {512, 300, 6 * 256, 300}, along = {6 * 256, 0, 6 * 256, 512};
-  CHECK(device.highest(between, &highest) == MICROTIN_QUERY_OK);
-  CHECK(device.highest(along, &highest) == MICROTIN_QUERY_OK);
+  CHECK(device.segment_max(between, &highest) == MICROTIN_QUERY_OK);
+  CHECK(device.segment_max(along, &highest) == MICROTIN_QUERY_OK);
   const uint32_t reads = card.reads;
-  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.load(card, all) == MICROTIN_STATUS_BAD_TILES);
   CHECK(card.reads == reads);
   card.bytes = good;
-  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);  // not yet
+  CHECK(device.load(card, all) == MICROTIN_STATUS_BAD_TILES);  // not yet
   CHECK(card.reads == reads);
   microtin_pack_clear_bad_tiles(device.pack);
   CHECK(answer(256, 300) == MICROTIN_QUERY_NOT_LOADED);
-  CHECK(device.service(card, all) == MICROTIN_STATUS_OK);
+  CHECK(device.load(card, all) == MICROTIN_STATUS_OK);
   CHECK(answer(256, 300) == MICROTIN_QUERY_OK);
   CHECK(bad_tiles(device) == 0);
   card.bytes[stream_at(good, 2) + 20] ^= 1;
   microtin_pack_reset(device.pack);
-  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.load(card, all) == MICROTIN_STATUS_BAD_TILES);
   CHECK(bad_tiles(device) == 1);
   microtin_pack_reset(device.pack);  // another card
   CHECK(bad_tiles(device) == 0);
   card.bytes = good;
-  CHECK(device.service(card, all) == MICROTIN_STATUS_OK);
+  CHECK(device.load(card, all) == MICROTIN_STATUS_OK);
 }
 
 TEST_CASE_TEMPLATE("pack: with a step limit, too, a bad tile is no stop, and is read once", Device,
@@ -135,7 +135,7 @@ TEST_CASE_TEMPLATE("pack: with a step limit, too, a bad tile is no stop, and is 
   uint32_t calls = 0;
   for (; calls < 10000; ++calls) {
     const uint32_t reads = card.reads;
-    status = device.service(card, all, 1);
+    status = device.load(card, all, 1);
     REQUIRE(card.reads <= reads + 1);
     if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) break;
   }
@@ -184,7 +184,7 @@ TEST_CASE_TEMPLATE("pack: a course across many bad tiles takes time that grows a
   card.bytes.resize(pack_index_start(header));  // the index is gone: all tiles are truncated
   const Device device(3);
   const auto began = std::chrono::steady_clock::now();
-  CHECK(device.service(card, {0, 100, kTiles * 256, 100}) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.load(card, {0, 100, kTiles * 256, 100}) == MICROTIN_STATUS_BAD_TILES);
   // A fifth of a second with sanitizers; a minute if each attempt looked along the tiles before it.
   CHECK(std::chrono::steady_clock::now() - began < std::chrono::seconds(10));
   CHECK(card.reads > kTiles);
@@ -204,7 +204,7 @@ TEST_CASE_TEMPLATE("pack: what is beyond the end is truncated, in the header and
       const microtin_segment all = {0, 300, 6 * 256, 300};
       microtin_status status = MICROTIN_STATUS_NEED_INPUT;
       for (int calls = 0; calls < 1000; ++calls) {
-        status = device.service(card, all, steps);
+        status = device.load(card, all, steps);
         if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) break;
       }
       CHECK(status == (size < header ? MICROTIN_STATUS_TRUNCATED : MICROTIN_STATUS_BAD_TILES));
@@ -221,7 +221,7 @@ TEST_CASE_TEMPLATE("pack: damaged, swapped and foreign bytes are told, and never
   const auto status_of = [](const Bytes& bytes) {
     Card card{bytes};
     const Device device(4);
-    const microtin_status status = device.service(card, at(30, 26));
+    const microtin_status status = device.load(card, at(30, 26));
     int32_t height = 0;
     const microtin_query_result answer = device.height_at(30 * 256, 26 * 256, height);
     CHECK((status == MICROTIN_STATUS_OK || status == MICROTIN_STATUS_BAD_TILES) ==
@@ -250,7 +250,7 @@ TEST_CASE_TEMPLATE("pack: damaged, swapped and foreign bytes are told, and never
     Card card{bytes};
     const Device device(4);
     const TileBox box = tile_box(pack.grid(), tile);
-    return device.service(card, at(box.x + 1, box.y + 1)) == MICROTIN_STATUS_BAD_TILES &&
+    return device.load(card, at(box.x + 1, box.y + 1)) == MICROTIN_STATUS_BAD_TILES &&
            why_bad(device, tile) == MICROTIN_STATUS_CHECKSUM;
   };
   Bytes swapped = good;
@@ -277,11 +277,11 @@ TEST_CASE_TEMPLATE("pack: of a placement that was damage nothing stays", Device,
     damaged.bytes[6] = static_cast<uint8_t>(placement.size());
     std::copy(placement.begin(), placement.end(), damaged.bytes.begin() + kPackFixedBytes);
     const Device device(1);
-    CHECK(device.service(damaged, at(1, 1)) ==
+    CHECK(device.load(damaged, at(1, 1)) ==
           (denominator == 0 ? MICROTIN_STATUS_MALFORMED : MICROTIN_STATUS_CHECKSUM));
-    REQUIRE(device.service(card, at(1, 1)) == MICROTIN_STATUS_OK);
+    REQUIRE(device.load(card, at(1, 1)) == MICROTIN_STATUS_OK);
     microtin_pack_info info;
-    REQUIRE(microtin_pack_get_info(device.pack, &info) == 1);
+    REQUIRE(microtin_pack_get_info(device.pack, &info) == MICROTIN_STATUS_OK);
     for (const microtin_axis& axis : {info.x, info.y, info.z}) {
       CHECK(axis.offset == 0);
       CHECK(axis.numerator == 1);
@@ -307,7 +307,7 @@ TEST_CASE_TEMPLATE("pack: a tile of another tile's place is refused, whatever it
   const auto status_of = [&](uint32_t x) {
     Card card{bytes};
     const Device device(4);
-    return device.service(card, at(x, 1));
+    return device.load(card, at(x, 1));
   };
   CHECK(status_of(1) == MICROTIN_STATUS_OK);
   CHECK(status_of(7) == MICROTIN_STATUS_OK);
@@ -329,16 +329,16 @@ TEST_CASE_TEMPLATE("pack: a placement that is not verified is not used", Device,
   const microtin_grid_spec block{256, 256, 0, 0, 1, 1, -9};
   for (int calls = 0; calls < 1000; ++calls) {
     microtin_pack_info info;
-    if (microtin_pack_get_info(device.pack, &info) != 0) break;
+    if (microtin_pack_get_info(device.pack, &info) == MICROTIN_STATUS_OK) break;
     height = 5;
-    REQUIRE(device.fill(block, &height) == MICROTIN_QUERY_NOT_LOADED);
+    REQUIRE(device.sample_grid(block, &height) == MICROTIN_QUERY_NOT_LOADED);
     REQUIRE(height == -9);
     card.most = 1;
-    device.service(card, at(1, 1), 1);
+    device.load(card, at(1, 1), 1);
   }
-  REQUIRE(device.service(card, at(1, 1)) == MICROTIN_STATUS_OK);
+  REQUIRE(device.load(card, at(1, 1)) == MICROTIN_STATUS_OK);
   height = 5;
-  CHECK(device.fill(block, &height) == MICROTIN_QUERY_OUTSIDE);  // too coarse
+  CHECK(device.sample_grid(block, &height) == MICROTIN_QUERY_OUTSIDE);  // too coarse
   CHECK(height == 5);
 }
 
@@ -348,7 +348,7 @@ TEST_CASE_TEMPLATE("pack: headers that break a rule are malformed, damaged ones 
   const auto status_of = [](const Bytes& bytes) {
     Card card{bytes};
     const Device device(2);
-    return device.service(card, at(1, 1));
+    return device.load(card, at(1, 1));
   };
   const auto with = [&](size_t at, uint8_t value) {
     Bytes bytes = good;
@@ -390,7 +390,7 @@ TEST_CASE_TEMPLATE("pack: tiles that break a rule are refused, here and on the h
   const auto check = [&](const Bytes& bytes, microtin_status expected) {
     Card card{bytes};
     const Device device(2);
-    CHECK(device.service(card, at(6, 1)) ==
+    CHECK(device.load(card, at(6, 1)) ==
           (expected == MICROTIN_STATUS_OK ? MICROTIN_STATUS_OK : MICROTIN_STATUS_BAD_TILES));
     CHECK(why_bad(device, 1) == expected);
     const auto read = [&] { PackFile(bytes).tile(1); };

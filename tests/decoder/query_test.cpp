@@ -62,7 +62,7 @@ TEST_CASE("heights equal the exact plane, rounded, from any start and from eithe
       uint32_t hint = random.below(microtin_mesh_triangle_count(terrain.mesh()));
       int32_t height = 0;
       const microtin_query_result answer =
-          microtin_mesh_height_at(terrain.mesh(), x, y, 0, &hint, &height);
+          microtin_mesh_height_at(terrain.mesh(), x, y, &hint, &height, 0, 0);
       CAPTURE(set.name);
       CHECK(answer == (expected.empty() ? MICROTIN_QUERY_OUTSIDE : MICROTIN_QUERY_OK));
       for (const int32_t e : expected) CHECK(height == e);
@@ -84,7 +84,8 @@ TEST_CASE("extreme heights and the largest triangle do not overflow") {
     const int32_t y = static_cast<int32_t>(random.below(65535 * 256 + 1));
     uint32_t hint = 0;
     int32_t height = 0;
-    REQUIRE(microtin_mesh_height_at(terrain.mesh(), x, y, 0, &hint, &height) == MICROTIN_QUERY_OK);
+    REQUIRE(microtin_mesh_height_at(terrain.mesh(), x, y, &hint, &height, 0, 0) ==
+            MICROTIN_QUERY_OK);
     CHECK(height == exact_heights(triangles, x, y).at(0));
   }
 }
@@ -97,7 +98,7 @@ TEST_CASE("voids: valid terrain wins on shared edges, and a vertex knows its own
   const auto answer = [&](double x, double y, int32_t* height) {
     uint32_t hint = 0;
     return microtin_mesh_height_at(terrain.mesh(), static_cast<int32_t>(x * 256),
-                                   static_cast<int32_t>(y * 256), 0, &hint, height);
+                                   static_cast<int32_t>(y * 256), &hint, height, 0, 0);
   };
   int32_t height = 0;
   CHECK(answer(4, 10, &height) == MICROTIN_QUERY_VOID);
@@ -115,7 +116,9 @@ TEST_CASE("voids: valid terrain wins on shared edges, and a vertex knows its own
 TEST_CASE("real coordinates convert to the lattice exactly") {
   const auto to_lattice = [](const microtin_axis& axis, int64_t value, uint32_t per_unit) {
     int32_t lattice = -1;
-    return microtin_axis_to_lattice(&axis, value, per_unit, &lattice) != 0 ? lattice : -1;
+    return microtin_axis_to_lattice(&axis, value, per_unit, &lattice) == MICROTIN_STATUS_OK
+               ? lattice
+               : -1;
   };
   // A degree cell in steps of 1/1200 degree from 7 degrees east, asked in 1e-7 degrees.
   const microtin_axis east = {7 * 1200, 1, 1200};

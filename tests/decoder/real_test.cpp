@@ -52,7 +52,8 @@ Expected expected(const microtin_axis& axis, int64_t place, Wide fraction, uint3
 uint32_t check_place(const microtin_axis& axis, int64_t place, uint32_t per_unit) {
   const Expected right = expected(axis, place, 256, per_unit);
   int64_t found = -1;
-  const bool known = microtin_axis_from_lattice(&axis, place, per_unit, &found) != 0;
+  const bool known =
+      microtin_axis_from_lattice(&axis, place, per_unit, &found) == MICROTIN_STATUS_OK;
   CHECK(known == right.known);
   CHECK(found == (right.known ? right.value : -1));
   return known ? 1 : 0;
@@ -62,7 +63,7 @@ uint32_t check_height(const microtin_axis& axis, int32_t height, uint32_t per_un
   const Expected right = expected(axis, height, 65536, per_unit);
   const bool fits = right.known && right.value >= INT32_MIN && right.value <= INT32_MAX;
   int32_t found = -1;
-  const bool known = microtin_axis_height(&axis, height, per_unit, &found) != 0;
+  const bool known = microtin_axis_height(&axis, height, per_unit, &found) == MICROTIN_STATUS_OK;
   CHECK(known == fits);
   CHECK(found == (fits ? right.value : -1));
   return known ? 1 : 0;
@@ -110,30 +111,48 @@ TEST_CASE("real units: a place comes back from its coordinate") {
   const microtin_axis degrees = {-117 * 3600, 1, 3600};
   for (int32_t place = 0; place < 65535 * 256; place += 4099) {
     int64_t value = 0;
-    REQUIRE(microtin_axis_from_lattice(&degrees, place, 10000000, &value) == 1);
+    REQUIRE(microtin_axis_from_lattice(&degrees, place, 10000000, &value) == MICROTIN_STATUS_OK);
     int32_t back = -1;
-    REQUIRE(microtin_axis_to_lattice(&degrees, value, 10000000, &back) == 1);
+    REQUIRE(microtin_axis_to_lattice(&degrees, value, 10000000, &back) == MICROTIN_STATUS_OK);
     CHECK(back == place);
   }
 }
 
-TEST_CASE("names of statuses and answers, and versions") {
+TEST_CASE("names of statuses and results, and versions") {
   const auto status = [](int number) {
     return std::string_view(microtin_status_name(static_cast<microtin_status>(number)));
   };
-  const auto answer = [](int number) {
+  const auto result = [](int number) {
     return std::string_view(microtin_query_result_name(static_cast<microtin_query_result>(number)));
   };
   CHECK(status(MICROTIN_STATUS_OK) == "OK");
+  CHECK(status(MICROTIN_STATUS_NEED_INPUT) == "NEED_INPUT");
+  CHECK(status(MICROTIN_STATUS_STEP_LIMIT) == "STEP_LIMIT");
   CHECK(status(MICROTIN_STATUS_STOPPED) == "STOPPED");
   CHECK(status(MICROTIN_STATUS_BAD_MAGIC) == "BAD_MAGIC");
+  CHECK(status(MICROTIN_STATUS_UNSUPPORTED_VERSION) == "UNSUPPORTED_VERSION");
+  CHECK(status(MICROTIN_STATUS_TOO_BIG) == "TOO_BIG");
+  CHECK(status(MICROTIN_STATUS_CHECKSUM) == "CHECKSUM");
+  CHECK(status(MICROTIN_STATUS_MALFORMED) == "MALFORMED");
+  CHECK(status(MICROTIN_STATUS_TRUNCATED) == "TRUNCATED");
+  CHECK(status(MICROTIN_STATUS_MISALIGNED) == "MISALIGNED");
   CHECK(status(MICROTIN_STATUS_WORKSPACE_TOO_SMALL) == "WORKSPACE_TOO_SMALL");
+  CHECK(status(MICROTIN_STATUS_ARGUMENT) == "ARGUMENT");
+  CHECK(status(MICROTIN_STATUS_IO) == "IO");
   CHECK(status(MICROTIN_STATUS_BAD_TILES) == "BAD_TILES");
-  CHECK(answer(MICROTIN_QUERY_OK) == "OK");
-  CHECK(answer(MICROTIN_QUERY_UNVERIFIED) == "UNVERIFIED");
-  CHECK(answer(MICROTIN_QUERY_BAD_TILE) == "BAD_TILE");
-  for (const int none : {4, 15, 27}) CHECK(status(none) == "?");
-  CHECK(answer(7) == "?");
+  CHECK(status(MICROTIN_STATUS_OUT_OF_RANGE) == "OUT_OF_RANGE");
+  CHECK(status(MICROTIN_STATUS_NOT_FOUND) == "NOT_FOUND");
+  CHECK(status(MICROTIN_STATUS_WRONG_PACK_KIND) == "WRONG_PACK_KIND");
+  CHECK(result(MICROTIN_QUERY_OK) == "OK");
+  CHECK(result(MICROTIN_QUERY_OUTSIDE) == "OUTSIDE");
+  CHECK(result(MICROTIN_QUERY_VOID) == "VOID");
+  CHECK(result(MICROTIN_QUERY_NOT_LOADED) == "NOT_LOADED");
+  CHECK(result(MICROTIN_QUERY_UNVERIFIED) == "UNVERIFIED");
+  CHECK(result(MICROTIN_QUERY_STEP_LIMIT) == "STEP_LIMIT");
+  CHECK(result(MICROTIN_QUERY_BAD_TILE) == "BAD_TILE");
+  CHECK(result(MICROTIN_QUERY_WRONG_PACK_KIND) == "WRONG_PACK_KIND");
+  for (const int none : {-1, 4, 15, 30, int{MICROTIN_STATUS_REJECTED}}) CHECK(status(none) == "?");
+  for (const int none : {-1, 8}) CHECK(result(none) == "?");
   CHECK(microtin_version_number() ==
         MICROTIN_VERSION_MAJOR * 65536 + MICROTIN_VERSION_MINOR * 256 + MICROTIN_VERSION_PATCH);
   CHECK(microtin_stream_format_version() == kVersion);

@@ -18,7 +18,7 @@ void begin_again(Device& device) {
 microtin_query_result answer_at(const Device& device, uint32_t flags) {
   uint32_t hint = 0;
   int32_t height = 0;
-  return microtin_mesh_height_at(device.mesh, 500 * 256, 500 * 256, flags, &hint, &height);
+  return microtin_mesh_height_at(device.mesh, 500 * 256, 500 * 256, &hint, &height, flags, 0);
 }
 
 bool has_void(const Device& device) {

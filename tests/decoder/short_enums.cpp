@@ -12,5 +12,5 @@ size_t short_enums_status_size(void) {
 
 uint32_t short_enums_why(const microtin_pack* pack, uint32_t i) {
   uint32_t tile, why = 0xA5A5A5A5u;
-  return microtin_pack_bad_tile(pack, i, &tile, &why) != 0 ? why : 0;
+  return microtin_pack_bad_tile(pack, i, &tile, &why) == MICROTIN_STATUS_OK ? why : 0;
 }

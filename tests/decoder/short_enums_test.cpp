@@ -18,7 +18,7 @@ TEST_CASE("short enums: structs have the same sizes, and what is written is what
   Card card{forged_pack(
       {4, 4, 4, 4}, {forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}, {4, 4, 4}, {2, 2, 5}}, {}})})};
   const MeshSlots device(1, 3);
-  CHECK(device.service(card, at(1, 1)) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.load(card, at(1, 1)) == MICROTIN_STATUS_BAD_TILES);
   CHECK(short_enums_why(device.pack, 0) == MICROTIN_STATUS_TOO_BIG);
 }
 

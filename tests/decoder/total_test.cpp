@@ -37,7 +37,7 @@ microtin_query_result answer_at(const Device& device, uint32_t x, uint32_t y, ui
   uint32_t hint = 0;
   int32_t height = 0;
   return microtin_mesh_height_at(device.mesh, static_cast<int32_t>(x * 256),
-                                 static_cast<int32_t>(y * 256), flags, &hint, &height);
+                                 static_cast<int32_t>(y * 256), &hint, &height, flags, 0);
 }
 
 // Queries at the vertices and elsewhere, with what they must say of a mesh so far.

@@ -42,7 +42,7 @@ Walked walk(const microtin_mesh* mesh, Place p, uint32_t* hint) {
   Walked walked = {MICROTIN_QUERY_STEP_LIMIT, 0};
   while (walked.answer == MICROTIN_QUERY_STEP_LIMIT &&
          walked.steps <= microtin_mesh_triangle_count(mesh)) {
-    walked.answer = microtin_mesh_height_at_limited(mesh, p.x, p.y, 0, 1, hint, &height);
+    walked.answer = microtin_mesh_height_at(mesh, p.x, p.y, hint, &height, 0, 1);
     ++walked.steps;
   }
   return walked;
@@ -64,7 +64,7 @@ TEST_CASE("a walk in pieces finds what one without a limit does, within the boun
       CHECK(walked.steps <= microtin_mesh_triangle_count(terrain.mesh()));
       int32_t height = 0;
       CHECK(walked.answer ==
-            microtin_mesh_height_at(terrain.mesh(), p.x, p.y, 0, &whole_hint, &height));
+            microtin_mesh_height_at(terrain.mesh(), p.x, p.y, &whole_hint, &height, 0, 0));
       most = std::max(most, walked.steps);
     }
   }
@@ -85,9 +85,9 @@ TEST_CASE("from buckets the walk is short, and its end the same") {
     uint32_t cold = 0, hint = buckets.hint(p.x, p.y);
     int32_t cold_height = 0, height = 0;
     const microtin_query_result expected =
-        microtin_mesh_height_at(terrain.mesh(), p.x, p.y, 0, &cold, &cold_height);
+        microtin_mesh_height_at(terrain.mesh(), p.x, p.y, &cold, &cold_height, 0, 0);
     total += walk(terrain.mesh(), p, &hint).steps;
-    CHECK(microtin_mesh_height_at(terrain.mesh(), p.x, p.y, 0, &hint, &height) == expected);
+    CHECK(microtin_mesh_height_at(terrain.mesh(), p.x, p.y, &hint, &height, 0, 0) == expected);
     CHECK(height == cold_height);
   }
   CHECK(total < 4 * kProbes);

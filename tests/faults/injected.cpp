@@ -100,12 +100,12 @@ ssize_t wrap_pread(int file, void* to, size_t size, off_t offset) {
 
 microtin_status real_finish(microtin_decoder* decoder) __asm__("__real_microtin_decoder_finish");
 microtin_query_result real_height_at(const microtin_mesh* mesh, int32_t x, int32_t y,
-                                     uint32_t flags, uint32_t* hint,
-                                     int32_t* height) __asm__("__real_microtin_mesh_height_at");
+                                     uint32_t* hint, int32_t* height, uint32_t flags,
+                                     uint32_t step_limit) __asm__("__real_microtin_mesh_height_at");
 microtin_status wrap_finish(microtin_decoder* decoder) __asm__("__wrap_microtin_decoder_finish");
 microtin_query_result wrap_height_at(const microtin_mesh* mesh, int32_t x, int32_t y,
-                                     uint32_t flags, uint32_t* hint,
-                                     int32_t* height) __asm__("__wrap_microtin_mesh_height_at");
+                                     uint32_t* hint, int32_t* height, uint32_t flags,
+                                     uint32_t step_limit) __asm__("__wrap_microtin_mesh_height_at");
 
 microtin_status wrap_finish(microtin_decoder* decoder) {
   const microtin_status status = real_finish(decoder);
@@ -113,8 +113,9 @@ microtin_status wrap_finish(microtin_decoder* decoder) {
 }
 
 microtin_query_result wrap_height_at(const microtin_mesh* mesh, int32_t x, int32_t y,
-                                     uint32_t flags, uint32_t* hint, int32_t* height) {
-  const microtin_query_result kind = real_height_at(mesh, x, y, flags, hint, height);
+                                     uint32_t* hint, int32_t* height, uint32_t flags,
+                                     uint32_t step_limit) {
+  const microtin_query_result kind = real_height_at(mesh, x, y, hint, height, flags, step_limit);
   if (active != nullptr && kind == MICROTIN_QUERY_OK && active->heights.fails()) *height += 1 << 24;
   return kind;
 }

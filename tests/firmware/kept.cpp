@@ -19,7 +19,7 @@ constexpr uint32_t kApplicationBytes = 4096, kFree = 16;
 constexpr uint8_t kPaint = 0xA5;
 
 volatile uint8_t application[kApplicationBytes];
-microtin::CompactPack<kSlots, kCapacity, kTileBytes> pack(microtin::later);
+microtin::CompactPack<kSlots, kCapacity, kTileBytes> pack(microtin::defer_init);
 
 uint8_t own_byte(uint32_t i) {
   return static_cast<uint8_t>(i * 7 + i / 256);
@@ -43,7 +43,7 @@ bool is_untouched() {
 // Has all tiles there, one after the other.
 microtin_status fetch_all(microtin_pack_info& info) {
   microtin_status status = serve(pack, {0, 0, 0, 0});
-  if (status != MICROTIN_STATUS_OK || !pack.header(&info)) return status;
+  if (status != MICROTIN_STATUS_OK || pack.get_info(&info) != MICROTIN_STATUS_OK) return status;
   for (uint32_t y = 0; y < info.y_max; y += info.tile_height) {
     for (uint32_t x = 0; x < info.x_max; x += info.tile_width) {
       const int64_t px = static_cast<int64_t>(x) * 256 + 128;

@@ -19,7 +19,7 @@ template <class Pack>
 microtin_status serve(Pack& pack, const microtin_segment& course) {
   microtin_status status = MICROTIN_STATUS_NEED_INPUT;
   while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
-    status = pack.service(course, 50, read_flash, nullptr);
+    status = pack.load_with(course, read_flash, nullptr, 50);
   }
   return status;
 }

@@ -16,7 +16,8 @@ int firmware_main() {
   const microtin_segment origin = {0, 0, 0, 0};
   microtin_pack_info info;
   uint32_t hint = 0;
-  if (serve(pack, origin) != MICROTIN_STATUS_OK || !pack.header(&info)) return 1;
+  if (serve(pack, origin) != MICROTIN_STATUS_OK || pack.get_info(&info) != MICROTIN_STATUS_OK)
+    return 1;
   for (int32_t i = 0; i < FLIGHT_PLACES; ++i) {
     microtin_segment here = flight_course(i, &info);
     here.x_end = here.x;

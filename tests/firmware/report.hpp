@@ -77,7 +77,7 @@ inline void report_probes(PutChar put, const microtin_mesh* mesh) {
     const int32_t x = numbers.between(box.west, box.east);
     const int32_t y = numbers.between(box.south, box.north);
     int32_t height = 0;
-    const microtin_query_result answer = microtin_mesh_height_at(mesh, x, y, 0, &hint, &height);
+    const microtin_query_result answer = microtin_mesh_height_at(mesh, x, y, &hint, &height, 0, 0);
     print(put, x);
     print(put, " ");
     print(put, y);
@@ -122,14 +122,14 @@ uint32_t sum_of_probes(const ProbeBox& box, HeightAt height_at) {
 #ifndef MICROTIN_WITHOUT_COURSES
 inline microtin_query_result highest_on(const microtin_mesh* mesh, const microtin_segment* c,
                                         int32_t* z) {
-  return microtin_mesh_segment_max(mesh, c, z);
+  return microtin_mesh_segment_max(mesh, c, nullptr, z, 0);
 }
 inline microtin_query_result highest_on(const microtin_compact* compact, const microtin_segment* c,
                                         int32_t* z) {
   microtin_segment_state progress = {};
   microtin_query_result answer;
   do {
-    answer = microtin_compact_segment_max_limited(compact, c, 9, &progress, z);
+    answer = microtin_compact_segment_max(compact, c, &progress, z, 9);
   } while (answer == MICROTIN_QUERY_STEP_LIMIT);
   return answer;
 }
@@ -176,7 +176,7 @@ inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size
   const ProbeBox box = probe_box(mesh);
   const uint64_t digest = microtin_mesh_digest(mesh);
   const uint32_t sum = sum_of_probes(box, [mesh](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
-    return microtin_mesh_height_at(mesh, x, y, 0, hint, z);
+    return microtin_mesh_height_at(mesh, x, y, hint, z, 0, 0);
   });
   const uint32_t courses = sum_of_courses(box, mesh);
   microtin_compactor* compactor = 0;
@@ -185,7 +185,7 @@ inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size
       microtin_compactor_init(mesh, size, mesh, scratch, scratch_size, &compactor);
   if (status != MICROTIN_STATUS_OK) return false;
   do {
-    status = microtin_compactor_run(compactor, 5, &compact);
+    status = microtin_compactor_run(compactor, &compact, 5);
   } while (status == MICROTIN_STATUS_STEP_LIMIT);
   const uint32_t n = microtin_mesh_vertex_count(mesh);
   if (status == MICROTIN_STATUS_WORKSPACE_TOO_SMALL) return n < 100;
@@ -193,7 +193,7 @@ inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size
   return microtin_compact_digest(compact) == digest &&
          sum == sum_of_probes(box,
                               [compact](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
-                                return microtin_compact_height_at(compact, x, y, 0, hint, z);
+                                return microtin_compact_height_at(compact, x, y, hint, z, 0);
                               }) &&
          courses == sum_of_courses(box, compact);
 }

@@ -20,14 +20,14 @@ HERE = Path(__file__).parent
 ROOT = HERE.parent.parent
 BUDGET = HERE / "budget.json"
 
-DECODING = ["peek", "mesh_init", "decoder_init", "feed", "finish"]
-QUERIES = ["height_at", "to_lattice", "vertex", "triangle", "neighbour", "digest"]
+DECODING = ["read_stream_info", "mesh_init", "decoder_init", "decoder_feed", "decoder_finish"]
+QUERIES = ["mesh_height_at", "axis_to_lattice", "mesh_vertex", "mesh_triangle", "mesh_neighbour", "mesh_digest"]
 BUCKETS = ["buckets_init", "buckets_hint"]
-COMPACT = ["compact_begin", "compact_proceed", "compact_needs", "compact_height_at", "compact_hint"]
-PACK = ["pack_init", "pack_prepare", "pack_wanted", "pack_given", "pack_align_reads", "pack_bad_tile", "pack_header"]
-PACK_QUERIES = ["pack_height_at", "pack_to_lattice", "pack_highest", "pack_fill"]
-COMPACT_PACK = [{"pack_init": "compact_pack_init", "pack_prepare": "compact_pack_prepare"}.get(e, e) for e in PACK]
-COMPACT_PACK_QUERIES = ["compact_pack_height_at", "pack_to_lattice", "compact_pack_highest", "compact_pack_fill"]
+COMPACT = ["compactor_init", "compactor_run", "compactor_required_bytes", "compact_height_at", "compact_hint"]
+PACK = ["pack_init", "pack_load", "pack_next_read", "pack_complete_read", "pack_align_reads", "pack_bad_tile", "pack_get_info"]
+PACK_QUERIES = ["pack_height_at", "pack_axis_to_lattice", "pack_segment_max", "pack_sample_grid"]
+COMPACT_PACK = [{"pack_init": "compact_pack_init", "pack_load": "compact_pack_load"}.get(e, e) for e in PACK]
+COMPACT_PACK_QUERIES = ["compact_" + e if e != "pack_axis_to_lattice" else e for e in PACK_QUERIES]
 USES = {
     "decoding": DECODING,
     "queries": DECODING + QUERIES,
@@ -47,7 +47,8 @@ ONE_SOURCE_USES = {
 }
 MOST_OF_CLANG = 1.2  # times gcc's bytes
 MOST_OF_ONE_SOURCE = 1.04  # times the instructions of separate sources
-WIDTH_IN_NAME = ["peek", "mesh_init", "decoder_init", "buckets_init", "compact_begin", "pack_init", "compact_pack_init"]
+WIDTH_IN_NAME = ["read_stream_info", "mesh_init", "decoder_init", "buckets_init", "compactor_init", "pack_init",
+                 "compact_pack_init"]
 
 
 # --- Measuring ------------------------------------------------------------------------------------

@@ -142,7 +142,7 @@ uint32_t make_compact(TerrainOfTile& terrain, uint32_t piece) {
   microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
   while (status == MICROTIN_STATUS_STEP_LIMIT) {
     const uint32_t before = instruction_count();
-    status = microtin_compactor_run(compactor, piece, &compact);
+    status = microtin_compactor_run(compactor, &compact, piece);
     pieces.add(instruction_count() - before);
   }
   return pieces.most() - overhead();
@@ -152,7 +152,7 @@ uint32_t make_compact(TerrainOfTile& terrain, uint32_t piece) {
 struct CompactFace {
   uint32_t hint(int32_t x, int32_t y) const { return microtin_compact_hint(compact, x, y); }
   void height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height) const {
-    microtin_compact_height_at(compact, x, y, 0, hint, height);
+    microtin_compact_height_at(compact, x, y, hint, height, 0);
   }
 };
 

@@ -41,14 +41,14 @@ template <class Pack>
 Statistics fetch(Pack& pack, microtin_pack_info& info) {
   Statistics calls;
   serve(pack, {0, 0, 0, 0});
-  pack.header(&info);
+  pack.get_info(&info);
   pack.reset();
   for (uint32_t i = 0; i < kSlots; ++i) {
     const int64_t x = static_cast<int64_t>(i % 3 * info.tile_width) * 256 + 128;
     const int64_t y = static_cast<int64_t>(i / 3 * info.tile_height) * 256 + 128;
     microtin_status status = MICROTIN_STATUS_NEED_INPUT;
     while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
-      calls.add(counted([&] { status = pack.service({x, y, x, y}, 1, read_flash, nullptr); }));
+      calls.add(counted([&] { status = pack.load_with({x, y, x, y}, read_flash, nullptr, 1); }));
     }
   }
   return calls;
@@ -75,7 +75,7 @@ void measure(Pack& pack, const Told& told) {
   for (uint32_t i = 0; i < kCourses; ++i) {
     const int32_t x = numbers.between(0, x_most), y = numbers.between(0, y_most),
                   x_end = numbers.between(0, x_most), y_end = numbers.between(0, y_most);
-    courses.add(counted([&] { pack.highest({x, y, x_end, y_end}, &height); }));
+    courses.add(counted([&] { pack.segment_max({x, y, x_end, y_end}, &height); }));
   }
   told.say("_highest_mean", courses.mean());
   told.say("_highest_worst", courses.most());
@@ -84,8 +84,8 @@ void measure(Pack& pack, const Told& told) {
 }  // namespace
 
 int firmware_main() {
-  static microtin::Pack<kSlots, kCapacity> meshes(microtin::later);
-  static microtin::CompactPack<kSlots, kCapacity> compact(microtin::later);
+  static microtin::Pack<kSlots, kCapacity> meshes(microtin::defer_init);
+  static microtin::CompactPack<kSlots, kCapacity> compact(microtin::defer_init);
   if (meshes.begin() != MICROTIN_STATUS_OK || compact.begin() != MICROTIN_STATUS_OK) return 1;
   measure(meshes, Told("pack"));
   measure(compact, Told("compact_pack"));

@@ -33,7 +33,7 @@ microtin_status microtin_pack_init(void*, size_t, uint32_t, uint32_t, microtin_p
 }
 
 microtin_status microtin_decoder_feed(microtin_decoder* decoder, const uint8_t*, size_t size,
-                                      uint32_t, size_t* used) {
+                                      size_t* used, uint32_t) {
   *used = size;
   return decoder == nullptr ? MICROTIN_STATUS_ARGUMENT : MICROTIN_STATUS_NEED_INPUT;
 }
@@ -82,6 +82,6 @@ int main() {
   pack_status = MICROTIN_STATUS_MISALIGNED;
   microtin::Pack<1, 5> pack;
   right = right && pack.status() == MICROTIN_STATUS_MISALIGNED &&
-          pack.service({0, 0, 0, 0}, 1, nothing, nullptr) == MICROTIN_STATUS_MISALIGNED;
+          pack.load_with({0, 0, 0, 0}, nothing, nullptr, 1) == MICROTIN_STATUS_MISALIGNED;
   return right ? 0 : 1;
 }

@@ -61,8 +61,8 @@ class HostPack {
       uint32_t hint = 0;
       int32_t height = 0;
       if (found->second && microtin_mesh_height_at(found->second->mesh(), static_cast<int32_t>(lx),
-                                                   static_cast<int32_t>(ly), 0, &hint,
-                                                   &height) == MICROTIN_QUERY_OK) {
+                                                   static_cast<int32_t>(ly), &hint, &height, 0,
+                                                   0) == MICROTIN_QUERY_OK) {
         return std::to_string(height);
       }
     }
@@ -146,9 +146,9 @@ TEST_CASE("pack: aligned reads lie in one sector, and answers are the same") {
   Random random(5);
   for (int i = 0; i < 300; ++i) {
     const microtin_segment here = at(random.below(121), random.below(105));
-    CHECK(microtin_pack_load_with(loose.pack, &here, 0, SectorCard::read, cards) ==
+    CHECK(microtin_pack_load_with(loose.pack, &here, SectorCard::read, cards, 0) ==
           MICROTIN_STATUS_OK);
-    CHECK(microtin_pack_load_with(aligned.pack, &here, 0, SectorCard::read, cards + 1) ==
+    CHECK(microtin_pack_load_with(aligned.pack, &here, SectorCard::read, cards + 1, 0) ==
           MICROTIN_STATUS_OK);
     int32_t heights[2] = {0, 0};
     CHECK(loose.height_at(here.x, here.y, heights[0]) ==
@@ -172,8 +172,8 @@ TEST_CASE("pack: along a row, sectors of small and of large tiles") {
     CHECK(microtin_pack_align_reads(aligned.pack, 512) == MICROTIN_STATUS_OK);
     for (int32_t x = 4; x < static_cast<int32_t>(kTiles * width); x += 4) {
       const microtin_segment ahead = {(x - 4) * 256, 1280, x * 256, 1280};
-      CHECK(loose.service(ahead, 0, SectorCard::read, cards) == MICROTIN_STATUS_OK);
-      CHECK(aligned.service(ahead, 0, SectorCard::read, cards + 1) == MICROTIN_STATUS_OK);
+      CHECK(loose.load_with(ahead, SectorCard::read, cards, 0) == MICROTIN_STATUS_OK);
+      CHECK(aligned.load_with(ahead, SectorCard::read, cards + 1, 0) == MICROTIN_STATUS_OK);
     }
     // Every sector once, and for four tiles the index and the sector that was left for it.
     const uint64_t file = (cards[1].bytes.size() + 511) / 512;
@@ -206,8 +206,8 @@ TEST_CASE(
       for (int32_t along = 0; along <= side; along += 2) {
         const int32_t across = drift * along / side;
         const microtin_segment here = flight % 2 != 0 ? at(along, across) : at(across, along);
-        CHECK(loose.service(here, 0, SectorCard::read, cards) == MICROTIN_STATUS_OK);
-        CHECK(aligned.service(here, 0, SectorCard::read, cards + 1) == MICROTIN_STATUS_OK);
+        CHECK(loose.load_with(here, SectorCard::read, cards, 0) == MICROTIN_STATUS_OK);
+        CHECK(aligned.load_with(here, SectorCard::read, cards + 1, 0) == MICROTIN_STATUS_OK);
       }
       worst = std::max(worst, 512.0 * static_cast<double>(cards[1].sectors) /
                                   static_cast<double>(cards[0].asked));
@@ -230,12 +230,12 @@ TEST_CASE(
   const MeshSlots device(4, 400);
   CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_STATUS_OK);
   card.bytes[second] ^= 1;
-  CHECK(device.service(card, at(5, 5)) == MICROTIN_STATUS_OK);
+  CHECK(device.load(card, at(5, 5)) == MICROTIN_STATUS_OK);
   card.bytes[second] ^= 1;
-  CHECK(device.service(card, at(17, 5)) == MICROTIN_STATUS_BAD_TILES);
-  CHECK(device.service(card, at(30, 5)) == MICROTIN_STATUS_OK);
+  CHECK(device.load(card, at(17, 5)) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.load(card, at(30, 5)) == MICROTIN_STATUS_OK);
   microtin_pack_clear_bad_tiles(device.pack);
-  CHECK(device.service(card, at(17, 5)) == MICROTIN_STATUS_OK);
+  CHECK(device.load(card, at(17, 5)) == MICROTIN_STATUS_OK);
 }
 
 // With so many bad tiles that this one is not remembered, and so tried again.
@@ -251,10 +251,10 @@ TEST_CASE("pack: an entry that was misread together with others is not kept") {
   CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_STATUS_OK);
   int32_t height = 0;
   misread ^= 1;
-  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.load(card, all) == MICROTIN_STATUS_BAD_TILES);
   CHECK(device.height_at(kMisread * 512 + 256, 300, height) == MICROTIN_QUERY_NOT_LOADED);
   misread ^= 1;
-  CHECK(device.service(card, all) == MICROTIN_STATUS_BAD_TILES);
+  CHECK(device.load(card, all) == MICROTIN_STATUS_BAD_TILES);
   CHECK(device.height_at(kMisread * 512 + 256, 300, height) == MICROTIN_QUERY_OK);
 }
 
@@ -268,7 +268,7 @@ TEST_CASE_TEMPLATE("pack: tiles without terrain, of entries that are kept, end n
     CHECK(microtin_pack_align_reads(device.pack, 512) == MICROTIN_STATUS_OK);
     microtin_status status = MICROTIN_STATUS_NEED_INPUT;
     while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
-      status = device.service(card, all, steps);
+      status = device.load(card, all, steps);
     }
     CHECK(status == MICROTIN_STATUS_OK);
     int32_t height = 0;
@@ -288,7 +288,7 @@ TEST_CASE("pack: only powers of two align reads, and all of them do") {
     Card card{bytes};
     CHECK(microtin_pack_align_reads(device.pack, sector) == MICROTIN_STATUS_OK);
     microtin_pack_reset(device.pack);  // keeps it
-    CHECK(device.service(card, at(20, 20)) == MICROTIN_STATUS_OK);
+    CHECK(device.load(card, at(20, 20)) == MICROTIN_STATUS_OK);
     uint64_t offset = 0;
     uint8_t* buffer = nullptr;
     size_t size = 0;

@@ -29,11 +29,12 @@ Found find_note(const uint8_t* bytes, size_t size, uint8_t type) {
 // Nothing if there is no such note.
 std::optional<Bytes> content_of(const Bytes& header, uint8_t type) {
   const Found found = find_note(header.data(), header.size(), type);
-  CHECK(found.status == MICROTIN_STATUS_OK);
-  if (found.content == nullptr) {
+  if (found.status == MICROTIN_STATUS_NOT_FOUND) {
+    CHECK(found.content == nullptr);
     CHECK(found.size == 0);
     return std::nullopt;
   }
+  CHECK(found.status == MICROTIN_STATUS_OK);
   return Bytes(found.content, found.content + found.size);
 }
 
@@ -149,7 +150,9 @@ TEST_CASE("notes: any bytes in their place are searched within bounds") {
     const int expected = position_of(notes, type);
     for (const Bytes& header : {stream_header(notes, placement), pack_header(notes, placement)}) {
       const Found found = find_note(header.data(), header.size(), type);
-      CHECK(found.status == (expected == -2 ? MICROTIN_STATUS_MALFORMED : MICROTIN_STATUS_OK));
+      CHECK(found.status == (expected == -2   ? MICROTIN_STATUS_MALFORMED
+                             : expected == -1 ? MICROTIN_STATUS_NOT_FOUND
+                                              : MICROTIN_STATUS_OK));
       const size_t start = header.size() - kCheckBytes - notes.size();
       if (expected < 0) {
         CHECK(found.content == nullptr);
@@ -171,6 +174,7 @@ TEST_CASE("notes: a changed byte is told, and forged headers keep the search wit
         changed[at] = static_cast<uint8_t>(changed[at] ^ 1 << bit);
         const Found damaged = find_note(changed.data(), changed.size(), 7);
         CHECK(damaged.status != MICROTIN_STATUS_OK);
+        CHECK(damaged.status != MICROTIN_STATUS_NOT_FOUND);
         CHECK(damaged.content == nullptr);
         changed.resize(changed.size() - kCheckBytes);
         append_check(changed, 0);

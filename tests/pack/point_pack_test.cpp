@@ -239,7 +239,7 @@ TEST_CASE("a device reads packs of points: heights, and the highest on a course"
       const GlobalPost p = places[random.below(static_cast<uint32_t>(places.size()))];
       const int64_t x = i % 3 == 0 ? random.below(x_max) : p.x, y = p.y;
       microtin_segment c{x * 256, y * 256, x * 256, y * 256};
-      REQUIRE(device.service(card, c) == MICROTIN_STATUS_OK);
+      REQUIRE(device.load(card, c) == MICROTIN_STATUS_OK);
       int32_t height = 0;
       const microtin_query_result answer = device.height_at(c.x, c.y, height);
       const std::optional<int32_t> expected = expected_height(pack, c.x, c.y);
@@ -255,9 +255,9 @@ TEST_CASE("a device reads packs of points: heights, and the highest on a course"
           continue;
         }
         c = {int64_t{p.x} * 256, int64_t{p.y} * 256, int64_t{q.x} * 256, int64_t{q.y} * 256};
-        if (device.service(card, c) != MICROTIN_STATUS_OK) break;  // more tiles than slots
+        if (device.load(card, c) != MICROTIN_STATUS_OK) break;  // more tiles than slots
         int32_t highest = 0, begin = 0, end = 0;
-        CHECK(device.highest(c, &highest) == MICROTIN_QUERY_OK);
+        CHECK(device.segment_max(c, &highest) == MICROTIN_QUERY_OK);
         REQUIRE(device.height_at(c.x, c.y, begin) == MICROTIN_QUERY_OK);
         REQUIRE(device.height_at(c.x_end, c.y_end, end) == MICROTIN_QUERY_OK);
         const double exact = std::max({highest_on_edges(model, c) * 65536, begin * 1.0, end * 1.0});

@@ -6,7 +6,7 @@
 #include "microtin/pack.hpp"
 
 #ifndef LATER
-#define LATER (microtin::later)
+#define LATER (microtin::defer_init)
 #endif
 
 template class microtin::Terrain<1000>;
@@ -17,7 +17,7 @@ template class microtin::Buckets<10>;
 template class microtin::CompactTerrain<1000>;
 
 microtin::Terrain<1000> terrain LATER;
-microtin::Decoder<1000> decoder(microtin::later);
+microtin::Decoder<1000> decoder(microtin::defer_init);
 microtin::Pack<4, 500> pack LATER;
 microtin::CompactPack<4, 500> compact_pack LATER;
 microtin::Buckets<10> buckets;

@@ -28,7 +28,7 @@ class Tiles {
     uint32_t hint = 0;
     return microtin_mesh_height_at(
         tiles_[tile]->mesh(), static_cast<int32_t>(x - int64_t{box.x} * 256),
-        static_cast<int32_t>(y - int64_t{box.y} * 256), 0, &hint, &height);
+        static_cast<int32_t>(y - int64_t{box.y} * 256), &hint, &height, 0, 0);
   }
 
   bool has_terrain(uint32_t tile) const { return tiles_[tile].has_value(); }

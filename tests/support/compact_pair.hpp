@@ -130,7 +130,7 @@ inline microtin_query_result height_in_pieces(const microtin_compact* compact, F
   microtin_query_result answer = MICROTIN_QUERY_STEP_LIMIT;
   const uint32_t most = microtin_compact_triangle_count(compact) / piece + 1;
   for (uint32_t i = 0; i <= most && answer == MICROTIN_QUERY_STEP_LIMIT; ++i) {
-    answer = microtin_compact_height_at(compact, p.x, p.y, piece, hint, height);
+    answer = microtin_compact_height_at(compact, p.x, p.y, hint, height, piece);
   }
   return answer;
 }
@@ -147,10 +147,10 @@ inline std::string difference_of_heights(const microtin_mesh* mesh, const microt
     if (way == 2) hint = microtin_compact_hint(compact, p.x, p.y);
     int32_t expected = 1, height = 1;
     const microtin_query_result answer =
-        microtin_mesh_height_at(mesh, p.x, p.y, 0, &mesh_hint, &expected);
+        microtin_mesh_height_at(mesh, p.x, p.y, &mesh_hint, &expected, 0, 0);
     const microtin_query_result other =
         way == 3 ? height_in_pieces(compact, p, 1 + random.below(3), &hint, &height)
-                 : microtin_compact_height_at(compact, p.x, p.y, 0, &hint, &height);
+                 : microtin_compact_height_at(compact, p.x, p.y, &hint, &height, 0);
     if (answer != other || expected != height) {
       return "at " + std::to_string(p.x) + " " + std::to_string(p.y) + ": " +
              std::to_string(expected) + " (" + std::to_string(answer) + "), compact " +

@@ -58,7 +58,7 @@ struct Device {
   }
 
   microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t steps = 0) const {
-    return microtin_decoder_feed(decoder, bytes, size, steps, used);
+    return microtin_decoder_feed(decoder, bytes, size, used, steps);
   }
   microtin_status feed_all(const Bytes& bytes) const {
     size_t used = 0;

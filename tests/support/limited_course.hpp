@@ -19,27 +19,27 @@ struct Highest {
 
 inline Highest highest_on(const microtin_mesh* mesh, const microtin_segment& c) {
   Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
-  told.answer = microtin_mesh_segment_max(mesh, &c, &told.height);
+  told.answer = microtin_mesh_segment_max(mesh, &c, nullptr, &told.height, 0);
   return told;
 }
 
 inline Highest highest_on(const microtin_compact* compact, const microtin_segment& c) {
   Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
-  told.answer = microtin_compact_segment_max(compact, &c, &told.height);
+  told.answer = microtin_compact_segment_max(compact, &c, nullptr, &told.height, 0);
   return told;
 }
 
 inline Highest limited_highest(const microtin_mesh* mesh, const microtin_segment& c, uint32_t limit,
                                microtin_segment_state* progress) {
   Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
-  told.answer = microtin_mesh_segment_max_limited(mesh, &c, limit, progress, &told.height);
+  told.answer = microtin_mesh_segment_max(mesh, &c, progress, &told.height, limit);
   return told;
 }
 
 inline Highest limited_highest(const microtin_compact* compact, const microtin_segment& c,
                                uint32_t limit, microtin_segment_state* progress) {
   Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
-  told.answer = microtin_compact_segment_max_limited(compact, &c, limit, progress, &told.height);
+  told.answer = microtin_compact_segment_max(compact, &c, progress, &told.height, limit);
   return told;
 }
 

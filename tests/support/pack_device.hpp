@@ -44,15 +44,15 @@ class PackDevice {
   PackDevice(const PackDevice&) = delete;
   PackDevice& operator=(const PackDevice&) = delete;
 
-  microtin_status service(Card& card, const microtin_segment& course, uint32_t steps = 0) const {
-    return service(course, steps, Card::read, &card);
+  microtin_status load(Card& card, const microtin_segment& course, uint32_t steps = 0) const {
+    return load_with(course, Card::read, &card, steps);
   }
-  microtin_status service(const microtin_segment& course, uint32_t steps, microtin_read read,
-                          void* context) const {
-    return is_compact_ ? microtin_compact_pack_load_with(pack, &course, steps, read, context)
-                       : microtin_pack_load_with(pack, &course, steps, read, context);
+  microtin_status load_with(const microtin_segment& course, microtin_read read, void* context,
+                            uint32_t steps) const {
+    return is_compact_ ? microtin_compact_pack_load_with(pack, &course, read, context, steps)
+                       : microtin_pack_load_with(pack, &course, read, context, steps);
   }
-  microtin_status prepare(const microtin_segment& course, uint32_t steps) const {
+  microtin_status load_without_reading(const microtin_segment& course, uint32_t steps) const {
     return is_compact_ ? microtin_compact_pack_load(pack, &course, steps)
                        : microtin_pack_load(pack, &course, steps);
   }
@@ -61,11 +61,11 @@ class PackDevice {
     return is_compact_ ? microtin_compact_pack_height_at(pack, x, y, &hint, &height)
                        : microtin_pack_height_at(pack, x, y, &hint, &height);
   }
-  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
+  microtin_query_result segment_max(const microtin_segment& course, int32_t* height) const {
     return is_compact_ ? microtin_compact_pack_segment_max(pack, &course, height)
                        : microtin_pack_segment_max(pack, &course, height);
   }
-  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
+  microtin_query_result sample_grid(const microtin_grid_spec& block, int16_t* heights) const {
     return is_compact_ ? microtin_compact_pack_sample_grid(pack, &block, heights)
                        : microtin_pack_sample_grid(pack, &block, heights);
   }
@@ -117,8 +117,8 @@ inline std::optional<int32_t> expected_height(const PackFile& pack, int64_t x, i
     }
     uint32_t hint = 0;
     int32_t height = 0;
-    if (microtin_mesh_height_at(tile->mesh(), static_cast<int32_t>(lx), static_cast<int32_t>(ly), 0,
-                                &hint, &height) == MICROTIN_QUERY_OK) {
+    if (microtin_mesh_height_at(tile->mesh(), static_cast<int32_t>(lx), static_cast<int32_t>(ly),
+                                &hint, &height, 0, 0) == MICROTIN_QUERY_OK) {
       return height;
     }
   }
@@ -151,7 +151,8 @@ inline double highest_on_edges(const SurfaceModel& model, const microtin_segment
 inline microtin_status why_bad(const PackDevice& device, uint32_t tile) {
   for (uint32_t i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
     uint32_t number = 0, why = MICROTIN_STATUS_OK;
-    if (microtin_pack_bad_tile(device.pack, i, &number, &why) == 1 && number == tile) {
+    if (microtin_pack_bad_tile(device.pack, i, &number, &why) == MICROTIN_STATUS_OK &&
+        number == tile) {
       return static_cast<microtin_status>(why);
     }
   }

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT
 /* microtin compact terrains: a decoded terrain in a third of the mesh's memory. C99 and C++.
  *
+<<<<<<< HEAD
  * A compact terrain is made from a mesh, which is lost by that, and answers the same queries with
  * the same answers; shared/docs/sizes.md compares what they cost. Its vertices and triangles have
  * other numbers than the mesh's, since they are counted along a path through all of them. It holds
  * no pointers: it may be copied and moved as a whole, to any place aligned to MICROTIN_ALIGNMENT.
+=======
+ * A compact terrain is made from a mesh, which is consumed, and answers the same queries with the
+ * same results. Its vertices and triangles have other numbers than the mesh's, because they are
+ * counted along a path through all of them. A compact terrain holds no pointers: a program may copy
+ * or move it as a whole to any address aligned to MICROTIN_ALIGNMENT.
+>>>>>>> 07ac23b (wip)
  *
  * Nothing here allocates, recurses, uses floating point or keeps global state.
  */
@@ -13,18 +20,18 @@
 
 #include "microtin/segment.h"
 
-/* Bytes of a compact terrain of so many vertices; NARROW if its places lie in a box less than 256
- * steps wide and high. Constant expressions, also usable in #if. The path passes vertices that it
- * cannot reach by taking a neighbour twice, which costs as much as two vertices: these macros allow
- * for as many as the encoder lets pass. A mesh that needs more is told by its status,
- * MICROTIN_STATUS_WORKSPACE_TOO_SMALL, before anything is changed. */
+/* Bytes of a compact terrain of `vertices` vertices: constant expressions, also usable in #if.
+ * NARROW is for positions in a box less than 256 lattice steps wide and high. A vertex that the
+ * path passes twice costs as much as two. These macros allow for as many as the encoder allows. For
+ * a mesh with more, microtin_compactor_run returns WORKSPACE_TOO_SMALL before it changes anything.
+ */
 #define MICROTIN_COMPACT_BYTES(vertices) \
   MICROTIN_COMPACT_BYTES_FOR(vertices, 2ul, MICROTIN_INDEX_BITS)
 #define MICROTIN_COMPACT_NARROW_BYTES(vertices) \
   MICROTIN_COMPACT_BYTES_FOR(vertices, 0ul, MICROTIN_INDEX_BITS)
 
-/* The same for a build with the given index width: `wide` is 0 if narrow, else 2. And exactly, of a
- * terrain of which so many vertices are taken twice. */
+/* Bytes of a compact terrain in a build with `bits` bits of index width; `wide` is 0 for a narrow
+ * terrain, else 2. WITH: exact for a terrain with `repeats` vertices that the path passes twice. */
 #define MICROTIN_COMPACT_BYTES_FOR(vertices, wide, bits) \
   MICROTIN_COMPACT_BYTES_WITH(vertices, MICROTIN_COMPACT_REPEATS(vertices), wide, bits)
 #define MICROTIN_COMPACT_BYTES_WITH(vertices, repeats, wide, bits) \
@@ -33,14 +40,14 @@
 #define MICROTIN_COMPACT_HEADER_BYTES 88ul
 #define MICROTIN_COMPACT_REPEATS(vertices) (8ul + (vertices) / 64)
 
-/* Scratch for making one, free again afterwards: less than the decoder's workspace of the same
- * capacity, which may be given when decoding is over. */
+/* Bytes of scratch memory for making a compact terrain. The scratch is free afterwards. The
+ * decoder's workspace for the same capacity is large enough, and free when decoding has ended. */
 #define MICROTIN_COMPACTOR_BYTES(vertices)                      \
   (MICROTIN_COMPACTOR_HEADER_BYTES + ((vertices)*3ul + 7) / 8 + \
    MICROTIN_INDEX_BITS / 8 * ((vertices) + 2ul + MICROTIN_COMPACT_REPEATS(vertices)))
 #define MICROTIN_COMPACTOR_HEADER_BYTES 280ul
 
-/* As in microtin.h: the width is in the name that the linker sees. */
+/* The index width is part of the name that the linker sees; see microtin.h. */
 #if MICROTIN_INDEX_BITS == 16
 #define microtin_compactor_init microtin_compactor_init_16
 #else
@@ -51,91 +58,97 @@
 extern "C" {
 #endif
 
+/* A compact terrain, and what makes one. */
 typedef struct microtin_compact microtin_compact;
 typedef struct microtin_compactor microtin_compactor;
 
-/* --- Making --- */
+/* --- Making a compact terrain --- */
 
-/* Begins to make a compact terrain of a mesh that is complete and verified: after
- * MICROTIN_STATUS_OK, or MICROTIN_STATUS_STOPPED with 256 vertices or more. It will lie at the
- * start of `workspace`. That may be the mesh's own: give the mesh and its size. (There is room for
- * what the macros allow for, then, if the mesh's capacity is 64 or more; with less even what
- * microtin_compactor_required_bytes tells may not do.) `scratch` holds what is needed meanwhile.
- * Both must be aligned to MICROTIN_ALIGNMENT. Changes nothing but the scratch. OK, or MISALIGNED,
- * ARGUMENT, WORKSPACE_TOO_SMALL: the scratch cannot hold even what is needed to measure. O(1). */
+/* Begins to make a compact terrain of a mesh that is complete and verified: decoding ended with
+ * MICROTIN_STATUS_OK, or with MICROTIN_STATUS_STOPPED and 256 vertices or more.
+ *
+ * The compact terrain will lie at the start of `workspace`, `size` bytes. That may be the mesh's
+ * own memory: pass the mesh and its size. (A mesh with a capacity of 64 or more has room for every
+ * terrain that the macros above allow.) `scratch` holds what is needed until the terrain is made.
+ * Both must be aligned to MICROTIN_ALIGNMENT. The call changes the scratch only. O(1).
+ *
+ * - OK: *compactor points into the scratch
+ * - WORKSPACE_TOO_SMALL: the scratch cannot hold what measuring needs
+ * - MISALIGNED, ARGUMENT */
 microtin_status microtin_compactor_init(void* workspace, size_t size, microtin_mesh* mesh,
                                         void* scratch, size_t scratch_size,
                                         microtin_compactor** compactor);
 
-/* Goes on for at most `step_limit` steps (0: no limit), each of O(1); STEP_LIMIT: call again. About
- * 17 steps a vertex, whatever the mesh at most 44. OK: *compact is the terrain, the mesh is empty
- * (or overwritten), and the scratch is free.
+/* Works for at most `step_limit` steps (0: no limit), each of O(1). A terrain takes about 17 steps
+ * a vertex, and no more than 44. The first third of the steps only reads the mesh.
  *
- * The first third of the steps only looks at the mesh. If it ends with WORKSPACE_TOO_SMALL the mesh
- * is as it was, and microtin_compactor_required_bytes tells what would do. TOO_BIG, too: the mesh
- * is as it was, and the width of the numbers does not reach, if there are more than 16,383 vertices
- * and vertices taken twice. */
-microtin_status microtin_compactor_run(microtin_compactor* compactor, uint32_t step_limit,
-                                       microtin_compact** compact);
+ * - OK: *compact is the terrain; the mesh is empty or overwritten, and the scratch is free
+ * - STEP_LIMIT: call again
+ * - WORKSPACE_TOO_SMALL: the mesh is unchanged; microtin_compactor_required_bytes returns the sizes
+ *   that suffice
+ * - TOO_BIG: the mesh is unchanged; 16-bit indices do not suffice for more than 16,383 vertices and
+ *   repeats */
+microtin_status microtin_compactor_run(microtin_compactor* compactor, microtin_compact** compact,
+                                       uint32_t step_limit);
 
-/* The bytes that the terrain takes, and those of the scratch, exactly; known from when
- * microtin_compactor_run said OK, WORKSPACE_TOO_SMALL or TOO_BIG, else 0. */
+/* Returns the exact sizes of the terrain and of the scratch. They are 0 before
+ * microtin_compactor_run has returned OK, WORKSPACE_TOO_SMALL or TOO_BIG. O(1). */
 void microtin_compactor_required_bytes(const microtin_compactor* compactor, size_t* bytes,
                                        size_t* scratch_bytes);
 
-/* The bytes that a compact terrain takes: what to copy. O(1). */
+/* Returns the bytes that a compact terrain takes: copy as many to move it. O(1). */
 size_t microtin_compact_size(const microtin_compact* compact);
 
-/* --- The terrain. Each call is O(1) if not said otherwise; numbers out of range are not checked.
- * A *repeat* is a vertex taken twice: terrains have few. --- */
+/* --- The terrain. Each call is O(1) unless its comment states another cost. Indices are not
+ * checked. A *repeat* is a vertex that the path passes twice; terrains have few. --- */
 
+/* Returns the number of vertices. */
 uint32_t microtin_compact_vertex_count(const microtin_compact* compact);
 
-/* Place and height of vertex `v` < microtin_compact_vertex_count. O(repeats). */
+/* Returns position and height of vertex `v` < microtin_compact_vertex_count. O(repeats). */
 void microtin_compact_vertex(const microtin_compact* compact, uint32_t v, uint16_t* x, uint16_t* y,
                              int16_t* z);
 
-/* Ghosts and, two for each repeat, triangles without area included. */
+/* Returns the number of triangles, with ghosts and with two triangles without area a repeat. */
 uint32_t microtin_compact_triangle_count(const microtin_compact* compact);
 
-/* As microtin_mesh_triangle, of triangle `t` < microtin_compact_triangle_count;
- * MICROTIN_TRIANGLE_NO_AREA if it only fills the gap at a repeat: two of its corners are then the
- * same vertex. O(repeats) and the triangles up to the next that has two neighbours on the path,
- * usually few. */
+/* Returns kind and corners of triangle `t` < microtin_compact_triangle_count, counter-clockwise.
+ * Two corners of a triangle of the kind MICROTIN_TRIANGLE_NO_AREA are the same vertex: skip it.
+ * Cost: O(repeats) and the triangles up to the next one with two neighbours on the path, usually
+ * few. */
 microtin_triangle_kind microtin_compact_triangle(const microtin_compact* compact, uint32_t t,
                                                  uint32_t v[3]);
 
-/* As microtin_mesh_digest: equal to that of the mesh. O(n). */
+/* Returns the digest, which equals microtin_mesh_digest of the mesh. O(n). */
 uint64_t microtin_compact_digest(const microtin_compact* compact);
 
-/* As microtin_mesh_axes. */
+/* Returns the axes of the terrain, as microtin_mesh_axes does for a mesh. */
 void microtin_compact_axes(const microtin_compact* compact, microtin_axis* x, microtin_axis* y,
                            microtin_axis* z);
 
-/* As microtin_mesh_height_at_limited, with the same answers. *hint is a number of a triangle; any
- * will do. A step is O(1) mostly; on meshes made for it O(n), but all steps of a walk are O(n log
- * n). Without a limit, a walk that has not arrived after 24 steps goes on from what
- * microtin_compact_hint would find, if that is nearer. */
+/* Returns the height at a position, with parameters and results of microtin_mesh_height_at. *hint
+ * is a triangle's number; any number is allowed. A walk step is O(1) on terrain. On a mesh made to
+ * be slow a walk step is O(n), but all steps of a walk together are O(n log n). Without a limit, a
+ * walk that has not arrived after 24 steps continues from microtin_compact_hint if that is nearer.
+ */
 microtin_query_result microtin_compact_height_at(const microtin_compact* compact, int32_t x,
-                                                 int32_t y, uint32_t step_limit, uint32_t* hint,
-                                                 int32_t* height);
+                                                 int32_t y, uint32_t* hint, int32_t* height,
+                                                 uint32_t step_limit);
 
-/* As microtin_mesh_segment_max, microtin_mesh_segment_max_limited and microtin_mesh_sample_grid,
- * with the same answers. Steps are O(1) as those of microtin_compact_height_at are. */
+/* Finds the greatest height on a segment, with parameters and results of
+ * microtin_mesh_segment_max. */
 microtin_query_result microtin_compact_segment_max(const microtin_compact* compact,
-                                                   const microtin_segment* course, int32_t* height);
-microtin_query_result microtin_compact_segment_max_limited(const microtin_compact* compact,
-                                                           const microtin_segment* course,
-                                                           uint32_t step_limit,
-                                                           microtin_segment_state* progress,
-                                                           int32_t* height);
+                                                   const microtin_segment* segment,
+                                                   microtin_segment_state* state, int32_t* height,
+                                                   uint32_t step_limit);
+
+/* Stores the heights of a grid, with parameters and results of microtin_mesh_sample_grid. */
 microtin_query_result microtin_compact_sample_grid(const microtin_compact* compact,
-                                                   const microtin_grid_spec* block,
+                                                   const microtin_grid_spec* grid,
                                                    int16_t* heights);
 
-/* A hint for (x, y), given with 8 fractional bits, where none from nearby is at hand: by the
- * nearest of some vertices along the path, then of others beside that. Looks at about 22 vertices
- * and two for each halving of what lies between. */
+/* Returns a hint for (x, y), 8 fractional bits, for the first query in a region. The function looks
+ * at about 22 vertices, and at two for each halving of the path between them. */
 uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32_t y);
 
 #ifdef __cplusplus

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-/* microtin packs whose tiles are kept in compact form: three times as many in the same memory. C99
- * and C++.
+/* microtin packs with compact slots: three times as many tiles in the same memory. C99 and C++.
  *
- * One tile at a time is decoded, in a mesh of the pack's own, and made compact into its slot. So a
- * tile that is to go stays until then. All else is as in pack.h: who may interrupt whom, courses,
- * reading, bad tiles. Of its functions those that are missing here serve for these packs, too:
- * microtin_pack_reset, _align_reads, _wanted, _given, _bad_tile, _retry, _header, _to_lattice.
+ * Such a pack decodes one tile at a time in a mesh of its own, and then makes it compact in its
+ * slot. The tile that the slot held before stays until then. Interrupts, segments, reading and bad
+ * tiles are as in pack.h. These functions of pack.h serve for both kinds of packs:
+ * microtin_pack_reset, _align_reads, _next_read, _complete_read, _bad_tile, _clear_bad_tiles,
+ * _get_info, _axis_to_lattice. The others return WRONG_PACK_KIND for a pack with compact slots, as
+ * those below do for a pack of pack.h.
  */
 #ifndef MICROTIN_COMPACT_PACK_H
 #define MICROTIN_COMPACT_PACK_H
@@ -13,11 +14,12 @@
 #include "microtin/compact.h"
 #include "microtin/pack.h"
 
-/* Bytes of the workspace of a pack that decodes tiles of up to `capacity` vertices and keeps
- * `slots` of them in `tile_bytes` each: what microtin_pack_info says of the pack, as `microtin
- * info` does (of builds with the width of numbers that is told there), or for any of our encoder's
- * packs MICROTIN_COMPACT_BYTES(capacity), and _NARROW_BYTES where tiles are less than 256 steps
- * wide and high. A constant expression, also usable in #if. */
+/* Bytes of the workspace of a pack that decodes tiles of up to `capacity` vertices, and has `slots`
+ * slots of `tile_bytes` each: a constant expression, also usable in #if. `microtin info` prints the
+ * tile_bytes that a pack needs (microtin_pack_info::max_compact_bytes).
+ * MICROTIN_COMPACT_BYTES(capacity) suffices for every pack that the encoder writes, and
+ * MICROTIN_COMPACT_NARROW_BYTES(capacity) if tiles are less than 256 lattice steps wide and high.
+ */
 #define MICROTIN_COMPACT_PACK_BYTES(slots, capacity, tile_bytes) \
   MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, MICROTIN_INDEX_BITS)
 #define MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, bits)   \
@@ -29,46 +31,54 @@
 extern "C" {
 #endif
 
-#if MICROTIN_INDEX_BITS == 16 /* see microtin.h */
+#if MICROTIN_INDEX_BITS == 16 /* the name that the linker sees has the width: microtin.h */
 #define microtin_compact_pack_init microtin_compact_pack_init_16
 #else
 #define microtin_compact_pack_init microtin_compact_pack_init_32
 #endif
 
-/* As microtin_pack_init. */
+/* Makes a pack without tiles; parameters and results as those of microtin_pack_init. */
 microtin_status microtin_compact_pack_init(void* workspace, size_t size, uint32_t slots,
                                            uint32_t capacity, uint32_t tile_bytes,
                                            microtin_pack** pack);
 
-/* As microtin_pack_load; `step_limit` holds for decoding, and for making compact: 16 steps of
- * microtin_compactor_run count as one. A tile that takes more than tile_bytes is a bad one,
- * TOO_BIG; MALFORMED, if it takes more than the pack's header says. Also ARGUMENT: a pack of
- * pack.h. */
-microtin_status microtin_compact_pack_load(microtin_pack* pack, const microtin_segment* course,
+/* Loads the tiles that a segment touches, as microtin_pack_load does. `step_limit` also limits the
+ * steps that make a tile compact: 16 steps of microtin_compactor_run count as one work unit. A tile
+ * is bad if it takes more than tile_bytes (TOO_BIG), or more than the header states (MALFORMED). */
+microtin_status microtin_compact_pack_load(microtin_pack* pack, const microtin_segment* segment,
                                            uint32_t step_limit);
 
-/* As microtin_pack_load_with. */
+/* Loads the tiles that a segment touches and reads what it needs by `read`, as
+ * microtin_pack_load_with does. */
 static inline microtin_status microtin_compact_pack_load_with(microtin_pack* pack,
-                                                              const microtin_segment* course,
-                                                              uint32_t step_limit,
-                                                              microtin_read read, void* context) {
+                                                              const microtin_segment* segment,
+                                                              microtin_read read, void* context,
+                                                              uint32_t step_limit) {
   for (;;) {
     microtin_status status;
+    uint64_t offset;
+    uint8_t* buffer;
+    size_t size;
     if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
-    microtin_pack_fetch(pack, read, context);
-    status = microtin_compact_pack_load(pack, course, step_limit);
+    microtin_pack_next_read(pack, &offset, &buffer, &size);
+    if (size != 0) microtin_pack_complete_read(pack, read(context, offset, buffer, size));
+    status = microtin_compact_pack_load(pack, segment, step_limit);
     if (status != MICROTIN_STATUS_NEED_INPUT || step_limit != 0) return status;
   }
 }
 
-/* As those of pack.h, with the same answers. NOT_LOADED, too: a pack of pack.h. */
+/* Returns the height at a position, as microtin_pack_height_at does. */
 microtin_query_result microtin_compact_pack_height_at(const microtin_pack* pack, int64_t x,
                                                       int64_t y, uint32_t* hint, int32_t* height);
+
+/* Finds the greatest height on a segment, as microtin_pack_segment_max does. */
 microtin_query_result microtin_compact_pack_segment_max(const microtin_pack* pack,
-                                                        const microtin_segment* course,
+                                                        const microtin_segment* segment,
                                                         int32_t* height);
+
+/* Stores the heights of a grid, as microtin_pack_sample_grid does. */
 microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,
-                                                        const microtin_grid_spec* block,
+                                                        const microtin_grid_spec* grid,
                                                         int16_t* heights);
 
 #ifdef __cplusplus

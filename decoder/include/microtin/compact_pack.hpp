@@ -8,8 +8,8 @@
 
 namespace microtin {
 
-// A pack that decodes tiles of up to Capacity vertices and keeps Slots of them in TileBytes each.
-// See compact_pack.h for what these may be, pack.h for units, costs and who may interrupt whom.
+// A pack that decodes tiles of up to Capacity vertices, with Slots slots of TileBytes each.
+// compact_pack.h has the allowed sizes; pack.h has units, costs and the rules for interrupts.
 template <uint32_t Slots, uint32_t Capacity, uint32_t TileBytes = MICROTIN_COMPACT_BYTES(Capacity)>
 class CompactPack : public PackFace {
   static_assert(Slots >= 1 && Slots <= 255, "1 to 255 slots");
@@ -18,26 +18,26 @@ class CompactPack : public PackFace {
 
  public:
   CompactPack() { begin(); }
-  constexpr explicit CompactPack(Later) : storage_{} {}
+  constexpr explicit CompactPack(DeferInit) : storage_{} {}
 
   microtin_status begin() {
     status_ =
         microtin_compact_pack_init(storage_, sizeof storage_, Slots, Capacity, TileBytes, &pack_);
     return status_;
   }
-  microtin_status service(const microtin_segment& course, uint32_t step_limit, microtin_read read,
-                          void* context) {
+  microtin_status load_with(const microtin_segment& segment, microtin_read read, void* context,
+                            uint32_t step_limit = 0) {
     if (status_ != MICROTIN_STATUS_OK) return status_;
-    return microtin_compact_pack_load_with(pack_, &course, step_limit, read, context);
+    return microtin_compact_pack_load_with(pack_, &segment, read, context, step_limit);
   }
   microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return microtin_compact_pack_height_at(pack_, x, y, hint, height);
   }
-  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
-    return microtin_compact_pack_segment_max(pack_, &course, height);
+  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
+    return microtin_compact_pack_segment_max(pack_, &segment, height);
   }
-  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
-    return microtin_compact_pack_sample_grid(pack_, &block, heights);
+  microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
+    return microtin_compact_pack_sample_grid(pack_, &grid, heights);
   }
 
  private:

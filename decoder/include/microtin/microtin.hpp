@@ -8,11 +8,12 @@
 
 namespace microtin {
 
-// Told to the constructor of a static object, `static Terrain<5000> terrain(later)`, it leaves
-// nothing to be done before main: the object lies in zeroed memory, and begin must be called before
-// all else. Buckets and compact terrains, which are made when they can be, are like that always.
-struct Later {};
-constexpr Later later = {};  // NOLINT(readability-identifier-naming): a word of the interface
+// Makes the constructor of a static object do nothing, `static Terrain<5000> terrain(defer_init)`:
+// the object lies in zeroed memory, and the program must call its begin before all else. Buckets
+// and compact terrains never need it.
+struct DeferInit {};
+// NOLINTNEXTLINE(readability-identifier-naming): part of the interface
+constexpr DeferInit defer_init = {};
 
 // A terrain of up to Capacity vertices. Queries live here; see microtin.h for units and costs.
 // Should its initialisation fail, status tells why, as does feeding its decoder, and nothing else
@@ -24,7 +25,7 @@ class Terrain {
 
  public:
   Terrain() { begin(); }
-  constexpr explicit Terrain(Later) : storage_{} {}
+  constexpr explicit Terrain(DeferInit) : storage_{} {}
   Terrain(const Terrain&) = delete;
   Terrain& operator=(const Terrain&) = delete;
 
@@ -42,23 +43,23 @@ class Terrain {
 
   microtin_query_result height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
                                   uint32_t flags = 0, uint32_t step_limit = 0) const {
-    return microtin_mesh_height_at_limited(mesh_, x, y, flags, step_limit, hint, height);
+    return microtin_mesh_height_at(mesh_, x, y, hint, height, flags, step_limit);
   }
-  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
-    return microtin_mesh_segment_max(mesh_, &course, height);
+  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
+    return microtin_mesh_segment_max(mesh_, &segment, nullptr, height, 0);
   }
-  microtin_query_result highest(const microtin_segment& course, int32_t* height,
-                                microtin_segment_state* progress, uint32_t step_limit) const {
-    return microtin_mesh_segment_max_limited(mesh_, &course, step_limit, progress, height);
+  microtin_query_result segment_max(const microtin_segment& segment, microtin_segment_state* state,
+                                    int32_t* height, uint32_t step_limit) const {
+    return microtin_mesh_segment_max(mesh_, &segment, state, height, step_limit);
   }
-  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
-    return microtin_mesh_sample_grid(mesh_, &block, heights);
+  microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
+    return microtin_mesh_sample_grid(mesh_, &grid, heights);
   }
 
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_MESH_BYTES(Capacity)];
   microtin_mesh* mesh_ = nullptr;
-  microtin_status status_ = MICROTIN_STATUS_OK;  // of its initialisation
+  microtin_status status_ = MICROTIN_STATUS_OK;  // of the initialisation
 };
 
 // The state needed while decoding a terrain of up to Capacity vertices. Should its initialisation,
@@ -74,7 +75,7 @@ class Decoder {
   explicit Decoder(Terrain<MeshCapacity>& target) {
     begin(target);
   }
-  constexpr explicit Decoder(Later) : storage_{} {}
+  constexpr explicit Decoder(DeferInit) : storage_{} {}
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
 
@@ -93,7 +94,7 @@ class Decoder {
   void stop_after_phase(uint32_t phase) { microtin_decoder_stop_after_phase(decoder_, phase); }
   microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t step_limit = 0) {
     if (status_ == MICROTIN_STATUS_OK)
-      return microtin_decoder_feed(decoder_, bytes, size, step_limit, used);
+      return microtin_decoder_feed(decoder_, bytes, size, used, step_limit);
     *used = 0;
     return status_;
   }
@@ -106,7 +107,7 @@ class Decoder {
  private:
   alignas(MICROTIN_ALIGNMENT) unsigned char storage_[MICROTIN_DECODER_BYTES(Capacity)];
   microtin_decoder* decoder_ = nullptr;
-  microtin_status status_ = MICROTIN_STATUS_OK;  // of its initialisation
+  microtin_status status_ = MICROTIN_STATUS_OK;  // of the initialisation
 };
 
 // Hints for places anywhere in a terrain, from Side x Side buckets.
@@ -153,7 +154,7 @@ class CompactTerrain {
     microtin_compactor* compactor = nullptr;
     const microtin_status status = microtin_compactor_init(
         storage_, sizeof storage_, terrain.mesh(), &decoder, sizeof decoder, &compactor);
-    return status == MICROTIN_STATUS_OK ? microtin_compactor_run(compactor, 0, &compact_) : status;
+    return status == MICROTIN_STATUS_OK ? microtin_compactor_run(compactor, &compact_, 0) : status;
   }
 
   // Null before make succeeds, and after clear.
@@ -165,17 +166,17 @@ class CompactTerrain {
   uint32_t hint(int32_t x, int32_t y) const { return microtin_compact_hint(compact_, x, y); }
   microtin_query_result height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
                                   uint32_t step_limit = 0) const {
-    return microtin_compact_height_at(compact_, x, y, step_limit, hint, height);
+    return microtin_compact_height_at(compact_, x, y, hint, height, step_limit);
   }
-  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
-    return microtin_compact_segment_max(compact_, &course, height);
+  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
+    return microtin_compact_segment_max(compact_, &segment, nullptr, height, 0);
   }
-  microtin_query_result highest(const microtin_segment& course, int32_t* height,
-                                microtin_segment_state* progress, uint32_t step_limit) const {
-    return microtin_compact_segment_max_limited(compact_, &course, step_limit, progress, height);
+  microtin_query_result segment_max(const microtin_segment& segment, microtin_segment_state* state,
+                                    int32_t* height, uint32_t step_limit) const {
+    return microtin_compact_segment_max(compact_, &segment, state, height, step_limit);
   }
-  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
-    return microtin_compact_sample_grid(compact_, &block, heights);
+  microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
+    return microtin_compact_sample_grid(compact_, &grid, heights);
   }
 
  private:

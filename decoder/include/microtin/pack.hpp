@@ -8,8 +8,8 @@
 
 namespace microtin {
 
-// What packs with slots of any form have. Should its initialisation fail, status and service tell
-// why, and nothing else may be called.
+// What both kinds of packs have in common. If the initialisation failed, status and load_with
+// return the reason, and a program must call nothing else.
 class PackFace {
  public:
   PackFace(const PackFace&) = delete;
@@ -17,12 +17,14 @@ class PackFace {
 
   microtin_status status() const { return status_; }
   void reset() { microtin_pack_reset(pack_); }
-  bool bad_tile(uint32_t i, uint32_t* tile, uint32_t* why) const {
-    return microtin_pack_bad_tile(pack_, i, tile, why) != 0;
+  microtin_status bad_tile(uint32_t i, uint32_t* tile, uint32_t* why) const {
+    return microtin_pack_bad_tile(pack_, i, tile, why);
   }
-  void retry() { microtin_pack_clear_bad_tiles(pack_); }
+  void clear_bad_tiles() { microtin_pack_clear_bad_tiles(pack_); }
   microtin_status align_reads(uint32_t sector) { return microtin_pack_align_reads(pack_, sector); }
-  bool header(microtin_pack_info* info) const { return microtin_pack_get_info(pack_, info) != 0; }
+  microtin_status get_info(microtin_pack_info* info) const {
+    return microtin_pack_get_info(pack_, info);
+  }
 
  protected:
   constexpr PackFace() = default;
@@ -32,8 +34,8 @@ class PackFace {
   microtin_status status_ = MICROTIN_STATUS_OK;  // of its initialisation
 };
 
-// A pack of which Slots tiles of up to Capacity vertices are kept. See pack.h for units, costs and
-// who may interrupt whom.
+// A pack with Slots slots for tiles of up to Capacity vertices. pack.h has units, costs and the
+// rules for interrupts.
 template <uint32_t Slots, uint32_t Capacity>
 class Pack : public PackFace {
   static_assert(Slots >= 1 && Slots <= 255, "1 to 255 slots");
@@ -42,25 +44,25 @@ class Pack : public PackFace {
 
  public:
   Pack() { begin(); }
-  constexpr explicit Pack(Later) : storage_{} {}
+  constexpr explicit Pack(DeferInit) : storage_{} {}
 
   microtin_status begin() {
     status_ = microtin_pack_init(storage_, sizeof storage_, Slots, Capacity, &pack_);
     return status_;
   }
-  microtin_status service(const microtin_segment& course, uint32_t step_limit, microtin_read read,
-                          void* context) {
+  microtin_status load_with(const microtin_segment& segment, microtin_read read, void* context,
+                            uint32_t step_limit = 0) {
     if (status_ != MICROTIN_STATUS_OK) return status_;
-    return microtin_pack_load_with(pack_, &course, step_limit, read, context);
+    return microtin_pack_load_with(pack_, &segment, read, context, step_limit);
   }
   microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return microtin_pack_height_at(pack_, x, y, hint, height);
   }
-  microtin_query_result highest(const microtin_segment& course, int32_t* height) const {
-    return microtin_pack_segment_max(pack_, &course, height);
+  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
+    return microtin_pack_segment_max(pack_, &segment, height);
   }
-  microtin_query_result fill(const microtin_grid_spec& block, int16_t* heights) const {
-    return microtin_pack_sample_grid(pack_, &block, heights);
+  microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
+    return microtin_pack_sample_grid(pack_, &grid, heights);
   }
 
  private:

@@ -23,7 +23,7 @@ uint32_t feed_section(microtin_decoder* decoder, const uint8_t* bytes, uint32_t 
   uint32_t taken = 0;
   microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
   for (uint32_t i = 0; i < steps && status == MICROTIN_STATUS_STEP_LIMIT; ++i) {
-    status = microtin_decoder_feed(decoder, bytes + taken, size - taken, 1, used);
+    status = microtin_decoder_feed(decoder, bytes + taken, size - taken, used, 1);
     taken += static_cast<uint32_t>(*used);
     if (decoder->mesh->verified_vertices != verified) break;
   }

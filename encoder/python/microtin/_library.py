@@ -137,42 +137,42 @@ class Triangles(ctypes.Structure):
     ]
 
 
-OK, NO_MEMORY, CANCELLED, FAULT = 0, 2, 3, 4
+OK, NO_MEMORY, CANCELLED, INTERNAL = 0, 65, 66, 67
 Doubles = POINTER(c_double)
 
 _FUNCTIONS = {
-    "terrain_of_raster": [POINTER(Raster), POINTER(c_void_p)],
-    "terrain_of_points": [POINTER(Points), POINTER(c_void_p)],
-    "terrain_of_file": [c_char_p, POINTER(c_void_p)],
+    "source_from_raster": [POINTER(Raster), POINTER(c_void_p)],
+    "source_from_points": [POINTER(Points), POINTER(c_void_p)],
+    "source_from_file": [c_char_p, POINTER(c_void_p)],
     "encode_stream": [c_void_p, POINTER(Options), POINTER(POINTER(c_uint8)), POINTER(c_uint64), POINTER(Report)],
     "encode_pack": [c_void_p, POINTER(Options), c_char_p, POINTER(Report)],
-    "surface_open": [c_char_p, POINTER(c_void_p)],
-    "surface_of_bytes": [c_char_p, c_uint64, c_char_p, POINTER(c_void_p)],
+    "surface_from_file": [c_char_p, POINTER(c_void_p)],
+    "surface_from_bytes": [c_char_p, c_uint64, c_char_p, POINTER(c_void_p)],
     "surface_mesh": [c_void_p, POINTER(Triangles)],
     "surface_tile": [c_void_p, c_uint32, c_uint32, POINTER(Triangles)],
     "surface_heights": [c_void_p, c_uint64, Doubles, Doubles, Doubles],
     "surface_grid": [c_void_p, c_char_p, POINTER(Grid)],
-    "surface_raster": [c_void_p, POINTER(Grid), Doubles],
+    "surface_sample_grid": [c_void_p, POINTER(Grid), Doubles],
 }
 
-_WITHOUT_OUTCOME = {
-    "terrain_free": ([c_void_p], None),
+_WITHOUT_STATUS = {
+    "source_free": ([c_void_p], None),
     "bytes_free": ([POINTER(c_uint8)], None),
     "surface_free": ([c_void_p], None),
-    "surface_facts": ([c_void_p, POINTER(Facts)], None),
-    "message": ([], c_char_p),
-    "remarks": ([], c_char_p),
-    "version": ([], c_char_p),
+    "surface_get_info": ([c_void_p, POINTER(Facts)], None),
+    "last_error": ([], c_char_p),
+    "last_warnings": ([], c_char_p),
+    "version_string": ([], c_char_p),
 }
 
 
-def _checked(outcome: int, _function: Any, _arguments: Any) -> None:
-    if outcome == OK:
+def _checked(status: int, _function: Any, _arguments: Any) -> None:
+    if status == OK:
         return
     message = library.microtin_last_error().decode(errors="replace")  # names of files may be any bytes
-    if outcome == NO_MEMORY:
+    if status == NO_MEMORY:
         raise MemoryError(message)
-    raise Error(message if outcome != FAULT else f"a fault of microtin's own: {message}")
+    raise Error(message if status != INTERNAL else f"a fault of microtin's own: {message}")
 
 
 def _load() -> ctypes.CDLL:
@@ -185,7 +185,7 @@ def _load() -> ctypes.CDLL:
     for function, arguments in _FUNCTIONS.items():
         getattr(loaded, f"microtin_{function}").argtypes = arguments
         getattr(loaded, f"microtin_{function}").errcheck = _checked
-    for function, (arguments, result) in _WITHOUT_OUTCOME.items():
+    for function, (arguments, result) in _WITHOUT_STATUS.items():
         getattr(loaded, f"microtin_{function}").argtypes = arguments
         getattr(loaded, f"microtin_{function}").restype = result
     return loaded

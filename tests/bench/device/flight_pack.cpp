@@ -47,7 +47,7 @@ bool serve(Tiles& pack, const microtin_segment& c, const InstructionCounter& ins
            Measured& measured) {
   for (uint32_t call = 0; call < 10000; ++call) {
     const uint32_t before = instructions.count();
-    const microtin_status status = pack.service(c, kStepLimit, read_card, &measured.bytes_read);
+    const microtin_status status = pack.load_with(c, read_card, &measured.bytes_read, kStepLimit);
     measured.service.add(instructions.count() - before);
     if (status == MICROTIN_STATUS_OK) return true;
     if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) return false;
@@ -58,7 +58,7 @@ bool serve(Tiles& pack, const microtin_segment& c, const InstructionCounter& ins
 bool fly(Tiles& pack, const Flight& flight, Measured& measured) {
   const InstructionCounter instructions;
   microtin_pack_info info;
-  pack.header(&info);
+  pack.get_info(&info);
   uint32_t hint = 0;
   for (int32_t i = 0; i < flight.posts(); ++i) {
     const microtin_segment c = course(flight.post(i), flight.ahead(i));
@@ -70,7 +70,7 @@ bool fly(Tiles& pack, const Flight& flight, Measured& measured) {
     log_height(decimetres(height, info.z));
     if (i % Flight::kAhead != 0) continue;
     before = instructions.count();
-    if (pack.highest(c, &height) != MICROTIN_QUERY_OK) return false;
+    if (pack.segment_max(c, &height) != MICROTIN_QUERY_OK) return false;
     measured.highest.add(instructions.count() - before);
   }
   return true;
@@ -82,7 +82,7 @@ uint32_t cost_of_block(const Tiles& pack, Post at) {
   const microtin_grid_spec block = {at.x * 256, at.y * 256, 256, 256, 28, 32, INT16_MIN};
   const InstructionCounter instructions;
   const uint32_t before = instructions.count();
-  pack.fill(block, heights);
+  pack.sample_grid(block, heights);
   return instructions.count() - before;
 }
 
@@ -93,8 +93,8 @@ int firmware_main() {
   Measured measured;
   const microtin_segment corner = {0, 0, 0, 0};
   microtin_pack_info info;
-  pack.service(corner, 0, read_card, &measured.bytes_read);
-  if (!pack.header(&info)) return 1;
+  pack.load_with(corner, read_card, &measured.bytes_read, 0);
+  if (pack.get_info(&info) != MICROTIN_STATUS_OK) return 1;
   measured.bytes_read = 0;
   const Flight flight(info.x_max, info.y_max);
   if (!fly(pack, flight, measured)) return 1;

@@ -81,7 +81,7 @@ class Started {
     microtin_decoder* decoder = nullptr;
     microtin_mesh_init(mesh_.data(), 8 * mesh_.size(), &mesh);
     microtin_decoder_init(decoder_.data(), 8 * decoder_.size(), mesh, &decoder);
-    microtin_decoder_feed(decoder, stream.data(), info.header_bytes, 0, &header_bytes_);
+    microtin_decoder_feed(decoder, stream.data(), info.header_bytes, &header_bytes_, 0);
     reconstruction_ = &decoder->reconstruction;
   }
 

@@ -2,6 +2,7 @@
 // What a header says beside the terrain: format-stream.md, section 4.
 
 import { checkNumber } from "./check.js";
+import { OK } from "./status.js";
 
 const UNITS = [undefined, "metre", "degree", "international foot", "US survey foot"];
 const AXIS_BYTES = 24;
@@ -86,9 +87,8 @@ export function notesAt(instance, start, size) {
   const notes = {};
   for (const [type, read] of Object.entries(NOTES)) {
     const { results } = instance;
-    instance.calls.microtin_find_note(start, size, type, results, results + 4);
+    if (instance.calls.microtin_find_note(start, size, type, results, results + 4) !== OK) continue;
     const content = instance.result();
-    if (content === 0) continue;
     Object.assign(notes, read(new NoteReader(instance.array(Uint8Array, content, instance.result(1)).slice())));
   }
   return notes;

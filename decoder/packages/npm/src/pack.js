@@ -83,8 +83,8 @@ export class Pack {
       const notes = instance.borrow(head.length, (at) => {
         instance.put(at, head);
         const status = calls.microtin_find_note(at, head.length, 0, results, results + 4);
-        if (status !== OK && status !== NEED_INPUT) throw new MicrotinError(status);
-        return status === OK && notesAt(instance, at, head.length);
+        if (status !== NOT_FOUND && status !== NEED_INPUT) throw new MicrotinError(status);
+        return status === NOT_FOUND && notesAt(instance, at, head.length);
       });
       if (notes) return notes;
       if (head.length < size) throw new MicrotinError(TRUNCATED);
@@ -171,7 +171,7 @@ export class Pack {
     const { results, calls } = instance;
     const tiles = [];
     for (let i = 0; i < MOST_BAD; ++i) {
-      if (!calls.microtin_pack_bad_tile(this.#pack, i, results, results + 4)) continue;
+      if (calls.microtin_pack_bad_tile(this.#pack, i, results, results + 4) !== OK) continue;
       tiles.push({ tile: instance.result(), why: instance.result(1) });
     }
     return tiles;

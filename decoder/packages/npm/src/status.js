@@ -11,7 +11,7 @@ const STATUSES = {
   25: ["IO", "reading failed"],
 };
 export const OK = 0, NEED_INPUT = 1, STEP_LIMIT = 2;
-export const TOO_BIG = 18, CHECKSUM = 19, TRUNCATED = 21, WORKSPACE_TOO_SMALL = 23, ARGUMENT = 24, IO = 25, BAD_TILES = 26;
+export const TOO_BIG = 18, CHECKSUM = 19, TRUNCATED = 21, WORKSPACE_TOO_SMALL = 23, ARGUMENT = 24, IO = 25, BAD_TILES = 26, NOT_FOUND = 28;
 
 export class MicrotinError extends Error {
   constructor(code, { where = "", cause } = {}) {

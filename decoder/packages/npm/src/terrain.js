@@ -87,7 +87,7 @@ export class Terrain {
     const { axes } = this.header;
     const [i, j] = [toLattice(axes.x, MOST, x), toLattice(axes.y, MOST, y)];
     if (Number.isNaN(i + j)) return NaN;
-    const answer = calls.microtin_mesh_height_at(this.#mesh, i, j, 0, results + HINT, results + HINT + 4);
+    const answer = calls.microtin_mesh_height_at(this.#mesh, i, j, results + HINT, results + HINT + 4, 0, 0);
     return answer ? NaN : axes.z.start + (view.getInt32(results + HINT + 4, true) / 65536) * axes.z.step;
   }
 }

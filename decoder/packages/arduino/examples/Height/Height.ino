@@ -4,8 +4,8 @@
 
 #include "terrain.h"
 
-static microtin::Terrain<TERRAIN_VERTICES> terrain(microtin::later);
-static microtin::Decoder<TERRAIN_VERTICES> decoder(microtin::later);
+static microtin::Terrain<TERRAIN_VERTICES> terrain(microtin::defer_init);
+static microtin::Decoder<TERRAIN_VERTICES> decoder(microtin::defer_init);
 
 // Flash is not read by pointers on AVR: a few bytes at a time are brought to RAM.
 static microtin_status decode() {

@@ -3,8 +3,8 @@
 #include <microtin.h>
 
 static const uint32_t kMost = 100;  // vertices; about 6 KB of RAM
-static microtin::Terrain<kMost> terrain(microtin::later);
-static microtin::Decoder<kMost> decoder(microtin::later);
+static microtin::Terrain<kMost> terrain(microtin::defer_init);
+static microtin::Decoder<kMost> decoder(microtin::defer_init);
 static microtin_status status = MICROTIN_STATUS_NEED_INPUT;
 
 void setup() {
