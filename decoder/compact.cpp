@@ -16,7 +16,7 @@ enum class Work : uint8_t {
   kTriangles,  // triangles of the mesh
   kSlits,      // positions
   kLeft,       // positions: leaves to the left of the path
-  kRight,      // ... to the right
+  kRight,      // positions: leaves to the right of the path
   kMove,       // eight bytes, where the mesh was
   kComplete
 };

@@ -48,7 +48,7 @@ Vertex on_lattice(const microtin_compact* c, Vertex v) {
   return Vertex{static_cast<uint16_t>(v.x + c->west), static_cast<uint16_t>(v.y + c->south), v.z};
 }
 
-// Of a triangle at a position, to the left of the path.
+// The number of the triangle at a position, to the left of the path.
 uint32_t number_at(uint32_t position) {
   return 2 * position - kFirstNumber;
 }

@@ -121,7 +121,7 @@ microtin_status end_section(microtin_decoder& d) {
   return is_far_enough(d) ? MICROTIN_STATUS_STOPPED : MICROTIN_STATUS_NEED_INPUT;
 }
 
-// Of all since the last check.
+// Compares the check of all bytes since the last check.
 microtin_status handle_check(microtin_decoder& d) {
   ByteWindow& window = d.coder.window;
   window.skip(kCheckBytes);

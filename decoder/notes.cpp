@@ -13,7 +13,7 @@ struct Notes {
   uint32_t size;
 };
 
-// Of a number that is known to be legal. Returns its last byte.
+// Skips a number that is known to be legal. Returns its last byte.
 uint8_t skip_varint(const uint8_t** bytes) {
   while (**bytes >= 128) ++*bytes;
   return *(*bytes)++;

@@ -16,13 +16,13 @@ inline bool is_inside(const microtin_pack& p, int64_t x, int64_t y) {
          y <= static_cast<int64_t>(grid.y_max) * 256;
 }
 
-// Of a tile that is not there.
+// The result of a query for a tile that is not there.
 inline microtin_query_result answer_without(const microtin_pack& p, uint32_t tile) {
   return bad_tile(p, tile) == MICROTIN_PACK_MAX_BAD_TILES ? MICROTIN_QUERY_NOT_LOADED
                                                           : MICROTIN_QUERY_BAD_TILE;
 }
 
-// Of a tile that is there; null if it has none, or is not there, and then *absent becomes worse.
+// The terrain of a tile; null if it has none, or is not there, and then *absent becomes worse.
 MICROTIN_ONE_COPY inline const void* terrain_of(const microtin_pack& p, uint32_t tile,
                                                 microtin_query_result* absent) {
   const uint32_t slot = slot_of(p, tile);

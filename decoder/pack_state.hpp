@@ -68,7 +68,7 @@ struct microtin_pack {
   microtin::Storage storage;
   bool is_counted;
   uint8_t start;  // a status: what the first bytes of the stream say of the tile
-  // Of the next bytes wanted, and those that came.
+  // Counts of the next bytes wanted, and of those that came.
   uint8_t wanted, buffered, fed;
   uint8_t kept;     // entries of the index at the buffer's end
   uint16_t sector;  // no read crosses a multiple of it; a power of two, or 0: they may

@@ -72,7 +72,7 @@ inline int16_t read_i16(const uint8_t* p) {
                                              : static_cast<int32_t>(value) - 0x10000);
 }
 
-// Of the first kPackIdentityBytes: a flag that is set is one of a later version.
+// Checks the first kPackIdentityBytes: a flag that is set is one of a later version.
 inline microtin_status check_pack_identity(const uint8_t* bytes) {
   for (uint32_t i = 0; i < sizeof kPackMagic; ++i) {
     if (bytes[i] != read_table(kPackMagic + i)) return MICROTIN_STATUS_BAD_MAGIC;

@@ -74,8 +74,8 @@ inline int64_t incircle(Point a, Point b, Point c, Point p) {
   return incircle(angle_at(c, a, b), angle_at(p, a, b));
 }
 
-// The same of points that p sees at -127 .. 128 in both coordinates: all lie in a square of side
-// 255, so 32 bits hold the determinant, and read it right modulo 2^32.
+// The in-circle test of points that p sees at -127 .. 128 in both coordinates: all lie in a square
+// of side 255, so 32 bits hold the determinant, and read it right modulo 2^32.
 constexpr uint32_t kNear = 255;
 static_assert(uint64_t{kNear} * kNear * kNear * kNear / 2 <= INT32_MAX, "a near determinant fits");
 

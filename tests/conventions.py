@@ -117,7 +117,8 @@ def comments(folder):
         for path, lines in texts(folder)
         if path.suffix != ".md"
         for number, (line, before) in enumerate(zip(lines, ["", *lines]), 1)
-        if (begin := FRAGMENT.search(line)) and not before.lstrip().startswith(begin.group(1).strip())
+        if (begin := FRAGMENT.search(line))
+        and not all(text.lstrip().startswith(begin.group(1)) for text in (line, before))
     ]
 
 

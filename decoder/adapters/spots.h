@@ -107,7 +107,7 @@ static inline microtin_query_result microtin_spots_height(microtin_spots* s, mic
   return MICROTIN_QUERY_OK;
 }
 
-/* The same; what is missing is wished for, up to `far`. 0: there is no height. */
+/* The height; a missing tile is requested, up to `far`. 0: there is no height. */
 static inline int microtin_spots_ask(microtin_spots* s, microtin_spot at, microtin_spot far,
                                      int32_t* millimetres) {
   const microtin_query_result answer = microtin_spots_height(s, at, millimetres);
@@ -133,8 +133,8 @@ static inline int32_t microtin_sine(int32_t angle) {
   return (int32_t)(is_negative ? -value : value);
 }
 
-/* So many millimetres north and east, |each| < 2^31, as the autopilots reckon: a degree of latitude
- * has the length of one at the equator. */
+/* The position that many millimetres north and east, |each| < 2^31, as the autopilots reckon: a
+ * degree of latitude has the length of one at the equator. */
 static inline microtin_spot microtin_spot_beside(microtin_spot from, int32_t north, int32_t east) {
   const int64_t up = (int64_t)north * 89832 / 1000000;
   const int64_t middle = (from.latitude + up / 2) / 100000;

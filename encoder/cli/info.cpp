@@ -44,7 +44,7 @@ void add_device_memory(JsonObject& report, uint32_t most_vertices) {
   report.emplace_back("workspace_bytes_32", json(MICROTIN_PACK_BYTES_FOR(kSlots, capacity, 32)));
 }
 
-// Of a device that decodes one tile and keeps four, in compact form.
+// The memory of a device that decodes one tile and keeps four, in compact form.
 uint64_t workspace_bytes_4_compact_tiles(const PackHeader& header) {
   const uint64_t most = header.most_vertices, bytes = header.compact_bytes;
   return most <= MICROTIN_MAX_VERTICES_FOR(16)

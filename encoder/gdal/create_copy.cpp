@@ -71,7 +71,7 @@ std::vector<Number> heights_of(GDALRasterBand& band, GDALDataType type) {
   return heights;
 }
 
-// Of a source in memory, which is what its files hold, nothing is known.
+// Nothing is known of a source in memory, which is what its files hold.
 void expect_held(GDALDataset& source) {
   char** const files = source.GetFileList();
   uint64_t bytes = 0;
@@ -111,7 +111,7 @@ Posts posts_of(GDALDataset& source) {
   }
   int has_value = 0;
   const double value = band.GetNoDataValue(&has_value);
-  // Beside a mask of the file GDAL passes the value over.
+  // If the file has a mask, GDAL passes the value over.
   const double no_data = has_value != 0 ? value : encoder::kNoValue;
   if (type == GDT_Float32) {
     return encoder::posts_of(columns, rows, heights_of<float>(band, GDT_Float32).data(), transform,

@@ -116,7 +116,7 @@ class Band : public GDALPamRasterBand {
   CPLErr read_block(int block_x, int block_y, double* to) {
     // Rows of the block from the north; those of the grid count from the south.
     const int64_t north = int64_t{grid_.rows} - 1 - int64_t{block_y} * nBlockYSize;
-    // Of coarser rasters the northernmost posts keep their place: rows count from the north.
+    // The northernmost posts of coarser rasters keep their place: rows count from the north.
     const Surface::Rectangle rectangle{int64_t{block_x} * nBlockXSize, north - nBlockYSize + 1,
                                        static_cast<uint32_t>(nBlockXSize),
                                        static_cast<uint32_t>(nBlockYSize)};

@@ -66,14 +66,16 @@ class PackFile {
   const std::vector<PackEntry>& entries() const { return entries_; }  // by tile
   uint64_t bytes() const { return bytes_->size(); }
 
-  // Of all tiles, those on borders once for each, as the header says; 2^32 - 1: so many or more.
+  // Vertices of all tiles, those on borders once for each, as the header states; 2^32 - 1: that
+  // many or more.
   uint32_t vertices() const { return vertices_; }
 
-  // The same, counted: the header of each stream is read, and decoding takes no more. Throws Error
-  // naming a tile whose header is damaged.
+  // Vertices of all tiles, counted: the header of each stream is read, and decoding takes no more.
+  // Throws Error naming a tile whose header is damaged.
   uint64_t counted_vertices() const;
 
-  // Of a tile, as its stream's header says. Throws Error naming the tile if that is damaged.
+  // Vertices of a tile, as its stream's header states. Throws Error naming the tile if that is
+  // damaged.
   uint32_t vertices(uint32_t number) const;
 
   // A tile, decoded; nothing if it has no terrain. Throws Error naming the tile if it is damaged,

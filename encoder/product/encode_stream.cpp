@@ -191,7 +191,7 @@ Attempt attempt_some(const Source& source, const EncodeOptions& options,
   }
 }
 
-// The same everywhere within less than the bound. Nothing if the terrain does not go within that.
+// An attempt everywhere within less than the bound. Nothing if the terrain does not go within that.
 std::optional<Attempt> attempt_narrowly(const Source& source, const EncodeOptions& options,
                                         const Attempt& last, const Progress& progress) {
   const Decimal room = narrower(*options.lattice.max_error, last.encoded.true_places->max_error);

@@ -17,7 +17,7 @@ constexpr uint32_t kSlots = 4;  // a place can lie in so many tiles at once
 // Vertices of a slot to begin with, whatever the header says of the largest tile.
 constexpr uint32_t kUsualCapacity = 1u << 14;
 
-// As microtin_read; `context` is a ByteSource.
+// A microtin_read whose `context` is a ByteSource.
 int32_t read_source(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
   try {
     return static_cast<int32_t>(

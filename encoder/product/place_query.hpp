@@ -34,7 +34,8 @@ class AskedPack {
 
   const microtin_pack_info& info() const { return info_; }
 
-  // As microtin_pack_height_at; `file` is the same pack. Throws Error if the file cannot be read.
+  // Returns what microtin_pack_height_at returns; `file` is the same pack. Throws Error if the file
+  // cannot be read.
   microtin_query_result height_at(int64_t x, int64_t y, const PackFile& file, int32_t* height);
 
  private:

@@ -16,7 +16,7 @@ struct CompactForm {
   bool is_narrow;
 };
 
-// Of a terrain, which stays as it is. Takes a twentieth of the time of decoding.
+// The compact form of a terrain, which stays as it is. Takes 5 % of the time of decoding.
 CompactForm measured_form(microtin_mesh* mesh);
 
 // Makes it of the terrain, and looks whether that is the same terrain. The same on every device.

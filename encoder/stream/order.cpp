@@ -11,8 +11,8 @@
 namespace microtin::stream {
 namespace {
 
-// So many vertices before it is needed memory is asked for: the order is known, the way through
-// memory that it takes is long.
+// Memory is requested this many vertices before it is needed: the order is known, and its way
+// through memory is long.
 constexpr std::size_t kAhead = 8;
 
 // Walks over a triangulation breadth first, again and again while vertices are removed from it.

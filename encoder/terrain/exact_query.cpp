@@ -37,7 +37,7 @@ class Seen {
   // the place lies beyond the edge. Within 2^34 * kMostParts; inside at most 2^32 * kMostParts.
   Wide side[3];
 
-  // Of a place in the closed triangle. On an edge the edge's ends alone count.
+  // The height at a place in the closed triangle. On an edge the edge's ends alone count.
   ExactHeight height() const {
     for (uint32_t i = 0; i < 3; ++i) {
       if (side[i] == 0) return height_between(corner_[i], corner_[(i + 1) % 3]);

@@ -78,7 +78,7 @@ class Cutter {
  private:
   microtin_status feed(Device& device, const uint8_t* data, size_t size, size_t* used,
                        uint32_t* steps) {
-    // Of exactly that size, on the heap, so that reading past the end is seen.
+    // The piece has exactly that size, on the heap, so that reading past the end is seen.
     const std::vector<uint8_t> piece(data, data + size);
     const uint32_t limit = cuts_.ConsumeIntegralInRange<uint32_t>(0, most_steps_);
     const uint32_t before = microtin_mesh_vertex_count(device.mesh);

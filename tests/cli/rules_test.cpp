@@ -309,7 +309,7 @@ void check_file(const Cell& cell) {
   check_highest(cell, session.folder() + "/out.mtin");
 }
 
-// Of a table in a document the line that begins so.
+// The line of a table in a document that begins with `first`.
 std::string line_of(const std::string& document, const std::string& first) {
   const size_t at = document.find("\n| " + first + " |");
   return at == document.npos ? "" : document.substr(at + 1, document.find('\n', at + 1) - at);

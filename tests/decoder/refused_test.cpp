@@ -123,7 +123,7 @@ Bytes identified(const Bytes& bytes) {
   return stream;
 }
 
-// Of properties, vertices, x_max, y_max, as far as they are given, and what follows.
+// A header of properties, vertices, x_max, y_max, as far as they are given, and what follows.
 Bytes header_with(const std::vector<uint64_t>& numbers, const Bytes& rest = {}) {
   Bytes payload;
   for (const uint64_t number : numbers) append_varint(payload, number);
@@ -166,7 +166,7 @@ Bytes valid_stream() {
   return forge(flat_contract(4), PlanCoder(kInside));
 }
 
-// Of whose payload no byte is missing, since four zeros are taken as read.
+// A stream whose payload lacks no byte, since four zeros are taken as read.
 Bytes valid_stream_that_ends_in_zeros() {
   constexpr uint16_t kLargest = kCapacity - 2;
   return forge(border_contract(kLargest), AllVoid(Plan{border_seed(kLargest), {kLargest - 1u}}));

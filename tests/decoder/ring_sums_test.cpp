@@ -19,7 +19,8 @@ struct Neighbours {
   std::vector<Index> ring;
 };
 
-// Of coordinates and heights that are often extreme. Infinity is among them, but not first.
+// Neighbours with coordinates and heights that are often extreme. Infinity is among them, but not
+// first.
 Neighbours neighbours_of(Random& random, Point place) {
   const auto below = [&random](uint32_t most) {
     const uint32_t kind = random.below(8);

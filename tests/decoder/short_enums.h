@@ -24,7 +24,7 @@
 extern "C" {
 #endif
 
-/* Of the structs above. */
+/* Sizes of the structs above. */
 size_t short_enums_size(uint32_t i);
 size_t short_enums_status_size(void);
 

@@ -139,7 +139,7 @@ struct Cost {
   }
 };
 
-// Of a length, whatever its adaptive bits have learned before.
+// The most bits of a length, whatever its adaptive bits have learned before.
 double dearest_length() {
   double dearest = 0;
   for (uint32_t learned = 0; learned < 1u << kExponents; ++learned) {

@@ -28,7 +28,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-// Of memory that child processes share, so that the parent learns what they counted.
+// Counters in memory that child processes share, so that the parent learns what they counted.
 Counters& shared_counters() {
   void* const page =
       mmap(nullptr, sizeof(Counters), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);

@@ -142,7 +142,7 @@ inline microtin_query_result fill_from(const microtin_compact* compact, const mi
   return microtin_compact_sample_grid(compact, b, z);
 }
 
-// ... on 8 courses through the box and in a block of the places around.
+// The sum on 8 segments through the box and in a grid of the places around.
 template <class Form>
 uint32_t sum_of_courses(const ProbeBox& box, const Form* form) {
   ProbeNumbers numbers;

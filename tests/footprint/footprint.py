@@ -38,7 +38,7 @@ USES = {
     "compact_pack": COMPACT_PACK + ["compact_pack_height_at"],
     "compact_pack_queries": COMPACT_PACK + COMPACT_PACK_QUERIES,
 }
-# Of the decoder in one source, by each compiler.
+# What is measured of the decoder in one source, by each compiler.
 ONE_SOURCE_USES = {
     "decoding": DECODING,
     "queries": DECODING + QUERIES,

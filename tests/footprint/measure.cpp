@@ -80,7 +80,7 @@ void say_ram(const char* kind, uint32_t capacity) {
   say("", sizeof(Object));
 }
 
-// Of the objects for so many vertices.
+// Prints the sizes of the objects for `Capacity` vertices.
 template <uint32_t Capacity>
 void say_ram() {
   say_ram<microtin::Terrain<Capacity>>("terrain", Capacity);

@@ -238,7 +238,7 @@ TEST_CASE(
   CHECK(device.load(card, at(17, 5)) == MICROTIN_STATUS_OK);
 }
 
-// With so many bad tiles that this one is not remembered, and so tried again.
+// There are more bad tiles than are remembered, so this one is tried again.
 TEST_CASE("pack: an entry that was misread together with others is not kept") {
   constexpr uint32_t kTiles = 12, kBad = MICROTIN_PACK_MAX_BAD_TILES, kMisread = kBad + 1;
   const ForgedTile flat = forged_tile({{{0, 0, 7}, {2, 0, 7}, {0, 2, 7}, {2, 2, 7}}, {}});

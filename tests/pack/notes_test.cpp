@@ -54,7 +54,7 @@ Bytes stream_header(const Bytes& notes, const Placement& placement = {}) {
   return header;
 }
 
-// The same of a pack.
+// The header of a pack with these notes.
 Bytes pack_header(const Bytes& notes, const Placement& placement = {}) {
   PackContent pack{{100, 100, 50, 50}, {}, {}};
   pack.metadata.placement = placement;

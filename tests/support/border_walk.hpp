@@ -79,7 +79,7 @@ inline bool compare_at(const Tiles& tiles, int64_t x, int64_t y, BorderCount& co
   return !heights.empty();
 }
 
-// The same, where a post knows whether there is a height.
+// Compares at a place where a post knows whether there is a height.
 inline void compare_at(const Tiles& tiles, int64_t x, int64_t y, const Raster& raster,
                        BorderCount& count) {
   const bool answered = compare_at(tiles, x, y, count);

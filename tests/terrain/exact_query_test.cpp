@@ -195,7 +195,7 @@ TEST_CASE("exact heights: errors are measured exactly, and rounded up once") {
   };
   CHECK(error(25, {2, 1, 2}) == "0");
   CHECK(error(25, {2, 1, 3}) == "0.016666667");  // 0.2333... is below 0.25
-  CHECK(error(23, {2, 1, 3}) == "0.003333334");  // ... and above 0.23
+  CHECK(error(23, {2, 1, 3}) == "0.003333334");  // the error above 0.23
   CHECK(error(-25, {-3, 1, 3}) == "0.016666667");
   CHECK(error(0, {0, -1, 3}) == "0.033333334");
   CHECK(error(0, {0, 1, 3}) == "0.033333334");

@@ -27,6 +27,7 @@
  */
 #define MICROTIN_COMPACT_BYTES(vertices) \
   MICROTIN_COMPACT_BYTES_FOR(vertices, 2ul, MICROTIN_INDEX_BITS)
+/* Bytes of a compact terrain in a box less than 256 lattice steps wide and high. */
 #define MICROTIN_COMPACT_NARROW_BYTES(vertices) \
   MICROTIN_COMPACT_BYTES_FOR(vertices, 0ul, MICROTIN_INDEX_BITS)
 
@@ -34,10 +35,13 @@
  * terrain, else 2. WITH: exact for a terrain with `repeats` vertices that the path passes twice. */
 #define MICROTIN_COMPACT_BYTES_FOR(vertices, wide, bits) \
   MICROTIN_COMPACT_BYTES_WITH(vertices, MICROTIN_COMPACT_REPEATS(vertices), wide, bits)
+/* Exact bytes of a compact terrain with `repeats` vertices that the path passes twice. */
 #define MICROTIN_COMPACT_BYTES_WITH(vertices, repeats, wide, bits) \
   (MICROTIN_COMPACT_HEADER_BYTES +                                 \
    ((vertices) + 1ul + (repeats)) * (4ul + (bits) / 8 * 2ul + (wide)) + (repeats) * ((bits) / 8))
+/* Bytes of the header of a compact terrain. */
 #define MICROTIN_COMPACT_HEADER_BYTES 88ul
+/* Vertices that the path may pass twice in terrains of the encoder. */
 #define MICROTIN_COMPACT_REPEATS(vertices) (8ul + (vertices) / 64)
 
 /* Bytes of scratch memory for making a compact terrain. The scratch is free afterwards. The
@@ -45,6 +49,7 @@
 #define MICROTIN_COMPACTOR_BYTES(vertices)                      \
   (MICROTIN_COMPACTOR_HEADER_BYTES + ((vertices)*3ul + 7) / 8 + \
    MICROTIN_INDEX_BITS / 8 * ((vertices) + 2ul + MICROTIN_COMPACT_REPEATS(vertices)))
+/* Bytes of the header of the scratch memory. */
 #define MICROTIN_COMPACTOR_HEADER_BYTES 280ul
 
 /* The index width is part of the name that the linker sees; see microtin.h. */
@@ -60,6 +65,7 @@ extern "C" {
 
 /* A compact terrain, and what makes one. */
 typedef struct microtin_compact microtin_compact;
+/* A compactor, which makes a compact terrain from a mesh. */
 typedef struct microtin_compactor microtin_compactor;
 
 /* --- Making a compact terrain --- */

@@ -18,24 +18,30 @@ class CompactPack : public PackFace {
 
  public:
   CompactPack() { begin(); }
+  // Leaves the object to `begin`; see DeferInit.
   constexpr explicit CompactPack(DeferInit) : storage_{} {}
 
+  // Initialises the object and returns the status.
   microtin_status begin() {
     status_ =
         microtin_compact_pack_init(storage_, sizeof storage_, Slots, Capacity, TileBytes, &pack_);
     return status_;
   }
+  // Calls microtin_compact_pack_load_with.
   microtin_status load_with(const microtin_segment& segment, microtin_read read, void* context,
                             uint32_t step_limit = 0) {
     if (status_ != MICROTIN_STATUS_OK) return status_;
     return microtin_compact_pack_load_with(pack_, &segment, read, context, step_limit);
   }
+  // Calls microtin_compact_pack_height_at.
   microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return microtin_compact_pack_height_at(pack_, x, y, hint, height);
   }
+  // Calls microtin_compact_pack_segment_max.
   microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
     return microtin_compact_pack_segment_max(pack_, &segment, height);
   }
+  // Calls microtin_compact_pack_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
     return microtin_compact_pack_sample_grid(pack_, &grid, heights);
   }

@@ -38,6 +38,7 @@
 #endif
 
 #ifndef MICROTIN_ASSERT
+/* Checks what the caller guarantees. Does nothing unless the project defines it. */
 #define MICROTIN_ASSERT(condition) ((void)0)
 #endif
 

@@ -25,17 +25,22 @@
 
 /* The version of this library. Build files and other languages take it from here. */
 #define MICROTIN_VERSION_MAJOR 0
+/* The minor version of this library. */
 #define MICROTIN_VERSION_MINOR 1
+/* The patch version of this library. */
 #define MICROTIN_VERSION_PATCH 0
 
 /* Most vertices of a terrain with MICROTIN_INDEX_BITS, which config.h chooses. */
 #define MICROTIN_MAX_VERTICES MICROTIN_MAX_VERTICES_FOR(MICROTIN_INDEX_BITS)
+/* Most vertices of a terrain in a build with `index_bits` bits of index width. */
 #define MICROTIN_MAX_VERTICES_FOR(index_bits) ((index_bits) == 16 ? 10923ul : 16777216ul)
 
 /* Bytes of the workspaces for up to `capacity` vertices: constant expressions, also usable in #if.
  * Align both workspaces to MICROTIN_ALIGNMENT. */
 #define MICROTIN_ALIGNMENT 8
+/* Bytes of a mesh for up to `capacity` vertices. */
 #define MICROTIN_MESH_BYTES(capacity) MICROTIN_MESH_BYTES_FOR(capacity, MICROTIN_INDEX_BITS)
+/* Bytes of a decoder for up to `capacity` vertices. */
 #define MICROTIN_DECODER_BYTES(capacity) MICROTIN_DECODER_BYTES_FOR(capacity, MICROTIN_INDEX_BITS)
 
 /* Bytes of the workspaces in a build with `bits` bits of index width. A vertex takes six half-edges
@@ -43,6 +48,7 @@
  * takes a queue entry, two marks (a byte with 32-bit indices) and a byte of height context. */
 #define MICROTIN_MESH_BYTES_FOR(capacity, bits) \
   (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
+/* Bytes of a decoder in a build with `bits` bits of index width. */
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
   ((bits) == 16 ? 2463ul + 3ul * (capacity) + ((capacity) + 3ul) / 4 : 2671ul + 6ul * (capacity))
 
@@ -72,6 +78,7 @@ uint32_t microtin_version_number(void);
 /* Return the versions of the formats of streams and of packs that the library reads. For others it
  * returns MICROTIN_STATUS_UNSUPPORTED_VERSION. */
 uint8_t microtin_stream_format_version(void);
+/* Returns the version of the format of packs that the library reads. */
 uint8_t microtin_pack_format_version(void);
 
 /* The result of every function that can fail. 1 to 3 mean that there is more to do, 16 and above
@@ -132,7 +139,9 @@ typedef struct microtin_stream_info {
 /* A decoded terrain, what decodes it, and hints for queries. They lie in the caller's workspaces.
  */
 typedef struct microtin_mesh microtin_mesh;
+/* A decoder, which turns a stream into a mesh. */
 typedef struct microtin_decoder microtin_decoder;
+/* Hints for height queries at any position. */
 typedef struct microtin_buckets microtin_buckets;
 
 /* Reads a stream's header from its first `size` bytes. Decodes nothing. O(header bytes), usually

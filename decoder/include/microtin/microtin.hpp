@@ -25,33 +25,45 @@ class Terrain {
 
  public:
   Terrain() { begin(); }
+  // Leaves the object to `begin`; see DeferInit.
   constexpr explicit Terrain(DeferInit) : storage_{} {}
   Terrain(const Terrain&) = delete;
   Terrain& operator=(const Terrain&) = delete;
 
+  // Initialises the object and returns the status.
   microtin_status begin() {
     status_ = microtin_mesh_init(storage_, sizeof storage_, &mesh_);
     return status_;
   }
+  // The status of the initialisation.
   microtin_status status() const { return status_; }
+  // The mesh, for the functions of microtin.h.
   microtin_mesh* mesh() { return mesh_; }
+  // The mesh, for the functions of microtin.h.
   const microtin_mesh* mesh() const { return mesh_; }
 
+  // Calls microtin_mesh_vertex_count.
   uint32_t vertices() const { return microtin_mesh_vertex_count(mesh_); }
+  // Calls microtin_mesh_triangle_count.
   uint32_t triangles() const { return microtin_mesh_triangle_count(mesh_); }
+  // Calls microtin_mesh_digest.
   uint64_t digest() const { return microtin_mesh_digest(mesh_); }
 
+  // Calls microtin_mesh_height_at.
   microtin_query_result height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
                                   uint32_t flags = 0, uint32_t step_limit = 0) const {
     return microtin_mesh_height_at(mesh_, x, y, hint, height, flags, step_limit);
   }
+  // Calls microtin_mesh_segment_max.
   microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
     return microtin_mesh_segment_max(mesh_, &segment, nullptr, height, 0);
   }
+  // Calls microtin_mesh_segment_max.
   microtin_query_result segment_max(const microtin_segment& segment, microtin_segment_state* state,
                                     int32_t* height, uint32_t step_limit) const {
     return microtin_mesh_segment_max(mesh_, &segment, state, height, step_limit);
   }
+  // Calls microtin_mesh_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
     return microtin_mesh_sample_grid(mesh_, &grid, heights);
   }
@@ -70,11 +82,14 @@ class Decoder {
   static_assert(Capacity <= MICROTIN_MAX_VERTICES, "more vertices than the index width reaches");
 
  public:
+  // Decodes into a mesh, which must outlive the decoder.
   explicit Decoder(microtin_mesh* mesh) { begin(mesh); }
+  // Decodes into a terrain, which must outlive the decoder.
   template <uint32_t MeshCapacity>
   explicit Decoder(Terrain<MeshCapacity>& target) {
     begin(target);
   }
+  // Leaves the object to `begin`; see DeferInit.
   constexpr explicit Decoder(DeferInit) : storage_{} {}
   Decoder(const Decoder&) = delete;
   Decoder& operator=(const Decoder&) = delete;
@@ -84,24 +99,31 @@ class Decoder {
     status_ = microtin_decoder_init(storage_, sizeof storage_, mesh, &decoder_);
     return status_;
   }
+  // Initialises the object and returns the status.
   template <uint32_t MeshCapacity>
   microtin_status begin(Terrain<MeshCapacity>& target) {
     begin(target.mesh());
     if (target.status() != MICROTIN_STATUS_OK) status_ = target.status();
     return status_;
   }
+  // The status of the initialisation.
   microtin_status status() const { return status_; }
+  // Calls microtin_decoder_stop_after_phase.
   void stop_after_phase(uint32_t phase) { microtin_decoder_stop_after_phase(decoder_, phase); }
+  // Calls microtin_decoder_feed.
   microtin_status feed(const uint8_t* bytes, size_t size, size_t* used, uint32_t step_limit = 0) {
     if (status_ == MICROTIN_STATUS_OK)
       return microtin_decoder_feed(decoder_, bytes, size, used, step_limit);
     *used = 0;
     return status_;
   }
+  // Calls microtin_decoder_finish.
   microtin_status finish() {
     return status_ == MICROTIN_STATUS_OK ? microtin_decoder_finish(decoder_) : status_;
   }
+  // Calls microtin_decoder_phase.
   uint32_t phase() const { return microtin_decoder_phase(decoder_); }
+  // Calls microtin_decoder_bytes_used.
   uint64_t bytes_used() const { return microtin_decoder_bytes_used(decoder_); }
 
  private:
@@ -124,6 +146,7 @@ class Buckets {
   microtin_status build(const microtin_mesh* mesh) {
     return microtin_buckets_init(storage_, sizeof storage_, mesh, &buckets_);
   }
+  // Calls microtin_buckets_hint.
   uint32_t hint(int32_t x, int32_t y) const {
     return buckets_ == nullptr ? 0 : microtin_buckets_hint(buckets_, x, y);
   }
@@ -159,22 +182,30 @@ class CompactTerrain {
 
   // Null before make succeeds, and after clear.
   const microtin_compact* compact() const { return compact_; }
+  // Makes the object empty.
   void clear() { compact_ = nullptr; }
 
+  // Calls microtin_compact_vertex_count.
   uint32_t vertices() const { return microtin_compact_vertex_count(compact_); }
+  // Calls microtin_compact_digest.
   uint64_t digest() const { return microtin_compact_digest(compact_); }
+  // Calls microtin_compact_hint.
   uint32_t hint(int32_t x, int32_t y) const { return microtin_compact_hint(compact_, x, y); }
+  // Calls microtin_compact_height_at.
   microtin_query_result height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
                                   uint32_t step_limit = 0) const {
     return microtin_compact_height_at(compact_, x, y, hint, height, step_limit);
   }
+  // Calls microtin_compact_segment_max.
   microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
     return microtin_compact_segment_max(compact_, &segment, nullptr, height, 0);
   }
+  // Calls microtin_compact_segment_max.
   microtin_query_result segment_max(const microtin_segment& segment, microtin_segment_state* state,
                                     int32_t* height, uint32_t step_limit) const {
     return microtin_compact_segment_max(compact_, &segment, state, height, step_limit);
   }
+  // Calls microtin_compact_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
     return microtin_compact_sample_grid(compact_, &grid, heights);
   }

@@ -23,9 +23,11 @@
  * can touch four tiles, so use four slots or more. */
 #define MICROTIN_PACK_BYTES(slots, capacity) \
   MICROTIN_PACK_BYTES_FOR(slots, capacity, MICROTIN_INDEX_BITS)
+/* Bytes of the workspace in a build with `bits` bits of index width. */
 #define MICROTIN_PACK_BYTES_FOR(slots, capacity, bits)                       \
   (472ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
    (slots) * (24ul + MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits))))
+/* `bytes`, rounded up to a multiple of 8. */
 #define MICROTIN_PACK_ROUND(bytes) (((bytes) + 7ul) / 8 * 8)
 
 #ifdef __cplusplus

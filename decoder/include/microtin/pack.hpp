@@ -15,13 +15,19 @@ class PackFace {
   PackFace(const PackFace&) = delete;
   PackFace& operator=(const PackFace&) = delete;
 
+  // The status of the initialisation.
   microtin_status status() const { return status_; }
+  // Calls microtin_pack_reset.
   void reset() { microtin_pack_reset(pack_); }
+  // Calls microtin_pack_bad_tile.
   microtin_status bad_tile(uint32_t i, uint32_t* tile, uint32_t* why) const {
     return microtin_pack_bad_tile(pack_, i, tile, why);
   }
+  // Calls microtin_pack_clear_bad_tiles.
   void clear_bad_tiles() { microtin_pack_clear_bad_tiles(pack_); }
+  // Calls microtin_pack_align_reads.
   microtin_status align_reads(uint32_t sector) { return microtin_pack_align_reads(pack_, sector); }
+  // Calls microtin_pack_get_info.
   microtin_status get_info(microtin_pack_info* info) const {
     return microtin_pack_get_info(pack_, info);
   }
@@ -44,23 +50,29 @@ class Pack : public PackFace {
 
  public:
   Pack() { begin(); }
+  // Leaves the object to `begin`; see DeferInit.
   constexpr explicit Pack(DeferInit) : storage_{} {}
 
+  // Initialises the object and returns the status.
   microtin_status begin() {
     status_ = microtin_pack_init(storage_, sizeof storage_, Slots, Capacity, &pack_);
     return status_;
   }
+  // Calls microtin_pack_load_with.
   microtin_status load_with(const microtin_segment& segment, microtin_read read, void* context,
                             uint32_t step_limit = 0) {
     if (status_ != MICROTIN_STATUS_OK) return status_;
     return microtin_pack_load_with(pack_, &segment, read, context, step_limit);
   }
+  // Calls microtin_pack_height_at.
   microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return microtin_pack_height_at(pack_, x, y, hint, height);
   }
+  // Calls microtin_pack_segment_max.
   microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
     return microtin_pack_segment_max(pack_, &segment, height);
   }
+  // Calls microtin_pack_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
     return microtin_pack_sample_grid(pack_, &grid, heights);
   }

@@ -82,21 +82,25 @@ typedef struct microtin_report {
   char max_error_at_points[24], max_below_at_points[24];
 } microtin_report;
 
+/* A terrain to be encoded. */
 typedef struct microtin_source microtin_source;
 
 /* Copies what it is given: 8 bytes a post, 24 a point. */
 microtin_status microtin_source_from_raster(const microtin_raster_data* raster,
                                             microtin_source** terrain);
+/* Makes a source from points, which are copied: 24 bytes each. */
 microtin_status microtin_source_from_points(const microtin_point_data* points,
                                             microtin_source** terrain);
 /* Reads a file by its suffix. */
 microtin_status microtin_source_from_file(const char* path, microtin_source** terrain);
+/* Frees a source. Null is allowed. */
 void microtin_source_free(microtin_source* terrain);
 
 /* The stream's bytes are freed by microtin_bytes_free. */
 microtin_status microtin_encode_stream(const microtin_source* terrain,
                                        const microtin_options* options, uint8_t** bytes,
                                        uint64_t* size, microtin_report* report);
+/* Frees the bytes of a stream. Null is allowed. */
 void microtin_bytes_free(uint8_t* bytes);
 
 /* Writes a file that appears complete or not at all. */
@@ -106,14 +110,17 @@ microtin_status microtin_encode_pack(const microtin_source* terrain,
 
 /* --- Reading --- */
 
+/* A stream or a pack that is read. */
 typedef struct microtin_surface microtin_surface;
 
 /* A stream or a pack, from a file, or from bytes that are copied. A stream is decoded and checked
  * at once, of a pack header and index; its tiles when they are asked for. `name` is for messages.
  */
 microtin_status microtin_surface_from_file(const char* path, microtin_surface** surface);
+/* Reads a stream or a pack from bytes, which are copied. `name` is for messages. */
 microtin_status microtin_surface_from_bytes(const uint8_t* bytes, uint64_t size, const char* name,
                                             microtin_surface** surface);
+/* Frees a surface. Null is allowed. */
 void microtin_surface_free(microtin_surface* surface);
 
 /* Posts: the place of (column, row) is (x, y) of coordinates `x.offset + x.numerator * column`
@@ -137,6 +144,7 @@ typedef struct microtin_surface_info {
   const char* max_error_at_points; /* where points truly lie, if the lattice moves them */
 } microtin_surface_info;
 
+/* Writes what the header contains, and where the surface is. */
 void microtin_surface_get_info(const microtin_surface* surface, microtin_surface_info* facts);
 
 /* Vertices and triangles. They belong to the surface, until the next of these calls for it. */

@@ -37,7 +37,7 @@ struct Posts {
   std::vector<int64_t> heights;   /* times 10^-decimals; row by row, row 0 southernmost */
   int decimals = 0;               /* 0 .. 18 */
   microtin_axis x{0, 1, 1};       /* from a column to where its posts lie, east */
-  microtin_axis y{0, 1, 1};       /* ... and from a row, north */
+  microtin_axis y{0, 1, 1};       /* from a row to where its posts lie, north */
   std::string wkt;                /* well-known text of the systems of places and heights, or "" */
   std::string z_unit = {};        /* as GDAL's bands name it, "cm"; "": as wkt says */
 };
@@ -63,8 +63,10 @@ using Transform = std::array<double, 6>;
 bool runs_east(const Transform& transform);
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+/* Makes a raster from the heights of cells. Throws std::runtime_error if cells are rotated. */
 Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform,
                double no_data = kNoValue);
+/* Makes a raster from the heights of cells. Throws std::runtime_error if cells are rotated. */
 Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform,
                double no_data = kNoValue);
 
@@ -80,6 +82,7 @@ class Terrain {
  public:
   /* Takes 8 bytes a post or 24 a point. Throws if numbers of posts or decimals are out of range. */
   explicit Terrain(Posts posts);
+  /* Takes 24 bytes a point. */
   explicit Terrain(const Points& points);
 
   /* Reads a file by its suffix: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt, .las, .ply, .obj.
@@ -87,6 +90,7 @@ class Terrain {
   static Terrain from_file(const std::string& path);
 
   struct Content;
+  /* For the library alone. */
   const Content& content() const { return *content_; }
 
  private:
@@ -96,6 +100,7 @@ class Terrain {
 
 /* --- What is wanted --- */
 
+/* How long the encoder searches for smaller files. */
 enum class Search { kFast, kNormal, kBest }; /* some 5 % more bytes; the default; slow */
 
 /* What decoding may cost: less time for more bytes, or the other way round. */
@@ -109,6 +114,7 @@ enum class BoundAt { kPoints, kLattice };
  * the surface aims at the middle of the lowest and the highest. */
 enum class Duplicates { kMiddle, kLowest, kHighest, kMean };
 
+/* What the encoder may choose. Texts are UTF-8; an empty text is none. */
 struct Options {
   std::string max_error;    /* the largest distance of the surface from any height; "": see below */
   bool never_below = false; /* with a bound: no height is below the terrain */
@@ -140,9 +146,11 @@ struct StreamOptions : Options {
   uint32_t max_bytes = 0;    /* the smallest bound that so many bytes allow; without both */
 };
 
-/* Of a tile at most, if a pack's options set neither a number of vertices nor a device's memory. */
+/* Vertices of a tile at most, if a pack's options set neither a number of vertices nor a device's
+ * memory. */
 constexpr uint32_t kUsualTileVertices = 2000;
 
+/* Options of a pack. */
 struct PackOptions : Options {
   uint32_t tile_vertices = 0; /* of a tile at most: 16 .. 2^24; 0: kUsualTileVertices */
   uint32_t tile_steps = 0;    /* extent of a tile of posts; 0: to be chosen */
@@ -150,6 +158,7 @@ struct PackOptions : Options {
 
 /* --- Results --- */
 
+/* What the encoder measured. Errors are in units of height. */
 struct Report {
   uint64_t samples = 0; /* posts or points with a height, all of them compared */
   uint64_t vertices = 0;
@@ -165,6 +174,7 @@ struct Report {
   std::vector<std::string> remarks; /* what is guessed of units and systems; doubtful heights */
 };
 
+/* A stream and what the encoder measured. */
 struct Stream {
   std::vector<uint8_t> bytes;
   Report report;
@@ -174,6 +184,7 @@ struct Stream {
 
 /* Thrown when Callbacks::cancelled said so. Nothing is left behind. */
 struct Cancelled : std::exception {
+  /* Returns "cancelled". */
   const char* what() const noexcept override { return "cancelled"; }
 };
 

@@ -28,13 +28,14 @@ class Bytes {
   Bytes& operator=(const Bytes&) = delete;
   virtual ~Bytes() = default;
 
+  /* The number of bytes. */
   virtual uint64_t size() const = 0;
 
   /* Up to `size` bytes from an offset on: fewer only at the end. May throw std::runtime_error. */
   virtual size_t read(uint64_t offset, void* to, size_t size) const = 0;
 };
 
-/* Of coordinates or heights. */
+/* The unit of coordinates or heights. */
 enum class Unit : uint8_t { kUnknown = 0, kMetre = 1, kDegree = 2, kFoot = 3, kUsSurveyFoot = 4 };
 
 /* Posts in columns and rows; row 0 is the southernmost. */
@@ -51,6 +52,7 @@ inline double coordinate(const microtin_axis& axis, int64_t k) {
          static_cast<double>(axis.denominator);
 }
 
+/* A rectangle in real coordinates. */
 struct Box {
   double west = 0, south = 0, east = 0, north = 0;
 };
@@ -79,15 +81,20 @@ struct Mesh {
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
+/* A stream or a pack that is read. One thread at a time may use a surface. */
 class Surface {
  public:
   /* A stream is decoded at once, of a pack header and index are read. `name` is for messages. */
   static Surface from_file(const std::string& path);
+  /* Reads a stream or a pack from bytes. `name` is for messages. */
   static Surface from_bytes(std::unique_ptr<const Bytes> bytes, const std::string& name);
+  /* Takes over another surface. */
   Surface(Surface&& other) noexcept;
+  /* Takes over another surface. */
   Surface& operator=(Surface&& other) noexcept;
   ~Surface();
 
+  /* Returns what the header contains, and where the surface is. */
   const Facts& facts() const;
 
   /* All of it; vertices on borders of tiles once. O(n). */
@@ -96,6 +103,7 @@ class Surface {
   /* A tile of a pack, from the south-west corner on row by row; a stream is one tile. Nothing in
    * the mesh if it has no terrain. Throws std::out_of_range. */
   Mesh tile(uint32_t column, uint32_t row) const;
+  /* The rectangle of a tile. Throws std::out_of_range. */
   Box tile_box(uint32_t column, uint32_t row) const;
 
   /* Posts `cell` units apart, from the south-west corner of the box on; "0.25" is exact. */
@@ -114,6 +122,7 @@ class Surface {
     int64_t column = 0, row = 0; /* the south-west post */
     uint32_t columns = 0, rows = 0;
   };
+  /* Writes the heights at the posts of the rectangle, NaN where there is none. */
   void heights(const Grid& grid, const Rectangle& rectangle, double* heights) const;
 
  private:

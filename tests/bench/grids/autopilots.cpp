@@ -96,7 +96,7 @@ class PackAnswerer : public Answerer {
     microtin_pack_align_reads(pack, kSector);
   }
 
-  // Of a device, with numbers of 16 bits.
+  // The memory of a device, with numbers of 16 bits.
   size_t ram() const override {
     return MICROTIN_PACK_BYTES_FOR(kSlots, capacity_, 16) + sizeof(microtin_spots);
   }

@@ -35,7 +35,7 @@ function checkPart({ headers, url }, range, length, offset, size) {
   }
 }
 
-// Of a caller's function, which may use its buffer again.
+// Reads with a caller's function, which may use its buffer again.
 function readerOfFunction(read) {
   return async (offset, size) => {
     const bytes = checkBytes("what the read function returns", await read(offset, size));
