@@ -3,7 +3,7 @@
 #ifndef MICROTIN_DECODER_BORDER_EDGES_HPP
 #define MICROTIN_DECODER_BORDER_EDGES_HPP
 
-#include "decoder/tile_course.hpp"
+#include "decoder/tile_segment.hpp"
 
 namespace microtin {
 

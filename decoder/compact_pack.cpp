@@ -51,14 +51,14 @@ microtin_status microtin_compact_pack_init(void* workspace, size_t size, uint32_
                             &p.work);
 }
 
-microtin_status microtin_compact_pack_load(microtin_pack* pack, const microtin_segment* course,
+microtin_status microtin_compact_pack_load(microtin_pack* pack, const microtin_segment* segment,
                                            uint32_t step_limit) {
-  if (pack == nullptr || course == nullptr) return MICROTIN_STATUS_ARGUMENT;
+  if (pack == nullptr || segment == nullptr) return MICROTIN_STATUS_ARGUMENT;
   if (pack->work == nullptr) return MICROTIN_STATUS_WRONG_PACK_KIND;
   microtin_status status = MICROTIN_STATUS_OK;
   while (status == MICROTIN_STATUS_OK ||
          (status == MICROTIN_STATUS_STEP_LIMIT && step_limit == 0)) {
-    status = go_on(*pack, *course);
+    status = go_on(*pack, *segment);
     if (status == MICROTIN_STATUS_STEP_LIMIT) {
       status = decode(*pack, step_limit);
     } else if (status == MICROTIN_STATUS_STOPPED) {

@@ -11,9 +11,9 @@ microtin_query_result microtin_compact_pack_height_at(const microtin_pack* pack,
 }
 
 microtin_query_result microtin_compact_pack_segment_max(const microtin_pack* pack,
-                                                        const microtin_segment* course,
+                                                        const microtin_segment* segment,
                                                         int32_t* height) {
-  return highest_in_pack<RingForm>(*pack, *course, height);
+  return highest_in_pack<RingForm>(*pack, *segment, height);
 }
 
 microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,

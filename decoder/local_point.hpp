@@ -9,7 +9,7 @@
 
 namespace microtin {
 
-// In steps with 8 fractional bits, from the first corner of a tile that the course touches: within
+// In steps with 8 fractional bits, from the first corner of a tile that the segment touches: within
 // 2^25.
 struct LocalPoint {
   int32_t x, y;
@@ -24,9 +24,9 @@ inline LocalPoint fine_point(Point p) {
   return LocalPoint{p.x * static_cast<int32_t>(256), p.y * static_cast<int32_t>(256)};
 }
 
-// Twice the signed area of (a, b, p): positive if p lies to the left of a -> b. Ends of courses are
-// less than 2^24 apart, corners of triangles too, and none is farther than 2^26 from another: below
-// 2^51.
+// Twice the signed area of (a, b, p): positive if p lies to the left of a -> b. Ends of segments
+// are less than 2^24 apart, corners of triangles too, and none is farther than 2^26 from another:
+// below 2^51.
 MICROTIN_ONE_COPY inline int64_t orient(const LocalPoint& a, const LocalPoint& b,
                                         const LocalPoint& p) {
   return static_cast<int64_t>(b.x - a.x) * (p.y - a.y) -

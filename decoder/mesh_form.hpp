@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// A mesh, as courses want to see terrains: tile_course.hpp.
+// A mesh, as segments want to see terrains: tile_segment.hpp.
 #ifndef MICROTIN_DECODER_MESH_FORM_HPP
 #define MICROTIN_DECODER_MESH_FORM_HPP
 
-#include "decoder/tile_course.hpp"
+#include "decoder/tile_segment.hpp"
 
 namespace microtin {
 

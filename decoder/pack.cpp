@@ -84,7 +84,7 @@ microtin_status handle_check(microtin_pack& p) {
 // --- A tile.
 
 // The place to be filled next, a slot or what is known of a bad tile: an empty one, or that which
-// has not been wanted for the longest time. Those of the course in hand are kept: null if all are.
+// has not been wanted for the longest time. Those of the segment in hand are kept: null if all are.
 template <class Place>
 Place* place_to_fill(Place* places, uint32_t count, uint32_t clock) {
   Place* oldest = nullptr;
@@ -265,7 +265,7 @@ MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE microtin_status handle(microtin_pack& p) 
   return MICROTIN_STATUS_STOPPED;
 }
 
-// What a course wants of a pack.
+// What a segment wants of a pack.
 struct Wishes {
   bool is_any;   // a tile is neither there nor known to be bad, nor was it tried
   bool in_hand;  // the tile that is being read is among them
@@ -273,7 +273,7 @@ struct Wishes {
   uint32_t first;  // the first if there is any
 };
 
-// Notes the slots and bad tiles that the course meets from here on, up to one good or unknown tile
+// Notes the slots and bad tiles that the segment meets from here on, up to one good or unknown tile
 // more than there are slots, and the first of the unknown ones.
 MICROTIN_OUT_OF_LINE void look_along(microtin_pack& p, TouchedTiles& tiles, Wishes* wishes) {
   uint32_t left = p.slot_count + 1u;  // one that does not fit is enough to know
@@ -296,8 +296,8 @@ MICROTIN_OUT_OF_LINE void look_along(microtin_pack& p, TouchedTiles& tiles, Wish
   }
 }
 
-// Notes which slots and bad tiles the course meets, and goes to `passed`. False if the course does
-// not meet that. However many tiles were passed, none of them is looked at again.
+// Notes which slots and bad tiles the segment meets, and goes to `passed`. False if the segment
+// does not meet that. However many tiles were passed, none of them is looked at again.
 bool go_to_passed(microtin_pack& p, TouchedTiles& tiles, Wishes* wishes) {
   for (uint32_t i = 0; i < p.slot_count; ++i) {
     PackSlot& slot = p.slots[i];
@@ -310,29 +310,29 @@ bool go_to_passed(microtin_pack& p, TouchedTiles& tiles, Wishes* wishes) {
   return wishes->has_bad;
 }
 
-// Notes which slots and bad tiles the course touches, and finds the first tile to be tried. What it
-// needs on the stack is not there while a tile is decoded.
+// Notes which slots and bad tiles the segment touches, and finds the first tile to be tried. What
+// it needs on the stack is not there while a tile is decoded.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE Wishes wishes_of(microtin_pack& p,
-                                                        const microtin_segment& course) {
+                                                        const microtin_segment& segment) {
   Wishes wishes = {false, false, false, 0};
   ++p.clock;
   for (;;) {  // twice at most
-    TouchedTiles tiles(p.header.grid, course);
+    TouchedTiles tiles(p.header.grid, segment);
     if (p.has_passed) {
       p.has_passed = go_to_passed(p, tiles, &wishes);
-      if (!p.has_passed) continue;  // from where the course begins
+      if (!p.has_passed) continue;  // from where the segment begins
     }
     look_along(p, tiles, &wishes);
     return wishes;
   }
 }
 
-// Takes up a course: what was tried for another counts for that alone.
-void take_up(microtin_pack& p, const microtin_segment& course) {
+// Takes up a segment: what was tried for another counts for that alone.
+void take_up(microtin_pack& p, const microtin_segment& segment) {
   const uint32_t hash =
-      stream_hash(kStreamHash, reinterpret_cast<const uint8_t*>(&course), sizeof course);
-  if (hash != p.course_hash) p.is_whole = false;
-  p.course_hash = hash;
+      stream_hash(kStreamHash, reinterpret_cast<const uint8_t*>(&segment), sizeof segment);
+  if (hash != p.segment_hash) p.is_whole = false;
+  p.segment_hash = hash;
 }
 
 // Bytes that are wanted next and lie in one sector.
@@ -378,8 +378,8 @@ microtin_status hear_decoder(microtin_pack& p, microtin_status status) {
   return MICROTIN_STATUS_STEP_LIMIT;
 }
 
-microtin_status go_on(microtin_pack& p, const microtin_segment& course) {
-  if (!is_legal(course)) return MICROTIN_STATUS_ARGUMENT;
+microtin_status go_on(microtin_pack& p, const microtin_segment& segment) {
+  if (!is_legal(segment)) return MICROTIN_STATUS_ARGUMENT;
   if (!p.has_header) {
     const microtin_status heard = hear_storage(p);
     if (heard != MICROTIN_STATUS_NEED_INPUT) return heard;
@@ -389,16 +389,16 @@ microtin_status go_on(microtin_pack& p, const microtin_segment& course) {
   // Each time ends with a tile of which the entry was kept: the one after these wants input.
   microtin_status status = MICROTIN_STATUS_OK;
   while (status == MICROTIN_STATUS_OK) {
-    const Wishes wishes = wishes_of(p, course);
+    const Wishes wishes = wishes_of(p, segment);
     if (p.stage != PackStage::kIdle && !wishes.in_hand) {
       give_up(p);
-      p.storage = Storage::kWell;  // it was not asked for this course
+      p.storage = Storage::kWell;  // it was not asked for this segment
     }
     status = hear_storage(p);
     if (status == MICROTIN_STATUS_OK) continue;
     if (status == MICROTIN_STATUS_IO) return status;
     if (p.stage == PackStage::kIdle) {
-      take_up(p, course);
+      take_up(p, segment);
       if (!wishes.is_any) {
         const bool is_all = !p.has_passed || p.is_whole;
         p.has_passed = false;
@@ -441,7 +441,7 @@ microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint3
     p.slots[i].space = bytes + static_cast<size_t>(before_slots) + i * p.slot_bytes;
   }
   p.clock = 0;
-  p.course_hash = 0;
+  p.segment_hash = 0;
   p.sector = 0;
   microtin_pack_reset(&p);
   *pack = &p;
@@ -484,13 +484,13 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector) 
   return MICROTIN_STATUS_OK;
 }
 
-microtin_status microtin_pack_load(microtin_pack* pack, const microtin_segment* course,
+microtin_status microtin_pack_load(microtin_pack* pack, const microtin_segment* segment,
                                    uint32_t step_limit) {
-  if (pack == nullptr || course == nullptr) return MICROTIN_STATUS_ARGUMENT;
+  if (pack == nullptr || segment == nullptr) return MICROTIN_STATUS_ARGUMENT;
   if (pack->work != nullptr) return MICROTIN_STATUS_WRONG_PACK_KIND;
   microtin_status status = MICROTIN_STATUS_OK;
   while (status == MICROTIN_STATUS_OK) {
-    status = go_on(*pack, *course);
+    status = go_on(*pack, *segment);
     if (status != MICROTIN_STATUS_STEP_LIMIT) return status;
     status = decode(*pack, step_limit);
   }

@@ -39,8 +39,8 @@ microtin_query_result microtin_pack_height_at(const microtin_pack* pack, int64_t
 }
 
 microtin_query_result microtin_pack_segment_max(const microtin_pack* pack,
-                                                const microtin_segment* course, int32_t* height) {
-  return highest_in_pack<MeshForm>(*pack, *course, height);
+                                                const microtin_segment* segment, int32_t* height) {
+  return highest_in_pack<MeshForm>(*pack, *segment, height);
 }
 
 microtin_query_result microtin_pack_sample_grid(const microtin_pack* pack,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Queries on the tiles of a pack that are there, whatever their form (tile_course.hpp). They only
+// Queries on the tiles of a pack that are there, whatever their form (tile_segment.hpp). They only
 // read, so they may interrupt anything.
 #ifndef MICROTIN_DECODER_PACK_QUERY_HPP
 #define MICROTIN_DECODER_PACK_QUERY_HPP
@@ -31,7 +31,7 @@ MICROTIN_ONE_COPY inline const void* terrain_of(const microtin_pack& p, uint32_t
   return nullptr;
 }
 
-// Whether a course lies on a side of the box, more than a point of which it touches.
+// Whether a segment lies on a side of the box, more than a point of which it touches.
 inline bool runs_along_side(const TileBox& box, const microtin_segment& c) {
   const LocalPoint a = local(box, c.x, c.y), b = local(box, c.x_end, c.y_end);
   const auto is_side = [](int32_t place, uint32_t steps) {
@@ -41,14 +41,15 @@ inline bool runs_along_side(const TileBox& box, const microtin_segment& c) {
          (a.y == b.y && is_side(a.y, box.y_end - box.y));
 }
 
-// OK if every place of a course along a side of a tile is known to it or to the tile beyond, or
+// OK if every place of a segment along a side of a tile is known to it or to the tile beyond, or
 // if the side is another tile's business: the first one's of two at a border.
 template <class Form>
 microtin_query_result answer_along_side(const microtin_pack& p, uint32_t tile,
-                                        const microtin_segment& course) {
+                                        const microtin_segment& segment) {
   const TileGrid& grid = p.header.grid;
   const TileBox box = tile_box(grid, tile);
-  const LocalPoint a = local(box, course.x, course.y), b = local(box, course.x_end, course.y_end);
+  const LocalPoint a = local(box, segment.x, segment.y),
+                   b = local(box, segment.x_end, segment.y_end);
   const bool vertical = a.x == b.x;
   const uint32_t first = vertical ? box.x : box.y, last = vertical ? box.x_end : box.y_end,
                  most = vertical ? grid.x_max : grid.y_max;
@@ -79,18 +80,18 @@ microtin_query_result answer_along_side(const microtin_pack& p, uint32_t tile,
   return is_known ? MICROTIN_QUERY_OK : worst;
 }
 
-// What a tile says of a course that touches it.
+// What a tile says of a segment that touches it.
 template <class Form>
 microtin_query_result answer_of_tile(const microtin_pack& p, const TouchedTiles& tiles,
-                                     const microtin_segment& course, int32_t* highest) {
+                                     const microtin_segment& segment, int32_t* highest) {
   microtin_query_result absent = MICROTIN_QUERY_OK;
   const void* const terrain = terrain_of(p, tiles.number(), &absent);
   if (absent == MICROTIN_QUERY_NOT_LOADED) return absent;
   const TileBox box = tiles.box();
-  TileCourse part(box, course);
+  TileSegment part(box, segment);
   const bool is_known = terrain != nullptr && part.look(Form(terrain), highest);
   if (!part.has_length() || is_known) return MICROTIN_QUERY_OK;
-  if (runs_along_side(box, course)) return answer_along_side<Form>(p, tiles.number(), course);
+  if (runs_along_side(box, segment)) return answer_along_side<Form>(p, tiles.number(), segment);
   return worse(absent, MICROTIN_QUERY_VOID);
 }
 
@@ -112,13 +113,13 @@ microtin_query_result height_in_pack(const microtin_pack& p, int64_t x, int64_t 
 }
 
 template <class Form>
-microtin_query_result highest_in_pack(const microtin_pack& p, const microtin_segment& course,
+microtin_query_result highest_in_pack(const microtin_pack& p, const microtin_segment& segment,
                                       int32_t* height) {
   *height = INT32_MIN;
-  if (!is_legal(course)) return MICROTIN_QUERY_OUTSIDE;
+  if (!is_legal(segment)) return MICROTIN_QUERY_OUTSIDE;
   int32_t highest = INT32_MIN;
   microtin_query_result answer = ask_ends(
-      course,
+      segment,
       [&p](int64_t x, int64_t y, uint32_t* hint, int32_t* end) {
         return height_in_pack<Form>(p, x, y, hint, end);
       },
@@ -126,8 +127,8 @@ microtin_query_result highest_in_pack(const microtin_pack& p, const microtin_seg
   if (answer == MICROTIN_QUERY_NOT_LOADED || answer == MICROTIN_QUERY_WRONG_PACK_KIND) {
     return answer;
   }
-  for (TouchedTiles tiles(p.header.grid, course); !tiles.at_end(); tiles.next()) {
-    answer = worse(answer, answer_of_tile<Form>(p, tiles, course, &highest));
+  for (TouchedTiles tiles(p.header.grid, segment); !tiles.at_end(); tiles.next()) {
+    answer = worse(answer, answer_of_tile<Form>(p, tiles, segment, &highest));
     if (answer == MICROTIN_QUERY_NOT_LOADED) return answer;
   }
   *height = highest;

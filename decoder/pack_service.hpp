@@ -12,11 +12,11 @@ namespace microtin {
 microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
                              uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack);
 
-// Goes on with a course, up to where its next tile is to be decoded (STEP_LIMIT) or made compact
+// Goes on with a segment, up to where its next tile is to be decoded (STEP_LIMIT) or made compact
 // (STOPPED).
-microtin_status go_on(microtin_pack& p, const microtin_segment& course);
+microtin_status go_on(microtin_pack& p, const microtin_segment& segment);
 
-// Chooses a slot for the tile in hand. False if all are wanted by the course in hand.
+// Chooses a slot for the tile in hand. False if all are wanted by the segment in hand.
 bool choose_slot(microtin_pack& p);
 
 // Ends with the tile in hand, which is good, but for which there is no slot. OK.

@@ -60,10 +60,10 @@ struct microtin_pack {
   microtin::PackStage stage;
   volatile bool has_header;
   uint8_t slot_count;
-  // The tile `passed` was bad, and there was no room to remember it. Those behind it on a course
+  // The tile `passed` was bad, and there was no room to remember it. Those behind it on a segment
   // are tried before those in front of it, so that bad tiles never keep others from being tried.
   bool has_passed;
-  bool is_whole;  // all of the course in hand up to `passed` has been tried
+  bool is_whole;  // all of the segment in hand up to `passed` has been tried
   bool is_sound;  // the stream of `tile` is the right one, but there was no slot for it
   microtin::Storage storage;
   bool is_counted;
@@ -82,7 +82,7 @@ struct microtin_pack {
   uint32_t crc;        // of the header so far, or its check
   uint32_t clock;
   uint32_t passed;
-  uint32_t course_hash;  // of the course in hand
+  uint32_t segment_hash;  // of the segment in hand
   microtin::PackEntry entry;
   microtin_decoder* decoder;
   microtin_compactor* compactor;  // of the tile decoded; null: not begun

@@ -21,14 +21,14 @@ inline microtin_query_result worse(microtin_query_result a, microtin_query_resul
   return rank(a) > rank(b) ? a : b;
 }
 
-// At the ends of a course. *highest becomes the greater height, if there is one.
+// At the ends of a segment. *highest becomes the greater height, if there is one.
 template <class HeightAt>
-microtin_query_result ask_ends(const microtin_segment& course, const HeightAt& height_at,
+microtin_query_result ask_ends(const microtin_segment& segment, const HeightAt& height_at,
                                int32_t* highest) {
   uint32_t hint = 0;
   int32_t begin = INT32_MIN, end = INT32_MIN;
-  const microtin_query_result answer = worse(height_at(course.x, course.y, &hint, &begin),
-                                             height_at(course.x_end, course.y_end, &hint, &end));
+  const microtin_query_result answer = worse(height_at(segment.x, segment.y, &hint, &begin),
+                                             height_at(segment.x_end, segment.y_end, &hint, &end));
   *highest = begin > end ? begin : end;
   return answer;
 }
@@ -53,7 +53,7 @@ MICROTIN_ONE_COPY inline int16_t in_units(int32_t z, const microtin_axis& axis) 
 template <class HeightAt>
 microtin_query_result fill(const microtin_grid_spec& block, const microtin_axis& axis,
                            const HeightAt& height_at, int16_t* heights) {
-  if (!is_within(block.x, kCourseMost) || !is_within(block.y, kCourseMost))
+  if (!is_within(block.x, kSegmentMost) || !is_within(block.y, kSegmentMost))
     return MICROTIN_QUERY_OUTSIDE;
   microtin_query_result answer = MICROTIN_QUERY_OK;
   uint32_t hint = 0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// A compact terrain, as courses want to see terrains: tile_course.hpp.
+// A compact terrain, as segments want to see terrains: tile_segment.hpp.
 #ifndef MICROTIN_DECODER_RING_FORM_HPP
 #define MICROTIN_DECODER_RING_FORM_HPP
 
 #include "decoder/ring_cursor.hpp"
-#include "decoder/tile_course.hpp"
+#include "decoder/tile_segment.hpp"
 
 namespace microtin {
 

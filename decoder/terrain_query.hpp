@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Courses and blocks on a single terrain, whatever its form (tile_course.hpp).
+// Segments and blocks on a single terrain, whatever its form (tile_segment.hpp).
 #ifndef MICROTIN_DECODER_TERRAIN_QUERY_HPP
 #define MICROTIN_DECODER_TERRAIN_QUERY_HPP
 
 #include "decoder/places.hpp"
-#include "decoder/tile_course.hpp"
+#include "decoder/tile_segment.hpp"
 
 namespace microtin {
 
@@ -19,8 +19,8 @@ microtin_query_result height_in_terrain(const Form& form, int64_t x, int64_t y, 
   return form.height_at(local_place(x, y), 0, hint, height);
 }
 
-// The ends of a course come before the triangles.
-constexpr uint32_t kCourseEnds = 2;
+// The ends of a segment come before the triangles.
+constexpr uint32_t kSegmentEnds = 2;
 
 inline void note_answer(microtin_segment_state* done, microtin_query_result answer) {
   done->worst = worse(answer, static_cast<microtin_query_result>(done->worst));
@@ -28,11 +28,11 @@ inline void note_answer(microtin_segment_state* done, microtin_query_result answ
 
 // A step, or without a limit all, of the walk to the end that comes next.
 template <class Form>
-void walk_to_end(const Form& form, const microtin_segment& course, uint32_t step_limit,
+void walk_to_end(const Form& form, const microtin_segment& segment, uint32_t step_limit,
                  microtin_segment_state* done) {
   const bool is_first = done->next == 0;
   const LocalPoint end =
-      is_first ? local_place(course.x, course.y) : local_place(course.x_end, course.y_end);
+      is_first ? local_place(segment.x, segment.y) : local_place(segment.x_end, segment.y_end);
   int32_t height = INT32_MIN;
   const microtin_query_result answer =
       form.height_at(end, step_limit == 0 ? 0u : 1u, &done->hint, &height);
@@ -42,24 +42,24 @@ void walk_to_end(const Form& form, const microtin_segment& course, uint32_t step
   ++done->next;
 }
 
-// Hulls are convex: a course leaves them only if it ends outside.
+// Hulls are convex: a segment leaves them only if it ends outside.
 template <class Form>
-microtin_query_result highest_in_terrain(const Form& form, const microtin_segment& course,
+microtin_query_result highest_in_terrain(const Form& form, const microtin_segment& segment,
                                          microtin_segment_state* state, int32_t* height,
                                          uint32_t step_limit) {
   microtin_segment_state own = {};  // without a limit a call needs no state
   microtin_segment_state* const done = state != nullptr ? state : &own;
   *height = INT32_MIN;
-  if (!is_on_lattice(course.x, course.y) || !is_on_lattice(course.x_end, course.y_end)) {
+  if (!is_on_lattice(segment.x, segment.y) || !is_on_lattice(segment.x_end, segment.y_end)) {
     return MICROTIN_QUERY_OUTSIDE;
   }
-  TileCourse all(TileBox{0, 0, kLatticeMax, kLatticeMax}, course);
+  TileSegment all(TileBox{0, 0, kLatticeMax, kLatticeMax}, segment);
   all.move(form.corner());
-  for (uint32_t step = 0; done->next < kCourseEnds + form.triangles(); ++step) {
+  for (uint32_t step = 0; done->next < kSegmentEnds + form.triangles(); ++step) {
     if (step_limit != 0 && step == step_limit) return MICROTIN_QUERY_STEP_LIMIT;
-    if (done->next < kCourseEnds) {
-      walk_to_end(form, course, step_limit, done);
-    } else if (!all.look(form, done->next++ - kCourseEnds, &done->highest)) {
+    if (done->next < kSegmentEnds) {
+      walk_to_end(form, segment, step_limit, done);
+    } else if (!all.look(form, done->next++ - kSegmentEnds, &done->highest)) {
       note_answer(done, MICROTIN_QUERY_VOID);
     }
   }

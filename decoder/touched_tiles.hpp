@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The tiles that a course may touch, from where it begins.
+// The tiles that a segment may touch, from where it begins.
 #ifndef MICROTIN_DECODER_TOUCHED_TILES_HPP
 #define MICROTIN_DECODER_TOUCHED_TILES_HPP
 
@@ -8,8 +8,8 @@
 
 namespace microtin {
 
-constexpr int64_t kCourseMost = static_cast<int64_t>(1) << 40;
-constexpr int64_t kCourseLongest = static_cast<int64_t>(1) << 24;
+constexpr int64_t kSegmentMost = static_cast<int64_t>(1) << 40;
+constexpr int64_t kSegmentLongest = static_cast<int64_t>(1) << 24;
 
 MICROTIN_ONE_COPY inline bool is_within(int64_t value, int64_t most) {
   return value <= most && value >= -most;
@@ -17,25 +17,25 @@ MICROTIN_ONE_COPY inline bool is_within(int64_t value, int64_t most) {
 
 // Along an axis.
 MICROTIN_ONE_COPY inline bool is_legal(int64_t begin, int64_t end) {
-  return is_within(begin, kCourseMost) && is_within(end, kCourseMost) &&
-         is_within(end - begin, kCourseLongest - 1);
+  return is_within(begin, kSegmentMost) && is_within(end, kSegmentMost) &&
+         is_within(end - begin, kSegmentLongest - 1);
 }
 
 MICROTIN_ONE_COPY inline bool is_legal(const microtin_segment& c) {
   return is_legal(c.x, c.x_end) && is_legal(c.y, c.y_end);
 }
 
-// The tiles whose closed boxes a legal course meets, row by row from where it begins. Looks at no
+// The tiles whose closed boxes a legal segment meets, row by row from where it begins. Looks at no
 // more than twice as many boxes as its bounding box has columns and rows, together, also after
 // go_to.
 class TouchedTiles {
  public:
-  MICROTIN_ONE_COPY TouchedTiles(const TileGrid& grid, const microtin_segment& course)
+  MICROTIN_ONE_COPY TouchedTiles(const TileGrid& grid, const microtin_segment& segment)
       : grid_(grid),
-        course_(course),
-        columns_(slices(course.x, course.x_end, grid.width, grid.x_max)),
-        rows_(slices(course.y, course.y_end, grid.height, grid.y_max)),
-        rises_right_((course.x_end < course.x) == (course.y_end < course.y)),
+        segment_(segment),
+        columns_(slices(segment.x, segment.x_end, grid.width, grid.x_max)),
+        rows_(slices(segment.y, segment.y_end, grid.height, grid.y_max)),
+        rises_right_((segment.x_end < segment.x) == (segment.y_end < segment.y)),
         column_(columns_.from),
         row_(rows_.from),
         first_(columns_.from),
@@ -55,15 +55,15 @@ class TouchedTiles {
     seek();
   }
 
-  // Goes to a tile of the grid at once. False if the course does not meet it: then the walk is
+  // Goes to a tile of the grid at once. False if the segment does not meet it: then the walk is
   // over.
   MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE bool go_to(uint32_t tile) {
     row_ = tile / tile_columns(grid_);
     column_ = tile % tile_columns(grid_);
     at_end_ = !columns_.holds(column_) || !rows_.holds(row_) || side() != Side::kOn;
     // The next row's boxes begin at most one column before any that is met in this one, but on a
-    // course along the border between the two.
-    const bool is_level = course_.y == course_.y_end || column_ == columns_.from;
+    // segment along the border between the two.
+    const bool is_level = segment_.y == segment_.y_end || column_ == columns_.from;
     first_ = is_level ? columns_.from : columns_.before(column_);
     is_met_ = true;
     return !at_end_;
@@ -72,12 +72,12 @@ class TouchedTiles {
  private:
   enum class Side { kLeft, kOn, kRight };
 
-  // Where a box is, seen along the course. Its corners are within 2^25 of the beginning, the end
+  // Where a box is, seen along the segment. Its corners are within 2^25 of the beginning, the end
   // within 2^24.
   Side side() const {
     const TileBox b = box();
-    const LocalPoint begin = local(b, course_.x, course_.y),
-                     end = local(b, course_.x_end, course_.y_end),
+    const LocalPoint begin = local(b, segment_.x, segment_.y),
+                     end = local(b, segment_.x_end, segment_.y_end),
                      size = {static_cast<int32_t>(b.x_end - b.x) * 256,
                              static_cast<int32_t>(b.y_end - b.y) * 256};
     bool some_left = false, some_right = false;
@@ -90,8 +90,8 @@ class TouchedTiles {
     return !some_left ? Side::kRight : some_right ? Side::kOn : Side::kLeft;
   }
 
-  // To a box that the course meets. A row's are neighbours: those before them are on one side of
-  // the course, those behind on the other.
+  // To a box that the segment meets. A row's are neighbours: those before them are on one side of
+  // the segment, those behind on the other.
   void seek() {
     const Side behind = rises_right_ ? Side::kRight : Side::kLeft;
     while (!at_end_) {
@@ -105,7 +105,7 @@ class TouchedTiles {
     }
   }
 
-  // Where a whole row lies before the course, all that follow do, too.
+  // Where a whole row lies before the segment, all that follow do, too.
   void step() {
     if (column_ != columns_.to) {
       column_ = columns_.after(column_);
@@ -116,7 +116,7 @@ class TouchedTiles {
     }
   }
 
-  // A course never turns back: no box of the next row lies before the first of this one.
+  // A segment never turns back: no box of the next row lies before the first of this one.
   void next_row() {
     column_ = first_;
     is_met_ = false;
@@ -124,7 +124,7 @@ class TouchedTiles {
     if (!at_end_) row_ = rows_.after(row_);
   }
 
-  // Columns or rows, in the direction of the course.
+  // Columns or rows, in the direction of the segment.
   struct Slices {
     uint32_t from, to;
     bool none;
@@ -150,9 +150,9 @@ class TouchedTiles {
   }
 
   const TileGrid& grid_;
-  const microtin_segment& course_;
+  const microtin_segment& segment_;
   Slices columns_, rows_;
-  bool rises_right_;  // or falls left: along a row the boxes to the left of the course come first
+  bool rises_right_;  // or falls left: along a row the boxes to the left of the segment come first
   uint32_t column_, row_;
   uint32_t first_;  // column of the first box met in this row, or in the last one that has any
   bool is_met_;     // a box of this row is among them

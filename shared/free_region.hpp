@@ -114,7 +114,7 @@ struct FreeRegion {
 // Area, over the squared chord, of the segment that is seen under k >= 0 (8 fractional bits, at
 // most 2^14): 12 fractional bits, at most 1592. It is about 1/6 (k + 0.734) / (k^2 + 0.734 k +
 // 0.315), off by at most 1.25 %.
-constexpr uint32_t minor_segment(uint32_t k) {
+constexpr uint32_t minor_cap(uint32_t k) {
   return (k + 188u) * 174763u / (k * (k + 188u) + 20643u);
 }
 
@@ -127,35 +127,35 @@ constexpr uint32_t whole_disc(uint32_t k) {
 #if defined(MICROTIN_LARGE_TABLES)
 
 // Both, for all cotangents up to the largest cap: 64 KB, of which few are met often.
-struct SegmentTable {
+struct CapTable {
   struct Entry {
     uint16_t minor, disc;
   } under[kOwnCap * 256 + 1];
 
-  constexpr SegmentTable() : under() {
+  constexpr CapTable() : under() {
     uint32_t k = 0;
     for (Entry& entry : under) {
-      entry.minor = static_cast<uint16_t>(minor_segment(k));
+      entry.minor = static_cast<uint16_t>(minor_cap(k));
       entry.disc = static_cast<uint16_t>(whole_disc(k));
       ++k;
     }
   }
 };
 
-constexpr SegmentTable kSegments{};
+constexpr CapTable kCaps{};
 
-inline uint32_t minor_segment_under(uint32_t k) {
-  return kSegments.under[k].minor;
+inline uint32_t minor_cap_under(uint32_t k) {
+  return kCaps.under[k].minor;
 }
 
 inline uint32_t whole_disc_under(uint32_t k) {
-  return kSegments.under[k].disc;
+  return kCaps.under[k].disc;
 }
 
 #else
 
-inline uint32_t minor_segment_under(uint32_t k) {
-  return minor_segment(k);
+inline uint32_t minor_cap_under(uint32_t k) {
+  return minor_cap(k);
 }
 
 inline uint32_t whole_disc_under(uint32_t k) {
@@ -167,10 +167,10 @@ inline uint32_t whole_disc_under(uint32_t k) {
 // Twice the area of the segment to the left of a chord of squared length `square` < 2^23, or 2^25
 // if k <= 4: below 2^30. Up to a half disc (k <= 0) it is minor; beyond it is what the disc has
 // left.
-inline int32_t segment(uint32_t square, Cotangent fine) {
+inline int32_t cap(uint32_t square, Cotangent fine) {
   const int32_t k = fine >> (kCotangentBits - 8);
   const uint32_t size = static_cast<uint32_t>(k < 0 ? -k : k);
-  const int32_t minor = static_cast<int32_t>((square >> 4) * minor_segment_under(size) >> 7);
+  const int32_t minor = static_cast<int32_t>((square >> 4) * minor_cap_under(size) >> 7);
   if (k <= 0) return minor;
   return static_cast<int32_t>((square >> 8) * whole_disc_under(size)) - minor;
 }
@@ -268,16 +268,16 @@ inline int32_t measure(FreeRegion& region) {
 }
 
 // Twice what an open side lets the circle add; the opposite corner sees it under q / twice.
-inline int32_t segment_beyond(const FreeRegion& region, int32_t square, int32_t q) {
-  return segment(static_cast<uint32_t>(square), cotangent(q, region.by_twice, kBeyondCap));
+inline int32_t cap_beyond(const FreeRegion& region, int32_t square, int32_t q) {
+  return cap(static_cast<uint32_t>(square), cotangent(q, region.by_twice, kBeyondCap));
 }
 
 // Twice what the circle behind a side from v to `end` takes away. Finds the circle.
-inline int32_t segment_behind(const FreeRegion& region, Side& side, const Spot& end, int32_t square,
-                              int32_t turn) {
+inline int32_t cap_behind(const FreeRegion& region, Side& side, const Spot& end, int32_t square,
+                          int32_t turn) {
   if (side.ghost) return 0;
   side.behind = cotangent_behind(region, side.apex, end, turn);
-  return segment(static_cast<uint32_t>(square), side.behind);
+  return cap(static_cast<uint32_t>(square), side.behind);
 }
 
 // log2 of the free region's area in lattice units: the triangle and what its circle reaches beyond
@@ -287,10 +287,10 @@ MICROTIN_OUT_OF_LINE inline Log2 free_area(FreeRegion& region) {
   const int32_t triangle = measure(region);
   const int32_t cc = region.cc, aa = region.aa, ca = region.ca;
   int32_t twice = triangle;
-  twice += region.next.certified ? -segment_behind(region, region.next, region.c, cc, -1)
-                                 : segment_beyond(region, cc, ca - aa);
-  if (!region.opposite_certified) twice += segment_beyond(region, cc + aa - 2 * ca, -ca);
-  twice -= segment_behind(region, region.chord, region.a, aa, 1);
+  twice += region.next.certified ? -cap_behind(region, region.next, region.c, cc, -1)
+                                 : cap_beyond(region, cc, ca - aa);
+  if (!region.opposite_certified) twice += cap_beyond(region, cc + aa - 2 * ca, -ca);
+  twice -= cap_behind(region, region.chord, region.a, aa, 1);
   const int32_t least = (triangle >> 4) + 1;
   return rough_log2(static_cast<uint32_t>(twice > least ? twice : least)) -
          (2 * region.shift + 1) * kLog2One;

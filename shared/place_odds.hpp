@@ -49,12 +49,12 @@ inline void estimate_sweep(PlaceOdds& odds, const LegalPlaces& places, const Fre
   // log2(log2(e)) = 135 / 256; of the density 7 / 8, log2 of which is -49 / 256, suits best.
   const Log2 rate = density - (2 * region.shift + 1) * kLog2One + 135 - 49 + 8 * kLog2One;
   const uint32_t square = static_cast<uint32_t>(region.aa);
-  const int32_t start = segment(square, behind);
+  const int32_t start = cap(square, behind);
   const Cotangent step = (own - behind) / 3;
   Cotangent k = own - 2 * step;
   int32_t last = 511;
   for (int i = 2; i >= 0; --i, k += step) {
-    const int32_t first = chance_after(segment(square, k) - start, rate);
+    const int32_t first = chance_after(cap(square, k) - start, rate);
     const int32_t slope = last - first;
     odds.third[i] = Third{256 * (first - i * slope), slope};
     last = first;

@@ -10,4 +10,4 @@ set(MICROTIN_RUNTIME ${CMAKE_CURRENT_LIST_DIR}/avr/machine.cpp)
 set(MICROTIN_RUN ${CMAKE_CURRENT_LIST_DIR}/run.sh)
 set(MICROTIN_MACHINES atmega1284p)
 set(MICROTIN_CAPACITY_atmega1284p 300)  # vertices that fit beside the stack
-set(MICROTIN_O2_DEFINITIONS MICROTIN_WITHOUT_COURSES)  # for which the flash is too small, at -O2
+set(MICROTIN_O2_DEFINITIONS MICROTIN_WITHOUT_SEGMENTS)  # for which the flash is too small, at -O2

@@ -98,10 +98,10 @@ static void on_tick(void) {
   vehicle.is_wanted = 0;
 }
 
-static void go_to(const microtin_segment* course) {
+static void go_to(const microtin_segment* segment) {
   vehicle.is_set = 0; /* no interrupt sees half of a place */
-  vehicle.x = course->x;
-  vehicle.y = course->y;
+  vehicle.x = segment->x;
+  vehicle.y = segment->y;
   vehicle.has_height = 0;
   vehicle.is_set = 1;
 }
@@ -114,11 +114,11 @@ static void wait_for_answer(void) {
 
 /* --- The main loop. --- */
 
-/* Turns of the loop until the course is known as far as it can be. Counts those in which the card
+/* Turns of the loop until the segment is known as far as it can be. Counts those in which the card
  * did not answer: the vehicle flies on by the tiles that are there. 0: it is no pack. */
-static int serve(const microtin_segment* course, struct card* card, uint32_t* failures) {
+static int serve(const microtin_segment* segment, struct card* card, uint32_t* failures) {
   for (;;) {
-    switch (load_with(pack, course, STEPS, read_card, card)) {
+    switch (load_with(pack, segment, STEPS, read_card, card)) {
       case MICROTIN_STATUS_OK:
       case MICROTIN_STATUS_BAD_TILES:
         return 1;
@@ -171,9 +171,9 @@ int firmware_main(void) {
   if (!serve(&origin, &card, &failures)) return 3;
   if (microtin_pack_get_info(pack, &info) != MICROTIN_STATUS_OK) return 4;
   for (i = 0; i < FLIGHT_PLACES; ++i) {
-    const microtin_segment course = flight_course(i, &info);
-    go_to(&course);
-    if (!serve(&course, &card, &failures)) return 5;
+    const microtin_segment segment = flight_segment(i, &info);
+    go_to(&segment);
+    if (!serve(&segment, &card, &failures)) return 5;
     wait_for_answer();
     print_place(i, vehicle.answer, vehicle.height);
   }

@@ -21,17 +21,17 @@ static inline int64_t flight_axis(const uint8_t* corners, int32_t i, uint32_t mo
 
 /* What the vehicle wants to know when it is at place `i`: that, and the way ahead to the end of its
  * leg at most. */
-static inline microtin_segment flight_course(int32_t i, const microtin_pack_info* pack) {
+static inline microtin_segment flight_segment(int32_t i, const microtin_pack_info* pack) {
   static const uint8_t x[11] = {3, 60, 45, 9, 22, 50, 63, 31, 5, 30, 62};
   static const uint8_t y[11] = {5, 11, 52, 60, 7, 3, 58, 63, 33, 20, 40};
   const int32_t left = FLIGHT_LEG - 1 - i % FLIGHT_LEG;
   const int32_t end = i + (left < FLIGHT_AHEAD ? left : FLIGHT_AHEAD);
-  microtin_segment course;
-  course.x = flight_axis(x, i, pack->x_max);
-  course.y = flight_axis(y, i, pack->y_max);
-  course.x_end = flight_axis(x, end, pack->x_max);
-  course.y_end = flight_axis(y, end, pack->y_max);
-  return course;
+  microtin_segment segment;
+  segment.x = flight_axis(x, i, pack->x_max);
+  segment.y = flight_axis(y, i, pack->y_max);
+  segment.x_end = flight_axis(x, end, pack->x_max);
+  segment.y_end = flight_axis(y, end, pack->y_max);
+  return segment;
 }
 
 /* What is known of place `i`, ten places on a line. Heights have 16 fractional bits. */

@@ -84,8 +84,8 @@ void AskedPack::lay_out(uint32_t slots, uint32_t capacity) {
 }
 
 microtin_status AskedPack::serve(int64_t x, int64_t y) {
-  const microtin_segment course = {x, y, x, y};
-  return microtin_pack_load_with(pack_, &course, read_source, bytes_.get(), 0);
+  const microtin_segment segment = {x, y, x, y};
+  return microtin_pack_load_with(pack_, &segment, read_source, bytes_.get(), 0);
 }
 
 AskedPack::AskedPack(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {

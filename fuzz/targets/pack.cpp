@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Packs, damaged and forged, on storage that fails, read in sectors or not: a service ends within
 // its bounds, answers come from tiles that a host accepts alone, and are the host's. The fuzzer
-// chooses courses, sectors and faults by the last bytes of its input.
+// chooses segments, sectors and faults by the last bytes of its input.
 #include <fuzzer/FuzzedDataProvider.h>
 
 #include <algorithm>
@@ -92,18 +92,18 @@ struct Device {
     EXPECT(status == MICROTIN_STATUS_OK);
   }
 
-  microtin_status load_with(const microtin_segment& course, microtin_read read, void* context,
+  microtin_status load_with(const microtin_segment& segment, microtin_read read, void* context,
                             uint32_t step_limit) const {
-    return is_compact ? microtin_compact_pack_load_with(pack, &course, read, context, step_limit)
-                      : microtin_pack_load_with(pack, &course, read, context, step_limit);
+    return is_compact ? microtin_compact_pack_load_with(pack, &segment, read, context, step_limit)
+                      : microtin_pack_load_with(pack, &segment, read, context, step_limit);
   }
   microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return is_compact ? microtin_compact_pack_height_at(pack, x, y, hint, height)
                       : microtin_pack_height_at(pack, x, y, hint, height);
   }
-  microtin_query_result segment_max(const microtin_segment& course, int32_t* height) const {
-    return is_compact ? microtin_compact_pack_segment_max(pack, &course, height)
-                      : microtin_pack_segment_max(pack, &course, height);
+  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
+    return is_compact ? microtin_compact_pack_segment_max(pack, &segment, height)
+                      : microtin_pack_segment_max(pack, &segment, height);
   }
   microtin_query_result sample_grid(const microtin_grid_spec& block, int16_t* heights) const {
     return is_compact ? microtin_compact_pack_sample_grid(pack, &block, heights)
@@ -160,8 +160,8 @@ void check_height(const PackFile& file, const Device& device, int64_t x, int64_t
 
 // Blocks hold what single answers and exact arithmetic say.
 void check_fill(const Device& device, const microtin_pack_info& info,
-                const microtin_segment& course) {
-  const microtin_grid_spec block = {course.x, course.y, 300, -256, 3, 2, -9999};
+                const microtin_segment& segment) {
+  const microtin_grid_spec block = {segment.x, segment.y, 300, -256, 3, 2, -9999};
   int16_t heights[6];
   if (device.sample_grid(block, heights) != MICROTIN_QUERY_OK) return;
   const Wide unit = Wide{65536} * static_cast<Wide>(info.z.denominator);
@@ -196,29 +196,29 @@ bool remembers_bad_tile(const microtin_pack* pack) {
   return all != 0;
 }
 
-// Boxes of tiles that one walk along a course may look at (format-pack.md, 4.3); 0 before the
+// Boxes of tiles that one walk along a segment may look at (format-pack.md, 4.3); 0 before the
 // header is read.
-uint64_t boxes_of_walk(const microtin_pack* pack, const microtin_segment& course) {
+uint64_t boxes_of_walk(const microtin_pack* pack, const microtin_segment& segment) {
   microtin_pack_info info;
   if (microtin_pack_get_info(pack, &info) != MICROTIN_STATUS_OK) return 0;
   const auto tiles = [](int64_t from, int64_t to, uint32_t most, uint32_t tile_size) {
     const int64_t length = std::min<int64_t>(std::abs(to - from) / 256, most);
     return static_cast<uint64_t>(length) / tile_size + 2;
   };
-  return 2 * (tiles(course.x, course.x_end, info.x_max, info.tile_width) +
-              tiles(course.y, course.y_end, info.y_max, info.tile_height));
+  return 2 * (tiles(segment.x, segment.x_end, info.x_max, info.tile_width) +
+              tiles(segment.y, segment.y_end, info.y_max, info.tile_height));
 }
 
-// Serves a course to its end, with interrupts between the calls. A course that touches thousands of
-// bad tiles walks along them at each call: it is left when that has taken a second.
-void serve(Card& card, const Device& device, const microtin_segment& course, uint32_t step_limit) {
+// Serves a segment to its end, with interrupts between the calls. A segment that touches thousands
+// of bad tiles walks along them at each call: it is left when that has taken a second.
+void serve(Card& card, const Device& device, const microtin_segment& segment, uint32_t step_limit) {
   microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
   uint64_t boxes = 0;
   for (uint32_t call = 0, failed = 0; failed < 3 && boxes < 4000000; ++call) {
     EXPECT(call < 200000);
-    boxes += boxes_of_walk(device.pack, course);
+    boxes += boxes_of_walk(device.pack, segment);
     const uint32_t reads = card.reads;
-    status = device.load_with(course, Card::read, &card, step_limit);
+    status = device.load_with(segment, Card::read, &card, step_limit);
     if (status == MICROTIN_STATUS_IO) {
       EXPECT(card.reads != reads);
       continue;
@@ -236,25 +236,25 @@ void serve(Card& card, const Device& device, const microtin_segment& course, uin
   }
   int32_t height = 0;
   uint32_t hint = 0;
-  const microtin_query_result answer = device.height_at(course.x, course.y, &hint, &height);
+  const microtin_query_result answer = device.height_at(segment.x, segment.y, &hint, &height);
   if (status == MICROTIN_STATUS_OK) EXPECT(answer != MICROTIN_QUERY_NOT_LOADED);
-  const microtin_query_result highest = device.segment_max(course, &height);
+  const microtin_query_result highest = device.segment_max(segment, &height);
   if (status == MICROTIN_STATUS_OK) EXPECT(highest != MICROTIN_QUERY_NOT_LOADED);
 }
 
-// What a device says of a course and of a block at its beginning.
+// What a device says of a segment and of a block at its beginning.
 struct Answers {
   microtin_query_result begin, highest, fill;
   int32_t heights[2] = {};
   int16_t block[6] = {};
 
-  Answers(const Device& device, const microtin_segment& course) {
+  Answers(const Device& device, const microtin_segment& segment) {
     uint32_t hint = 0;
-    begin = device.height_at(course.x, course.y, &hint, &heights[0]);
-    highest = device.segment_max(course, &heights[1]);
-    fill = device.sample_grid({course.x, course.y, 300, -256, 3, 2, -9999}, block);
+    begin = device.height_at(segment.x, segment.y, &hint, &heights[0]);
+    highest = device.segment_max(segment, &heights[1]);
+    fill = device.sample_grid({segment.x, segment.y, 300, -256, 3, 2, -9999}, block);
   }
-  // Blocks reach beyond the course, to tiles that may be there or not.
+  // Blocks reach beyond the segment, to tiles that may be there or not.
   bool operator==(const Answers& other) const {
     const bool are_blocks = fill == MICROTIN_QUERY_OK && other.fill == MICROTIN_QUERY_OK;
     return begin == other.begin && highest == other.highest &&
@@ -263,19 +263,19 @@ struct Answers {
   }
 };
 
-// Storage without faults: slots of both forms that hold a course answer the same.
+// Storage without faults: slots of both forms that hold a segment answer the same.
 void check_forms(const uint8_t* data, size_t size, uint32_t slots,
-                 const std::vector<microtin_segment>& courses) {
+                 const std::vector<microtin_segment>& segments) {
   const uint32_t room = 40 * kCapacity + 100;  // for any tile
   const Device meshes(slots, 0), compact(slots, room);
   FuzzedDataProvider none(nullptr, 0);
   Card card{data, size, none};
-  for (const microtin_segment& course : courses) {
+  for (const microtin_segment& segment : segments) {
     const auto is_served = [&](const Device& device) {
-      return device.load_with(course, Card::read, &card, 0) == MICROTIN_STATUS_OK;
+      return device.load_with(segment, Card::read, &card, 0) == MICROTIN_STATUS_OK;
     };
     if (!is_served(meshes) || !is_served(compact)) continue;
-    EXPECT(Answers(meshes, course) == Answers(compact, course));
+    EXPECT(Answers(meshes, segment) == Answers(compact, segment));
   }
 }
 
@@ -303,22 +303,22 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   } catch (const Error&) {
   }
   Card card{data, size, asked, sector};
-  std::vector<microtin_segment> courses;
+  std::vector<microtin_segment> segments;
   for (int i = 0; i < 3; ++i) {
     microtin_pack_info info = {1000, 1000, 0, 0, 0, 0, 0, 0, {}, {}, {}};
     microtin_pack_get_info(device.pack, &info);
-    const microtin_segment course = {coordinate(asked, info.x_max), coordinate(asked, info.y_max),
-                                     coordinate(asked, info.x_max), coordinate(asked, info.y_max)};
-    courses.push_back(course);
+    const microtin_segment segment = {coordinate(asked, info.x_max), coordinate(asked, info.y_max),
+                                      coordinate(asked, info.x_max), coordinate(asked, info.y_max)};
+    segments.push_back(segment);
     if (asked.ConsumeBool()) microtin_pack_clear_bad_tiles(device.pack);
-    serve(card, device, course, step_limit);
-    if (file) check_height(*file, device, course.x, course.y);
+    serve(card, device, segment, step_limit);
+    if (file) check_height(*file, device, segment.x, segment.y);
     if (microtin_pack_get_info(device.pack, &info) != MICROTIN_STATUS_OK) continue;
-    check_fill(device, info, course);
+    check_fill(device, info, segment);
     const int64_t value = asked.ConsumeIntegral<int64_t>();
     check_to_lattice(info.x, info.x_max, value >> asked.ConsumeIntegralInRange(0, 63),
                      asked.ConsumeIntegral<uint32_t>());
   }
-  if (asked.ConsumeBool()) check_forms(data, size, slots, courses);
+  if (asked.ConsumeBool()) check_forms(data, size, slots, segments);
   return 0;
 }

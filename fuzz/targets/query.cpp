@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Queries on whatever was decoded, also after an early stop: heights are those of exact arithmetic,
-// from any start of the search, and courses are as high in calls of any length. The fuzzer asks by
+// from any start of the search, and segments are as high in calls of any length. The fuzzer asks by
 // the last bytes of its input.
 #include <fuzzer/FuzzedDataProvider.h>
 
@@ -10,7 +10,7 @@
 #include "fuzz/support/device.hpp"
 #include "fuzz/support/stream_mutator.hpp"
 #include "shared/digest.hpp"
-#include "tests/support/limited_course.hpp"
+#include "tests/support/limited_segment.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/reference_heights.hpp"
 
@@ -75,7 +75,7 @@ void check_heights(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataPr
 }
 
 // In calls of any length, as in one.
-void check_courses(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataProvider& asked) {
+void check_segments(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataProvider& asked) {
   for (int i = 0; i < 3; ++i) {
     const Place a = place_from(asked, copy), b = place_from(asked, copy);
     const microtin_segment c = {a.x, a.y, b.x, b.y};
@@ -127,6 +127,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   const MeshCopy copy(mesh);
   EXPECT(pairing_fault(copy.mesh).empty());
   check_heights(mesh, copy, asked);
-  check_courses(mesh, copy, asked);
+  check_segments(mesh, copy, asked);
   return 0;
 }

@@ -82,17 +82,17 @@ TEST_CASE("logarithms, powers and segments are as close as the format says") {
     const double c = k / 256.0, exact = (1 + c * c) * std::atan2(1, c) - c;
     const uint32_t square = k <= kBeyondCap * 256 ? (1u << 25) - 1 : (1u << 23) - 1;
     const Cotangent fine = k << (kCotangentBits - 8);
-    close(segment(square, -fine) / static_cast<double>(square), exact / 2,
+    close(cap(square, -fine) / static_cast<double>(square), exact / 2,
           2.0 / 4096 + 0.00625 * exact);
-    REQUIRE(segment(square, fine) < int32_t{1} << 30);
-    REQUIRE(segment(square, fine) > 0);
+    REQUIRE(cap(square, fine) < int32_t{1} << 30);
+    REQUIRE(cap(square, fine) > 0);
   }
 }
 
 // Where tables or wider words serve, they tell what the short formulas tell.
 TEST_CASE("every way to a segment or to grains tells the same") {
   for (uint32_t k = 0; k <= kOwnCap * 256u; ++k) {
-    REQUIRE(minor_segment_under(k) == minor_segment(k));
+    REQUIRE(minor_cap_under(k) == minor_cap(k));
     REQUIRE(whole_disc_under(k) == whole_disc(k));
   }
   for (int32_t shift = -26; shift <= 10; ++shift) {

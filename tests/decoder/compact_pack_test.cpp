@@ -46,7 +46,7 @@ TEST_CASE("compact pack: a tile that goes stays until the next is decoded") {
   CHECK(with_none < with_old);  // while it is made compact
 }
 
-TEST_CASE("compact pack: who wants another course meanwhile loses nothing") {
+TEST_CASE("compact pack: who wants another segment meanwhile loses nothing") {
   Card card{rough_pack()};
   const PackFile pack(card.bytes);
   const TileGrid& grid = pack.grid();
@@ -60,7 +60,7 @@ TEST_CASE("compact pack: who wants another course meanwhile loses nothing") {
     int32_t height = 0;
     const bool is_there = device.height_at(first.x, first.y, height) == MICROTIN_QUERY_OK;
     const bool is_done = device.height_at(second.x, second.y, height) == MICROTIN_QUERY_OK;
-    // A slot that the course needs is not given away, whatever is decoded.
+    // A slot that the segment needs is not given away, whatever is decoded.
     if (is_there) {
       CHECK(device.load(card, both) == MICROTIN_STATUS_WORKSPACE_TOO_SMALL);
       CHECK(device.height_at(first.x, first.y, height) == MICROTIN_QUERY_OK);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A device reads a pack: slots, courses, queries, and storage that fails in every way.
+// A device reads a pack: slots, segments, queries, and storage that fails in every way.
 #include "tests/support/pack_device.hpp"
 
 #include <doctest/doctest.h>
@@ -26,7 +26,7 @@ int64_t in_units(int32_t z, const microtin_axis& axis) {
   return static_cast<int64_t>(std::clamp<Wide>(height, INT16_MIN, INT16_MAX));
 }
 
-microtin_segment course(Random& random, int64_t x_max, int64_t y_max) {
+microtin_segment segment(Random& random, int64_t x_max, int64_t y_max) {
   const auto pick = [&](int64_t most) {
     return static_cast<int64_t>(random.below(static_cast<uint32_t>(most * 256 + 1)));
   };
@@ -45,7 +45,7 @@ TEST_CASE_TEMPLATE("pack: heights at every place are those of the tiles, voids a
     const Device device(4);
     Random random(5);
     for (int i = 0; i < 60; ++i) {
-      const microtin_segment c = course(random, 60, 52);
+      const microtin_segment c = segment(random, 60, 52);
       const int64_t x = i % 2 == 0 ? c.x : c.x / 256 * 256, y = i % 3 == 0 ? c.y / 256 * 256 : c.y;
       REQUIRE(device.load(card, {x, y, x, y}) == MICROTIN_STATUS_OK);
       int32_t height = 0;
@@ -277,7 +277,7 @@ TEST_CASE_TEMPLATE("pack: too small slots, workspaces and wrong arguments", Devi
   CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, &pack) == MICROTIN_STATUS_OK);
 }
 
-TEST_CASE_TEMPLATE("pack: the highest on a course is that of its edges and no sample is above",
+TEST_CASE_TEMPLATE("pack: the highest on a segment is that of its edges and no sample is above",
                    Device, MeshSlots, CompactSlots) {
   for (const VoidKind& kind : void_kinds()) {
     if (kind.name == "chessboard" || kind.name == "30 of 100") continue;
@@ -287,7 +287,7 @@ TEST_CASE_TEMPLATE("pack: the highest on a course is that of its edges and no sa
     const Device device(60);
     Random random(7);
     for (int i = 0; i < 40; ++i) {
-      microtin_segment c = course(random, 60, 52);
+      microtin_segment c = segment(random, 60, 52);
       if (i % 4 == 0) c.x_end = c.x = c.x / 256 * 256;  // along posts, maybe a border
       if (i % 4 == 1)
         c = {c.x / 256 * 256, c.y / 256 * 256, c.x_end / 256 * 256, c.y_end / 256 * 256};
@@ -296,7 +296,7 @@ TEST_CASE_TEMPLATE("pack: the highest on a course is that of its edges and no sa
       const microtin_query_result answer = device.segment_max(c, &highest);
       int32_t sampled = INT32_MIN, begin = INT32_MIN, end = INT32_MIN;
       bool gap = false;
-      for (int64_t k = 0; k <= 4096; ++k) {  // those that lie on the course exactly
+      for (int64_t k = 0; k <= 4096; ++k) {  // those that lie on the segment exactly
         const int64_t dx = (c.x_end - c.x) * k, dy = (c.y_end - c.y) * k;
         if (dx % 4096 != 0 || dy % 4096 != 0) continue;
         int32_t height = INT32_MIN;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The highest on a course: against exact fractions, on packs of the encoder and on forged ones.
+// The highest on a segment: against exact fractions, on packs of the encoder and on forged ones.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/pack_device.hpp"
 #include "tests/support/packs.hpp"
-#include "tests/support/reference_course.hpp"
+#include "tests/support/reference_segment.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -26,8 +26,8 @@ Surface surface_of(const PackFile& pack) {
   return surface;
 }
 
-// Courses of all kinds: any, between lattice places, along lines of them, along borders, places.
-microtin_segment any_course(Random& random, const TileGrid& grid) {
+// Segments of all kinds: any, between lattice places, along lines of them, along borders, places.
+microtin_segment any_segment(Random& random, const TileGrid& grid) {
   const auto pick = [&](uint32_t most) {
     return static_cast<int64_t>(random.below(most * 256 + 1));
   };
@@ -54,9 +54,9 @@ struct Counts {
   int known = 0, unknown = 0;
 };
 
-// The answer on a course is that of exact fractions, and those at places on it agree.
-void check_course(const PackDevice& device, const Surface& surface, const microtin_segment& c,
-                  bool tiles_agree, Counts& counts) {
+// The answer on a segment is that of exact fractions, and those at places on it agree.
+void check_segment(const PackDevice& device, const Surface& surface, const microtin_segment& c,
+                   bool tiles_agree, Counts& counts) {
   CAPTURE(c.x);
   CAPTURE(c.y);
   CAPTURE(c.x_end);
@@ -81,7 +81,8 @@ void check_course(const PackDevice& device, const Surface& surface, const microt
 }
 
 template <class Device>
-void check_pack(const Bytes& bytes, Random& random, int courses, bool tiles_agree, Counts& counts) {
+void check_pack(const Bytes& bytes, Random& random, int segments, bool tiles_agree,
+                Counts& counts) {
   Card card{bytes};
   const PackFile pack(bytes);
   const Surface surface = surface_of(pack);
@@ -93,8 +94,8 @@ void check_pack(const Bytes& bytes, Random& random, int courses, bool tiles_agre
     REQUIRE(device.load(card, at(box.x, box.y)) == MICROTIN_STATUS_OK);
     REQUIRE(device.load(card, at(box.x_end, box.y_end)) == MICROTIN_STATUS_OK);
   }
-  for (int i = 0; i < courses; ++i) {
-    check_course(device, surface, any_course(random, grid), tiles_agree, counts);
+  for (int i = 0; i < segments; ++i) {
+    check_segment(device, surface, any_segment(random, grid), tiles_agree, counts);
   }
 }
 
@@ -139,7 +140,7 @@ Tin missed_tile(Random& random, uint16_t side) {
 }  // namespace
 
 TEST_CASE_TEMPLATE(
-    "pack: the highest on a course is exact, and known if every place is, on forged tiles", Device,
+    "pack: the highest on a segment is exact, and known if every place is, on forged tiles", Device,
     MeshSlots, CompactSlots) {
   Random random(31);
   Counts counts;
@@ -163,8 +164,8 @@ TEST_CASE_TEMPLATE(
 }
 
 TEST_CASE_TEMPLATE(
-    "pack: the highest on a course is exact, and known if every place is, on encoded tiles", Device,
-    MeshSlots, CompactSlots) {
+    "pack: the highest on a segment is exact, and known if every place is, on encoded tiles",
+    Device, MeshSlots, CompactSlots) {
   Random random(32);
   Counts counts;
   for (const VoidKind& kind : void_kinds()) {
@@ -177,7 +178,7 @@ TEST_CASE_TEMPLATE(
   CHECK(counts.unknown > 100);
 }
 
-TEST_CASE_TEMPLATE("pack: the highest on a course is exact where compact paths miss vertices",
+TEST_CASE_TEMPLATE("pack: the highest on a segment is exact where compact paths miss vertices",
                    Device, MeshSlots, CompactSlots) {
   Random random(35);
   Counts counts;
@@ -219,7 +220,7 @@ TEST_CASE_TEMPLATE(
   CHECK(answer({0, 512, 1025, 512}) == MICROTIN_QUERY_VOID);  // a 256th of a step too far
 }
 
-TEST_CASE_TEMPLATE("pack: heights where a course leaves the terrain are rounded once, halves up",
+TEST_CASE_TEMPLATE("pack: heights where a segment leaves the terrain are rounded once, halves up",
                    Device, MeshSlots, CompactSlots) {
   // A hull edge of 512 steps, seen from one side alone: at odd places of it heights end in a half.
   for (const int rise : {-1, 1, -3, 3}) {
@@ -232,14 +233,14 @@ TEST_CASE_TEMPLATE("pack: heights where a course leaves the terrain are rounded 
     const Surface surface = surface_of(PackFile(card.bytes));
     Counts counts;
     for (int64_t y = 1; y < 512 * 256; y += 998) {
-      check_course(device, surface, {0, y, 512 * 256, y}, true, counts);
+      check_segment(device, surface, {0, y, 512 * 256, y}, true, counts);
     }
     CHECK(counts.unknown > 100);
   }
 }
 
 TEST_CASE_TEMPLATE(
-    "pack: the highest on the longest courses and the largest tiles does not overflow", Device,
+    "pack: the highest on the longest segments and the largest tiles does not overflow", Device,
     MeshSlots, CompactSlots) {
   const TileGrid grid = {2 * 65535, 65535, 65535, 65535};
   const auto corner = [](uint16_t x, uint16_t y, bool high) {

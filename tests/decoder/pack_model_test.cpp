@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Any sequence of calls on a pack, beside a model that knows nothing of sequences: what is said of
-// a course follows from the course, the tiles that are bad and the number of slots.
+// a segment follows from the segment, the tiles that are bad and the number of slots.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -117,7 +117,7 @@ Model some_model(Random& random) {
   return model;
 }
 
-// Whether a course meets the closed box of a tile: no line parallel to an axis, nor the course
+// Whether a segment meets the closed box of a tile: no line parallel to an axis, nor the segment
 // itself, has the one on this side and the other beyond.
 bool touches(const Model& model, const microtin_segment& c, uint32_t tile) {
   const int64_t side = kTileSteps * 256;
@@ -135,23 +135,23 @@ bool touches(const Model& model, const microtin_segment& c, uint32_t tile) {
   return is_left && is_right;
 }
 
-std::vector<uint32_t> touched(const Model& model, const microtin_segment& course) {
+std::vector<uint32_t> touched(const Model& model, const microtin_segment& segment) {
   std::vector<uint32_t> tiles;
   for (uint32_t i = 0; i < model.tiles(); ++i) {
-    if (touches(model, course, i)) tiles.push_back(i);
+    if (touches(model, segment, i)) tiles.push_back(i);
   }
   return tiles;
 }
 
-microtin_status verdict(const Model& model, const microtin_segment& course, uint32_t slots) {
+microtin_status verdict(const Model& model, const microtin_segment& segment, uint32_t slots) {
   uint32_t good = 0, bad = 0;
-  for (const uint32_t tile : touched(model, course)) ++(model.is_bad(tile) ? bad : good);
+  for (const uint32_t tile : touched(model, segment)) ++(model.is_bad(tile) ? bad : good);
   return good > slots ? MICROTIN_STATUS_WORKSPACE_TOO_SMALL
          : bad != 0   ? MICROTIN_STATUS_BAD_TILES
                       : MICROTIN_STATUS_OK;
 }
 
-microtin_segment some_course(Random& random, const Model& model) {
+microtin_segment some_segment(Random& random, const Model& model) {
   const auto pick = [&](uint32_t tiles) {
     const int64_t step = random.below(3) == 0 ? kTileSteps : 1;
     return static_cast<int64_t>(random.below(tiles * kTileSteps + 1)) / step * step * 256;
@@ -211,9 +211,9 @@ void check_bad_tiles(const PackDevice& device, const Model& model) {
   }
 }
 
-// What a call says, beside the model. True if there is no more to do for the course.
+// What a call says, beside the model. True if there is no more to do for the segment.
 bool check_status(const PackDevice& device, const Model& model, uint32_t slots,
-                  const microtin_segment& course, microtin_status status, UnsteadyCard& card) {
+                  const microtin_segment& segment, microtin_status status, UnsteadyCard& card) {
   const bool has_failed = card.has_failed;
   card.has_failed = false;
   check_bad_tiles(device, model);
@@ -222,8 +222,8 @@ bool check_status(const PackDevice& device, const Model& model, uint32_t slots,
     CHECK(has_failed);
     return false;
   }
-  CHECK(status == verdict(model, course, slots));
-  for (const uint32_t tile : touched(model, course)) {
+  CHECK(status == verdict(model, segment, slots));
+  for (const uint32_t tile : touched(model, segment)) {
     check_place(device, model, tile,
                 status != MICROTIN_STATUS_WORKSPACE_TOO_SMALL && !model.is_bad(tile));
   }
@@ -232,16 +232,16 @@ bool check_status(const PackDevice& device, const Model& model, uint32_t slots,
 
 constexpr uint32_t kLimits[] = {0, 1, 3, 50};
 
-// A course is served for a while, or to its end.
-void serve_course(const PackDevice& device, const Model& model, uint32_t slots,
-                  const microtin_segment& course, UnsteadyCard& card) {
+// A segment is served for a while, or to its end.
+void serve_segment(const PackDevice& device, const Model& model, uint32_t slots,
+                   const microtin_segment& segment, UnsteadyCard& card) {
   const bool to_the_end = card.random.below(2) == 0;
   const uint32_t most = to_the_end ? 20000 : 1 + card.random.below(60),
                  steps = kLimits[card.random.below(4)];
   bool is_over = false;
   for (uint32_t calls = 0; calls < most && !is_over; ++calls) {
-    const microtin_status status = device.load_with(course, UnsteadyCard::read, &card, steps);
-    is_over = check_status(device, model, slots, course, status, card);
+    const microtin_status status = device.load_with(segment, UnsteadyCard::read, &card, steps);
+    is_over = check_status(device, model, slots, segment, status, card);
   }
   if (to_the_end) CHECK(is_over);
 }
@@ -253,9 +253,9 @@ void run_sequence(uint32_t seed) {
   const Device device(slots, kFits);
   Model model = some_model(random);
   UnsteadyCard card{&model.bytes, Random(seed + 77), random.below(3) == 0 ? 10u : 0u};
-  std::vector<microtin_segment> courses(3);
-  for (microtin_segment& course : courses) course = some_course(random, model);
-  courses.push_back({courses[0].x_end, courses[0].y_end, courses[0].x, courses[0].y});
+  std::vector<microtin_segment> segments(3);
+  for (microtin_segment& segment : segments) segment = some_segment(random, model);
+  segments.push_back({segments[0].x_end, segments[0].y_end, segments[0].x, segments[0].y});
   for (int i = 0; i < 25; ++i) {
     const uint32_t what = random.below(20);
     if (what == 0) microtin_pack_clear_bad_tiles(device.pack);
@@ -266,9 +266,9 @@ void run_sequence(uint32_t seed) {
       model = some_model(random);
       microtin_pack_reset(device.pack);
     }
-    microtin_segment& course = courses[random.below(4)];
-    if (random.below(4) == 0) course = some_course(random, model);
-    serve_course(device, model, slots, course, card);
+    microtin_segment& segment = segments[random.below(4)];
+    if (random.below(4) == 0) segment = some_segment(random, model);
+    serve_segment(device, model, slots, segment, card);
     check_place(device, model, random.below(model.tiles()), false);
   }
 }
@@ -303,11 +303,11 @@ microtin_segment along(int64_t from, int64_t to) {
   return {from * side + side / 2, 500, to * side + side / 2, 500};
 }
 
-// What is said of a course in the end; NEED_INPUT if there is no end.
-microtin_status served(const PackDevice& device, const microtin_segment& course, uint32_t steps,
+// What is said of a segment in the end; NEED_INPUT if there is no end.
+microtin_status served(const PackDevice& device, const microtin_segment& segment, uint32_t steps,
                        UnsteadyCard& card) {
   for (int calls = 0; calls < 20000; ++calls) {
-    const microtin_status status = device.load_with(course, UnsteadyCard::read, &card, steps);
+    const microtin_status status = device.load_with(segment, UnsteadyCard::read, &card, steps);
     if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) return status;
   }
   return MICROTIN_STATUS_NEED_INPUT;
@@ -326,10 +326,10 @@ TEST_CASE_TEMPLATE("pack: however many tiles are bad, the good ones come, with a
       const Device device(slots, kFits);
       UnsteadyCard card{&model.bytes, Random(1), 0};
       const int64_t last = bad + 1;
-      const auto check = [&](const microtin_segment& course) {
-        CHECK(served(device, course, 0, card) == verdict(model, course, slots));
-        for (const uint32_t tile : touched(model, course)) {
-          if (verdict(model, course, slots) != MICROTIN_STATUS_WORKSPACE_TOO_SMALL) {
+      const auto check = [&](const microtin_segment& segment) {
+        CHECK(served(device, segment, 0, card) == verdict(model, segment, slots));
+        for (const uint32_t tile : touched(model, segment)) {
+          if (verdict(model, segment, slots) != MICROTIN_STATUS_WORKSPACE_TOO_SMALL) {
             check_place(device, model, tile, !model.is_bad(tile));
           }
         }
@@ -347,19 +347,19 @@ TEST_CASE_TEMPLATE("pack: however many tiles are bad, the good ones come, with a
   }
 }
 
-TEST_CASE_TEMPLATE("pack: bad tiles stop no course that moves with each call", Device, MeshSlots,
+TEST_CASE_TEMPLATE("pack: bad tiles stop no segment that moves with each call", Device, MeshSlots,
                    CompactSlots) {
   constexpr uint32_t kBad = 13;
   const Model model = row_model(numbers(0, kBad));
   for (const uint32_t slots : {1u, 4u}) {
     const Device device(slots, kFits);
     UnsteadyCard card{&model.bytes, Random(1), 0};
-    microtin_segment course = along(0, kBad);
+    microtin_segment segment = along(0, kBad);
     uint32_t calls = 0;
     int32_t height = 0;
-    while (device.height_at(course.x_end, 500, height) != MICROTIN_QUERY_OK && calls < 5000) {
-      course.x = 500 + calls++ % 7;
-      const microtin_status status = device.load_with(course, UnsteadyCard::read, &card, 1);
+    while (device.height_at(segment.x_end, 500, height) != MICROTIN_QUERY_OK && calls < 5000) {
+      segment.x = 500 + calls++ % 7;
+      const microtin_status status = device.load_with(segment, UnsteadyCard::read, &card, 1);
       CHECK((status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT));
     }
     CHECK(calls < 5000);
@@ -460,7 +460,7 @@ TEST_CASE_TEMPLATE("pack: nothing of one pack is left to the next, whatever was 
   }
 }
 
-TEST_CASE_TEMPLATE("pack: a course that is too long asks its card for nothing more", Device,
+TEST_CASE_TEMPLATE("pack: a segment that is too long asks its card for nothing more", Device,
                    MeshSlots, CompactSlots) {
   Model model = row_model({4});
   UnsteadyCard card{&model.bytes, Random(1), 0};
@@ -476,7 +476,7 @@ TEST_CASE_TEMPLATE("pack: a course that is too long asks its card for nothing mo
   CHECK(served(device, along(0, 2), 0, card) == MICROTIN_STATUS_BAD_TILES);
 }
 
-TEST_CASE_TEMPLATE("pack: what is said of a course depends on it and on its tiles alone", Device,
+TEST_CASE_TEMPLATE("pack: what is said of a segment depends on it and on its tiles alone", Device,
                    MeshSlots, CompactSlots) {
   for (uint32_t seed = 0; seed < 400; ++seed) {
     CAPTURE(seed);

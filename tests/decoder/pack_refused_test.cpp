@@ -23,9 +23,9 @@ uint32_t bad_tiles(const PackDevice& device) {
 }
 
 // What a service says in the end; NEED_INPUT if there is none.
-microtin_status served(const PackDevice& device, Card& card, const microtin_segment& course) {
+microtin_status served(const PackDevice& device, Card& card, const microtin_segment& segment) {
   for (int calls = 0; calls < 10000; ++calls) {
-    const microtin_status status = device.load(card, course, 100);
+    const microtin_status status = device.load(card, segment, 100);
     if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT) return status;
   }
   return MICROTIN_STATUS_NEED_INPUT;
@@ -175,7 +175,7 @@ TEST_CASE_TEMPLATE(
   CHECK(card.reads == reads);
 }
 
-TEST_CASE_TEMPLATE("pack: a course across many bad tiles takes time that grows as their number",
+TEST_CASE_TEMPLATE("pack: a segment across many bad tiles takes time that grows as their number",
                    Device, MeshSlots, CompactSlots) {
   constexpr uint32_t kTiles = 60000;
   Card card{forged_pack({kTiles, 2, 1, 2}, std::vector<ForgedTile>(kTiles))};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which tiles a course meets.
+// Which tiles a segment meets.
 #include "decoder/touched_tiles.hpp"
 
 #include <doctest/doctest.h>
@@ -36,9 +36,9 @@ bool meets(const microtin_segment& c, const TileBox& box) {
          clip(c.y, c.y_end, int64_t{box.y} * 256, int64_t{box.y_end} * 256);
 }
 
-std::vector<uint32_t> touched(const TileGrid& grid, const microtin_segment& course) {
+std::vector<uint32_t> touched(const TileGrid& grid, const microtin_segment& segment) {
   std::vector<uint32_t> tiles;
-  for (TouchedTiles t(grid, course); !t.at_end(); t.next()) tiles.push_back(t.number());
+  for (TouchedTiles t(grid, segment); !t.at_end(); t.next()) tiles.push_back(t.number());
   return tiles;
 }
 
@@ -50,7 +50,7 @@ int64_t coordinate(Random& random, uint32_t most) {
 
 }  // namespace
 
-TEST_CASE("touched tiles: all that meet the course, each once, from where it begins") {
+TEST_CASE("touched tiles: all that meet the segment, each once, from where it begins") {
   Random random(11);
   for (int i = 0; i < 20000; ++i) {
     const TileGrid grid = {1 + random.below(12), 1 + random.below(12),
@@ -93,7 +93,7 @@ TEST_CASE("touched tiles: a walk that is sent to a tile goes on as if it had com
   }
 }
 
-TEST_CASE("pack: a course across 2^32 tiles is looked along, not around") {
+TEST_CASE("pack: a segment across 2^32 tiles is looked along, not around") {
   const TileGrid grid = {65535, 65535, 1, 1};
   const int64_t far = 65535 * 256;
   CHECK(touched(grid, {0, 0, far, far}).size() == 3 * 65535 - 2);  // with those it meets at corners

@@ -63,7 +63,7 @@ int firmware_main() {
   if (pack.begin() != MICROTIN_STATUS_OK || fetch_all(info) != MICROTIN_STATUS_OK) return 1;
   uint32_t hint = 0;
   for (int32_t i = 0; i < FLIGHT_PLACES; ++i) {
-    const microtin_segment here = flight_course(i, &info);
+    const microtin_segment here = flight_segment(i, &info);
     int32_t height = 0;
     const microtin_query_result answer = pack.height_at(here.x, here.y, &hint, &height);
     print_place(i, answer, height);

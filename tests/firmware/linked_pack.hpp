@@ -16,10 +16,10 @@ inline int32_t read_flash(void*, uint64_t offset, uint8_t* buffer, size_t size) 
 
 // In turns of a few steps.
 template <class Pack>
-microtin_status serve(Pack& pack, const microtin_segment& course) {
+microtin_status serve(Pack& pack, const microtin_segment& segment) {
   microtin_status status = MICROTIN_STATUS_NEED_INPUT;
   while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
-    status = pack.load_with(course, read_flash, nullptr, 50);
+    status = pack.load_with(segment, read_flash, nullptr, 50);
   }
   return status;
 }

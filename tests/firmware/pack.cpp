@@ -19,7 +19,7 @@ int firmware_main() {
   if (serve(pack, origin) != MICROTIN_STATUS_OK || pack.get_info(&info) != MICROTIN_STATUS_OK)
     return 1;
   for (int32_t i = 0; i < FLIGHT_PLACES; ++i) {
-    microtin_segment here = flight_course(i, &info);
+    microtin_segment here = flight_segment(i, &info);
     here.x_end = here.x;
     here.y_end = here.y;
     if (serve(pack, here) != MICROTIN_STATUS_OK) return 2;

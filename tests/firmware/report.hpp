@@ -119,7 +119,7 @@ uint32_t sum_of_probes(const ProbeBox& box, HeightAt height_at) {
   return sum;
 }
 
-#ifndef MICROTIN_WITHOUT_COURSES
+#ifndef MICROTIN_WITHOUT_SEGMENTS
 inline microtin_query_result highest_on(const microtin_mesh* mesh, const microtin_segment* c,
                                         int32_t* z) {
   return microtin_mesh_segment_max(mesh, c, nullptr, z, 0);
@@ -144,16 +144,16 @@ inline microtin_query_result fill_from(const microtin_compact* compact, const mi
 
 // The sum on 8 segments through the box and in a grid of the places around.
 template <class Form>
-uint32_t sum_of_courses(const ProbeBox& box, const Form* form) {
+uint32_t sum_of_segments(const ProbeBox& box, const Form* form) {
   ProbeNumbers numbers;
   uint32_t sum = 0;
   for (int i = 0; i < 8; ++i) {
     const int32_t x = numbers.between(box.west, box.east);
     const int32_t y = numbers.between(box.south, box.north);
     const int32_t x_end = numbers.between(box.west, box.east);
-    const microtin_segment course = {x, y, x_end, numbers.between(box.south, box.north)};
+    const microtin_segment segment = {x, y, x_end, numbers.between(box.south, box.north)};
     int32_t height = 0;
-    const microtin_query_result answer = highest_on(form, &course, &height);
+    const microtin_query_result answer = highest_on(form, &segment, &height);
     sum = sum * 31 + static_cast<uint32_t>(height) * 7 + static_cast<uint32_t>(answer);
   }
   const microtin_grid_spec block = {
@@ -165,7 +165,7 @@ uint32_t sum_of_courses(const ProbeBox& box, const Form* form) {
 }
 #else
 template <class Form>
-uint32_t sum_of_courses(const ProbeBox&, const Form*) {
+uint32_t sum_of_segments(const ProbeBox&, const Form*) {
   return 0;
 }
 #endif
@@ -178,7 +178,7 @@ inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size
   const uint32_t sum = sum_of_probes(box, [mesh](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
     return microtin_mesh_height_at(mesh, x, y, hint, z, 0, 0);
   });
-  const uint32_t courses = sum_of_courses(box, mesh);
+  const uint32_t segments = sum_of_segments(box, mesh);
   microtin_compactor* compactor = 0;
   microtin_compact* compact = 0;
   microtin_status status =
@@ -195,7 +195,7 @@ inline bool compact_agrees(microtin_mesh* mesh, size_t size, void* scratch, size
                               [compact](int32_t x, int32_t y, uint32_t* hint, int32_t* z) {
                                 return microtin_compact_height_at(compact, x, y, hint, z, 0);
                               }) &&
-         courses == sum_of_courses(box, compact);
+         segments == sum_of_segments(box, compact);
 }
 
 }  // namespace microtin

@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr uint32_t kSlots = 9, kCapacity = 64, kPlaces = 1024, kCourses = 64;
+constexpr uint32_t kSlots = 9, kCapacity = 64, kPlaces = 1024, kSegments = 64;
 
 class Told {
  public:
@@ -60,7 +60,7 @@ void measure(Pack& pack, const Told& told) {
   const Statistics service = fetch(pack, info);
   told.say("_tile", service.sum() / kSlots);
   told.say("_worst_call", service.most());
-  Statistics heights, courses;
+  Statistics heights, segments;
   microtin::ProbeNumbers numbers;
   const int32_t x_most = static_cast<int32_t>(info.x_max) * 256,
                 y_most = static_cast<int32_t>(info.y_max) * 256;
@@ -72,13 +72,13 @@ void measure(Pack& pack, const Told& told) {
   }
   told.say("_height_mean", heights.mean());
   told.say("_height_worst", heights.most());
-  for (uint32_t i = 0; i < kCourses; ++i) {
+  for (uint32_t i = 0; i < kSegments; ++i) {
     const int32_t x = numbers.between(0, x_most), y = numbers.between(0, y_most),
                   x_end = numbers.between(0, x_most), y_end = numbers.between(0, y_most);
-    courses.add(counted([&] { pack.segment_max({x, y, x_end, y_end}, &height); }));
+    segments.add(counted([&] { pack.segment_max({x, y, x_end, y_end}, &height); }));
   }
-  told.say("_highest_mean", courses.mean());
-  told.say("_highest_worst", courses.most());
+  told.say("_highest_mean", segments.mean());
+  told.say("_highest_worst", segments.most());
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ test("tiles have no cracks: their borders are the same", { skip }, async () => {
   }
 });
 
-test("the highest of a course is not below any height on it, and is that of a place", { skip }, async () => {
+test("the highest of a segment is not below any height on it, and is that of a place", { skip }, async () => {
   const pack = await Pack.open(bytes, { slots: 1 }); // grows
   const { x, y } = pack.header.axes;
   const [left, bottom] = pack.tileBox(0);

@@ -79,8 +79,8 @@ std::string report_of(const HostPack& pack) {
   std::string report;
   const microtin_pack_info info = pack.info();
   for (int32_t i = 0; i < FLIGHT_PLACES; ++i) {
-    const microtin_segment course = flight_course(i, &info);
-    report += pack.answer(course.x, course.y) + (i % 10 == 9 ? "\n" : " ");
+    const microtin_segment segment = flight_segment(i, &info);
+    report += pack.answer(segment.x, segment.y) + (i % 10 == 9 ? "\n" : " ");
   }
   return report;
 }

@@ -225,7 +225,7 @@ TEST_CASE("a point pack depends neither on the order of points nor on the number
   CHECK(again == bytes);
 }
 
-TEST_CASE("a device reads packs of points: heights, and the highest on a course") {
+TEST_CASE("a device reads packs of points: heights, and the highest on a segment") {
   for (const CloudKind& kind : cloud_kinds()) {
     CAPTURE(kind.name);
     Card card{pack_bytes(kind.cloud, point_options(5, 60))};

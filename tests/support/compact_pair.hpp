@@ -12,7 +12,7 @@
 
 #include "microtin/compact.h"
 #include "tests/support/layers.hpp"
-#include "tests/support/limited_course.hpp"
+#include "tests/support/limited_segment.hpp"
 #include "tests/support/point_sets.hpp"
 
 namespace microtin::tests {
@@ -162,23 +162,24 @@ inline std::string difference_of_heights(const microtin_mesh* mesh, const microt
   return "";
 }
 
-// A course between two such places, along one of the axes at times, or a place.
-inline microtin_segment course_near(const microtin_mesh* mesh, Random& random) {
+// A segment between two such places, along one of the axes at times, or a place.
+inline microtin_segment segment_near(const microtin_mesh* mesh, Random& random) {
   const FinePlace a = place_near(mesh, random), b = place_near(mesh, random);
   const uint32_t kind = random.below(8);
   return {a.x, a.y, kind == 0 || kind == 2 ? a.x : b.x, kind == 1 || kind == 2 ? a.y : b.y};
 }
 
-inline std::string difference_of_courses(const microtin_mesh* mesh, const microtin_compact* compact,
-                                         int courses, Random& random) {
-  for (int i = 0; i < courses; ++i) {
-    const microtin_segment c = course_near(mesh, random);
+inline std::string difference_of_segments(const microtin_mesh* mesh,
+                                          const microtin_compact* compact, int segments,
+                                          Random& random) {
+  for (int i = 0; i < segments; ++i) {
+    const microtin_segment c = segment_near(mesh, random);
     const Highest highest = highest_on(mesh, c);
     const uint32_t most = i % 2 == 0 ? 3 : 2 * microtin_mesh_triangle_count(mesh);
     if (!(highest == highest_on(compact, c)) ||
         !(highest == highest_in_pieces(mesh, c, most, random)) ||
         !(highest == highest_in_pieces(compact, c, most, random))) {
-      return "on the course " + std::to_string(c.x) + " " + std::to_string(c.y) + " to " +
+      return "on the segment " + std::to_string(c.x) + " " + std::to_string(c.y) + " to " +
              std::to_string(c.x_end) + " " + std::to_string(c.y_end);
     }
     const microtin_grid_spec block = {c.x,
@@ -207,7 +208,7 @@ inline std::string difference(const microtin_mesh* mesh, const microtin_compact*
   if (!(told_by(mesh) == told_by(compact))) return "vertices and triangles by number";
   std::string of_heights = difference_of_heights(mesh, compact, places, random);
   if (!of_heights.empty()) return of_heights;
-  return difference_of_courses(mesh, compact, places / 20, random);
+  return difference_of_segments(mesh, compact, places / 20, random);
 }
 
 }  // namespace microtin::tests

@@ -44,26 +44,26 @@ class PackDevice {
   PackDevice(const PackDevice&) = delete;
   PackDevice& operator=(const PackDevice&) = delete;
 
-  microtin_status load(Card& card, const microtin_segment& course, uint32_t steps = 0) const {
-    return load_with(course, Card::read, &card, steps);
+  microtin_status load(Card& card, const microtin_segment& segment, uint32_t steps = 0) const {
+    return load_with(segment, Card::read, &card, steps);
   }
-  microtin_status load_with(const microtin_segment& course, microtin_read read, void* context,
+  microtin_status load_with(const microtin_segment& segment, microtin_read read, void* context,
                             uint32_t steps) const {
-    return is_compact_ ? microtin_compact_pack_load_with(pack, &course, read, context, steps)
-                       : microtin_pack_load_with(pack, &course, read, context, steps);
+    return is_compact_ ? microtin_compact_pack_load_with(pack, &segment, read, context, steps)
+                       : microtin_pack_load_with(pack, &segment, read, context, steps);
   }
-  microtin_status load_without_reading(const microtin_segment& course, uint32_t steps) const {
-    return is_compact_ ? microtin_compact_pack_load(pack, &course, steps)
-                       : microtin_pack_load(pack, &course, steps);
+  microtin_status load_without_reading(const microtin_segment& segment, uint32_t steps) const {
+    return is_compact_ ? microtin_compact_pack_load(pack, &segment, steps)
+                       : microtin_pack_load(pack, &segment, steps);
   }
   microtin_query_result height_at(int64_t x, int64_t y, int32_t& height) const {
     uint32_t hint = 0;
     return is_compact_ ? microtin_compact_pack_height_at(pack, x, y, &hint, &height)
                        : microtin_pack_height_at(pack, x, y, &hint, &height);
   }
-  microtin_query_result segment_max(const microtin_segment& course, int32_t* height) const {
-    return is_compact_ ? microtin_compact_pack_segment_max(pack, &course, height)
-                       : microtin_pack_segment_max(pack, &course, height);
+  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
+    return is_compact_ ? microtin_compact_pack_segment_max(pack, &segment, height)
+                       : microtin_pack_segment_max(pack, &segment, height);
   }
   microtin_query_result sample_grid(const microtin_grid_spec& block, int16_t* heights) const {
     return is_compact_ ? microtin_compact_pack_sample_grid(pack, &block, heights)
@@ -125,7 +125,7 @@ inline std::optional<int32_t> expected_height(const PackFile& pack, int64_t x, i
   return std::nullopt;
 }
 
-// The greatest height on a course where it meets edges of a surface, in floating point; steps.
+// The greatest height on a segment where it meets edges of a surface, in floating point; steps.
 inline double highest_on_edges(const SurfaceModel& model, const microtin_segment& c) {
   const double x = static_cast<double>(c.x) / 256, y = static_cast<double>(c.y) / 256,
                dx = static_cast<double>(c.x_end) / 256 - x,

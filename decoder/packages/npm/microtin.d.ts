@@ -153,7 +153,7 @@ export class Pack {
   /** The height at a real place; NaN outside, for NaN and infinities, or where the terrain is not known.
    * @throws MicrotinError if the tile is damaged */
   heightAt(x: number, y: number): Promise<number>;
-  /** The exact greatest height on the straight course; NaN if a part of it lies outside or where nothing is
-   * known. @throws MicrotinError if a tile is damaged, RangeError if the course touches more than 255 tiles */
+  /** The exact greatest height on the straight segment; NaN if a part of it lies outside or where nothing is
+   * known. @throws MicrotinError if a tile is damaged, RangeError if the segment touches more than 255 tiles */
   highestOn(x: number, y: number, xEnd: number, yEnd: number): Promise<number>;
 }

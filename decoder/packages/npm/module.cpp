@@ -66,10 +66,10 @@ double pack_bytes(uint32_t slots, uint32_t capacity) {
 
 // Like microtin_pack_load without a step limit, but returns STEP_LIMIT as soon as the tile in
 // hand has more than `verified` vertices and all of them have passed their checks.
-uint32_t prepare_section(microtin_pack* pack, const microtin_segment* course, uint32_t verified) {
+uint32_t prepare_section(microtin_pack* pack, const microtin_segment* segment, uint32_t verified) {
   microtin_status status = MICROTIN_STATUS_OK;
   while (status == MICROTIN_STATUS_OK) {
-    status = go_on(*pack, *course);
+    status = go_on(*pack, *segment);
     if (status != MICROTIN_STATUS_STEP_LIMIT) return status;
     const auto& mesh = *static_cast<const microtin_mesh*>(pack->slot->space);
     while (status == MICROTIN_STATUS_STEP_LIMIT) {

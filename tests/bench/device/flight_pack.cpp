@@ -27,7 +27,7 @@ int32_t read_card(void* bytes_read, uint64_t offset, uint8_t* buffer, size_t siz
   return static_cast<int32_t>(size);
 }
 
-microtin_segment course(Post from, Post to) {
+microtin_segment segment(Post from, Post to) {
   return {from.x * 256, from.y * 256, to.x * 256, to.y * 256};
 }
 
@@ -42,7 +42,7 @@ struct Measured {
   uint32_t bytes_read = 0;
 };
 
-// Calls the service until the course has its tiles.
+// Calls the service until the segment has its tiles.
 bool serve(Tiles& pack, const microtin_segment& c, const InstructionCounter& instructions,
            Measured& measured) {
   for (uint32_t call = 0; call < 10000; ++call) {
@@ -61,7 +61,7 @@ bool fly(Tiles& pack, const Flight& flight, Measured& measured) {
   pack.get_info(&info);
   uint32_t hint = 0;
   for (int32_t i = 0; i < flight.posts(); ++i) {
-    const microtin_segment c = course(flight.post(i), flight.ahead(i));
+    const microtin_segment c = segment(flight.post(i), flight.ahead(i));
     if (!serve(pack, c, instructions, measured)) return false;
     int32_t height = 0;
     uint32_t before = instructions.count();

@@ -26,7 +26,7 @@ export class Pack {
   #source;
   #instance = new Instance();
   #pack;
-  #course;
+  #segment;
   #slots;
   #capacity;
   #last = Promise.resolve();
@@ -40,7 +40,7 @@ export class Pack {
   }
 
   async #open(slots) {
-    this.#course = this.#instance.reserve(32);
+    this.#segment = this.#instance.reserve(32);
     this.#init(1, 3); // enough for the header
     await this.#readHeader();
     this.#init(slots, Math.min(Math.max(3, this.mostVertices), USUAL));
@@ -59,7 +59,7 @@ export class Pack {
   async #readHeader() {
     const instance = this.#instance;
     const at = instance.reserve(INFO_BYTES);
-    this.#putCourse([-256, -256, -256, -256]); // touches no tile
+    this.#putSegment([-256, -256, -256, -256]); // touches no tile
     await this.#serve();
     instance.calls.microtin_pack_get_info(this.#pack, at);
     const { view } = instance;
@@ -140,13 +140,13 @@ export class Pack {
   async *#tileArrays(tile, whole) {
     const [x, y, xEnd, yEnd] = this.#box(tile);
     const [midX, midY] = [(x + xEnd) * 128, (y + yEnd) * 128]; // in no other tile
-    const course = [midX, midY, midX, midY];
+    const segment = [midX, midY, midX, midY];
     let done = false, verified = whole ? WHOLE : 0;
     for (let piece = whole ? Infinity : FIRST_PIECE; !done; piece *= 2) {
       yield await this.#alone(async () => {
-        this.#putCourse(course);
+        this.#putSegment(segment);
         const status = await this.#serve({ piece, verified });
-        if (status === BAD_TILES) throw this.#badTile(course);
+        if (status === BAD_TILES) throw this.#badTile(segment);
         done = status === OK;
         const { calls } = this.#instance;
         const mesh = calls.tile_mesh(this.#pack, tile);
@@ -156,7 +156,7 @@ export class Pack {
     }
   }
 
-  // The error of a course that touches bad tiles. The decoder remembers some of them.
+  // The error of a segment that touches bad tiles. The decoder remembers some of them.
   #badTile([x, y, xEnd, yEnd]) {
     for (const { tile, why } of this.#badTiles()) {
       const [left, bottom, right, top] = this.#box(tile).map((k) => 256 * k);
@@ -192,15 +192,15 @@ export class Pack {
 
   async highestOn(x, y, xEnd, yEnd) {
     return this.#ask([...this.#place(x, y), ...this.#place(xEnd, yEnd)], ({ calls, results }) =>
-      calls.microtin_pack_segment_max(this.#pack, this.#course, results + 4));
+      calls.microtin_pack_segment_max(this.#pack, this.#segment, results + 4));
   }
 
-  // The height that a query on a course finds behind the second result. Both ends are within the pack, and so is all
+  // The height that a query on a segment finds behind the second result. Both ends are within the pack, and so is all
   // between them, or there is none.
-  #ask(course, query) {
+  #ask(segment, query) {
     return this.#alone(async () => {
-      if (course.some(Number.isNaN)) return NaN;
-      this.#putCourse(course);
+      if (segment.some(Number.isNaN)) return NaN;
+      this.#putSegment(segment);
       const status = await this.#serve();
       const answer = query(this.#instance);
       const { z } = this.header.axes;
@@ -208,7 +208,7 @@ export class Pack {
         return z.start + (this.#instance.view.getInt32(this.#instance.results + 4, true) / 65536) * z.step;
       }
       if (answer === OUTSIDE || answer === VOID) return NaN;
-      throw status === BAD_TILES ? this.#badTile(course) : new MicrotinError(-1, { where: `answer ${answer}` });
+      throw status === BAD_TILES ? this.#badTile(segment) : new MicrotinError(-1, { where: `answer ${answer}` });
     });
   }
 
@@ -221,17 +221,17 @@ export class Pack {
     return result;
   }
 
-  #putCourse(ends) {
+  #putSegment(ends) {
     const { view } = this.#instance;
-    ends.forEach((end, i) => view.setBigInt64(this.#course + 8 * i, BigInt(end), true));
+    ends.forEach((end, i) => view.setBigInt64(this.#segment + 8 * i, BigInt(end), true));
   }
 
-  // Brings the tiles of the course. STEP_LIMIT: more vertices than `verified` of the tile in hand have passed their
+  // Brings the tiles of the segment. STEP_LIMIT: more vertices than `verified` of the tile in hand have passed their
   // checks. Each read brings a byte or more that was missing, or ends the work.
   async #serve({ piece = Infinity, verified = WHOLE } = {}) {
     const { calls } = this.#instance;
     for (;;) {
-      const status = calls.prepare_section(this.#pack, this.#course, verified);
+      const status = calls.prepare_section(this.#pack, this.#segment, verified);
       if (status === NEED_INPUT) await this.#give(piece);
       else if (status === WORKSPACE_TOO_SMALL && this.#slots < MOST_SLOTS) this.#grow();
       else if (status !== BAD_TILES || !await this.#widen()) return this.#settled(status);
@@ -241,7 +241,7 @@ export class Pack {
   // OK, BAD_TILES or STEP_LIMIT; everything else is an error.
   #settled(status) {
     if (status === OK || status === BAD_TILES || status === STEP_LIMIT) return status;
-    if (status === WORKSPACE_TOO_SMALL || status === ARGUMENT) throw new RangeError("the course is too long");
+    if (status === WORKSPACE_TOO_SMALL || status === ARGUMENT) throw new RangeError("the segment is too long");
     throw new MicrotinError(status);
   }
 

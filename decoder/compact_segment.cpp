@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Courses and blocks on a compact terrain.
+// Segments and blocks on a compact terrain.
 #include "decoder/ring_form.hpp"
 #include "decoder/terrain_query.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A course in a tile: its greatest height there, and whether all of it is known. The same for each
+// A segment in a tile: its greatest height there, and whether all of it is known. The same for each
 // form of a terrain, which has
 //   Cursor       as walk.hpp says
 //   triangles(), at(t)   the numbers of triangles; in a ghost the cursor's apex is infinity
 //   places(t, places)    those of a triangle's corners; false if it is a ghost
 //   corner()     the place from which its places are seen
 //   height_at(place, step_limit, hint, height)
-#ifndef MICROTIN_DECODER_TILE_COURSE_HPP
-#define MICROTIN_DECODER_TILE_COURSE_HPP
+#ifndef MICROTIN_DECODER_TILE_SEGMENT_HPP
+#define MICROTIN_DECODER_TILE_SEGMENT_HPP
 
 #include "decoder/local_point.hpp"
 #include "decoder/walk.hpp"
@@ -39,7 +39,7 @@ inline int64_t share(int32_t rise, int64_t part, int64_t whole) {
   return rise >= 0 ? (quotient + 1) >> 1 : -((quotient + (rest != 0 ? 1 : 0)) >> 1);
 }
 
-// A part of the course's length, from where it begins: 0 <= part <= whole <= 2^24.
+// A part of the segment's length, from where it begins: 0 <= part <= whole <= 2^24.
 struct Fraction {
   int32_t part, whole;
 };
@@ -48,7 +48,7 @@ inline bool is_less(Fraction a, Fraction b) {
   return static_cast<int64_t>(a.part) * b.whole < static_cast<int64_t>(b.part) * a.whole;
 }
 
-// Whether what is `from` where the course begins and `to` where it ends, each within +-2^51, and
+// Whether what is `from` where the segment begins and `to` where it ends, each within +-2^51, and
 // linear between, is above 0 at a fraction of it. In two parts, of which the low one is positive:
 // below 2^50 and 2^51.
 inline bool is_positive_at(Fraction f, int64_t from, int64_t to) {
@@ -58,15 +58,15 @@ inline bool is_positive_at(Fraction f, int64_t from, int64_t to) {
   return high > 0 || (high == 0 && (rest & low) != 0);
 }
 
-// A course in a tile that it touches.
+// A segment in a tile that it touches.
 //
-// Of what is not known, the course has more than a point in an open triangle, on an open edge, or
-// outside the hull; points that are not known alone are ends of such parts, or the whole course.
-class TileCourse {
+// Of what is not known, the segment has more than a point in an open triangle, on an open edge, or
+// outside the hull; points that are not known alone are ends of such parts, or the whole segment.
+class TileSegment {
  public:
-  TileCourse(const TileBox& box, const microtin_segment& course)
-      : begin_(local(box, course.x, course.y)),
-        end_(local(box, course.x_end, course.y_end)),
+  TileSegment(const TileBox& box, const microtin_segment& segment)
+      : begin_(local(box, segment.x, segment.y)),
+        end_(local(box, segment.x_end, segment.y_end)),
         x_{0, 0},
         y_{0, 0},
         enters_{0, 1},
@@ -75,10 +75,10 @@ class TileCourse {
     clip(begin_.y, end_.y, static_cast<int32_t>(box.y_end - box.y) * 256);
   }
 
-  // Whether the tile holds more of the course than a point.
+  // Whether the tile holds more of the segment than a point.
   bool has_length() const { return is_less(enters_, leaves_); }
 
-  // Looks at all triangles of its terrain. False if a part of the course in the tile is not known.
+  // Looks at all triangles of its terrain. False if a part of the segment in the tile is not known.
   template <class Form>
   bool look(const Form& form, int32_t* highest) {
     move(form.corner());
@@ -109,7 +109,7 @@ class TileCourse {
   struct Corner {
     LocalPoint at;
     int32_t z;
-    int64_t side;  // of the course: positive to the left
+    int64_t side;  // of the segment: positive to the left
   };
 
   template <class Cursor>
@@ -119,7 +119,7 @@ class TileCourse {
     return Corner{at, v.z, orient(begin_, end_, at)};
   }
 
-  // Whole steps that the course reaches along an axis.
+  // Whole steps that the segment reaches along an axis.
   struct Reach {
     int32_t low, high;
   };
@@ -142,7 +142,7 @@ class TileCourse {
     return true;
   }
 
-  // Cuts off what lies before or behind the tile along an axis. As the course touches the tile, it
+  // Cuts off what lies before or behind the tile along an axis. As the segment touches the tile, it
   // enters before its end and leaves behind its beginning.
   void clip(int32_t begin, int32_t end, int32_t size) {
     if (begin == end) return;
@@ -154,7 +154,7 @@ class TileCourse {
     if (is_less(leaves, leaves_)) leaves_ = leaves;
   }
 
-  // Whether a real triangle lies beside the bounding box of the course: most do.
+  // Whether a real triangle lies beside the bounding box of the segment: most do.
   bool are_aside(const Point* p) const {
     return are_aside(p[0].x, p[1].x, p[2].x, x_) || are_aside(p[0].y, p[1].y, p[2].y, y_);
   }
@@ -163,15 +163,15 @@ class TileCourse {
            (a > reach.high && b > reach.high && c > reach.high);
   }
 
-  // Whether the course has a point on the closed edge, given its ends' sides.
+  // Whether the segment has a point on the closed edge, given its ends' sides.
   bool meets(const Corner& a, const Corner& b) const {
     if ((a.side > 0 && b.side > 0) || (a.side < 0 && b.side < 0)) return false;
     const int64_t from = orient(a.at, b.at, begin_), to = orient(a.at, b.at, end_);
     return (from <= 0 && to >= 0) || (from >= 0 && to <= 0);
   }
 
-  // Where the course crosses the edge; where it runs along it, ends of the edge on the course. (The
-  // course's own ends are looked at elsewhere.)
+  // Where the segment crosses the edge; where it runs along it, ends of the edge on the segment.
+  // (The segment's own ends are looked at elsewhere.)
   void look_at_edge(const Corner& a, const Corner& b, int32_t* highest) const {
     const int64_t part = magnitude(a.side), whole = part + magnitude(b.side);
     if (whole == 0) {
@@ -184,7 +184,7 @@ class TileCourse {
     }
   }
 
-  // A vertex on the course.
+  // A vertex on the segment.
   void look_at_corner(const Corner& a, int32_t* highest) const {
     if (a.side == 0 && spans(a.at)) raise(a.z * 65536, highest);
   }
@@ -193,7 +193,7 @@ class TileCourse {
     if (height > *highest) *highest = height;
   }
 
-  // Whether a point on the course's line lies between its ends.
+  // Whether a point on the segment's line lies between its ends.
   bool spans(LocalPoint p) const {
     return between(begin_.x, p.x, end_.x) && between(begin_.y, p.y, end_.y);
   }
@@ -201,7 +201,7 @@ class TileCourse {
     return (a <= p && p <= b) || (b <= p && p <= a);
   }
 
-  // Whether a part of the course lies in a void triangle, or on an edge of it that has no terrain
+  // Whether a part of the segment lies in a void triangle, or on an edge of it that has no terrain
   // on the other side either.
   template <class Cursor>
   bool loses_in(Cursor cursor, const Corner* corner) const {
@@ -216,7 +216,7 @@ class TileCourse {
     return false;
   }
 
-  // Whether the course has a point inside the open triangle: no side of it, and not the course's
+  // Whether the segment has a point inside the open triangle: no side of it, and not the segment's
   // own line, parts them (separating axes of a triangle and a segment).
   bool passes_inside(const Corner* corner) const {
     bool some_left = false, some_right = false;
@@ -229,7 +229,7 @@ class TileCourse {
     return some_left && some_right;
   }
 
-  // Whether the course shares more than a point with an edge on its line.
+  // Whether the segment shares more than a point with an edge on its line.
   bool runs_along(LocalPoint a, LocalPoint b) const {
     return begin_.x != end_.x ? overlap(a.x, b.x, begin_.x, end_.x)
                               : overlap(a.y, b.y, begin_.y, end_.y);
@@ -238,8 +238,8 @@ class TileCourse {
     return larger(smaller(a, b), smaller(c, d)) < smaller(larger(a, b), larger(c, d));
   }
 
-  // Whether, in the tile, a part of the course lies beyond a hull edge, which runs with the outside
-  // to its left.
+  // Whether, in the tile, a part of the segment lies beyond a hull edge, which runs with the
+  // outside to its left.
   bool leaves_at(Point start, Point stop) const {
     const LocalPoint a = fine_point(start), b = fine_point(stop);
     const int64_t from = orient(a, b, begin_), to = orient(a, b, end_);
@@ -249,7 +249,7 @@ class TileCourse {
 
   LocalPoint begin_, end_;
   Reach x_, y_;               // as soon as it is looked at
-  Fraction enters_, leaves_;  // what of the course lies in the tile
+  Fraction enters_, leaves_;  // what of the segment lies in the tile
 };
 
 }  // namespace microtin

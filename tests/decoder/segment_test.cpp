@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Courses and blocks on a single terrain, as a mesh and in compact form: against exact fractions.
+// Segments and blocks on a single terrain, as a mesh and in compact form: against exact fractions.
+#include "microtin/segment.h"
+
 #include <doctest/doctest.h>
 
 #include <array>
@@ -8,11 +10,10 @@
 #include <vector>
 
 #include "microtin/microtin.hpp"
-#include "microtin/segment.h"
 #include "tests/support/compact_pair.hpp"
 #include "tests/support/device.hpp"
-#include "tests/support/limited_course.hpp"
-#include "tests/support/reference_course.hpp"
+#include "tests/support/limited_segment.hpp"
+#include "tests/support/reference_segment.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {
@@ -63,8 +64,8 @@ void check_in_pieces(const Both& terrain, const microtin_segment& c, const Highe
   REQUIRE(height == highest.height);
 }
 
-void check_course(const Both& terrain, const Surface& surface, const microtin_segment& c,
-                  Counts& counts) {
+void check_segment(const Both& terrain, const Surface& surface, const microtin_segment& c,
+                   Counts& counts) {
   CAPTURE(c.x);
   CAPTURE(c.y);
   CAPTURE(c.x_end);
@@ -97,7 +98,7 @@ Tin small_tin(uint32_t seed) {
 }
 
 // Whole steps at times, along an axis at times; now and then beside the terrain.
-microtin_segment small_course(Random& random, int64_t side) {
+microtin_segment small_segment(Random& random, int64_t side) {
   const int64_t unit = random.below(3) == 0 ? 1 : 256;
   const auto pick = [&] {
     return static_cast<int64_t>(random.below(static_cast<uint32_t>(side * 256))) / unit * unit;
@@ -111,7 +112,7 @@ microtin_segment small_course(Random& random, int64_t side) {
 
 }  // namespace
 
-TEST_CASE("the highest on a course of a terrain is exact, and known if every place is") {
+TEST_CASE("the highest on a segment of a terrain is exact, and known if every place is") {
   Counts counts;
   for (uint32_t seed = 0; seed < 160; ++seed) {
     CAPTURE(seed);
@@ -119,14 +120,14 @@ TEST_CASE("the highest on a course of a terrain is exact, and known if every pla
     Surface surface;
     surface.add(terrain.mesh.mesh(), 0, 0);
     Random random(seed);
-    for (int i = 0; i < 60; ++i) check_course(terrain, surface, small_course(random, 27), counts);
+    for (int i = 0; i < 60; ++i) check_segment(terrain, surface, small_segment(random, 27), counts);
   }
   CHECK(counts.known > 500);
   CHECK(counts.in_void > 500);
   CHECK(counts.outside > 500);
 }
 
-TEST_CASE("the highest of courses with an end off the lattice, and of meshes that are not there") {
+TEST_CASE("the highest of segments with an end off the lattice, and of meshes that are not there") {
   const Both terrain(terrain_stream(300, 4));
   uint16_t column = 0, row = 0;
   int16_t z = 0;
@@ -156,7 +157,7 @@ TEST_CASE("the highest of courses with an end off the lattice, and of meshes tha
   CHECK(progress.next == 0);
 }
 
-TEST_CASE("a course goes on where it was left, and an older progress stays in the terrain") {
+TEST_CASE("a segment goes on where it was left, and an older progress stays in the terrain") {
   const Both large(terrain_stream(300, 4)), small(terrain_stream(20, 5));
   const microtin_segment c = {0, 0, 65535 * 256, 65535 * 256}, off = {-1, 0, 0, 0};
   for (uint32_t next = 0; next < triangles_of(large.mesh.mesh()) + 4; ++next) {

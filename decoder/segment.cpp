@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Courses and blocks on a decoded mesh.
+// Segments and blocks on a decoded mesh.
 #include "decoder/mesh_form.hpp"
 #include "decoder/terrain_query.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The highest on a course, asked for in calls of a few steps.
-#ifndef MICROTIN_TESTS_SUPPORT_LIMITED_COURSE_HPP
-#define MICROTIN_TESTS_SUPPORT_LIMITED_COURSE_HPP
+// The highest on a segment, asked for in calls of a few steps.
+#ifndef MICROTIN_TESTS_SUPPORT_LIMITED_SEGMENT_HPP
+#define MICROTIN_TESTS_SUPPORT_LIMITED_SEGMENT_HPP
 
 #include "microtin/compact.h"
 #include "tests/support/point_sets.hpp"

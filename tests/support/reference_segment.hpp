@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What of a course is known, and its greatest height, by definition and with 128-bit numbers.
-#ifndef MICROTIN_TESTS_SUPPORT_REFERENCE_COURSE_HPP
-#define MICROTIN_TESTS_SUPPORT_REFERENCE_COURSE_HPP
+// What of a segment is known, and its greatest height, by definition and with 128-bit numbers.
+#ifndef MICROTIN_TESTS_SUPPORT_REFERENCE_SEGMENT_HPP
+#define MICROTIN_TESTS_SUPPORT_REFERENCE_SEGMENT_HPP
 
 #include <algorithm>
 #include <array>
@@ -14,7 +14,7 @@
 namespace microtin::tests {
 namespace reference {
 
-// A part of the way along a course, whole > 0.
+// A part of the way along a segment, whole > 0.
 struct Way {
   Wide part, whole;
 };
@@ -58,7 +58,7 @@ struct Expected {
   Wide between = INT32_MIN;  // the same without the ends, whose heights may be any of their tiles'
 };
 
-// The part of the course in a closed triangle, and the heights at its ends.
+// The part of the segment in a closed triangle, and the heights at its ends.
 struct Stretch {
   Way from = {0, 1}, to = {1, 1};
   bool is_empty = false;
@@ -96,7 +96,7 @@ inline std::vector<Stretch> stretches_of(const Surface& surface, const microtin_
   return stretches;
 }
 
-// Whether a course of more than one place is covered.
+// Whether a segment of more than one place is covered.
 inline bool cover(std::vector<Stretch> stretches) {
   std::sort(stretches.begin(), stretches.end(),
             [](const Stretch& a, const Stretch& b) { return a.from < b.from; });
@@ -107,7 +107,7 @@ inline bool cover(std::vector<Stretch> stretches) {
   return !stretches.empty() && stretches[0].from.part == 0 && !(known < Way{1, 1});
 }
 
-// By definition: closed triangles cover the course, or do not.
+// By definition: closed triangles cover the segment, or do not.
 inline Expected expect(const Surface& surface, const microtin_segment& c) {
   Expected expected;
   std::vector<Stretch> stretches;
