@@ -33,7 +33,7 @@
 
 ; Both segments of open sides, under at most 4 * 256, and the triangle fit 31 bits; so do those of circles behind, taken away.
 ;; shared/free_region.hpp: return (65536u + (k < 2048 ? k * k : 4194304u)) * 201u >> 15;
-;; shared/free_region.hpp: const int32_t minor = static_cast<int32_t>((square >> 4) * minor_segment_under(size) >> 7);
+;; shared/free_region.hpp: const int32_t minor = static_cast<int32_t>((square >> 4) * minor_cap_under(size) >> 7);
 ;; shared/free_region.hpp: return static_cast<int32_t>((square >> 8) * whole_disc_under(size)) - minor;
 (push)
 (declare-const square Int)
