@@ -43,7 +43,7 @@ microtin_status microtin_read_stream_info(const uint8_t* bytes, size_t size,
   info->vertices = contract.vertices;
   info->version = kVersion;
   info->max_degree = static_cast<uint8_t>(contract.degree);
-  info->coding = static_cast<uint8_t>(contract.decoding);
+  info->coding = static_cast<uint8_t>(contract.coding);
   info->has_heights = contract.has_heights;
   info->has_voids = contract.has_voids;
   put_axes(axis, info);

@@ -40,14 +40,14 @@ static_assert(work_budget(kMaxVertices) + uint64_t{kMaxVertices} <= UINT32_MAX, 
 
 // How much of the odds of places a stream makes use of (place_coding.hpp): the more, the smaller
 // and the slower to decode.
-enum class Decoding : uint8_t { kQuick = 1, kBalanced = 2, kDense = 3 };
+enum class Coding : uint8_t { kQuick = 1, kBalanced = 2, kDense = 3 };
 
 // What the fixed header promises.
 struct Contract {
   uint32_t vertices;
   uint16_t x_max, y_max;
   uint32_t degree;  // most triangles around a vertex when it is inserted
-  Decoding decoding;
+  Coding coding;
   bool has_heights;
   bool has_voids;
   bool odd_origin_x = false, odd_origin_y = false;  // of the stream's lattice on its pack's

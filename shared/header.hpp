@@ -98,7 +98,7 @@ inline microtin_status read_header(const uint8_t** bytes, const uint8_t* end, Co
   const uint32_t properties = static_cast<uint32_t>(number[0]);
   contract->has_heights = (properties & kHasHeights) != 0;
   contract->has_voids = (properties & kHasVoids) != 0;
-  contract->decoding = static_cast<Decoding>(properties >> 3 & 3u);
+  contract->coding = static_cast<Coding>(properties >> 3 & 3u);
   contract->degree = properties >> 5 & 63u;
   contract->odd_origin_x = (properties & kOddOriginX) != 0;
   contract->odd_origin_y = (properties & kOddOriginY) != 0;

@@ -95,8 +95,8 @@ struct Place {
 
 // How often columns are halved by weights found anew, rows once less; after that those that are
 // known tell what is left. Quick decoding has none.
-inline uint32_t weighed_in(Decoding decoding) {
-  return decoding == Decoding::kQuick ? 0 : decoding == Decoding::kDense ? 5 : 3;
+inline uint32_t weighed_in(Coding coding) {
+  return coding == Coding::kQuick ? 0 : coding == Coding::kDense ? 5 : 3;
 }
 
 // What is learned of places beside adaptive bits.
@@ -250,12 +250,12 @@ Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
   Cotangent behind = chord.ghost ? -4 * (1 << kCotangentBits) : chord.behind;
   if (behind > own) behind = own;
   const Spot a = find_places(place.legal, region, contract, own, behind);
-  place.odds.repels = contract.has_heights && contract.decoding != Decoding::kQuick;
-  if (contract.decoding != Decoding::kQuick) {
+  place.odds.repels = contract.has_heights && contract.coding != Coding::kQuick;
+  if (contract.coding != Coding::kQuick) {
     estimate_sweep(place.odds, place.legal, region, a, density, own, behind);
     if (place.odds.repels) estimate_repulsion(place.odds, place.legal, density, habits.crowding);
   }
-  const uint32_t weighed = weighed_in(contract.decoding);
+  const uint32_t weighed = weighed_in(contract.coding);
   const Vertex next = coder.next();
   const Offset known = turned(Point{next.x, next.y} - region.origin, place.legal.turns);
 #if defined(MICROTIN_LARGE_TABLES)

@@ -276,8 +276,8 @@ void run_plan(const EncodeRequest& request, uint32_t shards) {
   });
   std::string text;
   for (const ShardPlan& plan : plans) {
-    text += "--tile-steps " + std::to_string(plan.tile_steps) + " --z-step " +
-            to_string(plan.z_step) + " --tiles " + range_text(plan.tiles) + '\n';
+    text += "--tile-size " + std::to_string(plan.tile_size) + " --z-step " +
+            to_string(plan.z_step) + " --shard " + range_text(plan.tiles) + '\n';
   }
   print(text);
 }

@@ -37,22 +37,22 @@ void add_search(CLI::App& command, Search& search) {
   add("--best", Search::kBest, "... or for a long time")->excludes(fast);
 }
 
-void add_decoding(CLI::App& command, Decoding& decoding) {
+void add_coding(CLI::App& command, Coding& coding) {
   command
       .add_option_function<std::string>(
-          "--decoding",
-          [&decoding](const std::string& name) {
-            const auto* const end = std::end(kDecodings);
+          "--coding",
+          [&coding](const std::string& name) {
+            const auto* const end = std::end(kCodings);
             const auto* const found =
-                std::find_if(std::begin(kDecodings), end,
-                             [&name](Decoding known) { return name_of(known) == name; });
+                std::find_if(std::begin(kCodings), end,
+                             [&name](Coding known) { return name_of(known) == name; });
             if (found == end) {
-              throw CLI::ValidationError("--decoding", name + " is not quick, balanced or dense");
+              throw CLI::ValidationError("--coding", name + " is not quick, balanced or dense");
             }
-            decoding = *found;
+            coding = *found;
           },
           "How much of it goes into choosing: quick, balanced or dense (the smallest stream)")
-      ->default_str(name_of(decoding));
+      ->default_str(name_of(coding));
 }
 
 // Packs are neither of a number of vertices nor of bytes.
@@ -69,7 +69,7 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
           ->excludes(&vertices)
           ->excludes(&bytes);
   command
-      .add_option("--tile-steps", request.tile_steps,
+      .add_option("--tile-size", request.tile_size,
                   "Extent of the pack's tiles at most, in steps between posts; chosen if not given")
       ->check(CLI::Range(1u, uint32_t{kLatticeMax}));
   command
@@ -87,7 +87,7 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
 
 // What the header tells people.
 void add_notes(CLI::App& command, EncodeRequest& request) {
-  command.add_option("--source-text", request.source_text, "Where the terrain comes from");
+  command.add_option("--source-name", request.source_name, "Where the terrain comes from");
   command
       .add_option("--date", request.date, "Of the source: 2026, 2026-11 or 2026-11-21 (ISO 8601)")
       ->check([](const std::string& text) {
@@ -141,11 +141,11 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
   add_decimal(command, "--xy-step", request->lattice.xy_step, "Step of places (rasters: in posts)");
   command
       .add_option(
-          "--degree", request->effort.degree,
+          "--max-degree", request->effort.degree,
           "Most triangles around a vertex when it is added; if not given 10, quick 9, or, of "
           "less than 2,000 vertices, 16 if that saves a 256th")
       ->check(CLI::Range(kMinDegree, kMaxDegree));
-  add_decoding(command, request->effort.decoding);
+  add_coding(command, request->effort.coding);
   add_preparation(command, request->preparation);
   add_notes(command, *request);
 }
@@ -167,7 +167,7 @@ void add_encode(CLI::App& app, Action& action) {
   const auto read = [request](const std::string& text) {
     return read_tiles(text, request->tiles.emplace());
   };
-  add_read(command, "--tiles", read, "FROM:TO, as 0:99",
+  add_read(command, "--shard", read, "FROM:TO, as 0:99",
            "FROM:TO: write a shard of a pack, with these of its tiles; merge joins them");
   command.callback([request, &action] {
     check_encode_options(*request);
@@ -199,7 +199,7 @@ void add_merge(CLI::App& app, Action& action) {
   };
   auto request = std::make_shared<Request>();
   CLI::App& command = *app.add_subcommand("merge", "Join the shards of a pack, in any order");
-  command.add_option("shards", request->shards, "What encode --tiles wrote, all of it")
+  command.add_option("shards", request->shards, "What encode --shard wrote, all of it")
       ->required()
       ->type_name(kFile);
   add_output(command, request->output);

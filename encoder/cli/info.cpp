@@ -117,7 +117,7 @@ void add_placement(JsonObject& report, const Metadata& metadata) {
   const Placement& p = metadata.placement;
   report.emplace_back("steps", of_axes(p, [](const Axis& a) { return json(step_of(a)); }));
   report.emplace_back("offsets", of_axes(p, [](const Axis& a) { return json(offset_of(a)); }));
-  report.emplace_back("placement", of_axes(p, exact_axis));
+  report.emplace_back("axes", of_axes(p, exact_axis));
 }
 
 void add_notes(JsonObject& report, const Metadata& metadata) {
@@ -133,7 +133,7 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
     if (!text.empty()) report.emplace_back(name, json(text));
   };
   add_text("wkt", metadata.wkt);
-  add_text("source", metadata.source);
+  add_text("source_name", metadata.source);
   add_text("date", metadata.date);
   add_text("lineage", metadata.lineage);
   if (metadata.water_level) report.emplace_back("water_level", number(*metadata.water_level));
@@ -163,15 +163,15 @@ JsonObject report_of(DecodedStream& stream) {
   const uint32_t voids = count_triangles(terrain.mesh(), MICROTIN_TRIANGLE_VOID);
   const uint32_t triangles = count_triangles(terrain.mesh(), MICROTIN_TRIANGLE_REAL) + voids;
   JsonObject report = {{"kind", json(std::string_view("stream"))},
-                       {"format_version", json(header.info.version)},
+                       {"stream_version", json(header.info.version)},
                        {"vertices", json(vertices)},
                        {"triangles", json(triangles)},
                        {"void_triangles", json(voids)},
                        {"bytes", json(bytes)},
                        {"bits_per_vertex", json(bits_per_vertex(bytes, vertices))},
                        {"phases", json(terrain.phases())},
-                       {"degree", json(header.info.max_degree)},
-                       {"decoding", json(stream::name_of(header.contract.decoding))},
+                       {"max_degree", json(header.info.max_degree)},
+                       {"coding", json(stream::name_of(header.contract.coding))},
                        {"compact_bytes", json(compact_bytes(terrain))},
                        {"workspace_bytes_16", workspace_bytes_16(vertices)},
                        {"workspace_bytes_32", json(MICROTIN_MESH_BYTES_FOR(vertices, 32) +
@@ -233,8 +233,8 @@ JsonObject report_of(const PackFile& pack) {
       {"x_max", json(grid.x_max)},
       {"y_max", json(grid.y_max)},
       {"vertices", json(pack.vertices())},
-      {"most_vertices", json(pack.header().most_vertices)},
-      {"compact_bytes", compact != 0 ? json(compact) : "null"},
+      {"max_tile_vertices", json(pack.header().most_vertices)},
+      {"max_compact_bytes", compact != 0 ? json(compact) : "null"},
       {"workspace_bytes_4_compact_tiles",
        compact != 0 ? json(workspace_bytes_4_compact_tiles(pack.header())) : "null"},
       {"bytes", json(pack.bytes())}};

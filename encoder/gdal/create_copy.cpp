@@ -10,7 +10,7 @@
 namespace microtin::gdal {
 namespace {
 
-using encoder::Decoding;
+using encoder::Coding;
 using encoder::Posts;
 using encoder::Search;
 using encoder::Transform;
@@ -141,12 +141,12 @@ AllOptions options_of(char** given) {
   options.never_below = CPLFetchBool(given, "NEVER_BELOW", false);
   options.units = CSLFetchNameValueDef(given, "UNITS", "");
   options.depths = CPLFetchBool(given, "DEPTHS", false);
-  const std::string search = CSLFetchNameValueDef(given, "SEARCH", "NORMAL");
-  if (EQUAL(search.c_str(), "FAST")) options.search = Search::kFast;
-  if (EQUAL(search.c_str(), "BEST")) options.search = Search::kBest;
-  const std::string decoding = CSLFetchNameValueDef(given, "DECODING", "BALANCED");
-  if (EQUAL(decoding.c_str(), "QUICK")) options.decoding = Decoding::kQuick;
-  if (EQUAL(decoding.c_str(), "DENSE")) options.decoding = Decoding::kDense;
+  const std::string effort = CSLFetchNameValueDef(given, "EFFORT", "NORMAL");
+  if (EQUAL(effort.c_str(), "FAST")) options.effort = SearchEffort::kFast;
+  if (EQUAL(effort.c_str(), "BEST")) options.effort = SearchEffort::kBest;
+  const std::string coding = CSLFetchNameValueDef(given, "CODING", "BALANCED");
+  if (EQUAL(coding.c_str(), "QUICK")) options.coding = Coding::kQuick;
+  if (EQUAL(coding.c_str(), "DENSE")) options.coding = Coding::kDense;
   return options;
 }
 

@@ -117,12 +117,12 @@ PackPlan plan_pack(const RasterReader& raster, const PackOptions& options) {
       scan(raster, options.lattice.max_error, chooses_z_step, progress.part(0, kScanPart));
   const double begun = chooses_z_step ? kStepPart : kScanPart;
   PackPlan plan{tiled_raster(raster, scanned, options, progress.part(kScanPart, begun)), options,
-                options.tile_steps, scanned.fingerprint, begun};
-  if (plan.tile_steps == 0) {
+                options.tile_size, scanned.fingerprint, begun};
+  if (plan.tile_size == 0) {
     plan.planned += (1 - begun) * counting_part(raster.frame(), options);
-    plan.tile_steps = choose_tile_steps(plan.tiled, options, progress.part(begun, plan.planned));
+    plan.tile_size = choose_tile_size(plan.tiled, options, progress.part(begun, plan.planned));
   }
-  plan.tiled.grid = grid_of(raster.frame(), plan.tile_steps);
+  plan.tiled.grid = grid_of(raster.frame(), plan.tile_size);
   return plan;
 }
 
@@ -132,7 +132,7 @@ TileRange all_tiles(const TileGrid& grid) {
 
 TileTooLarge::TileTooLarge(uint32_t tile, uint32_t vertices, uint32_t steps)
     : Error("tile " + std::to_string(tile) + " has " + std::to_string(vertices) +
-            " vertices, too many: try --tile-steps " + std::to_string(steps)),
+            " vertices, too many: try --tile-size " + std::to_string(steps)),
       fewer_steps(steps) {}
 
 void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
@@ -147,7 +147,7 @@ void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
     const uint32_t vertices = encoded.summary.vertices;
     const uint32_t most = most_vertices(plan.options, plan.tiled.grid);
     if (vertices > most || !fits(encoded.summary, most)) {
-      throw TileTooLarge(tile, vertices, fewer_tile_steps(plan.tiled.grid, most, vertices));
+      throw TileTooLarge(tile, vertices, smaller_tile_size(plan.tiled.grid, most, vertices));
     }
     in_order.add(tile, std::move(encoded));
     done.add_one();
@@ -163,9 +163,9 @@ void encode_pack(const RasterReader& raster, const PackOptions& options,
       encode_tiles(plan, all_tiles(plan.tiled.grid), take);
       return;
     } catch (const TileTooLarge& error) {  // the same one whatever the number of processors
-      if (options.tile_steps != 0) throw;
-      plan.tile_steps = error.fewer_steps;
-      plan.tiled.grid = grid_of(raster.frame(), plan.tile_steps);
+      if (options.tile_size != 0) throw;
+      plan.tile_size = error.fewer_steps;
+      plan.tiled.grid = grid_of(raster.frame(), plan.tile_size);
     }
   }
 }

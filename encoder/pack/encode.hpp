@@ -18,7 +18,7 @@ struct PackOptions {
   LatticeOptions lattice;          // without an xy step
   SimplifyOptions simplify;        // without max_vertices
   uint32_t max_vertices;           // of a tile, at least kFewestTileVertices
-  uint32_t tile_steps = 0;         // extent of a tile; 0: to be chosen
+  uint32_t tile_size = 0;          // extent of a tile; 0: to be chosen
   uint32_t max_vertices_wide = 0;  // of one of 256 steps or more; 0: max_vertices
 };
 
@@ -34,7 +34,7 @@ constexpr uint32_t kFewestTileVertices = 16;
 struct PackPlan {
   TiledRaster tiled;
   PackOptions options;
-  uint32_t tile_steps;
+  uint32_t tile_size;
   uint64_t fingerprint;  // of the raster
   double planned;        // part of all the time that planning took, estimated
 };
@@ -56,7 +56,7 @@ TileRange all_tiles(const TileGrid& grid);
 struct TileTooLarge : Error {
   TileTooLarge(uint32_t tile, uint32_t vertices, uint32_t fewer_steps);
 
-  uint32_t fewer_steps;  // tile_steps to be tried next
+  uint32_t fewer_steps;  // tile_size to be tried next
 };
 
 using TakeTile = std::function<void(uint32_t tile, EncodedTile&&)>;

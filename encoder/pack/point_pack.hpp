@@ -31,7 +31,7 @@ Decimal finest_step(const PointCloud& cloud, uint64_t tiles);
 // is covered by a tile, and every point within the bound; without one, every place that points have
 // is a vertex. Borders have no cracks. Throws Error if that cannot be done, as lay_out does, if all
 // points lie on one line, or if more than kMostTiles tiles are needed. The metadata needs neither
-// placement nor accuracy; the options must not set tile_steps.
+// placement nor accuracy; the options must not set tile_size.
 PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
                             Metadata metadata = {});
 

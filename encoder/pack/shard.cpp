@@ -30,7 +30,7 @@ Bytes write_identity(const PackPlan& plan, const PackContent& pack) {
   append_number(identity, options.max_vertices_wide, 4);
   append_number(identity, static_cast<uint64_t>(options.simplify.search), 1);
   append_number(identity, options.simplify.effort.degree, 1);
-  append_number(identity, static_cast<uint64_t>(options.simplify.effort.decoding), 1);
+  append_number(identity, static_cast<uint64_t>(options.simplify.effort.coding), 1);
   append_number(identity, options.lattice.never_below ? 1 : 0, 1);
   append_number(identity, plan.fingerprint, 8);
   return identity;

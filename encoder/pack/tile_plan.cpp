@@ -91,19 +91,19 @@ uint32_t guessed_pieces(const Raster& frame, const PackOptions& options) {
 
 }  // namespace
 
-TileGrid grid_of(const Raster& frame, uint32_t tile_steps) {
-  const TileGrid grid = grid_of(frame.width - 1, frame.height - 1, tile_steps);
+TileGrid grid_of(const Raster& frame, uint32_t tile_size) {
+  const TileGrid grid = grid_of(frame.width - 1, frame.height - 1, tile_size);
   if (has_too_many_tiles(grid)) {
     throw Error(
         "tiles of " + std::to_string(std::max(grid.width, grid.height)) + " steps are " +
         std::to_string(tile_count(grid)) + ", and a pack has " + std::to_string(kMostTiles) +
-        " at most: ask for more --tile-steps or --tile-vertices, or make a pack of each " + "part");
+        " at most: ask for more --tile-size or --tile-vertices, or make a pack of each " + "part");
   }
   return grid;
 }
 
-TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps) {
-  const uint32_t size = std::min(tile_steps, uint32_t{kLatticeMax});
+TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_size) {
+  const uint32_t size = std::min(tile_size, uint32_t{kLatticeMax});
   const uint32_t width = divide_up(x_max, divide_up(x_max, size));
   const uint32_t height = divide_up(y_max, divide_up(y_max, size));
   return {x_max, y_max, static_cast<uint16_t>(width), static_cast<uint16_t>(height)};
@@ -117,8 +117,7 @@ double counting_part(const Raster& frame, const PackOptions& options) {
   return counted / (counted + tiles);
 }
 
-uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options,
-                           const Progress& progress) {
+uint32_t choose_tile_size(TiledRaster tiled, const PackOptions& options, const Progress& progress) {
   SimplifyOptions simplify = options.simplify;
   simplify.progress = {};
   const Raster& frame = tiled.raster.frame();
@@ -142,7 +141,7 @@ uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options,
   }
 }
 
-uint32_t fewer_tile_steps(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices) {
+uint32_t smaller_tile_size(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices) {
   const uint32_t steps = std::max(grid.width, grid.height);
   if (steps == 1) fail_at_one_step(max_vertices, vertices);
   const double ratio = std::sqrt(static_cast<double>(max_vertices) / vertices);

@@ -14,23 +14,23 @@ namespace microtin::pack {
 
 // A raster in tiles of up to so many steps on a side, all of nearly the same size. Throws Error if
 // these are too many.
-TileGrid grid_of(const Raster& frame, uint32_t tile_steps);
+TileGrid grid_of(const Raster& frame, uint32_t tile_size);
 
 // The grid of tiles for any largest x and y, and for any number of tiles.
-TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_steps);
+TileGrid grid_of(uint32_t x_max, uint32_t y_max, uint32_t tile_size);
 
-// The largest tile_steps found with which no tile has more vertices than it may, as far as
+// The largest tile_size found with which no tile has more vertices than it may, as far as
 // the roughest tiles tell: up to 24 of them are simplified, at most five times once some fit,
 // without searching long unless they are a little too large then, and the raster is read as often.
 // Throws Error if there are none.
-uint32_t choose_tile_steps(TiledRaster tiled, const PackOptions& options, const Progress& progress);
+uint32_t choose_tile_size(TiledRaster tiled, const PackOptions& options, const Progress& progress);
 
 // How much of the time of a pack that takes, estimated.
 double counting_part(const Raster& frame, const PackOptions& options);
 
-// What to try next if a tile has too many vertices; less than tile_steps. Throws Error if there is
+// What to try next if a tile has too many vertices; less than tile_size. Throws Error if there is
 // nothing smaller.
-uint32_t fewer_tile_steps(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices);
+uint32_t smaller_tile_size(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices);
 
 // Vertices of a tile for which a device with so many bytes of RAM decodes one tile and keeps four,
 // as many as meet at a corner, in compact form, with 16-bit numbers. Narrow: tiles are less than

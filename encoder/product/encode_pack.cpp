@@ -39,7 +39,7 @@ PackOptions pack_options(const EncodeOptions& options, const Progress& progress)
   EncodeOptions tile = options;
   tile.device_ram = 0;  // it limits tiles, by their number of vertices
   return {options.lattice, simplify_options(tile, progress), tile_vertices(options, true),
-          options.tile_steps, tile_vertices(options, false)};
+          options.tile_size, tile_vertices(options, false)};
 }
 
 PackOptions raster_options(const EncodeOptions& options, const Progress& progress) {
@@ -48,7 +48,7 @@ PackOptions raster_options(const EncodeOptions& options, const Progress& progres
 }
 
 PackOptions point_options(const EncodeOptions& options) {
-  if (options.tile_steps != 0) throw Error("--tile-steps is for rasters; these are points");
+  if (options.tile_size != 0) throw Error("--tile-size is for rasters; these are points");
   return pack_options(options, {});
 }
 
@@ -68,7 +68,7 @@ Decimal z_step(const PackContent& pack) {
 TileRange existing(TileRange range, const TileGrid& grid) {
   const TileRange all = all_tiles(grid);
   if (range.first > all.last) {
-    throw Error("--tiles " + range_text(range) + ": the last tile is " + std::to_string(all.last));
+    throw Error("--shard " + range_text(range) + ": the last tile is " + std::to_string(all.last));
   }
   return {range.first, std::min(range.last, all.last)};
 }
@@ -225,7 +225,7 @@ std::vector<ShardPlan> plan_shards(const RasterReader& raster, const EncodeOptio
   const uint64_t tiles = tile_count(plan.tiled.grid), parts = std::min<uint64_t>(shards, tiles);
   std::vector<ShardPlan> plans;
   for (uint64_t i = 0; i < parts; ++i) {
-    plans.push_back({plan.tile_steps,
+    plans.push_back({plan.tile_size,
                      step,
                      {static_cast<uint32_t>(tiles * i / parts),
                       static_cast<uint32_t>(tiles * (i + 1) / parts - 1)}});

@@ -64,7 +64,7 @@ ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& option
 
 // How so many shards are to be encoded, so that together they are what a single run makes.
 struct ShardPlan {
-  uint32_t tile_steps;
+  uint32_t tile_size;
   Decimal z_step;
   TileRange tiles;
 };
@@ -76,7 +76,7 @@ std::vector<ShardPlan> plan_shards(const RasterReader& raster, const EncodeOptio
 // fit, and if tiles are missing.
 PackReport join_shards(const std::vector<std::string>& paths, OutputFile& out);
 
-// As the option --tiles has it.
+// As the option --shard has it.
 std::string range_text(TileRange range);
 
 }  // namespace microtin::product

@@ -220,7 +220,7 @@ EncodedStream measured(const Source& source, const EncodeOptions& options, Appro
 
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
                             const Progress& progress) {
-  if (options.tile_steps != 0) throw Error("--tile-steps is for packs; this is a stream");
+  if (options.tile_size != 0) throw Error("--tile-size is for packs; this is a stream");
   // Fails before the work, if it does.
   std::visit([&](const auto& one) { metadata_of(options, one); }, source);
   const bool limited = options.max_bytes != 0 || vertex_limit(options) != 0;

@@ -106,28 +106,28 @@ std::optional<exact::Decimal> decimal_of(const std::string& name, const std::str
   return value;
 }
 
-fit::Search search_of(Search search) {
-  switch (search) {
-    case Search::kFast:
+fit::Search search_of(SearchEffort effort) {
+  switch (effort) {
+    case SearchEffort::kFast:
       return fit::Search::kFast;
-    case Search::kBest:
+    case SearchEffort::kBest:
       return fit::Search::kBest;
-    case Search::kNormal:
+    case SearchEffort::kNormal:
       break;
   }
   return fit::Search::kNormal;
 }
 
-microtin::Decoding decoding_of(encoder::Decoding decoding) {
-  switch (decoding) {
-    case encoder::Decoding::kQuick:
-      return microtin::Decoding::kQuick;
-    case encoder::Decoding::kDense:
-      return microtin::Decoding::kDense;
-    case encoder::Decoding::kBalanced:
+microtin::Coding coding_of(encoder::Coding coding) {
+  switch (coding) {
+    case encoder::Coding::kQuick:
+      return microtin::Coding::kQuick;
+    case encoder::Coding::kDense:
+      return microtin::Coding::kDense;
+    case encoder::Coding::kBalanced:
       break;
   }
-  return microtin::Decoding::kBalanced;
+  return microtin::Coding::kBalanced;
 }
 
 exact::DuplicateRule rule_of(Duplicates duplicates) {
@@ -153,13 +153,14 @@ product::EncodeOptions options_of(const Options& options) {
   all.bound_at = options.bound_at == encoder::BoundAt::kLattice ? product::BoundAt::kLattice
                                                                 : product::BoundAt::kTruePlaces;
   all.lattice.duplicates = rule_of(options.duplicates);
-  all.search = search_of(options.search);
-  expect(options.degree == 0 || (options.degree >= kMinDegree && options.degree <= kMaxDegree),
-         "degree: 6 .. 32");
-  all.effort = {options.degree, decoding_of(options.decoding)};
+  all.search = search_of(options.effort);
+  expect(options.max_degree == 0 ||
+             (options.max_degree >= kMinDegree && options.max_degree <= kMaxDegree),
+         "max_degree: 6 .. 32");
+  all.effort = {options.max_degree, coding_of(options.coding)};
   expect(options.date.empty() || base::is_iso_date(options.date),
          "date: " + options.date + " is not a date such as 2026-11-21");
-  all.source_text = options.source;
+  all.source_name = options.source_name;
   all.date = options.date;
   all.lineage = options.lineage;
   return all;
@@ -317,7 +318,7 @@ Report encode_pack(const Terrain& terrain, const PackOptions& options, const std
                                         options.tile_vertices <= kMaxVertices),
          "tile_vertices: 16 .. 2^24, or 0 for the usual number");
   all.tile_vertices = options.tile_vertices;
-  all.tile_steps = options.tile_steps;
+  all.tile_size = options.tile_size;
   const SettledTerrain settled(terrain.content().source, options);
   all.reference = settled.reference();
   files::OutputFile out(path);

@@ -105,9 +105,9 @@ Options common_options(const microtin_options& given) {
   options.never_below = given.never_below != 0;
   options.z_step = text_of(given.z_step);
   options.xy_step = text_of(given.xy_step);
-  options.search = choice("search", given.search, options.search, Search::kBest);
-  options.degree = given.degree;
-  options.decoding = choice("decoding", given.decoding, options.decoding, Decoding::kDense);
+  options.effort = choice("effort", given.effort, options.effort, SearchEffort::kBest);
+  options.max_degree = given.max_degree;
+  options.coding = choice("coding", given.coding, options.coding, Coding::kDense);
   options.bound_at = choice("bound_at", given.bound_at, options.bound_at, BoundAt::kLattice);
   options.duplicates =
       choice("duplicates", given.duplicates, options.duplicates, Duplicates::kMean);
@@ -115,7 +115,7 @@ Options common_options(const microtin_options& given) {
   options.depths = given.depths != 0;
   options.horizontal_epsg = given.horizontal_epsg;
   options.vertical_epsg = given.vertical_epsg;
-  options.source = text_of(given.source);
+  options.source_name = text_of(given.source_name);
   options.date = text_of(given.date);
   options.lineage = text_of(given.lineage);
   return options;
@@ -245,8 +245,8 @@ microtin_status microtin_encode_stream(const microtin_source* terrain,
     expect(bytes);
     expect(size);
     auto all = common_options<StreamOptions>(checked(options));
-    expect_none(options->tile_vertices, options->tile_steps,
-                "tile_vertices and tile_steps are for packs");
+    expect_none(options->tile_vertices, options->tile_size,
+                "tile_vertices and tile_size are for packs");
     all.max_vertices = options->max_vertices;
     all.max_bytes = options->max_bytes;
     const Stream stream = encode_stream(terrain->terrain, all, callbacks_of(*options));
@@ -272,7 +272,7 @@ microtin_status microtin_encode_pack(const microtin_source* terrain,
     expect_none(options->max_vertices, options->max_bytes,
                 "max_vertices and max_bytes are for streams");
     all.tile_vertices = options->tile_vertices;
-    all.tile_steps = options->tile_steps;
+    all.tile_size = options->tile_size;
     copy_report(encode_pack(terrain->terrain, all, path, callbacks_of(*options)), report);
   });
 }

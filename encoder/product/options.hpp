@@ -24,14 +24,14 @@ struct EncodeOptions {
   uint32_t max_bytes = 0;      // 0: as many as it takes; else the bound is looked for
   uint32_t tile_vertices = 0;  // of a pack: at most so many in a tile; 0: as device_ram
                                // allows or, without it, the usual number
-  uint32_t tile_steps = 0;     // of a pack of posts; 0: to be chosen
+  uint32_t tile_size = 0;      // of a pack of posts; 0: to be chosen
   uint64_t device_ram = 0;     // 0: unlimited
   bool few_vertices = false;   // with a bound: rather than few bytes
   BoundAt bound_at = BoundAt::kTruePlaces;
   Search search = Search::kNormal;
   Effort effort;
   std::optional<Reference> reference;  // in place of the terrain's own, settled
-  std::string source_text, date, lineage;
+  std::string source_name, date, lineage;
 };
 
 // What the header will say of a terrain whose file says this, but for its place and the accuracy.

@@ -136,7 +136,7 @@ Contract contract_of(const Tin& tin, const Effort& effort, Origin origin) {
   Contract contract{};
   contract.vertices = static_cast<uint32_t>(tin.vertices.size());
   contract.degree = usual_degree(effort);
-  contract.decoding = effort.decoding;
+  contract.coding = effort.coding;
   contract.has_voids = !tin.voids.empty();
   contract.odd_origin_x = origin.odd_x;
   contract.odd_origin_y = origin.odd_y;
@@ -205,9 +205,9 @@ Draft chosen_draft(const Tin& tin, const Metadata& metadata, const Effort& effor
 
 }  // namespace
 
-std::string name_of(Decoding decoding) {
-  if (decoding == Decoding::kQuick) return "quick";
-  return decoding == Decoding::kDense ? "dense" : "balanced";
+std::string name_of(Coding coding) {
+  if (coding == Coding::kQuick) return "quick";
+  return coding == Coding::kDense ? "dense" : "balanced";
 }
 
 Encoding encode_and_decode(const Tin& tin, const Metadata& metadata, const Effort& effort,

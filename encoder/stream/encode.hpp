@@ -16,23 +16,23 @@
 
 namespace microtin::stream {
 
-constexpr Decoding kDecodings[] = {Decoding::kQuick, Decoding::kBalanced, Decoding::kDense};
+constexpr Coding kCodings[] = {Coding::kQuick, Coding::kBalanced, Coding::kDense};
 
 // quick, balanced or dense.
-std::string name_of(Decoding decoding);
+std::string name_of(Coding coding);
 
 // What smaller streams may cost.
 struct Effort {
   // Most triangles around a vertex when it is inserted: 6 .. 32. 0: usual_degree, or, of terrains
   // of less than 2,000 vertices, 16 if that saves a 256th of the bytes.
   uint32_t degree = 0;
-  Decoding decoding = Decoding::kBalanced;
+  Coding coding = Coding::kBalanced;
 };
 
 // The given degree, or the one that takes the fewest bytes of most terrain.
 inline uint32_t usual_degree(const Effort& effort) {
   if (effort.degree != 0) return effort.degree;
-  return effort.decoding == Decoding::kQuick ? 9 : 10;
+  return effort.coding == Coding::kQuick ? 9 : 10;
 }
 
 // Where the lattice of a tile's stream begins on that of its pack, as far as coding wants to know.

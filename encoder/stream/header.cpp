@@ -62,7 +62,7 @@ Bytes write_header(const Contract& contract, const Metadata& metadata) {
                              (placement.empty() ? 0 : kHasPlacement) |
                              (contract.odd_origin_x ? kOddOriginX : 0) |
                              (contract.odd_origin_y ? kOddOriginY : 0) |
-                             static_cast<uint32_t>(contract.decoding) << 3 | contract.degree << 5);
+                             static_cast<uint32_t>(contract.coding) << 3 | contract.degree << 5);
   append_varint(payload, contract.vertices);
   append_varint(payload, contract.x_max);
   append_varint(payload, contract.y_max);

@@ -72,7 +72,7 @@ inline Contract contract_from(Choices& choices, uint32_t capacity) {
   contract.x_max = kSides[choices.byte() % 8];
   contract.y_max = kSides[choices.byte() % 8];
   contract.degree = kMinDegree + choices.byte() % (kMaxDegree - kMinDegree + 1);
-  contract.decoding = static_cast<Decoding>(1 + choices.byte() % 3);
+  contract.coding = static_cast<Coding>(1 + choices.byte() % 3);
   const uint32_t flags = choices.byte();
   contract.has_heights = (flags & 1) != 0;
   contract.has_voids = (flags & 2) != 0;

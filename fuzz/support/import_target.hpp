@@ -46,7 +46,7 @@ struct Options {
     fill_voids = given.ConsumeIntegralInRange<uint32_t>(0, 5);
     max_vertices = given.ConsumeBool() ? given.ConsumeIntegralInRange<uint32_t>(3, 50) : 0;
     effort.degree = given.ConsumeIntegralInRange<uint32_t>(kMinDegree, kMaxDegree);
-    effort.decoding = static_cast<Decoding>(given.ConsumeIntegralInRange(1, 3));
+    effort.coding = static_cast<Coding>(given.ConsumeIntegralInRange(1, 3));
     if (max_vertices != 0) lattice.max_error.reset();  // the command line allows only one
   }
 

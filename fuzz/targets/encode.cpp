@@ -119,7 +119,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   FuzzedDataProvider given(data, size);
   Effort effort;
   effort.degree = given.ConsumeIntegralInRange<uint32_t>(kMinDegree, kMaxDegree);
-  effort.decoding = static_cast<Decoding>(given.ConsumeIntegralInRange(1, 3));
+  effort.coding = static_cast<Coding>(given.ConsumeIntegralInRange(1, 3));
   const uint64_t voids = given.ConsumeBool() ? given.ConsumeIntegral<uint64_t>() : 0;
   const Tin tin = tin_from(given);
   if (!is_terrain(tin.vertices)) {

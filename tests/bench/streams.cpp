@@ -28,7 +28,7 @@ std::string path_of(const std::string& folder, const std::string& name) {
 
 void write_uniform(const std::string& folder, const Effort& effort) {
   const std::string name =
-      "2_uniform_80k_D" + std::to_string(usual_degree(effort)) + "_" + name_of(effort.decoding);
+      "2_uniform_80k_D" + std::to_string(usual_degree(effort)) + "_" + name_of(effort.coding);
   write(path_of(folder, name), {uniform_tin(80000, 0), {}}, effort);
 }
 
@@ -36,15 +36,15 @@ void write_uniform(const std::string& folder, const Effort& effort) {
 
 void write_curve_streams(const std::string& folder) {
   write(path_of(folder, "2_uniform_80k"), {uniform_tin(80000, 0), {}});
-  write_uniform(folder, {0, Decoding::kQuick});
-  write_uniform(folder, {0, Decoding::kDense});
+  write_uniform(folder, {0, Coding::kQuick});
+  write_uniform(folder, {0, Coding::kDense});
   constexpr uint32_t kTileVertices = 2000;
   const std::vector<Dataset> grids = rasters();
   if (grids.empty()) return;
   const Dataset& first = grids.front();
   const Model tile = simplified(read_raster(first), first.options, kTileVertices);
-  for (const Decoding decoding : kDecodings) {
-    write(path_of(folder, "tile_" + name_of(decoding)), tile, {0, decoding});
+  for (const Coding coding : kCodings) {
+    write(path_of(folder, "tile_" + name_of(coding)), tile, {0, coding});
   }
 }
 
@@ -52,7 +52,7 @@ void write_streams(const std::string& folder) {
   const auto path = [&](const std::string& name) { return path_of(folder, name); };
   write_curve_streams(folder);
   write(path("1_uniform_10k"), {uniform_tin(10000, 0), {}});
-  write_uniform(folder, {8, Decoding::kBalanced});
+  write_uniform(folder, {8, Coding::kBalanced});
   write(path("3_uniform_1M"), {uniform_tin(1000000, 0), {}});
   for (const Dataset& dataset : rasters()) {
     write(path(file_name_of(dataset)), simplified(read_raster(dataset), dataset.options));

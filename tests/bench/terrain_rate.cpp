@@ -43,10 +43,10 @@ class TerrainRate {
     const size_t vertices = surface.vertices.size();
     Row row{label(dataset), number(vertices), number(floor_bits(surface), 2), number(stream.size()),
             number(8 * size / static_cast<double>(vertices), 2)};
-    for (const Decoding decoding : {Decoding::kQuick, Decoding::kDense}) {
-      const Effort effort{0, decoding};
+    for (const Coding coding : {Coding::kQuick, Coding::kDense}) {
+      const Effort effort{0, coding};
       const size_t bytes = encode(model.tin, model.metadata, effort).size();
-      decoding_means_[decoding == Decoding::kDense].add(static_cast<double>(bytes) / size);
+      decoding_means_[coding == Coding::kDense].add(static_cast<double>(bytes) / size);
       row.push_back(number(bytes));
     }
     for (size_t i = 0; i < peers_.size(); ++i) {

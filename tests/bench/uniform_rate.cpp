@@ -18,9 +18,8 @@ struct Size {
 
 constexpr Size kSizes[] = {{5000, 8, "27.49"},  {10000, 4, "26.50"}, {20000, 4, "25.45"},
                            {40000, 2, "24.39"}, {80000, 2, "23.42"}, {1000000, 1, "-"}};
-constexpr Effort kEfforts[] = {{10, Decoding::kBalanced}, {9, Decoding::kQuick},
-                               {10, Decoding::kDense},    {8, Decoding::kBalanced},
-                               {8, Decoding::kQuick},     {32, Decoding::kDense}};
+constexpr Effort kEfforts[] = {{10, Coding::kBalanced}, {9, Coding::kQuick}, {10, Coding::kDense},
+                               {8, Coding::kBalanced},  {8, Coding::kQuick}, {32, Coding::kDense}};
 
 std::vector<Codec> point_codecs() {
   std::vector<Codec> codecs;
@@ -60,7 +59,7 @@ void print_uniform_rate() {
   const std::vector<Codec> peers = point_codecs();
   Row head{"n", "floor"};
   for (const Effort& effort : kEfforts) {
-    head.push_back("D " + std::to_string(effort.degree) + ", " + name_of(effort.decoding));
+    head.push_back("D " + std::to_string(effort.degree) + ", " + name_of(effort.coding));
     if (head.size() == 3) head.push_back("/ floor");
   }
   for (const Codec& peer : peers) head.push_back(peer.name);

@@ -11,7 +11,7 @@ const { cesiumTerrain } = await import(path.join(npm, "cesium.js"));
 
 after(remove);
 const file = degrees("area", { // of degree 6: with many phases
-  size: 513, encode: ["--max-error", "2", "--degree", "6", "--tile-vertices", "6000", "--tile-steps", "120"],
+  size: 513, encode: ["--max-error", "2", "--max-degree", "6", "--tile-vertices", "6000", "--tile-size", "120"],
 });
 const pack = await Pack.open(file);
 const provider = cesiumTerrain(cesium, pack);

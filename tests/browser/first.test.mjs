@@ -26,7 +26,7 @@ function firstSection(bytes, tile) {
 
 test("the first picture of a pack takes header, entries and first sections", async (t) => {
   const bytes = degrees("area", { // of degree 6: with many phases
-    size: 385, encode: ["--max-error", "1", "--degree", "6", "--tile-vertices", "20000", "--tile-steps", "130"],
+    size: 385, encode: ["--max-error", "1", "--max-degree", "6", "--tile-vertices", "20000", "--tile-size", "130"],
   });
   const pack = await Pack.open(bytes);
   const [x, y] = pack.tileBox(Math.floor((pack.columns * pack.rows) / 2));

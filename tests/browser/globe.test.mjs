@@ -58,7 +58,7 @@ function answer(script) {
 }
 
 test("CesiumJS draws the pack, with its heights", async (t) => {
-  degrees("area", { size: 257, encode: ["--max-error", "4", "--degree", "6", "--tile-vertices", "3000", "--tile-steps", "60"] });
+  degrees("area", { size: 257, encode: ["--max-error", "4", "--max-degree", "6", "--tile-vertices", "3000", "--tile-size", "60"] });
   const browser = await launch();
   try {
     await served(answer(bundled()), async (address) => {

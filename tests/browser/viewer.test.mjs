@@ -18,8 +18,8 @@ before(async () => {
     microtin("encode", "area.asc", "--units", "metre", "--max-error", "8", "--fast", ...words, "-o", name);
     microtin("render", name, "-o", name.replace("area.", "") + ".html");
   }
-  microtin("encode", "area.asc", "--units", "metre", "--max-error", "8", "--fast", "--tile-vertices", "100", "--degree", "6",
-    "--source-text", "Survey <of> A & B", "--date", "2026-11", "-o", "many.mtp");
+  microtin("encode", "area.asc", "--units", "metre", "--max-error", "8", "--fast", "--tile-vertices", "100", "--max-degree", "6",
+    "--source-name", "Survey <of> A & B", "--date", "2026-11", "-o", "many.mtp");
   microtin("render", "many.mtp", "-o", "many.html");
   const tall = fs.readFileSync(file("area.asc"), "utf8").replace("cellsize 30", "cellsize 0.2");
   fs.writeFileSync(file("tall.asc"), tall);

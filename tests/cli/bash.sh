@@ -28,7 +28,7 @@ check() {
     done
   done
   expect "encode files=no" enc &&
-    expect "--max-error --max-vertices --max-bytes files=yes" encode --max &&
+    expect "--max-error --max-vertices --max-bytes --max-degree files=yes" encode --max &&
     expect " files=no" encode --max-error "" &&
     expect " files=yes" encode t.asc -o "" &&
     expect " files=yes" encode "" &&

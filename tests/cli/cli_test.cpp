@@ -30,14 +30,14 @@ TEST_CASE("cli: encode, info, verify and decode agree") {
 
   const Session::Result info = session.run("info t.mtin --json");
   CHECK(info.code == 0);
-  for (const char* key : {"\"format_version\": 5",
+  for (const char* key : {"\"stream_version\": 5",
                           "\"vertices\": 10",
                           "\"triangles\"",
                           "\"bytes\"",
                           "\"bits_per_vertex\"",
                           "\"phases\"",
-                          "\"degree\": 10",
-                          "\"decoding\": \"balanced\"",
+                          "\"max_degree\": 10",
+                          "\"coding\": \"balanced\"",
                           "\"workspace_bytes_16\"",
                           "\"workspace_bytes_32\"",
                           "\"steps\"",
@@ -46,7 +46,7 @@ TEST_CASE("cli: encode, info, verify and decode agree") {
                           "\"max_error\": 0.0",
                           "\"rms_error\": 0.0",
                           "\"mean_error\": 0.0",
-                          "\"placement\"",
+                          "\"axes\"",
                           "\"grid\": {\"columns\": 4, \"rows\": 3",
                           "\"horizontal_epsg\": 25832",
                           "\"vertical_epsg\": 5783"}) {
@@ -221,7 +221,7 @@ TEST_CASE("cli: packs become C headers") {
   CHECK(session.run("encode t.asc --max-error 9 --tile-vertices 40 -o t.mtp").code == 0);
   CHECK(session.run("embed t.mtp -o t.h").code == 0);
   const std::string header = session.read("t.h"), bytes = session.read("t.mtp");
-  const std::string info = session.run("info t.mtp").out, key = "most_vertices: ";
+  const std::string info = session.run("info t.mtp").out, key = "max_tile_vertices: ";
   const std::string most = info.substr(info.find(key) + key.size());
   CHECK(contains(header, "#define T_MOST_VERTICES " + most.substr(0, most.find('\n') + 1)));
   CHECK(contains(header, "static const uint8_t t_pack[" + std::to_string(bytes.size()) +
@@ -398,10 +398,10 @@ TEST_CASE("cli: packs of points") {
   CHECK(contains(session.failure("verify p.mtp t.asc"), "posts of the pack"));
   const std::string in_shards = "p.xyz: shards are of packs of rasters; these are points";
   CHECK(contains(session.failure("plan p.xyz --tile-vertices 90"), in_shards));
-  CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --tiles 0:1 -o p.shard"),
+  CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --shard 0:1 -o p.shard"),
                  in_shards));
-  CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --tile-steps 9 -o s.mtp"),
-                 "p.xyz: --tile-steps is for rasters; these are points"));
+  CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --tile-size 9 -o s.mtp"),
+                 "p.xyz: --tile-size is for rasters; these are points"));
   CHECK(contains(session.failure("merge p.mtp -o m.mtp"), "p.mtp: "));
   session.write("line.xyz", "0 0 0\n1 1 3\n2 2 7\n");
   CHECK(contains(session.failure("encode line.xyz --tile-vertices 60 -o line.mtp"), "one line"));
@@ -468,14 +468,14 @@ TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
                 "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 2\n"
                 "0 0 0 0\n0 0 0 1\n1 0 0 0\n");
   const std::string notes =
-      " --date 2026-11-21 --source-text survey --lineage 'noise removed' --water-level 3.5 ";
+      " --date 2026-11-21 --source-name survey --lineage 'noise removed' --water-level 3.5 ";
   for (const std::string name : {"t.mtin", "t.mtp --tile-vertices 60"}) {
     const Session::Result encoded =
         session.run(std::string("encode t.asc --max-error 1").append(notes).append("-o ") + name);
     CHECK(encoded.code == 0);
     const std::string file = name.substr(0, name.find(' '));
     const std::string info = session.run("info " + file).out;
-    for (const char* line : {"\nsource: \"survey\"\n", "\ndate: \"2026-11-21\"\n",
+    for (const char* line : {"\nsource_name: \"survey\"\n", "\ndate: \"2026-11-21\"\n",
                              "\nlineage: \"noise removed\"\n", "\nwater_level: 3.5\n"}) {
       CHECK_MESSAGE(contains(info, line), info);
     }
@@ -519,9 +519,9 @@ TEST_CASE("cli: wrong usage is told apart") {
   for (const char* arguments : {"frobnicate",
                                 "encode",
                                 "encode ok.xyz",
-                                "encode ok.xyz -o o --degree 5",
-                                "encode ok.xyz -o o --degree 33",
-                                "encode ok.xyz -o o --decoding slow",
+                                "encode ok.xyz -o o --max-degree 5",
+                                "encode ok.xyz -o o --max-degree 33",
+                                "encode ok.xyz -o o --coding slow",
                                 "encode ok.xyz -o o --max-error -1",
                                 "encode ok.xyz -o o --max-error x",
                                 "encode ok.xyz -o o --max-error nan",
@@ -573,7 +573,7 @@ TEST_CASE("cli: options tell what they want") {
     refuses("--epsg", text, epsg);
   }
   for (const char* text : {"9", "3:2", "0:", ":9", "0:1:2", "0:-1", ""}) {
-    refuses("--tiles", text, tiles);
+    refuses("--shard", text, tiles);
   }
   for (const char* text : {"2,", ",2", "2,,9", "256", "ground", "2 9", "all,2", ""}) {
     refuses("--classes", text, classes);

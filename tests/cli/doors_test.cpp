@@ -42,7 +42,7 @@ bool is_pack(Kind kind) {
 
 // All options of both kinds.
 struct Wanted : library::Options {
-  uint32_t max_vertices = 0, max_bytes = 0, tile_vertices = 0, tile_steps = 0;
+  uint32_t max_vertices = 0, max_bytes = 0, tile_vertices = 0, tile_size = 0;
 };
 
 struct Setting {
@@ -98,15 +98,15 @@ Setting epsg(uint32_t code) {
 std::vector<Row> rows() {
   using namespace microtin::encoder;
   const Setting two = bound("2"), nothing = {"", [](Wanted&) {}, [](microtin_options&) {}};
-  const Setting fast = setting("--fast", &W::search, Search::kFast, &C::search, 1u);
+  const Setting fast = setting("--fast", &W::effort, SearchEffort::kFast, &C::effort, 1u);
   const Setting coarse = two + setting("--xy-step", &W::xy_step, &C::xy_step, "0.05");
   const auto height_code = setting("--epsg 25832:7837", &W::vertical_epsg, uint32_t{7837},
                                    &C::vertical_epsg, uint32_t{7837});
   const auto duplicates = [](const char* flags, Duplicates rule, uint32_t number) {
     return setting(flags, &W::duplicates, rule, &C::duplicates, number);
   };
-  const auto decoding = [](const char* flags, Decoding profile, uint32_t number) {
-    return setting(flags, &W::decoding, profile, &C::decoding, number);
+  const auto coding = [](const char* flags, Coding profile, uint32_t number) {
+    return setting(flags, &W::coding, profile, &C::coding, number);
   };
   const auto bound_at = [](const char* flags, BoundAt places, uint32_t number) {
     return setting(flags, &W::bound_at, places, &C::bound_at, number);
@@ -118,13 +118,13 @@ std::vector<Row> rows() {
        bound("40")},
       {"never_below", kAll, setting("--never-below", &W::never_below, true, &C::never_below, 1u),
        two},
-      {"search", kAll, fast, two},
-      {"search", 0, setting("", &W::search, Search::kNormal, &C::search, 2u), two},
-      {"search", kAll, setting("--best", &W::search, Search::kBest, &C::search, 3u), two},
-      {"degree", kAll, setting("--degree", &W::degree, &C::degree, 6u), two},
-      {"decoding", kAll, decoding("--decoding quick", Decoding::kQuick, 1), two},
-      {"decoding", 0, decoding("--decoding balanced", Decoding::kBalanced, 2), two},
-      {"decoding", kAll, decoding("--decoding dense", Decoding::kDense, 3), two},
+      {"effort", kAll, fast, two},
+      {"effort", 0, setting("", &W::effort, SearchEffort::kNormal, &C::effort, 2u), two},
+      {"effort", kAll, setting("--best", &W::effort, SearchEffort::kBest, &C::effort, 3u), two},
+      {"max_degree", kAll, setting("--max-degree", &W::max_degree, &C::max_degree, 6u), two},
+      {"coding", kAll, coding("--coding quick", Coding::kQuick, 1), two},
+      {"coding", 0, coding("--coding balanced", Coding::kBalanced, 2), two},
+      {"coding", kAll, coding("--coding dense", Coding::kDense, 3), two},
       {"bound_at", 0, bound_at("--bound-at points", BoundAt::kPoints, 1), coarse},
       {"bound_at", kClouds, bound_at("--bound-at lattice", BoundAt::kLattice, 2), coarse},
       {"duplicates", 0, duplicates("--duplicates middle", Duplicates::kMiddle, 1), two},
@@ -137,7 +137,8 @@ std::vector<Row> rows() {
       {"horizontal_epsg", kAll, setting("--epsg", &W::horizontal_epsg, &C::horizontal_epsg, 25832u),
        two},
       {"vertical_epsg", kAll, epsg(25832) + height_code, two},
-      {"source", kAll, setting("--source-text", &W::source, &C::source, "a survey"), two},
+      {"source_name", kAll, setting("--source-name", &W::source_name, &C::source_name, "a survey"),
+       two},
       {"date", kAll, setting("--date", &W::date, &C::date, "2026-11"), two},
       {"lineage", kAll, setting("--lineage", &W::lineage, &C::lineage, "thinned"), two},
       {"max_vertices", kStream | kCloud,
@@ -146,7 +147,7 @@ std::vector<Row> rows() {
        fast},
       {"tile_vertices", kPacks,
        setting("--tile-vertices", &W::tile_vertices, &C::tile_vertices, 20u), two},
-      {"tile_steps", kPack, setting("--tile-steps", &W::tile_steps, &C::tile_steps, 9u), two},
+      {"tile_size", kPack, setting("--tile-size", &W::tile_size, &C::tile_size, 9u), two},
   };
 }
 
@@ -183,7 +184,7 @@ class Doors {
         return library::encode_stream(terrain, {common, wanted.max_vertices, wanted.max_bytes})
             .bytes;
       }
-      library::encode_pack(terrain, {common, wanted.tile_vertices, wanted.tile_steps},
+      library::encode_pack(terrain, {common, wanted.tile_vertices, wanted.tile_size},
                            path(product(kind)));
       return bytes_of_file(path(product(kind)));
     } catch (const std::runtime_error&) {

@@ -134,7 +134,7 @@ TEST_CASE("cli: control characters of notes are told, not sent to the terminal")
   for (const std::string kind : {"ok.mtin", "ok.mtp --tile-vertices 100"}) {
     REQUIRE(session
                 .run("encode ok.xyz -o " + kind +
-                     " --lineage 'a\x7f\xC2\x9b\x1b\x9b\xC3\x80' --source-text '\xC2\x80\xC2\x9f'")
+                     " --lineage 'a\x7f\xC2\x9b\x1b\x9b\xC3\x80' --source-name '\xC2\x80\xC2\x9f'")
                 .code == 0);
     for (const std::string form : {"", " --json"}) {
       const std::string told = session.run("info " + kind.substr(0, kind.find(' ')) + form).out;

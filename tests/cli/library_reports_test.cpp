@@ -31,10 +31,10 @@ template <class Options>
 Options library_options(const Product& product) {
   Options options;
   options.max_error = "1.9";
-  options.degree = 12;
-  options.decoding = library::Decoding::kDense;
+  options.max_degree = 12;
+  options.coding = library::Coding::kDense;
   options.date = "2026-11";
-  options.source = "a \"survey\"";
+  options.source_name = "a \"survey\"";
   options.lineage = "thinned twice";
   if (product.is_raster) return options;
   options.units = ":us-foot";
@@ -57,10 +57,10 @@ microtin_report report_in_c(const Product& product, const Made& made) {
   microtin_options options{};
   options.size = sizeof options;
   options.max_error = "1.9";
-  options.degree = 12;
-  options.decoding = 3;
+  options.max_degree = 12;
+  options.coding = 3;
   options.date = "2026-11";
-  options.source = "a \"survey\"";
+  options.source_name = "a \"survey\"";
   options.lineage = "thinned twice";
   if (!product.is_raster) {
     options.units = ":us-foot";
@@ -131,7 +131,7 @@ Fields facts_of(const Facts& facts) {
                    {"horizontal_epsg", std::to_string(facts.horizontal_epsg)},
                    {"vertical_epsg", std::to_string(facts.vertical_epsg)},
                    {"wkt", facts.wkt},
-                   {"source", facts.origin},
+                   {"source_name", facts.origin},
                    {"date", facts.date},
                    {"lineage", facts.lineage},
                    {"bound", facts.bound},
@@ -142,9 +142,9 @@ Fields facts_of(const Facts& facts) {
   constexpr const char* kUnits[] = {"unknown", "metre", "degree", "foot", "US survey foot"};
   fields["units.horizontal"] = kUnits[static_cast<uint32_t>(facts.horizontal_unit)];
   fields["units.vertical"] = kUnits[static_cast<uint32_t>(facts.vertical_unit)];
-  add_axis("placement.x", facts.x, fields);
-  add_axis("placement.y", facts.y, fields);
-  add_axis("placement.z", facts.z, fields);
+  add_axis("axes.x", facts.x, fields);
+  add_axis("axes.y", facts.y, fields);
+  add_axis("axes.z", facts.z, fields);
   add_grid(facts.source, fields);
   return fields;
 }
@@ -167,7 +167,7 @@ Names names_of_facts(bool is_raster) {
                  "horizontal_epsg",
                  "vertical_epsg",
                  "wkt",
-                 "source",
+                 "source_name",
                  "date",
                  "lineage",
                  "max_error_at_points",
@@ -177,7 +177,7 @@ Names names_of_facts(bool is_raster) {
                  "extent.south",
                  "extent.east",
                  "extent.north"};
-  names = united(united(names, kErrors), axes("placement.", {"x", "y", "z"}));
+  names = united(united(names, kErrors), axes("axes.", {"x", "y", "z"}));
   if (!is_raster) return names;
   return united(united(names, axes("grid.", {"x", "y"})), {"grid.columns", "grid.rows"});
 }

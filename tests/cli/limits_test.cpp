@@ -46,9 +46,9 @@ std::vector<Row> rows() {
       {"", "--max-vertices", {"3", "16777216"}, {"2", "16777217", "-1", "3.5"}},
       {"", "--max-bytes", {"1", "4294967295"}, {"0", "4294967296", "-1"}},
       {"", "--tile-vertices", {"16", "16777216"}, {"15", "16777217"}},
-      {"", "--tile-steps", {"1", "65535"}, {"0", "65536"}},
+      {"", "--tile-size", {"1", "65535"}, {"0", "65536"}},
       {"", "--device-ram", {least, most}, {less(least), more(most)}},
-      {"", "--degree", {"6", "32"}, {"5", "33"}},
+      {"", "--max-degree", {"6", "32"}, {"5", "33"}},
       {"", "--fill-voids", {"0", "4294967295"}, {"4294967296", "-1"}},
       {"",
        "--epsg",
@@ -59,7 +59,7 @@ std::vector<Row> rows() {
       {"", "--z-step", {"0.000000001"}, {"-1"}},
       {"", "--xy-step", {"0.000000001"}, {"-1"}},
       {"", "--water-level", {"-9", "9"}, {"x"}},
-      {"encode", "--tiles", {"0:0", "0:4294967295"}, {"1:0", "0:4294967296"}},
+      {"encode", "--shard", {"0:0", "0:4294967295"}, {"1:0", "0:4294967296"}},
       {"plan", "--shards", {"1", "4294967295"}, {"0", "4294967296"}},
       {"fractal", "--size", {"2", "8193"}, {"1", "8194"}},
       {"fractal", "--seed", {"0", "18446744073709551615"}, {"18446744073709551616", "-1"}},
@@ -115,9 +115,9 @@ struct Limit {
 };
 
 const std::vector<Limit> kLimits = {
-    {"degree: 6 .. 32",
-     &library::StreamOptions::degree,
-     &microtin_options::degree,
+    {"max_degree: 6 .. 32",
+     &library::StreamOptions::max_degree,
+     &microtin_options::max_degree,
      {0, 6, 32},
      {5, 33, UINT32_MAX}},
     {"max_vertices: 3 .. 2^24",
@@ -125,8 +125,8 @@ const std::vector<Limit> kLimits = {
      &microtin_options::max_vertices,
      {0, 3, 1u << 24},
      {1, 2, (1u << 24) + 1}},
-    {"search: 0 .. 3", nullptr, &microtin_options::search, {0, 3}, {4}},
-    {"decoding: 0 .. 3", nullptr, &microtin_options::decoding, {0, 3}, {4}},
+    {"effort: 0 .. 3", nullptr, &microtin_options::effort, {0, 3}, {4}},
+    {"coding: 0 .. 3", nullptr, &microtin_options::coding, {0, 3}, {4}},
     {"bound_at: 0 .. 2", nullptr, &microtin_options::bound_at, {0, 2}, {3}},
     {"duplicates: 0 .. 4", nullptr, &microtin_options::duplicates, {0, 4}, {5}},
 };
@@ -224,16 +224,16 @@ std::string flat_grid(uint32_t columns, uint32_t rows) {
 TEST_CASE("limits: 2^20 tiles of a pack of a raster, at every door") {
   const std::string message = "tiles of 1 steps are 1049600, and a pack has 1048576 at most: ";
   const Session session;
-  const std::string options = " --units metre --max-error 1 --fast --tile-steps 1";
+  const std::string options = " --units metre --max-error 1 --fast --tile-size 1";
   session.write("more.asc", flat_grid(1026, 1025));
   CHECK(contains(session.failure("encode more.asc -o o.mtp" + options), message));
-  CHECK(contains(session.failure("encode more.asc --tiles 0:0 -o o.shard" + options), message));
+  CHECK(contains(session.failure("encode more.asc --shard 0:0 -o o.shard" + options), message));
   CHECK(contains(session.failure("plan more.asc --shards 2" + options), message));
   session.write("most.asc", flat_grid(1025, 1025));
   CHECK(contains(session.run("plan most.asc --shards 2" + options).out, "524288:1048575"));
   library::PackOptions pack;
   pack.max_error = "1";
-  pack.tile_steps = 1;
+  pack.tile_size = 1;
   CHECK(contains(
       error_of([&] { encode_pack(terrain_of(1026, 1025), pack, session.folder() + "/o.mtp"); }),
       message));
@@ -243,7 +243,7 @@ TEST_CASE("limits: of posts, their heights and their decimals") {
   constexpr int64_t kMost = 1000000000000000000;
   library::StreamOptions options;
   options.max_error = "1";
-  options.search = library::Search::kFast;
+  options.effort = library::SearchEffort::kFast;
   const auto error_with = [&](uint32_t columns, uint32_t rows) {
     return error_of([&] { encode_stream(terrain_of(columns, rows), options); });
   };

@@ -135,7 +135,7 @@ TEST_CASE("mosaic: rasters that touch or overlap are one; the first counts, gaps
   }
   const auto swapped = session.run("verify t.mtin b.asc a.asc c.asc");  // without a bound
   CHECK(swapped.code == 0);
-  CHECK(contains(swapped.out, "source: \"3 files; where they overlap they differ by up to "));
+  CHECK(contains(swapped.out, "source_name: \"3 files; where they overlap they differ by up to "));
   CHECK(
       contains(session.run("encode a.asc c.asc -o u.mtin").out, "2 files, none of which overlap"));
 }

@@ -91,7 +91,7 @@ const std::vector<Row> kRows = {
     {"encode", "--max-vertices", "t.asc -o o.mtin", "99"},
     {"encode", "--max-bytes", "t.asc --fast -o o.mtin", "300"},
     {"encode", "--tile-vertices", "t.asc --max-error 2 -o o.mtp", "60"},
-    {"encode", "--tile-steps", "t.asc --max-error 2 --tile-vertices 90 -o o.mtp", "9"},
+    {"encode", "--tile-size", "t.asc --max-error 2 --tile-vertices 90 -o o.mtp", "9"},
     {"encode", "--device-ram", "t.asc -o o.mtin", "9000"},
     {"encode", "--never-below", "t.asc --max-error 2 -o o.mtin", ""},
     {"encode", "--bound-at", "p.xyz --max-error 2 --xy-step 0.05 -o o.mtin", "lattice"},
@@ -100,8 +100,8 @@ const std::vector<Row> kRows = {
     {"encode", "--best", "t.asc --max-error 2 -o o.mtin", ""},
     {"encode", "--z-step", "t.asc --max-error 2 -o o.mtin", "0.7"},
     {"encode", "--xy-step", "t.asc --max-error 2 -o o.mtin", "0.5"},
-    {"encode", "--degree", "t.asc --max-error 2 -o o.mtin", "6"},
-    {"encode", "--decoding", "t.asc --max-error 2 -o o.mtin", "quick"},
+    {"encode", "--max-degree", "t.asc --max-error 2 -o o.mtin", "6"},
+    {"encode", "--coding", "t.asc --max-error 2 -o o.mtin", "quick"},
     {"encode", "--classes", "s.las -o o.mtin", "all"},
     {"encode", "--fill-voids", "t.asc --max-error 2 -o o.mtin", "1"},
     {"encode", "--water-level", "t.asc --max-error 2 -o o.mtin", "50"},
@@ -110,10 +110,10 @@ const std::vector<Row> kRows = {
     {"encode", "--units", "t.asc --max-error 2 -o o.mtin", "foot"},
     {"encode", "--depths", "t.asc --max-error 2 -o o.mtin", ""},
     {"encode", "--gridded", "g.xyz --max-error 2 -o o.mtin", ""},
-    {"encode", "--source-text", "t.asc --max-error 2 -o o.mtin", "survey"},
+    {"encode", "--source-name", "t.asc --max-error 2 -o o.mtin", "survey"},
     {"encode", "--date", "t.asc --max-error 2 -o o.mtin", "2026"},
     {"encode", "--lineage", "t.asc --max-error 2 -o o.mtin", "thinned"},
-    {"encode", "--tiles", "t.asc --max-error 2 --tile-vertices 60 -o o.mtp", "0:1"},
+    {"encode", "--shard", "t.asc --max-error 2 --tile-vertices 60 -o o.mtp", "0:1"},
     {"encode", "--output", "", ""},
     {"plan", "--shards", "t.asc --max-error 2 --tile-vertices 60", "2"},
     {"merge", "--output", "", ""},
@@ -221,32 +221,32 @@ TEST_CASE("options: none is without a row") {
     const Names options = without(options_of(session, command), {"--allow-vrt", "--band"});
     CHECK(text_of(options) == text_of(known));
   }
-  const Names encode = without(options_of(session, "encode"), {"--output", "--tiles"});
+  const Names encode = without(options_of(session, "encode"), {"--output", "--shard"});
   CHECK(text_of(options_of(session, "plan")) == text_of(united(encode, {"--shards"})));
 }
 
 namespace {
 
-// Options that differ from `--max-error 1.9 --z-step 0.5 --tile-vertices 60 --tile-steps 10`.
+// Options that differ from `--max-error 1.9 --z-step 0.5 --tile-vertices 60 --tile-size 10`.
 const std::vector<std::string> kOfShards = {
-    "--max-error 1.8",  "--tile-vertices 61",  "--tile-steps 9",
+    "--max-error 1.8",  "--tile-vertices 61",  "--tile-size 9",
     "--z-step 0.6",     "--never-below",       "--bound-at lattice",
     "--fast",           "--duplicates lowest", "--best",
-    "--degree 6",       "--degree 20",         "--decoding quick",
-    "--decoding dense", "--fill-voids 1",      "--epsg 25832",
+    "--max-degree 6",   "--max-degree 20",     "--coding quick",
+    "--coding dense",   "--fill-voids 1",      "--epsg 25832",
     "--water-level 50", "--units foot",        "--depths",
     "--date 2026",      "--lineage thinned",   "--water-level 50 --water-mask mask.asc",
-    "--source-text s"};
+    "--source-name s"};
 
 // Rules for points, which say nothing of a raster.
 const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};
 
 // With which no shard of posts is made, or which say which shard.
 const Names kNotOfShards = {"--max-vertices", "--max-bytes", "--xy-step", "--device-ram",
-                            "--output",       "--tiles",     "--classes", "--gridded"};
+                            "--output",       "--shard",     "--classes", "--gridded"};
 
 const std::vector<std::string> kCommon = {"--max-error 1.9", "--z-step 0.5", "--tile-vertices 60",
-                                          "--tile-steps 10"};
+                                          "--tile-size 10"};
 
 std::string name_of(const std::string& option) {
   return option.substr(0, option.find(' '));
@@ -272,12 +272,12 @@ TEST_CASE("options: shards with another option do not join") {
     const Session::Result made = session.run("encode " + words);
     CHECK_MESSAGE(made.code == 0, (words + made.err));
   };
-  encode("t.asc" + with("") + " --tiles 0:5 -o first");
+  encode("t.asc" + with("") + " --shard 0:5 -o first");
   encode("t.asc" + with("") + " -o base.mtp");
   const auto joins = [&](const std::string& words) {
     CAPTURE(words);
     encode(words + " -o other.mtp");
-    encode(words + " --tiles 6:11 -o rest");
+    encode(words + " --shard 6:11 -o rest");
     const bool is_joined = session.run("merge first rest -o merged.mtp").code == 0;
     if (is_joined) {
       CHECK((session.read("merged.mtp") == session.read("base.mtp")));

@@ -30,7 +30,7 @@ struct Made : Session {
     write("p.xyz", "0 0 0\n9 0 3\n0 9 7\n5 5 5\n");
     REQUIRE(run("encode t.asc --max-error 10 --fast -o t.mtin").code == 0);
     REQUIRE(run("encode t.asc --max-error 10 --tile-vertices 99 -o t.mtp").code == 0);
-    REQUIRE(run("encode t.asc --max-error 10 --tile-vertices 99 --tiles 0:9 -o s").code == 0);
+    REQUIRE(run("encode t.asc --max-error 10 --tile-vertices 99 --shard 0:9 -o s").code == 0);
     REQUIRE(run("merge s -o merged.mtp").code == 0);
   }
 
@@ -60,7 +60,7 @@ std::string joined(std::initializer_list<std::string_view> pieces) {
 const std::vector<Output> kOutputs = {
     {"encode t.asc --max-error 10 --fast -o new.mtin", "new.mtin", "t.mtin"},
     {"encode t.asc --max-error 10 --tile-vertices 99 -o new.mtp", "new.mtp", "t.mtp"},
-    {"encode t.asc --max-error 10 --tile-vertices 99 --tiles 0:9 -o new", "new", "s"},
+    {"encode t.asc --max-error 10 --tile-vertices 99 --shard 0:9 -o new", "new", "s"},
     {"merge s -o new.mtp", "new.mtp", "t.mtp"}};
 
 const std::vector<std::string> kReports = {
@@ -197,10 +197,10 @@ TEST_CASE("cli: no command writes over any of its inputs, by whatever name") {
       {"encode t.asc", "t.asc"},
       {"encode p.xyz --tile-vertices 99", "p.xyz"},
       {"encode t.asc --tile-vertices 99", "t.asc"},
-      {"encode t.asc --tile-vertices 99 --tiles 0:0", "t.asc"},
+      {"encode t.asc --tile-vertices 99 --shard 0:0", "t.asc"},
       {"encode t.asc" + mask, "m.asc"},
       {"encode t.asc --tile-vertices 99" + mask, "m.asc"},
-      {"encode t.asc --tile-vertices 99 --tiles 0:0" + mask, "m.asc"},
+      {"encode t.asc --tile-vertices 99 --shard 0:0" + mask, "m.asc"},
       {"merge s2 s", "s"},
       {"decode t.mtin --cell 1", "t.mtin"},
       {"decode t.mtp", "t.mtp"},

@@ -309,7 +309,7 @@ TEST_CASE("places: info tells extent, size and heights in the terrain's units") 
 TEST_CASE("places: shards and packs are told as such") {
   const Session session;
   REQUIRE(session.run("fractal --size 17 -o t.asc").code == 0);
-  REQUIRE(session.run("encode t.asc --tile-vertices 300 --tiles 0:0 -o t.shard").code == 0);
+  REQUIRE(session.run("encode t.asc --tile-vertices 300 --shard 0:0 -o t.shard").code == 0);
   REQUIRE(session.run("encode t.asc --tile-vertices 300 -o t.mtp").code == 0);
   REQUIRE(session.run("encode t.asc -o t.mtin").code == 0);
   for (const char* const command :
@@ -378,7 +378,7 @@ TEST_CASE("places: heights that only mark voids are told of, wherever rasters go
   for (const char* const command :
        {"encode t.asc -o t.mtin", "encode t.asc --tile-vertices 100 -o t.mtp",
         "plan t.asc --max-error 1 --tile-vertices 100 --shards 2",
-        "encode t.asc --tile-vertices 100 --tiles 0:0 -o t.shard"}) {
+        "encode t.asc --tile-vertices 100 --shard 0:0 -o t.shard"}) {
     const Session::Result result = session.run(command);
     CHECK_MESSAGE(result.code == 0, result.err);
     CHECK_MESSAGE(contains(result.err, told), result.err);

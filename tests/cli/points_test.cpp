@@ -239,7 +239,7 @@ TEST_CASE("points: latitude before longitude is refused where the system says de
   }
   session.write("swap.asc",
                 "ncols 2\nnrows 2\nxllcenter 47\nyllcenter 158\ncellsize 0.5\n1 2\n3 4\n");
-  for (const std::string name : {"p.mtin", "p.mtp", "p.shard --tiles 0:0 --tile-vertices 90"}) {
+  for (const std::string name : {"p.mtin", "p.mtp", "p.shard --shard 0:0 --tile-vertices 90"}) {
     CHECK(contains(session.failure("encode swap.asc --units degree:metre -o " + name),
                    "swap.asc: row 1 from the south: latitude 158 is beyond 90 degrees"));
   }

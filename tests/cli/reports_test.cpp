@@ -22,7 +22,6 @@ Names info_names(bool is_pack) {
   Names names = {"kind",
                  "vertices",
                  "bytes",
-                 "compact_bytes",
                  "workspace_bytes_16",
                  "workspace_bytes_32",
                  "extent.west",
@@ -38,14 +37,14 @@ Names info_names(bool is_pack) {
   names = united(names, kErrors);
   names = united(names, with_prefix("steps.", xyz));
   names = united(names, with_prefix("offsets.", xyz));
-  names = united(names, axes("placement.", xyz));
+  names = united(names, axes("axes.", xyz));
   if (!is_pack) {
-    return united(names, {"format_version", "compact_bytes", "triangles", "void_triangles",
-                          "bits_per_vertex", "phases", "degree", "decoding"});
+    return united(names, {"stream_version", "compact_bytes", "triangles", "void_triangles",
+                          "bits_per_vertex", "phases", "max_degree", "coding"});
   }
-  return united(names,
-                {"pack_version", "columns", "rows", "tile_width", "tile_height", "x_max", "y_max",
-                 "most_vertices", "device_memory", "workspace_bytes_4_compact_tiles", "tiles"});
+  return united(names, {"pack_version", "columns", "rows", "tile_width", "tile_height", "x_max",
+                        "y_max", "max_tile_vertices", "max_compact_bytes", "device_memory",
+                        "workspace_bytes_4_compact_tiles", "tiles"});
 }
 
 // The names of `verify --json`.
@@ -109,7 +108,7 @@ std::string report_text(const Product& product, const Made& made) {
   text += product.is_pack
               ? merged + z +
                     "pack: {columns} x {rows} tiles of {tile_width} x {tile_height} steps, "
-                    "{vertices} vertices, at most {most_vertices} in a tile, {bytes} bytes\n"
+                    "{vertices} vertices, at most {max_tile_vertices} in a tile, {bytes} bytes\n"
               : z + merged +
                     "stream: {vertices} vertices, {bytes} bytes, {bits_per_vertex} bits/vertex\n";
   text +=

@@ -137,9 +137,9 @@ uint32_t check(const Bytes& stream, uint32_t seed, int places = 300) {
 }
 
 void check_tin(const Tin& tin, uint32_t seed, bool voids = true) {
-  check(encode(tin, Metadata(), Effort{32, Decoding::kQuick}), seed);
+  check(encode(tin, Metadata(), Effort{32, Coding::kQuick}), seed);
   if (voids && tin.vertices.size() > 3) {
-    check(encode(with_voids(tin), Metadata(), Effort{32, Decoding::kQuick}), seed + 1);
+    check(encode(with_voids(tin), Metadata(), Effort{32, Coding::kQuick}), seed + 1);
   }
 }
 
@@ -194,7 +194,7 @@ TEST_CASE("compact terrains answer as the mesh does: many small ones") {
 namespace {
 
 uint32_t repeats_of(const Points& points) {
-  const Bytes stream = encode(wild_tin(points), Metadata(), Effort{32, Decoding::kQuick});
+  const Bytes stream = encode(wild_tin(points), Metadata(), Effort{32, Coding::kQuick});
   const std::unique_ptr<Device> device = decoded(stream);
   const uint32_t n = device->vertices();
   Workspace space(40 * n + 200), scratch(MICROTIN_DECODER_BYTES(2 * n));
@@ -229,8 +229,8 @@ TEST_CASE("compact terrains answer as the mesh does: many vertices missed by the
     Random random(seed);
     const Points points = missed_points(16 + 2 * seed, 250, random);
     const Tin tin = wild_tin(points);
-    most = std::max(most, check(encode(tin, Metadata(), Effort{32, Decoding::kQuick}), seed, 3000));
-    check(encode(with_voids(tin), Metadata(), Effort{32, Decoding::kQuick}), seed, 3000);
+    most = std::max(most, check(encode(tin, Metadata(), Effort{32, Coding::kQuick}), seed, 3000));
+    check(encode(with_voids(tin), Metadata(), Effort{32, Coding::kQuick}), seed, 3000);
   }
   CHECK(most >= 6);
 }
@@ -247,7 +247,7 @@ TEST_CASE("compact terrains answer as the mesh does: hubs with long fans, and fo
   Random random(5);
   check_tin(wild_tin(distinct(hub, random)), 5);
   for (const uint32_t spokes : {8u, 24u, 32u}) {
-    check(forge(Contract{spokes + 1, kWheelSide, kWheelSide, kMaxDegree, Decoding::kQuick, false,
+    check(forge(Contract{spokes + 1, kWheelSide, kWheelSide, kMaxDegree, Coding::kQuick, false,
                          false},
                 PlanCoder(wheel(spokes))),
           spokes);
@@ -257,7 +257,7 @@ TEST_CASE("compact terrains answer as the mesh does: hubs with long fans, and fo
 
 TEST_CASE("compact terrains of ours fit what the macros say, 8.5 or 10.5 bytes a vertex") {
   const auto check_size = [](const Tin& tin, bool is_narrow) {
-    const Compact compact(encode(tin, Metadata(), Effort{10, Decoding::kBalanced}), 0x7FFFFFFF);
+    const Compact compact(encode(tin, Metadata(), Effort{10, Coding::kBalanced}), 0x7FFFFFFF);
     const uint32_t n = microtin_compact_vertex_count(compact.get()), repeats = compact.repeats();
     CHECK(compact.needs().bytes <=
           (is_narrow ? MICROTIN_COMPACT_NARROW_BYTES(n) : MICROTIN_COMPACT_BYTES(n)));
@@ -281,7 +281,7 @@ TEST_CASE("compact terrains of ours fit what the macros say, 8.5 or 10.5 bytes a
   }
   for (const PointSet& set : point_sets(1000, 8)) {
     CAPTURE(set.name);
-    const Compact compact(encode(wild_tin(set.points), Metadata(), Effort{10, Decoding::kBalanced}),
+    const Compact compact(encode(wild_tin(set.points), Metadata(), Effort{10, Coding::kBalanced}),
                           0x7FFFFFFF);
     const uint32_t n = microtin_compact_vertex_count(compact.get());
     CHECK(compact.needs().bytes <= MICROTIN_COMPACT_BYTES(n));

@@ -130,11 +130,11 @@ TEST_CASE("damage behind right checks ends in a status, and the mesh stays sound
 TEST_CASE("whatever a payload says, no vertex lies beyond the lattice") {
   Random random(9);
   size_t vertices = 0;
-  for (const Decoding decoding : {Decoding::kQuick, Decoding::kBalanced}) {
+  for (const Coding coding : {Coding::kQuick, Coding::kBalanced}) {
     Tin tin;
     for (const Point p : uniform_points(60, random, 40))
       tin.vertices.push_back(Vertex{p.x, p.y, 0});
-    const Bytes stream = encode(tin, Metadata(), {10, decoding});
+    const Bytes stream = encode(tin, Metadata(), {10, coding});
     for (int round = 0; round < 20000; ++round) {
       Bytes random_payload = stream;
       for (size_t at = stream.size() / 2 - random.below(20); at < stream.size(); ++at) {

@@ -119,7 +119,7 @@ TEST_CASE("queries on a mesh that is not decoded or not verified say so") {
 TEST_CASE("a header cannot claim more memory than its bytes could fill") {
   const auto error_of = [](uint32_t vertices, size_t bytes) -> std::string {
     Bytes stream =
-        header_of(Contract{vertices, 99, 99, kMinDegree, Decoding::kBalanced, false, false});
+        header_of(Contract{vertices, 99, 99, kMinDegree, Coding::kBalanced, false, false});
     stream.resize(stream.size() + bytes);
     try {
       const DecodedTerrain decoded(stream);

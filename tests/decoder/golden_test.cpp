@@ -65,7 +65,7 @@ Tin on_every_other_line(const Tin& tin) {
 }
 
 // Given, so that the files stay as they are whatever suits an encoder.
-constexpr Effort kUsual = {10, Decoding::kBalanced};
+constexpr Effort kUsual = {10, Coding::kBalanced};
 
 std::vector<Golden> golden_streams() {
   const Tin example{
@@ -74,9 +74,9 @@ std::vector<Golden> golden_streams() {
   std::vector<Golden> all;
   all.push_back({"example", encode(example, Metadata(), kUsual)});
   all.push_back({"hills", encode(rolling_tin(1000, 32), full_metadata(), kUsual)});
-  all.push_back({"phases", encode(rolling_tin(700, 33), Metadata(), {6, Decoding::kQuick})});
+  all.push_back({"phases", encode(rolling_tin(700, 33), Metadata(), {6, Coding::kQuick})});
   all.push_back(
-      {"voids", encode(with_voids(rolling_tin(300, 34)), Metadata(), {8, Decoding::kDense})});
+      {"voids", encode(with_voids(rolling_tin(300, 34)), Metadata(), {8, Coding::kDense})});
   // Chords whose cotangents are the largest 32-bit numbers and beyond.
   all.push_back({"needles", encode(flat({{16948, 26227},
                                          {21539, 23131},
@@ -88,15 +88,15 @@ std::vector<Golden> golden_streams() {
                                    Metadata(), kUsual)});
   all.push_back({"triangle", encode(Tin{{{3, 4, -32768}, {60003, 4, 32767}, {3, 65535, 0}}, {}},
                                     Metadata(), kUsual)});
-  all.push_back({"cliffs", encode(cliffs(random), Metadata(), {10, Decoding::kDense})});
+  all.push_back({"cliffs", encode(cliffs(random), Metadata(), {10, Coding::kDense})});
   all.push_back({"lattice", encode(flat(lattice_points(20, 15, random)), Metadata(), kUsual)});
   all.push_back({"circle", encode(flat(circle_points(1105 * 1105, random)), Metadata(),
-                                  {32, Decoding::kBalanced})});
+                                  {32, Coding::kBalanced})});
   // Phases after the first section.
-  all.push_back({"sections",
-                 encode(flat(lattice_points(40, 30, random)), Metadata(), {6, Decoding::kQuick})});
   all.push_back(
-      {"corners", encode(flat(extreme_corners(random)), Metadata(), {12, Decoding::kDense})});
+      {"sections", encode(flat(lattice_points(40, 30, random)), Metadata(), {6, Coding::kQuick})});
+  all.push_back(
+      {"corners", encode(flat(extreme_corners(random)), Metadata(), {12, Coding::kDense})});
   // A tile of a pack, on every other line but for some places, up to its border.
   all.push_back({"parities", encode_and_decode(on_every_other_line(rolling_tin(1500, 35)),
                                                Metadata(), kUsual, Origin{true, false})

@@ -49,7 +49,7 @@ size_t stream_at(const Bytes& pack, uint32_t tile) {
 // trying what payloads say.
 Bytes loose_stream(uint16_t x_max, uint16_t y_max) {
   const Bytes header =
-      write_header(Contract{3, x_max, y_max, kMinDegree, Decoding::kBalanced, false, false}, {});
+      write_header(Contract{3, x_max, y_max, kMinDegree, Coding::kBalanced, false, false}, {});
   for (uint32_t payload = 0; payload < 65536; ++payload) {
     Bytes stream = header;
     for (const uint32_t byte : {2u, payload >> 8, payload & 255u}) {
@@ -423,7 +423,7 @@ TEST_CASE_TEMPLATE("pack: tiles that break a rule are refused, here and on the h
   Bytes later = good.stream;
   later[4] = kVersion + 1;
   check(forged_pack(grid, {good, {later, good.vertices}}), MICROTIN_STATUS_CHECKSUM);
-  const Contract two = {2, 4, 3, kMinDegree, Decoding::kBalanced, false, false};
+  const Contract two = {2, 4, 3, kMinDegree, Coding::kBalanced, false, false};
   check(forged_pack(grid, {good, {write_header(two, {}), good.vertices}}),
         MICROTIN_STATUS_CHECKSUM);
   // A stream inside the notes: all its checks pass.

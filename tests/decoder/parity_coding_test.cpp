@@ -44,13 +44,13 @@ std::vector<FastInt> lines_of_parity(Lines lines, bool odd_origin, bool odd) {
 }
 
 // Places of the same terrain, so many steps apart, in a tile that begins somewhere in its pack.
-size_t size_of(uint16_t step, uint16_t from_x, uint16_t from_y, Origin origin, Decoding decoding) {
+size_t size_of(uint16_t step, uint16_t from_x, uint16_t from_y, Origin origin, Coding coding) {
   Tin tin = rolling_tin(1500, 41);
   for (Vertex& v : tin.vertices) {
     v.x = static_cast<uint16_t>(step * v.x + from_x);
     v.y = static_cast<uint16_t>(step * v.y + from_y);
   }
-  return encode_and_decode(tin, Metadata(), {10, decoding}, origin).stream.size();
+  return encode_and_decode(tin, Metadata(), {10, coding}, origin).stream.size();
 }
 
 }  // namespace
@@ -121,12 +121,12 @@ TEST_CASE("a full tally is halved, and none falls to 0") {
 // 2 bits for each of 1,500 vertices are 375 bytes, which is what its low bits cost if they are
 // coded evenly; few vertices are on the hull.
 TEST_CASE("a terrain on every other line takes hardly more bytes than one on all lines") {
-  for (const Decoding decoding : {Decoding::kQuick, Decoding::kBalanced, Decoding::kDense}) {
-    const size_t every = size_of(1, 0, 0, {}, decoding);
-    CHECK(size_of(2, 0, 0, {}, decoding) <= every + 40);
-    CHECK(size_of(2, 1, 0, {true, false}, decoding) <= every + 40);
-    CHECK(size_of(2, 1, 1, {false, true}, decoding) <= every + 40);
-    CHECK(size_of(3, 0, 0, {}, decoding) >= every + 200);
+  for (const Coding coding : {Coding::kQuick, Coding::kBalanced, Coding::kDense}) {
+    const size_t every = size_of(1, 0, 0, {}, coding);
+    CHECK(size_of(2, 0, 0, {}, coding) <= every + 40);
+    CHECK(size_of(2, 1, 0, {true, false}, coding) <= every + 40);
+    CHECK(size_of(2, 1, 1, {false, true}, coding) <= every + 40);
+    CHECK(size_of(3, 0, 0, {}, coding) >= every + 200);
   }
 }
 

@@ -86,8 +86,8 @@ Offset code(Coder& coder, const Case& given, const Contract& contract) {
 
 // Whether a place comes back in each setting of decoding.
 bool comes_back(const Case& given, Contract contract, Point place) {
-  for (const Decoding decoding : {Decoding::kQuick, Decoding::kBalanced, Decoding::kDense}) {
-    contract.decoding = decoding;
+  for (const Coding coding : {Coding::kQuick, Coding::kBalanced, Coding::kDense}) {
+    contract.coding = coding;
     Recorder recorder{Vertex{place.x, place.y, 0}, {}};
     code(recorder, given, contract);
     Player player{recorder.symbols};
@@ -193,7 +193,7 @@ TEST_CASE("whatever symbols say, a place is one of the lattice") {
       Contract contract = square_lattice(size);
       const Case given = i % 8 == 0 ? needle(random, size) : random_case(random, size);
       if (orient2d(given.v, given.c, given.a) <= 0) continue;
-      contract.decoding = static_cast<Decoding>(1 + random.below(3));
+      contract.coding = static_cast<Coding>(1 + random.below(3));
       const Offset at = code(babbler, given, contract);
       const FastInt x = given.v.x + at.x, y = given.v.y + at.y;
       CHECK((x >= 0 && x <= contract.x_max && y >= 0 && y <= contract.y_max));
@@ -229,7 +229,7 @@ TEST_CASE("hardly a legal place is missed") {
       PlaceHabits habits;
       reset(habits);
       Contract quick = contract;
-      quick.decoding = Decoding::kQuick;
+      quick.coding = Coding::kQuick;
       Recorder recorder{Vertex{place.x, place.y, 0}, {}};
       code_place(recorder, bits, region, quick, 0, at, habits);
       missed += recorder.escaped;

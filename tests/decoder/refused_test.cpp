@@ -20,7 +20,7 @@ constexpr uint32_t kCapacity = 10000;
 // --- Contracts and plans -------------------------------------------------------------------------
 
 Contract flat_contract(uint32_t vertices) {
-  return Contract{vertices, 99, 99, kMinDegree, Decoding::kBalanced, false, false};
+  return Contract{vertices, 99, 99, kMinDegree, Coding::kBalanced, false, false};
 }
 
 const std::vector<Vertex> kSeed = {{5, 5, 0}, {90, 10, 0}, {10, 90, 0}};
@@ -134,8 +134,8 @@ Bytes header_with(const std::vector<uint64_t>& numbers, const Bytes& rest = {}) 
   return identified(framed);
 }
 
-constexpr uint64_t properties(uint32_t degree, uint32_t decoding) {
-  return uint64_t{degree} << 5 | decoding << 3;
+constexpr uint64_t properties(uint32_t degree, uint32_t coding) {
+  return uint64_t{degree} << 5 | coding << 3;
 }
 
 constexpr uint64_t kLegal = properties(kMinDegree, 2);

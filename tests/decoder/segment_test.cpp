@@ -116,7 +116,7 @@ TEST_CASE("the highest on a segment of a terrain is exact, and known if every pl
   Counts counts;
   for (uint32_t seed = 0; seed < 160; ++seed) {
     CAPTURE(seed);
-    const Both terrain(encode(small_tin(seed), Metadata(), Effort{32, Decoding::kQuick}));
+    const Both terrain(encode(small_tin(seed), Metadata(), Effort{32, Coding::kQuick}));
     Surface surface;
     surface.add(terrain.mesh.mesh(), 0, 0);
     Random random(seed);
@@ -179,7 +179,7 @@ TEST_CASE("a segment goes on where it was left, and an older progress stays in t
 TEST_CASE("blocks of a terrain hold what single answers say, in whole units") {
   Metadata metadata;
   metadata.placement.z = {-7, 3, 4};
-  const Both terrain(encode(small_tin(7), metadata, Effort{32, Decoding::kQuick}));
+  const Both terrain(encode(small_tin(7), metadata, Effort{32, Coding::kQuick}));
   const microtin_grid_spec block = {-100, 100, 80, 150, 40, 20, -9999};
   std::array<int16_t, 800> heights{}, others{};
   const microtin_query_result answer = terrain.mesh.sample_grid(block, heights.data());

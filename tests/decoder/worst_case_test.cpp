@@ -76,7 +76,7 @@ Plan small_batches(uint32_t most) {
 
 Contract contract_of(const Plan& plan) {
   const uint32_t n = static_cast<uint32_t>(plan.vertices.size());
-  return Contract{n, 999, 999, kMaxDegree, Decoding::kQuick, false, false};
+  return Contract{n, 999, 999, kMaxDegree, Coding::kQuick, false, false};
 }
 
 // With as many phases of one vertex as the work of all allows.
@@ -280,7 +280,7 @@ TEST_CASE("phases that add too little are refused soon, however many vertices ar
   Plan plan = single_steps(vertices);
   for (const uint32_t announced : {103u, 60000u, 1000000u}) {
     const Bytes stream = forge(
-        Contract{announced, 999, 999, kMaxDegree, Decoding::kQuick, false, false}, PlanCoder(plan));
+        Contract{announced, 999, 999, kMaxDegree, Coding::kQuick, false, false}, PlanCoder(plan));
     const Count count = count_steps(stream);
     CHECK(count.status == MICROTIN_STATUS_MALFORMED);
     CHECK(count.steps < 3000);

@@ -205,7 +205,7 @@ class CountedBytes : public microtin::files::ByteSource {
 
 TEST_CASE("sampled packs: no more tiles are kept than have so many vertices, but four") {
   PackOptions options = pack_options(2, 400);
-  options.tile_steps = 10;
+  options.tile_size = 10;
   const std::vector<uint8_t> bytes = write_pack(encode_pack(rough_raster(121, 11), options));
   const PackFile plain(bytes);
   const uint64_t streams = pack_entry_start(plain.header(), 12);

@@ -55,8 +55,8 @@ class Stage {
     write_file(folder_ / "p.xyz", {points.begin(), points.end()});
     for (const Words& words :
          {Words{"encode", "t.asc", "-o", "t.mtin"},
-          Words{"encode", "t.asc", "--tile-vertices", "16", "--tile-steps", "3", "-o", "t.mtp"},
-          Words{"encode", "t.asc", "--tile-vertices", "16", "--tile-steps", "3", "--tiles", "0:0",
+          Words{"encode", "t.asc", "--tile-vertices", "16", "--tile-size", "3", "-o", "t.mtp"},
+          Words{"encode", "t.asc", "--tile-vertices", "16", "--tile-size", "3", "--shard", "0:0",
                 "-o", "t.shard"}}) {
       const Result encoded = run(words);
       REQUIRE_MESSAGE(encoded.status == 0, encoded.error);
@@ -166,10 +166,10 @@ const std::vector<Words> kCommands = {
     {"encode", "p.xyz", "-o", "new.mtin"},
     {"encode", "p.xyz", "-o", "-"},
     {"encode", "p.xyz", "-o", "new.mtp", "--tile-vertices", "16"},
-    {"encode", "t.asc", "-o", "new.mtp", "--tile-vertices", "16", "--tile-steps", "3"},
-    {"encode", "t.asc", "-o", "new.shard", "--tile-vertices", "16", "--tile-steps", "3", "--tiles",
+    {"encode", "t.asc", "-o", "new.mtp", "--tile-vertices", "16", "--tile-size", "3"},
+    {"encode", "t.asc", "-o", "new.shard", "--tile-vertices", "16", "--tile-size", "3", "--shard",
      "0:0"},
-    {"plan", "t.asc", "--tile-vertices", "16", "--tile-steps", "3"},
+    {"plan", "t.asc", "--tile-vertices", "16", "--tile-size", "3"},
     {"merge", "t.shard", "-o", "new.mtp"},
     {"verify", "t.mtp", "t.asc"},
     {"decode", "t.mtin", "-o", "new.ply"},
@@ -303,7 +303,7 @@ TEST_CASE("a decoder that betrays the encoder: a fault of ours, told as that, an
       {"encode", "p.xyz", "-o", "new.mtin", "--max-error", "1"},
       {"encode", "p.xyz", "-o", "new.mtp", "--tile-vertices", "16", "--max-error", "1"},
       {"encode", "t.asc", "-o", "new.mtp", "--tile-vertices", "16", "--max-error", "1"},
-      {"encode", "t.asc", "-o", "new", "--tile-vertices", "16", "--max-error", "1", "--tiles",
+      {"encode", "t.asc", "-o", "new", "--tile-vertices", "16", "--max-error", "1", "--shard",
        "0:0"}};
   for (const Words& words : commands) {
     for (Counter Counters::*const counter : {&Counters::streams, &Counters::heights}) {

@@ -15,7 +15,7 @@ done
 cmake --preset cortex-m4 -B "$work/build" -DMICROTIN_FOOTPRINT_STREAMS="$work/streams" >"$work/log"
 
 measure() { # NAME
-  if ! "$microtin" encode "$work/mesh.xyz" --degree 32 -o "$work/streams/tile_balanced.mtin" >"$work/log" 2>&1; then
+  if ! "$microtin" encode "$work/mesh.xyz" --max-degree 32 -o "$work/streams/tile_balanced.mtin" >"$work/log" 2>&1; then
     sed -n "s/.*it takes \([0-9]*\) bytes.* for \([0-9]*\) vertices.*/\1 \2/p" "$work/log" |
       awk -v name="$1" '{ printf "%-19s %5d %6.2f refused\n", name, $2, ($1 - 88) / $2 }'
     return

@@ -100,8 +100,8 @@ class Driver(unittest.TestCase):
             "MAX_ERROR": ["1"],
             "NEVER_BELOW": ["YES"],
             "Z_STEP": ["0.7"],
-            "SEARCH": ["FAST", "BEST"],
-            "DECODING": ["QUICK", "DENSE"],
+            "EFFORT": ["FAST", "BEST"],
+            "CODING": ["QUICK", "DENSE"],
             "UNITS": ["metre:foot"],
             "DEPTHS": ["YES"],
             "TILE_VERTICES": ["100"],
@@ -375,7 +375,7 @@ class Driver(unittest.TestCase):
 
     def test_shards_are_told(self):
         gdal.Translate(self.path("source.asc"), self.path("hills.tif"), format="AAIGrid")
-        run(TOOL, "encode", self.path("source.asc"), "--tile-vertices", "9999", "--tiles", "0:0", "-o", self.path("a.shard"))
+        run(TOOL, "encode", self.path("source.asc"), "--tile-vertices", "9999", "--shard", "0:0", "-o", self.path("a.shard"))
         with self.assertRaisesRegex(RuntimeError, "a.shard: is a shard, a part of a pack"):
             gdal.Open(self.path("a.shard"))
 

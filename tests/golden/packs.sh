@@ -18,7 +18,7 @@ awk 'BEGIN {
   for (y = 0; y < 22; ++y)
     for (x = 0; x < 22; ++x) printf "%d%s", (x * x * 37 + y * y * y * 61 + x * y * 17) % 89, x < 21 ? " " : "\n"
 }' >"$terrain/k.asc"
-"$microtin" encode "$terrain/k.asc" --max-error 0 --tile-vertices 64 --tile-steps 7 -o "$here/kept.mtp"
+"$microtin" encode "$terrain/k.asc" --max-error 0 --tile-vertices 64 --tile-size 7 -o "$here/kept.mtp"
 # degree.mtp is for the adapters: in degrees and metres.
 "$microtin" fractal --size 129 --seed 4 -o "$terrain/d.asc"
 sed -i 's/^cellsize.*/cellsize 0.0008/; s/^xll[a-z]*.*/xllcenter 7.2/; s/^yll[a-z]*.*/yllcenter 43.3/' "$terrain/d.asc"

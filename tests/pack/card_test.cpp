@@ -164,7 +164,7 @@ TEST_CASE("pack: along a row, sectors of small and of large tiles") {
   for (const uint32_t width : {12u, 24u, 48u}) {
     constexpr uint32_t kTiles = 16;
     PackOptions options = pack_options(0, 2500);
-    options.tile_steps = width;
+    options.tile_size = width;
     const EncodedPack encoded = encode_pack(rough_raster(kTiles * width + 1, width + 1), options);
     REQUIRE(encoded.streams.size() == kTiles);
     SectorCard cards[2] = {{write_pack(encoded)}, {write_pack(encoded)}};
@@ -189,7 +189,7 @@ TEST_CASE(
   constexpr int32_t kTiles = 5, kFlights = 8;
   for (const int32_t width : {16, 48}) {
     PackOptions options = pack_options(0, 2500);
-    options.tile_steps = static_cast<uint32_t>(width);
+    options.tile_size = static_cast<uint32_t>(width);
     const int32_t side = kTiles * width;
     const auto posts = static_cast<uint32_t>(side + 1);
     const EncodedPack encoded = encode_pack(rough_raster(posts, posts), options);
@@ -222,7 +222,7 @@ TEST_CASE(
 TEST_CASE(
     "pack: of entries that were read together each is checked, and read again after a fault") {
   PackOptions options = pack_options(3, 400);
-  options.tile_steps = 12;
+  options.tile_size = 12;
   Card card{write_pack(encode_pack(rough_raster(61, 53), options))};
   const PackFile pack(card.bytes);
   const size_t second = static_cast<size_t>(pack.entries()[0].offset) -

@@ -42,7 +42,7 @@ std::optional<Bytes> content_of(const Bytes& header, uint8_t type) {
 Bytes stream_header(const Bytes& notes, const Placement& placement = {}) {
   Metadata metadata;
   metadata.placement = placement;
-  const Contract contract{4, 99, 99, kMinDegree, Decoding::kBalanced, false, false, true, false};
+  const Contract contract{4, 99, 99, kMinDegree, Coding::kBalanced, false, false, true, false};
   const Bytes bare = write_header(contract, metadata);
   const size_t start = kIdentityBytes + 1;  // its length takes one byte
   Bytes payload(bare.begin() + start, bare.end() - kCheckBytes);

@@ -51,7 +51,7 @@ TEST_CASE("packs have no cracks, and voids stay voids, on borders too") {
 TEST_CASE("packs: heights stay, and are missed if they do not, beside voids along borders") {
   const Raster full = rough_raster(61, 53);
   PackOptions options = pack_options(2, 600);
-  options.tile_steps = 20;
+  options.tile_size = 20;
   const std::vector<VoidKind> kinds = {
       {"a row on a border", [](int, int y) { return y == 20; }},
       {"a part of it", [](int x, int y) { return y == 20 && x > 4 && x < 31; }},
@@ -141,7 +141,7 @@ TEST_CASE("packs: posts that no triangle can hold are refused") {
 
 TEST_CASE("packs: streams say whether their tiles begin at odd places") {
   PackOptions options = pack_options(5, 400);
-  options.tile_steps = 15;
+  options.tile_size = 15;
   const EncodedPack pack = encode_pack(rough_raster(61, 53), options);
   uint32_t odd = 0;
   for (uint32_t tile = 0; tile < pack.streams.size(); ++tile) {
@@ -195,7 +195,7 @@ TEST_CASE("packs: the source's grid and the mean error are noted") {
 TEST_CASE("packs: the header says what the tile that needs most takes in compact form") {
   for (const uint32_t width : {61u, 300u}) {  // narrow tiles, wide ones
     PackOptions options = pack_options(6, 2000);
-    options.tile_steps = width;
+    options.tile_size = width;
     const PackFile pack(write_pack(encode_pack(rough_raster(width + 1, 33), options)));
     uint32_t most = 0, all = 0;
     for (uint32_t number = 0; number < pack.entries().size(); ++number) {
@@ -288,7 +288,7 @@ TEST_CASE("packs: no larger tiles would fit, though the roughest does not grow a
     const PackContent pack = encode_pack(raster, options).content;
     const uint32_t pieces = tile_columns(pack.grid);
     if (pieces == 1) continue;
-    options.tile_steps = (96 + pieces - 2) / (pieces - 1);
+    options.tile_size = (96 + pieces - 2) / (pieces - 1);
     CHECK_THROWS_AS(encode_pack(raster, options), TileTooLarge);
   }
 }

@@ -85,7 +85,7 @@ TEST_CASE("shards: tiles encoded one by one, in any split, are those of a single
     if (kind.name == "30 of 100") continue;  // many tiles
     CAPTURE(kind.name);
     PackOptions options = pack_options(4, 250);
-    options.tile_steps = 25;
+    options.tile_size = 25;
     Shards shards(rough_raster(61, 53, kind.at), options);
     const Bytes single = shards.single();
     const uint32_t last = shards.tiles() - 1;
@@ -103,7 +103,7 @@ TEST_CASE("shards: tiles encoded one by one, in any split, are those of a single
 TEST_CASE("shards: what is missing, double, foreign or damaged is refused") {
   const Raster raster = rough_raster(61, 53);
   PackOptions several = pack_options(6, 60);
-  several.tile_steps = 25;
+  several.tile_size = 25;
   Shards shards(raster, several);
   const uint32_t last = shards.tiles() - 1;
   const std::string all = std::to_string(last), first = shards.write({0, 2}),
@@ -120,7 +120,7 @@ TEST_CASE("shards: what is missing, double, foreign or damaged is refused") {
                   pack_options(6, 60)),
         std::pair(raster, pack_options(5, 60)), std::pair(raster, pack_options(6, 61))}) {
     PackOptions tiled = options;
-    tiled.tile_steps = several.tile_steps;
+    tiled.tile_size = several.tile_size;
     Shards foreign(other, tiled);
     const std::string text = shards.refusal({first, foreign.write({3, 3})});
     CHECK(text.find("is of another terrain, or made with other options, than 0-2") !=
@@ -175,7 +175,7 @@ Bytes with_summary(const Bytes& shard, size_t offset, const Bytes& bytes) {
 
 TEST_CASE("shards: no tile claims what no tile can have") {
   PackOptions options = pack_options(6, 250);
-  options.tile_steps = 25;
+  options.tile_size = 25;
   Shards shards(rough_raster(61, 53), options);
   const Bytes good = bytes_of_file(shards.write({0, shards.tiles() - 1}));
   const std::string forged = shards.folder() / "forged";
@@ -202,7 +202,7 @@ TEST_CASE("shards: no tile claims what no tile can have") {
 
 TEST_CASE("shards: no pack has more tiles than can be made") {
   PackOptions options = pack_options(6, 250);
-  options.tile_steps = 25;
+  options.tile_size = 25;
   Shards shards(rough_raster(51, 26), options);  // two tiles
   const Bytes good = bytes_of_file(shards.write({0, shards.tiles() - 1}));
   const std::string forged = shards.folder() / "forged";
@@ -219,7 +219,7 @@ TEST_CASE("packs: tiles become smaller until none has too many vertices") {
   std::vector<uint32_t> tried;
   uint32_t most = 0, tiles = 0;
   const auto begin = [&](const PackPlan& plan) {
-    tried.push_back(plan.tile_steps);
+    tried.push_back(plan.tile_size);
     most = tiles = 0;
   };
   encode_pack(RasterInMemory(rough_raster(61, 53)), options, begin,
@@ -237,7 +237,7 @@ TEST_CASE("packs: tiles become smaller until none has too many vertices") {
 TEST_CASE("packs: a shard whose tile is too large says which size of tiles to try") {
   const RasterInMemory raster(rough_raster(61, 53));
   PackOptions options = pack_options(2, 40);
-  options.tile_steps = 60;
+  options.tile_size = 60;
   const PackPlan plan = plan_pack(raster, options);
   try {
     encode_tiles(plan, {0, 0}, [](uint32_t, EncodedTile&&) {});
@@ -245,7 +245,7 @@ TEST_CASE("packs: a shard whose tile is too large says which size of tiles to tr
   } catch (const TileTooLarge& error) {
     CHECK(error.fewer_steps < 60);
     CHECK(std::string(error.what())
-              .find("vertices, too many: try --tile-steps " + std::to_string(error.fewer_steps)) !=
+              .find("vertices, too many: try --tile-size " + std::to_string(error.fewer_steps)) !=
           std::string::npos);
   }
 }

@@ -70,7 +70,7 @@ bool is_red(const std::array<int, 4>& colour) {
 
 // How much pixels on both sides of borders between tiles differ, on the mean, in those of all
 // neighbours: of a raster of 128 steps that is drawn without lines.
-double border_contrast(const Portrait& portrait, uint32_t tile_steps) {
+double border_contrast(const Portrait& portrait, uint32_t tile_size) {
   const Picture picture(render_png(portrait, 1046));
   constexpr int kFirst = 14, kSize = 1018;  // of the map
   const auto jump = [&](int column) {
@@ -83,7 +83,7 @@ double border_contrast(const Portrait& portrait, uint32_t tile_steps) {
   double inside = 0, across = 0;
   int borders = 0;
   for (int column = kFirst + 20; column < kFirst + kSize - 20; ++column) inside += jump(column);
-  for (uint32_t border = tile_steps; border < 128; border += tile_steps, ++borders) {
+  for (uint32_t border = tile_size; border < 128; border += tile_size, ++borders) {
     const int column = kFirst + static_cast<int>(kSize * border / 128);
     double most = 0;
     for (int near = -3; near <= 3; ++near) most = std::max(most, jump(column + near));
@@ -276,7 +276,7 @@ TEST_CASE("render: the shading does not jump at borders of tiles") {
       }
     }
     PackOptions options = pack_options(bound, 400);
-    options.tile_steps = 32;
+    options.tile_size = 32;
     const PackFile pack(write_pack(encode_pack(raster, options)));
     REQUIRE(tile_columns(pack.grid()) > 2);
     Portrait all;

@@ -50,8 +50,8 @@ TEST_CASE("product: a pack that is planned again holds what its last plan does")
   first.simplify.search = Search::kGreedy;
   uint32_t steps = 0, same = 0;
   const std::vector<uint8_t> bytes = written(options, steps);
-  CHECK(plan_pack(raster, first).tile_steps > steps);  // else nothing is planned again
-  options.tile_steps = steps;
+  CHECK(plan_pack(raster, first).tile_size > steps);  // else nothing is planned again
+  options.tile_size = steps;
   CHECK((written(options, same) == bytes));
 }
 

@@ -66,7 +66,7 @@ void write(const std::string& path, const std::vector<uint8_t>& bytes) {
 TEST_CASE("library: a stream keeps its bound, and says so") {
   const TemporaryFolder folder;
   StreamOptions options = bounded("2.5");
-  options.source = "a cone";
+  options.source_name = "a cone";
   options.horizontal_epsg = 25832;
   const Stream stream = encode_stream(Terrain(cone(40)), options);
   CHECK(stream.report.samples == 40 * 40 - 9);
@@ -116,7 +116,7 @@ TEST_CASE(
 TEST_CASE("library: few trials use a number of vertices, though sizes jump where noise begins") {
   const Terrain terrain(noisy_dome(150));
   StreamOptions options;
-  options.search = Search::kFast;
+  options.effort = SearchEffort::kFast;
   for (const double bound : {1.15, 1.4}) {
     CAPTURE(bound);
     options.max_error = std::to_string(bound);
@@ -162,7 +162,7 @@ TEST_CASE("library: what limits find holds where points truly lie, or is told th
   for (const uint32_t limit : {30u, 40u}) {
     CAPTURE(limit);
     StreamOptions options;
-    options.search = Search::kFast;
+    options.effort = SearchEffort::kFast;
     options.max_vertices = limit;
     const Report few = encode_stream(terrain, options).report;
     REQUIRE(!few.max_error_at_points.empty());
@@ -178,7 +178,7 @@ TEST_CASE("library: what limits find holds where points truly lie, or is told th
 TEST_CASE("library: never below the points where they truly lie, by limits, too") {
   const Terrain terrain(walls());
   StreamOptions options;
-  options.search = Search::kFast;
+  options.effort = SearchEffort::kFast;
   options.never_below = true;
   options.max_bytes = 330;
   const Report by_bytes = encode_stream(terrain, options).report;
@@ -210,7 +210,7 @@ TEST_CASE("library: a pack without a number of vertices has tiles of the usual o
   const Terrain terrain(noisy_dome(70));
   PackOptions options;
   options.max_error = "0";
-  options.search = Search::kFast;
+  options.effort = SearchEffort::kFast;
   const Report report = encode_pack(terrain, options, folder / "usual.mtp");
   CHECK(report.tiles > 1);
   options.tile_vertices = kUsualTileVertices;
@@ -350,8 +350,8 @@ TEST_CASE("library: what makes no sense is refused with a sentence") {
   CHECK(error_of(posts, options) ==
         "only one of max_error, max_vertices and max_bytes can be given");
   options = bounded("1");
-  options.degree = 33;
-  CHECK(error_of(posts, options) == "degree: 6 .. 32");
+  options.max_degree = 33;
+  CHECK(error_of(posts, options) == "max_degree: 6 .. 32");
   options = {};
   options.never_below = true;
   CHECK(error_of(posts, options) == "never_below needs max_error or max_bytes");

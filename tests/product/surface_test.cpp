@@ -51,7 +51,7 @@ std::string pack_file(const TemporaryFolder& folder) {
   PackOptions options;
   options.max_error = "1";
   options.tile_vertices = 64;
-  options.tile_steps = 16;
+  options.tile_size = 16;
   encode_pack(bowl_terrain(), options, path);
   return path;
 }
@@ -128,7 +128,7 @@ TEST_CASE("surface: heights are those of the exact plane, between places of the 
   PackOptions options;
   options.max_error = "0";
   options.tile_vertices = 16;
-  options.tile_steps = 8;
+  options.tile_size = 8;
   encode_pack(terrain, options, folder / "slope.mtp");
   for (const char* const name : {"slope.mtin", "slope.mtp"}) {
     const Surface surface = Surface::from_file(folder / name);
@@ -302,7 +302,7 @@ TEST_CASE("C: an array goes to a stream and back") {
   CHECK(microtin_last_error() == std::string("a struct of another size"));
   options.size = sizeof options;
   options.max_error = "0.5";
-  options.search = 1;
+  options.effort = 1;
   REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_STATUS_OK);
   CHECK(report.bytes == size);
   CHECK(std::strtod(report.max_error, nullptr) <= 0.5);

@@ -124,22 +124,22 @@ class Options(unittest.TestCase):
         "z_step": (BOUND, "--max-error 2", {0.7: "--z-step 0.7"}),
         "xy_step": (BOUND, "--max-error 2", {0.5: "--xy-step 0.5"}),
         "never_below": (BOUND, "--max-error 2", {True: "--never-below"}),
-        "search": (BOUND, "--max-error 2", {"fast": "--fast", "best": "--best"}),
-        "degree": (BOUND, "--max-error 2", {6: "--degree 6"}),
-        "decoding": (BOUND, "--max-error 2", {"quick": "--decoding quick", "dense": "--decoding dense"}),
+        "effort": (BOUND, "--max-error 2", {"fast": "--fast", "best": "--best"}),
+        "max_degree": (BOUND, "--max-error 2", {6: "--max-degree 6"}),
+        "coding": (BOUND, "--max-error 2", {"quick": "--coding quick", "dense": "--coding dense"}),
         "bound_at": (BOUND, "--max-error 2", {"lattice": "--bound-at lattice"}),
         "duplicates": (BOUND, "--max-error 2", {name: f"--duplicates {name}" for name in ("lowest", "highest", "mean")}),
         "depths": (BOUND, "--max-error 2", {True: "--depths"}),
         "units": (BOUND, "--max-error 2", {"foot": "--units foot"}),
         "crs": (BOUND, "--max-error 2", {25832: "--epsg 25832"}),
         "vertical_epsg": (dict(BOUND, crs=25832), "--max-error 2", {7837: "--epsg 25832:7837"}),
-        "source": (BOUND, "--max-error 2", {"survey": "--source-text survey"}),
+        "source_name": (BOUND, "--max-error 2", {"survey": "--source-name survey"}),
         "date": (BOUND, "--max-error 2", {"2026": "--date 2026"}),
         "lineage": (BOUND, "--max-error 2", {"thinned": "--lineage thinned"}),
-        "max_vertices": ({"search": "fast"}, "--fast", {60: "--max-vertices 60"}),
-        "max_bytes": ({"search": "fast"}, "--fast", {900: "--max-bytes 900"}),
+        "max_vertices": ({"effort": "fast"}, "--fast", {60: "--max-vertices 60"}),
+        "max_bytes": ({"effort": "fast"}, "--fast", {900: "--max-bytes 900"}),
     }
-    OF_PACKS = {"tile_vertices", "tile_steps"}
+    OF_PACKS = {"tile_vertices", "tile_size"}
     ELSEWHERE = {"progress", "numbers"}
 
     def points(self):
@@ -182,11 +182,11 @@ class Options(unittest.TestCase):
                     return file.read()
 
             self.assertNotEqual(pack(tile_vertices=60), pack(tile_vertices=300))
-            self.assertNotEqual(pack(tile_vertices=60), pack(tile_vertices=60, tile_steps=9))
+            self.assertNotEqual(pack(tile_vertices=60), pack(tile_vertices=60, tile_size=9))
 
     def test_no_keyword_is_without_a_row(self):
         known = set(self.ROWS) | self.OF_PACKS
-        numbers = {"degree", "vertical_epsg", "max_vertices", "max_bytes", "tile_vertices", "tile_steps"}
+        numbers = {"max_degree", "vertical_epsg", "max_vertices", "max_bytes", "tile_vertices", "tile_size"}
         keywords = set(inspect.signature(microtin._options).parameters) | numbers
         self.assertEqual(keywords - self.ELSEWHERE, known)
         in_c = {name for name, _ in microtin._library.Options._fields_}
@@ -198,7 +198,7 @@ class Packs(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.path = os.path.join(self.folder.name, "hills.mtp")
         self.report = microtin.encode_pack(
-            hills(), self.path, max_error=0.5, tile_vertices=200, tile_steps=20, transform=TRANSFORM
+            hills(), self.path, max_error=0.5, tile_vertices=200, tile_size=20, transform=TRANSFORM
         )
 
     def tearDown(self):
@@ -262,7 +262,7 @@ class Refusals(unittest.TestCase):
         array = [[1.0, 2.0], [3.0, 4.0]]
         self.refused("max_error: one is not", array, max_error="one")
         self.refused("only one of max_error", array, max_error=1, max_vertices=4)
-        self.refused("'slow' is none of fast, normal, best", array, search="slow")
+        self.refused("'slow' is none of fast, normal, best", array, effort="slow")
         self.refused("units of x and y|unit of heights|heights", array, crs=4326)
         self.refused("'nonsense' is neither EPSG:CODE nor well-known text", array, crs="nonsense")
         with self.assertRaisesRegex(TypeError, "no option colour"):
@@ -317,7 +317,7 @@ class Refusals(unittest.TestCase):
         self.assertLessEqual(microtin.encode_points(points, 0.5, bound_at="lattice").report.max_error, 0.5)
 
     def test_options_of_streams_are_none_of_packs(self):
-        self.refused("tile_vertices and tile_steps are for packs", hills(), tile_vertices=50)
+        self.refused("tile_vertices and tile_size are for packs", hills(), tile_vertices=50)
         with self.assertRaisesRegex(microtin.Error, "max_vertices and max_bytes are for streams"):
             microtin.encode_pack(hills(), "none.mtp", tile_vertices=50, max_bytes=500)
         self.assertFalse(os.path.exists("none.mtp"))

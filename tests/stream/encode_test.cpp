@@ -55,11 +55,11 @@ std::string round_trip_fault(const Tin& tin, const Effort& effort,
   return is_right(copy.place, triangles_of(copy.mesh)) ? "" : "not the canonical triangulation";
 }
 
-constexpr Effort kEfforts[] = {{6, Decoding::kQuick},
-                               {8, Decoding::kBalanced},
-                               {10, Decoding::kBalanced},
-                               {12, Decoding::kDense},
-                               {32, Decoding::kBalanced}};
+constexpr Effort kEfforts[] = {{6, Coding::kQuick},
+                               {8, Coding::kBalanced},
+                               {10, Coding::kBalanced},
+                               {12, Coding::kDense},
+                               {32, Coding::kBalanced}};
 
 bool equals_definition(const Points& points, const TriangleSet& set) {
   return reference_delaunay(points) == set;
@@ -103,10 +103,10 @@ TEST_CASE("round trip: every cell of whole lattices") {
   for (uint32_t columns = 2; columns <= 12; ++columns) {
     for (const uint32_t rows : {2u, 3u, 7u, 12u}) {
       const Points points = lattice_points(columns, rows, random);
-      CHECK(round_trip_fault(tin_of(points, random), {6, Decoding::kQuick},
-                             is_reference_delaunay) == "");
-      CHECK(round_trip_fault(tin_of(points, random), {8, Decoding::kDense},
-                             is_reference_delaunay) == "");
+      CHECK(round_trip_fault(tin_of(points, random), {6, Coding::kQuick}, is_reference_delaunay) ==
+            "");
+      CHECK(round_trip_fault(tin_of(points, random), {8, Coding::kDense}, is_reference_delaunay) ==
+            "");
     }
   }
 }
@@ -128,19 +128,17 @@ TEST_CASE("small terrains take the order that saves bytes, others the usual one"
     return encode(tin, Metadata(), effort).size();
   };
   bool wide = false;
-  for (const Decoding decoding : kDecodings) {
-    const uint32_t usual = decoding == Decoding::kQuick ? 9 : 10;
+  for (const Coding coding : kCodings) {
+    const uint32_t usual = coding == Coding::kQuick ? 9 : 10;
     for (uint32_t seed = 0; seed < 40; ++seed) {
       const Tin small = rolling_tin(200, seed);
-      const size_t by_usual = bytes(small, {usual, decoding}),
-                   by_wide = bytes(small, {16, decoding});
+      const size_t by_usual = bytes(small, {usual, coding}), by_wide = bytes(small, {16, coding});
       const bool saves = by_usual - by_usual / 256 > by_wide;
-      CHECK(bytes(small, {0, decoding}) == (saves ? by_wide : by_usual));
+      CHECK(bytes(small, {0, coding}) == (saves ? by_wide : by_usual));
       wide = wide || saves;
     }
     const Tin larger = rolling_tin(2000, 1);
-    CHECK(encode(larger, Metadata(), {0, decoding}) ==
-          encode(larger, Metadata(), {usual, decoding}));
+    CHECK(encode(larger, Metadata(), {0, coding}) == encode(larger, Metadata(), {usual, coding}));
   }
   CHECK(wide);
 }

@@ -183,7 +183,7 @@ inline std::vector<Vertex> border_seed(uint16_t largest_x) {
 }
 
 inline Contract border_contract(uint16_t largest_x) {
-  return Contract{largest_x + 2u, largest_x, 1, kMaxDegree, Decoding::kQuick, false, true};
+  return Contract{largest_x + 2u, largest_x, 1, kMaxDegree, Coding::kQuick, false, true};
 }
 
 // Up to 4 sections in few bytes: a lattice whose last vertices come one a phase.
@@ -201,7 +201,7 @@ inline Bytes sectioned_stream(uint32_t sections) {
   plan.batches.insert(plan.batches.end(), sections - 1, 1);
   plan.vertices.resize(kSectionVertices + sections - 1);
   const uint32_t n = static_cast<uint32_t>(plan.vertices.size());
-  return forge(Contract{n, kLargest, kLargest, kMaxDegree, Decoding::kQuick, false, false},
+  return forge(Contract{n, kLargest, kLargest, kMaxDegree, Coding::kQuick, false, false},
                PlanCoder(std::move(plan)));
 }
 

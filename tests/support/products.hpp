@@ -248,7 +248,7 @@ class Truth {
     vertices_ = static_cast<double>(vertices);
     const uint32_t n = static_cast<uint32_t>(facts_.is_pack ? most : vertices);
     truth_["vertices"] = std::to_string(vertices);
-    truth_["most_vertices"] = std::to_string(most);
+    truth_["max_tile_vertices"] = std::to_string(most);
     truth_["triangles"] = truth_["void_triangles"] = kAny;
     truth_["heights.lowest"] = text_of(lowest);
     truth_["heights.highest"] = text_of(highest);
@@ -266,13 +266,14 @@ class Truth {
     truth_["workspace_bytes_16"] = std::to_string(bytes(16));
     truth_["workspace_bytes_32"] = std::to_string(bytes(32));
     truth_["device_memory"] = "MICROTIN_PACK_BYTES(4, " + std::to_string(n) + ")";
-    truth_["workspace_bytes_4_compact_tiles"] = truth_["compact_bytes"] = kAny;  // by verify
+    truth_["workspace_bytes_4_compact_tiles"] = truth_["compact_bytes"] =
+        truth_["max_compact_bytes"] = kAny;  // by verify
     truth_["kind"] = facts_.is_pack ? "pack" : "stream";
-    truth_["format_version"] = "5";
+    truth_["stream_version"] = "5";
     truth_["pack_version"] = "4";
     truth_["phases"] = kAny;
-    truth_["degree"] = "12";
-    truth_["decoding"] = "dense";
+    truth_["max_degree"] = "12";
+    truth_["coding"] = "dense";
     truth_["columns"] = truth_["tile_columns"] = std::to_string(facts_.tile_columns);
     truth_["rows"] = truth_["tile_rows"] = std::to_string(facts_.tile_rows);
     truth_["tiles"] = std::to_string(facts_.is_pack ? facts_.tile_columns * facts_.tile_rows : 0);
@@ -282,7 +283,7 @@ class Truth {
     for (const auto& [name, axis] :
          {std::pair("x", facts_.x), std::pair("y", facts_.y), std::pair("z", facts_.z)}) {
       const std::string end = std::string(".") + name;
-      add_axis("placement" + end, axis, truth_);
+      add_axis("axes" + end, axis, truth_);
       truth_["steps" + end] = text_of(library::coordinate(axis, 1) - library::coordinate(axis, 0));
       truth_["offsets" + end] = text_of(library::coordinate(axis, 0));
     }
@@ -396,8 +397,8 @@ class Made {
   Made(const Product& product, Notes notes) : product_(product), notes_(notes) {
     terrain_ = write_terrain();
     const std::string words = " " + terrain_.file +
-                              " --max-error 1.9 --degree 12 --decoding dense --date 2026-11 "
-                              "--source-text 'a \"survey\"' --lineage 'thinned twice' " +
+                              " --max-error 1.9 --max-degree 12 --coding dense --date 2026-11 "
+                              "--source-name 'a \"survey\"' --lineage 'thinned twice' " +
                               product.flags + flags();
     text_ = product.is_merged ? merge(words) : run("encode" + words + " -o '" + product.file + "'");
     truth_ = std::make_unique<Truth>(session_, product.file, terrain_);
@@ -477,7 +478,7 @@ class Made {
   }
 
   void add_notes() {
-    add("source", "a \"survey\"");
+    add("source_name", "a \"survey\"");
     add("date", "2026-11");
     add("lineage", "thinned twice");
     Fields& truth = truth_->fields();

@@ -5,7 +5,7 @@ import type { Pack } from "./microtin.js";
  *
  * The tiles of the finest level are the pack's own, vertex by vertex, so that their borders meet; each coarser level,
  * of which there are at most three, joins two by two of them from their first phases: packs that are encoded with
- * `--degree 6` have several, others often none. Where levels meet, skirts hide the difference. Places are rounded to 1/32767 of
+ * `--max-degree 6` have several, others often none. Where levels meet, skirts hide the difference. Places are rounded to 1/32767 of
  * a tile, the unit of quantized meshes; heights are exact if the pack has at most 32768 different ones.
  * Tiles without terrain are empty; below the finest level CesiumJS divides tiles itself. */
 export interface MicrotinTerrainProvider {

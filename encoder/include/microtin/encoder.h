@@ -59,16 +59,16 @@ typedef struct microtin_options {
   const char* max_error; /* decimals, "0.25" */
   const char *z_step, *xy_step;
   uint32_t never_below; /* 1: no height is below the terrain */
-  uint32_t search;      /* 1 fast, 2 normal, 3 best */
-  uint32_t degree;      /* 6 .. 32 */
-  uint32_t decoding;    /* 1 quick, 2 balanced, 3 dense */
+  uint32_t effort;      /* 1 fast, 2 normal, 3 best */
+  uint32_t max_degree;  /* 6 .. 32 */
+  uint32_t coding;      /* 1 quick, 2 balanced, 3 dense */
   uint32_t bound_at;    /* 1 points, 2 lattice */
   uint32_t duplicates;  /* 1 middle, 2 lowest, 3 highest, 4 mean */
   const char* units;    /* "degree:metre", ":foot"; null: as code or well-known text say */
   uint32_t horizontal_epsg, vertical_epsg;
-  const char *source, *date, *lineage;
+  const char *source_name, *date, *lineage;
   uint32_t max_vertices, max_bytes;            /* of streams alone */
-  uint32_t tile_vertices, tile_steps;          /* of packs alone */
+  uint32_t tile_vertices, tile_size;           /* of packs alone */
   int (*progress)(void* context, double done); /* 0 .. 1; returns 1 to cancel. May be null */
   void* context;
   uint32_t depths; /* 1: heights grow downwards, and are negated */

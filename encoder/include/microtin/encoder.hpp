@@ -101,10 +101,10 @@ class Terrain {
 /* --- What is wanted --- */
 
 /* How long the encoder searches for smaller files. */
-enum class Search { kFast, kNormal, kBest }; /* some 5 % more bytes; the default; slow */
+enum class SearchEffort { kFast, kNormal, kBest }; /* some 5 % more bytes; the default; slow */
 
 /* What decoding may cost: less time for more bytes, or the other way round. */
-enum class Decoding { kQuick, kBalanced, kDense };
+enum class Coding { kQuick, kBalanced, kDense };
 
 /* Where a bound holds for points that a stream's lattice moves: where they truly lie, too, or on
  * the lattice alone. */
@@ -122,11 +122,11 @@ struct Options {
   std::string xy_step;      /* of places; "": the terrain's own. Posts: in posts, not in packs */
   BoundAt bound_at = BoundAt::kPoints;
   Duplicates duplicates = Duplicates::kMiddle;
-  Search search = Search::kNormal;
+  SearchEffort effort = SearchEffort::kNormal;
   /* Most triangles around a vertex when it is added: 6 .. 32. 0: 10, quick 9, or, of terrains of
    * less than 2,000 vertices, 16 if that saves a 256th. */
-  uint32_t degree = 0;
-  Decoding decoding = Decoding::kBalanced;
+  uint32_t max_degree = 0;
+  Coding coding = Coding::kBalanced;
   /* Units of x and y and of heights: "metre", "degree:metre", ":foot"; "": as the codes or the
    * terrain's file say. Numbers in other units of length than metre, foot and us-foot, such as "cm"
    * or "fathom", are converted to metres, exactly, or refused. Heights of unknown unit have that of
@@ -137,7 +137,7 @@ struct Options {
   /* Notes of the header; 0 or empty: not stated. Codes that are known set the units. All texts
    * together up to 65,535 bytes of UTF-8. */
   uint32_t horizontal_epsg = 0, vertical_epsg = 0;
-  std::string source, date, lineage; /* date: 2026, 2026-11 or 2026-11-21 */
+  std::string source_name, date, lineage; /* date: 2026, 2026-11 or 2026-11-21 */
 };
 
 /* Without a bound and without a limit here every post or point is a vertex. */
@@ -153,7 +153,7 @@ constexpr uint32_t kUsualTileVertices = 2000;
 /* Options of a pack. */
 struct PackOptions : Options {
   uint32_t tile_vertices = 0; /* of a tile at most: 16 .. 2^24; 0: kUsualTileVertices */
-  uint32_t tile_steps = 0;    /* extent of a tile of posts; 0: to be chosen */
+  uint32_t tile_size = 0;     /* extent of a tile of posts; 0: to be chosen */
 };
 
 /* --- Results --- */
@@ -194,7 +194,7 @@ struct Callbacks {
   std::function<bool()> cancelled;           /* asked often, but for packs of points */
 };
 
-/* O(n log n) for n samples, with factors of a search that `search` sets: some 20 us a post. */
+/* O(n log n) for n samples, with factors of a search that `effort` sets: some 20 us a post. */
 Stream encode_stream(const Terrain& terrain, const StreamOptions& options,
                      const Callbacks& callbacks = {});
 

@@ -40,8 +40,8 @@ Number = Union[int, float, str, decimal.Decimal]
 Crs = Union[int, str, Any]
 Path = Union[str, "os.PathLike[str]"]
 
-_SEARCHES = {"fast": 1, "normal": 2, "best": 3}
-_DECODINGS = {"quick": 1, "balanced": 2, "dense": 3}
+_EFFORTS = {"fast": 1, "normal": 2, "best": 3}
+_CODINGS = {"quick": 1, "balanced": 2, "dense": 3}
 _BOUND_AT = {"points": 1, "lattice": 2}
 _DUPLICATES = {"middle": 1, "lowest": 2, "highest": 3, "mean": 4}
 UNITS = {0: None, 1: "metre", 2: "degree", 3: "foot", 4: "US survey foot"}
@@ -101,8 +101,9 @@ def encode(
     max_vertices  the best ones, so many, instead of max_error
     max_bytes     the smallest bound that so many bytes allow, instead of both; takes minutes
 
-    Options: never_below=True, z_step, xy_step, search="fast" | "normal" | "best", degree,
-    decoding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", depths=True, vertical_epsg, source, date,
+    Options: never_below=True, z_step, xy_step, effort="fast" | "normal" | "best", max_degree,
+    coding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", depths=True, vertical_epsg, source_name,
+    date,
     lineage, and progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights
     in other units of length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
 
@@ -142,7 +143,7 @@ def encode_pack(
     max_error: Optional[Number] = None,
     *,
     tile_vertices: int = 0,
-    tile_steps: int = 0,
+    tile_size: int = 0,
     points: bool = False,
     transform: Optional[Sequence[float]] = None,
     crs: Optional[Crs] = None,
@@ -150,9 +151,9 @@ def encode_pack(
     **options: Any,
 ) -> Report:
     """Encodes a raster, or with points=True points, as a pack of tiles and writes it to a .mtp file, which appears complete
-    or not at all. No tile has more than `tile_vertices` (16 .. 2^24, default 2000) vertices; `tile_steps` fixes the extent of
+    or not at all. No tile has more than `tile_vertices` (16 .. 2^24, default 2000) vertices; `tile_size` fixes the extent of
     a raster's tiles. All else is as for `encode`."""
-    filled, caller = _options(max_error, crs, tile_vertices=tile_vertices, tile_steps=tile_steps, **options)
+    filled, caller = _options(max_error, crs, tile_vertices=tile_vertices, tile_size=tile_size, **options)
     report = _library.Report()
     made = _terrain_of_points(array, crs) if points else _terrain_of_array(array, transform, crs, nodata)
     with made as terrain, caller:
@@ -217,8 +218,8 @@ def _options(
     max_error: Optional[Number],
     crs: Optional[Crs],
     *,
-    search: str = "normal",
-    decoding: str = "balanced",
+    effort: str = "normal",
+    coding: str = "balanced",
     bound_at: str = "points",
     duplicates: str = "middle",
     progress: Optional[Callable[[float], Any]] = None,
@@ -227,16 +228,16 @@ def _options(
     xy_step: Optional[Number] = None,
     units: str = "",
     depths: bool = False,
-    source: str = "",
+    source_name: str = "",
     date: str = "",
     lineage: str = "",
     **numbers: int,
 ) -> Tuple[_library.Options, _Caller]:
-    chosen = ((search, _SEARCHES), (decoding, _DECODINGS), (bound_at, _BOUND_AT), (duplicates, _DUPLICATES))
+    chosen = ((effort, _EFFORTS), (coding, _CODINGS), (bound_at, _BOUND_AT), (duplicates, _DUPLICATES))
     for value, choices in chosen:
         if value not in choices:
             raise Error(f"{value!r} is none of {', '.join(choices)}")
-    allowed = ("degree", "vertical_epsg", "max_vertices", "max_bytes", "tile_vertices", "tile_steps")
+    allowed = ("max_degree", "vertical_epsg", "max_vertices", "max_bytes", "tile_vertices", "tile_size")
     for name, number in numbers.items():
         if name not in allowed:
             raise TypeError(f"there is no option {name}")
@@ -248,14 +249,14 @@ def _options(
         z_step=_decimal(z_step),
         xy_step=_decimal(xy_step),
         never_below=never_below,
-        search=_SEARCHES[search],
-        decoding=_DECODINGS[decoding],
+        effort=_EFFORTS[effort],
+        coding=_CODINGS[coding],
         bound_at=_BOUND_AT[bound_at],
         duplicates=_DUPLICATES[duplicates],
         units=units.encode(),
         depths=depths,
         horizontal_epsg=_epsg_of(crs) or 0,
-        source=source.encode(),
+        source_name=source_name.encode(),
         date=date.encode(),
         lineage=lineage.encode(),
         progress=caller.function,

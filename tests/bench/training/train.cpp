@@ -35,8 +35,8 @@ class Costs {
   }
 
   void add(const Tin& tin) {
-    for (const Decoding decoding : kDecodings) {
-      add(outcomes_of(encode(tin, {}, {0, decoding})));
+    for (const Coding coding : kCodings) {
+      add(outcomes_of(encode(tin, {}, {0, coding})));
     }
   }
 
