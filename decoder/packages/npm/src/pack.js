@@ -6,7 +6,8 @@ import { axesAt, canHold, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
 import { Source } from "./source.js";
 import {
-  ARGUMENT, BAD_TILES, CHECKSUM, OK, MicrotinError, NEED_INPUT, STEP_LIMIT, TOO_BIG, TRUNCATED, WORKSPACE_TOO_SMALL,
+  ARGUMENT, BAD_TILES, CHECKSUM, OK, MicrotinError, NEED_INPUT, NOT_FOUND, STEP_LIMIT, TOO_BIG, TRUNCATED,
+  WORKSPACE_TOO_SMALL,
 } from "./status.js";
 import { meshArrays } from "./terrain.js";
 
