@@ -12,7 +12,7 @@ namespace {
 
 using encoder::Coding;
 using encoder::Posts;
-using encoder::Search;
+using encoder::SearchEffort;
 using encoder::Transform;
 
 [[noreturn]] void refuse(const std::string& why) {
