@@ -10,7 +10,11 @@ from pathlib import Path
 
 from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
-from wheel.bdist_wheel import bdist_wheel
+
+try:
+    from setuptools.command.bdist_wheel import bdist_wheel
+except ImportError:  # setuptools before 70.1
+    from wheel.bdist_wheel import bdist_wheel
 
 SOURCES = Path(__file__).resolve().parent
 BUILD = SOURCES / "build" / "python-package"  # so that nothing is built among the sources
@@ -22,7 +26,10 @@ def version():
 
 
 def built_library(folder):
-    subprocess.check_call(["cmake", "-S", SOURCES, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DMICROTIN_TESTS=OFF"])
+    # The packages of the tool have Ninja, and CMake asks for make.
+    generator = ["-G", "Ninja"] if shutil.which("ninja") and "CMAKE_GENERATOR" not in os.environ else []
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DMICROTIN_TESTS=OFF"]
+    subprocess.check_call(["cmake", "-S", SOURCES, "-B", folder, *generator, *options])
     subprocess.check_call(["cmake", "--build", folder, "--parallel", str(os.cpu_count() or 1), "--target", "microtin_shared"])
     return Path(folder) / "libmicrotin.so"
 

@@ -17,7 +17,7 @@ microtin_query_result microtin_compact_pack_segment_max(const microtin_pack* pac
 }
 
 microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,
-                                                        const microtin_grid_spec* block,
+                                                        const microtin_grid_spec* grid,
                                                         int16_t* heights) {
-  return fill_from_pack<RingForm>(*pack, *block, heights);
+  return fill_from_pack<RingForm>(*pack, *grid, heights);
 }

@@ -13,7 +13,7 @@ microtin_query_result microtin_compact_segment_max(const microtin_compact* compa
 }
 
 microtin_query_result microtin_compact_sample_grid(const microtin_compact* compact,
-                                                   const microtin_grid_spec* block,
+                                                   const microtin_grid_spec* grid,
                                                    int16_t* heights) {
-  return fill_from_terrain(RingForm(compact), compact->axis[2], *block, heights);
+  return fill_from_terrain(RingForm(compact), compact->axis[2], *grid, heights);
 }

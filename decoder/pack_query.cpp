@@ -44,6 +44,6 @@ microtin_query_result microtin_pack_segment_max(const microtin_pack* pack,
 }
 
 microtin_query_result microtin_pack_sample_grid(const microtin_pack* pack,
-                                                const microtin_grid_spec* block, int16_t* heights) {
-  return fill_from_pack<MeshForm>(*pack, *block, heights);
+                                                const microtin_grid_spec* grid, int16_t* heights) {
+  return fill_from_pack<MeshForm>(*pack, *grid, heights);
 }

@@ -136,11 +136,11 @@ microtin_query_result highest_in_pack(const microtin_pack& p, const microtin_seg
 }
 
 template <class Form>
-microtin_query_result fill_from_pack(const microtin_pack& p, const microtin_grid_spec& block,
+microtin_query_result fill_from_pack(const microtin_pack& p, const microtin_grid_spec& grid,
                                      int16_t* heights) {
   if (p.has_header && !has_small_units(p.axis[2])) return MICROTIN_QUERY_OUTSIDE;
   return fill(
-      block, p.axis[2],
+      grid, p.axis[2],
       [&p](int64_t x, int64_t y, uint32_t* hint, int32_t* height) {
         return height_in_pack<Form>(p, x, y, hint, height);
       },

@@ -49,21 +49,21 @@ MICROTIN_ONE_COPY inline int16_t in_units(int32_t z, const microtin_axis& axis) 
   return static_cast<int16_t>(height < INT16_MIN ? INT16_MIN : height);
 }
 
-// The heights of a block in whole units of the axis z, as microtin_pack_sample_grid tells them.
+// The heights of a grid in whole units of the axis z, as microtin_pack_sample_grid tells them.
 template <class HeightAt>
-microtin_query_result fill(const microtin_grid_spec& block, const microtin_axis& axis,
+microtin_query_result fill(const microtin_grid_spec& grid, const microtin_axis& axis,
                            const HeightAt& height_at, int16_t* heights) {
-  if (!is_within(block.x, kSegmentMost) || !is_within(block.y, kSegmentMost))
+  if (!is_within(grid.x, kSegmentMost) || !is_within(grid.y, kSegmentMost))
     return MICROTIN_QUERY_OUTSIDE;
   microtin_query_result answer = MICROTIN_QUERY_OK;
   uint32_t hint = 0;
-  int64_t y = block.y;  // below 2^40 + 2^47
-  for (uint32_t row = 0; row < block.rows; ++row, y += block.dy) {
-    int64_t x = block.x;
-    for (uint32_t column = 0; column < block.columns; ++column, x += block.dx) {
+  int64_t y = grid.y;  // below 2^40 + 2^47
+  for (uint32_t row = 0; row < grid.rows; ++row, y += grid.dy) {
+    int64_t x = grid.x;
+    for (uint32_t column = 0; column < grid.columns; ++column, x += grid.dx) {
       int32_t z = 0;
       const microtin_query_result here = height_at(x, y, &hint, &z);
-      *heights++ = here == MICROTIN_QUERY_OK ? in_units(z, axis) : block.missing;
+      *heights++ = here == MICROTIN_QUERY_OK ? in_units(z, axis) : grid.missing;
       if (here != MICROTIN_QUERY_OK && answer != MICROTIN_QUERY_NOT_LOADED) answer = here;
     }
   }

@@ -16,8 +16,8 @@ microtin_query_result microtin_mesh_segment_max(const microtin_mesh* mesh,
 }
 
 microtin_query_result microtin_mesh_sample_grid(const microtin_mesh* mesh,
-                                                const microtin_grid_spec* block, int16_t* heights) {
+                                                const microtin_grid_spec* grid, int16_t* heights) {
   microtin_axis axis[3];
   microtin_mesh_axes(mesh, &axis[0], &axis[1], &axis[2]);
-  return fill_from_terrain(MeshForm(mesh), axis[2], *block, heights);
+  return fill_from_terrain(MeshForm(mesh), axis[2], *grid, heights);
 }

@@ -69,10 +69,10 @@ microtin_query_result highest_in_terrain(const Form& form, const microtin_segmen
 
 template <class Form>
 microtin_query_result fill_from_terrain(const Form& form, const microtin_axis& z,
-                                        const microtin_grid_spec& block, int16_t* heights) {
+                                        const microtin_grid_spec& grid, int16_t* heights) {
   if (!has_small_units(z)) return MICROTIN_QUERY_OUTSIDE;
   return fill(
-      block, z,
+      grid, z,
       [&form](int64_t x, int64_t y, uint32_t* hint, int32_t* height) {
         return height_in_terrain(form, x, y, hint, height);
       },

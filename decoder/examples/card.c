@@ -118,7 +118,7 @@ static void wait_for_answer(void) {
  * did not answer: the vehicle flies on by the tiles that are there. 0: it is no pack. */
 static int serve(const microtin_segment* segment, struct card* card, uint32_t* failures) {
   for (;;) {
-    switch (load_with(pack, segment, STEPS, read_card, card)) {
+    switch (load_with(pack, segment, read_card, card, STEPS)) {
       case MICROTIN_STATUS_OK:
       case MICROTIN_STATUS_BAD_TILES:
         return 1;
