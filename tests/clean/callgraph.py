@@ -34,7 +34,7 @@ def faults(objects):
         if "__indirect_call" in names:
             yield f"indirect call: {caller}"
     try:
-        graphlib.TopologicalSorter(callees).load_without_reading()
+        graphlib.TopologicalSorter(callees).prepare()
     except graphlib.CycleError as error:
         yield "recursion: " + " -> ".join(error.args[1])
 
