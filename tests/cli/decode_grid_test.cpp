@@ -8,6 +8,7 @@
 
 #include "microtin/surface.hpp"
 #include "tests/support/forged_pack.hpp"
+#include "tests/support/join.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -91,7 +92,8 @@ TEST_CASE("cli: an extent takes either name of a longitude, with the source's ow
     REQUIRE(session.run("encode t.asc --units degree:metre -o " + file).code == 0);
     for (const std::string grid : {"", " --like t.asc"}) {
       const auto rows = [&](const std::string& extent, const std::string& west) {
-        REQUIRE(session.run("decode " + file + grid + " -o x.asc --extent=" + extent).code == 0);
+        REQUIRE(session.run(join({"decode ", file, grid, " -o x.asc --extent=", extent})).code ==
+                0);
         CHECK(contains(session.read("x.asc"), head("3", "2", west, "-3", "0.35")));
         CHECK(contains(session.read("x.asc"), "\n4 5 6\n5 6 7\n"));
       };
