@@ -8,7 +8,8 @@ namespace {
 
 static_assert(kHeaderMostBytes <= sizeof(ByteWindow::bytes), "a header fits up to its notes");
 
-// Bytes that must be at hand before an item can be handled as a whole, if its payload has so many.
+// Bytes that must be at hand before an item can be handled as a whole; less if its payload is
+// shorter.
 constexpr uint8_t kItemBytes[] MICROTIN_IN_FLASH = {kIdentityBytes, 1, kHeaderMostBytes, 4,
                                                     kStepBytes,     1, kCheckBytes};
 

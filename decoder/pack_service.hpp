@@ -7,8 +7,8 @@
 
 namespace microtin {
 
-// Lays out a pack with so many bytes in front of the slots, and for each. Of the arguments that
-// users give, the status tells.
+// Lays out a pack with `work_bytes` in front of the slots and `slot_bytes` for each slot. The
+// status is that of microtin_pack_init.
 microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
                              uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack);
 

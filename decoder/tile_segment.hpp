@@ -60,8 +60,8 @@ inline bool is_positive_at(Fraction f, int64_t from, int64_t to) {
 
 // A segment in a tile that it touches.
 //
-// Of what is not known, the segment has more than a point in an open triangle, on an open edge, or
-// outside the hull; points that are not known alone are ends of such parts, or the whole segment.
+// A part of the segment without a height is longer than a point inside a triangle, inside an edge,
+// or outside the hull. A single point without a height ends such a part, or is the whole segment.
 class TileSegment {
  public:
   TileSegment(const TileBox& box, const microtin_segment& segment)
@@ -154,7 +154,7 @@ class TileSegment {
     if (is_less(leaves, leaves_)) leaves_ = leaves;
   }
 
-  // Whether a real triangle lies beside the bounding box of the segment: most do.
+  // Whether a real triangle lies outside the bounding box of the segment, as most do.
   bool are_aside(const Point* p) const {
     return are_aside(p[0].x, p[1].x, p[2].x, x_) || are_aside(p[0].y, p[1].y, p[2].y, y_);
   }

@@ -27,7 +27,7 @@ struct EncodeRequest : EncodeOptions {
 
 void run_encode(const EncodeRequest& request);
 
-// Prints, for each of so many shards, a line with the options that encode it as a single run would.
+// Prints, for each shard, a line with the options that encode it as a single run would.
 void run_plan(const EncodeRequest& request, uint32_t shards);
 
 void run_merge(const std::vector<std::string>& shards, const std::string& output);

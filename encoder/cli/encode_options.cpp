@@ -62,7 +62,7 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
       command
           .add_option(
               "--tile-vertices", request.tile_vertices,
-              "Write a pack of tiles with at most so many vertices each. For a .mtp file without "
+              "Write a pack of tiles with at most this many vertices each. For a .mtp file without "
               "--device-ram the default is " +
                   std::to_string(encoder::kUsualTileVertices))
           ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
@@ -119,8 +119,9 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
                   "Keep every height within this distance, in the terrain's unit");
   CLI::Option* const vertices =
       command
-          .add_option("--max-vertices", request->max_vertices,
-                      "Keep the smallest --max-error that so many vertices can")
+          .add_option(
+              "--max-vertices", request->max_vertices,
+              "Use at most this many vertices, and the smallest --max-error that they allow")
           ->check(CLI::Range(3u, kMaxVertices))
           ->excludes(bound);
   CLI::Option* const bytes =

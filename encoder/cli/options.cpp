@@ -178,7 +178,7 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
       ->check(CLI::PositiveNumber);
 #endif
   command.add_option("--fill-voids", preparation.fill_voids,
-                     "Interpolate voids of up to so many posts");
+                     "Interpolate voids of up to this many posts");
   CLI::Option* const level = add_height(
       command, "--water-level", preparation.water_level,
       "Voids that are left are water at this height, as are posts at this height (rasters)");

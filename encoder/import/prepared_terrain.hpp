@@ -16,10 +16,10 @@ namespace microtin::importing {
 
 // What is done to a terrain.
 struct Preparation {
-  std::vector<std::string> more_files;     // of the same terrain, beside the one named first
+  std::vector<std::string> more_files;     // of the same terrain, after the one named first
   std::optional<ClassSet> classes;         // take these points of a .las file
   bool gridded = false;                    // points are the posts of a raster
-  uint32_t fill_voids = 0;                 // interpolate voids of up to so many posts
+  uint32_t fill_voids = 0;                 // interpolate voids of up to this many posts; 0: none
   std::optional<Decimal> water_level;      // voids that are left are water at this height
   std::string water_mask;                  // the file that marks water; everywhere if there is none
   Indirect indirect = Indirect::kRefused;  // files that name others

@@ -97,7 +97,7 @@ TileGrid grid_of(const Raster& frame, uint32_t tile_size) {
     throw Error(
         "tiles of " + std::to_string(std::max(grid.width, grid.height)) + " steps are " +
         std::to_string(tile_count(grid)) + ", and a pack has " + std::to_string(kMostTiles) +
-        " at most: ask for more --tile-size or --tile-vertices, or make a pack of each " + "part");
+        " at most: ask for more --tile-size or --tile-vertices, or make a pack of each part");
   }
   return grid;
 }

@@ -12,8 +12,8 @@
 
 namespace microtin::pack {
 
-// A raster in tiles of up to so many steps on a side, all of nearly the same size. Throws Error if
-// these are too many.
+// A raster in tiles of up to `tile_size` lattice steps a side, all of nearly the same size. Throws
+// Error if a pack cannot have as many tiles.
 TileGrid grid_of(const Raster& frame, uint32_t tile_size);
 
 // The grid of tiles for any largest x and y, and for any number of tiles.

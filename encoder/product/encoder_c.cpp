@@ -211,8 +211,8 @@ const char* microtin_version_string(void) {
 }
 
 microtin_status microtin_source_from_raster(const microtin_raster_data* raster,
-                                            microtin_source** terrain) {
-  return make(terrain, [&] {
+                                            microtin_source** source) {
+  return make(source, [&] {
     Posts posts = read_raster(checked(raster));
     posts.wkt = text_of(raster->wkt);
     return Terrain(std::move(posts));
@@ -220,8 +220,8 @@ microtin_status microtin_source_from_raster(const microtin_raster_data* raster,
 }
 
 microtin_status microtin_source_from_points(const microtin_point_data* points,
-                                            microtin_source** terrain) {
-  return make(terrain, [&] {
+                                            microtin_source** source) {
+  return make(source, [&] {
     expect(checked(points).coordinates);
     Points read = points_of(points->count, points->coordinates);
     read.wkt = text_of(points->wkt);
@@ -229,19 +229,19 @@ microtin_status microtin_source_from_points(const microtin_point_data* points,
   });
 }
 
-microtin_status microtin_source_from_file(const char* path, microtin_source** terrain) {
-  return make(terrain, [&] { return Terrain::from_file(text_of(path)); });
+microtin_status microtin_source_from_file(const char* path, microtin_source** source) {
+  return make(source, [&] { return Terrain::from_file(text_of(path)); });
 }
 
-void microtin_source_free(microtin_source* terrain) {
-  delete terrain;
+void microtin_source_free(microtin_source* source) {
+  delete source;
 }
 
-microtin_status microtin_encode_stream(const microtin_source* terrain,
+microtin_status microtin_encode_stream(const microtin_source* source,
                                        const microtin_options* options, uint8_t** bytes,
                                        uint64_t* size, microtin_report* report) {
   return guarded([&] {
-    expect(terrain);
+    expect(source);
     expect(bytes);
     expect(size);
     auto all = common_options<StreamOptions>(checked(options));
@@ -249,7 +249,7 @@ microtin_status microtin_encode_stream(const microtin_source* terrain,
                 "tile_vertices and tile_size are for packs");
     all.max_vertices = options->max_vertices;
     all.max_bytes = options->max_bytes;
-    const Stream stream = encode_stream(terrain->terrain, all, callbacks_of(*options));
+    const Stream stream = encode_stream(source->terrain, all, callbacks_of(*options));
     copy_report(stream.report, report);  // first: what fails leaves no bytes behind
     *bytes = new uint8_t[stream.bytes.size()];
     std::copy(stream.bytes.begin(), stream.bytes.end(), *bytes);
@@ -262,18 +262,17 @@ void microtin_bytes_free(uint8_t* bytes) {
   delete[] bytes;
 }
 
-microtin_status microtin_encode_pack(const microtin_source* terrain,
-                                     const microtin_options* options, const char* path,
-                                     microtin_report* report) {
+microtin_status microtin_encode_pack(const microtin_source* source, const microtin_options* options,
+                                     const char* path, microtin_report* report) {
   return guarded([&] {
-    expect(terrain);
+    expect(source);
     expect(path);
     auto all = common_options<PackOptions>(checked(options));
     expect_none(options->max_vertices, options->max_bytes,
                 "max_vertices and max_bytes are for streams");
     all.tile_vertices = options->tile_vertices;
     all.tile_size = options->tile_size;
-    copy_report(encode_pack(terrain->terrain, all, path, callbacks_of(*options)), report);
+    copy_report(encode_pack(source->terrain, all, path, callbacks_of(*options)), report);
   });
 }
 
@@ -293,37 +292,37 @@ void microtin_surface_free(microtin_surface* surface) {
   delete surface;
 }
 
-void microtin_surface_get_info(const microtin_surface* surface, microtin_surface_info* facts) {
+void microtin_surface_get_info(const microtin_surface* surface, microtin_surface_info* info) {
   const Facts& all = surface->surface.facts();
-  *facts = {};
-  facts->bytes = all.bytes;
-  facts->vertices = all.vertices;
-  facts->is_pack = all.is_pack ? 1 : 0;
-  facts->tile_columns = all.tile_columns;
-  facts->tile_rows = all.tile_rows;
-  facts->west = all.box.west;
-  facts->south = all.box.south;
-  facts->east = all.box.east;
-  facts->north = all.box.north;
-  facts->lowest = all.lowest;
-  facts->highest = all.highest;
-  facts->x = all.x;
-  facts->y = all.y;
-  facts->z = all.z;
-  facts->source = {all.source.columns, all.source.rows, all.source.x, all.source.y};
-  facts->horizontal_unit = static_cast<uint32_t>(all.horizontal_unit);
-  facts->vertical_unit = static_cast<uint32_t>(all.vertical_unit);
-  facts->horizontal_epsg = all.horizontal_epsg;
-  facts->vertical_epsg = all.vertical_epsg;
-  facts->wkt = all.wkt.c_str();
-  facts->origin = all.origin.c_str();
-  facts->date = all.date.c_str();
-  facts->lineage = all.lineage.c_str();
-  facts->bound = all.bound.c_str();
-  facts->max_error = all.max_error.c_str();
-  facts->rms_error = all.rms_error.c_str();
-  facts->mean_error = all.mean_error.c_str();
-  facts->max_error_at_points = all.max_error_at_points.c_str();
+  *info = {};
+  info->bytes = all.bytes;
+  info->vertices = all.vertices;
+  info->is_pack = all.is_pack ? 1 : 0;
+  info->tile_columns = all.tile_columns;
+  info->tile_rows = all.tile_rows;
+  info->west = all.box.west;
+  info->south = all.box.south;
+  info->east = all.box.east;
+  info->north = all.box.north;
+  info->lowest = all.lowest;
+  info->highest = all.highest;
+  info->x = all.x;
+  info->y = all.y;
+  info->z = all.z;
+  info->source = {all.source.columns, all.source.rows, all.source.x, all.source.y};
+  info->horizontal_unit = static_cast<uint32_t>(all.horizontal_unit);
+  info->vertical_unit = static_cast<uint32_t>(all.vertical_unit);
+  info->horizontal_epsg = all.horizontal_epsg;
+  info->vertical_epsg = all.vertical_epsg;
+  info->wkt = all.wkt.c_str();
+  info->origin = all.origin.c_str();
+  info->date = all.date.c_str();
+  info->lineage = all.lineage.c_str();
+  info->bound = all.bound.c_str();
+  info->max_error = all.max_error.c_str();
+  info->rms_error = all.rms_error.c_str();
+  info->mean_error = all.mean_error.c_str();
+  info->max_error_at_points = all.max_error_at_points.c_str();
 }
 
 microtin_status microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles) {

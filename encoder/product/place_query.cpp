@@ -95,13 +95,12 @@ AskedPack::AskedPack(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes
   lay_out(kSlots, std::clamp(info_.max_tile_vertices, 3u, kUsualCapacity));
 }
 
-// The vertices of the largest tile that was refused for want of room, as its stream says. A tile of
-// which that cannot be read is a bad one.
+// The vertices of the largest tile that was refused because it was too big, as its stream states.
+// A tile whose header cannot be read stays a bad one.
 uint32_t AskedPack::wanted_capacity(const PackFile& file) const {
   uint32_t most = 0, tile = 0, why = 0;
-  for (int i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
-    if (microtin_pack_bad_tile(pack_, static_cast<uint32_t>(i), &tile, &why) !=
-            MICROTIN_STATUS_OK ||
+  for (uint32_t i = 0; i < MICROTIN_PACK_MAX_BAD_TILES; ++i) {
+    if (microtin_pack_bad_tile(pack_, i, &tile, &why) != MICROTIN_STATUS_OK ||
         why != MICROTIN_STATUS_TOO_BIG) {
       continue;
     }

@@ -4,9 +4,9 @@
  * Such a pack decodes one tile at a time in a mesh of its own, and then makes it compact in its
  * slot. The tile that the slot held before stays until then. Interrupts, segments, reading and bad
  * tiles are as in pack.h. These functions of pack.h serve for both kinds of packs:
- * microtin_pack_reset, _align_reads, _next_read, _complete_read, _bad_tile, _clear_bad_tiles,
- * _get_info, _axis_to_lattice. The others return WRONG_PACK_KIND for a pack with compact slots, as
- * those below do for a pack of pack.h.
+ * microtin_pack_reset, _align_reads, _next_read, _complete_read, _read_once, _bad_tile,
+ * _clear_bad_tiles, _get_info, _axis_to_lattice. The others return WRONG_PACK_KIND for a pack with
+ * compact slots, as those below do for a pack of pack.h.
  */
 #ifndef MICROTIN_COMPACT_PACK_H
 #define MICROTIN_COMPACT_PACK_H
@@ -57,12 +57,8 @@ static inline microtin_status microtin_compact_pack_load_with(microtin_pack* pac
                                                               uint32_t step_limit) {
   for (;;) {
     microtin_status status;
-    uint64_t offset;
-    uint8_t* buffer;
-    size_t size;
     if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
-    microtin_pack_next_read(pack, &offset, &buffer, &size);
-    if (size != 0) microtin_pack_complete_read(pack, read(context, offset, buffer, size));
+    microtin_pack_read_once(pack, read, context);
     status = microtin_compact_pack_load(pack, segment, step_limit);
     if (status != MICROTIN_STATUS_NEED_INPUT || step_limit != 0) return status;
   }

@@ -100,6 +100,15 @@ void microtin_pack_next_read(microtin_pack* pack, uint64_t* offset, uint8_t** bu
  * microtin_pack_load acts on it. Do not call it while the read is in progress. */
 void microtin_pack_complete_read(microtin_pack* pack, int32_t taken);
 
+/* Reads what the pack needs next, if anything, by one call of `read`, and reports the result. */
+static inline void microtin_pack_read_once(microtin_pack* pack, microtin_read read, void* context) {
+  uint64_t offset;
+  uint8_t* buffer;
+  size_t size;
+  microtin_pack_next_read(pack, &offset, &buffer, &size);
+  if (size != 0) microtin_pack_complete_read(pack, read(context, offset, buffer, size));
+}
+
 /* Loads the tiles that a segment touches and reads what it needs by `read`. Returns a status of
  * microtin_pack_load. With a step limit a call makes at most one read: after NEED_INPUT or
  * STEP_LIMIT call again. Without a limit (0) one call does all. */
@@ -109,12 +118,8 @@ static inline microtin_status microtin_pack_load_with(microtin_pack* pack,
                                                       uint32_t step_limit) {
   for (;;) {
     microtin_status status;
-    uint64_t offset;
-    uint8_t* buffer;
-    size_t size;
     if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
-    microtin_pack_next_read(pack, &offset, &buffer, &size);
-    if (size != 0) microtin_pack_complete_read(pack, read(context, offset, buffer, size));
+    microtin_pack_read_once(pack, read, context);
     status = microtin_pack_load(pack, segment, step_limit);
     if (status != MICROTIN_STATUS_NEED_INPUT || step_limit != 0) return status;
   }

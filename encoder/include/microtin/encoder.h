@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-/* microtin: encoder and reader for languages that call C, as the shared library libmicrotin has
- * them beside all of microtin.h, segment.h, compact.h and pack.h. C99 and C++.
+/* microtin: encoder and reader for languages that call C. The shared library libmicrotin contains
+ * these functions and all of microtin.h, segment.h, compact.h and pack.h. C99 and C++.
  *
- * encoder.hpp and surface.hpp say more of what options mean and of what is returned. Numbers here
- * are real units; raster rows begin in the north. Texts are UTF-8 and end in 0; a null is an empty
- * one. A struct of zeros with its `size` set asks for what is usual; structs grow at their end.
+ * encoder.hpp and surface.hpp describe options and results in detail. Numbers here are real units.
+ * Rows of rasters begin in the north. Texts are UTF-8 and end in 0; null is an empty text. Set the
+ * `size` of a struct; zeros elsewhere select the defaults. Later versions add members at the end.
  *
- * Functions that can fail return an outcome; on all but OK nothing was made, no file either, and
- * microtin_last_error says why. Several threads may call them at the same time, for one surface one
- * at a time. Memory that is handed out is freed by the function named for it alone, which takes
- * null, too.
+ * A function that can fail returns microtin_status. Unless the status is OK it has made nothing and
+ * has written no file, and microtin_last_error returns the reason. Several threads may call these
+ * functions at once, but only one at a time for the same surface. Free memory by the function that
+ * is named for it.
  */
 #ifndef MICROTIN_ENCODER_H
 #define MICROTIN_ENCODER_H
@@ -87,26 +87,25 @@ typedef struct microtin_source microtin_source;
 
 /* Copies what it is given: 8 bytes a post, 24 a point. */
 microtin_status microtin_source_from_raster(const microtin_raster_data* raster,
-                                            microtin_source** terrain);
+                                            microtin_source** source);
 /* Makes a source from points, which are copied: 24 bytes each. */
 microtin_status microtin_source_from_points(const microtin_point_data* points,
-                                            microtin_source** terrain);
+                                            microtin_source** source);
 /* Reads a file by its suffix. */
-microtin_status microtin_source_from_file(const char* path, microtin_source** terrain);
+microtin_status microtin_source_from_file(const char* path, microtin_source** source);
 /* Frees a source. Null is allowed. */
-void microtin_source_free(microtin_source* terrain);
+void microtin_source_free(microtin_source* source);
 
 /* The stream's bytes are freed by microtin_bytes_free. */
-microtin_status microtin_encode_stream(const microtin_source* terrain,
+microtin_status microtin_encode_stream(const microtin_source* source,
                                        const microtin_options* options, uint8_t** bytes,
                                        uint64_t* size, microtin_report* report);
 /* Frees the bytes of a stream. Null is allowed. */
 void microtin_bytes_free(uint8_t* bytes);
 
 /* Writes a file that appears complete or not at all. */
-microtin_status microtin_encode_pack(const microtin_source* terrain,
-                                     const microtin_options* options, const char* path,
-                                     microtin_report* report);
+microtin_status microtin_encode_pack(const microtin_source* source, const microtin_options* options,
+                                     const char* path, microtin_report* report);
 
 /* --- Reading --- */
 
@@ -145,7 +144,7 @@ typedef struct microtin_surface_info {
 } microtin_surface_info;
 
 /* Writes what the header contains, and where the surface is. */
-void microtin_surface_get_info(const microtin_surface* surface, microtin_surface_info* facts);
+void microtin_surface_get_info(const microtin_surface* surface, microtin_surface_info* info);
 
 /* Vertices and triangles. They belong to the surface, until the next of these calls for it. */
 typedef struct microtin_triangles {

@@ -70,8 +70,9 @@ Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Tran
 Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform,
                double no_data = kNoValue);
 
-/* Whether files of so many bytes can hold so many columns and rows: up to 2^24 posts, or 1024 for
- * each byte. A raster that claims more has a forged header, or is void but for a little. */
+/* Returns whether files with `bytes` bytes can hold a raster of `columns` x `rows`: up to 2^24
+ * posts, or 1024 for each byte. A raster that claims more has a forged header, or is nearly all
+ * void. O(1). */
 bool can_hold(uint64_t bytes, uint32_t columns, uint32_t rows);
 
 /* x, y, z of each point in turn. */
@@ -143,7 +144,8 @@ struct Options {
 /* Without a bound and without a limit here every post or point is a vertex. */
 struct StreamOptions : Options {
   uint32_t max_vertices = 0; /* 3 .. 2^24: the smallest bound for them; no max_error */
-  uint32_t max_bytes = 0;    /* the smallest bound that so many bytes allow; without both */
+  uint32_t max_bytes =
+      0; /* the smallest bound of a stream of this size; without max_error, max_vertices */
 };
 
 /* Vertices of a tile at most, if a pack's options set neither a number of vertices nor a device's
