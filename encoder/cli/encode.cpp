@@ -43,7 +43,7 @@ std::string moved(Decimal displacement) {
 
 std::string warnings(const EncodeRequest& request, const Reference& reference) {
   std::string text;
-  for (const std::string& remark : reference.remarks) text += "warning: " + remark + '\n';
+  for (const std::string& one : reference.warnings) text += "warning: " + one + '\n';
   const bool is_grid = suffix_of(request.input) == ".asc";
   if (reference.horizontal_unit == Unit::kUnknown && is_grid) {
     text += "warning: a .prj beside " + request.input + " would say it\n";
@@ -138,13 +138,13 @@ std::string text_of(const PackReport& pack) {
 }
 
 // What may be no heights at all is told before the work begins.
-void announce(const EncodeRequest& request, const std::string& remark) {
-  if (!remark.empty()) std::fputs(warning(request.input + ": " + remark).c_str(), stderr);
+void announce(const EncodeRequest& request, const std::string& text) {
+  if (!text.empty()) std::fputs(warning(request.input + ": " + text).c_str(), stderr);
 }
 
 RasterScan scan_for_fill(const EncodeRequest& request, const RasterReader& raster) {
   RasterScan scanned = scan(raster, {}, false, {});
-  announce(request, remark_on_fill(scanned.extremes, raster.frame().decimals));
+  announce(request, warning_on_fill(scanned.extremes, raster.frame().decimals));
   return scanned;
 }
 
@@ -174,8 +174,8 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
 }
 
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
-  announce(request, remark_on_fill(cloud));
-  announce(request, remark_on_grid(cloud));
+  announce(request, warning_on_fill(cloud));
+  announce(request, warning_on_grid(cloud));
   const EncodedPoints made =
       with_file_context(request.input, [&] { return encode_pack(cloud, request); });
   out.write(made.bytes);
@@ -208,9 +208,9 @@ std::string encode_tiled(const EncodeRequest& request, OutputFile& out) {
 
 std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
   const Source source = prepared_terrain(request.input, request.preparation);
-  announce(request, std::visit([](const auto& one) { return remark_on_fill(one); }, source));
+  announce(request, std::visit([](const auto& one) { return warning_on_fill(one); }, source));
   if (const auto* const cloud = std::get_if<PointCloud>(&source)) {
-    announce(request, remark_on_grid(*cloud));
+    announce(request, warning_on_grid(*cloud));
   }
   const EncodedStream encoded = with_file_context(request.input, [&] {
     ProgressBar bar;

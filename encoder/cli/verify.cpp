@@ -50,8 +50,8 @@ void add_warnings(JsonObject& report, const Original& original) {
   const Reference& reference =
       original.raster() != nullptr ? original.raster()->reference : original.cloud()->reference;
   std::string list;
-  for (const std::string& remark : reference.remarks) {
-    list += (list.empty() ? "" : ", ") + json(remark);
+  for (const std::string& warning : reference.warnings) {
+    list += (list.empty() ? "" : ", ") + json(warning);
   }
   if (!list.empty()) report.emplace_back("warnings", '[' + list + ']');
 }

@@ -11,7 +11,7 @@ namespace microtin::gdal {
 namespace {
 
 using encoder::Coding;
-using encoder::Posts;
+using encoder::RasterData;
 using encoder::SearchEffort;
 using encoder::Transform;
 
@@ -88,7 +88,7 @@ void expect_held(GDALDataset& source) {
          " x " + std::to_string(rows) + " posts: -projwin WEST NORTH EAST SOUTH cuts it");
 }
 
-Posts posts_of(GDALDataset& source) {
+RasterData raster_from_cells(GDALDataset& source) {
   if (source.GetRasterCount() != 1) {
     refuse("the source has not one band but " + std::to_string(source.GetRasterCount()) +
            ": choose one with -b");
@@ -114,11 +114,11 @@ Posts posts_of(GDALDataset& source) {
   // If the file has a mask, GDAL passes the value over.
   const double no_data = has_value != 0 ? value : encoder::kNoValue;
   if (type == GDT_Float32) {
-    return encoder::posts_of(columns, rows, heights_of<float>(band, GDT_Float32).data(), transform,
-                             no_data);
+    return encoder::raster_from_cells(columns, rows, heights_of<float>(band, GDT_Float32).data(),
+                                      transform, no_data);
   }
-  return encoder::posts_of(columns, rows, heights_of<double>(band, GDT_Float64).data(), transform,
-                           no_data);
+  return encoder::raster_from_cells(columns, rows, heights_of<double>(band, GDT_Float64).data(),
+                                    transform, no_data);
 }
 
 std::string wkt_of(const GDALDataset& source) {
@@ -164,10 +164,10 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
   if (!ends_with(path, ".mtin") && !ends_with(path, ".mtp")) {
     refuse(std::string(path) + ": name a stream .mtin or a pack .mtp");
   }
-  Posts posts = posts_of(source);
+  RasterData posts = raster_from_cells(source);
   posts.wkt = wkt_of(source);
   posts.z_unit = source.GetRasterBand(1)->GetUnitType();
-  const encoder::Terrain terrain(std::move(posts));
+  const encoder::SourceTerrain terrain(std::move(posts));
   if (!ends_with(path, ".mtp")) {
     if (CSLFetchNameValue(given, "TILE_VERTICES") != nullptr) {
       refuse(std::string(path) + ": is a stream; a pack, which has tiles, is named .mtp");
@@ -194,8 +194,8 @@ GDALDataset* create_copy(const char* path, GDALDataset* source, int /*strict*/, 
   return guarded(
       [&]() -> GDALDataset* {
         const encoder::Report report = encode(path, *source, options, callbacks);
-        for (const std::string& remark : report.remarks) {
-          CPLError(CE_Warning, CPLE_AppDefined, "MTIN: %s: %s", path, remark.c_str());
+        for (const std::string& warning : report.warnings) {
+          CPLError(CE_Warning, CPLE_AppDefined, "MTIN: %s: %s", path, warning.c_str());
         }
         progress(1, "", context);
         GDALOpenInfo info(path, GDAL_OF_RASTER);

@@ -11,13 +11,13 @@
 namespace microtin::gdal {
 namespace {
 
-using encoder::Facts;
 using encoder::Grid;
 using encoder::Surface;
+using encoder::SurfaceInfo;
 using encoder::Unit;
 
 // A file of any of GDAL's file systems.
-class VsiBytes : public encoder::Bytes {
+class VsiBytes : public encoder::ByteSource {
  public:
   explicit VsiBytes(const char* path) : file_(VSIFOpenL(path, "rb")) {
     if (file_ == nullptr) throw std::runtime_error(std::string(path) + ": cannot be opened");
@@ -44,9 +44,9 @@ const char* symbol_of(Unit unit) {
 }
 
 // One, two or five times a power of ten: at most half of what lies between vertices.
-std::string cell_of(const Facts& facts) {
-  const double area = (facts.box.east - facts.box.west) * (facts.box.north - facts.box.south);
-  const double wanted = std::sqrt(area / static_cast<double>(facts.vertices)) / 2;
+std::string cell_of(const SurfaceInfo& info) {
+  const double area = (info.box.east - info.box.west) * (info.box.north - info.box.south);
+  const double wanted = std::sqrt(area / static_cast<double>(info.vertices)) / 2;
   if (!(wanted > 1e-9 && wanted < 1e9)) throw std::runtime_error("CELL_SIZE must be given");
   const double power = std::pow(10, std::floor(std::log10(wanted)));
   const double digit = wanted / power >= 5 ? 5 : wanted / power >= 2 ? 2 : 1;
@@ -103,9 +103,7 @@ class Band : public GDALPamRasterBand {
     if (given != nullptr) *given = TRUE;
     return dataset_->no_data();
   }
-  const char* GetUnitType() override {
-    return symbol_of(dataset_->surface().facts().vertical_unit);
-  }
+  const char* GetUnitType() override { return symbol_of(dataset_->surface().info().vertical_unit); }
 
   CPLErr IReadBlock(int block_x, int block_y, void* to) override {
     return guarded([&] { return read_block(block_x, block_y, static_cast<double*>(to)); },
@@ -150,10 +148,10 @@ std::string valid_text(const std::string& text) {
   return ascii.get();
 }
 
-std::string name_of_system(const Facts& facts) {
-  if (facts.horizontal_epsg == 0) return "a text";
-  const std::string name = "EPSG " + std::to_string(facts.horizontal_epsg);
-  return facts.vertical_epsg != 0 ? name + ':' + std::to_string(facts.vertical_epsg) : name;
+std::string name_of_system(const SurfaceInfo& info) {
+  if (info.horizontal_epsg == 0) return "a text";
+  const std::string name = "EPSG " + std::to_string(info.horizontal_epsg);
+  return info.vertical_epsg != 0 ? name + ':' + std::to_string(info.vertical_epsg) : name;
 }
 
 }  // namespace
@@ -200,18 +198,18 @@ Dataset::Dataset(Surface surface) : surface_(std::move(surface)) {
 
 // Texts of the header as metadata.
 void Dataset::describe() {
-  const Facts& facts = surface_.facts();
+  const SurfaceInfo& info = surface_.info();
   const std::pair<const char*, std::string> items[] = {
       {GDALMD_AREA_OR_POINT, GDALMD_AOP_POINT},
-      {"VERTICES", std::to_string(facts.vertices)},
-      {"TILES", facts.is_pack ? CPLSPrintf("%u x %u", facts.tile_columns, facts.tile_rows) : ""},
-      {"MAX_ERROR_ASKED", facts.bound},
-      {"MAX_ERROR", facts.max_error},
-      {"MAX_ERROR_AT_POINTS", facts.max_error_at_points},
-      {"RMS_ERROR", facts.rms_error},
-      {"SOURCE", valid_text(facts.origin)},
-      {"DATE", valid_text(facts.date)},
-      {"LINEAGE", valid_text(facts.lineage)},
+      {"VERTICES", std::to_string(info.vertices)},
+      {"TILES", info.is_pack ? CPLSPrintf("%u x %u", info.tile_columns, info.tile_rows) : ""},
+      {"MAX_ERROR_ASKED", info.bound},
+      {"MAX_ERROR", info.max_error},
+      {"MAX_ERROR_AT_POINTS", info.max_error_at_points},
+      {"RMS_ERROR", info.rms_error},
+      {"SOURCE", valid_text(info.origin)},
+      {"DATE", valid_text(info.date)},
+      {"LINEAGE", valid_text(info.lineage)},
   };
   for (const auto& [name, value] : items) {
     if (!value.empty()) GDALPamDataset::SetMetadataItem(name, value.c_str());
@@ -220,16 +218,16 @@ void Dataset::describe() {
 
 // A code or a text that PROJ does not know is told, and the data read all the same.
 void Dataset::read_system() {
-  const Facts& facts = surface_.facts();
+  const SurfaceInfo& info = surface_.info();
   OGRErr error = OGRERR_NONE;
-  if (facts.horizontal_epsg != 0) {
-    error = system_.importFromEPSG(static_cast<int>(facts.horizontal_epsg));
-  } else if (!facts.wkt.empty()) {
-    error = system_.importFromWkt(facts.wkt.c_str());
+  if (info.horizontal_epsg != 0) {
+    error = system_.importFromEPSG(static_cast<int>(info.horizontal_epsg));
+  } else if (!info.wkt.empty()) {
+    error = system_.importFromWkt(info.wkt.c_str());
   }
   OGRSpatialReference heights;
-  if (error == OGRERR_NONE && facts.vertical_epsg != 0 && !system_.IsEmpty()) {
-    error = heights.importFromEPSG(static_cast<int>(facts.vertical_epsg));
+  if (error == OGRERR_NONE && info.vertical_epsg != 0 && !system_.IsEmpty()) {
+    error = heights.importFromEPSG(static_cast<int>(info.vertical_epsg));
     const OGRSpatialReference places = system_;
     if (error == OGRERR_NONE) {
       const std::string name =
@@ -240,16 +238,16 @@ void Dataset::read_system() {
   if (error != OGRERR_NONE) {
     CPLError(CE_Warning, CPLE_AppDefined,
              "MTIN: the coordinate system, %s, is not understood: assign one with -a_srs",
-             name_of_system(facts).c_str());
+             name_of_system(info).c_str());
   }
   system_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
 }
 
 void Dataset::add_raster(const char* cell) {
-  const Facts& facts = surface_.facts();
-  grid_ = facts.source;
+  const SurfaceInfo& info = surface_.info();
+  grid_ = info.source;
   if (cell != nullptr || grid_.columns == 0) {
-    grid_ = surface_.grid(cell != nullptr ? std::string(cell) : cell_of(facts));
+    grid_ = surface_.grid(cell != nullptr ? std::string(cell) : cell_of(info));
   }
   constexpr uint32_t kMost = 0x7FFFFFFF;
   constexpr int64_t kFurthest = int64_t{1} << 60;  // so that doubling and adding stay in 64 bits
@@ -258,7 +256,7 @@ void Dataset::add_raster(const char* cell) {
       !is_near(grid_.y.offset)) {
     throw std::runtime_error("the grid has more than 2^31 columns or rows, or lies too far away");
   }
-  while (facts.lowest <= no_data_) no_data_ = 10 * no_data_ - 9;
+  while (info.lowest <= no_data_) no_data_ = 10 * no_data_ - 9;
   nRasterXSize = static_cast<int>(grid_.columns);
   nRasterYSize = static_cast<int>(grid_.rows);
   auto band = std::make_unique<Band>(this, 1, 0);

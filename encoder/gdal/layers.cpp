@@ -8,9 +8,9 @@ namespace microtin::gdal {
 namespace {
 
 using encoder::Box;
-using encoder::Facts;
 using encoder::Mesh;
 using encoder::Surface;
+using encoder::SurfaceInfo;
 
 // Features of all tiles, of which one is decoded at a time. Of a pack they say which tile is
 // theirs, as its column and row; vertices on borders come once for each.
@@ -18,7 +18,7 @@ class Layer : public OGRLayer {
  public:
   Layer(const Surface& surface, const OGRSpatialReference& system, const char* name,
         OGRwkbGeometryType type)
-      : surface_(surface), facts_(surface.facts()), definition_(new OGRFeatureDefn(name)) {
+      : surface_(surface), info_(surface.info()), definition_(new OGRFeatureDefn(name)) {
     SetDescription(name);
     definition_->Reference();
     definition_->SetGeomType(type);
@@ -26,7 +26,7 @@ class Layer : public OGRLayer {
       system_ = system.Clone();
       definition_->GetGeomFieldDefn(0)->SetSpatialRef(system_);
     }
-    if (facts_.is_pack) {
+    if (info_.is_pack) {
       for (const char* field : {"tile_column", "tile_row"}) {
         OGRFieldDefn number(field, OFTInteger);
         definition_->AddFieldDefn(&number);
@@ -52,7 +52,7 @@ class Layer : public OGRLayer {
 
   // A pack's extent is that of its tiles, which may reach beyond the vertices.
   OGRErr GetExtent(OGREnvelope* extent, int /*force*/) override {
-    *extent = envelope_of(facts_.box);
+    *extent = envelope_of(info_.box);
     return OGRERR_NONE;
   }
   OGRErr GetExtent(int field, OGREnvelope* extent, int force) override {
@@ -95,7 +95,7 @@ class Layer : public OGRLayer {
   // Reads tiles up to one that has a feature left; false behind the last. A tile that cannot be
   // read ends the reading.
   bool go_to_feature() {
-    const uint64_t tiles = uint64_t{facts_.tile_columns} * facts_.tile_rows;
+    const uint64_t tiles = uint64_t{info_.tile_columns} * info_.tile_rows;
     while (tile_ < tiles) {
       if (!is_read_) read_tile();
       if (next_ < count(mesh_)) return true;
@@ -118,7 +118,7 @@ class Layer : public OGRLayer {
     try {
       mesh_ = surface_.tile(column, row);
     } catch (const std::exception&) {
-      tile_ = uint64_t{facts_.tile_columns} * facts_.tile_rows;
+      tile_ = uint64_t{info_.tile_columns} * info_.tile_rows;
       throw;
     }
   }
@@ -126,7 +126,7 @@ class Layer : public OGRLayer {
   std::unique_ptr<OGRFeature> take_feature() {
     auto feature = std::make_unique<OGRFeature>(definition_);
     feature->SetFID(number_ + static_cast<GIntBig>(next_));
-    if (facts_.is_pack) {
+    if (info_.is_pack) {
       feature->SetField(0, static_cast<int>(column()));
       feature->SetField(1, static_cast<int>(row()));
     }
@@ -136,11 +136,11 @@ class Layer : public OGRLayer {
     return feature;
   }
 
-  uint32_t column() const { return static_cast<uint32_t>(tile_ % facts_.tile_columns); }
-  uint32_t row() const { return static_cast<uint32_t>(tile_ / facts_.tile_columns); }
+  uint32_t column() const { return static_cast<uint32_t>(tile_ % info_.tile_columns); }
+  uint32_t row() const { return static_cast<uint32_t>(tile_ / info_.tile_columns); }
 
   const Surface& surface_;
-  const Facts& facts_;
+  const SurfaceInfo& info_;
   OGRFeatureDefn* definition_;
   OGRSpatialReference* system_ = nullptr;
   Mesh mesh_;  // of the tile
@@ -153,7 +153,7 @@ class Layer : public OGRLayer {
 class Vertices : public Layer {
  public:
   Vertices(const Surface& surface, const OGRSpatialReference& system)
-      : Layer(surface, system, "vertices", wkbPoint25D), all_(surface.facts().vertices) {}
+      : Layer(surface, system, "vertices", wkbPoint25D), all_(surface.info().vertices) {}
 
   GIntBig GetFeatureCount(int force) override {
     if (m_poFilterGeom != nullptr || m_poAttrQuery != nullptr) {

@@ -51,7 +51,7 @@ std::string factor_text(const DecimalFactor& factor) {
 class Settlement {
  public:
   Settlement(const Reference& file, const Reference& asked) : file_(file), asked_(asked) {
-    all_.remarks = file.remarks;
+    all_.warnings = file.warnings;
     all_.wkt = file.wkt;
   }
 
@@ -63,13 +63,13 @@ class Settlement {
   }
 
  private:
-  void remark(const std::string& text) { all_.remarks.push_back(text); }
+  void warn(const std::string& text) { all_.warnings.push_back(text); }
 
   void settle_places() {
     const System asked = complete(false, horizontal_of(asked_)), file = horizontal_of(file_);
     if (!file_.unread.empty()) {
       if (asked.code == 0 && !asked.unit.is_stated()) throw Error(file_.unread);
-      remark("what is asked for decides; not read is " + file_.unread);
+      warn("what is asked for decides; not read is " + file_.unread);
     }
     if (asked.code != 0) all_.wkt.clear();
     all_.horizontal_epsg = chosen(asked.code, file.code);
@@ -117,8 +117,8 @@ class Settlement {
     if (wanted.code == 0) return wanted;
     const std::optional<CodedSystem> system = system_of_code(wanted.code);
     if (!system) {
-      remark(code_text(wanted.code) + " is not among the codes known here, and is taken as it is" +
-             (wanted.unit.is_stated() ? "" : ": give its units"));
+      warn(code_text(wanted.code) + " is not among the codes known here, and is taken as it is" +
+           (wanted.unit.is_stated() ? "" : ": give its units"));
       return wanted;
     }
     if (system->is_vertical != is_vertical) {
@@ -138,7 +138,7 @@ class Settlement {
   uint32_t chosen(uint32_t asked, uint32_t file) {
     if (asked == 0) return file;
     if (file != 0 && file != asked) {
-      remark(code_text(asked) + " is taken; the file says " + code_text(file));
+      warn(code_text(asked) + " is taken; the file says " + code_text(file));
     }
     return asked;
   }
@@ -146,8 +146,8 @@ class Settlement {
   StatedUnit chosen(const char* what, const StatedUnit& asked, const StatedUnit& file) {
     if (!asked.is_stated()) return file;
     if (file.is_stated() && !is_same(asked, file)) {
-      remark(std::string(what) + " are taken as " + text_of(asked) + "; the file says " +
-             text_of(file));
+      warn(std::string(what) + " are taken as " + text_of(asked) + "; the file says " +
+           text_of(file));
     }
     return asked;
   }
@@ -167,15 +167,15 @@ class Settlement {
                   "they are");
     }
     factor = *exact;
-    remark(what + " in the unit " + name + " are converted to " + text_of(length->base) +
-           ": times " + factor_text(factor));
+    warn(what + " in the unit " + name + " are converted to " + text_of(length->base) + ": times " +
+         factor_text(factor));
     return length->base;
   }
 
   void forget_system_of_other_unit(Unit unit) {
     const std::optional<CodedSystem> system = system_of_file_code(all_.vertical_epsg);
     if (!system || system->unit == unit) return;
-    remark(code_text(all_.vertical_epsg) + " has another unit, and is not noted");
+    warn(code_text(all_.vertical_epsg) + " has another unit, and is not noted");
     all_.vertical_epsg = 0;
   }
 
@@ -191,15 +191,15 @@ class Settlement {
                   ", which grow downwards: the option depths turns them into heights, or a "
                   "vertical EPSG code of heights says that they are heights");
     }
-    if (!stated && file_.depths) remark("heights are taken as they are; the file says depths");
+    if (!stated && file_.depths) warn("heights are taken as they are; the file says depths");
     if (!asked_.depths) return;
     conversion_.z.numerator = -conversion_.z.numerator;
     keeps_no_vertical_part_ = true;
-    remark(depths_remark(stated, is_coded_depth, system));
+    warn(depths_warning(stated, is_coded_depth, system));
   }
 
-  std::string depths_remark(bool stated, bool is_coded_depth,
-                            const std::optional<CodedSystem>& system) {
+  std::string depths_warning(bool stated, bool is_coded_depth,
+                             const std::optional<CodedSystem>& system) {
     std::string text = "depths are turned into heights";
     if (is_coded_depth) {
       text += ": " + code_text(all_.vertical_epsg) +
@@ -225,12 +225,12 @@ SettledReference settle(const Reference& file, const Reference& asked) {
 }
 
 Reference completed(Reference reference) {
-  const auto remark = [&](const std::string& text) { reference.remarks.push_back(text); };
+  const auto warn = [&](const std::string& text) { reference.warnings.push_back(text); };
   if (reference.horizontal_unit == Unit::kUnknown) {
     const uint32_t code = reference.horizontal_epsg;
-    remark(code == 0 ? "the unit of x and y is not known: give units or an EPSG code"
-                     : "the unit of x and y is not known, nor is " + code_text(code) +
-                           " here: give units");
+    warn(code == 0
+             ? "the unit of x and y is not known: give units or an EPSG code"
+             : "the unit of x and y is not known, nor is " + code_text(code) + " here: give units");
   }
   if (reference.vertical_unit != Unit::kUnknown) return reference;
   if (reference.horizontal_unit == Unit::kDegree) {
@@ -240,8 +240,8 @@ Reference completed(Reference reference) {
   }
   reference.vertical_unit = reference.horizontal_unit;
   if (reference.vertical_unit == Unit::kFoot || reference.vertical_unit == Unit::kUsSurveyFoot) {
-    remark("heights are taken as " + text_of(reference.vertical_unit) +
-           ", as x and y are; if they are not, give units, such as :metre");
+    warn("heights are taken as " + text_of(reference.vertical_unit) +
+         ", as x and y are; if they are not, give units, such as :metre");
   }
   return reference;
 }
@@ -277,10 +277,10 @@ void state_vertical_unit(const StatedUnit& unit, Reference& reference) {
   reference.vertical_other = is_angle ? text_of(unit.unit) : unit.other;
 }
 
-void add_remarks(const Reference& from, Reference& to) {
-  for (const std::string& remark : from.remarks) {
-    if (std::find(to.remarks.begin(), to.remarks.end(), remark) == to.remarks.end()) {
-      to.remarks.push_back(remark);
+void add_warnings(const Reference& from, Reference& to) {
+  for (const std::string& warn : from.warnings) {
+    if (std::find(to.warnings.begin(), to.warnings.end(), warn) == to.warnings.end()) {
+      to.warnings.push_back(warn);
     }
   }
 }

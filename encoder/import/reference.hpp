@@ -23,7 +23,7 @@ struct SettledReference {
   Conversion conversion;
 };
 
-// What is asked for, where it says something, comes before what the file says; remarks tell what
+// What is asked for, where it says something, comes before what the file says; warnings say what
 // gave way, and what is converted. Codes that are asked for bring their units. `asked.depths` turns
 // heights that grow downwards into heights. Throws Error if what is asked for contradicts itself,
 // and if the file's system is not read, its heights are depths, or a unit cannot be converted
@@ -42,8 +42,8 @@ bool read_units(const std::string& text, Reference& asked);
 void state_horizontal_unit(const StatedUnit& unit, Reference& reference);
 void state_vertical_unit(const StatedUnit& unit, Reference& reference);
 
-// Adds those remarks that are not there yet.
-void add_remarks(const Reference& from, Reference& to);
+// Adds the warnings that are not there yet.
+void add_warnings(const Reference& from, Reference& to);
 
 }  // namespace microtin::importing
 

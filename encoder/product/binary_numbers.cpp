@@ -20,8 +20,8 @@ microtin_axis centres(double corner, double size, uint32_t cells) {
 }
 
 template <class Number>
-Posts binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const Transform& t,
-                   double no_data) {
+RasterData binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const Transform& t,
+                        double no_data) {
   if (!runs_east(t)) {
     throw Error(
         "transform: columns must run east and rows north or south: WEST, WIDTH, 0, NORTH, 0, "
@@ -45,7 +45,7 @@ Posts binary_posts(uint32_t columns, uint32_t rows, const Number* heights, const
       }
     }
   }
-  Posts posts;
+  RasterData posts;
   posts.columns = columns;
   posts.rows = rows;
   posts.decimals = numbers.decimals();
@@ -65,17 +65,17 @@ bool can_hold(uint64_t bytes, uint32_t columns, uint32_t rows) {
   return importing::can_hold(bytes, columns, rows);
 }
 
-Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform,
-               double no_data) {
+RasterData raster_from_cells(uint32_t columns, uint32_t rows, const float* heights,
+                             const Transform& transform, double no_data) {
   return binary_posts(columns, rows, heights, transform, no_data);
 }
 
-Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform,
-               double no_data) {
+RasterData raster_from_cells(uint32_t columns, uint32_t rows, const double* heights,
+                             const Transform& transform, double no_data) {
   return binary_posts(columns, rows, heights, transform, no_data);
 }
 
-Points points_of(uint64_t count, const double* coordinates) {
+PointCloudData point_cloud_from_xyz(uint64_t count, const double* coordinates) {
   importing::PointColumns columns;
   for (uint64_t i = 0; i < 3 * count; ++i) {
     const auto decimal = exact::shortest_decimal(coordinates[i]);
@@ -84,7 +84,7 @@ Points points_of(uint64_t count, const double* coordinates) {
     }
   }
   const terrain::PointCloud cloud = columns.take();
-  Points points;
+  PointCloudData points;
   points.xy_decimals = cloud.xy_decimals;
   points.z_decimals = cloud.z_decimals;
   points.points.reserve(cloud.points.size());

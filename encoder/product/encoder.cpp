@@ -22,7 +22,7 @@ namespace microtin::encoder {
 
 using base::Error;
 
-struct Terrain::Content {
+struct SourceTerrain::Content {
   terrain::Source source;
 };
 
@@ -52,14 +52,14 @@ terrain::Reference reference_of(const std::string& wkt, const std::string& z_uni
   return reference;
 }
 
-terrain::Source raster_of(Posts posts) {
+terrain::Source raster_of(RasterData posts) {
   expect(posts.heights.size() == uint64_t{posts.columns} * posts.rows,
          "not as many heights as columns times rows");
   check_decimals(posts.decimals);
   for (const int64_t height : posts.heights) {
-    expect(height == kVoid || is_number(height), "a height is beyond 10^18");
+    expect(height == kNoData || is_number(height), "a height is beyond 10^18");
   }
-  static_assert(kVoid == terrain::kVoidHeight, "void posts are taken as they are");
+  static_assert(kNoData == terrain::kVoidHeight, "void posts are taken as they are");
   return terrain::Raster{posts.columns,
                          posts.rows,
                          std::move(posts.heights),
@@ -69,7 +69,7 @@ terrain::Source raster_of(Posts posts) {
                          reference_of(posts.wkt, posts.z_unit)};
 }
 
-terrain::Source cloud_of(const Points& points) {
+terrain::Source cloud_of(const PointCloudData& points) {
   check_decimals(points.xy_decimals);
   check_decimals(points.z_decimals);
   terrain::PointCloud cloud;
@@ -261,33 +261,34 @@ Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOpti
   return report;
 }
 
-std::vector<std::string> remarks_on(const SettledTerrain& terrain) {
-  std::vector<std::string> remarks = importing::completed(terrain.reference()).remarks;
+std::vector<std::string> warnings_on(const SettledTerrain& terrain) {
+  std::vector<std::string> warnings = importing::completed(terrain.reference()).warnings;
   const std::string fill =
-      std::visit([](const auto& one) { return terrain::remark_on_fill(one); }, terrain.source());
-  if (!fill.empty()) remarks.push_back(fill);
+      std::visit([](const auto& one) { return terrain::warning_on_fill(one); }, terrain.source());
+  if (!fill.empty()) warnings.push_back(fill);
   if (const auto* const cloud = std::get_if<terrain::PointCloud>(&terrain.source())) {
-    const std::string grid = terrain::remark_on_grid(*cloud);
-    if (!grid.empty()) remarks.push_back(grid);
+    const std::string grid = terrain::warning_on_grid(*cloud);
+    if (!grid.empty()) warnings.push_back(grid);
   }
-  return remarks;
+  return warnings;
 }
 
 }  // namespace
 
-Terrain::Terrain(std::shared_ptr<const Content> content) : content_(std::move(content)) {}
+SourceTerrain::SourceTerrain(std::shared_ptr<const Content> content)
+    : content_(std::move(content)) {}
 
-Terrain::Terrain(Posts posts)
-    : Terrain(std::make_shared<Content>(Content{raster_of(std::move(posts))})) {}
+SourceTerrain::SourceTerrain(RasterData posts)
+    : SourceTerrain(std::make_shared<Content>(Content{raster_of(std::move(posts))})) {}
 
-Terrain::Terrain(const Points& points)
-    : Terrain(std::make_shared<Content>(Content{cloud_of(points)})) {}
+SourceTerrain::SourceTerrain(const PointCloudData& points)
+    : SourceTerrain(std::make_shared<Content>(Content{cloud_of(points)})) {}
 
-Terrain Terrain::from_file(const std::string& path) {
-  return Terrain(std::make_shared<Content>(Content{importing::import_terrain(path)}));
+SourceTerrain SourceTerrain::from_file(const std::string& path) {
+  return SourceTerrain(std::make_shared<Content>(Content{importing::import_terrain(path)}));
 }
 
-Stream encode_stream(const Terrain& terrain, const StreamOptions& options,
+Stream encode_stream(const SourceTerrain& terrain, const StreamOptions& options,
                      const Callbacks& callbacks) {
   product::EncodeOptions all = options_of(options);
   const bool bounded = all.lattice.max_error.has_value();
@@ -306,12 +307,12 @@ Stream encode_stream(const Terrain& terrain, const StreamOptions& options,
   product::EncodedStream encoded =
       product::encode_stream(settled.source(), all, progress_of(callbacks));
   Report report = report_of(encoded);
-  report.remarks = remarks_on(settled);
+  report.warnings = warnings_on(settled);
   return {std::move(encoded.stream), std::move(report)};
 }
 
-Report encode_pack(const Terrain& terrain, const PackOptions& options, const std::string& path,
-                   const Callbacks& callbacks) {
+Report encode_pack(const SourceTerrain& terrain, const PackOptions& options,
+                   const std::string& path, const Callbacks& callbacks) {
   product::EncodeOptions all = options_of(options);
   expect(!options.never_below || all.lattice.max_error, "never_below needs max_error");
   expect(options.tile_vertices == 0 || (options.tile_vertices >= pack::kFewestTileVertices &&
@@ -327,7 +328,7 @@ Report encode_pack(const Terrain& terrain, const PackOptions& options, const std
   Report report = raster != nullptr
                       ? encode_posts(*raster, all, path, out, callbacks)
                       : encode_points(std::get<terrain::PointCloud>(source), all, out);
-  report.remarks = remarks_on(settled);
+  report.warnings = warnings_on(settled);
   out.commit();
   return report;
 }

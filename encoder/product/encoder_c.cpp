@@ -20,7 +20,7 @@ using namespace microtin::encoder;
 using microtin::base::Error;
 
 struct microtin_source {
-  Terrain terrain;
+  SourceTerrain terrain;
 };
 
 struct microtin_surface {
@@ -30,7 +30,7 @@ struct microtin_surface {
 
 namespace {
 
-thread_local std::string last_message, last_remarks;
+thread_local std::string last_message, last_warnings;
 
 microtin_status failed(microtin_status outcome, const char* why) {
   try {
@@ -75,15 +75,15 @@ void expect(Pointer* pointer) {
   if (pointer == nullptr) throw Error("a pointer is null");
 }
 
-Posts read_raster(const microtin_raster_data& raster) {
+RasterData read_raster(const microtin_raster_data& raster) {
   Transform transform{};
   std::copy(std::begin(raster.transform), std::end(raster.transform), transform.begin());
   const double no_data = raster.no_data != nullptr ? *raster.no_data : kNoValue;
   if (raster.heights != nullptr) {
-    return posts_of(raster.columns, raster.rows, raster.heights, transform, no_data);
+    return raster_from_cells(raster.columns, raster.rows, raster.heights, transform, no_data);
   }
   expect(raster.float_heights);
-  return posts_of(raster.columns, raster.rows, raster.float_heights, transform, no_data);
+  return raster_from_cells(raster.columns, raster.rows, raster.float_heights, transform, no_data);
 }
 
 // 0 is what is usual, else it is 1 above the number that it has in C++.
@@ -135,8 +135,8 @@ void copy_decimal(const std::string& decimal, char (&to)[24]) {
 }
 
 void copy_report(const Report& report, microtin_report* to) {
-  last_remarks.clear();
-  for (const std::string& remark : report.remarks) last_remarks += remark + '\n';
+  last_warnings.clear();
+  for (const std::string& warning : report.warnings) last_warnings += warning + '\n';
   if (to == nullptr) return;
   *to = {};
   to->samples = report.samples;
@@ -152,14 +152,14 @@ void copy_report(const Report& report, microtin_report* to) {
   copy_decimal(report.max_below_at_points, to->max_below_at_points);
 }
 
-microtin_status make(microtin_source** terrain, const std::function<Terrain()>& read) {
+microtin_status make(microtin_source** terrain, const std::function<SourceTerrain()>& read) {
   return guarded([&] {
     expect(terrain);
     *terrain = new microtin_source{read()};
   });
 }
 
-class BytesInMemory : public Bytes {
+class BytesInMemory : public ByteSource {
  public:
   BytesInMemory(const uint8_t* bytes, uint64_t size) : bytes_(bytes, bytes + size) {}
   uint64_t size() const override { return bytes_.size(); }
@@ -202,7 +202,7 @@ const char* microtin_last_error(void) {
 }
 
 const char* microtin_last_warnings(void) {
-  return last_remarks.c_str();
+  return last_warnings.c_str();
 }
 
 const char* microtin_version_string(void) {
@@ -213,9 +213,9 @@ const char* microtin_version_string(void) {
 microtin_status microtin_source_from_raster(const microtin_raster_data* raster,
                                             microtin_source** source) {
   return make(source, [&] {
-    Posts posts = read_raster(checked(raster));
+    RasterData posts = read_raster(checked(raster));
     posts.wkt = text_of(raster->wkt);
-    return Terrain(std::move(posts));
+    return SourceTerrain(std::move(posts));
   });
 }
 
@@ -223,14 +223,14 @@ microtin_status microtin_source_from_points(const microtin_point_data* points,
                                             microtin_source** source) {
   return make(source, [&] {
     expect(checked(points).coordinates);
-    Points read = points_of(points->count, points->coordinates);
+    PointCloudData read = point_cloud_from_xyz(points->count, points->coordinates);
     read.wkt = text_of(points->wkt);
-    return Terrain(read);
+    return SourceTerrain(read);
   });
 }
 
 microtin_status microtin_source_from_file(const char* path, microtin_source** source) {
-  return make(source, [&] { return Terrain::from_file(text_of(path)); });
+  return make(source, [&] { return SourceTerrain::from_file(text_of(path)); });
 }
 
 void microtin_source_free(microtin_source* source) {
@@ -293,7 +293,7 @@ void microtin_surface_free(microtin_surface* surface) {
 }
 
 void microtin_surface_get_info(const microtin_surface* surface, microtin_surface_info* info) {
-  const Facts& all = surface->surface.facts();
+  const SurfaceInfo& all = surface->surface.info();
   *info = {};
   info->bytes = all.bytes;
   info->vertices = all.vertices;

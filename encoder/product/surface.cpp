@@ -23,14 +23,15 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // Somebody's bytes, for readers that know only ours.
 class ForeignBytes : public files::ByteSource {
  public:
-  explicit ForeignBytes(std::unique_ptr<const Bytes> bytes) : bytes_(std::move(bytes)) {}
+  explicit ForeignBytes(std::unique_ptr<const encoder::ByteSource> bytes)
+      : bytes_(std::move(bytes)) {}
   uint64_t size() const override { return bytes_->size(); }
   std::size_t read(uint64_t offset, void* to, std::size_t size) const override {
     return bytes_->read(offset, to, size);
   }
 
  private:
-  std::unique_ptr<const Bytes> bytes_;
+  std::unique_ptr<const encoder::ByteSource> bytes_;
 };
 
 Box box_of(const exact::Placement& placement, int64_t west, int64_t south, int64_t east,
@@ -51,15 +52,15 @@ Mesh mesh_of(const stream::SurfaceModel& model, int64_t x, int64_t y) {
   return mesh;
 }
 
-void take_accuracy(const exact::Metadata& metadata, Facts& facts) {
+void take_accuracy(const exact::Metadata& metadata, SurfaceInfo& info) {
   if (metadata.true_places) {
-    facts.max_error_at_points = to_string(metadata.true_places->max_error);
+    info.max_error_at_points = to_string(metadata.true_places->max_error);
   }
   if (!metadata.accuracy) return;
-  if (metadata.accuracy->bound) facts.bound = to_string(*metadata.accuracy->bound);
-  facts.max_error = to_string(metadata.accuracy->max_error);
-  facts.rms_error = to_string(metadata.accuracy->rms_error);
-  facts.mean_error = to_string(metadata.accuracy->mean_error);
+  if (metadata.accuracy->bound) info.bound = to_string(*metadata.accuracy->bound);
+  info.max_error = to_string(metadata.accuracy->max_error);
+  info.rms_error = to_string(metadata.accuracy->rms_error);
+  info.mean_error = to_string(metadata.accuracy->mean_error);
 }
 
 Unit unit_of(exact::Unit unit) {
@@ -102,20 +103,20 @@ class BinaryNames {
 
 struct Surface::Content {
   explicit Content(product::Document read)
-      : document(std::move(read)), sampled(document.sampled()), facts(facts_of()) {}
+      : document(std::move(read)), sampled(document.sampled()), info(info_of()) {}
 
-  Facts facts_of() const;
+  SurfaceInfo info_of() const;
   double height(const exact::RealPlace& place) const;
   uint32_t tile_at(int64_t x, int64_t y) const;
 
   product::Document document;
   exporting::SampledSurface sampled;
-  Facts facts;
+  SurfaceInfo info;
 };
 
-Facts Surface::Content::facts_of() const {
+SurfaceInfo Surface::Content::info_of() const {
   const exact::Metadata metadata = document.metadata();
-  Facts all;
+  SurfaceInfo all;
   all.bytes = document.bytes();
   all.vertices = document.vertices();
   all.box = box_of(sampled.placement, sampled.x_min, sampled.y_min, sampled.x_max, sampled.y_max);
@@ -146,7 +147,7 @@ Facts Surface::Content::facts_of() const {
 
 double Surface::Content::height(const exact::RealPlace& place) const {
   const terrain::ExactAnswer found = sampled.height_at(place);
-  return found.kind == MICROTIN_QUERY_OK ? exact::real_height(facts.z, found.height) : kNone;
+  return found.kind == MICROTIN_QUERY_OK ? exact::real_height(info.z, found.height) : kNone;
 }
 
 // A tile near the place.
@@ -155,7 +156,7 @@ uint32_t Surface::Content::tile_at(int64_t x, int64_t y) const {
   if (pack == nullptr) return 0;
   const auto column = static_cast<uint32_t>(x / pack->grid().width);
   const auto row = static_cast<uint32_t>(y / pack->grid().height);
-  return row * facts.tile_columns + column;
+  return row * info.tile_columns + column;
 }
 
 Surface::Surface(std::unique_ptr<Content> content) : content_(std::move(content)) {}
@@ -167,13 +168,13 @@ Surface Surface::from_file(const std::string& path) {
   return Surface(std::make_unique<Content>(product::Document(path)));
 }
 
-Surface Surface::from_bytes(std::unique_ptr<const Bytes> bytes, const std::string& name) {
+Surface Surface::from_bytes(std::unique_ptr<const ByteSource> bytes, const std::string& name) {
   return Surface(std::make_unique<Content>(
       product::Document(name, std::make_unique<ForeignBytes>(std::move(bytes)))));
 }
 
-const Facts& Surface::facts() const {
-  return content_->facts;
+const SurfaceInfo& Surface::info() const {
+  return content_->info;
 }
 
 Mesh Surface::mesh() const {
@@ -181,7 +182,7 @@ Mesh Surface::mesh() const {
 }
 
 Mesh Surface::tile(uint32_t column, uint32_t row) const {
-  const Facts& all = content_->facts;
+  const SurfaceInfo& all = content_->info;
   if (column >= all.tile_columns || row >= all.tile_rows) throw std::out_of_range("no such tile");
   const pack::PackFile* const pack = content_->document.pack();
   if (pack == nullptr) return mesh();
@@ -195,7 +196,7 @@ Mesh Surface::tile(uint32_t column, uint32_t row) const {
 }
 
 Box Surface::tile_box(uint32_t column, uint32_t row) const {
-  const Facts& all = content_->facts;
+  const SurfaceInfo& all = content_->info;
   if (column >= all.tile_columns || row >= all.tile_rows) throw std::out_of_range("no such tile");
   const pack::PackFile* const pack = content_->document.pack();
   if (pack == nullptr) return all.box;

@@ -17,9 +17,9 @@
 namespace {
 
 using microtin::encoder::Box;
-using microtin::encoder::Facts;
 using microtin::encoder::Mesh;
 using microtin::encoder::Surface;
+using microtin::encoder::SurfaceInfo;
 
 struct Opened {
   Mesh mesh;
@@ -58,9 +58,9 @@ Meshes& meshes() {
 }
 
 // What MDAL gives to QGIS, which knows codes and well-known text.
-std::string system_of(const Facts& facts) {
-  if (facts.horizontal_epsg != 0) return "EPSG:" + std::to_string(facts.horizontal_epsg);
-  return facts.wkt;
+std::string system_of(const SurfaceInfo& info) {
+  if (info.horizontal_epsg != 0) return "EPSG:" + std::to_string(info.horizontal_epsg);
+  return info.wkt;
 }
 
 Opened open(const char* path) {
@@ -70,7 +70,7 @@ Opened open(const char* path) {
   if (mesh.vertices.size() > kMost || mesh.triangles.size() > kMost) {
     throw std::runtime_error("too many vertices for MDAL");
   }
-  return {std::move(mesh), surface.facts().box, system_of(surface.facts())};
+  return {std::move(mesh), surface.info().box, system_of(surface.info())};
 }
 
 // Those of `count` things from `start` on that are there.

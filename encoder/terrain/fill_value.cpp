@@ -20,8 +20,8 @@ bool is_usual(Decimal value) {
          std::find(std::begin(kUsual), std::end(kUsual), value.mantissa) != std::end(kUsual);
 }
 
-std::string remark(const Extremes& heights, int decimals, const char* what,
-                   const std::function<std::string(const std::string&)>& remedy) {
+std::string warning(const Extremes& heights, int decimals, const char* what,
+                    const std::function<std::string(const std::string&)>& remedy) {
   const Extremes::Fill fill = heights.fill(decimals);
   if (fill.count == 0) return "";
   const std::string value = to_string(make_decimal(fill.value, decimals));
@@ -73,26 +73,26 @@ Extremes::Fill Extremes::fill(int decimals) const {
   return {};
 }
 
-std::string remark_on_fill(const Extremes& posts, int decimals) {
-  return remark(posts, decimals, "post", [](const std::string& value) {
+std::string warning_on_fill(const Extremes& posts, int decimals) {
+  return warning(posts, decimals, "post", [](const std::string& value) {
     return "the source must say so: NODATA_value " + value +
            " in an .asc, NaN in an array, else \"gdal_translate -a_nodata " + value + "\"";
   });
 }
 
-std::string remark_on_fill(const Raster& raster) {
+std::string warning_on_fill(const Raster& raster) {
   Extremes heights;
   for (const int64_t height : raster.heights) {
     if (height != kVoidHeight) heights.add(height);
   }
-  return remark_on_fill(heights, raster.decimals);
+  return warning_on_fill(heights, raster.decimals);
 }
 
-std::string remark_on_fill(const PointCloud& cloud) {
+std::string warning_on_fill(const PointCloud& cloud) {
   Extremes heights;
   for (const SourcePoint& point : cloud.points) heights.add(point.z);
-  return remark(heights, cloud.z_decimals, "point",
-                [](const std::string&) { return "leave them out"; });
+  return warning(heights, cloud.z_decimals, "point",
+                 [](const std::string&) { return "leave them out"; });
 }
 
 }  // namespace microtin::terrain

@@ -39,9 +39,9 @@ class Extremes {
 };
 
 // A sentence that says so, with the remedy; empty if there is no such value.
-std::string remark_on_fill(const Raster& raster);
-std::string remark_on_fill(const PointCloud& cloud);
-std::string remark_on_fill(const Extremes& posts, int decimals);
+std::string warning_on_fill(const Raster& raster);
+std::string warning_on_fill(const PointCloud& cloud);
+std::string warning_on_fill(const Extremes& posts, int decimals);
 
 }  // namespace microtin::terrain
 

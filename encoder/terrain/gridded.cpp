@@ -85,7 +85,7 @@ std::optional<Raster> gridded(const PointCloud& cloud) {
   return raster;
 }
 
-std::string remark_on_grid(const PointCloud& cloud) {
+std::string warning_on_grid(const PointCloud& cloud) {
   const std::optional<Raster> raster = gridded(cloud);
   if (!raster) return "";
   return "the points are the posts of a raster, " + std::to_string(raster->width) + " x " +

@@ -17,7 +17,7 @@ namespace microtin::terrain {
 std::optional<Raster> gridded(const PointCloud& cloud);
 
 // A sentence that says so, with the remedy; empty if the points are no such raster.
-std::string remark_on_grid(const PointCloud& cloud);
+std::string warning_on_grid(const PointCloud& cloud);
 
 }  // namespace microtin::terrain
 

@@ -34,7 +34,7 @@ struct Reference {
   bool one_unit = false;    // asked for: heights have the unit of places, if that is a length
   bool depths = false;      // heights grow downwards
   std::string unread = {};  // why the file that says its system is not read; empty: it is, or none
-  std::vector<std::string> remarks = {};  // sentences for people: what was overridden or converted
+  std::vector<std::string> warnings = {};  // sentences for people: what was overridden or converted
 };
 
 // Posts that were void when they were read and have a height nevertheless.

@@ -178,7 +178,7 @@ class Doors {
     wanted.tile_vertices = 60;
     for (const Setting& setting : settings) setting.cpp(wanted);
     try {
-      const auto terrain = library::Terrain::from_file(path(source(kind)));
+      const auto terrain = library::SourceTerrain::from_file(path(source(kind)));
       const library::Options& common = wanted;
       if (!is_pack(kind)) {
         return library::encode_stream(terrain, {common, wanted.max_vertices, wanted.max_bytes})

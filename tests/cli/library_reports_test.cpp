@@ -44,7 +44,7 @@ Options library_options(const Product& product) {
 }
 
 library::Report report_in_cpp(const Product& product, const Made& made) {
-  const auto terrain = library::Terrain::from_file(made.source_path());
+  const auto terrain = library::SourceTerrain::from_file(made.source_path());
   if (!product.is_pack) {
     return encode_stream(terrain, library_options<library::StreamOptions>(product)).report;
   }
@@ -82,7 +82,7 @@ microtin_report report_in_c(const Product& product, const Made& made) {
   return report;
 }
 
-// Both have the same names, but for remarks, which only C++ has.
+// Both have the same names, but for warnings, which only C++ has.
 template <class Report>
 Fields common_fields(const Report& report) {
   return {{"samples", std::to_string(report.samples)},
@@ -119,33 +119,33 @@ void add_grid(const Grid& grid, Fields& fields) {
 }
 
 // What both call by the same names.
-template <class Facts>
-Fields facts_of(const Facts& facts) {
-  Fields fields = {{"bytes", std::to_string(facts.bytes)},
-                   {"vertices", std::to_string(facts.vertices)},
-                   {"tile_columns", std::to_string(facts.tile_columns)},
-                   {"tile_rows", std::to_string(facts.tile_rows)},
-                   {"kind", facts.is_pack ? "pack" : "stream"},
-                   {"heights.lowest", text_of(facts.lowest)},
-                   {"heights.highest", text_of(facts.highest)},
-                   {"horizontal_epsg", std::to_string(facts.horizontal_epsg)},
-                   {"vertical_epsg", std::to_string(facts.vertical_epsg)},
-                   {"wkt", facts.wkt},
-                   {"source_name", facts.origin},
-                   {"date", facts.date},
-                   {"lineage", facts.lineage},
-                   {"bound", facts.bound},
-                   {"max_error", facts.max_error},
-                   {"rms_error", facts.rms_error},
-                   {"mean_error", facts.mean_error},
-                   {"max_error_at_points", facts.max_error_at_points}};
+template <class SurfaceInfo>
+Fields info_of(const SurfaceInfo& info) {
+  Fields fields = {{"bytes", std::to_string(info.bytes)},
+                   {"vertices", std::to_string(info.vertices)},
+                   {"tile_columns", std::to_string(info.tile_columns)},
+                   {"tile_rows", std::to_string(info.tile_rows)},
+                   {"kind", info.is_pack ? "pack" : "stream"},
+                   {"heights.lowest", text_of(info.lowest)},
+                   {"heights.highest", text_of(info.highest)},
+                   {"horizontal_epsg", std::to_string(info.horizontal_epsg)},
+                   {"vertical_epsg", std::to_string(info.vertical_epsg)},
+                   {"wkt", info.wkt},
+                   {"source_name", info.origin},
+                   {"date", info.date},
+                   {"lineage", info.lineage},
+                   {"bound", info.bound},
+                   {"max_error", info.max_error},
+                   {"rms_error", info.rms_error},
+                   {"mean_error", info.mean_error},
+                   {"max_error_at_points", info.max_error_at_points}};
   constexpr const char* kUnits[] = {"unknown", "metre", "degree", "foot", "US survey foot"};
-  fields["units.horizontal"] = kUnits[static_cast<uint32_t>(facts.horizontal_unit)];
-  fields["units.vertical"] = kUnits[static_cast<uint32_t>(facts.vertical_unit)];
-  add_axis("axes.x", facts.x, fields);
-  add_axis("axes.y", facts.y, fields);
-  add_axis("axes.z", facts.z, fields);
-  add_grid(facts.source, fields);
+  fields["units.horizontal"] = kUnits[static_cast<uint32_t>(info.horizontal_unit)];
+  fields["units.vertical"] = kUnits[static_cast<uint32_t>(info.vertical_unit)];
+  add_axis("axes.x", info.x, fields);
+  add_axis("axes.y", info.y, fields);
+  add_axis("axes.z", info.z, fields);
+  add_grid(info.source, fields);
   return fields;
 }
 
@@ -191,8 +191,8 @@ TEST_CASE("reports: every field of the library's is true of every kind of produc
     const Made made(product, Notes::kText);
     const Fields& truth = made.truth().fields();
     const library::Report cpp = report_in_cpp(product, made);
-    expect("C++", common_fields(cpp), truth, without(members_of(kCpp, "Report"), {"remarks"}));
-    CHECK(in_lines(cpp.remarks) == warnings(made));
+    expect("C++", common_fields(cpp), truth, without(members_of(kCpp, "Report"), {"warnings"}));
+    CHECK(in_lines(cpp.warnings) == warnings(made));
     const microtin_report c = report_in_c(product, made);
     expect("C", common_fields(c), truth, members_of(kC, "microtin_report"));
     CHECK(microtin_last_warnings() == warnings(made));
@@ -204,16 +204,16 @@ TEST_CASE("reports: every fact is true of every kind of product, in C++ and C") 
     Fields truth = made.truth().fields();
     truth.insert({{"horizontal_epsg", "0"}, {"vertical_epsg", "0"}, {"wkt", ""}});
     const auto surface = library::Surface::from_file(made.path());
-    Fields cpp = facts_of(surface.facts());
-    const library::Box& box = surface.facts().box;
+    Fields cpp = info_of(surface.info());
+    const library::Box& box = surface.info().box;
     add_extent(box.west, box.south, box.east, box.north, cpp);
     expect("C++", cpp, truth, names_of_facts(product.is_raster));
     microtin_surface* in_c = nullptr;
     REQUIRE(microtin_surface_from_file(made.path().c_str(), &in_c) == MICROTIN_STATUS_OK);
-    microtin_surface_info facts{};
-    microtin_surface_get_info(in_c, &facts);
-    Fields c = facts_of(facts);
-    add_extent(facts.west, facts.south, facts.east, facts.north, c);
+    microtin_surface_info info{};
+    microtin_surface_get_info(in_c, &info);
+    Fields c = info_of(info);
+    add_extent(info.west, info.south, info.east, info.north, c);
     expect("C", c, truth, names_of_facts(product.is_raster));
     microtin_surface_free(in_c);
   });

@@ -89,13 +89,14 @@ bool is_taken(const Session& session, const Row& row, const std::string& value) 
 
 // --- The library ---------------------------------------------------------------------------------
 
-library::Terrain terrain_of(uint32_t columns, uint32_t rows, int64_t height = 0, int decimals = 0) {
-  library::Posts posts;
+library::SourceTerrain terrain_of(uint32_t columns, uint32_t rows, int64_t height = 0,
+                                  int decimals = 0) {
+  library::RasterData posts;
   posts.columns = columns;
   posts.rows = rows;
   posts.heights.assign(size_t{columns} * rows, height);
   posts.decimals = decimals;
-  return library::Terrain(std::move(posts));
+  return library::SourceTerrain(std::move(posts));
 }
 
 std::string error_of(const std::function<void()>& work) {
@@ -258,23 +259,24 @@ TEST_CASE("limits: of posts, their heights and their decimals") {
     CHECK(error_of([&] { terrain_of(2, 2, sign * kMost); }).empty());
     CHECK(error_of([&] { terrain_of(2, 2, sign * (kMost + 1)); }) == "a height is beyond 10^18");
     for (const size_t axis : {0u, 1u, 2u}) {
-      library::Points points;
+      library::PointCloudData points;
       points.points = {{0, 0, 0}};
       points.points[0][axis] = sign * kMost;
-      CHECK(error_of([&] { (void)library::Terrain{points}; }).empty());
+      CHECK(error_of([&] { (void)library::SourceTerrain{points}; }).empty());
       points.points[0][axis] += sign;
-      CHECK(error_of([&] { (void)library::Terrain{points}; }) == "a coordinate is beyond 10^18");
+      CHECK(error_of([&] { (void)library::SourceTerrain{points}; }) ==
+            "a coordinate is beyond 10^18");
     }
   }
   for (const auto& [decimals, message] : {std::pair(-1, "decimals: 0 .. 18"), std::pair(0, ""),
                                           std::pair(18, ""), std::pair(19, "decimals: 0 .. 18")}) {
     const int given = decimals;
     CHECK(error_of([&] { terrain_of(2, 2, 0, given); }) == message);
-    library::Points points;
+    library::PointCloudData points;
     points.xy_decimals = given;
-    CHECK(error_of([&] { (void)library::Terrain{points}; }) == message);
+    CHECK(error_of([&] { (void)library::SourceTerrain{points}; }) == message);
     points.xy_decimals = 0;
     points.z_decimals = given;
-    CHECK(error_of([&] { (void)library::Terrain{points}; }) == message);
+    CHECK(error_of([&] { (void)library::SourceTerrain{points}; }) == message);
   }
 }

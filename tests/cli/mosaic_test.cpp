@@ -82,8 +82,8 @@ TEST_CASE("mosaic: cells beyond 180 degrees continue their neighbours' longitude
         CHECK(session.run(ask + "0.5 0.5").out == "outside\n");
       }
       const auto surface = microtin::encoder::Surface::from_file(session.folder() + "/" + file);
-      CHECK(surface.facts().box.west == 179);
-      CHECK(surface.facts().box.east == 181);
+      CHECK(surface.info().box.west == 179);
+      CHECK(surface.info().box.east == 181);
       const double x[] = {-179.5, 180.5, -180, 181, -179}, y[] = {0.5, 0.5, 1, 0, 0};
       double heights[5];
       surface.heights(5, x, y, heights);

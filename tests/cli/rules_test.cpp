@@ -18,7 +18,7 @@
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
-using microtin::encoder::Terrain;
+using microtin::encoder::SourceTerrain;
 
 namespace {
 
@@ -32,9 +32,9 @@ struct Cell {
   std::string outcome;   // part of the message, or why the rule does not apply
   uint64_t samples = 0;  // of the terrain; 0: it is refused
   std::string units = "metre:metre";
-  std::string system = {};              // the .prj beside it
-  std::function<Terrain()> array = {};  // instead of a file
-  std::optional<double> highest = {};   // of the heights, for which the bound is 0.001, not 1
+  std::string system = {};                    // the .prj beside it
+  std::function<SourceTerrain()> array = {};  // instead of a file
+  std::optional<double> highest = {};         // of the heights, for which the bound is 0.001, not 1
 };
 
 using Rows = std::vector<std::array<std::string, 3>>;
@@ -106,17 +106,18 @@ std::string zipped(const std::string& bytes) {
   return file.put(end + 21, '\0').bytes();
 }
 
-Terrain posts(float first, const microtin::encoder::Transform& transform) {
+SourceTerrain posts(float first, const microtin::encoder::Transform& transform) {
   const std::array<float, 4> heights = {first, 2, 3, 4};
-  return Terrain(microtin::encoder::posts_of(2, 2, heights.data(), transform, -9999.99));
+  return SourceTerrain(
+      microtin::encoder::raster_from_cells(2, 2, heights.data(), transform, -9999.99));
 }
 
-Terrain cloud(const Rows& rows) {
+SourceTerrain cloud(const Rows& rows) {
   std::vector<double> numbers;
   for (const auto& row : rows) {
     for (const std::string& number : row) numbers.push_back(std::stod(number));
   }
-  return Terrain(microtin::encoder::points_of(rows.size(), numbers.data()));
+  return SourceTerrain(microtin::encoder::point_cloud_from_xyz(rows.size(), numbers.data()));
 }
 
 const std::string kDegrees =
@@ -126,7 +127,7 @@ const std::string kDegrees =
 // Heights from 1 to `highest`: centimetres, then depths.
 void add_conversions(std::vector<Cell>& table, const std::string& reader, const std::string& bytes,
                      double highest, const std::string& xy,
-                     const std::function<Terrain()>& array = {}) {
+                     const std::function<SourceTerrain()>& array = {}) {
   const uint64_t samples = static_cast<uint64_t>(highest);
   table.push_back({"units", reader, bytes, "", samples, xy + ":cm", "", array, highest / 100});
   const std::string metres = xy.empty() ? "" : xy + ":metre";
@@ -151,9 +152,9 @@ void add_rows_of_points(std::vector<Cell>& table, const std::string& reader) {
   table.back().units = "degree:metre";
   table.push_back({"skew", reader, "", "points are in no rows"});
   const Rows three = {{"0", "0", "1"}, {"9", "0", "2"}, {"0", "9", "3"}};
-  const std::function<Terrain()> array = [three] { return cloud(three); };
+  const std::function<SourceTerrain()> array = [three] { return cloud(three); };
   add_conversions(table, reader, points(reader, three), 3, "metre",
-                  reader == kArrayOfPoints ? array : std::function<Terrain()>());
+                  reader == kArrayOfPoints ? array : std::function<SourceTerrain()>());
   file("duplicates", {{"0", "0", "0"}, {"9", "0", "0"}, {"0", "9", "0"}, {"9", "0", "9"}},
        "--duplicates");
   if (reader == ".xyz" || reader == ".csv" || reader == ".txt") {  // a grid by such a name
@@ -192,7 +193,7 @@ void add_rows_of_rasters(std::vector<Cell>& table) {
 
 void add_rows_of_posts(std::vector<Cell>& table) {
   const auto add = [&](const std::string& rule, const std::string& outcome, uint64_t samples,
-                       const std::string& units, const std::function<Terrain()>& array) {
+                       const std::string& units, const std::function<SourceTerrain()>& array) {
     table.push_back({rule, kArrayOfPosts, "", outcome, samples, units, "", array});
   };
   const std::string metres = "metre:metre";
@@ -246,12 +247,12 @@ bool is_of_depths(const Cell& cell) {
 
 void check_highest(const Cell& cell, const std::string& path) {
   if (!cell.highest) return;
-  const double highest = microtin::encoder::Surface::from_file(path).facts().highest;
+  const double highest = microtin::encoder::Surface::from_file(path).info().highest;
   CHECK(highest == doctest::Approx(*cell.highest).epsilon(0.01));
 }
 
 // Behind the library's doors, in C++ and in C.
-void check_library(const Cell& cell, const std::function<Terrain()>& make) {
+void check_library(const Cell& cell, const std::function<SourceTerrain()>& make) {
   const Session session;
   microtin::encoder::StreamOptions options;
   options.units = cell.units;
@@ -295,7 +296,7 @@ void check_file(const Cell& cell) {
   session.write(name, cell.bytes);
   if (!cell.system.empty()) session.write("N43E007.prj", cell.system);
   const std::string path = session.folder() + '/' + name;
-  check_library(cell, [&] { return Terrain::from_file(path); });
+  check_library(cell, [&] { return SourceTerrain::from_file(path); });
   check_c(cell, session, path);
   std::string words = "encode " + name + " -o out.mtin --max-error ";
   words += bound_of(cell);

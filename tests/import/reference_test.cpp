@@ -30,7 +30,7 @@ Reference asking(const std::string& units, bool depths = false) {
 
 std::string told(const Reference& reference) {
   std::string all;
-  for (const std::string& remark : reference.remarks) all += remark + "|";
+  for (const std::string& warning : reference.warnings) all += warning + "|";
   return all;
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("reference: heights beside metres are metres, beside feet that is a gu
     return completed(reference);
   };
   CHECK(guessed(Unit::kMetre).vertical_unit == Unit::kMetre);
-  CHECK(guessed(Unit::kMetre).remarks.empty());
+  CHECK(guessed(Unit::kMetre).warnings.empty());
   for (const Unit unit : {Unit::kFoot, Unit::kUsSurveyFoot}) {
     CHECK(guessed(unit).vertical_unit == unit);
     CHECK(told(guessed(unit)).find("heights are taken as") == 0);

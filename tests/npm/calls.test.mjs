@@ -40,7 +40,7 @@ test("phases of tiles may overlap each other and questions; each tile is what it
   for (const tile of tiles) expected.push(await allOf(alone.tilePhases(tile)));
   assert.ok(expected[0].length > 2);
   const [x, y, right, top] = alone.tileBox(0);
-  const [height, highest] = [await alone.heightAt((x + right) / 2, (y + top) / 2), await alone.highestOn(x, y, right, top)];
+  const [height, highest] = [await alone.heightAt((x + right) / 2, (y + top) / 2), await alone.segmentMax(x, y, right, top)];
   for (const slots of [1, 16]) {
     const pack = await Pack.open(async (offset, size) => {
       await new Promise((done) => setTimeout(done, 1));
@@ -49,7 +49,7 @@ test("phases of tiles may overlap each other and questions; each tile is what it
     const ask = async () => {
       for (let i = 0; i < 20; ++i) {
         assert.equal(await pack.heightAt((x + right) / 2, (y + top) / 2), height);
-        assert.equal(await pack.highestOn(x, y, right, top), highest);
+        assert.equal(await pack.segmentMax(x, y, right, top), highest);
       }
     };
     const [found] = await Promise.all([Promise.all(tiles.map((tile) => allOf(pack.tilePhases(tile)))), ask()]);
@@ -135,7 +135,7 @@ test("questions that touch bad tiles are errors, however many these are", { skip
       return [(x + right) / 2, (y + top) / 2 + 0.1];
     };
     for (let attempt = 0; attempt < 3; ++attempt) {
-      await assert.rejects(pack.highestOn(...middle(0), ...middle(Math.min(count, pack.columns - 1))), { status: "CHECKSUM" });
+      await assert.rejects(pack.segmentMax(...middle(0), ...middle(Math.min(count, pack.columns - 1))), { status: "CHECKSUM" });
       for (let tile = 0; tile < count; ++tile) {
         await assert.rejects(pack.heightAt(...middle(tile)), { status: "CHECKSUM" });
         await assert.rejects(pack.tile(tile), { status: "CHECKSUM", message: new RegExp(`^tile ${tile}: `) });
@@ -161,8 +161,8 @@ test("numbers that lie outside, and what is no number, are no place", { skip }, 
   for (const value of OUTSIDE) {
     for (const place of [[value, inside[1]], [inside[0], value], [value, value]]) {
       assert.ok(Number.isNaN(await pack.heightAt(...place)), `${place}`);
-      assert.ok(Number.isNaN(await pack.highestOn(...inside, ...place)), `${place}`);
-      assert.ok(Number.isNaN(await pack.highestOn(...place, ...inside)), `${place}`);
+      assert.ok(Number.isNaN(await pack.segmentMax(...inside, ...place)), `${place}`);
+      assert.ok(Number.isNaN(await pack.segmentMax(...place, ...inside)), `${place}`);
     }
     assert.ok(Number.isNaN(terrain.heightAt(value, y)) && Number.isNaN(terrain.heightAt(x, value)));
     assert.deepEqual(pack.tilesIn(value, value, value, value), []);
@@ -170,7 +170,7 @@ test("numbers that lie outside, and what is no number, are no place", { skip }, 
   for (const value of NO_NUMBERS) {
     await assert.rejects(pack.heightAt(value, inside[1]), TypeError);
     await assert.rejects(pack.heightAt(inside[0], value), TypeError);
-    await assert.rejects(pack.highestOn(...inside, value, inside[1]), TypeError);
+    await assert.rejects(pack.segmentMax(...inside, value, inside[1]), TypeError);
     assert.throws(() => terrain.heightAt(value, y), TypeError);
     assert.throws(() => pack.tilesIn(0, 0, value, 0), TypeError);
     assert.throws(() => pack.tileBox(value), TypeError);

@@ -54,7 +54,7 @@ test("the highest of a segment is not below any height on it, and is that of a p
   const { x, y } = pack.header.axes;
   const [left, bottom] = pack.tileBox(0);
   const [, , right, top] = pack.tileBox(pack.columns * pack.rows - 1);
-  const highest = await pack.highestOn(left, bottom, right, top);
+  const highest = await pack.segmentMax(left, bottom, right, top);
   let most = -Infinity;
   for (let i = 0; i <= 1000; ++i) {
     const height = await pack.heightAt(left + ((right - left) * i) / 1000, bottom + ((top - bottom) * i) / 1000);
@@ -62,7 +62,7 @@ test("the highest of a segment is not below any height on it, and is that of a p
   }
   assert.ok(highest >= most - 0.01);
   assert.ok(highest <= most + (pack.highest - pack.lowest) / 20);
-  assert.ok(Number.isNaN(await pack.highestOn(left, bottom, right + 10 * (right - left), top)));
+  assert.ok(Number.isNaN(await pack.segmentMax(left, bottom, right + 10 * (right - left), top)));
   assert.ok(Number.isNaN(await pack.heightAt(left - 100 * x.step, bottom - 100 * y.step)));
 });
 
@@ -132,7 +132,7 @@ test("what a header alone says of the largest tile takes no memory", { skip }, a
   new DataView(forged.buffer).setUint32(28, 2 ** 24, true);
   const { result, bytes: taken } = await grown(async () => {
     const pack = await Pack.open(withChecks(forged, good.columns * good.rows));
-    assert.equal(pack.mostVertices, 2 ** 24);
+    assert.equal(pack.maxTileVertices, 2 ** 24);
     const [x, y] = pack.tileBox(0);
     return pack.heightAt(x, y);
   });
@@ -146,10 +146,10 @@ test("a tile that is larger than usual ones has room, as its stream says", { ski
   const posts = postsOf(areaFile("asc")).filter((_, i) => i % 4099 === 0);
   for (const slots of [1, 16]) {
     const pack = await Pack.open(large, { slots });
-    assert.equal(pack.mostVertices, 16641);
+    assert.equal(pack.maxTileVertices, 16641);
     for (const { x, y, z } of posts) assert.ok(Math.abs((await pack.heightAt(x, y)) - z) < 1e-6 * Math.abs(z) + 1e-9);
     const [left, bottom] = pack.tileBox(0), [, , right, top] = pack.tileBox(3);
-    assert.ok((await pack.highestOn(left, bottom, right, top)) <= pack.highest); // three tiles
+    assert.ok((await pack.segmentMax(left, bottom, right, top)) <= pack.highest); // three tiles
     let last;
     for await (last of pack.tilePhases(3));
     assert.equal(last.positions.length, 3 * 16641);

@@ -58,7 +58,7 @@ case $kind in
       $python -c 'import kconfiglib' 2>/dev/null && break
     done
     [ "$python" != none ] || { echo "skipped: kconfiglib is not installed"; exit 77; }
-    for choice in 'MICROTIN=y 64BIT=y' 'MICROTIN=y 64BIT=y MICROTIN_NAMES=n' 'MICROTIN=y MICROTIN_WIDTH_32=y'; do
+    for choice in 'MICROTIN=y 64BIT=y' 'MICROTIN=y 64BIT=y MICROTIN_NAMES=n' 'MICROTIN=y MICROTIN_INDEX_BITS_32=y'; do
       # shellcheck disable=SC2086
       $python "$here/stand_ins/zephyr/configure.py" "$library/zephyr/Kconfig" "$build/config.cmake" $choice
       cmake -E rm -rf "$build/cmake"

@@ -100,12 +100,12 @@ Bytes stream_in_cpp(const InC& c) {
   std::copy(std::begin(c.raster.transform), std::end(c.raster.transform), transform.begin());
   const microtin_raster_data& r = c.raster;
   const double no_data = r.no_data != nullptr ? *r.no_data : library::kNoValue;
-  library::Posts posts =
+  library::RasterData posts =
       r.heights != nullptr
-          ? library::posts_of(r.columns, r.rows, r.heights, transform, no_data)
-          : library::posts_of(r.columns, r.rows, r.float_heights, transform, no_data);
+          ? library::raster_from_cells(r.columns, r.rows, r.heights, transform, no_data)
+          : library::raster_from_cells(r.columns, r.rows, r.float_heights, transform, no_data);
   if (c.raster.wkt != nullptr) posts.wkt = c.raster.wkt;
-  return encode_stream(library::Terrain(std::move(posts)), {}).bytes;
+  return encode_stream(library::SourceTerrain(std::move(posts)), {}).bytes;
 }
 
 const std::vector<double> kPoints = {0, 0, 1, 9, 0, 2.5, 0, 9, 3, 9, 9, 4, 4, 5, 9, 2, 3, 1};
@@ -115,9 +115,9 @@ microtin_point_data points_in_c() {
 }
 
 Bytes points_in_cpp(uint64_t count, const double* coordinates, const std::string& wkt) {
-  library::Points points = library::points_of(count, coordinates);
+  library::PointCloudData points = library::point_cloud_from_xyz(count, coordinates);
   points.wkt = wkt;
-  return encode_stream(library::Terrain(points), {}).bytes;
+  return encode_stream(library::SourceTerrain(points), {}).bytes;
 }
 
 // A surface in both languages.
@@ -218,15 +218,16 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
   library::PackOptions options;
   options.tile_vertices = 30;
   library::Transform transform{-0.5, 1, 0, 6.5, 0, -1};
-  encode_pack(library::Terrain(library::posts_of(12, 7, c.doubles.data(), transform)), options,
-              folder / "a.mtp");
+  encode_pack(
+      library::SourceTerrain(library::raster_from_cells(12, 7, c.doubles.data(), transform)),
+      options, folder / "a.mtp");
   for (const char* name : {"a.mtin", "a.mtp"}) {
     CAPTURE(name);
     Both both(folder / name);
     microtin_triangles triangles{};
     REQUIRE(microtin_surface_mesh(both.c, &triangles) == MICROTIN_STATUS_OK);
     expect_same(both.cpp.mesh(), triangles);
-    const library::Facts& facts = both.cpp.facts();
+    const library::SurfaceInfo& facts = both.cpp.info();
     CHECK((facts.tile_columns * facts.tile_rows > 1) == facts.is_pack);
     for (uint32_t row = 0; row < facts.tile_rows; ++row) {
       for (uint32_t column = 0; column < facts.tile_columns; ++column) {

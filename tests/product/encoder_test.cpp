@@ -23,21 +23,21 @@ using microtin::tests::TemporaryFolder;
 namespace {
 
 // A cone with a hole.
-Posts cone(uint32_t side) {
-  Posts posts;
+RasterData cone(uint32_t side) {
+  RasterData posts;
   posts.columns = posts.rows = side;
   posts.decimals = 1;
   for (int64_t i = 0; i < int64_t{side} * side; ++i) {
     const int64_t x = i % side, y = i / side, middle = side / 2;
     const int64_t square = (x - middle) * (x - middle) + (y - middle) * (y - middle);
-    posts.heights.push_back(x < 3 && y < 3 ? kVoid : 10000 - 7 * square);
+    posts.heights.push_back(x < 3 && y < 3 ? kNoData : 10000 - 7 * square);
   }
   return posts;
 }
 
 // Heights within a metre of a dome.
-Posts noisy_dome(uint32_t side) {
-  Posts posts;
+RasterData noisy_dome(uint32_t side) {
+  RasterData posts;
   posts.columns = posts.rows = side;
   posts.decimals = 2;
   uint32_t random = 1;
@@ -68,7 +68,7 @@ TEST_CASE("library: a stream keeps its bound, and says so") {
   StreamOptions options = bounded("2.5");
   options.source_name = "a cone";
   options.horizontal_epsg = 25832;
-  const Stream stream = encode_stream(Terrain(cone(40)), options);
+  const Stream stream = encode_stream(SourceTerrain(cone(40)), options);
   CHECK(stream.report.samples == 40 * 40 - 9);
   CHECK(stream.report.bytes == stream.bytes.size());
   CHECK(stream.report.bound == "2.5");
@@ -85,7 +85,7 @@ TEST_CASE("library: a stream keeps its bound, and says so") {
 }
 
 TEST_CASE("library: so many vertices, so many bytes") {
-  const Terrain terrain(cone(40));
+  const SourceTerrain terrain(cone(40));
   StreamOptions options;
   options.max_vertices = 60;
   CHECK(encode_stream(terrain, options).report.vertices <= 60);
@@ -98,7 +98,7 @@ TEST_CASE("library: so many vertices, so many bytes") {
 
 TEST_CASE(
     "library: a number of vertices is used at least as well as by a bound that takes as many") {
-  const Terrain terrain(cone(40));
+  const SourceTerrain terrain(cone(40));
   for (const char* bound : {"0.3", "0.7", "1.5"}) {
     CAPTURE(bound);
     StreamOptions options;
@@ -114,7 +114,7 @@ TEST_CASE(
 }
 
 TEST_CASE("library: few trials use a number of vertices, though sizes jump where noise begins") {
-  const Terrain terrain(noisy_dome(150));
+  const SourceTerrain terrain(noisy_dome(150));
   StreamOptions options;
   options.effort = SearchEffort::kFast;
   for (const double bound : {1.15, 1.4}) {
@@ -131,10 +131,10 @@ TEST_CASE("library: few trials use a number of vertices, though sizes jump where
 }
 
 TEST_CASE("library: points, exactly without a bound") {
-  Points points;
+  PointCloudData points;
   points.z_decimals = 2;
   for (int64_t i = 0; i < 200; ++i) points.points.push_back({i * i % 211, i * 37 % 199, i * 13});
-  const Stream stream = encode_stream(Terrain(points), {});
+  const Stream stream = encode_stream(SourceTerrain(points), {});
   CHECK(stream.report.vertices == 200);
   CHECK(stream.report.max_error == "0");
   CHECK(stream.report.bound.empty());
@@ -143,8 +143,8 @@ TEST_CASE("library: points, exactly without a bound") {
 namespace {
 
 // Pairs of points with a wall between, closer to each other than the steps of a lattice for all.
-Points walls() {
-  Points points;
+PointCloudData walls() {
+  PointCloudData points;
   points.xy_decimals = 2;
   points.z_decimals = 1;
   for (int64_t i = 0; i < 36; ++i) {
@@ -158,7 +158,7 @@ Points walls() {
 }  // namespace
 
 TEST_CASE("library: what limits find holds where points truly lie, or is told there") {
-  const Terrain terrain(walls());
+  const SourceTerrain terrain(walls());
   for (const uint32_t limit : {30u, 40u}) {
     CAPTURE(limit);
     StreamOptions options;
@@ -176,7 +176,7 @@ TEST_CASE("library: what limits find holds where points truly lie, or is told th
 }
 
 TEST_CASE("library: never below the points where they truly lie, by limits, too") {
-  const Terrain terrain(walls());
+  const SourceTerrain terrain(walls());
   StreamOptions options;
   options.effort = SearchEffort::kFast;
   options.never_below = true;
@@ -194,7 +194,7 @@ TEST_CASE("library: packs are files, whole or not there") {
   PackOptions options;
   options.max_error = "1";
   options.tile_vertices = 40;
-  const Report report = encode_pack(Terrain(cone(60)), options, folder / "cone.mtp");
+  const Report report = encode_pack(SourceTerrain(cone(60)), options, folder / "cone.mtp");
   CHECK(report.tiles > 1);
   CHECK(report.samples == 60 * 60 - 9);
   const Document document(folder / "cone.mtp");
@@ -207,7 +207,7 @@ TEST_CASE("library: packs are files, whole or not there") {
 
 TEST_CASE("library: a pack without a number of vertices has tiles of the usual one") {
   const TemporaryFolder folder;
-  const Terrain terrain(noisy_dome(70));
+  const SourceTerrain terrain(noisy_dome(70));
   PackOptions options;
   options.max_error = "0";
   options.effort = SearchEffort::kFast;
@@ -232,7 +232,7 @@ TEST_CASE("library: work that is cancelled leaves nothing") {
     last = done;
   };
   callbacks.cancelled = [&] { return ++calls > 3; };
-  const Terrain terrain(cone(60));
+  const SourceTerrain terrain(cone(60));
   CHECK_THROWS_AS(encode_stream(terrain, bounded("0.3"), callbacks), Cancelled);
   StreamOptions bytes;
   bytes.max_bytes = 500;
@@ -255,9 +255,9 @@ TEST_CASE("library: axes in lowest terms or not are the same, those that no head
   options.max_error = "1";
   options.tile_vertices = 40;
   const auto encoded = [&](uint64_t numerator, uint64_t denominator) {
-    Posts posts = cone(9);
+    RasterData posts = cone(9);
     posts.x = {0, numerator, denominator};
-    const Terrain terrain(std::move(posts));
+    const SourceTerrain terrain(std::move(posts));
     encode_pack(terrain, options, folder / "cone.mtp");
     return encode_stream(terrain, bounded("1")).bytes;
   };
@@ -272,12 +272,12 @@ TEST_CASE("library: axes in lowest terms or not are the same, those that no head
 
 TEST_CASE("library: places in degrees that are none on Earth are refused, of posts and of points") {
   const TemporaryFolder folder;
-  const Points points{{{471, 1582, 3}, {472, 1582, 4}, {471, 1583, 6}}, 1, 0, ""};
-  Posts posts = cone(8);
+  const PointCloudData points{{{471, 1582, 3}, {472, 1582, 4}, {471, 1583, 6}}, 1, 0, ""};
+  RasterData posts = cone(8);
   posts.y = {158, 1, 1};
   PackOptions pack;
   pack.tile_vertices = 100;
-  for (const Terrain& terrain : {Terrain(points), Terrain(posts)}) {
+  for (const SourceTerrain& terrain : {SourceTerrain(points), SourceTerrain(posts)}) {
     for (const bool is_known : {true, false}) {
       StreamOptions options;
       options.units = pack.units = is_known ? "degree:metre" : "metre:metre";
@@ -298,7 +298,7 @@ TEST_CASE("library: places in degrees that are none on Earth are refused, of pos
 
 TEST_CASE("library: units are converted and depths turned, in streams and packs alike") {
   const TemporaryFolder folder;
-  Posts posts = cone(9);
+  RasterData posts = cone(9);
   posts.heights.assign(81, 100);
   posts.heights[40] = 500;
   posts.z_unit = "cm";
@@ -306,42 +306,42 @@ TEST_CASE("library: units are converted and depths turned, in streams and packs 
   PackOptions options;
   options.tile_vertices = 100;
   options.depths = true;
-  const Report report = encode_pack(Terrain(posts), options, folder / "t.mtp");
-  CHECK(report.remarks == std::vector<std::string>{
-                              "heights in the unit centimetre are converted to metre: times 0.01",
-                              "depths are turned into heights"});
+  const Report report = encode_pack(SourceTerrain(posts), options, folder / "t.mtp");
+  CHECK(report.warnings == std::vector<std::string>{
+                               "heights in the unit centimetre are converted to metre: times 0.01",
+                               "depths are turned into heights"});
   const Surface pack = Surface::from_file(folder / "t.mtp");
-  CHECK(pack.facts().lowest == -0.5);
-  CHECK(pack.facts().highest == -0.1);
-  CHECK(pack.facts().vertical_unit == microtin::encoder::Unit::kMetre);
+  CHECK(pack.info().lowest == -0.5);
+  CHECK(pack.info().highest == -0.1);
+  CHECK(pack.info().vertical_unit == microtin::encoder::Unit::kMetre);
   posts.wkt +=
       R"(,VERT_CS["MSL depth",UNIT["metre",1],AXIS["Depth",DOWN],AUTHORITY["EPSG","5715"]])";
   StreamOptions stream;
   stream.units = "metre:metre";
-  CHECK_THROWS_AS(encode_stream(Terrain(posts), stream), std::runtime_error);
+  CHECK_THROWS_AS(encode_stream(SourceTerrain(posts), stream), std::runtime_error);
   stream.depths = true;
-  const Stream made = encode_stream(Terrain(posts), stream);
-  CHECK(made.report.remarks ==
+  const Stream made = encode_stream(SourceTerrain(posts), stream);
+  CHECK(made.report.warnings ==
         std::vector<std::string>{"heights are taken as metre; the file says centimetre",
                                  "depths are turned into heights: EPSG 5715 becomes EPSG 5714"});
-  Points points;
+  PointCloudData points;
   points.points = {{0, 0, 1}, {9, 0, 2}, {0, 9, 3}};
   points.z_unit = "furlong";
   stream.depths = false;
   stream.units.clear();
-  CHECK_THROWS_AS(encode_stream(Terrain(points), stream), std::runtime_error);
+  CHECK_THROWS_AS(encode_stream(SourceTerrain(points), stream), std::runtime_error);
 }
 
 TEST_CASE("library: what makes no sense is refused with a sentence") {
-  const auto error_of = [](Posts posts, const StreamOptions& options) -> std::string {
+  const auto error_of = [](RasterData posts, const StreamOptions& options) -> std::string {
     try {
-      encode_stream(Terrain(std::move(posts)), options);
+      encode_stream(SourceTerrain(std::move(posts)), options);
     } catch (const std::runtime_error& error) {
       return error.what();
     }
     return "none";
   };
-  Posts posts = cone(9);
+  RasterData posts = cone(9);
   CHECK(error_of(posts, bounded("1")) == "none");
   CHECK(error_of(posts, bounded("-1")) == "max_error: -1 is not a decimal number from 0 on");
   CHECK(error_of(posts, bounded("x")) == "max_error: x is not a decimal number from 0 on");
@@ -360,10 +360,10 @@ TEST_CASE("library: what makes no sense is refused with a sentence") {
   CHECK(error_of(posts, options) == "date: yesterday is not a date such as 2026-11-21");
   posts.heights.pop_back();
   CHECK(error_of(posts, {}) == "not as many heights as columns times rows");
-  posts.heights.push_back(kVoid + 1);
+  posts.heights.push_back(kNoData + 1);
   CHECK(error_of(posts, {}) == "a height is beyond 10^18");
   posts.heights.back() = 0;
   posts.x.denominator = 0;
   CHECK(error_of(posts, {}) == "an axis has no step");
-  CHECK_THROWS_AS(Terrain::from_file("/nowhere/at.asc"), std::runtime_error);
+  CHECK_THROWS_AS(SourceTerrain::from_file("/nowhere/at.asc"), std::runtime_error);
 }

@@ -28,8 +28,9 @@ bool is_void_text(const std::string& no_data, const std::string& cell) {
 template <class Number>
 bool is_void_number(double no_data, Number cell) {
   const std::array<Number, 4> cells = {cell, 1, 2, 3};
-  const auto posts = microtin::encoder::posts_of(2, 2, cells.data(), {0, 1, 0, 2, 0, -1}, no_data);
-  return posts.heights[2] == microtin::encoder::kVoid;
+  const auto posts =
+      microtin::encoder::raster_from_cells(2, 2, cells.data(), {0, 1, 0, 2, 0, -1}, no_data);
+  return posts.heights[2] == microtin::encoder::kNoData;
 }
 
 }  // namespace

@@ -36,8 +36,8 @@ std::vector<double> bowl() {
   return heights;
 }
 
-Terrain bowl_terrain() {
-  return Terrain(posts_of(kColumns, kRows, bowl().data(), kTransform));
+SourceTerrain bowl_terrain() {
+  return SourceTerrain(raster_from_cells(kColumns, kRows, bowl().data(), kTransform));
 }
 
 std::string stream_file(const TemporaryFolder& folder, const StreamOptions& options) {
@@ -69,7 +69,7 @@ double largest_error(const std::vector<double>& heights) {
 }
 
 std::vector<double> raster_of(const Surface& surface) {
-  const Grid& grid = surface.facts().source;
+  const Grid& grid = surface.info().source;
   std::vector<double> heights(size_t{grid.columns} * grid.rows);
   surface.heights(grid, {0, 0, grid.columns, grid.rows}, heights.data());
   return heights;
@@ -80,24 +80,24 @@ std::vector<double> raster_of(const Surface& surface) {
 TEST_CASE("surface: an array comes back where it lay") {
   const TemporaryFolder folder;
   const Surface surface = Surface::from_file(stream_file(folder, {}));
-  const Facts& facts = surface.facts();
-  CHECK(!facts.is_pack);
-  CHECK(facts.box.west == 600000);
-  CHECK(facts.box.east == 600590);
-  CHECK(facts.box.north == 5000000);
-  CHECK(facts.box.south == 4999560);
-  CHECK(facts.source.columns == kColumns);
-  CHECK(facts.source.rows == kRows);
-  CHECK(facts.lowest == 2);
+  const SurfaceInfo& info = surface.info();
+  CHECK(!info.is_pack);
+  CHECK(info.box.west == 600000);
+  CHECK(info.box.east == 600590);
+  CHECK(info.box.north == 5000000);
+  CHECK(info.box.south == 4999560);
+  CHECK(info.source.columns == kColumns);
+  CHECK(info.source.rows == kRows);
+  CHECK(info.lowest == 2);
   CHECK(largest_error(raster_of(surface)) <= kRounding);
 }
 
 TEST_CASE("surface: a pack keeps its bound at posts and is asked in any order") {
   const TemporaryFolder folder;
   const Surface surface = Surface::from_file(pack_file(folder));
-  CHECK(surface.facts().is_pack);
-  CHECK(surface.facts().tile_columns == 4);
-  CHECK(surface.facts().tile_rows == 3);
+  CHECK(surface.info().is_pack);
+  CHECK(surface.info().tile_columns == 4);
+  CHECK(surface.info().tile_rows == 3);
   CHECK(largest_error(raster_of(surface)) <= 1 + kRounding);
 
   const std::vector<double> expected = raster_of(surface);
@@ -122,7 +122,7 @@ TEST_CASE("surface: heights are those of the exact plane, between places of the 
   // A slope of 1 in 10 across a single triangle's width, in a stream and in a pack's tiles.
   std::vector<double> slope(size_t{33} * 33);
   for (size_t i = 0; i < slope.size(); ++i) slope[i] = static_cast<double>(i % 33);
-  const Terrain terrain(posts_of(33, 33, slope.data(), kTransform));
+  const SourceTerrain terrain(raster_from_cells(33, 33, slope.data(), kTransform));
   const TemporaryFolder folder;
   write_file(folder / "slope.mtin", encode_stream(terrain, {}).bytes);
   PackOptions options;
@@ -163,7 +163,7 @@ TEST_CASE("surface: places outside and no numbers have no height") {
   std::vector<double> heights(x.size(), 0);
   surface.heights(x.size(), x.data(), y.data(), heights.data());
   for (const double height : heights) CHECK(std::isnan(height));
-  const Grid& grid = surface.facts().source;
+  const Grid& grid = surface.info().source;
   double corner[4] = {0, 0, 0, 0};
   surface.heights(grid, {-1, -1, 2, 2}, corner);  // the first post alone is within
   CHECK(std::isnan(corner[0]));
@@ -177,24 +177,24 @@ TEST_CASE("surface: places outside and no numbers have no height") {
 TEST_CASE("surface: tiles together have the triangles of all") {
   const TemporaryFolder folder;
   const Surface surface = Surface::from_file(pack_file(folder));
-  const Facts& facts = surface.facts();
+  const SurfaceInfo& info = surface.info();
   size_t triangles = 0, vertices = 0;
-  for (uint32_t row = 0; row < facts.tile_rows; ++row) {
-    for (uint32_t column = 0; column < facts.tile_columns; ++column) {
+  for (uint32_t row = 0; row < info.tile_rows; ++row) {
+    for (uint32_t column = 0; column < info.tile_columns; ++column) {
       const Mesh tile = surface.tile(column, row);
       const Box box = surface.tile_box(column, row);
       triangles += tile.triangles.size();
       vertices += tile.vertices.size();
       for (const auto& [x, y, z] : tile.vertices) {
         CHECK((x >= box.west && x <= box.east && y >= box.south && y <= box.north));
-        CHECK((z >= facts.lowest && z <= facts.highest));
+        CHECK((z >= info.lowest && z <= info.highest));
       }
     }
   }
-  CHECK(vertices == facts.vertices);
+  CHECK(vertices == info.vertices);
   CHECK(surface.mesh().triangles.size() == triangles);
   CHECK(surface.mesh().vertices.size() < vertices);
-  CHECK_THROWS_AS(surface.tile(facts.tile_columns, 0), std::out_of_range);
+  CHECK_THROWS_AS(surface.tile(info.tile_columns, 0), std::out_of_range);
 }
 
 TEST_CASE("surface: cells of another size") {
@@ -210,7 +210,7 @@ TEST_CASE("surface: cells of another size") {
 }
 
 TEST_CASE("surface: bytes of whatever file system; damage is told with the name") {
-  class Held : public Bytes {
+  class Held : public ByteSource {
    public:
     explicit Held(std::vector<uint8_t> bytes) : bytes_(std::move(bytes)) {}
     uint64_t size() const override { return bytes_.size(); }
@@ -236,7 +236,7 @@ TEST_CASE("surface: bytes of whatever file system; damage is told with the name"
 TEST_CASE("binary numbers: what is refused, and where") {
   std::vector<double> heights = bowl();
   const auto posts = [&](const Transform& t) {
-    return posts_of(kColumns, kRows, heights.data(), t);
+    return raster_from_cells(kColumns, kRows, heights.data(), t);
   };
   CHECK(posts(kTransform).decimals == 1);
   CHECK(posts({0, 1, 1e-18, 0, -1e-9, -1}).x.offset == posts({0, 1, 0, 0, 0, -1}).x.offset);
@@ -255,17 +255,17 @@ TEST_CASE("binary numbers: what is refused, and where") {
                     doctest::Contains("row 1, column 7: 1.0000000000000001e+300 is not a height in "
                                       "range: if that marks voids"));
   const double points[] = {0, 0, 1.5, 10, 0, 2, 0, 10.25, INFINITY};
-  CHECK(points_of(2, points).z_decimals == 1);
-  CHECK_THROWS_WITH(points_of(3, points), "point 2: is not a number in range");
+  CHECK(point_cloud_from_xyz(2, points).z_decimals == 1);
+  CHECK_THROWS_WITH(point_cloud_from_xyz(3, points), "point 2: is not a number in range");
 }
 
 TEST_CASE(
     "binary numbers: floats stand for their shortest decimals, southern rows may come first") {
   const float heights[] = {0.1F, 0.2F, 0.3F, 1.25F};
-  const Posts north = posts_of(2, 2, heights, {0, 1, 0, 2, 0, -1});
+  const RasterData north = raster_from_cells(2, 2, heights, {0, 1, 0, 2, 0, -1});
   CHECK(north.decimals == 2);
   CHECK(north.heights == std::vector<int64_t>{30, 125, 10, 20});
-  const Posts south = posts_of(2, 2, heights, {0, 1, 0, 0, 0, 1});
+  const RasterData south = raster_from_cells(2, 2, heights, {0, 1, 0, 0, 0, 1});
   CHECK(south.heights == std::vector<int64_t>{10, 20, 30, 125});
   CHECK(coordinate(south.y, 0) == coordinate(north.y, 0));
 }
@@ -330,11 +330,11 @@ TEST_CASE("C: an array goes to a stream and back") {
 
   microtin_surface* surface = nullptr;
   REQUIRE(microtin_surface_from_bytes(bytes, report.bytes, "bowl", &surface) == MICROTIN_STATUS_OK);
-  microtin_surface_info facts;
-  microtin_surface_get_info(surface, &facts);
-  CHECK(facts.bound == std::string("0.5"));
-  std::vector<double> back(size_t{facts.source.columns} * facts.source.rows);
-  REQUIRE(microtin_surface_sample_grid(surface, &facts.source, back.data()) == MICROTIN_STATUS_OK);
+  microtin_surface_info info;
+  microtin_surface_get_info(surface, &info);
+  CHECK(info.bound == std::string("0.5"));
+  std::vector<double> back(size_t{info.source.columns} * info.source.rows);
+  REQUIRE(microtin_surface_sample_grid(surface, &info.source, back.data()) == MICROTIN_STATUS_OK);
   CHECK(largest_error(back) <= 0.5 + kRounding);
   microtin_triangles triangles;
   REQUIRE(microtin_surface_mesh(surface, &triangles) == MICROTIN_STATUS_OK);

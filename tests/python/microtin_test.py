@@ -272,12 +272,12 @@ class Refusals(unittest.TestCase):
         array = [[1.0, 2.0], [3.0, 4.0]]
         with self.assertWarnsRegex(UserWarning, "heights are taken as foot, as x and y are"):
             stream = microtin.encode(array, crs='LOCAL_CS["a",UNIT["Foot",0.3048]]')
-        self.assertEqual(len(stream.report.remarks), 1)
+        self.assertEqual(len(stream.report.warnings), 1)
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            self.assertEqual(microtin.encode(array, crs=25832, units=":metre").report.remarks, ())
-            self.assertEqual(microtin.encode(array, crs=25832).report.remarks, ())
-            self.assertEqual(len(microtin.encode(array).report.remarks), 1)  # nothing is said, so nothing is guessed
+            self.assertEqual(microtin.encode(array, crs=25832, units=":metre").report.warnings, ())
+            self.assertEqual(microtin.encode(array, crs=25832).report.warnings, ())
+            self.assertEqual(len(microtin.encode(array).report.warnings), 1)  # nothing is said, so nothing is guessed
 
     def test_units_are_converted_and_depths_turned(self):
         array = [[100.0, 200.0], [300.0, 400.0]]

@@ -203,7 +203,7 @@ class Truth {
  public:
   Truth(const Session& session, const std::string& product, const Terrain& terrain)
       : surface_(library::Surface::from_file(session.folder() + "/" + product)),
-        facts_(surface_.facts()) {
+        facts_(surface_.info()) {
     add_mesh();
     add_lattice();
     add_errors(terrain);
@@ -348,7 +348,7 @@ class Truth {
   }
 
   library::Surface surface_;
-  library::Facts facts_;
+  library::SurfaceInfo facts_;
   Fields truth_;
   double vertices_ = 0;
   uint64_t triangles_ = 0;

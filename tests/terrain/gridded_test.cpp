@@ -29,7 +29,7 @@ TEST_CASE("gridded: points in any order are the raster that they lie on") {
   CHECK(raster->y.offset == 3);
   CHECK(raster->y.numerator == 2);
   CHECK(raster->y.denominator == 1);
-  CHECK(remark_on_grid(cloud_of(kPosts)).find("3 x 3") != std::string::npos);
+  CHECK(warning_on_grid(cloud_of(kPosts)).find("3 x 3") != std::string::npos);
 }
 
 TEST_CASE("gridded: posts may be missing, up to half of them") {
@@ -45,7 +45,7 @@ TEST_CASE("gridded: others are not") {
   for (const char* const more : {"11 7 9\n", "11 7.001 9\n", "10.25001 3 1\n", "1000 3 1\n"}) {
     CAPTURE(more);
     CHECK_FALSE(gridded(cloud_of(posts + more)).has_value());
-    CHECK(remark_on_grid(cloud_of(posts + more)).empty());
+    CHECK(warning_on_grid(cloud_of(posts + more)).empty());
   }
   CHECK_FALSE(gridded(cloud_of("0 0 1\n1 0 2\n0 1 3\n1 1 4\n")).has_value());  // two rows
   CHECK_FALSE(gridded(cloud_of("0 0 1\n0 1 2\n0 2 3\n0 3 4\n")).has_value());  // one column

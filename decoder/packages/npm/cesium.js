@@ -132,11 +132,11 @@ class Provider {
   // The finest level has the pack's own error. That of a coarser one is not known before it is read: Cesium's rule for
   // grids, a quarter of the distance between vertices.
   getLevelMaximumGeometricError(level) {
-    const { header: { accuracy, axes }, mostVertices, tileSize } = this.#pack;
+    const { header: { accuracy, axes }, maxTileVertices, tileSize } = this.#pack;
     const own = Math.max(accuracy?.largest ?? 0, axes.z.step);
     const side = 2 ** (this.#levels - 1 - level);
     const height = tileSize[1] * axes.y.step * DEGREE * this.tilingScheme.ellipsoid.maximumRadius;
-    return side <= 1 ? own * side : side * Math.max(own, height / Math.sqrt(mostVertices) / 4);
+    return side <= 1 ? own * side : side * Math.max(own, height / Math.sqrt(maxTileVertices) / 4);
   }
 
   // Below the finest level Cesium cuts the tiles itself, unless there is nothing to cut.
@@ -173,7 +173,7 @@ class Provider {
     const bottom = (this.tilingScheme.getNumberOfYTilesAtLevel(level) - 1 - y) * side;
     for (let row = bottom; row < Math.min(bottom + side, pack.rows); ++row) {
       for (let column = x * side; column < Math.min((x + 1) * side, pack.columns); ++column) {
-        const mesh = await meshOf(pack, row * pack.columns + column, side > 1 ? pack.mostVertices / (2 * side ** 2) : Infinity);
+        const mesh = await meshOf(pack, row * pack.columns + column, side > 1 ? pack.maxTileVertices / (2 * side ** 2) : Infinity);
         joined.add(mesh, axes, (column - x * side) * width, (row - bottom) * height);
       }
     }

@@ -132,7 +132,7 @@ export class Pack {
   readonly rows: number;
   /** Width and height of a tile in steps of x and y; those of the last column and row may be smaller. */
   readonly tileSize: [number, number];
-  readonly mostVertices: number;
+  readonly maxTileVertices: number;
   /** The lowest and highest vertex. */
   readonly lowest: number;
   readonly highest: number;
@@ -155,5 +155,5 @@ export class Pack {
   heightAt(x: number, y: number): Promise<number>;
   /** The exact greatest height on the straight segment; NaN if a part of it lies outside or where nothing is
    * known. @throws MicrotinError if a tile is damaged, RangeError if the segment touches more than 255 tiles */
-  highestOn(x: number, y: number, xEnd: number, yEnd: number): Promise<number>;
+  segmentMax(x: number, y: number, xEnd: number, yEnd: number): Promise<number>;
 }

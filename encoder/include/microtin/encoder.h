@@ -129,7 +129,7 @@ typedef struct microtin_grid {
   microtin_axis x, y;
 } microtin_grid;
 
-/* As encoder::Facts. Texts are valid as long as the surface. */
+/* As encoder::SurfaceInfo. Texts are valid as long as the surface. */
 typedef struct microtin_surface_info {
   uint64_t bytes, vertices;
   uint32_t is_pack, tile_columns, tile_rows; /* 1 x 1 of a stream */

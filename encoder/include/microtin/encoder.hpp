@@ -28,11 +28,11 @@ namespace microtin::encoder {
 
 /* --- Terrains --- */
 
-/* A height of Posts where there is none. */
-constexpr int64_t kVoid = std::numeric_limits<int64_t>::min();
+/* A height of RasterData where there is none. */
+constexpr int64_t kNoData = std::numeric_limits<int64_t>::min();
 
 /* A raster. Its numbers have magnitudes up to 10^18. */
-struct Posts {
+struct RasterData {
   uint32_t columns = 0, rows = 0; /* 2 .. 65536 each for a stream */
   std::vector<int64_t> heights;   /* times 10^-decimals; row by row, row 0 southernmost */
   int decimals = 0;               /* 0 .. 18 */
@@ -43,10 +43,10 @@ struct Posts {
 };
 
 /* Points in any order, none of which needs to be unlike all others. */
-struct Points {
+struct PointCloudData {
   std::vector<std::array<int64_t, 3>> points; /* x, y times 10^-xy_decimals, z 10^-z_decimals */
   int xy_decimals = 0, z_decimals = 0;        /* 0 .. 18 */
-  std::string wkt, z_unit = {};               /* as of Posts */
+  std::string wkt, z_unit = {};               /* as of RasterData */
 };
 
 /* Binary numbers, each of which stands for the shortest decimal that becomes it, of heights with at
@@ -59,16 +59,16 @@ struct Points {
 using Transform = std::array<double, 6>;
 
 /* Whether columns run east and rows north or south; skews of up to 10^-9 of a cell are what
- * rounding leaves, and count as none. posts_of throws for all others. */
+ * rounding leaves, and count as none. raster_from_cells throws for all others. */
 bool runs_east(const Transform& transform);
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 /* Makes a raster from the heights of cells. Throws std::runtime_error if cells are rotated. */
-Posts posts_of(uint32_t columns, uint32_t rows, const float* heights, const Transform& transform,
-               double no_data = kNoValue);
+RasterData raster_from_cells(uint32_t columns, uint32_t rows, const float* heights,
+                             const Transform& transform, double no_data = kNoValue);
 /* Makes a raster from the heights of cells. Throws std::runtime_error if cells are rotated. */
-Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Transform& transform,
-               double no_data = kNoValue);
+RasterData raster_from_cells(uint32_t columns, uint32_t rows, const double* heights,
+                             const Transform& transform, double no_data = kNoValue);
 
 /* Returns whether files with `bytes` bytes can hold a raster of `columns` x `rows`: up to 2^24
  * posts, or 1024 for each byte. A raster that claims more has a forged header, or is nearly all
@@ -76,26 +76,26 @@ Posts posts_of(uint32_t columns, uint32_t rows, const double* heights, const Tra
 bool can_hold(uint64_t bytes, uint32_t columns, uint32_t rows);
 
 /* x, y, z of each point in turn. */
-Points points_of(uint64_t count, const double* coordinates);
+PointCloudData point_cloud_from_xyz(uint64_t count, const double* coordinates);
 
 /* A terrain to be encoded. Copies share what they hold. */
-class Terrain {
+class SourceTerrain {
  public:
   /* Takes 8 bytes a post or 24 a point. Throws if numbers of posts or decimals are out of range. */
-  explicit Terrain(Posts posts);
+  explicit SourceTerrain(RasterData posts);
   /* Takes 24 bytes a point. */
-  explicit Terrain(const Points& points);
+  explicit SourceTerrain(const PointCloudData& points);
 
   /* Reads a file by its suffix: .hgt, .zip (one .hgt), .asc, .xyz, .csv, .txt, .las, .ply, .obj.
    * Errors name the file and, for text, the line. */
-  static Terrain from_file(const std::string& path);
+  static SourceTerrain from_file(const std::string& path);
 
   struct Content;
   /* For the library alone. */
   const Content& content() const { return *content_; }
 
  private:
-  explicit Terrain(std::shared_ptr<const Content> content);
+  explicit SourceTerrain(std::shared_ptr<const Content> content);
   std::shared_ptr<const Content> content_;
 };
 
@@ -120,7 +120,7 @@ struct Options {
   std::string max_error;    /* the largest distance of the surface from any height; "": see below */
   bool never_below = false; /* with a bound: no height is below the terrain */
   std::string z_step;       /* of heights; "": the one that suits the bound, or the terrain's own */
-  std::string xy_step;      /* of places; "": the terrain's own. Posts: in posts, not in packs */
+  std::string xy_step; /* of places; "": the terrain's own. RasterData: in posts, not in packs */
   BoundAt bound_at = BoundAt::kPoints;
   Duplicates duplicates = Duplicates::kMiddle;
   SearchEffort effort = SearchEffort::kNormal;
@@ -173,7 +173,7 @@ struct Report {
   std::string max_below;  /* how far the surface is below a height at most */
   /* Where points truly lie, if the lattice moves them; else "". */
   std::string max_error_at_points, max_below_at_points;
-  std::vector<std::string> remarks; /* what is guessed of units and systems; doubtful heights */
+  std::vector<std::string> warnings; /* what is guessed of units and systems; doubtful heights */
 };
 
 /* A stream and what the encoder measured. */
@@ -197,13 +197,13 @@ struct Callbacks {
 };
 
 /* O(n log n) for n samples, with factors of a search that `effort` sets: some 20 us a post. */
-Stream encode_stream(const Terrain& terrain, const StreamOptions& options,
+Stream encode_stream(const SourceTerrain& terrain, const StreamOptions& options,
                      const Callbacks& callbacks = {});
 
 /* Writes a file that appears complete or not at all. The memory that it needs beside the terrain is
  * that of a few tiles for posts, a few hundred bytes a point for points. */
-Report encode_pack(const Terrain& terrain, const PackOptions& options, const std::string& path,
-                   const Callbacks& callbacks = {});
+Report encode_pack(const SourceTerrain& terrain, const PackOptions& options,
+                   const std::string& path, const Callbacks& callbacks = {});
 
 }  // namespace microtin::encoder
 

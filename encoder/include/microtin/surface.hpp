@@ -21,12 +21,12 @@
 namespace microtin::encoder {
 
 /* Bytes that are read anywhere: a file of whatever file system. */
-class Bytes {
+class ByteSource {
  public:
-  Bytes() = default;
-  Bytes(const Bytes&) = delete;
-  Bytes& operator=(const Bytes&) = delete;
-  virtual ~Bytes() = default;
+  ByteSource() = default;
+  ByteSource(const ByteSource&) = delete;
+  ByteSource& operator=(const ByteSource&) = delete;
+  virtual ~ByteSource() = default;
 
   /* The number of bytes. */
   virtual uint64_t size() const = 0;
@@ -58,7 +58,7 @@ struct Box {
 };
 
 /* What a header says, and where the surface is. */
-struct Facts {
+struct SurfaceInfo {
   uint64_t bytes = 0;
   uint64_t vertices = 0;                    /* of a pack: those on borders once for each tile */
   uint32_t tile_columns = 1, tile_rows = 1; /* 1 of a stream */
@@ -87,7 +87,7 @@ class Surface {
   /* A stream is decoded at once, of a pack header and index are read. `name` is for messages. */
   static Surface from_file(const std::string& path);
   /* Reads a stream or a pack from bytes. `name` is for messages. */
-  static Surface from_bytes(std::unique_ptr<const Bytes> bytes, const std::string& name);
+  static Surface from_bytes(std::unique_ptr<const ByteSource> bytes, const std::string& name);
   /* Takes over another surface. */
   Surface(Surface&& other) noexcept;
   /* Takes over another surface. */
@@ -95,7 +95,7 @@ class Surface {
   ~Surface();
 
   /* Returns what the header contains, and where the surface is. */
-  const Facts& facts() const;
+  const SurfaceInfo& info() const;
 
   /* All of it; vertices on borders of tiles once. O(n). */
   Mesh mesh() const;

@@ -33,7 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _library
 from ._library import Error, library
 
-__all__ = ["Error", "Report", "Stream", "Terrain", "Tile", "decode", "encode", "encode_pack", "encode_points"]
+__all__ = ["Error", "Report", "Stream", "Surface", "Tile", "decode", "encode", "encode_pack", "encode_points"]
 __version__: str = library.microtin_version_string().decode()
 
 Number = Union[int, float, str, decimal.Decimal]
@@ -61,7 +61,7 @@ class Report:
     max_below: float  # how far the surface is below a height at most
     max_error_at_points: Optional[float] = None  # where points truly lie, if the lattice moves them
     max_below_at_points: Optional[float] = None
-    remarks: Tuple[str, ...] = ()  # what is guessed or not known of units and systems; doubtful heights
+    warnings: Tuple[str, ...] = ()  # what is guessed or not known of units and systems; doubtful heights
 
 
 class Stream(bytes):
@@ -110,7 +110,7 @@ def encode(
     Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
     an array is not two-dimensional or a height out of range.
     """
-    with _terrain_of_array(array, transform, crs, nodata) as terrain:
+    with _source_from_array(array, transform, crs, nodata) as terrain:
         stream = _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
     _warn(stream.report, crs, options)
     return stream
@@ -131,7 +131,7 @@ def encode_points(
     all (middle: all count); bound_at="points" | "lattice", whether max_error holds where points truly lie, or at the
     places of the lattice alone, which has 16 bits.
     """
-    with _terrain_of_points(points, crs) as terrain:
+    with _source_from_points(points, crs) as terrain:
         stream = _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
     _warn(stream.report, crs, options)
     return stream
@@ -155,7 +155,7 @@ def encode_pack(
     a raster's tiles. All else is as for `encode`."""
     filled, caller = _options(max_error, crs, tile_vertices=tile_vertices, tile_size=tile_size, **options)
     report = _library.Report()
-    made = _terrain_of_points(array, crs) if points else _terrain_of_array(array, transform, crs, nodata)
+    made = _source_from_points(array, crs) if points else _source_from_array(array, transform, crs, nodata)
     with made as terrain, caller:
         library.microtin_encode_pack(terrain.pointer, filled, os.fsencode(path), report)
     told = _report(report)
@@ -163,14 +163,14 @@ def encode_pack(
     return told
 
 
-class _Terrain:
+class _Source:
     """A terrain to be encoded, until the end of a with statement."""
 
     def __init__(self, make: Callable[..., None], content: Any) -> None:
         self.pointer = ctypes.c_void_p()
         make(content, self.pointer)
 
-    def __enter__(self) -> "_Terrain":
+    def __enter__(self) -> "_Source":
         return self
 
     def __exit__(self, *_: Any) -> None:
@@ -201,7 +201,7 @@ class _Caller:
             raise self._raised
 
 
-def _encode_stream(terrain: _Terrain, max_error: Optional[Number], crs: Optional[Crs], **options: Any) -> Stream:
+def _encode_stream(terrain: _Source, max_error: Optional[Number], crs: Optional[Crs], **options: Any) -> Stream:
     filled, caller = _options(max_error, crs, **options)
     pointer, size, report = ctypes.POINTER(ctypes.c_uint8)(), ctypes.c_uint64(), _library.Report()
     with caller:
@@ -288,9 +288,9 @@ def _report(report: _library.Report) -> Report:
 def _warn(report: Report, crs: Optional[Crs], options: Mapping[str, Any]) -> None:
     """To the caller of the function that calls this. Unknown units are no news where nothing is said of them."""
     is_placed = crs is not None or options.get("units")
-    for remark in report.remarks:
-        if is_placed or not remark.startswith("the unit of x and y is not known"):
-            warnings.warn(remark, stacklevel=3)
+    for warning in report.warnings:
+        if is_placed or not warning.startswith("the unit of x and y is not known"):
+            warnings.warn(warning, stacklevel=3)
 
 
 def _decimal(number: Optional[Number]) -> Optional[bytes]:
@@ -336,9 +336,9 @@ def _transform_of(transform: Optional[Sequence[float]], rows: int) -> Tuple[floa
     return tuple(transform)
 
 
-def _terrain_of_array(
+def _source_from_array(
     array: ArrayLike, transform: Optional[Sequence[float]], crs: Optional[Crs], nodata: Optional[float]
-) -> _Terrain:
+) -> _Source:
     mask = numpy.broadcast_to(array.mask, array.shape) if isinstance(array, numpy.ma.MaskedArray) else None
     heights = numpy.asarray(array)
     if heights.ndim != 2:
@@ -363,29 +363,29 @@ def _terrain_of_array(
         raster.float_heights = heights.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
     else:
         raster.heights = heights.ctypes.data_as(_library.Doubles)
-    return _Terrain(library.microtin_source_from_raster, raster)
+    return _Source(library.microtin_source_from_raster, raster)
 
 
-def _terrain_of_points(points: ArrayLike, crs: Optional[Crs]) -> _Terrain:
+def _source_from_points(points: ArrayLike, crs: Optional[Crs]) -> _Source:
     rows = numpy.ascontiguousarray(points, numpy.float64)
     if rows.ndim != 2 or rows.shape[1] != 3:
         raise Error("points are rows of x, y and height")
     content = _library.Points(
         count=len(rows), coordinates=rows.ctypes.data_as(_library.Doubles), wkt=_wkt_of(crs)
     )
-    return _Terrain(library.microtin_source_from_points, content)
+    return _Source(library.microtin_source_from_points, content)
 
 
 # --- Decoding ---
 
 
-def decode(source: Union[bytes, bytearray, memoryview, Path]) -> "Terrain":
+def decode(source: Union[bytes, bytearray, memoryview, Path]) -> "Surface":
     """Reads a stream or a pack: its bytes, or the path of a file. A stream is decoded at once, tiles of a pack when they are
     asked for. Raises Error if it is damaged or none of them."""
-    return Terrain(source)
+    return Surface(source)
 
 
-class Terrain:
+class Surface:
     """A decoded terrain. Methods may be called from several threads.
 
     bounds            west, south, east, north: of the vertices, or of a pack's tiles
@@ -408,21 +408,21 @@ class Terrain:
         self._surface = surface
         self._lock = threading.Lock()
         self._mesh: Optional[Tile] = None
-        facts = _library.Facts()
-        library.microtin_surface_get_info(surface, facts)
-        self._source = facts.source
-        self.is_pack = bool(facts.is_pack)
-        self.tiles: Tuple[int, int] = (facts.tile_columns, facts.tile_rows)
-        self.bounds: Tuple[float, float, float, float] = (facts.west, facts.south, facts.east, facts.north)
-        self.crs: Union[int, str, None] = facts.horizontal_epsg or facts.wkt.decode(errors="replace") or None
-        self.vertical_epsg: int = facts.vertical_epsg
-        self.units = (UNITS[facts.horizontal_unit], UNITS[facts.vertical_unit])
-        self.bound = _number(facts.bound)
-        self.max_error = _number(facts.max_error)
-        self.max_error_at_points = _number(facts.max_error_at_points)
-        self.source: str = facts.origin.decode(errors="replace")
-        self.date: str = facts.date.decode(errors="replace")
-        self.lineage: str = facts.lineage.decode(errors="replace")
+        info = _library.SurfaceInfo()
+        library.microtin_surface_get_info(surface, info)
+        self._source = info.source
+        self.is_pack = bool(info.is_pack)
+        self.tiles: Tuple[int, int] = (info.tile_columns, info.tile_rows)
+        self.bounds: Tuple[float, float, float, float] = (info.west, info.south, info.east, info.north)
+        self.crs: Union[int, str, None] = info.horizontal_epsg or info.wkt.decode(errors="replace") or None
+        self.vertical_epsg: int = info.vertical_epsg
+        self.units = (UNITS[info.horizontal_unit], UNITS[info.vertical_unit])
+        self.bound = _number(info.bound)
+        self.max_error = _number(info.max_error)
+        self.max_error_at_points = _number(info.max_error_at_points)
+        self.source: str = info.origin.decode(errors="replace")
+        self.date: str = info.date.decode(errors="replace")
+        self.lineage: str = info.lineage.decode(errors="replace")
 
     @property
     def vertices(self) -> NDArray[numpy.float64]:

@@ -95,7 +95,7 @@ class Grid(ctypes.Structure):
     _fields_ = [("columns", c_uint32), ("rows", c_uint32), ("x", Axis), ("y", Axis)]
 
 
-class Facts(ctypes.Structure):
+class SurfaceInfo(ctypes.Structure):
     _fields_ = [
         ("bytes", c_uint64),
         ("vertices", c_uint64),
@@ -159,7 +159,7 @@ _WITHOUT_STATUS = {
     "source_free": ([c_void_p], None),
     "bytes_free": ([POINTER(c_uint8)], None),
     "surface_free": ([c_void_p], None),
-    "surface_get_info": ([c_void_p, POINTER(Facts)], None),
+    "surface_get_info": ([c_void_p, POINTER(SurfaceInfo)], None),
     "last_error": ([], c_char_p),
     "last_warnings": ([], c_char_p),
     "version_string": ([], c_char_p),

@@ -5,12 +5,12 @@
 
 int main() {
   using namespace microtin::encoder;
-  Posts posts;
+  RasterData posts;
   posts.columns = posts.rows = 9;
   for (int64_t i = 0; i < 81; ++i) posts.heights.push_back((i % 9) * (i % 9) + i / 9);
   StreamOptions options;
   options.max_error = "0.5";
-  const Stream stream = encode_stream(Terrain(posts), options);
+  const Stream stream = encode_stream(SourceTerrain(posts), options);
 
   static microtin::Terrain<81> terrain;
   static microtin::Decoder<81> decoder(terrain);

@@ -44,7 +44,7 @@ export class Pack {
     this.#segment = this.#instance.reserve(32);
     this.#init(1, 3); // enough for the header
     await this.#readHeader();
-    this.#init(slots, Math.min(Math.max(3, this.mostVertices), USUAL));
+    this.#init(slots, Math.min(Math.max(3, this.maxTileVertices), USUAL));
   }
 
   #init(slots, capacity) {
@@ -68,7 +68,7 @@ export class Pack {
     this.extent = [large(X_MAX), large(Y_MAX)];
     this.tileSize = [small(WIDTH), small(HEIGHT)];
     [this.columns, this.rows] = this.extent.map((extent, i) => Math.ceil(extent / this.tileSize[i]));
-    this.mostVertices = large(MOST);
+    this.maxTileVertices = large(MOST);
     const axes = axesAt(view, at + AXES);
     [this.lowest, this.highest] = [LOWEST, HIGHEST].map(
       (place) => axes.z.start + view.getInt16(at + place, true) * axes.z.step);
@@ -191,7 +191,7 @@ export class Pack {
       calls.microtin_pack_height_at(this.#pack, ...place.map(BigInt), results, results + 4));
   }
 
-  async highestOn(x, y, xEnd, yEnd) {
+  async segmentMax(x, y, xEnd, yEnd) {
     return this.#ask([...this.#place(x, y), ...this.#place(xEnd, yEnd)], ({ calls, results }) =>
       calls.microtin_pack_segment_max(this.#pack, this.#segment, results + 4));
   }
