@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the commands accept; for those that encode see encode_options.cpp.
+// What the commands accept; encode_options.cpp has those that encode.
 #include "encoder/cli/command_line.hpp"
 
 #include <CLI/CLI.hpp>
@@ -12,6 +12,8 @@
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/completion.hpp"
 #include "encoder/cli/definitions.hpp"
+#include "encoder/cli/groups.hpp"
+#include "encoder/cli/help.hpp"
 #include "encoder/cli/manual.hpp"
 #include "encoder/cli/options.hpp"
 #include "encoder/cli/report.hpp"
@@ -30,7 +32,7 @@ void add_document(CLI::App& parent, const std::string& name, const CLI::App& app
       [&app, &action, writer] { action = [&app, writer] { print(writer(describe(app))); }; });
 }
 
-// A list of sources takes the stream that follows it, which is none of them.
+// CLI11 adds the stream that follows a list of sources to the list; this takes it out again.
 void take_stream_from_sources(RenderRequest& request) {
   if (!request.input.empty() || request.source.empty()) return;
   std::vector<std::string> files = request.preparation.more_files;
@@ -41,7 +43,7 @@ void take_stream_from_sources(RenderRequest& request) {
   if (stream == files.end()) return;
   request.input = *stream;
   files.erase(stream);
-  if (files.empty()) throw CLI::ArgumentMismatch("--source: names no terrain");
+  if (files.empty()) throw CLI::ArgumentMismatch("--source: names a stream, and no terrain");
   request.source = files.front();
   request.preparation.more_files.assign(files.begin() + 1, files.end());
 }
@@ -50,31 +52,38 @@ void take_stream_from_sources(RenderRequest& request) {
 
 void add_decode(CLI::App& app, Action& action) {
   auto request = std::make_shared<DecodeRequest>();
-  CLI::App& command = *app.add_subcommand("decode", "Turn a stream into a mesh or a grid");
+  CLI::App& command =
+      *app.add_subcommand("decode", "Turn a stream or a pack into a mesh or a grid");
+  command.group(kConvert);
   add_stream(command, request->input);
   add_output(command, request->output,
-             "File to write: .xyz, .obj, .ply, .glb (meshes), .asc (a grid); N43E007.DAT, "
-             "N43E007.TER (that cell for ArduPilot, INAV); - is .xyz on standard output");
-  CLI::Option* const cell = add_decimal(
-      command, "--cell", request->cell,
-      "Distance of an .asc grid's posts, in the terrain's unit; if not given, the source's posts, "
-      "or of points the lattice's places. Metres between the posts of a .DAT");
+             "Write this file. Meshes: .xyz, .obj, .ply, .glb. A grid: .asc. A cell for ArduPilot, "
+             "INAV: N43E007.DAT, N43E007.TER. - is .xyz on standard output");
+  begin_group(command, "Posts of a grid");
+  CLI::Option* const cell =
+      add_decimal(command, "--cell DISTANCE", request->cell,
+                  "Set the distance of posts, in the terrain's unit; in metres for .DAT files")
+          ->default_str("the source's posts; for points the lattice's positions");
   const auto read = [request](const std::string& text) {
     request->extent = parse_extent(text);
     return request->extent.has_value();
   };
-  add_read(command, "--extent", read, "WEST,SOUTH,EAST,NORTH, as 7.5,43,8,43.5",
-           "Write the posts in this rectangle of the terrain's coordinates: WEST,SOUTH,EAST,NORTH; "
-           "with --cell from its south-west corner on");
+  add_read(command, "--extent WEST,SOUTH,EAST,NORTH", read,
+           "WEST,SOUTH,EAST,NORTH, such as 7.5,43,8,43.5",
+           "Write the posts in this rectangle of the terrain's coordinates; with --cell they begin "
+           "at its south-west corner")
+      ->default_str("the whole terrain");
   CLI::Option* const like =
-      command.add_option("--like", request->like, "Write the posts of this raster")
-          ->type_name(kFile)
+      add_text(command, "--like FILE", request->like, "Write the posts of this raster")
           ->excludes(cell);
   add_indirect(command, request->like_preparation);
+  begin_group(command, kOptions);
+  command
+      .add_flag("--lattice", request->lattice, "Write lattice coordinates, which are whole numbers")
+      ->excludes(like);
   command.add_flag(
       "--force", request->force,
-      "Write a file that can take more than 1 GB, or a mesh of more than 2^24 vertices");
-  command.add_flag("--lattice", request->lattice, "Write the lattice's integers")->excludes(like);
+      "Write a file that can have more than 1 GB, or a mesh of more than 2^24 vertices");
   command.callback([request, &action] {
     request->like_preparation.band = 1;  // all bands have the same posts
     request->like_preparation.asked.reset();
@@ -90,13 +99,14 @@ void add_embed(CLI::App& app, Action& action) {
     std::string input, output;
   };
   auto request = std::make_shared<Request>();
-  CLI::App& command = *app.add_subcommand(
-      "embed", "Turn a stream or a pack into a C header, to be linked into firmware");
-  add_stream(command, request->input, "A stream or a pack");
+  CLI::App& command =
+      *app.add_subcommand("embed", "Turn a stream or a pack into a C header for firmware");
+  command.group(kConvert);
+  add_stream(command, request->input);
   add_output(command, request->output);
   command.footer(
-      "X.h defines the array X_stream and X_VERTICES, the capacity that it needs; of a pack, "
-      "X_pack and X_MOST_VERTICES, that of a slot.");
+      "X.h defines the array X_stream and X_VERTICES, the capacity of a mesh for it. For a pack it "
+      "defines X_pack and X_MOST_VERTICES, the capacity of a slot.");
   command.callback(
       [request, &action] { action = [request] { run_embed(request->input, request->output); }; });
 }
@@ -106,25 +116,31 @@ void add_height_command(CLI::App& app, Action& action, int& code) {
     std::string x, y;
   };
   auto request = std::make_shared<Request>();
-  CLI::App& command = *app.add_subcommand("height", "Tell the height at places");
+  CLI::App& command = *app.add_subcommand("height", "Print the height at one or many positions");
+  command.group(kLookAt);
   add_stream(command, request->input);
-  CLI::Option* const x =
-      command.add_option("x", request->x, "A place in the terrain's units: to the east");
-  CLI::Option* const y = command.add_option(
-      "y", request->y,
-      "... and to the north; without a place those on standard input, a line X Y each");
+  CLI::Option* const x = command.add_option(
+      "X", request->x,
+      "Position to the east, in the terrain's unit. Without a position the command reads lines "
+      "\"X Y\" from standard input");
+  CLI::Option* const y =
+      command.add_option("Y", request->y, "Position to the north, in the terrain's unit");
   x->needs(y);
-  command.add_flag("--lattice", request->lattice, "Places and heights in steps of the lattice");
+  command.add_flag("--lattice", request->lattice,
+                   "Read positions and print heights in lattice steps");
   command.add_flag("--device", request->device,
-                   "Answer as a device: at the nearest 1/256 of a lattice step");
+                   "Compute as a device does, at the nearest 1/256 of a lattice step");
   command.footer(
-      "A word stands where there is no height: outside, void or damaged. For a place on the "
-      "command "
-      "line their exit codes are 5, 6 and 7; 7 also if the file is damaged.");
+      "Where there is no height, the command prints a word: outside, void or damaged. For a "
+      "position on the command line the exit codes are then 5, 6 and 7; 7 also if the file is "
+      "damaged.");
   command.callback([request, x, &action, &code] {
     if (x->count() != 0) {
       request->place = parse_place(request->x + ' ' + request->y, request->device);
-      if (!request->place) throw CLI::ValidationError("x y", "are not two numbers");
+      if (!request->place) {
+        throw CLI::ValidationError("X Y", '\'' + request->x + ' ' + request->y +
+                                              "' is not allowed; use two decimal numbers");
+      }
     }
     action = [request, &code] { code = run_height(*request); };
   });
@@ -136,7 +152,8 @@ void add_info(CLI::App& app, Action& action) {
     bool json = false;
   };
   auto request = std::make_shared<Request>();
-  CLI::App& command = *app.add_subcommand("info", "Tell what a stream holds");
+  CLI::App& command = *app.add_subcommand("info", "Print what a stream or a pack contains");
+  command.group(kLookAt);
   add_stream(command, request->input);
   add_json(command, request->json);
   command.callback(
@@ -145,10 +162,13 @@ void add_info(CLI::App& app, Action& action) {
 
 void add_verify(CLI::App& app, Action& action) {
   auto request = std::make_shared<VerifyRequest>();
-  CLI::App& command = *app.add_subcommand("verify", "Compare a stream with its terrain");
+  CLI::App& command =
+      *app.add_subcommand("verify", "Compare a stream or a pack with its source terrain");
+  command.group(kLookAt);
   add_stream(command, request->input);
   add_terrain(command, request->source, request->preparation);
   add_preparation(command, request->preparation);
+  begin_group(command, kOptions);
   command.add_flag("--never-below", request->never_below,
                    "Fail also if the surface is below the source anywhere");
   add_json(command, request->json);
@@ -162,15 +182,16 @@ void add_fractal(CLI::App& app, Action& action) {
     uint64_t seed = 1;
   };
   auto request = std::make_shared<Request>();
-  CLI::App& command = *app.add_subcommand("fractal", "Make a terrain (.asc)");
+  CLI::App& command =
+      *app.add_subcommand("fractal", "Make a terrain to try the program with (.asc)");
+  command.group(kOthers);
   add_output(command, request->output);
-  command.add_option("--size", request->size, "Posts in a row")
-      ->check(CLI::Range(kSmallestFractal, kLargestFractal))
-      ->capture_default_str();
-  const auto read = [request](const std::string& text) { return read_number(text, request->seed); };
-  add_read(command, "--seed", read, "a number up to 2^64 - 1", "Another terrain for each")
-      ->type_name("UINT")
-      ->default_str("1");
+  add_number(command, "--size N", request->size, kSmallestFractal, "Set the posts in a row",
+             kLargestFractal)
+      ->default_str(std::to_string(request->size));
+  add_number(command, "--seed N", request->seed, uint64_t{0},
+             "Set the random seed; each seed makes a different terrain")
+      ->default_str(std::to_string(request->seed));
   command.callback([request, &action] {
     action = [request] { run_fractal(request->output, request->size, request->seed); };
   });
@@ -179,44 +200,61 @@ void add_fractal(CLI::App& app, Action& action) {
 void add_render(CLI::App& app, Action& action) {
   auto request = std::make_shared<RenderRequest>();
   CLI::App& command =
-      *app.add_subcommand("render", "Draw a terrain (.png, .svg), or a page that shows it (.html)");
+      *app.add_subcommand("render", "Draw a stream or a pack as .png, .svg or .html");
+  command.group(kLookAt);
   add_stream(command, request->input)->required(false);  // as far as CLI11 can see
-  add_output(command, request->output);
-  command.add_option("--width", request->width, "Pixels in a row")
-      ->check(CLI::Range(kNarrowest, kWidest))
-      ->capture_default_str();
+  add_output(command, request->output,
+             "Write this picture, .png or .svg, or page for a browser, .html");
+  begin_group(command, "Appearance");
+  add_number(command, "--width N", request->width, kNarrowest, "Set the pixels in a row", kWidest)
+      ->default_str(std::to_string(request->width));
   command.add_flag_callback(
       "--no-mesh", [request] { request->mesh = false; }, "Do not draw the triangles");
   add_choice<PaletteKind>(command, "--palette", request->palette,
-                          {{"land", PaletteKind::kLand}, {"sea", PaletteKind::kSea}}, "land or sea",
-                          "Colours of heights: land from the lowest on, or land from 0 on and sea, "
-                          "blue, below");
+                          {{"land", PaletteKind::kLand}, {"sea", PaletteKind::kSea}},
+                          "Choose the colours of heights. land: one ramp from the lowest height. "
+                          "sea: blue below 0, land colours above");
   add_read(
-      command, "--contours",
+      command, "--contours auto|METRES",
       [request](const std::string& text) {
         request->contours = true;
         request->interval = parse_decimal(text);
         return text == "auto" || (request->interval && request->interval->mantissa > 0);
       },
       "auto or a decimal number above 0",
-      "Draw lines of equal height: so far apart, in the terrain's unit, or auto");
+      "Draw contour lines at this distance of heights, in the terrain's unit, or at a round one")
+      ->default_str("no contour lines");
   command.add_flag("--coordinates", request->coordinates,
-                   "Ticks on the frame at round coordinates, with numbers");
-  command.add_option("--title", request->title,
-                     "Text above the map: Latin letters, digits, common signs");
-  command.add_flag("--north-arrow", request->north_arrow, "An arrow to the north, which is up");
-  command.add_flag("--force", request->force, "Draw a pack of more than 2^24 vertices");
+                   "Draw ticks with numbers on the frame, at round coordinates");
+  add_text(command, "--title WORDS", request->title,
+           "Print this title above the map, in Latin letters, digits and common signs");
+  command.add_flag("--north-arrow", request->north_arrow, "Draw a north arrow, which points up");
+  begin_group(command, kOptions);
+  add_terrain(command, request->source, request->preparation, "--source",
+              "Draw a map of the errors against this terrain: files, or a folder of them")
+      ->default_str("no such map");
   command.add_flag("--world-file", request->world,
-                   "Write beside the picture, as .pgw, where its map lies");
-  add_terrain(
-      command, request->source, request->preparation, "--source",
-      "Draw a map of the errors against this terrain: a file, several, or a folder of them");
+                   "Write also a .pgw file with the position of the map");
+  command.add_flag("--force", request->force, "Draw a pack of more than 2^24 vertices");
   add_preparation(command, request->preparation);
   command.callback([request, &action] {
     take_stream_from_sources(*request);
-    if (request->input.empty()) throw CLI::RequiredError("stream");
+    if (request->input.empty()) throw CLI::RequiredError("STREAM");
     action = [request] { run_render(*request); };
   });
+}
+
+void add_help(CLI::App& app, Action& action) {
+  CLI::App& help = *app.add_subcommand("help", "Print the page of a command");
+  help.group(kOthers)->require_subcommand(0, 1);
+  help.callback([&app, &help, &action] {
+    if (help.get_subcommands().empty()) action = [&app] { print(help_page(app)); };
+  });
+  for (const CLI::App* const command : app.get_subcommands({})) {
+    help.add_subcommand(command->get_name(), command->get_description())
+        ->group(command->get_group())
+        ->callback([command, &action] { action = [command] { print(help_page(*command)); }; });
+  }
 }
 
 void add_documents(CLI::App& app, Action& action) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The commands, each with what it accepts. Parsing sets `action` to the one that is asked for.
+// The commands, each with what it accepts. Parsing sets `action` to the command that is named.
 #ifndef MICROTIN_ENCODER_CLI_COMMAND_LINE_HPP
 #define MICROTIN_ENCODER_CLI_COMMAND_LINE_HPP
 
@@ -26,7 +26,10 @@ void add_verify(CLI::App& app, Action& action);
 void add_fractal(CLI::App& app, Action& action);
 void add_render(CLI::App& app, Action& action);
 
-// For those who package the program; they tell what is defined by the time they run.
+// The command help, with the pages of the commands that are defined before it.
+void add_help(CLI::App& app, Action& action);
+
+// Documents for packages of the program, about the commands that are defined when they are printed.
 void add_documents(CLI::App& app, Action& action);
 
 }  // namespace microtin::cli

@@ -11,6 +11,12 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
   return text;
 }
 
+std::vector<std::string> names_of_commands(const CommandText& program) {
+  std::vector<std::string> names;
+  for (const CommandText& command : program.commands) names.push_back(command.name);
+  return names;
+}
+
 std::vector<std::string> names_of_options(const CommandText& command) {
   std::vector<std::string> names;
   for (const OptionText& option : command.options) {
@@ -21,7 +27,7 @@ std::vector<std::string> names_of_options(const CommandText& command) {
 
 // --- bash ---
 
-// The names of options whose value is no file, behind which nothing can be proposed.
+// The names of options whose value is not a file, behind which nothing can be proposed.
 std::vector<std::string> names_of_values(const CommandText& command) {
   std::vector<std::string> names;
   for (const OptionText& option : command.options) {
@@ -35,6 +41,9 @@ std::string bash_case(const CommandText& command) {
   std::string text = "    " + command.name + ")\n";
   text += "      options='" + joined(names_of_options(command), " ") + "'\n";
   text += "      values='" + joined(names_of_values(command), " ") + "'\n";
+  if (!command.commands.empty()) {
+    text += "      commands='" + joined(names_of_commands(command), " ") + "'\n";
+  }
   return text + "      ;;\n";
 }
 
@@ -42,7 +51,8 @@ std::string bash_case(const CommandText& command) {
 constexpr const char* kBashBegin =
     R"(# bash completion of microtin, written by `microtin completion bash`
 _microtin() {
-  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]} options='' values=''
+  local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}
+  local options='' values='' commands=''
   COMPREPLY=()
   if [ "$COMP_CWORD" -eq 1 ]; then
     compopt +o default 2>/dev/null
@@ -59,6 +69,9 @@ constexpr const char* kBashEnd = R"(  esac
     compopt +o default 2>/dev/null
   elif [[ $current == -* ]]; then
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$current")
+  elif [[ -n $commands ]]; then
+    compopt +o default 2>/dev/null
+    mapfile -t COMPREPLY < <(compgen -W "$commands" -- "$current")
   fi
 }
 complete -o default -F _microtin microtin
@@ -101,6 +114,9 @@ std::string zsh_case(const CommandText& command) {
   std::string text = "    " + command.name + ")\n      _arguments" + zsh_options(command);
   for (const OptionText& argument : command.arguments) {
     text += " \\\n        " + quoted((argument.repeats ? "*" : "") + zsh_value(argument));
+  }
+  if (!command.commands.empty()) {
+    text += " \\\n        " + quoted(":command:(" + joined(names_of_commands(command), " ") + ")");
   }
   return text + "\n      ;;\n";
 }
@@ -145,8 +161,7 @@ _microtin "$@"
 }  // namespace
 
 std::string bash_completion(const CommandText& program) {
-  std::string text = kBashBegin;
-  for (const CommandText& command : program.commands) text += command.name + " ";
+  std::string text = kBashBegin + joined(names_of_commands(program), " ") + ' ';
   text += joined(names_of_options(program), " ") + kBashCases;
   for (const CommandText& command : program.commands) text += bash_case(command);
   return text + kBashEnd;

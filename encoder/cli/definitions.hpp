@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the command line accepts, for all that tells people of it beside --help.
+// What the command line accepts, for everything that describes it: help pages, the manual page, the
+// page of the documents, shell completion.
 #ifndef MICROTIN_ENCODER_CLI_DEFINITIONS_HPP
 #define MICROTIN_ENCODER_CLI_DEFINITIONS_HPP
 
@@ -17,12 +18,14 @@ namespace microtin::cli {
 // The type of an argument that is the path of a file, as --help shows it.
 inline constexpr const char* kFile = "FILE";
 
-// An option, or an argument, which is told apart by its place alone.
+// An option, or an argument, which has a position and no name that is written.
 struct OptionText {
   std::vector<std::string> names;  // -o and --output; none for an argument
-  std::string usage;               // an argument's name, in brackets if it may be left out
-  std::string title;               // as in --help: names, type, default, what it excludes
-  std::string description;
+  std::string usage;               // "TERRAIN...", "-o FILE"; in brackets if it may be left out
+  std::string title;               // as help pages show it: "-o, --output FILE"
+  std::string description;         // ends with its range, what it excludes, and its default
+  std::string group;
+  bool required;
   bool takes_value;
   bool takes_file;
   bool repeats;
@@ -31,14 +34,18 @@ struct OptionText {
 struct CommandText {
   std::string name;
   std::string description;
+  std::string group;
   std::string footer;
   std::vector<OptionText> arguments;
   std::vector<OptionText> options;  // --help is the first
   std::vector<CommandText> commands;
 };
 
-// In the order of the definitions, without those that --help does not show.
+// In the order of the definitions, without hidden commands.
 CommandText describe(const CLI::App& app);
+
+// "microtin encode TERRAIN... -o FILE [OPTIONS]", for a command.
+std::string synopsis(const CommandText& command);
 
 // The text with `replacement` for every `character`.
 std::string replaced(std::string_view text, char character, std::string_view replacement);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What encode accepts, and plan and merge for a pack in shards.
+// What encode accepts, and what plan and merge accept, for a pack in shards.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,6 +10,7 @@
 #include "encoder/cli/command_line.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/definitions.hpp"
+#include "encoder/cli/groups.hpp"
 #include "encoder/cli/options.hpp"
 #include "encoder/stream/device_ram.hpp"
 #include "microtin/encoder.hpp"
@@ -28,125 +27,113 @@ bool read_tiles(std::string_view text, TileRange& range) {
 }
 
 void add_search(CLI::App& command, Search& search) {
+  begin_group(command, "Time to search, with a bound or a limit");
   const auto add = [&](const char* name, Search value, const char* description) {
     return command.add_flag_callback(
         name, [&search, value] { search = value; }, description);
   };
   CLI::Option* const fast =
-      add("--fast", Search::kFast, "With a bound or limit: search for a short time only");
-  add("--best", Search::kBest, "... or for a long time")->excludes(fast);
+      add("--fast", Search::kFast, "Search for a short time; files are some 5 % larger");
+  add("--best", Search::kBest, "Search for a long time, about four times the usual one")
+      ->excludes(fast);
 }
 
-void add_coding(CLI::App& command, Coding& coding) {
-  command
-      .add_option_function<std::string>(
-          "--coding",
-          [&coding](const std::string& name) {
-            const auto* const end = std::end(kCodings);
-            const auto* const found =
-                std::find_if(std::begin(kCodings), end,
-                             [&name](Coding known) { return name_of(known) == name; });
-            if (found == end) {
-              throw CLI::ValidationError("--coding", name + " is not quick, balanced or dense");
-            }
-            coding = *found;
-          },
-          "How much of it goes into choosing: quick, balanced or dense (the smallest stream)")
-      ->default_str(name_of(coding));
+void add_coding(CLI::App& command, Effort& effort) {
+  begin_group(command, "Work of the device");
+  add_choice<Coding>(
+      command, "--coding", effort.coding,
+      {{"quick", Coding::kQuick}, {"balanced", Coding::kBalanced}, {"dense", Coding::kDense}},
+      "Trade file size against decoding time. quick: fastest to decode. dense: "
+      "smallest file");
+  add_number(command, "--max-degree N", effort.degree, kMinDegree,
+             "Limit the triangles around a vertex when it is added", kMaxDegree)
+      ->default_str("usually 10; 9 with quick; 16 if that saves 0.4 % below 2000 vertices");
 }
 
-// Packs are neither of a number of vertices nor of bytes.
+// Neither a number of vertices nor of bytes of the whole file limits a pack.
 void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
                CLI::Option& bytes) {
+  begin_group(command, "Packs and devices");
   CLI::Option* const tile =
-      command
-          .add_option(
-              "--tile-vertices", request.tile_vertices,
-              "Write a pack of tiles with at most this many vertices each. For a .mtp file without "
-              "--device-ram the default is " +
-                  std::to_string(encoder::kUsualTileVertices))
-          ->check(CLI::Range(kFewestTileVertices, kMaxVertices))
+      add_number(command, "--tile-vertices N", request.tile_vertices, kFewestTileVertices,
+                 "Write a pack of tiles with at most N vertices each", uint32_t{kMaxVertices})
           ->excludes(&vertices)
-          ->excludes(&bytes);
-  command
-      .add_option("--tile-size", request.tile_size,
-                  "Extent of the pack's tiles at most, in steps between posts; chosen if not given")
-      ->check(CLI::Range(1u, uint32_t{kLatticeMax}));
-  command
-      .add_option(
-          "--device-ram", request.device_ram,
-          "Bytes that a device has for mesh and decoder, with 16-bit numbers up to " +
-              std::to_string(MICROTIN_MAX_VERTICES_FOR(16)) +
-              " vertices, with 32-bit numbers beyond. Alone: use the best vertices that fit; with "
-              "--max-error or --max-vertices: fail if the terrain does not fit. For a pack (.mtp): "
-              "tiles of which such a device keeps four, compact, and decodes one")
+          ->excludes(&bytes)
+          ->default_str(std::to_string(encoder::kUsualTileVertices) + " for .mtp files");
+  add_number(command, "--tile-size N", request.tile_size, 1u,
+             "Make tiles of a raster at most N steps between posts wide and high",
+             uint32_t{kLatticeMax})
+      ->default_str("chosen");
+  add_number(command, "--device-ram BYTES", request.device_ram, device_ram(3),
+             "Fit mesh and decoder into the RAM of a device. .mtin: with the best vertices that "
+             "fit; with --max-error or --max-vertices, fail if the terrain does not fit. .mtp: "
+             "with the largest tiles of which the device keeps four, compact, and decodes one. "
+             "Indices have 16 bits up to " +
+                 std::to_string(MICROTIN_MAX_VERTICES_FOR(16)) + " vertices, else 32",
+             device_ram(kMaxVertices))
       ->excludes(&bytes)
       ->excludes(tile)
-      ->check(CLI::Range(device_ram(3), device_ram(kMaxVertices)));
+      ->default_str("no limit");
 }
 
-// What the header tells people.
 void add_notes(CLI::App& command, EncodeRequest& request) {
-  command.add_option("--source-name", request.source_name, "Where the terrain comes from");
-  command
-      .add_option("--date", request.date, "Of the source: 2026, 2026-11 or 2026-11-21 (ISO 8601)")
-      ->check([](const std::string& text) {
-        return is_iso_date(text) ? std::string() : text + " is not a date such as 2026-11-21";
-      });
-  command.add_option("--lineage", request.lineage, "What was done to the source before");
+  begin_group(command, "Notes in the header");
+  add_text(command, "--source-name NAME", request.source_name, "Note where the terrain comes from");
+  const auto read = [&request](const std::string& text) {
+    request.date = text;
+    return is_iso_date(text);
+  };
+  add_read(command, "--date DATE", read, "a date such as 2026, 2026-11 or 2026-11-21",
+           "Note the date of the source: 2026, 2026-11 or 2026-11-21")
+      ->default_str("none");
+  add_text(command, "--lineage WORDS", request.lineage, "Note how the source was processed before");
 }
 
 void add_point_options(CLI::App& command, EncodeRequest& request) {
+  begin_group(command, "Points");
   add_choice<BoundAt>(command, "--bound-at", request.bound_at,
                       {{"points", BoundAt::kTruePlaces}, {"lattice", BoundAt::kLattice}},
-                      "points or lattice",
-                      "Where --max-error holds for points: where they truly lie (points, if not "
-                      "given), or at their places on the lattice alone");
+                      "Choose where --max-error holds: at the points, or at the lattice positions "
+                      "that stand for them");
   add_choice<DuplicateRule>(command, "--duplicates", request.lattice.duplicates,
                             {{"middle", DuplicateRule::kMiddle},
                              {"lowest", DuplicateRule::kLowest},
                              {"highest", DuplicateRule::kHighest},
                              {"mean", DuplicateRule::kMean}},
-                            "middle, lowest, highest or mean",
-                            "Of points that meet at a place of the lattice: which one stands for "
-                            "all; if not given all count, the surface aims at their middle");
+                            "Choose the height where points share a lattice position. middle: all "
+                            "count, and the surface aims at the middle of the lowest and highest");
 }
 
 void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
   add_terrain(command, request->input, request->preparation);
+  begin_group(command, "Bound or limit");
   CLI::Option* const bound =
-      add_decimal(command, "--max-error", request->lattice.max_error,
-                  "Keep every height within this distance, in the terrain's unit");
+      add_decimal(command, "--max-error METRES", request->lattice.max_error,
+                  "Keep every height within this distance, in the terrain's unit")
+          ->default_str("every post or point is a vertex");
   CLI::Option* const vertices =
-      command
-          .add_option(
-              "--max-vertices", request->max_vertices,
-              "Use at most this many vertices, and the smallest --max-error that they allow")
-          ->check(CLI::Range(3u, kMaxVertices))
-          ->excludes(bound);
-  CLI::Option* const bytes =
-      command
-          .add_option("--max-bytes", request->max_bytes,
-                      "Keep the smallest --max-error that a file of this size can")
-          ->check(CLI::PositiveNumber)
+      add_number(command, "--max-vertices N", request->max_vertices, 3u,
+                 "Find the smallest error that N vertices allow", uint32_t{kMaxVertices})
           ->excludes(bound)
-          ->excludes(vertices);
-  add_tiles(command, *request, *vertices, *bytes);
+          ->default_str("no limit");
+  CLI::Option* const bytes = add_number(command, "--max-bytes BYTES", request->max_bytes, 1u,
+                                        "Find the smallest error that a file of this size allows")
+                                 ->excludes(bound)
+                                 ->excludes(vertices)
+                                 ->default_str("no limit");
   command.add_flag("--never-below", request->lattice.never_below,
-                   "With a bound: no height is below the source, all are at most so far above");
+                   "Keep the surface at or above every height, by at most the bound");
+  begin_group(command, "Lattice");
+  add_decimal(command, "--z-step METRES", request->lattice.z_step,
+              "Set the step of heights, in the terrain's unit")
+      ->default_str("the source's; with --max-error that of the smallest file");
+  add_decimal(command, "--xy-step DISTANCE", request->lattice.xy_step,
+              "Set the step of positions: posts for rasters, the terrain's unit for points")
+      ->default_str("the source's");
   add_point_options(command, *request);
   add_search(command, request->search);
-  add_decimal(
-      command, "--z-step", request->lattice.z_step,
-      "Step of heights; with --max-error, if not given, the one that takes the fewest bytes");
-  add_decimal(command, "--xy-step", request->lattice.xy_step, "Step of places (rasters: in posts)");
-  command
-      .add_option(
-          "--max-degree", request->effort.degree,
-          "Most triangles around a vertex when it is added; if not given 10, quick 9, or, of "
-          "less than 2,000 vertices, 16 if that saves a 256th")
-      ->check(CLI::Range(kMinDegree, kMaxDegree));
-  add_coding(command, request->effort.coding);
+  add_coding(command, request->effort);
+  add_tiles(command, *request, *vertices, *bytes);
   add_preparation(command, request->preparation);
   add_notes(command, *request);
 }
@@ -162,14 +149,19 @@ void check_encode_options(EncodeRequest& request) {
 
 void add_encode(CLI::App& app, Action& action) {
   auto request = std::make_shared<EncodeRequest>();
-  CLI::App& command = *app.add_subcommand("encode", "Turn a terrain into a stream, or a pack");
+  CLI::App& command = *app.add_subcommand("encode", "Turn a terrain into a stream or a pack");
+  command.group(kEncode);
+  begin_group(command, kOptions);
+  add_output(command, request->output,
+             "Write this stream (.mtin) or pack (.mtp); - is standard output");
   add_encode_options(command, request);
-  add_output(command, request->output);
+  begin_group(command, "Shards of a pack");
   const auto read = [request](const std::string& text) {
     return read_tiles(text, request->tiles.emplace());
   };
-  add_read(command, "--shard", read, "FROM:TO, as 0:99",
-           "FROM:TO: write a shard of a pack, with these of its tiles; merge joins them");
+  add_read(command, "--shard FROM:TO", read, "FROM:TO, such as 0:99",
+           "Write a shard of a raster's pack, with these of its tiles; merge joins shards")
+      ->default_str("all tiles");
   command.callback([request, &action] {
     check_encode_options(*request);
     action = [request] { run_encode(*request); };
@@ -181,12 +173,13 @@ void add_plan(CLI::App& app, Action& action) {
     uint32_t shards = 1;
   };
   auto request = std::make_shared<Request>();
-  CLI::App& command = *app.add_subcommand(
-      "plan", "Print, for each shard of a pack, options for encode that make it");
+  CLI::App& command =
+      *app.add_subcommand("plan", "Print the options of encode for each shard of a pack");
+  command.group(kShards);
+  begin_group(command, kOptions);
+  add_number(command, "--shards N", request->shards, 1u, "Set the number of shards")
+      ->default_str(std::to_string(request->shards));
   add_encode_options(command, request);
-  command.add_option("--shards", request->shards, "Number of shards")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
   command.callback([request, &action] {
     check_encode_options(*request);
     action = [request] { run_plan(*request, request->shards); };
@@ -200,7 +193,8 @@ void add_merge(CLI::App& app, Action& action) {
   };
   auto request = std::make_shared<Request>();
   CLI::App& command = *app.add_subcommand("merge", "Join the shards of a pack, in any order");
-  command.add_option("shards", request->shards, "What encode --shard wrote, all of it")
+  command.group(kShards);
+  command.add_option("SHARD", request->shards, "All files that encode --shard wrote for the pack")
       ->required()
       ->type_name(kFile);
   add_output(command, request->output);

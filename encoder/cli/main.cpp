@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The program: what it is asked for, and how it fails.
+// The program: it reads its command line, runs the command, and reports failures.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
@@ -11,6 +11,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/utf8.hpp"
 #include "encoder/cli/command_line.hpp"
+#include "encoder/cli/help.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/cli/version.hpp"
 #include "encoder/files/leftovers.hpp"
@@ -23,8 +24,8 @@ namespace {
 constexpr int kFailed = 1, kUsage = 2, kInternal = 3, kReportLost = 4;
 
 constexpr const char* kExitCodes =
-    "Exit codes: 0 done; 1 failed, no output; 2 wrong usage; 3 a fault of microtin itself, no "
-    "output; 4 done, but nobody reads the report";
+    "Exit codes: 0 done; 1 failed, no output file; 2 wrong usage; 3 internal fault of microtin, no "
+    "output file; 4 output complete, but the report could not be printed.";
 
 // Prints one line, whatever the text, without asking for memory: there may be none.
 int fail(const char* text, int code) {
@@ -45,6 +46,10 @@ int fail(const char* text, int code) {
 
 int run(int argc, char** argv) {
   CLI::App app("Terrain TINs for microcontrollers");
+  app.formatter_fn([](const CLI::App* shown, const std::string&, CLI::AppFormatMode) {
+    return help_page(*shown);
+  });
+  app.set_help_flag("-h,--help", "Print this page");
   Action action;
   int code = 0;
   app.set_version_flag("--version", versions(), "Print the versions of library and formats");
@@ -55,11 +60,12 @@ int run(int argc, char** argv) {
   add_merge(app, action);
   add_decode(app, action);
   add_embed(app, action);
-  add_height_command(app, action, code);
   add_info(app, action);
+  add_height_command(app, action, code);
   add_verify(app, action);
-  add_fractal(app, action);
   add_render(app, action);
+  add_fractal(app, action);
+  add_help(app, action);
   add_documents(app, action);
   try {
     app.parse(argc, argv);
@@ -68,10 +74,10 @@ int run(int argc, char** argv) {
       std::fputs(app.help().c_str(), stderr);
       return kUsage;
     }
-    if (error.get_exit_code() != 0) return fail(error.what(), kUsage);
-    std::ostringstream help;  // was asked for
-    app.exit(error, help);
-    print(help.str());
+    if (error.get_exit_code() != 0) return fail(usage_fault(app, error).c_str(), kUsage);
+    std::ostringstream requested;  // a help page, or versions
+    app.exit(error, requested);
+    print(requested.str());
     return 0;
   }
   action();

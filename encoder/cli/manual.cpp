@@ -33,13 +33,7 @@ std::string entries(const std::vector<OptionText>& options) {
   return text;
 }
 
-std::string synopsis(const CommandText& command) {
-  std::string text = bold("microtin " + command.name);
-  for (const OptionText& argument : command.arguments) text += line(argument.usage);
-  return text + line("[OPTIONS]");
-}
-
-// Without --help and the program's footer, which the page tells once.
+// Without --help and the program's footer, which the page has once.
 std::string chapter(const CommandText& command, const CommandText& program) {
   const std::vector<OptionText> options(command.options.begin() + 1, command.options.end());
   std::string text = ".SS " + line(command.name) + line(command.description);
@@ -63,9 +57,8 @@ std::string rows(const std::vector<OptionText>& options) {
 // Without --help and the program's footer, which the page has once.
 std::string table(const CommandText& command, const CommandText& program) {
   const std::vector<OptionText> options(command.options.begin() + 1, command.options.end());
-  std::string text = "\n## " + command.name + "\n\n    microtin " + command.name;
-  for (const OptionText& argument : command.arguments) text += " " + argument.usage;
-  text += " [OPTIONS]\n\n| argument or option | meaning |\n|---|---|\n| the command | ";
+  std::string text = "\n## " + command.name + "\n\n    " + synopsis(command);
+  text += "\n\n| argument or option | meaning |\n|---|---|\n| the command | ";
   text += cell(command.description) + " |\n" + rows(command.arguments) + rows(options);
   return command.footer == program.footer ? text
                                           : text + "| note | " + cell(command.footer) + " |\n";
@@ -79,7 +72,7 @@ std::string manual(const CommandText& program) {
   text += section("NAME") + "microtin \\- " + line(program.description) + section("SYNOPSIS");
   const char* separator = "";
   for (const CommandText& command : program.commands) {
-    text += separator + synopsis(command);
+    text += separator + bold(synopsis(command));
     separator = ".br\n";
   }
   text += section("OPTIONS") + entries(program.options) + section("COMMANDS");

@@ -15,10 +15,10 @@ namespace microtin::cli {
 namespace {
 
 constexpr const char* kTerrainFiles =
-    "Rasters: .hgt, .zip with one .hgt, .asc. Points: .xyz, .csv, .txt, .las, .ply, .obj; - reads "
-    "points. Several files, or a folder of them, are one terrain"
+    "Files of one terrain, or folders of them. Rasters: .hgt, .zip with one .hgt, .asc. Points: "
+    ".xyz, .csv, .txt, .las, .ply, .obj; - reads points from standard input"
 #ifdef MICROTIN_WITH_GDAL
-    ". Others by GDAL"
+    ". GDAL reads other formats"
 #endif
     ;
 
@@ -59,28 +59,40 @@ bool read_epsg(std::string_view text, uint32_t& horizontal, uint32_t& vertical) 
          (colon == std::string_view::npos || read_code(text.substr(colon + 1), vertical));
 }
 
-// In which units and systems the source's numbers are; they come before what its files say.
+// In which units and systems the source's numbers are; they override what its files state.
 void add_reference(CLI::App& command, Preparation& preparation) {
   Reference& asked = preparation.asked.emplace();
   add_read(
-      command, "--epsg",
+      command, "--epsg CODE",
       [&asked](const std::string& text) {
         return read_epsg(text, asked.horizontal_epsg, asked.vertical_epsg);
       },
-      "a code, nor two with a colon between",
-      "Codes of the coordinates: horizontal, or horizontal:vertical; known ones set the units");
+      "an EPSG code, or two with a colon, such as 25832 or 25832:7837",
+      "Set the coordinate system: a horizontal EPSG code, or HORIZONTAL:VERTICAL; known codes set "
+      "the units")
+      ->default_str("as the file states");
   add_read(
-      command, "--units", [&asked](const std::string& text) { return read_units(text, asked); },
-      "a unit, nor two with a colon between",
-      "Units of x and y and of heights: metre, foot or us-foot; degree:metre; or :foot for "
-      "heights alone; cm, km, yard, fathom and others are converted to metres. If not given: as "
-      "the "
-      "file or its codes say; heights as x and y");
+      command, "--units UNIT",
+      [&asked](const std::string& text) { return read_units(text, asked); },
+      "a unit, or two with a colon, such as metre, degree:metre or :foot",
+      "Set the units: of x, y and heights (metre, foot, us-foot), of both (degree:metre), or of "
+      "heights alone (:foot). Lengths in cm, km, yard, fathom and others are converted to metres")
+      ->default_str("as the file or the codes state; heights as x and y");
   command.add_flag("--depths", asked.depths,
-                   "The source's heights grow downwards: turn them into heights, by their sign");
+                   "Negate the source's values: they are depths, which grow downwards");
+}
+
+// The name of an option, and that of its value.
+std::pair<std::string, std::string> split(const std::string& definition) {
+  const size_t space = definition.find(' ');
+  return {definition.substr(0, space), definition.substr(space + 1)};
 }
 
 }  // namespace
+
+void begin_group(CLI::App& command, const std::string& group) {
+  command.option_defaults()->group(group);
+}
 
 void add_output(CLI::App& command, std::string& path, const std::string& description) {
   command.add_option("-o,--output", path, description)
@@ -89,8 +101,10 @@ void add_output(CLI::App& command, std::string& path, const std::string& descrip
       ->transform(plain_output);
 }
 
-CLI::Option* add_stream(CLI::App& command, std::string& path, const std::string& description) {
-  return command.add_option("stream", path, description)->required()->type_name(kFile);
+CLI::Option* add_stream(CLI::App& command, std::string& path) {
+  return command.add_option("STREAM", path, "A stream (.mtin) or a pack (.mtp)")
+      ->required()
+      ->type_name(kFile);
 }
 
 CLI::Option* add_terrain(CLI::App& command, std::string& path, Preparation& preparation,
@@ -107,22 +121,38 @@ CLI::Option* add_terrain(CLI::App& command, std::string& path, Preparation& prep
 }
 
 void add_terrain(CLI::App& command, std::string& path, Preparation& preparation) {
-  add_terrain(command, path, preparation, "terrain", kTerrainFiles)->required();
+  add_terrain(command, path, preparation, "TERRAIN", kTerrainFiles)->required();
 }
 
 void add_json(CLI::App& command, bool& json) {
   command.add_flag("--json", json, "Print JSON");
 }
 
-CLI::Option* add_read(CLI::App& command, const std::string& name,
+CLI::Option* add_read(CLI::App& command, const std::string& definition,
                       std::function<bool(const std::string&)> read, const std::string& wanted,
                       const std::string& description) {
-  return command.add_option_function<std::string>(
-      name,
-      [name, read = std::move(read), wanted](const std::string& text) {
-        if (!read(text)) throw CLI::ValidationError(name, text + " is not " + wanted);
-      },
-      description);
+  const auto [name, value] = split(definition);
+  const auto take = [name = name, read = std::move(read), wanted](const std::string& text) {
+    if (!read(text)) {
+      throw CLI::ValidationError(name, '\'' + text + "' is not allowed; use " + wanted);
+    }
+  };
+  return command.add_option_function<std::string>(name, take, description)->type_name(value);
+}
+
+CLI::Option* add_text(CLI::App& command, const std::string& definition, std::string& text,
+                      const std::string& description) {
+  const auto [name, value] = split(definition);
+  return command.add_option(name, text, description)->type_name(value)->default_str("none");
+}
+
+std::string alternatives(const std::vector<std::string>& names) {
+  std::string text;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (i != 0) text += i + 1 == names.size() ? " or " : ", ";
+    text += names[i];
+  }
+  return text;
 }
 
 bool read_number(std::string_view text, uint32_t& number) {
@@ -133,59 +163,60 @@ bool read_number(std::string_view text, uint64_t& number) {
   return read_all(text, number);
 }
 
-CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
-                        const std::string& description) {
+CLI::Option* add_height(CLI::App& command, const std::string& definition,
+                        std::optional<Decimal>& value, const std::string& description) {
   const auto read = [&value](const std::string& text) {
     value = parse_decimal(text);
     return value.has_value();
   };
-  return add_read(command, name, read, "a decimal number", description);
+  return add_read(command, definition, read, "a decimal number", description);
 }
 
-CLI::Option* add_decimal(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
-                         const std::string& description) {
+CLI::Option* add_decimal(CLI::App& command, const std::string& definition,
+                         std::optional<Decimal>& value, const std::string& description) {
   const auto read = [&value](const std::string& text) {
     value = parse_decimal(text);
     return value && value->mantissa >= 0;
   };
-  return add_read(command, name, read, "a decimal number from 0 on", description);
+  return add_read(command, definition, read, "a decimal number from 0 up", description);
 }
 
 void add_indirect([[maybe_unused]] CLI::App& command, [[maybe_unused]] Preparation& preparation) {
 #ifdef MICROTIN_WITH_GDAL
   command.add_flag_callback(
       "--allow-vrt", [&preparation] { preparation.indirect = Indirect::kAllowed; },
-      "Read .vrt files, which name other files to be read, and names that begin with /vsi");
+      "Read .vrt files, which name other files to read, and names that begin with /vsi");
 #endif
 }
 
 void add_preparation(CLI::App& command, Preparation& preparation) {
+  begin_group(command, "How the terrain is read");
   const auto read = [&preparation](const std::string& text) {
     return read_classes(text, preparation.classes.emplace());
   };
-  add_read(
-      command, "--classes", read, "a list such as 2,9, nor all",
-      "Points to take from a .las file: their classes, 2,9 for instance, or all. If not given: "
-      "the ground (2) or, if there is none, all but noise (7, 18)");
+  add_read(command, "--classes LIST", read, "a list such as 2,9, or all",
+           "Read the points of these classes of .las files, such as 2,9, or all")
+      ->default_str("ground, 2; without ground all but noise, 7 and 18");
   add_reference(command, preparation);
   command.add_flag("--gridded", preparation.gridded,
-                   "Take points that are the posts of a raster as that raster");
+                   "Read points that are the posts of a raster as that raster");
   add_indirect(command, preparation);
 #ifdef MICROTIN_WITH_GDAL
-  command
-      .add_option("--band", preparation.band,
-                  "Band of heights, from 1 on, in a file that has several (read by GDAL)")
-      ->check(CLI::PositiveNumber);
+  add_number(command, "--band N", preparation.band, 1u,
+             "Read heights from this band of a file that GDAL reads")
+      ->default_str("the only band");
 #endif
-  command.add_option("--fill-voids", preparation.fill_voids,
-                     "Interpolate voids of up to this many posts");
-  CLI::Option* const level = add_height(
-      command, "--water-level", preparation.water_level,
-      "Voids that are left are water at this height, as are posts at this height (rasters)");
-  command
-      .add_option("--water-mask", preparation.water_mask,
-                  "An .asc grid of the terrain's posts: 1 where voids are water, else 0")
-      ->type_name(kFile)
+  begin_group(command, "Voids and water of rasters");
+  add_number(command, "--fill-voids N", preparation.fill_voids, 0u,
+             "Interpolate the heights of voids of up to N posts")
+      ->default_str("0");
+  CLI::Option* const level =
+      add_height(command, "--water-level METRES", preparation.water_level,
+                 "Make water of the remaining voids, and of posts at this height, in the terrain's "
+                 "unit")
+          ->default_str("no water");
+  add_text(command, "--water-mask FILE", preparation.water_mask,
+           "Make water only of the voids where this .asc grid of the terrain's posts has 1, not 0")
       ->needs(level);
 }
 

@@ -4,25 +4,30 @@
 #define MICROTIN_ENCODER_CLI_OPTIONS_HPP
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::cli {
 
-void add_output(CLI::App& command, std::string& path,
-                const std::string& description = "File to write; - is standard output");
+// Options are defined as help pages show them, "--max-error METRES". Those that take a value and
+// are not required get their default_str.
 
-CLI::Option* add_stream(CLI::App& command, std::string& path,
-                        const std::string& description = "A stream (.mtin) or a pack (.mtp)");
+// The options defined from here on are in this group of the help page.
+void begin_group(CLI::App& command, const std::string& group);
+
+void add_output(CLI::App& command, std::string& path,
+                const std::string& description = "Write this file; - is standard output");
+
+CLI::Option* add_stream(CLI::App& command, std::string& path);
 
 // One or several files, or folders of them, that make up one terrain.
 void add_terrain(CLI::App& command, std::string& path, Preparation& preparation);
@@ -33,36 +38,66 @@ CLI::Option* add_terrain(CLI::App& command, std::string& path, Preparation& prep
 
 void add_json(CLI::App& command, bool& json);
 
-// An option whose text is read by `read`, which says whether it is what is `wanted`. Numbers and
-// lists are not left to CLI11: it takes 010 for 8 and the next argument for an item, and does not
-// say what it wanted.
-CLI::Option* add_read(CLI::App& command, const std::string& name,
+// An option whose text is read by `read`, which returns whether it is `wanted`. Numbers and lists
+// are not left to CLI11: it takes 010 for 8 and the next argument for an item, and its messages do
+// not name what is allowed.
+CLI::Option* add_read(CLI::App& command, const std::string& definition,
                       std::function<bool(const std::string&)> read, const std::string& wanted,
+                      const std::string& description);
+
+CLI::Option* add_text(CLI::App& command, const std::string& definition, std::string& text,
                       const std::string& description);
 
 // A number of decimal digits, all of the text.
 bool read_number(std::string_view text, uint32_t& number);
 bool read_number(std::string_view text, uint64_t& number);
 
+// A whole number from `least` to `most`, of which the help page prints the limits.
+template <class Number>
+CLI::Option* add_number(CLI::App& command, const std::string& definition, Number& number,
+                        Number least, const std::string& description,
+                        Number most = std::numeric_limits<Number>::max()) {
+  const auto read = [&number, least, most](const std::string& text) {
+    return read_number(text, number) && number >= least && number <= most;
+  };
+  const std::string range = std::to_string(least) + " to " + std::to_string(most);
+  CLI::Option* const option =
+      add_read(command, definition, read, "a whole number, " + range, description);
+  return option->option_text(range);
+}
+
 // A height, of either sign.
-CLI::Option* add_height(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
-                        const std::string& description);
+CLI::Option* add_height(CLI::App& command, const std::string& definition,
+                        std::optional<Decimal>& value, const std::string& description);
 
-// A decimal number from 0 on.
-CLI::Option* add_decimal(CLI::App& command, const std::string& name, std::optional<Decimal>& value,
-                         const std::string& description);
+// A decimal number from 0 up.
+CLI::Option* add_decimal(CLI::App& command, const std::string& definition,
+                         std::optional<Decimal>& value, const std::string& description);
 
-// One of some names for values.
+// "quick, balanced or dense".
+std::string alternatives(const std::vector<std::string>& names);
+
+// One of some names for values, of which the help page prints all and the default.
 template <class Value>
 CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value,
-                        std::map<std::string, Value> choices, const std::string& wanted,
+                        const std::vector<std::pair<std::string, Value>>& choices,
                         const std::string& description) {
-  const auto read = [&value, choices = std::move(choices)](const std::string& text) {
-    const auto found = choices.find(text);
-    if (found != choices.end()) value = found->second;
-    return found != choices.end();
+  std::vector<std::string> names;
+  std::string definition = name, usual;
+  for (const auto& [word, meaning] : choices) {
+    definition += (names.empty() ? ' ' : '|') + word;
+    if (meaning == value) usual = word;
+    names.push_back(word);
+  }
+  const auto read = [&value, choices](const std::string& text) {
+    for (const auto& [word, meaning] : choices) {
+      if (word != text) continue;
+      value = meaning;
+      return true;
+    }
+    return false;
   };
-  return add_read(command, name, read, wanted, description);
+  return add_read(command, definition, read, alternatives(names), description)->default_str(usual);
 }
 
 void add_indirect(CLI::App& command, Preparation& preparation);

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# bash.sh MICROTIN: bash completes commands, options and files as --help tells. A script that lacks an option does
-# not pass.
+# bash.sh MICROTIN: bash completes the commands, options and files of the help pages. A script that lacks an option
+# does not pass.
 set -eu
 microtin=$1
 source "$(dirname "$0")/help.sh"
@@ -34,7 +34,8 @@ check() {
     expect " files=yes" encode "" &&
     expect " files=yes" encode --fast "" &&
     expect " files=yes" render --source "" &&
-    expect " files=no" decode --cell ""
+    expect " files=no" decode --cell "" &&
+    expect "encode files=no" help enc
 }
 
 eval "$("$microtin" completion bash)"

@@ -556,15 +556,44 @@ TEST_CASE("cli: wrong usage is told apart") {
   CHECK(contains(help.out, std::to_string(MICROTIN_MAX_VERTICES_FOR(16))));
 }
 
-TEST_CASE("cli: options tell what they want") {
+TEST_CASE("cli: help prints the pages of the program and of every command") {
   const Session session;
-  const std::string number = "a decimal number from 0 on",
-                    epsg = "a code, nor two with a colon between", tiles = "FROM:TO, as 0:99",
-                    classes = "a list such as 2,9, nor all";
+  CHECK(session.run("help").out == session.run("--help").out);
+  for (const char* name : {"encode", "plan", "merge", "decode", "embed", "height", "info", "verify",
+                           "fractal", "render", "help"}) {
+    const std::string page = session.run(std::string("help ") + name).out;
+    CHECK(contains(page, std::string("Usage: microtin ") + name));
+    CHECK(page == session.run(std::string(name) + " --help").out);
+  }
+}
+
+TEST_CASE("cli: wrong names get the nearest ones") {
+  const Session session;
+  const std::vector<std::pair<std::string, std::string>> wrong = {
+      {"encode t.asc --max-eror 10 -o t.mtin",
+       "unknown option --max-eror; did you mean --max-error?"},
+      {"encode t.asc --max-eror=10", "unknown option --max-eror; did you mean --max-error?"},
+      {"encode --fats t.asc --max-error x", "unknown option --fats; did you mean --fast?"},
+      {"encode t.asc --unlike -o t.mtin", "unknown option --unlike; see \"microtin help encode\""},
+      {"info -q t.mtin", "unknown option -q; see \"microtin help info\""},
+      {"info t.mtin u.mtin", "unexpected argument u.mtin; see \"microtin help info\""},
+      {"--verison", "unknown option --verison; did you mean --version?"},
+      {"encdoe t.asc -o t.mtin", "unknown command encdoe; did you mean encode?"},
+      {"frobnicate", "unknown command frobnicate; see \"microtin help\""},
+      {"help rendre", "unknown command rendre; did you mean render?"},
+      {"manul", "unknown command manul; see \"microtin help\""}};  // that one is hidden
+  for (const auto& [words, message] : wrong) CHECK(session.failure(words, 2) == message + "\n");
+}
+
+TEST_CASE("cli: options name what they take") {
+  const Session session;
+  const std::string number = "a decimal number from 0 up",
+                    epsg = "an EPSG code, or two with a colon, such as 25832 or 25832:7837",
+                    tiles = "FROM:TO, such as 0:99", classes = "a list such as 2,9, or all";
   const auto refuses = [&](const std::string& option, const std::string& text,
                            const std::string& wanted) {
     CHECK(session.failure("encode ok.xyz -o o " + option + " '" + text + "'", 2) ==
-          option + ": " + text + " is not " + wanted + "\n");
+          option + ": '" + text + "' is not allowed; use " + wanted + "\n");
   };
   for (const char* text : {"x", "nan", "-1", "1e99", ""}) refuses("--max-error", text, number);
   refuses("--z-step", "1,5", number);
@@ -579,6 +608,10 @@ TEST_CASE("cli: options tell what they want") {
     refuses("--classes", text, classes);
   }
   for (const char* text : {"2026-02-30", "26-1-1", "yesterday"}) {
-    refuses("--date", text, "a date such as 2026-11-21");
+    refuses("--date", text, "a date such as 2026, 2026-11 or 2026-11-21");
   }
+  for (const char* text : {"5", "33", "x", "7.0", "-7", " 7", ""}) {
+    refuses("--max-degree", text, "a whole number, 6 to 32");
+  }
+  refuses("--coding", "slow", "quick, balanced or dense");
 }

@@ -111,7 +111,7 @@ TEST_CASE("cli: decode refuses what does not go together") {
       contains(session.failure("decode t.mtin --extent 1,2,3,4 -o t.ply"), "are for grids (.asc)"));
   CHECK(contains(session.failure("decode t.mtin --like t.asc -o t.glb"), "are for grids (.asc)"));
   CHECK(contains(session.failure("decode t.mtin --extent 3,2,1,4 -o x.asc", 2),
-                 "--extent: 3,2,1,4 is not WEST,SOUTH,EAST,NORTH"));
+                 "--extent: '3,2,1,4' is not allowed; use WEST,SOUTH,EAST,NORTH"));
   CHECK(contains(session.failure("decode t.mtin --like t.asc --cell 2 -o x.asc", 2), "--cell"));
   CHECK(contains(session.failure("decode t.mtin --like t.asc --lattice -o x.asc", 2), "--lattice"));
   CHECK(contains(session.failure("decode t.mtin --extent 500001,-9,500002,9 -o x.asc"),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# What man and shells know of the program is what --help says.
-foreach(document manual bash zsh)
+# The help pages keep their form; the manual page and completions have what the help pages have.
+foreach(document pages manual bash zsh)
   add_test(NAME cli.${document}
     COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/cli/${document}.sh $<TARGET_FILE:microtin>)
   set_tests_properties(cli.${document} PROPERTIES SKIP_RETURN_CODE 77)

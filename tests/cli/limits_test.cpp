@@ -162,7 +162,7 @@ TEST_CASE("limits: no option that takes a number is without a row") {
   const Session session;
   for (const std::string command : {"encode", "plan", "decode", "render", "fractal", "verify"}) {
     const std::string help = session.run(command + " --help").out;
-    const std::regex line("\n  (--[a-z-]+) (?:U?INT|FLOAT)");
+    const std::regex line("\n  (--[a-z-]+) (?:N|BYTES|METRES|DISTANCE|auto\\|METRES)\\s");
     for (std::sregex_iterator at(help.begin(), help.end(), line), end; at != end; ++at) {
       const std::string option = (*at)[1];
       bool found = option == "--band";  // in a program with GDAL alone

@@ -12,7 +12,7 @@ is_complete() { # PAGE
   for command in $(commands); do
     sed -n "/^\.SS $command\$/,/^\.S[HS] /p" "$1" | sed 's/\\-/-/g' >"$folder/chapter"
     for option in $(options "$command"); do
-      [ "$option" = --help ] || grep -q "^\.B \(-[a-z],\)\{0,1\}$option\( \|\$\)" "$folder/chapter" ||
+      [ "$option" = --help ] || grep -q "^\.B \(-[a-z], \)\{0,1\}$option\( \|\$\)" "$folder/chapter" ||
         { echo "$command: $option is missing"; return 1; }
     done
   done

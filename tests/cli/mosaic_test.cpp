@@ -135,7 +135,7 @@ TEST_CASE("mosaic: rasters that touch or overlap are one; the first counts, gaps
   }
   const auto swapped = session.run("verify t.mtin b.asc a.asc c.asc");  // without a bound
   CHECK(swapped.code == 0);
-  CHECK(contains(swapped.out, "source_name: \"3 files; where they overlap they differ by up to "));
+  CHECK(contains(swapped.out, "source: \"3 files; where they overlap they differ by up to "));
   CHECK(
       contains(session.run("encode a.asc c.asc -o u.mtin").out, "2 files, none of which overlap"));
 }
@@ -197,8 +197,10 @@ TEST_CASE("mosaic: a folder of SRTM cells") {
     CHECK_MESSAGE(session.run(std::string("render ") + order).code == 0, order);
     CHECK_MESSAGE(session.read("t.png") == session.read("v.png"), order);
   }
-  CHECK(session.failure("render --source cells/N43E007.hgt -o w.png", 2) == "stream is required\n");
-  CHECK(session.failure("render --source t.mtp -o w.png", 2) == "--source: names no terrain\n");
+  CHECK(session.failure("render --source cells/N43E007.hgt -o w.png", 2) ==
+        "STREAM is required; see \"microtin help render\"\n");
+  CHECK(session.failure("render --source t.mtp -o w.png", 2) ==
+        "--source: names a stream, and no terrain; see \"microtin help render\"\n");
   fs::create_directory(session.folder() + "/empty");
   CHECK(contains(session.failure("encode empty -o e.mtin"), "empty: holds no terrain file"));
 }

@@ -19,7 +19,7 @@ namespace {
 // The long options of a command, as its help lists them.
 Names options_of(const Session& session, const std::string& command) {
   const std::string help = session.run(command + " --help").out;
-  const std::regex line("\n  (?:-\\w,)?(--[a-z-]+)");
+  const std::regex line("\n  (?:-\\w, )?(--[a-z-]+)");
   Names names;
   for (std::sregex_iterator at(help.begin(), help.end(), line), end; at != end; ++at) {
     names.insert((*at)[1]);
@@ -173,10 +173,8 @@ std::string all_of(const Session& session, const std::string& words) {
   return all;
 }
 
-}  // namespace
-
-TEST_CASE("options: each of every command makes a difference") {
-  const Session session;
+// The files that the rows name.
+void write_inputs(const Session& session) {
   session.write("t.asc", grid());
   session.write("mask.asc", mask());
   session.write("s.las", scan());
@@ -197,6 +195,13 @@ TEST_CASE("options: each of every command makes a difference") {
     REQUIRE(session.run(std::string("encode ") + words).code == 0);
   }
   REQUIRE(session.run("decode t.mtin -o g.xyz").code == 0);
+}
+
+}  // namespace
+
+TEST_CASE("options: each of every command makes a difference") {
+  const Session session;
+  write_inputs(session);
   for (const Row& row : kRows) {
     if (row.words.empty()) continue;
     CAPTURE(row.command);
@@ -206,6 +211,46 @@ TEST_CASE("options: each of every command makes a difference") {
     const std::string without = all_of(session, words);
     CHECK(without != all_of(session, words + " " + row.option + " " + row.value));
   }
+}
+
+namespace {
+
+// The number or word that the help page prints as an option's default; empty if there is none, or
+// words that describe it.
+std::string default_of(const Session& session, const std::string& command,
+                       const std::string& option) {
+  const std::string help = session.run(command + " --help").out;
+  const size_t begin = help.find("\n  " + option + ' ');
+  if (begin == std::string::npos) return "";
+  const std::string entry = help.substr(begin, help.find("\n  -", begin + 1) - begin);
+  const std::regex numbers(R"(default:\s+([0-9]+)\b)"),
+      words(R"( \S+\|\S+\s[^]*default:\s+(\w+)\))");
+  std::smatch found;
+  const bool is_literal =
+      std::regex_search(entry, found, numbers) || std::regex_search(entry, found, words);
+  return is_literal ? found[1].str() : "";
+}
+
+}  // namespace
+
+TEST_CASE("options: the default of the help page makes no difference") {
+  const Session session;
+  write_inputs(session);
+  Names compared;
+  for (const Row& row : kRows) {
+    const std::string usual = default_of(session, row.command, row.option);
+    if (usual.empty()) continue;
+    CAPTURE(row.command);
+    CAPTURE(row.option);
+    compared.insert(row.option);
+    std::string words = row.command;
+    words.append(" ").append(row.words);
+    const std::string without = all_of(session, words);
+    CHECK(without == all_of(session, words.append(" ").append(row.option + " " + usual)));
+  }
+  CHECK(text_of(compared) ==
+        text_of(Names{"--bound-at", "--coding", "--duplicates", "--fill-voids", "--palette",
+                      "--seed", "--shards", "--size", "--tile-vertices", "--width"}));
 }
 
 TEST_CASE("options: none is without a row") {

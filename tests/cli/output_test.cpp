@@ -70,6 +70,8 @@ const std::vector<std::string> kReports = {
     "verify t.mtp t.asc",
     "--help",
     "encode --help",
+    "help",
+    "help encode",
     "plan t.asc --max-error 10 --tile-vertices 99 --shards 2"};
 
 bool is_one_line(const std::string& text) {
@@ -320,11 +322,11 @@ TEST_CASE("cli: devices and pipes are written, not replaced") {
   CHECK(fs::is_character_file("/dev/null"));
 }
 
-TEST_CASE("cli: the help tells the exit codes") {
+TEST_CASE("cli: the help lists the exit codes") {
   const Session session;
   const std::string help = session.run("--help").out;
-  for (const char* const code : {"0 done", "1 failed", "2 wrong usage", "3 a fault of microtin",
-                                 "4 done, but nobody reads"}) {
+  for (const char* const code : {"0 done", "1 failed", "2 wrong usage", "3 internal fault",
+                                 "4 output complete, but the report"}) {
     CHECK(contains(help, code));
   }
 }

@@ -184,7 +184,7 @@ TEST_CASE("places: codes set units, and may not contradict them") {
   for (const char* const wrong : {"furlong", "m:deg", "m:", "", ":"}) {
     CHECK(
         contains(session.failure("encode t.asc -o u.mtin --units '" + std::string(wrong) + "'", 2),
-                 "is not a unit"));
+                 "use a unit, or two with a colon"));
   }
 #ifdef MICROTIN_WITH_GDAL
   CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 999999"),
@@ -348,7 +348,7 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
   CHECK(session.read("v.png") != session.read("t.png"));
   CHECK(session.read("v.png") != session.read("w.png"));
   CHECK(contains(session.failure("render t.mtin --contours 0 -o u.png", 2),
-                 "0 is not auto or a decimal number above 0"));
+                 "'0' is not allowed; use auto or a decimal number above 0"));
   CHECK(contains(session.failure("render t.mtin --contours 0.000000001 -o u.png"),
                  "t.mtin: the interval of contours is too small"));
   if (session.run("render t.mtin -o t.html").code == 0) {  // the page was built in
@@ -364,7 +364,7 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
   CHECK(session.failure("render t.mtin --contours auto -o u.html") ==
         "u.html: a page has no contours, coordinates, title or north arrow\n");
   CHECK(contains(session.failure("render t.mtin --palette sky -o u.png", 2),
-                 "sky is not land or sea"));
+                 "'sky' is not allowed; use land or sea"));
 }
 
 TEST_CASE("places: heights that only mark voids are told of, wherever rasters go") {

@@ -225,7 +225,7 @@ TEST_CASE("points: one of those that meet stands for all, and verify knows which
     }
   }
   CHECK(contains(session.failure("encode p.xyz --duplicates any -o p.mtin", 2),
-                 "any is not middle, lowest, highest or mean"));
+                 "'any' is not allowed; use middle, lowest, highest or mean"));
 }
 
 TEST_CASE("points: latitude before longitude is refused where the system says degrees") {

@@ -11,6 +11,8 @@ for command in $(commands); do
     grep -qF -- ")$option[" <<<"$part" || { echo "$command: no $option"; exit 1; }
   done
 done
+grep -q "':command:(.* encode " <<<"$script" || grep -q "':command:(encode " <<<"$script" ||
+  { echo "help: no commands"; exit 1; }
 command -v zsh >/dev/null || { echo "skipped in part: zsh is not installed"; exit 77; }
 zsh -n <<<"$script"
 ! zsh -n <<<"${script%\}*}" 2>/dev/null || { echo "a missing brace was not found"; exit 1; }

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "encoder/cli/help.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <numeric>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace microtin::cli {
+namespace {
+
+constexpr size_t kColumns = 80, kTextColumn = 26;
+
+// Adds the words from column `indent` on, in lines of at most kColumns. `column` is where the last
+// line of the page ends.
+void add_wrapped(std::string& page, size_t column, size_t indent, std::string_view text) {
+  while (!text.empty()) {
+    const size_t end = std::min(text.find(' '), text.size());
+    if (column > indent && column + 1 + end > kColumns) {
+      page += '\n';
+      column = 0;
+    }
+    const size_t space = column < indent ? indent - column : (column == 0 ? 0 : 1);
+    page += std::string(space, ' ').append(text.substr(0, end));
+    column += space + end;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  page += '\n';
+}
+
+// A line of a list: a title, and a text in the second column.
+void add_entry(std::string& page, const std::string& title, const std::string& text) {
+  page += "  " + title;
+  size_t column = 2 + title.size();
+  if (column + 2 > kTextColumn) {
+    page += '\n';
+    column = 0;
+  }
+  add_wrapped(page, column, kTextColumn, text);
+}
+
+const std::string& title_of(const OptionText& option) {
+  return option.title;
+}
+
+const std::string& title_of(const CommandText& command) {
+  return command.name;
+}
+
+// Each group in the order of its first entry, under a heading.
+template <class Entry>
+void add_groups(std::string& page, std::vector<Entry> entries) {
+  while (!entries.empty()) {
+    const std::string group = entries.front().group;
+    const auto rest = std::stable_partition(
+        entries.begin(), entries.end(), [&](const Entry& entry) { return entry.group == group; });
+    page += '\n' + group + ":\n";
+    for (auto entry = entries.begin(); entry != rest; ++entry) {
+      add_entry(page, title_of(*entry), entry->description);
+    }
+    entries.erase(entries.begin(), rest);
+  }
+}
+
+// The number of letters to insert, remove, replace or swap with the next one.
+size_t edits(std::string_view from, std::string_view to) {
+  std::vector<size_t> before, last, row(to.size() + 1);
+  std::iota(row.begin(), row.end(), size_t{0});
+  for (size_t i = 1; i <= from.size(); ++i) {
+    before = std::exchange(last, row);
+    row[0] = i;
+    for (size_t j = 1; j <= to.size(); ++j) {
+      const size_t replaced = last[j - 1] + (from[i - 1] != to[j - 1] ? 1 : 0);
+      row[j] = std::min({replaced, last[j] + 1, row[j - 1] + 1});
+      const bool swapped = i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1];
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+  }
+  return row.back();
+}
+
+// The name that the word is a slip of: up to a third of its letters differ. Empty if there is none.
+std::string nearest(std::string_view word, const std::vector<std::string>& names) {
+  std::string found;
+  size_t least = word.size() / 3 + 1;
+  for (const std::string& name : names) {
+    const size_t distance = edits(word, name);
+    if (distance >= least) continue;
+    least = distance;
+    found = name;
+  }
+  return found;
+}
+
+std::vector<std::string> names_of_options(const CommandText& command) {
+  std::vector<std::string> names;
+  for (const OptionText& option : command.options) {
+    names.insert(names.end(), option.names.begin(), option.names.end());
+  }
+  return names;
+}
+
+std::vector<std::string> names_of_commands(const CommandText& program) {
+  std::vector<std::string> names;
+  for (const CommandText& command : program.commands) names.push_back(command.name);
+  return names;
+}
+
+std::string remedy(const std::string& meant, const std::string& page) {
+  return meant.empty() ? "; see \"" + page + '"' : "; did you mean " + meant + '?';
+}
+
+}  // namespace
+
+std::string help_page(const CLI::App& app) {
+  CommandText text = describe(app);
+  const bool is_program = app.get_parent() == nullptr;
+  std::string page;
+  add_wrapped(page, 0, 0, text.description);
+  page += '\n';
+  const std::string usage = is_program ? "microtin COMMAND [ARGUMENTS] [OPTIONS]" : synopsis(text);
+  add_wrapped(page, 0, 0, "Usage: " + usage);
+  if (!text.arguments.empty()) page += "\nArguments:\n";
+  for (const OptionText& argument : text.arguments) {
+    add_entry(page, argument.title, argument.description);
+  }
+  add_groups(page, text.commands);
+  std::rotate(text.options.begin(), text.options.begin() + 1, text.options.end());  // --help
+  add_groups(page, text.options);
+  page += '\n';
+  add_wrapped(page, 0, 0, text.footer);
+  return page;
+}
+
+std::string usage_fault(const CLI::App& program, const CLI::ParseError& error) {
+  const CLI::App* app = &program;
+  std::string page = "microtin help";
+  while (!app->get_subcommands().empty()) {
+    app = app->get_subcommands().back();
+    page += ' ' + app->get_name();
+  }
+  const CommandText text = describe(*app);
+  const std::vector<std::string> unknown = app->remaining();
+  const bool has_commands = !text.commands.empty();  // the first word is one, or an option
+  const auto end = has_commands && !unknown.empty()
+                       ? unknown.begin() + 1
+                       : std::find(unknown.begin(), unknown.end(), "--");
+  const auto option = std::find_if(unknown.begin(), end, [](const std::string& word) {
+    return word.size() > 1 && word[0] == '-';
+  });
+  if (option != end) {
+    const std::string name = option->substr(0, option->find('='));
+    return "unknown option " + name + remedy(nearest(name, names_of_options(text)), page);
+  }
+  const bool has_remedy = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
+  if (unknown.empty()) return error.what() + (has_remedy ? "" : remedy("", page));
+  if (!has_commands) return "unexpected argument " + unknown[0] + remedy("", page);
+  return "unknown command " + unknown[0] +
+         remedy(nearest(unknown[0], names_of_commands(text)), page);
+}
+
+}  // namespace microtin::cli
