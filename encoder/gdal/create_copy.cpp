@@ -133,9 +133,8 @@ std::string wkt_of(const GDALDataset& source) {
   return wkt;
 }
 
-template <class AllOptions>
-AllOptions options_of(char** given) {
-  AllOptions options;
+encoder::Options options_of(char** given) {
+  encoder::Options options;
   options.max_error = CSLFetchNameValueDef(given, "MAX_ERROR", "");
   options.z_step = CSLFetchNameValueDef(given, "Z_STEP", "");
   options.never_below = CPLFetchBool(given, "NEVER_BELOW", false);
@@ -172,13 +171,13 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
     if (CSLFetchNameValue(given, "TILE_VERTICES") != nullptr) {
       refuse(std::string(path) + ": is a stream; a pack, which has tiles, is named .mtp");
     }
-    const auto options = options_of<encoder::StreamOptions>(given);
+    const encoder::Options options = options_of(given);
     encoder::Stream stream = encoder::encode_stream(terrain, options, callbacks);
     write_bytes(path, stream.bytes);
     return std::move(stream.report);
   }
   if (STARTS_WITH(path, "/vsi")) refuse("packs are written to files alone, not to /vsi...");
-  auto options = options_of<encoder::PackOptions>(given);
+  encoder::Options options = options_of(given);
   options.tile_vertices = tile_vertices(CSLFetchNameValue(given, "TILE_VERTICES"));
   return encoder::encode_pack(terrain, options, path, callbacks);
 }

@@ -207,7 +207,7 @@ void Dataset::describe() {
       {"MAX_ERROR", info.max_error},
       {"MAX_ERROR_AT_POINTS", info.max_error_at_points},
       {"RMS_ERROR", info.rms_error},
-      {"SOURCE", valid_text(info.origin)},
+      {"SOURCE", valid_text(info.source_name)},
       {"DATE", valid_text(info.date)},
       {"LINEAGE", valid_text(info.lineage)},
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The public face: checks what a stranger asks for, and translates.
+// The public interface: checks options and terrains, and translates them.
 #include "microtin/encoder.hpp"
 
 #include <optional>
@@ -144,22 +144,56 @@ exact::DuplicateRule rule_of(Duplicates duplicates) {
   return exact::DuplicateRule::kMiddle;
 }
 
+void expect_range(const char* name, uint32_t value, uint32_t least, uint32_t most) {
+  expect(value == 0 || (value >= least && value <= most),
+         std::string(name) + ": " + std::to_string(least) + " .. " + std::to_string(most) +
+             ", or 0 for the default");
+}
+
+void expect_default(const char* name, bool is_default, const char* kind) {
+  expect(is_default, std::string(name) + " is an option of " + kind);
+}
+
+void check_numbers(const Options& options) {
+  expect_range("max_degree", options.max_degree, kMinDegree, kMaxDegree);
+  expect_range("max_vertices", options.max_vertices, 3, kMaxVertices);
+  expect_range("tile_vertices", options.tile_vertices, pack::kFewestTileVertices, kMaxVertices);
+  expect(options.date.empty() || base::is_iso_date(options.date),
+         "date: " + options.date + " is not a date such as 2026-11-21");
+}
+
+void check_stream_options(const Options& options) {
+  expect_default("tile_vertices", options.tile_vertices == 0, "packs");
+  expect_default("tile_size", options.tile_size == 0, "packs");
+  const int aims = (options.max_error.empty() ? 0 : 1) + (options.max_vertices != 0 ? 1 : 0) +
+                   (options.max_bytes != 0 ? 1 : 0);
+  expect(aims <= 1, "only one of max_error, max_vertices and max_bytes can be given");
+  expect(!options.never_below || !options.max_error.empty() || options.max_bytes != 0,
+         "never_below needs max_error or max_bytes");
+}
+
+void check_pack_options(const Options& options) {
+  expect_default("max_vertices", options.max_vertices == 0, "streams");
+  expect_default("max_bytes", options.max_bytes == 0, "streams");
+  expect(!options.never_below || !options.max_error.empty(), "never_below needs max_error");
+}
+
 product::EncodeOptions options_of(const Options& options) {
+  check_numbers(options);
   product::EncodeOptions all;
   all.lattice.max_error = decimal_of("max_error", options.max_error);
   all.lattice.z_step = decimal_of("z_step", options.z_step);
   all.lattice.xy_step = decimal_of("xy_step", options.xy_step);
   all.lattice.never_below = options.never_below;
+  all.lattice.duplicates = rule_of(options.duplicates);
+  all.max_vertices = options.max_vertices;
+  all.max_bytes = options.max_bytes;
+  all.tile_vertices = options.tile_vertices;
+  all.tile_size = options.tile_size;
   all.bound_at = options.bound_at == encoder::BoundAt::kLattice ? product::BoundAt::kLattice
                                                                 : product::BoundAt::kTruePlaces;
-  all.lattice.duplicates = rule_of(options.duplicates);
   all.search = search_of(options.effort);
-  expect(options.max_degree == 0 ||
-             (options.max_degree >= kMinDegree && options.max_degree <= kMaxDegree),
-         "max_degree: 6 .. 32");
   all.effort = {options.max_degree, coding_of(options.coding)};
-  expect(options.date.empty() || base::is_iso_date(options.date),
-         "date: " + options.date + " is not a date such as 2026-11-21");
   all.source_name = options.source_name;
   all.date = options.date;
   all.lineage = options.lineage;
@@ -288,20 +322,10 @@ SourceTerrain SourceTerrain::from_file(const std::string& path) {
   return SourceTerrain(std::make_shared<Content>(Content{importing::import_terrain(path)}));
 }
 
-Stream encode_stream(const SourceTerrain& terrain, const StreamOptions& options,
+Stream encode_stream(const SourceTerrain& terrain, const Options& options,
                      const Callbacks& callbacks) {
+  check_stream_options(options);
   product::EncodeOptions all = options_of(options);
-  const bool bounded = all.lattice.max_error.has_value();
-  const int aims =
-      (bounded ? 1 : 0) + (options.max_vertices != 0 ? 1 : 0) + (options.max_bytes != 0 ? 1 : 0);
-  expect(aims <= 1, "only one of max_error, max_vertices and max_bytes can be given");
-  expect(!options.never_below || bounded || options.max_bytes != 0,
-         "never_below needs max_error or max_bytes");
-  expect(options.max_vertices == 0 ||
-             (options.max_vertices >= 3 && options.max_vertices <= kMaxVertices),
-         "max_vertices: 3 .. 2^24");
-  all.max_vertices = options.max_vertices;
-  all.max_bytes = options.max_bytes;
   const SettledTerrain settled(terrain.content().source, options);
   all.reference = settled.reference();
   product::EncodedStream encoded =
@@ -311,15 +335,10 @@ Stream encode_stream(const SourceTerrain& terrain, const StreamOptions& options,
   return {std::move(encoded.stream), std::move(report)};
 }
 
-Report encode_pack(const SourceTerrain& terrain, const PackOptions& options,
-                   const std::string& path, const Callbacks& callbacks) {
+Report encode_pack(const SourceTerrain& terrain, const Options& options, const std::string& path,
+                   const Callbacks& callbacks) {
+  check_pack_options(options);
   product::EncodeOptions all = options_of(options);
-  expect(!options.never_below || all.lattice.max_error, "never_below needs max_error");
-  expect(options.tile_vertices == 0 || (options.tile_vertices >= pack::kFewestTileVertices &&
-                                        options.tile_vertices <= kMaxVertices),
-         "tile_vertices: 16 .. 2^24, or 0 for the usual number");
-  all.tile_vertices = options.tile_vertices;
-  all.tile_size = options.tile_size;
   const SettledTerrain settled(terrain.content().source, options);
   all.reference = settled.reference();
   files::OutputFile out(path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The public face in C: structs become objects, exceptions outcomes with a message.
+// The public interface in C: structs become objects, exceptions a status and a message.
 #include <algorithm>
 #include <cstring>
 #include <functional>
@@ -64,15 +64,43 @@ std::string text_of(const char* text) {
   return text != nullptr ? text : "";
 }
 
-template <class Struct>
-const Struct& checked(const Struct* given) {
-  if (given == nullptr || given->size != sizeof(Struct)) throw Error("a struct of another size");
-  return *given;
-}
-
 template <class Pointer>
 void expect(Pointer* pointer) {
   if (pointer == nullptr) throw Error("a pointer is null");
+}
+
+// Structs begin with their size as the caller's version of the header has it. What the caller does
+// not know has its default; what the library does not know must be 0.
+constexpr size_t kLargestStruct = 4096;  // of any later version; a larger size was never set
+
+template <class Struct>
+void expect_struct(const Struct* given) {
+  expect(given);
+  if (given->size < sizeof given->size || given->size > kLargestStruct) {
+    throw Error("the size of a struct is not set: assign its sizeof");
+  }
+}
+
+template <class Struct>
+Struct read_struct(const Struct* given) {
+  expect_struct(given);
+  const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
+  if (given->size < sizeof given->size)
+    throw Error("the size of a struct is not set: assign sizeof");
+  if (given->size > sizeof(Struct) && std::any_of(bytes + sizeof(Struct), bytes + given->size,
+                                                  [](int byte) { return byte != 0; })) {
+    throw Error("a struct has members of a later version: link that version of libmicrotin");
+  }
+  Struct known{};
+  std::memcpy(&known, given, std::min(given->size, sizeof(Struct)));
+  return known;
+}
+
+template <class Struct>
+void write_struct(Struct known, Struct* to) {
+  known.size = to->size;
+  std::memset(to, 0, known.size);
+  std::memcpy(to, &known, std::min(known.size, sizeof(Struct)));
 }
 
 RasterData read_raster(const microtin_raster_data& raster) {
@@ -94,12 +122,7 @@ Choice choice(const char* name, uint32_t given, Choice usual, Choice last) {
   return given == 0 ? usual : static_cast<Choice>(given - 1);
 }
 
-void expect_none(uint32_t one, uint32_t other, const char* rule) {
-  if (one != 0 || other != 0) throw Error(rule);
-}
-
-template <class Options>
-Options common_options(const microtin_options& given) {
+Options options_of(const microtin_options& given) {
   Options options;
   options.max_error = text_of(given.max_error);
   options.never_below = given.never_below != 0;
@@ -118,6 +141,10 @@ Options common_options(const microtin_options& given) {
   options.source_name = text_of(given.source_name);
   options.date = text_of(given.date);
   options.lineage = text_of(given.lineage);
+  options.max_vertices = given.max_vertices;
+  options.max_bytes = given.max_bytes;
+  options.tile_vertices = given.tile_vertices;
+  options.tile_size = given.tile_size;
   return options;
 }
 
@@ -138,18 +165,19 @@ void copy_report(const Report& report, microtin_report* to) {
   last_warnings.clear();
   for (const std::string& warning : report.warnings) last_warnings += warning + '\n';
   if (to == nullptr) return;
-  *to = {};
-  to->samples = report.samples;
-  to->vertices = report.vertices;
-  to->bytes = report.bytes;
-  to->tiles = report.tiles;
-  copy_decimal(report.bound, to->bound);
-  copy_decimal(report.max_error, to->max_error);
-  copy_decimal(report.rms_error, to->rms_error);
-  copy_decimal(report.mean_error, to->mean_error);
-  copy_decimal(report.max_below, to->max_below);
-  copy_decimal(report.max_error_at_points, to->max_error_at_points);
-  copy_decimal(report.max_below_at_points, to->max_below_at_points);
+  microtin_report all{};
+  all.samples = report.samples;
+  all.vertices = report.vertices;
+  all.bytes = report.bytes;
+  all.tiles = report.tiles;
+  copy_decimal(report.bound, all.bound);
+  copy_decimal(report.max_error, all.max_error);
+  copy_decimal(report.rms_error, all.rms_error);
+  copy_decimal(report.mean_error, all.mean_error);
+  copy_decimal(report.max_below, all.max_below);
+  copy_decimal(report.max_error_at_points, all.max_error_at_points);
+  copy_decimal(report.max_below_at_points, all.max_below_at_points);
+  write_struct(all, to);
 }
 
 microtin_status make(microtin_source** terrain, const std::function<SourceTerrain()>& read) {
@@ -186,13 +214,46 @@ microtin_status hand_out(microtin_surface* surface, microtin_triangles* triangle
                          const std::function<Mesh()>& read) {
   return guarded([&] {
     expect(surface);
-    expect(triangles);
+    expect_struct(triangles);
     surface->mesh = read();
     const Mesh& mesh = surface->mesh;
-    *triangles = {mesh.vertices.size(), mesh.triangles.size(),
+    write_struct({0, mesh.vertices.size(), mesh.triangles.size(),
                   mesh.vertices.empty() ? nullptr : mesh.vertices.front().data(),
-                  mesh.triangles.empty() ? nullptr : mesh.triangles.front().data()};
+                  mesh.triangles.empty() ? nullptr : mesh.triangles.front().data()},
+                 triangles);
   });
+}
+
+microtin_surface_info info_of(const SurfaceInfo& all) {
+  microtin_surface_info info{};
+  info.bytes = all.bytes;
+  info.vertices = all.vertices;
+  info.is_pack = all.is_pack ? 1 : 0;
+  info.tile_columns = all.tile_columns;
+  info.tile_rows = all.tile_rows;
+  info.west = all.box.west;
+  info.south = all.box.south;
+  info.east = all.box.east;
+  info.north = all.box.north;
+  info.lowest = all.lowest;
+  info.highest = all.highest;
+  info.x = all.x;
+  info.y = all.y;
+  info.z = all.z;
+  info.horizontal_unit = static_cast<uint32_t>(all.horizontal_unit);
+  info.vertical_unit = static_cast<uint32_t>(all.vertical_unit);
+  info.horizontal_epsg = all.horizontal_epsg;
+  info.vertical_epsg = all.vertical_epsg;
+  info.wkt = all.wkt.c_str();
+  info.source_name = all.source_name.c_str();
+  info.date = all.date.c_str();
+  info.lineage = all.lineage.c_str();
+  info.bound = all.bound.c_str();
+  info.max_error = all.max_error.c_str();
+  info.rms_error = all.rms_error.c_str();
+  info.mean_error = all.mean_error.c_str();
+  info.max_error_at_points = all.max_error_at_points.c_str();
+  return info;
 }
 
 }  // namespace
@@ -213,18 +274,20 @@ const char* microtin_version_string(void) {
 microtin_status microtin_source_from_raster(const microtin_raster_data* raster,
                                             microtin_source** source) {
   return make(source, [&] {
-    RasterData posts = read_raster(checked(raster));
-    posts.wkt = text_of(raster->wkt);
-    return SourceTerrain(std::move(posts));
+    const microtin_raster_data given = read_struct(raster);
+    RasterData cells = read_raster(given);
+    cells.wkt = text_of(given.wkt);
+    return SourceTerrain(std::move(cells));
   });
 }
 
 microtin_status microtin_source_from_points(const microtin_point_data* points,
                                             microtin_source** source) {
   return make(source, [&] {
-    expect(checked(points).coordinates);
-    PointCloudData read = point_cloud_from_xyz(points->count, points->coordinates);
-    read.wkt = text_of(points->wkt);
+    const microtin_point_data given = read_struct(points);
+    expect(given.coordinates);
+    PointCloudData read = point_cloud_from_xyz(given.count, given.coordinates);
+    read.wkt = text_of(given.wkt);
     return SourceTerrain(read);
   });
 }
@@ -239,21 +302,18 @@ void microtin_source_free(microtin_source* source) {
 
 microtin_status microtin_encode_stream(const microtin_source* source,
                                        const microtin_options* options, uint8_t** bytes,
-                                       uint64_t* size, microtin_report* report) {
+                                       uint64_t* byte_count, microtin_report* report) {
   return guarded([&] {
     expect(source);
     expect(bytes);
-    expect(size);
-    auto all = common_options<StreamOptions>(checked(options));
-    expect_none(options->tile_vertices, options->tile_size,
-                "tile_vertices and tile_size are for packs");
-    all.max_vertices = options->max_vertices;
-    all.max_bytes = options->max_bytes;
-    const Stream stream = encode_stream(source->terrain, all, callbacks_of(*options));
+    expect(byte_count);
+    if (report != nullptr) expect_struct(report);
+    const microtin_options given = read_struct(options);
+    const Stream stream = encode_stream(source->terrain, options_of(given), callbacks_of(given));
     copy_report(stream.report, report);  // first: what fails leaves no bytes behind
     *bytes = new uint8_t[stream.bytes.size()];
     std::copy(stream.bytes.begin(), stream.bytes.end(), *bytes);
-    *size = stream.bytes.size();
+    *byte_count = stream.bytes.size();
   });
 }
 
@@ -267,12 +327,9 @@ microtin_status microtin_encode_pack(const microtin_source* source, const microt
   return guarded([&] {
     expect(source);
     expect(path);
-    auto all = common_options<PackOptions>(checked(options));
-    expect_none(options->max_vertices, options->max_bytes,
-                "max_vertices and max_bytes are for streams");
-    all.tile_vertices = options->tile_vertices;
-    all.tile_size = options->tile_size;
-    copy_report(encode_pack(source->terrain, all, path, callbacks_of(*options)), report);
+    if (report != nullptr) expect_struct(report);
+    const microtin_options given = read_struct(options);
+    copy_report(encode_pack(source->terrain, options_of(given), path, callbacks_of(given)), report);
   });
 }
 
@@ -280,11 +337,11 @@ microtin_status microtin_surface_from_file(const char* path, microtin_surface** 
   return open(surface, [&] { return Surface::from_file(text_of(path)); });
 }
 
-microtin_status microtin_surface_from_bytes(const uint8_t* bytes, uint64_t size, const char* name,
-                                            microtin_surface** surface) {
+microtin_status microtin_surface_from_bytes(const uint8_t* bytes, uint64_t byte_count,
+                                            const char* name, microtin_surface** surface) {
   return open(surface, [&] {
     expect(bytes);
-    return Surface::from_bytes(std::make_unique<BytesInMemory>(bytes, size), text_of(name));
+    return Surface::from_bytes(std::make_unique<BytesInMemory>(bytes, byte_count), text_of(name));
   });
 }
 
@@ -292,37 +349,13 @@ void microtin_surface_free(microtin_surface* surface) {
   delete surface;
 }
 
-void microtin_surface_get_info(const microtin_surface* surface, microtin_surface_info* info) {
-  const SurfaceInfo& all = surface->surface.info();
-  *info = {};
-  info->bytes = all.bytes;
-  info->vertices = all.vertices;
-  info->is_pack = all.is_pack ? 1 : 0;
-  info->tile_columns = all.tile_columns;
-  info->tile_rows = all.tile_rows;
-  info->west = all.box.west;
-  info->south = all.box.south;
-  info->east = all.box.east;
-  info->north = all.box.north;
-  info->lowest = all.lowest;
-  info->highest = all.highest;
-  info->x = all.x;
-  info->y = all.y;
-  info->z = all.z;
-  info->source = {all.source.columns, all.source.rows, all.source.x, all.source.y};
-  info->horizontal_unit = static_cast<uint32_t>(all.horizontal_unit);
-  info->vertical_unit = static_cast<uint32_t>(all.vertical_unit);
-  info->horizontal_epsg = all.horizontal_epsg;
-  info->vertical_epsg = all.vertical_epsg;
-  info->wkt = all.wkt.c_str();
-  info->origin = all.origin.c_str();
-  info->date = all.date.c_str();
-  info->lineage = all.lineage.c_str();
-  info->bound = all.bound.c_str();
-  info->max_error = all.max_error.c_str();
-  info->rms_error = all.rms_error.c_str();
-  info->mean_error = all.mean_error.c_str();
-  info->max_error_at_points = all.max_error_at_points.c_str();
+microtin_status microtin_surface_get_info(const microtin_surface* surface,
+                                          microtin_surface_info* info) {
+  return guarded([&] {
+    expect(surface);
+    expect_struct(info);
+    write_struct(info_of(surface->surface.info()), info);
+  });
 }
 
 microtin_status microtin_surface_mesh(microtin_surface* surface, microtin_triangles* triangles) {
@@ -350,9 +383,9 @@ microtin_status microtin_surface_grid(const microtin_surface* surface, const cha
                                       microtin_grid* grid) {
   return guarded([&] {
     expect(surface);
-    expect(grid);
+    expect_struct(grid);
     const Grid found = surface->surface.grid(text_of(cell));
-    *grid = {found.columns, found.rows, found.x, found.y};
+    write_struct({0, found.columns, found.rows, found.x, found.y}, grid);
   });
 }
 
@@ -360,9 +393,9 @@ microtin_status microtin_surface_sample_grid(microtin_surface* surface, const mi
                                              double* heights) {
   return guarded([&] {
     expect(surface);
-    expect(grid);
     expect(heights);
-    surface->surface.heights({grid->columns, grid->rows, grid->x, grid->y},
-                             {0, 0, grid->columns, grid->rows}, heights);
+    const microtin_grid given = read_struct(grid);
+    surface->surface.heights({given.columns, given.rows, given.x, given.y},
+                             {0, 0, given.columns, given.rows}, heights);
   });
 }

@@ -138,7 +138,7 @@ SurfaceInfo Surface::Content::info_of() const {
   all.horizontal_epsg = metadata.horizontal_epsg;
   all.vertical_epsg = metadata.vertical_epsg;
   all.wkt = metadata.wkt;
-  all.origin = metadata.source;
+  all.source_name = metadata.source;
   all.date = metadata.date;
   all.lineage = metadata.lineage;
   take_accuracy(metadata, all);
@@ -205,6 +205,11 @@ Box Surface::tile_box(uint32_t column, uint32_t row) const {
 }
 
 Grid Surface::grid(const std::string& cell) const {
+  if (cell.empty()) {
+    if (info().source.columns == 0)
+      throw base::Error("a surface of points has no grid of its own: give the size of a cell");
+    return info().source;
+  }
   const std::optional<exact::Decimal> size = exact::parse_decimal(cell, exact::kPlaceDecimals);
   if (!size || size->mantissa <= 0) throw base::Error("cell: " + cell + " is not a length above 0");
   const exact::PostGrid posts = exporting::grid_of_cells(content_->sampled, *size);

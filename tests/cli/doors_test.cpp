@@ -41,19 +41,15 @@ bool is_pack(Kind kind) {
 }
 
 // All options of both kinds.
-struct Wanted : library::Options {
-  uint32_t max_vertices = 0, max_bytes = 0, tile_vertices = 0, tile_size = 0;
-};
-
 struct Setting {
   std::string flags;
-  std::function<void(Wanted&)> cpp;
+  std::function<void(library::Options&)> cpp;
   std::function<void(microtin_options&)> c;
 };
 
 Setting operator+(const Setting& a, const Setting& b) {
   return {a.flags + ' ' + b.flags,
-          [=](Wanted& wanted) {
+          [=](library::Options& wanted) {
             a.cpp(wanted);
             b.cpp(wanted);
           },
@@ -65,7 +61,7 @@ Setting operator+(const Setting& a, const Setting& b) {
 
 template <class Cpp, class CppValue, class C, class CValue>
 Setting setting(const std::string& flags, Cpp cpp, CppValue cpp_value, C c, CValue c_value) {
-  return {flags, [=](Wanted& wanted) { wanted.*cpp = cpp_value; },
+  return {flags, [=](library::Options& wanted) { wanted.*cpp = cpp_value; },
           [=](microtin_options& options) { options.*c = c_value; }};
 }
 
@@ -84,7 +80,7 @@ struct Row {
   Setting beside;  // without it, too
 };
 
-using W = Wanted;
+using W = library::Options;
 using C = microtin_options;
 
 Setting bound(const char* value) {
@@ -97,7 +93,8 @@ Setting epsg(uint32_t code) {
 
 std::vector<Row> rows() {
   using namespace microtin::encoder;
-  const Setting two = bound("2"), nothing = {"", [](Wanted&) {}, [](microtin_options&) {}};
+  const Setting two = bound("2"),
+                nothing = {"", [](library::Options&) {}, [](microtin_options&) {}};
   const Setting fast = setting("--fast", &W::effort, SearchEffort::kFast, &C::effort, 1u);
   const Setting coarse = two + setting("--xy-step", &W::xy_step, &C::xy_step, "0.05");
   const auto height_code = setting("--epsg 25832:7837", &W::vertical_epsg, uint32_t{7837},
@@ -174,18 +171,13 @@ class Doors {
   }
 
   Made by_cpp(Kind kind, const std::vector<Setting>& settings) const {
-    Wanted wanted;
-    wanted.tile_vertices = 60;
-    for (const Setting& setting : settings) setting.cpp(wanted);
+    library::Options options;
+    if (is_pack(kind)) options.tile_vertices = 60;
+    for (const Setting& setting : settings) setting.cpp(options);
     try {
       const auto terrain = library::SourceTerrain::from_file(path(source(kind)));
-      const library::Options& common = wanted;
-      if (!is_pack(kind)) {
-        return library::encode_stream(terrain, {common, wanted.max_vertices, wanted.max_bytes})
-            .bytes;
-      }
-      library::encode_pack(terrain, {common, wanted.tile_vertices, wanted.tile_size},
-                           path(product(kind)));
+      if (!is_pack(kind)) return library::encode_stream(terrain, options).bytes;
+      library::encode_pack(terrain, options, path(product(kind)));
       return bytes_of_file(path(product(kind)));
     } catch (const std::runtime_error&) {
       return std::nullopt;
@@ -263,7 +255,6 @@ class Doors {
 // The command line, C++ and C.
 void walk(Kind kind) {
   const Doors doors;
-  const Names common = members_of(kCpp, "Options");
   std::map<std::string, Made> made;
   for (const Row& row : rows()) {
     CAPTURE(row.name);
@@ -272,9 +263,7 @@ void walk(Kind kind) {
     const bool makes_difference = (row.kinds & kind) != 0;
     const Made command = doors.by_command(kind, both);
     CHECK((command == doors.by_c(kind, both)));
-    if (makes_difference || common.count(row.name) != 0) {
-      CHECK((command == doors.by_cpp(kind, both)));
-    }
+    CHECK((command == doors.by_cpp(kind, both)));
     if (made.count(row.beside.flags) == 0) {
       made[row.beside.flags] = doors.by_command(kind, {row.beside});
     }
@@ -308,10 +297,7 @@ TEST_CASE("doors: each option of a pack of points does the same by each, and som
 TEST_CASE("doors: no option is without a row") {
   Names known;
   for (const Row& row : rows()) known.insert(row.name);
-  Names cpp = members_of(kCpp, "Options");
-  cpp = united(cpp, members_of(kCpp, "StreamOptions"));
-  cpp = united(cpp, members_of(kCpp, "PackOptions"));
-  CHECK(text_of(cpp) == text_of(known));
+  CHECK(text_of(members_of(kCpp, "Options")) == text_of(known));
   CHECK(text_of(members_of(kC, "microtin_options")) ==
         text_of(united(known, {"size", "progress", "context"})));
 }

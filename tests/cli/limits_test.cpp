@@ -110,19 +110,19 @@ std::string error_of(const std::function<void()>& work) {
 
 struct Limit {
   std::string message;  // of what is beyond it
-  uint32_t library::StreamOptions::*cpp;
+  uint32_t library::Options::*cpp;
   uint32_t microtin_options::*c;
   std::vector<uint32_t> taken, refused;
 };
 
 const std::vector<Limit> kLimits = {
-    {"max_degree: 6 .. 32",
-     &library::StreamOptions::max_degree,
+    {"max_degree: 6 .. 32, or 0 for the default",
+     &library::Options::max_degree,
      &microtin_options::max_degree,
      {0, 6, 32},
      {5, 33, UINT32_MAX}},
-    {"max_vertices: 3 .. 2^24",
-     &library::StreamOptions::max_vertices,
+    {"max_vertices: 3 .. 16777216, or 0 for the default",
+     &library::Options::max_vertices,
      &microtin_options::max_vertices,
      {0, 3, 1u << 24},
      {1, 2, (1u << 24) + 1}},
@@ -184,7 +184,7 @@ TEST_CASE("limits: of numbers in C++ and C") {
       options.*limit.c = value;
       CHECK((error_in_c(options) == limit.message) == !is_taken);
       if (limit.cpp == nullptr) return;
-      library::StreamOptions same;
+      library::Options same;
       same.*limit.cpp = value;
       CHECK((error_of([&] { encode_stream(terrain_of(3, 3), same); }) == limit.message) ==
             !is_taken);
@@ -196,14 +196,14 @@ TEST_CASE("limits: of numbers in C++ and C") {
 
 TEST_CASE("limits: vertices of tiles in C++ and C") {
   const Session session;
-  const std::string path = session.folder() + "/o.mtp", message = "tile_vertices: 16 .. 2^24";
+  const std::string path = session.folder() + "/o.mtp", message = "tile_vertices: 16 .. 16777216";
   for (const auto& row :
        {std::pair(0u, true), std::pair(1u, false), std::pair(15u, false), std::pair(16u, true),
         std::pair(1u << 24, true), std::pair((1u << 24) + 1, false)}) {
     const uint32_t value = row.first;
     const bool is_taken = row.second;
     CAPTURE(value);
-    library::PackOptions options;
+    library::Options options;
     options.max_error = "1";
     options.tile_vertices = value;
     const auto encode = [&] { encode_pack(terrain_of(9, 9), options, path); };
@@ -232,7 +232,7 @@ TEST_CASE("limits: 2^20 tiles of a pack of a raster, at every door") {
   CHECK(contains(session.failure("plan more.asc --shards 2" + options), message));
   session.write("most.asc", flat_grid(1025, 1025));
   CHECK(contains(session.run("plan most.asc --shards 2" + options).out, "524288:1048575"));
-  library::PackOptions pack;
+  library::Options pack;
   pack.max_error = "1";
   pack.tile_size = 1;
   CHECK(contains(
@@ -242,7 +242,7 @@ TEST_CASE("limits: 2^20 tiles of a pack of a raster, at every door") {
 
 TEST_CASE("limits: of posts, their heights and their decimals") {
   constexpr int64_t kMost = 1000000000000000000;
-  library::StreamOptions options;
+  library::Options options;
   options.max_error = "1";
   options.effort = library::SearchEffort::kFast;
   const auto error_with = [&](uint32_t columns, uint32_t rows) {

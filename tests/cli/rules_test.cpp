@@ -254,7 +254,7 @@ void check_highest(const Cell& cell, const std::string& path) {
 // Behind the library's doors, in C++ and in C.
 void check_library(const Cell& cell, const std::function<SourceTerrain()>& make) {
   const Session session;
-  microtin::encoder::StreamOptions options;
+  microtin::encoder::Options options;
   options.units = cell.units;
   options.depths = is_of_depths(cell);
   options.max_error = bound_of(cell);
@@ -278,6 +278,7 @@ void check_c(const Cell& cell, const Session& session, const std::string& path) 
   uint8_t* bytes = nullptr;
   uint64_t size = 0;
   microtin_report report = {};
+  report.size = sizeof report;
   const bool done =
       microtin_source_from_file(path.c_str(), &terrain) == MICROTIN_STATUS_OK &&
       microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_STATUS_OK;

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -152,6 +153,7 @@ bool is_same(const std::vector<double>& a, const std::vector<double>& b) {
 void expect_same_raster(const Both& both, const char* cell) {
   const library::Grid grid = both.cpp.grid(cell);
   microtin_grid in_c{};
+  in_c.size = sizeof in_c;
   REQUIRE(microtin_surface_grid(both.c, cell, &in_c) == MICROTIN_STATUS_OK);
   CHECK(in_c.columns == grid.columns);
   CHECK(in_c.rows == grid.rows);
@@ -215,7 +217,7 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
   const TemporaryFolder folder;
   InC c;
   write_file(folder / "a.mtin", encoded(c.raster, microtin_source_from_raster));
-  library::PackOptions options;
+  library::Options options;
   options.tile_vertices = 30;
   library::Transform transform{-0.5, 1, 0, 6.5, 0, -1};
   encode_pack(
@@ -225,25 +227,26 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
     CAPTURE(name);
     Both both(folder / name);
     microtin_triangles triangles{};
+    triangles.size = sizeof triangles;
     REQUIRE(microtin_surface_mesh(both.c, &triangles) == MICROTIN_STATUS_OK);
     expect_same(both.cpp.mesh(), triangles);
-    const library::SurfaceInfo& facts = both.cpp.info();
-    CHECK((facts.tile_columns * facts.tile_rows > 1) == facts.is_pack);
-    for (uint32_t row = 0; row < facts.tile_rows; ++row) {
-      for (uint32_t column = 0; column < facts.tile_columns; ++column) {
+    const library::SurfaceInfo& info = both.cpp.info();
+    CHECK((info.tile_columns * info.tile_rows > 1) == info.is_pack);
+    for (uint32_t row = 0; row < info.tile_rows; ++row) {
+      for (uint32_t column = 0; column < info.tile_columns; ++column) {
         REQUIRE(microtin_surface_tile(both.c, column, row, &triangles) == MICROTIN_STATUS_OK);
         expect_same(both.cpp.tile(column, row), triangles);
       }
     }
-    CHECK(microtin_surface_tile(both.c, facts.tile_columns, 0, &triangles) ==
+    CHECK(microtin_surface_tile(both.c, info.tile_columns, 0, &triangles) ==
           MICROTIN_STATUS_REJECTED);
-    CHECK(microtin_surface_tile(both.c, 0, facts.tile_rows, &triangles) ==
-          MICROTIN_STATUS_REJECTED);
+    CHECK(microtin_surface_tile(both.c, 0, info.tile_rows, &triangles) == MICROTIN_STATUS_REJECTED);
     expect_same_raster(both, "0.5");
     expect_same_heights(both);
   }
-  CHECK(text_of(members_of(kC, "microtin_triangles")) == "coordinates corners triangles vertices ");
-  CHECK(text_of(members_of(kC, "microtin_grid")) == "columns rows x y ");
+  CHECK(text_of(members_of(kC, "microtin_triangles")) ==
+        "coordinates corners size triangles vertices ");
+  CHECK(text_of(members_of(kC, "microtin_grid")) == "columns rows size x y ");
 }
 
 TEST_CASE("C: bytes in memory are the surface that their file is, to the last of them") {
@@ -251,39 +254,118 @@ TEST_CASE("C: bytes in memory are the surface that their file is, to the last of
   microtin_surface* surface = nullptr;
   REQUIRE(microtin_surface_from_bytes(stream.data(), stream.size(), "here", &surface) ==
           MICROTIN_STATUS_OK);
-  microtin_surface_info facts{};
-  microtin_surface_get_info(surface, &facts);
-  CHECK(facts.bytes == stream.size());
+  microtin_surface_info info{};
+  info.size = sizeof info;
+  CHECK(microtin_surface_get_info(surface, &info) == MICROTIN_STATUS_OK);
+  CHECK(info.bytes == stream.size());
   microtin_surface_free(surface);
   CHECK(microtin_surface_from_bytes(stream.data(), stream.size() - 1, "here", &surface) ==
         MICROTIN_STATUS_REJECTED);
   CHECK(std::string(microtin_last_error()).find("here: ") == 0);
 }
 
-TEST_CASE("C: a struct of another size is refused, whichever it is") {
-  InC c;
-  microtin_source* terrain = nullptr;
-  REQUIRE(microtin_source_from_raster(&c.raster, &terrain) == MICROTIN_STATUS_OK);
-  microtin_point_data points = points_in_c();
-  microtin_options options{};
-  options.tile_vertices = 30;
+namespace {
+
+// A struct of a later version: the members that the library knows, and more.
+template <class Struct>
+struct Later {
+  Struct known{};
+  uint64_t more = 0;
+  Later() { known.size = sizeof *this; }
+};
+
+microtin_status encode(const microtin_source* source, const microtin_options* options) {
   uint8_t* bytes = nullptr;
   uint64_t size = 0;
-  microtin_source* none = nullptr;
-  for (const int change : {-1, 1}) {
-    const auto other = [change](size_t real) { return change < 0 ? real - 1 : real + 1; };
-    c.raster.size = other(sizeof c.raster);
-    points.size = other(sizeof points);
-    options.size = other(sizeof options);
-    CHECK(microtin_source_from_raster(&c.raster, &none) == MICROTIN_STATUS_REJECTED);
-    CHECK(microtin_source_from_points(&points, &none) == MICROTIN_STATUS_REJECTED);
-    CHECK(microtin_encode_stream(terrain, &options, &bytes, &size, nullptr) ==
-          MICROTIN_STATUS_REJECTED);
-    CHECK(microtin_encode_pack(terrain, &options, "/nowhere/a.mtp", nullptr) ==
-          MICROTIN_STATUS_REJECTED);
-    CHECK(std::string(microtin_last_error()) == "a struct of another size");
+  const microtin_status status = microtin_encode_stream(source, options, &bytes, &size, nullptr);
+  microtin_bytes_free(bytes);
+  return status;
+}
+
+}  // namespace
+
+TEST_CASE("C: a struct whose size is not set is refused, whichever it is") {
+  InC c;
+  microtin_source* source = nullptr;
+  REQUIRE(microtin_source_from_raster(&c.raster, &source) == MICROTIN_STATUS_OK);
+  const Bytes stream = encoded(c.raster, microtin_source_from_raster);
+  microtin_surface* surface = nullptr;
+  REQUIRE(microtin_surface_from_bytes(stream.data(), stream.size(), "here", &surface) ==
+          MICROTIN_STATUS_OK);
+  microtin_point_data points = points_in_c();
+  for (const size_t size : {size_t{0}, sizeof(size_t) - 1, size_t{4097}, SIZE_MAX}) {
+    CAPTURE(size);
+    microtin_options options{}, complete{};
+    complete.size = sizeof complete;
+    microtin_report report{};
+    microtin_surface_info info{};
+    microtin_grid grid{};
+    microtin_triangles triangles{};
+    c.raster.size = points.size = options.size = report.size = size;
+    info.size = grid.size = triangles.size = size;
+    uint8_t* bytes = nullptr;
+    uint64_t count = 0;
+    microtin_source* none = nullptr;
+    double heights[84];
+    for (const microtin_status status :
+         {microtin_source_from_raster(&c.raster, &none),
+          microtin_source_from_points(&points, &none), encode(source, &options),
+          microtin_encode_pack(source, &options, "/nowhere/a.mtp", nullptr),
+          microtin_encode_stream(source, &complete, &bytes, &count, &report),
+          microtin_encode_pack(source, &complete, "/nowhere/a.mtp", &report),
+          microtin_surface_get_info(surface, &info), microtin_surface_grid(surface, "1", &grid),
+          microtin_surface_sample_grid(surface, &grid, heights),
+          microtin_surface_mesh(surface, &triangles),
+          microtin_surface_tile(surface, 0, 0, &triangles)}) {
+      CHECK(status == MICROTIN_STATUS_REJECTED);
+      CHECK(microtin_last_error() ==
+            std::string("the size of a struct is not set: assign its sizeof"));
+    }
+    CHECK(bytes == nullptr);
   }
-  microtin_source_free(terrain);
+  microtin_surface_free(surface);
+  microtin_source_free(source);
+}
+
+TEST_CASE("C: a program of an earlier version passes smaller structs") {
+  InC c;
+  c.raster.size = offsetof(microtin_raster_data, no_data);
+  const double ignored = -3;
+  c.raster.no_data = &ignored;
+  CHECK(encoded(c.raster, microtin_source_from_raster) == stream_in_cpp(InC()));
+  microtin_surface* surface = nullptr;
+  const Bytes stream = encoded(InC().raster, microtin_source_from_raster);
+  REQUIRE(microtin_surface_from_bytes(stream.data(), stream.size(), "here", &surface) ==
+          MICROTIN_STATUS_OK);
+  microtin_surface_info info{};
+  info.size = offsetof(microtin_surface_info, is_pack);
+  info.is_pack = 77;
+  REQUIRE(microtin_surface_get_info(surface, &info) == MICROTIN_STATUS_OK);
+  CHECK(info.vertices == 83);
+  CHECK(info.is_pack == 77);
+  CHECK(info.size == offsetof(microtin_surface_info, is_pack));
+  microtin_surface_free(surface);
+}
+
+TEST_CASE("C: a program of a later version passes larger structs, and learns of what is unknown") {
+  InC c;
+  microtin_source* source = nullptr;
+  REQUIRE(microtin_source_from_raster(&c.raster, &source) == MICROTIN_STATUS_OK);
+  Later<microtin_options> options;
+  Later<microtin_report> report;
+  report.more = 77;
+  uint8_t* bytes = nullptr;
+  uint64_t count = 0;
+  REQUIRE(microtin_encode_stream(source, &options.known, &bytes, &count, &report.known) ==
+          MICROTIN_STATUS_OK);
+  CHECK(report.known.bytes == count);
+  CHECK(report.more == 0);
+  microtin_bytes_free(bytes);
+  options.more = 1;
+  CHECK(encode(source, &options.known) == MICROTIN_STATUS_REJECTED);
+  CHECK(microtin_last_error() == std::string("a struct has members of a later version: link that "
+                                             "version of libmicrotin"));
+  microtin_source_free(source);
 }
 
 TEST_CASE("C: progress is heard by streams and packs of posts, and ends their work") {

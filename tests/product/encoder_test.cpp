@@ -49,8 +49,8 @@ RasterData noisy_dome(uint32_t side) {
   return posts;
 }
 
-StreamOptions bounded(const char* bound) {
-  StreamOptions options;
+Options bounded(const char* bound) {
+  Options options;
   options.max_error = bound;
   return options;
 }
@@ -65,7 +65,7 @@ void write(const std::string& path, const std::vector<uint8_t>& bytes) {
 
 TEST_CASE("library: a stream keeps its bound, and says so") {
   const TemporaryFolder folder;
-  StreamOptions options = bounded("2.5");
+  Options options = bounded("2.5");
   options.source_name = "a cone";
   options.horizontal_epsg = 25832;
   const Stream stream = encode_stream(SourceTerrain(cone(40)), options);
@@ -86,7 +86,7 @@ TEST_CASE("library: a stream keeps its bound, and says so") {
 
 TEST_CASE("library: so many vertices, so many bytes") {
   const SourceTerrain terrain(cone(40));
-  StreamOptions options;
+  Options options;
   options.max_vertices = 60;
   CHECK(encode_stream(terrain, options).report.vertices <= 60);
   options = {};
@@ -101,7 +101,7 @@ TEST_CASE(
   const SourceTerrain terrain(cone(40));
   for (const char* bound : {"0.3", "0.7", "1.5"}) {
     CAPTURE(bound);
-    StreamOptions options;
+    Options options;
     options.max_error = bound;
     options.max_vertices = 0;
     const Report bounded = encode_stream(terrain, options).report;
@@ -115,7 +115,7 @@ TEST_CASE(
 
 TEST_CASE("library: few trials use a number of vertices, though sizes jump where noise begins") {
   const SourceTerrain terrain(noisy_dome(150));
-  StreamOptions options;
+  Options options;
   options.effort = SearchEffort::kFast;
   for (const double bound : {1.15, 1.4}) {
     CAPTURE(bound);
@@ -161,7 +161,7 @@ TEST_CASE("library: what limits find holds where points truly lie, or is told th
   const SourceTerrain terrain(walls());
   for (const uint32_t limit : {30u, 40u}) {
     CAPTURE(limit);
-    StreamOptions options;
+    Options options;
     options.effort = SearchEffort::kFast;
     options.max_vertices = limit;
     const Report few = encode_stream(terrain, options).report;
@@ -177,7 +177,7 @@ TEST_CASE("library: what limits find holds where points truly lie, or is told th
 
 TEST_CASE("library: never below the points where they truly lie, by limits, too") {
   const SourceTerrain terrain(walls());
-  StreamOptions options;
+  Options options;
   options.effort = SearchEffort::kFast;
   options.never_below = true;
   options.max_bytes = 330;
@@ -191,7 +191,7 @@ TEST_CASE("library: never below the points where they truly lie, by limits, too"
 
 TEST_CASE("library: packs are files, whole or not there") {
   const TemporaryFolder folder;
-  PackOptions options;
+  Options options;
   options.max_error = "1";
   options.tile_vertices = 40;
   const Report report = encode_pack(SourceTerrain(cone(60)), options, folder / "cone.mtp");
@@ -208,7 +208,7 @@ TEST_CASE("library: packs are files, whole or not there") {
 TEST_CASE("library: a pack without a number of vertices has tiles of the usual one") {
   const TemporaryFolder folder;
   const SourceTerrain terrain(noisy_dome(70));
-  PackOptions options;
+  Options options;
   options.max_error = "0";
   options.effort = SearchEffort::kFast;
   const Report report = encode_pack(terrain, options, folder / "usual.mtp");
@@ -218,7 +218,7 @@ TEST_CASE("library: a pack without a number of vertices has tiles of the usual o
   CHECK(read_file(folder / "usual.mtp") == read_file(folder / "same.mtp"));
   options.tile_vertices = 15;
   CHECK_THROWS_WITH(encode_pack(terrain, options, folder / "few.mtp"),
-                    "tile_vertices: 16 .. 2^24, or 0 for the usual number");
+                    "tile_vertices: 16 .. 16777216, or 0 for the default");
 }
 
 TEST_CASE("library: work that is cancelled leaves nothing") {
@@ -234,11 +234,11 @@ TEST_CASE("library: work that is cancelled leaves nothing") {
   callbacks.cancelled = [&] { return ++calls > 3; };
   const SourceTerrain terrain(cone(60));
   CHECK_THROWS_AS(encode_stream(terrain, bounded("0.3"), callbacks), Cancelled);
-  StreamOptions bytes;
+  Options bytes;
   bytes.max_bytes = 500;
   calls = 0;
   CHECK_THROWS_AS(encode_stream(terrain, bytes, callbacks), Cancelled);
-  PackOptions options;
+  Options options;
   options.max_error = "1";
   options.tile_vertices = 16;
   calls = 0;
@@ -251,7 +251,7 @@ TEST_CASE("library: work that is cancelled leaves nothing") {
 
 TEST_CASE("library: axes in lowest terms or not are the same, those that no header holds refused") {
   const TemporaryFolder folder;
-  PackOptions options;
+  Options options;
   options.max_error = "1";
   options.tile_vertices = 40;
   const auto encoded = [&](uint64_t numerator, uint64_t denominator) {
@@ -275,11 +275,11 @@ TEST_CASE("library: places in degrees that are none on Earth are refused, of pos
   const PointCloudData points{{{471, 1582, 3}, {472, 1582, 4}, {471, 1583, 6}}, 1, 0, ""};
   RasterData posts = cone(8);
   posts.y = {158, 1, 1};
-  PackOptions pack;
+  Options pack;
   pack.tile_vertices = 100;
   for (const SourceTerrain& terrain : {SourceTerrain(points), SourceTerrain(posts)}) {
     for (const bool is_known : {true, false}) {
-      StreamOptions options;
+      Options options;
       options.units = pack.units = is_known ? "degree:metre" : "metre:metre";
       options.max_error = pack.max_error = "100";
       options.bound_at = pack.bound_at = BoundAt::kLattice;
@@ -303,7 +303,7 @@ TEST_CASE("library: units are converted and depths turned, in streams and packs 
   posts.heights[40] = 500;
   posts.z_unit = "cm";
   posts.wkt = R"(LOCAL_CS["a",UNIT["m",1]])";
-  PackOptions options;
+  Options options;
   options.tile_vertices = 100;
   options.depths = true;
   const Report report = encode_pack(SourceTerrain(posts), options, folder / "t.mtp");
@@ -316,7 +316,7 @@ TEST_CASE("library: units are converted and depths turned, in streams and packs 
   CHECK(pack.info().vertical_unit == microtin::encoder::Unit::kMetre);
   posts.wkt +=
       R"(,VERT_CS["MSL depth",UNIT["metre",1],AXIS["Depth",DOWN],AUTHORITY["EPSG","5715"]])";
-  StreamOptions stream;
+  Options stream;
   stream.units = "metre:metre";
   CHECK_THROWS_AS(encode_stream(SourceTerrain(posts), stream), std::runtime_error);
   stream.depths = true;
@@ -333,7 +333,7 @@ TEST_CASE("library: units are converted and depths turned, in streams and packs 
 }
 
 TEST_CASE("library: what makes no sense is refused with a sentence") {
-  const auto error_of = [](RasterData posts, const StreamOptions& options) -> std::string {
+  const auto error_of = [](RasterData posts, const Options& options) -> std::string {
     try {
       encode_stream(SourceTerrain(std::move(posts)), options);
     } catch (const std::runtime_error& error) {
@@ -345,13 +345,13 @@ TEST_CASE("library: what makes no sense is refused with a sentence") {
   CHECK(error_of(posts, bounded("1")) == "none");
   CHECK(error_of(posts, bounded("-1")) == "max_error: -1 is not a decimal number from 0 on");
   CHECK(error_of(posts, bounded("x")) == "max_error: x is not a decimal number from 0 on");
-  StreamOptions options = bounded("1");
+  Options options = bounded("1");
   options.max_bytes = 100;
   CHECK(error_of(posts, options) ==
         "only one of max_error, max_vertices and max_bytes can be given");
   options = bounded("1");
   options.max_degree = 33;
-  CHECK(error_of(posts, options) == "max_degree: 6 .. 32");
+  CHECK(error_of(posts, options) == "max_degree: 6 .. 32, or 0 for the default");
   options = {};
   options.never_below = true;
   CHECK(error_of(posts, options) == "never_below needs max_error or max_bytes");

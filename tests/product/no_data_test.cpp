@@ -104,7 +104,8 @@ TEST_CASE("no data: the C face hands the value on") {
     options.size = sizeof options;
     uint8_t* bytes = nullptr;
     uint64_t size = 0;
-    microtin_report report;
+    microtin_report report{};
+    report.size = sizeof report;
     REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, &report) ==
             MICROTIN_STATUS_OK);
     CHECK(report.samples == 3);

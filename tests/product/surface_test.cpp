@@ -40,7 +40,7 @@ SourceTerrain bowl_terrain() {
   return SourceTerrain(raster_from_cells(kColumns, kRows, bowl().data(), kTransform));
 }
 
-std::string stream_file(const TemporaryFolder& folder, const StreamOptions& options) {
+std::string stream_file(const TemporaryFolder& folder, const Options& options) {
   std::string path = folder / "bowl.mtin";
   write_file(path, encode_stream(bowl_terrain(), options).bytes);
   return path;
@@ -48,7 +48,7 @@ std::string stream_file(const TemporaryFolder& folder, const StreamOptions& opti
 
 std::string pack_file(const TemporaryFolder& folder) {
   std::string path = folder / "bowl.mtp";
-  PackOptions options;
+  Options options;
   options.max_error = "1";
   options.tile_vertices = 64;
   options.tile_size = 16;
@@ -125,7 +125,7 @@ TEST_CASE("surface: heights are those of the exact plane, between places of the 
   const SourceTerrain terrain(raster_from_cells(33, 33, slope.data(), kTransform));
   const TemporaryFolder folder;
   write_file(folder / "slope.mtin", encode_stream(terrain, {}).bytes);
-  PackOptions options;
+  Options options;
   options.max_error = "0";
   options.tile_vertices = 16;
   options.tile_size = 8;
@@ -296,13 +296,14 @@ TEST_CASE("C: an array goes to a stream and back") {
   microtin_options options = {};
   uint8_t* bytes = nullptr;
   uint64_t size = 0;
-  microtin_report report;
+  microtin_report report{};
+  report.size = sizeof report;
   CHECK(microtin_encode_stream(terrain, &options, &bytes, &size, &report) ==
         MICROTIN_STATUS_REJECTED);
-  CHECK(microtin_last_error() == std::string("a struct of another size"));
+  CHECK(microtin_last_error() == std::string("the size of a struct is not set: assign its sizeof"));
   options.size = sizeof options;
   options.max_error = "0.5";
-  options.effort = 1;
+  options.effort = MICROTIN_EFFORT_FAST;
   REQUIRE(microtin_encode_stream(terrain, &options, &bytes, &size, &report) == MICROTIN_STATUS_OK);
   CHECK(report.bytes == size);
   CHECK(std::strtod(report.max_error, nullptr) <= 0.5);
@@ -313,7 +314,8 @@ TEST_CASE("C: an array goes to a stream and back") {
   CHECK(std::strstr(microtin_last_warnings(), "depths are turned into heights") != nullptr);
   microtin_surface* upside_down = nullptr;
   REQUIRE(microtin_surface_from_bytes(turned, size, "turned", &upside_down) == MICROTIN_STATUS_OK);
-  microtin_surface_info below;
+  microtin_surface_info below{};
+  below.size = sizeof below;
   microtin_surface_get_info(upside_down, &below);
   CHECK(below.lowest < -100);
   CHECK(below.highest <= 0.5);
@@ -330,13 +332,18 @@ TEST_CASE("C: an array goes to a stream and back") {
 
   microtin_surface* surface = nullptr;
   REQUIRE(microtin_surface_from_bytes(bytes, report.bytes, "bowl", &surface) == MICROTIN_STATUS_OK);
-  microtin_surface_info info;
+  microtin_surface_info info{};
+  info.size = sizeof info;
   microtin_surface_get_info(surface, &info);
   CHECK(info.bound == std::string("0.5"));
-  std::vector<double> back(size_t{info.source.columns} * info.source.rows);
-  REQUIRE(microtin_surface_sample_grid(surface, &info.source, back.data()) == MICROTIN_STATUS_OK);
+  microtin_grid grid{};
+  grid.size = sizeof grid;
+  REQUIRE(microtin_surface_grid(surface, nullptr, &grid) == MICROTIN_STATUS_OK);
+  std::vector<double> back(size_t{grid.columns} * grid.rows);
+  REQUIRE(microtin_surface_sample_grid(surface, &grid, back.data()) == MICROTIN_STATUS_OK);
   CHECK(largest_error(back) <= 0.5 + kRounding);
-  microtin_triangles triangles;
+  microtin_triangles triangles{};
+  triangles.size = sizeof triangles;
   REQUIRE(microtin_surface_mesh(surface, &triangles) == MICROTIN_STATUS_OK);
   CHECK(triangles.vertices == report.vertices);
   CHECK(triangles.corners[3 * triangles.triangles - 1] < triangles.vertices);

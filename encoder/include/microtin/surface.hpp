@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-/* microtin: streams and packs read back, in real units. C++17, hosted.
+/* microtin: reads streams and packs, in real units. C++17, hosted.
  *
- * Vertices, triangles and heights come from the shipped decoder. What cannot be read, is damaged or
- * breaks a rule of the format is thrown as std::runtime_error with a sentence that names the file,
- * out of memory as std::bad_alloc. One thread at a time may use a surface; different surfaces do
- * not know of each other.
+ * Vertices, triangles and heights come from the shipped decoder. Functions throw
+ * std::runtime_error, which names the file, if it cannot be read, is damaged or breaks a rule of
+ * the format, and std::bad_alloc if memory runs out. Only one thread at a time may use a surface.
+ * Different surfaces are independent.
  */
 #ifndef MICROTIN_SURFACE_HPP
 #define MICROTIN_SURFACE_HPP
@@ -20,7 +20,7 @@
 
 namespace microtin::encoder {
 
-/* Bytes that are read anywhere: a file of whatever file system. */
+/* Bytes at any offset, for instance a file of another file system. */
 class ByteSource {
  public:
   ByteSource() = default;
@@ -28,10 +28,11 @@ class ByteSource {
   ByteSource& operator=(const ByteSource&) = delete;
   virtual ~ByteSource() = default;
 
-  /* The number of bytes. */
+  /* Returns the number of bytes. */
   virtual uint64_t size() const = 0;
 
-  /* Up to `size` bytes from an offset on: fewer only at the end. May throw std::runtime_error. */
+  /* Reads up to `size` bytes from an offset on, and returns how many: fewer at the end only. May
+   * throw std::runtime_error. */
   virtual size_t read(uint64_t offset, void* to, size_t size) const = 0;
 };
 
@@ -41,11 +42,11 @@ enum class Unit : uint8_t { kUnknown = 0, kMetre = 1, kDegree = 2, kFoot = 3, kU
 /* Posts in columns and rows; row 0 is the southernmost. */
 struct Grid {
   uint32_t columns = 0, rows = 0;
-  microtin_axis x{0, 1, 1}; /* from a column to where its posts lie, east */
-  microtin_axis y{0, 1, 1}; /* ... and from a row, north */
+  microtin_axis x{0, 1, 1}; /* from a column's number to the x of its posts, east */
+  microtin_axis y{0, 1, 1}; /* from a row's number to the y of its posts, north */
 };
 
-/* The real coordinate of number `k` of an axis. */
+/* Returns the real coordinate of lattice number `k` of an axis. */
 inline double coordinate(const microtin_axis& axis, int64_t k) {
   return (static_cast<double>(axis.offset) +
           static_cast<double>(axis.numerator) * static_cast<double>(k)) /
@@ -57,36 +58,36 @@ struct Box {
   double west = 0, south = 0, east = 0, north = 0;
 };
 
-/* What a header says, and where the surface is. */
+/* What the header contains, and where the surface is. */
 struct SurfaceInfo {
   uint64_t bytes = 0;
-  uint64_t vertices = 0;                    /* of a pack: those on borders once for each tile */
-  uint32_t tile_columns = 1, tile_rows = 1; /* 1 of a stream */
+  uint64_t vertices = 0;                    /* pack: those on borders count in each tile */
+  uint32_t tile_columns = 1, tile_rows = 1; /* stream: 1 */
   bool is_pack = false;
   Box box;                        /* around the vertices, or around a pack's tiles */
-  double lowest = 0, highest = 0; /* vertex */
-  microtin_axis x, y, z;          /* the lattice */
-  Grid source;                    /* posts of the raster it was made of; else no columns */
+  double lowest = 0, highest = 0; /* heights of vertices */
+  microtin_axis x, y, z;          /* from lattice numbers to real units */
+  Grid source;                    /* the posts of the encoded raster; points: no columns */
   Unit horizontal_unit = Unit::kUnknown, vertical_unit = Unit::kUnknown;
-  uint32_t horizontal_epsg = 0, vertical_epsg = 0;     /* 0: not stated */
-  std::string wkt;                                     /* horizontal system without a code */
-  std::string origin, date, lineage;                   /* "": not stated, as all below */
+  uint32_t horizontal_epsg = 0, vertical_epsg = 0; /* 0: the file does not contain it */
+  std::string wkt;                                 /* horizontal system without a code */
+  std::string source_name, date, lineage;          /* "": the file does not contain it, as below */
   std::string bound, max_error, rms_error, mean_error; /* of heights, as measured */
-  std::string max_error_at_points; /* where points truly lie, if the lattice moves them */
+  std::string max_error_at_points; /* at the points' own positions, if the lattice moves points */
 };
 
-/* Triangles are counter-clockwise from above; void ones are left out. */
+/* Vertices and triangles. Triangles are counter-clockwise from above; void ones are left out. */
 struct Mesh {
   std::vector<std::array<double, 3>> vertices; /* x, y, height */
   std::vector<std::array<uint32_t, 3>> triangles;
 };
 
-/* A stream or a pack that is read. One thread at a time may use a surface. */
+/* A stream or a pack. Only one thread at a time may use a surface. */
 class Surface {
  public:
-  /* A stream is decoded at once, of a pack header and index are read. `name` is for messages. */
+  /* Opens a file. Decodes a stream at once; of a pack reads header and index. */
   static Surface from_file(const std::string& path);
-  /* Reads a stream or a pack from bytes. `name` is for messages. */
+  /* Opens a stream or a pack from bytes. Errors contain `name`. */
   static Surface from_bytes(std::unique_ptr<const ByteSource> bytes, const std::string& name);
   /* Takes over another surface. */
   Surface(Surface&& other) noexcept;
@@ -97,32 +98,37 @@ class Surface {
   /* Returns what the header contains, and where the surface is. */
   const SurfaceInfo& info() const;
 
-  /* All of it; vertices on borders of tiles once. O(n). */
+  /* Returns the whole surface. Vertices on borders of tiles appear once. O(n). */
   Mesh mesh() const;
 
-  /* A tile of a pack, from the south-west corner on row by row; a stream is one tile. Nothing in
-   * the mesh if it has no terrain. Throws std::out_of_range. */
+  /* Returns a tile of a pack, counted from the south-west corner; a stream is one tile. A tile
+   * without terrain has no vertices. Throws std::out_of_range. */
   Mesh tile(uint32_t column, uint32_t row) const;
-  /* The rectangle of a tile. Throws std::out_of_range. */
+  /* Returns the rectangle of a tile. Throws std::out_of_range. */
   Box tile_box(uint32_t column, uint32_t row) const;
 
-  /* Posts `cell` units apart, from the south-west corner of the box on; "0.25" is exact. */
+  /* Returns a grid of posts `cell` units apart, from the south-west corner of the box on. `cell` is
+   * a decimal, "0.25"; "" selects the posts of the encoded raster. */
   Grid grid(const std::string& cell) const;
 
-  /* Heights at places, in any order; NaN where there is none. A height is that of the exact plane
-   * at the place, off by at most three units in the last place of it or, if that is larger, of the
-   * difference in height across its triangle. A place within 2^-50 of its value of a coordinate of
-   * the lattice is taken there. Tiles are decoded when they are needed, and two rows of them are
-   * kept. About 0.3 us a height, and the decoding. */
+  /* Writes the heights at `count` positions, in any order; NaN where there is none. A height is
+   * that of the exact plane at the position. Its error is at most three units in the last place of
+   * the height or, if that is larger, of the difference in height across the triangle. A coordinate
+   * within a factor of 1 +- 2^-50 of a lattice coordinate counts as that coordinate. Tiles are
+   * decoded as needed; the surface keeps two rows of them. About 0.3 us a height, and the decoding.
+   *
+   *   double x = 381000, y = 5623000, height;
+   *   Surface::from_file("area.mtp").heights(1, &x, &y, &height);
+   */
   void heights(size_t count, const double* x, const double* y, double* heights) const;
 
-  /* Heights at the posts of a rectangle of the grid, within it or not; the first row written is the
-   * northernmost. A post's place is an exact fraction. */
+  /* A rectangle of posts of a grid, inside or outside it. */
   struct Rectangle {
     int64_t column = 0, row = 0; /* the south-west post */
     uint32_t columns = 0, rows = 0;
   };
-  /* Writes the heights at the posts of the rectangle, NaN where there is none. */
+  /* Writes the heights at the posts of the rectangle, the northernmost row first; NaN where there
+   * is none. The position of a post is an exact fraction. */
   void heights(const Grid& grid, const Rectangle& rectangle, double* heights) const;
 
  private:

@@ -410,7 +410,6 @@ class Surface:
         self._mesh: Optional[Tile] = None
         info = _library.SurfaceInfo()
         library.microtin_surface_get_info(surface, info)
-        self._source = info.source
         self.is_pack = bool(info.is_pack)
         self.tiles: Tuple[int, int] = (info.tile_columns, info.tile_rows)
         self.bounds: Tuple[float, float, float, float] = (info.west, info.south, info.east, info.north)
@@ -420,7 +419,7 @@ class Surface:
         self.bound = _number(info.bound)
         self.max_error = _number(info.max_error)
         self.max_error_at_points = _number(info.max_error_at_points)
-        self.source: str = info.origin.decode(errors="replace")
+        self.source: str = info.source_name.decode(errors="replace")
         self.date: str = info.date.decode(errors="replace")
         self.lineage: str = info.lineage.decode(errors="replace")
 
@@ -454,14 +453,10 @@ class Surface:
 
     def raster(self, cell: Optional[Number] = None, force: bool = False) -> Tuple[NDArray[numpy.float64], Tuple[float, ...]]:
         """Heights of all posts of the source, or of posts `cell` apart, row 0 northernmost, NaN where there is none; and
-        the transform, in GDAL's order, of the cells around them. Raises Error if the source was no raster and no cell
+        the transform, in GDAL's order, of the cells around them. Raises Error if the surface is of points and no cell
         size is given, or if the array takes more than 1 GB, which `force` allows."""
-        grid = self._source
-        if cell is not None:
-            grid = _library.Grid()
-            library.microtin_surface_grid(self._surface, _decimal(cell), grid)
-        if grid.columns == 0:
-            raise Error("the source was no raster: give the size of a cell")
+        grid = _library.Grid()
+        library.microtin_surface_grid(self._surface, _decimal(cell), grid)
         size = grid.rows * grid.columns * numpy.dtype(numpy.float64).itemsize
         if size > 10**9 and not force:
             raise Error(f"the raster takes {size / 1e9:.1f} GB: give a larger cell, or force=True")

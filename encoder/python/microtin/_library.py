@@ -75,8 +75,9 @@ class Options(_Sized):
     ]
 
 
-class Report(ctypes.Structure):
+class Report(_Sized):
     _fields_ = [
+        ("size", c_size_t),
         ("samples", c_uint64),
         ("vertices", c_uint64),
         ("bytes", c_uint64),
@@ -91,12 +92,13 @@ class Report(ctypes.Structure):
     ]
 
 
-class Grid(ctypes.Structure):
-    _fields_ = [("columns", c_uint32), ("rows", c_uint32), ("x", Axis), ("y", Axis)]
+class Grid(_Sized):
+    _fields_ = [("size", c_size_t), ("columns", c_uint32), ("rows", c_uint32), ("x", Axis), ("y", Axis)]
 
 
-class SurfaceInfo(ctypes.Structure):
+class SurfaceInfo(_Sized):
     _fields_ = [
+        ("size", c_size_t),
         ("bytes", c_uint64),
         ("vertices", c_uint64),
         ("is_pack", c_uint32),
@@ -111,13 +113,12 @@ class SurfaceInfo(ctypes.Structure):
         ("x", Axis),
         ("y", Axis),
         ("z", Axis),
-        ("source", Grid),
         ("horizontal_unit", c_uint32),
         ("vertical_unit", c_uint32),
         ("horizontal_epsg", c_uint32),
         ("vertical_epsg", c_uint32),
         ("wkt", c_char_p),
-        ("origin", c_char_p),
+        ("source_name", c_char_p),
         ("date", c_char_p),
         ("lineage", c_char_p),
         ("bound", c_char_p),
@@ -128,8 +129,9 @@ class SurfaceInfo(ctypes.Structure):
     ]
 
 
-class Triangles(ctypes.Structure):
+class Triangles(_Sized):
     _fields_ = [
+        ("size", c_size_t),
         ("vertices", c_uint64),
         ("triangles", c_uint64),
         ("coordinates", POINTER(c_double)),
@@ -148,6 +150,7 @@ _FUNCTIONS = {
     "encode_pack": [c_void_p, POINTER(Options), c_char_p, POINTER(Report)],
     "surface_from_file": [c_char_p, POINTER(c_void_p)],
     "surface_from_bytes": [c_char_p, c_uint64, c_char_p, POINTER(c_void_p)],
+    "surface_get_info": [c_void_p, POINTER(SurfaceInfo)],
     "surface_mesh": [c_void_p, POINTER(Triangles)],
     "surface_tile": [c_void_p, c_uint32, c_uint32, POINTER(Triangles)],
     "surface_heights": [c_void_p, c_uint64, Doubles, Doubles, Doubles],
@@ -159,7 +162,6 @@ _WITHOUT_STATUS = {
     "source_free": ([c_void_p], None),
     "bytes_free": ([POINTER(c_uint8)], None),
     "surface_free": ([c_void_p], None),
-    "surface_get_info": ([c_void_p, POINTER(SurfaceInfo)], None),
     "last_error": ([], c_char_p),
     "last_warnings": ([], c_char_p),
     "version_string": ([], c_char_p),

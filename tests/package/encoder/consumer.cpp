@@ -8,7 +8,7 @@ int main() {
   RasterData posts;
   posts.columns = posts.rows = 9;
   for (int64_t i = 0; i < 81; ++i) posts.heights.push_back((i % 9) * (i % 9) + i / 9);
-  StreamOptions options;
+  Options options;
   options.max_error = "0.5";
   const Stream stream = encode_stream(SourceTerrain(posts), options);
 
