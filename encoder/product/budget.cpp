@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Finds a bound that takes a little more than there is. Of bytes, or if fast, it is then widened,
-// searching on, until it fits; that takes longer if it leaves much unused. Of vertices what time is
-// left goes on from the last surface, within bounds that grow where it takes too many and shrink
-// where it fits. Where the lattice moves points so far that errors are much larger where they truly
-// lie, bounds are then tried that hold there.
+// Finds the smallest bound that keeps a limit of vertices or bytes, in a limited number of trials.
+// A first trial inserts the worst samples until the limit is reached; its error suggests the bounds
+// to try. A limit of bytes: bounds that need slightly more than the limit are tried, and the search
+// goes on from each surface within wider bounds until the result fits. A limit of vertices: the
+// search goes on from the last surface as long as time allows; the bound grows where the result
+// needs too many vertices, and shrinks where it fits. Where the lattice moves points so far that
+// errors at their own positions are much larger, more bounds are tried that hold there.
 #include "encoder/product/budget.hpp"
 
 #include <algorithm>
@@ -109,14 +111,15 @@ class Budget {
     options_.device_ram = 0;
   }
 
-  EncodedStream spend() {
-    if (greedy()) return std::move(*best_);
+  EncodedStream best_within_limit() {
+    if (insert_worst()) return std::move(*best_);
     BoundSearch search(largest_, guess_, limit_);
     const bool fast = options_.search == Search::kFast;
     if (!fast) try_roughly(search);
-    of_vertices_ && !fast ? come_near(search) : come_nearer(search);
-    bool goes_on = of_vertices_ && surface_;
-    while (goes_on && spent_ + costs_.widening <= most_) goes_on = go_on();
+    of_vertices_ && !fast ? try_bounds_until_near(search) : try_bounds_while_affordable(search);
+    bool continues = of_vertices_ && surface_;
+    while (continues && spent_ + costs_.widening <= most_)
+      continues = search_on_from_last_surface();
     for (int i = 0; i < kMoreTrials && !best_ && !misses_points_; ++i) {
       try_bound(search, std::pow(kWideAim, 1 << i) * limit_);
     }
@@ -190,7 +193,7 @@ class Budget {
 
   // Insertion of the worst sample alone, which also tells about which bound to try. Says whether
   // nothing better can be had.
-  bool greedy() {
+  bool insert_worst() {
     EncodeOptions options = asked_;
     options.max_bytes = 0;
     options.lattice.never_below = false;
@@ -249,7 +252,7 @@ class Budget {
   }
 
   // Until a trial is near enough to go on from.
-  void come_near(BoundSearch& search) {
+  void try_bounds_until_near(BoundSearch& search) {
     do {
       const Decimal bound = search.bound_for((1 + kMore) / costs_.rest * limit_);
       auto found = approximate_at(bound, options_.search, costs_.trial);
@@ -258,7 +261,7 @@ class Budget {
              affords(costs_.trial));
   }
 
-  void come_nearer(BoundSearch& search) {
+  void try_bounds_while_affordable(BoundSearch& search) {
     // A limit of vertices leaves some time to go on.
     const double reserve = of_vertices_ ? 2 * costs_.widening : 0;
     for (double more = kMore; affords(costs_.trial + reserve); more *= kNearer) {
@@ -277,11 +280,13 @@ class Budget {
     const double size = take(Approximation(*found));
     search.add(bound, size);
     if (size <= limit_) return;
-    if (size <= kLoose * limit_ || !affords(costs_.trial)) widen(search, bound, size, *found);
+    if (size <= kLoose * limit_ || !affords(costs_.trial))
+      widen_until_it_fits(search, bound, size, *found);
   }
 
   // Searches on from a surface that takes too much, within wider bounds, until it fits closely.
-  void widen(BoundSearch search, Decimal bound, double size, const Approximation& tight) {
+  void widen_until_it_fits(BoundSearch search, Decimal bound, double size,
+                           const Approximation& tight) {
     search.forget_ends();
     search.add(bound, size * costs_.rest);
     const Decimal least = bound;
@@ -342,7 +347,7 @@ class Budget {
 
   // Searches on within a bound that should then use what there is. Says whether there is one: the
   // step of heights rules some out.
-  bool go_on() {
+  bool search_on_from_last_surface() {
     if (best_ && best_->verification.max_error.mantissa == 0) return false;
     options_.lattice.max_error = next_bound();
     Approximation next;
@@ -406,7 +411,7 @@ class Budget {
 
 EncodedStream encode_within_budget(const Source& source, const EncodeOptions& options,
                                    const Progress& progress) {
-  return Budget(source, options, progress).spend();
+  return Budget(source, options, progress).best_within_limit();
 }
 
 }  // namespace microtin::product
