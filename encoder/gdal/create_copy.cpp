@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Encodes a raster of GDAL's: gdal_translate -of MTIN.
+#include <cctype>
 #include <cstring>
 #include <limits>
 #include <microtin/encoder.hpp>
@@ -10,28 +11,28 @@
 namespace microtin::gdal {
 namespace {
 
-using encoder::Coding;
 using encoder::RasterData;
-using encoder::SearchEffort;
 using encoder::Transform;
 
 [[noreturn]] void refuse(const std::string& why) {
   throw std::runtime_error(why);
 }
 
+// As driver.cpp describes them.
+constexpr const char* kCreationOptions[] = {
+    "MAX_ERROR", "MAX_VERTICES", "MAX_BYTES",  "NEVER_BELOW",   "Z_STEP",    "XY_STEP",
+    "EFFORT",    "CODING",       "MAX_DEGREE", "TILE_VERTICES", "TILE_SIZE", "UNITS",
+    "DEPTHS",    "SOURCE_NAME",  "DATE",       "LINEAGE"};
+
+std::string lower_case(std::string text) {
+  for (char& letter : text)
+    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return text;
+}
+
 bool ends_with(const std::string& text, const char* end) {
   const size_t size = std::strlen(end);
   return text.size() >= size && EQUAL(text.c_str() + text.size() - size, end);
-}
-
-uint32_t tile_vertices(const char* text) {
-  if (text == nullptr) return encoder::kUsualTileVertices;
-  const GIntBig most = CPLAtoGIntBig(text);
-  if (CPLGetValueType(text) != CPL_VALUE_INTEGER || most < 16 ||
-      most > std::numeric_limits<uint32_t>::max()) {
-    refuse(std::string("TILE_VERTICES ") + text + ": a number, 16 or more");
-  }
-  return static_cast<uint32_t>(most);
 }
 
 Transform transform_of(GDALDataset& source) {
@@ -133,19 +134,17 @@ std::string wkt_of(const GDALDataset& source) {
   return wkt;
 }
 
+// GDAL's names are those of the library in capitals; it knows several words for true and false.
 encoder::Options options_of(char** given) {
   encoder::Options options;
-  options.max_error = CSLFetchNameValueDef(given, "MAX_ERROR", "");
-  options.z_step = CSLFetchNameValueDef(given, "Z_STEP", "");
-  options.never_below = CPLFetchBool(given, "NEVER_BELOW", false);
-  options.units = CSLFetchNameValueDef(given, "UNITS", "");
-  options.depths = CPLFetchBool(given, "DEPTHS", false);
-  const std::string effort = CSLFetchNameValueDef(given, "EFFORT", "NORMAL");
-  if (EQUAL(effort.c_str(), "FAST")) options.effort = SearchEffort::kFast;
-  if (EQUAL(effort.c_str(), "BEST")) options.effort = SearchEffort::kBest;
-  const std::string coding = CSLFetchNameValueDef(given, "CODING", "BALANCED");
-  if (EQUAL(coding.c_str(), "QUICK")) options.coding = Coding::kQuick;
-  if (EQUAL(coding.c_str(), "DENSE")) options.coding = Coding::kDense;
+  for (const char* const name : kCreationOptions) {
+    const char* const value = CSLFetchNameValue(given, name);
+    if (value == nullptr) continue;
+    const bool is_flag = EQUAL(name, "NEVER_BELOW") || EQUAL(name, "DEPTHS");
+    const std::string text = is_flag ? (CPLTestBool(value) ? "true" : "false") : value;
+    const bool is_choice = EQUAL(name, "EFFORT") || EQUAL(name, "CODING");
+    encoder::set_option(options, lower_case(name), is_choice ? lower_case(text) : text);
+  }
   return options;
 }
 
@@ -167,18 +166,13 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
   posts.wkt = wkt_of(source);
   posts.z_unit = source.GetRasterBand(1)->GetUnitType();
   const encoder::SourceTerrain terrain(std::move(posts));
+  const encoder::Options options = options_of(given);
   if (!ends_with(path, ".mtp")) {
-    if (CSLFetchNameValue(given, "TILE_VERTICES") != nullptr) {
-      refuse(std::string(path) + ": is a stream; a pack, which has tiles, is named .mtp");
-    }
-    const encoder::Options options = options_of(given);
     encoder::Stream stream = encoder::encode_stream(terrain, options, callbacks);
     write_bytes(path, stream.bytes);
     return std::move(stream.report);
   }
   if (STARTS_WITH(path, "/vsi")) refuse("packs are written to files alone, not to /vsi...");
-  encoder::Options options = options_of(given);
-  options.tile_vertices = tile_vertices(CSLFetchNameValue(given, "TILE_VERTICES"));
   return encoder::encode_pack(terrain, options, path, callbacks);
 }
 

@@ -31,20 +31,34 @@ void GDALRegister_MTIN() {
   const std::string usual_vertices = std::to_string(microtin::encoder::kUsualTileVertices);
   const std::string creation_options =
       "<CreationOptionList>"
-      "<Option name='MAX_ERROR' type='string' description='Largest error of any height, in its "
-      "unit; without, every height is kept'/>"
-      "<Option name='NEVER_BELOW' type='boolean' description='No height is below the source'/>"
+      "<Option name='MAX_ERROR' type='string' description='Bound: largest error of any height, in "
+      "its unit; without, every height is kept'/>"
+      "<Option name='MAX_VERTICES' type='int' description='Of streams: the smallest error that "
+      "this "
+      "number of vertices allows'/>"
+      "<Option name='MAX_BYTES' type='int' description='Of streams: the smallest error that a file "
+      "of this size allows'/>"
+      "<Option name='NEVER_BELOW' type='boolean' description='With a bound: no height is below the "
+      "source'/>"
       "<Option name='Z_STEP' type='string' description='Step of heights'/>"
+      "<Option name='XY_STEP' type='string' description='Of streams: step of positions, in posts'/>"
       "<Option name='EFFORT' type='string-select' default='NORMAL'>"
       "<Value>FAST</Value><Value>NORMAL</Value><Value>BEST</Value></Option>"
       "<Option name='CODING' type='string-select' default='BALANCED'>"
       "<Value>QUICK</Value><Value>BALANCED</Value><Value>DENSE</Value></Option>"
+      "<Option name='MAX_DEGREE' type='int' min='6' max='32' description='The most triangles "
+      "around "
+      "a vertex when it is added'/>"
+      "<Option name='TILE_VERTICES' type='int' min='16' default='" +
+      usual_vertices +
+      "' description='Of packs: vertices of a tile at most'/>"
+      "<Option name='TILE_SIZE' type='int' description='Of packs: extent of a tile in posts'/>"
       "<Option name='UNITS' type='string' description='Units of x and y and of heights, such as "
       "degree:metre or :foot'/>"
       "<Option name='DEPTHS' type='boolean' description='Heights grow downwards, and are negated'/>"
-      "<Option name='TILE_VERTICES' type='int' default='" +
-      usual_vertices +
-      "' description='Of packs: vertices of a tile at most'/>"
+      "<Option name='SOURCE_NAME' type='string' description='Note: where the terrain comes from'/>"
+      "<Option name='DATE' type='string' description='Note: date of the source, such as 2026-11'/>"
+      "<Option name='LINEAGE' type='string' description='Note: how the source was processed'/>"
       "</CreationOptionList>";
   driver->SetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST, creation_options.c_str());
   driver->pfnIdentify = microtin::gdal::identify;

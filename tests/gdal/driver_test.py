@@ -28,6 +28,7 @@ VOID = (ROW < 20) & (COLUMN > 300)
 NONE = -32768
 ROUNDING = 1e-9  # of differences of binary numbers
 BOUND = 0.5
+OF_STREAMS, OF_PACKS = ("MAX_VERTICES", "MAX_BYTES", "XY_STEP"), ("TILE_VERTICES", "TILE_SIZE")
 
 
 def hills():
@@ -98,13 +99,21 @@ class Driver(unittest.TestCase):
         """Those that the driver lists, with a row for each of their values, alone and beside a bound."""
         rows = {
             "MAX_ERROR": ["1"],
+            "MAX_VERTICES": ["200"],
+            "MAX_BYTES": ["900"],
             "NEVER_BELOW": ["YES"],
             "Z_STEP": ["0.7"],
+            "XY_STEP": ["0.5"],
             "EFFORT": ["FAST", "BEST"],
             "CODING": ["QUICK", "DENSE"],
+            "MAX_DEGREE": ["6"],
             "UNITS": ["metre:foot"],
             "DEPTHS": ["YES"],
             "TILE_VERTICES": ["100"],
+            "TILE_SIZE": ["40"],
+            "SOURCE_NAME": ["a survey"],
+            "DATE": ["2026-11"],
+            "LINEAGE": ["thinned"],
         }
         text = gdal.GetDriverByName("MTIN").GetMetadataItem("DMD_CREATIONOPTIONLIST")
         listed = xml.etree.ElementTree.fromstring(text).iter("Option")
@@ -122,9 +131,12 @@ class Driver(unittest.TestCase):
             base = {"MAX_ERROR": "2"} if suffix == ".mtin" else {"MAX_ERROR": "2", "TILE_VERTICES": "30"}
             without = encoded(suffix, base)
             for name, values in rows.items():
-                if suffix == ".mtin" and name == "TILE_VERTICES":
+                if name in (OF_PACKS if suffix == ".mtin" else OF_STREAMS):
+                    with self.assertRaisesRegex(RuntimeError, "is an option of|packs"):
+                        encoded(suffix, dict(base, **{name: values[0]}))
                     continue
-                made = [encoded(suffix, dict(base, **{name: value})) for value in values]
+                others = {} if name in ("MAX_VERTICES", "MAX_BYTES") else base
+                made = [encoded(suffix, dict(others, **{name: value})) for value in values]
                 with self.subTest(suffix + " " + name):
                     self.assertEqual(len({without, *made}), 1 + len(made))
 
@@ -273,9 +285,11 @@ class Driver(unittest.TestCase):
         for transform in ((0, 1, 0.5, 0, 0, -1), (0, 1, 0, 0, 0.5, -1), (9, -1, 0, 0, 0, -1)):
             refused("rows do not run from west to east: .* gdalwarp", transform=transform)
         refused("no complex numbers: -ot Float64", kind=gdal.GDT_CFloat32)
-        refused("refused.mtin: is a stream; a pack, which has tiles, is named .mtp", options=["TILE_VERTICES=50"])
-        for most in ("15", "99999999999", "100abc"):
-            refused(f"TILE_VERTICES {most}: a number, 16 or more", options=[f"TILE_VERTICES={most}"], name="refused.mtp")
+        refused("tile_vertices is an option of packs", options=["TILE_VERTICES=50"])
+        refused("tile_vertices: 16 .. 16777216", options=["TILE_VERTICES=15"], name="refused.mtp")
+        for most in ("99999999999", "100abc", "-1", ""):
+            refused(f"tile_vertices: {most} is not a whole number", options=[f"TILE_VERTICES={most}"], name="refused.mtp")
+        refused("effort: some is not fast, normal or best", options=["EFFORT=some"])
         signed = memory.Create("", 4, 4, 1, gdal.GDT_Byte)
         signed.SetGeoTransform(TRANSFORM)
         signed.GetRasterBand(1).SetMetadataItem("PIXELTYPE", "SIGNEDBYTE", "IMAGE_STRUCTURE")

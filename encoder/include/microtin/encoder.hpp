@@ -164,6 +164,11 @@ struct Options {
   std::string source_name, date, lineage; /* date: 2026, 2026-11 or 2026-11-21 */
 };
 
+/* Sets an option by the name of its member, for callers whose options are texts: "max_error" to
+ * "2.5", "never_below" to "true" or "false", "effort" to "fast". Throws std::runtime_error if there
+ * is no such option, or if the text is none of its values. */
+void set_option(Options& options, const std::string& name, const std::string& value);
+
 /* --- Results --- */
 
 /* What the encoder measured. Errors are in units of height. */
