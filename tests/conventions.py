@@ -6,7 +6,7 @@ links    files and headings that the documents link to are there
 pointers documents that sources and documents name are there
 comments no comment begins as a fragment of a sentence
 licence  every source names its licence
-faults   the text that a planted fault replaces stands once in its source
+faults   the text that a planted fault replaces stands once in its source, and its name stands for no other
 columns  documents have lines of at most 122 columns, tables and what links lead to aside
 widths   no struct of a C header has an enumeration, whose width flags change, and no pointer leads to one
 locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
@@ -19,6 +19,10 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.dont_write_bytecode = True
+sys.path.append(str(ROOT / "fuzz"))
+from faults import read as planted_faults  # noqa: E402
+
 MOST_LINES = 150
 MOST_COLUMNS = 122
 LICENCE = "SPDX-License-Identifier: MIT"
@@ -142,21 +146,21 @@ def licence(folder):
 @functools.cache
 def called_in(path):
     """What the sources of a folder, or one source, call or define."""
-    kinds = (".cpp", ".hpp", ".h", ".js")
+    kinds = (".cpp", ".hpp", ".h", ".js", ".py")
     sources = [source for source in (files(path) if path.is_dir() else [path]) if source.suffix in kinds]
     return {name for source in sources for name in CALL.findall(source.read_text())}
 
 
 def faults(folder):
-    found = []
-    for path in sorted((folder / "fuzz/mutants").iterdir()):
-        lines = [line for line in lines_of(path) if not line.startswith("#")]
-        old, new = ("".join(line[1:] + "\n" for line in lines if line.startswith(sign)) for sign in "-+")
-        if (folder / lines[0]).read_text().count(old) != 1:
-            found.append(f"{path.name} replaces what is not found exactly once in {lines[0]}")
-        tops = [folder / top for top in (lines[0].split("/")[0], "decoder", "shared") if (folder / top).exists()]
-        for name in sorted(set(CALL.findall(new)).difference(*map(called_in, tops))):
-            found.append(f"{path.name} calls {name}, which is not there")
+    planted = planted_faults(folder)
+    names = [fault.name for fault in planted]
+    found = [f"{name} names two faults" for name in sorted(set(names)) if names.count(name) > 1]
+    for fault in planted:
+        if fault.count_in(folder) != 1:
+            found.append(f"{fault.name} replaces what is not found exactly once in {fault.source}")
+        tops = [folder / top for top in (fault.source.split("/")[0], "decoder", "shared") if (folder / top).exists()]
+        for name in sorted(set(CALL.findall(fault.new)).difference(*map(called_in, tops))):
+            found.append(f"{fault.name} calls {name}, which is not there")
     return found
 
 
