@@ -5,6 +5,7 @@ length   the README has at most 150 lines
 links    files and headings that the documents link to are there
 pointers documents that sources and documents name are there
 comments no comment begins as a fragment of a sentence
+merges   no source or document has the marks that a conflict of a merge leaves
 licence  every source names its licence
 faults   the text that a planted fault replaces stands once in its source, and its name stands for no other
 columns  documents have lines of at most 122 columns, tables and what links lead to aside
@@ -135,6 +136,15 @@ def columns(folder):
     ]
 
 
+def merges(folder):
+    return [
+        f"{path.relative_to(folder)}:{number} has the mark of a conflict"
+        for path, lines in texts(folder)
+        for number, line in enumerate(lines, 1)
+        if re.match(r"(<{7}|[|]{7}|>{7}) ", line)
+    ]
+
+
 def licence(folder):
     return [
         f"{path.relative_to(folder)} does not name its licence"
@@ -234,7 +244,7 @@ def prose(folder):
 
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, licence, faults, widths, locale, prose)}
+    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, locale, prose)}
     found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
 /* microtin compact terrains: a decoded terrain in a third of the mesh's memory. C99 and C++.
  *
-<<<<<<< HEAD
- * A compact terrain is made from a mesh, which is lost by that, and answers the same queries with
- * the same answers; shared/docs/sizes.md compares what they cost. Its vertices and triangles have
- * other numbers than the mesh's, since they are counted along a path through all of them. It holds
- * no pointers: it may be copied and moved as a whole, to any place aligned to MICROTIN_ALIGNMENT.
-=======
  * A compact terrain is made from a mesh, which is consumed, and answers the same queries with the
  * same results. Its vertices and triangles have other numbers than the mesh's, because they are
  * counted along a path through all of them. A compact terrain holds no pointers: a program may copy
  * or move it as a whole to any address aligned to MICROTIN_ALIGNMENT.
->>>>>>> 07ac23b (wip)
  *
  * Nothing here allocates, recurses, uses floating point or keeps global state.
  */

@@ -11,9 +11,12 @@
  * member beyond them has its default. Zero in a member selects the default.
  *
  * A function that can fail returns microtin_status. Unless the status is OK, it has made nothing
- * and written no file, and microtin_last_error returns the reason: MICROTIN_STATUS_REJECTED   the
- * input or an option is refused MICROTIN_STATUS_NO_MEMORY  memory ran out MICROTIN_STATUS_CANCELLED
- * `progress` returned 1 MICROTIN_STATUS_INTERNAL   a fault of the library itself
+ * and written no file, and microtin_last_error returns the reason:
+ *
+ * - MICROTIN_STATUS_REJECTED: the input or an option is refused
+ * - MICROTIN_STATUS_NO_MEMORY: memory ran out
+ * - MICROTIN_STATUS_CANCELLED: `progress` returned 1
+ * - MICROTIN_STATUS_INTERNAL: a fault of the library itself
  *
  * Several threads may call these functions at once, but only one at a time for the same surface.
  * Free memory with the function that is named for it.
