@@ -7,11 +7,11 @@
 
 namespace microtin {
 
-// What every layer needs: errors that name their file, progress, work in parallel, dates.
+// What every layer needs: errors that name their file, progress, work in parallel, text.
 namespace base {}
 
-// Numbers that are never rounded unnoticed: decimals, fractions, wide integers; the lattice's place
-// in the world and all else that a header tells people.
+// Numbers that are never rounded unnoticed: decimals, fractions, wide integers; units, and the way
+// between the lattice and real coordinates.
 namespace exact {
 using namespace base;
 }
@@ -22,8 +22,8 @@ namespace files {
 using namespace exact;
 }
 
-// A terrain before it is a TIN: rasters and point clouds, their voids and water, how they lie on a
-// lattice, and what a mesh makes of them.
+// A terrain before it is a TIN: rasters and point clouds, what is known about them, their voids and
+// water, how they lie on a lattice, and what a mesh makes of them.
 namespace terrain {
 using namespace files;
 }

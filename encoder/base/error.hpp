@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The exceptions of the host tools.
+// What went wrong: the exceptions of the host tools, the files that they are about, and sentences
+// for statuses.
 #ifndef MICROTIN_ENCODER_BASE_ERROR_HPP
 #define MICROTIN_ENCODER_BASE_ERROR_HPP
 
 #include <stdexcept>
+#include <string>
 
 #include "encoder/layers.hpp"
+#include "microtin/microtin.h"
 
 namespace microtin::base {
 
@@ -25,6 +28,29 @@ struct InternalFault : std::logic_error {
 struct ReportLost : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+// Runs `work`; its errors are about the file `path`, which they do not name themselves.
+template <class Work>
+auto with_file_context(const std::string& path, const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw Error(path + ": " + error.what());
+  }
+}
+
+// Runs `work` on what this program made itself: whatever is wrong with that is a fault of ours.
+template <class Work>
+auto on_our_own(const Work& work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    throw InternalFault(error.what());
+  }
+}
+
+// A sentence for a status of the decoder.
+const char* describe(microtin_status status);
 
 }  // namespace microtin::base
 

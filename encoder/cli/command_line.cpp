@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "encoder/base/suffix.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/completion.hpp"
 #include "encoder/cli/definitions.hpp"

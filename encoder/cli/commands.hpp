@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "encoder/export/post_grid.hpp"
+#include "encoder/export/grid.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/picture/palette.hpp"

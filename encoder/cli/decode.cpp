@@ -3,15 +3,14 @@
 #include <cstdio>
 #include <optional>
 
-#include "encoder/base/error_context.hpp"
-#include "encoder/base/suffix.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/decode_grid.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/export/autopilot.hpp"
-#include "encoder/export/export.hpp"
-#include "encoder/files/file_target.hpp"
-#include "encoder/files/output_file.hpp"
+#include "encoder/export/mesh.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/product/document.hpp"
 
 namespace microtin::cli {

@@ -10,9 +10,8 @@
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/export/grid.hpp"
-#include "encoder/export/post_grid.hpp"
 #include "encoder/export/system.hpp"
-#include "encoder/files/output_file.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/product/document.hpp"
 
 namespace microtin::cli {

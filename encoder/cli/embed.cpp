@@ -5,9 +5,8 @@
 #include <filesystem>
 
 #include "encoder/cli/commands.hpp"
-#include "encoder/files/file_target.hpp"
-#include "encoder/files/input_file.hpp"
-#include "encoder/files/output_file.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/product/document.hpp"
 
 namespace microtin::cli {

@@ -8,22 +8,20 @@
 #include <variant>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/error_context.hpp"
-#include "encoder/base/suffix.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/progress.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/files/file_target.hpp"
-#include "encoder/files/output_file.hpp"
-#include "encoder/import/cloud_size.hpp"
-#include "encoder/import/folder.hpp"
+#include "encoder/files/output.hpp"
+#include "encoder/import/cloud.hpp"
+#include "encoder/import/prepared_terrain.hpp"
 #include "encoder/import/reference.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
-#include "encoder/terrain/fill_value.hpp"
-#include "encoder/terrain/gridded.hpp"
+#include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/raster_scan.hpp"
+#include "encoder/terrain/voids.hpp"
 
 namespace microtin::cli {
 namespace {

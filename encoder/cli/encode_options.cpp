@@ -6,13 +6,13 @@
 #include <string_view>
 #include <vector>
 
-#include "encoder/base/iso_date.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/cli/command_line.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/definitions.hpp"
 #include "encoder/cli/groups.hpp"
 #include "encoder/cli/options.hpp"
-#include "encoder/stream/device_ram.hpp"
+#include "encoder/stream/device_memory.hpp"
 #include "microtin/encoder.hpp"
 #include "microtin/microtin.h"
 #include "shared/format.hpp"

@@ -7,8 +7,8 @@
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/fraction.hpp"
-#include "encoder/files/file_target.hpp"
-#include "encoder/files/input_file.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/import/text.hpp"
 #include "encoder/product/place_query.hpp"
 

@@ -2,16 +2,16 @@
 // The command info: what a stream or a pack says of itself.
 #include <algorithm>
 
-#include "encoder/base/error_context.hpp"
+#include "encoder/base/error.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
-#include "encoder/exact/mesh_vertex.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/files/file_target.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/product/document.hpp"
-#include "encoder/stream/compact_form.hpp"
+#include "encoder/stream/device_memory.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
+#include "encoder/terrain/exact_query.hpp"
 #include "microtin/compact_pack.h"
 #include "microtin/surface.hpp"
 

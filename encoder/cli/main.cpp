@@ -9,14 +9,13 @@
 #include <string_view>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/utf8.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/cli/command_line.hpp"
 #include "encoder/cli/help.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/cli/version.hpp"
+#include "encoder/files/descriptors.hpp"
 #include "encoder/files/leftovers.hpp"
-#include "encoder/files/open_files.hpp"
-#include "encoder/files/standard_files.hpp"
 
 namespace microtin::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "encoder/cli/definitions.hpp"
-#include "encoder/files/file_target.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/import/reference.hpp"
 
 namespace microtin::cli {

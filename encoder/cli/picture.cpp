@@ -9,13 +9,11 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/error_context.hpp"
-#include "encoder/base/suffix.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
-#include "encoder/files/file_target.hpp"
-#include "encoder/files/input_file.hpp"
-#include "encoder/files/output_file.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/picture/page.hpp"
 #include "encoder/picture/render.hpp"
 #include "encoder/product/document.hpp"

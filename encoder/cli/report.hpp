@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "encoder/exact/decimal.hpp"
-#include "encoder/exact/metadata.hpp"
 #include "encoder/export/json.hpp"
-#include "encoder/files/output_file.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/stream/surface_model.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/terrain/metadata.hpp"
 
 namespace microtin::cli {
 

@@ -4,7 +4,7 @@
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/progress.hpp"
 #include "encoder/cli/report.hpp"
-#include "encoder/files/file_target.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/product/document.hpp"
 
 namespace microtin::cli {

@@ -7,7 +7,7 @@
 #include <charconv>
 #include <limits>
 
-#include "encoder/base/real_number.hpp"
+#include "encoder/base/text.hpp"
 
 namespace microtin::exact {
 namespace {

@@ -3,13 +3,24 @@
 #ifndef MICROTIN_ENCODER_EXACT_FRACTION_HPP
 #define MICROTIN_ENCODER_EXACT_FRACTION_HPP
 
+#include <cstdint>
 #include <optional>
 
 #include "encoder/exact/decimal.hpp"
-#include "encoder/exact/metadata.hpp"
 #include "encoder/layers.hpp"
+#include "microtin/microtin.h"
 
 namespace microtin::exact {
+
+using Axis = microtin_axis;  // real = (offset + numerator * lattice) / denominator
+
+inline double step_of(const Axis& axis) {
+  return static_cast<double>(axis.numerator) / static_cast<double>(axis.denominator);
+}
+
+inline double offset_of(const Axis& axis) {
+  return static_cast<double>(axis.offset) / static_cast<double>(axis.denominator);
+}
 
 constexpr int64_t kAxisLimit = int64_t{1} << 40;  // numerators and denominators of axes lie below
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "encoder/base/suffix.hpp"
+#include "encoder/base/text.hpp"
 
 namespace microtin::exact {
 namespace {

@@ -8,10 +8,11 @@
 #include <string>
 #include <string_view>
 
-#include "encoder/exact/metadata.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::exact {
+
+enum class Unit : uint8_t { kUnknown = 0, kMetre = 1, kDegree = 2, kFoot = 3, kUsSurveyFoot = 4 };
 
 // "metre", "US survey foot", "unknown".
 std::string_view name_of(Unit unit);

@@ -1,17 +1,254 @@
 // SPDX-License-Identifier: MIT
+// The terrain files of autopilots: ArduPilot's .DAT and INAV's .TER, a degree by a degree each.
 #include "encoder/export/autopilot.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <string>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/suffix.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
-#include "encoder/exact/real_place.hpp"
-#include "encoder/export/autopilot_block.hpp"
+#include "encoder/exact/wide.hpp"
 
 namespace microtin::exporting {
+namespace {
+
+constexpr double kMetres = 0.011131884502145034F;  // in 1e-7 degrees of a meridian
+
+// As longitude_scale, all in single precision.
+float single_scale(int64_t latitude) {
+  constexpr float kRadian = 1.0e-7F * 0.01745329252F;
+  return std::max(std::cos(static_cast<float>(latitude) * kRadian), 0.01F);
+}
+
+}  // namespace
+
+double longitude_scale(double latitude) {
+  constexpr double kRadian = 0.017453292519943295;
+  const auto angle = static_cast<float>(latitude * 1e-7 * kRadian);
+  return std::max(static_cast<double>(static_cast<float>(std::cos(static_cast<double>(angle)))),
+                  0.01);
+}
+
+AutopilotLayout::AutopilotLayout(Autopilot autopilot, DegreeCell cell, uint32_t spacing)
+    : autopilot_(autopilot),
+      cell_(cell),
+      origin_{cell.latitude * kDegree, cell.longitude * kDegree},
+      spacing_(spacing),
+      block_columns_(columns_of_blocks()) {
+  while (north_of(block_rows_ * kOwnRows) < kDegree) ++block_rows_;
+}
+
+AutopilotLayout::Row AutopilotLayout::row(uint32_t row) const {
+  const int64_t north = north_of(row);
+  return {origin_.latitude + north, scale_on_the_way(static_cast<double>(north))};
+}
+
+int64_t AutopilotLayout::longitude(const Row& row, uint32_t column) const {
+  return origin_.longitude +
+         static_cast<int64_t>(static_cast<double>(column) * spacing_ * kPerMetre / row.scale);
+}
+
+GeoPlace AutopilotLayout::corner(uint32_t block_row, uint32_t block_column) const {
+  const int64_t north = north_of(block_row * kOwnRows);
+  const Row row{origin_.latitude + north,
+                longitude_scale(latitude_at(static_cast<double>(north) * 0.5))};
+  return {row.latitude, longitude(row, block_column * kOwnColumns)};
+}
+
+void AutopilotLayout::locate(double latitude, double longitude, double* row, double* column) const {
+  const double north = latitude - static_cast<double>(origin_.latitude);
+  *row = north * kMetres / spacing_;
+  *column = (longitude - static_cast<double>(origin_.longitude)) * kMetres *
+            scale_on_the_way(north) / spacing_;
+}
+
+GeoPlace AutopilotLayout::single_corner(uint32_t block_row, uint32_t block_column) const {
+  const auto inverse = static_cast<float>(kPerMetre);
+  const auto north =
+      static_cast<int64_t>(static_cast<float>(block_row * kOwnRows * spacing_) * inverse);
+  const auto east = static_cast<int64_t>(static_cast<float>(block_column * kOwnColumns * spacing_) *
+                                         inverse / single_scale(origin_.latitude + north / 2));
+  return {north, east};
+}
+
+bool AutopilotLayout::is_found_in_single_precision(GeoPlace place) const {
+  constexpr int64_t kTolerance = 5;  // ArduPilot's; INAV's is larger
+  const auto metres = static_cast<float>(kMetres), step = static_cast<float>(spacing_);
+  const int64_t up = place.latitude - origin_.latitude;
+  const int64_t middle =
+      autopilot_ == Autopilot::kInav ? place.latitude : origin_.latitude + up / 2;
+  const float north = static_cast<float>(up) * metres;
+  const float east =
+      static_cast<float>(place.longitude - origin_.longitude) * metres * single_scale(middle);
+  const uint32_t row = static_cast<uint32_t>(north / step) / kOwnRows;
+  const uint32_t column = static_cast<uint32_t>(east / step) / kOwnColumns;
+  if (row >= block_rows_ || column >= block_columns_) return false;
+  const GeoPlace written = corner(row, column), expected = single_corner(row, column);
+  return std::abs(written.latitude - origin_.latitude - expected.latitude) <= kTolerance &&
+         std::abs(written.longitude - origin_.longitude - expected.longitude) <= kTolerance;
+}
+
+double AutopilotLayout::scale_on_the_way(double north) const {
+  return longitude_scale(latitude_at(north * (autopilot_ == Autopilot::kInav ? 1 : 0.5)));
+}
+
+int64_t AutopilotLayout::north_of(uint32_t row) const {
+  return static_cast<int64_t>(static_cast<double>(row) * spacing_ * kPerMetre);
+}
+
+// Blocks in a row of the file: those that a degree takes at the cell's south, and two more.
+uint32_t AutopilotLayout::columns_of_blocks() const {
+  const double scale = longitude_scale(static_cast<double>(origin_.latitude));
+  const double more = 2.0 * spacing_ * kBlockColumns;
+  const double east =
+      autopilot_ == Autopilot::kInav ? more / (111319.5 * scale) * 1e7 : more * kPerMetre / scale;
+  const double metres = (kDegree + std::trunc(east)) * kMetres * scale;
+  return static_cast<uint32_t>(metres / (spacing_ * kOwnColumns));
+}
+
+namespace {
+
+// Where what is in a block.
+constexpr size_t kCheck = 16, kHeights = 22, kBase = 1142, kInavTrailer = 1144;
+constexpr size_t kArduPilotTrailer = 1814, kTrailerBytes = 7;
+constexpr uint64_t kArduPilotVersion = 1, kInavVersion = 50;
+
+void put(uint8_t* at, uint64_t value, int bytes) {
+  for (int i = 0; i < bytes; ++i) at[i] = static_cast<uint8_t>(value >> 8 * i);
+}
+
+uint64_t take(const uint8_t* at, int bytes) {
+  uint64_t value = 0;
+  for (int i = 0; i < bytes; ++i) value |= uint64_t{at[i]} << 8 * i;
+  return value;
+}
+
+// CRC-16/XMODEM: polynomial 1021, from 0, no reflection.
+uint16_t crc16(const uint8_t* bytes, size_t size) {
+  uint32_t crc = 0;
+  for (size_t i = 0; i < size; ++i) {
+    crc ^= static_cast<uint32_t>(bytes[i]) << 8;
+    for (int bit = 0; bit < 8; ++bit) crc = crc << 1 ^ ((crc & 0x8000) != 0 ? 0x11021 : 0);
+  }
+  return static_cast<uint16_t>(crc);
+}
+
+}  // namespace
+
+uint64_t AutopilotBlock::groups() const {
+  return take(bytes_, 8);
+}
+
+int32_t AutopilotBlock::height(uint32_t row, uint32_t column) const {
+  const uint32_t post = row * kBlockColumns + column;
+  if (layout_.autopilot() == Autopilot::kArduPilot) {
+    return static_cast<int16_t>(take(bytes_ + kHeights + 2 * size_t{post}, 2));
+  }
+  const uint32_t bit = 10 * post;
+  const auto offset = static_cast<int32_t>(take(bytes_ + kHeights + bit / 8, 2) >> bit % 8 & 1023);
+  return static_cast<int16_t>(take(bytes_ + kBase, 2)) + 2 * offset;
+}
+
+void AutopilotBlock::write(const AutopilotPosts& posts) {
+  uint64_t groups = 0;
+  for (uint32_t group = 0; group < kGroups; ++group) {
+    if (is_known(posts, group)) groups |= uint64_t{1} << group;
+  }
+  if (groups == 0) return;
+  const bool is_inav = layout_.autopilot() == Autopilot::kInav;
+  write_header(groups, is_inav ? kInavVersion : kArduPilotVersion);
+  if (is_inav) {
+    write_offsets(posts, groups);
+  } else {
+    write_heights(posts, groups);
+  }
+  const size_t end = is_inav ? kInavTrailer : kArduPilotTrailer;
+  write_trailer(bytes_ + end);
+  // A byte of ArduPilot's block that the check does not cover: below 1 it warns of old data, and
+  // does not arm.
+  if (!is_inav) bytes_[kArduPilotTrailer + kTrailerBytes] = 1;
+  put(bytes_ + kCheck, crc16(bytes_, end + kTrailerBytes), 2);
+}
+
+int32_t AutopilotBlock::post(const AutopilotPosts& posts, uint32_t row, uint32_t column) const {
+  const size_t first = size_t{row_} * kOwnRows + row;
+  return posts.heights[first * layout_.columns() + column_ * kOwnColumns + column];
+}
+
+bool AutopilotBlock::is_known(const AutopilotPosts& posts, uint32_t group) const {
+  const uint32_t row = group / kGroupColumns * kGroup, column = group % kGroupColumns * kGroup;
+  for (uint32_t i = 0; i < kGroup * kGroup; ++i) {
+    if (post(posts, row + i / kGroup, column + i % kGroup) == kNoHeight) return false;
+  }
+  return true;
+}
+
+// Calls visit(post's number in the block, millimetres) for each that is there.
+template <class Visit>
+void AutopilotBlock::for_each(const AutopilotPosts& posts, uint64_t groups,
+                              const Visit& visit) const {
+  for (uint32_t row = 0; row < kBlockRows; ++row) {
+    for (uint32_t column = 0; column < kBlockColumns; ++column) {
+      if (has_post(groups, row, column))
+        visit(row * kBlockColumns + column, post(posts, row, column));
+    }
+  }
+}
+
+void AutopilotBlock::write_header(uint64_t groups, uint64_t version) {
+  const GeoPlace corner = layout_.corner(row_, column_);
+  put(bytes_, groups, 8);
+  put(bytes_ + 8, static_cast<uint64_t>(corner.latitude), 4);
+  put(bytes_ + 12, static_cast<uint64_t>(corner.longitude), 4);
+  put(bytes_ + 18, version, 2);
+  put(bytes_ + 20, layout_.spacing(), 2);
+}
+
+void AutopilotBlock::write_trailer(uint8_t* at) const {
+  put(at, row_, 2);
+  put(at + 2, column_, 2);
+  put(at + 4, static_cast<uint64_t>(layout_.cell().longitude), 2);
+  put(at + 6, static_cast<uint64_t>(layout_.cell().latitude), 1);
+}
+
+void AutopilotBlock::write_heights(const AutopilotPosts& posts, uint64_t groups) {
+  for_each(posts, groups, [&](uint32_t post, int32_t height) {
+    put(bytes_ + kHeights + 2 * size_t{post},
+        static_cast<uint64_t>(round_divide(Wide{height}, Wide{1000})), 2);
+  });
+}
+
+void AutopilotBlock::write_offsets(const AutopilotPosts& posts, uint64_t groups) {
+  int32_t lowest = std::numeric_limits<int32_t>::max(), highest = kNoHeight;
+  for_each(posts, groups, [&](uint32_t, int32_t height) {
+    lowest = std::min(lowest, height);
+    highest = std::max(highest, height);
+  });
+  const auto base = static_cast<int32_t>(round_divide(Wide{lowest}, Wide{1000}));
+  const auto steps = [base](int32_t height) {
+    return static_cast<int64_t>(round_divide(Wide{height} - Wide{base} * 1000, Wide{2000}));
+  };
+  if (steps(highest) > 1023) refuse(lowest, highest);
+  for_each(posts, groups, [&](uint32_t post, int32_t height) {
+    const size_t bit = 10 * size_t{post};
+    uint8_t* const at = bytes_ + kHeights + bit / 8;
+    put(at, take(at, 2) | static_cast<uint64_t>(std::max<int64_t>(steps(height), 0)) << bit % 8, 2);
+  });
+  put(bytes_ + kBase, static_cast<uint64_t>(base), 2);
+}
+
+void AutopilotBlock::refuse(int32_t lowest, int32_t highest) const {
+  const GeoPlace corner = layout_.corner(row_, column_);
+  throw Error("from " + std::to_string(lowest / 1000) + " m to " + std::to_string(highest / 1000) +
+              " m in the block at " + std::to_string(static_cast<double>(corner.latitude) * 1e-7) +
+              ", " + std::to_string(static_cast<double>(corner.longitude) * 1e-7) +
+              ": ten bits of 2 m hold 2046 m");
+}
+
 namespace {
 
 // A lattice's axis and places in 1e-7 degrees.

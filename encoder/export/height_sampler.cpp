@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
-#include "encoder/exact/mesh_vertex.hpp"
+#include "encoder/terrain/exact_query.hpp"
 
 namespace microtin::exporting {
 namespace {

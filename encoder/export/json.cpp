@@ -4,7 +4,7 @@
 
 #include <charconv>
 
-#include "encoder/base/utf8.hpp"
+#include "encoder/base/text.hpp"
 
 namespace microtin::exporting {
 namespace {

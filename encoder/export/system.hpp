@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "encoder/exact/metadata.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/metadata.hpp"
 
 namespace microtin::exporting {
 

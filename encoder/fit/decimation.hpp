@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "encoder/base/progress.hpp"
-#include "encoder/fit/edits.hpp"
 #include "encoder/fit/height_fit.hpp"
 #include "encoder/fit/surface.hpp"
 #include "encoder/layers.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The choice of the vertices that represent a survey.
+// The choice of the vertices that represent a source: how it is laid out, and which samples count.
 #ifndef MICROTIN_ENCODER_FIT_SIMPLIFY_HPP
 #define MICROTIN_ENCODER_FIT_SIMPLIFY_HPP
 
@@ -8,6 +8,7 @@
 #include "encoder/base/progress.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/stream/encode.hpp"
+#include "encoder/terrain/lay_out.hpp"
 #include "encoder/terrain/survey.hpp"
 
 namespace microtin::fit {
@@ -53,6 +54,20 @@ Tin mended(const Survey& survey, const Tin& tin);
 
 // How many of them simplify does.
 uint32_t rounds_of(Search search);
+
+struct Approximation {
+  Laid laid;
+  Tin tin;
+};
+
+// Lays the source out and simplifies it. If there is a bound but no z step, the step is the one of
+// a few parts of the bound, or of the source's own step, that makes a quick search's stream
+// smallest. Throws Error as lay_out and simplify do.
+Approximation approximate(const Source& source, const LatticeOptions& lattice,
+                          const SimplifyOptions& options);
+
+// Runs `rounds` more rounds of the same search.
+void search_further(Approximation& found, uint32_t rounds, const SimplifyOptions& options);
 
 }  // namespace microtin::fit
 

@@ -5,11 +5,11 @@
 #include <map>
 #include <utility>
 
-#include "encoder/base/error_context.hpp"
-#include "encoder/base/suffix.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/import/import.hpp"
-#include "encoder/import/no_data.hpp"
+#include "encoder/import/raster.hpp"
 #include "encoder/import/text.hpp"
 
 namespace microtin::importing {

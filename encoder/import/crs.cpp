@@ -9,8 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "encoder/base/real_number.hpp"
-#include "encoder/base/suffix.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/import/epsg.hpp"
 #include "encoder/import/reference.hpp"

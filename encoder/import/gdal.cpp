@@ -12,17 +12,14 @@
 #include <memory>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/error_context.hpp"
-#include "encoder/base/suffix.hpp"
-#include "encoder/exact/scaled_integers.hpp"
+#include "encoder/base/text.hpp"
+#include "encoder/exact/decimal.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/import/claimed_posts.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
-#include "encoder/import/no_data.hpp"
+#include "encoder/import/raster.hpp"
 #include "encoder/import/reference.hpp"
 #include "encoder/import/text.hpp"
-#include "encoder/import/transform.hpp"
 
 namespace microtin::importing {
 namespace {

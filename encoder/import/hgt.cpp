@@ -4,7 +4,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/import/import.hpp"
-#include "encoder/terrain/degree_cell.hpp"
+#include "encoder/terrain/degrees.hpp"
 
 namespace microtin::importing {
 namespace {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/suffix.hpp"
-#include "encoder/files/input_file.hpp"
+#include "encoder/base/text.hpp"
+#include "encoder/files/input.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/text.hpp"
 

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "encoder/files/byte_source.hpp"
+#include "encoder/files/input.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/raster_reader.hpp"
 #include "encoder/terrain/source.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "encoder/import/joined_clouds.hpp"
-
+// Joins clouds of points.
 #include <algorithm>
 #include <numeric>
 #include <string>
@@ -8,10 +7,10 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/exact/coordinates.hpp"
 #include "encoder/exact/fraction.hpp"
-#include "encoder/import/class_counts.hpp"
-#include "encoder/import/longitudes.hpp"
+#include "encoder/exact/lattice_map.hpp"
+#include "encoder/import/cloud.hpp"
+#include "encoder/import/mosaic.hpp"
 #include "encoder/import/reference.hpp"
 
 namespace microtin::importing {

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <array>
 
-#include "encoder/exact/scaled_integers.hpp"
-#include "encoder/files/byte_reader.hpp"
-#include "encoder/import/class_counts.hpp"
-#include "encoder/import/cloud_size.hpp"
+#include "encoder/exact/decimal.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/import/cloud.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/text.hpp"

@@ -1,22 +1,91 @@
 // SPDX-License-Identifier: MIT
-// Lays rasters beside each other.
+// Joins rasters, which are read in pieces.
 #include "encoder/import/mosaic.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/exact/coordinates.hpp"
+#include "encoder/base/text.hpp"
+#include "encoder/exact/decimal.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
-#include "encoder/exact/real_place.hpp"
-#include "encoder/import/claimed_posts.hpp"
-#include "encoder/import/joined_clouds.hpp"
-#include "encoder/import/longitudes.hpp"
+#include "encoder/exact/units.hpp"
+#include "encoder/import/raster.hpp"
 #include "encoder/import/reference.hpp"
 
 namespace microtin::importing {
+namespace {
+
+bool is_alike(const Reference& a, const Reference& b) {
+  return a.horizontal_unit == b.horizontal_unit && a.vertical_unit == b.vertical_unit &&
+         a.horizontal_epsg == b.horizontal_epsg && a.vertical_epsg == b.vertical_epsg &&
+         a.wkt == b.wkt;
+}
+
+std::string text_of(const Reference& reference) {
+  std::string text = "x and y " + std::string(name_of(reference.horizontal_unit)) + ", heights " +
+                     std::string(name_of(reference.vertical_unit));
+  if (reference.horizontal_epsg != 0) text += ", EPSG:" + std::to_string(reference.horizontal_epsg);
+  if (reference.vertical_epsg != 0) text += ":" + std::to_string(reference.vertical_epsg);
+  return text;
+}
+
+// What to do about two files that are not alike.
+std::string remedy(const NamedSource& first, const NamedSource& part, const Reference& a,
+                   const Reference& b) {
+  for (const auto& [file, reference] : {std::tie(first, a), std::tie(part, b)}) {
+    if (reference.horizontal_unit != Unit::kUnknown || !reference.wkt.empty()) continue;
+    if (suffix_of(file.path) == ".asc") {
+      return "put the .prj that is missing beside " + file.path + ", or give an EPSG code for all";
+    }
+  }
+  const bool is_unknown = a.vertical_unit == Unit::kUnknown || b.vertical_unit == Unit::kUnknown;
+  const std::string others = is_unknown ? ", or give units for all" : "";
+  return (std::holds_alternative<PointCloud>(part.source) ? "bring all points into one system first"
+                                                          : "bring it there with gdalwarp") +
+         others;
+}
+
+}  // namespace
+
+void expect_alike(const NamedSource& first, const NamedSource& part, const Reference& a,
+                  const Reference& b) {
+  if (is_alike(a, b)) return;
+  throw Error(part.path + ": its units or its coordinate system (" + text_of(b) +
+              ") are not those of " + first.path + " (" + text_of(a) +
+              "): " + remedy(first, part, a, b));
+}
+
+std::vector<bool> turned_east(const std::vector<LongitudeSpan>& spans) {
+  constexpr double kHalfTurn = 180;
+  std::vector<LongitudeSpan> sorted = spans;
+  std::sort(sorted.begin(), sorted.end(),
+            [](const LongitudeSpan& a, const LongitudeSpan& b) { return a.west < b.west; });
+  double east = sorted[0].east, last_west = -std::numeric_limits<double>::infinity();
+  for (const LongitudeSpan& span : sorted) {
+    if (span.west - east > kHalfTurn) last_west = east;
+    east = std::max(east, span.east);
+  }
+  std::vector<bool> turned;
+  turned.reserve(spans.size());
+  for (const LongitudeSpan& span : spans) turned.push_back(span.east <= last_west);
+  return turned;
+}
+
+std::string turned_text(const std::vector<bool>& turned, double east) {
+  const auto count = std::count(turned.begin(), turned.end(), true);
+  if (count == 0) return "";
+  return "; " + std::to_string(count) +
+         (count == 1
+              ? " lies beyond 180 degrees east and continues its neighbours' longitudes, to "
+              : " lie beyond 180 degrees east and continue their neighbours' longitudes, to ") +
+         to_string(*shortest_decimal(east));
+}
+
 namespace {
 
 // A rectangle on the grid of the first raster's posts.

@@ -1,14 +1,42 @@
 // SPDX-License-Identifier: MIT
-// One terrain from several files.
+// One terrain from several files: which files go together, and how their longitudes continue.
 #ifndef MICROTIN_ENCODER_IMPORT_MOSAIC_HPP
 #define MICROTIN_ENCODER_IMPORT_MOSAIC_HPP
 
+#include <string>
 #include <vector>
 
-#include "encoder/import/named_source.hpp"
+#include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::importing {
+
+struct NamedSource {
+  std::string path;
+  OpenSource source;
+};
+
+// Throws Error naming a part, and what to do, if its units or system `b` are not those of the first
+// one, `a`.
+void expect_alike(const NamedSource& first, const NamedSource& part, const Reference& a,
+                  const Reference& b);
+
+// Files on both sides of 180 degrees: one name for each longitude, so that neighbours stay
+// neighbours.
+
+// Longitudes of a file, in degrees.
+struct LongitudeSpan {
+  double west, east;
+};
+
+// Which files have names of longitudes 360 degrees larger in the whole: where more than half a
+// turn lies empty between files, those west of it continue those east of it, beyond 180.
+std::vector<bool> turned_east(const std::vector<LongitudeSpan>& spans);
+
+// Part of a sentence for the user; empty if none of the files is turned.
+std::string turned_text(const std::vector<bool>& turned, double east);
+
+// One terrain from several files.
 
 // One raster, or one cloud, of at least one. Rasters are read when the whole is asked; their posts
 // must lie on one grid, in the same units and systems; where several have a height the first one's
@@ -16,6 +44,13 @@ namespace microtin::importing {
 // by how much they differ at most, and where; so of points at places that files share. Points all
 // count. Throws Error naming the file that does not go with the first.
 OpenSource join(std::vector<NamedSource> parts);
+
+// One cloud from several.
+
+// All points of clouds, at least one, with the decimals that all need. `selection` says by how much
+// they differ at most, and where, at places that files share. Throws Error naming the file that
+// does not go with the first.
+PointCloud join_clouds(std::vector<NamedSource> parts);
 
 }  // namespace microtin::importing
 

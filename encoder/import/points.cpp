@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "encoder/base/error.hpp"
+#include "encoder/import/cloud.hpp"
 #include "encoder/import/import.hpp"
-#include "encoder/import/point_columns.hpp"
 #include "encoder/import/reference.hpp"
 #include "encoder/import/text.hpp"
 #include "encoder/terrain/degrees.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Terrains as they are encoded, and as they are compared with what came of it.
+// Terrains as they are encoded, and as they are compared with the result; and folders of their
+// files.
 #ifndef MICROTIN_ENCODER_IMPORT_PREPARED_TERRAIN_HPP
 #define MICROTIN_ENCODER_IMPORT_PREPARED_TERRAIN_HPP
 
@@ -13,6 +14,13 @@
 #include "encoder/terrain/raster_reader.hpp"
 
 namespace microtin::importing {
+
+// The files of a terrain: for a folder those in it, by name, of the suffix that most of its terrain
+// files have. Throws Error if a folder holds none.
+std::vector<std::string> files_in(const std::string& path);
+
+// What people should know of a folder that holds terrain files of other suffixes, too; else empty.
+std::string left_out_of(const std::string& path);
 
 // What is done to a terrain.
 struct Preparation {

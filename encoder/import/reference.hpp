@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// In which units and systems a terrain lies: what its file, codes and people say, made one.
+// In which units and systems a terrain lies: what its file, codes and people state, settled, and
+// its numbers converted.
 #ifndef MICROTIN_ENCODER_IMPORT_REFERENCE_HPP
 #define MICROTIN_ENCODER_IMPORT_REFERENCE_HPP
 
@@ -7,6 +8,7 @@
 #include <string_view>
 
 #include "encoder/exact/units.hpp"
+#include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
 
@@ -44,6 +46,20 @@ void state_vertical_unit(const StatedUnit& unit, Reference& reference);
 
 // Adds the warnings that are not there yet.
 void add_warnings(const Reference& from, Reference& to);
+
+// Terrains whose numbers are brought into units that streams have, and point upwards.
+
+// Whether numbers stay as they are.
+bool is_plain(const Conversion& conversion);
+
+// Multiplies all numbers and takes the reference. Throws Error if one gets too large, or needs too
+// many decimals.
+void convert(Source& source, const SettledReference& settled);
+
+// Settles what a file says and what is asked for, and converts the file's numbers: of a raster that
+// is read in pieces when a piece is read. Throws Error as settle and convert do.
+void settle_source(Source& source, const Reference& asked);
+void settle_source(OpenSource& source, const Reference& asked);
 
 }  // namespace microtin::importing
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <new>
 
-#include "encoder/base/suffix.hpp"
-#include "encoder/files/byte_reader.hpp"
+#include "encoder/base/text.hpp"
+#include "encoder/files/input.hpp"
 #include "encoder/import/import.hpp"
 
 namespace microtin::importing {

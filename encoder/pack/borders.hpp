@@ -6,14 +6,75 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <vector>
 
+#include "encoder/fit/error_model.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/lay_out.hpp"
 #include "encoder/terrain/raster_reader.hpp"
+#include "encoder/terrain/survey.hpp"
 #include "shared/pack_format.hpp"
 
 namespace microtin::pack {
+
+// How many posts around one count, in each direction.
+constexpr uint32_t kGroundReach = 8;
+
+// The ground: means of the middles of a rectangle's samples.
+class Ground {
+ public:
+  // At most 2^24 posts.
+  Ground(const std::vector<Sample>& samples, uint32_t width, uint32_t height);
+
+  // The mean of the largest square around a post, which is not void, that tells of no other ground
+  // than smaller ones: means do not differ by more than `tolerance`. Where the rectangle ends, or a
+  // void is, squares end. O(1).
+  int32_t at(uint32_t x, uint32_t y, int64_t tolerance) const;
+
+ private:
+  struct Sum {
+    int64_t heights, posts;
+  };
+  Sum sum(uint32_t x, uint32_t y, uint32_t reach_x, uint32_t reach_y) const;
+  const Sum& corner(uint32_t x, uint32_t y) const {
+    return sums_[std::size_t{y} * (width_ + 1) + x];
+  }
+
+  uint32_t width_, height_;
+  std::vector<Sum> sums_;  // of all posts to the south-west of a corner
+};
+
+// The border between two tiles, from corner to corner: a chain of vertices that both will have.
+
+// A post of the line, which runs along x or y: of its places, one coordinate ascends. Void posts
+// have no sample.
+struct LinePost {
+  std::optional<Sample> sample;
+  bool kept = false;  // must become a vertex
+  int32_t aim = 0;    // the height that is best here, within the bounds or not, as a Sample's
+};
+
+// Where the surface has as much room above as below.
+inline int32_t middle_of(const Sample& sample) {
+  return static_cast<int32_t>((int64_t{sample.lowest} + sample.highest) / 2);
+}
+
+struct ChainVertex {
+  uint32_t post;
+  int16_t height;
+};
+
+// Few vertices whose chain passes every post within its bounds and near its aim: all posts if there
+// are no bounds. Chains end at voids and at the ends of the line, where heights depend on the
+// sample and the aim there alone. At most 65536 posts. O(n * the posts that a piece of the chain
+// reaches).
+// `price` says what a vertex is worth: squares of the bound, in sums of squared distances from
+// aims.
+std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, ErrorModel model,
+                                       uint32_t price);
+
+// The borders between the tiles of a grid: which vertices neighbours share.
 
 // A raster that is to be cut into tiles: its posts are the places of the pack.
 struct TiledRaster {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/parallel.hpp"
-#include "encoder/fit/approximation.hpp"
+#include "encoder/base/progress.hpp"
+#include "encoder/fit/simplify.hpp"
 #include "encoder/pack/tile_plan.hpp"
 #include "encoder/stream/encode.hpp"
 

@@ -8,12 +8,9 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/error_context.hpp"
-#include "encoder/base/parallel.hpp"
-#include "encoder/base/status_text.hpp"
-#include "encoder/exact/mesh_vertex.hpp"
+#include "encoder/base/progress.hpp"
 #include "encoder/stream/header.hpp"
-#include "encoder/stream/notes.hpp"
+#include "encoder/terrain/exact_query.hpp"
 
 namespace microtin::pack {
 namespace {

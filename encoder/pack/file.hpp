@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
-#include "encoder/exact/metadata.hpp"
-#include "encoder/files/byte_source.hpp"
+#include "encoder/files/input.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/encode.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
+#include "encoder/terrain/metadata.hpp"
 #include "shared/pack_format.hpp"
 
 namespace microtin::pack {

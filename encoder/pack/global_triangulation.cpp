@@ -6,9 +6,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/scramble.hpp"
 #include "encoder/exact/wide.hpp"
-#include "encoder/stream/hilbert.hpp"
 #include "encoder/stream/spatial_order.hpp"
 
 namespace microtin::pack {

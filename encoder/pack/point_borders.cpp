@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "encoder/base/parallel.hpp"
+#include "encoder/base/progress.hpp"
 
 namespace microtin::pack {
 namespace {

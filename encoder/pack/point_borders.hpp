@@ -10,7 +10,7 @@
 
 #include "encoder/exact/wide.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/pack/border_line.hpp"
+#include "encoder/pack/borders.hpp"
 #include "encoder/pack/global_triangulation.hpp"
 #include "encoder/pack/point_survey.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Surveys the points of a tile with its borders, and encodes it.
+// One tile of a cloud of points: what lies in it, its survey and its stream.
 #include "encoder/pack/point_tile.hpp"
 
 #include <algorithm>
@@ -9,6 +9,35 @@
 #include "encoder/stream/encode.hpp"
 
 namespace microtin::pack {
+
+// Sorts things by the tiles that hold them: counting sort.
+
+namespace {
+
+template <class Visit>
+void visit_tiles(const TileGrid& grid, GlobalPost place, const Visit& visit) {
+  if (place.x > grid.x_max || place.y > grid.y_max) return;
+  for (const uint32_t tile : tiles_at(grid, place)) visit(tile);
+}
+
+}  // namespace
+
+TileContents::TileContents(const TileGrid& grid, const std::vector<GlobalPost>& places)
+    : start_(tile_count(grid) + 1) {
+  for (const GlobalPost place : places) {
+    visit_tiles(grid, place, [&](uint32_t tile) { ++start_[std::size_t{tile} + 1]; });
+  }
+  for (std::size_t i = 1; i < start_.size(); ++i) start_[i] += start_[i - 1];
+  numbers_.resize(static_cast<std::size_t>(start_.back()));
+  std::vector<std::ptrdiff_t> next(start_);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    visit_tiles(grid, places[i], [&](uint32_t tile) {
+      numbers_[static_cast<std::size_t>(next[tile]++)] = static_cast<uint32_t>(i);
+    });
+  }
+}
+
+// Surveys the points of a tile with its borders, and encodes it.
 
 PointTiles::PointTiles(const TiledCloud& tiled, const PointBorders& borders)
     : tiled_(tiled), borders_(borders), samples_(tiled.grid, places_of(tiled.survey.samples)) {}

@@ -7,8 +7,6 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/error_context.hpp"
-#include "encoder/base/status_text.hpp"
 #include "encoder/stream/header.hpp"
 
 namespace microtin::pack {

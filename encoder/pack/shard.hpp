@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "encoder/files/byte_source.hpp"
-#include "encoder/files/output_file.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/parallel.hpp"
+#include "encoder/base/progress.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/pack/borders.hpp"
-#include "encoder/terrain/visit_log.hpp"
+#include "encoder/terrain/verify.hpp"
 
 namespace microtin::pack {
 namespace {

@@ -8,7 +8,7 @@
 #include "encoder/base/progress.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
-#include "encoder/stream/surface_model.hpp"
+#include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/terrain/verify.hpp"
 
 namespace microtin::pack {

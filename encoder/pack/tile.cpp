@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/exact/mesh_vertex.hpp"
 #include "encoder/stream/encode.hpp"
+#include "encoder/terrain/exact_query.hpp"
 #include "encoder/terrain/water.hpp"
 #include "shared/pack_format.hpp"
 #include "shared/predicates.hpp"

@@ -10,7 +10,7 @@
 #include "encoder/fit/simplify.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/borders.hpp"
-#include "encoder/stream/compact_form.hpp"
+#include "encoder/stream/device_memory.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/verify.hpp"
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Lines of equal height on a mesh.
+// Lines of equal height: on a mesh, and on a map with their heights.
 #ifndef MICROTIN_ENCODER_PICTURE_CONTOURS_HPP
 #define MICROTIN_ENCODER_PICTURE_CONTOURS_HPP
 
+#include <optional>
 #include <vector>
 
-#include "encoder/export/export.hpp"
+#include "encoder/export/mesh.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/picture/canvas.hpp"
+#include "encoder/picture/drawing.hpp"
+#include "encoder/picture/frame.hpp"
+#include "encoder/picture/palette.hpp"
 
 namespace microtin::picture {
 
@@ -33,6 +36,29 @@ std::optional<Decimal> round_interval(double low, double high);
 // exactly. Time grows with the triangles and the pieces of the lines. Throws Error if there are
 // more than 5 million pieces, or a multiple is too large.
 std::vector<Contour> contours_of(const SurfaceModel& model, Decimal interval);
+
+// A contour on a map, in pixels from the map's corner.
+struct ContourLine {
+  std::vector<Spot> places;
+  double width;     // pixels
+  double strength;  // 0 .. 1
+  bool is_sea;      // its colour
+};
+
+Colour colour_of(const ContourLine& line);
+
+// Index contours are heavier. `unit` as of legends.
+std::vector<ContourLine> contour_lines(const MapFrame& frame, const std::vector<Contour>& contours,
+                                       PaletteKind palette, double unit);
+
+// Where several meet they are no darker.
+void draw_contours(Canvas& canvas, const MapFrame& frame, const std::vector<ContourLine>& lines);
+
+// The heights of index contours, or of all if there are none, where there is room along them; not
+// near a place of the picture that something else occupies. `lines` are those of the contours.
+void label_contours(Drawing& drawing, const MapFrame& frame, const std::vector<Contour>& contours,
+                    const std::vector<ContourLine>& lines, Decimal interval, double unit,
+                    std::optional<Spot> occupied);
 
 }  // namespace microtin::picture
 

@@ -4,7 +4,7 @@
 #define MICROTIN_ENCODER_PICTURE_ERROR_MAP_HPP
 
 #include "encoder/layers.hpp"
-#include "encoder/picture/map_frame.hpp"
+#include "encoder/picture/frame.hpp"
 
 namespace microtin::picture {
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "encoder/base/utf8.hpp"
+#include "encoder/base/text.hpp"
 
 namespace microtin::picture {
 namespace {

@@ -10,7 +10,6 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/picture/relief.hpp"
-#include "encoder/picture/viewer_page.hpp"
 
 namespace microtin::picture {
 namespace {

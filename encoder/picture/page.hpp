@@ -5,11 +5,18 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "encoder/picture/render.hpp"
 
 namespace microtin::picture {
+
+// With @TITLE@ and other places to be filled; empty if the build left the page out.
+std::string_view viewer_page();
+
+// Why the build left the page out; empty if it has the page.
+std::string_view viewer_absence();
 
 constexpr uint64_t kLargestPage = 100'000'000;  // bytes of a terrain
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "encoder/export/colour.hpp"
+#include "encoder/export/scene.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::picture {

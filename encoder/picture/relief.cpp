@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "encoder/picture/cover.hpp"
+#include "encoder/picture/drawing.hpp"
 
 namespace microtin::picture {
 namespace {

@@ -5,11 +5,11 @@
 
 #include <optional>
 
-#include "encoder/export/vector.hpp"
+#include "encoder/export/scene.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/picture/map_frame.hpp"
+#include "encoder/picture/drawing.hpp"
+#include "encoder/picture/frame.hpp"
 #include "encoder/picture/palette.hpp"
-#include "encoder/picture/svg.hpp"
 
 namespace microtin::picture {
 

@@ -7,12 +7,11 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/exact/units.hpp"
-#include "encoder/picture/contour_lines.hpp"
+#include "encoder/picture/contours.hpp"
+#include "encoder/picture/drawing.hpp"
 #include "encoder/picture/error_map.hpp"
 #include "encoder/picture/frame.hpp"
-#include "encoder/picture/legend.hpp"
 #include "encoder/picture/lettering.hpp"
-#include "encoder/picture/png.hpp"
 #include "encoder/picture/relief.hpp"
 
 namespace microtin::picture {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "encoder/export/export.hpp"
+#include "encoder/export/mesh.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/picture/canvas.hpp"
+#include "encoder/picture/drawing.hpp"
 #include "encoder/picture/palette.hpp"
 #include "encoder/terrain/verify.hpp"
 

@@ -2,11 +2,9 @@
 // Arrays of binary numbers, as other programs hold them, become exact posts and points.
 #include <string>
 
-#include "encoder/base/error_context.hpp"
-#include "encoder/import/claimed_posts.hpp"
-#include "encoder/import/no_data.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/import/raster.hpp"
 #include "encoder/import/text.hpp"
-#include "encoder/import/transform.hpp"
 #include "microtin/encoder.hpp"
 
 namespace microtin::encoder {

@@ -6,17 +6,16 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/error_context.hpp"
-#include "encoder/base/suffix.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/export/system.hpp"
-#include "encoder/files/input_file.hpp"
-#include "encoder/import/folder.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/import/prepared_terrain.hpp"
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/shard.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/stream/header.hpp"
-#include "encoder/terrain/duplicates.hpp"
-#include "encoder/terrain/true_places.hpp"
+#include "encoder/terrain/clouds.hpp"
+#include "encoder/terrain/verify.hpp"
 #include "encoder/terrain/water.hpp"
 
 namespace microtin::product {

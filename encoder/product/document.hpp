@@ -15,7 +15,6 @@
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
-#include "encoder/stream/surface_model.hpp"
 #include "encoder/terrain/verify.hpp"
 
 namespace microtin::product {

@@ -6,14 +6,13 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/error_context.hpp"
 #include "encoder/export/height_sampler.hpp"
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/shard.hpp"
 #include "encoder/pack/tile_plan.hpp"
 #include "encoder/product/true_bound.hpp"
-#include "encoder/terrain/duplicates.hpp"
-#include "encoder/terrain/true_places.hpp"
+#include "encoder/terrain/clouds.hpp"
+#include "encoder/terrain/verify.hpp"
 #include "microtin/encoder.hpp"
 
 namespace microtin::product {

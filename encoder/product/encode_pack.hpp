@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "encoder/files/output_file.hpp"
-#include "encoder/files/stream_spool.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/encode.hpp"
 #include "encoder/pack/file.hpp"

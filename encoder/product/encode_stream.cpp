@@ -13,11 +13,10 @@
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/product/budget.hpp"
 #include "encoder/product/true_bound.hpp"
-#include "encoder/stream/compact_form.hpp"
-#include "encoder/stream/device_ram.hpp"
+#include "encoder/stream/device_memory.hpp"
 #include "encoder/stream/encode.hpp"
-#include "encoder/terrain/duplicates.hpp"
-#include "encoder/terrain/true_places.hpp"
+#include "encoder/terrain/clouds.hpp"
+#include "encoder/terrain/verify.hpp"
 #include "encoder/terrain/water.hpp"
 
 namespace microtin::product {

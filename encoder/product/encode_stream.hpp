@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "encoder/fit/approximation.hpp"
+#include "encoder/fit/simplify.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/product/options.hpp"
 #include "encoder/terrain/lay_out.hpp"

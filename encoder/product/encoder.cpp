@@ -7,16 +7,15 @@
 #include <variant>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/error_context.hpp"
-#include "encoder/base/iso_date.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/exact/fraction.hpp"
-#include "encoder/import/conversion.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
+#include "encoder/import/reference.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
-#include "encoder/terrain/fill_value.hpp"
-#include "encoder/terrain/gridded.hpp"
+#include "encoder/terrain/clouds.hpp"
+#include "encoder/terrain/voids.hpp"
 
 namespace microtin::encoder {
 
@@ -130,18 +129,18 @@ microtin::Coding coding_of(encoder::Coding coding) {
   return microtin::Coding::kBalanced;
 }
 
-exact::DuplicateRule rule_of(Duplicates duplicates) {
+terrain::DuplicateRule rule_of(Duplicates duplicates) {
   switch (duplicates) {
     case Duplicates::kLowest:
-      return exact::DuplicateRule::kLowest;
+      return terrain::DuplicateRule::kLowest;
     case Duplicates::kHighest:
-      return exact::DuplicateRule::kHighest;
+      return terrain::DuplicateRule::kHighest;
     case Duplicates::kMean:
-      return exact::DuplicateRule::kMean;
+      return terrain::DuplicateRule::kMean;
     case Duplicates::kMiddle:
       break;
   }
-  return exact::DuplicateRule::kMiddle;
+  return terrain::DuplicateRule::kMiddle;
 }
 
 void expect_range(const char* name, uint32_t value, uint32_t least, uint32_t most) {

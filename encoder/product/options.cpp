@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "encoder/import/reference.hpp"
-#include "encoder/stream/device_ram.hpp"
+#include "encoder/stream/device_memory.hpp"
 #include "encoder/terrain/degrees.hpp"
 
 namespace microtin::product {

@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "encoder/exact/metadata.hpp"
 #include "encoder/fit/simplify.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
+#include "encoder/terrain/metadata.hpp"
 #include "encoder/terrain/source.hpp"
 
 namespace microtin::product {

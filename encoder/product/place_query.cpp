@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "encoder/base/status_text.hpp"
-#include "encoder/files/input_file.hpp"
+#include "encoder/base/error.hpp"
+#include "encoder/files/input.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/pack/shard.hpp"
 #include "encoder/stream/header.hpp"

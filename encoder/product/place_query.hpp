@@ -10,12 +10,12 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
-#include "encoder/exact/metadata.hpp"
 #include "encoder/export/height_sampler.hpp"
-#include "encoder/files/byte_source.hpp"
+#include "encoder/files/input.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/terrain/metadata.hpp"
 #include "microtin/pack.h"
 
 namespace microtin::product {

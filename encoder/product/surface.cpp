@@ -11,8 +11,8 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/fraction.hpp"
-#include "encoder/exact/real_place.hpp"
-#include "encoder/export/post_grid.hpp"
+#include "encoder/exact/lattice_map.hpp"
+#include "encoder/export/grid.hpp"
 #include "encoder/product/document.hpp"
 
 namespace microtin::encoder {
@@ -52,7 +52,7 @@ Mesh mesh_of(const stream::SurfaceModel& model, int64_t x, int64_t y) {
   return mesh;
 }
 
-void take_accuracy(const exact::Metadata& metadata, SurfaceInfo& info) {
+void take_accuracy(const terrain::Metadata& metadata, SurfaceInfo& info) {
   if (metadata.true_places) {
     info.max_error_at_points = to_string(metadata.true_places->max_error);
   }
@@ -115,7 +115,7 @@ struct Surface::Content {
 };
 
 SurfaceInfo Surface::Content::info_of() const {
-  const exact::Metadata metadata = document.metadata();
+  const terrain::Metadata metadata = document.metadata();
   SurfaceInfo all;
   all.bytes = document.bytes();
   all.vertices = document.vertices();
@@ -212,7 +212,7 @@ Grid Surface::grid(const std::string& cell) const {
   }
   const std::optional<exact::Decimal> size = exact::parse_decimal(cell, exact::kPlaceDecimals);
   if (!size || size->mantissa <= 0) throw base::Error("cell: " + cell + " is not a length above 0");
-  const exact::PostGrid posts = exporting::grid_of_cells(content_->sampled, *size);
+  const terrain::PostGrid posts = exporting::grid_of_cells(content_->sampled, *size);
   return {posts.columns, posts.rows, posts.x, posts.y};
 }
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Gives the shipped decoder memory and a stream.
+// Gives the shipped decoder memory and a stream, and copies vertices and triangles out of a mesh.
 #include "encoder/stream/decoded_terrain.hpp"
 
 #include <string>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/status_text.hpp"
 #include "encoder/stream/header.hpp"
+#include "encoder/terrain/exact_query.hpp"
 
 namespace microtin::stream {
 namespace {
@@ -38,6 +38,22 @@ DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream) {
     throw Error(std::to_string(stream.size() - used) + " bytes follow the end of the stream");
   }
   phases_ = microtin_decoder_phase(decoder);
+}
+
+SurfaceModel model_of(const microtin_mesh* mesh) {
+  SurfaceModel model;
+  microtin_mesh_axes(mesh, &model.placement.x, &model.placement.y, &model.placement.z);
+  for (uint32_t v = 0; v < microtin_mesh_vertex_count(mesh); ++v) {
+    const auto [x, y, z] = vertex_of(mesh, v);
+    model.vertices.push_back({x, y, z});
+  }
+  for (uint32_t t = 0; t < microtin_mesh_triangle_count(mesh); ++t) {
+    std::array<uint32_t, 3> corners{};
+    if (microtin_mesh_triangle(mesh, t, corners.data()) == MICROTIN_TRIANGLE_REAL) {
+      model.triangles.push_back(corners);
+    }
+  }
+  return model;
 }
 
 }  // namespace microtin::stream

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-// A terrain decoded on the host, by the shipped decoder.
+// A terrain decoded on the host, by the shipped decoder, and as vertices and triangles.
 #ifndef MICROTIN_ENCODER_STREAM_DECODED_TERRAIN_HPP
 #define MICROTIN_ENCODER_STREAM_DECODED_TERRAIN_HPP
 
+#include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "encoder/layers.hpp"
+#include "encoder/terrain/metadata.hpp"
 #include "microtin/microtin.h"
 
 namespace microtin::stream {
@@ -37,6 +40,21 @@ class DecodedTerrain {
   microtin_mesh* mesh_ = nullptr;
   uint32_t phases_ = 0;
 };
+
+// A decoded terrain as vertices and triangles: what is exported, drawn and put together of tiles.
+
+// A surface in global lattice coordinates. Triangles are counter-clockwise from above, without void
+// ones.
+struct SurfaceModel {
+  Placement placement;
+  Unit horizontal_unit = Unit::kUnknown, vertical_unit = Unit::kUnknown;
+  std::string system;  // of coordinates, in one line; empty: not known
+  std::vector<std::array<int64_t, 3>> vertices;
+  std::vector<std::array<uint32_t, 3>> triangles;
+};
+
+// Vertices keep their numbers.
+SurfaceModel model_of(const microtin_mesh* mesh);
 
 }  // namespace microtin::stream
 

@@ -7,13 +7,12 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/error_context.hpp"
-#include "encoder/exact/mesh_vertex.hpp"
 #include "encoder/stream/fingerprint.hpp"
 #include "encoder/stream/order.hpp"
 #include "encoder/stream/range_encoder.hpp"
 #include "encoder/stream/triangulation.hpp"
 #include "encoder/stream/void_triangles.hpp"
+#include "encoder/terrain/exact_query.hpp"
 #include "shared/reconstruction.hpp"
 
 namespace microtin::stream {

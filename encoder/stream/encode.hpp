@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "encoder/exact/metadata.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/header.hpp"
+#include "encoder/terrain/metadata.hpp"
 #include "encoder/terrain/survey.hpp"
 #include "shared/format.hpp"
 

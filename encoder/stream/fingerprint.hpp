@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "encoder/base/scramble.hpp"
+#include "encoder/stream/spatial_order.hpp"
 #include "shared/lattice.hpp"
 
 namespace microtin::stream {
@@ -20,16 +20,15 @@ class Fingerprint {
   explicit Fingerprint(const std::vector<Vertex>& vertices) {
     keys_.reserve(vertices.size());
     for (const Vertex& v : vertices) {
-      keys_.push_back(base::scramble(static_cast<uint64_t>(v.x) << 32 |
-                                     static_cast<uint64_t>(v.y) << 16 |
-                                     static_cast<uint16_t>(v.z)));
+      keys_.push_back(scramble(static_cast<uint64_t>(v.x) << 32 | static_cast<uint64_t>(v.y) << 16 |
+                               static_cast<uint16_t>(v.z)));
     }
   }
 
   void add(uint32_t a, uint32_t b, uint32_t c, bool is_void) {
     const uint64_t edges =
         edge(keys_[a], keys_[b]) + edge(keys_[b], keys_[c]) + edge(keys_[c], keys_[a]);
-    sum_ += base::scramble(edges + (is_void ? 1 : 0));
+    sum_ += scramble(edges + (is_void ? 1 : 0));
   }
 
   uint64_t sum() const { return sum_; }

@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: MIT
-// Writing and reading a stream's header with all its notes.
+// Headers of streams, with all their notes.
 #ifndef MICROTIN_ENCODER_STREAM_HEADER_HPP
 #define MICROTIN_ENCODER_STREAM_HEADER_HPP
 
 #include <cstdint>
 #include <vector>
 
-#include "encoder/exact/metadata.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/metadata.hpp"
 #include "shared/format.hpp"
 
 namespace microtin::stream {
+
+// The notes that say something. Throws Error if they are too long.
+std::vector<uint8_t> write_notes(const Metadata& metadata);
+
+// The placement must be known. Of several notes of a type the first counts; unknown types are
+// skipped, and so is what follows the known content of a note. Throws Error if they are malformed.
+void read_notes(const uint8_t* begin, const uint8_t* end, Metadata& metadata);
+
+// Writing and reading a stream's header with all its notes.
 
 // With the placement, the notes that say something, and the check. Throws Error if the
 // notes are too long.

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "encoder/base/prefetch.hpp"
+#include "encoder/stream/triangulation.hpp"
 
 namespace microtin::stream {
 namespace {

@@ -7,8 +7,6 @@
 #include <cstdint>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/scramble.hpp"
-#include "encoder/stream/hilbert.hpp"
 
 namespace microtin::stream {
 namespace {

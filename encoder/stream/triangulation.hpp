@@ -8,13 +8,21 @@
 #include <utility>
 #include <vector>
 
-#include "encoder/base/prefetch.hpp"
 #include "encoder/layers.hpp"
 #include "shared/format.hpp"
 #include "shared/insertion.hpp"
 #include "shared/mesh.hpp"
 
 namespace microtin::stream {
+
+// What `address` points to will be used soon. Changes nothing but the time.
+inline void prefetch(const void* address) {
+#if defined(__GNUC__)
+  __builtin_prefetch(address);
+#else
+  static_cast<void>(address);
+#endif
+}
 
 // next_in_triangle and previous_in_triangle where nobody can predict which of the three half-edges
 // h is.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Which places in degrees there are on Earth: every door asks here.
+// Places in degrees: which there are on Earth, and the cells of a degree by a degree.
 #ifndef MICROTIN_ENCODER_TERRAIN_DEGREES_HPP
 #define MICROTIN_ENCODER_TERRAIN_DEGREES_HPP
 
+#include <optional>
 #include <string>
 
 #include "encoder/layers.hpp"
@@ -19,6 +20,15 @@ std::string beyond_degrees(size_t axis, Decimal value);
 // of a cell, and a longitude may be that of the column behind 360.
 void expect_on_earth(const PointCloud& cloud);
 void expect_on_earth(const Raster& frame);
+
+// By its south-west corner, in whole degrees: -90 <= latitude < 90, -180 <= longitude < 180.
+struct DegreeCell {
+  int latitude, longitude;
+};
+
+// The cell that a file is named after, up to the first '.' or '_', such as N43E007.hgt; nothing for
+// other names.
+std::optional<DegreeCell> cell_of(const std::string& path);
 
 }  // namespace microtin::terrain
 

@@ -8,8 +8,6 @@
 #include <cstdlib>
 #include <utility>
 
-#include "encoder/exact/mesh_vertex.hpp"
-
 namespace microtin::terrain {
 namespace {
 

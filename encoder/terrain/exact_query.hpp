@@ -1,17 +1,23 @@
 // SPDX-License-Identifier: MIT
-// The height of a mesh's exact plane at a real place: what every host program answers. Devices
-// answer by microtin_mesh_height_at, at the nearest 1/256 of a lattice step.
+// What a mesh holds: its vertices, and the height of its exact plane at a real place, which every
+// host program answers. Devices answer by microtin_mesh_height_at, at the nearest 1/256 of a step.
 #ifndef MICROTIN_ENCODER_TERRAIN_EXACT_QUERY_HPP
 #define MICROTIN_ENCODER_TERRAIN_EXACT_QUERY_HPP
 
 #include <cstdint>
 
-#include "encoder/exact/exact_height.hpp"
-#include "encoder/exact/real_place.hpp"
+#include "encoder/exact/lattice_map.hpp"
 #include "encoder/layers.hpp"
 #include "microtin/microtin.h"
+#include "shared/lattice.hpp"
 
 namespace microtin::terrain {
+
+inline Vertex vertex_of(const microtin_mesh* mesh, uint32_t v) {
+  Vertex vertex{};
+  microtin_mesh_vertex(mesh, v, &vertex.x, &vertex.y, &vertex.z);
+  return vertex;
+}
 
 struct ExactAnswer {
   microtin_query_result kind;  // HEIGHT, OUTSIDE, IN_VOID; of a search that was limited, NOT_YET

@@ -6,8 +6,8 @@
 #include <iterator>
 
 #include "encoder/base/error.hpp"
-#include "encoder/exact/coordinates.hpp"
-#include "encoder/terrain/duplicates.hpp"
+#include "encoder/exact/lattice_map.hpp"
+#include "encoder/terrain/clouds.hpp"
 
 namespace microtin::terrain {
 namespace {

@@ -7,10 +7,20 @@
 #include <utility>
 
 #include "encoder/layers.hpp"
-#include "encoder/terrain/crop.hpp"
 #include "encoder/terrain/source.hpp"
 
 namespace microtin::terrain {
+
+// Columns and rows of posts, all within the raster.
+struct PostRectangle {
+  uint32_t x, y, width, height;
+};
+
+// The posts of a rectangle, at the same real coordinates. Throws Error if an axis cannot say these.
+Raster crop(const Raster& raster, const PostRectangle& rectangle);
+
+// Crops a raster without its heights.
+Raster crop_frame(const Raster& raster, const PostRectangle& rectangle);
 
 // Reading from several threads at once is allowed.
 class RasterReader {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "encoder/base/parallel.hpp"
+#include "encoder/base/progress.hpp"
 
 namespace microtin::terrain {
 namespace {

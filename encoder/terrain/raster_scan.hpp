@@ -8,9 +8,9 @@
 
 #include "encoder/base/progress.hpp"
 #include "encoder/layers.hpp"
-#include "encoder/terrain/fill_value.hpp"
 #include "encoder/terrain/lattice_choice.hpp"
 #include "encoder/terrain/raster_reader.hpp"
+#include "encoder/terrain/voids.hpp"
 
 namespace microtin::terrain {
 

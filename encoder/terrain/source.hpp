@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "encoder/exact/decimal.hpp"
-#include "encoder/exact/metadata.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/metadata.hpp"
 
 namespace microtin::terrain {
 

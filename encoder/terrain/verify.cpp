@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Asks the mesh at each post.
+// Comparing a decoded terrain with its source: by height queries at places of the lattice, and by
+// the exact plane where points truly lie.
 #include "encoder/terrain/verify.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <numeric>
 #include <string>
+#include <tuple>
+#include <vector>
 
 #include "encoder/exact/lattice_map.hpp"
-#include "encoder/exact/mesh_vertex.hpp"
-#include "encoder/terrain/error_meter.hpp"
+#include "encoder/terrain/exact_query.hpp"
 #include "shared/lattice.hpp"
 
 namespace microtin::terrain {
@@ -147,6 +151,189 @@ Verification combine(const std::vector<Verification>& parts) {
   all.rms_error = make_decimal_up(root_mean_square_of(parts, all.covered), kMaxDecimals);
   all.mean_error = make_decimal_nearest(mean_of(parts, all.covered), kMaxDecimals);
   return all;
+}
+
+namespace {
+
+constexpr int64_t kBillion = 1000000000;
+constexpr int kHalf = 46;  // bits
+constexpr Wide kHalfMask = (Wide{1} << kHalf) - 1;
+
+// Rounds down.
+Wide shifted(Wide number) {
+  return (number - (number & kHalfMask)) / (Wide{1} << kHalf);
+}
+
+}  // namespace
+
+void SquareSum::add(Wide number, Wide times) {
+  const Wide high = shifted(number), low = number & kHalfMask;
+  high_ += high * high * times;
+  middle_ += high * low * times;
+  low_ += low * low * times;
+}
+
+bool SquareSum::operator<=(const SquareSum& other) const {
+  // other - this, carried from part to part; what the parts keep is not negative.
+  const Wide low = other.low_ - low_;
+  const Wide middle = 2 * (other.middle_ - middle_) + shifted(low);
+  return other.high_ - high_ + shifted(middle) >= 0;
+}
+
+Wide SquareSum::root_of_mean(Wide count, Wide largest) const {
+  Wide low = -1, high = largest;  // low^2 * count < sum <= high^2 * count
+  while (high - low > 1) {
+    const Wide middle = low + (high - low) / 2;
+    SquareSum all;
+    all.add(middle, count);
+    (*this <= all ? high : low) = middle;
+  }
+  return high;
+}
+
+ErrorMeter::ErrorMeter(const Axis& source, const Axis& lattice)
+    : to_common_(static_cast<Wide>(lattice.denominator) * 65536),
+      offset_(Wide{lattice.offset} * 65536),
+      step_(static_cast<Wide>(lattice.numerator)),
+      from_common_(static_cast<Wide>(source.denominator)),
+      common_(to_common_ * from_common_) {}
+
+double ErrorMeter::add(int64_t number, int32_t answer) {
+  const Wide below = number * to_common_ - from_common_ * (offset_ + step_ * answer);
+  const Wide error = magnitude(below);
+  const Wide billionths =
+      error / common_ * kBillion + ceil_divide(error % common_ * kBillion, common_);
+  count(billionths, below > 0);
+  return -static_cast<double>(below) / static_cast<double>(common_);
+}
+
+// In parts of a unit that source and lattice have in common, the surface is below by whole + rest /
+// under. Both go into the billionths, which are rounded up once.
+double ErrorMeter::add(int64_t number, const ExactHeight& height) {
+  const Wide common = from_common_ * (to_common_ / 65536), base = offset_ / 65536;
+  const auto [over, over_rest] = multiply_divide(from_common_ * step_, height.above, height.under);
+  Wide whole = number * (to_common_ / 65536) - from_common_ * (base + step_ * height.base) - over;
+  Wide rest = height.under - over_rest;
+  whole += rest == height.under ? 0 : -1;
+  rest = rest == height.under ? 0 : rest;
+  const bool is_below = whole > 0 || (whole == 0 && rest != 0);
+  if (whole < 0) {
+    whole = rest == 0 ? -whole : -whole - 1;
+    rest = rest == 0 ? 0 : height.under - rest;
+  }
+  const auto [fine, fine_rest] = multiply_divide(kBillion, rest, height.under);
+  const Wide in_part = whole % common * kBillion + fine + (fine_rest != 0 ? 1 : 0);
+  count(whole / common * kBillion + ceil_divide(in_part, common), is_below);
+  const double away =
+      (static_cast<double>(whole) + static_cast<double>(rest) / static_cast<double>(height.under)) /
+      static_cast<double>(common);
+  return is_below ? -away : away;
+}
+
+void ErrorMeter::count(Wide billionths, bool is_below) {
+  largest_ = std::max(largest_, billionths);
+  if (is_below) deepest_ = std::max(deepest_, billionths);
+  squares_.add(billionths, 1);
+  sum_ += is_below ? -billionths : billionths;
+  ++count_;
+}
+
+void ErrorMeter::tell(const std::optional<Decimal>& bound, Verification& found) const {
+  found.max_error = make_decimal_up(largest_, kMaxDecimals);
+  found.max_below = make_decimal_up(deepest_, kMaxDecimals);
+  found.rms_error = root_mean_square();
+  found.mean_error = mean();
+  found.within_bound = !bound || found.max_error <= *bound;
+}
+
+Decimal ErrorMeter::mean() const {
+  return count_ == 0 ? Decimal{} : make_decimal_nearest(round_divide(sum_, count_), kMaxDecimals);
+}
+
+Decimal ErrorMeter::root_mean_square() const {
+  if (count_ == 0) return {};
+  return make_decimal_up(squares_.root_of_mean(count_, largest_), kMaxDecimals);
+}
+
+namespace {
+
+constexpr int64_t kBand = 256;  // rows that are asked from west to east together
+
+class TruePlaces {
+ public:
+  TruePlaces(const Placement& lattice, const PointCloud& cloud) {
+    const Axis numbers{0, 1, static_cast<uint64_t>(power_of_ten(cloud.xy_decimals))};
+    x_ = map_between(numbers, lattice.x);
+    y_ = map_between(numbers, lattice.y);
+  }
+
+  RealPlace exact(const SourcePoint& p) const {
+    return place_of(coordinate(x_, p.x), coordinate(y_, p.y));
+  }
+  RealPlace nearest(const SourcePoint& p) const {
+    return place_on_lattice(limited(x_.nearest(p.x)), limited(y_.nearest(p.y)));
+  }
+  bool moves(const SourcePoint& p) const {
+    return x_.numerator(p.x) % x_.step != 0 || y_.numerator(p.y) % y_.step != 0;
+  }
+
+ private:
+  static RealCoordinate coordinate(const LatticeMap& map, int64_t number) {
+    const Wide numerator = map.numerator(number), whole = floor_divide(numerator, map.step);
+    return {limited(whole), numerator - whole * map.step, map.step};
+  }
+  // Points of a source that is not the lattice's own may lie anywhere; no terrain goes so far.
+  static int64_t limited(Wide place) {
+    constexpr Wide kFar = Wide{1} << 62;
+    return static_cast<int64_t>(std::clamp(place, -kFar, kFar));
+  }
+
+  LatticeMap x_{}, y_{};
+};
+
+// The order in which points are asked, so that neighbours follow each other.
+std::vector<uint32_t> order_of(const PointCloud& cloud, const TruePlaces& places) {
+  std::vector<uint32_t> order(cloud.points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::vector<std::tuple<int64_t, int64_t>> keys;
+  keys.reserve(order.size());
+  for (const SourcePoint& p : cloud.points) {
+    const RealPlace place = places.nearest(p);
+    keys.emplace_back(-(place.y / kBand), place.x);
+  }
+  std::sort(order.begin(), order.end(),
+            [&](uint32_t a, uint32_t b) { return keys[a] != keys[b] ? keys[a] < keys[b] : a < b; });
+  return order;
+}
+
+}  // namespace
+
+bool moves_points(const Placement& lattice, const PointCloud& cloud) {
+  const TruePlaces places(lattice, cloud);
+  return std::any_of(cloud.points.begin(), cloud.points.end(),
+                     [&](const SourcePoint& p) { return places.moves(p); });
+}
+
+Verification verify_at_true_places(const HeightQuery& height_at, const Placement& lattice,
+                                   const PointCloud& cloud, const std::optional<Decimal>& bound,
+                                   const TruePlaceVisitor& visit) {
+  const TruePlaces places(lattice, cloud);
+  ErrorMeter meter({0, 1, static_cast<uint64_t>(power_of_ten(cloud.z_decimals))}, lattice.z);
+  Verification result;
+  for (const uint32_t i : order_of(cloud, places)) {
+    const SourcePoint& p = cloud.points[i];
+    const RealPlace there = places.exact(p), nearest = places.nearest(p);
+    ExactAnswer answer = height_at(there);
+    if (answer.kind != MICROTIN_QUERY_OK) answer = height_at(nearest);
+    ++result.posts;
+    if (answer.kind != MICROTIN_QUERY_OK) continue;
+    ++result.covered;
+    const double above = meter.add(p.z, answer.height);
+    if (visit) visit(nearest, there, above);
+  }
+  result.uncovered = result.posts - result.covered;
+  meter.tell(bound, result);
+  return result;
 }
 
 }  // namespace microtin::terrain

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Comparing a decoded terrain with its source, by the product's own height query.
+// Comparing a decoded terrain with its source: by height queries at places of the lattice, and by
+// the exact plane where points truly lie.
 #ifndef MICROTIN_ENCODER_TERRAIN_VERIFY_HPP
 #define MICROTIN_ENCODER_TERRAIN_VERIFY_HPP
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "encoder/exact/lattice_map.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/exact_query.hpp"
 #include "encoder/terrain/source.hpp"
 
 namespace microtin::terrain {
@@ -43,6 +47,93 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
 
 // The verification of several parts together; what lies in more than one counts for each.
 Verification combine(const std::vector<Verification>& parts);
+
+// Sums errors of heights up exactly.
+
+// Squares of up to 2^33 numbers from 0 to 2^92, or of up to 2^52 from 0 to 2^36, added up exactly
+// in parts of 46 bits: each part stays below 2^125.
+class SquareSum {
+ public:
+  void add(Wide number, Wide times);
+  bool operator<=(const SquareSum& other) const;
+
+  // The root of the mean of the `count` squares, of numbers up to `largest`, rounded up.
+  Wide root_of_mean(Wide count, Wide largest) const;
+
+ private:
+  Wide high_ = 0, middle_ = 0, low_ = 0;  // high * 2^92 + middle * 2^47 + low
+};
+
+// Differences between heights of the source and answers of the terrain, in billionths of a unit.
+class ErrorMeter {
+ public:
+  ErrorMeter(const Axis& source, const Axis& lattice);
+
+  // `number` is the source's; `answer` is a lattice height with 16 fractional bits. With 60 and 31
+  // bits in these, 40 in the axes and 30 in the source's denominator, sums stay below 2^117, and an
+  // error below 2^62 units, which are 2^92 billionths.
+  // Returns how far the answer is above, in units.
+  double add(int64_t number, int32_t answer);
+
+  // Adds the error of an exact height.
+  double add(int64_t number, const ExactHeight& height);
+
+  // Writes the errors, and whether they keep the bound.
+  void tell(const std::optional<Decimal>& bound, Verification& found) const;
+
+ private:
+  void count(Wide billionths, bool is_below);
+  Decimal mean() const;
+  Decimal root_mean_square() const;  // rounded up
+
+  Wide to_common_, offset_, step_, from_common_, common_;
+  Wide largest_ = 0, deepest_ = 0;
+  SquareSum squares_;
+  Wide sum_ = 0;
+  int64_t count_ = 0;
+};
+
+// Posts visited by several threads, told in one order.
+
+class VisitLog {
+ public:
+  // Writes down posts whose places count from (x, y); the log must outlive it.
+  PostVisitor recorder(int64_t x, int64_t y) {
+    return [this, x, y](int64_t dx, int64_t dy, int64_t z, double above) {
+      posts_.push_back({x + dx, y + dy, z, above});
+    };
+  }
+
+  void tell(const PostVisitor& visit) const {
+    for (const Post& post : posts_) visit(post.x, post.y, post.z, post.above);
+  }
+
+ private:
+  struct Post {
+    int64_t x, y, z;
+    double above;
+  };
+
+  std::vector<Post> posts_;
+};
+
+// Points where they truly lie, beside the places of the lattice that they moved to.
+
+// The exact height at a place of the lattice.
+using HeightQuery = std::function<ExactAnswer(const RealPlace& place)>;
+
+// Told of each point's place on the lattice, where it truly lies, and how far the surface is above.
+using TruePlaceVisitor =
+    std::function<void(const RealPlace& nearest, const RealPlace& exact, double above)>;
+
+// True if a lattice does not hold all points where they lie.
+bool moves_points(const Placement& lattice, const PointCloud& cloud);
+
+// As verify, but compares with the exact plane at each point's true place; where that is outside
+// the terrain, at its place on the lattice. Asks from north to south.
+Verification verify_at_true_places(const HeightQuery& height_at, const Placement& lattice,
+                                   const PointCloud& cloud, const std::optional<Decimal>& bound,
+                                   const TruePlaceVisitor& visit = {});
 
 }  // namespace microtin::terrain
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Dates.
-#include "encoder/base/iso_date.hpp"
-
 #include <doctest/doctest.h>
 
+#include "encoder/base/text.hpp"
 #include "tests/support/layers.hpp"
 
 using namespace microtin::tests;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Floating-point numbers in text.
-#include "encoder/base/real_number.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <string>
 
+#include "encoder/base/text.hpp"
 #include "tests/support/layers.hpp"
 
 using namespace microtin::tests;

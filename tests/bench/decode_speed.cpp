@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "encoder/base/error.hpp"
-#include "encoder/files/input_file.hpp"
+#include "encoder/files/input.hpp"
 #include "encoder/stream/header.hpp"
 #include "microtin/microtin.h"
 #include "tests/bench/layers.hpp"

@@ -11,7 +11,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/fit/simplify.hpp"
 #include "encoder/import/import.hpp"
-#include "encoder/terrain/crop.hpp"
+#include "encoder/terrain/raster_reader.hpp"
 #include "tests/bench/layers.hpp"
 #include "tests/bench/paper/inputs.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The streams that are measured, written as files.
-#include "encoder/files/output_file.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/layers.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "encoder/files/output_file.hpp"
+#include "encoder/files/output.hpp"
 #include "tests/bench/layers.hpp"
 
 namespace microtin::bench {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // One terrain from several files.
+#include "encoder/import/mosaic.hpp"
+
 #include <doctest/doctest.h>
 
 #include <array>
 #include <ctime>
 #include <string>
 
-#include "encoder/import/joined_clouds.hpp"
 #include "microtin/surface.hpp"
 #include "tests/support/join.hpp"
 #include "tests/support/session.hpp"

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "encoder/files/standard_files.hpp"
+#include "encoder/files/descriptors.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/session.hpp"
 

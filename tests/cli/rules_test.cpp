@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-#include "encoder/files/input_file.hpp"
+#include "encoder/files/input.hpp"
 #include "encoder/import/import.hpp"
 #include "microtin/encoder.h"
 #include "microtin/encoder.hpp"

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "encoder/exact/coordinates.hpp"
+#include "encoder/exact/lattice_map.hpp"
 #include "tests/support/layers.hpp"
 
 using namespace microtin::tests;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The length of a degree, beside published ones.
-#include "encoder/export/degree.hpp"
-
 #include <doctest/doctest.h>
 
+#include "encoder/export/scene.hpp"
 #include "tests/support/layers.hpp"
 
 using namespace microtin::tests;

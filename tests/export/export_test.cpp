@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Meshes in other programs' formats.
-#include "encoder/export/export.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <sstream>
 
 #include "encoder/base/error.hpp"
+#include "encoder/export/mesh.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/support/temporary_folder.hpp"
 

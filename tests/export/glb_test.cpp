@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // glTF binaries, read by a parser of their own.
-#include "encoder/export/glb.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "encoder/export/mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace microtin::tests;

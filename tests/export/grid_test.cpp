@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "encoder/exact/lattice_map.hpp"
-#include "encoder/export/post_grid.hpp"
-#include "encoder/files/byte_source.hpp"
-#include "encoder/fit/approximation.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/fit/simplify.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/lay_out.hpp"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Sources within a bound, all the way: the step chosen, encoded, decoded and measured.
-#include "encoder/fit/approximation.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "encoder/base/error.hpp"
+#include "encoder/fit/simplify.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/terrain/fractal.hpp"
 #include "tests/support/approximations.hpp"

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Taking back what was done to a surface.
-#include "encoder/fit/edits.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <tuple>
 
 #include "encoder/fit/simplify.hpp"
+#include "encoder/fit/surface.hpp"
 #include "tests/support/point_sets.hpp"
 
 namespace microtin::tests {

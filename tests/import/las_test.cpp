@@ -5,7 +5,7 @@
 #include <array>
 
 #include "encoder/import/import.hpp"
-#include "encoder/import/joined_clouds.hpp"
+#include "encoder/import/mosaic.hpp"
 #include "tests/support/binary_file.hpp"
 #include "tests/support/imports.hpp"
 

@@ -6,7 +6,6 @@
 
 #include <string>
 
-#include "encoder/import/conversion.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/epsg.hpp"
 #include "tests/support/imports.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "encoder/files/input_file.hpp"
+#include "encoder/files/input.hpp"
 #include "tests/firmware/adapters_report.hpp"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/pack_device.hpp"

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Chains of vertices along borders of tiles.
-#include "encoder/pack/border_line.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <cstdlib>
 
+#include "encoder/pack/borders.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
 

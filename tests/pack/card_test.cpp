@@ -12,7 +12,7 @@
 
 #include "decoder/examples/flight.h"
 #include "encoder/base/error.hpp"
-#include "encoder/files/input_file.hpp"
+#include "encoder/files/input.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/pack_device.hpp"

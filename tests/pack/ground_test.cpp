@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The ground around posts: noise is averaged out, hills are not.
-#include "encoder/pack/ground.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <functional>
 
+#include "encoder/pack/borders.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Notes as a device finds them, in headers sound and hostile.
-#include "encoder/stream/notes.hpp"
-
 #include <doctest/doctest.h>
 
 #include <optional>
 
 #include "encoder/pack/file.hpp"
+#include "encoder/stream/header.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {

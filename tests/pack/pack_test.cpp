@@ -6,7 +6,6 @@
 #include <map>
 
 #include "encoder/base/error.hpp"
-#include "encoder/base/status_text.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/pack/tile_plan.hpp"
 #include "microtin/compact.h"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What pictures say in words and numbers.
-#include "encoder/picture/legend.hpp"
-
 #include <doctest/doctest.h>
 
+#include "encoder/picture/frame.hpp"
 #include "encoder/picture/lettering.hpp"
-#include "encoder/picture/map_frame.hpp"
 #include "tests/support/layers.hpp"
 
 using namespace microtin::tests;
@@ -114,7 +112,7 @@ TEST_CASE("map: degrees are as long as they are on the ground") {
   SurfaceModel model;
   model.placement.y = {600, 1, 10};  // 60 degrees north and more
   model.vertices = {{0, 0, 0}, {10, 0, 0}, {0, 0, 0}};
-  const Ground ground = ground_of(model, Unit::kDegree);
+  const microtin::picture::Ground ground = ground_of(model, Unit::kDegree);
   CHECK(ground.x == doctest::Approx(55800).epsilon(0.001));
   CHECK(ground.y == doctest::Approx(11141).epsilon(0.001));
   CHECK(std::string(ground.unit) == "m");

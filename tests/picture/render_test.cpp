@@ -10,7 +10,6 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/picture/page.hpp"
-#include "encoder/picture/viewer_page.hpp"
 #include "encoder/stream/decoded_terrain.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/support/layers.hpp"

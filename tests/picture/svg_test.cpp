@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Drawings of lines: read back by a reader of paths of their own.
-#include "encoder/picture/svg.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
+#include "encoder/picture/drawing.hpp"
 #include "encoder/picture/render.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "encoder/files/input_file.hpp"
+#include "encoder/files/input.hpp"
 #include "encoder/product/document.hpp"
 #include "microtin/surface.hpp"
 #include "tests/support/layers.hpp"

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // By what rasters mark their voids, behind every door.
-#include "encoder/import/no_data.hpp"
-
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cmath>
 
 #include "encoder/import/import.hpp"
+#include "encoder/import/raster.hpp"
 #include "microtin/encoder.h"
 #include "microtin/encoder.hpp"
 #include "tests/support/imports.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "encoder/base/error.hpp"
-#include "encoder/stream/notes.hpp"
+#include "encoder/stream/header.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/streams.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every member of the metadata comes back from the header of a stream and of a pack, alone and
 // beside all others. A member without a row fails.
-#include "encoder/stream/notes.hpp"
-
 #include <doctest/doctest.h>
 
 #include <functional>
@@ -137,11 +135,11 @@ TEST_CASE("notes: each comes back from a header, alone and beside all others") {
 TEST_CASE("notes: no member of the metadata is without a row") {
   Names known;
   for (const Row& row : rows()) known.insert(row.member);
-  CHECK(text_of(members_of("encoder/exact/metadata.hpp", "Metadata")) == text_of(known));
-  CHECK(text_of(members_of("encoder/exact/metadata.hpp", "Accuracy")) ==
+  CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Metadata")) == text_of(known));
+  CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Accuracy")) ==
         "bound max_error mean_error rms_error ");
-  CHECK(text_of(members_of("encoder/exact/metadata.hpp", "PostGrid")) == "columns rows x y ");
-  CHECK(text_of(members_of("encoder/exact/metadata.hpp", "Placement")) == "x y z ");
+  CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "PostGrid")) == "columns rows x y ");
+  CHECK(text_of(members_of("encoder/exact/lattice_map.hpp", "Placement")) == "x y z ");
 }
 
 TEST_CASE("notes: texts take as many bytes as notes have, and no more") {

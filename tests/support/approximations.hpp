@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include "encoder/fit/approximation.hpp"
+#include "encoder/fit/simplify.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/verify.hpp"
 #include "tests/support/layers.hpp"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "encoder/terrain/degree_cell.hpp"
-
 #include <doctest/doctest.h>
 
+#include "encoder/terrain/degrees.hpp"
 #include "tests/support/layers.hpp"
 
 namespace microtin::tests {

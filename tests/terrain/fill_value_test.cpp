@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Values that fill voids and are not said to.
-#include "encoder/terrain/fill_value.hpp"
-
 #include <doctest/doctest.h>
 
 #include <vector>
 
+#include "encoder/terrain/voids.hpp"
 #include "tests/support/layers.hpp"
 
 using namespace microtin::tests;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which points are the posts of a raster.
-#include "encoder/terrain/gridded.hpp"
-
 #include <doctest/doctest.h>
 
+#include "encoder/terrain/clouds.hpp"
 #include "tests/support/cloud_text.hpp"
 #include "tests/support/layers.hpp"
 

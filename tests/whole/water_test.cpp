@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "encoder/fit/approximation.hpp"
+#include "encoder/fit/simplify.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/stream/encode.hpp"
 #include "tests/support/packs.hpp"

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "encoder/base/error.hpp"
-#include "encoder/export/degree.hpp"
-#include "encoder/files/input_file.hpp"
-#include "encoder/files/output_file.hpp"
+#include "encoder/export/scene.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/files/output.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/pack/file.hpp"
 #include "tests/bench/device/flight.hpp"

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "encoder/base/error.hpp"
-#include "encoder/files/input_file.hpp"
-#include "encoder/files/output_file.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/files/output.hpp"
 #include "tests/bench/layers.hpp"
 #include "tests/bench/paper/inputs.hpp"
 #include "tests/bench/paper/jump_and_walk.hpp"

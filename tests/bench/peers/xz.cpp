@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "encoder/base/error.hpp"
-#include "encoder/stream/hilbert.hpp"
+#include "encoder/stream/spatial_order.hpp"
 #include "tests/bench/layers.hpp"
 #include "tests/bench/peers/peers.hpp"
 

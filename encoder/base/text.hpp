@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Text that others wrote, whatever the locale: characters, letters, dates and numbers.
+#ifndef MICROTIN_ENCODER_BASE_TEXT_HPP
+#define MICROTIN_ENCODER_BASE_TEXT_HPP
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "encoder/layers.hpp"
+
+namespace microtin::base {
+
+// The bytes of the character that the text begins with; 0 if that is none of UTF-8.
+size_t character_bytes(std::string_view text);
+
+// Whether a character commands a terminal instead of being shown: U+0000 to U+001F and U+007F to
+// U+009F.
+bool is_control(std::string_view character);
+
+// A to Z alone, whatever the locale.
+std::string lower_case(std::string text);
+
+// With its dot, in small letters: some systems write .ASC. Empty: the file has none.
+std::string suffix_of(const std::string& path);
+
+// Whether the text is a year (2026), a month (2026-11) or a day (2026-11-21) that there is.
+bool is_iso_date(std::string_view text);
+
+// The double nearest to the number that the whole text spells: "-0.25", "1e5", "inf", "nan".
+// Returns nothing for other text ("+1", " 1", "0x1", "1,5") and for finite numbers that no double
+// is near.
+std::optional<double> real_number(std::string_view text);
+
+}  // namespace microtin::base
+
+#endif

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+// Output that appears complete or not at all, what its name leads to, and streams that wait for it.
+#include "encoder/files/output.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/files/descriptors.hpp"
+#include "encoder/files/leftovers.hpp"
+
+namespace microtin::files {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int kMostLinks = 40;  // as the system's own
+
+// Whether the names in a folder are numbers of this process's descriptors.
+bool lists_descriptors(const fs::path& folder) {
+  std::error_code ignored;  // what is not there is not the same
+  const fs::path real = fs::canonical(folder, ignored);
+  if (real.empty()) return false;
+  for (const char* const known : {"/proc/self/fd", "/proc/thread-self/fd", "/dev/fd"}) {
+    if (fs::canonical(known, ignored) == real) return true;
+  }
+  return false;
+}
+
+std::optional<int> number_of_descriptor(const fs::path& path) {
+  const std::string name = path.filename().string();
+  const char* const end = name.data() + name.size();
+  int number = -1;
+  const auto [next, error] = std::from_chars(name.data(), end, number);
+  if (error != std::errc() || next != end || number < 0) return std::nullopt;
+  if (!lists_descriptors(path.parent_path())) return std::nullopt;
+  return number;
+}
+
+// The name behind links, as far as a descriptor: where that leads is not for us to open.
+fs::path behind_links(const std::string& path) {
+  fs::path target = path;
+  std::error_code ignored;  // what cannot be examined is no link, and cannot be opened
+  for (int links = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++links) {
+    if (number_of_descriptor(target)) break;
+    if (links == kMostLinks) {
+      throw Error(path + ": " + std::generic_category().message(ELOOP));
+    }
+    const fs::path next = fs::read_symlink(target, ignored);
+    target = target.parent_path() / next;  // `next` alone if that is absolute
+  }
+  return target;
+}
+
+// What a name stands for if that is a regular file.
+std::optional<struct stat> regular_file(const std::string& path, int standard) {
+  struct stat status {};
+  const int result = path == "-" ? fstat(standard, &status) : stat(path.c_str(), &status);
+  if (result != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return status;
+}
+
+}  // namespace
+
+std::optional<int> descriptor_named(const std::string& path) {
+  if (path == "-") return STDOUT_FILENO;
+  return number_of_descriptor(behind_links(path));
+}
+
+std::optional<std::string> replaced_by(const std::string& path) {
+  if (descriptor_named(path)) return std::nullopt;
+  const std::string target = behind_links(path).string();
+  std::error_code ignored;  // a target that cannot be examined is one that cannot be opened
+  const fs::file_status status = fs::status(target, ignored);
+  if (fs::is_directory(status)) throw Error(path + ": is a directory");
+  if (fs::exists(status) && !fs::is_regular_file(status)) return std::nullopt;
+  return target;
+}
+
+void refuse_overwriting(const std::vector<std::string>& inputs, const std::string& output) {
+  for (const std::string& written : {output, std::string("-")}) {
+    const std::optional<struct stat> target = regular_file(written, STDOUT_FILENO);
+    for (const std::string& input : inputs) {
+      const std::optional<struct stat> source = regular_file(input, STDIN_FILENO);
+      if (!target || !source) continue;
+      if (source->st_dev != target->st_dev || source->st_ino != target->st_ino) continue;
+      throw Error((written == "-" ? "standard output" : written) + ": is the input");
+    }
+  }
+}
+
+namespace {
+
+constexpr mode_t kPrivate = 0600, kUsual = 0666, kAllBits = 07777;
+
+// Owner, if we may and a container knows it, and mode. What is private was so from the first byte
+// on.
+bool take_after(int file, const struct stat& old) {
+  const bool has_owner = fchown(file, old.st_uid, old.st_gid) == 0;
+  if (!has_owner && errno != EPERM && errno != EINVAL) return false;
+  return fchmod(file, old.st_mode & kAllBits) == 0;
+}
+
+}  // namespace
+
+std::FILE* stream_of(int file, const char* mode) {
+  std::FILE* const stream = file < 0 ? nullptr : fdopen(file, mode);
+  if (stream == nullptr && file >= 0) {
+    const int error = errno;
+    close(file);
+    errno = error;
+  }
+  return stream;
+}
+
+int open_new(std::string& name, int access, mode_t mode) {
+  constexpr int kMostLeftovers = 1000;
+  const std::string stem = name + std::to_string(getpid());
+  name = stem;
+  for (int i = 0;; ++i) {
+    const int file = open(name.c_str(), access | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (file >= 0 || errno != EEXIST || i == kMostLeftovers) return file;
+    name = stem + '-' + std::to_string(i);
+  }
+}
+
+OutputFile::OutputFile(const std::string& path) : path_(path) {
+  if (const std::optional<std::string> target = replaced_by(path)) {
+    target_ = *target;
+    open_temporary();
+    return;
+  }
+  const std::optional<int> descriptor = descriptor_named(path);
+  if (descriptor == STDOUT_FILENO) {
+    file_ = stdout;
+  } else if (descriptor) {
+    file_ = stream_of(fcntl(*descriptor, F_DUPFD_CLOEXEC, 0), "wb");
+  } else {
+    file_ = stream_of(open(path.c_str(), O_WRONLY | O_CLOEXEC), "wb");
+  }
+  if (file_ == nullptr) fail();
+}
+
+void OutputFile::open_temporary() {
+  std::string name = target_ + ".part-";
+  struct stat old {};
+  const bool replaces = stat(target_.c_str(), &old) == 0;
+  const SignalsHeld held;
+  const int file = open_new(name, O_WRONLY, replaces ? kPrivate : kUsual);
+  if (file < 0) fail();
+  file_ = stream_of(file, "wb");
+  if (file_ == nullptr || (replaces && !take_after(file, old))) {
+    const int error = errno;
+    if (file_ != nullptr) std::fclose(file_);
+    std::remove(name.c_str());
+    errno = error;
+    fail();
+  }
+  temporary_ = std::move(name);  // nothing may throw from here on: the file would stay
+  leftover_.emplace(temporary_);
+}
+
+OutputFile::~OutputFile() {
+  if (file_ != nullptr && file_ != stdout) std::fclose(file_);
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (bytes.empty()) return;  // there may be no data to point at
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) fail();
+}
+
+void OutputFile::commit() {
+  if (std::fflush(file_) != 0) fail();
+  if (file_ == stdout) return;
+  std::FILE* file = file_;
+  file_ = nullptr;
+  if (std::fclose(file) != 0) fail();
+  if (temporary_.empty()) return;
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail();
+  leftover_.reset();
+  temporary_.clear();
+}
+
+void OutputFile::fail() const {
+  const int error = errno;
+  const std::string text = path_ + ": cannot be written: " + std::generic_category().message(error);
+  if (file_ == stdout && nobody_reads(error)) throw NobodyReads(text);
+  throw Error(text);
+}
+
+namespace {
+
+std::FILE* open_nameless(const std::string& output) {
+  const std::optional<std::string> target = replaced_by(output);
+  if (!target) return std::tmpfile();
+  std::string name = *target + ".streams-";
+  const SignalsHeld held;
+  const int number = open_new(name, O_RDWR, 0600);
+  if (number >= 0) std::remove(name.c_str());
+  return stream_of(number, "w+b");
+}
+
+}  // namespace
+
+StreamSpool::StreamSpool(const std::string& output)
+    : output_(output), file_(open_nameless(output), &std::fclose) {
+  if (!file_) fail();
+}
+
+void StreamSpool::add(const std::vector<uint8_t>& stream) {
+  if (stream.empty()) return;
+  if (std::fwrite(stream.data(), 1, stream.size(), file_.get()) != stream.size()) fail();
+  bytes_ += stream.size();
+}
+
+void StreamSpool::clear() {
+  rewind();
+  bytes_ = 0;
+}
+
+void StreamSpool::copy_to(OutputFile& out) {
+  if (std::fflush(file_.get()) != 0) fail();
+  rewind();
+  std::vector<char> piece(65536);
+  for (uint64_t left = bytes_; left != 0;) {
+    const std::size_t size = std::min<uint64_t>(left, piece.size());
+    if (std::fread(piece.data(), 1, size, file_.get()) != size) fail();
+    out.write({piece.data(), size});
+    left -= size;
+  }
+}
+
+void StreamSpool::rewind() {
+  if (std::fseek(file_.get(), 0, SEEK_SET) != 0) fail();
+}
+
+void StreamSpool::fail() const {
+  throw Error(output_ + ": cannot be written: " + std::generic_category().message(errno));
+}
+
+}  // namespace microtin::files

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// What a header states about a terrain: where it lies, in which units, and how good it is.
+#ifndef MICROTIN_ENCODER_TERRAIN_METADATA_HPP
+#define MICROTIN_ENCODER_TERRAIN_METADATA_HPP
+
+#include <bitset>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "encoder/exact/decimal.hpp"
+#include "encoder/exact/lattice_map.hpp"
+#include "encoder/exact/units.hpp"
+#include "encoder/layers.hpp"
+
+namespace microtin::terrain {
+
+// Heights in the source's unit.
+struct Accuracy {
+  std::optional<Decimal> bound;  // asked for
+  Decimal max_error;             // measured at every sample of the source
+  Decimal rms_error;
+  Decimal mean_error;  // above 0: the terrain is too high
+};
+
+// The posts of a raster, or the centres of its cells. Row 0 is the southernmost.
+struct PostGrid {
+  uint32_t columns, rows;  // at least 1
+  Axis x, y;               // from a post's column and row to where it lies
+};
+
+// Classes of points in a LAS file.
+using ClassSet = std::bitset<256>;
+
+// Which height stands for points that share a place of the lattice.
+enum class DuplicateRule : uint8_t {
+  kUnknown = 0,
+  kMiddle = 1,  // of the lowest and the highest
+  kLowest = 2,
+  kHighest = 3,
+  kMean = 4,
+  kMedian = 5
+};
+
+struct Metadata {
+  Placement placement;
+  Unit horizontal_unit = Unit::kUnknown;
+  Unit vertical_unit = Unit::kUnknown;
+  uint32_t horizontal_epsg = 0;  // 0: not stated
+  uint32_t vertical_epsg = 0;
+  std::string wkt;                      // of the horizontal system, where it has no code
+  std::string source;                   // UTF-8 text; all texts together at most 65535 bytes
+  std::string date;                     // of the source: ISO 8601, 2026, 2026-11 or 2026-11-21
+  std::string lineage;                  // UTF-8 text: what was done to the source
+  std::optional<Decimal> water_level;   // surfaces at this very height are water
+  std::optional<Accuracy> accuracy;     // with each sample at its nearest lattice place
+  std::optional<Accuracy> true_places;  // with each point where it truly lies
+  std::optional<PostGrid> grid;         // of the source, if it is a raster
+  std::optional<ClassSet> classes;      // of points that were taken
+  DuplicateRule duplicates = DuplicateRule::kUnknown;
+};
+
+}  // namespace microtin::terrain
+
+#endif
