@@ -17,8 +17,8 @@ BEFORE = {
     "decoder/docs/decoding.md": "size_t read_radio(uint8_t* bytes, size_t most);\n",
     "decoder/docs/memory.md": "static microtin::Terrain<5000> terrain;\nstatic microtin::Decoder<5000> decoder(terrain);\n",
     "decoder/docs/packs.md": READ_CARD
-    + "static int64_t x, y, x_ahead, y_ahead;\nstatic int card;\nstatic uint32_t hint;\nstatic int32_t height;\n",
-    "decoder/docs/queries.md": "static microtin::Terrain<5000> terrain;\nstatic int32_t x, y;\nvoid use(int32_t height);\n",
+    + "static microtin_pack* pack;\nstatic int64_t x, y, x_ahead, y_ahead;\nstatic int card;\nstatic uint32_t hint;\nstatic int32_t height;\n",
+    "decoder/docs/queries.md": "static microtin::Terrain<5000> terrain;\nstatic int32_t x, y, height;\nstatic uint32_t hint;\nvoid use(int32_t height);\n",
     "decoder/docs/rtos.md": READ_CARD + "void lock(void), unlock(void), sleep_ms(int milliseconds);\n",
     "encoder/docs/library.md": "static uint32_t columns, rows;\nstatic const float* heights;\n"
     "static microtin::encoder::Transform transform;\n",

@@ -373,7 +373,8 @@ SHOWN = ["cortex-m0", "cortex-m4", "rv32imc", "avr"]
 
 def summary(budget):
     """The README's table."""
-    head = ["target", "decoding", "and queries", "stack", "instructions: decoding, per vertex", "a height, on a path"]
+    head = ["target", "code + constants, decoding", "code + constants, decoding and queries", "stack, decoding"]
+    head += ["instructions, decoding a vertex", "instructions, a height near the last one"]
     rows = []
     for target in SHOWN:
         numbers = budget[target]["Os"]
