@@ -20,11 +20,13 @@ BEFORE = {
     + "static microtin_pack* pack;\nstatic int64_t x, y, x_ahead, y_ahead;\nstatic int card;\nstatic uint32_t hint;\nstatic int32_t height;\n",
     "decoder/docs/queries.md": "static microtin::Terrain<5000> terrain;\nstatic int32_t x, y, height;\nstatic uint32_t hint;\nvoid use(int32_t height);\n",
     "decoder/docs/rtos.md": READ_CARD + "void lock(void), unlock(void), sleep_ms(int milliseconds);\n",
-    "encoder/docs/library.md": "static uint32_t columns, rows;\nstatic const float* heights;\n"
-    "static microtin::encoder::Transform transform;\n",
+    "encoder/docs/library.md": "#include <stdio.h>\n#include <string.h>\nstatic uint32_t columns, rows;\n"
+    "static const float* heights;\n#ifdef __cplusplus\nstatic microtin::encoder::Transform transform;\n"
+    "void save(const std::vector<uint8_t>& bytes);\n#else\nstatic double transform[6];\n"
+    "void save(const uint8_t* bytes, uint64_t byte_count);\n#endif\n",
 }
 HEADERS = {"c": ("compact_pack.h",), "cpp": ("microtin.hpp", "compact_pack.hpp")}
-HOSTED = ("encoder.hpp", "surface.hpp")
+HOSTED = {"c": ("encoder.h",), "cpp": ("encoder.hpp", "surface.hpp")}
 FUNCTION = re.compile(r"^(?!if|for|while|switch)\w[^;=\n]*\) \{", re.M)
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-Wno-unused-variable", "-Wno-unused-but-set-variable",
             "-Wno-unused-function"]
@@ -38,8 +40,8 @@ def blocks(document):
 
 
 def program(name, language, line, block):
-    hosted = name.startswith("encoder/") and language == "cpp"
-    headers = HEADERS[language] + (HOSTED if hosted else ())
+    hosted = name.startswith("encoder/")
+    headers = HOSTED[language] if hosted else HEADERS[language]
     before = "".join(f'#include "microtin/{header}"\n' for header in headers) + BEFORE.get(name, "")
     code = f'#line {line} "{name}"\n{block}'
     if not FUNCTION.search(block):
