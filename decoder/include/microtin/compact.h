@@ -25,7 +25,7 @@
   MICROTIN_COMPACT_BYTES_FOR(vertices, 0ul, MICROTIN_INDEX_BITS)
 
 /* Bytes of a compact terrain in a build with `bits` bits of index width; `wide` is 0 for a narrow
- * terrain, else 2. WITH: exact for a terrain with `repeats` vertices that the path passes twice. */
+ * terrain, else 2. */
 #define MICROTIN_COMPACT_BYTES_FOR(vertices, wide, bits) \
   MICROTIN_COMPACT_BYTES_WITH(vertices, MICROTIN_COMPACT_REPEATS(vertices), wide, bits)
 /* Exact bytes of a compact terrain with `repeats` vertices that the path passes twice. */
@@ -56,7 +56,7 @@
 extern "C" {
 #endif
 
-/* A compact terrain, and what makes one. */
+/* A compact terrain. */
 typedef struct microtin_compact microtin_compact;
 /* A compactor, which makes a compact terrain from a mesh. */
 typedef struct microtin_compactor microtin_compactor;
@@ -108,7 +108,7 @@ uint32_t microtin_compact_vertex_count(const microtin_compact* compact);
 void microtin_compact_vertex(const microtin_compact* compact, uint32_t v, uint16_t* x, uint16_t* y,
                              int16_t* z);
 
-/* Returns the number of triangles, with ghosts and with two triangles without area a repeat. */
+/* Returns the number of triangles, with ghosts and with two without area for each repeat. */
 uint32_t microtin_compact_triangle_count(const microtin_compact* compact);
 
 /* Returns kind and corners of triangle `t` < microtin_compact_triangle_count, counter-clockwise.

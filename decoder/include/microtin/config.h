@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-/* What a project may choose, in one place. A header microtin_config.h of the project's own, if both
- * the library and its users find it among their includes, is read first; -D does as well.
+/* The configuration of the library. Define these macros with -D, or in a header microtin_config.h
+ * of your project, which the library and the code that uses it must find among their includes.
  *
- *   MICROTIN_INDEX_BITS   width of vertex and half-edge numbers, the same for the library and its
- *                         users, or they do not link: 16 bits reach 10,923 vertices, 32 bits the
- *                         format's 2^24. CMake, pkg-config and Zephyr give it by -D, as their own
- *                         option says: with them it is that option which rules, and
- *                         microtin_config.h must leave it out
- *   MICROTIN_ASSERT(c)    called with what a caller promises and no status tells, such as a
- *                         vertex's number that is in range; nothing if not given
+ *   MICROTIN_INDEX_BITS   width of vertex and half-edge indices: 16 bits for up to 10,923 vertices,
+ *                         32 bits for up to 2^24. The library and the code that uses it must have
+ *                         the same width, or they do not link. CMake, pkg-config and Zephyr pass it
+ *                         with -D, from an option of their own: then leave it out of
+ *                         microtin_config.h
+ *   MICROTIN_ASSERT(c)    called with conditions that the caller guarantees and that no status
+ *                         reports, such as a vertex index in range. The default does nothing
  *   MICROTIN_NO_NAMES     leaves out the strings of microtin_status_name and of
  *                         microtin_query_result_name
  */

@@ -75,8 +75,8 @@ extern "C" {
 /* Returns the version of the library that is linked, as 65536 * major + 256 * minor + patch. */
 uint32_t microtin_version_number(void);
 
-/* Return the versions of the formats of streams and of packs that the library reads. For others it
- * returns MICROTIN_STATUS_UNSUPPORTED_VERSION. */
+/* Returns the version of the format of streams that the library reads. For other versions functions
+ * return MICROTIN_STATUS_UNSUPPORTED_VERSION. */
 uint8_t microtin_stream_format_version(void);
 /* Returns the version of the format of packs that the library reads. */
 uint8_t microtin_pack_format_version(void);
@@ -132,11 +132,11 @@ typedef struct microtin_stream_info {
   uint8_t has_heights;   /* 0: every z is 0 */
   uint8_t has_voids;     /* 1: some triangles may be void */
   microtin_axis x, y, z; /* offset 0 and step 1 if the stream does not contain them */
-  size_t mesh_bytes;     /* workspaces that this build needs; no workspace suffices for more than */
-  size_t decoder_bytes;  /* MICROTIN_MAX_VERTICES vertices */
+  size_t mesh_bytes;     /* the mesh's workspace; beyond MICROTIN_MAX_VERTICES none suffices */
+  size_t decoder_bytes;  /* the decoder's workspace; beyond MICROTIN_MAX_VERTICES none suffices */
 } microtin_stream_info;
 
-/* A decoded terrain, what decodes it, and hints for queries. They lie in the caller's workspaces.
+/* A mesh, which is a decoded terrain. Meshes, decoders and buckets lie in the caller's workspaces.
  */
 typedef struct microtin_mesh microtin_mesh;
 /* A decoder, which turns a stream into a mesh. */
@@ -167,7 +167,7 @@ typedef enum microtin_note_type {
   MICROTIN_NOTE_WKT = 9,
   MICROTIN_NOTE_CLASSES = 10,
   MICROTIN_NOTE_DUPLICATES = 11,
-  MICROTIN_NOTE_TRUE_PLACES = 12 /* accuracy where points truly lie */
+  MICROTIN_NOTE_TRUE_PLACES = 12 /* accuracy at the points' own positions */
 } microtin_note_type;
 
 /* Finds a note in the header of a stream or of a pack; the `size` bytes begin with the header.
@@ -277,10 +277,10 @@ typedef enum microtin_query_result {
   MICROTIN_QUERY_WRONG_PACK_KIND = 7 /* the pack has slots of the other kind */
 } microtin_query_result;
 
-/* Returns the name of a result without MICROTIN_QUERY_; otherwise as microtin_status_name. */
+/* Returns the name of a query result without MICROTIN_QUERY_, as microtin_status_name does. */
 const char* microtin_query_result_name(microtin_query_result result);
 
-/* Flags of queries: answer also from vertices whose checksum has not passed yet. */
+/* A flag of queries: also use vertices whose checksum has not passed yet. */
 #define MICROTIN_FLAG_ALLOW_UNVERIFIED 1u
 
 /* Returns the height of the terrain at (x, y), 8 fractional bits each (0 .. 65535 * 256): z with 16

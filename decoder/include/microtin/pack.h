@@ -79,13 +79,13 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
  * - BAD_TILES: all tiles but bad ones are loaded; see microtin_pack_bad_tile
  * - IO: reading failed; the next call needs the same bytes. Not returned for bytes that the segment
  *   does not need
- * - WORKSPACE_TOO_SMALL: the segment touches more good tiles than there are slots; the slots are
- * full
+ * - WORKSPACE_TOO_SMALL: the segment touches more good tiles than there are slots; all slots are
+ *   filled
  * - ARGUMENT: a null pointer, or a segment that is too long
  * - WRONG_PACK_KIND: a pack of compact_pack.h
- * - BAD_MAGIC, UNSUPPORTED_VERSION, MALFORMED, CHECKSUM, TRUNCATED: the pack's header is not one,
- *   is of another version, breaks a rule, is damaged, or ends too early. The next call reads it
- * anew
+ * - BAD_MAGIC: the bytes are not a pack
+ * - UNSUPPORTED_VERSION, MALFORMED, CHECKSUM, TRUNCATED: the header is of another version, breaks a
+ *   rule, is damaged, or ends too early. The next call reads the header again
  *
  * Loaded tiles stay until their slots are needed. Besides the work units, a call takes
  * O(columns + rows of tiles in the segment's bounding box + slots^2). */
@@ -157,7 +157,7 @@ typedef struct microtin_pack_info {
   uint32_t max_tile_vertices;       /* most vertices of a tile: the capacity that it needs */
   uint32_t max_compact_bytes;       /* most bytes of a compact tile, see compact_pack.h, with 16-bit
                                        indices if these suffice; 0: not stated */
-  int16_t lowest, highest;          /* vertex, in z steps */
+  int16_t lowest, highest;          /* heights of the lowest and the highest vertex, in z steps */
   microtin_axis x, y, z;            /* from lattice coordinates to real ones */
 } microtin_pack_info;
 
