@@ -279,7 +279,7 @@ RUNS = {
     "How many instructions does a height on a mesh take?": {
         "warm": "positions on a straight path" + MEAN_AND_WORST,
         "cold": "any position, from hint 0" + MEAN_AND_WORST,
-        "far": "any position, from the last one" + MEAN_AND_WORST,
+        "far": "any position, from the previous hint" + MEAN_AND_WORST,
         "buckets": "any position, from 45 x 45 buckets" + MEAN_AND_WORST,
         "buckets_build": "building these buckets, once",
     },
@@ -287,8 +287,8 @@ RUNS = {
         "compact_make": "making it, a vertex",
         "compact_worst_step": "making it, the most expensive work unit",
         "compact_warm": "height on a straight path" + MEAN_AND_WORST,
-        "compact_far": "height at any position, from the last one" + MEAN_AND_WORST,
-        "compact_found": "height at any position, from a compact hint" + MEAN_AND_WORST,
+        "compact_far": "height at any position, from the previous hint" + MEAN_AND_WORST,
+        "compact_found": "height at any position, from microtin_compact_hint" + MEAN_AND_WORST,
     },
     "How many instructions does a pack take?": {
         "pack_tile": "loading a tile of 64 vertices from flash",
@@ -323,7 +323,7 @@ def ram_table(budget):
     for capacity in (250, 1000, 10000):
         kinds = ("terrain", "decoder", "compact", "narrow")
         rows.append([count(n) for n in (capacity, *(run[f"ram_{kind}_{capacity}"] for kind in kinds))])
-    head = ["vertices", "mesh, kept", "decoder, only while decoding", "compact terrain", "compact terrain, at most 256 steps wide"]
+    head = ["vertices", "mesh, kept", "decoder, only while decoding", "compact terrain", "compact terrain, less than 256 steps wide and high"]
     return table(head, rows)
 
 
