@@ -160,6 +160,38 @@ class Driver(unittest.TestCase):
             finer = gdal.OpenEx(path, gdal.OF_RASTER, open_options=["CELL_SIZE=5"]).ReadAsArray()
             numpy.testing.assert_allclose(coarse, finer[1::4, 1::4], atol=ROUNDING)
 
+    def test_overviews_of_an_odd_number_of_rows_and_columns(self):
+        """The northernmost rows keep their place."""
+        path = self.path("odd.mtin")
+        gdal.Translate(
+            path, self.path("hills.tif"), format="MTIN", srcWin=[0, 0, COLUMNS - 1, ROWS - 1], creationOptions=["MAX_ERROR=1"]
+        )
+        dataset = gdal.Open(path)  # its bands must not outlive it
+        coarse = dataset.GetRasterBand(1).GetOverview(0).ReadAsArray()
+        self.assertEqual(coarse.shape, (ROWS // 2, COLUMNS // 2))
+        finer = gdal.OpenEx(path, gdal.OF_RASTER, open_options=["CELL_SIZE=5"]).ReadAsArray()[1::4, 1::4]
+        numpy.testing.assert_allclose(coarse[: len(finer), : len(finer[0])], finer, atol=ROUNDING)
+
+    def test_no_height_is_the_no_data_value(self):
+        source = gdal.GetDriverByName("MEM").Create("", 9, 9, 1, gdal.GDT_Float64)
+        source.SetGeoTransform(TRANSFORM)
+        heights = -9999.0 - numpy.arange(81).reshape(9, 9)
+        heights[8, 8] = numpy.nan
+        source.GetRasterBand(1).WriteArray(heights)
+        copy = gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/low.mtin", source)
+        band = copy.GetRasterBand(1)
+        self.assertEqual(band.GetNoDataValue(), -99999)
+        numpy.testing.assert_array_equal(band.ReadAsArray(), numpy.where(numpy.isnan(heights), -99999, heights))
+
+    def test_features_of_packs_name_their_tile(self):
+        dataset = gdal.OpenEx(self.path("hills.mtp"), gdal.OF_VECTOR)
+        columns, rows = map(int, dataset.GetMetadataItem("TILES").split(" x "))
+        for name in ("vertices", "triangles"):
+            features = list(dataset.GetLayerByName(name))
+            self.assertEqual([feature.GetFID() for feature in features], list(range(len(features))))
+            tiles = {(feature.GetField("tile_column"), feature.GetField("tile_row")) for feature in features}
+            self.assertEqual(tiles, {(column, row) for column in range(columns) for row in range(rows)})
+
     def test_cell_size(self):
         for path in self.both():
             dataset = gdal.OpenEx(path, gdal.OF_RASTER, open_options=["CELL_SIZE=5"])
@@ -281,6 +313,13 @@ class Driver(unittest.TestCase):
             self.assertFalse(os.path.exists(self.path(name)))
 
         refused("choose one with -b", bands=2)
+        for scale, offset in ((2, 0), (1, 5)):
+            scaled = memory.Create("", 4, 4, 1, gdal.GDT_Float64)
+            scaled.SetGeoTransform(TRANSFORM)
+            scaled.GetRasterBand(1).SetScale(scale)
+            scaled.GetRasterBand(1).SetOffset(offset)
+            with self.assertRaisesRegex(RuntimeError, "scale or an offset: apply them with -unscale"):
+                driver.CreateCopy(self.path("refused.mtin"), scaled)
         refused("does not say where it lies: -a_ullr", transform=None)
         for transform in ((0, 1, 0.5, 0, 0, -1), (0, 1, 0, 0, 0.5, -1), (9, -1, 0, 0, 0, -1)):
             refused("rows do not run from west to east: .* gdalwarp", transform=transform)
@@ -360,8 +399,9 @@ class Driver(unittest.TestCase):
         told = []
         gdal.PushErrorHandler(lambda _kind, _number, text: told.append(text))
         try:
-            for options in ([], ["UNITS=:metre"]):
-                gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/guess.mtin", source, options=options)
+            for options, unit in (([], "us-ft"), (["UNITS=:metre"], "m")):
+                copy = gdal.GetDriverByName("MTIN").CreateCopy("/vsimem/guess.mtin", source, options=options)
+                self.assertEqual(copy.GetRasterBand(1).GetUnitType(), unit)
         finally:
             gdal.PopErrorHandler()
         self.assertEqual(

@@ -248,6 +248,30 @@ TEST_CASE("adapters: looks ahead count what is missing, over the date line and f
   CHECK(terrain.missed == 0);
 }
 
+TEST_CASE("adapters: a look ahead near a pole goes far beyond the date line") {
+  const auto missed = [](int64_t west, int32_t longitude, float bearing) {
+    Metadata metadata;
+    metadata.placement.x = {west, 1, 10};
+    metadata.placement.y = {-900, 1, 10};
+    Card card{forged_pack(
+        {1900, 1800, 1900, 1800},
+        {forged_tile({{{0, 0, 0}, {1900, 0, 0}, {0, 1800, 0}, {1900, 1800, 0}}, {}})}, metadata)};
+    const MeshSlots device(1);
+    microtin_ardupilot terrain;
+    microtin_ardupilot_init(&terrain, device.pack, 100);
+    float height = 0;
+    for (int i = 0;
+         i < 100 && !microtin_ardupilot_height_amsl(&terrain, 895000000, longitude, &height, false);
+         ++i) {
+      microtin_ardupilot_load(&terrain, 100, Card::read, &card);
+    }
+    microtin_ardupilot_lookahead(&terrain, 895000000, longitude, bearing, 100000, 0);  // 90 degrees
+    return terrain.missed;
+  };
+  CHECK(missed(1700, 1790000000, 90) == 0);     // a pack from 170 to 360 degrees
+  CHECK(missed(-3600, -1790000000, 270) == 0);  // from -360 to -170
+}
+
 TEST_CASE("adapters: a wish reaches as far as a look ahead, and ends with its pack") {
   Loaded here;
   microtin_inav inav;

@@ -41,6 +41,10 @@ class Streams(unittest.TestCase):
         self.assertEqual((tin.crs, tin.units, tin.bound), (25832, ("metre", "metre"), 0.5))
         self.assertLessEqual(data.report.max_error, 0.5)
         self.assertEqual((data.report.bytes, data.report.vertices), (len(data), len(tin.vertices)))
+        errors = array - hills()
+        self.assertAlmostEqual(data.report.mean_error, errors.mean(), 6)
+        self.assertAlmostEqual(data.report.rms_error, numpy.sqrt((errors**2).mean()), 6)
+        self.assertAlmostEqual(data.report.max_below, -errors.min(), 6)
 
     def test_without_a_bound_all_heights_are_exact(self):
         for kind in (numpy.float64, numpy.float32, numpy.int16, numpy.uint8):
@@ -216,8 +220,10 @@ class Packs(unittest.TestCase):
         array, transform = tin.raster()
         self.assertLessEqual(numpy.abs(array - hills()).max(), 0.5 + ROUNDING)
         self.assertEqual(transform, TRANSFORM)
-        with self.assertRaises(IndexError):
-            tin.tile(4, 0)
+        columns, rows = tin.tiles
+        for column, row in ((columns, 0), (0, rows), (-1, 0), (0, -1)):
+            with self.assertRaises(IndexError):
+                tin.tile(column, row)
 
     def test_threads_share_a_terrain(self):
         tin = microtin.decode(self.path)
@@ -326,6 +332,16 @@ class Refusals(unittest.TestCase):
         for wrong in (-5, 0, 1 << 32, "EPSG:25832+5783"):
             self.refused("is no code of a reference system", hills(), crs=wrong)
         self.refused("crs is a code, well-known text or has to_wkt.., not float", hills(), crs=1.5)
+        for code in ("EPSG:25832", "epsg:25832", numpy.int32(25832)):
+            self.assertEqual(microtin.decode(microtin.encode(hills(), max_error=1, crs=code)).crs, 25832)
+
+    def test_each_failure_of_the_library_has_its_exception(self):
+        check = microtin._library._checked
+        check(microtin._library.OK, None, ())
+        with self.assertRaises(MemoryError):
+            check(microtin._library.NO_MEMORY, None, ())
+        with self.assertRaisesRegex(microtin.Error, "a fault of microtin's own: "):
+            check(microtin._library.INTERNAL, None, ())
 
     def test_damaged_streams(self):
         data = bytearray(microtin.encode(hills(), max_error=1))
