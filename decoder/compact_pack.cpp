@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Packs that make tiles compact: between decoding a tile and telling that it is there.
-#include "decoder/pack_service.hpp"
+#include "decoder/pack_state.hpp"
 #include "decoder/ring.hpp"
 
 namespace microtin {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Queries on packs whose tiles are compact.
 #include "decoder/pack_query.hpp"
-#include "decoder/ring_form.hpp"
+#include "decoder/terrain_forms.hpp"
 
 using namespace microtin;
 

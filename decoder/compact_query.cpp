@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Queries on compact terrains.
-#include "decoder/ring_cursor.hpp"
+#include "decoder/terrain_forms.hpp"
 #include "decoder/walk.hpp"
 #include "shared/digest.hpp"
 

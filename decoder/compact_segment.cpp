@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Segments and blocks on a compact terrain.
-#include "decoder/ring_form.hpp"
+#include "decoder/terrain_forms.hpp"
 #include "decoder/terrain_query.hpp"
 
 using namespace microtin;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Reading packs: which tiles are wanted, which are there, and bringing the one to the other.
-#include "decoder/pack_service.hpp"
+#include "decoder/pack_state.hpp"
 
 namespace microtin {
 namespace {

@@ -3,7 +3,7 @@
 #include "decoder/pack_query.hpp"
 
 #include "decoder/axis.hpp"
-#include "decoder/mesh_form.hpp"
+#include "decoder/terrain_forms.hpp"
 
 using namespace microtin;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Segments and blocks on a decoded mesh.
-#include "decoder/mesh_form.hpp"
+#include "decoder/terrain_forms.hpp"
 #include "decoder/terrain_query.hpp"
 
 using namespace microtin;

@@ -9,8 +9,8 @@
 #include <stddef.h>
 
 #include "shared/fixed_math.hpp"
+#include "shared/pairs.hpp"
 #include "shared/predicates.hpp"
-#include "shared/region_vectors.hpp"
 
 namespace microtin {
 

@@ -6,7 +6,7 @@
 #define MICROTIN_SHARED_PROBABILITY_HPP
 
 #include "shared/fixed_math.hpp"
-#include "shared/vectors.hpp"
+#include "shared/pairs.hpp"
 
 namespace microtin {
 

@@ -5,7 +5,7 @@
 #define MICROTIN_SHARED_RING_SUMS_HPP
 
 #include "shared/mesh.hpp"
-#include "shared/region_vectors.hpp"
+#include "shared/pairs.hpp"
 
 namespace microtin {
 

@@ -76,7 +76,7 @@
 (pop)
 
 ; Squared distances of places from corners.
-;; shared/corner_distances.hpp: return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y);
+;; shared/place_odds.hpp: return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y);
 (push)
 (declare-const dx Int)
 (declare-const dy Int)

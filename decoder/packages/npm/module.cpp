@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What JavaScript calls beside the decoder's own functions: much at a time, and what only the
 // memory knows. Pointers are addresses in the module's memory.
-#include "decoder/pack_service.hpp"
+#include "decoder/pack_state.hpp"
 
 using namespace microtin;
 

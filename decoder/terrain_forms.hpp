@@ -1,11 +1,42 @@
 // SPDX-License-Identifier: MIT
-// From triangle to triangle of a laced ring.
-#ifndef MICROTIN_DECODER_RING_CURSOR_HPP
-#define MICROTIN_DECODER_RING_CURSOR_HPP
+// Terrains as segments see them (tile_segment.hpp): meshes, and laced rings with their cursor.
+#ifndef MICROTIN_DECODER_TERRAIN_FORMS_HPP
+#define MICROTIN_DECODER_TERRAIN_FORMS_HPP
 
 #include "decoder/ring.hpp"
+#include "decoder/tile_segment.hpp"
 
 namespace microtin {
+
+class MeshForm {
+ public:
+  typedef MeshCursor Cursor;
+  static constexpr bool kIsCompact = false;
+
+  explicit MeshForm(const void* space) : m_(*static_cast<const microtin_mesh*>(space)) {}
+
+  uint32_t triangles() const { return m_.mesh.triangles; }
+  Point corner() const { return Point{0, 0}; }
+  MeshCursor at(uint32_t t) const {
+    const Index first = first_edge(static_cast<Index>(t));
+    const Index* const v = m_.mesh.origin + first;
+    const uint32_t i = v[0] == kInfinity ? 1u : v[1] == kInfinity ? 2u : 0u;
+    return MeshCursor(m_, static_cast<Index>(first + i));
+  }
+  bool places(uint32_t t, Point* places) const {
+    const Index* const v = m_.mesh.origin + first_edge(static_cast<Index>(t));
+    if (is_ghost(v[0], v[1], v[2])) return false;
+    for (int i = 0; i < 3; ++i) places[i] = point_of(m_.mesh, v[i]);
+    return true;
+  }
+  microtin_query_result height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
+                                  int32_t* height) const {
+    return microtin_mesh_height_at(&m_, p.x, p.y, hint, height, 0, step_limit);
+  }
+
+ private:
+  const microtin_mesh& m_;
+};
 
 // The middle of the triangle below the edge (a, c), looked for from both ends: one that lies below
 // an edge (a, high), and the most of all below, c - 1, up to what has its least corner at a. A look
@@ -184,6 +215,36 @@ inline RingCursor cursor_at(const Ring& r, uint32_t number) {
 inline uint32_t triangle_count(const Ring& r) {
   return 2 * r.positions - 4;
 }
+
+class RingForm {
+ public:
+  typedef RingCursor Cursor;
+  static constexpr bool kIsCompact = true;
+
+  explicit RingForm(const void* space)
+      : c_(static_cast<const microtin_compact*>(space)), ring_(ring_of(c_)) {}
+
+  uint32_t triangles() const { return triangle_count(ring_); }
+  Point corner() const { return Point{c_->west, c_->south}; }
+  RingCursor at(uint32_t t) const { return cursor_at(ring_, t); }
+  bool places(uint32_t t, Point* places) const {
+    const uint32_t middle = middle_of(t);
+    const RingSpan span = span_of(ring_.left + (t & 1u), middle);
+    if (span.low == 0) return false;
+    places[0] = place_of(ring_, span.low);
+    places[1] = place_of(ring_, middle);
+    places[2] = place_of(ring_, span.high);
+    return true;
+  }
+  microtin_query_result height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
+                                  int32_t* height) const {
+    return microtin_compact_height_at(c_, p.x, p.y, hint, height, step_limit);
+  }
+
+ private:
+  const microtin_compact* c_;
+  Ring ring_;
+};
 
 }  // namespace microtin
 
