@@ -513,7 +513,7 @@ TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
   CHECK(session.run("render t.mtp -o t.png --source p.xyz").code == 0);
 }
 
-TEST_CASE("cli: wrong usage is told apart") {
+TEST_CASE("cli: wrong usage has an exit code of its own") {
   const Session session;
   session.write("ok.xyz", "0 0 0\n9 0 3\n0 9 7\n");
   for (const char* arguments : {"frobnicate",

@@ -149,7 +149,7 @@ Bytes understated_pack() {
 
 }  // namespace
 
-TEST_CASE("cli: what a pack takes is counted, whatever its header says") {
+TEST_CASE("cli: the vertices of a pack are counted, not taken from its header") {
   const Session session;
   const Bytes pack = understated_pack();
   session.write("t.mtp", {pack.begin(), pack.end()});

@@ -118,7 +118,7 @@ TEST_CASE("cli: folders that take no file") {
   CHECK_FALSE(std::filesystem::exists(session.folder() + "/new.mtin"));
 }
 
-TEST_CASE("cli: control characters of names are told, not sent to the terminal") {
+TEST_CASE("cli: control characters of names are escaped before they are printed") {
   const Session session;
   CHECK(session.failure("encode 'no\x1b[31m\nr\xC3\xA9.xyz' -o new.mtin") ==
         "no\\x1b[31m\\x0ar\xC3\xA9.xyz: cannot be read: No such file or directory\n");
@@ -128,7 +128,7 @@ TEST_CASE("cli: control characters of names are told, not sent to the terminal")
   CHECK(session.failure("encode '--\xC2\x9b' -o new.mtin", 2).find('\x9b') == std::string::npos);
 }
 
-TEST_CASE("cli: control characters of notes are told, not sent to the terminal") {
+TEST_CASE("cli: control characters of notes are escaped before they are printed") {
   const Session session;
   session.write("ok.xyz", kPoints);
   for (const std::string kind : {"ok.mtin", "ok.mtp --tile-vertices 100"}) {

@@ -69,7 +69,7 @@ TEST_CASE("height: outside, void and damaged have words, and exit codes of their
   CHECK(contains(session.failure("height plane.xyz 1 2"), "not a microtin stream"));
 }
 
-TEST_CASE("height: a pack answers as its stream does, but for a damaged tile") {
+TEST_CASE("height: a pack has the heights of its stream, except in a damaged tile") {
   const Session session;
   make_pack(session);
   damage(session, "t.mtp", "bad.mtp", session.read("t.mtp").size() - 20);
@@ -95,7 +95,7 @@ TEST_CASE("height: a pack answers as its stream does, but for a damaged tile") {
   CHECK(session.run("height bad.mtp --lattice 1 1").code == 7);
 }
 
-TEST_CASE("height: the exact plane at the real place; as a device answers with --device") {
+TEST_CASE("height: the exact plane at the real position; with --device the device's height") {
   const Session session;
   session.write("slope.asc",
                 "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1000\n0 1000\n0 1000\n");
@@ -116,7 +116,7 @@ TEST_CASE("height: the exact plane at the real place; as a device answers with -
   CHECK(contains(session.read("fine.asc"), "\n0 0.5 1 1.5 2 2.5 3 3.5 4\n"));
 }
 
-TEST_CASE("height: a tile that is larger than usual ones has room, as its stream says") {
+TEST_CASE("height: a tile with more vertices than usual gets the room that its stream needs") {
   const Session session;
   Tin small, large;
   for (uint32_t place = 0; place < 65536; ++place) {
@@ -164,7 +164,7 @@ TEST_CASE("height: what is no place is refused, with its line") {
   CHECK(session.shell("microtin height - 1 2 <plane.mtin").out == "5\n");
 }
 
-TEST_CASE("info: the memory that a device needs for a pack, and the macro that tells it") {
+TEST_CASE("info: the memory that a device needs for a pack, and the macro for it") {
   const Session session;
   make_pack(session);
   const std::string info = session.run("info t.mtp --json").out;
@@ -180,7 +180,7 @@ TEST_CASE("info: the memory that a device needs for a pack, and the macro that t
                            std::to_string(MICROTIN_PACK_BYTES_FOR(4, uint64_t{most}, 32))));
 }
 
-TEST_CASE("info: a stream takes as much in compact form as a pack of that one tile says") {
+TEST_CASE("info: a stream and a pack of one such tile have the same compact bytes") {
   const Session session;
   REQUIRE(session.run("fractal --size 33 --seed 5 -o t.asc").code == 0);
   REQUIRE(session.run("encode t.asc -o t.mtin").code == 0);

@@ -206,7 +206,7 @@ TEST_CASE("mosaic: a folder of SRTM cells") {
   CHECK(contains(session.failure("encode empty -o e.mtin"), "empty: holds no terrain file"));
 }
 
-TEST_CASE("mosaic: what a folder holds beside files is passed over") {
+TEST_CASE("mosaic: anything in a folder except files is skipped") {
   const Session session;
   fs::create_directories(session.folder() + "/cells/folder.asc");
   session.write("cells/a.asc", grid(100, 50, "1 2 3\n4 5 6"));
@@ -348,7 +348,7 @@ TEST_CASE("mosaic: a folder of scans is verified by the classes that were taken"
   CHECK(contains(session.run("verify t.mtin scans").out, "points: 4\n"));
 }
 
-TEST_CASE("clouds: the memory that they take is told before they are read") {
+TEST_CASE("clouds: the memory that they need is reported before they are read") {
   const Session session;
   std::string las(227, '\0');
   las.replace(0, 4, "LASF");

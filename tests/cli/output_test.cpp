@@ -104,7 +104,7 @@ TEST_CASE("closed standard descriptors are held, and still fail") {
   }
 }
 
-TEST_CASE("cli: a closed descriptor is not taken by a file, and a lost report is told") {
+TEST_CASE("cli: a closed descriptor is not reused for a file, and a lost report has an exit code") {
   const Made made;
   for (const auto& [command, output, same_as] : kOutputs) {
     struct Closed {
@@ -151,7 +151,7 @@ TEST_CASE("cli: output and input on closed descriptors") {
   CHECK(made.run("verify t.mtin other.xyz >&-").code == 1);  // it fails, whoever reads that
 }
 
-TEST_CASE("cli: a report that nobody reads is lost, not the output") {
+TEST_CASE("cli: the output is complete even if its report cannot be printed") {
   const Made made;
   for (const auto& [command, output, same_as] : kOutputs) {
     const std::string& words = command;

@@ -31,7 +31,7 @@ const char* const kGeographic =
 
 }  // namespace
 
-TEST_CASE("places: a grid's .prj says its system and units; decode writes one that says the same") {
+TEST_CASE("places: a grid's .prj states its system and units; decode writes an equal one") {
   const Session session;
   session.write("t.asc", kGrid);
   session.write("t.prj", kZone);
@@ -101,7 +101,7 @@ TEST_CASE("places: heights in other units are converted, in every command that r
                  "t.asc: the unit of heights is \"span\", which is not known"));
 }
 
-TEST_CASE("places: headers of points say units, which options override aloud") {
+TEST_CASE("places: headers of points state units; options override them with a warning") {
   const Session session;
   session.write("ft.csv", "Easting [m],Northing [m],Height [ft]\n0,0,328\n100,0,330\n0,100,5\n");
   CHECK(contains(session.run("encode ft.csv -o t.mtin").out, "units: x and y metre, z foot\n"));
@@ -145,7 +145,7 @@ TEST_CASE("places: depths are refused, or turned into heights, so that never-bel
   CHECK(contains(session.run("info t.mtin").out, "vertical_epsg: 5714"));
 }
 
-TEST_CASE("places: beside degrees the unit of heights is asked for") {
+TEST_CASE("places: heights in a file in degrees need a unit") {
   const Session session;
   session.write("t.asc", kDegrees);
   session.write("t.prj", kGeographic);
@@ -199,7 +199,7 @@ TEST_CASE("places: codes set units, and may not contradict them") {
 #endif
 }
 
-TEST_CASE("places: an option that goes against the file is told") {
+TEST_CASE("places: an option that contradicts the file causes a warning") {
   const Session session;
   session.write("t.asc", kGrid);
   session.write("t.prj", kZone);
@@ -225,7 +225,7 @@ TEST_CASE("places: scenes and pictures of unknown units warn") {
   CHECK(session.run("render t.mtin -o t.png").err.empty());
 }
 
-TEST_CASE("places: files for autopilots have heights in metres beside degrees, or are refused") {
+TEST_CASE("places: files for autopilots have degrees and metres, or are refused") {
   const Session session;
   session.write("N43E007.hgt", std::string("\0\1\0\2\0\3\0\4\0\5\0\6\0\7\0\10\0\11", 18));
   for (const char* const units : {"degree:foot", "degree:us-foot", "metre:metre", "foot:metre"}) {
@@ -254,7 +254,7 @@ TEST_CASE("places: meshes name their system, and points of meshes bring it back"
                   "comment"));
 }
 
-TEST_CASE("places: a grid whose system has no text here says so") {
+TEST_CASE("places: a grid whose system has no known text causes a warning") {
   const Session session;
   session.write("t.asc", kGrid);
   REQUIRE(session.run("encode t.asc -o t.mtin --epsg 2056 --units m").code == 0);
@@ -288,7 +288,7 @@ TEST_CASE("places: GDAL reads the .prj that is written") {
   }
 }
 
-TEST_CASE("places: info tells extent, size and heights in the terrain's units") {
+TEST_CASE("places: info prints extent, size and heights in the terrain's units") {
   const Session session;
   session.write("t.asc",
                 "ncols 3\nnrows 3\nxllcenter 100\nyllcenter 50\ncellsize 2\nnodata_value -9\n"
@@ -306,7 +306,7 @@ TEST_CASE("places: info tells extent, size and heights in the terrain's units") 
   CHECK(contains(session.run("info t.mtp --json").out, "\"lowest\": -1.5, \"highest\": 9.5"));
 }
 
-TEST_CASE("places: shards and packs are told as such") {
+TEST_CASE("places: errors name the kind of a file, shard or pack") {
   const Session session;
   REQUIRE(session.run("fractal --size 17 -o t.asc").code == 0);
   REQUIRE(session.run("encode t.asc --tile-vertices 300 --shard 0:0 -o t.shard").code == 0);
@@ -367,7 +367,7 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
                  "'sky' is not allowed; use land or sea"));
 }
 
-TEST_CASE("places: heights that only mark voids are told of, wherever rasters go") {
+TEST_CASE("places: heights that look like no-data cause a warning in every reader of rasters") {
   const Session session;
   session.write("t.asc",
                 "ncols 4\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 2\n"

@@ -159,7 +159,7 @@ TEST_CASE("points: a lattice that is too coarse is named, with what is fine enou
   CHECK(contains(session.run("info coarse.mtp").out, "true_places: {\"bound\": null"));
 }
 
-TEST_CASE("points: those beside the terrain are not covered, however far away") {
+TEST_CASE("points: those outside the terrain are not covered, at any distance") {
   const Session session;
   session.write("p.xyz", slope());
   REQUIRE(session.run("encode p.xyz --max-error 0.5 --xy-step 5 -o p.mtin").code == 0);
@@ -228,7 +228,7 @@ TEST_CASE("points: one of those that meet stands for all, and verify knows which
                  "'any' is not allowed; use middle, lowest, highest or mean"));
 }
 
-TEST_CASE("points: latitude before longitude is refused where the system says degrees") {
+TEST_CASE("points: latitude before longitude is refused if the system is in degrees") {
   const Session session;
   session.write("swap.xyz", "47.1 158.2 3\n47.2 158.2 4\n47.1 158.3 6\n");
   for (const std::string name : {"p.mtin", "p.mtp"}) {

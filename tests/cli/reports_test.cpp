@@ -145,7 +145,7 @@ TEST_CASE("reports: every field of verify is true of every kind of product") {
   });
 }
 
-TEST_CASE("reports: what encode and merge say is true of every kind of product") {
+TEST_CASE("reports: encode and merge print true numbers for every kind of product") {
   for_each_product([](const Product& product, const Made& made) {
     std::istringstream lines(made.text());
     std::string text;

@@ -90,7 +90,7 @@ TEST_CASE("logarithms, powers and segments are as close as the format says") {
 }
 
 // Where tables or wider words serve, they tell what the short formulas tell.
-TEST_CASE("every way to a segment or to grains tells the same") {
+TEST_CASE("every way to compute a segment or its grains gives the same result") {
   for (uint32_t k = 0; k <= kOwnCap * 256u; ++k) {
     REQUIRE(minor_cap_under(k) == minor_cap(k));
     REQUIRE(whole_disc_under(k) == whole_disc(k));

@@ -46,7 +46,7 @@ TEST_CASE("compact pack: a tile that goes stays until the next is decoded") {
   CHECK(with_none < with_old);  // while it is made compact
 }
 
-TEST_CASE("compact pack: who wants another segment meanwhile loses nothing") {
+TEST_CASE("compact pack: changing the segment while a tile is made loses no work") {
   Card card{rough_pack()};
   const PackFile pack(card.bytes);
   const TileGrid& grid = pack.grid();
@@ -72,7 +72,7 @@ TEST_CASE("compact pack: who wants another segment meanwhile loses nothing") {
   }
 }
 
-TEST_CASE("compact pack: slots of what the header says are enough, smaller ones are told") {
+TEST_CASE("compact pack: slots of the header's size are enough, smaller ones are refused") {
   const Bytes bytes = rough_pack();
   Card card{bytes};
   const PackFile pack(bytes);
@@ -97,7 +97,7 @@ TEST_CASE("compact pack: slots of what the header says are enough, smaller ones 
   }
 }
 
-TEST_CASE("compact pack: a tile that takes more than the header says breaks a rule") {
+TEST_CASE("compact pack: a tile that takes more than the header states breaks a rule") {
   Bytes bytes = rough_pack();
   const PackFile pack(bytes);
   const uint32_t needed = pack.header().compact_bytes;

@@ -255,7 +255,7 @@ TEST_CASE("compact terrains answer as the mesh does: hubs with long fans, and fo
   check(sectioned_stream(3), 9);
 }
 
-TEST_CASE("compact terrains of ours fit what the macros say, 8.5 or 10.5 bytes a vertex") {
+TEST_CASE("compact terrains of the encoder fit the macros, 8.5 or 10.5 bytes a vertex") {
   const auto check_size = [](const Tin& tin, bool is_narrow) {
     const Compact compact(encode(tin, Metadata(), Effort{10, Coding::kBalanced}), 0x7FFFFFFF);
     const uint32_t n = microtin_compact_vertex_count(compact.get()), repeats = compact.repeats();

@@ -56,7 +56,7 @@ bool is_final(const Device& device, microtin_status status, const Bytes& bytes) 
 
 }  // namespace
 
-TEST_CASE("every prefix needs input and, if finished there, is truncated for ever") {
+TEST_CASE("every prefix needs input and, if finished there, stays truncated") {
   for (const Bytes& stream : small_streams()) {
     for (size_t size = 0; size < stream.size(); ++size) {
       const Device device(kCapacity);
@@ -68,7 +68,7 @@ TEST_CASE("every prefix needs input and, if finished there, is truncated for eve
   }
 }
 
-TEST_CASE("peek says of every prefix how many bytes the header needs, or tells the header") {
+TEST_CASE("peek returns for every prefix the bytes that the header needs, or the header") {
   for (const Bytes& stream : small_streams()) {
     microtin_stream_info whole, info;
     REQUIRE(microtin_read_stream_info(stream.data(), stream.size(), &whole) == MICROTIN_STATUS_OK);
@@ -127,7 +127,7 @@ TEST_CASE("damage behind right checks ends in a status, and the mesh stays sound
   CHECK(malformed > 100);
 }
 
-TEST_CASE("whatever a payload says, no vertex lies beyond the lattice") {
+TEST_CASE("no payload places a vertex outside the lattice") {
   Random random(9);
   size_t vertices = 0;
   for (const Coding coding : {Coding::kQuick, Coding::kBalanced}) {
@@ -155,7 +155,7 @@ TEST_CASE("whatever a payload says, no vertex lies beyond the lattice") {
   CHECK(vertices > 200000);
 }
 
-TEST_CASE("chunks of any size say the same of damaged streams") {
+TEST_CASE("chunks of any size give the same status for damaged streams") {
   Random random(8);
   for (const Bytes& stream : small_streams()) {
     for (int round = 0; round < 200; ++round) {

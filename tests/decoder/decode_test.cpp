@@ -97,7 +97,7 @@ TEST_CASE("a device needs at most 34 bytes a vertex and 3 KB, and keeps 31") {
   }
 }
 
-TEST_CASE("queries on a mesh that is not decoded or not verified say so") {
+TEST_CASE("queries on a mesh that is not decoded or not verified report that") {
   const Bytes stream = terrain_stream(400, 10);
   Device device(400);
   uint32_t hint = 0;

@@ -35,8 +35,8 @@ microtin_segment segment(Random& random, int64_t x_max, int64_t y_max) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("pack: heights at every place are those of the tiles, voids are told", Device,
-                   MeshSlots, CompactSlots) {
+TEST_CASE_TEMPLATE("pack: heights at every position are those of the tiles, voids are reported",
+                   Device, MeshSlots, CompactSlots) {
   for (const VoidKind& kind : void_kinds()) {
     if (kind.name == "chessboard" || kind.name == "30 of 100") continue;  // many tiles
     CAPTURE(kind.name);
@@ -138,8 +138,9 @@ TEST_CASE_TEMPLATE("pack: every read fails in turn, and the next call goes on", 
   }
 }
 
-TEST_CASE_TEMPLATE("pack: a pulled card is told at once, at any moment, and its return is enough",
-                   Device, MeshSlots, CompactSlots) {
+TEST_CASE_TEMPLATE(
+    "pack: a removed card is reported at once, at any moment, and its return is enough", Device,
+    MeshSlots, CompactSlots) {
   Card card{pack_bytes(rough_raster(61, 53))};
   const microtin_segment c = at(30, 26);
   for (uint32_t pulled = 0; pulled < 100; ++pulled) {

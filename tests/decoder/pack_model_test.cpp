@@ -390,9 +390,8 @@ void check_unreadable(const Model& model, uint32_t sector, uint64_t from, uint64
 
 }  // namespace
 
-TEST_CASE_TEMPLATE(
-    "pack: an unreadable part of the index hides no tile of which another part tells", Device,
-    MeshSlots, CompactSlots) {
+TEST_CASE_TEMPLATE("pack: an unreadable part of the index hides no tile that another part lists",
+                   Device, MeshSlots, CompactSlots) {
   for (size_t length = 0; length <= 16; ++length) {
     Metadata notes;
     notes.source = std::string(length, 's');
@@ -460,8 +459,8 @@ TEST_CASE_TEMPLATE("pack: nothing of one pack is left to the next, whatever was 
   }
 }
 
-TEST_CASE_TEMPLATE("pack: a segment that is too long asks its card for nothing more", Device,
-                   MeshSlots, CompactSlots) {
+TEST_CASE_TEMPLATE("pack: a segment that is too long causes no more reads", Device, MeshSlots,
+                   CompactSlots) {
   Model model = row_model({4});
   UnsteadyCard card{&model.bytes, Random(1), 0};
   const Device device(2, kFits);
@@ -476,8 +475,8 @@ TEST_CASE_TEMPLATE("pack: a segment that is too long asks its card for nothing m
   CHECK(served(device, along(0, 2), 0, card) == MICROTIN_STATUS_BAD_TILES);
 }
 
-TEST_CASE_TEMPLATE("pack: what is said of a segment depends on it and on its tiles alone", Device,
-                   MeshSlots, CompactSlots) {
+TEST_CASE_TEMPLATE("pack: the result for a segment depends on the segment and on its tiles alone",
+                   Device, MeshSlots, CompactSlots) {
   for (uint32_t seed = 0; seed < 400; ++seed) {
     CAPTURE(seed);
     run_sequence<Device>(seed);

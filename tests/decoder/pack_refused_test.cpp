@@ -73,8 +73,8 @@ Bytes loose_stream(uint16_t x_max, uint16_t y_max) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("pack: bad tiles are passed over, told, and tried again when the caller says so",
-                   Device, MeshSlots, CompactSlots) {
+TEST_CASE_TEMPLATE("pack: bad tiles are skipped, reported, and tried again on request", Device,
+                   MeshSlots, CompactSlots) {
   const Bytes good = row_of_tiles(6);
   Card card{good};
   card.bytes[stream_at(good, 0) + 20] ^= 1;
@@ -214,8 +214,8 @@ TEST_CASE_TEMPLATE("pack: what is beyond the end is truncated, in the header and
   }
 }
 
-TEST_CASE_TEMPLATE("pack: damaged, swapped and foreign bytes are told, and never answered from",
-                   Device, MeshSlots, CompactSlots) {
+TEST_CASE_TEMPLATE("pack: damaged, swapped and foreign bytes are reported, and never used", Device,
+                   MeshSlots, CompactSlots) {
   const Bytes good = pack_bytes(rough_raster(61, 53));
   const PackFile pack(good);
   const auto status_of = [](const Bytes& bytes) {
@@ -342,8 +342,9 @@ TEST_CASE_TEMPLATE("pack: a placement that is not verified is not used", Device,
   CHECK(height == 5);
 }
 
-TEST_CASE_TEMPLATE("pack: headers that break a rule are malformed, damaged ones are told as such",
-                   Device, MeshSlots, CompactSlots) {
+TEST_CASE_TEMPLATE(
+    "pack: headers that break a rule are malformed, damaged headers fail their checksum", Device,
+    MeshSlots, CompactSlots) {
   const Bytes good = row_of_tiles(2);
   const auto status_of = [](const Bytes& bytes) {
     Card card{bytes};

@@ -177,7 +177,7 @@ TEST_CASE("every place of a lattice comes back, whatever is estimated of it") {
   CHECK(lost == 0);
 }
 
-TEST_CASE("whatever symbols say, a place is one of the lattice") {
+TEST_CASE("any symbols decode to a position of the lattice") {
   struct Babbler {
     Random& random;
 
@@ -202,7 +202,7 @@ TEST_CASE("whatever symbols say, a place is one of the lattice") {
 }
 
 // The escape takes 42 bits: it must be rare where a triangle is no sliver.
-TEST_CASE("hardly a legal place is missed") {
+TEST_CASE("the estimate misses few legal positions") {
   Random random(62);
   uint32_t legal = 0, missed = 0;
   for (const uint32_t size : {12u, 60u, 500u, 8000u, 65536u}) {

@@ -331,7 +331,7 @@ microtin_status status_named(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("golden streams that must be refused are, each with its status") {
+TEST_CASE("each golden stream that must be refused is refused with its status") {
   for (const auto& refused : refused_streams()) {
     const std::string& name = refused.first;
     const Bytes& stream = refused.second;
@@ -407,7 +407,7 @@ TEST_CASE("what is refused is one rule away from what is not") {
   CHECK(Device(kCapacity).decode(forge(seven, PlanCoder(wheel(6)))) == MICROTIN_STATUS_OK);
 }
 
-TEST_CASE("peek tells of a header what decoding it tells") {
+TEST_CASE("peek and decoding return the same header") {
   for (const auto& refused : refused_streams()) {
     const std::string& name = refused.first;
     const Bytes& stream = refused.second;

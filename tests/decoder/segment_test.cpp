@@ -176,7 +176,7 @@ TEST_CASE("a segment goes on where it was left, and an older progress stays in t
   CHECK(limited_highest(large.mesh.mesh(), c, 1, &most) == Highest{MICROTIN_QUERY_VOID, 7});
 }
 
-TEST_CASE("blocks of a terrain hold what single answers say, in whole units") {
+TEST_CASE("blocks of a terrain contain the heights of single queries, in whole units") {
   Metadata metadata;
   metadata.placement.z = {-7, 3, 4};
   const Both terrain(encode(small_tin(7), metadata, Effort{32, Coding::kQuick}));

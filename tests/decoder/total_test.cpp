@@ -60,7 +60,7 @@ void check_queries(const Device& device, bool verified, Random& random) {
 
 }  // namespace
 
-TEST_CASE("chunks of any size, none among them, give the same terrain at the same positions") {
+TEST_CASE("chunks of any size, also of 0 bytes, give the same terrain at the same positions") {
   const Bytes stream = terrain_stream(700, 5);
   const std::vector<uint32_t> expected = vertices_by_byte(stream, 700);
   const Device whole(700);
@@ -126,7 +126,7 @@ TEST_CASE("the decoder stops at the end and leaves what follows alone") {
   }
 }
 
-TEST_CASE("workspaces for exactly n vertices are enough, n - 1 is too small and says so early") {
+TEST_CASE("workspaces for exactly n vertices are enough; for n - 1 the header is refused") {
   const Bytes stream = terrain_stream(101, 4);
   const uint32_t n = 101;
   const Device exact(n);

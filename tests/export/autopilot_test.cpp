@@ -168,7 +168,7 @@ TEST_CASE("autopilot: every byte of a block is that of the format") {
   }
 }
 
-TEST_CASE("autopilot: what is not known is marked, and told") {
+TEST_CASE("autopilot: missing heights are marked and reported") {
   const DegreeCell cell{43, 7};
   SampledSurface surface = surface_of(cell);
   const auto whole = surface.height_at;
@@ -277,7 +277,7 @@ TEST_CASE("autopilot: heights that do not fit and other cells are refused") {
   CHECK(refusal(tower, cell, Autopilot::kArduPilot) == "a height of 40000 m does not fit 16 bits");
 }
 
-TEST_CASE("autopilot: the suffix tells whose file it is") {
+TEST_CASE("autopilot: the suffix selects the autopilot") {
   CHECK(autopilot_of("x.TER") == Autopilot::kInav);
   CHECK(autopilot_of("x.dat") == Autopilot::kArduPilot);
   CHECK(!autopilot_of("x.asc"));

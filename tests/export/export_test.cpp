@@ -136,7 +136,7 @@ TEST_CASE("most_mesh_bytes is never too low, and as sharp as lines allow") {
         kHead + kMany * (28 + 2 * 12));
 }
 
-TEST_CASE("the suffix tells the format") {
+TEST_CASE("the suffix selects the format") {
   CHECK(mesh_format_of("a/b.obj") == MeshFormat::kObj);
   CHECK(mesh_format_of("-") == MeshFormat::kXyz);
   CHECK_THROWS_AS(mesh_format_of("mesh.stl"), Error);

@@ -202,7 +202,7 @@ class CountedBytes : public microtin::files::ByteSource {
 
 }  // namespace
 
-TEST_CASE("sampled packs: no more tiles are kept than have so many vertices, but four") {
+TEST_CASE("sampled packs: the tiles kept are limited by their vertices, and at least four") {
   PackOptions options = pack_options(2, 400);
   options.tile_size = 10;
   const std::vector<uint8_t> bytes = write_pack(encode_pack(rough_raster(121, 11), options));

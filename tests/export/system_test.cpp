@@ -30,7 +30,7 @@ TEST_CASE("systems: the unit of heights follows the system, whatever the program
   CHECK(text.find(",UNIT[\"Foot_US\",0.3048006096012192]]\n") != text.npos);
 }
 
-TEST_CASE("systems: each unit of heights has its name and its length, beside any unit of places") {
+TEST_CASE("systems: each unit of heights has its name and length with any unit of positions") {
   struct Case {
     Unit unit;
     std::string text;

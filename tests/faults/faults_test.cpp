@@ -294,7 +294,7 @@ TEST_CASE("a count that only a header states takes no memory") {
   }
 }
 
-TEST_CASE("a decoder that betrays the encoder: a fault of ours, told as that, and no file") {
+TEST_CASE("a decoder that disagrees with the encoder is an internal fault, and leaves no file") {
   constexpr int kInternal = 3;
   Stage stage;
   const std::vector<Words> commands = {

@@ -85,7 +85,7 @@ TEST_CASE("approximation: nothing is lost if nothing may be") {
   CHECK(to_string(find(mountains(20), within("0")).measured.max_error) == "0");
 }
 
-TEST_CASE("approximation: the step is a good one, or the one asked for") {
+TEST_CASE("approximation: the step is the best one, or the one that an option sets") {
   const Raster raster = mountains(65);
   const Found chosen = find(raster, within("10"), Search::kNormal);
   CHECK(Decimal{4, 0} <= chosen.z_step);

@@ -108,7 +108,7 @@ TEST_CASE("epsg: every vertical system of the table is the registry's") {
   CHECK(checked == kRows.size());
 }
 
-TEST_CASE("epsg: every horizontal system of the table, and none beside them") {
+TEST_CASE("epsg: every horizontal system of the table, and no other") {
   const auto expected = [](uint32_t code) {
     if (code == 4326 || code == 4258 || code == 4269) return Unit::kDegree;
     const bool is_zone = (code >= 32601 && code <= 32660) || (code >= 32701 && code <= 32760) ||

@@ -85,7 +85,7 @@ TEST_CASE("gdal: a band's unit is converted, and a system of depths turned, in t
   CHECK(session.run("decode t.mtin --allow-vrt --like t.vrt -o like.asc").code == 0);
 }
 
-TEST_CASE("gdal: what cannot be read is refused with advice") {
+TEST_CASE("gdal: files that cannot be read are refused with a remedy") {
   const Grid grid;
   CHECK(grid.error(vrt("0, -10, 0, 0, 0, 10", "\"Int16\">")) ==
         "t.vrt: its rows do not run from west to east: bring them there with gdalwarp");
@@ -191,7 +191,7 @@ TEST_CASE("gdal: masks make voids, one of several bands is chosen") {
   CHECK(session.run("verify new.mtin both.tif --band 2").code == 0);
 }
 
-TEST_CASE("gdal: voids that the file does not tell of are refused or told, with the remedy") {
+TEST_CASE("gdal: voids that the file does not declare are refused or reported, with a remedy") {
   const Grid grid;
   const Session& session = grid.session;
   if (session.shell("command -v gdal_translate").out.empty()) {

@@ -97,7 +97,7 @@ TEST_CASE("texts may begin with a byte order mark") {
                            "property int y\nproperty int z\nend_header\n1 2 3\n")) == "1,2,3");
 }
 
-TEST_CASE("asc: what is not a number is void, whatever the header says") {
+TEST_CASE("asc: cells that are not numbers are void, whatever no-data value the header has") {
   const std::string size = "ncols 3\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
   const std::vector<int64_t> voids = {kVoidHeight, 2, kVoidHeight};
   for (const char* const text : {"nodata_value nan\nnan 2 NaN", "nan 2 -nan", "NAN 2 nan(ind)",
@@ -110,7 +110,7 @@ TEST_CASE("asc: what is not a number is void, whatever the header says") {
   CHECK_THROWS_AS(import_asc("grid", size + "nanx 2 3"), Error);
 }
 
-TEST_CASE("asc: whatever is wrong is told with its line") {
+TEST_CASE("asc: every error names its line") {
   CHECK(grid_error(kHeader + "1 2 3\n4 5\n") == "grid:8: the grid ends after 5 of 6 heights");
   CHECK(grid_error(kHeader + "1 2 3\n4 5 6\n7\n") ==
         "grid:8: the grid goes on after its 6 heights");
@@ -306,7 +306,7 @@ TEST_CASE("asc: each axis goes by its own key, corner or centre") {
         "grid: xllcorner and xllcenter are both given: leave one");
 }
 
-TEST_CASE("points: places that are none on Earth are refused where columns are named so") {
+TEST_CASE("points: positions outside the Earth's degrees are refused if columns have such names") {
   CHECK(points("lat,lon\n-90,360\n90,-360") == "360,-90,0 -360,90,0");
   const std::string remedy = " degrees: name the columns as they are, x,y,z for others";
   CHECK(point_error("lon,lat,z\n45.5,7,1\n45.5,107.25,1\n") ==
@@ -315,7 +315,7 @@ TEST_CASE("points: places that are none on Earth are refused where columns are n
   CHECK(point_error("lat,lon\n45,600000\n") == "cloud:2: longitude 600000 is beyond 360" + remedy);
 }
 
-TEST_CASE("points: whatever is wrong is told with its line") {
+TEST_CASE("points: every error names its line") {
   CHECK(point_error("") == "cloud: holds no point");
   CHECK(point_error("# nothing\nx y z\n") == "cloud: holds no point");
   CHECK(point_error("1 2 3\n4 5 NaN") == "cloud:2: \"NaN\" is not a number in range");

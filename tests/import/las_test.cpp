@@ -107,7 +107,7 @@ TEST_CASE("las: the ground, in exact decimals, of every version and format") {
   }
 }
 
-TEST_CASE("las: classes that are asked for; without ground all but noise") {
+TEST_CASE("las: the classes that an option selects; without ground all except noise") {
   const std::string bytes = las(2, 1, kScan).bytes();
   CHECK(text_of(cloud(bytes, ClassSet().set(5).set(7))) == "100200,250,8500 100004,5,-494");
   CHECK(cloud(bytes, ClassSet().set(5).set(7)).classes == ClassSet().set(5).set(7));
@@ -179,7 +179,7 @@ TEST_CASE("las: codes and units from GeoTIFF keys and from well-known text") {
   CHECK(reference(file.bytes()).horizontal_unit == Unit::kUsSurveyFoot);
 }
 
-TEST_CASE("las: compressed files are refused with advice") {
+TEST_CASE("las: compressed files are refused with a remedy") {
   const std::string advice =
       "scan: is compressed (LAZ): decompress it first, with laszip, las2las or "
       "\"pdal translate IN.laz OUT.las\"";
@@ -187,7 +187,7 @@ TEST_CASE("las: compressed files are refused with advice") {
   CHECK(error(las(2, 1, kScan, record("laszip encoded", 22204, "x"), 1).bytes()) == advice);
 }
 
-TEST_CASE("las: whatever is wrong is told") {
+TEST_CASE("las: every error is reported") {
   CHECK(error("") == "scan: is not a LAS file");
   CHECK(error("LASF") == "scan: cut off: has 4 bytes, but names more");
   const auto with = [](size_t at, auto value) {
@@ -226,7 +226,7 @@ TEST_CASE("las: real scans") {
   }
 }
 
-TEST_CASE("las: points that are said to begin within the header or its records are refused") {
+TEST_CASE("las: points whose offset lies within the header or its records are refused") {
   for (const uint8_t minor : {uint8_t{2}, uint8_t{3}, uint8_t{4}}) {
     const uint16_t head = kHeadBytes[minor];
     const BinaryFile sound = las(minor, 0, kScan, record("me", 1, "note"), 1);

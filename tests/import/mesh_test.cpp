@@ -110,7 +110,7 @@ TEST_CASE("ply and obj: lines that end with CR alone") {
   CHECK(ply(file.bytes()) != "");
 }
 
-TEST_CASE("ply: whatever is wrong is told, in text with its line") {
+TEST_CASE("ply: every error is reported, in text with its line") {
   CHECK(ply_error("") == "mesh:0: is not a PLY file");
   CHECK(ply_error("plyx\n") == "mesh:1: is not a PLY file");
   CHECK(ply_error("ply\nformat ascii 1.0\n") == "mesh:2: the header does not end");

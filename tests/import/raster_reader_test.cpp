@@ -120,7 +120,7 @@ TEST_CASE("raster reader: small voids are filled alike in every rectangle") {
   }
 }
 
-TEST_CASE("raster reader: what cannot be read in pieces is told") {
+TEST_CASE("raster reader: files that cannot be read in pieces are reported") {
   const TemporaryFolder folder;
   write_file(folder / "points.xyz", {'1', ' ', '2', ' ', '3', '\n'});
   CHECK(std::get<PointCloud>(open_terrain(folder / "points.xyz")).points.size() == 1);

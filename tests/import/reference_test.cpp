@@ -73,7 +73,7 @@ TEST_CASE("reference: units of heights in well-known text are converted exactly,
         "what they are");
 }
 
-TEST_CASE("reference: an option decides the unit, and what it overrides is told") {
+TEST_CASE("reference: an option decides the unit, and a warning names what it overrides") {
   const Reference file = reference_of_wkt(compound(R"(VERT_CS["v",UNIT["span",0.2286]])"));
   const SettledReference settled = settle(file, asking(":cm"));
   CHECK(settled.reference.vertical_unit == Unit::kMetre);
@@ -110,7 +110,7 @@ TEST_CASE(
   CHECK(settle(file, asking("degree")).reference.vertical_unit == Unit::kFoot);
 }
 
-TEST_CASE("reference: units of places are converted where no system says them") {
+TEST_CASE("reference: units of positions are converted if no system states them") {
   CHECK(settled_text(heights({}), asking("km:m")) == "1000,2000,100 3000,4000,-5 / 0 0 metre");
   Reference system;
   system.horizontal_epsg = 32633;
@@ -181,7 +181,7 @@ TEST_CASE("reference: every depth of the table of codes is refused, and turned")
   }
 }
 
-TEST_CASE("reference: heights beside metres are metres, beside feet that is a guess that is told") {
+TEST_CASE("reference: heights get the unit of x and y, with a warning if that is a foot") {
   const auto guessed = [](Unit unit) {
     Reference reference;
     reference.horizontal_unit = unit;

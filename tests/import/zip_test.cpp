@@ -102,7 +102,7 @@ TEST_CASE("zip: tiles of half an arc second, and none that so few bytes cannot h
   CHECK(error(forged) == "a.zip: the .hgt file in it is damaged");
 }
 
-TEST_CASE("zip: whatever is wrong is told") {
+TEST_CASE("zip: every error is reported") {
   const Member good = member("N43E007.hgt", tile(), kDeflated);
   const auto with = [&](const auto& change) {
     Member one = good;

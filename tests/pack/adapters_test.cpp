@@ -109,7 +109,7 @@ TEST_CASE("adapters: INAV's height and look ahead are those of the tiles") {
   CHECK(look.samples_total == 0);
 }
 
-TEST_CASE("adapters: a pack across 180 degrees answers at either name of a longitude") {
+TEST_CASE("adapters: a pack across 180 degrees has heights at both names of a longitude") {
   Raster raster = rough_raster(41, 41);
   raster.x = {179 * 20, 1, 20};  // 179 to 181 degrees
   raster.y = {0, 1, 20};
@@ -137,7 +137,7 @@ TEST_CASE("adapters: a pack across 180 degrees answers at either name of a longi
   CHECK(ask(5000000) == INT32_MIN);
 }
 
-TEST_CASE("adapters: a place outside is no wish, a place that is not there is one") {
+TEST_CASE("adapters: a position outside requests no tile, a position that is not loaded does") {
   Loaded here;
   microtin_inav inav;
   microtin_inav_init(&inav, here.device.pack);
@@ -272,7 +272,7 @@ TEST_CASE("adapters: a look ahead near a pole goes far beyond the date line") {
   CHECK(missed(-3600, -1790000000, 270) == 0);  // from -360 to -170
 }
 
-TEST_CASE("adapters: a wish reaches as far as a look ahead, and ends with its pack") {
+TEST_CASE("adapters: a request reaches as far as a look ahead, and ends with its pack") {
   Loaded here;
   microtin_inav inav;
   microtin_inav_init(&inav, here.device.pack);

@@ -117,7 +117,7 @@ struct SectorCard {
 
 }  // namespace
 
-TEST_CASE("card: recorded flights are what a host answers") {
+TEST_CASE("card: recorded flights have the host's heights") {
   // MICROTIN_WRITE_GOLDEN=1 writes them anew, for packs that packs.sh has made.
   for (const std::string name : {"card", "tiles", "kept"}) {
     const HostPack pack(golden(name + ".mtp"));
@@ -130,7 +130,7 @@ TEST_CASE("card: recorded flights are what a host answers") {
   }
 }
 
-TEST_CASE("card: sectors are at most twice what was asked for, and the damaged tile is told") {
+TEST_CASE("card: sectors are at most twice the bytes requested, and the damaged tile is reported") {
   const std::string facts = read_file(golden("../../decoder/examples/card.txt"));
   CHECK(fact(facts, "bytes of sectors read") <= 2 * fact(facts, "bytes asked for"));
   CHECK(fact(facts, "turns without a card") > 0);
@@ -138,7 +138,7 @@ TEST_CASE("card: sectors are at most twice what was asked for, and the damaged t
                    "\n") != std::string::npos);
 }
 
-TEST_CASE("pack: aligned reads lie in one sector, and answers are the same") {
+TEST_CASE("pack: aligned reads lie in one sector, and give the same heights") {
   const EncodedPack encoded = encode_pack(rough_raster(121, 105), pack_options(3, 60));
   SectorCard cards[2] = {{write_pack(encoded)}, {write_pack(encoded)}};
   const MeshSlots loose(4), aligned(4);

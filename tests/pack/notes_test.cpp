@@ -104,7 +104,7 @@ TEST_CASE("notes: a device finds in streams and packs what was written") {
   }
 }
 
-TEST_CASE("notes: a header that is not there whole says how much of it is wanted") {
+TEST_CASE("notes: an incomplete header returns how many bytes it needs") {
   const Bytes notes = {3, 1, 0, 'a', 7, 2, 0, 4, 1};
   for (const Bytes& header : {stream_header(notes, kPlaced), pack_header(notes, kPlaced)}) {
     for (size_t size = 0; size < header.size(); ++size) {
@@ -164,7 +164,7 @@ TEST_CASE("notes: any bytes in their place are searched within bounds") {
   }
 }
 
-TEST_CASE("notes: a changed byte is told, and forged headers keep the search within bounds") {
+TEST_CASE("notes: a changed byte is reported, and forged headers keep the search within bounds") {
   const Bytes notes = {3, 1, 0, 'a', 7, 2, 0, 4, 1};
   for (const Bytes& header : {stream_header(notes, kPlaced), pack_header(notes, kPlaced)}) {
     for (size_t at = 0; at < header.size(); ++at) {

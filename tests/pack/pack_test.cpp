@@ -47,7 +47,7 @@ TEST_CASE("packs have no cracks, and voids stay voids, on borders too") {
   }
 }
 
-TEST_CASE("packs: heights stay, and are missed if they do not, beside voids along borders") {
+TEST_CASE("packs: heights at voids along borders stay, and missing ones are found") {
   const Raster full = rough_raster(61, 53);
   PackOptions options = pack_options(2, 600);
   options.tile_size = 20;
@@ -138,7 +138,7 @@ TEST_CASE("packs: posts that no triangle can hold are refused") {
       encode_pack(rough_raster(9, 9, [](int, int) { return true; }), pack_options(1, 90)), Error);
 }
 
-TEST_CASE("packs: streams say whether their tiles begin at odd places") {
+TEST_CASE("packs: streams state whether their tiles begin at odd positions") {
   PackOptions options = pack_options(5, 400);
   options.tile_size = 15;
   const EncodedPack pack = encode_pack(rough_raster(61, 53), options);
@@ -153,7 +153,7 @@ TEST_CASE("packs: streams say whether their tiles begin at odd places") {
   CHECK(odd != 0);
 }
 
-TEST_CASE("packs: looking for the size of tiles tells how far it is") {
+TEST_CASE("packs: the search for the size of tiles reports its progress") {
   const Raster raster = rough_raster(121, 121);
   PackOptions options = pack_options(6, 150);
   std::vector<double> told;
@@ -191,7 +191,7 @@ TEST_CASE("packs: the source's grid and the mean error are noted") {
   CHECK(pack.metadata().accuracy->mean_error.mantissa != 0);
 }
 
-TEST_CASE("packs: the header says what the tile that needs most takes in compact form") {
+TEST_CASE("packs: the header has the compact bytes of the largest tile") {
   for (const uint32_t width : {61u, 300u}) {  // narrow tiles, wide ones
     PackOptions options = pack_options(6, 2000);
     options.tile_size = width;
@@ -211,7 +211,7 @@ TEST_CASE("packs: the header says what the tile that needs most takes in compact
   }
 }
 
-TEST_CASE("packs: what the header says of compact forms is compared with the tiles") {
+TEST_CASE("packs: the header's compact bytes are compared with the tiles") {
   Bytes bytes = write_pack(encode_pack(rough_raster(61, 33), pack_options(6, 200)));
   const uint32_t needed = PackFile(bytes).header().compact_bytes;
   const auto say = [&](uint32_t stated) {
@@ -230,7 +230,7 @@ TEST_CASE("packs: what the header says of compact forms is compared with the til
   }
 }
 
-TEST_CASE("a stream that takes more in compact form than is promised is not written") {
+TEST_CASE("a stream whose compact form exceeds the macros is not written") {
   const uint32_t promised = MICROTIN_COMPACT_REPEATS(100);
   CHECK_NOTHROW(expect_promised({100, promised, true}));
   CHECK_THROWS_AS(expect_promised({100, promised + 1, true}), Error);
@@ -238,7 +238,7 @@ TEST_CASE("a stream that takes more in compact form than is promised is not writ
                        doctest::Contains("tiles of a pack are made small enough"), Error);
 }
 
-TEST_CASE("packs: how many vertices the header says is compared with the tiles") {
+TEST_CASE("packs: the header's number of vertices is compared with the tiles") {
   Bytes bytes = write_pack(encode_pack(rough_raster(61, 33), pack_options(6, 200)));
   const uint32_t all = PackFile(bytes).vertices();
   CHECK_NOTHROW(PackFile(bytes).expect_as_stated());

@@ -305,7 +305,7 @@ TEST_CASE("point packs: crowds far apart are refused before all is empty tiles")
   }
 }
 
-TEST_CASE("a point beside a pack is not covered") {
+TEST_CASE("a point outside a pack is not covered") {
   PointCloud cloud = cloud_kinds()[0].cloud;
   const PackFile pack(pack_bytes(cloud, point_options(5, 40)));
   const auto count = cloud.points.size();

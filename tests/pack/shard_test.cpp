@@ -100,7 +100,7 @@ TEST_CASE("shards: tiles encoded one by one, in any split, are those of a single
   }
 }
 
-TEST_CASE("shards: what is missing, double, foreign or damaged is refused") {
+TEST_CASE("shards: missing, duplicate, foreign and damaged shards are refused") {
   const Raster raster = rough_raster(61, 53);
   PackOptions several = pack_options(6, 60);
   several.tile_size = 25;
@@ -234,7 +234,7 @@ TEST_CASE("packs: tiles become smaller until none has too many vertices") {
   CHECK(most > 40);
 }
 
-TEST_CASE("packs: a shard whose tile is too large says which size of tiles to try") {
+TEST_CASE("packs: a shard whose tile is too large prints the size of tiles to try") {
   const RasterInMemory raster(rough_raster(61, 53));
   PackOptions options = pack_options(2, 40);
   options.tile_size = 60;

@@ -89,7 +89,7 @@ TEST_CASE("frame: ticks are at all multiples of a round number in the map, and n
   }
 }
 
-TEST_CASE("frame: numbers are beside the map, in the room for them") {
+TEST_CASE("frame: numbers are outside the map, in the room for them") {
   for (const double side : {10.0, 63.0, 200.0, 700.0}) {
     for (const Unit unit : {Unit::kMetre, Unit::kDegree}) {
       const MapFrame frame = map_of(side, side);

@@ -94,7 +94,7 @@ TEST_CASE("legend: text runs along its direction") {
   }
 }
 
-TEST_CASE("legend: a scale bar is as long as it says") {
+TEST_CASE("legend: a scale bar has the length that its label states") {
   // 0.5 m a pixel, room for 150 m: 100 m in 200 pixels.
   Canvas canvas(400, 40, kPaper);
   draw_scale_bar(canvas, {10, 10}, 300, 1, 0.5, "m");

@@ -169,7 +169,7 @@ TEST_CASE("render: the map of errors has coordinates, too") {
   CHECK(ticks > 2);
 }
 
-TEST_CASE("render: below zero there is sea, if that is asked for") {
+TEST_CASE("render: heights below zero are sea with that palette") {
   Portrait shore = portrait({{0, 0, -50}, {100, 0, 50}, {0, 100, -50}, {100, 100, 50}});
   CHECK(!is_blue(Picture(render_png(shore, 200)).at(kLeft + 20, kTop + 90)));
   shore.palette = PaletteKind::kSea;
@@ -243,7 +243,7 @@ TEST_CASE("render: small voids in snow are darker than snow and than no error") 
   CHECK(picture.at(left - 40, top)[0] > 225);
 }
 
-TEST_CASE("render: the sea's colours tell its heights also where there is no land") {
+TEST_CASE("render: the sea's colours show its heights also without land") {
   const Palette deep(PaletteKind::kSea, -52.7, -51.1);
   CHECK(deep.at(1).r > deep.at(0.5).r + 0.1);
   CHECK(deep.at(0.5).r > deep.at(0).r + 0.1);
@@ -297,7 +297,7 @@ TEST_CASE("render: triangles are drawn on the right, or not at all") {
   CHECK(without.at(column, row) == without.at(kLeft + 20, row));
 }
 
-TEST_CASE("render: a world file says where the map's pixels lie") {
+TEST_CASE("render: a world file has the position of the map's pixels") {
   Metadata metadata;
   metadata.placement = {{1000, 2, 1}, {5000, 2, 1}, {0, 1, 1}};
   const Portrait square = portrait({{0, 0, 0}, {178, 0, 0}, {0, 178, 0}, {178, 178, 0}}, metadata);
@@ -344,7 +344,7 @@ TEST_CASE("render: sizes out of range are refused") {
       Error);
 }
 
-TEST_CASE("render: a page holds the file, unless it is too large: that is told with its size") {
+TEST_CASE("render: a page contains the file; a file that is too large is an error with its size") {
   const Portrait triangle = portrait({{0, 0, 0}, {20, 0, 5}, {0, 20, 9}});
   const auto page = [&](const std::string& file) {
     try {

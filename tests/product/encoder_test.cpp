@@ -63,7 +63,7 @@ void write(const std::string& path, const std::vector<uint8_t>& bytes) {
 
 }  // namespace
 
-TEST_CASE("library: a stream keeps its bound, and says so") {
+TEST_CASE("library: a stream keeps its bound, and contains it") {
   const TemporaryFolder folder;
   Options options = bounded("2.5");
   options.source_name = "a cone";
@@ -84,7 +84,7 @@ TEST_CASE("library: a stream keeps its bound, and says so") {
   CHECK(document.metadata().horizontal_epsg == 25832);
 }
 
-TEST_CASE("library: so many vertices, so many bytes") {
+TEST_CASE("library: limits of vertices and of bytes are kept") {
   const SourceTerrain terrain(cone(40));
   Options options;
   options.max_vertices = 60;
@@ -157,7 +157,7 @@ PointCloudData walls() {
 
 }  // namespace
 
-TEST_CASE("library: what limits find holds where points truly lie, or is told there") {
+TEST_CASE("library: bounds found for a limit hold at the points' own positions") {
   const SourceTerrain terrain(walls());
   for (const uint32_t limit : {30u, 40u}) {
     CAPTURE(limit);
@@ -270,7 +270,7 @@ TEST_CASE("library: axes in lowest terms or not are the same, those that no head
   CHECK_THROWS_AS(encoded(1, kLarge), std::runtime_error);
 }
 
-TEST_CASE("library: places in degrees that are none on Earth are refused, of posts and of points") {
+TEST_CASE("library: positions beyond 360 or 90 degrees are refused, of posts and of points") {
   const TemporaryFolder folder;
   const PointCloudData points{{{471, 1582, 3}, {472, 1582, 4}, {471, 1583, 6}}, 1, 0, ""};
   RasterData posts = cone(8);

@@ -92,7 +92,7 @@ TEST_CASE("surface: an array comes back where it lay") {
   CHECK(largest_error(raster_of(surface)) <= kRounding);
 }
 
-TEST_CASE("surface: a pack keeps its bound at posts and is asked in any order") {
+TEST_CASE("surface: a pack keeps its bound at posts, queried in any order") {
   const TemporaryFolder folder;
   const Surface surface = Surface::from_file(pack_file(folder));
   CHECK(surface.info().is_pack);
@@ -209,7 +209,7 @@ TEST_CASE("surface: cells of another size") {
   CHECK_THROWS(surface.grid("0.0000001"));
 }
 
-TEST_CASE("surface: bytes of whatever file system; damage is told with the name") {
+TEST_CASE("surface: bytes of any file system; an error names the damaged file") {
   class Held : public ByteSource {
    public:
     explicit Held(std::vector<uint8_t> bytes) : bytes_(std::move(bytes)) {}

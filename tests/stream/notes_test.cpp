@@ -116,7 +116,7 @@ void write_text(std::string Metadata::*text, size_t size) {
 
 }  // namespace
 
-TEST_CASE("notes: each comes back from a header, alone and beside all others") {
+TEST_CASE("notes: each is read back from a header, alone and with all others") {
   const std::vector<Row> all = rows();
   const Tin tin = rolling_tin(10, 5);
   for (const Row& row : all) {

@@ -106,7 +106,7 @@ TEST_CASE("limits at places without points are samples of their own, in order") 
   CHECK(forced.highest == 65536);
 }
 
-TEST_CASE("posts that a coarse lattice brings together are told how to stay apart") {
+TEST_CASE("posts that a coarse lattice merges cause an error with a finer step") {
   try {
     LatticeOptions coarse = options("2", "", "1");
     lay_out(raster_of(4, {0, 0, 0, 0, 0, 50, 0, 0, 0, 0, 90, 0, 0, 0, 0, 0}), coarse);
@@ -118,7 +118,7 @@ TEST_CASE("posts that a coarse lattice brings together are told how to stay apar
   }
 }
 
-TEST_CASE("a wall is refused with count and place") {
+TEST_CASE("several heights at one position are refused with their number and the position") {
   const std::string remedy =
       "; --duplicates lowest, highest or mean lets one of them stand for all";
   const std::string wall = "0.5 0 1\n100.25 7 4\n100.25 7 8.5\n200 9 0\n200 9 100\n";

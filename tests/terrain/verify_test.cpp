@@ -169,7 +169,7 @@ TEST_CASE("points that share a place count each") {
   CHECK(found.within_bound);
 }
 
-TEST_CASE("voids are counted where they answer") {
+TEST_CASE("voids with heights are counted") {
   Raster raster;
   raster.width = raster.height = 3;
   raster.x = raster.y = {0, 1, 1};

@@ -26,7 +26,7 @@ TEST_CASE("water: voids are flooded, heights never change") {
   CHECK(raster.heights == std::vector<int64_t>{1, 4, 7, 4, 0, 4});
 }
 
-TEST_CASE("water: a mask says which voids") {
+TEST_CASE("water: a mask selects voids") {
   Raster raster = raster_of(3, {1, kV, 7, kV, 0, kV});
   const Raster mask = raster_of(3, {1, 1, 1, 0, 1, kV});
   CHECK_NOTHROW(check_water_mask(mask, raster));
