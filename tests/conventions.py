@@ -10,8 +10,11 @@ licence  every source names its licence
 faults   the text that a planted fault replaces stands once in its source, and its name stands for no other
 columns  documents have lines of at most 122 columns, tables and what links lead to aside
 widths   no struct of a C header has an enumeration, whose width flags change, and no pointer leads to one
+options  below the command line no text writes an option, which each user of the library spells in its own way
 locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
 prose    documents have short, plain sentences; the change log, the report of the benchmarks and laboratory notes may differ
+
+conventions.py messages [FOLDER]: prints the texts of errors and warnings, "file:line: message", for people to read
 """
 
 import functools
@@ -202,6 +205,63 @@ def locale(folder):
     ]
 
 
+LITERAL = r'"(?:[^"\\\n]|\\.)*"'
+BELOW_CLI = ("cli", "docs", "viewer")
+
+
+def without_comments(path):
+    return re.sub(rf"({LITERAL})|//[^\n]*", lambda found: found.group(1) or "", path.read_text())
+
+
+def options(folder):
+    """Errors name parameters (base::parameter), and the command line adds the hyphens."""
+    return [
+        f"{path.relative_to(folder)}:{number} writes an option: {text}"
+        for path in files(folder / "encoder")
+        if path.name.endswith((".cpp", ".hpp")) and path.relative_to(folder / "encoder").parts[0] not in BELOW_CLI
+        for number, line in enumerate(without_comments(path).split("\n"), 1)
+        for text in re.findall(LITERAL, line)
+        if re.search(r"--[a-z]", text)
+    ]
+
+
+# What makes a message: exceptions, and the functions that throw or print one.
+MESSAGE = re.compile(r"""
+    \b(?:\w*Error|Damaged|InternalFault|ReportLost|NobodyReads|fail\w*|refuse\w*|expect\w*|warn\w*|announce\w*|with_place)
+    \((?=[^;{]*") | \b(?:return|case\s\w+:\s*return)\s(?=[^;{]*"[^"]*[ ][^"]*") """, re.X)
+
+
+def arguments(text, start):
+    """The rest of a call or statement: to the parenthesis that closes it, or to the semicolon."""
+    depth = 0
+    for found in re.compile(rf"{LITERAL}|'(?:[^'\\]|\\.)'|[()\[\]{{}};]").finditer(text, start):
+        sign = found.group()
+        depth += (sign in "([{") - (sign in ")]}") if len(sign) == 1 else 0
+        if depth < 0 or (sign == ";" and depth <= 0):
+            return text[start:found.start()]
+    return ""
+
+
+def messages(folder):
+    """Each message once, its variable parts as "..."."""
+    for path in files(folder / "encoder"):
+        if not path.name.endswith((".cpp", ".hpp", ".py")):
+            continue
+        is_python = path.suffix == ".py"
+        text, ends = path.read_text() if is_python else without_comments(path), 0
+        for found in re.finditer(r"raise \w+\(", text) if is_python else MESSAGE.finditer(text):
+            if found.start() < ends:
+                continue
+            parts = arguments(text, found.end())
+            words = re.sub(rf"{LITERAL}|[^\"]+", lambda part: part.group()[1:-1] if part.group()[0] == '"' else "\0", parts)
+            words = re.sub(r"\0(?:parameter)?", "...", re.sub(r'parameter\("(\w+)"\)', r"\1", words))
+            if re.search(r"[a-z] [a-z]", words):
+                ends = found.end() + len(parts)
+                number = text.count("\n", 0, found.start()) + 1
+                print(f"{path.relative_to(folder)}:{number}: {words}")
+    return []
+
+
 def paragraphs(document):
     """Number of the first line and text of each paragraph or list item; without code, tables, headings and pictures."""
     text, first, fenced = "", 0, False
@@ -244,7 +304,7 @@ def prose(folder):
 
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, locale, prose)}
+    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, options, locale, prose, messages)}
     found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)

@@ -1,8 +1,44 @@
 // SPDX-License-Identifier: MIT
-// A sentence for each status.
+// Texts of errors, and a sentence for each status.
 #include "encoder/base/error.hpp"
 
+#include <algorithm>
+
 namespace microtin::base {
+namespace {
+
+// Marks both ends of a parameter's name: a control character, which other texts hardly contain.
+constexpr char kMark = '\x1f';
+
+// The name of the parameter that begins the text; empty if none does.
+std::string_view parameter_at(std::string_view text) {
+  if (text.empty() || text.front() != kMark) return {};
+  const std::string_view rest = text.substr(1);
+  const auto is_in_name = [](char c) { return c == '_' || (c >= 'a' && c <= 'z'); };
+  const auto* const end = std::find_if_not(rest.begin(), rest.end(), is_in_name);
+  if (end == rest.end() || *end != kMark) return {};
+  return rest.substr(0, static_cast<size_t>(end - rest.begin()));
+}
+
+}  // namespace
+
+std::string parameter(std::string_view name) {
+  return kMark + std::string(name) + kMark;
+}
+
+std::string spelled(std::string_view text, const Spelling& spelling) {
+  std::string result;
+  while (!text.empty()) {
+    const std::string_view name = parameter_at(text);
+    result += name.empty() ? std::string(1, text.front()) : spelling(std::string(name));
+    text.remove_prefix(name.empty() ? 1 : name.size() + 2);
+  }
+  return result;
+}
+
+Error::Error(const std::string& text)
+    : std::runtime_error(spelled(text, [](const std::string& name) { return name; })),
+      text_(text) {}
 
 const char* describe(microtin_status status) {
   switch (status) {
@@ -13,7 +49,7 @@ const char* describe(microtin_status status) {
     case MICROTIN_STATUS_STEP_LIMIT:
       return "the step limit was reached";
     case MICROTIN_STATUS_STOPPED:
-      return "stopped after the phase asked for";
+      return "stopped after the requested phase";
     case MICROTIN_STATUS_BAD_MAGIC:
       return "not a microtin stream";
     case MICROTIN_STATUS_UNSUPPORTED_VERSION:

@@ -4,22 +4,41 @@
 #ifndef MICROTIN_ENCODER_BASE_ERROR_HPP
 #define MICROTIN_ENCODER_BASE_ERROR_HPP
 
+#include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "encoder/layers.hpp"
 #include "microtin/microtin.h"
 
 namespace microtin::base {
 
-// A sentence for the user: what went wrong, where (file, and line of the input if there is one).
-// Printed as it is, on one line.
-struct Error : std::runtime_error {
-  using std::runtime_error::runtime_error;
+// The name of a parameter, "max_error", in the text of an Error, marked so that `spelled` finds it.
+std::string parameter(std::string_view name);
+
+// How users of the library write a parameter: max_error, --max-error, MAX_ERROR.
+using Spelling = std::function<std::string(const std::string& name)>;
+
+// The text with its parameters as their users write them.
+std::string spelled(std::string_view text, const Spelling& spelling);
+
+// A sentence for the user: what went wrong, where (file, and line of the input if there is one),
+// and what to do. On one line. what() has the parameters' own names; who builds another Error of
+// this one takes text().
+class Error : public std::runtime_error {
+ public:
+  explicit Error(const std::string& text);
+
+  // With marked parameters, for `spelled`.
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
 };
 
-// A guarantee of ours that does not hold, whatever the input: no Error, so that nothing takes it
-// for one and goes on.
+// A guarantee of ours that does not hold, whatever the input. It is not an Error, so that no
+// handler of errors takes it for one and continues.
 struct InternalFault : std::logic_error {
   using std::logic_error::logic_error;
 };
@@ -35,7 +54,7 @@ auto with_file_context(const std::string& path, const Work& work) {
   try {
     return work();
   } catch (const Error& error) {
-    throw Error(path + ": " + error.what());
+    throw Error(path + ": " + error.text());
   }
 }
 

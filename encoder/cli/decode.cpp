@@ -59,11 +59,15 @@ void decode_for_autopilot(const DecodeRequest& request, Autopilot autopilot) {
     throw Error(request.output + ": the name must be that of a cell, such as N43E007");
   }
   const uint32_t spacing = spacing_of(request, autopilot);
-  if (request.lattice) throw Error(request.output + ": has real coordinates, not --lattice");
+  if (request.lattice)
+    throw Error(request.output +
+                ": a file for an autopilot has real coordinates; leave out --lattice");
   const Document document(request.input);
   const Metadata metadata = document.metadata();
   if (metadata.horizontal_unit != Unit::kDegree || metadata.vertical_unit != Unit::kMetre) {
-    throw Error(request.input + ": autopilots want places in degrees and heights in metres");
+    throw Error(request.input +
+                ": autopilots need positions in degrees and heights in metres; encode the terrain "
+                "in these units");
   }
   const AutopilotFile file = with_file_context(request.output, [&] {
     return autopilot_file(document.sampled(), autopilot, *cell, spacing);
@@ -95,7 +99,7 @@ void decode_to_mesh(const DecodeRequest& request) {
       request.force);
   const SurfaceModel model = document.model(most_vertices(request.input, vertices, request.force));
   if (format == MeshFormat::kGlb && model.triangles.empty()) {
-    throw Error(request.input + ": holds no triangle");
+    throw Error(request.input + ": has no triangle, which a .glb file needs; write an .xyz file");
   }
   OutputFile out(request.output);
   export_model(model, format, coordinates, out);

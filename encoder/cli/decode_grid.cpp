@@ -28,7 +28,7 @@ class SystemFile {
     if (!text.empty()) {
       out_.emplace(path_).write(text);
     } else if (std::error_code none; fs::exists(path_, none)) {
-      warning_ = warning(path_ + " lies beside the grid, but is not its coordinate system");
+      warning_ = warning(path_ + " lies next to the grid, but is not its coordinate system");
     } else if (code_ != 0) {
       const std::string code = "EPSG:" + std::to_string(code_);
       warning_ = warning("no " + path_ + " is written: the text of " + code +
@@ -52,7 +52,7 @@ void expect_same_system(const std::string& path, const Reference& grid, const Me
   const Unit there = grid.horizontal_unit, here = terrain.horizontal_unit;
   if (there != here && there != Unit::kUnknown && here != Unit::kUnknown) {
     throw Error(path + ": its x and y are in the unit " + std::string(name_of(there)) +
-                ", those of the terrain in " + std::string(name_of(here)));
+                ", and those of the terrain in " + std::string(name_of(here)));
   }
   const uint32_t code = grid.horizontal_epsg, own = terrain.horizontal_epsg;
   if (code != own && code != 0 && own != 0) {
@@ -65,8 +65,7 @@ PostGrid grid_of_file(const DecodeRequest& request, const Metadata& terrain) {
   const OpenSource source = prepared_source(request.like, request.like_preparation);
   const auto* raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
-    throw Error(request.like + ": are points, which have no grid; --cell says how far apart " +
-                "posts are");
+    throw Error(request.like + ": has points, and no posts; set their distance by --cell");
   }
   expect_same_system(request.like, (*raster)->frame().reference, terrain);
   return posts_of((*raster)->frame());
@@ -105,7 +104,7 @@ void decode_to_grid(const DecodeRequest& request) {
                 extent_text(surface));
   }
   announce_size(request.output, most_grid_bytes(surface, grid), request.force,
-                "; --cell or --extent ask for less");
+                "; use --cell or --extent for less");
   OutputFile out(request.output);
   export_grid(surface, grid, out);
   std::optional<SystemFile> system;

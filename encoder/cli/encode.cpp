@@ -44,7 +44,7 @@ std::string warnings(const EncodeRequest& request, const Reference& reference) {
   for (const std::string& one : reference.warnings) text += "warning: " + one + '\n';
   const bool is_grid = suffix_of(request.input) == ".asc";
   if (reference.horizontal_unit == Unit::kUnknown && is_grid) {
-    text += "warning: a .prj beside " + request.input + " would say it\n";
+    text += "warning: a .prj next to " + request.input + " can state it\n";
   }
   return text;
 }
@@ -140,6 +140,11 @@ void announce(const EncodeRequest& request, const std::string& text) {
   if (!text.empty()) std::fputs(warning(request.input + ": " + text).c_str(), stderr);
 }
 
+void announce_grid(const EncodeRequest& request, const PointCloud& cloud) {
+  const std::string text = warning_on_grid(cloud);
+  announce(request, text.empty() ? text : text + ": use --gridded");
+}
+
 RasterScan scan_for_fill(const EncodeRequest& request, const RasterReader& raster) {
   RasterScan scanned = scan(raster, {}, false, {});
   announce(request, warning_on_fill(scanned.extremes, raster.frame().decimals));
@@ -150,7 +155,7 @@ std::unique_ptr<RasterReader> open_raster(const EncodeRequest& request) {
   OpenSource source = prepared_source(request.input, request.preparation);
   auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
-    throw Error(request.input + ": shards are of packs of rasters; these are points");
+    throw Error(request.input + ": only packs of rasters have shards, and these are points");
   }
   scan_for_fill(request, **raster);
   return std::move(*raster);
@@ -173,7 +178,7 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
 
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
   announce(request, warning_on_fill(cloud));
-  announce(request, warning_on_grid(cloud));
+  announce_grid(request, cloud);
   const EncodedPoints made =
       with_file_context(request.input, [&] { return encode_pack(cloud, request); });
   out.write(made.bytes);
@@ -208,7 +213,7 @@ std::string encode_whole(const EncodeRequest& request, OutputFile& out) {
   const Source source = prepared_terrain(request.input, request.preparation);
   announce(request, std::visit([](const auto& one) { return warning_on_fill(one); }, source));
   if (const auto* const cloud = std::get_if<PointCloud>(&source)) {
-    announce(request, warning_on_grid(*cloud));
+    announce_grid(request, *cloud);
   }
   const EncodedStream encoded = with_file_context(request.input, [&] {
     ProgressBar bar;
@@ -248,9 +253,9 @@ void announce_memory(const EncodeRequest& request) {
 void expect_own_suffix(const std::string& output, bool is_pack) {
   const std::string suffix = suffix_of(output);
   if (suffix.empty() || suffix == ".mtp" || (suffix == ".mtin" && !is_pack)) return;
-  throw Error(output + (is_pack ? ": a pack is named .mtp"
-                                : ": a stream is named .mtin, a pack .mtp; \"microtin decode\" and "
-                                  "\"render\" write other files from them"));
+  throw Error(output + (is_pack ? ": name a pack .mtp"
+                                : ": name a stream .mtin and a pack .mtp; \"microtin decode\" and "
+                                  "\"microtin render\" make other files from them"));
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ std::string answered(PlaceQuery& query, std::string_view lines, const HeightRequ
     if (line.find_first_not_of(" \t") == std::string_view::npos) continue;
     const std::optional<Place> place = parse_place(line, request.device);
     if (!place) {
-      throw Error("standard input, line " + std::to_string(number) + ": is not a place, X Y" +
+      throw Error("standard input, line " + std::to_string(number) + ": is not a position, X Y" +
                   remedy_for_commas(line));
     }
     text += std::string(line) + ' ' + ask(query, *place, request).text + '\n';
@@ -93,7 +93,8 @@ std::optional<Place> parse_place(std::string_view text, bool for_device) {
 int run_height(const HeightRequest& request) {
   refuse_overwriting({request.input}, "-");
   if (!request.place && request.input == "-") {
-    throw Error("standard input holds the stream or the places, not both");
+    throw Error(
+        "standard input cannot have both the stream and the positions; name a file for the stream");
   }
   try {
     PlaceQuery query(request.input);

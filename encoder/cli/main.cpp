@@ -12,6 +12,7 @@
 #include "encoder/base/text.hpp"
 #include "encoder/cli/command_line.hpp"
 #include "encoder/cli/help.hpp"
+#include "encoder/cli/options.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/cli/version.hpp"
 #include "encoder/files/descriptors.hpp"
@@ -79,7 +80,11 @@ int run(int argc, char** argv) {
     print(requested.str());
     return 0;
   }
-  action();
+  try {
+    action();
+  } catch (const Error& error) {
+    return fail(spelled(error.text(), option_name).c_str(), kFailed);
+  }
   return code;
 }
 

@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <vector>
@@ -89,6 +90,12 @@ std::pair<std::string, std::string> split(const std::string& definition) {
 }
 
 }  // namespace
+
+std::string option_name(const std::string& parameter) {
+  std::string name = "--" + parameter;
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
 
 void begin_group(CLI::App& command, const std::string& group) {
   command.option_defaults()->group(group);

@@ -21,6 +21,9 @@ namespace microtin::cli {
 // Options are defined as help pages show them, "--max-error METRES". Those that take a value and
 // are not required get their default_str.
 
+// "--max-error", of the parameter max_error: how the command line spells errors of the library.
+std::string option_name(const std::string& parameter);
+
 // The options defined from here on are in this group of the help page.
 void begin_group(CLI::App& command, const std::string& group);
 

@@ -59,10 +59,11 @@ std::string world_path(const std::string& picture) {
 void expect_picture(const RenderRequest& request) {
   const std::string suffix = suffix_of(request.output);
   if (!suffix.empty() && suffix != ".png" && suffix != kDrawing && suffix != kPage) {
-    throw Error(request.output + ": not a kind of picture that is written (.png, .svg, .html)");
+    throw Error(request.output +
+                ": is not a kind of picture that render writes; name it .png, .svg or .html");
   }
   if (request.world && suffix != ".png") {
-    throw Error(request.output + ": a world file lies beside a .png file");
+    throw Error(request.output + ": only a .png file gets a world file; leave out --world-file");
   }
 }
 
@@ -75,9 +76,13 @@ std::string content_of(const Document& document) {
 
 // One file, which shows the terrain in a browser.
 void write_page(const RenderRequest& request, const Document& document, const Portrait& portrait) {
-  if (!request.source.empty()) throw Error(request.output + ": a page has no map of errors");
+  if (!request.source.empty())
+    throw Error(request.output +
+                ": a page cannot show a map of errors; leave out --source, or write a .png file");
   if (request.contours || !request.title.empty() || request.coordinates || request.north_arrow) {
-    throw Error(request.output + ": a page has no contours, coordinates, title or north arrow");
+    throw Error(request.output +
+                ": a page cannot show contours, coordinates, a title or a north arrow; write a "
+                ".png or .svg file");
   }
   const std::string page = with_file_context(request.input, [&] {
     return render_page(portrait, std::filesystem::path(request.input).stem().string(),
@@ -91,7 +96,10 @@ void write_page(const RenderRequest& request, const Document& document, const Po
 }
 
 void write_drawing(const RenderRequest& request, const Portrait& portrait) {
-  if (!request.source.empty()) throw Error(request.output + ": a drawing has no map of errors");
+  if (!request.source.empty())
+    throw Error(
+        request.output +
+        ": a drawing cannot show a map of errors; leave out --source, or write a .png file");
   const std::string svg =
       with_file_context(request.input, [&] { return render_svg(portrait, request.width); });
   OutputFile out(request.output);

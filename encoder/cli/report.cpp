@@ -86,7 +86,7 @@ std::string warning_of_units(const std::string& path, const SurfaceModel& model)
                            : plane     ? "the unit of x and y is"
                                        : "the unit of heights is";
   return warning(path + ": " + what +
-                 " not known and taken as metres; encode with --units says them");
+                 " not known and taken as metres; use --units when you encode");
 }
 
 void announce_size(const std::string& path, double most_bytes, bool forced,
@@ -96,7 +96,7 @@ void announce_size(const std::string& path, double most_bytes, bool forced,
   char size[64];
   std::snprintf(size, sizeof size, "up to %.1f GB", most_bytes / kGigabyte);
   if (!forced) {
-    throw Error(path + ": would take " + size + ": --force writes it" + else_there_is);
+    throw Error(path + ": would take " + size + "; use --force to write it" + else_there_is);
   }
   std::fputs(warning(path + " takes " + size).c_str(), stderr);
 }
@@ -105,7 +105,7 @@ uint64_t most_vertices(const std::string& path, uint64_t vertices, bool forced) 
   if (vertices > product::kMostVerticesAtOnce && !forced) {
     throw Error(path + ": its tiles have " + std::to_string(vertices) +
                 " vertices, which take about " + std::to_string(vertices / 6666667) +
-                " GB of memory: --force reads them");
+                " GB of memory; use --force to read them");
   }
   return vertices;
 }

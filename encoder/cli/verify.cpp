@@ -78,9 +78,9 @@ void expect_kept(const Original::Judgement& judgement, const std::string& input)
   if (found.uncovered != 0) {
     throw Error(input + ": " + std::to_string(found.uncovered) + " of " +
                 std::to_string(found.posts) + " heights of the source are not covered" +
-                (found.covered == 0 ? "; it lies elsewhere" : ""));
+                (found.covered == 0 ? "; the source lies elsewhere" : ""));
   }
-  if (found.voids_answered != 0) throw Error(input + ": voids of the source answer heights");
+  if (found.voids_answered != 0) throw Error(input + ": voids of the source have heights");
   if (judgement.water_moved != 0) throw Error(input + ": water of the source is not at its level");
 }
 

@@ -25,7 +25,7 @@ struct Row {
 
 uint32_t checked_count(Wide count) {
   if (count > std::numeric_limits<int32_t>::max()) {
-    throw Error("the grid has 2^31 columns or rows or more");
+    throw Error("the grid has 2^31 columns or rows or more; use a larger cell");
   }
   return static_cast<uint32_t>(count);
 }
@@ -70,7 +70,7 @@ Numbers numbers_within(const Axis& axis, Decimal low, Decimal high) {
 // The posts of an axis from `low` to `high`.
 Row row_within(const Axis& axis, Decimal low, Decimal high) {
   const Numbers posts = numbers_within(axis, low, high);
-  if (posts.empty()) throw Error("no post of the grid lies in the extent");
+  if (posts.empty()) throw Error("no post of the grid lies in the extent; choose a larger one");
   return {moved_axis(axis, posts.first), checked_count(posts.last - posts.first + 1)};
 }
 

@@ -56,7 +56,7 @@ class FileBytes : public ByteSource {
     }
     close(file_);
     if (!is_known) fail();
-    throw Error(path + ": is not a file that can be read in pieces: copy it into one");
+    throw Error(path + ": cannot be read in pieces; copy it into a regular file");
   }
   ~FileBytes() override { close(file_); }
   FileBytes(const FileBytes&) = delete;

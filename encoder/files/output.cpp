@@ -91,7 +91,8 @@ void refuse_overwriting(const std::vector<std::string>& inputs, const std::strin
       const std::optional<struct stat> source = regular_file(input, STDIN_FILENO);
       if (!target || !source) continue;
       if (source->st_dev != target->st_dev || source->st_ino != target->st_ino) continue;
-      throw Error((written == "-" ? "standard output" : written) + ": is the input");
+      throw Error((written == "-" ? "standard output" : written) +
+                  ": is also an input; choose another output");
     }
   }
 }

@@ -38,7 +38,7 @@ bool ends_with(const std::string& text, const char* end) {
 Transform transform_of(GDALDataset& source) {
   Transform transform{};
   if (source.GetGeoTransform(transform.data()) != CE_None) {
-    refuse("the source does not say where it lies: -a_ullr WEST NORTH EAST SOUTH adds it");
+    refuse("the source has no position: add it with -a_ullr WEST NORTH EAST SOUTH");
   }
   if (!encoder::runs_east(transform)) {
     refuse("the source's rows do not run from west to east: bring them there with gdalwarp");
@@ -86,7 +86,7 @@ void expect_held(GDALDataset& source) {
              rows = static_cast<uint32_t>(source.GetRasterYSize());
   if (!has_files || encoder::can_hold(bytes, columns, rows)) return;
   refuse("the source's " + std::to_string(bytes) + " bytes cannot hold " + std::to_string(columns) +
-         " x " + std::to_string(rows) + " posts: -projwin WEST NORTH EAST SOUTH cuts it");
+         " x " + std::to_string(rows) + " posts: cut it with -projwin WEST NORTH EAST SOUTH");
 }
 
 RasterData raster_from_cells(GDALDataset& source) {
@@ -105,10 +105,12 @@ RasterData raster_from_cells(GDALDataset& source) {
   const GDALDataType type = band.GetRasterDataType();
   const char* const bytes = band.GetMetadataItem("PIXELTYPE", "IMAGE_STRUCTURE");
   if (bytes != nullptr && EQUAL(bytes, "SIGNEDBYTE")) {
-    refuse("heights are signed bytes, which GDAL reads as unsigned: gdal_calc.py makes them wider");
+    refuse(
+        "heights are signed bytes, which GDAL reads as unsigned: make them wider with "
+        "gdal_calc.py");
   }
   if (GDALDataTypeIsComplex(type) != 0) {
-    refuse("heights are no complex numbers: -ot Float64 takes their real parts");
+    refuse("heights are complex numbers: take their real parts with -ot Float64");
   }
   int has_value = 0;
   const double value = band.GetNoDataValue(&has_value);
@@ -172,7 +174,7 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
     write_bytes(path, stream.bytes);
     return std::move(stream.report);
   }
-  if (STARTS_WITH(path, "/vsi")) refuse("packs are written to files alone, not to /vsi...");
+  if (STARTS_WITH(path, "/vsi")) refuse("a pack cannot be written to /vsi...; name a file");
   return encoder::encode_pack(terrain, options, path, callbacks);
 }
 

@@ -7,6 +7,7 @@
 #include <ogrsf_frmts.h>
 
 #include <memory>
+#include <microtin/encoder.hpp>
 #include <microtin/surface.hpp>
 #include <string>
 #include <vector>
@@ -54,6 +55,11 @@ std::unique_ptr<OGRLayer> triangle_layer(const encoder::Surface& surface,
 GDALDataset* create_copy(const char* path, GDALDataset* source, int strict, char** options,
                          GDALProgressFunc progress, void* context);
 
+// MAX_ERROR, of the library's option max_error.
+inline std::string option_name(const std::string& option) {
+  return CPLString(option).toupper();
+}
+
 // Runs `work`; what it throws becomes an error of GDAL's, and the result `otherwise`.
 template <class Work, class Result>
 Result guarded(const Work& work, Result otherwise) {
@@ -62,7 +68,8 @@ Result guarded(const Work& work, Result otherwise) {
   } catch (const std::bad_alloc&) {
     CPLError(CE_Failure, CPLE_OutOfMemory, "MTIN: out of memory");
   } catch (const std::exception& error) {
-    CPLError(CE_Failure, CPLE_AppDefined, "MTIN: %s", error.what());
+    CPLError(CE_Failure, CPLE_AppDefined, "MTIN: %s",
+             encoder::message_of(error, option_name).c_str());
   }
   return otherwise;
 }

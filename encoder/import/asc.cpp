@@ -102,7 +102,7 @@ class Header {
     if (size.mantissa <= 0) throw Error(size_key + " is not above 0");
     const bool is_centre = has(lower_left + "center");
     if (is_centre && has(lower_left + "corner")) {
-      throw Error(lower_left + "corner and " + lower_left + "center are both given: leave one");
+      throw Error(lower_left + "corner and " + lower_left + "center are both given; keep one");
     }
     const Decimal place = required(lower_left + (is_centre ? "center" : "corner"));
     return axis_of_cells(place, size, is_centre ? 0 : 1);
@@ -112,7 +112,7 @@ class Header {
   bool has(const std::string& key) const { return numbers_.count(key) != 0; }
 
   Decimal required(const std::string& key) const {
-    if (!has(key)) throw Error("the header does not give " + key);
+    if (!has(key)) throw Error("the header lacks " + key);
     return numbers_.at(key);
   }
 
@@ -187,7 +187,7 @@ void for_each_height(Words& words, const NoData& no_data, uint64_t count, const 
     }
   }
   if (!words.word().empty())
-    words.fail("the grid goes on after its " + std::to_string(count) + " heights");
+    words.fail("the grid has more numbers than its " + std::to_string(count) + " heights");
 }
 
 // Without heights.

@@ -64,14 +64,14 @@ std::string reason(const std::string& path) {
     if (text.compare(0, name.size(), name) == 0) text.erase(0, name.size());
   }
   if (text.find("not recognized as") == text.npos) return text;
-  return text + " \"gdal_translate IN OUT.tif\" makes a GeoTIFF of what is not read here";
+  return text + " convert other formats with \"gdal_translate IN OUT.tif\"";
 }
 
 Dataset open(const std::string& path, Indirect indirect) {
   register_drivers(indirect);
   CPLSetErrorHandler(CPLQuietErrorHandler);
   if (indirect == Indirect::kRefused && is_virtual(path)) {
-    throw Error("is opened with --allow-vrt only");
+    throw Error("is a virtual file of GDAL's, which is read only with " + parameter("allow_vrt"));
   }
   Dataset dataset(GDALOpenEx(path.c_str(),
                              GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr,
@@ -79,7 +79,7 @@ Dataset open(const std::string& path, Indirect indirect) {
   if (!dataset) {
     const bool is_vrt = suffix_of(path) == ".vrt";
     if (is_vrt && indirect == Indirect::kRefused) {
-      throw Error("names other files, which are read with --allow-vrt only");
+      throw Error("names other files, which are read only with " + parameter("allow_vrt"));
     }
     throw Error("GDAL cannot open it: " + reason(path));
   }
@@ -93,7 +93,7 @@ enum class FirstRow { kNorth, kSouth };
 FirstRow place(GDALDatasetH dataset, Raster& raster) {
   std::array<double, 6> t{};  // x0, dx by column, dx by row, y0, dy by column, dy by row
   if (GDALGetGeoTransform(dataset, t.data()) != CE_None) {
-    throw Error("does not say where it lies: gdal_translate -a_ullr WEST NORTH EAST SOUTH adds it");
+    throw Error("has no position: add it with \"gdal_translate -a_ullr WEST NORTH EAST SOUTH\"");
   }
   if (!runs_east(t)) {
     throw Error("its rows do not run from west to east: bring them there with gdalwarp");
@@ -116,8 +116,8 @@ GDALRasterBandH band_of(GDALDatasetH dataset, uint32_t number) {
     if (GDALGetRasterColorInterpretation(band) != GCI_AlphaBand) bands.push_back(i);
   }
   if (bands.size() > 1) {
-    throw Error("has " + std::to_string(bands.size()) +
-                " bands: choose that of the heights, --band 1");
+    throw Error("has " + std::to_string(bands.size()) + " bands: choose the band of heights by " +
+                parameter("band"));
   }
   return GDALGetRasterBand(dataset, bands.empty() ? 1 : bands[0]);
 }
@@ -159,8 +159,8 @@ class BandReader {
     }
     if (is_signed_byte(band)) {
       throw Error(
-          "its heights are signed bytes, which GDAL reads as unsigned: \"gdal_calc.py -A IN "
-          "--outfile OUT --type Int16 --calc 'numpy.int16(numpy.int8(A))'\" makes them wider");
+          "its heights are signed bytes, which GDAL reads as unsigned: convert them to Int16 with "
+          "gdal_calc.py, by numpy.int16(numpy.int8(A))");
     }
     if (!scaled_ || (is_binary && (factor != 1 || shift != 0))) {
       throw Error(
@@ -247,7 +247,7 @@ void expect_held(GDALDatasetH dataset, GDALRasterBandH band) {
   throw Error(
       "its " + std::to_string(bytes) + " bytes cannot hold " + std::to_string(columns) + " x " +
       std::to_string(rows) +
-      " posts: \"gdal_translate -projwin WEST NORTH EAST SOUTH\" cuts out those that it has");
+      " posts: cut out those that it has with \"gdal_translate -projwin WEST NORTH EAST SOUTH\"");
 }
 
 Raster read(const std::string& path, Indirect indirect, uint32_t number) {

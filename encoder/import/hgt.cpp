@@ -54,11 +54,11 @@ class HgtReader : public RasterReader {
     if (rows == 0) {
       throw Error(name + ": has " + std::to_string(bytes_->size()) +
                   " bytes; an .hgt file has two for each post of a square, as 25934402 for 3601 x "
-                  "3601, or of 1801 x 3601 and the like towards the poles");
+                  "3601, or of 1801 x 3601, for example, towards the poles");
     }
     const auto cell = cell_of(name);
     if (!cell) {
-      throw Error(name + ": the file's name does not say where it lies, as N43E007.hgt does");
+      throw Error(name + ": the file's name has no position; name it as N43E007.hgt");
     }
     frame_.width = columns;
     frame_.height = rows;

@@ -51,8 +51,8 @@ Reference reference_beside(const std::string& path) {
     const std::string text(without_mark(read_file(file)));
     if (is_wkt(text)) return reference_of_wkt(text);
     unread.unread = file +
-                    ": is no well-known text of a coordinate system; \"gdalsrsinfo -o wkt_esri\" "
-                    "writes one, or give an EPSG code or units";
+                    ": is not well-known text of a coordinate system; write it with \"gdalsrsinfo "
+                    "-o wkt_esri\", or set an EPSG code or units";
   } catch (const Error& error) {
     unread.unread = error.what();
   }
@@ -119,7 +119,7 @@ Source import_other(const std::string& path, Indirect indirect, uint32_t band) {
 #else
 Source import_other(const std::string& path, Indirect, uint32_t) {
   open_file(path);  // throws Error if it is not there
-  throw Error(path + ": not a kind of terrain file known here: " + kKinds);
+  throw Error(path + ": is not a kind of terrain file that microtin reads: " + kKinds);
 }
 #endif
 

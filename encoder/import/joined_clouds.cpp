@@ -22,7 +22,7 @@ void refine(PointCloud& cloud, int xy_decimals, int z_decimals, const std::strin
   if (xy == 1 && z == 1) return;  // as for most files: else time would be quadratic in them
   for (SourcePoint& p : cloud.points) {
     if (!terrain::refine(p.x, xy) || !terrain::refine(p.y, xy) || !terrain::refine(p.z, z)) {
-      throw Error(path + ": its numbers do not go with the decimals of the other files");
+      throw Error(path + ": its numbers do not fit the decimals of the other files");
     }
   }
   cloud.xy_decimals = xy_decimals;
@@ -114,8 +114,8 @@ class SharedPlaces {
 void expect_same_classes(const NamedSource& first, const NamedSource& part, const PointCloud& a,
                          const PointCloud& b) {
   if (!a.classes || !b.classes || *a.classes == *b.classes) return;
-  throw Error(part.path + ": " + b.selection + "; but of " + first.path + ": " + a.selection +
-              ": --classes says which ones to take of all files");
+  throw Error(part.path + ": " + b.selection + ", but " + first.path + ": " + a.selection +
+              "; choose the classes of all files by " + parameter("classes"));
 }
 
 // In degrees, files beyond 180 continue their neighbours' longitudes. Says so for the user.

@@ -39,7 +39,7 @@ struct Header {
 
 void expect_points_behind(const ByteReader& file, uint64_t first_point, uint64_t end) {
   if (first_point >= end) return;
-  file.fail("malformed: points are said to begin at byte " + std::to_string(first_point) +
+  file.fail("malformed: its points begin at byte " + std::to_string(first_point) +
             ", before the header and its records end, at " + std::to_string(end));
 }
 
@@ -153,7 +153,7 @@ class PointReader {
     }
     if (points.empty())
       file_.fail("no point is " + taken_text(counts_, classes) +
-                 (has_others() ? ": --classes takes others" : ""));
+                 (has_others() ? "; choose other classes by " + parameter("classes") : ""));
     PointCloud cloud = points.take();
     cloud.selection = taken_text(counts_, classes);
     cloud.classes = classes;

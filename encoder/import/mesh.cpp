@@ -67,7 +67,7 @@ class HeaderReader {
         continue;
       }
       if (fields_[0] == "end_header") {
-        if (!encoding_) fail("the header does not give the format");
+        if (!encoding_) fail("the header lacks the format");
         return;
       }
       if (fields_[0] == "format") {
@@ -77,7 +77,7 @@ class HeaderReader {
       } else if (fields_[0] == "property") {
         read_property();
       } else {
-        fail(quoted(fields_[0]) + " is no word of a PLY header");
+        fail(quoted(fields_[0]) + " is not a keyword of a PLY header");
       }
     }
     fail("the header does not end");
@@ -114,7 +114,7 @@ class HeaderReader {
     if (format == "ascii") encoding_ = Encoding::kText;
     if (format == "binary_little_endian") encoding_ = Encoding::kLittleEndian;
     if (format == "binary_big_endian") encoding_ = Encoding::kBigEndian;
-    if (!encoding_) fail("the format is none of PLY's");
+    if (!encoding_) fail("the format is not one of PLY's");
   }
 
   void read_element() {
@@ -130,7 +130,7 @@ class HeaderReader {
     const auto count = list ? type_named(fields_[2]) : std::nullopt;
     const auto type = type_named(fields_[list ? 3 : 1]);
     const bool whole = !count || (*count != Type::kFloat && *count != Type::kDouble);
-    if (!type || (list && !count) || !whole) fail("the property's type is none of PLY's");
+    if (!type || (list && !count) || !whole) fail("the property's type is not one of PLY's");
     elements_.back().properties.push_back({std::string(fields_.back()), *type, count});
   }
 

@@ -40,11 +40,11 @@ std::string remedy(const NamedSource& first, const NamedSource& part, const Refe
   for (const auto& [file, reference] : {std::tie(first, a), std::tie(part, b)}) {
     if (reference.horizontal_unit != Unit::kUnknown || !reference.wkt.empty()) continue;
     if (suffix_of(file.path) == ".asc") {
-      return "put the .prj that is missing beside " + file.path + ", or give an EPSG code for all";
+      return "add the missing .prj next to " + file.path + ", or set an EPSG code for all";
     }
   }
   const bool is_unknown = a.vertical_unit == Unit::kUnknown || b.vertical_unit == Unit::kUnknown;
-  const std::string others = is_unknown ? ", or give units for all" : "";
+  const std::string others = is_unknown ? ", or set units for all" : "";
   return (std::holds_alternative<PointCloud>(part.source) ? "bring all points into one system first"
                                                           : "bring it there with gdalwarp") +
          others;
@@ -171,7 +171,7 @@ struct Part {
         {static_cast<uint32_t>(wanted.x - box.x), static_cast<uint32_t>(wanted.y - box.y),
          static_cast<uint32_t>(wanted.width), static_cast<uint32_t>(wanted.height)});
     if (!refine(piece.heights, power_of_ten(decimals - piece.decimals))) {
-      throw Error(path + ": its heights do not go with the decimals of the other files");
+      throw Error(path + ": its heights do not fit the decimals of the other files");
     }
     return std::move(piece.heights);
   }
@@ -262,7 +262,7 @@ class Mosaic : public RasterReader {
     if (can_hold(held, static_cast<uint64_t>(all.width), static_cast<uint64_t>(all.height))) return;
     throw Error(parts_[0].path + " and others: lie so far apart that they have " +
                 std::to_string(held) + " of " + std::to_string(all.width) + " x " +
-                std::to_string(all.height) + " posts: encode those far apart by themselves");
+                std::to_string(all.height) + " posts: encode distant files by themselves");
   }
 
   void compare_parts() {

@@ -89,7 +89,7 @@ std::unique_ptr<RasterReader> open_mask(const std::string& path, const Raster& f
 }
 
 [[noreturn]] void refuse_water(const std::string& path) {
-  throw Error(path + ": --water-level is for rasters; these are points");
+  throw Error(path + ": " + parameter("water_level") + " is for rasters, and these are points");
 }
 
 // Reads a raster with its water.
@@ -146,7 +146,8 @@ AnySource settled(const std::string& path, AnySource source, const Preparation& 
 Raster raster_of_points(const std::string& path, const PointCloud& cloud) {
   std::optional<Raster> raster = gridded(cloud);
   if (!raster)
-    throw Error(path + ": the points are not the posts of a raster: leave out --gridded");
+    throw Error(path + ": the points are not the posts of a raster; leave out " +
+                parameter("gridded"));
   return std::move(*raster);
 }
 

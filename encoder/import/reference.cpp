@@ -71,7 +71,7 @@ class Settlement {
     const System asked = complete(false, horizontal_of(asked_)), file = horizontal_of(file_);
     if (!file_.unread.empty()) {
       if (asked.code == 0 && !asked.unit.is_stated()) throw Error(file_.unread);
-      warn("what is asked for decides; not read is " + file_.unread);
+      warn("the options override the system of the file, which is not read: " + file_.unread);
     }
     if (asked.code != 0) all_.wkt.clear();
     all_.horizontal_epsg = chosen(asked.code, file.code);
@@ -81,7 +81,7 @@ class Settlement {
       if (is_own && (all_.horizontal_epsg != 0 || !all_.wkt.empty())) {
         throw Error("the unit of x and y is " + unit.other +
                     ", and their system has no other: bring them into a system of metres or feet " +
-                    "with gdalwarp -t_srs, or give units that say what they are");
+                    "with gdalwarp -t_srs, or set units");
       }
       unit.unit = converted("x and y", unit.other, conversion_.xy);
       const std::optional<CodedSystem> system = system_of_file_code(all_.horizontal_epsg);
@@ -119,14 +119,14 @@ class Settlement {
     if (wanted.code == 0) return wanted;
     const std::optional<CodedSystem> system = system_of_code(wanted.code);
     if (!system) {
-      warn(code_text(wanted.code) + " is not among the codes known here, and is taken as it is" +
-           (wanted.unit.is_stated() ? "" : ": give its units"));
+      warn(code_text(wanted.code) + " is not a code known here, and is kept as it is" +
+           (wanted.unit.is_stated() ? "" : ": set its units"));
       return wanted;
     }
     if (system->is_vertical != is_vertical) {
       throw Error(code_text(wanted.code) +
                   (is_vertical ? " is a horizontal system" : " is a vertical system") +
-                  ": codes are given as HORIZONTAL:VERTICAL");
+                  ": use HORIZONTAL:VERTICAL");
     }
     const StatedUnit unit{system->unit, system->other};
     if (wanted.unit.is_stated() && wanted.unit.other.empty() && !is_same(wanted.unit, unit)) {
@@ -140,7 +140,7 @@ class Settlement {
   uint32_t chosen(uint32_t asked, uint32_t file) {
     if (asked == 0) return file;
     if (file != 0 && file != asked) {
-      warn(code_text(asked) + " is taken; the file says " + code_text(file));
+      warn(code_text(asked) + " overrides the file's " + code_text(file));
     }
     return asked;
   }
@@ -159,14 +159,13 @@ class Settlement {
     const LengthUnit* const length = length_named(name);
     if (length == nullptr) {
       throw Error("the unit of " + what + " is \"" + name +
-                  "\", which is not known: convert them, or give units that say what they are");
+                  "\", which is not known: convert them, or set units");
     }
     const std::optional<DecimalFactor> exact = factor_of(*length);
     if (!exact) {
       throw Error("the unit of " + what + " is " + name + ", " + std::to_string(length->numerator) +
                   "/" + std::to_string(length->denominator) + " " + text_of(length->base) +
-                  ", which no decimal is exactly: convert them, or give units that say what " +
-                  "they are");
+                  ", which no decimal is exactly: convert them, or set units");
     }
     factor = *exact;
     warn(what + " in the unit " + name + " are converted to " + text_of(length->base) + ": times " +
@@ -190,10 +189,12 @@ class Settlement {
     if (stated && !asked_.depths) {
       throw Error((is_coded_depth ? "heights are depths (" + code_text(code) + ")"
                                   : std::string("heights are depths by the file's system")) +
-                  ", which grow downwards: the option depths turns them into heights, or a "
-                  "vertical EPSG code of heights says that they are heights");
+                  ", which grow downwards: negate them with " + parameter("depths") +
+                  ", or set a vertical EPSG code of "
+                  "heights");
     }
-    if (!stated && file_.depths) warn("heights are taken as they are; the file says depths");
+    if (!stated && file_.depths)
+      warn("heights are taken as they are, although the file says depths");
     if (!asked_.depths) return;
     conversion_.z.numerator = -conversion_.z.numerator;
     keeps_no_vertical_part_ = true;
@@ -231,19 +232,19 @@ Reference completed(Reference reference) {
   if (reference.horizontal_unit == Unit::kUnknown) {
     const uint32_t code = reference.horizontal_epsg;
     warn(code == 0
-             ? "the unit of x and y is not known: give units or an EPSG code"
-             : "the unit of x and y is not known, nor is " + code_text(code) + " here: give units");
+             ? "the unit of x and y is not known: set units or an EPSG code"
+             : "the unit of x and y is not known, nor is " + code_text(code) + " here: set units");
   }
   if (reference.vertical_unit != Unit::kUnknown) return reference;
   if (reference.horizontal_unit == Unit::kDegree) {
     throw Error(
-        "places are degrees, and the unit of heights is not known: give units, degree:metre or "
-        "degree:foot, or a vertical code, as in EPSG 4326:5773");
+        "positions are in degrees, and the unit of heights is not known: set units, degree:metre "
+        "or degree:foot, or a vertical code, as in EPSG 4326:5773");
   }
   reference.vertical_unit = reference.horizontal_unit;
   if (reference.vertical_unit == Unit::kFoot || reference.vertical_unit == Unit::kUsSurveyFoot) {
     warn("heights are taken as " + text_of(reference.vertical_unit) +
-         ", as x and y are; if they are not, give units, such as :metre");
+         ", as x and y are; if they are not, set units, such as :metre");
   }
   return reference;
 }

@@ -37,7 +37,7 @@ std::string not_a_height(double value) {
       digits,
       std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 17).ptr);
   return text +
-         " is not a height in range: if that marks voids, the source must say so: NaN in an array, "
+         " is not a height in range: if it marks voids, declare it: NaN in an array, "
          "else \"gdal_translate -a_nodata " +
          text + '"';
 }

@@ -132,7 +132,8 @@ TileRange all_tiles(const TileGrid& grid) {
 
 TileTooLarge::TileTooLarge(uint32_t tile, uint32_t vertices, uint32_t steps)
     : Error("tile " + std::to_string(tile) + " has " + std::to_string(vertices) +
-            " vertices, too many: try --tile-size " + std::to_string(steps)),
+            " vertices, more than a tile may have; use " + parameter("tile_size") + ' ' +
+            std::to_string(steps)),
       fewer_steps(steps) {}
 
 void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {

@@ -95,25 +95,27 @@ uint32_t most_vertices(const TiledCloud& tiled) {
 
 [[noreturn]] void refuse_extent(const TiledCloud& tiled) {
   const uint64_t points = tiled.cloud.points.size();
-  throw Error("tiles are at most " + std::to_string(kLatticeMax) + " steps wide: at --xy-step " +
-              to_string(tiled.survey.xy_step) + " more than " + std::to_string(kMostTiles) +
-              " are needed; --xy-step " +
+  throw Error(parameter("xy_step") + ' ' + to_string(tiled.survey.xy_step) +
+              " is too fine: the pack needs more than " + std::to_string(kMostTiles) +
+              " tiles of at most " + std::to_string(kLatticeMax) + " steps; use " +
               to_string(finest_step(tiled.cloud, std::min<uint64_t>(points, kMostTiles))) +
-              " makes no more than there are points");
+              " or more");
 }
 
 [[noreturn]] void refuse_tiles(uint32_t most_vertices) {
-  throw Error("more than " + std::to_string(kMostTiles) + " tiles, or tiles of one step, are " +
-              "needed: --tile-vertices must be more" +
+  throw Error("the pack needs more than " + std::to_string(kMostTiles) +
+              " tiles, or tiles of one " + "step" +
               (most_vertices == 0
                    ? std::string()
-                   : "; one still has " + std::to_string(most_vertices) + " vertices"));
+                   : ", and a tile still has " + std::to_string(most_vertices) + " vertices") +
+              "; increase " + parameter("tile_vertices"));
 }
 
 [[noreturn]] void refuse_crowds(uint64_t tiles, uint32_t most_vertices) {
-  throw Error("the points lie in crowds so far apart that they need more than " +
-              std::to_string(tiles) + " tiles (one still has " + std::to_string(most_vertices) +
-              " vertices): encode each crowd by itself, or ask for more --tile-vertices");
+  throw Error(
+      "the points lie in clusters so far apart that they need more than " + std::to_string(tiles) +
+      " tiles, and a tile still has " + std::to_string(most_vertices) +
+      " vertices; encode each cluster as its own pack, or increase " + parameter("tile_vertices"));
 }
 
 // The fewest pieces along the longer side, at least `fewest`, found to keep tiles within the number

@@ -83,7 +83,7 @@ EncodedTile PointTiles::encode(uint32_t tile, const std::vector<uint32_t>& point
              part_of(tiled_.cloud, points), tiled_.lattice.max_error);
   const bool too_low = tiled_.lattice.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.uncovered != 0) {
-    throw InternalFault("a decoded tile does not keep what was asked for");
+    throw InternalFault("a decoded tile does not meet the options");
   }
   return {summary_of(tin, stream, std::move(decoded), measured), std::move(stream)};
 }

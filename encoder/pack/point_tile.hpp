@@ -55,7 +55,7 @@ class PointTiles {
   uint32_t vertices_of(uint32_t tile, const SimplifyOptions& options) const;
 
   // Encodes it, given the numbers of the points that lie in it. Throws Error if the decoded stream
-  // does not keep what was asked for.
+  // does not meet the options.
   EncodedTile encode(uint32_t tile, const std::vector<uint32_t>& points) const;
 
  private:

@@ -26,7 +26,7 @@ void check_bounds(const TiledRaster& tiled, const Verification& measured, uint64
   const bool too_low = tiled.options.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.voids_answered != 0 ||
       measured.uncovered != 0 || water_moved != 0) {
-    fail("does not keep what was asked for");
+    fail("does not meet the options");
   }
 }
 
@@ -60,7 +60,7 @@ bool has_terrain(const TileBox& box, const Survey& survey) {
   if (survey.samples.size() == survey.fixed.size()) return false;
   throw Error("the tile from column " + std::to_string(box.x) + ", row " + std::to_string(box.y) +
               " has only " + std::to_string(survey.samples.size()) +
-              " heights, which form no triangle; another --tile-vertices may help");
+              " heights, which do not form a triangle; change " + parameter("tile_vertices"));
 }
 
 bool has_terrain(const TiledRaster& tiled, uint32_t tile) {
@@ -77,8 +77,8 @@ void check_covered_by_others(const TiledRaster& tiled, const TilePosts& posts) {
       continue;
     }
     throw Error("the height at column " + std::to_string(post.x) + ", row " +
-                std::to_string(post.y) +
-                " has too few around it for a triangle; another --tile-vertices may help");
+                std::to_string(post.y) + " has too few others around it for a triangle; change " +
+                parameter("tile_vertices"));
   }
 }
 

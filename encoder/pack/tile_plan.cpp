@@ -85,8 +85,9 @@ uint32_t guessed_pieces(const Raster& frame, const PackOptions& options) {
 }
 
 [[noreturn]] void fail_at_one_step(uint32_t max_vertices, uint32_t most) {
-  throw Error("--tile-vertices " + std::to_string(max_vertices) +
-              " is not enough for tiles of one step: " + std::to_string(most));
+  throw Error(parameter("tile_vertices") + ' ' + std::to_string(max_vertices) +
+              " is too small: a tile of one step has " + std::to_string(most) + "; use at least " +
+              "that");
 }
 
 }  // namespace
@@ -94,10 +95,10 @@ uint32_t guessed_pieces(const Raster& frame, const PackOptions& options) {
 TileGrid grid_of(const Raster& frame, uint32_t tile_size) {
   const TileGrid grid = grid_of(frame.width - 1, frame.height - 1, tile_size);
   if (has_too_many_tiles(grid)) {
-    throw Error(
-        "tiles of " + std::to_string(std::max(grid.width, grid.height)) + " steps are " +
-        std::to_string(tile_count(grid)) + ", and a pack has " + std::to_string(kMostTiles) +
-        " at most: ask for more --tile-size or --tile-vertices, or make a pack of each part");
+    throw Error("the pack has " + std::to_string(tile_count(grid)) + " tiles of " +
+                std::to_string(std::max(grid.width, grid.height)) + " steps, more than " +
+                std::to_string(kMostTiles) + "; increase " + parameter("tile_size") + " or " +
+                parameter("tile_vertices") + ", or make a pack of each part");
   }
   return grid;
 }

@@ -212,7 +212,7 @@ void expect_letters(const std::string& title) {
   const std::string_view missing = missing_letter(title);
   if (missing.empty()) return;
   throw Error("the title has \"" + std::string(missing) +
-              "\", which cannot be drawn: there are Latin letters with Western accents, digits and "
+              "\", which cannot be drawn; use Latin letters with Western accents, digits and "
               "common signs");
 }
 

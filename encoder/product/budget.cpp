@@ -374,10 +374,11 @@ class Budget {
     EncodeOptions options = asked_;
     options.max_bytes = 0;
     options.lattice.max_error = largest_;
-    const double size = size_of(encode_measured(source_, options, {}));  // says of other limits
-    throw Error("--max-bytes " + std::to_string(static_cast<uint64_t>(limit_)) +
-                " is not enough: the smallest file found, at any error, takes " +
-                std::to_string(static_cast<uint64_t>(std::min(size, smallest_))));
+    // Throws by itself if another limit is the reason.
+    const double size = size_of(encode_measured(source_, options, {}));
+    throw Error(parameter("max_bytes") + ' ' + std::to_string(static_cast<uint64_t>(limit_)) +
+                " is too small: the smallest file found, at any error, has " +
+                std::to_string(static_cast<uint64_t>(std::min(size, smallest_))) + " bytes");
   }
 
   const Source& source_;

@@ -75,8 +75,7 @@ DecodedStream read_stream(const std::string& path) {
   refuse_shard(path, *source);
   if (is_pack(*source)) {
     throw Error(path +
-                ": is a pack: it is read as a file, not from a pipe, and not where a stream "
-                "is wanted");
+                ": is a pack, which cannot stand for a stream or come from a pipe; name a file");
   }
   return decoded(path, std::move(bytes));
 }

@@ -24,16 +24,17 @@ uint32_t tile_vertices(const EncodeOptions& options, bool is_narrow) {
   const uint32_t vertices = vertices_for_ram(options.device_ram, is_narrow);
   if (vertices < kFewestTileVertices) {
     const uint64_t tile = promised_compact_bytes(kFewestTileVertices, false, 16);
-    throw Error("--device-ram " + std::to_string(options.device_ram) +
-                " is too few for a pack, which takes at least " +
-                std::to_string(pack_ram(kFewestTileVertices, tile)));
+    throw Error(parameter("device_ram") + ' ' + std::to_string(options.device_ram) +
+                " is too small for a pack, which takes at least " +
+                std::to_string(pack_ram(kFewestTileVertices, tile)) + " bytes");
   }
   return vertices;
 }
 
 PackOptions pack_options(const EncodeOptions& options, const Progress& progress) {
   if (options.max_vertices != 0 || options.max_bytes != 0) {
-    throw Error("packs are made with --max-error or of all posts");
+    throw Error(parameter("max_vertices") + " and " + parameter("max_bytes") +
+                " are for streams; for a pack use " + parameter("max_error") + ", or no bound");
   }
   EncodeOptions tile = options;
   tile.device_ram = 0;  // it limits tiles, by their number of vertices
@@ -42,12 +43,17 @@ PackOptions pack_options(const EncodeOptions& options, const Progress& progress)
 }
 
 PackOptions raster_options(const EncodeOptions& options, const Progress& progress) {
-  if (options.lattice.xy_step) throw Error("packs keep the places of posts: no --xy-step");
+  if (options.lattice.xy_step) {
+    throw Error(parameter("xy_step") +
+                " is not for packs of rasters, which keep the positions of posts; leave it out");
+  }
   return pack_options(options, progress);
 }
 
 PackOptions point_options(const EncodeOptions& options) {
-  if (options.tile_size != 0) throw Error("--tile-size is for rasters; these are points");
+  if (options.tile_size != 0) {
+    throw Error(parameter("tile_size") + " is for rasters, and these are points; leave it out");
+  }
   return pack_options(options, {});
 }
 
@@ -67,7 +73,8 @@ Decimal z_step(const PackContent& pack) {
 TileRange existing(TileRange range, const TileGrid& grid) {
   const TileRange all = all_tiles(grid);
   if (range.first > all.last) {
-    throw Error("--shard " + range_text(range) + ": the last tile is " + std::to_string(all.last));
+    throw Error(parameter("shard") + ' ' + range_text(range) + " is beyond the last tile, " +
+                std::to_string(all.last));
   }
   return {range.first, std::min(range.last, all.last)};
 }
@@ -136,8 +143,8 @@ std::string finer_step(const PointCloud& cloud, Decimal step, Decimal bound, Dec
   if (finest <= make_decimal(1, cloud.xy_decimals)) return "leave it out";
   const double missed = std::max(real(error) - real(bound), real(bound) / 2);
   const Decimal likely = round_step(real(step) * real(bound) / 2.5 / missed);
-  if (likely <= finest) return to_string(finest) + " is the finest for so wide a cloud";
-  return "try " + to_string(likely);
+  if (likely <= finest) return "use " + to_string(finest) + ", the finest for so wide a cloud";
+  return "use " + to_string(likely);
 }
 
 // An attempt, with the errors where points truly lie, if it moves them.
@@ -180,9 +187,10 @@ Attempt attempt_twice(const PointCloud& cloud, const EncodeOptions& options) {
   } catch (const Error&) {  // the terrain does not go within that
   }
   const Decimal step = first.made.xy_step, error = first.true_places->max_error;
-  throw Error("--max-error " + to_string(*bound) + " is not kept where points truly lie, by " +
-              to_string(error) + " at most: --xy-step " + to_string(step) + " is too coarse; " +
-              finer_step(cloud, step, *bound, error) + ", or ask for less with --bound-at lattice");
+  throw Error("the error at the points is up to " + to_string(error) + ", above " +
+              parameter("max_error") + ' ' + to_string(*bound) + ": " + parameter("xy_step") + ' ' +
+              to_string(step) + " is too coarse; " + finer_step(cloud, step, *bound, error) +
+              ", or use " + parameter("bound_at") + " lattice");
 }
 
 }  // namespace
@@ -198,7 +206,7 @@ EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options)
   const Verification found =
       on_our_own([&] { return verify(PackFile(bytes), kept, options.lattice.max_error); });
   if (!found.within_bound || found.uncovered != 0) {
-    throw InternalFault("the pack does not keep what was asked for");
+    throw InternalFault("the pack does not meet the options");
   }
   return {std::move(bytes),   report_of(made.content), made.xy_step, made.xy_displacement,
           kept.points.size(), made.merged + dropped,   true_places};

@@ -27,13 +27,14 @@ void check_vertices(const Tin& tin, const EncodeOptions& options) {
   const uint64_t vertices = tin.vertices.size();
   if (options.device_ram != 0 && vertices > most_vertices(options.device_ram)) {
     throw Error("the terrain does not fit: " + std::to_string(vertices) + " vertices take " +
-                std::to_string(device_ram(static_cast<uint32_t>(vertices))) +
-                " bytes; --device-ram " + std::to_string(options.device_ram) + " holds at most " +
-                std::to_string(most_vertices(options.device_ram)) + " vertices");
+                std::to_string(device_ram(static_cast<uint32_t>(vertices))) + " bytes, and " +
+                parameter("device_ram") + ' ' + std::to_string(options.device_ram) +
+                " holds at most " + std::to_string(most_vertices(options.device_ram)) +
+                " vertices; increase the error or make a pack (.mtp)");
   }
   if (limit != 0 && vertices > limit) {
-    throw Error("--max-vertices " + std::to_string(limit) +
-                " is not enough: outline and voids alone need " + std::to_string(vertices));
+    throw Error(parameter("max_vertices") + ' ' + std::to_string(limit) +
+                " is too small: outline and voids alone need " + std::to_string(vertices));
   }
 }
 
@@ -48,7 +49,7 @@ void expect_promises(const Verification& measured, const WaterGauge& gauge,
   const bool too_low = lattice.never_below && measured.max_below.mantissa != 0;
   if (!measured.within_bound || too_low || measured.uncovered != 0 ||
       measured.voids_answered != 0 || gauge.moved() != 0) {
-    throw InternalFault("the decoded terrain does not keep what was asked for");
+    throw InternalFault("the decoded terrain does not meet the options");
   }
 }
 
@@ -154,8 +155,8 @@ std::string pack_that_is_finer(const PointCloud& cloud) {
   const Decimal own = make_decimal(1, cloud.xy_decimals);
   if (pack::finest_step(cloud, pack::kMostTiles) <= own) return "make a pack (.mtp)";
   const uint64_t tiles = std::min<uint64_t>(cloud.points.size(), pack::kMostTiles);
-  return "make a pack (.mtp) with --xy-step " + to_string(pack::finest_step(cloud, tiles)) +
-         " or finer";
+  return "make a pack (.mtp) with " + parameter("xy_step") + ' ' +
+         to_string(pack::finest_step(cloud, tiles)) + " or finer";
 }
 
 // True if a step that is left out is as coarse.
@@ -168,15 +169,15 @@ bool is_finest(Decimal xy_step, const Source& source, LatticeOptions lattice) {
 [[noreturn]] void refuse_lattice(const Source& source, const Attempt& last,
                                  const EncodeOptions& options) {
   const Decimal step = last.encoded.laid.xy_step;
-  throw Error(
-      "--max-error " + to_string(*options.lattice.max_error) +
-      " is not kept where points truly lie, by " + to_string(last.encoded.true_places->max_error) +
-      " at most, at " + std::to_string(last.missed) + " of them: --xy-step " + to_string(step) +
-      " is too coarse; " +
-      (is_finest(step, source, options.lattice)
-           ? "16 bits hold no finer one: " + pack_that_is_finer(std::get<PointCloud>(source)) + ", "
-           : std::string("leave it out, ")) +
-      "or ask for less with --bound-at lattice");
+  throw Error("the error at " + std::to_string(last.missed) + " points is up to " +
+              to_string(last.encoded.true_places->max_error) + ", above " + parameter("max_error") +
+              ' ' + to_string(*options.lattice.max_error) + ": " + parameter("xy_step") + ' ' +
+              to_string(step) + " is too coarse" +
+              (is_finest(step, source, options.lattice)
+                   ? ", and 16 bits hold no finer one; " +
+                         pack_that_is_finer(std::get<PointCloud>(source)) + ", "
+                   : std::string("; leave it out, ")) +
+              "or use " + parameter("bound_at") + " lattice");
 }
 
 // Attempts until points keep the bound where they truly lie, as many as are allowed.
@@ -219,7 +220,9 @@ EncodedStream measured(const Source& source, const EncodeOptions& options, Appro
 
 EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
                             const Progress& progress) {
-  if (options.tile_size != 0) throw Error("--tile-size is for packs; this is a stream");
+  if (options.tile_size != 0) {
+    throw Error(parameter("tile_size") + " is for packs, and this is a stream; leave it out");
+  }
   // Fails before the work, if it does.
   std::visit([&](const auto& one) { metadata_of(options, one); }, source);
   const bool limited = options.max_bytes != 0 || vertex_limit(options) != 0;

@@ -36,7 +36,7 @@ bool is_number(int64_t value) {
 }
 
 void check_decimals(int decimals) {
-  expect(decimals >= 0 && decimals <= 18, "decimals: 0 .. 18");
+  expect(decimals >= 0 && decimals <= 18, "decimals: use 0 to 18");
 }
 
 // In lowest terms: headers hold 40 bits of each.
@@ -101,7 +101,8 @@ class KeptRaster : public terrain::RasterReader {
 std::optional<exact::Decimal> decimal_of(const std::string& name, const std::string& text) {
   if (text.empty()) return std::nullopt;
   const std::optional<exact::Decimal> value = exact::parse_decimal(text);
-  expect(value && value->mantissa >= 0, name + ": " + text + " is not a decimal number from 0 on");
+  expect(value && value->mantissa >= 0,
+         base::parameter(name) + ": '" + text + "' is not allowed; use a decimal number from 0 up");
   return value;
 }
 
@@ -145,12 +146,12 @@ terrain::DuplicateRule rule_of(Duplicates duplicates) {
 
 void expect_range(const char* name, uint32_t value, uint32_t least, uint32_t most) {
   expect(value == 0 || (value >= least && value <= most),
-         std::string(name) + ": " + std::to_string(least) + " .. " + std::to_string(most) +
+         base::parameter(name) + ": use " + std::to_string(least) + " to " + std::to_string(most) +
              ", or 0 for the default");
 }
 
 void expect_default(const char* name, bool is_default, const char* kind) {
-  expect(is_default, std::string(name) + " is an option of " + kind);
+  expect(is_default, base::parameter(name) + " is an option of " + kind + "; leave it out");
 }
 
 void check_numbers(const Options& options) {
@@ -158,7 +159,8 @@ void check_numbers(const Options& options) {
   expect_range("max_vertices", options.max_vertices, 3, kMaxVertices);
   expect_range("tile_vertices", options.tile_vertices, pack::kFewestTileVertices, kMaxVertices);
   expect(options.date.empty() || base::is_iso_date(options.date),
-         "date: " + options.date + " is not a date such as 2026-11-21");
+         base::parameter("date") + ": '" + options.date +
+             "' is not allowed; use a date such as 2026, 2026-11 or 2026-11-21");
 }
 
 void check_stream_options(const Options& options) {
@@ -166,15 +168,18 @@ void check_stream_options(const Options& options) {
   expect_default("tile_size", options.tile_size == 0, "packs");
   const int aims = (options.max_error.empty() ? 0 : 1) + (options.max_vertices != 0 ? 1 : 0) +
                    (options.max_bytes != 0 ? 1 : 0);
-  expect(aims <= 1, "only one of max_error, max_vertices and max_bytes can be given");
+  expect(aims <= 1, base::parameter("max_error") + ", " + base::parameter("max_vertices") +
+                        " and " + base::parameter("max_bytes") + " exclude each other; use one");
   expect(!options.never_below || !options.max_error.empty() || options.max_bytes != 0,
-         "never_below needs max_error or max_bytes");
+         base::parameter("never_below") + " needs " + base::parameter("max_error") + " or " +
+             base::parameter("max_bytes"));
 }
 
 void check_pack_options(const Options& options) {
   expect_default("max_vertices", options.max_vertices == 0, "streams");
   expect_default("max_bytes", options.max_bytes == 0, "streams");
-  expect(!options.never_below || !options.max_error.empty(), "never_below needs max_error");
+  expect(!options.never_below || !options.max_error.empty(),
+         base::parameter("never_below") + " needs " + base::parameter("max_error"));
 }
 
 product::EncodeOptions options_of(const Options& options) {
@@ -205,7 +210,8 @@ terrain::Reference asked_of(const Options& options) {
   asked.vertical_epsg = options.vertical_epsg;
   asked.depths = options.depths;
   expect(options.units.empty() || importing::read_units(options.units, asked),
-         "units: " + options.units + " is not a unit such as metre or degree:foot");
+         base::parameter("units") + ": '" + options.units +
+             "' is not allowed; use a unit, or two with a colon, such as metre or degree:foot");
   return asked;
 }
 
@@ -307,6 +313,12 @@ std::vector<std::string> warnings_on(const SettledTerrain& terrain) {
 }
 
 }  // namespace
+
+std::string message_of(const std::exception& error,
+                       const std::function<std::string(const std::string&)>& spell) {
+  const auto* const own = dynamic_cast<const Error*>(&error);
+  return own != nullptr ? base::spelled(own->text(), spell) : error.what();
+}
 
 SourceTerrain::SourceTerrain(std::shared_ptr<const Content> content)
     : content_(std::move(content)) {}

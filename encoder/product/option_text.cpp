@@ -86,9 +86,10 @@ void set_option(Options& options, const std::string& name, const std::string& va
   for (const NamedOption& option : kOptions) {
     if (name != option.name) continue;
     if (option.set(options, value)) return;
-    throw base::Error(name + ": " + value + " is not " + option.wanted);
+    throw base::Error(base::parameter(name) + ": '" + value + "' is not allowed; use " +
+                      option.wanted);
   }
-  throw base::Error("there is no option " + name);
+  throw base::Error("there is no option " + base::parameter(name));
 }
 
 }  // namespace microtin::encoder

@@ -47,7 +47,7 @@ DecodedStream decoded(std::vector<uint8_t> bytes) {
     DecodedTerrain terrain(bytes);
     return {std::move(bytes), std::move(terrain)};
   } catch (const Error& error) {
-    throw Damaged(error.what());
+    throw Damaged(error.text());
   }
 }
 
@@ -133,7 +133,7 @@ PlaceQuery::Pack PlaceQuery::opened_pack(const std::string& path) {
     auto file = std::make_unique<PackFile>(std::move(watched), PackFile::Index::kLater);
     return {std::move(device), std::move(file), has_failed};
   } catch (const Error& error) {  // which a device does not look at
-    throw Damaged(error.what());
+    throw Damaged(error.text());
   }
 }
 
@@ -147,9 +147,9 @@ std::variant<DecodedStream, PlaceQuery::Pack> PlaceQuery::opened(const std::stri
     if (pack) return opened_pack(path);
     return decoded(std::vector<uint8_t>(text.begin(), text.end()));
   } catch (const Damaged& damaged) {
-    throw Damaged(path + ": " + damaged.what());
+    throw Damaged(path + ": " + damaged.text());
   } catch (const Error& error) {
-    throw Error(path + ": " + error.what());
+    throw Error(path + ": " + error.text());
   }
 }
 

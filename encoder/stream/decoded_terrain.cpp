@@ -19,7 +19,7 @@ void expect_done(microtin_status status) {
 
 void expect_room_for_vertices(const microtin_stream_info& info, uint64_t stream_bytes) {
   if (info.vertices > 3 + kVerticesPerByte * (stream_bytes - info.header_bytes)) {
-    throw Error("cut off or malformed: more vertices are announced than so few bytes can hold");
+    throw Error("cut off or malformed: its header has more vertices than its bytes can hold");
   }
 }
 

@@ -114,13 +114,12 @@ bool keeps_promise(const CompactForm& form, uint32_t most) {
 void expect_promised(const CompactForm& form) {
   if (keeps_promise(form, form.vertices)) return;
   const uint32_t bits = index_bits(form.vertices);
-  throw Error(
-      "a device could not keep the terrain in compact form: it takes " +
-      std::to_string(bytes_of(form, bits)) + " bytes, microtin/compact.h promises " +
-      std::to_string(promised_compact_bytes(form.vertices, form.is_narrow, bits)) + " for " +
-      std::to_string(form.vertices) +
-      " vertices; with another bound or --max-degree there are others, and tiles of a pack are "
-      "made small enough");
+  throw Error("a device could not keep the terrain in compact form: it takes " +
+              std::to_string(bytes_of(form, bits)) + " bytes, microtin/compact.h promises " +
+              std::to_string(promised_compact_bytes(form.vertices, form.is_narrow, bits)) +
+              " for " + std::to_string(form.vertices) + " vertices; change " +
+              parameter("max_error") + " or " + parameter("max_degree") +
+              ", or make a pack (.mtp)");
 }
 
 uint64_t promised_compact_bytes(uint32_t vertices, bool is_narrow, uint32_t bits) {

@@ -18,7 +18,8 @@ using Bytes = std::vector<uint8_t>;
 // --- Writing -------------------------------------------------------------------------------------
 
 void append_note(Bytes& notes, microtin_note_type type, const Bytes& content) {
-  if (content.size() > UINT16_MAX) throw Error("a text for the header is longer than 65,535 bytes");
+  if (content.size() > UINT16_MAX)
+    throw Error("a text for the header is longer than 65,535 bytes; shorten it");
   notes.push_back(static_cast<uint8_t>(type));
   append_number(notes, static_cast<uint32_t>(content.size()), 2);
   notes.insert(notes.end(), content.begin(), content.end());
@@ -246,7 +247,7 @@ Bytes write_notes(const Metadata& m) {
     append_note(notes, MICROTIN_NOTE_DUPLICATES, {static_cast<uint8_t>(m.duplicates)});
   }
   if (notes.size() > kNotesMostBytes) {
-    throw Error("the texts for the header are longer than 65,535 bytes");
+    throw Error("the texts for the header are longer than 65,535 bytes; shorten them");
   }
   return notes;
 }

@@ -171,8 +171,7 @@ std::string warning_on_grid(const PointCloud& cloud) {
   const std::optional<Raster> raster = gridded(cloud);
   if (!raster) return "";
   return "the points are the posts of a raster, " + std::to_string(raster->width) + " x " +
-         std::to_string(raster->height) +
-         ", and take about half the bytes as one (on the command line by --gridded)";
+         std::to_string(raster->height) + "; encoded as a raster they take about half the bytes";
 }
 
 }  // namespace microtin::terrain

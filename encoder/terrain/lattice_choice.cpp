@@ -18,7 +18,7 @@ struct AxisGroup {
   int decimals;         // of the numbers
   int needed_decimals;  // of the refined numbers, at least
   int lattice_low, lattice_high;
-  const char* option;                  // that sets the step
+  const char* parameter;               // that sets the step
   std::optional<int64_t> anchor = {};  // a number that must be on the lattice
   int bits = 16;                       // of the lattice
   bool from_low = false;               // the lowest number goes to the lattice's first
@@ -77,13 +77,15 @@ FinestFit fit_finest(const AxisGroup& group) {
 
 GroupFit fit_explicit(const AxisGroup& group, Decimal step) {
   constexpr int64_t kLargest = 1000000000;  // keeps products with an axis in 128 bits
-  const std::string name = std::string(group.option) + " " + to_string(step);
-  if (step.mantissa <= 0 || !(step <= Decimal{kLargest, 0})) throw Error(name + " is out of range");
+  const std::string name = parameter(group.parameter) + ' ' + to_string(step);
+  if (step.mantissa <= 0 || !(step <= Decimal{kLargest, 0})) {
+    throw Error(name + " is out of range; use a number above 0, up to " + std::to_string(kLargest));
+  }
   GroupFit fits = fit_all(group, step);
   if (fits.maps.empty()) {
     throw Error(name + " is too fine: " + std::to_string(group.bits) +
-                " bits do not hold the source's range in such steps; " +
-                to_string(fit_finest(group).step) + " fits");
+                " bits do not hold the source's range in such steps; use " +
+                to_string(fit_finest(group).step) + " or more");
   }
   return fits;
 }
@@ -107,7 +109,7 @@ AxisGroup height_group(const NumberRange& z, int decimals, const LatticeOptions&
           options.max_error ? options.max_error->decimals : 0,
           INT16_MIN,
           INT16_MAX,
-          "--z-step",
+          "z_step",
           number_of(options.water_level, decimals)};
 }
 
@@ -151,7 +153,8 @@ Lattice choose(const Source& source, AxisGroup places, const LatticeOptions& opt
   });
   const auto* raster = std::get_if<Raster>(&source);
   if (raster != nullptr && !options.xy_step && std::max(x.high, y.high) > kLatticeMax) {
-    throw Error("a raster of more than 65536 posts in a row needs an --xy-step above 1");
+    throw Error("a raster of more than 65536 posts in a row needs " + parameter("xy_step") +
+                " above 1, or a pack (.mtp)");
   }
   const auto* cloud = std::get_if<PointCloud>(&source);
   places.ranges = {x, y};
@@ -169,11 +172,11 @@ Lattice choose(const Source& source, AxisGroup places, const LatticeOptions& opt
 }  // namespace
 
 Lattice choose_lattice(const Source& source, const LatticeOptions& options) {
-  return choose(source, {{}, 0, 0, 0, kLatticeMax, "--xy-step"}, options);
+  return choose(source, {{}, 0, 0, 0, kLatticeMax, "xy_step"}, options);
 }
 
 Lattice choose_pack_lattice(const PointCloud& cloud, const LatticeOptions& options) {
-  return choose(cloud, {{}, 0, 0, 0, INT32_MAX, "--xy-step", {}, 31, true}, options);
+  return choose(cloud, {{}, 0, 0, 0, INT32_MAX, "xy_step", {}, 31, true}, options);
 }
 
 }  // namespace microtin::terrain

@@ -106,22 +106,21 @@ class Sampler {
 
   // Throws Error if there are such places.
   void check(const Placement& placement, const Source& source) const {
-    const std::string refusal = "--max-error cannot be kept at ";
+    const std::string refusal = parameter("max_error") + " cannot be kept at ";
     if (walls_ != 0) {
       const CoordinateText height(placement_of(source).z);
       const bool posts = std::holds_alternative<Raster>(source);
       throw Error(refusal + std::to_string(walls_) +
-                  " places where points of different heights meet, the first at x " +
+                  " positions where points of different heights meet, the first at x " +
                   CoordinateText(placement.x)(first_wall_.place.x) + ", y " +
                   CoordinateText(placement.y)(first_wall_.place.y) + " with heights from " +
                   height(first_wall_.heights.low) + " to " + height(first_wall_.heights.high) +
-                  (posts
-                       ? "; a smaller --xy-step, or none, keeps posts apart"
-                       : "; --duplicates lowest, highest or mean lets one of them stand for all"));
+                  (posts ? "; use a smaller " + parameter("xy_step") + ", or none"
+                         : "; use " + parameter("duplicates") + " lowest, highest or mean"));
     }
     if (without_step_ != 0) {
       throw Error(refusal + std::to_string(without_step_) +
-                  " places: no whole step of height is near enough; " + remedy());
+                  " positions, where no whole z step is near enough; " + remedy());
     }
   }
 
@@ -143,15 +142,15 @@ class Sampler {
   std::string remedy() const {
     const Wide narrowest = std::max<Wide>(narrowest_, 1);
     if (is_step_asked_) {
-      return "the largest --z-step that always is: " +
-             to_string(make_decimal(narrowest, decimals_));
+      return "use " + parameter("z_step") + ' ' + to_string(make_decimal(narrowest, decimals_)) +
+             " or less";
     }
     const Wide missing = map_.step - narrowest;
     const bool grows_twice = below_ != 0 && !water_;
     const Wide more = grows_twice ? ceil_divide(missing, 2) : missing;
     return "16 bits hold these heights in steps of " +
-           to_string(make_decimal(map_.step, decimals_)) + ", which keep --max-error " +
-           to_string(make_decimal(above_ + more, decimals_));
+           to_string(make_decimal(map_.step, decimals_)) + ": use " + parameter("max_error") + ' ' +
+           to_string(make_decimal(above_ + more, decimals_)) + " or more";
   }
 
   struct Wall {
@@ -196,9 +195,10 @@ void check_voids(const std::vector<Point>& voids, const std::vector<Sample>& sam
     if (shared++ == 0) first = place;
   }
   if (shared == 0) return;
-  throw Error("--xy-step is too coarse: " + std::to_string(shared) +
-              " void posts share a place with a height, the first at x " +
-              CoordinateText(placement.x)(first.x) + ", y " + CoordinateText(placement.y)(first.y));
+  throw Error(parameter("xy_step") + " is too coarse: " + std::to_string(shared) +
+              " void posts share a position with a height, the first at x " +
+              CoordinateText(placement.x)(first.x) + ", y " + CoordinateText(placement.y)(first.y) +
+              "; use a smaller one, or none");
 }
 
 // A whole step within [lowest, highest] that a vertex can have is kept: the next one to the new

@@ -197,7 +197,7 @@ Extremes::Fill Extremes::fill(int decimals) const {
 
 std::string warning_on_fill(const Extremes& posts, int decimals) {
   return warning(posts, decimals, "post", [](const std::string& value) {
-    return "the source must say so: NODATA_value " + value +
+    return "declare it: NODATA_value " + value +
            " in an .asc, NaN in an array, else \"gdal_translate -a_nodata " + value + "\"";
   });
 }

@@ -14,7 +14,7 @@ namespace {
 void refine(Raster& raster, int decimals) {
   if (decimals <= raster.decimals) return;
   if (!terrain::refine(raster.heights, power_of_ten(decimals - raster.decimals))) {
-    throw Error("the water level has too many decimals beside such heights");
+    throw Error("the water level has too many decimals for these heights");
   }
   raster.decimals = decimals;
 }
@@ -45,13 +45,14 @@ PostVisitor WaterGauge::visitor() {
 void check_water_mask(const Raster& mask, const Raster& raster) {
   if (mask.width != raster.width || mask.height != raster.height || !is_same(mask.x, raster.x) ||
       !is_same(mask.y, raster.y)) {
-    throw Error("has not the posts of the terrain");
+    throw Error(
+        "its grid differs from the terrain's; it must have the same columns, rows and cells");
   }
   const int64_t one = power_of_ten(mask.decimals);
   const bool is_mask = std::all_of(mask.heights.begin(), mask.heights.end(), [&](int64_t value) {
     return value == 0 || value == one || value == kVoidHeight;
   });
-  if (!is_mask) throw Error("a mask holds 0 and 1 only");
+  if (!is_mask) throw Error("a water mask contains only 0 and 1");
 }
 
 }  // namespace microtin::terrain

@@ -129,7 +129,7 @@ TEST_CASE("cli: the bound that a number of bytes allows") {
     CHECK(session.run("verify f.mtin f.asc").code == 0);
   }
   CHECK(contains(session.failure("encode f.asc --max-bytes 30 --fast -o g.mtin"),
-                 "--max-bytes 30 is not enough: the smallest file found, at any error, takes "));
+                 "--max-bytes 30 is too small: the smallest file found, at any error, has "));
 }
 
 TEST_CASE("cli: outlines of voids are simplified to use a limit") {
@@ -148,7 +148,7 @@ TEST_CASE("cli: outlines of voids are simplified to use a limit") {
     CHECK(session.run("verify v.mtin v.asc").code == 0);
   }
   CHECK(contains(session.failure("encode v.asc -o v.mtin --max-vertices 12"),
-                 "--max-vertices 12 is not enough: outline and voids alone need "));
+                 "--max-vertices 12 is too small: outline and voids alone need "));
   CHECK(contains(session.failure("encode v.asc -o v.mtin --device-ram 2800"),
                  "--device-ram 2800 holds at most "));
 }
@@ -209,10 +209,10 @@ TEST_CASE("cli: terrain files of autopilots") {
   CHECK(
       contains(session.failure("decode s.mtin -o area.DAT"), "area.DAT: the name must be that of"));
   CHECK(contains(session.failure("decode s.mtin -o N10E010.DAT"), "no height in the cell"));
-  CHECK(contains(session.failure("decode s.mtin --lattice -o N43E007.DAT"), "not --lattice"));
+  CHECK(contains(session.failure("decode s.mtin --lattice -o N43E007.DAT"), "leave out --lattice"));
   session.write("square.xyz", "0 0 1\n2 0 2\n0 2 3\n2 2 4\n");
   CHECK(session.run("encode square.xyz -o m.mtin").code == 0);
-  CHECK(contains(session.failure("decode m.mtin -o N00E000.DAT"), "want places in degrees"));
+  CHECK(contains(session.failure("decode m.mtin -o N00E000.DAT"), "need positions in degrees"));
 }
 
 TEST_CASE("cli: packs become C headers") {
@@ -293,9 +293,9 @@ TEST_CASE("cli: directories and unwritable places") {
   fs::create_directory(session.folder() + "/none");
   CHECK(session.failure("encode none -o out.mtin").find("none: holds no terrain file: .hgt, ") ==
         0);
-  CHECK(session.failure("encode ok.xyz -o ok.tif").find("ok.tif: a stream is named .mtin") == 0);
+  CHECK(session.failure("encode ok.xyz -o ok.tif").find("ok.tif: name a stream .mtin") == 0);
   CHECK(session.failure("encode sub.asc --tile-vertices 16 -o sub.mtin") ==
-        "sub.mtin: a pack is named .mtp\n");
+        "sub.mtin: name a pack .mtp\n");
   CHECK(session.failure("encode ok.xyz -o .") == ".: is a directory\n");
   CHECK(contains(session.failure("encode ok.xyz -o no/such/out.mtin"), "no/such/out.mtin: "));
   CHECK(contains(session.failure("decode . -o out.xyz"), ".: "));
@@ -309,9 +309,11 @@ TEST_CASE("cli: directories and unwritable places") {
 TEST_CASE("cli: the output is not the input") {
   const Session session;
   session.write("t.xyz", "0 0 1\n9 0 2\n0 9 3\n");
-  CHECK(session.failure("encode t.xyz -o t.xyz") == "t.xyz: is the input\n");
+  CHECK(session.failure("encode t.xyz -o t.xyz") ==
+        "t.xyz: is also an input; choose another output\n");
   REQUIRE(session.run("encode t.xyz -o t.mtin").code == 0);
-  CHECK(session.failure("decode t.mtin -o ./t.mtin") == "./t.mtin: is the input\n");
+  CHECK(session.failure("decode t.mtin -o ./t.mtin") ==
+        "./t.mtin: is also an input; choose another output\n");
   CHECK(session.read("t.xyz") == "0 0 1\n9 0 2\n0 9 3\n");
 }
 
@@ -396,12 +398,12 @@ TEST_CASE("cli: packs of points") {
   CHECK(contains(session.failure("verify p.mtp beside.xyz"), "not covered"));
   REQUIRE(session.run("fractal --size 5 -o t.asc").code == 0);
   CHECK(contains(session.failure("verify p.mtp t.asc"), "posts of the pack"));
-  const std::string in_shards = "p.xyz: shards are of packs of rasters; these are points";
+  const std::string in_shards = "p.xyz: only packs of rasters have shards, and these are points";
   CHECK(contains(session.failure("plan p.xyz --tile-vertices 90"), in_shards));
   CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --shard 0:1 -o p.shard"),
                  in_shards));
   CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --tile-size 9 -o s.mtp"),
-                 "p.xyz: --tile-size is for rasters; these are points"));
+                 "p.xyz: --tile-size is for rasters, and these are points; leave it out"));
   CHECK(contains(session.failure("merge p.mtp -o m.mtp"), "p.mtp: "));
   session.write("line.xyz", "0 0 0\n1 1 3\n2 2 7\n");
   CHECK(contains(session.failure("encode line.xyz --tile-vertices 60 -o line.mtp"), "one line"));
@@ -429,7 +431,8 @@ TEST_CASE("cli: a grid that is written is a terrain again") {
   session.write("far.xyz", "0 0 1\n655.35 0 2\n0 655.35 3\n");
   REQUIRE(session.run("encode far.xyz -o far.mtin").code == 0);
   CHECK(session.failure("decode far.mtin -o far.asc") ==
-        "far.asc: would take up to 30.1 GB: --force writes it; --cell or --extent ask for less\n");
+        "far.asc: would take up to 30.1 GB; use --force to write it; use --cell or --extent for "
+        "less\n");
   CHECK(session.run("decode far.mtin --cell 100 -o far.asc").code == 0);
   CHECK(contains(session.failure("decode far.mtin --cell 100 -o far.ply"), "only grids (.asc"));
 }
@@ -481,7 +484,8 @@ TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
     }
     const std::string water = "verify " + file + " t.asc --water-level 3.5";
     CHECK(contains(session.run(water).out, "water_moved: 0"));
-    CHECK(contains(session.failure("verify " + file + " t.asc"), "voids of the source answer"));
+    CHECK(
+        contains(session.failure("verify " + file + " t.asc"), "voids of the source have heights"));
     CHECK(session.failure("verify " + file + " t.asc --water-level 3") ==
           file + ": its water level is 3.5, not 3\n");
     CHECK(session.run("render " + file + " -o t.png --width 300").code == 0);
@@ -502,12 +506,12 @@ TEST_CASE("cli: date, lineage and water are noted in streams and packs") {
                 "1 2 999999999999 -9\n");
   for (const char* const output : {"p.mtin", "p.mtp --tile-vertices 60"}) {
     CHECK(session.failure("encode high.asc --water-level 0.000000001 -o " + std::string(output)) ==
-          "high.asc: the water level has too many decimals beside such heights\n");
+          "high.asc: the water level has too many decimals for these heights\n");
   }
   CHECK(session.failure("encode p.xyz --water-level 3 -o p.mtin") ==
-        "p.xyz: --water-level is for rasters; these are points\n");
+        "p.xyz: --water-level is for rasters, and these are points\n");
   CHECK(session.failure("encode t.asc --water-level 3 --water-mask t.asc -o p.mtin") ==
-        "t.asc: a mask holds 0 and 1 only\n");
+        "t.asc: a water mask contains only 0 and 1\n");
   CHECK(session.failure("render t.mtin -o no.png --source none.asc") ==
         "none.asc: cannot be read: No such file or directory\n");
   CHECK(session.run("render t.mtp -o t.png --source p.xyz").code == 0);

@@ -70,14 +70,15 @@ TEST_CASE("cli: decode --like writes another raster's posts") {
   REQUIRE(session.run("decode p.mtin --like like.asc --extent 0,0,9,5 -o part.asc").code == 0);
   CHECK(session.read("part.asc") == head("2", "1", "2.5", "1", "5") + "2.5 7.5\n");
   CHECK(contains(session.failure("decode p.mtin --like p.xyz -o x.asc"),
-                 "p.xyz: are points, which have no grid; --cell says how far apart posts are"));
+                 "p.xyz: has points, and no posts; set their distance by --cell"));
   CHECK(contains(session.failure("decode p.mtin --like none.asc -o x.asc"),
                  "none.asc: cannot be read: No such file"));
   CHECK(contains(session.failure("decode p.mtin --like like.asc -o like.asc"), "like.asc"));
   CHECK(contains(session.read("like.asc"), "9 9 9"));
   session.write("like.prj", "GEOGCS[\"WGS 84\",UNIT[\"degree\",0.0174532925199433]]");
-  CHECK(contains(session.failure("decode p.mtin --like like.asc -o x.asc"),
-                 "like.asc: its x and y are in the unit degree, those of the terrain in metre"));
+  CHECK(
+      contains(session.failure("decode p.mtin --like like.asc -o x.asc"),
+               "like.asc: its x and y are in the unit degree, and those of the terrain in metre"));
   session.write("far.asc", head("2", "2", "10.1", "0", "1") + "1 1\n1 1\n");
   CHECK(
       contains(session.failure("decode p.mtin --like far.asc -o x.asc"),
@@ -115,15 +116,16 @@ TEST_CASE("cli: decode refuses what does not go together") {
   CHECK(contains(session.failure("decode t.mtin --like t.asc --cell 2 -o x.asc", 2), "--cell"));
   CHECK(contains(session.failure("decode t.mtin --like t.asc --lattice -o x.asc", 2), "--lattice"));
   CHECK(contains(session.failure("decode t.mtin --extent 500001,-9,500002,9 -o x.asc"),
-                 "no post of the grid lies in the extent"));
+                 "no post of the grid lies in the extent; choose a larger one"));
 }
 
 TEST_CASE("cli: an output that can take more than 1 GB is announced, and forced") {
   const Session session;
   session.write("t.asc", kSource);
   REQUIRE(session.run("encode t.asc -o t.mtin").code == 0);
-  CHECK(session.failure("decode t.mtin --cell 0.0002 -o x.asc") ==
-        "x.asc: would take up to 2.8 GB: --force writes it; --cell or --extent ask for less\n");
+  CHECK(
+      session.failure("decode t.mtin --cell 0.0002 -o x.asc") ==
+      "x.asc: would take up to 2.8 GB; use --force to write it; use --cell or --extent for less\n");
   // To where nobody writes much: the announcement comes before.
   CHECK(contains(session.run("decode t.mtin --cell 0.0002 --force -o missing/x.asc").err,
                  "warning: missing/x.asc takes up to 2.8 GB"));
@@ -158,7 +160,7 @@ TEST_CASE("cli: the vertices of a pack are counted, not taken from its header") 
   const std::string many = "t.mtp: its tiles have 16842752 vertices, which take about ";
   CHECK(contains(session.failure("decode t.mtp --lattice -o t.xyz"), many));
   CHECK(contains(session.failure("render t.mtp -o t.png"), many));
-  CHECK(contains(session.failure("render t.mtp -o t.svg"), "--force reads them"));
+  CHECK(contains(session.failure("render t.mtp -o t.svg"), "use --force to read them"));
   const microtin::encoder::Surface surface =
       microtin::encoder::Surface::from_file(session.folder() + "/t.mtp");
   CHECK_THROWS_WITH_AS(surface.mesh(), doctest::Contains("16842752 vertices; more than 16777216"),

@@ -116,12 +116,12 @@ struct Limit {
 };
 
 const std::vector<Limit> kLimits = {
-    {"max_degree: 6 .. 32, or 0 for the default",
+    {"max_degree: use 6 to 32, or 0 for the default",
      &library::Options::max_degree,
      &microtin_options::max_degree,
      {0, 6, 32},
      {5, 33, UINT32_MAX}},
-    {"max_vertices: 3 .. 16777216, or 0 for the default",
+    {"max_vertices: use 3 to 16777216, or 0 for the default",
      &library::Options::max_vertices,
      &microtin_options::max_vertices,
      {0, 3, 1u << 24},
@@ -196,7 +196,8 @@ TEST_CASE("limits: of numbers in C++ and C") {
 
 TEST_CASE("limits: vertices of tiles in C++ and C") {
   const Session session;
-  const std::string path = session.folder() + "/o.mtp", message = "tile_vertices: 16 .. 16777216";
+  const std::string path = session.folder() + "/o.mtp",
+                    message = "tile_vertices: use 16 to 16777216";
   for (const auto& row :
        {std::pair(0u, true), std::pair(1u, false), std::pair(15u, false), std::pair(16u, true),
         std::pair(1u << 24, true), std::pair((1u << 24) + 1, false)}) {
@@ -223,7 +224,7 @@ std::string flat_grid(uint32_t columns, uint32_t rows) {
 }  // namespace
 
 TEST_CASE("limits: 2^20 tiles of a pack of a raster, at every door") {
-  const std::string message = "tiles of 1 steps are 1049600, and a pack has 1048576 at most: ";
+  const std::string message = "the pack has 1049600 tiles of 1 steps, more than 1048576; ";
   const Session session;
   const std::string options = " --units metre --max-error 1 --fast --tile-size 1";
   session.write("more.asc", flat_grid(1026, 1025));
@@ -268,8 +269,9 @@ TEST_CASE("limits: of posts, their heights and their decimals") {
             "a coordinate is beyond 10^18");
     }
   }
-  for (const auto& [decimals, message] : {std::pair(-1, "decimals: 0 .. 18"), std::pair(0, ""),
-                                          std::pair(18, ""), std::pair(19, "decimals: 0 .. 18")}) {
+  for (const auto& [decimals, message] :
+       {std::pair(-1, "decimals: use 0 to 18"), std::pair(0, ""), std::pair(18, ""),
+        std::pair(19, "decimals: use 0 to 18")}) {
     const int given = decimals;
     CHECK(error_of([&] { terrain_of(2, 2, 0, given); }) == message);
     library::PointCloudData points;

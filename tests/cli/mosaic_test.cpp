@@ -243,8 +243,7 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   CHECK(contains(
       session.failure("encode a.asc unit.asc -o t.mtin"),
       "unit.asc: its units or its coordinate system (x and y foot, heights unknown) are not "
-      "those of a.asc (x and y unknown, heights unknown): put the .prj that is missing "
-      "beside a.asc"));
+      "those of a.asc (x and y unknown, heights unknown): add the missing .prj next to a.asc"));
   for (const std::string output : {"t.mtin", "t.mtp --tile-vertices 60"}) {
     const Session::Result made = session.run("encode a.asc unit.asc --epsg 32633 -o " + output);
     CHECK(contains(made.out,
@@ -268,7 +267,7 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   session.write("far.asc", grid(106, 50, "1 2 99999999999\n4 5 6"));
   session.write("fine.asc", grid(112, 50, "1 2 0.000000001\n4 5 6"));
   CHECK(session.failure("encode far.asc fine.asc -o t.mtin") ==
-        "far.asc: its heights do not go with the decimals of the other files\n");
+        "far.asc: its heights do not fit the decimals of the other files\n");
   CHECK(session.run("encode a.asc size.asc -o size.asc").code == 1);
   CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "3"));
 }

@@ -214,17 +214,21 @@ TEST_CASE("cli: no command writes over any of its inputs, by whatever name") {
   for (const auto& [command, input] : cases) {
     for (const std::string& name : {input, "./" + input, "hard-" + input, "soft-" + input,
                                     "folder/" + input, made.folder() + "/" + input}) {
-      CHECK(made.failure(joined({command, " -o ", name})) == name + ": is the input\n");
+      CHECK(made.failure(joined({command, " -o ", name})) ==
+            name + ": is also an input; choose another output\n");
     }
-    CHECK(made.failure(joined({command, " -o - >>", input})) == "standard output: is the input\n");
+    CHECK(made.failure(joined({command, " -o - >>", input})) ==
+          "standard output: is also an input; choose another output\n");
     CHECK(made.failure(joined({command, " -o new >>", input})) ==
-          "standard output: is the input\n");
+          "standard output: is also an input; choose another output\n");
   }
-  CHECK(made.failure("encode - -o p.xyz <p.xyz") == "p.xyz: is the input\n");
-  CHECK(made.failure("encode /dev/stdin -o p.xyz <p.xyz") == "p.xyz: is the input\n");
+  CHECK(made.failure("encode - -o p.xyz <p.xyz") ==
+        "p.xyz: is also an input; choose another output\n");
+  CHECK(made.failure("encode /dev/stdin -o p.xyz <p.xyz") ==
+        "p.xyz: is also an input; choose another output\n");
   for (const std::string command : {"info t.mtin >>t.mtin", "verify t.mtin t.asc >>t.asc",
                                     "plan t.asc --tile-vertices 99 >>t.asc"}) {
-    CHECK(made.failure(command) == "standard output: is the input\n");
+    CHECK(made.failure(command) == "standard output: is also an input; choose another output\n");
   }
   CHECK(made.everything() == before);
 }

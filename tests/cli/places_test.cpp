@@ -61,12 +61,14 @@ TEST_CASE("places: a .prj that is none is refused, or what is asked for decides"
   session.write("t.prj", "Projection UTM\nZone 33\n");
   for (const char* const output : {"t.mtin", "t.mtp --tile-vertices 100"}) {
     const std::string encode = "encode t.asc -o " + std::string(output);
-    CHECK(contains(session.failure(encode), "t.prj: is no well-known text"));
-    CHECK(contains(session.failure(encode + " --units :metre"), "t.prj: is no well-known text"));
+    CHECK(contains(session.failure(encode), "t.prj: is not well-known text"));
+    CHECK(contains(session.failure(encode + " --units :metre"), "t.prj: is not well-known text"));
     for (const char* const asked : {" --epsg 32633", " --units metre"}) {
       const Session::Result made = session.run(encode + asked);
       CHECK(made.code == 0);
-      CHECK(contains(made.out, "warning: what is asked for decides; not read is t.prj: is no"));
+      CHECK(contains(
+          made.out,
+          "warning: the options override the system of the file, which is not read: t.prj: is no"));
     }
   }
   CHECK(session.run("verify t.mtin t.asc --units metre").code == 0);
@@ -128,11 +130,11 @@ TEST_CASE("places: depths are refused, or turned into heights, so that never-bel
   for (const std::string source : {"t.asc", "t.csv --units metre"}) {
     const std::string input = source.substr(0, 5);
     CHECK(contains(session.failure("encode " + source + " -o u.mtin"),
-                   input + ": heights are depths by the file's system, which grow downwards: the "
-                           "option depths"));
+                   input + ": heights are depths by the file's system, which grow downwards: "
+                           "negate them with --depths"));
     const Session::Result made = session.run("encode " + source + " --depths -o t.mtin");
     CHECK(contains(made.out, "warning: depths are turned into heights\n"));
-    CHECK(contains(session.failure("verify t.mtin " + source), "the option depths"));
+    CHECK(contains(session.failure("verify t.mtin " + source), "negate them with --depths"));
     CHECK(session.run("verify t.mtin --depths " + source).code == 0);
   }
   REQUIRE(session.run("encode t.asc --depths --max-error 1 --never-below -o t.mtin").code == 0);
@@ -151,7 +153,7 @@ TEST_CASE("places: heights in a file in degrees need a unit") {
   session.write("t.prj", kGeographic);
   for (const char* const output : {"t.mtin", "t.mtp --tile-vertices 100"}) {
     CHECK(contains(session.failure("encode t.asc -o " + std::string(output)),
-                   "places are degrees, and the unit of heights is not known"));
+                   "positions are in degrees, and the unit of heights is not known"));
   }
   CHECK(session.run("encode t.asc -o t.mtin --units :foot").code == 0);
   CHECK(contains(session.run("info t.mtin").out,
@@ -173,8 +175,8 @@ TEST_CASE("places: codes set units, and may not contradict them") {
   CHECK(!contains(report("--units foot"), "warning"));
   CHECK(contains(report("--units us-ft:m"), "units: x and y US survey foot, z metre\n"));
   CHECK(contains(report(""),
-                 "warning: the unit of x and y is not known: give units or an EPSG code\n"
-                 "warning: a .prj beside t.asc would say it\n"));
+                 "warning: the unit of x and y is not known: set units or an EPSG code\n"
+                 "warning: a .prj next to t.asc can state it\n"));
   CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 32633 --units foot"),
                  "EPSG 32633 has the unit metre, not foot"));
   CHECK(contains(session.failure("encode t.asc -o u.mtin --epsg 5773"),
@@ -191,11 +193,10 @@ TEST_CASE("places: codes set units, and may not contradict them") {
                  "EPSG has no coordinate reference system 999999"));
   CHECK(contains(report("--epsg 2992"), "units: x and y foot, z foot"));
 #else
-  CHECK(
-      contains(report("--epsg 2992"),
-               "warning: EPSG 2992 is not among the codes known here, and is taken as it is: give "
-               "its units\nwarning: the unit of x and y is not known, nor is EPSG 2992 here: give "
-               "units\n"));
+  CHECK(contains(
+      report("--epsg 2992"),
+      "warning: EPSG 2992 is not a code known here, and is kept as it is: set its units\nwarning: "
+      "the unit of x and y is not known, nor is EPSG 2992 here: set units\n"));
 #endif
 }
 
@@ -206,7 +207,7 @@ TEST_CASE("places: an option that contradicts the file causes a warning") {
   CHECK(contains(session.run("encode t.asc -o t.mtin --units foot").out,
                  "warning: x and y are taken as foot; the file says metre"));
   CHECK(contains(session.run("encode t.asc -o t.mtin --epsg 32632").out,
-                 "warning: EPSG 32632 is taken; the file says EPSG 32633\n"));
+                 "warning: EPSG 32632 overrides the file's EPSG 32633\n"));
   CHECK(!contains(session.run("encode t.asc -o t.mtin --epsg 32633").out, "EPSG 32633 is taken"));
 }
 
@@ -232,7 +233,8 @@ TEST_CASE("places: files for autopilots have degrees and metres, or are refused"
     REQUIRE(session.run("encode N43E007.hgt -o t.mtin --units " + std::string(units)).code == 0);
     for (const char* const output : {"N43E007.DAT", "N43E007.TER"}) {
       CHECK(contains(session.failure("decode t.mtin -o " + std::string(output)),
-                     "autopilots want places in degrees and heights in metres"));
+                     "autopilots need positions in degrees and heights in metres; encode the "
+                     "terrain in these units"));
     }
   }
 }
@@ -328,21 +330,22 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
   REQUIRE(session.run("fractal --size 17 -o t.asc").code == 0);
   REQUIRE(session.run("encode t.asc --units m -o t.mtin").code == 0);
   for (const char* const name : {"t.jpg", "t.pdf", "t.tif"}) {
-    CHECK(contains(
-        session.failure("render t.mtin -o " + std::string(name)),
-        std::string(name) + ": not a kind of picture that is written (.png, .svg, .html)"));
+    CHECK(
+        contains(session.failure("render t.mtin -o " + std::string(name)),
+                 std::string(name) +
+                     ": is not a kind of picture that render writes; name it .png, .svg or .html"));
   }
   CHECK(session.run("render t.mtin --no-mesh --palette sea --world-file -o t.png").code == 0);
   const std::string world = session.read("t.pgw");
   CHECK(std::count(world.begin(), world.end(), '\n') == 6);
-  CHECK(
-      contains(session.failure("render t.mtin --world-file -o -"), "-: a world file lies beside"));
+  CHECK(contains(session.failure("render t.mtin --world-file -o -"),
+                 "-: only a .png file gets a world file"));
   CHECK(session.run("render t.mtin --contours auto -o v.png").code == 0);
   CHECK(session.run("render t.mtin --contours 0.5 -o w.png").code == 0);
   CHECK(session.run("render t.mtin --contours 5 -o t.svg").code == 0);
   CHECK(session.read("t.svg").compare(0, 5, "<svg ") == 0);
   CHECK(session.failure("render t.mtin --source t.asc -o u.svg") ==
-        "u.svg: a drawing has no map of errors\n");
+        "u.svg: a drawing cannot show a map of errors; leave out --source, or write a .png file\n");
   CHECK(session.run("render t.mtin --title Hill --coordinates --north-arrow -o x.png").code == 0);
   CHECK(contains(session.failure("render t.mtin --title a#b -o u.png"), "the title has \"#\""));
   CHECK(session.read("v.png") != session.read("t.png"));
@@ -362,7 +365,8 @@ TEST_CASE("places: pictures are .png files, with a world file on request") {
     std::filesystem::remove(session.folder() + "/u.html");
   }
   CHECK(session.failure("render t.mtin --contours auto -o u.html") ==
-        "u.html: a page has no contours, coordinates, title or north arrow\n");
+        "u.html: a page cannot show contours, coordinates, a title or a north arrow; write a .png "
+        "or .svg file\n");
   CHECK(contains(session.failure("render t.mtin --palette sky -o u.png", 2),
                  "'sky' is not allowed; use land or sea"));
 }
@@ -374,7 +378,7 @@ TEST_CASE("places: heights that look like no-data cause a warning in every reade
                 "1 2 3 4\n5 -9999 7 8\n1 -9999 3 9\n");
   const std::string told =
       "warning: t.asc: taken as they are: 2 posts of height -9999, far from all others; if they "
-      "mark voids, the source must say so: NODATA_value -9999 in an .asc, ";
+      "mark voids, declare it: NODATA_value -9999 in an .asc, ";
   for (const char* const command :
        {"encode t.asc -o t.mtin", "encode t.asc --tile-vertices 100 -o t.mtp",
         "plan t.asc --max-error 1 --tile-vertices 100 --shards 2",

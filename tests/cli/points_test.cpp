@@ -101,7 +101,7 @@ TEST_CASE("points: those of a raster are recognised, and taken as it on request"
   REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
   REQUIRE(session.run("encode f.asc -o all.mtin && microtin decode all.mtin -o f.xyz").code == 0);
   const Session::Result points = session.run("encode f.xyz --max-error 5 --fast -o points.mtin");
-  CHECK(contains(points.err, "warning: f.xyz: the points are the posts of a raster, 65 x 65, and"));
+  CHECK(contains(points.err, "warning: f.xyz: the points are the posts of a raster, 65 x 65;"));
   const Session::Result raster =
       session.run("encode f.xyz --gridded --max-error 5 --fast -o raster.mtin");
   CHECK(raster.code == 0);
@@ -140,17 +140,17 @@ TEST_CASE("points: a lattice that is too coarse is named, with what is fine enou
   const Session session;
   session.write("p.xyz", slope());
   CHECK(contains(session.failure("encode p.xyz --max-error 0.5 --xy-step 500 -o p.mtin"),
-                 ": --xy-step 500 is too coarse; leave it out, or ask for less with --bound-at"));
+                 ": --xy-step 500 is too coarse; leave it out, or use --bound-at lattice"));
   // Left out, it would be as coarse.
   session.write("wide.xyz",
                 "0 0 0\n1000 0 0\n0 1000 0\n1000 1000 0\n500.01 400.01 9\n500.03 400.01 0\n");
-  CHECK(contains(session.failure("encode wide.xyz --max-error 0.1 --xy-step 0.02 -o p.mtin"),
-                 ": --xy-step 0.02 is too coarse; 16 bits hold no finer one: make a pack (.mtp)"));
+  CHECK(contains(
+      session.failure("encode wide.xyz --max-error 0.1 --xy-step 0.02 -o p.mtin"),
+      ": --xy-step 0.02 is too coarse, and 16 bits hold no finer one; make a pack (.mtp)"));
   // Left out, more tiles are needed than there can be: a step is named that does.
   const std::string pack = "encode p.xyz --max-error 0.5 --tile-vertices 500 -o p.mtp --xy-step ";
   CHECK(contains(session.failure(pack + "500"),
-                 ": --xy-step 500 is too coarse; try 5, or ask for "
-                 "less with --bound-at lattice"));
+                 ": --xy-step 500 is too coarse; use 5, or use --bound-at lattice"));
   CHECK(session.run(pack + "5").code == 0);
   REQUIRE(session
               .run("encode p.xyz --max-error 0.5 --xy-step 500 --bound-at lattice --tile-vertices "
@@ -195,14 +195,14 @@ TEST_CASE("points: fine decimals over a large area are told a step that works, a
   const std::string stream = session.failure(encode + "p.mtin");
   const std::string coarse = step_behind(stream, "make a pack (.mtp) with --xy-step ");
   CHECK(contains(session.failure(encode + "p.mtp --tile-vertices 300"),
-                 "; --xy-step " + coarse + " makes no more than there are points"));
+                 "; use " + coarse + " or more"));
   std::string pack = encode + "p.mtp --tile-vertices 300 --xy-step ";
-  const std::string finer = step_behind(session.failure(pack + coarse), "too coarse; try ");
+  const std::string finer = step_behind(session.failure(pack + coarse), "too coarse; use ");
   CHECK(session.run(pack + finer).code == 0);
   CHECK(session.run("verify p.mtp p.xyz").code == 0);
   CHECK(contains(session.failure("encode p.xyz --xy-step 0.5 -o p.mtin"),
                  "--xy-step 0.5 is too fine: 16 bits do not hold the source's range in such steps; "
-                 "2 fits"));
+                 "use 2 or more"));
 }
 
 TEST_CASE("points: one of those that meet stands for all, and verify knows which") {

@@ -156,7 +156,7 @@ void add_rows_of_points(std::vector<Cell>& table, const std::string& reader) {
   add_conversions(table, reader, points(reader, three), 3, "metre",
                   reader == kArrayOfPoints ? array : std::function<SourceTerrain()>());
   file("duplicates", {{"0", "0", "0"}, {"9", "0", "0"}, {"0", "9", "0"}, {"9", "0", "9"}},
-       "--duplicates");
+       "duplicates lowest");
   if (reader == ".xyz" || reader == ".csv" || reader == ".txt") {  // a grid by such a name
     table.push_back(
         {"sidecars", reader, grid("158", "1"), "latitude 158 is beyond", 0, ":metre", kDegrees});

@@ -129,7 +129,7 @@ TEST_CASE("a header cannot claim more memory than its bytes could fill") {
     return "";
   };
   const std::string refused =
-      "cut off or malformed: more vertices are announced than so few bytes can hold";
+      "cut off or malformed: its header has more vertices than its bytes can hold";
   CHECK(error_of(kMaxVertices, 30) == refused);
   CHECK(error_of(3 + 1421 * 30 + 1, 30) == refused);
   CHECK(error_of(3 + 1421 * 30, 30) != refused);

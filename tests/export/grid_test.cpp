@@ -111,7 +111,8 @@ TEST_CASE("grid: an extent's posts begin at its south-west corner, or are those 
   CHECK((west.columns == 1 && west.rows == 2 && is_same(west.x, posts.x)));
   CHECK((wide.columns == 5 && wide.rows == 6 && is_same(wide.x, {96, 2, 1}) &&
          is_same(wide.y, {-1, 2, 1})));
-  CHECK_THROWS_WITH_AS(within("100.1,1,101.9,3"), "no post of the grid lies in the extent", Error);
+  CHECK_THROWS_WITH_AS(within("100.1,1,101.9,3"),
+                       "no post of the grid lies in the extent; choose a larger one", Error);
   CHECK(meets(surface, within("95,1,100,3")));
   CHECK(!meets(surface, within("95,1,99,3")));
   CHECK(!meets(surface, within("104,5,107,9")));

@@ -320,24 +320,24 @@ class Driver(unittest.TestCase):
             scaled.GetRasterBand(1).SetOffset(offset)
             with self.assertRaisesRegex(RuntimeError, "scale or an offset: apply them with -unscale"):
                 driver.CreateCopy(self.path("refused.mtin"), scaled)
-        refused("does not say where it lies: -a_ullr", transform=None)
+        refused("has no position: add it with -a_ullr", transform=None)
         for transform in ((0, 1, 0.5, 0, 0, -1), (0, 1, 0, 0, 0.5, -1), (9, -1, 0, 0, 0, -1)):
             refused("rows do not run from west to east: .* gdalwarp", transform=transform)
-        refused("no complex numbers: -ot Float64", kind=gdal.GDT_CFloat32)
-        refused("tile_vertices is an option of packs", options=["TILE_VERTICES=50"])
-        refused("tile_vertices: 16 .. 16777216", options=["TILE_VERTICES=15"], name="refused.mtp")
+        refused("complex numbers: take their real parts with -ot Float64", kind=gdal.GDT_CFloat32)
+        refused("TILE_VERTICES is an option of packs", options=["TILE_VERTICES=50"])
+        refused("TILE_VERTICES: use 16 to 16777216", options=["TILE_VERTICES=15"], name="refused.mtp")
         for most in ("99999999999", "100abc", "-1", ""):
-            refused(f"tile_vertices: {most} is not a whole number", options=[f"TILE_VERTICES={most}"], name="refused.mtp")
-        refused("effort: some is not fast, normal or best", options=["EFFORT=some"])
+            refused(f"TILE_VERTICES: '{most}' is not allowed; use a whole number", options=[f"TILE_VERTICES={most}"], name="refused.mtp")
+        refused("EFFORT: 'some' is not allowed; use fast, normal or best", options=["EFFORT=some"])
         signed = memory.Create("", 4, 4, 1, gdal.GDT_Byte)
         signed.SetGeoTransform(TRANSFORM)
         signed.GetRasterBand(1).SetMetadataItem("PIXELTYPE", "SIGNEDBYTE", "IMAGE_STRUCTURE")
         with self.assertRaisesRegex(RuntimeError, "signed bytes, which GDAL reads as unsigned"):
             driver.CreateCopy(self.path("refused.mtin"), signed)
-        refused("max_error: much", options=["MAX_ERROR=much"])
+        refused("MAX_ERROR: 'much' is not allowed", options=["MAX_ERROR=much"])
         refused("heights", epsg=4326)
         refused('the unit of heights is "furlong", which is not known', unit="furlong")
-        refused("furlong is not a unit", options=["UNITS=furlong"])
+        refused("UNITS: 'furlong' is not allowed", options=["UNITS=furlong"])
         refused("name a stream .mtin or a pack .mtp", name="refused.tif")
 
     def test_feet(self):
@@ -406,8 +406,7 @@ class Driver(unittest.TestCase):
             gdal.PopErrorHandler()
         self.assertEqual(
             told,
-            ["MTIN: /vsimem/guess.mtin: heights are taken as US survey foot, as x and y are; if they are not, give units, "
-             "such as :metre"],
+            ["MTIN: /vsimem/guess.mtin: heights are taken as US survey foot, as x and y are; if they are not, set units, such as :metre"],
         )
 
     def test_undeclared_voids_are_told(self):

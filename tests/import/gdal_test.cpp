@@ -105,9 +105,8 @@ TEST_CASE("gdal: files that cannot be read are refused with a remedy") {
   // The words between are GDAL's own, and differ between its versions.
   const std::string error = grid.session.failure("encode text.tif -o new.mtin");
   CHECK(error.find("text.tif: GDAL cannot open it: not recognized as ") == 0);
-  CHECK(contains(error,
-                 " supported file format. \"gdal_translate IN OUT.tif\" makes a GeoTIFF of "
-                 "what is not read here\n"));
+  CHECK(contains(
+      error, " supported file format. convert other formats with \"gdal_translate IN OUT.tif\"\n"));
 }
 
 TEST_CASE("gdal: a raster of more posts than its bytes can hold is refused before it is read") {
@@ -184,7 +183,7 @@ TEST_CASE("gdal: masks make voids, one of several bands is chosen") {
   CHECK(heights("both.tif", 1) == std::vector<int64_t>{4, 5, 6, 1, 2, 3});
   CHECK(heights("both.tif", 2) == std::vector<int64_t>{1, 1, 0, 0, 1, 1});
   CHECK(contains(session.failure("encode both.tif -o new.mtin"),
-                 "both.tif: has 2 bands: choose that of the heights, --band 1"));
+                 "both.tif: has 2 bands: choose the band of heights by --band"));
   CHECK(contains(session.failure("encode both.tif --band 3 -o new.mtin"),
                  "both.tif: has no band 3; its last is 2"));
   CHECK(session.run("encode both.tif --band 2 -o new.mtin").code == 0);
@@ -258,20 +257,20 @@ TEST_CASE("gdal: files that name others are read only when allowed") {
                          "subClass=\"VRTRawRasterBand\"><SourceFilename relativeToVRT=\"1\">secret"
                          "</SourceFilename></VRTRasterBand></VRTDataset>");
   grid.session.write("raw.tif", grid.session.read("raw.vrt"));
-  const std::string hint = "names other files, which are read with --allow-vrt only";
+  const std::string hint = "names other files, which are read only with --allow-vrt";
   CHECK(contains(grid.session.failure("encode raw.vrt -o new.mtin"), "raw.vrt: " + hint));
   CHECK(
       contains(grid.session.failure("encode raw.tif -o new.mtin"), "raw.tif: GDAL cannot open it"));
   for (const char* const name :
        {"/vsizip/raw.zip/raw.tif", "/vsistdin/", "GTIFF_DIR:1:/vsimem/x"}) {
     CHECK(contains(grid.session.failure("encode '" + std::string(name) + "' -o new.mtin"),
-                   ": is opened with --allow-vrt only"));
+                   ": is a virtual file of GDAL's, which is read only with --allow-vrt"));
   }
   CHECK(grid.session.run("encode raw.vrt --allow-vrt -o secret.mtin").code == 0);
   CHECK(grid.session.run("verify secret.mtin raw.vrt --allow-vrt").code == 0);
   // It is an input as well as what it names.
   const Session::Result over = grid.session.run("encode raw.vrt --allow-vrt -o secret");
-  CHECK(over.err == "microtin: secret: is the input\n");
+  CHECK(over.err == "microtin: secret: is also an input; choose another output\n");
   CHECK(grid.session.read("secret") == "wxyz");
 }
 

@@ -89,7 +89,7 @@ TEST_CASE("texts may begin with a byte order mark") {
   const auto reader = open_asc("grid", bytes_in_memory({text.begin(), text.end()}));
   CHECK(reader->read({0, 0, 3, 2}).heights == std::vector<int64_t>{4, 5, 6, 1, 2, 3});
   CHECK(grid_error(mark + kHeader + "1 2 3\n4 x 6\n") == "grid:7: \"x\" is not a number in range");
-  CHECK(grid_error(mark) == "grid: the header does not give ncols");
+  CHECK(grid_error(mark) == "grid: the header lacks ncols");
   CHECK(points(mark + "1 2 3") == "1,2,3");
   CHECK(text_of(import_obj("mesh", mark + "v 1 2 3\nv 4 5 6\n")) == "1,2,3 4,5,6");
   CHECK(text_of(import_ply(
@@ -113,7 +113,7 @@ TEST_CASE("asc: cells that are not numbers are void, whatever no-data value the 
 TEST_CASE("asc: every error names its line") {
   CHECK(grid_error(kHeader + "1 2 3\n4 5\n") == "grid:8: the grid ends after 5 of 6 heights");
   CHECK(grid_error(kHeader + "1 2 3\n4 5 6\n7\n") ==
-        "grid:8: the grid goes on after its 6 heights");
+        "grid:8: the grid has more numbers than its 6 heights");
   CHECK(grid_error(kHeader + "1 2 3\n4 x 6\n") == "grid:7: \"x\" is not a number in range");
   const std::string rows = "1 2 3\n4 MARK 6\n";
   for (const std::string mark : {"inf", "-3.4e38"}) {
@@ -137,13 +137,13 @@ TEST_CASE("asc: every error names its line") {
         "grid:6: \"zone\" is neither a number nor a key of an ASCII grid's header");
   CHECK(grid_error("ncols") == "grid:1: the value of ncols is missing");
   CHECK(grid_error("ncols x") == "grid:1: ncols is not a number in range: \"x\"");
-  CHECK(grid_error("") == "grid: the header does not give ncols");
+  CHECK(grid_error("") == "grid: the header lacks ncols");
   CHECK(grid_error("ncols 2\nnrows 0 1") == "grid: nrows is not a count: 0");
   CHECK(grid_error("ncols 2.5\nnrows 1 1") == "grid: ncols is not a count: 2.5");
   CHECK(grid_error("ncols 1 nrows 1 yllcorner 0 cellsize 1 5") ==
-        "grid: the header does not give xllcorner");
+        "grid: the header lacks xllcorner");
   CHECK(grid_error("ncols 1 nrows 1 xllcorner 0 yllcorner 0 5") ==
-        "grid: the header does not give cellsize");
+        "grid: the header lacks cellsize");
   CHECK(grid_error("ncols 1 nrows 1 xllcorner 0 yllcorner 0 cellsize -1 5") ==
         "grid: cellsize is not above 0");
   CHECK(grid_error("ncols 2000000000 nrows 2000000000 xllcorner 0 yllcorner 0 cellsize 1 5 6") ==
@@ -200,7 +200,7 @@ TEST_CASE("hgt: fewer columns than rows, as towards the poles") {
   }
   CHECK(error_of(import_hgt, std::string(size_t{2} * 1800 * 3601, '\0')) ==
         "grid: has 12963600 bytes; an .hgt file has two for each post of a square, as 25934402 for "
-        "3601 x 3601, or of 1801 x 3601 and the like towards the poles");
+        "3601 x 3601, or of 1801 x 3601, for example, towards the poles");
 }
 
 TEST_CASE("a grid is known by its content where its name may be that of points") {
@@ -303,7 +303,7 @@ TEST_CASE("asc: each axis goes by its own key, corner or centre") {
     }
   }
   CHECK(grid_error(size + "xllcenter 1\nxllcorner 1\nyllcorner 2\n" + heights) ==
-        "grid: xllcorner and xllcenter are both given: leave one");
+        "grid: xllcorner and xllcenter are both given; keep one");
 }
 
 TEST_CASE("points: positions outside the Earth's degrees are refused if columns have such names") {
@@ -376,7 +376,8 @@ TEST_CASE("files that are not there, or of no known kind, are refused by name") 
   std::ofstream(path) << "II";
   CHECK(error(path) ==
         path +
-            ": not a kind of terrain file known here: .hgt, .zip, .asc, .xyz, .csv, .txt, .las, "
+            ": is not a kind of terrain file that microtin reads: .hgt, .zip, .asc, .xyz, .csv, "
+            ".txt, .las, "
             ".ply, .obj; for others use \"gdal_translate -of AAIGrid IN OUT.asc\", or build with "
             "-DMICROTIN_WITH_GDAL=ON");
 #endif

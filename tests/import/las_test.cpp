@@ -112,10 +112,9 @@ TEST_CASE("las: the classes that an option selects; without ground all except no
   CHECK(text_of(cloud(bytes, ClassSet().set(5).set(7))) == "100200,250,8500 100004,5,-494");
   CHECK(cloud(bytes, ClassSet().set(5).set(7)).classes == ClassSet().set(5).set(7));
   CHECK(cloud(bytes, ClassSet().set()).points.size() == 4);
-  CHECK(
-      error(bytes, ClassSet().set(9)) ==
-      "scan: no point is taken; left out: class 2 (2), 5 (1), 7 (1), withheld (1): --classes takes "
-      "others");
+  CHECK(error(bytes, ClassSet().set(9)) ==
+        "scan: no point is taken; left out: class 2 (2), 5 (1), 7 (1), withheld (1); choose other "
+        "classes by classes");
   const PointCloud rest =
       cloud(las(4, 6, {{{0, 0, 0}, 1}, {{1, 0, 0}, 7}, {{2, 0, 0}, 18}, {{3, 0, 0}, 200}}).bytes());
   CHECK(text_of(rest) == "100000,0,-5 100003,0,-5");
@@ -146,10 +145,9 @@ TEST_CASE("las: files of one terrain give the same classes, and what is left out
   CHECK(joined(scan).selection ==
         "2 files, which agree at 2 places that they share; taken: class 2 (4); left out: class 5 "
         "(2), 7 (2), withheld (2)");
-  CHECK(
-      import_error([&] { joined(bare); }) ==
-      "b.las: taken: class 0 (1), 5 (1); but of a.las: taken: class 2 (2); left out: class 5 (1), "
-      "7 (1), withheld (1): --classes says which ones to take of all files");
+  CHECK(import_error([&] { joined(bare); }) ==
+        "b.las: taken: class 0 (1), 5 (1), but a.las: taken: class 2 (2); left out: class 5 (1), "
+        "7 (1), withheld (1); choose the classes of all files by classes");
   CHECK(joined(bare, ClassSet().set(5)).points.size() == 2);
 }
 
@@ -236,7 +234,7 @@ TEST_CASE("las: points whose offset lies within the header or its records are re
       file.put(96, first);
       const uint32_t end = first < head ? head : head + 58u;
       CHECK(error(file.bytes()) ==
-            "scan: malformed: points are said to begin at byte " + std::to_string(first) +
+            "scan: malformed: its points begin at byte " + std::to_string(first) +
                 ", before the header and its records end, at " + std::to_string(end));
     }
     BinaryFile small = sound;

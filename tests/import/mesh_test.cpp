@@ -114,17 +114,17 @@ TEST_CASE("ply: every error is reported, in text with its line") {
   CHECK(ply_error("") == "mesh:0: is not a PLY file");
   CHECK(ply_error("plyx\n") == "mesh:1: is not a PLY file");
   CHECK(ply_error("ply\nformat ascii 1.0\n") == "mesh:2: the header does not end");
-  CHECK(ply_error("ply\nend_header\n") == "mesh:2: the header does not give the format");
-  CHECK(ply_error("ply\nformat ebcdic 1.0\n") == "mesh:2: the format is none of PLY's");
-  CHECK(ply_error("ply\nfoo\n") == "mesh:2: \"foo\" is no word of a PLY header");
+  CHECK(ply_error("ply\nend_header\n") == "mesh:2: the header lacks the format");
+  CHECK(ply_error("ply\nformat ebcdic 1.0\n") == "mesh:2: the format is not one of PLY's");
+  CHECK(ply_error("ply\nfoo\n") == "mesh:2: \"foo\" is not a keyword of a PLY header");
   CHECK(ply_error("ply\nelement vertex -1\n") == "mesh:2: an element needs a count");
   CHECK(ply_error("ply\nproperty int x\n") == "mesh:2: a property comes before any element");
   CHECK(ply_error("ply\nelement vertex 1\nproperty x\n") ==
         "mesh:3: a property needs a type and a name");
   CHECK(ply_error("ply\nelement vertex 1\nproperty int128 x\n") ==
-        "mesh:3: the property's type is none of PLY's");
+        "mesh:3: the property's type is not one of PLY's");
   CHECK(ply_error("ply\nelement vertex 1\nproperty list float int x\n") ==
-        "mesh:3: the property's type is none of PLY's");
+        "mesh:3: the property's type is not one of PLY's");
   const std::string one = text_head("element vertex 1\n" + kXyz + "end_header\n");
   CHECK(ply_error(one) == "mesh:7: the file ends before its elements do");
   CHECK(ply_error(one + "1 2\n") == "mesh:8: the line does not hold the element's values");

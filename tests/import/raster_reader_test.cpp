@@ -83,7 +83,8 @@ TEST_CASE("raster reader: rectangles of an ASCII grid") {
 
 TEST_CASE("raster reader: an ASCII grid is checked as a whole, line by line") {
   const std::string text = grid_text(30, 30);
-  CHECK(error_of(text + " 7").find("the grid goes on after its 900 heights") != std::string::npos);
+  CHECK(error_of(text + " 7").find("the grid has more numbers than its 900 heights") !=
+        std::string::npos);
   const std::string cut = text.substr(0, text.size() / 2);
   CHECK(error_of(cut).find("the grid ends after ") != std::string::npos);
   for (const std::string& wrong : {cut + " x ", text + " 7", cut}) {
@@ -129,8 +130,7 @@ TEST_CASE("raster reader: files that cannot be read in pieces are reported") {
   std::filesystem::create_symlink("/dev/null", folder / "null.asc");
   CHECK_THROWS_WITH_AS(
       open_terrain(folder / "null.asc"),
-      (folder / "null.asc: is not a file that can be read in pieces: copy it into one").c_str(),
-      Error);
+      (folder / "null.asc: cannot be read in pieces; copy it into a regular file").c_str(), Error);
 }
 
 }  // namespace microtin::tests

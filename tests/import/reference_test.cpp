@@ -67,10 +67,9 @@ TEST_CASE("reference: units of heights in well-known text are converted exactly,
         "10,20,304797265400 30,40,-15239863270 / 1 10 metre");
   CHECK(import_error([&] { text(R"x("British foot (Sears 1922)",0.304799471538676)x"); }) ==
         "the unit of heights is British foot (Sears 1922), 12000000/39370147 metre, which no "
-        "decimal is exactly: convert them, or give units that say what they are");
+        "decimal is exactly: convert them, or set units");
   CHECK(import_error([&] { text(R"("span",0.2286)"); }) ==
-        "the unit of heights is \"span\", which is not known: convert them, or give units that say "
-        "what they are");
+        "the unit of heights is \"span\", which is not known: convert them, or set units");
 }
 
 TEST_CASE("reference: an option decides the unit, and a warning names what it overrides") {
@@ -119,7 +118,7 @@ TEST_CASE("reference: units of positions are converted if no system states them"
   CHECK(
       import_error([&] { settle(reference_of_wkt(R"(PROJCS["p",UNIT["link",0.201168]])"), {}); }) ==
       "the unit of x and y is link, and their system has no other: bring them into a system of "
-      "metres or feet with gdalwarp -t_srs, or give units that say what they are");
+      "metres or feet with gdalwarp -t_srs, or set units");
   system.horizontal_epsg = 4326;
   system.horizontal_unit = Unit::kDegree;
   CHECK(import_error([&] { settle(system, asking("km:m")); }) ==
@@ -145,9 +144,8 @@ TEST_CASE("reference: depths are refused, or turned into heights, by whatever sa
     const uint32_t code = row.heights;
     CAPTURE(vertical);
     const Reference file = reference_of_wkt(compound(vertical));
-    CHECK(import_error([&] {
-            settle(file, {});
-          }).find("the option depths turns them into heights") != std::string::npos);
+    CHECK(import_error([&] { settle(file, {}); }).find("negate them with depths") !=
+          std::string::npos);
     CHECK(settled_text(heights(file), asking("", true)) == "10,20,-100 30,40,5 / 1 0 metre");
     const Reference turned = settle(file, asking("", true)).reference;
     CHECK(turned.vertical_epsg == code);

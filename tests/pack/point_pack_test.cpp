@@ -276,15 +276,15 @@ TEST_CASE("point packs: what cannot be is refused") {
   square.scatter(50, 0, 0, 2000000000, 2000000000);
   const PointCloud wide = square.take();
   CHECK_THROWS_WITH_AS(pack_bytes(wide, point_options(1, 90)),
-                       "tiles are at most 65535 steps wide: at --xy-step 1 more than 1048576 are "
-                       "needed; --xy-step 5000 makes no more than there are points",
+                       "xy_step 1 is too fine: the pack needs more than 1048576 tiles of at most "
+                       "65535 steps; use 5000 or more",
                        Error);
   PackOptions fine = point_options(1, 90);
   fine.lattice.xy_step = Decimal{1, 1};
-  CHECK_THROWS_WITH_AS(
-      pack_bytes(wide, fine),
-      "--xy-step 0.1 is too fine: 31 bits do not hold the source's range in such steps; 1 fits",
-      Error);
+  CHECK_THROWS_WITH_AS(pack_bytes(wide, fine),
+                       "xy_step 0.1 is too fine: 31 bits do not hold the source's range in such "
+                       "steps; use 1 or more",
+                       Error);
   fine.lattice.xy_step = Decimal{5000, 0};
   check_pack(wide, fine);
 }
@@ -300,7 +300,7 @@ TEST_CASE("point packs: crowds far apart are refused before all is empty tiles")
     FAIL("is not refused");
   } catch (const Error& error) {
     CHECK_MESSAGE(
-        std::string(error.what()).find("encode each crowd by itself") != std::string::npos,
+        std::string(error.what()).find("encode each cluster as its own pack") != std::string::npos,
         error.what());
   }
 }

@@ -245,8 +245,8 @@ TEST_CASE("packs: a shard whose tile is too large prints the size of tiles to tr
   } catch (const TileTooLarge& error) {
     CHECK(error.fewer_steps < 60);
     CHECK(std::string(error.what())
-              .find("vertices, too many: try --tile-size " + std::to_string(error.fewer_steps)) !=
-          std::string::npos);
+              .find("vertices, more than a tile may have; use tile_size " +
+                    std::to_string(error.fewer_steps)) != std::string::npos);
   }
 }
 

@@ -218,7 +218,7 @@ TEST_CASE("library: a pack without a number of vertices has tiles of the usual o
   CHECK(read_file(folder / "usual.mtp") == read_file(folder / "same.mtp"));
   options.tile_vertices = 15;
   CHECK_THROWS_WITH(encode_pack(terrain, options, folder / "few.mtp"),
-                    "tile_vertices: 16 .. 16777216, or 0 for the default");
+                    "tile_vertices: use 16 to 16777216, or 0 for the default");
 }
 
 TEST_CASE("library: work that is cancelled leaves nothing") {
@@ -332,6 +332,22 @@ TEST_CASE("library: units are converted and depths turned, in streams and packs 
   CHECK_THROWS_AS(encode_stream(SourceTerrain(points), stream), std::runtime_error);
 }
 
+TEST_CASE("library: messages name options as Options does, or as the caller spells them") {
+  Options options;
+  options.xy_step = "2";
+  options.tile_vertices = 5;
+  try {
+    encode_pack(SourceTerrain(cone(9)), options, "none.mtp");
+    FAIL("no error");
+  } catch (const std::runtime_error& error) {
+    CHECK(std::string(error.what()) == "tile_vertices: use 16 to 16777216, or 0 for the default");
+    CHECK(message_of(error, [](const std::string& name) { return "<" + name + ">"; }) ==
+          "<tile_vertices>: use 16 to 16777216, or 0 for the default");
+  }
+  CHECK(message_of(std::runtime_error("max_error"), [](const std::string&) { return ""; }) ==
+        "max_error");
+}
+
 TEST_CASE("library: what makes no sense is refused with a sentence") {
   const auto error_of = [](RasterData posts, const Options& options) -> std::string {
     try {
@@ -343,21 +359,24 @@ TEST_CASE("library: what makes no sense is refused with a sentence") {
   };
   RasterData posts = cone(9);
   CHECK(error_of(posts, bounded("1")) == "none");
-  CHECK(error_of(posts, bounded("-1")) == "max_error: -1 is not a decimal number from 0 on");
-  CHECK(error_of(posts, bounded("x")) == "max_error: x is not a decimal number from 0 on");
+  CHECK(error_of(posts, bounded("-1")) ==
+        "max_error: '-1' is not allowed; use a decimal number from 0 up");
+  CHECK(error_of(posts, bounded("x")) ==
+        "max_error: 'x' is not allowed; use a decimal number from 0 up");
   Options options = bounded("1");
   options.max_bytes = 100;
   CHECK(error_of(posts, options) ==
-        "only one of max_error, max_vertices and max_bytes can be given");
+        "max_error, max_vertices and max_bytes exclude each other; use one");
   options = bounded("1");
   options.max_degree = 33;
-  CHECK(error_of(posts, options) == "max_degree: 6 .. 32, or 0 for the default");
+  CHECK(error_of(posts, options) == "max_degree: use 6 to 32, or 0 for the default");
   options = {};
   options.never_below = true;
   CHECK(error_of(posts, options) == "never_below needs max_error or max_bytes");
   options = {};
   options.date = "yesterday";
-  CHECK(error_of(posts, options) == "date: yesterday is not a date such as 2026-11-21");
+  CHECK(error_of(posts, options) ==
+        "date: 'yesterday' is not allowed; use a date such as 2026, 2026-11 or 2026-11-21");
   posts.heights.pop_back();
   CHECK(error_of(posts, {}) == "not as many heights as columns times rows");
   posts.heights.push_back(kNoData + 1);

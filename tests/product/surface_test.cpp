@@ -251,9 +251,10 @@ TEST_CASE("binary numbers: what is refused, and where") {
   CHECK_THROWS_WITH(posts({0, 1, 0, 0, 0, 0}), "transform: cells have no extent");
   CHECK_THROWS_WITH(posts({std::nan(""), 1, 0, 0, 0, -1}), "transform: a number is out of range");
   heights[kColumns + 7] = 1e300;
-  CHECK_THROWS_WITH(posts(kTransform),
-                    doctest::Contains("row 1, column 7: 1.0000000000000001e+300 is not a height in "
-                                      "range: if that marks voids"));
+  CHECK_THROWS_WITH(
+      posts(kTransform),
+      doctest::Contains(
+          "row 1, column 7: 1.0000000000000001e+300 is not a height in range: if it marks voids"));
   const double points[] = {0, 0, 1.5, 10, 0, 2, 0, 10.25, INFINITY};
   CHECK(point_cloud_from_xyz(2, points).z_decimals == 1);
   CHECK_THROWS_WITH(point_cloud_from_xyz(3, points), "point 2: is not a number in range");

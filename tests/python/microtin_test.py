@@ -267,8 +267,8 @@ class Refusals(unittest.TestCase):
     def test_options(self):
         array = [[1.0, 2.0], [3.0, 4.0]]
         self.refused("max_error: one is not", array, max_error="one")
-        self.refused("only one of max_error", array, max_error=1, max_vertices=4)
-        self.refused("'slow' is none of fast, normal, best", array, effort="slow")
+        self.refused("exclude each other", array, max_error=1, max_vertices=4)
+        self.refused("'slow' is not allowed; use one of fast, normal, best", array, effort="slow")
         self.refused("units of x and y|unit of heights|heights", array, crs=4326)
         self.refused("'nonsense' is neither EPSG:CODE nor well-known text", array, crs="nonsense")
         with self.assertRaisesRegex(TypeError, "no option colour"):
@@ -307,12 +307,12 @@ class Refusals(unittest.TestCase):
 
     def test_points_that_share_a_place(self):
         points = [[0, 0, 1], [0, 0, 9], [2, 3, 1], [4, 1, 1]]
-        with self.assertRaisesRegex(microtin.Error, "max-error cannot be kept at 1 places"):
+        with self.assertRaisesRegex(microtin.Error, "max_error cannot be kept at 1 positions"):
             microtin.encode_points(points, 1)
         for rule, height in (("lowest", 1), ("highest", 9), ("mean", 5)):
             tin = microtin.decode(microtin.encode_points(points, 0.25, duplicates=rule))
             self.assertAlmostEqual(tin.height_at(0, 0), height, delta=0.25)
-        with self.assertRaisesRegex(microtin.Error, "'first' is none of middle, lowest, highest, mean"):
+        with self.assertRaisesRegex(microtin.Error, "'first' is not allowed; use one of middle, lowest, highest, mean"):
             microtin.encode_points(points, 1, duplicates="first")
 
     def test_the_bound_may_hold_on_the_lattice_alone(self):

@@ -72,11 +72,12 @@ TEST_CASE("explicit steps hold, or are refused") {
   CHECK(text_of(choose("1 2 3\n4 5 6", steps("0.25", "0.001")).placement.x) == "0+1k/4");
   CHECK_THROWS_WITH_AS(
       choose("0 0\n65536 0", steps("1", "1")),
-      "--xy-step 1 is too fine: 16 bits do not hold the source's range in such steps; 2 fits",
+      "xy_step 1 is too fine: 16 bits do not hold the source's range in such steps; use 2 or more",
       Error);
   CHECK_THROWS_AS(choose("0 0 0\n1 1 65536", steps("1", "1")), Error);
   CHECK_NOTHROW(choose("0 0 0\n1 1 65535", steps("1", "1")));
-  CHECK_THROWS_WITH_AS(choose("0 0", steps("0", "1")), "--xy-step 0 is out of range", Error);
+  CHECK_THROWS_WITH_AS(choose("0 0", steps("0", "1")),
+                       "xy_step 0 is out of range; use a number above 0, up to 1000000000", Error);
   CHECK_THROWS_AS(choose("0 0", steps("1", "1e12")), Error);
 }
 

@@ -112,46 +112,43 @@ TEST_CASE("posts that a coarse lattice merges cause an error with a finer step")
     lay_out(raster_of(4, {0, 0, 0, 0, 0, 50, 0, 0, 0, 0, 90, 0, 0, 0, 0, 0}), coarse);
     FAIL("is not refused");
   } catch (const Error& error) {
-    CHECK_MESSAGE(std::string(error.what()).find("; a smaller --xy-step, or none, keeps") !=
-                      std::string::npos,
-                  error.what());
+    CHECK_MESSAGE(
+        std::string(error.what()).find("; use a smaller xy_step, or none") != std::string::npos,
+        error.what());
   }
 }
 
 TEST_CASE("several heights at one position are refused with their number and the position") {
-  const std::string remedy =
-      "; --duplicates lowest, highest or mean lets one of them stand for all";
+  const std::string remedy = "; use duplicates lowest, highest or mean";
   const std::string wall = "0.5 0 1\n100.25 7 4\n100.25 7 8.5\n200 9 0\n200 9 100\n";
-  CHECK(
-      error_of(wall, options("", "", "2.25")) ==
-      "--max-error cannot be kept at 1 places where points of different heights meet, the first at "
-      "x 200, y 9 with heights from 0 to 100" +
-          remedy);
-  CHECK(
-      error_of(wall, options("", "", "2.2499")) ==
-      "--max-error cannot be kept at 2 places where points of different heights meet, the first at "
-      "x 100.25, y 7 with heights from 4 to 8.5" +
-          remedy);
+  CHECK(error_of(wall, options("", "", "2.25")) ==
+        "max_error cannot be kept at 1 positions where points of different heights meet, the first "
+        "at "
+        "x 200, y 9 with heights from 0 to 100" +
+            remedy);
+  CHECK(error_of(wall, options("", "", "2.2499")) ==
+        "max_error cannot be kept at 2 positions where points of different heights meet, the first "
+        "at "
+        "x 100.25, y 7 with heights from 4 to 8.5" +
+            remedy);
   CHECK(error_of(wall, options("", "", "")) == "none");
 }
 
 TEST_CASE("a step of height too coarse for the bound is refused with one that is not") {
   const std::string points = "0 0 1\n5 0 2\n0 5 3\n";
-  CHECK(
-      error_of(points, options("", "4", "0.9")) ==
-      "--max-error cannot be kept at 3 places: no whole step of height is near enough; the largest "
-      "--z-step that always is: 1.8");
+  CHECK(error_of(points, options("", "4", "0.9")) ==
+        "max_error cannot be kept at 3 positions, where no whole z step is near enough; use z_step "
+        "1.8 or less");
   CHECK(error_of(points, options("", "1.8", "0.9")) == "none");
   CHECK(error_of(points, options("", "4", "2")) == "none");
-  CHECK(
-      error_of(points, options("", "2", "0")) ==
-      "--max-error cannot be kept at 2 places: no whole step of height is near enough; the largest "
-      "--z-step that always is: 1");
+  CHECK(error_of(points, options("", "2", "0")) ==
+        "max_error cannot be kept at 2 positions, where no whole z step is near enough; use z_step "
+        "1 or less");
   CHECK(error_of(points, options("", "1", "0")) == "none");
   const std::string high = "0 0 0.01\n5 0 2.03\n0 5 3000.06\n";  // in steps of 0.05 at finest
   CHECK(error_of(high, options("", "", "0.01")) ==
-        "--max-error cannot be kept at 1 places: no whole step of height is near enough; 16 bits "
-        "hold these heights in steps of 0.05, which keep --max-error 0.03");
+        "max_error cannot be kept at 1 positions, where no whole z step is near enough; 16 bits "
+        "hold these heights in steps of 0.05: use max_error 0.03 or more");
   CHECK(error_of(high, options("", "", "0.03")) == "none");
 }
 
@@ -166,8 +163,8 @@ TEST_CASE("voids of rasters are kept; a lattice that merges them with heights is
   CHECK(whole.survey.voids[1] == Point{1, 0});
   CHECK(whole.survey.voids[2] == Point{2, 1});
   CHECK(whole.survey.samples.size() == 3);
-  CHECK_THROWS_WITH_AS(
-      lay_out(raster, options("2", "", "")),
-      "--xy-step is too coarse: 2 void posts share a place with a height, the first at x 2, y 0",
-      Error);
+  CHECK_THROWS_WITH_AS(lay_out(raster, options("2", "", "")),
+                       "xy_step is too coarse: 2 void posts share a position with a height, the "
+                       "first at x 2, y 0; use a smaller one, or none",
+                       Error);
 }

@@ -43,27 +43,29 @@ TEST_CASE("water: a level with more decimals than the heights refines these") {
   CHECK(raster.heights == std::vector<int64_t>{100, 25, -700, 25});
   Raster high = raster_of(2, {1000000000000000000, 1, 1, kV});
   CHECK_THROWS_WITH_AS(flood_voids(high, {5, 1}, nullptr),
-                       "the water level has too many decimals beside such heights", Error);
+                       "the water level has too many decimals for these heights", Error);
 }
 
 TEST_CASE("water: masks of other posts or with other numbers are refused") {
   const Raster raster = raster_of(2, {1, kV, 7, kV});
-  CHECK_THROWS_WITH_AS(check_water_mask(raster_of(4, {1, 0, 1, 0}), raster),
-                       "has not the posts of the terrain", Error);
+  CHECK_THROWS_WITH_AS(
+      check_water_mask(raster_of(4, {1, 0, 1, 0}), raster),
+      "its grid differs from the terrain's; it must have the same columns, rows and cells", Error);
   Raster elsewhere = raster_of(2, {1, 0, 1, 0});
   elsewhere.x.offset = 1;
-  CHECK_THROWS_WITH_AS(check_water_mask(elsewhere, raster), "has not the posts of the terrain",
-                       Error);
+  CHECK_THROWS_WITH_AS(
+      check_water_mask(elsewhere, raster),
+      "its grid differs from the terrain's; it must have the same columns, rows and cells", Error);
   CHECK_THROWS_WITH_AS(check_water_mask(raster_of(2, {1, 0, 2, 0}), raster),
-                       "a mask holds 0 and 1 only", Error);
+                       "a water mask contains only 0 and 1", Error);
 }
 
 TEST_CASE("water: a z step too coarse to keep land dry is refused, with the largest that is not") {
   const Raster raster = raster_of(3, {5, 5, 5, 5, 6, 5, 5, 5, 5});
   CHECK_NOTHROW(lay_out(raster, options_of(Decimal{8, 0}, false)));
   CHECK_THROWS_WITH_AS(lay_out(raster, options_of(Decimal{9, 0}, false)),
-                       "--max-error cannot be kept at 1 places: no whole step of height is near "
-                       "enough; the largest --z-step that always is: 8",
+                       "max_error cannot be kept at 1 positions, where no whole z step is near "
+                       "enough; use z_step 8 or less",
                        Error);
 }
 

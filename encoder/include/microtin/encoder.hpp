@@ -29,6 +29,12 @@
 
 namespace microtin::encoder {
 
+/* Returns the message of an exception that this library threw, with the names of options as `spell`
+ * returns them: for programs that call max_error MAX_ERROR, say. what() has the names of Options.
+ */
+std::string message_of(const std::exception& error,
+                       const std::function<std::string(const std::string& option)>& spell);
+
 /* --- Terrain --- */
 
 /* Marks a post without a height in RasterData::heights. */

@@ -236,7 +236,7 @@ def _options(
     chosen = ((effort, _EFFORTS), (coding, _CODINGS), (bound_at, _BOUND_AT), (duplicates, _DUPLICATES))
     for value, choices in chosen:
         if value not in choices:
-            raise Error(f"{value!r} is none of {', '.join(choices)}")
+            raise Error(f"{value!r} is not allowed; use one of {', '.join(choices)}")
     allowed = ("max_degree", "vertical_epsg", "max_vertices", "max_bytes", "tile_vertices", "tile_size")
     for name, number in numbers.items():
         if name not in allowed:
@@ -307,7 +307,7 @@ def _epsg_of(crs: Optional[Crs]) -> Optional[int]:
     else:
         return None
     if not 0 < code < 1 << 32:
-        raise Error(f"{crs!r} is no code of a reference system; that of heights is vertical_epsg")
+        raise Error(f"{crs!r} is not the code of a horizontal system; use vertical_epsg for that of heights")
     return code
 
 
