@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Puts the shared library into the package: that of the environment's MICROTIN_LIBRARY, or one built of the sources
-beside this file, which takes CMake, a C++ compiler and the packages of the tool."""
+next to this file, which takes CMake, a C++ compiler and the packages of the tool."""
 
 import os
 import re

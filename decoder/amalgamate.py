@@ -17,8 +17,8 @@ LICENCE = re.compile(r"^// SPDX-License-Identifier: .*\n", re.M)
 GUARD = re.compile(r"^#ifndef (\w+)\n#define \1\n", re.M)
 NAMESPACE = re.compile(r"^(namespace microtin \{\n)(.*?)^\}  // namespace microtin\n", re.M | re.S)
 
-# Nobody else sees what the source defines, so the compiler need not keep it apart; clang is told at -Os what size is to
-# it at -Oz, since what it does not count there makes the decoder a third larger than gcc's.
+# Nobody else sees what the source defines, so the compiler need not keep it apart; clang gets the
+# threshold of -Oz at -Os, since what it inlines there makes the decoder a third larger than gcc's.
 BEGIN = """#if defined(__clang__)
 #pragma clang diagnostic ignored "-Wunused-const-variable"
 #pragma clang diagnostic ignored "-Wunused-function"

@@ -12,7 +12,7 @@ namespace microtin {
 constexpr uint32_t kMostPerUnit = 1ul << 24;
 constexpr int64_t kMostOffset = static_cast<int64_t>(1) << 61;
 
-// Whether an axis' places can be told in parts of a unit without overflow.
+// Whether an axis' positions fit parts of a unit without overflow.
 inline bool is_convertible(const microtin_axis& axis, uint32_t per_unit) {
   return per_unit != 0 && per_unit <= kMostPerUnit && axis.offset < kMostOffset &&
          axis.offset > -kMostOffset;

@@ -55,7 +55,7 @@ int32_t middle(uint32_t i, uint32_t side, uint16_t start, uint16_t extent) {
   return static_cast<int32_t>((start + steps) * 256);
 }
 
-// To and fro, so that each walk starts beside where it ends.
+// To and fro, so that each walk starts next to where it ends.
 void fill(microtin_buckets* buckets, const microtin_mesh& mesh) {
   const uint32_t side = buckets->side, triangles = mesh.mesh.triangles;
   Index t = 0;

@@ -19,7 +19,7 @@ uint32_t bytes_needed(const microtin_decoder& d) {
   return is_framed ? smaller(d.coder.payload_left, most) : most;
 }
 
-// Whatever is wrong is told once the check ahead has passed: before, it is damage.
+// A fault is reported once the check ahead has passed: before that, it is damage.
 MICROTIN_OUT_OF_LINE void note_malformed(microtin_decoder& d) {
   d.verdict = MICROTIN_STATUS_MALFORMED;
 }

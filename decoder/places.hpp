@@ -33,7 +33,7 @@ microtin_query_result ask_ends(const microtin_segment& segment, const HeightAt& 
   return answer;
 }
 
-// Whether heights on an axis can be told in whole units.
+// Whether heights on an axis fit whole units.
 inline bool has_small_units(const microtin_axis& z) {
   return z.numerator >> 31 == 0 && is_within(z.offset, static_cast<int64_t>(1) << 45);
 }

@@ -40,7 +40,7 @@ struct ByteWindow {
     next = bytes;
   }
 
-  // Adds from `size` bytes what there is room for: so many.
+  // Adds from `size` bytes what there is room for, and returns their number.
   size_t fill(const uint8_t* from, size_t size) {
     settle();
     size_t added = 0;

@@ -22,8 +22,8 @@ int64_t scaled(uint64_t rest, uint64_t d, uint32_t factor) {
   return whole + (left * 2 >= d ? 1 : 0);
 }
 
-// (offset + numerator * place) / denominator * per_unit; the place has so many fractional bits, at
-// most 16.
+// (offset + numerator * place) / denominator * per_unit; the place has this many fractional bits,
+// at most 16.
 bool real_value(const microtin_axis& axis, int64_t place, int bits, uint32_t per_unit,
                 int64_t* value) {
   if (!is_convertible(axis, per_unit)) return false;

@@ -37,7 +37,7 @@ struct RingVertex {
   int16_t z;
 };
 
-// Whether a look can tell so many positions.
+// Whether a look can tell this many positions apart.
 constexpr bool has_room_for(uint32_t positions) {
   return positions <= kRingNumber + 1;
 }
@@ -75,7 +75,7 @@ inline uint32_t repeats_of(const RingShape& header) {
   return header.positions - 1 - header.vertices;
 }
 
-// Bytes that it takes with numbers of so many bytes. With those at hand less than the mesh, which
+// Bytes that it takes with indices of this many bytes. With those at hand less than the mesh, which
 // is in memory.
 MICROTIN_IN_PLACE inline size_t compact_bytes(const RingShape& header, uint32_t index_bytes) {
   const uint32_t each = 2 * index_bytes + (header.is_narrow != 0 ? 4u : 6u);

@@ -4,7 +4,7 @@
 namespace microtin {
 namespace {
 
-// A half-edge of the triangle or, from a ghost, of the real one beside it.
+// A half-edge of the triangle or, from a ghost, of the real one next to it.
 Index real_edge(const Mesh& mesh, Index triangle) {
   Index h = first_edge(triangle);
   if (!is_ghost(mesh, triangle)) return h;

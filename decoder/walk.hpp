@@ -10,7 +10,7 @@
 //                               start(), or into what is no triangle of the mesh, where may_stop()
 //                               is false
 //   cross_around(forward)       in a ghost with infinity for apex: beyond end() -> apex(), else
-//                               beyond apex() -> start(), to the ghost beside it
+//                               beyond apex() -> start(), to the ghost next to it
 //   turn()                      to the next half-edge of the triangle
 //   corner(0), (1), (2)         the same three, counter-clockwise from any
 //   place(number), vertex(number)   of a finite vertex

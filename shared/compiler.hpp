@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What gcc and clang are told. Included before all other code, since it holds for what follows.
+// Settings for gcc and clang. Included before all other code, since it holds for what follows.
 #ifndef MICROTIN_SHARED_COMPILER_HPP
 #define MICROTIN_SHARED_COMPILER_HPP
 

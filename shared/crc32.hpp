@@ -52,7 +52,7 @@ struct CrcTable {
 
 constexpr CrcTable kCrcOfFour{};
 
-// Takes four bytes at a time, as long as there are so many.
+// Takes four bytes at a time, as long as there are four.
 inline uint32_t shift_fours(uint32_t crc, const uint8_t*& bytes, size_t& size) {
   for (; size >= 4; size -= 4, bytes += 4) {
     crc ^= static_cast<uint32_t>(bytes[0]) | static_cast<uint32_t>(bytes[1]) << 8 |

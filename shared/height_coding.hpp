@@ -11,8 +11,8 @@ namespace microtin {
 
 // Magnitudes: the number of bits, then the bit behind the leading one, then uniform bits.
 constexpr uint32_t kMagnitudeBits = 17;  // a difference of heights is below 2^17
-constexpr uint32_t kExponents = 7;       // numbers of bits told apart: three around the typical one
-constexpr uint32_t kMantissas = 10;      // numbers of bits told apart; larger ones share the last
+constexpr uint32_t kExponents = 7;       // numbers of bits kept apart: three around the typical one
+constexpr uint32_t kMantissas = 10;      // numbers of bits kept apart; larger ones share the last
 
 struct ExponentModel {
   AdaptiveBit longer[kExponents];  // than typical - 3 .. typical + 3 bits

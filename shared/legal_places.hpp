@@ -103,7 +103,7 @@ inline Spot coarser(Spot p, uint32_t shift) {
   return Spot{p.x >> shift, p.y >> shift};
 }
 
-// Whether there is a circle behind a side, and near enough to be told from a line.
+// Whether there is a circle behind a side, and near enough to differ from a line.
 inline bool cuts(const Side& side) {
   return side.certified && !side.ghost && side.behind > -kBehindCap * (1 << kCotangentBits);
 }
@@ -220,7 +220,7 @@ MICROTIN_IN_PLACE inline void cut(Span& span, int32_t from, int32_t to) {
   }
 }
 
-// The square of half of what a circle covers at x, below 2^30; negative beside it.
+// The square of half of what a circle covers at x, below 2^30; negative outside it.
 inline int32_t square_at(const Circle& circle, int32_t x) {
   return x * (circle.x2 - x) + circle.yy;
 }

@@ -73,7 +73,7 @@ inline uint32_t probability_of_odd(const Tally& tally, const Lines& lines) {
       probability, kProbabilityMargin, static_cast<int32_t>(kProbabilityOne) - kProbabilityMargin));
 }
 
-// As many as `count`, from the first on: halves are told sooner than by both ends.
+// As many as `count`, from the first on: halves are found sooner than by both ends.
 struct Numbers {
   FastInt first, count;
 };

@@ -40,7 +40,7 @@ inline bool is_in_upper_half(const Numbers& numbers, FastInt number) {
   return number - numbers.first >= numbers.count >> 1;
 }
 
-// Codes a number in one of four quarters, if there are so many numbers; keeps the quarter.
+// Codes a number in one of four quarters, if there are as many numbers; keeps the quarter.
 template <class Coder>
 MICROTIN_ROOMY_IN_PLACE void code_quarter(Coder& coder, Quarters& quarters, Numbers& numbers,
                                           FastInt number) {
@@ -99,7 +99,7 @@ inline uint32_t weighed_in(Coding coding) {
   return coding == Coding::kQuick ? 0 : coding == Coding::kDense ? 5 : 3;
 }
 
-// What is learned of places beside adaptive bits.
+// What is learned of places in addition to adaptive bits.
 struct PlaceHabits {
   Crowding crowding;
   Parities parities;

@@ -193,8 +193,8 @@ struct Column {
   Span own;
 };
 
-// 0..511. Near the own circle: |x|, |y| < 2^14.5. Beside it, and beyond the chord, what is negative
-// is taken for a large number: the chance is then 511 or that on the triangle's circle.
+// 0..511. Near the own circle: |x|, |y| < 2^14.5. Next to it, and beyond the chord, what is
+// negative is taken for a large number: the chance is then 511 or that on the triangle's circle.
 inline int32_t chance_at(const PlaceOdds& odds, const Column& column, int32_t y) {
   const int32_t all = odds.across.x * column.x + odds.across.y * y;  // < 2^31
   const int32_t above = column.own.high - y, below = y - column.own.low;

@@ -16,7 +16,7 @@ namespace microtin {
 constexpr uint32_t kProbabilityOne = 32768;
 constexpr int32_t kProbabilityMargin = 64;
 
-// An escape from a number takes so many bits: 2^-10 of the interval.
+// An escape from a number takes this many bits: 2^-10 of the interval.
 constexpr uint32_t kEscapeBits = 10;
 
 // The probability of a one: the mean of two running means of what was seen, both with 15 bits. They

@@ -4,7 +4,8 @@
 // 1999).
 //
 // It is a template over the coder. With a reading coder it decodes; with a writing coder, which
-// knows the next point, it encodes. A coder supplies, beside bit() and uniform() (probability.hpp):
+// knows the next point, it encodes. A coder supplies, in addition to bit() and uniform()
+// (probability.hpp):
 //   next()        the vertex to be inserted next
 //   last_phase(), batch()   how many vertices the phase adds
 //   conflicts(mesh, h)      whether that vertex is in conflict with the triangle of half-edge h
@@ -203,7 +204,7 @@ bool insert(Reconstruction& r, Coder& coder, Point place) {
 
 // --- Coding of one decision ----------------------------------------------------------------------
 
-// The hull edge beside the chord to infinity.
+// The hull edge next to the chord to infinity.
 inline HullEdge hull_edge(const Reconstruction& r) {
   const Mesh& mesh = *r.mesh;
   return hull_edge(r.contract, point_of(mesh, mesh.origin[r.chord]),

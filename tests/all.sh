@@ -13,7 +13,7 @@ part() { echo "== $(($(date +%s) - began)) s: $*"; }
 # Whether the commands are there; says which is not.
 have() {
   for tool; do
-    command -v "$tool" >/dev/null || { echo "skipped, for want of $tool"; return 1; }
+    command -v "$tool" >/dev/null || { echo "skipped, without $tool"; return 1; }
   done
 }
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Static analysis beside clang-tidy: of the decoder by gcc -fanalyzer, of all by the one-definition rule (preset odr)
-# and by cppcheck with tests/cppcheck.
+# Static analysis in addition to clang-tidy: of the decoder by gcc -fanalyzer, of all by the one-definition rule
+# (preset odr) and by cppcheck with tests/cppcheck.
 set -eu
 cd "$(dirname "$0")/.."
 cmake --preset release >/dev/null # for its flags

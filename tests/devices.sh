@@ -36,7 +36,7 @@ tests/footprint/streams.sh build/release/microtin build/devices/footprint
 for preset; do
   missing=$(for tool in $(tools_for "$preset"); do command -v "$tool" >/dev/null || echo "$tool"; done)
   if [ -n "$missing" ]; then
-    echo "skipped: $preset, for want of" $missing
+    echo "skipped: $preset, without" $missing
     continue
   fi
   cmake --preset "$preset" -DMICROTIN_FIRMWARE_STREAM="$terrain.mtin" \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/* What the boards have beside a console: a memory card and a clock that interrupts. */
+/* What the boards have in addition to a console: a memory card and a clock that interrupts. */
 #ifndef MICROTIN_TOOLCHAINS_BOARD_H
 #define MICROTIN_TOOLCHAINS_BOARD_H
 

@@ -4,7 +4,7 @@
  * get_statistics, and blocks of 28 x 32 heights for what wants grids. Nothing waits; only
  * microtin_ardupilot_load reads, from the IO thread.
  *
- * Beside the library, no part of it; float at the signatures only. */
+ * Not part of the library; float at the signatures only. */
 #ifndef MICROTIN_ADAPTERS_ARDUPILOT_H
 #define MICROTIN_ADAPTERS_ARDUPILOT_H
 
@@ -68,7 +68,7 @@ float microtin_ardupilot_lookahead(microtin_ardupilot* terrain, int32_t lat, int
 void microtin_ardupilot_begin_block(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
                                     uint16_t spacing);
 
-/* Tries so many groups of 4 x 4 posts, each sixteen heights: true if all 56 are there. */
+/* Tries this many groups of 4 x 4 posts, each sixteen heights: true if all 56 are there. */
 bool microtin_ardupilot_fill_block(microtin_ardupilot* terrain, uint32_t groups);
 
 /* Groups of the block that are not there, and that are. */

@@ -4,7 +4,7 @@
  * yes alone, nothing waits, and what is missing is scheduled for loading. A firmware's
  * terrainNavGetHeightAtLocation and terrainNavLookahead call these with what they are given.
  *
- * Beside the library, no part of it; float at the signatures only. */
+ * Not part of the library; float at the signatures only. */
 #ifndef MICROTIN_ADAPTERS_INAV_H
 #define MICROTIN_ADAPTERS_INAV_H
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /* What the adapters share: places on the globe, a pack that is asked there, and the wish that a
- * place that is not there leaves for whoever reads the card. Integers only.
+ * place that is not there leaves for the task that reads the card. Integers only.
  *
  * Questions may interrupt the service, not each other. */
 #ifndef MICROTIN_ADAPTERS_SPOTS_H

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* The flight of card.c: 1,000 places over a pack in ten straight legs, for whoever flies it and for
- * whoever checks the heights. */
+/* The flight of card.c: 1,000 places over a pack in ten straight legs, for the code that flies it
+ * and for the code that checks the heights. */
 #ifndef MICROTIN_EXAMPLES_FLIGHT_H
 #define MICROTIN_EXAMPLES_FLIGHT_H
 

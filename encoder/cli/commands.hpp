@@ -91,7 +91,7 @@ struct RenderRequest {
   Preparation preparation;  // of the source, as the stream was encoded
   uint32_t width = 1024;
   bool mesh = true;    // draw the triangles
-  bool world = false;  // write a world file beside the picture
+  bool world = false;  // write a world file next to the picture
   PaletteKind palette = PaletteKind::kLand;
   bool contours = false;
   std::optional<Decimal> interval;  // of contours; a round one if not given

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Chooses the posts of a grid, and says beside it in which system it is.
+// Chooses the posts of a grid, and writes its coordinate system to a file next to it.
 #include "encoder/cli/decode_grid.hpp"
 
 #include <cstdio>
@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A grid's coordinate system, in a file beside it.
+// A grid's coordinate system, in a file next to it.
 class SystemFile {
  public:
   SystemFile(const std::string& grid, const Metadata& metadata)

@@ -135,7 +135,7 @@ std::string text_of(const PackReport& pack) {
   return text.str();
 }
 
-// What may be no heights at all is told before the work begins.
+// Warns of values that may not be heights, before the work begins.
 void announce(const EncodeRequest& request, const std::string& text) {
   if (!text.empty()) std::fputs(warning(request.input + ": " + text).c_str(), stderr);
 }

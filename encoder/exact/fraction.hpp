@@ -42,7 +42,7 @@ Fraction meaning_of(Decimal written);
 // The fraction that a decimal stands for, if that changes the number by no more than a tolerance.
 Fraction meaning_within(Decimal written, Fraction tolerance);
 
-// The reciprocal of a whole number, if a cell size stands for one: so many digits are written that
+// The reciprocal of a whole number, if a cell size stands for one: as many digits are written that
 // even 2^16 cells lie within a hundredth of a cell of where the decimal puts them.
 std::optional<Fraction> reciprocal_meant(Decimal written);
 

@@ -84,7 +84,7 @@ inline RealPlace place_on_lattice(int64_t x, int64_t y) {
 }
 
 // A number's coordinate on the lattice. A coordinate within half a unit of the 12th decimal of a
-// lattice coordinate stands for that: so many decimals are written of one that has more. Nothing
+// lattice coordinate stands for that: this many decimals are written of one that has more. Nothing
 // if it is 2^62 lattice steps away or farther.
 std::optional<RealCoordinate> coordinate_of(const LatticeMap& map, Wide number, const Axis& axis);
 

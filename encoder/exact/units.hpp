@@ -20,7 +20,7 @@ std::string_view name_of(Unit unit);
 // "m", "ft"; empty if it is not known or of no fixed length.
 std::string_view symbol_of(Unit unit);
 
-// A unit of length that streams do not have: so many of one that they have.
+// A unit of length that streams do not have, as a multiple of one that they have.
 struct LengthUnit {
   uint32_t code;          // of EPSG's units of measure; 0: it has none
   std::string_view name;  // as EPSG names it
@@ -48,7 +48,8 @@ StatedUnit unit_named(std::string_view text);
 // By its code of EPSG's units of measure. 0 states nothing.
 StatedUnit unit_of_code(uint32_t code);
 
-// By its length, within 10^-7 of it, as files round it; its name there is told if nobody knows it.
+// By its length, within 10^-7 of it, as files round it; its name there is reported if it is not
+// known.
 StatedUnit unit_of_length(double metres, std::string_view name);
 
 // Null: there is none.

@@ -25,7 +25,7 @@ MeshFormat mesh_format_of(const std::string& path);
 
 enum class Coordinates { kReal, kLattice };
 
-// At least as many bytes as a mesh of so many vertices on the surface takes.
+// At least as many bytes as a mesh of this many vertices on the surface takes.
 uint64_t most_mesh_bytes(const SampledSurface& surface, uint64_t vertices, MeshFormat format,
                          Coordinates coordinates);
 

@@ -40,7 +40,7 @@ struct NobodyReads : Error {
   using Error::Error;
 };
 
-// Writes to a temporary beside the target, which takes the target's place on commit() and
+// Writes to a temporary next to the target, which takes the target's place on commit() and
 // disappears without it, also when a signal ends the program. The target is what a link leads to,
 // also if there is nothing yet; a file that was there hands on its mode. "-" is standard output,
 // as is /dev/stdout; descriptors, devices and pipes are written directly and keep what they hold.

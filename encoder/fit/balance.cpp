@@ -40,7 +40,7 @@ class Sets {
   std::vector<uint32_t> parent_;
 };
 
-// Joins samples beside each other that have one height; they are in lexicographic order.
+// Joins samples side by side that have one height; they are in lexicographic order.
 Sets flat_sets(const std::vector<Sample>& samples) {
   Sets sets(samples.size());
   uint32_t east = 0;

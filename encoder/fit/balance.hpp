@@ -17,7 +17,7 @@ namespace microtin::fit {
 class Balance {
  public:
   // Linear in posts, but for an inverse Ackermann function. Of the surface only heights may change
-  // then, and each change is told by `move`.
+  // then, and `move` reports each change.
   explicit Balance(const Surface& surface);
 
   // What a change of a height makes of the means, in bits: below 0 where they come nearer to zero.

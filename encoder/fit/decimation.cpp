@@ -17,7 +17,7 @@ bool contains(const std::vector<Index>& vertices, Index v) {
 // worst place ends the search early.
 constexpr std::size_t kRanks = 3;
 
-// How much dearer odd coordinates may become on the way: the search finds more when at first it
+// How much more odd coordinates may cost on the way: the search finds more when at first it
 // takes the places that fit best.
 constexpr double kDaring = 10, kCareful = 0.8;  // the part of the search after which none does
 
@@ -44,7 +44,7 @@ std::size_t Decimation::remove_and_move_vertices(double done, const Progress& pr
   return try_each(progress, [this](Index v) { return try_move(v); });
 }
 
-// The coder learns how often coordinates are even: so much dearer are odd ones.
+// The coder learns how often coordinates are even: odd ones cost more by that.
 double Decimation::even_part() const {
   std::size_t even = 0;
   for (Index v = 0; v < surface_.vertex_limit(); ++v) {
@@ -166,7 +166,7 @@ bool Decimation::try_move(Index v) {
                      [this](Index r) { return !surface_.is_fixed(r) && try_removal(r); });
 }
 
-// The coordinate itself, or an even one beside it.
+// The coordinate itself, or an even one next to it.
 uint16_t Decimation::cheap(uint16_t coordinate) {
   constexpr std::size_t kParts = 1024;
   const bool rounded = static_cast<double>(random_below(kParts)) < cheapness_ * kParts;
@@ -178,7 +178,7 @@ int16_t Decimation::nearest_height(std::size_t post) const {
   return surface_.model().vertex_height(surface_.survey().samples[surface_.posts().number(post)]);
 }
 
-// Moves a vertex that was removed to a place beside its own that costs less, as far above the
+// Moves a vertex that was removed to a place next to its own that costs less, as far above the
 // source. Says whether there is one.
 bool Decimation::try_cheaper_posts(Vertex old, const Hole& hole) {
   for (const bool right : {false, true}) {

@@ -15,7 +15,7 @@
 namespace microtin::fit {
 
 // A local search. A vertex is removed if its neighbours find heights that keep all bounds around.
-// If not, it may move to a post beside it whose place costs fewer bits, or to one where the bound
+// If not, it may move to a post next to it whose place costs fewer bits, or to one where the bound
 // is missed, and each of its new neighbours is tried; if none of them can go, it stays there
 // nevertheless, so that the search does not get stuck. Places are cheap where both coordinates are
 // multiples of two.
@@ -30,7 +30,7 @@ class Decimation {
   // `done`: how much of the search is over, 0 .. 1.
   std::size_t remove_and_move_vertices(double done, const Progress& progress);
 
-  // Brings the mean error, so many steps, nearer zero: removes vertices, or moves them to posts
+  // Brings the mean error, in steps, nearer zero: removes vertices, or moves them to posts
   // whose places cost no more and which are at most so near, along x and y together. Of the posts
   // it takes that which helps most. Tries every vertex once, until the mean is there.
   void centre(double mean, int near, const Progress& progress);

@@ -23,7 +23,7 @@ auto* predict_from_ring = predict_height;
 
 constexpr int32_t kReach = 4;  // steps from the prediction that are looked at
 
-// Bits that a vertex may cost more for the sake of small errors: so many if its posts then are at
+// Bits that a vertex may cost more for the sake of small errors: this many if its posts then are at
 // their heights instead of at their bounds.
 constexpr double kCloseness = 4, kFlatness = 30;
 
@@ -197,7 +197,7 @@ const Surface::Interval& HeightChoice::allowed_heights(Index v) {
   return *allowed_[v];
 }
 
-// Vertices amid posts of one height.
+// Vertices surrounded by posts of one height.
 void HeightChoice::find_levels() {
   const PostIndex& posts = surface_.posts();
   const auto height = [&](int x, int y) -> std::optional<int32_t> {

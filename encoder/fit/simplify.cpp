@@ -124,7 +124,7 @@ Fitted with_cheap_heights(const Surface& surface, HeightChoice& heights,
   return fitted(surface, heights, options);
 }
 
-// Means nearer zero by heights alone, for at most so many bytes.
+// Means nearer zero by heights alone, for at most this many bytes.
 void balance(const Surface& surface, HeightChoice& heights, std::size_t most, Fitted& found,
              const SimplifyOptions& options) {
   for (int i = 0; i < kBalancePasses && !heights.is_balanced(); ++i) {

@@ -43,7 +43,7 @@ struct SimplifyOptions {
 // void triangle and on no edge of another. Throws Error if the samples form no triangle.
 Tin simplify(const Survey& survey, const SimplifyOptions& options);
 
-// Goes on where a search for the same survey and bound ended: so many rounds, in each of which
+// Goes on where a search for the same survey and bound ended: by this many rounds, in each of which
 // every vertex is tried. What it returns takes no more bytes.
 Tin search_on(const Survey& survey, const Tin& tin, uint32_t rounds,
               const SimplifyOptions& options);

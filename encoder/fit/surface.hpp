@@ -147,7 +147,7 @@ class Edits {
   // False, and nothing changes, if the height does not fit 16 bits.
   bool set_height(Index v, int32_t height);
 
-  // How many there are, and back to when there were so many.
+  // How many there are, and back to when there were this many.
   std::size_t size() const { return edits_.size(); }
   void roll_back(std::size_t size);
 

@@ -159,7 +159,7 @@ std::string name_of_system(const SurfaceInfo& info) {
 int identify(GDALOpenInfo* info) {
   if (info->nHeaderBytes < 8) return FALSE;
   const uint8_t* const bytes = info->pabyHeader;
-  if (std::memcmp(bytes, "mtsh", 4) == 0) return TRUE;  // a shard, to be told what it is
+  if (std::memcmp(bytes, "mtsh", 4) == 0) return TRUE;  // a shard, which opening names as such
   const uint8_t* note = nullptr;
   uint32_t size = 0;
   return microtin_find_note(bytes, static_cast<size_t>(info->nHeaderBytes), 0, &note, &size) !=
@@ -216,7 +216,7 @@ void Dataset::describe() {
   }
 }
 
-// A code or a text that PROJ does not know is told, and the data read all the same.
+// Warns of a code or a text that PROJ does not know, and reads the data all the same.
 void Dataset::read_system() {
   const SurfaceInfo& info = surface_.info();
   OGRErr error = OGRERR_NONE;

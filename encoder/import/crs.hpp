@@ -31,7 +31,7 @@ Reference reference_of_line(std::string_view text);
 Reference reference_of_geo_keys(const std::vector<uint16_t>& directory,
                                 const std::vector<double>& doubles = {});
 
-// A well-known text without the vertical system that it has beside the horizontal one.
+// A well-known text without the vertical system that it has in addition to the horizontal one.
 std::string horizontal_part(const std::string& text);
 
 }  // namespace microtin::importing

@@ -144,7 +144,7 @@ class BandReader {
         mask_(width(), 255) {
     int given = 0;
     const double no_data = GDALGetRasterNoDataValue(band, &given);
-    if (given != 0) no_data_ = NoData(no_data);  // beside a mask of the file GDAL passes it over
+    if (given != 0) no_data_ = NoData(no_data);  // if the file has a mask, GDAL passes it over
     const double scale = GDALGetRasterScale(band, &given);
     const double factor = given != 0 ? scale : 1;
     const double offset = GDALGetRasterOffset(band, &given);

@@ -22,7 +22,7 @@ struct Size {
   uint32_t columns = 0, rows = 0;
 };
 
-// Posts in a row of a square that takes so many bytes; 0 if there is none.
+// Posts in a row of a square that takes this many bytes; 0 if there is none.
 uint32_t side_of(uint64_t bytes) {
   constexpr uint64_t kMost = uint64_t{1} << 30;  // far beyond any disk, and a square fits 64 bits
   uint64_t low = 0, high = kMost;                // 2 * low^2 <= bytes < 2 * high^2

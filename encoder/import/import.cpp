@@ -31,7 +31,7 @@ bool is_grid_file(const std::string& path) {
   return is_grid({reinterpret_cast<const char*>(head.data()), head.size()});
 }
 
-// A grid's well-known text stands in a file beside it. Empty: there is none.
+// A grid's well-known text is in a file next to it. Empty: there is none.
 std::string system_file_of(const std::string& path) {
   if (!is_grid_file(path)) return "";
   for (const char* const suffix : {".prj", ".PRJ"}) {

@@ -18,12 +18,12 @@
 namespace microtin::importing {
 
 // Files of GDAL's that name others to be read (.vrt), and names of its virtual file systems
-// (/vsi...): whoever wrote such a file chooses what is read.
+// (/vsi...): the author of such a file chooses what is read.
 enum class Indirect { kRefused, kAllowed };
 
-// Reads a file by its suffix: .hgt, .zip (one .hgt), .asc (with a .prj beside it, if there is one),
-// .xyz, .csv, .txt (points, or a grid by what they begin with), .las, .ply, .obj; in builds with
-// GDAL all others by GDAL. "-" reads points from standard input. `classes` are for .las alone;
+// Reads a file by its suffix: .hgt, .zip (one .hgt), .asc (with a .prj next to it, if there is
+// one), .xyz, .csv, .txt (points, or a grid by what they begin with), .las, .ply, .obj; in builds
+// with GDAL all others by GDAL. "-" reads points from standard input. `classes` are for .las alone;
 // `band`, from 1 on, says which one of several GDAL reads. Throws Error naming the file and, for
 // text, the line.
 Source import_terrain(const std::string& path, const std::optional<ClassSet>& classes = {},

@@ -91,7 +91,7 @@ class References {
     }
   }
 
-  // Some writers leave a text empty beside keys.
+  // Some writers leave a text empty next to keys.
   Reference take() const {
     return is_wkt(wkt_) ? reference_of_wkt(wkt_) : reference_of_geo_keys(keys_, doubles_);
   }

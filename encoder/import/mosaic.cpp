@@ -165,7 +165,7 @@ struct Part {
   std::unique_ptr<RasterReader> raster;
   Box box;
 
-  // Heights of a rectangle within, with so many decimals.
+  // Heights of a rectangle within, with this many decimals.
   std::vector<int64_t> read(const Box& wanted, int decimals) const {
     Raster piece = raster->read(
         {static_cast<uint32_t>(wanted.x - box.x), static_cast<uint32_t>(wanted.y - box.y),

@@ -136,7 +136,7 @@ class Settlement {
     return {wanted.code, wanted.unit.is_stated() ? wanted.unit : unit};
   }
 
-  // Which of the file's codes and units give way is told.
+  // Warns which of the file's codes and units give way.
   uint32_t chosen(uint32_t asked, uint32_t file) {
     if (asked == 0) return file;
     if (file != 0 && file != asked) {

@@ -256,7 +256,7 @@ std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, Error
   return Chain(posts, model, price).vertices();
 }
 
-// Reads a tile with the posts beside it, and finds the vertices of its four borders.
+// Reads a tile with the posts next to it, and finds the vertices of its four borders.
 
 namespace {
 
@@ -291,7 +291,7 @@ TileBox around(const TileGrid& grid, const TileBox& line) {
           std::min(line.y_end + kGroundReach, grid.y_max)};
 }
 
-constexpr uint32_t kVertexPrice = 2;  // dearer ones make ridges of noisy borders
+constexpr uint32_t kVertexPrice = 2;  // more expensive ones make ridges of noisy borders
 
 // Aims at the ground on both sides: a border that follows the noise of its own posts stands out.
 std::vector<LinePost> posts_of_line(const TiledRaster& tiled, const TilePosts& posts,

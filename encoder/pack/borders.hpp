@@ -131,8 +131,8 @@ std::vector<uint32_t> tiles_at(const TileGrid& grid, GlobalPost post);
 using SharedVertices = std::map<Point, int16_t>;
 
 // The vertices that a tile shares with others. They depend on the posts of its borders and those
-// within kGroundReach alone, so that both sides find the same. Posts beside voids are vertices:
-// voids beside a border then part it from no triangle.
+// within kGroundReach alone, so that both sides find the same. Posts next to voids are vertices:
+// voids next to a border then part it from no triangle.
 SharedVertices shared_vertices(const TiledRaster& tiled, const TilePosts& posts);
 
 }  // namespace microtin::pack

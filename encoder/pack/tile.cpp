@@ -82,8 +82,8 @@ void check_covered_by_others(const TiledRaster& tiled, const TilePosts& posts) {
   }
 }
 
-// Makes the posts beside those of borders that are not covered vertices: nothing that a void
-// reaches comes between then. These posts have heights, as voids are beside vertices of borders
+// Makes the posts next to those of borders that are not covered vertices: nothing that a void
+// reaches comes between then. These posts have heights, as voids are next to vertices of borders
 // alone.
 void fix_beside(const std::vector<GlobalPost>& uncovered, const TileBox& box,
                 const TileSides& sides, Survey& survey) {

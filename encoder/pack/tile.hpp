@@ -36,7 +36,7 @@ class TileSides {
 // Whether not all samples, which are in lexicographic order, lie on one line.
 bool form_triangle(const std::vector<Sample>& samples);
 
-// What a pack says of a tile beside its stream.
+// What a pack contains of a tile in addition to its stream.
 struct TileSummary {
   uint32_t bytes = 0;  // of the stream; 0: the tile has no terrain
   uint32_t stream_hash = 0;

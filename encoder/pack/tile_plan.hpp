@@ -32,9 +32,9 @@ double counting_part(const Raster& frame, const PackOptions& options);
 // nothing smaller.
 uint32_t smaller_tile_size(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices);
 
-// Vertices of a tile for which a device with so many bytes of RAM decodes one tile and keeps four,
-// as many as meet at a corner, in compact form, with 16-bit numbers. Narrow: tiles are less than
-// 256 steps wide and high. 0 if there are none.
+// Vertices of a tile for which a device with this many bytes of RAM decodes one tile and keeps
+// four, as many as meet at a corner, in compact form, with 16-bit numbers. Narrow: tiles are less
+// than 256 steps wide and high. 0 if there are none.
 uint32_t vertices_for_ram(uint64_t bytes, bool is_narrow);
 
 // The bytes that such a device needs, with 32-bit numbers beyond the reach of the others.

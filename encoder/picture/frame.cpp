@@ -194,7 +194,7 @@ double label_width(double value, double step) {
   return text_width(grouped(value, decimals_for(step)));
 }
 
-// The finest round step whose numbers do not crowd a ramp of so many units.
+// The finest round step whose numbers do not crowd a ramp of this many units.
 double tick_step(double low, double high, double units) {
   const double range = high - low;
   const double coarsest = round_length(range);
@@ -258,7 +258,7 @@ void draw_ramp(Drawing& drawing, Spot corner, double width, double unit, double 
     drawing.fill({corner.x + x, corner.y, step, box.height}, colour((x + step / 2) / width));
   }
   drawing.outline(box, std::max(1.0, 0.6 * unit), kInk);
-  if (high <= low) return;  // one colour, told already
+  if (high <= low) return;  // one colour, which has its label already
   const double step = tick_step(low, high, width / unit);
   const double first = step * std::ceil(low / step - 1e-9);
   const auto ticks = static_cast<uint32_t>((high - first) / step + 1 + 1e-9);

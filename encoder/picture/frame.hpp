@@ -37,7 +37,7 @@ struct MapFrame {
   uint32_t rows() const { return static_cast<uint32_t>(box.height); }
 };
 
-// As large as a room of so many pixels allows, at the room's upper left corner.
+// As large as a room of this many pixels allows, at the room's upper left corner.
 MapFrame fit_map(const SurfaceModel& model, const Ground& ground, double width, double height);
 
 // What stands around a map: coordinates and the north.
@@ -60,9 +60,9 @@ void draw_north_arrow(Drawing& drawing, const PixelBox& map, double unit);
 constexpr Colour kInk{0.16, 0.18, 0.22};
 constexpr Colour kHalo{0.98, 0.97, 0.94};  // around what stands on a map
 
-// Sizes of legends are in units of so many pixels, as those of text.
+// Sizes of legends are in units of this many pixels, as those of text.
 
-// "1,234.5": with commas between thousands and so many decimals.
+// "1,234.5": with commas between thousands and this many decimals.
 std::string grouped(double value, int decimals);
 
 // Decimals that multiples of a round step need.
@@ -78,8 +78,8 @@ double round_length(double most);
 void draw_ramp(Drawing& drawing, Spot corner, double width, double unit, double low, double high,
                const std::function<Colour(double)>& colour);
 
-// A bar of a round length, at most so many pixels, its ends labelled below; 18 units high. A pixel
-// is `ground` units on the ground; a thousand of "m" are told as "km".
+// A bar of a round length, at most this many pixels, its ends labelled below; 18 units high. A
+// pixel is `ground` units on the ground; a thousand of "m" are written as "km".
 void draw_scale_bar(Drawing& drawing, Spot corner, double most, double unit, double ground,
                     const std::string& ground_unit);
 

@@ -65,8 +65,8 @@ std::string tints(const Palette& palette) {
 }
 
 // What the page needs to draw the terrain as the pictures do, in JSON: the lowest and the highest
-// height; how long a unit of x, of y and of heights is, beside each other; by how much light finds
-// slopes steeper than they are.
+// height; how long a unit of x, of y and of heights is, relative to each other; by how much light
+// finds slopes steeper than they are.
 std::string scene_of(const Portrait& portrait) {
   const Metadata& metadata = portrait.metadata;
   const Placement& at = metadata.placement;

@@ -39,7 +39,7 @@ constexpr double kNear = 0.3;  // of the logarithm of a number of vertices: to s
 // bound.
 constexpr double kFirstSlope = 2, kSlope = 4;
 constexpr double kNarrowest = 0.95, kWidest = 1.2;
-constexpr int kMisses = 2;  // after so many a search is not relied on to make vertices fit
+constexpr int kMisses = 2;  // after this many a search is not relied on to make vertices fit
 
 // The error where points truly lie, as a part of that on the lattice, from which on bounds are
 // tried there; how many.

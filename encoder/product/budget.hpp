@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The best terrain for so many bytes or vertices.
+// The best terrain for a limit of bytes or vertices.
 #ifndef MICROTIN_ENCODER_PRODUCT_BUDGET_HPP
 #define MICROTIN_ENCODER_PRODUCT_BUDGET_HPP
 

@@ -53,8 +53,8 @@ class Document {
   // A tile of a pack as PackFile has it.
   std::optional<DecodedTerrain> tile(uint32_t number) const;
 
-  // With units. All of a pack's tiles are decoded, if they have at most so many vertices together;
-  // each takes some 150 bytes.
+  // With units. All of a pack's tiles are decoded, if they have at most this many vertices
+  // together; each takes some 150 bytes.
   SurfaceModel model(uint64_t most_vertices = kMostVerticesAtOnce) const;
 
   // The document must outlive it.

@@ -61,7 +61,7 @@ struct ShardReport {
 ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& options, TileRange tiles,
                          OutputFile& out, const Progress& progress);
 
-// How so many shards are to be encoded, so that together they are what a single run makes.
+// How this many shards are to be encoded, so that together they are what a single run makes.
 struct ShardPlan {
   uint32_t tile_size;
   Decimal z_step;

@@ -235,7 +235,7 @@ class SettledTerrain {
   std::optional<terrain::Source> converted_;
 };
 
-// Ends the work by an exception when it is told to.
+// Ends the work by an exception when the caller cancels it.
 base::Progress progress_of(const Callbacks& callbacks) {
   return base::Progress([&callbacks](double done) {
     if (callbacks.cancelled && callbacks.cancelled()) throw Cancelled();

@@ -22,7 +22,7 @@ struct EncodeOptions {
   LatticeOptions lattice;
   uint32_t max_vertices = 0;   // 0: as many as it takes
   uint32_t max_bytes = 0;      // 0: as many as it takes; else the bound is looked for
-  uint32_t tile_vertices = 0;  // of a pack: at most so many in a tile; 0: as device_ram
+  uint32_t tile_vertices = 0;  // of a pack: at most this many in a tile; 0: as device_ram
                                // allows or, without it, the usual number
   uint32_t tile_size = 0;      // of a pack of posts; 0: to be chosen
   uint64_t device_ram = 0;     // 0: unlimited

@@ -12,7 +12,7 @@
 namespace microtin::product {
 namespace {
 
-constexpr uint32_t kSlots = 4;  // a place can lie in so many tiles at once
+constexpr uint32_t kSlots = 4;  // a place can lie in this many tiles at once
 
 // Vertices of a slot to begin with, whatever the header says of the largest tile.
 constexpr uint32_t kUsualCapacity = 1u << 14;

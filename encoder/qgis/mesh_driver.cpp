@@ -112,7 +112,7 @@ MICROTIN_MDAL bool MDAL_DRIVER_canReadMesh(const char* path) {
   file.read(reinterpret_cast<char*>(begin), sizeof begin);
   const uint8_t* note = nullptr;
   uint32_t size = 0;
-  if (std::memcmp(begin, "mtsh", 4) == 0) return true;  // a shard, to be told what it is
+  if (std::memcmp(begin, "mtsh", 4) == 0) return true;  // a shard, which opening names as such
   return file &&
          microtin_find_note(begin, sizeof begin, 0, &note, &size) != MICROTIN_STATUS_BAD_MAGIC;
 }

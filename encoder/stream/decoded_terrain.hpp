@@ -18,7 +18,7 @@ namespace microtin::stream {
 // of which a byte holds fewer than 2842 (guarantees.md, proof of 21).
 constexpr uint64_t kVerticesPerByte = 1421;
 
-// Throws Error if a stream of so many bytes announces more, so that few bytes do not claim much
+// Throws Error if a stream of this many bytes announces more, so that few bytes do not claim much
 // memory.
 void expect_room_for_vertices(const microtin_stream_info& info, uint64_t stream_bytes);
 

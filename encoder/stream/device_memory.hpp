@@ -30,12 +30,12 @@ CompactForm measured_form(microtin_mesh* mesh);
 // Makes it of the terrain, and looks whether that is the same terrain. The same on every device.
 CompactForm compact_form(DecodedTerrain&& terrain);
 
-// The width of numbers on a device that keeps terrains of so many vertices.
+// The width of numbers on a device that keeps terrains of this many vertices.
 uint32_t index_bits(uint32_t vertices);
 
 uint64_t bytes_of(const CompactForm& form, uint32_t bits);
 
-// What macros promise for any terrain of so many vertices.
+// What macros promise for any terrain of this many vertices.
 uint64_t promised_compact_bytes(uint32_t vertices, bool is_narrow, uint32_t bits);
 
 // Whether a terrain takes no more than they promise for `most` vertices.

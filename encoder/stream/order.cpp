@@ -112,14 +112,14 @@ Index opposite_corner(const Mesh& mesh, const std::array<Index, 3>& seed) {
 
 constexpr Index kFewVertices = 48;
 
-// In a large terrain one in so many stays for a phase of its own, to be a first picture early: each
-// costs some 4 bits.
+// In a large terrain one of 1024 vertices stays for a phase of its own, to be a first
+// picture early: each costs some 4 bits.
 constexpr Index kPictureShare = 1024;
 
-// Every how many vertices of `left` one stays beside those of high degree; 0: none. Only where the
-// phase before left one in 64 of `all` or less: even if all stay, these two phases and the others,
-// each at most 3/4 of the one before, have less than all * (1 + 5 / 64) vertices at their ends
-// together (format-stream.md, "Work").
+// Every how many vertices of `left` one stays in addition to those of high degree; 0: none. Only
+// where the phase before left one in 64 of `all` or less: even if all stay, these two phases and
+// the others, each at most 3/4 of the one before, have less than all * (1 + 5 / 64) vertices at
+// their ends together (format-stream.md, "Work").
 Index spread_to_keep(Index vertices, Index all, Index left) {
   const Index picture = vertices / kPictureShare;
   if (picture < kSectionVertices || left > all / 64 || left < 2 * picture) return 0;

@@ -50,7 +50,7 @@ class RangeEncoder {
   uint32_t ahead_ = 0;  // 0 or 8 before a bit, 0 before a number: at most 24 after either
   uint32_t range_ = 0xFFFFFFFFu;
   std::vector<uint8_t> bytes_;
-  std::size_t size_ = 0;  // of them, so many are written
+  std::size_t size_ = 0;  // of them, this many are written
 };
 
 }  // namespace microtin::stream

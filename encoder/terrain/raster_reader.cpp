@@ -49,7 +49,7 @@ RasterInMemory::RasterInMemory(Raster raster) : raster_(std::move(raster)) {
 
 namespace {
 
-// A stretch of posts, wider by a margin where the raster has so many.
+// A stretch of posts, wider by a margin where the raster has this many.
 struct Stretch {
   uint32_t from, size;
 };
@@ -67,7 +67,7 @@ class FilledRaster : public RasterReader {
     frame_ = raster_->frame();
   }
 
-  // A void is filled alike in every rectangle that holds it and what is beside it.
+  // A void is filled alike in every rectangle that holds it and what is next to it.
   Raster read(const PostRectangle& r) const override {
     for (uint32_t margin = 16;; margin *= 2) {
       const Stretch x = widened({r.x, r.width}, margin, frame_.width);

@@ -30,7 +30,7 @@ RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_er
 
 // Estimates, to compare parts of one raster, how many vertices they will take: counts the posts
 // that interpolation between those at a distance of 1, 2, 4, ... posts on both sides misses by more
-// than the bound, and those beside voids. Linear.
+// than the bound, and those next to voids. Linear.
 uint64_t roughness(const Raster& part, const std::optional<Decimal>& max_error);
 
 }  // namespace microtin::terrain

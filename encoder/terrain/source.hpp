@@ -92,7 +92,7 @@ inline int height_decimals(const Source& source) {
   return raster != nullptr ? raster->decimals : std::get<PointCloud>(source).z_decimals;
 }
 
-// The number that stands for a height, if there is one: of so many decimals.
+// The number that stands for a height, if there is one: with this many decimals.
 inline std::optional<int64_t> number_of(const std::optional<Decimal>& height, int decimals) {
   if (!height || height->decimals > decimals) return std::nullopt;
   const Wide number = mantissa_at(*height, decimals);

@@ -93,7 +93,7 @@ class ErrorMeter {
   int64_t count_ = 0;
 };
 
-// Posts visited by several threads, told in one order.
+// Posts visited by several threads, reported in one order.
 
 class VisitLog {
  public:
@@ -117,7 +117,7 @@ class VisitLog {
   std::vector<Post> posts_;
 };
 
-// Points where they truly lie, beside the places of the lattice that they moved to.
+// Points where they truly lie, next to the places of the lattice that they moved to.
 
 // The exact height at a place of the lattice.
 using HeightQuery = std::function<ExactAnswer(const RealPlace& place)>;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Calls visit(index) for the posts beside post `index`.
+// Calls visit(index) for the posts next to post `index`.
 template <class Visit>
 void for_each_neighbour(const Raster& raster, size_t index, const Visit& visit) {
   const size_t column = index % raster.width;
@@ -81,7 +81,7 @@ void solve(std::vector<Unknown>& unknowns, size_t extent) {
   }
 }
 
-// Some known height beside the region, or kVoidHeight if there is none.
+// Some known height next to the region, or kVoidHeight if there is none.
 int64_t rim_height(const Raster& raster, const std::vector<size_t>& region) {
   int64_t height = kVoidHeight;
   for (const size_t index : region) {

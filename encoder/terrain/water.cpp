@@ -10,7 +10,7 @@
 namespace microtin::terrain {
 namespace {
 
-// Writes all heights with so many decimals at least.
+// Writes all heights with at least this many decimals.
 void refine(Raster& raster, int decimals) {
   if (decimals <= raster.decimals) return;
   if (!terrain::refine(raster.heights, power_of_ten(decimals - raster.decimals))) {

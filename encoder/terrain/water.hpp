@@ -13,7 +13,7 @@ namespace microtin::terrain {
 
 // Gives void posts the height of the water level: all, or those where the mask is 1. Posts with
 // heights keep them. Counts those as flooded. Throws Error if the level needs more decimals than
-// go beside the heights.
+// go with the heights.
 void flood_voids(Raster& raster, Decimal level, const Raster* mask);
 
 // Throws Error if the mask has not the posts of the raster, or holds anything but 0, 1 and voids.

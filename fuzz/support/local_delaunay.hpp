@@ -32,7 +32,7 @@ inline bool is_free_of_neighbour(const Mesh& mesh, Index h) {
                                          point_of(mesh, v[2]), p);
 }
 
-// Whether h, which comes from infinity, leads to a hull vertex smaller than both beside it.
+// Whether h, which comes from infinity, leads to a hull vertex smaller than both next to it.
 inline bool starts_hull(const Mesh& mesh, Index h) {
   const Point p = point_of(mesh, mesh.origin[next_in_triangle(h)]);
   return p < point_of(mesh, mesh.origin[previous_in_triangle(h)]) &&

@@ -43,7 +43,7 @@ Made make(void* target, size_t size, microtin_mesh* mesh, void* scratch, size_t 
   return made;
 }
 
-// From the heap, so that nothing beside is touched unseen.
+// From the heap, so that sanitizers see accesses next to it.
 typedef std::vector<uint64_t> Memory;
 
 Memory memory_of(size_t bytes) {

@@ -79,7 +79,7 @@ struct Card {
 };
 
 // On the heap, of exactly the size that is asked for. Its slots hold meshes, or compact terrains of
-// so many bytes.
+// this many bytes.
 struct Device {
   Device(uint32_t slots, uint32_t tile_bytes)
       : is_compact(tile_bytes != 0),

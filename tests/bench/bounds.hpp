@@ -7,7 +7,7 @@
 
 namespace microtin::bench {
 
-// Bytes at a bound, beside what compressors of rasters were found to need.
+// Bytes at a bound, compared with what compressors of rasters were found to need.
 void print_bounds();
 
 // Bytes against bound and against rms error of three rasters, as a drawing (.svg).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What decoding a stream costs, beside other programs.
+// What decoding a stream costs, compared with other programs.
 #include <filesystem>
 #include <memory>
 

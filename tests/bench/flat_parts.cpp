@@ -11,7 +11,7 @@ namespace {
 // A flat part has more posts than all that have a height, divided by this.
 constexpr size_t kShare = 20;
 
-// Adds the posts beside one that have its height and were not met yet.
+// Adds the posts next to one that have its height and were not met yet.
 void spread(const Raster& raster, size_t post, std::vector<bool>& met, std::vector<size_t>& part) {
   const size_t x = post % raster.width;
   const auto visit = [&](bool inside, size_t other) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is encoded: random points, and the terrains that lie beside the repository.
+// What is encoded: random points, and the terrains that lie next to the repository.
 #ifndef MICROTIN_TESTS_BENCH_INPUTS_HPP
 #define MICROTIN_TESTS_BENCH_INPUTS_HPP
 

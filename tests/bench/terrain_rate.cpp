@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bytes of terrains, beside other programs.
+// Bytes of terrains, compared with other programs.
 #include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/layers.hpp"

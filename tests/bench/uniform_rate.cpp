@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bits per vertex of uniform points, beside other programs and the paper.
+// Bits per vertex of uniform points, compared with other programs and the paper.
 #include "encoder/stream/encode.hpp"
 #include "tests/bench/inputs.hpp"
 #include "tests/bench/layers.hpp"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """callgraph.py OBJECT...: rejects recursion, indirect calls and frames whose size is not constant, by the call
-graph that gcc wrote beside each object (-fcallgraph-info=su,da)."""
+graph that gcc wrote next to each object (-fcallgraph-info=su,da)."""
 
 import graphlib
 import re

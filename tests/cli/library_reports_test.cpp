@@ -198,7 +198,7 @@ TEST_CASE("reports: every field of the library's is true of every kind of produc
   }
 }
 
-TEST_CASE("reports: every fact is true of every kind of product, in C++ and C") {
+TEST_CASE("reports: every member of the info is true of every kind of product, in C++ and C") {
   for_each_product([](const Product& product, const Made& made) {
     Fields truth = made.truth().fields();
     truth.insert({{"horizontal_epsg", "0"}, {"vertical_epsg", "0"}, {"wkt", ""}});
@@ -224,7 +224,7 @@ TEST_CASE("reports: every fact is true of every kind of product, in C++ and C") 
   });
 }
 
-TEST_CASE("reports: no fact is without a row") {
+TEST_CASE("reports: no member of the info is without a row") {
   const Names both = {"bytes",
                       "vertices",
                       "tile_columns",

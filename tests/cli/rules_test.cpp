@@ -32,7 +32,7 @@ struct Cell {
   std::string outcome;   // part of the message, or why the rule does not apply
   uint64_t samples = 0;  // of the terrain; 0: it is refused
   std::string units = "metre:metre";
-  std::string system = {};                    // the .prj beside it
+  std::string system = {};                    // the .prj next to it
   std::function<SourceTerrain()> array = {};  // instead of a file
   std::optional<double> highest = {};         // of the heights, for which the bound is 0.001, not 1
 };

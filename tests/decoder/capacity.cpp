@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Workspaces of the sizes that microtin.h tells hold so many vertices, and one byte less holds one
+// Workspaces of the sizes of microtin.h hold that many vertices, and one byte less holds one
 // fewer: never more than fit.
 #include <cstdio>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compact terrains: the same answers as the mesh, in the bytes that were told.
+// Compact terrains: the same answers as the mesh, in the bytes that were computed before.
 #include "microtin/compact.h"
 
 #include <doctest/doctest.h>
@@ -51,7 +51,8 @@ microtin_status make(void* target, size_t size, microtin_mesh* mesh, void* scrat
   return status;
 }
 
-// A compact terrain in exactly the bytes that it needs, which are told before the mesh is touched.
+// A compact terrain in exactly the bytes that it needs, which are computed before the mesh is
+// touched.
 class Compact {
  public:
   explicit Compact(const Bytes& stream, uint32_t piece = 1u << 20) : device_(decoded(stream)) {
@@ -155,7 +156,7 @@ TEST_CASE("in place there is room for what the macros allow for, from 64 vertice
   }
 }
 
-TEST_CASE("compact terrains answer as the mesh does: golden streams") {
+TEST_CASE("compact terrains have the mesh's results: golden streams") {
   uint32_t streams = 0;
   for (const auto& entry : std::filesystem::directory_iterator(golden_folder())) {
     if (entry.path().extension() != ".mtin") continue;
@@ -165,7 +166,7 @@ TEST_CASE("compact terrains answer as the mesh does: golden streams") {
   CHECK(streams > 5);
 }
 
-TEST_CASE("compact terrains answer as the mesh does: point sets, with voids too") {
+TEST_CASE("compact terrains have the mesh's results: point sets, with voids too") {
   for (const PointSet& set : tiny_point_sets()) {
     CAPTURE(set.name);
     check_tin(wild_tin(set.points), 3);
@@ -179,7 +180,7 @@ TEST_CASE("compact terrains answer as the mesh does: point sets, with voids too"
   }
 }
 
-TEST_CASE("compact terrains answer as the mesh does: many small ones") {
+TEST_CASE("compact terrains have the mesh's results: many small ones") {
   for (uint32_t seed = 0; seed < 200; ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -223,7 +224,7 @@ Points missed_points(uint32_t n, uint32_t tries, Random& random) {
 
 }  // namespace
 
-TEST_CASE("compact terrains answer as the mesh does: many vertices missed by the path") {
+TEST_CASE("compact terrains have the mesh's results: many vertices missed by the path") {
   uint32_t most = 0;
   for (uint32_t seed = 0; seed < 6; ++seed) {
     Random random(seed);
@@ -235,7 +236,7 @@ TEST_CASE("compact terrains answer as the mesh does: many vertices missed by the
   CHECK(most >= 6);
 }
 
-TEST_CASE("compact terrains answer as the mesh does: hubs with long fans, and forged streams") {
+TEST_CASE("compact terrains have the mesh's results: hubs with long fans, and forged streams") {
   Points hub = {point(30000, 30000)};
   for (int i = 0; i < 800; ++i) {
     const double angle = i * 2 * 3.14159265358979 / 800;

@@ -43,7 +43,7 @@ std::vector<FastInt> lines_of_parity(Lines lines, bool odd_origin, bool odd) {
   return kept;
 }
 
-// Places of the same terrain, so many steps apart, in a tile that begins somewhere in its pack.
+// Places of the same terrain, this many steps apart, in a tile that begins somewhere in its pack.
 size_t size_of(uint16_t step, uint16_t from_x, uint16_t from_y, Origin origin, Coding coding) {
   Tin tin = rolling_tin(1500, 41);
   for (Vertex& v : tin.vertices) {

@@ -101,8 +101,8 @@ TEST_CASE("pack: a segment across 2^32 tiles is looked along, not around") {
   CHECK(touched(grid, {7, far, 7, 0}).size() == 65535);
   // It leaves at a third of its height; one box more where it begins, changes column, and ends.
   CHECK(touched(grid, {far - 512, 0, far + 1024, far}).size() == 65535 / 3 + 3);
-  CHECK(
-      touched(grid, {far / 2, -far / 2 - 999, far + far / 2, far / 2 - 999}).empty());  // beside it
+  CHECK(touched(grid, {far / 2, -far / 2 - 999, far + far / 2, far / 2 - 999})
+            .empty());  // outside it
 }
 
 }  // namespace microtin::tests

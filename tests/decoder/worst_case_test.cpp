@@ -15,7 +15,7 @@
 namespace microtin::tests {
 namespace {
 
-// Most steps for each byte behind the header, and beside these (shared/docs/guarantees.md).
+// Most steps for each byte behind the header, and in addition to these (shared/docs/guarantees.md).
 constexpr uint64_t kStepsPerByte = 12079, kStepsBeside = 795;
 
 struct Count {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The length of a degree, beside published ones.
+// The length of a degree, compared with published ones.
 #include <doctest/doctest.h>
 
 #include "encoder/export/scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A pack in flash whose tiles are all kept, compact, in the 16 KB of RAM of a small device, beside
+// A pack in flash whose tiles are all kept, compact, in the 16 KB of RAM of a small device, next to
 // 4 KB for the application: heights along the flight of the examples, without a read.
 #include "decoder/examples/flight.h"
 #include "microtin/compact_pack.hpp"

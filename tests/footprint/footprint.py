@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the decoder needs on each device: measured, held to a budget, and told in the documents.
+"""What the decoder needs on each device: measured, held to a budget, and written to the documents.
 
 footprint.py measure ...: measures one target's libraries, writes BUILD/footprint.json and fails if a number is
 above the budget. footprint.py record [BUILD...]: makes the measured numbers the budget and the documents'
@@ -80,7 +80,7 @@ def section_bytes(options, image):
     """Bytes of code, constants, and data that is initialised or zero."""
     run = subprocess.run([options.objdump, "-h", image], check=True, capture_output=True, text=True)
     kinds = {"text": 0, "rodata": 0, "data": 0, "bss": 0}
-    # The linker of RISC-V puts small constants beside small data, of which the library has none.
+    # The linker of RISC-V puts small constants next to small data, of which the library has none.
     others = {"CODE": "text", "DATA": "rodata", ".sdata": "rodata"}
     for name, size in re.findall(r"^ *\d+ ([^ ]+) +([0-9a-f]{8})", run.stdout, re.M):
         kind = re.match(r"\.(text|rodata|data|bss)", name)
@@ -125,7 +125,7 @@ def run_image(options, image):
 
 
 def measure_images(options, level):
-    """Decoding of the tile in each setting, queries of the balanced one, and the dearest step of all."""
+    """Decoding of the tile in each setting, queries of the balanced one, and the most expensive step of all."""
     printed = {
         stream: run_image(options, f"{options.images}{level}.{stream}")
         for stream in ("tile_quick", "tile_balanced", "tile_dense", "wheels")

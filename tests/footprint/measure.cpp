@@ -28,7 +28,7 @@ uint32_t overhead() {
   return instruction_count() - before;
 }
 
-// Decodes in pieces of one step: the dearest of them.
+// Decodes in pieces of one step: the most expensive of them.
 uint32_t dearest_step(TerrainOfTile& terrain) {
   static microtin::Decoder<MICROTIN_MAX_VERTICES> decoder(terrain);
   Statistics steps;
@@ -129,7 +129,7 @@ void measure_heights(const char* mean, const char* most, const microtin::ProbeBo
   say(most, queries.most());
 }
 
-// The terrain made compact, in pieces of so many steps; the dearest of them.
+// The terrain made compact, in pieces of this many steps; the most expensive of them.
 microtin_compact* compact;
 
 uint32_t make_compact(TerrainOfTile& terrain, uint32_t piece) {

@@ -1,9 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# rings.sh [SEEDS]: looks for the worst compact terrain among the meshes of rings.py, each made with so many seeds (3).
-# Prints for each the vertices, the bytes a vertex beside the header of 88, and the dearest height on a straight path
-# and from far on a Cortex-M4 at -Os, in instructions and to the mesh's dearest; then the worst of each. Of what the
-# encoder refuses, the bytes alone. Needs build/release/microtin, or another in MICROTIN.
+# rings.sh [SEEDS]: looks for the worst compact terrain among the meshes of rings.py, each made with SEEDS seeds (3).
+# Prints for each the vertices, the bytes a vertex without the header of 88, and the most expensive height on a straight
+# path and from far on a Cortex-M4 at -Os, in instructions and compared with the mesh's most expensive; then the worst
+# of each. If the encoder refuses a mesh, prints the bytes alone. Needs build/release/microtin, or another in MICROTIN.
 set -eu
 cd "$(dirname "$0")/../.."
 seeds=${1:-3} microtin=${MICROTIN:-build/release/microtin}

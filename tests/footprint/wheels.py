@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""wheels.py: prints points (x y z) of wheels, a hub amid a rim of 30, with wild heights. Encoded at the largest
+"""wheels.py: prints points (x y z) of wheels, a hub within a rim of 30, with wild heights. Encoded at the largest
 degree and densely, hubs make a decoder's steps as dear as a stream can."""
 
 import math

@@ -96,7 +96,7 @@ class Driver(unittest.TestCase):
             self.expect_hills(dataset)
 
     def test_each_creation_option_makes_a_difference(self):
-        """Those that the driver lists, with a row for each of their values, alone and beside a bound."""
+        """Those that the driver lists, with a row for each of their values, alone and with a bound."""
         rows = {
             "MAX_ERROR": ["1"],
             "MAX_VERTICES": ["200"],

@@ -37,7 +37,7 @@ std::set<uint32_t> vertices_on(const SurfaceModel& model, bool north, uint32_t a
   return on;
 }
 
-// Compares at vertices of a line, beside and between them, and at random.
+// Compares at vertices of a line, next to and between them, and at random.
 void walk_line(const Tiles& tiles, const std::set<uint32_t>& vertices, bool north, uint32_t across,
                uint32_t end, BorderCount& count) {
   Random random(across);

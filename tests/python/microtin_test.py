@@ -122,7 +122,7 @@ class Options(unittest.TestCase):
     """Each keyword of `_options` makes other bytes, and those of the command line if MICROTIN_TOOL names it."""
 
     BOUND = {"max_error": 2}
-    # Keyword: what is beside it, the same on the command line, and values with their flags.
+    # Keyword: what is given with it, the same on the command line, and values with their flags.
     ROWS = {
         "max_error": ({}, "", {1: "--max-error 1"}),
         "z_step": (BOUND, "--max-error 2", {0.7: "--z-step 0.7"}),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """qgis_test.py [PICTURE]: QGIS, without a screen, opens a stream and a pack as raster and as mesh; PICTURE gets both of the
-stream, beside each other. Skipped (77) without python3-qgis, numpy or python3-gdal."""
+stream, side by side. Skipped (77) without python3-qgis, numpy or python3-gdal."""
 
 import os
 import subprocess

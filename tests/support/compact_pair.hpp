@@ -92,7 +92,7 @@ struct FinePlace {
   int32_t x, y;
 };
 
-// At a vertex, between two vertices, a step beside the border of the box, or anywhere.
+// At a vertex, between two vertices, a step next to the border of the box, or anywhere.
 inline FinePlace place_near(const microtin_mesh* mesh, Random& random) {
   const auto vertex = [&] {
     uint16_t x = 0, y = 0;
@@ -135,7 +135,7 @@ inline microtin_query_result height_in_pieces(const microtin_compact* compact, F
   return answer;
 }
 
-// The answers at so many places, from all kinds of hints; empty or what differs.
+// The answers at this many places, from all kinds of hints; empty or what differs.
 inline std::string difference_of_heights(const microtin_mesh* mesh, const microtin_compact* compact,
                                          int places, Random& random) {
   uint32_t hint = 0, mesh_hint = 0;

@@ -329,7 +329,7 @@ class Truth {
       const double above = height_at(x, y) - sample.z;
       on_lattice.add(above, 1);
       weighted.add(above, tiles_at(x, y));
-      const double there = height_at(sample.x, sample.y);  // none beside the hull
+      const double there = height_at(sample.x, sample.y);  // none outside the hull
       truly.add(std::isnan(there) ? above : there - sample.z, 1);
       moved = std::max({moved, std::abs(x - sample.x), std::abs(y - sample.y)});
       raised = std::max(raised, std::abs(nearest(facts_.z, sample.z) - sample.z));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Real terrain, where it lies beside the repository, all the way: laid out, simplified, encoded,
+// Real terrain, where it lies next to the repository, all the way: laid out, simplified, encoded,
 // decoded, and verified at every post.
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """bundle.py MODULE.wasm VERSION FOLDER: makes the npm package: the sources with the WebAssembly within as one module,
-and what stands beside it. With zopfli and esbuild."""
+and what accompanies it. With zopfli and esbuild."""
 import base64
 import json
 import shutil

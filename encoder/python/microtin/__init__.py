@@ -98,8 +98,8 @@ def encode(
     max_error     no height of the surface is further from the array's; a float stands for its shortest decimal
     transform     the place of the cells, whose centres have the heights: six numbers in GDAL's order, or an Affine
     crs           of x, y: an EPSG code, well-known text, or an object that has to_wkt()
-    max_vertices  the best ones, so many, instead of max_error
-    max_bytes     the smallest bound that so many bytes allow, instead of both; takes minutes
+    max_vertices  the best vertices, at most N, instead of max_error
+    max_bytes     the smallest bound that N bytes allow, instead of both; takes minutes
 
     Options: never_below=True, z_step, xy_step, effort="fast" | "normal" | "best", max_degree,
     coding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", depths=True, vertical_epsg, source_name,

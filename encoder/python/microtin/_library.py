@@ -174,7 +174,7 @@ def _checked(status: int, _function: Any, _arguments: Any) -> None:
     message = library.microtin_last_error().decode(errors="replace")  # names of files may be any bytes
     if status == NO_MEMORY:
         raise MemoryError(message)
-    raise Error(message if status != INTERNAL else f"an internal fault of microtin: {message}")
+    raise Error(message if status != INTERNAL else f"a fault of microtin's own: {message}")
 
 
 def _load() -> ctypes.CDLL:

@@ -28,7 +28,7 @@ namespace {
 using Bytes = std::vector<uint8_t>;
 
 constexpr uint32_t kSector = 512, kSlots = 4, kSteps = 200;
-constexpr int32_t kMeasured = 16;    // of so many heights one, since counting takes long
+constexpr int32_t kMeasured = 16;    // one of this many heights, since counting takes long
 constexpr int32_t kLookPosts = 32;   // from one look ahead to the next
 constexpr float kLookMetres = 1920;  // as far as INAV looks
 constexpr float kBearing = 63, kClimb = 0.1F;

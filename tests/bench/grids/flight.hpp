@@ -10,7 +10,8 @@ namespace microtin::bench {
 // Writes the grid of a raster's file as tests/bench/device/grid_file.hpp says, a post every 100 m.
 void write_grid(const std::string& terrain, const std::string& grid);
 
-// Prints what the images flight_pack, flight_compact and flight_grid printed, beside the source.
+// Prints what the images flight_pack, flight_compact and flight_grid printed, compared with the
+// source.
 struct FlightFiles {
   std::string terrain, pack, grid, pack_log, compact_log, grid_log;
 };

@@ -22,7 +22,7 @@ struct Terrain {
   }
 };
 
-// Those that lie beside the repository, each once; else one that the program makes itself.
+// Those that lie next to the repository, each once; else one that the program makes itself.
 std::vector<Terrain> terrains();
 
 // Heights of a grid in metres, bilinear in between.
@@ -32,7 +32,7 @@ class Grid {
   // of `step` metres.
   Grid(const Terrain& terrain, double spacing, double step);
 
-  // At a place in metres from that post; NaN beside voids.
+  // At a place in metres from that post; NaN next to voids.
   double height_at(double x, double y) const;
 
  private:

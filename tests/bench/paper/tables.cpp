@@ -107,7 +107,7 @@ Measured measure_tests(const Printed& printed) {
       measured.by_sides.add(per_vertex(tests.in_circle, sequence));
       measured.sidedness.add(per_vertex(tests.sidedness, sequence));
     }
-    // Ours is told which triangles are hit, and tests those that it destroys and their neighbours.
+    // Ours gets the triangles that are hit, and tests those that it destroys and their neighbours.
     const Sequence sequence = sequence_of(points, kProduct);
     const Tests tests = tests_of(sequence, kProduct, Traversal::kUncertified);
     measured.product.add(2 * per_vertex(tests.destroyed, sequence) + 2);
