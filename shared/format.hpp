@@ -30,9 +30,9 @@ constexpr uint32_t kStepBytes = 48;
 constexpr uint32_t kVirtualBytes = 4;
 
 // Vertices of all phases together that a stream may walk around. Every phase of the encoder leaves
-// about 3/4 of its vertices at most: 4 n and 7 per phase suffice (format-stream.md, "Work").
+// about 2/3 of its vertices at most: 3 n and 7 per phase suffice (format-stream.md, "Work").
 constexpr uint32_t work_budget(uint32_t vertices) {
-  return 4 * vertices + 512;
+  return 3 * vertices + 512;
 }
 
 // The sum that breaks the budget is beyond it by one phase at most.

@@ -958,7 +958,7 @@ class Decoder:
         batch = self.decode_batch_size()
         self.goal = self.size() + batch
         self.work += self.goal
-        require(self.work <= 4 * self.goal + 512, "phases add too few vertices")
+        require(self.work <= 3 * self.goal + 512, "phases add too few vertices")
         self.density = Density(self.header, self.goal, batch)
         self.walk()
 

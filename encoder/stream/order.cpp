@@ -64,8 +64,7 @@ class Walk {
 
  private:
   const Triangulation& triangulation_;
-  std::vector<uint8_t>
-      met_;  // the last walk that met a vertex, at most 58 (format-stream.md, "Work")
+  std::vector<uint8_t> met_;     // the last walk that met a vertex, of fewer than 64 ("Work")
   std::vector<Index> vertices_;  // found so far
   std::vector<Index> arrivals_;  // and the half-edges to them
   uint8_t walks_ = 0;
@@ -118,7 +117,7 @@ constexpr Index kPictureShare = 1024;
 
 // Every how many vertices of `left` one stays in addition to those of high degree; 0: none. Only
 // where the phase before left one in 64 of `all` or less: even if all stay, these two phases and
-// the others, each at most 3/4 of the one before, have less than all * (1 + 5 / 64) vertices at
+// the others, each at most 2/3 of the one before, have less than all * (1 + 5 / 64) vertices at
 // their ends together (format-stream.md, "Work").
 Index spread_to_keep(Index vertices, Index all, Index left) {
   const Index picture = vertices / kPictureShare;

@@ -16,7 +16,7 @@ namespace microtin::tests {
 namespace {
 
 // Most steps for each byte behind the header, and in addition to these (shared/docs/guarantees.md).
-constexpr uint64_t kStepsPerByte = 12079, kStepsBeside = 795;
+constexpr uint64_t kStepsPerByte = 9947, kStepsBeside = 791;
 
 struct Count {
   microtin_status status;

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "encoder/stream/encode.hpp"
@@ -63,21 +64,75 @@ TEST_CASE("with the paper's code the order costs what the paper's Table 2 prints
   }
 }
 
+namespace {
+
+// A hub with spokes of points along rays, so that few vertices have nearly all edges.
+std::vector<Point> spokes(uint32_t rays, Random& random) {
+  std::vector<Point> points = {{32768, 32768}};
+  for (uint32_t ray = 0; ray < rays; ++ray) {
+    const double angle = 2 * 3.14159265 * ray / rays;
+    for (const double radius : {2000.0, 2100.0, 30000.0}) {
+      points.push_back(point(static_cast<uint32_t>(32768 + radius * std::cos(angle)),
+                             static_cast<uint32_t>(32768 + radius * std::sin(angle))));
+    }
+  }
+  return distinct(points, random);
+}
+
+// Equilateral triangles, nearly: every vertex has six neighbours.
+std::vector<Point> hexagons(uint32_t side) {
+  std::vector<Point> points;
+  for (uint32_t row = 0; row < side; ++row) {
+    for (uint32_t column = 0; column < side; ++column) {
+      points.push_back(point(30 * column + row % 2 * 15, 26 * row));
+    }
+  }
+  return points;
+}
+
+// Two rows of vertices that see each other all along, with ends far away.
+std::vector<Point> parabola(uint32_t n) {
+  std::vector<Point> points;
+  for (uint32_t i = 0; i < n; ++i) points.push_back(point(i, i * i / 16));
+  return points;
+}
+
+std::vector<std::vector<Point>> adversarial_sets(Random& random) {
+  return {uniform_points(3000, random),
+          clustered_points(2000, random, 5, 300),
+          lattice_points(50, 50, random),
+          lattice_points(3, 800, random),
+          circle_points(1105 * 1105, random),
+          spokes(300, random),
+          hexagons(50),
+          parabola(1000),
+          uniform_points(49, random),
+          uniform_points(7, random)};
+}
+
+}  // namespace
+
 TEST_CASE("every phase leaves at most the share of vertices that is proved") {
   Random random(2);
-  for (const uint32_t degree : {6u, 7u, 8u, 12u, 32u}) {
-    const std::vector<Point> points = uniform_points(3000, random);
-    Triangulation triangulation(points);
-    const Order order = breadth_first_order(triangulation, degree);
-    size_t after = points.size();
-    for (auto batch = order.batches.rbegin(); batch != order.batches.rend(); ++batch) {
-      const size_t before = after;
-      after -= batch->size();
-      // format-stream.md, "Work": at least (D - 5) (left - 3) / max(3, D / 2) are removed.
-      CHECK(batch->size() * std::max(3u, degree / 2) >= (degree - 5) * (after - 3));
-      CHECK(4 * (after - 3) <= 3 * (before - 3));
+  for (const std::vector<Point>& points : adversarial_sets(random)) {
+    for (const uint32_t degree : {6u, 7u, 8u, 9u, 12u, 32u}) {
+      CAPTURE(points.size());
+      CAPTURE(degree);
+      Triangulation triangulation(points);
+      const Order order = breadth_first_order(triangulation, degree);
+      int64_t after = static_cast<int64_t>(points.size()), work = after;
+      for (auto batch = order.batches.rbegin(); batch != order.batches.rend(); ++batch) {
+        const int64_t before = after, removed = static_cast<int64_t>(batch->size());
+        after -= removed;
+        work += after;
+        const int64_t losers = (degree - 1) / 2;  // format-stream.md, "Work"
+        CHECK(removed * losers >= (degree - 5) * (after - 4) - 3);
+        CHECK(3 * (after - 7) <= 2 * (before - 7));
+        if (before <= 48) CHECK(removed * losers >= (degree - 5) * (after - 3));
+      }
+      CHECK(after == 3);
+      CHECK(work - after <= work_budget(static_cast<uint32_t>(points.size())));
     }
-    CHECK(after == 3);
   }
 }
 
