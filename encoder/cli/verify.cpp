@@ -37,6 +37,11 @@ JsonObject report_of(const Original::Judgement& judgement, const Metadata& notes
                              {"rms_error", number(found.rms_error)},
                              {"mean_error", number(found.mean_error)}};
   report.insert(report.end(), errors.begin(), errors.end());
+  if (found.everywhere) {
+    report.emplace_back("everywhere",
+                        json(JsonObject{{"max_below", number(found.everywhere->below)},
+                                        {"max_above", number(found.everywhere->above)}}));
+  }
   add_true_places(report, judgement);
   if (is_cloud && notes.classes) report.emplace_back("classes", json(list_of(*notes.classes)));
   if (judgement.promise.water_level) {

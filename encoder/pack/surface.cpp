@@ -12,6 +12,7 @@
 #include "encoder/base/progress.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/pack/borders.hpp"
+#include "encoder/terrain/everywhere.hpp"
 #include "encoder/terrain/verify.hpp"
 
 namespace microtin::pack {
@@ -84,6 +85,8 @@ VerifiedTile verify_tile(const PackFile& pack, uint32_t number, const RasterRead
   if (tile) {
     verified.all = verify(mesh, {part.x, part.y, pack.metadata().placement.z}, part, bound,
                           keeps_visits ? verified.visits.recorder(box.x, box.y) : PostVisitor());
+    verified.all.everywhere =
+        measure_everywhere(mesh, {part.x, part.y, pack.metadata().placement.z}, part);
   }
   if (!tile || verified.all.uncovered != 0) verified.uncovered = uncovered_posts(mesh, part, box);
   for_each_post(part, [&](int64_t x, int64_t y, int64_t z) {

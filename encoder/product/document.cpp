@@ -15,6 +15,7 @@
 #include "encoder/pack/surface.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/clouds.hpp"
+#include "encoder/terrain/everywhere.hpp"
 #include "encoder/terrain/verify.hpp"
 #include "encoder/terrain/water.hpp"
 
@@ -168,7 +169,12 @@ Promise Original::promise() const {
 Verification Original::compare(const std::optional<Decimal>& bound, const Progress& progress,
                                const PostVisitor& visit) const {
   if (const auto* whole = std::get_if<Source>(&source_)) {
-    return verify(document_.stream()->terrain.mesh(), *whole, bound, visit);
+    const microtin_mesh* const mesh = document_.stream()->terrain.mesh();
+    Verification found = verify(mesh, *whole, bound, visit);
+    if (raster() != nullptr) {
+      found.everywhere = measure_everywhere(mesh, document_.metadata().placement, *raster());
+    }
+    return found;
   }
   const PackFile& pack = *document_.pack();
   const auto& source = std::get<OpenSource>(source_);

@@ -133,6 +133,20 @@ Wide root_mean_square_of(const std::vector<Verification>& parts, uint64_t sample
   return squares.root_of_mean(static_cast<Wide>(samples), ceil_divide(largest, unit)) * unit;
 }
 
+// Known if it is of every part that covers posts.
+std::optional<Distances> combined_everywhere(const std::vector<Verification>& parts) {
+  Distances all;
+  bool is_known = false;
+  for (const Verification& part : parts) {
+    if (part.covered == 0) continue;
+    if (!part.everywhere) return std::nullopt;
+    is_known = true;
+    if (all.below <= part.everywhere->below) all.below = part.everywhere->below;
+    if (all.above <= part.everywhere->above) all.above = part.everywhere->above;
+  }
+  return is_known ? std::optional(all) : std::nullopt;
+}
+
 }  // namespace
 
 Verification combine(const std::vector<Verification>& parts) {
@@ -147,6 +161,7 @@ Verification combine(const std::vector<Verification>& parts) {
     if (all.max_below <= part.max_below) all.max_below = part.max_below;
     all.within_bound = all.within_bound && part.within_bound;
   }
+  all.everywhere = combined_everywhere(parts);
   if (all.covered == 0) return all;
   all.rms_error = make_decimal_up(root_mean_square_of(parts, all.covered), kMaxDecimals);
   all.mean_error = make_decimal_nearest(mean_of(parts, all.covered), kMaxDecimals);

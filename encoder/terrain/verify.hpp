@@ -16,6 +16,12 @@
 
 namespace microtin::terrain {
 
+// The largest distances of a surface below and above another, in the source's unit, rounded up to 9
+// decimals.
+struct Distances {
+  Decimal below, above;
+};
+
 // Errors are in the source's unit, rounded up to 9 decimals (their mean to nearest, from such):
 // compared with a bound of at most 9 decimals, that changes nothing.
 struct Verification {
@@ -29,6 +35,8 @@ struct Verification {
   Decimal rms_error;
   Decimal mean_error;        // above 0: the terrain is too high
   bool within_bound = true;  // max_error is at most the bound, or there is none
+  // From the bilinear surface of a raster's posts, at posts and between them; if it was measured.
+  std::optional<Distances> everywhere;
 };
 
 // Told of every post with a height that the terrain answers: its place on the lattice (of a pack:
