@@ -382,7 +382,7 @@ class Driver(unittest.TestCase):
     def test_depths(self):
         driver = gdal.GetDriverByName("MTIN")
         for codes in ("EPSG:32633+5715", "EPSG:32633+5861"):
-            with self.assertRaisesRegex(RuntimeError, "heights are depths .*: the option depths"):
+            with self.assertRaisesRegex(RuntimeError, "heights are depths .*: negate them with DEPTHS"):
                 driver.CreateCopy("/vsimem/depth.mtin", self.depths(codes))
             with gdal.quiet_errors() if hasattr(gdal, "quiet_errors") else tempfile.TemporaryDirectory():
                 copy = driver.CreateCopy("/vsimem/depth.mtin", self.depths(codes), options=["DEPTHS=YES"])

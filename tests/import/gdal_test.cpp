@@ -96,8 +96,7 @@ TEST_CASE("gdal: files that cannot be read are refused with a remedy") {
   CHECK(grid.error(vrt(kPlace,
                        "\"Byte\"><Metadata domain=\"IMAGE_STRUCTURE\"><MDI key=\"PIXELTYPE\">"
                        "SIGNEDBYTE</MDI></Metadata>"))
-            .find("signed bytes, which GDAL reads as unsigned: \"gdal_calc.py") !=
-        std::string::npos);
+            .find("signed bytes, which GDAL reads as unsigned: convert them") != std::string::npos);
   CHECK(grid.error("nonsense").find("t.vrt: GDAL cannot open it: ") == 0);
   CHECK(grid.session.failure("encode nosuch.tif -o new.mtin") ==
         "nosuch.tif: GDAL cannot open it: No such file or directory\n");
