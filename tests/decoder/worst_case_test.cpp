@@ -81,7 +81,7 @@ Contract contract_of(const Plan& plan) {
 
 // With as many phases of one vertex as the work of all allows.
 Plan border_plan(uint16_t largest_x) {
-  return Plan{border_seed(largest_x), {largest_x - 4u, 1, 1, 1}};
+  return Plan{border_seed(largest_x), {largest_x - 3u, 1, 1}};
 }
 
 Bytes border_stream(uint16_t largest_x) {

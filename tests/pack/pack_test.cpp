@@ -235,7 +235,7 @@ TEST_CASE("a stream whose compact form exceeds the macros is not written") {
   CHECK_NOTHROW(expect_promised({100, promised, true}));
   CHECK_THROWS_AS(expect_promised({100, promised + 1, true}), Error);
   CHECK_THROWS_WITH_AS(expect_promised({100, promised + 1, false}),
-                       doctest::Contains("tiles of a pack are made small enough"), Error);
+                       doctest::Contains("or make a pack (.mtp)"), Error);
 }
 
 TEST_CASE("packs: the header's number of vertices is compared with the tiles") {

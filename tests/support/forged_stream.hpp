@@ -196,7 +196,7 @@ inline Bytes sectioned_stream(uint32_t sections) {
     if (!in_seed) plan.vertices.push_back(Vertex{p.x, p.y, 0});
   }
   for (uint32_t n = 3; n < kSectionVertices; n += plan.batches.back()) {
-    plan.batches.push_back(std::min(n, kSectionVertices - n));
+    plan.batches.push_back(std::min(3 * n, kSectionVertices - n));
   }
   plan.batches.insert(plan.batches.end(), sections - 1, 1);
   plan.vertices.resize(kSectionVertices + sections - 1);
