@@ -131,7 +131,7 @@ class Options(unittest.TestCase):
         "effort": (BOUND, "--max-error 2", {"fast": "--fast", "best": "--best"}),
         "max_degree": (BOUND, "--max-error 2", {6: "--max-degree 6"}),
         "coding": (BOUND, "--max-error 2", {"quick": "--coding quick", "dense": "--coding dense"}),
-        "bound_at": (BOUND, "--max-error 2", {"lattice": "--bound_at lattice"}),
+        "bound_at": (BOUND, "--max-error 2", {"lattice": "--bound-at lattice"}),
         "duplicates": (BOUND, "--max-error 2", {name: f"--duplicates {name}" for name in ("lowest", "highest", "mean")}),
         "depths": (BOUND, "--max-error 2", {True: "--depths"}),
         "units": (BOUND, "--max-error 2", {"foot": "--units foot"}),
