@@ -323,8 +323,8 @@ std::string message_of(const std::exception& error,
 SourceTerrain::SourceTerrain(std::shared_ptr<const Content> content)
     : content_(std::move(content)) {}
 
-SourceTerrain::SourceTerrain(RasterData posts)
-    : SourceTerrain(std::make_shared<Content>(Content{raster_of(std::move(posts))})) {}
+SourceTerrain::SourceTerrain(RasterData raster)
+    : SourceTerrain(std::make_shared<Content>(Content{raster_of(std::move(raster))})) {}
 
 SourceTerrain::SourceTerrain(const PointCloudData& points)
     : SourceTerrain(std::make_shared<Content>(Content{cloud_of(points)})) {}
