@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <string>
 
+#include "tests/support/join.hpp"
+
 namespace microtin::base {
 namespace {
 
@@ -30,7 +32,7 @@ TEST_CASE("errors: parameters are spelled, and all other text is kept") {
 TEST_CASE("errors: a lone mark in the name of a file is kept") {
   const std::string mark = parameter("a").substr(0, 1);
   for (const std::string& name : {mark, mark + mark, "a" + mark + "b", mark + "B" + mark}) {
-    CHECK(spelled(name + ": " + parameter("band")) == name + ": <band>");
+    CHECK(spelled(tests::join({name, ": ", parameter("band")})) == tests::join({name, ": <band>"}));
   }
 }
 
