@@ -31,7 +31,8 @@ TEST_CASE("errors: parameters are spelled, and all other text is kept") {
 
 TEST_CASE("errors: a lone mark in the name of a file is kept") {
   const std::string mark = parameter("a").substr(0, 1);
-  for (const std::string& name : {mark, mark + mark, "a" + mark + "b", mark + "B" + mark}) {
+  for (const std::string& name : {mark, tests::join({mark, mark}), tests::join({"a", mark, "b"}),
+                                  tests::join({mark, "B", mark})}) {
     CHECK(spelled(tests::join({name, ": ", parameter("band")})) == tests::join({name, ": <band>"}));
   }
 }
