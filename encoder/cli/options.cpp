@@ -139,9 +139,9 @@ CLI::Option* add_read(CLI::App& command, const std::string& definition,
                       std::function<bool(const std::string&)> read, const std::string& wanted,
                       const std::string& description) {
   const auto [name, value] = split(definition);
-  const auto take = [name = name, read = std::move(read), wanted](const std::string& text) {
+  const auto take = [option = name, read = std::move(read), wanted](const std::string& text) {
     if (!read(text)) {
-      throw CLI::ValidationError(name, '\'' + text + "' is not allowed; use " + wanted);
+      throw CLI::ValidationError(option, '\'' + text + "' is not allowed; use " + wanted);
     }
   };
   return command.add_option_function<std::string>(name, take, description)->type_name(value);
