@@ -182,7 +182,7 @@ inline uint32_t extent_of_first(__m128i v) {
       _mm_cvtsi128_si32(_mm_or_si128(sizes, _mm_shuffle_epi32(sizes, 0xB1))));
 }
 
-// Two places, below 2^15, turned by so many quarters: what x of both, then y, are made of.
+// Two places below 2^15, both turned by the same quarters: what x of both, then y, come from.
 inline __m128i turned_both(__m128i v, int32_t turns) {
   static constexpr int16_t kFactors[4][8] = {{1, 0, 1, 0, 0, 1, 0, 1},
                                              {0, -1, 0, -1, 1, 0, 1, 0},

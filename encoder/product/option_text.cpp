@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <string>
+#include <type_traits>
 
 #include "encoder/base/error.hpp"
 #include "microtin/encoder.hpp"

@@ -76,6 +76,7 @@ class Comparison {
 
   Wide below() const { return below_; }
   Wide above() const { return above_; }
+  bool has_far_post() const { return has_far_post_; }
 
  private:
   static Wide turn(const End& a, const End& b, Wide x, Wide y) {
@@ -111,12 +112,14 @@ class Comparison {
   struct Rounded {
     Wide low, high;
   };
-  std::optional<Rounded> post_at(uint32_t column, uint32_t row) const {
+  std::optional<Rounded> post_at(uint32_t column, uint32_t row) {
     const int64_t number = raster_.heights[size_t{row} * raster_.width + column];
     if (number == kVoidHeight) return std::nullopt;
     const Wide numerator = from_.numerator(number) * kUnits;
-    return Rounded{std::clamp<Wide>(floor_divide(numerator, from_.step), -kHighest, kHighest),
-                   std::clamp<Wide>(ceil_divide(numerator, from_.step), -kHighest, kHighest)};
+    const Rounded post{floor_divide(numerator, from_.step), ceil_divide(numerator, from_.step)};
+    if (post.low >= -kHighest && post.high <= kHighest) return post;
+    has_far_post_ = true;
+    return std::nullopt;
   }
 
   // Places along an edge are counted in this many parts of it, so that all lines meet it at whole
@@ -213,6 +216,7 @@ class Comparison {
   LatticeMap from_;  // from numbers of heights to z steps
   std::vector<Wide> stops_;
   Wide below_ = 0, above_ = 0;
+  bool has_far_post_ = false;  // beyond kHighest: no distance is known
 };
 
 Decimal decimal_of(Wide units, const Axis& z) {
@@ -244,6 +248,7 @@ std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Pla
     }
     comparison.add_posts(ends[0], ends[1], ends[2]);
   }
+  if (comparison.has_far_post()) return std::nullopt;
   return Distances{decimal_of(comparison.below(), lattice.z),
                    decimal_of(comparison.above(), lattice.z)};
 }

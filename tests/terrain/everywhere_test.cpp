@@ -254,4 +254,9 @@ TEST_CASE("everywhere: nothing is measured where exact numbers would be too larg
   c.raster.x = {1, 10000019, 9999991};
   const DecodedTerrain terrain = decoded(c);
   CHECK_FALSE(measure_everywhere(terrain.mesh(), c.lattice, c.raster));
+  c.raster.x = {0, 1, 1};
+  CHECK(measure_everywhere(terrain.mesh(), c.lattice, c.raster));
+  c.raster.heights[1] =
+      100000000000;  // a height far beyond the lattice is not taken for a nearer one
+  CHECK_FALSE(measure_everywhere(terrain.mesh(), c.lattice, c.raster));
 }

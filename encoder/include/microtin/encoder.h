@@ -88,7 +88,7 @@ typedef struct microtin_options {
   size_t size;
   const char* max_error; /* decimals, "0.25" */
   const char *z_step, *xy_step;
-  uint32_t never_below; /* 1: the surface is nowhere below a height */
+  uint32_t never_below; /* 1: no post or point is above the surface */
   uint32_t effort;      /* MICROTIN_EFFORT_* */
   uint32_t max_degree;  /* 6 .. 32 */
   uint32_t coding;      /* MICROTIN_CODING_* */

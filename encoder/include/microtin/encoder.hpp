@@ -146,7 +146,7 @@ struct Options {
   std::string max_error;     /* the bound: largest distance of the surface from any height */
   uint32_t max_vertices = 0; /* stream: the smallest bound with 3 .. 2^24 vertices at most */
   uint32_t max_bytes = 0;    /* stream: the smallest bound whose file has at most this size */
-  bool never_below = false;  /* with a bound: the surface is nowhere below a height */
+  bool never_below = false;  /* with a bound: no post or point is above the surface */
   std::string z_step;        /* z step; "": the best one for the bound, or the terrain's own */
   std::string xy_step;       /* lattice step; "": the terrain's own. Stream of a raster: in posts */
   BoundAt bound_at = BoundAt::kPoints;
