@@ -72,7 +72,14 @@ std::string at_true_places(const std::optional<Verification>& measured,
   return "... where the points truly lie: at most " + to_string(measured->max_error) + ", rms " +
          to_string(measured->rms_error) + ", mean " + to_string(measured->mean_error) +
          (is_bound ? " (the bound holds there, too)" : "") + "; below the points: at most " +
-         to_string(measured->max_below) + '\n';
+         to_string(measured->max_below) + ", above: at most " + to_string(measured->max_above) +
+         '\n';
+}
+
+// How far the surface is on either side of the source.
+std::string beyond(const Verification& measured) {
+  return "below the source: at most " + to_string(measured.max_below) + ", above: at most " +
+         to_string(measured.max_above) + '\n';
 }
 
 std::string source_of_posts(uint64_t posts, uint64_t voids, const Mended& mended,
@@ -114,9 +121,7 @@ std::string text_of(const Source& source, const EncodedStream& encoded,
     text << (request.lattice.max_error ? " (asked for: at most " : " (found: at most ")
          << to_string(*encoded.bound) << ")";
   }
-  text << '\n'
-       << at_true_places(encoded.true_places, encoded.bound, request)
-       << "below the source: at most " << to_string(measured.max_below) << '\n';
+  text << '\n' << at_true_places(encoded.true_places, encoded.bound, request) << beyond(measured);
   return text.str();
 }
 
@@ -131,7 +136,7 @@ std::string text_of(const PackReport& pack) {
        << pack.bytes << " bytes\nerror: at most " << to_string(pack.measured.max_error) << ", rms "
        << to_string(pack.measured.rms_error) << ", mean " << to_string(pack.measured.mean_error);
   if (pack.bound) text << " (asked for: at most " << to_string(*pack.bound) << ")";
-  text << "\nbelow the source: at most " << to_string(pack.measured.max_below) << '\n';
+  text << '\n' << beyond(pack.measured);
   return text.str();
 }
 

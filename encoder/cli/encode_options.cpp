@@ -12,6 +12,7 @@
 #include "encoder/cli/definitions.hpp"
 #include "encoder/cli/groups.hpp"
 #include "encoder/cli/options.hpp"
+#include "encoder/cli/report.hpp"
 #include "encoder/stream/device_memory.hpp"
 #include "microtin/encoder.hpp"
 #include "microtin/microtin.h"
@@ -78,6 +79,15 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
 
 void add_notes(CLI::App& command, EncodeRequest& request) {
   begin_group(command, "Notes in the header");
+  std::vector<std::pair<std::string, SurfaceKind>> kinds;
+  for (const SurfaceKind kind : {SurfaceKind::kUnknown, SurfaceKind::kGround, SurfaceKind::kTop,
+                                 SurfaceKind::kBed, SurfaceKind::kGeoid, SurfaceKind::kObstacles}) {
+    kinds.emplace_back(name_of(kind), kind);
+  }
+  add_choice<SurfaceKind>(command, "--surface", request.surface, kinds,
+                          "Note what the heights are: bare ground, the top surface with vegetation "
+                          "and buildings, the bed of a sea or lake, a geoid, or an envelope of "
+                          "obstacles");
   add_text(command, "--source-name NAME", request.source_name, "Note where the terrain comes from");
   const auto read = [&request](const std::string& text) {
     request.date = text;

@@ -136,6 +136,13 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
   add_text("source_name", metadata.source);
   add_text("date", metadata.date);
   add_text("lineage", metadata.lineage);
+  if (metadata.surface != SurfaceKind::kUnknown) {
+    report.emplace_back("surface", json(name_of(metadata.surface)));
+  }
+  if (metadata.side != BoundSide::kNotStated) {
+    report.emplace_back("side", json(name_of(metadata.side)));
+  }
+  if (metadata.at_samples) report.emplace_back("at_samples", json_of(*metadata.at_samples));
   if (metadata.water_level) report.emplace_back("water_level", number(*metadata.water_level));
   if (metadata.grid) report.emplace_back("grid", of_grid(*metadata.grid));
   if (metadata.classes) report.emplace_back("classes", json(list_of(*metadata.classes)));

@@ -6,11 +6,17 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/product/document.hpp"
+#include "microtin/surface.hpp"
 
 namespace microtin::cli {
 
 std::string number(Decimal value) {
   return json(real(value));
+}
+
+std::string json_of(const Distances& distances) {
+  return json(
+      JsonObject{{"max_below", number(distances.below)}, {"max_above", number(distances.above)}});
 }
 
 std::string_view text_of(DuplicateRule rule) {
@@ -29,6 +35,14 @@ std::string_view text_of(DuplicateRule rule) {
       return "median";
   }
   return "unknown";
+}
+
+std::string_view name_of(SurfaceKind kind) {
+  return encoder::name_of(static_cast<encoder::SurfaceKind>(kind));  // the same numbers
+}
+
+std::string_view name_of(BoundSide side) {
+  return encoder::name_of(static_cast<encoder::BoundSide>(side));  // the same numbers
 }
 
 std::string list_of(const ClassSet& classes) {

@@ -19,7 +19,12 @@ namespace microtin::cli {
 // A number of JSON.
 std::string number(Decimal value);
 
+// {"max_below": ..., "max_above": ...}
+std::string json_of(const Distances& distances);
+
 std::string_view text_of(DuplicateRule rule);
+std::string_view name_of(SurfaceKind kind);
+std::string_view name_of(BoundSide side);
 
 // "2,9", or "0-6,8-255".
 std::string list_of(const ClassSet& classes);

@@ -17,6 +17,7 @@ void add_true_places(JsonObject& report, const Original::Judgement& judgement) {
   report.emplace_back("true_places", json(JsonObject{{"bound", bound ? number(*bound) : "null"},
                                                      {"max_error", number(found.max_error)},
                                                      {"max_below", number(found.max_below)},
+                                                     {"max_above", number(found.max_above)},
                                                      {"rms_error", number(found.rms_error)},
                                                      {"mean_error", number(found.mean_error)}}));
 }
@@ -31,17 +32,12 @@ JsonObject report_of(const Original::Judgement& judgement, const Metadata& notes
     report.emplace_back("voids", json(found.voids));
     report.emplace_back("voids_answered", json(found.voids_answered));
   }
-  const JsonObject errors = {{"bound", bound ? number(*bound) : "null"},
-                             {"max_error", number(found.max_error)},
-                             {"max_below", number(found.max_below)},
-                             {"rms_error", number(found.rms_error)},
-                             {"mean_error", number(found.mean_error)}};
+  const JsonObject errors = {
+      {"bound", bound ? number(*bound) : "null"}, {"max_error", number(found.max_error)},
+      {"max_below", number(found.max_below)},     {"max_above", number(found.max_above)},
+      {"rms_error", number(found.rms_error)},     {"mean_error", number(found.mean_error)}};
   report.insert(report.end(), errors.begin(), errors.end());
-  if (found.everywhere) {
-    report.emplace_back("everywhere",
-                        json(JsonObject{{"max_below", number(found.everywhere->below)},
-                                        {"max_above", number(found.everywhere->above)}}));
-  }
+  if (found.everywhere) report.emplace_back("everywhere", json_of(*found.everywhere));
   add_true_places(report, judgement);
   if (is_cloud && notes.classes) report.emplace_back("classes", json(list_of(*notes.classes)));
   if (judgement.promise.water_level) {

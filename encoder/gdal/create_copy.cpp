@@ -20,9 +20,9 @@ using encoder::Transform;
 
 // As driver.cpp describes them.
 constexpr const char* kCreationOptions[] = {
-    "MAX_ERROR", "MAX_VERTICES", "MAX_BYTES",  "NEVER_BELOW",   "Z_STEP",    "XY_STEP",
-    "EFFORT",    "CODING",       "MAX_DEGREE", "TILE_VERTICES", "TILE_SIZE", "UNITS",
-    "DEPTHS",    "SOURCE_NAME",  "DATE",       "LINEAGE"};
+    "MAX_ERROR", "MAX_VERTICES", "MAX_BYTES",   "NEVER_BELOW",   "Z_STEP",    "XY_STEP",
+    "EFFORT",    "CODING",       "MAX_DEGREE",  "TILE_VERTICES", "TILE_SIZE", "UNITS",
+    "DEPTHS",    "SURFACE",      "SOURCE_NAME", "DATE",          "LINEAGE"};
 
 std::string lower_case(std::string text) {
   for (char& letter : text)
@@ -144,7 +144,7 @@ encoder::Options options_of(char** given) {
     if (value == nullptr) continue;
     const bool is_flag = EQUAL(name, "NEVER_BELOW") || EQUAL(name, "DEPTHS");
     const std::string text = is_flag ? (CPLTestBool(value) ? "true" : "false") : value;
-    const bool is_choice = EQUAL(name, "EFFORT") || EQUAL(name, "CODING");
+    const bool is_choice = EQUAL(name, "EFFORT") || EQUAL(name, "CODING") || EQUAL(name, "SURFACE");
     encoder::set_option(options, lower_case(name), is_choice ? lower_case(text) : text);
   }
   return options;

@@ -199,6 +199,7 @@ Dataset::Dataset(Surface surface) : surface_(std::move(surface)) {
 // Texts of the header as metadata.
 void Dataset::describe() {
   const SurfaceInfo& info = surface_.info();
+  const bool is_known = info.surface != encoder::SurfaceKind::kUnknown;
   const std::pair<const char*, std::string> items[] = {
       {GDALMD_AREA_OR_POINT, GDALMD_AOP_POINT},
       {"VERTICES", std::to_string(info.vertices)},
@@ -207,6 +208,10 @@ void Dataset::describe() {
       {"MAX_ERROR", info.max_error},
       {"MAX_ERROR_AT_POINTS", info.max_error_at_points},
       {"RMS_ERROR", info.rms_error},
+      {"SURFACE", is_known ? encoder::name_of(info.surface) : ""},
+      {"SIDE", encoder::name_of(info.side)},
+      {"MAX_BELOW", info.max_below},
+      {"MAX_ABOVE", info.max_above},
       {"SOURCE", valid_text(info.source_name)},
       {"DATE", valid_text(info.date)},
       {"LINEAGE", valid_text(info.lineage)},

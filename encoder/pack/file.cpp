@@ -61,7 +61,9 @@ void check_box(const microtin_mesh* mesh, const TileBox& box) {
 
 PackContent content_of(const PackPlan& plan, Metadata metadata) {
   metadata.placement = plan.tiled.lattice.placement;
-  metadata.accuracy = Accuracy{plan.options.lattice.max_error, {}, {}, {}};
+  const LatticeOptions& lattice = plan.options.lattice;
+  metadata.accuracy = Accuracy{lattice.max_error, {}, {}, {}};
+  metadata.side = side_of(lattice.max_error, lattice.never_below);
   metadata.grid = posts_of(plan.tiled.raster.frame());
   return {plan.tiled.grid, std::move(metadata), {}};
 }
@@ -112,6 +114,7 @@ Bytes write_pack_head(PackContent pack) {
     pack.metadata.accuracy->max_error = all.max_error;
     pack.metadata.accuracy->rms_error = all.rms_error;
     pack.metadata.accuracy->mean_error = all.mean_error;
+    pack.metadata.at_samples = Distances{all.max_below, all.max_above};
   }
   Bytes head = write_pack_header(pack);
   const uint32_t header_check = read_u32(head.data() + head.size() - kCheckBytes);

@@ -204,6 +204,7 @@ PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
   } while (!all_fit(tiles, most_vertices(options, tiled.grid)));
   metadata.placement = placement;
   metadata.accuracy = Accuracy{lattice.max_error, {}, {}, {}};
+  metadata.side = side_of(lattice.max_error, lattice.never_below);
   metadata.classes = cloud.classes;
   if (survey.merged != 0) metadata.duplicates = DuplicateRule::kMiddle;
   PointPack pack{{tiled.grid, std::move(metadata), {}},

@@ -14,11 +14,11 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 2};  // and version
+constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 3};  // and version
 constexpr std::size_t kStartBytes = sizeof kShardMagic + 4, kRangeBytes = 8;
 constexpr uint32_t kMostHeadBytes = 1 << 17;
 constexpr uint32_t kNotMade = 0xFFFFFFFF;  // a tile without terrain
-constexpr std::size_t kSummaryBytes = 4 + 4 + 4 + 2 + 2 + 4 * 8 + 4 * 9 + 5;  // without the check
+constexpr std::size_t kSummaryBytes = 4 + 4 + 4 + 2 + 2 + 4 * 8 + 5 * 9 + 5;  // without the check
 
 // What the tiles of a pack depend on.
 Bytes write_identity(const PackPlan& plan, const PackContent& pack) {
@@ -50,7 +50,7 @@ Bytes write_summary(const TileSummary& tile) {
   for (const uint64_t count : {v.posts, v.covered, v.voids, uint64_t{v.within_bound}}) {
     append_number(bytes, count, 8);
   }
-  for (const Decimal error : {v.max_error, v.max_below, v.rms_error, v.mean_error}) {
+  for (const Decimal error : {v.max_error, v.max_below, v.max_above, v.rms_error, v.mean_error}) {
     append_decimal(bytes, error);
   }
   append_number(bytes, tile.compact ? tile.compact->repeats : kNotMade, 4);
@@ -96,8 +96,9 @@ bool is_possible(const Verification& v) {
   constexpr uint64_t kMostPosts = uint64_t{kLatticeMax + 1} * (kLatticeMax + 1);
   const Decimal mean = v.mean_error;
   return v.posts <= kMostPosts && v.voids <= kMostPosts - v.posts && v.covered <= v.posts &&
-         v.max_below <= v.max_error && v.rms_error <= v.max_error && mean.mantissa > INT64_MIN &&
-         mean <= v.max_error && Decimal{-mean.mantissa, mean.decimals} <= v.max_error;
+         v.max_below <= v.max_error && v.max_above <= v.max_error && v.rms_error <= v.max_error &&
+         mean.mantissa > INT64_MIN && mean <= v.max_error &&
+         Decimal{-mean.mantissa, mean.decimals} <= v.max_error;
 }
 
 TileSummary read_summary(const Bytes& bytes) {
@@ -115,6 +116,7 @@ TileSummary read_summary(const Bytes& bytes) {
   v.within_bound = reader.next(8) != 0;
   v.max_error = reader.next_error();
   v.max_below = reader.next_error();
+  v.max_above = reader.next_error();
   v.rms_error = reader.next_error();
   v.mean_error = reader.next_decimal();
   const uint32_t repeats = reader.next32();

@@ -102,6 +102,8 @@ void note_accuracy(EncodedStream& encoded, const EncodeOptions& options, Miss mi
     encoded.bound = there->max_error;
   }
   metadata.accuracy = accuracy_of(encoded.verification, encoded.bound);
+  metadata.side = side_of(encoded.bound, options.lattice.never_below);
+  metadata.at_samples = Distances{encoded.verification.max_below, encoded.verification.max_above};
   if (there) metadata.true_places = accuracy_of(*there, is_bound ? encoded.bound : std::nullopt);
 }
 

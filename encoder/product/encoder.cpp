@@ -144,6 +144,10 @@ terrain::DuplicateRule rule_of(Duplicates duplicates) {
   return terrain::DuplicateRule::kMiddle;
 }
 
+terrain::SurfaceKind surface_of(SurfaceKind surface) {
+  return static_cast<terrain::SurfaceKind>(surface);  // the same numbers, those of the note
+}
+
 void expect_range(const char* name, uint32_t value, uint32_t least, uint32_t most) {
   expect(value == 0 || (value >= least && value <= most),
          base::parameter(name) + ": use " + std::to_string(least) + " to " + std::to_string(most) +
@@ -198,6 +202,7 @@ product::EncodeOptions options_of(const Options& options) {
                                                                 : product::BoundAt::kTruePlaces;
   all.search = search_of(options.effort);
   all.effort = {options.max_degree, coding_of(options.coding)};
+  all.surface = surface_of(options.surface);
   all.source_name = options.source_name;
   all.date = options.date;
   all.lineage = options.lineage;
@@ -260,6 +265,7 @@ Report report_of(const product::EncodedStream& encoded) {
                 to_string(measured.rms_error),
                 to_string(measured.mean_error),
                 to_string(measured.max_below),
+                to_string(measured.max_above),
                 {},
                 {},
                 {}};
@@ -277,6 +283,7 @@ Report report_of(const product::PackReport& pack, uint64_t samples) {
           to_string(pack.measured.rms_error),
           to_string(pack.measured.mean_error),
           to_string(pack.measured.max_below),
+          to_string(pack.measured.max_above),
           {},
           {},
           {}};

@@ -138,6 +138,10 @@ Options options_of(const microtin_options& given) {
   options.depths = given.depths != 0;
   options.horizontal_epsg = given.horizontal_epsg;
   options.vertical_epsg = given.vertical_epsg;
+  if (given.surface > static_cast<uint32_t>(SurfaceKind::kObstacles)) {
+    throw Error("surface: " + std::to_string(given.surface) + " is not allowed; use 0 .. 5");
+  }
+  options.surface = static_cast<SurfaceKind>(given.surface);
   options.source_name = text_of(given.source_name);
   options.date = text_of(given.date);
   options.lineage = text_of(given.lineage);
@@ -175,6 +179,7 @@ void copy_report(const Report& report, microtin_report* to) {
   copy_decimal(report.rms_error, all.rms_error);
   copy_decimal(report.mean_error, all.mean_error);
   copy_decimal(report.max_below, all.max_below);
+  copy_decimal(report.max_above, all.max_above);
   copy_decimal(report.max_error_at_points, all.max_error_at_points);
   copy_decimal(report.max_below_at_points, all.max_below_at_points);
   write_struct(all, to);
@@ -253,6 +258,10 @@ microtin_surface_info info_of(const SurfaceInfo& all) {
   info.rms_error = all.rms_error.c_str();
   info.mean_error = all.mean_error.c_str();
   info.max_error_at_points = all.max_error_at_points.c_str();
+  info.surface = static_cast<uint32_t>(all.surface);
+  info.side = static_cast<uint32_t>(all.side);
+  info.max_below = all.max_below.c_str();
+  info.max_above = all.max_above.c_str();
   return info;
 }
 

@@ -47,6 +47,8 @@ bool set_choice(Options& options, const std::string& text) {
 constexpr const char* kEfforts[] = {"fast", "normal", "best"};
 constexpr const char* kCodings[] = {"quick", "balanced", "dense"};
 constexpr const char* kPlaces[] = {"points", "lattice"};
+constexpr const char* kSurfaces[] = {"unknown", "ground", "top", "bed", "geoid", "obstacles"};
+constexpr const char* kSides[] = {"", "both", "never_below", "never_above"};
 constexpr const char* kRules[] = {"middle", "lowest", "highest", "mean"};
 
 struct NamedOption {
@@ -76,12 +78,22 @@ constexpr NamedOption kOptions[] = {
     {"depths", set_flag<&Options::depths>, kFlag},
     {"horizontal_epsg", set_number<&Options::horizontal_epsg>, kNumber},
     {"vertical_epsg", set_number<&Options::vertical_epsg>, kNumber},
+    {"surface", set_choice<&Options::surface, kSurfaces, 6>,
+     "ground, top, bed, geoid, obstacles or unknown"},
     {"source_name", set_text<&Options::source_name>, kText},
     {"date", set_text<&Options::date>, kText},
     {"lineage", set_text<&Options::lineage>, kText},
 };
 
 }  // namespace
+
+const char* name_of(SurfaceKind kind) {
+  return kSurfaces[static_cast<size_t>(kind)];
+}
+
+const char* name_of(BoundSide side) {
+  return kSides[static_cast<size_t>(side)];
+}
 
 void set_option(Options& options, const std::string& name, const std::string& value) {
   for (const NamedOption& option : kOptions) {

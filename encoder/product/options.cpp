@@ -19,6 +19,7 @@ Metadata metadata_for(const EncodeOptions& options, const Reference& file) {
   metadata.horizontal_epsg = reference.horizontal_epsg;
   metadata.vertical_epsg = reference.vertical_epsg;
   if (metadata.horizontal_epsg == 0) metadata.wkt = reference.wkt;
+  metadata.surface = options.surface;
   metadata.source = options.source_name;
   metadata.date = options.date;
   metadata.lineage = options.lineage;

@@ -31,6 +31,7 @@ struct EncodeOptions {
   Search search = Search::kNormal;
   Effort effort;
   std::optional<Reference> reference;  // in place of the terrain's own, settled
+  SurfaceKind surface = SurfaceKind::kUnknown;
   std::string source_name, date, lineage;
 };
 

@@ -56,6 +56,10 @@ void take_accuracy(const terrain::Metadata& metadata, SurfaceInfo& info) {
   if (metadata.true_places) {
     info.max_error_at_points = to_string(metadata.true_places->max_error);
   }
+  if (metadata.at_samples) {
+    info.max_below = to_string(metadata.at_samples->below);
+    info.max_above = to_string(metadata.at_samples->above);
+  }
   if (!metadata.accuracy) return;
   if (metadata.accuracy->bound) info.bound = to_string(*metadata.accuracy->bound);
   info.max_error = to_string(metadata.accuracy->max_error);
@@ -141,6 +145,8 @@ SurfaceInfo Surface::Content::info_of() const {
   all.source_name = metadata.source;
   all.date = metadata.date;
   all.lineage = metadata.lineage;
+  all.surface = static_cast<SurfaceKind>(metadata.surface);  // the same numbers, those of the note
+  all.side = static_cast<BoundSide>(metadata.side);
   take_accuracy(metadata, all);
   return all;
 }

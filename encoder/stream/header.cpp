@@ -73,6 +73,18 @@ void append_grid(Bytes& notes, const Metadata& m) {
   append_note(notes, MICROTIN_NOTE_GRID, content);
 }
 
+void append_surface(Bytes& notes, const Metadata& m) {
+  if (m.surface == SurfaceKind::kUnknown && m.side == BoundSide::kNotStated && !m.at_samples) {
+    return;
+  }
+  Bytes content = {static_cast<uint8_t>(m.surface), static_cast<uint8_t>(m.side)};
+  if (m.at_samples) {
+    append_decimal(content, m.at_samples->below);
+    append_decimal(content, m.at_samples->above);
+  }
+  append_note(notes, MICROTIN_NOTE_SURFACE, content);
+}
+
 // The first and the last class of each run.
 void append_classes(Bytes& notes, const std::optional<ClassSet>& classes) {
   if (!classes) return;
@@ -173,6 +185,19 @@ ClassSet read_classes(NoteReader& reader) {
   return classes;
 }
 
+// A number that is not known here states nothing.
+void read_surface(NoteReader& reader, Metadata& m) {
+  const uint8_t kind = reader.byte(), side = reader.byte();
+  if (kind <= static_cast<uint8_t>(SurfaceKind::kObstacles)) {
+    m.surface = static_cast<SurfaceKind>(kind);
+  }
+  if (side <= static_cast<uint8_t>(BoundSide::kNeverAbove)) m.side = static_cast<BoundSide>(side);
+  if (reader.at_end()) return;
+  const Distances found{reader.decimal(), reader.decimal()};
+  if (found.below.mantissa < 0 || found.above.mantissa < 0) refuse();
+  m.at_samples = found;
+}
+
 DuplicateRule read_duplicates(NoteReader& reader) {
   const uint8_t rule = reader.byte();
   return rule <= static_cast<uint8_t>(DuplicateRule::kMedian) ? static_cast<DuplicateRule>(rule)
@@ -194,6 +219,9 @@ void read_note(uint8_t type, NoteReader reader, Metadata& m) {
       break;
     case MICROTIN_NOTE_ACCURACY:
       m.accuracy = read_accuracy(reader);
+      break;
+    case MICROTIN_NOTE_SURFACE:
+      read_surface(reader, m);
       break;
     case MICROTIN_NOTE_DATE:
       m.date = reader.text();
@@ -234,6 +262,7 @@ Bytes write_notes(const Metadata& m) {
   append_text(notes, MICROTIN_NOTE_ORIGIN, m.source);
   append_accuracy(notes, MICROTIN_NOTE_ACCURACY, m.accuracy);
   append_accuracy(notes, MICROTIN_NOTE_TRUE_PLACES, m.true_places);
+  append_surface(notes, m);
   append_text(notes, MICROTIN_NOTE_DATE, m.date);
   append_text(notes, MICROTIN_NOTE_LINEAGE, m.lineage);
   if (m.water_level) {

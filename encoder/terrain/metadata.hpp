@@ -15,6 +15,30 @@
 
 namespace microtin::terrain {
 
+// The largest distances of a surface below and above another, in the source's unit, rounded up to 9
+// decimals.
+struct Distances {
+  Decimal below, above;
+};
+
+// What the heights of a source are. The numbers are those of the note.
+enum class SurfaceKind : uint8_t {
+  kUnknown = 0,
+  kGround = 1,
+  kTop = 2,  // with vegetation and buildings
+  kBed = 3,  // of the sea or of a lake
+  kGeoid = 4,
+  kObstacles = 5  // an envelope: no obstacle is above
+};
+
+// Where the surface may be, as far as the bound. The numbers are those of the note.
+enum class BoundSide : uint8_t { kNotStated = 0, kBoth = 1, kNeverBelow = 2, kNeverAbove = 3 };
+
+inline BoundSide side_of(const std::optional<Decimal>& bound, bool never_below) {
+  if (!bound) return BoundSide::kNotStated;
+  return never_below ? BoundSide::kNeverBelow : BoundSide::kBoth;
+}
+
 // Heights in the source's unit.
 struct Accuracy {
   std::optional<Decimal> bound;  // asked for
@@ -55,6 +79,9 @@ struct Metadata {
   std::optional<Decimal> water_level;   // surfaces at this very height are water
   std::optional<Accuracy> accuracy;     // with each sample at its nearest lattice place
   std::optional<Accuracy> true_places;  // with each point where it truly lies
+  SurfaceKind surface = SurfaceKind::kUnknown;
+  BoundSide side = BoundSide::kNotStated;
+  std::optional<Distances> at_samples;  // with each sample at its nearest lattice place
   std::optional<PostGrid> grid;         // of the source, if it is a raster
   std::optional<ClassSet> classes;      // of points that were taken
   DuplicateRule duplicates = DuplicateRule::kUnknown;

@@ -159,6 +159,7 @@ Verification combine(const std::vector<Verification>& parts) {
     all.voids_answered += part.voids_answered;
     if (all.max_error <= part.max_error) all.max_error = part.max_error;
     if (all.max_below <= part.max_below) all.max_below = part.max_below;
+    if (all.max_above <= part.max_above) all.max_above = part.max_above;
     all.within_bound = all.within_bound && part.within_bound;
   }
   all.everywhere = combined_everywhere(parts);
@@ -246,16 +247,17 @@ double ErrorMeter::add(int64_t number, const ExactHeight& height) {
 }
 
 void ErrorMeter::count(Wide billionths, bool is_below) {
-  largest_ = std::max(largest_, billionths);
-  if (is_below) deepest_ = std::max(deepest_, billionths);
+  Wide& largest = is_below ? below_ : above_;
+  largest = std::max(largest, billionths);
   squares_.add(billionths, 1);
   sum_ += is_below ? -billionths : billionths;
   ++count_;
 }
 
 void ErrorMeter::tell(const std::optional<Decimal>& bound, Verification& found) const {
-  found.max_error = make_decimal_up(largest_, kMaxDecimals);
-  found.max_below = make_decimal_up(deepest_, kMaxDecimals);
+  found.max_below = make_decimal_up(below_, kMaxDecimals);
+  found.max_above = make_decimal_up(above_, kMaxDecimals);
+  found.max_error = make_decimal_up(std::max(below_, above_), kMaxDecimals);
   found.rms_error = root_mean_square();
   found.mean_error = mean();
   found.within_bound = !bound || found.max_error <= *bound;
@@ -267,7 +269,7 @@ Decimal ErrorMeter::mean() const {
 
 Decimal ErrorMeter::root_mean_square() const {
   if (count_ == 0) return {};
-  return make_decimal_up(squares_.root_of_mean(count_, largest_), kMaxDecimals);
+  return make_decimal_up(squares_.root_of_mean(count_, std::max(below_, above_)), kMaxDecimals);
 }
 
 namespace {

@@ -16,12 +16,6 @@
 
 namespace microtin::terrain {
 
-// The largest distances of a surface below and above another, in the source's unit, rounded up to 9
-// decimals.
-struct Distances {
-  Decimal below, above;
-};
-
 // Errors are in the source's unit, rounded up to 9 decimals (their mean to nearest, from such):
 // compared with a bound of at most 9 decimals, that changes nothing.
 struct Verification {
@@ -32,6 +26,7 @@ struct Verification {
   uint64_t voids_answered = 0;  // void posts where the terrain answers a height
   Decimal max_error;
   Decimal max_below;  // how far the surface is below a height at most
+  Decimal max_above;  // how far the surface is above a height at most
   Decimal rms_error;
   Decimal mean_error;        // above 0: the terrain is too high
   bool within_bound = true;  // max_error is at most the bound, or there is none
@@ -95,7 +90,7 @@ class ErrorMeter {
   Decimal root_mean_square() const;  // rounded up
 
   Wide to_common_, offset_, step_, from_common_, common_;
-  Wide largest_ = 0, deepest_ = 0;
+  Wide below_ = 0, above_ = 0;  // the largest, of each sign
   SquareSum squares_;
   Wide sum_ = 0;
   int64_t count_ = 0;

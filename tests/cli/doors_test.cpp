@@ -108,6 +108,9 @@ std::vector<Row> rows() {
   const auto bound_at = [](const char* flags, BoundAt places, uint32_t number) {
     return setting(flags, &W::bound_at, places, &C::bound_at, number);
   };
+  const auto surface = [](const std::string& word, SurfaceKind kind, uint32_t number) {
+    return setting("--surface " + word, &W::surface, kind, &C::surface, number);
+  };
   return {
       {"max_error", kAll, bound("1.5"), nothing},
       {"z_step", kAll, setting("--z-step", &W::z_step, &C::z_step, "0.7"), two},
@@ -131,6 +134,12 @@ std::vector<Row> rows() {
       {"units", kAll, setting("--units", &W::units, &C::units, "foot:us-foot"), two},
       {"depths", kAll, setting("--depths", &W::depths, true, &C::depths, 1u), two},
       {"depths", kAll, setting("--depths", &W::depths, true, &C::depths, 1u), two},
+      {"surface", 0, surface("unknown", SurfaceKind::kUnknown, 0), two},
+      {"surface", kAll, surface("ground", SurfaceKind::kGround, 1), two},
+      {"surface", kAll, surface("top", SurfaceKind::kTop, 2), two},
+      {"surface", kAll, surface("bed", SurfaceKind::kBed, 3), two},
+      {"surface", kAll, surface("geoid", SurfaceKind::kGeoid, 4), two},
+      {"surface", kAll, surface("obstacles", SurfaceKind::kObstacles, 5), two},
       {"horizontal_epsg", kAll, setting("--epsg", &W::horizontal_epsg, &C::horizontal_epsg, 25832u),
        two},
       {"vertical_epsg", kAll, epsg(25832) + height_code, two},

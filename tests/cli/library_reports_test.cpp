@@ -94,6 +94,7 @@ Fields common_fields(const Report& report) {
           {"rms_error", report.rms_error},
           {"mean_error", report.mean_error},
           {"max_below", report.max_below},
+          {"max_above", report.max_above},
           {"max_error_at_points", report.max_error_at_points},
           {"max_below_at_points", report.max_below_at_points}};
 }
@@ -138,7 +139,11 @@ Fields info_of(const SurfaceInfo& info) {
                    {"max_error", info.max_error},
                    {"rms_error", info.rms_error},
                    {"mean_error", info.mean_error},
-                   {"max_error_at_points", info.max_error_at_points}};
+                   {"max_error_at_points", info.max_error_at_points},
+                   {"surface", library::name_of(library::SurfaceKind(info.surface))},
+                   {"side", library::name_of(library::BoundSide(info.side))},
+                   {"max_below", info.max_below},
+                   {"max_above", info.max_above}};
   constexpr const char* kUnits[] = {"unknown", "metre", "degree", "foot", "US survey foot"};
   fields["units.horizontal"] = kUnits[static_cast<uint32_t>(info.horizontal_unit)];
   fields["units.vertical"] = kUnits[static_cast<uint32_t>(info.vertical_unit)];
@@ -170,6 +175,10 @@ Names names_of_facts(bool is_raster) {
                  "date",
                  "lineage",
                  "max_error_at_points",
+                 "surface",
+                 "side",
+                 "max_below",
+                 "max_above",
                  "units.vertical",
                  "units.horizontal",
                  "extent.west",
@@ -201,7 +210,8 @@ TEST_CASE("reports: every field of the library's is true of every kind of produc
 TEST_CASE("reports: every member of the info is true of every kind of product, in C++ and C") {
   for_each_product([](const Product& product, const Made& made) {
     Fields truth = made.truth().fields();
-    truth.insert({{"horizontal_epsg", "0"}, {"vertical_epsg", "0"}, {"wkt", ""}});
+    truth.insert(
+        {{"horizontal_epsg", "0"}, {"vertical_epsg", "0"}, {"wkt", ""}, {"surface", "unknown"}});
     const auto surface = library::Surface::from_file(made.path());
     Fields cpp = info_of(surface.info());
     add_grid(surface.info().source, cpp);
@@ -247,7 +257,11 @@ TEST_CASE("reports: no member of the info is without a row") {
                       "max_error",
                       "rms_error",
                       "mean_error",
-                      "max_error_at_points"};
+                      "max_error_at_points",
+                      "surface",
+                      "side",
+                      "max_below",
+                      "max_above"};
   CHECK(text_of(members_of(kSurface, "SurfaceInfo")) == text_of(united(both, {"box", "source"})));
   CHECK(text_of(members_of(kC, "microtin_surface_info")) ==
         text_of(united(both, {"size", "west", "south", "east", "north"})));

@@ -110,6 +110,7 @@ const std::vector<Row> kRows = {
     {"encode", "--units", "t.asc --max-error 2 -o o.mtin", "foot"},
     {"encode", "--depths", "t.asc --max-error 2 -o o.mtin", ""},
     {"encode", "--gridded", "g.xyz --max-error 2 -o o.mtin", ""},
+    {"encode", "--surface", "t.asc --max-error 2 -o o.mtin", "ground"},
     {"encode", "--source-name", "t.asc --max-error 2 -o o.mtin", "survey"},
     {"encode", "--date", "t.asc --max-error 2 -o o.mtin", "2026"},
     {"encode", "--lineage", "t.asc --max-error 2 -o o.mtin", "thinned"},
@@ -250,7 +251,7 @@ TEST_CASE("options: the default of the help page makes no difference") {
   }
   CHECK(text_of(compared) ==
         text_of(Names{"--bound-at", "--coding", "--duplicates", "--fill-voids", "--palette",
-                      "--seed", "--shards", "--size", "--tile-vertices", "--width"}));
+                      "--seed", "--shards", "--size", "--surface", "--tile-vertices", "--width"}));
 }
 
 TEST_CASE("options: none is without a row") {
@@ -281,7 +282,7 @@ const std::vector<std::string> kOfShards = {
     "--coding dense",   "--fill-voids 1",      "--epsg 25832",
     "--water-level 50", "--units foot",        "--depths",
     "--date 2026",      "--lineage thinned",   "--water-level 50 --water-mask mask.asc",
-    "--source-name s"};
+    "--source-name s",  "--surface top"};
 
 // Rules for points, which say nothing of a raster.
 const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};

@@ -49,7 +49,7 @@ Names info_names(bool is_pack) {
 
 // The names of `verify --json`.
 Names verify_names(bool is_raster) {
-  Names names = united(kErrors, {"covered", "uncovered", "max_below"});
+  Names names = united(kErrors, {"covered", "uncovered", "max_below", "max_above"});
   if (!is_raster) return united(names, {"points"});
   return united(names, {"posts", "voids", "voids_answered"});
 }
@@ -98,13 +98,14 @@ std::string report_text(const Product& product, const Made& made) {
       made.notes().count("duplicates") == 0
           ? ""
           : "merged: {merged} shared a place with another; the highest stands for all there\n";
-  const std::string below = "below the source: at most {max_below}\n";
+  const std::string below = "below the source: at most {max_below}, above: at most {max_above}\n";
   const std::string truly =
-      !is_moved ? ""
-                : "... where the points truly lie: at most "
-                  "{true_places.max_error}, rms {true_places.rms_error}, "
-                  "mean {true_places.mean_error} (the bound holds there, too); below "
-                  "the points: at most {true_places.max_below}\n";
+      !is_moved
+          ? ""
+          : "... where the points truly lie: at most "
+            "{true_places.max_error}, rms {true_places.rms_error}, "
+            "mean {true_places.mean_error} (the bound holds there, too); below "
+            "the points: at most {true_places.max_below}, above: at most {true_places.max_above}\n";
   text += product.is_pack
               ? merged + z +
                     "pack: {columns} x {rows} tiles of {tile_width} x {tile_height} steps, "
@@ -135,7 +136,8 @@ TEST_CASE("reports: every field of verify is true of every kind of product") {
   for_each_product([](const Product& product, const Made& made) {
     Names names = verify_names(product.is_raster);
     if (made.truth().moves_points()) {
-      names = united(names, with_prefix("true_places.", united(kErrors, {"max_below"})));
+      names =
+          united(names, with_prefix("true_places.", united(kErrors, {"max_below", "max_above"})));
     }
     for (const char* name : {"classes"}) {
       if (made.notes().count(name) != 0) names.insert(name);

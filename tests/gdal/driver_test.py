@@ -109,6 +109,7 @@ class Driver(unittest.TestCase):
             "MAX_DEGREE": ["6"],
             "UNITS": ["metre:foot"],
             "DEPTHS": ["YES"],
+            "SURFACE": ["GROUND", "TOP", "BED", "GEOID", "OBSTACLES"],
             "TILE_VERTICES": ["100"],
             "TILE_SIZE": ["40"],
             "SOURCE_NAME": ["a survey"],
@@ -139,6 +140,17 @@ class Driver(unittest.TestCase):
                 made = [encoded(suffix, dict(others, **{name: value})) for value in values]
                 with self.subTest(suffix + " " + name):
                     self.assertEqual(len({without, *made}), 1 + len(made))
+
+    def test_the_metadata_state_what_the_header_promises(self):
+        small = self.path("promise.tif")
+        gdal.Translate(small, self.path("hills.tif"), srcWin=[0, 100, 160, 150])
+        for suffix in (".mtin", ".mtp"):
+            path = self.path("promise" + suffix)
+            options = ["MAX_ERROR=2", "NEVER_BELOW=YES", "SURFACE=top"]
+            dataset = gdal.Translate(path, small, format="MTIN", creationOptions=options)
+            promised = {key: dataset.GetMetadataItem(key) for key in ("SURFACE", "SIDE", "MAX_BELOW")}
+            self.assertEqual(promised, {"SURFACE": "top", "SIDE": "never_below", "MAX_BELOW": "0"})
+            self.assertEqual(dataset.GetMetadataItem("MAX_ABOVE"), dataset.GetMetadataItem("MAX_ERROR"))
 
     def test_a_source_of_more_posts_than_its_bytes_can_hold_is_refused(self):
         path = self.path("sparse.tif")

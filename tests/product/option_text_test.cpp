@@ -30,6 +30,7 @@ std::vector<Row> rows() {
   using encoder::Coding;
   using encoder::Duplicates;
   using encoder::SearchEffort;
+  using encoder::SurfaceKind;
   const std::string words = "a, b";
   return {
       row("max_error", "2.5", &O::max_error, std::string("2.5")),
@@ -59,6 +60,12 @@ std::vector<Row> rows() {
       row("depths", "true", &O::depths, true),
       row("horizontal_epsg", "25832", &O::horizontal_epsg, 25832u),
       row("vertical_epsg", "7837", &O::vertical_epsg, 7837u),
+      row("surface", "unknown", &O::surface, SurfaceKind::kUnknown),
+      row("surface", "ground", &O::surface, SurfaceKind::kGround),
+      row("surface", "top", &O::surface, SurfaceKind::kTop),
+      row("surface", "bed", &O::surface, SurfaceKind::kBed),
+      row("surface", "geoid", &O::surface, SurfaceKind::kGeoid),
+      row("surface", "obstacles", &O::surface, SurfaceKind::kObstacles),
       row("source_name", words, &O::source_name, words),
       row("date", "2026", &O::date, std::string("2026")),
       row("lineage", words, &O::lineage, words),
@@ -86,6 +93,7 @@ TEST_CASE("options as text: each member of Options, and each of its values") {
     Options options;
     options.never_below = true;  // so that false makes a difference
     options.effort = encoder::SearchEffort::kBest;
+    options.surface = encoder::SurfaceKind::kTop;
     encoder::set_option(options, row.name, row.text);
     CHECK(row.holds(options));
   }

@@ -45,6 +45,7 @@ class Streams(unittest.TestCase):
         self.assertAlmostEqual(data.report.mean_error, errors.mean(), 6)
         self.assertAlmostEqual(data.report.rms_error, numpy.sqrt((errors**2).mean()), 6)
         self.assertAlmostEqual(data.report.max_below, -errors.min(), 6)
+        self.assertAlmostEqual(data.report.max_above, errors.max(), 6)
 
     def test_without_a_bound_all_heights_are_exact(self):
         for kind in (numpy.float64, numpy.float32, numpy.int16, numpy.uint8):
@@ -137,6 +138,11 @@ class Options(unittest.TestCase):
         "units": (BOUND, "--max-error 2", {"foot": "--units foot"}),
         "crs": (BOUND, "--max-error 2", {25832: "--epsg 25832"}),
         "vertical_epsg": (dict(BOUND, crs=25832), "--max-error 2", {7837: "--epsg 25832:7837"}),
+        "surface": (
+            BOUND,
+            "--max-error 2",
+            {name: f"--surface {name}" for name in ("ground", "top", "bed", "geoid", "obstacles")},
+        ),
         "source_name": (BOUND, "--max-error 2", {"survey": "--source-name survey"}),
         "date": (BOUND, "--max-error 2", {"2026": "--date 2026"}),
         "lineage": (BOUND, "--max-error 2", {"thinned": "--lineage thinned"}),

@@ -39,6 +39,11 @@ bool is_same_grid(const std::optional<PostGrid>& a, const std::optional<PostGrid
          is_same(a->y, b->y);
 }
 
+bool is_same_distances(const std::optional<Distances>& a, const std::optional<Distances>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return is_same_decimal(a->below, b->below) && is_same_decimal(a->above, b->above);
+}
+
 struct Row {
   std::string member;
   std::function<void(Metadata&)> set;
@@ -80,6 +85,10 @@ std::vector<Row> rows() {
       row("accuracy", &Metadata::accuracy, optional(measured), is_same_accuracy),
       row("true_places", &Metadata::true_places, optional(bounded), is_same_accuracy),
       row("true_places", &Metadata::true_places, optional(measured), is_same_accuracy),
+      row("at_samples", &Metadata::at_samples, optional(Distances{{INT64_MAX, 9}, {0, 0}}),
+          is_same_distances),
+      row("at_samples", &Metadata::at_samples, optional(Distances{{0, 0}, {1, 18}}),
+          is_same_distances),
       row("grid", &Metadata::grid, optional(PostGrid{1, UINT32_MAX, {1, 2, 3}, {-4, 5, 6}}),
           is_same_grid),
       row("grid", &Metadata::grid, optional(PostGrid{300, 2, {0, 1, 1}, {0, 1, 1}}), is_same_grid),
@@ -89,6 +98,12 @@ std::vector<Row> rows() {
   for (const int unit : {0, 1, 2, 3, 4}) {
     all.push_back(row("horizontal_unit", &Metadata::horizontal_unit, static_cast<Unit>(unit)));
     all.push_back(row("vertical_unit", &Metadata::vertical_unit, static_cast<Unit>(unit)));
+  }
+  for (const int kind : {0, 1, 2, 3, 4, 5}) {
+    all.push_back(row("surface", &Metadata::surface, static_cast<SurfaceKind>(kind)));
+  }
+  for (const int side : {0, 1, 2, 3}) {
+    all.push_back(row("side", &Metadata::side, static_cast<BoundSide>(side)));
   }
   for (const int rule : {0, 1, 2, 3, 4, 5}) {
     all.push_back(row("duplicates", &Metadata::duplicates, static_cast<DuplicateRule>(rule)));
@@ -138,8 +153,30 @@ TEST_CASE("notes: no member of the metadata is without a row") {
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Metadata")) == text_of(known));
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Accuracy")) ==
         "bound max_error mean_error rms_error ");
+  CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Distances")) == "above below ");
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "PostGrid")) == "columns rows x y ");
   CHECK(text_of(members_of("encoder/exact/lattice_map.hpp", "Placement")) == "x y z ");
+}
+
+TEST_CASE("notes: a surface may end behind its side; later numbers state nothing") {
+  const auto read = [](const std::vector<uint8_t>& content) {
+    std::vector<uint8_t> note = {MICROTIN_NOTE_SURFACE, static_cast<uint8_t>(content.size()), 0};
+    note.insert(note.end(), content.begin(), content.end());
+    Metadata metadata;
+    read_notes(note.data(), note.data() + note.size(), metadata);
+    return metadata;
+  };
+  CHECK(read({4, 2}).surface == SurfaceKind::kGeoid);
+  CHECK(read({4, 2}).side == BoundSide::kNeverBelow);
+  CHECK(!read({4, 2}).at_samples);
+  CHECK(read({6, 4}).surface == SurfaceKind::kUnknown);
+  CHECK(read({6, 4}).side == BoundSide::kNotStated);
+  const Metadata all = read({1, 1, 10, 1, 14, 0, 99});  // with a byte of a later version
+  CHECK(to_string(all.at_samples->below) == "0.5");
+  CHECK(to_string(all.at_samples->above) == "7");
+  const std::vector<std::vector<uint8_t>> broken = {
+      {}, {1}, {1, 1, 10}, {1, 1, 10, 1, 14}, {1, 1, 1, 0, 0, 0}, {1, 1, 0, 0, 1, 0}};
+  for (const std::vector<uint8_t>& content : broken) CHECK_THROWS_AS(read(content), Error);
 }
 
 TEST_CASE("notes: texts take as many bytes as notes have, and no more") {

@@ -175,11 +175,12 @@ inline Terrain scan(const Session& session, const std::string& file) {
 // --- What is true --------------------------------------------------------------------------------
 
 struct Errors {
-  double most = 0, below = 0, squares = 0, sum = 0, count = 0;
+  double most = 0, below = 0, over = 0, squares = 0, sum = 0, count = 0;
 
   void add(double above, double weight) {
     most = std::max(most, std::abs(above));
     below = std::max(below, -above);
+    over = std::max(over, above);
     squares += weight * above * above;
     sum += weight * above;
     count += weight;
@@ -188,6 +189,7 @@ struct Errors {
   void tell(const std::string& prefix, Fields& truth) const {
     truth[prefix + "max_error"] = text_of(most);
     truth[prefix + "max_below"] = text_of(below);
+    truth[prefix + "max_above"] = text_of(over);
     truth[prefix + "rms_error"] = text_of(std::sqrt(squares / count));
     truth[prefix + "mean_error"] = text_of(sum / count);
   }
@@ -337,6 +339,8 @@ class Truth {
     moves_points_ = moved > 1e-6;
     on_lattice.tell("once.", truth_);
     weighted.tell("", truth_);
+    truth_["at_samples.max_below"] = truth_["max_below"];
+    truth_["at_samples.max_above"] = truth_["max_above"];
     truly.tell("true_places.", truth_);
     truth_["xy_step"] = terrain.is_raster ? "1" : truth_["steps.x"];
     truth_["z_step"] = truth_["steps.z"];
@@ -455,7 +459,8 @@ class Made {
   }
 
   std::string flags() const {
-    if (notes_ == Notes::kCodes) return preparation() + " --epsg 25832:7837 --never-below";
+    if (notes_ == Notes::kCodes)
+      return preparation() + " --epsg 25832:7837 --never-below --surface ground";
     if (product_.is_raster) return "";
     return " --units :us-foot --duplicates highest" +
            std::string(product_.is_pack ? " --xy-step 0.003" : "");
@@ -482,6 +487,10 @@ class Made {
     add("date", "2026-11");
     add("lineage", "thinned twice");
     Fields& truth = truth_->fields();
+    add("at_samples.max_below", truth["max_below"]);
+    add("at_samples.max_above", truth["max_above"]);
+    add("side", notes_ == Notes::kCodes ? "never_below" : "both");
+    if (notes_ == Notes::kCodes) add("surface", "ground");
     const bool codes = notes_ == Notes::kCodes, raster = product_.is_raster;
     truth["units.horizontal"] = codes ? "metre" : raster ? "foot" : "unknown";
     truth["units.vertical"] = codes ? "metre" : raster ? "foot" : "US survey foot";

@@ -167,7 +167,8 @@ typedef enum microtin_note_type {
   MICROTIN_NOTE_WKT = 9,
   MICROTIN_NOTE_CLASSES = 10,
   MICROTIN_NOTE_DUPLICATES = 11,
-  MICROTIN_NOTE_TRUE_PLACES = 12 /* accuracy at the points' own positions */
+  MICROTIN_NOTE_TRUE_PLACES = 12, /* accuracy at the points' own positions */
+  MICROTIN_NOTE_SURFACE = 13      /* what kind of surface, and on which side of it the bound is */
 } microtin_note_type;
 
 /* Finds a note in the header of a stream or of a pack; the `size` bytes begin with the header.

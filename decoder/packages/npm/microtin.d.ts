@@ -39,6 +39,14 @@ export interface Header {
   wkt?: string;
   /** In units of height: the bound asked for, and the errors measured at every sample of the source. */
   accuracy?: { bound?: number; largest: number; rms: number; mean: number };
+  /** What the heights are, which side of the source the bound allows, and, in units of height, the largest distances of
+   * the surface below and above a sample of the source. */
+  surface?: {
+    kind?: "ground" | "top" | "bed" | "geoid" | "obstacles";
+    side?: "both" | "never_below" | "never_above";
+    below?: number;
+    above?: number;
+  };
   /** Where the terrain comes from, as its maker states it, and the date of the source in ISO 8601. */
   source?: string;
   date?: string;

@@ -82,6 +82,16 @@ enum {
   MICROTIN_DUPLICATES_MEAN = 4
 };
 
+/* Values of surface: what the heights are; see encoder::SurfaceKind. */
+enum {
+  MICROTIN_SURFACE_UNKNOWN = 0,
+  MICROTIN_SURFACE_GROUND = 1,
+  MICROTIN_SURFACE_TOP = 2,
+  MICROTIN_SURFACE_BED = 3,
+  MICROTIN_SURFACE_GEOID = 4,
+  MICROTIN_SURFACE_OBSTACLES = 5
+};
+
 /* The options of encoder::Options, with the same names and meanings. Zero in a member selects its
  * default; see encoder.hpp. */
 typedef struct microtin_options {
@@ -101,7 +111,8 @@ typedef struct microtin_options {
   uint32_t tile_vertices, tile_size;           /* of packs */
   int (*progress)(void* context, double done); /* 0 .. 1; returns 1 to cancel. May be null */
   void* context;
-  uint32_t depths; /* 1: heights grow downwards, and are negated */
+  uint32_t depths;  /* 1: heights grow downwards, and are negated */
+  uint32_t surface; /* MICROTIN_SURFACE_* */
 } microtin_options;
 
 /* What the encoder measured; see encoder::Report. Errors are decimals as text, "" if there is
@@ -112,6 +123,7 @@ typedef struct microtin_report {
   uint32_t tiles;
   char bound[24], max_error[24], rms_error[24], mean_error[24], max_below[24];
   char max_error_at_points[24], max_below_at_points[24];
+  char max_above[24];
 } microtin_report;
 
 /* A terrain to encode. */
@@ -171,6 +183,14 @@ enum {
   MICROTIN_UNIT_US_FOOT = 4
 };
 
+/* Values of side: which side of the source the surface may be on, as far as the bound. */
+enum {
+  MICROTIN_SIDE_NOT_STATED = 0,
+  MICROTIN_SIDE_BOTH = 1,
+  MICROTIN_SIDE_NEVER_BELOW = 2,
+  MICROTIN_SIDE_NEVER_ABOVE = 3
+};
+
 /* What the header contains, and where the surface is; see encoder::SurfaceInfo. Texts are valid as
  * long as the surface. */
 typedef struct microtin_surface_info {
@@ -183,7 +203,9 @@ typedef struct microtin_surface_info {
   uint32_t horizontal_epsg, vertical_epsg;
   const char *wkt, *source_name, *date, *lineage;
   const char *bound, *max_error, *rms_error, *mean_error;
-  const char* max_error_at_points; /* at the points' own positions, if the lattice moves points */
+  const char* max_error_at_points;   /* at the points' own positions, if the lattice moves points */
+  uint32_t surface, side;            /* MICROTIN_SURFACE_*, MICROTIN_SIDE_* */
+  const char *max_below, *max_above; /* at posts or points */
 } microtin_surface_info;
 
 /* Writes what the header contains, and where the surface is. Cannot fail for a surface and a struct

@@ -24,6 +24,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <microtin/surface.hpp>
 #include <string>
 #include <vector>
 
@@ -164,6 +165,7 @@ struct Options {
   std::string units;
   /* Heights grow downwards, and are negated. Without this, systems of depths are refused. */
   bool depths = false;
+  SurfaceKind surface = SurfaceKind::kUnknown; /* a note of the header */
   /* Notes of the header; 0 or "": none. Known codes set the units. All texts together have at most
    * 65,535 bytes. */
   uint32_t horizontal_epsg = 0, vertical_epsg = 0;
@@ -188,6 +190,7 @@ struct Report {
   std::string rms_error;
   std::string mean_error; /* above 0: the surface is too high in the mean */
   std::string max_below;  /* the largest distance of the surface below a height */
+  std::string max_above;  /* the largest distance of the surface above a height */
   /* As max_error and max_below, at the points' own positions. "" if the lattice moves none. */
   std::string max_error_at_points, max_below_at_points;
   std::vector<std::string> warnings; /* units and systems that were guessed; doubtful heights */

@@ -39,6 +39,25 @@ class ByteSource {
 /* The unit of coordinates or heights. */
 enum class Unit : uint8_t { kUnknown = 0, kMetre = 1, kDegree = 2, kFoot = 3, kUsSurveyFoot = 4 };
 
+/* What the heights are. */
+enum class SurfaceKind : uint8_t {
+  kUnknown = 0,
+  kGround = 1,   /* bare ground */
+  kTop = 2,      /* the top surface, with vegetation and buildings */
+  kBed = 3,      /* the bed of a sea or of a lake */
+  kGeoid = 4,    /* heights of a geoid above an ellipsoid */
+  kObstacles = 5 /* an envelope of obstacles: no obstacle is above the surface */
+};
+
+/* Returns the option's value, "ground"; "unknown" for kUnknown. */
+const char* name_of(SurfaceKind kind);
+
+/* Which side of the source the surface may be on, as far as the bound. */
+enum class BoundSide : uint8_t { kNotStated = 0, kBoth = 1, kNeverBelow = 2, kNeverAbove = 3 };
+
+/* Returns "both", "never_below" or "never_above"; "" for kNotStated. */
+const char* name_of(BoundSide side);
+
 /* Posts in columns and rows; row 0 is the southernmost. */
 struct Grid {
   uint32_t columns = 0, rows = 0;
@@ -74,6 +93,9 @@ struct SurfaceInfo {
   std::string source_name, date, lineage;          /* "": the file does not contain it, as below */
   std::string bound, max_error, rms_error, mean_error; /* of heights, as measured */
   std::string max_error_at_points; /* at the points' own positions, if the lattice moves points */
+  SurfaceKind surface = SurfaceKind::kUnknown;
+  BoundSide side = BoundSide::kNotStated;
+  std::string max_below, max_above; /* largest distances of the surface below and above heights */
 };
 
 /* Vertices and triangles. Triangles are counter-clockwise from above; void ones are left out. */

@@ -44,6 +44,8 @@ _EFFORTS = {"fast": 1, "normal": 2, "best": 3}
 _CODINGS = {"quick": 1, "balanced": 2, "dense": 3}
 _BOUND_AT = {"points": 1, "lattice": 2}
 _DUPLICATES = {"middle": 1, "lowest": 2, "highest": 3, "mean": 4}
+_SURFACES = {"unknown": 0, "ground": 1, "top": 2, "bed": 3, "geoid": 4, "obstacles": 5}
+_SIDES = (None, "both", "never_below", "never_above")
 UNITS = {0: None, 1: "metre", 2: "degree", 3: "foot", 4: "US survey foot"}
 
 
@@ -59,6 +61,7 @@ class Report:
     rms_error: float
     mean_error: float  # above 0: the surface is too high
     max_below: float  # how far the surface is below a height at most
+    max_above: float  # how far the surface is above a height at most
     max_error_at_points: Optional[float] = None  # where points truly lie, if the lattice moves them
     max_below_at_points: Optional[float] = None
     warnings: Tuple[str, ...] = ()  # what is guessed or not known of units and systems; doubtful heights
@@ -102,9 +105,8 @@ def encode(
     max_bytes     the smallest bound that N bytes allow, instead of both; takes minutes
 
     Options: never_below=True, z_step, xy_step, effort="fast" | "normal" | "best", max_degree,
-    coding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", depths=True, vertical_epsg, source_name,
-    date,
-    lineage, and progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights
+    coding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", depths=True, vertical_epsg,
+    surface="ground" | "top" | "bed" | "geoid" | "obstacles", source_name, date, lineage, and progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights
     in other units of length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
 
     Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
@@ -222,6 +224,7 @@ def _options(
     coding: str = "balanced",
     bound_at: str = "points",
     duplicates: str = "middle",
+    surface: str = "unknown",
     progress: Optional[Callable[[float], Any]] = None,
     never_below: bool = False,
     z_step: Optional[Number] = None,
@@ -233,7 +236,13 @@ def _options(
     lineage: str = "",
     **numbers: int,
 ) -> Tuple[_library.Options, _Caller]:
-    chosen = ((effort, _EFFORTS), (coding, _CODINGS), (bound_at, _BOUND_AT), (duplicates, _DUPLICATES))
+    chosen = (
+        (effort, _EFFORTS),
+        (coding, _CODINGS),
+        (bound_at, _BOUND_AT),
+        (duplicates, _DUPLICATES),
+        (surface, _SURFACES),
+    )
     for value, choices in chosen:
         if value not in choices:
             raise Error(f"{value!r} is not allowed; use one of {', '.join(choices)}")
@@ -255,6 +264,7 @@ def _options(
         duplicates=_DUPLICATES[duplicates],
         units=units.encode(),
         depths=depths,
+        surface=_SURFACES[surface],
         horizontal_epsg=_epsg_of(crs) or 0,
         source_name=source_name.encode(),
         date=date.encode(),
@@ -279,6 +289,7 @@ def _report(report: _library.Report) -> Report:
         float(report.rms_error),
         float(report.mean_error),
         float(report.max_below),
+        float(report.max_above),
         _number(report.max_error_at_points),
         _number(report.max_below_at_points),
         tuple(library.microtin_last_warnings().decode(errors="replace").splitlines()),
@@ -394,6 +405,9 @@ class Surface:
     units             of x and y, and of heights: "metre", "degree", "foot", "US survey foot" or None
     bound, max_error  the error asked for, and the largest that was measured; None if they are not stated
     max_error_at_points  the largest where points truly lie; None if the lattice holds them where they are
+    surface           what the heights are: "ground", "top", "bed", "geoid", "obstacles" or "unknown"
+    side              where the surface may be, as far as the bound: "both", "never_below", "never_above" or None
+    max_below, max_above  the largest distances of the surface below and above a height; None if they are not stated
     tiles             (columns, rows) of a pack, (1, 1) of a stream
     """
 
@@ -419,6 +433,10 @@ class Surface:
         self.bound = _number(info.bound)
         self.max_error = _number(info.max_error)
         self.max_error_at_points = _number(info.max_error_at_points)
+        self.surface = dict(enumerate(_SURFACES))[info.surface]
+        self.side: Optional[str] = _SIDES[info.side]
+        self.max_below = _number(info.max_below)
+        self.max_above = _number(info.max_above)
         self.source: str = info.source_name.decode(errors="replace")
         self.date: str = info.date.decode(errors="replace")
         self.lineage: str = info.lineage.decode(errors="replace")

@@ -72,6 +72,7 @@ class Options(_Sized):
         ("progress", Progress),
         ("context", c_void_p),
         ("depths", c_uint32),
+        ("surface", c_uint32),
     ]
 
 
@@ -89,6 +90,7 @@ class Report(_Sized):
         ("max_below", c_char * 24),
         ("max_error_at_points", c_char * 24),
         ("max_below_at_points", c_char * 24),
+        ("max_above", c_char * 24),
     ]
 
 
@@ -126,6 +128,10 @@ class SurfaceInfo(_Sized):
         ("rms_error", c_char_p),
         ("mean_error", c_char_p),
         ("max_error_at_points", c_char_p),
+        ("surface", c_uint32),
+        ("side", c_uint32),
+        ("max_below", c_char_p),
+        ("max_above", c_char_p),
     ]
 
 

@@ -5,6 +5,8 @@ import { checkNumber } from "./check.js";
 import { OK } from "./status.js";
 
 const UNITS = [undefined, "metre", "degree", "international foot", "US survey foot"];
+const SURFACES = [undefined, "ground", "top", "bed", "geoid", "obstacles"];
+const SIDES = [undefined, "both", "never_below", "never_above"];
 const AXIS_BYTES = 24;
 
 // An axis as the decoder writes it: the real coordinate of lattice value k is start + step * k.
@@ -80,6 +82,11 @@ const NOTES = {
   5: (note) => ({ date: note.text() }),
   7: (note) => ({ waterLevel: note.decimal() }),
   9: (note) => ({ wkt: note.text() }),
+  13: (note) => {
+    const surface = { kind: SURFACES[note.byte()], side: SIDES[note.byte()] };
+    const hasErrors = note.next < note.bytes.length;
+    return { surface: hasErrors ? { ...surface, below: note.decimal(), above: note.decimal() } : surface };
+  },
 };
 
 // The notes of the header with which `size` bytes at `start` of an instance's memory begin.
