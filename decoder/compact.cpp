@@ -50,6 +50,7 @@ struct microtin_compactor {
   microtin_compact* target;
   size_t body_bytes;
   size_t body_most, order_most;  // bytes, positions for which there is room
+  uint32_t below, above;         // margins
   microtin_axis axis[3];
 };
 
@@ -332,6 +333,8 @@ void begin_numbering(Compactor& c) {
 // Without a call of memcpy, which may be slow: no step takes longer than an item.
 void put_header(const Compactor& c) {
   static_cast<RingShape&>(*c.target) = c.header;
+  c.target->below = c.below;
+  c.target->above = c.above;
   for (int i = 0; i < 3; ++i) c.target->axis[i] = c.axis[i];
 }
 
@@ -393,6 +396,8 @@ microtin_status microtin_compactor_init(void* workspace, size_t size, microtin_m
   if (scratch_size < order_at) return MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
   Compactor& c = *static_cast<Compactor*>(scratch);
   c = Compactor();
+  c.below = mesh->below;
+  c.above = mesh->above;
   __builtin_memcpy(c.axis, mesh->axis, sizeof c.axis);
   c.header.vertices = n;
   c.source = mesh;

@@ -117,6 +117,8 @@ microtin_status end_section(microtin_decoder& d) {
   d.mesh->verified_vertices = d.mesh->mesh.vertices;
   if (d.reconstruction.stage == Stage::kComplete) {
     d.mesh->has_voids = d.reconstruction.contract.has_voids;
+    d.mesh->below = d.reconstruction.contract.below;
+    d.mesh->above = d.reconstruction.contract.above;
     return MICROTIN_STATUS_OK;
   }
   return is_far_enough(d) ? MICROTIN_STATUS_STOPPED : MICROTIN_STATUS_NEED_INPUT;

@@ -46,6 +46,8 @@ microtin_status microtin_read_stream_info(const uint8_t* bytes, size_t size,
   info->coding = static_cast<uint8_t>(contract.coding);
   info->has_heights = contract.has_heights;
   info->has_voids = contract.has_voids;
+  info->below = contract.below;
+  info->above = contract.above;
   put_axes(axis, info);
   info->mesh_bytes = saturated(MICROTIN_MESH_BYTES(contract.vertices));
   info->decoder_bytes = saturated(MICROTIN_DECODER_BYTES(contract.vertices));

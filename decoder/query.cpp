@@ -79,6 +79,11 @@ microtin_query_result microtin_mesh_height_at(const microtin_mesh* mesh, int32_t
   return answer_at(MeshCursor(*mesh, first_edge(t)), p, height);
 }
 
+void microtin_mesh_margins(const microtin_mesh* mesh, uint32_t* below, uint32_t* above) {
+  *below = mesh->below;
+  *above = mesh->above;
+}
+
 void microtin_mesh_axes(const microtin_mesh* mesh, microtin_axis* x, microtin_axis* y,
                         microtin_axis* z) {
   microtin_axis axis[3];

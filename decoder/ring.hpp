@@ -55,6 +55,7 @@ struct RingShape {
 // position, the positions that repeat a vertex, in order, the vertex of each position, and y of
 // each if it is not narrow.
 struct microtin_compact : microtin::RingShape {
+  uint32_t below, above;  // margins, see microtin_mesh
   microtin_axis axis[3];
 };
 

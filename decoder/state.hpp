@@ -13,6 +13,7 @@ struct microtin_mesh {
   uint32_t capacity;           // vertices
   uint32_t verified_vertices;  // vertices when the last check passed
   microtin_axis axis[3];       // if is_placed
+  uint32_t below, above;       // margins; coarser terrains state none
   bool is_placed;              // the header's check has passed
   bool has_voids;              // whether `voids` is decoded; coarser terrains know none
 };
@@ -37,6 +38,7 @@ MICROTIN_ONE_COPY inline void empty_mesh(microtin_mesh& m) {
   m.verified_vertices = 0;
   m.has_voids = false;
   m.is_placed = false;
+  m.below = m.above = kNotStated;
 }
 
 enum class Item : uint8_t {

@@ -11,7 +11,7 @@
 namespace microtin {
 
 constexpr uint8_t kMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'i', 'n'};
-constexpr uint8_t kVersion = 5;
+constexpr uint8_t kVersion = 6;
 constexpr uint32_t kMinDegree = 6, kMaxDegree = 32;
 constexpr uint32_t kMaxVertices = 16777216;  // 2^24
 
@@ -42,6 +42,10 @@ static_assert(work_budget(kMaxVertices) + uint64_t{kMaxVertices} <= UINT32_MAX, 
 // and the slower to decode.
 enum class Coding : uint8_t { kQuick = 1, kBalanced = 2, kDense = 3 };
 
+// A margin that a stream does not state. Others are at most kMarginMost: all heights there are.
+constexpr uint32_t kNotStated = 0xFFFFFFFF;
+constexpr uint32_t kMarginMost = 1048576;  // 2^20 sixteenths
+
 // What the fixed header promises.
 struct Contract {
   uint32_t vertices;
@@ -51,6 +55,7 @@ struct Contract {
   bool has_heights;
   bool has_voids;
   bool odd_origin_x = false, odd_origin_y = false;  // of the stream's lattice on its pack's
+  uint32_t below = kNotStated, above = kNotStated;  // margins, in sixteenths of a z step
 };
 
 // Lattice places that vertices can lie on, modulo 2^32: 2^32 are 0.
@@ -60,17 +65,23 @@ inline uint32_t lattice_places(const Contract& contract) {
 }
 
 // A stream begins with magic 4 and version 1. What follows of the header is framed as sections are:
-// its length, then properties, vertices, x_max, y_max, the placement, notes; the CRC-32 of all
-// before.
+// its length, then properties, vertices, x_max, y_max, margins, the placement, notes; the CRC-32 of
+// all before.
 constexpr uint32_t kIdentityBytes = 5;
 constexpr uint32_t kCheckBytes = 4;
-constexpr uint32_t kPlacementMostBytes = 66;                                // 3 * (10 + 6 + 6)
-constexpr uint32_t kHeaderMostBytes = 2 + 4 + 3 + 3 + kPlacementMostBytes;  // before the notes
+constexpr uint32_t kPlacementMostBytes = 66;  // 3 * (10 + 6 + 6)
+constexpr uint32_t kHeaderMostBytes =
+    2 + 4 + 3 + 3 + 3 + 3 + kPlacementMostBytes;  // before the notes
 
 // Properties: these flags, 8 * decoding, 32 * degree. All further bits are for later versions.
 constexpr uint32_t kHasHeights = 1, kHasVoids = 2, kHasPlacement = 4;
 constexpr uint32_t kOddOriginX = 2048, kOddOriginY = 4096;
-constexpr uint32_t kPropertyBits = 13;
+constexpr uint32_t kHasMargins = 8192;
+constexpr uint32_t kPropertyBits = 14;
+
+// Behind the last section come chunks, which decoding does not need: a type and a length below this
+// (varints), the content, the CRC-32 of all three.
+constexpr uint32_t kChunkNumberEnd = 0x80000000;
 
 // Notes are for people and applications; decoding needs none of them. A type byte (microtin.h has
 // the types), a length (2 bytes), the content.

@@ -84,6 +84,19 @@ MICROTIN_ONE_COPY inline bool read_placement(const uint8_t** bytes, const uint8_
   return true;
 }
 
+// How far the surface is from its source at most: the number stored less one, in sixteenths of a z
+// step. 0 stands for a margin that is not stated.
+inline bool read_margin(const uint8_t** bytes, const uint8_t* end, uint32_t* margin) {
+  uint64_t number = 0;
+  if (!read_varint(bytes, end, &number) || number > kMarginMost + 1) return false;
+  *margin = static_cast<uint32_t>(number) - 1;
+  return true;
+}
+
+inline bool read_margins(const uint8_t** bytes, const uint8_t* end, Contract* contract) {
+  return read_margin(bytes, end, &contract->below) && read_margin(bytes, end, &contract->above);
+}
+
 // Reads a header's payload up to its notes. Without a placement `axis` is on the lattice itself.
 // Not OK: MALFORMED, or UNSUPPORTED_VERSION if it has properties unknown here, since these may
 // change what follows.
@@ -105,7 +118,9 @@ inline microtin_status read_header(const uint8_t** bytes, const uint8_t* end, Co
   contract->vertices = static_cast<uint32_t>(number[1]);
   contract->x_max = static_cast<uint16_t>(number[2]);
   contract->y_max = static_cast<uint16_t>(number[3]);
-  bool legal = (properties & kHasPlacement) == 0 || read_placement(bytes, end, axis);
+  contract->below = contract->above = kNotStated;
+  bool legal = (properties & kHasMargins) == 0 || read_margins(bytes, end, contract);
+  legal = legal && ((properties & kHasPlacement) == 0 || read_placement(bytes, end, axis));
   legal = legal && contract->degree >= kMinDegree && contract->degree <= kMaxDegree &&
           (properties >> 3 & 3u) != 0 && number[1] >= 3 && number[1] <= kMaxVertices &&
           number[2] <= kLatticeMax && number[3] <= kLatticeMax;

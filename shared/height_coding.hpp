@@ -73,9 +73,9 @@ struct HeightPrediction {
 // difference to be expected.
 inline uint32_t expected_scale(uint32_t weights, uint32_t roughness, uint32_t spread,
                                uint32_t distance) {
-  // Logarithms of smaller numbers are smaller by 1/128 at most: the sum is positive.
-  const Log2 sum = log2_of(4 * roughness + weights) + 2 * log2_of(4 * spread + weights) -
-                   3 * log2_of(weights) + 32 * static_cast<Log2>(distance) + 320;
+  // No logarithm is smaller than that of a smaller number: the sum is positive.
+  const Log2 sum = rough_log2(4 * roughness + weights) + 2 * rough_log2(4 * spread + weights) -
+                   3 * rough_log2(weights) + 32 * static_cast<Log2>(distance) + 320;
   const uint32_t scale = static_cast<uint32_t>(sum) / 768u;
   return scale < kScales ? scale : kScales - 1;
 }

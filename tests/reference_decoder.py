@@ -302,11 +302,11 @@ class Header(NamedTuple):
 
 def read_header(reader):
     require(reader.take(4) == b"mtin", "not a microtin stream")
-    require(reader.number(1) == 5, "unknown version")
+    require(reader.number(1) == 6, "unknown version")
     payload = ByteReader(reader.take(reader.length()))
     reader.expect_check(0)
     properties = payload.varint()
-    require(properties < 1 << 13, "unknown properties")
+    require(properties < 1 << 14, "unknown properties")
     vertices = payload.varint()
     columns, rows = payload.varint() + 1, payload.varint() + 1
     decoding, degree = properties >> 3 & 3, properties >> 5 & 63
@@ -314,6 +314,9 @@ def read_header(reader):
     require(decoding != 0, "decoding is none of the three")
     require(3 <= vertices <= 1 << 24, "number of vertices is out of bounds")
     require(max(columns, rows) <= 1 << 16, "a side is out of bounds")
+    if properties & 8192:
+        for _ in ("below", "above"):
+            require(payload.varint() <= (1 << 20) + 1, "margin")
     if properties & 4:
         check_placement(payload)
     odd_origin = properties >> 11 & 1, properties >> 12 & 1
@@ -894,7 +897,7 @@ class Expectation(NamedTuple):
         mean = (2 * height + w) // (2 * w)
         spread = sum(map(abs, heights))
         roughness = sum(map(abs, residuals))
-        level = log2(4 * roughness + w) + 2 * log2(4 * spread + w) - 3 * log2(w)
+        level = rlog(4 * roughness + w) + 2 * rlog(4 * spread + w) - 3 * rlog(w)
         scale = min(11, (level + 32 * (14 + first - highest_bit(w)) + 320) // 768)
         sign = cls.expected_sign(sum(residuals), roughness)
         return cls(base + mean, scale, 2 * sign + (height > mean * w))

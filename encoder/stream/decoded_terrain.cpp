@@ -7,6 +7,8 @@
 #include "encoder/base/error.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/exact_query.hpp"
+#include "shared/crc32.hpp"
+#include "shared/header.hpp"
 
 namespace microtin::stream {
 namespace {
@@ -23,6 +25,20 @@ void expect_room_for_vertices(const microtin_stream_info& info, uint64_t stream_
   }
 }
 
+void expect_chunks(const uint8_t* at, const uint8_t* end) {
+  while (at != end) {
+    const uint8_t* const begin = at;
+    uint64_t type = 0, length = 0;
+    const bool is_framed = read_varint(&at, end, &type) && read_varint(&at, end, &length) &&
+                           type < kChunkNumberEnd && length < kChunkNumberEnd &&
+                           length + kCheckBytes <= static_cast<uint64_t>(end - at);
+    if (is_framed) at += length + kCheckBytes;
+    if (!is_framed || crc32(0, begin, static_cast<size_t>(at - begin)) != kCheckedCrc) {
+      throw Error("the bytes behind the end of the stream are damaged: they are no chunks");
+    }
+  }
+}
+
 DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream) {
   const Header header = read_header(stream);
   expect_room_for_vertices(header.info, stream.size());
@@ -34,9 +50,7 @@ DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream) {
   size_t used = 0;
   microtin_decoder_feed(decoder, stream.data(), stream.size(), &used, 0);
   expect_done(microtin_decoder_finish(decoder));
-  if (used != stream.size()) {
-    throw Error(std::to_string(stream.size() - used) + " bytes follow the end of the stream");
-  }
+  expect_chunks(stream.data() + used, stream.data() + stream.size());
   phases_ = microtin_decoder_phase(decoder);
 }
 

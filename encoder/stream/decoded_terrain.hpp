@@ -22,10 +22,13 @@ constexpr uint64_t kVerticesPerByte = 1421;
 // memory.
 void expect_room_for_vertices(const microtin_stream_info& info, uint64_t stream_bytes);
 
+// Throws Error unless the bytes from `at` to `end` are intact chunks.
+void expect_chunks(const uint8_t* at, const uint8_t* end);
+
 class DecodedTerrain {
  public:
   // Decodes a whole stream. Throws Error, saying what the decoder found, if it is not valid or if
-  // bytes follow its end.
+  // what follows its last section is not chunks.
   explicit DecodedTerrain(const std::vector<uint8_t>& stream);
 
   DecodedTerrain(DecodedTerrain&&) = default;

@@ -343,15 +343,20 @@ Bytes write_header(const Contract& contract, const Metadata& metadata) {
   const Bytes placement = write_placement(metadata.placement);
   const Bytes notes = write_notes(metadata);
   Bytes payload;
-  append_varint(payload, (contract.has_heights ? kHasHeights : 0) |
-                             (contract.has_voids ? kHasVoids : 0) |
-                             (placement.empty() ? 0 : kHasPlacement) |
-                             (contract.odd_origin_x ? kOddOriginX : 0) |
-                             (contract.odd_origin_y ? kOddOriginY : 0) |
-                             static_cast<uint32_t>(contract.coding) << 3 | contract.degree << 5);
+  const bool has_margins = contract.below != kNotStated || contract.above != kNotStated;
+  append_varint(payload,
+                (contract.has_heights ? kHasHeights : 0) | (contract.has_voids ? kHasVoids : 0) |
+                    (placement.empty() ? 0 : kHasPlacement) |
+                    (contract.odd_origin_x ? kOddOriginX : 0) |
+                    (contract.odd_origin_y ? kOddOriginY : 0) | (has_margins ? kHasMargins : 0) |
+                    static_cast<uint32_t>(contract.coding) << 3 | contract.degree << 5);
   append_varint(payload, contract.vertices);
   append_varint(payload, contract.x_max);
   append_varint(payload, contract.y_max);
+  if (has_margins) {
+    append_varint(payload, contract.below + 1u);  // not stated: 0
+    append_varint(payload, contract.above + 1u);
+  }
   payload.insert(payload.end(), placement.begin(), placement.end());
   payload.insert(payload.end(), notes.begin(), notes.end());
   Bytes header(kMagic, kMagic + sizeof kMagic);

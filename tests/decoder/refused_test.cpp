@@ -255,6 +255,8 @@ void add_headers(Refused& all) {
   all["malformed_count_high"] = header_of(flat_contract(kMaxVertices + 1));
   all["malformed_side_x"] = header_with({kLegal, 4, 65536, 99});
   all["malformed_side_y"] = header_with({kLegal, 4, 99, 65536});
+  all["malformed_margin_missing"] = header_with({kLegal + kHasMargins, 4, 99, 99, 1});
+  all["malformed_margin_high"] = header_with({kLegal + kHasMargins, 4, 99, 99, 1, kMarginMost + 2});
   all["malformed_placement_short"] = with_placement({1, 2, 3, 1, 2, 3, 1, 2});
   all["malformed_placement_zero"] = with_placement({1, 2, 0, 1, 2, 3, 1, 2, 3});
   all["malformed_placement_above_40_bits"] =

@@ -33,7 +33,7 @@
   (MICROTIN_COMPACT_HEADER_BYTES +                                 \
    ((vertices) + 1ul + (repeats)) * (4ul + (bits) / 8 * 2ul + (wide)) + (repeats) * ((bits) / 8))
 /* Bytes of the header of a compact terrain. */
-#define MICROTIN_COMPACT_HEADER_BYTES 88ul
+#define MICROTIN_COMPACT_HEADER_BYTES 96ul
 /* Vertices that the path may pass twice in terrains of the encoder. */
 #define MICROTIN_COMPACT_REPEATS(vertices) (8ul + (vertices) / 64)
 
@@ -43,7 +43,7 @@
   (MICROTIN_COMPACTOR_HEADER_BYTES + ((vertices)*3ul + 7) / 8 + \
    MICROTIN_INDEX_BITS / 8 * ((vertices) + 2ul + MICROTIN_COMPACT_REPEATS(vertices)))
 /* Bytes of the header of the scratch memory. */
-#define MICROTIN_COMPACTOR_HEADER_BYTES 280ul
+#define MICROTIN_COMPACTOR_HEADER_BYTES 288ul
 
 /* The index width is part of the name that the linker sees; see microtin.h. */
 #if MICROTIN_INDEX_BITS == 16

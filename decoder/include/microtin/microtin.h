@@ -47,10 +47,10 @@
  * (origin and twin each), x, y, z, and a void bit for each of two triangles. While decoding it also
  * takes a queue entry, two marks (a byte with 32-bit indices) and a byte of height context. */
 #define MICROTIN_MESH_BYTES_FOR(capacity, bits) \
-  (159ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
+  (167ul + (6ul + (bits) / 8 * 12ul) * (capacity) + ((capacity) + 3ul) / 4)
 /* Bytes of a decoder in a build with `bits` bits of index width. */
 #define MICROTIN_DECODER_BYTES_FOR(capacity, bits) \
-  ((bits) == 16 ? 2463ul + 3ul * (capacity) + ((capacity) + 3ul) / 4 : 2671ul + 6ul * (capacity))
+  ((bits) == 16 ? 2471ul + 3ul * (capacity) + ((capacity) + 3ul) / 4 : 2679ul + 6ul * (capacity))
 
 /* Bytes of the buckets of microtin_buckets_init: a constant expression, side * side numbers. */
 #define MICROTIN_BUCKETS_BYTES(side) (20ul + MICROTIN_INDEX_BITS / 8 * 1ul * (side) * (side))
@@ -122,6 +122,9 @@ typedef struct microtin_axis {
   uint64_t denominator; /* 1 .. 2^40 - 1 */
 } microtin_axis;
 
+/* A margin that a stream does not state. */
+#define MICROTIN_MARGIN_NOT_STATED 0xFFFFFFFFul
+
 /* What a stream's header contains. */
 typedef struct microtin_stream_info {
   uint32_t vertices;
@@ -131,6 +134,7 @@ typedef struct microtin_stream_info {
   uint8_t coding;        /* 1 quick, 2 balanced, 3 dense */
   uint8_t has_heights;   /* 0: every z is 0 */
   uint8_t has_voids;     /* 1: some triangles may be void */
+  uint32_t below, above; /* the margins, as microtin_mesh_margins returns them */
   microtin_axis x, y, z; /* offset 0 and step 1 if the stream does not contain them */
   size_t mesh_bytes;     /* the mesh's workspace; beyond MICROTIN_MAX_VERTICES none suffices */
   size_t decoder_bytes;  /* the decoder's workspace; beyond MICROTIN_MAX_VERTICES none suffices */
@@ -263,6 +267,13 @@ uint32_t microtin_mesh_neighbour(const microtin_mesh* mesh, uint32_t t, uint32_t
 /* Returns a number that depends on the set of triangles and not on their order, equal on every
  * target; format-stream.md defines it ("Digest"). O(n). */
 uint64_t microtin_mesh_digest(const microtin_mesh* mesh);
+
+/* Returns the margins of the decoded stream, in sixteenths of a z step: how far the surface lies at
+ * most below and above the surface of its source, at any position. (The source is the raster that
+ * was encoded, interpolated bilinearly between posts; its own errors are not included.)
+ * MICROTIN_MARGIN_NOT_STATED if the stream does not state a margin, and until it is decoded and
+ * verified to its end; other values are at most 2^20. O(1). */
+void microtin_mesh_margins(const microtin_mesh* mesh, uint32_t* below, uint32_t* above);
 
 /* --- Heights --- */
 

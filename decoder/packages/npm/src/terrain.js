@@ -8,8 +8,8 @@ import { OK, IO, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED } from "./stat
 
 const REAL = 0, VOID = 1;
 const HINT = 64; // in an instance's results: where heights keep theirs, and the height behind it
-const INFO_BYTES = 96, INFO_VERTICES = 0, INFO_HEADER_BYTES = 4, INFO_AXES = 16, INFO_MESH_BYTES = 88,
-  INFO_DECODER_BYTES = 92; // where they are in microtin_stream_info
+const INFO_BYTES = 104, INFO_VERTICES = 0, INFO_HEADER_BYTES = 4, INFO_AXES = 24, INFO_MESH_BYTES = 96,
+  INFO_DECODER_BYTES = 100; // where they are in microtin_stream_info
 const CHUNK = 65536;
 const STEPS = 1 << 16;
 const MOST = 65535; // steps of a stream's lattice
