@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Queries on compact terrains.
+#include "decoder/margins.hpp"
 #include "decoder/terrain_forms.hpp"
 #include "decoder/walk.hpp"
 #include "shared/digest.hpp"
@@ -167,6 +168,22 @@ microtin_query_result microtin_compact_height_at(const microtin_compact* compact
     number = near == number_at(hub) ? *hint : near;
     step_limit = limit = triangle_count(r);
   }
+}
+
+microtin_query_result microtin_compact_safe_heights_at(const microtin_compact* compact, int32_t x,
+                                                       int32_t y, uint32_t* hint,
+                                                       microtin_safe_heights* heights,
+                                                       uint32_t step_limit) {
+  int32_t height = 0;
+  const microtin_query_result found =
+      microtin_compact_height_at(compact, x, y, hint, &height, step_limit);
+  return found == MICROTIN_QUERY_OK ? widen(height, compact->below, compact->above, heights)
+                                    : found;
+}
+
+void microtin_compact_margins(const microtin_compact* compact, uint32_t* below, uint32_t* above) {
+  *below = compact->below;
+  *above = compact->above;
 }
 
 uint32_t microtin_compact_hint(const microtin_compact* compact, int32_t x, int32_t y) {

@@ -19,9 +19,9 @@ constexpr char kErrors[][20] MICROTIN_IN_FLASH = {
     "BAD_MAGIC",  "UNSUPPORTED_VERSION", "TOO_BIG",  "CHECKSUM", "MALFORMED", "TRUNCATED",
     "MISALIGNED", "WORKSPACE_TOO_SMALL", "ARGUMENT", "IO",       "BAD_TILES", "OUT_OF_RANGE",
     "NOT_FOUND",  "WRONG_PACK_KIND",     "?"};
-constexpr char kResults[][16] MICROTIN_IN_FLASH = {"OK",         "OUTSIDE",         "VOID",
-                                                   "NOT_LOADED", "UNVERIFIED",      "STEP_LIMIT",
-                                                   "BAD_TILE",   "WRONG_PACK_KIND", "?"};
+constexpr char kResults[][16] MICROTIN_IN_FLASH = {
+    "OK",       "OUTSIDE",         "VOID",      "NOT_LOADED", "UNVERIFIED", "STEP_LIMIT",
+    "BAD_TILE", "WRONG_PACK_KIND", "NO_MARGIN", "?"};
 
 template <size_t Count, size_t Bytes>
 const char* entry(const char (&names)[Count][Bytes], int number) {

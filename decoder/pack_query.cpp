@@ -38,6 +38,12 @@ microtin_query_result microtin_pack_height_at(const microtin_pack* pack, int64_t
   return height_in_pack<MeshForm>(*pack, x, y, hint, height);
 }
 
+microtin_query_result microtin_pack_safe_heights_at(const microtin_pack* pack, int64_t x, int64_t y,
+                                                    uint32_t* hint,
+                                                    microtin_safe_heights* heights) {
+  return safe_heights_in_pack<MeshForm>(*pack, x, y, hint, heights);
+}
+
 microtin_query_result microtin_pack_segment_max(const microtin_pack* pack,
                                                 const microtin_segment* segment, int32_t* height) {
   return highest_in_pack<MeshForm>(*pack, *segment, height);

@@ -5,6 +5,7 @@
 #define MICROTIN_DECODER_PACK_QUERY_HPP
 
 #include "decoder/border_edges.hpp"
+#include "decoder/margins.hpp"
 #include "decoder/pack_state.hpp"
 #include "decoder/places.hpp"
 
@@ -95,21 +96,41 @@ microtin_query_result answer_of_tile(const microtin_pack& p, const TouchedTiles&
   return worse(absent, MICROTIN_QUERY_VOID);
 }
 
+// *terrain is what has the height, if it is known.
 template <class Form>
 microtin_query_result height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
-                                     int32_t* height) {
+                                     int32_t* height, const void** terrain) {
   if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
   if (!p.has_header) return MICROTIN_QUERY_NOT_LOADED;
   if (!is_inside(p, x, y)) return MICROTIN_QUERY_OUTSIDE;
   microtin_query_result answer = MICROTIN_QUERY_VOID;
   const microtin_segment here = {x, y, x, y};
   for (TouchedTiles tiles(p.header.grid, here); !tiles.at_end(); tiles.next()) {
-    const void* const terrain = terrain_of(p, tiles.number(), &answer);
-    if (terrain == nullptr) continue;
+    *terrain = terrain_of(p, tiles.number(), &answer);
+    if (*terrain == nullptr) continue;
     const LocalPoint at = local(tiles.box(), x, y);
-    if (Form(terrain).height_at(at, 0, hint, height) == MICROTIN_QUERY_OK) return MICROTIN_QUERY_OK;
+    if (Form(*terrain).height_at(at, 0, hint, height) == MICROTIN_QUERY_OK)
+      return MICROTIN_QUERY_OK;
   }
   return answer;
+}
+
+template <class Form>
+microtin_query_result height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
+                                     int32_t* height) {
+  const void* terrain = nullptr;
+  return height_in_pack<Form>(p, x, y, hint, height, &terrain);
+}
+
+template <class Form>
+microtin_query_result safe_heights_in_pack(const microtin_pack& p, int64_t x, int64_t y,
+                                           uint32_t* hint, microtin_safe_heights* heights) {
+  int32_t height = 0;
+  const void* terrain = nullptr;
+  const microtin_query_result found = height_in_pack<Form>(p, x, y, hint, &height, &terrain);
+  if (found != MICROTIN_QUERY_OK) return found;
+  const typename Form::Terrain& tile = *static_cast<const typename Form::Terrain*>(terrain);
+  return widen(height, tile.below, tile.above, heights);
 }
 
 template <class Form>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Queries on a decoded mesh.
 #include "decoder/axis.hpp"
+#include "decoder/margins.hpp"
 #include "decoder/state.hpp"
 #include "decoder/walk.hpp"
 #include "shared/digest.hpp"
@@ -77,6 +78,15 @@ microtin_query_result microtin_mesh_height_at(const microtin_mesh* mesh, int32_t
   if (!arrived) return MICROTIN_QUERY_STEP_LIMIT;
   if (is_ghost(m, t)) return MICROTIN_QUERY_OUTSIDE;
   return answer_at(MeshCursor(*mesh, first_edge(t)), p, height);
+}
+
+microtin_query_result microtin_mesh_safe_heights_at(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                                    uint32_t* hint, microtin_safe_heights* heights,
+                                                    uint32_t flags, uint32_t step_limit) {
+  int32_t height = 0;
+  const microtin_query_result found =
+      microtin_mesh_height_at(mesh, x, y, hint, &height, flags, step_limit);
+  return found == MICROTIN_QUERY_OK ? widen(height, mesh->below, mesh->above, heights) : found;
 }
 
 void microtin_mesh_margins(const microtin_mesh* mesh, uint32_t* below, uint32_t* above) {

@@ -10,6 +10,7 @@ namespace microtin {
 
 class MeshForm {
  public:
+  typedef microtin_mesh Terrain;
   typedef MeshCursor Cursor;
   static constexpr bool kIsCompact = false;
 
@@ -218,6 +219,7 @@ inline uint32_t triangle_count(const Ring& r) {
 
 class RingForm {
  public:
+  typedef microtin_compact Terrain;
   typedef RingCursor Cursor;
   static constexpr bool kIsCompact = true;
 

@@ -151,8 +151,9 @@ TEST_CASE("names of statuses and results, and versions") {
   CHECK(result(MICROTIN_QUERY_STEP_LIMIT) == "STEP_LIMIT");
   CHECK(result(MICROTIN_QUERY_BAD_TILE) == "BAD_TILE");
   CHECK(result(MICROTIN_QUERY_WRONG_PACK_KIND) == "WRONG_PACK_KIND");
+  CHECK(result(MICROTIN_QUERY_NO_MARGIN) == "NO_MARGIN");
   for (const int none : {-1, 4, 15, 30, int{MICROTIN_STATUS_REJECTED}}) CHECK(status(none) == "?");
-  for (const int none : {-1, 8}) CHECK(result(none) == "?");
+  for (const int none : {-1, 9}) CHECK(result(none) == "?");
   CHECK(microtin_version_number() ==
         MICROTIN_VERSION_MAJOR * 65536 + MICROTIN_VERSION_MINOR * 256 + MICROTIN_VERSION_PATCH);
   CHECK(microtin_stream_format_version() == kVersion);

@@ -18,7 +18,7 @@ BEFORE = {
     "decoder/docs/memory.md": "static microtin::Terrain<5000> terrain;\nstatic microtin::Decoder<5000> decoder(terrain);\n",
     "decoder/docs/packs.md": READ_CARD
     + "static microtin_pack* pack;\nstatic int64_t x, y, x_ahead, y_ahead;\nstatic int card;\nstatic uint32_t hint;\nstatic int32_t height;\n",
-    "decoder/docs/queries.md": "static microtin::Terrain<5000> terrain;\nstatic int32_t x, y, height;\nstatic uint32_t hint;\nvoid use(int32_t height);\n",
+    "decoder/docs/queries.md": "static microtin::Terrain<5000> terrain;\nstatic int32_t x, y, height;\nstatic uint32_t hint;\nvoid use(int32_t height);\nvoid keep_above(int32_t height);\n",
     "decoder/docs/rtos.md": READ_CARD + "void lock(void), unlock(void), sleep_ms(int milliseconds);\n",
     "encoder/docs/library.md": "#include <stdio.h>\n#include <string.h>\nstatic uint32_t columns, rows;\n"
     "static const float* heights;\n#ifdef __cplusplus\nstatic microtin::encoder::Transform transform;\n"

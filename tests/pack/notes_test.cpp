@@ -2,6 +2,7 @@
 // Notes as a device finds them, in headers sound and hostile.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "encoder/pack/file.hpp"
@@ -41,7 +42,8 @@ std::optional<Bytes> content_of(const Bytes& header, uint8_t type) {
 Bytes stream_header(const Bytes& notes, const Placement& placement = {}) {
   Metadata metadata;
   metadata.placement = placement;
-  const Contract contract{4, 99, 99, kMinDegree, Coding::kBalanced, false, false, true, false};
+  Contract contract{4, 99, 99, kMinDegree, Coding::kBalanced, false, false, true, false};
+  contract.above = static_cast<uint32_t>(notes.size());
   const Bytes bare = write_header(contract, metadata);
   const size_t start = kIdentityBytes + 1;  // its length takes one byte
   Bytes payload(bare.begin() + start, bare.end() - kCheckBytes);
@@ -162,6 +164,61 @@ TEST_CASE("notes: any bytes in their place are searched within bounds") {
       }
     }
   }
+}
+
+// What a finder says of a header that comes in pieces, and what it copies.
+struct Streamed {
+  microtin_status status;
+  Bytes content;
+  uint32_t size;
+};
+
+Streamed find_in_pieces(const Bytes& header, uint8_t type, uint32_t capacity, Random& random) {
+  Bytes buffer(capacity + 1, 0xEE);
+  microtin_note_finder finder;
+  microtin_note_finder_init(&finder, type, buffer.data(), capacity);
+  microtin_status status = microtin_note_finder_feed(&finder, nullptr, 0);
+  for (size_t at = 0; at < header.size() && status == MICROTIN_STATUS_NEED_INPUT;) {
+    const size_t size = std::min<size_t>(1 + random.below(9), header.size() - at);
+    status = microtin_note_finder_feed(&finder, header.data() + at, size);
+    at += size;
+  }
+  CHECK(microtin_note_finder_feed(&finder, header.data(), 0) == status);
+  CHECK(buffer.back() == 0xEE);
+  buffer.resize(std::min(capacity, finder.content_size));
+  return {status, buffer, finder.content_size};
+}
+
+TEST_CASE("notes: a finder that is fed finds what is found at once, in 64 bytes") {
+  static_assert(sizeof(microtin_note_finder) <= 64, "it is promised");
+  Random random(18);
+  int found_notes = 0;
+  for (int round = 0; round < 2000; ++round) {
+    Bytes notes;
+    for (uint32_t left = random.below(5); left != 0; --left) {
+      const Bytes content(random.below(9), static_cast<uint8_t>(left));
+      notes.push_back(static_cast<uint8_t>(random.below(5)));
+      append_number(notes, content.size(), 2);
+      notes.insert(notes.end(), content.begin(), content.end());
+    }
+    if (random.below(4) == 0) notes.push_back(7);  // begins a note that does not end
+    const Placement placement = random.below(2) != 0 ? kPlaced : Placement();
+    const uint8_t type = static_cast<uint8_t>(random.below(5));
+    const uint32_t capacity = random.below(6);
+    for (Bytes header : {stream_header(notes, placement), pack_header(notes, placement)}) {
+      if (random.below(3) == 0) header[random.below(static_cast<uint32_t>(header.size()))] ^= 1;
+      header.push_back(9);  // what follows is not looked at
+      const Found at_once = find_note(header.data(), header.size(), type);
+      const Streamed fed = find_in_pieces(header, type, capacity, random);
+      CHECK(fed.status == at_once.status);
+      if (at_once.status != MICROTIN_STATUS_OK) continue;
+      ++found_notes;
+      CHECK(fed.size == at_once.size);
+      const uint32_t copied = std::min(capacity, at_once.size);
+      CHECK(fed.content == Bytes(at_once.content, at_once.content + copied));
+    }
+  }
+  CHECK(found_notes > 500);
 }
 
 TEST_CASE("notes: a changed byte is reported, and forged headers keep the search within bounds") {

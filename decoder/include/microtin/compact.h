@@ -134,6 +134,16 @@ microtin_query_result microtin_compact_height_at(const microtin_compact* compact
                                                  int32_t y, uint32_t* hint, int32_t* height,
                                                  uint32_t step_limit);
 
+/* Returns the margins, as microtin_mesh_margins does for the mesh. */
+void microtin_compact_margins(const microtin_compact* compact, uint32_t* below, uint32_t* above);
+
+/* Returns between which heights the source lies, with parameters and results of
+ * microtin_mesh_safe_heights_at. */
+microtin_query_result microtin_compact_safe_heights_at(const microtin_compact* compact, int32_t x,
+                                                       int32_t y, uint32_t* hint,
+                                                       microtin_safe_heights* heights,
+                                                       uint32_t step_limit);
+
 /* Finds the greatest height on a segment, with parameters and results of
  * microtin_mesh_segment_max. */
 microtin_query_result microtin_compact_segment_max(const microtin_compact* compact,

@@ -64,6 +64,11 @@ static inline microtin_status microtin_compact_pack_load_with(microtin_pack* pac
   }
 }
 
+/* Returns between which heights the source lies, as microtin_pack_safe_heights_at does. */
+microtin_query_result microtin_compact_pack_safe_heights_at(const microtin_pack* pack, int64_t x,
+                                                            int64_t y, uint32_t* hint,
+                                                            microtin_safe_heights* heights);
+
 /* Returns the height at a position, as microtin_pack_height_at does. */
 microtin_query_result microtin_compact_pack_height_at(const microtin_pack* pack, int64_t x,
                                                       int64_t y, uint32_t* hint, int32_t* height);

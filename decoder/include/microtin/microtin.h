@@ -177,16 +177,44 @@ typedef enum microtin_note_type {
 
 /* Finds a note in the header of a stream or of a pack; the `size` bytes begin with the header.
  * O(header bytes). The content may be longer than this version knows, in a later version's file.
+ * The header's numbers are not compared with their ranges.
  *
  * - OK: *content points to the note's *content_size bytes; the header's check has passed
  * - NOT_FOUND: the header has no such note
  * - NEED_INPUT: pass more bytes; *content_size is how many, if it is not 0
  * - BAD_MAGIC, UNSUPPORTED_VERSION, CHECKSUM, ARGUMENT
- * - MALFORMED: also if an earlier note reaches beyond the notes
+ * - MALFORMED: the parts of the header, or the notes up to this one, do not fit their lengths
  *
  * *content is null unless the status is OK. */
 microtin_status microtin_find_note(const uint8_t* bytes, size_t size, uint8_t type,
                                    const uint8_t** content, uint32_t* content_size);
+
+/* Finds a note in a header that passes piece by piece. At most 64 bytes, so that a small device
+ * need not hold the header, which may have 65 KB. */
+typedef struct microtin_note_finder {
+  uint8_t* buffer; /* the caller's */
+  uint32_t capacity;
+  uint32_t content_at;   /* where the content begins, from the start of the header */
+  uint32_t content_size; /* bytes of the content: if more than the capacity, the rest is left out */
+  /* What follows is the finder's own. */
+  uint32_t crc, position, end, number, left;
+  uint8_t identity[6];
+  uint8_t type, note, part, status, verdict;
+} microtin_note_finder;
+
+/* Begins to find the first note of a type. Its content goes to `buffer`, as far as `capacity` bytes
+ * hold it; a buffer of no bytes may be null. O(1). */
+void microtin_note_finder_init(microtin_note_finder* finder, uint8_t type, uint8_t* buffer,
+                               uint32_t capacity);
+
+/* Takes the next `size` bytes of a stream or pack, from its first on. O(size).
+ *
+ * - NEED_INPUT: pass the following bytes
+ * - OK: the note is found, and the header's check has passed. Only then do the buffer and the
+ *   content's position and size have a meaning
+ * - any other result of microtin_find_note */
+microtin_status microtin_note_finder_feed(microtin_note_finder* finder, const uint8_t* bytes,
+                                          size_t size);
 
 /* Makes an empty mesh in `workspace`, with the capacity that `size` bytes allow, and sets *mesh,
  * which points into it. OK, or WORKSPACE_TOO_SMALL, MISALIGNED, ARGUMENT. O(1). */
@@ -279,14 +307,15 @@ void microtin_mesh_margins(const microtin_mesh* mesh, uint32_t* below, uint32_t*
 
 /* The result of queries. */
 typedef enum microtin_query_result {
-  MICROTIN_QUERY_OK = 0,             /* the height was stored */
-  MICROTIN_QUERY_OUTSIDE = 1,        /* outside the hull, or the pack */
-  MICROTIN_QUERY_VOID = 2,           /* inside, but the terrain has no height there */
-  MICROTIN_QUERY_NOT_LOADED = 3,     /* the mesh is empty, or the tile is not loaded */
-  MICROTIN_QUERY_UNVERIFIED = 4,     /* a checksum of the mesh has not passed yet */
-  MICROTIN_QUERY_STEP_LIMIT = 5,     /* the step limit of this call was reached; call again */
-  MICROTIN_QUERY_BAD_TILE = 6,       /* a pack: the tile is damaged or breaks a rule */
-  MICROTIN_QUERY_WRONG_PACK_KIND = 7 /* the pack has slots of the other kind */
+  MICROTIN_QUERY_OK = 0,              /* the height was stored */
+  MICROTIN_QUERY_OUTSIDE = 1,         /* outside the hull, or the pack */
+  MICROTIN_QUERY_VOID = 2,            /* inside, but the terrain has no height there */
+  MICROTIN_QUERY_NOT_LOADED = 3,      /* the mesh is empty, or the tile is not loaded */
+  MICROTIN_QUERY_UNVERIFIED = 4,      /* a checksum of the mesh has not passed yet */
+  MICROTIN_QUERY_STEP_LIMIT = 5,      /* the step limit of this call was reached; call again */
+  MICROTIN_QUERY_BAD_TILE = 6,        /* a pack: the tile is damaged or breaks a rule */
+  MICROTIN_QUERY_WRONG_PACK_KIND = 7, /* the pack has slots of the other kind */
+  MICROTIN_QUERY_NO_MARGIN = 8        /* the stream does not state its margins */
 } microtin_query_result;
 
 /* Returns the name of a query result without MICROTIN_QUERY_, as microtin_status_name does. */
@@ -311,6 +340,21 @@ const char* microtin_query_result_name(microtin_query_result result);
 microtin_query_result microtin_mesh_height_at(const microtin_mesh* mesh, int32_t x, int32_t y,
                                               uint32_t* hint, int32_t* height, uint32_t flags,
                                               uint32_t step_limit);
+
+/* Between which heights the source lies at a position, in z steps with 8 fractional bits, both
+ * rounded outwards: microtin_axis_from_lattice converts them. */
+typedef struct microtin_safe_heights {
+  int32_t lowest;  /* the surface's height less the margin above */
+  int32_t highest; /* the surface's height plus the margin below */
+} microtin_safe_heights;
+
+/* Returns between which heights the source lies at (x, y): never above *highest, so that a vehicle
+ * above it is above the source; see microtin_mesh_margins for what that does not include.
+ * Parameters and results are those of microtin_mesh_height_at. NO_MARGIN: the stream does not state
+ * both margins, or is not decoded to its end. *heights is stored only with OK. */
+microtin_query_result microtin_mesh_safe_heights_at(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                                    uint32_t* hint, microtin_safe_heights* heights,
+                                                    uint32_t flags, uint32_t step_limit);
 
 /* --- Buckets: where a walk begins when no hint from nearby is known. Optional. --- */
 

@@ -49,6 +49,16 @@ class Terrain {
   // Calls microtin_mesh_digest.
   uint64_t digest() const { return microtin_mesh_digest(mesh_); }
 
+  // Calls microtin_mesh_margins.
+  void margins(uint32_t* below, uint32_t* above) const {
+    microtin_mesh_margins(mesh_, below, above);
+  }
+  // Calls microtin_mesh_safe_heights_at.
+  microtin_query_result safe_heights_at(int32_t x, int32_t y, uint32_t* hint,
+                                        microtin_safe_heights* heights, uint32_t flags = 0,
+                                        uint32_t step_limit = 0) const {
+    return microtin_mesh_safe_heights_at(mesh_, x, y, hint, heights, flags, step_limit);
+  }
   // Calls microtin_mesh_height_at.
   microtin_query_result height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
                                   uint32_t flags = 0, uint32_t step_limit = 0) const {
@@ -191,6 +201,16 @@ class CompactTerrain {
   uint64_t digest() const { return microtin_compact_digest(compact_); }
   // Calls microtin_compact_hint.
   uint32_t hint(int32_t x, int32_t y) const { return microtin_compact_hint(compact_, x, y); }
+  // Calls microtin_compact_margins.
+  void margins(uint32_t* below, uint32_t* above) const {
+    microtin_compact_margins(compact_, below, above);
+  }
+  // Calls microtin_compact_safe_heights_at.
+  microtin_query_result safe_heights_at(int32_t x, int32_t y, uint32_t* hint,
+                                        microtin_safe_heights* heights,
+                                        uint32_t step_limit = 0) const {
+    return microtin_compact_safe_heights_at(compact_, x, y, hint, heights, step_limit);
+  }
   // Calls microtin_compact_height_at.
   microtin_query_result height_at(int32_t x, int32_t y, uint32_t* hint, int32_t* height,
                                   uint32_t step_limit = 0) const {

@@ -187,6 +187,12 @@ microtin_status microtin_pack_axis_to_lattice(const microtin_axis* axis, uint32_
 microtin_query_result microtin_pack_height_at(const microtin_pack* pack, int64_t x, int64_t y,
                                               uint32_t* hint, int32_t* height);
 
+/* Returns between which heights the source lies at a position, by the margins of its tile; see
+ * microtin_mesh_safe_heights_at. Parameters and results are those of microtin_pack_height_at.
+ * NO_MARGIN: the tile does not state both margins. */
+microtin_query_result microtin_pack_safe_heights_at(const microtin_pack* pack, int64_t x, int64_t y,
+                                                    uint32_t* hint, microtin_safe_heights* heights);
+
 /* Finds the greatest height on a segment: exact, rounded once. OK: every position of the segment
  * has a height by microtin_pack_height_at, also between lattice positions. VOID, BAD_TILE: a part
  * of the segment, perhaps a point, has none; *height is the greatest of the rest, INT32_MIN if

@@ -64,6 +64,11 @@ class Pack : public PackFace {
     if (status_ != MICROTIN_STATUS_OK) return status_;
     return microtin_pack_load_with(pack_, &segment, read, context, step_limit);
   }
+  // Calls microtin_pack_safe_heights_at.
+  microtin_query_result safe_heights_at(int64_t x, int64_t y, uint32_t* hint,
+                                        microtin_safe_heights* heights) const {
+    return microtin_pack_safe_heights_at(pack_, x, y, hint, heights);
+  }
   // Calls microtin_pack_height_at.
   microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return microtin_pack_height_at(pack_, x, y, hint, height);
