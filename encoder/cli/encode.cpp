@@ -77,9 +77,13 @@ std::string at_true_places(const std::optional<Verification>& measured,
 }
 
 // How far the surface is on either side of the source.
-std::string beyond(const Verification& measured) {
-  return "below the source: at most " + to_string(measured.max_below) + ", above: at most " +
-         to_string(measured.max_above) + '\n';
+std::string beyond(const Verification& measured, const std::optional<Distances>& everywhere) {
+  const std::string text = "below the source: at most " + to_string(measured.max_below) +
+                           ", above: at most " + to_string(measured.max_above) + '\n';
+  if (!everywhere) return text;
+  return text + "everywhere, from the bilinear surface of the posts: at most " +
+         to_string(everywhere->below) + " below, at most " + to_string(everywhere->above) +
+         " above\n";
 }
 
 std::string source_of_posts(uint64_t posts, uint64_t voids, const Mended& mended,
@@ -121,7 +125,9 @@ std::string text_of(const Source& source, const EncodedStream& encoded,
     text << (request.lattice.max_error ? " (asked for: at most " : " (found: at most ")
          << to_string(*encoded.bound) << ")";
   }
-  text << '\n' << at_true_places(encoded.true_places, encoded.bound, request) << beyond(measured);
+  text << '\n'
+       << at_true_places(encoded.true_places, encoded.bound, request)
+       << beyond(measured, encoded.everywhere);
   return text.str();
 }
 
@@ -136,7 +142,7 @@ std::string text_of(const PackReport& pack) {
        << pack.bytes << " bytes\nerror: at most " << to_string(pack.measured.max_error) << ", rms "
        << to_string(pack.measured.rms_error) << ", mean " << to_string(pack.measured.mean_error);
   if (pack.bound) text << " (asked for: at most " << to_string(*pack.bound) << ")";
-  text << '\n' << beyond(pack.measured);
+  text << '\n' << beyond(pack.measured, pack.everywhere);
   return text.str();
 }
 

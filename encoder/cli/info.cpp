@@ -11,6 +11,7 @@
 #include "encoder/stream/device_memory.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/stream/header.hpp"
+#include "encoder/terrain/everywhere.hpp"
 #include "encoder/terrain/exact_query.hpp"
 #include "microtin/compact_pack.h"
 #include "microtin/surface.hpp"
@@ -143,6 +144,8 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
     report.emplace_back("side", json(name_of(metadata.side)));
   }
   if (metadata.at_samples) report.emplace_back("at_samples", json_of(*metadata.at_samples));
+  const auto everywhere = stated_everywhere(metadata.everywhere, metadata.placement.z);
+  if (everywhere) report.emplace_back("everywhere", json_of(*everywhere));
   if (metadata.water_level) report.emplace_back("water_level", number(*metadata.water_level));
   if (metadata.grid) report.emplace_back("grid", of_grid(*metadata.grid));
   if (metadata.classes) report.emplace_back("classes", json(list_of(*metadata.classes)));
@@ -192,11 +195,16 @@ JsonObject report_of(DecodedStream& stream) {
 
 JsonObject tile_report(const PackFile& pack, uint32_t number) {
   const TileBox box = tile_box(pack.grid(), number);
-  return {{"tile", json(number)},
-          {"x", json(box.x)},
-          {"y", json(box.y)},
-          {"bytes", json(pack.entries()[number].size)},
-          {"vertices", json(pack.vertices(number))}};
+  JsonObject report = {{"tile", json(number)},
+                       {"x", json(box.x)},
+                       {"y", json(box.y)},
+                       {"bytes", json(pack.entries()[number].size)},
+                       {"vertices", json(pack.vertices(number))}};
+  if (!pack.metadata().grid) return report;  // of points
+  const auto stated = stated_everywhere(pack.margins(number), pack.metadata().placement.z);
+  report.emplace_back("max_below_everywhere", stated ? cli::number(stated->below) : "null");
+  report.emplace_back("max_above_everywhere", stated ? cli::number(stated->above) : "null");
+  return report;
 }
 
 // A line for each tile, under a line of names; columns end on the right.

@@ -6,6 +6,7 @@
 #include "encoder/cli/report.hpp"
 #include "encoder/files/output.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/terrain/everywhere.hpp"
 
 namespace microtin::cli {
 namespace {
@@ -57,17 +58,35 @@ void add_warnings(JsonObject& report, const Original& original) {
   if (!list.empty()) report.emplace_back("warnings", '[' + list + ']');
 }
 
-// What no header notes; where points truly lie, too, if the bound is to hold there.
-void expect_never_below(const Original::Judgement& judgement, const std::string& input) {
+// Where points truly lie, too, if the bound is to hold there.
+void expect_side(BoundSide side, const Original::Judgement& judgement, const std::string& input) {
   const auto expect = [&](const Verification& found, const std::string& where) {
-    if (found.max_below.mantissa == 0) return;
-    throw Error(input + ": " + where + "the surface is below the source, by " +
-                to_string(found.max_below) + " at most");
+    const bool is_below = side == BoundSide::kNeverBelow && found.max_below.mantissa != 0,
+               is_above = side == BoundSide::kNeverAbove && found.max_above.mantissa != 0;
+    if (!is_below && !is_above) return;
+    throw Error(input + ": " + where + "the surface is " +
+                (is_below ? "below the source, by " : "above the source, by ") +
+                to_string(is_below ? found.max_below : found.max_above) + " at most");
   };
   expect(judgement.found, "");
   if (judgement.true_places && judgement.true_bound) {
     expect(*judgement.true_places, "where the points truly lie, ");
   }
+}
+
+// What the header states of heights.
+void expect_stated(const Original::Judgement& judgement, const Metadata& notes,
+                   const std::string& input) {
+  const Verification& found = judgement.found;
+  expect_side(notes.side, judgement, input);
+  const Distances at_samples = {found.max_below, found.max_above};
+  std::string broken = broken_promise(notes.at_samples, at_samples, "at its samples");
+  if (broken.empty() && found.everywhere) {
+    const auto stated = stated_everywhere(notes.everywhere, notes.placement.z);
+    broken = broken_promise(stated, *found.everywhere, "everywhere");
+  }
+  if (broken.empty()) broken = found.broken;
+  if (!broken.empty()) throw Error(input + ": " + broken);
 }
 
 void expect_kept(const Original::Judgement& judgement, const std::string& input) {
@@ -103,7 +122,8 @@ void run_verify(const VerifyRequest& request) {
   add_warnings(report, original);
   const bool told = tell(text_of(report, request.json));
   expect_kept(judgement, input);
-  if (request.never_below) expect_never_below(judgement, input);
+  if (request.never_below) expect_side(BoundSide::kNeverBelow, judgement, input);
+  expect_stated(judgement, document.metadata(), input);
   if (!told) throw ReportLost(input + ": keeps its promises, but nobody reads the report");
 }
 

@@ -212,6 +212,8 @@ void Dataset::describe() {
       {"SIDE", encoder::name_of(info.side)},
       {"MAX_BELOW", info.max_below},
       {"MAX_ABOVE", info.max_above},
+      {"MAX_BELOW_EVERYWHERE", info.max_below_everywhere},
+      {"MAX_ABOVE_EVERYWHERE", info.max_above_everywhere},
       {"SOURCE", valid_text(info.source_name)},
       {"DATE", valid_text(info.date)},
       {"LINEAGE", valid_text(info.lineage)},

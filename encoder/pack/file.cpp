@@ -17,6 +17,8 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
+constexpr uint32_t kTileHeaderMost = 64;  // a tile's has no notes
+
 uint64_t to_unsigned(int16_t value) {
   return static_cast<uint16_t>(value);
 }
@@ -209,14 +211,22 @@ PackEntry PackFile::entry_of(uint32_t tile) const {
 }
 
 uint32_t PackFile::vertices(uint32_t number) const {
-  constexpr uint32_t kHeaderMost = 64;  // a tile's has no notes
   const PackEntry entry = entry_of(number);
   if (entry.size == 0) return 0;
   return with_file_context("tile " + std::to_string(number), [&] {
-    const Bytes start = bytes_at(*bytes_, entry.offset, std::min(entry.size, kHeaderMost));
+    const Bytes start = bytes_at(*bytes_, entry.offset, std::min(entry.size, kTileHeaderMost));
     const microtin_stream_info info = stream::read_header(start).info;
     expect_room_for_vertices(info, entry.size);
     return info.vertices;
+  });
+}
+
+Margins PackFile::margins(uint32_t number) const {
+  const PackEntry entry = entry_of(number);
+  if (entry.size == 0) return {};
+  return with_file_context("tile " + std::to_string(number), [&] {
+    const Bytes start = bytes_at(*bytes_, entry.offset, std::min(entry.size, kTileHeaderMost));
+    return stream::read_header(start).metadata.everywhere;
   });
 }
 

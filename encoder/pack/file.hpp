@@ -78,6 +78,10 @@ class PackFile {
   // damaged.
   uint32_t vertices(uint32_t number) const;
 
+  // The margins of a tile, as its stream's header states them; not stated without terrain. Throws
+  // Error as above.
+  Margins margins(uint32_t number) const;
+
   // A tile, decoded; nothing if it has no terrain. Throws Error naming the tile if it is damaged,
   // not the one in the index, or leaves its box.
   std::optional<DecodedTerrain> tile(uint32_t number) const;

@@ -18,7 +18,8 @@ constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 3};  // and version
 constexpr std::size_t kStartBytes = sizeof kShardMagic + 4, kRangeBytes = 8;
 constexpr uint32_t kMostHeadBytes = 1 << 17;
 constexpr uint32_t kNotMade = 0xFFFFFFFF;  // a tile without terrain
-constexpr std::size_t kSummaryBytes = 4 + 4 + 4 + 2 + 2 + 4 * 8 + 5 * 9 + 5;  // without the check
+constexpr std::size_t kSummaryBytes =
+    4 + 4 + 4 + 2 + 2 + 4 + 4 + 4 * 8 + 5 * 9 + 5;  // without the check
 
 // What the tiles of a pack depend on.
 Bytes write_identity(const PackPlan& plan, const PackContent& pack) {
@@ -47,6 +48,8 @@ Bytes write_summary(const TileSummary& tile) {
   append_number(bytes, tile.vertices, 4);
   append_number(bytes, static_cast<uint16_t>(tile.lowest), 2);
   append_number(bytes, static_cast<uint16_t>(tile.highest), 2);
+  append_number(bytes, tile.below, 4);
+  append_number(bytes, tile.above, 4);
   for (const uint64_t count : {v.posts, v.covered, v.voids, uint64_t{v.within_bound}}) {
     append_number(bytes, count, 8);
   }
@@ -74,6 +77,11 @@ class NumberReader {
     return value;
   }
   uint32_t next32() { return static_cast<uint32_t>(next(4)); }
+  uint32_t next_margin() {
+    const uint32_t margin = next32();
+    expect(margin <= kMarginMost || margin == kNotStated);
+    return margin;
+  }
   int16_t next_height() { return static_cast<int16_t>(static_cast<uint16_t>(next(2))); }
   Decimal next_decimal() {
     const auto mantissa = static_cast<int64_t>(next(8));
@@ -110,6 +118,8 @@ TileSummary read_summary(const Bytes& bytes) {
   tile.vertices = reader.next32();
   tile.lowest = reader.next_height();
   tile.highest = reader.next_height();
+  tile.below = reader.next_margin();
+  tile.above = reader.next_margin();
   v.posts = reader.next(8);
   v.covered = reader.next(8);
   v.voids = reader.next(8);

@@ -2,6 +2,7 @@
 // Joins the tiles of a pack; compares them with a raster, a row of tiles at a time.
 #include "encoder/pack/surface.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <map>
@@ -85,8 +86,13 @@ VerifiedTile verify_tile(const PackFile& pack, uint32_t number, const RasterRead
   if (tile) {
     verified.all = verify(mesh, {part.x, part.y, pack.metadata().placement.z}, part, bound,
                           keeps_visits ? verified.visits.recorder(box.x, box.y) : PostVisitor());
-    verified.all.everywhere =
-        measure_everywhere(mesh, {part.x, part.y, pack.metadata().placement.z}, part);
+    const Axis& z = pack.metadata().placement.z;
+    verified.all.everywhere = measure_everywhere(mesh, {part.x, part.y, z}, part);
+    if (verified.all.everywhere) {
+      verified.all.broken =
+          broken_promise(stated_everywhere(pack.margins(number), z), *verified.all.everywhere,
+                         "tile " + std::to_string(number) + ": everywhere");
+    }
   }
   if (!tile || verified.all.uncovered != 0) verified.uncovered = uncovered_posts(mesh, part, box);
   for_each_post(part, [&](int64_t x, int64_t y, int64_t z) {
@@ -163,6 +169,9 @@ Verification verify(const PackFile& pack, const RasterReader& raster,
     uncovered.forget((row + 1) * grid.height);
   }
   Verification all = combine(parts);
+  const auto broken = std::find_if(parts.begin(), parts.end(),
+                                   [](const Verification& part) { return !part.broken.empty(); });
+  if (broken != parts.end()) all.broken = broken->broken;
   all.uncovered = uncovered.count();
   all.posts = posts;
   all.voids = voids;

@@ -10,6 +10,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/stream/encode.hpp"
+#include "encoder/terrain/everywhere.hpp"
 #include "encoder/terrain/exact_query.hpp"
 #include "encoder/terrain/water.hpp"
 #include "shared/pack_format.hpp"
@@ -136,6 +137,8 @@ TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream, Decod
           static_cast<uint32_t>(tin.vertices.size()),
           low->z,
           high->z,
+          kNotStated,
+          kNotStated,
           measured,
           compact_form(std::move(decoded))};
 }
@@ -179,15 +182,21 @@ EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyO
     auto [stream, decoded] = encode_and_decode(tin, Metadata(), options.effort, origin_of(box));
     const std::optional<Decimal>& bound = tiled.options.max_error;
     WaterGauge gauge(part.decimals, bound ? tiled.options.water_level : std::nullopt);
-    const Verification measured = verify(
-        decoded.mesh(), {part.x, part.y, tiled.lattice.placement.z}, part, bound, gauge.visitor());
+    const Placement lattice = {part.x, part.y, tiled.lattice.placement.z};
+    const Verification measured = verify(decoded.mesh(), lattice, part, bound, gauge.visitor());
     if (measured.uncovered != 0) {
       fix_beside(uncovered_posts(decoded.mesh(), part, box), box, sides, survey);
       continue;
     }
     check_shared(decoded.mesh(), sides, shared);
     check_bounds(tiled, measured, gauge.moved());
-    return {summary_of(tin, stream, std::move(decoded), measured), std::move(stream)};
+    Metadata metadata;
+    metadata.everywhere = margins_of(measure_gap(decoded.mesh(), lattice, part));
+    std::vector<uint8_t> all = with_metadata(stream, metadata);
+    TileSummary summary = summary_of(tin, all, std::move(decoded), measured);
+    summary.below = metadata.everywhere.below;
+    summary.above = metadata.everywhere.above;
+    return {std::move(summary), std::move(all)};
   }
 }
 

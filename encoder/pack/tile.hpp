@@ -41,8 +41,9 @@ struct TileSummary {
   uint32_t bytes = 0;  // of the stream; 0: the tile has no terrain
   uint32_t stream_hash = 0;
   uint32_t vertices = 0;
-  int16_t lowest = 0, highest = 0;  // of them
-  Verification measured;            // by the decoded stream
+  int16_t lowest = 0, highest = 0;                  // of them
+  uint32_t below = kNotStated, above = kNotStated;  // margins, as Contract has them
+  Verification measured;                            // by the decoded stream
   std::optional<CompactForm> compact;
 };
 

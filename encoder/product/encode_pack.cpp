@@ -12,6 +12,7 @@
 #include "encoder/pack/tile_plan.hpp"
 #include "encoder/product/true_bound.hpp"
 #include "encoder/terrain/clouds.hpp"
+#include "encoder/terrain/everywhere.hpp"
 #include "encoder/terrain/verify.hpp"
 #include "microtin/encoder.hpp"
 
@@ -90,13 +91,18 @@ PackReport report_of(const PackContent& pack) {
   report.grid = pack.grid;
   report.z_step = z_step(pack);
   report.bytes = write_pack_head(pack).size();
+  Margins everywhere{0, 0};
   for (const TileSummary& tile : pack.tiles) {
+    if (tile.bytes != 0) {  // a margin that is not stated is above all others
+      everywhere = {std::max(everywhere.below, tile.below), std::max(everywhere.above, tile.above)};
+    }
     report.vertices += tile.vertices;
     report.bytes += tile.bytes;
     report.most_vertices = std::max(report.most_vertices, tile.vertices);
     if (tile.bytes == 0) ++report.empty_tiles;
   }
   report.measured = measured(pack);
+  report.everywhere = stated_everywhere(everywhere, pack.metadata.placement.z);
   if (pack.metadata.accuracy) report.bound = pack.metadata.accuracy->bound;
   return report;
 }

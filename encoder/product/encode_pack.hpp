@@ -24,8 +24,9 @@ struct PackReport {
   uint64_t vertices = 0, bytes = 0;
   uint32_t most_vertices = 0;  // in a tile
   uint32_t empty_tiles = 0;
-  Verification measured;         // of all tiles
-  std::optional<Decimal> bound;  // asked for
+  Verification measured;                // of all tiles
+  std::optional<Decimal> bound;         // asked for
+  std::optional<Distances> everywhere;  // of a raster, as the header states them
 };
 
 PackReport report_of(const PackContent& pack);

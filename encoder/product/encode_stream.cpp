@@ -16,6 +16,7 @@
 #include "encoder/stream/device_memory.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/clouds.hpp"
+#include "encoder/terrain/everywhere.hpp"
 #include "encoder/terrain/verify.hpp"
 #include "encoder/terrain/water.hpp"
 
@@ -131,6 +132,7 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
                   {},
                   microtin_mesh_vertex_count(decoded.mesh()),
                   measured,
+                  std::nullopt,
                   std::nullopt},
                  0};
   EncodedStream& encoded = result.encoded;
@@ -139,6 +141,11 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
     measure_true_places(std::get<PointCloud>(kept), decoded.mesh(), is_kept, lattice, result);
   }
   note_accuracy(encoded, options, miss, metadata);
+  if (const auto* const raster = std::get_if<Raster>(&source)) {
+    const Placement& placement = metadata.placement;
+    metadata.everywhere = margins_of(measure_gap(decoded.mesh(), placement, *raster));
+    encoded.everywhere = stated_everywhere(metadata.everywhere, placement.z);
+  }
   encoded.stream = with_metadata(stream, metadata);
   return result;
 }

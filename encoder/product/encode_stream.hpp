@@ -22,6 +22,7 @@ struct EncodedStream {
   uint32_t vertices;
   Verification verification;
   std::optional<Verification> true_places;  // of points that the lattice moves
+  std::optional<Distances> everywhere;      // of a raster, as the header states them
 };
 
 // Chooses, encodes, decodes with the shipped decoder, and compares that with every post or point:

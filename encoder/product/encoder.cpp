@@ -248,6 +248,12 @@ base::Progress progress_of(const Callbacks& callbacks) {
   });
 }
 
+void add_everywhere(Report& report, const std::optional<terrain::Distances>& stated) {
+  if (!stated) return;
+  report.max_below_everywhere = to_string(stated->below);
+  report.max_above_everywhere = to_string(stated->above);
+}
+
 void add_true_places(Report& report, const std::optional<terrain::Verification>& measured) {
   if (!measured) return;
   report.max_error_at_points = to_string(measured->max_error);
@@ -268,25 +274,32 @@ Report report_of(const product::EncodedStream& encoded) {
                 to_string(measured.max_above),
                 {},
                 {},
+                {},
+                {},
                 {}};
+  add_everywhere(report, encoded.everywhere);
   add_true_places(report, encoded.true_places);
   return report;
 }
 
 Report report_of(const product::PackReport& pack, uint64_t samples) {
-  return {samples,
-          pack.vertices,
-          pack.bytes,
-          static_cast<uint32_t>(pack::tile_count(pack.grid)),
-          pack.bound ? to_string(*pack.bound) : std::string(),
-          to_string(pack.measured.max_error),
-          to_string(pack.measured.rms_error),
-          to_string(pack.measured.mean_error),
-          to_string(pack.measured.max_below),
-          to_string(pack.measured.max_above),
-          {},
-          {},
-          {}};
+  Report report{samples,
+                pack.vertices,
+                pack.bytes,
+                static_cast<uint32_t>(pack::tile_count(pack.grid)),
+                pack.bound ? to_string(*pack.bound) : std::string(),
+                to_string(pack.measured.max_error),
+                to_string(pack.measured.rms_error),
+                to_string(pack.measured.mean_error),
+                to_string(pack.measured.max_below),
+                to_string(pack.measured.max_above),
+                {},
+                {},
+                {},
+                {},
+                {}};
+  add_everywhere(report, pack.everywhere);
+  return report;
 }
 
 Report encode_posts(const terrain::Raster& raster, const product::EncodeOptions& options,

@@ -180,6 +180,8 @@ void copy_report(const Report& report, microtin_report* to) {
   copy_decimal(report.mean_error, all.mean_error);
   copy_decimal(report.max_below, all.max_below);
   copy_decimal(report.max_above, all.max_above);
+  copy_decimal(report.max_below_everywhere, all.max_below_everywhere);
+  copy_decimal(report.max_above_everywhere, all.max_above_everywhere);
   copy_decimal(report.max_error_at_points, all.max_error_at_points);
   copy_decimal(report.max_below_at_points, all.max_below_at_points);
   write_struct(all, to);
@@ -262,6 +264,8 @@ microtin_surface_info info_of(const SurfaceInfo& all) {
   info.side = static_cast<uint32_t>(all.side);
   info.max_below = all.max_below.c_str();
   info.max_above = all.max_above.c_str();
+  info.max_below_everywhere = all.max_below_everywhere.c_str();
+  info.max_above_everywhere = all.max_above_everywhere.c_str();
   return info;
 }
 

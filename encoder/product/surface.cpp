@@ -14,6 +14,7 @@
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/export/grid.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/terrain/everywhere.hpp"
 
 namespace microtin::encoder {
 namespace {
@@ -59,6 +60,11 @@ void take_accuracy(const terrain::Metadata& metadata, SurfaceInfo& info) {
   if (metadata.at_samples) {
     info.max_below = to_string(metadata.at_samples->below);
     info.max_above = to_string(metadata.at_samples->above);
+  }
+  const auto everywhere = terrain::stated_everywhere(metadata.everywhere, metadata.placement.z);
+  if (everywhere) {
+    info.max_below_everywhere = to_string(everywhere->below);
+    info.max_above_everywhere = to_string(everywhere->above);
   }
   if (!metadata.accuracy) return;
   if (metadata.accuracy->bound) info.bound = to_string(*metadata.accuracy->bound);

@@ -131,8 +131,11 @@ std::vector<uint8_t> write_stream(const Contract& contract, const Metadata& meta
 }
 
 // What the header promises.
-Contract contract_of(const Tin& tin, const Effort& effort, Origin origin) {
+Contract contract_of(const Tin& tin, const Metadata& metadata, const Effort& effort,
+                     Origin origin) {
   Contract contract{};
+  contract.below = metadata.everywhere.below;
+  contract.above = metadata.everywhere.above;
   contract.vertices = static_cast<uint32_t>(tin.vertices.size());
   contract.degree = usual_degree(effort);
   contract.coding = effort.coding;
@@ -193,7 +196,7 @@ Draft draft_of(const Tin& tin, const VoidTriangles& voids, const Metadata& metad
 
 Draft chosen_draft(const Tin& tin, const Metadata& metadata, const Effort& effort, Origin origin) {
   const VoidTriangles voids(tin.voids);
-  Contract contract = contract_of(tin, effort, origin);
+  Contract contract = contract_of(tin, metadata, effort, origin);
   Draft usual = draft_of(tin, voids, metadata, contract);
   if (effort.degree != 0 || tin.vertices.size() >= kFewVertices) return usual;
   contract.degree = kWideDegree;

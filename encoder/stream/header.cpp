@@ -379,13 +379,17 @@ Header read_header(const Bytes& stream) {
   read_varint(&next, end, &length);
   read_header(&next, end, &header.contract, axis);
   header.metadata.placement = {axis[0], axis[1], axis[2]};
+  header.metadata.everywhere = {header.contract.below, header.contract.above};
   read_notes(next, end, header.metadata);
   return header;
 }
 
 Bytes with_metadata(const Bytes& stream, const Metadata& metadata) {
   const Header old = read_header(stream);
-  Bytes changed = write_header(old.contract, metadata);
+  Contract contract = old.contract;
+  contract.below = metadata.everywhere.below;
+  contract.above = metadata.everywhere.above;
+  Bytes changed = write_header(contract, metadata);
   changed.insert(changed.end(), stream.begin() + old.info.header_bytes, stream.end());
   read_header(changed);  // throws if a decoder would refuse it; the rest was not touched
   return changed;

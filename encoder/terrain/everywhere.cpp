@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <utility>
 #include <vector>
 
@@ -16,125 +18,214 @@
 namespace microtin::terrain {
 namespace {
 
-constexpr int64_t kUnits = 65536;               // of height in a z step
+constexpr int64_t kUnits = 65536;  // of height in a z step
+constexpr Wide kSixteenth = kUnits / 16;
 constexpr int64_t kHighest = int64_t{1} << 40;  // in units: far beyond all lattice heights
 
 // A coordinate in whole parts of the distance of two posts: column c lies at c * step.
 struct PostAxis {
-  Wide scale, shift, step;
+  int64_t scale = 0, shift = 0, step = 1;
   uint32_t posts;
+  bool is_small;  // coordinates stay below 2^27, and the double area of a triangle below 2^57
 
   PostAxis(const Axis& lattice, const Axis& source, uint32_t count) : posts(count) {
     const LatticeMap map = map_between(lattice, source);
-    scale = map.scale;
-    shift = map.shift;
-    step = map.step;
+    is_small =
+        map.step <= Wide{1} << 20 && map.scale <= 1024 && magnitude(map.shift) <= Wide{1} << 26;
+    if (!is_small) return;
+    scale = static_cast<int64_t>(map.scale);
+    shift = static_cast<int64_t>(map.shift);
+    step = static_cast<int64_t>(map.step);
   }
-  Wide at(uint16_t place) const { return scale * place + shift; }
-  // So that coordinates stay below 2^27, and the double area of a triangle below 2^55.
-  bool is_small() const {
-    return step <= Wide{1} << 20 && scale <= 1024 && magnitude(shift) <= Wide{1} << 26;
+  int64_t at(uint16_t place) const { return scale * place + shift; }
+  bool has_post_at(int64_t place) const {
+    return place >= 0 && place <= (posts - int64_t{1}) * step && place % step == 0;
   }
 };
 
 // An end of an edge: where it lies, in parts of the axes, and its height in units.
 struct End {
-  Wide x, y, z;
+  int64_t x, y, z;
+  bool is_post;
 };
 
+// A raster's heights in units, as a double and exactly.
+class PostHeights {
+ public:
+  PostHeights(const Raster& raster, const Axis& z)
+      : raster_(raster),
+        to_units_(map_between({0, 1, static_cast<uint64_t>(power_of_ten(raster.decimals))}, z)),
+        scale_(static_cast<double>(to_units_.scale) * kUnits / static_cast<double>(to_units_.step)),
+        shift_(static_cast<double>(to_units_.shift) * kUnits /
+               static_cast<double>(to_units_.step)) {
+    double largest = 0;
+    for (const int64_t number : raster.heights) {
+      if (number != kVoidHeight) largest = std::max(largest, std::abs(static_cast<double>(number)));
+    }
+    slack_ = 4 + std::ldexp(scale_ * largest + std::abs(shift_), -48);
+  }
+
+  int64_t number_at(int64_t column, int64_t row) const {
+    return raster_.heights[static_cast<size_t>(row) * raster_.width + static_cast<size_t>(column)];
+  }
+
+  double near(int64_t number) const { return scale_ * static_cast<double>(number) + shift_; }
+  // More than doubles and the rounding of exact heights make up together.
+  double slack() const { return slack_; }
+
+  // Rounded to both sides; nothing beyond kHighest.
+  struct Rounded {
+    Wide low, high;
+  };
+  std::optional<Rounded> exact(int64_t number) const {
+    const Wide numerator = to_units_.numerator(number) * kUnits;
+    const Rounded post{floor_divide(numerator, to_units_.step),
+                       ceil_divide(numerator, to_units_.step)};
+    if (post.low >= -kHighest && post.high <= kHighest) return post;
+    return std::nullopt;
+  }
+
+ private:
+  const Raster& raster_;
+  LatticeMap to_units_;
+  double scale_, shift_, slack_ = 0;
+};
+
+// Doubles find what may be larger than all before; only that is computed exactly.
 class Comparison {
  public:
   Comparison(const Placement& lattice, const Raster& raster)
-      : raster_(raster),
-        x_(lattice.x, raster.x, raster.width),
+      : x_(lattice.x, raster.x, raster.width),
         y_(lattice.y, raster.y, raster.height),
-        from_(
-            map_between({0, 1, static_cast<uint64_t>(power_of_ten(raster.decimals))}, lattice.z)) {}
+        posts_(raster, lattice.z),
+        most_parts_(most_parts(x_, y_)) {}
 
   // Whether numerators along an edge, over parts^2 * cell, stay below 2^83 * kHighest * 8.
-  bool is_exact(const End& a, const End& b) const {
-    const Wide most = parts(a, b), cell = x_.step * y_.step;
-    return x_.is_small() && y_.is_small() && most <= Wide{1} << 41 &&
-           most * most <= (Wide{1} << 83) / cell;
+  bool is_exact(const End& a, const End& b) const { return parts(a, b) <= most_parts_; }
+
+  End end_of(const Vertex& v) const {
+    const int64_t x = x_.at(v.x), y = y_.at(v.y);
+    return {x, y, v.z * kUnits, x_.has_post_at(x) && y_.has_post_at(y)};
   }
 
-  End end_of(const Vertex& v) const { return {x_.at(v.x), y_.at(v.y), Wide{v.z} * kUnits}; }
+  // Takes the post at a vertex into account, if there is one.
+  void add_vertex(const End& v) {
+    if (!v.is_post) return;
+    const int64_t number = posts_.number_at(v.x / x_.step, v.y / y_.step);
+    if (number == kVoidHeight) return;
+    const double below = posts_.near(number) - static_cast<double>(v.z);
+    if (!may_exceed(below, -below, posts_.slack())) return;
+    if (const auto post = exact(number)) keep(post->high - v.z, v.z - post->low);
+  }
 
-  // Takes the posts in a counter-clockwise triangle into account.
+  // Takes the posts in a counter-clockwise triangle into account, but for those at its corners.
   void add_posts(const End& a, const End& b, const End& c) {
-    const Wide south = std::min({a.y, b.y, c.y}), north = std::max({a.y, b.y, c.y});
+    const auto [west, east] = std::minmax({a.x, b.x, c.x});
+    const auto [south, north] = std::minmax({a.y, b.y, c.y});
+    const bool is_in_cell = east - west <= x_.step && north - south <= y_.step;
+    if (is_in_cell && a.is_post && b.is_post && c.is_post) return;
     const Wide first = std::max<Wide>(ceil_divide(south, y_.step), 0);
     const Wide last = std::min<Wide>(floor_divide(north, y_.step), y_.posts - Wide{1});
-    for (Wide row = first; row <= last; ++row) add_row(a, b, c, row);
+    for (Wide row = first; row <= last; ++row) add_row(a, b, c, static_cast<int64_t>(row));
   }
 
-  // Takes the edge from `a` to `b` into account.
+  // Takes the edge from `a` to `b` into account, but for posts at its ends.
   void add(const End& a, const End& b) {
-    const std::vector<Wide>& stops = stops_along(a, b);
+    const bool is_slanted = a.x != b.x && a.y != b.y;
+    if (a.is_post && b.is_post && !is_slanted) return;  // linear from post to post
+    const bool is_diagonal = std::abs(b.x - a.x) == x_.step && std::abs(b.y - a.y) == y_.step;
+    if (a.is_post && b.is_post && is_diagonal) {
+      compare(a, b, 0, parts(a, b), std::min(a.x, b.x) / x_.step, std::min(a.y, b.y) / y_.step);
+      return;
+    }
+    const std::vector<int64_t>& stops = stops_along(a, b);
     for (size_t i = 1; i < stops.size(); ++i) add_piece(a, b, stops[i - 1], stops[i]);
   }
 
-  Wide below() const { return below_; }
-  Wide above() const { return above_; }
+  Gap gap() const { return {below_, above_}; }
   bool has_far_post() const { return has_far_post_; }
 
  private:
-  static Wide turn(const End& a, const End& b, Wide x, Wide y) {
+  // The square of an edge's parts, times those of a cell, is at most 2^83. 0: the axes are too
+  // large.
+  static int64_t most_parts(const PostAxis& x, const PostAxis& y) {
+    if (!x.is_small || !y.is_small) return 0;
+    const Wide most = (Wide{1} << 83) / (Wide{x.step} * y.step);
+    int64_t parts = 0;
+    for (int bit = 40; bit >= 0; --bit) {
+      const int64_t more = parts | int64_t{1} << bit;
+      if (Wide{more} * more <= most) parts = more;
+    }
+    return parts;
+  }
+
+  static int64_t turn(const End& a, const End& b, int64_t x, int64_t y) {
     return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
   }
 
+  void keep(Wide below, Wide above) {
+    below_ = std::max(below_, below);
+    above_ = std::max(above_, above);
+  }
+  bool may_exceed(double below, double above, double slack) const {
+    return below + slack > static_cast<double>(below_) ||
+           above + slack > static_cast<double>(above_);
+  }
+
+  std::optional<PostHeights::Rounded> exact(int64_t number) {
+    const auto post = posts_.exact(number);
+    has_far_post_ = has_far_post_ || !post;
+    return post;
+  }
+
   // The columns of a row from which all three edges are to the left or on the place.
-  void add_row(const End& a, const End& b, const End& c, Wide row) {
-    const Wide y = row * y_.step;
+  void add_row(const End& a, const End& b, const End& c, int64_t row) {
+    const int64_t y = row * y_.step;
     Wide first = 0, last = x_.posts - Wide{1};
     for (const auto& [from, to] : {std::pair(&a, &b), std::pair(&b, &c), std::pair(&c, &a)}) {
       // turn = at_0 - slope * step * column >= 0
-      const Wide at_0 = turn(*from, *to, 0, y), slope = (to->y - from->y) * x_.step;
+      const Wide at_0 = turn(*from, *to, 0, y), slope = Wide{to->y - from->y} * x_.step;
       if (slope > 0) last = std::min(last, floor_divide(at_0, slope));
       if (slope < 0) first = std::max(first, ceil_divide(-at_0, -slope));
       if (slope == 0 && at_0 < 0) return;
     }
     for (Wide column = first; column <= last; ++column) {
-      add_post(a, b, c, static_cast<uint32_t>(column), static_cast<uint32_t>(row));
+      add_post(a, b, c, static_cast<int64_t>(column), row);
     }
   }
 
-  void add_post(const End& a, const End& b, const End& c, uint32_t column, uint32_t row) {
-    const std::optional<Rounded> post = post_at(column, row);
+  void add_post(const End& a, const End& b, const End& c, int64_t column, int64_t row) {
+    const int64_t number = posts_.number_at(column, row);
+    if (number == kVoidHeight) return;
+    const int64_t x = column * x_.step, y = row * y_.step, area = turn(a, b, c.x, c.y);
+    const int64_t of_c = turn(a, b, x, y), of_b = turn(c, a, x, y);
+    if (of_b + of_c == 0 || of_b == area || of_c == area) return;  // at a corner
+    const double below = posts_.near(number) - static_cast<double>(a.z) -
+                         (static_cast<double>(of_c) * static_cast<double>(c.z - a.z) +
+                          static_cast<double>(of_b) * static_cast<double>(b.z - a.z)) /
+                             static_cast<double>(area);
+    if (!may_exceed(below, -below, posts_.slack())) return;
+    const auto post = exact(number);
     if (!post) return;
-    const Wide x = column * x_.step, y = row * y_.step, area = turn(a, b, c.x, c.y);
-    const Wide above_a = turn(a, b, x, y) * (c.z - a.z) + turn(c, a, x, y) * (b.z - a.z);
-    below_ = std::max(below_, ceil_divide((post->high - a.z) * area - above_a, area));
-    above_ = std::max(above_, ceil_divide(above_a - (post->low - a.z) * area, area));
-  }
-
-  // A post's height in units, rounded to both sides, if it has one.
-  struct Rounded {
-    Wide low, high;
-  };
-  std::optional<Rounded> post_at(uint32_t column, uint32_t row) {
-    const int64_t number = raster_.heights[size_t{row} * raster_.width + column];
-    if (number == kVoidHeight) return std::nullopt;
-    const Wide numerator = from_.numerator(number) * kUnits;
-    const Rounded post{floor_divide(numerator, from_.step), ceil_divide(numerator, from_.step)};
-    if (post.low >= -kHighest && post.high <= kHighest) return post;
-    has_far_post_ = true;
-    return std::nullopt;
+    const Wide above_a = Wide{of_c} * (c.z - a.z) + Wide{of_b} * (b.z - a.z);
+    keep(ceil_divide((post->high - a.z) * area - above_a, area),
+         ceil_divide(above_a - (post->low - a.z) * area, area));
   }
 
   // Places along an edge are counted in this many parts of it, so that all lines meet it at whole
   // numbers.
-  static Wide parts(const End& a, const End& b) {
-    return std::max(magnitude(b.x - a.x), Wide{1}) * std::max(magnitude(b.y - a.y), Wide{1});
+  static int64_t parts(const End& a, const End& b) {
+    return std::max(std::abs(b.x - a.x), int64_t{1}) * std::max(std::abs(b.y - a.y), int64_t{1});
   }
 
   // Both ends, and where the edge crosses the lines of columns and rows.
-  const std::vector<Wide>& stops_along(const End& a, const End& b) {
-    const Wide all = parts(a, b);
+  const std::vector<int64_t>& stops_along(const End& a, const End& b) {
+    const int64_t all = parts(a, b);
     stops_ = {0, all};
-    const auto add_lines = [&](Wide from, Wide to, Wide step) {
-      const Wide low = std::min(from, to), high = std::max(from, to);
-      for (Wide line = ceil_divide(low, step); line * step <= high && low != high; ++line) {
+    const auto add_lines = [&](int64_t from, int64_t to, int64_t step) {
+      const int64_t low = std::min(from, to), high = std::max(from, to);
+      if (low == high) return;
+      for (auto line = static_cast<int64_t>(ceil_divide(low, step)); line * step <= high; ++line) {
         stops_.push_back((line * step - from) * (all / (to - from)));
       }
     };
@@ -155,34 +246,68 @@ class Comparison {
     return {cell, cell * 2 * step == twice};
   }
 
-  void add_piece(const End& a, const End& b, Wide from, Wide to) {
+  void add_piece(const End& a, const End& b, int64_t from, int64_t to) {
     const Wide all = parts(a, b);
     // Twice the middle of the piece, times the parts; steps are multiplied alike.
-    const Cells columns = cells_at(2 * a.x * all + (from + to) * (b.x - a.x), x_.step * all);
-    const Cells rows = cells_at(2 * a.y * all + (from + to) * (b.y - a.y), y_.step * all);
+    const Cells columns = cells_at(2 * a.x * all + (Wide{from} + to) * (b.x - a.x), x_.step * all);
+    const Cells rows = cells_at(2 * a.y * all + (Wide{from} + to) * (b.y - a.y), y_.step * all);
     for (int before = 0; before < 4; ++before) {
       if (((before & 1) != 0 && !columns.also_before) || ((before & 2) != 0 && !rows.also_before)) {
         continue;
       }
       const Wide column = columns.first - (before & 1), row = rows.first - (before >> 1);
-      if (compare(a, b, from, to, column, row)) return;
+      if (compare(a, b, from, to, static_cast<int64_t>(column), static_cast<int64_t>(row))) return;
     }
   }
 
   // Whether the cell has four posts with heights. On a line between two cells both are the same.
-  bool compare(const End& a, const End& b, Wide from, Wide to, Wide column, Wide row) {
+  bool compare(const End& a, const End& b, int64_t from, int64_t to, int64_t column, int64_t row) {
     if (column < 0 || row < 0 || column + 1 >= x_.posts || row + 1 >= y_.posts) return false;
+    std::array<int64_t, 4> numbers{};
+    for (uint32_t corner = 0; corner < 4; ++corner) {
+      numbers[corner] = posts_.number_at(column + corner % 2, row + corner / 2);
+      if (numbers[corner] == kVoidHeight) return false;
+    }
+    if (!may_exceed(a, b, from, to, column, row, numbers)) return true;
     std::array<Wide, 4> low{}, high{};
     for (uint32_t corner = 0; corner < 4; ++corner) {
-      const std::optional<Rounded> post = post_at(static_cast<uint32_t>(column) + corner % 2,
-                                                  static_cast<uint32_t>(row) + corner / 2);
+      const auto post = exact(numbers[corner]);
       if (!post) return false;
       low[corner] = post->low;
       high[corner] = post->high;
     }
-    below_ = std::max(below_, most(a, b, from, to, column, row, high, 1));
-    above_ = std::max(above_, most(a, b, from, to, column, row, low, -1));
+    keep(most(a, b, from, to, column, row, high, 1), most(a, b, from, to, column, row, low, -1));
     return true;
+  }
+
+  // Whether a piece of an edge may be farther from the posts' surface than all before: at its ends,
+  // or by the bulge of the parabola between them, which is at most a quarter of K.
+  bool may_exceed(const End& a, const End& b, int64_t from, int64_t to, int64_t column, int64_t row,
+                  const std::array<int64_t, 4>& numbers) const {
+    const int64_t flat_twist = numbers[0] - numbers[1] - numbers[2] + numbers[3];
+    if (flat_twist == 0 && a.is_post && b.is_post && to - from == parts(a, b)) return false;
+    const double all = static_cast<double>(parts(a, b)), p = posts_.near(numbers[0]);
+    const double east = posts_.near(numbers[1]) - p, north = posts_.near(numbers[2]) - p;
+    const double twist = posts_.near(numbers[3]) - p - east - north;
+    const double columns = static_cast<double>(b.x - a.x) / static_cast<double>(x_.step),
+                 rows = static_cast<double>(b.y - a.y) / static_cast<double>(y_.step);
+    const double x = static_cast<double>(a.x) / static_cast<double>(x_.step) -
+                     static_cast<double>(column),
+                 y = static_cast<double>(a.y) / static_cast<double>(y_.step) -
+                     static_cast<double>(row);
+    const double rise = static_cast<double>(b.z - a.z), base = p - static_cast<double>(a.z);
+    const auto difference = [&](int64_t n) {
+      const double t = static_cast<double>(n) / all, u = x + t * columns, v = y + t * rows;
+      return base + u * east + v * north + u * v * twist - t * rise;
+    };
+    const double f = difference(from), g = difference(to);
+    const double length = static_cast<double>(to - from) / all;
+    const double bulge = columns * rows * twist * length * length / 4;
+    const double range =
+        std::abs(base) + std::abs(rise) + std::abs(east) + std::abs(north) + std::abs(twist);
+    return may_exceed(std::max(f, g) + std::max(-bulge, 0.0),
+                      std::max(-f, -g) + std::max(bulge, 0.0),
+                      posts_.slack() + std::ldexp(range, -22));
   }
 
   // The most that the bilinear surface is above the edge (sign 1), or below it (-1), on a piece of
@@ -190,7 +315,7 @@ class Comparison {
   // beginning to g at its end, with the bulge K t (1 - t).
   Wide most(const End& a, const End& b, Wide from, Wide to, Wide column, Wide row,
             const std::array<Wide, 4>& posts, int sign) const {
-    const Wide all = parts(a, b), cell = x_.step * y_.step,
+    const Wide all = parts(a, b), cell = Wide{x_.step} * y_.step,
                twist = posts[0] - posts[1] - posts[2] + posts[3];
     const auto difference = [&](Wide n) {
       const Wide x = a.x * all + n * (b.x - a.x) - column * x_.step * all;  // 0 .. step * all
@@ -211,10 +336,10 @@ class Comparison {
     return ceil_divide((f + g) * 2 * k + k * k + (g - f) * (g - f), 4 * k);
   }
 
-  const Raster& raster_;
   PostAxis x_, y_;
-  LatticeMap from_;  // from numbers of heights to z steps
-  std::vector<Wide> stops_;
+  PostHeights posts_;
+  int64_t most_parts_;  // of an edge
+  std::vector<int64_t> stops_;
   Wide below_ = 0, above_ = 0;
   bool has_far_post_ = false;  // beyond kHighest: no distance is known
 };
@@ -228,9 +353,10 @@ Decimal decimal_of(Wide units, const Axis& z) {
 
 }  // namespace
 
-std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Placement& lattice,
-                                            const Raster& raster) {
+std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& lattice,
+                               const Raster& raster) {
   Comparison comparison(lattice, raster);
+  std::vector<bool> is_compared(microtin_mesh_vertex_count(mesh));
   const uint32_t triangles = microtin_mesh_triangle_count(mesh);
   for (uint32_t t = 0; t < triangles; ++t) {
     uint32_t v[3];
@@ -241,6 +367,8 @@ std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Pla
     for (uint32_t i = 0; i < 3; ++i) {
       const End &from = ends[i], &to = ends[(i + 1) % 3];
       if (!comparison.is_exact(from, to)) return std::nullopt;
+      if (!is_compared[v[i]]) comparison.add_vertex(from);
+      is_compared[v[i]] = true;
       uint32_t unused[3];
       const uint32_t other = microtin_mesh_neighbour(mesh, t, i);
       const bool is_shared = microtin_mesh_triangle(mesh, other, unused) == MICROTIN_TRIANGLE_REAL;
@@ -249,8 +377,28 @@ std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Pla
     comparison.add_posts(ends[0], ends[1], ends[2]);
   }
   if (comparison.has_far_post()) return std::nullopt;
-  return Distances{decimal_of(comparison.below(), lattice.z),
-                   decimal_of(comparison.above(), lattice.z)};
+  return comparison.gap();
+}
+
+std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Placement& lattice,
+                                            const Raster& raster) {
+  const std::optional<Gap> gap = measure_gap(mesh, lattice, raster);
+  if (!gap) return std::nullopt;
+  return Distances{decimal_of(gap->below, lattice.z), decimal_of(gap->above, lattice.z)};
+}
+
+Margins margins_of(const std::optional<Gap>& gap) {
+  if (!gap) return {};
+  const Wide below = ceil_divide(gap->below, kSixteenth),
+             above = ceil_divide(gap->above, kSixteenth);
+  if (std::max(below, above) > kMarginMost) return {};
+  return {static_cast<uint32_t>(below), static_cast<uint32_t>(above)};
+}
+
+std::optional<Distances> stated_everywhere(const Margins& margins, const Axis& z) {
+  if (!is_stated(margins)) return std::nullopt;
+  return Distances{decimal_of(margins.below * kSixteenth, z),
+                   decimal_of(margins.above * kSixteenth, z)};
 }
 
 }  // namespace microtin::terrain

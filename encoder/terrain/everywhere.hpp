@@ -11,14 +11,30 @@
 
 namespace microtin::terrain {
 
+// The largest distances of a surface below and above another, in units of 2^-16 z steps, rounded
+// up.
+struct Gap {
+  Wide below, above;
+};
+
 // Compares at the posts, where they lie, and along the edges of all real triangles. A bilinear less
 // a linear function has no extreme inside the part of a triangle that lies in a cell, and along a
 // line between posts it is linear. So these are the largest distances everywhere. Cells with a void
 // post are left out, and so is what lies outside the grid of posts. Nothing if the numbers of the
 // two lattices are too large for exact arithmetic. Takes O(posts + edges x cells that an edge
 // crosses).
+std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& lattice,
+                               const Raster& raster);
+
+// Measures these distances in the unit of heights.
 std::optional<Distances> measure_everywhere(const microtin_mesh* mesh, const Placement& lattice,
                                             const Raster& raster);
+
+// As a header states them, rounded up. Not stated where nothing was measured, or too much.
+Margins margins_of(const std::optional<Gap>& gap);
+
+// What a header states, in the unit of heights, rounded up at 9 decimals.
+std::optional<Distances> stated_everywhere(const Margins& margins, const Axis& z);
 
 }  // namespace microtin::terrain
 

@@ -12,6 +12,7 @@
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/layers.hpp"
+#include "shared/format.hpp"
 
 namespace microtin::terrain {
 
@@ -20,6 +21,16 @@ namespace microtin::terrain {
 struct Distances {
   Decimal below, above;
 };
+
+// Distances everywhere, from the bilinear surface of a raster's posts, as headers state them: in
+// sixteenths of a z step.
+struct Margins {
+  uint32_t below = kNotStated, above = kNotStated;
+};
+
+inline bool is_stated(const Margins& margins) {
+  return margins.below != kNotStated && margins.above != kNotStated;
+}
 
 // What the heights of a source are. The numbers are those of the note.
 enum class SurfaceKind : uint8_t {
@@ -82,6 +93,7 @@ struct Metadata {
   SurfaceKind surface = SurfaceKind::kUnknown;
   BoundSide side = BoundSide::kNotStated;
   std::optional<Distances> at_samples;  // with each sample at its nearest lattice place
+  Margins everywhere;                   // in a header's fixed part, not a note
   std::optional<PostGrid> grid;         // of the source, if it is a raster
   std::optional<ClassSet> classes;      // of points that were taken
   DuplicateRule duplicates = DuplicateRule::kUnknown;

@@ -169,6 +169,16 @@ Verification combine(const std::vector<Verification>& parts) {
   return all;
 }
 
+std::string broken_promise(const std::optional<Distances>& stated, const Distances& found,
+                           const std::string& where) {
+  if (!stated) return {};
+  const bool is_below = !(found.below <= stated->below);
+  if (!is_below && found.above <= stated->above) return {};
+  return where + ", the surface is " + (is_below ? "below" : "above") + " the source by up to " +
+         to_string(is_below ? found.below : found.above) + "; the header states at most " +
+         to_string(is_below ? stated->below : stated->above);
+}
+
 namespace {
 
 constexpr int64_t kBillion = 1000000000;

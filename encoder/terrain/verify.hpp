@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "encoder/exact/lattice_map.hpp"
@@ -32,6 +33,7 @@ struct Verification {
   bool within_bound = true;  // max_error is at most the bound, or there is none
   // From the bilinear surface of a raster's posts, at posts and between them; if it was measured.
   std::optional<Distances> everywhere;
+  std::string broken;  // of a pack: the first tile's promise that its source breaks
 };
 
 // Told of every post with a height that the terrain answers: its place on the lattice (of a pack:
@@ -50,6 +52,11 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
 
 // The verification of several parts together; what lies in more than one counts for each.
 Verification combine(const std::vector<Verification>& parts);
+
+// What a message says, from `where` on, if a surface is farther from its source than a header
+// states; else empty.
+std::string broken_promise(const std::optional<Distances>& stated, const Distances& found,
+                           const std::string& where);
 
 // Sums errors of heights up exactly.
 

@@ -349,7 +349,7 @@ TEST_CASE("cli: packs") {
   CHECK(session.run("verify t.mtp t.asc").code == 0);
   const Session::Result info = session.run("info t.mtp");
   CHECK(contains(info.out, "pack_version: 4"));
-  CHECK(contains(info.out, "\ntile   x   y  bytes  vertices\n"));
+  CHECK(contains(info.out, "\ntile   x   y  bytes  vertices  max_below_everywhere  max_above_"));
   CHECK(contains(info.out, "\n   0   0   0  "));
   CHECK(contains(session.run("info t.mtp --json").out, "\"tiles\": ["));
   CHECK(session.run("decode t.mtp -o t.ply").code == 0);
@@ -426,7 +426,9 @@ TEST_CASE("cli: a grid that is written is a terrain again") {
   CHECK(session.read("again.mtin") == session.read("exact.mtin"));
   REQUIRE(session.run("encode f.asc --max-error 10 --tile-vertices 60 -o f.mtp").code == 0);
   REQUIRE(session.run("decode f.mtp -o pack.asc").code == 0);
-  CHECK(session.run("verify f.mtp pack.asc").code == 0);
+  // Between these posts the surface may be farther from theirs than from that of its own source.
+  const std::string of_pack = session.run("verify f.mtp pack.asc").out;
+  CHECK(std::stod(of_pack.substr(of_pack.find(key) + key.size())) <= 0.0005 + 1.0 / 131072);
   REQUIRE(session.run("decode f.mtp --lattice --cell 16 -o coarse.asc").code == 0);
   CHECK(contains(session.read("coarse.asc"), "ncols 5\nnrows 5\nxllcenter 0\nyllcenter 0\n"));
   session.write("far.xyz", "0 0 1\n655.35 0 2\n0 655.35 3\n");

@@ -95,6 +95,8 @@ Fields common_fields(const Report& report) {
           {"mean_error", report.mean_error},
           {"max_below", report.max_below},
           {"max_above", report.max_above},
+          {"max_below_everywhere", report.max_below_everywhere},
+          {"max_above_everywhere", report.max_above_everywhere},
           {"max_error_at_points", report.max_error_at_points},
           {"max_below_at_points", report.max_below_at_points}};
 }
@@ -143,7 +145,9 @@ Fields info_of(const SurfaceInfo& info) {
                    {"surface", library::name_of(library::SurfaceKind(info.surface))},
                    {"side", library::name_of(library::BoundSide(info.side))},
                    {"max_below", info.max_below},
-                   {"max_above", info.max_above}};
+                   {"max_above", info.max_above},
+                   {"max_below_everywhere", info.max_below_everywhere},
+                   {"max_above_everywhere", info.max_above_everywhere}};
   constexpr const char* kUnits[] = {"unknown", "metre", "degree", "foot", "US survey foot"};
   fields["units.horizontal"] = kUnits[static_cast<uint32_t>(info.horizontal_unit)];
   fields["units.vertical"] = kUnits[static_cast<uint32_t>(info.vertical_unit)];
@@ -179,6 +183,8 @@ Names names_of_facts(bool is_raster) {
                  "side",
                  "max_below",
                  "max_above",
+                 "max_below_everywhere",
+                 "max_above_everywhere",
                  "units.vertical",
                  "units.horizontal",
                  "extent.west",
@@ -261,7 +267,9 @@ TEST_CASE("reports: no member of the info is without a row") {
                       "surface",
                       "side",
                       "max_below",
-                      "max_above"};
+                      "max_above",
+                      "max_below_everywhere",
+                      "max_above_everywhere"};
   CHECK(text_of(members_of(kSurface, "SurfaceInfo")) == text_of(united(both, {"box", "source"})));
   CHECK(text_of(members_of(kC, "microtin_surface_info")) ==
         text_of(united(both, {"size", "west", "south", "east", "north"})));

@@ -166,7 +166,7 @@ Bytes with_head(const Bytes& shard, size_t offset, const Bytes& bytes) {
 
 // Writes bytes into the summary of the first tile.
 Bytes with_summary(const Bytes& shard, size_t offset, const Bytes& bytes) {
-  constexpr size_t kRange = 8, kSummary = 98;
+  constexpr size_t kRange = 8, kSummary = 106;
   const size_t summary = kStart + head_bytes(shard) + kCheck + kRange + kCheck;
   return with_part(shard, summary, kSummary, offset, bytes);
 }
@@ -183,14 +183,15 @@ TEST_CASE("shards: no tile claims what no tile can have") {
   REQUIRE(shards.refusal({forged}).empty());
   const Bytes all(8, 0xFF), most = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F},
                             least = {0, 0, 0, 0, 0, 0, 0, 0x80};
-  constexpr size_t kVertices = 8, kPosts = 16, kCovered = 24, kVoids = 32, kMaxError = 48,
-                   kMaxBelow = 57, kMaxAbove = 66, kRms = 75, kMean = 84, kRepeats = 93;
+  constexpr size_t kVertices = 8, kBelow = 16, kPosts = 24, kCovered = 32, kVoids = 40,
+                   kMaxError = 56, kMaxBelow = 65, kMaxAbove = 74, kRms = 83, kMean = 92,
+                   kRepeats = 101;
   for (const auto& row :
-       {std::pair(kVertices, Bytes{0, 0, 0, 2}), std::pair(kPosts, all), std::pair(kPosts, most),
-        std::pair(kCovered, most), std::pair(kVoids, all), std::pair(kVoids, most),
-        std::pair(kMaxError, least), std::pair(kMaxError + 8, Bytes{10}),
-        std::pair(kMaxBelow, most), std::pair(kMaxAbove, most), std::pair(kRms, most),
-        std::pair(kMean, most), std::pair(kMean, least),
+       {std::pair(kVertices, Bytes{0, 0, 0, 2}), std::pair(kBelow, Bytes{1, 0, 16, 0}),
+        std::pair(kPosts, all), std::pair(kPosts, most), std::pair(kCovered, most),
+        std::pair(kVoids, all), std::pair(kVoids, most), std::pair(kMaxError, least),
+        std::pair(kMaxError + 8, Bytes{10}), std::pair(kMaxBelow, most), std::pair(kMaxAbove, most),
+        std::pair(kRms, most), std::pair(kMean, most), std::pair(kMean, least),
         std::pair(kMean, Bytes{1, 0, 0, 0, 0, 0, 0, 0x80}),
         std::pair(kRepeats, Bytes{0, 0, 0, 2})}) {
     const size_t offset = row.first;

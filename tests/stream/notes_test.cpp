@@ -44,6 +44,10 @@ bool is_same_distances(const std::optional<Distances>& a, const std::optional<Di
   return is_same_decimal(a->below, b->below) && is_same_decimal(a->above, b->above);
 }
 
+bool is_same_margins(const Margins& a, const Margins& b) {
+  return a.below == b.below && a.above == b.above;
+}
+
 struct Row {
   std::string member;
   std::function<void(Metadata&)> set;
@@ -89,6 +93,9 @@ std::vector<Row> rows() {
           is_same_distances),
       row("at_samples", &Metadata::at_samples, optional(Distances{{0, 0}, {1, 18}}),
           is_same_distances),
+      row("everywhere", &Metadata::everywhere, Margins{0, 1048576}, is_same_margins),
+      row("everywhere", &Metadata::everywhere, Margins{kNotStated, 0}, is_same_margins),
+      row("everywhere", &Metadata::everywhere, Margins{77, 5}, is_same_margins),
       row("grid", &Metadata::grid, optional(PostGrid{1, UINT32_MAX, {1, 2, 3}, {-4, 5, 6}}),
           is_same_grid),
       row("grid", &Metadata::grid, optional(PostGrid{300, 2, {0, 1, 1}, {0, 1, 1}}), is_same_grid),
@@ -154,6 +161,7 @@ TEST_CASE("notes: no member of the metadata is without a row") {
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Accuracy")) ==
         "bound max_error mean_error rms_error ");
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Distances")) == "above below ");
+  CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Margins")) == "above below ");
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "PostGrid")) == "columns rows x y ");
   CHECK(text_of(members_of("encoder/exact/lattice_map.hpp", "Placement")) == "x y z ");
 }

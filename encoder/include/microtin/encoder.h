@@ -123,7 +123,7 @@ typedef struct microtin_report {
   uint32_t tiles;
   char bound[24], max_error[24], rms_error[24], mean_error[24], max_below[24];
   char max_error_at_points[24], max_below_at_points[24];
-  char max_above[24];
+  char max_above[24], max_below_everywhere[24], max_above_everywhere[24];
 } microtin_report;
 
 /* A terrain to encode. */
@@ -206,6 +206,8 @@ typedef struct microtin_surface_info {
   const char* max_error_at_points;   /* at the points' own positions, if the lattice moves points */
   uint32_t surface, side;            /* MICROTIN_SURFACE_*, MICROTIN_SIDE_* */
   const char *max_below, *max_above; /* at posts or points */
+  const char *max_below_everywhere,
+      *max_above_everywhere; /* from the surface of a raster's posts */
 } microtin_surface_info;
 
 /* Writes what the header contains, and where the surface is. Cannot fail for a surface and a struct

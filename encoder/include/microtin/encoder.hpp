@@ -191,6 +191,9 @@ struct Report {
   std::string mean_error; /* above 0: the surface is too high in the mean */
   std::string max_below;  /* the largest distance of the surface below a height */
   std::string max_above;  /* the largest distance of the surface above a height */
+  /* The largest distances of the surface below and above the bilinear surface of a raster's posts,
+   * at posts and between them, as the header states them. "" for points. */
+  std::string max_below_everywhere, max_above_everywhere;
   /* As max_error and max_below, at the points' own positions. "" if the lattice moves none. */
   std::string max_error_at_points, max_below_at_points;
   std::vector<std::string> warnings; /* units and systems that were guessed; doubtful heights */

@@ -96,6 +96,8 @@ struct SurfaceInfo {
   SurfaceKind surface = SurfaceKind::kUnknown;
   BoundSide side = BoundSide::kNotStated;
   std::string max_below, max_above; /* largest distances of the surface below and above heights */
+  /* Largest distances from the bilinear surface of a raster's posts, also between posts. */
+  std::string max_below_everywhere, max_above_everywhere;
 };
 
 /* Vertices and triangles. Triangles are counter-clockwise from above; void ones are left out. */

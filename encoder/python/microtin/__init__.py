@@ -62,6 +62,8 @@ class Report:
     mean_error: float  # above 0: the surface is too high
     max_below: float  # how far the surface is below a height at most
     max_above: float  # how far the surface is above a height at most
+    max_below_everywhere: Optional[float] = None  # from the bilinear surface of a raster's posts, as the header states
+    max_above_everywhere: Optional[float] = None
     max_error_at_points: Optional[float] = None  # where points truly lie, if the lattice moves them
     max_below_at_points: Optional[float] = None
     warnings: Tuple[str, ...] = ()  # what is guessed or not known of units and systems; doubtful heights
@@ -290,6 +292,8 @@ def _report(report: _library.Report) -> Report:
         float(report.mean_error),
         float(report.max_below),
         float(report.max_above),
+        _number(report.max_below_everywhere),
+        _number(report.max_above_everywhere),
         _number(report.max_error_at_points),
         _number(report.max_below_at_points),
         tuple(library.microtin_last_warnings().decode(errors="replace").splitlines()),
@@ -408,6 +412,7 @@ class Surface:
     surface           what the heights are: "ground", "top", "bed", "geoid", "obstacles" or "unknown"
     side              where the surface may be, as far as the bound: "both", "never_below", "never_above" or None
     max_below, max_above  the largest distances of the surface below and above a height; None if they are not stated
+    max_below_everywhere, max_above_everywhere  the same from the bilinear surface of a raster's posts, also between posts
     tiles             (columns, rows) of a pack, (1, 1) of a stream
     """
 
@@ -437,6 +442,8 @@ class Surface:
         self.side: Optional[str] = _SIDES[info.side]
         self.max_below = _number(info.max_below)
         self.max_above = _number(info.max_above)
+        self.max_below_everywhere = _number(info.max_below_everywhere)
+        self.max_above_everywhere = _number(info.max_above_everywhere)
         self.source: str = info.source_name.decode(errors="replace")
         self.date: str = info.date.decode(errors="replace")
         self.lineage: str = info.lineage.decode(errors="replace")

@@ -91,6 +91,8 @@ class Report(_Sized):
         ("max_error_at_points", c_char * 24),
         ("max_below_at_points", c_char * 24),
         ("max_above", c_char * 24),
+        ("max_below_everywhere", c_char * 24),
+        ("max_above_everywhere", c_char * 24),
     ]
 
 
@@ -132,6 +134,8 @@ class SurfaceInfo(_Sized):
         ("side", c_uint32),
         ("max_below", c_char_p),
         ("max_above", c_char_p),
+        ("max_below_everywhere", c_char_p),
+        ("max_above_everywhere", c_char_p),
     ]
 
 
