@@ -121,6 +121,11 @@ test("the header tells units, systems, accuracy", () => {
   assert.deepEqual(header.accuracy, { bound: 10, largest: 9.9, rms: 3.45, mean: -0.12 });
 });
 
+test("the header tells how far the surface is from its source everywhere, if it states that", () => {
+  assert.deepEqual(decode(goldenBytes("later.mtin")).header.everywhere, { below: 0, above: 65536 });
+  assert.equal(decode(goldenBytes("hills.mtin")).header.everywhere, undefined);
+});
+
 test("what must be refused is, with its status", () => {
   assert.ok(refusedNames.length > 0);
   for (const name of refusedNames) assert.throws(() => decode(refusedBytes(name)), MicrotinError, name);

@@ -47,6 +47,8 @@ export interface Header {
     below?: number;
     above?: number;
   };
+  /** The largest distances of the surface below and above the bilinear surface of a raster's posts, also between posts. */
+  everywhere?: { below: number; above: number };
   /** Where the terrain comes from, as its maker states it, and the date of the source in ISO 8601. */
   source?: string;
   date?: string;

@@ -7,6 +7,7 @@ using namespace microtin;
 
 // What the sources read by place.
 static_assert(offsetof(microtin_pack_info, lowest) == 20 && offsetof(microtin_pack_info, x) == 24 &&
+                  offsetof(microtin_stream_info, below) == 16 &&
                   offsetof(microtin_stream_info, x) == 24 &&
                   offsetof(microtin_stream_info, mesh_bytes) == 96,
               "see src/pack.js and src/terrain.js");

@@ -7,7 +7,7 @@ import { OK } from "./status.js";
 const UNITS = [undefined, "metre", "degree", "international foot", "US survey foot"];
 const SURFACES = [undefined, "ground", "top", "bed", "geoid", "obstacles"];
 const SIDES = [undefined, "both", "never_below", "never_above"];
-const AXIS_BYTES = 24;
+const AXIS_BYTES = 24, NOT_STATED = 0xffffffff;
 
 // An axis as the decoder writes it: the real coordinate of lattice value k is start + step * k.
 function axisAt(view, at) {
@@ -20,6 +20,13 @@ function axisAt(view, at) {
 
 export function axesAt(view, at) {
   return { x: axisAt(view, at), y: axisAt(view, at + AXIS_BYTES), z: axisAt(view, at + 2 * AXIS_BYTES) };
+}
+
+// The margins that lie at `at` as the decoder writes them, in units of height; undefined if they are not stated.
+export function everywhereAt(view, at, axes) {
+  const [below, above] = [at, at + 4].map((place) => view.getUint32(place, true));
+  if (below === NOT_STATED || above === NOT_STATED) return undefined;
+  return { below: (below / 16) * axes.z.step, above: (above / 16) * axes.z.step };
 }
 
 // The place of a coordinate on an axis, with the 8 fractional bits of queries; NaN outside 0 .. `most` steps.

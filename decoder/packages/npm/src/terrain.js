@@ -2,14 +2,14 @@
 // A terrain, and its decoding from a stream.
 
 import { checkBytes } from "./check.js";
-import { axesAt, canHold, notesAt, toLattice } from "./header.js";
+import { axesAt, canHold, everywhereAt, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
 import { OK, IO, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED } from "./status.js";
 
 const REAL = 0, VOID = 1;
 const HINT = 64; // in an instance's results: where heights keep theirs, and the height behind it
-const INFO_BYTES = 104, INFO_VERTICES = 0, INFO_HEADER_BYTES = 4, INFO_AXES = 24, INFO_MESH_BYTES = 96,
-  INFO_DECODER_BYTES = 100; // where they are in microtin_stream_info
+const INFO_BYTES = 104, INFO_VERTICES = 0, INFO_HEADER_BYTES = 4, INFO_MARGINS = 16, INFO_AXES = 24,
+  INFO_MESH_BYTES = 96, INFO_DECODER_BYTES = 100; // where they are in microtin_stream_info
 const CHUNK = 65536;
 const STEPS = 1 << 16;
 const MOST = 65535; // steps of a stream's lattice
@@ -166,7 +166,9 @@ export class Decoder {
     const { view, calls } = instance;
     const number = (at) => view.getUint32(info + at, true);
     const decoderBytes = number(INFO_DECODER_BYTES);
-    const header = { vertices: number(INFO_VERTICES), axes: axesAt(view, info + INFO_AXES), ...notes };
+    const axes = axesAt(view, info + INFO_AXES);
+    const everywhere = everywhereAt(view, info + INFO_MARGINS, axes);
+    const header = { vertices: number(INFO_VERTICES), axes, ...(everywhere && { everywhere }), ...notes };
     this.#meshBytes = number(INFO_MESH_BYTES);
     instance.end = start;
     const workspace = instance.reserve(this.#meshBytes);
