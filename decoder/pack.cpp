@@ -41,30 +41,32 @@ void want_notes(microtin_pack& p) {
   }
 }
 
+// What a header breaks, or what of it is unknown, is reported once its check has passed: before
+// that, it is damage.
 MICROTIN_IN_PLACE inline microtin_status handle_fixed(microtin_pack& p) {
   const microtin_status known = check_pack_identity(p.buffer);
   if (known != MICROTIN_STATUS_OK) return fail_pack(p, known);
-  if (!read_pack_header(p.buffer, &p.header)) return fail_pack(p, MICROTIN_STATUS_MALFORMED);
-  p.crc = crc32(0, p.buffer, kPackFixedBytes);
+  p.start = static_cast<uint8_t>(read_pack_header(p.buffer, &p.header));
+  p.sum = crc32(0, p.buffer, kPackFixedBytes);
   p.left = p.header.note_bytes;
-  if (p.header.placement_bytes == 0) {
-    want_notes(p);
-  } else {
+  if (p.start == MICROTIN_STATUS_OK && p.header.placement_bytes != 0) {
     want(p, PackStage::kPlacement, p.header.placement_bytes);
+  } else {
+    p.left += p.header.placement_bytes;  // one that is not read counts as a note
+    want_notes(p);
   }
   return MICROTIN_STATUS_NEED_INPUT;
 }
 
 // What is in the buffer counts for the check.
 MICROTIN_OUT_OF_LINE microtin_status go_on_to_notes(microtin_pack& p) {
-  p.crc = crc32(p.crc, p.buffer, p.buffered);
+  p.sum = crc32(p.sum, p.buffer, p.buffered);
   want_notes(p);
   return MICROTIN_STATUS_NEED_INPUT;
 }
 
 microtin_status handle_placement(microtin_pack& p) {
-  if (!read_pack_placement(p.buffer, p.header, p.axis))
-    return fail_pack(p, MICROTIN_STATUS_MALFORMED);
+  if (!read_pack_placement(p.buffer, p.header, p.axis)) p.start = MICROTIN_STATUS_MALFORMED;
   return go_on_to_notes(p);
 }
 
@@ -74,7 +76,8 @@ microtin_status handle_notes(microtin_pack& p) {
 }
 
 microtin_status handle_check(microtin_pack& p) {
-  if (read_u32(p.buffer) != p.crc) return fail_pack(p, MICROTIN_STATUS_CHECKSUM);
+  if (read_u32(p.buffer) != p.sum) return fail_pack(p, MICROTIN_STATUS_CHECKSUM);
+  if (p.start != MICROTIN_STATUS_OK) return fail_pack(p, static_cast<microtin_status>(p.start));
   want(p, PackStage::kIdle, 0);
   __atomic_signal_fence(__ATOMIC_SEQ_CST);
   p.has_header = true;
@@ -191,7 +194,7 @@ microtin_mesh* mesh_to_fill(const microtin_pack& p, const PackSlot& slot) {
 // Where there is no slot, the stream is compared with its hash: only a good tile wants one.
 microtin_status handle_entry(microtin_pack& p) {
   if (p.buffered > kPackEntryBytes) keep_entries(p);
-  if (pack_entry_check(p.crc, p.tile, p.buffer) !=
+  if (pack_entry_check(p.header.identity, p.tile, p.buffer) !=
       read_u32(p.buffer + kPackEntryBytes - kCheckBytes)) {
     p.kept = 0;  // it may be read better
     return refuse_tile(p, MICROTIN_STATUS_CHECKSUM);
@@ -207,37 +210,33 @@ microtin_status handle_entry(microtin_pack& p) {
     return lack_slot(p);
   }
   p.left = p.entry.size;
-  p.stream_hash = kStreamHash;
+  p.sum = kStreamHash;
   p.next = p.entry.offset;
   want(p, PackStage::kStream, p.left);
   return MICROTIN_STATUS_NEED_INPUT;
 }
 
-// Whether all of the stream was taken, and is that of which the index tells.
-bool is_stream(const microtin_pack& p) {
-  return p.left == 0 && p.fed == p.buffered && p.stream_hash == p.entry.stream_hash;
-}
-
 // What the first bytes of a stream say of the tile.
 microtin_status start_of_tile(const microtin_pack& p) {
-  const uint32_t vertices =
-      tile_vertices(p.buffer, p.buffered, p.header, tile_box(p.header.grid, p.tile));
-  if (vertices == 0) return MICROTIN_STATUS_MALFORMED;
-  return vertices > mesh_to_fill(p, *p.slots)->capacity ? MICROTIN_STATUS_TOO_BIG
-                                                        : MICROTIN_STATUS_OK;
+  Contract contract;
+  const microtin_status status = read_tile_header(p.buffer, p.buffered, p.header,
+                                                  tile_box(p.header.grid, p.tile), &contract);
+  if (status != MICROTIN_STATUS_OK) return status;
+  return contract.vertices > mesh_to_fill(p, *p.slots)->capacity ? MICROTIN_STATUS_TOO_BIG
+                                                                 : MICROTIN_STATUS_OK;
 }
 
-// Counts what came of the stream. STEP_LIMIT: it is to be decoded.
+// Counts what came of the stream. STEP_LIMIT: it is to be decoded. A stream of a later version is
+// only compared with its hash: damage might have made it look like one.
 microtin_status handle_stream(microtin_pack& p) {
   if (!p.is_counted) {
     if (p.left == p.entry.size) p.start = static_cast<uint8_t>(start_of_tile(p));
+    if (p.start == MICROTIN_STATUS_UNSUPPORTED_VERSION) p.slot = nullptr;
     p.is_counted = true;
-    p.stream_hash = stream_hash(p.stream_hash, p.buffer, p.buffered);
+    p.sum = stream_hash(p.sum, p.buffer, p.buffered);
     p.left -= p.buffered;
   }
-  if (p.slot != nullptr) return MICROTIN_STATUS_STEP_LIMIT;
-  p.fed = p.buffered;
-  return hear_decoder(p, p.left != 0 ? MICROTIN_STATUS_NEED_INPUT : MICROTIN_STATUS_OK);
+  return p.slot != nullptr ? MICROTIN_STATUS_STEP_LIMIT : hear_decoder(p, MICROTIN_STATUS_OK);
 }
 
 // Handles what is in the buffer, if it is complete. OK: a tile is ready, or refused, or lacks a
@@ -363,13 +362,14 @@ microtin_status hear_storage(microtin_pack& p) {
 }  // namespace
 
 microtin_status hear_decoder(microtin_pack& p, microtin_status status) {
-  if (status == MICROTIN_STATUS_NEED_INPUT && p.left != 0) {
+  const bool is_decoded = status == MICROTIN_STATUS_OK;
+  // What follows the last section counts for the hash.
+  if (p.left != 0 && (is_decoded || status == MICROTIN_STATUS_NEED_INPUT)) {
     want(p, PackStage::kStream, p.left);
-    return status;
+    return MICROTIN_STATUS_NEED_INPUT;
   }
   if (status == MICROTIN_STATUS_TOO_BIG) return refuse_tile(p, status);
-  if (status != MICROTIN_STATUS_OK || !is_stream(p))
-    return refuse_tile(p, MICROTIN_STATUS_CHECKSUM);
+  if (!is_decoded || p.sum != p.entry.stream_hash) return refuse_tile(p, MICROTIN_STATUS_CHECKSUM);
   if (p.start != MICROTIN_STATUS_OK) return refuse_tile(p, static_cast<microtin_status>(p.start));
   if (p.slot == nullptr) return lack_slot(p);
   if (p.work == nullptr) return finish_tile(p, true);

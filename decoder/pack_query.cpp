@@ -18,6 +18,8 @@ microtin_status microtin_pack_get_info(const microtin_pack* pack, microtin_pack_
   info->max_compact_bytes = header.compact_bytes;
   info->lowest = header.lowest;
   info->highest = header.highest;
+  info->below = header.below;
+  info->above = header.above;
   put_axes(pack->axis, info);
   return MICROTIN_STATUS_OK;
 }

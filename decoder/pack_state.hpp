@@ -13,8 +13,12 @@ namespace microtin {
 constexpr uint32_t kPackBuffer = 128;   // holds every item of the header but the notes
 constexpr uint32_t kEntriesOfRead = 4;  // of the index, if reads are aligned
 static_assert(kEntriesOfRead * kPackEntryBytes <= kPackBuffer, "they are read at once");
-static_assert(kPackBuffer - (kEntriesOfRead - 1) * kPackEntryBytes >= kPackEntryBytes + 16,
-              "an entry, or all that tile_vertices looks at, has room in front of those kept");
+// Of a tile's stream: what it begins with, a length, and a header without placement and notes.
+constexpr uint32_t kTileHeaderMostBytes =
+    kIdentityBytes + 1 + kHeaderMostBytes - kPlacementMostBytes;
+static_assert(kPackBuffer - (kEntriesOfRead - 1) * kPackEntryBytes >=
+                  (kPackEntryBytes > kTileHeaderMostBytes ? kPackEntryBytes : kTileHeaderMostBytes),
+              "an entry, or all that read_tile_header looks at, has room in front of those kept");
 
 // What is read next.
 enum class PackStage : uint8_t {
@@ -67,7 +71,7 @@ struct microtin_pack {
   bool is_sound;  // the stream of `tile` is the right one, but there was no slot for it
   microtin::Storage storage;
   bool is_counted;
-  uint8_t start;  // a status: what the first bytes of the stream say of the tile
+  uint8_t start;  // a status: what the first bytes of a stream say of the tile, or of the header
   // Counts of the next bytes wanted, and of those that came.
   uint8_t wanted, buffered, fed;
   uint8_t kept;     // entries of the index at the buffer's end
@@ -77,9 +81,8 @@ struct microtin_pack {
   uint32_t tile;
   uint32_t left;  // bytes of notes or stream, those in the buffer too until they are counted
   uint64_t next;  // where in the file
-  uint32_t stream_hash;
+  uint32_t sum;        // of what came so far: the CRC-32 of the header, the hash of a stream
   uint32_t kept_from;  // the first one's tile
-  uint32_t crc;        // of the header so far, or its check
   uint32_t clock;
   uint32_t passed;
   uint32_t segment_hash;  // of the segment in hand

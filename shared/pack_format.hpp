@@ -10,10 +10,12 @@
 namespace microtin {
 
 constexpr uint8_t kPackMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'p', 'k'};
-constexpr uint8_t kPackVersion = 4;
+constexpr uint8_t kPackVersion = 5;
 constexpr uint32_t kPackIdentityBytes = 6;
-constexpr uint32_t kPackFixedBytes = 40;
-constexpr uint32_t kPackEntryBytes = 16;
+constexpr uint32_t kPackFixedBytes = 48;
+constexpr uint32_t kPackEntryBytes = 20;
+constexpr uint8_t kPackHeaderFlags = 15;  // of later versions; they leave check and notes in place
+constexpr uint32_t kPackAlignment = 4;    // of the index in the encoder's packs
 constexpr uint32_t kPackExtentMost = 0x7FFFFFFF;
 
 // The parts of a terrain: rectangles of one size, those in the last column and row cut off at the
@@ -47,18 +49,21 @@ inline TileBox tile_box(const TileGrid& grid, uint32_t tile) {
   return box;
 }
 
-// What a pack's header says, up to its notes.
+// What a pack's header says, up to its notes. Heights, counts and margins are bounds.
 struct PackHeader {
   TileGrid grid;
-  uint32_t most_vertices;    // of a tile
-  uint32_t compact_bytes;    // that any tile takes in compact form at most; 0: not stated
-  int16_t lowest, highest;   // vertices of all tiles
-  uint32_t placement_bytes;  // at most 66
-  uint32_t note_bytes;       // at most 65535
+  uint32_t most_vertices;   // of a tile
+  uint32_t compact_bytes;   // that any tile takes in compact form at most; 0: not stated
+  int16_t lowest, highest;  // vertices of all tiles
+  uint32_t identity;        // with which the checks of entries begin
+  uint32_t below, above;    // margins of all tiles, or kNotStated
+  uint16_t note_bytes;
+  uint8_t placement_bytes;  // at most 66
 };
 
 inline uint32_t pack_index_start(const PackHeader& header) {
-  return kPackFixedBytes + header.placement_bytes + header.note_bytes + kCheckBytes;
+  return kPackFixedBytes + header.placement_bytes + static_cast<uint32_t>(header.note_bytes) +
+         kCheckBytes;
 }
 
 // Where the entry of a tile is: below 2^37.
@@ -72,20 +77,24 @@ inline int16_t read_i16(const uint8_t* p) {
                                              : static_cast<int32_t>(value) - 0x10000);
 }
 
-// Checks the first kPackIdentityBytes: a flag that is set is one of a later version.
+// Checks the first kPackIdentityBytes. UNSUPPORTED_VERSION: all that follows may mean something
+// else.
 inline microtin_status check_pack_identity(const uint8_t* bytes) {
   for (uint32_t i = 0; i < sizeof kPackMagic; ++i) {
     if (bytes[i] != read_table(kPackMagic + i)) return MICROTIN_STATUS_BAD_MAGIC;
   }
-  return bytes[4] == kPackVersion && bytes[5] == 0 ? MICROTIN_STATUS_OK
-                                                   : MICROTIN_STATUS_UNSUPPORTED_VERSION;
+  return bytes[4] == kPackVersion && (bytes[5] | kPackHeaderFlags) == kPackHeaderFlags
+             ? MICROTIN_STATUS_OK
+             : MICROTIN_STATUS_UNSUPPORTED_VERSION;
 }
 
-// Reads the fixed part of a known identity. False if it breaks a rule.
-inline bool read_pack_header(const uint8_t* bytes, PackHeader* header) {
+// Reads the fixed part of a known identity. Not OK, once the header's check has passed: MALFORMED,
+// or UNSUPPORTED_VERSION if a flag is set. Only placement, notes and check are then where the
+// header says.
+inline microtin_status read_pack_header(const uint8_t* bytes, PackHeader* header) {
   TileGrid& grid = header->grid;
   header->placement_bytes = bytes[6];
-  header->note_bytes = read_u16(bytes + 8);
+  header->note_bytes = static_cast<uint16_t>(read_u16(bytes + 8));
   grid.width = static_cast<uint16_t>(read_u16(bytes + 10));
   grid.height = static_cast<uint16_t>(read_u16(bytes + 12));
   header->lowest = read_i16(bytes + 14);
@@ -94,16 +103,18 @@ inline bool read_pack_header(const uint8_t* bytes, PackHeader* header) {
   grid.y_max = read_u32(bytes + 24);
   header->most_vertices = read_u32(bytes + 28);
   header->compact_bytes = read_u32(bytes + 32);
+  header->identity = read_u32(bytes + 36);
+  header->below = read_u32(bytes + 40) - 1;  // a margin that is not stated: 0
+  header->above = read_u32(bytes + 44) - 1;
+  if (bytes[5] != 0) return MICROTIN_STATUS_UNSUPPORTED_VERSION;
   const bool reserved = (bytes[7] | bytes[18] | bytes[19]) != 0;
-  return !reserved && header->placement_bytes <= kPlacementMostBytes && grid.width != 0 &&
-         grid.height != 0 && grid.x_max != 0 && grid.x_max <= kPackExtentMost && grid.y_max != 0 &&
-         grid.y_max <= kPackExtentMost && header->most_vertices <= kMaxVertices &&
-         static_cast<uint64_t>(tile_columns(grid)) * tile_rows(grid) <= 0xFFFFFFFF;
-}
-
-// The vertices of all tiles together, which devices have no use for.
-inline uint32_t read_all_vertices(const uint8_t* header) {
-  return read_u32(header + 36);
+  const bool legal =
+      header->below + 1 <= kMarginMost + 1 && header->above + 1 <= kMarginMost + 1 && !reserved &&
+      header->placement_bytes <= kPlacementMostBytes && grid.width != 0 &&
+      grid.height != 0 && grid.x_max != 0 && grid.x_max <= kPackExtentMost && grid.y_max != 0 &&
+      grid.y_max <= kPackExtentMost && header->most_vertices <= kMaxVertices &&
+      static_cast<uint64_t>(tile_columns(grid)) * tile_rows(grid) <= 0xFFFFFFFF;
+  return legal ? MICROTIN_STATUS_OK : MICROTIN_STATUS_MALFORMED;
 }
 
 // The placement behind the fixed part, which must fill its bytes.
@@ -114,47 +125,62 @@ inline bool read_pack_placement(const uint8_t* placement, const PackHeader& head
   return read_placement(&next, end, axis) && next == end;
 }
 
+// Where the index ends, from which offsets count: below 2^37.
+inline uint64_t pack_index_end(const PackHeader& header) {
+  return pack_entry_start(header, tile_columns(header.grid) * tile_rows(header.grid));
+}
+
 // What the index says of a tile.
 struct PackEntry {
-  uint64_t offset;       // of its stream in the file, below 2^40
+  uint64_t offset;       // of its stream in the file, below 2^41
   uint32_t size;         // bytes of the stream, below 2^24; 0: there is no terrain
   uint32_t stream_hash;  // FNV-1a of the stream
 };
 
-// Where the streams may begin: behind the index, below 2^37.
-inline uint64_t pack_streams_start(const PackHeader& header) {
-  return pack_entry_start(header, tile_columns(header.grid) * tile_rows(header.grid));
+// The bounds of a tile's heights, in an entry whose check has passed.
+inline int16_t entry_lowest(const uint8_t* entry) {
+  return read_i16(entry + 12);
+}
+
+inline int16_t entry_highest(const uint8_t* entry) {
+  return read_i16(entry + 14);
 }
 
 // False if it breaks a rule.
 inline bool read_pack_entry(const uint8_t* bytes, const PackHeader& header, PackEntry* entry) {
-  entry->offset = read_u32(bytes) | static_cast<uint64_t>(bytes[4]) << 32;
   entry->size = read_u16(bytes + 5) | static_cast<uint32_t>(bytes[7]) << 16;
   entry->stream_hash = read_u32(bytes + 8);
-  if (entry->size != 0) return entry->offset >= pack_streams_start(header);
-  return entry->offset == 0 && entry->stream_hash == 0;
+  entry->offset =
+      pack_index_end(header) + (read_u32(bytes) | static_cast<uint64_t>(bytes[4]) << 32);
+  if (entry->size != 0) return true;
+  uint32_t rest = 0;
+  for (uint32_t i = 0; i < kPackEntryBytes - kCheckBytes; ++i) rest |= bytes[i];
+  return rest == 0;
 }
 
-// The vertices that a stream, of which the first bytes are given, announces; 0 unless it begins as
-// that of a tile: it has neither placement nor notes, no more vertices than the header says of any,
-// and reaches no farther than the tile.
-inline uint32_t tile_vertices(const uint8_t* bytes, size_t size, const PackHeader& header,
-                              const TileBox& box) {
-  if (size < kIdentityBytes) return 0;
+// Reads the header of a tile's stream, of which the first bytes are given. MALFORMED unless the
+// stream begins as that of a tile: it has neither placement nor notes, no more vertices than the
+// pack's header says of any, and reaches no farther than the tile. UNSUPPORTED_VERSION: the stream
+// is of another version, or has a property that is unknown here.
+inline microtin_status read_tile_header(const uint8_t* bytes, size_t size, const PackHeader& header,
+                                        const TileBox& box, Contract* contract) {
+  if (size < kIdentityBytes) return MICROTIN_STATUS_MALFORMED;
+  const microtin_status known = check_identity(bytes);
+  if (known == MICROTIN_STATUS_UNSUPPORTED_VERSION) return known;
   const uint8_t *next = bytes + kIdentityBytes, *const given = bytes + size;
   uint32_t length = 0;
-  bool legal = true, more = true;
+  bool legal = known == MICROTIN_STATUS_OK, more = legal;
   while (more && next != given) more = take_length(&length, *next++, &legal);
-  if (more || length > static_cast<size_t>(given - next)) return 0;
-  const uint8_t *const end = next + length, *at = next;
+  const size_t left = static_cast<size_t>(given - next);
+  const uint8_t *const end = next + (length < left ? length : left), *at = next;
   uint64_t properties = 0;
-  Contract contract;
   microtin_axis axis[3];
-  const bool is_legal = read_varint(&at, end, &properties) && (properties & kHasPlacement) == 0 &&
-                        read_header(&next, end, &contract, axis) == MICROTIN_STATUS_OK &&
-                        next == end && contract.vertices <= header.most_vertices &&
-                        contract.x_max <= box.x_end - box.x && contract.y_max <= box.y_end - box.y;
-  return is_legal ? contract.vertices : 0;
+  const microtin_status status = read_header(&next, end, contract, axis);
+  if (status != MICROTIN_STATUS_OK) return status;
+  legal = legal && length <= left && next == end && read_varint(&at, end, &properties) &&
+          (properties & kHasPlacement) == 0 && contract->vertices <= header.most_vertices &&
+          contract->x_max <= box.x_end - box.x && contract->y_max <= box.y_end - box.y;
+  return legal ? MICROTIN_STATUS_OK : MICROTIN_STATUS_MALFORMED;
 }
 
 // FNV-1a: tells which stream it is. A CRC-32 could not: over bytes that hold their own CRC-32, as
@@ -166,12 +192,12 @@ MICROTIN_ONE_COPY inline uint32_t stream_hash(uint32_t hash, const uint8_t* byte
   return hash;
 }
 
-// The check of an entry starts from the header's check and the tile's number, so that an entry of
+// The check of an entry starts from the pack's identity and the tile's number, so that an entry of
 // another tile or pack does not pass.
-inline uint32_t pack_entry_check(uint32_t header_check, uint32_t tile, const uint8_t* bytes) {
+inline uint32_t pack_entry_check(uint32_t identity, uint32_t tile, const uint8_t* bytes) {
   uint8_t place[4];
   for (uint32_t i = 0; i < 4; ++i) place[i] = static_cast<uint8_t>(tile >> 8 * i);
-  return crc32(crc32(header_check, place, 4), bytes, kPackEntryBytes - kCheckBytes);
+  return crc32(crc32(identity, place, 4), bytes, kPackEntryBytes - kCheckBytes);
 }
 
 }  // namespace microtin

@@ -300,7 +300,8 @@ void run_merge(const std::vector<std::string>& shards, const std::string& output
   refuse_overwriting(shards, output);
   expect_own_suffix(output, true);
   OutputFile out(output);
-  deliver(out, output, text_of(join_shards(shards, out)));
+  StreamSpool streams(output);
+  deliver(out, output, text_of(join_shards(shards, streams, out)));
 }
 
 }  // namespace microtin::cli

@@ -216,22 +216,36 @@ StreamSpool::StreamSpool(const std::string& output)
   if (!file_) fail();
 }
 
-void StreamSpool::add(const std::vector<uint8_t>& stream) {
-  if (stream.empty()) return;
+uint64_t StreamSpool::add(const std::vector<uint8_t>& stream) {
+  if (stream.empty()) return 0;
+  const uint64_t end = places_.bytes();
+  const uint64_t place =
+      places_.place(stream, [&](uint64_t offset) { return holds(stream, offset); });
+  if (place != end) return place;
   if (std::fwrite(stream.data(), 1, stream.size(), file_.get()) != stream.size()) fail();
-  bytes_ += stream.size();
+  return end;
+}
+
+// The file stays where it is written next.
+bool StreamSpool::holds(const std::vector<uint8_t>& stream, uint64_t offset) {
+  std::vector<uint8_t> there(stream.size());
+  const uint64_t end = places_.bytes();
+  go_to(offset);
+  if (std::fread(there.data(), 1, there.size(), file_.get()) != there.size()) fail();
+  go_to(end);
+  return there == stream;
 }
 
 void StreamSpool::clear() {
-  rewind();
-  bytes_ = 0;
+  go_to(0);
+  places_ = {};
 }
 
 void StreamSpool::copy_to(OutputFile& out) {
   if (std::fflush(file_.get()) != 0) fail();
-  rewind();
+  go_to(0);
   std::vector<char> piece(65536);
-  for (uint64_t left = bytes_; left != 0;) {
+  for (uint64_t left = places_.bytes(); left != 0;) {
     const std::size_t size = std::min<uint64_t>(left, piece.size());
     if (std::fread(piece.data(), 1, size, file_.get()) != size) fail();
     out.write({piece.data(), size});
@@ -239,8 +253,8 @@ void StreamSpool::copy_to(OutputFile& out) {
   }
 }
 
-void StreamSpool::rewind() {
-  if (std::fseek(file_.get(), 0, SEEK_SET) != 0) fail();
+void StreamSpool::go_to(uint64_t offset) {
+  if (fseeko(file_.get(), static_cast<off_t>(offset), SEEK_SET) != 0) fail();
 }
 
 void StreamSpool::fail() const {

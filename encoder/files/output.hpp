@@ -15,6 +15,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/files/leftovers.hpp"
+#include "encoder/files/stream_places.hpp"
 #include "encoder/layers.hpp"
 
 namespace microtin::files {
@@ -87,19 +88,22 @@ class StreamSpool {
   // naming the output.
   explicit StreamSpool(const std::string& output);
 
-  void add(const std::vector<uint8_t>& stream);
+  // Returns where the stream is among those that copy_to copies, equal ones once. An empty stream
+  // is nowhere: 0.
+  uint64_t add(const std::vector<uint8_t>& stream);
   void clear();
 
-  // Copies all streams in the order in which they came.
+  // Copies the streams in the order in which they came.
   void copy_to(OutputFile& out);
 
  private:
-  void rewind();
+  bool holds(const std::vector<uint8_t>& stream, uint64_t offset);
+  void go_to(uint64_t offset);
   [[noreturn]] void fail() const;
 
   std::string output_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-  uint64_t bytes_ = 0;
+  StreamPlaces places_;
 };
 
 }  // namespace microtin::files

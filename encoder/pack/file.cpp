@@ -23,13 +23,15 @@ uint64_t to_unsigned(int16_t value) {
   return static_cast<uint16_t>(value);
 }
 
-Bytes write_entry(const TileSummary& tile, uint64_t offset) {
+Bytes write_entry(const TileSummary& tile) {
   Bytes entry;
   if (tile.bytes == 0) return Bytes(kPackEntryBytes - kCheckBytes);
-  if (tile.bytes >> 24 != 0 || offset >> 40 != 0) throw Error("the pack grows too large");
-  append_number(entry, offset, 5);
+  if (tile.bytes >> 24 != 0 || tile.offset >> 40 != 0) throw Error("the pack grows too large");
+  append_number(entry, tile.offset, 5);
   append_number(entry, tile.bytes, 3);
   append_number(entry, tile.stream_hash, 4);
+  append_number(entry, to_unsigned(tile.lowest), 2);
+  append_number(entry, to_unsigned(tile.highest), 2);
   return entry;
 }
 
@@ -50,6 +52,14 @@ void expect(bool legal) {
 
 void expect_done(microtin_status status) {
   if (status != MICROTIN_STATUS_OK) throw Error(describe(status));
+}
+
+void expect_version(const Bytes& fixed) {
+  const microtin_status known = check_pack_identity(fixed.data());
+  const int version = fixed[4], ours = kPackVersion;
+  if (known != MICROTIN_STATUS_UNSUPPORTED_VERSION || version >= ours) return expect_done(known);
+  throw Error("a pack of version " + std::to_string(version) + ", and this program reads version " +
+              std::to_string(ours) + ": encode the terrain again");
 }
 
 void check_box(const microtin_mesh* mesh, const TileBox& box) {
@@ -77,33 +87,60 @@ Verification measured(const PackContent& pack) {
   return combine(parts);
 }
 
-Bytes write_pack_header(const PackContent& pack) {
-  const Bytes placement = write_placement(pack.metadata.placement);
-  const Bytes notes = write_notes(pack.metadata);
+namespace {
+
+// What bounds all tiles with terrain.
+struct Bounds {
   int16_t lowest = INT16_MAX, highest = INT16_MIN;
-  uint32_t most = 0;
-  uint64_t all = 0;
-  for (const TileSummary& tile : pack.tiles) {
+  uint32_t vertices = 0;
+  uint32_t below = 0, above = 0;  // kNotStated if it is of any
+  TileSums sums{0, 0};
+};
+
+Bounds bounds_of(const std::vector<TileSummary>& tiles) {
+  Bounds all;
+  for (const TileSummary& tile : tiles) {
     if (tile.bytes == 0) continue;
-    lowest = std::min(lowest, tile.lowest);
-    highest = std::max(highest, tile.highest);
-    most = std::max(most, tile.vertices);
-    all += tile.vertices;
+    all.lowest = std::min(all.lowest, tile.lowest);
+    all.highest = std::max(all.highest, tile.highest);
+    all.vertices = std::max(all.vertices, tile.vertices);
+    all.below = std::max(all.below, tile.below);
+    all.above = std::max(all.above, tile.above);
+    all.sums.vertices += tile.vertices;
+    ++all.sums.tiles;
   }
+  if (all.sums.tiles == 0) all.below = all.above = kNotStated;
+  return all;
+}
+
+Bytes write_fixed(const PackContent& pack, std::size_t placement_bytes, std::size_t note_bytes) {
+  const Bounds bounds = bounds_of(pack.tiles);
   Bytes header(kPackMagic, kPackMagic + sizeof kPackMagic);
   append_number(header, kPackVersion, 2);
-  append_number(header, placement.size(), 2);
-  append_number(header, notes.size(), 2);
+  append_number(header, placement_bytes, 2);
+  append_number(header, note_bytes, 2);
   append_number(header, pack.grid.width, 2);
   append_number(header, pack.grid.height, 2);
-  append_number(header, to_unsigned(lowest), 2);
-  append_number(header, to_unsigned(highest), 2);
+  append_number(header, to_unsigned(bounds.lowest), 2);
+  append_number(header, to_unsigned(bounds.highest), 2);
   append_number(header, 0, 2);
   append_number(header, pack.grid.x_max, 4);
   append_number(header, pack.grid.y_max, 4);
-  append_number(header, most, 4);
-  append_number(header, compact_bytes(pack.tiles, most), 4);
-  append_number(header, std::min<uint64_t>(all, UINT32_MAX), 4);
+  append_number(header, bounds.vertices, 4);
+  append_number(header, compact_bytes(pack.tiles, bounds.vertices), 4);
+  append_check(header, 0);  // the identity
+  append_number(header, bounds.below + 1u, 4);  // not stated: 0
+  append_number(header, bounds.above + 1u, 4);
+  return header;
+}
+
+}  // namespace
+
+Bytes write_pack_header(const PackContent& pack) {
+  const Bytes placement = write_placement(pack.metadata.placement);
+  Bytes notes = write_notes(pack.metadata);
+  append_padding(notes, kPackFixedBytes + placement.size() + kCheckBytes, kPackAlignment);
+  Bytes header = write_fixed(pack, placement.size(), notes.size());
   header.insert(header.end(), placement.begin(), placement.end());
   header.insert(header.end(), notes.begin(), notes.end());
   append_check(header, 0);
@@ -118,22 +155,22 @@ Bytes write_pack_head(PackContent pack) {
     pack.metadata.accuracy->mean_error = all.mean_error;
     pack.metadata.at_samples = Distances{all.max_below, all.max_above};
   }
+  pack.metadata.sums = bounds_of(pack.tiles).sums;
   Bytes head = write_pack_header(pack);
-  const uint32_t header_check = read_u32(head.data() + head.size() - kCheckBytes);
-  uint64_t offset = head.size() + pack.tiles.size() * kPackEntryBytes;
+  PackHeader header{};
+  read_pack_header(head.data(), &header);
   for (std::size_t i = 0; i < pack.tiles.size(); ++i) {
-    const Bytes entry = write_entry(pack.tiles[i], offset);
+    const Bytes entry = write_entry(pack.tiles[i]);
     head.insert(head.end(), entry.begin(), entry.end());
-    append_number(head, pack_entry_check(header_check, static_cast<uint32_t>(i), entry.data()),
+    append_number(head, pack_entry_check(header.identity, static_cast<uint32_t>(i), entry.data()),
                   kCheckBytes);
-    offset += pack.tiles[i].bytes;
   }
   return head;
 }
 
-Bytes write_pack(const PackContent& pack, const std::vector<Bytes>& streams) {
+Bytes write_pack(const PackContent& pack, const Bytes& streams) {
   Bytes file = write_pack_head(pack);
-  for (const Bytes& stream : streams) file.insert(file.end(), stream.begin(), stream.end());
+  file.insert(file.end(), streams.begin(), streams.end());
   return file;
 }
 
@@ -163,17 +200,13 @@ PackFile::PackFile(std::unique_ptr<ByteSource> bytes, Index index) : bytes_(std:
 
 void PackFile::read_header() {
   const Bytes fixed = bytes_at(*bytes_, 0, kPackFixedBytes);
-  expect_done(check_pack_identity(fixed.data()));
-  const bool legal = read_pack_header(fixed.data(), &header_);
+  expect_version(fixed);
+  const microtin_status legal = read_pack_header(fixed.data(), &header_);
   const uint32_t end = pack_index_start(header_);
   const Bytes header = bytes_at(*bytes_, 0, end);
-  const uint8_t* const data = header.data();
-  vertices_ = read_all_vertices(data);
-  header_check_ = read_u32(data + end - kCheckBytes);
-  if (crc32(0, data, end - kCheckBytes) != header_check_)
-    throw Error(describe(MICROTIN_STATUS_CHECKSUM));
-  expect(legal);
-  metadata_ = read_placement_and_notes(header_, data);
+  if (crc32(0, header.data(), end) != kCheckedCrc) throw Error(describe(MICROTIN_STATUS_CHECKSUM));
+  expect_done(legal);
+  metadata_ = read_placement_and_notes(header_, header.data());
 }
 
 void PackFile::read_index() {
@@ -194,20 +227,27 @@ void PackFile::read_index() {
   }
 }
 
-PackEntry PackFile::entry_at(uint32_t tile, const uint8_t* at) const {
-  if (pack_entry_check(header_check_, tile, at) != read_u32(at + kPackEntryBytes - kCheckBytes)) {
+IndexEntry PackFile::entry_at(uint32_t tile, const uint8_t* at) const {
+  if (pack_entry_check(header_.identity, tile, at) !=
+      read_u32(at + kPackEntryBytes - kCheckBytes)) {
     throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_STATUS_CHECKSUM));
   }
-  PackEntry entry{};
+  IndexEntry entry{};
   if (!read_pack_entry(at, header_, &entry)) {
     throw Error("tile " + std::to_string(tile) + ": " + describe(MICROTIN_STATUS_MALFORMED));
   }
+  entry.lowest = entry_lowest(at);
+  entry.highest = entry_highest(at);
   return entry;
 }
 
-PackEntry PackFile::entry_of(uint32_t tile) const {
+IndexEntry PackFile::entry_of(uint32_t tile) const {
   if (!entries_.empty()) return entries_[tile];
   return entry_at(tile, bytes_at(*bytes_, pack_entry_start(header_, tile), kPackEntryBytes).data());
+}
+
+uint64_t PackFile::vertices() const {
+  return metadata_.sums ? metadata_.sums->vertices : counted_vertices();
 }
 
 uint32_t PackFile::vertices(uint32_t number) const {
@@ -230,53 +270,35 @@ Margins PackFile::margins(uint32_t number) const {
   });
 }
 
+Bytes PackFile::stream_of(const PackEntry& entry) const {
+  Bytes stream = bytes_at(*bytes_, entry.offset, entry.size);
+  if (stream_hash(kStreamHash, stream.data(), stream.size()) != entry.stream_hash)
+    throw Error(describe(MICROTIN_STATUS_CHECKSUM));
+  return stream;
+}
+
+microtin_status PackFile::start_of(uint32_t number, const Bytes& stream) const {
+  Contract contract{};
+  return read_tile_header(stream.data(), stream.size(), header_, tile_box(header_.grid, number),
+                          &contract);
+}
+
 std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
   const PackEntry entry = entry_of(number);
   if (entry.size == 0) return std::nullopt;
   return with_file_context("tile " + std::to_string(number), [&] {
-    const Bytes stream = bytes_at(*bytes_, entry.offset, entry.size);
-    if (stream_hash(kStreamHash, stream.data(), stream.size()) != entry.stream_hash) {
-      throw Error(describe(MICROTIN_STATUS_CHECKSUM));
-    }
+    const Bytes stream = stream_of(entry);
+    expect_done(start_of(number, stream));
     DecodedTerrain decoded(stream);
-    const TileBox box = tile_box(header_.grid, number);
-    expect(tile_vertices(stream.data(), stream.size(), header_, box) != 0);
-    check_box(decoded.mesh(), box);
+    check_box(decoded.mesh(), tile_box(header_.grid, number));
     return std::optional<DecodedTerrain>(std::move(decoded));
   });
-}
-
-void PackFile::expect_as_stated() const {
-  expect_vertices();
-  expect_compact_bytes();
 }
 
 uint64_t PackFile::counted_vertices() const {
   uint64_t all = 0;
   for (uint32_t number = 0; number < entries_.size(); ++number) all += vertices(number);
   return all;
-}
-
-void PackFile::expect_vertices() const {
-  const uint64_t all = counted_vertices();
-  if (std::min<uint64_t>(all, UINT32_MAX) == vertices_) return;
-  throw Error("the header says that all tiles have " + std::to_string(vertices_) +
-              " vertices; they have " + std::to_string(all));
-}
-
-void PackFile::expect_compact_bytes() const {
-  if (header_.compact_bytes == 0) return;
-  const uint32_t bits = index_bits(header_.most_vertices);
-  std::vector<uint64_t> needed(entries_.size());
-  for_each_parallel(needed.size(), [&](std::size_t i) {
-    std::optional<DecodedTerrain> decoded = tile(static_cast<uint32_t>(i));
-    if (decoded) needed[i] = bytes_of(measured_form(decoded->mesh()), bits);
-  });
-  const auto most = std::max_element(needed.begin(), needed.end());
-  if (*most == header_.compact_bytes) return;
-  throw Error("the header says that a tile takes at most " + std::to_string(header_.compact_bytes) +
-              " bytes in compact form; tile " + std::to_string(most - needed.begin()) +
-              " takes most, " + std::to_string(*most));
 }
 
 }  // namespace microtin::pack

@@ -31,8 +31,7 @@ PackContent content_of(const PackPlan& plan, Metadata metadata);
 // What all tiles together keep; posts on borders count in each tile.
 Verification measured(const PackContent& pack);
 
-// What comes before the streams: header and index. They follow in the order of their numbers.
-// Throws Error if notes or streams are too long.
+// What comes before the streams: header and index. Throws Error if notes or streams are too long.
 std::vector<uint8_t> write_pack_head(PackContent pack);
 
 // The header alone.
@@ -41,12 +40,16 @@ std::vector<uint8_t> write_pack_header(const PackContent& pack);
 // What such a header says behind its fixed part. Throws Error if that breaks a rule.
 Metadata read_placement_and_notes(const PackHeader& header, const uint8_t* bytes);
 
-// A whole pack.
-std::vector<uint8_t> write_pack(const PackContent& pack,
-                                const std::vector<std::vector<uint8_t>>& streams);
+// A whole pack; the tiles say where their streams are.
+std::vector<uint8_t> write_pack(const PackContent& pack, const std::vector<uint8_t>& streams);
 
 // Whether bytes begin as those of a pack do.
 bool is_pack(const ByteSource& bytes);
+
+// An entry of the index, and its bounds of the tile's heights.
+struct IndexEntry : PackEntry {
+  int16_t lowest, highest;
+};
 
 class PackFile {
  public:
@@ -63,12 +66,12 @@ class PackFile {
   const TileGrid& grid() const { return header_.grid; }
   const PackHeader& header() const { return header_; }
   const Metadata& metadata() const { return metadata_; }
-  const std::vector<PackEntry>& entries() const { return entries_; }  // by tile
+  const std::vector<IndexEntry>& entries() const { return entries_; }  // by tile
   uint64_t bytes() const { return bytes_->size(); }
 
-  // Vertices of all tiles, those on borders once for each, as the header states; 2^32 - 1: that
-  // many or more.
-  uint32_t vertices() const { return vertices_; }
+  // Vertices of all tiles, those on borders once for each, as the header states; counted_vertices()
+  // if it does not.
+  uint64_t vertices() const;
 
   // Vertices of all tiles, counted: the header of each stream is read, and decoding takes no more.
   // Throws Error naming a tile whose header is damaged.
@@ -83,26 +86,29 @@ class PackFile {
   Margins margins(uint32_t number) const;
 
   // A tile, decoded; nothing if it has no terrain. Throws Error naming the tile if it is damaged,
-  // not the one in the index, or leaves its box.
+  // not the one in the index, of a later version, or leaves its box.
   std::optional<DecodedTerrain> tile(uint32_t number) const;
 
-  // Decodes all tiles, and throws Error unless they have as many vertices as the header says, and
-  // the one that takes most in compact form takes what it says, if it says so.
+  // Decodes all tiles. Throws Error naming those that are unsupported, and those that are bad for
+  // another reason; then if a tile breaks a bound that its entry or the header states, or if the
+  // sums are wrong that the header states.
   void expect_as_stated() const;
 
  private:
   void read_header();
   void read_index();
-  PackEntry entry_at(uint32_t tile, const uint8_t* at) const;
-  PackEntry entry_of(uint32_t tile) const;
-  void expect_vertices() const;
-  void expect_compact_bytes() const;
+  IndexEntry entry_at(uint32_t tile, const uint8_t* at) const;
+  IndexEntry entry_of(uint32_t tile) const;
+  std::vector<uint8_t> stream_of(const PackEntry& entry) const;
+  microtin_status start_of(uint32_t number, const std::vector<uint8_t>& stream) const;
+  bool is_unsupported(uint32_t number) const;
+  void expect_bounds(uint32_t number, DecodedTerrain& tile) const;
+  void expect_sums() const;
 
   std::unique_ptr<ByteSource> bytes_;
   PackHeader header_{};
-  uint32_t header_check_ = 0, vertices_ = 0;
   Metadata metadata_;
-  std::vector<PackEntry> entries_;
+  std::vector<IndexEntry> entries_;
 };
 
 }  // namespace microtin::pack

@@ -11,6 +11,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/progress.hpp"
+#include "encoder/files/stream_places.hpp"
 #include "encoder/fit/simplify.hpp"
 #include "encoder/pack/point_survey.hpp"
 #include "encoder/pack/point_tile.hpp"
@@ -212,10 +213,13 @@ PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
                  survey.xy_step,
                  survey.xy_displacement,
                  survey.merged};
+  JoinedStreams streams;
   for (EncodedTile& tile : tiles) {
+    tile.summary.offset = streams.add(tile.stream);
+    tile.stream = {};
     pack.content.tiles.push_back(tile.summary);
-    pack.streams.push_back(std::move(tile.stream));
   }
+  pack.streams = streams.bytes();
   return pack;
 }
 

@@ -17,7 +17,7 @@ namespace microtin::pack {
 
 struct PointPack {
   PackContent content;
-  std::vector<std::vector<uint8_t>> streams;  // by tile
+  std::vector<uint8_t> streams;
   Decimal xy_step, xy_displacement;           // as in Laid
   uint64_t merged = 0;
 };

@@ -178,8 +178,6 @@ class Shard {
     });
   }
 
-  void skip_stream(const TileSummary& tile) { offset_ += tile.bytes; }
-
   Bytes next_stream(const TileSummary& tile) {
     return with_file_context(path_, [&] {
       Bytes stream = take(tile.bytes);
@@ -190,9 +188,6 @@ class Shard {
       return stream;
     });
   }
-
-  // Back to the first tile.
-  void rewind() { offset_ = kStartBytes + head_.size() + kRangeBytes + kCheckBytes; }
 
  private:
   Bytes take(uint64_t size) {
@@ -246,7 +241,7 @@ void expect_all_tiles(const std::vector<Shard>& shards, const TileGrid& grid) {
 // The pack that a head announces.
 PackContent read_content(const Bytes& head) {
   PackHeader header{};
-  expect(read_pack_header(head.data(), &header) && pack_index_start(header) <= head.size() &&
+  expect(read_pack_header(head.data(), &header) == MICROTIN_STATUS_OK && pack_index_start(header) <= head.size() &&
          !has_too_many_tiles(header.grid));
   return {header.grid, read_placement_and_notes(header, head.data()), {}};
 }
@@ -283,23 +278,15 @@ void ShardWriter::add(const EncodedTile& tile) {
   out_.write(tile.stream);
 }
 
-PackContent merge_shards(const std::vector<std::string>& paths, OutputFile& out) {
+PackContent merge_shards(const std::vector<std::string>& paths, StreamSpool& streams) {
   std::vector<Shard> shards = open_all(paths);
   PackContent pack = with_file_context(paths[0], [&] { return read_content(shards[0].head()); });
   expect_all_tiles(shards, pack.grid);
   for (Shard& shard : shards) {
     for (uint64_t tile = shard.range().first; tile <= shard.range().last; ++tile) {
-      pack.tiles.push_back(shard.next_summary());
-      shard.skip_stream(pack.tiles.back());
-    }
-    shard.rewind();
-  }
-  out.write(write_pack_head(pack));
-  std::size_t tile = 0;
-  for (Shard& shard : shards) {
-    for (const std::size_t end = tile + shard.range().last - shard.range().first + 1; tile < end;
-         ++tile) {
-      out.write(shard.next_stream(shard.next_summary()));
+      TileSummary summary = shard.next_summary();
+      summary.offset = streams.add(shard.next_stream(summary));
+      pack.tiles.push_back(summary);
     }
   }
   return pack;

@@ -36,10 +36,10 @@ class ShardWriter {
   OutputFile& out_;
 };
 
-// Joins shards to the pack that a single run makes, and returns what it holds. Throws Error naming
-// the shard if one is damaged, of another pack, or holds a tile that another one holds, too; and if
-// tiles are missing.
-PackContent merge_shards(const std::vector<std::string>& paths, OutputFile& out);
+// Joins shards to the pack that a single run makes: returns what it contains but for its streams,
+// which go to the spool. Throws Error naming the shard if one is damaged, of another pack, or holds
+// a tile that another one holds, too; and if tiles are missing.
+PackContent merge_shards(const std::vector<std::string>& paths, StreamSpool& streams);
 
 }  // namespace microtin::pack
 

@@ -132,15 +132,15 @@ TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream, Decod
                        const Verification& measured) {
   const auto lower = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
   const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(), lower);
-  return {static_cast<uint32_t>(stream.size()),
-          stream_hash(kStreamHash, stream.data(), stream.size()),
-          static_cast<uint32_t>(tin.vertices.size()),
-          low->z,
-          high->z,
-          kNotStated,
-          kNotStated,
-          measured,
-          compact_form(std::move(decoded))};
+  TileSummary summary;
+  summary.bytes = static_cast<uint32_t>(stream.size());
+  summary.stream_hash = stream_hash(kStreamHash, stream.data(), stream.size());
+  summary.vertices = static_cast<uint32_t>(tin.vertices.size());
+  summary.lowest = low->z;
+  summary.highest = high->z;
+  summary.measured = measured;
+  summary.compact = compact_form(std::move(decoded));
+  return summary;
 }
 
 std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster& part,

@@ -38,7 +38,8 @@ bool form_triangle(const std::vector<Sample>& samples);
 
 // What a pack contains of a tile in addition to its stream.
 struct TileSummary {
-  uint32_t bytes = 0;  // of the stream; 0: the tile has no terrain
+  uint32_t bytes = 0;   // of the stream; 0: the tile has no terrain
+  uint64_t offset = 0;  // of the stream among those of the pack, once they are put together
   uint32_t stream_hash = 0;
   uint32_t vertices = 0;
   int16_t lowest = 0, highest = 0;                  // of them

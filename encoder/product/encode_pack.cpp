@@ -90,17 +90,18 @@ PackReport report_of(const PackContent& pack) {
   PackReport report;
   report.grid = pack.grid;
   report.z_step = z_step(pack);
-  report.bytes = write_pack_head(pack).size();
   Margins everywhere{0, 0};
+  uint64_t streams = 0;
   for (const TileSummary& tile : pack.tiles) {
     if (tile.bytes != 0) {  // a margin that is not stated is above all others
       everywhere = {std::max(everywhere.below, tile.below), std::max(everywhere.above, tile.above)};
     }
     report.vertices += tile.vertices;
-    report.bytes += tile.bytes;
+    streams = std::max(streams, tile.offset + tile.bytes);
     report.most_vertices = std::max(report.most_vertices, tile.vertices);
     if (tile.bytes == 0) ++report.empty_tiles;
   }
+  report.bytes = write_pack_head(pack).size() + streams;
   report.measured = measured(pack);
   report.everywhere = stated_everywhere(everywhere, pack.metadata.placement.z);
   if (pack.metadata.accuracy) report.bound = pack.metadata.accuracy->bound;
@@ -117,8 +118,8 @@ PackContent encode_pack(const RasterReader& raster, const EncodeOptions& options
   };
   pack::encode_pack(raster, raster_options(options, progress), begin,
                     [&](uint32_t, EncodedTile&& tile) {
+                      tile.summary.offset = streams.add(tile.stream);
                       pack.tiles.push_back(tile.summary);
-                      streams.add(tile.stream);
                     });
   return pack;
 }
@@ -246,8 +247,11 @@ std::vector<ShardPlan> plan_shards(const RasterReader& raster, const EncodeOptio
   return plans;
 }
 
-PackReport join_shards(const std::vector<std::string>& paths, OutputFile& out) {
-  return report_of(merge_shards(paths, out));
+PackReport join_shards(const std::vector<std::string>& paths, StreamSpool& streams,
+                       OutputFile& out) {
+  const PackContent pack = merge_shards(paths, streams);
+  write_pack(pack, streams, out);
+  return report_of(pack);
 }
 
 }  // namespace microtin::product

@@ -74,7 +74,8 @@ std::vector<ShardPlan> plan_shards(const RasterReader& raster, const EncodeOptio
 
 // Joins shards to the pack that a single run makes. Throws Error naming the shard that does not
 // fit, and if tiles are missing.
-PackReport join_shards(const std::vector<std::string>& paths, OutputFile& out);
+PackReport join_shards(const std::vector<std::string>& paths, StreamSpool& streams,
+                       OutputFile& out);
 
 // As the option --shard has it.
 std::string range_text(TileRange range);

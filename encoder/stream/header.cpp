@@ -98,6 +98,19 @@ void append_classes(Bytes& notes, const std::optional<ClassSet>& classes) {
   append_note(notes, MICROTIN_NOTE_CLASSES, content);
 }
 
+void append_sums(Bytes& notes, const std::optional<TileSums>& sums) {
+  if (!sums) return;
+  Bytes content;
+  append_varint(content, sums->vertices);
+  append_varint(content, sums->tiles);
+  append_note(notes, MICROTIN_NOTE_SUMS, content);
+}
+
+void expect_room(const Bytes& notes) {
+  if (notes.size() <= kNotesMostBytes) return;
+  throw Error("the texts for the header are longer than 65,535 bytes; shorten them");
+}
+
 // --- Reading -------------------------------------------------------------------------------------
 
 [[noreturn]] void refuse() {
@@ -198,6 +211,11 @@ void read_surface(NoteReader& reader, Metadata& m) {
   m.at_samples = found;
 }
 
+TileSums read_sums(NoteReader& reader) {
+  const uint64_t vertices = reader.number();
+  return {vertices, reader.number()};
+}
+
 DuplicateRule read_duplicates(NoteReader& reader) {
   const uint8_t rule = reader.byte();
   return rule <= static_cast<uint8_t>(DuplicateRule::kMedian) ? static_cast<DuplicateRule>(rule)
@@ -247,6 +265,9 @@ void read_note(uint8_t type, NoteReader reader, Metadata& m) {
     case MICROTIN_NOTE_TRUE_PLACES:
       m.true_places = read_accuracy(reader);
       break;
+    case MICROTIN_NOTE_SUMS:
+      m.sums = read_sums(reader);
+      break;
     default:
       break;
   }
@@ -275,10 +296,17 @@ Bytes write_notes(const Metadata& m) {
   if (m.duplicates != DuplicateRule::kUnknown) {
     append_note(notes, MICROTIN_NOTE_DUPLICATES, {static_cast<uint8_t>(m.duplicates)});
   }
-  if (notes.size() > kNotesMostBytes) {
-    throw Error("the texts for the header are longer than 65,535 bytes; shorten them");
-  }
+  append_sums(notes, m.sums);
+  expect_room(notes);
   return notes;
+}
+
+void append_padding(Bytes& notes, size_t before, size_t alignment) {
+  size_t size = (alignment - (before + notes.size()) % alignment) % alignment;
+  if (size == 0) return;
+  while (size < kNoteHeadBytes) size += alignment;
+  append_note(notes, MICROTIN_NOTE_PADDING, Bytes(size - kNoteHeadBytes));
+  expect_room(notes);
 }
 
 void read_notes(const uint8_t* begin, const uint8_t* end, Metadata& metadata) {

@@ -15,6 +15,10 @@ namespace microtin::stream {
 // The notes that say something. Throws Error if they are too long.
 std::vector<uint8_t> write_notes(const Metadata& metadata);
 
+// Adds a note that fills up, if one is needed, until `before` bytes and all notes are a multiple of
+// `alignment`. Throws Error if the notes are then too long.
+void append_padding(std::vector<uint8_t>& notes, size_t before, size_t alignment);
+
 // The placement must be known. Of several notes of a type the first counts; unknown types are
 // skipped, and so is what follows the known content of a note. Throws Error if they are malformed.
 void read_notes(const uint8_t* begin, const uint8_t* end, Metadata& metadata);

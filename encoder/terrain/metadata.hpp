@@ -77,6 +77,11 @@ enum class DuplicateRule : uint8_t {
   kMedian = 5
 };
 
+// What the tiles of a pack have together; vertices on borders count once for each of their tiles.
+struct TileSums {
+  uint64_t vertices, tiles;  // tiles with terrain
+};
+
 struct Metadata {
   Placement placement;
   Unit horizontal_unit = Unit::kUnknown;
@@ -97,6 +102,7 @@ struct Metadata {
   std::optional<PostGrid> grid;         // of the source, if it is a raster
   std::optional<ClassSet> classes;      // of points that were taken
   DuplicateRule duplicates = DuplicateRule::kUnknown;
+  std::optional<TileSums> sums;  // in packs alone
 };
 
 }  // namespace microtin::terrain

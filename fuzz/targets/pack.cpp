@@ -32,11 +32,11 @@ void repair_pack(uint8_t* bytes, size_t size) {
   std::memcpy(bytes, kPackMagic, sizeof kPackMagic);
   bytes[4] = kPackVersion;
   PackHeader header;
-  if (!read_pack_header(bytes, &header)) return;
+  const microtin_status legal = read_pack_header(bytes, &header);
   const size_t index = pack_index_start(header);
   if (size < index) return;
   write_check(bytes, 0, index - kCheckBytes);
-  const uint32_t header_check = read_u32(bytes + index - kCheckBytes);
+  if (legal != MICROTIN_STATUS_OK) return;
   const uint64_t tiles = uint64_t{tile_columns(header.grid)} * tile_rows(header.grid);
   for (uint32_t tile = 0; tile < tiles; ++tile) {
     const uint64_t at = pack_entry_start(header, tile);
@@ -47,11 +47,10 @@ void repair_pack(uint8_t* bytes, size_t size) {
     if (entry.size != 0 && entry.offset <= size && entry.size <= size - entry.offset) {
       uint8_t* const stream = bytes + entry.offset;
       repair(stream, entry.size);
-      write_u32(entry_bytes + kPackEntryBytes - kCheckBytes - 4,
-                stream_hash(kStreamHash, stream, entry.size));
+      write_u32(entry_bytes + 8, stream_hash(kStreamHash, stream, entry.size));
     }
     write_u32(entry_bytes + kPackEntryBytes - kCheckBytes,
-              pack_entry_check(header_check, tile, entry_bytes));
+              pack_entry_check(header.identity, tile, entry_bytes));
   }
 }
 

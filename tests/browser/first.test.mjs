@@ -8,18 +8,18 @@ import { degrees, remove } from "./files.mjs";
 after(remove);
 await ready;
 
-const ENTRY = 16, AHEAD = 4096, PIECE = 1024; // format-pack.md, section 2; src/source.js; src/pack.js
+const ENTRY = 20, AHEAD = 4096, PIECE = 1024; // format-pack.md, section 2; src/source.js; src/pack.js
 
 // Where the index begins: behind the fixed header, placement, notes and check.
 function indexOf(bytes) {
-  return 40 + bytes[6] + (bytes[8] | (bytes[9] << 8)) + 4;
+  return 48 + bytes[6] + (bytes[8] | (bytes[9] << 8)) + 4;
 }
 
 // The bytes of a tile's stream up to the end of its first section.
-function firstSection(bytes, tile) {
+function firstSection(bytes, tiles, tile) {
   const entry = indexOf(bytes) + ENTRY * tile;
   const number = (at, size) => Array.from({ length: size }, (_, i) => bytes[at + i] * 256 ** i).reduce((a, b) => a + b);
-  const start = number(entry, 5);
+  const start = indexOf(bytes) + ENTRY * tiles + number(entry, 5);
   const [terrain] = new Decoder().push(bytes.slice(start, start + number(entry + 5, 3)));
   return terrain.bytes;
 }
@@ -34,7 +34,7 @@ test("the first picture of a pack takes header, entries and first sections", asy
   for (const [name, tiles] of [["four tiles", pack.tilesIn(x - step, y - step, x + step, y + step)],
     ["all", Array.from({ length: pack.columns * pack.rows }, (_, tile) => tile)]]) {
     const fresh = await Pack.open(bytes);
-    const sections = tiles.map((tile) => firstSection(bytes, tile)).reduce((a, b) => a + b);
+    const sections = tiles.map((tile) => firstSection(bytes, pack.columns * pack.rows, tile)).reduce((a, b) => a + b);
     for (const tile of tiles) {
       for await (const mesh of fresh.tilePhases(tile)) {
         assert.ok(mesh.indices.length > 0);

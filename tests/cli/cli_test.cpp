@@ -348,7 +348,7 @@ TEST_CASE("cli: packs") {
   CHECK(contains(encoded.out, "asked for: at most 20"));
   CHECK(session.run("verify t.mtp t.asc").code == 0);
   const Session::Result info = session.run("info t.mtp");
-  CHECK(contains(info.out, "pack_version: 4"));
+  CHECK(contains(info.out, "pack_version: 5"));
   CHECK(contains(info.out, "\ntile   x   y  bytes  vertices  max_below_everywhere  max_above_"));
   CHECK(contains(info.out, "\n   0   0   0  "));
   CHECK(contains(session.run("info t.mtp --json").out, "\"tiles\": ["));

@@ -133,8 +133,8 @@ TEST_CASE("cli: an output that can take more than 1 GB is announced, and forced"
 
 namespace {
 
-// A pack of 257 tiles, each of a flat stream of 65,536 vertices, whose header says that all have as
-// many as one.
+// A pack of 257 tiles, each of a flat stream of 65,536 vertices, whose header says that they have
+// 2,097,152.
 Bytes understated_pack() {
   Tin tin;
   for (uint32_t place = 0; place < 65536; ++place) {
@@ -144,7 +144,7 @@ Bytes understated_pack() {
   constexpr uint32_t kTiles = 257;
   const ForgedTile tile = forged_tile(tin);
   Bytes pack = forged_pack({255 * kTiles, 255, 255, 255}, std::vector<ForgedTile>(kTiles, tile));
-  put_number(pack, microtin::kPackFixedBytes - 4, 65536, 4);
+  put_number(pack, note_in(pack, MICROTIN_NOTE_SUMS).first, 0x00808081, 4);
   repair_checks(pack);
   return pack;
 }
@@ -155,7 +155,7 @@ TEST_CASE("cli: the vertices of a pack are counted, not taken from its header") 
   const Session session;
   const Bytes pack = understated_pack();
   session.write("t.mtp", {pack.begin(), pack.end()});
-  REQUIRE(contains(session.run("info t.mtp").out, "\nvertices: 65536\n"));
+  REQUIRE(contains(session.run("info t.mtp").out, "\nvertices: 2097152\n"));
   CHECK(contains(session.failure("decode t.mtp -o t.ply"), "t.ply: would take up to "));
   const std::string many = "t.mtp: its tiles have 16842752 vertices, which take about ";
   CHECK(contains(session.failure("decode t.mtp --lattice -o t.xyz"), many));

@@ -487,10 +487,9 @@ TEST_CASE_TEMPLATE("pack: far from the origin, in the largest extent", Device, M
   put(24, kPackExtentMost, 4);
   put(index - 4, crc32(0, head.data(), index - 4), 4);
   const uint64_t streams = index + tiles * kPackEntryBytes;
-  put(index, streams, 5);
   const uint32_t number = static_cast<uint32_t>(tiles - 1);
   put(index + kPackEntryBytes - kCheckBytes,
-      pack_entry_check(read_u32(head.data() + index - 4), number, head.data() + index), 4);
+      pack_entry_check(read_u32(head.data() + 36), number, head.data() + index), 4);
   struct FarCard {
     Bytes bytes;
     uint64_t entry, index, streams;

@@ -392,12 +392,11 @@ void check_unreadable(const Model& model, uint32_t sector, uint64_t from, uint64
 
 TEST_CASE_TEMPLATE("pack: an unreadable part of the index hides no tile that another part lists",
                    Device, MeshSlots, CompactSlots) {
-  for (size_t length = 0; length <= 16; ++length) {
+  for (size_t length = 0; length <= 16; length += 4) {
     Metadata notes;
     notes.source = std::string(length, 's');
     const Model model = row_model({}, 30, kNever, notes);
     const uint64_t index = pack_entry_start(PackFile(model.bytes).header(), 0);
-    if (length != 0 && index % kPackEntryBytes != 0) continue;  // entries begin where sectors do
     for (const uint32_t sector : {0u, 16u, 32u, 64u, 128u, 512u}) {
       const uint64_t size = sector == 0 ? 64 : sector;
       for (uint64_t from = (index / size + 1) * size; from < model.bytes.size(); from += size) {

@@ -12,8 +12,12 @@ const copyOf = ({ positions, indices, voids }) => structuredClone({ positions, i
 // Where the stream of a tile lies in a pack: format-pack.md, section 2.
 function placeOf(pack, tile) {
   const view = new DataView(pack.buffer, pack.byteOffset);
-  const entry = 40 + pack[6] + view.getUint16(8, true) + 4 + 16 * tile;
-  return { start: view.getUint32(entry, true), size: view.getUint16(entry + 5, true) | (pack[entry + 7] << 16) };
+  const [across, up] = [10, 12].map((at, i) => Math.ceil(view.getUint32(20 + 4 * i, true) / view.getUint16(at, true)));
+  const index = 48 + pack[6] + view.getUint16(8, true) + 4, entry = index + 20 * tile;
+  return {
+    start: index + 20 * across * up + view.getUint32(entry, true),
+    size: view.getUint16(entry + 5, true) | (pack[entry + 7] << 16),
+  };
 }
 
 function damaged(bytes, ...places) {

@@ -2,7 +2,7 @@
 // Packs: out of memory and by HTTP, from servers that know ranges, know none, and break off.
 import assert from "node:assert/strict";
 import test from "node:test";
-import { areaBytes, areaFile, bytesOf, grown, microtin, postsOf, served, skip, withChecks } from "./support.mjs";
+import { areaBytes, areaFile, bytesOf, goldenBytes, grown, microtin, postsOf, served, skip, withChecks } from "./support.mjs";
 
 const { MicrotinError, Pack, decode } = microtin;
 const bytes = areaBytes("area.mtp");
@@ -124,6 +124,22 @@ test("damaged bytes and what is no pack are told", { skip }, async () => {
   assert.equal(results.filter(({ status }) => status === "rejected").length, 1);
   assert.equal(results.find(({ status }) => status === "rejected").reason.status, "CHECKSUM");
   await assert.rejects(pack.tile(-1), RangeError);
+});
+
+test("what a later version may add is read, or refused as unsupported", async () => {
+  const golden = goldenBytes("unknown.mtp");
+  const pack = await Pack.open(golden);
+  assert.equal(pack.header.source, "x"); // between unknown notes
+  const reasons = [undefined, "UNSUPPORTED_VERSION", "UNSUPPORTED_VERSION", undefined, undefined, undefined, undefined,
+    "CHECKSUM"];
+  for (const [tile, status] of reasons.entries()) {
+    if (status) await assert.rejects(pack.tile(tile), { status });
+    else assert.ok((await pack.tile(tile)).done);
+  }
+  for (const [name, status] of [["flag_low", "UNSUPPORTED_VERSION"], ["flag_low_damaged", "CHECKSUM"],
+    ["flag_high", "UNSUPPORTED_VERSION"]]) {
+    await assert.rejects(Pack.open(goldenBytes(`${name}.mtp`)), { status });
+  }
 });
 
 test("what a header alone says of the largest tile takes no memory", { skip }, async () => {

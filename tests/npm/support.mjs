@@ -55,13 +55,13 @@ function crc32(bytes, crc) {
 export function withChecks(pack, tiles) {
   const bytes = pack.slice();
   const view = new DataView(bytes.buffer);
-  const index = 40 + bytes[6] + view.getUint16(8, true) + 4;
-  const check = crc32(bytes.subarray(0, index - 4), 0);
-  view.setUint32(index - 4, check, true);
+  const index = 48 + bytes[6] + view.getUint16(8, true) + 4;
+  const identity = view.getUint32(36, true);
+  view.setUint32(index - 4, crc32(bytes.subarray(0, index - 4), 0), true);
   for (let tile = 0; tile < tiles; ++tile) {
-    const entry = index + 16 * tile;
+    const entry = index + 20 * tile;
     const place = new Uint8Array(Uint32Array.of(tile).buffer);
-    view.setUint32(entry + 12, crc32(bytes.subarray(entry, entry + 12), crc32(place, check)), true);
+    view.setUint32(entry + 16, crc32(bytes.subarray(entry, entry + 16), crc32(place, identity)), true);
   }
   return bytes;
 }

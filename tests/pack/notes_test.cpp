@@ -60,7 +60,7 @@ Bytes pack_header(const Bytes& notes, const Placement& placement = {}) {
   PackContent pack{{100, 100, 50, 50}, {}, {}};
   pack.metadata.placement = placement;
   Bytes header = write_pack_header(pack);
-  header.resize(header.size() - kCheckBytes);
+  header.resize(kPackFixedBytes + size_t{header[6]});  // without the padding
   header[8] = static_cast<uint8_t>(notes.size());
   header[9] = static_cast<uint8_t>(notes.size() >> 8);
   header.insert(header.end(), notes.begin(), notes.end());
@@ -101,7 +101,7 @@ TEST_CASE("notes: a device finds in streams and packs what was written") {
     const std::optional<Bytes> wkt = content_of(header, MICROTIN_NOTE_WKT);
     CHECK(wkt == Bytes(metadata.wkt.begin(), metadata.wkt.end()));
     CHECK(content_of(header, MICROTIN_NOTE_LINEAGE) == std::nullopt);
-    CHECK(content_of(header, 0) == std::nullopt);
+    CHECK(content_of(header, 200) == std::nullopt);
     CHECK(content_of(header, 255) == std::nullopt);
   }
 }
@@ -135,9 +135,25 @@ TEST_CASE("notes: wrong arguments, and what is neither stream nor pack") {
     ++later[4];
     CHECK(find_note(later.data(), later.size(), 3).status == MICROTIN_STATUS_UNSUPPORTED_VERSION);
   }
-  Bytes flagged = pack_header({});
-  flagged[5] = 1;
-  CHECK(find_note(flagged.data(), flagged.size(), 3).status == MICROTIN_STATUS_UNSUPPORTED_VERSION);
+}
+
+TEST_CASE("notes: unknown flags of a pack leave the notes in place, or make all unknown") {
+  const Bytes notes = {200, 1, 0, 'x', 3, 1, 0, 'a'};
+  const Bytes plain = pack_header(notes, kPlaced);
+  for (uint32_t flags = 1; flags < 256; ++flags) {
+    Bytes flagged = plain;
+    flagged[5] = static_cast<uint8_t>(flags);
+    const auto status = [&] { return find_note(flagged.data(), flagged.size(), 3).status; };
+    const bool is_known = flags < 16;
+    CAPTURE(flags);
+    CHECK(status() ==
+          (is_known ? MICROTIN_STATUS_CHECKSUM : MICROTIN_STATUS_UNSUPPORTED_VERSION));
+    flagged[7] = 1;  // reserved here
+    flagged.resize(flagged.size() - kCheckBytes);
+    append_check(flagged, 0);
+    CHECK(status() == (is_known ? MICROTIN_STATUS_OK : MICROTIN_STATUS_UNSUPPORTED_VERSION));
+    if (is_known) CHECK(content_of(flagged, 3) == Bytes{'a'});
+  }
 }
 
 TEST_CASE("notes: any bytes in their place are searched within bounds") {

@@ -166,17 +166,27 @@ TEST_CASE("packs: the search for the size of tiles reports its progress") {
 TEST_CASE("packs: a later version, or a flag of one, is not called broken") {
   const std::vector<uint8_t> bytes =
       write_pack(encode_pack(rough_raster(31, 33), pack_options(6, 60)));
-  for (const size_t at : {size_t{4}, size_t{5}}) {
-    std::vector<uint8_t> later = bytes;
-    later[at] = 128;
-    CHECK(is_pack(*bytes_in_memory(later)));
-    std::string refusal;
-    try {
-      const PackFile pack(later);
-    } catch (const Error& error) {
-      refusal = error.what();
+  const std::string unsupported = describe(MICROTIN_STATUS_UNSUPPORTED_VERSION);
+  const auto check = [&](size_t at, uint8_t value, bool is_repaired, const std::string& message) {
+    std::vector<uint8_t> changed = bytes;
+    changed[at] = value;
+    if (is_repaired) {
+      const size_t end = pack_index_start(PackFile(bytes).header()) - kCheckBytes;
+      put_number(changed, end, crc32(0, changed.data(), end), kCheckBytes);
     }
-    CHECK(refusal == describe(MICROTIN_STATUS_UNSUPPORTED_VERSION));
+    CAPTURE(at);
+    CHECK(is_pack(*bytes_in_memory(changed)));
+    CHECK_THROWS_WITH_AS(PackFile{changed}, message.c_str(), Error);
+  };
+  for (const bool is_repaired : {false, true}) {
+    check(4, 128, is_repaired, unsupported);
+    for (const uint8_t flag : Bytes{16, 32, 64, 128}) check(5, flag, is_repaired, unsupported);
+    check(4, 4, is_repaired,
+          "a pack of version 4, and this program reads version 5: encode the terrain again");
+  }
+  for (const uint8_t flag : Bytes{1, 2, 4, 8}) {
+    check(5, flag, true, unsupported);
+    check(5, flag, false, describe(MICROTIN_STATUS_CHECKSUM));
   }
 }
 
@@ -221,13 +231,11 @@ TEST_CASE("packs: the header's compact bytes are compared with the tiles") {
   };
   CHECK_NOTHROW(say(needed));
   CHECK_NOTHROW(say(0));  // nothing
-  for (const uint32_t stated : {needed - 1, needed + 1}) {
-    const std::string message = "the header says that a tile takes at most " +
-                                std::to_string(stated) + " bytes in compact form; tile ";
-    CHECK_THROWS_WITH_AS(say(stated), doctest::Contains(message.c_str()), Error);
-    CHECK_THROWS_WITH_AS(
-        say(stated), doctest::Contains(("takes most, " + std::to_string(needed)).c_str()), Error);
-  }
+  CHECK_NOTHROW(say(needed + 1));
+  const std::string message = "takes " + std::to_string(needed) +
+                              " bytes in compact form; the header says that a tile takes at most " +
+                              std::to_string(needed - 1);
+  CHECK_THROWS_WITH_AS(say(needed - 1), doctest::Contains(message.c_str()), Error);
 }
 
 TEST_CASE("a stream whose compact form exceeds the macros is not written") {
@@ -238,16 +246,54 @@ TEST_CASE("a stream whose compact form exceeds the macros is not written") {
                        doctest::Contains("or make a pack (.mtp)"), Error);
 }
 
-TEST_CASE("packs: the header's number of vertices is compared with the tiles") {
-  Bytes bytes = write_pack(encode_pack(rough_raster(61, 33), pack_options(6, 200)));
-  const uint32_t all = PackFile(bytes).vertices();
-  CHECK_NOTHROW(PackFile(bytes).expect_as_stated());
-  put_number(bytes, 36, all + 1, 4);
-  repair_checks(bytes);
-  const std::string message =
-      "have " + std::to_string(all + 1) + " vertices; they have " + std::to_string(all);
-  CHECK_THROWS_WITH_AS(PackFile(bytes).expect_as_stated(), doctest::Contains(message.c_str()),
-                       Error);
+TEST_CASE("packs: the header's sums are compared with the tiles") {
+  const Bytes good = write_pack(encode_pack(rough_raster(61, 33), pack_options(6, 200)));
+  const PackFile pack(good);
+  CHECK_NOTHROW(pack.expect_as_stated());
+  REQUIRE(pack.metadata().sums.has_value());
+  CHECK(pack.metadata().sums->vertices == pack.counted_vertices());
+  CHECK(pack.metadata().sums->tiles == pack.entries().size());
+  const auto [note, size] = note_in(good, MICROTIN_NOTE_SUMS);
+  const auto with = [&](size_t at, uint8_t flipped) {
+    Bytes changed = good;
+    changed[at] ^= flipped;
+    repair_checks(changed);
+    return changed;
+  };
+  for (const auto& [at, message] : {std::pair(note + size - 2, "vertices in all tiles; there are"),
+                                    std::pair(note + size - 1, "tiles with terrain; there are")}) {
+    CHECK_THROWS_WITH_AS(PackFile(with(at, 1)).expect_as_stated(), doctest::Contains(message),
+                         Error);
+  }
+  // Without the note they are counted.
+  const PackFile without(with(note - 3, 128));
+  CHECK(without.vertices() == pack.vertices());
+  CHECK_NOTHROW(without.expect_as_stated());
+}
+
+TEST_CASE("packs: bounds of the index and of the header are compared with the tiles") {
+  const Bytes good = write_pack(encode_pack(rough_raster(61, 33), pack_options(6, 200)));
+  const PackFile pack(good);
+  const auto index = static_cast<size_t>(pack_entry_start(pack.header(), 0));
+  const IndexEntry entry = pack.entries()[0];
+  const auto check = [&](size_t at, int height, const char* message) {
+    Bytes changed = good;
+    put_number(changed, at, static_cast<uint16_t>(height), 2);
+    repair_checks(changed);
+    if (message == nullptr) {
+      CHECK_NOTHROW(PackFile(changed).expect_as_stated());
+    } else {
+      CHECK_THROWS_WITH_AS(PackFile(changed).expect_as_stated(), doctest::Contains(message), Error);
+    }
+  };
+  check(index + 12, entry.lowest - 1, nullptr);
+  check(index + 12, entry.lowest + 1, "tile 0: has heights");
+  check(index + 14, entry.highest + 1, nullptr);
+  check(index + 14, entry.highest - 1, "those of its entry");
+  check(14, pack.header().lowest - 1, nullptr);
+  check(14, pack.header().lowest + 1, "those of the header");
+  check(16, pack.header().highest + 1, nullptr);
+  check(16, pack.header().highest - 1, "those of the header");
 }
 
 TEST_CASE("packs: a tile that takes more in compact form than is promised is too large") {

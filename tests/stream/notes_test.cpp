@@ -29,6 +29,11 @@ bool is_same_accuracy(const std::optional<Accuracy>& a, const std::optional<Accu
          is_same_decimal(a->mean_error, b->mean_error);
 }
 
+bool is_same_sums(const std::optional<TileSums>& a, const std::optional<TileSums>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->vertices == b->vertices && a->tiles == b->tiles;
+}
+
 bool is_same_placement(const Placement& a, const Placement& b) {
   return is_same(a.x, b.x) && is_same(a.y, b.y) && is_same(a.z, b.z);
 }
@@ -96,6 +101,8 @@ std::vector<Row> rows() {
       row("everywhere", &Metadata::everywhere, Margins{0, 1048576}, is_same_margins),
       row("everywhere", &Metadata::everywhere, Margins{kNotStated, 0}, is_same_margins),
       row("everywhere", &Metadata::everywhere, Margins{77, 5}, is_same_margins),
+      row("sums", &Metadata::sums, optional(TileSums{0, 0}), is_same_sums),
+      row("sums", &Metadata::sums, optional(TileSums{UINT64_MAX, 1048576}), is_same_sums),
       row("grid", &Metadata::grid, optional(PostGrid{1, UINT32_MAX, {1, 2, 3}, {-4, 5, 6}}),
           is_same_grid),
       row("grid", &Metadata::grid, optional(PostGrid{300, 2, {0, 1, 1}, {0, 1, 1}}), is_same_grid),
@@ -162,6 +169,7 @@ TEST_CASE("notes: no member of the metadata is without a row") {
         "bound max_error mean_error rms_error ");
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Distances")) == "above below ");
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Margins")) == "above below ");
+  CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "TileSums")) == "tiles vertices ");
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "PostGrid")) == "columns rows x y ");
   CHECK(text_of(members_of("encoder/exact/lattice_map.hpp", "Placement")) == "x y z ");
 }

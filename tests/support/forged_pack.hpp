@@ -3,6 +3,7 @@
 #ifndef MICROTIN_TESTS_SUPPORT_FORGED_PACK_HPP
 #define MICROTIN_TESTS_SUPPORT_FORGED_PACK_HPP
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -25,17 +26,36 @@ inline ForgedTile forged_tile(const Tin& tin) {
   return {encode(tin, Metadata()), static_cast<uint32_t>(tin.vertices.size())};
 }
 
+// The lowest and the highest height of a stream's vertices; nothing if it cannot be decoded.
+inline void add_heights(const Bytes& stream, TileSummary& summary) {
+  try {
+    const DecodedTerrain decoded(stream);
+    summary.lowest = INT16_MAX;
+    summary.highest = INT16_MIN;
+    for (uint32_t v = 0; v < microtin_mesh_vertex_count(decoded.mesh()); ++v) {
+      const int16_t z = vertex_of(decoded.mesh(), v).z;
+      summary.lowest = std::min(summary.lowest, z);
+      summary.highest = std::max(summary.highest, z);
+    }
+    microtin_mesh_margins(decoded.mesh(), &summary.below, &summary.above);
+  } catch (const Error&) {
+  }
+}
+
+// Each stream has its own place, so that damage to one is none to others.
 inline Bytes forged_pack(const TileGrid& grid, const std::vector<ForgedTile>& tiles,
                          const Metadata& metadata = {}) {
   PackContent content{grid, metadata, {}};
-  std::vector<Bytes> streams;
+  Bytes streams;
   for (const ForgedTile& tile : tiles) {
     TileSummary summary;
     summary.bytes = static_cast<uint32_t>(tile.stream.size());
     summary.stream_hash = stream_hash(kStreamHash, tile.stream.data(), tile.stream.size());
     summary.vertices = tile.vertices;
+    summary.offset = summary.bytes == 0 ? 0 : streams.size();
+    if (summary.bytes != 0) add_heights(tile.stream, summary);
     content.tiles.push_back(summary);
-    streams.push_back(tile.stream);
+    streams.insert(streams.end(), tile.stream.begin(), tile.stream.end());
   }
   return write_pack(content, streams);
 }
@@ -44,16 +64,24 @@ inline void put_number(Bytes& bytes, size_t at, uint64_t value, size_t width) {
   for (size_t i = 0; i < width; ++i) bytes[at + i] = static_cast<uint8_t>(value >> 8 * i);
 }
 
+// Where the content of a note is in a file, and its bytes.
+inline std::pair<size_t, size_t> note_in(const Bytes& file, uint8_t type) {
+  const uint8_t* content = nullptr;
+  uint32_t size = 0;
+  REQUIRE(microtin_find_note(file.data(), file.size(), type, &content, &size) ==
+          MICROTIN_STATUS_OK);
+  return {static_cast<size_t>(content - file.data()), size};
+}
+
 // Makes the checks of a pack's header and index right again.
 inline void repair_checks(Bytes& pack) {
   PackHeader header{};
-  REQUIRE(read_pack_header(pack.data(), &header));
+  REQUIRE(read_pack_header(pack.data(), &header) == MICROTIN_STATUS_OK);
   const uint32_t index = pack_index_start(header);
-  const uint32_t check = crc32(0, pack.data(), index - kCheckBytes);
-  put_number(pack, index - kCheckBytes, check, kCheckBytes);
+  put_number(pack, index - kCheckBytes, crc32(0, pack.data(), index - kCheckBytes), kCheckBytes);
   for (uint32_t tile = 0; tile < tile_columns(header.grid) * tile_rows(header.grid); ++tile) {
     const size_t entry = static_cast<size_t>(pack_entry_start(header, tile));
-    const uint32_t of_entry = pack_entry_check(check, tile, pack.data() + entry);
+    const uint32_t of_entry = pack_entry_check(header.identity, tile, pack.data() + entry);
     put_number(pack, entry + kPackEntryBytes - kCheckBytes, of_entry, kCheckBytes);
   }
 }

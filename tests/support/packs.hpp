@@ -14,6 +14,7 @@
 #include "encoder/pack/encode.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/pack/surface.hpp"
+#include "tests/support/joined_pack.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
 

@@ -24,7 +24,7 @@
   MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, MICROTIN_INDEX_BITS)
 /* Bytes of the workspace in a build with `bits` bits of index width. */
 #define MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, bits)   \
-  (472ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
+  (480ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
    MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits)) +            \
    (slots) * (24ul + MICROTIN_PACK_ROUND(tile_bytes)))
 

@@ -160,6 +160,7 @@ microtin_status microtin_read_stream_info(const uint8_t* bytes, size_t size,
 /* Types of notes: what a header contains besides the terrain. format-stream.md, section 4, defines
  * the content of each. */
 typedef enum microtin_note_type {
+  MICROTIN_NOTE_PADDING = 0, /* fills up; says nothing */
   MICROTIN_NOTE_UNITS = 1,
   MICROTIN_NOTE_SYSTEMS = 2, /* coordinate reference systems, as EPSG codes */
   MICROTIN_NOTE_ORIGIN = 3,
@@ -172,7 +173,8 @@ typedef enum microtin_note_type {
   MICROTIN_NOTE_CLASSES = 10,
   MICROTIN_NOTE_DUPLICATES = 11,
   MICROTIN_NOTE_TRUE_PLACES = 12, /* accuracy at the points' own positions */
-  MICROTIN_NOTE_SURFACE = 13      /* what kind of surface, and on which side of it the bound is */
+  MICROTIN_NOTE_SURFACE = 13,     /* what kind of surface, and on which side of it the bound is */
+  MICROTIN_NOTE_SUMS = 16         /* of a pack's tiles: their vertices, and how many have terrain */
 } microtin_note_type;
 
 /* Finds a note in the header of a stream or of a pack; the `size` bytes begin with the header.

@@ -25,7 +25,7 @@
   MICROTIN_PACK_BYTES_FOR(slots, capacity, MICROTIN_INDEX_BITS)
 /* Bytes of the workspace in a build with `bits` bits of index width. */
 #define MICROTIN_PACK_BYTES_FOR(slots, capacity, bits)                       \
-  (472ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
+  (480ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
    (slots) * (24ul + MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits))))
 /* `bytes`, rounded up to a multiple of 8. */
 #define MICROTIN_PACK_ROUND(bytes) (((bytes) + 7ul) / 8 * 8)
@@ -84,8 +84,9 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
  * - ARGUMENT: a null pointer, or a segment that is too long
  * - WRONG_PACK_KIND: a pack of compact_pack.h
  * - BAD_MAGIC: the bytes are not a pack
- * - UNSUPPORTED_VERSION, MALFORMED, CHECKSUM, TRUNCATED: the header is of another version, breaks a
- *   rule, is damaged, or ends too early. The next call reads the header again
+ * - UNSUPPORTED_VERSION: the pack is of another version of the format, or has an unknown flag
+ * - MALFORMED, CHECKSUM, TRUNCATED: the header breaks a rule, is damaged, or ends too early
+ *   (After these three and UNSUPPORTED_VERSION the next call reads the header again.)
  *
  * Loaded tiles stay until their slots are needed. Besides the work units, a call takes
  * O(columns + rows of tiles in the segment's bounding box + slots^2). */
@@ -125,8 +126,8 @@ static inline microtin_status microtin_pack_load_with(microtin_pack* pack,
   }
 }
 
-/* --- Bad tiles: damaged, malformed, of another pack, truncated, or too big for a slot. The pack
- * skips them, and does not try them again while it remembers them. --- */
+/* --- Bad tiles: damaged, malformed, of another pack or another version of the format, truncated,
+ * or too big for a slot. The pack skips them, and does not try them again while it remembers them. --- */
 
 /* How many bad tiles a pack remembers: those that a segment touched last. If a segment touches more
  * bad tiles, each of the others costs an attempt whenever the segment is loaded; good tiles are
@@ -138,6 +139,8 @@ static inline microtin_status microtin_pack_load_with(microtin_pack* pack,
  *
  * - OK: *why is one of
  *   - CHECKSUM: what was read is damaged, is another tile's or another pack's, or is not a stream
+ *   - UNSUPPORTED_VERSION: the tile is undamaged, and of a later version of the format, or has a
+ *     property that this version does not have
  *   - MALFORMED: the tile is undamaged and breaks a rule of packs
  *   - TOO_BIG: the tile has more vertices, or takes more bytes, than a slot holds
  *   - TRUNCATED: the pack ends before the tile does
@@ -154,10 +157,11 @@ void microtin_pack_clear_bad_tiles(microtin_pack* pack);
 typedef struct microtin_pack_info {
   uint32_t x_max, y_max;            /* extent in lattice steps */
   uint16_t tile_width, tile_height; /* extent of a tile in lattice steps */
-  uint32_t max_tile_vertices;       /* most vertices of a tile: the capacity that it needs */
+  uint32_t max_tile_vertices;       /* no tile has more vertices: the capacity that suffices */
   uint32_t max_compact_bytes;       /* most bytes of a compact tile, see compact_pack.h, with 16-bit
                                        indices if these suffice; 0: not stated */
-  int16_t lowest, highest;          /* heights of the lowest and the highest vertex, in z steps */
+  int16_t lowest, highest;          /* z steps: no vertex is lower, no vertex is higher */
+  uint32_t below, above;            /* the margins of all tiles, as microtin_mesh_margins has them */
   microtin_axis x, y, z;            /* from lattice coordinates to real ones */
 } microtin_pack_info;
 

@@ -6,7 +6,7 @@
 using namespace microtin;
 
 // What the sources read by place.
-static_assert(offsetof(microtin_pack_info, lowest) == 20 && offsetof(microtin_pack_info, x) == 24 &&
+static_assert(offsetof(microtin_pack_info, lowest) == 20 && offsetof(microtin_pack_info, x) == 32 &&
                   offsetof(microtin_stream_info, below) == 16 &&
                   offsetof(microtin_stream_info, x) == 24 &&
                   offsetof(microtin_stream_info, mesh_bytes) == 96,
@@ -113,10 +113,13 @@ uint32_t stream_bytes(const microtin_pack* pack, const uint8_t* bytes, double* o
   return entry.size;
 }
 
-// The vertices of a tile by the first bytes of its stream; 0 if these break a rule.
+// The vertices of a tile by the first bytes of its stream; 0 if these are not understood.
 uint32_t announced_vertices(const microtin_pack* pack, uint32_t tile, const uint8_t* bytes,
                             uint32_t size) {
-  return tile_vertices(bytes, size, pack->header, tile_box(pack->header.grid, tile));
+  Contract contract;
+  const microtin_status status =
+      read_tile_header(bytes, size, pack->header, tile_box(pack->header.grid, tile), &contract);
+  return status == MICROTIN_STATUS_OK ? contract.vertices : 0;
 }
 
 // Where the stream that is being read ends; 0 if none is.

@@ -11,12 +11,12 @@ import {
 } from "./status.js";
 import { meshArrays } from "./terrain.js";
 
-const INFO_BYTES = 96, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12, LOWEST = 20, HIGHEST = 22,
-  AXES = 24; // where they are in microtin_pack_info
+const INFO_BYTES = 104, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12, LOWEST = 20, HIGHEST = 22,
+  AXES = 32; // where they are in microtin_pack_info
 const MOST_SLOTS = 255, MOST_BAD = 8; // MICROTIN_PACK_MAX_BAD_TILES
 const CACHE_BYTES = 2 ** 26;
-const FIXED = 40; // bytes of a header, at least
-const ENTRY = 16, START = 64; // bytes of an entry of the index, and of a stream that announce its vertices
+const FIXED = 48; // bytes of a header, at least
+const ENTRY = 20, START = 64; // bytes of an entry of the index, and of a stream that announce its vertices
 const USUAL = 2 ** 14; // vertices that a slot has room for, until a stream has more
 const ROOM = 2 ** 20; // vertices that slots have room for together, if one has as many as that
 const FIRST_PIECE = 1024; // bytes of a tile that are read first; then twice as many
@@ -84,8 +84,9 @@ export class Pack {
       const notes = instance.borrow(head.length, (at) => {
         instance.put(at, head);
         const status = calls.microtin_find_note(at, head.length, 0, results, results + 4);
-        if (status !== NOT_FOUND && status !== NEED_INPUT) throw new MicrotinError(status);
-        return status === NOT_FOUND && notesAt(instance, at, head.length);
+        if (status === NEED_INPUT) return false;
+        if (status !== OK && status !== NOT_FOUND) throw new MicrotinError(status);
+        return notesAt(instance, at, head.length);
       });
       if (notes) return notes;
       if (head.length < size) throw new MicrotinError(TRUNCATED);

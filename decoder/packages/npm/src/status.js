@@ -3,7 +3,7 @@
 
 const STATUSES = {
   16: ["BAD_MAGIC", "not a microtin file"],
-  17: ["UNSUPPORTED_VERSION", "of an unknown version"],
+  17: ["UNSUPPORTED_VERSION", "of an unknown version, or with an unknown part"],
   18: ["TOO_BIG", "too large"],
   19: ["CHECKSUM", "damaged"],
   20: ["MALFORMED", "breaks a rule of the format"],
