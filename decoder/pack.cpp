@@ -219,8 +219,8 @@ microtin_status handle_entry(microtin_pack& p) {
 // What the first bytes of a stream say of the tile.
 microtin_status start_of_tile(const microtin_pack& p) {
   Contract contract;
-  const microtin_status status = read_tile_header(p.buffer, p.buffered, p.header,
-                                                  tile_box(p.header.grid, p.tile), &contract);
+  const microtin_status status =
+      read_tile_header(p.buffer, p.buffered, p.header, tile_box(p.header.grid, p.tile), &contract);
   if (status != MICROTIN_STATUS_OK) return status;
   return contract.vertices > mesh_to_fill(p, *p.slots)->capacity ? MICROTIN_STATUS_TOO_BIG
                                                                  : MICROTIN_STATUS_OK;

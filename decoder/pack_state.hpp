@@ -13,7 +13,7 @@ namespace microtin {
 constexpr uint32_t kPackBuffer = 128;   // holds every item of the header but the notes
 constexpr uint32_t kEntriesOfRead = 4;  // of the index, if reads are aligned
 static_assert(kEntriesOfRead * kPackEntryBytes <= kPackBuffer, "they are read at once");
-// Of a tile's stream: what it begins with, a length, and a header without placement and notes.
+// A tile's stream begins with magic, version, a length, and a header without placement and notes.
 constexpr uint32_t kTileHeaderMostBytes =
     kIdentityBytes + 1 + kHeaderMostBytes - kPlacementMostBytes;
 static_assert(kPackBuffer - (kEntriesOfRead - 1) * kPackEntryBytes >=
@@ -79,8 +79,8 @@ struct microtin_pack {
 
   // The tile being read.
   uint32_t tile;
-  uint32_t left;  // bytes of notes or stream, those in the buffer too until they are counted
-  uint64_t next;  // where in the file
+  uint32_t left;       // bytes of notes or stream, those in the buffer too until they are counted
+  uint64_t next;       // where in the file
   uint32_t sum;        // of what came so far: the CRC-32 of the header, the hash of a stream
   uint32_t kept_from;  // the first one's tile
   uint32_t clock;

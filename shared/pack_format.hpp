@@ -108,12 +108,12 @@ inline microtin_status read_pack_header(const uint8_t* bytes, PackHeader* header
   header->above = read_u32(bytes + 44) - 1;
   if (bytes[5] != 0) return MICROTIN_STATUS_UNSUPPORTED_VERSION;
   const bool reserved = (bytes[7] | bytes[18] | bytes[19]) != 0;
-  const bool legal =
-      header->below + 1 <= kMarginMost + 1 && header->above + 1 <= kMarginMost + 1 && !reserved &&
-      header->placement_bytes <= kPlacementMostBytes && grid.width != 0 &&
-      grid.height != 0 && grid.x_max != 0 && grid.x_max <= kPackExtentMost && grid.y_max != 0 &&
-      grid.y_max <= kPackExtentMost && header->most_vertices <= kMaxVertices &&
-      static_cast<uint64_t>(tile_columns(grid)) * tile_rows(grid) <= 0xFFFFFFFF;
+  const bool legal = header->below + 1 <= kMarginMost + 1 && header->above + 1 <= kMarginMost + 1 &&
+                     !reserved && header->placement_bytes <= kPlacementMostBytes &&
+                     grid.width != 0 && grid.height != 0 && grid.x_max != 0 &&
+                     grid.x_max <= kPackExtentMost && grid.y_max != 0 &&
+                     grid.y_max <= kPackExtentMost && header->most_vertices <= kMaxVertices &&
+                     static_cast<uint64_t>(tile_columns(grid)) * tile_rows(grid) <= 0xFFFFFFFF;
   return legal ? MICROTIN_STATUS_OK : MICROTIN_STATUS_MALFORMED;
 }
 

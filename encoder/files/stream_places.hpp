@@ -20,7 +20,7 @@ class StreamPlaces {
   // The offset of an equal stream, or bytes(): then the stream is new, and is to be written there.
   uint64_t place(const std::vector<uint8_t>& stream, const IsAt& is_at);
 
-  // Of all streams that are to be written.
+  // All streams that are to be written take as many bytes.
   uint64_t bytes() const { return bytes_; }
 
  private:

@@ -128,7 +128,7 @@ Bytes write_fixed(const PackContent& pack, std::size_t placement_bytes, std::siz
   append_number(header, pack.grid.y_max, 4);
   append_number(header, bounds.vertices, 4);
   append_number(header, compact_bytes(pack.tiles, bounds.vertices), 4);
-  append_check(header, 0);  // the identity
+  append_check(header, 0);                      // the identity
   append_number(header, bounds.below + 1u, 4);  // not stated: 0
   append_number(header, bounds.above + 1u, 4);
   return header;

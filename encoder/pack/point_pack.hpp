@@ -18,7 +18,7 @@ namespace microtin::pack {
 struct PointPack {
   PackContent content;
   std::vector<uint8_t> streams;
-  Decimal xy_step, xy_displacement;           // as in Laid
+  Decimal xy_step, xy_displacement;  // as in Laid
   uint64_t merged = 0;
 };
 

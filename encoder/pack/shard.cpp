@@ -241,8 +241,8 @@ void expect_all_tiles(const std::vector<Shard>& shards, const TileGrid& grid) {
 // The pack that a head announces.
 PackContent read_content(const Bytes& head) {
   PackHeader header{};
-  expect(read_pack_header(head.data(), &header) == MICROTIN_STATUS_OK && pack_index_start(header) <= head.size() &&
-         !has_too_many_tiles(header.grid));
+  expect(read_pack_header(head.data(), &header) == MICROTIN_STATUS_OK &&
+         pack_index_start(header) <= head.size() && !has_too_many_tiles(header.grid));
   return {header.grid, read_placement_and_notes(header, head.data()), {}};
 }
 

@@ -105,8 +105,7 @@ void PackFile::expect_as_stated() const {
     try {
       std::optional<DecodedTerrain> decoded = tile(number);
       if (!decoded) return;
-      with_file_context("tile " + std::to_string(number),
-                        [&] { expect_bounds(number, *decoded); });
+      with_file_context("tile " + std::to_string(number), [&] { expect_bounds(number, *decoded); });
     } catch (const Error& error) {
       faults[i] = {is_unsupported(number), error.text()};
     }

@@ -389,8 +389,7 @@ TEST_CASE_TEMPLATE(
     read_pack_header(damaged.data(), &header);
     const bool is_short = pack_index_start(header) > damaged.size();
     CAPTURE(at);
-    CHECK(status_of(damaged) ==
-          (is_short ? MICROTIN_STATUS_TRUNCATED : MICROTIN_STATUS_CHECKSUM));
+    CHECK(status_of(damaged) == (is_short ? MICROTIN_STATUS_TRUNCATED : MICROTIN_STATUS_CHECKSUM));
   }
 }
 
@@ -437,6 +436,22 @@ TEST_CASE_TEMPLATE("pack: tiles that break a rule are refused, here and on the h
         MICROTIN_STATUS_CHECKSUM);
 }
 
+TEST_CASE_TEMPLATE("pack: all fields of a tile without terrain are 0", Device, MeshSlots,
+                   CompactSlots) {
+  const Bytes good = forged_pack({2, 2, 2, 2}, {ForgedTile()});
+  const size_t entry = pack_index_start(PackFile(good).header());
+  for (size_t at = 0; at < kPackEntryBytes - kCheckBytes; ++at) {
+    if (at >= 5 && at < 8) continue;  // the size
+    Card card{good};
+    card.bytes[entry + at] = 1;
+    repair_checks(card.bytes);
+    const Device device(1);
+    CHECK(device.load(card, {256, 256, 256, 256}) == MICROTIN_STATUS_BAD_TILES);
+    CHECK(why_bad(device, 0) == MICROTIN_STATUS_MALFORMED);
+    CHECK_THROWS_WITH_AS(PackFile(card.bytes), doctest::Contains("malformed"), Error);
+  }
+}
+
 TEST_CASE_TEMPLATE("pack: tiles of a later version are told from damaged ones", Device, MeshSlots,
                    CompactSlots) {
   const ForgedTile good = forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 3, 3}, {4, 3, 4}}, {}});
@@ -447,10 +462,9 @@ TEST_CASE_TEMPLATE("pack: tiles of a later version are told from damaged ones", 
         Card card{bytes};
         const Device device(slots);
         const microtin_segment both = {256, 256, 7 * 256, 256};
-        const microtin_status status =
-            expected != MICROTIN_STATUS_OK ? MICROTIN_STATUS_BAD_TILES
-            : slots == 1                   ? MICROTIN_STATUS_WORKSPACE_TOO_SMALL
-                                           : MICROTIN_STATUS_OK;
+        const microtin_status status = expected != MICROTIN_STATUS_OK ? MICROTIN_STATUS_BAD_TILES
+                                       : slots == 1 ? MICROTIN_STATUS_WORKSPACE_TOO_SMALL
+                                                    : MICROTIN_STATUS_OK;
         for (int calls = 0; calls < 2; ++calls) CHECK(served(device, card, both, steps) == status);
         CHECK(why_bad(device, 1) == expected);
         int32_t height = 0;

@@ -79,9 +79,14 @@ Bytes with_notes(const Bytes& pack) {
 // stream of the first, one without terrain, one behind a gap, a damaged one.
 Bytes all_kinds() {
   const Bytes good = stream_of(5), gap(50, 9);
-  const std::vector<Bytes> streams = {good, with_property(good), of_later_version(good),
-                                      with_chunks(stream_of(6)), good,       {},
-                                      stream_of(7),              stream_of(8)};
+  const std::vector<Bytes> streams = {good,
+                                      with_property(good),
+                                      of_later_version(good),
+                                      with_chunks(stream_of(6)),
+                                      good,
+                                      {},
+                                      stream_of(7),
+                                      stream_of(8)};
   PackContent content{{16, 8, 4, 4}, {}, {}};
   content.metadata.source = "x";
   Bytes joined;
@@ -169,9 +174,9 @@ TEST_CASE("golden packs: the host refuses what a device refuses, for the same re
   CHECK(refusal(pack, 2) == of("tile 2: ", MICROTIN_STATUS_UNSUPPORTED_VERSION));
   CHECK(refusal(pack, 7) == of("tile 7: ", MICROTIN_STATUS_CHECKSUM));
   for (const uint32_t tile : {0u, 3u, 4u, 5u, 6u}) CHECK(refusal(pack, tile).empty());
-  const std::string bad = "unsupported: 2 tiles (1, 2): " +
-                          of("", MICROTIN_STATUS_UNSUPPORTED_VERSION) + "; bad: tile 7: " +
-                          of("tile 7: ", MICROTIN_STATUS_CHECKSUM);
+  const std::string bad =
+      "unsupported: 2 tiles (1, 2): " + of("", MICROTIN_STATUS_UNSUPPORTED_VERSION) +
+      "; bad: tile 7: " + of("tile 7: ", MICROTIN_STATUS_CHECKSUM);
   CHECK_THROWS_WITH_AS(PackFile(pack).expect_as_stated(), bad.c_str(), Error);
   const std::pair<const char*, microtin_status> flags[] = {
       {"flag_low", MICROTIN_STATUS_UNSUPPORTED_VERSION},

@@ -146,8 +146,7 @@ TEST_CASE("notes: unknown flags of a pack leave the notes in place, or make all 
     const auto status = [&] { return find_note(flagged.data(), flagged.size(), 3).status; };
     const bool is_known = flags < 16;
     CAPTURE(flags);
-    CHECK(status() ==
-          (is_known ? MICROTIN_STATUS_CHECKSUM : MICROTIN_STATUS_UNSUPPORTED_VERSION));
+    CHECK(status() == (is_known ? MICROTIN_STATUS_CHECKSUM : MICROTIN_STATUS_UNSUPPORTED_VERSION));
     flagged[7] = 1;  // reserved here
     flagged.resize(flagged.size() - kCheckBytes);
     append_check(flagged, 0);

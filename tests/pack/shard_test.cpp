@@ -186,12 +186,13 @@ TEST_CASE("shards: no tile claims what no tile can have") {
   const Bytes all(8, 0xFF), most = {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0x7F},
                             least = {0, 0, 0, 0, 0, 0, 0, 0x80};
   constexpr size_t kVertices = 8, kBelow = 16, kAbove = 20, kPosts = 24, kCovered = 32, kVoids = 40,
-                   kMaxError = 56, kMaxBelow = 65, kMaxAbove = 74, kRms = 83, kMean = 92, kRepeats = 101;
+                   kMaxError = 56, kMaxBelow = 65, kMaxAbove = 74, kRms = 83, kMean = 92,
+                   kRepeats = 101;
   for (const auto& row :
        {std::pair(kVertices, Bytes{0, 0, 0, 2}), std::pair(kBelow, Bytes{1, 0, 16, 0}),
-        std::pair(kAbove, Bytes{254, 255, 255, 255}), std::pair(kPosts, all), std::pair(kPosts, most),
-        std::pair(kCovered, most), std::pair(kVoids, all), std::pair(kVoids, most),
-        std::pair(kMaxError, least), std::pair(kMaxError + 8, Bytes{10}),
+        std::pair(kAbove, Bytes{254, 255, 255, 255}), std::pair(kPosts, all),
+        std::pair(kPosts, most), std::pair(kCovered, most), std::pair(kVoids, all),
+        std::pair(kVoids, most), std::pair(kMaxError, least), std::pair(kMaxError + 8, Bytes{10}),
         std::pair(kMaxBelow, most), std::pair(kMaxAbove, most), std::pair(kRms, most),
         std::pair(kMean, most), std::pair(kMean, least),
         std::pair(kMean, Bytes{1, 0, 0, 0, 0, 0, 0, 0x80}),

@@ -12,10 +12,12 @@
 #include "encoder/pack/shard.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/packs.hpp"
-#include "tests/support/paths.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace microtin::tests {
 namespace {
+
+using Bytes = std::vector<uint8_t>;
 
 // An ocean at height 0, with an island in a corner.
 Raster ocean(uint32_t width, bool has_island) {

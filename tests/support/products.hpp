@@ -272,7 +272,7 @@ class Truth {
         truth_["max_compact_bytes"] = kAny;  // by verify
     truth_["kind"] = facts_.is_pack ? "pack" : "stream";
     truth_["stream_version"] = "6";
-    truth_["pack_version"] = "4";
+    truth_["pack_version"] = "5";
     truth_["phases"] = kAny;
     truth_["max_degree"] = "12";
     truth_["coding"] = "dense";

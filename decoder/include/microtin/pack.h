@@ -127,7 +127,8 @@ static inline microtin_status microtin_pack_load_with(microtin_pack* pack,
 }
 
 /* --- Bad tiles: damaged, malformed, of another pack or another version of the format, truncated,
- * or too big for a slot. The pack skips them, and does not try them again while it remembers them. --- */
+ * or too big for a slot. The pack skips them, and does not try them again while it remembers them.
+ * --- */
 
 /* How many bad tiles a pack remembers: those that a segment touched last. If a segment touches more
  * bad tiles, each of the others costs an attempt whenever the segment is loaded; good tiles are
@@ -161,8 +162,8 @@ typedef struct microtin_pack_info {
   uint32_t max_compact_bytes;       /* most bytes of a compact tile, see compact_pack.h, with 16-bit
                                        indices if these suffice; 0: not stated */
   int16_t lowest, highest;          /* z steps: no vertex is lower, no vertex is higher */
-  uint32_t below, above;            /* the margins of all tiles, as microtin_mesh_margins has them */
-  microtin_axis x, y, z;            /* from lattice coordinates to real ones */
+  uint32_t below, above; /* the margins of all tiles, as microtin_mesh_margins has them */
+  microtin_axis x, y, z; /* from lattice coordinates to real ones */
 } microtin_pack_info;
 
 /* Returns what the header contains. OK, or NEED_INPUT before microtin_pack_load has read it. */
