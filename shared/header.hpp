@@ -109,6 +109,7 @@ inline microtin_status read_header(const uint8_t** bytes, const uint8_t* end, Co
     if (number[0] >> kPropertyBits != 0) return MICROTIN_STATUS_UNSUPPORTED_VERSION;
   }
   const uint32_t properties = static_cast<uint32_t>(number[0]);
+  if ((properties >> 3 & 3u) == 0) return MICROTIN_STATUS_UNSUPPORTED_VERSION;  // a later coding
   contract->has_heights = (properties & kHasHeights) != 0;
   contract->has_voids = (properties & kHasVoids) != 0;
   contract->coding = static_cast<Coding>(properties >> 3 & 3u);
@@ -122,8 +123,8 @@ inline microtin_status read_header(const uint8_t** bytes, const uint8_t* end, Co
   bool legal = (properties & kHasMargins) == 0 || read_margins(bytes, end, contract);
   legal = legal && ((properties & kHasPlacement) == 0 || read_placement(bytes, end, axis));
   legal = legal && contract->degree >= kMinDegree && contract->degree <= kMaxDegree &&
-          (properties >> 3 & 3u) != 0 && number[1] >= 3 && number[1] <= kMaxVertices &&
-          number[2] <= kLatticeMax && number[3] <= kLatticeMax;
+          number[1] >= 3 && number[1] <= kMaxVertices && number[2] <= kLatticeMax &&
+          number[3] <= kLatticeMax;
   return legal ? MICROTIN_STATUS_OK : MICROTIN_STATUS_MALFORMED;
 }
 

@@ -69,9 +69,7 @@ int days_of(int year, int month) {
   return year % 4 == 0 && (year % 100 != 0 || year % 400 == 0) ? 29 : 28;
 }
 
-}  // namespace
-
-bool is_iso_date(std::string_view text) {
+bool is_single_date(std::string_view text) {
   if (text.size() != 4 && text.size() != 7 && text.size() != 10) return false;
   if (!is_number(text.substr(0, 4))) return false;
   if (text.size() == 4) return true;
@@ -83,6 +81,17 @@ bool is_iso_date(std::string_view text) {
   const std::string_view day = text.substr(8);
   return text[7] == '-' && is_number(day) && value_of(day) >= 1 &&
          value_of(day) <= days_of(value_of(text.substr(0, 4)), value_of(month));
+}
+
+}  // namespace
+
+bool is_iso_date(std::string_view text) {
+  const size_t slash = text.find('/');
+  if (slash == text.npos) return is_single_date(text);
+  const std::string_view first = text.substr(0, slash), last = text.substr(slash + 1);
+  const size_t common = std::min(first.size(), last.size());
+  return is_single_date(first) && is_single_date(last) &&
+         first.substr(0, common) <= last.substr(0, common);
 }
 
 // Reads floating-point numbers by std::from_chars, which libc++ has for double from version 20 on,

@@ -25,7 +25,8 @@ std::string lower_case(std::string text);
 // With its dot, in small letters: some systems write .ASC. Empty: the file has none.
 std::string suffix_of(const std::string& path);
 
-// Whether the text is a year (2026), a month (2026-11) or a day (2026-11-21) that there is.
+// Whether the text is a year (2026), a month (2026-11) or a day (2026-11-21) that there is, or an
+// interval from one to another that is not before it (2019-05/2021).
 bool is_iso_date(std::string_view text);
 
 // The double nearest to the number that the whole text spells: "-0.25", "1e5", "inf", "nan".

@@ -94,7 +94,8 @@ void add_notes(CLI::App& command, EncodeRequest& request) {
     return is_iso_date(text);
   };
   add_read(command, "--date DATE", read, "a date such as 2026, 2026-11 or 2026-11-21",
-           "Note the date of the source: 2026, 2026-11 or 2026-11-21")
+           "Note the date of the source: 2026, 2026-11 or 2026-11-21, or two of them with a "
+           "slash between")
       ->default_str("none");
   add_text(command, "--lineage WORDS", request.lineage, "Note how the source was processed before");
 }

@@ -61,7 +61,8 @@ void GDALRegister_MTIN() {
       "<Value>UNKNOWN</Value><Value>GROUND</Value><Value>TOP</Value><Value>BED</Value>"
       "<Value>GEOID</Value><Value>OBSTACLES</Value></Option>"
       "<Option name='SOURCE_NAME' type='string' description='Note: where the terrain comes from'/>"
-      "<Option name='DATE' type='string' description='Note: date of the source, such as 2026-11'/>"
+      "<Option name='DATE' type='string' description='Note: date of the source, such as 2026-11 or "
+      "2019-05/2021'/>"
       "<Option name='LINEAGE' type='string' description='Note: how the source was processed'/>"
       "</CreationOptionList>";
   driver->SetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST, creation_options.c_str());

@@ -90,7 +90,7 @@ struct Metadata {
   uint32_t vertical_epsg = 0;
   std::string wkt;                      // of the horizontal system, where it has no code
   std::string source;                   // UTF-8 text; all texts together at most 65535 bytes
-  std::string date;                     // of the source: ISO 8601, 2026, 2026-11 or 2026-11-21
+  std::string date;                     // of the source: ISO 8601, 2026-11 or 2019-05/2021
   std::string lineage;                  // UTF-8 text: what was done to the source
   std::optional<Decimal> water_level;   // surfaces at this very height are water
   std::optional<Accuracy> accuracy;     // with each sample at its nearest lattice place

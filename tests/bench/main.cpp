@@ -17,6 +17,7 @@
 #include "tests/bench/peers/peers.hpp"
 #include "tests/bench/rate.hpp"
 #include "tests/bench/speed.hpp"
+#include "tests/bench/training/pack_starts.hpp"
 #include "tests/bench/training/train.hpp"
 
 namespace microtin::bench {
@@ -70,6 +71,8 @@ void run(const std::string& command, const Arguments& arguments) {
   } else if (command == "growth" && arguments.size() == 2) {
     const auto count = [&](const Work& work) { return instructions({work}, arguments[0])[0]; };
     print_linearity({"instructions", count, 64000}, arguments[1]);
+  } else if (command == "starts") {
+    print_pack_starts();
   } else if (command == "train") {
     print_start_probabilities();
   } else if (command == "streams" && arguments.size() == 1) {
@@ -91,7 +94,7 @@ void run(const std::string& command, const Arguments& arguments) {
         "peer-instructions FILE | cell FILE | autopilots CALLGRIND TERRAIN PACK TER DAT DAT | "
         "grid TERRAIN GRID | flight TERRAIN PACK GRID LOG LOG LOG | linearity PLOT | growth FILE "
         "PLOT "
-        "| train | streams FOLDER | curve-streams FOLDER | times STREAM... | "
+        "| starts | train | streams FOLDER | curve-streams FOLDER | times STREAM... | "
         "instructions FILE STREAM...");
   }
 }

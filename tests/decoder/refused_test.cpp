@@ -250,7 +250,7 @@ void add_headers(Refused& all) {
       header_with({}, {0x82, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x82, 0x83, 0x28, 4, 99, 99});
   all["malformed_degree_low"] = header_with({properties(kMinDegree - 1, 2), 4, 99, 99});
   all["malformed_degree_high"] = header_with({properties(kMaxDegree + 1, 2), 4, 99, 99});
-  all["malformed_decoding"] = header_with({properties(kMinDegree, 0), 4, 99, 99});
+  all["unsupported_coding"] = header_with({properties(kMinDegree, 0), 4, 99, 99});
   all["malformed_count_low"] = header_of(flat_contract(2));
   all["malformed_count_high"] = header_of(flat_contract(kMaxVertices + 1));
   all["malformed_side_x"] = header_with({kLegal, 4, 65536, 99});

@@ -169,7 +169,8 @@ struct Options {
   /* Notes of the header; 0 or "": none. Known codes set the units. All texts together have at most
    * 65,535 bytes. */
   uint32_t horizontal_epsg = 0, vertical_epsg = 0;
-  std::string source_name, date, lineage; /* date: 2026, 2026-11 or 2026-11-21 */
+  std::string source_name, date,
+      lineage; /* date: 2026, 2026-11, 2026-11-21, or two: 2019-05/2021 */
 };
 
 /* Sets an option by the name of its member, for callers whose options are texts: "max_error" to
