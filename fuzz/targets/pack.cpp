@@ -304,7 +304,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   Card card{data, size, asked, sector};
   std::vector<microtin_segment> segments;
   for (int i = 0; i < 3; ++i) {
-    microtin_pack_info info = {1000, 1000, 0, 0, 0, 0, 0, 0, {}, {}, {}};
+    microtin_pack_info info = {1000, 1000, 0, 0, 0, 0, 0, 0, 0, 0, {}, {}, {}};
     microtin_pack_get_info(device.pack, &info);
     const microtin_segment segment = {coordinate(asked, info.x_max), coordinate(asked, info.y_max),
                                       coordinate(asked, info.x_max), coordinate(asked, info.y_max)};

@@ -152,7 +152,9 @@ std::string refusal(const Bytes& bytes, uint32_t tile) {
 
 TEST_CASE("golden packs: what a later version may add is read, or refused with one status") {
   // MICROTIN_WRITE_GOLDEN=1 writes packs and reports anew.
-  for (const auto& [name, bytes] : golden_packs()) {
+  for (const auto& pack : golden_packs()) {
+    const std::string& name = pack.first;
+    const Bytes& bytes = pack.second;
     CAPTURE(name);
     const std::string report = report_of(bytes);
     if (std::getenv("MICROTIN_WRITE_GOLDEN") != nullptr) {
