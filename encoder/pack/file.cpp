@@ -188,6 +188,7 @@ Metadata read_placement_and_notes(const PackHeader& header, const uint8_t* bytes
     expect(read_pack_placement(placement, header, axis));
     metadata.placement = {axis[0], axis[1], axis[2]};
   }
+  metadata.everywhere = {header.below, header.above};
   const uint8_t* const notes = placement + header.placement_bytes;
   read_notes(notes, notes + header.note_bytes, metadata);
   return metadata;

@@ -19,6 +19,8 @@ function withRanges(response, [from, to]) {
 test("heights at every post keep the bound", { skip }, async () => {
   const pack = await Pack.open(bytes);
   const { bound } = pack.header.accuracy;
+  assert.equal(pack.header.surface.side, "both");
+  assert.ok(Math.max(pack.header.everywhere.below, pack.header.everywhere.above) >= pack.header.accuracy.largest);
   for (const { x, y, z } of postsOf(areaFile("asc")).filter((_, i) => i % 37 === 0)) {
     assert.ok(Math.abs((await pack.heightAt(x, y)) - z) <= bound * 1.0001);
   }

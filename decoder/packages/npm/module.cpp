@@ -6,7 +6,9 @@
 using namespace microtin;
 
 // What the sources read by place.
-static_assert(offsetof(microtin_pack_info, lowest) == 20 && offsetof(microtin_pack_info, x) == 32 &&
+static_assert(offsetof(microtin_pack_info, lowest) == 20 &&
+                  offsetof(microtin_pack_info, below) == 24 &&
+                  offsetof(microtin_pack_info, x) == 32 &&
                   offsetof(microtin_stream_info, below) == 16 &&
                   offsetof(microtin_stream_info, x) == 24 &&
                   offsetof(microtin_stream_info, mesh_bytes) == 96,

@@ -2,7 +2,7 @@
 // A terrain in tiles, of which those are read that are asked for.
 
 import { checkInteger, checkNumber } from "./check.js";
-import { axesAt, canHold, notesAt, toLattice } from "./header.js";
+import { axesAt, canHold, everywhereAt, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
 import { Source } from "./source.js";
 import {
@@ -12,7 +12,7 @@ import {
 import { meshArrays } from "./terrain.js";
 
 const INFO_BYTES = 104, X_MAX = 0, Y_MAX = 4, WIDTH = 8, HEIGHT = 10, MOST = 12, LOWEST = 20, HIGHEST = 22,
-  AXES = 32; // where they are in microtin_pack_info
+  MARGINS = 24, AXES = 32; // where they are in microtin_pack_info
 const MOST_SLOTS = 255, MOST_BAD = 8; // MICROTIN_PACK_MAX_BAD_TILES
 const CACHE_BYTES = 2 ** 26;
 const FIXED = 48; // bytes of a header, at least
@@ -72,7 +72,8 @@ export class Pack {
     const axes = axesAt(view, at + AXES);
     [this.lowest, this.highest] = [LOWEST, HIGHEST].map(
       (place) => axes.z.start + view.getInt16(at + place, true) * axes.z.step);
-    this.header = { axes, ...await this.#readNotes() };
+    const everywhere = everywhereAt(view, at + MARGINS, axes);
+    this.header = { axes, ...(everywhere && { everywhere }), ...await this.#readNotes() };
   }
 
   // The header has passed its check, so that nothing but its length is open.
