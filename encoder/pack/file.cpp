@@ -113,12 +113,25 @@ Bounds bounds_of(const std::vector<TileSummary>& tiles) {
   return all;
 }
 
-Bytes write_fixed(const PackContent& pack, std::size_t placement_bytes, std::size_t note_bytes) {
+// A number that packs of different headers or streams do not share but by chance.
+uint32_t identity_of(const Bytes& fixed, const Bytes& placement, const Bytes& notes,
+                     const std::vector<TileSummary>& tiles) {
+  uint32_t check = 0;
+  for (const Bytes& part : {fixed, placement, notes})
+    check = crc32(check, part.data(), part.size());
+  for (const TileSummary& tile : tiles) {
+    const Bytes entry = write_entry(tile);
+    check = crc32(check, entry.data(), entry.size());
+  }
+  return check;
+}
+
+Bytes write_fixed(const PackContent& pack, const Bytes& placement, const Bytes& notes) {
   const Bounds bounds = bounds_of(pack.tiles);
   Bytes header(kPackMagic, kPackMagic + sizeof kPackMagic);
   append_number(header, kPackVersion, 2);
-  append_number(header, placement_bytes, 2);
-  append_number(header, note_bytes, 2);
+  append_number(header, placement.size(), 2);
+  append_number(header, notes.size(), 2);
   append_number(header, pack.grid.width, 2);
   append_number(header, pack.grid.height, 2);
   append_number(header, to_unsigned(bounds.lowest), 2);
@@ -128,7 +141,7 @@ Bytes write_fixed(const PackContent& pack, std::size_t placement_bytes, std::siz
   append_number(header, pack.grid.y_max, 4);
   append_number(header, bounds.vertices, 4);
   append_number(header, compact_bytes(pack.tiles, bounds.vertices), 4);
-  append_check(header, 0);                      // the identity
+  append_number(header, identity_of(header, placement, notes, pack.tiles), 4);
   append_number(header, bounds.below + 1u, 4);  // not stated: 0
   append_number(header, bounds.above + 1u, 4);
   return header;
@@ -140,7 +153,7 @@ Bytes write_pack_header(const PackContent& pack) {
   const Bytes placement = write_placement(pack.metadata.placement);
   Bytes notes = write_notes(pack.metadata);
   append_padding(notes, kPackFixedBytes + placement.size() + kCheckBytes, kPackAlignment);
-  Bytes header = write_fixed(pack, placement.size(), notes.size());
+  Bytes header = write_fixed(pack, placement, notes);
   header.insert(header.end(), placement.begin(), placement.end());
   header.insert(header.end(), notes.begin(), notes.end());
   append_check(header, 0);
