@@ -26,6 +26,8 @@ BUCKETS = ["buckets_init", "buckets_hint"]
 COMPACT = ["compactor_init", "compactor_run", "compactor_required_bytes", "compact_height_at", "compact_hint"]
 PACK = ["pack_init", "pack_load", "pack_next_read", "pack_complete_read", "pack_align_reads", "pack_bad_tile", "pack_get_info"]
 PACK_QUERIES = ["pack_height_at", "pack_axis_to_lattice", "pack_segment_max", "pack_sample_grid"]
+NOTES = ["note_finder_init", "note_finder_feed"]
+SAFE_HEIGHTS = ["mesh_safe_heights_at"]
 COMPACT_PACK = [{"pack_init": "compact_pack_init", "pack_load": "compact_pack_load"}.get(e, e) for e in PACK]
 COMPACT_PACK_QUERIES = ["compact_" + e if e != "pack_axis_to_lattice" else e for e in PACK_QUERIES]
 USES = {
@@ -37,6 +39,8 @@ USES = {
     "pack_queries": PACK + PACK_QUERIES,
     "compact_pack": COMPACT_PACK + ["compact_pack_height_at"],
     "compact_pack_queries": COMPACT_PACK + COMPACT_PACK_QUERIES,
+    "notes": NOTES,
+    "safe_heights": DECODING + SAFE_HEIGHTS,
 }
 # What is measured of the decoder in one source, by each compiler.
 ONE_SOURCE_USES = {
@@ -106,11 +110,12 @@ def measure_library(options, library):
         graphs = [graph for graph in graphs if Path(graph).exists()]
         image = str(options.build / "linked")
         all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
-        link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + all_packs, image)
+        link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + NOTES + SAFE_HEIGHTS + all_packs, image)
         calls = stack.Stack(options.target, options.objdump, image, graphs)
         own = {
             "decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT, "pack": PACK,
             "pack_queries": PACK_QUERIES, "compact_pack": COMPACT_PACK, "compact_pack_queries": COMPACT_PACK_QUERIES,
+            "notes": NOTES, "safe_heights": SAFE_HEIGHTS,
         }  # fmt: skip
         for use, entries in own.items():
             result["stack_" + use] = max(calls.depth(symbol(options, entry)) for entry in entries)
@@ -241,6 +246,8 @@ USE_TITLES = {
     "pack_queries": "packs, all queries",
     "compact_pack": "packs with compact slots, heights",
     "compact_pack_queries": "packs with compact slots, all queries",
+    "notes": "finding notes",
+    "safe_heights": "decoding, safe heights",
 }
 STACK_TITLES = {
     "decoding": "decoding",
@@ -248,6 +255,8 @@ STACK_TITLES = {
     "pack_queries": "queries of packs",
     "compact_pack": "loading tiles, compact slots",
     "compact_pack_queries": "queries of packs, compact slots",
+    "notes": "finding notes",
+    "safe_heights": "safe heights",
 }
 
 
