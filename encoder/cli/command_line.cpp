@@ -160,6 +160,40 @@ void add_info(CLI::App& app, Action& action) {
       [request, &action] { action = [request] { run_info(request->input, request->json); }; });
 }
 
+void add_check(CLI::App& app, Action& action) {
+  struct Request {
+    std::string input;
+    bool json = false;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand(
+      "check", "Decode all of a stream or a pack, and list the tiles that cannot be used");
+  command.group(kLookAt);
+  add_stream(command, request->input);
+  add_json(command, request->json);
+  command.callback(
+      [request, &action] { action = [request] { run_check(request->input, request->json); }; });
+}
+
+void add_diff(CLI::App& app, Action& action) {
+  struct Request {
+    std::string first, second;
+    bool json = false;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command =
+      *app.add_subcommand("diff", "List the tiles in which two packs of the same tiles differ");
+  command.group(kLookAt);
+  command.add_option("FIRST", request->first, "A pack (.mtp)")->required()->type_name(kFile);
+  command.add_option("SECOND", request->second, "A pack of the same tiles")
+      ->required()
+      ->type_name(kFile);
+  add_json(command, request->json);
+  command.callback([request, &action] {
+    action = [request] { run_diff(request->first, request->second, request->json); };
+  });
+}
+
 void add_verify(CLI::App& app, Action& action) {
   auto request = std::make_shared<VerifyRequest>();
   CLI::App& command =

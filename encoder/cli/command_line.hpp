@@ -22,6 +22,8 @@ void add_decode(CLI::App& app, Action& action);
 void add_embed(CLI::App& app, Action& action);
 void add_height_command(CLI::App& app, Action& action, int& code);  // its exit code
 void add_info(CLI::App& app, Action& action);
+void add_check(CLI::App& app, Action& action);
+void add_diff(CLI::App& app, Action& action);
 void add_verify(CLI::App& app, Action& action);
 void add_fractal(CLI::App& app, Action& action);
 void add_render(CLI::App& app, Action& action);

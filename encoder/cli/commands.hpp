@@ -71,6 +71,12 @@ int run_height(const HeightRequest& request);
 
 void run_info(const std::string& input, bool json);
 
+// Throws Error, after the report, if a tile cannot be used.
+void run_check(const std::string& input, bool as_json);
+
+// Throws Error, after the report, if a tile differs.
+void run_diff(const std::string& first, const std::string& second, bool as_json);
+
 struct VerifyRequest {
   std::string input;
   std::string source;

@@ -62,6 +62,8 @@ int run(int argc, char** argv) {
   add_embed(app, action);
   add_info(app, action);
   add_height_command(app, action, code);
+  add_check(app, action);
+  add_diff(app, action);
   add_verify(app, action);
   add_render(app, action);
   add_fractal(app, action);

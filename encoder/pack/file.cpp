@@ -309,9 +309,15 @@ std::optional<DecodedTerrain> PackFile::tile(uint32_t number) const {
   });
 }
 
+Bytes PackFile::stream(uint32_t tile) const {
+  const PackEntry found = entry_of(tile);
+  if (found.size == 0) return {};
+  return with_file_context("tile " + std::to_string(tile), [&] { return stream_of(found); });
+}
+
 uint64_t PackFile::counted_vertices() const {
   uint64_t all = 0;
-  for (uint32_t number = 0; number < entries_.size(); ++number) all += vertices(number);
+  for (uint32_t number = 0; number < tiles(); ++number) all += vertices(number);
   return all;
 }
 

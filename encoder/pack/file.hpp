@@ -51,6 +51,13 @@ struct IndexEntry : PackEntry {
   int16_t lowest, highest;
 };
 
+// A tile that cannot be used, or is not as the header and the index state.
+struct TileFault {
+  uint32_t tile;
+  bool is_unsupported;  // the tile is of a later version
+  std::string text;     // names the tile
+};
+
 class PackFile {
  public:
   // When the index is read: whole at once, or with each tile the tile's entry alone, and
@@ -68,6 +75,13 @@ class PackFile {
   const Metadata& metadata() const { return metadata_; }
   const std::vector<IndexEntry>& entries() const { return entries_; }  // by tile
   uint64_t bytes() const { return bytes_->size(); }
+  uint32_t tiles() const { return tile_columns(header_.grid) * tile_rows(header_.grid); }
+
+  // The entry of a tile. Throws Error naming the tile if it is damaged or breaks a rule.
+  IndexEntry entry_of(uint32_t tile) const;
+
+  // A tile's stream as it is stored; empty without terrain. Throws Error as above.
+  std::vector<uint8_t> stream(uint32_t tile) const;
 
   // Vertices of all tiles, those on borders once for each, as the header states; counted_vertices()
   // if it does not.
@@ -89,16 +103,18 @@ class PackFile {
   // not the one in the index, of a later version, or leaves its box.
   std::optional<DecodedTerrain> tile(uint32_t number) const;
 
-  // Decodes all tiles. Throws Error naming those that are unsupported, and those that are bad for
-  // another reason; then if a tile breaks a bound that its entry or the header states, or if the
-  // sums are wrong that the header states.
+  // Decodes all tiles: those that cannot be used or break a bound, in order. Also damaged entries
+  // of the index count, if it is read later.
+  std::vector<TileFault> faults() const;
+
+  // Throws Error as for faults(): names those that are unsupported, and those that are bad for
+  // another reason. Throws Error also if the sums are wrong that the header states.
   void expect_as_stated() const;
 
  private:
   void read_header();
   void read_index();
   IndexEntry entry_at(uint32_t tile, const uint8_t* at) const;
-  IndexEntry entry_of(uint32_t tile) const;
   std::vector<uint8_t> stream_of(const PackEntry& entry) const;
   microtin_status start_of(uint32_t number, const std::vector<uint8_t>& stream) const;
   bool is_unsupported(uint32_t number) const;

@@ -2,6 +2,7 @@
 // Compares all tiles of a pack with what its header and its index state.
 #include <algorithm>
 #include <cstddef>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -23,20 +24,12 @@ std::string list_of(const std::vector<uint32_t>& tiles) {
   return text + (tiles.size() == 1 ? "" : tiles.size() > kMost ? ", ...)" : ")");
 }
 
-// What is wrong with a tile.
-struct Fault {
-  bool is_unsupported = false;
-  std::string text;  // names the tile; empty: nothing
-};
-
 // Throws Error naming the unsupported tiles apart from the others that are bad.
-void expect_none(const std::vector<Fault>& faults) {
+void expect_none(const std::vector<TileFault>& faults) {
   std::vector<uint32_t> unsupported, bad;
   std::string first;
-  for (std::size_t i = 0; i < faults.size(); ++i) {
-    const Fault& fault = faults[i];
-    if (fault.text.empty()) continue;
-    (fault.is_unsupported ? unsupported : bad).push_back(static_cast<uint32_t>(i));
+  for (const TileFault& fault : faults) {
+    (fault.is_unsupported ? unsupported : bad).push_back(fault.tile);
     if (!fault.is_unsupported && first.empty()) first = fault.text;
   }
   std::string text;
@@ -69,7 +62,7 @@ void expect_margin(uint32_t of_tile, uint32_t of_pack, const std::string& name) 
 
 bool PackFile::is_unsupported(uint32_t number) const {
   try {
-    return start_of(number, stream_of(entries_[number])) == MICROTIN_STATUS_UNSUPPORTED_VERSION;
+    return start_of(number, stream(number)) == MICROTIN_STATUS_UNSUPPORTED_VERSION;
   } catch (const Error&) {
     return false;
   }
@@ -83,8 +76,8 @@ void PackFile::expect_bounds(uint32_t number, DecodedTerrain& tile) const {
     lowest = std::min(lowest, z);
     highest = std::max(highest, z);
   }
-  const IndexEntry& entry = entries_[number];
-  expect_within(lowest, highest, entry.lowest, entry.highest, "those of its entry,");
+  const IndexEntry stated = entry_of(number);
+  expect_within(lowest, highest, stated.lowest, stated.highest, "those of its entry,");
   expect_within(lowest, highest, header_.lowest, header_.highest, "those of the header,");
   uint32_t below = 0, above = 0;
   microtin_mesh_margins(mesh, &below, &above);
@@ -98,19 +91,28 @@ void PackFile::expect_bounds(uint32_t number, DecodedTerrain& tile) const {
               std::to_string(header_.compact_bytes));
 }
 
-void PackFile::expect_as_stated() const {
-  std::vector<Fault> faults(entries_.size());
-  for_each_parallel(faults.size(), [&](std::size_t i) {
+std::vector<TileFault> PackFile::faults() const {
+  std::vector<TileFault> found;
+  std::mutex locked;
+  for_each_parallel(tiles(), [&](std::size_t i) {
     const auto number = static_cast<uint32_t>(i);
     try {
       std::optional<DecodedTerrain> decoded = tile(number);
       if (!decoded) return;
       with_file_context("tile " + std::to_string(number), [&] { expect_bounds(number, *decoded); });
     } catch (const Error& error) {
-      faults[i] = {is_unsupported(number), error.text()};
+      const TileFault fault = {number, is_unsupported(number), error.text()};
+      const std::lock_guard<std::mutex> lock(locked);
+      found.push_back(fault);
     }
   });
-  expect_none(faults);
+  std::sort(found.begin(), found.end(),
+            [](const TileFault& a, const TileFault& b) { return a.tile < b.tile; });
+  return found;
+}
+
+void PackFile::expect_as_stated() const {
+  expect_none(faults());
   expect_sums();
 }
 

@@ -128,6 +128,8 @@ const std::vector<Row> kRows = {
     {"height", "--lattice", "t.mtin 20 20", ""},
     {"height", "--device", "t.mtin 520.0038 720.0038", ""},
     {"info", "--json", "t.mtin", ""},
+    {"check", "--json", "t.mtin", ""},
+    {"diff", "--json", "s.mtp s.mtp", ""},
     {"verify", "--json", "t.mtin t.asc", ""},
     {"verify", "--classes", "s.mtin s.las", "2"},
     {"verify", "--epsg", "m.mtin t.asc", "32633:5715"},
@@ -190,7 +192,8 @@ void write_inputs(const Session& session) {
   session.write("sea.xyz", "0 0 -9\n9 0 5\n0 9 3\n9 9 -4\n");
   for (const char* words :
        {"t.asc -o t.mtin", "t.asc --max-error 2 -o m.mtin", "s.las -o s.mtin --classes all",
-        "sea.xyz -o sea.mtin", "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
+        "t.asc --tile-size 9 -o s.mtp", "sea.xyz -o sea.mtin",
+        "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
         "t.asc --max-error 2 --water-level 50 -o water.mtin",
         "t.asc --max-error 2 --water-level 50 --water-mask mask.asc -o lake.mtin"}) {
     REQUIRE(session.run(std::string("encode ") + words).code == 0);
@@ -256,8 +259,8 @@ TEST_CASE("options: the default of the help page makes no difference") {
 
 TEST_CASE("options: none is without a row") {
   const Session session;
-  for (const char* command :
-       {"encode", "merge", "decode", "embed", "height", "info", "verify", "fractal", "render"}) {
+  for (const char* command : {"encode", "merge", "decode", "embed", "height", "info", "check",
+                              "diff", "verify", "fractal", "render"}) {
     CAPTURE(command);
     Names known;
     for (const Row& row : kRows) {

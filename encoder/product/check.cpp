@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "encoder/product/check.hpp"
+
+#include <memory>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/exact/lattice_map.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/pack/shard.hpp"
+#include "encoder/product/document.hpp"
+
+namespace microtin::product {
+namespace {
+
+struct OpenPack {
+  std::vector<uint8_t> header;  // with placement, notes and check
+  PackFile file;
+};
+
+OpenPack open_pack(const std::string& path) {
+  std::unique_ptr<ByteSource> bytes = open_file(path);
+  refuse_shard(path, *bytes);
+  return with_file_context(path, [&] {
+    if (!is_pack(*bytes)) throw Error("is not a pack");
+    const ByteSource& same = *bytes;
+    PackFile file(std::move(bytes), PackFile::Index::kLater);
+    const uint32_t header_bytes = pack_index_start(file.header());
+    return OpenPack{bytes_at(same, 0, header_bytes), std::move(file)};
+  });
+}
+
+bool have_same_tiles(const PackFile& a, const PackFile& b) {
+  const TileGrid &g = a.grid(), &h = b.grid();
+  const Placement &p = a.metadata().placement, &q = b.metadata().placement;
+  return g.x_max == h.x_max && g.y_max == h.y_max && g.width == h.width && g.height == h.height &&
+         is_same(p.x, q.x) && is_same(p.y, q.y) && is_same(p.z, q.z);
+}
+
+}  // namespace
+
+Checked check_file(const std::string& path) {
+  if (is_regular_file(path) && is_pack(*open_file(path))) {
+    const OpenPack pack = open_pack(path);
+    return {pack.file.tiles(), pack.file.faults()};
+  }
+  read_stream(path);
+  return {};
+}
+
+Difference compare_packs(const std::string& first, const std::string& second) {
+  const OpenPack a = open_pack(first), b = open_pack(second);
+  if (!have_same_tiles(a.file, b.file)) {
+    throw Error(first + ", " + second + ": have other tiles or another lattice");
+  }
+  const auto stream_in = [](const std::string& path, const OpenPack& pack, uint32_t tile) {
+    return with_file_context(path, [&] { return pack.file.stream(tile); });
+  };
+  Difference found;
+  found.tiles = a.file.tiles();
+  found.is_header_same = a.header == b.header;
+  for (uint32_t tile = 0; tile < found.tiles; ++tile) {
+    if (stream_in(first, a, tile) != stream_in(second, b, tile)) found.differ.push_back(tile);
+  }
+  return found;
+}
+
+}  // namespace microtin::product
