@@ -78,8 +78,8 @@ std::string at_true_places(const std::optional<Verification>& measured,
 
 // How far the surface is on either side of the source.
 std::string beyond(const Verification& measured, const std::optional<Distances>& everywhere) {
-  const std::string text = "below the source: at most " + to_string(measured.max_below) +
-                           ", above: at most " + to_string(measured.max_above) + '\n';
+  std::string text = "below the source: at most " + to_string(measured.max_below) +
+                     ", above: at most " + to_string(measured.max_above) + '\n';
   if (!everywhere) return text;
   return text + "everywhere, from the bilinear surface of the posts: at most " +
          to_string(everywhere->below) + " below, at most " + to_string(everywhere->above) +
