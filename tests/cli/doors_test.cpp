@@ -91,6 +91,10 @@ Setting epsg(uint32_t code) {
   return setting("", &W::horizontal_epsg, code, &C::horizontal_epsg, code);
 }
 
+Setting surface(const std::string& word, library::SurfaceKind kind, uint32_t number) {
+  return setting("--surface " + word, &W::surface, kind, &C::surface, number);
+}
+
 std::vector<Row> rows() {
   using namespace microtin::encoder;
   const Setting two = bound("2"),
@@ -107,9 +111,6 @@ std::vector<Row> rows() {
   };
   const auto bound_at = [](const char* flags, BoundAt places, uint32_t number) {
     return setting(flags, &W::bound_at, places, &C::bound_at, number);
-  };
-  const auto surface = [](const std::string& word, SurfaceKind kind, uint32_t number) {
-    return setting("--surface " + word, &W::surface, kind, &C::surface, number);
   };
   return {
       {"max_error", kAll, bound("1.5"), nothing},
@@ -132,7 +133,6 @@ std::vector<Row> rows() {
       {"duplicates", kClouds, duplicates("--duplicates highest", Duplicates::kHighest, 3), two},
       {"duplicates", kClouds, duplicates("--duplicates mean", Duplicates::kMean, 4), two},
       {"units", kAll, setting("--units", &W::units, &C::units, "foot:us-foot"), two},
-      {"depths", kAll, setting("--depths", &W::depths, true, &C::depths, 1u), two},
       {"depths", kAll, setting("--depths", &W::depths, true, &C::depths, 1u), two},
       {"surface", 0, surface("unknown", SurfaceKind::kUnknown, 0), two},
       {"surface", kAll, surface("ground", SurfaceKind::kGround, 1), two},

@@ -13,6 +13,7 @@
 #include "encoder/stream/header.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/forged_pack.hpp"
+#include "tests/support/join.hpp"
 #include "tests/support/session.hpp"
 
 using namespace microtin::tests;
@@ -67,7 +68,7 @@ TEST_CASE("promises: info states what verify measures everywhere, rounded up, al
         "--max-bytes 300 --fast", "--max-error 2 --tile-vertices 60", "--tile-vertices 300", ""}) {
     CAPTURE(words);
     const std::string file = words.find("tile") == words.npos ? "t.mtin" : "t.mtp";
-    CHECK(session.run("encode t.asc --units metre -o " + file + " " + words).code == 0);
+    CHECK(session.run(join({"encode t.asc --units metre -o ", file, " ", words})).code == 0);
     const json stated = report(session, "info --json " + file),
                found = report(session, "verify --json " + file + " t.asc --units metre");
     const double z_step = stated["steps"]["z"];
