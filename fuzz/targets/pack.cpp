@@ -190,7 +190,8 @@ bool remembers_bad_tile(const microtin_pack* pack) {
     if (microtin_pack_bad_tile(pack, i, &tile, &why) != MICROTIN_STATUS_OK) continue;
     ++all;
     EXPECT(why == MICROTIN_STATUS_CHECKSUM || why == MICROTIN_STATUS_MALFORMED ||
-           why == MICROTIN_STATUS_TOO_BIG || why == MICROTIN_STATUS_TRUNCATED);
+           why == MICROTIN_STATUS_TOO_BIG || why == MICROTIN_STATUS_TRUNCATED ||
+           why == MICROTIN_STATUS_UNSUPPORTED_VERSION);
   }
   return all != 0;
 }

@@ -14,7 +14,7 @@ extern "C" uint8_t BEHIND_DATA[];  // up to the stack
 
 namespace {
 
-constexpr uint32_t kSlots = 9, kCapacity = 64, kTileBytes = 608;  // as microtin info says
+constexpr uint32_t kSlots = 9, kCapacity = 64, kTileBytes = 616;  // as microtin info says
 constexpr uint32_t kApplicationBytes = 4096, kFree = 16;
 constexpr uint8_t kPaint = 0xA5;
 
