@@ -271,7 +271,7 @@ def check_wrong_turns():
     refused(["`dem.mtin' not recognized as "], "gdalinfo", "dem.mtin", **missing)
     gdal.Translate("two.tif", "dem.tif", bandList=[1, 1])
     refused(["2: choose one with -b"], "gdal_translate", "-of", "MTIN", "two.tif", "a.mtin")
-    refused(["a.tif: a stream is named .mtin"], TOOL, "encode", "N43E007.hgt", "-o", "a.tif")
+    refused(["a.tif: name a stream .mtin and a pack .mtp"], TOOL, "encode", "N43E007.hgt", "-o", "a.tif")
     refused(["a.tif: not a kind of file that is written", "gdal_translate"], TOOL, "decode", "dem.mtin", "-o", "a.tif")
     with open("dem.mtin", "rb") as file:
         data = bytearray(file.read())
