@@ -48,6 +48,22 @@ void take_stream_from_sources(RenderRequest& request) {
   request.preparation.more_files.assign(files.begin() + 1, files.end());
 }
 
+// A command that prints what a file is like.
+void add_look(CLI::App& app, Action& action, const std::string& name,
+              const std::string& description, void (*run)(const std::string&, bool)) {
+  struct Request {
+    std::string input;
+    bool json = false;
+  };
+  auto request = std::make_shared<Request>();
+  CLI::App& command = *app.add_subcommand(name, description);
+  command.group(kLookAt);
+  add_stream(command, request->input);
+  add_json(command, request->json);
+  command.callback(
+      [request, &action, run] { action = [request, run] { run(request->input, request->json); }; });
+}
+
 }  // namespace
 
 void add_decode(CLI::App& app, Action& action) {
@@ -147,32 +163,12 @@ void add_height_command(CLI::App& app, Action& action, int& code) {
 }
 
 void add_info(CLI::App& app, Action& action) {
-  struct Request {
-    std::string input;
-    bool json = false;
-  };
-  auto request = std::make_shared<Request>();
-  CLI::App& command = *app.add_subcommand("info", "Print what a stream or a pack contains");
-  command.group(kLookAt);
-  add_stream(command, request->input);
-  add_json(command, request->json);
-  command.callback(
-      [request, &action] { action = [request] { run_info(request->input, request->json); }; });
+  add_look(app, action, "info", "Print what a stream or a pack contains", run_info);
 }
 
 void add_check(CLI::App& app, Action& action) {
-  struct Request {
-    std::string input;
-    bool json = false;
-  };
-  auto request = std::make_shared<Request>();
-  CLI::App& command = *app.add_subcommand(
-      "check", "Decode all of a stream or a pack, and list the tiles that cannot be used");
-  command.group(kLookAt);
-  add_stream(command, request->input);
-  add_json(command, request->json);
-  command.callback(
-      [request, &action] { action = [request] { run_check(request->input, request->json); }; });
+  add_look(app, action, "check",
+           "Decode all of a stream or a pack, and list the tiles that cannot be used", run_check);
 }
 
 void add_diff(CLI::App& app, Action& action) {

@@ -223,15 +223,18 @@ void PackFile::read_header() {
   metadata_ = read_placement_and_notes(header_, header.data());
 }
 
+void PackFile::expect_index() const {
+  const uint64_t start = pack_index_start(header_);
+  if ((bytes_->size() - start) / kPackEntryBytes < tiles())
+    throw Error(describe(MICROTIN_STATUS_TRUNCATED));
+}
+
 void PackFile::read_index() {
   constexpr uint32_t kAtOnce = 1024;
-  const uint64_t tiles = uint64_t{tile_columns(header_.grid)} * tile_rows(header_.grid);
-  const uint64_t start = pack_index_start(header_);
-  if ((bytes_->size() - start) / kPackEntryBytes < tiles)
-    throw Error(describe(MICROTIN_STATUS_TRUNCATED));
-  entries_.reserve(tiles);
-  while (entries_.size() < tiles) {
-    const uint64_t count = std::min<uint64_t>(tiles - entries_.size(), kAtOnce);
+  expect_index();
+  entries_.reserve(tiles());
+  while (entries_.size() < tiles()) {
+    const uint64_t count = std::min<uint64_t>(tiles() - entries_.size(), kAtOnce);
     const uint64_t offset = pack_entry_start(header_, static_cast<uint32_t>(entries_.size()));
     const Bytes bytes = bytes_at(*bytes_, offset, count * kPackEntryBytes);
     for (uint64_t i = 0; i < count; ++i) {

@@ -103,13 +103,20 @@ class PackFile {
   // not the one in the index, of a later version, or leaves its box.
   std::optional<DecodedTerrain> tile(uint32_t number) const;
 
+  // Throws Error if the file ends before its index does. Then the header can state more tiles than
+  // anybody could look at.
+  void expect_index() const;
+
   // Decodes all tiles: those that cannot be used or break a bound, in order. Also damaged entries
   // of the index count, if it is read later.
   std::vector<TileFault> faults() const;
 
   // Throws Error as for faults(): names those that are unsupported, and those that are bad for
-  // another reason. Throws Error also if the sums are wrong that the header states.
+  // another reason. Throws Error as expect_sums, too.
   void expect_as_stated() const;
+
+  // Throws Error if the sums are wrong that the header states.
+  void expect_sums() const;
 
  private:
   void read_header();
@@ -119,7 +126,6 @@ class PackFile {
   microtin_status start_of(uint32_t number, const std::vector<uint8_t>& stream) const;
   bool is_unsupported(uint32_t number) const;
   void expect_bounds(uint32_t number, DecodedTerrain& tile) const;
-  void expect_sums() const;
 
   std::unique_ptr<ByteSource> bytes_;
   PackHeader header_{};

@@ -119,15 +119,17 @@ void PackFile::expect_as_stated() const {
 void PackFile::expect_sums() const {
   if (!metadata_.sums) return;
   const uint64_t vertices = counted_vertices();
-  const auto tiles = static_cast<uint64_t>(
-      std::count_if(entries_.begin(), entries_.end(), [](const auto& e) { return e.size != 0; }));
+  uint64_t with_terrain = 0;
+  for (uint32_t number = 0; number < tiles(); ++number) {
+    if (entry_of(number).size != 0) ++with_terrain;
+  }
   const auto expect = [](uint64_t stated, uint64_t found, const std::string& of_what) {
     if (stated == found) return;
     throw Error("the header states " + std::to_string(stated) + ' ' + of_what + "; there are " +
                 std::to_string(found));
   };
   expect(metadata_.sums->vertices, vertices, "vertices in all tiles");
-  expect(metadata_.sums->tiles, tiles, "tiles with terrain");
+  expect(metadata_.sums->tiles, with_terrain, "tiles with terrain");
 }
 
 }  // namespace microtin::pack

@@ -25,6 +25,7 @@ OpenPack open_pack(const std::string& path) {
     if (!is_pack(*bytes)) throw Error("is not a pack");
     const ByteSource& same = *bytes;
     PackFile file(std::move(bytes), PackFile::Index::kLater);
+    file.expect_index();
     const uint32_t header_bytes = pack_index_start(file.header());
     return OpenPack{bytes_at(same, 0, header_bytes), std::move(file)};
   });
@@ -42,7 +43,9 @@ bool have_same_tiles(const PackFile& a, const PackFile& b) {
 Checked check_file(const std::string& path) {
   if (is_regular_file(path) && is_pack(*open_file(path))) {
     const OpenPack pack = open_pack(path);
-    return {pack.file.tiles(), pack.file.faults()};
+    Checked found{pack.file.tiles(), pack.file.faults()};
+    if (found.faults.empty()) with_file_context(path, [&] { pack.file.expect_sums(); });
+    return found;
   }
   read_stream(path);
   return {};

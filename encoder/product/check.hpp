@@ -18,7 +18,7 @@ struct Checked {
 };
 
 // Decodes all of a stream, or all tiles of a pack. Throws Error naming the file if it is a stream
-// that is damaged, or a pack whose header is.
+// that is damaged, or a pack whose header is wrong or whose index is cut off.
 Checked check_file(const std::string& path);
 
 struct Difference {

@@ -3,9 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <vector>
 
 #include "encoder/files/input.hpp"
+#include "encoder/pack/file.hpp"
 #include "shared/pack_format.hpp"
+#include "tests/support/forged_pack.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/session.hpp"
@@ -50,8 +53,23 @@ TEST_CASE("check: intact files pass, and bad tiles are all listed") {
   CHECK(contains(damaged.out, "\"unsupported\": []"));
   CHECK(contains(damaged.out, "\"tile 3: damaged"));
   CHECK(contains(damaged.err, "d.mtp: 2 of 16 tiles cannot be used"));
+  const std::string intact = session.read("t.mtp");
+  Bytes sums(intact.begin(), intact.end());
+  sums[note_in(sums, MICROTIN_NOTE_SUMS).first] ^= 1;
+  repair_checks(sums);
+  session.write("s.mtp", std::string(sums.begin(), sums.end()));
+  CHECK(contains(session.failure("check s.mtp"), "vertices in all tiles; there are"));
   session.write("h.mtp", with_change(session.read("t.mtp"), 21));
   CHECK(session.failure("check h.mtp").find("h.mtp: ") == 0);
+}
+
+TEST_CASE("check: a header that states more tiles than its file holds costs no time") {
+  const Session session;
+  const PackContent countless{{0x7FFFFFFF, 1, 1, 1}, {}, {}};
+  const std::vector<uint8_t> header = write_pack_header(countless);
+  session.write("big.mtp", std::string(header.begin(), header.end()));
+  CHECK(session.failure("check big.mtp").find("big.mtp: ") == 0);
+  CHECK(session.failure("diff big.mtp big.mtp").find("big.mtp: ") == 0);
 }
 
 TEST_CASE("check: tiles of a later version are listed apart") {

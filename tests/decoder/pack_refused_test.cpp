@@ -381,7 +381,7 @@ TEST_CASE_TEMPLATE(
   CHECK(status_of(with(30, 255)) == MICROTIN_STATUS_OK);
   CHECK(status_of(with(31, 1)) == MICROTIN_STATUS_MALFORMED);  // above 2^24 vertices
   CHECK(status_of(with(36, static_cast<uint8_t>(~good[36]))) == MICROTIN_STATUS_BAD_TILES);
-  // Damage is told as such, unless the rest ends too early for it.
+  // Damage is reported as such, unless the rest ends too early for it.
   for (size_t at = 8; at < pack_index_start(PackFile(good).header()); ++at) {
     Bytes damaged = good;
     damaged[at] ^= 4;
@@ -452,8 +452,8 @@ TEST_CASE_TEMPLATE("pack: all fields of a tile without terrain are 0", Device, M
   }
 }
 
-TEST_CASE_TEMPLATE("pack: tiles of a later version are told from damaged ones", Device, MeshSlots,
-                   CompactSlots) {
+TEST_CASE_TEMPLATE("pack: tiles of a later version are distinguished from damaged ones", Device,
+                   MeshSlots, CompactSlots) {
   const ForgedTile good = forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 3, 3}, {4, 3, 4}}, {}});
   const TileGrid grid = {8, 3, 4, 3};
   const auto check = [&](const Bytes& bytes, microtin_status expected) {
