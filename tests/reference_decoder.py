@@ -1,765 +1,428 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""A slow second decoder of microtin streams, written from shared/docs/format-stream.md and not from the C++ code.
+"""A slow second decoder, written from format-stream.md and format-pack.md alone, for people who learn the formats.
 
-Usage: reference_decoder.py FILE.mtin
+Usage: reference_decoder.py FILE
 
-Prints the digest of the mesh, then x, y and z of each vertex in decoded order. Section numbers in this file
-are those of shared/docs/format-stream.md; names are its names wherever it has any.
+Prints the digest of a stream's mesh, then x, y and z of each vertex in decoded order; for a pack, the digest and vertices of
+each tile. Refuses what breaks a rule: prints one line, which begins with the status, and exits with 1. Functions have the
+names that the page uses. Comments name its sections.
 """
 
-import itertools
 import sys
 import zlib
 from collections import deque
-from pathlib import Path
-from typing import NamedTuple
 
-INFINITY = -1
-SEED_SIZE = 3
-FIRST_SECTION_VERTICES = 256
+sys.dont_write_bytecode = True
+from reference_symbols import (Lines, RangeCoder, Refusal, Symbols, Tally, bit, clamp, cot, cross, dot, incircle,  # noqa: E402
+                               log2, minus, quotient, require, rexp, rlog, rroot, scaled, segment, turn)
 
+INFINITY = -1                                    # the number of the vertex at infinity
+QUICK, BALANCED, DENSE = 1, 2, 3                 # codings (section 4)
 
-class Malformed(Exception):
-    """The stream breaks a rule of the specification."""
 
+# Bytes and headers (section 4)
 
-def require(condition, complaint):
-    if not condition:
-        raise Malformed(complaint)
 
+class Bytes:
+    """Reads a file, or a part of it, from front to back."""
 
-# Section 2: exactness
+    def __init__(self, data, position=0, shortage="truncated"):
+        self.data, self.position, self.shortage = data, position, shortage
 
+    def at_end(self):
+        return self.position >= len(self.data)
 
-def minus(p, q):
-    return (p[0] - q[0], p[1] - q[1])
+    def take(self, count):
+        if self.position + count > len(self.data):
+            raise Refusal(self.shortage, "the bytes end too early")
+        self.position += count
+        return self.data[self.position - count:self.position]
 
+    def number(self, count):
+        return int.from_bytes(self.take(count), "little")
 
-def cross(s, t):
-    return s[0] * t[1] - s[1] * t[0]
-
-
-def dot(s, t):
-    return s[0] * t[0] + s[1] * t[1]
-
-
-def twice_area(a, b, c):
-    """Positive if the triangle is counter-clockwise."""
-    return cross(minus(b, a), minus(c, a))
-
-
-def angle_at(p, a, b):
-    """The dot product at p of the directions to a and b."""
-    return dot(minus(a, p), minus(b, p))
-
-
-def incircle(a, b, c, p):
-    return angle_at(c, a, b) * twice_area(p, a, b) - angle_at(p, a, b) * twice_area(c, a, b)
-
-
-def in_conflict_with_triangle(corners, p):
-    d = incircle(*corners, p)
-    if d != 0:
-        return d > 0
-    largest = max(*corners, p)
-    if largest == p:
-        return False
-    return twice_area(*(p if corner == largest else corner for corner in corners)) > 0
-
-
-def in_conflict_with_ghost(u, w, p):
-    side = twice_area(u, w, p)
-    return side > 0 or (side == 0 and angle_at(p, u, w) < 0)
-
-
-# Section 9: integer functions
-
-
-def divide(a, b):
-    """The specification's a / b, which rounds towards zero."""
-    return a // b if (a < 0) == (b < 0) else -(-a // b)
-
-
-def keep_within(low, value, high):
-    return max(low, min(value, high))
-
-
-def highest_bit(v):
-    return v.bit_length() - 1
-
-
-def log2(v):
-    b = highest_bit(v)
-    m = ((v << 16) >> b) & 65535
-    bend = (m * (65536 - m) >> 16) * (27800 - (10600 * m >> 16)) >> 16
-    return 256 * b + ((m + bend + 128) >> 8)
-
-
-def rlog(v):
-    """Straight between powers of two."""
-    return 256 * highest_bit(v) + ((v << 8 >> highest_bit(v)) & 255)
-
-
-def rexp(exponent):
-    return (256 + (exponent & 255)) << 23 >> (31 - (exponent >> 8)) if exponent >= 0 else 0
-
-
-def rough_root(v):
-    half = highest_bit(v | 1) >> 1
-    guess = (11 * ((2 << half) + (v >> half)) >> 5) + 1
-    return (guess + v // guess) >> 1
-
-
-ONE = 4096  # a cotangent of 1
-
-
-def cotangent(q, h, most):
-    s = max(0, highest_bit(h) - 11)
-    h >>= s
-    return divide(ONE * keep_within(-most * h, q >> s, most * h), h)
-
-
-def segment(square, k):
-    """Twice its area."""
-    j = k >> 4
-    size = abs(j)
-    minor = ((square >> 4) * ((size + 188) * 174763 // (size * (size + 188) + 20643))) >> 7
-    if j <= 0:
-        return minor
-    i = min(size, 2048)
-    return (square >> 8) * ((65536 + i * i) * 201 >> 15) - minor
-
-
-# Section 8: range coder
-
-
-class RangeDecoder:
-    def __init__(self, payload):
-        self.payload_size = len(payload)
-        self.bytes = payload + bytes(4)
-        self.position = 4
-        self.range = (1 << 32) - 1
-        self.code = int.from_bytes(self.bytes[:4], "big")
-        require(self.code != self.range, "code equals range")
-
-    def finish(self):
-        require(self.position >= self.payload_size, "payload is left")
-
-    def normalise(self):
-        while self.range < 1 << 24:
-            require(self.position < len(self.bytes), "payload is too short")
-            self.range <<= 8
-            self.code = (self.code << 8) + self.bytes[self.position]
-            self.position += 1
-
-    def bit(self, p):
-        bound = (self.range >> 15) * p
-        one = self.code < bound
-        if one:
-            self.range = bound
-        else:
-            self.range -= bound
-            self.code -= bound
-        self.normalise()
-        return int(one)
-
-    def uniform(self, count):
-        number = self.part(self.range, count)
-        require(number is not None, "uniform number is too large")
-        return number
-
-    def uniform_or_escape(self, count):
-        """None is an escape."""
-        return self.part(self.range - (self.range >> 10), count)
-
-    def part(self, width, count):
-        size = width // count
-        number = self.code // size
-        if number < count:
-            self.code -= number * size
-            self.range = size
-        else:
-            self.code -= count * size
-            self.range -= count * size
-            number = None
-        self.normalise()
-        return number
-
-
-class AdaptiveBit:
-    def __init__(self, start):
-        self.fast = self.slow = 128 * start + 64
-
-    def sum(self):
-        return self.fast + self.slow
-
-    def decode(self, coder):
-        bit = coder.bit(self.sum() >> 1)
-        self.learn(bit)
-        return bit
-
-    def learn(self, bit):
-        target = 32704 if bit else 64
-        self.fast += (target - self.fast) >> 5
-        self.slow += (target - self.slow) >> 8
-
-
-def decode_between(coder, row, i, f):
-    """A bit whose probability lies f / 256 of the way from entry i of the row to the next."""
-    left, right = row[i], row[i + 1]
-    bit = coder.bit((left.sum() + ((right.sum() - left.sum()) * f >> 8)) >> 1)
-    (left if f < 128 else right).learn(bit)
-    return bit
-
-
-def decode_on_curve(coder, row, position):
-    position = keep_within(0, position, 256 * (len(row) - 1) - 1)
-    return decode_between(coder, row, position >> 8, position & 255)
-
-
-LONGEST = 17
-
-
-def decode_length(coder, row, typical):
-    def is_longer_than(bits):
-        return row[keep_within(0, bits - typical + 3, 6)].decode(coder)
-
-    length = typical
-    if is_longer_than(length):
-        length += 1
-        while length < LONGEST and is_longer_than(length):
-            length += 1
-    else:
-        while length > 0 and not is_longer_than(length - 1):
-            length -= 1
-    return length
-
-
-def decode_magnitude(coder, row, second, typical):
-    bits = decode_length(coder, row, typical)
-    if bits < 2:
-        return bits
-    leading = 2 + second[min(bits, 9)].decode(coder)
-    return (leading << (bits - 2)) + coder.uniform(1 << (bits - 2))
-
-
-# Section 4: file
-
-
-class ByteReader:
-    def __init__(self, data):
-        self.data = data
-        self.position = 0
-
-    def take(self, size):
-        start = self.position
-        require(start + size <= len(self.data), "stream is cut off")
-        self.position += size
-        return self.data[start : self.position]
-
-    def is_at_end(self):
-        return self.position == len(self.data)
-
-    def number(self, size):
-        return int.from_bytes(self.take(size), "little")
-
-    def varint(self):
-        value = 0
+    def varint(self, limit=1 << 64):
+        """Seven bits in each byte, high bits first; in its shortest form and below the limit."""
+        value, first = 0, True
         while True:
-            byte = self.number(1)
-            require(byte != 128 or value > 0, "varint is not in its shortest form")
+            byte = self.take(1)[0]
+            require(not (first and byte == 0x80), "a varint is not in its shortest form")
             value = value << 7 | byte & 127
+            require(value < limit, "a varint is too large")
+            first = False
             if byte < 128:
                 return value
 
-    def length(self):
+    def zigzag(self):
         value = self.varint()
-        require(value < 1 << 31, "a length is out of bounds")
-        return value
+        return value >> 1 if value % 2 == 0 else -(value >> 1) - 1
 
-    def expect_check(self, start):
-        checked = self.data[start : self.position]
-        require(self.number(4) == zlib.crc32(checked), "CRC-32 is wrong")
+    def length_and_content(self):
+        """A length and as many bytes. A length that breaks a rule counts as 0; the second result then is False."""
+        try:
+            length = self.varint(1 << 31)
+        except Refusal as refusal:
+            if refusal.status == "truncated":
+                raise
+            return b"", False
+        return self.take(length), True
 
-    def section(self):
-        start = self.position
-        payload = self.take(self.length())
-        self.expect_check(start)
-        return RangeDecoder(payload)
-
-
-class Header(NamedTuple):
-    heights_are_sent: bool
-    void_flags_are_sent: bool
-    degree: int
-    decoding: int
-    vertices: int
-    columns: int
-    rows: int
-    odd_origin: tuple
+    def check(self, begin, what):
+        """The CRC-32 of all bytes from begin up to here."""
+        crc = zlib.crc32(self.data[begin:self.position])
+        if self.number(4) != crc:
+            raise Refusal("damaged", "the check of " + what + " fails")
 
 
-def read_header(reader):
-    require(reader.take(4) == b"mtin", "not a microtin stream")
-    require(reader.number(1) == 6, "unknown version")
-    payload = ByteReader(reader.take(reader.length()))
-    reader.expect_check(0)
-    properties = payload.varint()
-    require(properties < 1 << 14, "unknown properties")
-    vertices = payload.varint()
-    columns, rows = payload.varint() + 1, payload.varint() + 1
-    decoding, degree = properties >> 3 & 3, properties >> 5 & 63
-    require(6 <= degree <= 32, "degree is out of bounds")
-    require(decoding != 0, "decoding is none of the three")
-    require(3 <= vertices <= 1 << 24, "number of vertices is out of bounds")
-    require(max(columns, rows) <= 1 << 16, "a side is out of bounds")
-    if properties & 8192:
-        for _ in ("below", "above"):
-            require(payload.varint() <= (1 << 20) + 1, "margin")
-    if properties & 4:
-        check_placement(payload)
-    odd_origin = properties >> 11 & 1, properties >> 12 & 1
-    return Header(bool(properties & 1), bool(properties & 2), degree, decoding, vertices, columns, rows, odd_origin)
+def skip_chunks(data):
+    """Section 4, Chunks: what follows the last section must be chunks, or the file is damaged."""
+    reader = Bytes(data, 0, "damaged")
+    while not reader.at_end():
+        begin = reader.position
+        try:
+            reader.varint(1 << 31)
+            reader.take(reader.varint(1 << 31))
+        except Refusal as refusal:
+            raise Refusal("damaged", "no chunk follows the last section") from refusal
+        reader.check(begin, "a chunk")
 
 
-def check_placement(reader):
+class Header:
+    """Section 4: identity, numbers, placement, notes."""
+
+    def __init__(self, reader):
+        begin = reader.position
+        if reader.take(4) != b"mtin":
+            raise Refusal("foreign", "this is not a microtin stream")
+        if reader.take(1) != b"\x06":
+            raise Refusal("unsupported", "this version of streams is not known")
+        content, length_is_right = reader.length_and_content()
+        reader.check(begin, "the header")
+        require(length_is_right, "the header's length is malformed")
+        self.numbers(Bytes(content, 0, "malformed"))
+
+    def numbers(self, reader):
+        properties = reader.varint()
+        if properties >= 16384:
+            raise Refusal("unsupported", "a property of the stream is not known")
+        self.vertices = reader.varint()
+        self.largest = (reader.varint(), reader.varint())
+        self.coding = properties >> 3 & 3
+        if self.coding == 0:
+            raise Refusal("unsupported", "the coding of the stream is not known")
+        self.heights = properties & 1
+        self.voids = properties & 2
+        self.placement = properties & 4
+        self.degree = properties >> 5 & 63                       # D
+        self.odd = (properties >> 11 & 1, properties >> 12 & 1)
+        margins = [reader.varint() for _ in range(2)] if properties & 8192 else [0]
+        if self.placement:
+            read_placement(reader)
+        self.notes = reader.data[reader.position:]               # a decoder skips them unread
+        require(max(margins) <= (1 << 20) + 1, "a margin is out of range")
+        require(6 <= self.degree <= 32, "the largest degree is out of range")
+        require(3 <= self.vertices <= 1 << 24, "the number of vertices is out of range")
+        require(max(self.largest) <= 65535, "the lattice is too large")
+
+
+def read_placement(reader):
+    """Offset, numerator and denominator of x, y, and z."""
     for _ in range(3):
-        require(reader.varint() < 1 << 64, "offset is out of bounds")
-        for _ in ("numerator", "denominator"):
-            require(1 <= reader.varint() < 1 << 40, "step is out of bounds")
+        reader.zigzag()
+        require(1 <= reader.varint() < 1 << 40, "a numerator is out of range")
+        require(1 <= reader.varint() < 1 << 40, "a denominator is out of range")
 
 
-# Section 7: insertion
-
-
-def after(half_edge):
-    return half_edge - 2 if half_edge % 3 == 2 else half_edge + 1
-
-
-def before(half_edge):
-    return half_edge + 2 if half_edge % 3 == 0 else half_edge - 1
+# The mesh (sections 2, 5, 7 and 11)
 
 
 class Mesh:
-    def __init__(self, seed):
-        self.points = list(seed)
-        self.start = [0, 1, 2]
-        for i in range(3):
-            self.start += [(i + 1) % 3, i, INFINITY]
-        half_edges = {(self.start[e], self.end(e)): e for e in range(12)}
-        self.twin = [half_edges[self.end(e), self.start[e]] for e in range(12)]
+    """Triangle t has the half-edges 3t, 3t + 1, 3t + 2, each with its origin and its twin."""
 
-    def end(self, half_edge):
-        return self.start[after(half_edge)]
+    def __init__(self):
+        self.vertices = []                                       # (x, y)
+        self.heights = []
+        self.residuals = []
+        self.origin = []
+        self.twin = []
 
-    def apex(self, half_edge):
-        return self.start[before(half_edge)]
+    @staticmethod
+    def following(e):
+        return e - 2 if e % 3 == 2 else e + 1
 
-    def corners(self, triangle):
-        return self.start[3 * triangle : 3 * triangle + 3]
+    @staticmethod
+    def preceding(e):
+        return e + 2 if e % 3 == 0 else e - 1
 
-    def is_ghost(self, triangle):
-        return INFINITY in self.corners(triangle)
+    def corners(self, t):
+        return self.origin[3 * t:3 * t + 3]
 
-    def places(self, vertices):
-        return [self.points[vertex] for vertex in vertices]
+    def is_real(self, t):
+        return INFINITY not in self.corners(t)
 
-    def real_triangles(self):
-        return [t for t in range(len(self.start) // 3) if not self.is_ghost(t)]
+    def far_corner(self, e):
+        """The corner opposite to e in the triangle of e."""
+        return self.origin[self.preceding(e)]
 
-    def degree(self, half_edge):
-        """Of the vertex at its start, infinity counted."""
-        around = [half_edge]
-        while (following := self.twin[before(around[-1])]) != half_edge:
-            around.append(following)
-        return len(around)
+    def join(self, e, f):
+        self.twin[e], self.twin[f] = f, e
 
-    def half_edge_between(self, u, w):
-        return next(e for e, start in enumerate(self.start) if start == u and self.end(e) == w)
+    def seed(self):
+        """Section 7: triangle 0 and the ghosts 1 + i of the half-edges (i + 1 mod 3) -> i -> infinity."""
+        self.origin = [0, 1, 2, 1, 0, INFINITY, 2, 1, INFINITY, 0, 2, INFINITY]
+        self.twin = [3, 6, 9, 0, 11, 7, 1, 5, 10, 2, 8, 4]
 
-    def in_conflict(self, triangle, p):
-        corners = self.corners(triangle)
-        if INFINITY not in corners:
-            return in_conflict_with_triangle(self.places(corners), p)
-        i = corners.index(INFINITY)
-        return in_conflict_with_ghost(*self.places((corners[i - 2], corners[i - 1])), p)
+    def half_edge_to_infinity(self, vertex):
+        """The half-edge vertex -> infinity."""
+        for e in range(len(self.origin)):
+            if self.origin[e] == vertex and self.origin[self.following(e)] == INFINITY:
+                return e
+        raise AssertionError("the vertex is not on the hull")
 
-    def explore_cavity(self, chord, p, may_cross):
+    def degree(self, e):
+        """The number of triangles around the origin of e, ghosts included."""
+        count, f = 1, self.twin[self.preceding(e)]
+        while f != e:
+            count, f = count + 1, self.twin[self.preceding(f)]
+        return count
+
+    def in_conflict(self, t, p):
+        """Section 2, Ties: is the position p in conflict with the triangle t?"""
+        numbers = self.corners(t)
+        if INFINITY in numbers:
+            i = numbers.index(INFINITY)
+            u, w = self.vertices[numbers[i - 2]], self.vertices[numbers[i - 1]]
+            side = turn(u, w, p)
+            return side > 0 or side == 0 and min(u, w) < p < max(u, w)
+        corners = [self.vertices[number] for number in numbers]
+        d = incircle(*corners, p)
+        if d != 0:
+            return d > 0
+        largest = max(corners)
+        if p > largest:
+            return False
+        corners[corners.index(largest)] = p
+        return turn(*corners) > 0
+
+    def find_cavity(self, chord, b):
+        """Section 7: the triangles of the cavity, and the half-edges of its boundary."""
         cavity, boundary = [chord // 3], []
-        stack = [before(chord), after(chord), chord]
+        stack = [self.preceding(chord), self.following(chord), chord]
         while stack:
-            half_edge = stack.pop()
-            across = self.twin[half_edge]
-            if self.in_conflict(across // 3, p):
-                require(may_cross(half_edge, len(cavity)), "cavity is not legal")
-                cavity.append(across // 3)
-                stack += [before(across), after(across)]
+            e = stack.pop()
+            t = self.twin[e] // 3
+            if not self.in_conflict(t, b):
+                boundary.append(e)
             else:
-                boundary.append(half_edge)
+                cavity.append(t)
+                stack += [self.preceding(self.twin[e]), self.following(self.twin[e])]
         return cavity, boundary
 
-    def insert(self, p, cavity, boundary):
-        b = len(self.points)
-        self.points.append(p)
-        rim = [(self.start[e], self.end(e), self.twin[e]) for e in boundary]
-        first_new = len(self.start) // 3
-        self.start += [0] * 6
-        self.twin += [0] * 6
-        numbers = cavity + [first_new, first_new + 1]
-        for i, ((u, w, outside), triangle) in enumerate(zip(rim, numbers)):
-            e = 3 * triangle
-            self.start[e : e + 3] = u, w, b
-            self.twin[e], self.twin[outside] = outside, e
-            following = 3 * numbers[(i + 1) % len(numbers)] + 2
-            self.twin[e + 1], self.twin[following] = following, e + 1
+    def insert(self, b, cavity, boundary):
+        """Section 7: fills the cavity with a fan around b. Returns the half-edge from b to the chord's end."""
+        number = len(self.vertices)
+        self.vertices.append(b)
+        edges = [(self.origin[e], self.origin[self.following(e)], self.twin[e]) for e in boundary]
+        new = len(self.origin) // 3
+        self.origin += [None] * 6
+        self.twin += [None] * 6
+        numbers = cavity + [new, new + 1]
+        for t, (p, q, outer) in zip(numbers, edges):
+            self.origin[3 * t:3 * t + 3] = [p, q, number]
+            self.join(3 * t, outer)
+        for t, following in zip(numbers, numbers[1:] + numbers[:1]):
+            self.join(3 * t + 1, 3 * following + 2)
+        return self.twin[3 * numbers[0] + 1]
+
+    def digest(self, void):
+        """Section 11."""
+        total = 0
+        for t in range(len(self.origin) // 3):
+            if not self.is_real(t):
+                continue
+            numbers = self.corners(t)
+            first = min(range(3), key=lambda i: self.vertices[numbers[i]])
+            data = b""
+            for number in numbers[first:] + numbers[:first]:
+                for value in self.vertices[number] + (self.heights[number],):
+                    data += (value & 65535).to_bytes(2, "little")
+            value = 0xCBF29CE484222325
+            for byte in data + (1 if t in void else 0).to_bytes(2, "little"):
+                value = (value ^ byte) * 0x100000001B3 & (1 << 64) - 1
+            total += value
+        return total & (1 << 64) - 1
 
 
-# Section 10: hits, places, heights
+# The triangle of a hit, and positions in it (section 10)
 
 
-def start_table():
-    """The numbers at the end of format-stream.md."""
-    text = (Path(__file__).parent.parent / "shared" / "docs" / "format-stream.md").read_text(encoding="utf-8")
-    appendix = text[text.index("## 14. Start table") :]
-    return [int(word) for line in appendix.splitlines() if line.startswith("    ") for word in line.split()]
+class Triangle:
+    """Section 10, Elsewhere: the triangle of the chord as seen from v, in grains."""
 
-
-class Models:
-    """What the adaptive bits have learnt. It outlives phases and sections."""
-
-    def __init__(self):
-        starts = iter(start_table())
-
-        def bits(*sizes):
-            if not sizes:
-                return AdaptiveBit(next(starts))
-            return [bits(*sizes[1:]) for _ in range(sizes[0])]
-
-        self.hit = bits(7, 15)
-        self.column, self.row = bits(4, 9), bits(4, 9)
-        self.quick_column, self.quick_row = bits(16, 3), bits(12, 3)
-        self.height = bits(12, 7)
-        self.second = bits(10)
-        self.negative = bits(10, 3)
-        self.gap = bits(7)
-        self.void = bits(7)
-        self.crowding = 2048
-        self.tallies = [Tally(), Tally()]
-        self.next_tallies = [[Tally(), Tally()], [Tally(), Tally()]]
-
-
-class Tally:
-    """Of lines, even and odd ones."""
-
-    def __init__(self):
-        self.met = [1, 1]
-
-    def prefers_one(self):
-        return max(self.met) > 2 * min(self.met)
-
-    def learn(self, odd):
-        self.met[odd] += 1
-        if sum(self.met) > 512:
-            self.met = [(count + 1) >> 1 for count in self.met]
-
-    def decode_odd(self, coder, lines):
-        """Of lines that count from an even one."""
-        even, odd = self.met
-        n = lines.count()
-        if n % 2 == 1 and n < 32:
-            even *= lines.count_of_parity(0)
-            odd *= lines.count_of_parity(1)
-        return coder.bit(keep_within(64, (odd << 15) // (even + odd), 32704))
-
-
-class Ruling:
-    """What is left of lines once a parity may have been decoded: number i is line step * i + base."""
-
-    def __init__(self, coder, tally, lines, odd_origin):
-        self.numbers, self.step, self.base = lines, 1, 0
-        if lines.count() > 1 and tally.prefers_one():
-            odd = tally.decode_odd(coder, lines.moved(odd_origin))
-            self.step, self.base = 2, odd - odd_origin
-            self.numbers = Lines(-((self.base - lines.first) // 2), (lines.last - self.base) // 2)
-
-    def line(self, number):
-        return self.step * number + self.base
-
-
-class Density:
-    def __init__(self, header, vertices, batch):
-        self.share = log2(batch) - log2(vertices) - 220
-        self.mean = 256 * (log2(batch) - log2(header.columns * header.rows))
-
-    def value(self):
-        return self.mean >> 8
-
-    def add(self, area):
-        self.mean += (256 * (self.share - rlog(area)) - self.mean) >> 4
-
-
-class HullEdge:
-    def __init__(self, header, a, c):
-        self.header = header
-        self.a = a
-        self.d = minus(c, a)
-
-    def is_border(self):
-        largest = self.header.columns - 1, self.header.rows - 1
-        return any(d == 0 and at in (0, most) for d, at, most in zip(self.d, self.a, largest))
-
-    def length(self):
-        return abs(self.d[0]) | abs(self.d[1])
-
-    def decode_hit(self, coder, models, density):
-        if self.is_border() and self.length() == 1:
-            return False
-        return decode_on_curve(coder, models.hit[6], 2 * log2(self.length()) + density + 1536)
-
-    def decode_place(self, coder, models, density):
-        if not self.is_border():
-            return tuple(decode_outer_coordinate(coder, n) for n in (self.header.columns, self.header.rows))
-        axis = 0 if self.d[1] == 0 else 1
-        odd = (self.a[axis] + self.header.odd_origin[axis]) % 2
-        tally = models.tallies[axis]
-        ruling = Ruling(coder, tally, Lines(1, self.length() - 1), odd)
-        typical = max(0, max(0, -density) // 512 - (ruling.step - 1))
-        number = ruling.numbers.first + decode_magnitude(coder, models.gap, models.second, typical)
-        require(number <= ruling.numbers.last, "vertex is beyond its hull edge")
-        k = ruling.line(number)
-        tally.learn((k + odd) % 2)
-        return tuple(at + k * (d // self.length()) for at, d in zip(self.a, self.d))
-
-
-def decode_outer_coordinate(coder, count):
-    """Likely to be the smallest or the largest."""
-    if coder.bit(24576):
-        return (count - 1) * coder.bit(16384)
-    return coder.uniform(count)
-
-
-def shifted(p, by):
-    """Coordinates times a power of two, rounded down."""
-    return tuple(at << by if by >= 0 else at >> -by for at in p)
-
-
-class Side(NamedTuple):
-    certified: bool
-    apex: tuple  # as seen from v; None behind a hull edge
-
-
-class Candidate:
-    """The triangle of a chord that is not certified, in grains as seen from v."""
-
-    def __init__(self, mesh, chord, is_final):
-        half_edges = [after(chord), before(chord), chord]
-        self.v, c, a = mesh.places([mesh.start[e] for e in half_edges])
-        self.a = minus(a, self.v)
-        offsets = minus(c, self.v), self.a
-        self.sides = [self.side(mesh, e, e == chord or is_final(mesh.twin[e] // 3)) for e in half_edges]
-        self.shift = 10 - highest_bit(max(abs(at) for p in offsets for at in p))
-        self.C, self.A = (shifted(p, self.shift) for p in offsets)
+    def __init__(self, decoder, chord):
+        mesh = decoder.mesh
+        self.mesh, self.done, self.chord = mesh, decoder.done, chord
+        self.density = decoder.R >> 8
+        before, after = mesh.preceding(chord), mesh.following(chord)
+        self.sides = (after, before, chord)                      # v-c, c-a, a-v
+        self.v = mesh.vertices[mesh.origin[after]]
+        self.c = minus(mesh.vertices[mesh.origin[before]], self.v)
+        self.a = minus(mesh.vertices[mesh.origin[chord]], self.v)
+        self.twice_area = cross(self.c, self.a)
+        self.S = 10 - bit(max(abs(k) for k in self.c + self.a))
+        self.C = (scaled(self.c[0], self.S), scaled(self.c[1], self.S))
+        self.A = (scaled(self.a[0], self.S), scaled(self.a[1], self.S))
         self.cc, self.aa, self.ca = dot(self.C, self.C), dot(self.A, self.A), dot(self.C, self.A)
         self.T = max(1, cross(self.C, self.A))
-        self.behind = {0: self.cotangent_behind(0, self.C, -1), 2: self.cotangent_behind(2, self.A, 1)}
+        self.certified = (self.is_certified(0), self.is_certified(1), 1)
+        self.behind = (self.circle_behind(0, self.C), None, self.circle_behind(2, self.A))
+        self.expected = rlog(self.free_area()) - 256 * (2 * self.S + 1) + self.density
 
-    def side(self, mesh, half_edge, certified):
-        apex = mesh.apex(mesh.twin[half_edge])
-        return Side(certified, None if apex == INFINITY else minus(mesh.points[apex], self.v))
+    def is_certified(self, side):
+        t = self.mesh.twin[self.sides[side]] // 3
+        return int(any(vertex in self.done for vertex in self.mesh.corners(t)))
 
-    def cotangent_behind(self, number, end, sign):
-        """None where no circle is known."""
-        side = self.sides[number]
-        if not side.certified or side.apex is None:
+    def circle_behind(self, side, E):
+        """The cotangent of the circle behind side 0 or 2; None if there is none."""
+        apex = self.mesh.far_corner(self.mesh.twin[self.sides[side]])
+        if not self.certified[side] or apex == INFINITY:
             return None
-        m = max(0, highest_bit(abs(side.apex[0]) | abs(side.apex[1])) + self.shift - 10)
-        d, e = shifted(side.apex, self.shift - m), shifted(end, -m)
-        return cotangent(dot(d, minus(e, d)), max(1, sign * cross(e, d) >> m), 16)
+        d = minus(self.mesh.vertices[apex], self.v)
+        m = max(0, bit(abs(d[0]) | abs(d[1])) + self.S - 10)
+        D = (scaled(d[0], self.S - m), scaled(d[1], self.S - m))
+        E = (E[0] >> m, E[1] >> m)
+        h = cross(D, E) if side == 0 else cross(E, D)
+        return cot(dot(D, minus(E, D)), max(1, h >> m), 16)
 
-    def expected_points(self, density):
-        """A logarithm."""
+    def free_area(self):
+        """Twice the area in which a vertex may lie, in grains."""
         free = self.T
-        if not self.sides[0].certified:
-            free += segment(self.cc, cotangent(self.ca - self.aa, self.T, 4))
-        if not self.sides[1].certified:
-            free += segment(self.cc + self.aa - 2 * self.ca, cotangent(-self.ca, self.T, 4))
-        for number, square in ((0, self.cc), (2, self.aa)):
-            if self.behind[number] is not None:
-                free -= segment(square, self.behind[number])
-        return rlog(max(free, (self.T >> 4) + 1)) - 256 * (2 * self.shift + 1) + density
+        if not self.certified[0]:
+            free += segment(self.cc, cot(self.ca - self.aa, self.T, 4))
+        if not self.certified[1]:
+            free += segment(self.cc + self.aa - 2 * self.ca, cot(-self.ca, self.T, 4))
+        if self.behind[0] is not None:
+            free -= segment(self.cc, self.behind[0])
+        if self.behind[2] is not None:
+            free -= segment(self.aa, self.behind[2])
+        return max(free, (self.T >> 4) + 1)
+
+    def decode_hit(self, symbols, queued, D):
+        c = self.mesh.origin[self.sides[1]]
+        if c in queued:
+            return symbols.hit(self.certified[0] + 2 * self.certified[1], self.expected + 1536)
+        degree = self.mesh.degree(self.sides[1])
+        if degree <= D:
+            return symbols.hit(4, 3840)
+        return symbols.hit(4 if degree == D + 1 else 5, self.expected + 1536)
 
 
-class Turn:
-    """By quarters, such that a place lies in the west."""
-
-    def __init__(self, a):
-        if abs(a[0]) >= abs(a[1]):
-            self.quarters = 0 if a[0] < 0 else 2
-        else:
-            self.quarters = 1 if a[1] > 0 else 3
-
-    def __call__(self, p, quarters=None):
-        for _ in range(self.quarters if quarters is None else quarters):
-            p = (-p[1], p[0])
-        return p
-
-    def back(self, p):
-        return self(p, (4 - self.quarters) % 4)
+def turned(p, t):
+    """p, turned by t quarters counter-clockwise."""
+    x, y = p
+    return ((x, y), (-y, x), (-x, -y), (y, -x))[t]
 
 
 class Circle:
-    """Through v."""
+    """A circle through v: it reaches from y - r to y + r in a column x, r being the root of square(x)."""
 
-    def __init__(self, end, k, f):
-        self.x2 = (end[0] + (k * end[1] >> 12)) >> f
-        self.y = (end[1] - (k * end[0] >> 12)) >> (1 + f)
+    def __init__(self, E, k, f):
+        self.x2 = (E[0] + (k * E[1] >> 12)) >> f
+        self.y = (E[1] - (k * E[0] >> 12)) >> (1 + f)
 
     def square(self, x):
         return x * (self.x2 - x) + self.y * self.y
 
     def centre(self):
-        return self.x2 >> 1, self.y
+        return (self.x2 >> 1, self.y)
 
 
-class Lines(NamedTuple):
-    first: int
-    last: int
+class Place:
+    """Section 10, Elsewhere, the position: the turned triangle, circles, and weights."""
 
-    def count(self):
-        return self.last - self.first + 1
+    def __init__(self, triangle, decoder):
+        self.triangle = triangle
+        self.heights, self.crowding = decoder.header.heights, decoder.crowding
+        x, y = triangle.a
+        if abs(x) >= abs(y):
+            self.t = 0 if x < 0 else 2
+        else:
+            self.t = 1 if y > 0 else 3
+        v, largest = triangle.v, decoder.header.largest
+        ends = turned(minus((0, 0), v), self.t), turned(minus(largest, v), self.t)
+        self.lattice = [sorted(pair) for pair in zip(*ends)]     # first and last column, first and last row
+        self.make_circles(turned(triangle.C, self.t), turned(triangle.A, self.t))
+        self.make_chances()
+        self.make_reach()
 
-    def moved(self, by):
-        return Lines(self.first + by, self.last + by)
-
-    def count_of_parity(self, odd):
-        return (self.last - odd) // 2 - (self.first - odd - 1) // 2
-
-    def half(self, upper):
-        middle = self.first + self.count() // 2
-        return Lines(middle, self.last) if upper else Lines(self.first, middle - 1)
-
-    def kept_within(self, first, last):
-        """At least one line of first .. last."""
-        low = keep_within(first, self.first, last)
-        return Lines(low, max(low, min(self.last, last)))
-
-
-class Sweep:
-    """Chance of being first."""
-
-    def __init__(self, candidate, a, f, k1, k0, density):
-        def swept(k):
-            return segment(candidate.aa, k) - segment(candidate.aa, k0)
-
-        self.rate = density - 256 * (2 * candidate.shift + 1) + 2134
-        third = divide(k1 - k0, 3)
-        self.nodes = [self.left(swept(k1 - i * third)) for i in range(3)] + [511]
-        self.across = ((k1 - k0) * a[1] >> (12 + f), (k0 - k1) * a[0] >> (12 + f))
-
-    def left(self, u):
-        if u <= 0:
-            return 511
-        loss = rlog(u) + self.rate
-        return 0 if loss >= 3072 else rexp(2303 - rexp(loss))
-
-    def chance(self, x, y, own):
-        whole = dot(self.across, (x, y))
-        low, high = own
-        w = (high - y) * (y - low) % 2**32 // ((whole % 2**32 >> 8) + 1)
-        if w >= 256:
-            return 511
-        i, way = divmod(3 * w, 256)
-        return self.nodes[i] + ((self.nodes[i + 1] - self.nodes[i]) * way >> 8)
-
-
-class Repulsion:
-    def __init__(self, corners, s, density, crowding):
-        self.corners = corners
-        exponent = keep_within(512, 512 * s + 2048 - rlog(crowding) - density, 7168)
-        self.reach = rexp(exponent)
-        self.z = max(0, (exponent >> 8) - 14)
-        self.factor = 255 * 65536 // (self.reach >> self.z)
-
-    def apart(self, x, y):
-        d = min([self.reach] + [dot(p, p) for p in (minus((x, y), corner) for corner in self.corners)])
-        return ((d >> self.z) * self.factor) >> 16
-
-
-class PlaceDecoder:
-    QUICK, DENSE = 1, 3
-
-    def __init__(self, coder, models, candidate, density, header):
-        self.coder, self.models, self.candidate, self.header = coder, models, candidate, header
-        self.turn = Turn(candidate.a)
-        c, a = self.turn(candidate.C), self.turn(candidate.A)
-        behind, self.next_behind = candidate.behind[2], candidate.behind[0]
-        k1 = cotangent(candidate.cc - candidate.ca, candidate.T, 64)
-        k0 = min(k1, -4 * ONE if behind is None else behind)
-        whole = Circle(a, k1, 0)
-        f = max(0, highest_bit(abs(whole.x2 >> 1) | abs(whole.y) | 1) - 12)
-        self.s = candidate.shift - f
-        self.own = Circle(a, k1, f)
+    def make_circles(self, C, A):
+        triangle, behind = self.triangle, self.triangle.behind
+        self.k1 = cot(triangle.cc - triangle.ca, triangle.T, 64)
+        self.k0 = min(self.k1, -16384 if behind[2] is None else behind[2])
+        x, y = Circle(A, self.k1, 0).centre()
+        f = max(0, bit(abs(x) | abs(y) | 1) - 12)
+        self.own = Circle(A, self.k1, f)
         self.cutting = []
-        if behind is not None and behind > -16 * ONE:
-            self.cutting.append(Circle(a, k0, f))
-        if self.next_behind is not None and self.next_behind > -16 * ONE:
-            self.cutting.append(Circle(c, -self.next_behind, f))
-        self.c, self.a = shifted(c, -f), shifted(a, -f)
-        first = self.turn(minus((0, 0), candidate.v))
-        last = self.turn(minus((header.columns - 1, header.rows - 1), candidate.v))
-        self.columns, self.rows = (Lines(*sorted(ends)) for ends in zip(first, last))
-        axis = self.turn.quarters % 2
-        odd = [(at + odd) % 2 for at, odd in zip(candidate.v, header.odd_origin)]
-        self.odd = odd[axis], odd[1 - axis]
-        self.tally, self.next_tallies = models.tallies[axis], models.next_tallies[axis]
-        self.repulsion = None
-        if header.decoding != self.QUICK:
-            self.sweep = Sweep(candidate, a, f, k1, k0, density)
-            if header.heights_are_sent:
-                self.repulsion = Repulsion([(0, 0), self.c, self.a], self.s, density, models.crowding)
+        if behind[2] is not None and behind[2] > -16 * 4096:
+            self.cutting.append(Circle(A, self.k0, f))
+        if behind[0] is not None and behind[0] > -16 * 4096:
+            self.cutting.append(Circle(C, -behind[0], f))
+        difference = self.k1 - self.k0
+        self.across = (difference * A[1] >> (12 + f), -difference * A[0] >> (12 + f))
+        self.C, self.A = (C[0] >> f, C[1] >> f), (A[0] >> f, A[1] >> f)
+        self.s = triangle.S - f
 
-    def grain(self, doubled):
-        return shifted((doubled,), self.s - 1)[0]
+    def grain(self, w):
+        return scaled(w, self.s - 1)
 
     def lines(self, low, high):
+        """The first and the last line from low to high, in grains."""
         if self.s >= 0:
-            return Lines((low + (1 << self.s) - 1) >> self.s, high >> self.s)
-        return Lines(low << -self.s, ((high + 1) << -self.s) - 1)
+            return (low + (1 << self.s) - 1) >> self.s, high >> self.s
+        return low << -self.s, ((high + 1) << -self.s) - 1
 
-    def is_open(self, end):
-        def is_beyond(p, q):
-            return cross(minus(q, p), minus(end, p)) < 0
+    # Columns and rows
 
-        v, sides = (0, 0), self.candidate.sides
-        return not (
-            is_beyond(self.a, v)
-            or (sides[0].certified and is_beyond(v, self.c))
-            or (sides[1].certified and is_beyond(self.c, self.a))
-        )
+    def open_ends(self):
+        """The western and the eastern end of the own circle; None if an end is not open."""
+        centre = self.own.centre()
+        radius = rroot(dot(centre, centre) | 1) + 1
+        edges = [(self.A, (0, 0))]
+        if self.triangle.certified[0]:
+            edges.append(((0, 0), self.C))
+        if self.triangle.certified[1]:
+            edges.append((self.C, self.A))
+        ends = []
+        for end in ((centre[0] - radius, centre[1]), (centre[0] + radius, centre[1])):
+            is_open = all(turn(p, q, end) >= 0 for p, q in edges)
+            ends.append(end[0] if is_open else None)
+        return ends
 
-    def legal_columns(self):
-        """And whether they are open in the west and in the east."""
-        x, y = self.own.centre()
-        radius = rough_root(x * x + y * y | 1) + 1
-        west, east = [self.c[0], self.a[0]], [self.c[0], 0]
-        is_open = [self.is_open((end, y)) for end in (x - radius, x + radius)]
-        if is_open[0]:
-            west.append(x - radius)
-        if is_open[1]:
-            east.append(x + radius)
-        lines = self.lines(min(west), max(east))
-        return Lines(max(lines.first, self.columns.first), min(lines.last, self.columns.last)), *is_open
+    def columns(self):
+        """The possible columns, and the context of quick coding."""
+        west_end, east_end = self.open_ends()
+        west, east = min(self.C[0], self.A[0]), max(self.C[0], 0)
+        if west_end is not None:
+            west = min(west, west_end)
+        if east_end is not None:
+            east = max(east, east_end)
+        first, last = self.lines(west, east)
+        first, last = max(first, self.lattice[0][0]), min(last, self.lattice[0][1])
+        context = (east_end is None) + 2 * (west_end is None) + 4 * self.triangle.certified[0]
+        return Lines(first, last - first + 1), context
 
-    def spans(self, x, wider):
-        """What the own circle covers, and what is legal of it."""
-        r = (rough_root(self.own.square(x)) if self.own.square(x) > 0 else 0) + wider
+    def span(self, x, exact=False):
+        """The own span and the span in column x; exact: with the roots as they are."""
+        square = self.own.square(x)
+        r = (rroot(square) if square > 0 else 0) + (0 if exact else 1)
         own = low, high = self.own.y - r, self.own.y + r
         for circle in self.cutting:
-            if circle.square(x) <= 0:
+            square = circle.square(x)
+            if square <= 0:
                 continue
-            r = rough_root(circle.square(x))
-            if wider:
+            r = rroot(square)
+            if not exact:
                 r -= (r >> 11) + 1
             begin, end = circle.y - r, circle.y + r
             if begin <= low:
@@ -768,378 +431,412 @@ class PlaceDecoder:
                 high = begin
         return own, (low, high)
 
-    def place_weight(self, x, y, own):
-        chance = self.sweep.chance(x, y, own)
-        if self.repulsion:
-            chance = chance * (self.repulsion.apart(x, y) + 4) >> 8
-        return chance + 4
+    def rows(self, x):
+        """The possible rows in column x, in grains."""
+        first, last = self.lines(*self.span(x)[1])
+        first = clamp(self.lattice[1][0], first, self.lattice[1][1])
+        last = max(first, min(last, self.lattice[1][1]))
+        return Lines(first, last - first + 1)
+
+    # Weights
+
+    def make_chances(self):
+        triangle = self.triangle
+        rate = triangle.density - 256 * (2 * triangle.S + 1) + 2134
+
+        def swept(k):
+            return segment(triangle.aa, k) - segment(triangle.aa, self.k0)
+
+        def left(u):
+            if u <= 0:
+                return 511
+            if rlog(u) + rate >= 3072:
+                return 0
+            return rexp(2303 - rexp(rlog(u) + rate))
+        step = quotient(self.k1 - self.k0, 3)
+        self.chances = [left(swept(self.k1 - i * step)) for i in range(3)] + [511]
+
+    def chance(self, x, y, own):
+        """The chance of being first, 0..511."""
+        low, high = own
+        everything = dot(self.across, (x, y)) % (1 << 32)
+        left = (high - y) * (y - low) % (1 << 32)
+        w = left // ((everything >> 8) + 1)
+        if w >= 256:
+            return 511
+        i = 3 * w >> 8
+        return self.chances[i] + ((self.chances[i + 1] - self.chances[i]) * (3 * w & 255) >> 8)
+
+    def make_reach(self):
+        e = clamp(512, 512 * self.s + 2048 - rlog(self.crowding) - self.triangle.density, 7168)
+        self.reach = rexp(e)
+        self.z = max(0, (e >> 8) - 14)
+        self.factor = 255 * 65536 // (self.reach >> self.z)
+
+    def apart(self, x, y):
+        """How far a position is from v, C and A, 0..255."""
+        d = self.reach
+        for corner in ((0, 0), self.C, self.A):
+            offset = minus((x, y), corner)
+            d = min(d, dot(offset, offset))
+        return ((d >> self.z) * self.factor) >> 16
+
+    def position_weight(self, x, y, own):
+        chance = self.chance(x, y, own)
+        if not self.heights:
+            return chance + 4
+        return (chance * (self.apart(x, y) + 4) >> 8) + 4
 
     def column_weight(self, x):
-        own, (low, high) = self.spans(x, 0)
+        own, (low, high) = self.span(x, exact=True)
         length = high - low
         if length <= 0:
             return 4
-        eighth = length >> 3
-        both = self.place_weight(x, low + eighth, own) + self.place_weight(x, high - eighth, own)
-        return (length * both >> 10) + 4
-
-    def decode_quarter(self, bits, lines):
-        if lines.count() < 4:
-            return lines
-        upper = bits[0].decode(self.coder)
-        lines = lines.half(upper)
-        return lines.half(bits[2 if upper else 1].decode(self.coder))
-
-    def decode_halves(self, calibrations, ruling, weigh):
-        lines = ruling.numbers
-        weighed = (5 if self.header.decoding == self.DENSE else 3) - (calibrations is self.models.row)
-        before = kept = 0
-        for time, row in enumerate(calibrations):
-            if lines.count() < 2:
-                break
-            n, half = lines.count(), lines.count() >> 1
-            middle = 2 * lines.first + half - 1
-            grains = [self.grain(ruling.line(at) + ruling.base) for at in (middle, middle + n)]
-            if time < 2:
-                low, high = (weigh(at) for at in grains)
-            else:
-                inner = (kept + before) >> 1
-                if time < weighed:
-                    outer = weigh(grains[upper])
-                else:
-                    outer = max(2 * kept - inner, (kept >> 2) + 1)
-                low, high = (inner, outer) if upper else (outer, inner)
-            below, above = (low * half, high * (n - half)) if n < 32 else (low, high)
-            estimate = (above << 11) // (below + above + 1)
-            upper = decode_between(self.coder, row, estimate >> 8, estimate & 255)
-            lines = lines.half(upper)
-            before, kept = kept, high if upper else low
-        return lines
-
-    def decode_any(self, lines):
-        return lines.first + self.coder.uniform(lines.count())
-
-    def decode_line(self, ruling, left):
-        """None if it is none of these."""
-        number = self.coder.uniform_or_escape(left.count())
-        return None if number is None else ruling.line(left.first + number)
-
-    def decode_column(self, n):
-        lines, west, east = self.legal_columns()
-        ruling = Ruling(self.coder, self.tally, lines, self.odd[0])
-        if self.header.decoding == self.QUICK:
-            row = (not east) + 2 * (not west) + 4 * self.candidate.sides[0].certified + 8 * (n > 1)
-            left = self.decode_quarter(self.models.quick_column[row], ruling.numbers)
-        else:
-            left = self.decode_halves(self.models.column, ruling, self.column_weight)
-        return self.decode_line(ruling, left)
-
-    def decode_row(self, n, column, lines, own):
-        x = self.grain(2 * column)
-        tally = self.next_tallies[(column + self.odd[0]) % 2]
-        ruling = Ruling(self.coder, tally, lines, self.odd[1])
-        if self.header.decoding == self.QUICK:
-            zone = 4 if x < self.a[0] else 8 if x > 0 else 0
-            left = self.decode_quarter(self.models.quick_row[n + zone], ruling.numbers)
-        else:
-            left = self.decode_halves(self.models.row, ruling, lambda y: self.place_weight(x, y, own))
-        row = self.decode_line(ruling, left)
-        if row is None:
-            return None
-        self.tally.learn((column + self.odd[0]) % 2)
-        tally.learn((row + self.odd[1]) % 2)
-        return row
-
-    def decode(self, expected):
-        n = keep_within(0, (expected + 256) >> 8, 3)
-        row, column = None, self.decode_column(n)
-        if column is not None:
-            own, span = self.spans(self.grain(2 * column), 1)
-            row = self.decode_row(n, column, self.lines(*span).kept_within(*self.rows), own)
-        if row is None:
-            place = self.decode_any(self.columns), self.decode_any(self.rows)
-        else:
-            place = column, row
-            self.learn_crowding(place)
-        x, y = self.turn.back(place)
-        return self.candidate.v[0] + x, self.candidate.v[1] + y
-
-    def learn_crowding(self, place):
-        if not self.repulsion:
-            return
-        crowding = self.models.crowding
-        if self.repulsion.apart(*(self.grain(2 * at) for at in place)) < 254:
-            crowding += crowding >> 4
-        self.models.crowding = keep_within(512, crowding - 12, 65536)
+        e = length >> 3
+        w = self.position_weight(x, low + e, own) + self.position_weight(x, high - e, own)
+        return (length * w >> 10) + 4
 
 
-class Neighbour(NamedTuple):
-    place: tuple
-    height: int
-    residual: int
-
-
-class Expectation(NamedTuple):
-    """What is known of a height before it is decoded."""
-
-    height: int
-    scale: int
-    tendency: int
-
-    @classmethod
-    def from_ring(cls, b, ring):
-        distances = [cls.distance(minus(n.place, b)) for n in ring]
-        first, base = distances[0], ring[0].height
-        weights = [512 >> max(0, e + 4 - first) for e in distances]
-        heights = [w * (n.height - base) for w, n in zip(weights, ring)]
-        residuals = [w * n.residual for w, n in zip(weights, ring)]
-        w, height = sum(weights), sum(heights)
-        mean = (2 * height + w) // (2 * w)
-        spread = sum(map(abs, heights))
-        roughness = sum(map(abs, residuals))
-        level = rlog(4 * roughness + w) + 2 * rlog(4 * spread + w) - 3 * rlog(w)
-        scale = min(11, (level + 32 * (14 + first - highest_bit(w)) + 320) // 768)
-        sign = cls.expected_sign(sum(residuals), roughness)
-        return cls(base + mean, scale, 2 * sign + (height > mean * w))
-
-    @staticmethod
-    def distance(d):
-        return highest_bit(max(1, d[0] * d[0] // 2 + d[1] * d[1] // 2))
-
-    @staticmethod
-    def expected_sign(residual, roughness):
-        size = 5 * abs(residual)
-        strength = (size > roughness) + (size > 3 * roughness)
-        return 2 - strength if residual < 0 else 2 + strength
-
-
-def decode_difference(coder, models, expectation):
-    scale = expectation.scale
-    size = decode_magnitude(coder, models.height[scale], models.second, scale // 2)
-    if size == 0:
-        return 0
-    negative = models.negative[expectation.tendency][min(size, 3) - 1].decode(coder)
-    return -size if negative else size
-
-
-# Sections 5 and 6: symbols and the walk
+# The decoder
 
 
 class Decoder:
-    def __init__(self, header, coder):
-        self.header = header
-        self.coder = coder
-        self.models = Models()
-        self.heights = []
-        self.residuals = []
-        self.work = 0
-        self.mesh = self.decode_seed()
+    """Decodes one stream."""
+
+    def __init__(self, data):
+        self.reader = Bytes(data)
+        self.header = Header(self.reader)
+        self.symbols = Symbols()
+        self.mesh = Mesh()
+        self.tallies = [[Tally() for _ in range(3)] for _ in range(2)]     # of x, of y: first, second after even, odd
+        self.crowding = 2048                                               # K
+        self.void = set()
+        self.R = 0
+        self.done, self.queued = set(), set()
+
+    # Sections (section 4)
+
+    def begin_section(self):
+        begin = self.reader.position
+        payload, length_is_right = self.reader.length_and_content()
+        self.reader.check(begin, "a section")
+        require(length_is_right, "a section's length is malformed")
+        self.symbols.coder = RangeCoder(payload)
+
+    def end_section(self):
+        self.symbols.coder.finish()
+
+    def decode(self):
+        n, ends = self.header.vertices, 0
+        self.begin_section()
+        self.decode_seed()
+        while len(self.mesh.vertices) < n:
+            if len(self.mesh.vertices) >= 256:
+                self.end_section()
+                self.begin_section()
+            self.decode_phase(n - len(self.mesh.vertices))
+            ends += len(self.mesh.vertices)
+            require(ends <= 3 * len(self.mesh.vertices) + 512, "the phases add too few vertices")    # section 3, Work
+        if self.header.voids:
+            self.decode_void_flags()
+        self.end_section()
+        skip_chunks(self.reader.data[self.reader.position:])
+        return self
+
+    # Symbols outside the walk (section 5)
+
+    def decode_coordinate(self, largest):
+        coder = self.symbols.coder
+        if coder.bit(24576):
+            return largest if coder.bit(16384) else 0
+        return coder.uniform(largest + 1)
 
     def decode_seed(self):
-        seed = []
-        for i in range(SEED_SIZE):
-            seed.append(tuple(decode_outer_coordinate(self.coder, n) for n in (self.header.columns, self.header.rows)))
-            self.decode_height(Expectation(self.heights[-1] if i > 0 else 0, 11, 5))
-            self.residuals[i] = 4
-        require(seed[0] < min(seed[1:]), "seed does not begin with its smallest vertex")
-        require(twice_area(*seed) > 0, "seed is not counter-clockwise")
-        return Mesh(seed)
+        height = 0
+        for _ in range(3):
+            x = self.decode_coordinate(self.header.largest[0])
+            y = self.decode_coordinate(self.header.largest[1])
+            if self.header.heights:
+                height += self.symbols.difference(11, 5)
+                require(-32768 <= height <= 32767, "a height is outside 16 bits")
+            self.mesh.vertices.append((x, y))
+            self.mesh.heights.append(height)
+            self.mesh.residuals.append(4 if self.header.heights else 0)
+        first, second, third = self.mesh.vertices
+        require(first < min(second, third) and turn(first, second, third) > 0, "the seed is not in order")
+        self.mesh.seed()
 
-    def size(self):
-        return len(self.mesh.points)
+    def decode_phase(self, left):
+        coder, batch = self.symbols.coder, left
+        if coder.bit(16384):
+            batch = coder.uniform((left >> 16) + 1) << 16
+            batch |= coder.uniform(min(left, 65536))
+            require(1 <= batch < left, "the size of a phase is out of range")
+        columns, rows = self.header.largest[0] + 1, self.header.largest[1] + 1
+        self.R = 256 * (log2(batch) - log2(columns * rows))
+        self.share = log2(batch) - log2(len(self.mesh.vertices) + batch) - 220
+        self.walk(len(self.mesh.vertices) + batch)
 
-    def decode_batch_size(self):
-        left = self.header.vertices - self.size()
-        if not self.coder.bit(16384):
-            return left
-        high = self.coder.uniform((left >> 16) + 1)
-        batch = (high << 16) + self.coder.uniform(min(left, 65536))
-        require(1 <= batch < left, "size of batch is out of bounds")
-        return batch
+    def decode_void_flags(self):
+        for t in range(len(self.mesh.origin) // 3):
+            if not self.mesh.is_real(t):
+                continue
+            context = 3
+            for e in range(3 * t, 3 * t + 3):
+                neighbour = self.mesh.twin[e] // 3
+                if neighbour < t and self.mesh.is_real(neighbour):
+                    context += 1 if neighbour in self.void else -1
+            if self.symbols.adaptive("void", context):
+                self.void.add(t)
 
-    def decode_phase(self):
-        batch = self.decode_batch_size()
-        self.goal = self.size() + batch
-        self.work += self.goal
-        require(self.work <= 3 * self.goal + 512, "phases add too few vertices")
-        self.density = Density(self.header, self.goal, batch)
-        self.walk()
+    # The walk (section 6)
 
-    def walk(self):
-        self.queued = {0, INFINITY}
-        self.done = set()
+    def walk(self, end):
+        """A phase, up to the given number of vertices."""
+        mesh = self.mesh
+        self.done, self.queued = set(), {INFINITY, 0}
         queue = deque()
-        chord = self.mesh.half_edge_between(0, INFINITY)
+        chord = mesh.half_edge_to_infinity(0)
+        v, began_with = INFINITY, 0
         while True:
-            chord = self.take_turn(chord, queue)
-            if self.size() == self.goal:
+            if not self.is_certified(chord) and self.decode_hit(chord):
+                b = self.decode_position(chord)
+                chord = self.insert(chord, b)                            # b -> v
+            else:
+                chord = mesh.twin[mesh.following(chord)]                 # c -> v
+            if len(mesh.vertices) == end:
                 return
-            v = self.mesh.end(chord)
-            self.done.add(v)
-            if v == INFINITY:
-                queue.appendleft(self.mesh.twin[chord])
-            require(queue, "walk ends before its phase")
-            chord = queue.popleft()
-
-    def take_turn(self, chord, queue):
-        began_with = self.mesh.start[chord]
-        while True:
-            chord = self.take_step(chord)
-            w = self.mesh.start[chord]
-            if self.size() == self.goal or w == began_with:
-                return chord
-            if w not in self.queued:
+            w = mesh.origin[chord]
+            if w == began_with:
+                self.done.add(v)
+                if v == INFINITY:
+                    queue.appendleft(mesh.twin[chord])                   # infinity -> 0
+                require(queue, "the walk ends too early")
+                chord = queue.popleft()
+                began_with, v = mesh.origin[chord], mesh.origin[mesh.following(chord)]
+            elif w not in self.queued:
                 self.queued.add(w)
-                queue.append(self.mesh.twin[chord])
-
-    def take_step(self, chord):
-        place = None if self.is_certified(chord) else self.decode_hit(chord)
-        if place is None:
-            return self.mesh.twin[after(chord)]
-        behind = self.mesh.twin[chord]
-        self.decode_vertex(chord, place)
-        beside_b = self.mesh.twin[behind]
-        self.note_final(beside_b // 3)
-        return self.mesh.twin[after(beside_b)]
+                queue.append(mesh.twin[chord])                           # v -> w
 
     def is_certified(self, chord):
-        return self.mesh.start[chord] in self.done or self.mesh.apex(chord) in self.done
+        """The triangle of the chord is final for this phase if a or c is done."""
+        return self.mesh.origin[chord] in self.done or self.mesh.far_corner(chord) in self.done
 
-    def is_final(self, triangle):
-        return not self.done.isdisjoint(self.mesh.corners(triangle))
-
-    def note_final(self, triangle):
-        if not self.mesh.is_ghost(triangle):
-            self.density.add(twice_area(*self.mesh.places(self.mesh.corners(triangle))))
+    def is_around_infinity(self, chord):
+        return self.mesh.origin[self.mesh.following(chord)] == INFINITY
 
     def decode_hit(self, chord):
-        """The place of a hit, None for a miss."""
-        if self.mesh.end(chord) == INFINITY:
-            return self.decode_hit_around_infinity(chord)
-        place = self.decode_hit_elsewhere(chord)
-        if place is None:
-            self.note_final(chord // 3)
-        return place
+        if self.is_around_infinity(chord):
+            return self.decode_hull_hit(chord)
+        self.triangle = Triangle(self, chord)
+        hit = self.triangle.decode_hit(self.symbols, self.queued, self.header.degree)
+        if not hit:
+            self.learn_density(self.triangle.twice_area)
+        return hit
 
-    def decode_hit_around_infinity(self, chord):
-        a, c = self.mesh.places((self.mesh.start[chord], self.mesh.apex(chord)))
-        edge, density = HullEdge(self.header, a, c), self.density.value()
-        if not edge.decode_hit(self.coder, self.models, density):
+    def decode_position(self, chord):
+        if self.is_around_infinity(chord):
+            return self.decode_hull_position(chord)
+        return self.decode_inner_position()
+
+    def learn_density(self, twice_area):
+        self.R += (256 * (self.share - rlog(twice_area)) - self.R) >> 4
+
+    # Insertion (section 7)
+
+    def insert(self, chord, b):
+        mesh = self.mesh
+        v, a = mesh.origin[mesh.following(chord)], mesh.origin[chord]
+        corners = [mesh.vertices[vertex] for vertex in mesh.corners(chord // 3) if vertex != INFINITY]
+        require(b not in corners and b > mesh.vertices[0], "a vertex is not legal")
+        require(mesh.in_conflict(chord // 3, b), "a vertex is not in conflict with its triangle")
+        cavity, boundary = mesh.find_cavity(chord, b)
+        require(len(cavity) <= self.header.degree - 2, "a cavity has too many triangles")
+        require(boundary[0] == chord, "a cavity contains the triangle behind the chord")
+        require(not any(vertex in self.done for t in cavity for vertex in mesh.corners(t)),
+                "a cavity contains a triangle that is final")
+        difference = height = 0
+        if self.header.heights:
+            height, difference = self.decode_height(b, boundary)
+        mesh.heights.append(height)
+        mesh.residuals.append(clamp(-127, difference, 127))
+        if v != INFINITY:
+            self.learn_density(turn(mesh.vertices[a], mesh.vertices[v], b))
+        return mesh.insert(b, cavity, boundary)
+
+    # Hits around infinity (section 10)
+
+    def hull_edge(self, chord):
+        """a, the difference d to c, the length L, and the axis if the edge is at the border, else None."""
+        mesh, largest = self.mesh, self.header.largest
+        a, c = mesh.vertices[mesh.origin[chord]], mesh.vertices[mesh.far_corner(chord)]
+        d = minus(c, a)
+        axis = None
+        if d[0] == 0 and a[0] in (0, largest[0]):
+            axis = 1
+        if d[1] == 0 and a[1] in (0, largest[1]):
+            axis = 0
+        return a, d, abs(d[0]) | abs(d[1]), axis
+
+    def decode_hull_hit(self, chord):
+        _, _, L, axis = self.hull_edge(chord)
+        if axis is not None and L == 1:
+            return 0
+        return self.symbols.hit(6, 2 * log2(L) + (self.R >> 8) + 1536)
+
+    def decode_hull_position(self, chord):
+        a, d, L, axis = self.hull_edge(chord)
+        if axis is None:
+            return (self.decode_coordinate(self.header.largest[0]), self.decode_coordinate(self.header.largest[1]))
+        tally, parity_of_a = self.tallies[axis][0], a[axis] + self.header.odd[axis]
+        lines = Lines(1, L - 1).sieve(self.symbols.coder, tally, parity_of_a)
+        t = max(0, -(self.R >> 8)) // 512
+        if lines.gauge == 2 and t > 0:
+            t -= 1
+        number = self.symbols.magnitude("gap", 0, t)
+        require(number < lines.count, "a vertex lies beyond the edge at the border")
+        k = lines.line(number)
+        tally.learn((k + parity_of_a) & 1)
+        return (a[0] + quotient(k * d[0], L), a[1] + quotient(k * d[1], L))
+
+    # Positions elsewhere (section 10)
+
+    def decode_inner_position(self):
+        place = Place(self.triangle, self)
+        v, t = self.triangle.v, place.t
+        axes = (t % 2, 1 - t % 2)                                # the axes of columns and rows
+        parities = [v[axis] + self.header.odd[axis] for axis in axes]
+        tally = self.tallies[axes[0]][0]
+        p = self.decode_tallied_position(place, tally, self.tallies[axes[1]], parities)
+        if p is None:                                            # an escape
+            p = [first + self.symbols.coder.uniform(last - first + 1) for first, last in place.lattice]
+        elif self.header.heights and self.header.coding != QUICK:
+            if place.apart(place.grain(2 * p[0]), place.grain(2 * p[1])) < 254:
+                self.crowding += self.crowding >> 4
+            self.crowding = clamp(512, self.crowding - 12, 65536)
+        x, y = turned(p, -t % 4)
+        return (v[0] + x, v[1] + y)
+
+    def decode_tallied_position(self, place, tally, tallies, parities):
+        """Column and row as seen from v, turned; None is the escape."""
+        coder, coding, triangle = self.symbols.coder, self.header.coding, place.triangle
+        columns, context = place.columns()
+        columns = columns.sieve(coder, tally, parities[0])
+        m = clamp(0, (triangle.expected + 256) >> 8, 3)
+        if coding == QUICK:
+            columns = self.decode_quarter(columns, "quick column", context + 8 * (m > 1))
+        else:
+            columns = self.decode_halves(columns, "column", lambda w: place.column_weight(place.grain(w)),
+                                         4 if coding == DENSE else 3)
+        number = coder.uniform_or_escape(columns.count)
+        if number is None:
             return None
-        return edge.decode_place(self.coder, self.models, density)
+        column = columns.line(number)
+        column_parity = (column + parities[0]) & 1
+        x = place.grain(2 * column)
 
-    def decode_hit_elsewhere(self, chord):
-        candidate = Candidate(self.mesh, chord, self.is_final)
-        density = self.density.value()
-        expected = candidate.expected_points(density)
-        position = expected + 1536
-        curve = candidate.sides[0].certified + 2 * candidate.sides[1].certified
-        if self.mesh.apex(chord) not in self.queued:
-            degree = self.mesh.degree(before(chord))
-            curve = 4 if degree < self.header.degree + 2 else 5
-            if degree <= self.header.degree:
-                position = 15 * 256
-        if not decode_on_curve(self.coder, self.models.hit[curve], position):
+        tally_of_row = tallies[1 + column_parity]
+        rows = place.rows(x).sieve(coder, tally_of_row, parities[1])
+        if coding == QUICK:
+            where = 4 if x < place.A[0] else 8 if x > 0 else 0
+            rows = self.decode_quarter(rows, "quick row", m + where)
+        else:
+            own = place.span(x)[0]
+            rows = self.decode_halves(rows, "row", lambda w: place.position_weight(x, place.grain(w), own),
+                                      4 if coding == DENSE else 2)
+        number = coder.uniform_or_escape(rows.count)
+        if number is None:
             return None
-        return PlaceDecoder(self.coder, self.models, candidate, density, self.header).decode(expected)
+        row = rows.line(number)
+        tally.learn(column_parity)
+        tally_of_row.learn((row + parities[1]) & 1)
+        return column, row
 
-    def decode_vertex(self, chord, place):
-        cavity, boundary = self.legal_cavity(chord, place)
-        self.decode_height(self.expectation(place, [self.mesh.start[e] for e in boundary]))
-        self.mesh.insert(place, cavity, boundary)
+    def decode_quarter(self, lines, name, row):
+        if lines.count < 4:
+            return lines
+        first = self.symbols.adaptive(name, 3 * row)
+        second = self.symbols.adaptive(name, 3 * row + 1 + first)
+        return lines.half(first).half(second)
 
-    def legal_cavity(self, chord, place):
-        triangle, behind = chord // 3, self.mesh.twin[chord] // 3
-        corners = [vertex for vertex in self.mesh.corners(triangle) if vertex != INFINITY]
-        require(place not in self.mesh.places(corners), "vertex is a corner of its triangle")
-        require(place > self.mesh.points[0], "vertex is smaller than vertex 0")
-        require(self.mesh.in_conflict(triangle, place), "vertex is not in conflict with its triangle")
+    def decode_halves(self, lines, name, weight, formula_from):
+        """Up to four halvings. From the time formula_from on, the outer weight is estimated by a formula."""
+        taken, upper = [], 0                                     # the weights of the halves taken; the last decision
+        for time in range(4):
+            i, h = lines.count, lines.count >> 1
+            if i < 2:
+                break
+            low_line = 2 * lines.first + lines.gauge * (h - 1)
+            high_line = low_line + lines.gauge * i
+            if time < 2:
+                low, high = weight(low_line), weight(high_line)
+            else:
+                w, inner = taken[-1], (taken[-1] + taken[-2]) >> 1
+                if time < formula_from:
+                    outer = weight(high_line if upper else low_line)
+                else:
+                    outer = max(2 * w - inner, (w >> 2) + 1)
+                low, high = (inner, outer) if upper else (outer, inner)
+            low_all, high_all = (low * h, high * (i - h)) if i < 32 else (low, high)
+            estimate = (high_all << 11) // (low_all + high_all + 1)
+            upper = self.symbols.between(name, 9 * time + (estimate >> 8), estimate & 255)
+            taken.append(high if upper else low)
+            lines = lines.half(upper)
+        return lines
 
-        def may_cross(half_edge, size):
-            next_triangle = self.mesh.twin[half_edge] // 3
-            return (
-                size < self.header.degree - 2 and next_triangle != behind and not self.is_final(next_triangle)
-            )
+    # Heights (section 10)
 
-        return self.mesh.explore_cavity(chord, place, may_cross)
-
-    def expectation(self, place, ring):
-        neighbours = [
-            Neighbour(self.mesh.points[w], self.heights[w], self.residuals[w]) for w in ring if w != INFINITY
-        ]
-        return Expectation.from_ring(place, neighbours)
-
-    def decode_height(self, expectation):
-        height = difference = 0
-        if self.header.heights_are_sent:
-            difference = decode_difference(self.coder, self.models, expectation)
-            height = expectation.height + difference
-            require(-32768 <= height <= 32767, "height is out of bounds")
-        self.heights.append(height)
-        self.residuals.append(keep_within(-127, difference, 127))
-
-    def decode_voids(self):
-        """The triangles that are void."""
-        voids = set()
-        for triangle in self.mesh.real_triangles():
-            neighbours = [e // 3 for e in self.mesh.twin[3 * triangle : 3 * triangle + 3]]
-            known = [t for t in neighbours if t < triangle and not self.mesh.is_ghost(t)]
-            context = 3 + sum(1 if t in voids else -1 for t in known)
-            if self.models.void[context].decode(self.coder):
-                voids.add(triangle)
-        return voids
-
-
-def decode_stream(data):
-    reader = ByteReader(data)
-    header = read_header(reader)
-    decoder = Decoder(header, reader.section())
-    while decoder.size() < header.vertices:
-        decoder.decode_phase()
-        if FIRST_SECTION_VERTICES <= decoder.size() < header.vertices:
-            decoder.coder.finish()
-            decoder.coder = reader.section()
-    voids = decoder.decode_voids() if header.void_flags_are_sent else set()
-    decoder.coder.finish()
-    return decoder, voids
-
-
-# Section 11: digest
-
-
-def fnv1a(data):
-    value = 0xCBF29CE484222325
-    for byte in data:
-        value = (value ^ byte) * 0x100000001B3 % 2**64
-    return value
+    def decode_height(self, b, boundary):
+        """The height and its difference from the prediction."""
+        mesh = self.mesh
+        ring = [mesh.origin[e] for e in boundary if mesh.origin[e] != INFINITY]
+        base, N = mesh.heights[ring[0]], None
+        W = H = P = Q = G = 0
+        for vertex in ring:
+            dx, dy = minus(mesh.vertices[vertex], b)
+            e = bit(max(1, dx * dx // 2 + dy * dy // 2))
+            N = e if N is None else N
+            weight = 512 >> max(0, e + 4 - N)
+            W += weight
+            H += weight * (mesh.heights[vertex] - base)
+            P += weight * abs(mesh.heights[vertex] - base)
+            Q += weight * mesh.residuals[vertex]
+            G += weight * abs(mesh.residuals[vertex])
+        mean = (2 * H + W) // (2 * W)
+        below = 1 if H > mean * W else 0
+        scale = min(11, quotient(rlog(4 * G + W) + 2 * rlog(4 * P + W) - 3 * rlog(W)
+                                 + 32 * (14 + N - bit(W)) + 320, 768))
+        strength = 2 if 5 * abs(Q) > 3 * G else 1 if 5 * abs(Q) > G else 0
+        tendency = 2 * (2 - strength if Q < 0 else 2 + strength) + below
+        difference = self.symbols.difference(scale, tendency)
+        height = base + mean + difference
+        require(-32768 <= height <= 32767, "a height is outside 16 bits")
+        return height, difference
 
 
-def digest(mesh, heights, voids):
-    total = 0
-    for triangle in mesh.real_triangles():
-        corners = mesh.corners(triangle)
-        smallest = corners.index(min(corners, key=lambda vertex: mesh.points[vertex]))
-        words = []
-        for vertex in corners[smallest:] + corners[:smallest]:
-            words += [*mesh.points[vertex], heights[vertex] & 65535]
-        words.append(int(triangle in voids))
-        total += fnv1a(b"".join(word.to_bytes(2, "little") for word in words))
-    return total % 2**64
+def print_terrain(decoder):
+    print("digest %016x" % decoder.mesh.digest(decoder.void))
+    for (x, y), z in zip(decoder.mesh.vertices, decoder.mesh.heights):
+        print(x, y, z)
 
 
 def main():
     if len(sys.argv) != 2:
-        sys.exit("usage: reference_decoder.py FILE.mtin")
+        print("usage: reference_decoder.py FILE", file=sys.stderr)
+        return 2
     with open(sys.argv[1], "rb") as file:
         data = file.read()
     try:
-        decoder, voids = decode_stream(data)
-    except Malformed as complaint:
-        sys.exit(f"malformed stream: {complaint}")
-    print("digest %016x" % digest(decoder.mesh, decoder.heights, voids))
-    for (x, y), z in zip(decoder.mesh.points, decoder.heights):
-        print(x, y, z)
+        if data[:4] == b"mtpk":
+            from reference_pack import print_pack
+            print_pack(data)
+        else:
+            print_terrain(Decoder(data).decode())
+    except Refusal as refusal:
+        print(refusal, file=sys.stderr)
+        return 1
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

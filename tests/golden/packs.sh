@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# packs.sh MICROTIN: makes the packs of this folder anew; tests/pack/card_test.cpp writes what a host answers.
+# packs.sh MICROTIN: makes the packs of this folder anew; tests/pack/card_test.cpp writes what a host answers,
+# tests/pack/tile_digests_test.cpp the digest of each tile.
 # card.mtp is for decoder/examples/card.c: a byte of one of its tiles is damaged. tiles.mtp fits into 16 KB of RAM.
 set -eu
 microtin=$1
@@ -23,3 +24,15 @@ awk 'BEGIN {
 "$microtin" fractal --size 129 --seed 4 -o "$terrain/d.asc"
 sed -i 's/^cellsize.*/cellsize 0.0008/; s/^xll[a-z]*.*/xllcenter 7.2/; s/^yll[a-z]*.*/yllcenter 43.3/' "$terrain/d.asc"
 "$microtin" encode "$terrain/d.asc" --units degree:metre --max-error 8 --tile-vertices 300 -o "$here/degree.mtp"
+# pair.mtp has two tiles of four vertices; format-pack.md explains each of its bytes.
+cat >"$terrain/p.asc" <<'END'
+ncols 5
+nrows 3
+xllcenter 0
+yllcenter 0
+cellsize 30
+12 14 16 21 26
+11 13 15 20 25
+10 12 14 19 24
+END
+"$microtin" encode "$terrain/p.asc" --max-error 0 --tile-size 2 --tile-vertices 64 -o "$here/pair.mtp"
