@@ -94,6 +94,38 @@ bool is_iso_date(std::string_view text) {
          first.substr(0, common) <= last.substr(0, common);
 }
 
+bool is_iso_validity(std::string_view text) {
+  const size_t slash = text.find('/');
+  if (slash == text.npos) return is_iso_date(text);
+  const std::string_view first = text.substr(0, slash), last = text.substr(slash + 1);
+  if (first == "..") return is_single_date(last);
+  return last == ".." ? is_single_date(first) : is_iso_date(text);
+}
+
+std::string iso_date(int year, int day) {
+  if (year < 1000 || year > 9999) return "";
+  int month = 1;
+  while (month < 12 && day > days_of(year, month)) day -= days_of(year, month++);
+  if (day < 1 || day > days_of(year, month)) return std::to_string(year);
+  const auto two_digits = [](int number) {
+    return std::string(number < 10 ? "-0" : "-") + std::to_string(number);
+  };
+  return std::to_string(year) + two_digits(month) + two_digits(day);
+}
+
+std::string utf8_of(std::string text) {
+  std::string_view rest = text;
+  while (!rest.empty() && character_bytes(rest) != 0) rest.remove_prefix(character_bytes(rest));
+  if (rest.empty()) return text;
+  std::string converted;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80) converted += static_cast<char>(0xC0 | byte >> 6);
+    converted += static_cast<char>(byte >= 0x80 ? 0x80 | (byte & 0x3F) : byte);
+  }
+  return converted;
+}
+
 // Reads floating-point numbers by std::from_chars, which libc++ has for double from version 20 on,
 // or by the C library in the C locale.
 

@@ -29,6 +29,17 @@ std::string suffix_of(const std::string& path);
 // interval from one to another that is not before it (2019-05/2021).
 bool is_iso_date(std::string_view text);
 
+// Whether the text is such a date or interval, or an interval that is open on one side
+// (2024-01/.., ../2025).
+bool is_iso_validity(std::string_view text);
+
+// The date of a day of a year, counted from 1; the year alone if it has no such day. Empty: the
+// year has not four digits.
+std::string iso_date(int year, int day);
+
+// Returns the text if all of it is UTF-8; else its bytes are taken as characters of Latin 1.
+std::string utf8_of(std::string text);
+
 // The double nearest to the number that the whole text spells: "-0.25", "1e5", "inf", "nan".
 // Returns nothing for other text ("+1", " 1", "0x1", "1,5") and for finite numbers that no double
 // is near.

@@ -77,6 +77,36 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
       ->default_str("no limit");
 }
 
+// Where the header has notes of the file unless options state others.
+constexpr const char* kOfFile = "what the file states";
+
+void add_quality_notes(CLI::App& command, SourceNotes& notes) {
+  const auto read_valid = [&notes](const std::string& text) {
+    notes.valid = text;
+    return is_iso_validity(text);
+  };
+  add_read(command, "--valid DATES", read_valid,
+           "dates such as 2024-01/2025-06, 2024-01/.. or ../2025",
+           "Note when the terrain is valid: two dates with a slash between, of which one may be ..")
+      ->default_str(kOfFile);
+  const auto read_epoch = [&notes](const std::string& text) {
+    notes.epoch = parse_epoch(text);
+    return notes.epoch.has_value();
+  };
+  add_read(command, "--epoch YEAR", read_epoch, "a year such as 2020.5",
+           "Note the epoch of the coordinates, a decimal year")
+      ->default_str(kOfFile);
+  const auto read_accuracy = [&notes](const std::string& text) {
+    notes.source_accuracy = parse_source_accuracy(text);
+    return notes.source_accuracy.has_value();
+  };
+  add_read(command, "--source-accuracy ACCURACY", read_accuracy,
+           "LE90, LE95 or RMSE and a number, such as 'LE90 4'",
+           "Note how accurate the source itself is: LE90, LE95 or RMSE, and a number in units of "
+           "height, such as 'LE90 4'")
+      ->default_str(kOfFile);
+}
+
 void add_notes(CLI::App& command, EncodeRequest& request) {
   begin_group(command, "Notes in the header");
   std::vector<std::pair<std::string, SurfaceKind>> kinds;
@@ -88,16 +118,26 @@ void add_notes(CLI::App& command, EncodeRequest& request) {
                           "Note what the heights are: bare ground, the top surface with vegetation "
                           "and buildings, the bed of a sea or lake, a geoid, or an envelope of "
                           "obstacles");
-  add_text(command, "--source-name NAME", request.source_name, "Note where the terrain comes from");
-  const auto read = [&request](const std::string& text) {
-    request.date = text;
+  SourceNotes& notes = request.notes;
+  add_text(command, "--source-name NAME", notes.source, "Note where the terrain comes from")
+      ->default_str(kOfFile);
+  const auto read_date = [&notes](const std::string& text) {
+    notes.date = text;
     return is_iso_date(text);
   };
-  add_read(command, "--date DATE", read, "a date such as 2026, 2026-11 or 2026-11-21",
+  add_read(command, "--date DATE", read_date, "a date such as 2026, 2026-11 or 2026-11-21",
            "Note the date of the source: 2026, 2026-11 or 2026-11-21, or two of them with a "
            "slash between")
-      ->default_str("none");
-  add_text(command, "--lineage WORDS", request.lineage, "Note how the source was processed before");
+      ->default_str(kOfFile);
+  add_text(command, "--lineage WORDS", notes.lineage, "Note how the source was processed before")
+      ->default_str(kOfFile);
+  add_text(command, "--attribution WORDS", notes.attribution,
+           "Note an attribution to be shown to users")
+      ->default_str(kOfFile);
+  add_text(command, "--license LICENSE", notes.license,
+           "Note the licence of the source: an SPDX expression or a URL")
+      ->default_str(kOfFile);
+  add_quality_notes(command, notes);
 }
 
 void add_point_options(CLI::App& command, EncodeRequest& request) {

@@ -121,6 +121,24 @@ void add_placement(JsonObject& report, const Metadata& metadata) {
   report.emplace_back("axes", of_axes(p, exact_axis));
 }
 
+void add_source_notes(JsonObject& report, const SourceNotes& notes) {
+  const auto add_text = [&report](const char* name, const std::string& text) {
+    if (!text.empty()) report.emplace_back(name, json(text));
+  };
+  add_text("source_name", notes.source);
+  add_text("date", notes.date);
+  add_text("lineage", notes.lineage);
+  add_text("attribution", notes.attribution);
+  add_text("license", notes.license);
+  add_text("valid", notes.valid);
+  if (notes.epoch) report.emplace_back("epoch", number(*notes.epoch));
+  if (notes.source_accuracy) {
+    report.emplace_back("source_accuracy",
+                        json(JsonObject{{"kind", json(name_of(notes.source_accuracy->kind))},
+                                        {"value", number(notes.source_accuracy->value)}}));
+  }
+}
+
 void add_notes(JsonObject& report, const Metadata& metadata) {
   report.emplace_back(
       "units", json(JsonObject{{"horizontal", json(exact::name_of(metadata.horizontal_unit))},
@@ -130,13 +148,8 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
   };
   add_known("horizontal_epsg", metadata.horizontal_epsg);
   add_known("vertical_epsg", metadata.vertical_epsg);
-  const auto add_text = [&report](const char* name, const std::string& text) {
-    if (!text.empty()) report.emplace_back(name, json(text));
-  };
-  add_text("wkt", metadata.wkt);
-  add_text("source_name", metadata.source);
-  add_text("date", metadata.date);
-  add_text("lineage", metadata.lineage);
+  if (!metadata.wkt.empty()) report.emplace_back("wkt", json(metadata.wkt));
+  add_source_notes(report, metadata);
   if (metadata.surface != SurfaceKind::kUnknown) {
     report.emplace_back("surface", json(name_of(metadata.surface)));
   }

@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <microtin/encoder.hpp>
 #include <stdexcept>
 
@@ -20,9 +21,10 @@ using encoder::Transform;
 
 // As driver.cpp describes them.
 constexpr const char* kCreationOptions[] = {
-    "MAX_ERROR", "MAX_VERTICES", "MAX_BYTES",   "NEVER_BELOW",   "Z_STEP",    "XY_STEP",
-    "EFFORT",    "CODING",       "MAX_DEGREE",  "TILE_VERTICES", "TILE_SIZE", "UNITS",
-    "DEPTHS",    "SURFACE",      "SOURCE_NAME", "DATE",          "LINEAGE"};
+    "MAX_ERROR", "MAX_VERTICES", "MAX_BYTES",   "NEVER_BELOW",    "Z_STEP",    "XY_STEP",
+    "EFFORT",    "CODING",       "MAX_DEGREE",  "TILE_VERTICES",  "TILE_SIZE", "UNITS",
+    "DEPTHS",    "SURFACE",      "SOURCE_NAME", "DATE",           "LINEAGE",   "ATTRIBUTION",
+    "LICENSE",   "VALID",        "EPOCH",       "SOURCE_ACCURACY"};
 
 std::string lower_case(std::string text) {
   for (char& letter : text)
@@ -136,6 +138,22 @@ std::string wkt_of(const GDALDataset& source) {
   return wkt;
 }
 
+// What the source's file states about itself.
+std::map<std::string, std::string> items_of(GDALDataset& source) {
+  std::map<std::string, std::string> items;
+  char** const list = source.GetMetadata();
+  for (int i = 0; i < CSLCount(list); ++i) {
+    char* name = nullptr;
+    const char* const value = CPLParseNameValue(list[i], &name);
+    if (name != nullptr && value != nullptr) items[name] = value;
+    CPLFree(name);
+  }
+  const OGRSpatialReference* const system = source.GetSpatialRef();
+  const double epoch = system != nullptr ? system->GetCoordinateEpoch() : 0;
+  if (epoch > 0) items["COORDINATE_EPOCH"] = CPLSPrintf("%.9f", epoch);
+  return items;
+}
+
 // GDAL's names are those of the library in capitals; it knows several words for true and false.
 encoder::Options options_of(char** given) {
   encoder::Options options;
@@ -167,6 +185,7 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
   RasterData posts = raster_from_cells(source);
   posts.wkt = wkt_of(source);
   posts.z_unit = source.GetRasterBand(1)->GetUnitType();
+  posts.items = items_of(source);
   const encoder::SourceTerrain terrain(std::move(posts));
   const encoder::Options options = options_of(given);
   if (!ends_with(path, ".mtp")) {

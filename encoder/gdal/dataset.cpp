@@ -217,6 +217,12 @@ void Dataset::describe() {
       {"SOURCE", valid_text(info.source_name)},
       {"DATE", valid_text(info.date)},
       {"LINEAGE", valid_text(info.lineage)},
+      {"ATTRIBUTION", valid_text(info.attribution)},
+      {"TIFFTAG_COPYRIGHT", valid_text(info.attribution)},  // which GeoTIFF files keep
+      {"LICENSE", valid_text(info.license)},
+      {"VALID", valid_text(info.valid)},
+      {"COORDINATE_EPOCH", info.epoch},
+      {"SOURCE_ACCURACY", info.source_accuracy},
   };
   for (const auto& [name, value] : items) {
     if (!value.empty()) GDALPamDataset::SetMetadataItem(name, value.c_str());
@@ -247,6 +253,7 @@ void Dataset::read_system() {
              "MTIN: the coordinate system, %s, is not understood: assign one with -a_srs",
              name_of_system(info).c_str());
   }
+  if (!info.epoch.empty()) system_.SetCoordinateEpoch(CPLAtof(info.epoch.c_str()));
   system_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
 }
 

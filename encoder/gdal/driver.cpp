@@ -64,6 +64,14 @@ void GDALRegister_MTIN() {
       "<Option name='DATE' type='string' description='Note: date of the source, such as 2026-11 or "
       "2019-05/2021'/>"
       "<Option name='LINEAGE' type='string' description='Note: how the source was processed'/>"
+      "<Option name='ATTRIBUTION' type='string' description='Note: a text to be shown to users'/>"
+      "<Option name='LICENSE' type='string' description='Note: an SPDX expression or a URL'/>"
+      "<Option name='VALID' type='string' description='Note: when the terrain is valid, such as "
+      "2024-01/2025-06 or 2024-01/..'/>"
+      "<Option name='EPOCH' type='string' description='Note: epoch of the coordinates, such as "
+      "2020.5'/>"
+      "<Option name='SOURCE_ACCURACY' type='string' description='Note: accuracy of the source, "
+      "such as LE90 4'/>"
       "</CreationOptionList>";
   driver->SetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST, creation_options.c_str());
   driver->pfnIdentify = microtin::gdal::identify;

@@ -4,6 +4,7 @@
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
+#include <ogr_srs_api.h>
 
 #include <algorithm>
 #include <array>
@@ -85,6 +86,19 @@ Dataset open(const std::string& path, Indirect indirect) {
   }
   if (GDALGetRasterCount(dataset.get()) == 0) throw Error("has no raster band");
   return dataset;
+}
+
+// What the file states about itself.
+SourceNotes notes_of(GDALDatasetH dataset, std::vector<std::string>& warnings) {
+  const auto item = [dataset](const char* name) {
+    const char* const value = GDALGetMetadataItem(dataset, name, nullptr);
+    return std::string(value != nullptr ? value : "");
+  };
+  SourceNotes notes = notes_of_items(item, warnings);
+  const OGRSpatialReferenceH system = GDALGetSpatialRef(dataset);
+  const double epoch = system != nullptr ? OSRGetCoordinateEpoch(system) : 0;
+  if (epoch > 0) notes.epoch = shortest_decimal(epoch);
+  return notes;
 }
 
 // Whether the first row is the northernmost.
@@ -262,6 +276,7 @@ Raster read(const std::string& path, Indirect indirect, uint32_t number) {
   if (const char* wkt = GDALGetProjectionRef(dataset.get()))
     raster.reference = reference_of_wkt(wkt);
   state_vertical_unit(unit_named(GDALGetRasterUnitType(band)), raster.reference);
+  raster.reference.notes = notes_of(dataset.get(), raster.reference.warnings);
   DecimalColumn heights;
   heights.reserve(reader.width() * reader.height());
   for (size_t row = 0; row < reader.height(); ++row) {

@@ -147,7 +147,7 @@ PointCloud joined(std::vector<NamedSource> parts) {
   for (size_t i = 1; i < parts.size(); ++i) {
     PointCloud& part = std::get<PointCloud>(parts[i].source);
     expect_alike(parts[0], parts[i], whole.reference, part.reference);
-    add_warnings(part.reference, whole.reference);
+    add_statements(part.reference, whole.reference);
     expect_same_classes(parts[0], parts[i], whole, part);
     const int xy = std::max(whole.xy_decimals, part.xy_decimals);
     const int z = std::max(whole.z_decimals, part.z_decimals);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "encoder/base/text.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/import/cloud.hpp"
@@ -78,6 +79,13 @@ Header read_header(const ByteReader& file) {
               std::to_string(header.points) + " points");
   }
   return header;
+}
+
+// The day on which the file was made, in version 1.0 that of the flight; the year alone if the day
+// is not stated. Empty: there is none.
+std::string date_of(const ByteReader& file) {
+  const auto day = file.number<uint16_t>(90), year = file.number<uint16_t>(92);
+  return year == 0 ? std::string() : iso_date(year, day);
 }
 
 // Collects what the variable length records say of the coordinates.
@@ -227,6 +235,7 @@ PointCloud import_las(const std::string& name, const std::string& bytes,
   PointReader reader(file, header);
   PointCloud cloud = reader.read(classes ? *classes : reader.default_classes());
   cloud.reference = references.take();
+  cloud.reference.notes.date = date_of(file);
   return cloud;
 }
 

@@ -204,8 +204,7 @@ class Mosaic : public RasterReader {
       parts_.push_back(part_of(sources[0], frame_, sources[i], frames.all[i]));
     }
     for (size_t i = 0; i < parts_.size(); ++i) {
-      add_warnings(std::get<std::unique_ptr<RasterReader>>(sources[i].source)->frame().reference,
-                   frame_.reference);
+      add_statements(frames.all[i].reference, frame_.reference);
       parts_[i].raster = std::move(std::get<std::unique_ptr<RasterReader>>(sources[i].source));
       frame_.decimals = std::max(frame_.decimals, parts_[i].raster->frame().decimals);
     }

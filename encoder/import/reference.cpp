@@ -55,6 +55,7 @@ class Settlement {
   Settlement(const Reference& file, const Reference& asked) : file_(file), asked_(asked) {
     all_.warnings = file.warnings;
     all_.wkt = file.wkt;
+    all_.notes = file.notes;
   }
 
   SettledReference settle() {
@@ -280,8 +281,10 @@ void state_vertical_unit(const StatedUnit& unit, Reference& reference) {
   reference.vertical_other = is_angle ? text_of(unit.unit) : unit.other;
 }
 
-void add_warnings(const Reference& from, Reference& to) {
-  for (const std::string& warn : from.warnings) {
+void add_statements(const Reference& from, Reference& to) {
+  std::vector<std::string> warnings = from.warnings;
+  for (std::string& text : terrain::join(from.notes, to.notes)) warnings.push_back(std::move(text));
+  for (const std::string& warn : warnings) {
     if (std::find(to.warnings.begin(), to.warnings.end(), warn) == to.warnings.end()) {
       to.warnings.push_back(warn);
     }

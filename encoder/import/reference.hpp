@@ -44,8 +44,8 @@ bool read_units(const std::string& text, Reference& asked);
 void state_horizontal_unit(const StatedUnit& unit, Reference& reference);
 void state_vertical_unit(const StatedUnit& unit, Reference& reference);
 
-// Adds the warnings that are not there yet.
-void add_warnings(const Reference& from, Reference& to);
+// Adds what another file of the same terrain says: the warnings that are not there yet, and notes.
+void add_statements(const Reference& from, Reference& to);
 
 // Terrains whose numbers are brought into units that streams have, and point upwards.
 

@@ -51,6 +51,16 @@ terrain::Reference reference_of(const std::string& wkt, const std::string& z_uni
   return reference;
 }
 
+terrain::Reference raster_reference(const RasterData& posts) {
+  terrain::Reference reference = reference_of(posts.wkt, posts.z_unit);
+  const auto item = [&](const char* name) {
+    const auto found = posts.items.find(name);
+    return found != posts.items.end() ? found->second : std::string();
+  };
+  reference.notes = terrain::notes_of_items(item, reference.warnings);
+  return reference;
+}
+
 terrain::Source raster_of(RasterData posts) {
   expect(posts.heights.size() == uint64_t{posts.columns} * posts.rows,
          "not as many heights as columns times rows");
@@ -59,13 +69,9 @@ terrain::Source raster_of(RasterData posts) {
     expect(height == kNoData || is_number(height), "a height is beyond 10^18");
   }
   static_assert(kNoData == terrain::kVoidHeight, "void posts are taken as they are");
-  return terrain::Raster{posts.columns,
-                         posts.rows,
-                         std::move(posts.heights),
-                         posts.decimals,
-                         checked(posts.x),
-                         checked(posts.y),
-                         reference_of(posts.wkt, posts.z_unit)};
+  return terrain::Raster{posts.columns,          posts.rows,       std::move(posts.heights),
+                         posts.decimals,         checked(posts.x), checked(posts.y),
+                         raster_reference(posts)};
 }
 
 terrain::Source cloud_of(const PointCloudData& points) {
@@ -162,9 +168,30 @@ void check_numbers(const Options& options) {
   expect_range("max_degree", options.max_degree, kMinDegree, kMaxDegree);
   expect_range("max_vertices", options.max_vertices, 3, kMaxVertices);
   expect_range("tile_vertices", options.tile_vertices, pack::kFewestTileVertices, kMaxVertices);
-  expect(options.date.empty() || base::is_iso_date(options.date),
-         base::parameter("date") + ": '" + options.date +
-             "' is not allowed; use a date such as 2026, 2026-11 or 2026-11-21");
+}
+
+void expect_text(const char* name, const std::string& text, bool holds, const char* wanted) {
+  expect(text.empty() || holds,
+         base::parameter(name) + ": '" + text + "' is not allowed; use " + wanted);
+}
+
+terrain::SourceNotes notes_of(const Options& options) {
+  expect_text("date", options.date, base::is_iso_date(options.date),
+              "a date such as 2026, 2026-11 or 2026-11-21");
+  expect_text("valid", options.valid, base::is_iso_validity(options.valid),
+              "dates such as 2024-01/2025-06, 2024-01/.. or ../2025");
+  terrain::SourceNotes notes{options.source_name,
+                             options.date,
+                             options.lineage,
+                             options.attribution,
+                             options.license,
+                             options.valid,
+                             terrain::parse_epoch(options.epoch),
+                             terrain::parse_source_accuracy(options.source_accuracy)};
+  expect_text("epoch", options.epoch, notes.epoch.has_value(), "a year such as 2020.5");
+  expect_text("source_accuracy", options.source_accuracy, notes.source_accuracy.has_value(),
+              "LE90, LE95 or RMSE and a number, such as 'LE90 4'");
+  return notes;
 }
 
 void check_stream_options(const Options& options) {
@@ -203,9 +230,7 @@ product::EncodeOptions options_of(const Options& options) {
   all.search = search_of(options.effort);
   all.effort = {options.max_degree, coding_of(options.coding)};
   all.surface = surface_of(options.surface);
-  all.source_name = options.source_name;
-  all.date = options.date;
-  all.lineage = options.lineage;
+  all.notes = notes_of(options);
   return all;
 }
 

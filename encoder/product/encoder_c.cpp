@@ -145,6 +145,11 @@ Options options_of(const microtin_options& given) {
   options.source_name = text_of(given.source_name);
   options.date = text_of(given.date);
   options.lineage = text_of(given.lineage);
+  options.attribution = text_of(given.attribution);
+  options.license = text_of(given.license);
+  options.valid = text_of(given.valid);
+  options.epoch = text_of(given.epoch);
+  options.source_accuracy = text_of(given.source_accuracy);
   options.max_vertices = given.max_vertices;
   options.max_bytes = given.max_bytes;
   options.tile_vertices = given.tile_vertices;
@@ -255,6 +260,11 @@ microtin_surface_info info_of(const SurfaceInfo& all) {
   info.source_name = all.source_name.c_str();
   info.date = all.date.c_str();
   info.lineage = all.lineage.c_str();
+  info.attribution = all.attribution.c_str();
+  info.license = all.license.c_str();
+  info.valid = all.valid.c_str();
+  info.epoch = all.epoch.c_str();
+  info.source_accuracy = all.source_accuracy.c_str();
   info.bound = all.bound.c_str();
   info.max_error = all.max_error.c_str();
   info.rms_error = all.rms_error.c_str();

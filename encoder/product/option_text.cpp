@@ -83,6 +83,11 @@ constexpr NamedOption kOptions[] = {
     {"source_name", set_text<&Options::source_name>, kText},
     {"date", set_text<&Options::date>, kText},
     {"lineage", set_text<&Options::lineage>, kText},
+    {"attribution", set_text<&Options::attribution>, kText},
+    {"license", set_text<&Options::license>, kText},
+    {"valid", set_text<&Options::valid>, kText},
+    {"epoch", set_text<&Options::epoch>, kText},
+    {"source_accuracy", set_text<&Options::source_accuracy>, kText},
 };
 
 }  // namespace

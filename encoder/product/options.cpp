@@ -20,9 +20,7 @@ Metadata metadata_for(const EncodeOptions& options, const Reference& file) {
   metadata.vertical_epsg = reference.vertical_epsg;
   if (metadata.horizontal_epsg == 0) metadata.wkt = reference.wkt;
   metadata.surface = options.surface;
-  metadata.source = options.source_name;
-  metadata.date = options.date;
-  metadata.lineage = options.lineage;
+  static_cast<SourceNotes&>(metadata) = preferred(options.notes, reference.notes);
   metadata.water_level = options.lattice.water_level;
   return metadata;
 }

@@ -32,7 +32,7 @@ struct EncodeOptions {
   Effort effort;
   std::optional<Reference> reference;  // in place of the terrain's own, settled
   SurfaceKind surface = SurfaceKind::kUnknown;
-  std::string source_name, date, lineage;
+  SourceNotes notes;  // what they state comes before what the terrain's file states
 };
 
 // What the header will say of a terrain whose file says this, but for its place and the accuracy.

@@ -151,6 +151,11 @@ SurfaceInfo Surface::Content::info_of() const {
   all.source_name = metadata.source;
   all.date = metadata.date;
   all.lineage = metadata.lineage;
+  all.attribution = metadata.attribution;
+  all.license = metadata.license;
+  all.valid = metadata.valid;
+  if (metadata.epoch) all.epoch = to_string(*metadata.epoch);
+  if (metadata.source_accuracy) all.source_accuracy = to_string(*metadata.source_accuracy);
   all.surface = static_cast<SurfaceKind>(metadata.surface);  // the same numbers, those of the note
   all.side = static_cast<BoundSide>(metadata.side);
   take_accuracy(metadata, all);

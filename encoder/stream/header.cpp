@@ -85,6 +85,30 @@ void append_surface(Bytes& notes, const Metadata& m) {
   append_note(notes, MICROTIN_NOTE_SURFACE, content);
 }
 
+void append_epoch(Bytes& notes, const std::optional<Decimal>& epoch) {
+  if (!epoch) return;
+  Bytes content;
+  append_decimal(content, *epoch);
+  append_note(notes, MICROTIN_NOTE_EPOCH, content);
+}
+
+void append_source_accuracy(Bytes& notes, const std::optional<SourceAccuracy>& accuracy) {
+  if (!accuracy) return;
+  Bytes content = {static_cast<uint8_t>(accuracy->kind)};
+  append_decimal(content, accuracy->value);
+  append_note(notes, MICROTIN_NOTE_SOURCE_ACCURACY, content);
+}
+
+void append_source_notes(Bytes& notes, const SourceNotes& m) {
+  append_text(notes, MICROTIN_NOTE_DATE, m.date);
+  append_text(notes, MICROTIN_NOTE_LINEAGE, m.lineage);
+  append_text(notes, MICROTIN_NOTE_ATTRIBUTION, m.attribution);
+  append_text(notes, MICROTIN_NOTE_LICENSE, m.license);
+  append_epoch(notes, m.epoch);
+  append_text(notes, MICROTIN_NOTE_VALIDITY, m.valid);
+  append_source_accuracy(notes, m.source_accuracy);
+}
+
 // The first and the last class of each run.
 void append_classes(Bytes& notes, const std::optional<ClassSet>& classes) {
   if (!classes) return;
@@ -211,6 +235,16 @@ void read_surface(NoteReader& reader, Metadata& m) {
   m.at_samples = found;
 }
 
+// A kind that is not known here keeps its number without a name.
+SourceAccuracy read_source_accuracy(NoteReader& reader) {
+  const uint8_t kind = reader.byte();
+  const bool is_known = kind <= static_cast<uint8_t>(AccuracyKind::kLe95);
+  const SourceAccuracy accuracy{is_known ? static_cast<AccuracyKind>(kind) : AccuracyKind::kUnknown,
+                                reader.decimal()};
+  if (accuracy.value.mantissa < 0) refuse();
+  return accuracy;
+}
+
 TileSums read_sums(NoteReader& reader) {
   const uint64_t vertices = reader.number();
   return {vertices, reader.number()};
@@ -220,6 +254,37 @@ DuplicateRule read_duplicates(NoteReader& reader) {
   const uint8_t rule = reader.byte();
   return rule <= static_cast<uint8_t>(DuplicateRule::kMedian) ? static_cast<DuplicateRule>(rule)
                                                               : DuplicateRule::kUnknown;
+}
+
+void read_source_note(uint8_t type, NoteReader reader, SourceNotes& m) {
+  switch (type) {
+    case MICROTIN_NOTE_ORIGIN:
+      m.source = reader.text();
+      break;
+    case MICROTIN_NOTE_DATE:
+      m.date = reader.text();
+      break;
+    case MICROTIN_NOTE_LINEAGE:
+      m.lineage = reader.text();
+      break;
+    case MICROTIN_NOTE_ATTRIBUTION:
+      m.attribution = reader.text();
+      break;
+    case MICROTIN_NOTE_LICENSE:
+      m.license = reader.text();
+      break;
+    case MICROTIN_NOTE_EPOCH:
+      m.epoch = reader.decimal();
+      break;
+    case MICROTIN_NOTE_VALIDITY:
+      m.valid = reader.text();
+      break;
+    case MICROTIN_NOTE_SOURCE_ACCURACY:
+      m.source_accuracy = read_source_accuracy(reader);
+      break;
+    default:
+      break;
+  }
 }
 
 void read_note(uint8_t type, NoteReader reader, Metadata& m) {
@@ -232,20 +297,11 @@ void read_note(uint8_t type, NoteReader reader, Metadata& m) {
       m.horizontal_epsg = reader.number32();
       m.vertical_epsg = reader.number32();
       break;
-    case MICROTIN_NOTE_ORIGIN:
-      m.source = reader.text();
-      break;
     case MICROTIN_NOTE_ACCURACY:
       m.accuracy = read_accuracy(reader);
       break;
     case MICROTIN_NOTE_SURFACE:
       read_surface(reader, m);
-      break;
-    case MICROTIN_NOTE_DATE:
-      m.date = reader.text();
-      break;
-    case MICROTIN_NOTE_LINEAGE:
-      m.lineage = reader.text();
       break;
     case MICROTIN_NOTE_WATER:
       m.water_level = reader.decimal();
@@ -269,6 +325,7 @@ void read_note(uint8_t type, NoteReader reader, Metadata& m) {
       m.sums = read_sums(reader);
       break;
     default:
+      read_source_note(type, reader, m);
       break;
   }
 }
@@ -284,8 +341,7 @@ Bytes write_notes(const Metadata& m) {
   append_accuracy(notes, MICROTIN_NOTE_ACCURACY, m.accuracy);
   append_accuracy(notes, MICROTIN_NOTE_TRUE_PLACES, m.true_places);
   append_surface(notes, m);
-  append_text(notes, MICROTIN_NOTE_DATE, m.date);
-  append_text(notes, MICROTIN_NOTE_LINEAGE, m.lineage);
+  append_source_notes(notes, m);
   if (m.water_level) {
     Bytes content;
     append_decimal(content, *m.water_level);

@@ -12,6 +12,7 @@
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/source_notes.hpp"
 #include "shared/format.hpp"
 
 namespace microtin::terrain {
@@ -82,16 +83,14 @@ struct TileSums {
   uint64_t vertices, tiles;  // tiles with terrain
 };
 
-struct Metadata {
+// All texts together have at most 65535 bytes.
+struct Metadata : SourceNotes {
   Placement placement;
   Unit horizontal_unit = Unit::kUnknown;
   Unit vertical_unit = Unit::kUnknown;
   uint32_t horizontal_epsg = 0;  // 0: not stated
   uint32_t vertical_epsg = 0;
   std::string wkt;                      // of the horizontal system, where it has no code
-  std::string source;                   // UTF-8 text; all texts together at most 65535 bytes
-  std::string date;                     // of the source: ISO 8601, 2026-11 or 2019-05/2021
-  std::string lineage;                  // UTF-8 text: what was done to the source
   std::optional<Decimal> water_level;   // surfaces at this very height are water
   std::optional<Accuracy> accuracy;     // with each sample at its nearest lattice place
   std::optional<Accuracy> true_places;  // with each point where it truly lies

@@ -35,6 +35,7 @@ struct Reference {
   bool depths = false;      // heights grow downwards
   std::string unread = {};  // why the file that says its system is not read; empty: it is, or none
   std::vector<std::string> warnings = {};  // sentences for people: what was overridden or converted
+  SourceNotes notes = {};                  // what the file states about itself
 };
 
 // Posts that were void when they were read and have a height nevertheless.

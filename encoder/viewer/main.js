@@ -58,13 +58,13 @@ function show(what) {
 
 // Colours of heights, and where the terrain comes from.
 function showLegend() {
-  const { source = "", date = "", units } = header;
+  const { source, date, attribution, license, units } = header;
   const { tints, heights } = given;
   const colours = tints.flatMap((_, i) => (i % 3 ? [] : `rgb(${tints.slice(i, i + 3)})`));
   element("tints").style.background = `linear-gradient(to top, ${colours})`;
   [element("lowest").textContent, element("highest").textContent] =
     heights.map((height) => `${text(height)} ${SYMBOLS[units?.vertical] ?? ""}`);
-  element("source").textContent = [source, date].filter(Boolean).join(", ");
+  element("source").textContent = [source, date, attribution, license].filter(Boolean).join(", ");
   element("legend").hidden = false;
 }
 

@@ -15,6 +15,29 @@ TEST_CASE("years, months and days that there are") {
   }
 }
 
+TEST_CASE("a validity may be open on one side") {
+  for (const char* text : {"2026", "2024-01/2025", "2024-01/..", "../2025-06-30"}) {
+    CHECK_MESSAGE(is_iso_validity(text), text);
+  }
+  for (const char* text : {"", "..", "../..", "/..", "2024/", "2024/...", "2025/2024", "../2024-13",
+                           "2024/../2025", "x/.."}) {
+    CHECK_MESSAGE(!is_iso_validity(text), text);
+  }
+}
+
+TEST_CASE("days of a year have dates") {
+  CHECK(iso_date(2026, 1) == "2026-01-01");
+  CHECK(iso_date(2026, 59) == "2026-02-28");
+  CHECK(iso_date(2026, 60) == "2026-03-01");
+  CHECK(iso_date(2024, 60) == "2024-02-29");
+  CHECK(iso_date(2024, 366) == "2024-12-31");
+  CHECK(iso_date(2026, 365) == "2026-12-31");
+  CHECK(iso_date(2026, 366) == "2026");
+  CHECK(iso_date(2026, 0) == "2026");
+  CHECK(iso_date(999, 1).empty());
+  CHECK(iso_date(10000, 1).empty());
+}
+
 TEST_CASE("others are none") {
   for (const char* text : {"",
                            "26",

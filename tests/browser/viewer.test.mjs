@@ -19,7 +19,8 @@ before(async () => {
     microtin("render", name, "-o", name.replace("area.", "") + ".html");
   }
   microtin("encode", "area.asc", "--units", "metre", "--max-error", "8", "--fast", "--tile-vertices", "100", "--max-degree", "6",
-    "--source-name", "Survey <of> A & B", "--date", "2026-11", "-o", "many.mtp");
+    "--source-name", "Survey <of> A & B", "--date", "2026-11", "--attribution", "by <b>\u001b",
+    "--license", "CC-BY-4.0", "-o", "many.mtp");
   microtin("render", "many.mtp", "-o", "many.html");
   const tall = fs.readFileSync(file("area.asc"), "utf8").replace("cellsize 30", "cellsize 0.2");
   fs.writeFileSync(file("tall.asc"), tall);
@@ -236,7 +237,7 @@ test("the legend tells heights, a length, north and the source", async () => {
   const number = (value) => value.toFixed(1).replace(/\.0$/, "").replace(/\B(?=(\d{3})+$)/, ",");
   assert.deepEqual([await words("lowest"), await words("highest")],
     [`${number(heights.lowest)} m`, `${number(heights.highest)} m`]);
-  assert.equal(await words("source"), "Survey <of> A & B, 2026-11");
+  assert.equal(await words("source"), "Survey <of> A & B, 2026-11, by <b>\u001b, CC-BY-4.0");
   const rotation = () => page.$eval("#north", (element) => parseFloat(getComputedStyle(element).rotate));
   await settled(page);
   const before = await rotation();

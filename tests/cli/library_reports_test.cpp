@@ -35,6 +35,11 @@ library::Options library_options(const Product& product) {
   options.date = "2026-11";
   options.source_name = "a \"survey\"";
   options.lineage = "thinned twice";
+  options.attribution = "by the \"survey\"";
+  options.license = "CC-BY-4.0";
+  options.valid = "2024-01/..";
+  options.epoch = "2020.5";
+  options.source_accuracy = "LE90 4";
   if (product.is_raster) return options;
   options.units = ":us-foot";
   options.duplicates = library::Duplicates::kHighest;
@@ -61,6 +66,11 @@ microtin_report report_in_c(const Product& product, const Made& made) {
   options.date = "2026-11";
   options.source_name = "a \"survey\"";
   options.lineage = "thinned twice";
+  options.attribution = "by the \"survey\"";
+  options.license = "CC-BY-4.0";
+  options.valid = "2024-01/..";
+  options.epoch = "2020.5";
+  options.source_accuracy = "LE90 4";
   if (!product.is_raster) {
     options.units = ":us-foot";
     options.duplicates = MICROTIN_DUPLICATES_HIGHEST;
@@ -137,6 +147,11 @@ Fields info_of(const SurfaceInfo& info) {
                    {"source_name", info.source_name},
                    {"date", info.date},
                    {"lineage", info.lineage},
+                   {"attribution", info.attribution},
+                   {"license", info.license},
+                   {"valid", info.valid},
+                   {"epoch", info.epoch},
+                   {"source_accuracy", info.source_accuracy},
                    {"bound", info.bound},
                    {"max_error", info.max_error},
                    {"rms_error", info.rms_error},
@@ -178,6 +193,11 @@ Names names_of_facts(bool is_raster) {
                  "source_name",
                  "date",
                  "lineage",
+                 "attribution",
+                 "license",
+                 "valid",
+                 "epoch",
+                 "source_accuracy",
                  "max_error_at_points",
                  "surface",
                  "side",
@@ -216,8 +236,11 @@ TEST_CASE("reports: every field of the library's is true of every kind of produc
 TEST_CASE("reports: every member of the info is true of every kind of product, in C++ and C") {
   for_each_product([](const Product& product, const Made& made) {
     Fields truth = made.truth().fields();
-    truth.insert(
-        {{"horizontal_epsg", "0"}, {"vertical_epsg", "0"}, {"wkt", ""}, {"surface", "unknown"}});
+    truth.insert({{"horizontal_epsg", "0"},
+                  {"vertical_epsg", "0"},
+                  {"wkt", ""},
+                  {"surface", "unknown"},
+                  {"source_accuracy", "LE90 4"}});
     const auto surface = library::Surface::from_file(made.path());
     Fields cpp = info_of(surface.info());
     add_grid(surface.info().source, cpp);
@@ -259,6 +282,11 @@ TEST_CASE("reports: no member of the info is without a row") {
                       "source_name",
                       "date",
                       "lineage",
+                      "attribution",
+                      "license",
+                      "valid",
+                      "epoch",
+                      "source_accuracy",
                       "bound",
                       "max_error",
                       "rms_error",

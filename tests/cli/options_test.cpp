@@ -114,6 +114,11 @@ const std::vector<Row> kRows = {
     {"encode", "--source-name", "t.asc --max-error 2 -o o.mtin", "survey"},
     {"encode", "--date", "t.asc --max-error 2 -o o.mtin", "2026"},
     {"encode", "--lineage", "t.asc --max-error 2 -o o.mtin", "thinned"},
+    {"encode", "--attribution", "t.asc --max-error 2 -o o.mtin", "survey"},
+    {"encode", "--license", "t.asc --max-error 2 -o o.mtin", "CC0-1.0"},
+    {"encode", "--valid", "t.asc --max-error 2 -o o.mtin", "2024/.."},
+    {"encode", "--epoch", "t.asc --max-error 2 -o o.mtin", "2020.5"},
+    {"encode", "--source-accuracy", "t.asc --max-error 2 -o o.mtin", "'LE90 4'"},
     {"encode", "--shard", "t.asc --max-error 2 --tile-vertices 60 -o o.mtp", "0:1"},
     {"encode", "--output", "", ""},
     {"plan", "--shards", "t.asc --max-error 2 --tile-vertices 60", "2"},
@@ -277,15 +282,34 @@ TEST_CASE("options: none is without a row") {
 namespace {
 
 // Options that differ from `--max-error 1.9 --z-step 0.5 --tile-vertices 60 --tile-size 10`.
-const std::vector<std::string> kOfShards = {
-    "--max-error 1.8",  "--tile-vertices 61",  "--tile-size 9",
-    "--z-step 0.6",     "--never-below",       "--bound-at lattice",
-    "--fast",           "--duplicates lowest", "--best",
-    "--max-degree 6",   "--max-degree 20",     "--coding quick",
-    "--coding dense",   "--fill-voids 1",      "--epsg 25832",
-    "--water-level 50", "--units foot",        "--depths",
-    "--date 2026",      "--lineage thinned",   "--water-level 50 --water-mask mask.asc",
-    "--source-name s",  "--surface top"};
+const std::vector<std::string> kOfShards = {"--max-error 1.8",
+                                            "--tile-vertices 61",
+                                            "--tile-size 9",
+                                            "--z-step 0.6",
+                                            "--never-below",
+                                            "--bound-at lattice",
+                                            "--fast",
+                                            "--duplicates lowest",
+                                            "--best",
+                                            "--max-degree 6",
+                                            "--max-degree 20",
+                                            "--coding quick",
+                                            "--coding dense",
+                                            "--fill-voids 1",
+                                            "--epsg 25832",
+                                            "--water-level 50",
+                                            "--units foot",
+                                            "--depths",
+                                            "--date 2026",
+                                            "--lineage thinned",
+                                            "--water-level 50 --water-mask mask.asc",
+                                            "--source-name s",
+                                            "--surface top",
+                                            "--attribution a",
+                                            "--license MIT",
+                                            "--valid ../2025",
+                                            "--epoch 2020",
+                                            "--source-accuracy 'RMSE 1'"};
 
 // Rules for points, which say nothing of a raster.
 const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};

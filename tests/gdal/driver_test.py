@@ -115,6 +115,11 @@ class Driver(unittest.TestCase):
             "SOURCE_NAME": ["a survey"],
             "DATE": ["2026-11"],
             "LINEAGE": ["thinned"],
+            "ATTRIBUTION": ["by a survey"],
+            "LICENSE": ["CC-BY-4.0"],
+            "VALID": ["2024-01/.."],
+            "EPOCH": ["2020.5"],
+            "SOURCE_ACCURACY": ["LE90 4"],
         }
         text = gdal.GetDriverByName("MTIN").GetMetadataItem("DMD_CREATIONOPTIONLIST")
         listed = xml.etree.ElementTree.fromstring(text).iter("Option")
@@ -151,6 +156,45 @@ class Driver(unittest.TestCase):
             promised = {key: dataset.GetMetadataItem(key) for key in ("SURFACE", "SIDE", "MAX_BELOW")}
             self.assertEqual(promised, {"SURFACE": "top", "SIDE": "never_below", "MAX_BELOW": "0"})
             self.assertEqual(dataset.GetMetadataItem("MAX_ABOVE"), dataset.GetMetadataItem("MAX_ERROR"))
+
+    def test_notes_of_a_tiff_pass_through_streams_and_packs_and_back(self):
+        source = self.path("noted.tif")
+        dataset = gdal.Translate(source, self.path("hills.tif"), srcWin=[0, 100, 160, 150])
+        tags = {
+            "TIFFTAG_COPYRIGHT": "\u00a9 the survey",
+            "TIFFTAG_IMAGEDESCRIPTION": "DGM1",
+            "TIFFTAG_DATETIME": "2021:05:03 10:20:30",
+            "LICENSE": "CC-BY-4.0",
+        }
+        dataset.SetMetadata(tags)
+        system = dataset.GetSpatialRef()
+        system.SetCoordinateEpoch(2020.5)
+        dataset.SetSpatialRef(system)
+        dataset = None
+        wanted = {
+            "ATTRIBUTION": "\u00a9 the survey",
+            "TIFFTAG_COPYRIGHT": "\u00a9 the survey",
+            "SOURCE": "DGM1",
+            "DATE": "2021-05-03",
+            "LICENSE": "CC-BY-4.0",
+            "VALID": "2024-01/..",
+            "SOURCE_ACCURACY": "LE90 4",
+        }
+        for suffix in (".mtin", ".mtp"):
+            path, back = self.path("noted" + suffix), self.path("back.tif")
+            options = ["MAX_ERROR=2", "VALID=2024-01/..", "SOURCE_ACCURACY=LE90 4"]
+            gdal.Translate(path, source, format="MTIN", creationOptions=options)
+            gdal.Translate(back, path)
+            gdal.Translate(self.path("again" + suffix), back, format="MTIN", creationOptions=["MAX_ERROR=2"])
+            for name in (path, back, self.path("again" + suffix)):
+                with self.subTest(name):
+                    found = gdal.Open(name)
+                    self.assertEqual({key: found.GetMetadataItem(key) for key in wanted}, wanted)
+                    self.assertEqual(found.GetSpatialRef().GetCoordinateEpoch(), 2020.5)
+            own = ["MAX_ERROR=2", "ATTRIBUTION=another", "EPOCH=2015"]
+            overridden = gdal.Translate(self.path("own" + suffix), source, format="MTIN", creationOptions=own)
+            self.assertEqual(overridden.GetMetadataItem("ATTRIBUTION"), "another")
+            self.assertEqual(overridden.GetSpatialRef().GetCoordinateEpoch(), 2015)
 
     def test_a_source_of_more_posts_than_its_bytes_can_hold_is_refused(self):
         path = self.path("sparse.tif")

@@ -63,6 +63,30 @@ TEST_CASE("gdal: rows to the south first, place, code, units, voids, scale") {
             .x.denominator == 2400);
 }
 
+TEST_CASE("gdal: what a file states about itself becomes notes") {
+  const Grid grid;
+  std::string text = vrt(kPlace, "\"Int16\"><UnitType>m</UnitType>");
+  text.replace(text.find("<SRS>"), 5, "<SRS coordinateEpoch=\"2020.5\">");
+  const std::string items =
+      "<Metadata><MDI key=\"TIFFTAG_COPYRIGHT\">the survey</MDI>"
+      "<MDI key=\"TIFFTAG_DATETIME\">2021:05:03 10:20:30</MDI>"
+      "<MDI key=\"LICENSE\">CC-BY-4.0</MDI></Metadata>";
+  text.insert(text.find("<VRTRasterBand"), items);
+  const SourceNotes notes = grid.read(text).reference.notes;
+  CHECK(notes.attribution == "the survey");
+  CHECK(notes.date == "2021-05-03");
+  CHECK(notes.license == "CC-BY-4.0");
+  REQUIRE(notes.epoch);
+  CHECK(to_string(*notes.epoch) == "2020.5");
+  const std::string words = "encode t.vrt --allow-vrt --license MIT -o t.mtin";
+  REQUIRE(grid.session.run(words).code == 0);
+  const std::string info = grid.session.run("info t.mtin").out;
+  for (const char* const line :
+       {"\nattribution: \"the survey\"\n", "\nlicense: \"MIT\"\n", "\nepoch: 2020.5\n"}) {
+    CHECK_MESSAGE(info.find(line) != info.npos, info);
+  }
+}
+
 TEST_CASE("gdal: a band's unit is converted, and a system of depths turned, in the program too") {
   const Grid grid;
   const auto with_unit = [](const std::string& unit, const std::string& codes) {

@@ -177,6 +177,22 @@ TEST_CASE("las: codes and units from GeoTIFF keys and from well-known text") {
   CHECK(reference(file.bytes()).horizontal_unit == Unit::kUsSurveyFoot);
 }
 
+TEST_CASE("las: the day of the header is the date of the source, and files' dates are joined") {
+  BinaryFile file = las(2, 1, kScan);
+  CHECK(cloud(file.bytes()).reference.notes.date.empty());
+  file.put(90, uint16_t{60}).put(92, uint16_t{2024});
+  const PointCloud first = cloud(file.bytes());
+  CHECK(first.reference.notes.date == "2024-02-29");
+  file.put(90, uint16_t{0}).put(92, uint16_t{2026});
+  const PointCloud second = cloud(file.bytes());
+  CHECK(second.reference.notes.date == "2026");
+  std::vector<NamedSource> parts;
+  parts.push_back({"a.las", first});
+  parts.push_back({"b.las", second});
+  const OpenSource both = join(std::move(parts));
+  CHECK(std::get<PointCloud>(both).reference.notes.date == "2024-02-29/2026");
+}
+
 TEST_CASE("las: compressed files are refused with a remedy") {
   const std::string advice =
       "scan: is compressed (LAZ): decompress it first, with laszip, las2las or "

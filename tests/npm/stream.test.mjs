@@ -121,6 +121,17 @@ test("the header tells units, systems, accuracy", () => {
   assert.deepEqual(header.accuracy, { bound: 10, largest: 9.9, rms: 3.45, mean: -0.12 });
 });
 
+test("the header has what its maker states of the source", () => {
+  const { header } = decode(goldenBytes("notes.mtin"));
+  assert.equal(header.attribution, "\u00a9 the <survey>\u001b");
+  assert.equal(header.license, "CC-BY-4.0");
+  assert.equal(header.valid, "2024-01/..");
+  assert.equal(header.epoch, 2020.5);
+  assert.deepEqual(header.sourceAccuracy, { kind: "LE90", value: 4 });
+  const bare = decode(goldenBytes("hills.mtin")).header;
+  for (const name of ["attribution", "license", "valid", "epoch", "sourceAccuracy"]) assert.equal(bare[name], undefined);
+});
+
 test("the header tells how far the surface is from its source everywhere, if it states that", () => {
   assert.deepEqual(decode(goldenBytes("later.mtin")).header.everywhere, { below: 0, above: 65536 });
   assert.equal(decode(goldenBytes("hills.mtin")).header.everywhere, undefined);

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -346,6 +347,28 @@ TEST_CASE("library: messages name options as Options does, or as the caller spel
   }
   CHECK(message_of(std::runtime_error("max_error"), [](const std::string&) { return ""; }) ==
         "max_error");
+}
+
+TEST_CASE("library: a raster's metadata are notes of streams and packs; an option wins") {
+  const TemporaryFolder folder;
+  RasterData posts = cone(9);
+  posts.items = {{"TIFFTAG_COPYRIGHT", "the survey"}, {"COORDINATE_EPOCH", "2020.5"}};
+  Options options;
+  options.epoch = "2015";
+  encode_pack(SourceTerrain(posts), options, folder / "a.mtp");
+  const Stream stream = encode_stream(SourceTerrain(posts), options);
+  write(folder / "a.mtin", stream.bytes);
+  for (const char* const name : {"a.mtin", "a.mtp"}) {
+    const Surface surface = Surface::from_file(folder / name);
+    CHECK(surface.info().attribution == "the survey");
+    CHECK(surface.info().epoch == "2015");
+    CHECK(surface.info().license.empty());
+  }
+  posts.items["TIFFTAG_COPYRIGHT"] = std::string(2000, 'c');
+  const std::vector<std::string> warnings =
+      encode_stream(SourceTerrain(posts), options).report.warnings;
+  CHECK(std::count(warnings.begin(), warnings.end(),
+                   "the file's TIFFTAG_COPYRIGHT has 2000 bytes, and is not noted") == 1);
 }
 
 TEST_CASE("library: what makes no sense is refused with a sentence") {

@@ -69,6 +69,11 @@ std::vector<Row> rows() {
       row("source_name", words, &O::source_name, words),
       row("date", "2026", &O::date, std::string("2026")),
       row("lineage", words, &O::lineage, words),
+      row("attribution", words, &O::attribution, words),
+      row("license", words, &O::license, words),
+      row("valid", "2024/..", &O::valid, std::string("2024/..")),
+      row("epoch", "2020.5", &O::epoch, std::string("2020.5")),
+      row("source_accuracy", "LE90 4", &O::source_accuracy, std::string("LE90 4")),
   };
 }
 

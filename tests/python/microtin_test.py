@@ -4,6 +4,7 @@
 import doctest
 import inspect
 import os
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -146,6 +147,11 @@ class Options(unittest.TestCase):
         "source_name": (BOUND, "--max-error 2", {"survey": "--source-name survey"}),
         "date": (BOUND, "--max-error 2", {"2026": "--date 2026"}),
         "lineage": (BOUND, "--max-error 2", {"thinned": "--lineage thinned"}),
+        "attribution": (BOUND, "--max-error 2", {"survey": "--attribution survey"}),
+        "license": (BOUND, "--max-error 2", {"CC-BY-4.0": "--license CC-BY-4.0"}),
+        "valid": (BOUND, "--max-error 2", {"2024-01/..": "--valid 2024-01/.."}),
+        "epoch": (BOUND, "--max-error 2", {2020.5: "--epoch 2020.5"}),
+        "source_accuracy": (BOUND, "--max-error 2", {"LE90 4": "--source-accuracy 'LE90 4'"}),
         "max_vertices": ({"effort": "fast"}, "--fast", {60: "--max-vertices 60"}),
         "max_bytes": ({"effort": "fast"}, "--fast", {900: "--max-bytes 900"}),
     }
@@ -164,7 +170,7 @@ class Options(unittest.TestCase):
             path = os.path.join(folder, "points.xyz")
             numpy.savetxt(path, self.points(), fmt="%.3f")
             output = os.path.join(folder, "points.mtin")
-            command = [os.environ["MICROTIN_TOOL"], "encode", path, "-o", output, *flags.split()]
+            command = [os.environ["MICROTIN_TOOL"], "encode", path, "-o", output, *shlex.split(flags)]
             subprocess.run(command, check=True, capture_output=True)
             with open(output, "rb") as file:
                 return file.read()
@@ -193,6 +199,26 @@ class Options(unittest.TestCase):
 
             self.assertNotEqual(pack(tile_vertices=60), pack(tile_vertices=300))
             self.assertNotEqual(pack(tile_vertices=60), pack(tile_vertices=60, tile_size=9))
+
+    def test_notes_are_read_back(self):
+        notes = {
+            "attribution": "\u00a9 a survey",
+            "license": "CC-BY-4.0",
+            "valid": "2024-01/..",
+            "epoch": 2020.5,
+            "source_accuracy": "LE90 4",
+            "date": "2026",
+            "lineage": "thinned",
+        }
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            noted = microtin.decode(microtin.encode_points(self.points(), max_error=2, **notes))
+            bare = microtin.decode(microtin.encode_points(self.points(), max_error=2))
+        self.assertEqual({name: getattr(noted, name) for name in notes}, notes)
+        none = {name: None if name == "epoch" else "" for name in notes}
+        self.assertEqual({name: getattr(bare, name) for name in notes}, none)
+        with self.assertRaisesRegex(microtin.Error, "epoch: '20' is not allowed"):
+            microtin.encode_points(self.points(), max_error=2, epoch=20)
 
     def test_no_keyword_is_without_a_row(self):
         known = set(self.ROWS) | self.OF_PACKS

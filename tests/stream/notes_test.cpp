@@ -53,6 +53,12 @@ bool is_same_margins(const Margins& a, const Margins& b) {
   return a.below == b.below && a.above == b.above;
 }
 
+bool is_same_source_accuracy(const std::optional<SourceAccuracy>& a,
+                             const std::optional<SourceAccuracy>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->kind == b->kind && is_same_decimal(a->value, b->value);
+}
+
 struct Row {
   std::string member;
   std::function<void(Metadata&)> set;
@@ -89,6 +95,10 @@ std::vector<Row> rows() {
       row<std::string>("source", &Metadata::source, std::string(300, 's')),
       row<std::string>("date", &Metadata::date, "2026-11"),
       row<std::string>("lineage", &Metadata::lineage, "l\n\xC3\xA4"),
+      row<std::string>("attribution", &Metadata::attribution, "\xC2\xA9 the survey"),
+      row<std::string>("license", &Metadata::license, "CC-BY-4.0"),
+      row<std::string>("valid", &Metadata::valid, "2024-01/.."),
+      row<std::optional<Decimal>>("epoch", &Metadata::epoch, Decimal{20205, 1}, is_same_decimal),
       row("water_level", &Metadata::water_level, optional(Decimal{-445, 1}), is_same_decimal),
       row("accuracy", &Metadata::accuracy, optional(bounded), is_same_accuracy),
       row("accuracy", &Metadata::accuracy, optional(measured), is_same_accuracy),
@@ -115,6 +125,11 @@ std::vector<Row> rows() {
   }
   for (const int kind : {0, 1, 2, 3, 4, 5}) {
     all.push_back(row("surface", &Metadata::surface, static_cast<SurfaceKind>(kind)));
+  }
+  for (const int kind : {0, 1, 2, 3}) {
+    const SourceAccuracy accuracy{static_cast<AccuracyKind>(kind), {45, 1}};
+    all.push_back(row<optional<SourceAccuracy>>("source_accuracy", &Metadata::source_accuracy,
+                                                accuracy, is_same_source_accuracy));
   }
   for (const int side : {0, 1, 2, 3}) {
     all.push_back(row("side", &Metadata::side, static_cast<BoundSide>(side)));
@@ -164,7 +179,10 @@ TEST_CASE("notes: each is read back from a header, alone and with all others") {
 TEST_CASE("notes: no member of the metadata is without a row") {
   Names known;
   for (const Row& row : rows()) known.insert(row.member);
-  CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Metadata")) == text_of(known));
+  const Names of_source = members_of("encoder/terrain/source_notes.hpp", "SourceNotes");
+  CHECK(text_of(united(members_of("encoder/terrain/metadata.hpp", "Metadata"), of_source)) ==
+        text_of(known));
+  CHECK(text_of(members_of("encoder/terrain/source_notes.hpp", "SourceAccuracy")) == "kind value ");
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Accuracy")) ==
         "bound max_error mean_error rms_error ");
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Distances")) == "above below ");
@@ -195,18 +213,37 @@ TEST_CASE("notes: a surface may end behind its side; later numbers state nothing
   for (const std::vector<uint8_t>& content : broken) CHECK_THROWS_AS(read(content), Error);
 }
 
+TEST_CASE("notes: an accuracy of the source keeps its number if its kind is of a later version") {
+  const auto read = [](const std::vector<uint8_t>& content) {
+    std::vector<uint8_t> note = {MICROTIN_NOTE_SOURCE_ACCURACY,
+                                 static_cast<uint8_t>(content.size()), 0};
+    note.insert(note.end(), content.begin(), content.end());
+    Metadata metadata;
+    read_notes(note.data(), note.data() + note.size(), metadata);
+    return to_string(*metadata.source_accuracy);
+  };
+  CHECK(read({1, 8, 0}) == "LE90 4");
+  CHECK(read({3, 10, 1, 99}) == "LE95 0.5");  // with a byte of a later version
+  CHECK(read({4, 8, 0}) == "unknown 4");
+  const std::vector<std::vector<uint8_t>> broken = {{}, {1}, {1, 8}, {1, 7, 0}};
+  for (const std::vector<uint8_t>& content : broken) CHECK_THROWS_AS(read(content), Error);
+}
+
 TEST_CASE("notes: texts take as many bytes as notes have, and no more") {
-  for (std::string Metadata::*const text :
-       {&Metadata::wkt, &Metadata::source, &Metadata::date, &Metadata::lineage}) {
+  using Text = std::string Metadata::*;
+  const std::vector<Text> texts = {&Metadata::wkt,     &Metadata::source,      &Metadata::date,
+                                   &Metadata::lineage, &Metadata::attribution, &Metadata::license,
+                                   &Metadata::valid};
+  for (const Text text : texts) {
     write_text(text, kNotesMostBytes - kNoteHeadBytes);
     CHECK_THROWS_AS(write_text(text, kNotesMostBytes - kNoteHeadBytes + 1), Error);
     CHECK_THROWS_AS(write_text(text, UINT16_MAX + 1), Error);
     Metadata two;
     two.*text = std::string(40000, 'a');
-    (text == &Metadata::source ? two.lineage : two.source) =
+    (text == texts[1] ? two.lineage : two.source) =
         std::string(kNotesMostBytes - 2 * kNoteHeadBytes - 40000, 'b');
     CHECK(write_notes(two).size() == kNotesMostBytes);
-    (text == &Metadata::source ? two.lineage : two.source) += 'b';
+    (text == texts[1] ? two.lineage : two.source) += 'b';
     CHECK_THROWS_AS(write_notes(two), Error);
   }
 }

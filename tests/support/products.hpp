@@ -401,10 +401,13 @@ class Made {
  public:
   Made(const Product& product, Notes notes) : product_(product), notes_(notes) {
     terrain_ = write_terrain();
-    const std::string words = " " + terrain_.file +
-                              " --max-error 1.9 --max-degree 12 --coding dense --date 2026-11 "
-                              "--source-name 'a \"survey\"' --lineage 'thinned twice' " +
-                              product.flags + flags();
+    const std::string words =
+        " " + terrain_.file +
+        " --max-error 1.9 --max-degree 12 --coding dense --date 2026-11 "
+        "--source-name 'a \"survey\"' --lineage 'thinned twice' "
+        "--attribution 'by the \"survey\"' --license CC-BY-4.0 --valid 2024-01/.. "
+        "--epoch 2020.5 --source-accuracy 'LE90 4' " +
+        product.flags + flags();
     text_ = product.is_merged ? merge(words) : run("encode" + words + " -o '" + product.file + "'");
     truth_ = std::make_unique<Truth>(session_, product.file, terrain_);
     const bool is_above = truth_->fields()["max_below"] == "0";
@@ -487,6 +490,12 @@ class Made {
     add("source_name", "a \"survey\"");
     add("date", "2026-11");
     add("lineage", "thinned twice");
+    add("attribution", "by the \"survey\"");
+    add("license", "CC-BY-4.0");
+    add("valid", "2024-01/..");
+    add("epoch", "2020.5");
+    add("source_accuracy.kind", "LE90");
+    add("source_accuracy.value", "4");
     Fields& truth = truth_->fields();
     add("at_samples.max_below", truth["max_below"]);
     add("at_samples.max_above", truth["max_above"]);

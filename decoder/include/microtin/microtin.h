@@ -174,7 +174,13 @@ typedef enum microtin_note_type {
   MICROTIN_NOTE_DUPLICATES = 11,
   MICROTIN_NOTE_TRUE_PLACES = 12, /* accuracy at the points' own positions */
   MICROTIN_NOTE_SURFACE = 13,     /* what kind of surface, and on which side of it the bound is */
-  MICROTIN_NOTE_SUMS = 16         /* of a pack's tiles: their vertices, and how many have terrain */
+  MICROTIN_NOTE_SUMS = 16,        /* of a pack's tiles: their vertices, and how many have terrain */
+  /* 64 to 127: about the source. */
+  MICROTIN_NOTE_ATTRIBUTION = 64, /* a text to be shown to users */
+  MICROTIN_NOTE_LICENSE = 65,
+  MICROTIN_NOTE_EPOCH = 66,    /* of the coordinates */
+  MICROTIN_NOTE_VALIDITY = 67, /* from when to when the terrain is valid */
+  MICROTIN_NOTE_SOURCE_ACCURACY = 68
 } microtin_note_type;
 
 /* Finds a note in the header of a stream or of a pack; the `size` bytes begin with the header.

@@ -52,6 +52,16 @@ export interface Header {
   /** Where the terrain comes from, as its maker states it, and the date of the source in ISO 8601. */
   source?: string;
   date?: string;
+  /** A text that must be shown to users. */
+  attribution?: string;
+  /** An SPDX expression or a URL. */
+  license?: string;
+  /** When the terrain is valid, in ISO 8601: 2024-01/2025-06, 2024-01/.. or ../2025. */
+  valid?: string;
+  /** The epoch of the coordinates, a decimal year. */
+  epoch?: number;
+  /** How accurate the source itself is, in units of height. */
+  sourceAccuracy?: { kind?: "LE90" | "RMSE" | "LE95"; value: number };
   /** Triangles of which all vertices have this very height are water. */
   waterLevel?: number;
 }

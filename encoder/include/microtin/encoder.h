@@ -113,6 +113,8 @@ typedef struct microtin_options {
   void* context;
   uint32_t depths;  /* 1: heights grow downwards, and are negated */
   uint32_t surface; /* MICROTIN_SURFACE_* */
+  const char *attribution, *license, *valid;
+  const char *epoch, *source_accuracy; /* "2020.5"; "LE90 4" */
 } microtin_options;
 
 /* What the encoder measured; see encoder::Report. Errors are decimals as text, "" if there is
@@ -208,6 +210,7 @@ typedef struct microtin_surface_info {
   const char *max_below, *max_above; /* at posts or points */
   const char *max_below_everywhere,
       *max_above_everywhere; /* from the surface of a raster's posts */
+  const char *attribution, *license, *valid, *epoch, *source_accuracy;
 } microtin_surface_info;
 
 /* Writes what the header contains, and where the surface is. Cannot fail for a surface and a struct

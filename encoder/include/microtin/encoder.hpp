@@ -23,6 +23,7 @@
 #include <exception>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <microtin/surface.hpp>
 #include <string>
@@ -50,6 +51,10 @@ struct RasterData {
   microtin_axis y{0, 1, 1};       /* from a row's number to the y of its posts, north */
   std::string wkt;         /* well-known text of the horizontal and vertical systems, or "" */
   std::string z_unit = {}; /* unit of heights in GDAL's spelling, "cm"; "": the unit in wkt */
+  /* Metadata of the raster's file, by GDAL's names. The encoder takes its notes from them unless
+   * options state others: TIFFTAG_COPYRIGHT, TIFFTAG_IMAGEDESCRIPTION, TIFFTAG_DATETIME, the items
+   * of GDAL's driver for microtin, and COORDINATE_EPOCH. */
+  std::map<std::string, std::string> items = {};
 };
 
 /* Points in any order. Points may coincide. */
@@ -170,7 +175,12 @@ struct Options {
    * 65,535 bytes. */
   uint32_t horizontal_epsg = 0, vertical_epsg = 0;
   std::string source_name, date,
-      lineage; /* date: 2026, 2026-11, 2026-11-21, or two: 2019-05/2021 */
+      lineage;             /* date: 2026, 2026-11, 2026-11-21, or two: 2019-05/2021 */
+  std::string attribution; /* a text to be shown to users */
+  std::string license;     /* an SPDX expression or a URL */
+  std::string valid;       /* two dates: 2024-01/2025-06; open on one side: 2024-01/.., ../2025 */
+  std::string epoch;       /* of the coordinates, a year: 2020.5 */
+  std::string source_accuracy; /* of the source itself: "LE90 4", "LE95 5" or "RMSE 2.5" */
 };
 
 /* Sets an option by the name of its member, for callers whose options are texts: "max_error" to

@@ -98,6 +98,11 @@ struct SurfaceInfo {
   std::string max_below, max_above; /* largest distances of the surface below and above heights */
   /* Largest distances from the bilinear surface of a raster's posts, also between posts. */
   std::string max_below_everywhere, max_above_everywhere;
+  std::string attribution;     /* to be shown to users */
+  std::string license;         /* an SPDX expression or a URL */
+  std::string valid;           /* 2024-01/2025-06, 2024-01/.. or ../2025 */
+  std::string epoch;           /* of the coordinates, a year: 2020.5 */
+  std::string source_accuracy; /* of the source itself: "LE90 4" */
 };
 
 /* Vertices and triangles. Triangles are counter-clockwise from above; void ones are left out. */

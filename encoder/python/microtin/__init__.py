@@ -108,8 +108,9 @@ def encode(
 
     Options: never_below=True, z_step, xy_step, effort="fast" | "normal" | "best", max_degree,
     coding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", depths=True, vertical_epsg,
-    surface="ground" | "top" | "bed" | "geoid" | "obstacles", source_name, date, lineage, and progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights
-    in other units of length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
+    surface="ground" | "top" | "bed" | "geoid" | "obstacles", source_name, date, lineage, attribution, license (an SPDX
+    expression or a URL), valid="2024-01/..", epoch (of the coordinates, a year), source_accuracy="LE90 4" (or LE95, RMSE),
+    and progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights in other units of length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
 
     Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
     an array is not two-dimensional or a height out of range.
@@ -236,6 +237,11 @@ def _options(
     source_name: str = "",
     date: str = "",
     lineage: str = "",
+    attribution: str = "",
+    license: str = "",
+    valid: str = "",
+    epoch: Optional[Number] = None,
+    source_accuracy: str = "",
     **numbers: int,
 ) -> Tuple[_library.Options, _Caller]:
     chosen = (
@@ -271,6 +277,11 @@ def _options(
         source_name=source_name.encode(),
         date=date.encode(),
         lineage=lineage.encode(),
+        attribution=attribution.encode(),
+        license=license.encode(),
+        valid=valid.encode(),
+        epoch=_decimal(epoch),
+        source_accuracy=source_accuracy.encode(),
         progress=caller.function,
         **numbers,
     )
@@ -414,6 +425,12 @@ class Surface:
     max_below, max_above  the largest distances of the surface below and above a height; None if they are not stated
     max_below_everywhere, max_above_everywhere  the same from the bilinear surface of a raster's posts, also between posts
     tiles             (columns, rows) of a pack, (1, 1) of a stream
+    source, date, lineage  where the terrain comes from, when, and what was done to it; "" if they are not stated
+    attribution       a text to be shown to users; "" if there is none
+    license           an SPDX expression or a URL; "" if it is not stated
+    valid             when the terrain is valid: "2024-01/2025-06", "2024-01/.." or "../2025"; "" if it is not stated
+    epoch             of the coordinates, a year; None if it is not stated
+    source_accuracy   of the source itself: "LE90 4"; "" if it is not stated
     """
 
     def __init__(self, source: Union[bytes, bytearray, memoryview, Path]) -> None:
@@ -447,6 +464,11 @@ class Surface:
         self.source: str = info.source_name.decode(errors="replace")
         self.date: str = info.date.decode(errors="replace")
         self.lineage: str = info.lineage.decode(errors="replace")
+        self.attribution: str = info.attribution.decode(errors="replace")
+        self.license: str = info.license.decode(errors="replace")
+        self.valid: str = info.valid.decode(errors="replace")
+        self.epoch = _number(info.epoch)
+        self.source_accuracy: str = info.source_accuracy.decode()
 
     @property
     def vertices(self) -> NDArray[numpy.float64]:

@@ -73,6 +73,11 @@ class Options(_Sized):
         ("context", c_void_p),
         ("depths", c_uint32),
         ("surface", c_uint32),
+        ("attribution", c_char_p),
+        ("license", c_char_p),
+        ("valid", c_char_p),
+        ("epoch", c_char_p),
+        ("source_accuracy", c_char_p),
     ]
 
 
@@ -136,6 +141,11 @@ class SurfaceInfo(_Sized):
         ("max_above", c_char_p),
         ("max_below_everywhere", c_char_p),
         ("max_above_everywhere", c_char_p),
+        ("attribution", c_char_p),
+        ("license", c_char_p),
+        ("valid", c_char_p),
+        ("epoch", c_char_p),
+        ("source_accuracy", c_char_p),
     ]
 
 

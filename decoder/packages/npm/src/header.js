@@ -7,6 +7,7 @@ import { OK } from "./status.js";
 const UNITS = [undefined, "metre", "degree", "international foot", "US survey foot"];
 const SURFACES = [undefined, "ground", "top", "bed", "geoid", "obstacles"];
 const SIDES = [undefined, "both", "never_below", "never_above"];
+const ACCURACIES = [undefined, "LE90", "RMSE", "LE95"];
 const AXIS_BYTES = 24, NOT_STATED = 0xffffffff;
 
 // An axis as the decoder writes it: the real coordinate of lattice value k is start + step * k.
@@ -94,6 +95,11 @@ const NOTES = {
     const hasErrors = note.next < note.bytes.length;
     return { surface: hasErrors ? { ...surface, below: note.decimal(), above: note.decimal() } : surface };
   },
+  64: (note) => ({ attribution: note.text() }),
+  65: (note) => ({ license: note.text() }),
+  66: (note) => ({ epoch: note.decimal() }),
+  67: (note) => ({ valid: note.text() }),
+  68: (note) => ({ sourceAccuracy: { kind: ACCURACIES[note.byte()], value: note.decimal() } }),
 };
 
 // The notes of the header with which `size` bytes at `start` of an instance's memory begin.
