@@ -21,7 +21,7 @@ constexpr uint32_t kSectionVertices = 256;
 
 // Payload bytes that suffice for any step. Most are used by a vertex on a hull edge: a decision,
 // its gap (19 decisions and 15 uniform bits) and its height (19 decisions and 15 uniform bits), at
-// 9 bits a decision, are 48 bytes (format-stream.md, "Payload bytes of a work unit"). A number that
+// 9 bits a decision, are 48 bytes (proofs.md, "Payload bytes of a work unit"). A number that
 // is none may take 32 bits instead of 15: gaps and heights of which the decisions learn on the way
 // leave room.
 constexpr uint32_t kStepBytes = 48;
@@ -30,7 +30,7 @@ constexpr uint32_t kStepBytes = 48;
 constexpr uint32_t kVirtualBytes = 4;
 
 // Vertices of all phases together that a stream may walk around. Every phase of the encoder leaves
-// about 2/3 of its vertices at most: 3 n and 7 per phase suffice (format-stream.md, "Work").
+// about 2/3 of its vertices at most: 3 n and 7 per phase suffice (proofs.md, "Work").
 constexpr uint32_t work_budget(uint32_t vertices) {
   return 3 * vertices + 512;
 }

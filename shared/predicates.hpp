@@ -61,7 +61,7 @@ inline Angle angle_at(Point p, Point a, Point b) {
 // p are given by the angles under which they see the chord from a to b.
 //
 // For four points in a square of side S the determinant is at most S^4 / 2 in magnitude
-// (format-stream.md, "Exactness", has the proof). S = 65535 gives 9.2228e18 < 2^63 = 9.2234e18, so
+// (proofs.md, "The in-circle test"). S = 65535 gives 9.2228e18 < 2^63 = 9.2234e18, so
 // the value computed modulo 2^64, read as a signed number, is exact.
 static_assert(uint64_t{kLatticeMax} * kLatticeMax * kLatticeMax * kLatticeMax / 2 < INT64_MAX,
               "the largest determinant fits");

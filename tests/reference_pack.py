@@ -84,12 +84,14 @@ class Pack:
         stream = self.stream(tile)
         if stream is None:
             return None
-        decoder = Decoder(stream)
-        self.check_tile(decoder.header, tile)
         try:
+            decoder = Decoder(stream)
+            self.check_tile(decoder.header, tile)
             return decoder.decode()
-        except Refusal as refusal:                           # the hash is right, so nobody can mend the tile
-            raise Refusal("damaged", str(refusal)) from refusal
+        except Refusal as refusal:
+            if refusal.status == "unsupported":
+                raise
+            raise Refusal("malformed", str(refusal)) from refusal    # the hash is right, so nothing is damaged or missing
 
     def check_tile(self, header, tile):
         require(not header.placement and not header.notes, "the stream of a tile has a placement or notes")

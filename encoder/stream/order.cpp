@@ -118,7 +118,7 @@ constexpr Index kPictureShare = 1024;
 // Every how many vertices of `left` one stays in addition to those of high degree; 0: none. Only
 // where the phase before left one in 64 of `all` or less: even if all stay, these two phases and
 // the others, each at most 2/3 of the one before, have less than all * (1 + 5 / 64) vertices at
-// their ends together (format-stream.md, "Work").
+// their ends together (proofs.md, "Work").
 Index spread_to_keep(Index vertices, Index all, Index left) {
   const Index picture = vertices / kPictureShare;
   if (picture < kSectionVertices || left > all / 64 || left < 2 * picture) return 0;

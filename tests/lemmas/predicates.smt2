@@ -1,6 +1,6 @@
 ; SPDX-License-Identifier: MIT
 ; Orientation and in-circle test on the 16-bit lattice. That the determinant is at most S^4 / 2 is proved in
-; format-stream.md, section 2, of which the steps that are algebra are here.
+; shared/docs/proofs.md, of which the steps that are algebra are here.
 
 ; A product of two offsets is below 2^32.
 ;; shared/predicates.hpp: return static_cast<int64_t>(a.x) * b.y - static_cast<int64_t>(a.y) * b.x;

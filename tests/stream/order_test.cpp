@@ -125,7 +125,7 @@ TEST_CASE("every phase leaves at most the share of vertices that is proved") {
         const int64_t before = after, removed = static_cast<int64_t>(batch->size());
         after -= removed;
         work += after;
-        const int64_t losers = (degree - 1) / 2;  // format-stream.md, "Work"
+        const int64_t losers = (degree - 1) / 2;  // proofs.md, "Work"
         CHECK(removed * losers >= (degree - 5) * (after - 4) - 3);
         CHECK(3 * (after - 7) <= 2 * (before - 7));
         if (before <= 48) CHECK(removed * losers >= (degree - 5) * (after - 3));
