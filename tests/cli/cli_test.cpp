@@ -454,7 +454,7 @@ TEST_CASE("cli: meshes for viewers") {
   }
 }
 
-TEST_CASE("cli: meshes are terrains, too; classes are for laser scans") {
+TEST_CASE("cli: meshes are terrains, too, classes are for laser scans") {
   const Session session;
   session.write("p.xyz", "0 0 0\n9 0 3.5\n0 9 7\n5 5 5\n");
   REQUIRE(session.run("encode p.xyz -o p.mtin").code == 0);

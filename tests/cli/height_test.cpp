@@ -95,7 +95,7 @@ TEST_CASE("height: a pack has the heights of its stream, except in a damaged til
   CHECK(session.run("height bad.mtp --lattice 1 1").code == 7);
 }
 
-TEST_CASE("height: the exact plane at the real position; with --device the device's height") {
+TEST_CASE("height: the exact plane at the real position, with --device the device's height") {
   const Session session;
   session.write("slope.asc",
                 "ncols 2\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1000\n0 1000\n0 1000\n");

@@ -115,7 +115,7 @@ TEST_CASE("mosaic: cells beyond 180 degrees continue their neighbours' longitude
   CHECK(session.run("height wide.mtin -- -179.5 0.5").out == "5\n");
 }
 
-TEST_CASE("mosaic: rasters that touch or overlap are one; the first counts, gaps are void") {
+TEST_CASE("mosaic: rasters that touch or overlap are one, the first counts, gaps are void") {
   const Session session;
   session.write("a.asc", grid(100, 50, "1 2 3\n4 5 6"));
   session.write("b.asc", grid(104, 50, "4 5 6\n9.5 8 9"));  // shares a column with the first

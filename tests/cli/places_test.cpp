@@ -31,7 +31,7 @@ const char* const kGeographic =
 
 }  // namespace
 
-TEST_CASE("places: a grid's .prj states its system and units; decode writes an equal one") {
+TEST_CASE("places: a grid's .prj states its system and units, decode writes an equal one") {
   const Session session;
   session.write("t.asc", kGrid);
   session.write("t.prj", kZone);
@@ -103,7 +103,7 @@ TEST_CASE("places: heights in other units are converted, in every command that r
                  "t.asc: the unit of heights is \"span\", which is not known"));
 }
 
-TEST_CASE("places: headers of points state units; options override them with a warning") {
+TEST_CASE("places: headers of points state units, options override them with a warning") {
   const Session session;
   session.write("ft.csv", "Easting [m],Northing [m],Height [ft]\n0,0,328\n100,0,330\n0,100,5\n");
   CHECK(contains(session.run("encode ft.csv -o t.mtin").out, "units: x and y metre, z foot\n"));

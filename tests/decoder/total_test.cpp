@@ -126,7 +126,7 @@ TEST_CASE("the decoder stops at the end and leaves what follows alone") {
   }
 }
 
-TEST_CASE("workspaces for exactly n vertices are enough; for n - 1 the header is refused") {
+TEST_CASE("workspaces for exactly n vertices are enough, for n - 1 the header is refused") {
   const Bytes stream = terrain_stream(101, 4);
   const uint32_t n = 101;
   const Device exact(n);

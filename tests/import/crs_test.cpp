@@ -67,7 +67,7 @@ TEST_CASE("crs: brackets deeper than any system has end the reading, so that it 
   CHECK(system_within(200).horizontal_epsg == 0);
 }
 
-TEST_CASE("crs: GeoTIFF keys; user-defined codes and values elsewhere do not count") {
+TEST_CASE("crs: GeoTIFF keys, user-defined codes and values elsewhere do not count") {
   const auto keys = [](std::vector<uint16_t> entries) {
     entries.insert(entries.begin(), {1, 1, 0, 9});
     return reference_of_geo_keys(entries);
@@ -79,7 +79,7 @@ TEST_CASE("crs: GeoTIFF keys; user-defined codes and values elsewhere do not cou
   CHECK(reference_of_geo_keys({}).horizontal_unit == Unit::kUnknown);
 }
 
-TEST_CASE("crs: GeoTIFF keys of other units; user-defined ones by their size") {
+TEST_CASE("crs: GeoTIFF keys of other units, user-defined ones by their size") {
   const auto keys = [](std::vector<uint16_t> entries, const std::vector<double>& doubles = {}) {
     entries.insert(entries.begin(), {1, 1, 0, 9});
     return reference_of_geo_keys(entries, doubles);

@@ -107,7 +107,7 @@ TEST_CASE("las: the ground, in exact decimals, of every version and format") {
   }
 }
 
-TEST_CASE("las: the classes that an option selects; without ground all except noise") {
+TEST_CASE("las: the classes that an option selects, without ground all except noise") {
   const std::string bytes = las(2, 1, kScan).bytes();
   CHECK(text_of(cloud(bytes, ClassSet().set(5).set(7))) == "100200,250,8500 100004,5,-494");
   CHECK(cloud(bytes, ClassSet().set(5).set(7)).classes == ClassSet().set(5).set(7));

@@ -343,7 +343,7 @@ TEST_CASE("render: sizes out of range are refused") {
                        Error);
 }
 
-TEST_CASE("render: a page contains the file; a file that is too large is an error with its size") {
+TEST_CASE("render: a page contains the file, a file that is too large is an error with its size") {
   const Portrait triangle = portrait({{0, 0, 0}, {20, 0, 5}, {0, 20, 9}});
   const auto page = [&](const std::string& file) {
     try {

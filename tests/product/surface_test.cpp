@@ -209,7 +209,7 @@ TEST_CASE("surface: cells of another size") {
   CHECK_THROWS(surface.grid("0.0000001"));
 }
 
-TEST_CASE("surface: bytes of any file system; an error names the damaged file") {
+TEST_CASE("surface: bytes of any file system, an error names the damaged file") {
   class Held : public ByteSource {
    public:
     explicit Held(std::vector<uint8_t> bytes) : bytes_(std::move(bytes)) {}

@@ -192,7 +192,7 @@ TEST_CASE("notes: no member of the metadata is without a row") {
   CHECK(text_of(members_of("encoder/exact/lattice_map.hpp", "Placement")) == "x y z ");
 }
 
-TEST_CASE("notes: a surface may end behind its side; later numbers state nothing") {
+TEST_CASE("notes: a surface may end behind its side, later numbers state nothing") {
   const auto read = [](const std::vector<uint8_t>& content) {
     std::vector<uint8_t> note = {MICROTIN_NOTE_SURFACE, static_cast<uint8_t>(content.size()), 0};
     note.insert(note.end(), content.begin(), content.end());

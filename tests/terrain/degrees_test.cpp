@@ -40,7 +40,7 @@ TEST_CASE("degrees: points, to the last decimal") {
       ("point 3, at x -360.1, y 0: longitude -360.1 is beyond 360 degrees" + remedy).c_str());
 }
 
-TEST_CASE("degrees: posts of rasters; the outer halves of cells may lie beyond the poles") {
+TEST_CASE("degrees: posts of rasters, the outer halves of cells may lie beyond the poles") {
   CHECK_NOTHROW(expect_on_earth(frame({358, 1, 1}, {89, 1, 1})));
   CHECK_NOTHROW(expect_on_earth(frame({-361, 1, 1}, {-90, 1, 1})));
   CHECK_NOTHROW(expect_on_earth(frame({359, 1, 1}, {89009, 1000, 1000})));  // rounded

@@ -152,7 +152,7 @@ TEST_CASE("a step of height too coarse for the bound is refused with one that is
   CHECK(error_of(high, options("", "", "0.03")) == "none");
 }
 
-TEST_CASE("voids of rasters are kept; a lattice that merges them with heights is refused") {
+TEST_CASE("voids of rasters are kept, a lattice that merges them with heights is refused") {
   Raster raster;
   raster.width = 3;
   raster.height = 2;
