@@ -134,8 +134,9 @@ TEST_CASE("mosaic: rasters that touch or overlap are one, the first counts, gaps
                    "-9999 7 7 -9999 -9999\n7 7 7 -9999 -9999\n-9999 -9999 -9999 -9999 -9999\n"
                    "1 2 3 5 6\n4 5 6 8 9\n"));
   }
-  const auto swapped = session.run("verify t.mtin b.asc a.asc c.asc");  // without a bound
-  CHECK(swapped.code == 0);
+  const auto swapped = session.run("verify t.mtin b.asc a.asc c.asc");
+  CHECK(swapped.code == 1);
+  CHECK(contains(swapped.err, "the surface is below the source by up to 3.5; the header states"));
   CHECK(contains(swapped.out, "source: \"3 files; where they overlap they differ by up to "));
   CHECK(
       contains(session.run("encode a.asc c.asc -o u.mtin").out, "2 files, none of which overlap"));
