@@ -16,6 +16,7 @@ namespace microtin::cli {
 using Action = std::function<void()>;
 
 void add_encode(CLI::App& app, Action& action);
+void add_update(CLI::App& app, Action& action);
 void add_plan(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);
 void add_decode(CLI::App& app, Action& action);

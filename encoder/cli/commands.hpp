@@ -30,6 +30,13 @@ void run_encode(const EncodeRequest& request);
 // Prints, for each shard, a line with the options that encode it as a single run would.
 void run_plan(const EncodeRequest& request, uint32_t shards);
 
+struct UpdateRequest : EncodeRequest {
+  std::string old;  // the pack
+};
+
+// Writes a pack in which only the tiles are new that the old one does not have for the terrain.
+void run_update(const UpdateRequest& request);
+
 void run_merge(const std::vector<std::string>& shards, const std::string& output);
 
 struct DecodeRequest {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The commands encode, plan and merge: streams and packs from a terrain, and what to say of them.
+// The commands encode, plan, update and merge: streams and packs from a terrain, and what to say of
+// them.
 #include <unistd.h>
 
 #include <cstdio>
@@ -19,6 +20,7 @@
 #include "encoder/import/reference.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
+#include "encoder/product/update_pack.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 #include "encoder/terrain/voids.hpp"
@@ -294,6 +296,31 @@ void run_plan(const EncodeRequest& request, uint32_t shards) {
             to_string(plan.z_step) + " --shard " + range_text(plan.tiles) + '\n';
   }
   print(text);
+}
+
+void run_update(const UpdateRequest& request) {
+  std::vector<std::string> inputs = inputs_of(request);
+  inputs.push_back(request.old);
+  refuse_overwriting(inputs, request.output);
+  expect_own_suffix(request.output, true);
+  OutputFile out(request.output);
+  announce_left_out(request);
+  const OpenSource source = prepared_source(request.input, request.preparation);
+  const auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
+  if (raster == nullptr) {
+    throw Error(request.input +
+                ": only packs of rasters are updated, and these are points; encode them again");
+  }
+  StreamSpool streams(request.output);
+  const UpdatedPack updated = with_file_context(request.input, [&] {
+    ProgressBar bar;
+    return update_pack(request.old, **raster, request, streams, bar.progress());
+  });
+  write_pack(updated.content, streams, out);
+  deliver(out, request.output,
+          "kept: " + std::to_string(updated.kept) + " of " +
+              std::to_string(updated.content.tiles.size()) + " tiles\n" +
+              text_of(report_of(updated.content)));
 }
 
 void run_merge(const std::vector<std::string>& shards, const std::string& output) {

@@ -237,6 +237,29 @@ void add_plan(CLI::App& app, Action& action) {
   });
 }
 
+void add_update(CLI::App& app, Action& action) {
+  auto request = std::make_shared<UpdateRequest>();
+  CLI::App& command = *app.add_subcommand(
+      "update", "Encode the tiles of a pack again whose terrain changed; keep the others");
+  command.group(kEncode);
+  command.add_option("OLD", request->old, "The pack (.mtp) of a raster")
+      ->required()
+      ->type_name(kFile);
+  begin_group(command, kOptions);
+  add_output(command, request->output, "Write this pack (.mtp); - is standard output");
+  add_terrain(command, request->input, request->preparation);
+  add_number(command, "--tile-vertices N", request->tile_vertices, kFewestTileVertices,
+             "Let new tiles have at most N vertices each", uint32_t{kMaxVertices})
+      ->default_str("as many as the pack states");
+  add_search(command, request->search);
+  add_preparation(command, request->preparation);
+  add_notes(command, *request);
+  command.callback([request, &action] {
+    request->lattice.water_level = request->preparation.water_level;
+    action = [request] { run_update(*request); };
+  });
+}
+
 void add_merge(CLI::App& app, Action& action) {
   struct Request {
     std::vector<std::string> shards;

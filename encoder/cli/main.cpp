@@ -56,6 +56,7 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kExitCodes);
   add_encode(app, action);
+  add_update(app, action);
   add_plan(app, action);
   add_merge(app, action);
   add_decode(app, action);

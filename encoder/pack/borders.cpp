@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "encoder/exact/wide.hpp"
+#include "encoder/pack/kept_tiles.hpp"
 
 namespace microtin::pack {
 
@@ -274,14 +275,25 @@ GlobalPost post_of(const TileBox& line, uint32_t post) {
                               : GlobalPost{line.x + post, line.y};
 }
 
-// A tile's sides that are borders, each from its first corner northwards or eastwards.
-std::vector<TileBox> border_lines(const TileGrid& grid, const TileBox& box) {
-  std::vector<TileBox> lines;
-  if (box.x != 0) lines.push_back({box.x, box.y, box.x, box.y_end});
-  if (box.x_end != grid.x_max) lines.push_back({box.x_end, box.y, box.x_end, box.y_end});
-  if (box.y != 0) lines.push_back({box.x, box.y, box.x_end, box.y});
-  if (box.y_end != grid.y_max) lines.push_back({box.x, box.y_end, box.x_end, box.y_end});
-  return lines;
+// A tile's side that is another tile's, too, from its first corner northwards or eastwards.
+struct Border {
+  TileBox line;
+  uint32_t neighbour;
+};
+
+std::vector<Border> borders_of(const TileGrid& grid, uint32_t tile) {
+  const TileBox box = tile_box(grid, tile);
+  const uint32_t columns = tile_columns(grid);
+  std::vector<Border> borders;
+  if (box.x != 0) borders.push_back({{box.x, box.y, box.x, box.y_end}, tile - 1});
+  if (box.x_end != grid.x_max) {
+    borders.push_back({{box.x_end, box.y, box.x_end, box.y_end}, tile + 1});
+  }
+  if (box.y != 0) borders.push_back({{box.x, box.y, box.x_end, box.y}, tile - columns});
+  if (box.y_end != grid.y_max) {
+    borders.push_back({{box.x, box.y_end, box.x_end, box.y_end}, tile + columns});
+  }
+  return borders;
 }
 
 // A line and the posts around it on which its aims depend.
@@ -313,7 +325,8 @@ std::vector<LinePost> posts_of_line(const TiledRaster& tiled, const TilePosts& p
 }  // namespace
 
 TilePosts::TilePosts(const TiledRaster& tiled, uint32_t tile)
-    : box_(tile_box(tiled.grid, tile)),
+    : number_(tile),
+      box_(tile_box(tiled.grid, tile)),
       x_(box_.x - std::min(box_.x, kGroundReach)),
       y_(box_.y - std::min(box_.y, kGroundReach)) {
   const uint32_t x_end = std::min(box_.x_end + kGroundReach, tiled.grid.x_max);
@@ -354,17 +367,54 @@ std::vector<uint32_t> tiles_at(const TileGrid& grid, GlobalPost post) {
   return tiles;
 }
 
+namespace {
+
+// The corners of tiles that are kept have the heights that they had.
+void pin_corners(const KeptTiles& kept, const TileBox& line, std::vector<LinePost>& on_line) {
+  for (const std::size_t post : {std::size_t{0}, on_line.size() - 1}) {
+    const auto height = kept.height_at(post_of(line, static_cast<uint32_t>(post)));
+    if (!height || !on_line[post].sample) continue;
+    const int32_t pinned = *height * 65536;
+    on_line[post] = {Sample{on_line[post].sample->place, pinned, pinned, pinned}, true, pinned};
+  }
+}
+
+// The vertices on a border of a tile, by place in the tile.
+SharedVertices chain_of(const TiledRaster& tiled, const TilePosts& posts, const TileBox& line) {
+  std::vector<LinePost> on_line = posts_of_line(tiled, posts, line);
+  if (tiled.kept != nullptr) pin_corners(*tiled.kept, line, on_line);
+  const ErrorModel model{tiled.options.max_error.has_value()};
+  SharedVertices vertices;
+  for (const ChainVertex& vertex : simplify_line(on_line, model, kVertexPrice)) {
+    const GlobalPost post = post_of(line, vertex.post);
+    vertices[{static_cast<uint16_t>(post.x - posts.box().x),
+              static_cast<uint16_t>(post.y - posts.box().y)}] = vertex.height;
+  }
+  return vertices;
+}
+
+// Those that a neighbour has there, by place in the tile.
+SharedVertices kept_chain(const TiledRaster& tiled, const TileBox& box, const Border& border) {
+  const TileBox other = tile_box(tiled.grid, border.neighbour);
+  const TileBox& line = border.line;
+  SharedVertices vertices;
+  for (const auto& [place, height] : tiled.kept->border(border.neighbour)) {
+    const GlobalPost post = {other.x + place.x, other.y + place.y};
+    if (post.x < line.x || post.x > line.x_end || post.y < line.y || post.y > line.y_end) continue;
+    vertices[{static_cast<uint16_t>(post.x - box.x), static_cast<uint16_t>(post.y - box.y)}] =
+        height;
+  }
+  return vertices;
+}
+
+}  // namespace
+
 SharedVertices shared_vertices(const TiledRaster& tiled, const TilePosts& posts) {
-  const TileBox& box = posts.box();
   SharedVertices shared;
-  for (const TileBox& line : border_lines(tiled.grid, box)) {
-    const std::vector<LinePost> on_line = posts_of_line(tiled, posts, line);
-    const ErrorModel model{tiled.options.max_error.has_value()};
-    for (const ChainVertex& vertex : simplify_line(on_line, model, kVertexPrice)) {
-      const GlobalPost post = post_of(line, vertex.post);
-      shared[{static_cast<uint16_t>(post.x - box.x), static_cast<uint16_t>(post.y - box.y)}] =
-          vertex.height;
-    }
+  for (const Border& border : borders_of(tiled.grid, posts.number())) {
+    const bool is_kept = tiled.kept != nullptr && tiled.kept->has_terrain(border.neighbour);
+    shared.merge(is_kept ? kept_chain(tiled, posts.box(), border)
+                         : chain_of(tiled, posts, border.line));
   }
   return shared;
 }

@@ -76,12 +76,15 @@ std::vector<ChainVertex> simplify_line(const std::vector<LinePost>& posts, Error
 
 // The borders between the tiles of a grid: which vertices neighbours share.
 
+class KeptTiles;
+
 // A raster that is to be cut into tiles: its posts are the places of the pack.
 struct TiledRaster {
   const RasterReader& raster;
-  Lattice lattice;  // choose_post_lattice with the options
+  Lattice lattice;  // choose_post_lattice with the options, or that of the tiles that are kept
   LatticeOptions options;
   TileGrid grid;
+  const KeptTiles* kept = nullptr;  // if the raster changes and most tiles do not
 };
 
 // The posts of a tile and those within kGroundReach: all that a tile depends on.
@@ -89,6 +92,7 @@ class TilePosts {
  public:
   TilePosts(const TiledRaster& tiled, uint32_t tile);
 
+  uint32_t number() const { return number_; }
   const TileBox& box() const { return box_; }
   Raster tile() const { return crop_of(box_); }
 
@@ -99,6 +103,7 @@ class TilePosts {
   bool is_beside_void(uint32_t x, uint32_t y) const;
 
  private:
+  uint32_t number_;
   TileBox box_;
   uint32_t x_, y_;  // of the first post
   Raster posts_;
@@ -132,7 +137,7 @@ using SharedVertices = std::map<Point, int16_t>;
 
 // The vertices that a tile shares with others. They depend on the posts of its borders and those
 // within kGroundReach alone, so that both sides find the same. Posts next to voids are vertices:
-// voids next to a border then part it from no triangle.
+// voids next to a border then part it from no triangle. The vertices of tiles that are kept stay.
 SharedVertices shared_vertices(const TiledRaster& tiled, const TilePosts& posts);
 
 }  // namespace microtin::pack

@@ -12,6 +12,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/progress.hpp"
 #include "encoder/fit/simplify.hpp"
+#include "encoder/pack/kept_tiles.hpp"
 #include "encoder/pack/tile_plan.hpp"
 #include "encoder/stream/encode.hpp"
 
@@ -130,10 +131,12 @@ TileRange all_tiles(const TileGrid& grid) {
   return {0, static_cast<uint32_t>(tile_count(grid) - 1)};
 }
 
-TileTooLarge::TileTooLarge(uint32_t tile, uint32_t vertices, uint32_t steps)
-    : Error("tile " + std::to_string(tile) + " has " + std::to_string(vertices) +
+TileTooLarge::TileTooLarge(uint32_t number, uint32_t count, uint32_t steps)
+    : Error("tile " + std::to_string(number) + " has " + std::to_string(count) +
             " vertices, more than a tile may have; use " + parameter("tile_size") + ' ' +
             std::to_string(steps)),
+      tile(number),
+      vertices(count),
       fewer_steps(steps) {}
 
 void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
@@ -147,7 +150,8 @@ void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
     EncodedTile encoded = encode_tile(plan.tiled, tile, options);
     const uint32_t vertices = encoded.summary.vertices;
     const uint32_t most = most_vertices(plan.options, plan.tiled.grid);
-    if (vertices > most || !fits(encoded.summary, most)) {
+    const bool is_kept = plan.tiled.kept != nullptr && plan.tiled.kept->keeps(tile);
+    if (!is_kept && (vertices > most || !fits(encoded.summary, most))) {
       throw TileTooLarge(tile, vertices, smaller_tile_size(plan.tiled.grid, most, vertices));
     }
     in_order.add(tile, std::move(encoded));

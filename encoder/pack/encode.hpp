@@ -56,6 +56,7 @@ TileRange all_tiles(const TileGrid& grid);
 struct TileTooLarge : Error {
   TileTooLarge(uint32_t tile, uint32_t vertices, uint32_t fewer_steps);
 
+  uint32_t tile, vertices;
   uint32_t fewer_steps;  // tile_size to be tried next
 };
 

@@ -85,7 +85,7 @@ EncodedTile PointTiles::encode(uint32_t tile, const std::vector<uint32_t>& point
   if (!measured.within_bound || too_low || measured.uncovered != 0) {
     throw InternalFault("a decoded tile does not meet the options");
   }
-  return {summary_of(tin, stream, std::move(decoded), measured), std::move(stream)};
+  return {summary_of(stream, std::move(decoded), measured), std::move(stream)};
 }
 
 }  // namespace microtin::pack

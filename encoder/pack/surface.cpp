@@ -59,16 +59,6 @@ class Joining {
   std::map<GlobalPost, uint32_t> shared_;
 };
 
-void expect_posts_of(const Raster& frame, const PackFile& pack) {
-  const Placement& placement = pack.metadata().placement;
-  if (frame.width != pack.grid().x_max + 1 || frame.height != pack.grid().y_max + 1 ||
-      !is_same(frame.x, placement.x) || !is_same(frame.y, placement.y)) {
-    throw Error(
-        "the terrain is not a raster with the posts of the pack: name all files that it was made "
-        "of");
-  }
-}
-
 struct VerifiedTile {
   Verification all;
   uint64_t posts = 0, voids = 0;      // those of a tile south or west are not counted again
@@ -130,6 +120,16 @@ class Uncovered {
 };
 
 }  // namespace
+
+void expect_posts_of(const Raster& frame, const PackFile& pack) {
+  const Placement& placement = pack.metadata().placement;
+  if (frame.width != pack.grid().x_max + 1 || frame.height != pack.grid().y_max + 1 ||
+      !is_same(frame.x, placement.x) || !is_same(frame.y, placement.y)) {
+    throw Error(
+        "the terrain is not a raster with the posts of the pack: name all files that it was made "
+        "of");
+  }
+}
 
 SurfaceModel model_of(const PackFile& pack) {
   Joining joining(pack.grid());

@@ -17,6 +17,9 @@ namespace microtin::pack {
 // tiles give a vertex on their border different heights.
 SurfaceModel model_of(const PackFile& pack);
 
+// Throws Error unless the posts of a raster, or of its frame, are the places of the pack.
+void expect_posts_of(const Raster& frame, const PackFile& pack);
+
 // As for a mesh; every post counts once, and a post on a border is covered if one of its tiles
 // covers it. On all processors; holds a row of tiles at a time. Posts on borders are visited for
 // each tile that covers them, always in the same order. Throws Error also if the raster's posts are

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/pack/kept_tiles.hpp"
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/everywhere.hpp"
 #include "encoder/terrain/exact_query.hpp"
@@ -21,14 +22,6 @@ namespace {
 
 [[noreturn]] void fail(const std::string& what) {
   throw InternalFault("a decoded tile " + what);
-}
-
-void check_bounds(const TiledRaster& tiled, const Verification& measured, uint64_t water_moved) {
-  const bool too_low = tiled.options.never_below && measured.max_below.mantissa != 0;
-  if (!measured.within_bound || too_low || measured.voids_answered != 0 ||
-      measured.uncovered != 0 || water_moved != 0) {
-    fail("does not meet the options");
-  }
 }
 
 // The posts of a tile. On borders with other tiles the shared vertices stand for all posts with
@@ -65,6 +58,7 @@ bool has_terrain(const TileBox& box, const Survey& survey) {
 }
 
 bool has_terrain(const TiledRaster& tiled, uint32_t tile) {
+  if (tiled.kept != nullptr && tiled.kept->keeps(tile)) return tiled.kept->has_terrain(tile);
   const TilePosts posts(tiled, tile);
   return form_triangle(survey_of_tile(tiled, posts, shared_vertices(tiled, posts)).samples);
 }
@@ -128,19 +122,28 @@ void check_shared(const microtin_mesh* mesh, const TileSides& sides, const Share
   if (found != shared.size()) fail("lacks a vertex of its border");
 }
 
-TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream, DecodedTerrain&& decoded,
+TileSummary summary_of(const std::vector<uint8_t>& stream, DecodedTerrain&& decoded,
                        const Verification& measured) {
-  const auto lower = [](const Vertex& a, const Vertex& b) { return a.z < b.z; };
-  const auto [low, high] = std::minmax_element(tin.vertices.begin(), tin.vertices.end(), lower);
   TileSummary summary;
   summary.bytes = static_cast<uint32_t>(stream.size());
   summary.stream_hash = stream_hash(kStreamHash, stream.data(), stream.size());
-  summary.vertices = static_cast<uint32_t>(tin.vertices.size());
-  summary.lowest = low->z;
-  summary.highest = high->z;
+  summary.vertices = microtin_mesh_vertex_count(decoded.mesh());
+  summary.lowest = INT16_MAX;
+  summary.highest = INT16_MIN;
+  for (uint32_t v = 0; v < summary.vertices; ++v) {
+    const int16_t z = vertex_of(decoded.mesh(), v).z;
+    summary.lowest = std::min(summary.lowest, z);
+    summary.highest = std::max(summary.highest, z);
+  }
   summary.measured = measured;
   summary.compact = compact_form(std::move(decoded));
   return summary;
+}
+
+bool keeps_options(const TiledRaster& tiled, const Verification& measured, uint64_t water_moved) {
+  const bool too_low = tiled.options.never_below && measured.max_below.mantissa != 0;
+  return measured.within_bound && !too_low && measured.voids_answered == 0 &&
+         measured.uncovered == 0 && water_moved == 0;
 }
 
 std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster& part,
@@ -167,6 +170,7 @@ uint32_t count_vertices(const TiledRaster& tiled, uint32_t tile, const SimplifyO
 }
 
 EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options) {
+  if (tiled.kept != nullptr && tiled.kept->keeps(tile)) return tiled.kept->tile(tile);
   const TilePosts posts(tiled, tile);
   const TileBox& box = posts.box();
   const TileSides sides(tiled.grid, box);
@@ -189,11 +193,11 @@ EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyO
       continue;
     }
     check_shared(decoded.mesh(), sides, shared);
-    check_bounds(tiled, measured, gauge.moved());
+    if (!keeps_options(tiled, measured, gauge.moved())) fail("does not meet the options");
     Metadata metadata;
     metadata.everywhere = margins_of(measure_gap(decoded.mesh(), lattice, part));
     std::vector<uint8_t> all = with_metadata(stream, metadata);
-    TileSummary summary = summary_of(tin, all, std::move(decoded), measured);
+    TileSummary summary = summary_of(all, std::move(decoded), measured);
     summary.below = metadata.everywhere.below;
     summary.above = metadata.everywhere.above;
     return {std::move(summary), std::move(all)};

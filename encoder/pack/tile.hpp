@@ -53,9 +53,12 @@ struct EncodedTile {
   std::vector<uint8_t> stream;
 };
 
-// The summary of a tile that is verified.
-TileSummary summary_of(const Tin& tin, const std::vector<uint8_t>& stream, DecodedTerrain&& decoded,
+// The summary of a tile that is verified, but for its margins.
+TileSummary summary_of(const std::vector<uint8_t>& stream, DecodedTerrain&& decoded,
                        const Verification& measured);
+
+// Whether a tile covers its posts, and no others, as the options say.
+bool keeps_options(const TiledRaster& tiled, const Verification& measured, uint64_t water_moved);
 
 // Throws Error unless the vertices on borders are the shared ones, at their heights.
 void check_shared(const microtin_mesh* mesh, const TileSides& sides, const SharedVertices& shared);
@@ -73,9 +76,10 @@ std::vector<GlobalPost> uncovered_posts(const microtin_mesh* mesh, const Raster&
 uint32_t count_vertices(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options);
 
 // Depends on the posts of the tile and those within kGroundReach alone, or, if it has no terrain,
-// on those of its neighbours. A tile covers all its posts that have heights; if they form no
-// triangle, each of them is another tile's, too, that does. Throws Error if there is none, or if
-// the decoded stream does not keep the bound or the shared vertices.
+// on those of its neighbours, and on the tiles that are kept, one of which it may be. A tile covers
+// all its posts that have heights; if they form no triangle, each of them is another tile's, too,
+// that does. Throws Error if there is none, or if the decoded stream does not keep the bound or the
+// shared vertices.
 EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyOptions& options);
 
 }  // namespace microtin::pack

@@ -139,6 +139,13 @@ SampledSurface Document::sampled() const {
   return surface;
 }
 
+void expect_water_level(const std::string& path, const std::optional<Decimal>& noted,
+                        const std::optional<Decimal>& given) {
+  if (!given || (noted && *noted == *given)) return;
+  throw Error(path + ": its water level is " + (noted ? to_string(*noted) : "not noted") +
+              ", not " + to_string(*given));
+}
+
 Original::Original(const Document& document, const std::string& path,
                    const Preparation& preparation)
     : document_(document),
@@ -157,11 +164,7 @@ const PointCloud* Original::cloud() const {
 
 Promise Original::promise() const {
   const Metadata metadata = document_.metadata();
-  const std::optional<Decimal>&noted = metadata.water_level, &given = water_level_;
-  if (given && !(noted && *noted == *given)) {
-    throw Error(document_.path() + ": its water level is " +
-                (noted ? to_string(*noted) : "not noted") + ", not " + to_string(*given));
-  }
+  expect_water_level(document_.path(), metadata.water_level, water_level_);
   if (!metadata.accuracy || !metadata.accuracy->bound) return {};
   return {metadata.accuracy->bound, metadata.water_level};
 }

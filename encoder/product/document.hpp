@@ -71,6 +71,10 @@ struct Promise {
   std::optional<Decimal> water_level;  // at which posts are exact
 };
 
+// Throws Error naming the file if a terrain is given another water level than it notes.
+void expect_water_level(const std::string& path, const std::optional<Decimal>& noted,
+                        const std::optional<Decimal>& given);
+
 // A terrain that a document is compared with: read in pieces for a pack, whole for a stream. Of a
 // LAS file the classes are taken that the document notes, if none are asked for; of points that
 // share a place those that stand for all by the document's rule.

@@ -3,6 +3,7 @@
 #include "encoder/product/options.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "encoder/import/reference.hpp"
 #include "encoder/stream/device_memory.hpp"
@@ -19,10 +20,9 @@ Metadata metadata_for(const EncodeOptions& options, const Reference& file) {
   metadata.horizontal_epsg = reference.horizontal_epsg;
   metadata.vertical_epsg = reference.vertical_epsg;
   if (metadata.horizontal_epsg == 0) metadata.wkt = reference.wkt;
-  metadata.surface = options.surface;
-  static_cast<SourceNotes&>(metadata) = preferred(options.notes, reference.notes);
+  static_cast<SourceNotes&>(metadata) = reference.notes;
   metadata.water_level = options.lattice.water_level;
-  return metadata;
+  return noted(std::move(metadata), options);
 }
 
 template <class Terrain>
@@ -33,6 +33,12 @@ Metadata checked_metadata(const EncodeOptions& options, const Terrain& terrain) 
 }
 
 }  // namespace
+
+Metadata noted(Metadata metadata, const EncodeOptions& options) {
+  if (options.surface != SurfaceKind::kUnknown) metadata.surface = options.surface;
+  static_cast<SourceNotes&>(metadata) = preferred(options.notes, metadata);
+  return metadata;
+}
 
 Metadata metadata_of(const EncodeOptions& options, const Raster& frame) {
   return checked_metadata(options, frame);

@@ -40,6 +40,9 @@ struct EncodeOptions {
 Metadata metadata_of(const EncodeOptions& options, const Raster& frame);
 Metadata metadata_of(const EncodeOptions& options, const PointCloud& cloud);
 
+// What a header says, and in its place what the options say of the source.
+Metadata noted(Metadata metadata, const EncodeOptions& options);
+
 // The vertices that a stream may have, 0 for as many as it takes. A device's RAM limits them, too;
 // with a bound it can only refuse.
 uint32_t vertex_limit(const EncodeOptions& options);

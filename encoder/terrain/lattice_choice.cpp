@@ -142,6 +142,28 @@ Lattice choose_post_lattice(const Raster& frame, const NumberRange& heights,
           0,      up.decimals, {frame.x, frame.y, lattice_axis(up_axis, up.maps[0])}};
 }
 
+Lattice post_lattice_at(const Raster& frame, const NumberRange& heights, const Axis& z,
+                        const LatticeOptions& options) {
+  const AxisGroup group = height_group(heights, frame.decimals, options);
+  const Axis step = {0, z.numerator, z.denominator};
+  const int decimals =
+      std::max({group.decimals, group.needed_decimals, decimals_of(z), decimals_of(step)});
+  if (decimals > kMaxDecimals) throw Error("the heights have too many decimals");
+  const Wide unit = power_of_ten(decimals), parts = static_cast<Wide>(z.denominator);
+  const LatticeMap map{power_of_ten(decimals - group.decimals), -z.offset * unit / parts,
+                       static_cast<Wide>(z.numerator) * unit / parts};
+  const Axis up = {0, 1, static_cast<uint64_t>(power_of_ten(frame.decimals))};
+  const LatticeMap itself{1, 0, 1};
+  Lattice lattice{itself, itself, map, 0, decimals, {frame.x, frame.y, z}};
+  if (map.step <= 0 || !is_same(lattice_axis(up, map), z)) {
+    throw Error("the heights are on no decimal lattice");
+  }
+  if (map.nearest(heights.low) < INT16_MIN || map.nearest(heights.high) > INT16_MAX) {
+    throw Error("heights are beyond the lattice's range");
+  }
+  return lattice;
+}
+
 namespace {
 
 Lattice choose(const Source& source, AxisGroup places, const LatticeOptions& options) {

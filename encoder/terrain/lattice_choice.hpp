@@ -68,6 +68,11 @@ Lattice choose_pack_lattice(const PointCloud& cloud, const LatticeOptions& optio
 Lattice choose_post_lattice(const Raster& frame, const NumberRange& heights,
                             const LatticeOptions& options);
 
+// The lattice whose heights are those of `z`, for a raster. Throws Error if it does not hold
+// heights of that range, or if z is no lattice of decimal heights.
+Lattice post_lattice_at(const Raster& frame, const NumberRange& heights, const Axis& z,
+                        const LatticeOptions& options);
+
 }  // namespace microtin::terrain
 
 #endif

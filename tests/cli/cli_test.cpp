@@ -571,7 +571,7 @@ TEST_CASE("cli: help prints the pages of the program and of every command") {
   const Session session;
   CHECK(session.run("help").out == session.run("--help").out);
   for (const char* name : {"encode", "plan", "merge", "decode", "embed", "height", "info", "check",
-                           "diff", "verify", "fractal", "render", "help"}) {
+                           "diff", "update", "verify", "fractal", "render", "help"}) {
     const std::string page = session.run(std::string("help ") + name).out;
     CHECK(contains(page, std::string("Usage: microtin ") + name));
     CHECK(page == session.run(std::string(name) + " --help").out);

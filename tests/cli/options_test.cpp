@@ -122,6 +122,10 @@ const std::vector<Row> kRows = {
     {"encode", "--shard", "t.asc --max-error 2 --tile-vertices 60 -o o.mtp", "0:1"},
     {"encode", "--output", "", ""},
     {"plan", "--shards", "t.asc --max-error 2 --tile-vertices 60", "2"},
+    {"update", "--tile-vertices", "s.mtp peak.asc -o o.mtp", "16"},
+    {"update", "--best", "m.mtp peak.asc --tile-vertices 300 -o o.mtp", ""},
+    {"update", "--fill-voids", "s.mtp t.asc --tile-vertices 300 -o o.mtp", "1"},
+    {"update", "--date", "s.mtp t.asc -o o.mtp", "2026"},
     {"merge", "--output", "", ""},
     {"decode", "--output", "", ""},
     {"decode", "--cell", "t.mtin -o o.asc", "1"},
@@ -184,6 +188,7 @@ std::string all_of(const Session& session, const std::string& words) {
 // The files that the rows name.
 void write_inputs(const Session& session) {
   session.write("t.asc", grid());
+  session.write("peak.asc", grid(30));
   session.write("mask.asc", mask());
   session.write("s.las", scan());
   session.write("part.asc",
@@ -197,8 +202,8 @@ void write_inputs(const Session& session) {
   session.write("sea.xyz", "0 0 -9\n9 0 5\n0 9 3\n9 9 -4\n");
   for (const char* words :
        {"t.asc -o t.mtin", "t.asc --max-error 2 -o m.mtin", "s.las -o s.mtin --classes all",
-        "t.asc --tile-size 9 -o s.mtp", "sea.xyz -o sea.mtin",
-        "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
+        "t.asc --tile-size 9 -o s.mtp", "t.asc --max-error 1 --tile-size 20 -o m.mtp",
+        "sea.xyz -o sea.mtin", "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
         "t.asc --max-error 2 --water-level 50 -o water.mtin",
         "t.asc --max-error 2 --water-level 50 --water-mask mask.asc -o lake.mtin"}) {
     REQUIRE(session.run(std::string("encode ") + words).code == 0);
@@ -277,6 +282,8 @@ TEST_CASE("options: none is without a row") {
   }
   const Names encode = without(options_of(session, "encode"), {"--output", "--shard"});
   CHECK(text_of(options_of(session, "plan")) == text_of(united(encode, {"--shards"})));
+  // Each of update is also one of encode, and read by the same code.
+  CHECK(text_of(without(options_of(session, "update"), options_of(session, "encode"))) == "");
 }
 
 namespace {

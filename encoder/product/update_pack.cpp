@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "encoder/product/update_pack.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/import/reference.hpp"
+#include "encoder/pack/kept_tiles.hpp"
+#include "encoder/pack/shard.hpp"
+#include "encoder/pack/surface.hpp"
+#include "encoder/product/document.hpp"
+#include "encoder/terrain/raster_scan.hpp"
+
+namespace microtin::product {
+namespace {
+
+// Parts of the time, estimated: reading the raster, and comparing all tiles.
+constexpr double kScanned = 0.05, kCompared = 0.3;
+
+PackFile open_pack_of_raster(const std::string& path) {
+  std::unique_ptr<ByteSource> bytes = open_file(path);
+  refuse_shard(path, *bytes);
+  return with_file_context(path, [&] {
+    if (!is_pack(*bytes)) throw Error("is not a pack");
+    PackFile pack(std::move(bytes));
+    if (!pack.metadata().grid || !pack.metadata().accuracy) {
+      throw Error("is not a pack that microtin made of a raster; encode the terrain again");
+    }
+    return pack;
+  });
+}
+
+// Throws Error if the terrain is known to be in other units or systems than the pack. Those that
+// one of them does not state are no difference.
+void expect_same_system(const Metadata& old, const Reference& terrain) {
+  const auto differ = [](auto a, auto b) {
+    return a != b && a != decltype(a){} && b != decltype(b){};
+  };
+  if (differ(old.horizontal_unit, terrain.horizontal_unit) ||
+      differ(old.vertical_unit, terrain.vertical_unit)) {
+    throw Error("the terrain has other units than the pack; set them with " + parameter("units"));
+  }
+  if (differ(old.horizontal_epsg, terrain.horizontal_epsg) ||
+      differ(old.vertical_epsg, terrain.vertical_epsg)) {
+    throw Error(
+        "the terrain has another coordinate system than the pack; encode the terrain again");
+  }
+}
+
+// What the pack states of its tiles.
+LatticeOptions options_of(const Metadata& stated) {
+  LatticeOptions options;
+  options.max_error = stated.accuracy->bound;
+  options.never_below = stated.side == BoundSide::kNeverBelow;
+  options.water_level = stated.water_level;
+  return options;
+}
+
+// The coding of the tiles.
+Effort effort_of(const PackFile& pack, Effort effort) {
+  for (uint32_t tile = 0; tile < pack.tiles(); ++tile) {
+    const std::vector<uint8_t> stream = pack.stream(tile);
+    microtin_stream_info info{};
+    if (microtin_read_stream_info(stream.data(), stream.size(), &info) != MICROTIN_STATUS_OK) {
+      continue;  // without terrain, or bad
+    }
+    effort.coding = static_cast<Coding>(info.coding);
+    break;
+  }
+  return effort;
+}
+
+PackOptions pack_options(const PackFile& old, const EncodeOptions& asked) {
+  EncodeOptions options = asked;
+  options.lattice = options_of(old.metadata());
+  options.effort = effort_of(old, asked.effort);
+  const uint32_t vertices =
+      std::max(kFewestTileVertices,
+               asked.tile_vertices != 0 ? asked.tile_vertices : old.header().most_vertices);
+  return {options.lattice, simplify_options(options, {}), vertices, old.grid().width, vertices};
+}
+
+// Throws Error if a device that holds the tiles of the old pack may not hold this one.
+void expect_room(const PackFile& old, uint32_t number, const TileSummary& tile) {
+  const PackHeader& header = old.header();
+  if (header.compact_bytes == 0 || !tile.compact) return;
+  const uint64_t bytes = bytes_of(*tile.compact, index_bits(header.most_vertices));
+  if (bytes <= header.compact_bytes) return;
+  throw Error("tile " + std::to_string(number) + " takes " + std::to_string(bytes) +
+              " bytes in compact form, and the pack states at most " +
+              std::to_string(header.compact_bytes) + "; allow more with " +
+              parameter("tile_vertices") + ", or encode the terrain again");
+}
+
+Error too_large(const TileTooLarge& tile, const PackFile& old) {
+  return Error("tile " + std::to_string(tile.tile) + " has " + std::to_string(tile.vertices) +
+               " vertices, and the pack states at most " +
+               std::to_string(old.header().most_vertices) + "; allow more with " +
+               parameter("tile_vertices") + ", or encode the terrain again");
+}
+
+PackPlan plan_of(const PackFile& old, const RasterReader& raster, const PackOptions& options,
+                 const RasterScan& scanned) {
+  const Lattice lattice =
+      post_lattice_at(raster.frame(), scanned.heights, old.metadata().placement.z, options.lattice);
+  return {{raster, lattice, options.lattice, old.grid()},
+          options,
+          old.grid().width,
+          scanned.fingerprint,
+          kCompared};
+}
+
+}  // namespace
+
+UpdatedPack update_pack(const std::string& old_path, const RasterReader& raster,
+                        const EncodeOptions& options, StreamSpool& streams,
+                        const Progress& progress) {
+  const PackFile old = open_pack_of_raster(old_path);
+  expect_posts_of(raster.frame(), old);
+  expect_same_system(old.metadata(), completed(raster.frame().reference));
+  expect_water_level(old_path, old.metadata().water_level, options.lattice.water_level);
+  const PackOptions stated = pack_options(old, options);
+  const RasterScan scanned =
+      scan(raster, stated.lattice.max_error, false, progress.part(0, kScanned));
+  PackPlan plan = plan_of(old, raster, stated, scanned);
+  const KeptTiles kept(old, plan.tiled, progress.part(kScanned, kCompared));
+  plan.tiled.kept = &kept;
+  plan.options.simplify.progress = progress;
+  Metadata metadata = old.metadata();
+  static_cast<SourceNotes&>(metadata) = preferred(raster.frame().reference.notes, metadata);
+  UpdatedPack updated{{old.grid(), noted(std::move(metadata), options), {}}, kept.count()};
+  try {
+    encode_tiles(plan, all_tiles(old.grid()), [&](uint32_t number, EncodedTile&& tile) {
+      if (options.tile_vertices == 0 && !kept.keeps(number)) expect_room(old, number, tile.summary);
+      tile.summary.offset = streams.add(tile.stream);
+      updated.content.tiles.push_back(tile.summary);
+    });
+  } catch (const TileTooLarge& tile) {
+    throw too_large(tile, old);
+  }
+  return updated;
+}
+
+}  // namespace microtin::product

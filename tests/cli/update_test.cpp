@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// The command update.
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "tests/support/layers.hpp"
+#include "tests/support/session.hpp"
+
+namespace microtin::tests {
+namespace {
+
+// A terrain, its pack, and the terrain with some changed heights.
+struct Changed : Session {
+  Changed() {
+    REQUIRE(run("fractal --size 65 --seed 3 -o old.asc").code == 0);
+    std::string text = read("old.asc");
+    REQUIRE(contains(text, " 608 "));
+    text.replace(text.rfind(" 608 "), 5, " 908 ");
+    write("new.asc", text);
+    REQUIRE(run("encode old.asc --max-error 20 --tile-size 16 --units metre --date 2024 --lineage "
+                "filled "
+                "--water-level 600 -o old.mtp")
+                .code == 0);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("update: few tiles are new, notes stay, and the new terrain is kept") {
+  const Changed session;
+  const Session::Result updated = session.run(
+      "update old.mtp new.asc --water-level 600 --date 2026 --tile-vertices 500 -o new.mtp");
+  CHECK(updated.code == 0);
+  CHECK(contains(updated.err + updated.out, "kept: 15 of 16 tiles"));
+  CHECK(session.run("verify new.mtp new.asc --water-level 600").code == 0);
+  CHECK(session.run("verify old.mtp new.asc --water-level 600").code == 1);
+  const std::string info = session.run("info new.mtp").out;
+  CHECK(contains(info, "date: \"2026\""));
+  CHECK(contains(info, "lineage: \"filled\""));
+  CHECK(contains(session.run("diff old.mtp new.mtp").err, "1 of 16 tiles differ"));
+}
+
+TEST_CASE("update: a damaged tile is new") {
+  const Changed session;
+  std::string pack = session.read("old.mtp");
+  pack[pack.size() - 9] = static_cast<char>(pack[pack.size() - 9] ^ 4);
+  session.write("bad.mtp", pack);
+  const Session::Result mended = session.run("update bad.mtp old.asc --water-level 600 -o o.mtp");
+  CHECK(contains(mended.err + mended.out, "kept: 15 of 16 tiles"));
+  CHECK(session.run("check o.mtp").code == 0);
+}
+
+TEST_CASE("update: what cannot be one pack is refused, and nothing is written") {
+  const Changed session;
+  const auto refusal = [&](const std::string& arguments) {
+    return session.failure("update " + arguments + " -o n.mtp");
+  };
+  CHECK(contains(refusal("old.mtp new.asc --water-level 5"),
+                 "old.mtp: its water level is 600, not 5"));
+  CHECK(contains(refusal("old.mtp new.asc --units foot"), "has other units than the pack"));
+  CHECK(contains(refusal("old.asc new.asc"), "old.asc: is not a pack"));
+  session.write("p.xyz", "0 0 0\n9 0 3\n0 9 7\n5 5 5\n");
+  CHECK(contains(refusal("old.mtp p.xyz"), "p.xyz: only packs of rasters are updated"));
+  REQUIRE(session.run("encode p.xyz -o p.mtp").code == 0);
+  CHECK(contains(refusal("p.mtp new.asc"), "p.mtp: is not a pack that microtin made of a raster"));
+  CHECK(
+      contains(session.failure("update old.mtp new.asc -o old.mtp"), "old.mtp: is also an input"));
+}
+
+}  // namespace microtin::tests
