@@ -253,6 +253,22 @@ class Mesh:
             total += value
         return total & (1 << 64) - 1
 
+    def height_at(self, p, void):
+        """Section 12: the height at p, 16 fractional bits; without one, outside or void. p may have fractions."""
+        result = "outside"
+        for t in range(len(self.origin) // 3):
+            if not self.is_real(t):
+                continue
+            a, b, c = (self.vertices[number] for number in self.corners(t))
+            parts = turn(b, c, p), turn(c, a, p), turn(a, b, p)
+            if min(parts) < 0:
+                continue
+            if t not in void:
+                exact = sum(part * self.heights[number] for part, number in zip(parts, self.corners(t)))
+                return (2 * 65536 * exact / turn(a, b, c) + 1) // 2
+            result = "void"
+        return result
+
 
 # The triangle of a hit, and positions in it (section 10)
 
@@ -412,7 +428,7 @@ class Place:
         context = (east_end is None) + 2 * (west_end is None) + 4 * self.triangle.certified[0]
         return Lines(first, last - first + 1), context
 
-    def span(self, x, exact=False):
+    def spans(self, x, exact=False):
         """The own span and the span in column x; exact: with the roots as they are."""
         square = self.own.square(x)
         r = (rroot(square) if square > 0 else 0) + (0 if exact else 1)
@@ -433,7 +449,7 @@ class Place:
 
     def rows(self, x):
         """The possible rows in column x, in grains."""
-        first, last = self.lines(*self.span(x)[1])
+        first, last = self.lines(*self.spans(x)[1])
         first = clamp(self.lattice[1][0], first, self.lattice[1][1])
         last = max(first, min(last, self.lattice[1][1]))
         return Lines(first, last - first + 1)
@@ -488,7 +504,7 @@ class Place:
         return (chance * (self.apart(x, y) + 4) >> 8) + 4
 
     def column_weight(self, x):
-        own, (low, high) = self.span(x, exact=True)
+        own, (low, high) = self.spans(x, exact=True)
         length = high - low
         if length <= 0:
             return 4
@@ -545,7 +561,7 @@ class Decoder:
 
     # Symbols outside the walk (section 5)
 
-    def decode_coordinate(self, largest):
+    def coordinate(self, largest):
         coder = self.symbols.coder
         if coder.bit(24576):
             return largest if coder.bit(16384) else 0
@@ -554,8 +570,8 @@ class Decoder:
     def decode_seed(self):
         height = 0
         for _ in range(3):
-            x = self.decode_coordinate(self.header.largest[0])
-            y = self.decode_coordinate(self.header.largest[1])
+            x = self.coordinate(self.header.largest[0])
+            y = self.coordinate(self.header.largest[1])
             if self.header.heights:
                 height += self.symbols.difference(11, 5)
                 require(-32768 <= height <= 32767, "a height is outside 16 bits")
@@ -687,7 +703,7 @@ class Decoder:
     def decode_hull_position(self, chord):
         a, d, L, axis = self.hull_edge(chord)
         if axis is None:
-            return (self.decode_coordinate(self.header.largest[0]), self.decode_coordinate(self.header.largest[1]))
+            return (self.coordinate(self.header.largest[0]), self.coordinate(self.header.largest[1]))
         tally, parity_of_a = self.tallies[axis][0], a[axis] + self.header.odd[axis]
         lines = Lines(1, L - 1).sieve(self.symbols.coder, tally, parity_of_a)
         t = max(0, -(self.R >> 8)) // 512
@@ -724,9 +740,9 @@ class Decoder:
         columns = columns.sieve(coder, tally, parities[0])
         m = clamp(0, (triangle.expected + 256) >> 8, 3)
         if coding == QUICK:
-            columns = self.decode_quarter(columns, "quick column", context + 8 * (m > 1))
+            columns = self.quarter(columns, "quick column", context + 8 * (m > 1))
         else:
-            columns = self.decode_halves(columns, "column", lambda w: place.column_weight(place.grain(w)),
+            columns = self.halves(columns, "column", lambda w: place.column_weight(place.grain(w)),
                                          4 if coding == DENSE else 3)
         number = coder.uniform_or_escape(columns.count)
         if number is None:
@@ -739,10 +755,10 @@ class Decoder:
         rows = place.rows(x).sieve(coder, tally_of_row, parities[1])
         if coding == QUICK:
             where = 4 if x < place.A[0] else 8 if x > 0 else 0
-            rows = self.decode_quarter(rows, "quick row", m + where)
+            rows = self.quarter(rows, "quick row", m + where)
         else:
-            own = place.span(x)[0]
-            rows = self.decode_halves(rows, "row", lambda w: place.position_weight(x, place.grain(w), own),
+            own = place.spans(x)[0]
+            rows = self.halves(rows, "row", lambda w: place.position_weight(x, place.grain(w), own),
                                       4 if coding == DENSE else 2)
         number = coder.uniform_or_escape(rows.count)
         if number is None:
@@ -752,14 +768,14 @@ class Decoder:
         tally_of_row.learn((row + parities[1]) & 1)
         return column, row
 
-    def decode_quarter(self, lines, name, row):
+    def quarter(self, lines, name, row):
         if lines.count < 4:
             return lines
         first = self.symbols.adaptive(name, 3 * row)
         second = self.symbols.adaptive(name, 3 * row + 1 + first)
         return lines.half(first).half(second)
 
-    def decode_halves(self, lines, name, weight, formula_from):
+    def halves(self, lines, name, weight, formula_from):
         """Up to four halvings. From the time formula_from on, the outer weight is estimated by a formula."""
         taken, upper = [], 0                                     # the weights of the halves taken; the last decision
         for time in range(4):

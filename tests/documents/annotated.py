@@ -123,8 +123,8 @@ class Narrator(decoder.Decoder):
         self.noted.clear()
         self.estimates.clear()
 
-    def decode_coordinate(self, largest):
-        self.pair.append(super().decode_coordinate(largest))
+    def coordinate(self, largest):
+        self.pair.append(super().coordinate(largest))
         if len(self.pair) == 2:
             self.flush(*self.names, f"({self.pair[0]}, {self.pair[1]})")
             self.pair, y = [], self.pair[1]
@@ -172,10 +172,10 @@ class Narrator(decoder.Decoder):
         self.place = place
         return super().decode_tallied_position(place, *others)
 
-    def decode_halves(self, lines, name, weight, formula_from):
+    def halves(self, lines, name, weight, formula_from):
         if name == "row":
             self.flush("column", "a number or an escape", "")
-        left = super().decode_halves(lines, name, weight, formula_from)
+        left = super().halves(lines, name, weight, formula_from)
         given = f"lines {lines.first}..{lines.line(lines.count - 1)}, estimates {' '.join(map(str, self.estimates))}"
         given = given if name == "row" else f"t {self.place.t}, s {self.place.s}, {given}"
         self.flush(f"{name}, halves", given, f"lines {left.first}..{left.line(left.count - 1)}")
