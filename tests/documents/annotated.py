@@ -155,7 +155,7 @@ class Narrator(decoder.Decoder):
     def decode_hull_hit(self, chord):
         a, c = self.mesh.origin[chord], self.mesh.far_corner(chord)
         hit = super().decode_hull_hit(chord)
-        given = f"density {self.R >> 8}, position {self.estimates[0]}" if self.estimates else "L = 1"
+        given = f"density {self.R >> 8}, curve at {self.estimates[0]}" if self.estimates else "L = 1"
         self.flush(f"infinity, c = {c}, a = {a}", given, "hit" if hit else "miss")
         return hit
 
@@ -164,13 +164,14 @@ class Narrator(decoder.Decoder):
         if not self.is_around_infinity(chord):
             t, corner = self.triangle, [self.mesh.origin[e] for e in (self.mesh.following(chord), self.mesh.preceding(chord), chord)]
             given = (f"certified {t.certified[0]}{t.certified[1]}, behind {t.behind[0] or '-'} {t.behind[2] or '-'}, S {t.S}, "
-                     f"density {t.density}, expected {t.expected}, position {self.estimates[0]}")
+                     f"density {t.density}, expected {t.expected}, curve at {self.estimates[0]}")
             self.flush("v = {}, c = {}, a = {}".format(*corner), given, "hit" if hit else "miss")
         return hit
 
     def decode_tallied_position(self, place, *others):
         self.place = place
-        return super().decode_tallied_position(place, *others)
+        self.found = super().decode_tallied_position(place, *others)
+        return self.found
 
     def halves(self, lines, name, weight, formula_from):
         if name == "row":
@@ -182,10 +183,9 @@ class Narrator(decoder.Decoder):
         return left
 
     def decode_inner_position(self):
-        b = super().decode_inner_position()
-        self.flush("row", "a number or an escape", f"b = ({b[0]}, {b[1]})")
-        at = len(self.rows) - 3
-        self.rows[at][3] = f"x = {self.rows[at][3] or b[0]}"
+        b, before = super().decode_inner_position(), len(self.rows)
+        self.flush("row", "a number or an escape", f"line {self.found[1]}: b = ({b[0]}, {b[1]})")
+        next(row for row in self.rows[before - 2:] if row[0] == "column")[3] = f"line {self.found[0]}"
         return b
 
 
