@@ -340,8 +340,8 @@ Contract contract_of(const Json& v) {
   Contract contract{};
   contract.x_max = v["largest"][0];
   contract.y_max = v["largest"][1];
-  contract.has_heights = v["heights"] == 1;
-  contract.coding = static_cast<Coding>(v["coding"].get<int>());
+  contract.has_heights = v.value("heights", 1) == 1;
+  contract.coding = static_cast<Coding>(v.value("coding", 2));
   contract.odd_origin_x = v["odd"][0] == 1;
   contract.odd_origin_y = v["odd"][1] == 1;
   return contract;
@@ -351,7 +351,8 @@ Contract contract_of(const Json& v) {
 // axis of the first one.
 PlaceHabits habits_of(const Json& v) {
   PlaceHabits habits;
-  habits.crowding = v["crowding"];
+  reset(habits);
+  habits.crowding = v.value("crowding", kCrowdingStart);
   for (size_t axis = 0; axis < 2; ++axis) {
     habits.parities.first[axis] = tally_of(v["tallies"][3 * axis]);
     for (size_t i = 0; i < 2; ++i) {
@@ -371,7 +372,7 @@ void check_position(const Json& v) {
   CHECK(v["behind"] == Json({behind(region.next), behind(region.chord)}));
   Models models = fresh_models();
   PlaceHabits habits = habits_of(v);
-  Place place;
+  Place place{};
   Script script{v["symbols"]};
   const Offset found = code_place(script, models.place, region, contract_of(v),
                                   v["density"].get<Log2>(), place, habits);
@@ -380,16 +381,47 @@ void check_position(const Json& v) {
   CHECK(v["crowding afterwards"] == habits.crowding);
 }
 
+Json tallies_of(const PlaceHabits& habits) {
+  Json tallies = Json::array();
+  for (size_t axis = 0; axis < 2; ++axis) {
+    const Tally* const second = habits.parities.second[1 - axis];
+    for (const Tally& tally : {habits.parities.first[axis], second[0], second[1]}) {
+      tallies.push_back({tally.met[0], tally.met[1]});
+    }
+  }
+  return tallies;
+}
+
+void check_hull_position(const Json& v) {
+  const Contract contract = contract_of(v);
+  const HullEdge edge = hull_edge(contract, point_in(v["corners"][0]), point_in(v["corners"][1]));
+  const Log2 density = v["density"];
+  Models models = fresh_models();
+  PlaceHabits habits = habits_of(v);
+  Script script{v["symbols"]};
+  Json position;
+  if (edge.length != 1 && code_hit(script, models.hit, estimate_hull_hit(edge, density), false)) {
+    const Point b = code_hull_place(script, models.gap, models.height.mantissa, habits.parities,
+                                    contract, edge, density);
+    position = Json({b.x, b.y});
+  }
+  CHECK(script.is_at_end());
+  CHECK(v["position"] == position);
+  CHECK(v["tallies afterwards"] == tallies_of(habits));
+}
+
 using Check = void (*)(const Json&);
 
 const std::map<std::string, Check>& checks() {
-  static const std::map<std::string, Check> all = {{"adaptive bit", check_adaptive_bit},
-                                                   {"range coder", check_range_coder},
-                                                   {"tally", check_tally},
-                                                   {"magnitude", check_magnitude},
-                                                   {"insertion", check_insertion},
-                                                   {"height", check_height},
-                                                   {"position", check_position}};
+  static const std::map<std::string, Check> all = {
+      {"adaptive bit", check_adaptive_bit},
+      {"range coder", check_range_coder},
+      {"tally", check_tally},
+      {"magnitude", check_magnitude},
+      {"insertion", check_insertion},
+      {"height", check_height},
+      {"position", check_position},
+      {"position around infinity", check_hull_position}};
   return all;
 }
 

@@ -242,6 +242,34 @@ def place_vectors(dice):
     return [random_place(dice, number) for number in range(30)]
 
 
+def hull_vector(largest, a, c, density, tallies, odd, dice):
+    """A decision around infinity, and the position of a hit. None if what was thrown is malformed."""
+    given = {"largest": largest, "corners": [a, c], "density": density, "tallies": tallies, "odd": odd}
+    script = Script(dice)
+    stub = Place(largest, [a, c], [], density, 2048, tallies, {"odd": odd, "coding": 2, "heights": 1}).decoder(script)
+    stub.mesh.origin = [0, decoder.INFINITY, 1]
+    try:
+        hit = stub.decode_hull_hit(0)
+        position = stub.decode_hull_position(0) if hit else None
+    except symbols.Refusal:
+        return None
+    return {**given, "symbols": script.noted, "position": position, "tallies afterwards": [t.counts for t in stub.tallies[0] + stub.tallies[1]]}
+
+
+def hull_vectors(dice):
+    """Edges at each border in both directions, of which one is a step long, and elsewhere."""
+    found = []
+    for number, (a, c) in enumerate([((0, 0), (40, 0)), ((40, 60), (40, 0)), ((0, 60), (40, 60)), ((0, 3), (0, 60)), ((7, 0), (8, 0)),
+                                     ((9, 9), (5, 3)), ((12, 60), (29, 60)), ((5, 5), (30, 5))]):
+        for _ in range(20):
+            tallies = [[1 + dice.below(250), 1 + dice.below(80)] for _ in range(6)]
+            vector = hull_vector([40, 60], a, c, -800 - 300 * number, tallies, [number % 2, number // 2 % 2], dice)
+            if vector and (vector["position"] or not vector["symbols"]):
+                found.append(vector)
+                break
+    return found
+
+
 def coder_vectors(dice):
     payload = bytes(dice.below(256) for _ in range(24))
     wanted = [("bit", 16384), ("bit", 64), ("bit", 32704), ("number", 1), ("number", 2), ("number", 3000), ("number", 65536),
@@ -278,6 +306,7 @@ def vectors():
         "insertion": [insertion_vector()],
         "height": [height_vector(*h, dice) for h in ((3, 3), (5, 40), (8, 300), (12, 3000), (32, 20000))],
         "position": place_vectors(dice),
+        "position around infinity": hull_vectors(dice),
     }
 
 
