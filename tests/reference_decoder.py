@@ -254,18 +254,18 @@ class Mesh:
         return total & (1 << 64) - 1
 
     def height_at(self, p, void):
-        """Section 12: the height at p, 16 fractional bits; without one, outside or void. p may have fractions."""
+        """Section 12: the height at p in substeps, with 16 fractional bits; without one, outside or void."""
         result = "outside"
         for t in range(len(self.origin) // 3):
             if not self.is_real(t):
                 continue
-            a, b, c = (self.vertices[number] for number in self.corners(t))
+            a, b, c = ((256 * x, 256 * y) for x, y in (self.vertices[number] for number in self.corners(t)))
             parts = turn(b, c, p), turn(c, a, p), turn(a, b, p)
             if min(parts) < 0:
                 continue
             if t not in void:
-                exact = sum(part * self.heights[number] for part, number in zip(parts, self.corners(t)))
-                return (2 * 65536 * exact / turn(a, b, c) + 1) // 2
+                weighted = sum(part * self.heights[number] for part, number in zip(parts, self.corners(t)))
+                return (2 * 65536 * weighted + sum(parts)) // (2 * sum(parts))
             result = "void"
         return result
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """annotated.py [--write | FOLDER]: the annotated files of format-stream.md and format-pack.md are what the second decoder finds in
 tests/golden/example.mtin and pair.mtp, byte by byte and symbol by symbol. --write writes them into the pages. With a
-folder, its pages are compared instead."""
+folder, its pages are compared instead. test-files.md lists each golden file."""
 
 import sys
 from pathlib import Path
@@ -260,6 +260,13 @@ def annotated_pack():
     return "\n".join([hexdump(data), fields.table(), table(["tile", "vertices: x, y and z on the pack's lattice", "digest"], tiles)])
 
 
+def unlisted():
+    """Golden files without a row in test-files.md."""
+    page = (ROOT / "shared/docs/test-files.md").read_text(encoding="utf-8")
+    files = sorted((ROOT / "tests/golden").glob("*.mt[ip]*"))
+    return [file.name for file in files if f"\n| {file.stem} | " not in page]
+
+
 def main():
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 and sys.argv[1] != "--write" else ROOT / "shared/docs"
     rejected = 0
@@ -272,6 +279,9 @@ def main():
         elif old != f"\n{text}\n":
             print(f"rejected: {name} is not what the second decoder finds; annotated.py --write writes it")
             rejected += 1
+    for name in unlisted():
+        print(f"rejected: test-files.md does not list {name}")
+        rejected += 1
     print(f"2 annotated files, {rejected} rejected")
     return 1 if rejected else 0
 
