@@ -3,7 +3,7 @@
 #ifndef MICROTIN_DECODER_BORDER_EDGES_HPP
 #define MICROTIN_DECODER_BORDER_EDGES_HPP
 
-#include "decoder/tile_segment.hpp"
+#include "decoder/segment_walk.hpp"
 
 namespace microtin {
 
@@ -61,11 +61,7 @@ class BorderEdges {
 
   // To the hull edge that follows as places rise. The outside lies to the left of hull edges: along
   // the first vertical side they run up, and so around the tile.
-  void advance() {
-    cursor_.cross_around(rises_);
-    if (!rises_) cursor_.turn();
-    cursor_.turn();
-  }
+  void advance() { advance_on_hull(cursor_, rises_); }
 
   typename Form::Cursor cursor_;  // on a hull edge of a ghost
   LocalPoint corner_;

@@ -16,10 +16,10 @@ microtin_query_result microtin_compact_pack_safe_heights_at(const microtin_pack*
   return safe_heights_in_pack<RingForm>(*pack, x, y, hint, heights);
 }
 
-microtin_query_result microtin_compact_pack_segment_max(const microtin_pack* pack,
-                                                        const microtin_segment* segment,
-                                                        int32_t* height) {
-  return highest_in_pack<RingForm>(*pack, *segment, height);
+microtin_query_result microtin_compact_pack_segment_extremes(const microtin_pack* pack,
+                                                             const microtin_segment* segment,
+                                                             microtin_segment_extremes* extremes) {
+  return extremes_in_pack<RingForm>(*pack, *segment, extremes);
 }
 
 microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,

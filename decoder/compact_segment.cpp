@@ -5,11 +5,12 @@
 
 using namespace microtin;
 
-microtin_query_result microtin_compact_segment_max(const microtin_compact* compact,
-                                                   const microtin_segment* segment,
-                                                   microtin_segment_state* state, int32_t* height,
-                                                   uint32_t step_limit) {
-  return highest_in_terrain(RingForm(compact), *segment, state, height, step_limit);
+microtin_query_result microtin_compact_segment_extremes(const microtin_compact* compact,
+                                                        const microtin_segment* segment,
+                                                        microtin_segment_state* state,
+                                                        microtin_segment_extremes* extremes,
+                                                        uint32_t step_limit) {
+  return extremes_in_terrain(RingForm(compact), *segment, state, extremes, step_limit);
 }
 
 microtin_query_result microtin_compact_sample_grid(const microtin_compact* compact,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Queries on the tiles of a pack that are there, whatever their form (tile_segment.hpp). They only
+// Queries on the tiles of a pack that are there, whatever their form (segment_walk.hpp). They only
 // read, so they may interrupt anything.
 #ifndef MICROTIN_DECODER_PACK_QUERY_HPP
 #define MICROTIN_DECODER_PACK_QUERY_HPP
@@ -8,6 +8,8 @@
 #include "decoder/margins.hpp"
 #include "decoder/pack_state.hpp"
 #include "decoder/places.hpp"
+#include "decoder/segment_extremes.hpp"
+#include "decoder/tile_segment.hpp"
 
 namespace microtin {
 
@@ -81,16 +83,37 @@ microtin_query_result answer_along_side(const microtin_pack& p, uint32_t tile,
   return is_known ? MICROTIN_QUERY_OK : worst;
 }
 
+// Hands the crossings of a segment in a tile to add(crossing, state). False if the tile holds a
+// part of the segment, longer than a point, of which the terrain has no heights.
+template <class Form, class Add>
+bool walk_tile(const Form& form, const TileSegment& part, const Add& add,
+               microtin_segment_state* state) {
+  const LocalPoint entry = part.entry();
+  SegmentWalk<Form> walk(form, entry, part.begin(), part.end(), WalkStage::kSearch,
+                         form.hint(entry));
+  bool is_known = true;
+  Along last = {0, 1};
+  while (!walk.at_end()) {
+    Crossing c;
+    if (!walk.step(false, &c)) continue;
+    if (!c.is_known_before && part.holds_between(last, c.along)) is_known = false;
+    last = c.along;
+    add(c, state);
+  }
+  return is_known;
+}
+
 // What a tile says of a segment that touches it.
-template <class Form>
+template <class Form, class Add>
 microtin_query_result answer_of_tile(const microtin_pack& p, const TouchedTiles& tiles,
-                                     const microtin_segment& segment, int32_t* highest) {
+                                     const microtin_segment& segment, const Add& add,
+                                     microtin_segment_state* state) {
   microtin_query_result absent = MICROTIN_QUERY_OK;
   const void* const terrain = terrain_of(p, tiles.number(), &absent);
   if (absent == MICROTIN_QUERY_NOT_LOADED) return absent;
   const TileBox box = tiles.box();
-  TileSegment part(box, segment);
-  const bool is_known = terrain != nullptr && part.look(Form(terrain), highest);
+  const TileSegment part(box, segment);
+  const bool is_known = terrain != nullptr && walk_tile(Form(terrain), part, add, state);
   if (!part.has_length() || is_known) return MICROTIN_QUERY_OK;
   if (runs_along_side(box, segment)) return answer_along_side<Form>(p, tiles.number(), segment);
   return worse(absent, MICROTIN_QUERY_VOID);
@@ -133,26 +156,48 @@ microtin_query_result safe_heights_in_pack(const microtin_pack& p, int64_t x, in
   return widen(height, tile.below, tile.above, heights);
 }
 
-template <class Form>
-microtin_query_result highest_in_pack(const microtin_pack& p, const microtin_segment& segment,
-                                      int32_t* height) {
-  *height = INT32_MIN;
+inline bool is_place(const microtin_segment& segment) {
+  return segment.x == segment.x_end && segment.y == segment.y_end;
+}
+
+// A segment that is a single place has one crossing.
+template <class Form, class Add>
+microtin_query_result walk_place(const microtin_pack& p, const microtin_segment& segment,
+                                 const Add& add, microtin_segment_state* state) {
+  uint32_t hint = 0;
+  int32_t height = 0;
+  const microtin_query_result answer =
+      height_in_pack<Form>(p, segment.x, segment.y, &hint, &height);
+  add(Crossing{Along{0, 1}, 0, height, height, static_cast<uint8_t>(answer), true}, state);
+  return answer;
+}
+
+// Hands the crossings of a segment, tile by tile, to add(crossing, state).
+template <class Form, class Add>
+microtin_query_result walk_pack(const microtin_pack& p, const microtin_segment& segment,
+                                const Add& add, microtin_segment_state* state) {
   if (!is_legal(segment)) return MICROTIN_QUERY_OUTSIDE;
-  int32_t highest = INT32_MIN;
-  microtin_query_result answer = ask_ends(
-      segment,
-      [&p](int64_t x, int64_t y, uint32_t* hint, int32_t* end) {
-        return height_in_pack<Form>(p, x, y, hint, end);
-      },
-      &highest);
-  if (answer == MICROTIN_QUERY_NOT_LOADED || answer == MICROTIN_QUERY_WRONG_PACK_KIND) {
-    return answer;
-  }
+  if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
+  if (!p.has_header) return MICROTIN_QUERY_NOT_LOADED;
+  if (is_place(segment)) return walk_place<Form>(p, segment, add, state);
+  microtin_query_result answer =
+      is_inside(p, segment.x, segment.y) && is_inside(p, segment.x_end, segment.y_end)
+          ? MICROTIN_QUERY_OK
+          : MICROTIN_QUERY_OUTSIDE;
   for (TouchedTiles tiles(p.header.grid, segment); !tiles.at_end(); tiles.next()) {
-    answer = worse(answer, answer_of_tile<Form>(p, tiles, segment, &highest));
-    if (answer == MICROTIN_QUERY_NOT_LOADED) return answer;
+    answer = worse(answer, answer_of_tile<Form>(p, tiles, segment, add, state));
   }
-  *height = highest;
+  return answer;
+}
+
+template <class Form>
+microtin_query_result extremes_in_pack(const microtin_pack& p, const microtin_segment& segment,
+                                       microtin_segment_extremes* extremes) {
+  clear(extremes);
+  microtin_segment_state state = {};
+  begin_extremes(&state);
+  const microtin_query_result answer = walk_pack<Form>(p, segment, AddToExtremes(), &state);
+  get_extremes(state, extremes);
   return answer;
 }
 

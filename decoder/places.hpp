@@ -21,18 +21,6 @@ inline microtin_query_result worse(microtin_query_result a, microtin_query_resul
   return rank(a) > rank(b) ? a : b;
 }
 
-// At the ends of a segment. *highest becomes the greater height, if there is one.
-template <class HeightAt>
-microtin_query_result ask_ends(const microtin_segment& segment, const HeightAt& height_at,
-                               int32_t* highest) {
-  uint32_t hint = 0;
-  int32_t begin = INT32_MIN, end = INT32_MIN;
-  const microtin_query_result answer = worse(height_at(segment.x, segment.y, &hint, &begin),
-                                             height_at(segment.x_end, segment.y_end, &hint, &end));
-  *highest = begin > end ? begin : end;
-  return answer;
-}
-
 // Whether heights on an axis fit whole units.
 inline bool has_small_units(const microtin_axis& z) {
   return z.numerator >> 31 == 0 && is_within(z.offset, static_cast<int64_t>(1) << 45);

@@ -5,14 +5,15 @@
 
 using namespace microtin;
 
-microtin_query_result microtin_mesh_segment_max(const microtin_mesh* mesh,
-                                                const microtin_segment* segment,
-                                                microtin_segment_state* state, int32_t* height,
-                                                uint32_t step_limit) {
-  *height = INT32_MIN;
+microtin_query_result microtin_mesh_segment_extremes(const microtin_mesh* mesh,
+                                                     const microtin_segment* segment,
+                                                     microtin_segment_state* state,
+                                                     microtin_segment_extremes* extremes,
+                                                     uint32_t step_limit) {
+  clear(extremes);
   const microtin_query_result refusal = refusal_of(*mesh, 0);
   if (refusal != MICROTIN_QUERY_OK) return refusal;
-  return highest_in_terrain(MeshForm(mesh), *segment, state, height, step_limit);
+  return extremes_in_terrain(MeshForm(mesh), *segment, state, extremes, step_limit);
 }
 
 microtin_query_result microtin_mesh_sample_grid(const microtin_mesh* mesh,

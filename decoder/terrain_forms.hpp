@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Terrains as segments see them (tile_segment.hpp): meshes, and laced rings with their cursor.
+// Terrains as segments see them (segment_walk.hpp): meshes, and laced rings with their cursor.
 #ifndef MICROTIN_DECODER_TERRAIN_FORMS_HPP
 #define MICROTIN_DECODER_TERRAIN_FORMS_HPP
 
+#include "decoder/local_point.hpp"
 #include "decoder/ring.hpp"
-#include "decoder/tile_segment.hpp"
+#include "decoder/walk.hpp"
 
 namespace microtin {
 
@@ -24,11 +25,21 @@ class MeshForm {
     const uint32_t i = v[0] == kInfinity ? 1u : v[1] == kInfinity ? 2u : 0u;
     return MeshCursor(m_, static_cast<Index>(first + i));
   }
-  bool places(uint32_t t, Point* places) const {
-    const Index* const v = m_.mesh.origin + first_edge(static_cast<Index>(t));
-    if (is_ghost(v[0], v[1], v[2])) return false;
-    for (int i = 0; i < 3; ++i) places[i] = point_of(m_.mesh, v[i]);
-    return true;
+  uint32_t number(const MeshCursor& cursor) const { return cursor.triangle(); }
+  // The nearest of some triangles: a walk from there is shorter by more than the look costs.
+  MICROTIN_ONE_COPY uint32_t hint(LocalPoint p) const {
+    const uint32_t stride = m_.mesh.triangles / kSamples + 1;
+    uint32_t best = 0, least = UINT32_MAX;
+    for (uint32_t t = 0; t < m_.mesh.triangles; t += stride) {
+      const Index* const v = m_.mesh.origin + first_edge(static_cast<Index>(t));
+      const Point at = m_.mesh.place[v[0] != kInfinity ? v[0] : v[1]];
+      const uint32_t far = static_cast<uint32_t>(magnitude((p.x >> 8) - at.x)) +
+                           static_cast<uint32_t>(magnitude((p.y >> 8) - at.y));
+      if (far >= least) continue;
+      least = far;
+      best = t;
+    }
+    return best;
   }
   microtin_query_result height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
                                   int32_t* height) const {
@@ -36,6 +47,10 @@ class MeshForm {
   }
 
  private:
+  static constexpr uint32_t kSamples = 16;
+
+  static int32_t magnitude(int32_t v) { return v < 0 ? -v : v; }
+
   const microtin_mesh& m_;
 };
 
@@ -88,6 +103,7 @@ class RingCursor {
   bool is_ghost() const { return apex_ == 0; }
   bool may_stop() const { return !is_flagged() || has_area(); }
   MICROTIN_IN_PLACE bool has_terrain() const { return !is_ghost() && !is_flagged(); }
+  bool is_void() const { return is_flagged(); }
 
   // On through triangles without area.
   void cross() {
@@ -229,15 +245,8 @@ class RingForm {
   uint32_t triangles() const { return triangle_count(ring_); }
   Point corner() const { return Point{c_->west, c_->south}; }
   RingCursor at(uint32_t t) const { return cursor_at(ring_, t); }
-  bool places(uint32_t t, Point* places) const {
-    const uint32_t middle = middle_of(t);
-    const RingSpan span = span_of(ring_.left + (t & 1u), middle);
-    if (span.low == 0) return false;
-    places[0] = place_of(ring_, span.low);
-    places[1] = place_of(ring_, middle);
-    places[2] = place_of(ring_, span.high);
-    return true;
-  }
+  uint32_t number(const RingCursor& cursor) const { return number_of(cursor); }
+  uint32_t hint(LocalPoint p) const { return microtin_compact_hint(c_, p.x, p.y); }
   microtin_query_result height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
                                   int32_t* height) const {
     return microtin_compact_height_at(c_, p.x, p.y, hint, height, step_limit);

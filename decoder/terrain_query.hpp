@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Segments and blocks on a single terrain, whatever its form (tile_segment.hpp).
+// Segments and blocks on a single terrain, whatever its form (segment_walk.hpp).
 #ifndef MICROTIN_DECODER_TERRAIN_QUERY_HPP
 #define MICROTIN_DECODER_TERRAIN_QUERY_HPP
 
 #include "decoder/places.hpp"
-#include "decoder/tile_segment.hpp"
+#include "decoder/segment_extremes.hpp"
+#include "decoder/segment_walk.hpp"
 
 namespace microtin {
 
@@ -19,52 +20,54 @@ microtin_query_result height_in_terrain(const Form& form, int64_t x, int64_t y, 
   return form.height_at(local_place(x, y), 0, hint, height);
 }
 
-// The ends of a segment come before the triangles.
-constexpr uint32_t kSegmentEnds = 2;
-
-inline void note_answer(microtin_segment_state* done, microtin_query_result answer) {
-  done->worst = worse(answer, static_cast<microtin_query_result>(done->worst));
+inline bool is_on_lattice(const microtin_segment& segment) {
+  return is_on_lattice(segment.x, segment.y) && is_on_lattice(segment.x_end, segment.y_end);
 }
 
-// A step, or without a limit all, of the walk to the end that comes next.
-template <class Form>
-void walk_to_end(const Form& form, const microtin_segment& segment, uint32_t step_limit,
-                 microtin_segment_state* done) {
-  const bool is_first = done->next == 0;
-  const LocalPoint end =
-      is_first ? local_place(segment.x, segment.y) : local_place(segment.x_end, segment.y_end);
-  int32_t height = INT32_MIN;
-  const microtin_query_result answer =
-      form.height_at(end, step_limit == 0 ? 0u : 1u, &done->hint, &height);
-  if (answer == MICROTIN_QUERY_STEP_LIMIT) return;
-  done->highest = is_first ? height : larger(height, done->highest);
-  note_answer(done, answer);
-  ++done->next;
+// What a crossing says of the whole segment.
+inline void note_answer(const Crossing& c, microtin_segment_state* state) {
+  microtin_query_result answer = static_cast<microtin_query_result>(c.answer);
+  if (!c.is_known_before) answer = worse(answer, MICROTIN_QUERY_VOID);
+  state->result = worse(answer, static_cast<microtin_query_result>(state->result));
 }
 
-// Hulls are convex: a segment leaves them only if it ends outside.
+// Hands the crossings of a segment on the lattice to add(crossing, state), from where the state
+// stands, in at most `step_limit` walk steps (0: all). False if there are more.
+template <class Form, class Add>
+bool walk_terrain(const Form& form, const microtin_segment& segment, uint32_t step_limit,
+                  const Add& add, microtin_segment_state* state) {
+  const LocalPoint begin = local_place(segment.x, segment.y);
+  const WalkStage stage = state->stage < static_cast<uint32_t>(WalkStage::kEnded)
+                              ? static_cast<WalkStage>(state->stage)
+                              : WalkStage::kEnded;
+  SegmentWalk<Form> walk(form, begin, begin, local_place(segment.x_end, segment.y_end), stage,
+                         state->triangle);
+  for (uint32_t step = 0; !walk.at_end() && (step_limit == 0 || step < step_limit); ++step) {
+    Crossing c;
+    if (!walk.step(step_limit != 0, &c)) continue;
+    note_answer(c, state);
+    add(c, state);
+  }
+  state->stage = static_cast<uint32_t>(walk.stage());
+  state->triangle = walk.number();
+  return walk.at_end();
+}
+
 template <class Form>
-microtin_query_result highest_in_terrain(const Form& form, const microtin_segment& segment,
-                                         microtin_segment_state* state, int32_t* height,
-                                         uint32_t step_limit) {
+microtin_query_result extremes_in_terrain(const Form& form, const microtin_segment& segment,
+                                          microtin_segment_state* state,
+                                          microtin_segment_extremes* extremes,
+                                          uint32_t step_limit) {
   microtin_segment_state own = {};  // without a limit a call needs no state
   microtin_segment_state* const done = state != nullptr ? state : &own;
-  *height = INT32_MIN;
-  if (!is_on_lattice(segment.x, segment.y) || !is_on_lattice(segment.x_end, segment.y_end)) {
-    return MICROTIN_QUERY_OUTSIDE;
+  clear(extremes);
+  if (!is_on_lattice(segment)) return MICROTIN_QUERY_OUTSIDE;
+  if (done->stage == 0) begin_extremes(done);
+  if (!walk_terrain(form, segment, step_limit, AddToExtremes(), done)) {
+    return MICROTIN_QUERY_STEP_LIMIT;
   }
-  TileSegment all(TileBox{0, 0, kLatticeMax, kLatticeMax}, segment);
-  all.move(form.corner());
-  for (uint32_t step = 0; done->next < kSegmentEnds + form.triangles(); ++step) {
-    if (step_limit != 0 && step == step_limit) return MICROTIN_QUERY_STEP_LIMIT;
-    if (done->next < kSegmentEnds) {
-      walk_to_end(form, segment, step_limit, done);
-    } else if (!all.look(form, done->next++ - kSegmentEnds, &done->highest)) {
-      note_answer(done, MICROTIN_QUERY_VOID);
-    }
-  }
-  *height = done->highest;
-  return static_cast<microtin_query_result>(done->worst);
+  get_extremes(*done, extremes);
+  return static_cast<microtin_query_result>(done->result);
 }
 
 template <class Form>

@@ -5,6 +5,7 @@
 //   start(), end(), apex()      the numbers of the half-edge's ends, and of the third corner
 //   is_ghost()                  whether the third corner is infinity
 //   has_terrain()               whether the triangle is neither ghost nor void
+//   is_void()                   whether a triangle that is no ghost is void
 //   cross()                     to the triangle beyond, on the half-edge the other way
 //   leave_next(), leave_last(), then enter()   ... beyond end() -> apex(), beyond apex() ->
 //                               start(), or into what is no triangle of the mesh, where may_stop()
@@ -98,7 +99,7 @@ inline Vertex vertex_of(const Mesh& mesh, uint32_t v) {
 // The half-edge mesh's.
 class MeshCursor {
  public:
-  MeshCursor(const microtin_mesh& m, Index half_edge) : m_(m), h_(half_edge) {}
+  MeshCursor(const microtin_mesh& m, Index half_edge) : m_(&m), h_(half_edge) {}
 
   Index start() const { return mesh().origin[h_]; }
   Index end() const { return mesh().origin[next_in_triangle(h_)]; }
@@ -106,7 +107,8 @@ class MeshCursor {
   Index triangle() const { return triangle_of(h_); }
   bool is_ghost() const { return apex() == kInfinity; }
   bool may_stop() const { return true; }
-  bool has_terrain() const { return microtin::has_terrain(m_, triangle()); }
+  bool has_terrain() const { return microtin::has_terrain(*m_, triangle()); }
+  bool is_void() const { return m_->has_voids && microtin::is_void(m_->voids, triangle()); }
   void cross() { enter(); }
   void leave_next() { h_ = next_in_triangle(h_); }
   void leave_last() { h_ = previous_in_triangle(h_); }
@@ -128,9 +130,9 @@ class MeshCursor {
   Vertex vertex(uint32_t v) const { return vertex_of(mesh(), v); }
 
  private:
-  const Mesh& mesh() const { return m_.mesh; }
+  const Mesh& mesh() const { return m_->mesh; }
 
-  const microtin_mesh& m_;
+  const microtin_mesh* m_;
   Index h_;
 };
 

@@ -18,6 +18,7 @@
 #include "fuzz/support/expect.hpp"
 #include "fuzz/support/repair.hpp"
 #include "microtin/compact_pack.h"
+#include "tests/support/limited_segment.hpp"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t most);
 
@@ -102,9 +103,10 @@ struct Device {
     return is_compact ? microtin_compact_pack_height_at(pack, x, y, hint, height)
                       : microtin_pack_height_at(pack, x, y, hint, height);
   }
-  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
-    return is_compact ? microtin_compact_pack_segment_max(pack, &segment, height)
-                      : microtin_pack_segment_max(pack, &segment, height);
+  microtin_query_result segment_extremes(const microtin_segment& segment,
+                                         microtin_segment_extremes* extremes) const {
+    return is_compact ? microtin_compact_pack_segment_extremes(pack, &segment, extremes)
+                      : microtin_pack_segment_extremes(pack, &segment, extremes);
   }
   microtin_query_result sample_grid(const microtin_grid_spec& block, int16_t* heights) const {
     return is_compact ? microtin_compact_pack_sample_grid(pack, &block, heights)
@@ -263,27 +265,29 @@ void serve(Card& card, const Device& device, const microtin_segment& segment, ui
   uint32_t hint = 0;
   const microtin_query_result answer = device.height_at(segment.x, segment.y, &hint, &height);
   if (status == MICROTIN_STATUS_OK) EXPECT(answer != MICROTIN_QUERY_NOT_LOADED);
-  const microtin_query_result highest = device.segment_max(segment, &height);
-  if (status == MICROTIN_STATUS_OK) EXPECT(highest != MICROTIN_QUERY_NOT_LOADED);
+  microtin_segment_extremes extremes;
+  const microtin_query_result on_segment = device.segment_extremes(segment, &extremes);
+  if (status == MICROTIN_STATUS_OK) EXPECT(on_segment != MICROTIN_QUERY_NOT_LOADED);
 }
 
 // What a device says of a segment and of a block at its beginning.
 struct Answers {
-  microtin_query_result begin, highest, fill;
-  int32_t heights[2] = {};
+  microtin_query_result begin, on_segment, fill;
+  int32_t height = 0;
+  microtin_segment_extremes extremes;
   int16_t block[6] = {};
 
   Answers(const Device& device, const microtin_segment& segment) {
     uint32_t hint = 0;
-    begin = device.height_at(segment.x, segment.y, &hint, &heights[0]);
-    highest = device.segment_max(segment, &heights[1]);
+    begin = device.height_at(segment.x, segment.y, &hint, &height);
+    on_segment = device.segment_extremes(segment, &extremes);
     fill = device.sample_grid({segment.x, segment.y, 300, -256, 3, 2, -9999}, block);
   }
   // Blocks reach beyond the segment, to tiles that may be there or not.
   bool operator==(const Answers& other) const {
     const bool are_blocks = fill == MICROTIN_QUERY_OK && other.fill == MICROTIN_QUERY_OK;
-    return begin == other.begin && highest == other.highest &&
-           std::equal(heights, heights + 2, other.heights) &&
+    return begin == other.begin && on_segment == other.on_segment && height == other.height &&
+           same(extremes, other.extremes) &&
            (!are_blocks || std::equal(block, block + 6, other.block));
   }
 };

@@ -80,7 +80,7 @@ void check_segments(const microtin_mesh* mesh, const MeshCopy& copy, FuzzedDataP
     const Place a = place_from(asked, copy), b = place_from(asked, copy);
     const microtin_segment c = {a.x, a.y, b.x, b.y};
     Random random(asked.ConsumeIntegral<uint32_t>());
-    EXPECT(highest_in_pieces(mesh, c, 1 + random.below(300), random) == highest_on(mesh, c));
+    EXPECT(extremes_in_pieces(mesh, c, 1 + random.below(300), random) == extremes_on(mesh, c));
   }
 }
 

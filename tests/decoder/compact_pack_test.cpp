@@ -135,11 +135,13 @@ TEST_CASE("compact pack: each form's functions refuse packs of the other") {
   int16_t sample = 0;
   CHECK(microtin_pack_height_at(compact.pack, c.x, c.y, &hint, &height) ==
         MICROTIN_QUERY_WRONG_PACK_KIND);
-  CHECK(microtin_pack_segment_max(compact.pack, &c, &height) == MICROTIN_QUERY_WRONG_PACK_KIND);
+  microtin_segment_extremes extremes;
+  CHECK(microtin_pack_segment_extremes(compact.pack, &c, &extremes) ==
+        MICROTIN_QUERY_WRONG_PACK_KIND);
   CHECK(microtin_pack_sample_grid(compact.pack, &grid, &sample) == MICROTIN_QUERY_WRONG_PACK_KIND);
   CHECK(microtin_compact_pack_height_at(mesh.pack, c.x, c.y, &hint, &height) ==
         MICROTIN_QUERY_WRONG_PACK_KIND);
-  CHECK(microtin_compact_pack_segment_max(mesh.pack, &c, &height) ==
+  CHECK(microtin_compact_pack_segment_extremes(mesh.pack, &c, &extremes) ==
         MICROTIN_QUERY_WRONG_PACK_KIND);
   CHECK(microtin_compact_pack_sample_grid(mesh.pack, &grid, &sample) ==
         MICROTIN_QUERY_WRONG_PACK_KIND);

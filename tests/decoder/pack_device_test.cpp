@@ -294,7 +294,7 @@ TEST_CASE_TEMPLATE("pack: the highest on a segment is that of its edges and no s
         c = {c.x / 256 * 256, c.y / 256 * 256, c.x_end / 256 * 256, c.y_end / 256 * 256};
       REQUIRE(device.load(card, c) == MICROTIN_STATUS_OK);
       int32_t highest = 0;
-      const microtin_query_result answer = device.segment_max(c, &highest);
+      const microtin_query_result answer = device.highest_on(c, &highest);
       int32_t sampled = INT32_MIN, begin = INT32_MIN, end = INT32_MIN;
       bool gap = false;
       for (int64_t k = 0; k <= 4096; ++k) {  // those that lie on the segment exactly
@@ -456,10 +456,12 @@ TEST_CASE_TEMPLATE("pack: the C++ face", Face, MeshPack, PackOfCompact) {
   REQUIRE(pack.get_info(&info) == MICROTIN_STATUS_OK);
   CHECK(info.x_max == 60);
   uint32_t hint = 0;
-  int32_t height = 0, highest = 1;
+  int32_t height = 0;
+  microtin_segment_extremes found;
   CHECK(pack.height_at(c.x, c.y, &hint, &height) == MICROTIN_QUERY_OK);
-  CHECK(pack.segment_max(c, &highest) == MICROTIN_QUERY_OK);
-  CHECK(highest == height);
+  CHECK(pack.segment_extremes(c, &found) == MICROTIN_QUERY_OK);
+  CHECK(found.highest == height);
+  CHECK(found.lowest == height);
   int16_t rounded = 0;
   CHECK(pack.sample_grid({c.x, c.y, 0, 0, 1, 1, -1}, &rounded) == MICROTIN_QUERY_OK);
   pack.reset();
@@ -512,7 +514,7 @@ TEST_CASE_TEMPLATE("pack: far from the origin, in the largest extent", Device, M
   int32_t height = 0, highest = 0;
   CHECK(device.height_at(c.x, c.y, height) == MICROTIN_QUERY_OK);
   CHECK(height == *expected_height(PackFile(write_pack(encoded)), 5 * 256, 7 * 256));
-  CHECK(device.segment_max(c, &highest) == MICROTIN_QUERY_OK);
+  CHECK(device.highest_on(c, &highest) == MICROTIN_QUERY_OK);
   CHECK(highest >= height);
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The highest on a segment: against exact fractions, on packs of the encoder and on forged ones.
+// The extremes on a segment: against exact fractions, on packs of the encoder and on forged ones.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <vector>
 
 #include "tests/support/forged_pack.hpp"
+#include "tests/support/limited_segment.hpp"
 #include "tests/support/pack_device.hpp"
 #include "tests/support/packs.hpp"
 #include "tests/support/reference_segment.hpp"
@@ -54,6 +55,21 @@ struct Counts {
   int known = 0, unknown = 0;
 };
 
+// A single place where tiles disagree has any of their heights.
+void check_extremes(const Expected& expected, const microtin_segment_extremes& found,
+                    bool is_exact) {
+  if (expected.meetings.empty()) {
+    REQUIRE(found.highest == INT32_MIN);
+    REQUIRE(found.lowest == INT32_MAX);
+    return;
+  }
+  REQUIRE(expected.has(found.highest, found.highest_along));
+  REQUIRE(expected.has(found.lowest, found.lowest_along));
+  if (!is_exact) return;
+  REQUIRE(found.highest == expected.highest());
+  REQUIRE(found.lowest == expected.lowest());
+}
+
 // The answer on a segment is that of exact fractions, and those at places on it agree.
 void check_segment(const PackDevice& device, const Surface& surface, const microtin_segment& c,
                    bool tiles_agree, Counts& counts) {
@@ -61,13 +77,11 @@ void check_segment(const PackDevice& device, const Surface& surface, const micro
   CAPTURE(c.y);
   CAPTURE(c.x_end);
   CAPTURE(c.y_end);
-  int32_t highest = 1;
-  const microtin_query_result answer = device.segment_max(c, &highest);
+  microtin_segment_extremes found = {1, 1, 1, 1};
+  const microtin_query_result answer = device.segment_extremes(c, &found);
   const Expected expected = expect(surface, c);
   REQUIRE(answer == (expected.is_known ? MICROTIN_QUERY_OK : MICROTIN_QUERY_VOID));
-  REQUIRE(highest <= expected.highest);
-  REQUIRE(highest >= expected.between);
-  if (tiles_agree) REQUIRE(highest == expected.highest);
+  check_extremes(expected, found, tiles_agree || (c.x != c.x_end || c.y != c.y_end));
   ++(expected.is_known ? counts.known : counts.unknown);
   for (int64_t k = 0; k <= 64; ++k) {
     const int64_t dx = (c.x_end - c.x) * k, dy = (c.y_end - c.y) * k;
@@ -76,7 +90,7 @@ void check_segment(const PackDevice& device, const Surface& surface, const micro
     const microtin_query_result here = device.height_at(c.x + dx / 64, c.y + dy / 64, height);
     REQUIRE((here == MICROTIN_QUERY_OK || here == MICROTIN_QUERY_VOID));
     if (here == MICROTIN_QUERY_VOID) REQUIRE(answer == MICROTIN_QUERY_VOID);
-    if (tiles_agree) REQUIRE(height <= highest);
+    if (tiles_agree) REQUIRE(height <= found.highest);
   }
 }
 
@@ -140,8 +154,8 @@ Tin missed_tile(Random& random, uint16_t side) {
 }  // namespace
 
 TEST_CASE_TEMPLATE(
-    "pack: the highest on a segment is exact, and known if every place is, on forged tiles", Device,
-    MeshSlots, CompactSlots) {
+    "pack: the extremes on a segment are exact, and known if every place is, on forged tiles",
+    Device, MeshSlots, CompactSlots) {
   Random random(31);
   Counts counts;
   for (int round = 0; round < 150; ++round) {
@@ -164,7 +178,7 @@ TEST_CASE_TEMPLATE(
 }
 
 TEST_CASE_TEMPLATE(
-    "pack: the highest on a segment is exact, and known if every place is, on encoded tiles",
+    "pack: the extremes on a segment are exact, and known if every place is, on encoded tiles",
     Device, MeshSlots, CompactSlots) {
   Random random(32);
   Counts counts;
@@ -178,7 +192,7 @@ TEST_CASE_TEMPLATE(
   CHECK(counts.unknown > 100);
 }
 
-TEST_CASE_TEMPLATE("pack: the highest on a segment is exact where compact paths miss vertices",
+TEST_CASE_TEMPLATE("pack: the extremes on a segment are exact where compact paths miss vertices",
                    Device, MeshSlots, CompactSlots) {
   Random random(35);
   Counts counts;
@@ -212,12 +226,32 @@ TEST_CASE_TEMPLATE(
   const Device device(2);
   REQUIRE(device.load(card, {0, 0, 2047, 0}) == MICROTIN_STATUS_OK);
   int32_t highest = 0;
-  const auto answer = [&](const microtin_segment& c) { return device.segment_max(c, &highest); };
+  const auto answer = [&](const microtin_segment& c) { return device.highest_on(c, &highest); };
   CHECK(answer({1024, 100, 1024, 100}) == MICROTIN_QUERY_OK);  // a place on the border
   CHECK(answer({1024, 0, 1024, 1024}) == MICROTIN_QUERY_OK);   // along it
   CHECK(highest == 4 * 65536);
   CHECK(answer({0, 512, 1024, 512}) == MICROTIN_QUERY_OK);    // up to it
   CHECK(answer({0, 512, 1025, 512}) == MICROTIN_QUERY_VOID);  // a 256th of a step too far
+}
+
+TEST_CASE_TEMPLATE("pack: a segment through tiles that are not there has the extremes of the rest",
+                   Device, MeshSlots, CompactSlots) {
+  const TileGrid grid = {8, 4, 4, 4};
+  const ForgedTile low = forged_tile({{{0, 0, 1}, {4, 0, 2}, {0, 4, 3}, {4, 4, 4}}, {}}),
+                   high = forged_tile({{{0, 0, 2}, {4, 0, 9}, {0, 4, 4}, {4, 4, 9}}, {}});
+  Card card{forged_pack(grid, {low, high})};
+  const Device device(1);
+  const microtin_segment c = {0, 0, 8 * 256, 0};
+  microtin_segment_extremes found;
+  CHECK(device.segment_extremes(c, &found) == MICROTIN_QUERY_NOT_LOADED);
+  REQUIRE(device.load(card, at(1, 0)) == MICROTIN_STATUS_OK);
+  CHECK(device.segment_extremes(c, &found) == MICROTIN_QUERY_NOT_LOADED);
+  CHECK(same(found, {2 * 65536, 65536, 1 << 29, 0}));
+  REQUIRE(device.load(card, at(7, 0)) == MICROTIN_STATUS_OK);
+  CHECK(device.segment_extremes(c, &found) == MICROTIN_QUERY_NOT_LOADED);
+  CHECK(same(found, {9 * 65536, 2 * 65536, 1 << 30, 1 << 29}));
+  CHECK(device.segment_extremes({0, 0, INT64_C(1) << 24, 0}, &found) == MICROTIN_QUERY_OUTSIDE);
+  CHECK(same(found, {INT32_MIN, INT32_MAX, 0, 0}));
 }
 
 TEST_CASE_TEMPLATE("pack: heights where a segment leaves the terrain are rounded once, halves up",
@@ -240,7 +274,7 @@ TEST_CASE_TEMPLATE("pack: heights where a segment leaves the terrain are rounded
 }
 
 TEST_CASE_TEMPLATE(
-    "pack: the highest on the longest segments and the largest tiles does not overflow", Device,
+    "pack: the extremes on the longest segments and the largest tiles does not overflow", Device,
     MeshSlots, CompactSlots) {
   const TileGrid grid = {2 * 65535, 65535, 65535, 65535};
   const auto corner = [](uint16_t x, uint16_t y, bool high) {
@@ -275,7 +309,7 @@ TEST_CASE_TEMPLATE(
       const microtin_segment c = {x, y, std::min<int64_t>(x_end, 2 * 65535 * 256),
                                   pick(65535 * 256 - 1)};
       int32_t highest = 0;
-      const microtin_query_result answer = device.segment_max(c, &highest);
+      const microtin_query_result answer = device.highest_on(c, &highest);
       // Heights of the reference would overflow: whether all is known alone.
       std::vector<Stretch> stretches = stretches_of(surface, c);
       CHECK(answer == (cover(stretches) ? MICROTIN_QUERY_OK : MICROTIN_QUERY_VOID));

@@ -98,11 +98,11 @@ TEST_CASE_TEMPLATE("pack: bad tiles are skipped, reported, and tried again on re
   CHECK(answer(7 * 256, 300) == MICROTIN_QUERY_BAD_TILE);
   CHECK(answer(11 * 256, 300) == MICROTIN_QUERY_OK);
   int32_t highest = 0;
-  CHECK(device.segment_max(all, &highest) == MICROTIN_QUERY_BAD_TILE);
+  CHECK(device.highest_on(all, &highest) == MICROTIN_QUERY_BAD_TILE);
   CHECK(highest == 5 * 65536);
   const microtin_segment between = {512, 300, 6 * 256, 300}, along = {6 * 256, 0, 6 * 256, 512};
-  CHECK(device.segment_max(between, &highest) == MICROTIN_QUERY_OK);
-  CHECK(device.segment_max(along, &highest) == MICROTIN_QUERY_OK);
+  CHECK(device.highest_on(between, &highest) == MICROTIN_QUERY_OK);
+  CHECK(device.highest_on(along, &highest) == MICROTIN_QUERY_OK);
   const uint32_t reads = card.reads;
   CHECK(device.load(card, all) == MICROTIN_STATUS_BAD_TILES);
   CHECK(card.reads == reads);

@@ -12,6 +12,7 @@
 #include "microtin/microtin.hpp"
 #include "tests/support/compact_pair.hpp"
 #include "tests/support/device.hpp"
+#include "tests/support/forged_pack.hpp"
 #include "tests/support/limited_segment.hpp"
 #include "tests/support/reference_segment.hpp"
 #include "tests/support/streams.hpp"
@@ -48,20 +49,17 @@ microtin_query_result answer_at(const Both& terrain, int64_t x, int64_t y, int32
 }
 
 // Both forms say the same in calls of any length, of one step, and of all that are left.
-void check_in_pieces(const Both& terrain, const microtin_segment& c, const Highest& highest) {
+void check_in_pieces(const Both& terrain, const microtin_segment& c, const Extremes& extremes) {
   Random random(static_cast<uint64_t>(c.x + c.y_end));
   for (const uint32_t most : {1u, 7u, 200u}) {
-    REQUIRE(highest_in_pieces(terrain.mesh.mesh(), c, most, random) == highest);
-    REQUIRE(highest_in_pieces(terrain.compact.compact(), c, most, random) == highest);
+    REQUIRE(extremes_in_pieces(terrain.mesh.mesh(), c, most, random) == extremes);
+    REQUIRE(extremes_in_pieces(terrain.compact.compact(), c, most, random) == extremes);
   }
   microtin_segment_state mesh = {}, compact = {};
-  int32_t height = 0;
-  REQUIRE(terrain.mesh.segment_max(c, &mesh, &height, 5) != MICROTIN_QUERY_OK);
-  REQUIRE(terrain.mesh.segment_max(c, &mesh, &height, 0) == highest.answer);
-  REQUIRE(height == highest.height);
-  terrain.compact.segment_max(c, &compact, &height, 5);
-  REQUIRE(terrain.compact.segment_max(c, &compact, &height, 0) == highest.answer);
-  REQUIRE(height == highest.height);
+  limited_extremes(terrain.mesh.mesh(), c, 1, &mesh);
+  REQUIRE(limited_extremes(terrain.mesh.mesh(), c, 0, &mesh) == extremes);
+  limited_extremes(terrain.compact.compact(), c, 2, &compact);
+  REQUIRE(limited_extremes(terrain.compact.compact(), c, 0, &compact) == extremes);
 }
 
 void check_segment(const Both& terrain, const Surface& surface, const microtin_segment& c,
@@ -71,13 +69,16 @@ void check_segment(const Both& terrain, const Surface& surface, const microtin_s
   CAPTURE(c.x_end);
   CAPTURE(c.y_end);
   const Expected expected = expect(surface, c);
-  int32_t highest = 1, compact_highest = 2, begin = INT32_MIN, end = INT32_MIN;
-  const microtin_query_result answer = terrain.mesh.segment_max(c, &highest);
-  REQUIRE(terrain.compact.segment_max(c, &compact_highest) == answer);
-  REQUIRE(compact_highest == highest);
-  REQUIRE(highest == expected.highest);
+  int32_t begin = INT32_MIN, end = INT32_MIN;
+  const Extremes extremes = extremes_on(terrain.mesh.mesh(), c);
+  const microtin_query_result answer = extremes.answer;
+  REQUIRE(extremes.found.highest == expected.highest());
+  REQUIRE(extremes.found.lowest == expected.lowest());
+  REQUIRE(extremes.found.highest_along == expected.first_along(expected.highest()));
+  REQUIRE(extremes.found.lowest_along == expected.first_along(expected.lowest()));
   REQUIRE((answer == MICROTIN_QUERY_OK) == expected.is_known);
-  check_in_pieces(terrain, c, {answer, highest});
+  REQUIRE(extremes_on(terrain.compact.compact(), c) == extremes);
+  check_in_pieces(terrain, c, extremes);
   const bool leaves = answer_at(terrain, c.x, c.y, &begin) == MICROTIN_QUERY_OUTSIDE ||
                       answer_at(terrain, c.x_end, c.y_end, &end) == MICROTIN_QUERY_OUTSIDE;
   REQUIRE((answer == MICROTIN_QUERY_OUTSIDE) == leaves);
@@ -110,9 +111,44 @@ microtin_segment small_segment(Random& random, int64_t side) {
   return c;
 }
 
+// Some of 3 x 3 vertices, where nearly everything is degenerate: lines through vertices, along
+// edges and the hull, past corners of it.
+Tin tiny_tin(uint32_t seed) {
+  Random random(seed);
+  Tin tin;
+  for (uint16_t k = 0; k < 9; ++k) {
+    if (seed % 4 != 0 && random.below(3) == 0) continue;
+    tin.vertices.push_back({static_cast<uint16_t>(1 + k % 3), static_cast<uint16_t>(1 + k / 3),
+                            static_cast<int16_t>(random.below(9) - 4)});
+  }
+  if (!has_triangle(tin)) tin.vertices = {{1, 1, 5}, {3, 1, -5}, {2, 3, 1}};
+  return seed % 3 == 0 ? tin : with_some_voids(std::move(tin), random, 40);
+}
+
+// Between places half a step apart, in and around it.
+microtin_segment tiny_segment(Random& random) {
+  const auto pick = [&] { return static_cast<int64_t>(random.below(9)) * 128; };
+  return {pick(), pick(), pick(), pick()};
+}
+
 }  // namespace
 
-TEST_CASE("the highest on a segment of a terrain is exact, and known if every place is") {
+TEST_CASE("the extremes on a segment are exact on tiny terrains, where lines meet vertices") {
+  Counts counts;
+  for (uint32_t seed = 0; seed < 150; ++seed) {
+    CAPTURE(seed);
+    const Both terrain(encode(tiny_tin(seed), Metadata(), Effort{32, Coding::kQuick}));
+    Surface surface;
+    surface.add(terrain.mesh.mesh(), 0, 0);
+    Random random(seed);
+    for (int i = 0; i < 200; ++i) check_segment(terrain, surface, tiny_segment(random), counts);
+  }
+  CHECK(counts.known > 500);
+  CHECK(counts.in_void > 500);
+  CHECK(counts.outside > 500);
+}
+
+TEST_CASE("the extremes on a segment of a terrain are exact, and known if every place is") {
   Counts counts;
   for (uint32_t seed = 0; seed < 160; ++seed) {
     CAPTURE(seed);
@@ -127,7 +163,8 @@ TEST_CASE("the highest on a segment of a terrain is exact, and known if every pl
   CHECK(counts.outside > 500);
 }
 
-TEST_CASE("the highest of segments with an end off the lattice, and of meshes that are not there") {
+TEST_CASE(
+    "the extremes of segments with an end off the lattice, and of meshes that are not there") {
   const Both terrain(terrain_stream(300, 4));
   uint16_t column = 0, row = 0;
   int16_t z = 0;
@@ -135,45 +172,52 @@ TEST_CASE("the highest of segments with an end off the lattice, and of meshes th
   const int64_t x = int64_t{column} * 256, y = int64_t{row} * 256;
   int32_t height = 1;
   REQUIRE(answer_at(terrain, x, y, &height) == MICROTIN_QUERY_OK);
+  const Extremes outside{MICROTIN_QUERY_OUTSIDE, {INT32_MIN, INT32_MAX, 0, 0}};
   for (const microtin_segment& c :
        {microtin_segment{-1, 0, 5000, 0}, microtin_segment{x, y, 65535 * 256 + 1, y},
         microtin_segment{INT64_MIN, 0, INT64_MAX, 0},
         microtin_segment{0, INT64_MAX, 0, INT64_MIN}}) {
-    CHECK(terrain.mesh.segment_max(c, &height) == MICROTIN_QUERY_OUTSIDE);
-    CHECK(height == INT32_MIN);
-    CHECK(terrain.compact.segment_max(c, &height) == MICROTIN_QUERY_OUTSIDE);
+    CHECK(extremes_on(terrain.mesh.mesh(), c) == outside);
+    CHECK(extremes_on(terrain.compact.compact(), c) == outside);
   }
-  CHECK(terrain.made.segment_max({0, 0, 5, 5}, &height) == MICROTIN_QUERY_NOT_LOADED);
+  microtin_segment_extremes found;
+  CHECK(terrain.made.segment_extremes({0, 0, 5, 5}, &found) == MICROTIN_QUERY_NOT_LOADED);
   const Bytes stream = terrain_stream(900, 6);
   const Device device(900);
   size_t used = 0;
   REQUIRE(device.feed(stream.data(), stream.size(), &used, 300) == MICROTIN_STATUS_STEP_LIMIT);
   const microtin_segment c = {0, 0, 65535 * 256, 65535 * 256};
-  CHECK(microtin_mesh_segment_max(device.mesh, &c, nullptr, &height, 0) ==
-        MICROTIN_QUERY_UNVERIFIED);
-  microtin_segment_state progress = {};
-  CHECK(microtin_mesh_segment_max(device.mesh, &c, &progress, &height, 9) ==
-        MICROTIN_QUERY_UNVERIFIED);
-  CHECK(progress.next == 0);
+  CHECK(extremes_on(device.mesh, c).answer == MICROTIN_QUERY_UNVERIFIED);
+  microtin_segment_state state = {};
+  CHECK(limited_extremes(device.mesh, c, 9, &state).answer == MICROTIN_QUERY_UNVERIFIED);
+  CHECK(state.stage == 0);
 }
 
-TEST_CASE("a segment goes on where it was left, and an older progress stays in the terrain") {
+// Whatever a state says: calls end, and stay in the terrain, as sanitizers see.
+template <class Form>
+void check_any_state(const Form* form, const microtin_segment& c, microtin_segment_state state) {
+  for (uint32_t i = 0; i < 3; ++i) limited_extremes(form, c, 2, &state);
+  CHECK(limited_extremes(form, c, 0, &state).answer != MICROTIN_QUERY_STEP_LIMIT);
+}
+
+TEST_CASE("a segment goes on where it was left, and a state of another one stays in the terrain") {
   const Both large(terrain_stream(300, 4)), small(terrain_stream(20, 5));
-  const microtin_segment c = {0, 0, 65535 * 256, 65535 * 256}, off = {-1, 0, 0, 0};
-  for (uint32_t next = 0; next < triangles_of(large.mesh.mesh()) + 4; ++next) {
-    microtin_segment_state progress = {next, UINT32_MAX, 0, MICROTIN_QUERY_OK}, other = progress;
-    for (uint32_t i = 0; i < 3; ++i) {
-      const uint32_t before = progress.next;
-      limited_highest(small.mesh.mesh(), c, 2, &progress);
-      limited_highest(small.compact.compact(), c, 2, &other);
-      CHECK(progress.next - before <= 2);
+  const microtin_segment off = {-1, 0, 0, 0};
+  Random random(5);
+  for (uint32_t stage = 0; stage < 9; ++stage) {
+    for (uint32_t triangle = 0; triangle < triangles_of(large.mesh.mesh()); ++triangle) {
+      const microtin_segment c = segment_near(small.mesh.mesh(), random);
+      const microtin_segment_state state = {stage, triangle, 0, {7, 6}, {5, 4}, {3, 0}};
+      check_any_state(small.mesh.mesh(), c, state);
+      check_any_state(small.compact.compact(), c, state);
     }
-    const uint32_t end = triangles_of(small.mesh.mesh()) + 2;
-    if (next > end) CHECK(progress.next == next);
-    CHECK(limited_highest(small.mesh.mesh(), off, 1, &progress).answer == MICROTIN_QUERY_OUTSIDE);
+    microtin_segment_state state = {stage, 0, 0, {7, 6}, {5, 4}, {3, 0}};
+    CHECK(limited_extremes(small.mesh.mesh(), off, 1, &state).answer == MICROTIN_QUERY_OUTSIDE);
   }
-  microtin_segment_state most = {UINT32_MAX, 0, 7, MICROTIN_QUERY_VOID};
-  CHECK(limited_highest(large.mesh.mesh(), c, 1, &most) == Highest{MICROTIN_QUERY_VOID, 7});
+  const microtin_segment c = {0, 0, 65535 * 256, 65535 * 256};
+  microtin_segment_state most = {UINT32_MAX, 0, MICROTIN_QUERY_VOID, {7, 6}, {0, 1}, {1, 1}};
+  CHECK(limited_extremes(large.mesh.mesh(), c, 1, &most) ==
+        Extremes{MICROTIN_QUERY_VOID, {7, 6, 0, 1 << 30}});
 }
 
 TEST_CASE("blocks of a terrain contain the heights of single queries, in whole units") {

@@ -120,16 +120,16 @@ uint32_t sum_of_probes(const ProbeBox& box, HeightAt height_at) {
 }
 
 #ifndef MICROTIN_WITHOUT_SEGMENTS
-inline microtin_query_result highest_on(const microtin_mesh* mesh, const microtin_segment* c,
-                                        int32_t* z) {
-  return microtin_mesh_segment_max(mesh, c, nullptr, z, 0);
+inline microtin_query_result extremes_on(const microtin_mesh* mesh, const microtin_segment* c,
+                                         microtin_segment_extremes* extremes) {
+  return microtin_mesh_segment_extremes(mesh, c, nullptr, extremes, 0);
 }
-inline microtin_query_result highest_on(const microtin_compact* compact, const microtin_segment* c,
-                                        int32_t* z) {
-  microtin_segment_state progress = {};
+inline microtin_query_result extremes_on(const microtin_compact* compact, const microtin_segment* c,
+                                         microtin_segment_extremes* extremes) {
+  microtin_segment_state state = {};
   microtin_query_result answer;
   do {
-    answer = microtin_compact_segment_max(compact, c, &progress, z, 9);
+    answer = microtin_compact_segment_extremes(compact, c, &state, extremes, 9);
   } while (answer == MICROTIN_QUERY_STEP_LIMIT);
   return answer;
 }
@@ -152,9 +152,12 @@ uint32_t sum_of_segments(const ProbeBox& box, const Form* form) {
     const int32_t y = numbers.between(box.south, box.north);
     const int32_t x_end = numbers.between(box.west, box.east);
     const microtin_segment segment = {x, y, x_end, numbers.between(box.south, box.north)};
-    int32_t height = 0;
-    const microtin_query_result answer = highest_on(form, &segment, &height);
-    sum = sum * 31 + static_cast<uint32_t>(height) * 7 + static_cast<uint32_t>(answer);
+    microtin_segment_extremes found;
+    const microtin_query_result answer = extremes_on(form, &segment, &found);
+    sum = sum * 31 + static_cast<uint32_t>(found.highest) * 7 + static_cast<uint32_t>(answer);
+    sum = sum * 31 + static_cast<uint32_t>(found.lowest) * 7;
+    sum = sum * 31 + static_cast<uint32_t>(found.highest_along) * 7;
+    sum = sum * 31 + static_cast<uint32_t>(found.lowest_along);
   }
   const microtin_grid_spec block = {
       box.west - 256, box.south, (box.east - box.west) / 3, (box.north - box.south) / 3, 5, 4, -1};

@@ -25,9 +25,10 @@ QUERIES = ["mesh_height_at", "axis_to_lattice", "mesh_vertex", "mesh_triangle", 
 BUCKETS = ["buckets_init", "buckets_hint"]
 COMPACT = ["compactor_init", "compactor_run", "compactor_required_bytes", "compact_height_at", "compact_hint"]
 PACK = ["pack_init", "pack_load", "pack_next_read", "pack_complete_read", "pack_align_reads", "pack_bad_tile", "pack_get_info"]
-PACK_QUERIES = ["pack_height_at", "pack_axis_to_lattice", "pack_segment_max", "pack_sample_grid"]
+PACK_QUERIES = ["pack_height_at", "pack_axis_to_lattice", "pack_segment_extremes", "pack_sample_grid"]
 NOTES = ["note_finder_init", "note_finder_feed"]
 SAFE_HEIGHTS = ["mesh_safe_heights_at"]
+SEGMENTS = ["mesh_segment_extremes"]
 COMPACT_PACK = [{"pack_init": "compact_pack_init", "pack_load": "compact_pack_load"}.get(e, e) for e in PACK]
 COMPACT_PACK_QUERIES = ["compact_" + e if e != "pack_axis_to_lattice" else e for e in PACK_QUERIES]
 USES = {
@@ -41,6 +42,7 @@ USES = {
     "compact_pack_queries": COMPACT_PACK + COMPACT_PACK_QUERIES,
     "notes": NOTES,
     "safe_heights": DECODING + SAFE_HEIGHTS,
+    "segments": DECODING + SEGMENTS,
 }
 # What is measured of the decoder in one source, by each compiler.
 ONE_SOURCE_USES = {
@@ -110,12 +112,13 @@ def measure_library(options, library):
         graphs = [graph for graph in graphs if Path(graph).exists()]
         image = str(options.build / "linked")
         all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
-        link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + NOTES + SAFE_HEIGHTS + all_packs, image)
+        others = NOTES + SAFE_HEIGHTS + SEGMENTS
+        link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + others + all_packs, image)
         calls = stack.Stack(options.target, options.objdump, image, graphs)
         own = {
             "decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT, "pack": PACK,
             "pack_queries": PACK_QUERIES, "compact_pack": COMPACT_PACK, "compact_pack_queries": COMPACT_PACK_QUERIES,
-            "notes": NOTES, "safe_heights": SAFE_HEIGHTS,
+            "notes": NOTES, "safe_heights": SAFE_HEIGHTS, "segments": SEGMENTS,
         }  # fmt: skip
         for use, entries in own.items():
             result["stack_" + use] = max(calls.depth(symbol(options, entry)) for entry in entries)
@@ -248,6 +251,7 @@ USE_TITLES = {
     "compact_pack_queries": "packs with compact slots, all queries",
     "notes": "finding notes",
     "safe_heights": "decoding, safe heights",
+    "segments": "decoding, extremes on a segment",
 }
 STACK_TITLES = {
     "decoding": "decoding",
@@ -257,6 +261,7 @@ STACK_TITLES = {
     "compact_pack_queries": "queries of packs, compact slots",
     "notes": "finding notes",
     "safe_heights": "safe heights",
+    "segments": "extremes on a segment",
 }
 
 
@@ -299,15 +304,21 @@ RUNS = {
         "compact_far": "height at any position, from the previous hint" + MEAN_AND_WORST,
         "compact_found": "height at any position, from microtin_compact_hint" + MEAN_AND_WORST,
     },
+    "How many instructions does a segment take?": {
+        "segment": "extremes between any two positions" + MEAN_AND_WORST,
+        "segment_step": "the same, a triangle that it meets",
+        "compact_segment": "compact terrain: extremes between any two positions" + MEAN_AND_WORST,
+        "compact_segment_step": "compact terrain: the same, a triangle that it meets",
+    },
     "How many instructions does a pack take?": {
         "pack_tile": "loading a tile of 64 vertices from flash",
         "pack_worst_call": "loading, the most expensive call of one work unit",
         "pack_height": "height anywhere in 9 tiles" + MEAN_AND_WORST,
-        "pack_highest": "highest on a segment through 9 tiles" + MEAN_AND_WORST,
+        "pack_highest": "extremes on a segment through 9 tiles" + MEAN_AND_WORST,
         "compact_pack_tile": "compact slots: loading a tile",
         "compact_pack_worst_call": "compact slots: loading, the most expensive call",
         "compact_pack_height": "compact slots: height" + MEAN_AND_WORST,
-        "compact_pack_highest": "compact slots: highest on a segment" + MEAN_AND_WORST,
+        "compact_pack_highest": "compact slots: extremes on a segment" + MEAN_AND_WORST,
     },
 }
 

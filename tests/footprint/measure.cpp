@@ -13,7 +13,7 @@ namespace {
 using TerrainOfTile = microtin::Terrain<MICROTIN_MAX_VERTICES>;
 
 constexpr uint32_t kSide = 45;  // sqrt(2,000)
-constexpr uint32_t kQueries = 2048;
+constexpr uint32_t kQueries = 2048, kSegments = 256;
 
 void say(const char* name, uint32_t value) {
   microtin::print(put_char, name);
@@ -129,6 +129,57 @@ void measure_heights(const char* mean, const char* most, const microtin::ProbeBo
   say(most, queries.most());
 }
 
+// A query along a segment, of a mesh and of a compact terrain.
+microtin_query_result extremes(const microtin_mesh* mesh, const microtin_segment& segment,
+                               microtin_segment_state* state, uint32_t step_limit) {
+  microtin_segment_extremes found;
+  return microtin_mesh_segment_extremes(mesh, &segment, state, &found, step_limit);
+}
+microtin_query_result extremes(const microtin_compact* terrain, const microtin_segment& segment,
+                               microtin_segment_state* state, uint32_t step_limit) {
+  microtin_segment_extremes found;
+  return microtin_compact_segment_extremes(terrain, &segment, state, &found, step_limit);
+}
+
+// Steps behind the search for the begin.
+template <class Form>
+uint32_t steps_of(const Form* terrain, const microtin_segment& segment) {
+  microtin_segment_state state = {};
+  uint32_t steps = 0;
+  while (extremes(terrain, segment, &state, 1) == MICROTIN_QUERY_STEP_LIMIT) {
+    if (state.stage != 0) ++steps;
+  }
+  return steps;
+}
+
+// Segments between any two places of the box, from the triangle where each begins.
+template <class Form>
+void measure_segments(const char* const* names, const microtin::ProbeBox& box,
+                      const Form* terrain) {
+  Statistics segments, steps;
+  Anywhere places(box);
+  const uint32_t nothing = overhead();
+  for (uint32_t i = 0; i < kSegments; ++i) {
+    const FinePlace begin = places.next(), end = places.next();
+    const microtin_segment here = {begin.x, begin.y, begin.x, begin.y},
+                           segment = {begin.x, begin.y, end.x, end.y};
+    microtin_segment_state found = {}, state = {};
+    extremes(terrain, here, &found, 0);
+    state.triangle = found.triangle;
+    const uint32_t before = instruction_count();
+    extremes(terrain, segment, &state, 0);
+    segments.add(instruction_count() - before - nothing);
+    steps.add(steps_of(terrain, segment));
+  }
+  say(names[0], segments.mean());
+  say(names[1], segments.most());
+  say(names[2], segments.sum() / steps.sum());
+}
+
+constexpr const char* kSegmentNames[] = {"segment_mean", "segment_worst", "segment_step"};
+constexpr const char* kCompactSegmentNames[] = {"compact_segment_mean", "compact_segment_worst",
+                                                "compact_segment_step"};
+
 // The terrain made compact, in pieces of this many steps; the most expensive of them.
 microtin_compact* compact;
 
@@ -187,6 +238,8 @@ int firmware_main() {
   measure_heights<Anywhere>("far_mean", "far_worst", box, terrain, buckets, Start::kLast);
   measure_heights<Anywhere>("buckets_mean", "buckets_worst", box, terrain, buckets, Start::kFound);
 
+  measure_segments(kSegmentNames, box, static_cast<const microtin_mesh*>(terrain.mesh()));
+
   say("compact_make", make_compact(terrain, 0) / vertices);
   say("compact_bytes", static_cast<uint32_t>(microtin_compact_size(compact)));
   const CompactFace face;
@@ -195,5 +248,6 @@ int firmware_main() {
   measure_heights<Anywhere>("compact_far_mean", "compact_far_worst", box, face, face, Start::kLast);
   measure_heights<Anywhere>("compact_found_mean", "compact_found_worst", box, face, face,
                             Start::kFound);
+  measure_segments(kCompactSegmentNames, box, static_cast<const microtin_compact*>(compact));
   return 0;
 }

@@ -66,6 +66,7 @@ void measure(Pack& pack, const Told& told) {
                 y_most = static_cast<int32_t>(info.y_max) * 256;
   uint32_t hint = 0;
   int32_t height = 0;
+  microtin_segment_extremes extremes;
   for (uint32_t i = 0; i < kPlaces; ++i) {
     const int32_t x = numbers.between(0, x_most), y = numbers.between(0, y_most);
     heights.add(counted([&] { pack.height_at(x, y, &hint, &height); }));
@@ -75,7 +76,7 @@ void measure(Pack& pack, const Told& told) {
   for (uint32_t i = 0; i < kSegments; ++i) {
     const int32_t x = numbers.between(0, x_most), y = numbers.between(0, y_most),
                   x_end = numbers.between(0, x_most), y_end = numbers.between(0, y_most);
-    segments.add(counted([&] { pack.segment_max({x, y, x_end, y_end}, &height); }));
+    segments.add(counted([&] { pack.segment_extremes({x, y, x_end, y_end}, &extremes); }));
   }
   told.say("_highest_mean", segments.mean());
   told.say("_highest_worst", segments.most());

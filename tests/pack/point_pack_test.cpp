@@ -257,7 +257,7 @@ TEST_CASE("a device reads packs of points: heights, and the highest on a segment
         c = {int64_t{p.x} * 256, int64_t{p.y} * 256, int64_t{q.x} * 256, int64_t{q.y} * 256};
         if (device.load(card, c) != MICROTIN_STATUS_OK) break;  // more tiles than slots
         int32_t highest = 0, begin = 0, end = 0;
-        CHECK(device.segment_max(c, &highest) == MICROTIN_QUERY_OK);
+        CHECK(device.highest_on(c, &highest) == MICROTIN_QUERY_OK);
         REQUIRE(device.height_at(c.x, c.y, begin) == MICROTIN_QUERY_OK);
         REQUIRE(device.height_at(c.x_end, c.y_end, end) == MICROTIN_QUERY_OK);
         const double exact = std::max({highest_on_edges(model, c) * 65536, begin * 1.0, end * 1.0});

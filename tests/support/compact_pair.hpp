@@ -174,11 +174,11 @@ inline std::string difference_of_segments(const microtin_mesh* mesh,
                                           Random& random) {
   for (int i = 0; i < segments; ++i) {
     const microtin_segment c = segment_near(mesh, random);
-    const Highest highest = highest_on(mesh, c);
+    const Extremes extremes = extremes_on(mesh, c);
     const uint32_t most = i % 2 == 0 ? 3 : 2 * microtin_mesh_triangle_count(mesh);
-    if (!(highest == highest_on(compact, c)) ||
-        !(highest == highest_in_pieces(mesh, c, most, random)) ||
-        !(highest == highest_in_pieces(compact, c, most, random))) {
+    if (!(extremes == extremes_on(compact, c)) ||
+        !(extremes == extremes_in_pieces(mesh, c, most, random)) ||
+        !(extremes == extremes_in_pieces(compact, c, most, random))) {
       return "on the segment " + std::to_string(c.x) + " " + std::to_string(c.y) + " to " +
              std::to_string(c.x_end) + " " + std::to_string(c.y_end);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The highest on a segment, asked for in calls of a few steps.
+// The greatest and the least height on a segment, found in calls of a few steps.
 #ifndef MICROTIN_TESTS_SUPPORT_LIMITED_SEGMENT_HPP
 #define MICROTIN_TESTS_SUPPORT_LIMITED_SEGMENT_HPP
 
@@ -8,39 +8,37 @@
 
 namespace microtin::tests {
 
-struct Highest {
-  microtin_query_result answer;
-  int32_t height;
+inline bool same(const microtin_segment_extremes& a, const microtin_segment_extremes& b) {
+  return a.highest == b.highest && a.lowest == b.lowest && a.highest_along == b.highest_along &&
+         a.lowest_along == b.lowest_along;
+}
 
-  bool operator==(const Highest& other) const {
-    return answer == other.answer && height == other.height;
+struct Extremes {
+  microtin_query_result answer = MICROTIN_QUERY_STEP_LIMIT;
+  microtin_segment_extremes found = {1, 1, 1, 1};
+
+  bool operator==(const Extremes& other) const {
+    return answer == other.answer && same(found, other.found);
   }
 };
 
-inline Highest highest_on(const microtin_mesh* mesh, const microtin_segment& c) {
-  Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
-  told.answer = microtin_mesh_segment_max(mesh, &c, nullptr, &told.height, 0);
+inline Extremes limited_extremes(const microtin_mesh* mesh, const microtin_segment& c,
+                                 uint32_t limit, microtin_segment_state* state) {
+  Extremes told;
+  told.answer = microtin_mesh_segment_extremes(mesh, &c, state, &told.found, limit);
   return told;
 }
 
-inline Highest highest_on(const microtin_compact* compact, const microtin_segment& c) {
-  Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
-  told.answer = microtin_compact_segment_max(compact, &c, nullptr, &told.height, 0);
+inline Extremes limited_extremes(const microtin_compact* compact, const microtin_segment& c,
+                                 uint32_t limit, microtin_segment_state* state) {
+  Extremes told;
+  told.answer = microtin_compact_segment_extremes(compact, &c, state, &told.found, limit);
   return told;
 }
 
-inline Highest limited_highest(const microtin_mesh* mesh, const microtin_segment& c, uint32_t limit,
-                               microtin_segment_state* progress) {
-  Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
-  told.answer = microtin_mesh_segment_max(mesh, &c, progress, &told.height, limit);
-  return told;
-}
-
-inline Highest limited_highest(const microtin_compact* compact, const microtin_segment& c,
-                               uint32_t limit, microtin_segment_state* progress) {
-  Highest told = {MICROTIN_QUERY_STEP_LIMIT, 1};
-  told.answer = microtin_compact_segment_max(compact, &c, progress, &told.height, limit);
-  return told;
+template <class Form>
+Extremes extremes_on(const Form* form, const microtin_segment& c) {
+  return limited_extremes(form, c, 0, nullptr);
 }
 
 inline uint32_t triangles_of(const microtin_mesh* mesh) {
@@ -51,22 +49,21 @@ inline uint32_t triangles_of(const microtin_compact* compact) {
   return microtin_compact_triangle_count(compact);
 }
 
-// In calls of 1 to `most` steps. STEP_LIMIT if a call does more or says less than it may, if all
-// together take more steps than promised, or if the last answer is not kept.
+// In calls of 1 to `most` steps. STEP_LIMIT if a call does not say where it stands, if all together
+// take more steps than there are, or if the last answer is not kept.
 template <class Form>
-Highest highest_in_pieces(const Form* form, const microtin_segment& c, uint32_t most,
-                          Random& random) {
-  const Highest failed = {MICROTIN_QUERY_STEP_LIMIT, 1};
-  microtin_segment_state progress = {};
+Extremes extremes_in_pieces(const Form* form, const microtin_segment& c, uint32_t most,
+                            Random& random) {
+  const Extremes failed, unknown{MICROTIN_QUERY_STEP_LIMIT, {INT32_MIN, INT32_MAX, 0, 0}};
+  microtin_segment_state state = {};
   for (uint32_t steps = 0; steps < 3 * triangles_of(form) + most;) {
-    const uint32_t limit = 1 + random.below(most), before = progress.next;
-    const Highest told = limited_highest(form, c, limit, &progress);
+    const uint32_t limit = 1 + random.below(most);
+    const Extremes told = limited_extremes(form, c, limit, &state);
     steps += limit;
-    if (progress.next - before > limit) return failed;
     if (told.answer == MICROTIN_QUERY_STEP_LIMIT) {
-      if (told.height != INT32_MIN) return failed;
+      if (!(told == unknown)) return failed;
     } else {
-      return limited_highest(form, c, 1, &progress) == told ? told : failed;
+      return limited_extremes(form, c, 1, &state) == told ? told : failed;
     }
   }
   return failed;

@@ -61,9 +61,16 @@ class PackDevice {
     return is_compact_ ? microtin_compact_pack_height_at(pack, x, y, &hint, &height)
                        : microtin_pack_height_at(pack, x, y, &hint, &height);
   }
-  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
-    return is_compact_ ? microtin_compact_pack_segment_max(pack, &segment, height)
-                       : microtin_pack_segment_max(pack, &segment, height);
+  microtin_query_result segment_extremes(const microtin_segment& segment,
+                                         microtin_segment_extremes* extremes) const {
+    return is_compact_ ? microtin_compact_pack_segment_extremes(pack, &segment, extremes)
+                       : microtin_pack_segment_extremes(pack, &segment, extremes);
+  }
+  microtin_query_result highest_on(const microtin_segment& segment, int32_t* height) const {
+    microtin_segment_extremes extremes;
+    const microtin_query_result answer = segment_extremes(segment, &extremes);
+    *height = extremes.highest;
+    return answer;
   }
   microtin_query_result sample_grid(const microtin_grid_spec& block, int16_t* heights) const {
     return is_compact_ ? microtin_compact_pack_sample_grid(pack, &block, heights)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What of a segment is known, and its greatest height, by definition and with 128-bit numbers.
+// What of a segment is known, and the heights where it meets edges, by definition and with 128-bit
+// numbers.
 #ifndef MICROTIN_TESTS_SUPPORT_REFERENCE_SEGMENT_HPP
 #define MICROTIN_TESTS_SUPPORT_REFERENCE_SEGMENT_HPP
 
@@ -52,10 +53,40 @@ inline Wide area(const std::array<int64_t, 3>& a, const std::array<int64_t, 3>& 
          (Wide{b[1]} - a[1]) * (x - Wide{a[0]} * 256);
 }
 
+// A height where the segment meets an edge or a vertex, or ends.
+struct Meeting {
+  Way way;
+  Wide height;
+};
+
 struct Expected {
   bool is_known = false;
-  Wide highest = INT32_MIN;  // in any tile
-  Wide between = INT32_MIN;  // the same without the ends, whose heights may be any of their tiles'
+  std::vector<Meeting> meetings;  // in any tile
+
+  Wide highest() const {
+    Wide most = INT32_MIN;
+    for (const Meeting& m : meetings) most = std::max(most, m.height);
+    return most;
+  }
+  Wide lowest() const {
+    Wide least = INT32_MAX;
+    for (const Meeting& m : meetings) least = std::min(least, m.height);
+    return least;
+  }
+  // The place, with 30 fractional bits and rounded down, of the first meeting with a height; 0 if
+  // there is none.
+  Wide first_along(Wide height) const {
+    Way first = {2, 1};
+    for (const Meeting& m : meetings) {
+      if (m.height == height) first = std::min(first, m.way);
+    }
+    return first.part > first.whole ? 0 : (first.part << 30) / first.whole;
+  }
+  bool has(Wide height, Wide along) const {
+    return std::any_of(meetings.begin(), meetings.end(), [&](const Meeting& m) {
+      return m.height == height && (m.way.part << 30) / m.way.whole == along;
+    });
+  }
 };
 
 // The part of the segment in a closed triangle, and the heights at its ends.
@@ -117,11 +148,7 @@ inline Expected expect(const Surface& surface, const microtin_segment& c) {
     if (stretch.is_empty) continue;
     stretches.push_back(stretch);
     for (const Way& way : {stretch.from, stretch.to}) {
-      const Wide height = height_at(t, c, way);
-      expected.highest = std::max(expected.highest, height);
-      if (way.part != 0 && way.part != way.whole) {
-        expected.between = std::max(expected.between, height);
-      }
+      expected.meetings.push_back({way, height_at(t, c, way)});
     }
   }
   for (const auto& v : surface.vertices) {
@@ -129,7 +156,8 @@ inline Expected expect(const Surface& surface, const microtin_segment& c) {
                dy = c.y_end - c.y, along = x * dx + y * dy;
     if (x * dy != y * dx || along < 0 || along > dx * dx + dy * dy) continue;
     if (is_place && (x != 0 || y != 0)) continue;
-    expected.highest = std::max<Wide>(expected.highest, Wide{v[2]} * 65536);
+    expected.meetings.push_back(
+        {is_place ? Way{0, 1} : Way{along, dx * dx + dy * dy}, Wide{v[2]} * 65536});
     expected.is_known = is_place;
   }
   expected.is_known =

@@ -144,12 +144,13 @@ microtin_query_result microtin_compact_safe_heights_at(const microtin_compact* c
                                                        microtin_safe_heights* heights,
                                                        uint32_t step_limit);
 
-/* Finds the greatest height on a segment, with parameters and results of
- * microtin_mesh_segment_max. */
-microtin_query_result microtin_compact_segment_max(const microtin_compact* compact,
-                                                   const microtin_segment* segment,
-                                                   microtin_segment_state* state, int32_t* height,
-                                                   uint32_t step_limit);
+/* Finds the greatest and the least height on a segment, with parameters and results of
+ * microtin_mesh_segment_extremes. */
+microtin_query_result microtin_compact_segment_extremes(const microtin_compact* compact,
+                                                        const microtin_segment* segment,
+                                                        microtin_segment_state* state,
+                                                        microtin_segment_extremes* extremes,
+                                                        uint32_t step_limit);
 
 /* Stores the heights of a grid, with parameters and results of microtin_mesh_sample_grid. */
 microtin_query_result microtin_compact_sample_grid(const microtin_compact* compact,

@@ -73,10 +73,10 @@ microtin_query_result microtin_compact_pack_safe_heights_at(const microtin_pack*
 microtin_query_result microtin_compact_pack_height_at(const microtin_pack* pack, int64_t x,
                                                       int64_t y, uint32_t* hint, int32_t* height);
 
-/* Finds the greatest height on a segment, as microtin_pack_segment_max does. */
-microtin_query_result microtin_compact_pack_segment_max(const microtin_pack* pack,
-                                                        const microtin_segment* segment,
-                                                        int32_t* height);
+/* Finds the greatest and the least height on a segment, as microtin_pack_segment_extremes does. */
+microtin_query_result microtin_compact_pack_segment_extremes(const microtin_pack* pack,
+                                                             const microtin_segment* segment,
+                                                             microtin_segment_extremes* extremes);
 
 /* Stores the heights of a grid, as microtin_pack_sample_grid does. */
 microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,

@@ -42,9 +42,10 @@ class CompactPack : public PackFace {
   microtin_query_result height_at(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
     return microtin_compact_pack_height_at(pack_, x, y, hint, height);
   }
-  // Calls microtin_compact_pack_segment_max.
-  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
-    return microtin_compact_pack_segment_max(pack_, &segment, height);
+  // Calls microtin_compact_pack_segment_extremes.
+  microtin_query_result segment_extremes(const microtin_segment& segment,
+                                         microtin_segment_extremes* extremes) const {
+    return microtin_compact_pack_segment_extremes(pack_, &segment, extremes);
   }
   // Calls microtin_compact_pack_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {

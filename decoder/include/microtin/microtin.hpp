@@ -64,14 +64,17 @@ class Terrain {
                                   uint32_t flags = 0, uint32_t step_limit = 0) const {
     return microtin_mesh_height_at(mesh_, x, y, hint, height, flags, step_limit);
   }
-  // Calls microtin_mesh_segment_max.
-  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
-    return microtin_mesh_segment_max(mesh_, &segment, nullptr, height, 0);
+  // Calls microtin_mesh_segment_extremes.
+  microtin_query_result segment_extremes(const microtin_segment& segment,
+                                         microtin_segment_extremes* extremes) const {
+    return microtin_mesh_segment_extremes(mesh_, &segment, nullptr, extremes, 0);
   }
-  // Calls microtin_mesh_segment_max.
-  microtin_query_result segment_max(const microtin_segment& segment, microtin_segment_state* state,
-                                    int32_t* height, uint32_t step_limit) const {
-    return microtin_mesh_segment_max(mesh_, &segment, state, height, step_limit);
+  // Calls microtin_mesh_segment_extremes.
+  microtin_query_result segment_extremes(const microtin_segment& segment,
+                                         microtin_segment_state* state,
+                                         microtin_segment_extremes* extremes,
+                                         uint32_t step_limit) const {
+    return microtin_mesh_segment_extremes(mesh_, &segment, state, extremes, step_limit);
   }
   // Calls microtin_mesh_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
@@ -216,14 +219,17 @@ class CompactTerrain {
                                   uint32_t step_limit = 0) const {
     return microtin_compact_height_at(compact_, x, y, hint, height, step_limit);
   }
-  // Calls microtin_compact_segment_max.
-  microtin_query_result segment_max(const microtin_segment& segment, int32_t* height) const {
-    return microtin_compact_segment_max(compact_, &segment, nullptr, height, 0);
+  // Calls microtin_compact_segment_extremes.
+  microtin_query_result segment_extremes(const microtin_segment& segment,
+                                         microtin_segment_extremes* extremes) const {
+    return microtin_compact_segment_extremes(compact_, &segment, nullptr, extremes, 0);
   }
-  // Calls microtin_compact_segment_max.
-  microtin_query_result segment_max(const microtin_segment& segment, microtin_segment_state* state,
-                                    int32_t* height, uint32_t step_limit) const {
-    return microtin_compact_segment_max(compact_, &segment, state, height, step_limit);
+  // Calls microtin_compact_segment_extremes.
+  microtin_query_result segment_extremes(const microtin_segment& segment,
+                                         microtin_segment_state* state,
+                                         microtin_segment_extremes* extremes,
+                                         uint32_t step_limit) const {
+    return microtin_compact_segment_extremes(compact_, &segment, state, extremes, step_limit);
   }
   // Calls microtin_compact_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {

@@ -198,13 +198,22 @@ microtin_query_result microtin_pack_height_at(const microtin_pack* pack, int64_t
 microtin_query_result microtin_pack_safe_heights_at(const microtin_pack* pack, int64_t x, int64_t y,
                                                     uint32_t* hint, microtin_safe_heights* heights);
 
-/* Finds the greatest height on a segment: exact, rounded once. OK: every position of the segment
- * has a height by microtin_pack_height_at, also between lattice positions. VOID, BAD_TILE: a part
- * of the segment, perhaps a point, has none; *height is the greatest of the rest, INT32_MIN if
- * there is none. OUTSIDE also if the segment is too long. The query looks at every triangle of the
- * tiles that the segment touches. */
-microtin_query_result microtin_pack_segment_max(const microtin_pack* pack,
-                                                const microtin_segment* segment, int32_t* height);
+/* Finds the greatest and the least height on a segment, and where they are, as
+ * microtin_mesh_segment_extremes does. On borders the heights of all tiles count.
+ *
+ * - OK: every position of the segment has a height by microtin_pack_height_at, also between lattice
+ *   positions
+ * - VOID, BAD_TILE, NOT_LOADED: a part of the segment, perhaps a point, has none; the heights are
+ *   those of the rest
+ * - OUTSIDE: an end lies outside the pack; the heights are those of the rest, or missing because
+ *   the segment is too long
+ * - WRONG_PACK_KIND: a pack of compact_pack.h
+ *
+ * `highest` is INT32_MIN and `lowest` INT32_MAX if no position has a height. The cost in each tile
+ * that the segment touches is that of microtin_mesh_segment_extremes. */
+microtin_query_result microtin_pack_segment_extremes(const microtin_pack* pack,
+                                                     const microtin_segment* segment,
+                                                     microtin_segment_extremes* extremes);
 
 /* Stores the heights of a grid, with parameters and results of microtin_mesh_sample_grid.
  * NOT_LOADED takes precedence over all other results. */

@@ -6,8 +6,8 @@
  * so that it may interrupt other queries; it must not run while the terrain changes.
  *
  *   microtin_segment ahead = {x, y, x_ahead, y_ahead};
- *   int32_t height;
- *   if (microtin_mesh_segment_max(mesh, &ahead, NULL, &height, 0) == MICROTIN_QUERY_OK) ...
+ *   microtin_segment_extremes found;
+ *   if (microtin_mesh_segment_extremes(mesh, &ahead, NULL, &found, 0) == MICROTIN_QUERY_OK) ...
  */
 #ifndef MICROTIN_SEGMENT_H
 #define MICROTIN_SEGMENT_H
@@ -26,36 +26,48 @@ typedef struct microtin_segment {
   int64_t x_end, y_end; /* where it ends, 8 fractional bits */
 } microtin_segment;
 
-/* Where a query along a segment stands between two calls. All zero to begin. */
+/* Where a query along a segment stands between two calls. All zero to begin; the contents are the
+ * library's. */
 typedef struct microtin_segment_state {
-  uint32_t next;   /* 0, 1: an end of the segment; then 2 more than the next triangle's number */
-  uint32_t hint;   /* the triangle where the walk to an end stands */
-  int32_t highest; /* the greatest height so far */
-  uint32_t worst;  /* the worst microtin_query_result so far */
+  uint32_t stage;    /* 0: before the first walk step */
+  uint32_t triangle; /* the number of the triangle where the walk stands */
+  uint32_t result;   /* the worst microtin_query_result so far */
+  int32_t value[2];
+  int64_t part[2], whole[2];
 } microtin_segment_state;
 
-/* Finds the greatest height on a segment: exact, rounded once to 16 fractional bits of a z step.
+/* The greatest and the least height on a segment: exact, rounded once to 16 fractional bits of a z
+ * step. A place is the part of the segment's length, with 30 fractional bits and rounded down: 0 at
+ * the begin, 2^30 at the end. Of several places with the same rounded height it is the first. */
+typedef struct microtin_segment_extremes {
+  int32_t highest, lowest;             /* z steps, 16 fractional bits */
+  int32_t highest_along, lowest_along; /* the places */
+} microtin_segment_extremes;
+
+/* Finds the greatest and the least height on a segment.
  *
  * A call takes at most `step_limit` walk steps (0: no limit). After STEP_LIMIT call again with the
  * same segment and state. `state` may be null without a limit. A walk step looks at one triangle.
- * The query looks at every triangle, about two for each vertex, and at most at three times
- * microtin_mesh_triangle_count in all calls together.
+ * The query walks to the begin, as microtin_mesh_height_at does, and from there to the end, through
+ * the triangles that the segment meets. If the begin is outside, it goes along the hull to where
+ * the segment enters.
  *
- * - OK: *height is the greatest height, and every position of the segment has a height
- * - OUTSIDE: a part of the segment, perhaps a point, is outside the hull; *height is the greatest
- *   height of the rest
- * - VOID: a part of the segment is void, and none is outside; *height as with OUTSIDE
+ * - OK: every position of the segment has a height
+ * - OUTSIDE: a part of the segment, perhaps a point, is outside the hull; the heights are those of
+ *   the rest
+ * - VOID: a part of the segment is void, and none is outside; the heights are those of the rest
  * - NOT_LOADED, UNVERIFIED: the mesh has no verified terrain
- * - STEP_LIMIT: call again; *height is INT32_MIN
+ * - STEP_LIMIT: call again
  *
- * *height is INT32_MIN if no position of the segment has a height, and if an end lies outside
- * 0 .. 65535 * 256. After any result but STEP_LIMIT another call repeats it. Begin with a state of
- * zeros when the terrain or the segment changes: a state of another segment gives a wrong result,
- * but cannot lead out of the terrain. */
-microtin_query_result microtin_mesh_segment_max(const microtin_mesh* mesh,
-                                                const microtin_segment* segment,
-                                                microtin_segment_state* state, int32_t* height,
-                                                uint32_t step_limit);
+ * `highest` is INT32_MIN and `lowest` INT32_MAX if no position of the segment has a height, if an
+ * end lies outside 0 .. 65535 * 256, and after STEP_LIMIT. After any result but STEP_LIMIT another
+ * call repeats it. Begin with a state of zeros when the terrain or the segment changes: a state of
+ * another segment gives a wrong result, but cannot lead out of the terrain. */
+microtin_query_result microtin_mesh_segment_extremes(const microtin_mesh* mesh,
+                                                     const microtin_segment* segment,
+                                                     microtin_segment_state* state,
+                                                     microtin_segment_extremes* extremes,
+                                                     uint32_t step_limit);
 
 /* Positions in rows and columns, and what to store where there is no height. */
 typedef struct microtin_grid_spec {

@@ -70,7 +70,8 @@ bool fly(Tiles& pack, const Flight& flight, Measured& measured) {
     log_height(decimetres(height, info.z));
     if (i % Flight::kAhead != 0) continue;
     before = instructions.count();
-    if (pack.segment_max(c, &height) != MICROTIN_QUERY_OK) return false;
+    microtin_segment_extremes extremes;
+    if (pack.segment_extremes(c, &extremes) != MICROTIN_QUERY_OK) return false;
     measured.highest.add(instructions.count() - before);
   }
   return true;

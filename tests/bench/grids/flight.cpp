@@ -183,7 +183,7 @@ void print_flight(const FlightFiles& files) {
   row("... longest call", "service most");
   row("a height, instructions: mean", "height mean");
   row("... most", "height most");
-  row("highest on 32 posts ahead, instructions: mean", "highest mean");
+  row("extremes on 32 posts ahead, instructions: mean", "highest mean");
   row("... most", "highest most");
   row("a block of 28 x 32 heights, instructions", "block");
   print_heights(flight, terrain, pack, grid);

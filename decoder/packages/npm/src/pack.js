@@ -195,7 +195,7 @@ export class Pack {
 
   async segmentMax(x, y, xEnd, yEnd) {
     return this.#ask([...this.#place(x, y), ...this.#place(xEnd, yEnd)], ({ calls, results }) =>
-      calls.microtin_pack_segment_max(this.#pack, this.#segment, results + 4));
+      calls.microtin_pack_segment_extremes(this.#pack, this.#segment, results + 4));
   }
 
   // The height that a query on a segment finds behind the second result. Both ends are within the pack, and so is all

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+// The walk along a segment, from triangle to triangle: its crossings in their order, each once.
+//
+// A vertex on the segment's line counts as one to the right, as if the line lay to the left of
+// itself by less than any number. So a triangle that the line enters has corners on both sides, one
+// edge where the line enters, from a left corner to a right one, and one where the line leaves. A
+// triangle alone, by its number, is where the walk stands.
+//
+// The same for each form of a terrain, which has
+//   Cursor       as walk.hpp says
+//   triangles(), at(t), number(cursor)   the numbers of triangles; in a ghost the cursor's apex is
+//                infinity
+//   corner()     the place from which its places are seen
+//   height_at(place, step_limit, hint, height)
+#ifndef MICROTIN_DECODER_SEGMENT_WALK_HPP
+#define MICROTIN_DECODER_SEGMENT_WALK_HPP
+
+#include "decoder/crossing.hpp"
+#include "decoder/walk.hpp"
+
+namespace microtin {
+
+// In a ghost, to the hull edge that follows with the outside to the left, or to the one before.
+template <class Cursor>
+void advance_on_hull(Cursor& cursor, bool forward) {
+  cursor.cross_around(forward);
+  if (!forward) cursor.turn();
+  cursor.turn();
+}
+
+// Where a walk stands: in a triangle.
+enum class WalkStage : uint8_t {
+  kSearch,    // for the triangle that holds the begin
+  kTurn,      // in one that holds it, and may lie to the right of the line
+  kApproach,  // in a ghost that the begin sees
+  kInside,    // in one that the line enters
+  kTouch,     // in a ghost whose edge begins on the line, with all terrain to the right
+  kBeyond,    // beyond the terrain
+  kEnded
+};
+
+template <class Form>
+class SegmentWalk {
+ public:
+  typedef typename Form::Cursor Cursor;
+
+  // From a place of the terrain's lattice, where a search for the begin starts, along a segment in
+  // the same coordinates. Any stage and number are allowed.
+  SegmentWalk(const Form& form, LocalPoint start, LocalPoint begin, LocalPoint end, WalkStage stage,
+              uint32_t number)
+      : form_(form),
+        corner_(fine_point(form.corner())),
+        start_(start),
+        begin_(LocalPoint{begin.x - corner_.x, begin.y - corner_.y}),
+        end_(LocalPoint{end.x - corner_.x, end.y - corner_.y}),
+        starts_at_begin_(start.x == begin.x && start.y == begin.y),
+        stage_(stage),
+        number_(number < form.triangles() ? number : 0),
+        cursor_(form.at(number_)),
+        left_(),
+        right_() {
+    if (!may_stand()) stage_ = WalkStage::kSearch;  // a state of another walk
+  }
+
+  bool at_end() const { return stage_ == WalkStage::kEnded; }
+  WalkStage stage() const { return stage_; }
+  uint32_t number() const { return stage_ == WalkStage::kSearch ? number_ : form_.number(cursor_); }
+
+  // A walk step, of a search all of them if it is not limited. True if it led to a crossing.
+  MICROTIN_ONE_COPY bool step(bool is_limited, Crossing* c) {
+    if (stage_ == WalkStage::kInside) return pass(c);
+    if (stage_ == WalkStage::kSearch) return search(is_limited, c);
+    if (stage_ == WalkStage::kTurn) return turn(c);
+    if (stage_ == WalkStage::kApproach) return approach(c);
+    if (stage_ == WalkStage::kTouch) return touch(c);
+    return finish(MICROTIN_QUERY_OUTSIDE, false, c);
+  }
+
+ private:
+  struct Corner {
+    LocalPoint at;
+    int32_t z;
+    int64_t side;  // of the line: positive to the left
+  };
+
+  MICROTIN_ONE_COPY Corner corner_of(uint32_t number) const {
+    const Vertex v = cursor_.vertex(number);
+    const LocalPoint at = fine_point(Point{v.x, v.y});
+    return Corner{at, v.z, orient(begin_, end_, at)};
+  }
+
+  // Whether a walk may come to stand in the triangle at this stage: the steps from there have an
+  // end. Turns the cursor to the edge where the line enters.
+  bool may_stand() {
+    if (stage_ == WalkStage::kSearch || stage_ >= WalkStage::kBeyond) return true;
+    const bool in_ghost = stage_ == WalkStage::kApproach || stage_ == WalkStage::kTouch;
+    if (!cursor_.may_stop() || cursor_.is_ghost() != in_ghost) return false;
+    if (stage_ == WalkStage::kInside) return enter();
+    if (stage_ == WalkStage::kTouch) return side(cursor_.start()) == 0;
+    bool is_beside = begin_side() >= 0;
+    for (int i = 1; i < 3 && !in_ghost; ++i) {
+      cursor_.turn();
+      if (begin_side() < 0) is_beside = false;
+    }
+    return is_beside;
+  }
+
+  // Positive if the begin lies to the left of the half-edge.
+  int64_t begin_side() const {
+    return orient(fine_point(cursor_.place(cursor_.start())),
+                  fine_point(cursor_.place(cursor_.end())), begin_);
+  }
+
+  // The begin lies in the terrain's box, or else is outside.
+  bool search(bool is_limited, Crossing* c) {
+    int32_t height = 0;
+    microtin_query_result answer = form_.height_at(start_, is_limited ? 1u : 0u, &number_, &height);
+    if (answer == MICROTIN_QUERY_STEP_LIMIT) return false;
+    cursor_ = form_.at(number_);
+    if (!starts_at_begin_) {
+      if (cursor_.is_ghost()) cursor_.cross();
+      walk(cursor_, FinePoint{begin_.x, begin_.y}, form_.triangles());
+      answer = MICROTIN_QUERY_OUTSIDE;
+    }
+    stage_ = cursor_.is_ghost() ? WalkStage::kApproach : WalkStage::kTurn;
+    *c = Crossing{Along{0, 1}, 0, height, height, static_cast<uint8_t>(answer), true};
+    return true;
+  }
+
+  // Around a corner where the segment begins, until the line enters the triangle.
+  bool turn(Crossing* c) {
+    if (begin_.x == end_.x && begin_.y == end_.y) return finish_inside(true, c);
+    if (enter()) {
+      stage_ = WalkStage::kInside;
+      return false;
+    }
+    for (int i = 0; i < 3 && !is_pivot(); ++i) cursor_.turn();
+    cursor_.cross();
+    if (!cursor_.is_ghost()) return false;
+    if (side(cursor_.start()) != 0) advance_on_hull(cursor_, true);
+    stage_ = side(cursor_.end()) > 0 ? WalkStage::kApproach : WalkStage::kTouch;
+    return false;
+  }
+
+  // Turns to the edge where the line enters. False if no corner is on the left, or on the right.
+  bool enter() {
+    for (int i = 0; i < 3; ++i, cursor_.turn()) {
+      left_ = corner_of(cursor_.start());
+      right_ = corner_of(cursor_.end());
+      if (left_.side > 0 && right_.side <= 0) return true;
+    }
+    return false;
+  }
+
+  // Whether the half-edge begins where the segment does, or lies on its line.
+  bool is_pivot() const {
+    return side(cursor_.start()) == 0 && (side(cursor_.end()) == 0 || side(cursor_.apex()) != 0);
+  }
+
+  int64_t side(uint32_t number) const { return corner_of(number).side; }
+
+  // Along hull edges that the begin sees, to that where the line enters.
+  bool approach(Crossing* c) {
+    const Corner a = corner_of(cursor_.start()), b = corner_of(cursor_.end());
+    const bool forward = b.side <= 0;
+    if (a.side <= 0 && !forward) return enter_hull(a, b, c);
+    if (a.side > 0 && forward) return finish(MICROTIN_QUERY_OUTSIDE, false, c);  // behind the begin
+    advance_on_hull(cursor_, forward);
+    if (begin_side() > 0) return false;
+    const Corner next = corner_of(cursor_.start());
+    const Along along = along_line(next.at);
+    const bool touches = forward && next.side == 0 && along.part > 0 && along.part <= along.whole;
+    if (!touches) return finish(MICROTIN_QUERY_OUTSIDE, false, c);
+    set_vertex(next, along, false, c);
+    stage_ = along.part < along.whole ? WalkStage::kTouch : WalkStage::kEnded;
+    return true;
+  }
+
+  bool enter_hull(const Corner& right, const Corner& left, Crossing* c) {
+    const int64_t to = orient(right.at, left.at, end_);
+    if (to > 0) return finish(MICROTIN_QUERY_OUTSIDE, false, c);
+    cursor_.cross();
+    if (to == 0) return finish_inside(false, c);
+    left_ = left;
+    right_ = right;
+    stage_ = WalkStage::kInside;
+    return set_crossing(right, left, to, false, false, c);
+  }
+
+  // Through a triangle with corners on both sides, and over the edge where the line leaves it.
+  bool pass(Crossing* c) {
+    const Corner apex = corner_of(cursor_.apex());
+    const bool is_fan = apex.side > 0 && right_.side == 0, had_terrain = !cursor_.is_void();
+    const bool is_known = had_terrain || runs_along_known(apex);
+    (apex.side > 0 ? left_ : right_) = apex;
+    const int64_t to = orient(right_.at, left_.at, end_);
+    if (to >= 0) return finish_inside(is_known, c);
+    if (apex.side <= 0) cursor_.turn();
+    cursor_.turn();
+    cursor_.cross();
+    if (cursor_.is_ghost()) stage_ = WalkStage::kBeyond;
+    // All triangles of a fan around a vertex on the line meet it there.
+    return !is_fan && set_crossing(right_, left_, to, had_terrain, is_known, c);
+  }
+
+  // Whether the line runs along an edge of the triangle that has terrain beyond.
+  bool runs_along_known(const Corner& apex) const {
+    if (right_.side != 0 || apex.side != 0) return false;
+    Cursor other = cursor_;
+    other.turn();
+    other.cross();
+    return other.has_terrain();
+  }
+
+  // Where the segment crosses an edge that its end lies `to` beyond; negative. The begin is no
+  // crossing, nor is a place on an edge between voids, of which the cursor stands on one side.
+  bool set_crossing(const Corner& right, const Corner& left, int64_t to, bool had_terrain,
+                    bool is_known, Crossing* c) const {
+    const int64_t whole = left.side - right.side, part = whole + to;
+    if (part <= 0) return false;
+    if (right.side == 0) return set_vertex(right, Along{part, whole}, is_known, c);
+    *c = Crossing{Along{part, whole}, -right.side,       right.z * 65536,
+                  left.z * 65536,     MICROTIN_QUERY_OK, is_known};
+    return had_terrain || cursor_.has_terrain();
+  }
+
+  bool set_vertex(const Corner& at, const Along& along, bool is_known, Crossing* c) const {
+    const int32_t height = at.z * 65536;
+    *c = Crossing{along, 0, height, height, MICROTIN_QUERY_OK, is_known};
+    return true;
+  }
+
+  // A place on the line: the parts are below 2^51, as the segment is shorter than 2^24.5.
+  Along along_line(LocalPoint p) const {
+    const int64_t x = end_.x - begin_.x, y = end_.y - begin_.y;
+    return Along{x * (p.x - begin_.x) + y * (p.y - begin_.y), x * x + y * y};
+  }
+
+  // Along a hull edge on the line, if it is one. The terrain beyond it is all that knows it.
+  bool touch(Crossing* c) {
+    const Corner b = corner_of(cursor_.end());
+    if (b.side != 0) return finish(MICROTIN_QUERY_OUTSIDE, false, c);
+    const Along along = along_line(b.at);
+    Cursor inside = cursor_;
+    inside.cross();
+    if (along.part >= along.whole) {
+      cursor_ = inside;
+      return finish_inside(inside.has_terrain(), c);
+    }
+    advance_on_hull(cursor_, true);
+    return along.part > 0 && set_vertex(b, along, inside.has_terrain(), c);
+  }
+
+  // The end lies in this triangle.
+  bool finish_inside(bool is_known, Crossing* c) {
+    uint32_t hint = form_.number(cursor_);
+    int32_t height = 0;
+    const microtin_query_result answer =
+        form_.height_at(LocalPoint{end_.x + corner_.x, end_.y + corner_.y}, 0, &hint, &height);
+    finish(answer, is_known, c);
+    c->height = c->other = height;
+    return true;
+  }
+
+  bool finish(microtin_query_result answer, bool is_known, Crossing* c) {
+    stage_ = WalkStage::kEnded;
+    *c = Crossing{Along{1, 1}, 0, 0, 0, static_cast<uint8_t>(answer), is_known};
+    return true;
+  }
+
+  const Form& form_;
+  LocalPoint corner_, start_;
+  LocalPoint begin_, end_;  // seen from the corner
+  bool starts_at_begin_;
+  WalkStage stage_;
+  uint32_t number_;  // in a search
+  Cursor cursor_;
+  Corner left_, right_;  // inside: of the edge where the line enters
+};
+
+}  // namespace microtin
+
+#endif
