@@ -527,7 +527,7 @@ class Decoder:
         self.tallies = [[Tally() for _ in range(3)] for _ in range(2)]     # of x, of y: first, second after even, odd
         self.crowding = 2048                                               # K
         self.void = set()
-        self.R = 0
+        self.work = self.R = 0
         self.done, self.queued = set(), set()
 
     # Sections (section 4)
@@ -543,7 +543,7 @@ class Decoder:
         self.symbols.coder.finish()
 
     def decode(self):
-        n, ends = self.header.vertices, 0
+        n = self.header.vertices
         self.begin_section()
         self.decode_seed()
         while len(self.mesh.vertices) < n:
@@ -551,8 +551,6 @@ class Decoder:
                 self.end_section()
                 self.begin_section()
             self.decode_phase(n - len(self.mesh.vertices))
-            ends += len(self.mesh.vertices)
-            require(ends <= 3 * len(self.mesh.vertices) + 512, "the phases add too few vertices")    # section 3, Work
         if self.header.voids:
             self.decode_void_flags()
         self.end_section()
@@ -588,10 +586,12 @@ class Decoder:
             batch = coder.uniform((left >> 16) + 1) << 16
             batch |= coder.uniform(min(left, 65536))
             require(1 <= batch < left, "the size of a phase is out of range")
-        columns, rows = self.header.largest[0] + 1, self.header.largest[1] + 1
-        self.R = 256 * (log2(batch) - log2(columns * rows))
-        self.share = log2(batch) - log2(len(self.mesh.vertices) + batch) - 220
-        self.walk(len(self.mesh.vertices) + batch)
+        end = len(self.mesh.vertices) + batch
+        self.work += end
+        require(self.work <= 3 * end + 512, "the phases add too few vertices")                 # section 3, Work
+        self.R = 256 * (log2(batch) - log2((self.header.largest[0] + 1) * (self.header.largest[1] + 1)))
+        self.share = log2(batch) - log2(end) - 220
+        self.walk(end)
 
     def decode_void_flags(self):
         for t in range(len(self.mesh.origin) // 3):
