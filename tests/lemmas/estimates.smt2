@@ -1,6 +1,6 @@
 ; SPDX-License-Identifier: MIT
 ; Estimates need not be right, but their arithmetic must not overflow: cotangents, segments, circles, weights. A step of
-; each is bounded by what format-stream.md says of the one before.
+; each is bounded by what proofs.md states of the one before.
 
 ; A cotangent's dividend fits 32 bits, and the result stays below its cap.
 ;; shared/free_region.hpp: return q * (static_cast<int32_t>(1) << kCotangentBits) / h;

@@ -32,7 +32,7 @@
 (pop)
 
 ; The largest determinant, in units of S^4 / 4, where a and b are the distances from the diagonal.
-;; shared/docs/format-stream.md: determinant <= 2 (a + b)(1 - a b) L^4 <= 2 L^4 = S^4 / 2,    because a + b <= 1 + a b
+;; shared/docs/proofs.md: determinant <= 2 (a + b)(1 - a b) L^4 <= 2 L^4 = S^4 / 2,    because a + b <= 1 + a b
 (push)
 (declare-const a Real)
 (declare-const b Real)
