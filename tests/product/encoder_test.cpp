@@ -349,7 +349,7 @@ TEST_CASE("library: messages name options as Options does, or as the caller spel
         "max_error");
 }
 
-TEST_CASE("library: a raster's metadata are notes of streams and packs; an option wins") {
+TEST_CASE("library: a raster's metadata are notes of streams and packs, an option wins") {
   const TemporaryFolder folder;
   RasterData posts = cone(9);
   posts.items = {{"TIFFTAG_COPYRIGHT", "the survey"}, {"COORDINATE_EPOCH", "2020.5"}};

@@ -176,7 +176,7 @@ TEST_CASE("source notes: tags of TIFF become notes, unless items of microtin's s
   CHECK(to_string(*notes.source_accuracy) == "LE90 4");
 }
 
-TEST_CASE("source notes: what is not as a note must be is not taken; long texts are reported") {
+TEST_CASE("source notes: what is not as a note must be is not taken, long texts are reported") {
   const Taken odd = take({{"DATE", "yesterday"},
                           {"VALID", "always"},
                           {"COORDINATE_EPOCH", "now"},
