@@ -113,6 +113,12 @@ std::string iso_date(int year, int day) {
   return std::to_string(year) + two_digits(month) + two_digits(day);
 }
 
+std::string hexadecimal(uint64_t number) {
+  std::string digits(16, '0');
+  for (size_t i = digits.size(); i-- > 0; number >>= 4) digits[i] = "0123456789abcdef"[number & 15];
+  return digits;
+}
+
 std::string utf8_of(std::string text) {
   std::string_view rest = text;
   while (!rest.empty() && character_bytes(rest) != 0) rest.remove_prefix(character_bytes(rest));

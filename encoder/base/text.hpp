@@ -4,6 +4,7 @@
 #define MICROTIN_ENCODER_BASE_TEXT_HPP
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,6 +37,9 @@ bool is_iso_validity(std::string_view text);
 // The date of a day of a year, counted from 1; the year alone if it has no such day. Empty: the
 // year has not four digits.
 std::string iso_date(int year, int day);
+
+// Sixteen digits.
+std::string hexadecimal(uint64_t number);
 
 // Returns the text if all of it is UTF-8; else its bytes are taken as characters of Latin 1.
 std::string utf8_of(std::string text);

@@ -138,6 +138,11 @@ void add_notes(CLI::App& command, EncodeRequest& request) {
            "Note the licence of the source: an SPDX expression or a URL")
       ->default_str(kOfFile);
   add_quality_notes(command, notes);
+  command.add_flag(
+      "--digest", request.digest,
+      "Note a digest of a stream's mesh, by which a device checks its memory: 11 bytes");
+  command.add_flag("--phases", request.phases,
+                   "Note the vertices, bytes and largest error after each phase of a stream");
 }
 
 void add_point_options(CLI::App& command, EncodeRequest& request) {

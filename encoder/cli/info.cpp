@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
 #include "encoder/exact/units.hpp"
@@ -121,6 +122,24 @@ void add_placement(JsonObject& report, const Metadata& metadata) {
   report.emplace_back("axes", of_axes(p, exact_axis));
 }
 
+std::string array(const std::vector<JsonObject>& objects) {
+  std::string text;
+  for (const JsonObject& one : objects) text += (text.empty() ? "[" : ", ") + json(one);
+  return text + "]";
+}
+
+// Where other streams and packs are in the same file.
+void add_places(JsonObject& report, const std::vector<FilePlace>& places) {
+  std::vector<JsonObject> all;
+  for (const FilePlace& place : places) {
+    all.push_back({{"kind", json(name_of(place.kind))},
+                   {"from", json(name_of(place.base))},
+                   {"offset", json(place.offset)},
+                   {"bytes", json(place.size)}});
+  }
+  if (!all.empty()) report.emplace_back("places", array(all));
+}
+
 void add_source_notes(JsonObject& report, const SourceNotes& notes) {
   const auto add_text = [&report](const char* name, const std::string& text) {
     if (!text.empty()) report.emplace_back(name, json(text));
@@ -170,6 +189,7 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
     add_accuracy(accuracy, metadata.true_places);
     report.emplace_back("true_places", json(accuracy));
   }
+  add_places(report, metadata.places);
 }
 
 // Bytes of the terrain in compact form, with the smallest index width that fits.
@@ -202,32 +222,20 @@ JsonObject report_of(DecodedStream& stream) {
   add_extent(report, box_of(terrain.mesh()), header.metadata.placement);
   add_placement(report, header.metadata);
   add_notes(report, header.metadata);
+  if (header.metadata.digest)
+    report.emplace_back("digest", json(hexadecimal(*header.metadata.digest)));
   add_accuracy(report, header.metadata.accuracy);
   return report;
 }
 
-JsonObject tile_report(const PackFile& pack, uint32_t number) {
-  const TileBox box = tile_box(pack.grid(), number);
-  JsonObject report = {{"tile", json(number)},
-                       {"x", json(box.x)},
-                       {"y", json(box.y)},
-                       {"bytes", json(pack.entries()[number].size)},
-                       {"vertices", json(pack.vertices(number))}};
-  if (!pack.metadata().grid) return report;  // of points
-  const auto stated = stated_everywhere(pack.margins(number), pack.metadata().placement.z);
-  report.emplace_back("max_below_everywhere", stated ? cli::number(stated->below) : "null");
-  report.emplace_back("max_above_everywhere", stated ? cli::number(stated->above) : "null");
-  return report;
-}
-
-// A line for each tile, under a line of names; columns end on the right.
-std::string table(const std::vector<JsonObject>& tiles) {
+// A line for each object, under a line of names; columns end on the right.
+std::string table(const std::vector<JsonObject>& objects) {
   std::vector<std::vector<std::string>> lines(1);
-  for (const auto& entry : tiles[0]) lines[0].push_back(entry.first);
+  for (const auto& entry : objects[0]) lines[0].push_back(entry.first);
   std::vector<std::size_t> widths(lines[0].size());
-  for (const JsonObject& tile : tiles) {
+  for (const JsonObject& one : objects) {
     lines.emplace_back();
-    for (const auto& entry : tile) lines.back().push_back(entry.second);
+    for (const auto& entry : one) lines.back().push_back(entry.second);
   }
   for (const auto& line : lines) {
     for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
@@ -242,10 +250,38 @@ std::string table(const std::vector<JsonObject>& tiles) {
   return text;
 }
 
-std::string array(const std::vector<JsonObject>& tiles) {
-  std::string text;
-  for (const JsonObject& tile : tiles) text += (text.empty() ? "[" : ", ") + json(tile);
-  return text + "]";
+// What the header states of the phases; bytes from the beginning of the file.
+std::vector<JsonObject> phase_table(const DecodedStream& stream) {
+  const Header header = read_header(stream.bytes);
+  std::vector<JsonObject> phases;
+  for (const PhaseEnd& end : header.metadata.phases) {
+    phases.push_back({{"vertices", json(end.vertices)},
+                      {"bytes", json(header.info.header_bytes + end.bytes)},
+                      {"max_error", end.max_error ? number(*end.max_error) : "null"}});
+  }
+  return phases;
+}
+
+std::string text_of_stream(DecodedStream& stream, bool as_json) {
+  const std::vector<JsonObject> phases = phase_table(stream);
+  JsonObject report = report_of(stream);
+  if (phases.empty()) return text_of(report, as_json);
+  if (as_json) report.emplace_back("phase_table", array(phases));
+  return text_of(report, as_json) + (as_json ? "" : table(phases));
+}
+
+JsonObject tile_report(const PackFile& pack, uint32_t number) {
+  const TileBox box = tile_box(pack.grid(), number);
+  JsonObject report = {{"tile", json(number)},
+                       {"x", json(box.x)},
+                       {"y", json(box.y)},
+                       {"bytes", json(pack.entries()[number].size)},
+                       {"vertices", json(pack.vertices(number))}};
+  if (!pack.metadata().grid) return report;  // of points
+  const auto stated = stated_everywhere(pack.margins(number), pack.metadata().placement.z);
+  report.emplace_back("max_below_everywhere", stated ? cli::number(stated->below) : "null");
+  report.emplace_back("max_above_everywhere", stated ? cli::number(stated->above) : "null");
+  return report;
 }
 
 JsonObject report_of(const PackFile& pack) {
@@ -294,7 +330,7 @@ void run_info(const std::string& input, bool json) {
   if (document.pack() != nullptr) {
     print(with_file_context(input, [&] { return text_of_pack(*document.pack(), json); }));
   } else {
-    print(text_of(with_file_context(input, [&] { return report_of(*document.stream()); }), json));
+    print(with_file_context(input, [&] { return text_of_stream(*document.stream(), json); }));
   }
 }
 

@@ -37,6 +37,16 @@ std::string_view text_of(DuplicateRule rule) {
   return "unknown";
 }
 
+std::string_view name_of(PlaceKind kind) {
+  constexpr std::string_view kNames[] = {"unknown", "overview", "obstacles", "geoid", "errors"};
+  return kNames[static_cast<size_t>(kind)];
+}
+
+std::string_view name_of(PlaceBase base) {
+  constexpr std::string_view kNames[] = {"unknown", "start", "end"};
+  return kNames[static_cast<size_t>(base)];
+}
+
 std::string_view name_of(SurfaceKind kind) {
   return encoder::name_of(static_cast<encoder::SurfaceKind>(kind));  // the same numbers
 }

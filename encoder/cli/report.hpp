@@ -23,6 +23,8 @@ std::string number(Decimal value);
 std::string json_of(const Distances& distances);
 
 std::string_view text_of(DuplicateRule rule);
+std::string_view name_of(PlaceKind kind);
+std::string_view name_of(PlaceBase base);
 std::string_view name_of(SurfaceKind kind);
 std::string_view name_of(BoundSide side);
 

@@ -21,10 +21,11 @@ using encoder::Transform;
 
 // As driver.cpp describes them.
 constexpr const char* kCreationOptions[] = {
-    "MAX_ERROR", "MAX_VERTICES", "MAX_BYTES",   "NEVER_BELOW",    "Z_STEP",    "XY_STEP",
-    "EFFORT",    "CODING",       "MAX_DEGREE",  "TILE_VERTICES",  "TILE_SIZE", "UNITS",
-    "DEPTHS",    "SURFACE",      "SOURCE_NAME", "DATE",           "LINEAGE",   "ATTRIBUTION",
-    "LICENSE",   "VALID",        "EPOCH",       "SOURCE_ACCURACY"};
+    "MAX_ERROR", "MAX_VERTICES",    "MAX_BYTES",   "NEVER_BELOW", "Z_STEP",
+    "XY_STEP",   "EFFORT",          "CODING",      "MAX_DEGREE",  "TILE_VERTICES",
+    "TILE_SIZE", "UNITS",           "DEPTHS",      "SURFACE",     "SOURCE_NAME",
+    "DATE",      "LINEAGE",         "ATTRIBUTION", "LICENSE",     "VALID",
+    "EPOCH",     "SOURCE_ACCURACY", "DIGEST",      "PHASES"};
 
 std::string lower_case(std::string text) {
   for (char& letter : text)
@@ -160,7 +161,8 @@ encoder::Options options_of(char** given) {
   for (const char* const name : kCreationOptions) {
     const char* const value = CSLFetchNameValue(given, name);
     if (value == nullptr) continue;
-    const bool is_flag = EQUAL(name, "NEVER_BELOW") || EQUAL(name, "DEPTHS");
+    const bool is_flag = EQUAL(name, "NEVER_BELOW") || EQUAL(name, "DEPTHS") ||
+                         EQUAL(name, "DIGEST") || EQUAL(name, "PHASES");
     const std::string text = is_flag ? (CPLTestBool(value) ? "true" : "false") : value;
     const bool is_choice = EQUAL(name, "EFFORT") || EQUAL(name, "CODING") || EQUAL(name, "SURFACE");
     encoder::set_option(options, lower_case(name), is_choice ? lower_case(text) : text);

@@ -196,6 +196,17 @@ Dataset::Dataset(Surface surface) : surface_(std::move(surface)) {
   system_.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
 }
 
+// Vertices, bytes and largest error after each, in that order.
+std::string text_of(const std::vector<encoder::Phase>& phases) {
+  std::string text;
+  for (const encoder::Phase& phase : phases) {
+    const std::string separator = text.empty() ? "" : "; ";
+    text += separator + std::to_string(phase.vertices) + ' ' + std::to_string(phase.bytes);
+    if (!phase.max_error.empty()) text += ' ' + phase.max_error;
+  }
+  return text;
+}
+
 // Texts of the header as metadata.
 void Dataset::describe() {
   const SurfaceInfo& info = surface_.info();
@@ -223,6 +234,8 @@ void Dataset::describe() {
       {"VALID", valid_text(info.valid)},
       {"COORDINATE_EPOCH", info.epoch},
       {"SOURCE_ACCURACY", info.source_accuracy},
+      {"DIGEST", info.digest},
+      {"PHASES", text_of(info.phases)},
   };
   for (const auto& [name, value] : items) {
     if (!value.empty()) GDALPamDataset::SetMetadataItem(name, value.c_str());

@@ -72,6 +72,9 @@ void GDALRegister_MTIN() {
       "2020.5'/>"
       "<Option name='SOURCE_ACCURACY' type='string' description='Note: accuracy of the source, "
       "such as LE90 4'/>"
+      "<Option name='DIGEST' type='boolean' description='Of streams: note a digest of the mesh'/>"
+      "<Option name='PHASES' type='boolean' description='Of streams: note vertices, bytes and "
+      "largest error after each phase'/>"
       "</CreationOptionList>";
   driver->SetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST, creation_options.c_str());
   driver->pfnIdentify = microtin::gdal::identify;

@@ -9,6 +9,7 @@
 #include "encoder/files/input.hpp"
 #include "encoder/pack/shard.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/product/phases.hpp"
 
 namespace microtin::product {
 namespace {
@@ -47,7 +48,8 @@ Checked check_file(const std::string& path) {
     if (found.faults.empty()) with_file_context(path, [&] { pack.file.expect_sums(); });
     return found;
   }
-  read_stream(path);
+  const DecodedStream stream = read_stream(path);
+  with_file_context(path, [&] { expect_as_stated(stream.bytes, stream.terrain.mesh()); });
   return {};
 }
 

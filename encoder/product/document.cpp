@@ -13,6 +13,7 @@
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/pack/shard.hpp"
 #include "encoder/pack/surface.hpp"
+#include "encoder/product/phases.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/everywhere.hpp"
@@ -177,6 +178,10 @@ Verification Original::compare(const std::optional<Decimal>& bound, const Progre
     if (raster() != nullptr) {
       found.everywhere = measure_everywhere(mesh, document_.metadata().placement, *raster());
     }
+    const std::vector<PhaseEnd> phases = document_.metadata().phases;
+    if (!phases.empty()) {
+      found.broken = broken_phases(phases, measure_phases(document_.stream()->bytes, *whole));
+    }
     return found;
   }
   const PackFile& pack = *document_.pack();
@@ -190,7 +195,12 @@ Original::Judgement Original::judge(const Progress& progress) const {
   const int decimals = raster() != nullptr ? raster()->decimals : cloud()->z_decimals;
   WaterGauge gauge(decimals, promised.water_level);
   const Verification found = with_file_context(document_.path(), [&] {
-    if (document_.pack() != nullptr) document_.pack()->expect_as_stated();
+    if (document_.pack() != nullptr) {
+      document_.pack()->expect_as_stated();
+    } else {
+      const DecodedStream& stream = *document_.stream();
+      expect_as_stated(stream.bytes, stream.terrain.mesh());
+    }
     return compare(promised.bound, progress,
                    promised.water_level ? gauge.visitor() : PostVisitor());
   });

@@ -37,6 +37,10 @@ PackOptions pack_options(const EncodeOptions& options, const Progress& progress)
     throw Error(parameter("max_vertices") + " and " + parameter("max_bytes") +
                 " are for streams; for a pack use " + parameter("max_error") + ", or no bound");
   }
+  if (options.digest || options.phases) {
+    throw Error(parameter(options.digest ? "digest" : "phases") +
+                " is an option of streams; leave it out");
+  }
   EncodeOptions tile = options;
   tile.device_ram = 0;  // it limits tiles, by their number of vertices
   return {options.lattice, simplify_options(tile, progress), tile_vertices(options, true),

@@ -12,6 +12,7 @@
 #include "encoder/export/height_sampler.hpp"
 #include "encoder/pack/point_pack.hpp"
 #include "encoder/product/budget.hpp"
+#include "encoder/product/phases.hpp"
 #include "encoder/product/true_bound.hpp"
 #include "encoder/stream/device_memory.hpp"
 #include "encoder/stream/encode.hpp"
@@ -146,6 +147,8 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
     metadata.everywhere = margins_of(measure_gap(decoded.mesh(), placement, *raster));
     encoded.everywhere = stated_everywhere(metadata.everywhere, placement.z);
   }
+  if (options.digest) metadata.digest = microtin_mesh_digest(decoded.mesh());
+  if (options.phases) metadata.phases = measure_phases(stream, kept);
   encoded.stream = with_metadata(stream, metadata);
   return result;
 }

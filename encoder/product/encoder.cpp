@@ -230,6 +230,8 @@ product::EncodeOptions options_of(const Options& options) {
   all.search = search_of(options.effort);
   all.effort = {options.max_degree, coding_of(options.coding)};
   all.surface = surface_of(options.surface);
+  all.digest = options.digest;
+  all.phases = options.phases;
   all.notes = notes_of(options);
   return all;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,7 @@ struct microtin_source {
 struct microtin_surface {
   Surface surface;
   Mesh mesh;  // handed out last
+  std::vector<microtin_phase> phases = {};
 };
 
 namespace {
@@ -150,6 +152,8 @@ Options options_of(const microtin_options& given) {
   options.valid = text_of(given.valid);
   options.epoch = text_of(given.epoch);
   options.source_accuracy = text_of(given.source_accuracy);
+  options.digest = given.digest != 0;
+  options.phases = given.phases != 0;
   options.max_vertices = given.max_vertices;
   options.max_bytes = given.max_bytes;
   options.tile_vertices = given.tile_vertices;
@@ -218,7 +222,11 @@ class BytesInMemory : public ByteSource {
 microtin_status open(microtin_surface** surface, const std::function<Surface()>& read) {
   return guarded([&] {
     expect(surface);
-    *surface = new microtin_surface{read(), {}};
+    auto opened = std::make_unique<microtin_surface>(microtin_surface{read(), {}});
+    for (const Phase& phase : opened->surface.info().phases) {
+      opened->phases.push_back({phase.vertices, phase.bytes, phase.max_error.c_str()});
+    }
+    *surface = opened.release();
   });
 }
 
@@ -265,6 +273,7 @@ microtin_surface_info info_of(const SurfaceInfo& all) {
   info.valid = all.valid.c_str();
   info.epoch = all.epoch.c_str();
   info.source_accuracy = all.source_accuracy.c_str();
+  info.digest = all.digest.c_str();
   info.bound = all.bound.c_str();
   info.max_error = all.max_error.c_str();
   info.rms_error = all.rms_error.c_str();
@@ -377,7 +386,10 @@ microtin_status microtin_surface_get_info(const microtin_surface* surface,
   return guarded([&] {
     expect(surface);
     expect_struct(info);
-    write_struct(info_of(surface->surface.info()), info);
+    microtin_surface_info all = info_of(surface->surface.info());
+    all.phases = surface->phases.data();
+    all.phase_count = surface->phases.size();
+    write_struct(all, info);
   });
 }
 

@@ -88,6 +88,8 @@ constexpr NamedOption kOptions[] = {
     {"valid", set_text<&Options::valid>, kText},
     {"epoch", set_text<&Options::epoch>, kText},
     {"source_accuracy", set_text<&Options::source_accuracy>, kText},
+    {"digest", set_flag<&Options::digest>, kFlag},
+    {"phases", set_flag<&Options::phases>, kFlag},
 };
 
 }  // namespace

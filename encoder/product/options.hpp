@@ -32,6 +32,7 @@ struct EncodeOptions {
   Effort effort;
   std::optional<Reference> reference;  // in place of the terrain's own, settled
   SurfaceKind surface = SurfaceKind::kUnknown;
+  bool digest = false, phases = false;  // of streams: notes that are measured
   SourceNotes notes;  // what they state comes before what the terrain's file states
 };
 

@@ -9,11 +9,13 @@
 #include <utility>
 
 #include "encoder/base/error.hpp"
+#include "encoder/base/text.hpp"
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/export/grid.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/stream/header.hpp"
 #include "encoder/terrain/everywhere.hpp"
 
 namespace microtin::encoder {
@@ -71,6 +73,15 @@ void take_accuracy(const terrain::Metadata& metadata, SurfaceInfo& info) {
   info.max_error = to_string(metadata.accuracy->max_error);
   info.rms_error = to_string(metadata.accuracy->rms_error);
   info.mean_error = to_string(metadata.accuracy->mean_error);
+}
+
+void take_measured_notes(const std::vector<uint8_t>& bytes, SurfaceInfo& info) {
+  const stream::Header header = stream::read_header(bytes);
+  if (header.metadata.digest) info.digest = base::hexadecimal(*header.metadata.digest);
+  for (const terrain::PhaseEnd& end : header.metadata.phases) {
+    info.phases.push_back({end.vertices, header.info.header_bytes + end.bytes,
+                           end.max_error ? to_string(*end.max_error) : std::string()});
+  }
 }
 
 Unit unit_of(exact::Unit unit) {
@@ -159,6 +170,7 @@ SurfaceInfo Surface::Content::info_of() const {
   all.surface = static_cast<SurfaceKind>(metadata.surface);  // the same numbers, those of the note
   all.side = static_cast<BoundSide>(metadata.side);
   take_accuracy(metadata, all);
+  if (document.stream() != nullptr) take_measured_notes(document.stream()->bytes, all);
   return all;
 }
 

@@ -17,6 +17,16 @@ void expect_done(microtin_status status) {
   if (status != MICROTIN_STATUS_OK) throw Error(describe(status));
 }
 
+// Where a section ends that begins at `at`; the stream's end if it does not end before.
+size_t section_end(const std::vector<uint8_t>& stream, size_t at) {
+  const uint8_t *next = stream.data() + at, *const end = stream.data() + stream.size();
+  uint64_t length = 0;
+  if (!read_varint(&next, end, &length)) return stream.size();
+  const auto left = static_cast<uint64_t>(end - next);
+  if (left < kCheckBytes || length > left - kCheckBytes) return stream.size();
+  return stream.size() - static_cast<size_t>(left - kCheckBytes - length);
+}
+
 }  // namespace
 
 void expect_room_for_vertices(const microtin_stream_info& info, uint64_t stream_bytes) {
@@ -39,7 +49,7 @@ void expect_chunks(const uint8_t* at, const uint8_t* end) {
   }
 }
 
-DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream) {
+DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream, const SectionVisitor& visit) {
   const Header header = read_header(stream);
   expect_room_for_vertices(header.info, stream.size());
   storage_.resize((header.info.mesh_bytes + 7) / 8);
@@ -47,10 +57,19 @@ DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream) {
   expect_done(microtin_mesh_init(storage_.data(), storage_.size() * 8, &mesh_));
   microtin_decoder* decoder = nullptr;
   expect_done(microtin_decoder_init(working.data(), working.size() * 8, mesh_, &decoder));
-  size_t used = 0;
-  microtin_decoder_feed(decoder, stream.data(), stream.size(), &used, 0);
+  size_t at = 0;
+  microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+  for (size_t end = header.info.header_bytes; status == MICROTIN_STATUS_NEED_INPUT && at < end;
+       end = section_end(stream, at)) {
+    const bool is_section = at != 0;
+    size_t used = 0;
+    status = microtin_decoder_feed(decoder, stream.data() + at, end - at, &used, 0);
+    at += used;
+    const bool is_intact = status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_OK;
+    if (visit && is_section && is_intact) visit(mesh_, at - header.info.header_bytes);
+  }
   expect_done(microtin_decoder_finish(decoder));
-  expect_chunks(stream.data() + used, stream.data() + stream.size());
+  expect_chunks(stream.data() + at, stream.data() + stream.size());
   phases_ = microtin_decoder_phase(decoder);
 }
 

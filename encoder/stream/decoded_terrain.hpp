@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,12 @@ void expect_chunks(const uint8_t* at, const uint8_t* end);
 
 class DecodedTerrain {
  public:
+  // Called with the mesh at the end of a section, and the bytes of all sections so far.
+  using SectionVisitor = std::function<void(const microtin_mesh* mesh, uint64_t bytes)>;
+
   // Decodes a whole stream. Throws Error, saying what the decoder found, if it is not valid or if
   // what follows its last section is not chunks.
-  explicit DecodedTerrain(const std::vector<uint8_t>& stream);
+  explicit DecodedTerrain(const std::vector<uint8_t>& stream, const SectionVisitor& visit = {});
 
   DecodedTerrain(DecodedTerrain&&) = default;
   DecodedTerrain& operator=(DecodedTerrain&&) = default;

@@ -109,6 +109,39 @@ void append_source_notes(Bytes& notes, const SourceNotes& m) {
   append_source_accuracy(notes, m.source_accuracy);
 }
 
+void append_phases(Bytes& notes, const std::vector<PhaseEnd>& phases) {
+  if (phases.empty()) return;
+  Bytes content;
+  append_varint(content, phases.size());
+  for (const PhaseEnd& end : phases) {
+    append_varint(content, end.vertices);
+    append_varint(content, end.bytes);
+    content.push_back(end.max_error ? 1 : 0);
+    if (end.max_error) append_decimal(content, *end.max_error);
+  }
+  append_note(notes, MICROTIN_NOTE_PHASES, content);
+}
+
+void append_digest(Bytes& notes, const std::optional<uint64_t>& digest) {
+  if (!digest) return;
+  Bytes content;
+  append_number(content, *digest, 8);
+  append_note(notes, MICROTIN_NOTE_DIGEST, content);
+}
+
+void append_places(Bytes& notes, const std::vector<FilePlace>& places) {
+  if (places.empty()) return;
+  Bytes content;
+  append_varint(content, places.size());
+  for (const FilePlace& place : places) {
+    content.push_back(static_cast<uint8_t>(place.kind));
+    content.push_back(static_cast<uint8_t>(place.base));
+    append_varint(content, place.offset);
+    append_varint(content, place.size);
+  }
+  append_note(notes, MICROTIN_NOTE_PLACES, content);
+}
+
 // The first and the last class of each run.
 void append_classes(Bytes& notes, const std::optional<ClassSet>& classes) {
   if (!classes) return;
@@ -189,9 +222,10 @@ class NoteReader {
   const uint8_t* end_;
 };
 
-Unit unit_of(uint8_t code) {
-  return code <= static_cast<uint8_t>(Unit::kUsSurveyFoot) ? static_cast<Unit>(code)
-                                                           : Unit::kUnknown;
+// The enumerator of a number; the first, which is unknown, if it is beyond the last.
+template <class Enum>
+Enum known(uint8_t number, Enum last) {
+  return static_cast<Enum>(number <= static_cast<uint8_t>(last) ? number : 0);
 }
 
 Accuracy read_accuracy(NoteReader& reader) {
@@ -225,22 +259,46 @@ ClassSet read_classes(NoteReader& reader) {
 // A number that is not known here states nothing.
 void read_surface(NoteReader& reader, Metadata& m) {
   const uint8_t kind = reader.byte(), side = reader.byte();
-  if (kind <= static_cast<uint8_t>(SurfaceKind::kObstacles)) {
-    m.surface = static_cast<SurfaceKind>(kind);
-  }
-  if (side <= static_cast<uint8_t>(BoundSide::kNeverAbove)) m.side = static_cast<BoundSide>(side);
+  m.surface = known(kind, SurfaceKind::kObstacles);
+  m.side = known(side, BoundSide::kNeverAbove);
   if (reader.at_end()) return;
   const Distances found{reader.decimal(), reader.decimal()};
   if (found.below.mantissa < 0 || found.above.mantissa < 0) refuse();
   m.at_samples = found;
 }
 
+std::vector<PhaseEnd> read_phases(NoteReader& reader) {
+  std::vector<PhaseEnd> phases;
+  for (uint64_t left = reader.number(); left != 0; --left) {
+    PhaseEnd end{reader.number32(), reader.number(), std::nullopt};
+    if (reader.byte() != 0) end.max_error = reader.decimal();
+    if (end.max_error && end.max_error->mantissa < 0) refuse();
+    phases.push_back(end);
+  }
+  return phases;
+}
+
+uint64_t read_digest(NoteReader& reader) {
+  uint64_t digest = 0;
+  for (int i = 0; i < 8; ++i) digest |= uint64_t{reader.byte()} << 8 * i;
+  return digest;
+}
+
+std::vector<FilePlace> read_places(NoteReader& reader) {
+  std::vector<FilePlace> places;
+  for (uint64_t left = reader.number(); left != 0; --left) {
+    const PlaceKind kind = known(reader.byte(), PlaceKind::kErrors);
+    const PlaceBase base = known(reader.byte(), PlaceBase::kEnd);
+    const uint64_t offset = reader.number();
+    places.push_back({kind, base, offset, reader.number()});
+  }
+  return places;
+}
+
 // A kind that is not known here keeps its number without a name.
 SourceAccuracy read_source_accuracy(NoteReader& reader) {
-  const uint8_t kind = reader.byte();
-  const bool is_known = kind <= static_cast<uint8_t>(AccuracyKind::kLe95);
-  const SourceAccuracy accuracy{is_known ? static_cast<AccuracyKind>(kind) : AccuracyKind::kUnknown,
-                                reader.decimal()};
+  const AccuracyKind kind = known(reader.byte(), AccuracyKind::kLe95);
+  const SourceAccuracy accuracy{kind, reader.decimal()};
   if (accuracy.value.mantissa < 0) refuse();
   return accuracy;
 }
@@ -248,12 +306,6 @@ SourceAccuracy read_source_accuracy(NoteReader& reader) {
 TileSums read_sums(NoteReader& reader) {
   const uint64_t vertices = reader.number();
   return {vertices, reader.number()};
-}
-
-DuplicateRule read_duplicates(NoteReader& reader) {
-  const uint8_t rule = reader.byte();
-  return rule <= static_cast<uint8_t>(DuplicateRule::kMedian) ? static_cast<DuplicateRule>(rule)
-                                                              : DuplicateRule::kUnknown;
 }
 
 void read_source_note(uint8_t type, NoteReader reader, SourceNotes& m) {
@@ -290,8 +342,8 @@ void read_source_note(uint8_t type, NoteReader reader, SourceNotes& m) {
 void read_note(uint8_t type, NoteReader reader, Metadata& m) {
   switch (type) {
     case MICROTIN_NOTE_UNITS:
-      m.horizontal_unit = unit_of(reader.byte());
-      m.vertical_unit = unit_of(reader.byte());
+      m.horizontal_unit = known(reader.byte(), Unit::kUsSurveyFoot);
+      m.vertical_unit = known(reader.byte(), Unit::kUsSurveyFoot);
       break;
     case MICROTIN_NOTE_SYSTEMS:
       m.horizontal_epsg = reader.number32();
@@ -316,13 +368,22 @@ void read_note(uint8_t type, NoteReader reader, Metadata& m) {
       m.classes = read_classes(reader);
       break;
     case MICROTIN_NOTE_DUPLICATES:
-      m.duplicates = read_duplicates(reader);
+      m.duplicates = known(reader.byte(), DuplicateRule::kMedian);
       break;
     case MICROTIN_NOTE_TRUE_PLACES:
       m.true_places = read_accuracy(reader);
       break;
     case MICROTIN_NOTE_SUMS:
       m.sums = read_sums(reader);
+      break;
+    case MICROTIN_NOTE_PHASES:
+      m.phases = read_phases(reader);
+      break;
+    case MICROTIN_NOTE_DIGEST:
+      m.digest = read_digest(reader);
+      break;
+    case MICROTIN_NOTE_PLACES:
+      m.places = read_places(reader);
       break;
     default:
       read_source_note(type, reader, m);
@@ -353,6 +414,9 @@ Bytes write_notes(const Metadata& m) {
     append_note(notes, MICROTIN_NOTE_DUPLICATES, {static_cast<uint8_t>(m.duplicates)});
   }
   append_sums(notes, m.sums);
+  append_phases(notes, m.phases);
+  append_digest(notes, m.digest);
+  append_places(notes, m.places);
   expect_room(notes);
   return notes;
 }

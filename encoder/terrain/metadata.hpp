@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "encoder/exact/decimal.hpp"
 #include "encoder/exact/lattice_map.hpp"
@@ -83,6 +84,36 @@ struct TileSums {
   uint64_t vertices, tiles;  // tiles with terrain
 };
 
+// A terrain at the end of a section of its stream, which completes a phase or the first few.
+struct PhaseEnd {
+  uint32_t vertices;
+  uint64_t bytes;                    // of all sections so far
+  std::optional<Decimal> max_error;  // at the samples of the source that the surface covers then
+};
+
+// What another stream or pack in the same file is. The numbers are those of the note.
+enum class PlaceKind : uint8_t {
+  kUnknown = 0,
+  kOverview = 1,  // the terrain with fewer vertices
+  kObstacles = 2,
+  kGeoid = 3,
+  kErrors = 4  // heights are errors of the terrain
+};
+
+// What a place's offset counts from. The numbers are those of the note.
+enum class PlaceBase : uint8_t {
+  kUnknown = 0,
+  kStart = 1,  // the first byte of what has the note, forwards
+  kEnd = 2     // the end of the file, backwards
+};
+
+// Where another stream or pack is in the same file.
+struct FilePlace {
+  PlaceKind kind;
+  PlaceBase base;
+  uint64_t offset, size;
+};
+
 // All texts together have at most 65535 bytes.
 struct Metadata : SourceNotes {
   Placement placement;
@@ -101,7 +132,10 @@ struct Metadata : SourceNotes {
   std::optional<PostGrid> grid;         // of the source, if it is a raster
   std::optional<ClassSet> classes;      // of points that were taken
   DuplicateRule duplicates = DuplicateRule::kUnknown;
-  std::optional<TileSums> sums;  // in packs alone
+  std::optional<TileSums> sums;    // in packs alone
+  std::optional<uint64_t> digest;  // of the decoded mesh; in streams alone
+  std::vector<PhaseEnd> phases;    // in streams alone
+  std::vector<FilePlace> places;
 };
 
 }  // namespace microtin::terrain

@@ -33,7 +33,7 @@ struct Verification {
   bool within_bound = true;  // max_error is at most the bound, or there is none
   // From the bilinear surface of a raster's posts, at posts and between them; if it was measured.
   std::optional<Distances> everywhere;
-  std::string broken;  // of a pack: the first tile's promise that its source breaks
+  std::string broken;  // the first promise of a pack's tile or a stream's phase that does not hold
 };
 
 // Told of every post with a height that the terrain answers: its place on the lattice (of a pack:

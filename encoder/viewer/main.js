@@ -98,12 +98,12 @@ function showFlat({ message }) {
 }
 
 function factsOf({ kind, size, bytes, vertices, first }) {
-  const { accuracy, units } = header;
-  const unit = SYMBOLS[units?.vertical] ?? "";
-  const error = accuracy ? `, at most ${text(accuracy.largest)} ${unit} off` : "";
+  const isAll = kind === "end";
+  const largest = isAll ? header.accuracy?.largest : header.phases?.find((one) => one.vertices === vertices)?.largest;
+  const error = largest === undefined ? "" : `, at most ${text(largest)} ${SYMBOLS[header.units?.vertical] ?? ""} off`;
   const seen = first ? `, first seen after ${text(first)} bytes` : "";
   const read = size ? `${text(bytes)} of ${text(size)}` : text(bytes);
-  return `${text(vertices)} vertices, ${read} bytes${kind === "end" ? "" : " so far"}${error}${seen}`;
+  return `${text(vertices)} vertices, ${read} bytes${isAll ? "" : " so far"}${error}${seen}`;
 }
 
 const ANSWERS = {

@@ -154,6 +154,8 @@ std::vector<Row> rows() {
       {"epoch", kAll, setting("--epoch", &W::epoch, &C::epoch, "2020.5"), two},
       {"source_accuracy", kAll,
        setting("--source-accuracy", &W::source_accuracy, &C::source_accuracy, "LE90 4"), two},
+      {"digest", kStream | kCloud, setting("--digest", &W::digest, true, &C::digest, 1u), two},
+      {"phases", kStream | kCloud, setting("--phases", &W::phases, true, &C::phases, 1u), two},
       {"max_vertices", kStream | kCloud,
        setting("--max-vertices", &W::max_vertices, &C::max_vertices, 70u), fast},
       {"max_bytes", kStream | kCloud, setting("--max-bytes", &W::max_bytes, &C::max_bytes, 300u),

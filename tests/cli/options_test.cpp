@@ -114,6 +114,8 @@ const std::vector<Row> kRows = {
     {"encode", "--source-name", "t.asc --max-error 2 -o o.mtin", "survey"},
     {"encode", "--date", "t.asc --max-error 2 -o o.mtin", "2026"},
     {"encode", "--lineage", "t.asc --max-error 2 -o o.mtin", "thinned"},
+    {"encode", "--digest", "t.asc --max-error 2 -o o.mtin", ""},
+    {"encode", "--phases", "t.asc --max-error 2 -o o.mtin", ""},
     {"encode", "--attribution", "t.asc --max-error 2 -o o.mtin", "survey"},
     {"encode", "--license", "t.asc --max-error 2 -o o.mtin", "CC0-1.0"},
     {"encode", "--valid", "t.asc --max-error 2 -o o.mtin", "2024/.."},
@@ -322,8 +324,9 @@ const std::vector<std::string> kOfShards = {"--max-error 1.8",
 const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};
 
 // With which no shard of posts is made, or which say which shard.
-const Names kNotOfShards = {"--max-vertices", "--max-bytes", "--xy-step", "--device-ram",
-                            "--output",       "--shard",     "--classes", "--gridded"};
+const Names kNotOfShards = {"--digest",  "--phases",     "--max-vertices", "--max-bytes",
+                            "--xy-step", "--device-ram", "--output",       "--shard",
+                            "--classes", "--gridded"};
 
 const std::vector<std::string> kCommon = {"--max-error 1.9", "--z-step 0.5", "--tile-vertices 60",
                                           "--tile-size 10"};

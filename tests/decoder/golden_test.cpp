@@ -125,6 +125,10 @@ Metadata noted() {
   m.valid = "2024-01/..";
   m.epoch = Decimal{20205, 1};
   m.source_accuracy = SourceAccuracy{AccuracyKind::kLe90, {4, 0}};
+  m.digest = 0x7A9C47CC04D5A7B5;
+  m.phases = {{60, 219, Decimal{99, 1}}};
+  m.places = {{PlaceKind::kOverview, PlaceBase::kEnd, 300, 200},
+              {PlaceKind::kGeoid, PlaceBase::kStart, 4096, 1000}};
   return m;
 }
 

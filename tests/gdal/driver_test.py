@@ -120,6 +120,8 @@ class Driver(unittest.TestCase):
             "VALID": ["2024-01/.."],
             "EPOCH": ["2020.5"],
             "SOURCE_ACCURACY": ["LE90 4"],
+            "DIGEST": ["YES"],
+            "PHASES": ["YES"],
         }
         text = gdal.GetDriverByName("MTIN").GetMetadataItem("DMD_CREATIONOPTIONLIST")
         listed = xml.etree.ElementTree.fromstring(text).iter("Option")
@@ -156,6 +158,15 @@ class Driver(unittest.TestCase):
             promised = {key: dataset.GetMetadataItem(key) for key in ("SURFACE", "SIDE", "MAX_BELOW")}
             self.assertEqual(promised, {"SURFACE": "top", "SIDE": "never_below", "MAX_BELOW": "0"})
             self.assertEqual(dataset.GetMetadataItem("MAX_ABOVE"), dataset.GetMetadataItem("MAX_ERROR"))
+
+    def test_digest_and_phases_of_a_stream_are_metadata(self):
+        small, path = self.path("measured.tif"), self.path("measured.mtin")
+        gdal.Translate(small, self.path("hills.tif"), srcWin=[0, 100, 160, 150])
+        dataset = gdal.Translate(path, small, format="MTIN", creationOptions=["MAX_ERROR=2", "DIGEST=YES", "PHASES=YES"])
+        self.assertRegex(dataset.GetMetadataItem("DIGEST"), "^[0-9a-f]{16}$")
+        last = dataset.GetMetadataItem("PHASES").split("; ")[-1].split()
+        self.assertEqual(last[:2], [dataset.GetMetadataItem("VERTICES"), str(os.path.getsize(path))])
+        self.assertEqual(last[2], dataset.GetMetadataItem("MAX_ERROR"))
 
     def test_notes_of_a_tiff_pass_through_streams_and_packs_and_back(self):
         source = self.path("noted.tif")

@@ -128,8 +128,10 @@ test("the header has what its maker states of the source", () => {
   assert.equal(header.valid, "2024-01/..");
   assert.equal(header.epoch, 2020.5);
   assert.deepEqual(header.sourceAccuracy, { kind: "LE90", value: 4 });
+  assert.equal(header.digest, decode(goldenBytes("notes.mtin")).digest);
+  assert.deepEqual(header.phases, [{ vertices: 60, bytes: goldenBytes("notes.mtin").length, largest: 9.9 }]);
   const bare = decode(goldenBytes("hills.mtin")).header;
-  for (const name of ["attribution", "license", "valid", "epoch", "sourceAccuracy"]) assert.equal(bare[name], undefined);
+  for (const name of ["attribution", "license", "valid", "epoch", "sourceAccuracy", "digest", "phases"]) assert.equal(bare[name], undefined);
 });
 
 test("the header tells how far the surface is from its source everywhere, if it states that", () => {

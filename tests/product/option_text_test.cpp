@@ -69,6 +69,8 @@ std::vector<Row> rows() {
       row("source_name", words, &O::source_name, words),
       row("date", "2026", &O::date, std::string("2026")),
       row("lineage", words, &O::lineage, words),
+      row("digest", "true", &O::digest, true),
+      row("phases", "true", &O::phases, true),
       row("attribution", words, &O::attribution, words),
       row("license", words, &O::license, words),
       row("valid", "2024/..", &O::valid, std::string("2024/..")),

@@ -151,6 +151,8 @@ class Options(unittest.TestCase):
         "license": (BOUND, "--max-error 2", {"CC-BY-4.0": "--license CC-BY-4.0"}),
         "valid": (BOUND, "--max-error 2", {"2024-01/..": "--valid 2024-01/.."}),
         "epoch": (BOUND, "--max-error 2", {2020.5: "--epoch 2020.5"}),
+        "digest": (BOUND, "--max-error 2", {True: "--digest"}),
+        "phases": (BOUND, "--max-error 2", {True: "--phases"}),
         "source_accuracy": (BOUND, "--max-error 2", {"LE90 4": "--source-accuracy 'LE90 4'"}),
         "max_vertices": ({"effort": "fast"}, "--fast", {60: "--max-vertices 60"}),
         "max_bytes": ({"effort": "fast"}, "--fast", {900: "--max-bytes 900"}),
@@ -214,9 +216,14 @@ class Options(unittest.TestCase):
             warnings.simplefilter("ignore")
             noted = microtin.decode(microtin.encode_points(self.points(), max_error=2, **notes))
             bare = microtin.decode(microtin.encode_points(self.points(), max_error=2))
+            stream = microtin.encode_points(self.points(), max_error=2, digest=True, phases=True)
         self.assertEqual({name: getattr(noted, name) for name in notes}, notes)
         none = {name: None if name == "epoch" else "" for name in notes}
         self.assertEqual({name: getattr(bare, name) for name in notes}, none)
+        measured = microtin.decode(stream)
+        self.assertRegex(measured.digest, "^[0-9a-f]{16}$")
+        self.assertEqual(measured.phases[-1], (stream.report.vertices, len(stream), stream.report.max_error))
+        self.assertEqual((bare.digest, bare.phases), ("", []))
         with self.assertRaisesRegex(microtin.Error, "epoch: '20' is not allowed"):
             microtin.encode_points(self.points(), max_error=2, epoch=20)
 

@@ -3,6 +3,7 @@
 // beside all others. A member without a row fails.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -57,6 +58,19 @@ bool is_same_source_accuracy(const std::optional<SourceAccuracy>& a,
                              const std::optional<SourceAccuracy>& b) {
   if (!a || !b) return a.has_value() == b.has_value();
   return a->kind == b->kind && is_same_decimal(a->value, b->value);
+}
+
+bool is_same_phases(const std::vector<PhaseEnd>& a, const std::vector<PhaseEnd>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
+    return p.vertices == q.vertices && p.bytes == q.bytes &&
+           is_same_decimal(p.max_error, q.max_error);
+  });
+}
+
+bool is_same_places(const std::vector<FilePlace>& a, const std::vector<FilePlace>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
+    return p.kind == q.kind && p.base == q.base && p.offset == q.offset && p.size == q.size;
+  });
 }
 
 struct Row {
@@ -119,6 +133,22 @@ std::vector<Row> rows() {
       row("grid", &Metadata::grid, optional(PostGrid{300, 2, {0, 1, 1}, {0, 1, 2}}), is_same_grid),
       row("grid", &Metadata::grid, optional(PostGrid{300, 2, {0, 1, 2}, {0, 1, 1}}), is_same_grid),
   };
+  for (const uint64_t digest : {uint64_t{0}, UINT64_MAX, uint64_t{0x0123456789ABCDEF}}) {
+    all.push_back(row("digest", &Metadata::digest, optional(digest)));
+  }
+  for (const std::vector<PhaseEnd>& phases :
+       {std::vector<PhaseEnd>{{3, 0, std::nullopt}},
+        std::vector<PhaseEnd>{{300, 900, Decimal{45, 1}},
+                              {UINT32_MAX, UINT64_MAX, Decimal{0, 0}}}}) {
+    all.push_back(row("phases", &Metadata::phases, phases, is_same_phases));
+  }
+  for (const int kind : {0, 1, 2, 3, 4}) {
+    for (const int base : {0, 1, 2}) {
+      const FilePlace place{static_cast<PlaceKind>(kind), static_cast<PlaceBase>(base), 300, 7};
+      const std::vector<FilePlace> places = {place, {PlaceKind::kGeoid, PlaceBase::kEnd, 0, 1}};
+      all.push_back(row("places", &Metadata::places, places, is_same_places));
+    }
+  }
   for (const int unit : {0, 1, 2, 3, 4}) {
     all.push_back(row("horizontal_unit", &Metadata::horizontal_unit, static_cast<Unit>(unit)));
     all.push_back(row("vertical_unit", &Metadata::vertical_unit, static_cast<Unit>(unit)));
@@ -189,6 +219,10 @@ TEST_CASE("notes: no member of the metadata is without a row") {
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "Margins")) == "above below ");
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "TileSums")) == "tiles vertices ");
   CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "PostGrid")) == "columns rows x y ");
+  CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "PhaseEnd")) ==
+        "bytes max_error vertices ");
+  CHECK(text_of(members_of("encoder/terrain/metadata.hpp", "FilePlace")) ==
+        "base kind offset size ");
   CHECK(text_of(members_of("encoder/exact/lattice_map.hpp", "Placement")) == "x y z ");
 }
 
@@ -227,6 +261,38 @@ TEST_CASE("notes: an accuracy of the source keeps its number if its kind is of a
   CHECK(read({4, 8, 0}) == "unknown 4");
   const std::vector<std::vector<uint8_t>> broken = {{}, {1}, {1, 8}, {1, 7, 0}};
   for (const std::vector<uint8_t>& content : broken) CHECK_THROWS_AS(read(content), Error);
+}
+
+TEST_CASE("notes: lists of phases and places have as many entries as they state") {
+  const auto read = [](uint8_t type, const std::vector<uint8_t>& content) {
+    std::vector<uint8_t> note = {type, static_cast<uint8_t>(content.size()), 0};
+    note.insert(note.end(), content.begin(), content.end());
+    Metadata metadata;
+    read_notes(note.data(), note.data() + note.size(), metadata);
+    return metadata;
+  };
+  const auto phases = read(MICROTIN_NOTE_PHASES, {2, 3, 5, 0, 9, 40, 1, 10, 1, 99}).phases;
+  REQUIRE(phases.size() == 2);  // behind them is a byte of a later version
+  CHECK(phases[0].vertices == 3);
+  CHECK(!phases[0].max_error);
+  CHECK(phases[1].bytes == 40);
+  CHECK(to_string(*phases[1].max_error) == "0.5");
+  const auto places = read(MICROTIN_NOTE_PLACES, {1, 5, 3, 100, 20, 99}).places;
+  REQUIRE(places.size() == 1);  // of a kind and a base of a later version
+  CHECK(places[0].kind == PlaceKind::kUnknown);
+  CHECK(places[0].base == PlaceBase::kUnknown);
+  CHECK(places[0].offset == 100);
+  CHECK(places[0].size == 20);
+  const std::vector<std::vector<uint8_t>> broken_phases = {
+      {}, {1}, {1, 3, 5}, {1, 3, 5, 1, 1, 0}, {2, 3, 5, 0}};
+  for (const auto& content : broken_phases) {
+    CHECK_THROWS_AS(read(MICROTIN_NOTE_PHASES, content), Error);
+  }
+  const std::vector<std::vector<uint8_t>> broken_places = {{}, {1, 1, 1, 9}, {2, 1, 1, 9, 9}};
+  for (const auto& content : broken_places) {
+    CHECK_THROWS_AS(read(MICROTIN_NOTE_PLACES, content), Error);
+  }
+  CHECK_THROWS_AS(read(MICROTIN_NOTE_DIGEST, {1, 2, 3, 4, 5, 6, 7}), Error);
 }
 
 TEST_CASE("notes: texts take as many bytes as notes have, and no more") {

@@ -174,7 +174,10 @@ typedef enum microtin_note_type {
   MICROTIN_NOTE_DUPLICATES = 11,
   MICROTIN_NOTE_TRUE_PLACES = 12, /* accuracy at the points' own positions */
   MICROTIN_NOTE_SURFACE = 13,     /* what kind of surface, and on which side of it the bound is */
+  MICROTIN_NOTE_PHASES = 14,      /* of a stream: vertices, bytes, and largest error after each */
+  MICROTIN_NOTE_DIGEST = 15,      /* of a stream's mesh, as microtin_mesh_digest returns it */
   MICROTIN_NOTE_SUMS = 16,        /* of a pack's tiles: their vertices, and how many have terrain */
+  MICROTIN_NOTE_PLACES = 17,      /* of other streams and packs in the same file */
   /* 64 to 127: about the source. */
   MICROTIN_NOTE_ATTRIBUTION = 64, /* a text to be shown to users */
   MICROTIN_NOTE_LICENSE = 65,

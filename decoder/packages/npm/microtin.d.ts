@@ -68,6 +68,11 @@ export interface Header {
 
 export interface TerrainHeader extends Header {
   vertices: number;
+  /** After each phase, or after the first few: the vertices, the bytes of the file up to there, and the largest error at
+   * the samples of the source that the surface covers then, in units of height. */
+  phases?: { vertices: number; bytes: number; largest?: number }[];
+  /** What Terrain.digest must be when all is decoded. */
+  digest?: bigint;
 }
 
 export interface Mesh {

@@ -115,6 +115,7 @@ typedef struct microtin_options {
   uint32_t surface; /* MICROTIN_SURFACE_* */
   const char *attribution, *license, *valid;
   const char *epoch, *source_accuracy; /* "2020.5"; "LE90 4" */
+  uint32_t digest, phases;             /* 1: note them, in a stream */
 } microtin_options;
 
 /* What the encoder measured; see encoder::Report. Errors are decimals as text, "" if there is
@@ -193,6 +194,13 @@ enum {
   MICROTIN_SIDE_NEVER_ABOVE = 3
 };
 
+/* A stream after one of its phases, or after the first few. */
+typedef struct microtin_phase {
+  uint64_t vertices;
+  uint64_t bytes;        /* from the first byte of the file on */
+  const char* max_error; /* at the heights that the surface covers then; "" if there are none */
+} microtin_phase;
+
 /* What the header contains, and where the surface is; see encoder::SurfaceInfo. Texts are valid as
  * long as the surface. */
 typedef struct microtin_surface_info {
@@ -211,6 +219,9 @@ typedef struct microtin_surface_info {
   const char *max_below_everywhere,
       *max_above_everywhere; /* from the surface of a raster's posts */
   const char *attribution, *license, *valid, *epoch, *source_accuracy;
+  const char* digest;           /* of a stream's mesh, 16 hexadecimal digits */
+  const microtin_phase* phases; /* of a stream */
+  uint64_t phase_count;
 } microtin_surface_info;
 
 /* Writes what the header contains, and where the surface is. Cannot fail for a surface and a struct

@@ -181,6 +181,10 @@ struct Options {
   std::string valid;       /* two dates: 2024-01/2025-06; open on one side: 2024-01/.., ../2025 */
   std::string epoch;       /* of the coordinates, a year: 2020.5 */
   std::string source_accuracy; /* of the source itself: "LE90 4", "LE95 5" or "RMSE 2.5" */
+  /* Stream: note a digest of the mesh, by which a device checks its memory: 11 bytes. */
+  bool digest = false;
+  /* Stream: note the vertices, bytes and largest error after each phase. */
+  bool phases = false;
 };
 
 /* Sets an option by the name of its member, for callers whose options are texts: "max_error" to

@@ -77,6 +77,13 @@ struct Box {
   double west = 0, south = 0, east = 0, north = 0;
 };
 
+/* A stream after one of its phases, or after the first few. */
+struct Phase {
+  uint64_t vertices = 0;
+  uint64_t bytes = 0;    /* from the first byte of the file on */
+  std::string max_error; /* at the heights that the surface covers then; "" if there are none */
+};
+
 /* What the header contains, and where the surface is. */
 struct SurfaceInfo {
   uint64_t bytes = 0;
@@ -103,6 +110,8 @@ struct SurfaceInfo {
   std::string valid;           /* 2024-01/2025-06, 2024-01/.. or ../2025 */
   std::string epoch;           /* of the coordinates, a year: 2020.5 */
   std::string source_accuracy; /* of the source itself: "LE90 4" */
+  std::string digest;          /* of a stream's mesh, 16 hexadecimal digits */
+  std::vector<Phase> phases;   /* of a stream */
 };
 
 /* Vertices and triangles. Triangles are counter-clockwise from above; void ones are left out. */

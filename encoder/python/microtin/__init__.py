@@ -110,7 +110,7 @@ def encode(
     coding="quick" | "balanced" | "dense", units="degree:metre" or ":foot", depths=True, vertical_epsg,
     surface="ground" | "top" | "bed" | "geoid" | "obstacles", source_name, date, lineage, attribution, license (an SPDX
     expression or a URL), valid="2024-01/..", epoch (of the coordinates, a year), source_accuracy="LE90 4" (or LE95, RMSE),
-    and progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights in other units of length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
+    digest=True, phases=True (of streams: noted as measured), and progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights in other units of length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
 
     Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
     an array is not two-dimensional or a height out of range.
@@ -242,6 +242,8 @@ def _options(
     valid: str = "",
     epoch: Optional[Number] = None,
     source_accuracy: str = "",
+    digest: bool = False,
+    phases: bool = False,
     **numbers: int,
 ) -> Tuple[_library.Options, _Caller]:
     chosen = (
@@ -282,6 +284,8 @@ def _options(
         valid=valid.encode(),
         epoch=_decimal(epoch),
         source_accuracy=source_accuracy.encode(),
+        digest=digest,
+        phases=phases,
         progress=caller.function,
         **numbers,
     )
@@ -431,6 +435,8 @@ class Surface:
     valid             when the terrain is valid: "2024-01/2025-06", "2024-01/.." or "../2025"; "" if it is not stated
     epoch             of the coordinates, a year; None if it is not stated
     source_accuracy   of the source itself: "LE90 4"; "" if it is not stated
+    digest            of a stream's mesh, 16 hexadecimal digits; "" if it is not stated
+    phases            of a stream: (vertices, bytes of the file, largest error) after each of them that is stated
     """
 
     def __init__(self, source: Union[bytes, bytearray, memoryview, Path]) -> None:
@@ -469,6 +475,10 @@ class Surface:
         self.valid: str = info.valid.decode(errors="replace")
         self.epoch = _number(info.epoch)
         self.source_accuracy: str = info.source_accuracy.decode()
+        self.digest: str = info.digest.decode()
+        self.phases = [
+            (phase.vertices, phase.bytes, _number(phase.max_error)) for phase in info.phases[: info.phase_count]
+        ]
 
     @property
     def vertices(self) -> NDArray[numpy.float64]:

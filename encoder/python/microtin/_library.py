@@ -78,6 +78,8 @@ class Options(_Sized):
         ("valid", c_char_p),
         ("epoch", c_char_p),
         ("source_accuracy", c_char_p),
+        ("digest", c_uint32),
+        ("phases", c_uint32),
     ]
 
 
@@ -103,6 +105,10 @@ class Report(_Sized):
 
 class Grid(_Sized):
     _fields_ = [("size", c_size_t), ("columns", c_uint32), ("rows", c_uint32), ("x", Axis), ("y", Axis)]
+
+
+class Phase(ctypes.Structure):
+    _fields_ = [("vertices", c_uint64), ("bytes", c_uint64), ("max_error", c_char_p)]
 
 
 class SurfaceInfo(_Sized):
@@ -146,6 +152,9 @@ class SurfaceInfo(_Sized):
         ("valid", c_char_p),
         ("epoch", c_char_p),
         ("source_accuracy", c_char_p),
+        ("digest", c_char_p),
+        ("phases", POINTER(Phase)),
+        ("phase_count", c_uint64),
     ]
 
 

@@ -62,6 +62,11 @@ class NoteReader {
     return value;
   }
 
+  // The number of entries that follow, at most the number of bytes.
+  count() {
+    return Math.min(Number(this.varint()), this.bytes.length);
+  }
+
   text() {
     return new TextDecoder().decode(this.bytes);
   }
@@ -95,6 +100,13 @@ const NOTES = {
     const hasErrors = note.next < note.bytes.length;
     return { surface: hasErrors ? { ...surface, below: note.decimal(), above: note.decimal() } : surface };
   },
+  14: (note) => ({
+    phases: Array.from({ length: note.count() }, () => {
+      const [vertices, bytes] = [Number(note.varint()), Number(note.varint())];
+      return { vertices, bytes, ...(note.byte() === 1 && { largest: note.decimal() }) };
+    }),
+  }),
+  15: (note) => ({ digest: note.bytes.subarray(0, 8).reduceRight((sum, byte) => (sum << 8n) | BigInt(byte), 0n) }),
   64: (note) => ({ attribution: note.text() }),
   65: (note) => ({ license: note.text() }),
   66: (note) => ({ epoch: note.decimal() }),

@@ -169,6 +169,7 @@ export class Decoder {
     const axes = axesAt(view, info + INFO_AXES);
     const everywhere = everywhereAt(view, info + INFO_MARGINS, axes);
     const header = { vertices: number(INFO_VERTICES), axes, ...(everywhere && { everywhere }), ...notes };
+    for (const phase of header.phases ?? []) phase.bytes += number(INFO_HEADER_BYTES);
     this.#meshBytes = number(INFO_MESH_BYTES);
     instance.end = start;
     const workspace = instance.reserve(this.#meshBytes);
