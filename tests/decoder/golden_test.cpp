@@ -16,6 +16,7 @@
 #include "tests/support/device.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/mesh_copy.hpp"
+#include "tests/support/noted_metadata.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/streams.hpp"
 
@@ -107,31 +108,6 @@ Bytes with_what_is_later(const Bytes& stream) {
   return later;
 }
 
-// With each note.
-Metadata noted() {
-  Metadata m = full_metadata();
-  m.date = "2019-05/2021";
-  m.lineage = "noise removed";
-  m.wkt = "LOCAL_CS[\"site\"]";
-  m.water_level = Decimal{-35, 1};
-  m.true_places = Accuracy{{}, Decimal{51, 2}, Decimal{124, 3}, Decimal{0, 0}};
-  m.surface = SurfaceKind::kTop;
-  m.side = BoundSide::kNeverBelow;
-  m.at_samples = Distances{{0, 0}, {99, 1}};
-  m.classes = ClassSet().set(2).set(8).set(9);
-  m.duplicates = DuplicateRule::kHighest;
-  m.attribution = "\xC2\xA9 the <survey>\x1B";
-  m.license = "CC-BY-4.0";
-  m.valid = "2024-01/..";
-  m.epoch = Decimal{20205, 1};
-  m.source_accuracy = SourceAccuracy{AccuracyKind::kLe90, {4, 0}};
-  m.digest = 0x7A9C47CC04D5A7B5;
-  m.phases = {{60, 219, Decimal{99, 1}}};
-  m.places = {{PlaceKind::kOverview, PlaceBase::kEnd, 300, 200},
-              {PlaceKind::kGeoid, PlaceBase::kStart, 4096, 1000}};
-  return m;
-}
-
 // Given, so that the files stay as they are whatever suits an encoder.
 constexpr Effort kUsual = {10, Coding::kBalanced};
 
@@ -171,7 +147,7 @@ std::vector<Golden> golden_streams() {
   all.push_back({"parities", encode_and_decode(on_every_other_line(rolling_tin(1500, 35)),
                                                Metadata(), kUsual, Origin{true, false})
                                  .stream});
-  all.push_back({"notes", encode(rolling_tin(60, 37), noted(), kUsual)});
+  all.push_back({"notes", encode(rolling_tin(60, 37), noted_metadata(), kUsual)});
   return all;
 }
 

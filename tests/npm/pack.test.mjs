@@ -128,6 +128,15 @@ test("damaged bytes and what is no pack are told", { skip }, async () => {
   await assert.rejects(pack.tile(-1), RangeError);
 });
 
+test("the header of a pack has what its maker states of the source", async () => {
+  const { header } = await Pack.open(goldenBytes("noted.mtp"));
+  assert.equal(header.attribution, "\u00a9 the <survey>\u001b");
+  assert.equal(header.license, "CC-BY-4.0");
+  assert.equal(header.valid, "2024-01/..");
+  assert.equal(header.epoch, 2020.5);
+  assert.deepEqual(header.sourceAccuracy, { kind: "LE90", value: 4 });
+});
+
 test("what a later version may add is read, or refused as unsupported", async () => {
   const golden = goldenBytes("unknown.mtp");
   const pack = await Pack.open(golden);

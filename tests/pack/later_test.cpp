@@ -13,6 +13,7 @@
 #include "tests/firmware/tiles_report.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/forged_pack.hpp"
+#include "tests/support/noted_metadata.hpp"
 #include "tests/support/pack_device.hpp"
 #include "tests/support/paths.hpp"
 
@@ -75,6 +76,26 @@ Bytes with_notes(const Bytes& pack) {
   return changed;
 }
 
+// A tile of four vertices, or of none.
+TileSummary tile_of(const Bytes& stream, uint64_t offset) {
+  TileSummary tile;
+  tile.bytes = static_cast<uint32_t>(stream.size());
+  tile.offset = stream.empty() ? 0 : offset;
+  tile.stream_hash = stream_hash(kStreamHash, stream.data(), stream.size());
+  tile.vertices = stream.empty() ? 0 : 4;
+  if (!stream.empty()) add_heights(stream, tile);
+  return tile;
+}
+
+// One tile, and each note of this version that a pack may have.
+Bytes with_each_note() {
+  const Bytes stream = stream_of(5);
+  PackContent content{{4, 4, 4, 4}, noted_metadata(), {tile_of(stream, 0)}};
+  content.metadata.digest.reset();
+  content.metadata.phases.clear();
+  return pack::write_pack(content, stream);
+}
+
 // Eight tiles: good, with an unknown property, of a later version, with chunks; one that shares the
 // stream of the first, one without terrain, one behind a gap, a damaged one.
 Bytes all_kinds() {
@@ -93,13 +114,7 @@ Bytes all_kinds() {
   for (size_t i = 0; i < streams.size(); ++i) {
     if (i == 6) append(joined, gap);
     const bool is_shared = i == 4;
-    TileSummary tile;
-    tile.bytes = static_cast<uint32_t>(streams[i].size());
-    tile.offset = tile.bytes == 0 || is_shared ? 0 : joined.size();
-    tile.stream_hash = stream_hash(kStreamHash, streams[i].data(), streams[i].size());
-    tile.vertices = tile.bytes == 0 ? 0 : 4;
-    if (tile.bytes != 0) add_heights(streams[i], tile);
-    content.tiles.push_back(tile);
+    content.tiles.push_back(tile_of(streams[i], is_shared ? 0 : joined.size()));
     if (!is_shared) append(joined, streams[i]);
   }
   Bytes pack = with_notes(pack::write_pack(content, joined));
@@ -119,7 +134,8 @@ Bytes with_flag(uint8_t flag, bool is_damaged) {
 }
 
 std::vector<std::pair<std::string, Bytes>> golden_packs() {
-  return {{"unknown", all_kinds()},
+  return {{"noted", with_each_note()},
+          {"unknown", all_kinds()},
           {"flag_low", with_flag(8, false)},
           {"flag_low_damaged", with_flag(8, true)},
           {"flag_high", with_flag(16, true)}};
@@ -164,6 +180,26 @@ TEST_CASE("golden packs: what a later version may add is read, or refused with o
     CHECK(bytes == bytes_of_file(golden(name + ".mtp")));
     CHECK(report == read_file(golden(name + ".report")));
   }
+}
+
+TEST_CASE("golden packs: a device finds each note") {
+  const Bytes pack = bytes_of_file(golden("noted.mtp"));
+  const auto text = [&](uint8_t type) {
+    const uint8_t* content = nullptr;
+    uint32_t size = 0;
+    CHECK(microtin_find_note(pack.data(), pack.size(), type, &content, &size) ==
+          MICROTIN_STATUS_OK);
+    return std::string(content, content + size);
+  };
+  CHECK(text(MICROTIN_NOTE_ATTRIBUTION) == "\xC2\xA9 the <survey>\x1B");
+  CHECK(text(MICROTIN_NOTE_LICENSE) == "CC-BY-4.0");
+  CHECK(text(MICROTIN_NOTE_VALIDITY) == "2024-01/..");
+  CHECK(text(MICROTIN_NOTE_SOURCE_ACCURACY) == std::string("\1\10\0", 3));
+  CHECK(text(MICROTIN_NOTE_EPOCH).size() == 4);
+  CHECK(text(MICROTIN_NOTE_PLACES)[0] == 2);
+  const Metadata metadata = PackFile(pack).metadata();
+  CHECK(to_string(*metadata.epoch) == "2020.5");
+  CHECK(metadata.places.size() == 2);
 }
 
 TEST_CASE("golden packs: the host refuses what a device refuses, for the same reason") {
