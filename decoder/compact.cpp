@@ -339,7 +339,7 @@ void put_header(const Compactor& c) {
 }
 
 // Makes ready for the next work. False if there is none, or no room.
-bool go_on(Compactor& c) {
+bool begin_next(Compactor& c) {
   if (c.work == Work::kExpand) {
     c.status = static_cast<uint8_t>(measure(c));
     if (c.status != MICROTIN_STATUS_STEP_LIMIT) return false;
@@ -423,7 +423,7 @@ microtin_status microtin_compactor_run(microtin_compactor* compactor, microtin_c
   *compact = nullptr;
   uint32_t left = step_limit == 0 ? 0xFFFFFFFFu : step_limit;
   bool goes_on = c.status == MICROTIN_STATUS_STEP_LIMIT;
-  for (; goes_on && left != 0; --left) goes_on = !handle(c) || go_on(c);
+  for (; goes_on && left != 0; --left) goes_on = !handle(c) || begin_next(c);
   if (c.status == MICROTIN_STATUS_OK) *compact = c.target;
   return static_cast<microtin_status>(c.status);
 }

@@ -125,7 +125,7 @@ MICROTIN_ONE_COPY microtin_status fail_pack(microtin_pack& p, microtin_status st
 }
 
 MICROTIN_ONE_COPY bool choose_slot(microtin_pack& p) {
-  p.slot = place_to_fill(p.slots, p.slot_count, p.clock);
+  p.slot = p.only_checks ? nullptr : place_to_fill(p.slots, p.slot_count, p.clock);
   return p.slot != nullptr;
 }
 
@@ -472,6 +472,8 @@ void microtin_pack_reset(microtin_pack* pack) {
   p.storage = Storage::kWell;
   p.tile = 0;
   p.is_sound = false;
+  p.only_checks = false;
+  p.slot = nullptr;
   forget_bad_tiles(p);
   for (uint32_t i = 0; i < p.slot_count; ++i) set_state(p.slots[i], SlotState::kEmpty);
   give_up(p);

@@ -71,7 +71,8 @@ struct microtin_pack {
   bool is_sound;  // the stream of `tile` is the right one, but there was no slot for it
   microtin::Storage storage;
   bool is_counted;
-  uint8_t start;  // a status: what the first bytes of a stream say of the tile, or of the header
+  bool only_checks;  // no tile gets a slot
+  uint8_t start;     // a status: what the first bytes of a stream say of the tile, or of the header
   // Counts of the next bytes wanted, and of those that came.
   uint8_t wanted, buffered, fed;
   uint8_t kept;     // entries of the index at the buffer's end

@@ -240,10 +240,12 @@ uint64_t boxes_of_walk(const microtin_pack* pack, const microtin_segment& segmen
 // of bad tiles walks along them at each call: it is left when that has taken a second.
 void serve(Card& card, const Device& device, const microtin_segment& segment, uint32_t step_limit) {
   microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
+  microtin_pack_check check = {};  // whatever it finds, loading goes on
   uint64_t boxes = 0;
   for (uint32_t call = 0, failed = 0; failed < 3 && boxes < 4000000; ++call) {
     EXPECT(call < 200000);
     boxes += boxes_of_walk(device.pack, segment);
+    if (call % 16 == 3) microtin_pack_check_segment(device.pack, &segment, &check);
     const uint32_t reads = card.reads;
     status = device.load_with(segment, Card::read, &card, step_limit);
     if (status == MICROTIN_STATUS_IO) {
@@ -292,6 +294,14 @@ struct Answers {
   }
 };
 
+// A device that holds nothing finds all tiles of a segment whole that could be loaded.
+void expect_whole(Card& card, const microtin_segment& segment) {
+  const Device device(1, 0);
+  microtin_pack_check check = {};
+  EXPECT(microtin_pack_check_with(device.pack, &segment, 0, &check, Card::read, &card) ==
+         MICROTIN_STATUS_OK);
+}
+
 // Storage without faults: slots of both forms that hold a segment answer the same.
 void check_forms(const uint8_t* data, size_t size, uint32_t slots,
                  const std::vector<microtin_segment>& segments) {
@@ -305,6 +315,7 @@ void check_forms(const uint8_t* data, size_t size, uint32_t slots,
     };
     if (!is_served(meshes) || !is_served(compact)) continue;
     EXPECT(Answers(meshes, segment) == Answers(compact, segment));
+    expect_whole(card, segment);
   }
 }
 

@@ -117,10 +117,11 @@ struct Place {
 
 // In a tile, beside a border, on one, at a corner of four tiles, across all, at the terrain's rim.
 const std::vector<Place> kPlaces = {
-    {"inside a tile", 5, 5, 9, 8},       {"beside a border", 17, 5, 19, 9},
-    {"on a border", 20, 5, 20, 9},       {"a corner of four tiles", 20, 20, 20, 20},
-    {"around a corner", 38, 18, 42, 22}, {"a row", 0, 30, 60, 30},
-    {"the last post", 60, 52, 60, 52},   {"a border's whole length", 20, 20, 20, 40}};
+    {"inside a tile", 5, 5, 9, 8},         {"beside a border", 17, 5, 19, 9},
+    {"on a border", 20, 5, 20, 9},         {"a corner of four tiles", 20, 20, 20, 20},
+    {"around a corner", 38, 18, 42, 22},   {"a row", 0, 30, 60, 30},
+    {"the last post", 60, 52, 60, 52},     {"a border's whole length", 20, 20, 20, 40},
+    {"all beside a border", 19, 0, 19, 52}};
 
 }  // namespace
 
@@ -174,6 +175,16 @@ TEST_CASE("update: only tiles that hold a changed post are new, whatever changes
       }
     }
   }
+}
+
+TEST_CASE("update: a tile whose margins do not hold any more is new, although its bound holds") {
+  const Raster flat = raster_of(61, std::vector<int64_t>(61 * 53, 7));
+  const Raster bump =
+      changed(flat, [](int x, int y, int64_t z) { return x == 30 && y == 30 ? z + 2 : z; });
+  const OldPack old(flat, tiles_of_20(3));
+  const OldPack::Updated updated = old.update(bump, 600);
+  CHECK(updated.kept == PackFile(old.bytes()).tiles() - 1);
+  expect_keeps_all(PackFile(updated.bytes), bump, 3);
 }
 
 TEST_CASE("update: voids that are filled, and tiles that had no terrain") {

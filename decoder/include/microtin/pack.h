@@ -152,6 +152,56 @@ microtin_status microtin_pack_bad_tile(const microtin_pack* pack, uint32_t i, ui
 /* Forgets the bad tiles, so that the pack tries them again. */
 void microtin_pack_clear_bad_tiles(microtin_pack* pack);
 
+/* --- Checks before the terrain is needed, for example before take-off --- */
+
+/* What a check found so far. All zero to begin. */
+typedef struct microtin_pack_check {
+  uint32_t tiles;           /* checked */
+  uint32_t without_terrain; /* of these: tiles that have no height anywhere */
+  uint32_t bad;             /* of these: bad tiles; microtin_pack_bad_tile has the latest */
+  uint32_t first_bad;       /* the number of the first bad tile, if there is one */
+  uint32_t next;            /* the check's own */
+  uint8_t is_inside;        /* 1: the whole segment or box lies in the pack */
+} microtin_pack_check;
+
+/* Checks that every tile that a segment touches is there and whole, for packs of both kinds: that
+ * its entry and the start of its stream keep the rules, that its vertices fit a slot, and that its
+ * bytes are those of which the pack states the hash. Decodes nothing, and changes no slot. It reads
+ * by microtin_pack_next_read and microtin_pack_complete_read, as microtin_pack_load does; after
+ * NEED_INPUT and IO call again with the same segment and check. A call handles at most one read,
+ * and takes O(columns + rows of tiles in the segment's bounding box + slots^2). Any number of tiles
+ * is allowed.
+ *
+ * - OK: done; no tile is bad
+ * - BAD_TILES: done; check->bad tiles are bad
+ * - NEED_INPUT, IO, ARGUMENT, and the statuses of a bad header: as microtin_pack_load
+ *
+ * A tile that is being loaded is loaded again from its beginning. A tile with terrain may be void
+ * in parts: load it and query. */
+microtin_status microtin_pack_check_segment(microtin_pack* pack, const microtin_segment* segment,
+                                            microtin_pack_check* check);
+
+/* Checks every tile of a box, of which `diagonal` joins two opposite corners; parameters, results
+ * and cost are those of microtin_pack_check_segment. */
+microtin_status microtin_pack_check_box(microtin_pack* pack, const microtin_segment* diagonal,
+                                        microtin_pack_check* check);
+
+/* Checks all at once: the tiles of a box if `is_box` is not 0, else those that a segment touches.
+ * Reads by `read`. IO ends the check; another call with the same check continues it. */
+static inline microtin_status microtin_pack_check_with(microtin_pack* pack,
+                                                       const microtin_segment* area, int is_box,
+                                                       microtin_pack_check* check,
+                                                       microtin_read read, void* context) {
+  for (;;) {
+    microtin_status status;
+    if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
+    microtin_pack_read_once(pack, read, context);
+    status = is_box ? microtin_pack_check_box(pack, area, check)
+                    : microtin_pack_check_segment(pack, area, check);
+    if (status != MICROTIN_STATUS_NEED_INPUT) return status;
+  }
+}
+
 /* --- The header --- */
 
 /* What a pack's header contains. Positions are global lattice coordinates. */

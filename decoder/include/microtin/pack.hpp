@@ -27,6 +27,18 @@ class PackFace {
   void clear_bad_tiles() { microtin_pack_clear_bad_tiles(pack_); }
   // Calls microtin_pack_align_reads.
   microtin_status align_reads(uint32_t sector) { return microtin_pack_align_reads(pack_, sector); }
+  // Calls microtin_pack_check_with for the tiles that a segment touches.
+  microtin_status check_segment(const microtin_segment& segment, microtin_pack_check* check,
+                                microtin_read read, void* context) {
+    if (status_ != MICROTIN_STATUS_OK) return status_;
+    return microtin_pack_check_with(pack_, &segment, 0, check, read, context);
+  }
+  // Calls microtin_pack_check_with for the tiles of a box.
+  microtin_status check_box(const microtin_segment& diagonal, microtin_pack_check* check,
+                            microtin_read read, void* context) {
+    if (status_ != MICROTIN_STATUS_OK) return status_;
+    return microtin_pack_check_with(pack_, &diagonal, 1, check, read, context);
+  }
   // Calls microtin_pack_get_info.
   microtin_status get_info(microtin_pack_info* info) const {
     return microtin_pack_get_info(pack_, info);
