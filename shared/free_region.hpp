@@ -179,8 +179,8 @@ inline Spot spot_of(Offset v) {
   return Spot{static_cast<int32_t>(v.x), static_cast<int32_t>(v.y)};
 }
 
-// What an apex, behind a side from v to `end`, sees of it: a dot product, and 2^-coarser of twice
-// the triangle's area. An apex farther than corners may be counts in coarser grains.
+// What an apex, behind a side from v to `end`, sees of it: a dot product, and twice the triangle's
+// area. An apex farther than corners may be counts in coarser grains.
 struct View {
   int32_t q, h;
 };
@@ -220,7 +220,7 @@ inline View view_from(const FreeRegion& region, Point apex, const Spot& end, int
   const __m128i ends = _mm_sra_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&end)),
                                      _mm_cvtsi32_si128(coarser));
   const __m128i view = view_of(all_shifted(way, region.shift - coarser), ends, turn);
-  return View{lane<0>(view), lane<2>(view) >> coarser};
+  return View{lane<0>(view), lane<2>(view)};
 }
 
 #else
@@ -247,7 +247,7 @@ inline View view_from(const FreeRegion& region, Point apex, Spot end, int32_t tu
   const int32_t coarser = coarser_grains(region, extent_of(way));
   const Spot to_apex = shifted(way, region.shift - coarser);
   end = Spot{end.x >> coarser, end.y >> coarser};
-  return View{dot(to_apex, end - to_apex), turn * cross(end, to_apex) >> coarser};
+  return View{dot(to_apex, end - to_apex), turn * cross(end, to_apex)};
 }
 
 #endif

@@ -309,7 +309,7 @@ class Triangle:
         D = (scaled(d[0], self.S - m), scaled(d[1], self.S - m))
         E = (E[0] >> m, E[1] >> m)
         h = cross(D, E) if side == 0 else cross(E, D)
-        return cot(dot(D, minus(E, D)), max(1, h >> m), 16)
+        return cot(dot(D, minus(E, D)), max(1, h), 16)
 
     def free_area(self):
         """Twice the area in which a vertex may lie, in grains."""
