@@ -402,6 +402,19 @@ microtin_status microtin_surface_tile(microtin_surface* surface, uint32_t column
   return hand_out(surface, triangles, [&] { return surface->surface.tile(column, row); });
 }
 
+microtin_status microtin_surface_tile_margins(const microtin_surface* surface, uint32_t column,
+                                              uint32_t row, microtin_tile_margins* margins) {
+  return guarded([&] {
+    expect(surface);
+    expect_struct(margins);
+    const TileMargins found = surface->surface.tile_margins(column, row);
+    microtin_tile_margins all{};
+    copy_decimal(found.max_below_everywhere, all.max_below_everywhere);
+    copy_decimal(found.max_above_everywhere, all.max_above_everywhere);
+    write_struct(all, margins);
+  });
+}
+
 microtin_status microtin_surface_heights(microtin_surface* surface, uint64_t count, const double* x,
                                          const double* y, double* heights) {
   return guarded([&] {

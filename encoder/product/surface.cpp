@@ -233,6 +233,18 @@ Box Surface::tile_box(uint32_t column, uint32_t row) const {
   return box_of(pack->metadata().placement, box.x, box.y, box.x_end, box.y_end);
 }
 
+TileMargins Surface::tile_margins(uint32_t column, uint32_t row) const {
+  const SurfaceInfo& all = content_->info;
+  if (column >= all.tile_columns || row >= all.tile_rows) throw std::out_of_range("no such tile");
+  const pack::PackFile* const pack = content_->document.pack();
+  if (pack == nullptr) return {all.max_below_everywhere, all.max_above_everywhere};
+  const terrain::Margins margins = base::with_file_context(
+      content_->document.path(), [&] { return pack->margins(row * all.tile_columns + column); });
+  const auto stated = terrain::stated_everywhere(margins, pack->metadata().placement.z);
+  if (!stated) return {};
+  return {to_string(stated->below), to_string(stated->above)};
+}
+
 Grid Surface::grid(const std::string& cell) const {
   if (cell.empty()) {
     if (info().source.columns == 0)

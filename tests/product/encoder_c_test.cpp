@@ -213,6 +213,20 @@ TEST_CASE("C: each member of points makes the difference that it makes in C++") 
   CHECK(text_of(members_of(kC, "microtin_point_data")) == "coordinates count size wkt ");
 }
 
+namespace {
+
+void expect_same_margins(const Both& both, uint32_t column, uint32_t row) {
+  microtin_tile_margins margins{};
+  margins.size = sizeof margins;
+  REQUIRE(microtin_surface_tile_margins(both.c, column, row, &margins) == MICROTIN_STATUS_OK);
+  const library::TileMargins found = both.cpp.tile_margins(column, row);
+  CHECK(margins.max_below_everywhere == found.max_below_everywhere);
+  CHECK(margins.max_above_everywhere == found.max_above_everywhere);
+  CHECK(!found.max_below_everywhere.empty());
+}
+
+}  // namespace
+
 TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
   const TemporaryFolder folder;
   InC c;
@@ -236,8 +250,15 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
       for (uint32_t column = 0; column < info.tile_columns; ++column) {
         REQUIRE(microtin_surface_tile(both.c, column, row, &triangles) == MICROTIN_STATUS_OK);
         expect_same(both.cpp.tile(column, row), triangles);
+        expect_same_margins(both, column, row);
       }
     }
+    microtin_tile_margins margins{};
+    margins.size = sizeof margins;
+    CHECK(microtin_surface_tile_margins(both.c, info.tile_columns, 0, &margins) ==
+          MICROTIN_STATUS_REJECTED);
+    CHECK(microtin_surface_tile_margins(both.c, 0, info.tile_rows, &margins) ==
+          MICROTIN_STATUS_REJECTED);
     CHECK(microtin_surface_tile(both.c, info.tile_columns, 0, &triangles) ==
           MICROTIN_STATUS_REJECTED);
     CHECK(microtin_surface_tile(both.c, 0, info.tile_rows, &triangles) == MICROTIN_STATUS_REJECTED);
@@ -247,6 +268,8 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
   CHECK(text_of(members_of(kC, "microtin_triangles")) ==
         "coordinates corners size triangles vertices ");
   CHECK(text_of(members_of(kC, "microtin_grid")) == "columns rows size x y ");
+  CHECK(text_of(members_of(kC, "microtin_tile_margins")) ==
+        "max_above_everywhere max_below_everywhere size ");
 }
 
 TEST_CASE("C: bytes in memory are the surface that their file is, to the last of them") {
@@ -302,7 +325,8 @@ TEST_CASE("C: a struct whose size is not set is refused, whichever it is") {
     microtin_grid grid{};
     microtin_triangles triangles{};
     c.raster.size = points.size = options.size = report.size = size;
-    info.size = grid.size = triangles.size = size;
+    microtin_tile_margins margins{};
+    info.size = grid.size = triangles.size = margins.size = size;
     uint8_t* bytes = nullptr;
     uint64_t count = 0;
     microtin_source* none = nullptr;
@@ -316,7 +340,8 @@ TEST_CASE("C: a struct whose size is not set is refused, whichever it is") {
           microtin_surface_get_info(surface, &info), microtin_surface_grid(surface, "1", &grid),
           microtin_surface_sample_grid(surface, &grid, heights),
           microtin_surface_mesh(surface, &triangles),
-          microtin_surface_tile(surface, 0, 0, &triangles)}) {
+          microtin_surface_tile(surface, 0, 0, &triangles),
+          microtin_surface_tile_margins(surface, 0, 0, &margins)}) {
       CHECK(status == MICROTIN_STATUS_REJECTED);
       CHECK(microtin_last_error() ==
             std::string("the size of a struct is not set: assign its sizeof"));

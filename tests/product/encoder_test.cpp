@@ -349,6 +349,34 @@ TEST_CASE("library: messages name options as Options does, or as the caller spel
         "max_error");
 }
 
+TEST_CASE("library: a pack's margins are the largest of its tiles'; points and streams") {
+  const TemporaryFolder folder;
+  Options options;
+  options.max_error = "3";
+  options.tile_vertices = 40;
+  encode_pack(SourceTerrain(cone(60)), options, folder / "cone.mtp");
+  const Surface pack = Surface::from_file(folder / "cone.mtp");
+  double below = 0, above = 0;
+  for (uint32_t row = 0; row < pack.info().tile_rows; ++row) {
+    for (uint32_t column = 0; column < pack.info().tile_columns; ++column) {
+      const TileMargins margins = pack.tile_margins(column, row);
+      below = std::max(below, std::stod(margins.max_below_everywhere));
+      above = std::max(above, std::stod(margins.max_above_everywhere));
+    }
+  }
+  CHECK(below == std::stod(pack.info().max_below_everywhere));
+  CHECK(above == std::stod(pack.info().max_above_everywhere));
+  CHECK_THROWS_AS(pack.tile_margins(pack.info().tile_columns, 0), std::out_of_range);
+  options.tile_vertices = 0;
+  write(folder / "cone.mtin", encode_stream(SourceTerrain(cone(60)), options).bytes);
+  const Surface stream = Surface::from_file(folder / "cone.mtin");
+  CHECK(stream.tile_margins(0, 0).max_below_everywhere == stream.info().max_below_everywhere);
+  PointCloudData points;
+  for (int64_t i = 0; i < 100; ++i) points.points.push_back({i % 10, i / 10, i * i % 7});
+  write(folder / "points.mtin", encode_stream(SourceTerrain(points), {}).bytes);
+  CHECK(Surface::from_file(folder / "points.mtin").tile_margins(0, 0).max_above_everywhere.empty());
+}
+
 TEST_CASE("library: a raster's metadata are notes of streams and packs, an option wins") {
   const TemporaryFolder folder;
   RasterData posts = cone(9);

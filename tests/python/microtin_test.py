@@ -263,6 +263,12 @@ class Packs(unittest.TestCase):
         for column, row in ((columns, 0), (0, rows), (-1, 0), (0, -1)):
             with self.assertRaises(IndexError):
                 tin.tile(column, row)
+            with self.assertRaises(IndexError):
+                tin.tile_margins(column, row)
+        margins = [tin.tile_margins(column, row) for row in range(rows) for column in range(columns)]
+        self.assertEqual(max(below for below, _ in margins), tin.max_below_everywhere)
+        self.assertEqual(max(above for _, above in margins), tin.max_above_everywhere)
+        self.assertGreater(len(set(margins)), 1)
 
     def test_threads_share_a_terrain(self):
         tin = microtin.decode(self.path)

@@ -246,6 +246,17 @@ microtin_status microtin_surface_mesh(microtin_surface* surface, microtin_triang
 microtin_status microtin_surface_tile(microtin_surface* surface, uint32_t column, uint32_t row,
                                       microtin_triangles* triangles);
 
+/* The largest distances of a tile below and above the bilinear surface of a raster's posts, also
+ * between posts: decimals as text, "" if the tile does not state them or has no terrain. */
+typedef struct microtin_tile_margins {
+  size_t size;
+  char max_below_everywhere[24], max_above_everywhere[24];
+} microtin_tile_margins;
+
+/* Writes the margins of a tile, counted as for microtin_surface_tile. Reads the tile's header. */
+microtin_status microtin_surface_tile_margins(const microtin_surface* surface, uint32_t column,
+                                              uint32_t row, microtin_tile_margins* margins);
+
 /* Writes the heights of the exact plane at `count` positions; NaN where there is none. About 0.3 us
  * each, and the decoding of the tiles that are needed. */
 microtin_status microtin_surface_heights(microtin_surface* surface, uint64_t count, const double* x,

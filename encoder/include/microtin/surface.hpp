@@ -114,6 +114,12 @@ struct SurfaceInfo {
   std::vector<Phase> phases;   /* of a stream */
 };
 
+/* The largest distances of a tile below and above the bilinear surface of a raster's posts, also
+ * between posts. "": the tile does not state them, or has no terrain. */
+struct TileMargins {
+  std::string max_below_everywhere, max_above_everywhere;
+};
+
 /* Vertices and triangles. Triangles are counter-clockwise from above; void ones are left out. */
 struct Mesh {
   std::vector<std::array<double, 3>> vertices; /* x, y, height */
@@ -144,6 +150,9 @@ class Surface {
   Mesh tile(uint32_t column, uint32_t row) const;
   /* Returns the rectangle of a tile. Throws std::out_of_range. */
   Box tile_box(uint32_t column, uint32_t row) const;
+  /* Returns how far a tile is from the bilinear surface of a raster's posts. Throws
+   * std::out_of_range. */
+  TileMargins tile_margins(uint32_t column, uint32_t row) const;
 
   /* Returns a grid of posts `cell` units apart, from the south-west corner of the box on. `cell` is
    * a decimal, "0.25"; "" selects the posts of the encoded raster. */

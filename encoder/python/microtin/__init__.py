@@ -493,9 +493,21 @@ class Surface:
     def tile(self, column: int, row: int) -> Tile:
         """A tile of a pack, columns from the west, rows from the south; without vertices if it has no terrain. Raises
         IndexError."""
+        self._expect_tile(column, row)
+        return self._triangles(library.microtin_surface_tile, column, row)
+
+    def tile_margins(self, column: int, row: int) -> Tuple[Optional[float], Optional[float]]:
+        """max_below_everywhere and max_above_everywhere of a tile, counted as for `tile`; None if it does not state them or
+        has no terrain. Raises IndexError."""
+        self._expect_tile(column, row)
+        margins = _library.TileMargins()
+        with self._lock:
+            library.microtin_surface_tile_margins(self._surface, column, row, margins)
+        return _number(margins.max_below_everywhere), _number(margins.max_above_everywhere)
+
+    def _expect_tile(self, column: int, row: int) -> None:
         if not (0 <= column < self.tiles[0] and 0 <= row < self.tiles[1]):
             raise IndexError(f"there are {self.tiles[0]} x {self.tiles[1]} tiles")
-        return self._triangles(library.microtin_surface_tile, column, row)
 
     def height_at(self, xs: ArrayLike, ys: ArrayLike) -> Any:
         """Heights of the exact plane at places: an array of the shape that xs and ys have together, or a float for two numbers. NaN outside

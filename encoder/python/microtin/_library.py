@@ -158,6 +158,14 @@ class SurfaceInfo(_Sized):
     ]
 
 
+class TileMargins(_Sized):
+    _fields_ = [
+        ("size", c_size_t),
+        ("max_below_everywhere", c_char * 24),
+        ("max_above_everywhere", c_char * 24),
+    ]
+
+
 class Triangles(_Sized):
     _fields_ = [
         ("size", c_size_t),
@@ -182,6 +190,7 @@ _FUNCTIONS = {
     "surface_get_info": [c_void_p, POINTER(SurfaceInfo)],
     "surface_mesh": [c_void_p, POINTER(Triangles)],
     "surface_tile": [c_void_p, c_uint32, c_uint32, POINTER(Triangles)],
+    "surface_tile_margins": [c_void_p, c_uint32, c_uint32, POINTER(TileMargins)],
     "surface_heights": [c_void_p, c_uint64, Doubles, Doubles, Doubles],
     "surface_grid": [c_void_p, c_char_p, POINTER(Grid)],
     "surface_sample_grid": [c_void_p, POINTER(Grid), Doubles],
