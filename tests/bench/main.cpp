@@ -31,6 +31,7 @@ void print_paper() {
   print_tests();
   print_fractions();
   print_claims();
+  print_other_claims();
 }
 
 void run(const std::string& command, const Arguments& arguments) {

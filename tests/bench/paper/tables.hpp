@@ -10,6 +10,7 @@ void print_running_time();  // Table 3
 void print_tests();         // Table 4
 void print_fractions();     // section 4
 void print_claims();        // Lemma 1 and Theorem 1
+void print_other_claims();  // what no table of the paper shows
 
 }  // namespace microtin::bench
 
