@@ -22,6 +22,13 @@ microtin_query_result microtin_compact_pack_segment_extremes(const microtin_pack
   return extremes_in_pack<RingForm>(*pack, *segment, extremes);
 }
 
+microtin_query_result microtin_compact_pack_path_clearance(const microtin_pack* pack,
+                                                           const microtin_path* path,
+                                                           microtin_path_clearance* clearance,
+                                                           uint32_t flags) {
+  return clearance_in_pack<RingForm>(*pack, *path, clearance, flags);
+}
+
 microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,
                                                         const microtin_grid_spec* grid,
                                                         int16_t* heights) {

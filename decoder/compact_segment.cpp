@@ -13,6 +13,22 @@ microtin_query_result microtin_compact_segment_extremes(const microtin_compact* 
   return extremes_in_terrain(RingForm(compact), *segment, state, extremes, step_limit);
 }
 
+microtin_query_result microtin_compact_profile_next(const microtin_compact* compact,
+                                                    const microtin_segment* segment,
+                                                    microtin_segment_state* state,
+                                                    microtin_crossing* crossing,
+                                                    uint32_t step_limit) {
+  return next_in_profile(RingForm(compact), *segment, state, crossing, step_limit);
+}
+
+microtin_query_result microtin_compact_path_clearance(const microtin_compact* compact,
+                                                      const microtin_path* path,
+                                                      microtin_segment_state* state,
+                                                      microtin_path_clearance* clearance,
+                                                      uint32_t flags, uint32_t step_limit) {
+  return clearance_in_terrain(RingForm(compact), *path, state, clearance, flags, step_limit);
+}
+
 microtin_query_result microtin_compact_sample_grid(const microtin_compact* compact,
                                                    const microtin_grid_spec* grid,
                                                    int16_t* heights) {

@@ -17,7 +17,8 @@ struct Along {
 // A place of the segment: its begin, its end, a vertex on it, or where it crosses an edge.
 //
 // On an edge the height is linear: `height` where `share` is 0, `other` where `share` is
-// along.whole, both multiples of 65536. Everywhere else `share` is 0.
+// along.whole, both multiples of 65536. `share` is 0 at a vertex, and negative where the height is
+// that of a triangle's plane, rounded.
 struct Crossing {
   Along along;
   int64_t share;
@@ -97,7 +98,7 @@ inline int64_t share(int32_t rise, int64_t part, int64_t whole) {
 // The height at a crossing, rounded once. The share of the rise may not fit in 32 bits; the sum
 // lies between the ends.
 inline int32_t height_of(const Crossing& c) {
-  if (c.share == 0) return c.height;
+  if (c.share <= 0) return c.height;
   const int32_t rise = (c.other >> 16) - (c.height >> 16);
   return static_cast<int32_t>(c.height + share(rise, c.share, c.along.whole));
 }
@@ -105,18 +106,20 @@ inline int32_t height_of(const Crossing& c) {
 // The part of the length with 30 fractional bits, rounded down. The rest stays below 2 * whole.
 MICROTIN_ONE_COPY inline int32_t rounded_down(const Along& along) {
   if (along.part >= along.whole) return INT32_C(1) << 30;
+  if (along.part <= 0) return 0;
   if (along.whole >> 31 == 0) {
     ShortDivision division(static_cast<uint32_t>(along.part), static_cast<uint32_t>(along.whole));
     const uint32_t high = division.digit(UINT32_C(1) << 15);
     return static_cast<int32_t>(high << 15 | division.digit(UINT32_C(1) << 15));
   }
-  int64_t rest = along.part;
+  const uint64_t whole = static_cast<uint64_t>(along.whole);
+  uint64_t rest = static_cast<uint64_t>(along.part);
   int32_t quotient = 0;
   for (int bit = 0; bit < 30; ++bit) {
     quotient *= 2;
     rest *= 2;
-    if (rest < along.whole) continue;
-    rest -= along.whole;
+    if (rest < whole) continue;
+    rest -= whole;
     ++quotient;
   }
   return quotient;

@@ -8,6 +8,7 @@
 #include "decoder/margins.hpp"
 #include "decoder/pack_state.hpp"
 #include "decoder/places.hpp"
+#include "decoder/segment_clearance.hpp"
 #include "decoder/segment_extremes.hpp"
 #include "decoder/tile_segment.hpp"
 
@@ -83,8 +84,8 @@ microtin_query_result answer_along_side(const microtin_pack& p, uint32_t tile,
   return is_known ? MICROTIN_QUERY_OK : worst;
 }
 
-// Hands the crossings of a segment in a tile to add(crossing, state). False if the tile holds a
-// part of the segment, longer than a point, of which the terrain has no heights.
+// Hands the crossings of a segment in a tile to add(walk, crossing, state). False if the tile holds
+// a part of the segment, longer than a point, of which the terrain has no heights.
 template <class Form, class Add>
 bool walk_tile(const Form& form, const TileSegment& part, const Add& add,
                microtin_segment_state* state) {
@@ -92,13 +93,15 @@ bool walk_tile(const Form& form, const TileSegment& part, const Add& add,
   SegmentWalk<Form> walk(form, entry, part.begin(), part.end(), WalkStage::kSearch,
                          form.hint(entry));
   bool is_known = true;
-  Along last = {0, 1};
+  Along last;
+  last.part = 0;
+  last.whole = 1;
   while (!walk.at_end()) {
     Crossing c;
     if (!walk.step(false, &c)) continue;
     if (!c.is_known_before && part.holds_between(last, c.along)) is_known = false;
     last = c.along;
-    add(c, state);
+    add(walk, c, state);
   }
   return is_known;
 }
@@ -113,7 +116,13 @@ microtin_query_result answer_of_tile(const microtin_pack& p, const TouchedTiles&
   if (absent == MICROTIN_QUERY_NOT_LOADED) return absent;
   const TileBox box = tiles.box();
   const TileSegment part(box, segment);
-  const bool is_known = terrain != nullptr && walk_tile(Form(terrain), part, add, state);
+  bool is_known = false;
+  if (terrain != nullptr) {
+    const Form form(terrain);
+    Add tile_add = add;
+    if (!tile_add.begin_terrain(form)) return MICROTIN_QUERY_NO_MARGIN;
+    is_known = walk_tile(form, part, tile_add, state);
+  }
   if (!part.has_length() || is_known) return MICROTIN_QUERY_OK;
   if (runs_along_side(box, segment)) return answer_along_side<Form>(p, tiles.number(), segment);
   return worse(absent, MICROTIN_QUERY_VOID);
@@ -160,32 +169,48 @@ inline bool is_place(const microtin_segment& segment) {
   return segment.x == segment.x_end && segment.y == segment.y_end;
 }
 
-// A segment that is a single place has one crossing.
+// A segment that is a single place begins and ends there, in the first tile that has its height.
 template <class Form, class Add>
 microtin_query_result walk_place(const microtin_pack& p, const microtin_segment& segment,
                                  const Add& add, microtin_segment_state* state) {
-  uint32_t hint = 0;
-  int32_t height = 0;
-  const microtin_query_result answer =
-      height_in_pack<Form>(p, segment.x, segment.y, &hint, &height);
-  add(Crossing{Along{0, 1}, 0, height, height, static_cast<uint8_t>(answer), true}, state);
+  microtin_query_result answer = MICROTIN_QUERY_VOID;
+  for (TouchedTiles tiles(p.header.grid, segment); !tiles.at_end(); tiles.next()) {
+    const void* const terrain = terrain_of(p, tiles.number(), &answer);
+    if (terrain == nullptr) continue;
+    const Form form(terrain);
+    const LocalPoint at = local(tiles.box(), segment.x, segment.y);
+    SegmentWalk<Form> walk(form, at, at, at, WalkStage::kSearch, form.hint(at));
+    Crossing c;
+    walk.step(false, &c);
+    if (c.answer != MICROTIN_QUERY_OK) continue;
+    Add tile_add = add;
+    if (!tile_add.begin_terrain(form)) return MICROTIN_QUERY_NO_MARGIN;
+    tile_add(walk, c, state);
+    walk.step(false, &c);
+    tile_add(walk, c, state);
+    return MICROTIN_QUERY_OK;
+  }
   return answer;
 }
 
-// Hands the crossings of a segment, tile by tile, to add(crossing, state).
+// Hands the crossings of a segment, tile by tile, to add(walk, crossing, state).
 template <class Form, class Add>
 microtin_query_result walk_pack(const microtin_pack& p, const microtin_segment& segment,
                                 const Add& add, microtin_segment_state* state) {
   if (!is_legal(segment)) return MICROTIN_QUERY_OUTSIDE;
   if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
   if (!p.has_header) return MICROTIN_QUERY_NOT_LOADED;
-  if (is_place(segment)) return walk_place<Form>(p, segment, add, state);
   microtin_query_result answer =
       is_inside(p, segment.x, segment.y) && is_inside(p, segment.x_end, segment.y_end)
           ? MICROTIN_QUERY_OK
           : MICROTIN_QUERY_OUTSIDE;
+  if (is_place(segment)) {
+    return answer == MICROTIN_QUERY_OK ? walk_place<Form>(p, segment, add, state) : answer;
+  }
   for (TouchedTiles tiles(p.header.grid, segment); !tiles.at_end(); tiles.next()) {
-    answer = worse(answer, answer_of_tile<Form>(p, tiles, segment, add, state));
+    const microtin_query_result here = answer_of_tile<Form>(p, tiles, segment, add, state);
+    if (here == MICROTIN_QUERY_NO_MARGIN) return here;
+    answer = worse(answer, here);
   }
   return answer;
 }
@@ -198,6 +223,20 @@ microtin_query_result extremes_in_pack(const microtin_pack& p, const microtin_se
   begin_extremes(&state);
   const microtin_query_result answer = walk_pack<Form>(p, segment, AddToExtremes(), &state);
   get_extremes(state, extremes);
+  return answer;
+}
+
+template <class Form>
+microtin_query_result clearance_in_pack(const microtin_pack& p, const microtin_path& path,
+                                        microtin_path_clearance* clearance, uint32_t flags) {
+  clear(clearance);
+  if (!has_legal_heights(path)) return MICROTIN_QUERY_OUTSIDE;
+  microtin_segment_state state = {};
+  begin_clearance(&state);
+  const microtin_query_result answer =
+      walk_pack<Form>(p, path.segment, AddToClearance(path, flags), &state);
+  if (answer == MICROTIN_QUERY_NO_MARGIN) return answer;
+  get_clearance(state, clearance);
   return answer;
 }
 

@@ -16,6 +16,26 @@ microtin_query_result microtin_mesh_segment_extremes(const microtin_mesh* mesh,
   return extremes_in_terrain(MeshForm(mesh), *segment, state, extremes, step_limit);
 }
 
+microtin_query_result microtin_mesh_profile_next(const microtin_mesh* mesh,
+                                                 const microtin_segment* segment,
+                                                 microtin_segment_state* state,
+                                                 microtin_crossing* crossing, uint32_t step_limit) {
+  const microtin_query_result refusal = refusal_of(*mesh, 0);
+  if (refusal != MICROTIN_QUERY_OK) return refusal;
+  return next_in_profile(MeshForm(mesh), *segment, state, crossing, step_limit);
+}
+
+microtin_query_result microtin_mesh_path_clearance(const microtin_mesh* mesh,
+                                                   const microtin_path* path,
+                                                   microtin_segment_state* state,
+                                                   microtin_path_clearance* clearance,
+                                                   uint32_t flags, uint32_t step_limit) {
+  clear(clearance);
+  const microtin_query_result refusal = refusal_of(*mesh, flags);
+  if (refusal != MICROTIN_QUERY_OK) return refusal;
+  return clearance_in_terrain(MeshForm(mesh), *path, state, clearance, flags, step_limit);
+}
+
 microtin_query_result microtin_mesh_sample_grid(const microtin_mesh* mesh,
                                                 const microtin_grid_spec* grid, int16_t* heights) {
   microtin_axis axis[3];

@@ -34,7 +34,12 @@ MICROTIN_ONE_COPY inline void add_to_extremes(const Crossing& c, microtin_segmen
 
 // A type, so that compilers see which function is called.
 struct AddToExtremes {
-  void operator()(const Crossing& c, microtin_segment_state* state) const {
+  template <class Form>
+  bool begin_terrain(const Form&) const {
+    return true;
+  }
+  template <class Walk>
+  void operator()(const Walk&, const Crossing& c, microtin_segment_state* state) const {
     add_to_extremes(c, state);
   }
 };
@@ -52,7 +57,9 @@ inline void get_extremes(const microtin_segment_state& state, microtin_segment_e
 }
 
 inline void clear(microtin_segment_extremes* extremes) {
-  *extremes = microtin_segment_extremes{INT32_MIN, INT32_MAX, 0, 0};
+  extremes->highest = INT32_MIN;
+  extremes->lowest = INT32_MAX;
+  extremes->highest_along = extremes->lowest_along = 0;
 }
 
 }  // namespace microtin

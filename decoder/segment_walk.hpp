@@ -66,6 +66,20 @@ class SegmentWalk {
   WalkStage stage() const { return stage_; }
   uint32_t number() const { return stage_ == WalkStage::kSearch ? number_ : form_.number(cursor_); }
 
+  // The triangle that holds what the segment has before the last crossing, if it is known; at the
+  // begin and at the end the one that holds them.
+  Cursor triangle() const {
+    Cursor before = cursor_;
+    if (stage_ == WalkStage::kTouch) advance_on_hull(before, false);
+    const bool is_crossed =
+        stage_ == WalkStage::kTouch || stage_ == WalkStage::kInside || stage_ == WalkStage::kBeyond;
+    if (is_crossed) before.cross();
+    return before;
+  }
+  // Seen from the corner of the terrain's box.
+  FinePoint begin() const { return FinePoint{begin_.x, begin_.y}; }
+  FinePoint end() const { return FinePoint{end_.x, end_.y}; }
+
   // A walk step, of a search all of them if it is not limited. True if it led to a crossing.
   MICROTIN_ONE_COPY bool step(bool is_limited, Crossing* c) {
     if (stage_ == WalkStage::kInside) return pass(c);
@@ -123,7 +137,7 @@ class SegmentWalk {
       answer = MICROTIN_QUERY_OUTSIDE;
     }
     stage_ = cursor_.is_ghost() ? WalkStage::kApproach : WalkStage::kTurn;
-    *c = Crossing{Along{0, 1}, 0, height, height, static_cast<uint8_t>(answer), true};
+    *c = Crossing{Along{0, 1}, -1, height, height, static_cast<uint8_t>(answer), true};
     return true;
   }
 
@@ -264,7 +278,7 @@ class SegmentWalk {
 
   bool finish(microtin_query_result answer, bool is_known, Crossing* c) {
     stage_ = WalkStage::kEnded;
-    *c = Crossing{Along{1, 1}, 0, 0, 0, static_cast<uint8_t>(answer), is_known};
+    *c = Crossing{Along{1, 1}, -1, 0, 0, static_cast<uint8_t>(answer), is_known};
     return true;
   }
 

@@ -26,6 +26,7 @@ class MeshForm {
     return MeshCursor(m_, static_cast<Index>(first + i));
   }
   uint32_t number(const MeshCursor& cursor) const { return cursor.triangle(); }
+  uint32_t below() const { return m_.below; }
   // The nearest of some triangles: a walk from there is shorter by more than the look costs.
   MICROTIN_ONE_COPY uint32_t hint(LocalPoint p) const {
     const uint32_t stride = m_.mesh.triangles / kSamples + 1;
@@ -246,6 +247,7 @@ class RingForm {
   Point corner() const { return Point{c_->west, c_->south}; }
   RingCursor at(uint32_t t) const { return cursor_at(ring_, t); }
   uint32_t number(const RingCursor& cursor) const { return number_of(cursor); }
+  uint32_t below() const { return c_->below; }
   uint32_t hint(LocalPoint p) const { return microtin_compact_hint(c_, p.x, p.y); }
   microtin_query_result height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
                                   int32_t* height) const {

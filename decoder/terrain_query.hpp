@@ -4,6 +4,7 @@
 #define MICROTIN_DECODER_TERRAIN_QUERY_HPP
 
 #include "decoder/places.hpp"
+#include "decoder/segment_clearance.hpp"
 #include "decoder/segment_extremes.hpp"
 #include "decoder/segment_walk.hpp"
 
@@ -31,26 +32,71 @@ inline void note_answer(const Crossing& c, microtin_segment_state* state) {
   state->result = worse(answer, static_cast<microtin_query_result>(state->result));
 }
 
-// Hands the crossings of a segment on the lattice to add(crossing, state), from where the state
-// stands, in at most `step_limit` walk steps (0: all). False if there are more.
+// A walk along a segment on the lattice, from where a state stands.
+template <class Form>
+SegmentWalk<Form> walk_from(const Form& form, const microtin_segment& segment,
+                            const microtin_segment_state& state) {
+  const LocalPoint begin = local_place(segment.x, segment.y);
+  const WalkStage stage = state.stage < static_cast<uint32_t>(WalkStage::kEnded)
+                              ? static_cast<WalkStage>(state.stage)
+                              : WalkStage::kEnded;
+  return SegmentWalk<Form>(form, begin, begin, local_place(segment.x_end, segment.y_end), stage,
+                           state.triangle);
+}
+
+template <class Form>
+void keep(const SegmentWalk<Form>& walk, microtin_segment_state* state) {
+  state->stage = static_cast<uint32_t>(walk.stage());
+  state->triangle = walk.number();
+}
+
+inline bool is_in_limit(uint32_t step, uint32_t step_limit) {
+  return step_limit == 0 || step < step_limit;
+}
+
+// Hands the crossings of a segment on the lattice to add(walk, crossing, state), from where the
+// state stands, in at most `step_limit` walk steps (0: all). False if there are more.
 template <class Form, class Add>
 bool walk_terrain(const Form& form, const microtin_segment& segment, uint32_t step_limit,
                   const Add& add, microtin_segment_state* state) {
-  const LocalPoint begin = local_place(segment.x, segment.y);
-  const WalkStage stage = state->stage < static_cast<uint32_t>(WalkStage::kEnded)
-                              ? static_cast<WalkStage>(state->stage)
-                              : WalkStage::kEnded;
-  SegmentWalk<Form> walk(form, begin, begin, local_place(segment.x_end, segment.y_end), stage,
-                         state->triangle);
-  for (uint32_t step = 0; !walk.at_end() && (step_limit == 0 || step < step_limit); ++step) {
+  SegmentWalk<Form> walk = walk_from(form, segment, *state);
+  for (uint32_t step = 0; !walk.at_end() && is_in_limit(step, step_limit); ++step) {
     Crossing c;
     if (!walk.step(step_limit != 0, &c)) continue;
     note_answer(c, state);
-    add(c, state);
+    add(walk, c, state);
   }
-  state->stage = static_cast<uint32_t>(walk.stage());
-  state->triangle = walk.number();
+  keep(walk, state);
   return walk.at_end();
+}
+
+// The end stays in the state.
+inline void set_crossing(const Crossing& c, microtin_segment_state* state,
+                         microtin_crossing* crossing) {
+  state->value[0] = c.answer == MICROTIN_QUERY_OK ? height_of(c) : INT32_MIN;
+  state->value[1] = rounded_down(c.along);
+  state->result = c.answer;
+  state->is_low = c.is_known_before ? 1 : 0;
+  *crossing = microtin_crossing{state->value[1], state->value[0], state->result, state->is_low};
+}
+
+template <class Form>
+microtin_query_result next_in_profile(const Form& form, const microtin_segment& segment,
+                                      microtin_segment_state* state, microtin_crossing* crossing,
+                                      uint32_t step_limit) {
+  if (!is_on_lattice(segment)) return MICROTIN_QUERY_OUTSIDE;
+  SegmentWalk<Form> walk = walk_from(form, segment, *state);
+  bool is_found = false;
+  for (uint32_t step = 0; !is_found && !walk.at_end() && is_in_limit(step, step_limit); ++step) {
+    Crossing c;
+    is_found = walk.step(step_limit != 0, &c);
+    if (is_found) set_crossing(c, state, crossing);
+  }
+  keep(walk, state);
+  if (is_found) return MICROTIN_QUERY_OK;
+  if (!walk.at_end()) return MICROTIN_QUERY_STEP_LIMIT;
+  *crossing = microtin_crossing{state->value[1], state->value[0], state->result, state->is_low};
+  return MICROTIN_QUERY_OK;
 }
 
 template <class Form>
@@ -67,6 +113,24 @@ microtin_query_result extremes_in_terrain(const Form& form, const microtin_segme
     return MICROTIN_QUERY_STEP_LIMIT;
   }
   get_extremes(*done, extremes);
+  return static_cast<microtin_query_result>(done->result);
+}
+
+// Margins are those of the terrain.
+template <class Form>
+microtin_query_result clearance_in_terrain(const Form& form, const microtin_path& path,
+                                           microtin_segment_state* state,
+                                           microtin_path_clearance* clearance, uint32_t flags,
+                                           uint32_t step_limit) {
+  microtin_segment_state own = {};
+  microtin_segment_state* const done = state != nullptr ? state : &own;
+  clear(clearance);
+  if (!is_on_lattice(path.segment) || !has_legal_heights(path)) return MICROTIN_QUERY_OUTSIDE;
+  AddToClearance add(path, flags);
+  if (!add.begin_terrain(form)) return MICROTIN_QUERY_NO_MARGIN;
+  if (done->stage == 0) begin_clearance(done);
+  if (!walk_terrain(form, path.segment, step_limit, add, done)) return MICROTIN_QUERY_STEP_LIMIT;
+  get_clearance(*done, clearance);
   return static_cast<microtin_query_result>(done->result);
 }
 

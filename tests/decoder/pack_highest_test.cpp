@@ -16,17 +16,6 @@ namespace {
 
 using namespace reference;
 
-Surface surface_of(const PackFile& pack) {
-  Surface surface;
-  for (uint32_t number = 0; number < pack.entries().size(); ++number) {
-    const std::optional<DecodedTerrain> tile = pack.tile(number);
-    if (!tile) continue;
-    const TileBox box = tile_box(pack.grid(), number);
-    surface.add(tile->mesh(), box.x, box.y);
-  }
-  return surface;
-}
-
 // Segments of all kinds: any, between lattice places, along lines of them, along borders, places.
 microtin_segment any_segment(Random& random, const TileGrid& grid) {
   const auto pick = [&](uint32_t most) {

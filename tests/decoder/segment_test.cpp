@@ -15,29 +15,13 @@
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/limited_segment.hpp"
 #include "tests/support/reference_segment.hpp"
+#include "tests/support/segment_terrains.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {
 namespace {
 
 using namespace reference;
-
-constexpr uint32_t kCapacity = 400;
-
-// A terrain twice: as a mesh, and compact.
-struct Both {
-  Terrain<kCapacity> mesh, made;
-  CompactTerrain<kCapacity> compact;
-
-  explicit Both(const Bytes& stream) {
-    Decoder<kCapacity> decoder(mesh);
-    size_t used = 0;
-    REQUIRE(decoder.feed(stream.data(), stream.size(), &used) == MICROTIN_STATUS_OK);
-    decoder.begin(made);
-    REQUIRE(decoder.feed(stream.data(), stream.size(), &used) == MICROTIN_STATUS_OK);
-    REQUIRE(compact.make(made, decoder) == MICROTIN_STATUS_OK);
-  }
-};
 
 struct Counts {
   int known = 0, in_void = 0, outside = 0;
@@ -83,52 +67,6 @@ void check_segment(const Both& terrain, const Surface& surface, const microtin_s
                       answer_at(terrain, c.x_end, c.y_end, &end) == MICROTIN_QUERY_OUTSIDE;
   REQUIRE((answer == MICROTIN_QUERY_OUTSIDE) == leaves);
   ++(expected.is_known ? counts.known : leaves ? counts.outside : counts.in_void);
-}
-
-Tin small_tin(uint32_t seed) {
-  Random random(seed);
-  const uint32_t side = 4 + random.below(20);
-  Points points = uniform_points(4 + random.below(60), random, side);
-  points.push_back(point(side, side + 1));
-  points.push_back(point(side + 1, side));
-  Tin tin;
-  for (const Point p : points) {
-    tin.vertices.push_back({p.x, p.y, static_cast<int16_t>(random.below(2000) - 1000)});
-  }
-  return seed % 3 == 0 ? tin : with_voids(tin);
-}
-
-// Whole steps at times, along an axis at times; now and then beside the terrain.
-microtin_segment small_segment(Random& random, int64_t side) {
-  const int64_t unit = random.below(3) == 0 ? 1 : 256;
-  const auto pick = [&] {
-    return static_cast<int64_t>(random.below(static_cast<uint32_t>(side * 256))) / unit * unit;
-  };
-  microtin_segment c = {pick(), pick(), pick(), pick()};
-  const uint32_t kind = random.below(8);
-  if (kind == 0 || kind == 2) c.x_end = c.x;
-  if (kind == 1 || kind == 2) c.y_end = c.y;
-  return c;
-}
-
-// Some of 3 x 3 vertices, where nearly everything is degenerate: lines through vertices, along
-// edges and the hull, past corners of it.
-Tin tiny_tin(uint32_t seed) {
-  Random random(seed);
-  Tin tin;
-  for (uint16_t k = 0; k < 9; ++k) {
-    if (seed % 4 != 0 && random.below(3) == 0) continue;
-    tin.vertices.push_back({static_cast<uint16_t>(1 + k % 3), static_cast<uint16_t>(1 + k / 3),
-                            static_cast<int16_t>(random.below(9) - 4)});
-  }
-  if (!has_triangle(tin)) tin.vertices = {{1, 1, 5}, {3, 1, -5}, {2, 3, 1}};
-  return seed % 3 == 0 ? tin : with_some_voids(std::move(tin), random, 40);
-}
-
-// Between places half a step apart, in and around it.
-microtin_segment tiny_segment(Random& random) {
-  const auto pick = [&] { return static_cast<int64_t>(random.below(9)) * 128; };
-  return {pick(), pick(), pick(), pick()};
 }
 
 }  // namespace
@@ -207,15 +145,15 @@ TEST_CASE("a segment goes on where it was left, and a state of another one stays
   for (uint32_t stage = 0; stage < 9; ++stage) {
     for (uint32_t triangle = 0; triangle < triangles_of(large.mesh.mesh()); ++triangle) {
       const microtin_segment c = segment_near(small.mesh.mesh(), random);
-      const microtin_segment_state state = {stage, triangle, 0, {7, 6}, {5, 4}, {3, 0}};
+      const microtin_segment_state state = {stage, triangle, 0, 0, {7, 6}, {5, 4}, {3, 0}};
       check_any_state(small.mesh.mesh(), c, state);
       check_any_state(small.compact.compact(), c, state);
     }
-    microtin_segment_state state = {stage, 0, 0, {7, 6}, {5, 4}, {3, 0}};
+    microtin_segment_state state = {stage, 0, 0, 0, {7, 6}, {5, 4}, {3, 0}};
     CHECK(limited_extremes(small.mesh.mesh(), off, 1, &state).answer == MICROTIN_QUERY_OUTSIDE);
   }
   const microtin_segment c = {0, 0, 65535 * 256, 65535 * 256};
-  microtin_segment_state most = {UINT32_MAX, 0, MICROTIN_QUERY_VOID, {7, 6}, {0, 1}, {1, 1}};
+  microtin_segment_state most = {UINT32_MAX, 0, MICROTIN_QUERY_VOID, 0, {7, 6}, {0, 1}, {1, 1}};
   CHECK(limited_extremes(large.mesh.mesh(), c, 1, &most) ==
         Extremes{MICROTIN_QUERY_VOID, {7, 6, 0, 1 << 30}});
 }

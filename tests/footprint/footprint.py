@@ -30,6 +30,8 @@ NOTES = ["note_finder_init", "note_finder_feed"]
 SAFE_HEIGHTS = ["mesh_safe_heights_at"]
 SEGMENTS = ["mesh_segment_extremes"]
 PACK_CHECK = ["pack_check_segment", "pack_check_box"]
+CLEARANCE = ["mesh_path_clearance"]
+PROFILE = ["mesh_profile_next"]
 COMPACT_PACK = [{"pack_init": "compact_pack_init", "pack_load": "compact_pack_load"}.get(e, e) for e in PACK]
 COMPACT_PACK_QUERIES = ["compact_" + e if e != "pack_axis_to_lattice" else e for e in PACK_QUERIES]
 USES = {
@@ -45,6 +47,8 @@ USES = {
     "safe_heights": DECODING + SAFE_HEIGHTS,
     "segments": DECODING + SEGMENTS,
     "pack_check": PACK + PACK_CHECK + ["pack_height_at"],
+    "clearance": DECODING + CLEARANCE,
+    "profile": DECODING + PROFILE,
 }
 # What is measured of the decoder in one source, by each compiler.
 ONE_SOURCE_USES = {
@@ -114,13 +118,14 @@ def measure_library(options, library):
         graphs = [graph for graph in graphs if Path(graph).exists()]
         image = str(options.build / "linked")
         all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
-        others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK
+        others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + CLEARANCE + PROFILE
         link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + others + all_packs, image)
         calls = stack.Stack(options.target, options.objdump, image, graphs)
         own = {
             "decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT, "pack": PACK,
             "pack_queries": PACK_QUERIES, "compact_pack": COMPACT_PACK, "compact_pack_queries": COMPACT_PACK_QUERIES,
             "notes": NOTES, "safe_heights": SAFE_HEIGHTS, "segments": SEGMENTS, "pack_check": PACK_CHECK,
+            "clearance": CLEARANCE, "profile": PROFILE,
         }  # fmt: skip
         for use, entries in own.items():
             result["stack_" + use] = max(calls.depth(symbol(options, entry)) for entry in entries)
@@ -255,6 +260,8 @@ USE_TITLES = {
     "safe_heights": "decoding, safe heights",
     "segments": "decoding, extremes on a segment",
     "pack_check": "packs, heights, checks",
+    "clearance": "decoding, clearance of a path",
+    "profile": "decoding, a profile",
 }
 STACK_TITLES = {
     "decoding": "decoding",
@@ -266,6 +273,8 @@ STACK_TITLES = {
     "safe_heights": "safe heights",
     "segments": "extremes on a segment",
     "pack_check": "checks of packs",
+    "clearance": "clearance of a path",
+    "profile": "a profile",
 }
 
 

@@ -13,6 +13,7 @@
 #include "microtin/compact_pack.h"
 #include "tests/support/device.hpp"
 #include "tests/support/layers.hpp"
+#include "tests/support/reference_segment.hpp"
 
 namespace microtin::tests {
 
@@ -65,6 +66,11 @@ class PackDevice {
                                          microtin_segment_extremes* extremes) const {
     return is_compact_ ? microtin_compact_pack_segment_extremes(pack, &segment, extremes)
                        : microtin_pack_segment_extremes(pack, &segment, extremes);
+  }
+  microtin_query_result path_clearance(const microtin_path& path,
+                                       microtin_path_clearance* clearance, uint32_t flags) const {
+    return is_compact_ ? microtin_compact_pack_path_clearance(pack, &path, clearance, flags)
+                       : microtin_pack_path_clearance(pack, &path, clearance, flags);
   }
   microtin_query_result highest_on(const microtin_segment& segment, int32_t* height) const {
     microtin_segment_extremes extremes;
@@ -152,6 +158,18 @@ inline double highest_on_edges(const SurfaceModel& model, const microtin_segment
     }
   }
   return highest;
+}
+
+// The triangles of all tiles.
+inline reference::Surface surface_of(const PackFile& pack) {
+  reference::Surface surface;
+  for (uint32_t number = 0; number < pack.entries().size(); ++number) {
+    const std::optional<DecodedTerrain> tile = pack.tile(number);
+    if (!tile) continue;
+    const TileBox box = tile_box(pack.grid(), number);
+    surface.add(tile->mesh(), box.x, box.y);
+  }
+  return surface;
 }
 
 // Why a tile is bad; OK if it is not known to be.

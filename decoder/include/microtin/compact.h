@@ -152,6 +152,21 @@ microtin_query_result microtin_compact_segment_extremes(const microtin_compact* 
                                                         microtin_segment_extremes* extremes,
                                                         uint32_t step_limit);
 
+/* Returns the places of a profile one after another, with parameters and results of
+ * microtin_mesh_profile_next. */
+microtin_query_result microtin_compact_profile_next(const microtin_compact* compact,
+                                                    const microtin_segment* segment,
+                                                    microtin_segment_state* state,
+                                                    microtin_crossing* crossing,
+                                                    uint32_t step_limit);
+
+/* Finds the clearance of a path, with parameters and results of microtin_mesh_path_clearance. */
+microtin_query_result microtin_compact_path_clearance(const microtin_compact* compact,
+                                                      const microtin_path* path,
+                                                      microtin_segment_state* state,
+                                                      microtin_path_clearance* clearance,
+                                                      uint32_t flags, uint32_t step_limit);
+
 /* Stores the heights of a grid, with parameters and results of microtin_mesh_sample_grid. */
 microtin_query_result microtin_compact_sample_grid(const microtin_compact* compact,
                                                    const microtin_grid_spec* grid,

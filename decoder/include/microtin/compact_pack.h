@@ -78,6 +78,12 @@ microtin_query_result microtin_compact_pack_segment_extremes(const microtin_pack
                                                              const microtin_segment* segment,
                                                              microtin_segment_extremes* extremes);
 
+/* Finds the clearance of a path, as microtin_pack_path_clearance does. */
+microtin_query_result microtin_compact_pack_path_clearance(const microtin_pack* pack,
+                                                           const microtin_path* path,
+                                                           microtin_path_clearance* clearance,
+                                                           uint32_t flags);
+
 /* Stores the heights of a grid, as microtin_pack_sample_grid does. */
 microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,
                                                         const microtin_grid_spec* grid,

@@ -76,6 +76,23 @@ class Terrain {
                                          uint32_t step_limit) const {
     return microtin_mesh_segment_extremes(mesh_, &segment, state, extremes, step_limit);
   }
+  // Calls microtin_mesh_path_clearance.
+  microtin_query_result path_clearance(const microtin_path& path,
+                                       microtin_path_clearance* clearance,
+                                       uint32_t flags = 0) const {
+    return microtin_mesh_path_clearance(mesh_, &path, nullptr, clearance, flags, 0);
+  }
+  // Calls microtin_mesh_path_clearance.
+  microtin_query_result path_clearance(const microtin_path& path, microtin_segment_state* state,
+                                       microtin_path_clearance* clearance, uint32_t flags,
+                                       uint32_t step_limit) const {
+    return microtin_mesh_path_clearance(mesh_, &path, state, clearance, flags, step_limit);
+  }
+  // Calls microtin_mesh_profile_next.
+  microtin_query_result profile_next(const microtin_segment& segment, microtin_segment_state* state,
+                                     microtin_crossing* crossing, uint32_t step_limit = 0) const {
+    return microtin_mesh_profile_next(mesh_, &segment, state, crossing, step_limit);
+  }
   // Calls microtin_mesh_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
     return microtin_mesh_sample_grid(mesh_, &grid, heights);
@@ -230,6 +247,23 @@ class CompactTerrain {
                                          microtin_segment_extremes* extremes,
                                          uint32_t step_limit) const {
     return microtin_compact_segment_extremes(compact_, &segment, state, extremes, step_limit);
+  }
+  // Calls microtin_compact_path_clearance.
+  microtin_query_result path_clearance(const microtin_path& path,
+                                       microtin_path_clearance* clearance,
+                                       uint32_t flags = 0) const {
+    return microtin_compact_path_clearance(compact_, &path, nullptr, clearance, flags, 0);
+  }
+  // Calls microtin_compact_path_clearance.
+  microtin_query_result path_clearance(const microtin_path& path, microtin_segment_state* state,
+                                       microtin_path_clearance* clearance, uint32_t flags,
+                                       uint32_t step_limit) const {
+    return microtin_compact_path_clearance(compact_, &path, state, clearance, flags, step_limit);
+  }
+  // Calls microtin_compact_profile_next.
+  microtin_query_result profile_next(const microtin_segment& segment, microtin_segment_state* state,
+                                     microtin_crossing* crossing, uint32_t step_limit = 0) const {
+    return microtin_compact_profile_next(compact_, &segment, state, crossing, step_limit);
   }
   // Calls microtin_compact_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {

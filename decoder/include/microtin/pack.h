@@ -265,6 +265,16 @@ microtin_query_result microtin_pack_segment_extremes(const microtin_pack* pack,
                                                      const microtin_segment* segment,
                                                      microtin_segment_extremes* extremes);
 
+/* Finds the least clearance of a path, and the first place where the terrain comes too near, as
+ * microtin_mesh_path_clearance does. `flags` is 0 or MICROTIN_FLAG_SAFE, with the margin of each
+ * tile. Results are those of microtin_pack_segment_extremes, or NO_MARGIN, and nothing is found: a
+ * tile on the segment does not state its margin. Only OK covers the whole path: with any other
+ * result the clearance is that of the rest. */
+microtin_query_result microtin_pack_path_clearance(const microtin_pack* pack,
+                                                   const microtin_path* path,
+                                                   microtin_path_clearance* clearance,
+                                                   uint32_t flags);
+
 /* Stores the heights of a grid, with parameters and results of microtin_mesh_sample_grid.
  * NOT_LOADED takes precedence over all other results. */
 microtin_query_result microtin_pack_sample_grid(const microtin_pack* pack,

@@ -90,6 +90,12 @@ class Pack : public PackFace {
                                          microtin_segment_extremes* extremes) const {
     return microtin_pack_segment_extremes(pack_, &segment, extremes);
   }
+  // Calls microtin_pack_path_clearance.
+  microtin_query_result path_clearance(const microtin_path& path,
+                                       microtin_path_clearance* clearance,
+                                       uint32_t flags = 0) const {
+    return microtin_pack_path_clearance(pack_, &path, clearance, flags);
+  }
   // Calls microtin_pack_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
     return microtin_pack_sample_grid(pack_, &grid, heights);

@@ -32,6 +32,7 @@ typedef struct microtin_segment_state {
   uint32_t stage;    /* 0: before the first walk step */
   uint32_t triangle; /* the number of the triangle where the walk stands */
   uint32_t result;   /* the worst microtin_query_result so far */
+  uint32_t is_low;   /* the last crossing has less than the needed clearance */
   int32_t value[2];
   int64_t part[2], whole[2];
 } microtin_segment_state;
@@ -68,6 +69,75 @@ microtin_query_result microtin_mesh_segment_extremes(const microtin_mesh* mesh,
                                                      microtin_segment_state* state,
                                                      microtin_segment_extremes* extremes,
                                                      uint32_t step_limit);
+
+/* The place of a segment's end. */
+#define MICROTIN_ALONG_END 0x40000000l
+
+/* A place of a profile: the begin of the segment, its end, a vertex on it, or where it crosses an
+ * edge. Between two places with terrain the height is linear. */
+typedef struct microtin_crossing {
+  int32_t along;            /* the place, see microtin_segment_extremes */
+  int32_t height;           /* z steps, 16 fractional bits, rounded once; INT32_MIN: none */
+  uint32_t result;          /* a microtin_query_result: OK, or why there is no height */
+  uint32_t is_known_before; /* 1: there is terrain from the place before up to this one */
+} microtin_crossing;
+
+/* Returns the places of the profile along a segment one after another, each once, from the begin to
+ * the end, whose `along` is MICROTIN_ALONG_END. Where the terrain has no heights between two
+ * places, their places in the void or outside are left out, except vertices, begin and end.
+ *
+ * Begin with a state of zeros. Parameters and cost are those of microtin_mesh_segment_extremes, but
+ * the state must not be null.
+ *
+ * - OK: *crossing is the next place; after the end it is the end again
+ * - STEP_LIMIT: call again
+ * - OUTSIDE: an end lies outside 0 .. 65535 * 256
+ * - NOT_LOADED, UNVERIFIED */
+microtin_query_result microtin_mesh_profile_next(const microtin_mesh* mesh,
+                                                 const microtin_segment* segment,
+                                                 microtin_segment_state* state,
+                                                 microtin_crossing* crossing, uint32_t step_limit);
+
+/* A straight path above a segment, such as a climb or a line of sight. A segment that is a single
+ * position may have two heights. */
+typedef struct microtin_path {
+  microtin_segment segment;
+  int32_t z,
+      z_end; /* heights where it begins and ends: z steps, 8 fractional bits, within +-2^25 */
+  int32_t clearance; /* what is needed above the terrain: 8 fractional bits, within +-2^25 */
+} microtin_path;
+
+/* How far a path is above the terrain; negative below. Places are those of
+ * microtin_segment_extremes. */
+typedef struct microtin_path_clearance {
+  int32_t least;       /* z steps, 8 fractional bits, rounded down */
+  int32_t least_along; /* its place, the first of several with the same rounded clearance */
+  int32_t first_along; /* the first place with less than the needed clearance; -1: there is none */
+} microtin_path_clearance;
+
+/* A flag of microtin_*_path_clearance: against the highest that the source can be, which is the
+ * surface and the margin `below`; see microtin_mesh_margins. */
+#define MICROTIN_FLAG_SAFE 2u
+
+/* Finds the least clearance of a path, and the first place where the terrain comes too near.
+ * `first_along` is rounded down: the clearance suffices everywhere before it.
+ *
+ * `flags` is 0 or a sum of MICROTIN_FLAG_SAFE and MICROTIN_FLAG_ALLOW_UNVERIFIED. State, step limit
+ * and cost are those of microtin_mesh_segment_extremes; a state serves one kind of query.
+ *
+ * - OK: every position of the segment has a height
+ * - OUTSIDE, VOID: a part of the segment has none; the clearance is that of the rest. Also OUTSIDE,
+ *   and nothing is found: an end lies outside 0 .. 65535 * 256, or a number of the path outside its
+ *   range
+ * - NO_MARGIN: with MICROTIN_FLAG_SAFE, the mesh does not state the margin `below`
+ * - NOT_LOADED, UNVERIFIED, STEP_LIMIT
+ *
+ * `least` is INT32_MAX and `first_along` -1 if nothing is found. */
+microtin_query_result microtin_mesh_path_clearance(const microtin_mesh* mesh,
+                                                   const microtin_path* path,
+                                                   microtin_segment_state* state,
+                                                   microtin_path_clearance* clearance,
+                                                   uint32_t flags, uint32_t step_limit);
 
 /* Positions in rows and columns, and what to store where there is no height. */
 typedef struct microtin_grid_spec {

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Profiles along segments of meshes and compact terrains: against exact fractions.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tests/support/limited_segment.hpp"
+#include "tests/support/reference_segment.hpp"
+#include "tests/support/segment_terrains.hpp"
+
+namespace microtin::tests {
+namespace {
+
+using namespace reference;
+
+microtin_query_result next_of(const microtin_mesh* mesh, const microtin_segment& c,
+                              microtin_segment_state* state, microtin_crossing* crossing,
+                              uint32_t step_limit) {
+  return microtin_mesh_profile_next(mesh, &c, state, crossing, step_limit);
+}
+
+microtin_query_result next_of(const microtin_compact* compact, const microtin_segment& c,
+                              microtin_segment_state* state, microtin_crossing* crossing,
+                              uint32_t step_limit) {
+  return microtin_compact_profile_next(compact, &c, state, crossing, step_limit);
+}
+
+bool same_crossing(const microtin_crossing& a, const microtin_crossing& b) {
+  return a.along == b.along && a.height == b.height && a.result == b.result &&
+         a.is_known_before == b.is_known_before;
+}
+
+bool same_profile(const std::vector<microtin_crossing>& a,
+                  const std::vector<microtin_crossing>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_crossing);
+}
+
+template <class Form>
+std::vector<microtin_crossing> profile_of(const Form* form, const microtin_segment& c,
+                                          uint32_t step_limit) {
+  std::vector<microtin_crossing> profile;
+  microtin_segment_state state = {};
+  microtin_crossing crossing = {0, 0, 0, 0};
+  for (uint32_t i = 0; i < 5 * triangles_of(form); ++i) {
+    const microtin_query_result answer = next_of(form, c, &state, &crossing, step_limit);
+    if (answer == MICROTIN_QUERY_STEP_LIMIT) continue;
+    REQUIRE(answer == MICROTIN_QUERY_OK);
+    profile.push_back(crossing);
+    if (crossing.along == MICROTIN_ALONG_END) break;
+  }
+  microtin_crossing again = {0, 0, 0, 0};
+  REQUIRE(next_of(form, c, &state, &again, step_limit) == MICROTIN_QUERY_OK);
+  REQUIRE(same_crossing(again, crossing));
+  return profile;
+}
+
+// Every place where the segment meets an edge or a vertex that has a height, once, and its ends.
+std::vector<Meeting> expected_places(const Surface& surface, const microtin_segment& c) {
+  std::vector<Meeting> places = expect(surface, c).meetings;
+  std::sort(places.begin(), places.end(),
+            [](const Meeting& a, const Meeting& b) { return a.way < b.way; });
+  const auto same_way = [](const Meeting& a, const Meeting& b) { return !(a.way < b.way); };
+  places.erase(std::unique(places.begin(), places.end(), same_way), places.end());
+  const Meeting begin = {{0, 1}, INT32_MIN}, end = {{1, 1}, INT32_MIN};
+  if (places.empty() || places.front().way.part != 0) places.insert(places.begin(), begin);
+  if (places.back().way < end.way) places.push_back(end);
+  return places;
+}
+
+bool is_known(const std::vector<Stretch>& stretches, const Way& from, const Way& to) {
+  return std::any_of(stretches.begin(), stretches.end(), [&](const Stretch& stretch) {
+    return !(from < stretch.from) && !(stretch.to < to);
+  });
+}
+
+void check_profile(const Both& terrain, const Surface& surface, const microtin_segment& c) {
+  CAPTURE(c.x);
+  CAPTURE(c.y);
+  CAPTURE(c.x_end);
+  CAPTURE(c.y_end);
+  const std::vector<microtin_crossing> profile = profile_of(terrain.mesh.mesh(), c, 0);
+  const std::vector<Meeting> places = expected_places(surface, c);
+  const std::vector<Stretch> stretches = stretches_of(surface, c);
+  REQUIRE(profile.size() == places.size());
+  for (size_t i = 0; i < places.size(); ++i) {
+    const Meeting& place = places[i];
+    REQUIRE(profile[i].along == (place.way.part << 30) / place.way.whole);
+    REQUIRE(profile[i].height == place.height);
+    REQUIRE((profile[i].result == MICROTIN_QUERY_OK) == (place.height != INT32_MIN));
+    if (i == 0) continue;
+    const bool is_known_before = is_known(stretches, places[i - 1].way, place.way);
+    REQUIRE(profile[i].is_known_before == (is_known_before ? 1 : 0));
+  }
+  REQUIRE(same_profile(profile_of(terrain.mesh.mesh(), c, 1), profile));
+  REQUIRE(same_profile(profile_of(terrain.compact.compact(), c, 0), profile));
+  REQUIRE(same_profile(profile_of(terrain.compact.compact(), c, 2), profile));
+}
+
+}  // namespace
+
+TEST_CASE("a profile has each place where a segment meets an edge or a vertex once, in order") {
+  for (uint32_t seed = 0; seed < 120; ++seed) {
+    CAPTURE(seed);
+    const bool is_tiny = seed % 2 == 0;
+    const Both terrain(
+        encode(is_tiny ? tiny_tin(seed) : small_tin(seed), Metadata(), Effort{32, Coding::kQuick}));
+    Surface surface;
+    surface.add(terrain.mesh.mesh(), 0, 0);
+    Random random(seed);
+    for (int i = 0; i < 80; ++i) {
+      const microtin_segment c = is_tiny ? tiny_segment(random) : small_segment(random, 27);
+      if (c.x != c.x_end || c.y != c.y_end) check_profile(terrain, surface, c);
+    }
+  }
+}
+
+TEST_CASE("profiles of places, of segments off the lattice, and of meshes that are not there") {
+  const Both terrain(terrain_stream(300, 4));
+  uint16_t x = 0, y = 0;
+  int16_t z = 0;
+  microtin_mesh_vertex(terrain.mesh.mesh(), 7, &x, &y, &z);
+  const microtin_segment c = {x * 256, y * 256, x * 256, y * 256}, off = {-1, 0, 0, 0};
+  const std::vector<microtin_crossing> profile = profile_of(terrain.mesh.mesh(), c, 0);
+  REQUIRE(profile.size() == 2);
+  for (const microtin_crossing& crossing : profile) CHECK(crossing.height == z * 65536);
+  CHECK(same_profile(profile_of(terrain.compact.compact(), c, 1), profile));
+  microtin_segment_state state = {};
+  microtin_crossing crossing = {0, 0, 0, 0};
+  CHECK(terrain.mesh.profile_next(off, &state, &crossing) == MICROTIN_QUERY_OUTSIDE);
+  CHECK(terrain.compact.profile_next(off, &state, &crossing) == MICROTIN_QUERY_OUTSIDE);
+  CHECK(terrain.made.profile_next(c, &state, &crossing) == MICROTIN_QUERY_NOT_LOADED);
+}
+
+}  // namespace microtin::tests
