@@ -251,7 +251,7 @@ int64_t behind_of(const FreeRegion& region, Point apex, Spot end, int64_t turn) 
   const int64_t dx = scaled(x, region.shift - m), dy = scaled(y, region.shift - m);
   const int64_t ex = end.x >> m, ey = end.y >> m;
   const int64_t q = dx * (ex - dx) + dy * (ey - dy);
-  const int64_t h = std::max<int64_t>(1, turn * (ex * dy - ey * dx) >> m);
+  const int64_t h = std::max<int64_t>(1, turn * (ex * dy - ey * dx));
   const int64_t s = std::max<int64_t>(0, bit(h) - 11), most = 16 * (h >> s);
   return std::clamp(q >> s, -most, most) * 4096 / (h >> s);
 }

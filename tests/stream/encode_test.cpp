@@ -131,7 +131,7 @@ TEST_CASE("small terrains take the order that saves bytes, others the usual one"
   for (const Coding coding : kCodings) {
     const uint32_t usual = coding == Coding::kQuick ? 9 : 10;
     for (uint32_t seed = 0; seed < 40; ++seed) {
-      const Tin small = rolling_tin(200, seed);
+      const Tin small = rolling_tin(50, seed);
       const size_t by_usual = bytes(small, {usual, coding}), by_wide = bytes(small, {16, coding});
       const bool saves = by_usual - by_usual / 256 > by_wide;
       CHECK(bytes(small, {0, coding}) == (saves ? by_wide : by_usual));
