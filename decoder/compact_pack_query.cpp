@@ -15,22 +15,3 @@ microtin_query_result microtin_compact_pack_safe_heights_at(const microtin_pack*
                                                             microtin_safe_heights* heights) {
   return safe_heights_in_pack<RingForm>(*pack, x, y, hint, heights);
 }
-
-microtin_query_result microtin_compact_pack_segment_extremes(const microtin_pack* pack,
-                                                             const microtin_segment* segment,
-                                                             microtin_segment_extremes* extremes) {
-  return extremes_in_pack<RingForm>(*pack, *segment, extremes);
-}
-
-microtin_query_result microtin_compact_pack_path_clearance(const microtin_pack* pack,
-                                                           const microtin_path* path,
-                                                           microtin_path_clearance* clearance,
-                                                           uint32_t flags) {
-  return clearance_in_pack<RingForm>(*pack, *path, clearance, flags);
-}
-
-microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,
-                                                        const microtin_grid_spec* grid,
-                                                        int16_t* heights) {
-  return fill_from_pack<RingForm>(*pack, *grid, heights);
-}

@@ -131,6 +131,7 @@ std::string array(const std::vector<JsonObject>& objects) {
 // Where other streams and packs are in the same file.
 void add_places(JsonObject& report, const std::vector<FilePlace>& places) {
   std::vector<JsonObject> all;
+  all.reserve(places.size());
   for (const FilePlace& place : places) {
     all.push_back({{"kind", json(name_of(place.kind))},
                    {"from", json(name_of(place.base))},

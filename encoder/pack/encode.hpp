@@ -54,7 +54,7 @@ TileRange all_tiles(const TileGrid& grid);
 
 // A tile that has more vertices than it may.
 struct TileTooLarge : Error {
-  TileTooLarge(uint32_t tile, uint32_t vertices, uint32_t fewer_steps);
+  TileTooLarge(uint32_t number, uint32_t count, uint32_t steps);
 
   uint32_t tile, vertices;
   uint32_t fewer_steps;  // tile_size to be tried next

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Segments and blocks on packs whose tiles are meshes: linked only where they are used, also by
+// linkers that keep all of a file.
+#include "decoder/pack_query.hpp"
+#include "decoder/terrain_forms.hpp"
+
+using namespace microtin;
+
+microtin_query_result microtin_pack_segment_extremes(const microtin_pack* pack,
+                                                     const microtin_segment* segment,
+                                                     microtin_segment_extremes* extremes) {
+  return extremes_in_pack<MeshForm>(*pack, *segment, extremes);
+}
+
+microtin_query_result microtin_pack_path_clearance(const microtin_pack* pack,
+                                                   const microtin_path* path,
+                                                   microtin_path_clearance* clearance,
+                                                   uint32_t flags) {
+  return clearance_in_pack<MeshForm>(*pack, *path, clearance, flags);
+}
+
+microtin_query_result microtin_pack_sample_grid(const microtin_pack* pack,
+                                                const microtin_grid_spec* grid, int16_t* heights) {
+  return fill_from_pack<MeshForm>(*pack, *grid, heights);
+}
