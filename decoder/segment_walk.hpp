@@ -142,7 +142,7 @@ class SegmentWalk {
   }
 
   // Around a corner where the segment begins, until the line enters the triangle.
-  bool turn(Crossing* c) {
+  MICROTIN_ONE_COPY bool turn(Crossing* c) {
     if (begin_.x == end_.x && begin_.y == end_.y) return finish_inside(true, c);
     if (enter()) {
       stage_ = WalkStage::kInside;
@@ -174,7 +174,7 @@ class SegmentWalk {
   int64_t side(uint32_t number) const { return corner_of(number).side; }
 
   // Along hull edges that the begin sees, to that where the line enters.
-  bool approach(Crossing* c) {
+  MICROTIN_ONE_COPY bool approach(Crossing* c) {
     const Corner a = corner_of(cursor_.start()), b = corner_of(cursor_.end());
     const bool forward = b.side <= 0;
     if (a.side <= 0 && !forward) return enter_hull(a, b, c);
@@ -202,7 +202,7 @@ class SegmentWalk {
   }
 
   // Through a triangle with corners on both sides, and over the edge where the line leaves it.
-  bool pass(Crossing* c) {
+  MICROTIN_IN_PLACE bool pass(Crossing* c) {
     const Corner apex = corner_of(cursor_.apex());
     const bool is_fan = apex.side > 0 && right_.side == 0, had_terrain = !cursor_.is_void();
     const bool is_known = had_terrain || runs_along_known(apex);
@@ -251,7 +251,7 @@ class SegmentWalk {
   }
 
   // Along a hull edge on the line, if it is one. The terrain beyond it is all that knows it.
-  bool touch(Crossing* c) {
+  MICROTIN_ONE_COPY bool touch(Crossing* c) {
     const Corner b = corner_of(cursor_.end());
     if (b.side != 0) return finish(MICROTIN_QUERY_OUTSIDE, false, c);
     const Along along = along_line(b.at);
