@@ -97,7 +97,7 @@ class SegmentWalk {
     int64_t side;  // of the line: positive to the left
   };
 
-  MICROTIN_ONE_COPY Corner corner_of(uint32_t number) const {
+  MICROTIN_ONE_COPY MICROTIN_WITHOUT_CALLS Corner corner_of(uint32_t number) const {
     const Vertex v = cursor_.vertex(number);
     const LocalPoint at = fine_point(Point{v.x, v.y});
     return Corner{at, v.z, orient(begin_, end_, at)};

@@ -95,45 +95,12 @@ Setting surface(const std::string& word, library::SurfaceKind kind, uint32_t num
   return setting("--surface " + word, &W::surface, kind, &C::surface, number);
 }
 
-std::vector<Row> rows() {
+std::vector<Row> rows_of_notes() {
   using namespace microtin::encoder;
-  const Setting two = bound("2"),
-                nothing = {"", [](library::Options&) {}, [](microtin_options&) {}};
-  const Setting fast = setting("--fast", &W::effort, SearchEffort::kFast, &C::effort, 1u);
-  const Setting coarse = two + setting("--xy-step", &W::xy_step, &C::xy_step, "0.05");
+  const Setting two = bound("2");
   const auto height_code = setting("--epsg 25832:7837", &W::vertical_epsg, uint32_t{7837},
                                    &C::vertical_epsg, uint32_t{7837});
-  const auto duplicates = [](const char* flags, Duplicates rule, uint32_t number) {
-    return setting(flags, &W::duplicates, rule, &C::duplicates, number);
-  };
-  const auto coding = [](const char* flags, Coding profile, uint32_t number) {
-    return setting(flags, &W::coding, profile, &C::coding, number);
-  };
-  const auto bound_at = [](const char* flags, BoundAt places, uint32_t number) {
-    return setting(flags, &W::bound_at, places, &C::bound_at, number);
-  };
   return {
-      {"max_error", kAll, bound("1.5"), nothing},
-      {"z_step", kAll, setting("--z-step", &W::z_step, &C::z_step, "0.7"), two},
-      {"xy_step", kStream | kClouds, setting("--xy-step", &W::xy_step, &C::xy_step, "0.5"),
-       bound("40")},
-      {"never_below", kAll, setting("--never-below", &W::never_below, true, &C::never_below, 1u),
-       two},
-      {"effort", kAll, fast, two},
-      {"effort", 0, setting("", &W::effort, SearchEffort::kNormal, &C::effort, 2u), two},
-      {"effort", kAll, setting("--best", &W::effort, SearchEffort::kBest, &C::effort, 3u), two},
-      {"max_degree", kAll, setting("--max-degree", &W::max_degree, &C::max_degree, 6u), two},
-      {"coding", kAll, coding("--coding quick", Coding::kQuick, 1), two},
-      {"coding", 0, coding("--coding balanced", Coding::kBalanced, 2), two},
-      {"coding", kAll, coding("--coding dense", Coding::kDense, 3), two},
-      {"bound_at", 0, bound_at("--bound-at points", BoundAt::kPoints, 1), coarse},
-      {"bound_at", kClouds, bound_at("--bound-at lattice", BoundAt::kLattice, 2), coarse},
-      {"duplicates", 0, duplicates("--duplicates middle", Duplicates::kMiddle, 1), two},
-      {"duplicates", kClouds, duplicates("--duplicates lowest", Duplicates::kLowest, 2), two},
-      {"duplicates", kClouds, duplicates("--duplicates highest", Duplicates::kHighest, 3), two},
-      {"duplicates", kClouds, duplicates("--duplicates mean", Duplicates::kMean, 4), two},
-      {"units", kAll, setting("--units", &W::units, &C::units, "foot:us-foot"), two},
-      {"depths", kAll, setting("--depths", &W::depths, true, &C::depths, 1u), two},
       {"surface", 0, surface("unknown", SurfaceKind::kUnknown, 0), two},
       {"surface", kAll, surface("ground", SurfaceKind::kGround, 1), two},
       {"surface", kAll, surface("top", SurfaceKind::kTop, 2), two},
@@ -156,6 +123,46 @@ std::vector<Row> rows() {
        setting("--source-accuracy", &W::source_accuracy, &C::source_accuracy, "LE90 4"), two},
       {"digest", kStream | kCloud, setting("--digest", &W::digest, true, &C::digest, 1u), two},
       {"phases", kStream | kCloud, setting("--phases", &W::phases, true, &C::phases, 1u), two},
+  };
+}
+
+std::vector<Row> rows() {
+  using namespace microtin::encoder;
+  const Setting two = bound("2"),
+                nothing = {"", [](library::Options&) {}, [](microtin_options&) {}};
+  const Setting fast = setting("--fast", &W::effort, SearchEffort::kFast, &C::effort, 1u);
+  const Setting coarse = two + setting("--xy-step", &W::xy_step, &C::xy_step, "0.05");
+  const auto duplicates = [](const char* flags, Duplicates rule, uint32_t number) {
+    return setting(flags, &W::duplicates, rule, &C::duplicates, number);
+  };
+  const auto coding = [](const char* flags, Coding profile, uint32_t number) {
+    return setting(flags, &W::coding, profile, &C::coding, number);
+  };
+  const auto bound_at = [](const char* flags, BoundAt places, uint32_t number) {
+    return setting(flags, &W::bound_at, places, &C::bound_at, number);
+  };
+  std::vector<Row> all = {
+      {"max_error", kAll, bound("1.5"), nothing},
+      {"z_step", kAll, setting("--z-step", &W::z_step, &C::z_step, "0.7"), two},
+      {"xy_step", kStream | kClouds, setting("--xy-step", &W::xy_step, &C::xy_step, "0.5"),
+       bound("40")},
+      {"never_below", kAll, setting("--never-below", &W::never_below, true, &C::never_below, 1u),
+       two},
+      {"effort", kAll, fast, two},
+      {"effort", 0, setting("", &W::effort, SearchEffort::kNormal, &C::effort, 2u), two},
+      {"effort", kAll, setting("--best", &W::effort, SearchEffort::kBest, &C::effort, 3u), two},
+      {"max_degree", kAll, setting("--max-degree", &W::max_degree, &C::max_degree, 6u), two},
+      {"coding", kAll, coding("--coding quick", Coding::kQuick, 1), two},
+      {"coding", 0, coding("--coding balanced", Coding::kBalanced, 2), two},
+      {"coding", kAll, coding("--coding dense", Coding::kDense, 3), two},
+      {"bound_at", 0, bound_at("--bound-at points", BoundAt::kPoints, 1), coarse},
+      {"bound_at", kClouds, bound_at("--bound-at lattice", BoundAt::kLattice, 2), coarse},
+      {"duplicates", 0, duplicates("--duplicates middle", Duplicates::kMiddle, 1), two},
+      {"duplicates", kClouds, duplicates("--duplicates lowest", Duplicates::kLowest, 2), two},
+      {"duplicates", kClouds, duplicates("--duplicates highest", Duplicates::kHighest, 3), two},
+      {"duplicates", kClouds, duplicates("--duplicates mean", Duplicates::kMean, 4), two},
+      {"units", kAll, setting("--units", &W::units, &C::units, "foot:us-foot"), two},
+      {"depths", kAll, setting("--depths", &W::depths, true, &C::depths, 1u), two},
       {"max_vertices", kStream | kCloud,
        setting("--max-vertices", &W::max_vertices, &C::max_vertices, 70u), fast},
       {"max_bytes", kStream | kCloud, setting("--max-bytes", &W::max_bytes, &C::max_bytes, 300u),
@@ -164,6 +171,9 @@ std::vector<Row> rows() {
        setting("--tile-vertices", &W::tile_vertices, &C::tile_vertices, 20u), two},
       {"tile_size", kPack, setting("--tile-size", &W::tile_size, &C::tile_size, 9u), two},
   };
+  const std::vector<Row> notes = rows_of_notes();
+  all.insert(all.end(), notes.begin(), notes.end());
+  return all;
 }
 
 // Bytes, or nothing where a door refuses.

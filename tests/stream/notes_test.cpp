@@ -91,7 +91,56 @@ Row row(const std::string& member, Value Metadata::*at, const Value& value, cons
           [=](const Metadata& a, const Metadata& b) { return is_same(a.*at, b.*at); }};
 }
 
-// Values with all bits of a few lengths, ends of what can be written, and all of an enumeration.
+// Notes of several parts.
+void add_parts(std::vector<Row>& all) {
+  using std::optional;
+  for (const uint64_t digest : {uint64_t{0}, UINT64_MAX, uint64_t{0x0123456789ABCDEF}}) {
+    all.push_back(row("digest", &Metadata::digest, optional(digest)));
+  }
+  for (const std::vector<PhaseEnd>& phases :
+       {std::vector<PhaseEnd>{{3, 0, std::nullopt}},
+        std::vector<PhaseEnd>{{300, 900, Decimal{45, 1}},
+                              {UINT32_MAX, UINT64_MAX, Decimal{0, 0}}}}) {
+    all.push_back(row("phases", &Metadata::phases, phases, is_same_phases));
+  }
+  for (const int kind : {0, 1, 2, 3, 4}) {
+    for (const int base : {0, 1, 2}) {
+      const FilePlace place{static_cast<PlaceKind>(kind), static_cast<PlaceBase>(base), 300, 7};
+      const std::vector<FilePlace> places = {place, {PlaceKind::kGeoid, PlaceBase::kEnd, 0, 1}};
+      all.push_back(row("places", &Metadata::places, places, is_same_places));
+    }
+  }
+  for (const ClassSet& classes :
+       {ClassSet(), ClassSet().set(), ClassSet().set(0), ClassSet().set(255),
+        ClassSet().set(2).set(3).set(9), ClassSet().set().reset(7)}) {
+    all.push_back(row("classes", &Metadata::classes, optional(classes)));
+  }
+}
+
+// All of an enumeration.
+void add_enumerations(std::vector<Row>& all) {
+  using std::optional;
+  for (const int unit : {0, 1, 2, 3, 4}) {
+    all.push_back(row("horizontal_unit", &Metadata::horizontal_unit, static_cast<Unit>(unit)));
+    all.push_back(row("vertical_unit", &Metadata::vertical_unit, static_cast<Unit>(unit)));
+  }
+  for (const int kind : {0, 1, 2, 3, 4, 5}) {
+    all.push_back(row("surface", &Metadata::surface, static_cast<SurfaceKind>(kind)));
+  }
+  for (const int kind : {0, 1, 2, 3}) {
+    const SourceAccuracy accuracy{static_cast<AccuracyKind>(kind), {45, 1}};
+    all.push_back(row<optional<SourceAccuracy>>("source_accuracy", &Metadata::source_accuracy,
+                                                accuracy, is_same_source_accuracy));
+  }
+  for (const int side : {0, 1, 2, 3}) {
+    all.push_back(row("side", &Metadata::side, static_cast<BoundSide>(side)));
+  }
+  for (const int rule : {0, 1, 2, 3, 4, 5}) {
+    all.push_back(row("duplicates", &Metadata::duplicates, static_cast<DuplicateRule>(rule)));
+  }
+}
+
+// Values with all bits of a few lengths, and ends of what can be written.
 std::vector<Row> rows() {
   using std::optional;
   const Accuracy bounded{Decimal{10, 0}, Decimal{99, 1}, Decimal{345, 2}, Decimal{-12, 18}};
@@ -133,45 +182,8 @@ std::vector<Row> rows() {
       row("grid", &Metadata::grid, optional(PostGrid{300, 2, {0, 1, 1}, {0, 1, 2}}), is_same_grid),
       row("grid", &Metadata::grid, optional(PostGrid{300, 2, {0, 1, 2}, {0, 1, 1}}), is_same_grid),
   };
-  for (const uint64_t digest : {uint64_t{0}, UINT64_MAX, uint64_t{0x0123456789ABCDEF}}) {
-    all.push_back(row("digest", &Metadata::digest, optional(digest)));
-  }
-  for (const std::vector<PhaseEnd>& phases :
-       {std::vector<PhaseEnd>{{3, 0, std::nullopt}},
-        std::vector<PhaseEnd>{{300, 900, Decimal{45, 1}},
-                              {UINT32_MAX, UINT64_MAX, Decimal{0, 0}}}}) {
-    all.push_back(row("phases", &Metadata::phases, phases, is_same_phases));
-  }
-  for (const int kind : {0, 1, 2, 3, 4}) {
-    for (const int base : {0, 1, 2}) {
-      const FilePlace place{static_cast<PlaceKind>(kind), static_cast<PlaceBase>(base), 300, 7};
-      const std::vector<FilePlace> places = {place, {PlaceKind::kGeoid, PlaceBase::kEnd, 0, 1}};
-      all.push_back(row("places", &Metadata::places, places, is_same_places));
-    }
-  }
-  for (const int unit : {0, 1, 2, 3, 4}) {
-    all.push_back(row("horizontal_unit", &Metadata::horizontal_unit, static_cast<Unit>(unit)));
-    all.push_back(row("vertical_unit", &Metadata::vertical_unit, static_cast<Unit>(unit)));
-  }
-  for (const int kind : {0, 1, 2, 3, 4, 5}) {
-    all.push_back(row("surface", &Metadata::surface, static_cast<SurfaceKind>(kind)));
-  }
-  for (const int kind : {0, 1, 2, 3}) {
-    const SourceAccuracy accuracy{static_cast<AccuracyKind>(kind), {45, 1}};
-    all.push_back(row<optional<SourceAccuracy>>("source_accuracy", &Metadata::source_accuracy,
-                                                accuracy, is_same_source_accuracy));
-  }
-  for (const int side : {0, 1, 2, 3}) {
-    all.push_back(row("side", &Metadata::side, static_cast<BoundSide>(side)));
-  }
-  for (const int rule : {0, 1, 2, 3, 4, 5}) {
-    all.push_back(row("duplicates", &Metadata::duplicates, static_cast<DuplicateRule>(rule)));
-  }
-  for (const ClassSet& classes :
-       {ClassSet(), ClassSet().set(), ClassSet().set(0), ClassSet().set(255),
-        ClassSet().set(2).set(3).set(9), ClassSet().set().reset(7)}) {
-    all.push_back(row("classes", &Metadata::classes, optional(classes)));
-  }
+  add_parts(all);
+  add_enumerations(all);
   return all;
 }
 
