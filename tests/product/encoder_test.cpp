@@ -349,7 +349,7 @@ TEST_CASE("library: messages name options as Options does, or as the caller spel
         "max_error");
 }
 
-TEST_CASE("library: a pack's margins are the largest of its tiles'; points and streams") {
+TEST_CASE("library: a pack's margins are the largest of its tiles', points and streams") {
   const TemporaryFolder folder;
   Options options;
   options.max_error = "3";
