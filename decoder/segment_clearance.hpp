@@ -121,8 +121,8 @@ class AddToClearance {
   template <class Walk>
   Linear above_plane(const Walk& walk, int64_t* area) const {
     const auto triangle = walk.triangle();
-    Vertex v[3];
-    for (uint32_t i = 0; i < 3; ++i) v[i] = triangle.vertex(triangle.corner(i));
+    const Vertex v[3] = {triangle.vertex(triangle.corner(0)), triangle.vertex(triangle.corner(1)),
+                         triangle.vertex(triangle.corner(2))};
     *area = orient2d(Point{v[0].x, v[0].y}, Point{v[1].x, v[1].y}, Point{v[2].x, v[2].y});
     return Linear{z_ * *area - plane_at(v, *area, walk.begin()),
                   z_end_ * *area - plane_at(v, *area, walk.end())};
