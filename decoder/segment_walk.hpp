@@ -6,7 +6,7 @@
 // edge where the line enters, from a left corner to a right one, and one where the line leaves. A
 // triangle alone, by its number, is where the walk stands.
 //
-// The same for each form of a terrain, which has
+// A form of a terrain has the following, so that one walk serves all forms:
 //   Cursor       as walk.hpp says
 //   triangles(), at(t), number(cursor)   the numbers of triangles; in a ghost the cursor's apex is
 //                infinity

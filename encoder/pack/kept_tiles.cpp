@@ -13,7 +13,7 @@
 namespace microtin::pack {
 namespace {
 
-// Whether a tile may be without terrain: no other tile has its posts that lie on no border.
+// Whether a post with a height lies on no border, so that no other tile has it.
 bool has_own_posts(const TilePosts& posts, const TileSides& sides) {
   bool found = false;
   for_each_post(posts.tile(), [&](int64_t x, int64_t y, int64_t z) {
@@ -65,7 +65,7 @@ KeptTiles::KeptTiles(const PackFile& old, const TiledRaster& changed, const Prog
   for_each_parallel(tiles_.size(), [&](std::size_t i) {
     try {
       tiles_[i] = examined(static_cast<uint32_t>(i));
-    } catch (const Error&) {  // it cannot be read
+    } catch (const Error&) {  // the old tile cannot be read: it is not kept
     }
     done.add_one();
   });
@@ -84,7 +84,7 @@ KeptTiles::Tile KeptTiles::examined(uint32_t number) const {
   const Margins stated = old_.margins(number);
   Tile tile;
   tile.border = border_of(decoded->mesh(), sides);
-  tile.is_kept = keeps_options(changed_, found, gauge.moved()) &&
+  tile.is_kept = keeps_options(changed_.options, found, gauge.moved()) &&
                  parts_voids(posts, sides, tile.border) &&
                  is_within(stated, margins_of(measure_gap(decoded->mesh(), lattice, part)));
   tile.summary = summary_of(old_.stream(number), std::move(*decoded), found);

@@ -81,8 +81,7 @@ EncodedTile PointTiles::encode(uint32_t tile, const std::vector<uint32_t>& point
   const Verification measured =
       verify(decoded.mesh(), placement_from(tiled_.survey.lattice.placement, {box.x, box.y}),
              part_of(tiled_.cloud, points), tiled_.lattice.max_error);
-  const bool too_low = tiled_.lattice.never_below && measured.max_below.mantissa != 0;
-  if (!measured.within_bound || too_low || measured.uncovered != 0) {
+  if (!keeps_options(tiled_.lattice, measured, 0)) {
     throw InternalFault("a decoded tile does not meet the options");
   }
   return {summary_of(stream, std::move(decoded), measured), std::move(stream)};

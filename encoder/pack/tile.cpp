@@ -140,8 +140,9 @@ TileSummary summary_of(const std::vector<uint8_t>& stream, DecodedTerrain&& deco
   return summary;
 }
 
-bool keeps_options(const TiledRaster& tiled, const Verification& measured, uint64_t water_moved) {
-  const bool too_low = tiled.options.never_below && measured.max_below.mantissa != 0;
+bool keeps_options(const LatticeOptions& options, const Verification& measured,
+                   uint64_t water_moved) {
+  const bool too_low = options.never_below && measured.max_below.mantissa != 0;
   return measured.within_bound && !too_low && measured.voids_answered == 0 &&
          measured.uncovered == 0 && water_moved == 0;
 }
@@ -193,7 +194,7 @@ EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyO
       continue;
     }
     check_shared(decoded.mesh(), sides, shared);
-    if (!keeps_options(tiled, measured, gauge.moved())) fail("does not meet the options");
+    if (!keeps_options(tiled.options, measured, gauge.moved())) fail("does not meet the options");
     Metadata metadata;
     metadata.everywhere = margins_of(measure_gap(decoded.mesh(), lattice, part));
     std::vector<uint8_t> all = with_metadata(stream, metadata);

@@ -57,8 +57,9 @@ struct EncodedTile {
 TileSummary summary_of(const std::vector<uint8_t>& stream, DecodedTerrain&& decoded,
                        const Verification& measured);
 
-// Whether a tile covers its posts, and no others, as the options say.
-bool keeps_options(const TiledRaster& tiled, const Verification& measured, uint64_t water_moved);
+// Whether a tile covers its samples, and no void post, as the options say.
+bool keeps_options(const LatticeOptions& options, const Verification& measured,
+                   uint64_t water_moved);
 
 // Throws Error unless the vertices on borders are the shared ones, at their heights.
 void check_shared(const microtin_mesh* mesh, const TileSides& sides, const SharedVertices& shared);

@@ -7,30 +7,12 @@
 #include "encoder/base/error.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/files/input.hpp"
-#include "encoder/pack/shard.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/product/open_pack.hpp"
 #include "encoder/product/phases.hpp"
 
 namespace microtin::product {
 namespace {
-
-struct OpenPack {
-  std::vector<uint8_t> header;  // with placement, notes and check
-  PackFile file;
-};
-
-OpenPack open_pack(const std::string& path) {
-  std::unique_ptr<ByteSource> bytes = open_file(path);
-  refuse_shard(path, *bytes);
-  return with_file_context(path, [&] {
-    if (!is_pack(*bytes)) throw Error("is not a pack");
-    const ByteSource& same = *bytes;
-    PackFile file(std::move(bytes), PackFile::Index::kLater);
-    file.expect_index();
-    const uint32_t header_bytes = pack_index_start(file.header());
-    return OpenPack{bytes_at(same, 0, header_bytes), std::move(file)};
-  });
-}
 
 bool have_same_tiles(const PackFile& a, const PackFile& b) {
   const TileGrid &g = a.grid(), &h = b.grid();

@@ -33,14 +33,7 @@ uint32_t tile_vertices(const EncodeOptions& options, bool is_narrow) {
 }
 
 PackOptions pack_options(const EncodeOptions& options, const Progress& progress) {
-  if (options.max_vertices != 0 || options.max_bytes != 0) {
-    throw Error(parameter("max_vertices") + " and " + parameter("max_bytes") +
-                " are for streams; for a pack use " + parameter("max_error") + ", or no bound");
-  }
-  if (options.digest || options.phases) {
-    throw Error(parameter(options.digest ? "digest" : "phases") +
-                " is an option of streams; leave it out");
-  }
+  refuse_options_of_streams(options);
   EncodeOptions tile = options;
   tile.device_ram = 0;  // it limits tiles, by their number of vertices
   return {options.lattice, simplify_options(tile, progress), tile_vertices(options, true),

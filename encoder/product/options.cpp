@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "encoder/base/error.hpp"
 #include "encoder/import/reference.hpp"
 #include "encoder/stream/device_memory.hpp"
 #include "encoder/terrain/degrees.hpp"
@@ -46,6 +47,17 @@ Metadata metadata_of(const EncodeOptions& options, const Raster& frame) {
 
 Metadata metadata_of(const EncodeOptions& options, const PointCloud& cloud) {
   return checked_metadata(options, cloud);
+}
+
+void refuse_options_of_streams(const EncodeOptions& options) {
+  if (options.max_vertices != 0 || options.max_bytes != 0) {
+    throw Error(parameter("max_vertices") + " and " + parameter("max_bytes") +
+                " are for streams; for a pack use " + parameter("max_error") + ", or no bound");
+  }
+  if (options.digest || options.phases) {
+    throw Error(parameter(options.digest ? "digest" : "phases") +
+                " is an option of streams; leave it out");
+  }
 }
 
 uint32_t vertex_limit(const EncodeOptions& options) {

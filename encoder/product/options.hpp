@@ -44,6 +44,9 @@ Metadata metadata_of(const EncodeOptions& options, const PointCloud& cloud);
 // What a header says, and in its place what the options say of the source.
 Metadata noted(Metadata metadata, const EncodeOptions& options);
 
+// Throws Error if an option is set that packs do not have.
+void refuse_options_of_streams(const EncodeOptions& options);
+
 // The vertices that a stream may have, 0 for as many as it takes. A device's RAM limits them, too;
 // with a bound it can only refuse.
 uint32_t vertex_limit(const EncodeOptions& options);

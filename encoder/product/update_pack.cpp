@@ -2,16 +2,15 @@
 #include "encoder/product/update_pack.hpp"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "encoder/base/error.hpp"
-#include "encoder/files/input.hpp"
 #include "encoder/import/reference.hpp"
 #include "encoder/pack/kept_tiles.hpp"
-#include "encoder/pack/shard.hpp"
 #include "encoder/pack/surface.hpp"
 #include "encoder/product/document.hpp"
+#include "encoder/product/open_pack.hpp"
+#include "encoder/stream/header.hpp"
 #include "encoder/terrain/raster_scan.hpp"
 
 namespace microtin::product {
@@ -21,16 +20,11 @@ namespace {
 constexpr double kScanned = 0.05, kCompared = 0.3;
 
 PackFile open_pack_of_raster(const std::string& path) {
-  std::unique_ptr<ByteSource> bytes = open_file(path);
-  refuse_shard(path, *bytes);
-  return with_file_context(path, [&] {
-    if (!is_pack(*bytes)) throw Error("is not a pack");
-    PackFile pack(std::move(bytes));
-    if (!pack.metadata().grid || !pack.metadata().accuracy) {
-      throw Error("is not a pack that microtin made of a raster; encode the terrain again");
-    }
-    return pack;
-  });
+  PackFile pack = open_pack(path).file;
+  if (!pack.metadata().grid || !pack.metadata().accuracy) {
+    throw Error(path + ": is not a pack that microtin made of a raster; encode the terrain again");
+  }
+  return pack;
 }
 
 // Throws Error if the terrain is known to be in other units or systems than the pack. Those that
@@ -59,21 +53,22 @@ LatticeOptions options_of(const Metadata& stated) {
   return options;
 }
 
-// The coding of the tiles.
+// The coding of the first tile that can be read; of none the one that is asked for.
 Effort effort_of(const PackFile& pack, Effort effort) {
   for (uint32_t tile = 0; tile < pack.tiles(); ++tile) {
-    const std::vector<uint8_t> stream = pack.stream(tile);
-    microtin_stream_info info{};
-    if (microtin_read_stream_info(stream.data(), stream.size(), &info) != MICROTIN_STATUS_OK) {
-      continue;  // without terrain, or bad
+    try {
+      const std::vector<uint8_t> stream = pack.stream(tile);
+      if (stream.empty()) continue;  // without terrain
+      effort.coding = static_cast<Coding>(read_header(stream).info.coding);
+      break;
+    } catch (const Error&) {  // it will be encoded again
     }
-    effort.coding = static_cast<Coding>(info.coding);
-    break;
   }
   return effort;
 }
 
 PackOptions pack_options(const PackFile& old, const EncodeOptions& asked) {
+  refuse_options_of_streams(asked);
   EncodeOptions options = asked;
   options.lattice = options_of(old.metadata());
   options.effort = effort_of(old, asked.effort);

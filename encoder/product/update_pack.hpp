@@ -21,14 +21,16 @@ struct UpdatedPack {
 };
 
 // Keeps the tiles that do for the changed raster all that the old pack states, and encodes the
-// others by the bound, side, water level, lattice and coding of the old pack; their borders with
-// tiles that are kept stay. Of the options it takes the notes, the search, and tile_vertices: what
-// a new tile may have; 0: as many, and as many bytes in compact form, as the old pack states for
-// any tile, so that devices that hold its tiles hold the new ones. Reads the raster twice.
+// others by the bound, side, water level, lattice and coding of the old pack. Borders between new
+// tiles and kept ones stay. Reads the raster twice.
 //
-// Throws Error naming the old pack if its header or its index is wrong or its tiles are not a
-// raster's, and Error if the raster has other posts, if its heights are beyond the lattice, or if a
-// new tile is too large.
+// Of the options the notes, the search and tile_vertices count. A new tile has at most
+// `tile_vertices` vertices. If that is 0, a new tile has no more vertices, and no more bytes in
+// compact form, than the old pack states for any tile: devices that hold the old tiles hold it.
+//
+// Throws Error naming the old pack if its header is wrong, if its index is cut off, or if its tiles
+// are not a raster's. Throws Error if the raster has other posts, units or systems, if its heights
+// are beyond the lattice, if a new tile is too large, or if an option is for streams.
 UpdatedPack update_pack(const std::string& old, const RasterReader& raster,
                         const EncodeOptions& options, StreamSpool& streams,
                         const Progress& progress);

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "shared/pack_format.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/session.hpp"
 
@@ -41,14 +42,22 @@ TEST_CASE("update: few tiles are new, notes stay, and the new terrain is kept") 
   CHECK(contains(session.run("diff old.mtp new.mtp").err, "1 of 16 tiles differ"));
 }
 
-TEST_CASE("update: a damaged tile is new") {
+TEST_CASE("update: a tile whose stream or entry is damaged is new, whichever it is") {
   const Changed session;
-  std::string pack = session.read("old.mtp");
-  pack[pack.size() - 9] = static_cast<char>(pack[pack.size() - 9] ^ 4);
-  session.write("bad.mtp", pack);
-  const Session::Result mended = session.run("update bad.mtp old.asc --water-level 600 -o o.mtp");
-  CHECK(contains(mended.err + mended.out, "kept: 15 of 16 tiles"));
-  CHECK(session.run("check o.mtp").code == 0);
+  const std::string pack = session.read("old.mtp");
+  PackHeader header{};
+  REQUIRE(read_pack_header(reinterpret_cast<const uint8_t*>(pack.data()), &header) ==
+          MICROTIN_STATUS_OK);
+  const size_t index = pack_index_start(header), streams = index + 16 * kPackEntryBytes;
+  for (const size_t at : {index + 2, streams + 20, pack.size() - 9}) {
+    CAPTURE(at);
+    std::string damaged = pack;
+    damaged[at] = static_cast<char>(damaged[at] ^ 4);
+    session.write("bad.mtp", damaged);
+    const Session::Result mended = session.run("update bad.mtp old.asc --water-level 600 -o o.mtp");
+    CHECK(contains(mended.err + mended.out, "kept: 15 of 16 tiles"));
+    CHECK(session.run("check o.mtp").code == 0);
+  }
 }
 
 TEST_CASE("update: what cannot be one pack is refused, and nothing is written") {
@@ -60,6 +69,9 @@ TEST_CASE("update: what cannot be one pack is refused, and nothing is written") 
                  "old.mtp: its water level is 600, not 5"));
   CHECK(contains(refusal("old.mtp new.asc --units foot"), "has other units than the pack"));
   CHECK(contains(refusal("old.asc new.asc"), "old.asc: is not a pack"));
+  for (const std::string option : {"--digest", "--phases"}) {
+    CHECK(contains(refusal("old.mtp new.asc " + option), option + " is an option of streams"));
+  }
   session.write("p.xyz", "0 0 0\n9 0 3\n0 9 7\n5 5 5\n");
   CHECK(contains(refusal("old.mtp p.xyz"), "p.xyz: only packs of rasters are updated"));
   REQUIRE(session.run("encode p.xyz -o p.mtp").code == 0);

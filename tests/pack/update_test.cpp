@@ -115,7 +115,7 @@ struct Place {
   int x, y, x_end, y_end;
 };
 
-// In a tile, beside a border, on one, at a corner of four tiles, across all, at the terrain's rim.
+// Where heights change: rectangles of posts, with their last column and row.
 const std::vector<Place> kPlaces = {
     {"inside a tile", 5, 5, 9, 8},         {"beside a border", 17, 5, 19, 9},
     {"on a border", 20, 5, 20, 9},         {"a corner of four tiles", 20, 20, 20, 20},

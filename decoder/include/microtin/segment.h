@@ -83,8 +83,8 @@ typedef struct microtin_crossing {
 } microtin_crossing;
 
 /* Returns the places of the profile along a segment one after another, each once, from the begin to
- * the end, whose `along` is MICROTIN_ALONG_END. Where the terrain has no heights between two
- * places, their places in the void or outside are left out, except vertices, begin and end.
+ * the end, whose `along` is MICROTIN_ALONG_END. Crossings of edges that have no height are left
+ * out; vertices on the segment, the begin and the end never are.
  *
  * Begin with a state of zeros. Parameters and cost are those of microtin_mesh_segment_extremes, but
  * the state must not be null.
