@@ -95,19 +95,10 @@ void check_path(const Both& terrain, const Surface& surface, const microtin_path
 
 TEST_CASE("the clearance of a path above a terrain is exact, and its first low place") {
   Counts counts;
-  for (uint32_t seed = 0; seed < 120; ++seed) {
-    CAPTURE(seed);
-    const bool is_tiny = seed % 2 == 0;
-    const Both terrain(
-        encode(is_tiny ? tiny_tin(seed) : small_tin(seed), Metadata(), Effort{32, Coding::kQuick}));
-    Surface surface;
-    surface.add(terrain.mesh.mesh(), 0, 0);
-    Random random(seed);
-    for (int i = 0; i < 80; ++i) {
-      const microtin_segment c = is_tiny ? tiny_segment(random) : small_segment(random, 27);
-      check_path(terrain, surface, path_over(c, is_tiny ? 5 : 1100, random), counts);
-    }
-  }
+  for_each_segment([&](const Both& terrain, const Surface& surface, const microtin_segment& c,
+                       bool is_tiny, Random& random) {
+    check_path(terrain, surface, path_over(c, is_tiny ? 5 : 1100, random), counts);
+  });
   CHECK(counts.clear > 500);
   CHECK(counts.low > 500);
   CHECK(counts.at_begin > 500);

@@ -182,6 +182,18 @@ TEST_CASE_TEMPLATE("pack check: tiles are loaded as before while and after a che
   }
 }
 
+TEST_CASE_TEMPLATE("pack check: a tile that is being decoded is checked from its beginning", Device,
+                   MeshSlots, CompactSlots) {
+  Card card = card_of(rough_raster(61, 53));
+  const microtin_segment all = whole(PackFile(card.bytes).grid());
+  const Device device(1);
+  while (device.load(card, at(30, 26), 1) != MICROTIN_STATUS_STEP_LIMIT) {
+  }
+  CHECK(check_with(device, card, at(30, 26), false).status == MICROTIN_STATUS_OK);
+  CHECK(check_with(device, card, all, true).status == MICROTIN_STATUS_OK);
+  CHECK(device.load(card, at(30, 26)) == MICROTIN_STATUS_OK);
+}
+
 TEST_CASE("pack check: headers, cards that end, and wrong arguments") {
   Card card = card_of(rough_raster(61, 53));
   const MeshSlots device(2);

@@ -100,19 +100,10 @@ void check_profile(const Both& terrain, const Surface& surface, const microtin_s
 }  // namespace
 
 TEST_CASE("a profile has each place where a segment meets an edge or a vertex once, in order") {
-  for (uint32_t seed = 0; seed < 120; ++seed) {
-    CAPTURE(seed);
-    const bool is_tiny = seed % 2 == 0;
-    const Both terrain(
-        encode(is_tiny ? tiny_tin(seed) : small_tin(seed), Metadata(), Effort{32, Coding::kQuick}));
-    Surface surface;
-    surface.add(terrain.mesh.mesh(), 0, 0);
-    Random random(seed);
-    for (int i = 0; i < 80; ++i) {
-      const microtin_segment c = is_tiny ? tiny_segment(random) : small_segment(random, 27);
-      if (c.x != c.x_end || c.y != c.y_end) check_profile(terrain, surface, c);
-    }
-  }
+  for_each_segment(
+      [](const Both& terrain, const Surface& surface, const microtin_segment& c, bool, Random&) {
+        if (c.x != c.x_end || c.y != c.y_end) check_profile(terrain, surface, c);
+      });
 }
 
 TEST_CASE("profiles of places, of segments off the lattice, and of meshes that are not there") {

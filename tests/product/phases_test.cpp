@@ -53,7 +53,7 @@ struct Encoded {
 
 }  // namespace
 
-TEST_CASE("phases: what a header states is what a decoder has after so many bytes") {
+TEST_CASE("phases: a decoder has the stated vertices after the stated bytes") {
   const Encoded encoded;
   const std::vector<PhaseEnd>& phases = encoded.header.metadata.phases;
   REQUIRE(phases.size() > 2);

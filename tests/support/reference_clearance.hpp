@@ -71,11 +71,11 @@ inline std::string clearance_fault(const Surface& surface, const microtin_path& 
       meet(way, rounded_down(clearance_at(t, path, way, margin)));
       is_low = is_low || clearance_at(t, path, way, margin + path.clearance).sum < 0;
     }
-    // What lies before the place, and what lies up to the next.
+    // Clearance is linear: where it is too low at the place itself, it is so before, too, unless
+    // the stretch begins there. Up to the next place it must be too low somewhere.
     const Way limit = {here, Wide{1} << 30}, next = {here + 1, Wide{1} << 30};
     for (const Way& way : {stretch.from, kept_within(stretch, here)}) {
-      if (!(limit < way) && way < limit &&
-          clearance_at(t, path, way, margin + path.clearance).sum < 0) {
+      if (stretch.from < limit && clearance_at(t, path, way, margin + path.clearance).sum < 0) {
         is_late = true;
       }
     }

@@ -9,6 +9,7 @@
 
 #include "microtin/microtin.hpp"
 #include "tests/support/forged_pack.hpp"
+#include "tests/support/reference_segment.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {
@@ -43,7 +44,8 @@ inline Tin small_tin(uint32_t seed) {
   return seed % 3 == 0 ? tin : with_voids(tin);
 }
 
-// Whole steps at times, along an axis at times; now and then beside the terrain.
+// Ends lie at whole steps or anywhere, also outside the terrain. Some segments run along an axis,
+// and some are single positions.
 inline microtin_segment small_segment(Random& random, int64_t side) {
   const int64_t unit = random.below(3) == 0 ? 1 : 256;
   const auto pick = [&] {
@@ -74,6 +76,25 @@ inline Tin tiny_tin(uint32_t seed) {
 inline microtin_segment tiny_segment(Random& random) {
   const auto pick = [&] { return static_cast<int64_t>(random.below(9)) * 128; };
   return {pick(), pick(), pick(), pick()};
+}
+
+// Calls check(terrain, surface, segment, is_tiny, random) for many segments on tiny and on small
+// terrains in turn.
+template <class Check>
+void for_each_segment(const Check& check) {
+  for (uint32_t seed = 0; seed < 120; ++seed) {
+    CAPTURE(seed);
+    const bool is_tiny = seed % 2 == 0;
+    const Both terrain(
+        encode(is_tiny ? tiny_tin(seed) : small_tin(seed), Metadata(), Effort{32, Coding::kQuick}));
+    reference::Surface surface;
+    surface.add(terrain.mesh.mesh(), 0, 0);
+    Random random(seed);
+    for (int i = 0; i < 80; ++i) {
+      const microtin_segment c = is_tiny ? tiny_segment(random) : small_segment(random, 27);
+      check(terrain, surface, c, is_tiny, random);
+    }
+  }
 }
 
 }  // namespace microtin::tests
