@@ -24,8 +24,21 @@ struct Crossing {
   int64_t share;
   int32_t height, other;  // 16 fractional bits
   uint8_t answer;         // a microtin_query_result: OK, or why there is no height
-  bool is_known_before;   // the terrain has heights from the crossing before up to this one
+  uint8_t before;         // OK: there are heights from the crossing before to this one; or why not
 };
+
+// Negative if a is less than b, positive if it is greater: binary digits side by side. Fractions
+// that differ do so by more than 2^-100.
+inline int compare(const Along& a, const Along& b) {
+  int64_t rest_a = a.part, rest_b = b.part;
+  for (int i = 0; i <= 100; ++i) {
+    const bool one_a = rest_a >= a.whole, one_b = rest_b >= b.whole;
+    if (one_a != one_b) return one_a ? 1 : -1;
+    rest_a = (one_a ? rest_a - a.whole : rest_a) * 2;
+    rest_b = (one_b ? rest_b - b.whole : rest_b) * 2;
+  }
+  return 0;
+}
 
 // A quotient with 17 fractional bits, rounded down, and whether there is a rest.
 struct LongQuotient {

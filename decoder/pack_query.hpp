@@ -99,7 +99,7 @@ bool walk_tile(const Form& form, const TileSegment& part, const Add& add,
   while (!walk.at_end()) {
     Crossing c;
     if (!walk.step(false, &c)) continue;
-    if (!c.is_known_before && part.holds_between(last, c.along)) is_known = false;
+    if (c.before != MICROTIN_QUERY_OK && part.holds_between(last, c.along)) is_known = false;
     last = c.along;
     add(walk, c, state);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Segments and blocks on packs whose tiles are meshes: linked only where they are used, also by
 // linkers that keep all of a file.
+#include "decoder/pack_profile.hpp"
 #include "decoder/pack_query.hpp"
 #include "decoder/terrain_forms.hpp"
 
@@ -10,6 +11,13 @@ microtin_query_result microtin_pack_segment_extremes(const microtin_pack* pack,
                                                      const microtin_segment* segment,
                                                      microtin_segment_extremes* extremes) {
   return extremes_in_pack<MeshForm>(*pack, *segment, extremes);
+}
+
+microtin_query_result microtin_pack_profile_next(const microtin_pack* pack,
+                                                 const microtin_segment* segment,
+                                                 microtin_segment_state* state,
+                                                 microtin_crossing* crossing) {
+  return next_in_pack<MeshForm>(*pack, *segment, state, crossing);
 }
 
 microtin_query_result microtin_pack_path_clearance(const microtin_pack* pack,

@@ -132,7 +132,7 @@ class AddToClearance {
   // known. Differences are below 2^62.
   template <class Walk>
   int32_t first_low(const Walk& walk, const Crossing& c) const {
-    if (!c.is_known_before || c.along.part == 0) return rounded_down(c.along);
+    if (c.before != MICROTIN_QUERY_OK || c.along.part == 0) return rounded_down(c.along);
     int64_t area = 0;
     const Linear above = above_plane(walk, &area);
     const int64_t begin = above.begin - needed_ * area, end = above.end - needed_ * area;

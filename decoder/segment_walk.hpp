@@ -39,6 +39,12 @@ enum class WalkStage : uint8_t {
   kEnded
 };
 
+// The stage that a state holds; a state may hold any number.
+inline WalkStage stage_of(uint32_t stage) {
+  return stage < static_cast<uint32_t>(WalkStage::kEnded) ? static_cast<WalkStage>(stage)
+                                                          : WalkStage::kEnded;
+}
+
 template <class Form>
 class SegmentWalk {
  public:
@@ -87,7 +93,7 @@ class SegmentWalk {
     if (stage_ == WalkStage::kTurn) return turn(c);
     if (stage_ == WalkStage::kApproach) return approach(c);
     if (stage_ == WalkStage::kTouch) return touch(c);
-    return finish(MICROTIN_QUERY_OUTSIDE, false, c);
+    return finish_outside(c);
   }
 
  private:
@@ -137,13 +143,13 @@ class SegmentWalk {
       answer = MICROTIN_QUERY_OUTSIDE;
     }
     stage_ = cursor_.is_ghost() ? WalkStage::kApproach : WalkStage::kTurn;
-    *c = Crossing{Along{0, 1}, -1, height, height, static_cast<uint8_t>(answer), true};
+    *c = Crossing{Along{0, 1}, -1, height, height, static_cast<uint8_t>(answer), MICROTIN_QUERY_OK};
     return true;
   }
 
   // Around a corner where the segment begins, until the line enters the triangle.
   MICROTIN_ONE_COPY bool turn(Crossing* c) {
-    if (begin_.x == end_.x && begin_.y == end_.y) return finish_inside(true, c);
+    if (begin_.x == end_.x && begin_.y == end_.y) return finish_inside(MICROTIN_QUERY_OK, c);
     if (enter()) {
       stage_ = WalkStage::kInside;
       return false;
@@ -178,43 +184,47 @@ class SegmentWalk {
     const Corner a = corner_of(cursor_.start()), b = corner_of(cursor_.end());
     const bool forward = b.side <= 0;
     if (a.side <= 0 && !forward) return enter_hull(a, b, c);
-    if (a.side > 0 && forward) return finish(MICROTIN_QUERY_OUTSIDE, false, c);  // behind the begin
+    if (a.side > 0 && forward) return finish_outside(c);  // behind the begin
     advance_on_hull(cursor_, forward);
     if (begin_side() > 0) return false;
     const Corner next = corner_of(cursor_.start());
     const Along along = along_line(next.at);
     const bool touches = forward && next.side == 0 && along.part > 0 && along.part <= along.whole;
-    if (!touches) return finish(MICROTIN_QUERY_OUTSIDE, false, c);
-    set_vertex(next, along, false, c);
+    if (!touches) return finish_outside(c);
+    set_vertex(next, along, MICROTIN_QUERY_OUTSIDE, c);
     stage_ = along.part < along.whole ? WalkStage::kTouch : WalkStage::kEnded;
     return true;
   }
 
   bool enter_hull(const Corner& right, const Corner& left, Crossing* c) {
     const int64_t to = orient(right.at, left.at, end_);
-    if (to > 0) return finish(MICROTIN_QUERY_OUTSIDE, false, c);
+    if (to > 0) return finish_outside(c);
     cursor_.cross();
-    if (to == 0) return finish_inside(false, c);
+    if (to == 0) return finish_inside(MICROTIN_QUERY_OUTSIDE, c);
     left_ = left;
     right_ = right;
     stage_ = WalkStage::kInside;
-    return set_crossing(right, left, to, false, false, c);
+    return set_crossing(right, left, to, false, MICROTIN_QUERY_OUTSIDE, c);
   }
 
   // Through a triangle with corners on both sides, and over the edge where the line leaves it.
   MICROTIN_IN_PLACE bool pass(Crossing* c) {
     const Corner apex = corner_of(cursor_.apex());
     const bool is_fan = apex.side > 0 && right_.side == 0, had_terrain = !cursor_.is_void();
-    const bool is_known = had_terrain || runs_along_known(apex);
+    const microtin_query_result before = known(had_terrain || runs_along_known(apex));
     (apex.side > 0 ? left_ : right_) = apex;
     const int64_t to = orient(right_.at, left_.at, end_);
-    if (to >= 0) return finish_inside(is_known, c);
+    if (to >= 0) return finish_inside(before, c);
     if (apex.side <= 0) cursor_.turn();
     cursor_.turn();
     cursor_.cross();
     if (cursor_.is_ghost()) stage_ = WalkStage::kBeyond;
     // All triangles of a fan around a vertex on the line meet it there.
-    return !is_fan && set_crossing(right_, left_, to, had_terrain, is_known, c);
+    return !is_fan && set_crossing(right_, left_, to, had_terrain, before, c);
+  }
+
+  static microtin_query_result known(bool is_known) {
+    return is_known ? MICROTIN_QUERY_OK : MICROTIN_QUERY_VOID;
   }
 
   // Whether the line runs along an edge of the triangle that has terrain beyond.
@@ -229,18 +239,19 @@ class SegmentWalk {
   // Where the segment crosses an edge that its end lies `to` beyond; negative. The begin is no
   // crossing, nor is a place on an edge between voids, of which the cursor stands on one side.
   bool set_crossing(const Corner& right, const Corner& left, int64_t to, bool had_terrain,
-                    bool is_known, Crossing* c) const {
+                    microtin_query_result before, Crossing* c) const {
     const int64_t whole = left.side - right.side, part = whole + to;
     if (part <= 0) return false;
-    if (right.side == 0) return set_vertex(right, Along{part, whole}, is_known, c);
+    if (right.side == 0) return set_vertex(right, Along{part, whole}, before, c);
     *c = Crossing{Along{part, whole}, -right.side,       right.z * 65536,
-                  left.z * 65536,     MICROTIN_QUERY_OK, is_known};
+                  left.z * 65536,     MICROTIN_QUERY_OK, static_cast<uint8_t>(before)};
     return had_terrain || cursor_.has_terrain();
   }
 
-  bool set_vertex(const Corner& at, const Along& along, bool is_known, Crossing* c) const {
+  bool set_vertex(const Corner& at, const Along& along, microtin_query_result before,
+                  Crossing* c) const {
     const int32_t height = at.z * 65536;
-    *c = Crossing{along, 0, height, height, MICROTIN_QUERY_OK, is_known};
+    *c = Crossing{along, 0, height, height, MICROTIN_QUERY_OK, static_cast<uint8_t>(before)};
     return true;
   }
 
@@ -253,32 +264,37 @@ class SegmentWalk {
   // Along a hull edge on the line, if it is one. The terrain beyond it is all that knows it.
   MICROTIN_ONE_COPY bool touch(Crossing* c) {
     const Corner b = corner_of(cursor_.end());
-    if (b.side != 0) return finish(MICROTIN_QUERY_OUTSIDE, false, c);
+    if (b.side != 0) return finish_outside(c);
     const Along along = along_line(b.at);
     Cursor inside = cursor_;
     inside.cross();
     if (along.part >= along.whole) {
       cursor_ = inside;
-      return finish_inside(inside.has_terrain(), c);
+      return finish_inside(known(inside.has_terrain()), c);
     }
     advance_on_hull(cursor_, true);
-    return along.part > 0 && set_vertex(b, along, inside.has_terrain(), c);
+    return along.part > 0 && set_vertex(b, along, known(inside.has_terrain()), c);
   }
 
   // The end lies in this triangle.
-  bool finish_inside(bool is_known, Crossing* c) {
+  bool finish_inside(microtin_query_result before, Crossing* c) {
     uint32_t hint = form_.number(cursor_);
     int32_t height = 0;
     const microtin_query_result answer =
         form_.height_at(LocalPoint{end_.x + corner_.x, end_.y + corner_.y}, 0, &hint, &height);
-    finish(answer, is_known, c);
+    finish(answer, before, c);
     c->height = c->other = height;
     return true;
   }
 
-  bool finish(microtin_query_result answer, bool is_known, Crossing* c) {
+  bool finish_outside(Crossing* c) {
+    return finish(MICROTIN_QUERY_OUTSIDE, MICROTIN_QUERY_OUTSIDE, c);
+  }
+
+  bool finish(microtin_query_result answer, microtin_query_result before, Crossing* c) {
     stage_ = WalkStage::kEnded;
-    *c = Crossing{Along{1, 1}, -1, 0, 0, static_cast<uint8_t>(answer), is_known};
+    *c =
+        Crossing{Along{1, 1}, -1, 0, 0, static_cast<uint8_t>(answer), static_cast<uint8_t>(before)};
     return true;
   }
 

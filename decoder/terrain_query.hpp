@@ -28,7 +28,7 @@ inline bool is_on_lattice(const microtin_segment& segment) {
 // What a crossing says of the whole segment.
 inline void note_answer(const Crossing& c, microtin_segment_state* state) {
   microtin_query_result answer = static_cast<microtin_query_result>(c.answer);
-  if (!c.is_known_before) answer = worse(answer, MICROTIN_QUERY_VOID);
+  answer = worse(answer, static_cast<microtin_query_result>(c.before));
   state->result = worse(answer, static_cast<microtin_query_result>(state->result));
 }
 
@@ -37,11 +37,8 @@ template <class Form>
 SegmentWalk<Form> walk_from(const Form& form, const microtin_segment& segment,
                             const microtin_segment_state& state) {
   const LocalPoint begin = local_place(segment.x, segment.y);
-  const WalkStage stage = state.stage < static_cast<uint32_t>(WalkStage::kEnded)
-                              ? static_cast<WalkStage>(state.stage)
-                              : WalkStage::kEnded;
-  return SegmentWalk<Form>(form, begin, begin, local_place(segment.x_end, segment.y_end), stage,
-                           state.triangle);
+  return SegmentWalk<Form>(form, begin, begin, local_place(segment.x_end, segment.y_end),
+                           stage_of(state.stage), state.triangle);
 }
 
 template <class Form>
@@ -76,7 +73,7 @@ inline void set_crossing(const Crossing& c, microtin_segment_state* state,
   state->value[0] = c.answer == MICROTIN_QUERY_OK ? height_of(c) : INT32_MIN;
   state->value[1] = rounded_down(c.along);
   state->result = c.answer;
-  state->is_low = c.is_known_before ? 1 : 0;
+  state->is_low = c.before;
   *crossing = microtin_crossing{state->value[1], state->value[0], state->result, state->is_low};
 }
 

@@ -63,11 +63,43 @@ class TileSegment {
 
   // Whether the tile holds more than a point of what lies between two places of the segment.
   bool holds_between(const Along& first, const Along& last) const {
-    return is_positive_at(leaves_, -first.part, first.whole - first.part) &&
-           is_positive_at(enters_, last.part, last.part - last.whole);
+    return is_behind(leaves_, first) && is_before(enters_, last);
+  }
+
+  // Whether a place of the segment lies before or behind that where the segment enters the tile,
+  // and before or behind that where it leaves.
+  bool is_before_entry(const Along& along) const { return is_behind(enters_, along); }
+  bool is_behind_entry(const Along& along) const { return is_before(enters_, along); }
+  bool is_before_exit(const Along& along) const { return is_behind(leaves_, along); }
+  bool is_behind_exit(const Along& along) const { return is_before(leaves_, along); }
+
+  Fraction enters() const { return enters_; }
+  Fraction leaves() const { return leaves_; }
+
+  // The corner of the tile where the segment is at a fraction of it; false if it is elsewhere.
+  bool corner_at(const Fraction& f, LocalPoint* corner) const {
+    corner->x = side_at(f, begin_.x, end_.x, size_.x);
+    corner->y = side_at(f, begin_.y, end_.y, size_.y);
+    return corner->x >= 0 && corner->y >= 0;
   }
 
  private:
+  // Whether a fraction of the segment lies behind, or before, a place.
+  static bool is_behind(const Fraction& f, const Along& along) {
+    return is_positive_at(f, -along.part, along.whole - along.part);
+  }
+  static bool is_before(const Fraction& f, const Along& along) {
+    return is_positive_at(f, along.part, along.part - along.whole);
+  }
+
+  // Along an axis, the side of the tile at a fraction of the segment; -1 if none is there. Sums are
+  // below 2^50.
+  static int32_t side_at(const Fraction& f, int32_t begin, int32_t end, int32_t size) {
+    const int64_t at =
+        static_cast<int64_t>(begin) * (f.whole - f.part) + static_cast<int64_t>(end) * f.part;
+    return at == 0 ? 0 : at == static_cast<int64_t>(size) * f.whole ? size : -1;
+  }
+
   // Cuts off what lies before or behind the tile along an axis. As the segment touches the tile, it
   // enters before its end and leaves behind its beginning.
   void clip(int32_t begin, int32_t end, int32_t size) {

@@ -2,11 +2,10 @@
 // Profiles along segments of meshes and compact terrains: against exact fractions.
 #include <doctest/doctest.h>
 
-#include <algorithm>
 #include <vector>
 
 #include "tests/support/limited_segment.hpp"
-#include "tests/support/reference_segment.hpp"
+#include "tests/support/reference_profile.hpp"
 #include "tests/support/segment_terrains.hpp"
 
 namespace microtin::tests {
@@ -24,16 +23,6 @@ microtin_query_result next_of(const microtin_compact* compact, const microtin_se
                               microtin_segment_state* state, microtin_crossing* crossing,
                               uint32_t step_limit) {
   return microtin_compact_profile_next(compact, &c, state, crossing, step_limit);
-}
-
-bool same_crossing(const microtin_crossing& a, const microtin_crossing& b) {
-  return a.along == b.along && a.height == b.height && a.result == b.result &&
-         a.is_known_before == b.is_known_before;
-}
-
-bool same_profile(const std::vector<microtin_crossing>& a,
-                  const std::vector<microtin_crossing>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_crossing);
 }
 
 template <class Form>
@@ -55,25 +44,6 @@ std::vector<microtin_crossing> profile_of(const Form* form, const microtin_segme
   return profile;
 }
 
-// Every place where the segment meets an edge or a vertex that has a height, once, and its ends.
-std::vector<Meeting> expected_places(const Surface& surface, const microtin_segment& c) {
-  std::vector<Meeting> places = expect(surface, c).meetings;
-  std::sort(places.begin(), places.end(),
-            [](const Meeting& a, const Meeting& b) { return a.way < b.way; });
-  const auto same_way = [](const Meeting& a, const Meeting& b) { return !(a.way < b.way); };
-  places.erase(std::unique(places.begin(), places.end(), same_way), places.end());
-  const Meeting begin = {{0, 1}, INT32_MIN}, end = {{1, 1}, INT32_MIN};
-  if (places.empty() || places.front().way.part != 0) places.insert(places.begin(), begin);
-  if (places.back().way < end.way) places.push_back(end);
-  return places;
-}
-
-bool is_known(const std::vector<Stretch>& stretches, const Way& from, const Way& to) {
-  return std::any_of(stretches.begin(), stretches.end(), [&](const Stretch& stretch) {
-    return !(from < stretch.from) && !(stretch.to < to);
-  });
-}
-
 void check_profile(const Both& terrain, const Surface& surface, const microtin_segment& c) {
   CAPTURE(c.x);
   CAPTURE(c.y);
@@ -90,7 +60,7 @@ void check_profile(const Both& terrain, const Surface& surface, const microtin_s
     REQUIRE((profile[i].result == MICROTIN_QUERY_OK) == (place.height != INT32_MIN));
     if (i == 0) continue;
     const bool is_known_before = is_known(stretches, places[i - 1].way, place.way);
-    REQUIRE(profile[i].is_known_before == (is_known_before ? 1 : 0));
+    REQUIRE((profile[i].before == MICROTIN_QUERY_OK) == is_known_before);
   }
   REQUIRE(same_profile(profile_of(terrain.mesh.mesh(), c, 1), profile));
   REQUIRE(same_profile(profile_of(terrain.compact.compact(), c, 0), profile));

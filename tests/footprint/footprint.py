@@ -32,6 +32,8 @@ SEGMENTS = ["mesh_segment_extremes"]
 PACK_CHECK = ["pack_check_segment", "pack_check_box"]
 CLEARANCE = ["mesh_path_clearance"]
 PROFILE = ["mesh_profile_next"]
+PACK_PROFILE = ["pack_profile_next"]
+COMPACT_PACK_PROFILE = ["compact_pack_profile_next"]
 COMPACT_PACK = [{"pack_init": "compact_pack_init", "pack_load": "compact_pack_load"}.get(e, e) for e in PACK]
 COMPACT_PACK_QUERIES = ["compact_" + e if e != "pack_axis_to_lattice" else e for e in PACK_QUERIES]
 USES = {
@@ -49,6 +51,8 @@ USES = {
     "pack_check": PACK + PACK_CHECK + ["pack_height_at"],
     "clearance": DECODING + CLEARANCE,
     "profile": DECODING + PROFILE,
+    "pack_profile": PACK + PACK_PROFILE,
+    "compact_pack_profile": COMPACT_PACK + COMPACT_PACK_PROFILE,
 }
 # What is measured of the decoder in one source, by each compiler.
 ONE_SOURCE_USES = {
@@ -118,14 +122,15 @@ def measure_library(options, library):
         graphs = [graph for graph in graphs if Path(graph).exists()]
         image = str(options.build / "linked")
         all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
-        others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + CLEARANCE + PROFILE
+        others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + CLEARANCE + PROFILE + PACK_PROFILE + COMPACT_PACK_PROFILE
         link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + others + all_packs, image)
         calls = stack.Stack(options.target, options.objdump, image, graphs)
         own = {
             "decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT, "pack": PACK,
             "pack_queries": PACK_QUERIES, "compact_pack": COMPACT_PACK, "compact_pack_queries": COMPACT_PACK_QUERIES,
             "notes": NOTES, "safe_heights": SAFE_HEIGHTS, "segments": SEGMENTS, "pack_check": PACK_CHECK,
-            "clearance": CLEARANCE, "profile": PROFILE,
+            "clearance": CLEARANCE, "profile": PROFILE, "pack_profile": PACK_PROFILE,
+            "compact_pack_profile": COMPACT_PACK_PROFILE,
         }  # fmt: skip
         for use, entries in own.items():
             result["stack_" + use] = max(calls.depth(symbol(options, entry)) for entry in entries)
@@ -262,6 +267,8 @@ USE_TITLES = {
     "pack_check": "packs, heights, checks",
     "clearance": "decoding, clearance of a path",
     "profile": "decoding, a profile",
+    "pack_profile": "packs, a profile",
+    "compact_pack_profile": "packs with compact slots, a profile",
 }
 STACK_TITLES = {
     "decoding": "decoding",
@@ -275,6 +282,8 @@ STACK_TITLES = {
     "pack_check": "checks of packs",
     "clearance": "clearance of a path",
     "profile": "a profile",
+    "pack_profile": "a profile through a pack",
+    "compact_pack_profile": "a profile through a pack, compact slots",
 }
 
 
@@ -286,9 +295,13 @@ def code_table(budget, level):
     return table(["target", *(USE_TITLES[use] for use in USES)], rows)
 
 
+def stack_cell(numbers, use):
+    return count(numbers["stack_" + use]) if "stack_" + use in numbers else "-"
+
+
 def stack_table(budget, level):
     rows = [
-        [target, *(count(numbers[level]["stack_" + use]) for use in STACK_TITLES)]
+        [target, *(stack_cell(numbers[level], use) for use in STACK_TITLES)]
         for target, numbers in budget.items()
         if "stack_decoding" in numbers[level]
     ]

@@ -72,6 +72,11 @@ class PackDevice {
     return is_compact_ ? microtin_compact_pack_path_clearance(pack, &path, clearance, flags)
                        : microtin_pack_path_clearance(pack, &path, clearance, flags);
   }
+  microtin_query_result profile_next(const microtin_segment& segment, microtin_segment_state* state,
+                                     microtin_crossing* crossing) const {
+    return is_compact_ ? microtin_compact_pack_profile_next(pack, &segment, state, crossing)
+                       : microtin_pack_profile_next(pack, &segment, state, crossing);
+  }
   microtin_query_result highest_on(const microtin_segment& segment, int32_t* height) const {
     microtin_segment_extremes extremes;
     const microtin_query_result answer = segment_extremes(segment, &extremes);

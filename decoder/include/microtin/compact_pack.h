@@ -84,6 +84,12 @@ microtin_query_result microtin_compact_pack_path_clearance(const microtin_pack* 
                                                            microtin_path_clearance* clearance,
                                                            uint32_t flags);
 
+/* Returns the places of a profile one after another, as microtin_pack_profile_next does. */
+microtin_query_result microtin_compact_pack_profile_next(const microtin_pack* pack,
+                                                         const microtin_segment* segment,
+                                                         microtin_segment_state* state,
+                                                         microtin_crossing* crossing);
+
 /* Stores the heights of a grid, as microtin_pack_sample_grid does. */
 microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,
                                                         const microtin_grid_spec* grid,

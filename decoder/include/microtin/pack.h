@@ -275,6 +275,26 @@ microtin_query_result microtin_pack_path_clearance(const microtin_pack* pack,
                                                    microtin_path_clearance* clearance,
                                                    uint32_t flags);
 
+/* Returns the places of the profile along a segment one after another, as
+ * microtin_mesh_profile_next does, from the tiles that are loaded. A place on a border of tiles is
+ * returned once, with the height of any tile that has one. The place where the segment leaves a
+ * tile is left out if no tile has a height there.
+ *
+ * Begin with a state of zeros, and with another one when the segment changes. Tiles may be loaded
+ * between two calls: places are returned from there on.
+ *
+ * - OK: *crossing is the next place; after the end it is the end again. Its `before` is the worst
+ *   result of what lies between: NOT_LOADED, BAD_TILE, OUTSIDE (the pack) or VOID, in this order
+ * - OUTSIDE: the segment is too long
+ * - NOT_LOADED: the header is not loaded
+ * - WRONG_PACK_KIND: a pack of compact_pack.h
+ *
+ * A call takes the walk steps to the next place, and O(columns + rows) of the tiles between. */
+microtin_query_result microtin_pack_profile_next(const microtin_pack* pack,
+                                                 const microtin_segment* segment,
+                                                 microtin_segment_state* state,
+                                                 microtin_crossing* crossing);
+
 /* Stores the heights of a grid, with parameters and results of microtin_mesh_sample_grid.
  * NOT_LOADED takes precedence over all other results. */
 microtin_query_result microtin_pack_sample_grid(const microtin_pack* pack,

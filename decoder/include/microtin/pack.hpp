@@ -96,6 +96,11 @@ class Pack : public PackFace {
                                        uint32_t flags = 0) const {
     return microtin_pack_path_clearance(pack_, &path, clearance, flags);
   }
+  // Calls microtin_pack_profile_next.
+  microtin_query_result profile_next(const microtin_segment& segment, microtin_segment_state* state,
+                                     microtin_crossing* crossing) const {
+    return microtin_pack_profile_next(pack_, &segment, state, crossing);
+  }
   // Calls microtin_pack_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
     return microtin_pack_sample_grid(pack_, &grid, heights);

@@ -76,10 +76,11 @@ microtin_query_result microtin_mesh_segment_extremes(const microtin_mesh* mesh,
 /* A place of a profile: the begin of the segment, its end, a vertex on it, or where it crosses an
  * edge. Between two places with terrain the height is linear. */
 typedef struct microtin_crossing {
-  int32_t along;            /* the place, see microtin_segment_extremes */
-  int32_t height;           /* z steps, 16 fractional bits, rounded once; INT32_MIN: none */
-  uint32_t result;          /* a microtin_query_result: OK, or why there is no height */
-  uint32_t is_known_before; /* 1: there is terrain from the place before up to this one */
+  int32_t along;   /* the place, see microtin_segment_extremes */
+  int32_t height;  /* z steps, 16 fractional bits, rounded once; INT32_MIN: none */
+  uint32_t result; /* a microtin_query_result: OK, or why there is no height */
+  uint32_t before; /* a microtin_query_result: OK: there is terrain from the place before up to this
+                      one; or VOID, OUTSIDE, and on packs NOT_LOADED, BAD_TILE */
 } microtin_crossing;
 
 /* Returns the places of the profile along a segment one after another, each once, from the begin to
