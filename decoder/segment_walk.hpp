@@ -36,13 +36,14 @@ enum class WalkStage : uint8_t {
   kInside,    // in one that the line enters
   kTouch,     // in a ghost whose edge begins on the line, with all terrain to the right
   kBeyond,    // beyond the terrain
+  kEnding,    // in the one that holds the end, within a step
   kEnded
 };
 
 // The stage that a state holds; a state may hold any number.
 inline WalkStage stage_of(uint32_t stage) {
-  return stage < static_cast<uint32_t>(WalkStage::kEnded) ? static_cast<WalkStage>(stage)
-                                                          : WalkStage::kEnded;
+  return stage < static_cast<uint32_t>(WalkStage::kEnding) ? static_cast<WalkStage>(stage)
+                                                           : WalkStage::kEnded;
 }
 
 template <class Form>
@@ -88,12 +89,14 @@ class SegmentWalk {
 
   // A walk step, of a search all of them if it is not limited. True if it led to a crossing.
   MICROTIN_ONE_COPY bool step(bool is_limited, Crossing* c) {
-    if (stage_ == WalkStage::kInside) return pass(c);
     if (stage_ == WalkStage::kSearch) return search(is_limited, c);
-    if (stage_ == WalkStage::kTurn) return turn(c);
-    if (stage_ == WalkStage::kApproach) return approach(c);
-    if (stage_ == WalkStage::kTouch) return touch(c);
-    return finish_outside(c);
+    const bool is_found = stage_ == WalkStage::kInside     ? pass(c)
+                          : stage_ == WalkStage::kTurn     ? turn(c)
+                          : stage_ == WalkStage::kApproach ? approach(c)
+                          : stage_ == WalkStage::kTouch    ? touch(c)
+                                                           : finish(MICROTIN_QUERY_OUTSIDE, c);
+    if (stage_ == WalkStage::kEnding) set_end_height(c);
+    return is_found;
   }
 
  private:
@@ -181,30 +184,35 @@ class SegmentWalk {
 
   // Along hull edges that the begin sees, to that where the line enters.
   MICROTIN_ONE_COPY bool approach(Crossing* c) {
-    const Corner a = corner_of(cursor_.start()), b = corner_of(cursor_.end());
-    const bool forward = b.side <= 0;
-    if (a.side <= 0 && !forward) return enter_hull(a, b, c);
-    if (a.side > 0 && forward) return finish_outside(c);  // behind the begin
+    const bool forward = side(cursor_.end()) <= 0, is_right = side(cursor_.start()) <= 0;
+    if (is_right && !forward) return enter_hull(c);
+    if (!is_right && forward) return finish(MICROTIN_QUERY_OUTSIDE, c);  // behind the begin
     advance_on_hull(cursor_, forward);
     if (begin_side() > 0) return false;
-    const Corner next = corner_of(cursor_.start());
-    const Along along = along_line(next.at);
-    const bool touches = forward && next.side == 0 && along.part > 0 && along.part <= along.whole;
-    if (!touches) return finish_outside(c);
-    set_vertex(next, along, MICROTIN_QUERY_OUTSIDE, c);
+    if (forward) return touch_corner(c);
+    return finish(MICROTIN_QUERY_OUTSIDE, c);
+  }
+
+  // The hull edge begins at the last vertex that the begin sees, perhaps on the segment.
+  MICROTIN_OUT_OF_LINE bool touch_corner(Crossing* c) {
+    const Corner corner = corner_of(cursor_.start());
+    const Along along = along_line(corner.at);
+    const bool touches = corner.side == 0 && along.part > 0 && along.part <= along.whole;
+    if (!touches) return finish(MICROTIN_QUERY_OUTSIDE, c);
+    set_vertex(corner, along, MICROTIN_QUERY_OUTSIDE, c);
     stage_ = along.part < along.whole ? WalkStage::kTouch : WalkStage::kEnded;
     return true;
   }
 
-  bool enter_hull(const Corner& right, const Corner& left, Crossing* c) {
-    const int64_t to = orient(right.at, left.at, end_);
-    if (to > 0) return finish_outside(c);
+  bool enter_hull(Crossing* c) {
     cursor_.cross();
+    left_ = corner_of(cursor_.start());
+    right_ = corner_of(cursor_.end());
+    const int64_t to = orient(right_.at, left_.at, end_);
+    if (to > 0) return finish(MICROTIN_QUERY_OUTSIDE, c);
     if (to == 0) return finish_inside(MICROTIN_QUERY_OUTSIDE, c);
-    left_ = left;
-    right_ = right;
     stage_ = WalkStage::kInside;
-    return set_crossing(right, left, to, false, MICROTIN_QUERY_OUTSIDE, c);
+    return set_crossing(right_, left_, to, false, MICROTIN_QUERY_OUTSIDE, c);
   }
 
   // Through a triangle with corners on both sides, and over the edge where the line leaves it.
@@ -264,7 +272,7 @@ class SegmentWalk {
   // Along a hull edge on the line, if it is one. The terrain beyond it is all that knows it.
   MICROTIN_ONE_COPY bool touch(Crossing* c) {
     const Corner b = corner_of(cursor_.end());
-    if (b.side != 0) return finish_outside(c);
+    if (b.side != 0) return finish(MICROTIN_QUERY_OUTSIDE, c);
     const Along along = along_line(b.at);
     Cursor inside = cursor_;
     inside.cross();
@@ -276,25 +284,23 @@ class SegmentWalk {
     return along.part > 0 && set_vertex(b, along, known(inside.has_terrain()), c);
   }
 
-  // The end lies in this triangle.
+  // The end lies in this triangle. What finds its height is not called from here, to save stack.
   bool finish_inside(microtin_query_result before, Crossing* c) {
-    uint32_t hint = form_.number(cursor_);
-    int32_t height = 0;
-    const microtin_query_result answer =
-        form_.height_at(LocalPoint{end_.x + corner_.x, end_.y + corner_.y}, 0, &hint, &height);
-    finish(answer, before, c);
-    c->height = c->other = height;
+    finish(before, c);
+    stage_ = WalkStage::kEnding;
     return true;
   }
 
-  bool finish_outside(Crossing* c) {
-    return finish(MICROTIN_QUERY_OUTSIDE, MICROTIN_QUERY_OUTSIDE, c);
+  void set_end_height(Crossing* c) {
+    stage_ = WalkStage::kEnded;
+    c->answer = static_cast<uint8_t>(answer_at(cursor_, end(), &c->height));
+    c->other = c->height;
   }
 
-  bool finish(microtin_query_result answer, microtin_query_result before, Crossing* c) {
+  // The end lies outside.
+  bool finish(microtin_query_result before, Crossing* c) {
     stage_ = WalkStage::kEnded;
-    *c =
-        Crossing{Along{1, 1}, -1, 0, 0, static_cast<uint8_t>(answer), static_cast<uint8_t>(before)};
+    *c = Crossing{Along{1, 1}, -1, 0, 0, MICROTIN_QUERY_OUTSIDE, static_cast<uint8_t>(before)};
     return true;
   }
 
