@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -88,6 +89,12 @@ class PackSampler {
     return worst;
   }
 
+  TileMesh mesh_of(uint32_t number) {
+    const Tile& tile = tile_of(number);
+    return {tile.terrain ? tile.terrain->mesh() : nullptr,
+            tile.is_bad ? MICROTIN_QUERY_BAD_TILE : MICROTIN_QUERY_VOID};
+  }
+
  private:
   struct Range {
     uint32_t first, last;
@@ -99,6 +106,7 @@ class PackSampler {
     std::optional<DecodedTerrain> terrain;  // nothing if there is none
     MeshSampler sampler;
     bool is_bad = false;
+    std::string fault;   // of a bad one
     uint64_t asked = 0;  // when it was asked last
 
     uint32_t vertices() const { return terrain ? microtin_mesh_vertex_count(terrain->mesh()) : 0; }
@@ -112,6 +120,12 @@ class PackSampler {
   }
 
   Tile& tile_of(uint32_t number) {
+    Tile& tile = known_tile(number);
+    tile.asked = ++clock_;
+    return tile;
+  }
+
+  Tile& known_tile(uint32_t number) {
     const auto found = tiles_.find(number);
     if (found != tiles_.end()) return found->second;
     make_room();
@@ -119,17 +133,17 @@ class PackSampler {
       Tile& tile = tiles_.try_emplace(number, pack_.tile(number)).first->second;
       vertices_ += tile.vertices();
       return tile;
-    } catch (const Error&) {
-      if (bad_tiles_ == BadTiles::kThrow) throw;
+    } catch (const Error& error) {
+      Tile& bad = tiles_.try_emplace(number, std::nullopt).first->second;
+      bad.is_bad = true;
+      bad.fault = error.text();
+      return bad;
     }
-    Tile& bad = tiles_.try_emplace(number, std::nullopt).first->second;
-    bad.is_bad = true;
-    return bad;
   }
 
   ExactAnswer ask_tile(uint32_t number, const RealPlace& place) {
     Tile& tile = tile_of(number);
-    tile.asked = ++clock_;
+    if (tile.is_bad && bad_tiles_ == BadTiles::kThrow) throw Error(tile.fault);
     if (tile.is_bad) return {MICROTIN_QUERY_BAD_TILE, {0, 0, 1}};
     if (!tile.terrain) return {MICROTIN_QUERY_VOID, {0, 0, 1}};
     const TileBox box = tile_box(grid_, number);
@@ -176,6 +190,7 @@ SampledSurface sampled(const microtin_mesh* mesh) {
     surface.lowest = v == 0 ? z : std::min<int32_t>(surface.lowest, z);
     surface.highest = v == 0 ? z : std::max<int32_t>(surface.highest, z);
   }
+  surface.mesh_of = [mesh](uint32_t) { return TileMesh{mesh, MICROTIN_QUERY_OUTSIDE}; };
   ask(surface, std::make_shared<MeshSampler>(mesh));
   return surface;
 }
@@ -187,7 +202,10 @@ SampledSurface sampled(const PackFile& pack, BadTiles bad_tiles, uint64_t kept_v
   surface.y_max = pack.grid().y_max;
   surface.lowest = pack.header().lowest;
   surface.highest = pack.header().highest;
-  ask(surface, std::make_shared<PackSampler>(pack, bad_tiles, kept_vertices));
+  surface.tiles = pack.grid();
+  const auto sampler = std::make_shared<PackSampler>(pack, bad_tiles, kept_vertices);
+  surface.mesh_of = [sampler](uint32_t tile) { return sampler->mesh_of(tile); };
+  ask(surface, sampler);
   return surface;
 }
 

@@ -12,15 +12,23 @@
 
 namespace microtin::exporting {
 
+// The mesh of a tile, until the next tile is asked for; null if there is none.
+struct TileMesh {
+  const microtin_mesh* mesh;
+  microtin_query_result absent;  // why the tile has no height beyond the mesh
+};
+
 // A surface that can be asked. Lattice numbers; they count from the pack's first post.
 struct SampledSurface {
   Placement placement;
-  int64_t x_min = 0, y_min = 0, x_max = 0, y_max = 0;  // the box that holds it
-  int32_t lowest = 0, highest = 0;                     // vertex
+  TileGrid tiles{kLatticeMax, kLatticeMax, kLatticeMax, kLatticeMax};  // of a stream one
+  int64_t x_min = 0, y_min = 0, x_max = 0, y_max = 0;                  // the box that holds it
+  int32_t lowest = 0, highest = 0;                                     // vertex
   bool is_degrees = false;  // places whose x is 360 more or less are the same
   // The exact height at a place, HEIGHT, or OUTSIDE, IN_VOID or IN_BAD_TILE. Quick anywhere,
   // quickest near the place before.
   std::function<ExactAnswer(const RealPlace& place)> height_at;
+  std::function<TileMesh(uint32_t tile)> mesh_of;
 };
 
 // The mesh must outlive it.

@@ -160,7 +160,9 @@ PlaceQuery::PlaceQuery(const std::string& path) : content_(opened(path)) {
   const Metadata notes = pack != nullptr
                              ? pack->file->metadata()
                              : read_header(std::get<DecodedStream>(content_).bytes).metadata;
-  surface_.is_degrees = notes.horizontal_unit == Unit::kDegree;
+  horizontal_ = notes.horizontal_unit;
+  vertical_ = notes.vertical_unit;
+  surface_.is_degrees = horizontal_ == Unit::kDegree;
 }
 
 std::vector<Axis> PlaceQuery::names_of_x(bool on_lattice) const {
@@ -182,6 +184,12 @@ ExactAnswer PlaceQuery::height_at(Decimal x, Decimal y, bool on_lattice) {
   }
   expect_read();
   return answer;
+}
+
+encoder::Profile PlaceQuery::profile(Position from, Position to) {
+  encoder::Profile profile = profile_of(surface_, horizontal_, vertical_, from, to);
+  expect_read();
+  return profile;
 }
 
 void PlaceQuery::expect_read() const {

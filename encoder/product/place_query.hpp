@@ -11,6 +11,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/export/height_sampler.hpp"
+#include "encoder/export/profile.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/layers.hpp"
 #include "encoder/pack/file.hpp"
@@ -62,6 +63,12 @@ class PlaceQuery {
   // VOID or BAD_TILE. Throws Error if a pack's file cannot be read.
   ExactAnswer height_at(Decimal x, Decimal y, bool on_lattice);
 
+  // The heights along the line between two positions in real units. Throws Error as height_at.
+  encoder::Profile profile(Position from, Position to);
+
+  // The unit of heights.
+  Unit vertical_unit() const { return vertical_; }
+
   // The answer of a device, which rounds the place, of at most kDeviceDecimals decimals, to 1/256
   // of a lattice step, and the height to 1/65536 of a z step.
   static constexpr int kDeviceDecimals = 7;
@@ -86,6 +93,7 @@ class PlaceQuery {
 
   std::variant<DecodedStream, Pack> content_;
   SampledSurface surface_;
+  Unit horizontal_ = Unit::kUnknown, vertical_ = Unit::kUnknown;
   uint32_t hint_ = 0;
 };
 

@@ -14,6 +14,7 @@
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/export/grid.hpp"
+#include "encoder/export/profile.hpp"
 #include "encoder/product/document.hpp"
 #include "encoder/stream/header.hpp"
 #include "encoder/terrain/everywhere.hpp"
@@ -282,6 +283,15 @@ void Surface::heights(size_t count, const double* x, const double* y, double* he
   std::stable_sort(queries.begin(), queries.end(),
                    [](const Query& a, const Query& b) { return a.tile < b.tile; });
   for (const Query& query : queries) heights[query.index] = content_->height(query.place);
+}
+
+Profile Surface::profile(const Position& from, const Position& to) const {
+  const SurfaceInfo& all = content_->info;
+  const auto unit = [](Unit known) { return static_cast<exact::Unit>(known); };
+  return base::with_file_context(content_->document.path(), [&] {
+    return exporting::profile_of(content_->sampled, unit(all.horizontal_unit),
+                                 unit(all.vertical_unit), {from.x, from.y}, {to.x, to.y});
+  });
 }
 
 void Surface::heights(const Grid& grid, const Rectangle& rectangle, double* heights) const {

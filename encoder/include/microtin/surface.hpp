@@ -15,6 +15,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <microtin/profile.hpp>
 #include <string>
 #include <vector>
 
@@ -168,6 +169,17 @@ class Surface {
    *   Surface::from_file("area.mtp").heights(1, &x, &y, &height);
    */
   void heights(size_t count, const double* x, const double* y, double* heights) const;
+
+  /* A position in the surface's coordinates. */
+  struct Position {
+    double x = 0, y = 0;
+  };
+  /* Returns the heights along the straight line between two positions, which may lie outside. In
+   * degrees the line takes the shorter way around the Earth, and is straight in degrees. It bends
+   * at borders of tiles and of the lattice, by at most 1/512 of a lattice step. Tiles that cannot
+   * be read are parts of the line without heights. Throws if a position is not a number, or 2^32
+   * lattice steps away. Takes O(triangles on the line + sqrt(triangles)), and the decoding. */
+  Profile profile(const Position& from, const Position& to) const;
 
   /* A rectangle of posts of a grid, inside or outside it. */
   struct Rectangle {
