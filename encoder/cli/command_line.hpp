@@ -22,6 +22,7 @@ void add_merge(CLI::App& app, Action& action);
 void add_decode(CLI::App& app, Action& action);
 void add_embed(CLI::App& app, Action& action);
 void add_height_command(CLI::App& app, Action& action, int& code);  // its exit code
+void add_profile(CLI::App& app, Action& action, int& code);         // its exit code
 void add_info(CLI::App& app, Action& action);
 void add_check(CLI::App& app, Action& action);
 void add_diff(CLI::App& app, Action& action);

@@ -4,6 +4,7 @@
 #define MICROTIN_ENCODER_CLI_COMMANDS_HPP
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include "encoder/picture/palette.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/options.hpp"
+#include "microtin/microtin.h"
 
 namespace microtin::cli {
 
@@ -73,8 +75,33 @@ struct HeightRequest {
 // Where a place has no height, and where the file is damaged: exit codes.
 constexpr int kOutside = 5, kInVoid = 6, kDamaged = 7;
 
+// "outside", "void" or "damaged", and these codes; 0 where there are heights.
+const char* word_for(microtin_query_result answer);
+int code_for(microtin_query_result answer);
+
+// The code that `work` returns; if a file is damaged, prints the error and returns kDamaged.
+int code_unless_damaged(const std::function<int()>& work);
+
 // Prints heights, or words where there are none. Returns the exit code.
 int run_height(const HeightRequest& request);
+
+struct ProfileRequest {
+  std::string input;
+  std::string output;  // empty: none
+  Place from, to;
+  std::optional<Decimal> from_height, to_height;      // above the ground
+  std::optional<Decimal> from_altitude, to_altitude;  // above the datum
+  std::optional<Decimal> frequency;                   // in MHz
+  uint32_t zone_share = 60;                           // percent
+  double earth_factor = 4.0 / 3;
+  uint32_t samples = 0;  // 0: all places of the profile
+  uint32_t width = 1024;
+  bool safe = false;
+  bool json = false;
+};
+
+// Prints what a line crosses, and whether its ends see each other. Returns the exit code.
+int run_profile(const ProfileRequest& request);
 
 void run_info(const std::string& input, bool json);
 

@@ -3,6 +3,7 @@
 // standard input.
 #include <algorithm>
 #include <cstdio>
+#include <functional>
 
 #include "encoder/cli/commands.hpp"
 #include "encoder/cli/report.hpp"
@@ -16,30 +17,6 @@ namespace microtin::cli {
 namespace {
 
 constexpr int kDecimals = 3;  // of a height: millimetres, where the unit is the metre
-
-const char* word_for(microtin_query_result answer) {
-  switch (answer) {
-    case MICROTIN_QUERY_VOID:
-      return "void";
-    case MICROTIN_QUERY_BAD_TILE:
-      return "damaged";
-    default:
-      return "outside";
-  }
-}
-
-int code_for(microtin_query_result answer) {
-  switch (answer) {
-    case MICROTIN_QUERY_OK:
-      return 0;
-    case MICROTIN_QUERY_VOID:
-      return kInVoid;
-    case MICROTIN_QUERY_BAD_TILE:
-      return kDamaged;
-    default:
-      return kOutside;
-  }
-}
 
 struct Answer {
   microtin_query_result kind;
@@ -73,6 +50,39 @@ std::string answered(PlaceQuery& query, std::string_view lines, const HeightRequ
 
 }  // namespace
 
+const char* word_for(microtin_query_result answer) {
+  switch (answer) {
+    case MICROTIN_QUERY_VOID:
+      return "void";
+    case MICROTIN_QUERY_BAD_TILE:
+      return "damaged";
+    default:
+      return "outside";
+  }
+}
+
+int code_for(microtin_query_result answer) {
+  switch (answer) {
+    case MICROTIN_QUERY_OK:
+      return 0;
+    case MICROTIN_QUERY_VOID:
+      return kInVoid;
+    case MICROTIN_QUERY_BAD_TILE:
+      return kDamaged;
+    default:
+      return kOutside;
+  }
+}
+
+int code_unless_damaged(const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const Damaged& damaged) {
+    std::fputs(("microtin: " + std::string(damaged.what()) + '\n').c_str(), stderr);
+    return kDamaged;
+  }
+}
+
 std::optional<Place> parse_place(std::string_view text, bool for_device) {
   const int decimals = for_device ? PlaceQuery::kDeviceDecimals : kPlaceDecimals;
   constexpr const char* kBetween = " \t,;";
@@ -96,7 +106,7 @@ int run_height(const HeightRequest& request) {
     throw Error(
         "standard input cannot have both the stream and the positions; name a file for the stream");
   }
-  try {
+  return code_unless_damaged([&] {
     PlaceQuery query(request.input);
     if (!request.place) {
       print(answered(query, without_mark(read_file("-")), request));
@@ -105,10 +115,7 @@ int run_height(const HeightRequest& request) {
     const Answer answer = ask(query, *request.place, request);
     print(answer.text + '\n');
     return code_for(answer.kind);
-  } catch (const Damaged& damaged) {
-    std::fputs(("microtin: " + std::string(damaged.what()) + '\n').c_str(), stderr);
-    return kDamaged;
-  }
+  });
 }
 
 }  // namespace microtin::cli

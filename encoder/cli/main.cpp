@@ -63,6 +63,7 @@ int run(int argc, char** argv) {
   add_embed(app, action);
   add_info(app, action);
   add_height_command(app, action, code);
+  add_profile(app, action, code);
   add_check(app, action);
   add_diff(app, action);
   add_verify(app, action);

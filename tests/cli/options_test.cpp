@@ -84,6 +84,7 @@ struct Row {
   std::string value;  // of the option
 };
 
+const char* const kProfile = "t.mtin 500 700 570 750";
 const char* const kRender = "m.mtin -o m.png --width 300";
 
 const std::vector<Row> kRows = {
@@ -138,6 +139,21 @@ const std::vector<Row> kRows = {
     {"embed", "--output", "", ""},
     {"height", "--lattice", "t.mtin 20 20", ""},
     {"height", "--device", "t.mtin 520.0038 720.0038", ""},
+    {"profile", "--output", "", ""},
+    {"profile", "--samples", "t.mtin 500 700 570 750", "3"},
+    {"profile", "--width", "t.mtin 500 700 570 750 -o o.png", "300"},
+    {"profile", "--json", "t.mtin 500 700 570 750", ""},
+    {"profile", "--from-height", kProfile, "9"},
+    {"profile", "--to-height", kProfile, "9"},
+    {"profile", "--from-altitude", kProfile, "99"},
+    {"profile", "--to-altitude", kProfile, "99"},
+    {"profile", "--earth-factor", "t.mtin 500 700 570 750 --to-height 5", "flat"},
+    {"profile", "--frequency", "t.mtin 500 700 570 750 --to-height 5", "868"},
+    {"profile", "--zone-share",
+     "t.mtin 500 700 570 750 --to-altitude 98.5 --from-altitude 98.5 "
+     "--frequency 1",
+     "10"},
+    {"profile", "--safe", "t.mtin 500 700 570 750 --to-height 5", ""},
     {"info", "--json", "t.mtin", ""},
     {"check", "--json", "t.mtin", ""},
     {"diff", "--json", "s.mtp s.mtp", ""},
@@ -264,15 +280,15 @@ TEST_CASE("options: the default of the help page makes no difference") {
     const std::string without = all_of(session, words);
     CHECK(without == all_of(session, words.append(" ").append(row.option + " " + usual)));
   }
-  CHECK(text_of(compared) ==
-        text_of(Names{"--bound-at", "--coding", "--duplicates", "--fill-voids", "--palette",
-                      "--seed", "--shards", "--size", "--surface", "--tile-vertices", "--width"}));
+  CHECK(text_of(compared) == text_of(Names{"--bound-at", "--coding", "--duplicates", "--fill-voids",
+                                           "--palette", "--seed", "--shards", "--size", "--surface",
+                                           "--tile-vertices", "--width", "--zone-share"}));
 }
 
 TEST_CASE("options: none is without a row") {
   const Session session;
-  for (const char* command : {"encode", "merge", "decode", "embed", "height", "info", "check",
-                              "diff", "verify", "fractal", "render"}) {
+  for (const char* command : {"encode", "merge", "decode", "embed", "height", "profile", "info",
+                              "check", "diff", "verify", "fractal", "render"}) {
     CAPTURE(command);
     Names known;
     for (const Row& row : kRows) {
