@@ -23,6 +23,7 @@ using encoder::ProfilePlace;
 
 constexpr int64_t kStep = 256;  // positions have 8 fractional bits
 constexpr double kMeanRadius = 6371008.8;
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 struct Fine {
   int64_t x, y;
@@ -46,7 +47,7 @@ struct Found {
   int32_t height;
   microtin_query_result result;
   microtin_query_result before;  // OK: there is terrain from the place before up to this one
-  Margins margins;
+  double below, above;           // the margins; NaN if they are not stated
 };
 
 using FoundPlaces = std::vector<Found>;
@@ -69,7 +70,8 @@ void join(const Found& other, Found& found) {
   }
   found.result = MICROTIN_QUERY_OK;
   found.height = other.height;
-  found.margins = other.margins;
+  found.below = other.below;
+  found.above = other.above;
 }
 
 class LineWalk {
@@ -165,15 +167,15 @@ class LineWalk {
         continue;
       }
       best[i].before = MICROTIN_QUERY_OK;
-      best[i].margins = other[i].margins;
+      best[i].below = other[i].below;
+      best[i].above = other[i].above;
     }
   }
 
   FoundPlaces in_tile(uint32_t tile, const Cut& begin, const Cut& end) const {
     const TileMesh found = surface_.mesh_of(tile);
     if (found.mesh == nullptr) return absent(begin, end, found.absent);
-    Margins margins;
-    microtin_mesh_margins(found.mesh, &margins.below, &margins.above);
+    const auto [below, above] = margins_of(found.mesh);
     const TileBox box = tile_box(grid_, tile);
     const Fine a = local(box, begin.at), b = local(box, end.at);
     const microtin_segment segment = {a.x, a.y, b.x, b.y};
@@ -191,13 +193,20 @@ class LineWalk {
       };
       const double along = from + length * (crossing.along / double{MICROTIN_ALONG_END});
       places.push_back({crossing.along == MICROTIN_ALONG_END ? end.along() : along, crossing.height,
-                        reason(crossing.result), reason(crossing.before), margins});
+                        reason(crossing.result), reason(crossing.before), below, above});
     } while (crossing.along != MICROTIN_ALONG_END);
     return places;
   }
 
+  std::pair<double, double> margins_of(const microtin_mesh* mesh) const {
+    Margins margins;
+    microtin_mesh_margins(mesh, &margins.below, &margins.above);
+    const auto stated = stated_everywhere(margins, surface_.placement.z);
+    return stated ? std::pair(real(stated->below), real(stated->above)) : std::pair(kNone, kNone);
+  }
+
   static FoundPlaces absent(const Cut& begin, const Cut& end, microtin_query_result why) {
-    return {{begin.along(), 0, why, why, {}}, {end.along(), 0, why, why, {}}};
+    return {{begin.along(), 0, why, why, kNone, kNone}, {end.along(), 0, why, why, kNone, kNone}};
   }
 
   // Rounding does not lead out of a tile; the line's middle may, by a rounding of its own.
@@ -276,7 +285,7 @@ class Way {
 
   // The largest distance of the line from the great circle through its ends.
   double geodesic_deviation() const {
-    if (unit_ != Unit::kDegree) return std::numeric_limits<double>::quiet_NaN();
+    if (unit_ != Unit::kDegree) return kNone;
     const Vector normal = cross_product(direction(at(0)), direction(at(1)));
     const double size = std::sqrt(dot(normal, normal));
     if (size < 1e-12) return 0;
@@ -307,10 +316,8 @@ ProfilePlace place_of(const Found& found, const Axis& z) {
   ProfilePlace place;
   place.along = found.along;
   if (found.result == MICROTIN_QUERY_OK) place.height = real_at(z, found.height / 65536.0);
-  const auto margins = stated_everywhere(found.margins, z);
-  if (!margins) return place;
-  place.below = real(margins->below);
-  place.above = real(margins->above);
+  place.below = found.below;
+  place.above = found.above;
   return place;
 }
 

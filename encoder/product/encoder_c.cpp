@@ -26,7 +26,9 @@ struct microtin_source {
 
 struct microtin_surface {
   Surface surface;
-  Mesh mesh;  // handed out last
+  Mesh mesh;  // handed out last, as the two below
+  std::vector<double> places = {};
+  std::vector<uint8_t> known = {};
   std::vector<microtin_phase> phases = {};
 };
 
@@ -244,6 +246,47 @@ microtin_status hand_out(microtin_surface* surface, microtin_triangles* triangle
   });
 }
 
+microtin_profile hand_out(microtin_surface& surface, const Profile& profile) {
+  surface.places.clear();
+  surface.known.clear();
+  for (const ProfilePlace& p : profile.places) {
+    surface.places.insert(surface.places.end(),
+                          {p.along, p.distance, p.x, p.y, p.height, p.below, p.above});
+    surface.known.push_back(p.is_known_before ? 1 : 0);
+  }
+  return {0,
+          profile.places.size(),
+          surface.places.data(),
+          surface.known.data(),
+          profile.length,
+          profile.earth_radius,
+          profile.geodesic_deviation,
+          static_cast<uint32_t>(profile.result)};
+}
+
+SightOptions options_of(const microtin_sight_options& given) {
+  SightOptions options;
+  if (given.earth_factor != 0) options.earth_factor = given.earth_factor;
+  options.frequency = given.frequency;
+  if (given.zone_share != 0) options.zone_share = given.zone_share;
+  options.is_safe = given.is_safe != 0;
+  return options;
+}
+
+void write_sight(const LineOfSight& sight, const microtin_sights& to, uint64_t i) {
+  const auto write = [i](double* numbers, double value) {
+    if (numbers != nullptr) numbers[i] = value;
+  };
+  if (to.line != nullptr) to.line[i] = static_cast<uint8_t>(sight.line);
+  if (to.zone != nullptr) to.zone[i] = static_cast<uint8_t>(sight.zone);
+  write(to.least_clearance, sight.least_clearance);
+  write(to.least_clearance_at, sight.least_clearance_at);
+  write(to.first_obstruction, sight.first_obstruction);
+  write(to.first_zone_obstruction, sight.first_zone_obstruction);
+  write(to.free_share, sight.free_share);
+  write(to.free_share_at, sight.free_share_at);
+}
+
 microtin_surface_info info_of(const SurfaceInfo& all) {
   microtin_surface_info info{};
   info.bytes = all.bytes;
@@ -424,6 +467,33 @@ microtin_status microtin_surface_heights(microtin_surface* surface, uint64_t cou
     expect(y);
     expect(heights);
     surface->surface.heights(count, x, y, heights);
+  });
+}
+
+microtin_status microtin_surface_profile(microtin_surface* surface, double x, double y,
+                                         double x_end, double y_end, microtin_profile* profile) {
+  return guarded([&] {
+    expect(surface);
+    expect_struct(profile);
+    write_struct(hand_out(*surface, surface->surface.profile({x, y}, {x_end, y_end})), profile);
+  });
+}
+
+microtin_status microtin_surface_lines_of_sight(microtin_surface* surface, uint64_t count,
+                                                const double* ends,
+                                                const microtin_sight_options* options,
+                                                const microtin_sights* sights) {
+  return guarded([&] {
+    expect(surface);
+    const microtin_sights to = read_struct(sights);
+    const auto given = options != nullptr ? read_struct(options) : microtin_sight_options{};
+    if (count != 0) expect(ends);
+    for (uint64_t i = 0; i < count; ++i, ends += 6) {
+      const Profile profile = surface->surface.profile({ends[0], ends[1]}, {ends[3], ends[4]});
+      write_sight(line_of_sight(profile, {ends[2], given.from_datum != 0},
+                                {ends[5], given.to_datum != 0}, options_of(given)),
+                  to, i);
+    }
   });
 }
 

@@ -225,6 +225,76 @@ void expect_same_margins(const Both& both, uint32_t column, uint32_t row) {
   CHECK(!found.max_below_everywhere.empty());
 }
 
+bool is_same_number(double a, double b) {
+  return std::isnan(a) ? std::isnan(b) : a == b;
+}
+
+void expect_same_profile(const library::Profile& cpp, const microtin_profile& c) {
+  REQUIRE(c.count == cpp.places.size());
+  CHECK(c.length == cpp.length);
+  CHECK(c.earth_radius == cpp.earth_radius);
+  CHECK(is_same_number(c.geodesic_deviation, cpp.geodesic_deviation));
+  CHECK(c.result == static_cast<uint32_t>(cpp.result));
+  for (size_t i = 0; i < c.count; ++i) {
+    const library::ProfilePlace& p = cpp.places[i];
+    const double expected[] = {p.along, p.distance, p.x, p.y, p.height, p.below, p.above};
+    for (size_t k = 0; k < 7; ++k) CHECK(is_same_number(c.places[7 * i + k], expected[k]));
+    CHECK((c.is_known_before[i] != 0) == p.is_known_before);
+  }
+}
+
+// Compares lines inside, across the rim, and of no length, by each option.
+void expect_same_profiles(const Both& both) {
+  const double ends[] = {1, 2, 3, 10, 5, 4, -3, 1, 9, 8, 4, 1, 4, 4, 1, 4, 4, 2};
+  constexpr size_t kLines = 3;
+  microtin_sight_options usual{};
+  usual.size = sizeof usual;
+  microtin_sight_options flat = usual, radio = usual, datum = usual, safe = usual;
+  flat.earth_factor = 1e-3;  // a small ball
+  radio.frequency = 2400;
+  radio.zone_share = 0.1;
+  datum.from_datum = 1;
+  datum.to_datum = 1;
+  safe.is_safe = 1;
+  for (const microtin_sight_options& given : {usual, flat, radio, datum, safe}) {
+    uint8_t line[kLines], zone[kLines];
+    double numbers[6][kLines];
+    const microtin_sights to = {sizeof to,  line,       zone,       numbers[0], numbers[1],
+                                numbers[2], numbers[3], numbers[4], numbers[5]};
+    REQUIRE(microtin_surface_lines_of_sight(both.c, kLines, ends, &given, &to) ==
+            MICROTIN_STATUS_OK);
+    library::SightOptions options;
+    if (given.earth_factor != 0) options.earth_factor = given.earth_factor;
+    if (given.zone_share != 0) options.zone_share = given.zone_share;
+    options.frequency = given.frequency;
+    options.is_safe = given.is_safe != 0;
+    for (size_t i = 0; i < kLines; ++i) {
+      const double* const e = ends + 6 * i;
+      const library::Profile profile = both.cpp.profile({e[0], e[1]}, {e[3], e[4]});
+      microtin_profile c{};
+      c.size = sizeof c;
+      REQUIRE(microtin_surface_profile(both.c, e[0], e[1], e[3], e[4], &c) == MICROTIN_STATUS_OK);
+      expect_same_profile(profile, c);
+      const library::LineOfSight sight = line_of_sight(profile, {e[2], given.from_datum != 0},
+                                                       {e[5], given.to_datum != 0}, options);
+      CHECK(line[i] == static_cast<uint8_t>(sight.line));
+      CHECK(zone[i] == static_cast<uint8_t>(sight.zone));
+      const double expected[] = {sight.least_clearance,   sight.least_clearance_at,
+                                 sight.first_obstruction, sight.first_zone_obstruction,
+                                 sight.free_share,        sight.free_share_at};
+      for (size_t k = 0; k < 6; ++k) CHECK(is_same_number(numbers[k][i], expected[k]));
+    }
+  }
+  microtin_sights nothing{};
+  nothing.size = sizeof nothing;
+  CHECK(microtin_surface_lines_of_sight(both.c, 3, ends, nullptr, &nothing) == MICROTIN_STATUS_OK);
+  CHECK(microtin_surface_lines_of_sight(both.c, 1, nullptr, nullptr, &nothing) ==
+        MICROTIN_STATUS_REJECTED);
+  flat.earth_factor = -1;
+  CHECK(microtin_surface_lines_of_sight(both.c, 1, ends, &flat, &nothing) ==
+        MICROTIN_STATUS_REJECTED);
+}
+
 }  // namespace
 
 TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
@@ -264,10 +334,18 @@ TEST_CASE("C: what a surface hands out is that of C++, of streams and packs") {
     CHECK(microtin_surface_tile(both.c, 0, info.tile_rows, &triangles) == MICROTIN_STATUS_REJECTED);
     expect_same_raster(both, "0.5");
     expect_same_heights(both);
+    expect_same_profiles(both);
   }
   CHECK(text_of(members_of(kC, "microtin_triangles")) ==
         "coordinates corners size triangles vertices ");
   CHECK(text_of(members_of(kC, "microtin_grid")) == "columns rows size x y ");
+  CHECK(text_of(members_of(kC, "microtin_profile")) ==
+        "count earth_radius geodesic_deviation is_known_before length places result size ");
+  CHECK(text_of(members_of(kC, "microtin_sight_options")) ==
+        "earth_factor frequency from_datum is_safe size to_datum zone_share ");
+  CHECK(text_of(members_of(kC, "microtin_sights")) ==
+        "first_obstruction first_zone_obstruction free_share free_share_at least_clearance "
+        "least_clearance_at line size zone ");
   CHECK(text_of(members_of(kC, "microtin_tile_margins")) ==
         "max_above_everywhere max_below_everywhere size ");
 }
@@ -326,7 +404,9 @@ TEST_CASE("C: a struct whose size is not set is refused, whichever it is") {
     microtin_triangles triangles{};
     c.raster.size = points.size = options.size = report.size = size;
     microtin_tile_margins margins{};
-    info.size = grid.size = triangles.size = margins.size = size;
+    microtin_profile profile{};
+    microtin_sights sights{};
+    info.size = grid.size = triangles.size = margins.size = profile.size = sights.size = size;
     uint8_t* bytes = nullptr;
     uint64_t count = 0;
     microtin_source* none = nullptr;
@@ -341,7 +421,9 @@ TEST_CASE("C: a struct whose size is not set is refused, whichever it is") {
           microtin_surface_sample_grid(surface, &grid, heights),
           microtin_surface_mesh(surface, &triangles),
           microtin_surface_tile(surface, 0, 0, &triangles),
-          microtin_surface_tile_margins(surface, 0, 0, &margins)}) {
+          microtin_surface_tile_margins(surface, 0, 0, &margins),
+          microtin_surface_profile(surface, 0, 0, 1, 1, &profile),
+          microtin_surface_lines_of_sight(surface, 0, nullptr, nullptr, &sights)}) {
       CHECK(status == MICROTIN_STATUS_REJECTED);
       CHECK(microtin_last_error() ==
             std::string("the size of a struct is not set: assign its sizeof"));

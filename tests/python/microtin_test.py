@@ -297,6 +297,62 @@ class Packs(unittest.TestCase):
         self.assertGreater(len(tin.tile(0, 0).vertices), 0)
 
 
+class Profiles(unittest.TestCase):
+    """Of a ridge of 50 m at x = 500, which is 20 m wide, and 1000 m of plain."""
+
+    def setUp(self):
+        ridge = [(x, y, 50 * (x == 500)) for x in (0, 490, 500, 510, 1000) for y in (0, 100)]
+        self.tin = microtin.decode(microtin.encode_points(ridge, 0.01, units="metre"))
+
+    def test_places(self):
+        profile = self.tin.profile((0, 0), (1000, 0))
+        self.assertEqual(profile.length, 1000)
+        self.assertIsNone(profile.missing)
+        numpy.testing.assert_allclose(profile.distance, [0, 490, 500, 510, 1000], atol=1e-5)
+        self.assertEqual(list(profile.height), [0, 0, 50, 0, 0])
+        self.assertEqual(list(profile.known_before), [False, True, True, True, True])
+        self.assertTrue(numpy.isnan(profile.geodesic_deviation))
+        numpy.testing.assert_allclose(profile.heights(201), self.tin.height_at(numpy.linspace(0, 1000, 201), 0), atol=1e-4)
+        beyond = self.tin.profile((500, 50), (1500, 50))
+        self.assertEqual(beyond.missing, "outside")
+        self.assertEqual(list(numpy.isnan(beyond.heights(5))), [False, False, False, True, True])
+
+    def test_lines_of_sight(self):
+        masts = [(0, 0, 49), (0, 0, 51), (0, 0, 80)]
+        found = self.tin.line_of_sight(masts, (1000, 0, 51), earth_factor=numpy.inf, frequency=868)
+        self.assertEqual(list(found.line), ["clear", "clear", "clear"])
+        self.assertEqual(list(found.zone), ["blocked", "blocked", "clear"])
+        numpy.testing.assert_allclose(found.least_clearance, [0, 1, 15.5], atol=1e-3)
+        numpy.testing.assert_allclose(found.least_clearance_at, 500, atol=1e-3)
+        self.assertEqual(found.free_share.shape, (3,))
+        pairs = self.tin.line_of_sight(numpy.reshape(masts, (3, 1, 3)), numpy.array([(1000, 0, 1), (1500, 0, 99)]), end_above="datum")
+        self.assertEqual(pairs.line.tolist(), [["blocked", "unknown"]] * 3)
+        one = self.tin.line_of_sight((0, 0, 49), (1000, 0, 49))
+        self.assertEqual(one.line, "blocked")
+        self.assertAlmostEqual(float(one.first_obstruction), 499.8, places=1)
+        self.assertEqual(self.tin.line_of_sight(numpy.empty((0, 3)), (1, 1, 1)).line.shape, (0,))
+
+    def test_safe(self):
+        tin = microtin.decode(microtin.encode(hills(), max_error=1))
+        line = (0, 0, 3), (20, 20, 3)
+        self.assertLess(tin.line_of_sight(*line, safe=True).least_clearance, tin.line_of_sight(*line).least_clearance)
+        with self.assertRaisesRegex(microtin.Error, "does not state how far"):
+            self.tin.line_of_sight((0, 0, 1), (9, 9, 1), safe=True)
+
+    def test_refusals(self):
+        for begin in ((0, 0), 3, (0, 0, 0, 0)):
+            with self.assertRaisesRegex(microtin.Error, "x, y and height|shape"):
+                self.tin.line_of_sight(begin, begin)
+        with self.assertRaisesRegex(microtin.Error, "pair of x and y"):
+            self.tin.profile((0, 0, 0), (1, 1))
+        with self.assertRaisesRegex(microtin.Error, "not a number near"):
+            self.tin.profile((numpy.nan, 0), (1, 1))
+        with self.assertRaisesRegex(microtin.Error, "frequency: is not a number"):
+            self.tin.line_of_sight((0, 0, 1), (9, 9, 1), frequency=-1)
+        with self.assertRaisesRegex(microtin.Error, "use ground or datum"):
+            self.tin.line_of_sight((0, 0, 1), (9, 9, 1), end_above="sea")
+
+
 class Refusals(unittest.TestCase):
     def refused(self, sentence, *arguments, **options):
         with self.assertRaisesRegex(microtin.Error, sentence):

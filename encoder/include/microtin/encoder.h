@@ -262,6 +262,54 @@ microtin_status microtin_surface_tile_margins(const microtin_surface* surface, u
 microtin_status microtin_surface_heights(microtin_surface* surface, uint64_t count, const double* x,
                                          const double* y, double* heights);
 
+/* --- Profiles and lines of sight ---
+ *
+ * profile.hpp defines the terms and units; encoder/docs/profiles.md has the model and its error. */
+
+/* The places of a profile; see encoder::ProfilePlace. They belong to the surface, and are valid
+ * until the next call that writes such a struct for it. */
+typedef struct microtin_profile {
+  size_t size;
+  uint64_t count;                 /* of places: at least 2 */
+  const double* places;           /* seven of each: along, distance, x, y, height, below, above */
+  const uint8_t* is_known_before; /* one of each place */
+  double length, earth_radius, geodesic_deviation;
+  uint32_t result; /* a microtin_query_result */
+} microtin_profile;
+
+/* Writes the profile of the straight line between two positions. */
+microtin_status microtin_surface_profile(microtin_surface* surface, double x, double y,
+                                         double x_end, double y_end, microtin_profile* profile);
+
+/* How lines of sight are judged; see encoder::SightOptions. */
+typedef struct microtin_sight_options {
+  size_t size;
+  double earth_factor;           /* 0: 4/3 */
+  double frequency;              /* MHz; 0: no Fresnel zone */
+  double zone_share;             /* 0: 0.6 */
+  uint32_t is_safe;              /* 1: by the highest that the source can be */
+  uint32_t from_datum, to_datum; /* 1: heights of that end are above the datum, not the ground */
+} microtin_sight_options;
+
+/* Values of `line` and `zone`. */
+enum { MICROTIN_SIGHT_CLEAR = 0, MICROTIN_SIGHT_BLOCKED = 1, MICROTIN_SIGHT_UNKNOWN = 2 };
+
+/* Where results are written, one number of each line; see encoder::LineOfSight. A null pointer
+ * leaves them out. */
+typedef struct microtin_sights {
+  size_t size;
+  uint8_t *line, *zone; /* MICROTIN_SIGHT_* */
+  double *least_clearance, *least_clearance_at, *first_obstruction, *first_zone_obstruction;
+  double *free_share, *free_share_at;
+} microtin_sights;
+
+/* Judges `count` lines of sight. `ends` has six numbers of each line: x, y and height of its begin,
+ * then those of its end. `options` may be null. */
+microtin_status microtin_surface_lines_of_sight(microtin_surface* surface, uint64_t count,
+                                                const double* ends,
+                                                const microtin_sight_options* options,
+                                                const microtin_sights* sights);
+
 /* Writes a grid of posts `cell` units apart, from the south-west corner on. `cell` is a decimal,
  * "0.25"; null selects the posts of the encoded raster. */
 microtin_status microtin_surface_grid(const microtin_surface* surface, const char* cell,

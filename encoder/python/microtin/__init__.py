@@ -33,7 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 from . import _library
 from ._library import Error, library
 
-__all__ = ["Error", "Report", "Stream", "Surface", "Tile", "decode", "encode", "encode_pack", "encode_points"]
+__all__ = ["Error", "LineOfSight", "Profile", "Report", "Stream", "Surface", "Tile", "decode", "encode", "encode_pack", "encode_points"]
 __version__: str = library.microtin_version_string().decode()
 
 Number = Union[int, float, str, decimal.Decimal]
@@ -45,6 +45,8 @@ _CODINGS = {"quick": 1, "balanced": 2, "dense": 3}
 _BOUND_AT = {"points": 1, "lattice": 2}
 _DUPLICATES = {"middle": 1, "lowest": 2, "highest": 3, "mean": 4}
 _SURFACES = {"unknown": 0, "ground": 1, "top": 2, "bed": 3, "geoid": 4, "obstacles": 5}
+_SIGHTS = numpy.array(["clear", "blocked", "unknown"])
+_MISSING = {0: None, 1: "outside", 2: "void"}
 _SIDES = (None, "both", "never_below", "never_above")
 UNITS = {0: None, 1: "metre", 2: "degree", 3: "foot", 4: "US survey foot"}
 
@@ -80,6 +82,64 @@ class Tile(NamedTuple):
 
     vertices: NDArray[numpy.float64]
     triangles: NDArray[numpy.uint32]
+
+
+@dataclass(frozen=True)
+class Profile:
+    """The heights along a line, in arrays of its places. Distances are metres; heights have the surface's unit.
+
+    along         the part of the line before each place, 0 .. 1
+    distance      from the begin of the line
+    x, y          in the surface's coordinates
+    height        NaN if there is none; linear between two places where known_before is true
+    known_before  whether the surface has heights from the place before up to this one
+    below, above  how far the source lies at most above and below the surface there; NaN if it is not stated
+    length        of the line
+    missing       why a part of the line has no heights: "outside", "void" or "damaged"; None if the whole line has heights
+    earth_radius  of the sphere that fits best at the line's middle
+    geodesic_deviation  how far the line is from the shortest one on the Earth; NaN unless x and y are in degrees
+    """
+
+    along: NDArray[numpy.float64]
+    distance: NDArray[numpy.float64]
+    x: NDArray[numpy.float64]
+    y: NDArray[numpy.float64]
+    height: NDArray[numpy.float64]
+    known_before: NDArray[numpy.bool_]
+    below: NDArray[numpy.float64]
+    above: NDArray[numpy.float64]
+    length: float
+    missing: Optional[str]
+    earth_radius: float
+    geodesic_deviation: float
+
+    def heights(self, count: int) -> NDArray[numpy.float64]:
+        """Heights at `count` places in equal parts of the line, both ends included; NaN where there is none."""
+        at = numpy.linspace(0.0, 1.0, count)
+        after = numpy.clip(numpy.searchsorted(self.along, at), 1, len(self.along) - 1)
+        before = after - 1
+        width = self.along[after] - self.along[before]
+        part = numpy.divide(at - self.along[before], width, out=numpy.ones(count), where=width > 0)
+        mixed = numpy.where(
+            self.known_before[after],
+            self.height[before] * (1 - part) + self.height[after] * part,
+            numpy.nan,
+        )
+        mixed = numpy.where(part == 1, self.height[after], mixed)
+        return numpy.where(part == 0, self.height[before], mixed)
+
+
+class LineOfSight(NamedTuple):
+    """Arrays of one shape. Distances are metres from the begin; clearances have the unit of heights; NaN: there is none."""
+
+    line: NDArray[numpy.str_]  # "clear", "blocked" or "unknown": no known height is in the way, but a part has no heights
+    zone: NDArray[numpy.str_]  # the same of the share of the first Fresnel zone; without a frequency that of the line
+    least_clearance: NDArray[numpy.float64]
+    least_clearance_at: NDArray[numpy.float64]
+    first_obstruction: NDArray[numpy.float64]  # where the terrain first blocks the line
+    first_zone_obstruction: NDArray[numpy.float64]
+    free_share: NDArray[numpy.float64]  # of the radius of the zone, at most 99; 0 if the line is blocked
+    free_share_at: NDArray[numpy.float64]
 
 
 # --- Encoding ---
@@ -519,6 +579,75 @@ class Surface:
         with self._lock:
             library.microtin_surface_heights(self._surface, x.size, *pointers)
         return heights if numpy.ndim(xs) or numpy.ndim(ys) else float(heights.reshape(-1)[0])
+
+    def profile(self, begin: ArrayLike, end: ArrayLike) -> Profile:
+        """The heights along the straight line between two positions (x, y), which may lie outside. In degrees the line takes
+        the shorter way around the Earth, and is straight in degrees. Raises Error if a position is not a number, or far from
+        the surface."""
+        ends = [numpy.asarray(position, numpy.float64) for position in (begin, end)]
+        if any(position.shape != (2,) for position in ends):
+            raise Error("an end of a profile is a pair of x and y")
+        found = _library.Profile()
+        with self._lock:
+            library.microtin_surface_profile(self._surface, *ends[0], *ends[1], found)
+            places = numpy.ctypeslib.as_array(found.places, (found.count, 7)).T.copy()
+            known = numpy.ctypeslib.as_array(found.is_known_before, (found.count,)).astype(numpy.bool_)
+        along, distance, x, y, height, below, above = places
+        missing = _MISSING.get(found.result, "damaged")
+        numbers = (found.length, missing, found.earth_radius, found.geodesic_deviation)
+        return Profile(along, distance, x, y, height, known, below, above, *numbers)
+
+    def line_of_sight(
+        self,
+        begin: ArrayLike,
+        end: ArrayLike,
+        *,
+        frequency: float = 0,
+        zone_share: float = 0.6,
+        earth_factor: float = 4 / 3,
+        safe: bool = False,
+        begin_above: str = "ground",
+        end_above: str = "ground",
+    ) -> LineOfSight:
+        """Whether ends see each other: arrays of positions (x, y, height) whose last axis has three numbers, and whose other
+        axes are broadcast together.
+
+        begin_above, end_above  "ground" or "datum": from where the heights of these ends count
+        frequency     in MHz: judge the first Fresnel zone, too, of whose radius `zone_share` has to be free
+        earth_factor  multiplies the radius of the Earth, for refraction: 4/3 for radio, 1 for none, inf for a flat Earth
+        safe          judge by the highest that the source can be; raises Error if the surface does not state its margins
+
+        The model and its error: encoder/docs/profiles.md. Takes some 0.1 ms for a line across 100 triangles, and the
+        decoding of tiles. Raises Error if a number is out of range."""
+        first, second = numpy.broadcast_arrays(*(numpy.asarray(ends, numpy.float64) for ends in (begin, end)))
+        if first.ndim == 0 or first.shape[-1] != 3:
+            raise Error("an end of a line of sight is x, y and height")
+        for above in (begin_above, end_above):
+            if above not in ("ground", "datum"):
+                raise Error(f"{above!r} is not allowed; use ground or datum")
+        if zone_share == 0 or earth_factor == 0:
+            raise Error("zone_share and earth_factor are above 0")
+        ends = numpy.ascontiguousarray(numpy.concatenate((first, second), axis=-1))
+        shape = ends.shape[:-1]
+        options = _library.SightOptions(
+            earth_factor=earth_factor,
+            frequency=frequency,
+            zone_share=zone_share,
+            is_safe=safe,
+            from_datum=begin_above == "datum",
+            to_datum=end_above == "datum",
+        )
+        codes = [numpy.empty(shape, numpy.uint8) for _ in range(2)]
+        numbers = [numpy.empty(shape) for _ in LineOfSight._fields[2:]]
+        sights = _library.Sights(
+            **dict(zip(LineOfSight._fields, (code.ctypes.data_as(ctypes.POINTER(ctypes.c_uint8)) for code in codes))),
+            **dict(zip(LineOfSight._fields[2:], (number.ctypes.data_as(_library.Doubles) for number in numbers))),
+        )
+        with self._lock:
+            library.microtin_surface_lines_of_sight(
+                self._surface, codes[0].size, ends.ctypes.data_as(_library.Doubles), options, sights
+            )
+        return LineOfSight(_SIGHTS[codes[0]], _SIGHTS[codes[1]], *numbers)
 
     def raster(self, cell: Optional[Number] = None, force: bool = False) -> Tuple[NDArray[numpy.float64], Tuple[float, ...]]:
         """Heights of all posts of the source, or of posts `cell` apart, row 0 northernmost, NaN where there is none; and

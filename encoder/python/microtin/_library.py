@@ -176,6 +176,45 @@ class Triangles(_Sized):
     ]
 
 
+class Profile(_Sized):
+    _fields_ = [
+        ("size", c_size_t),
+        ("count", c_uint64),
+        ("places", POINTER(c_double)),
+        ("is_known_before", POINTER(c_uint8)),
+        ("length", c_double),
+        ("earth_radius", c_double),
+        ("geodesic_deviation", c_double),
+        ("result", c_uint32),
+    ]
+
+
+class SightOptions(_Sized):
+    _fields_ = [
+        ("size", c_size_t),
+        ("earth_factor", c_double),
+        ("frequency", c_double),
+        ("zone_share", c_double),
+        ("is_safe", c_uint32),
+        ("from_datum", c_uint32),
+        ("to_datum", c_uint32),
+    ]
+
+
+class Sights(_Sized):
+    _fields_ = [
+        ("size", c_size_t),
+        ("line", POINTER(c_uint8)),
+        ("zone", POINTER(c_uint8)),
+        ("least_clearance", POINTER(c_double)),
+        ("least_clearance_at", POINTER(c_double)),
+        ("first_obstruction", POINTER(c_double)),
+        ("first_zone_obstruction", POINTER(c_double)),
+        ("free_share", POINTER(c_double)),
+        ("free_share_at", POINTER(c_double)),
+    ]
+
+
 OK, NO_MEMORY, CANCELLED, INTERNAL = 0, 65, 66, 67
 Doubles = POINTER(c_double)
 
@@ -192,6 +231,8 @@ _FUNCTIONS = {
     "surface_tile": [c_void_p, c_uint32, c_uint32, POINTER(Triangles)],
     "surface_tile_margins": [c_void_p, c_uint32, c_uint32, POINTER(TileMargins)],
     "surface_heights": [c_void_p, c_uint64, Doubles, Doubles, Doubles],
+    "surface_profile": [c_void_p, c_double, c_double, c_double, c_double, POINTER(Profile)],
+    "surface_lines_of_sight": [c_void_p, c_uint64, Doubles, POINTER(SightOptions), POINTER(Sights)],
     "surface_grid": [c_void_p, c_char_p, POINTER(Grid)],
     "surface_sample_grid": [c_void_p, POINTER(Grid), Doubles],
 }
