@@ -26,6 +26,26 @@ test("heights at every post keep the bound", { skip }, async () => {
   }
 });
 
+test("a profile through tiles has their heights, in order, and says what is not known", { skip }, async () => {
+  const pack = await Pack.open(bytes);
+  const [left, bottom, right, top] = [...pack.tileBox(0).slice(0, 2), ...pack.tileBox(pack.columns * pack.rows - 1).slice(2)];
+  const places = await pack.profile(left, bottom, right, top);
+  assert.ok(places.length > 30);
+  for (const [i, { along, x, y, height, isKnownBefore }] of places.entries()) {
+    assert.ok(i === 0 || along > places[i - 1].along);
+    assert.equal(isKnownBefore, i > 0);
+    assert.ok(Math.abs(height - (await pack.heightAt(x, y))) < 2 * pack.header.axes.z.step, `${x} ${y}`);
+  }
+  const highest = Math.max(...places.map(({ height }) => height));
+  assert.ok(Math.abs(highest - (await pack.segmentMax(left, bottom, right, top))) < 1e-3);
+  assert.deepEqual(await pack.profile(left - 1, bottom, right, top), []);
+  const damaged = bytes.slice();
+  damaged[damaged.length - 20] ^= 255; // of the last tile
+  const known = await (await Pack.open(damaged)).profile(left, bottom, right, top);
+  assert.ok(Number.isNaN(known.at(-1).height));
+  assert.ok(known[1].isKnownBefore && !known.at(-1).isKnownBefore);
+});
+
 test("tiles have no cracks: their borders are the same", { skip }, async () => {
   const pack = await Pack.open(bytes);
   const rightBorder = async (tile, side) => {

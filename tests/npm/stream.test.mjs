@@ -167,3 +167,30 @@ test("every damaged byte is told, and the module goes on", () => {
   }
   assert.equal(decode(bytes).vertexCount, 6);
 });
+
+test("a profile has the heights of the terrain, in order, and its ends", () => {
+  for (const name of goldenNames) {
+    const terrain = decode(goldenBytes(name));
+    const { axes } = terrain.header, { origin, positions } = terrain;
+    const far = positions.length - 3;
+    const ends = [0, far].flatMap((i) => [origin[0] + positions[i], origin[1] + positions[i + 1]]);
+    const places = terrain.profile(...ends);
+    assert.ok(places.length >= 2, name);
+    assert.equal(places[0].along, 0);
+    assert.equal(places.at(-1).along, 1);
+    assert.equal(places[0].isKnownBefore, false);
+    places.forEach(({ along, x, y, height, isKnownBefore }, i) => {
+      if (i === 0) return;
+      assert.ok(along >= places[i - 1].along);
+      const [mx, my] = [(x + places[i - 1].x) / 2, (y + places[i - 1].y) / 2];
+      const middle = terrain.heightAt(mx, my); // at the nearest 1/256 of a step
+      const steep = 2 + Math.abs(height - places[i - 1].height) / axes.z.step;
+      if (isKnownBefore && along - places[i - 1].along > 1e-3) {
+        assert.ok(Math.abs(middle - (height + places[i - 1].height) / 2) < steep * axes.z.step, `${name} ${mx} ${my}`);
+      }
+    });
+    assert.deepEqual(terrain.profile(NaN, 0, 1, 1), []);
+    assert.deepEqual(terrain.profile(-1e12, 0, 1, 1), []);
+    assert.throws(() => terrain.profile(0, 0, 1), TypeError);
+  }
+});

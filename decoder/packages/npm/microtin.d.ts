@@ -87,6 +87,18 @@ export interface Mesh {
   voids: Uint32Array;
 }
 
+/** A place of a profile: an end of the line, a vertex on it, or where it crosses an edge. */
+export interface ProfilePlace {
+  /** The part of the line before the place, 0 to 1. */
+  along: number;
+  x: number;
+  y: number;
+  /** NaN if there is none; linear between two places where isKnownBefore is true. */
+  height: number;
+  /** Whether there is terrain from the place before up to this one. */
+  isKnownBefore: boolean;
+}
+
 /** A terrain. While it is being decoded it holds what the sections that have passed their checks contain, and nothing of
  * a later section: no vertices before the first one has passed, and the last verified terrain after an error. It changes
  * only when {@link Decoder.push} or {@link decodeStream} yields it. Its arrays are copies, which it returns again until
@@ -103,6 +115,9 @@ export interface Terrain extends Mesh {
   /** The height at a real place; NaN outside, for NaN and infinities, or where the terrain is not known. Voids are known
    * once all is decoded. @throws TypeError if an argument is not a number */
   heightAt(x: number, y: number): number;
+  /** The places along the straight line between two real places, each rounded to 1/256 of a step; empty if an end lies
+   * outside the lattice, for NaN and infinities, or until all is decoded. @throws TypeError if an argument is not a number */
+  profile(x: number, y: number, xEnd: number, yEnd: number): ProfilePlace[];
 }
 
 /** Decodes a whole stream; await {@link ready} first. @throws MicrotinError, or TypeError if it is not a Uint8Array */
@@ -181,4 +196,7 @@ export class Pack {
   /** The exact greatest height on the straight segment; NaN if a part of it lies outside or where nothing is
    * known. @throws MicrotinError if a tile is damaged, RangeError if the segment touches more than 255 tiles */
   segmentMax(x: number, y: number, xEnd: number, yEnd: number): Promise<number>;
+  /** The places along the straight line between two real places, each rounded to 1/256 of a step; empty if an end lies
+   * outside. What damaged tiles hold is not known. @throws RangeError if the line touches more than 255 tiles */
+  profile(x: number, y: number, xEnd: number, yEnd: number): Promise<ProfilePlace[]>;
 }

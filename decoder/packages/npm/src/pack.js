@@ -4,6 +4,7 @@
 import { checkInteger, checkNumber } from "./check.js";
 import { axesAt, canHold, everywhereAt, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
+import { placesAlong } from "./profile.js";
 import { Source } from "./source.js";
 import {
   ARGUMENT, BAD_TILES, CHECKSUM, OK, MicrotinError, NEED_INPUT, NOT_FOUND, STEP_LIMIT, TOO_BIG, TRUNCATED,
@@ -196,6 +197,18 @@ export class Pack {
   async segmentMax(x, y, xEnd, yEnd) {
     return this.#ask([...this.#place(x, y), ...this.#place(xEnd, yEnd)], ({ calls, results }) =>
       calls.microtin_pack_segment_extremes(this.#pack, this.#segment, results + 4));
+  }
+
+  async profile(x, y, xEnd, yEnd) {
+    const ends = [...this.#place(x, y), ...this.#place(xEnd, yEnd)];
+    return this.#alone(async () => {
+      if (ends.some(Number.isNaN)) return [];
+      this.#putSegment(ends);
+      await this.#serve();
+      const instance = this.#instance;
+      return placesAlong(instance, this.header.axes, ends,
+        (...at) => instance.calls.microtin_pack_profile_next(this.#pack, ...at));
+    });
   }
 
   // The height that a query on a segment finds behind the second result. Both ends are within the pack, and so is all

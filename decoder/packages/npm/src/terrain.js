@@ -4,6 +4,7 @@
 import { checkBytes } from "./check.js";
 import { axesAt, canHold, everywhereAt, notesAt, toLattice } from "./header.js";
 import { Instance, ready } from "./instance.js";
+import { placesAlong } from "./profile.js";
 import { OK, IO, MicrotinError, NEED_INPUT, STEP_LIMIT, TRUNCATED } from "./status.js";
 
 const REAL = 0, VOID = 1;
@@ -89,6 +90,12 @@ export class Terrain {
     if (Number.isNaN(i + j)) return NaN;
     const answer = calls.microtin_mesh_height_at(this.#mesh, i, j, results + HINT, results + HINT + 4, 0, 0);
     return answer ? NaN : axes.z.start + (view.getInt32(results + HINT + 4, true) / 65536) * axes.z.step;
+  }
+
+  profile(x, y, xEnd, yEnd) {
+    const instance = this.#instance, { axes } = this.header;
+    const ends = [x, y, xEnd, yEnd].map((value, i) => toLattice(i % 2 ? axes.y : axes.x, MOST, value));
+    return placesAlong(instance, axes, ends, (...at) => instance.calls.microtin_mesh_profile_next(this.#mesh, ...at, 0));
   }
 }
 
