@@ -87,15 +87,16 @@ microtin_status handle_check(microtin_pack& p) {
 // --- A tile.
 
 // The place to be filled next, a slot or what is known of a bad tile: an empty one, or that which
-// has not been wanted for the longest time. Those of the segment in hand are kept: null if all are.
+// has not been wanted for the longest time. Those of the segment in hand are kept, and those of
+// requests that are as important: null if all are.
 template <class Place>
-Place* place_to_fill(Place* places, uint32_t count, uint32_t clock) {
+Place* place_to_fill(Place* places, uint32_t count, const microtin_pack& p) {
   Place* oldest = nullptr;
   uint32_t most = 0;
   for (uint32_t i = 0; i < count; ++i) {
     Place& place = places[i];
     if (place.is_empty()) return &place;
-    const uint32_t age = clock - place.wanted;
+    const uint32_t age = place.is_kept(p.priority) ? 0 : p.clock - place.wanted;
     if (age > most) {
       most = age;
       oldest = &place;
@@ -125,12 +126,12 @@ MICROTIN_ONE_COPY microtin_status fail_pack(microtin_pack& p, microtin_status st
 }
 
 MICROTIN_ONE_COPY bool choose_slot(microtin_pack& p) {
-  p.slot = p.only_checks ? nullptr : place_to_fill(p.slots, p.slot_count, p.clock);
+  p.slot = p.only_checks ? nullptr : place_to_fill(p.slots, p.slot_count, p);
   return p.slot != nullptr;
 }
 
 microtin_status refuse_tile(microtin_pack& p, microtin_status why) {
-  BadTile* const bad = place_to_fill(p.bad, MICROTIN_PACK_MAX_BAD_TILES, p.clock);
+  BadTile* const bad = place_to_fill(p.bad, MICROTIN_PACK_MAX_BAD_TILES, p);
   if (bad != nullptr) {
     set_why(*bad, MICROTIN_STATUS_OK);
     bad->tile = p.tile;
@@ -147,6 +148,7 @@ microtin_status finish_tile(microtin_pack& p, bool has_terrain) {
   PackSlot& slot = *p.slot;
   slot.tile = p.tile;
   slot.wanted = p.clock;
+  slot.loaded = static_cast<uint16_t>(p.clock >> 4);
   slot.has_terrain = has_terrain;
   set_state(slot, SlotState::kReady);
   return fail_pack(p, MICROTIN_STATUS_OK);
@@ -314,7 +316,7 @@ bool go_to_passed(microtin_pack& p, TouchedTiles& tiles, Wishes* wishes) {
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE Wishes wishes_of(microtin_pack& p,
                                                         const microtin_segment& segment) {
   Wishes wishes = {false, false, false, 0};
-  ++p.clock;
+  begin_call(p);
   for (;;) {  // twice at most
     TouchedTiles tiles(p.header.grid, segment);
     if (p.has_passed) {
@@ -473,9 +475,14 @@ void microtin_pack_reset(microtin_pack* pack) {
   p.tile = 0;
   p.is_sound = false;
   p.only_checks = false;
+  p.priority = 0;
   p.slot = nullptr;
   forget_bad_tiles(p);
-  for (uint32_t i = 0; i < p.slot_count; ++i) set_state(p.slots[i], SlotState::kEmpty);
+  for (uint32_t i = 0; i < p.slot_count; ++i) {
+    set_state(p.slots[i], SlotState::kEmpty);
+    p.slots[i].is_used = false;
+    p.slots[i].priority = kNoRequest;
+  }
   give_up(p);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Queries on the tiles of a pack that are there, whatever their form (segment_walk.hpp). They only
-// read, so they may interrupt anything.
+// read, and note the slots that they use, so they may interrupt anything.
 #ifndef MICROTIN_DECODER_PACK_QUERY_HPP
 #define MICROTIN_DECODER_PACK_QUERY_HPP
 
@@ -30,7 +30,10 @@ inline microtin_query_result answer_without(const microtin_pack& p, uint32_t til
 MICROTIN_ONE_COPY inline const void* terrain_of(const microtin_pack& p, uint32_t tile,
                                                 microtin_query_result* absent) {
   const uint32_t slot = slot_of(p, tile);
-  if (slot != p.slot_count) return p.slots[slot].has_terrain ? p.slots[slot].space : nullptr;
+  if (slot != p.slot_count) {
+    p.slots[slot].is_used = true;
+    return p.slots[slot].has_terrain ? p.slots[slot].space : nullptr;
+  }
   *absent = worse(*absent, answer_without(p, tile));
   return nullptr;
 }

@@ -39,11 +39,16 @@ struct PackSlot {
   void* space;  // begins with a microtin_mesh, or a microtin_compact
   uint32_t tile;
   uint32_t wanted;           // when it was wanted last
+  uint16_t loaded;           // when it was loaded, in 16 calls
   volatile SlotState state;  // queries may look only if it is ready
   bool has_terrain;
+  volatile bool is_used;  // by a query, since a call noted its use
+  uint8_t priority;       // of the requests that it serves; kNoRequest: of none
 
   bool is_empty() const { return state == SlotState::kEmpty; }
+  bool is_kept(uint8_t than) const { return priority <= than; }
 };
+constexpr uint8_t kNoRequest = 255;
 
 // A tile that was refused, or room for one.
 struct BadTile {
@@ -52,6 +57,7 @@ struct BadTile {
   volatile uint8_t why;  // a status; queries may look only if it is not OK
 
   bool is_empty() const { return why == MICROTIN_STATUS_OK; }
+  bool is_kept(uint8_t) const { return false; }
 };
 
 // What storage said of the bytes wanted.
@@ -87,6 +93,7 @@ struct microtin_pack {
   uint32_t clock;
   uint32_t passed;
   uint32_t segment_hash;  // of the segment in hand
+  uint8_t priority;       // of the request in hand: slots that serve one as important are kept
   microtin::PackEntry entry;
   microtin_decoder* decoder;
   microtin_compactor* compactor;  // of the tile decoded; null: not begun
@@ -134,6 +141,18 @@ microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint3
 // Goes on with a segment, up to where its next tile is to be decoded (STEP_LIMIT) or made compact
 // (STOPPED).
 microtin_status go_on(microtin_pack& p, const microtin_segment& segment);
+
+// Begins a call: tiles that queries used were wanted after those of the call before.
+inline void begin_call(microtin_pack& p) {
+  ++p.clock;
+  for (uint32_t i = 0; i < p.slot_count; ++i) {
+    PackSlot& slot = p.slots[i];
+    if (!slot.is_used) continue;
+    slot.is_used = false;
+    slot.wanted = p.clock;
+  }
+  ++p.clock;
+}
 
 // Chooses a slot for the tile in hand. False if all are wanted by the segment in hand.
 bool choose_slot(microtin_pack& p);

@@ -15,6 +15,16 @@ microtin_status microtin_ardupilot_load(microtin_ardupilot* terrain, uint32_t st
   return microtin_spots_load(&terrain->spots, step_limit, read, context);
 }
 
+void microtin_ardupilot_set_position(microtin_ardupilot* terrain, int32_t lat, int32_t lng) {
+  const microtin_spot here = {lat, lng};
+  microtin_spots_set_position(&terrain->spots, here);
+}
+
+void microtin_ardupilot_set_home(microtin_ardupilot* terrain, int32_t lat, int32_t lng) {
+  const microtin_spot home = {lat, lng};
+  microtin_latch_set(&terrain->spots.home, home);
+}
+
 void microtin_ardupilot_set_reference(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
                                       int32_t altitude_cm, float most) {
   terrain->reference.latitude = lat;
@@ -31,7 +41,7 @@ static int32_t correction_of(microtin_ardupilot* terrain) {
   int32_t ground;
   if (!terrain->has_reference) return 0;
   if (!terrain->has_correction &&
-      microtin_spots_ask(&terrain->spots, terrain->reference, terrain->reference, &ground)) {
+      microtin_spots_ask(&terrain->spots, terrain->reference, &ground)) {
     const int64_t above = (int64_t)terrain->reference_altitude - ground;
     terrain->correction = (int32_t)(above > most ? most : above < -most ? -most : above);
     terrain->has_correction = 1;
@@ -43,7 +53,7 @@ bool microtin_ardupilot_height_amsl(microtin_ardupilot* terrain, int32_t lat, in
                                     float* height, bool corrected) {
   const microtin_spot at = {lat, lng};
   int32_t millimetres;
-  if (!microtin_spots_ask(&terrain->spots, at, at, &millimetres)) return false;
+  if (!microtin_spots_ask_place(&terrain->spots, at, &millimetres)) return false;
   *height = (float)millimetres / 1000.0f;
   if (corrected) *height += (float)correction_of(terrain) / 1000.0f;
   return true;
@@ -61,15 +71,15 @@ float microtin_ardupilot_lookahead(microtin_ardupilot* terrain, int32_t lat, int
       (float)whole < exact && whole < MICROTIN_ARDUPILOT_SAMPLES ? whole + 1 : whole;
   const int64_t climb = microtin_whole(climb_ratio * (float)step, 1e9f);
   const microtin_spot from = {lat, lng};
-  const microtin_spot far = microtin_spot_beside(from, stride.north * 4, stride.east * 4);
   microtin_spot at = from;
   int64_t most = 0;
   int32_t base, height, i;
   terrain->missed = 0;
-  if (!microtin_spots_ask(&terrain->spots, from, far, &base)) return 0.0f;
+  microtin_spots_look(&terrain->spots, from, stride, step, samples);
+  if (!microtin_spots_ask(&terrain->spots, from, &base)) return 0.0f;
   for (i = 1; i <= samples; ++i) {
     at = microtin_spot_beside(at, stride.north, stride.east);
-    if (!microtin_spots_ask(&terrain->spots, at, at, &height)) {
+    if (!microtin_spots_ask(&terrain->spots, at, &height)) {
       ++terrain->missed;
     } else if (height - (int64_t)base - climb * i > most) {
       most = height - (int64_t)base - climb * i;
@@ -114,7 +124,7 @@ static microtin_query_result fill_row(microtin_ardupilot* terrain, int32_t row, 
   part.columns = 4;
   part.rows = 1;
   part.missing = 0;
-  return microtin_pack_sample_grid(terrain->spots.pack, &part, heights);
+  return MICROTIN_SPOTS_SAMPLE_GRID(terrain->spots.pack, &part, heights);
 }
 
 /* A group that is not all there leaves zeros. */
@@ -126,8 +136,8 @@ static void try_group(microtin_ardupilot* terrain, int32_t group) {
   for (i = 0; i < 4; ++i) {
     const microtin_query_result answer = fill_row(terrain, row + i, column, heights[i]);
     if (answer == MICROTIN_QUERY_NOT_LOADED) {
-      microtin_spots_wish(&terrain->spots, post_of(block, row, column),
-                          post_of(block, row + 3, column + 3));
+      microtin_spots_request(&terrain->spots, post_of(block, row, column),
+                             post_of(block, row + 3, column + 3), MICROTIN_PRIORITY_OTHER);
     }
     if (answer != MICROTIN_QUERY_OK) return;
   }

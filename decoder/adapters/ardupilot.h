@@ -49,6 +49,13 @@ void microtin_ardupilot_init(microtin_ardupilot* terrain, microtin_pack* pack, u
 microtin_status microtin_ardupilot_load(microtin_ardupilot* terrain, uint32_t step_limit,
                                         microtin_read read, void* context);
 
+/* The vehicle is here: this place comes first, the way ahead next, all other places in turn. Call
+ * it in each update, as AP_Terrain::update does with the position of AHRS. */
+void microtin_ardupilot_set_position(microtin_ardupilot* terrain, int32_t lat, int32_t lng);
+
+/* Home is here: its height stays known from the first answer for exactly this place on. */
+void microtin_ardupilot_set_home(microtin_ardupilot* terrain, int32_t lat, int32_t lng);
+
 /* The vehicle stands on the ground here, at this altitude above mean sea level: corrected heights
  * agree with that, by `most` metres at most; 0: no correction. */
 void microtin_ardupilot_set_reference(microtin_ardupilot* terrain, int32_t lat, int32_t lng,

@@ -5,6 +5,16 @@ void microtin_inav_init(microtin_inav* inav, microtin_pack* pack) {
   microtin_spots_init(&inav->spots, pack);
 }
 
+void microtin_inav_set_position(microtin_inav* inav, int32_t lat, int32_t lon) {
+  const microtin_spot here = {lat, lon};
+  microtin_spots_set_position(&inav->spots, here);
+}
+
+void microtin_inav_set_home(microtin_inav* inav, int32_t lat, int32_t lon) {
+  const microtin_spot home = {lat, lon};
+  microtin_latch_set(&inav->spots.home, home);
+}
+
 microtin_status microtin_inav_load(microtin_inav* inav, uint32_t step_limit, microtin_read read,
                                    void* context) {
   return microtin_spots_load(&inav->spots, step_limit, read, context);
@@ -13,7 +23,7 @@ microtin_status microtin_inav_load(microtin_inav* inav, uint32_t step_limit, mic
 bool microtin_inav_height(microtin_inav* inav, int32_t lat, int32_t lon, float* height_m) {
   const microtin_spot at = {lat, lon};
   int32_t height;
-  if (!microtin_spots_ask(&inav->spots, at, at, &height)) return false;
+  if (!microtin_spots_ask_place(&inav->spots, at, &height)) return false;
   *height_m = (float)height / 1000.0f;
   return true;
 }
@@ -27,15 +37,14 @@ bool microtin_inav_lookahead(microtin_inav* inav, int32_t lat, int32_t lon, floa
   const int32_t climb = microtin_whole(climb_ratio * MICROTIN_INAV_STEP, 1e6f),
                 escape = microtin_whole(escape_ratio * MICROTIN_INAV_STEP, 1e6f);
   const microtin_spot from = {lat, lon};
-  const microtin_spot far =
-      microtin_spot_beside(from, stride.north * samples, stride.east * samples);
   microtin_spot at = from;
   int64_t needed = 0, deficit = 0;
   int32_t base, height, missed = 0, i;
-  if (!microtin_spots_ask(&inav->spots, from, far, &base)) return false;
+  microtin_spots_look(&inav->spots, from, stride, MICROTIN_INAV_STEP, samples);
+  if (!microtin_spots_ask(&inav->spots, from, &base)) return false;
   for (i = 1; i <= samples; ++i) {
     at = microtin_spot_beside(at, stride.north, stride.east);
-    if (!microtin_spots_ask(&inav->spots, at, far, &height)) {
+    if (!microtin_spots_ask(&inav->spots, at, &height)) {
       ++missed;
       continue;
     }

@@ -31,6 +31,13 @@ void microtin_inav_init(microtin_inav* inav, microtin_pack* pack);
 microtin_status microtin_inav_load(microtin_inav* inav, uint32_t step_limit, microtin_read read,
                                    void* context);
 
+/* The vehicle is here: this place comes first, the way ahead next, all other places in turn. The
+ * terrain task calls it in each update. */
+void microtin_inav_set_position(microtin_inav* inav, int32_t lat, int32_t lon);
+
+/* Home is here: its height stays known from the first answer for exactly this place on. */
+void microtin_inav_set_home(microtin_inav* inav, int32_t lat, int32_t lon);
+
 /* Terrain in metres at a place in 1e-7 degrees. */
 bool microtin_inav_height(microtin_inav* inav, int32_t lat, int32_t lon, float* height_m);
 

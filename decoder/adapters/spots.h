@@ -1,53 +1,75 @@
 // SPDX-License-Identifier: MIT
-/* What the adapters share: places on the globe, a pack that is asked there, and the wish that a
- * place that is not there leaves for the task that reads the card. Integers only.
+/* What the adapters share: places on the globe, a pack that is asked there, and the requests that
+ * questions leave for the task that reads the card. Integers only.
  *
- * Questions may interrupt the service, not each other. */
+ * Questions may interrupt the service, not each other. Define MICROTIN_ADAPTERS_COMPACT for packs
+ * of compact_pack.h, everywhere or nowhere. */
 #ifndef MICROTIN_ADAPTERS_SPOTS_H
 #define MICROTIN_ADAPTERS_SPOTS_H
 
-#include "microtin/pack.h"
+#include "microtin/requests.h"
+
+#ifdef MICROTIN_ADAPTERS_COMPACT
+#define MICROTIN_SPOTS_LOAD microtin_requests_load_compact
+#define MICROTIN_SPOTS_HEIGHT_AT microtin_compact_pack_height_at
+#define MICROTIN_SPOTS_SAMPLE_GRID microtin_compact_pack_sample_grid
+#else
+#define MICROTIN_SPOTS_LOAD microtin_requests_load
+#define MICROTIN_SPOTS_HEIGHT_AT microtin_pack_height_at
+#define MICROTIN_SPOTS_SAMPLE_GRID microtin_pack_sample_grid
+#endif
+
+/* Millimetres of the way ahead that are requested, at most. */
+#define MICROTIN_SPOTS_AHEAD 10000000
 
 /* A place, in 1e-7 degrees. */
 typedef struct microtin_spot {
   int32_t latitude, longitude;
 } microtin_spot;
 
+/* A place with a height that stays known, whatever tiles are loaded. */
+typedef struct microtin_latch {
+  microtin_spot at;
+  int32_t millimetres;
+  uint8_t has_place, has_height;
+} microtin_latch;
+
 typedef struct microtin_spots {
   microtin_pack* pack; /* places in degrees, heights in metres */
   microtin_pack_info info;
   volatile uint8_t has_info;
   uint32_t hint;
-  microtin_segment wish; /* owned by questions while it is not wished, else by the service */
-  volatile uint8_t is_wished;
+  microtin_requests requests;
+  microtin_latch home;
 } microtin_spots;
+
+static inline void microtin_latch_set(microtin_latch* latch, microtin_spot at) {
+  latch->at = at;
+  latch->has_place = 1;
+  latch->has_height = 0;
+}
 
 static inline void microtin_spots_init(microtin_spots* s, microtin_pack* pack) {
   s->pack = pack;
   s->has_info = 0;
   s->hint = 0;
-  s->is_wished = 0;
+  s->home.has_place = 0;
+  s->home.has_height = 0;
+  microtin_requests_init(&s->requests, pack);
 }
 
-/* A piece of what is wished: as microtin_pack_load_with, with its step limit of 1 or more. OK also
- * if nothing is wished. */
+/* Whether the service has something to load. */
+static inline int microtin_spots_is_pending(const microtin_spots* s) {
+  return !s->has_info || microtin_requests_pending(&s->requests) != 0;
+}
+
+/* A piece of what is requested, with the statuses of microtin_requests_load. */
 static inline microtin_status microtin_spots_load(microtin_spots* s, uint32_t step_limit,
                                                   microtin_read read, void* context) {
-  const microtin_segment origin = {0, 0, 0, 0};
-  microtin_status status;
-  if (s->has_info && !s->is_wished) return MICROTIN_STATUS_OK;
-  status =
-      microtin_pack_load_with(s->pack, s->has_info ? &s->wish : &origin, read, context, step_limit);
-  if (!s->has_info) {
-    if (microtin_pack_get_info(s->pack, &s->info) == MICROTIN_STATUS_OK) {
-      __atomic_signal_fence(__ATOMIC_SEQ_CST); /* no question sees half of it */
-      s->has_info = 1;
-    }
-    return status == MICROTIN_STATUS_OK ? MICROTIN_STATUS_NEED_INPUT : status;
-  }
-  if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT &&
-      status != MICROTIN_STATUS_IO) {
-    s->is_wished = 0;
+  const microtin_status status = MICROTIN_SPOTS_LOAD(&s->requests, read, context, step_limit);
+  if (!s->has_info && microtin_pack_get_info(s->pack, &s->info) == MICROTIN_STATUS_OK) {
+    __atomic_signal_fence(__ATOMIC_SEQ_CST); /* no question sees half of it */
+    s->has_info = 1;
   }
   return status;
 }
@@ -70,18 +92,24 @@ static inline int microtin_spots_place(const microtin_spots* s, microtin_spot at
              MICROTIN_STATUS_OK;
 }
 
-/* Wishes for what lies between two places, or for the first, unless something is wished already. */
-static inline void microtin_spots_wish(microtin_spots* s, microtin_spot from, microtin_spot to) {
+/* Requests what lies between two places, or the first place alone if the second one is not in the
+ * pack or is far away. */
+static inline void microtin_spots_request(microtin_spots* s, microtin_spot from, microtin_spot to,
+                                          uint32_t priority) {
   const int64_t farthest = (int64_t)1 << 24;
   microtin_segment c;
-  if (s->is_wished || !microtin_spots_place(s, from, &c.x, &c.y)) return;
+  if (!microtin_spots_place(s, from, &c.x, &c.y)) return;
   if (!microtin_spots_place(s, to, &c.x_end, &c.y_end) || c.x_end - c.x >= farthest ||
       c.x - c.x_end >= farthest || c.y_end - c.y >= farthest || c.y - c.y_end >= farthest) {
     c.x_end = c.x;
     c.y_end = c.y;
   }
-  s->wish = c;
-  s->is_wished = 1;
+  microtin_requests_add(&s->requests, &c, priority);
+}
+
+/* The vehicle is here: this tile comes first. */
+static inline void microtin_spots_set_position(microtin_spots* s, microtin_spot here) {
+  microtin_spots_request(s, here, here, MICROTIN_PRIORITY_HERE);
 }
 
 /* The terrain in millimetres. NOT_LOADED: it may be there later, if it is wished for. */
@@ -97,7 +125,7 @@ static inline microtin_query_result microtin_spots_height(microtin_spots* s, mic
   if (z->numerator >> 20 != 0 || z->offset > offset_most || z->offset < -offset_most) {
     return MICROTIN_QUERY_OUTSIDE;
   }
-  answer = microtin_pack_height_at(s->pack, x, y, &s->hint, &height);
+  answer = MICROTIN_SPOTS_HEIGHT_AT(s->pack, x, y, &s->hint, &height);
   if (answer != MICROTIN_QUERY_OK) return answer;
   /* Below 2^20 * 2^31 + 2^31 * 2^16, times 1000: 2^62. */
   sum = ((int64_t)z->numerator * height + z->offset * 65536) * 1000;
@@ -107,12 +135,34 @@ static inline microtin_query_result microtin_spots_height(microtin_spots* s, mic
   return MICROTIN_QUERY_OK;
 }
 
-/* The height; a missing tile is requested, up to `far`. 0: there is no height. */
-static inline int microtin_spots_ask(microtin_spots* s, microtin_spot at, microtin_spot far,
-                                     int32_t* millimetres) {
+/* The height; a missing tile is requested. 0: there is no height. */
+static inline int microtin_spots_ask(microtin_spots* s, microtin_spot at, int32_t* millimetres) {
   const microtin_query_result answer = microtin_spots_height(s, at, millimetres);
-  if (answer == MICROTIN_QUERY_NOT_LOADED) microtin_spots_wish(s, at, far);
+  if (answer == MICROTIN_QUERY_NOT_LOADED) {
+    microtin_spots_request(s, at, at, MICROTIN_PRIORITY_OTHER);
+  }
   return answer == MICROTIN_QUERY_OK;
+}
+
+/* The height at a latched place; it is kept from when it is known first. 0: not known yet. */
+static inline int microtin_spots_ask_latch(microtin_spots* s, microtin_latch* latch,
+                                           int32_t* millimetres) {
+  if (!latch->has_place) return 0;
+  if (!latch->has_height) {
+    latch->has_height = (uint8_t)microtin_spots_ask(s, latch->at, &latch->millimetres);
+  }
+  *millimetres = latch->millimetres;
+  return latch->has_height;
+}
+
+/* The height at a place that may be home. */
+static inline int microtin_spots_ask_place(microtin_spots* s, microtin_spot at,
+                                           int32_t* millimetres) {
+  const microtin_latch* const home = &s->home;
+  if (home->has_place && home->at.latitude == at.latitude && home->at.longitude == at.longitude) {
+    return microtin_spots_ask_latch(s, &s->home, millimetres);
+  }
+  return microtin_spots_ask(s, at, millimetres);
 }
 
 /* The sine of an angle in 1/100 degree, times 65536; within 10 of it. A polynomial with x, x^3 and
@@ -159,6 +209,16 @@ static inline microtin_stride microtin_stride_along(int32_t bearing_centidegrees
   stride.north = (int32_t)((int64_t)microtin_sine(bearing_centidegrees + 9000) * step / 65536);
   stride.east = (int32_t)((int64_t)microtin_sine(bearing_centidegrees) * step / 65536);
   return stride;
+}
+
+/* The vehicle is here, and looks ahead `count` strides: they come before other places. */
+static inline void microtin_spots_look(microtin_spots* s, microtin_spot here,
+                                       microtin_stride stride, int32_t step, int32_t count) {
+  const int32_t most = MICROTIN_SPOTS_AHEAD / step + 1, strides = count < most ? count : most;
+  microtin_spots_set_position(s, here);
+  microtin_spots_request(s, here,
+                         microtin_spot_beside(here, stride.north * strides, stride.east * strides),
+                         MICROTIN_PRIORITY_AHEAD);
 }
 
 /* A float that is no number, or too large, becomes the nearest bound. */

@@ -25,7 +25,7 @@ BEFORE = {
     "void save(const std::vector<uint8_t>& bytes);\n#else\nstatic double transform[6];\n"
     "void save(const uint8_t* bytes, uint64_t byte_count);\n#endif\n",
 }
-HEADERS = {"c": ("compact_pack.h",), "cpp": ("microtin.hpp", "compact_pack.hpp")}
+HEADERS = {"c": ("requests.h",), "cpp": ("microtin.hpp", "compact_pack.hpp", "requests.h")}
 HOSTED = {"c": ("encoder.h",), "cpp": ("encoder.hpp", "surface.hpp")}
 FUNCTION = re.compile(r"^(?!if|for|while|switch)\w[^;=\n]*\) \{", re.M)
 WARNINGS = ["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-Wno-unused-variable", "-Wno-unused-but-set-variable",

@@ -39,8 +39,10 @@ class AdaptersReport {
     for (int calls = 0; calls < kMostCalls; ++calls) {
       const microtin_status status = service();
       if (status == MICROTIN_STATUS_OK) return true;
-      if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT)
+      if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT &&
+          status != MICROTIN_STATUS_WORKSPACE_TOO_SMALL) {
         return false;
+      }
     }
     return false;
   }
@@ -56,7 +58,8 @@ class AdaptersReport {
       float height = -1;
       while (!microtin_inav_height(&inav, at.latitude, at.longitude, &height)) {
         ++misses;
-        if (height != -1 || !inav.spots.is_wished || !serve(service)) return false;
+        if (height != -1 || !microtin_spots_is_pending(&inav.spots) || !serve(service))
+          return false;
       }
       say("height ", height);
       microtin_inav_look look = {0, 0, 0, 0};
@@ -66,7 +69,7 @@ class AdaptersReport {
                                      900.0f, 0.05f, 0.2f, &look)) {
           return false;
         }
-      } while (look.samples_missed != 0 && inav.spots.is_wished);
+      } while (look.samples_missed != 0 && microtin_spots_is_pending(&inav.spots));
       say(" needed ", look.climb_needed_m);
       say(" deficit ", look.escape_deficit_m);
       print(put_, " missed ");
@@ -90,7 +93,7 @@ class AdaptersReport {
         if (!serve(service)) return false;
         microtin_ardupilot_height_amsl(&terrain, at.latitude, at.longitude, &corrected, true);
         microtin_ardupilot_height_amsl(&terrain, at.latitude, at.longitude, &plain, false);
-      } while (terrain.spots.is_wished != 0);
+      } while (microtin_spots_is_pending(&terrain.spots) != 0);
       say("amsl ", plain);
       say(" corrected by ", corrected - plain);
       float rise = 0;
@@ -98,7 +101,7 @@ class AdaptersReport {
         if (!serve(service)) return false;
         rise = microtin_ardupilot_lookahead(&terrain, at.latitude, at.longitude, 45.0f, 1000.0f,
                                             0.03f);
-      } while (terrain.spots.is_wished != 0);
+      } while (microtin_spots_is_pending(&terrain.spots) != 0);
       say(" rise ", rise);
       print(put_, "\n");
     }

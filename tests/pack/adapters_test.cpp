@@ -45,7 +45,7 @@ struct Loaded {
 
   template <class Ask, class Adapter>
   void load(Adapter& adapter, const Ask& ask) {
-    for (int i = 0; i < 200 && (ask(), !adapter.spots.has_info || adapter.spots.is_wished); ++i) {
+    for (int i = 0; i < 200 && (ask(), microtin_spots_is_pending(&adapter.spots)); ++i) {
       microtin_status status = MICROTIN_STATUS_NEED_INPUT;
       while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
         status = microtin_spots_load(&adapter.spots, 100, Card::read, &card);
@@ -128,7 +128,7 @@ TEST_CASE("adapters: a pack across 180 degrees has heights at both names of a lo
     int32_t height = INT32_MIN;
     for (int i = 0; i < 200; ++i) {
       const microtin_spot at{9100000, longitude};
-      if (microtin_spots_ask(&spots, at, at, &height) != 0) break;
+      if (microtin_spots_ask(&spots, at, &height) != 0) break;
       microtin_spots_load(&spots, 1000, Card::read, &card);
     }
     return height;
@@ -150,13 +150,13 @@ TEST_CASE("adapters: a position outside requests no tile, a position that is not
   here.load(inav, [] {});
   CHECK(!microtin_inav_height(&inav, 433300000, -72300000, &height));
   CHECK(!microtin_inav_height(&inav, INT32_MAX, INT32_MIN, &height));
-  CHECK(!inav.spots.is_wished);
+  CHECK(!microtin_spots_is_pending(&inav.spots));
   CHECK(!microtin_inav_height(&inav, 433900000, 72900000, &height));
-  CHECK(inav.spots.is_wished);
+  CHECK(microtin_spots_is_pending(&inav.spots));
   here.card.is_pulled = true;
   microtin_inav_load(&inav, 50, Card::read, &here.card);  // asks for input, or has done so
   CHECK(microtin_inav_load(&inav, 50, Card::read, &here.card) == MICROTIN_STATUS_IO);
-  CHECK(inav.spots.is_wished);
+  CHECK(microtin_spots_is_pending(&inav.spots));
   here.card.is_pulled = false;
   here.load(inav, [&] { microtin_inav_height(&inav, 433900000, 72900000, &height); });
   CHECK(microtin_inav_height(&inav, 433900000, 72900000, &height));
@@ -284,12 +284,13 @@ TEST_CASE("adapters: a request reaches as far as a look ahead, and ends with its
   here.load(inav, [] {});
   microtin_inav_look look{};
   CHECK(!microtin_inav_lookahead(&inav, 433300000, 72300000, 45, 1500, 0, 0, &look));
-  REQUIRE(inav.spots.is_wished);
-  CHECK(inav.spots.wish.x_end > inav.spots.wish.x);
-  CHECK(inav.spots.wish.y_end > inav.spots.wish.y);
+  const microtin_request& ahead = inav.spots.requests.request[MICROTIN_PRIORITY_AHEAD];
+  REQUIRE(ahead.is_set);
+  CHECK(ahead.segment.x_end > ahead.segment.x);
+  CHECK(ahead.segment.y_end > ahead.segment.y);
   microtin_pack_reset(here.device.pack);
   microtin_inav_init(&inav, here.device.pack);
-  CHECK(!inav.spots.is_wished);
+  CHECK(!ahead.is_set);
 
   microtin_ardupilot terrain;
   const auto begin = [&] {

@@ -3,7 +3,8 @@
  *
  * Queries never read storage: they answer from the tiles that are loaded. microtin_pack_load_with
  * loads the tiles that a segment touches. Call it where waiting is allowed. It reads and decodes in
- * pieces as small as you choose, and replaces the tiles that no call has touched for longest.
+ * pieces as small as you choose, and replaces the tiles that neither a query nor a call has used
+ * for longest. If several places compete for the slots, use requests.h.
  *
  * Interrupts: a query may interrupt microtin_pack_load_with, the functions that it calls, and other
  * queries at any moment, from an interrupt or from a task of higher priority on the same core. The

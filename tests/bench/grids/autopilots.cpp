@@ -20,6 +20,7 @@
 #include "tests/bench/layers.hpp"
 #include "tests/bench/measure.hpp"
 #include "tests/bench/table.hpp"
+#include "tests/support/autopilot_flight.hpp"
 #include "tests/support/autopilot_reader.hpp"
 
 namespace microtin::bench {
@@ -48,8 +49,10 @@ class Sectors {
   const Bytes& bytes() const { return bytes_; }
   uint64_t asked() const { return asked_; }
   uint64_t read() const { return sectors_ * kSector; }
+  uint32_t reads() const { return reads_; }
 
   int32_t take(uint64_t offset, uint8_t* buffer, size_t size) {
+    ++reads_;
     if (offset >= bytes_.size()) return 0;
     const size_t count = std::min(size, bytes_.size() - static_cast<size_t>(offset));
     for (uint64_t s = offset / kSector; s <= (offset + count - 1) / kSector; ++s) {
@@ -68,6 +71,7 @@ class Sectors {
  private:
   Bytes bytes_;
   uint64_t kept_ = ~uint64_t{0}, sectors_ = 0, asked_ = 0;
+  uint32_t reads_ = 0;
 };
 
 // What answers an autopilot: at once, or not, and then waits to be served.
@@ -76,7 +80,11 @@ class Answerer {
   explicit Answerer(const std::string& path) : card(bytes_of(path)) {}
   virtual ~Answerer() = default;
   virtual bool height(microtin_spot at, float* metres) = 0;
-  virtual void look(microtin_spot at) = 0;
+  // Whether all of it is known.
+  virtual bool look(microtin_spot at) = 0;
+  // The vehicle's position, and home.
+  virtual void here(microtin_spot) {}
+  virtual void home(microtin_spot) {}
   virtual bool waits() const = 0;  // for serve(), which does a piece
   virtual void serve() = 0;
   virtual size_t ram() const = 0;
@@ -86,10 +94,10 @@ class Answerer {
 
 class PackAnswerer : public Answerer {
  public:
-  explicit PackAnswerer(const std::string& path)
-      : Answerer(path), capacity_(PackFile(card.bytes()).header().most_vertices) {
-    space_.resize(MICROTIN_PACK_BYTES(kSlots, capacity_) / sizeof(uint64_t) + 1);
-    if (microtin_pack_init(space_.data(), space_.size() * sizeof(uint64_t), kSlots, capacity_,
+  PackAnswerer(const std::string& path, uint32_t slots)
+      : Answerer(path), slots_(slots), capacity_(PackFile(card.bytes()).header().most_vertices) {
+    space_.resize(MICROTIN_PACK_BYTES(slots, capacity_) / sizeof(uint64_t) + 1);
+    if (microtin_pack_init(space_.data(), space_.size() * sizeof(uint64_t), slots, capacity_,
                            &pack) != MICROTIN_STATUS_OK) {
       throw Error(path + ": there is no room for it");
     }
@@ -98,16 +106,14 @@ class PackAnswerer : public Answerer {
 
   // The memory of a device, with numbers of 16 bits.
   size_t ram() const override {
-    return MICROTIN_PACK_BYTES_FOR(kSlots, capacity_, 16) + sizeof(microtin_spots);
+    return MICROTIN_PACK_BYTES_FOR(slots_, capacity_, 16) + sizeof(microtin_spots);
   }
 
  protected:
-  static bool waits(const microtin_spots& spots) {
-    return spots.has_info == 0 || spots.is_wished != 0;
-  }
+  static bool waits(const microtin_spots& spots) { return microtin_spots_is_pending(&spots) != 0; }
   static void check(microtin_status status) {
     if (status != MICROTIN_STATUS_NEED_INPUT && status != MICROTIN_STATUS_STEP_LIMIT &&
-        status != MICROTIN_STATUS_OK) {
+        status != MICROTIN_STATUS_OK && status != MICROTIN_STATUS_WORKSPACE_TOO_SMALL) {
       throw Error("the pack cannot be served");
     }
   }
@@ -115,21 +121,30 @@ class PackAnswerer : public Answerer {
   microtin_pack* pack = nullptr;
 
  private:
-  uint32_t capacity_;
+  uint32_t slots_, capacity_;
   std::vector<uint64_t> space_;
 };
 
 class Inav : public PackAnswerer {
  public:
-  explicit Inav(const std::string& path) : PackAnswerer(path) { microtin_inav_init(&inav_, pack); }
+  explicit Inav(const std::string& path, uint32_t slots = kSlots) : PackAnswerer(path, slots) {
+    microtin_inav_init(&inav_, pack);
+  }
 
   bool height(microtin_spot at, float* metres) override {
     return microtin_inav_height(&inav_, at.latitude, at.longitude, metres);
   }
-  void look(microtin_spot at) override {
+  bool look(microtin_spot at) override {
     microtin_inav_look found;
-    microtin_inav_lookahead(&inav_, at.latitude, at.longitude, kBearing, kLookMetres, kClimb,
-                            kClimb, &found);
+    return microtin_inav_lookahead(&inav_, at.latitude, at.longitude, kBearing, kLookMetres, kClimb,
+                                   kClimb, &found) &&
+           found.samples_missed == 0;
+  }
+  void here(microtin_spot at) override {
+    microtin_inav_set_position(&inav_, at.latitude, at.longitude);
+  }
+  void home(microtin_spot at) override {
+    microtin_inav_set_home(&inav_, at.latitude, at.longitude);
   }
   bool waits() const override { return PackAnswerer::waits(inav_.spots); }
   void serve() override { check(microtin_inav_load(&inav_, kSteps, Sectors::read_card, &card)); }
@@ -140,16 +155,23 @@ class Inav : public PackAnswerer {
 
 class ArduPilot : public PackAnswerer {
  public:
-  explicit ArduPilot(const std::string& path) : PackAnswerer(path) {
+  explicit ArduPilot(const std::string& path, uint32_t slots = kSlots) : PackAnswerer(path, slots) {
     microtin_ardupilot_init(&terrain_, pack, 100);
   }
 
   bool height(microtin_spot at, float* metres) override {
     return microtin_ardupilot_height_amsl(&terrain_, at.latitude, at.longitude, metres, false);
   }
-  void look(microtin_spot at) override {
+  bool look(microtin_spot at) override {
     microtin_ardupilot_lookahead(&terrain_, at.latitude, at.longitude, kBearing, kLookMetres,
                                  kClimb);
+    return terrain_.missed == 0;
+  }
+  void here(microtin_spot at) override {
+    microtin_ardupilot_set_position(&terrain_, at.latitude, at.longitude);
+  }
+  void home(microtin_spot at) override {
+    microtin_ardupilot_set_home(&terrain_, at.latitude, at.longitude);
   }
   bool waits() const override { return PackAnswerer::waits(terrain_.spots); }
   void serve() override {
@@ -184,14 +206,16 @@ class GridAnswerer : public Answerer {
     if (found) *metres = *found;
     return true;
   }
-  void look(microtin_spot at) override {
+  bool look(microtin_spot at) override {
+    bool is_known = true;
     const auto stride = microtin_stride_along(static_cast<int32_t>(kBearing * 100),
                                               static_cast<int32_t>(spacing_ * 1000));
     for (uint32_t i = 0; i * spacing_ < static_cast<uint32_t>(kLookMetres); ++i) {
       at = microtin_spot_beside(at, stride.north, stride.east);
       float metres = 0;
-      height(at, &metres);
+      is_known = height(at, &metres) && is_known;
     }
+    return is_known;
   }
   bool waits() const override { return wished_ != kNone; }
   void serve() override {
@@ -304,6 +328,61 @@ class Flier {
   std::string callgrind_;
 };
 
+// Puts the questions of a flight to an answerer; one service in 64 that has work is counted.
+class Asker {
+ public:
+  Asker(Answerer& answerer, std::string callgrind)
+      : answerer_(answerer), callgrind_(std::move(callgrind)) {}
+
+  void here(microtin_spot at) { answerer_.here(at); }
+  bool height(microtin_spot at) {
+    float metres = 0;
+    return answerer_.height(at, &metres);
+  }
+  bool ahead(microtin_spot at, float) { return answerer_.look(at); }
+  void serve() {
+    if (!answerer_.waits()) return;
+    if (++services_ % 64 != 0) {
+      answerer_.serve();
+    } else {
+      longest_ = std::max(longest_, instructions({[&] { answerer_.serve(); }}, callgrind_)[0]);
+    }
+  }
+  double longest() const { return longest_; }
+
+ private:
+  Answerer& answerer_;
+  std::string callgrind_;
+  uint32_t services_ = 0;
+  double longest_ = 0;
+};
+
+// What is known of ArduPilot's questions in flight (tests/support/autopilot_flight.hpp).
+void print_questions(const AutopilotFiles& files) {
+  print_head("ArduPilot's questions in flight: percent that is known",
+             {"", "RAM", "own place", "home", "nine places around", "ahead", "all", "reads",
+              "longest service"});
+  const DegreeCell cell = terrain::cell_of(files.ardupilot_100).value();
+  const microtin_spot corner = {cell.latitude * 10000000, cell.longitude * 10000000};
+  const auto fly = [&](const std::string& name, Answerer& answerer) {
+    Asker asker(answerer, files.callgrind);
+    answerer.home({corner.latitude + 6250000, corner.longitude + 1250000});
+    const tests::FlightShares known = tests::flight_over_cell(corner).fly(asker);
+    print_row({name, number(answerer.ram()), number(known.own.percent(), 2),
+               number(known.home.percent(), 2), number(known.surrounding.percent(), 2),
+               number(known.ahead.percent(), 2), number(known.percent_of_all(), 2),
+               number(answerer.card.reads()), number(asker.longest(), 0)});
+  };
+  for (const uint32_t slots : {4u, 9u}) {
+    ArduPilot ardupilot(files.pack, slots);
+    fly("pack, ArduPilot's adapter, slots: " + std::to_string(slots), ardupilot);
+    Inav inav(files.pack, slots);
+    fly("pack, INAV's adapter, slots: " + std::to_string(slots), inav);
+  }
+  GridAnswerer dat(files.ardupilot_100, Autopilot::kArduPilot, 100);
+  fly("ArduPilot's .DAT, 100 m, 12 blocks", dat);
+}
+
 Raster raster_of_cell(const std::string& path) {
   const Source source = import_terrain(path);
   const auto* raster = std::get_if<Raster>(&source);
@@ -352,6 +431,7 @@ void print_autopilots(const AutopilotFiles& files) {
   fly("INAV's .TER, 30 m", ter);
   fly("ArduPilot's .DAT, 30 m", dat_30);
   fly("ArduPilot's .DAT, 100 m", dat_100);
+  print_questions(files);
 }
 
 }  // namespace microtin::bench
