@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Decodes in the background, with the decoder of the devices, and answers for heights.
+// Decodes in the background, with the decoder of the devices, and answers for heights and profiles.
 import { Pack, decodeStream, ready } from "microtin";
 import { edgesOf, normalsOf } from "./surface.js";
 
 let drawer; // takes meshes
 let heightAt = async () => NaN;
+let profileOf = async () => []; // of x, y of both ends
 let size; // of the file, if known
 let first; // bytes, after which all that is in view was there, if coarse
 let scene; // the page's: how long units are beside each other, and how light finds slopes
@@ -30,6 +31,7 @@ async function showStream(source, fileSize) {
   for await (terrain of decodeStream(source)) {
     if (phase === 0) {
       heightAt = async (x, y) => terrain.heightAt(x, y);
+      profileOf = async (...ends) => terrain.profile(...ends);
       const [x, y] = terrain.origin;
       const { positions } = terrain;
       const box = [x, y, x, y];
@@ -52,6 +54,7 @@ async function showPack(source) {
   const boxes = Array.from({ length: count }, (_, tile) => pack.tileBox(tile));
   const box = [boxes[0][0], boxes[0][1], boxes[count - 1][2], boxes[count - 1][3]];
   heightAt = (x, y) => pack.heightAt(x, y);
+  profileOf = (...ends) => pack.profile(...ends);
   send({ kind: "begin", header: pack.header, box, tiles: boxes });
   let vertices = 0;
   const show = (mesh, tile, phase) => {
@@ -105,6 +108,7 @@ async function show({ text, url, port, ...given }) {
 self.onmessage = async ({ data }) => {
   try {
     if (data.kind === "show") await show(data);
+    if (data.kind === "line") send({ kind: "profile", places: await profileOf(...data.ends) });
     if (data.kind === "ask") send({ kind: "height", x: data.x, y: data.y, height: await heightAt(data.x, data.y) });
   } catch (error) {
     send({ kind: "error", message: error.message });

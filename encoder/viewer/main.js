@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The page: what the worker decodes is drawn, and what the user wants is done.
 import { Camera } from "./camera.js";
+import { inMetres, pathsOf, sightOf } from "./profile.js";
 
 const element = (id) => document.getElementById(id);
 const canvas = element("view");
@@ -115,10 +116,15 @@ const ANSWERS = {
   },
   drawn: ({ number: drawn, pointer: at, place }) => {
     document.body.dataset.drawn = drawn;
+    if (picking && drawn >= picking) pick(place);
     if (place) decoder.postMessage({ kind: "ask", x: place[0], y: place[1] });
     else if (at) element("pointer").textContent = "";
   },
   flat: showFlat,
+  profile: ({ places }) => {
+    profile = places;
+    showProfile();
+  },
   height: ({ x, y, height }) => {
     const unit = SYMBOLS[header.units?.vertical] ?? "", bound = header.accuracy?.bound;
     const digits = header.units?.horizontal === "degree" ? 5 : 1;
@@ -130,6 +136,55 @@ const ANSWERS = {
     document.body.dataset.state = "failed";
   },
 };
+
+// --- The profile between two places that are clicked.
+
+const METRES = { "international foot": 0.3048, "US survey foot": 1200 / 3937 };
+let ends = []; // x and y of both
+let profile; // places of the line
+let picking = 0; // from this picture on, its place is an end
+
+function startProfile() {
+  [ends, profile, picking] = [[], undefined, 0];
+  element("profile").hidden = !element("line").checked;
+  showProfile();
+}
+
+function pick(place) {
+  picking = 0;
+  if (!place) return;
+  if (ends.length === 4) [ends, profile] = [[], undefined];
+  ends.push(...place);
+  if (ends.length === 4) decoder.postMessage({ kind: "line", ends });
+  showProfile();
+}
+
+function showProfile() {
+  const panel = element("profile"), drawing = panel.querySelector("svg");
+  drawing.toggleAttribute("hidden", !profile?.length);
+  panel.dataset.result = "";
+  if (!profile) {
+    element("sight").textContent = ends.length < 4 ? `Click the ${ends.length ? "other" : "first"} end of a line.` : "";
+    return;
+  }
+  if (!profile.length) {
+    element("sight").textContent = "The terrain is not known there yet.";
+    return;
+  }
+  const metre = METRES[header.units?.horizontal] ?? 1;
+  const places = inMetres(profile, given.ground.map((length) => length * metre));
+  const sight = sightOf(places, Number(element("mast").value));
+  const { ground, ray } = pathsOf(places, sight);
+  element("ground").setAttribute("d", ground);
+  element("ray").setAttribute("d", ray);
+  panel.dataset.result = sight.result;
+  const meanings = {
+    clear: "The masts see each other.",
+    blocked: `The masts do not see each other: the terrain is in the way after ${text(sight.at ?? 0)} m.`,
+    unknown: "A part of the line is not known; nothing that is known is in the way.",
+  };
+  element("sight").textContent = `${text(sight.length)} m. ${meanings[sight.result]}`;
+}
 
 // --- Drawing.
 
@@ -173,6 +228,19 @@ const KEYS = {
 };
 const isFlying = () => element("fly").checked;
 
+const STILL = 4; // pixels that a click may move
+let pressed; // where the pointer was put down
+
+// A click chooses an end of the profile.
+function release({ pointerId, clientX, clientY }) {
+  const isClick = pressed && fingers.size === 1 && Math.hypot(clientX - pressed[0], clientY - pressed[1]) < STILL;
+  fingers.delete(pointerId);
+  if (!isClick || !element("line").checked) return;
+  pointer = [clientX, clientY];
+  picking = number + 1;
+  refresh();
+}
+
 const fingers = new Map(); // where each pointer is
 
 // Two fingers: their middle and how far they are from each other.
@@ -198,6 +266,7 @@ function drag(event) {
 function listen() {
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
+    pressed = [event.clientX, event.clientY];
     fingers.set(event.pointerId, { x: event.clientX, y: event.clientY });
   });
   canvas.addEventListener("pointermove", (event) => {
@@ -205,9 +274,10 @@ function listen() {
     pointer = [event.clientX, event.clientY];
     refresh();
   });
-  for (const kind of ["pointerup", "pointercancel"]) {
-    canvas.addEventListener(kind, (event) => fingers.delete(event.pointerId));
-  }
+  canvas.addEventListener("pointerup", release);
+  canvas.addEventListener("pointercancel", (event) => fingers.delete(event.pointerId));
+  element("line").addEventListener("input", startProfile);
+  element("mast").addEventListener("input", showProfile);
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
   canvas.addEventListener("wheel", (event) => {
     event.preventDefault();
@@ -243,7 +313,7 @@ function workerOf(code) {
   const worker = new Worker(URL.createObjectURL(new Blob([code], { type: "text/javascript" })));
   worker.onmessage = ({ data }) => {
     ANSWERS[data.kind](data);
-    if (data.kind !== "drawn" && data.kind !== "height") refresh();
+    if (!["drawn", "height", "profile"].includes(data.kind)) refresh();
   };
   worker.onerror = ({ message }) => ANSWERS.error({ message });
   return worker;

@@ -285,6 +285,40 @@ test("phases, mesh and tiles change what is seen; keys move", async () => {
   await page.close();
 });
 
+test("two clicks draw a profile, and say whether masts see each other as the program does", async () => {
+  const page = await open(onDisk("many.html"), "complete");
+  await page.click("#map");
+  await settled(page);
+  await page.click("#line");
+  const sight = () => page.$eval("#sight", (element) => element.textContent);
+  assert.match(await sight(), /first end/);
+  const places = [];
+  for (const [x, y] of [[300, 350], [600, 550]]) {
+    await page.mouse.click(x, y);
+    await settled(page);
+    await page.waitForFunction((before) => document.getElementById("sight").textContent !== before, {}, await sight())
+      .catch(() => {});
+    places.push(await page.$eval("#pointer", (element) => /\n([\d.-]+), ([\d.-]+)/.exec(element.textContent).slice(1)));
+  }
+  await page.waitForFunction("document.getElementById('profile').dataset.result", { timeout: 10_000 });
+  for (const mast of [2, 5000]) {
+    await page.$eval("#mast", (input, value) => {
+      input.value = value;
+      input.dispatchEvent(new Event("input", { bubbles: true }));
+    }, mast);
+    const report = JSON.parse(microtin("profile", "many.mtp", ...places.flat(), "--from-height", String(mast),
+      "--to-height", String(mast), "--json").toString());
+    assert.equal(await page.$eval("#profile", (panel) => panel.dataset.result), report.line_of_sight);
+    const [length, first] = (await sight()).replaceAll(",", "").match(/[\d.]+(?= m)/g).map(Number);
+    assert.ok(Math.abs(length - report.length) < 2, `${length} ${report.length}`);
+    if (first !== undefined) assert.ok(Math.abs(first - report.first_obstruction_at) < 20, `${first}`);
+  }
+  assert.match(await page.$eval("#ground", (path) => path.getAttribute("d")), /^M[\d.]+ [\d.]+L/);
+  await page.click("#line");
+  assert.equal(await page.$eval("#profile", (panel) => panel.hidden), true);
+  await page.close();
+});
+
 test("one finger turns the terrain, two bring it nearer", async () => {
   const page = await open(onDisk("mtp.html"), "complete");
   await page.addStyleTag({ content: "#pointer { visibility: hidden }" });
