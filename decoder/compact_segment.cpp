@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Segments and blocks on a compact terrain.
+// Segments, blocks and gradients on a compact terrain.
+#include "decoder/gradient.hpp"
 #include "decoder/terrain_forms.hpp"
 #include "decoder/terrain_query.hpp"
 
@@ -33,4 +34,24 @@ microtin_query_result microtin_compact_sample_grid(const microtin_compact* compa
                                                    const microtin_grid_spec* grid,
                                                    int16_t* heights) {
   return fill_from_terrain(RingForm(compact), compact->axis[2], *grid, heights);
+}
+
+microtin_query_result microtin_compact_gradient_at(const microtin_compact* compact, int32_t x,
+                                                   int32_t y, uint32_t* hint,
+                                                   microtin_gradient* gradient,
+                                                   uint32_t step_limit) {
+  return gradient_in_terrain(RingForm(compact), x, y, hint, gradient, step_limit);
+}
+
+microtin_query_result microtin_compact_heights_at(const microtin_compact* compact,
+                                                  const microtin_position* positions,
+                                                  uint32_t count, uint32_t* hint,
+                                                  int32_t* heights) {
+  return heights_at(positions, count, HeightInTerrain<RingForm>(RingForm(compact)), hint, heights);
+}
+
+microtin_query_result microtin_compact_grid_extremes(const microtin_compact* compact,
+                                                     const microtin_grid_spec* grid,
+                                                     microtin_grid_extremes* extremes) {
+  return grid_extremes(*grid, HeightInTerrain<RingForm>(RingForm(compact)), extremes);
 }

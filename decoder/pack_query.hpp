@@ -5,6 +5,7 @@
 #define MICROTIN_DECODER_PACK_QUERY_HPP
 
 #include "decoder/border_edges.hpp"
+#include "decoder/gradient.hpp"
 #include "decoder/margins.hpp"
 #include "decoder/pack_state.hpp"
 #include "decoder/places.hpp"
@@ -243,16 +244,47 @@ microtin_query_result clearance_in_pack(const microtin_pack& p, const microtin_p
   return answer;
 }
 
+// A function of a position, as places.hpp has it.
+template <class Form>
+class HeightInPack {
+ public:
+  explicit HeightInPack(const microtin_pack& p) : p_(p) {}
+
+  microtin_query_result operator()(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
+    return height_in_pack<Form>(p_, x, y, hint, height);
+  }
+
+ private:
+  const microtin_pack& p_;
+};
+
 template <class Form>
 microtin_query_result fill_from_pack(const microtin_pack& p, const microtin_grid_spec& grid,
                                      int16_t* heights) {
   if (p.has_header && !has_small_units(p.axis[2])) return MICROTIN_QUERY_OUTSIDE;
-  return fill(
-      grid, p.axis[2],
-      [&p](int64_t x, int64_t y, uint32_t* hint, int32_t* height) {
-        return height_in_pack<Form>(p, x, y, hint, height);
-      },
-      heights);
+  return fill(grid, p.axis[2], HeightInPack<Form>(p), heights);
+}
+
+// The best triangle of all tiles that are there.
+template <class Form>
+microtin_query_result gradient_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
+                                       microtin_gradient* gradient) {
+  if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
+  if (!p.has_header) return MICROTIN_QUERY_NOT_LOADED;
+  if (!is_inside(p, x, y)) return MICROTIN_QUERY_OUTSIDE;
+  microtin_query_result answer = MICROTIN_QUERY_VOID;
+  BestTriangle best = {};
+  const microtin_segment here = {x, y, x, y};
+  for (TouchedTiles tiles(p.header.grid, here); !tiles.at_end(); tiles.next()) {
+    const void* const terrain = terrain_of(p, tiles.number(), &answer);
+    if (terrain == nullptr) continue;
+    const TileBox box = tiles.box();
+    look_at_place(Form(terrain), local(box, x, y), box.x, box.y, 0, hint, &best);
+  }
+  if (!best.is_found) return answer;
+  *gradient = best.gradient;
+  *hint = best.number;
+  return MICROTIN_QUERY_OK;
 }
 
 }  // namespace microtin

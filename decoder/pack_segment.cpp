@@ -31,3 +31,20 @@ microtin_query_result microtin_pack_sample_grid(const microtin_pack* pack,
                                                 const microtin_grid_spec* grid, int16_t* heights) {
   return fill_from_pack<MeshForm>(*pack, *grid, heights);
 }
+
+microtin_query_result microtin_pack_gradient_at(const microtin_pack* pack, int64_t x, int64_t y,
+                                                uint32_t* hint, microtin_gradient* gradient) {
+  return gradient_in_pack<MeshForm>(*pack, x, y, hint, gradient);
+}
+
+microtin_query_result microtin_pack_heights_at(const microtin_pack* pack,
+                                               const microtin_position* positions, uint32_t count,
+                                               uint32_t* hint, int32_t* heights) {
+  return heights_at(positions, count, HeightInPack<MeshForm>(*pack), hint, heights);
+}
+
+microtin_query_result microtin_pack_grid_extremes(const microtin_pack* pack,
+                                                  const microtin_grid_spec* grid,
+                                                  microtin_grid_extremes* extremes) {
+  return grid_extremes(*grid, HeightInPack<MeshForm>(*pack), extremes);
+}

@@ -37,10 +37,15 @@ MICROTIN_ONE_COPY inline int16_t in_units(int32_t z, const microtin_axis& axis) 
   return static_cast<int16_t>(height < INT16_MIN ? INT16_MIN : height);
 }
 
-// The heights of a grid in whole units of the axis z, as microtin_pack_sample_grid tells them.
-template <class HeightAt>
-microtin_query_result fill(const microtin_grid_spec& grid, const microtin_axis& axis,
-                           const HeightAt& height_at, int16_t* heights) {
+// The answer for many positions, of which one more has an answer.
+inline microtin_query_result joined(microtin_query_result all, microtin_query_result here) {
+  return here != MICROTIN_QUERY_OK && all != MICROTIN_QUERY_NOT_LOADED ? here : all;
+}
+
+// Hands the answer and the height at each position of a grid to put(answer, height), row by row.
+template <class HeightAt, class Put>
+microtin_query_result for_grid(const microtin_grid_spec& grid, const HeightAt& height_at,
+                               const Put& put) {
   if (!is_within(grid.x, kSegmentMost) || !is_within(grid.y, kSegmentMost))
     return MICROTIN_QUERY_OUTSIDE;
   microtin_query_result answer = MICROTIN_QUERY_OK;
@@ -51,9 +56,43 @@ microtin_query_result fill(const microtin_grid_spec& grid, const microtin_axis& 
     for (uint32_t column = 0; column < grid.columns; ++column, x += grid.dx) {
       int32_t z = 0;
       const microtin_query_result here = height_at(x, y, &hint, &z);
-      *heights++ = here == MICROTIN_QUERY_OK ? in_units(z, axis) : grid.missing;
-      if (here != MICROTIN_QUERY_OK && answer != MICROTIN_QUERY_NOT_LOADED) answer = here;
+      put(here, z);
+      answer = joined(answer, here);
     }
+  }
+  return answer;
+}
+
+// The heights of a grid in whole units of the axis z, as microtin_pack_sample_grid returns them.
+template <class HeightAt>
+microtin_query_result fill(const microtin_grid_spec& grid, const microtin_axis& axis,
+                           const HeightAt& height_at, int16_t* heights) {
+  return for_grid(grid, height_at, [&](microtin_query_result here, int32_t z) {
+    *heights++ = here == MICROTIN_QUERY_OK ? in_units(z, axis) : grid.missing;
+  });
+}
+
+template <class HeightAt>
+microtin_query_result grid_extremes(const microtin_grid_spec& grid, const HeightAt& height_at,
+                                    microtin_grid_extremes* extremes) {
+  extremes->highest = INT32_MIN;
+  extremes->lowest = INT32_MAX;
+  return for_grid(grid, height_at, [extremes](microtin_query_result here, int32_t z) {
+    if (here != MICROTIN_QUERY_OK) return;
+    if (z > extremes->highest) extremes->highest = z;
+    if (z < extremes->lowest) extremes->lowest = z;
+  });
+}
+
+// The heights at some positions, INT32_MIN where there is none.
+template <class HeightAt>
+microtin_query_result heights_at(const microtin_position* positions, uint32_t count,
+                                 const HeightAt& height_at, uint32_t* hint, int32_t* heights) {
+  microtin_query_result answer = MICROTIN_QUERY_OK;
+  for (uint32_t i = 0; i < count; ++i) {
+    const microtin_query_result here = height_at(positions[i].x, positions[i].y, hint, heights + i);
+    if (here != MICROTIN_QUERY_OK) heights[i] = INT32_MIN;
+    answer = joined(answer, here);
   }
   return answer;
 }

@@ -15,7 +15,8 @@ class MeshForm {
   typedef MeshCursor Cursor;
   static constexpr bool kIsCompact = false;
 
-  explicit MeshForm(const void* space) : m_(*static_cast<const microtin_mesh*>(space)) {}
+  explicit MeshForm(const void* space, uint32_t flags = 0)
+      : m_(*static_cast<const microtin_mesh*>(space)), flags_(flags) {}
 
   uint32_t triangles() const { return m_.mesh.triangles; }
   Point corner() const { return Point{0, 0}; }
@@ -44,7 +45,7 @@ class MeshForm {
   }
   microtin_query_result height_at(LocalPoint p, uint32_t step_limit, uint32_t* hint,
                                   int32_t* height) const {
-    return microtin_mesh_height_at(&m_, p.x, p.y, hint, height, 0, step_limit);
+    return microtin_mesh_height_at(&m_, p.x, p.y, hint, height, flags_, step_limit);
   }
 
  private:
@@ -53,6 +54,7 @@ class MeshForm {
   static int32_t magnitude(int32_t v) { return v < 0 ? -v : v; }
 
   const microtin_mesh& m_;
+  uint32_t flags_;
 };
 
 // The middle of the triangle below the edge (a, c), looked for from both ends: one that lies below

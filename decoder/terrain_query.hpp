@@ -131,16 +131,25 @@ microtin_query_result clearance_in_terrain(const Form& form, const microtin_path
   return static_cast<microtin_query_result>(done->result);
 }
 
+// A function of a position, as places.hpp has it.
+template <class Form>
+class HeightInTerrain {
+ public:
+  explicit HeightInTerrain(const Form& form) : form_(form) {}
+
+  microtin_query_result operator()(int64_t x, int64_t y, uint32_t* hint, int32_t* height) const {
+    return height_in_terrain(form_, x, y, hint, height);
+  }
+
+ private:
+  const Form& form_;
+};
+
 template <class Form>
 microtin_query_result fill_from_terrain(const Form& form, const microtin_axis& z,
                                         const microtin_grid_spec& grid, int16_t* heights) {
   if (!has_small_units(z)) return MICROTIN_QUERY_OUTSIDE;
-  return fill(
-      grid, z,
-      [&form](int64_t x, int64_t y, uint32_t* hint, int32_t* height) {
-        return height_in_terrain(form, x, y, hint, height);
-      },
-      heights);
+  return fill(grid, z, HeightInTerrain<Form>(form), heights);
 }
 
 }  // namespace microtin

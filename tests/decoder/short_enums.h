@@ -15,6 +15,7 @@
     sizeof(microtin_axis), sizeof(microtin_stream_info), sizeof(microtin_segment),                \
         sizeof(microtin_segment_state), sizeof(microtin_segment_extremes), sizeof(microtin_path), \
         sizeof(microtin_crossing), sizeof(microtin_path_clearance), sizeof(microtin_grid_spec),   \
+        sizeof(microtin_gradient), sizeof(microtin_position), sizeof(microtin_grid_extremes),     \
         sizeof(microtin_pack_info), sizeof(microtin_request), sizeof(microtin_requests),          \
         sizeof(microtin_spot), sizeof(microtin_spots), sizeof(microtin_stride),                   \
         sizeof(microtin_inav), sizeof(microtin_inav_look), sizeof(microtin_ardupilot_block),      \

@@ -33,6 +33,9 @@ PACK_CHECK = ["pack_check_segment", "pack_check_box"]
 CLEARANCE = ["mesh_path_clearance"]
 PROFILE = ["mesh_profile_next"]
 PACK_PROFILE = ["pack_profile_next"]
+GRADIENT = ["mesh_gradient_at"]
+PACK_GRADIENT = ["pack_gradient_at"]
+PLACES = ["mesh_heights_at", "mesh_grid_extremes"]
 COMPACT_PACK_PROFILE = ["compact_pack_profile_next"]
 COMPACT_PACK = [{"pack_init": "compact_pack_init", "pack_load": "compact_pack_load"}.get(e, e) for e in PACK]
 COMPACT_PACK_QUERIES = ["compact_" + e if e != "pack_axis_to_lattice" else e for e in PACK_QUERIES]
@@ -53,6 +56,9 @@ USES = {
     "profile": DECODING + PROFILE,
     "pack_profile": PACK + PACK_PROFILE,
     "compact_pack_profile": COMPACT_PACK + COMPACT_PACK_PROFILE,
+    "gradient": DECODING + GRADIENT,
+    "pack_gradient": PACK + PACK_GRADIENT,
+    "places": DECODING + PLACES,
 }
 # What is measured of the decoder in one source, by each compiler.
 ONE_SOURCE_USES = {
@@ -123,6 +129,7 @@ def measure_library(options, library):
         image = str(options.build / "linked")
         all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
         others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + CLEARANCE + PROFILE + PACK_PROFILE + COMPACT_PACK_PROFILE
+        others += GRADIENT + PACK_GRADIENT + PLACES
         link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + others + all_packs, image)
         calls = stack.Stack(options.target, options.objdump, image, graphs)
         own = {
@@ -130,7 +137,8 @@ def measure_library(options, library):
             "pack_queries": PACK_QUERIES, "compact_pack": COMPACT_PACK, "compact_pack_queries": COMPACT_PACK_QUERIES,
             "notes": NOTES, "safe_heights": SAFE_HEIGHTS, "segments": SEGMENTS, "pack_check": PACK_CHECK,
             "clearance": CLEARANCE, "profile": PROFILE, "pack_profile": PACK_PROFILE,
-            "compact_pack_profile": COMPACT_PACK_PROFILE,
+            "compact_pack_profile": COMPACT_PACK_PROFILE, "gradient": GRADIENT, "pack_gradient": PACK_GRADIENT,
+            "places": PLACES,
         }  # fmt: skip
         for use, entries in own.items():
             result["stack_" + use] = max(calls.depth(symbol(options, entry)) for entry in entries)
@@ -269,6 +277,9 @@ USE_TITLES = {
     "profile": "decoding, a profile",
     "pack_profile": "packs, a profile",
     "compact_pack_profile": "packs with compact slots, a profile",
+    "gradient": "decoding, gradients",
+    "pack_gradient": "packs, gradients",
+    "places": "decoding, many positions",
 }
 STACK_TITLES = {
     "decoding": "decoding",
@@ -284,6 +295,9 @@ STACK_TITLES = {
     "profile": "a profile",
     "pack_profile": "a profile through a pack",
     "compact_pack_profile": "a profile through a pack, compact slots",
+    "gradient": "a gradient",
+    "pack_gradient": "a gradient in a pack",
+    "places": "many positions",
 }
 
 

@@ -83,6 +83,25 @@ class PackDevice {
     *height = extremes.highest;
     return answer;
   }
+  microtin_query_result gradient_at(int64_t x, int64_t y, microtin_gradient* gradient) const {
+    uint32_t hint = 0;
+    return is_compact_ ? microtin_compact_pack_gradient_at(pack, x, y, &hint, gradient)
+                       : microtin_pack_gradient_at(pack, x, y, &hint, gradient);
+  }
+  microtin_query_result heights_at(const std::vector<microtin_position>& positions,
+                                   std::vector<int32_t>& heights) const {
+    uint32_t hint = 0;
+    const uint32_t count = static_cast<uint32_t>(positions.size());
+    return is_compact_
+               ? microtin_compact_pack_heights_at(pack, positions.data(), count, &hint,
+                                                  heights.data())
+               : microtin_pack_heights_at(pack, positions.data(), count, &hint, heights.data());
+  }
+  microtin_query_result grid_extremes(const microtin_grid_spec& grid,
+                                      microtin_grid_extremes* extremes) const {
+    return is_compact_ ? microtin_compact_pack_grid_extremes(pack, &grid, extremes)
+                       : microtin_pack_grid_extremes(pack, &grid, extremes);
+  }
   microtin_query_result sample_grid(const microtin_grid_spec& block, int16_t* heights) const {
     return is_compact_ ? microtin_compact_pack_sample_grid(pack, &block, heights)
                        : microtin_pack_sample_grid(pack, &block, heights);

@@ -167,6 +167,22 @@ microtin_query_result microtin_compact_path_clearance(const microtin_compact* co
                                                       microtin_path_clearance* clearance,
                                                       uint32_t flags, uint32_t step_limit);
 
+/* Finds the gradient at a position, with parameters and results of microtin_mesh_gradient_at. */
+microtin_query_result microtin_compact_gradient_at(const microtin_compact* compact, int32_t x,
+                                                   int32_t y, uint32_t* hint,
+                                                   microtin_gradient* gradient,
+                                                   uint32_t step_limit);
+
+/* Stores the heights at some positions, with parameters and results of microtin_mesh_heights_at. */
+microtin_query_result microtin_compact_heights_at(const microtin_compact* compact,
+                                                  const microtin_position* positions,
+                                                  uint32_t count, uint32_t* hint, int32_t* heights);
+
+/* Finds the greatest and the least height of a grid, as microtin_mesh_grid_extremes does. */
+microtin_query_result microtin_compact_grid_extremes(const microtin_compact* compact,
+                                                     const microtin_grid_spec* grid,
+                                                     microtin_grid_extremes* extremes);
+
 /* Stores the heights of a grid, with parameters and results of microtin_mesh_sample_grid. */
 microtin_query_result microtin_compact_sample_grid(const microtin_compact* compact,
                                                    const microtin_grid_spec* grid,

@@ -90,6 +90,24 @@ microtin_query_result microtin_compact_pack_profile_next(const microtin_pack* pa
                                                          microtin_segment_state* state,
                                                          microtin_crossing* crossing);
 
+/* Finds the gradient at a position, as microtin_pack_gradient_at does. */
+microtin_query_result microtin_compact_pack_gradient_at(const microtin_pack* pack, int64_t x,
+                                                        int64_t y, uint32_t* hint,
+                                                        microtin_gradient* gradient);
+
+/* Stores the heights at some positions, as microtin_pack_heights_at does. NOT_LOADED takes
+ * precedence over all other results. */
+microtin_query_result microtin_compact_pack_heights_at(const microtin_pack* pack,
+                                                       const microtin_position* positions,
+                                                       uint32_t count, uint32_t* hint,
+                                                       int32_t* heights);
+
+/* Finds the greatest and the least height of a grid, as microtin_pack_grid_extremes does.
+ * NOT_LOADED takes precedence over all other results. */
+microtin_query_result microtin_compact_pack_grid_extremes(const microtin_pack* pack,
+                                                          const microtin_grid_spec* grid,
+                                                          microtin_grid_extremes* extremes);
+
 /* Stores the heights of a grid, as microtin_pack_sample_grid does. */
 microtin_query_result microtin_compact_pack_sample_grid(const microtin_pack* pack,
                                                         const microtin_grid_spec* grid,

@@ -58,6 +58,21 @@ class CompactPack : public PackFace {
                                      microtin_crossing* crossing) const {
     return microtin_compact_pack_profile_next(pack_, &segment, state, crossing);
   }
+  // Calls microtin_compact_pack_gradient_at.
+  microtin_query_result gradient_at(int64_t x, int64_t y, uint32_t* hint,
+                                    microtin_gradient* gradient) const {
+    return microtin_compact_pack_gradient_at(pack_, x, y, hint, gradient);
+  }
+  // Calls microtin_compact_pack_heights_at.
+  microtin_query_result heights_at(const microtin_position* positions, uint32_t count,
+                                   uint32_t* hint, int32_t* heights) const {
+    return microtin_compact_pack_heights_at(pack_, positions, count, hint, heights);
+  }
+  // Calls microtin_compact_pack_grid_extremes.
+  microtin_query_result grid_extremes(const microtin_grid_spec& grid,
+                                      microtin_grid_extremes* extremes) const {
+    return microtin_compact_pack_grid_extremes(pack_, &grid, extremes);
+  }
   // Calls microtin_compact_pack_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
     return microtin_compact_pack_sample_grid(pack_, &grid, heights);

@@ -93,6 +93,22 @@ class Terrain {
                                      microtin_crossing* crossing, uint32_t step_limit = 0) const {
     return microtin_mesh_profile_next(mesh_, &segment, state, crossing, step_limit);
   }
+  // Calls microtin_mesh_gradient_at.
+  microtin_query_result gradient_at(int32_t x, int32_t y, uint32_t* hint,
+                                    microtin_gradient* gradient, uint32_t flags = 0,
+                                    uint32_t step_limit = 0) const {
+    return microtin_mesh_gradient_at(mesh_, x, y, hint, gradient, flags, step_limit);
+  }
+  // Calls microtin_mesh_heights_at.
+  microtin_query_result heights_at(const microtin_position* positions, uint32_t count,
+                                   uint32_t* hint, int32_t* heights) const {
+    return microtin_mesh_heights_at(mesh_, positions, count, hint, heights);
+  }
+  // Calls microtin_mesh_grid_extremes.
+  microtin_query_result grid_extremes(const microtin_grid_spec& grid,
+                                      microtin_grid_extremes* extremes) const {
+    return microtin_mesh_grid_extremes(mesh_, &grid, extremes);
+  }
   // Calls microtin_mesh_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {
     return microtin_mesh_sample_grid(mesh_, &grid, heights);
@@ -264,6 +280,21 @@ class CompactTerrain {
   microtin_query_result profile_next(const microtin_segment& segment, microtin_segment_state* state,
                                      microtin_crossing* crossing, uint32_t step_limit = 0) const {
     return microtin_compact_profile_next(compact_, &segment, state, crossing, step_limit);
+  }
+  // Calls microtin_compact_gradient_at.
+  microtin_query_result gradient_at(int32_t x, int32_t y, uint32_t* hint,
+                                    microtin_gradient* gradient, uint32_t step_limit = 0) const {
+    return microtin_compact_gradient_at(compact_, x, y, hint, gradient, step_limit);
+  }
+  // Calls microtin_compact_heights_at.
+  microtin_query_result heights_at(const microtin_position* positions, uint32_t count,
+                                   uint32_t* hint, int32_t* heights) const {
+    return microtin_compact_heights_at(compact_, positions, count, hint, heights);
+  }
+  // Calls microtin_compact_grid_extremes.
+  microtin_query_result grid_extremes(const microtin_grid_spec& grid,
+                                      microtin_grid_extremes* extremes) const {
+    return microtin_compact_grid_extremes(compact_, &grid, extremes);
   }
   // Calls microtin_compact_sample_grid.
   microtin_query_result sample_grid(const microtin_grid_spec& grid, int16_t* heights) const {

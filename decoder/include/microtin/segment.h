@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/* microtin: queries about many positions of a mesh, on a segment or in a grid. C99 and C++.
+/* microtin: queries about slopes, and about many positions of a mesh, on a segment or in a grid.
+ * C99 and C++.
  *
  * Coordinates are lattice coordinates with 8 fractional bits: 256 is one lattice step. Nothing here
  * allocates, recurses, uses floating point or keeps global state. A query reads its terrain only,
@@ -140,6 +141,42 @@ microtin_query_result microtin_mesh_path_clearance(const microtin_mesh* mesh,
                                                    microtin_path_clearance* clearance,
                                                    uint32_t flags, uint32_t step_limit);
 
+/* The slope of a triangle: the height rises by dx / whole z steps for each lattice step east, and
+ * by dy / whole for each lattice step north. Exact; |dx|, |dy| < 2^33, 0 < whole < 2^32.
+ *
+ * In real units, with the axes of the terrain:
+ *
+ *   east  = dx / whole * (z.numerator / z.denominator) / (x.numerator / x.denominator)
+ *   north = dy / whole * (z.numerator / z.denominator) / (y.numerator / y.denominator)
+ *   slope = sqrt(east^2 + north^2), the tangent of the slope's angle if all axes have one unit
+ *   aspect = atan2(-east, -north), the direction of steepest descent, clockwise from north */
+typedef struct microtin_gradient {
+  int64_t dx, dy, whole;
+} microtin_gradient;
+
+/* Finds the gradient at a position, with parameters and results of microtin_mesh_height_at. On an
+ * edge or a vertex it is that of one triangle with terrain, the same on every form: the one whose
+ * centre lies farthest east, and of those with the same x farthest north. *hint becomes the number
+ * of that triangle; see microtin_mesh_triangle. VOID also if all triangles around a vertex are
+ * void. Costs a height, and a look at each triangle around a vertex. */
+microtin_query_result microtin_mesh_gradient_at(const microtin_mesh* mesh, int32_t x, int32_t y,
+                                                uint32_t* hint, microtin_gradient* gradient,
+                                                uint32_t flags, uint32_t step_limit);
+
+/* A position, 8 fractional bits. */
+typedef struct microtin_position {
+  int64_t x, y;
+} microtin_position;
+
+/* Stores the heights at `count` positions, INT32_MIN where there is none. Each query starts where
+ * the one before ended: sort the positions, or not. *hint as in microtin_mesh_height_at.
+ *
+ * - OK: all positions have heights
+ * - any other: the result of the last position without a height */
+microtin_query_result microtin_mesh_heights_at(const microtin_mesh* mesh,
+                                               const microtin_position* positions, uint32_t count,
+                                               uint32_t* hint, int32_t* heights);
+
 /* Positions in rows and columns, and what to store where there is no height. */
 typedef struct microtin_grid_spec {
   int64_t x, y;           /* the first position, 8 fractional bits */
@@ -159,6 +196,18 @@ typedef struct microtin_grid_spec {
  * - any other: the result of the last position without a height; see microtin_mesh_height_at */
 microtin_query_result microtin_mesh_sample_grid(const microtin_mesh* mesh,
                                                 const microtin_grid_spec* grid, int16_t* heights);
+
+/* The greatest and the least height at the positions of a grid: z steps, 16 fractional bits. */
+typedef struct microtin_grid_extremes {
+  int32_t highest, lowest; /* INT32_MIN and INT32_MAX: no position has a height */
+} microtin_grid_extremes;
+
+/* Finds the greatest and the least height at the positions of a grid. `missing` is not used.
+ * Results and cost are those of microtin_mesh_sample_grid; OUTSIDE does not depend on the z axis.
+ */
+microtin_query_result microtin_mesh_grid_extremes(const microtin_mesh* mesh,
+                                                  const microtin_grid_spec* grid,
+                                                  microtin_grid_extremes* extremes);
 
 #ifdef __cplusplus
 }
