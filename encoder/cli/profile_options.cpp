@@ -55,10 +55,12 @@ void add_ends(CLI::App& command, Request& request) {
           ->default_str("the ground if the other end has a height, else no line of sight");
   add_height(command, "--from-altitude METRES", request.from_altitude,
              "Set the height of the first end above the datum of heights")
-      ->excludes(from);
+      ->excludes(from)
+      ->default_str("a height above the ground");
   add_height(command, "--to-altitude METRES", request.to_altitude,
              "Set the height of the second end above the datum of heights")
-      ->excludes(to);
+      ->excludes(to)
+      ->default_str("a height above the ground");
 }
 
 void add_model(CLI::App& command, Request& request) {
