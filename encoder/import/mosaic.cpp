@@ -14,6 +14,7 @@
 #include "encoder/exact/fraction.hpp"
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/exact/units.hpp"
+#include "encoder/import/common_lattice.hpp"
 #include "encoder/import/raster.hpp"
 #include "encoder/import/reference.hpp"
 
@@ -104,27 +105,6 @@ struct Box {
   bool empty() const { return width == 0 || height == 0; }
 };
 
-// "10 x 10"
-std::string cells_of(const Raster& frame) {
-  const auto step = [](const Axis& axis) {
-    return CoordinateText({0, axis.numerator, axis.denominator})(1);
-  };
-  return step(frame.x) + " x " + step(frame.y);
-}
-
-// Where a raster's first post is among those of another, but for what writers round corners by.
-int64_t place_on(const Axis& axis, const Axis& grid, const std::string& path,
-                 const std::string& first) {
-  constexpr Wide kRounding = 1000000;  // parts of a cell
-  const LatticeMap map = map_between(axis, grid);
-  const Wide place = map.nearest(0);
-  if (magnitude(map.shift - place * map.step) > map.step / kRounding) {
-    throw Error(path + ": its posts lie between those of " + first +
-                ": bring all onto one grid with gdalwarp -tr -tap");
-  }
-  return static_cast<int64_t>(place);
-}
-
 // Frames of rasters; in degrees those beyond 180 continue their neighbours' longitudes.
 struct Frames {
   explicit Frames(const std::vector<NamedSource>& sources) {
@@ -152,40 +132,79 @@ struct Frames {
   std::string text;  // for the user
 };
 
-void expect_same_cells(const Raster& frame, const Raster& grid, const std::string& path,
-                       const std::string& first) {
-  const LatticeMap x = map_between(frame.x, grid.x), y = map_between(frame.y, grid.y);
-  if (x.scale == x.step && y.scale == y.step) return;
-  throw Error(path + ": its cells are " + cells_of(frame) + ", those of " + first + " are " +
-              cells_of(grid) + ": bring all onto one grid with gdalwarp -tr -tap");
-}
+// Posts of a raster, by their places on the lattice.
+struct Piece {
+  int64_t x, y, x_spacing, y_spacing;  // of the first post, and from one to the next
+  int64_t columns, rows;
+  std::vector<int64_t> heights;
+
+  int64_t height(int64_t column, int64_t row) const {
+    return heights[static_cast<size_t>(row * columns + column)];
+  }
+  // kNoPost where there is none.
+  int64_t height_at(int64_t px, int64_t py) const {
+    const int64_t dx = px - x, dy = py - y;
+    if (dx < 0 || dy < 0 || dx % x_spacing != 0 || dy % y_spacing != 0) return kNoPost;
+    if (dx / x_spacing >= columns || dy / y_spacing >= rows) return kNoPost;
+    return height(dx / x_spacing, dy / y_spacing);
+  }
+  // Whether a post has a height at a corner of the cell that a place is in.
+  bool has_height_around(int64_t px, int64_t py) const {
+    const int64_t west = (px - x) / x_spacing, south = (py - y) / y_spacing;
+    for (int64_t row = south; row <= std::min(south + 1, rows - 1); ++row) {
+      for (int64_t column = west; column <= std::min(west + 1, columns - 1); ++column) {
+        if (is_height(height(column, row))) return true;
+      }
+    }
+    return false;
+  }
+  // Calls visit(x, y, height).
+  template <class Visit>
+  void for_each(const Visit& visit) const {
+    for (int64_t row = 0; row < rows; ++row) {
+      for (int64_t column = 0; column < columns; ++column) {
+        visit(x + column * x_spacing, y + row * y_spacing, height(column, row));
+      }
+    }
+  }
+};
 
 struct Part {
   std::string path;
   std::unique_ptr<RasterReader> raster;
-  Box box;
+  PostPlaces places;
+  Box box;  // from the first to the last post
 
-  // Heights of a rectangle within, with this many decimals.
-  std::vector<int64_t> read(const Box& wanted, int decimals) const {
-    Raster piece = raster->read(
-        {static_cast<uint32_t>(wanted.x - box.x), static_cast<uint32_t>(wanted.y - box.y),
-         static_cast<uint32_t>(wanted.width), static_cast<uint32_t>(wanted.height)});
+  // The posts of a rectangle that shares places with the box, and those next to them around it,
+  // with this many decimals.
+  Piece read(const Box& wanted, int decimals) const {
+    const Box inner = wanted.shared_with(box);
+    const auto first = [](int64_t from, int64_t spacing) { return from / spacing; };
+    const auto last = [](int64_t end, int64_t spacing) {
+      return (end - 1 + spacing - 1) / spacing;
+    };
+    const int64_t sx = places.x_spacing, sy = places.y_spacing;
+    const int64_t west = first(inner.x - box.x, sx), south = first(inner.y - box.y, sy);
+    const int64_t columns = last(inner.right() - box.x, sx) - west + 1;
+    const int64_t rows = last(inner.top() - box.y, sy) - south + 1;
+    Raster piece = raster->read({static_cast<uint32_t>(west), static_cast<uint32_t>(south),
+                                 static_cast<uint32_t>(columns), static_cast<uint32_t>(rows)});
     if (!refine(piece.heights, power_of_ten(decimals - piece.decimals))) {
       throw Error(path + ": its heights do not fit the decimals of the other files");
     }
-    return std::move(piece.heights);
+    return {box.x + west * sx, box.y + south * sy, sx, sy, columns, rows, std::move(piece.heights)};
+  }
+
+  // The box and places around it where the next posts would be the neighbours of its last.
+  Box reach() const {
+    const int64_t x = places.x_spacing - int64_t{1}, y = places.y_spacing - int64_t{1};
+    return {box.x - x, box.y - y, box.width + 2 * x, box.height + 2 * y};
   }
 };
 
-Part part_of(const NamedSource& first, const Raster& grid, const NamedSource& named,
-             const Raster& frame) {
-  expect_alike(first, named, grid.reference, frame.reference);
-  expect_same_cells(frame, grid, named.path, first.path);
-  return {named.path,
-          nullptr,
-          {place_on(frame.x, grid.x, named.path, first.path),
-           place_on(frame.y, grid.y, named.path, first.path), int64_t{frame.width},
-           int64_t{frame.height}}};
+Box box_of(const PostPlaces& places, const Raster& frame) {
+  return {places.x, places.y, (int64_t{frame.width} - 1) * places.x_spacing + 1,
+          (int64_t{frame.height} - 1) * places.y_spacing + 1};
 }
 
 // The largest difference of two heights at a post.
@@ -200,16 +219,29 @@ class Mosaic : public RasterReader {
   explicit Mosaic(std::vector<NamedSource> sources) {
     const Frames frames(sources);
     frame_ = frames.all[0];
+    std::vector<std::string> paths;
     for (size_t i = 0; i < sources.size(); ++i) {
-      parts_.push_back(part_of(sources[0], frame_, sources[i], frames.all[i]));
+      paths.push_back(sources[i].path);
+      expect_alike(sources[0], sources[i], frame_.reference, frames.all[i].reference);
     }
-    for (size_t i = 0; i < parts_.size(); ++i) {
+    const CommonLattice lattice = common_lattice(frames.all, paths);
+    frame_.x = lattice.x;
+    frame_.y = lattice.y;
+    for (size_t i = 0; i < sources.size(); ++i) {
+      const PostPlaces& places = lattice.rasters[i];
       add_statements(frames.all[i].reference, frame_.reference);
-      parts_[i].raster = std::move(std::get<std::unique_ptr<RasterReader>>(sources[i].source));
-      frame_.decimals = std::max(frame_.decimals, parts_[i].raster->frame().decimals);
+      parts_.push_back({paths[i],
+                        std::move(std::get<std::unique_ptr<RasterReader>>(sources[i].source)),
+                        places, box_of(places, frames.all[i])});
+      frame_.decimals = std::max(frame_.decimals, frames.all[i].decimals);
+      frame_.x_spacing = std::max(frame_.x_spacing, places.x_spacing);
+      frame_.y_spacing = std::max(frame_.y_spacing, places.y_spacing);
     }
+    const std::string shift = warning_on_shift(lattice.rasters, paths);
+    if (!shift.empty()) frame_.reference.warnings.push_back(shift);
     find_frame();
     compare_parts();
+    if (is_sparse(frame_)) frame_.selection += lattice_text();
     frame_.selection += frames.text;
   }
 
@@ -217,22 +249,69 @@ class Mosaic : public RasterReader {
     Raster whole = crop_frame(frame_, r);
     whole.heights.assign(size_t{r.width} * r.height, kVoidHeight);
     const Box wanted{x_ + r.x, y_ + r.y, int64_t{r.width}, int64_t{r.height}};
+    Canvas canvas{wanted, whole.heights};
+    std::vector<Piece> pieces;
     for (const Part& part : parts_) {
-      const Box box = wanted.shared_with(part.box);
-      if (box.empty()) continue;
-      const std::vector<int64_t> heights = part.read(box, frame_.decimals);
-      for (int64_t row = 0; row < box.height; ++row) {
-        for (int64_t column = 0; column < box.width; ++column) {
-          int64_t& z = whole.heights[static_cast<size_t>((box.y - wanted.y + row) * wanted.width +
-                                                         box.x - wanted.x + column)];
-          if (z == kVoidHeight) z = heights[static_cast<size_t>(row * box.width + column)];
-        }
+      if (is_sparse(frame_)) canvas.clear(part.reach());
+      if (!wanted.shared_with(part.box).empty()) {
+        pieces.push_back(part.read(wanted, frame_.decimals));
       }
+    }
+    for (const Piece& piece : pieces) canvas.draw(piece);
+    if (is_sparse(frame_) && pieces.size() > 1) {
+      for (const Piece& piece : pieces) canvas.fill(piece);
     }
     return whole;
   }
 
  private:
+  // The heights of a rectangle.
+  struct Canvas {
+    Box box;
+    std::vector<int64_t>& heights;
+
+    int64_t& at(int64_t x, int64_t y) const {
+      return heights[static_cast<size_t>((y - box.y) * box.width + x - box.x)];
+    }
+    bool holds(int64_t x, int64_t y) const {
+      return x >= box.x && x < box.right() && y >= box.y && y < box.top();
+    }
+    // No place there is void because no file has it.
+    void clear(const Box& part) const {
+      const Box inner = box.shared_with(part);
+      for (int64_t y = inner.y; y < inner.top(); ++y) {
+        for (int64_t x = inner.x; x < inner.right(); ++x) at(x, y) = kNoPost;
+      }
+    }
+    // The first height counts, and any height instead of a void.
+    void draw(const Piece& piece) const {
+      piece.for_each([&](int64_t x, int64_t y, int64_t z) {
+        if (holds(x, y) && !is_height(at(x, y))) at(x, y) = z;
+      });
+    }
+    // Posts of another grid do away with a void post between them.
+    void fill(const Piece& piece) const {
+      const Box inner =
+          box.shared_with({piece.x, piece.y, (piece.columns - 1) * piece.x_spacing + 1,
+                           (piece.rows - 1) * piece.y_spacing + 1});
+      for (int64_t y = inner.y; y < inner.top(); ++y) {
+        for (int64_t x = inner.x; x < inner.right(); ++x) {
+          if (at(x, y) != kVoidHeight || piece.height_at(x, y) != kNoPost) continue;
+          if (piece.has_height_around(x, y)) at(x, y) = kNoPost;
+        }
+      }
+    }
+  };
+
+  // Cells of which sizes, and what they share.
+  std::string lattice_text() const {
+    const CoordinateText x({0, frame_.x.numerator, frame_.x.denominator});
+    const CoordinateText y({0, frame_.y.numerator, frame_.y.denominator});
+    return "; their posts share a lattice of " + x(1) + " x " + y(1) +
+           ", on which they are up to " + x(frame_.x_spacing) + " x " + y(frame_.y_spacing) +
+           " apart";
+  }
+
   void find_frame() {
     Box all = parts_[0].box;
     for (const Part& part : parts_) {
@@ -283,16 +362,15 @@ class Mosaic : public RasterReader {
     const Box all = a.box.shared_with(b.box);
     for (int64_t y = all.y; y < all.top(); y += kRows) {
       const Box strip{all.x, y, all.width, std::min(kRows, all.top() - y)};
-      const std::vector<int64_t> mine = a.read(strip, frame_.decimals);
-      const std::vector<int64_t> others = b.read(strip, frame_.decimals);
-      for (size_t i = 0; i < mine.size(); ++i) {
-        if (mine[i] == kVoidHeight || others[i] == kVoidHeight) continue;
-        const auto difference = static_cast<int64_t>(magnitude(Wide{mine[i]} - others[i]));
-        if (difference <= largest.height) continue;
-        const auto column = static_cast<int64_t>(i) % strip.width;
-        const auto row = static_cast<int64_t>(i) / strip.width;
-        largest = {difference, strip.x + column - x_, strip.y + row - y_, a.path, b.path};
-      }
+      const Piece mine = a.read(strip, frame_.decimals), others = b.read(strip, frame_.decimals);
+      mine.for_each([&](int64_t x, int64_t py, int64_t z) {
+        if (!is_height(z)) return;
+        const int64_t other = others.height_at(x, py);
+        if (!is_height(other)) return;
+        const auto difference = static_cast<int64_t>(magnitude(Wide{z} - other));
+        if (difference <= largest.height) return;
+        largest = {difference, x - x_, py - y_, a.path, b.path};
+      });
     }
   }
 

@@ -334,7 +334,7 @@ void convert_axis(Axis& axis, const DecimalFactor& factor) {
 void convert_heights(Raster& raster, const Multiplier& multiplier) {
   raster.decimals = multiplier.decimals();
   for (int64_t& height : raster.heights) {
-    if (height != kVoidHeight) multiplier.apply(height);
+    if (is_height(height)) multiplier.apply(height);
   }
 }
 

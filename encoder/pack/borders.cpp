@@ -9,6 +9,7 @@
 
 #include "encoder/exact/wide.hpp"
 #include "encoder/pack/kept_tiles.hpp"
+#include "encoder/pack/sparse_line.hpp"
 
 namespace microtin::pack {
 
@@ -296,28 +297,67 @@ std::vector<Border> borders_of(const TileGrid& grid, uint32_t tile) {
   return borders;
 }
 
-// A line and the posts around it on which its aims depend.
-TileBox around(const TileGrid& grid, const TileBox& line) {
-  return {line.x - std::min(line.x, kGroundReach), line.y - std::min(line.y, kGroundReach),
-          std::min(line.x_end + kGroundReach, grid.x_max),
-          std::min(line.y_end + kGroundReach, grid.y_max)};
+// A box with what is next to it, as far as the grid goes.
+TileBox around(const TileGrid& grid, const TileBox& box, uint32_t reach_x, uint32_t reach_y) {
+  return {box.x - std::min(box.x, reach_x), box.y - std::min(box.y, reach_y),
+          std::min(box.x_end + reach_x, grid.x_max), std::min(box.y_end + reach_y, grid.y_max)};
+}
+
+// A box and the posts around it on which aims depend.
+TileBox with_ground(const TiledRaster& tiled, const TileBox& box) {
+  const Raster& frame = tiled.raster.frame();
+  return around(tiled.grid, box, kGroundReach + farthest_post(frame.x_spacing),
+                kGroundReach + farthest_post(frame.y_spacing));
 }
 
 constexpr uint32_t kVertexPrice = 2;  // more expensive ones make ridges of noisy borders
 
+uint32_t places_of(const TileBox& line) {
+  return (line.x_end - line.x) + (line.y_end - line.y) + 1;
+}
+
+uint32_t place_on_line(const Sample& sample) {
+  return uint32_t{sample.place.x} + sample.place.y;
+}
+
+// A post of a line with the ground as its aim.
+LinePost post_with_aim(const TilePosts& posts, const Ground& ground, const TileBox& strip,
+                       const TileBox& line, const Sample& sample) {
+  const GlobalPost place = post_of(line, place_on_line(sample));
+  const int64_t bounds = int64_t{sample.highest} - sample.lowest;
+  return {sample, posts.is_beside_void(place.x, place.y),
+          ground.at(place.x - strip.x, place.y - strip.y, bounds / 8)};
+}
+
+// Where posts are not at every place.
+std::vector<LinePost> posts_of_sparse_line(const TiledRaster& tiled, const TilePosts& posts,
+                                           const TileBox& line) {
+  const Raster& frame = tiled.raster.frame();
+  const TileBox strip = with_ground(tiled, line);
+  const Raster part = posts.crop_of(strip);
+  const std::vector<Sample> samples = survey_of(tiled, part).samples;
+  const PlaceSamples places(part, samples);
+  const Ground ground(places.all(), part.width, part.height);
+  const bool is_row = line.y == line.y_end;
+  const SparseLine inner{line.x - strip.x, line.y - strip.y, places_of(line), is_row};
+  std::vector<LinePost> on_line;
+  for (const auto& sample :
+       line_samples(places, inner, is_row ? frame.x_spacing : frame.y_spacing)) {
+    on_line.push_back(sample ? post_with_aim(posts, ground, strip, line, *sample) : LinePost{});
+  }
+  return on_line;
+}
+
 // Aims at the ground on both sides: a border that follows the noise of its own posts stands out.
 std::vector<LinePost> posts_of_line(const TiledRaster& tiled, const TilePosts& posts,
                                     const TileBox& line) {
-  std::vector<LinePost> on_line((line.x_end - line.x) + (line.y_end - line.y) + 1);
-  const TileBox strip = around(tiled.grid, line);
+  if (is_sparse(tiled.raster.frame())) return posts_of_sparse_line(tiled, posts, line);
+  std::vector<LinePost> on_line(places_of(line));
+  const TileBox strip = with_ground(tiled, line);
   const Ground ground(survey_of(tiled, posts.crop_of(strip)).samples, strip.x_end - strip.x + 1,
                       strip.y_end - strip.y + 1);
   for (const Sample& sample : survey_of(tiled, posts.crop_of(line)).samples) {
-    const uint32_t post = uint32_t{sample.place.x} + sample.place.y;
-    const GlobalPost place = post_of(line, post);
-    const int64_t bounds = int64_t{sample.highest} - sample.lowest;
-    on_line[post] = {sample, posts.is_beside_void(place.x, place.y),
-                     ground.at(place.x - strip.x, place.y - strip.y, bounds / 8)};
+    on_line[place_on_line(sample)] = post_with_aim(posts, ground, strip, line, sample);
   }
   return on_line;
 }
@@ -325,13 +365,11 @@ std::vector<LinePost> posts_of_line(const TiledRaster& tiled, const TilePosts& p
 }  // namespace
 
 TilePosts::TilePosts(const TiledRaster& tiled, uint32_t tile)
-    : number_(tile),
-      box_(tile_box(tiled.grid, tile)),
-      x_(box_.x - std::min(box_.x, kGroundReach)),
-      y_(box_.y - std::min(box_.y, kGroundReach)) {
-  const uint32_t x_end = std::min(box_.x_end + kGroundReach, tiled.grid.x_max);
-  const uint32_t y_end = std::min(box_.y_end + kGroundReach, tiled.grid.y_max);
-  posts_ = tiled.raster.read({x_, y_, x_end - x_ + 1, y_end - y_ + 1});
+    : number_(tile), box_(tile_box(tiled.grid, tile)) {
+  const TileBox all = with_ground(tiled, box_);
+  x_ = all.x;
+  y_ = all.y;
+  posts_ = tiled.raster.read({x_, y_, all.x_end - x_ + 1, all.y_end - y_ + 1});
 }
 
 Raster TilePosts::crop_of(const TileBox& box) const {
@@ -339,9 +377,9 @@ Raster TilePosts::crop_of(const TileBox& box) const {
 }
 
 bool TilePosts::is_beside_void(uint32_t x, uint32_t y) const {
-  const uint32_t column = x - x_, row = y - y_;
-  for (uint32_t r = row - std::min(row, 1u); r <= std::min(row + 1, posts_.height - 1); ++r) {
-    for (uint32_t c = column - std::min(column, 1u); c <= std::min(column + 1, posts_.width - 1);
+  const uint32_t column = x - x_, row = y - y_, dx = posts_.x_spacing, dy = posts_.y_spacing;
+  for (uint32_t r = row - std::min(row, dy); r <= std::min(row + dy, posts_.height - 1); ++r) {
+    for (uint32_t c = column - std::min(column, dx); c <= std::min(column + dx, posts_.width - 1);
          ++c) {
       if (posts_.heights[std::size_t{r} * posts_.width + c] == kVoidHeight) return true;
     }
@@ -372,8 +410,9 @@ namespace {
 // The corners of tiles that are kept have the heights that they had.
 void pin_corners(const KeptTiles& kept, const TileBox& line, std::vector<LinePost>& on_line) {
   for (const std::size_t post : {std::size_t{0}, on_line.size() - 1}) {
-    const auto height = kept.height_at(post_of(line, static_cast<uint32_t>(post)));
-    if (!height || !on_line[post].sample) continue;
+    if (!on_line[post].sample) continue;
+    const auto height = kept.height_at(post_of(line, place_on_line(*on_line[post].sample)));
+    if (!height) continue;
     const int32_t pinned = *height * 65536;
     on_line[post] = {Sample{on_line[post].sample->place, pinned, pinned, pinned}, true, pinned};
   }
@@ -386,7 +425,7 @@ SharedVertices chain_of(const TiledRaster& tiled, const TilePosts& posts, const 
   const ErrorModel model{tiled.options.max_error.has_value()};
   SharedVertices vertices;
   for (const ChainVertex& vertex : simplify_line(on_line, model, kVertexPrice)) {
-    const GlobalPost post = post_of(line, vertex.post);
+    const GlobalPost post = post_of(line, place_on_line(*on_line[vertex.post].sample));
     vertices[{static_cast<uint16_t>(post.x - posts.box().x),
               static_cast<uint16_t>(post.y - posts.box().y)}] = vertex.height;
   }

@@ -18,7 +18,7 @@
 
 namespace microtin::pack {
 
-// How many posts around one count, in each direction.
+// How many places around one count, in each direction.
 constexpr uint32_t kGroundReach = 8;
 
 // The ground: means of the middles of a rectangle's samples.
@@ -50,9 +50,9 @@ class Ground {
 // A post of the line, which runs along x or y: of its places, one coordinate ascends. Void posts
 // have no sample.
 struct LinePost {
-  std::optional<Sample> sample;
-  bool kept = false;  // must become a vertex
-  int32_t aim = 0;    // the height that is best here, within the bounds or not, as a Sample's
+  std::optional<Sample> sample;  // its place tells how far along the line it is
+  bool kept = false;             // must become a vertex
+  int32_t aim = 0;  // the height that is best here, within the bounds or not, as a Sample's
 };
 
 // Where the surface has as much room above as below.
@@ -61,7 +61,7 @@ inline int32_t middle_of(const Sample& sample) {
 }
 
 struct ChainVertex {
-  uint32_t post;
+  uint32_t post;  // its number among the posts
   int16_t height;
 };
 
@@ -87,7 +87,8 @@ struct TiledRaster {
   const KeptTiles* kept = nullptr;  // if the raster changes and most tiles do not
 };
 
-// The posts of a tile and those within kGroundReach: all that a tile depends on.
+// The posts of a tile and those within kGroundReach, or farther if posts are not at every place:
+// all that a tile depends on.
 class TilePosts {
  public:
   TilePosts(const TiledRaster& tiled, uint32_t tile);
@@ -99,7 +100,7 @@ class TilePosts {
   // The posts from the first to the last corner of a box in global coordinates.
   Raster crop_of(const TileBox& box) const;
 
-  // Whether one of the eight posts around this one is void.
+  // Whether one of the posts next to this one, in eight directions, is void.
   bool is_beside_void(uint32_t x, uint32_t y) const;
 
  private:

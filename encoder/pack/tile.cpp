@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdlib>
 #include <set>
 #include <string>
 #include <utility>
@@ -25,7 +26,7 @@ namespace {
 }
 
 // The posts of a tile. On borders with other tiles the shared vertices stand for all posts with
-// heights: they are fixed.
+// heights, also where no post is: they are fixed.
 Survey survey_of_tile(const TiledRaster& tiled, const TilePosts& posts,
                       const SharedVertices& shared) {
   const TileSides sides(tiled.grid, posts.box());
@@ -33,17 +34,18 @@ Survey survey_of_tile(const TiledRaster& tiled, const TilePosts& posts,
   Survey survey;
   survey.voids = all.voids;
   survey.samples.reserve(all.samples.size());
+  const auto is_before = [](const Sample& a, const Sample& b) { return a.place < b.place; };
   for (const Sample& sample : all.samples) {
-    if (!sides.shares(sample.place)) {
-      survey.samples.push_back(sample);
-      continue;
-    }
-    const auto vertex = shared.find(sample.place);
-    if (vertex == shared.end()) continue;
-    const int32_t height = vertex->second * 65536;
-    survey.samples.push_back({sample.place, height, height, height});
-    survey.fixed.push_back(sample.place);
+    if (!sides.shares(sample.place)) survey.samples.push_back(sample);
   }
+  const auto own = static_cast<std::ptrdiff_t>(survey.samples.size());
+  for (const auto& [place, step] : shared) {
+    const int32_t height = step * 65536;
+    survey.samples.push_back({place, height, height, height});
+    survey.fixed.push_back(place);
+  }
+  std::inplace_merge(survey.samples.begin(), survey.samples.begin() + own, survey.samples.end(),
+                     is_before);
   return survey;
 }
 
@@ -80,20 +82,21 @@ void check_covered_by_others(const TiledRaster& tiled, const TilePosts& posts) {
 // Makes the posts next to those of borders that are not covered vertices: nothing that a void
 // reaches comes between then. These posts have heights, as voids are next to vertices of borders
 // alone.
-void fix_beside(const std::vector<GlobalPost>& uncovered, const TileBox& box,
+void fix_beside(const std::vector<GlobalPost>& uncovered, const Raster& part, const TileBox& box,
                 const TileSides& sides, Survey& survey) {
   std::set<Point> fixed(survey.fixed.begin(), survey.fixed.end());
   for (const GlobalPost post : uncovered) {
     if (!sides.shares(
             {static_cast<uint16_t>(post.x - box.x), static_cast<uint16_t>(post.y - box.y)}))
       fail("leaves a post out");
-    for (const int dx : {-1, 0, 1}) {
-      for (const int dy : {-1, 0, 1}) {
-        const int64_t x = int64_t{post.x} - box.x + dx, y = int64_t{post.y} - box.y + dy;
-        if (x < 0 || y < 0 || x > box.x_end - box.x || y > box.y_end - box.y) continue;
-        const Point p{static_cast<uint16_t>(x), static_cast<uint16_t>(y)};
-        if (!sides.shares(p)) fixed.insert(p);
-      }
+    const int64_t x = int64_t{post.x} - box.x, y = int64_t{post.y} - box.y;
+    const Point first{static_cast<uint16_t>(std::max<int64_t>(x - part.x_spacing, 0)), 0};
+    auto sample = std::lower_bound(survey.samples.begin(), survey.samples.end(), first,
+                                   [](const Sample& s, Point p) { return s.place < p; });
+    for (; sample != survey.samples.end() && sample->place.x <= x + part.x_spacing; ++sample) {
+      const int64_t away = sample->place.y - y;
+      if (std::abs(away) > part.y_spacing || sides.shares(sample->place)) continue;
+      fixed.insert(sample->place);
     }
   }
   if (fixed.size() == survey.fixed.size()) fail("has a border that nothing covers");
@@ -190,7 +193,7 @@ EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyO
     const Placement lattice = {part.x, part.y, tiled.lattice.placement.z};
     const Verification measured = verify(decoded.mesh(), lattice, part, bound, gauge.visitor());
     if (measured.uncovered != 0) {
-      fix_beside(uncovered_posts(decoded.mesh(), part, box), box, sides, survey);
+      fix_beside(uncovered_posts(decoded.mesh(), part, box), part, box, sides, survey);
       continue;
     }
     check_shared(decoded.mesh(), sides, shared);

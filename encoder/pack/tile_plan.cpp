@@ -93,7 +93,9 @@ uint32_t guessed_pieces(const Raster& frame, const PackOptions& options) {
 }  // namespace
 
 TileGrid grid_of(const Raster& frame, uint32_t tile_size) {
-  const TileGrid grid = grid_of(frame.width - 1, frame.height - 1, tile_size);
+  constexpr uint32_t kMostSparse = kLatticeMax / 2;  // with the posts around, 16 bits hold places
+  const uint32_t most = is_sparse(frame) ? std::min(tile_size, kMostSparse) : tile_size;
+  const TileGrid grid = grid_of(frame.width - 1, frame.height - 1, most);
   if (has_too_many_tiles(grid)) {
     throw Error("the pack has " + std::to_string(tile_count(grid)) + " tiles of " +
                 std::to_string(std::max(grid.width, grid.height)) + " steps, more than " +

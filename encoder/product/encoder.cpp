@@ -335,7 +335,7 @@ Report encode_posts(const terrain::Raster& raster, const product::EncodeOptions&
   const pack::PackContent pack =
       product::encode_pack(KeptRaster(raster), options, streams, progress_of(callbacks));
   product::write_pack(pack, streams, out);
-  return report_of(product::report_of(pack), raster.heights.size() - void_posts(raster));
+  return report_of(product::report_of(pack), posts_with_height(raster));
 }
 
 Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOptions& options,

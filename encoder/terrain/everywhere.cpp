@@ -355,6 +355,7 @@ Decimal decimal_of(Wide units, const Axis& z) {
 
 std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& lattice,
                                const Raster& raster) {
+  if (is_sparse(raster)) return std::nullopt;
   Comparison comparison(lattice, raster);
   std::vector<bool> is_compared(microtin_mesh_vertex_count(mesh));
   const uint32_t triangles = microtin_mesh_triangle_count(mesh);

@@ -21,8 +21,8 @@ struct Gap {
 // a linear function has no extreme inside the part of a triangle that lies in a cell, and along a
 // line between posts it is linear. So these are the largest distances everywhere. Cells with a void
 // post are left out, and so is what lies outside the grid of posts. Nothing if the numbers of the
-// two lattices are too large for exact arithmetic. Takes O(posts + edges x cells that an edge
-// crosses).
+// two lattices are too large for exact arithmetic, or if the raster is sparse. Takes O(posts +
+// edges x cells that an edge crosses).
 std::optional<Gap> measure_gap(const microtin_mesh* mesh, const Placement& lattice,
                                const Raster& raster);
 

@@ -18,6 +18,8 @@ Raster crop_frame(const Raster& raster, const PostRectangle& r) {
   part.x = moved_axis(raster.x, r.x);
   part.y = moved_axis(raster.y, r.y);
   part.reference = raster.reference;
+  part.x_spacing = raster.x_spacing;
+  part.y_spacing = raster.y_spacing;
   return part;
 }
 
@@ -40,6 +42,8 @@ Raster frame_of(const Raster& raster) {
   frame.x = raster.x;
   frame.y = raster.y;
   frame.reference = raster.reference;
+  frame.x_spacing = raster.x_spacing;
+  frame.y_spacing = raster.y_spacing;
   return frame;
 }
 

@@ -14,6 +14,24 @@ namespace {
 
 constexpr uint32_t kBlock = 257;  // posts on each side
 
+// A raster without the columns and rows that have no post. Of several grids, places remain that
+// have none.
+Raster without_gaps(const Raster& raster) {
+  std::vector<bool> has_column(raster.width), has_row(raster.height);
+  for_each_post(raster, [&](int64_t x, int64_t y, int64_t) {
+    has_column[static_cast<std::size_t>(x)] = has_row[static_cast<std::size_t>(y)] = true;
+  });
+  Raster dense;
+  dense.width = static_cast<uint32_t>(std::count(has_column.begin(), has_column.end(), true));
+  dense.height = static_cast<uint32_t>(std::count(has_row.begin(), has_row.end(), true));
+  dense.decimals = raster.decimals;
+  for (std::size_t i = 0; i < raster.heights.size(); ++i) {
+    if (!has_column[i % raster.width] || !has_row[i / raster.width]) continue;
+    dense.heights.push_back(raster.heights[i]);
+  }
+  return dense;
+}
+
 // The posts of a grid whose every second one is known: how many of the others interpolation misses.
 class Octave {
  public:
@@ -35,6 +53,7 @@ class Octave {
     if (x + dx >= part_.width || y + dy >= part_.height) return false;
     const int64_t here = height(x, y), before = height(x - dx, y - dy),
                   after = height(x + dx, y + dy);
+    if (here == kNoPost || before == kNoPost || after == kNoPost) return false;
     const bool is_rim = before == kVoidHeight || after == kVoidHeight;
     if (here == kVoidHeight || is_rim) return here != kVoidHeight && step == 1;
     return std::abs(static_cast<double>(2 * here - before - after)) > 2 * bound_;
@@ -54,7 +73,7 @@ uint64_t mixed(uint64_t fingerprint, uint64_t number) {
 }
 
 struct BlockScan {
-  uint64_t voids;
+  uint64_t posts, voids;
   Mended mended;
   NumberRange heights;
   Extremes extremes;
@@ -64,10 +83,11 @@ struct BlockScan {
 
 BlockScan scan_block(const Raster& block) {
   BlockScan result{};
+  result.posts = posts_with_height(block);
   result.voids = void_posts(block);
   result.mended = block.mended;
   for (const int64_t height : block.heights) {
-    if (height != kVoidHeight) {
+    if (is_height(height)) {
       result.heights.add(height);
       result.extremes.add(height);
     }
@@ -79,9 +99,8 @@ BlockScan scan_block(const Raster& block) {
 }  // namespace
 
 uint64_t roughness(const Raster& part, const std::optional<Decimal>& max_error) {
-  if (!max_error) {
-    return part.heights.size() - void_posts(part);
-  }
+  if (!max_error) return posts_with_height(part);
+  if (is_sparse(part)) return roughness(without_gaps(part), max_error);
   const double bound = static_cast<double>(max_error->mantissa) *
                        static_cast<double>(power_of_ten(part.decimals)) /
                        static_cast<double>(power_of_ten(max_error->decimals));
@@ -114,6 +133,7 @@ RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_er
   RasterScan all;
   std::size_t roughest = 0;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
+    all.posts += blocks[i].posts;
     all.voids += blocks[i].voids;
     all.mended.add(blocks[i].mended);
     all.heights.add(blocks[i].heights);
@@ -121,7 +141,6 @@ RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_er
     if (blocks[i].roughness > blocks[roughest].roughness) roughest = i;
     all.fingerprint = mixed(all.fingerprint, blocks[i].fingerprint);
   }
-  all.posts = uint64_t{frame.width} * frame.height - all.voids;
   all.roughest = box(roughest);
   return all;
 }

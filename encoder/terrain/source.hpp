@@ -18,9 +18,15 @@
 
 namespace microtin::terrain {
 
-// A raster's height where there is none; of all other numbers the largest magnitude.
+// A raster's height at a post that has none, and at a place of its lattice where no post is; of all
+// other numbers the largest magnitude.
 constexpr int64_t kVoidHeight = std::numeric_limits<int64_t>::min();
+constexpr int64_t kNoPost = kVoidHeight + 1;
 constexpr int64_t kLargestNumber = 1000000000000000000;
+
+constexpr bool is_height(int64_t number) {
+  return number > kNoPost;
+}
 
 // What the file format implies, or what is asked for instead.
 struct Reference {
@@ -58,7 +64,14 @@ struct Raster {
   Reference reference;
   std::string selection = {};  // how it was put together of files, for the user; empty: it was not
   Mended mended = {};          // of its posts
+  // Neighbouring posts are at most this many columns and rows apart. 1: a post is at every place.
+  uint32_t x_spacing = 1, y_spacing = 1;
 };
+
+// Whether there are places without a post.
+inline bool is_sparse(const Raster& raster) {
+  return raster.x_spacing > 1 || raster.y_spacing > 1;
+}
 
 struct SourcePoint {
   int64_t x, y;  // times 10^-xy_decimals
@@ -111,7 +124,7 @@ inline bool refine(int64_t& number, int64_t factor) {
 // Refines all heights of a raster that are not void.
 inline bool refine(std::vector<int64_t>& heights, int64_t factor) {
   for (int64_t& height : heights) {
-    if (height != kVoidHeight && !refine(height, factor)) return false;
+    if (is_height(height) && !refine(height, factor)) return false;
   }
   return true;
 }
@@ -134,6 +147,12 @@ inline uint64_t void_posts(const Raster& raster) {
       std::count(raster.heights.begin(), raster.heights.end(), kVoidHeight));
 }
 
+// Posts with a height.
+inline uint64_t posts_with_height(const Raster& raster) {
+  return static_cast<uint64_t>(
+      std::count_if(raster.heights.begin(), raster.heights.end(), is_height));
+}
+
 inline PostGrid posts_of(const Raster& frame) {
   return {frame.width, frame.height, frame.x, frame.y};
 }
@@ -145,8 +164,8 @@ void for_each_post(const Source& source, const Visit& visit) {
   if (const auto* raster = std::get_if<Raster>(&source)) {
     const int64_t* z = raster->heights.data();
     for (uint32_t row = 0; row < raster->height; ++row) {
-      for (uint32_t column = 0; column < raster->width; ++column) {
-        visit(int64_t{column}, int64_t{row}, *z++);
+      for (uint32_t column = 0; column < raster->width; ++column, ++z) {
+        if (*z != kNoPost) visit(int64_t{column}, int64_t{row}, *z);
       }
     }
   } else {

@@ -13,14 +13,20 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Calls visit(index) for the posts next to post `index`.
+// Calls visit(index) for the posts next to post `index`, void ones too, in its row and column.
 template <class Visit>
 void for_each_neighbour(const Raster& raster, size_t index, const Visit& visit) {
-  const size_t column = index % raster.width;
-  if (column > 0) visit(index - 1);
-  if (column + 1 < raster.width) visit(index + 1);
-  if (index >= raster.width) visit(index - raster.width);
-  if (index + raster.width < raster.heights.size()) visit(index + raster.width);
+  const size_t column = index % raster.width, row = index / raster.width;
+  const auto look = [&](size_t places, uint32_t spacing, size_t stride, bool is_down) {
+    for (size_t away = 1; away <= std::min<size_t>(places, spacing); ++away) {
+      const size_t post = is_down ? index - away * stride : index + away * stride;
+      if (raster.heights[post] != kNoPost) return visit(post);
+    }
+  };
+  look(column, raster.x_spacing, 1, true);
+  look(raster.width - 1 - column, raster.x_spacing, 1, false);
+  look(row, raster.y_spacing, raster.width, true);
+  look(raster.height - 1 - row, raster.y_spacing, raster.width, false);
 }
 
 // The void posts connected to `start`; marks them as seen.
@@ -115,8 +121,9 @@ bool reaches_side(const Raster& raster, const PostRectangle& inner, Sides sides,
   std::vector<bool> seen(raster.heights.size());
   const auto is_there = [&](size_t index) {
     const size_t column = index % raster.width, row = index / raster.width;
-    return (sides.west && column == 0) || (sides.south && row == 0) ||
-           (sides.east && column + 1 == raster.width) || (sides.north && row + 1 == raster.height);
+    return (sides.west && column < raster.x_spacing) || (sides.south && row < raster.y_spacing) ||
+           (sides.east && column + raster.x_spacing >= raster.width) ||
+           (sides.north && row + raster.y_spacing >= raster.height);
   };
   for (uint32_t y = inner.y; y < inner.y + inner.height; ++y) {
     for (uint32_t x = inner.x; x < inner.x + inner.width; ++x) {
@@ -205,7 +212,7 @@ std::string warning_on_fill(const Extremes& posts, int decimals) {
 std::string warning_on_fill(const Raster& raster) {
   Extremes heights;
   for (const int64_t height : raster.heights) {
-    if (height != kVoidHeight) heights.add(height);
+    if (is_height(height)) heights.add(height);
   }
   return warning_on_fill(heights, raster.decimals);
 }

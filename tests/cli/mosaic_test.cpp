@@ -232,13 +232,13 @@ TEST_CASE("mosaic: more files than may be open to begin with") {
 TEST_CASE("mosaic: files that do not go together are refused by name") {
   const Session session;
   session.write("a.asc", grid(100, 50, "1 2 3\n4 5 6"));
-  session.write("size.asc", grid(106, 50, "1 2 3\n4 5 6", "3"));
-  session.write("off.asc", grid(105, 50, "1 2 3\n4 5 6"));
+  session.write("size.asc", grid(106, 50, "1 2 3\n4 5 6", "2.01"));
+  session.write("off.asc", "ncols 2\nnrows 1\nxllcenter 105.2\nyllcenter 50\ncellsize 2\n1 2\n");
   session.write("unit.asc", grid(106, 50, "1 2 3\n4 5 6"));
   session.write("unit.prj", "LOCAL_CS[\"a\",UNIT[\"Foot\",0.3048]]");
   session.write("p.xyz", "0 0 0\n1 0 0\n0 1 0\n");
   CHECK(contains(session.failure("encode a.asc size.asc -o t.mtp --tile-vertices 60"),
-                 "size.asc: its cells are 3 x 3, those of a.asc are 2 x 2: bring all onto one"));
+                 "size.asc: its cells are 2.01 x 2.01, those of a.asc are 2 x 2: bring all onto"));
   CHECK(contains(session.failure("encode a.asc off.asc -o t.mtin"),
                  "off.asc: its posts lie between those of a.asc: bring all onto one grid"));
   CHECK(contains(
@@ -270,7 +270,7 @@ TEST_CASE("mosaic: files that do not go together are refused by name") {
   CHECK(session.failure("encode far.asc fine.asc -o t.mtin") ==
         "far.asc: its heights do not fit the decimals of the other files\n");
   CHECK(session.run("encode a.asc size.asc -o size.asc").code == 1);
-  CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "3"));
+  CHECK(session.read("size.asc") == grid(106, 50, "1 2 3\n4 5 6", "2.01"));
 }
 
 TEST_CASE("mosaic: corners may be rounded by a millionth of a cell") {

@@ -85,6 +85,7 @@ inline void compare_at(const Tiles& tiles, int64_t x, int64_t y, const Raster& r
   const bool answered = compare_at(tiles, x, y, count);
   if (x % 256 != 0 || y % 256 != 0) return;
   const size_t post = static_cast<size_t>(y / 256) * raster.width + static_cast<size_t>(x / 256);
+  if (raster.heights[post] == kNoPost) return;
   if ((raster.heights[post] == kVoidHeight) == answered) ++count.wrong_posts;
 }
 
