@@ -263,6 +263,7 @@ void add_render(CLI::App& app, Action& action) {
   add_terrain(command, request->source, request->preparation, "--source",
               "Draw a map of the errors against this terrain: files, or a folder of them")
       ->default_str("no such map");
+  add_cells(command, request->source, request->preparation, false);
   command.add_flag("--world-file", request->world,
                    "Write also a .pgw file with the position of the map");
   command.add_flag("--force", request->force, "Draw a pack of more than 2^24 vertices");

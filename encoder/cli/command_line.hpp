@@ -19,6 +19,7 @@ void add_encode(CLI::App& app, Action& action);
 void add_update(CLI::App& app, Action& action);
 void add_plan(CLI::App& app, Action& action);
 void add_merge(CLI::App& app, Action& action);
+void add_cut(CLI::App& app, Action& action);
 void add_decode(CLI::App& app, Action& action);
 void add_embed(CLI::App& app, Action& action);
 void add_height_command(CLI::App& app, Action& action, int& code);  // its exit code

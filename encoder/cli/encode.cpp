@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <sstream>
 #include <variant>
@@ -20,6 +21,7 @@
 #include "encoder/import/reference.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
+#include "encoder/product/pack_parts.hpp"
 #include "encoder/product/update_pack.hpp"
 #include "encoder/terrain/clouds.hpp"
 #include "encoder/terrain/raster_scan.hpp"
@@ -281,6 +283,8 @@ void run_encode(const EncodeRequest& request) {
   announce_memory(request);
   deliver(out, request.output,
           makes_pack(request) ? encode_tiled(request, out) : encode_whole(request, out));
+  std::error_code none;
+  if (!request.resume.empty()) std::filesystem::remove(request.resume, none);
 }
 
 void run_plan(const EncodeRequest& request, uint32_t shards) {
@@ -328,7 +332,13 @@ void run_merge(const std::vector<std::string>& shards, const std::string& output
   expect_own_suffix(output, true);
   OutputFile out(output);
   StreamSpool streams(output);
-  deliver(out, output, text_of(join_shards(shards, streams, out)));
+  if (!is_pack(*open_file(shards[0]))) {
+    deliver(out, output, text_of(join_shards(shards, streams, out)));
+    return;
+  }
+  const PackContent pack = join_packs(shards, streams);
+  write_pack(pack, streams, out);
+  deliver(out, output, text_of(report_of(pack)));
 }
 
 }  // namespace microtin::cli

@@ -218,6 +218,9 @@ void add_encode(CLI::App& app, Action& action) {
   add_read(command, "--shard FROM:TO", read, "FROM:TO, such as 0:99",
            "Write a shard of a raster's pack, with these of its tiles; merge joins shards")
       ->default_str("all tiles");
+  add_text(command, "--resume FILE", request->resume,
+           "Keep the finished tiles of a raster's pack or shard in this file, and go on from it if "
+           "it is there; it is removed at the end");
   command.callback([request, &action] {
     check_encode_options(*request);
     action = [request] { run_encode(*request); };
@@ -271,9 +274,12 @@ void add_merge(CLI::App& app, Action& action) {
     std::string output;
   };
   auto request = std::make_shared<Request>();
-  CLI::App& command = *app.add_subcommand("merge", "Join the shards of a pack, in any order");
+  CLI::App& command =
+      *app.add_subcommand("merge", "Join the shards of a pack, or packs of one plan, in any order");
   command.group(kShards);
-  command.add_option("SHARD", request->shards, "All files that encode --shard wrote for the pack")
+  command
+      .add_option("SHARD", request->shards,
+                  "All files that encode --shard wrote for the pack, or packs that cut made")
       ->required()
       ->type_name(kFile);
   add_output(command, request->output);

@@ -59,6 +59,7 @@ int run(int argc, char** argv) {
   add_update(app, action);
   add_plan(app, action);
   add_merge(app, action);
+  add_cut(app, action);
   add_decode(app, action);
   add_embed(app, action);
   add_info(app, action);

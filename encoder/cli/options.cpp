@@ -10,6 +10,7 @@
 
 #include "encoder/cli/definitions.hpp"
 #include "encoder/files/output.hpp"
+#include "encoder/import/cell_list.hpp"
 #include "encoder/import/reference.hpp"
 
 namespace microtin::cli {
@@ -127,8 +128,33 @@ CLI::Option* add_terrain(CLI::App& command, std::string& path, Preparation& prep
       ->type_name(kFile);
 }
 
+namespace {
+
+void take_cells(std::string& path, Preparation& preparation) {
+  CellList list = read_cell_list(preparation.cells);
+  if (path.empty()) {
+    path = list.files.front();
+    list.files.erase(list.files.begin());
+  }
+  for (std::string& file : list.files) preparation.more_files.push_back(std::move(file));
+  preparation.sea = std::move(list.sea);
+}
+
+}  // namespace
+
+void add_cells(CLI::App& command, std::string& path, Preparation& preparation, bool is_required) {
+  add_text(command, "--cells FILE", preparation.cells,
+           "Read the files and folders too that this text names, one on a line, relative to its "
+           "folder. A line \"sea N50W010\" makes sea of what is absent from that cell");
+  command.parse_complete_callback([&path, &preparation, is_required] {
+    if (!preparation.cells.empty()) take_cells(path, preparation);
+    if (is_required && path.empty()) throw CLI::RequiredError("TERRAIN");
+  });
+}
+
 void add_terrain(CLI::App& command, std::string& path, Preparation& preparation) {
-  add_terrain(command, path, preparation, "TERRAIN", kTerrainFiles)->required();
+  add_terrain(command, path, preparation, "TERRAIN", kTerrainFiles);
+  add_cells(command, path, preparation, true);
 }
 
 void add_json(CLI::App& command, bool& json) {
@@ -224,6 +250,11 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
           ->default_str("no water");
   add_text(command, "--water-mask FILE", preparation.water_mask,
            "Make water only of the voids where this .asc grid of the terrain's posts has 1, not 0")
+      ->needs(level);
+  add_choice<Absent>(command, "--absent", preparation.absent,
+                     {{"void", Absent::kVoid}, {"sea", Absent::kSea}},
+                     "Choose what positions in none of several files are: unknown, or sea at the "
+                     "water level")
       ->needs(level);
 }
 

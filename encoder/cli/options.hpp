@@ -35,6 +35,10 @@ CLI::Option* add_stream(CLI::App& command, std::string& path);
 // One or several files, or folders of them, that make up one terrain.
 void add_terrain(CLI::App& command, std::string& path, Preparation& preparation);
 
+// Files of a terrain that a list names. The list is read when the command line is; then, if a
+// terrain is required, there must be one.
+void add_cells(CLI::App& command, std::string& path, Preparation& preparation, bool is_required);
+
 // The files of a terrain, given by an option instead of as arguments.
 CLI::Option* add_terrain(CLI::App& command, std::string& path, Preparation& preparation,
                          const std::string& name, const std::string& description);

@@ -264,6 +264,19 @@ class Mosaic : public RasterReader {
     return whole;
   }
 
+  std::vector<bool> absent_in(const PostRectangle& r) const override {
+    const Box wanted{x_ + r.x, y_ + r.y, int64_t{r.width}, int64_t{r.height}};
+    std::vector<bool> absent(size_t{r.width} * r.height, true);
+    for (const Part& part : parts_) {
+      const Box box = wanted.shared_with(part.box);
+      for (int64_t y = box.y; y < box.top(); ++y) {
+        const int64_t from = (y - wanted.y) * wanted.width + box.x - wanted.x;
+        std::fill_n(absent.begin() + from, box.width, false);
+      }
+    }
+    return absent;
+  }
+
  private:
   // The heights of a rectangle.
   struct Canvas {

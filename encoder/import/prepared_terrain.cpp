@@ -10,6 +10,7 @@
 
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
+#include "encoder/exact/fraction.hpp"
 #include "encoder/files/input.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/mosaic.hpp"
@@ -92,40 +93,77 @@ std::unique_ptr<RasterReader> open_mask(const std::string& path, const Raster& f
   throw Error(path + ": " + parameter("water_level") + " is for rasters, and these are points");
 }
 
+// Where a raster has water if it has no height: a mask's places, or all, but for those in no file.
+class WaterPlaces {
+ public:
+  WaterPlaces(const Raster& frame, const Preparation& preparation)
+      : frame_(frame), absent_(preparation.absent), mask_path_(preparation.water_mask) {
+    if (!mask_path_.empty()) mask_ = open_mask(mask_path_, frame);
+    if (frame.reference.horizontal_unit == Unit::kDegree) sea_ = preparation.sea;
+  }
+
+  // 1 where there is water, for a part of the raster, `absent` as the raster has it; nothing: all
+  // places are.
+  std::optional<Raster> read(const PostRectangle& rectangle, const Raster& part,
+                             const std::vector<bool>& absent) const {
+    std::optional<Raster> places;
+    if (mask_) {
+      places = mask_->read(rectangle);
+      with_file_context(mask_path_, [&] { check_water_mask(*places, part); });
+    }
+    if (mask_ || absent.empty() || absent_ == Absent::kSea) return places;
+    places = crop_frame(frame_, rectangle);
+    places->decimals = 0;
+    places->heights.assign(part.heights.size(), 1);
+    for (size_t i = 0; i < absent.size(); ++i) {
+      if (absent[i] && !is_sea(part, i)) places->heights[i] = 0;
+    }
+    return places;
+  }
+
+ private:
+  bool is_sea(const Raster& part, size_t post) const {
+    const double x = offset_of(part.x) + step_of(part.x) * static_cast<double>(post % part.width);
+    const double y = offset_of(part.y) + step_of(part.y) * static_cast<double>(post / part.width);
+    constexpr double kRounding = 1e-9, kTurn = 360;
+    return std::any_of(sea_.begin(), sea_.end(), [&](const DegreeCell& cell) {
+      const double west = x - cell.longitude, south = y - cell.latitude;
+      const auto is_within = [](double at) { return at >= -kRounding && at <= 1 + kRounding; };
+      return is_within(south) && (is_within(west) || is_within(west - kTurn));
+    });
+  }
+
+  const Raster& frame_;
+  Absent absent_;
+  std::vector<DegreeCell> sea_;
+  std::string mask_path_;
+  std::unique_ptr<RasterReader> mask_;
+};
+
 // Reads a raster with its water.
 class FloodedRaster : public RasterReader {
  public:
-  FloodedRaster(const std::string& path, std::unique_ptr<RasterReader> raster, Decimal level,
-                std::string mask_path)
-      : path_(path), raster_(std::move(raster)), level_(level), mask_path_(std::move(mask_path)) {
+  FloodedRaster(const std::string& path, std::unique_ptr<RasterReader> raster,
+                const Preparation& preparation)
+      : path_(path), raster_(std::move(raster)), level_(*preparation.water_level) {
     frame_ = raster_->frame();
     flood_voids(frame_, level_, nullptr);
-    if (!mask_path_.empty()) mask_ = open_mask(mask_path_, frame_);
+    places_ = std::make_unique<WaterPlaces>(frame_, preparation);
   }
 
   Raster read(const PostRectangle& rectangle) const override {
     Raster part = raster_->read(rectangle);
-    std::optional<Raster> mask;
-    if (mask_) {
-      mask = mask_->read(rectangle);
-      with_file_context(mask_path_, [&] { check_water_mask(*mask, part); });
-    }
-    with_file_context(path_, [&] { flood_voids(part, level_, mask ? &*mask : nullptr); });
+    const auto water = places_->read(rectangle, part, raster_->absent_in(rectangle));
+    with_file_context(path_, [&] { flood_voids(part, level_, water ? &*water : nullptr); });
     return part;
   }
 
  private:
   std::string path_;
-  std::unique_ptr<RasterReader> raster_, mask_;
+  std::unique_ptr<RasterReader> raster_;
   Decimal level_;
-  std::string mask_path_;
+  std::unique_ptr<WaterPlaces> places_;
 };
-
-Raster read_mask(const std::string& path, const Raster& raster) {
-  Raster all = open_mask(path, raster)->read({0, 0, raster.width, raster.height});
-  with_file_context(path, [&] { check_water_mask(all, raster); });
-  return all;
-}
 
 // The files that make up a terrain.
 std::vector<std::string> parts_of(const std::string& path, const Preparation& preparation) {
@@ -165,20 +203,11 @@ OpenSource open_parts(const std::vector<std::string>& parts, const Preparation& 
   return std::make_unique<RasterInMemory>(raster_of_points(parts[0], *cloud));
 }
 
-// One file is read without a detour.
-Source read_parts(const std::vector<std::string>& parts, const Preparation& preparation) {
-  if (parts.size() == 1 && !preparation.gridded) {
-    Source source =
-        import_terrain(parts[0], preparation.classes, preparation.indirect, preparation.band);
-    return settled(parts[0], std::move(source), preparation);
-  }
-  OpenSource source = open_parts(parts, preparation);
-  if (auto* const cloud = std::get_if<PointCloud>(&source)) return std::move(*cloud);
-  const RasterReader& raster = *std::get<std::unique_ptr<RasterReader>>(source);
+Raster whole_of(const std::string& path, const RasterReader& raster) {
   const uint32_t width = raster.frame().width, height = raster.frame().height;
   if (std::max(width, height) > kLatticeMax + 1) {
-    throw Error(parts[0] + " and others: " + std::to_string(width) + " x " +
-                std::to_string(height) + " posts are too many for a stream: make a pack (.mtp)");
+    throw Error(path + " and others: " + std::to_string(width) + " x " + std::to_string(height) +
+                " posts are too many for a stream: make a pack (.mtp)");
   }
   Raster whole = raster.read({0, 0, width, height});
   whole.selection = raster.frame().selection;
@@ -192,6 +221,7 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
   std::vector<std::string> names = preparation.water_mask.empty()
                                        ? std::vector<std::string>()
                                        : std::vector<std::string>{preparation.water_mask};
+  if (!preparation.cells.empty()) names.push_back(preparation.cells);
   if (!path.empty()) {
     const std::vector<std::string> parts = parts_of(path, preparation);
     names.insert(names.end(), parts.begin(), parts.end());
@@ -204,21 +234,11 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
   return files;
 }
 
-Source prepared_terrain(const std::string& path, const Preparation& preparation) {
-  Source source = read_parts(parts_of(path, preparation), preparation);
-  auto* const raster = std::get_if<Raster>(&source);
-  if (raster != nullptr) fill_voids(*raster, preparation.fill_voids);
-  if (!preparation.water_level) return source;
-  if (raster == nullptr) refuse_water(path);
-  std::optional<Raster> mask;
-  if (!preparation.water_mask.empty()) mask = read_mask(preparation.water_mask, *raster);
-  with_file_context(
-      path, [&] { flood_voids(*raster, *preparation.water_level, mask ? &*mask : nullptr); });
-  return source;
-}
+namespace {
 
-OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
-  OpenSource source = open_parts(parts_of(path, preparation), preparation);
+OpenSource prepared(const std::string& path, const std::vector<std::string>& parts,
+                    const Preparation& preparation) {
+  OpenSource source = open_parts(parts, preparation);
   auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
     if (preparation.water_level) refuse_water(path);
@@ -227,9 +247,39 @@ OpenSource prepared_source(const std::string& path, const Preparation& preparati
   *raster = with_voids_filled(std::move(*raster), preparation.fill_voids);
   if (!preparation.water_level) return source;
   return with_file_context(path, [&]() -> OpenSource {
-    return std::make_unique<FloodedRaster>(path, std::move(*raster), *preparation.water_level,
-                                           preparation.water_mask);
+    return std::make_unique<FloodedRaster>(path, std::move(*raster), preparation);
   });
+}
+
+// One file is read without a detour.
+Source prepared_file(const std::string& path, const std::string& file,
+                     const Preparation& preparation) {
+  Source source = settled(
+      file, import_terrain(file, preparation.classes, preparation.indirect, preparation.band),
+      preparation);
+  auto* const raster = std::get_if<Raster>(&source);
+  if (raster != nullptr) fill_voids(*raster, preparation.fill_voids);
+  if (!preparation.water_level) return source;
+  if (raster == nullptr) refuse_water(path);
+  const auto water =
+      WaterPlaces(*raster, preparation).read({0, 0, raster->width, raster->height}, *raster, {});
+  with_file_context(
+      path, [&] { flood_voids(*raster, *preparation.water_level, water ? &*water : nullptr); });
+  return source;
+}
+
+}  // namespace
+
+Source prepared_terrain(const std::string& path, const Preparation& preparation) {
+  const std::vector<std::string> parts = parts_of(path, preparation);
+  if (parts.size() == 1 && !preparation.gridded) return prepared_file(path, parts[0], preparation);
+  OpenSource source = prepared(path, parts, preparation);
+  if (auto* const cloud = std::get_if<PointCloud>(&source)) return std::move(*cloud);
+  return whole_of(parts[0], *std::get<std::unique_ptr<RasterReader>>(source));
+}
+
+OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
+  return prepared(path, parts_of(path, preparation), preparation);
 }
 
 std::string describe_preparation(const Mended& mended, const std::string& selection) {

@@ -4,6 +4,7 @@
 #ifndef MICROTIN_ENCODER_IMPORT_PREPARED_TERRAIN_HPP
 #define MICROTIN_ENCODER_IMPORT_PREPARED_TERRAIN_HPP
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "encoder/import/import.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/degrees.hpp"
 #include "encoder/terrain/raster_reader.hpp"
 
 namespace microtin::importing {
@@ -22,21 +24,28 @@ std::vector<std::string> files_in(const std::string& path);
 // What people should know of a folder that holds terrain files of other suffixes, too; else empty.
 std::string left_out_of(const std::string& path);
 
+// What is where a terrain has no file: unknown, or sea at the water level.
+enum class Absent : uint8_t { kVoid, kSea };
+
 // What is done to a terrain.
 struct Preparation {
   std::vector<std::string> more_files;     // of the same terrain, after the one named first
+  std::string cells;                       // the list that named some of them, or empty
   std::optional<ClassSet> classes;         // take these points of a .las file
   bool gridded = false;                    // points are the posts of a raster
   uint32_t fill_voids = 0;                 // interpolate voids of up to this many posts; 0: none
   std::optional<Decimal> water_level;      // voids that are left are water at this height
   std::string water_mask;                  // the file that marks water; everywhere if there is none
+  Absent absent = Absent::kVoid;           // what places in none of the files are
+  std::vector<DegreeCell> sea;             // cells of which those places are sea
   Indirect indirect = Indirect::kRefused;  // files that name others
   uint32_t band = 0;                       // of a file that has several, from 1 on
   // Settled with each file's; nothing: units and systems are left alone, where no heights are used.
   std::optional<Reference> asked = Reference{};
 };
 
-// All files that a terrain is read from, those of a folder too; none for one without a name. Throws
+// All files that a terrain is read from, those of a folder and a list too; none for one without a
+// name. Throws
 // Error as preparing does.
 std::vector<std::string> files_of(const std::string& path, const Preparation& preparation);
 

@@ -159,13 +159,15 @@ void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take) {
   });
 }
 
-void encode_pack(const RasterReader& raster, const PackOptions& options,
-                 const std::function<void(const PackPlan&)>& begin, const TakeTile& take) {
-  PackPlan plan = plan_pack(raster, options);
+void encode_pack(const RasterReader& raster, const PackOptions& options, uint32_t tile_size,
+                 const std::function<uint32_t(const PackPlan&)>& begin, const TakeTile& take) {
+  PackOptions planned = options;
+  if (options.tile_size == 0) planned.tile_size = tile_size;
+  PackPlan plan = plan_pack(raster, planned);
   for (;;) {
-    begin(plan);
+    const uint32_t first = begin(plan), last = all_tiles(plan.tiled.grid).last;
     try {
-      encode_tiles(plan, all_tiles(plan.tiled.grid), take);
+      if (first <= last) encode_tiles(plan, {first, last}, take);
       return;
     } catch (const TileTooLarge& error) {  // the same one whatever the number of processors
       if (options.tile_size != 0) throw;

@@ -69,9 +69,10 @@ using TakeTile = std::function<void(uint32_t tile, EncodedTile&&)>;
 void encode_tiles(const PackPlan& plan, TileRange range, const TakeTile& take);
 
 // Encodes all tiles. If one is too large and no size was asked for, begins again with smaller ones:
-// calls begin(plan) before that, and first of all.
-void encode_pack(const RasterReader& raster, const PackOptions& options,
-                 const std::function<void(const PackPlan&)>& begin, const TakeTile& take);
+// calls begin(plan) before that, and first of all, which returns the first tile to encode.
+// `tile_size`, if not 0, is tried first.
+void encode_pack(const RasterReader& raster, const PackOptions& options, uint32_t tile_size,
+                 const std::function<uint32_t(const PackPlan&)>& begin, const TakeTile& take);
 
 }  // namespace microtin::pack
 

@@ -3,7 +3,10 @@
 #include "encoder/pack/shard.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "encoder/base/error.hpp"
@@ -60,6 +63,10 @@ Bytes write_summary(const TileSummary& tile) {
   append_number(bytes, tile.compact && tile.compact->is_narrow ? 1 : 0, 1);
   append_check(bytes, 0);
   return bytes;
+}
+
+[[noreturn]] void fail_to_write(const std::string& path) {
+  throw Error(path + ": cannot be written: " + std::generic_category().message(errno));
 }
 
 void expect(bool legal) {
@@ -178,6 +185,8 @@ class Shard {
     });
   }
 
+  uint64_t offset() const { return offset_; }
+
   Bytes next_stream(const TileSummary& tile) {
     return with_file_context(path_, [&] {
       Bytes stream = take(tile.bytes);
@@ -258,9 +267,10 @@ void refuse_shard(const std::string& name, const ByteSource& bytes) {
   throw Error(name + ": is a shard, a part of a pack: join all shards with \"microtin merge\"");
 }
 
-ShardWriter::ShardWriter(const PackPlan& plan, const PackContent& pack, TileRange range,
-                         OutputFile& out)
-    : out_(out) {
+namespace {
+
+// What a shard begins with.
+Bytes write_start(const PackPlan& plan, const PackContent& pack, TileRange range) {
   const Bytes identity = write_identity(plan, pack);
   Bytes start(kShardMagic, kShardMagic + sizeof kShardMagic);
   append_number(start, identity.size(), 4);
@@ -270,12 +280,84 @@ ShardWriter::ShardWriter(const PackPlan& plan, const PackContent& pack, TileRang
   append_number(start, range.first, 4);
   append_number(start, range.last, 4);
   append_check(start, range_start);
-  out_.write(start);
+  return start;
+}
+
+}  // namespace
+
+ShardWriter::ShardWriter(const PackPlan& plan, const PackContent& pack, TileRange range,
+                         OutputFile& out)
+    : out_(out) {
+  out_.write(write_start(plan, pack, range));
 }
 
 void ShardWriter::add(const EncodedTile& tile) {
   out_.write(write_summary(tile.summary));
   out_.write(tile.stream);
+}
+
+TileLog::TileLog(const std::string& path, const PackPlan& plan, const PackContent& pack,
+                 TileRange range, const Take& take)
+    : path_(path), next_(range.first), file_(nullptr, &std::fclose) {
+  const Bytes start = write_start(plan, pack, range);
+  const bool is_there = std::filesystem::exists(path);
+  const uint64_t whole = is_there ? read(start, range, take) : 0;
+  if (is_there) std::filesystem::resize_file(path, whole);
+  file_.reset(std::fopen(path.c_str(), "ab"));
+  if (file_ == nullptr) fail_to_write(path);
+  if (whole == 0) write(start);
+}
+
+// Returns how many bytes hold whole tiles.
+uint64_t TileLog::read(const Bytes& start, TileRange range, const Take& take) {
+  const std::unique_ptr<ByteSource> bytes = open_file(path_);
+  Bytes found(std::min<uint64_t>(start.size(), bytes->size()));
+  found.resize(bytes->read(0, found.data(), found.size()));
+  if (!std::equal(found.begin(), found.end(), start.begin())) {
+    throw Error(path_ + ": holds tiles of another terrain, or made with other options; remove it");
+  }
+  if (found.size() < start.size()) return 0;
+  uint64_t whole = start.size();
+  try {
+    Shard shard(path_);
+    for (; next_ <= range.last; ++next_) {
+      EncodedTile tile;
+      tile.summary = shard.next_summary();
+      tile.stream = shard.next_stream(tile.summary);
+      whole = shard.offset();
+      take(next_, std::move(tile));
+    }
+  } catch (const Error&) {  // what comes then was being written when the run ended
+  }
+  return whole;
+}
+
+void TileLog::write(const Bytes& bytes) {
+  const bool is_written = std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size() &&
+                          std::fflush(file_.get()) == 0;
+  if (!is_written) fail_to_write(path_);
+}
+
+void TileLog::add(const EncodedTile& tile) {
+  write(write_summary(tile.summary));
+  write(tile.stream);
+  ++next_;
+}
+
+void TileLog::remove() {
+  file_.reset();
+  std::error_code none;
+  std::filesystem::remove(path_, none);
+}
+
+std::optional<uint32_t> logged_tile_size(const std::string& path) {
+  if (!std::filesystem::exists(path)) return std::nullopt;
+  try {
+    const TileGrid grid = read_content(Shard(path).head()).grid;
+    return std::max(grid.width, grid.height);
+  } catch (const Error&) {  // not even its beginning is whole
+    return std::nullopt;
+  }
 }
 
 PackContent merge_shards(const std::vector<std::string>& paths, StreamSpool& streams) {

@@ -52,6 +52,9 @@ PackOptions point_options(const EncodeOptions& options) {
   if (options.tile_size != 0) {
     throw Error(parameter("tile_size") + " is for rasters, and these are points; leave it out");
   }
+  if (!options.resume.empty()) {
+    throw Error(parameter("resume") + " is for rasters, and these are points; leave it out");
+  }
   return pack_options(options, {});
 }
 
@@ -109,14 +112,27 @@ PackContent encode_pack(const RasterReader& raster, const EncodeOptions& options
                         StreamSpool& streams, const Progress& progress) {
   PackContent pack;
   const Metadata notes = metadata_of(options, raster.frame());
-  const auto begin = [&](const PackPlan& plan) {
+  std::optional<TileLog> log;
+  const auto keep = [&](uint32_t, EncodedTile&& tile) {
+    tile.summary.offset = streams.add(tile.stream);
+    pack.tiles.push_back(tile.summary);
+  };
+  bool has_begun = false;
+  const auto begin = [&](const PackPlan& plan) -> uint32_t {
     pack = content_of(plan, notes);
     streams.clear();
+    if (options.resume.empty()) return 0;
+    if (has_begun) log->remove();  // its tiles were too large
+    has_begun = true;
+    log.emplace(options.resume, plan, pack, all_tiles(plan.tiled.grid), keep);
+    return log->next();
   };
-  pack::encode_pack(raster, raster_options(options, progress), begin,
-                    [&](uint32_t, EncodedTile&& tile) {
-                      tile.summary.offset = streams.add(tile.stream);
-                      pack.tiles.push_back(tile.summary);
+  const std::optional<uint32_t> size =
+      options.resume.empty() ? std::nullopt : logged_tile_size(options.resume);
+  pack::encode_pack(raster, raster_options(options, progress), size.value_or(0), begin,
+                    [&](uint32_t number, EncodedTile&& tile) {
+                      if (log) log->add(tile);
+                      keep(number, std::move(tile));
                     });
   return pack;
 }
@@ -221,10 +237,19 @@ ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& option
   const Metadata notes = metadata_of(options, raster.frame());
   const PackPlan plan = plan_pack(raster, raster_options(options, progress));
   ShardReport report{existing(tiles, plan.tiled.grid), all_tiles(plan.tiled.grid), 0};
-  ShardWriter shard(plan, content_of(plan, notes), report.tiles, out);
-  encode_tiles(plan, report.tiles, [&](uint32_t, EncodedTile&& tile) {
+  const PackContent pack = content_of(plan, notes);
+  ShardWriter shard(plan, pack, report.tiles, out);
+  const auto keep = [&](uint32_t, EncodedTile&& tile) {
     shard.add(tile);
     report.vertices += tile.summary.vertices;
+  };
+  std::optional<TileLog> log;
+  if (!options.resume.empty()) log.emplace(options.resume, plan, pack, report.tiles, keep);
+  const TileRange rest{log ? log->next() : report.tiles.first, report.tiles.last};
+  if (rest.first > rest.last) return report;
+  encode_tiles(plan, rest, [&](uint32_t number, EncodedTile&& tile) {
+    if (log) log->add(tile);
+    keep(number, std::move(tile));
   });
   return report;
 }

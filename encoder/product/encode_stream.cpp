@@ -235,6 +235,9 @@ EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
   if (options.tile_size != 0) {
     throw Error(parameter("tile_size") + " is for packs, and this is a stream; leave it out");
   }
+  if (!options.resume.empty()) {
+    throw Error(parameter("resume") + " is for packs, and this is a stream; leave it out");
+  }
   // Fails before the work, if it does.
   std::visit([&](const auto& one) { metadata_of(options, one); }, source);
   const bool limited = options.max_bytes != 0 || vertex_limit(options) != 0;

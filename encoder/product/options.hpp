@@ -26,6 +26,7 @@ struct EncodeOptions {
                                // allows or, without it, the usual number
   uint32_t tile_size = 0;      // of a pack of posts; 0: to be chosen
   uint64_t device_ram = 0;     // 0: unlimited
+  std::string resume;          // of packs of rasters: keeps finished tiles; empty: none does
   bool few_vertices = false;   // with a bound: rather than few bytes
   BoundAt bound_at = BoundAt::kTruePlaces;
   Search search = Search::kNormal;

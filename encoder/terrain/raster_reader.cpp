@@ -88,6 +88,10 @@ class FilledRaster : public RasterReader {
     }
   }
 
+  std::vector<bool> absent_in(const PostRectangle& r) const override {
+    return raster_->absent_in(r);
+  }
+
  private:
   bool is_cut(const Raster& wide, Stretch x, Stretch y, const PostRectangle& inner) const {
     const Sides cut{x.from != 0, y.from != 0, x.from + x.size != frame_.width,

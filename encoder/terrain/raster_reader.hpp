@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "encoder/layers.hpp"
 #include "encoder/terrain/source.hpp"
@@ -35,6 +36,10 @@ class RasterReader {
 
   // The posts of a rectangle within the raster, at their real coordinates. Throws Error.
   virtual Raster read(const PostRectangle& rectangle) const = 0;
+
+  // Which places of a rectangle, row by row, are in none of the files that the raster consists of.
+  // Empty: all are in one.
+  virtual std::vector<bool> absent_in(const PostRectangle&) const { return {}; }
 
  protected:
   Raster frame_;

@@ -226,8 +226,9 @@ TEST_CASE("packs: tiles become smaller until none has too many vertices") {
   const auto begin = [&](const PackPlan& plan) {
     tried.push_back(plan.tile_size);
     most = tiles = 0;
+    return 0;
   };
-  encode_pack(RasterInMemory(rough_raster(61, 53)), options, begin,
+  encode_pack(RasterInMemory(rough_raster(61, 53)), options, 0, begin,
               [&](uint32_t tile, EncodedTile&& encoded) {
                 CHECK(tile == tiles++);
                 most = std::max(most, encoded.summary.vertices);

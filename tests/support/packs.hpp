@@ -68,8 +68,11 @@ struct EncodedPack {
 
 inline EncodedPack encode_pack(const Raster& raster, const PackOptions& options) {
   EncodedPack pack;
-  const auto begin = [&](const PackPlan& plan) { pack = {content_of(plan, {}), {}}; };
-  encode_pack(RasterInMemory(raster), options, begin, [&](uint32_t, EncodedTile&& tile) {
+  const auto begin = [&](const PackPlan& plan) {
+    pack = {content_of(plan, {}), {}};
+    return 0;
+  };
+  encode_pack(RasterInMemory(raster), options, 0, begin, [&](uint32_t, EncodedTile&& tile) {
     pack.content.tiles.push_back(tile.summary);
     pack.streams.push_back(std::move(tile.stream));
   });
