@@ -12,6 +12,7 @@ columns  documents have lines of at most 122 columns, tables and what links lead
 widths   no struct of a C header has an enumeration, whose width flags change, and no pointer leads to one
 options  below the command line no text writes an option, which each user of the library spells in its own way
 locale   the encoder's library knows no decimal comma, whatever the program that uses it has chosen
+parts    each program of .ci/parts runs in a workflow of .github, and workflows run no other
 prose    documents have short, plain sentences; the change log, the report of the benchmarks and laboratory notes may differ
 
 conventions.py messages [FOLDER]: prints the texts of errors and warnings, "file:line: message", for people to read
@@ -302,9 +303,19 @@ def prose(folder):
     return found
 
 
+def parts(folder):
+    programs = {program.name for program in (folder / ".ci/parts").iterdir()}
+    text = "\n".join(workflow.read_text() for workflow in sorted((folder / ".github/workflows").glob("*.yml")))
+    run = set(re.findall(r"\.ci/run (\w+)", text)) | set(re.findall(r"\blist: (\w+)", text))
+    run |= {name for names in re.findall(r"\blist: \[([^]]*)\]", text) for name in names.split(", ")}
+    return [f"no workflow runs .ci/parts/{name}" for name in sorted(programs - run)] + [
+        f"a workflow runs {name}, which .ci/parts does not have" for name in sorted(run - programs)
+    ]
+
+
 def main():
     folder = Path(sys.argv[2]) if len(sys.argv) > 2 else ROOT
-    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, options, locale, prose, messages)}
+    checks = {check.__name__: check for check in (length, links, pointers, comments, columns, merges, licence, faults, widths, options, locale, parts, prose, messages)}
     found = checks[sys.argv[1]](folder)
     for fault in found:
         print("rejected:", fault)
