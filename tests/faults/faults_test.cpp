@@ -183,9 +183,9 @@ const std::vector<Words> kCommands = {
     {"render", "t.mtin", "-o", "new.png", "--width", "200"},
     {"render", "t.mtin", "-o", "new.png", "--width", "200", "--source", "t.asc"},
     {"fractal", "-o", "new.asc", "--size", "5"},
-    {"profile", "t.mtp", "0", "0", "3", "3", "--from-height", "2"},
-    {"profile", "t.mtin", "0", "0", "3", "3", "-o", "new.csv"},
-    {"profile", "t.mtin", "0", "0", "3", "3", "-o", "new.svg"},
+    {"profile", "t.mtp", "1", "3", "7", "3", "--from-height", "2"},
+    {"profile", "t.mtin", "1", "3", "7", "3", "-o", "new.csv"},
+    {"profile", "t.mtin", "1", "3", "7", "3", "-o", "new.svg"},
 };
 
 void check(Stage& stage, const Words& words, Counter Counters::*counter, bool lasting,
