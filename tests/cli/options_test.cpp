@@ -106,6 +106,9 @@ const std::vector<Row> kRows = {
     {"encode", "--classes", "s.las -o o.mtin", "all"},
     {"encode", "--fill-voids", "t.asc --max-error 2 -o o.mtin", "1"},
     {"encode", "--water-level", "t.asc --max-error 2 -o o.mtin", "50"},
+    {"encode", "--cells", "t.asc -o o.mtin", "list"},
+    {"encode", "--absent", "t.asc apart.asc --water-level 50 -o o.mtin", "sea"},
+    {"encode", "--resume", "t.asc -o o.mtin", "log"},  // refused
     {"encode", "--water-mask", "t.asc --max-error 2 --water-level 50 -o o.mtin", "mask.asc"},
     {"encode", "--epsg", "t.asc --max-error 2 -o o.mtin", "25832"},
     {"encode", "--units", "t.asc --max-error 2 -o o.mtin", "foot"},
@@ -166,6 +169,8 @@ const std::vector<Row> kRows = {
     {"verify", "--never-below", "m.mtin t.asc", ""},
     {"verify", "--fill-voids", "m.mtin t.asc", "1"},
     {"verify", "--water-level", "m.mtin t.asc", "50"},
+    {"verify", "--cells", "t.mtin t.asc", "list"},
+    {"verify", "--absent", "seas.mtin t.asc apart.asc --water-level 50", "sea"},
     {"verify", "--water-mask", "lake.mtin t.asc --water-level 50", "mask.asc"},
     {"fractal", "--output", "", ""},
     {"fractal", "--size", "-o o.asc", "9"},
@@ -188,6 +193,9 @@ const std::vector<Row> kRows = {
     {"render", "--force", "", ""},  // 2^24 vertices: tests/cli/decode_grid_test.cpp
     {"render", "--fill-voids", "filled.mtin -o o.png --width 300 --source t.asc", "99"},
     {"render", "--water-level", "lake.mtin -o m.png --width 300 --source t.asc", "50"},
+    {"render", "--cells", "seas.mtin -o o.png --width 300 --source t.asc", "far"},
+    {"render", "--absent",
+     "seas.mtin -o o.png --width 300 --source t.asc --source apart.asc --water-level 50", "sea"},
     {"render", "--water-mask", "water.mtin -o o.png --width 300 --source t.asc --water-level 50",
      "mask.asc"},
 };
@@ -211,6 +219,13 @@ void write_inputs(const Session& session) {
   session.write("s.las", scan());
   session.write("part.asc",
                 "ncols 2\nnrows 2\nxllcenter 510\nyllcenter 710\ncellsize 4\n1 2 3 4\n");
+  const auto beside = [](const std::string& x) {
+    return "ncols 2\nnrows 2\nxllcenter " + x + "\nyllcenter 700\ncellsize 2\n61 62 63 64\n";
+  };
+  session.write("beside.asc", beside("580"));
+  session.write("apart.asc", beside("590"));
+  session.write("list", "beside.asc\n");
+  session.write("far", "apart.asc\n");
   std::string points = "10 10 3\n10 10 4\n";
   for (int i = 0; i < 200; ++i) {
     points += std::to_string(i * 7919 % 1000) + '.' + std::to_string(10 + i % 89) + ' ' +
@@ -221,7 +236,8 @@ void write_inputs(const Session& session) {
   for (const char* words :
        {"t.asc -o t.mtin", "t.asc --max-error 2 -o m.mtin", "s.las -o s.mtin --classes all",
         "t.asc --tile-size 9 -o s.mtp", "t.asc --max-error 1 --tile-size 20 -o m.mtp",
-        "sea.xyz -o sea.mtin", "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
+        "sea.xyz -o sea.mtin", "t.asc apart.asc --water-level 50 --absent sea -o seas.mtin",
+        "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
         "t.asc --max-error 2 --water-level 50 -o water.mtin",
         "t.asc --max-error 2 --water-level 50 --water-mask mask.asc -o lake.mtin"}) {
     REQUIRE(session.run(std::string("encode ") + words).code == 0);
@@ -280,9 +296,10 @@ TEST_CASE("options: the default of the help page makes no difference") {
     const std::string without = all_of(session, words);
     CHECK(without == all_of(session, words.append(" ").append(row.option + " " + usual)));
   }
-  CHECK(text_of(compared) == text_of(Names{"--bound-at", "--coding", "--duplicates", "--fill-voids",
-                                           "--palette", "--seed", "--shards", "--size", "--surface",
-                                           "--tile-vertices", "--width", "--zone-share"}));
+  CHECK(text_of(compared) ==
+        text_of(Names{"--absent", "--bound-at", "--coding", "--duplicates", "--fill-voids",
+                      "--palette", "--seed", "--shards", "--size", "--surface", "--tile-vertices",
+                      "--width", "--zone-share"}));
 }
 
 TEST_CASE("options: none is without a row") {
@@ -298,7 +315,7 @@ TEST_CASE("options: none is without a row") {
     const Names options = without(options_of(session, command), {"--allow-vrt", "--band"});
     CHECK(text_of(options) == text_of(known));
   }
-  const Names encode = without(options_of(session, "encode"), {"--output", "--shard"});
+  const Names encode = without(options_of(session, "encode"), {"--output", "--resume", "--shard"});
   CHECK(text_of(options_of(session, "plan")) == text_of(united(encode, {"--shards"})));
   // Each of update is also one of encode, and read by the same code.
   CHECK(text_of(without(options_of(session, "update"), options_of(session, "encode"))) == "");
@@ -396,7 +413,9 @@ TEST_CASE("options: none is without a row in the table of shards") {
   const Session session;
   Names known = kNotOfShards;
   for (const std::string& option : kOfShards) known.insert(name_of(option));
-  known.insert("--water-mask");
+  for (const char* const name : {"--absent", "--cells", "--resume", "--water-mask"}) {
+    known.insert(name);
+  }
   CHECK(text_of(without(options_of(session, "encode"), {"--allow-vrt", "--band"})) ==
         text_of(known));
 }
