@@ -515,7 +515,7 @@ void microtin_pack_next_read(microtin_pack* pack, uint64_t* offset, uint8_t** bu
 
 void microtin_pack_complete_read(microtin_pack* pack, int32_t taken) {
   const int32_t most = static_cast<int32_t>(wanted_now(*pack));
-  if (most == 0) return;
+  if (most == 0 || taken == MICROTIN_READ_NOT_READY) return;
   if (taken <= 0 || taken > most) {
     pack->storage = taken == 0 ? Storage::kEnds : Storage::kFailed;
     return;

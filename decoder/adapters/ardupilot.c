@@ -8,6 +8,7 @@ void microtin_ardupilot_init(microtin_ardupilot* terrain, microtin_pack* pack, u
   terrain->has_correction = 0;
   terrain->missed = 0;
   microtin_ardupilot_begin_block(terrain, 0, 0, terrain->spacing);
+  terrain->has_block = 0;
 }
 
 microtin_status microtin_ardupilot_load(microtin_ardupilot* terrain, uint32_t step_limit,
@@ -62,8 +63,7 @@ bool microtin_ardupilot_height_amsl(microtin_ardupilot* terrain, int32_t lat, in
 float microtin_ardupilot_lookahead(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
                                    float bearing, float distance, float climb_ratio) {
   const int32_t step = terrain->spacing * (int32_t)1000;
-  const microtin_stride stride =
-      microtin_stride_along(microtin_whole(bearing * 100.0f, 36000.0f), step);
+  microtin_stride stride;
   /* Samples until the distance is used up: the last may lie beyond it. */
   const float exact = distance / (float)terrain->spacing;
   const int32_t whole = microtin_whole(exact, MICROTIN_ARDUPILOT_SAMPLES);
@@ -73,8 +73,10 @@ float microtin_ardupilot_lookahead(microtin_ardupilot* terrain, int32_t lat, int
   const microtin_spot from = {lat, lng};
   microtin_spot at = from;
   int64_t most = 0;
-  int32_t base, height, i;
+  int32_t course, base, height, i;
   terrain->missed = 0;
+  if (!microtin_spots_bearing(bearing, &course)) return 0.0f;
+  stride = microtin_stride_along(course, step);
   microtin_spots_look(&terrain->spots, from, stride, step, samples);
   if (!microtin_spots_ask(&terrain->spots, from, &base)) return 0.0f;
   for (i = 1; i <= samples; ++i) {
@@ -92,6 +94,7 @@ void microtin_ardupilot_begin_block(microtin_ardupilot* terrain, int32_t lat, in
                                     uint16_t spacing) {
   microtin_ardupilot_block* const block = &terrain->block;
   int row, column;
+  terrain->has_block = 1;
   block->corner.latitude = lat;
   block->corner.longitude = lng;
   block->spacing = spacing;
@@ -168,4 +171,5 @@ void microtin_ardupilot_statistics(const microtin_ardupilot* terrain, uint16_t* 
   for (; bits != 0; bits &= bits - 1) ++count;
   *loaded = count;
   *pending = (uint16_t)(MICROTIN_ARDUPILOT_GROUPS - count);
+  if (!terrain->has_block) *pending = 0; /* checks before take-off wait for pending groups */
 }

@@ -37,7 +37,8 @@ typedef struct microtin_ardupilot {
   int32_t reference_altitude, most_correction; /* millimetres */
   int32_t correction;
   uint8_t has_reference, has_correction;
-  uint16_t missed; /* samples of the last look ahead that were not there */
+  uint8_t has_block; /* one was begun */
+  uint16_t missed;   /* samples of the last look ahead that were not there */
   microtin_ardupilot_block block;
 } microtin_ardupilot;
 
@@ -67,7 +68,8 @@ bool microtin_ardupilot_height_amsl(microtin_ardupilot* terrain, int32_t lat, in
                                     float* height, bool corrected);
 
 /* By how many metres the terrain ahead rises above a climb of climb_ratio from the terrain below; 0
- * if that is not known. Skips what is missing: `missed` counts it. */
+ * if that is not known, or the bearing is not a number. Bearings may be any number of turns. Skips
+ * what is missing: `missed` counts it. */
 float microtin_ardupilot_lookahead(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
                                    float bearing, float distance, float climb_ratio);
 
@@ -78,7 +80,8 @@ void microtin_ardupilot_begin_block(microtin_ardupilot* terrain, int32_t lat, in
 /* Tries this many groups of 4 x 4 posts, each sixteen heights: true if all 56 are there. */
 bool microtin_ardupilot_fill_block(microtin_ardupilot* terrain, uint32_t groups);
 
-/* Groups of the block that are not there, and that are. */
+/* Groups of the block that are not there, and that are: AP_Terrain::get_statistics. 0 and 0 before
+ * a block is begun. */
 void microtin_ardupilot_statistics(const microtin_ardupilot* terrain, uint16_t* pending,
                                    uint16_t* loaded);
 

@@ -31,15 +31,16 @@ bool microtin_inav_height(microtin_inav* inav, int32_t lat, int32_t lon, float* 
 bool microtin_inav_lookahead(microtin_inav* inav, int32_t lat, int32_t lon, float bearing_deg,
                              float distance_m, float climb_ratio, float escape_ratio,
                              microtin_inav_look* look) {
-  const microtin_stride stride =
-      microtin_stride_along(microtin_whole(bearing_deg * 100.0f, 36000.0f), MICROTIN_INAV_STEP);
+  microtin_stride stride;
   const int32_t samples = microtin_whole(distance_m / 30.0f, MICROTIN_INAV_SAMPLES);
   const int32_t climb = microtin_whole(climb_ratio * MICROTIN_INAV_STEP, 1e6f),
                 escape = microtin_whole(escape_ratio * MICROTIN_INAV_STEP, 1e6f);
   const microtin_spot from = {lat, lon};
   microtin_spot at = from;
   int64_t needed = 0, deficit = 0;
-  int32_t base, height, missed = 0, i;
+  int32_t bearing, base, height, missed = 0, i;
+  if (!microtin_spots_bearing(bearing_deg, &bearing)) return false;
+  stride = microtin_stride_along(bearing, MICROTIN_INAV_STEP);
   microtin_spots_look(&inav->spots, from, stride, MICROTIN_INAV_STEP, samples);
   if (!microtin_spots_ask(&inav->spots, from, &base)) return false;
   for (i = 1; i <= samples; ++i) {

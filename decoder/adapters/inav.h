@@ -47,8 +47,9 @@ typedef struct microtin_inav_look {
   uint8_t samples_total, samples_missed;
 } microtin_inav_look;
 
-/* Every 30 m of a way, 64 times at most. Ratios are metres of climb for each metre of way. No: the
- * terrain below is not known. */
+/* Every 30 m of a way, 64 times at most. Ratios are metres of climb for each metre of way; bearings
+ * may be any number of turns. No: the terrain below is not known, or the bearing is not a number.
+ */
 bool microtin_inav_lookahead(microtin_inav* inav, int32_t lat, int32_t lon, float bearing_deg,
                              float distance_m, float climb_ratio, float escape_ratio,
                              microtin_inav_look* look);

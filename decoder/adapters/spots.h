@@ -221,6 +221,14 @@ static inline void microtin_spots_look(microtin_spots* s, microtin_spot here,
                          MICROTIN_PRIORITY_AHEAD);
 }
 
+/* A bearing in degrees, any number of turns, in 1/100 degree. 0: not a number, or beyond 10 million
+ * degrees. */
+static inline int microtin_spots_bearing(float degrees, int32_t* bearing) {
+  if (!(degrees > -1e7f && degrees < 1e7f)) return 0;
+  *bearing = (int32_t)(degrees * 100.0f);
+  return 1;
+}
+
 /* A float that is no number, or too large, becomes the nearest bound. */
 static inline int32_t microtin_whole(float value, float most) {
   if (!(value > -most)) return (int32_t)-most;

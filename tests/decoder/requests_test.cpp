@@ -258,6 +258,40 @@ TEST_CASE("requests: a card that fails, arguments, and the wrong kind of pack") 
         MICROTIN_STATUS_WRONG_PACK_KIND);
 }
 
+TEST_CASE_TEMPLATE("requests: reads that are not ready are no failures, and lose no tile", Slots,
+                   MeshSlots, CompactSlots) {
+  struct Slow {
+    Card card{square_pack()};
+    uint32_t calls = 0;
+
+    static int32_t read(void* context, uint64_t offset, uint8_t* buffer, size_t size) {
+      Slow& slow = *static_cast<Slow*>(context);
+      if (++slow.calls % 3 != 0) return MICROTIN_READ_NOT_READY;
+      return Card::read(&slow.card, offset, buffer, size);
+    }
+  } slow;
+  for (const uint32_t steps : {0u, 1u, 1000u}) {
+    const Slots device(4, 400);
+    const microtin_segment there = middle(3, 3);
+    microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+    uint32_t calls = 0;
+    while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
+      status = device.load_with(there, Slow::read, &slow, steps);
+      REQUIRE(++calls < 5000);
+    }
+    CHECK(status == MICROTIN_STATUS_OK);
+    CHECK(calls > 3);  // a call ends at a read that is not ready
+    int32_t height = 0;
+    CHECK(device.height_at(there.x, there.y, height) == MICROTIN_QUERY_OK);
+    microtin_pack_check check{};
+    do {
+      status = microtin_pack_check_with(device.pack, &there, 1, &check, Slow::read, &slow);
+    } while (status == MICROTIN_STATUS_NEED_INPUT);
+    CHECK(status == MICROTIN_STATUS_OK);
+    CHECK(check.bad == 0);
+  }
+}
+
 TEST_CASE("requests: a question interrupts the service at every step") {
   // Each read is an interrupt: the own place moves on while its tile is read.
   struct Moving {

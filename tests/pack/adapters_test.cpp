@@ -110,7 +110,10 @@ TEST_CASE("adapters: INAV's height and look ahead are those of the tiles") {
   CHECK(microtin_inav_lookahead(&inav, 433300000, 72300000, 0, 1e9F, 0, 0, &look));
   CHECK(look.samples_total == 64);
   const float none = std::nanf("");
-  CHECK(microtin_inav_lookahead(&inav, 433300000, 72300000, none, none, none, none, &look));
+  look.samples_total = 7;
+  CHECK(!microtin_inav_lookahead(&inav, 433300000, 72300000, none, 600, 0, 0, &look));
+  CHECK(look.samples_total == 7);
+  CHECK(microtin_inav_lookahead(&inav, 433300000, 72300000, 0, none, none, none, &look));
   CHECK(look.samples_total == 0);
 }
 
@@ -311,6 +314,50 @@ TEST_CASE("adapters: a request reaches as far as a look ahead, and ends with its
   begin();
   REQUIRE(microtin_ardupilot_height_amsl(&terrain, 433300000, 72300000, &corrected, true));
   CHECK(corrected == plain);
+}
+
+TEST_CASE("adapters: bearings wrap, and one that is not a number is refused") {
+  Loaded here;
+  microtin_inav inav;
+  microtin_inav_init(&inav, here.device.pack);
+  const auto needed = [&](float bearing) {
+    microtin_inav_look look{};
+    here.load(inav, [&] {
+      microtin_inav_lookahead(&inav, 433300000, 72300000, bearing, 600, 0, 0, &look);
+    });
+    REQUIRE(look.samples_total == 20);
+    return look.climb_needed_m;
+  };
+  CHECK(needed(37) != needed(0));
+  for (const float turned : {397.0F, -323.0F, 3637.0F}) CHECK(needed(turned) == needed(37));
+
+  microtin_ardupilot terrain;
+  microtin_ardupilot_init(&terrain, here.device.pack, 30);
+  microtin_ardupilot_load(&terrain, 100, Card::read, &here.card);
+  const auto rise = [&](float bearing) {
+    float height = 0;
+    here.load(terrain, [&] {
+      height = microtin_ardupilot_lookahead(&terrain, 433300000, 72300000, bearing, 600, 0);
+    });
+    return height;
+  };
+  CHECK(rise(37) > 0);
+  for (const float turned : {397.0F, -323.0F, 3637.0F}) CHECK(rise(turned) == rise(37));
+  CHECK(rise(std::nanf("")) == 0);
+}
+
+TEST_CASE("adapters: no block is pending before one is begun") {
+  Loaded here;
+  microtin_ardupilot terrain;
+  microtin_ardupilot_init(&terrain, here.device.pack, 100);
+  uint16_t pending = 9, loaded = 9;
+  microtin_ardupilot_statistics(&terrain, &pending, &loaded);
+  CHECK(pending == 0);
+  CHECK(loaded == 0);
+  microtin_ardupilot_begin_block(&terrain, 433300000, 72300000, 100);
+  microtin_ardupilot_statistics(&terrain, &pending, &loaded);
+  CHECK(pending == 56);
+  CHECK(loaded == 0);
 }
 
 TEST_CASE("adapters: the sine is within 10 of 65536") {

@@ -57,10 +57,11 @@ static inline microtin_status microtin_compact_pack_load_with(microtin_pack* pac
                                                               uint32_t step_limit) {
   for (;;) {
     microtin_status status;
+    int is_ready;
     if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
-    microtin_pack_read_once(pack, read, context);
+    is_ready = microtin_pack_read_once(pack, read, context);
     status = microtin_compact_pack_load(pack, segment, step_limit);
-    if (status != MICROTIN_STATUS_NEED_INPUT || step_limit != 0) return status;
+    if (status != MICROTIN_STATUS_NEED_INPUT || step_limit != 0 || !is_ready) return status;
   }
 }
 

@@ -60,8 +60,14 @@ void microtin_pack_reset(microtin_pack* pack);
 /* --- Reading and decoding --- */
 
 /* Your function that reads storage: up to `size` bytes (1 .. 128) of the pack at `offset` into
- * `buffer`. Returns how many bytes it stored, at least one; 0 if the pack ends at `offset`; a
- * negative number if reading failed. */
+ * `buffer`. Returns one of
+ *
+ * - how many bytes it stored, at least one
+ * - 0: the pack ends at `offset`
+ * - MICROTIN_READ_NOT_READY: the bytes are not there yet; the pack requests them again
+ * - another negative number: reading failed. If errors of the file system are sticky, as those of
+ *   FatFs are, the next call must open the file again before it reads */
+#define MICROTIN_READ_NOT_READY (-2147483647 - 1)
 typedef int32_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer, size_t size);
 
 /* Makes later reads suit a card with sectors of `sector` bytes, a power of two up to 32,768. No
@@ -98,32 +104,41 @@ microtin_status microtin_pack_load(microtin_pack* pack, const microtin_segment* 
 void microtin_pack_next_read(microtin_pack* pack, uint64_t* offset, uint8_t** buffer, size_t* size);
 
 /* Reports the result of a read, as microtin_read returns it: the number of bytes stored; 0 if the
- * pack ends there; a negative number, or more than were needed, if reading failed. The next
+ * pack ends there; MICROTIN_READ_NOT_READY, which changes nothing; another negative number, or more
+ * than were needed, if reading failed. The next
  * microtin_pack_load acts on it. Do not call it while the read is in progress. */
 void microtin_pack_complete_read(microtin_pack* pack, int32_t taken);
 
-/* Reads what the pack needs next, if anything, by one call of `read`, and reports the result. */
-static inline void microtin_pack_read_once(microtin_pack* pack, microtin_read read, void* context) {
+/* Reads what the pack needs next, if anything, by one call of `read`, and reports the result.
+ * Returns 0 if the bytes are not ready, else 1. */
+static inline int microtin_pack_read_once(microtin_pack* pack, microtin_read read, void* context) {
+  int32_t taken = 0;
   uint64_t offset;
   uint8_t* buffer;
   size_t size;
   microtin_pack_next_read(pack, &offset, &buffer, &size);
-  if (size != 0) microtin_pack_complete_read(pack, read(context, offset, buffer, size));
+  if (size != 0) {
+    taken = read(context, offset, buffer, size);
+    microtin_pack_complete_read(pack, taken);
+  }
+  return taken != MICROTIN_READ_NOT_READY;
 }
 
 /* Loads the tiles that a segment touches and reads what it needs by `read`. Returns a status of
  * microtin_pack_load. With a step limit a call makes at most one read: after NEED_INPUT or
- * STEP_LIMIT call again. Without a limit (0) one call does all. */
+ * STEP_LIMIT call again. Without a limit (0) one call does all, but for bytes that are not ready:
+ * NEED_INPUT. */
 static inline microtin_status microtin_pack_load_with(microtin_pack* pack,
                                                       const microtin_segment* segment,
                                                       microtin_read read, void* context,
                                                       uint32_t step_limit) {
   for (;;) {
     microtin_status status;
+    int is_ready;
     if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
-    microtin_pack_read_once(pack, read, context);
+    is_ready = microtin_pack_read_once(pack, read, context);
     status = microtin_pack_load(pack, segment, step_limit);
-    if (status != MICROTIN_STATUS_NEED_INPUT || step_limit != 0) return status;
+    if (status != MICROTIN_STATUS_NEED_INPUT || step_limit != 0 || !is_ready) return status;
   }
 }
 
@@ -188,18 +203,20 @@ microtin_status microtin_pack_check_box(microtin_pack* pack, const microtin_segm
                                         microtin_pack_check* check);
 
 /* Checks all at once: the tiles of a box if `is_box` is not 0, else those that a segment touches.
- * Reads by `read`. IO ends the check; another call with the same check continues it. */
+ * Reads by `read`. IO ends the check, as NEED_INPUT does if bytes are not ready; another call with
+ * the same check continues it. */
 static inline microtin_status microtin_pack_check_with(microtin_pack* pack,
                                                        const microtin_segment* area, int is_box,
                                                        microtin_pack_check* check,
                                                        microtin_read read, void* context) {
   for (;;) {
     microtin_status status;
+    int is_ready;
     if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
-    microtin_pack_read_once(pack, read, context);
+    is_ready = microtin_pack_read_once(pack, read, context);
     status = is_box ? microtin_pack_check_box(pack, area, check)
                     : microtin_pack_check_segment(pack, area, check);
-    if (status != MICROTIN_STATUS_NEED_INPUT) return status;
+    if (status != MICROTIN_STATUS_NEED_INPUT || !is_ready) return status;
   }
 }
 
