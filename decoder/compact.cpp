@@ -212,7 +212,7 @@ bool put_triangle(Compactor& c) {
     middle = high;
     high = turned;
   }
-  const bool flagged = low != 0 && c.source->has_voids && is_void(c.source->voids, t);
+  const bool flagged = low != 0 && has_voids(*c.source) && is_void(c.source->voids, t);
   put(c, side, low, middle, high, flagged ? kRingFlag : 0);
   return t + 1u == mesh.triangles;
 }

@@ -20,8 +20,12 @@ struct microtin_mesh {
 
 namespace microtin {
 
+inline bool has_voids(const microtin_mesh& m) {
+  return kBuiltVoids && m.has_voids;
+}
+
 MICROTIN_ONE_COPY inline bool has_terrain(const microtin_mesh& m, Index t) {
-  return !is_ghost(m.mesh, t) && !(m.has_voids && is_void(m.voids, t));
+  return !is_ghost(m.mesh, t) && !(has_voids(m) && is_void(m.voids, t));
 }
 
 // Why it must not be asked yet; OK if it may.

@@ -108,7 +108,7 @@ class MeshCursor {
   bool is_ghost() const { return apex() == kInfinity; }
   bool may_stop() const { return true; }
   bool has_terrain() const { return microtin::has_terrain(*m_, triangle()); }
-  bool is_void() const { return m_->has_voids && microtin::is_void(m_->voids, triangle()); }
+  bool is_void() const { return has_voids(*m_) && microtin::is_void(m_->voids, triangle()); }
   void cross() { enter(); }
   void leave_next() { h_ = next_in_triangle(h_); }
   void leave_last() { h_ = previous_in_triangle(h_); }

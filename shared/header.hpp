@@ -4,6 +4,7 @@
 #define MICROTIN_SHARED_HEADER_HPP
 
 #include "microtin/microtin.h"
+#include "shared/build_options.hpp"
 #include "shared/format.hpp"
 #include "shared/lattice.hpp"
 
@@ -97,9 +98,19 @@ inline bool read_margins(const uint8_t** bytes, const uint8_t* end, Contract* co
   return read_margin(bytes, end, &contract->below) && read_margin(bytes, end, &contract->above);
 }
 
+// Whether this build decodes streams with such properties. Coding 0 is a later version's.
+inline bool is_supported(uint32_t properties) {
+  constexpr uint32_t codings =
+      (kBuiltQuick ? 1u << static_cast<uint32_t>(Coding::kQuick) : 0u) |
+      (kBuiltBalanced ? 1u << static_cast<uint32_t>(Coding::kBalanced) : 0u) |
+      (kBuiltDense ? 1u << static_cast<uint32_t>(Coding::kDense) : 0u);
+  return (codings >> (properties >> 3 & 3u) & 1u) != 0 &&
+         (kBuiltVoids || (properties & kHasVoids) == 0);
+}
+
 // Reads a header's payload up to its notes. Without a placement `axis` is on the lattice itself.
 // Not OK: MALFORMED, or UNSUPPORTED_VERSION if it has properties unknown here, since these may
-// change what follows.
+// change what follows, or properties that this build leaves out.
 inline microtin_status read_header(const uint8_t** bytes, const uint8_t* end, Contract* contract,
                                    microtin_axis* axis) {
   uint64_t number[4];  // properties, vertices, x_max, y_max
@@ -109,9 +120,9 @@ inline microtin_status read_header(const uint8_t** bytes, const uint8_t* end, Co
     if (number[0] >> kPropertyBits != 0) return MICROTIN_STATUS_UNSUPPORTED_VERSION;
   }
   const uint32_t properties = static_cast<uint32_t>(number[0]);
-  if ((properties >> 3 & 3u) == 0) return MICROTIN_STATUS_UNSUPPORTED_VERSION;  // a later coding
+  if (!is_supported(properties)) return MICROTIN_STATUS_UNSUPPORTED_VERSION;
   contract->has_heights = (properties & kHasHeights) != 0;
-  contract->has_voids = (properties & kHasVoids) != 0;
+  contract->has_voids = kBuiltVoids && (properties & kHasVoids) != 0;
   contract->coding = static_cast<Coding>(properties >> 3 & 3u);
   contract->degree = properties >> 5 & 63u;
   contract->odd_origin_x = (properties & kOddOriginX) != 0;

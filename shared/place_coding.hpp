@@ -6,6 +6,7 @@
 #ifndef MICROTIN_SHARED_PLACE_CODING_HPP
 #define MICROTIN_SHARED_PLACE_CODING_HPP
 
+#include "shared/build_options.hpp"
 #include "shared/place_odds.hpp"
 #include "shared/probability.hpp"
 
@@ -13,16 +14,17 @@ namespace microtin {
 
 constexpr uint32_t kLevels = 4;  // most halvings
 constexpr uint32_t kColumnContexts = 16, kRowContexts = 12;
+constexpr uint32_t kQuickContexts = kColumnContexts + kRowContexts;
 
 // The two halvings of quick decoding: the first, the second in the lower and in the upper half.
 struct Quarters {
   AdaptiveBit bit[3];
 };
 
-// Columns come before rows.
+// Columns come before rows. What this build leaves out has one entry, which is not used.
 struct PlaceModel {
-  Calibration calibration[2][kLevels];  // of estimated odds
-  Quarters quick[kColumnContexts + kRowContexts];
+  Calibration calibration[kBuiltWeighed ? 2 : 1][kBuiltWeighed ? kLevels : 1];  // of odds
+  Quarters quick[kBuiltQuick ? kQuickContexts : 1];
 };
 
 // Keeps the upper or the lower half.
@@ -95,8 +97,18 @@ struct Place {
 
 // How often columns are halved by weights found anew, rows once less; after that those that are
 // known tell what is left. Quick decoding has none.
+constexpr uint32_t kWeighedInQuick = 0, kWeighedInBalanced = 3, kWeighedInDense = 5;
+
 inline uint32_t weighed_in(Coding coding) {
-  return coding == Coding::kQuick ? 0 : coding == Coding::kDense ? 5 : 3;
+  return coding == Coding::kQuick   ? kWeighedInQuick
+         : coding == Coding::kDense ? kWeighedInDense
+                                    : kWeighedInBalanced;
+}
+
+// The number itself; where this build has one coding, the constant that the number must be.
+MICROTIN_IN_PLACE inline uint32_t as_built(uint32_t weighed) {
+  if (!kBuiltWeighed) return kWeighedInQuick;
+  return kBuiltQuick || kBuiltDense ? weighed : kWeighedInBalanced;
 }
 
 // What is learned of places in addition to adaptive bits.
@@ -174,6 +186,7 @@ MICROTIN_FOLDED bool code_line(Coder& coder, PlaceModel& model, const Tally& tal
   const uint32_t kind = column != nullptr ? 1 : 0;
   Ruling ruling = rule(coder, tally, lines, place.legal.odd[kind], line);
   const FastInt number = number_of(ruling, line);
+  weighed = as_built(weighed);
   if (weighed == 0) {
     code_quarter(coder, model.quick[context], ruling.numbers, number);
   } else {
@@ -234,7 +247,7 @@ MICROTIN_IN_PLACE inline Offset code_turned_place(Coder& coder, PlaceModel& mode
   }
   learn(first, is_odd(at.x, legal.odd[0]));
   learn(second, is_odd(at.y, legal.odd[1]));
-  if (place.odds.repels) {
+  if (kBuiltWeighed && place.odds.repels) {
     learn(habits.crowding, place.odds, legal, Spot{column.x, grains(2 * at.y, legal.shift)});
   }
   return at;
@@ -250,12 +263,12 @@ Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
   Cotangent behind = chord.ghost ? -4 * (1 << kCotangentBits) : chord.behind;
   if (behind > own) behind = own;
   const Spot a = find_places(place.legal, region, contract, own, behind);
-  place.odds.repels = contract.has_heights && contract.coding != Coding::kQuick;
-  if (contract.coding != Coding::kQuick) {
+  const uint32_t weighed = as_built(weighed_in(contract.coding));
+  place.odds.repels = contract.has_heights && weighed != 0;
+  if (weighed != 0) {
     estimate_sweep(place.odds, place.legal, region, a, density, own, behind);
     if (place.odds.repels) estimate_repulsion(place.odds, place.legal, density, habits.crowding);
   }
-  const uint32_t weighed = weighed_in(contract.coding);
   const Vertex next = coder.next();
   const Offset known = turned(Point{next.x, next.y} - region.origin, place.legal.turns);
 #if defined(MICROTIN_LARGE_TABLES)

@@ -103,8 +103,10 @@ bool code_on_curve(Coder& coder, Curve<kEntries>& curve, int32_t position, bool 
 }
 
 // A learned correction of an estimated probability: entries at equal distances from 0 to 1.
+constexpr uint32_t kCalibrationEntries = 9;
+
 struct Calibration {
-  AdaptiveBit entry[9];
+  AdaptiveBit entry[kCalibrationEntries];
 };
 
 // `estimate` has 11 fractional bits and is below 1.

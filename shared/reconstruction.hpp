@@ -15,35 +15,12 @@
 #define MICROTIN_SHARED_RECONSTRUCTION_HPP
 
 #include "shared/format.hpp"
-#include "shared/height_coding.hpp"
-#include "shared/hit_coding.hpp"
 #include "shared/hull_coding.hpp"
 #include "shared/insertion.hpp"
 #include "shared/marks.hpp"
-#include "shared/place_coding.hpp"
-#include "shared/start_probabilities.hpp"
+#include "shared/models.hpp"
 
 namespace microtin {
-
-// Everything that is learned while coding.
-struct Models {
-  HitModel hit;
-  PlaceModel place;
-  HeightModel height;
-  ExponentModel gap;
-  AdaptiveBit is_void[7];
-};
-
-static_assert(sizeof(Models) == kStarts * sizeof(AdaptiveBit), "nothing but adaptive bits");
-
-inline void reset(Models& models) {
-  uint16_t* to = reinterpret_cast<uint16_t*>(&models);
-  for (uint32_t i = 0; i < kStarts; ++i) {
-    const AdaptiveBit bit = adaptive_bit(table_start(i));
-    *to++ = bit.fast;
-    *to++ = bit.slow;
-  }
-}
 
 enum class Stage : uint8_t { kSeed, kPhase, kWalk, kVoids, kComplete };
 
@@ -261,8 +238,9 @@ inline StepOutcome after_vertices(Reconstruction& r) {
     const bool together = r.mesh->vertices < kSectionVertices;
     return together ? StepOutcome::kPhaseEnd : StepOutcome::kSectionEnd;
   }
-  r.stage = r.contract.has_voids ? Stage::kVoids : Stage::kComplete;
-  return r.contract.has_voids ? StepOutcome::kPhaseEnd : StepOutcome::kSectionEnd;
+  const bool voids_follow = kBuiltVoids && r.contract.has_voids;
+  r.stage = voids_follow ? Stage::kVoids : Stage::kComplete;
+  return voids_follow ? StepOutcome::kPhaseEnd : StepOutcome::kSectionEnd;
 }
 
 // One of the three vertices that are never removed. The first is the lexicographically smallest of
@@ -418,7 +396,8 @@ MICROTIN_ROOMY_IN_PLACE StepOutcome step(Reconstruction& r, Coder& coder) {
     case Stage::kWalk:
       return step_walk(r, coder);
     case Stage::kVoids:
-      return step_void(r, coder);
+      if (kBuiltVoids) return step_void(r, coder);
+      break;
     case Stage::kComplete:
       break;
   }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Where the adaptive bits start, in the order of Models: the probability of a one is
-// (entry + 1/2) / 256. Written by `tests/bench/run train`.
+// Where the adaptive bits start, in the order of Models in builds with everything: the probability
+// of a one is (entry + 1/2) / 256. Written by `tests/bench/run train`.
 #ifndef MICROTIN_SHARED_START_PROBABILITIES_HPP
 #define MICROTIN_SHARED_START_PROBABILITIES_HPP
 
-#include "shared/tables.hpp"
+#include <stdint.h>
 
 namespace microtin {
 
-constexpr uint32_t kStarts = 399;
+constexpr uint32_t kAllStarts = 399;
 
 // clang-format off
-constexpr uint8_t kStartTable[kStarts] MICROTIN_IN_FLASH = {
+constexpr uint8_t kStartTable[kAllStarts] = {
     4, 18, 9, 12, 36, 88, 160, 220, 248, 254, 255, 255, 255, 255, 242, 4,
     18, 25, 33, 63, 116, 183, 230, 249, 254, 254, 255, 254, 254, 246, 3, 8,
     8, 13, 39, 84, 164, 222, 245, 253, 255, 255, 253, 226, 129, 0, 0, 0,
@@ -39,10 +39,6 @@ constexpr uint8_t kStartTable[kStarts] MICROTIN_IN_FLASH = {
     41, 222, 200, 166, 173, 133, 73, 38, 0, 0, 1, 6, 157, 247, 252,
 };
 // clang-format on
-
-inline uint32_t table_start(uint32_t i) {
-  return read_table(kStartTable + i);
-}
 
 }  // namespace microtin
 

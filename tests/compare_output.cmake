@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
-# cmake -DCOMMAND=... -DEXPECTED=FILE -P compare_output.cmake
-# Runs a command; fails unless it succeeds and prints exactly what the file holds.
+# cmake -DCOMMAND=... -DEXPECTED=FILE [-DFAILURE=1] -P compare_output.cmake
+# Runs a command; fails unless it succeeds (with FAILURE, unless it fails) and prints exactly what the file holds.
 execute_process(COMMAND ${COMMAND} OUTPUT_VARIABLE output RESULT_VARIABLE result)
-if(NOT result EQUAL 0)
+if((FAILURE AND result EQUAL 0) OR (NOT FAILURE AND NOT result EQUAL 0))
   message(FATAL_ERROR "exit code ${result}\n${output}")
 endif()
 file(READ ${EXPECTED} expected)

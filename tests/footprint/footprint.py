@@ -67,6 +67,8 @@ ONE_SOURCE_USES = {
     "pack_queries": PACK + PACK_QUERIES,
     "all": DECODING + QUERIES + BUCKETS + COMPACT + PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES,
 }
+# What is measured of the decoder that switches of config.h make smaller.
+SWITCH_USES = {"decoding": DECODING, "queries": DECODING + QUERIES}
 MOST_OF_CLANG = 1.2  # times gcc's bytes
 MOST_OF_ONE_SOURCE = 1.04  # times the instructions of separate sources
 WIDTH_IN_NAME = ["read_stream_info", "mesh_init", "decoder_init", "buckets_init", "compactor_init", "pack_init",
@@ -121,17 +123,37 @@ def measure_uses(options, library, uses):
     return result
 
 
+def stack_of(options, objects, image):
+    """The stack of a linked image, of objects whose call graphs the compiler wrote."""
+    graphs = [str(Path(o).with_suffix(".ci")) for o in objects.split(":")]
+    graphs = [graph for graph in graphs if Path(graph).exists()]
+    return stack.Stack(options.target, options.objdump, image, graphs)
+
+
+def depth_of(options, calls, entries):
+    return max(calls.depth(symbol(options, entry)) for entry in entries)
+
+
+def measure_switches(options):
+    """Builds without what a combination of switches leaves out."""
+    result = {}
+    for combination, library, objects in (given.split("=") for given in options.switches):
+        image = str(options.build / "linked")
+        result[combination] = measure_uses(options, library, SWITCH_USES)
+        link(options, library, DECODING, image)
+        result[combination]["stack_decoding"] = depth_of(options, stack_of(options, objects, image), DECODING)
+    return result
+
+
 def measure_library(options, library):
     result = measure_uses(options, library, USES)
     if options.stack:
-        graphs = [str(Path(o).with_suffix(".ci")) for o in options.objects[library].split(":")]
-        graphs = [graph for graph in graphs if Path(graph).exists()]
         image = str(options.build / "linked")
         all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
         others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + CLEARANCE + PROFILE + PACK_PROFILE + COMPACT_PACK_PROFILE
         others += GRADIENT + PACK_GRADIENT + PLACES
         link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + others + all_packs, image)
-        calls = stack.Stack(options.target, options.objdump, image, graphs)
+        calls = stack_of(options, options.objects[library], image)
         own = {
             "decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT, "pack": PACK,
             "pack_queries": PACK_QUERIES, "compact_pack": COMPACT_PACK, "compact_pack_queries": COMPACT_PACK_QUERIES,
@@ -141,7 +163,7 @@ def measure_library(options, library):
             "places": PLACES,
         }  # fmt: skip
         for use, entries in own.items():
-            result["stack_" + use] = max(calls.depth(symbol(options, entry)) for entry in entries)
+            result["stack_" + use] = depth_of(options, calls, entries)
     return result
 
 
@@ -180,6 +202,8 @@ def measure(options):
         result[level] = measure_library(options, library)
         if options.images:
             result[level]["run"] = measure_images(options, level)
+    if options.switches:
+        result["switches"] = measure_switches(options)
     if options.clang_object:
         result["one_source"] = {
             "clang_version": version(options.clang),
@@ -394,6 +418,18 @@ def one_source_table(sizes):
     return table(["compiler", "decoding", "decoding, queries", "packs, all queries", "everything"], rows)
 
 
+def switches_table(budget):
+    everything = {use: budget["Os"][use] for use in SWITCH_USES} | {"stack_decoding": budget["Os"]["stack_decoding"]}
+    rows = []
+    for combination, sizes in ({"none": everything} | budget["switches"]).items():
+        names = [f"`MICROTIN_{name.upper()}`" for name in combination.split(".")] if combination != "none" else ["none"]
+        saved = bytes_of(everything["decoding"]) - bytes_of(sizes["decoding"])
+        rows.append([", ".join(names), *(code_cell(sizes[use]) for use in SWITCH_USES), count(saved),
+                     count(sizes["stack_decoding"])])
+    head = ["switches", *(USE_TITLES[use] for use in SWITCH_USES), "bytes saved, decoding", "stack, decoding"]
+    return table(head, rows)
+
+
 def paragraph(text):
     return textwrap.fill(text, 120, break_long_words=False, break_on_hyphens=False) + "\n"
 
@@ -417,6 +453,12 @@ def footprint(budget):
                 "no zeroed data.", ram_table(budget)),
     ]  # fmt: skip
     sections += [section(heading, emulated, run_table(budget, titles)) for heading, titles in RUNS.items()]
+    if budget["cortex-m4"].get("switches"):
+        sections.append(section(
+            "What does each switch save?",
+            "The decoder on a Cortex-M4 at -Os, built with the switches of `config.h`. The table has bytes of code + "
+            "bytes of constants, and bytes of stack.", switches_table(budget["cortex-m4"]),
+        ))  # fmt: skip
     if sizes := budget["cortex-m4"].get("one_source"):
         sections.append(section(
             "Which compiler makes the smaller code?",
@@ -472,6 +514,7 @@ def arguments():
     one.add_argument("--images", help="the start of their paths: level and stream follow")
     one.add_argument("--run", help="the emulator's command")
     one.add_argument("--counting", help="its options for counting")
+    one.add_argument("--switches", action="append", default=[], help="COMBINATION=LIBRARY=OBJECTS")
     one.add_argument("--one-source", help="the library made of one source")
     one.add_argument("--clang", help="the compiler")
     one.add_argument("--clang-object", help="what it makes of that source")

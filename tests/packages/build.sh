@@ -58,7 +58,8 @@ case $kind in
       $python -c 'import kconfiglib' 2>/dev/null && break
     done
     [ "$python" != none ] || { echo "skipped: kconfiglib is not installed"; exit 77; }
-    for choice in 'MICROTIN=y 64BIT=y' 'MICROTIN=y 64BIT=y MICROTIN_NAMES=n' 'MICROTIN=y MICROTIN_INDEX_BITS_32=y'; do
+    for choice in 'MICROTIN=y 64BIT=y' 'MICROTIN=y 64BIT=y MICROTIN_NAMES=n' 'MICROTIN=y MICROTIN_INDEX_BITS_32=y' \
+      'MICROTIN=y MICROTIN_VOIDS=n MICROTIN_ONLY_QUICK=y' 'MICROTIN=y MICROTIN_ONLY_BALANCED=y'; do
       # shellcheck disable=SC2086
       $python "$here/stand_ins/zephyr/configure.py" "$library/zephyr/Kconfig" "$build/config.cmake" $choice
       cmake -E rm -rf "$build/cmake"
@@ -85,13 +86,16 @@ case $kind in
   meson)
     need meson ninja
     mkdir -p "$build/project/subprojects"
+    left_out=""
     cp "$here/stand_ins/meson/meson.build" "$consumer" "$build/project"
     cp -r "$packages/meson/." "$build/project/subprojects"
     for width in platform 16; do
-      CC=$c CXX=$cxx meson setup -Dmicrotin:index_bits=$width "$build/$width" "$build/project" >"$build/log" ||
+      # shellcheck disable=SC2086
+      CC=$c CXX=$cxx meson setup -Dmicrotin:index_bits=$width $left_out "$build/$width" "$build/project" >"$build/log" ||
         { cat "$build/log"; exit 1; }
       ninja -C "$build/$width" >"$build/log" || { cat "$build/log"; exit 1; }
       "$build/$width/consumer"
+      left_out="-Dmicrotin:names=false -Dmicrotin:voids=false -Dmicrotin:codings=only_balanced"
     done
     ;;
 esac

@@ -11,6 +11,14 @@
  *                         reports, such as a vertex index in range. The default does nothing
  *   MICROTIN_NO_NAMES     leaves out the strings of microtin_status_name and of
  *                         microtin_query_result_name
+ *
+ * The library decodes every stream unless one of the following switches is defined. It returns
+ * MICROTIN_STATUS_UNSUPPORTED_VERSION for a stream that needs what is left out. Only the compiler
+ * that compiles the library needs these switches; sizes and types do not depend on them.
+ *
+ *   MICROTIN_NO_VOIDS       leaves out terrains with voids
+ *   MICROTIN_ONLY_BALANCED  leaves out the codings `quick` and `dense`
+ *   MICROTIN_ONLY_QUICK     leaves out the codings `balanced` and `dense`
  */
 #ifndef MICROTIN_CONFIG_H
 #define MICROTIN_CONFIG_H
@@ -35,6 +43,10 @@
 #endif
 #if MICROTIN_INDEX_BITS != 16 && MICROTIN_INDEX_BITS != 32
 #error "MICROTIN_INDEX_BITS must be 16 or 32"
+#endif
+
+#if defined(MICROTIN_ONLY_BALANCED) && defined(MICROTIN_ONLY_QUICK)
+#error "MICROTIN_ONLY_BALANCED and MICROTIN_ONLY_QUICK leave no coding; define one of them"
 #endif
 
 #ifndef MICROTIN_ASSERT

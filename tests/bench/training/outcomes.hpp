@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "shared/start_probabilities.hpp"
+#include "shared/models.hpp"
 
 namespace microtin::bench {
 

@@ -67,26 +67,22 @@ void print_start_probabilities() {
   const Costs costs = costs_of_everything();
   std::printf("%s%u;\n\n%s",
               R"(// SPDX-License-Identifier: MIT
-// Where the adaptive bits start, in the order of Models: the probability of a one is
-// (entry + 1/2) / 256. Written by `tests/bench/run train`.
+// Where the adaptive bits start, in the order of Models in builds with everything: the probability of
+// a one is (entry + 1/2) / 256. Written by `tests/bench/run train`.
 #ifndef MICROTIN_SHARED_START_PROBABILITIES_HPP
 #define MICROTIN_SHARED_START_PROBABILITIES_HPP
 
-#include "shared/tables.hpp"
+#include <stdint.h>
 
 namespace microtin {
 
-constexpr uint32_t kStarts = )",
+constexpr uint32_t kAllStarts = )",
               kStarts, R"(// clang-format off
-constexpr uint8_t kStartTable[kStarts] MICROTIN_IN_FLASH = {
+constexpr uint8_t kStartTable[kAllStarts] = {
 )");
   print_starts(costs);
   std::printf(R"(};
 // clang-format on
-
-inline uint32_t table_start(uint32_t i) {
-  return read_table(kStartTable + i);
-}
 
 }  // namespace microtin
 
