@@ -42,7 +42,8 @@ microtin_status microtin_mesh_init(void* workspace, size_t size, microtin_mesh**
   const size_t half_edges = 6 * static_cast<size_t>(capacity);
   m.mesh.origin = reinterpret_cast<Index*>(&m + 1);
   m.mesh.twin = m.mesh.origin + half_edges;
-  m.mesh.place = reinterpret_cast<Point*>(m.mesh.twin + half_edges);
+  void* const behind = m.mesh.twin + half_edges;  // a multiple of four bytes from the begin
+  m.mesh.place = static_cast<Point*>(behind);
   m.mesh.z = reinterpret_cast<int16_t*>(m.mesh.place + capacity);
   m.voids = reinterpret_cast<uint8_t*>(m.mesh.z + capacity);
   m.capacity = capacity;

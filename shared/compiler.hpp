@@ -44,6 +44,13 @@
 #define MICROTIN_FOLDED MICROTIN_ONE_COPY inline
 #endif
 
+// A struct of two 16-bit numbers that, where size counts, is read and written at once.
+#if defined(MICROTIN_SIZE_COUNTS)
+#define MICROTIN_WORD alignas(uint32_t)
+#else
+#define MICROTIN_WORD
+#endif
+
 // A function that keeps no call but those of ONE_COPY, also where size counts and others share what
 // it calls.
 #if defined(__GNUC__) && !defined(__clang__)

@@ -10,7 +10,7 @@
 
 namespace microtin {
 
-constexpr uint8_t kMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'i', 'n'};
+constexpr uint8_t kMagic[4] = {'m', 't', 'i', 'n'};
 constexpr uint8_t kVersion = 6;
 constexpr uint32_t kMinDegree = 6, kMaxDegree = 32;
 constexpr uint32_t kMaxVertices = 16777216;  // 2^24
@@ -87,6 +87,12 @@ constexpr uint32_t kChunkNumberEnd = 0x80000000;
 // the types), a length (2 bytes), the content.
 constexpr uint32_t kNoteHeadBytes = 3;
 constexpr uint32_t kNotesMostBytes = 65535;
+
+// A magic as read_u32 reads it from a file.
+constexpr uint32_t number_of(const uint8_t (&magic)[4]) {
+  return magic[0] | static_cast<uint32_t>(magic[1]) << 8 | static_cast<uint32_t>(magic[2]) << 16 |
+         static_cast<uint32_t>(magic[3]) << 24;
+}
 
 inline uint32_t read_u16(const uint8_t* p) {
   return p[0] | static_cast<uint32_t>(p[1]) << 8;

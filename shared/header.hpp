@@ -13,9 +13,8 @@ namespace microtin {
 // Whether the first bytes are those of a stream that this code can read.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE inline microtin_status check_identity(
     const uint8_t* identity) {
-  for (uint32_t i = 0; i < sizeof kMagic; ++i) {
-    if (identity[i] != read_table(kMagic + i)) return MICROTIN_STATUS_BAD_MAGIC;
-  }
+  constexpr uint32_t magic = number_of(kMagic);
+  if (read_u32(identity) != magic) return MICROTIN_STATUS_BAD_MAGIC;
   return identity[4] == kVersion ? MICROTIN_STATUS_OK : MICROTIN_STATUS_UNSUPPORTED_VERSION;
 }
 

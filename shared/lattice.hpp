@@ -23,7 +23,7 @@ inline FastInt absolute(FastInt v) {
   return v < 0 ? -v : v;
 }
 
-struct Point {
+struct MICROTIN_WORD Point {
   uint16_t x;
   uint16_t y;
 };

@@ -141,8 +141,9 @@ MICROTIN_FOLDED void add_circle(LegalPlaces& places, uint32_t i, const Side& sid
 }
 
 // `own` and `behind` are the cotangents over the chord. Returns its start, turned.
-inline Spot find_places(LegalPlaces& places, const FreeRegion& region, const Contract& contract,
-                        Cotangent own, Cotangent behind) {
+MICROTIN_IN_PLACE inline Spot find_places(LegalPlaces& places, const FreeRegion& region,
+                                          const Contract& contract, Cotangent own,
+                                          Cotangent behind) {
   places.turns = turns_for(region.corner[1]);
   Spot corner[2];
   turn_corners(region, places.turns, corner);

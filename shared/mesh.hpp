@@ -13,6 +13,7 @@
 #include "shared/fixed_math.hpp"
 #include "shared/lattice.hpp"
 #include "shared/predicates.hpp"
+#include "shared/tables.hpp"
 
 namespace microtin {
 
@@ -133,18 +134,18 @@ inline bool in_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
   return d != 0 ? d > 0 : in_rare_conflict(mesh, a, b, c, p);
 }
 
-// The mesh of one counter-clockwise triangle (0, 1, 2) and its three ghosts (j, i, infinity).
+// Origins and twins of the first half-edges: a counter-clockwise triangle (0, 1, 2), then its three
+// ghosts. -1 is infinity.
+constexpr int8_t kStartOrigins[12] MICROTIN_IN_FLASH = {0, 1, 2, 1, 0, -1, 2, 1, -1, 0, 2, -1};
+constexpr int8_t kStartTwins[12] MICROTIN_IN_FLASH = {3, 6, 9, 0, 11, 7, 1, 5, 10, 2, 8, 4};
+
+// The mesh of one counter-clockwise triangle (0, 1, 2) and its three ghosts.
 inline void start_mesh(Mesh& mesh) {
   mesh.vertices = 3;
   mesh.triangles = 4;
-  Index previous = 9;  // the ghost whose edge from infinity is met at vertex i
-  for (Index i = 0; i < 3; ++i) {
-    const Index ghost = static_cast<Index>(3u + 3u * i);
-    mesh.origin[i] = mesh.origin[ghost + 1u] = mesh.origin[previous] = i;
-    mesh.origin[ghost + 2u] = kInfinity;
-    pair(mesh, i, ghost);
-    pair(mesh, ghost + 1u, previous + 2u);
-    previous = ghost;
+  for (uint32_t i = 0; i < sizeof kStartOrigins; ++i) {
+    mesh.origin[i] = static_cast<Index>(read_table(kStartOrigins + i));
+    mesh.twin[i] = static_cast<Index>(read_table(kStartTwins + i));
   }
 }
 

@@ -9,7 +9,7 @@
 
 namespace microtin {
 
-constexpr uint8_t kPackMagic[4] MICROTIN_IN_FLASH = {'m', 't', 'p', 'k'};
+constexpr uint8_t kPackMagic[4] = {'m', 't', 'p', 'k'};
 constexpr uint8_t kPackVersion = 5;
 constexpr uint32_t kPackIdentityBytes = 6;
 constexpr uint32_t kPackFixedBytes = 48;
@@ -80,9 +80,8 @@ inline int16_t read_i16(const uint8_t* p) {
 // Checks the first kPackIdentityBytes. UNSUPPORTED_VERSION: all that follows may mean something
 // else.
 inline microtin_status check_pack_identity(const uint8_t* bytes) {
-  for (uint32_t i = 0; i < sizeof kPackMagic; ++i) {
-    if (bytes[i] != read_table(kPackMagic + i)) return MICROTIN_STATUS_BAD_MAGIC;
-  }
+  constexpr uint32_t magic = number_of(kPackMagic);
+  if (read_u32(bytes) != magic) return MICROTIN_STATUS_BAD_MAGIC;
   return bytes[4] == kPackVersion && (bytes[5] | kPackHeaderFlags) == kPackHeaderFlags
              ? MICROTIN_STATUS_OK
              : MICROTIN_STATUS_UNSUPPORTED_VERSION;

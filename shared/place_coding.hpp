@@ -253,22 +253,29 @@ MICROTIN_IN_PLACE inline Offset code_turned_place(Coder& coder, PlaceModel& mode
   return at;
 }
 
-// Codes the next vertex's place, as seen from v. `density` is the logarithm of points per unit
-// area.
-template <class Coder>
-Offset code_place(Coder& coder, PlaceModel& model, const FreeRegion& region,
-                  const Contract& contract, Log2 density, Place& place, PlaceHabits& habits) {
+// Finds legal places and, unless decoding is quick, their odds.
+MICROTIN_FOLDED void estimate_place(Place& place, const FreeRegion& region,
+                                    const Contract& contract, Log2 density, Crowding crowding) {
   const Cotangent own = cotangent(region.cc - region.ca, region.by_twice, kOwnCap);
   const Side& chord = region.chord;
   Cotangent behind = chord.ghost ? -4 * (1 << kCotangentBits) : chord.behind;
   if (behind > own) behind = own;
   const Spot a = find_places(place.legal, region, contract, own, behind);
+  const bool is_weighed = as_built(weighed_in(contract.coding)) != 0;
+  place.odds.repels = contract.has_heights && is_weighed;
+  if (!is_weighed) return;
+  estimate_sweep(place.odds, place.legal, region, a, density, own, behind);
+  if (place.odds.repels) estimate_repulsion(place.odds, place.legal, density, crowding);
+}
+
+// Codes the next vertex's place, as seen from v. `density` is the logarithm of points per unit
+// area.
+template <class Coder>
+MICROTIN_IN_PLACE inline Offset code_place(Coder& coder, PlaceModel& model,
+                                           const FreeRegion& region, const Contract& contract,
+                                           Log2 density, Place& place, PlaceHabits& habits) {
+  estimate_place(place, region, contract, density, habits.crowding);
   const uint32_t weighed = as_built(weighed_in(contract.coding));
-  place.odds.repels = contract.has_heights && weighed != 0;
-  if (weighed != 0) {
-    estimate_sweep(place.odds, place.legal, region, a, density, own, behind);
-    if (place.odds.repels) estimate_repulsion(place.odds, place.legal, density, habits.crowding);
-  }
   const Vertex next = coder.next();
   const Offset known = turned(Point{next.x, next.y} - region.origin, place.legal.turns);
 #if defined(MICROTIN_LARGE_TABLES)

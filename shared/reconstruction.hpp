@@ -199,33 +199,48 @@ MICROTIN_IN_PLACE inline Point locate(Reconstruction& r, Coder& coder, Log2 dens
                static_cast<uint16_t>(region.origin.y + found.y)};
 }
 
+// Says hit or miss at the uncertified triangle of the chord to infinity; the place of a hit.
+template <class Coder>
+bool find_at_hull(Reconstruction& r, Coder& coder, Point* place) {
+  const Log2 density = r.density >> 8;
+  const HullEdge edge = hull_edge(r);
+  if (edge.length == 1) return false;  // there is no place beyond it
+  if (!code_hit(coder, r.models.hit, estimate_hull_hit(edge, density),
+                coder.conflicts(*r.mesh, r.chord))) {
+    return false;
+  }
+  *place = code_hull_place(coder, r.models.gap, r.models.height.mantissa, r.habits.parities,
+                           r.contract, edge, density);
+  return true;
+}
+
+// Says hit or miss at an uncertified real triangle; the place of a hit. `marks` are those of the
+// corner where `into` starts.
+template <class Coder>
+bool find_inside(Reconstruction& r, Coder& coder, Index into, uint32_t marks, Point* place) {
+  const Log2 density = r.density >> 8;
+  look_around(r, into);
+  HitEstimate estimate = estimate_hit(r.region, density);
+  if ((marks & kQueued) == 0) estimate_newcomer(*r.mesh, into, r.contract.degree, estimate);
+  if (!code_hit(coder, r.models.hit, estimate, coder.conflicts(*r.mesh, r.chord))) return false;
+  *place = locate(r, coder, density);
+  return true;
+}
+
 enum class Decision : uint8_t { kMiss, kHit, kMalformed };
 
 // Says hit or miss at an uncertified triangle, and inserts the vertex of a hit.
 template <class Coder>
-Decision decide_at_hull(Reconstruction& r, Coder& coder, Log2 density) {
-  const HullEdge edge = hull_edge(r);
-  if (edge.length == 1) return Decision::kMiss;  // there is no place beyond it
-  if (!code_hit(coder, r.models.hit, estimate_hull_hit(edge, density),
-                coder.conflicts(*r.mesh, r.chord))) {
-    return Decision::kMiss;
+MICROTIN_IN_PLACE inline Decision decide(Reconstruction& r, Coder& coder, const Corner& corner) {
+  const bool at_hull = r.vertex == kInfinity;
+  Point place = {0, 0};
+  const bool hit = at_hull ? find_at_hull(r, coder, &place)
+                           : find_inside(r, coder, corner.into, corner.marks, &place);
+  if (hit && !insert(r, coder, place)) return Decision::kMalformed;
+  if (!at_hull) {
+    // The triangle of the chord and c, or the new vertex, is final.
+    note_final_triangle(r, rough_log2(twice_area(r.region.corner[0], r.region.corner[1])));
   }
-  const Point place = code_hull_place(coder, r.models.gap, r.models.height.mantissa,
-                                      r.habits.parities, r.contract, edge, density);
-  return insert(r, coder, place) ? Decision::kHit : Decision::kMalformed;
-}
-
-template <class Coder>
-Decision decide(Reconstruction& r, Coder& coder, Index into, uint32_t marks) {
-  const Log2 density = r.density >> 8;
-  if (r.vertex == kInfinity) return decide_at_hull(r, coder, density);
-  look_around(r, into);
-  HitEstimate estimate = estimate_hit(r.region, density);
-  if ((marks & kQueued) == 0) estimate_newcomer(*r.mesh, into, r.contract.degree, estimate);
-  const bool hit = code_hit(coder, r.models.hit, estimate, coder.conflicts(*r.mesh, r.chord));
-  if (hit && !insert(r, coder, locate(r, coder, density))) return Decision::kMalformed;
-  // The triangle of the chord and c, or the new vertex, is final.
-  note_final_triangle(r, rough_log2(twice_area(r.region.corner[0], r.region.corner[1])));
   return hit ? Decision::kHit : Decision::kMiss;
 }
 
@@ -334,7 +349,7 @@ inline bool pass(Reconstruction& r, const Corner& corner) {
 template <class Coder>
 MICROTIN_IN_PLACE inline StepOutcome step_decision(Reconstruction& r, Coder& coder,
                                                    const Corner& corner) {
-  const Decision decision = decide(r, coder, corner.into, corner.marks);
+  const Decision decision = decide(r, coder, corner);
   if (decision == Decision::kMalformed) return StepOutcome::kMalformed;
   if (decision == Decision::kMiss)
     return pass(r, corner) ? StepOutcome::kStep : StepOutcome::kMalformed;
