@@ -17,3 +17,16 @@ macro(read_combination combination)
     set(voids 0)
   endif()
 endmacro()
+
+# The decoder in one source with the switches of a combination, which read_combination has read.
+function(add_small_decoder target)
+  get_target_property(sources amalgamation SOURCES)
+  get_target_property(options amalgamation COMPILE_OPTIONS)
+  add_library(${target} STATIC ${sources})
+  add_dependencies(${target} amalgamation)  # which makes the sources, in another folder
+  target_include_directories(${target} PUBLIC $<TARGET_PROPERTY:amalgamation,INTERFACE_INCLUDE_DIRECTORIES>)
+  list(TRANSFORM switches PREPEND MICROTIN_ OUTPUT_VARIABLE definitions)
+  target_compile_definitions(${target} PUBLIC MICROTIN_INDEX_BITS=${MICROTIN_INDEX_BITS} PRIVATE ${definitions})
+  target_compile_options(${target} PRIVATE ${options})
+  set_target_properties(${target} PROPERTIES CXX_STANDARD 14 CXX_STANDARD_REQUIRED ON CXX_CLANG_TIDY "")
+endfunction()
