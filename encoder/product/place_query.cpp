@@ -51,24 +51,24 @@ DecodedStream decoded(std::vector<uint8_t> bytes) {
   }
 }
 
-// A file's bytes; whether one could not be read is remembered.
+// A file's bytes; notes in `has_failed` that one could not be read.
 class WatchedBytes : public ByteSource {
  public:
-  explicit WatchedBytes(std::unique_ptr<ByteSource> bytes) : bytes_(std::move(bytes)) {}
+  WatchedBytes(std::unique_ptr<ByteSource> bytes, std::shared_ptr<bool> has_failed)
+      : bytes_(std::move(bytes)), has_failed_(std::move(has_failed)) {}
   uint64_t size() const override { return bytes_->size(); }
   size_t read(uint64_t offset, void* to, size_t size) const override {
     try {
       return bytes_->read(offset, to, size);
     } catch (const Error&) {
-      has_failed_ = true;
+      *has_failed_ = true;
       throw;
     }
   }
-  const bool* has_failed() const { return &has_failed_; }
 
  private:
   std::unique_ptr<ByteSource> bytes_;
-  mutable bool has_failed_ = false;
+  std::shared_ptr<bool> has_failed_;
 };
 
 uint32_t parts_of(Decimal value) {
@@ -127,13 +127,14 @@ microtin_query_result AskedPack::height_at(int64_t x, int64_t y, const PackFile&
 
 PlaceQuery::Pack PlaceQuery::opened_pack(const std::string& path) {
   AskedPack device(open_file(path));
-  auto watched = std::make_unique<WatchedBytes>(open_file(path));
-  const bool* const has_failed = watched->has_failed();
+  const auto has_failed = std::make_shared<bool>(false);
   try {
-    auto file = std::make_unique<PackFile>(std::move(watched), PackFile::Index::kLater);
+    auto file = std::make_unique<PackFile>(
+        std::make_unique<WatchedBytes>(open_file(path), has_failed), PackFile::Index::kLater);
     return {std::move(device), std::move(file), has_failed};
-  } catch (const Error& error) {  // which a device does not look at
-    throw Damaged(error.text());
+  } catch (const Error& error) {
+    if (*has_failed) throw;
+    throw Damaged(error.text());  // in what a device does not look at
   }
 }
 

@@ -79,7 +79,7 @@ class PlaceQuery {
   struct Pack {
     AskedPack device;
     std::unique_ptr<PackFile> file;
-    const bool* has_failed;  // a read of the file's bytes
+    std::shared_ptr<const bool> has_failed;  // a read of the file's bytes
   };
 
   std::vector<Axis> names_of_x(bool on_lattice) const;
