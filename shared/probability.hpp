@@ -103,10 +103,8 @@ bool code_on_curve(Coder& coder, Curve<kEntries>& curve, int32_t position, bool 
 }
 
 // A learned correction of an estimated probability: entries at equal distances from 0 to 1.
-constexpr uint32_t kCalibrationEntries = 9;
-
 struct Calibration {
-  AdaptiveBit entry[kCalibrationEntries];
+  AdaptiveBit entry[9];
 };
 
 // `estimate` has 11 fractional bits and is below 1.

@@ -20,12 +20,44 @@ Raster fractal(uint64_t seed) {
   return raster;
 }
 
-void print_starts(const Costs& costs) {
-  for (uint32_t i = 0; i < kStarts; ++i) {
-    std::printf("%s%u,%s", i % 16 == 0 ? "    " : " ", costs.best_start(i),
-                i % 16 == 15 ? "\n" : "");
+// Where in Models the parts begin and end that a build may leave out, but for their first entry.
+struct Optional {
+  size_t begin, end;
+  const char* left_out_by;
+};
+
+constexpr Optional kOptional[] = {
+    {offsetof(Models, place.calibration), offsetof(Models, place.quick), "MICROTIN_ONLY_QUICK"},
+    {offsetof(Models, place.quick), offsetof(Models, height), "MICROTIN_ONLY_BALANCED"},
+    {offsetof(Models, is_void), sizeof(Models), "MICROTIN_NO_VOIDS"},
+};
+
+// How many bits of such a part every build has.
+size_t kept(const Optional& part) {
+  if (part.begin == offsetof(Models, is_void)) return 1;
+  return part.begin == offsetof(Models, place.quick) ? sizeof(Quarters) / sizeof(AdaptiveBit)
+                                                     : sizeof(Calibration) / sizeof(AdaptiveBit);
+}
+
+void print_row(const Costs& costs, size_t begin, size_t end) {
+  for (size_t i = begin; i < end; ++i) {
+    const bool first = (i - begin) % 16 == 0, last = (i - begin) % 16 == 15 || i + 1 == end;
+    std::printf("%s%u,%s", first ? "    " : " ", costs.best_start(static_cast<uint32_t>(i)),
+                last ? "\n" : "");
   }
-  if (kStarts % 16 != 0) std::printf("\n");
+}
+
+void print_starts(const Costs& costs) {
+  size_t at = 0;
+  for (const Optional& part : kOptional) {
+    const size_t begin = part.begin / sizeof(AdaptiveBit), end = part.end / sizeof(AdaptiveBit);
+    print_row(costs, at, begin);
+    print_row(costs, begin, begin + kept(part));
+    std::printf("#if !defined(%s)\n", part.left_out_by);
+    print_row(costs, begin + kept(part), end);
+    std::printf("#endif\n");
+    at = end;
+  }
 }
 
 LatticeOptions bounded(const char* error, const char* step) {
@@ -65,23 +97,23 @@ Costs costs_of_everything() {
 
 void print_start_probabilities() {
   const Costs costs = costs_of_everything();
-  std::printf("%s%u;\n\n%s",
-              R"(// SPDX-License-Identifier: MIT
-// Where the adaptive bits start, in the order of Models in builds with everything: the probability of
-// a one is (entry + 1/2) / 256. Written by `tests/bench/run train`.
+  std::printf("%s", R"(// SPDX-License-Identifier: MIT
+// Where the adaptive bits start, in the order of Models: the probability of a one is
+// (entry + 1/2) / 256. Parts that this build leaves out keep one entry. Written by
+// `tests/bench/run train`.
 #ifndef MICROTIN_SHARED_START_PROBABILITIES_HPP
 #define MICROTIN_SHARED_START_PROBABILITIES_HPP
 
-#include <stdint.h>
+#include "microtin/config.h"
+#include "shared/tables.hpp"
 
 namespace microtin {
 
-constexpr uint32_t kAllStarts = )",
-              kStarts, R"(// clang-format off
-constexpr uint8_t kStartTable[kAllStarts] = {
+// clang-format off
+constexpr uint8_t kStartTable[] MICROTIN_IN_FLASH = {
 )");
   print_starts(costs);
-  std::printf(R"(};
+  std::printf("%s", R"(};
 // clang-format on
 
 }  // namespace microtin
