@@ -13,8 +13,8 @@ namespace microtin {
 // Whether the first bytes are those of a stream that this code can read.
 MICROTIN_ONE_COPY MICROTIN_OUT_OF_LINE inline microtin_status check_identity(
     const uint8_t* identity) {
-  constexpr uint32_t magic = number_of(kMagic);
-  if (read_u32(identity) != magic) return MICROTIN_STATUS_BAD_MAGIC;
+  constexpr uint32_t kNumber = number_of(kMagic);
+  if (read_u32(identity) != kNumber) return MICROTIN_STATUS_BAD_MAGIC;
   return identity[4] == kVersion ? MICROTIN_STATUS_OK : MICROTIN_STATUS_UNSUPPORTED_VERSION;
 }
 
@@ -99,11 +99,11 @@ inline bool read_margins(const uint8_t** bytes, const uint8_t* end, Contract* co
 
 // Whether this build decodes streams with such properties. Coding 0 is a later version's.
 inline bool is_supported(uint32_t properties) {
-  constexpr uint32_t codings =
+  constexpr uint32_t kCodings =
       (kBuiltQuick ? 1u << static_cast<uint32_t>(Coding::kQuick) : 0u) |
       (kBuiltBalanced ? 1u << static_cast<uint32_t>(Coding::kBalanced) : 0u) |
       (kBuiltDense ? 1u << static_cast<uint32_t>(Coding::kDense) : 0u);
-  return (codings >> (properties >> 3 & 3u) & 1u) != 0 &&
+  return (kCodings >> (properties >> 3 & 3u) & 1u) != 0 &&
          (kBuiltVoids || (properties & kHasVoids) == 0);
 }
 

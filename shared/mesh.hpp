@@ -134,18 +134,18 @@ inline bool in_conflict(const Mesh& mesh, Index a, Index b, Index c, Point p) {
   return d != 0 ? d > 0 : in_rare_conflict(mesh, a, b, c, p);
 }
 
-// Origins and twins of the first half-edges: a counter-clockwise triangle (0, 1, 2), then its three
-// ghosts. -1 is infinity.
-constexpr int8_t kStartOrigins[12] MICROTIN_IN_FLASH = {0, 1, 2, 1, 0, -1, 2, 1, -1, 0, 2, -1};
-constexpr int8_t kStartTwins[12] MICROTIN_IN_FLASH = {3, 6, 9, 0, 11, 7, 1, 5, 10, 2, 8, 4};
+// Origins, each plus 1, and twins of the first half-edges: a counter-clockwise triangle (0, 1, 2),
+// then its three ghosts. Origin 0 is infinity, the vertex -1.
+constexpr uint8_t kStartOrigins[12] MICROTIN_IN_FLASH = {1, 2, 3, 2, 1, 0, 3, 2, 0, 1, 3, 0};
+constexpr uint8_t kStartTwins[12] MICROTIN_IN_FLASH = {3, 6, 9, 0, 11, 7, 1, 5, 10, 2, 8, 4};
 
 // The mesh of one counter-clockwise triangle (0, 1, 2) and its three ghosts.
 inline void start_mesh(Mesh& mesh) {
   mesh.vertices = 3;
   mesh.triangles = 4;
   for (uint32_t i = 0; i < sizeof kStartOrigins; ++i) {
-    mesh.origin[i] = static_cast<Index>(read_table(kStartOrigins + i));
-    mesh.twin[i] = static_cast<Index>(read_table(kStartTwins + i));
+    mesh.origin[i] = static_cast<Index>(read_table(kStartOrigins + i) - 1u);
+    mesh.twin[i] = read_table(kStartTwins + i);
   }
 }
 

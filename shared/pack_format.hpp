@@ -80,8 +80,8 @@ inline int16_t read_i16(const uint8_t* p) {
 // Checks the first kPackIdentityBytes. UNSUPPORTED_VERSION: all that follows may mean something
 // else.
 inline microtin_status check_pack_identity(const uint8_t* bytes) {
-  constexpr uint32_t magic = number_of(kPackMagic);
-  if (read_u32(bytes) != magic) return MICROTIN_STATUS_BAD_MAGIC;
+  constexpr uint32_t kNumber = number_of(kPackMagic);
+  if (read_u32(bytes) != kNumber) return MICROTIN_STATUS_BAD_MAGIC;
   return bytes[4] == kPackVersion && (bytes[5] | kPackHeaderFlags) == kPackHeaderFlags
              ? MICROTIN_STATUS_OK
              : MICROTIN_STATUS_UNSUPPORTED_VERSION;

@@ -24,6 +24,13 @@ std::string cells_of(const Raster& frame) {
   return step(frame.x) + " x " + step(frame.y);
 }
 
+// From the numbers of one axis to those of another. Steps of axes are above 0, and so is the map's.
+LatticeMap map_of(const Axis& from, const Axis& to) {
+  const LatticeMap map = map_between(from, to);
+  if (map.step <= 0) throw InternalFault("a grid has cells without a size");
+  return map;
+}
+
 // In how many parts the first raster's cells are at least, so that cells of another are whole.
 std::optional<Wide> parts_for_cells(const LatticeMap& map, Wide parts) {
   const Wide needed = map.step / greatest_common_divisor(map.scale, map.step);
@@ -63,12 +70,12 @@ SharedAxis shared_axis(const std::vector<Raster>& frames, const std::vector<std:
   const Axis& grid = frames[0].*which;
   Wide parts = 1;
   for (size_t i = 0; i < frames.size(); ++i) {
-    const auto more = parts_for_cells(map_between(frames[i].*which, grid), parts);
+    const auto more = parts_for_cells(map_of(frames[i].*which, grid), parts);
     if (!more) throw too_different(i, frames, paths);
     parts = *more;
   }
   for (size_t i = 0; i < frames.size(); ++i) {
-    const auto more = parts_for_posts(map_between(frames[i].*which, grid), parts);
+    const auto more = parts_for_posts(map_of(frames[i].*which, grid), parts);
     if (!more) throw Error(paths[i] + ": its posts lie between those of " + paths[0] + kRemedy);
     parts = *more;
   }
@@ -76,7 +83,7 @@ SharedAxis shared_axis(const std::vector<Raster>& frames, const std::vector<std:
   shared.axis = reduced_axis(grid.offset * parts, static_cast<Wide>(grid.numerator),
                              static_cast<Wide>(grid.denominator) * parts);
   for (size_t i = 0; i < frames.size(); ++i) {
-    const LatticeMap map = map_between(frames[i].*which, grid);
+    const LatticeMap map = map_of(frames[i].*which, grid);
     const Wide spacing = map.scale * parts / map.step;
     if (spacing > kMostSpacing) throw too_different(i, frames, paths);
     shared.first.push_back(*place_on(map, parts));

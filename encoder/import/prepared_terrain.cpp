@@ -123,8 +123,9 @@ class WaterPlaces {
 
  private:
   bool is_sea(const Raster& part, size_t post) const {
-    const double x = offset_of(part.x) + step_of(part.x) * static_cast<double>(post % part.width);
-    const double y = offset_of(part.y) + step_of(part.y) * static_cast<double>(post / part.width);
+    const size_t column = post % part.width, row = post / part.width;
+    const double x = offset_of(part.x) + step_of(part.x) * static_cast<double>(column);
+    const double y = offset_of(part.y) + step_of(part.y) * static_cast<double>(row);
     constexpr double kRounding = 1e-9, kTurn = 360;
     return std::any_of(sea_.begin(), sea_.end(), [&](const DegreeCell& cell) {
       const double west = x - cell.longitude, south = y - cell.latitude;

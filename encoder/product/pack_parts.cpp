@@ -132,7 +132,7 @@ bool is_alike(const Metadata& a, const Metadata& b) {
 // How many places a pack lies from the first, if its tiles go with the first's.
 std::optional<int64_t> shift_of(const Axis& axis, const Axis& first, uint32_t size) {
   const LatticeMap map = map_between(axis, first);
-  if (map.scale != map.step || map.shift % map.step != 0) return std::nullopt;
+  if (map.step <= 0 || map.scale != map.step || map.shift % map.step != 0) return std::nullopt;
   const Wide shift = map.shift / map.step;
   if (shift % size != 0 || shift % 2 != 0 || magnitude(shift) > INT32_MAX) return std::nullopt;
   return static_cast<int64_t>(shift);

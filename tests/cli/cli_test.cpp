@@ -409,7 +409,7 @@ TEST_CASE("cli: packs of points") {
                  in_shards));
   CHECK(contains(session.failure("encode p.xyz --tile-vertices 90 --tile-size 9 -o s.mtp"),
                  "p.xyz: --tile-size is for rasters, and these are points; leave it out"));
-  CHECK(contains(session.failure("merge p.mtp -o m.mtp"), "p.mtp: "));
+  CHECK(contains(session.failure("merge p.xyz -o m.mtp"), "p.xyz: "));
   session.write("line.xyz", "0 0 0\n1 1 3\n2 2 7\n");
   CHECK(contains(session.failure("encode line.xyz --tile-vertices 60 -o line.mtp"), "one line"));
 }

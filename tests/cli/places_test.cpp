@@ -322,7 +322,7 @@ TEST_CASE("places: errors name the kind of a file, shard or pack") {
   CHECK(contains(session.failure("info - < t.mtp"), "-: is a pack"));
   CHECK(contains(session.failure("encode t.mtp -o o.mtin"), "t.mtp: is a pack, which"));
   CHECK(contains(session.failure("encode t.mtin -o o.mtin"), "t.mtin: is a stream, which"));
-  CHECK(contains(session.failure("merge t.mtp -o o.mtp"), "not a shard"));
+  CHECK(contains(session.failure("merge t.mtin -o o.mtp"), "not a shard"));
 }
 
 TEST_CASE("places: pictures are .png files, with a world file on request") {
