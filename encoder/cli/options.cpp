@@ -102,8 +102,8 @@ void begin_group(CLI::App& command, const std::string& group) {
   command.option_defaults()->group(group);
 }
 
-void add_output(CLI::App& command, std::string& path, const std::string& description) {
-  command.add_option("-o,--output", path, description)
+CLI::Option* add_output(CLI::App& command, std::string& path, const std::string& description) {
+  return command.add_option("-o,--output", path, description)
       ->required()
       ->type_name(kFile)
       ->transform(plain_output);

@@ -27,8 +27,8 @@ std::string option_name(const std::string& parameter);
 // The options defined from here on are in this group of the help page.
 void begin_group(CLI::App& command, const std::string& group);
 
-void add_output(CLI::App& command, std::string& path,
-                const std::string& description = "Write this file; - is standard output");
+CLI::Option* add_output(CLI::App& command, std::string& path,
+                        const std::string& description = "Write this file; - is standard output");
 
 CLI::Option* add_stream(CLI::App& command, std::string& path);
 

@@ -102,8 +102,9 @@ void add_profile(CLI::App& app, Action& action, int& code) {
   }
   add_output(command, request->output,
              "Write this file: the places as .csv, or a picture, .png or .svg; - is .csv on "
-             "standard output");
-  command.get_option("--output")->required(false)->default_str("no file");
+             "standard output")
+      ->required(false)
+      ->default_str("no file");
   add_number(command, "--samples N", request->samples, 2u,
              "List N places in equal parts of the line", kMostSamples)
       ->default_str("every place where the line meets an edge");
