@@ -39,7 +39,7 @@ MICROTIN_IN_PLACE inline Offset seen_from(FinePoint p, Point at) {
 //
 // Twice the area that two corners span with p is below 2^50: each factor pair is below 2^24 * 2^24.
 template <class Cursor>
-inline bool walk(Cursor& cursor, FinePoint p, uint32_t step_limit) {
+MICROTIN_IN_PLACE inline bool walk_in_place(Cursor& cursor, FinePoint p, uint32_t step_limit) {
   Offset from = seen_from(p, cursor.place(cursor.start()));
   Offset to = seen_from(p, cursor.place(cursor.end()));
   if (cross(from, to) < 0) {
@@ -64,6 +64,11 @@ inline bool walk(Cursor& cursor, FinePoint p, uint32_t step_limit) {
     cursor.enter();
   }
   return false;
+}
+
+template <class Cursor>
+inline bool walk(Cursor& cursor, FinePoint p, uint32_t step_limit) {
+  return walk_in_place(cursor, p, step_limit);
 }
 
 // Whether p, in a closed triangle without terrain, is a corner or on an edge with terrain beyond.

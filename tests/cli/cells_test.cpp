@@ -60,10 +60,11 @@ TEST_CASE("cells: what is absent is not an ocean unless somebody says so") {
   const Cells session;
   session.write("list", "data\nsea N50E007\n");
   for (const std::string file : {"t.mtin", "t.mtp"}) {
+    const std::string encode = "encode -o " + file + ' ', verify = "verify " + file + ' ';
     const auto heights = [&](const std::string& options) {
-      const Session::Result made = session.run("encode " + options + " -o " + file);
+      const Session::Result made = session.run(encode + options);
       REQUIRE_MESSAGE(made.code == 0, made.err);
-      CHECK(session.run("verify " + file + " " + options).code == 0);
+      CHECK(session.run(verify + options).code == 0);
       // A void post of a cell, an absent cell in the south-east, and one in the north-west.
       return session.height(file, "6.5 50.5") + session.height(file, "7.5 50.5") +
              session.height(file, "6.5 51.5");

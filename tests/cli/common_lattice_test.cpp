@@ -54,13 +54,14 @@ void check_cells(const Session& session, const std::vector<Cell>& cells) {
     session.write(name, text_of(cells[i]));
     names += " " + name;
   }
-  const std::string options = " --units degree:metre --max-error 6 --fast";
+  const std::string units = names + " --units degree:metre";
+  const std::string encode = "encode" + units + " --max-error 6 --fast -o ";
   for (const std::string output : {"t.mtp --tile-size 13", "t.mtp", "t.mtin"}) {
     CAPTURE(output);
     const std::string file = output.substr(0, output.find(' '));
-    const Session::Result made = session.run("encode" + names + options + " -o " + output);
+    const Session::Result made = session.run(encode + output);
     REQUIRE_MESSAGE(made.code == 0, made.err);
-    CHECK(session.run("verify " + file + names + " --units degree:metre").code == 0);
+    CHECK(session.run("verify " + (file + units)).code == 0);
     CHECK(session.run("check " + file).code == 0);
     const Surface surface = Surface::from_file(session.folder() + "/" + file);
     std::vector<double> x, y, wanted;

@@ -29,6 +29,7 @@ PACK_QUERIES = ["pack_height_at", "pack_axis_to_lattice", "pack_segment_extremes
 NOTES = ["note_finder_init", "note_finder_feed"]
 SAFE_HEIGHTS = ["mesh_safe_heights_at"]
 SEGMENTS = ["mesh_segment_extremes"]
+REQUESTS = ["requests_init", "requests_add", "requests_next", "requests_note", "requests_pending"]
 PACK_CHECK = ["pack_check_segment", "pack_check_box"]
 CLEARANCE = ["mesh_path_clearance"]
 PROFILE = ["mesh_profile_next"]
@@ -52,6 +53,7 @@ USES = {
     "safe_heights": DECODING + SAFE_HEIGHTS,
     "segments": DECODING + SEGMENTS,
     "pack_check": PACK + PACK_CHECK + ["pack_height_at"],
+    "requests": PACK + REQUESTS + ["pack_height_at"],
     "clearance": DECODING + CLEARANCE,
     "profile": DECODING + PROFILE,
     "pack_profile": PACK + PACK_PROFILE,
@@ -96,7 +98,7 @@ def link(options, library, entries, image):
     if options.target == "xtensa":
         command += ["-Wl,-Ttext=0x1000"]  # within reach of the helpers that its libgcc lacks
     if options.target == "avr":
-        command += ["-Wl,--defsym=__TEXT_REGION_LENGTH__=0x40000"]  # all of packs at -O2 is more than the device has
+        command += ["-Wl,--defsym=__TEXT_REGION_LENGTH__=0x80000"]  # all at -O2 is more than the device has
     subprocess.run(command, check=True)
 
 
@@ -150,14 +152,14 @@ def measure_library(options, library):
     if options.stack:
         image = str(options.build / "linked")
         all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
-        others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + CLEARANCE + PROFILE + PACK_PROFILE + COMPACT_PACK_PROFILE
+        others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + REQUESTS + CLEARANCE + PROFILE + PACK_PROFILE + COMPACT_PACK_PROFILE
         others += GRADIENT + PACK_GRADIENT + PLACES
         link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + others + all_packs, image)
         calls = stack_of(options, options.objects[library], image)
         own = {
             "decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT, "pack": PACK,
             "pack_queries": PACK_QUERIES, "compact_pack": COMPACT_PACK, "compact_pack_queries": COMPACT_PACK_QUERIES,
-            "notes": NOTES, "safe_heights": SAFE_HEIGHTS, "segments": SEGMENTS, "pack_check": PACK_CHECK,
+            "notes": NOTES, "safe_heights": SAFE_HEIGHTS, "segments": SEGMENTS, "pack_check": PACK_CHECK, "requests": REQUESTS,
             "clearance": CLEARANCE, "profile": PROFILE, "pack_profile": PACK_PROFILE,
             "compact_pack_profile": COMPACT_PACK_PROFILE, "gradient": GRADIENT, "pack_gradient": PACK_GRADIENT,
             "places": PLACES,
@@ -297,6 +299,7 @@ USE_TITLES = {
     "safe_heights": "decoding, safe heights",
     "segments": "decoding, extremes on a segment",
     "pack_check": "packs, heights, checks",
+    "requests": "packs, heights, requests",
     "clearance": "decoding, clearance of a path",
     "profile": "decoding, a profile",
     "pack_profile": "packs, a profile",
@@ -315,6 +318,7 @@ STACK_TITLES = {
     "safe_heights": "safe heights",
     "segments": "extremes on a segment",
     "pack_check": "checks of packs",
+    "requests": "requests of packs",
     "clearance": "clearance of a path",
     "profile": "a profile",
     "pack_profile": "a profile through a pack",

@@ -43,10 +43,9 @@ Raster sparse_raster(const Grids& grids, const VoidAt& void_at = no_void) {
   Raster raster = rough_raster(61, 53, void_at);
   raster.x_spacing = grids.x_spacing;
   raster.y_spacing = grids.y_spacing;
-  for (int y = 0; y < 53; ++y) {
-    for (int x = 0; x < 61; ++x) {
-      if (!grids.has_post(x, y)) raster.heights[static_cast<size_t>(y * 61 + x)] = kNoPost;
-    }
+  for (size_t post = 0; post < raster.heights.size(); ++post) {
+    const int x = static_cast<int>(post % 61), y = static_cast<int>(post / 61);
+    if (!grids.has_post(x, y)) raster.heights[post] = kNoPost;
   }
   return raster;
 }
