@@ -83,6 +83,7 @@ class LineWalk {
     const std::vector<Cut> cuts = this->cuts();
     FoundPlaces places;
     for (size_t i = 0; i + 1 < cuts.size(); ++i) append(piece(cuts[i], cuts[i + 1]), places);
+    if (places.empty()) throw InternalFault("a line has no places");
     // On a border of tiles an end may have its height from a tile with nothing else of the line.
     join(piece(cuts.front(), cuts.front()).front(), places.front());
     join(piece(cuts.back(), cuts.back()).front(), places.back());

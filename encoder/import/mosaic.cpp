@@ -203,8 +203,9 @@ struct Part {
 };
 
 Box box_of(const PostPlaces& places, const Raster& frame) {
-  return {places.x, places.y, (int64_t{frame.width} - 1) * places.x_spacing + 1,
-          (int64_t{frame.height} - 1) * places.y_spacing + 1};
+  const int64_t columns = frame.width, rows = frame.height;
+  return {places.x, places.y, (columns - 1) * places.x_spacing + 1,
+          (rows - 1) * places.y_spacing + 1};
 }
 
 // The largest difference of two heights at a post.
