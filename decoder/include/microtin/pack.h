@@ -67,8 +67,10 @@ void microtin_pack_reset(microtin_pack* pack);
  * - MICROTIN_READ_NOT_READY: the bytes are not there yet; the pack requests them again
  * - another negative number: reading failed. If errors of the file system are sticky, as those of
  *   FatFs are, the next call must open the file again before it reads */
-#define MICROTIN_READ_NOT_READY (-2147483647 - 1)
 typedef int32_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer, size_t size);
+
+/* What a microtin_read returns if the bytes are not there yet. */
+#define MICROTIN_READ_NOT_READY (-2147483647 - 1)
 
 /* Makes later reads suit a card with sectors of `sector` bytes, a power of two up to 32,768. No
  * read crosses a multiple of `sector`, and one read brings the index of four tiles of a row. 0, the

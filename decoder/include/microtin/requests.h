@@ -18,6 +18,7 @@
 
 #include "microtin/compact_pack.h"
 
+/* How many requests there are at most. */
 #define MICROTIN_MAX_REQUESTS 8
 
 /* Services (calls of microtin_requests_load) after which an other place that nobody requested again
@@ -50,6 +51,7 @@ typedef struct microtin_request {
   uint16_t waits;           /* services since it was requested first */
 } microtin_request;
 
+/* The requests of a pack. All members are the requests' own. */
 typedef struct microtin_requests {
   microtin_pack* pack;
   uint16_t since_turn; /* services */

@@ -43,8 +43,10 @@ struct Profile {
   microtin_query_result result = MICROTIN_QUERY_OK;
 };
 
-/* Returns the places of the least and the greatest height; null if no place has a height. */
+/* Returns the place of the least height; null if no place has a height. */
 const ProfilePlace* lowest_of(const Profile& profile);
+
+/* Returns the place of the greatest height; null if no place has a height. */
 const ProfilePlace* highest_of(const Profile& profile);
 
 /* Returns `count` places in equal parts of the line, both ends included. A count of 1 is the
@@ -107,10 +109,11 @@ struct LineOfSight {
 LineOfSight line_of_sight(const Profile& profile, const SightEnd& from, const SightEnd& to,
                           const SightOptions& options);
 
-/* Returns the height above the datum, at a distance from the begin, of the ray and of what has to
- * be free below it: by how much the Earth rises above the straight line between its ends, and the
- * radius of the first Fresnel zone. */
+/* Returns how far the Earth rises above the straight line between the ends, at a distance from the
+ * begin. */
 double earth_bulge(const Profile& profile, const SightOptions& options, double distance);
+
+/* Returns the radius of the first Fresnel zone, at a distance from the begin. */
 double fresnel_radius(const Profile& profile, const SightOptions& options, double distance);
 
 }  // namespace microtin::encoder
