@@ -273,10 +273,22 @@ void expect_own_suffix(const std::string& output, bool is_pack) {
                                   "\"microtin render\" make other files from them"));
 }
 
+// The file of finished tiles is removed at the end, so it is no other file of the command.
+void expect_own_resume_file(const EncodeRequest& request) {
+  if (request.resume.empty()) return;
+  refuse_overwriting(inputs_of(request), request.resume);
+  const auto full = [](const std::string& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
+  if (full(request.resume) != full(request.output)) return;
+  throw Error(request.resume + ": is also the output; name another file for --resume");
+}
+
 }  // namespace
 
 void run_encode(const EncodeRequest& request) {
   refuse_overwriting(inputs_of(request), request.output);
+  expect_own_resume_file(request);
   if (!request.tiles) expect_own_suffix(request.output, makes_pack(request));
   OutputFile out(request.output);  // fails early if it cannot be written
   announce_left_out(request);

@@ -109,6 +109,17 @@ TEST_CASE("resume: a run goes on where another one stopped, and makes the same p
                  "--resume is for packs"));
 }
 
+TEST_CASE("resume: the file of finished tiles is neither an input nor the output") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 17 -o t.asc").code == 0);
+  const std::string encode = "encode t.asc --tile-vertices 60 -o t.mtp --resume ";
+  CHECK(contains(session.failure(encode + "t.mtp"), "t.mtp: is also the output"));
+  CHECK(contains(session.failure(encode + "./t.mtp"), "./t.mtp: is also the output"));
+  CHECK(contains(session.failure(encode + "t.asc"), "t.asc: is also an input"));
+  REQUIRE(session.run(encode + "log").code == 0);
+  CHECK(contains(session.failure(encode + "t.mtp"), "t.mtp: is also the output"));
+}
+
 TEST_CASE("resume: a run that is killed has kept its tiles, and a shard goes on too") {
   const Session session;
   REQUIRE(session.run("fractal --size 513 --seed 3 -o t.asc").code == 0);
