@@ -159,7 +159,7 @@ microtin_query_result microtin_compact_height_at(const microtin_compact* compact
   uint32_t number = *hint, limit = step_limit == 0 ? kFirstSteps : step_limit;
   for (;;) {  // twice at most
     RingCursor cursor = start_at(r, number);
-    const bool arrived = walk_in_place(cursor, p, limit);  // also in one source
+    const bool arrived = walk_in_place(cursor, p, limit);
     *hint = number_of(cursor);
     if (arrived) return cursor.is_ghost() ? MICROTIN_QUERY_OUTSIDE : answer_at(cursor, p, height);
     if (step_limit != 0) return MICROTIN_QUERY_STEP_LIMIT;

@@ -62,7 +62,7 @@ void microtin_ardupilot_set_home(microtin_ardupilot* terrain, int32_t lat, int32
 void microtin_ardupilot_set_reference(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
                                       int32_t altitude_cm, float most);
 
-/* Terrain in metres above mean sea level, places in 1e-7 degrees. False: not known, and wished for
+/* Terrain in metres above mean sea level, places in 1e-7 degrees. False: not known, and requested
  * if it can be. */
 bool microtin_ardupilot_height_amsl(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
                                     float* height, bool corrected);

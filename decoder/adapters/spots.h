@@ -112,7 +112,7 @@ static inline void microtin_spots_set_position(microtin_spots* s, microtin_spot 
   microtin_spots_request(s, here, here, MICROTIN_PRIORITY_HERE);
 }
 
-/* The terrain in millimetres. NOT_LOADED: it may be there later, if it is wished for. */
+/* The terrain in millimetres. NOT_LOADED: it may be there later, if it is requested. */
 static inline microtin_query_result microtin_spots_height(microtin_spots* s, microtin_spot at,
                                                           int32_t* millimetres) {
   const microtin_axis* const z = &s->info.z;

@@ -24,14 +24,15 @@ std::string cells_of(const Raster& frame) {
   return step(frame.x) + " x " + step(frame.y);
 }
 
-// From the numbers of one axis to those of another. Steps of axes are above 0, and so is the map's.
+// Converts numbers of one axis to those of another. Steps of axes are above 0, and so is the map's.
 LatticeMap map_of(const Axis& from, const Axis& to) {
   const LatticeMap map = map_between(from, to);
   if (map.step <= 0) throw InternalFault("a grid has cells without a size");
   return map;
 }
 
-// In how many parts the first raster's cells are at least, so that cells of another are whole.
+// The least number of parts of the first raster's cells, a multiple of `parts`, of which the cells
+// of another raster are a whole number. Nothing if the cells have too many parts.
 std::optional<Wide> parts_for_cells(const LatticeMap& map, Wide parts) {
   const Wide needed = map.step / greatest_common_divisor(map.scale, map.step);
   const Wide both = needed / greatest_common_divisor(needed, parts) * parts;
@@ -39,13 +40,15 @@ std::optional<Wide> parts_for_cells(const LatticeMap& map, Wide parts) {
   return both;
 }
 
-// Where another's first post is, if the first raster's cells are in so many parts.
+// The place of another raster's first post, where each cell of the first raster has `parts` parts.
+// Nothing if the post lies between two places.
 std::optional<int64_t> place_on(const LatticeMap& map, Wide parts) {
   const Wide shift = map.shift * parts, place = round_divide(shift, map.step);
   if (magnitude(shift - place * map.step) > map.step * parts / kRounding) return std::nullopt;
   return static_cast<int64_t>(place);
 }
 
+// The least multiple of `parts`, up to four times, that has a place for another raster's posts.
 std::optional<Wide> parts_for_posts(const LatticeMap& map, Wide parts) {
   for (const Wide times : {1, 2, 3, 4}) {
     if (place_on(map, parts * times)) return parts * times;

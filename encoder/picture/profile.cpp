@@ -182,7 +182,8 @@ class ProfileSheet {
                kInTheWay);
   }
 
-  // Calls visit(value, text) for round numbers of a range, at least so many apart.
+  // Calls visit(value, text) for the round numbers between `low` and `high`, which lie at least
+  // `apart` from each other.
   template <class Visit>
   static void for_round(double low, double high, double apart, const Visit& visit) {
     if (!(high > low) || !(apart > 0)) return;

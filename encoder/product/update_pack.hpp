@@ -24,7 +24,7 @@ struct UpdatedPack {
 // others by the bound, side, water level, lattice and coding of the old pack. Borders between new
 // tiles and kept ones stay. Reads the raster twice.
 //
-// Of the options the notes, the search and tile_vertices count. A new tile has at most
+// The options set the notes, the search and `tile_vertices` alone. A new tile has at most
 // `tile_vertices` vertices. If that is 0, a new tile has no more vertices, and no more bytes in
 // compact form, than the old pack states for any tile: devices that hold the old tiles hold it.
 //

@@ -21,7 +21,8 @@ namespace {
 
 constexpr uint32_t kSide = 64;
 constexpr double kCell = 10, kLast = (kSide - 1) * kCell;
-constexpr double kBend = 1.01 * kCell / 256;  // where a line may be beside itself, at most
+constexpr double kBend =
+    1.01 * kCell / 256;  // how far a profile's line may be off the straight one
 const double kNan = std::nan("");
 
 // Hills with a hole in the middle and one at a corner; row 0 is the northernmost.

@@ -7,8 +7,8 @@
  * - The own place comes first, the segment ahead next, all other places in turn.
  * - A request never displaces a tile that serves a request before it.
  * - A tile that queries use counts as serving another place, for as long as they use it.
- * - Other places whose tiles do not fit beside those in use take turns: one tile gives way at most
- *   every MICROTIN_REQUEST_TURN services.
+ * - Other places take turns if there is no room for their tiles: at most once in
+ *   MICROTIN_REQUEST_TURN services a tile in use gives way to another one.
  *
  * Interrupts: microtin_requests_add may interrupt microtin_requests_load at any moment, as queries
  * may (pack.h), but not itself. The pack is loaded by microtin_requests_load alone. Nothing here
