@@ -144,7 +144,7 @@ inline void start_mesh(Mesh& mesh) {
   mesh.vertices = 3;
   mesh.triangles = 4;
   for (uint32_t i = 0; i < sizeof kStartOrigins; ++i) {
-    mesh.origin[i] = static_cast<Index>(read_table(kStartOrigins + i) - 1u);
+    mesh.origin[i] = static_cast<Index>(read_table(kStartOrigins + i) - 1);
     mesh.twin[i] = read_table(kStartTwins + i);
   }
 }
