@@ -6,6 +6,7 @@ void microtin_ardupilot_init(microtin_ardupilot* terrain, microtin_pack* pack, u
   terrain->spacing = spacing != 0 ? spacing : 100;
   terrain->has_reference = 0;
   terrain->has_correction = 0;
+  terrain->most_correction = 0;
   terrain->missed = 0;
   microtin_ardupilot_begin_block(terrain, 0, 0, terrain->spacing);
   terrain->has_block = 0;
@@ -16,14 +17,37 @@ microtin_status microtin_ardupilot_load(microtin_ardupilot* terrain, uint32_t st
   return microtin_spots_load(&terrain->spots, step_limit, read, context);
 }
 
-void microtin_ardupilot_set_position(microtin_ardupilot* terrain, int32_t lat, int32_t lng) {
-  const microtin_spot here = {lat, lng};
-  microtin_spots_set_position(&terrain->spots, here);
-}
-
 void microtin_ardupilot_set_home(microtin_ardupilot* terrain, int32_t lat, int32_t lng) {
   const microtin_spot home = {lat, lng};
   microtin_latch_set(&terrain->spots.home, home);
+}
+
+/* Keeps the correction within its bound, or computes it once the terrain at the reference is there.
+ * Differences stay below 2^30 + 2^31 mm. False: there is none. */
+static bool find_correction(microtin_ardupilot* terrain) {
+  const int64_t most = terrain->most_correction;
+  int64_t above = terrain->correction;
+  int32_t ground;
+  if (most <= 0) terrain->has_correction = 0;
+  if (most <= 0 || !terrain->has_reference) return false;
+  if (!terrain->has_correction) {
+    if (!microtin_spots_ask(&terrain->spots, terrain->reference, &ground)) return false;
+    above = (int64_t)terrain->reference_altitude - ground;
+  }
+  terrain->correction = (int32_t)(above > most ? most : above < -most ? -most : above);
+  terrain->has_correction = 1;
+  return true;
+}
+
+void microtin_ardupilot_set_position(microtin_ardupilot* terrain, int32_t lat, int32_t lng) {
+  const microtin_spot here = {lat, lng};
+  microtin_spots_set_position(&terrain->spots, here);
+  find_correction(terrain);
+}
+
+void microtin_ardupilot_set_offset_max(microtin_ardupilot* terrain, float most) {
+  terrain->most_correction = microtin_whole(most * 1000.0f, 1e6f);
+  find_correction(terrain);
 }
 
 void microtin_ardupilot_set_reference(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
@@ -31,23 +55,15 @@ void microtin_ardupilot_set_reference(microtin_ardupilot* terrain, int32_t lat, 
   terrain->reference.latitude = lat;
   terrain->reference.longitude = lng;
   terrain->reference_altitude = microtin_whole((float)altitude_cm, 1e8f) * 10;
-  terrain->most_correction = microtin_whole(most * 1000.0f, 1e6f);
-  terrain->has_reference = terrain->most_correction > 0;
+  terrain->has_reference = 1;
   terrain->has_correction = 0;
+  microtin_ardupilot_set_offset_max(terrain, most);
 }
 
-/* Once the terrain at the reference is there. Differences stay below 2^30 + 2^31 mm. */
-static int32_t correction_of(microtin_ardupilot* terrain) {
-  const int64_t most = terrain->most_correction;
-  int32_t ground;
-  if (!terrain->has_reference) return 0;
-  if (!terrain->has_correction &&
-      microtin_spots_ask(&terrain->spots, terrain->reference, &ground)) {
-    const int64_t above = (int64_t)terrain->reference_altitude - ground;
-    terrain->correction = (int32_t)(above > most ? most : above < -most ? -most : above);
-    terrain->has_correction = 1;
-  }
-  return terrain->has_correction ? terrain->correction : 0;
+bool microtin_ardupilot_reference_offset(microtin_ardupilot* terrain, float* offset) {
+  if (!find_correction(terrain)) return false;
+  *offset = (float)terrain->correction / 1000.0f;
+  return true;
 }
 
 bool microtin_ardupilot_height_amsl(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
@@ -56,7 +72,7 @@ bool microtin_ardupilot_height_amsl(microtin_ardupilot* terrain, int32_t lat, in
   int32_t millimetres;
   if (!microtin_spots_ask_place(&terrain->spots, at, &millimetres)) return false;
   *height = (float)millimetres / 1000.0f;
-  if (corrected) *height += (float)correction_of(terrain) / 1000.0f;
+  if (corrected && find_correction(terrain)) *height += (float)terrain->correction / 1000.0f;
   return true;
 }
 
@@ -90,14 +106,28 @@ float microtin_ardupilot_lookahead(microtin_ardupilot* terrain, int32_t lat, int
   return (float)most / 1000.0f;
 }
 
+bool microtin_ardupilot_request(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
+                                int32_t lat_end, int32_t lng_end) {
+  const microtin_spot from = {lat, lng}, to = {lat_end, lng_end};
+  return microtin_spots_request(&terrain->spots, from, to, MICROTIN_PRIORITY_OTHER) != 0;
+}
+
+microtin_status microtin_ardupilot_check(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
+                                         int32_t lat_end, int32_t lng_end,
+                                         microtin_pack_check* check, microtin_read read,
+                                         void* context) {
+  const microtin_spot from = {lat, lng}, to = {lat_end, lng_end};
+  return microtin_spots_check(&terrain->spots, from, to, check, read, context);
+}
+
 void microtin_ardupilot_begin_block(microtin_ardupilot* terrain, int32_t lat, int32_t lng,
                                     uint16_t spacing) {
   microtin_ardupilot_block* const block = &terrain->block;
+  const microtin_spot at = {lat, lng};
   int row, column;
   terrain->has_block = 1;
-  block->corner.latitude = lat;
-  block->corner.longitude = lng;
-  block->spacing = spacing;
+  block->posts.spacing = spacing != 0 ? spacing : terrain->spacing;
+  block->corner = microtin_posts_find(&block->posts, at, &block->grid_row, &block->grid_column);
   block->bitmap = 0;
   block->next = 0;
   for (row = 0; row < MICROTIN_ARDUPILOT_ROWS; ++row) {
@@ -105,47 +135,47 @@ void microtin_ardupilot_begin_block(microtin_ardupilot* terrain, int32_t lat, in
   }
 }
 
-static microtin_spot post_of(const microtin_ardupilot_block* block, int32_t row, int32_t column) {
-  const int32_t step = block->spacing * (int32_t)1000;
-  return microtin_spot_beside(block->corner, row * step, column * step);
-}
-
-/* Four posts of a row by one fill. */
-static microtin_query_result fill_row(microtin_ardupilot* terrain, int32_t row, int32_t column,
-                                      int16_t* heights) {
-  const microtin_ardupilot_block* const block = &terrain->block;
-  microtin_grid_spec part;
-  int64_t last_x, last_y;
-  if (!terrain->spots.has_info) return MICROTIN_QUERY_NOT_LOADED;
-  if (!microtin_spots_place(&terrain->spots, post_of(block, row, column), &part.x, &part.y) ||
-      !microtin_spots_place(&terrain->spots, post_of(block, row, column + 3), &last_x, &last_y) ||
-      last_x < part.x) { /* a seam of the pack's longitudes lies between */
+/* The height of a post in whole metres, halves up, of millimetres, as the file has it. */
+static microtin_query_result height_of_post(microtin_ardupilot* terrain, microtin_spot post,
+                                            int16_t* metres) {
+  microtin_spots* const spots = &terrain->spots;
+  int64_t x, y, turn;
+  int32_t height = 0;
+  microtin_query_result answer;
+  if (!spots->has_info) return MICROTIN_QUERY_NOT_LOADED;
+  turn = microtin_posts_turn(&terrain->block.posts, &spots->info);
+  if (!microtin_posts_position(&terrain->block.posts, post, &spots->info, turn, &x, &y)) {
     return MICROTIN_QUERY_OUTSIDE;
   }
-  part.dx = (int32_t)((last_x - part.x) / 3);
-  part.dy = 0;
-  part.columns = 4;
-  part.rows = 1;
-  part.missing = 0;
-  return MICROTIN_SPOTS_SAMPLE_GRID(terrain->spots.pack, &part, heights);
+  answer = microtin_spots_height_on(spots, x, y, &height);
+  if (answer == MICROTIN_QUERY_NOT_LOADED) {
+    const microtin_segment place = {x, y, x, y};
+    microtin_requests_add(&spots->requests, &place, MICROTIN_PRIORITY_OTHER);
+  }
+  if (height < -32768000 || height > 32767000) return MICROTIN_QUERY_OUTSIDE;
+  *metres = (int16_t)((height + 32768500) / 1000 - 32768);
+  return answer;
 }
 
 /* A group that is not all there leaves zeros. */
 static void try_group(microtin_ardupilot* terrain, int32_t group) {
   microtin_ardupilot_block* const block = &terrain->block;
   const int32_t row = group / 8 * 4, column = group % 8 * 4;
+  const uint32_t south = block->grid_row * (uint32_t)MICROTIN_POSTS_OWN_ROWS + (uint32_t)row,
+                 west =
+                     block->grid_column * (uint32_t)MICROTIN_POSTS_OWN_COLUMNS + (uint32_t)column;
   int16_t heights[4][4];
-  int32_t i, j;
+  uint32_t i, j;
   for (i = 0; i < 4; ++i) {
-    const microtin_query_result answer = fill_row(terrain, row + i, column, heights[i]);
-    if (answer == MICROTIN_QUERY_NOT_LOADED) {
-      microtin_spots_request(&terrain->spots, post_of(block, row, column),
-                             post_of(block, row + 3, column + 3), MICROTIN_PRIORITY_OTHER);
+    const uint32_t scale =
+        microtin_posts_halfway(&block->posts, microtin_posts_north(&block->posts, south + i));
+    for (j = 0; j < 4; ++j) {
+      const microtin_spot post = microtin_posts_place(&block->posts, south + i, west + j, scale);
+      if (height_of_post(terrain, post, &heights[i][j]) != MICROTIN_QUERY_OK) return;
     }
-    if (answer != MICROTIN_QUERY_OK) return;
   }
   for (i = 0; i < 4; ++i) {
-    for (j = 0; j < 4; ++j) block->height[row + i][column + j] = heights[i][j];
+    for (j = 0; j < 4; ++j) block->height[row + (int)i][column + (int)j] = heights[i][j];
   }
   block->bitmap |= (uint64_t)1 << group;
 }

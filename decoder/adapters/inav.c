@@ -3,10 +3,15 @@
 
 void microtin_inav_init(microtin_inav* inav, microtin_pack* pack) {
   microtin_spots_init(&inav->spots, pack);
+  inav->has_here = 0;
+  inav->was_known = 0;
+  inav->status = MICROTIN_STATUS_OK;
 }
 
 void microtin_inav_set_position(microtin_inav* inav, int32_t lat, int32_t lon) {
   const microtin_spot here = {lat, lon};
+  inav->here = here;
+  inav->has_here = 1;
   microtin_spots_set_position(&inav->spots, here);
 }
 
@@ -17,7 +22,27 @@ void microtin_inav_set_home(microtin_inav* inav, int32_t lat, int32_t lon) {
 
 microtin_status microtin_inav_load(microtin_inav* inav, uint32_t step_limit, microtin_read read,
                                    void* context) {
-  return microtin_spots_load(&inav->spots, step_limit, read, context);
+  const microtin_status status = microtin_spots_load(&inav->spots, step_limit, read, context);
+  inav->status = (uint8_t)status;
+  return status;
+}
+
+/* Whether the last service found the card, and a pack on it. */
+static bool is_card_good(const microtin_inav* inav) {
+  return inav->status == MICROTIN_STATUS_OK || inav->status == MICROTIN_STATUS_NEED_INPUT ||
+         inav->status == MICROTIN_STATUS_STEP_LIMIT ||
+         inav->status == MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
+}
+
+bool microtin_inav_is_healthy(microtin_inav* inav, uint32_t now_ms) {
+  int32_t height;
+  if (inav->has_here && microtin_spots_ask_place(&inav->spots, inav->here, &height)) {
+    inav->known_at = now_ms;
+    inav->was_known = 1;
+  }
+  if (inav->was_known && now_ms - inav->known_at > MICROTIN_INAV_FRESH_MS) inav->was_known = 0;
+  return microtin_spots_ask_latch(&inav->spots, &inav->spots.home, &height) && inav->was_known &&
+         is_card_good(inav);
 }
 
 bool microtin_inav_height(microtin_inav* inav, int32_t lat, int32_t lon, float* height_m) {
@@ -58,4 +83,17 @@ bool microtin_inav_lookahead(microtin_inav* inav, int32_t lat, int32_t lon, floa
   look->samples_total = (uint8_t)(samples > 0 ? samples : 0);
   look->samples_missed = (uint8_t)missed;
   return true;
+}
+
+bool microtin_inav_request(microtin_inav* inav, int32_t lat, int32_t lon, int32_t lat_end,
+                           int32_t lon_end) {
+  const microtin_spot from = {lat, lon}, to = {lat_end, lon_end};
+  return microtin_spots_request(&inav->spots, from, to, MICROTIN_PRIORITY_OTHER) != 0;
+}
+
+microtin_status microtin_inav_check(microtin_inav* inav, int32_t lat, int32_t lon, int32_t lat_end,
+                                    int32_t lon_end, microtin_pack_check* check, microtin_read read,
+                                    void* context) {
+  const microtin_spot from = {lat, lon}, to = {lat_end, lon_end};
+  return microtin_spots_check(&inav->spots, from, to, check, read, context);
 }

@@ -12,11 +12,9 @@
 #ifdef MICROTIN_ADAPTERS_COMPACT
 #define MICROTIN_SPOTS_LOAD microtin_requests_load_compact
 #define MICROTIN_SPOTS_HEIGHT_AT microtin_compact_pack_height_at
-#define MICROTIN_SPOTS_SAMPLE_GRID microtin_compact_pack_sample_grid
 #else
 #define MICROTIN_SPOTS_LOAD microtin_requests_load
 #define MICROTIN_SPOTS_HEIGHT_AT microtin_pack_height_at
-#define MICROTIN_SPOTS_SAMPLE_GRID microtin_pack_sample_grid
 #endif
 
 /* Millimetres of the way ahead that are requested, at most. */
@@ -93,18 +91,49 @@ static inline int microtin_spots_place(const microtin_spots* s, microtin_spot at
 }
 
 /* Requests what lies between two places, or the first place alone if the second one is not in the
- * pack or is far away. */
-static inline void microtin_spots_request(microtin_spots* s, microtin_spot from, microtin_spot to,
-                                          uint32_t priority) {
+ * pack or is far away. 0: not noted. */
+static inline int microtin_spots_request(microtin_spots* s, microtin_spot from, microtin_spot to,
+                                         uint32_t priority) {
   const int64_t farthest = (int64_t)1 << 24;
   microtin_segment c;
-  if (!microtin_spots_place(s, from, &c.x, &c.y)) return;
+  if (!microtin_spots_place(s, from, &c.x, &c.y)) return 0;
   if (!microtin_spots_place(s, to, &c.x_end, &c.y_end) || c.x_end - c.x >= farthest ||
       c.x - c.x_end >= farthest || c.y_end - c.y >= farthest || c.y - c.y_end >= farthest) {
     c.x_end = c.x;
     c.y_end = c.y;
   }
-  microtin_requests_add(&s->requests, &c, priority);
+  return microtin_requests_add(&s->requests, &c, priority) == MICROTIN_STATUS_OK;
+}
+
+/* Checks that the pack has the terrain between two places, and that its bytes are whole, as
+ * microtin_pack_check_segment does. Call it where microtin_spots_load is called. A call makes one
+ * read; `check` is all zero to begin.
+ *
+ * - OK: all tiles have terrain and are whole
+ * - NEED_INPUT: call again
+ * - IO: reading failed; call again
+ * - OUT_OF_RANGE: a place lies outside the pack
+ * - NOT_FOUND: the others are whole, and check->without_terrain tiles have no terrain
+ * - BAD_TILES, and the statuses of a bad header: as microtin_pack_check_segment */
+static inline microtin_status microtin_spots_check(microtin_spots* s, microtin_spot from,
+                                                   microtin_spot to, microtin_pack_check* check,
+                                                   microtin_read read, void* context) {
+  microtin_segment leg;
+  microtin_status status;
+  if (!s->has_info) {
+    status = microtin_spots_load(s, 1, read, context);
+    return status == MICROTIN_STATUS_OK || status == MICROTIN_STATUS_STEP_LIMIT
+               ? MICROTIN_STATUS_NEED_INPUT
+               : status;
+  }
+  if (!microtin_spots_place(s, from, &leg.x, &leg.y) ||
+      !microtin_spots_place(s, to, &leg.x_end, &leg.y_end)) {
+    return MICROTIN_STATUS_OUT_OF_RANGE;
+  }
+  microtin_pack_read_once(s->pack, read, context);
+  status = microtin_pack_check_segment(s->pack, &leg, check);
+  return status == MICROTIN_STATUS_OK && check->without_terrain != 0 ? MICROTIN_STATUS_NOT_FOUND
+                                                                     : status;
 }
 
 /* The vehicle is here: this tile comes first. */
@@ -112,27 +141,25 @@ static inline void microtin_spots_set_position(microtin_spots* s, microtin_spot 
   microtin_spots_request(s, here, here, MICROTIN_PRIORITY_HERE);
 }
 
+/* The terrain in millimetres at a lattice position with 8 fractional bits. OUTSIDE also for a
+ * height that int32_t does not hold. */
+static inline microtin_query_result microtin_spots_height_on(microtin_spots* s, int64_t x,
+                                                             int64_t y, int32_t* millimetres) {
+  int32_t height;
+  const microtin_query_result answer = MICROTIN_SPOTS_HEIGHT_AT(s->pack, x, y, &s->hint, &height);
+  if (answer != MICROTIN_QUERY_OK) return answer;
+  return microtin_axis_height(&s->info.z, height, 1000, millimetres) == MICROTIN_STATUS_OK
+             ? MICROTIN_QUERY_OK
+             : MICROTIN_QUERY_OUTSIDE;
+}
+
 /* The terrain in millimetres. NOT_LOADED: it may be there later, if it is requested. */
 static inline microtin_query_result microtin_spots_height(microtin_spots* s, microtin_spot at,
                                                           int32_t* millimetres) {
-  const microtin_axis* const z = &s->info.z;
-  const int64_t offset_most = (int64_t)1 << 31;
-  int64_t x, y, sum;
-  int32_t height;
-  microtin_query_result answer;
+  int64_t x, y;
   if (!s->has_info) return MICROTIN_QUERY_NOT_LOADED;
   if (!microtin_spots_place(s, at, &x, &y)) return MICROTIN_QUERY_OUTSIDE;
-  if (z->numerator >> 20 != 0 || z->offset > offset_most || z->offset < -offset_most) {
-    return MICROTIN_QUERY_OUTSIDE;
-  }
-  answer = MICROTIN_SPOTS_HEIGHT_AT(s->pack, x, y, &s->hint, &height);
-  if (answer != MICROTIN_QUERY_OK) return answer;
-  /* Below 2^20 * 2^31 + 2^31 * 2^16, times 1000: 2^62. */
-  sum = ((int64_t)z->numerator * height + z->offset * 65536) * 1000;
-  sum /= (int64_t)z->denominator * 65536;
-  if (sum > INT32_MAX || sum < INT32_MIN) return MICROTIN_QUERY_OUTSIDE;
-  *millimetres = (int32_t)sum;
-  return MICROTIN_QUERY_OK;
+  return microtin_spots_height_on(s, x, y, millimetres);
 }
 
 /* The height; a missing tile is requested. 0: there is no height. */

@@ -257,11 +257,12 @@ class GeoAxis {
   GeoAxis(const Axis& axis, int64_t low, int64_t high)
       : axis_(axis), map_(map_between({0, 1, kDegree}, axis)), low_(low), high_(high) {}
 
-  // The lattice coordinate, kept within the surface. Nothing if it is farther away than that.
+  // The lattice coordinate, kept within the surface and rounded as devices round it. Nothing if it
+  // is farther away than that.
   std::optional<RealCoordinate> inside(int64_t degrees, double most_beyond, bool* is_beyond) const {
     const Wide place = map_.numerator(degrees),
                kept = std::clamp(place, low_ * map_.step, high_ * map_.step);
-    if (kept == place) return coordinate_of(map_, degrees, axis_);
+    if (kept == place) return on_device(place);
     *is_beyond = true;
     const double beyond =
         std::abs(static_cast<double>(place - kept) / static_cast<double>(map_.step));
@@ -274,13 +275,20 @@ class GeoAxis {
   }
 
  private:
+  // A position with 8 fractional bits, halves up.
+  RealCoordinate on_device(Wide place) const {
+    const Wide fine = round_divide(256 * place, map_.step), whole = floor_divide(fine, Wide{256});
+    return {static_cast<int64_t>(whole), fine - 256 * whole, 256};
+  }
+
   Axis axis_;
   LatticeMap map_;
   Wide low_, high_;
 };
 
+// The height that a device returns at the post, rounded once more.
 int32_t millimetres(const ExactHeight& height, const Axis& z) {
-  const Wide rounded = rounded_mantissa(z, height, 3);
+  const Wide rounded = rounded_mantissa(z, height_of_answer(fixed_height(height)), 3);
   if (rounded < -32768000 || rounded > 32767000) {
     throw Error("a height of " + std::to_string(static_cast<int64_t>(rounded / 1000)) +
                 " m does not fit 16 bits");

@@ -14,6 +14,9 @@ from conventions import ROOT, documents  # noqa: E402
 READ_CARD = "int32_t read_card(void* context, uint64_t offset, uint8_t* buffer, size_t size);\n"
 # What the text around a block leaves to the reader.
 BEFORE = {
+    "decoder/docs/autopilots.md": '#include "adapters/ardupilot.h"\n'
+    + READ_CARD
+    + "static microtin_ardupilot terrain;\nstatic int card;\n",
     "decoder/docs/decoding.md": "size_t read_radio(uint8_t* bytes, size_t most);\n",
     "decoder/docs/memory.md": "static microtin::Terrain<5000> terrain;\nstatic microtin::Decoder<5000> decoder(terrain);\n",
     "decoder/docs/packs.md": READ_CARD
@@ -53,7 +56,7 @@ def program(name, language, line, block):
 def main():
     compilers = {"c": sys.argv[1], "cpp": sys.argv[2]}
     folder = Path(sys.argv[3]) if len(sys.argv) > 3 else ROOT
-    includes = [f"-I{ROOT / part}/include" for part in ("decoder", "encoder")]
+    includes = [f"-I{ROOT / part}/include" for part in ("decoder", "encoder")] + [f"-I{ROOT}/decoder"]
     compiled = rejected = 0
     for document in documents(folder):
         name = str(document.relative_to(folder))

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "encoder/export/autopilot.hpp"
 #include "encoder/files/input.hpp"
 #include "tests/firmware/adapters_report.hpp"
 #include "tests/support/files.hpp"
@@ -40,7 +41,7 @@ std::optional<double> truth(const PackFile& pack, double latitude, double longit
 // A device with everything there that a flight of this size wants.
 struct Loaded {
   Card card{degree_pack()};
-  MeshSlots device{50, 300};
+  AdapterSlots device{50, 300};
   PackFile pack{degree_pack()};
 
   template <class Ask, class Adapter>
@@ -58,7 +59,7 @@ struct Loaded {
 
 TEST_CASE("adapters: a flight is what devices print") {
   Card card{degree_pack()};
-  const MeshSlots device(5, 300);
+  const AdapterSlots device(5, 300);
   printed.clear();
   const auto put = [](char c) { printed += c; };
   CHECK(AdaptersReport(put, device.pack, Card::read, &card).run() == 0);
@@ -124,7 +125,7 @@ TEST_CASE("adapters: a pack across 180 degrees has heights at both names of a lo
   const Bytes bytes = pack_bytes(raster);
   const PackFile pack(bytes);
   Card card{bytes};
-  MeshSlots device(50, 300);
+  AdapterSlots device(50, 300);
   microtin_spots spots;
   microtin_spots_init(&spots, device.pack);
   const auto ask = [&](int32_t longitude) {
@@ -165,9 +166,7 @@ TEST_CASE("adapters: a position outside requests no tile, a position that is not
   CHECK(microtin_inav_height(&inav, 433900000, 72900000, &height));
 }
 
-TEST_CASE(
-    "adapters: ArduPilot's heights are corrected, within a bound, and blocks are those of the "
-    "tiles") {
+TEST_CASE("adapters: ArduPilot's heights are corrected, within a bound, and blocks are filled") {
   Loaded here;
   microtin_ardupilot terrain;
   microtin_ardupilot_init(&terrain, here.device.pack, 100);
@@ -190,7 +189,7 @@ TEST_CASE(
   CHECK(std::abs(difference(-80, 30) + 30) < 0.1);
   CHECK(difference(5, 0) == 0);
 
-  microtin_ardupilot_begin_block(&terrain, latitude, longitude, 30);
+  microtin_ardupilot_begin_block(&terrain, 433500000, 72500000, 30);
   uint16_t pending = 0, loaded = 0;
   bool is_full = false;
   here.load(terrain, [&] { is_full = microtin_ardupilot_fill_block(&terrain, 56); });
@@ -198,16 +197,6 @@ TEST_CASE(
   microtin_ardupilot_statistics(&terrain, &pending, &loaded);
   CHECK(pending == 0);
   CHECK(loaded == 56);
-  for (int row = 0; row < 28; ++row) {
-    for (int column = 0; column < 32; ++column) {
-      const double up = row * 30 * 89.83204953368922,
-                   scale = std::cos((latitude + up / 2) * 1e-7 * 0.017453292519943295);
-      const auto height =
-          truth(here.pack, latitude + up, longitude + column * 30 * 89.83204953368922 / scale);
-      REQUIRE(height);
-      CHECK(std::abs(*height - terrain.block.height[row][column]) < 1.5);
-    }
-  }
   // Beyond the pack groups stay missing, however often they are tried.
   microtin_ardupilot_begin_block(&terrain, 433990000, 73000000, 100);
   for (int i = 0; i < 300; ++i) {
@@ -220,6 +209,99 @@ TEST_CASE(
   CHECK(pending > 0);
 }
 
+TEST_CASE("adapters: a block has every post of the exported .DAT, also at the terrain's edges") {
+  Raster raster = rough_raster(41, 41, [](int x, int y) { return x == 20 && y > 30; });
+  for (const DegreeCell cell : {DegreeCell{43, 7}, {-67, -71}, {0, -1}, {61, 179}, {83, 12}}) {
+    raster.x = {int64_t{cell.longitude} * 40, 1, 40};
+    raster.y = {int64_t{cell.latitude} * 40, 1, 40};
+    if (cell.longitude == 179) raster.x.offset -= 360 * 40;  // the pack's name of the cell
+    const Bytes bytes = pack_bytes(raster);
+    const PackFile pack(bytes);
+    Card card{bytes};
+    const AdapterSlots device(50, 300);
+    microtin_ardupilot terrain;
+    microtin_ardupilot_init(&terrain, device.pack, 100);
+    for (const uint32_t spacing : {100u, 987u}) {
+      if (spacing == 987 && cell.latitude == 83) continue;  // its last blocks are two degrees east
+      SampledSurface surface = exporting::sampled(pack);
+      surface.is_degrees = true;
+      const AutopilotFile file =
+          exporting::autopilot_file(surface, Autopilot::kArduPilot, cell, spacing);
+      const exporting::AutopilotLayout layout(Autopilot::kArduPilot, cell, spacing);
+      std::vector<uint8_t> block_bytes;
+      uint32_t wrong = 0, there = 0;
+      const uint32_t blocks = layout.block_rows() * layout.block_columns();
+      for (uint32_t number = 0; number < blocks; number += spacing == 100 ? 23 : 1) {
+        block_bytes.assign(file.bytes.begin() + 2048 * std::ptrdiff_t{number},
+                           file.bytes.begin() + 2048 * (std::ptrdiff_t{number} + 1));
+        const exporting::GeoPlace corner =
+            layout.corner(number / layout.block_columns(), number % layout.block_columns());
+        microtin_ardupilot_begin_block(&terrain, static_cast<int32_t>(corner.latitude),
+                                       static_cast<int32_t>(corner.longitude),
+                                       static_cast<uint16_t>(spacing));
+        CHECK(terrain.block.corner.latitude == corner.latitude);
+        CHECK(terrain.block.corner.longitude == corner.longitude);
+        for (int i = 0; i < 300; ++i) {
+          const bool is_full = microtin_ardupilot_fill_block(&terrain, 56);
+          if (is_full || (i > 1 && !microtin_spots_is_pending(&terrain.spots))) break;
+          microtin_spots_load(&terrain.spots, 1000, Card::read, &card);
+        }
+        const exporting::AutopilotBlock block(layout, number / layout.block_columns(),
+                                              number % layout.block_columns(), block_bytes.data());
+        if (block.groups() != terrain.block.bitmap) ++wrong;
+        for (uint32_t post = 0; post < 28 * 32; ++post) {
+          if (!exporting::AutopilotBlock::has_post(block.groups(), post / 32, post % 32)) continue;
+          ++there;
+          if (block.height(post / 32, post % 32) != terrain.block.height[post / 32][post % 32]) {
+            ++wrong;
+          }
+        }
+      }
+      CAPTURE(cell.latitude);
+      CAPTURE(spacing);
+      CHECK(wrong == 0);
+      CHECK(there > 6000);
+    }
+  }
+}
+
+TEST_CASE("adapters: a block is that in which the place lies") {
+  Loaded here;
+  microtin_ardupilot terrain;
+  microtin_ardupilot_init(&terrain, here.device.pack, 100);
+  const auto corner = [&](int32_t latitude, int32_t longitude) {
+    microtin_ardupilot_begin_block(&terrain, latitude, longitude, 100);
+    return terrain.block.corner;
+  };
+  const microtin_spot first = corner(430000000, 70000000);
+  CHECK(first.latitude == 430000000);
+  CHECK(first.longitude == 70000000);
+  const microtin_spot within = corner(433300000, 72300000);
+  CHECK(within.latitude <= 433300000);
+  CHECK(within.latitude > 433300000 - 2400 * 90);
+  CHECK(within.longitude <= 72300000);
+  CHECK(within.longitude > 72300000 - 2800 * 124);
+  // Rounded by firmware in single precision.
+  const microtin_spot again = corner(within.latitude - 4, within.longitude + 3);
+  CHECK(again.latitude == within.latitude);
+  CHECK(again.longitude == within.longitude);
+  CHECK(corner(-1, -1).latitude < 0);
+  CHECK(corner(-900000000, -1800000000).longitude == -1800000000);
+  // Off the globe: the nearest place on it.
+  CHECK(corner(INT32_MIN, INT32_MIN).latitude == -900000000);
+  CHECK(corner(INT32_MAX, INT32_MAX).latitude == 900000000);
+}
+
+TEST_CASE("adapters: the scale of longitudes is that of single precision") {
+  uint32_t wrong = 0;
+  for (int64_t latitude = -1790000000; latitude <= 1790000000; latitude += 31247) {
+    const double scale = exporting::longitude_scale(static_cast<double>(latitude) / 2);
+    if (scale > 0.01 && microtin_posts_scale(latitude) != scale * (1 << 30)) ++wrong;
+  }
+  CHECK(wrong == 0);
+  CHECK(microtin_posts_scale(1800000000) == 10737418);
+}
+
 TEST_CASE("adapters: looks ahead count what is missing, over the date line and for any bearing") {
   Metadata metadata;
   metadata.placement.x = {-1800, 1, 10};
@@ -228,7 +310,7 @@ TEST_CASE("adapters: looks ahead count what is missing, over the date line and f
       {3600, 1800, 3600, 1800},
       {forged_tile({{{0, 0, 0}, {3600, 0, 100}, {0, 1800, 50}, {3600, 1800, 150}}, {}})},
       metadata)};
-  const MeshSlots device(1);
+  const AdapterSlots device(1);
   microtin_inav inav;
   microtin_inav_init(&inav, device.pack);
   float height = 0;
@@ -264,7 +346,7 @@ TEST_CASE("adapters: a look ahead near a pole goes far beyond the date line") {
     Card card{forged_pack(
         {1900, 1800, 1900, 1800},
         {forged_tile({{{0, 0, 0}, {1900, 0, 0}, {0, 1800, 0}, {1900, 1800, 0}}, {}})}, metadata)};
-    const MeshSlots device(1);
+    const AdapterSlots device(1);
     microtin_ardupilot terrain;
     microtin_ardupilot_init(&terrain, device.pack, 100);
     float height = 0;
@@ -358,6 +440,127 @@ TEST_CASE("adapters: no block is pending before one is begun") {
   microtin_ardupilot_statistics(&terrain, &pending, &loaded);
   CHECK(pending == 56);
   CHECK(loaded == 0);
+}
+
+TEST_CASE("adapters: the reference offset is cached, and limited again when its bound changes") {
+  Loaded here;
+  microtin_ardupilot terrain;
+  microtin_ardupilot_init(&terrain, here.device.pack, 100);
+  const int32_t latitude = 433300000, longitude = 72300000;
+  const double ground = *truth(here.pack, latitude, longitude);
+  float offset = -7, plain = 0, corrected = 0;
+  microtin_ardupilot_set_reference(&terrain, latitude, longitude,
+                                   static_cast<int32_t>(std::lround((ground + 25) * 100)), 30);
+  CHECK(!microtin_ardupilot_reference_offset(&terrain, &offset));
+  CHECK(offset == -7);
+  // Updates alone find it, far away too.
+  here.load(terrain, [&] { microtin_ardupilot_set_position(&terrain, 433900000, 72900000); });
+  microtin_pack_reset(here.device.pack);
+  CHECK(microtin_ardupilot_reference_offset(&terrain, &offset));
+  CHECK(std::abs(static_cast<double>(offset) - 25) < 0.1);
+  microtin_ardupilot_set_offset_max(&terrain, 10);
+  CHECK(microtin_ardupilot_reference_offset(&terrain, &offset));
+  CHECK(offset == 10);
+  microtin_ardupilot_set_offset_max(&terrain, 40);  // what was cut off stays so
+  CHECK(microtin_ardupilot_reference_offset(&terrain, &offset));
+  CHECK(offset == 10);
+  here.load(terrain,
+            [&] { microtin_ardupilot_height_amsl(&terrain, 433900000, 72900000, &plain, false); });
+  REQUIRE(microtin_ardupilot_height_amsl(&terrain, 433900000, 72900000, &corrected, true));
+  CHECK(corrected == plain + 10);
+  microtin_ardupilot_set_offset_max(&terrain, 0);
+  CHECK(!microtin_ardupilot_reference_offset(&terrain, &offset));
+  REQUIRE(microtin_ardupilot_height_amsl(&terrain, 433900000, 72900000, &corrected, true));
+  CHECK(corrected == plain);
+  microtin_ardupilot_set_offset_max(&terrain, 40);
+  here.load(terrain, [&] { microtin_ardupilot_reference_offset(&terrain, &offset); });
+  CHECK(std::abs(static_cast<double>(offset) - 25) < 0.1);
+}
+
+TEST_CASE(
+    "adapters: INAV's terrain is healthy while both heights are known and the card is there") {
+  Loaded here;
+  microtin_inav inav;
+  microtin_inav_init(&inav, here.device.pack);
+  CHECK(!microtin_inav_is_healthy(&inav, 0));
+  microtin_inav_set_home(&inav, 433300000, 72300000);
+  const auto update = [&](int32_t latitude, uint32_t now) {
+    microtin_inav_set_position(&inav, latitude, 72500000);
+    return microtin_inav_is_healthy(&inav, now);
+  };
+  here.load(inav, [&] { update(433500000, 1000); });
+  CHECK(update(433500000, 1020));
+  // Outside the pack the last height serves for half a second; the clock may wrap.
+  CHECK(update(400000000, 1520));
+  CHECK(!update(400000000, 1521));
+  CHECK(!update(400000000, 1020));
+  CHECK(update(433500000, 0xFFFFFF00u));
+  CHECK(update(400000000, 0xF0u));
+  CHECK(!update(400000000, 0xF5u));
+  // A card that fails, and comes back.
+  here.card.is_pulled = true;
+  const auto serve = [&] {
+    for (int i = 0; i < 20; ++i) {
+      float height = 0;
+      microtin_inav_height(&inav, 433900000, 72900000, &height);
+      microtin_inav_load(&inav, 50, Card::read, &here.card);
+    }
+  };
+  serve();
+  CHECK(!update(433500000, 2000));
+  here.card.is_pulled = false;
+  serve();
+  CHECK(update(433500000, 2020));
+}
+
+TEST_CASE("adapters: a leg of a mission is loaded on request, and checked before take-off") {
+  Loaded here;
+  microtin_ardupilot terrain;
+  microtin_ardupilot_init(&terrain, here.device.pack, 100);
+  const auto check = [&](microtin_spot from, microtin_spot to) {
+    microtin_pack_check found{};
+    microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+    for (int i = 0; i < 10000 && status == MICROTIN_STATUS_NEED_INPUT; ++i) {
+      status = microtin_ardupilot_check(&terrain, from.latitude, from.longitude, to.latitude,
+                                        to.longitude, &found, Card::read, &here.card);
+    }
+    return status;
+  };
+  const microtin_spot from{433100000, 72150000}, to{433900000, 72900000};
+  CHECK(!microtin_ardupilot_request(&terrain, 433100000, 72150000, 433900000, 72900000));
+  CHECK(check(from, to) == MICROTIN_STATUS_OK);
+  CHECK(check(from, {400000000, 72900000}) == MICROTIN_STATUS_OUT_OF_RANGE);
+  float height = 0;
+  CHECK(!microtin_ardupilot_height_amsl(&terrain, 433500000, 72525000, &height, false));
+  microtin_ardupilot_init(&terrain, here.device.pack, 100);
+  microtin_ardupilot_load(&terrain, 50, Card::read, &here.card);
+  CHECK(microtin_ardupilot_request(&terrain, 433100000, 72150000, 433900000, 72900000));
+  here.load(terrain, [] {});
+  for (int32_t i = 0; i <= 10; ++i) {
+    CHECK(microtin_ardupilot_height_amsl(&terrain, 433100000 + i * 80000, 72150000 + i * 75000,
+                                         &height, false));
+  }
+  here.card.bytes[here.card.bytes.size() - 10] ^= 1u;  // in the last tile
+  microtin_pack_reset(here.device.pack);
+  microtin_inav inav;
+  microtin_inav_init(&inav, here.device.pack);
+  microtin_pack_check found{};
+  microtin_status status = MICROTIN_STATUS_NEED_INPUT;
+  while (status == MICROTIN_STATUS_NEED_INPUT) {
+    status = microtin_inav_check(&inav, 433100000, 72150000, 434020000, 73020000, &found,
+                                 Card::read, &here.card);
+  }
+  CHECK(status == MICROTIN_STATUS_BAD_TILES);
+  CHECK(found.bad == 1);
+  here.card.is_pulled = true;
+  microtin_pack_reset(here.device.pack);
+  microtin_inav_init(&inav, here.device.pack);
+  while (status != MICROTIN_STATUS_IO) {
+    status = microtin_inav_check(&inav, 433100000, 72150000, 434020000, 73020000, &found,
+                                 Card::read, &here.card);
+    REQUIRE((status == MICROTIN_STATUS_IO || status == MICROTIN_STATUS_NEED_INPUT));
+  }
+  CHECK(!microtin_inav_request(&inav, 433100000, 72150000, 434020000, 73020000));
 }
 
 TEST_CASE("adapters: the sine is within 10 of 65536") {

@@ -65,7 +65,7 @@ class Vehicle {
 
  private:
   Card card_;
-  MeshSlots device_;
+  AdapterSlots device_;
   uint32_t steps_;
 };
 

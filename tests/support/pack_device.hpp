@@ -139,6 +139,13 @@ struct CompactSlots : PackDevice {
   }
 };
 
+// The slots that the adapters are compiled for.
+#ifdef MICROTIN_ADAPTERS_COMPACT
+using AdapterSlots = CompactSlots;
+#else
+using AdapterSlots = MeshSlots;
+#endif
+
 inline microtin_segment at(int64_t x, int64_t y) {
   return {x * 256, y * 256, x * 256, y * 256};
 }
