@@ -344,6 +344,15 @@ uint32_t wanted_now(const microtin_pack& p) {
   return left < room ? left : room;
 }
 
+// Where the bytes of a read are stored.
+uint8_t* landing_of(microtin_pack& p) {
+#if MICROTIN_READ_ALIGNMENT > 1
+  return p.landing + -reinterpret_cast<uintptr_t>(p.landing) % MICROTIN_READ_ALIGNMENT;
+#else
+  return p.buffer + p.buffered;
+#endif
+}
+
 // What follows from what storage said. NEED_INPUT: go on; OK: a tile was refused.
 microtin_status hear_storage(microtin_pack& p) {
   const Storage said = p.storage;
@@ -509,7 +518,7 @@ microtin_status microtin_pack_load(microtin_pack* pack, const microtin_segment* 
 void microtin_pack_next_read(microtin_pack* pack, uint64_t* offset, uint8_t** buffer,
                              size_t* size) {
   *offset = pack->next;
-  *buffer = pack->buffer + pack->buffered;
+  *buffer = landing_of(*pack);
   *size = static_cast<size_t>(wanted_now(*pack));
 }
 
@@ -520,6 +529,9 @@ void microtin_pack_complete_read(microtin_pack* pack, int32_t taken) {
     pack->storage = taken == 0 ? Storage::kEnds : Storage::kFailed;
     return;
   }
+#if MICROTIN_READ_ALIGNMENT > 1
+  __builtin_memcpy(pack->buffer + pack->buffered, landing_of(*pack), static_cast<size_t>(taken));
+#endif
   pack->buffered = static_cast<uint8_t>(pack->buffered + taken);
   pack->next += static_cast<uint32_t>(taken);
 }

@@ -108,6 +108,9 @@ struct microtin_pack {
   microtin_axis axis[3];
   microtin::BadTile bad[MICROTIN_PACK_MAX_BAD_TILES];
   uint8_t buffer[microtin::kPackBuffer];
+#if MICROTIN_READ_ALIGNMENT > 1
+  uint8_t landing[microtin::kPackBuffer + MICROTIN_READ_ALIGNMENT - 1];  // where reads store bytes
+#endif
 };
 
 static_assert(sizeof(microtin_pack) + 7 + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES(0)) <=

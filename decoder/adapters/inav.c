@@ -27,6 +27,13 @@ microtin_status microtin_inav_load(microtin_inav* inav, uint32_t step_limit, mic
   return status;
 }
 
+microtin_status microtin_inav_load_card(microtin_inav* inav, microtin_card* card,
+                                        uint32_t step_limit) {
+  const microtin_status status = microtin_spots_load_card(&inav->spots, card, step_limit);
+  inav->status = (uint8_t)status;
+  return status;
+}
+
 /* Whether the last service found the card, and a pack on it. */
 static bool is_card_good(const microtin_inav* inav) {
   return inav->status == MICROTIN_STATUS_OK || inav->status == MICROTIN_STATUS_NEED_INPUT ||

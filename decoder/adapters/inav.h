@@ -9,7 +9,7 @@
 
 #include <stdbool.h>
 
-#include "spots.h"
+#include "card.h"
 
 #define MICROTIN_INAV_STEP 30000 /* millimetres between samples of a look ahead */
 #define MICROTIN_INAV_SAMPLES 64
@@ -40,6 +40,11 @@ void microtin_inav_init(microtin_inav* inav, microtin_pack* pack);
  * for good; the next call tries again. */
 microtin_status microtin_inav_load(microtin_inav* inav, uint32_t step_limit, microtin_read read,
                                    void* context);
+
+/* loadGridToCacheTask for a card that never waits (card.h), as AsyncFatFs is: loads a piece of what
+ * is requested, with the statuses of microtin_requests_load. */
+microtin_status microtin_inav_load_card(microtin_inav* inav, microtin_card* card,
+                                        uint32_t step_limit);
 
 /* The part of terrainUpdateTask that has gpsSol.llh: this place comes first, the way ahead next,
  * all other places in turn. Call it in each update. */

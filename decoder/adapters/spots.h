@@ -11,9 +11,11 @@
 
 #ifdef MICROTIN_ADAPTERS_COMPACT
 #define MICROTIN_SPOTS_LOAD microtin_requests_load_compact
+#define MICROTIN_SPOTS_PACK_LOAD microtin_compact_pack_load
 #define MICROTIN_SPOTS_HEIGHT_AT microtin_compact_pack_height_at
 #else
 #define MICROTIN_SPOTS_LOAD microtin_requests_load
+#define MICROTIN_SPOTS_PACK_LOAD microtin_pack_load
 #define MICROTIN_SPOTS_HEIGHT_AT microtin_pack_height_at
 #endif
 
@@ -61,14 +63,19 @@ static inline int microtin_spots_is_pending(const microtin_spots* s) {
   return !s->has_info || microtin_requests_pending(&s->requests) != 0;
 }
 
-/* A piece of what is requested, with the statuses of microtin_requests_load. */
-static inline microtin_status microtin_spots_load(microtin_spots* s, uint32_t step_limit,
-                                                  microtin_read read, void* context) {
-  const microtin_status status = MICROTIN_SPOTS_LOAD(&s->requests, read, context, step_limit);
+/* After a service: places are known once the header is loaded. */
+static inline void microtin_spots_note_header(microtin_spots* s) {
   if (!s->has_info && microtin_pack_get_info(s->pack, &s->info) == MICROTIN_STATUS_OK) {
     __atomic_signal_fence(__ATOMIC_SEQ_CST); /* no question sees half of it */
     s->has_info = 1;
   }
+}
+
+/* A piece of what is requested, with the statuses of microtin_requests_load. */
+static inline microtin_status microtin_spots_load(microtin_spots* s, uint32_t step_limit,
+                                                  microtin_read read, void* context) {
+  const microtin_status status = MICROTIN_SPOTS_LOAD(&s->requests, read, context, step_limit);
+  microtin_spots_note_header(s);
   return status;
 }
 

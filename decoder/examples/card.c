@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /* A pack on a memory card: the main loop reads and decodes what lies ahead, an interrupt asks for
  * heights. The card is read in sectors of which one is kept, as FatFs does; it is pulled out in
- * flight and put back, and one of its tiles is damaged. */
+ * flight and put back, after which the file is opened again; one of its tiles is damaged. */
 #include "flight.h"
 #include "toolchains/board.h"
 
@@ -32,6 +32,7 @@ struct card {
   uint8_t window[SECTOR];
   uint32_t sector;   /* in the window */
   int32_t filled;    /* bytes of it, -1: none */
+  uint8_t is_lost;   /* reading failed: the file is opened again before the next read */
   uint32_t attempts; /* to read a sector */
   uint32_t sectors, reads, bytes;
 };
@@ -44,9 +45,13 @@ static int is_out(const struct card* card) {
 static int fill_window(struct card* card, uint32_t sector) {
   if (card->filled >= 0 && card->sector == sector) return 1;
   ++card->attempts;
-  card->filled = is_out(card) ? -1 : read_sector(sector, card->window);
+  card->filled = -1;
   card->sector = sector;
-  if (card->filled < 0) return 0;
+  /* Errors of FatFs are sticky: close, mount and open here. */
+  if (card->is_lost) card->is_lost = (uint8_t)(is_out(card) || !open_card());
+  if (!card->is_lost && !is_out(card)) card->filled = read_sector(sector, card->window);
+  card->is_lost = (uint8_t)(card->filled < 0);
+  if (card->is_lost) return 0;
   ++card->sectors;
   return 1;
 }
@@ -124,7 +129,7 @@ static int serve(const microtin_segment* segment, struct card* card, uint32_t* f
         return 1;
       case MICROTIN_STATUS_IO:
         ++*failures;
-        break; /* mount again; another card: microtin_pack_reset */
+        break; /* read_card opens it again; another card: microtin_pack_reset */
       case MICROTIN_STATUS_NEED_INPUT:
       case MICROTIN_STATUS_STEP_LIMIT:
         break;

@@ -14,9 +14,9 @@ from conventions import ROOT, documents  # noqa: E402
 READ_CARD = "int32_t read_card(void* context, uint64_t offset, uint8_t* buffer, size_t size);\n"
 # What the text around a block leaves to the reader.
 BEFORE = {
-    "decoder/docs/autopilots.md": '#include "adapters/ardupilot.h"\n'
+    "decoder/docs/autopilots.md": '#include "adapters/ardupilot.h"\n#include "adapters/inav.h"\n'
     + READ_CARD
-    + "static microtin_ardupilot terrain;\nstatic int card;\n",
+    + "static microtin_ardupilot terrain;\nstatic microtin_inav inav;\nstatic const microtin_card_driver driver;\n",
     "decoder/docs/decoding.md": "size_t read_radio(uint8_t* bytes, size_t most);\n",
     "decoder/docs/memory.md": "static microtin::Terrain<5000> terrain;\nstatic microtin::Decoder<5000> decoder(terrain);\n",
     "decoder/docs/packs.md": READ_CARD

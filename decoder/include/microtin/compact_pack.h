@@ -23,9 +23,9 @@
 #define MICROTIN_COMPACT_PACK_BYTES(slots, capacity, tile_bytes) \
   MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, MICROTIN_INDEX_BITS)
 /* Bytes of the workspace in a build with `bits` bits of index width. */
-#define MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, bits)   \
-  (480ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
-   MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits)) +            \
+#define MICROTIN_COMPACT_PACK_BYTES_FOR(slots, capacity, tile_bytes, bits)                     \
+  (MICROTIN_PACK_OWN_BYTES + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
+   MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits)) +                              \
    (slots) * (24ul + MICROTIN_PACK_ROUND(tile_bytes)))
 
 #ifdef __cplusplus

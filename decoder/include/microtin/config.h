@@ -9,6 +9,11 @@
  *                         microtin_config.h
  *   MICROTIN_ASSERT(c)    called with conditions that the caller guarantees and that no status
  *                         reports, such as a vertex index in range. The default does nothing
+ *   MICROTIN_READ_ALIGNMENT
+ *                         alignment of the buffers that microtin_pack_next_read returns: 4 to 64, a
+ *                         power of two, for DMA and caches; 1, the default, for none. A pack takes
+ *                         128 bytes more and the alignment. The library and the code that uses it
+ *                         must have the same
  *   MICROTIN_NO_NAMES     leaves out the strings of microtin_status_name and of
  *                         microtin_query_result_name
  *
@@ -43,6 +48,14 @@
 #endif
 #if MICROTIN_INDEX_BITS != 16 && MICROTIN_INDEX_BITS != 32
 #error "MICROTIN_INDEX_BITS must be 16 or 32"
+#endif
+
+#ifndef MICROTIN_READ_ALIGNMENT
+#define MICROTIN_READ_ALIGNMENT 1
+#endif
+#if MICROTIN_READ_ALIGNMENT < 1 || MICROTIN_READ_ALIGNMENT > 64 || \
+    (MICROTIN_READ_ALIGNMENT & (MICROTIN_READ_ALIGNMENT - 1)) != 0
+#error "MICROTIN_READ_ALIGNMENT must be a power of two, 1 to 64"
 #endif
 
 #if defined(MICROTIN_ONLY_BALANCED) && defined(MICROTIN_ONLY_QUICK)

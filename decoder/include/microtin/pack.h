@@ -25,9 +25,15 @@
 #define MICROTIN_PACK_BYTES(slots, capacity) \
   MICROTIN_PACK_BYTES_FOR(slots, capacity, MICROTIN_INDEX_BITS)
 /* Bytes of the workspace in a build with `bits` bits of index width. */
-#define MICROTIN_PACK_BYTES_FOR(slots, capacity, bits)                       \
-  (480ul + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
+#define MICROTIN_PACK_BYTES_FOR(slots, capacity, bits)                                         \
+  (MICROTIN_PACK_OWN_BYTES + MICROTIN_PACK_ROUND(MICROTIN_DECODER_BYTES_FOR(capacity, bits)) + \
    (slots) * (24ul + MICROTIN_PACK_ROUND(MICROTIN_MESH_BYTES_FOR(capacity, bits))))
+/* Bytes of a pack itself, with its buffer for reads. */
+#if MICROTIN_READ_ALIGNMENT > 1
+#define MICROTIN_PACK_OWN_BYTES (608ul + MICROTIN_PACK_ROUND(MICROTIN_READ_ALIGNMENT))
+#else
+#define MICROTIN_PACK_OWN_BYTES 480ul
+#endif
 /* `bytes`, rounded up to a multiple of 8. */
 #define MICROTIN_PACK_ROUND(bytes) (((bytes) + 7ul) / 8 * 8)
 
@@ -66,7 +72,9 @@ void microtin_pack_reset(microtin_pack* pack);
  * - 0: the pack ends at `offset`
  * - MICROTIN_READ_NOT_READY: the bytes are not there yet; the pack requests them again
  * - another negative number: reading failed. If errors of the file system are sticky, as those of
- *   FatFs are, the next call must open the file again before it reads */
+ *   FatFs are, the next call must open the file again before it reads (decoder/examples/card.c)
+ *
+ * `buffer` is aligned to MICROTIN_READ_ALIGNMENT (config.h). */
 typedef int32_t (*microtin_read)(void* context, uint64_t offset, uint8_t* buffer, size_t size);
 
 /* What a microtin_read returns if the bytes are not there yet. */
@@ -102,7 +110,9 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
 microtin_status microtin_pack_load(microtin_pack* pack, const microtin_segment* segment,
                                    uint32_t step_limit);
 
-/* Returns which bytes the pack needs next, and where to store them; *size is 0 if it needs none. */
+/* Returns which bytes the pack needs next, and where to store them; *size is 0 if it needs none.
+ * *buffer is aligned to MICROTIN_READ_ALIGNMENT; with an alignment of 32 or more no variable shares
+ * its cache lines of that size. */
 void microtin_pack_next_read(microtin_pack* pack, uint64_t* offset, uint8_t** buffer, size_t* size);
 
 /* Reports the result of a read, as microtin_read returns it: the number of bytes stored; 0 if the
