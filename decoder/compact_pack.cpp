@@ -18,8 +18,10 @@ bool is_as_stated(const PackHeader& header, const microtin_compact& tile) {
 // Makes the tile in hand compact. OK: it is there, or refused.
 microtin_status store(microtin_pack& p, uint32_t step_limit) {
   if (p.compactor == nullptr) {
-    if (!choose_slot(p)) return lack_slot(p);
-    set_state(*p.slot, SlotState::kEmpty);
+    const bool has_slot = choose_slot(p);
+    if (is_waiting(p)) return MICROTIN_STATUS_STEP_LIMIT;
+    if (!has_slot) return lack_slot(p);
+    if (!empty_slot(p)) return MICROTIN_STATUS_STEP_LIMIT;
     microtin_compactor_init(p.slot->space, p.slot_bytes, p.work, p.decoder_space, p.decoder_bytes,
                             &p.compactor);
   }
@@ -59,10 +61,12 @@ microtin_status microtin_compact_pack_load(microtin_pack* pack, const microtin_s
   while (status == MICROTIN_STATUS_OK ||
          (status == MICROTIN_STATUS_STEP_LIMIT && step_limit == 0)) {
     status = go_on(*pack, *segment);
+    if (is_waiting(*pack)) return status;
     if (status == MICROTIN_STATUS_STEP_LIMIT) {
       status = decode(*pack, step_limit);
     } else if (status == MICROTIN_STATUS_STOPPED) {
       status = store(*pack, step_limit);
+      if (is_waiting(*pack)) return status;
     } else {
       return status;
     }

@@ -80,7 +80,9 @@ microtin_status handle_check(microtin_pack& p) {
   if (p.start != MICROTIN_STATUS_OK) return fail_pack(p, static_cast<microtin_status>(p.start));
   want(p, PackStage::kIdle, 0);
   __atomic_signal_fence(__ATOMIC_SEQ_CST);
+  MICROTIN_PACK_ENTER();
   p.has_header = true;
+  MICROTIN_PACK_LEAVE();
   return MICROTIN_STATUS_NEED_INPUT;
 }
 
@@ -90,25 +92,31 @@ microtin_status handle_check(microtin_pack& p) {
 // has not been wanted for the longest time. Those of the segment in hand are kept, and those of
 // requests that are as important: null if all are.
 template <class Place>
-Place* place_to_fill(Place* places, uint32_t count, const microtin_pack& p) {
+Place* place_to_fill(Place* places, uint32_t count, microtin_pack& p) {
   Place* oldest = nullptr;
   uint32_t most = 0;
+  bool is_any_pinned = false;
   for (uint32_t i = 0; i < count; ++i) {
     Place& place = places[i];
     if (place.is_empty()) return &place;
     const uint32_t age = place.is_kept(p.priority) ? 0 : p.clock - place.wanted;
-    if (age > most) {
+    if (age > most && place.is_pinned()) {
+      is_any_pinned = true;
+    } else if (age > most) {
       most = age;
       oldest = &place;
     }
   }
+  if (kPins) p.is_waiting = oldest == nullptr && is_any_pinned;
   return oldest;
 }
 
 // For the same reason as set_state.
 void set_why(BadTile& bad, microtin_status why) {
   __atomic_signal_fence(__ATOMIC_SEQ_CST);
+  MICROTIN_PACK_ENTER();
   bad.why = static_cast<uint8_t>(why);
+  MICROTIN_PACK_LEAVE();
   __atomic_signal_fence(__ATOMIC_SEQ_CST);
 }
 
@@ -203,10 +211,15 @@ microtin_status handle_entry(microtin_pack& p) {
   }
   if (!read_pack_entry(p.buffer, p.header, &p.entry))
     return refuse_tile(p, MICROTIN_STATUS_MALFORMED);
-  if (choose_slot(p)) {
-    // What is to be made compact needs its slot not before then.
-    if (p.work == nullptr || p.entry.size == 0) set_state(*p.slot, SlotState::kEmpty);
-    if (p.entry.size == 0) return finish_tile(p, false);
+  const bool has_slot = choose_slot(p);
+  // What is to be made compact needs its slot not before then.
+  const bool is_emptied = has_slot && (p.work == nullptr || p.entry.size == 0) && empty_slot(p);
+  if (is_waiting(p)) {
+    p.wanted = p.buffered = kPackEntryBytes;  // the others are kept
+    return MICROTIN_STATUS_STEP_LIMIT;
+  }
+  if (has_slot) {
+    if (is_emptied && p.entry.size == 0) return finish_tile(p, false);
     microtin_decoder_init(p.decoder_space, p.decoder_bytes, mesh_to_fill(p, *p.slot), &p.decoder);
   } else if (p.entry.size == 0) {
     return lack_slot(p);
@@ -391,6 +404,7 @@ microtin_status hear_decoder(microtin_pack& p, microtin_status status) {
 
 microtin_status go_on(microtin_pack& p, const microtin_segment& segment) {
   if (!is_legal(segment)) return MICROTIN_STATUS_ARGUMENT;
+  if (kPins) p.is_waiting = false;
   if (!p.has_header) {
     const microtin_status heard = hear_storage(p);
     if (heard != MICROTIN_STATUS_NEED_INPUT) return heard;
@@ -417,7 +431,7 @@ microtin_status go_on(microtin_pack& p, const microtin_segment& segment) {
         continue;  // with those in front of the tile passed
       }
       if (p.is_sound && wishes.first == p.tile && !choose_slot(p)) {
-        return MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
+        return is_waiting(p) ? MICROTIN_STATUS_STEP_LIMIT : MICROTIN_STATUS_WORKSPACE_TOO_SMALL;
       }
       if (!p.has_passed) p.is_whole = true;
       want_entry(p, wishes.first);
@@ -449,6 +463,7 @@ microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint3
   p.decoder_bytes = static_cast<size_t>(decoder_bytes);
   p.slot_bytes = static_cast<size_t>(slot_bytes);
   for (uint32_t i = 0; i < slots; ++i) {
+    if (kPins) p.slots[i].pins = 0;
     p.slots[i].space = bytes + static_cast<size_t>(before_slots) + i * p.slot_bytes;
   }
   p.clock = 0;
@@ -509,10 +524,14 @@ microtin_status microtin_pack_load(microtin_pack* pack, const microtin_segment* 
   microtin_status status = MICROTIN_STATUS_OK;
   while (status == MICROTIN_STATUS_OK) {
     status = go_on(*pack, *segment);
-    if (status != MICROTIN_STATUS_STEP_LIMIT) return status;
+    if (status != MICROTIN_STATUS_STEP_LIMIT || is_waiting(*pack)) return status;
     status = decode(*pack, step_limit);
   }
   return status;
+}
+
+int microtin_pack_is_waiting(const microtin_pack* pack) {
+  return is_waiting(*pack) ? 1 : 0;
 }
 
 void microtin_pack_next_read(microtin_pack* pack, uint64_t* offset, uint8_t** buffer,

@@ -206,6 +206,7 @@ class PackProfile {
     TileCrossing found = {
         {{1, 1}, -1, 0, 0, 0, static_cast<uint8_t>(absent)}, false, WalkStage::kSearch, 0};
     if (terrain == nullptr) return found;
+    const Pinned pinned(p_, terrain);
     const Form form(terrain);
     const TileSegment part(tile_box(p_.header.grid, tile), segment_);
     const LocalPoint entry = part.entry();
@@ -242,7 +243,7 @@ microtin_query_result next_in_pack(const microtin_pack& p, const microtin_segmen
                                    microtin_segment_state* state, microtin_crossing* crossing) {
   if (!is_legal(segment)) return MICROTIN_QUERY_OUTSIDE;
   if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
-  if (!p.has_header) return MICROTIN_QUERY_NOT_LOADED;
+  if (!has_header(p)) return MICROTIN_QUERY_NOT_LOADED;
   ProfileState at;
   __builtin_memcpy(&at, state, sizeof at);
   PackProfile<Form>(p, segment, &at, crossing).next();

@@ -8,7 +8,7 @@
 using namespace microtin;
 
 microtin_status microtin_pack_get_info(const microtin_pack* pack, microtin_pack_info* info) {
-  if (!pack->has_header) return MICROTIN_STATUS_NEED_INPUT;
+  if (!has_header(*pack)) return MICROTIN_STATUS_NEED_INPUT;
   const PackHeader& header = pack->header;
   info->x_max = header.grid.x_max;
   info->y_max = header.grid.y_max;

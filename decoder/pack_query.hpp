@@ -27,17 +27,63 @@ inline microtin_query_result answer_without(const microtin_pack& p, uint32_t til
                                                           : MICROTIN_QUERY_BAD_TILE;
 }
 
-// The terrain of a tile; null if it has none, or is not there, and then *absent becomes worse.
+// Pins a slot, or unpins it, under the lock.
+MICROTIN_IN_PLACE inline void change_pins(PackSlot& slot, int change) {
+  if (kPins)
+    __atomic_store_n(&slot.pins, static_cast<uint8_t>(slot.pins + change), __ATOMIC_RELAXED);
+}
+
+// Whether the header is there; what it says does not change after that.
+MICROTIN_IN_PLACE inline bool has_header(const microtin_pack& p) {
+  MICROTIN_PACK_ENTER();
+  const bool is_there = p.has_header;
+  MICROTIN_PACK_LEAVE();
+  return is_there;
+}
+
+// The terrain of a tile, pinned; null if it has none, or is not there, and then *absent becomes
+// worse.
 MICROTIN_ONE_COPY inline const void* terrain_of(const microtin_pack& p, uint32_t tile,
                                                 microtin_query_result* absent) {
+  const void* terrain = nullptr;
+  MICROTIN_PACK_ENTER();
   const uint32_t slot = slot_of(p, tile);
   if (slot != p.slot_count) {
-    p.slots[slot].is_used = true;
-    return p.slots[slot].has_terrain ? p.slots[slot].space : nullptr;
+    note_use(p.slots[slot]);
+    if (p.slots[slot].has_terrain) {
+      terrain = p.slots[slot].space;
+      change_pins(p.slots[slot], 1);
+    }
+  } else {
+    *absent = worse(*absent, answer_without(p, tile));
   }
-  *absent = worse(*absent, answer_without(p, tile));
-  return nullptr;
+  MICROTIN_PACK_LEAVE();
+  return terrain;
 }
+
+// Ends the use of a terrain of terrain_of.
+MICROTIN_IN_PLACE inline void unpin(const microtin_pack& p, const void* terrain) {
+  if (!kPins || terrain == nullptr) return;
+  MICROTIN_PACK_ENTER();
+  uint32_t i = 0;
+  while (p.slots[i].space != terrain) ++i;
+  change_pins(p.slots[i], -1);
+  MICROTIN_PACK_LEAVE();
+}
+
+// Unpins a terrain at the end of its scope.
+class Pinned {
+ public:
+  MICROTIN_IN_PLACE inline Pinned(const microtin_pack& p, const void* terrain)
+      : p_(p), terrain_(terrain) {}
+  MICROTIN_IN_PLACE inline ~Pinned() { unpin(p_, terrain_); }
+  Pinned(const Pinned&) = delete;
+  Pinned& operator=(const Pinned&) = delete;
+
+ private:
+  const microtin_pack& p_;
+  const void* terrain_;
+};
 
 // Whether a segment lies on a side of the box, more than a point of which it touches.
 inline bool runs_along_side(const TileBox& box, const microtin_segment& c) {
@@ -69,6 +115,7 @@ microtin_query_result answer_along_side(const microtin_pack& p, uint32_t tile,
   if (is_last && last != most) {
     other = terrain_of(p, tile + (vertical ? 1u : tile_columns(grid)), &worst);
   }
+  const Pinned pinned_one(p, one), pinned_other(p, other);
   if (one == nullptr && other == nullptr) return worst;
   const int32_t begin = vertical ? a.y : a.x, end = vertical ? b.y : b.x;
   const int32_t length =
@@ -117,6 +164,7 @@ microtin_query_result answer_of_tile(const microtin_pack& p, const TouchedTiles&
                                      microtin_segment_state* state) {
   microtin_query_result absent = MICROTIN_QUERY_OK;
   const void* const terrain = terrain_of(p, tiles.number(), &absent);
+  const Pinned pinned(p, terrain);
   if (absent == MICROTIN_QUERY_NOT_LOADED) return absent;
   const TileBox box = tiles.box();
   const TileSegment part(box, segment);
@@ -132,12 +180,12 @@ microtin_query_result answer_of_tile(const microtin_pack& p, const TouchedTiles&
   return worse(absent, MICROTIN_QUERY_VOID);
 }
 
-// *terrain is what has the height, if it is known.
+// *terrain is what has the height, pinned, if it is known.
 template <class Form>
 microtin_query_result height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
                                      int32_t* height, const void** terrain) {
   if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
-  if (!p.has_header) return MICROTIN_QUERY_NOT_LOADED;
+  if (!has_header(p)) return MICROTIN_QUERY_NOT_LOADED;
   if (!is_inside(p, x, y)) return MICROTIN_QUERY_OUTSIDE;
   microtin_query_result answer = MICROTIN_QUERY_VOID;
   const microtin_segment here = {x, y, x, y};
@@ -147,6 +195,7 @@ microtin_query_result height_in_pack(const microtin_pack& p, int64_t x, int64_t 
     const LocalPoint at = local(tiles.box(), x, y);
     if (Form(*terrain).height_at(at, 0, hint, height) == MICROTIN_QUERY_OK)
       return MICROTIN_QUERY_OK;
+    unpin(p, *terrain);
   }
   return answer;
 }
@@ -155,7 +204,9 @@ template <class Form>
 microtin_query_result height_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
                                      int32_t* height) {
   const void* terrain = nullptr;
-  return height_in_pack<Form>(p, x, y, hint, height, &terrain);
+  const microtin_query_result found = height_in_pack<Form>(p, x, y, hint, height, &terrain);
+  if (found == MICROTIN_QUERY_OK) unpin(p, terrain);
+  return found;
 }
 
 template <class Form>
@@ -165,6 +216,7 @@ microtin_query_result safe_heights_in_pack(const microtin_pack& p, int64_t x, in
   const void* terrain = nullptr;
   const microtin_query_result found = height_in_pack<Form>(p, x, y, hint, &height, &terrain);
   if (found != MICROTIN_QUERY_OK) return found;
+  const Pinned pinned(p, terrain);
   const typename Form::Terrain& tile = *static_cast<const typename Form::Terrain*>(terrain);
   return widen(height, tile.below, tile.above, heights);
 }
@@ -181,6 +233,7 @@ microtin_query_result walk_place(const microtin_pack& p, const microtin_segment&
   for (TouchedTiles tiles(p.header.grid, segment); !tiles.at_end(); tiles.next()) {
     const void* const terrain = terrain_of(p, tiles.number(), &answer);
     if (terrain == nullptr) continue;
+    const Pinned pinned(p, terrain);
     const Form form(terrain);
     const LocalPoint at = local(tiles.box(), segment.x, segment.y);
     SegmentWalk<Form> walk(form, at, at, at, WalkStage::kSearch, form.hint(at));
@@ -203,7 +256,7 @@ microtin_query_result walk_pack(const microtin_pack& p, const microtin_segment& 
                                 const Add& add, microtin_segment_state* state) {
   if (!is_legal(segment)) return MICROTIN_QUERY_OUTSIDE;
   if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
-  if (!p.has_header) return MICROTIN_QUERY_NOT_LOADED;
+  if (!has_header(p)) return MICROTIN_QUERY_NOT_LOADED;
   microtin_query_result answer =
       is_inside(p, segment.x, segment.y) && is_inside(p, segment.x_end, segment.y_end)
           ? MICROTIN_QUERY_OK
@@ -261,7 +314,7 @@ class HeightInPack {
 template <class Form>
 microtin_query_result fill_from_pack(const microtin_pack& p, const microtin_grid_spec& grid,
                                      int16_t* heights) {
-  if (p.has_header && !has_small_units(p.axis[2])) return MICROTIN_QUERY_OUTSIDE;
+  if (has_header(p) && !has_small_units(p.axis[2])) return MICROTIN_QUERY_OUTSIDE;
   return fill(grid, p.axis[2], HeightInPack<Form>(p), heights);
 }
 
@@ -270,7 +323,7 @@ template <class Form>
 microtin_query_result gradient_in_pack(const microtin_pack& p, int64_t x, int64_t y, uint32_t* hint,
                                        microtin_gradient* gradient) {
   if ((p.work != nullptr) != Form::kIsCompact) return MICROTIN_QUERY_WRONG_PACK_KIND;
-  if (!p.has_header) return MICROTIN_QUERY_NOT_LOADED;
+  if (!has_header(p)) return MICROTIN_QUERY_NOT_LOADED;
   if (!is_inside(p, x, y)) return MICROTIN_QUERY_OUTSIDE;
   microtin_query_result answer = MICROTIN_QUERY_VOID;
   BestTriangle best = {};
@@ -278,6 +331,7 @@ microtin_query_result gradient_in_pack(const microtin_pack& p, int64_t x, int64_
   for (TouchedTiles tiles(p.header.grid, here); !tiles.at_end(); tiles.next()) {
     const void* const terrain = terrain_of(p, tiles.number(), &answer);
     if (terrain == nullptr) continue;
+    const Pinned pinned(p, terrain);
     const TileBox box = tiles.box();
     look_at_place(Form(terrain), local(box, x, y), box.x, box.y, 0, hint, &best);
   }

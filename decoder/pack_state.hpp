@@ -34,6 +34,15 @@ enum class PackStage : uint8_t {
 
 enum class SlotState : uint8_t { kEmpty, kReady };
 
+// Whether queries of other threads pin the tiles that they use, under a lock of the user's.
+#ifdef MICROTIN_PACK_ENTER
+constexpr bool kPins = true;
+#else
+constexpr bool kPins = false;
+#define MICROTIN_PACK_ENTER()
+#define MICROTIN_PACK_LEAVE()
+#endif
+
 // A tile that is there, or room for one.
 struct PackSlot {
   void* space;  // begins with a microtin_mesh, or a microtin_compact
@@ -44,7 +53,9 @@ struct PackSlot {
   bool has_terrain;
   volatile bool is_used;  // by a query, since a call noted its use
   uint8_t priority;       // of the requests that it serves; kNoRequest: of none
+  uint8_t pins;           // queries that use it; changes under the lock
 
+  bool is_pinned() const { return kPins && __atomic_load_n(&pins, __ATOMIC_RELAXED) != 0; }
   bool is_empty() const { return state == SlotState::kEmpty; }
   bool is_kept(uint8_t than) const { return priority <= than; }
 };
@@ -58,6 +69,7 @@ struct BadTile {
 
   bool is_empty() const { return why == MICROTIN_STATUS_OK; }
   bool is_kept(uint8_t) const { return false; }
+  bool is_pinned() const { return false; }
 };
 
 // What storage said of the bytes wanted.
@@ -94,6 +106,7 @@ struct microtin_pack {
   uint32_t passed;
   uint32_t segment_hash;  // of the segment in hand
   uint8_t priority;       // of the request in hand: slots that serve one as important are kept
+  bool is_waiting;        // every slot that might give way is pinned
   microtin::PackEntry entry;
   microtin_decoder* decoder;
   microtin_compactor* compactor;  // of the tile decoded; null: not begun
@@ -141,17 +154,37 @@ MICROTIN_ONE_COPY inline uint32_t bad_tile(const microtin_pack& p, uint32_t tile
 microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,
                              uint64_t work_bytes, uint64_t slot_bytes, microtin_pack** pack);
 
-// Goes on with a segment, up to where its next tile is to be decoded (STEP_LIMIT) or made compact
-// (STOPPED).
+// Whether a call ends because slots are pinned.
+MICROTIN_IN_PLACE inline bool is_waiting(const microtin_pack& p) {
+  return kPins && p.is_waiting;
+}
+
+// Goes on with a segment, up to where its next tile is to be decoded (STEP_LIMIT, unless it waits
+// for a slot) or made compact (STOPPED).
 microtin_status go_on(microtin_pack& p, const microtin_segment& segment);
+
+// Whether a query used a slot since this was called last.
+MICROTIN_IN_PLACE inline bool take_use(PackSlot& slot) {
+  if (kPins) return __atomic_exchange_n(&slot.is_used, false, __ATOMIC_RELAXED);
+  if (!slot.is_used) return false;
+  slot.is_used = false;
+  return true;
+}
+
+MICROTIN_IN_PLACE inline void note_use(PackSlot& slot) {
+  if (kPins) {
+    __atomic_store_n(&slot.is_used, true, __ATOMIC_RELAXED);
+  } else {
+    slot.is_used = true;
+  }
+}
 
 // Begins a call: tiles that queries used were wanted after those of the call before.
 inline void begin_call(microtin_pack& p) {
   ++p.clock;
   for (uint32_t i = 0; i < p.slot_count; ++i) {
     PackSlot& slot = p.slots[i];
-    if (!slot.is_used) continue;
-    slot.is_used = false;
+    if (!take_use(slot)) continue;
     slot.wanted = p.clock;
   }
   ++p.clock;
@@ -167,8 +200,23 @@ microtin_status lack_slot(microtin_pack& p);
 // interrupt.
 inline void set_state(PackSlot& slot, SlotState state) {
   __atomic_signal_fence(__ATOMIC_SEQ_CST);
+  MICROTIN_PACK_ENTER();
   slot.state = state;
+  MICROTIN_PACK_LEAVE();
   __atomic_signal_fence(__ATOMIC_SEQ_CST);
+}
+
+// Empties the slot that was chosen. False if a query has pinned it since.
+MICROTIN_IN_PLACE inline bool empty_slot(microtin_pack& p) {
+  if (!kPins) {
+    set_state(*p.slot, SlotState::kEmpty);
+    return true;
+  }
+  MICROTIN_PACK_ENTER();
+  p.is_waiting = p.slot->is_pinned();
+  if (!p.is_waiting) p.slot->state = SlotState::kEmpty;
+  MICROTIN_PACK_LEAVE();
+  return !p.is_waiting;
 }
 
 // Ends with the tile in hand: it is in the slot, or to be remembered as bad. OK.

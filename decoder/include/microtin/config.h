@@ -14,6 +14,10 @@
  *                         power of two, for DMA and caches; 1, the default, for none. A pack takes
  *                         128 bytes more and the alignment. The library and the code that uses it
  *                         must have the same
+ *   MICROTIN_PACK_ENTER(), MICROTIN_PACK_LEAVE()
+ *                         take and release a lock of yours, for queries of packs on other cores or
+ *                         threads than the loader's (pack.h). Not defined by default. Only the
+ *                         compiler that compiles the library needs them
  *   MICROTIN_NO_NAMES     leaves out the strings of microtin_status_name and of
  *                         microtin_query_result_name
  *
@@ -56,6 +60,10 @@
 #if MICROTIN_READ_ALIGNMENT < 1 || MICROTIN_READ_ALIGNMENT > 64 || \
     (MICROTIN_READ_ALIGNMENT & (MICROTIN_READ_ALIGNMENT - 1)) != 0
 #error "MICROTIN_READ_ALIGNMENT must be a power of two, 1 to 64"
+#endif
+
+#if defined(MICROTIN_PACK_ENTER) != defined(MICROTIN_PACK_LEAVE)
+#error "MICROTIN_PACK_ENTER and MICROTIN_PACK_LEAVE belong together"
 #endif
 
 #if defined(MICROTIN_ONLY_BALANCED) && defined(MICROTIN_ONLY_QUICK)

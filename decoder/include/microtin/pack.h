@@ -9,7 +9,15 @@
  * Interrupts: a query may interrupt microtin_pack_load_with, the functions that it calls, and other
  * queries at any moment, from an interrupt or from a task of higher priority on the same core. The
  * query must end before the interrupted function continues. In all other cases (several cores,
- * queries of lower priority) the caller locks the pack.
+ * queries of lower priority) the caller locks the pack, or the library does:
+ *
+ * Threads: if MICROTIN_PACK_ENTER and MICROTIN_PACK_LEAVE are defined (config.h), queries may run
+ * at any time beside one loading call, on any core. A query takes the lock to pin the tile that it
+ * uses, reads the tile without the lock, and takes the lock to unpin it. A loading call never
+ * writes to a pinned slot: if there is no other, it returns STEP_LIMIT, and
+ * microtin_pack_is_waiting returns 1. The lock is held while slots are compared, never while
+ * reading or decoding. Functions other than queries and the loading call (init, reset, bad tiles,
+ * checks) need a lock of your own.
  *
  * Positions are global lattice coordinates with 8 fractional bits: 0 .. 256 * x_max. Nothing here
  * allocates, recurses, uses floating point or keeps global state.
@@ -92,7 +100,7 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
  *
  * - OK: all tiles are loaded; queries on the segment have results
  * - NEED_INPUT: bytes are needed
- * - STEP_LIMIT: call again
+ * - STEP_LIMIT: call again; see microtin_pack_is_waiting
  * - BAD_TILES: all tiles but bad ones are loaded; see microtin_pack_bad_tile
  * - IO: reading failed; the next call needs the same bytes. Not returned for bytes that the segment
  *   does not need
@@ -109,6 +117,10 @@ microtin_status microtin_pack_align_reads(microtin_pack* pack, uint32_t sector);
  * O(columns + rows of tiles in the segment's bounding box + slots^2). */
 microtin_status microtin_pack_load(microtin_pack* pack, const microtin_segment* segment,
                                    uint32_t step_limit);
+
+/* Returns 1 if the last loading call found no slot because queries of other threads use them, else
+ * 0. Always 0 without MICROTIN_PACK_ENTER (config.h). */
+int microtin_pack_is_waiting(const microtin_pack* pack);
 
 /* Returns which bytes the pack needs next, and where to store them; *size is 0 if it needs none.
  * *buffer is aligned to MICROTIN_READ_ALIGNMENT; with an alignment of 32 or more no variable shares

@@ -25,6 +25,8 @@ class PackFace {
   }
   // Calls microtin_pack_clear_bad_tiles.
   void clear_bad_tiles() { microtin_pack_clear_bad_tiles(pack_); }
+  // Calls microtin_pack_is_waiting.
+  bool is_waiting() const { return microtin_pack_is_waiting(pack_) != 0; }
   // Calls microtin_pack_align_reads.
   microtin_status align_reads(uint32_t sector) { return microtin_pack_align_reads(pack_, sector); }
   // Calls microtin_pack_check_with for the tiles that a segment touches.
