@@ -80,6 +80,10 @@ std::string at_true_places(const std::optional<Verification>& measured,
          '\n';
 }
 
+std::string own_bounds(const std::optional<StatedBounds>& bounds) {
+  return bounds ? text_of(*bounds) : "";
+}
+
 // How far the surface is on either side of the source.
 std::string beyond(const Verification& measured, const std::optional<Distances>& everywhere) {
   std::string text = "below the source: at most " + to_string(measured.max_below) +
@@ -125,12 +129,12 @@ std::string text_of(const Source& source, const EncodedStream& encoded,
        << bits_per_vertex(encoded.stream.size(), encoded.vertices) << " bits/vertex\n"
        << "error: at most " << to_string(measured.max_error) << ", rms "
        << to_string(measured.rms_error) << ", mean " << to_string(measured.mean_error);
-  if (encoded.bound) {
+  if (encoded.bound && !encoded.bounds) {
     text << (request.lattice.max_error ? " (asked for: at most " : " (found: at most ")
          << to_string(*encoded.bound) << ")";
   }
   text << '\n'
-       << at_true_places(encoded.true_places, encoded.bound, request)
+       << own_bounds(encoded.bounds) << at_true_places(encoded.true_places, encoded.bound, request)
        << beyond(measured, encoded.everywhere);
   return text.str();
 }
@@ -145,8 +149,8 @@ std::string text_of(const PackReport& pack) {
   text << ", " << pack.vertices << " vertices, at most " << pack.most_vertices << " in a tile, "
        << pack.bytes << " bytes\nerror: at most " << to_string(pack.measured.max_error) << ", rms "
        << to_string(pack.measured.rms_error) << ", mean " << to_string(pack.measured.mean_error);
-  if (pack.bound) text << " (asked for: at most " << to_string(*pack.bound) << ")";
-  text << '\n' << beyond(pack.measured, pack.everywhere);
+  if (pack.bound && !pack.bounds) text << " (asked for: at most " << to_string(*pack.bound) << ")";
+  text << '\n' << own_bounds(pack.bounds) << beyond(pack.measured, pack.everywhere);
   return text.str();
 }
 
@@ -321,7 +325,9 @@ void run_update(const UpdateRequest& request) {
   expect_own_suffix(request.output, true);
   OutputFile out(request.output);
   announce_left_out(request);
-  const OpenSource source = prepared_source(request.input, request.preparation);
+  Preparation preparation = request.preparation;
+  preparation.max_error = max_error_of_map(request.old);
+  const OpenSource source = prepared_source(request.input, preparation);
   const auto* const raster = std::get_if<std::unique_ptr<RasterReader>>(&source);
   if (raster == nullptr) {
     throw Error(request.input +

@@ -163,20 +163,19 @@ void add_point_options(CLI::App& command, EncodeRequest& request) {
 void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>& request) {
   add_terrain(command, request->input, request->preparation);
   begin_group(command, "Bound or limit");
-  CLI::Option* const bound =
-      add_decimal(command, "--max-error METRES", request->lattice.max_error,
-                  "Keep every height within this distance, in the terrain's unit")
-          ->default_str("every post or point is a vertex");
+  add_decimal(command, "--max-error METRES", request->lattice.max_error,
+              "Keep every height within this distance, in the terrain's unit")
+      ->default_str("every post or point is a vertex");
   CLI::Option* const vertices =
       add_number(command, "--max-vertices N", request->max_vertices, 3u,
                  "Find the smallest error that N vertices allow", uint32_t{kMaxVertices})
-          ->excludes(bound)
           ->default_str("no limit");
   CLI::Option* const bytes = add_number(command, "--max-bytes BYTES", request->max_bytes, 1u,
                                         "Find the smallest error that a file of this size allows")
-                                 ->excludes(bound)
                                  ->excludes(vertices)
                                  ->default_str("no limit");
+  add_error_map(command, request->preparation,
+                "elsewhere --max-error holds, and --max-bytes and --max-vertices scale all bounds");
   command.add_flag("--never-below", request->lattice.never_below,
                    "Keep the surface at or above every height, by at most the bound");
   begin_group(command, "Lattice");
@@ -195,9 +194,16 @@ void add_encode_options(CLI::App& command, const std::shared_ptr<EncodeRequest>&
 }
 
 void check_encode_options(EncodeRequest& request) {
-  if (request.lattice.never_below && !request.lattice.max_error && request.max_bytes == 0) {
+  const bool has_map = !request.preparation.error_map.empty();
+  const bool has_bound = request.lattice.max_error.has_value();
+  if (has_bound && !has_map && (request.max_bytes | request.max_vertices) != 0) {
+    throw CLI::ExcludesError(request.max_bytes != 0 ? "--max-bytes" : "--max-vertices",
+                             "--max-error");
+  }
+  if (request.lattice.never_below && !has_bound && !has_map && request.max_bytes == 0) {
     throw CLI::ValidationError("--never-below", "needs --max-error or --max-bytes");
   }
+  request.preparation.max_error = request.lattice.max_error;
   request.lattice.water_level = request.preparation.water_level;
 }
 
@@ -256,6 +262,7 @@ void add_update(CLI::App& app, Action& action) {
   begin_group(command, kOptions);
   add_output(command, request->output, "Write this pack (.mtp); - is standard output");
   add_terrain(command, request->input, request->preparation);
+  add_error_map(command, request->preparation, "elsewhere the pack's bound holds");
   add_number(command, "--tile-vertices N", request->tile_vertices, kFewestTileVertices,
              "Let new tiles have at most N vertices each", uint32_t{kMaxVertices})
       ->default_str("as many as the pack states");

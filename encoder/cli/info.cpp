@@ -179,6 +179,7 @@ void add_notes(JsonObject& report, const Metadata& metadata) {
   if (metadata.at_samples) report.emplace_back("at_samples", json_of(*metadata.at_samples));
   const auto everywhere = stated_everywhere(metadata.everywhere, metadata.placement.z);
   if (everywhere) report.emplace_back("everywhere", json_of(*everywhere));
+  if (metadata.bounds) report.emplace_back("bounds", json_of(*metadata.bounds));
   if (metadata.water_level) report.emplace_back("water_level", number(*metadata.water_level));
   if (metadata.grid) report.emplace_back("grid", of_grid(*metadata.grid));
   if (metadata.classes) report.emplace_back("classes", json(list_of(*metadata.classes)));
@@ -271,6 +272,16 @@ std::string text_of_stream(DecodedStream& stream, bool as_json) {
   return text_of(report, as_json) + (as_json ? "" : table(phases));
 }
 
+// What the tile's chunk states of its posts' own bounds. Decodes the tile.
+void add_bounds_of_tile(JsonObject& report, const PackFile& pack, uint32_t number) {
+  const std::optional<DecodedTerrain> tile = pack.tile(number);
+  const std::optional<BoundSpan> span = tile ? tile->bounds() : std::nullopt;
+  report.emplace_back("least_bound", span ? cli::number(span->least) : "null");
+  report.emplace_back("largest_bound", span ? cli::number(span->largest) : "null");
+  report.emplace_back("unbounded", span ? json(span->unbounded) : "null");
+  report.emplace_back("max_ratio", span ? cli::number(span->ratio) : "null");
+}
+
 JsonObject tile_report(const PackFile& pack, uint32_t number) {
   const TileBox box = tile_box(pack.grid(), number);
   JsonObject report = {{"tile", json(number)},
@@ -278,6 +289,7 @@ JsonObject tile_report(const PackFile& pack, uint32_t number) {
                        {"y", json(box.y)},
                        {"bytes", json(pack.entries()[number].size)},
                        {"vertices", json(pack.vertices(number))}};
+  if (pack.metadata().bounds) add_bounds_of_tile(report, pack, number);
   if (!pack.metadata().grid) return report;  // of points
   const auto stated = stated_everywhere(pack.margins(number), pack.metadata().placement.z);
   report.emplace_back("max_below_everywhere", stated ? cli::number(stated->below) : "null");

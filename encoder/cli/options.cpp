@@ -222,6 +222,13 @@ void add_indirect([[maybe_unused]] CLI::App& command, [[maybe_unused]] Preparati
 #endif
 }
 
+void add_error_map(CLI::App& command, Preparation& preparation, const std::string& elsewhere) {
+  add_text(command, "--error-map FILE", preparation.error_map,
+           "Take the bound of each post or point from a raster of bounds, of the terrain's grid or "
+           "a coarser one, or from polygons with a property max_error (.geojson); " +
+               elsewhere);
+}
+
 void add_preparation(CLI::App& command, Preparation& preparation) {
   begin_group(command, "How the terrain is read");
   const auto read = [&preparation](const std::string& text) {

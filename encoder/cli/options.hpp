@@ -109,6 +109,9 @@ CLI::Option* add_choice(CLI::App& command, const std::string& name, Value& value
 
 void add_indirect(CLI::App& command, Preparation& preparation);
 
+// The option --error-map; `elsewhere` ends the description.
+void add_error_map(CLI::App& command, Preparation& preparation, const std::string& elsewhere);
+
 // For encoding, and alike for every comparison with the source.
 void add_preparation(CLI::App& command, Preparation& preparation);
 

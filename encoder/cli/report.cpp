@@ -19,6 +19,37 @@ std::string json_of(const Distances& distances) {
       JsonObject{{"max_below", number(distances.below)}, {"max_above", number(distances.above)}});
 }
 
+namespace {
+
+double scale_of(const StatedBounds& bounds) {
+  const double whole = real(bounds.unscaled);
+  return whole == 0 ? 1 : real(bounds.max_error) / whole;
+}
+
+}  // namespace
+
+std::string json_of(const StatedBounds& bounds) {
+  const BoundSpan& span = bounds.span;
+  return json(JsonObject{{"bounded", json(span.bounded)},
+                         {"unbounded", json(span.unbounded)},
+                         {"least", number(span.least)},
+                         {"largest", number(span.largest)},
+                         {"max_ratio", number(span.ratio)},
+                         {"elsewhere", number(bounds.max_error)},
+                         {"scale", json(scale_of(bounds))}});
+}
+
+std::string text_of(const StatedBounds& bounds) {
+  const BoundSpan& span = bounds.span;
+  std::string text =
+      "bounds of the error map: from " + to_string(span.least) + " to " + to_string(span.largest);
+  if (!(bounds.max_error == bounds.unscaled)) {
+    text += ", the map's times " + json(scale_of(bounds));
+  }
+  if (span.unbounded != 0) text += ", none at " + std::to_string(span.unbounded) + " heights";
+  return text + "; errors are at most " + to_string(span.ratio) + " of them\n";
+}
+
 std::string_view text_of(DuplicateRule rule) {
   switch (rule) {
     case DuplicateRule::kUnknown:

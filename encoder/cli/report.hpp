@@ -22,6 +22,10 @@ std::string number(Decimal value);
 // {"max_below": ..., "max_above": ...}
 std::string json_of(const Distances& distances);
 
+// Bounds that posts have of their own, and by how much those of their map are scaled.
+std::string json_of(const StatedBounds& bounds);
+std::string text_of(const StatedBounds& bounds);
+
 std::string_view text_of(DuplicateRule rule);
 std::string_view name_of(PlaceKind kind);
 std::string_view name_of(PlaceBase base);

@@ -25,7 +25,7 @@ void add_true_places(JsonObject& report, const Original::Judgement& judgement) {
 
 JsonObject report_of(const Original::Judgement& judgement, const Metadata& notes, bool is_cloud) {
   const Verification& found = judgement.found;
-  const std::optional<Decimal>& bound = judgement.promise.bound;
+  const std::optional<Decimal> bound = bound_of_all(judgement.promise.bound, found.bounds);
   JsonObject report = {{is_cloud ? "points" : "posts", json(found.posts)},
                        {"covered", json(found.covered)},
                        {"uncovered", json(found.uncovered)}};
@@ -38,6 +38,11 @@ JsonObject report_of(const Original::Judgement& judgement, const Metadata& notes
       {"max_below", number(found.max_below)},     {"max_above", number(found.max_above)},
       {"rms_error", number(found.rms_error)},     {"mean_error", number(found.mean_error)}};
   report.insert(report.end(), errors.begin(), errors.end());
+  if (judgement.promise.bounds && found.bounds) {
+    StatedBounds measured = *judgement.promise.bounds;
+    measured.span = *found.bounds;
+    report.emplace_back("bounds", json_of(measured));
+  }
   if (found.everywhere) report.emplace_back("everywhere", json_of(*found.everywhere));
   add_true_places(report, judgement);
   if (is_cloud && notes.classes) report.emplace_back("classes", json(list_of(*notes.classes)));
@@ -74,6 +79,18 @@ void expect_side(BoundSide side, const Original::Judgement& judgement, const std
   }
 }
 
+// The bounds are those of the map, and no error is a larger part of its bound.
+std::string broken_bounds(const BoundSpan& stated, const BoundSpan& found) {
+  if (!(found.least == stated.least) || !(found.largest == stated.largest)) {
+    return "the bounds of the error map go from " + to_string(found.least) + " to " +
+           to_string(found.largest) + ", and the header states " + to_string(stated.least) +
+           " to " + to_string(stated.largest);
+  }
+  if (found.ratio <= stated.ratio) return {};
+  return "an error is " + to_string(found.ratio) + " of its bound; the header states at most " +
+         to_string(stated.ratio);
+}
+
 // What the header states of heights.
 void expect_stated(const Original::Judgement& judgement, const Metadata& notes,
                    const std::string& input) {
@@ -85,13 +102,19 @@ void expect_stated(const Original::Judgement& judgement, const Metadata& notes,
     const auto stated = stated_everywhere(notes.everywhere, notes.placement.z);
     broken = broken_promise(stated, *found.everywhere, "everywhere");
   }
+  if (broken.empty() && notes.bounds && found.bounds) {
+    broken = broken_bounds(notes.bounds->span, *found.bounds);
+  }
   if (broken.empty()) broken = found.broken;
   if (!broken.empty()) throw Error(input + ": " + broken);
 }
 
 void expect_kept(const Original::Judgement& judgement, const std::string& input) {
   const Verification& found = judgement.found;
-  if (!found.within_bound) throw Error(input + ": the largest error is above the bound");
+  if (!found.within_bound) {
+    throw Error(input + (found.bounds ? ": an error is above its bound of the error map"
+                                      : ": the largest error is above the bound"));
+  }
   if (judgement.true_places && !judgement.true_places->within_bound) {
     throw Error(input + ": where the points truly lie, the largest error is above the bound");
   }

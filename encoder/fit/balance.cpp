@@ -76,8 +76,7 @@ bool is_one_sided(const Surface& surface, double radius) {
 
 Balance::Balance(const Surface& surface) : shares_(surface.vertex_limit()), weight_(kFirstWeight) {
   const PostIndex& posts = surface.posts();
-  for (std::size_t i = 0; i < posts.size(); ++i) radius_ += static_cast<double>(surface.radii()[i]);
-  radius_ /= static_cast<double>(std::max<std::size_t>(posts.size(), 1));
+  radius_ = surface.mean_radius();
   if (radius_ == 0 || is_one_sided(surface, radius_)) return;
   find_parts(surface.survey());
   std::vector<bool> met(posts.size());

@@ -25,8 +25,12 @@ struct ErrorModel {
     return static_cast<uint64_t>(std::max({lowest - surface, surface - highest, int64_t{0}}));
   }
 
+  // The radius of a sample without a bound: no two heights are farther from each other.
+  static constexpr double kUnboundedRadius = 65536;
+
   // The middle of what the sample allows and the distance of its ends from there, in steps.
   std::pair<double, double> middle_and_radius(const Sample& sample) const {
+    if (bounded && sample.is_unbounded()) return {sample.height / 65536.0, kUnboundedRadius};
     const double lowest = bounded ? sample.lowest : sample.height;
     const double highest = bounded ? sample.highest : sample.height;
     return {(highest + lowest) / 131072, (highest - lowest) / 131072};
@@ -34,8 +38,9 @@ struct ErrorModel {
 
   // The whole step nearest to the middle of what the sample allows (halves up) that is allowed.
   int16_t vertex_height(const Sample& sample) const {
-    const int64_t twice_middle =
-        bounded ? int64_t{sample.lowest} + sample.highest : int64_t{sample.height} * 2;
+    const int64_t twice_middle = bounded && !sample.is_unbounded()
+                                     ? int64_t{sample.lowest} + sample.highest
+                                     : int64_t{sample.height} * 2;
     return nearest_height(sample, round_divide(twice_middle, 131072));
   }
 

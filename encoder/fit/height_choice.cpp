@@ -36,8 +36,9 @@ HeightChoice::HeightChoice(Surface& surface, uint32_t degree)
   for (const Index v : vertex_) z_.push_back(surface_.height(v));
   residual_.resize(vertex_.size());
   find_levels();
-  const auto posts = static_cast<double>(surface.posts().size());
+  const auto posts = static_cast<double>(std::max<std::size_t>(surface.bounded_posts(), 1));
   for (std::size_t p = 0; p < surface.posts().size(); ++p) {
+    if (surface.radii()[p] >= ErrorModel::kUnboundedRadius) continue;
     radius_ += static_cast<double>(surface.radii()[p]) / posts;
   }
   vertices_per_radius_ = static_cast<double>(vertex_.size()) / (posts * radius_ * radius_);

@@ -225,13 +225,13 @@ namespace {
 
 // The z steps to be tried, in tenths of the bound: smaller ones cost more in heights than they save
 // in vertices, of which larger ones take more.
-std::vector<int> tenths_to_try(const SimplifyOptions& options) {
+std::vector<int> tenths_to_try(const SimplifyOptions& options, bool has_own_bounds) {
   if (options.few_vertices) return {4};
   switch (options.search) {
     case Search::kBest:
       return {10, 8, 6, 5, 4, 3};
-    case Search::kNormal:
-      return {8, 4};
+    case Search::kNormal:  // of the least bound: others are wider
+      return has_own_bounds ? std::vector<int>{10, 8, 4} : std::vector<int>{8, 4};
     default:
       return {4};
   }
@@ -247,9 +247,11 @@ Decimal half(Decimal value) {
 std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattice,
                                      const SimplifyOptions& options) {
   // A one-sided bound leaves half the room.
-  const Decimal bound = lattice.never_below ? half(*lattice.max_error) : *lattice.max_error;
+  const Decimal least = least_bound(bounds_of(source), *lattice.max_error);
+  const Decimal bound = lattice.never_below ? half(least) : least;
   std::vector<Laid> all;
-  for (const int tenths : tenths_to_try(options)) {
+  const std::vector<int> all_tenths = tenths_to_try(options, !bounds_of(source).empty());
+  for (const int tenths : all_tenths) {
     if (bound.decimals >= kMaxDecimals) break;
     lattice.z_step = make_decimal(Wide{bound.mantissa} * tenths, bound.decimals + 1);
     try {
@@ -261,7 +263,7 @@ std::vector<Laid> lay_out_with_steps(const Source& source, LatticeOptions lattic
   lattice.z_step.reset();
   Laid own = lay_out(source, lattice);
   const Decimal steps = make_decimal(Wide{own.z_step.mantissa} * kOwnSteps, own.z_step.decimals);
-  if (tenths_to_try(options).size() == 1 && bound <= steps) all.clear();
+  if (all_tenths.size() == 1 && bound <= steps) all.clear();
   if (all.empty() || bound <= steps) all.push_back(std::move(own));
   return all;
 }

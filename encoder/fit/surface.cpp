@@ -54,19 +54,27 @@ Surface::Surface(const Survey& survey, ErrorModel model, const PostIndex& posts,
       voids_(tin.voids) {
   heights_.reserve(tin.vertices.size());
   for (const Vertex& v : tin.vertices) heights_.push_back(v.z);
-  middles_.reserve(posts.size());
-  radii_.reserve(posts.size());
-  for (std::size_t i = 0; i < posts.size(); ++i) {
-    const auto [middle, radius] = model_.middle_and_radius(survey.samples[posts.number(i)]);
-    middles_.push_back(middle);
-    radii_.push_back(static_cast<float>(radius));
-    while (4 * widest_stride_ < radius && widest_stride_ < 4096) widest_stride_ *= 2;
-  }
-  middles_.resize(posts.size() + PostIndex::kReadAhead);
-  radii_.resize(posts.size() + PostIndex::kReadAhead);
+  find_limits();
   find_voids();
   find_corners();
   find_fixed_samples();
+}
+
+void Surface::find_limits() {
+  middles_.reserve(posts_.size());
+  radii_.reserve(posts_.size());
+  for (std::size_t i = 0; i < posts_.size(); ++i) {
+    const auto [middle, radius] = model_.middle_and_radius(survey_.samples[posts_.number(i)]);
+    middles_.push_back(middle);
+    radii_.push_back(static_cast<float>(radius));
+    if (radius >= ErrorModel::kUnboundedRadius) continue;
+    ++bounded_posts_;
+    mean_radius_ += static_cast<double>(radii_.back());
+    while (4 * widest_stride_ < radius && widest_stride_ < 4096) widest_stride_ *= 2;
+  }
+  mean_radius_ /= static_cast<double>(std::max<std::size_t>(bounded_posts_, 1));
+  middles_.resize(posts_.size() + PostIndex::kReadAhead);
+  radii_.resize(posts_.size() + PostIndex::kReadAhead);
 }
 
 void Surface::find_voids() {

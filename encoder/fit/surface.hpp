@@ -32,6 +32,10 @@ class Surface {
   const double* middles() const { return middles_.data(); }
   const float* radii() const { return radii_.data(); }
 
+  // How many posts have a bound, and the mean of their radii.
+  std::size_t bounded_posts() const { return bounded_posts_; }
+  double mean_radius() const { return mean_radius_; }
+
   // Steps that are worth a try where bounds are so wide: a power of two.
   int32_t widest_stride() const { return widest_stride_; }
 
@@ -115,6 +119,7 @@ class Surface {
 
  private:
   int64_t volume(Index triangle) const;
+  void find_limits();
   void find_voids();
   void find_corners();
   void find_fixed_samples();
@@ -124,6 +129,8 @@ class Surface {
   const PostIndex& posts_;
   std::vector<double> middles_;  // by position
   std::vector<float> radii_;     // the same
+  std::size_t bounded_posts_ = 0;
+  double mean_radius_ = 0;
   int32_t widest_stride_ = 1;
   Triangulation triangulation_;
   Index vertices_;

@@ -25,7 +25,7 @@ constexpr const char* kCreationOptions[] = {
     "XY_STEP",   "EFFORT",          "CODING",      "MAX_DEGREE",  "TILE_VERTICES",
     "TILE_SIZE", "UNITS",           "DEPTHS",      "SURFACE",     "SOURCE_NAME",
     "DATE",      "LINEAGE",         "ATTRIBUTION", "LICENSE",     "VALID",
-    "EPOCH",     "SOURCE_ACCURACY", "DIGEST",      "PHASES"};
+    "EPOCH",     "SOURCE_ACCURACY", "DIGEST",      "PHASES",      "ERROR_MAP"};
 
 std::string lower_case(std::string text) {
   for (char& letter : text)
@@ -170,6 +170,16 @@ encoder::Options options_of(char** given) {
   return options;
 }
 
+// A map of bounds that the library does not read by itself is read by GDAL.
+void take_error_map(encoder::Options& options, encoder::SourceTerrain& terrain) {
+  const std::string path = options.error_map;
+  if (path.empty() || ends_with(path, ".geojson") || ends_with(path, ".json")) return;
+  const GDALDatasetUniquePtr map(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER));
+  if (!map) refuse(path + ": is not a raster of bounds; use one, or GeoJSON");
+  terrain.set_error_map(raster_from_cells(*map));
+  options.error_map.clear();
+}
+
 void write_bytes(const char* path, const std::vector<uint8_t>& bytes) {
   VSILFILE* const file = VSIFOpenL(path, "wb");
   if (file == nullptr) refuse(std::string(path) + ": cannot be written");
@@ -188,8 +198,9 @@ encoder::Report encode(const char* path, GDALDataset& source, char** given,
   posts.wkt = wkt_of(source);
   posts.z_unit = source.GetRasterBand(1)->GetUnitType();
   posts.items = items_of(source);
-  const encoder::SourceTerrain terrain(std::move(posts));
-  const encoder::Options options = options_of(given);
+  encoder::SourceTerrain terrain(std::move(posts));
+  encoder::Options options = options_of(given);
+  take_error_map(options, terrain);
   if (!ends_with(path, ".mtp")) {
     encoder::Stream stream = encoder::encode_stream(terrain, options, callbacks);
     write_bytes(path, stream.bytes);

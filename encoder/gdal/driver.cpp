@@ -75,6 +75,8 @@ void GDALRegister_MTIN() {
       "<Option name='DIGEST' type='boolean' description='Of streams: note a digest of the mesh'/>"
       "<Option name='PHASES' type='boolean' description='Of streams: note vertices, bytes and "
       "largest error after each phase'/>"
+      "<Option name='ERROR_MAP' type='string' description='A bound for each height: a raster of "
+      "bounds, or polygons with a property max_error (.geojson); elsewhere MAX_ERROR holds'/>"
       "</CreationOptionList>";
   driver->SetMetadataItem(GDAL_DMD_CREATIONOPTIONLIST, creation_options.c_str());
   driver->pfnIdentify = microtin::gdal::identify;

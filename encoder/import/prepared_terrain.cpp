@@ -12,6 +12,7 @@
 #include "encoder/base/text.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/files/input.hpp"
+#include "encoder/import/bound_map.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/mosaic.hpp"
 #include "encoder/import/reference.hpp"
@@ -222,7 +223,9 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
   std::vector<std::string> names = preparation.water_mask.empty()
                                        ? std::vector<std::string>()
                                        : std::vector<std::string>{preparation.water_mask};
-  if (!preparation.cells.empty()) names.push_back(preparation.cells);
+  for (const std::string& file : {preparation.cells, preparation.error_map}) {
+    if (!file.empty()) names.push_back(file);
+  }
   if (!path.empty()) {
     const std::vector<std::string> parts = parts_of(path, preparation);
     names.insert(names.end(), parts.begin(), parts.end());
@@ -271,7 +274,9 @@ Source prepared_file(const std::string& path, const std::string& file,
 
 }  // namespace
 
-Source prepared_terrain(const std::string& path, const Preparation& preparation) {
+namespace {
+
+Source without_bounds(const std::string& path, const Preparation& preparation) {
   const std::vector<std::string> parts = parts_of(path, preparation);
   if (parts.size() == 1 && !preparation.gridded) return prepared_file(path, parts[0], preparation);
   OpenSource source = prepared(path, parts, preparation);
@@ -279,8 +284,27 @@ Source prepared_terrain(const std::string& path, const Preparation& preparation)
   return whole_of(parts[0], *std::get<std::unique_ptr<RasterReader>>(source));
 }
 
+}  // namespace
+
+Source prepared_terrain(const std::string& path, const Preparation& preparation) {
+  Source source = without_bounds(path, preparation);
+  if (preparation.error_map.empty()) return source;
+  const BoundMap map(preparation.error_map, preparation.max_error);
+  std::visit([&](auto& one) { map.bound(one); }, source);
+  return source;
+}
+
 OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
-  return prepared(path, parts_of(path, preparation), preparation);
+  OpenSource source = prepared(path, parts_of(path, preparation), preparation);
+  if (preparation.error_map.empty()) return source;
+  auto map = std::make_shared<const BoundMap>(preparation.error_map, preparation.max_error);
+  if (auto* const cloud = std::get_if<PointCloud>(&source)) {
+    map->bound(*cloud);
+  } else {
+    auto& raster = std::get<std::unique_ptr<RasterReader>>(source);
+    raster = with_bounds(std::move(raster), std::move(map));
+  }
+  return source;
 }
 
 std::string describe_preparation(const Mended& mended, const std::string& selection) {

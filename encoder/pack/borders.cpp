@@ -137,7 +137,7 @@ class Chain {
       : posts_(posts), model_(model), price_(price * Piece::square(kStep)) {
     for (uint32_t post = 0; post < posts.size(); ++post) {
       add_states(post);
-      if (is_void(post)) continue;
+      if (is_void(post) || posts[post].sample->is_unbounded()) continue;
       const Sample& sample = *posts[post].sample;
       price_ =
           std::max(price_, price * Piece::square((int64_t{sample.highest} - sample.lowest) / 2));
@@ -174,7 +174,7 @@ class Chain {
     const Sample& sample = *posts_[post].sample;
     const int64_t nearest = height_near_aim(posts_[post]);
     const bool is_corner = post == 0 || post + 1 == posts_.size();
-    const int64_t reach = is_corner || !model_.bounded ? 0 : kReach;
+    const int64_t reach = is_corner || !model_.bounded || sample.is_unbounded() ? 0 : kReach;
     const int64_t room =
         std::max(sample.highest - nearest * kStep, nearest * kStep - sample.lowest) / kStep;
     const int64_t stride = std::max<int64_t>(1, room / kReach);

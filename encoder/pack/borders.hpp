@@ -55,11 +55,6 @@ struct LinePost {
   int32_t aim = 0;  // the height that is best here, within the bounds or not, as a Sample's
 };
 
-// Where the surface has as much room above as below.
-inline int32_t middle_of(const Sample& sample) {
-  return static_cast<int32_t>((int64_t{sample.lowest} + sample.highest) / 2);
-}
-
 struct ChainVertex {
   uint32_t post;  // its number among the posts
   int16_t height;

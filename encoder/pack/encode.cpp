@@ -28,8 +28,10 @@ std::vector<int> steps_to_try(bool never_below) {
   return never_below ? std::vector<int>{25, 30} : std::vector<int>{50, 60};
 }
 
-// The z step that suits a part of the raster best: that of its stream, or one of ours.
-Decimal choose_z_step(const Raster& part, const LatticeOptions& lattice, SimplifyOptions options) {
+// The z step that suits a part of the raster best: that of its stream, or one of ours. Tiles with
+// posts of the least bound anywhere must be able to keep it.
+Decimal choose_z_step(const Raster& part, Decimal least, const LatticeOptions& lattice,
+                      SimplifyOptions options) {
   if (options.search == Search::kNormal) options.search = Search::kFast;
   const std::vector<int> steps = steps_to_try(lattice.never_below);
   const Progress progress = options.progress;
@@ -42,13 +44,13 @@ Decimal choose_z_step(const Raster& part, const LatticeOptions& lattice, Simplif
   options.progress = next_part();
   const auto bytes_of = [&](const Tin& tin) { return encode(tin, {}, options.effort).size(); };
   const Approximation stream = approximate(part, lattice, options);
+  const bool is_fine_enough = part.bounds.empty() || stream.laid.z_step <= least;
   Decimal best = stream.laid.z_step;
-  std::size_t fewest = bytes_of(stream.tin);
+  std::size_t fewest = is_fine_enough ? bytes_of(stream.tin) : SIZE_MAX;
   for (const int hundredths : steps) {
-    if (lattice.max_error->decimals + 2 > kMaxDecimals) break;
+    if (least.decimals + 2 > kMaxDecimals) break;
     LatticeOptions with_step = lattice;
-    with_step.z_step = make_decimal(Wide{lattice.max_error->mantissa} * hundredths,
-                                    lattice.max_error->decimals + 2);
+    with_step.z_step = make_decimal(Wide{least.mantissa} * hundredths, least.decimals + 2);
     options.progress = next_part();
     const std::size_t bytes = bytes_of(approximate(part, with_step, options).tin);
     if (bytes >= fewest) continue;
@@ -63,11 +65,12 @@ TiledRaster tiled_raster(const RasterReader& raster, const RasterScan& scanned,
                          const PackOptions& options, const Progress& progress) {
   LatticeOptions lattice = options.lattice;
   const Raster& frame = raster.frame();
-  if (options.simplify.bounded && !lattice.z_step) {
+  if (options.simplify.bounded && !lattice.z_step && !scanned.has_exact_posts) {
     try {
       SimplifyOptions simplify = options.simplify;
       simplify.progress = progress;
-      lattice.z_step = choose_z_step(raster.read(scanned.roughest), lattice, simplify);
+      lattice.z_step =
+          choose_z_step(raster.read(scanned.roughest), *scanned.least_bound, lattice, simplify);
       return {raster, choose_post_lattice(frame, scanned.heights, lattice), lattice, {}};
     } catch (const Error&) {  // too little terrain there, or too fine for the whole
       lattice.z_step.reset();

@@ -77,6 +77,7 @@ PackContent content_of(const PackPlan& plan, Metadata metadata) {
   metadata.accuracy = Accuracy{lattice.max_error, {}, {}, {}};
   metadata.side = side_of(lattice.max_error, lattice.never_below);
   metadata.grid = posts_of(plan.tiled.raster.frame());
+  metadata.bounds = stated_bounds(plan.tiled.raster.frame().bounds, lattice.max_error);
   return {plan.tiled.grid, std::move(metadata), {}};
 }
 
@@ -167,6 +168,10 @@ Bytes write_pack_head(PackContent pack) {
     pack.metadata.accuracy->rms_error = all.rms_error;
     pack.metadata.accuracy->mean_error = all.mean_error;
     pack.metadata.at_samples = Distances{all.max_below, all.max_above};
+    if (pack.metadata.bounds && all.bounds) {
+      pack.metadata.bounds->span = *all.bounds;
+      pack.metadata.accuracy->bound = bound_of_all(pack.metadata.bounds->max_error, all.bounds);
+    }
   }
   pack.metadata.sums = bounds_of(pack.tiles).sums;
   Bytes head = write_pack_header(pack);

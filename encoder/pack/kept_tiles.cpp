@@ -48,6 +48,14 @@ bool is_within(const Margins& stated, const Margins& found) {
          (stated.above == kNotStated || found.above <= stated.above);
 }
 
+// Whether a tile states the bounds that its posts have of their own, and no smaller errors.
+bool states_bounds(const std::optional<BoundSpan>& stated, const std::optional<BoundSpan>& found) {
+  if (!stated || !found) return !stated && !found;
+  return stated->bounded == found->bounded && stated->unbounded == found->unbounded &&
+         stated->least == found->least && stated->largest == found->largest &&
+         found->ratio <= stated->ratio;
+}
+
 // Without a bound every post is a vertex, at the nearest step.
 Decimal bound_of(const TiledRaster& tiled) {
   if (tiled.options.max_error) return *tiled.options.max_error;
@@ -86,6 +94,7 @@ KeptTiles::Tile KeptTiles::examined(uint32_t number) const {
   tile.border = border_of(decoded->mesh(), sides);
   tile.is_kept = keeps_options(changed_.options, found, gauge.moved()) &&
                  parts_voids(posts, sides, tile.border) &&
+                 states_bounds(decoded->bounds(), found.bounds) &&
                  is_within(stated, margins_of(measure_gap(decoded->mesh(), lattice, part)));
   tile.summary = summary_of(old_.stream(number), std::move(*decoded), found);
   tile.summary.below = stated.below;

@@ -207,6 +207,7 @@ PointPack encode_point_pack(const PointCloud& cloud, const PackOptions& options,
   metadata.accuracy = Accuracy{lattice.max_error, {}, {}, {}};
   metadata.side = side_of(lattice.max_error, lattice.never_below);
   metadata.classes = cloud.classes;
+  metadata.bounds = stated_bounds(cloud.bounds, lattice.max_error);
   if (survey.merged != 0) metadata.duplicates = DuplicateRule::kMiddle;
   PointPack pack{{tiled.grid, std::move(metadata), {}},
                  {},

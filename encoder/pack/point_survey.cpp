@@ -94,6 +94,10 @@ PointCloud part_of(const PointCloud& cloud, const std::vector<uint32_t>& points)
   part.z_decimals = cloud.z_decimals;
   part.points.reserve(points.size());
   for (const uint32_t i : points) part.points.push_back(cloud.points[i]);
+  part.bounds = frame_of(cloud.bounds);
+  if (!cloud.bounds.empty()) {
+    for (const uint32_t i : points) part.bounds.numbers.push_back(cloud.bounds.numbers[i]);
+  }
   return part;
 }
 

@@ -84,6 +84,7 @@ EncodedTile PointTiles::encode(uint32_t tile, const std::vector<uint32_t>& point
   if (!keeps_options(tiled_.lattice, measured, 0)) {
     throw InternalFault("a decoded tile does not meet the options");
   }
+  if (measured.bounds) append_chunk(*measured.bounds, stream);
   return {summary_of(stream, std::move(decoded), measured), std::move(stream)};
 }
 

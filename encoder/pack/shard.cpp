@@ -17,12 +17,12 @@ namespace {
 
 using Bytes = std::vector<uint8_t>;
 
-constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 3};  // and version
+constexpr uint8_t kShardMagic[5] = {'m', 't', 's', 'h', 4};  // and version
 constexpr std::size_t kStartBytes = sizeof kShardMagic + 4, kRangeBytes = 8;
 constexpr uint32_t kMostHeadBytes = 1 << 17;
 constexpr uint32_t kNotMade = 0xFFFFFFFF;  // a tile without terrain
 constexpr std::size_t kSummaryBytes =
-    4 + 4 + 4 + 2 + 2 + 4 + 4 + 4 * 8 + 5 * 9 + 5;  // without the check
+    4 + 4 + 4 + 2 + 2 + 4 + 4 + 4 * 8 + 5 * 9 + 5 + 1 + 2 * 8 + 3 * 9;  // without the check
 
 // What the tiles of a pack depend on.
 Bytes write_identity(const PackPlan& plan, const PackContent& pack) {
@@ -61,6 +61,13 @@ Bytes write_summary(const TileSummary& tile) {
   }
   append_number(bytes, tile.compact ? tile.compact->repeats : kNotMade, 4);
   append_number(bytes, tile.compact && tile.compact->is_narrow ? 1 : 0, 1);
+  const BoundSpan bounds = v.bounds.value_or(BoundSpan{});
+  append_number(bytes, v.bounds ? 1 : 0, 1);
+  append_number(bytes, bounds.bounded, 8);
+  append_number(bytes, bounds.unbounded, 8);
+  for (const Decimal bound : {bounds.least, bounds.largest, bounds.ratio}) {
+    append_decimal(bytes, bound);
+  }
   append_check(bytes, 0);
   return bytes;
 }
@@ -140,6 +147,10 @@ TileSummary read_summary(const Bytes& bytes) {
   const bool is_narrow = reader.next(1) != 0;
   expect(is_possible(v) && tile.vertices <= kMaxVertices &&
          (repeats <= kMaxVertices || repeats == kNotMade));
+  const bool has_bounds = reader.next(1) != 0;
+  const BoundSpan bounds{reader.next(8), reader.next(8), reader.next_error(), reader.next_error(),
+                         reader.next_error()};
+  if (has_bounds) v.bounds = bounds;
   if (repeats != kNotMade) tile.compact = CompactForm{tile.vertices, repeats, is_narrow};
   return tile;
 }

@@ -201,6 +201,7 @@ EncodedTile encode_tile(const TiledRaster& tiled, uint32_t tile, const SimplifyO
     Metadata metadata;
     metadata.everywhere = margins_of(measure_gap(decoded.mesh(), lattice, part));
     std::vector<uint8_t> all = with_metadata(stream, metadata);
+    if (measured.bounds) append_chunk(*measured.bounds, all);
     TileSummary summary = summary_of(all, std::move(decoded), measured);
     summary.below = metadata.everywhere.below;
     summary.above = metadata.everywhere.above;

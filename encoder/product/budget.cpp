@@ -87,6 +87,15 @@ Decimal height_range(const Source& source) {
   return make_decimal(Wide{high} - low, height_decimals(source));
 }
 
+// The largest bound that is worth a trial: of posts with bounds of their own the largest scale.
+Decimal largest_bound(const Source& source, const EncodeOptions& options) {
+  const Decimal range = height_range(source);
+  const OwnBounds& own = bounds_of(source);
+  if (own.empty()) return range;
+  const double least = real(least_bound(own, *options.lattice.max_error));
+  return rounded(real(range) * std::max(real(*own.unscaled) / least, 1.0)).value_or(range);
+}
+
 // The largest number of two digits that is not larger.
 Decimal rounded_down(Decimal bound) {
   int64_t digit = 1;
@@ -102,7 +111,7 @@ class Budget {
         options_(options),
         costs_(costs_of(options.search)),
         progress_(progress),
-        largest_(height_range(source)) {
+        largest_(largest_bound(source, options)) {
     const uint32_t vertices = vertex_limit(options);
     of_vertices_ = vertices != 0;
     if (of_vertices_) costs_.trial *= costs_.one_step;
@@ -136,8 +145,12 @@ class Budget {
 
   bool bounds_points() const { return asked_.bound_at == BoundAt::kTruePlaces; }
 
-  // Where points truly lie, too, if the bound is to hold there.
+  // Where points truly lie, too, if the bound is to hold there. Of posts with bounds of their own:
+  // the scale that these would need.
   Decimal error_of(const EncodedStream& encoded) const {
+    if (const std::optional<BoundSpan>& span = encoded.verification.bounds) {
+      return rounded(real(span->ratio) * real(*encoded.bound)).value_or(*encoded.bound);
+    }
     const Decimal error = encoded.verification.max_error;
     if (!encoded.true_places || !bounds_points()) return error;
     const Decimal there = encoded.true_places->max_error;
@@ -194,6 +207,10 @@ class Budget {
   // Insertion of the worst sample alone, which also tells about which bound to try. Says whether
   // nothing better can be had.
   bool insert_worst() {
+    if (!bounds_of(source_).empty()) {
+      guess_ = real(*bounds_of(source_).unscaled);
+      return false;
+    }
     EncodeOptions options = asked_;
     options.max_bytes = 0;
     options.lattice.never_below = false;

@@ -57,6 +57,7 @@ void thin(PointCloud& cloud, const Metadata& metadata) {
 std::variant<Source, OpenSource> source_for(const Document& document, const std::string& path,
                                             Preparation preparation) {
   const Metadata metadata = document.metadata();
+  if (metadata.bounds) preparation.max_error = metadata.bounds->unscaled;
   if (!preparation.classes && has_classes(path)) preparation.classes = metadata.classes;
   if (document.pack() != nullptr) {
     OpenSource source = prepared_source(path, preparation);
@@ -166,8 +167,9 @@ const PointCloud* Original::cloud() const {
 Promise Original::promise() const {
   const Metadata metadata = document_.metadata();
   expect_water_level(document_.path(), metadata.water_level, water_level_);
+  if (metadata.bounds) return {metadata.bounds->max_error, metadata.bounds, metadata.water_level};
   if (!metadata.accuracy || !metadata.accuracy->bound) return {};
-  return {metadata.accuracy->bound, metadata.water_level};
+  return {metadata.accuracy->bound, std::nullopt, metadata.water_level};
 }
 
 Verification Original::compare(const std::optional<Decimal>& bound, const Progress& progress,
@@ -192,6 +194,13 @@ Verification Original::compare(const std::optional<Decimal>& bound, const Progre
 
 Original::Judgement Original::judge(const Progress& progress) const {
   const Promise promised = promise();
+  const OwnBounds& own = raster() != nullptr ? raster()->bounds : cloud()->bounds;
+  if (promised.bounds.has_value() != own.unscaled.has_value()) {
+    throw Error(document_.path() +
+                (promised.bounds ? ": has bounds of an error map; name it with "
+                                 : ": has no bounds of an error map; leave out ") +
+                parameter("error_map"));
+  }
   const int decimals = raster() != nullptr ? raster()->decimals : cloud()->z_decimals;
   WaterGauge gauge(decimals, promised.water_level);
   const Verification found = with_file_context(document_.path(), [&] {
@@ -208,9 +217,9 @@ Original::Judgement Original::judge(const Progress& progress) const {
   const std::optional<Accuracy> noted = document_.metadata().true_places;
   if (cloud() == nullptr || !noted) return judgement;
   const SampledSurface surface = document_.sampled();
-  judgement.true_bound = noted->bound;
+  judgement.true_bound = noted->bound && promised.bounds ? promised.bound : noted->bound;
   judgement.true_places =
-      verify_at_true_places(surface.height_at, surface.placement, *cloud(), noted->bound);
+      verify_at_true_places(surface.height_at, surface.placement, *cloud(), judgement.true_bound);
   return judgement;
 }
 

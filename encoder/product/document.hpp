@@ -67,7 +67,8 @@ class Document {
 
 // What a header promises of the heights.
 struct Promise {
-  std::optional<Decimal> bound;
+  std::optional<Decimal> bound;        // of posts with bounds of their own: their scale
+  std::optional<StatedBounds> bounds;  // if posts have bounds of their own
   std::optional<Decimal> water_level;  // at which posts are exact
 };
 
@@ -102,6 +103,7 @@ class Original {
     std::optional<Verification> true_places;  // of points, where the document notes such errors
     std::optional<Decimal> true_bound;        // that is promised there
   };
+  // Throws Error also if only one of document and terrain has bounds of an error map.
   Judgement judge(const Progress& progress) const;
 
  private:

@@ -104,12 +104,17 @@ PackReport report_of(const PackContent& pack) {
   report.bytes = write_pack_head(pack).size() + streams;
   report.measured = measured(pack);
   report.everywhere = stated_everywhere(everywhere, pack.metadata.placement.z);
-  if (pack.metadata.accuracy) report.bound = pack.metadata.accuracy->bound;
+  if (pack.metadata.accuracy) {
+    report.bound = bound_of_all(pack.metadata.accuracy->bound, report.measured.bounds);
+  }
+  report.bounds = pack.metadata.bounds;
+  if (report.bounds && report.measured.bounds) report.bounds->span = *report.measured.bounds;
   return report;
 }
 
-PackContent encode_pack(const RasterReader& raster, const EncodeOptions& options,
+PackContent encode_pack(const RasterReader& raster, const EncodeOptions& asked,
                         StreamSpool& streams, const Progress& progress) {
+  const EncodeOptions options = mapped(asked, raster.frame().bounds);
   PackContent pack;
   const Metadata notes = metadata_of(options, raster.frame());
   std::optional<TileLog> log;
@@ -183,6 +188,7 @@ Attempt attempt(const PointCloud& cloud, const EncodeOptions& options,
   Metadata& metadata = result.made.content.metadata;
   const std::optional<Decimal> none, &bound = options.lattice.max_error;
   metadata.accuracy->bound = bound;
+  metadata.bounds = stated_bounds(cloud.bounds, bound);
   if (!moves_points(metadata.placement, cloud)) return result;
   const bool is_bound = options.bound_at == BoundAt::kTruePlaces;
   const PackFile pack(pack::write_pack(result.made.content, result.made.streams));
@@ -190,8 +196,8 @@ Attempt attempt(const PointCloud& cloud, const EncodeOptions& options,
       verify_at_true_places(sampled(pack).height_at, metadata.placement, cloud, bound);
   const bool too_low = options.lattice.never_below && found.max_below.mantissa != 0;
   result.is_kept = !is_bound || (found.within_bound && !too_low);
-  metadata.true_places =
-      Accuracy{is_bound ? bound : none, found.max_error, found.rms_error, found.mean_error};
+  metadata.true_places = Accuracy{is_bound ? bound_of_all(bound, found.bounds) : none,
+                                  found.max_error, found.rms_error, found.mean_error};
   result.true_places = found;
   return result;
 }
@@ -215,7 +221,8 @@ Attempt attempt_twice(const PointCloud& cloud, const EncodeOptions& options) {
 
 }  // namespace
 
-EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options) {
+EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& asked) {
+  const EncodeOptions options = mapped(asked, cloud.bounds);
   const Placement lattice = choose_pack_lattice(cloud, options.lattice).placement;
   const std::optional<PointCloud> thin = thinned(cloud, lattice, options.lattice.duplicates);
   const PointCloud& kept = thin ? *thin : cloud;
@@ -232,8 +239,9 @@ EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options)
           kept.points.size(), made.merged + dropped,   true_places};
 }
 
-ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& options, TileRange tiles,
+ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& asked, TileRange tiles,
                          OutputFile& out, const Progress& progress) {
+  const EncodeOptions options = mapped(asked, raster.frame().bounds);
   const Metadata notes = metadata_of(options, raster.frame());
   const PackPlan plan = plan_pack(raster, raster_options(options, progress));
   ShardReport report{existing(tiles, plan.tiled.grid), all_tiles(plan.tiled.grid), 0};
@@ -256,7 +264,8 @@ ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& option
 
 std::vector<ShardPlan> plan_shards(const RasterReader& raster, const EncodeOptions& options,
                                    uint32_t shards, const Progress& progress) {
-  const PackPlan plan = plan_pack(raster, raster_options(options, progress));
+  const PackPlan plan =
+      plan_pack(raster, raster_options(mapped(options, raster.frame().bounds), progress));
   const Decimal step = z_step(content_of(plan, {}));
   const uint64_t tiles = tile_count(plan.tiled.grid), parts = std::min<uint64_t>(shards, tiles);
   std::vector<ShardPlan> plans;

@@ -25,7 +25,8 @@ struct PackReport {
   uint32_t most_vertices = 0;  // in a tile
   uint32_t empty_tiles = 0;
   Verification measured;                // of all tiles
-  std::optional<Decimal> bound;         // asked for
+  std::optional<Decimal> bound;         // that all posts or points keep
+  std::optional<StatedBounds> bounds;   // if they have bounds of their own
   std::optional<Distances> everywhere;  // of a raster, as the header states them
 };
 

@@ -86,8 +86,8 @@ void measure_true_places(const PointCloud& cloud, const microtin_mesh* mesh, boo
   }
   TrueBound bound(lattice, surface);
   found = verify_at_true_places(surface.height_at, surface.placement, cloud, lattice.max_error,
-                                [&](const RealPlace& nearest, const RealPlace& exact,
-                                    double above) { bound.see(nearest, exact, above); });
+                                [&](const RealPlace& nearest, const RealPlace& exact, double own,
+                                    double above) { bound.see(nearest, exact, own, above); });
   attempt.missed = bound.missed();
   if (attempt.missed == 0 && !found.within_bound)
     attempt.missed = 1;  // by less than a double tells
@@ -103,10 +103,12 @@ void note_accuracy(EncodedStream& encoded, const EncodeOptions& options, Miss mi
       *encoded.bound <= there->max_error) {
     encoded.bound = there->max_error;
   }
-  metadata.accuracy = accuracy_of(encoded.verification, encoded.bound);
+  const std::optional<Decimal> all = bound_of_all(encoded.bound, encoded.verification.bounds);
+  metadata.accuracy = accuracy_of(encoded.verification, all);
   metadata.side = side_of(encoded.bound, options.lattice.never_below);
   metadata.at_samples = Distances{encoded.verification.max_below, encoded.verification.max_above};
-  if (there) metadata.true_places = accuracy_of(*there, is_bound ? encoded.bound : std::nullopt);
+  if (there) metadata.true_places = accuracy_of(*there, is_bound ? all : std::nullopt);
+  metadata.bounds = encoded.bounds;
 }
 
 // The lattice's options become those of the next attempt.
@@ -128,8 +130,11 @@ Attempt assess(const Source& source, const EncodeOptions& options, LatticeOption
   const Verification measured = verify(decoded.mesh(), kept, bound, gauge.visitor());
   expect_promises(measured, gauge, lattice);
   lattice.z_step = found.laid.z_step;
+  std::optional<StatedBounds> own = stated_bounds(bounds_of(source), bound);
+  if (own) own->span = measured.bounds.value_or(BoundSpan{});
   Attempt result{{std::move(found.laid),
                   bound,
+                  own,
                   {},
                   microtin_mesh_vertex_count(decoded.mesh()),
                   measured,
@@ -192,6 +197,18 @@ bool is_finest(Decimal xy_step, const Source& source, LatticeOptions lattice) {
               "or use " + parameter("bound_at") + " lattice");
 }
 
+// Limits scale posts' own bounds.
+void refuse_scaling(const Source& source, const EncodeOptions& options) {
+  const std::string limit = parameter(options.max_bytes != 0 ? "max_bytes" : "max_vertices");
+  if (options.lattice.max_error->mantissa == 0) {
+    throw Error(parameter("max_error") + " 0 cannot be scaled for " + limit + "; use a larger one");
+  }
+  if (std::holds_alternative<PointCloud>(source) && options.bound_at == BoundAt::kTruePlaces) {
+    throw Error(parameter("error_map") + " and " + limit + " go together for points only with " +
+                parameter("bound_at") + " lattice; use that, or " + parameter("max_error"));
+  }
+}
+
 // Attempts until points keep the bound where they truly lie, as many as are allowed.
 Attempt attempt_some(const Source& source, const EncodeOptions& options,
                      const std::optional<Decimal>& room, const Progress& progress) {
@@ -230,8 +247,9 @@ EncodedStream measured(const Source& source, const EncodeOptions& options, Appro
   return assess(source, options, lattice, std::move(found), Miss::kWidens).encoded;
 }
 
-EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
+EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
                             const Progress& progress) {
+  const EncodeOptions options = mapped(asked, bounds_of(source));
   if (options.tile_size != 0) {
     throw Error(parameter("tile_size") + " is for packs, and this is a stream; leave it out");
   }
@@ -241,7 +259,10 @@ EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
   // Fails before the work, if it does.
   std::visit([&](const auto& one) { metadata_of(options, one); }, source);
   const bool limited = options.max_bytes != 0 || vertex_limit(options) != 0;
-  if (!limited || options.lattice.max_error) return encode_measured(source, options, progress);
+  const bool scales = bounds_of(source).unscaled && (options.max_bytes | options.max_vertices) != 0;
+  if (scales) refuse_scaling(source, options);
+  const bool is_bounded = options.lattice.max_error && !scales;
+  if (!limited || is_bounded) return encode_measured(source, options, progress);
   return encode_within_budget(source, options, progress);
 }
 

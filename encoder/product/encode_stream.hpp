@@ -17,7 +17,8 @@ namespace microtin::product {
 
 struct EncodedStream {
   Laid laid;
-  std::optional<Decimal> bound;  // asked for, or found
+  std::optional<Decimal> bound;        // asked for, or found: the scale of posts' own bounds
+  std::optional<StatedBounds> bounds;  // if posts have bounds of their own
   std::vector<uint8_t> stream;
   uint32_t vertices;
   Verification verification;

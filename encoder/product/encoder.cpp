@@ -2,6 +2,7 @@
 // The public interface: checks options and terrains, and translates them.
 #include "microtin/encoder.hpp"
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -9,6 +10,7 @@
 #include "encoder/base/error.hpp"
 #include "encoder/base/text.hpp"
 #include "encoder/exact/fraction.hpp"
+#include "encoder/import/bound_map.hpp"
 #include "encoder/import/crs.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/reference.hpp"
@@ -22,7 +24,8 @@ namespace microtin::encoder {
 using base::Error;
 
 struct SourceTerrain::Content {
-  terrain::Source source;
+  std::shared_ptr<const terrain::Source> source;
+  std::shared_ptr<const terrain::Raster> bounds = nullptr;  // of its posts; null: one for all
 };
 
 namespace {
@@ -61,7 +64,7 @@ terrain::Reference raster_reference(const RasterData& posts) {
   return reference;
 }
 
-terrain::Source raster_of(RasterData posts) {
+terrain::Raster raster_of(RasterData posts) {
   expect(posts.heights.size() == uint64_t{posts.columns} * posts.rows,
          "not as many heights as columns times rows");
   check_decimals(posts.decimals);
@@ -194,22 +197,23 @@ terrain::SourceNotes notes_of(const Options& options) {
   return notes;
 }
 
-void check_stream_options(const Options& options) {
+void check_stream_options(const Options& options, bool has_map) {
   expect_default("tile_vertices", options.tile_vertices == 0, "packs");
   expect_default("tile_size", options.tile_size == 0, "packs");
-  const int aims = (options.max_error.empty() ? 0 : 1) + (options.max_vertices != 0 ? 1 : 0) +
-                   (options.max_bytes != 0 ? 1 : 0);
+  const bool is_aim = !options.max_error.empty() && !has_map;  // a map's bounds are scaled
+  const int aims =
+      (is_aim ? 1 : 0) + (options.max_vertices != 0 ? 1 : 0) + (options.max_bytes != 0 ? 1 : 0);
   expect(aims <= 1, base::parameter("max_error") + ", " + base::parameter("max_vertices") +
                         " and " + base::parameter("max_bytes") + " exclude each other; use one");
-  expect(!options.never_below || !options.max_error.empty() || options.max_bytes != 0,
+  expect(!options.never_below || has_map || !options.max_error.empty() || options.max_bytes != 0,
          base::parameter("never_below") + " needs " + base::parameter("max_error") + " or " +
              base::parameter("max_bytes"));
 }
 
-void check_pack_options(const Options& options) {
+void check_pack_options(const Options& options, bool has_map) {
   expect_default("max_vertices", options.max_vertices == 0, "streams");
   expect_default("max_bytes", options.max_bytes == 0, "streams");
-  expect(!options.never_below || !options.max_error.empty(),
+  expect(!options.never_below || has_map || !options.max_error.empty(),
          base::parameter("never_below") + " needs " + base::parameter("max_error"));
 }
 
@@ -247,24 +251,35 @@ terrain::Reference asked_of(const Options& options) {
   return asked;
 }
 
-// A terrain in the units that are asked for: a copy only where numbers are converted.
+// A terrain in the units that are asked for, with bounds of its own: a copy only where that changes
+// it.
 class SettledTerrain {
  public:
-  SettledTerrain(const terrain::Source& source, const Options& options)
-      : source_(source),
-        settled_(importing::settle(terrain::reference_of(source), asked_of(options))) {
-    if (importing::is_plain(settled_.conversion)) return;
-    converted_ = source;
-    importing::convert(*converted_, settled_);
+  SettledTerrain(const SourceTerrain::Content& content, const Options& options)
+      : source_(*content.source),
+        settled_(importing::settle(terrain::reference_of(source_), asked_of(options))) {
+    const bool is_plain = importing::is_plain(settled_.conversion);
+    const bool has_map = !options.error_map.empty() || content.bounds != nullptr;
+    if (is_plain && !has_map) return;
+    changed_ = source_;
+    if (!is_plain) importing::convert(*changed_, settled_);
+    if (!has_map) return;
+    const auto max_error = decimal_of("max_error", options.max_error);
+    const auto map =
+        options.error_map.empty()
+            ? importing::BoundMap(base::parameter("error_map"),
+                                  std::make_unique<KeptRaster>(*content.bounds), max_error)
+            : importing::BoundMap(options.error_map, max_error);
+    std::visit([&](auto& one) { map.bound(one); }, *changed_);
   }
 
-  const terrain::Source& source() const { return converted_ ? *converted_ : source_; }
+  const terrain::Source& source() const { return changed_ ? *changed_ : source_; }
   const terrain::Reference& reference() const { return settled_.reference; }
 
  private:
   const terrain::Source& source_;
   importing::SettledReference settled_;
-  std::optional<terrain::Source> converted_;
+  std::optional<terrain::Source> changed_;
 };
 
 // Ends the work by an exception when the caller cancels it.
@@ -273,6 +288,13 @@ base::Progress progress_of(const Callbacks& callbacks) {
     if (callbacks.cancelled && callbacks.cancelled()) throw Cancelled();
     if (callbacks.progress) callbacks.progress(done);
   });
+}
+
+void add_bounds(Report& report, const std::optional<terrain::StatedBounds>& bounds) {
+  if (!bounds) return;
+  report.least_bound = to_string(bounds->span.least);
+  report.largest_bound = to_string(bounds->span.largest);
+  report.max_bound_ratio = to_string(bounds->span.ratio);
 }
 
 void add_everywhere(Report& report, const std::optional<terrain::Distances>& stated) {
@@ -287,13 +309,19 @@ void add_true_places(Report& report, const std::optional<terrain::Verification>&
   report.max_below_at_points = to_string(measured->max_below);
 }
 
+// That all samples keep.
+std::string bound_text(const product::EncodedStream& encoded) {
+  const auto bound = terrain::bound_of_all(encoded.bound, encoded.verification.bounds);
+  return bound ? to_string(*bound) : std::string();
+}
+
 Report report_of(const product::EncodedStream& encoded) {
   const terrain::Verification& measured = encoded.verification;
   Report report{measured.posts,
                 encoded.vertices,
                 encoded.stream.size(),
                 0,
-                encoded.bound ? to_string(*encoded.bound) : std::string(),
+                bound_text(encoded),
                 to_string(measured.max_error),
                 to_string(measured.rms_error),
                 to_string(measured.mean_error),
@@ -303,8 +331,12 @@ Report report_of(const product::EncodedStream& encoded) {
                 {},
                 {},
                 {},
+                {},
+                {},
+                {},
                 {}};
   add_everywhere(report, encoded.everywhere);
+  add_bounds(report, encoded.bounds);
   add_true_places(report, encoded.true_places);
   return report;
 }
@@ -324,8 +356,12 @@ Report report_of(const product::PackReport& pack, uint64_t samples) {
                 {},
                 {},
                 {},
+                {},
+                {},
+                {},
                 {}};
   add_everywhere(report, pack.everywhere);
+  add_bounds(report, pack.bounds);
   return report;
 }
 
@@ -345,6 +381,10 @@ Report encode_points(const terrain::PointCloud& cloud, const product::EncodeOpti
   Report report = report_of(made.report, made.points);
   add_true_places(report, made.true_places);
   return report;
+}
+
+bool has_map(const SourceTerrain& terrain, const Options& options) {
+  return !options.error_map.empty() || terrain.content().bounds != nullptr;
 }
 
 std::vector<std::string> warnings_on(const SettledTerrain& terrain) {
@@ -371,20 +411,29 @@ SourceTerrain::SourceTerrain(std::shared_ptr<const Content> content)
     : content_(std::move(content)) {}
 
 SourceTerrain::SourceTerrain(RasterData raster)
-    : SourceTerrain(std::make_shared<Content>(Content{raster_of(std::move(raster))})) {}
+    : SourceTerrain(std::make_shared<Content>(
+          Content{std::make_shared<terrain::Source>(raster_of(std::move(raster)))})) {}
 
 SourceTerrain::SourceTerrain(const PointCloudData& points)
-    : SourceTerrain(std::make_shared<Content>(Content{cloud_of(points)})) {}
+    : SourceTerrain(
+          std::make_shared<Content>(Content{std::make_shared<terrain::Source>(cloud_of(points))})) {
+}
 
 SourceTerrain SourceTerrain::from_file(const std::string& path) {
-  return SourceTerrain(std::make_shared<Content>(Content{importing::import_terrain(path)}));
+  return SourceTerrain(std::make_shared<Content>(
+      Content{std::make_shared<terrain::Source>(importing::import_terrain(path))}));
+}
+
+void SourceTerrain::set_error_map(RasterData bounds) {
+  auto map = std::make_shared<terrain::Raster>(raster_of(std::move(bounds)));
+  content_ = std::make_shared<Content>(Content{content_->source, std::move(map)});
 }
 
 Stream encode_stream(const SourceTerrain& terrain, const Options& options,
                      const Callbacks& callbacks) {
-  check_stream_options(options);
+  check_stream_options(options, has_map(terrain, options));
   product::EncodeOptions all = options_of(options);
-  const SettledTerrain settled(terrain.content().source, options);
+  const SettledTerrain settled(terrain.content(), options);
   all.reference = settled.reference();
   product::EncodedStream encoded =
       product::encode_stream(settled.source(), all, progress_of(callbacks));
@@ -395,9 +444,9 @@ Stream encode_stream(const SourceTerrain& terrain, const Options& options,
 
 Report encode_pack(const SourceTerrain& terrain, const Options& options, const std::string& path,
                    const Callbacks& callbacks) {
-  check_pack_options(options);
+  check_pack_options(options, has_map(terrain, options));
   product::EncodeOptions all = options_of(options);
-  const SettledTerrain settled(terrain.content().source, options);
+  const SettledTerrain settled(terrain.content(), options);
   all.reference = settled.reference();
   files::OutputFile out(path);
   const terrain::Source& source = settled.source();

@@ -156,6 +156,7 @@ Options options_of(const microtin_options& given) {
   options.source_accuracy = text_of(given.source_accuracy);
   options.digest = given.digest != 0;
   options.phases = given.phases != 0;
+  options.error_map = text_of(given.error_map);
   options.max_vertices = given.max_vertices;
   options.max_bytes = given.max_bytes;
   options.tile_vertices = given.tile_vertices;
@@ -195,6 +196,9 @@ void copy_report(const Report& report, microtin_report* to) {
   copy_decimal(report.max_above_everywhere, all.max_above_everywhere);
   copy_decimal(report.max_error_at_points, all.max_error_at_points);
   copy_decimal(report.max_below_at_points, all.max_below_at_points);
+  copy_decimal(report.least_bound, all.least_bound);
+  copy_decimal(report.largest_bound, all.largest_bound);
+  copy_decimal(report.max_bound_ratio, all.max_bound_ratio);
   write_struct(all, to);
 }
 
@@ -317,6 +321,9 @@ microtin_surface_info info_of(const SurfaceInfo& all) {
   info.epoch = all.epoch.c_str();
   info.source_accuracy = all.source_accuracy.c_str();
   info.digest = all.digest.c_str();
+  info.least_bound = all.least_bound.c_str();
+  info.largest_bound = all.largest_bound.c_str();
+  info.max_bound_ratio = all.max_bound_ratio.c_str();
   info.bound = all.bound.c_str();
   info.max_error = all.max_error.c_str();
   info.rms_error = all.rms_error.c_str();
@@ -369,6 +376,14 @@ microtin_status microtin_source_from_points(const microtin_point_data* points,
 
 microtin_status microtin_source_from_file(const char* path, microtin_source** source) {
   return make(source, [&] { return SourceTerrain::from_file(text_of(path)); });
+}
+
+microtin_status microtin_source_set_error_map(microtin_source* source,
+                                              const microtin_raster_data* bounds) {
+  return guarded([&] {
+    expect(source);
+    source->terrain.set_error_map(read_raster(read_struct(bounds)));
+  });
 }
 
 void microtin_source_free(microtin_source* source) {

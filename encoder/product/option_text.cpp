@@ -62,6 +62,7 @@ constexpr const char *kText = "a text", *kFlag = "true or false",
 
 constexpr NamedOption kOptions[] = {
     {"max_error", set_text<&Options::max_error>, kText},
+    {"error_map", set_text<&Options::error_map>, kText},
     {"max_vertices", set_number<&Options::max_vertices>, kNumber},
     {"max_bytes", set_number<&Options::max_bytes>, kNumber},
     {"never_below", set_flag<&Options::never_below>, kFlag},

@@ -49,6 +49,11 @@ Metadata metadata_of(const EncodeOptions& options, const PointCloud& cloud) {
   return checked_metadata(options, cloud);
 }
 
+EncodeOptions mapped(EncodeOptions options, const OwnBounds& bounds) {
+  if (bounds.unscaled && !options.lattice.max_error) options.lattice.max_error = bounds.unscaled;
+  return options;
+}
+
 void refuse_options_of_streams(const EncodeOptions& options) {
   if (options.max_vertices != 0 || options.max_bytes != 0) {
     throw Error(parameter("max_vertices") + " and " + parameter("max_bytes") +

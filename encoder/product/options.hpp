@@ -45,6 +45,10 @@ Metadata metadata_of(const EncodeOptions& options, const PointCloud& cloud);
 // What a header says, and in its place what the options say of the source.
 Metadata noted(Metadata metadata, const EncodeOptions& options);
 
+// The options for a source whose posts have bounds of their own: max_error is that for which they
+// hold as they are, unless it is set. Throws Error if the options contradict.
+EncodeOptions mapped(EncodeOptions options, const OwnBounds& bounds);
+
 // Throws Error if an option is set that packs do not have.
 void refuse_options_of_streams(const EncodeOptions& options);
 

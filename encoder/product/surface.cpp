@@ -69,6 +69,11 @@ void take_accuracy(const terrain::Metadata& metadata, SurfaceInfo& info) {
     info.max_below_everywhere = to_string(everywhere->below);
     info.max_above_everywhere = to_string(everywhere->above);
   }
+  if (metadata.bounds) {
+    info.least_bound = to_string(metadata.bounds->span.least);
+    info.largest_bound = to_string(metadata.bounds->span.largest);
+    info.max_bound_ratio = to_string(metadata.bounds->span.ratio);
+  }
   if (!metadata.accuracy) return;
   if (metadata.accuracy->bound) info.bound = to_string(*metadata.accuracy->bound);
   info.max_error = to_string(metadata.accuracy->max_error);

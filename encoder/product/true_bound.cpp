@@ -4,16 +4,14 @@
 #include "encoder/product/true_bound.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
 namespace microtin::product {
 
 TrueBound::TrueBound(const LatticeOptions& options, const SampledSurface& surface)
-    : above_(real(*options.max_error)),
-      below_(options.never_below ? 0 : -above_),
-      step_(step_of(surface.placement.z)),
-      surface_(surface) {
+    : never_below_(options.never_below), step_(step_of(surface.placement.z)), surface_(surface) {
   for (const Tightening& old : options.tightenings) before_.emplace(old.place.x, old.place.y);
 }
 
@@ -22,8 +20,9 @@ Tightening& TrueBound::limits_at(Point place) {
   return limits_.try_emplace({place.x, place.y}, all).first->second;
 }
 
-void TrueBound::see(const RealPlace& nearest, const RealPlace& exact, double above) {
-  if (above >= below_ && above <= above_) return;
+void TrueBound::see(const RealPlace& nearest, const RealPlace& exact, double bound, double above) {
+  const Range allowed{never_below_ && std::isfinite(bound) ? 0 : -bound, bound};
+  if (above >= allowed.below && above <= allowed.above) return;
   ++missed_;
   const ExactAnswer known = surface_.height_at(nearest);
   if (known.kind != MICROTIN_QUERY_OK) return;
@@ -31,25 +30,26 @@ void TrueBound::see(const RealPlace& nearest, const RealPlace& exact, double abo
   const Point place{static_cast<uint16_t>(nearest.x), static_cast<uint16_t>(nearest.y)};
   constexpr double kMore = 1.25;  // the surface around will be another
   Tightening& limits = limits_at(place);
-  if (above > above_) {
-    limits.highest = std::min(limits.highest, moved(here, kMore * (above_ - above)));
+  if (above > allowed.above) {
+    limits.highest = std::min(limits.highest, moved(here, kMore * (allowed.above - above)));
   } else {
-    limits.lowest = std::max(limits.lowest, moved(here, kMore * (below_ - above)));
+    limits.lowest = std::max(limits.lowest, moved(here, kMore * (allowed.below - above)));
   }
   if (before_.count({place.x, place.y}) == 0) return;
   const ExactAnswer there = surface_.height_at(exact);
-  surround(exact, there.kind == MICROTIN_QUERY_OK ? fixed_height(there.height) : here, above);
+  surround(exact, there.kind == MICROTIN_QUERY_OK ? fixed_height(there.height) : here, allowed,
+           above);
 }
 
 // A point's limits at all places around it.
-void TrueBound::surround(const RealPlace& exact, int32_t height, double above) {
-  const double margin = (above_ - below_) / 16;  // the surface may bend between them
+void TrueBound::surround(const RealPlace& exact, int32_t height, Range allowed, double above) {
+  const double margin = (allowed.above - allowed.below) / 16;  // the surface may bend between them
   for (const int64_t x : {exact.x, exact.x + (exact.x_part != 0 ? 1 : 0)}) {
     for (const int64_t y : {exact.y, exact.y + (exact.y_part != 0 ? 1 : 0)}) {
       if (x < 0 || y < 0 || x > kLatticeMax || y > kLatticeMax) continue;
       Tightening& limits = limits_at({static_cast<uint16_t>(x), static_cast<uint16_t>(y)});
-      limits.lowest = std::max(limits.lowest, moved(height, below_ + margin - above));
-      limits.highest = std::min(limits.highest, moved(height, above_ - margin - above));
+      limits.lowest = std::max(limits.lowest, moved(height, allowed.below + margin - above));
+      limits.highest = std::min(limits.highest, moved(height, allowed.above - margin - above));
     }
   }
 }

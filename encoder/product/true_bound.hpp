@@ -23,8 +23,9 @@ class TrueBound {
   // The options have a bound. The surface must outlive it.
   TrueBound(const LatticeOptions& options, const SampledSurface& surface);
 
-  // A point's place on the lattice, where it truly lies, and how far the surface is above it there.
-  void see(const RealPlace& nearest, const RealPlace& exact, double above);
+  // A point's place on the lattice, where it truly lies, its bound, and how far the surface is
+  // above it there.
+  void see(const RealPlace& nearest, const RealPlace& exact, double bound, double above);
 
   uint64_t missed() const { return missed_; }
 
@@ -33,10 +34,14 @@ class TrueBound {
 
  private:
   Tightening& limits_at(Point place);
-  void surround(const RealPlace& exact, int32_t height, double above);
+  struct Range {
+    double below, above;  // of the surface, from a point
+  };
+  void surround(const RealPlace& exact, int32_t height, Range allowed, double above);
   int32_t moved(int32_t height, double by) const;
 
-  double above_, below_, step_;
+  bool never_below_;
+  double step_;
   const SampledSurface& surface_;
   std::set<std::pair<int64_t, int64_t>> before_;  // places that had narrower limits already
   std::map<std::pair<int64_t, int64_t>, Tightening> limits_;

@@ -44,10 +44,19 @@ void expect_same_system(const Metadata& old, const Reference& terrain) {
   }
 }
 
+// The terrain must have bounds from a map exactly if the pack has, and at the same scale.
+void expect_same_map(const Metadata& old, const Raster& frame) {
+  if (frame.bounds.unscaled.has_value() == old.bounds.has_value()) return;
+  throw Error(old.bounds
+                  ? "the pack has bounds of an error map; name it with " + parameter("error_map")
+                  : "the pack has one bound for all posts; leave out " + parameter("error_map") +
+                        ", or encode the terrain again");
+}
+
 // What the pack states of its tiles.
 LatticeOptions options_of(const Metadata& stated) {
   LatticeOptions options;
-  options.max_error = stated.accuracy->bound;
+  options.max_error = stated.bounds ? stated.bounds->max_error : stated.accuracy->bound;
   options.never_below = stated.side == BoundSide::kNeverBelow;
   options.water_level = stated.water_level;
   return options;
@@ -110,12 +119,18 @@ PackPlan plan_of(const PackFile& old, const RasterReader& raster, const PackOpti
 
 }  // namespace
 
+std::optional<Decimal> max_error_of_map(const std::string& pack) {
+  const std::optional<StatedBounds> bounds = open_pack(pack).file.metadata().bounds;
+  return bounds ? std::optional(bounds->unscaled) : std::nullopt;
+}
+
 UpdatedPack update_pack(const std::string& old_path, const RasterReader& raster,
                         const EncodeOptions& options, StreamSpool& streams,
                         const Progress& progress) {
   const PackFile old = open_pack_of_raster(old_path);
   expect_posts_of(raster.frame(), old);
   expect_same_system(old.metadata(), completed(raster.frame().reference));
+  expect_same_map(old.metadata(), raster.frame());
   expect_water_level(old_path, old.metadata().water_level, options.lattice.water_level);
   const PackOptions stated = pack_options(old, options);
   const RasterScan scanned =

@@ -4,6 +4,7 @@
 #define MICROTIN_ENCODER_PRODUCT_UPDATE_PACK_HPP
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "encoder/base/progress.hpp"
@@ -19,6 +20,10 @@ struct UpdatedPack {
   PackContent content;
   uint32_t kept;  // tiles of which the bytes are the old ones
 };
+
+// The max_error for which the map of a pack's bounds holds as it is; nothing if its posts have no
+// bounds of their own. Throws Error naming the pack.
+std::optional<Decimal> max_error_of_map(const std::string& pack);
 
 // Keeps the tiles that do for the changed raster all that the old pack states, and encodes the
 // others by the bound, side, water level, lattice and coding of the old pack. Borders between new

@@ -35,18 +35,29 @@ void expect_room_for_vertices(const microtin_stream_info& info, uint64_t stream_
   }
 }
 
-void expect_chunks(const uint8_t* at, const uint8_t* end) {
+void expect_chunks(const uint8_t* at, const uint8_t* end, const ChunkVisitor& visit) {
   while (at != end) {
     const uint8_t* const begin = at;
     uint64_t type = 0, length = 0;
     const bool is_framed = read_varint(&at, end, &type) && read_varint(&at, end, &length) &&
                            type < kChunkNumberEnd && length < kChunkNumberEnd &&
                            length + kCheckBytes <= static_cast<uint64_t>(end - at);
+    const uint8_t* const content = at;
     if (is_framed) at += length + kCheckBytes;
     if (!is_framed || crc32(0, begin, static_cast<size_t>(at - begin)) != kCheckedCrc) {
       throw Error("the bytes behind the end of the stream are damaged: they are no chunks");
     }
+    if (visit) visit(type, content, at - kCheckBytes);
   }
+}
+
+void append_chunk(const BoundSpan& bounds, std::vector<uint8_t>& stream) {
+  const std::vector<uint8_t> content = write_span(bounds);
+  const size_t begin = stream.size();
+  append_varint(stream, MICROTIN_NOTE_BOUNDS);
+  append_varint(stream, content.size());
+  stream.insert(stream.end(), content.begin(), content.end());
+  append_check(stream, begin);
 }
 
 DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream, const SectionVisitor& visit) {
@@ -69,7 +80,10 @@ DecodedTerrain::DecodedTerrain(const std::vector<uint8_t>& stream, const Section
     if (visit && is_section && is_intact) visit(mesh_, at - header.info.header_bytes);
   }
   expect_done(microtin_decoder_finish(decoder));
-  expect_chunks(stream.data() + at, stream.data() + stream.size());
+  expect_chunks(stream.data() + at, stream.data() + stream.size(),
+                [this](uint64_t type, const uint8_t* begin, const uint8_t* end) {
+                  if (type == MICROTIN_NOTE_BOUNDS && !bounds_) bounds_ = read_span(begin, end);
+                });
   phases_ = microtin_decoder_phase(decoder);
 }
 

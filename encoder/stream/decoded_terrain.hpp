@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,14 @@ constexpr uint64_t kVerticesPerByte = 1421;
 // memory.
 void expect_room_for_vertices(const microtin_stream_info& info, uint64_t stream_bytes);
 
-// Throws Error unless the bytes from `at` to `end` are intact chunks.
-void expect_chunks(const uint8_t* at, const uint8_t* end);
+// Told of the type and the content of a chunk.
+using ChunkVisitor = std::function<void(uint64_t type, const uint8_t* begin, const uint8_t* end)>;
+
+// Throws Error unless the bytes from `at` to `end` are intact chunks, which are visited.
+void expect_chunks(const uint8_t* at, const uint8_t* end, const ChunkVisitor& visit = {});
+
+// Appends a chunk with the bounds that a tile's posts have of their own.
+void append_chunk(const BoundSpan& bounds, std::vector<uint8_t>& stream);
 
 class DecodedTerrain {
  public:
@@ -42,10 +49,14 @@ class DecodedTerrain {
   microtin_mesh* mesh() { return mesh_; }
   uint32_t phases() const { return phases_; }
 
+  // What a chunk states of posts with bounds of their own, if there is one.
+  const std::optional<BoundSpan>& bounds() const { return bounds_; }
+
  private:
   std::vector<uint64_t> storage_;  // aligned to MICROTIN_ALIGNMENT; mesh_ points into it
   microtin_mesh* mesh_ = nullptr;
   uint32_t phases_ = 0;
+  std::optional<BoundSpan> bounds_;
 };
 
 // A decoded terrain as vertices and triangles: what is exported, drawn and put together of tiles.

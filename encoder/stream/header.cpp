@@ -109,6 +109,14 @@ void append_source_notes(Bytes& notes, const SourceNotes& m) {
   append_source_accuracy(notes, m.source_accuracy);
 }
 
+void append_bounds(Bytes& notes, const std::optional<StatedBounds>& bounds) {
+  if (!bounds) return;
+  Bytes content = write_span(bounds->span);
+  append_decimal(content, bounds->max_error);
+  append_decimal(content, bounds->unscaled);
+  append_note(notes, MICROTIN_NOTE_BOUNDS, content);
+}
+
 void append_phases(Bytes& notes, const std::vector<PhaseEnd>& phases) {
   if (phases.empty()) return;
   Bytes content;
@@ -267,6 +275,23 @@ void read_surface(NoteReader& reader, Metadata& m) {
   m.at_samples = found;
 }
 
+BoundSpan read_span(NoteReader& reader) {
+  BoundSpan span{reader.number(), reader.number(), reader.decimal(), reader.decimal(),
+                 reader.decimal()};
+  for (const Decimal& number : {span.least, span.largest, span.ratio}) {
+    if (number.mantissa < 0) refuse();
+  }
+  return span;
+}
+
+StatedBounds read_bounds(NoteReader& reader) {
+  const BoundSpan span = read_span(reader);
+  const Decimal max_error = reader.decimal();
+  StatedBounds bounds{span, max_error, reader.decimal()};
+  if (bounds.max_error.mantissa < 0 || bounds.unscaled.mantissa < 0) refuse();
+  return bounds;
+}
+
 std::vector<PhaseEnd> read_phases(NoteReader& reader) {
   std::vector<PhaseEnd> phases;
   for (uint64_t left = reader.number(); left != 0; --left) {
@@ -385,6 +410,9 @@ void read_note(uint8_t type, NoteReader reader, Metadata& m) {
     case MICROTIN_NOTE_PLACES:
       m.places = read_places(reader);
       break;
+    case MICROTIN_NOTE_BOUNDS:
+      m.bounds = read_bounds(reader);
+      break;
     default:
       read_source_note(type, reader, m);
       break;
@@ -392,6 +420,21 @@ void read_note(uint8_t type, NoteReader reader, Metadata& m) {
 }
 
 }  // namespace
+
+Bytes write_span(const BoundSpan& span) {
+  Bytes content;
+  append_varint(content, span.bounded);
+  append_varint(content, span.unbounded);
+  append_decimal(content, span.least);
+  append_decimal(content, span.largest);
+  append_decimal(content, span.ratio);
+  return content;
+}
+
+BoundSpan read_span(const uint8_t* begin, const uint8_t* end) {
+  NoteReader reader(begin, end);
+  return read_span(reader);
+}
 
 Bytes write_notes(const Metadata& m) {
   Bytes notes;
@@ -402,6 +445,7 @@ Bytes write_notes(const Metadata& m) {
   append_accuracy(notes, MICROTIN_NOTE_ACCURACY, m.accuracy);
   append_accuracy(notes, MICROTIN_NOTE_TRUE_PLACES, m.true_places);
   append_surface(notes, m);
+  append_bounds(notes, m.bounds);
   append_source_notes(notes, m);
   if (m.water_level) {
     Bytes content;

@@ -15,6 +15,11 @@ namespace microtin::stream {
 // The notes that say something. Throws Error if they are too long.
 std::vector<uint8_t> write_notes(const Metadata& metadata);
 
+// What a note of bounds begins with, and all of a tile's chunk of them. Reading throws Error if it
+// is malformed.
+std::vector<uint8_t> write_span(const BoundSpan& span);
+BoundSpan read_span(const uint8_t* begin, const uint8_t* end);
+
 // Adds a note that fills up, if one is needed, until `before` bytes and all notes are a multiple of
 // `alignment`. Throws Error if the notes are then too long.
 void append_padding(std::vector<uint8_t>& notes, size_t before, size_t alignment);

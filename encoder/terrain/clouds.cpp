@@ -39,6 +39,16 @@ std::vector<Placed> sorted_by_place(const PointCloud& cloud, const Placement& la
 
 using Group = std::vector<SourcePoint>;
 
+// The least bound of points, which holds for the one that stands for all.
+int64_t least_number(const PointCloud& cloud, const Placed* first, const Placed* end) {
+  int64_t least = kUnbounded;
+  for (const Placed* one = first; one != end; ++one) {
+    const int64_t number = cloud.bounds.numbers[one->point];
+    if (number != kUnbounded && (least == kUnbounded || number < least)) least = number;
+  }
+  return least;
+}
+
 bool is_lower(const SourcePoint& a, const SourcePoint& b) {
   return a.z < b.z;
 }
@@ -79,6 +89,7 @@ std::optional<PointCloud> thinned(const PointCloud& cloud, const Placement& latt
   thin.reference = cloud.reference;
   thin.selection = cloud.selection;
   thin.classes = cloud.classes;
+  thin.bounds = frame_of(cloud.bounds);
   Group group;
   for (size_t i = 0; i < placed.size();) {
     const Placed& first = placed[i];
@@ -87,6 +98,8 @@ std::optional<PointCloud> thinned(const PointCloud& cloud, const Placement& latt
       group.push_back(cloud.points[placed[i].point]);
     }
     thin.points.push_back(one_of(group, rule));
+    if (cloud.bounds.empty()) continue;
+    thin.bounds.numbers.push_back(least_number(cloud, &first, &first + group.size()));
   }
   if (thin.points.size() == cloud.points.size()) return std::nullopt;
   return thin;

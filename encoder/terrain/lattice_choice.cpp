@@ -102,11 +102,12 @@ Axis lattice_axis(const Axis& source, const LatticeMap& map) {
                       static_cast<Wide>(source.denominator) * map.scale);
 }
 
-AxisGroup height_group(const NumberRange& z, int decimals, const LatticeOptions& options) {
+AxisGroup height_group(const NumberRange& z, int decimals, const OwnBounds& bounds,
+                       const LatticeOptions& options) {
   if (z.empty()) throw Error("there is no height");
   return {{z},
           decimals,
-          options.max_error ? options.max_error->decimals : 0,
+          options.max_error ? std::max(options.max_error->decimals, bounds.decimals) : 0,
           INT16_MIN,
           INT16_MAX,
           "z_step",
@@ -135,7 +136,8 @@ void NumberRange::add(const NumberRange& others) {
 
 Lattice choose_post_lattice(const Raster& frame, const NumberRange& heights,
                             const LatticeOptions& options) {
-  const GroupFit up = choose(height_group(heights, frame.decimals, options), options.z_step);
+  const GroupFit up =
+      choose(height_group(heights, frame.decimals, frame.bounds, options), options.z_step);
   const LatticeMap itself{1, 0, 1};
   const Axis up_axis{0, 1, static_cast<uint64_t>(power_of_ten(frame.decimals))};
   return {itself, itself,      up.maps[0],
@@ -144,7 +146,7 @@ Lattice choose_post_lattice(const Raster& frame, const NumberRange& heights,
 
 Lattice post_lattice_at(const Raster& frame, const NumberRange& heights, const Axis& z,
                         const LatticeOptions& options) {
-  const AxisGroup group = height_group(heights, frame.decimals, options);
+  const AxisGroup group = height_group(heights, frame.decimals, frame.bounds, options);
   const Axis step = {0, z.numerator, z.denominator};
   const int decimals =
       std::max({group.decimals, group.needed_decimals, decimals_of(z), decimals_of(step)});
@@ -181,7 +183,7 @@ Lattice choose(const Source& source, AxisGroup places, const LatticeOptions& opt
   const auto* cloud = std::get_if<PointCloud>(&source);
   places.ranges = {x, y};
   places.decimals = cloud != nullptr ? cloud->xy_decimals : 0;
-  const AxisGroup heights = height_group(z, height_decimals(source), options);
+  const AxisGroup heights = height_group(z, height_decimals(source), bounds_of(source), options);
   const GroupFit xy = choose(places, options.xy_step);
   const GroupFit up = choose(heights, options.z_step);
   const Placement numbers = placement_of(source);

@@ -16,12 +16,19 @@ constexpr Wide kOne = 65536;  // heights of samples have 16 fractional bits
 
 struct LaidPost {
   Point place;
-  int64_t z;  // the source's number
+  uint32_t number;  // among the source's heights
+  int64_t z;        // the source's number
 };
 
+// The heights at a place, and the limits that their bounds leave: numerators of the lattice's map.
 struct Heights {
-  int64_t low;
-  int64_t high;
+  int64_t low = std::numeric_limits<int64_t>::max();
+  int64_t high = std::numeric_limits<int64_t>::min();
+  Wide lowest = kBelowAll, highest = kAboveAll;
+
+  bool is_bounded() const { return lowest != kBelowAll; }
+
+  static constexpr Wide kAboveAll = Wide{1} << 120, kBelowAll = -kAboveAll;
 };
 
 // The posts with heights, by place; the places of the others; how far all move.
@@ -29,14 +36,14 @@ class Placing {
  public:
   explicit Placing(const Lattice& lattice) : lattice_(lattice) {}
 
-  void add(int64_t x, int64_t y, int64_t z) {
+  void add(int64_t x, int64_t y, int64_t z, std::size_t number) {
     const Point place{static_cast<uint16_t>(snap(lattice_.x, x, xy_displacement_)),
                       static_cast<uint16_t>(snap(lattice_.y, y, xy_displacement_))};
     if (z == kVoidHeight) {
       voids_.push_back(place);
     } else {
       snap(lattice_.z, z, z_displacement_);
-      posts_.push_back({place, z});
+      posts_.push_back({place, static_cast<uint32_t>(number), z});
     }
   }
 
@@ -73,14 +80,26 @@ int32_t saturated(Wide height) {
 class Sampler {
  public:
   // water: the number of heights that are kept exactly.
-  Sampler(const Lattice& lattice, const LatticeOptions& options, std::optional<int64_t> water)
+  Sampler(const Lattice& lattice, const LatticeOptions& options, const OwnBounds& own,
+          std::optional<int64_t> water)
       : map_(lattice.z),
         decimals_(lattice.z_decimals),
         bounded_(options.max_error.has_value()),
         is_step_asked_(options.z_step.has_value()),
-        above_(bounded_ ? mantissa_at(*options.max_error, decimals_) : Wide{0}),
-        below_(options.never_below ? Wide{0} : above_),
+        never_below_(options.never_below),
+        has_own_bounds_(!own.empty()),
+        max_error_(bounded_ ? mantissa_at(*options.max_error, decimals_) : Wide{0}),
+        bound_of_(own, options.max_error, decimals_),
         water_(water) {}
+
+  void add(const LaidPost& post, Heights& heights) const {
+    heights.low = std::min(heights.low, post.z);
+    heights.high = std::max(heights.high, post.z);
+    const Wide above = bound_of_(post.number), height = map_.numerator(post.z);
+    if (above == BoundOf::kNone) return;
+    heights.lowest = std::max(heights.lowest, height - (never_below_ ? 0 : above));
+    heights.highest = std::min(heights.highest, height + above);
+  }
 
   Sample sample(Point place, Heights heights) {
     const Wide low = map_.numerator(heights.low), high = map_.numerator(heights.high);
@@ -91,7 +110,11 @@ class Sampler {
       sample.lowest = sample.highest = sample.height;
       return sample;
     }
-    const Wide lowest = high - below_, highest = low + above_;
+    const Wide lowest = heights.lowest, highest = heights.highest;
+    if (!heights.is_bounded()) {
+      if (water_) keep_dry(heights, lowest, highest, sample);
+      return sample;
+    }
     narrowest_ = std::min(narrowest_, highest - lowest);
     sample.lowest = saturated(ceil_divide(lowest * kOne, map_.step));
     sample.highest = saturated(floor_divide(highest * kOne, map_.step));
@@ -145,12 +168,17 @@ class Sampler {
       return "use " + parameter("z_step") + ' ' + to_string(make_decimal(narrowest, decimals_)) +
              " or less";
     }
+    if (has_own_bounds_) {
+      return "16 bits hold these heights in steps of " +
+             to_string(make_decimal(map_.step, decimals_)) + ": use larger bounds in the " +
+             parameter("error_map") + ", or make tiles of less height";
+    }
     const Wide missing = map_.step - narrowest;
-    const bool grows_twice = below_ != 0 && !water_;
+    const bool grows_twice = !never_below_ && max_error_ != 0 && !water_;
     const Wide more = grows_twice ? ceil_divide(missing, 2) : missing;
     return "16 bits hold these heights in steps of " +
            to_string(make_decimal(map_.step, decimals_)) + ": use " + parameter("max_error") + ' ' +
-           to_string(make_decimal(above_ + more, decimals_)) + " or more";
+           to_string(make_decimal(max_error_ + more, decimals_)) + " or more";
   }
 
   struct Wall {
@@ -160,8 +188,9 @@ class Sampler {
 
   const LatticeMap& map_;
   int decimals_;
-  bool bounded_, is_step_asked_;
-  Wide above_, below_;  // how far the surface may be from a height
+  bool bounded_, is_step_asked_, never_below_, has_own_bounds_;
+  Wide max_error_;
+  BoundOf bound_of_;  // how far the surface may be from a height
   std::optional<int64_t> water_;
   Wide narrowest_ = std::numeric_limits<int64_t>::max();
   uint64_t walls_ = 0, without_step_ = 0;
@@ -173,11 +202,8 @@ std::vector<Sample> make_samples(const std::vector<LaidPost>& posts, Sampler& sa
   samples.reserve(posts.size());
   for (size_t i = 0; i < posts.size();) {
     const Point place = posts[i].place;
-    Heights heights{posts[i].z, posts[i].z};
-    for (; i < posts.size() && posts[i].place == place; ++i) {
-      heights.low = std::min(heights.low, posts[i].z);
-      heights.high = std::max(heights.high, posts[i].z);
-    }
+    Heights heights;
+    for (; i < posts.size() && posts[i].place == place; ++i) sampler.add(posts[i], heights);
     samples.push_back(sampler.sample(place, heights));
   }
   return samples;
@@ -245,6 +271,12 @@ void tighten(std::vector<Sample>& samples, const std::vector<Tightening>& tighte
                      [](const Sample& a, const Sample& b) { return a.place < b.place; });
 }
 
+void refuse_unbounded(const OwnBounds& own) {
+  if (std::find(own.numbers.begin(), own.numbers.end(), kUnbounded) == own.numbers.end()) return;
+  throw Error(parameter("never_below") + ": the " + parameter("error_map") +
+              " leaves posts without a bound; give them one");
+}
+
 }  // namespace
 
 Laid lay_out(const Source& source, const LatticeOptions& options) {
@@ -262,10 +294,14 @@ Laid lay_out(const Source& source, const Lattice& lattice, const LatticeOptions&
       return laid;
     }
   }
+  if (options.never_below) refuse_unbounded(bounds_of(source));
   Placing placing(lattice);
-  for_each_post(source, [&](int64_t x, int64_t y, int64_t z) { placing.add(x, y, z); });
+  for_each_numbered_post(source, [&](int64_t x, int64_t y, int64_t z, std::size_t number) {
+    placing.add(x, y, z, number);
+  });
   placing.sort();
-  Sampler sampler(lattice, options, number_of(options.water_level, height_decimals(source)));
+  Sampler sampler(lattice, options, bounds_of(source),
+                  number_of(options.water_level, height_decimals(source)));
   Laid laid;
   laid.survey.samples = make_samples(placing.posts(), sampler);
   sampler.check(lattice.placement, source);

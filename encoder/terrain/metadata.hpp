@@ -13,6 +13,7 @@
 #include "encoder/exact/lattice_map.hpp"
 #include "encoder/exact/units.hpp"
 #include "encoder/layers.hpp"
+#include "encoder/terrain/own_bounds.hpp"
 #include "encoder/terrain/source_notes.hpp"
 #include "shared/format.hpp"
 
@@ -59,6 +60,27 @@ struct Accuracy {
   Decimal rms_error;
   Decimal mean_error;  // above 0: the terrain is too high
 };
+
+// Bounds that posts have of their own, and how to find them in a map of them again.
+struct StatedBounds {
+  BoundSpan span;     // of all samples
+  Decimal max_error;  // where the map states nothing
+  Decimal unscaled;   // bounds are those of the map times max_error / unscaled
+};
+
+// What a header states of them, but for the span, if there are any.
+inline std::optional<StatedBounds> stated_bounds(const OwnBounds& own,
+                                                 const std::optional<Decimal>& max_error) {
+  if (!own.unscaled || !max_error) return std::nullopt;
+  return StatedBounds{{}, *max_error, *own.unscaled};
+}
+
+// The bound that all samples keep: the largest of their own ones, if all have one.
+inline std::optional<Decimal> bound_of_all(const std::optional<Decimal>& max_error,
+                                           const std::optional<BoundSpan>& span) {
+  if (!span) return max_error;
+  return span->unbounded == 0 ? std::optional(span->largest) : std::nullopt;
+}
 
 // The posts of a raster, or the centres of its cells. Row 0 is the southernmost.
 struct PostGrid {
@@ -129,6 +151,7 @@ struct Metadata : SourceNotes {
   BoundSide side = BoundSide::kNotStated;
   std::optional<Distances> at_samples;  // with each sample at its nearest lattice place
   Margins everywhere;                   // in a header's fixed part, not a note
+  std::optional<StatedBounds> bounds;   // if samples have bounds of their own
   std::optional<PostGrid> grid;         // of the source, if it is a raster
   std::optional<ClassSet> classes;      // of points that were taken
   DuplicateRule duplicates = DuplicateRule::kUnknown;

@@ -20,17 +20,31 @@ Raster crop_frame(const Raster& raster, const PostRectangle& r) {
   part.reference = raster.reference;
   part.x_spacing = raster.x_spacing;
   part.y_spacing = raster.y_spacing;
+  part.bounds = frame_of(raster.bounds);
   return part;
 }
 
-Raster crop(const Raster& raster, const PostRectangle& r) {
-  Raster part = crop_frame(raster, r);
-  part.heights.reserve(std::size_t{r.width} * r.height);
+namespace {
+
+// The numbers of a rectangle, row by row.
+std::vector<int64_t> cropped(const std::vector<int64_t>& numbers, uint32_t width,
+                             const PostRectangle& r) {
+  std::vector<int64_t> part;
+  part.reserve(std::size_t{r.width} * r.height);
   for (uint32_t row = r.y; row < r.y + r.height; ++row) {
     const auto begin =
-        raster.heights.begin() + static_cast<std::ptrdiff_t>(std::size_t{row} * raster.width + r.x);
-    part.heights.insert(part.heights.end(), begin, begin + r.width);
+        numbers.begin() + static_cast<std::ptrdiff_t>(std::size_t{row} * width + r.x);
+    part.insert(part.end(), begin, begin + r.width);
   }
+  return part;
+}
+
+}  // namespace
+
+Raster crop(const Raster& raster, const PostRectangle& r) {
+  Raster part = crop_frame(raster, r);
+  part.heights = cropped(raster.heights, raster.width, r);
+  if (!raster.bounds.empty()) part.bounds.numbers = cropped(raster.bounds.numbers, raster.width, r);
   return part;
 }
 
@@ -44,6 +58,7 @@ Raster frame_of(const Raster& raster) {
   frame.reference = raster.reference;
   frame.x_spacing = raster.x_spacing;
   frame.y_spacing = raster.y_spacing;
+  frame.bounds = frame_of(raster.bounds);
   return frame;
 }
 

@@ -25,9 +25,11 @@ Raster without_gaps(const Raster& raster) {
   dense.width = static_cast<uint32_t>(std::count(has_column.begin(), has_column.end(), true));
   dense.height = static_cast<uint32_t>(std::count(has_row.begin(), has_row.end(), true));
   dense.decimals = raster.decimals;
+  dense.bounds = frame_of(raster.bounds);
   for (std::size_t i = 0; i < raster.heights.size(); ++i) {
     if (!has_column[i % raster.width] || !has_row[i / raster.width]) continue;
     dense.heights.push_back(raster.heights[i]);
+    if (!raster.bounds.empty()) dense.bounds.numbers.push_back(raster.bounds.numbers[i]);
   }
   return dense;
 }
@@ -35,7 +37,11 @@ Raster without_gaps(const Raster& raster) {
 // The posts of a grid whose every second one is known: how many of the others interpolation misses.
 class Octave {
  public:
-  Octave(const Raster& part, double bound) : part_(part), bound_(bound) {}
+  Octave(const Raster& part, Decimal max_error)
+      : part_(part),
+        bound_of_(part.bounds, max_error, kMaxDecimals),
+        of_height_(power_of_ten(std::max(0, kMaxDecimals - part.decimals))),
+        of_bound_(2 * Wide{power_of_ten(std::max(0, part.decimals - kMaxDecimals))}) {}
 
   uint64_t misses(uint32_t step) const {
     uint64_t count = 0;
@@ -56,7 +62,9 @@ class Octave {
     if (here == kNoPost || before == kNoPost || after == kNoPost) return false;
     const bool is_rim = before == kVoidHeight || after == kVoidHeight;
     if (here == kVoidHeight || is_rim) return here != kVoidHeight && step == 1;
-    return std::abs(static_cast<double>(2 * here - before - after)) > 2 * bound_;
+    const Wide bound = bound_of_(std::size_t{y} * part_.width + x);
+    return bound != BoundOf::kNone &&
+           magnitude(2 * Wide{here} - before - after) * of_height_ > bound * of_bound_;
   }
 
   int64_t height(uint32_t x, uint32_t y) const {
@@ -64,7 +72,8 @@ class Octave {
   }
 
   const Raster& part_;
-  double bound_;
+  BoundOf bound_of_;
+  Wide of_height_, of_bound_;  // units, twice that of bounds
 };
 
 uint64_t mixed(uint64_t fingerprint, uint64_t number) {
@@ -79,6 +88,8 @@ struct BlockScan {
   Extremes extremes;
   uint64_t fingerprint;
   uint64_t roughness;
+  bool has_exact_posts;
+  std::optional<Decimal> least_bound;
 };
 
 BlockScan scan_block(const Raster& block) {
@@ -93,6 +104,10 @@ BlockScan scan_block(const Raster& block) {
     }
     result.fingerprint = mixed(result.fingerprint, static_cast<uint64_t>(height));
   }
+  for (const int64_t bound : block.bounds.numbers) {
+    result.fingerprint = mixed(result.fingerprint, static_cast<uint64_t>(bound));
+    result.has_exact_posts = result.has_exact_posts || bound == 0;
+  }
   return result;
 }
 
@@ -101,10 +116,7 @@ BlockScan scan_block(const Raster& block) {
 uint64_t roughness(const Raster& part, const std::optional<Decimal>& max_error) {
   if (!max_error) return posts_with_height(part);
   if (is_sparse(part)) return roughness(without_gaps(part), max_error);
-  const double bound = static_cast<double>(max_error->mantissa) *
-                       static_cast<double>(power_of_ten(part.decimals)) /
-                       static_cast<double>(power_of_ten(max_error->decimals));
-  const Octave octave(part, bound);
+  const Octave octave(part, *max_error);
   uint64_t count = 0;
   for (uint32_t step = 1; step < std::max(part.width, part.height); step *= 2) {
     count += octave.misses(step);
@@ -128,6 +140,7 @@ RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_er
     const Raster block = raster.read(box(i));
     blocks[i] = scan_block(block);
     if (wants_roughest) blocks[i].roughness = roughness(block, max_error);
+    if (max_error) blocks[i].least_bound = least_bound(block.bounds, *max_error);
     done.add_one();
   });
   RasterScan all;
@@ -140,6 +153,9 @@ RasterScan scan(const RasterReader& raster, const std::optional<Decimal>& max_er
     all.extremes.add(blocks[i].extremes);
     if (blocks[i].roughness > blocks[roughest].roughness) roughest = i;
     all.fingerprint = mixed(all.fingerprint, blocks[i].fingerprint);
+    all.has_exact_posts = all.has_exact_posts || blocks[i].has_exact_posts;
+    const std::optional<Decimal>& least = blocks[i].least_bound;
+    if (least && (!all.least_bound || *least <= *all.least_bound)) all.least_bound = least;
   }
   all.roughest = box(roughest);
   return all;

@@ -20,6 +20,8 @@ struct RasterScan {
   NumberRange heights;
   Extremes extremes;
   uint64_t fingerprint = 0;  // of all heights; no match for somebody who wants to deceive it
+  std::optional<Decimal> least_bound;  // above 0, with a bound
+  bool has_exact_posts = false;        // posts have bounds of their own, and some are 0
   PostRectangle roughest{};  // the block of up to 257 x 257 posts that will take most vertices
 };
 

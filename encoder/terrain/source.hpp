@@ -66,6 +66,7 @@ struct Raster {
   Mended mended = {};          // of its posts
   // Neighbouring posts are at most this many columns and rows apart. 1: a post is at every place.
   uint32_t x_spacing = 1, y_spacing = 1;
+  OwnBounds bounds = {};
 };
 
 // Whether there are places without a post.
@@ -92,6 +93,7 @@ struct PointCloud {
   std::string selection;            // which points of the file these are, for the user; empty: all
   std::optional<ClassSet> classes;  // that were taken, of files that have them
   ClassCounts counts;               // points of each class in such files, taken or not
+  OwnBounds bounds;
 };
 
 using Source = std::variant<Raster, PointCloud>;
@@ -157,20 +159,31 @@ inline PostGrid posts_of(const Raster& frame) {
   return {frame.width, frame.height, frame.x, frame.y};
 }
 
-// Calls visit(x, y, z) for every post, void ones too, or point: the numbers that placement_of
-// places.
+inline const OwnBounds& bounds_of(const Source& source) {
+  return std::visit([](const auto& one) -> const OwnBounds& { return one.bounds; }, source);
+}
+
+// Calls visit(x, y, z, number) for every post, void ones too, or point: the numbers that
+// placement_of places, and which of the source's heights it is.
 template <class Visit>
-void for_each_post(const Source& source, const Visit& visit) {
+void for_each_numbered_post(const Source& source, const Visit& visit) {
+  size_t number = 0;
   if (const auto* raster = std::get_if<Raster>(&source)) {
-    const int64_t* z = raster->heights.data();
     for (uint32_t row = 0; row < raster->height; ++row) {
-      for (uint32_t column = 0; column < raster->width; ++column, ++z) {
-        if (*z != kNoPost) visit(int64_t{column}, int64_t{row}, *z);
+      for (uint32_t column = 0; column < raster->width; ++column, ++number) {
+        const int64_t z = raster->heights[number];
+        if (z != kNoPost) visit(int64_t{column}, int64_t{row}, z, number);
       }
     }
   } else {
-    for (const SourcePoint& p : std::get<PointCloud>(source).points) visit(p.x, p.y, p.z);
+    for (const SourcePoint& p : std::get<PointCloud>(source).points) visit(p.x, p.y, p.z, number++);
   }
+}
+
+// Calls visit(x, y, z) for each of these.
+template <class Visit>
+void for_each_post(const Source& source, const Visit& visit) {
+  for_each_numbered_post(source, [&](int64_t x, int64_t y, int64_t z, size_t) { visit(x, y, z); });
 }
 
 }  // namespace microtin::terrain

@@ -18,8 +18,16 @@ struct Sample {
   Point place;
   int32_t height;   // of the source; the middle of lowest and highest if several share the place
   int32_t lowest;   // the surface here lies in lowest .. highest: the error bound, rounded inwards
-  int32_t highest;  // (the full int32_t range if no bound was asked for)
+  int32_t highest;  // (the full int32_t range if there is no bound)
+
+  bool is_unbounded() const { return lowest == INT32_MIN && highest == INT32_MAX; }
 };
+
+// Where the surface has as much room above as below.
+inline int32_t middle_of(const Sample& sample) {
+  if (sample.is_unbounded()) return sample.height;
+  return static_cast<int32_t>((int64_t{sample.lowest} + sample.highest) / 2);
+}
 
 struct Survey {
   std::vector<Sample> samples;  // distinct places, in lexicographic order (x, then y)

@@ -4,6 +4,7 @@
 #include "encoder/terrain/verify.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <string>
@@ -63,6 +64,30 @@ class Asker {
   uint32_t last_ = 0;  // where the last search of all ended
 };
 
+// Judges errors by posts' own bounds, if they have any and there is a bound.
+class KeptBounds {
+ public:
+  KeptBounds(const OwnBounds& own, const std::optional<Decimal>& max_error)
+      : bound_of_(own, max_error, kMaxDecimals), is_used_(!own.empty() && max_error) {}
+
+  Wide bound_of(size_t post) const { return bound_of_(post); }
+
+  void add(Wide error, size_t post) {
+    if (is_used_) meter_.add(error, bound_of_(post));
+  }
+
+  void tell(Verification& found) const {
+    if (!is_used_) return;
+    found.bounds = meter_.span();
+    found.within_bound = meter_.keeps_all();
+  }
+
+ private:
+  BoundOf bound_of_;
+  BoundMeter meter_;
+  bool is_used_;
+};
+
 }  // namespace
 
 Verification verify(const microtin_mesh* mesh, const Source& source,
@@ -77,8 +102,9 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
   const Placement numbers = placement_of(source);
   Asker asker(mesh, numbers, lattice);
   ErrorMeter meter(numbers.z, lattice.z);
+  KeptBounds kept(bounds_of(source), bound);
   Verification result;
-  for_each_post(source, [&](int64_t x, int64_t y, int64_t z) {
+  for_each_numbered_post(source, [&](int64_t x, int64_t y, int64_t z, size_t number) {
     const std::optional<Point> place = asker.place_of(x, y);
     const std::optional<int32_t> height = place ? asker.height_at(*place) : std::nullopt;
     if (z == kVoidHeight) {
@@ -90,10 +116,12 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
     if (!height) return;
     ++result.covered;
     const double above = meter.add(z, *height);
+    kept.add(meter.last(), number);
     if (visit) visit(place->x, place->y, z, above);
   });
   result.uncovered = result.posts - result.covered;
   meter.tell(bound, result);
+  kept.tell(result);
   return result;
 }
 
@@ -161,6 +189,7 @@ Verification combine(const std::vector<Verification>& parts) {
     if (all.max_below <= part.max_below) all.max_below = part.max_below;
     if (all.max_above <= part.max_above) all.max_above = part.max_above;
     all.within_bound = all.within_bound && part.within_bound;
+    if (part.bounds) (all.bounds ? *all.bounds : all.bounds.emplace()).add(*part.bounds);
   }
   all.everywhere = combined_everywhere(parts);
   if (all.covered == 0) return all;
@@ -257,6 +286,7 @@ double ErrorMeter::add(int64_t number, const ExactHeight& height) {
 }
 
 void ErrorMeter::count(Wide billionths, bool is_below) {
+  last_ = billionths;
   Wide& largest = is_below ? below_ : above_;
   largest = std::max(largest, billionths);
   squares_.add(billionths, 1);
@@ -346,6 +376,7 @@ Verification verify_at_true_places(const HeightQuery& height_at, const Placement
                                    const TruePlaceVisitor& visit) {
   const TruePlaces places(lattice, cloud);
   ErrorMeter meter({0, 1, static_cast<uint64_t>(power_of_ten(cloud.z_decimals))}, lattice.z);
+  KeptBounds kept(cloud.bounds, bound);
   Verification result;
   for (const uint32_t i : order_of(cloud, places)) {
     const SourcePoint& p = cloud.points[i];
@@ -356,10 +387,16 @@ Verification verify_at_true_places(const HeightQuery& height_at, const Placement
     if (answer.kind != MICROTIN_QUERY_OK) continue;
     ++result.covered;
     const double above = meter.add(p.z, answer.height);
-    if (visit) visit(nearest, there, above);
+    kept.add(meter.last(), i);
+    const Wide own = kept.bound_of(i);
+    if (visit) {
+      visit(nearest, there, own == BoundOf::kNone ? HUGE_VAL : static_cast<double>(own) / kBillion,
+            above);
+    }
   }
   result.uncovered = result.posts - result.covered;
   meter.tell(bound, result);
+  kept.tell(result);
   return result;
 }
 

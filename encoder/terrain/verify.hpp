@@ -30,7 +30,8 @@ struct Verification {
   Decimal max_above;  // how far the surface is above a height at most
   Decimal rms_error;
   Decimal mean_error;        // above 0: the terrain is too high
-  bool within_bound = true;  // max_error is at most the bound, or there is none
+  bool within_bound = true;  // errors are at most the bound, or each post's own, or there is none
+  std::optional<BoundSpan> bounds;  // if posts have bounds of their own
   // From the bilinear surface of a raster's posts, at posts and between them; if it was measured.
   std::optional<Distances> everywhere;
   std::string broken;  // the first promise of a pack's tile or a stream's phase that does not hold
@@ -88,6 +89,9 @@ class ErrorMeter {
   // Adds the error of an exact height.
   double add(int64_t number, const ExactHeight& height);
 
+  // The magnitude of the last error, in billionths of a unit, rounded up.
+  Wide last() const { return last_; }
+
   // Writes the errors, and whether they keep the bound.
   void tell(const std::optional<Decimal>& bound, Verification& found) const;
 
@@ -97,6 +101,7 @@ class ErrorMeter {
   Decimal root_mean_square() const;  // rounded up
 
   Wide to_common_, offset_, step_, from_common_, common_;
+  Wide last_ = 0;
   Wide below_ = 0, above_ = 0;  // the largest, of each sign
   SquareSum squares_;
   Wide sum_ = 0;
@@ -132,9 +137,10 @@ class VisitLog {
 // The exact height at a place of the lattice.
 using HeightQuery = std::function<ExactAnswer(const RealPlace& place)>;
 
-// Told of each point's place on the lattice, where it truly lies, and how far the surface is above.
-using TruePlaceVisitor =
-    std::function<void(const RealPlace& nearest, const RealPlace& exact, double above)>;
+// Told of each point's place on the lattice, where it truly lies, its bound (infinite: none), and
+// how far the surface is above.
+using TruePlaceVisitor = std::function<void(const RealPlace& nearest, const RealPlace& exact,
+                                            double bound, double above)>;
 
 // True if a lattice does not hold all points where they lie.
 bool moves_points(const Placement& lattice, const PointCloud& cloud);

@@ -126,6 +126,16 @@ std::vector<Row> rows_of_notes() {
   };
 }
 
+// A file with a tight bound for some posts and points.
+const char* bounds_path() {
+  static const Session session;
+  static const std::string path = session.folder() + "/bounds.geojson";
+  session.write("bounds.geojson",
+                R"({"type": "Feature", "properties": {"max_error": 0.25}, "geometry": {"type":
+"Polygon", "coordinates": [[[505, 705], [560, 705], [560, 750], [505, 750], [505, 705]]]}})");
+  return path.c_str();
+}
+
 std::vector<Row> rows() {
   using namespace microtin::encoder;
   const Setting two = bound("2"),
@@ -143,6 +153,7 @@ std::vector<Row> rows() {
   };
   std::vector<Row> all = {
       {"max_error", kAll, bound("1.5"), nothing},
+      {"error_map", kAll, setting("--error-map", &W::error_map, &C::error_map, bounds_path()), two},
       {"z_step", kAll, setting("--z-step", &W::z_step, &C::z_step, "0.7"), two},
       {"xy_step", kStream | kClouds, setting("--xy-step", &W::xy_step, &C::xy_step, "0.5"),
        bound("40")},

@@ -108,7 +108,10 @@ Fields common_fields(const Report& report) {
           {"max_below_everywhere", report.max_below_everywhere},
           {"max_above_everywhere", report.max_above_everywhere},
           {"max_error_at_points", report.max_error_at_points},
-          {"max_below_at_points", report.max_below_at_points}};
+          {"max_below_at_points", report.max_below_at_points},
+          {"least_bound", report.least_bound},
+          {"largest_bound", report.largest_bound},
+          {"max_bound_ratio", report.max_bound_ratio}};
 }
 
 // The warnings of the command line, but for the one that names a file.
@@ -162,7 +165,10 @@ Fields info_of(const SurfaceInfo& info) {
                    {"max_below", info.max_below},
                    {"max_above", info.max_above},
                    {"max_below_everywhere", info.max_below_everywhere},
-                   {"max_above_everywhere", info.max_above_everywhere}};
+                   {"max_above_everywhere", info.max_above_everywhere},
+                   {"least_bound", info.least_bound},
+                   {"largest_bound", info.largest_bound},
+                   {"max_bound_ratio", info.max_bound_ratio}};
   constexpr const char* kUnits[] = {"unknown", "metre", "degree", "foot", "US survey foot"};
   fields["units.horizontal"] = kUnits[static_cast<uint32_t>(info.horizontal_unit)];
   fields["units.vertical"] = kUnits[static_cast<uint32_t>(info.vertical_unit)];
@@ -205,6 +211,9 @@ Names names_of_facts(bool is_raster) {
                  "max_above",
                  "max_below_everywhere",
                  "max_above_everywhere",
+                 "least_bound",
+                 "largest_bound",
+                 "max_bound_ratio",
                  "units.vertical",
                  "units.horizontal",
                  "extent.west",
@@ -297,7 +306,10 @@ TEST_CASE("reports: no member of the info is without a row") {
                       "max_below",
                       "max_above",
                       "max_below_everywhere",
-                      "max_above_everywhere"};
+                      "max_above_everywhere",
+                      "least_bound",
+                      "largest_bound",
+                      "max_bound_ratio"};
   // tests/product/phases_test.cpp
   const Names of_streams = {"digest", "phases"};
   CHECK(text_of(members_of(kSurface, "SurfaceInfo")) ==

@@ -55,6 +55,12 @@ std::string mask() {
   return text;
 }
 
+// A tight bound for some posts.
+std::string bounds() {
+  return R"({"type": "Feature", "properties": {"max_error": 0.5}, "geometry": {"type": "Polygon",
+"coordinates": [[[520, 710], [540, 710], [540, 730], [520, 710]]]}})";
+}
+
 // Points of LAS 1.2, of classes 2 and 5.
 std::string scan() {
   std::string las(227, '\0');
@@ -94,6 +100,7 @@ const std::vector<Row> kRows = {
     {"encode", "--tile-vertices", "t.asc --max-error 2 -o o.mtp", "60"},
     {"encode", "--tile-size", "t.asc --max-error 2 --tile-vertices 90 -o o.mtp", "9"},
     {"encode", "--device-ram", "t.asc -o o.mtin", "9000"},
+    {"encode", "--error-map", "t.asc --max-error 2 -o o.mtin", "bounds.geojson"},
     {"encode", "--never-below", "t.asc --max-error 2 -o o.mtin", ""},
     {"encode", "--bound-at", "p.xyz --max-error 2 --xy-step 0.05 -o o.mtin", "lattice"},
     {"encode", "--duplicates", "p.xyz --max-error 2 -o o.mtin", "lowest"},
@@ -130,6 +137,7 @@ const std::vector<Row> kRows = {
     {"plan", "--shards", "t.asc --max-error 2 --tile-vertices 60", "2"},
     {"update", "--tile-vertices", "s.mtp peak.asc -o o.mtp", "16"},
     {"update", "--best", "m.mtp peak.asc --tile-vertices 300 -o o.mtp", ""},
+    {"update", "--error-map", "bounded.mtp t.asc -o o.mtp", "bounds.geojson"},
     {"update", "--fill-voids", "s.mtp t.asc --tile-vertices 300 -o o.mtp", "1"},
     {"update", "--date", "s.mtp t.asc -o o.mtp", "2026"},
     {"merge", "--output", "", ""},
@@ -167,6 +175,7 @@ const std::vector<Row> kRows = {
     {"verify", "--depths", "m.mtin t.asc", ""},
     {"verify", "--gridded", "t.mtin g.xyz", ""},
     {"verify", "--never-below", "m.mtin t.asc", ""},
+    {"verify", "--error-map", "bounded.mtp t.asc", "bounds.geojson"},
     {"verify", "--fill-voids", "m.mtin t.asc", "1"},
     {"verify", "--water-level", "m.mtin t.asc", "50"},
     {"verify", "--cells", "t.mtin t.asc", "list"},
@@ -216,6 +225,7 @@ void write_inputs(const Session& session) {
   session.write("t.asc", grid());
   session.write("peak.asc", grid(30));
   session.write("mask.asc", mask());
+  session.write("bounds.geojson", bounds());
   session.write("s.las", scan());
   session.write("part.asc",
                 "ncols 2\nnrows 2\nxllcenter 510\nyllcenter 710\ncellsize 4\n1 2 3 4\n");
@@ -238,6 +248,7 @@ void write_inputs(const Session& session) {
         "t.asc --tile-size 9 -o s.mtp", "t.asc --max-error 1 --tile-size 20 -o m.mtp",
         "sea.xyz -o sea.mtin", "t.asc apart.asc --water-level 50 --absent sea -o seas.mtin",
         "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
+        "t.asc --max-error 2 --error-map bounds.geojson --tile-vertices 60 -o bounded.mtp",
         "t.asc --max-error 2 --water-level 50 -o water.mtin",
         "t.asc --max-error 2 --water-level 50 --water-mask mask.asc -o lake.mtin"}) {
     REQUIRE(session.run(std::string("encode ") + words).code == 0);
@@ -329,6 +340,7 @@ const std::vector<std::string> kOfShards = {"--max-error 1.8",
                                             "--tile-size 9",
                                             "--z-step 0.6",
                                             "--never-below",
+                                            "--error-map bounds.geojson",
                                             "--bound-at lattice",
                                             "--fast",
                                             "--duplicates lowest",
@@ -384,6 +396,7 @@ TEST_CASE("options: shards with another option do not join") {
   session.write("t.asc", grid());
   session.write("u.asc", grid(0.1));
   session.write("mask.asc", mask());
+  session.write("bounds.geojson", bounds());
   const auto encode = [&](const std::string& words) {
     const Session::Result made = session.run("encode " + words);
     CHECK_MESSAGE(made.code == 0, (words + made.err));

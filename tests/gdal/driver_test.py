@@ -3,6 +3,7 @@
 
 import functools
 import http.server
+import json
 import os
 import subprocess
 import sys
@@ -96,6 +97,31 @@ class Driver(unittest.TestCase):
             self.assertEqual(dataset.GetRasterBand(1).GetUnitType(), "m")
             self.expect_hills(dataset)
 
+    def error_maps(self):
+        """Polygons, and a raster of coarser cells: its bounds are kept."""
+        polygons, raster = self.path("bounds.geojson"), self.path("bounds.tif")
+        west, north, side = 600000, 4999000, 700
+        ring = [[west, north], [west + side, north], [west + side, north - side], [west, north]]
+        with open(polygons, "w") as file:
+            geometry = {"type": "Polygon", "coordinates": [ring]}
+            json.dump({"type": "Feature", "properties": {"max_error": 0.5}, "geometry": geometry}, file)
+        bounds = gdal.GetDriverByName("GTiff").Create(raster, 16, 15, 1, gdal.GDT_Float32)
+        bounds.SetGeoTransform((west, 100, 0, north, 0, -100))
+        bounds.GetRasterBand(1).WriteArray(numpy.where(numpy.mgrid[0:15, 0:16][1] < 5, 0.5, 3))
+        return [polygons, raster]
+
+    def test_a_raster_of_bounds_is_kept(self):
+        small, path = self.path("part.tif"), self.path("part.mtin")
+        gdal.Translate(small, self.path("hills.tif"), srcWin=[0, 100, 160, 150])
+        heights = gdal.Open(small).ReadAsArray()
+        gdal.Translate(path, small, format="MTIN", creationOptions=["ERROR_MAP=" + self.error_maps()[1]])
+        made = gdal.Open(path)
+        error = abs(made.ReadAsArray() - heights)
+        self.assertLessEqual(error[:, :50].max(), 0.5 + ROUNDING)
+        self.assertLessEqual(error.max(), 3 + ROUNDING)
+        self.assertGreater(error.max(), 1)
+        self.assertEqual((made.GetMetadataItem("LEAST_BOUND"), made.GetMetadataItem("LARGEST_BOUND")), ("0.5", "3"))
+
     def test_each_creation_option_makes_a_difference(self):
         """Those that the driver lists, with a row for each of their values, alone and with a bound."""
         rows = {
@@ -123,6 +149,7 @@ class Driver(unittest.TestCase):
             "SOURCE_ACCURACY": ["LE90 4"],
             "DIGEST": ["YES"],
             "PHASES": ["YES"],
+            "ERROR_MAP": self.error_maps(),
         }
         text = gdal.GetDriverByName("MTIN").GetMetadataItem("DMD_CREATIONOPTIONLIST")
         listed = xml.etree.ElementTree.fromstring(text).iter("Option")

@@ -168,7 +168,7 @@ Bytes with_head(const Bytes& shard, size_t offset, const Bytes& bytes) {
 
 // Writes bytes into the summary of the first tile.
 Bytes with_summary(const Bytes& shard, size_t offset, const Bytes& bytes) {
-  constexpr size_t kRange = 8, kSummary = 106;
+  constexpr size_t kRange = 8, kSummary = 150;
   const size_t summary = kStart + head_bytes(shard) + kCheck + kRange + kCheck;
   return with_part(shard, summary, kSummary, offset, bytes);
 }

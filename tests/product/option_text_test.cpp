@@ -34,6 +34,7 @@ std::vector<Row> rows() {
   const std::string words = "a, b";
   return {
       row("max_error", "2.5", &O::max_error, std::string("2.5")),
+      row("error_map", words, &O::error_map, words),
       row("max_vertices", "4294967295", &O::max_vertices, UINT32_MAX),
       row("max_bytes", "0", &O::max_bytes, 0u),
       row("max_bytes", "77", &O::max_bytes, 77u),

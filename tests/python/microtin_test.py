@@ -158,7 +158,7 @@ class Options(unittest.TestCase):
         "max_bytes": ({"effort": "fast"}, "--fast", {900: "--max-bytes 900"}),
     }
     OF_PACKS = {"tile_vertices", "tile_size"}
-    ELSEWHERE = {"progress", "numbers"}
+    ELSEWHERE = {"progress", "numbers", "error_map"}
 
     def points(self):
         """Of three decimals that 16 bits do not hold, some at the same place."""
@@ -188,6 +188,30 @@ class Options(unittest.TestCase):
                         self.assertNotEqual(stream, without)
                         if "MICROTIN_TOOL" in os.environ:
                             self.assertEqual(stream, self.by_tool(f"{words} {flags}"))
+
+    def test_an_array_of_bounds_is_kept(self):
+        heights = hills()
+        bounds = numpy.where(numpy.arange(COLUMNS) < COLUMNS // 2, 0.5, 6) + numpy.zeros(heights.shape)
+        bounds[0, 0] = numpy.nan  # free
+        stream = microtin.encode(heights, error_map=bounds)
+        array, _ = microtin.decode(stream).raster()
+        self.assertTrue((abs(array - heights) <= bounds + 1e-9)[~numpy.isnan(bounds)].all())
+        self.assertGreater(numpy.nanmax(abs(array - heights)), 1)
+        self.assertEqual((stream.report.least_bound, stream.report.largest_bound), (0.5, 6))
+        self.assertLessEqual(microtin.decode(stream).max_bound_ratio, 1)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.mtp")
+            report = microtin.encode_pack(heights, path, error_map=bounds, tile_vertices=60)
+            self.assertEqual(report.largest_bound, 6)
+            polygon = os.path.join(folder, "a.geojson")
+            with open(polygon, "w") as file:
+                file.write('{"type": "Feature", "properties": {"max_error": 0.25}, "geometry": {"type": "Polygon", "coordinates":'
+                           ' [[[0, 0], [9, 0], [9, 9], [0, 0]]]}}')
+            self.assertEqual(microtin.encode(heights, 4, error_map=polygon).report.least_bound, 0.25)
+        with self.assertRaisesRegex(microtin.Error, "shape"):
+            microtin.encode(heights, error_map=bounds[1:])
+        with self.assertRaisesRegex(microtin.Error, "points take the path"):
+            microtin.encode_points(self.points(), error_map=bounds)
 
     def test_each_keyword_of_packs_makes_a_difference(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -233,7 +257,7 @@ class Options(unittest.TestCase):
         keywords = set(inspect.signature(microtin._options).parameters) | numbers
         self.assertEqual(keywords - self.ELSEWHERE, known)
         in_c = {name for name, _ in microtin._library.Options._fields_}
-        self.assertEqual(in_c - {"size", "progress", "context"} | {"crs"}, known | {"horizontal_epsg"})
+        self.assertEqual(in_c - {"size", "progress", "context"} | {"crs"}, known | {"horizontal_epsg", "error_map"})
 
 
 class Packs(unittest.TestCase):

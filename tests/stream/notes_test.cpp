@@ -50,6 +50,15 @@ bool is_same_distances(const std::optional<Distances>& a, const std::optional<Di
   return is_same_decimal(a->below, b->below) && is_same_decimal(a->above, b->above);
 }
 
+bool is_same_bounds(const std::optional<StatedBounds>& a, const std::optional<StatedBounds>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  const BoundSpan &p = a->span, &q = b->span;
+  return p.bounded == q.bounded && p.unbounded == q.unbounded &&
+         is_same_decimal(p.least, q.least) && is_same_decimal(p.largest, q.largest) &&
+         is_same_decimal(p.ratio, q.ratio) && is_same_decimal(a->max_error, b->max_error) &&
+         is_same_decimal(a->unscaled, b->unscaled);
+}
+
 bool is_same_margins(const Margins& a, const Margins& b) {
   return a.below == b.below && a.above == b.above;
 }
@@ -174,6 +183,10 @@ std::vector<Row> rows() {
       row("everywhere", &Metadata::everywhere, Margins{0, 1048576}, is_same_margins),
       row("everywhere", &Metadata::everywhere, Margins{kNotStated, 0}, is_same_margins),
       row("everywhere", &Metadata::everywhere, Margins{77, 5}, is_same_margins),
+      row("bounds", &Metadata::bounds,
+          optional(
+              StatedBounds{{66, UINT64_MAX, {0, 0}, {INT64_MAX, 18}, {1, 0}}, {30, 0}, {25, 1}}),
+          is_same_bounds),
       row("sums", &Metadata::sums, optional(TileSums{0, 0}), is_same_sums),
       row("sums", &Metadata::sums, optional(TileSums{UINT64_MAX, 1048576}), is_same_sums),
       row("grid", &Metadata::grid, optional(PostGrid{1, UINT32_MAX, {1, 2, 3}, {-4, 5, 6}}),

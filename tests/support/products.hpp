@@ -349,6 +349,7 @@ class Truth {
     truth_["z_displacement"] = text_of(raised);
     truth_["max_error_at_points"] = moves_points_ ? truth_["true_places.max_error"] : "";
     truth_["max_below_at_points"] = moves_points_ ? truth_["true_places.max_below"] : "";
+    truth_["least_bound"] = truth_["largest_bound"] = truth_["max_bound_ratio"] = "";  // no map
     truth_["bound"] = truth_["true_places.bound"] = "1.9";
   }
 

@@ -178,6 +178,7 @@ typedef enum microtin_note_type {
   MICROTIN_NOTE_DIGEST = 15,      /* of a stream's mesh, as microtin_mesh_digest returns it */
   MICROTIN_NOTE_SUMS = 16,        /* of a pack's tiles: their vertices, and how many have terrain */
   MICROTIN_NOTE_PLACES = 17,      /* of other streams and packs in the same file */
+  MICROTIN_NOTE_BOUNDS = 18,      /* that samples have of their own */
   /* 64 to 127: about the source. */
   MICROTIN_NOTE_ATTRIBUTION = 64, /* a text to be shown to users */
   MICROTIN_NOTE_LICENSE = 65,

@@ -116,6 +116,7 @@ typedef struct microtin_options {
   const char *attribution, *license, *valid;
   const char *epoch, *source_accuracy; /* "2020.5"; "LE90 4" */
   uint32_t digest, phases;             /* 1: note them, in a stream */
+  const char* error_map;               /* a file with a bound for each post or point */
 } microtin_options;
 
 /* What the encoder measured; see encoder::Report. Errors are decimals as text, "" if there is
@@ -127,6 +128,7 @@ typedef struct microtin_report {
   char bound[24], max_error[24], rms_error[24], mean_error[24], max_below[24];
   char max_error_at_points[24], max_below_at_points[24];
   char max_above[24], max_below_everywhere[24], max_above_everywhere[24];
+  char least_bound[24], largest_bound[24], max_bound_ratio[24];
 } microtin_report;
 
 /* A terrain to encode. */
@@ -140,6 +142,10 @@ microtin_status microtin_source_from_points(const microtin_point_data* points,
                                             microtin_source** source);
 /* Reads a file. Its suffix selects the reader; see encoder.hpp. */
 microtin_status microtin_source_from_file(const char* path, microtin_source** source);
+/* Gives each post or point of a source a bound of its own: see SourceTerrain::set_error_map. The
+ * raster of bounds is copied. Only one thread at a time may use the source meanwhile. */
+microtin_status microtin_source_set_error_map(microtin_source* source,
+                                              const microtin_raster_data* bounds);
 /* Frees a source. Null is allowed. */
 void microtin_source_free(microtin_source* source);
 
@@ -222,6 +228,7 @@ typedef struct microtin_surface_info {
   const char* digest;           /* of a stream's mesh, 16 hexadecimal digits */
   const microtin_phase* phases; /* of a stream */
   uint64_t phase_count;
+  const char *least_bound, *largest_bound, *max_bound_ratio; /* if heights have their own */
 } microtin_surface_info;
 
 /* Writes what the header contains, and where the surface is. Cannot fail for a surface and a struct

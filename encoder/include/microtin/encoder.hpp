@@ -108,6 +108,13 @@ class SourceTerrain {
    * .las, .ply, .obj. Errors name the file and, for text, the line. */
   static SourceTerrain from_file(const std::string& path);
 
+  /* Gives each post or point a bound of its own, from a raster of bounds in the unit of heights: of
+   * the terrain's grid, or of a coarser one in the same system. A post takes the least bound of the
+   * cells that it touches. 0 is exact. A void cell leaves posts without a bound. Posts that touch
+   * no cell take max_error. Copies of this terrain made before keep theirs. Throws
+   * std::runtime_error if a number is out of range. */
+  void set_error_map(RasterData bounds);
+
   struct Content;
   /* For the library itself. */
   const Content& content() const { return *content_; }
@@ -149,7 +156,11 @@ constexpr uint32_t kUsualTileVertices = 2000;
 /* Options of streams and packs. An option that the file does not take must keep its default. Texts
  * are UTF-8. Without a bound and without a limit every post or point becomes a vertex. */
 struct Options {
-  std::string max_error;     /* the bound: largest distance of the surface from any height */
+  std::string max_error; /* the bound: largest distance of the surface from any height */
+  /* A file with a bound for each post or point: a raster of bounds, as for set_error_map, which it
+   * replaces, or polygons with a property max_error (.geojson). Elsewhere max_error holds. With
+   * max_vertices or max_bytes all bounds are scaled alike, as much as it takes. */
+  std::string error_map;
   uint32_t max_vertices = 0; /* stream: the smallest bound with 3 .. 2^24 vertices at most */
   uint32_t max_bytes = 0;    /* stream: the smallest bound whose file has at most this size */
   bool never_below = false;  /* with a bound: no post or point is above the surface */
@@ -200,7 +211,7 @@ struct Report {
   uint64_t vertices = 0;
   uint64_t bytes = 0;
   uint32_t tiles = 0;    /* 0: a stream */
-  std::string bound;     /* the bound that was given, or found for a limit; "": none */
+  std::string bound;     /* the bound that all keep, given or found for a limit; "": none */
   std::string max_error; /* the largest error, rounded up to 9 decimals */
   std::string rms_error;
   std::string mean_error; /* above 0: the surface is too high in the mean */
@@ -211,6 +222,9 @@ struct Report {
   std::string max_below_everywhere, max_above_everywhere;
   /* As max_error and max_below, at the points' own positions. "" if the lattice moves none. */
   std::string max_error_at_points, max_below_at_points;
+  /* If posts or points have bounds of their own: the least and the largest, and the largest part
+   * of its bound that an error is. "": one bound for all. */
+  std::string least_bound, largest_bound, max_bound_ratio;
   std::vector<std::string> warnings; /* units and systems that were guessed; doubtful heights */
 };
 

@@ -106,6 +106,9 @@ struct SurfaceInfo {
   std::string max_below, max_above; /* largest distances of the surface below and above heights */
   /* Largest distances from the bilinear surface of a raster's posts, also between posts. */
   std::string max_below_everywhere, max_above_everywhere;
+  /* The least and the largest bound of heights that have bounds of their own, and the largest ratio
+   * of an error to its bound. "": one bound for all. */
+  std::string least_bound, largest_bound, max_bound_ratio;
   std::string attribution;     /* to be shown to users */
   std::string license;         /* an SPDX expression or a URL */
   std::string valid;           /* 2024-01/2025-06, 2024-01/.. or ../2025 */

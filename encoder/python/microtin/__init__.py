@@ -39,6 +39,7 @@ __version__: str = library.microtin_version_string().decode()
 Number = Union[int, float, str, decimal.Decimal]
 Crs = Union[int, str, Any]
 Path = Union[str, "os.PathLike[str]"]
+ErrorMap = Union[str, "os.PathLike[str]", ArrayLike]
 
 _EFFORTS = {"fast": 1, "normal": 2, "best": 3}
 _CODINGS = {"quick": 1, "balanced": 2, "dense": 3}
@@ -68,6 +69,9 @@ class Report:
     max_above_everywhere: Optional[float] = None
     max_error_at_points: Optional[float] = None  # where points truly lie, if the lattice moves them
     max_below_at_points: Optional[float] = None
+    least_bound: Optional[float] = None  # with an error map: the least and the largest bound of a height
+    largest_bound: Optional[float] = None
+    max_bound_ratio: Optional[float] = None  # the largest part of its bound that an error is
     warnings: Tuple[str, ...] = ()  # what is guessed or not known of units and systems; doubtful heights
 
 
@@ -172,10 +176,13 @@ def encode(
     expression or a URL), valid="2024-01/..", epoch (of the coordinates, a year), source_accuracy="LE90 4" (or LE95, RMSE),
     digest=True, phases=True (of streams: noted as measured), and progress, a function of 0 .. 1; what it raises ends the work. Degrees ask for the unit of heights. Heights in other units of length, units=":cm", are converted to metres; depths=True negates heights that grow downwards.
 
+    error_map gives each height a bound of its own: an array of the heights' shape, NaN for none, or the path of a raster of
+    bounds or of polygons with a property max_error (.geojson). Elsewhere max_error holds. A limit scales all bounds.
+
     Without a bound and a limit every height is a vertex. Takes some 20 us a height, on all processors. Raises Error, also if
     an array is not two-dimensional or a height out of range.
     """
-    with _source_from_array(array, transform, crs, nodata) as terrain:
+    with _source_from_array(array, transform, crs, nodata, options.get("error_map")) as terrain:
         stream = _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
     _warn(stream.report, crs, options)
     return stream
@@ -196,7 +203,7 @@ def encode_points(
     all (middle: all count); bound_at="points" | "lattice", whether max_error holds where points truly lie, or at the
     places of the lattice alone, which has 16 bits.
     """
-    with _source_from_points(points, crs) as terrain:
+    with _source_from_points(points, crs, options.get("error_map")) as terrain:
         stream = _encode_stream(terrain, max_error, crs, max_vertices=max_vertices, max_bytes=max_bytes, **options)
     _warn(stream.report, crs, options)
     return stream
@@ -220,7 +227,10 @@ def encode_pack(
     a raster's tiles. All else is as for `encode`."""
     filled, caller = _options(max_error, crs, tile_vertices=tile_vertices, tile_size=tile_size, **options)
     report = _library.Report()
-    made = _source_from_points(array, crs) if points else _source_from_array(array, transform, crs, nodata)
+    if points:
+        made = _source_from_points(array, crs, options.get("error_map"))
+    else:
+        made = _source_from_array(array, transform, crs, nodata, options.get("error_map"))
     with made as terrain, caller:
         library.microtin_encode_pack(terrain.pointer, filled, os.fsencode(path), report)
     told = _report(report)
@@ -304,6 +314,7 @@ def _options(
     source_accuracy: str = "",
     digest: bool = False,
     phases: bool = False,
+    error_map: Optional[ErrorMap] = None,
     **numbers: int,
 ) -> Tuple[_library.Options, _Caller]:
     chosen = (
@@ -346,6 +357,7 @@ def _options(
         source_accuracy=source_accuracy.encode(),
         digest=digest,
         phases=phases,
+        error_map=os.fsencode(error_map) if isinstance(error_map, (str, bytes, os.PathLike)) else None,
         progress=caller.function,
         **numbers,
     )
@@ -371,6 +383,9 @@ def _report(report: _library.Report) -> Report:
         _number(report.max_above_everywhere),
         _number(report.max_error_at_points),
         _number(report.max_below_at_points),
+        _number(report.least_bound),
+        _number(report.largest_bound),
+        _number(report.max_bound_ratio),
         tuple(library.microtin_last_warnings().decode(errors="replace").splitlines()),
     )
 
@@ -426,9 +441,9 @@ def _transform_of(transform: Optional[Sequence[float]], rows: int) -> Tuple[floa
     return tuple(transform)
 
 
-def _source_from_array(
+def _raster_of(
     array: ArrayLike, transform: Optional[Sequence[float]], crs: Optional[Crs], nodata: Optional[float]
-) -> _Source:
+) -> _library.Raster:
     mask = numpy.broadcast_to(array.mask, array.shape) if isinstance(array, numpy.ma.MaskedArray) else None
     heights = numpy.asarray(array)
     if heights.ndim != 2:
@@ -453,10 +468,33 @@ def _source_from_array(
         raster.float_heights = heights.ctypes.data_as(ctypes.POINTER(ctypes.c_float))
     else:
         raster.heights = heights.ctypes.data_as(_library.Doubles)
-    return _Source(library.microtin_source_from_raster, raster)
+    raster.kept = heights  # as long as the pointer to it
+    return raster
 
 
-def _source_from_points(points: ArrayLike, crs: Optional[Crs]) -> _Source:
+def _source_from_array(
+    array: ArrayLike,
+    transform: Optional[Sequence[float]],
+    crs: Optional[Crs],
+    nodata: Optional[float],
+    error_map: Optional[ErrorMap],
+) -> _Source:
+    source = _Source(library.microtin_source_from_raster, _raster_of(array, transform, crs, nodata))
+    if error_map is None or isinstance(error_map, (str, bytes, os.PathLike)):
+        return source
+    try:
+        if numpy.shape(error_map) != numpy.shape(array):
+            raise Error(f"error_map has the shape {numpy.shape(error_map)}, and the array {numpy.shape(array)}")
+        library.microtin_source_set_error_map(source.pointer, _raster_of(error_map, transform, None, None))
+    except BaseException:
+        source.__exit__()
+        raise
+    return source
+
+
+def _source_from_points(points: ArrayLike, crs: Optional[Crs], error_map: Optional[ErrorMap]) -> _Source:
+    if error_map is not None and not isinstance(error_map, (str, bytes, os.PathLike)):
+        raise Error("error_map: points take the path of a map, not an array")
     rows = numpy.ascontiguousarray(points, numpy.float64)
     if rows.ndim != 2 or rows.shape[1] != 3:
         raise Error("points are rows of x, y and height")
@@ -527,6 +565,9 @@ class Surface:
         self.max_above = _number(info.max_above)
         self.max_below_everywhere = _number(info.max_below_everywhere)
         self.max_above_everywhere = _number(info.max_above_everywhere)
+        self.least_bound = _number(info.least_bound)
+        self.largest_bound = _number(info.largest_bound)
+        self.max_bound_ratio = _number(info.max_bound_ratio)
         self.source: str = info.source_name.decode(errors="replace")
         self.date: str = info.date.decode(errors="replace")
         self.lineage: str = info.lineage.decode(errors="replace")

@@ -80,6 +80,7 @@ class Options(_Sized):
         ("source_accuracy", c_char_p),
         ("digest", c_uint32),
         ("phases", c_uint32),
+        ("error_map", c_char_p),
     ]
 
 
@@ -100,6 +101,9 @@ class Report(_Sized):
         ("max_above", c_char * 24),
         ("max_below_everywhere", c_char * 24),
         ("max_above_everywhere", c_char * 24),
+        ("least_bound", c_char * 24),
+        ("largest_bound", c_char * 24),
+        ("max_bound_ratio", c_char * 24),
     ]
 
 
@@ -155,6 +159,9 @@ class SurfaceInfo(_Sized):
         ("digest", c_char_p),
         ("phases", POINTER(Phase)),
         ("phase_count", c_uint64),
+        ("least_bound", c_char_p),
+        ("largest_bound", c_char_p),
+        ("max_bound_ratio", c_char_p),
     ]
 
 
@@ -221,6 +228,7 @@ Doubles = POINTER(c_double)
 _FUNCTIONS = {
     "source_from_raster": [POINTER(Raster), POINTER(c_void_p)],
     "source_from_points": [POINTER(Points), POINTER(c_void_p)],
+    "source_set_error_map": [c_void_p, POINTER(Raster)],
     "source_from_file": [c_char_p, POINTER(c_void_p)],
     "encode_stream": [c_void_p, POINTER(Options), POINTER(POINTER(c_uint8)), POINTER(c_uint64), POINTER(Report)],
     "encode_pack": [c_void_p, POINTER(Options), c_char_p, POINTER(Report)],

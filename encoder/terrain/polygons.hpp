@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Polygons and lines over a source: which of its posts or points they contain.
+#ifndef MICROTIN_ENCODER_TERRAIN_POLYGONS_HPP
+#define MICROTIN_ENCODER_TERRAIN_POLYGONS_HPP
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "encoder/exact/decimal.hpp"
+#include "encoder/exact/fraction.hpp"
+#include "encoder/layers.hpp"
+
+namespace microtin::terrain {
+
+// In real coordinates.
+struct RealPoint {
+  Decimal x, y;  // at most 12 decimals
+};
+
+using RealLine = std::vector<RealPoint>;
+
+// Rings that bound an area: a place is inside if a line from it crosses them an odd number of
+// times.
+using RealRings = std::vector<RealLine>;
+
+// Rings in the numbers of a source, such as columns and rows: rounded to 1/1024 of a number.
+class Rings {
+ public:
+  // Throws Error if a coordinate is 2^52 numbers away or farther.
+  Rings(const RealRings& rings, const Axis& x, const Axis& y);
+
+  // The numbers of a row that are inside or on the border, as pairs of a first and a last one;
+  // these may overlap. O(edges).
+  std::vector<std::pair<int64_t, int64_t>> spans(int64_t row) const;
+
+  bool contains(int64_t x, int64_t y) const;
+
+ private:
+  struct Place {
+    int64_t x, y;  // times 1024
+  };
+  struct Edge {
+    Place low, high;  // by y
+  };
+
+  std::vector<Edge> edges_;
+};
+
+}  // namespace microtin::terrain
+
+#endif
