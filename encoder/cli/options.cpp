@@ -241,6 +241,10 @@ void add_preparation(CLI::App& command, Preparation& preparation) {
   command.add_flag("--gridded", preparation.gridded,
                    "Read points that are the posts of a raster as that raster");
   add_indirect(command, preparation);
+  add_text(
+      command, "--area FILE", preparation.area,
+      "Keep only what lies in the polygons of this GeoJSON file, or on their borders; all posts "
+      "outside are void");
 #ifdef MICROTIN_WITH_GDAL
   add_number(command, "--band N", preparation.band, 1u,
              "Read heights from this band of a file that GDAL reads")

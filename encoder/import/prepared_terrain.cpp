@@ -12,6 +12,7 @@
 #include "encoder/base/text.hpp"
 #include "encoder/exact/fraction.hpp"
 #include "encoder/files/input.hpp"
+#include "encoder/import/area.hpp"
 #include "encoder/import/bound_map.hpp"
 #include "encoder/import/import.hpp"
 #include "encoder/import/mosaic.hpp"
@@ -223,7 +224,7 @@ std::vector<std::string> files_of(const std::string& path, const Preparation& pr
   std::vector<std::string> names = preparation.water_mask.empty()
                                        ? std::vector<std::string>()
                                        : std::vector<std::string>{preparation.water_mask};
-  for (const std::string& file : {preparation.cells, preparation.error_map}) {
+  for (const std::string& file : {preparation.cells, preparation.area, preparation.error_map}) {
     if (!file.empty()) names.push_back(file);
   }
   if (!path.empty()) {
@@ -288,14 +289,33 @@ Source without_bounds(const std::string& path, const Preparation& preparation) {
 
 Source prepared_terrain(const std::string& path, const Preparation& preparation) {
   Source source = without_bounds(path, preparation);
+  if (!preparation.area.empty()) {
+    const Area area(preparation.area);
+    std::visit([&](auto& one) { area.cut(one); }, source);
+  }
   if (preparation.error_map.empty()) return source;
   const BoundMap map(preparation.error_map, preparation.max_error);
   std::visit([&](auto& one) { map.bound(one); }, source);
   return source;
 }
 
+namespace {
+
+void cut_to_area(OpenSource& source, const std::string& path) {
+  Area area(path);
+  if (auto* const cloud = std::get_if<PointCloud>(&source)) {
+    area.cut(*cloud);
+  } else {
+    auto& raster = std::get<std::unique_ptr<RasterReader>>(source);
+    raster = within_area(std::move(raster), std::move(area));
+  }
+}
+
+}  // namespace
+
 OpenSource prepared_source(const std::string& path, const Preparation& preparation) {
   OpenSource source = prepared(path, parts_of(path, preparation), preparation);
+  if (!preparation.area.empty()) cut_to_area(source, preparation.area);
   if (preparation.error_map.empty()) return source;
   auto map = std::make_shared<const BoundMap>(preparation.error_map, preparation.max_error);
   if (auto* const cloud = std::get_if<PointCloud>(&source)) {

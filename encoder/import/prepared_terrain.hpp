@@ -40,6 +40,7 @@ struct Preparation {
   std::vector<DegreeCell> sea;             // cells of which those places are sea
   Indirect indirect = Indirect::kRefused;  // files that name others
   uint32_t band = 0;                       // of a file that has several, from 1 on
+  std::string area;                        // the file of polygons outside of which all is void
   std::string error_map;                   // the file of posts' own bounds; empty: none
   std::optional<Decimal> max_error;        // the bound where that says nothing
   // Settled with each file's; nothing: units and systems are left alone, where no heights are used.

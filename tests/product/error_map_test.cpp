@@ -395,3 +395,38 @@ TEST_CASE("error map: in C++ a raster of bounds makes the bytes that a file of i
   CHECK(made.report.bound == "");
   CHECK(made.report.max_bound_ratio != "");
 }
+
+TEST_CASE("area: posts in polygons and on their borders stay, and all others are void") {
+  const Session session;
+  write_terrain(session);
+  session.write("area.geojson",
+                R"({"type": "Polygon", "coordinates":
+  [[[1100, 2050], [1400, 2050], [1400, 2350], [1100, 2350], [1100, 2050]]]})");
+  for (const char* words : {"a.mtin", "a.mtp --tile-size 20"}) {
+    const std::string file = std::string(words).substr(0, std::string(words).find(' '));
+    expect_runs(
+        session,
+        std::string("encode t.asc --units metre --max-error 3 --area area.geojson -o ") + words);
+    const library::Mesh mesh = library::Surface::from_file(session.folder() + "/" + file).mesh();
+    for (int row = 0; row < kRows; ++row) {
+      for (int column = 0; column < kColumns; ++column) {
+        const double height = height_at(mesh, 1000 + 10 * column, 2000 + 10 * row);
+        const bool is_inside = column >= 10 && column <= 40 && row >= 5 && row <= 35;
+        CHECK(std::isnan(height) == !is_inside);
+        if (is_inside) CHECK(std::abs(height - height_of(column, row)) <= 3 + 1e-6);
+      }
+    }
+    expect_runs(session, "verify " + file + " t.asc --units metre --area area.geojson");
+    CHECK(session.run("verify " + file + " t.asc --units metre").code != 0);
+  }
+  session.write("line.geojson", R"({"type": "LineString", "coordinates": [[0, 0], [1, 1]]})");
+  CHECK(contains(session.failure("encode t.asc --area line.geojson -o b.mtin"), "no polygon"));
+  std::string points;
+  for (int i = 0; i < 400; ++i) {
+    points += std::to_string(1000 + i % 20 * 30) + ' ' + std::to_string(2000 + i / 20 * 25) + ' ' +
+              std::to_string(i * i % 17) + '\n';
+  }
+  session.write("p.xyz", points);
+  expect_runs(session, "encode p.xyz --units metre --area area.geojson -o p.mtin");
+  CHECK(library::Surface::from_file(session.folder() + "/p.mtin").info().vertices == 10 * 13);
+}

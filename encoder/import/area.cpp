@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+// Marks what polygons hold, and drops the rest.
+#include "encoder/import/area.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+
+#include "encoder/base/error.hpp"
+#include "encoder/files/input.hpp"
+#include "encoder/import/geojson.hpp"
+
+namespace microtin::importing {
+
+Area::Area(const std::string& path) {
+  const std::string text = read_file(path);
+  for (Feature& feature : import_geojson(path, text)) {
+    std::move(feature.polygons.begin(), feature.polygons.end(), std::back_inserter(polygons_));
+  }
+  if (polygons_.empty()) throw Error(path + ": has no polygon");
+}
+
+void Area::cut(Raster& raster) const {
+  std::vector<bool> is_inside(raster.heights.size());
+  for (const RealRings& polygon : polygons_) {
+    const terrain::Rings rings(polygon, raster.x, raster.y);
+    for (uint32_t row = 0; row < raster.height; ++row) {
+      const std::size_t start = std::size_t{row} * raster.width;
+      for (const auto& [first, last] : rings.spans(row)) {
+        const int64_t end = std::min<int64_t>(last, int64_t{raster.width} - 1);
+        for (int64_t x = std::max<int64_t>(first, 0); x <= end; ++x) {
+          is_inside[start + static_cast<std::size_t>(x)] = true;
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < is_inside.size(); ++i) {
+    if (!is_inside[i] && terrain::is_height(raster.heights[i])) {
+      raster.heights[i] = terrain::kVoidHeight;
+    }
+  }
+}
+
+void Area::cut(PointCloud& cloud) const {
+  const Axis axis{0, 1, static_cast<uint64_t>(power_of_ten(cloud.xy_decimals))};
+  std::vector<terrain::Rings> all;
+  all.reserve(polygons_.size());
+  for (const RealRings& polygon : polygons_) all.emplace_back(polygon, axis, axis);
+  const auto is_outside = [&](const terrain::SourcePoint& p) {
+    return std::none_of(all.begin(), all.end(),
+                        [&](const terrain::Rings& rings) { return rings.contains(p.x, p.y); });
+  };
+  cloud.points.erase(std::remove_if(cloud.points.begin(), cloud.points.end(), is_outside),
+                     cloud.points.end());
+}
+
+namespace {
+
+class CutRaster : public RasterReader {
+ public:
+  CutRaster(std::unique_ptr<RasterReader> raster, Area area)
+      : raster_(std::move(raster)), area_(std::move(area)) {
+    frame_ = raster_->frame();
+  }
+
+  Raster read(const terrain::PostRectangle& rectangle) const override {
+    Raster part = raster_->read(rectangle);
+    area_.cut(part);
+    return part;
+  }
+
+  std::vector<bool> absent_in(const terrain::PostRectangle& rectangle) const override {
+    return raster_->absent_in(rectangle);
+  }
+
+ private:
+  std::unique_ptr<RasterReader> raster_;
+  Area area_;
+};
+
+}  // namespace
+
+std::unique_ptr<RasterReader> within_area(std::unique_ptr<RasterReader> raster, Area area) {
+  return std::make_unique<CutRaster>(std::move(raster), std::move(area));
+}
+
+}  // namespace microtin::importing
