@@ -180,8 +180,13 @@ TEST_CASE("error model: the whole step nearest to the middle, halves up, that is
   CHECK(bound.vertex_height({point(0, 0), -40000, -65535, 0}) == 0);
   CHECK(bound.vertex_height({point(0, 0), -20000, -70000, -1}) == -1);
   CHECK(bound.vertex_height({point(0, 0), 0, 0, 3 * 65536}) == 2);
-  CHECK(bound.vertex_height({point(0, 0), 40000, std::numeric_limits<int32_t>::min(),
-                             std::numeric_limits<int32_t>::max()}) == 0);
+  const auto unbounded = [](int32_t height) {
+    return Sample{point(0, 0), height, std::numeric_limits<int32_t>::min(),
+                  std::numeric_limits<int32_t>::max()};
+  };
+  CHECK(bound.vertex_height(unbounded(40000)) == 1);  // as near to the source as a step can be
+  CHECK(bound.vertex_height(unbounded(-40000)) == -1);
+  CHECK(bound.violation(unbounded(0), 99 * 65536) == 0);
 }
 
 TEST_CASE("error model: the distance from what is allowed") {
