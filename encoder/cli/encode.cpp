@@ -3,6 +3,7 @@
 // them.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -19,6 +20,7 @@
 #include "encoder/import/cloud.hpp"
 #include "encoder/import/prepared_terrain.hpp"
 #include "encoder/import/reference.hpp"
+#include "encoder/pack/tile_plan.hpp"
 #include "encoder/product/encode_pack.hpp"
 #include "encoder/product/encode_stream.hpp"
 #include "encoder/product/pack_parts.hpp"
@@ -35,7 +37,8 @@ std::vector<std::string> inputs_of(const EncodeRequest& request) {
 }
 
 bool makes_pack(const EncodeRequest& request) {
-  return request.tile_vertices != 0 || request.tiles || suffix_of(request.output) == ".mtp";
+  return request.tile_vertices != 0 || request.tiles || request.adapter != Adapter::kNone ||
+         suffix_of(request.output) == ".mtp";
 }
 
 std::string moved(Decimal displacement) {
@@ -154,6 +157,18 @@ std::string text_of(const PackReport& pack) {
   return text.str();
 }
 
+// What firmware sets for an adapter of decoder/adapters.
+std::string settings(const PackReport& pack, Adapter adapter) {
+  if (adapter == Adapter::kNone || pack.compact_bytes == 0) return "";
+  const std::string name = adapter == Adapter::kInav ? "inav" : "ardupilot";
+  const uint32_t capacity = std::max<uint32_t>(pack.most_vertices, 3);
+  const uint64_t bytes = pack_ram(capacity, pack.compact_bytes, kAdapterTiles);
+  return "for " + name + ": define MICROTIN_ADAPTERS_COMPACT; MICROTIN_COMPACT_PACK_BYTES(" +
+         std::to_string(kAdapterTiles) + ", " + std::to_string(capacity) + ", " +
+         std::to_string(pack.compact_bytes) + ") and microtin_" + name + " take " +
+         std::to_string(bytes + kAdapterBytes) + " bytes\n";
+}
+
 // Warns of values that may not be heights, before the work begins.
 void announce(const EncodeRequest& request, const std::string& text) {
   if (!text.empty()) std::fputs(warning(request.input + ": " + text).c_str(), stderr);
@@ -192,7 +207,8 @@ std::string encode_raster(const RasterReader& raster, const EncodeRequest& reque
   write_pack(pack, streams, out);
   const Raster& frame = raster.frame();
   return source_of_posts(scanned.posts, scanned.voids, scanned.mended, frame.selection) +
-         text_of(report_of(pack)) + units(request, frame.reference);
+         text_of(report_of(pack)) + settings(report_of(pack), request.adapter) +
+         units(request, frame.reference);
 }
 
 std::string encode_points(const PointCloud& cloud, const EncodeRequest& request, OutputFile& out) {
@@ -204,6 +220,7 @@ std::string encode_points(const PointCloud& cloud, const EncodeRequest& request,
   std::string text = source_of_points(made.points, cloud.selection);
   text += "step of x and y: " + to_string(made.xy_step) + moved(made.xy_displacement) + "\n";
   return text + merged(made.merged, request.lattice.duplicates) + text_of(made.report) +
+         settings(made.report, request.adapter) +
          at_true_places(made.true_places, made.report.bound, request) +
          units(request, cloud.reference);
 }

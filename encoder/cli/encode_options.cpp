@@ -75,6 +75,12 @@ void add_tiles(CLI::App& command, EncodeRequest& request, CLI::Option& vertices,
       ->excludes(&bytes)
       ->excludes(tile)
       ->default_str("no limit");
+  add_choice<Adapter>(command, "--for", request.adapter,
+                      {{"inav", Adapter::kInav}, {"ardupilot", Adapter::kArduPilot}},
+                      "Write a pack for an autopilot's adapter, and print what to set there. With "
+                      "--device-ram: tiles of which the adapter keeps " +
+                          std::to_string(kAdapterTiles) + ", compact")
+      ->default_str("no adapter");
 }
 
 // Where the header has notes of the file unless options state others.

@@ -35,17 +35,6 @@ Bytes write_entry(const TileSummary& tile) {
   return entry;
 }
 
-// That any tile takes in compact form at most; 0 if that is not known of all.
-uint64_t compact_bytes(const std::vector<TileSummary>& tiles, uint32_t most_vertices) {
-  uint64_t most = 0;
-  for (const TileSummary& tile : tiles) {
-    if (tile.bytes == 0) continue;
-    if (!tile.compact) return 0;
-    most = std::max(most, bytes_of(*tile.compact, index_bits(most_vertices)));
-  }
-  return most;
-}
-
 void expect(bool legal) {
   if (!legal) throw Error(describe(MICROTIN_STATUS_MALFORMED));
 }
@@ -141,7 +130,7 @@ Bytes write_fixed(const PackContent& pack, const Bytes& placement, const Bytes& 
   append_number(header, pack.grid.x_max, 4);
   append_number(header, pack.grid.y_max, 4);
   append_number(header, bounds.vertices, 4);
-  append_number(header, compact_bytes(pack.tiles, bounds.vertices), 4);
+  append_number(header, most_compact_bytes(pack.tiles, bounds.vertices), 4);
   append_number(header, identity_of(header, placement, notes, pack.tiles), 4);
   append_number(header, bounds.below + 1u, 4);  // not stated: 0
   append_number(header, bounds.above + 1u, 4);
@@ -149,6 +138,16 @@ Bytes write_fixed(const PackContent& pack, const Bytes& placement, const Bytes& 
 }
 
 }  // namespace
+
+uint64_t most_compact_bytes(const std::vector<TileSummary>& tiles, uint32_t most_vertices) {
+  uint64_t most = 0;
+  for (const TileSummary& tile : tiles) {
+    if (tile.bytes == 0) continue;
+    if (!tile.compact) return 0;
+    most = std::max(most, bytes_of(*tile.compact, index_bits(most_vertices)));
+  }
+  return most;
+}
 
 Bytes write_pack_header(const PackContent& pack) {
   const Bytes placement = write_placement(pack.metadata.placement);

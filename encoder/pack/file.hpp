@@ -37,6 +37,9 @@ std::vector<uint8_t> write_pack_head(PackContent pack);
 // The header alone.
 std::vector<uint8_t> write_pack_header(const PackContent& pack);
 
+// Bytes that any tile takes in compact form at most; 0 if that is not known of all.
+uint64_t most_compact_bytes(const std::vector<TileSummary>& tiles, uint32_t most_vertices);
+
 // What such a header says behind its fixed part. Throws Error if that breaks a rule.
 Metadata read_placement_and_notes(const PackHeader& header, const uint8_t* bytes);
 

@@ -19,7 +19,6 @@ namespace microtin::pack {
 namespace {
 
 constexpr double kPostsPerVertex = 16;  // of simplified terrain, to begin with
-constexpr uint32_t kKeptTiles = 4;
 
 uint32_t divide_up(uint32_t a, uint32_t b) {
   return (a + b - 1) / b;
@@ -151,15 +150,15 @@ uint32_t smaller_tile_size(const TileGrid& grid, uint32_t max_vertices, uint32_t
   return std::clamp(static_cast<uint32_t>(steps * ratio), 1u, steps - 1);
 }
 
-uint64_t pack_ram(uint32_t vertices, uint64_t tile_bytes) {
+uint64_t pack_ram(uint32_t vertices, uint64_t tile_bytes, uint32_t kept_tiles) {
   const uint32_t bits = index_bits(vertices);
-  return MICROTIN_COMPACT_PACK_BYTES_FOR(kKeptTiles, uint64_t{vertices}, tile_bytes, bits);
+  return MICROTIN_COMPACT_PACK_BYTES_FOR(kept_tiles, uint64_t{vertices}, tile_bytes, bits);
 }
 
-uint32_t vertices_for_ram(uint64_t bytes, bool is_narrow) {
+uint32_t vertices_for_ram(uint64_t bytes, bool is_narrow, uint32_t kept_tiles) {
   uint32_t vertices = MICROTIN_MAX_VERTICES_FOR(16);
   while (vertices >= 3 &&
-         pack_ram(vertices, promised_compact_bytes(vertices, is_narrow, 16)) > bytes) {
+         pack_ram(vertices, promised_compact_bytes(vertices, is_narrow, 16), kept_tiles) > bytes) {
     --vertices;
   }
   return vertices >= 3 ? vertices : 0;

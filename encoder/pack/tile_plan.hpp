@@ -32,13 +32,16 @@ double counting_part(const Raster& frame, const PackOptions& options);
 // nothing smaller.
 uint32_t smaller_tile_size(const TileGrid& grid, uint32_t max_vertices, uint32_t vertices);
 
-// Vertices of a tile for which a device with this many bytes of RAM decodes one tile and keeps
-// four, as many as meet at a corner, in compact form, with 16-bit numbers. Narrow: tiles are less
-// than 256 steps wide and high. 0 if there are none.
-uint32_t vertices_for_ram(uint64_t bytes, bool is_narrow);
+// Tiles that a device keeps: as many as meet at a corner, unless more are asked for.
+constexpr uint32_t kKeptTiles = 4;
+
+// Vertices of a tile for which a device with this many bytes of RAM decodes one tile and keeps some
+// in compact form, with 16-bit numbers. Narrow: tiles are less than 256 steps wide and high. 0 if
+// there are none.
+uint32_t vertices_for_ram(uint64_t bytes, bool is_narrow, uint32_t kept_tiles = kKeptTiles);
 
 // The bytes that such a device needs, with 32-bit numbers beyond the reach of the others.
-uint64_t pack_ram(uint32_t vertices, uint64_t tile_bytes);
+uint64_t pack_ram(uint32_t vertices, uint64_t tile_bytes, uint32_t kept_tiles = kKeptTiles);
 
 }  // namespace microtin::pack
 

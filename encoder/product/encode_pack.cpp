@@ -22,12 +22,16 @@ namespace {
 uint32_t tile_vertices(const EncodeOptions& options, bool is_narrow) {
   if (options.tile_vertices != 0) return options.tile_vertices;
   if (options.device_ram == 0) return encoder::kUsualTileVertices;
-  const uint32_t vertices = vertices_for_ram(options.device_ram, is_narrow);
+  const bool has_adapter = options.adapter != Adapter::kNone;
+  const uint32_t kept = has_adapter ? kAdapterTiles : kKeptTiles;
+  const uint64_t taken = has_adapter ? kAdapterBytes : 0;
+  const uint64_t left = options.device_ram - std::min(options.device_ram, taken);
+  const uint32_t vertices = vertices_for_ram(left, is_narrow, kept);
   if (vertices < kFewestTileVertices) {
     const uint64_t tile = promised_compact_bytes(kFewestTileVertices, false, 16);
     throw Error(parameter("device_ram") + ' ' + std::to_string(options.device_ram) +
                 " is too small for a pack, which takes at least " +
-                std::to_string(pack_ram(kFewestTileVertices, tile)) + " bytes");
+                std::to_string(taken + pack_ram(kFewestTileVertices, tile, kept)) + " bytes");
   }
   return vertices;
 }
@@ -102,6 +106,7 @@ PackReport report_of(const PackContent& pack) {
     if (tile.bytes == 0) ++report.empty_tiles;
   }
   report.bytes = write_pack_head(pack).size() + streams;
+  report.compact_bytes = most_compact_bytes(pack.tiles, report.most_vertices);
   report.measured = measured(pack);
   report.everywhere = stated_everywhere(everywhere, pack.metadata.placement.z);
   if (pack.metadata.accuracy) {

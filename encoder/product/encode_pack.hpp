@@ -23,6 +23,7 @@ struct PackReport {
   Decimal z_step;
   uint64_t vertices = 0, bytes = 0;
   uint32_t most_vertices = 0;  // in a tile
+  uint64_t compact_bytes = 0;  // of a tile, at most; 0: not stated
   uint32_t empty_tiles = 0;
   Verification measured;                // of all tiles
   std::optional<Decimal> bound;         // that all posts or points keep

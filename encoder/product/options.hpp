@@ -18,6 +18,13 @@ namespace microtin::product {
 // Where the bound holds for points that a lattice moves.
 enum class BoundAt { kTruePlaces, kLattice };
 
+// The autopilot whose adapter (decoder/adapters) reads a pack.
+enum class Adapter { kNone, kInav, kArduPilot };
+
+// What an adapter needs besides its pack.
+constexpr uint32_t kAdapterTiles = 9;     // for the places that ArduPilot queries in each update
+constexpr uint64_t kAdapterBytes = 3072;  // of RAM: microtin_inav or microtin_ardupilot
+
 struct EncodeOptions {
   LatticeOptions lattice;
   uint32_t max_vertices = 0;   // 0: as many as it takes
@@ -26,8 +33,9 @@ struct EncodeOptions {
                                // allows or, without it, the usual number
   uint32_t tile_size = 0;      // of a pack of posts; 0: to be chosen
   uint64_t device_ram = 0;     // 0: unlimited
-  std::string resume;          // of packs of rasters: keeps finished tiles; empty: none does
-  bool few_vertices = false;   // with a bound: rather than few bytes
+  Adapter adapter = Adapter::kNone;
+  std::string resume;         // of packs of rasters: keeps finished tiles; empty: none does
+  bool few_vertices = false;  // with a bound: rather than few bytes
   BoundAt bound_at = BoundAt::kTruePlaces;
   Search search = Search::kNormal;
   Effort effort;

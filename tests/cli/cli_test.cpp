@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "microtin/compact_pack.h"
 #include "microtin/microtin.h"
 #include "tests/support/session.hpp"
 
@@ -340,6 +341,37 @@ TEST_CASE("cli: damaged streams") {
   CHECK(contains(session.failure("decode long.mtin -o out.xyz"),
                  "the bytes behind the end of the stream are damaged: they are no chunks"));
   CHECK(contains(session.failure("decode ok.mtin -o out.stl"), "out.stl: "));
+}
+
+TEST_CASE("cli: a pack for an autopilot fits its RAM in nine compact slots") {
+  const Session session;
+  REQUIRE(session.run("fractal --size 129 --seed 3 -o t.asc").code == 0);
+  const auto number_after = [](const std::string& text, const std::string& words) {
+    const size_t at = text.find(words);
+    REQUIRE(at != std::string::npos);
+    return std::stoul(text.substr(at + words.size()));
+  };
+  for (const std::string name : {"inav", "ardupilot"}) {
+    const Session::Result made =
+        session.run("encode t.asc --max-error 9 --for " + name + " --device-ram 30000 -o t.mtp");
+    REQUIRE(made.code == 0);
+    CHECK(contains(made.out, "for " + name + ": define MICROTIN_ADAPTERS_COMPACT; "));
+    const unsigned long capacity = number_after(made.out, "MICROTIN_COMPACT_PACK_BYTES(9, "),
+                        taken = number_after(made.out, " and microtin_" + name + " take ");
+    const std::string info = session.run("info t.mtp").out;
+    CHECK(number_after(info, "max_tile_vertices: ") == capacity);
+    const unsigned long tile = number_after(info, "max_compact_bytes: ");
+    CHECK(taken == MICROTIN_COMPACT_PACK_BYTES_FOR(9, capacity, tile, 16) + 3072);
+    CHECK(taken <= 30000);
+    CHECK(taken > 15000);
+  }
+  // Smaller tiles than for a device that keeps four.
+  REQUIRE(session.run("encode t.asc --max-error 9 --device-ram 30000 -o four.mtp").code == 0);
+  CHECK(number_after(session.run("info four.mtp").out, "max_tile_vertices: ") >
+        number_after(session.run("info t.mtp").out, "max_tile_vertices: "));
+  CHECK(contains(session.failure("encode t.asc --for inav --device-ram 8000 -o no.mtp"),
+                 "--device-ram 8000 is too small for a pack"));
+  session.failure("encode t.asc --for px4 -o no.mtp", 2);
 }
 
 TEST_CASE("cli: packs") {

@@ -101,6 +101,7 @@ const std::vector<Row> kRows = {
     {"encode", "--tile-size", "t.asc --max-error 2 --tile-vertices 90 -o o.mtp", "9"},
     {"encode", "--device-ram", "t.asc -o o.mtin", "9000"},
     {"encode", "--error-map", "t.asc --max-error 2 -o o.mtin", "bounds.geojson"},
+    {"encode", "--for", "t.asc --device-ram 60000 -o o.mtin", "inav"},
     {"encode", "--never-below", "t.asc --max-error 2 -o o.mtin", ""},
     {"encode", "--bound-at", "p.xyz --max-error 2 --xy-step 0.05 -o o.mtin", "lattice"},
     {"encode", "--duplicates", "p.xyz --max-error 2 -o o.mtin", "lowest"},
@@ -375,7 +376,7 @@ const Names kWithoutEffect = {"", "--bound-at", "--duplicates"};
 // With which no shard of posts is made, or which say which shard.
 const Names kNotOfShards = {"--digest",  "--phases",     "--max-vertices", "--max-bytes",
                             "--xy-step", "--device-ram", "--output",       "--shard",
-                            "--classes", "--gridded"};
+                            "--classes", "--gridded",    "--for"};
 
 const std::vector<std::string> kCommon = {"--max-error 1.9", "--z-step 0.5", "--tile-vertices 60",
                                           "--tile-size 10"};

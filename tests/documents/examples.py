@@ -16,7 +16,9 @@ READ_CARD = "int32_t read_card(void* context, uint64_t offset, uint8_t* buffer, 
 BEFORE = {
     "decoder/docs/autopilots.md": '#include "adapters/ardupilot.h"\n#include "adapters/inav.h"\n'
     + READ_CARD
-    + "static microtin_ardupilot terrain;\nstatic microtin_inav inav;\nstatic const microtin_card_driver driver;\n",
+    + "static const microtin_card_driver driver;\nextern int32_t gps_lat, gps_lon, home_lat, home_lon, is_home_new;\n"
+    "uint32_t millis(void);\nvoid terrain_init(void), terrain_update(void), update(void), io_timer(void);\n"
+    "bool terrain_is_healthy(void);\nstatic microtin_ardupilot terrain;\nstatic microtin_inav inav;\n",
     "decoder/docs/decoding.md": "size_t read_radio(uint8_t* bytes, size_t most);\n",
     "decoder/docs/memory.md": "static microtin::Terrain<5000> terrain;\nstatic microtin::Decoder<5000> decoder(terrain);\n",
     "decoder/docs/packs.md": READ_CARD

@@ -49,6 +49,8 @@ def arduino(folder):
     fields = dict(line.split("=", 1) for line in lines if "=" in line)
     for name in ("name", "version", "author", "maintainer", "sentence", "paragraph", "category", "url", "architectures"):
         faults.unless(fields.get(name, "").strip(), f"{name} is missing")
+    # A library that does not link on small boards must not claim all of them.
+    faults.unless(fields.get("architectures") != "*", "architectures promises every board")
     name = fields.get("name", "")
     faults.unless(re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9 _.-]{0,62}", name), "the name has other characters")
     faults.unless("arduino" not in name.lower(), "the name speaks of Arduino")
