@@ -9,8 +9,6 @@
 namespace microtin::fit {
 namespace {
 
-constexpr double kFirstWeight = 4;
-
 // Means that are near enough to zero, in radii.
 constexpr double kTolerance = 0.01, kFlatTolerance = 0.07;
 constexpr double kCentred = 0.02;  // that of all posts, without moving vertices
@@ -66,17 +64,17 @@ Sets flat_sets(const std::vector<Sample>& samples) {
 bool is_one_sided(const Surface& surface, double radius) {
   double above = 0;
   for (std::size_t i = 0; i < surface.posts().size(); ++i) {
-    above +=
-        surface.middles()[i] - surface.survey().samples[surface.posts().number(i)].height / 65536.0;
+    above += double{surface.middles()[i]} -
+             surface.survey().samples[surface.posts().number(i)].height / 65536.0;
   }
   return above > kOneSided * radius * static_cast<double>(surface.posts().size());
 }
 
 }  // namespace
 
-Balance::Balance(const Surface& surface) : shares_(surface.vertex_limit()), weight_(kFirstWeight) {
+Balance::Balance(const Surface& surface, double weight)
+    : shares_(surface.vertex_limit()), radius_(surface.mean_radius()), weight_(weight) {
   const PostIndex& posts = surface.posts();
-  radius_ = surface.mean_radius();
   if (radius_ == 0 || is_one_sided(surface, radius_)) return;
   find_parts(surface.survey());
   std::vector<bool> met(posts.size());

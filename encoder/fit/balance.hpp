@@ -16,9 +16,10 @@ namespace microtin::fit {
 // is looked at: errors lie on one side there.
 class Balance {
  public:
+  // weight: what a mean that is off by a radius is worth, in bits a vertex.
   // Linear in posts, but for an inverse Ackermann function. Of the surface only heights may change
   // then, and `move` reports each change.
-  explicit Balance(const Surface& surface);
+  Balance(const Surface& surface, double weight);
 
   // What a change of a height makes of the means, in bits: below 0 where they come nearer to zero.
   double price(Index v, int32_t steps) const;
@@ -52,7 +53,7 @@ class Balance {
   std::vector<Part> parts_;                 // the first: all posts
   std::vector<uint32_t> part_;              // by sample: its flat part, or 0
   std::vector<std::vector<Share>> shares_;  // by vertex
-  double radius_ = 0;                       // of the bounds, on average
+  double radius_;                           // of the bounds, on average
   double weight_;                           // bits a vertex, if a mean is off by a radius
 };
 

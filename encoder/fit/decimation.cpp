@@ -17,6 +17,11 @@ bool contains(const std::vector<Index>& vertices, Index v) {
 // worst place ends the search early.
 constexpr std::size_t kRanks = 3;
 
+// Before that it tries posts near its own, at random: so many, half of them at most one step away
+// along x and y, the others at most two. Such moves are kept more often than those to the worst
+// place, and after them other vertices may go.
+constexpr int kNearTries = 2, kNearest = 1, kFarther = 2;
+
 // How much more odd coordinates may cost on the way: the search finds more when at first it
 // takes the places that fit best.
 constexpr double kDaring = 10, kCareful = 0.8;  // the part of the search after which none does
@@ -70,8 +75,8 @@ std::vector<Index> Decimation::order_of_attempts() {
   return order;
 }
 
-template <class Try>
-std::size_t Decimation::try_each(const Progress& progress, const Try& attempt) {
+std::size_t Decimation::try_each(const Progress& progress,
+                                 const std::function<bool(Index)>& attempt) {
   const std::vector<Index> order = order_of_attempts();
   std::size_t removed = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -79,10 +84,8 @@ std::size_t Decimation::try_each(const Progress& progress, const Try& attempt) {
     if (i % 256 == 0) progress.at(static_cast<double>(i) / static_cast<double>(order.size()));
     if (!surface_.has_vertex(v)) continue;
     stale_[v] = true;
-    fitted_.clear();
     if (attempt(v)) ++removed;
-    if (edits_.size() != 0) note_changes();
-    edits_.commit();
+    keep_edits();
   }
   return removed;
 }
@@ -93,13 +96,17 @@ std::size_t Decimation::random_below(std::size_t limit) {
   return (random_ >> 33) % limit;
 }
 
-// What lies near a change may be tried again.
-void Decimation::note_changes() {
-  for (const Index v : fitted_) {
-    if (!surface_.has_vertex(v)) continue;
-    stale_[v] = false;
-    for (const Index neighbour : ring(v)) stale_[neighbour] = false;
+// Keeps what an attempt changed. What lies near a change may be tried again.
+void Decimation::keep_edits() {
+  if (edits_.size() != 0) {
+    for (const Index v : fitted_) {
+      if (!surface_.has_vertex(v)) continue;
+      stale_[v] = false;
+      for (const Index neighbour : ring(v)) stale_[neighbour] = false;
+    }
   }
+  edits_.commit();
+  fitted_.clear();
 }
 
 std::vector<Index> Decimation::ring(Index v) const {
@@ -146,7 +153,8 @@ bool Decimation::try_removal(Index v) {
   return false;
 }
 
-// Moves a vertex where the bound is missed without it. Says whether there is a vertex less.
+// Moves a vertex a little, or where the bound is missed without it. Says whether there is a vertex
+// less.
 bool Decimation::try_move(Index v) {
   const Vertex old = surface_.vertex(v);
   const std::optional<Hole> hole = remove(v);
@@ -154,16 +162,38 @@ bool Decimation::try_move(Index v) {
   if (fit(hole->ring)) return true;
   const Sample& worst = surface_.survey().samples[fit_.worst_sample(random_below(kRanks))];
   edits_.roll_back(1);
-  if (try_cheaper_posts(old, *hole)) return false;
-  const Point to{cheap(worst.place.x), cheap(worst.place.y)};
-  const std::optional<std::size_t> post = surface_.posts().find(to);
-  if (!post || to == Point{old.x, old.y} || !insert({to.x, to.y, nearest_height(*post)}, *hole)) {
+  const bool is_cheaper = try_cheaper_posts(old, *hole);
+  const Point far{cheap(worst.place.x), cheap(worst.place.y)};
+  if (!is_cheaper && !try_near(old, *hole) && !try_post(far, old, *hole)) {
     edits_.roll_back(0);
     return false;
   }
+  if (is_cheaper) return false;
   const std::vector<Index> neighbours = ring(moved_);
   return std::any_of(neighbours.begin(), neighbours.end(),
                      [this](Index r) { return !surface_.is_fixed(r) && try_removal(r); });
+}
+
+// Moves a vertex that was removed to a random post near its own. Says whether it can be there.
+bool Decimation::try_near(Vertex old, const Hole& hole) {
+  for (int i = 0; i < kNearTries; ++i) {
+    const int reach = random_below(2) != 0 ? kNearest : kFarther;
+    const auto beside = [&](uint16_t from) {
+      return from + static_cast<int>(random_below(2 * static_cast<std::size_t>(reach) + 1)) - reach;
+    };
+    const int x = beside(old.x), y = beside(old.y);
+    if (std::min(x, y) < 0 || std::max(x, y) > kLatticeMax) continue;
+    const Point to{cheap(static_cast<uint16_t>(x)), cheap(static_cast<uint16_t>(y))};
+    if (try_post(to, old, hole)) return true;
+  }
+  return false;
+}
+
+// Moves a vertex that was removed to another post. Says whether there is one and it can be there.
+bool Decimation::try_post(Point to, Vertex old, const Hole& hole) {
+  if (to == Point{old.x, old.y}) return false;
+  const std::optional<std::size_t> post = surface_.posts().find(to);
+  return post && insert({to.x, to.y, nearest_height(*post)}, hole);
 }
 
 // The coordinate itself, or an even one next to it.
@@ -200,60 +230,9 @@ std::optional<Vertex> Decimation::carried(Vertex old, int x, int y) const {
   const PostIndex& posts = surface_.posts();
   const std::optional<std::size_t> from = posts.find({old.x, old.y}), post = posts.find(to);
   if (!post) return std::nullopt;
-  const double z = old.z + surface_.middles()[*post] - surface_.middles()[*from];
+  const double z = old.z + double{surface_.middles()[*post]} - double{surface_.middles()[*from]};
   const long height = std::lround(std::clamp(z, -32768.0, 32767.0));
   return Vertex{to.x, to.y, static_cast<int16_t>(height)};
-}
-
-void Decimation::centre(double mean, int near, const Progress& progress) {
-  rise_ = std::llround(-3 * mean * static_cast<double>(surface_.covered_area()));
-  const int32_t direction = rise_ < 0 ? -1 : 1;
-  fit_.prefer(direction);
-  forget();
-  try_each(progress, [&](Index v) { return direction * rise_ > 0 && try_towards_centre(v, near); });
-  fit_.prefer(0);
-  forget();
-}
-
-// Says whether there is a vertex less.
-bool Decimation::try_towards_centre(Index v, int near) {
-  const Vertex old = surface_.vertex(v);
-  const std::optional<Hole> hole = remove(v);
-  if (!hole) return false;
-  const bool removed = fit(hole->ring) && gain() >= 0;
-  if (!removed) {
-    edits_.roll_back(1);
-    if (!move_near(old, near, *hole)) {
-      edits_.roll_back(0);
-      return false;
-    }
-  }
-  rise_ -= raised_;
-  return removed;
-}
-
-// Moves a vertex that was removed to a post near its own, or back there with other heights around,
-// so that the mean error comes nearer zero: to the one that brings it nearest before heights are
-// fitted, of those that keep their bounds. Says whether there is one.
-bool Decimation::move_near(Vertex old, int near, const Hole& hole) {
-  std::vector<std::pair<int64_t, Vertex>> posts;  // and what they gain
-  for (int x = old.x - near; x <= old.x + near; ++x) {
-    const int rest = near - std::abs(x - old.x);
-    for (int y = old.y - rest; y <= old.y + rest; ++y) {
-      const std::optional<Vertex> to = carried(old, x, y);
-      if (!to || to->x % 2 + to->y % 2 > old.x % 2 + old.y % 2 || !place(*to, hole)) continue;
-      posts.emplace_back(gain(), *to);
-      edits_.roll_back(1);
-    }
-  }
-  std::stable_sort(posts.begin(), posts.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (const auto& post : posts) {
-    if (!insert(post.second, hole)) continue;
-    if (gain() > 0) return true;
-    edits_.roll_back(1);
-  }
-  return false;
 }
 
 // Puts a vertex in the hole that another left. Says whether it can be there.
@@ -270,11 +249,11 @@ bool Decimation::place(Vertex vertex, const Hole& hole) {
 bool Decimation::insert(Vertex vertex, const Hole& hole) {
   const std::size_t before = edits_.size();
   if (!place(vertex, hole)) return false;
-  std::vector<Index> around = hole.ring;
+  std::vector<Index> around = {moved_};  // first: what its triangles hold decides soonest
+  around.insert(around.end(), hole.ring.begin(), hole.ring.end());
   for (const Index r : ring(moved_)) {
     if (!contains(around, r)) around.push_back(r);
   }
-  around.push_back(moved_);
   if (fit(around)) return true;
   edits_.roll_back(before);
   return false;

@@ -3,7 +3,10 @@
 #ifndef MICROTIN_ENCODER_FIT_DECIMATION_HPP
 #define MICROTIN_ENCODER_FIT_DECIMATION_HPP
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,10 +18,10 @@
 namespace microtin::fit {
 
 // A local search. A vertex is removed if its neighbours find heights that keep all bounds around.
-// If not, it may move to a post next to it whose place costs fewer bits, or to one where the bound
-// is missed, and each of its new neighbours is tried; if none of them can go, it stays there
-// nevertheless, so that the search does not get stuck. Places are cheap where both coordinates are
-// multiples of two.
+// If not, it may move to a post next to it whose place costs fewer bits, to a random one near it,
+// or to one where the bound is missed, and then each of its new neighbours is tried; if none of
+// them can go, it stays there nevertheless, so that the search does not get stuck. Places are cheap
+// where both coordinates are multiples of two.
 class Decimation {
  public:
   // The surface keeps its bounds and must outlive this.
@@ -30,10 +33,17 @@ class Decimation {
   // `done`: how much of the search is over, 0 .. 1.
   std::size_t remove_and_move_vertices(double done, const Progress& progress);
 
-  // Brings the mean error, in steps, nearer zero: removes vertices, or moves them to posts
-  // whose places cost no more and which are at most so near, along x and y together. Of the posts
-  // it takes that which helps most. Tries every vertex once, until the mean is there.
-  void centre(double mean, int near, const Progress& progress);
+  // What `centre` and `add_vertices` bring nearer zero: the mean error, in steps.
+  void aim(double mean);
+
+  // Removes vertices, or moves them to posts whose places cost no more and which are at most so
+  // near, along x and y together. Of some of these posts it takes that which helps most. Tries
+  // every vertex once, until the mean is zero.
+  void centre(int near, const Progress& progress);
+
+  // Adds at most this many vertices to large triangles, those first that help most. There are never
+  // more vertices than at first.
+  void add_vertices(std::size_t most);
 
   // Lets every vertex be tried again.
   void forget() { stale_.assign(stale_.size(), false); }
@@ -44,16 +54,28 @@ class Decimation {
     std::vector<Index> ring;  // its neighbours
     int64_t raised;           // what the surface's volume became larger by
   };
+  // A vertex that could be added near another, and what that gains.
+  struct Addition {
+    int64_t gain;
+    Vertex vertex;
+    Index corner;
+  };
 
   std::vector<Index> order_of_attempts();
-  template <class Try>
-  std::size_t try_each(const Progress& progress, const Try& attempt);
+  std::size_t try_each(const Progress& progress, const std::function<bool(Index)>& attempt);
   bool try_removal(Index v);
   bool try_move(Index v);
   bool try_towards_centre(Index v, int near);
   bool move_near(Vertex old, int near, const Hole& hole);
-  int64_t gain() const { return rise_ < 0 ? -raised_ : raised_; }
+  std::vector<std::array<Index, 3>> large_triangles() const;
+  std::vector<Addition> additions();
+  std::optional<Addition> addition_in(const std::array<Index, 3>& corners);
+  bool add(const Addition& addition);
+  int32_t direction() const { return rise_ < 0 ? -1 : 1; }
+  int64_t gain() const { return direction() * raised_; }
   bool try_cheaper_posts(Vertex old, const Hole& hole);
+  bool try_near(Vertex old, const Hole& hole);
+  bool try_post(Point to, Vertex old, const Hole& hole);
   bool place(Vertex vertex, const Hole& hole);
   bool insert(Vertex vertex, const Hole& hole);
   std::optional<Vertex> carried(Vertex old, int x, int y) const;
@@ -63,7 +85,7 @@ class Decimation {
   bool fit(const std::vector<Index>& vertices);
   std::vector<Index> ring(Index v) const;
   std::optional<Hole> remove(Index v);
-  void note_changes();
+  void keep_edits();
   std::size_t random_below(std::size_t limit);
 
   Surface& surface_;

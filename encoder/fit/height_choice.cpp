@@ -29,18 +29,17 @@ constexpr double kCloseness = 4, kFlatness = 30;
 
 }  // namespace
 
-HeightChoice::HeightChoice(Surface& surface, uint32_t degree)
-    : surface_(surface), balance_(surface), allowed_(surface.vertex_limit()) {
+HeightChoice::HeightChoice(Surface& surface, uint32_t degree, double weight)
+    : surface_(surface),
+      balance_(surface, weight),
+      radius_(surface.mean_radius()),
+      allowed_(surface.vertex_limit()) {
   find_rings(degree);
   find_dependents();
   for (const Index v : vertex_) z_.push_back(surface_.height(v));
   residual_.resize(vertex_.size());
   find_levels();
   const auto posts = static_cast<double>(std::max<std::size_t>(surface.bounded_posts(), 1));
-  for (std::size_t p = 0; p < surface.posts().size(); ++p) {
-    if (surface.radii()[p] >= ErrorModel::kUnboundedRadius) continue;
-    radius_ += static_cast<double>(surface.radii()[p]) / posts;
-  }
   vertices_per_radius_ = static_cast<double>(vertex_.size()) / (posts * radius_ * radius_);
   mesh_ = Mesh{place_.data(), z_.data(), nullptr, nullptr, static_cast<Index>(place_.size()), 0};
 }

@@ -19,8 +19,8 @@ namespace microtin::fit {
 class HeightChoice {
  public:
   // The surface keeps its bounds and must outlive this; only its heights may change meanwhile.
-  // degree: as for breadth_first_order.
-  HeightChoice(Surface& surface, uint32_t degree);
+  // degree: as for breadth_first_order; weight: as for Balance.
+  HeightChoice(Surface& surface, uint32_t degree, double weight);
 
   // Gives each vertex in turn the allowed height that makes it and those that it predicts cheapest,
   // where small errors, the source's height on flat ground and means near zero are worth some bits.
@@ -66,7 +66,7 @@ class HeightChoice {
   std::array<std::array<float, kMagnitudeBits + 1>, kScales> bits_{};
 
   std::vector<std::optional<double>> level_;  // the source's height where it is flat, in steps
-  double radius_ = 0;                         // of the bounds, on average
+  double radius_;                             // of the bounds, on average
   double vertices_per_radius_ = 0;            // for each post, and squared
 
   // By vertex of the surface: what it may be while nothing around changes.

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kFixed = ~uint32_t{0};
 constexpr uint32_t kMostSteps = 30;
-constexpr float kHopeless = 1.2F;     // radii beyond a bound: 1 in 500 fits began worse, as counted
+constexpr float kHopeless = 1;        // excess, in squared mean radii: fits rarely begin worse
 constexpr double kNegligible = 1e-8;  // excess, in squared steps
 constexpr float kUnknown = -1;
 
@@ -29,12 +29,6 @@ Lanes load(const float* from) {
 
 void store(Lanes lanes, float* to) {
   std::memcpy(to, &lanes, sizeof lanes);
-}
-
-Lanes height_above(int16_t z, const double* middles) {
-  Lanes above{};
-  for (std::size_t i = 0; i < kLanes; ++i) above[i] = static_cast<float>(z - middles[i]);
-  return above;
 }
 
 // Masks by lane: quicker than comparisons for the sign.
@@ -64,12 +58,15 @@ float sum_of(Lanes lanes) {
 }  // namespace
 
 HeightFit::HeightFit(const Surface& surface)
-    : surface_(surface), mover_(surface.vertex_limit(), kFixed), met_(surface.mesh().triangles) {}
+    : surface_(surface), mover_(surface.vertex_limit(), kFixed), met_(surface.mesh().triangles) {
+  const auto radius = static_cast<float>(std::max(surface.mean_radius(), 1.0));
+  hopeless_ = kHopeless * radius * radius;
+}
 
 bool HeightFit::fit(const std::vector<Index>& vertices) {
   begin(vertices);
   bool fits = add_hopeful() && descend();
-  if (fits) {
+  if (fits && has_moved()) {
     go_back();
     for (const Index t : outer_) add_face(t);
     fits = descend();
@@ -82,29 +79,29 @@ bool HeightFit::fit(const std::vector<Index>& vertices) {
   return fits;
 }
 
-// Adds the inner triangles, and stops where a post is so far out that heights around will not mend
-// it. Says whether there is none.
+// Adds the inner triangles, and stops where posts are so far out that heights around will hardly
+// mend it. Says whether they are not.
 bool HeightFit::add_hopeful() {
-  while (added_ < inner_.size()) {
-    add_face(inner_[added_++]);
-    if (is_hopeless(faces_.back())) return false;
+  float sum = 0;
+  for (const Index t : inner_) {
+    add_face(t);
+    sum += faces_.back().excess;
+    if (sum > hopeless_) return false;
   }
   return true;
 }
 
-bool HeightFit::is_hopeless(const Face& face) const {
-  if (face.excess == 0) return false;
-  for (std::size_t i = face.begin; i < face.end; ++i) {
-    const float over = std::abs(error_[i]) - radius_[i];
-    if (over > kHopeless * std::max(radius_[i], 1.0F)) return true;
-  }
-  return false;
+bool HeightFit::has_moved() const {
+  return std::any_of(movers_.begin(), movers_.begin() + static_cast<std::ptrdiff_t>(mover_count_),
+                     [](const Mover& mover) { return mover.shift != 0; });
 }
 
 // Brings heights nearer to the source, or where they are preferred, one step each, where no excess
-// comes of it.
+// comes of it: those of vertices whose triangles have all been added.
 void HeightFit::settle() {
+  const bool all_added = faces_.size() == inner_.size() + outer_.size();
   for (std::size_t m = 0; m < mover_count_; ++m) {
+    if (!all_added && !movers_[m].is_inner) continue;
     const int32_t shift = preferred_ != 0 ? preferred_ : step_to_source(movers_[m]);
     const auto stays = [&](const std::pair<uint32_t, uint32_t>& at) {
       const Face& face = faces_[at.first];
@@ -168,13 +165,14 @@ bool HeightFit::descend() {
 
 void HeightFit::begin(const std::vector<Index>& vertices) {
   ++call_;
-  posts_ = added_ = 0;
+  posts_ = 0;
   faces_.clear();
   triangles_.clear();
   mover_count_ = vertices.size();
   if (movers_.size() < mover_count_) movers_.resize(mover_count_);
   for (uint32_t i = 0; i < mover_count_; ++i) {
     movers_[i].shift = 0;
+    movers_[i].is_inner = true;
     movers_[i].corners.clear();
     mover_[vertices[i]] = i;
   }
@@ -189,12 +187,20 @@ void HeightFit::find_triangles(const std::vector<Index>& vertices) {
       const Index triangle = triangle_of(h);
       if (met_[triangle] == call_) return;
       met_[triangle] = call_;
-      if (!surface_.is_covered(triangle)) return;
-      const Index* const corner = surface_.mesh().origin + first_edge(triangle);
-      const bool is_inner =
-          std::all_of(corner, corner + 3, [this](Index c) { return mover_[c] != kFixed; });
-      (is_inner ? inner_ : outer_).push_back(triangle);
+      if (surface_.is_covered(triangle)) sort_in(triangle);
     });
+  }
+}
+
+void HeightFit::sort_in(Index triangle) {
+  const Index* const corner = surface_.mesh().origin + first_edge(triangle);
+  if (std::all_of(corner, corner + 3, [this](Index c) { return mover_[c] != kFixed; })) {
+    inner_.push_back(triangle);
+    return;
+  }
+  outer_.push_back(triangle);
+  for (Index i = 0; i < 3; ++i) {
+    if (mover_[corner[i]] != kFixed) movers_[mover_[corner[i]]].is_inner = false;
   }
 }
 
@@ -225,7 +231,7 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
   const float c_along_y = static_cast<float>(b.x - a.x) * scale;
   const PostIndex& posts = surface_.posts();
   const float* const rows = posts.rows();
-  const double* const middles = surface_.middles();
+  const float* const middles = surface_.middles();
   const float* const radii = surface_.radii();
   const std::size_t begin = posts_;
   std::size_t end = begin;
@@ -243,7 +249,7 @@ void HeightFit::add_posts(const std::array<Vertex, 3>& corner) {
       const Lanes y = load(rows + first + i) - static_cast<float>(a.y);
       store(b_before + b_along_y * y, to_b + i);
       store(c_before + c_along_y * y, to_c + i);
-      store(height_above(va.z, middles + first + i), above + i);
+      store(static_cast<float>(va.z) - load(middles + first + i), above + i);
       store(load(radii + first + i), radius + i);
     }
   });
@@ -359,7 +365,6 @@ void HeightFit::move(Mover& mover, int32_t shift) {
 }
 
 uint32_t HeightFit::worst_sample(std::size_t rank) {
-  while (added_ < inner_.size()) add_face(inner_[added_++]);
   std::vector<std::pair<float, std::size_t>> worst;  // how far out, at which position
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     const Face& face = faces_[f];

@@ -34,7 +34,8 @@ class HeightFit {
   int32_t shift(std::size_t vertex) const { return movers_[vertex].shift; }
 
   // The covered triangles between vertices, or with one that moves, and, after a call that
-  // found nothing, the worst sample of the triangle that is worst, or second worst, ...
+  // found nothing, the worst sample of the triangle that is worst, or second worst, ..., of those
+  // that it looked at.
   const std::vector<Index>& changed() const { return triangles_; }
   uint32_t worst_sample(std::size_t rank);
 
@@ -49,6 +50,7 @@ class HeightFit {
   };
   struct Mover {
     int32_t shift;
+    bool is_inner;                                       // all its triangles are
     std::vector<std::pair<uint32_t, uint32_t>> corners;  // face, number of the corner
   };
   struct Step {
@@ -58,13 +60,14 @@ class HeightFit {
 
   void begin(const std::vector<Index>& vertices);
   void find_triangles(const std::vector<Index>& vertices);
+  void sort_in(Index triangle);
   bool add_hopeful();
-  bool is_hopeless(const Face& face) const;
   void assess(Face& face) const;
   bool descend();
   void settle();
   void keep_changed();
   bool moves(const Face& face) const;
+  bool has_moved() const;
   void go_back();
   void add_face(Index triangle);
   void add_posts(const std::array<Vertex, 3>& corner);
@@ -82,11 +85,11 @@ class HeightFit {
   std::vector<uint32_t> mover_;  // by vertex of the surface
   std::vector<uint32_t> met_;    // by triangle of the surface: the last call that met it
   uint32_t call_ = 0;
+  float hopeless_ = 0;  // excess with which a call gives up
   int32_t stride_ = 1;
   int32_t preferred_ = 0;
 
   std::vector<Index> inner_, outer_;  // triangles between vertices, and others around them
-  std::size_t added_ = 0;             // of the inner ones: fewer where a call gave up
   std::vector<Index> triangles_;
   std::vector<Face> faces_;  // of these
   std::vector<Mover> movers_;

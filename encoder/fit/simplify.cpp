@@ -76,7 +76,7 @@ std::vector<uint32_t> first_vertices(const Survey& survey) {
   return first;
 }
 
-constexpr int kHeightPasses = 8, kTrialPasses = 2;
+constexpr int kHeightPasses = 8, kFastPasses = 2;
 
 // Rounds become shorter: less and less is left to be tried.
 double time_of(double done) {
@@ -93,11 +93,20 @@ void remove_and_move(Decimation& decimation, uint32_t rounds, const Progress& pr
 }
 
 // What means near zero may cost, and how often that is tried, by heights and by moves.
-constexpr double kBalanceCost = 0.005;
-constexpr int kBalancePasses = 8, kCentringRounds = 6;
+constexpr double kBalanceCost = 0.005, kCentringCost = 0.08;
+constexpr int kBalancePasses = 8;
+constexpr uint32_t kCentringRounds = 8;
+
+// The part of the vertices that may be added in the second of these rounds; in the third twice as
+// many, and so on.
+constexpr uint32_t kAddedPart = 130;
+
+// What a mean that is off by a radius is worth, in bits a vertex: at first, and after moves.
+constexpr double kMeanWeight = 4, kCentringWeight = 128;
+constexpr int kCentringPasses = 3;
 
 // How far a vertex goes for that, at first and at most: its place is even as before then.
-constexpr int kNear = 2, kFar = 6;
+constexpr uint32_t kNear = 2, kFar = 6;
 
 std::size_t bytes_of(const Tin& tin, const SimplifyOptions& options) {
   return encode(tin, {}, options.effort).size();
@@ -117,9 +126,8 @@ Fitted fitted(const Surface& surface, const HeightChoice& heights, const Simplif
   return {std::move(tin), bytes, heights.mean_error(), heights.is_centred()};
 }
 
-Fitted with_cheap_heights(const Surface& surface, HeightChoice& heights,
+Fitted with_cheap_heights(const Surface& surface, HeightChoice& heights, int passes,
                           const SimplifyOptions& options) {
-  const int passes = options.search == Search::kTrial ? kTrialPasses : kHeightPasses;
   for (int i = 0; i < passes; ++i) heights.pass();
   return fitted(surface, heights, options);
 }
@@ -135,17 +143,19 @@ void balance(const Surface& surface, HeightChoice& heights, std::size_t most, Fi
   }
 }
 
-// The mean of all nearer zero by moves and removals, farther and farther, where heights alone did
-// not bring it there: most vertices have one allowed height.
+// The mean of all nearer zero by moves and removals, farther and farther, and by a few vertices
+// more, where heights alone did not bring it there: most vertices have one allowed height.
 void centre(Surface& surface, Decimation& decimation, std::size_t most, Fitted& found,
             const SimplifyOptions& options) {
   double mean = found.mean;
-  for (int i = 0; i < kCentringRounds && !found.is_centred; ++i) {
+  for (uint32_t i = 0; i < kCentringRounds && !found.is_centred; ++i) {
     const Progress part = options.progress.part(static_cast<double>(i) / kCentringRounds,
                                                 static_cast<double>(i + 1) / kCentringRounds);
-    decimation.centre(mean, std::min(kNear * (i + 1), kFar), part);
-    HeightChoice heights(surface, usual_degree(options.effort));
-    Fitted next = with_cheap_heights(surface, heights, options);
+    decimation.aim(mean);
+    if (i > 0) decimation.add_vertices(std::max(i * surface.vertices() / kAddedPart, 1u));
+    decimation.centre(static_cast<int>(std::min(kNear * (i + 1), kFar)), part);
+    HeightChoice heights(surface, usual_degree(options.effort), kCentringWeight);
+    Fitted next = with_cheap_heights(surface, heights, kCentringPasses, options);
     balance(surface, heights, most, next, options);
     if (next.bytes > most) return;
     mean = next.mean;
@@ -157,14 +167,17 @@ void centre(Surface& surface, Decimation& decimation, std::size_t most, Fitted& 
 // nevertheless.
 Tin finished(Surface& surface, Decimation& decimation, const Tin& before,
              const SimplifyOptions& options) {
-  HeightChoice heights(surface, usual_degree(options.effort));
-  Fitted found = with_cheap_heights(surface, heights, options);
+  HeightChoice heights(surface, usual_degree(options.effort), kMeanWeight);
+  const int passes = options.search == Search::kFast ? kFastPasses : kHeightPasses;
+  Fitted found = with_cheap_heights(surface, heights, passes, options);
   const std::size_t allowed = bytes_of(before, options);
   if (found.bytes > allowed) return before;
-  if (options.search == Search::kTrial) return std::move(found.tin);
-  const double dearer = static_cast<double>(found.bytes) * (1 + kBalanceCost);
-  const std::size_t most = std::min(allowed, static_cast<std::size_t>(dearer));
-  balance(surface, heights, most, found, options);
+  const auto with_cost = [&](double cost) {
+    const double bytes = static_cast<double>(found.bytes) * (1 + cost);
+    return std::min(allowed, static_cast<std::size_t>(bytes));
+  };
+  const std::size_t most = with_cost(kCentringCost);
+  balance(surface, heights, with_cost(kBalanceCost), found, options);
   if (options.centred) centre(surface, decimation, most, found, options);
   return std::move(found.tin);
 }
@@ -180,8 +193,16 @@ SimplifyOptions after_search(SimplifyOptions options) {
 }  // namespace
 
 uint32_t rounds_of(Search search) {
-  if (search == Search::kBest) return 160;
-  return search == Search::kNormal ? 28 : 1;
+  switch (search) {
+    case Search::kBest:
+      return 130;
+    case Search::kNormal:
+      return 20;
+    case Search::kFast:
+      return 2;
+    default:  // without any, steps of height that are too large would look better than they are
+      return 1;
+  }
 }
 
 Tin simplify(const Survey& survey, const SimplifyOptions& options) {
@@ -200,6 +221,7 @@ Tin simplify(const Survey& survey, const SimplifyOptions& options) {
   decimation.remove_vertices(options.progress.part(0, kRemovalPart));
   remove_and_move(decimation, rounds_of(options.search),
                   options.progress.part(kRemovalPart, kSearchPart));
+  if (options.search == Search::kTrial) return surface.tin();
   return finished(surface, decimation, refined, after_search(options));
 }
 

@@ -34,8 +34,8 @@ class Plane {
   double along_x_, along_y_;
 };
 
-// Steps from a bound within which floating point does not say on which side a post is: radii are
-// rounded to 24 bits.
+// Steps from a bound within which floating point does not say on which side a post is: middles and
+// radii are rounded to 24 bits, by at most 2^-10 and 2^-9 steps.
 constexpr double kNearlyOut = 1.0 / 64;
 
 // The least weight of a corner at a post is 2^-32, but for rounding.
@@ -65,7 +65,7 @@ void Surface::find_limits() {
   radii_.reserve(posts_.size());
   for (std::size_t i = 0; i < posts_.size(); ++i) {
     const auto [middle, radius] = model_.middle_and_radius(survey_.samples[posts_.number(i)]);
-    middles_.push_back(middle);
+    middles_.push_back(static_cast<float>(middle));
     radii_.push_back(static_cast<float>(radius));
     if (radius >= ErrorModel::kUnboundedRadius) continue;
     ++bounded_posts_;
@@ -119,7 +119,7 @@ bool Surface::keeps_bounds(Index triangle) const {
                     [&](std::size_t first, std::size_t last) {
                       for (std::size_t i = first; i < last && keeps; ++i) {
                         const Point p = posts_.place(i);
-                        const double error = std::abs(plane.at(p) - middles_[i]);
+                        const double error = std::abs(plane.at(p) - double{middles_[i]});
                         if (error < static_cast<double>(radii_[i]) - kNearlyOut) continue;
                         const int32_t surface = height_in_triangle(a, b, c, fine(p));
                         keeps = model_.violation(survey_.samples[posts_.number(i)], surface) == 0;
@@ -155,7 +155,7 @@ Surface::Interval Surface::allowed_heights(Index v) const {
         const Point p = posts_.place(i);
         const double weight = own.at(p);
         if (weight < kNoWeight) continue;
-        const double others = rest.at(p), middle = middles_[i], inverse = 1 / weight;
+        const double others = rest.at(p), middle = double{middles_[i]}, inverse = 1 / weight;
         const auto radius = static_cast<double>(radii_[i]);
         low = std::max(low, (middle - radius - others) * inverse);
         high = std::min(high, (middle + radius - others) * inverse);

@@ -29,7 +29,7 @@ class Surface {
 
   // The middle of what a post allows, and how far from there its ends are, in steps: by position
   // in the index, and PostIndex::kReadAhead numbers more.
-  const double* middles() const { return middles_.data(); }
+  const float* middles() const { return middles_.data(); }
   const float* radii() const { return radii_.data(); }
 
   // How many posts have a bound, and the mean of their radii.
@@ -127,8 +127,7 @@ class Surface {
   const Survey& survey_;
   ErrorModel model_;
   const PostIndex& posts_;
-  std::vector<double> middles_;  // by position
-  std::vector<float> radii_;     // the same
+  std::vector<float> middles_, radii_;  // by position
   std::size_t bounded_posts_ = 0;
   double mean_radius_ = 0;
   int32_t widest_stride_ = 1;

@@ -202,7 +202,7 @@ const std::vector<Row> kRows = {
     {"render", "--epsg", "m.mtin -o o.png --width 300 --source t.asc", "32633:5715"},
     {"render", "--units", "m.mtin -o o.png --width 300 --source t.asc", ":cm"},
     {"render", "--depths", "m.mtin -o o.png --width 300 --source t.asc", ""},
-    {"render", "--gridded", "m.mtin -o m.png --width 300 --source g.xyz", ""},
+    {"render", "--gridded", "fine.mtin -o m.png --width 300 --source g.xyz", ""},
     {"render", "--force", "", ""},  // 2^24 vertices: tests/cli/decode_grid_test.cpp
     {"render", "--fill-voids", "filled.mtin -o o.png --width 300 --source t.asc", "99"},
     {"render", "--water-level", "lake.mtin -o m.png --width 300 --source t.asc", "50"},
@@ -250,7 +250,8 @@ void write_inputs(const Session& session) {
   for (const char* words :
        {"t.asc -o t.mtin", "t.asc --max-error 2 -o m.mtin", "s.las -o s.mtin --classes all",
         "t.asc --tile-size 9 -o s.mtp", "t.asc --max-error 1 --tile-size 20 -o m.mtp",
-        "sea.xyz -o sea.mtin", "t.asc apart.asc --water-level 50 --absent sea -o seas.mtin",
+        "t.asc --max-error 1 -o fine.mtin", "sea.xyz -o sea.mtin",
+        "t.asc apart.asc --water-level 50 --absent sea -o seas.mtin",
         "t.asc --max-error 2 --fill-voids 99 -o filled.mtin",
         "t.asc --max-error 2 --error-map bounds.geojson --tile-vertices 60 -o bounded.mtp",
         "t.asc --max-error 2 --water-level 50 -o water.mtin",

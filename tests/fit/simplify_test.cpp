@@ -289,11 +289,9 @@ double imbalance(const Survey& survey, const Tin& tin, int32_t bound) {
   return std::abs(sum / static_cast<double>(survey.samples.size())) / bound;
 }
 
-// Midway between ground and the tops of trees is above most of the plain. Single terrains come to
-// 0.09 (one in thirty is above 0.03).
+// Midway between ground and the tops of trees is above most of the plain.
 TEST_CASE("simplify: errors keep their balance where most of the ground is low or high") {
   const int32_t bound = 5 * kStep / 2;
-  double sum = 0, count = 0;
   for (const uint32_t seed : {11u, 12u, 13u}) {
     for (const int32_t sign : {1, -1}) {
       Random random(seed);
@@ -310,14 +308,26 @@ TEST_CASE("simplify: errors keep their balance where most of the ground is low o
         options.search = search;
         const Tin tin = simplify(survey, options);
         CHECK(largest_violation(survey, tin, true) == 0);
-        const double mean = imbalance(survey, tin, bound);
-        CHECK(mean < 0.1);
-        sum += mean;
-        ++count;
+        CHECK(imbalance(survey, tin, bound) <= 0.02);
       }
     }
   }
-  CHECK(sum / count < 0.03);
+}
+
+// With so few vertices none can move far enough. Without added ones the mean comes to 0.02 and
+// 0.08.
+TEST_CASE("simplify: vertices are added on a plain for the sake of the mean error") {
+  for (const int32_t bound : {2 * kStep, 5 * kStep / 2}) {
+    Random random(3);
+    const auto plain = [&](int x, int y) {
+      const double hills = 4 * std::sin(x * 0.05) + 3 * std::cos(y * 0.04 + x * 0.02);
+      const bool tree = random.below(300) == 0;
+      const uint32_t above = random.below(tree ? static_cast<uint32_t>(2 * bound) : kStep);
+      return static_cast<int32_t>(std::lround(kStep * hills)) + static_cast<int32_t>(above);
+    };
+    const Survey survey = raster(129, 129, plain, bound);
+    CHECK(imbalance(survey, simplify(survey, bounded()), bound) <= 0.02);
+  }
 }
 
 TEST_CASE("simplify: a longer search finds fewer vertices, always the same") {
@@ -352,6 +362,28 @@ TEST_CASE("simplify: a surface is mended where narrower bounds do not hold") {
   REQUIRE(more.vertices.size() > vertices);
   CHECK(std::equal(tin.vertices.begin(), tin.vertices.end(), more.vertices.begin(),
                    [](Vertex a, Vertex b) { return a.x == b.x && a.y == b.y; }));
+}
+
+// Without small moves the sums are 15 and 25 larger.
+TEST_CASE("simplify: vertices that move a little let others go") {
+  const auto smooth = [](int x, int y) {
+    return static_cast<int32_t>(
+        std::lround(kStep * (12 * std::sin(x * 0.11) + 9 * std::cos(y * 0.13))));
+  };
+  const auto hills = [](int x, int y) {
+    const double height = 14 * std::sin(x * 0.13) + 11 * std::cos(y * 0.11 + x * 0.04);
+    return static_cast<int32_t>(std::lround(kStep * (height + 3 * std::sin(x * y * 0.01))));
+  };
+  const Survey surveys[] = {raster(97, 97, smooth, 3 * kStep / 2), raster(65, 65, rough, 4 * kStep),
+                            raster(81, 81, hills, 5 * kStep / 2)};
+  const std::pair<Search, std::size_t> most[] = {{Search::kFast, 863}, {Search::kNormal, 790}};
+  for (const auto& [search, bytes] : most) {
+    SimplifyOptions options = bounded();
+    options.search = search;
+    std::size_t sum = 0;
+    for (const Survey& survey : surveys) sum += encode(simplify(survey, options), {}).size();
+    CHECK(sum <= bytes);
+  }
 }
 
 TEST_CASE("simplify: never more bytes than greedy insertion takes") {

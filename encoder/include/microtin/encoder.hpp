@@ -128,7 +128,7 @@ class SourceTerrain {
 
 /* How long the encoder searches for a smaller file. */
 enum class SearchEffort {
-  kFast,   /* about 5 % more bytes */
+  kFast,   /* about 18 % more bytes */
   kNormal, /* the default */
   kBest    /* slow */
 };
