@@ -18,6 +18,7 @@
 #include "tests/support/autopilot_reader.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -94,11 +95,8 @@ Bytes expected_block(const uint8_t* block, bool inav, uint32_t spacing, DegreeCe
 std::vector<int> souths() {
   std::vector<int> chosen;
   for (int south = -89; south < 89; ++south) {
-#ifdef __SANITIZE_ADDRESS__
-    const bool is_chosen = std::abs(south) % 34 == 17;
-#else
-    const bool is_chosen = south < -70 || south >= 70 || south % 10 == 0;
-#endif
+    const bool is_chosen =
+        kIsSanitized ? std::abs(south) % 34 == 17 : south < -70 || south >= 70 || south % 10 == 0;
     if (is_chosen) chosen.push_back(south);
   }
   return chosen;

@@ -16,6 +16,7 @@
 #include "tests/faults/injected.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/forged_pack.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 int microtin_main(int argc, char** argv);  // the program's, renamed
@@ -150,11 +151,7 @@ Outcome fail_each(Stage& stage, const Words& words, Counter Counters::*counter, 
   return outcome;
 }
 
-#ifdef __SANITIZE_ADDRESS__
-constexpr uint64_t kStride = 10;  // slow
-#else
-constexpr uint64_t kStride = 1;
-#endif
+constexpr uint64_t kStride = kIsSanitized ? 10 : 1;
 
 // Pictures ask for memory thousands of times, in few places.
 uint64_t sparseness(const Words& words) {
