@@ -171,7 +171,7 @@ namespace {
 
 // Wants the entry of the tile in hand, or takes it from those that are kept. From a card the next
 // ones come with it: another read, after the stream, would want their sector once more.
-void want_entry(microtin_pack& p, uint32_t tile) {
+MICROTIN_IN_PLACE inline void want_entry(microtin_pack& p, uint32_t tile) {
   p.tile = tile;
   p.is_sound = false;
   const uint32_t place = tile - p.kept_from;
@@ -190,7 +190,7 @@ void want_entry(microtin_pack& p, uint32_t tile) {
 }
 
 // Moves the entries behind the first one to the buffer's end.
-void keep_entries(microtin_pack& p) {
+MICROTIN_IN_PLACE inline void keep_entries(microtin_pack& p) {
   p.kept = static_cast<uint8_t>(p.buffered / kPackEntryBytes - 1);
   p.kept_from = p.tile + 1;
   __builtin_memmove(p.buffer + room_of(p), p.buffer + kPackEntryBytes,
@@ -201,16 +201,22 @@ microtin_mesh* mesh_to_fill(const microtin_pack& p, const PackSlot& slot) {
   return p.work != nullptr ? p.work : static_cast<microtin_mesh*>(slot.space);
 }
 
-// Where there is no slot, the stream is compared with its hash: only a good tile wants one.
-microtin_status handle_entry(microtin_pack& p) {
+// Takes the entry that is in the buffer. CHECKSUM or MALFORMED: its tile is bad.
+MICROTIN_IN_PLACE inline microtin_status take_entry(microtin_pack& p) {
   if (p.buffered > kPackEntryBytes) keep_entries(p);
   if (pack_entry_check(p.header.identity, p.tile, p.buffer) !=
       read_u32(p.buffer + kPackEntryBytes - kCheckBytes)) {
     p.kept = 0;  // it may be read better
-    return refuse_tile(p, MICROTIN_STATUS_CHECKSUM);
+    return MICROTIN_STATUS_CHECKSUM;
   }
-  if (!read_pack_entry(p.buffer, p.header, &p.entry))
-    return refuse_tile(p, MICROTIN_STATUS_MALFORMED);
+  return read_pack_entry(p.buffer, p.header, &p.entry) ? MICROTIN_STATUS_OK
+                                                       : MICROTIN_STATUS_MALFORMED;
+}
+
+// Where there is no slot, the stream is compared with its hash: only a good tile wants one.
+microtin_status handle_entry(microtin_pack& p) {
+  const microtin_status taken = take_entry(p);
+  if (taken != MICROTIN_STATUS_OK) return refuse_tile(p, taken);
   const bool has_slot = choose_slot(p);
   // What is to be made compact needs its slot not before then.
   const bool is_emptied = has_slot && (p.work == nullptr || p.entry.size == 0) && empty_slot(p);
@@ -439,6 +445,26 @@ microtin_status go_on(microtin_pack& p, const microtin_segment& segment) {
     status = handle(p);
   }
   return status;
+}
+
+microtin_status bring_entry(microtin_pack& p, uint32_t tile) {
+  if (p.stage != PackStage::kEntry || p.tile != tile) {
+    p.storage = Storage::kWell;  // it was not asked for this tile
+    want_entry(p, tile);
+  }
+  const bool is_absent = p.storage == Storage::kEnds && p.buffered < kPackEntryBytes;
+  microtin_status status = MICROTIN_STATUS_TRUNCATED;
+  if (!is_absent) {
+    status = hear_storage(p);
+    if (status != MICROTIN_STATUS_NEED_INPUT || p.buffered < p.wanted) return status;
+    status = take_entry(p);
+  }
+  // A tile whose entry was read before is remembered.
+  if (status != MICROTIN_STATUS_OK && bad_tile(p, tile) == MICROTIN_PACK_MAX_BAD_TILES) {
+    refuse_tile(p, status);
+  }
+  p.storage = Storage::kWell;
+  return fail_pack(p, status == MICROTIN_STATUS_OK ? status : MICROTIN_STATUS_BAD_TILES);
 }
 
 microtin_status lay_out_pack(void* workspace, size_t size, uint32_t slots, uint32_t capacity,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whether tiles are there and whole. Nothing is decoded and no slot changes: as where there are
-// more tiles than slots, streams are compared with their hashes.
+// Whether tiles are there and whole, and between which heights they lie. Nothing is decoded and no
+// slot changes: as where there are more tiles than slots, streams are compared with their hashes.
 #include "decoder/pack_query.hpp"
 
 namespace microtin {
@@ -29,19 +29,44 @@ bool has_terrain(const microtin_pack& p, uint32_t tile) {
   return slot != p.slot_count ? p.slots[slot].has_terrain : p.entry.size != 0;
 }
 
-// Checks a tile and counts it. OK if that is done.
-MICROTIN_OUT_OF_LINE microtin_status count_tile(microtin_pack& p, uint32_t tile,
-                                                microtin_pack_check* check) {
-  const microtin_status status = check_tile(p, middle_of(p.header.grid, tile));
-  if (status == MICROTIN_STATUS_BAD_TILES) {
-    if (check->bad++ == 0) check->first_bad = tile;
-  } else if (status != MICROTIN_STATUS_OK) {
-    return status;
-  } else if (!has_terrain(p, tile)) {
-    ++check->without_terrain;
-  }
-  ++check->tiles;
+microtin_status count_bad(uint32_t tile, microtin_pack_check* check) {
+  if (check->bad++ == 0) check->first_bad = tile;
   return MICROTIN_STATUS_OK;
+}
+
+// Looks at a tile's stream, and counts the tile. OK if that is done.
+MICROTIN_OUT_OF_LINE microtin_status look_at(microtin_pack& p, uint32_t tile,
+                                             microtin_pack_check* check) {
+  const microtin_status status = check_tile(p, middle_of(p.header.grid, tile));
+  if (status == MICROTIN_STATUS_BAD_TILES) return count_bad(tile, check);
+  if (status == MICROTIN_STATUS_OK && !has_terrain(p, tile)) ++check->without_terrain;
+  return status;
+}
+
+// Looks at a tile's entry alone, and counts the tile. It may be in a slot, or its stream be bad.
+MICROTIN_OUT_OF_LINE microtin_status look_at(microtin_pack& p, uint32_t tile,
+                                             microtin_pack_bounds* bounds) {
+  microtin_pack_check& check = bounds->check;
+  const microtin_status status = bring_entry(p, tile);
+  if (status == MICROTIN_STATUS_BAD_TILES) return count_bad(tile, &check);
+  if (status != MICROTIN_STATUS_OK) return status;
+  if (p.entry.size == 0) {
+    ++check.without_terrain;
+    return status;
+  }
+  const int16_t lowest = entry_lowest(p.buffer), highest = entry_highest(p.buffer);
+  const bool is_first = check.tiles == check.without_terrain + check.bad;
+  if (is_first || lowest < bounds->lowest) bounds->lowest = lowest;
+  if (is_first || highest > bounds->highest) bounds->highest = highest;
+  return status;
+}
+
+microtin_pack_check* counts_of(microtin_pack_check* check) {
+  return check;
+}
+
+microtin_pack_check* counts_of(microtin_pack_bounds* bounds) {
+  return &bounds->check;
 }
 
 // Brings the header. OK if it is there.
@@ -78,14 +103,11 @@ Slice slice_of(int64_t a, int64_t b, uint32_t size, uint32_t most) {
   return Slice{first, last < first ? 1 : last - first + 1};
 }
 
-}  // namespace
-}  // namespace microtin
-
-using namespace microtin;
-
-microtin_status microtin_pack_check_segment(microtin_pack* pack, const microtin_segment* segment,
-                                            microtin_pack_check* check) {
-  if (pack == nullptr || segment == nullptr || check == nullptr) return MICROTIN_STATUS_ARGUMENT;
+// Looks at the tiles that a segment touches; a state is a check, or bounds.
+template <class State>
+microtin_status look_along(microtin_pack* pack, const microtin_segment* segment, State* state) {
+  if (pack == nullptr || segment == nullptr || state == nullptr) return MICROTIN_STATUS_ARGUMENT;
+  microtin_pack_check* const check = counts_of(state);
   microtin_status status = begin(*pack, *segment, check);
   if (status != MICROTIN_STATUS_OK) return status;
   TouchedTiles tiles(pack->header.grid, *segment);
@@ -94,27 +116,56 @@ microtin_status microtin_pack_check_segment(microtin_pack* pack, const microtin_
     tiles.next();
   }
   for (; !tiles.at_end(); tiles.next()) {
-    status = count_tile(*pack, tiles.number(), check);
+    status = look_at(*pack, tiles.number(), state);
     if (status != MICROTIN_STATUS_OK) return status;
+    ++check->tiles;
     check->next = tiles.number();
   }
   return end(*check);
 }
 
-microtin_status microtin_pack_check_box(microtin_pack* pack, const microtin_segment* diagonal,
-                                        microtin_pack_check* check) {
-  if (pack == nullptr || diagonal == nullptr || check == nullptr) return MICROTIN_STATUS_ARGUMENT;
+// Looks at the tiles of a box.
+template <class State>
+microtin_status look_in(microtin_pack* pack, const microtin_segment* diagonal, State* state) {
+  if (pack == nullptr || diagonal == nullptr || state == nullptr) return MICROTIN_STATUS_ARGUMENT;
+  microtin_pack_check* const check = counts_of(state);
   microtin_status status = begin(*pack, *diagonal, check);
   if (status != MICROTIN_STATUS_OK) return status;
   const TileGrid& grid = pack->header.grid;
   const Slice columns = slice_of(diagonal->x, diagonal->x_end, grid.width, grid.x_max),
               rows = slice_of(diagonal->y, diagonal->y_end, grid.height, grid.y_max);
   // Tiles have 32-bit numbers, so their count fits.
-  while (check->tiles < columns.count * rows.count) {
+  for (; check->tiles < columns.count * rows.count; ++check->tiles) {
     const uint32_t row = rows.first + check->tiles / columns.count,
                    column = columns.first + check->tiles % columns.count;
-    status = count_tile(*pack, row * tile_columns(grid) + column, check);
+    status = look_at(*pack, row * tile_columns(grid) + column, state);
     if (status != MICROTIN_STATUS_OK) return status;
   }
   return end(*check);
+}
+
+}  // namespace
+}  // namespace microtin
+
+using namespace microtin;
+
+microtin_status microtin_pack_check_segment(microtin_pack* pack, const microtin_segment* segment,
+                                            microtin_pack_check* check) {
+  return look_along(pack, segment, check);
+}
+
+microtin_status microtin_pack_check_box(microtin_pack* pack, const microtin_segment* diagonal,
+                                        microtin_pack_check* check) {
+  return look_in(pack, diagonal, check);
+}
+
+microtin_status microtin_pack_bounds_on_segment(microtin_pack* pack,
+                                                const microtin_segment* segment,
+                                                microtin_pack_bounds* bounds) {
+  return look_along(pack, segment, bounds);
+}
+
+microtin_status microtin_pack_bounds_in_box(microtin_pack* pack, const microtin_segment* diagonal,
+                                            microtin_pack_bounds* bounds) {
+  return look_in(pack, diagonal, bounds);
 }

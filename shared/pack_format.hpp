@@ -125,7 +125,7 @@ inline bool read_pack_placement(const uint8_t* placement, const PackHeader& head
 }
 
 // Where the index ends, from which offsets count: below 2^37.
-inline uint64_t pack_index_end(const PackHeader& header) {
+MICROTIN_IN_PLACE inline uint64_t pack_index_end(const PackHeader& header) {
   return pack_entry_start(header, tile_columns(header.grid) * tile_rows(header.grid));
 }
 
@@ -146,7 +146,8 @@ inline int16_t entry_highest(const uint8_t* entry) {
 }
 
 // False if it breaks a rule.
-inline bool read_pack_entry(const uint8_t* bytes, const PackHeader& header, PackEntry* entry) {
+MICROTIN_IN_PLACE inline bool read_pack_entry(const uint8_t* bytes, const PackHeader& header,
+                                              PackEntry* entry) {
   entry->size = read_u16(bytes + 5) | static_cast<uint32_t>(bytes[7]) << 16;
   entry->stream_hash = read_u32(bytes + 8);
   entry->offset =
@@ -193,7 +194,8 @@ MICROTIN_ONE_COPY inline uint32_t stream_hash(uint32_t hash, const uint8_t* byte
 
 // The check of an entry starts from the pack's identity and the tile's number, so that an entry of
 // another tile or pack does not pass.
-inline uint32_t pack_entry_check(uint32_t identity, uint32_t tile, const uint8_t* bytes) {
+MICROTIN_IN_PLACE inline uint32_t pack_entry_check(uint32_t identity, uint32_t tile,
+                                                   const uint8_t* bytes) {
   uint8_t place[4];
   for (uint32_t i = 0; i < 4; ++i) place[i] = static_cast<uint8_t>(tile >> 8 * i);
   return crc32(crc32(identity, place, 4), bytes, kPackEntryBytes - kCheckBytes);

@@ -241,11 +241,13 @@ uint64_t boxes_of_walk(const microtin_pack* pack, const microtin_segment& segmen
 void serve(Card& card, const Device& device, const microtin_segment& segment, uint32_t step_limit) {
   microtin_status status = MICROTIN_STATUS_STEP_LIMIT;
   microtin_pack_check check = {};  // whatever it finds, loading goes on
+  microtin_pack_bounds bounds = {};
   uint64_t boxes = 0;
   for (uint32_t call = 0, failed = 0; failed < 3 && boxes < 4000000; ++call) {
     EXPECT(call < 200000);
     boxes += boxes_of_walk(device.pack, segment);
     if (call % 16 == 3) microtin_pack_check_segment(device.pack, &segment, &check);
+    if (call % 16 == 9) microtin_pack_bounds_on_segment(device.pack, &segment, &bounds);
     const uint32_t reads = card.reads;
     status = device.load_with(segment, Card::read, &card, step_limit);
     if (status == MICROTIN_STATUS_IO) {

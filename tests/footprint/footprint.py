@@ -31,6 +31,7 @@ SAFE_HEIGHTS = ["mesh_safe_heights_at"]
 SEGMENTS = ["mesh_segment_extremes"]
 REQUESTS = ["requests_init", "requests_add", "requests_next", "requests_note", "requests_pending"]
 PACK_CHECK = ["pack_check_segment", "pack_check_box"]
+PACK_BOUNDS = ["pack_bounds_on_segment", "pack_bounds_in_box"]
 CLEARANCE = ["mesh_path_clearance"]
 PROFILE = ["mesh_profile_next"]
 PACK_PROFILE = ["pack_profile_next"]
@@ -53,6 +54,7 @@ USES = {
     "safe_heights": DECODING + SAFE_HEIGHTS,
     "segments": DECODING + SEGMENTS,
     "pack_check": PACK + PACK_CHECK + ["pack_height_at"],
+    "pack_bounds": PACK + PACK_BOUNDS + ["pack_height_at"],
     "requests": PACK + REQUESTS + ["pack_height_at"],
     "clearance": DECODING + CLEARANCE,
     "profile": DECODING + PROFILE,
@@ -152,14 +154,15 @@ def measure_library(options, library):
     if options.stack:
         image = str(options.build / "linked")
         all_packs = PACK + PACK_QUERIES + COMPACT_PACK + COMPACT_PACK_QUERIES
-        others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + REQUESTS + CLEARANCE + PROFILE + PACK_PROFILE + COMPACT_PACK_PROFILE
+        others = NOTES + SAFE_HEIGHTS + SEGMENTS + PACK_CHECK + PACK_BOUNDS + REQUESTS + CLEARANCE + PROFILE + PACK_PROFILE + COMPACT_PACK_PROFILE
         others += GRADIENT + PACK_GRADIENT + PLACES
         link(options, library, DECODING + QUERIES + BUCKETS + COMPACT + others + all_packs, image)
         calls = stack_of(options, options.objects[library], image)
         own = {
             "decoding": DECODING, "queries": QUERIES, "buckets": BUCKETS, "compact": COMPACT, "pack": PACK,
             "pack_queries": PACK_QUERIES, "compact_pack": COMPACT_PACK, "compact_pack_queries": COMPACT_PACK_QUERIES,
-            "notes": NOTES, "safe_heights": SAFE_HEIGHTS, "segments": SEGMENTS, "pack_check": PACK_CHECK, "requests": REQUESTS,
+            "notes": NOTES, "safe_heights": SAFE_HEIGHTS, "segments": SEGMENTS, "pack_check": PACK_CHECK,
+            "pack_bounds": PACK_BOUNDS, "requests": REQUESTS,
             "clearance": CLEARANCE, "profile": PROFILE, "pack_profile": PACK_PROFILE,
             "compact_pack_profile": COMPACT_PACK_PROFILE, "gradient": GRADIENT, "pack_gradient": PACK_GRADIENT,
             "places": PLACES,
@@ -299,6 +302,7 @@ USE_TITLES = {
     "safe_heights": "decoding, safe heights",
     "segments": "decoding, extremes on a segment",
     "pack_check": "packs, heights, checks",
+    "pack_bounds": "packs, heights, bounds",
     "requests": "packs, heights, requests",
     "clearance": "decoding, clearance of a path",
     "profile": "decoding, a profile",
@@ -318,6 +322,7 @@ STACK_TITLES = {
     "safe_heights": "safe heights",
     "segments": "extremes on a segment",
     "pack_check": "checks of packs",
+    "pack_bounds": "bounds of packs",
     "requests": "requests of packs",
     "clearance": "clearance of a path",
     "profile": "a profile",

@@ -244,6 +244,43 @@ static inline microtin_status microtin_pack_check_with(microtin_pack* pack,
   }
 }
 
+/* --- Bounds of heights from the index, without decoding --- */
+
+/* What the index states of an area so far. All zero to begin. */
+typedef struct microtin_pack_bounds {
+  microtin_pack_check check; /* counts of entries of the index; `bad` ones are damaged or absent */
+  int16_t lowest, highest;   /* z steps: no vertex of the area's tiles is lower, none is higher.
+                                They mean nothing if no tile has terrain */
+} microtin_pack_bounds;
+
+/* Finds between which heights the tiles lie that a segment touches, for packs of both kinds. Reads
+ * 20 bytes of the index for each tile, and neither decodes nor changes a slot: much faster than
+ * loading, if the answer suffices. Streams are not looked at; a tile with a damaged stream counts
+ * like a whole one. How to call, cost and results are those of microtin_pack_check_segment. */
+microtin_status microtin_pack_bounds_on_segment(microtin_pack* pack,
+                                                const microtin_segment* segment,
+                                                microtin_pack_bounds* bounds);
+
+/* Finds the same of the tiles of a box, as microtin_pack_check_box does. */
+microtin_status microtin_pack_bounds_in_box(microtin_pack* pack, const microtin_segment* diagonal,
+                                            microtin_pack_bounds* bounds);
+
+/* Finds the bounds all at once, reading by `read`, as microtin_pack_check_with does. */
+static inline microtin_status microtin_pack_bounds_with(microtin_pack* pack,
+                                                        const microtin_segment* area, int is_box,
+                                                        microtin_pack_bounds* bounds,
+                                                        microtin_read read, void* context) {
+  for (;;) {
+    microtin_status status;
+    int is_ready;
+    if (!pack || !read) return MICROTIN_STATUS_ARGUMENT;
+    is_ready = microtin_pack_read_once(pack, read, context);
+    status = is_box ? microtin_pack_bounds_in_box(pack, area, bounds)
+                    : microtin_pack_bounds_on_segment(pack, area, bounds);
+    if (status != MICROTIN_STATUS_NEED_INPUT || !is_ready) return status;
+  }
+}
+
 /* --- The header --- */
 
 /* What a pack's header contains. Positions are global lattice coordinates. */
@@ -260,6 +297,25 @@ typedef struct microtin_pack_info {
 
 /* Returns what the header contains. OK, or NEED_INPUT before microtin_pack_load has read it. */
 microtin_status microtin_pack_get_info(const microtin_pack* pack, microtin_pack_info* info);
+
+/* Whether an area's terrain is surely below `height`, in z steps with 16 fractional bits. `bounds`
+ * are complete bounds of the area, `info` is the pack's. `flags` is 0, for the terrain in the pack,
+ * or MICROTIN_FLAG_SAFE, for its source. Returns 1 if so. Returns 0 if it is not known: a tile
+ * reaches that high, has no terrain or a bad entry; the area leaves the pack; or the pack states no
+ * margin. Then load the tiles and use microtin_pack_path_clearance. Voids within tiles have no
+ * height and do not count. */
+static inline int microtin_pack_is_clear(const microtin_pack_bounds* bounds,
+                                         const microtin_pack_info* info, int32_t height,
+                                         uint32_t flags) {
+  const microtin_pack_check* const check = &bounds->check;
+  int64_t highest = (int64_t)bounds->highest * 65536;
+  if ((flags & MICROTIN_FLAG_SAFE) != 0) {
+    if (info->below == MICROTIN_MARGIN_NOT_STATED) return 0;
+    highest += (int64_t)info->below * 4096;
+  }
+  return check->is_inside && check->tiles != 0 && check->without_terrain + check->bad == 0 &&
+         highest < height;
+}
 
 /* Converts a real coordinate to the lattice of a pack, 0 .. `most` lattice steps with 8 fractional
  * bits. Parameters and rounding are those of microtin_axis_to_lattice. OK, or OUT_OF_RANGE: the
