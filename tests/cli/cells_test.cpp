@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -56,7 +57,7 @@ TEST_CASE("cells: a list names files and folders, relative to its own") {
   CHECK(contains(session.failure("encode --cells missing -o d.mtp"), "missing: "));
 }
 
-TEST_CASE("cells: what is absent is not an ocean unless somebody says so") {
+TEST_CASE("cells: what is absent is not an ocean unless somebody says so" * kSlow) {
   const Cells session;
   session.write("list", "data\nsea N50E007\n");
   for (const std::string file : {"t.mtin", "t.mtp"}) {
@@ -78,7 +79,7 @@ TEST_CASE("cells: what is absent is not an ocean unless somebody says so") {
   CHECK(session.run("encode data --absent sea -o u.mtp").code == 2);
 }
 
-TEST_CASE("resume: a run goes on where another one stopped, and makes the same pack") {
+TEST_CASE("resume: a run goes on where another one stopped, and makes the same pack" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 257 --seed 3 -o t.asc").code == 0);
   const std::string options = "encode t.asc --units metre --max-error 10 --tile-size 32 --fast ";
@@ -120,7 +121,7 @@ TEST_CASE("resume: the file of finished tiles is neither an input nor the output
   CHECK(contains(session.failure(encode + "t.mtp"), "t.mtp: is also the output"));
 }
 
-TEST_CASE("resume: a run that is killed has kept its tiles, and a shard goes on too") {
+TEST_CASE("resume: a run that is killed has kept its tiles, and a shard goes on too" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 513 --seed 3 -o t.asc").code == 0);
   const std::string options =

@@ -12,6 +12,7 @@
 #include "tests/support/layers.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -80,7 +81,7 @@ TEST_CASE("check: tiles of a later version are listed apart") {
   CHECK(contains(found.out, "\nunsupported: [1, 2]\nbad: [7]\n"));
 }
 
-TEST_CASE("diff: tiles that differ are listed") {
+TEST_CASE("diff: tiles that differ are listed" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 65 --seed 3 -o t.asc").code == 0);
   const std::string encode = "encode t.asc --max-error 20 --z-step 8 --tile-size 16 -o ";

@@ -8,6 +8,7 @@
 #include "microtin/compact_pack.h"
 #include "microtin/microtin.h"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 namespace fs = std::filesystem;
@@ -91,7 +92,7 @@ TEST_CASE("cli: points come from a pipe, streams go to one") {
   CHECK(session.run("info - < piped.mtin").code == 0);
 }
 
-TEST_CASE("cli: bounds are kept, merged points counted") {
+TEST_CASE("cli: bounds are kept, merged points counted" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
   REQUIRE(session.run("encode f.asc --max-error 10 --z-step 8 -o f.mtin").code == 0);
@@ -106,7 +107,7 @@ TEST_CASE("cli: bounds are kept, merged points counted") {
   CHECK(contains(session.failure("encode f.asc --max-vertices 3 -o i.mtin"), "alone need 4"));
 }
 
-TEST_CASE("cli: searches, and surfaces that are never below") {
+TEST_CASE("cli: searches, and surfaces that are never below" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
   for (const char* option : {"", "--fast", "--best", "--never-below", "--never-below --z-step 2"}) {
@@ -119,7 +120,7 @@ TEST_CASE("cli: searches, and surfaces that are never below") {
   }
 }
 
-TEST_CASE("cli: the bound that a number of bytes allows") {
+TEST_CASE("cli: the bound that a number of bytes allows" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 33 --seed 3 -o f.asc").code == 0);
   for (const char* option : {"--fast", "--fast --never-below"}) {
@@ -158,7 +159,7 @@ TEST_CASE("cli: outlines of voids are simplified to use a limit") {
                  "--device-ram 2800 holds at most "));
 }
 
-TEST_CASE("cli: a device's RAM decides how many vertices fit") {
+TEST_CASE("cli: a device's RAM decides how many vertices fit" * kSlow) {
   Session session;
   session.run("fractal --size 33 -o f.asc");
   const auto workspaces = [&](const std::string& stream) {
@@ -195,7 +196,7 @@ TEST_CASE("cli: streams become C headers") {
   CHECK(contains(session.failure("embed bad.mtin -o bad.h"), "bad.mtin"));
 }
 
-TEST_CASE("cli: terrain files of autopilots") {
+TEST_CASE("cli: terrain files of autopilots" * kSlow) {
   const Session session;
   std::string posts;
   for (int i = 0; i < 61 * 61; ++i) posts += {'\x01', static_cast<char>(i % 61)};
@@ -374,7 +375,7 @@ TEST_CASE("cli: a pack for an autopilot fits its RAM in nine compact slots") {
   session.failure("encode t.asc --for px4 -o no.mtp", 2);
 }
 
-TEST_CASE("cli: packs") {
+TEST_CASE("cli: packs" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 65 --seed 3 -o t.asc").code == 0);
   const Session::Result encoded =
@@ -408,7 +409,7 @@ TEST_CASE("cli: packs") {
   CHECK(contains(session.failure("info damaged.mtp"), "damaged.mtp: tile 0: "));
 }
 
-TEST_CASE("cli: packs of points") {
+TEST_CASE("cli: packs of points" * kSlow) {
   const Session session;
   std::string points;
   for (int i = 0; i < 900; ++i) {
@@ -446,7 +447,7 @@ TEST_CASE("cli: packs of points") {
   CHECK(contains(session.failure("encode line.xyz --tile-vertices 60 -o line.mtp"), "one line"));
 }
 
-TEST_CASE("cli: a grid that is written is a terrain again") {
+TEST_CASE("cli: a grid that is written is a terrain again" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
   REQUIRE(session.run("encode f.asc --max-error 10 --z-step 4 -o f.mtin").code == 0);

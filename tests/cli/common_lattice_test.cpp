@@ -9,6 +9,7 @@
 
 #include "microtin/surface.hpp"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -105,7 +106,8 @@ void check_closed(const Session& session, double west, double south, double east
 
 }  // namespace
 
-TEST_CASE("mosaic: bands of latitude with different columns are one terrain, none resampled") {
+TEST_CASE("mosaic: bands of latitude with different columns are one terrain, none resampled" *
+          kSlow) {
   // As GLO-30: posts from the west and the north edge on, 1.5, 2, 3, 5 and 10 times as far apart.
   for (const int times_two : {3, 4, 6, 10, 20}) {
     CAPTURE(times_two);
@@ -119,7 +121,7 @@ TEST_CASE("mosaic: bands of latitude with different columns are one terrain, non
   }
 }
 
-TEST_CASE("mosaic: bands whose posts are at centres of cells share no column") {
+TEST_CASE("mosaic: bands whose posts are at centres of cells share no column" * kSlow) {
   const Session session;
   check_cells(session, {{6 + 0.5 / 60, 49 + 0.5 / 60, 60, 60, 60, 60},
                         {6 + 0.5 / 40, 50 + 0.5 / 60, 40, 60, 40, 60},
@@ -127,7 +129,7 @@ TEST_CASE("mosaic: bands whose posts are at centres of cells share no column") {
   check_closed(session, 6.02, 49.01, 6.98, 51.99);
 }
 
-TEST_CASE("mosaic: posts half a step off are kept where they lie, and this is said") {
+TEST_CASE("mosaic: posts half a step off are kept where they lie, and this is said" * kSlow) {
   const Session session;
   check_cells(session, {{6, 49, 41, 41, 40, 40}, {6 + 0.5 / 40, 50 + 0.5 / 40, 40, 40, 40, 40}});
   check_closed(session, 6.02, 49, 6.98, 50.98);
@@ -145,7 +147,7 @@ TEST_CASE("mosaic: posts half a step off are kept where they lie, and this is sa
                  "gdalwarp -tr -tap"));
 }
 
-TEST_CASE("mosaic: a finer grid that overlaps a coarser one") {
+TEST_CASE("mosaic: a finer grid that overlaps a coarser one" * kSlow) {
   const Session session;
   check_cells(session, {{6, 49, 31, 31, 30, 30}, {6.5, 49.5, 91, 61, 90, 90}});
   check_closed(session, 6, 49, 7, 50);
@@ -167,7 +169,7 @@ TEST_CASE("mosaic: a void of one grid is not one where another has posts around"
   }
 }
 
-TEST_CASE("mosaic: half an .hgt cell's columns next to a whole one") {
+TEST_CASE("mosaic: half an .hgt cell's columns next to a whole one" * kSlow) {
   const Session session;
   const auto cell = [](int columns) {
     std::string bytes;

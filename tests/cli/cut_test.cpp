@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -21,7 +22,7 @@ struct Packed : Session {
 
 }  // namespace
 
-TEST_CASE("cut: whole tiles keep their heights, and parts join to what they were") {
+TEST_CASE("cut: whole tiles keep their heights, and parts join to what they were" * kSlow) {
   const Packed session;
   const Session::Result west = session.run("cut t.mtp --extent 0,0,3000,7680 -o west.mtp");
   CHECK(contains(west.out, "tiles: 4 x 9, "));
@@ -46,7 +47,7 @@ TEST_CASE("cut: whole tiles keep their heights, and parts join to what they were
   }
 }
 
-TEST_CASE("cut: what is not there, or does not go together, is refused") {
+TEST_CASE("cut: what is not there, or does not go together, is refused" * kSlow) {
   const Packed session;
   CHECK(session.failure("cut t.mtp --extent 7900,0,9000,256 -o c.mtp") ==
         "t.mtp: has no tile in this extent; it goes from x 0, y 0 to x 7680, y 7680\n");

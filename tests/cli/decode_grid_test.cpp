@@ -10,6 +10,7 @@
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/join.hpp"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 
@@ -151,7 +152,7 @@ Bytes understated_pack() {
 
 }  // namespace
 
-TEST_CASE("cli: the vertices of a pack are counted, not taken from its header") {
+TEST_CASE("cli: the vertices of a pack are counted, not taken from its header" * kSlow) {
   const Session session;
   const Bytes pack = understated_pack();
   session.write("t.mtp", {pack.begin(), pack.end()});

@@ -17,6 +17,7 @@
 #include "tests/support/files.hpp"
 #include "tests/support/members.hpp"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 namespace library = microtin::encoder;
@@ -318,19 +319,19 @@ void walk(Kind kind) {
 
 }  // namespace
 
-TEST_CASE("doors: each option of a stream of posts does the same by each, and something") {
+TEST_CASE("doors: each option of a stream of posts does the same by each, and something" * kSlow) {
   walk(kStream);
 }
 
-TEST_CASE("doors: each option of a pack of posts does the same by each, and something") {
+TEST_CASE("doors: each option of a pack of posts does the same by each, and something" * kSlow) {
   walk(kPack);
 }
 
-TEST_CASE("doors: each option of a stream of points does the same by each, and something") {
+TEST_CASE("doors: each option of a stream of points does the same by each, and something" * kSlow) {
   walk(kCloud);
 }
 
-TEST_CASE("doors: each option of a pack of points does the same by each, and something") {
+TEST_CASE("doors: each option of a pack of points does the same by each, and something" * kSlow) {
   walk(kCloudPack);
 }
 

@@ -10,6 +10,7 @@
 #include "microtin/encoder.h"
 #include "microtin/encoder.hpp"
 #include "tests/support/products.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 using namespace microtin::tests::products;
@@ -227,7 +228,7 @@ Names names_of_facts(bool is_raster) {
 
 }  // namespace
 
-TEST_CASE("reports: every field of the library's is true of every kind of product") {
+TEST_CASE("reports: every field of the library's is true of every kind of product" * kSlow) {
   for (const Product& product : kProducts) {
     if (product.is_merged) continue;
     CAPTURE(product.file);
@@ -242,7 +243,8 @@ TEST_CASE("reports: every field of the library's is true of every kind of produc
   }
 }
 
-TEST_CASE("reports: every member of the info is true of every kind of product, in C++ and C") {
+TEST_CASE("reports: every member of the info is true of every kind of product, in C++ and C" *
+          kSlow) {
   for_each_product([](const Product& product, const Made& made) {
     Fields truth = made.truth().fields();
     truth.insert({{"horizontal_epsg", "0"},

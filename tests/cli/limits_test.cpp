@@ -15,6 +15,7 @@
 #include "tests/support/join.hpp"
 #include "tests/support/members.hpp"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 namespace library = microtin::encoder;
@@ -223,7 +224,7 @@ std::string flat_grid(uint32_t columns, uint32_t rows) {
 
 }  // namespace
 
-TEST_CASE("limits: 2^20 tiles of a pack of a raster, at every door") {
+TEST_CASE("limits: 2^20 tiles of a pack of a raster, at every door" * kSlow) {
   const std::string message = "the pack has 1049600 tiles of 1 steps, more than 1048576; ";
   const Session session;
   const std::string options = " --units metre --max-error 1 --fast --tile-size 1";

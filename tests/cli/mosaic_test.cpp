@@ -11,6 +11,7 @@
 #include "microtin/surface.hpp"
 #include "tests/support/join.hpp"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 namespace fs = std::filesystem;
@@ -56,7 +57,7 @@ std::string scan() {
 
 }  // namespace
 
-TEST_CASE("mosaic: cells beyond 180 degrees continue their neighbours' longitudes") {
+TEST_CASE("mosaic: cells beyond 180 degrees continue their neighbours' longitudes" * kSlow) {
   const Session session;
   fs::create_directory(session.folder() + "/cells");
   session.write("cells/N00E179.hgt", cell("\1\2\3\4\5\6\7\10\11"));
@@ -174,7 +175,7 @@ TEST_CASE("mosaic: the place of the largest difference, wherever it is") {
   }
 }
 
-TEST_CASE("mosaic: a folder of SRTM cells") {
+TEST_CASE("mosaic: a folder of SRTM cells" * kSlow) {
   const Session session;
   fs::create_directory(session.folder() + "/cells");
   session.write("cells/N43E007.hgt", cell("123456789"));

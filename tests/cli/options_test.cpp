@@ -11,6 +11,7 @@
 
 #include "tests/support/members.hpp"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 
@@ -263,7 +264,7 @@ void write_inputs(const Session& session) {
 
 }  // namespace
 
-TEST_CASE("options: each of every command makes a difference") {
+TEST_CASE("options: each of every command makes a difference" * kSlow) {
   const Session session;
   write_inputs(session);
   for (const Row& row : kRows) {
@@ -297,7 +298,7 @@ std::string default_of(const Session& session, const std::string& command,
 
 }  // namespace
 
-TEST_CASE("options: the default of the help page makes no difference") {
+TEST_CASE("options: the default of the help page makes no difference" * kSlow) {
   const Session session;
   write_inputs(session);
   Names compared;
@@ -397,7 +398,7 @@ std::string with(const std::string& option) {
 
 }  // namespace
 
-TEST_CASE("options: shards with another option do not join") {
+TEST_CASE("options: shards with another option do not join" * kSlow) {
   const Session session;
   session.write("t.asc", grid());
   session.write("u.asc", grid(0.1));

@@ -15,6 +15,7 @@
 #include "encoder/files/descriptors.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -104,7 +105,8 @@ TEST_CASE("closed standard descriptors are held, and still fail") {
   }
 }
 
-TEST_CASE("cli: a closed descriptor is not reused for a file, and a lost report has an exit code") {
+TEST_CASE("cli: a closed descriptor is not reused for a file, and a lost report has an exit code" *
+          kSlow) {
   const Made made;
   for (const auto& [command, output, same_as] : kOutputs) {
     struct Closed {
@@ -151,7 +153,7 @@ TEST_CASE("cli: output and input on closed descriptors") {
   CHECK(made.run("verify t.mtin other.xyz >&-").code == 1);  // it fails, whoever reads that
 }
 
-TEST_CASE("cli: the output is complete even if its report cannot be printed") {
+TEST_CASE("cli: the output is complete even if its report cannot be printed" * kSlow) {
   const Made made;
   for (const auto& [command, output, same_as] : kOutputs) {
     const std::string& words = command;
@@ -187,7 +189,7 @@ TEST_CASE("cli: what a killed process left does not keep one of the same number 
   }
 }
 
-TEST_CASE("cli: no command writes over any of its inputs, by whatever name") {
+TEST_CASE("cli: no command writes over any of its inputs, by whatever name" * kSlow) {
   const Made made;
   made.shell(
       "mkdir folder; for f in t.asc t.mtin t.mtp s p.xyz; do ln $f hard-$f; ln -s $f soft-$f; "
@@ -249,7 +251,7 @@ TEST_CASE("cli: suffixes may be in capitals") {
   CHECK(contains(made.failure("render t.mtin -o U.GIF"), "not a kind of picture"));
 }
 
-TEST_CASE("cli: other names of standard output are standard output") {
+TEST_CASE("cli: other names of standard output are standard output" * kSlow) {
   const Made made;
   made.shell("ln -s /dev/stdout link; ln -s link link2");
   for (const std::string command :
@@ -275,7 +277,7 @@ TEST_CASE("cli: other names of standard output are standard output") {
   CHECK(fs::is_symlink("/dev/stdout"));
 }
 
-TEST_CASE("cli: output goes where a link leads, also if there is nothing yet") {
+TEST_CASE("cli: output goes where a link leads, also if there is nothing yet" * kSlow) {
   const Made made;
   made.shell("mkdir folder; ln -s folder/new1 one; ln -s one two; ln -s '" + made.folder() +
              "/folder/new2' absolute; ln -s ring1 ring2; ln -s ring2 ring1; ln -s none/new deep");

@@ -6,6 +6,7 @@
 
 #include "tests/support/join.hpp"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 
@@ -269,7 +270,7 @@ TEST_CASE("places: a grid whose system has no known text causes a warning") {
 #endif
 }
 
-TEST_CASE("places: GDAL reads the .prj that is written") {
+TEST_CASE("places: GDAL reads the .prj that is written" * kSlow) {
   const Session session;
   if (session.shell("command -v gdalinfo").out.empty()) {
     MESSAGE("skipped: gdalinfo is not installed");
@@ -325,7 +326,7 @@ TEST_CASE("places: errors name the kind of a file, shard or pack") {
   CHECK(contains(session.failure("merge t.mtin -o o.mtp"), "not a shard"));
 }
 
-TEST_CASE("places: pictures are .png files, with a world file on request") {
+TEST_CASE("places: pictures are .png files, with a world file on request" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 17 -o t.asc").code == 0);
   REQUIRE(session.run("encode t.asc --units m -o t.mtin").code == 0);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 
@@ -98,7 +99,7 @@ TEST_CASE("points: verify judges whether the surface is below them, where they t
   }
 }
 
-TEST_CASE("points: those of a raster are recognised, and taken as it on request") {
+TEST_CASE("points: those of a raster are recognised, and taken as it on request" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 65 --seed 3 -o f.asc").code == 0);
   REQUIRE(session.run("encode f.asc -o all.mtin && microtin decode all.mtin -o f.xyz").code == 0);
@@ -138,7 +139,7 @@ TEST_CASE("points: one that is right on the lattice alone fails where it truly l
   CHECK(contains(session.failure("verify p.mtin moved.xyz"), "where the points truly lie"));
 }
 
-TEST_CASE("points: a lattice that is too coarse is named, with what is fine enough") {
+TEST_CASE("points: a lattice that is too coarse is named, with what is fine enough" * kSlow) {
   const Session session;
   session.write("p.xyz", slope());
   CHECK(contains(session.failure("encode p.xyz --max-error 0.5 --xy-step 500 -o p.mtin"),
@@ -179,7 +180,8 @@ TEST_CASE("points: those outside the terrain are not covered, at any distance") 
   }
 }
 
-TEST_CASE("points: fine decimals over a large area are told a step that works, at each turn") {
+TEST_CASE("points: fine decimals over a large area are told a step that works, at each turn" *
+          kSlow) {
   const Session session;
   std::string rough = "50000.9 50000 0\n50001.1 50000 3\n";  // steeper than a coarse lattice holds
   for (uint32_t i = 1; i <= 300; ++i) {  // millimetres over 100 km, up to 1500 m high

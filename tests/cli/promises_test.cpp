@@ -15,6 +15,7 @@
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/join.hpp"
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 using namespace microtin::terrain;
@@ -60,7 +61,8 @@ void change(const Session& session, const std::string& to,
 
 }  // namespace
 
-TEST_CASE("promises: info states what verify measures everywhere, rounded up, also in tiles") {
+TEST_CASE("promises: info states what verify measures everywhere, rounded up, also in tiles" *
+          kSlow) {
   const Session session;
   session.write("t.asc", waves());
   for (const std::string words :

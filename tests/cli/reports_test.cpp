@@ -10,6 +10,7 @@
 
 #include "tests/support/join.hpp"
 #include "tests/support/products.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 using namespace microtin::tests::products;
@@ -129,7 +130,7 @@ std::string report_text(const Product& product, const Made& made) {
 
 }  // namespace
 
-TEST_CASE("reports: every field of info is true of every kind of product") {
+TEST_CASE("reports: every field of info is true of every kind of product" * kSlow) {
   for_each_product([](const Product& product, const Made& made) {
     Fields said = fields_of(made.info());
     const nlohmann::json tiles = nlohmann::json::parse(made.info())["tiles"];
@@ -138,7 +139,7 @@ TEST_CASE("reports: every field of info is true of every kind of product") {
   });
 }
 
-TEST_CASE("reports: every field of verify is true of every kind of product") {
+TEST_CASE("reports: every field of verify is true of every kind of product" * kSlow) {
   for_each_product([](const Product& product, const Made& made) {
     Names names = verify_names(product.is_raster);
     if (made.truth().moves_points()) {
@@ -161,7 +162,7 @@ TEST_CASE("reports: every field of verify is true of every kind of product") {
   });
 }
 
-TEST_CASE("reports: encode and merge print true numbers for every kind of product") {
+TEST_CASE("reports: encode and merge print true numbers for every kind of product" * kSlow) {
   for_each_product([](const Product& product, const Made& made) {
     std::istringstream lines(made.text());
     std::string text;

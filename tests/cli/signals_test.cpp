@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "tests/support/session.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -116,7 +117,7 @@ TEST_CASE("cli: a signal that is ignored stays ignored") {
   close(nowhere);
 }
 
-TEST_CASE("cli: a terminal shows how much is done and how long it will take") {
+TEST_CASE("cli: a terminal shows how much is done and how long it will take" * kSlow) {
   const Session session;
   REQUIRE(session.run("fractal --size 129 -o t.asc").code == 0);
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY);

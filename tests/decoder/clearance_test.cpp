@@ -10,6 +10,7 @@
 #include "tests/support/packs.hpp"
 #include "tests/support/reference_clearance.hpp"
 #include "tests/support/segment_terrains.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -158,7 +159,8 @@ void check_safe(const PackDevice& device, const microtin_path& path,
   if (surface.first_along >= 0) REQUIRE(safe.first_along <= surface.first_along);
 }
 
-TEST_CASE_TEMPLATE("pack: the clearance of a path is exact, and lower by the margin if safe",
+TEST_CASE_TEMPLATE("pack: the clearance of a path is exact, and lower by the margin if safe" *
+                       kSlow,
                    Device, MeshSlots, CompactSlots) {
   Random random(41);
   Counts counts;

@@ -16,6 +16,7 @@
 #include "tests/support/files.hpp"
 #include "tests/support/forged_stream.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {
@@ -166,7 +167,7 @@ TEST_CASE("compact terrains have the mesh's results: golden streams") {
   CHECK(streams > 5);
 }
 
-TEST_CASE("compact terrains have the mesh's results: point sets, with voids too") {
+TEST_CASE("compact terrains have the mesh's results: point sets, with voids too" * kSlow) {
   for (const PointSet& set : tiny_point_sets()) {
     CAPTURE(set.name);
     check_tin(wild_tin(set.points), 3);

@@ -15,6 +15,7 @@
 #include "microtin/compact_pack.hpp"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/packs.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -35,7 +36,8 @@ microtin_segment segment(Random& random, int64_t x_max, int64_t y_max) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("pack: heights at every position are those of the tiles, voids are reported",
+TEST_CASE_TEMPLATE("pack: heights at every position are those of the tiles, voids are reported" *
+                       kSlow,
                    Device, MeshSlots, CompactSlots) {
   for (const VoidKind& kind : void_kinds()) {
     if (kind.name == "chessboard" || kind.name == "30 of 100") continue;  // many tiles
@@ -278,7 +280,8 @@ TEST_CASE_TEMPLATE("pack: too small slots, workspaces and wrong arguments", Devi
   CHECK(microtin_pack_init(space.begin(), space.size(), 3, 50, &pack) == MICROTIN_STATUS_OK);
 }
 
-TEST_CASE_TEMPLATE("pack: the highest on a segment is that of its edges and no sample is above",
+TEST_CASE_TEMPLATE("pack: the highest on a segment is that of its edges and no sample is above" *
+                       kSlow,
                    Device, MeshSlots, CompactSlots) {
   for (const VoidKind& kind : void_kinds()) {
     if (kind.name == "chessboard" || kind.name == "30 of 100") continue;

@@ -11,6 +11,7 @@
 #include "tests/support/pack_segments.hpp"
 #include "tests/support/packs.hpp"
 #include "tests/support/reference_segment.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -132,7 +133,8 @@ TEST_CASE_TEMPLATE(
 }
 
 TEST_CASE_TEMPLATE(
-    "pack: the extremes on a segment are exact, and known if every place is, on encoded tiles",
+    "pack: the extremes on a segment are exact, and known if every place is, on encoded tiles" *
+        kSlow,
     Device, MeshSlots, CompactSlots) {
   Random random(32);
   Counts counts;
@@ -146,7 +148,8 @@ TEST_CASE_TEMPLATE(
   CHECK(counts.unknown > 100);
 }
 
-TEST_CASE_TEMPLATE("pack: the extremes on a segment are exact where compact paths miss vertices",
+TEST_CASE_TEMPLATE("pack: the extremes on a segment are exact where compact paths miss vertices" *
+                       kSlow,
                    Device, MeshSlots, CompactSlots) {
   Random random(35);
   Counts counts;

@@ -10,6 +10,7 @@
 #include "tests/support/pack_segments.hpp"
 #include "tests/support/packs.hpp"
 #include "tests/support/reference_profile.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -183,8 +184,8 @@ TEST_CASE_TEMPLATE(
   }
 }
 
-TEST_CASE_TEMPLATE("pack: a profile on encoded tiles with voids is exact", Device, MeshSlots,
-                   CompactSlots) {
+TEST_CASE_TEMPLATE("pack: a profile on encoded tiles with voids is exact" * kSlow, Device,
+                   MeshSlots, CompactSlots) {
   Random random(52);
   for (const VoidKind& kind : void_kinds()) {
     CAPTURE(kind.name);

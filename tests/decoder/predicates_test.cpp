@@ -9,6 +9,7 @@
 #include "shared/pairs.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_delaunay.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -231,7 +232,7 @@ TEST_CASE("predicates: the in-circle test in 32 bits is that in 64") {
 
 #if defined(MICROTIN_PAIRS)
 
-TEST_CASE("predicates: the in-circle test of pairs is that of points") {
+TEST_CASE("predicates: the in-circle test of pairs is that of points" * kSlow) {
   Random random(5);
   std::size_t wrong = 0;
   for (int i = 0; i < 1000000; ++i) {

@@ -19,6 +19,7 @@
 #include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/sanitized.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -104,7 +105,7 @@ std::vector<int> souths() {
 
 }  // namespace
 
-TEST_CASE("autopilot: firmware finds every height of a cell within a grid's error") {
+TEST_CASE("autopilot: firmware finds every height of a cell within a grid's error" * kSlow) {
   for (const DegreeCell cell : {DegreeCell{43, 7}, {-34, -71}, {0, -1}, {-1, 0}, {61, 179}}) {
     for (const Autopilot autopilot : {Autopilot::kArduPilot, Autopilot::kInav}) {
       const bool inav = autopilot == Autopilot::kInav;
@@ -133,7 +134,7 @@ TEST_CASE("autopilot: firmware finds every height of a cell within a grid's erro
   }
 }
 
-TEST_CASE("autopilot: every byte of a block is that of the format") {
+TEST_CASE("autopilot: every byte of a block is that of the format" * kSlow) {
   const DegreeCell cell{43, 7};
   for (const Autopilot autopilot : {Autopilot::kArduPilot, Autopilot::kInav}) {
     const bool inav = autopilot == Autopilot::kInav;
@@ -166,7 +167,7 @@ TEST_CASE("autopilot: every byte of a block is that of the format") {
   }
 }
 
-TEST_CASE("autopilot: missing heights are marked and reported") {
+TEST_CASE("autopilot: missing heights are marked and reported" * kSlow) {
   const DegreeCell cell{43, 7};
   SampledSurface surface = surface_of(cell);
   const auto whole = surface.height_at;
@@ -214,7 +215,7 @@ TEST_CASE("autopilot: posts just beyond the edge have its height, farther ones n
   }
 }
 
-TEST_CASE("autopilot: places that firmware in single precision misses are counted") {
+TEST_CASE("autopilot: places that firmware in single precision misses are counted" * kSlow) {
   for (const Autopilot autopilot : {Autopilot::kArduPilot, Autopilot::kInav}) {
     const uint32_t spacing = autopilot == Autopilot::kInav ? kInavSpacing : kArduPilotSpacing;
     for (const int south : souths()) {
@@ -249,7 +250,7 @@ TEST_CASE("autopilot: places that firmware in single precision misses are counte
   }
 }
 
-TEST_CASE("autopilot: heights that do not fit and other cells are refused") {
+TEST_CASE("autopilot: heights that do not fit and other cells are refused" * kSlow) {
   const DegreeCell cell{43, 7};
   const auto refusal = [&](const SampledSurface& surface, DegreeCell there, Autopilot autopilot) {
     try {

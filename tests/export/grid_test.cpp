@@ -17,6 +17,7 @@
 #include "encoder/stream/encode.hpp"
 #include "encoder/terrain/lay_out.hpp"
 #include "tests/support/packs.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace microtin::tests;
@@ -149,7 +150,8 @@ TEST_CASE("grid: the posts of an extent are found in numbers of any size") {
   }
 }
 
-TEST_CASE("grid: what is written is read back as the same raster, voids at the margins included") {
+TEST_CASE("grid: what is written is read back as the same raster, voids at the margins included" *
+          kSlow) {
   for (const VoidKind& kind : void_kinds()) {
     Raster raster = rough_raster(61, 53, kind.at);
     for (const auto& [x, y] : {std::pair<Axis, Axis>{{7 * 1200, 1, 1200}, {43 * 1200, 1, 1200}},
@@ -169,7 +171,7 @@ TEST_CASE("grid: what is written is read back as the same raster, voids at the m
   }
 }
 
-TEST_CASE("grid: a pack is one surface, with the posts of its raster") {
+TEST_CASE("grid: a pack is one surface, with the posts of its raster" * kSlow) {
   for (const VoidKind& kind : void_kinds()) {
     Raster raster = rough_raster(61, 53, kind.at);
     raster.x = {8400, 1, 1200};

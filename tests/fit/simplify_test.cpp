@@ -22,6 +22,7 @@
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_delaunay.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -290,7 +291,7 @@ double imbalance(const Survey& survey, const Tin& tin, int32_t bound) {
 }
 
 // Midway between ground and the tops of trees is above most of the plain.
-TEST_CASE("simplify: errors keep their balance where most of the ground is low or high") {
+TEST_CASE("simplify: errors keep their balance where most of the ground is low or high" * kSlow) {
   const int32_t bound = 5 * kStep / 2;
   for (const uint32_t seed : {11u, 12u, 13u}) {
     for (const int32_t sign : {1, -1}) {
@@ -330,7 +331,7 @@ TEST_CASE("simplify: vertices are added on a plain for the sake of the mean erro
   }
 }
 
-TEST_CASE("simplify: a longer search finds fewer vertices, always the same") {
+TEST_CASE("simplify: a longer search finds fewer vertices, always the same" * kSlow) {
   const Survey survey = raster(65, 65, rough, 4 * kStep);
   std::size_t before = std::numeric_limits<std::size_t>::max();
   for (const Search search : {Search::kGreedy, Search::kFast, Search::kBest}) {

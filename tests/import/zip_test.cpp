@@ -6,6 +6,7 @@
 #include "encoder/import/import.hpp"
 #include "tests/support/binary_file.hpp"
 #include "tests/support/imports.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 
@@ -94,7 +95,7 @@ TEST_CASE("zip: the tile in it, stored or deflated, among other files") {
   }
 }
 
-TEST_CASE("zip: tiles of half an arc second, and none that so few bytes cannot hold") {
+TEST_CASE("zip: tiles of half an arc second, and none that so few bytes cannot hold" * kSlow) {
   const Member fine = member("N43E007.hgt", std::string(size_t{2} * 7201 * 7201, '\1'), kDeflated);
   CHECK(import_zip("a.zip", zip({fine})).width == 7201);
   Member forged = fine;

@@ -10,6 +10,7 @@
 #include "decoder/adapters/ardupilot.h"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/pack_device.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -83,7 +84,7 @@ TEST_CASE("autopilot flight: four slots know the own place and home, with few re
   CHECK(shares.surrounding.percent() > 90);
 }
 
-TEST_CASE("autopilot flight: nine slots, or sixteen small ones, answer all questions") {
+TEST_CASE("autopilot flight: nine slots, or sixteen small ones, answer all questions" * kSlow) {
   const AutopilotFlight flight = flight_over_cell(kCorner);
   for (const bool is_small : {false, true}) {
     Vehicle vehicle(is_small ? cell_pack(28, 150) : cell_pack(64, 500), is_small ? 16 : 9,

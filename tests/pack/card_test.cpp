@@ -18,6 +18,7 @@
 #include "tests/support/pack_device.hpp"
 #include "tests/support/packs.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/slow.hpp"
 
 extern "C" void put_char(char) {}  // the device's, of which only the flight is wanted here
 
@@ -160,7 +161,7 @@ TEST_CASE("pack: aligned reads lie in one sector, and give the same heights") {
   CHECK(cards[1].sectors <= cards[0].sectors);
 }
 
-TEST_CASE("pack: along a row, sectors of small and of large tiles") {
+TEST_CASE("pack: along a row, sectors of small and of large tiles" * kSlow) {
   for (const uint32_t width : {12u, 24u, 48u}) {
     constexpr uint32_t kTiles = 16;
     PackOptions options = pack_options(0, 2500);
@@ -185,7 +186,8 @@ TEST_CASE("pack: along a row, sectors of small and of large tiles") {
 }
 
 TEST_CASE(
-    "pack: in any direction, sectors of streams of 1.2 KB are at most twice what was asked for") {
+    "pack: in any direction, sectors of streams of 1.2 KB are at most twice what was asked for" *
+    kSlow) {
   constexpr int32_t kTiles = 5, kFlights = 8;
   for (const int32_t width : {16, 48}) {
     PackOptions options = pack_options(0, 2500);

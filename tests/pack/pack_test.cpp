@@ -12,6 +12,7 @@
 #include "tests/support/border_walk.hpp"
 #include "tests/support/forged_pack.hpp"
 #include "tests/support/packs.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -38,7 +39,7 @@ void check_pack(const Raster& raster, const PackOptions& options) {
 
 }  // namespace
 
-TEST_CASE("packs have no cracks, and voids stay voids, on borders too") {
+TEST_CASE("packs have no cracks, and voids stay voids, on borders too" * kSlow) {
   for (const VoidKind& kind : void_kinds()) {
     CAPTURE(kind.name);
     const Raster raster = rough_raster(61, 53, kind.at);
@@ -47,7 +48,7 @@ TEST_CASE("packs have no cracks, and voids stay voids, on borders too") {
   }
 }
 
-TEST_CASE("packs: heights at voids along borders stay, and missing ones are found") {
+TEST_CASE("packs: heights at voids along borders stay, and missing ones are found" * kSlow) {
   const Raster full = rough_raster(61, 53);
   PackOptions options = pack_options(2, 600);
   options.tile_size = 20;

@@ -19,6 +19,7 @@
 #include "tests/support/pack_device.hpp"
 #include "tests/support/paths.hpp"
 #include "tests/support/point_clouds.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -125,7 +126,7 @@ std::optional<PointCloud> read_cloud(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("point packs have no cracks, cover the hull and keep their bound") {
+TEST_CASE("point packs have no cracks, cover the hull and keep their bound" * kSlow) {
   for (const CloudKind& kind : cloud_kinds()) {
     CAPTURE(kind.name);
     check_pack(kind.cloud, point_options(5, 40));
@@ -133,7 +134,7 @@ TEST_CASE("point packs have no cracks, cover the hull and keep their bound") {
   }
 }
 
-TEST_CASE("point packs without a bound have every place of a point as a vertex") {
+TEST_CASE("point packs without a bound have every place of a point as a vertex" * kSlow) {
   for (const CloudKind& kind : cloud_kinds()) {
     CAPTURE(kind.name);
     const PackOptions options = point_options(0, 60);
@@ -153,7 +154,7 @@ TEST_CASE("point packs without a bound have every place of a point as a vertex")
   }
 }
 
-TEST_CASE("packs of real points have no cracks and keep their bound") {
+TEST_CASE("packs of real points have no cracks and keep their bound" * kSlow) {
   const struct {
     const char* name;
     int64_t bound;  // hundredths; 0: none
@@ -184,7 +185,7 @@ TEST_CASE("point packs never below the source are not") {
   }
 }
 
-TEST_CASE("a point pack of 2^31 steps") {
+TEST_CASE("a point pack of 2^31 steps" * kSlow) {
   const PointCloud cloud = long_cloud();
   PackOptions options = point_options(5, 40);
   options.simplify.search = Search::kGreedy;

@@ -12,6 +12,7 @@
 #include "encoder/base/error.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/packs.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace microtin::tests {
@@ -82,7 +83,7 @@ class Shards {
 
 }  // namespace
 
-TEST_CASE("shards: tiles encoded one by one, in any split, are those of a single run") {
+TEST_CASE("shards: tiles encoded one by one, in any split, are those of a single run" * kSlow) {
   for (const VoidKind& kind : void_kinds()) {
     if (kind.name == "30 of 100") continue;  // many tiles
     CAPTURE(kind.name);

@@ -10,6 +10,7 @@
 #include "encoder/pack/sparse_line.hpp"
 #include "tests/support/border_walk.hpp"
 #include "tests/support/packs.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -88,7 +89,8 @@ TEST_CASE("between posts stands what lies on the line between the next ones") {
   CHECK(!line_samples(places, {1, 0, 2, false}, 1)[1].has_value());
 }
 
-TEST_CASE("packs of several grids: no cracks, every post within its bound, whatever the tiles") {
+TEST_CASE("packs of several grids: no cracks, every post within its bound, whatever the tiles" *
+          kSlow) {
   for (const Grids& each : grids()) {
     CAPTURE(each.name);
     const Raster raster = sparse_raster(each);
@@ -101,7 +103,7 @@ TEST_CASE("packs of several grids: no cracks, every post within its bound, whate
   }
 }
 
-TEST_CASE("packs of several grids: no place between posts is left out") {
+TEST_CASE("packs of several grids: no place between posts is left out" * kSlow) {
   for (const Grids& each : grids()) {
     CAPTURE(each.name);
     PackOptions options = pack_options(2, 1000);
@@ -120,7 +122,7 @@ TEST_CASE("packs of several grids: no place between posts is left out") {
   }
 }
 
-TEST_CASE("packs of several grids: voids stay voids") {
+TEST_CASE("packs of several grids: voids stay voids" * kSlow) {
   for (const Grids& each : grids()) {
     CAPTURE(each.name);
     for (const VoidKind& kind : void_kinds()) {

@@ -10,6 +10,7 @@
 #include "encoder/base/error.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin;
 using namespace microtin::tests;
@@ -122,7 +123,7 @@ TEST_CASE("contours: the line around a lake is its shore") {
   CHECK(contours_of(grid_model(5, [](int64_t, int64_t) { return 50; }), {50, 0}).empty());
 }
 
-TEST_CASE("contours: intervals are round, and too many lines are refused") {
+TEST_CASE("contours: intervals are round, and too many lines are refused" * kSlow) {
   CHECK(!round_interval(5, 5));
   CHECK(*round_interval(0, 100) == Decimal{10, 0});
   CHECK(*round_interval(420, 3108) == Decimal{200, 0});

@@ -14,6 +14,7 @@
 #include "encoder/stream/encode.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/packs.hpp"
+#include "tests/support/slow.hpp"
 
 #define STBI_ONLY_PNG
 #define STB_IMAGE_STATIC
@@ -260,7 +261,7 @@ TEST_CASE("render: a plain at zero has one colour, however its heights are round
 
 // Tiles share their borders' vertices, and these the light of both sides: without that the contrast
 // is 3 and more. Borders that are fitted to noise alone are somewhat rougher than the rest.
-TEST_CASE("render: the shading does not jump at borders of tiles") {
+TEST_CASE("render: the shading does not jump at borders of tiles" * kSlow) {
   Random random(17);
   const auto noise = [&](int64_t most) {
     return static_cast<int64_t>(random.below(static_cast<uint32_t>(2 * most + 1))) - most;
@@ -307,7 +308,7 @@ TEST_CASE("render: a world file has the position of the map's pixels") {
   CHECK(world_file(square, 200, false) == "2\n0\n0\n-2\n" + x + "\n" + y + "\n");
 }
 
-TEST_CASE("render: any shape and width") {
+TEST_CASE("render: any shape and width" * kSlow) {
   const std::vector<std::vector<Vertex>> shapes = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
                                                    {{0, 0, 0}, {1, 0, 0}, {0, 60000, 0}},
                                                    {{0, 0, -32768}, {60000, 0, 0}, {0, 1, 32767}}};

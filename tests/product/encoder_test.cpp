@@ -14,6 +14,7 @@
 #include "encoder/product/document.hpp"
 #include "microtin/surface.hpp"
 #include "tests/support/layers.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace microtin::encoder;
@@ -85,7 +86,7 @@ TEST_CASE("library: a stream keeps its bound, and contains it") {
   CHECK(document.metadata().horizontal_epsg == 25832);
 }
 
-TEST_CASE("library: limits of vertices and of bytes are kept") {
+TEST_CASE("library: limits of vertices and of bytes are kept" * microtin::tests::kSlow) {
   const SourceTerrain terrain(cone(40));
   Options options;
   options.max_vertices = 60;
@@ -98,7 +99,8 @@ TEST_CASE("library: limits of vertices and of bytes are kept") {
 }
 
 TEST_CASE(
-    "library: a number of vertices is used at least as well as by a bound that takes as many") {
+    "library: a number of vertices is used at least as well as by a bound that takes as many" *
+    microtin::tests::kSlow) {
   const SourceTerrain terrain(cone(40));
   for (const char* bound : {"0.3", "0.7", "1.5"}) {
     CAPTURE(bound);
@@ -114,7 +116,8 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("library: few trials use a number of vertices, though sizes jump where noise begins") {
+TEST_CASE("library: few trials use a number of vertices, though sizes jump where noise begins" *
+          microtin::tests::kSlow) {
   const SourceTerrain terrain(noisy_dome(150));
   Options options;
   options.effort = SearchEffort::kFast;
@@ -190,7 +193,7 @@ TEST_CASE("library: never below the points where they truly lie, by limits, too"
   CHECK(encode_stream(terrain, options).report.max_below_at_points != "0");  // the check can fail
 }
 
-TEST_CASE("library: packs are files, whole or not there") {
+TEST_CASE("library: packs are files, whole or not there" * microtin::tests::kSlow) {
   const TemporaryFolder folder;
   Options options;
   options.max_error = "1";

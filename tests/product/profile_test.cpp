@@ -11,6 +11,7 @@
 #include "microtin/surface.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/layers.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace microtin::encoder;
@@ -104,7 +105,8 @@ bool is_whole(const Profile& profile) {
 
 }  // namespace
 
-TEST_CASE("profile: a stream's and a pack's are the heights of their surfaces") {
+TEST_CASE("profile: a stream's and a pack's are the heights of their surfaces" *
+          microtin::tests::kSlow) {
   const TemporaryFolder folder;
   const SourceTerrain terrain = hills();
   std::mt19937 dice(3);

@@ -12,6 +12,7 @@
 #include "microtin/encoder.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/layers.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace microtin::encoder;
@@ -92,7 +93,8 @@ TEST_CASE("surface: an array comes back where it lay") {
   CHECK(largest_error(raster_of(surface)) <= kRounding);
 }
 
-TEST_CASE("surface: a pack keeps its bound at posts, queried in any order") {
+TEST_CASE("surface: a pack keeps its bound at posts, queried in any order" *
+          microtin::tests::kSlow) {
   const TemporaryFolder folder;
   const Surface surface = Surface::from_file(pack_file(folder));
   CHECK(surface.info().is_pack);
@@ -174,7 +176,7 @@ TEST_CASE("surface: places outside and no numbers have no height") {
                     "an axis has no step");
 }
 
-TEST_CASE("surface: tiles together have the triangles of all") {
+TEST_CASE("surface: tiles together have the triangles of all" * microtin::tests::kSlow) {
   const TemporaryFolder folder;
   const Surface surface = Surface::from_file(pack_file(folder));
   const SurfaceInfo& info = surface.info();
@@ -283,7 +285,7 @@ TEST_CASE("C: an array of more posts than there can be is short of memory, no fa
   CHECK(terrain == nullptr);
 }
 
-TEST_CASE("C: an array goes to a stream and back") {
+TEST_CASE("C: an array goes to a stream and back" * microtin::tests::kSlow) {
   const std::vector<double> heights = bowl();
   microtin_raster_data raster = {};
   raster.size = sizeof raster;

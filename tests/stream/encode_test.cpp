@@ -12,6 +12,7 @@
 #include "encoder/stream/header.hpp"
 #include "tests/support/mesh_copy.hpp"
 #include "tests/support/point_sets.hpp"
+#include "tests/support/slow.hpp"
 #include "tests/support/streams.hpp"
 
 namespace microtin::tests {
@@ -67,7 +68,7 @@ bool equals_definition(const Points& points, const TriangleSet& set) {
 
 }  // namespace
 
-TEST_CASE("round trip: small sets decode to the triangulation by definition") {
+TEST_CASE("round trip: small sets decode to the triangulation by definition" * kSlow) {
   std::vector<PointSet> sets = tiny_point_sets();
   for (uint64_t seed = 11; seed <= 14; ++seed) {
     for (const uint32_t n : {10u, 15u, 24u}) {
@@ -84,7 +85,7 @@ TEST_CASE("round trip: small sets decode to the triangulation by definition") {
   }
 }
 
-TEST_CASE("round trip: sets of some thousands decode to the canonical triangulation") {
+TEST_CASE("round trip: sets of some thousands decode to the canonical triangulation" * kSlow) {
   Random random(2);
   for (const uint32_t n : {300u, 2500u}) {
     for (const PointSet& set : point_sets(n, n)) {

@@ -10,6 +10,7 @@
 #include "encoder/stream/encode.hpp"
 #include "shared/header.hpp"
 #include "tests/support/point_sets.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin;
 using namespace microtin::tests;
@@ -145,7 +146,7 @@ TEST_CASE("80,000 uniform points, x and y alone, stay near the entropy floor") {
   CHECK(bits < 19.5);
 }
 
-TEST_CASE("a large terrain is seen first after half a percent of its bytes") {
+TEST_CASE("a large terrain is seen first after half a percent of its bytes" * kSlow) {
   constexpr uint32_t kVertices = 270000;
   Random random(4);
   Tin tin;

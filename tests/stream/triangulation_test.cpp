@@ -13,6 +13,7 @@
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/point_sets.hpp"
 #include "tests/support/reference_delaunay.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -69,7 +70,7 @@ TEST_CASE("triangulation: small sets equal the definition") {
   }
 }
 
-TEST_CASE("triangulation: larger sets have no conflict") {
+TEST_CASE("triangulation: larger sets have no conflict" * kSlow) {
   for (const PointSet& set : point_sets(1200, 1)) {
     CAPTURE(set.name);
     const Triangulation triangulation(set.points);

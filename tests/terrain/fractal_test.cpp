@@ -9,6 +9,7 @@
 
 #include "encoder/base/error.hpp"
 #include "tests/support/layers.hpp"
+#include "tests/support/slow.hpp"
 
 using namespace microtin::tests;
 
@@ -28,7 +29,7 @@ TEST_CASE("fractal: a seed gives the same heights on every machine") {
   CHECK(checksum(fractal_heights(65, 2)) == 788200009766002349u);
 }
 
-TEST_CASE("fractal: heights are those of mountains in a sea") {
+TEST_CASE("fractal: heights are those of mountains in a sea" * kSlow) {
   const std::vector<int16_t> heights = fractal_heights(257, 1);
   REQUIRE(heights.size() == 257 * 257);
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());

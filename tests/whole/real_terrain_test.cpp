@@ -18,6 +18,7 @@
 #include "tests/support/border_walk.hpp"
 #include "tests/support/packs.hpp"
 #include "tests/support/paths.hpp"
+#include "tests/support/slow.hpp"
 
 namespace microtin::tests {
 namespace {
@@ -73,7 +74,7 @@ void check_round_trip(const Source& source, std::optional<Decimal> bound) {
 
 }  // namespace
 
-TEST_CASE("real rasters keep their bound at every post, voids stay voids") {
+TEST_CASE("real rasters keep their bound at every post, voids stay voids" * kSlow) {
   const struct {
     const char* name;
     uint32_t width, height;
@@ -86,7 +87,7 @@ TEST_CASE("real rasters keep their bound at every post, voids stay voids") {
   }
 }
 
-TEST_CASE("packs of real rasters have no cracks and keep their bound") {
+TEST_CASE("packs of real rasters have no cracks and keep their bound" * kSlow) {
   const struct {
     const char* name;
     uint32_t width, height, vertices;
@@ -113,7 +114,7 @@ TEST_CASE("packs of real rasters have no cracks and keep their bound") {
   }
 }
 
-TEST_CASE("real files come back exactly, and within a bound") {
+TEST_CASE("real files come back exactly, and within a bound" * kSlow) {
   for (const char* name :
        {"srtm_rmnp.asc", "bijou5m.asc", "hugo.asc", "quebec_forest_ground.xyz"}) {
     const fs::path path = data_folder() / "formats" / name;
