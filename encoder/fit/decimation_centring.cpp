@@ -128,6 +128,7 @@ std::vector<std::array<Index, 3>> Decimation::large_triangles() const {
   std::sort(triangles.begin(), triangles.end());
   triangles.resize(triangles.size() / kLargePart);
   std::vector<std::array<Index, 3>> large;
+  large.reserve(triangles.size());
   for (const auto& triangle : triangles) large.push_back(triangle.second);
   return large;
 }
