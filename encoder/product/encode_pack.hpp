@@ -35,7 +35,7 @@ PackReport report_of(const PackContent& pack);
 
 // Chooses, encodes, decodes and compares tile by tile, as encode_stream does for all; the streams
 // wait in the spool until the index is known. Throws Error if what is asked for cannot be had.
-PackContent encode_pack(const RasterReader& raster, const EncodeOptions& options,
+PackContent encode_pack(const RasterReader& raster, const EncodeOptions& asked,
                         StreamSpool& streams, const Progress& progress);
 
 void write_pack(const PackContent& pack, StreamSpool& streams, OutputFile& out);
@@ -52,7 +52,7 @@ struct EncodedPoints {
 
 // Points that the lattice moves are fitted within less than the bound where they truly lie, if it
 // is missed there. Throws Error also if that is not enough: without an --xy-step a pack moves none.
-EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& options);
+EncodedPoints encode_pack(const PointCloud& cloud, const EncodeOptions& asked);
 
 // Writes a shard with some of the tiles that the pack of a raster has. Throws Error also if there
 // is no first one.
@@ -61,7 +61,7 @@ struct ShardReport {
   uint64_t vertices;
 };
 
-ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& options, TileRange tiles,
+ShardReport encode_shard(const RasterReader& raster, const EncodeOptions& asked, TileRange tiles,
                          OutputFile& out, const Progress& progress);
 
 // How this many shards are to be encoded, so that together they are what a single run makes.

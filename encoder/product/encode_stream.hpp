@@ -33,7 +33,7 @@ struct EncodedStream {
 // smallest bound found whose stream keeps the limit, in about the time of four encodings, or of
 // more where the lattice moves points so far that bounds must be tried at their true places. Throws
 // Error if what is asked for cannot be had.
-EncodedStream encode_stream(const Source& source, const EncodeOptions& options,
+EncodedStream encode_stream(const Source& source, const EncodeOptions& asked,
                             const Progress& progress);
 
 // Encodes without looking for a bound: only insertion of the worst sample keeps max_vertices.
