@@ -151,7 +151,7 @@ Outcome fail_each(Stage& stage, const Words& words, Counter Counters::*counter, 
   return outcome;
 }
 
-constexpr uint64_t kStride = kIsSanitized ? 10 : 1;
+constexpr uint64_t kStride = kIsSanitized ? 40 : 1;
 
 // Pictures ask for memory thousands of times, in few places.
 uint64_t sparseness(const Words& words) {
