@@ -308,10 +308,11 @@ static inline int microtin_pack_is_clear(const microtin_pack_bounds* bounds,
                                          const microtin_pack_info* info, int32_t height,
                                          uint32_t flags) {
   const microtin_pack_check* const check = &bounds->check;
-  int64_t highest = (int64_t)bounds->highest * 65536;
+  int64_t highest = bounds->highest, below = info->below;
+  highest *= 65536;
   if ((flags & MICROTIN_FLAG_SAFE) != 0) {
     if (info->below == MICROTIN_MARGIN_NOT_STATED) return 0;
-    highest += (int64_t)info->below * 4096;
+    highest += below * 4096;
   }
   return check->is_inside && check->tiles != 0 && check->without_terrain + check->bad == 0 &&
          highest < height;
