@@ -93,7 +93,7 @@ static inline microtin_spot microtin_posts_block(const microtin_posts* posts, mi
                                                  uint16_t* row, uint16_t* column) {
   const uint64_t step = (uint64_t)posts->spacing * MICROTIN_POSTS_PER_METRE;
   const int32_t north = at.latitude - posts->origin.latitude;
-  const uint64_t up = (uint64_t)(north + MICROTIN_POSTS_TOLERANCE),
+  const uint64_t up = (uint64_t)((int64_t)north + MICROTIN_POSTS_TOLERANCE),
                  right = (uint64_t)((int64_t)at.longitude - posts->origin.longitude +
                                     MICROTIN_POSTS_TOLERANCE);
   uint32_t scale = microtin_posts_halfway(posts, north), first;

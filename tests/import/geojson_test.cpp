@@ -88,7 +88,11 @@ TEST_CASE("geojson: rings hold the posts within them and on their border, and no
   };
   for (int round = 0; round < 200; ++round) {
     std::vector<std::pair<int64_t, int64_t>> ring;  // in halves of a post
-    for (int i = 0; i < 3 + round % 5; ++i) ring.emplace_back(next(), next());
+    ring.resize(static_cast<size_t>(3 + round % 5));
+    for (auto& [x, y] : ring) {
+      x = next();
+      y = next();
+    }
     terrain::RealRings rings(1);
     for (const auto& [x, y] : ring)
       rings[0].push_back({exact::make_decimal(5 * x, 1), exact::make_decimal(5 * y, 1)});

@@ -54,11 +54,11 @@ class Pack {
     require(status == MICROTIN_STATUS_OK, "no pack");
   }
 
-  microtin_status load(const microtin_segment& segment, uint32_t steps) {
+  microtin_status load(const microtin_segment& segment, uint32_t steps) const {
     return is_compact_ ? microtin_compact_pack_load_with(pack, &segment, read_pack, nullptr, steps)
                        : microtin_pack_load_with(pack, &segment, read_pack, nullptr, steps);
   }
-  void load_all(const microtin_segment& segment) {
+  void load_all(const microtin_segment& segment) const {
     microtin_status status = MICROTIN_STATUS_NEED_INPUT;
     while (status == MICROTIN_STATUS_NEED_INPUT || status == MICROTIN_STATUS_STEP_LIMIT) {
       status = load(segment, 1000);
