@@ -54,6 +54,7 @@
 #error "MICROTIN_INDEX_BITS must be 16 or 32"
 #endif
 
+/* 1 unless defined: the buffers of reads are not aligned. */
 #ifndef MICROTIN_READ_ALIGNMENT
 #define MICROTIN_READ_ALIGNMENT 1
 #endif
