@@ -183,6 +183,32 @@ TEST_CASE_TEMPLATE("pack bounds: calls read once, and loading and queries go on 
   }
 }
 
+TEST_CASE("pack bounds: tiles may lie on one side of 0 alone") {
+  Raster slope = rough_raster(61, 53);
+  for (uint32_t i = 0; i < slope.heights.size(); ++i)
+    slope.heights[i] += 40 * int64_t{i % 61} - 1200;
+  Card card{pack_bytes(slope)};
+  const PackFile pack(card.bytes);
+  const MeshSlots device(1);
+  for (const uint32_t x : {5u, 55u}) {
+    Expected expected;
+    for (TouchedTiles tiles(pack.grid(), at(x, 25)); !tiles.at_end(); tiles.next()) {
+      expected.add(pack, tiles.number());
+    }
+    CHECK((x == 5 ? expected.highest < 0 : expected.lowest > 0));
+    check_found(bounds_with(device, card, at(x, 25), false), expected);
+  }
+}
+
+TEST_CASE("pack bounds: what storage reported to a loading call does not count") {
+  Card card{pack_bytes(rough_raster(61, 53))};
+  const MeshSlots device(1);
+  bounds_with(device, card, at(1, 1), false);  // brings the header
+  REQUIRE(device.load_without_reading(at(30, 26), 1) == MICROTIN_STATUS_NEED_INPUT);
+  microtin_pack_complete_read(device.pack, -1);
+  CHECK(bounds_with(device, card, whole(PackFile(card.bytes)), true).status == MICROTIN_STATUS_OK);
+}
+
 TEST_CASE("pack bounds: clear is what lies inside, has terrain, and is below") {
   Card card{pack_bytes(raster_with_hole())};
   const PackFile pack(card.bytes);
