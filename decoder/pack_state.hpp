@@ -179,7 +179,7 @@ MICROTIN_IN_PLACE inline void note_use(PackSlot& slot) {
   }
 }
 
-// Brings a tile's entry to `entry` and to the buffer; gives up what else is in hand. OK, or
+// Brings a tile's entry to `entry` and to the buffer, and drops what else is in hand. OK, or
 // NEED_INPUT, IO, BAD_TILES.
 microtin_status bring_entry(microtin_pack& p, uint32_t tile);
 

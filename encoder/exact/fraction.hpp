@@ -14,6 +14,11 @@ namespace microtin::exact {
 
 using Axis = microtin_axis;  // real = (offset + numerator * lattice) / denominator
 
+// From numbers times 10^-decimals, 0 .. 18, to real ones.
+inline Axis decimal_axis(int decimals) {
+  return {0, 1, static_cast<uint64_t>(power_of_ten(decimals))};
+}
+
 inline double step_of(const Axis& axis) {
   return static_cast<double>(axis.numerator) / static_cast<double>(axis.denominator);
 }

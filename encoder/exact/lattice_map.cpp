@@ -55,7 +55,7 @@ std::optional<RealCoordinate> coordinate_of(const LatticeMap& map, Wide number, 
 }
 
 std::optional<RealCoordinate> coordinate_of(Decimal value, const Axis& axis) {
-  const Axis decimals{0, 1, static_cast<uint64_t>(power_of_ten(value.decimals))};
+  const Axis decimals = decimal_axis(value.decimals);
   return coordinate_of(map_between(decimals, axis), value.mantissa, axis);
 }
 

@@ -60,7 +60,7 @@ struct Numbers {
 
 Numbers numbers_within(const Axis& axis, Decimal low, Decimal high) {
   const auto map_from = [&](Decimal value) {
-    return map_between({0, 1, static_cast<uint64_t>(power_of_ten(value.decimals))}, axis);
+    return map_between(decimal_axis(value.decimals), axis);
   };
   const LatticeMap from = map_from(low), to = map_from(high);
   return {ceil_divide(from.numerator(low.mantissa), from.step),

@@ -17,9 +17,9 @@ bool contains(const std::vector<Index>& vertices, Index v) {
 // worst place ends the search early.
 constexpr std::size_t kRanks = 3;
 
-// Before that it tries posts near its own, at random: so many, half of them at most one step away
-// along x and y, the others at most two. Such moves are kept more often than those to the worst
-// place, and after them other vertices may go.
+// Before that a vertex tries kNearTries posts near its own, at random: each at most kNearest or
+// kFarther steps away along x and y. Such moves are kept more often than those to the worst place,
+// and after them other vertices may go.
 constexpr int kNearTries = 2, kNearest = 1, kFarther = 2;
 
 // How much more odd coordinates may cost on the way: the search finds more when at first it
@@ -164,11 +164,11 @@ bool Decimation::try_move(Index v) {
   edits_.roll_back(1);
   const bool is_cheaper = try_cheaper_posts(old, *hole);
   const Point far{cheap(worst.place.x), cheap(worst.place.y)};
-  if (!is_cheaper && !try_near(old, *hole) && !try_post(far, old, *hole)) {
+  if (is_cheaper) return false;
+  if (!try_near(old, *hole) && !try_post(far, old, *hole)) {
     edits_.roll_back(0);
     return false;
   }
-  if (is_cheaper) return false;
   const std::vector<Index> neighbours = ring(moved_);
   return std::any_of(neighbours.begin(), neighbours.end(),
                      [this](Index r) { return !surface_.is_fixed(r) && try_removal(r); });

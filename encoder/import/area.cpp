@@ -25,15 +25,9 @@ void Area::cut(Raster& raster) const {
   std::vector<bool> is_inside(raster.heights.size());
   for (const RealRings& polygon : polygons_) {
     const terrain::Rings rings(polygon, raster.x, raster.y);
-    for (uint32_t row = 0; row < raster.height; ++row) {
-      const std::size_t start = std::size_t{row} * raster.width;
-      for (const auto& [first, last] : rings.spans(row)) {
-        const int64_t end = std::min<int64_t>(last, int64_t{raster.width} - 1);
-        for (int64_t x = std::max<int64_t>(first, 0); x <= end; ++x) {
-          is_inside[start + static_cast<std::size_t>(x)] = true;
-        }
-      }
-    }
+    rings.visit_inside(raster.width, raster.height, [&](uint32_t column, uint32_t row) {
+      is_inside[std::size_t{row} * raster.width + column] = true;
+    });
   }
   for (std::size_t i = 0; i < is_inside.size(); ++i) {
     if (!is_inside[i] && terrain::is_height(raster.heights[i])) {
@@ -43,7 +37,7 @@ void Area::cut(Raster& raster) const {
 }
 
 void Area::cut(PointCloud& cloud) const {
-  const Axis axis{0, 1, static_cast<uint64_t>(power_of_ten(cloud.xy_decimals))};
+  const Axis axis = decimal_axis(cloud.xy_decimals);
   std::vector<terrain::Rings> all;
   all.reserve(polygons_.size());
   for (const RealRings& polygon : polygons_) all.emplace_back(polygon, axis, axis);

@@ -125,15 +125,10 @@ void BoundMap::add_polygons(const Raster& raster, std::vector<int64_t>& numbers)
     const int64_t bound = feature.max_error ? number_of(*feature.max_error) : kUnbounded;
     for (const RealRings& polygon : feature.polygons) {
       const terrain::Rings rings(polygon, raster.x, raster.y);
-      for (uint32_t row = 0; row < raster.height; ++row) {
-        int64_t* const posts = numbers.data() + std::size_t{row} * raster.width;
-        for (const auto& [first, last] : rings.spans(row)) {
-          const int64_t end = std::min<int64_t>(last, int64_t{raster.width} - 1);
-          for (int64_t x = std::max<int64_t>(first, 0); x <= end; ++x) {
-            posts[x] = lesser(posts[x], bound);
-          }
-        }
-      }
+      rings.visit_inside(raster.width, raster.height, [&](uint32_t column, uint32_t row) {
+        int64_t& number = numbers[std::size_t{row} * raster.width + column];
+        number = lesser(number, bound);
+      });
     }
   }
 }
@@ -202,7 +197,7 @@ void BoundMap::bound(Raster& raster) const {
 // Each point is a raster of one post.
 void BoundMap::bound(PointCloud& cloud) const {
   std::vector<int64_t> numbers(cloud.points.size(), kOutside);
-  const Axis axis{0, 1, static_cast<uint64_t>(power_of_ten(cloud.xy_decimals))};
+  const Axis axis = decimal_axis(cloud.xy_decimals);
   for (const Feature& feature : polygons_) {
     const int64_t bound = feature.max_error ? number_of(*feature.max_error) : kUnbounded;
     for (const RealRings& polygon : feature.polygons) {

@@ -47,7 +47,7 @@ class SharedPlaces {
     if (places_ == 0) return ", which share no place";
     const std::string at = std::to_string(places_) + " places that they share";
     if (difference_ == 0) return ", which agree at " + at;
-    const CoordinateText place({0, 1, static_cast<uint64_t>(power_of_ten(cloud_.xy_decimals))});
+    const CoordinateText place(decimal_axis(cloud_.xy_decimals));
     const SourcePoint& p = cloud_.points[first_];
     return "; at " + at + " they differ by up to " +
            to_string(make_decimal(difference_, cloud_.z_decimals)) + ", most at x " + place(p.x) +

@@ -309,7 +309,7 @@ void add_true_places(Report& report, const std::optional<terrain::Verification>&
   report.max_below_at_points = to_string(measured->max_below);
 }
 
-// That all samples keep.
+// The bound that all samples keep; empty if some have none.
 std::string bound_text(const product::EncodedStream& encoded) {
   const auto bound = terrain::bound_of_all(encoded.bound, encoded.verification.bounds);
   return bound ? to_string(*bound) : std::string();

@@ -23,7 +23,7 @@ struct Placed {
 };
 
 std::vector<Placed> sorted_by_place(const PointCloud& cloud, const Placement& lattice) {
-  const Axis numbers{0, 1, static_cast<uint64_t>(power_of_ten(cloud.xy_decimals))};
+  const Axis numbers = decimal_axis(cloud.xy_decimals);
   const LatticeMap x = map_between(numbers, lattice.x), y = map_between(numbers, lattice.y);
   std::vector<Placed> placed;
   placed.reserve(cloud.points.size());

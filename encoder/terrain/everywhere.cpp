@@ -54,7 +54,7 @@ class PostHeights {
  public:
   PostHeights(const Raster& raster, const Axis& z)
       : raster_(raster),
-        to_units_(map_between({0, 1, static_cast<uint64_t>(power_of_ten(raster.decimals))}, z)),
+        to_units_(map_between(decimal_axis(raster.decimals), z)),
         scale_(static_cast<double>(to_units_.scale) * kUnits / static_cast<double>(to_units_.step)),
         shift_(static_cast<double>(to_units_.shift) * kUnits /
                static_cast<double>(to_units_.step)) {

@@ -139,7 +139,7 @@ Lattice choose_post_lattice(const Raster& frame, const NumberRange& heights,
   const GroupFit up =
       choose(height_group(heights, frame.decimals, frame.bounds, options), options.z_step);
   const LatticeMap itself{1, 0, 1};
-  const Axis up_axis{0, 1, static_cast<uint64_t>(power_of_ten(frame.decimals))};
+  const Axis up_axis = decimal_axis(frame.decimals);
   return {itself, itself,      up.maps[0],
           0,      up.decimals, {frame.x, frame.y, lattice_axis(up_axis, up.maps[0])}};
 }
@@ -154,7 +154,7 @@ Lattice post_lattice_at(const Raster& frame, const NumberRange& heights, const A
   const Wide unit = power_of_ten(decimals), parts = static_cast<Wide>(z.denominator);
   const LatticeMap map{power_of_ten(decimals - group.decimals), -z.offset * unit / parts,
                        static_cast<Wide>(z.numerator) * unit / parts};
-  const Axis up = {0, 1, static_cast<uint64_t>(power_of_ten(frame.decimals))};
+  const Axis up = decimal_axis(frame.decimals);
   const LatticeMap itself{1, 0, 1};
   Lattice lattice{itself, itself, map, 0, decimals, {frame.x, frame.y, z}};
   if (map.step <= 0 || !is_same(lattice_axis(up, map), z)) {

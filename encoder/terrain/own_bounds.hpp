@@ -26,7 +26,7 @@ struct OwnBounds {
   bool empty() const { return numbers.empty(); }
 };
 
-// Bounds without their numbers, which still say that there are some.
+// Bounds without their numbers: `unscaled` still shows that posts have bounds of their own.
 inline OwnBounds frame_of(const OwnBounds& bounds) {
   return {{}, bounds.decimals, bounds.unscaled};
 }

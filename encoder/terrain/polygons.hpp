@@ -3,6 +3,7 @@
 #ifndef MICROTIN_ENCODER_TERRAIN_POLYGONS_HPP
 #define MICROTIN_ENCODER_TERRAIN_POLYGONS_HPP
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -35,6 +36,20 @@ class Rings {
   std::vector<std::pair<int64_t, int64_t>> spans(int64_t row) const;
 
   bool contains(int64_t x, int64_t y) const;
+
+  // Calls visit(column, row) for each place of a raster that is inside or on the border, for some
+  // more than once. O(places inside + rows * edges).
+  template <class Visit>
+  void visit_inside(uint32_t width, uint32_t height, const Visit& visit) const {
+    for (uint32_t row = 0; row < height; ++row) {
+      for (const auto& [first, last] : spans(row)) {
+        const int64_t end = std::min<int64_t>(last, int64_t{width} - 1);
+        for (int64_t x = std::max<int64_t>(first, 0); x <= end; ++x) {
+          visit(static_cast<uint32_t>(x), row);
+        }
+      }
+    }
+  }
 
  private:
   struct Place {

@@ -133,9 +133,6 @@ inline bool refine(std::vector<int64_t>& heights, int64_t factor) {
 
 // From the numbers of a source (posts: column, row, height) to real coordinates.
 inline Placement placement_of(const Source& source) {
-  const auto decimal_axis = [](int decimals) {
-    return Axis{0, 1, static_cast<uint64_t>(power_of_ten(decimals))};
-  };
   if (const auto* raster = std::get_if<Raster>(&source)) {
     return {raster->x, raster->y, decimal_axis(raster->decimals)};
   }

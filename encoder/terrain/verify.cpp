@@ -76,7 +76,7 @@ class KeptBounds {
     if (is_used_) meter_.add(error, bound_of_(post));
   }
 
-  void tell(Verification& found) const {
+  void store_in(Verification& found) const {
     if (!is_used_) return;
     found.bounds = meter_.span();
     found.within_bound = meter_.keeps_all();
@@ -121,7 +121,7 @@ Verification verify(const microtin_mesh* mesh, const Placement& lattice, const S
   });
   result.uncovered = result.posts - result.covered;
   meter.tell(bound, result);
-  kept.tell(result);
+  kept.store_in(result);
   return result;
 }
 
@@ -319,7 +319,7 @@ constexpr int64_t kBand = 256;  // rows that are asked from west to east togethe
 class TruePlaces {
  public:
   TruePlaces(const Placement& lattice, const PointCloud& cloud) {
-    const Axis numbers{0, 1, static_cast<uint64_t>(power_of_ten(cloud.xy_decimals))};
+    const Axis numbers = decimal_axis(cloud.xy_decimals);
     x_ = map_between(numbers, lattice.x);
     y_ = map_between(numbers, lattice.y);
   }
@@ -375,7 +375,7 @@ Verification verify_at_true_places(const HeightQuery& height_at, const Placement
                                    const PointCloud& cloud, const std::optional<Decimal>& bound,
                                    const TruePlaceVisitor& visit) {
   const TruePlaces places(lattice, cloud);
-  ErrorMeter meter({0, 1, static_cast<uint64_t>(power_of_ten(cloud.z_decimals))}, lattice.z);
+  ErrorMeter meter(decimal_axis(cloud.z_decimals), lattice.z);
   KeptBounds kept(cloud.bounds, bound);
   Verification result;
   for (const uint32_t i : order_of(cloud, places)) {
@@ -396,7 +396,7 @@ Verification verify_at_true_places(const HeightQuery& height_at, const Placement
   }
   result.uncovered = result.posts - result.covered;
   meter.tell(bound, result);
-  kept.tell(result);
+  kept.store_in(result);
   return result;
 }
 

@@ -57,14 +57,6 @@ void check_found(const microtin_pack_bounds& found, const Expected& expected) {
   CHECK(found.highest == expected.highest);
 }
 
-Raster raster_with_hole() {
-  return rough_raster(61, 53, [](int x, int y) { return x < 25 && y < 25; });
-}
-
-microtin_segment whole(const PackFile& pack) {
-  return {0, 0, int64_t{pack.grid().x_max} * 256, int64_t{pack.grid().y_max} * 256};
-}
-
 }  // namespace
 
 TEST_CASE_TEMPLATE("pack bounds: a segment's are those of the tiles that it touches", Device,
@@ -113,7 +105,7 @@ TEST_CASE("pack bounds: entries are read, streams are not") {
   std::fill(card.bytes.begin() + static_cast<std::ptrdiff_t>(index_end), card.bytes.end(),
             uint8_t{0});
   const MeshSlots device(1);
-  const Found found = bounds_with(device, card, whole(pack), true);
+  const Found found = bounds_with(device, card, whole(pack.grid()), true);
   CHECK(found.status == MICROTIN_STATUS_OK);
   CHECK(found.check.tiles == pack.tiles());
   CHECK(card.reads < pack.tiles() + 6);
@@ -128,7 +120,7 @@ TEST_CASE_TEMPLATE("pack bounds: of damaged and absent entries nothing is known"
   card.bytes[index + 3 * 20 + 12] ^= 1;
   const Device device(2);
   for (int i = 0; i < 3; ++i) {  // a tile is remembered once, however often its entry is read
-    const Found found = bounds_with(device, card, whole(pack), true);
+    const Found found = bounds_with(device, card, whole(pack.grid()), true);
     CHECK(found.status == MICROTIN_STATUS_BAD_TILES);
     CHECK(found.check.bad == 1);
     CHECK(found.check.first_bad == 3);
@@ -141,7 +133,7 @@ TEST_CASE_TEMPLATE("pack bounds: of damaged and absent entries nothing is known"
   }
   CHECK(remembered == 1);
   card.bytes.resize(index + 5 * 20);
-  const Found cut = bounds_with(device, card, whole(pack), true);
+  const Found cut = bounds_with(device, card, whole(pack.grid()), true);
   CHECK(cut.status == MICROTIN_STATUS_BAD_TILES);
   CHECK(cut.check.bad == pack.tiles() - 4);
 }
@@ -151,7 +143,7 @@ TEST_CASE_TEMPLATE("pack bounds: calls read once, and loading and queries go on 
   Card card{pack_bytes(rough_raster(61, 53))};
   card.most = 7;
   const PackFile pack(card.bytes);
-  const microtin_segment all = whole(pack);
+  const microtin_segment all = whole(pack.grid());
   Expected expected;
   for (uint32_t tile = 0; tile < pack.tiles(); ++tile) expected.add(pack, tile);
   const Device device(4);
@@ -206,7 +198,8 @@ TEST_CASE("pack bounds: what storage reported to a loading call does not count")
   bounds_with(device, card, at(1, 1), false);  // brings the header
   REQUIRE(device.load_without_reading(at(30, 26), 1) == MICROTIN_STATUS_NEED_INPUT);
   microtin_pack_complete_read(device.pack, -1);
-  CHECK(bounds_with(device, card, whole(PackFile(card.bytes)), true).status == MICROTIN_STATUS_OK);
+  CHECK(bounds_with(device, card, whole(PackFile(card.bytes).grid()), true).status ==
+        MICROTIN_STATUS_OK);
 }
 
 TEST_CASE("pack bounds: clear is what lies inside, has terrain, and is below") {
@@ -233,7 +226,7 @@ TEST_CASE("pack bounds: clear is what lies inside, has terrain, and is below") {
 
 TEST_CASE("pack bounds: headers and wrong arguments") {
   Card card{pack_bytes(rough_raster(61, 53))};
-  const microtin_segment all = whole(PackFile(card.bytes));
+  const microtin_segment all = whole(PackFile(card.bytes).grid());
   const MeshSlots device(2);
   microtin_pack_bounds bounds{};
   CHECK(microtin_pack_bounds_in_box(nullptr, &all, &bounds) == MICROTIN_STATUS_ARGUMENT);

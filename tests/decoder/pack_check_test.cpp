@@ -13,10 +13,6 @@
 namespace microtin::tests {
 namespace {
 
-microtin_segment whole(const TileGrid& grid) {
-  return {0, 0, int64_t{grid.x_max} * 256, int64_t{grid.y_max} * 256};
-}
-
 struct Found : microtin_pack_check {
   microtin_status status;
 };
@@ -30,10 +26,6 @@ Found check_with(const PackDevice& device, Card& card, const microtin_segment& a
 
 Card card_of(const Raster& raster) {
   return Card{pack_bytes(raster)};
-}
-
-Raster raster_with_hole() {
-  return rough_raster(61, 53, [](int x, int y) { return x < 25 && y < 25; });
 }
 
 // Changes a byte of each stream of these tiles.

@@ -340,7 +340,7 @@ TEST_CASE("error map: points keep their own bounds where they truly lie") {
     const library::Mesh mesh = library::Surface::from_file(session.folder() + "/" + name).mesh();
     for (const Point& p : all) {
       const double height = height_at(mesh, p.x, p.y);
-      if (std::isnan(height)) continue;  // beside the hull, by less than a step
+      if (std::isnan(height)) continue;  // outside the hull, by less than a step
       CHECK(std::abs(height - p.z) <= p.bound + 1e-3);
     }
     expect_runs(session, "verify " + name + " p.xyz --units metre --error-map map.geojson");

@@ -14,6 +14,7 @@
 #include "encoder/pack/encode.hpp"
 #include "encoder/pack/file.hpp"
 #include "encoder/pack/surface.hpp"
+#include "microtin/segment.h"
 #include "tests/support/joined_pack.hpp"
 #include "tests/support/layers.hpp"
 #include "tests/support/point_sets.hpp"
@@ -50,6 +51,16 @@ inline Raster rough_raster(uint32_t width, uint32_t height, const VoidAt& void_a
     }
   }
   return raster;
+}
+
+// A rough raster whose south-western tiles have no terrain.
+inline Raster raster_with_hole() {
+  return rough_raster(61, 53, [](int x, int y) { return x < 25 && y < 25; });
+}
+
+// The diagonal of all tiles.
+inline microtin_segment whole(const TileGrid& grid) {
+  return {0, 0, int64_t{grid.x_max} * 256, int64_t{grid.y_max} * 256};
 }
 
 inline PackOptions pack_options(int64_t bound, uint32_t max_vertices) {

@@ -12,12 +12,12 @@
  * queries of lower priority) the caller locks the pack, or the library does:
  *
  * Threads: if MICROTIN_PACK_ENTER and MICROTIN_PACK_LEAVE are defined (config.h), queries may run
- * at any time beside one loading call, on any core. A query takes the lock to pin the tile that it
- * uses, reads the tile without the lock, and takes the lock to unpin it. A loading call never
- * writes to a pinned slot: if there is no other, it returns STEP_LIMIT, and
+ * at any time, on any core, while one loading call runs. A query takes the lock to pin the tile
+ * that it uses, reads the tile without the lock, and takes the lock to unpin it. A loading call
+ * never writes to a pinned slot: if there is no other, it returns STEP_LIMIT, and
  * microtin_pack_is_waiting returns 1. The lock is held while slots are compared, never while
  * reading or decoding. Functions other than queries and the loading call (init, reset, bad tiles,
- * checks) need a lock of your own.
+ * checks, bounds) need a lock of your own.
  *
  * Positions are global lattice coordinates with 8 fractional bits: 0 .. 256 * x_max. Nothing here
  * allocates, recurses, uses floating point or keeps global state.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// locks PACK QUERIES [unlocked]: queries of threads beside a loading thread, in a build with
+// locks PACK QUERIES [unlocked]: threads query while another one loads, in a build with
 // MICROTIN_PACK_ENTER. Ends with 1 if a height is wrong, or a pinned slot is written to. With
 // `unlocked` the hooks do nothing, which a sanitizer must find.
 #include <atomic>
@@ -127,7 +127,7 @@ std::vector<Question> questions(uint32_t x_max, uint32_t y_max) {
   return all;
 }
 
-// Asks until so many have an answer.
+// Queries until `queries` of them have a height.
 void ask(const Pack& pack, const std::vector<Question>& all, uint32_t seed, uint64_t queries,
          std::atomic<bool>* has_failed) {
   Numbers numbers(seed);
